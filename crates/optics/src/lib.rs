@@ -1,0 +1,3 @@
+//! The physics of iridescent scratches in f64. No I/O, no scene, no GPU.
+
+pub mod metal;

@@ -1,0 +1,200 @@
+//! The validated scene in canonical units: what every renderer reads. Positions are world space, metres;
+//! scratches keep the units of the physics (width in micrometres, depth in nanometres).
+//!
+//! A [`Scene`] holds no choice and no default: whatever a scene file left out was filled in, and whatever was wrong
+//! was refused, before one of these exists.
+
+use glam::{DVec3, Vec2, Vec3, Vec4};
+use hairline_optics::metal::Metal;
+use std::ops::Range;
+
+use crate::environment::Environment;
+
+/// Everything that a picture depends on.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// The view.
+    pub camera: Camera,
+    /// How the picture is sampled and shown.
+    pub render: RenderSettings,
+    /// Light from all around, if there is any.
+    pub environment: Option<Environment>,
+    /// Images that materials refer to.
+    pub textures: Vec<Texture>,
+    /// Materials that the triangles of the objects refer to.
+    pub materials: Vec<Material>,
+    /// Objects in world space.
+    pub objects: Vec<Object>,
+    /// Area lights.
+    pub lights: Vec<Light>,
+}
+
+/// A pinhole camera.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Camera {
+    /// The pinhole, world space.
+    pub position_m: DVec3,
+    /// The point in the centre of the picture, world space.
+    pub target_m: DVec3,
+    /// The direction that is up in the picture; need not be perpendicular to the view.
+    pub up: DVec3,
+    /// The picture's vertical field of view.
+    pub fov_y_rad: f64,
+    /// Exposure: radiances are multiplied by 2^exposure_ev before the tone map.
+    pub exposure_ev: f64,
+}
+
+/// How the picture is sampled and shown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RenderSettings {
+    /// Width and height.
+    pub size_px: [u32; 2],
+    /// Standard deviation of the pixel's Gaussian filter (docs/model.md, section 6).
+    pub filter_std_px: f64,
+    /// The curve from linear radiance to the display.
+    pub tone_map: hairline_image::ToneMap,
+}
+
+/// What a surface is made of.
+#[derive(Clone, Debug)]
+pub struct Material {
+    /// The name in the scene file or the glTF file.
+    pub name: String,
+    /// The kind of surface and its colour.
+    pub base: Base,
+    /// Perceptual roughness as in glTF, in [0, 1]; GGX's alpha is its square.
+    pub roughness: f64,
+    /// Standard deviation sigma of the coherence window's amplitude.
+    pub coherence_um: f64,
+    /// Light that the surface emits, linear Rec.709 radiance.
+    pub emission: [f64; 3],
+    /// Base colour texture (sRGB encoded), multiplied with the base colour.
+    pub base_color_texture: Option<usize>,
+    /// glTF metallic-roughness texture (linear): green is roughness, blue is metallic.
+    pub metallic_roughness_texture: Option<usize>,
+    /// Tangent-space normal map (linear) and the scale of its x and y.
+    pub normal_texture: Option<(usize, f64)>,
+    /// Emission texture (sRGB encoded), multiplied with the emission.
+    pub emission_texture: Option<usize>,
+}
+
+/// The kind of a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Base {
+    /// Reflectance one at every wavelength and angle.
+    Mirror,
+    /// A metal by its measured n and k.
+    Metal(Metal),
+    /// A metal by its reflectance at normal incidence, linear Rec.709.
+    ColoredMetal {
+        /// Reflectance at normal incidence.
+        base_color: [f64; 3],
+    },
+    /// A smooth or rough dielectric coat over a diffuse body.
+    Dielectric {
+        /// Refractive index.
+        ior: f64,
+        /// Albedo of the diffuse body, linear Rec.709.
+        base_color: [f64; 3],
+    },
+    /// The glTF 2.0 metallic-roughness model.
+    MetallicRoughness {
+        /// Base colour, linear Rec.709.
+        base_color: [f64; 3],
+        /// 0 dielectric (reflectance 0.04), 1 metal.
+        metallic: f64,
+    },
+}
+
+/// An image with its mip chain; level 0 is `size_px`, each further level is half, rounded down, at least 1.
+#[derive(Clone, Debug)]
+pub struct Texture {
+    /// Width and height of level 0.
+    pub size_px: [u32; 2],
+    /// Texels of each level, row by row from the top, 8 bits a channel, as stored in the file (sRGB data stays encoded).
+    pub levels: Vec<Vec<[u8; 4]>>,
+    /// Whether colour channels are sRGB encoded.
+    pub srgb: bool,
+}
+
+/// A surface and the scratches that lie on it.
+#[derive(Clone, Debug)]
+pub struct Object {
+    /// The name in the scene file.
+    pub name: String,
+    /// The surface.
+    pub mesh: Mesh,
+    /// Scratches, each a run of `segments`.
+    pub scratches: Vec<Scratch>,
+    /// Straight pieces, one triangle each, those of one scratch side by side in the order of its walk.
+    pub segments: Vec<Segment>,
+}
+
+/// Triangles in world space. The vertex arrays are equally long.
+#[derive(Clone, Debug, Default)]
+pub struct Mesh {
+    /// World space, metres.
+    pub positions_m: Vec<Vec3>,
+    /// Unit shading normals.
+    pub normals: Vec<Vec3>,
+    /// Unit tangents in xyz, the sign of the bitangent in w, as in glTF.
+    pub tangents: Vec<Vec4>,
+    /// Texture coordinates; (0, 0) is the upper left corner.
+    pub uvs: Vec<Vec2>,
+    /// Vertex indices, counter-clockwise seen from outside. None is degenerate.
+    pub triangles: Vec<[u32; 3]>,
+    /// Index into [`Scene::materials`], one for each triangle.
+    pub triangle_materials: Vec<u32>,
+}
+
+/// One scratch: one groove, one wave. Where two of its segments meet, the end is joined; its own two ends are free,
+/// unless it is closed to a ring.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scratch {
+    /// Width of the rectangular groove.
+    pub width_um: f32,
+    /// Depth of the rectangular groove.
+    pub depth_nm: f32,
+    /// Which `[[scratches]]` table of the scene file laid it, counted from 0.
+    pub layer: u32,
+    /// Whether the last segment's end is joined to the first one's start.
+    pub closed: bool,
+    /// Its segments in [`Object::segments`].
+    pub segments: Range<u32>,
+}
+
+/// A straight piece of a scratch within one triangle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Segment {
+    /// World space, metres.
+    pub start_m: Vec3,
+    /// World space, metres.
+    pub end_m: Vec3,
+    /// Unit shading normal of the surface at the middle: tells the two sides of a thin sheet apart.
+    pub normal: Vec3,
+    /// The triangle in [`Mesh::triangles`] that it lies on.
+    pub triangle: u32,
+}
+
+/// An area light. `radiance` is linear Rec.709, W sr^-1 m^-2 in effect: (1, 1, 1) has the spectrum of D65.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Light {
+    /// A sphere.
+    Sphere {
+        /// World space.
+        center_m: DVec3,
+        /// Radius, positive.
+        radius_m: f64,
+        /// Emitted radiance.
+        radiance: [f64; 3],
+    },
+    /// A planar polygon, simple, convex or not; it shines to the side that sees the vertices counter-clockwise.
+    Polygon {
+        /// World space, at least three.
+        vertices_m: Vec<DVec3>,
+        /// Emitted radiance.
+        radiance: [f64; 3],
+        /// Whether the other side shines too.
+        two_sided: bool,
+    },
+}
