@@ -1,15 +1,16 @@
-//! Linear images with layers, EXR and PNG files, tone mapping, metrics.
+//! Linear images with the layers of a render, EXR and PNG files, tone mapping, and metrics to compare images by.
+//!
+//! Colours are linear Rec.709 in `f32` until [`png`] encodes them for a display; rows run from the top.
 
-/// The curve from linear radiance to the display.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub enum ToneMap {
-    /// Khronos PBR Neutral.
-    #[default]
-    Neutral,
-    /// AgX.
-    Agx,
-    /// The ACES filmic curve.
-    Aces,
-    /// Clamped, no curve.
-    None,
-}
+mod error;
+pub mod exr_file;
+mod film;
+pub mod metrics;
+pub mod output;
+pub mod png;
+pub mod tone_map;
+
+pub use error::Error;
+pub use film::{Image, Layer, Picture};
+pub use output::{Format, Output};
+pub use tone_map::{Display, ToneMap};

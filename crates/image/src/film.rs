@@ -1,0 +1,145 @@
+//! Images in memory: the layers of a render, and plain pictures.
+
+/// What a renderer makes: one value a pixel in each layer, row by row from the top. All layers are equally long.
+///
+/// The beauty is not stored: it is [`Image::base`] plus [`Image::scratches`] by construction.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Image {
+    /// Width and height.
+    pub size_px: [u32; 2],
+    /// Light by way of the base and the background, with what the scratches take from it already taken.
+    /// Linear Rec.709 radiance.
+    pub base: Vec<[f32; 3]>,
+    /// Light by way of the scratches. Linear Rec.709 radiance.
+    pub scratches: Vec<[f32; 3]>,
+    /// The share of the base's energy that the scratches took, from 0 to 1 for each of R, G and B.
+    pub density: Vec<[f32; 3]>,
+    /// Distance from the pinhole along the view axis in metres, averaged over the pixel's samples that hit a surface.
+    /// **0 where none did**: no surface can be there, and unlike an infinity it survives averages and differences, and
+    /// exists in WGSL.
+    pub depth_m: Vec<f32>,
+    /// Unit shading normal in world space; (0, 0, 0) where nothing was hit.
+    pub normal: Vec<[f32; 3]>,
+}
+
+/// A layer of an [`Image`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Layer {
+    /// Base plus scratches.
+    Beauty,
+    /// [`Image::base`].
+    Base,
+    /// [`Image::scratches`].
+    Scratches,
+    /// [`Image::density`].
+    Density,
+    /// [`Image::depth_m`], the same in all three components.
+    Depth,
+    /// [`Image::normal`].
+    Normal,
+}
+
+impl Layer {
+    /// All layers, in the order of the enumeration.
+    pub const ALL: [Self; 6] = [
+        Self::Beauty,
+        Self::Base,
+        Self::Scratches,
+        Self::Density,
+        Self::Depth,
+        Self::Normal,
+    ];
+
+    /// The name, in lower case.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Beauty => "beauty",
+            Self::Base => "base",
+            Self::Scratches => "scratches",
+            Self::Density => "density",
+            Self::Depth => "depth",
+            Self::Normal => "normal",
+        }
+    }
+}
+
+impl Image {
+    /// An image that is black and empty everywhere.
+    pub fn new(size_px: [u32; 2]) -> Self {
+        let count = pixel_count(size_px);
+        Self {
+            size_px,
+            base: vec![[0.0; 3]; count],
+            scratches: vec![[0.0; 3]; count],
+            density: vec![[0.0; 3]; count],
+            depth_m: vec![0.0; count],
+            normal: vec![[0.0; 3]; count],
+        }
+    }
+
+    /// Width times height.
+    pub fn pixel_count(&self) -> usize {
+        pixel_count(self.size_px)
+    }
+
+    /// Where the pixel in column `x` and row `y` (from the top) lies in each layer.
+    pub fn index(&self, x: u32, y: u32) -> usize {
+        debug_assert!(x < self.size_px[0] && y < self.size_px[1]);
+        y as usize * self.size_px[0] as usize + x as usize
+    }
+
+    /// The picture: base plus scratches.
+    pub fn beauty(&self) -> Picture {
+        let rgb = self
+            .base
+            .iter()
+            .zip(&self.scratches)
+            .map(|(base, scratches)| std::array::from_fn(|i| base[i] + scratches[i]))
+            .collect();
+        Picture {
+            size_px: self.size_px,
+            rgb,
+        }
+    }
+
+    /// A copy of one layer, three components a pixel.
+    pub fn layer(&self, layer: Layer) -> Vec<[f32; 3]> {
+        match layer {
+            Layer::Beauty => self.beauty().rgb,
+            Layer::Base => self.base.clone(),
+            Layer::Scratches => self.scratches.clone(),
+            Layer::Density => self.density.clone(),
+            Layer::Depth => self.depth_m.iter().map(|&z| [z; 3]).collect(),
+            Layer::Normal => self.normal.clone(),
+        }
+    }
+}
+
+/// A plain picture: linear Rec.709, row by row from the top.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picture {
+    /// Width and height.
+    pub size_px: [u32; 2],
+    /// One value a pixel.
+    pub rgb: Vec<[f32; 3]>,
+}
+
+impl Picture {
+    /// A black picture.
+    pub fn new(size_px: [u32; 2]) -> Self {
+        Self {
+            size_px,
+            rgb: vec![[0.0; 3]; pixel_count(size_px)],
+        }
+    }
+
+    /// The pixel in column `x` and row `y` from the top.
+    pub fn pixel(&self, x: u32, y: u32) -> [f32; 3] {
+        debug_assert!(x < self.size_px[0] && y < self.size_px[1]);
+        self.rgb[y as usize * self.size_px[0] as usize + x as usize]
+    }
+}
+
+fn pixel_count(size_px: [u32; 2]) -> usize {
+    size_px[0] as usize * size_px[1] as usize
+}

@@ -1,0 +1,169 @@
+//! Output files that are either whole or not there: everything is encoded in memory, written to a temporary file in
+//! the same folder, and moved over the name in one step.
+
+use std::fs::{self, File, OpenOptions};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use tempfile::NamedTempFile;
+
+use crate::{Display, Error, Image, Picture, exr_file, png};
+
+/// A picture format that can be written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// 8 bits a channel, tone-mapped, sRGB.
+    Png,
+    /// Linear Rec.709, 32-bit float, layers.
+    Exr,
+}
+
+impl Format {
+    /// The format that a file name's ending asks for, in either case.
+    ///
+    /// # Errors
+    /// [`Error::UnknownEnding`].
+    pub fn from_ending(path: &Path) -> Result<Self, Error> {
+        let ending = path.extension().map(|e| e.to_ascii_lowercase());
+        match ending.as_ref().and_then(|e| e.to_str()) {
+            Some("png") => Ok(Self::Png),
+            Some("exr") => Ok(Self::Exr),
+            _ => Err(Error::UnknownEnding {
+                path: path.to_owned(),
+            }),
+        }
+    }
+}
+
+/// An output path that was found writable.
+#[derive(Clone, Debug)]
+pub struct Output {
+    path: PathBuf,
+    format: Format,
+}
+
+impl Output {
+    /// Checks an output path before the work that is to go there: the ending, the folder, and the right to write.
+    /// Leaves nothing behind and an existing file as it is.
+    ///
+    /// # Errors
+    /// [`Error::UnknownEnding`], [`Error::CannotWrite`].
+    pub fn check(path: &Path) -> Result<Self, Error> {
+        let format = Format::from_ending(path)?;
+        let target = resolve(path)?;
+        drop(temporary_beside(path, &target)?);
+        Ok(Self {
+            path: path.to_owned(),
+            format,
+        })
+    }
+
+    /// The path as it was given.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// The format that the path's ending chose.
+    pub fn format(&self) -> Format {
+        self.format
+    }
+
+    /// Writes a render: all layers as EXR, the displayed beauty as PNG.
+    ///
+    /// # Errors
+    /// [`Error::CannotWrite`].
+    pub fn write_image(&self, image: &Image, display: &Display) -> Result<(), Error> {
+        let encoded = match self.format {
+            Format::Png => png::encode(&image.beauty(), display),
+            Format::Exr => exr_file::encode_image(image),
+        };
+        self.write_encoded(encoded)
+    }
+
+    /// Writes a plain picture.
+    ///
+    /// # Errors
+    /// [`Error::CannotWrite`].
+    pub fn write_picture(&self, picture: &Picture, display: &Display) -> Result<(), Error> {
+        let encoded = match self.format {
+            Format::Png => png::encode(picture, display),
+            Format::Exr => exr_file::encode_picture(picture),
+        };
+        self.write_encoded(encoded)
+    }
+
+    fn write_encoded(&self, encoded: Result<Vec<u8>, String>) -> Result<(), Error> {
+        let bytes = encoded.map_err(|reason| Error::CannotWrite {
+            path: self.path.clone(),
+            reason,
+        })?;
+        write_atomically(&self.path, &bytes)
+    }
+}
+
+/// Writes a whole file or none: a reader sees the old contents or the new ones, never a part.
+///
+/// # Errors
+/// [`Error::CannotWrite`].
+pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), Error> {
+    let fail = |e: &std::io::Error| Error::cannot_write(path, e);
+    let target = resolve(path)?;
+    let mut temporary = temporary_beside(path, &target)?;
+    temporary.write_all(bytes).map_err(|e| fail(&e))?;
+    // Without this a power cut after the rename could leave an empty file under the final name.
+    temporary.as_file().sync_data().map_err(|e| fail(&e))?;
+    if let Ok(existing) = fs::metadata(&target) {
+        // Not every file system keeps permissions; the picture matters more.
+        let _ = temporary.as_file().set_permissions(existing.permissions());
+    }
+    temporary.persist(&target).map_err(|e| fail(&e.error))?;
+    Ok(())
+}
+
+/// The regular file to replace or make. A symbolic link stays one: the file that it leads to is replaced.
+fn resolve(path: &Path) -> Result<PathBuf, Error> {
+    let refuse = |reason: &str| Error::CannotWrite {
+        path: path.to_owned(),
+        reason: reason.to_owned(),
+    };
+    match fs::metadata(path) {
+        Ok(existing) if existing.is_dir() => Err(refuse("it is a folder")),
+        Ok(existing) if !existing.is_file() => Err(refuse("it is not a regular file")),
+        Ok(_) => {
+            // A rename would replace even a file that its owner made read-only.
+            OpenOptions::new()
+                .write(true)
+                .open(path)
+                .and_then(|_: File| fs::canonicalize(path))
+                .map_err(|e| Error::cannot_write(path, &e))
+        }
+        Err(e) if e.kind() == std::io::ErrorKind::NotFound => Ok(path.to_owned()),
+        Err(e) => Err(Error::cannot_write(path, &e)),
+    }
+}
+
+/// A temporary file in the folder of `target`, so that the rename stays within one file system. It removes itself
+/// unless it is persisted.
+fn temporary_beside(path: &Path, target: &Path) -> Result<NamedTempFile, Error> {
+    let folder = match target.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    };
+    if !folder.is_dir() {
+        return Err(Error::CannotWrite {
+            path: path.to_owned(),
+            reason: format!("there is no folder {}", folder.display()),
+        });
+    }
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".hairline-").suffix(".tmp");
+    #[cfg(unix)]
+    {
+        // As any new file: the umask takes its share. The default would be private to the user.
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(fs::Permissions::from_mode(0o666));
+    }
+    builder
+        .tempfile_in(folder)
+        .map_err(|e| Error::cannot_write(path, &e))
+}

@@ -1,0 +1,64 @@
+//! PNG: what a display shows, 8 bits a channel, sRGB.
+
+use image::codecs::png::{CompressionType, FilterType, PngEncoder};
+use image::{ExtendedColorType, ImageEncoder};
+
+use crate::tone_map::{Display, display_code, dither_offset};
+use crate::{Error, Picture};
+use std::fs::File;
+use std::io::BufReader;
+use std::path::Path;
+
+/// Tone-maps and encodes a picture.
+pub(crate) fn encode(picture: &Picture, display: &Display) -> Result<Vec<u8>, String> {
+    let bytes = quantize(picture, display);
+    let mut png = Vec::new();
+    PngEncoder::new_with_quality(&mut png, CompressionType::Default, FilterType::Adaptive)
+        .write_image(
+            &bytes,
+            picture.size_px[0],
+            picture.size_px[1],
+            ExtendedColorType::Rgb8,
+        )
+        .map_err(|e| e.to_string())?;
+    Ok(png)
+}
+
+/// The 8-bit sRGB codes of a picture, three bytes a pixel.
+pub fn quantize(picture: &Picture, display: &Display) -> Vec<u8> {
+    let width = picture.size_px[0].max(1) as usize;
+    picture
+        .rgb
+        .iter()
+        .enumerate()
+        .flat_map(|(i, &rgb)| {
+            let dither = dither_offset((i % width) as u32, (i / width) as u32);
+            display
+                .apply(rgb)
+                .map(|encoded| display_code(encoded, dither))
+        })
+        .collect()
+}
+
+/// Reads an 8-bit sRGB picture (PNG) back to linear Rec.709; the tone map stays in it.
+///
+/// # Errors
+/// [`Error::CannotRead`], [`Error::Unusable`].
+pub fn read_picture(path: &Path) -> Result<Picture, Error> {
+    let file = File::open(path).map_err(|e| Error::cannot_read(path, &e))?;
+    let decoded = image::load(BufReader::new(file), image::ImageFormat::Png)
+        .map_err(|e| Error::Unusable {
+            path: path.to_owned(),
+            reason: format!("not a PNG file that can be read: {e}"),
+        })?
+        .into_rgb8();
+    Ok(Picture {
+        size_px: [decoded.width(), decoded.height()],
+        rgb: decoded
+            .pixels()
+            .map(|p| {
+                p.0.map(|code| crate::tone_map::linear_from_srgb(f32::from(code) / 255.0))
+            })
+            .collect(),
+    })
+}
