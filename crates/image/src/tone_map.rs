@@ -63,7 +63,7 @@ const TONE_RADIANCE_MAX: f32 = 1e9;
 /// Exposed linear Rec.709 radiance to linear Rec.709 on a display, each component in [0, 1]. Total: NaN counts as 0,
 /// infinity as a very bright light.
 pub fn tone_map(curve: ToneMap, rgb: [f32; 3]) -> [f32; 3] {
-    let inside = into_gamut(rgb.map(tone_sanitize));
+    let inside = tone_into_gamut(rgb.map(tone_sanitize));
     let mapped = match curve {
         ToneMap::Neutral => tone_neutral(inside),
         ToneMap::Agx => tone_agx(inside),
@@ -90,7 +90,7 @@ pub fn tone_luminance(rgb: [f32; 3]) -> f32 {
 /// Colours purer than the display's primaries have negative components, as spectral colours do. They are mixed with
 /// the grey of their own luminance until no component is negative: luminance and hue (in this linear space) stay, where
 /// clipping would brighten the colour and turn its hue towards a primary. Black if the luminance itself is not positive.
-pub fn into_gamut(rgb: [f32; 3]) -> [f32; 3] {
+pub fn tone_into_gamut(rgb: [f32; 3]) -> [f32; 3] {
     let lowest = rgb[0].min(rgb[1]).min(rgb[2]);
     if lowest >= 0.0 {
         return rgb;
