@@ -3,3 +3,10 @@
 pub mod metal;
 pub mod fresnel;
 pub mod ggx;
+pub mod spectrum;
+pub mod diffraction;
+pub mod scratch;
+pub mod footprint;
+pub mod mask;
+pub mod table;
+pub mod band;

@@ -1,4 +1,7 @@
-//! Metals by their measured complex refractive index.
+//! Metals by their measured complex refractive index (data/metals.csv names the paper of each).
+
+use crate::{fresnel, spectrum};
+use std::sync::LazyLock;
 
 /// A metal whose n and k were measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -23,4 +26,99 @@ pub enum Metal {
     Titanium,
     /// Nickel.
     Nickel,
+}
+
+impl Metal {
+    /// Every metal, in the order of the columns of data/metals.csv.
+    pub const ALL: [Metal; 10] = [
+        Metal::Iron,
+        Metal::StainlessSteel,
+        Metal::Aluminium,
+        Metal::Copper,
+        Metal::Gold,
+        Metal::Silver,
+        Metal::Brass,
+        Metal::Chromium,
+        Metal::Titanium,
+        Metal::Nickel,
+    ];
+
+    /// n and k at a wavelength, linear between the tabulated ones (every 10 nm from 380 to 780 nm, constant beyond).
+    pub fn n_k(self, wavelength_nm: f64) -> (f64, f64) {
+        let rows = &*ROWS;
+        let position = ((wavelength_nm - 380.0) / 10.0).clamp(0.0, (rows.len() - 1) as f64);
+        let i = (position as usize).min(rows.len() - 2);
+        let f = position - i as f64;
+        let column = 2 * self as usize;
+        let at = |column: usize| rows[i][column] + f * (rows[i + 1][column] - rows[i][column]);
+        (at(column), at(column + 1))
+    }
+
+    /// Unpolarised reflectance of the bare surface.
+    pub fn reflectance(self, cos_theta: f64, wavelength_nm: f64) -> f64 {
+        let (n, k) = self.n_k(wavelength_nm);
+        fresnel::conductor(cos_theta, n, k)
+    }
+
+    /// Reflectance in linear Rec.709 under D65.
+    pub fn reflectance_rgb(self, cos_theta: f64) -> [f64; 3] {
+        spectrum::rgb_from_reflectance(|nm| self.reflectance(cos_theta, nm))
+    }
+}
+
+static ROWS: LazyLock<Vec<Vec<f64>>> = LazyLock::new(|| {
+    include_str!("../data/metals.csv")
+        .lines()
+        .filter(|line| line.starts_with(|c: char| c.is_ascii_digit()))
+        .map(|line| {
+            line.split(',')
+                .skip(1)
+                .map(|cell| cell.parse().expect("data/metals.csv holds numbers"))
+                .collect()
+        })
+        .collect()
+});
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn metals_have_their_colours() {
+        let rgb = |m: Metal| m.reflectance_rgb(1.0);
+        for metal in Metal::ALL {
+            for c in rgb(metal) {
+                // Saturated metals leave the gamut: gold reflects more red than Rec.709 white holds.
+                assert!((0.2..1.06).contains(&c), "{metal:?} {c}");
+            }
+        }
+        let [r, g, b] = rgb(Metal::Gold);
+        assert!(r > g && g > b && b < 0.5, "gold is yellow: {r} {g} {b}");
+        let [r, g, b] = rgb(Metal::Copper);
+        assert!(r > 1.25 * g && g > b, "copper is red: {r} {g} {b}");
+        let [r, _, b] = rgb(Metal::Silver);
+        assert!(r > 0.95 && b > 0.9, "silver is white: {r} {b}");
+        let [r, g, b] = rgb(Metal::Aluminium);
+        assert!(
+            r > 0.88 && (r - b).abs() < 0.05 && g > 0.88,
+            "aluminium is bright and grey: {r} {g} {b}"
+        );
+    }
+
+    #[test]
+    fn the_columns_are_the_metals() {
+        let header = include_str!("../data/metals.csv")
+            .lines()
+            .find(|l| l.starts_with("wavelength"))
+            .unwrap();
+        let names: Vec<&str> = header.split(',').skip(1).step_by(2).collect();
+        assert_eq!(names.len(), Metal::ALL.len());
+        for (metal, name) in Metal::ALL.iter().zip(names) {
+            let spelled = format!("{metal:?}").to_lowercase();
+            assert_eq!(
+                format!("{spelled}_n"),
+                name.replace("stainless_steel", "stainlesssteel")
+            );
+        }
+    }
 }

@@ -1,0 +1,174 @@
+//! The energy that scratches take from the base, and from one another (docs/model.md, section 3).
+//!
+//! A scratch that covers the share rho_m of the coherence window scatters |D_m|^2 rho_m of the light and takes as much
+//! from the specular peak. Randomly placed scratches add as amplitudes, so the peak keeps |1 - sum rho_m D_m|^2: each
+//! scratch is weakened by the others by h_m = 1 - c (rho - rho_m), where c tells how alike their phase steps are. Equal
+//! depths have c = 1; depths spread over a wavelength have c = 1/2.
+
+use crate::{scratch, spectrum};
+use std::f64::consts::PI;
+
+/// c = |mean D|^2 / mean |D|^2 over scratches given as (depth in nm, weight), averaged over the visible by the eye's
+/// response. Between 0.5 and 1; 1 for no scratches.
+pub fn depth_coherence(depths: impl Iterator<Item = (f64, f64)> + Clone) -> f64 {
+    let (mut of_mean, mut mean) = (0.0, 0.0);
+    for sample in spectrum::samples().iter().step_by(4) {
+        let (mut re, mut im, mut energy, mut total) = (0.0, 0.0, 0.0, 0.0);
+        for (depth_nm, weight) in depths.clone() {
+            let phase = 4.0 * PI * depth_nm / sample.wavelength_nm;
+            re += weight * (1.0 - phase.cos());
+            im += weight * phase.sin();
+            energy += weight * scratch::phase_step_energy(depth_nm, sample.wavelength_nm);
+            total += weight;
+        }
+        // Green's weight follows the eye's response; its small negative lobes don't count here.
+        let sensitivity = sample.weight[1].max(0.0);
+        if total > 0.0 {
+            of_mean += sensitivity * (re * re + im * im) / (total * total);
+            mean += sensitivity * energy / total;
+        }
+    }
+    if mean > 0.0 {
+        (of_mean / mean).clamp(0.5, 1.0)
+    } else {
+        1.0
+    }
+}
+
+/// What the scratches under one footprint add up to.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ScratchSums {
+    /// Sum of rho_m.
+    pub share: f64,
+    /// Sum of the radiance of each scratch as if it were alone.
+    pub radiance: [f64; 3],
+    /// The same, each times its rho_m.
+    pub radiance_by_share: [f64; 3],
+    /// Sum of |D_m|^2 rho_m.
+    pub energy: [f64; 3],
+    /// The same, each times its rho_m.
+    pub energy_by_share: [f64; 3],
+}
+
+impl ScratchSums {
+    /// Adds one scratch: its share rho_m, the mean of |D|^2 and its radiance per unit of share.
+    pub fn add(&mut self, share: f64, phase_step_energy: [f64; 3], radiance_per_share: [f64; 3]) {
+        self.share += share;
+        for c in 0..3 {
+            self.energy[c] += share * phase_step_energy[c];
+            self.energy_by_share[c] += share * share * phase_step_energy[c];
+            self.radiance[c] += share * radiance_per_share[c];
+            self.radiance_by_share[c] += share * share * radiance_per_share[c];
+        }
+    }
+
+    /// Radiance of all scratches, each weakened by the others, and the share of the base's energy that they take.
+    /// A surface covered so densely that amplitudes would add beyond what there is to scatter stays at that limit.
+    pub fn mask_resolve(&self, depth_coherence: f64) -> Masked {
+        let limit = 1.0 / (2.0 * depth_coherence);
+        let scale = if self.share > limit {
+            limit / self.share
+        } else {
+            1.0
+        };
+        let alone = scale * (1.0 - depth_coherence * scale * self.share);
+        let own = scale * scale * depth_coherence;
+        Masked {
+            scratches: std::array::from_fn(|c| {
+                alone * self.radiance[c] + own * self.radiance_by_share[c]
+            }),
+            taken: std::array::from_fn(|c| {
+                (alone * self.energy[c] + own * self.energy_by_share[c]).clamp(0.0, 1.0)
+            }),
+        }
+    }
+}
+
+/// The result of [`ScratchSums::mask_resolve`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Masked {
+    /// Radiance of the scratches.
+    pub scratches: [f64; 3],
+    /// The share of the base that is gone, in [0, 1].
+    pub taken: [f64; 3],
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const NM: f64 = 550.0;
+
+    /// |1 - sum rho_m D_m|^2 with all phases, at one wavelength.
+    fn specular(shares: &[f64], depths: &[f64]) -> f64 {
+        let (mut re, mut im) = (1.0, 0.0);
+        for (rho, d) in shares.iter().zip(depths) {
+            let phase = 4.0 * PI * d / NM;
+            re -= rho * (1.0 - phase.cos());
+            im -= rho * phase.sin();
+        }
+        re * re + im * im
+    }
+
+    fn masked(shares: &[f64], depths: &[f64], coherence: f64) -> f64 {
+        let mut sums = ScratchSums::default();
+        for (rho, d) in shares.iter().zip(depths) {
+            sums.add(*rho, [scratch::phase_step_energy(*d, NM); 3], [0.0; 3]);
+        }
+        1.0 - sums.mask_resolve(coherence).taken[0]
+    }
+
+    #[test]
+    fn a_single_scratch_is_exact() {
+        assert!((masked(&[0.03], &[137.5], 1.0) - (1.0 - 4.0 * 0.03)).abs() < 1e-12);
+        // Depth coherence is about the others: alone it must not matter.
+        assert!((masked(&[0.03], &[137.5], 0.5) - masked(&[0.03], &[137.5], 1.0)).abs() < 1e-12);
+    }
+
+    #[test]
+    fn equal_depths_keep_the_specular_peak() {
+        for total in [0.05, 0.2, 0.5] {
+            for depth in [40.0, 137.5, 200.0] {
+                let n = 1000;
+                let (shares, depths) = (vec![total / n as f64; n], vec![depth; n]);
+                let (value, expected) = (masked(&shares, &depths, 1.0), specular(&shares, &depths));
+                // Terms of order 1/n separate many from infinitely many.
+                assert!(
+                    (value - expected).abs() < 2.0 / n as f64 * 4.0 * total,
+                    "{total} {depth}: {value} {expected}"
+                );
+            }
+        }
+    }
+
+    /// Spread depths: c = 1/2 reproduces the coherent sum, and c = 1 (scratches hide one another fully) does not.
+    #[test]
+    fn spread_depths_keep_the_specular_peak_by_their_coherence() {
+        let n = 4000;
+        let depths: Vec<f64> = (0..n).map(|i| 2750.0 * i as f64 / n as f64).collect();
+        let c = depth_coherence(depths.iter().map(|d| (*d, 1.0)));
+        assert!((c - 0.5).abs() < 0.02, "{c}");
+        for total in [0.1, 0.3, 0.6] {
+            let shares = vec![total / n as f64; n];
+            let expected = specular(&shares, &depths);
+            let (with, without) = (masked(&shares, &depths, c), masked(&shares, &depths, 1.0));
+            println!(
+                "mask: density {total}: coherent {expected:.3}, with depth coherence {with:.3}, without {without:.3}"
+            );
+            assert!((with - expected).abs() < 0.02);
+            assert!((without - expected).abs() > 2.0 * (with - expected).abs());
+        }
+    }
+
+    #[test]
+    fn dense_scratches_neither_create_energy_nor_light_the_base_again() {
+        let mut last = 1.0;
+        for total in [0.0, 0.2, 0.6, 1.0, 3.0, 100.0] {
+            let shares = vec![total / 1000.0; 1000];
+            let depths: Vec<f64> = (0..1000).map(|i| 2.75 * i as f64).collect();
+            let kept = masked(&shares, &depths, 0.5);
+            assert!((0.0..=last + 1e-9).contains(&kept));
+            last = kept;
+        }
+    }
+}

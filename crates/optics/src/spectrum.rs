@@ -1,0 +1,140 @@
+//! From spectra to linear Rec.709: the CIE 1931 observer under illuminant D65.
+//!
+//! A light of radiance (1, 1, 1) has the spectrum of D65; a surface that reflects every wavelength fully shows it as
+//! (1, 1, 1). So a spectral reflectance r becomes the channels `sum over lambda of w_c(lambda) r(lambda)`, with weights
+//! that hold the colour-matching functions, the illuminant, and the matrix to Rec.709, and sum to one in each channel.
+//! Weights may be negative: saturated spectral colours lie outside the gamut and stay there until display.
+
+use std::sync::LazyLock;
+
+/// Spacing of the tabulated wavelengths.
+pub const WAVELENGTH_STEP_NM: f64 = 5.0;
+/// Shortest tabulated wavelength.
+pub const WAVELENGTH_MIN_NM: f64 = 380.0;
+/// Number of tabulated wavelengths: 380 to 780 nm.
+pub const WAVELENGTH_COUNT: usize = 81;
+/// The wavelength that stands for the visible where one must: near the eye's greatest sensitivity under D65.
+pub const WAVELENGTH_MEAN_NM: f64 = 555.0;
+
+/// Linear Rec.709 (D65 white) from CIE XYZ; ITU-R BT.709-6, inverted from its primaries.
+const REC709_FROM_XYZ: [[f64; 3]; 3] = [
+    [
+        3.240_969_941_904_521,
+        -1.537_383_177_570_093,
+        -0.498_610_760_293_003,
+    ],
+    [
+        -0.969_243_636_280_880,
+        1.875_967_501_507_721,
+        0.041_555_057_407_176,
+    ],
+    [
+        0.055_630_079_696_993,
+        -0.203_976_958_888_977,
+        1.056_971_514_242_879,
+    ],
+];
+
+/// One tabulated wavelength with its weight in each colour channel.
+#[derive(Clone, Copy, Debug)]
+pub struct SpectralSample {
+    /// Wavelength.
+    pub wavelength_nm: f64,
+    /// Weight in linear Rec.709 red, green and blue.
+    pub weight: [f64; 3],
+}
+
+static SAMPLES: LazyLock<Vec<SpectralSample>> = LazyLock::new(|| {
+    let mut samples: Vec<SpectralSample> = include_str!("../data/cie.csv")
+        .lines()
+        .filter(|line| line.starts_with(|c: char| c.is_ascii_digit()))
+        .map(|line| {
+            let row: Vec<f64> = line
+                .split(',')
+                .map(|cell| cell.parse().expect("data/cie.csv holds numbers"))
+                .collect();
+            let [wavelength_nm, x, y, z, d65] = row[..] else {
+                panic!("data/cie.csv has five columns")
+            };
+            SpectralSample {
+                wavelength_nm,
+                weight: REC709_FROM_XYZ.map(|m| d65 * (m[0] * x + m[1] * y + m[2] * z)),
+            }
+        })
+        .collect();
+    assert_eq!(samples.len(), WAVELENGTH_COUNT);
+    // Each channel is scaled on its own: truncation at 380 and 780 nm leaves white a few 1e-4 off (1, 1, 1).
+    for channel in 0..3 {
+        let sum: f64 = samples.iter().map(|s| s.weight[channel]).sum();
+        samples.iter_mut().for_each(|s| s.weight[channel] /= sum);
+    }
+    samples
+});
+
+/// The tabulated wavelengths, 380 to 780 nm every 5 nm.
+pub fn samples() -> &'static [SpectralSample] {
+    &SAMPLES
+}
+
+/// Linear Rec.709 of a spectral reflectance seen under D65.
+pub fn rgb_from_reflectance(reflectance: impl Fn(f64) -> f64) -> [f64; 3] {
+    rgb_from_spectral_rgb(|nm| [reflectance(nm); 3])
+}
+
+/// As [`rgb_from_reflectance`] for a function that computes something of its own for each channel.
+pub fn rgb_from_spectral_rgb(value: impl Fn(f64) -> [f64; 3]) -> [f64; 3] {
+    samples().iter().fold([0.0; 3], |sum, s| {
+        let v = value(s.wavelength_nm);
+        std::array::from_fn(|c| sum[c] + s.weight[c] * v[c])
+    })
+}
+
+/// The weights at any wavelength, as a density per nm: what a Monte Carlo estimate over wavelength divides by its pdf.
+/// Zero outside 380 to 780 nm.
+pub fn weight_per_nm(wavelength_nm: f64) -> [f64; 3] {
+    let position = (wavelength_nm - WAVELENGTH_MIN_NM) / WAVELENGTH_STEP_NM;
+    let last = (WAVELENGTH_COUNT - 1) as f64;
+    if !(0.0..=last).contains(&position) {
+        return [0.0; 3];
+    }
+    let i = (position as usize).min(WAVELENGTH_COUNT - 2);
+    let f = position - i as f64;
+    let (a, b) = (&samples()[i].weight, &samples()[i + 1].weight);
+    std::array::from_fn(|c| (a[c] + f * (b[c] - a[c])) / WAVELENGTH_STEP_NM)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_perfect_mirror_is_white() {
+        for c in rgb_from_reflectance(|_| 1.0) {
+            assert!((c - 1.0).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn single_wavelengths_have_the_hue_that_the_eye_sees() {
+        let strongest = |nm: f64| {
+            let w = weight_per_nm(nm);
+            (0..3).max_by(|&a, &b| w[a].total_cmp(&w[b])).unwrap()
+        };
+        assert_eq!(strongest(640.0), 0);
+        assert_eq!(strongest(530.0), 1);
+        assert_eq!(strongest(450.0), 2);
+        // Cyan light lies outside Rec.709: its red must stay negative, or rainbows lose their saturation.
+        assert!(weight_per_nm(500.0)[0] < 0.0);
+    }
+
+    #[test]
+    fn weights_as_a_density_integrate_to_one() {
+        let sum = (0..4000)
+            .map(|i| weight_per_nm(380.05 + 0.1 * i as f64))
+            .fold([0.0; 3], |s, w| std::array::from_fn(|c| s[c] + 0.1 * w[c]));
+        for c in sum {
+            // The trapezoid of the density counts the two ends half, where the observer's response is below 1e-4.
+            assert!((c - 1.0).abs() < 2e-4, "{c}");
+        }
+    }
+}

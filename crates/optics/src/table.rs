@@ -1,0 +1,247 @@
+//! The spectrum of a scratch as a table over u and depth (docs/model.md, section 5).
+//!
+//! Width enters only through u = W q and depth only through |D|^2, so one table
+//!
+//! T_c(u, d) = sum over lambda of w_c R |D|^2 / lambda . G_lambda(u) / F0_c
+//!
+//! turns the light integral of any scratch into differences of two look-ups, whatever the number of wavelengths.
+//! R/F0 carries the correlation of the metal's colour with the scratch's; the caller multiplies by Fresnel in RGB.
+
+use crate::{diffraction, scratch, spectrum};
+
+/// Columns, over u.
+pub const COLUMNS: usize = 512;
+/// Rows, over depth.
+pub const ROWS: usize = 512;
+/// Largest depth: the last row. Deeper scratches are held there; their colours have washed out to straw long before.
+pub const DEPTH_MAX_NM: f64 = 2000.0;
+/// The u of the middle column. Columns are even in u/(u + U_HALF_UM), so that the last one lies at infinity: fine where
+/// the colours are (one fringe spans about 0.5 um of u), coarse where they have blurred into the tail.
+pub const U_HALF_UM: f64 = 2.0;
+
+/// T and its slope at every (u, d). A texel holds three channels and a zero.
+#[derive(Clone, Debug)]
+pub struct ScratchTable {
+    /// Row-major, `ROWS` rows of `2 * COLUMNS` texels: T and its derivative by the column index, side by side. The
+    /// slope makes the look-up cubic, which small lights need: they see differences of T much finer than a column.
+    pub texels: Vec<[f32; 4]>,
+}
+
+impl ScratchTable {
+    /// The table of a material. `reflectance` is spectral at normal incidence; the channels are divided by its colour, so
+    /// that T(infinity) - T(-infinity) is the share of a reflected white that a scratch scatters.
+    pub fn new(reflectance: impl Fn(f64) -> f64) -> Self {
+        let samples = spectrum::samples();
+        let f0 = spectrum::rgb_from_reflectance(&reflectance);
+        // Both factors of T are tables over wavelength; T is their product.
+        let chords: Vec<[[f64; 2]; COLUMNS]> = samples
+            .iter()
+            .map(|s| {
+                let wavelength_um = s.wavelength_nm * 1e-3;
+                let g =
+                    |u: f64| diffraction::sinc_squared_integral(u, wavelength_um) / wavelength_um;
+                std::array::from_fn(|column| {
+                    [g(column_u_um(column)), chord_slope(column, wavelength_um)]
+                })
+            })
+            .collect();
+        let mut texels = vec![[0f32; 4]; ROWS * 2 * COLUMNS];
+        for (row, texels) in texels.chunks_exact_mut(2 * COLUMNS).enumerate() {
+            let depth_nm = row as f64 * DEPTH_MAX_NM / (ROWS - 1) as f64;
+            let mut sums = vec![[0f64; 6]; COLUMNS];
+            for (sample, chords) in samples.iter().zip(&chords) {
+                let energy = reflectance(sample.wavelength_nm)
+                    * scratch::phase_step_energy(depth_nm, sample.wavelength_nm);
+                let weight: [f64; 3] = std::array::from_fn(|c| sample.weight[c] * energy / f0[c]);
+                for (sum, chord) in sums.iter_mut().zip(chords) {
+                    for c in 0..3 {
+                        sum[c] += weight[c] * chord[0];
+                        sum[3 + c] += weight[c] * chord[1];
+                    }
+                }
+            }
+            for (texel, s) in texels.chunks_exact_mut(2).zip(&sums) {
+                texel[0] = [s[0] as f32, s[1] as f32, s[2] as f32, 0.0];
+                texel[1] = [s[3] as f32, s[4] as f32, s[5] as f32, 0.0];
+            }
+        }
+        Self { texels }
+    }
+
+    /// T_c(u, d): cubic (Hermite) in u, linear in depth. Odd in u.
+    pub fn scratch_table(&self, u_um: f64, depth_nm: f64) -> [f64; 3] {
+        let x = u_um.abs() / (u_um.abs() + U_HALF_UM) * (COLUMNS - 1) as f64;
+        let column = (x as usize).min(COLUMNS - 2);
+        let f = x - column as f64;
+        let y = depth_nm.clamp(0.0, DEPTH_MAX_NM) * (ROWS - 1) as f64 / DEPTH_MAX_NM;
+        let row = (y as usize).min(ROWS - 2);
+        let g = y - row as f64;
+        // Hermite basis: value and slope at the left, value and slope at the right.
+        let (f2, f3) = (f * f, f * f * f);
+        let basis = [
+            2.0 * f3 - 3.0 * f2 + 1.0,
+            f3 - 2.0 * f2 + f,
+            3.0 * f2 - 2.0 * f3,
+            f3 - f2,
+        ];
+        let at = (row * COLUMNS + column) * 2;
+        let (near, far) = (
+            &self.texels[at..at + 4],
+            &self.texels[at + 2 * COLUMNS..at + 2 * COLUMNS + 4],
+        );
+        std::array::from_fn(|c| {
+            let cubic = |t: &[[f32; 4]]| (0..4).map(|i| basis[i] * t[i][c] as f64).sum::<f64>();
+            u_um.signum() * ((1.0 - g) * cubic(near) + g * cubic(far))
+        })
+    }
+
+    /// T(infinity, d) - T(-infinity, d): the mean of |D|^2 in each channel, which the mask of section 3 needs.
+    pub fn scratch_table_total(&self, depth_nm: f64) -> [f64; 3] {
+        let y = depth_nm.clamp(0.0, DEPTH_MAX_NM) * (ROWS - 1) as f64 / DEPTH_MAX_NM;
+        let row = (y as usize).min(ROWS - 2);
+        let g = y - row as f64;
+        let last = (COLUMNS - 1) * 2;
+        let (near, far) = (
+            self.texels[row * 2 * COLUMNS + last],
+            self.texels[(row + 1) * 2 * COLUMNS + last],
+        );
+        std::array::from_fn(|c| 2.0 * ((1.0 - g) * near[c] as f64 + g * far[c] as f64))
+    }
+}
+
+/// u at a column; infinite at the last one.
+fn column_u_um(column: usize) -> f64 {
+    let x = column as f64 / (COLUMNS - 1) as f64;
+    U_HALF_UM * x / (1.0 - x)
+}
+
+/// Derivative of G/lambda by the column index.
+fn chord_slope(column: usize, wavelength_um: f64) -> f64 {
+    let columns = (COLUMNS - 1) as f64;
+    if column == COLUMNS - 1 {
+        // sinc^2 averages to 2/(k u)^2 far out, which du/dx grows to meet: a finite slope at infinity.
+        return wavelength_um / (2.0 * std::f64::consts::PI.powi(2) * U_HALF_UM * columns);
+    }
+    let u = column_u_um(column);
+    let k = 2.0 * std::f64::consts::PI / wavelength_um;
+    let du = (u + U_HALF_UM).powi(2) / (U_HALF_UM * columns);
+    diffraction::sinc(k * u / 2.0).powi(2) * du / wavelength_um
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::metal::Metal;
+    use std::sync::LazyLock;
+
+    static MIRROR: LazyLock<ScratchTable> = LazyLock::new(|| ScratchTable::new(|_| 1.0));
+
+    /// T by a quadrature of its own: 1 nm steps over the interpolated weights, Simpson over u.
+    fn quadrature(u0: f64, u1: f64, depth_nm: f64, metal: Option<Metal>) -> [f64; 3] {
+        let reflectance = |nm: f64| metal.map_or(1.0, |m| m.reflectance(1.0, nm));
+        let f0 = spectrum::rgb_from_reflectance(reflectance);
+        let n = 2 * (60.0 * (u1 - u0).abs()).ceil().max(8.0) as usize;
+        let mut sum = [0.0; 3];
+        for i in 0..=400 {
+            let nm = 380.0 + i as f64;
+            let k = 2.0 * std::f64::consts::PI / (nm * 1e-3);
+            let h = (u1 - u0) / n as f64;
+            let chord: f64 = (0..=n)
+                .map(|j| {
+                    let weight = if j == 0 || j == n {
+                        1.0
+                    } else if j % 2 == 1 {
+                        4.0
+                    } else {
+                        2.0
+                    };
+                    let x = k * (u0 + h * j as f64) / 2.0;
+                    weight * h / 3.0 * if x == 0.0 { 1.0 } else { (x.sin() / x).powi(2) }
+                })
+                .sum();
+            let d = 2.0 * (1.0 - (4.0 * std::f64::consts::PI * depth_nm / nm).cos());
+            let w = spectrum::weight_per_nm(nm);
+            sum = std::array::from_fn(|c| {
+                sum[c] + w[c] * reflectance(nm) * d * chord / (nm * 1e-3) / f0[c]
+            });
+        }
+        sum
+    }
+
+    /// Relative rms of table differences against quadrature over chords [u, u + step].
+    fn rms_error(table: &ScratchTable, metal: Option<Metal>, step_um: f64, u_max_um: f64) -> f64 {
+        let (mut error2, mut value2) = (0.0, 0.0);
+        for i in 0..300 {
+            let u = u_max_um * (0.618_033_988_749_895 * i as f64).fract();
+            let depth = 1000.0 * (0.414_213_562_373_095 * i as f64).fract();
+            let (a, b) = (
+                table.scratch_table(u, depth),
+                table.scratch_table(u + step_um, depth),
+            );
+            let expected = quadrature(u, u + step_um, depth, metal);
+            for c in 0..3 {
+                error2 += (b[c] - a[c] - expected[c]).powi(2);
+                value2 += expected[c].powi(2);
+            }
+        }
+        (error2 / value2).sqrt()
+    }
+
+    #[test]
+    fn the_table_equals_quadrature() {
+        let gold = ScratchTable::new(|nm| Metal::Gold.reflectance(1.0, nm));
+        // From whole lobes to the chord of a light of 0.002 rad on a scratch of 1 um.
+        for (step, bound) in [(5.0, 3e-3), (0.5, 3e-3), (0.05, 3e-3), (0.004, 3e-3)] {
+            let (mirror, gold) = (
+                rms_error(&MIRROR, None, step, 10.0),
+                rms_error(&gold, Some(Metal::Gold), step, 10.0),
+            );
+            println!(
+                "table: chords of {step} um, relative rms error {:.3} % (mirror), {:.3} % (gold)",
+                100.0 * mirror,
+                100.0 * gold
+            );
+            assert!(mirror < bound && gold < bound);
+        }
+        // Far out, where bright lights still show a tail: the error is relative to the tail itself.
+        let tail = rms_error(&MIRROR, None, 0.1, 40.0);
+        println!(
+            "table: chords of 0.1 um up to u = 40 um, relative rms error {:.3} %",
+            100.0 * tail
+        );
+        assert!(tail < 1e-2);
+    }
+
+    #[test]
+    fn the_limit_is_the_energy_of_the_phase_step() {
+        for depth in [0.0, 60.0, 137.0, 250.0, 900.0, 2000.0] {
+            let total = MIRROR.scratch_table_total(depth);
+            let expected =
+                spectrum::rgb_from_reflectance(|nm| scratch::phase_step_energy(depth, nm));
+            for c in 0..3 {
+                // Linear interpolation between rows 3.9 nm apart errs by (4 pi 3.9/450)^2/4 at most.
+                assert!(
+                    (total[c] - expected[c]).abs() < 4e-3,
+                    "{depth}: {total:?} {expected:?}"
+                );
+            }
+            let far = MIRROR.scratch_table(1e9, depth);
+            assert!((2.0 * far[1] - total[1]).abs() < 1e-5);
+        }
+    }
+
+    #[test]
+    fn odd_and_finite_everywhere() {
+        for u in [0.0, 1e-30, 3.0, 1e30, f64::MAX] {
+            for depth in [-5.0, 0.0, 1e9] {
+                let (a, b) = (
+                    MIRROR.scratch_table(u, depth),
+                    MIRROR.scratch_table(-u, depth),
+                );
+                for c in 0..3 {
+                    assert!(a[c].is_finite() && a[c] == -b[c]);
+                }
+            }
+        }
+    }
+}
