@@ -1,5 +1,232 @@
 //! Light from all around: an equirectangular radiance map, prefiltered for rough reflection.
+//!
+//! Shading follows the split sum: a reflection off a rough surface is the map blurred by the surface's lobe
+//! ([`Environment::prefiltered`]) times the lobe's directional albedo; diffuse light is nine spherical harmonics
+//! ([`Environment::irradiance`]).
+//!
+//! The map's top is at +Y, as in glTF, and its centre column at -Z, where a glTF camera looks by default; +X is to the
+//! right of it. [`Environment::with_up`] turns all of that to another axis.
 
-/// Placeholder until the loader lands.
+use std::path::Path;
+use std::sync::Arc;
+
+use glam::{DMat3, DQuat, DVec3};
+use hairline_image::Picture;
+
+mod file;
+mod irradiance;
+pub mod lookup;
+mod prefilter;
+mod resample;
+
+pub use file::Error;
+pub use prefilter::LEVEL_ROUGHNESS;
+
+use lookup::{
+    environment_irradiance, environment_lod, environment_prefiltered_lod, environment_radiance,
+};
+
+/// An environment map and what is made from it. Clones share the texels.
+///
+/// Texels are bounded and rounded so that half floats (`rgba16float`) hold them exactly: a renderer that uploads them
+/// shows what one that reads them here shows. A map with radiances above 65504 is stored divided by a power of two,
+/// at most 1024; what is brighter still (the disk of the sun, in absolute units) is cut there.
 #[derive(Clone, Debug)]
-pub struct Environment {}
+pub struct Environment {
+    maps: Arc<Maps>,
+    intensity: f64,
+    map_from_world: DMat3,
+    visible: bool,
+}
+
+#[derive(Debug)]
+struct Maps {
+    background: Picture,
+    levels: Vec<Picture>,
+    irradiance_sh: [[f32; 3]; 9],
+    texel_scale: f64,
+    repaired_texels: usize,
+}
+
+impl Environment {
+    /// Reads a Radiance (.hdr) or OpenEXR (.exr) file that holds an equirectangular map, twice as wide as high.
+    ///
+    /// `rotation_rad` turns the map about the up axis, counter-clockwise seen from above; `intensity` multiplies its
+    /// radiance; `visible` says whether the camera sees it.
+    ///
+    /// Negative and NaN components count as 0, infinite ones as the largest finite value;
+    /// [`Environment::repaired_texels`] counts them. Maps wider than 8192 pixels are halved until they are not.
+    ///
+    /// # Errors
+    /// [`Error`] names the file and what is wrong with it.
+    pub fn load(
+        path: &Path,
+        rotation_rad: f64,
+        intensity: f64,
+        visible: bool,
+    ) -> Result<Self, Error> {
+        let map = file::read(path)?;
+        Ok(Self::from_map(map, rotation_rad, intensity, visible))
+    }
+
+    /// From an equirectangular map in memory, rows from the top; see [`Environment::load`] for the rest.
+    ///
+    /// # Panics
+    /// If the map is empty.
+    pub fn from_map(mut map: Picture, rotation_rad: f64, intensity: f64, visible: bool) -> Self {
+        assert!(!map.rgb.is_empty(), "an empty environment map");
+        let repaired_texels = repair(&mut map);
+        while map.size_px[0] > MAP_WIDTH_MAX {
+            map = resample::resample(&map, map.size_px.map(|n| n / 2));
+        }
+        let texel_scale = fit_half(&mut map);
+        let levels = prefilter::prefilter(&map);
+        let irradiance_sh = irradiance::project(&levels[0]);
+        round_to_half(&mut map);
+        Self {
+            maps: Arc::new(Maps {
+                background: map,
+                levels,
+                irradiance_sh,
+                texel_scale,
+                repaired_texels,
+            }),
+            intensity,
+            map_from_world: map_from_world(DVec3::Y, rotation_rad),
+            visible,
+        }
+    }
+
+    /// The same radiance from everywhere, visible. Exact if half floats hold the radiance, else within 0.05 %.
+    pub fn uniform(radiance: [f32; 3]) -> Self {
+        let map = Picture {
+            size_px: [2, 1],
+            rgb: vec![radiance; 2],
+        };
+        Self::from_map(map, 0.0, 1.0, true)
+    }
+
+    /// Puts the map's top at the direction `up` (need not be a unit vector) instead of +Y, by the shortest turn from
+    /// one to the other, and then turns it by `rotation_rad` about `up`.
+    #[must_use]
+    pub fn with_up(mut self, up: DVec3, rotation_rad: f64) -> Self {
+        self.map_from_world = map_from_world(up, rotation_rad);
+        self
+    }
+
+    /// The radiance that arrives from a direction: what the camera sees of the map. `dir` is a unit vector in world
+    /// space, away from the viewer.
+    pub fn radiance(&self, dir: DVec3) -> DVec3 {
+        environment_radiance(&self.maps.background, self.map_from_world * dir)
+            * self.texel_radiance()
+    }
+
+    /// The radiance blurred by the lobe of a GGX surface of perceptual `roughness` around its mirror direction `dir`
+    /// (unit vector, world space).
+    pub fn prefiltered(&self, dir: DVec3, roughness: f64) -> DVec3 {
+        self.prefiltered_lod(dir, environment_lod(roughness))
+    }
+
+    /// [`Environment::prefiltered`] by level: `lod` 0 is the sharp map, each further level belongs to
+    /// [`LEVEL_ROUGHNESS`]; between levels, a blend.
+    pub fn prefiltered_lod(&self, dir: DVec3, lod: f64) -> DVec3 {
+        environment_prefiltered_lod(&self.maps.levels, self.map_from_world * dir, lod)
+            * self.texel_radiance()
+    }
+
+    /// The irradiance on a surface with unit `normal` in world space: the integral of radiance times cosine.
+    pub fn irradiance(&self, normal: DVec3) -> DVec3 {
+        environment_irradiance(&self.maps.irradiance_sh, self.map_from_world * normal)
+            * self.texel_radiance()
+    }
+
+    /// Whether the camera sees the map.
+    pub fn visible(&self) -> bool {
+        self.visible
+    }
+
+    /// The radiance of a texel (or coefficient) of value 1: the intensity, times the power of two that brought a very
+    /// bright map into half floats.
+    pub fn texel_radiance(&self) -> f64 {
+        self.intensity * self.maps.texel_scale
+    }
+
+    /// The rotation that takes world directions to the map's, in which +Y is the top and -Z the centre.
+    pub fn map_from_world(&self) -> DMat3 {
+        self.map_from_world
+    }
+
+    /// The map in full resolution, in texel units.
+    pub fn background(&self) -> &Picture {
+        &self.maps.background
+    }
+
+    /// The prefiltered maps in texel units, one for each of [`LEVEL_ROUGHNESS`], each half the size of the one before.
+    pub fn prefiltered_levels(&self) -> &[Picture] {
+        &self.maps.levels
+    }
+
+    /// The coefficients of [`Environment::irradiance`] in texel units and the map's frame, in the order of
+    /// [`lookup::environment_irradiance`].
+    pub fn irradiance_sh(&self) -> &[[f32; 3]; 9] {
+        &self.maps.irradiance_sh
+    }
+
+    /// How many texels of the file held a negative, infinite or NaN component.
+    pub fn repaired_texels(&self) -> usize {
+        self.maps.repaired_texels
+    }
+}
+
+/// What every WebGPU device can hold in one texture.
+const MAP_WIDTH_MAX: u32 = 8192;
+
+/// The largest half float.
+const HALF_MAX: f32 = 65504.0;
+
+/// The largest power of two by which maps are divided: dark parts of a brighter map would lose their bits.
+const TEXEL_SCALE_MAX: f32 = 1024.0;
+
+fn map_from_world(up: DVec3, rotation_rad: f64) -> DMat3 {
+    let up = up.normalize();
+    let world_from_map =
+        DQuat::from_axis_angle(up, rotation_rad) * DQuat::from_rotation_arc(DVec3::Y, up);
+    DMat3::from_quat(world_from_map).transpose()
+}
+
+/// Replaces components that are no radiance; returns how many texels had one.
+fn repair(map: &mut Picture) -> usize {
+    let mut repaired = 0;
+    for texel in &mut map.rgb {
+        let whole = texel.map(|c| {
+            if c.is_nan() {
+                0.0
+            } else {
+                c.clamp(0.0, f32::MAX)
+            }
+        });
+        repaired += usize::from(whole != *texel);
+        *texel = whole;
+    }
+    repaired
+}
+
+/// Divides the map by the power of two that brings it below the largest half float, and cuts what stays above.
+fn fit_half(map: &mut Picture) -> f64 {
+    let brightest = map.rgb.iter().flatten().fold(0.0_f32, |a, &b| a.max(b));
+    let mut scale = 1.0;
+    while brightest / scale > HALF_MAX && scale < TEXEL_SCALE_MAX {
+        scale *= 2.0;
+    }
+    for c in map.rgb.iter_mut().flatten() {
+        *c = (*c / scale).min(HALF_MAX);
+    }
+    f64::from(scale)
+}
+
+/// Rounds to what a half-float texture holds.
+fn round_to_half(map: &mut Picture) {
+    for c in map.rgb.iter_mut().flatten() {
+        *c = half::f16::from_f32(c.min(HALF_MAX)).to_f32();
+    }
+}

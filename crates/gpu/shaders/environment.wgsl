@@ -1,0 +1,91 @@
+// Look-ups in an environment's maps, in the map's own frame and texel units.
+// Twin: crates/scene/src/environment/lookup.rs, which names the sources and gives the reasons.
+
+const ENVIRONMENT_PI: f32 = 3.14159265358979;
+
+// The perceptual roughness of each level of the prefiltered map.
+const ENVIRONMENT_LEVEL_ROUGHNESS = array<f32, 7>(0.0, 0.06, 0.11, 0.2, 0.35, 0.6, 1.0);
+
+fn environment_uv(dir: vec3<f32>) -> vec2<f32> {
+    // At the poles atan2(0, 0) may be anything.
+    var longitude = 0.0;
+    if dir.x != 0.0 || dir.z != 0.0 {
+        longitude = atan2(dir.x, -dir.z);
+    }
+    // The arcus cosine as an arcus tangent: near the poles acos() has few digits, on many devices anywhere.
+    let polar = atan2(length(dir.xz), dir.y);
+    return vec2<f32>(0.5 + longitude / (2.0 * ENVIRONMENT_PI), polar / ENVIRONMENT_PI);
+}
+
+fn environment_dir(uv: vec2<f32>) -> vec3<f32> {
+    let longitude = (uv.x - 0.5) * 2.0 * ENVIRONMENT_PI;
+    let polar = uv.y * ENVIRONMENT_PI;
+    return vec3<f32>(sin(polar) * sin(longitude), cos(polar), -sin(polar) * cos(longitude));
+}
+
+fn environment_bilinear(map: texture_2d<f32>, level: i32, uv: vec2<f32>) -> vec3<f32> {
+    let size = vec2<i32>(textureDimensions(map, level));
+    let at = uv * vec2<f32>(size) - 0.5;
+    let corner = floor(at);
+    let t = at - corner;
+    let x0 = (i32(corner.x) + size.x) % size.x;
+    let x1 = (x0 + 1) % size.x;
+    let y0 = clamp(i32(corner.y), 0, size.y - 1);
+    let y1 = clamp(i32(corner.y) + 1, 0, size.y - 1);
+    let top_left = textureLoad(map, vec2<i32>(x0, y0), level).rgb;
+    let top_right = textureLoad(map, vec2<i32>(x1, y0), level).rgb;
+    let bottom_left = textureLoad(map, vec2<i32>(x0, y1), level).rgb;
+    let bottom_right = textureLoad(map, vec2<i32>(x1, y1), level).rgb;
+    let top = top_left + (top_right - top_left) * t.x;
+    let bottom = bottom_left + (bottom_right - bottom_left) * t.x;
+    return top + (bottom - top) * t.y;
+}
+
+fn environment_radiance(map: texture_2d<f32>, dir: vec3<f32>) -> vec3<f32> {
+    return environment_bilinear(map, 0, environment_uv(dir));
+}
+
+fn environment_lod(roughness: f32) -> f32 {
+    let r = clamp(roughness, 0.0, 1.0);
+    let alpha = r * r;
+    var levels = ENVIRONMENT_LEVEL_ROUGHNESS;
+    var lod = 0.0;
+    for (var i = 0; i < 6; i++) {
+        let low = levels[i] * levels[i];
+        let high = levels[i + 1] * levels[i + 1];
+        lod += clamp((alpha - low) / (high - low), 0.0, 1.0);
+    }
+    return lod;
+}
+
+fn environment_prefiltered(levels: texture_2d<f32>, dir: vec3<f32>, roughness: f32) -> vec3<f32> {
+    return environment_prefiltered_lod(levels, dir, environment_lod(roughness));
+}
+
+fn environment_prefiltered_lod(levels: texture_2d<f32>, dir: vec3<f32>, lod: f32) -> vec3<f32> {
+    let uv = environment_uv(dir);
+    let last = i32(textureNumLevels(levels)) - 1;
+    let clamped = clamp(lod, 0.0, f32(last));
+    let level = floor(clamped);
+    let near = environment_bilinear(levels, i32(level), uv);
+    if level == clamped {
+        return near;
+    }
+    let far = environment_bilinear(levels, i32(level) + 1, uv);
+    return near + (far - near) * (clamped - level);
+}
+
+// The coefficients are in xyz.
+fn environment_irradiance(sh: array<vec4<f32>, 9>, normal: vec3<f32>) -> vec3<f32> {
+    let n = normal;
+    let sum = sh[0].xyz
+        + sh[1].xyz * n.y
+        + sh[2].xyz * n.z
+        + sh[3].xyz * n.x
+        + sh[4].xyz * (n.x * n.y)
+        + sh[5].xyz * (n.y * n.z)
+        + sh[6].xyz * (3.0 * n.z * n.z - 1.0)
+        + sh[7].xyz * (n.x * n.z)
+        + sh[8].xyz * (n.x * n.x - n.y * n.y);
+    return max(sum, vec3<f32>(0.0));
+}

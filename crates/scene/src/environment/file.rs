@@ -1,0 +1,160 @@
+//! Environment maps from files.
+
+use std::fs::File;
+use std::io::{self, BufReader};
+use std::path::{Path, PathBuf};
+
+use hairline_image::{Picture, exr_file};
+use image::codecs::hdr::HdrDecoder;
+use image::{ImageDecoder, ImageError};
+
+/// An environment map that cannot be used. The message names the file and the reason.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// The file is not there or may not be read.
+    #[error("{}: cannot read: {reason}", path.display())]
+    CannotRead {
+        /// The file.
+        path: PathBuf,
+        /// Why, in words.
+        reason: String,
+    },
+    /// The file's name does not end in .hdr or .exr.
+    #[error("{}: not an environment map by its name: .hdr (Radiance) and .exr (OpenEXR) can be read", path.display())]
+    UnknownEnding {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The file ends too early.
+    #[error("{}: the file is truncated: it ends before the last pixel", path.display())]
+    Truncated {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The contents are not what the format prescribes.
+    #[error("{}: {reason}", path.display())]
+    Corrupt {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong, in words.
+        reason: String,
+    },
+    /// The picture is not twice as wide as high, so that it cannot be an equirectangular map.
+    #[error("{}: {}x{} pixels: an equirectangular map is twice as wide as high", path.display(), size_px[0], size_px[1])]
+    NotEquirectangular {
+        /// The file.
+        path: PathBuf,
+        /// Its width and height.
+        size_px: [u32; 2],
+    },
+    /// The picture is too large.
+    #[error("{}: {}x{} pixels: at most {} pixels wide can be read", path.display(), size_px[0], size_px[1], WIDTH_MAX)]
+    TooLarge {
+        /// The file.
+        path: PathBuf,
+        /// Its width and height.
+        size_px: [u32; 2],
+    },
+}
+
+/// 16k maps are the largest in circulation; 1.6 GB while being read.
+const WIDTH_MAX: u32 = 16384;
+
+/// Reads an equirectangular map.
+pub(super) fn read(path: &Path) -> Result<Picture, Error> {
+    let ending = path.extension().map(|e| e.to_ascii_lowercase());
+    match ending.as_ref().and_then(|e| e.to_str()) {
+        Some("hdr") => read_radiance(path),
+        Some("exr") => {
+            let picture = exr_file::read_picture(path).map_err(|e| from_exr(path, e))?;
+            check_size(path, picture.size_px)?;
+            Ok(picture)
+        }
+        _ => Err(Error::UnknownEnding {
+            path: path.to_owned(),
+        }),
+    }
+}
+
+fn check_size(path: &Path, size_px: [u32; 2]) -> Result<(), Error> {
+    let path = path.to_owned();
+    let [width, height] = size_px;
+    if height == 0 || u64::from(width) != 2 * u64::from(height) {
+        return Err(Error::NotEquirectangular { path, size_px });
+    }
+    if width > WIDTH_MAX {
+        return Err(Error::TooLarge { path, size_px });
+    }
+    Ok(())
+}
+
+fn from_exr(path: &Path, error: hairline_image::Error) -> Error {
+    let path = path.to_owned();
+    match error {
+        hairline_image::Error::CannotRead { reason, .. } => Error::CannotRead { path, reason },
+        // The exr crate's words for an unexpected end of file.
+        hairline_image::Error::Unusable { reason, .. } if reason.contains("missing bytes") => {
+            Error::Truncated { path }
+        }
+        hairline_image::Error::Unusable { reason, .. } => Error::Corrupt { path, reason },
+        other => Error::Corrupt {
+            path,
+            reason: other.to_string(),
+        },
+    }
+}
+
+/// Reads a Radiance picture. Its EXPOSURE, if it has one, is undone: it says by what the radiances were multiplied.
+fn read_radiance(path: &Path) -> Result<Picture, Error> {
+    let file = File::open(path).map_err(|e| cannot_read(path, &e))?;
+    let decoder = HdrDecoder::new(BufReader::new(file)).map_err(|e| from_radiance(path, e))?;
+    let size_px: [u32; 2] = decoder.dimensions().into();
+    check_size(path, size_px)?;
+    let exposure = decoder.metadata().exposure.unwrap_or(1.0);
+    if !(exposure.is_finite() && exposure > 0.0) {
+        return Err(Error::Corrupt {
+            path: path.to_owned(),
+            reason: format!("EXPOSURE={exposure} in the header: a positive number is needed"),
+        });
+    }
+    let mut bytes = vec![0; decoder.total_bytes() as usize];
+    decoder
+        .read_image(&mut bytes)
+        .map_err(|e| from_radiance(path, e))?;
+    let rgb = bytes
+        .chunks_exact(12)
+        .map(|texel| {
+            std::array::from_fn(|c| {
+                let component = [0, 1, 2, 3].map(|i| texel[4 * c + i]);
+                f32::from_ne_bytes(component) / exposure
+            })
+        })
+        .collect();
+    Ok(Picture { size_px, rgb })
+}
+
+fn from_radiance(path: &Path, error: ImageError) -> Error {
+    match error {
+        ImageError::IoError(e) if e.kind() == io::ErrorKind::UnexpectedEof => Error::Truncated {
+            path: path.to_owned(),
+        },
+        ImageError::IoError(e) => cannot_read(path, &e),
+        e => Error::Corrupt {
+            path: path.to_owned(),
+            reason: format!("not a Radiance picture that can be read: {e}"),
+        },
+    }
+}
+
+fn cannot_read(path: &Path, error: &io::Error) -> Error {
+    Error::CannotRead {
+        path: path.to_owned(),
+        reason: match error.kind() {
+            io::ErrorKind::NotFound => "there is no such file".to_owned(),
+            io::ErrorKind::PermissionDenied => "permission denied".to_owned(),
+            io::ErrorKind::IsADirectory => "it is a folder".to_owned(),
+            _ => error.to_string(),
+        },
+    }
+}

@@ -1,0 +1,490 @@
+//! Environment maps: conventions, energy, prefiltering against quadrature, and files that are no maps.
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use glam::{DVec2, DVec3};
+use hairline_image::{Display, Output, Picture};
+use hairline_scene::Environment;
+use hairline_scene::environment::lookup::{environment_dir, environment_lod, environment_uv};
+use hairline_scene::environment::{Error, LEVEL_ROUGHNESS};
+
+/// A map whose texels hold a function of their direction.
+fn map_of(size_px: [u32; 2], radiance: impl Fn(DVec3) -> [f64; 3]) -> Picture {
+    let mut map = Picture::new(size_px);
+    for y in 0..size_px[1] {
+        for x in 0..size_px[0] {
+            let at = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
+            let size = DVec2::new(f64::from(size_px[0]), f64::from(size_px[1]));
+            let i = (y * size_px[0] + x) as usize;
+            map.rgb[i] = radiance(environment_dir(at / size)).map(|c| c as f32);
+        }
+    }
+    map
+}
+
+fn sphere_mean(map: &Picture) -> DVec3 {
+    let [width, height] = map.size_px;
+    let mut sum = DVec3::ZERO;
+    for y in 0..height {
+        let edge = |y: u32| (PI * f64::from(y) / f64::from(height)).cos();
+        let weight = (edge(y) - edge(y + 1)) / 2.0 / f64::from(width);
+        for x in 0..width {
+            sum += DVec3::from(map.pixel(x, y).map(f64::from)) * weight;
+        }
+    }
+    sum
+}
+
+/// Directions all over the sphere (Fibonacci's spiral).
+fn directions(count: usize) -> impl Iterator<Item = DVec3> {
+    (0..count).map(move |i| {
+        let y = 1.0 - (2.0 * i as f64 + 1.0) / count as f64;
+        let phi = i as f64 * 2.399_963_229_728_653;
+        let r = (1.0 - y * y).sqrt();
+        DVec3::new(r * phi.cos(), y, r * phi.sin())
+    })
+}
+
+fn relative(a: DVec3, b: DVec3) -> f64 {
+    (a - b).length() / b.length()
+}
+
+#[test]
+fn directions_and_map_positions_agree() {
+    let at = |x, y, z| environment_uv(DVec3::new(x, y, z));
+    assert!(
+        (at(0.0, 0.0, -1.0) - DVec2::new(0.5, 0.5)).length() < 1e-15,
+        "the centre is at -Z"
+    );
+    assert!(
+        (at(1.0, 0.0, 0.0) - DVec2::new(0.75, 0.5)).length() < 1e-15,
+        "+X is to the right"
+    );
+    assert_eq!(at(0.0, 1.0, 0.0), DVec2::new(0.5, 0.0), "the top is at +Y");
+    assert_eq!(at(0.0, -1.0, 0.0), DVec2::new(0.5, 1.0));
+    for dir in directions(1000) {
+        let uv = environment_uv(dir);
+        assert!((0.0..=1.0).contains(&uv.x) && (0.0..=1.0).contains(&uv.y));
+        assert!((environment_dir(uv) - dir).length() < 1e-12);
+    }
+}
+
+#[test]
+fn rotation_and_up_turn_the_map() {
+    // Red at the map's centre (-Z), green to the right of it (+X), blue at the top.
+    let map = map_of([64, 32], |d| [(-d.z).max(0.0), d.x.max(0.0), d.y.max(0.0)]);
+    let plain = Environment::from_map(map, 0.0, 1.0, true);
+    let close = |a: DVec3, b: [f64; 3]| assert!((a - DVec3::from(b)).length() < 0.07, "{a} {b:?}");
+    close(plain.radiance(DVec3::NEG_Z), [1.0, 0.0, 0.0]);
+    close(plain.radiance(DVec3::X), [0.0, 1.0, 0.0]);
+    close(plain.radiance(DVec3::Y), [0.0, 0.0, 1.0]);
+    // A quarter turn, counter-clockwise seen from above, takes what was at -Z to -X.
+    let turned = plain.clone().with_up(DVec3::Y, FRAC_PI_2);
+    close(turned.radiance(DVec3::NEG_X), [1.0, 0.0, 0.0]);
+    close(turned.radiance(DVec3::NEG_Z), [0.0, 1.0, 0.0]);
+    close(turned.radiance(DVec3::Y), [0.0, 0.0, 1.0]);
+    // Z up: the top goes to +Z, the centre to +Y, the right stays.
+    let z_up = plain.with_up(DVec3::new(0.0, 0.0, 2.0), 0.0);
+    close(z_up.radiance(DVec3::Z), [0.0, 0.0, 1.0]);
+    close(z_up.radiance(DVec3::Y), [1.0, 0.0, 0.0]);
+    close(z_up.radiance(DVec3::X), [0.0, 1.0, 0.0]);
+}
+
+#[test]
+fn a_uniform_map_is_uniform_everywhere() {
+    // Half floats hold these.
+    let radiance = DVec3::new(0.5, 1.0, 3.25);
+    let environment = Environment::uniform(radiance.to_array().map(|c| c as f32));
+    assert!(environment.visible());
+    for dir in directions(500) {
+        assert_eq!(environment.radiance(dir), radiance);
+        for i in 0..=20 {
+            assert_eq!(environment.prefiltered(dir, f64::from(i) / 20.0), radiance);
+            assert_eq!(
+                environment.prefiltered_lod(dir, f64::from(i) / 2.0 - 1.0),
+                radiance
+            );
+        }
+        // Coefficients are single precision.
+        let error = relative(environment.irradiance(dir), PI * radiance);
+        assert!(error < 1e-6, "{error}");
+    }
+    // A size that is no power of two, and a map that is smaller and one that is larger than the levels.
+    for size in [[6, 3], [1000, 500], [2100, 1050]] {
+        let map = Picture {
+            size_px: size,
+            rgb: vec![[0.5, 1.0, 3.25]; (size[0] * size[1]) as usize],
+        };
+        let environment = Environment::from_map(map, 1.0, 1.0, false);
+        for level in environment.prefiltered_levels() {
+            assert!(level.rgb.iter().all(|t| *t == [0.5, 1.0, 3.25]));
+        }
+    }
+}
+
+#[test]
+fn levels_halve_and_lods_hit_their_roughness() {
+    let environment = Environment::uniform([1.0; 3]);
+    let levels = environment.prefiltered_levels();
+    assert_eq!(levels.len(), LEVEL_ROUGHNESS.len());
+    for (i, level) in levels.iter().enumerate() {
+        assert_eq!(level.size_px, [2048 >> i, 1024 >> i]);
+        assert!((environment_lod(LEVEL_ROUGHNESS[i]) - i as f64).abs() < 1e-12);
+    }
+    let mut last = -1.0;
+    for i in 0..=100 {
+        let lod = environment_lod(f64::from(i) / 100.0);
+        assert!(lod > last, "the level rises with roughness");
+        last = lod;
+    }
+    assert_eq!(environment_lod(-1.0), 0.0);
+    assert_eq!(environment_lod(7.0), 6.0);
+}
+
+/// A sky with a gradient, a bright window and a small hot lamp: what maps are made of.
+fn room(d: DVec3) -> [f64; 3] {
+    let lamp = DVec3::new(0.5, 0.7, 0.2).normalize();
+    let hot = if d.dot(lamp) > 0.999 { 300.0 } else { 0.0 };
+    let window = if d.z < -0.7 && d.x.abs() < 0.4 && d.y.abs() < 0.5 {
+        8.0
+    } else {
+        0.0
+    };
+    let sky = 0.3 + 0.2 * d.y;
+    [
+        sky + hot + 0.5 * window,
+        sky + hot + 0.8 * window,
+        1.5 * sky + hot + window,
+    ]
+}
+
+#[test]
+fn blurring_keeps_the_light() {
+    let map = map_of([1024, 512], room);
+    let mean = sphere_mean(&map);
+    let environment = Environment::from_map(map, 0.0, 1.0, true);
+    for (level, roughness) in environment.prefiltered_levels().iter().zip(LEVEL_ROUGHNESS) {
+        let error = relative(sphere_mean(level), mean);
+        println!(
+            "roughness {roughness}: mean radiance off by {:.3} %",
+            100.0 * error
+        );
+        // The level's texels sample the blurred map at their centres, and there are few near the poles.
+        assert!(error < 0.01, "roughness {roughness}: {error}");
+    }
+}
+
+/// The blurred radiance by quadrature over all texels of the map. Shares the lobe's definition (GGX at normal incidence,
+/// weighted by the cosine) with the code, and nothing else.
+fn blurred(map: &Picture, mirror: DVec3, roughness: f64) -> DVec3 {
+    let alpha_squared = roughness.powi(4);
+    let [width, height] = map.size_px;
+    let (mut sum, mut weights) = (DVec3::ZERO, 0.0);
+    for y in 0..height {
+        let v = (f64::from(y) + 0.5) / f64::from(height);
+        let solid_angle = (PI * v).sin();
+        for x in 0..width {
+            let u = (f64::from(x) + 0.5) / f64::from(width);
+            let dir = environment_dir(DVec2::new(u, v));
+            let cos = dir.dot(mirror);
+            if cos <= 0.0 {
+                continue;
+            }
+            let cos_half_squared = 0.5 * (1.0 + cos);
+            let t = 1.0 + (alpha_squared - 1.0) * cos_half_squared;
+            let weight = alpha_squared / (t * t) * cos * solid_angle;
+            sum += DVec3::from(map.pixel(x, y).map(f64::from)) * weight;
+            weights += weight;
+        }
+    }
+    sum / weights
+}
+
+/// Root mean square of the error over directions, relative to that of the blurred map.
+fn blur_error(environment: &Environment, map: &Picture, roughness: f64, count: usize) -> f64 {
+    let (mut squares, mut reference) = (0.0, 0.0);
+    for dir in directions(count) {
+        let want = blurred(map, dir, roughness);
+        squares += (environment.prefiltered(dir, roughness) - want).length_squared();
+        reference += want.length_squared();
+    }
+    (squares / reference).sqrt()
+}
+
+#[test]
+fn blur_matches_quadrature() {
+    let map = map_of([1024, 512], room);
+    let environment = Environment::from_map(map.clone(), 0.0, 1.0, true);
+    for roughness in &LEVEL_ROUGHNESS[1..] {
+        let error = blur_error(&environment, &map, *roughness, 60);
+        println!("roughness {roughness}: {:.2} % rms", 100.0 * error);
+        // A lamp of 2.6 degrees at 1000 times the sky's radiance is the hard case: the mip levels widen it a little.
+        assert!(error < 0.05, "roughness {roughness}: {error}");
+    }
+}
+
+#[test]
+fn irradiance_matches_quadrature() {
+    // Light from a hemisphere with its cosine: its harmonics above degree two carry next to nothing into irradiance.
+    let axis = DVec3::new(0.3, 0.8, -0.5).normalize();
+    let map = map_of([256, 128], |d| {
+        [d.dot(axis).max(0.0), 1.0 + d.x, 1.0 + d.y * d.z]
+    });
+    let environment = Environment::from_map(map.clone(), 0.0, 2.0, true);
+    for normal in directions(60) {
+        let mut want = DVec3::ZERO;
+        let [width, height] = map.size_px;
+        for y in 0..height {
+            let v = (f64::from(y) + 0.5) / f64::from(height);
+            let solid_angle = (PI * v).sin() * (PI / f64::from(height)) * (TAU / f64::from(width));
+            for x in 0..width {
+                let u = (f64::from(x) + 0.5) / f64::from(width);
+                let cos = environment_dir(DVec2::new(u, v)).dot(normal).max(0.0);
+                want += DVec3::from(map.pixel(x, y).map(f64::from)) * (cos * solid_angle);
+            }
+        }
+        let got = environment.irradiance(normal) / 2.0;
+        // Degree four of the cosine, squared: 0.5 % of the irradiance on axis, 2 pi / 3.
+        assert!((got.x - want.x).abs() < 0.012 * TAU / 3.0, "{got} {want}");
+        // Degrees zero to two only: exact but for half floats and the quadrature.
+        assert!((got.y - want.y).abs() < 2e-3 * PI, "{got} {want}");
+        assert!((got.z - want.z).abs() < 2e-3 * PI, "{got} {want}");
+    }
+}
+
+#[test]
+fn awkward_texels_are_repaired() {
+    let mut map = Picture::new([8, 4]);
+    map.rgb[0] = [f32::NAN, 1.0, 1.0];
+    map.rgb[1] = [-1.0, 1.0, 1.0];
+    map.rgb[2] = [f32::INFINITY, 0.0, 0.0];
+    map.rgb[3] = [1e6, 2.0, 1e-3];
+    let environment = Environment::from_map(map, 0.0, 3.0, true);
+    assert_eq!(environment.repaired_texels(), 3);
+    let all = environment
+        .prefiltered_levels()
+        .iter()
+        .chain([environment.background()]);
+    for c in all.flat_map(|level| level.rgb.iter().flatten()) {
+        assert!((0.0..=65504.0).contains(c), "{c}");
+    }
+    for dir in directions(200) {
+        assert!(environment.radiance(dir).is_finite() && environment.irradiance(dir).is_finite());
+        assert!(environment.prefiltered(dir, 0.3).min_element() >= 0.0);
+    }
+    // Infinity made the map as bright as it can be: texels are radiances over 1024.
+    assert_eq!(environment.texel_radiance(), 3.0 * 1024.0);
+}
+
+#[test]
+fn bright_maps_keep_their_radiance() {
+    let environment = Environment::uniform([4.0e6, 1.0, 0.25]);
+    let radiance = environment.radiance(DVec3::X);
+    for (got, want) in radiance.to_array().into_iter().zip([4.0e6, 1.0, 0.25]) {
+        // Eleven bits, or less where dividing by 64 made half floats subnormal.
+        assert!((got / want - 1.0).abs() < 5e-4, "{radiance}");
+    }
+}
+
+fn asset(name: &str) -> Option<PathBuf> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../../../shared/assets")
+        .join(name);
+    if !path.is_file() {
+        println!("skipped: no {name}");
+        return None;
+    }
+    Some(path)
+}
+
+#[test]
+fn real_maps_load() {
+    for name in ["studio.hdr", "workshop.hdr"] {
+        let Some(path) = asset(name) else { continue };
+        let start = Instant::now();
+        let environment = Environment::load(&path, 0.0, 1.0, true).unwrap();
+        println!(
+            "{name}: {:.2} s to load and prefilter",
+            start.elapsed().as_secs_f64()
+        );
+        let map = environment.background();
+        assert_eq!(map.size_px, [1024, 512]);
+        let mean = sphere_mean(map);
+        assert!(
+            mean.min_element() > 0.01 && mean.max_element() < 100.0,
+            "{mean}"
+        );
+        for (level, roughness) in environment.prefiltered_levels().iter().zip(LEVEL_ROUGHNESS) {
+            let error = relative(sphere_mean(level), mean);
+            println!(
+                "  roughness {roughness}: mean off by {:.3} %",
+                100.0 * error
+            );
+            assert!(error < 0.01);
+        }
+        // Below, the lobe is hardly wider than the file's texels: quadrature over them does not resolve it.
+        for roughness in &LEVEL_ROUGHNESS[2..] {
+            let error = blur_error(&environment, map, *roughness, 40);
+            println!(
+                "  roughness {roughness}: {:.2} % rms of the blur",
+                100.0 * error
+            );
+            // Hard-edged lamps at hundreds of times the room's radiance.
+            assert!(error < 0.08);
+        }
+        let up = environment.irradiance(DVec3::Y) + environment.irradiance(DVec3::NEG_Y);
+        assert!(up.min_element() > 0.0);
+    }
+}
+
+/// A Radiance picture without run lengths.
+fn radiance_file(width: usize, height: usize, header: &str, texel: [u8; 4]) -> Vec<u8> {
+    let mut bytes =
+        format!("#?RADIANCE\n{header}FORMAT=32-bit_rle_rgbe\n\n-Y {height} +X {width}\n")
+            .into_bytes();
+    for _ in 0..width * height {
+        bytes.extend(texel);
+    }
+    bytes
+}
+
+#[test]
+fn radiance_files_in_their_units() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.HDR");
+    // Mantissa 128 of 256, exponent 129: 1.
+    fs::write(&path, radiance_file(4, 2, "", [128, 128, 128, 129])).unwrap();
+    let environment = Environment::load(&path, 0.0, 1.0, false).unwrap();
+    assert_eq!(environment.radiance(DVec3::X), DVec3::ONE);
+    assert!(!environment.visible());
+    fs::write(
+        &path,
+        radiance_file(4, 2, "EXPOSURE=4\n", [128, 128, 128, 129]),
+    )
+    .unwrap();
+    let exposed = Environment::load(&path, 0.0, 2.0, false).unwrap();
+    assert_eq!(exposed.radiance(DVec3::X), DVec3::splat(0.5));
+}
+
+#[test]
+fn exr_files_in_their_units() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.exr");
+    let map = map_of([32, 16], |d| [1.0, 1.0 + d.x, 2.0]);
+    Output::check(&path)
+        .unwrap()
+        .write_picture(&map, &Display::default())
+        .unwrap();
+    let environment = Environment::load(&path, 0.0, 1.0, true).unwrap();
+    for (a, b) in environment.background().rgb.iter().zip(&map.rgb) {
+        assert!((0..3).all(|c| (a[c] - b[c]).abs() < 1e-3));
+    }
+}
+
+#[test]
+fn files_that_are_no_maps_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str, bytes: &[u8]| {
+        let path = folder.path().join(name);
+        fs::write(&path, bytes).unwrap();
+        path
+    };
+    let whole = radiance_file(8, 4, "", [128, 128, 128, 129]);
+    let exr = {
+        let path = folder.path().join("whole.exr");
+        Output::check(&path)
+            .unwrap()
+            .write_picture(&Picture::new([64, 32]), &Display::default())
+            .unwrap();
+        fs::read(&path).unwrap()
+    };
+    let square = {
+        let path = folder.path().join("square.exr");
+        Output::check(&path)
+            .unwrap()
+            .write_picture(&Picture::new([32, 32]), &Display::default())
+            .unwrap();
+        path
+    };
+    type Check = fn(&Error) -> bool;
+    let cases: [(PathBuf, Check, &str); 12] = [
+        (
+            folder.path().join("none.hdr"),
+            |e| matches!(e, Error::CannotRead { .. }),
+            "no such file",
+        ),
+        (
+            folder.path().join("none.exr"),
+            |e| matches!(e, Error::CannotRead { .. }),
+            "no such file",
+        ),
+        (
+            file("map.jpg", b"x"),
+            |e| matches!(e, Error::UnknownEnding { .. }),
+            ".hdr",
+        ),
+        (
+            file("cut.hdr", &whole[..whole.len() - 5]),
+            |e| matches!(e, Error::Truncated { .. }),
+            "truncated",
+        ),
+        (
+            file("head.hdr", &whole[..11]),
+            |e| matches!(e, Error::Corrupt { .. }),
+            "EOF",
+        ),
+        (
+            file("cut.exr", &exr[..exr.len() - 5]),
+            |e| matches!(e, Error::Truncated { .. } | Error::Corrupt { .. }),
+            "cut.exr",
+        ),
+        (
+            file("text.hdr", b"this is no picture, but long enough"),
+            |e| matches!(e, Error::Corrupt { .. }),
+            "signature",
+        ),
+        (
+            file("text.exr", b"this is no picture, but long enough"),
+            |e| matches!(e, Error::Corrupt { .. }),
+            "EXR",
+        ),
+        (
+            square,
+            |e| matches!(e, Error::NotEquirectangular { .. }),
+            "32x32 pixels",
+        ),
+        (
+            file("wide.hdr", &radiance_file(9, 4, "", [0; 4])),
+            |e| matches!(e, Error::NotEquirectangular { .. }),
+            "twice as wide as high",
+        ),
+        (
+            // Refused before any memory is taken for it.
+            file(
+                "huge.hdr",
+                b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1000000 +X 2000000\n",
+            ),
+            |e| matches!(e, Error::TooLarge { .. } | Error::Corrupt { .. }),
+            "huge.hdr",
+        ),
+        (
+            file(
+                "exposure.hdr",
+                &radiance_file(4, 2, "EXPOSURE=-1\n", [0; 4]),
+            ),
+            |e| matches!(e, Error::Corrupt { .. }),
+            "EXPOSURE",
+        ),
+    ];
+    for (path, check, text) in cases {
+        let error = Environment::load(&path, 0.0, 1.0, true).unwrap_err();
+        let message = error.to_string();
+        assert!(check(&error), "{error:?}");
+        assert!(message.contains(text), "{message}");
+        let name = path.file_name().unwrap().to_str().unwrap();
+        assert!(message.contains(name), "{message}");
+    }
+}
