@@ -1,2 +1,18 @@
-//! Placeholder.
-fn main() {}
+//! What is not cargo's own. `cargo xtask COMMAND`; each command is one file.
+
+mod fit_lobes;
+
+use clap::Parser;
+
+#[derive(Parser)]
+#[command(name = "cargo xtask", about)]
+enum Command {
+    /// Fit the tables of the area-light lobes and write them to crates/optics/data.
+    FitLobes(fit_lobes::FitLobes),
+}
+
+fn main() -> anyhow::Result<()> {
+    match Command::parse() {
+        Command::FitLobes(command) => command.run(),
+    }
+}

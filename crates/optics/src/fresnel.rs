@@ -26,7 +26,11 @@ pub fn conductor(cos_theta: f64, n: f64, k: f64) -> f64 {
     let p_den = modulus * c2 + 2.0 * p * c * s2 + s2 * s2;
     let r_s = s_num / s_den;
     // At grazing incidence on n = 1, k = 0 both vanish; the ratio's limit is 1.
-    let r_p = if p_den > 0.0 { r_s * p_num / p_den } else { 1.0 };
+    let r_p = if p_den > 0.0 {
+        r_s * p_num / p_den
+    } else {
+        1.0
+    };
     (0.5 * (r_s + r_p)).clamp(0.0, 1.0)
 }
 
@@ -112,9 +116,8 @@ impl FresnelRgb {
         const COS_82: f64 = 1.0 / 7.0;
         let f0 = reflectance(1.0);
         let exact = reflectance(COS_82);
-        let a = std::array::from_fn(|ch| {
-            (schlick(COS_82, f0[ch]) - exact[ch]) / dip_weight(COS_82)
-        });
+        let a =
+            std::array::from_fn(|ch| (schlick(COS_82, f0[ch]) - exact[ch]) / dip_weight(COS_82));
         Self { f0, a }
     }
 

@@ -46,8 +46,7 @@ pub fn ggx_g1(cos_theta: f64, alpha: f64) -> f64 {
 
 /// G2 / (4 cos_i cos_o), height-correlated.
 pub fn ggx_visibility(cos_i: f64, cos_o: f64, alpha: f64) -> f64 {
-    let sum =
-        cos_o * projected_roughness(cos_i, alpha) + cos_i * projected_roughness(cos_o, alpha);
+    let sum = cos_o * projected_roughness(cos_i, alpha) + cos_i * projected_roughness(cos_o, alpha);
     0.5 / sum.max(1e-30)
 }
 
@@ -109,8 +108,8 @@ pub fn ggx_albedo(cos_o: f64, alpha: f64, steps: usize) -> [f64; 3] {
             }
             let c = wo.dot(h);
             // G2 / G1(wo)
-            let weight = ggx_visibility(wi.z, cos_o, alpha) * 4.0 * cos_o * wi.z
-                / ggx_g1(cos_o, alpha);
+            let weight =
+                ggx_visibility(wi.z, cos_o, alpha) * 4.0 * cos_o * wi.z / ggx_g1(cos_o, alpha);
             sum[0] += weight;
             sum[1] += weight * schlick_weight(c);
             sum[2] += weight * dip_weight(c);

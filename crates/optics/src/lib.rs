@@ -10,3 +10,8 @@ pub mod footprint;
 pub mod mask;
 pub mod table;
 pub mod band;
+pub mod band_environment;
+pub mod irradiance;
+pub mod lobe_table;
+pub mod ltc;
+pub mod sptd;

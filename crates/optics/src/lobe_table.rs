@@ -1,0 +1,115 @@
+//! The fitted tables behind the area-light lobes, committed under `data/` and made again by `cargo xtask fit-lobes`.
+//!
+//! All tables share one grid: roughness in equal steps along the rows, the square root of the viewer's cosine in equal
+//! steps along the columns. The square root resolves grazing views, where everything changes within cos ~ alpha.
+//! Each node holds four f32 (an rgba32float texel); the last channel is spare.
+
+use std::sync::LazyLock;
+
+/// Nodes along each axis.
+pub const LOBE_TABLE_SIZE: usize = 32;
+
+/// The smallest viewer cosine that lobes are made for. A viewer at or below the horizon (it happens with interpolated
+/// normals) gets the lobe of this one.
+pub const LOBE_MIN_COS: f64 = 1e-3;
+
+/// A table over (roughness, viewer's cosine), four channels a node.
+#[derive(Clone, Debug)]
+pub struct LobeTable {
+    texels: Vec<[f32; 4]>,
+}
+
+impl LobeTable {
+    /// A table from its nodes, row by row (a row has one roughness).
+    ///
+    /// # Panics
+    /// If the count is not [`LOBE_TABLE_SIZE`] squared.
+    pub fn new(texels: Vec<[f32; 4]>) -> Self {
+        assert_eq!(texels.len(), LOBE_TABLE_SIZE * LOBE_TABLE_SIZE);
+        Self { texels }
+    }
+
+    fn from_bytes(bytes: &[u8]) -> Self {
+        let (texels, _) = bytes.as_chunks::<16>();
+        let channel = |texel: &[u8; 16], i: usize| {
+            f32::from_le_bytes([
+                texel[4 * i],
+                texel[4 * i + 1],
+                texel[4 * i + 2],
+                texel[4 * i + 3],
+            ])
+        };
+        Self::new(
+            texels
+                .iter()
+                .map(|t| std::array::from_fn(|i| channel(t, i)))
+                .collect(),
+        )
+    }
+
+    /// The file's bytes: little-endian f32, row by row.
+    pub fn to_bytes(&self) -> Vec<u8> {
+        self.texels
+            .iter()
+            .flatten()
+            .flat_map(|v| v.to_le_bytes())
+            .collect()
+    }
+
+    /// The nodes, row by row: what is uploaded as a [`LOBE_TABLE_SIZE`]-square rgba32float texture.
+    pub fn texels(&self) -> &[[f32; 4]] {
+        &self.texels
+    }
+
+    /// Bilinear look-up; both arguments are clamped to [0, 1].
+    pub fn lookup(&self, roughness: f64, cos_o: f64) -> [f64; 4] {
+        let last = (LOBE_TABLE_SIZE - 1) as f64;
+        let x = cos_o.max(0.0).min(1.0).sqrt() * last;
+        let y = roughness.max(0.0).min(1.0) * last;
+        let (x0, y0) = (x.floor().min(last - 1.0), y.floor().min(last - 1.0));
+        let (fx, fy) = (x - x0, y - y0);
+        let node = |dx: usize, dy: usize| {
+            self.texels[(y0 as usize + dy) * LOBE_TABLE_SIZE + x0 as usize + dx]
+        };
+        let (n00, n10, n01, n11) = (node(0, 0), node(1, 0), node(0, 1), node(1, 1));
+        std::array::from_fn(|c| {
+            let low = f64::from(n00[c]) + fx * f64::from(n10[c] - n00[c]);
+            let high = f64::from(n01[c]) + fx * f64::from(n11[c] - n01[c]);
+            low + fy * (high - low)
+        })
+    }
+}
+
+/// (roughness, viewer's cosine) of a node.
+pub fn lobe_table_node(row: usize, column: usize) -> (f64, f64) {
+    let last = (LOBE_TABLE_SIZE - 1) as f64;
+    let s = column as f64 / last;
+    (row as f64 / last, s * s)
+}
+
+/// Directional albedos (E0, E1, E2) of GGX, see [`crate::ggx::ggx_albedo`].
+pub fn albedo_table() -> &'static LobeTable {
+    static TABLE: LazyLock<LobeTable> =
+        LazyLock::new(|| LobeTable::from_bytes(include_bytes!("../data/lobe_albedo.bin")));
+    &TABLE
+}
+
+/// Shape of the linearly transformed cosine: (width_x, width_y, lean), see [`crate::ltc::LtcShape`].
+pub fn ltc_table() -> &'static LobeTable {
+    static TABLE: LazyLock<LobeTable> =
+        LazyLock::new(|| LobeTable::from_bytes(include_bytes!("../data/lobe_ltc.bin")));
+    &TABLE
+}
+
+/// Pivot of the cap-preserving lobe: (width, lean), see [`crate::sptd::SptdShape`].
+pub fn sptd_table() -> &'static LobeTable {
+    static TABLE: LazyLock<LobeTable> =
+        LazyLock::new(|| LobeTable::from_bytes(include_bytes!("../data/lobe_sptd.bin")));
+    &TABLE
+}
+
+/// Directional albedos [E0, E1, E2] by table.
+pub fn albedo_lookup(roughness: f64, cos_o: f64) -> [f64; 3] {
+    let [e0, e1, e2, _] = albedo_table().lookup(roughness, cos_o);
+    [e0, e1, e2]
+}
