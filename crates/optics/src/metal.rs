@@ -1,6 +1,7 @@
 //! Metals by their measured complex refractive index (data/metals.csv names the paper of each).
 
-use crate::{fresnel, spectrum};
+use crate::fresnel::{self, FresnelRgb};
+use crate::spectrum;
 use std::sync::LazyLock;
 
 /// A metal whose n and k were measured.
@@ -63,6 +64,11 @@ impl Metal {
     /// Reflectance in linear Rec.709 under D65.
     pub fn reflectance_rgb(self, cos_theta: f64) -> [f64; 3] {
         spectrum::rgb_from_reflectance(|nm| self.reflectance(cos_theta, nm))
+    }
+
+    /// The three-channel Fresnel reflectance that shading carries.
+    pub fn fresnel_rgb(self) -> FresnelRgb {
+        FresnelRgb::fit(|cos_theta| self.reflectance_rgb(cos_theta))
     }
 }
 

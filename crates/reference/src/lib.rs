@@ -1,1 +1,7 @@
-//! Placeholder.
+//! Rendering on the CPU in f64: the readable twin of the shader, and the renderer where no driver exists.
+
+mod base;
+pub mod closed_form;
+mod light_view;
+mod scratches;
+mod surface;

@@ -1,0 +1,228 @@
+// Where an area light meets the band of a scratch: a signed sum over roots, each alone. Twin: optics/src/band.rs, which
+// explains it. All vectors are in the scratch's frame: x along the tangent, y across it, z along the surface normal.
+
+const BAND_REACH_STD: f32 = 4.0;
+
+// One line of the band: w(phi) = (along, radius cos phi, radius sin phi), q = offset + w.y.
+struct BandLine {
+    along: f32,
+    radius: f32,
+    offset: f32,
+}
+
+fn band_line_at(wo: vec3f, xi_t: f32) -> BandLine {
+    let along = xi_t - wo.x;
+    return BandLine(along, sqrt(max(1.0 - along * along, 0.0)), wo.y);
+}
+
+// q at phi = 0 and at phi = pi.
+fn band_q_start(line: BandLine) -> f32 {
+    return line.offset + line.radius;
+}
+
+fn band_q_end(line: BandLine) -> f32 {
+    return line.offset - line.radius;
+}
+
+// q of a direction on the line; roots below the horizon move to the nearer end.
+fn band_q(line: BandLine, across: f32, up: f32) -> f32 {
+    let end = select(line.radius, -line.radius, across < 0.0);
+    return line.offset + select(end, clamp(across, -line.radius, line.radius), up >= 0.0);
+}
+
+// The lines that stand for the part of the band which a light covers.
+struct BandLines {
+    count: u32,
+    share_below: f32,
+    share: f32,
+    std_xi: f32,
+}
+
+fn band_lines(lowest: f32, highest: f32, std_xi: f32) -> BandLines {
+    if !(lowest < BAND_REACH_STD * std_xi && highest > -BAND_REACH_STD * std_xi && highest > lowest) {
+        return BandLines(0u, 0.0, 0.0, std_xi);
+    }
+    let half_extent = 0.5 * (highest - lowest) / std_xi;
+    let count = select(select(5u, 3u, half_extent > 3.0), 1u, half_extent > 16.0);
+    let share_below = gaussian_cdf(lowest / std_xi);
+    return BandLines(count, share_below, gaussian_cdf(highest / std_xi) - share_below, std_xi);
+}
+
+// Gauss-Legendre node on [0, 1] and weight.
+fn band_node(count: u32, i: u32) -> vec2f {
+    let side = select(1.0, -1.0, 2u * i < count - 1u);
+    let from_middle = abs(i32(2u * i) - i32(count - 1u)) / 2;
+    if from_middle == 0 {
+        return vec2f(0.5, select(select(0.284444444, 0.444444444, count == 3u), 1.0, count == 1u));
+    }
+    if count == 3u {
+        return vec2f(0.5 + side * 0.387298335, 0.277777778);
+    }
+    if from_middle == 1 {
+        return vec2f(0.5 + side * 0.269234655, 0.239314335);
+    }
+    return vec2f(0.5 + side * 0.453089923, 0.118463443);
+}
+
+// xi_t and weight of line `i`.
+fn band_line(lines: BandLines, i: u32) -> vec2f {
+    let node = band_node(lines.count, i);
+    let quantile = clamp(lines.share_below + lines.share * node.x, 1e-6, 1.0 - 1e-6);
+    return vec2f(lines.std_xi * gaussian_quantile(quantile), lines.share * node.y);
+}
+
+// A vector of the surface's frame in the frame of a scratch with the given tangent, and back.
+fn band_from_surface(tangent: vec2f, v: vec3f) -> vec3f {
+    return vec3f(v.x * tangent.x + v.y * tangent.y, v.y * tangent.x - v.x * tangent.y, v.z);
+}
+
+fn surface_from_band(tangent: vec2f, v: vec3f) -> vec3f {
+    return vec3f(v.x * tangent.x - v.y * tangent.y, v.x * tangent.y + v.y * tangent.x, v.z);
+}
+
+// A spherical light as a cap of directions.
+struct Cap {
+    axis: vec3f,
+    sin_radius: f32,
+    cos_radius: f32,
+}
+
+fn sphere_cap(center: vec3f, radius: f32) -> Cap {
+    let distance2 = dot(center, center);
+    if !(radius * radius < distance2) {
+        // Inside, every direction is lit.
+        return Cap(vec3f(0.0, 0.0, 1.0), 0.0, -1.0);
+    }
+    let sin2 = radius * radius / distance2;
+    return Cap(center * inverseSqrt(distance2), sqrt(sin2), sqrt(1.0 - sin2));
+}
+
+// The least and greatest xi_t of a cap.
+fn sphere_band_extent(wo: vec3f, cap: Cap) -> vec2f {
+    let along = cap.axis.x;
+    let middle = along * cap.cos_radius;
+    let reach = sqrt(max(1.0 - along * along, 0.0)) * cap.sin_radius;
+    let lowest = select(middle - reach, -1.0, -along >= cap.cos_radius);
+    let highest = select(middle + reach, 1.0, along >= cap.cos_radius);
+    return wo.x + vec2f(lowest, highest);
+}
+
+// A light's chord on one line: q where phi enters and leaves it, and 1 where it covers the direction straight down, so
+// that the whole arc counts once more.
+struct Chord {
+    enter: f32,
+    leave: f32,
+    wraps: f32,
+}
+
+// sin^2(x/2) without cancellation.
+fn band_half_angle(sin_x: f32, cos_x: f32) -> f32 {
+    return select(0.5 * (1.0 - cos_x), 0.5 * sin_x * sin_x / (1.0 + max(cos_x, 0.0)), cos_x > 0.0);
+}
+
+fn sphere_chord(line: BandLine, cap: Cap) -> Chord {
+    let rest = sqrt(max(1.0 - cap.axis.x * cap.axis.x, 0.0));
+    let sin_gap = cap.axis.x * line.radius - line.along * rest;
+    let cos_gap = rest * line.radius + cap.axis.x * line.along;
+    let difference = band_half_angle(cap.sin_radius, cap.cos_radius) - band_half_angle(sin_gap, cos_gap);
+    let s2 = difference / max(rest * line.radius, 1e-12);
+    if s2 <= 0.0 {
+        return Chord(line.offset, line.offset, 0.0);
+    }
+    if s2 >= 1.0 {
+        return Chord(line.offset, line.offset, 1.0);
+    }
+    let cos_delta = 1.0 - 2.0 * s2;
+    let sin_delta = 2.0 * sqrt(s2 * (1.0 - s2));
+    let across = cap.axis.y / max(rest, 1e-12);
+    let up = cap.axis.z / max(rest, 1e-12);
+    let even = line.radius * vec2f(across, up) * cos_delta;
+    let odd = line.radius * vec2f(up, -across) * sin_delta;
+    let enter = even + odd;
+    let leave = even - odd;
+    return Chord(
+        band_q(line, enter.x, enter.y),
+        band_q(line, leave.x, leave.y),
+        select(0.0, 1.0, -up > cos_delta),
+    );
+}
+
+// Roots of one polygon edge on a line; a flag is 1 where there is one.
+struct EdgeRoots {
+    rising: f32,
+    falling: f32,
+    rises: bool,
+    falls: bool,
+}
+
+fn band_edge_q(line: BandLine, a: vec3f, e2: vec3f, h2: f32, cos_psi: f32, sin_psi: f32) -> f32 {
+    let w = (a * cos_psi + e2 * sin_psi) / h2;
+    return band_q(line, w.y, w.z);
+}
+
+// The roots of the edge from direction `a` to direction `b` (unit vectors), for a polygon seen counter-clockwise.
+fn edge_roots(line: BandLine, a: vec3f, b: vec3f) -> EdgeRoots {
+    let chord = b - a;
+    let across_a = chord - a * dot(a, chord);
+    let sin_edge = length(across_a);
+    if sin_edge < 1e-9 {
+        return EdgeRoots(0.0, 0.0, false, false);
+    }
+    let e2 = across_a / sin_edge;
+    let t1 = a.x;
+    let t2 = e2.x;
+    let s2 = t1 * t1 + t2 * t2 - line.along * line.along;
+    let beyond_a = a.x >= line.along;
+    let beyond_b = b.x >= line.along;
+    var rises = beyond_b && !beyond_a;
+    var falls = beyond_a && !beyond_b;
+    if beyond_a == beyond_b {
+        // Both ends on one side: two roots if the edge turns back between them, on the other side of the line; else none.
+        let turn = select(1.0, -1.0, beyond_a);
+        let slope_b = t2 * dot(a, b) - t1 * sin_edge;
+        rises = turn * t2 > 0.0 && turn * slope_b < 0.0 && s2 > 0.0;
+        falls = rises;
+    }
+    let s = sqrt(max(s2, 0.0));
+    let h2 = max(t1 * t1 + t2 * t2, 1e-24);
+    return EdgeRoots(
+        band_edge_q(line, a, e2, h2, line.along * t1 + s * t2, line.along * t2 - s * t1),
+        band_edge_q(line, a, e2, h2, line.along * t1 - s * t2, line.along * t2 + s * t1),
+        rises,
+        falls,
+    );
+}
+
+// Least and greatest tangent component along the edge.
+fn edge_band_extent(a: vec3f, b: vec3f) -> vec2f {
+    let chord = b - a;
+    let across_a = chord - a * dot(a, chord);
+    let sin_edge = length(across_a);
+    var extent = vec2f(min(a.x, b.x), max(a.x, b.x));
+    if sin_edge > 1e-9 {
+        let t2 = across_a.x / sin_edge;
+        let slope_b = t2 * dot(a, b) - a.x * sin_edge;
+        let extreme = sqrt(a.x * a.x + t2 * t2);
+        if t2 > 0.0 && slope_b < 0.0 {
+            extent.y = extreme;
+        } else if t2 < 0.0 && slope_b > 0.0 {
+            extent.x = -extreme;
+        }
+    }
+    return extent;
+}
+
+// The angle by which the edge turns about the direction straight down on the line.
+fn edge_winding(line: BandLine, a: vec3f, b: vec3f) -> f32 {
+    let down = line_down(line);
+    let sin_angle = dot(down, cross(a, b));
+    let cos_angle = dot(a, b) - dot(a, down) * dot(b, down);
+    if sin_angle == 0.0 && cos_angle == 0.0 {
+        return 0.0;
+    }
+    return atan2(sin_angle, cos_angle);
+}
+
+fn line_down(line: BandLine) -> vec3f {
+    return vec3f(line.along, 0.0, -line.radius);
+}

@@ -1,0 +1,56 @@
+// The normal distribution in single precision, which WGSL lacks.
+// Milton Abramowitz and Irene Stegun, "Handbook of Mathematical Functions", 1964, 7.1.26 (erf, absolute error 1.5e-7);
+// Mike Giles, "Approximating the erfinv function", GPU Computing Gems, 2011.
+
+// The error function.
+fn gaussian_erf(x: f32) -> f32 {
+    let t = 1.0 / (1.0 + 0.3275911 * abs(x));
+    let p = t * (0.254829592 + t * (-0.284496736 + t * (1.421413741 + t * (-1.453152027 + t * 1.061405429))));
+    return sign(x) * (1.0 - p * exp(-min(x * x, 80.0)));
+}
+
+// erf(high) - erf(low). Where the two are close, the difference of two rounded values would be noise.
+fn gaussian_erf_difference(low: f32, high: f32) -> f32 {
+    let step = high - low;
+    let middle = 0.5 * (low + high);
+    if abs(step) < 0.02 {
+        return 1.1283791671 * step * exp(-min(middle * middle, 80.0));
+    }
+    return gaussian_erf(high) - gaussian_erf(low);
+}
+
+// The share of a standard normal distribution below x.
+fn gaussian_cdf(x: f32) -> f32 {
+    return 0.5 + 0.5 * gaussian_erf(x * 0.70710678);
+}
+
+// The inverse of gaussian_cdf, for shares within [1e-6, 1 - 1e-6].
+fn gaussian_quantile(share: f32) -> f32 {
+    let x = 2.0 * share - 1.0;
+    var w = -log(max((1.0 - x) * (1.0 + x), 1e-12));
+    var p: f32;
+    if w < 5.0 {
+        w -= 2.5;
+        p = 2.81022636e-08;
+        p = 3.43273939e-07 + p * w;
+        p = -3.5233877e-06 + p * w;
+        p = -4.39150654e-06 + p * w;
+        p = 0.00021858087 + p * w;
+        p = -0.00125372503 + p * w;
+        p = -0.00417768164 + p * w;
+        p = 0.246640727 + p * w;
+        p = 1.50140941 + p * w;
+    } else {
+        w = sqrt(w) - 3.0;
+        p = -0.000200214257;
+        p = 0.000100950558 + p * w;
+        p = 0.00134934322 + p * w;
+        p = -0.00367342844 + p * w;
+        p = 0.00573950773 + p * w;
+        p = -0.0076224613 + p * w;
+        p = 0.00943887047 + p * w;
+        p = 1.00167406 + p * w;
+        p = 2.83297682 + p * w;
+    }
+    return 1.41421356 * p * x;
+}

@@ -1,0 +1,120 @@
+//! Triangles along a ray.
+
+use glam::{DVec3, Vec3A};
+use hairline_scene::Scene;
+use obvhs::bvh2::Bvh2;
+use obvhs::bvh2::builder::build_bvh2_from_tris;
+use obvhs::ray::{Ray, RayHit};
+use obvhs::{BvhBuildParams, triangle::Triangle};
+
+/// Where a ray meets a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// Index into [`Scene::objects`].
+    pub object: u32,
+    /// Index into the object's triangles.
+    pub triangle: u32,
+    /// Distance along the unit direction.
+    pub distance_m: f64,
+    /// Barycentric coordinates of the second and third vertex.
+    pub barycentric: [f64; 2],
+}
+
+/// A tree over all triangles of a scene.
+pub struct TriangleIndex {
+    tree: Bvh2,
+    /// Object, triangle and corners, in the order of the leaves.
+    triangles: Vec<(u32, u32, [DVec3; 3])>,
+}
+
+impl TriangleIndex {
+    /// Builds the tree.
+    pub fn build(scene: &Scene) -> Self {
+        let mut triangles = Vec::new();
+        for (o, object) in scene.objects.iter().enumerate() {
+            for (t, corners) in object.mesh.triangles.iter().enumerate() {
+                let corners = corners.map(|v| object.mesh.positions_m[v as usize].as_dvec3());
+                triangles.push((o as u32, t as u32, corners));
+            }
+        }
+        let single: Vec<Triangle> = triangles
+            .iter()
+            .map(|(_, _, [a, b, c])| Triangle {
+                v0: a.as_vec3a(),
+                v1: b.as_vec3a(),
+                v2: c.as_vec3a(),
+            })
+            .collect();
+        let tree = build_bvh2_from_tris(
+            &single,
+            BvhBuildParams::medium_build(),
+            &mut std::time::Duration::default(),
+        );
+        let triangles = tree
+            .primitive_indices
+            .iter()
+            .map(|i| triangles[*i as usize])
+            .collect();
+        Self { tree, triangles }
+    }
+
+    /// The nearest hit of a ray from `origin` along the unit `direction`, either side of a triangle.
+    pub fn intersect(&self, origin: DVec3, direction: DVec3) -> Option<Hit> {
+        if self.triangles.is_empty() {
+            return None;
+        }
+        let ray = Ray::new_inf(origin.as_vec3a(), non_zero(direction.as_vec3a()));
+        let mut nearest = RayHit::none();
+        let mut hit: Option<Hit> = None;
+        // The tree is walked in single precision, the triangle met in double: neighbours share their edge exactly enough.
+        self.tree.ray_traverse(ray, &mut nearest, |_, id| {
+            let (object, triangle, corners) = &self.triangles[id];
+            match intersect_triangle(origin, direction, corners) {
+                Some((distance_m, barycentric)) => {
+                    if hit.is_none_or(|h| distance_m < h.distance_m) {
+                        hit = Some(Hit {
+                            object: *object,
+                            triangle: *triangle,
+                            distance_m,
+                            barycentric,
+                        });
+                    }
+                    distance_m as f32
+                }
+                None => f32::INFINITY,
+            }
+        });
+        hit
+    }
+}
+
+/// Slab tests divide by the direction.
+fn non_zero(direction: Vec3A) -> Vec3A {
+    Vec3A::from_array(direction.to_array().map(|c| {
+        if c.abs() < 1e-20 {
+            1e-20f32.copysign(c)
+        } else {
+            c
+        }
+    }))
+}
+
+/// T. Moeller, B. Trumbore, *Fast, Minimum Storage Ray/Triangle Intersection*, 1997; both sides.
+fn intersect_triangle(
+    origin: DVec3,
+    direction: DVec3,
+    [a, b, c]: &[DVec3; 3],
+) -> Option<(f64, [f64; 2])> {
+    let (e1, e2) = (*b - *a, *c - *a);
+    let p = direction.cross(e2);
+    let determinant = e1.dot(p);
+    if determinant == 0.0 {
+        return None;
+    }
+    let s = origin - *a;
+    let u = s.dot(p) / determinant;
+    let q = s.cross(e1);
+    let v = direction.dot(q) / determinant;
+    let distance = e2.dot(q) / determinant;
+    (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && distance > 0.0).then_some((distance, [u, v]))
+}

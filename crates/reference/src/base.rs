@@ -1,0 +1,59 @@
+//! The base under lights and environment: a GGX lobe over a diffuse body (docs/model.md, section 8).
+
+use crate::light_view::{LightView, LightViews};
+use crate::surface::SurfacePoint;
+use glam::DVec3;
+use hairline_optics::ggx::ggx_multiple_scattering;
+use hairline_optics::irradiance::{lambert_polygon, lambert_sphere};
+use hairline_optics::ltc::{ltc_begin, ltc_edge, ltc_end, ltc_lobe, ltc_sphere};
+use hairline_scene::Environment;
+
+/// Light by way of the base.
+pub(crate) struct BaseRadiance {
+    /// Reflected at the surface; scratches take from it.
+    pub specular: DVec3,
+    /// From the body under it.
+    pub diffuse: DVec3,
+}
+
+/// Radiance of the base towards the viewer, before scratches take theirs.
+pub(crate) fn base_radiance(
+    environment: Option<&Environment>,
+    point: &SurfacePoint,
+    views: &LightViews,
+) -> BaseRadiance {
+    let lobe = ltc_lobe(point.wo, point.roughness);
+    let [e0, e1, e2] = lobe.albedo;
+    let single = DVec3::from(point.fresnel.albedo([e0, e1, e2]));
+    let compensation = DVec3::from(point.fresnel.f0).map(|f0| ggx_multiple_scattering(f0, e0));
+    let albedo = single * compensation;
+    // What the surface does not reflect reaches the body.
+    let body = point.diffuse * (DVec3::ONE - albedo).max(DVec3::ZERO);
+
+    let (mut specular, mut diffuse) = (DVec3::ZERO, DVec3::ZERO);
+    for light in &views.views {
+        let (integral, form_factor, radiance) = match light {
+            LightView::Sphere { cap, radiance } => {
+                // A cap that holds every direction stands for a sphere around the point.
+                let sin2 = if cap.cos_radius < 0.0 { 1.0 } else { cap.sin_radius * cap.sin_radius };
+                (ltc_sphere(&lobe, cap.axis, sin2), lambert_sphere(cap.axis, sin2), radiance)
+            }
+            LightView::Polygon { vertices, radiance, .. } => {
+                let vertices = &views.vertices[vertices.clone()];
+                let mut state = ltc_begin();
+                for (i, a) in vertices.iter().enumerate() {
+                    ltc_edge(&mut state, &lobe, *a, vertices[if i + 1 < vertices.len() { i + 1 } else { 0 }]);
+                }
+                (ltc_end(&state, &lobe), lambert_polygon(vertices), radiance)
+            }
+        };
+        specular += *radiance * (integral / e0);
+        diffuse += *radiance * form_factor;
+    }
+    if let Some(environment) = environment {
+        let mirror = DVec3::new(-point.wo.x, -point.wo.y, point.wo.z);
+        specular += environment.prefiltered(point.world_from_surface(mirror), point.roughness);
+        diffuse += environment.irradiance(point.normal) / std::f64::consts::PI;
+    }
+    BaseRadiance { specular: specular * albedo, diffuse: diffuse * body }
+}

@@ -1,0 +1,146 @@
+//! A picture by the closed forms: one ray a sample, no randomness, all cores.
+//!
+//! The way of a pixel is the shader's (crates/gpu/shaders/shade.wgsl): hit, [`surface`], footprint, [`scratches`], mask,
+//! [`base`], film.
+
+use crate::light_view::LightViews;
+use crate::surface::SurfacePoint;
+use crate::{base, scratches, surface};
+use glam::{DVec2, DVec3};
+use hairline_image::Image;
+use hairline_index::{ScratchIndex, TriangleIndex};
+use hairline_optics::mask::ScratchSums;
+use hairline_scene::camera::pixel_jitter;
+use hairline_scene::{CameraFrame, Scene, ScratchTables};
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// How to render, beside what the scene says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RenderOptions {
+    /// Jittered samples a pixel; 1 shoots through the centre.
+    pub samples: u32,
+}
+
+/// A scene with everything that rendering looks up.
+pub struct Prepared<'a> {
+    pub(crate) scene: &'a Scene,
+    pub(crate) triangles: TriangleIndex,
+    pub(crate) scratches: ScratchIndex,
+    pub(crate) tables: ScratchTables,
+}
+
+impl<'a> Prepared<'a> {
+    /// Builds the trees and the tables.
+    pub fn new(scene: &'a Scene) -> Self {
+        let (triangles, (scratches, tables)) = rayon::join(
+            || TriangleIndex::build(scene),
+            || rayon::join(|| ScratchIndex::build(scene), || ScratchTables::new(scene)),
+        );
+        Self { scene, triangles, scratches, tables }
+    }
+}
+
+/// What one sample adds to the film.
+#[derive(Clone, Copy, Debug, Default)]
+struct Sample {
+    base: DVec3,
+    scratches: DVec3,
+    density: DVec3,
+    normal: DVec3,
+    depth_m: f64,
+    coverage: f64,
+}
+
+/// Renders `scene` at its own size. `progress` is told the share that is done, from any thread.
+pub fn render(scene: &Scene, options: &RenderOptions, progress: &(dyn Fn(f64) + Sync)) -> Image {
+    let prepared = Prepared::new(scene);
+    let size = scene.render.size_px;
+    let camera = scene.camera.frame(size);
+    let samples = options.samples.max(1);
+    let footprint_std_px = scene.render.footprint_std_px(samples);
+    let done = AtomicUsize::new(0);
+    let mut image = Image::new(size);
+    let width = size[0] as usize;
+    let rows = (
+        image.base.par_chunks_mut(width),
+        image.scratches.par_chunks_mut(width),
+        image.density.par_chunks_mut(width),
+        image.depth_m.par_chunks_mut(width),
+        image.normal.par_chunks_mut(width),
+    );
+    rows.into_par_iter().enumerate().for_each_init(
+        || LightViews::new(scene),
+        |views, (y, (base, scratches, density, depth_m, normal))| {
+            for x in 0..width {
+                let mut sum = Sample::default();
+                for i in 0..samples {
+                    let pixel = DVec2::new(x as f64 + 0.5, y as f64 + 0.5) + pixel_jitter(i, samples);
+                    let sample = shade_pixel(&prepared, &camera, footprint_std_px, pixel, views);
+                    sum.base += sample.base;
+                    sum.scratches += sample.scratches;
+                    sum.density += sample.density;
+                    sum.normal += sample.normal;
+                    sum.depth_m += sample.depth_m;
+                    sum.coverage += sample.coverage;
+                }
+                let mean = |v: DVec3| (v / samples as f64).as_vec3().to_array();
+                base[x] = mean(sum.base);
+                scratches[x] = mean(sum.scratches);
+                density[x] = mean(sum.density);
+                normal[x] = sum.normal.normalize_or_zero().as_vec3().to_array();
+                depth_m[x] = if sum.coverage > 0.0 { (sum.depth_m / sum.coverage) as f32 } else { 0.0 };
+            }
+            progress((done.fetch_add(1, Ordering::Relaxed) + 1) as f64 / size[1] as f64);
+        },
+    );
+    image
+}
+
+/// One ray through a point of the picture.
+fn shade_pixel(
+    prepared: &Prepared,
+    camera: &CameraFrame,
+    footprint_std_px: f64,
+    pixel: DVec2,
+    views: &mut LightViews,
+) -> Sample {
+    let scene = prepared.scene;
+    let ray = camera.camera_ray(pixel);
+    let direction = ray.normalize();
+    let Some(hit) = prepared.triangles.intersect(camera.position_m, direction) else {
+        let background = match &scene.environment {
+            Some(environment) if environment.visible() => environment.radiance(direction),
+            _ => DVec3::ZERO,
+        };
+        return Sample { base: background, ..Sample::default() };
+    };
+    let depth_m = hit.distance_m / ray.length();
+    let point = surface::surface_point(prepared, camera, footprint_std_px, ray, depth_m, &hit);
+    views.look_from(&point);
+    let sums = scratches::gather_scratches(prepared, &point, hit.object as usize, views);
+    shade_surface(prepared, hit.object as usize, &point, &sums, views, depth_m)
+}
+
+fn shade_surface(
+    prepared: &Prepared,
+    object: usize,
+    point: &SurfacePoint,
+    sums: &ScratchSums,
+    views: &LightViews,
+    depth_m: f64,
+) -> Sample {
+    let masked = sums.mask_resolve(prepared.scratches.objects[object].depth_coherence as f64);
+    let taken = DVec3::from(masked.taken);
+    let light = base::base_radiance(prepared.scene.environment.as_ref(), point, views);
+    // A groove interrupts the reflecting surface; what shines from under it passes.
+    let fresnel = DVec3::from(point.fresnel.eval(point.wo.z));
+    Sample {
+        base: point.emission + light.diffuse + light.specular * (DVec3::ONE - taken),
+        scratches: DVec3::from(masked.scratches) * fresnel,
+        density: taken,
+        normal: point.normal,
+        depth_m,
+        coverage: 1.0,
+    }
+}

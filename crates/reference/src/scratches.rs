@@ -1,0 +1,152 @@
+//! The scratches under a footprint and the light that they send to the viewer (docs/model.md, sections 4 to 6).
+
+use crate::closed_form::Prepared;
+use crate::light_view::{LightView, LightViews};
+use crate::surface::SurfacePoint;
+use glam::{DVec2, DVec3};
+use hairline_index::IndexedSegment;
+use hairline_index::scratch_index::{FACING_MIN_COS, REACH_STD};
+use hairline_optics::band::{BandFrame, BandLine, BandLines, band_lines, sphere_band_extent, sphere_chord};
+use hairline_optics::band_environment::{ENVIRONMENT_CELLS, environment_cell};
+use hairline_optics::footprint::{Footprint, scratch_share};
+use hairline_optics::mask::ScratchSums;
+use hairline_optics::scratch::band_std;
+use hairline_optics::spectrum::WAVELENGTH_MEAN_NM;
+use hairline_optics::table::ScratchTable;
+use hairline_scene::Environment;
+
+/// Adds up all scratches of an object under the point's footprint.
+pub(crate) fn gather_scratches(
+    prepared: &Prepared,
+    point: &SurfacePoint,
+    object: usize,
+    views: &LightViews,
+) -> ScratchSums {
+    let mut sums = ScratchSums::default();
+    let table = &prepared.tables.tables[point.table];
+    let sigma_m = point.coherence_um * 1e-6;
+    // Variances of position along the world's axes; 0.7 sigma^2 covers the window across and the ends' blur along.
+    let [ax, ay] = point.footprint_axes_m;
+    let variance = ax * ax + ay * ay + DVec3::splat(0.7 * sigma_m * sigma_m);
+    let reach = (variance.map(f64::sqrt) * REACH_STD as f64).as_vec3();
+    prepared.scratches.gather(object, point.position_m.as_vec3(), reach, |segment| {
+        let Some(view) = SegmentView::new(point, segment) else { return };
+        let radiance = scratch_radiance(&view, table, views, prepared.scene.environment.as_ref(), point);
+        sums.add(view.share, table.scratch_table_total(view.depth_nm), radiance.to_array());
+    });
+    sums
+}
+
+/// A segment as seen from the point.
+struct SegmentView {
+    frame: BandFrame,
+    /// `wo` in the frame of the scratch.
+    wo: DVec3,
+    share: f64,
+    width_um: f64,
+    depth_nm: f64,
+}
+
+impl SegmentView {
+    /// None where the segment lies on another side of the surface or out of the footprint's reach.
+    fn new(point: &SurfacePoint, segment: &IndexedSegment) -> Option<Self> {
+        if segment.normal.as_dvec3().dot(point.normal) < FACING_MIN_COS as f64 {
+            return None;
+        }
+        let start = point.surface_from_world(segment.start_m.as_dvec3() - point.position_m) * 1e6;
+        let end = point.surface_from_world(segment.end_m.as_dvec3() - point.position_m) * 1e6;
+        let along = DVec2::new(end.x - start.x, end.y - start.y);
+        let length = along.length();
+        if !(length > 0.0) {
+            return None;
+        }
+        let frame = BandFrame { tangent: along / length };
+        let (start, end) = (frame.band_from_surface(start), frame.band_from_surface(end));
+        let offset_um = 0.5 * (start.y + end.y);
+        let [ax, ay] = point.footprint_axes_m.map(|a| frame.band_from_surface(point.surface_from_world(a)) * 1e6);
+        let footprint = Footprint {
+            across_um2: ax.y * ax.y + ay.y * ay.y,
+            along_um2: ax.x * ax.x + ay.x * ay.x,
+            cross_um2: ax.x * ax.y + ay.x * ay.y,
+        };
+        let sigma = point.coherence_um;
+        let reach2 = (REACH_STD * REACH_STD) as f64 * (footprint.across_um2 + 0.5 * sigma * sigma);
+        if offset_um * offset_um > reach2 {
+            return None;
+        }
+        let (width_um, blur_um) = (segment.width_um as f64, segment.blur_um as f64);
+        let share = scratch_share(width_um, offset_um, start.x, end.x, blur_um, footprint, sigma);
+        (share > 0.0).then(|| Self {
+            frame,
+            wo: frame.band_from_surface(point.wo),
+            share,
+            width_um,
+            depth_nm: segment.depth_nm as f64,
+        })
+    }
+}
+
+/// Radiance of a scratch per unit of its share, Fresnel left out.
+fn scratch_radiance(
+    view: &SegmentView,
+    table: &ScratchTable,
+    views: &LightViews,
+    environment: Option<&Environment>,
+    point: &SurfacePoint,
+) -> DVec3 {
+    let (wo, frame) = (view.wo, view.frame);
+    let std_xi = band_std(point.coherence_um, WAVELENGTH_MEAN_NM);
+    let antiderivative = |q: f64| table.scratch_table(view.width_um * q, view.depth_nm);
+    let mut sum = DVec3::ZERO;
+    for light in &views.views {
+        match light {
+            LightView::Sphere { cap, radiance } => {
+                let cap = cap.turned(frame);
+                let (lowest, highest) = sphere_band_extent(wo, cap);
+                let lines = band_lines(lowest, highest, std_xi);
+                sum += *radiance * over_lines(&lines, wo, |line| sphere_chord(line, cap).integral(line, antiderivative));
+            }
+            LightView::Polygon { vertices, away, facing, radiance } => {
+                let polygon = views.polygon(vertices, *away, *facing);
+                let (lowest, highest) = polygon.band_extent(frame, wo);
+                let lines = band_lines(lowest, highest, std_xi);
+                sum += *radiance * over_lines(&lines, wo, |line| polygon.integral(frame, line, antiderivative));
+            }
+        }
+    }
+    if let Some(environment) = environment {
+        sum += environment_radiance(view, environment, point, antiderivative);
+    }
+    sum
+}
+
+fn over_lines(lines: &BandLines, wo: DVec3, on_line: impl Fn(BandLine) -> [f64; 3]) -> DVec3 {
+    (0..lines.count)
+        .map(|i| {
+            let (xi_t, weight) = lines.band_line(i);
+            weight * DVec3::from(on_line(BandLine::new(wo, xi_t)))
+        })
+        .sum()
+}
+
+/// The 1-D integral of the environment along the band's middle line, cell by cell.
+fn environment_radiance(
+    view: &SegmentView,
+    environment: &Environment,
+    point: &SurfacePoint,
+    antiderivative: impl Fn(f64) -> [f64; 3],
+) -> DVec3 {
+    let line = BandLine::new(view.wo, 0.0);
+    let mut sum = DVec3::ZERO;
+    let mut before = DVec3::from(antiderivative(line.q_end()));
+    for i in 0..ENVIRONMENT_CELLS {
+        let cell = environment_cell(i, line, view.width_um);
+        let after = DVec3::from(antiderivative(cell.q_high));
+        if cell.q_high > cell.q_low {
+            let direction = point.world_from_surface(view.frame.surface_from_band(cell.direction));
+            sum += (after - before) * environment.prefiltered(direction, cell.roughness());
+        }
+        before = after;
+    }
+    sum
+}

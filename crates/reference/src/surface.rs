@@ -1,0 +1,176 @@
+//! The surface under a pixel: position, frame, footprint, material with its textures.
+
+use crate::closed_form::Prepared;
+use glam::{DVec2, DVec3};
+use hairline_index::Hit;
+use hairline_optics::fresnel::FresnelRgb;
+use hairline_scene::{CameraFrame, Mesh, Texture};
+
+/// A shading point. Its local frame has z along the shading normal and the viewer in the x-z plane.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SurfacePoint {
+    /// World space.
+    pub position_m: DVec3,
+    /// Axes of the local frame in world space; `normal` is the shading normal on the viewer's side.
+    pub axis_x: DVec3,
+    pub axis_y: DVec3,
+    pub normal: DVec3,
+    /// Unit direction to the viewer in the local frame.
+    pub wo: DVec3,
+    /// How the point moves by one standard deviation of the pixel's filter to the right and down, world space.
+    pub footprint_axes_m: [DVec3; 2],
+    pub fresnel: FresnelRgb,
+    /// Albedo of the diffuse body.
+    pub diffuse: DVec3,
+    pub roughness: f64,
+    pub emission: DVec3,
+    pub coherence_um: f64,
+    /// Which scratch table.
+    pub table: usize,
+}
+
+impl SurfacePoint {
+    pub fn surface_from_world(&self, v: DVec3) -> DVec3 {
+        DVec3::new(v.dot(self.axis_x), v.dot(self.axis_y), v.dot(self.normal))
+    }
+
+    pub fn world_from_surface(&self, v: DVec3) -> DVec3 {
+        self.axis_x * v.x + self.axis_y * v.y + self.normal * v.z
+    }
+}
+
+/// The least cosine between the viewer and a shading normal; interpolated and mapped normals that turn further away are
+/// bent back.
+pub(crate) const MIN_VIEW_COS: f64 = 0.01;
+
+/// The surface at a hit. `ray` is the camera's, `depth_m` the hit's distance along the view axis.
+pub(crate) fn surface_point(
+    prepared: &Prepared,
+    camera: &CameraFrame,
+    footprint_std_px: f64,
+    ray: DVec3,
+    depth_m: f64,
+    hit: &Hit,
+) -> SurfacePoint {
+    let scene = prepared.scene;
+    let mesh = &scene.objects[hit.object as usize].mesh;
+    let triangle = mesh.triangles[hit.triangle as usize];
+    let [u, v] = hit.barycentric;
+    let weights = [1.0 - u - v, u, v];
+    let corners = triangle.map(|i| mesh.positions_m[i as usize].as_dvec3());
+    let geometric = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+    let to_viewer = -ray.normalize();
+    // Either side of a sheet is a surface of its own.
+    let side = if geometric.dot(to_viewer) < 0.0 { -1.0 } else { 1.0 };
+    let interpolated = interpolate(weights, triangle.map(|i| mesh.normals[i as usize].as_dvec3()));
+    let smooth = interpolated.normalize_or(geometric.normalize());
+
+    let material_index = mesh.triangle_materials[hit.triangle as usize] as usize;
+    let material = &scene.materials[material_index];
+    let optics = &prepared.tables.materials[material_index];
+    let uv = triangle_uv(mesh, triangle, weights);
+    let axes = camera.footprint_axes(ray, depth_m, side * smooth).map(|a| a * footprint_std_px);
+    let texel_scale = texture_footprint(mesh, triangle, &corners, axes);
+    let texture = |index: Option<usize>| index.map(|i| sample_texture(&scene.textures[i], uv, texel_scale));
+
+    let mut normal = smooth;
+    if let Some((index, scale)) = material.normal_texture {
+        let texel = sample_texture(&scene.textures[index], uv, texel_scale);
+        let tangents = triangle.map(|i| mesh.tangents[i as usize].as_dvec4());
+        let tangent = interpolate(weights, tangents.map(|t| t.truncate()));
+        let tangent = (tangent - smooth * smooth.dot(tangent)).normalize_or(smooth.any_orthonormal_vector());
+        let bitangent = smooth.cross(tangent) * tangents[0].w;
+        let n = texel.truncate() * 2.0 - DVec3::ONE;
+        normal = (tangent * (n.x * scale) + bitangent * (n.y * scale) + smooth * n.z).normalize_or(smooth);
+    }
+    let normal = face_viewer(side * normal, to_viewer);
+    // The viewer in the x-z plane; any x will do where they look along the normal.
+    let tangential = to_viewer - normal * normal.dot(to_viewer);
+    let axis_x = tangential.try_normalize().unwrap_or_else(|| normal.any_orthonormal_vector());
+    let axis_y = normal.cross(axis_x);
+
+    let mut base_color = DVec3::from(optics.base_color);
+    let mut metallic = optics.metallic;
+    let mut roughness = material.roughness;
+    if let Some(texel) = texture(material.base_color_texture) {
+        base_color *= texel.truncate();
+    }
+    if let Some(texel) = texture(material.metallic_roughness_texture) {
+        roughness *= texel.y;
+        metallic *= texel.z;
+    }
+    let emission = texture(material.emission_texture).map_or(DVec3::ONE, |t| t.truncate());
+    let f0 = DVec3::splat(optics.dielectric_f0).lerp(base_color, metallic);
+    let cos = normal.dot(to_viewer);
+    SurfacePoint {
+        position_m: camera.position_m + ray * depth_m,
+        axis_x,
+        axis_y,
+        normal,
+        wo: DVec3::new((1.0 - cos * cos).max(0.0).sqrt(), 0.0, cos),
+        footprint_axes_m: camera.footprint_axes(ray, depth_m, normal).map(|a| a * footprint_std_px),
+        fresnel: FresnelRgb { f0: f0.to_array(), a: optics.fresnel_a },
+        diffuse: base_color * (1.0 - metallic),
+        roughness,
+        emission: emission * DVec3::from(material.emission),
+        coherence_um: material.coherence_um,
+        table: optics.table as usize,
+    }
+}
+
+/// Bends a normal that the viewer cannot see until its cosine is [`MIN_VIEW_COS`].
+fn face_viewer(normal: DVec3, to_viewer: DVec3) -> DVec3 {
+    let cos = normal.dot(to_viewer);
+    if cos >= MIN_VIEW_COS {
+        return normal;
+    }
+    let tangential = (normal - to_viewer * cos).normalize_or(to_viewer.any_orthonormal_vector());
+    to_viewer * MIN_VIEW_COS + tangential * (1.0 - MIN_VIEW_COS * MIN_VIEW_COS).sqrt()
+}
+
+fn interpolate(weights: [f64; 3], corners: [DVec3; 3]) -> DVec3 {
+    corners[0] * weights[0] + corners[1] * weights[1] + corners[2] * weights[2]
+}
+
+fn triangle_uv(mesh: &Mesh, triangle: [u32; 3], weights: [f64; 3]) -> DVec2 {
+    let [a, b, c] = triangle.map(|i| mesh.uvs[i as usize].as_dvec2());
+    a * weights[0] + b * weights[1] + c * weights[2]
+}
+
+/// Area of the footprint in texture space (u times v), one standard deviation wide, as the side of a square.
+fn texture_footprint(mesh: &Mesh, triangle: [u32; 3], corners: &[DVec3; 3], axes: [DVec3; 2]) -> f64 {
+    let [a, b, c] = triangle.map(|i| mesh.uvs[i as usize].as_dvec2());
+    let uv_area = (b - a).perp_dot(c - a).abs();
+    let area = (corners[1] - corners[0]).cross(corners[2] - corners[0]).length();
+    (uv_area / area * axes[0].cross(axes[1]).length()).sqrt()
+}
+
+/// Trilinear look-up, repeating, in linear values. `footprint` is the side of the filter in texture space.
+fn sample_texture(texture: &Texture, uv: DVec2, footprint: f64) -> glam::DVec4 {
+    let texels = footprint * (texture.size_px[0] as f64 * texture.size_px[1] as f64).sqrt();
+    // A Gaussian of one texel's width is what bilinear look-up amounts to: level 0 serves down to there.
+    let last = (texture.levels.len() - 1) as f64;
+    let lod = if texels > 0.0 { (2.0 * texels).log2().clamp(0.0, last) } else { 0.0 };
+    let (low, share) = (lod.floor(), lod.fract());
+    let near = sample_level(texture, low as usize, uv);
+    if share == 0.0 { near } else { near.lerp(sample_level(texture, low as usize + 1, uv), share) }
+}
+
+fn sample_level(texture: &Texture, level: usize, uv: DVec2) -> glam::DVec4 {
+    let [width, height] = texture.size_px.map(|n| (n >> level).max(1) as i64);
+    let at = uv * DVec2::new(width as f64, height as f64) - 0.5;
+    let corner = at.floor();
+    let t = at - corner;
+    let texel = |dx: i64, dy: i64| {
+        let x = (corner.x as i64 + dx).rem_euclid(width);
+        let y = (corner.y as i64 + dy).rem_euclid(height);
+        decode(texture.levels[level][(y * width + x) as usize], texture.srgb)
+    };
+    texel(0, 0).lerp(texel(1, 0), t.x).lerp(texel(0, 1).lerp(texel(1, 1), t.x), t.y)
+}
+
+fn decode(texel: [u8; 4], srgb: bool) -> glam::DVec4 {
+    let linear = texel.map(|c| c as f64 / 255.0);
+    let color = |c: f64| if srgb { hairline_image::tone_map::linear_from_srgb(c as f32) as f64 } else { c };
+    glam::DVec4::new(color(linear[0]), color(linear[1]), color(linear[2]), linear[3])
+}

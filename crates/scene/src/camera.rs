@@ -1,0 +1,164 @@
+//! From a pixel to a ray and to the footprint that it leaves on a surface.
+
+use crate::scene::{Camera, RenderSettings};
+use glam::{DVec2, DVec3};
+
+/// A camera made ready for one picture size. Rays start at `position_m`; pixel coordinates run from the upper left
+/// corner, pixel centres at half-integers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CameraFrame {
+    /// The pinhole.
+    pub position_m: DVec3,
+    /// Unit direction of the view.
+    pub forward: DVec3,
+    /// Change of the ray's direction from one pixel to the next on its right, at unit depth.
+    pub per_px_x: DVec3,
+    /// Change of the ray's direction from one pixel to the next below.
+    pub per_px_y: DVec3,
+    /// Width and height.
+    pub size_px: DVec2,
+}
+
+impl Camera {
+    /// The frame for a picture of the given size.
+    pub fn frame(&self, size_px: [u32; 2]) -> CameraFrame {
+        let size = DVec2::new(size_px[0] as f64, size_px[1] as f64);
+        let forward = (self.target_m - self.position_m).normalize_or(DVec3::NEG_Z);
+        // A view along `up` has no up: any other will do.
+        let right = forward
+            .cross(self.up)
+            .try_normalize()
+            .unwrap_or_else(|| forward.any_orthonormal_vector());
+        let up = right.cross(forward);
+        let per_px = 2.0 * (0.5 * self.fov_y_rad).tan() / size.y;
+        CameraFrame {
+            position_m: self.position_m,
+            forward,
+            per_px_x: right * per_px,
+            per_px_y: -up * per_px,
+            size_px: size,
+        }
+    }
+}
+
+impl CameraFrame {
+    /// Direction of the ray through a point of the picture; its component along `forward` is one.
+    pub fn camera_ray(&self, pixel: DVec2) -> DVec3 {
+        let offset = pixel - 0.5 * self.size_px;
+        self.forward + self.per_px_x * offset.x + self.per_px_y * offset.y
+    }
+
+    /// How far a point of the plane through the hit, of unit normal `normal`, moves when the ray moves by one pixel to the
+    /// right and by one pixel down. `ray` is [`Self::camera_ray`]'s, `depth_m` the hit's distance along `forward`.
+    pub fn footprint_axes(&self, ray: DVec3, depth_m: f64, normal: DVec3) -> [DVec3; 2] {
+        let cos = ray.dot(normal);
+        // Beyond 88 degrees a plane no longer stands for the surface under a pixel, and the footprint would grow without bound.
+        let limit = MIN_FOOTPRINT_COS * ray.length();
+        let cos = if cos.abs() < limit {
+            limit.copysign(cos)
+        } else {
+            cos
+        };
+        [self.per_px_x, self.per_px_y]
+            .map(|per_px| (per_px - ray * (per_px.dot(normal) / cos)) * depth_m)
+    }
+}
+
+/// Least cosine between a ray and the surface that a footprint is computed with.
+pub const MIN_FOOTPRINT_COS: f64 = 0.035;
+
+/// Offset of sample `i` of `count` from the pixel's centre, within half a pixel: R. Roberts' R2 sequence, whose points
+/// cover the square evenly for any count. A single sample sits in the centre.
+pub fn pixel_jitter(i: u32, count: u32) -> DVec2 {
+    if count <= 1 {
+        return DVec2::ZERO;
+    }
+    // Reciprocals of the plastic number and of its square.
+    let step = DVec2::new(0.754_877_666_246_692_7, 0.569_840_290_998_053_2);
+    (step * i as f64 + 0.5).fract() - 0.5
+}
+
+impl RenderSettings {
+    /// Standard deviation of the footprint of one of `samples` jittered samples, so that the footprint and the jitter's box
+    /// (variance 1/12) together make the pixel's filter.
+    pub fn footprint_std_px(&self, samples: u32) -> f64 {
+        let variance = self.filter_std_px * self.filter_std_px;
+        if samples <= 1 {
+            self.filter_std_px
+        } else {
+            (variance - 1.0 / 12.0).max(0.25 * variance).sqrt()
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn camera() -> Camera {
+        let (position_m, target_m) = (DVec3::new(0.1, -0.3, 0.4), DVec3::new(0.0, 0.05, 0.0));
+        Camera {
+            position_m,
+            target_m,
+            up: DVec3::Z,
+            fov_y_rad: 0.5,
+            exposure_ev: 0.0,
+        }
+    }
+
+    #[test]
+    fn the_target_is_in_the_centre_and_up_is_up() {
+        let frame = camera().frame([640, 480]);
+        let ray = frame.camera_ray(DVec2::new(320.0, 240.0));
+        assert!((ray - frame.forward).length() < 1e-12);
+        assert!(frame.camera_ray(DVec2::new(320.0, 0.0)).z > ray.z);
+        let (top, bottom) = (
+            frame.camera_ray(DVec2::new(320.0, 0.0)),
+            frame.camera_ray(DVec2::new(320.0, 480.0)),
+        );
+        assert!(
+            (top.angle_between(bottom) - 0.5).abs() < 1e-9,
+            "the vertical field of view"
+        );
+    }
+
+    #[test]
+    fn footprint_axes_are_the_derivative_of_the_hit() {
+        let frame = camera().frame([640, 480]);
+        let (pixel, normal) = (
+            DVec2::new(100.0, 333.0),
+            DVec3::new(0.1, -0.2, 1.0).normalize(),
+        );
+        let hit = |pixel: DVec2| {
+            let ray = frame.camera_ray(pixel);
+            let depth = (DVec3::ZERO - frame.position_m).dot(normal) / ray.dot(normal);
+            (frame.position_m + ray * depth, depth, ray)
+        };
+        let (point, depth, ray) = hit(pixel);
+        let axes = frame.footprint_axes(ray, depth, normal);
+        for (axis, step) in axes.iter().zip([DVec2::X, DVec2::Y]) {
+            let moved = (hit(pixel + 1e-4 * step).0 - point) / 1e-4;
+            assert!((moved - *axis).length() < 1e-4 * axis.length());
+        }
+    }
+
+    #[test]
+    fn jitter_covers_the_pixel_and_completes_the_filter() {
+        for count in [4, 16, 64] {
+            let points: Vec<DVec2> = (0..count).map(|i| pixel_jitter(i, count)).collect();
+            let mean: DVec2 = points.iter().sum::<DVec2>() / count as f64;
+            assert!(
+                mean.abs().max_element() < 1.0 / (count as f64).sqrt() * 0.5,
+                "{count}: {mean}"
+            );
+            assert!(points.iter().all(|p| p.abs().max_element() <= 0.5));
+        }
+        let settings = RenderSettings {
+            size_px: [1, 1],
+            filter_std_px: 0.5,
+            tone_map: Default::default(),
+        };
+        assert_eq!(settings.footprint_std_px(1), 0.5);
+        assert!((settings.footprint_std_px(16).powi(2) + 1.0 / 12.0 - 0.25).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,96 @@
+//! What the materials of a scene mean to the physics: coefficients and tables that every renderer reads alike.
+
+use crate::scene::{Base, Material, Scene};
+use hairline_optics::fresnel::FresnelRgb;
+use hairline_optics::metal::Metal;
+use hairline_optics::table::ScratchTable;
+
+/// A material's reflection before textures: a metallic part with the base colour as its reflectance at normal incidence, and
+/// a dielectric one over a diffuse body of the base colour.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MaterialOptics {
+    /// Linear Rec.709.
+    pub base_color: [f64; 3],
+    /// 1 for a metal, 0 for a dielectric.
+    pub metallic: f64,
+    /// Reflectance of the dielectric part at normal incidence.
+    pub dielectric_f0: f64,
+    /// The `a` of [`FresnelRgb`].
+    pub fresnel_a: [f64; 3],
+    /// Which of [`ScratchTables::tables`] its scratches use.
+    pub table: u32,
+}
+
+/// The scratch tables that a scene needs, one for each reflectance spectrum.
+pub struct ScratchTables {
+    /// Distinct tables.
+    pub tables: Vec<ScratchTable>,
+    /// One for each material of the scene.
+    pub materials: Vec<MaterialOptics>,
+}
+
+impl ScratchTables {
+    /// Tables and coefficients for all materials of a scene.
+    pub fn new(scene: &Scene) -> Self {
+        // Colours given in RGB have no spectrum: their scratches use white's table and take the colour at the end.
+        let mut spectra: Vec<Option<Metal>> = Vec::new();
+        let materials = scene
+            .materials
+            .iter()
+            .map(|material| {
+                let metal = match material.base {
+                    Base::Metal(metal) => Some(metal),
+                    _ => None,
+                };
+                let table = spectra.iter().position(|s| *s == metal).unwrap_or_else(|| {
+                    spectra.push(metal);
+                    spectra.len() - 1
+                });
+                material_optics(material, table as u32)
+            })
+            .collect();
+        let tables = spectra
+            .iter()
+            .map(|metal| ScratchTable::new(|nm| metal.map_or(1.0, |m| m.reflectance(1.0, nm))))
+            .collect();
+        Self { tables, materials }
+    }
+}
+
+fn material_optics(material: &Material, table: u32) -> MaterialOptics {
+    let metal = |base_color, fresnel_a| MaterialOptics {
+        base_color,
+        metallic: 1.0,
+        dielectric_f0: 0.04,
+        fresnel_a,
+        table,
+    };
+    match material.base {
+        Base::Mirror => metal([1.0; 3], [0.0; 3]),
+        Base::Metal(m) => {
+            let FresnelRgb { f0, a } = m.fresnel_rgb();
+            metal(f0, a)
+        }
+        Base::ColoredMetal { base_color } => metal(base_color, [0.0; 3]),
+        Base::Dielectric { ior, base_color } => {
+            let dielectric_f0 = ((ior - 1.0) / (ior + 1.0)).powi(2);
+            MaterialOptics {
+                base_color,
+                metallic: 0.0,
+                dielectric_f0,
+                fresnel_a: [0.0; 3],
+                table,
+            }
+        }
+        Base::MetallicRoughness {
+            base_color,
+            metallic,
+        } => MaterialOptics {
+            base_color,
+            metallic,
+            dielectric_f0: 0.04,
+            fresnel_a: [0.0; 3],
+            table,
+        },
+    }
+}
