@@ -1,1 +1,134 @@
-//! Placeholder.
+//! Scenes in code and comparisons that the conformance tests share.
+
+use glam::{DVec3, Vec2, Vec3, Vec4};
+use hairline_scene::{
+    Base, Camera, Environment, Light, Material, Mesh, Object, RenderSettings, Scene, Scratch,
+    Segment,
+};
+
+/// A square in the x-y plane seen from above, its normal along +z, with nothing on it and no light.
+pub fn square(base: Base, half_side_m: f32, size_px: u32) -> Scene {
+    let corner = |x: f32, y: f32| Vec3::new(x * half_side_m, y * half_side_m, 0.0);
+    let mesh = Mesh {
+        positions_m: vec![
+            corner(-1.0, -1.0),
+            corner(1.0, -1.0),
+            corner(1.0, 1.0),
+            corner(-1.0, 1.0),
+        ],
+        normals: vec![Vec3::Z; 4],
+        tangents: vec![Vec4::new(1.0, 0.0, 0.0, 1.0); 4],
+        uvs: vec![Vec2::ZERO; 4],
+        triangles: vec![[0, 1, 2], [0, 2, 3]],
+        triangle_materials: vec![0; 2],
+    };
+    let material = Material {
+        name: "base".into(),
+        base,
+        roughness: 0.05,
+        coherence_um: 20.0,
+        emission: [0.0; 3],
+        base_color_texture: None,
+        metallic_roughness_texture: None,
+        normal_texture: None,
+        emission_texture: None,
+    };
+    Scene {
+        camera: Camera {
+            position_m: DVec3::new(0.0, -0.4, 1.0) * half_side_m as f64 * 2.0,
+            target_m: DVec3::ZERO,
+            up: DVec3::Y,
+            fov_y_rad: 0.6,
+            exposure_ev: 0.0,
+        },
+        render: RenderSettings {
+            size_px: [size_px; 2],
+            filter_std_px: 0.5,
+            tone_map: Default::default(),
+        },
+        environment: None,
+        textures: Vec::new(),
+        materials: vec![material],
+        objects: vec![Object {
+            name: "square".into(),
+            mesh,
+            scratches: Vec::new(),
+            segments: Vec::new(),
+        }],
+        lights: Vec::new(),
+    }
+}
+
+/// Light of radiance one from everywhere.
+pub fn furnace() -> Option<Environment> {
+    Some(Environment::uniform([1.0; 3]))
+}
+
+/// A sphere that the square's camera sees mirrored near the middle.
+pub fn sphere_light(half_side_m: f32, radius: f64) -> Light {
+    let s = half_side_m as f64 * 2.0;
+    Light::Sphere {
+        center_m: DVec3::new(0.1, 0.5, 1.0) * s,
+        radius_m: radius * s,
+        radiance: [10.0; 3],
+    }
+}
+
+/// Lays a straight scratch on the first object, cut into equal pieces. Which triangle it lies on does not matter here.
+pub fn lay(
+    scene: &mut Scene,
+    start_m: Vec3,
+    end_m: Vec3,
+    width_um: f32,
+    depth_nm: f32,
+    pieces: u32,
+) {
+    let object = &mut scene.objects[0];
+    let first = object.segments.len() as u32;
+    let at = |i: u32| start_m.lerp(end_m, i as f32 / pieces as f32);
+    object.segments.extend((0..pieces).map(|i| Segment {
+        start_m: at(i),
+        end_m: at(i + 1),
+        normal: Vec3::Z,
+        triangle: 0,
+    }));
+    object.scratches.push(Scratch {
+        width_um,
+        depth_nm,
+        layer: 0,
+        closed: false,
+        segments: first..first + pieces,
+    });
+}
+
+/// A deterministic sequence of numbers in [0, 1).
+pub struct Sequence(pub u64);
+
+impl Sequence {
+    /// The next number.
+    pub fn next(&mut self) -> f32 {
+        self.0 = self
+            .0
+            .wrapping_mul(6364136223846793005)
+            .wrapping_add(1442695040888963407);
+        (self.0 >> 40) as f32 / (1u64 << 24) as f32
+    }
+
+    /// The next number, scaled to [a, b).
+    pub fn between(&mut self, a: f32, b: f32) -> f32 {
+        a + (b - a) * self.next()
+    }
+}
+
+/// Lays `count` straight scratches at random over the square.
+pub fn lay_random(scene: &mut Scene, half_side_m: f32, count: u32, length_m: f32, seed: u64) {
+    let mut random = Sequence(seed);
+    for _ in 0..count {
+        let middle =
+            Vec3::new(random.between(-1.0, 1.0), random.between(-1.0, 1.0), 0.0) * half_side_m;
+        let (sin, cos) = random.between(0.0, std::f32::consts::PI).sin_cos();
+        let half = 0.5 * length_m * Vec3::new(cos, sin, 0.0);
+        let (width_um, depth_nm) = (random.between(1.0, 4.0), random.between(40.0, 400.0));
+        lay(scene, middle - half, middle + half, width_um, depth_nm, 1);
+    }
+}

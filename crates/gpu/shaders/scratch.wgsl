@@ -12,8 +12,13 @@ struct Footprint {
     cross_um2: f32,
 }
 
-// The share of the footprint-averaged coherence window that a segment covers. `offset_um` is the distance from the
-// footprint's centre to its line along n; `start_um` and `end_um` are its ends along t.
+// The share of the footprint-averaged coherence window that a segment covers, and that its endless line would.
+struct ScratchShare {
+    segment: f32,
+    line: f32,
+}
+
+// `offset_um` is the distance from the footprint's centre to its line along n; `start_um` and `end_um` are its ends along t.
 fn scratch_share(
     width_um: f32,
     offset_um: f32,
@@ -22,7 +27,7 @@ fn scratch_share(
     blur_um: f32,
     footprint: Footprint,
     coherence_um: f32,
-) -> f32 {
+) -> ScratchShare {
     let variance = footprint.across_um2 + 0.5 * coherence_um * coherence_um;
     let across = exp(-min(0.5 * offset_um * offset_um / variance, 80.0)) * inverseSqrt(6.28318531 * variance);
     // Where the footprint is slanted, the part of it that lies on the scratch is displaced along it.
@@ -30,5 +35,6 @@ fn scratch_share(
     let shift = offset_um * slant;
     let along_variance = footprint.along_um2 - footprint.cross_um2 * slant + blur_um * blur_um;
     let z = max(sqrt(2.0 * max(along_variance, 0.0)), 1e-6);
-    return width_um * across * 0.5 * gaussian_erf_difference((start_um - shift) / z, (end_um - shift) / z);
+    let line = width_um * across;
+    return ScratchShare(line * 0.5 * gaussian_erf_difference((start_um - shift) / z, (end_um - shift) / z), line);
 }

@@ -55,6 +55,15 @@ pub fn ends(length_um: f64, coherence_um: f64) -> Ends {
     }
 }
 
+/// What [`scratch_share`] returns.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ScratchShare {
+    /// The share of the coherence window that the segment covers, rho.
+    pub segment: f64,
+    /// The same for an endless scratch along the segment's line.
+    pub line: f64,
+}
+
 /// The share of the footprint-averaged coherence window that a scratch segment covers: rho of docs/model.md, which is
 /// W I/(2 pi^1.5 sigma^3). `offset_um` is the signed distance p_n from the footprint's centre to the segment's line,
 /// along n; `start_um` and `end_um` are the segment's ends along t from that centre, moved inwards where they are free.
@@ -66,7 +75,7 @@ pub fn scratch_share(
     blur_um: f64,
     footprint: Footprint,
     coherence_um: f64,
-) -> f64 {
+) -> ScratchShare {
     let variance = footprint.across_um2 + 0.5 * coherence_um * coherence_um;
     let across = (-0.5 * offset_um * offset_um / variance).exp() / (2.0 * PI * variance).sqrt();
     // Where the footprint is slanted, the part of it that lies on the scratch is displaced along it.
@@ -74,7 +83,12 @@ pub fn scratch_share(
     let along_variance = footprint.along_um2 - footprint.cross_um2 * footprint.cross_um2 / variance
         + blur_um * blur_um;
     let z = (2.0 * along_variance.max(0.0)).sqrt().max(1e-6);
-    width_um * across * 0.5 * (erf((end_um - shift) / z) - erf((start_um - shift) / z))
+    let line = width_um * across;
+    let along = 0.5 * (erf((end_um - shift) / z) - erf((start_um - shift) / z));
+    ScratchShare {
+        segment: line * along,
+        line,
+    }
 }
 
 #[cfg(test)]
@@ -139,7 +153,8 @@ mod tests {
                             e.blur_um,
                             f,
                             sigma,
-                        );
+                        )
+                        .segment;
                         let expected =
                             quadrature(2.0, offset, center - half, center + half, f, sigma);
                         error2 += (value - expected).powi(2);
@@ -201,7 +216,7 @@ mod tests {
         };
         let e = ends(length, sigma);
         let (start, end) = (-200.0 + e.shrink_um, -200.0 + length - e.shrink_um);
-        let whole = scratch_share(2.0, 5.0, start, end, e.blur_um, f, sigma);
+        let whole = scratch_share(2.0, 5.0, start, end, e.blur_um, f, sigma).segment;
         let step = (end - start) / 100.0;
         let pieces: f64 = (0..100)
             .map(|i| {
@@ -214,6 +229,7 @@ mod tests {
                     f,
                     sigma,
                 )
+                .segment
             })
             .sum();
         assert!((pieces / whole - 1.0).abs() < 1e-12);

@@ -5,6 +5,7 @@
 //! scratch is weakened by the others by h_m = 1 - c (rho - rho_m), where c tells how alike their phase steps are. Equal
 //! depths have c = 1; depths spread over a wavelength have c = 1/2.
 
+use crate::footprint::ScratchShare;
 use crate::{scratch, spectrum};
 use std::f64::consts::PI;
 
@@ -40,46 +41,42 @@ pub fn depth_coherence(depths: impl Iterator<Item = (f64, f64)> + Clone) -> f64 
 pub struct ScratchSums {
     /// Sum of rho_m.
     pub share: f64,
+    /// Sum of rho_m, each times the share of the endless line that its segment is a piece of.
+    pub share_by_line: f64,
     /// Sum of the radiance of each scratch as if it were alone.
     pub radiance: [f64; 3],
-    /// The same, each times its rho_m.
-    pub radiance_by_share: [f64; 3],
     /// Sum of |D_m|^2 rho_m.
     pub energy: [f64; 3],
-    /// The same, each times its rho_m.
-    pub energy_by_share: [f64; 3],
 }
 
 impl ScratchSums {
-    /// Adds one scratch: its share rho_m, the mean of |D|^2 and its radiance per unit of share.
-    pub fn add(&mut self, share: f64, phase_step_energy: [f64; 3], radiance_per_share: [f64; 3]) {
-        self.share += share;
+    /// Adds one segment: its share, the mean of |D|^2 and its radiance per unit of share.
+    pub fn add(
+        &mut self,
+        share: ScratchShare,
+        phase_step_energy: [f64; 3],
+        radiance_per_share: [f64; 3],
+    ) {
+        self.share += share.segment;
+        self.share_by_line += share.segment * share.line;
         for c in 0..3 {
-            self.energy[c] += share * phase_step_energy[c];
-            self.energy_by_share[c] += share * share * phase_step_energy[c];
-            self.radiance[c] += share * radiance_per_share[c];
-            self.radiance_by_share[c] += share * share * radiance_per_share[c];
+            self.energy[c] += share.segment * phase_step_energy[c];
+            self.radiance[c] += share.segment * radiance_per_share[c];
         }
     }
 
     /// Radiance of all scratches, each weakened by the others, and the share of the base's energy that they take.
-    /// A surface covered so densely that amplitudes would add beyond what there is to scatter stays at that limit.
+    ///
+    /// A scratch does not weaken itself, however many segments it is cut into: what counts as itself is its whole line,
+    /// averaged over the scratches, and never more than all there is. A surface covered so densely that amplitudes would
+    /// add beyond what there is to scatter stays at that limit.
     pub fn mask_resolve(&self, depth_coherence: f64) -> Masked {
-        let limit = 1.0 / (2.0 * depth_coherence);
-        let scale = if self.share > limit {
-            limit / self.share
-        } else {
-            1.0
-        };
-        let alone = scale * (1.0 - depth_coherence * scale * self.share);
-        let own = scale * scale * depth_coherence;
+        let itself = (self.share_by_line / self.share.max(1e-30)).min(self.share);
+        let scale = (1.0 / (2.0 * depth_coherence * self.share.max(1e-30))).min(1.0);
+        let kept = scale * (1.0 - depth_coherence * scale * (self.share - itself));
         Masked {
-            scratches: std::array::from_fn(|c| {
-                alone * self.radiance[c] + own * self.radiance_by_share[c]
-            }),
-            taken: std::array::from_fn(|c| {
-                (alone * self.energy[c] + own * self.energy_by_share[c]).clamp(0.0, 1.0)
-            }),
+            scratches: self.radiance.map(|r| kept * r),
+            taken: self.energy.map(|e| (kept * e).clamp(0.0, 1.0)),
         }
     }
 }
@@ -113,7 +110,12 @@ mod tests {
     fn masked(shares: &[f64], depths: &[f64], coherence: f64) -> f64 {
         let mut sums = ScratchSums::default();
         for (rho, d) in shares.iter().zip(depths) {
-            sums.add(*rho, [scratch::phase_step_energy(*d, NM); 3], [0.0; 3]);
+            // Endless scratches: the segment is the line.
+            let share = ScratchShare {
+                segment: *rho,
+                line: *rho,
+            };
+            sums.add(share, [scratch::phase_step_energy(*d, NM); 3], [0.0; 3]);
         }
         1.0 - sums.mask_resolve(coherence).taken[0]
     }
@@ -123,6 +125,28 @@ mod tests {
         assert!((masked(&[0.03], &[137.5], 1.0) - (1.0 - 4.0 * 0.03)).abs() < 1e-12);
         // Depth coherence is about the others: alone it must not matter.
         assert!((masked(&[0.03], &[137.5], 0.5) - masked(&[0.03], &[137.5], 1.0)).abs() < 1e-12);
+    }
+
+    /// Pieces share their line, so together they weaken themselves no more than the whole does.
+    #[test]
+    fn pieces_mask_as_the_whole() {
+        let resolve = |pieces: usize| {
+            let mut sums = ScratchSums::default();
+            for _ in 0..pieces {
+                let share = ScratchShare {
+                    segment: 0.05 / pieces as f64,
+                    line: 0.05,
+                };
+                sums.add(share, [3.0; 3], [1.0; 3]);
+            }
+            sums.mask_resolve(1.0)
+        };
+        let (whole, cut) = (resolve(1), resolve(100));
+        assert!((whole.taken[0] - 0.15).abs() < 1e-12);
+        assert!(
+            (whole.taken[0] - cut.taken[0]).abs() < 1e-12
+                && (whole.scratches[0] - cut.scratches[0]).abs() < 1e-12
+        );
     }
 
     #[test]

@@ -35,14 +35,29 @@ pub(crate) fn base_radiance(
         let (integral, form_factor, radiance) = match light {
             LightView::Sphere { cap, radiance } => {
                 // A cap that holds every direction stands for a sphere around the point.
-                let sin2 = if cap.cos_radius < 0.0 { 1.0 } else { cap.sin_radius * cap.sin_radius };
-                (ltc_sphere(&lobe, cap.axis, sin2), lambert_sphere(cap.axis, sin2), radiance)
+                let sin2 = if cap.cos_radius < 0.0 {
+                    1.0
+                } else {
+                    cap.sin_radius * cap.sin_radius
+                };
+                (
+                    ltc_sphere(&lobe, cap.axis, sin2),
+                    lambert_sphere(cap.axis, sin2),
+                    radiance,
+                )
             }
-            LightView::Polygon { vertices, radiance, .. } => {
+            LightView::Polygon {
+                vertices, radiance, ..
+            } => {
                 let vertices = &views.vertices[vertices.clone()];
                 let mut state = ltc_begin();
                 for (i, a) in vertices.iter().enumerate() {
-                    ltc_edge(&mut state, &lobe, *a, vertices[if i + 1 < vertices.len() { i + 1 } else { 0 }]);
+                    ltc_edge(
+                        &mut state,
+                        &lobe,
+                        *a,
+                        vertices[if i + 1 < vertices.len() { i + 1 } else { 0 }],
+                    );
                 }
                 (ltc_end(&state, &lobe), lambert_polygon(vertices), radiance)
             }
@@ -55,5 +70,8 @@ pub(crate) fn base_radiance(
         specular += environment.prefiltered(point.world_from_surface(mirror), point.roughness);
         diffuse += environment.irradiance(point.normal) / std::f64::consts::PI;
     }
-    BaseRadiance { specular: specular * albedo, diffuse: diffuse * body }
+    BaseRadiance {
+        specular: specular * albedo,
+        diffuse: diffuse * body,
+    }
 }

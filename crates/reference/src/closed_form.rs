@@ -37,7 +37,12 @@ impl<'a> Prepared<'a> {
             || TriangleIndex::build(scene),
             || rayon::join(|| ScratchIndex::build(scene), || ScratchTables::new(scene)),
         );
-        Self { scene, triangles, scratches, tables }
+        Self {
+            scene,
+            triangles,
+            scratches,
+            tables,
+        }
     }
 }
 
@@ -75,7 +80,8 @@ pub fn render(scene: &Scene, options: &RenderOptions, progress: &(dyn Fn(f64) + 
             for x in 0..width {
                 let mut sum = Sample::default();
                 for i in 0..samples {
-                    let pixel = DVec2::new(x as f64 + 0.5, y as f64 + 0.5) + pixel_jitter(i, samples);
+                    let pixel =
+                        DVec2::new(x as f64 + 0.5, y as f64 + 0.5) + pixel_jitter(i, samples);
                     let sample = shade_pixel(&prepared, &camera, footprint_std_px, pixel, views);
                     sum.base += sample.base;
                     sum.scratches += sample.scratches;
@@ -89,7 +95,11 @@ pub fn render(scene: &Scene, options: &RenderOptions, progress: &(dyn Fn(f64) + 
                 scratches[x] = mean(sum.scratches);
                 density[x] = mean(sum.density);
                 normal[x] = sum.normal.normalize_or_zero().as_vec3().to_array();
-                depth_m[x] = if sum.coverage > 0.0 { (sum.depth_m / sum.coverage) as f32 } else { 0.0 };
+                depth_m[x] = if sum.coverage > 0.0 {
+                    (sum.depth_m / sum.coverage) as f32
+                } else {
+                    0.0
+                };
             }
             progress((done.fetch_add(1, Ordering::Relaxed) + 1) as f64 / size[1] as f64);
         },
@@ -113,7 +123,10 @@ fn shade_pixel(
             Some(environment) if environment.visible() => environment.radiance(direction),
             _ => DVec3::ZERO,
         };
-        return Sample { base: background, ..Sample::default() };
+        return Sample {
+            base: background,
+            ..Sample::default()
+        };
     };
     let depth_m = hit.distance_m / ray.length();
     let point = surface::surface_point(prepared, camera, footprint_std_px, ray, depth_m, &hit);

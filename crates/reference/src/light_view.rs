@@ -12,7 +12,12 @@ pub(crate) enum LightView {
     /// A sphere, as the cap of directions that it covers.
     Sphere { cap: Cap, radiance: DVec3 },
     /// A polygon; `vertices` index [`LightViews::vertices`] and [`LightViews::directions`].
-    Polygon { vertices: Range<usize>, away: DVec3, facing: f64, radiance: DVec3 },
+    Polygon {
+        vertices: Range<usize>,
+        away: DVec3,
+        facing: f64,
+        radiance: DVec3,
+    },
 }
 
 /// All lights of a scene from a point. One for each thread, filled anew for every point without allocating.
@@ -27,7 +32,12 @@ pub(crate) struct LightViews<'a> {
 
 impl<'a> LightViews<'a> {
     pub fn new(scene: &'a Scene) -> Self {
-        Self { lights: &scene.lights, views: Vec::new(), vertices: Vec::new(), directions: Vec::new() }
+        Self {
+            lights: &scene.lights,
+            views: Vec::new(),
+            vertices: Vec::new(),
+            directions: Vec::new(),
+        }
     }
 
     /// Looks at the lights from a point. Lights wholly under its horizon or turned away are left out.
@@ -37,25 +47,46 @@ impl<'a> LightViews<'a> {
         self.directions.clear();
         for light in self.lights {
             match light {
-                Light::Sphere { center_m, radius_m, radiance } => {
+                Light::Sphere {
+                    center_m,
+                    radius_m,
+                    radiance,
+                } => {
                     let center = point.surface_from_world(*center_m - point.position_m);
                     if center.z > -radius_m {
                         let cap = sphere_cap(center, *radius_m);
-                        self.views.push(LightView::Sphere { cap, radiance: DVec3::from(*radiance) });
+                        self.views.push(LightView::Sphere {
+                            cap,
+                            radiance: DVec3::from(*radiance),
+                        });
                     }
                 }
-                Light::Polygon { vertices_m, radiance, two_sided } => {
+                Light::Polygon {
+                    vertices_m,
+                    radiance,
+                    two_sided,
+                } => {
                     let first = self.vertices.len();
-                    self.vertices.extend(vertices_m.iter().map(|v| point.surface_from_world(*v - point.position_m)));
+                    self.vertices.extend(
+                        vertices_m
+                            .iter()
+                            .map(|v| point.surface_from_world(*v - point.position_m)),
+                    );
                     let own = &self.vertices[first..];
                     let (away, facing) = polygon_facing(own.iter().copied(), *two_sided);
                     if facing == 0.0 || own.iter().all(|v| v.z <= 0.0) {
                         self.vertices.truncate(first);
                         continue;
                     }
-                    self.directions.extend(self.vertices[first..].iter().map(|v| v.normalize_or_zero()));
+                    self.directions
+                        .extend(self.vertices[first..].iter().map(|v| v.normalize_or_zero()));
                     let vertices = first..self.vertices.len();
-                    self.views.push(LightView::Polygon { vertices, away, facing, radiance: DVec3::from(*radiance) });
+                    self.views.push(LightView::Polygon {
+                        vertices,
+                        away,
+                        facing,
+                        radiance: DVec3::from(*radiance),
+                    });
                 }
             }
         }
@@ -63,6 +94,10 @@ impl<'a> LightViews<'a> {
 
     /// A polygon for the band's integrals.
     pub fn polygon(&self, vertices: &Range<usize>, away: DVec3, facing: f64) -> PolygonView<'_> {
-        PolygonView { directions: &self.directions[vertices.clone()], away, facing }
+        PolygonView {
+            directions: &self.directions[vertices.clone()],
+            away,
+            facing,
+        }
     }
 }

@@ -6,9 +6,11 @@ use crate::surface::SurfacePoint;
 use glam::{DVec2, DVec3};
 use hairline_index::IndexedSegment;
 use hairline_index::scratch_index::{FACING_MIN_COS, REACH_STD};
-use hairline_optics::band::{BandFrame, BandLine, BandLines, band_lines, sphere_band_extent, sphere_chord};
+use hairline_optics::band::{
+    BandFrame, BandLine, BandLines, band_lines, sphere_band_extent, sphere_chord,
+};
 use hairline_optics::band_environment::{ENVIRONMENT_CELLS, environment_cell};
-use hairline_optics::footprint::{Footprint, scratch_share};
+use hairline_optics::footprint::{Footprint, ScratchShare, scratch_share};
 use hairline_optics::mask::ScratchSums;
 use hairline_optics::scratch::band_std;
 use hairline_optics::spectrum::WAVELENGTH_MEAN_NM;
@@ -29,11 +31,25 @@ pub(crate) fn gather_scratches(
     let [ax, ay] = point.footprint_axes_m;
     let variance = ax * ax + ay * ay + DVec3::splat(0.7 * sigma_m * sigma_m);
     let reach = (variance.map(f64::sqrt) * REACH_STD as f64).as_vec3();
-    prepared.scratches.gather(object, point.position_m.as_vec3(), reach, |segment| {
-        let Some(view) = SegmentView::new(point, segment) else { return };
-        let radiance = scratch_radiance(&view, table, views, prepared.scene.environment.as_ref(), point);
-        sums.add(view.share, table.scratch_table_total(view.depth_nm), radiance.to_array());
-    });
+    prepared
+        .scratches
+        .gather(object, point.position_m.as_vec3(), reach, |segment| {
+            let Some(view) = SegmentView::new(point, segment) else {
+                return;
+            };
+            let radiance = scratch_radiance(
+                &view,
+                table,
+                views,
+                prepared.scene.environment.as_ref(),
+                point,
+            );
+            sums.add(
+                view.share,
+                table.scratch_table_total(view.depth_nm),
+                radiance.to_array(),
+            );
+        });
     sums
 }
 
@@ -42,7 +58,7 @@ struct SegmentView {
     frame: BandFrame,
     /// `wo` in the frame of the scratch.
     wo: DVec3,
-    share: f64,
+    share: ScratchShare,
     width_um: f64,
     depth_nm: f64,
 }
@@ -60,10 +76,14 @@ impl SegmentView {
         if !(length > 0.0) {
             return None;
         }
-        let frame = BandFrame { tangent: along / length };
+        let frame = BandFrame {
+            tangent: along / length,
+        };
         let (start, end) = (frame.band_from_surface(start), frame.band_from_surface(end));
         let offset_um = 0.5 * (start.y + end.y);
-        let [ax, ay] = point.footprint_axes_m.map(|a| frame.band_from_surface(point.surface_from_world(a)) * 1e6);
+        let [ax, ay] = point
+            .footprint_axes_m
+            .map(|a| frame.band_from_surface(point.surface_from_world(a)) * 1e6);
         let footprint = Footprint {
             across_um2: ax.y * ax.y + ay.y * ay.y,
             along_um2: ax.x * ax.x + ay.x * ay.x,
@@ -75,8 +95,10 @@ impl SegmentView {
             return None;
         }
         let (width_um, blur_um) = (segment.width_um as f64, segment.blur_um as f64);
-        let share = scratch_share(width_um, offset_um, start.x, end.x, blur_um, footprint, sigma);
-        (share > 0.0).then(|| Self {
+        let share = scratch_share(
+            width_um, offset_um, start.x, end.x, blur_um, footprint, sigma,
+        );
+        (share.segment > 0.0).then(|| Self {
             frame,
             wo: frame.band_from_surface(point.wo),
             share,
@@ -104,13 +126,24 @@ fn scratch_radiance(
                 let cap = cap.turned(frame);
                 let (lowest, highest) = sphere_band_extent(wo, cap);
                 let lines = band_lines(lowest, highest, std_xi);
-                sum += *radiance * over_lines(&lines, wo, |line| sphere_chord(line, cap).integral(line, antiderivative));
+                sum += *radiance
+                    * over_lines(&lines, wo, |line| {
+                        sphere_chord(line, cap).integral(line, antiderivative)
+                    });
             }
-            LightView::Polygon { vertices, away, facing, radiance } => {
+            LightView::Polygon {
+                vertices,
+                away,
+                facing,
+                radiance,
+            } => {
                 let polygon = views.polygon(vertices, *away, *facing);
                 let (lowest, highest) = polygon.band_extent(frame, wo);
                 let lines = band_lines(lowest, highest, std_xi);
-                sum += *radiance * over_lines(&lines, wo, |line| polygon.integral(frame, line, antiderivative));
+                sum += *radiance
+                    * over_lines(&lines, wo, |line| {
+                        polygon.integral(frame, line, antiderivative)
+                    });
             }
         }
     }

@@ -61,32 +61,46 @@ pub(crate) fn surface_point(
     let geometric = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
     let to_viewer = -ray.normalize();
     // Either side of a sheet is a surface of its own.
-    let side = if geometric.dot(to_viewer) < 0.0 { -1.0 } else { 1.0 };
-    let interpolated = interpolate(weights, triangle.map(|i| mesh.normals[i as usize].as_dvec3()));
+    let side = if geometric.dot(to_viewer) < 0.0 {
+        -1.0
+    } else {
+        1.0
+    };
+    let interpolated = interpolate(
+        weights,
+        triangle.map(|i| mesh.normals[i as usize].as_dvec3()),
+    );
     let smooth = interpolated.normalize_or(geometric.normalize());
 
     let material_index = mesh.triangle_materials[hit.triangle as usize] as usize;
     let material = &scene.materials[material_index];
     let optics = &prepared.tables.materials[material_index];
     let uv = triangle_uv(mesh, triangle, weights);
-    let axes = camera.footprint_axes(ray, depth_m, side * smooth).map(|a| a * footprint_std_px);
+    let axes = camera
+        .footprint_axes(ray, depth_m, side * smooth)
+        .map(|a| a * footprint_std_px);
     let texel_scale = texture_footprint(mesh, triangle, &corners, axes);
-    let texture = |index: Option<usize>| index.map(|i| sample_texture(&scene.textures[i], uv, texel_scale));
+    let texture =
+        |index: Option<usize>| index.map(|i| sample_texture(&scene.textures[i], uv, texel_scale));
 
     let mut normal = smooth;
     if let Some((index, scale)) = material.normal_texture {
         let texel = sample_texture(&scene.textures[index], uv, texel_scale);
         let tangents = triangle.map(|i| mesh.tangents[i as usize].as_dvec4());
         let tangent = interpolate(weights, tangents.map(|t| t.truncate()));
-        let tangent = (tangent - smooth * smooth.dot(tangent)).normalize_or(smooth.any_orthonormal_vector());
+        let tangent =
+            (tangent - smooth * smooth.dot(tangent)).normalize_or(smooth.any_orthonormal_vector());
         let bitangent = smooth.cross(tangent) * tangents[0].w;
         let n = texel.truncate() * 2.0 - DVec3::ONE;
-        normal = (tangent * (n.x * scale) + bitangent * (n.y * scale) + smooth * n.z).normalize_or(smooth);
+        normal = (tangent * (n.x * scale) + bitangent * (n.y * scale) + smooth * n.z)
+            .normalize_or(smooth);
     }
     let normal = face_viewer(side * normal, to_viewer);
     // The viewer in the x-z plane; any x will do where they look along the normal.
     let tangential = to_viewer - normal * normal.dot(to_viewer);
-    let axis_x = tangential.try_normalize().unwrap_or_else(|| normal.any_orthonormal_vector());
+    let axis_x = tangential
+        .try_normalize()
+        .unwrap_or_else(|| normal.any_orthonormal_vector());
     let axis_y = normal.cross(axis_x);
 
     let mut base_color = DVec3::from(optics.base_color);
@@ -108,8 +122,13 @@ pub(crate) fn surface_point(
         axis_y,
         normal,
         wo: DVec3::new((1.0 - cos * cos).max(0.0).sqrt(), 0.0, cos),
-        footprint_axes_m: camera.footprint_axes(ray, depth_m, normal).map(|a| a * footprint_std_px),
-        fresnel: FresnelRgb { f0: f0.to_array(), a: optics.fresnel_a },
+        footprint_axes_m: camera
+            .footprint_axes(ray, depth_m, normal)
+            .map(|a| a * footprint_std_px),
+        fresnel: FresnelRgb {
+            f0: f0.to_array(),
+            a: optics.fresnel_a,
+        },
         diffuse: base_color * (1.0 - metallic),
         roughness,
         emission: emission * DVec3::from(material.emission),
@@ -138,10 +157,17 @@ fn triangle_uv(mesh: &Mesh, triangle: [u32; 3], weights: [f64; 3]) -> DVec2 {
 }
 
 /// Area of the footprint in texture space (u times v), one standard deviation wide, as the side of a square.
-fn texture_footprint(mesh: &Mesh, triangle: [u32; 3], corners: &[DVec3; 3], axes: [DVec3; 2]) -> f64 {
+fn texture_footprint(
+    mesh: &Mesh,
+    triangle: [u32; 3],
+    corners: &[DVec3; 3],
+    axes: [DVec3; 2],
+) -> f64 {
     let [a, b, c] = triangle.map(|i| mesh.uvs[i as usize].as_dvec2());
     let uv_area = (b - a).perp_dot(c - a).abs();
-    let area = (corners[1] - corners[0]).cross(corners[2] - corners[0]).length();
+    let area = (corners[1] - corners[0])
+        .cross(corners[2] - corners[0])
+        .length();
     (uv_area / area * axes[0].cross(axes[1]).length()).sqrt()
 }
 
@@ -150,10 +176,18 @@ fn sample_texture(texture: &Texture, uv: DVec2, footprint: f64) -> glam::DVec4 {
     let texels = footprint * (texture.size_px[0] as f64 * texture.size_px[1] as f64).sqrt();
     // A Gaussian of one texel's width is what bilinear look-up amounts to: level 0 serves down to there.
     let last = (texture.levels.len() - 1) as f64;
-    let lod = if texels > 0.0 { (2.0 * texels).log2().clamp(0.0, last) } else { 0.0 };
+    let lod = if texels > 0.0 {
+        (2.0 * texels).log2().clamp(0.0, last)
+    } else {
+        0.0
+    };
     let (low, share) = (lod.floor(), lod.fract());
     let near = sample_level(texture, low as usize, uv);
-    if share == 0.0 { near } else { near.lerp(sample_level(texture, low as usize + 1, uv), share) }
+    if share == 0.0 {
+        near
+    } else {
+        near.lerp(sample_level(texture, low as usize + 1, uv), share)
+    }
 }
 
 fn sample_level(texture: &Texture, level: usize, uv: DVec2) -> glam::DVec4 {
@@ -164,13 +198,29 @@ fn sample_level(texture: &Texture, level: usize, uv: DVec2) -> glam::DVec4 {
     let texel = |dx: i64, dy: i64| {
         let x = (corner.x as i64 + dx).rem_euclid(width);
         let y = (corner.y as i64 + dy).rem_euclid(height);
-        decode(texture.levels[level][(y * width + x) as usize], texture.srgb)
+        decode(
+            texture.levels[level][(y * width + x) as usize],
+            texture.srgb,
+        )
     };
-    texel(0, 0).lerp(texel(1, 0), t.x).lerp(texel(0, 1).lerp(texel(1, 1), t.x), t.y)
+    texel(0, 0)
+        .lerp(texel(1, 0), t.x)
+        .lerp(texel(0, 1).lerp(texel(1, 1), t.x), t.y)
 }
 
 fn decode(texel: [u8; 4], srgb: bool) -> glam::DVec4 {
     let linear = texel.map(|c| c as f64 / 255.0);
-    let color = |c: f64| if srgb { hairline_image::tone_map::linear_from_srgb(c as f32) as f64 } else { c };
-    glam::DVec4::new(color(linear[0]), color(linear[1]), color(linear[2]), linear[3])
+    let color = |c: f64| {
+        if srgb {
+            hairline_image::tone_map::linear_from_srgb(c as f32) as f64
+        } else {
+            c
+        }
+    };
+    glam::DVec4::new(
+        color(linear[0]),
+        color(linear[1]),
+        color(linear[2]),
+        linear[3],
+    )
 }

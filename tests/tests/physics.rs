@@ -1,0 +1,136 @@
+//! Whole pictures against facts of physics: energy, joints, sides.
+
+use conformance::{furnace, lay, lay_random, sphere_light, square};
+use glam::Vec3;
+use hairline_image::Image;
+use hairline_optics::metal::Metal;
+use hairline_reference::closed_form::{RenderOptions, render};
+use hairline_scene::{Base, Scene};
+
+fn picture(scene: &Scene) -> Image {
+    render(scene, &RenderOptions { samples: 1 }, &|_| {})
+}
+
+fn relative_rms(a: &[[f32; 3]], b: &[[f32; 3]]) -> f64 {
+    let (mut error2, mut value2) = (0.0, 0.0);
+    for (a, b) in a.iter().flatten().zip(b.iter().flatten()) {
+        error2 += (*a as f64 - *b as f64).powi(2);
+        value2 += (*b as f64).powi(2);
+    }
+    (error2 / value2).sqrt()
+}
+
+/// A smooth base with scratches under a white environment reflects what it reflects without them.
+#[test]
+fn white_furnace() {
+    let half_side = 2e-3;
+    for (base, reflectance) in [
+        (Base::Mirror, [1.0; 3]),
+        (Base::Metal(Metal::Gold), Metal::Gold.reflectance_rgb(0.93)),
+    ] {
+        let mut scene = square(base, half_side, 64);
+        scene.environment = furnace();
+        lay_random(&mut scene, half_side, 150, 3e-3, 5);
+        let image = picture(&scene);
+        let beauty = image.beauty().rgb;
+        let taken = image.density.iter().map(|d| d[1] as f64).sum::<f64>() / beauty.len() as f64;
+        assert!(taken > 0.03, "scratches must matter for the test: {taken}");
+        for c in 0..3 {
+            let ratio = beauty.iter().map(|p| p[c] as f64).sum::<f64>()
+                / beauty.len() as f64
+                / reflectance[c];
+            println!(
+                "furnace {base:?}: channel {c} at {ratio:.4} of the reflectance, {:.1} % through scratches",
+                100.0 * taken
+            );
+            assert!((ratio - 1.0).abs() < 0.01, "{base:?}: {ratio}");
+        }
+    }
+}
+
+/// A scratch cut into 100 pieces renders as the uncut one, from a footprint far smaller than a piece to one far larger.
+#[test]
+fn joints_are_invisible() {
+    for half_side in [2e-4, 2e-3, 5e-2] {
+        let render = |pieces| {
+            let mut scene = square(Base::Mirror, half_side, 96);
+            scene.lights = vec![sphere_light(half_side, 0.15)];
+            // Through the middle, at an angle at which the light's band is met.
+            for i in 0..12 {
+                let (sin, cos) = (i as f32 * 0.26).sin_cos();
+                let along = Vec3::new(cos, sin, 0.0) * half_side * 0.8;
+                lay(&mut scene, -along, along, 2.0, 137.0, pieces);
+            }
+            picture(&scene)
+        };
+        let (whole, cut) = (render(1), render(100));
+        let rms = relative_rms(&cut.scratches, &whole.scratches);
+        println!(
+            "joints: {half_side} m half side, relative rms {:.4} %",
+            100.0 * rms
+        );
+        assert!(whole.scratches.iter().any(|p| p[1] > 0.0));
+        assert!(rms < 0.01, "{rms}");
+    }
+}
+
+/// Free ends must be shrunk and joined ones not: pieces that are each a scratch of their own leave dark notches.
+#[test]
+fn pieces_that_are_not_joined_differ() {
+    let half_side = 2e-4;
+    let mut whole = square(Base::Mirror, half_side, 96);
+    whole.lights = vec![sphere_light(half_side, 0.15)];
+    let mut apart = whole.clone();
+    lay(
+        &mut whole,
+        Vec3::new(-1e-4, 0.0, 0.0),
+        Vec3::new(1e-4, 0.0, 0.0),
+        2.0,
+        137.0,
+        10,
+    );
+    for i in 0..10 {
+        let at = |i: i32| Vec3::new(-1e-4 + 2e-5 * i as f32, 0.0, 0.0);
+        lay(&mut apart, at(i), at(i + 1), 2.0, 137.0, 1);
+    }
+    assert!(relative_rms(&picture(&apart).scratches, &picture(&whole).scratches) > 0.3);
+}
+
+/// A sheet seen from behind shows none of the scratches on its front.
+#[test]
+fn the_far_side_of_a_sheet_stays_clean() {
+    let half_side = 2e-3;
+    let mut scene = square(Base::Mirror, half_side, 32);
+    scene.environment = furnace();
+    lay_random(&mut scene, half_side, 100, 3e-3, 5);
+    let front = picture(&scene);
+    scene.camera.position_m.z = -scene.camera.position_m.z;
+    let back = picture(&scene);
+    assert!(front.density.iter().any(|d| d[1] > 0.01));
+    assert!(back.density.iter().all(|d| *d == [0.0; 3]));
+    assert!(back.normal.iter().any(|n| n[2] < -0.9));
+}
+
+/// Darkness in, darkness out, and a light that hides under the surface lights nothing.
+#[test]
+fn no_light_from_nothing() {
+    let half_side = 2e-3;
+    let mut scene = square(Base::Mirror, half_side, 32);
+    lay_random(&mut scene, half_side, 100, 3e-3, 5);
+    assert!(picture(&scene).beauty().rgb.iter().all(|p| *p == [0.0; 3]));
+    let hairline_scene::Light::Sphere {
+        center_m,
+        radius_m,
+        radiance,
+    } = sphere_light(half_side, 0.1)
+    else {
+        unreachable!()
+    };
+    let center_m = center_m.with_z(-center_m.z);
+    scene.lights = vec![hairline_scene::Light::Sphere {
+        center_m,
+        radius_m,
+        radiance,
+    }];
+    assert!(picture(&scene).beauty().rgb.iter().all(|p| *p == [0.0; 3]));
+}

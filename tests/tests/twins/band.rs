@@ -1,0 +1,217 @@
+//! Lights on the band of a scratch.
+
+use crate::twin::{Sequence, Tolerance, Twin};
+use glam::{DVec2, DVec3};
+use hairline_gpu::shaders;
+use hairline_optics::band::*;
+use hairline_optics::band_environment::{ENVIRONMENT_CELLS, environment_cell};
+
+const STD_XI: f64 = 0.0031;
+
+fn v(x: f64, y: f64, z: f64) -> DVec3 {
+    DVec3::new(x, y, z)
+}
+
+#[test]
+fn lines() {
+    let mut random = Sequence(1);
+    let s = STD_XI as f32;
+    let mut rows = vec![
+        [-1.0, 1.0, 0.0],
+        [0.0, 0.0, 0.0],
+        [0.1, 0.2, 0.0],
+        [-3.9 * s, -3.8 * s, 2.0],
+        [s, 0.5 * s, 0.0],
+    ];
+    for _ in 0..1000 {
+        let (low, extent) = (
+            random.between(-5.0, 5.0) * s,
+            10f32.powf(random.between(-2.0, 2.0)) * s,
+        );
+        // Well away from the extents at which the number of lines changes.
+        let half = 0.5 * extent / s;
+        if (half - 3.0).abs() > 0.01 && (half - 16.0).abs() > 0.01 {
+            rows.push([low, low + extent, (random.next() * 5.0).floor()]);
+        }
+    }
+    Twin {
+        name: "band_lines and band_line",
+        modules: &[&shaders::BAND],
+        snippet: "let lines = band_lines(x[0], x[1], 0.0031);
+            y[0] = f32(lines.count);
+            if u32(x[2]) < lines.count {
+                let line = band_line(lines, u32(x[2]));
+                y[1] = line.x; y[2] = line.y;
+            }",
+        tables: &[],
+        expected: &|[low, high, i]: [f64; 3]| {
+            let lines = band_lines(low, high, STD_XI);
+            let (xi_t, weight) = if (i as usize) < lines.count {
+                lines.band_line(i as usize)
+            } else {
+                (0.0, 0.0)
+            };
+            [lines.count as f64, xi_t, weight]
+        },
+        // A share near 1 is rounded by 6e-8, which in the tail at 4 standard deviations moves a line by 5e-4 of one.
+        tolerance: Tolerance {
+            absolute: 1e-5,
+            relative: 1e-3,
+        },
+    }
+    .check(&rows, 0);
+}
+
+#[test]
+fn spheres() {
+    let mut random = Sequence(2);
+    let mut rows = Vec::new();
+    for _ in 0..20_000 {
+        let (wo, axis) = (random.direction(0.0), random.direction(-1.0));
+        let sine = if random.next() < 0.1 {
+            0.0
+        } else {
+            10f32.powf(random.between(-3.0, 0.0))
+        };
+        let xi_t = if random.next() < 0.3 {
+            0.0
+        } else {
+            random.between(-0.01, 0.01)
+        };
+        rows.push([wo[0], wo[1], wo[2], axis[0], axis[1], axis[2], sine, xi_t]);
+    }
+    // Lights on the band, so that chords are met: the axis is turned to the line.
+    for row in &mut rows[..10_000] {
+        let along = (row[7] - row[0] + 0.5 * row[6] * (row[5] - 0.3)).clamp(-1.0, 1.0);
+        let rest = (1.0 - along * along).sqrt() / row[4].hypot(row[5]).max(1e-6);
+        (row[3], row[4], row[5]) = (along, row[4] * rest, row[5] * rest);
+    }
+    let call = |[ox, oy, oz, ax, ay, az, sine, xi_t]: [f64; 8]| {
+        let cap = Cap {
+            axis: v(ax, ay, az),
+            sin_radius: sine,
+            cos_radius: (1.0 - sine * sine).max(0.0).sqrt(),
+        };
+        (cap, BandLine::new(v(ox, oy, oz), xi_t), v(ox, oy, oz))
+    };
+    Twin {
+        name: "sphere_chord",
+        modules: &[&shaders::BAND],
+        // Chords are compared by what they add up to, with the identity for antiderivative: roots may legitimately trade
+        // places with the arc's ends.
+        snippet: "let cap = Cap(vec3f(x[3], x[4], x[5]), x[6], sqrt(max(1.0 - x[6] * x[6], 0.0)));
+            let line = band_line_at(vec3f(x[0], x[1], x[2]), x[7]);
+            let chord = sphere_chord(line, cap);
+            y[0] = chord.enter - chord.leave + chord.wraps * (band_q_start(line) - band_q_end(line));
+            let extent = sphere_band_extent(vec3f(x[0], x[1], x[2]), cap);
+            y[1] = extent.x; y[2] = extent.y;",
+        tables: &[],
+        expected: &|row| {
+            let (cap, line, wo) = call(row);
+            let extent = sphere_band_extent(wo, cap);
+            [sphere_chord(line, cap).integral(line, |q| [q])[0], extent.0, extent.1]
+        },
+        // Near the cap's rim the chord is the square root of a rounded difference.
+        tolerance: Tolerance { absolute: 1e-3, relative: 1e-3 },
+    }
+    // Directions within rounding of the tangent's pole or of the rim of a cap that holds it may fall on either side.
+    .check(&rows, rows.len() / 2000);
+}
+
+#[test]
+fn polygons() {
+    let mut random = Sequence(3);
+    let mut rows = Vec::new();
+    for _ in 0..20_000 {
+        let wo = random.direction(0.0);
+        let center = random.direction(-0.5);
+        let size = 10f32.powf(random.between(-2.5, 0.5));
+        // A triangle about a centre, in the plane across it: always seen from the front.
+        let n = glam::Vec3::from(center);
+        let (u, w) = n.any_orthonormal_pair();
+        let turn = random.between(0.0, 6.28);
+        let corner = |k: f32| n + size * (u * (turn + 2.1 * k).cos() + w * (turn + 2.1 * k).sin());
+        let (a, b, c) = (corner(0.0), corner(1.0), corner(2.0));
+        rows.push([
+            wo[0], wo[1], wo[2], a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z,
+        ]);
+    }
+    Twin {
+        name: "polygon roots and windings",
+        modules: &[&shaders::BAND],
+        snippet: "let wo = vec3f(x[0], x[1], x[2]);
+            var corners = array<vec3f, 3>(normalize(vec3f(x[3], x[4], x[5])), normalize(vec3f(x[6], x[7], x[8])), normalize(vec3f(x[9], x[10], x[11])));
+            let line = band_line_at(wo, 0.0);
+            var winding = 0.0;
+            var low = 9.0;
+            var high = -9.0;
+            for (var i = 0; i < 3; i += 1) {
+                let a = corners[i];
+                let b = corners[(i + 1) % 3];
+                let roots = edge_roots(line, a, b);
+                y[0] += select(0.0, roots.rising, roots.rises) - select(0.0, roots.falling, roots.falls);
+                winding += edge_winding(line, a, b);
+                let extent = edge_band_extent(a, b);
+                low = min(low, extent.x);
+                high = max(high, extent.y);
+            }
+            let away = vec3f(x[3], x[4], x[5]) + vec3f(x[6], x[7], x[8]) + vec3f(x[9], x[10], x[11]);
+            if abs(winding) > 3.14159265 && dot(line_down(line), away) > 0.0 {
+                // Counter-clockwise about the outward direction is clockwise for the eye at the origin.
+                y[0] -= band_q_start(line) - band_q_end(line);
+            }
+            y[1] = low; y[2] = high;",
+        tables: &[],
+        expected: &|x: [f64; 12]| {
+            let wo = v(x[0], x[1], x[2]);
+            let vertices = [v(x[3], x[4], x[5]), v(x[6], x[7], x[8]), v(x[9], x[10], x[11])];
+            let directions = vertices.map(|p| p.normalize());
+            let frame = BandFrame { tangent: DVec2::X };
+            let (away, facing) = polygon_facing(vertices.iter().copied(), true);
+            let view = PolygonView { directions: &directions, away, facing };
+            let (low, high) = view.band_extent(frame, wo);
+            // The shader's sum is for a polygon seen counter-clockwise.
+            let sum = view.integral(frame, BandLine::new(wo, 0.0), |q| [q])[0];
+            [sum * facing, low - wo.x, high - wo.x]
+        },
+        tolerance: Tolerance { absolute: 1e-3, relative: 1e-3 },
+    }
+    // A vertex within rounding of the line falls on either side of it; the chord between is short unless the edge runs along
+    // the line.
+    .check(&rows, rows.len() / 2000);
+}
+
+#[test]
+fn environment_cells() {
+    let mut random = Sequence(4);
+    let mut rows = vec![
+        [0.0, 0.0, 1.0, 0.0, 3.0],
+        [1.0, 0.0, 0.0, 2.0, 5.0],
+        [0.0, 1.0, 0.0, 2.0, 9.0],
+    ];
+    for _ in 0..2000 {
+        let wo = random.direction(0.0);
+        rows.push([
+            wo[0],
+            wo[1],
+            wo[2],
+            random.between(0.05, 30.0),
+            (random.next() * ENVIRONMENT_CELLS as f32).floor(),
+        ]);
+    }
+    Twin {
+        name: "environment_cell",
+        modules: &[&shaders::BAND_ENVIRONMENT],
+        snippet: "let cell = environment_cell(u32(x[4]), band_line_at(vec3f(x[0], x[1], x[2]), 0.0), x[3]);
+            y[0] = cell.q_low; y[1] = cell.q_high; y[2] = cell.direction.y; y[3] = cell.direction.z;
+            y[4] = environment_cell_roughness(cell);",
+        tables: &[],
+        expected: &|[ox, oy, oz, width, i]: [f64; 5]| {
+            let cell = environment_cell(i as usize, BandLine::new(v(ox, oy, oz), 0.0), width);
+            [cell.q_low, cell.q_high, cell.direction.y, cell.direction.z, cell.roughness()]
+        },
+        // The height above the horizon is the square root of a rounded difference.
+        tolerance: Tolerance { absolute: 2e-3, relative: 1e-3 },
+    }
+    .check(&rows, 0);
+}

@@ -1,0 +1,5 @@
+//! Every optics function against its shader twin, over tables of inputs that hold the awkward ones.
+
+mod band;
+mod scratch;
+mod twin;
