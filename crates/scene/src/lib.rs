@@ -1,8 +1,22 @@
 //! From a scene file to one validated [`Scene`] in canonical units: the only home of defaults, unit conversion and
 //! errors that speak to a user.
 
+pub mod camera;
+pub mod description;
 pub mod environment;
+mod error;
+mod load;
+pub mod material_optics;
+mod polygon;
 pub mod scene;
+mod scratches;
+mod shape;
+mod surface;
 
+pub use camera::CameraFrame;
+pub use description::Description;
 pub use environment::Environment;
+pub use error::Error;
+pub use load::{Loader, Progress, Stage};
+pub use material_optics::{MaterialOptics, ScratchTables};
 pub use scene::*;

@@ -1,0 +1,363 @@
+//! Ranges: what a number may be, whoever wrote it.
+
+use super::{
+    Amount, Around, Camera, Description, Distribution, Laid, Layer, Light, LightKind, Material,
+    MaterialKind, MetalColor, Object, Pattern, Render, Scratches, Shape, Surface,
+};
+use crate::error::Error;
+use crate::polygon;
+
+/// Beyond this single precision leaves less than a coherence width between neighbouring coordinates.
+const LARGEST_M: f64 = 1e3;
+/// Smaller things than this are lost between the coordinates of single precision, and below the model's scale.
+const SMALLEST_M: f64 = 1e-5;
+const LARGEST_PICTURE_PX: u32 = 16_384;
+
+type Check = Result<(), Error>;
+
+impl Description {
+    /// Refuses values out of range. References between tables are checked where they are resolved.
+    pub(crate) fn check(&self) -> Check {
+        camera(&self.camera, "camera")?;
+        render(&self.render, "render")?;
+        if let Some(environment) = &self.environment {
+            finite("environment.rotation_deg", environment.rotation_deg)?;
+            not_negative("environment.intensity", environment.intensity)?;
+        }
+        each("material", &self.materials, material)?;
+        unique("material", self.materials.iter().map(|m| m.name.as_str()))?;
+        if self.objects.is_empty() {
+            let right = "must have at least one `[[object]]`";
+            return Err(Error::new("object", "found no object", right));
+        }
+        each("object", &self.objects, object)?;
+        unique("object", self.objects.iter().map(|o| o.name.as_str()))?;
+        each("scratches", &self.scratches, scratches)?;
+        each("light", &self.lights, light)
+    }
+}
+
+fn each<T>(key: &str, items: &[T], check: impl Fn(&T, &str) -> Check) -> Check {
+    items
+        .iter()
+        .enumerate()
+        .try_for_each(|(i, item)| check(item, &format!("{key}[{i}]")))
+}
+
+fn unique<'n>(key: &str, names: impl Iterator<Item = &'n str>) -> Check {
+    let mut seen: Vec<&str> = Vec::new();
+    for (i, name) in names.enumerate() {
+        let way = format!("{key}[{i}].name");
+        if name.is_empty() {
+            return Err(Error::new(way, "found an empty name", "must not be empty"));
+        }
+        if seen.contains(&name) {
+            let found = format!("found a second {key} called \"{name}\"");
+            return Err(Error::new(way, found, "names must differ"));
+        }
+        seen.push(name);
+    }
+    Ok(())
+}
+
+fn camera(camera: &Camera, key: &str) -> Check {
+    point(&format!("{key}.position_m"), camera.position_m)?;
+    point(&format!("{key}.target_m"), camera.target_m)?;
+    direction(&format!("{key}.up"), camera.up)?;
+    finite(&format!("{key}.exposure_ev"), camera.exposure_ev)?;
+    within(
+        &format!("{key}.exposure_ev"),
+        camera.exposure_ev,
+        -64.0,
+        64.0,
+    )?;
+    within(&format!("{key}.fov_y_deg"), camera.fov_y_deg, 0.001, 179.0)?;
+    let [position, target, up] =
+        [camera.position_m, camera.target_m, camera.up].map(glam::DVec3::from_array);
+    let view = target - position;
+    if view.length() < SMALLEST_M {
+        return Err(Error::new(
+            format!("{key}.target_m"),
+            "found the camera's own position",
+            "must be another point, for the camera to look at",
+        ));
+    }
+    // The picture's right direction is their cross product; below this angle it is made of rounding.
+    const LEAST_ANGLE_RAD: f64 = 1e-6;
+    if view.normalize().cross(up.normalize()).length() < LEAST_ANGLE_RAD {
+        return Err(Error::new(
+            format!("{key}.up"),
+            "found the direction of view",
+            "must be another direction",
+        ));
+    }
+    Ok(())
+}
+
+fn render(render: &Render, key: &str) -> Check {
+    for (i, &size) in render.size_px.iter().enumerate() {
+        let key = format!("{key}.size_px[{i}]");
+        within(&key, size.into(), 1.0, LARGEST_PICTURE_PX.into())?;
+    }
+    within(
+        &format!("{key}.filter_std_px"),
+        render.filter_std_px,
+        0.1,
+        10.0,
+    )
+}
+
+fn material(material: &Material, key: &str) -> Check {
+    within(&format!("{key}.roughness"), material.roughness, 0.0, 1.0)?;
+    let coherence = format!("{key}.coherence_um");
+    within(&coherence, material.coherence_um, 1.0, 1000.0)?;
+    let color = |rgb: [f64; 3]| components(&format!("{key}.base_color"), rgb, 0.0, 1.0);
+    match material.kind {
+        MaterialKind::Metal(MetalColor::Measured(_)) | MaterialKind::Mirror => Ok(()),
+        MaterialKind::Metal(MetalColor::Color(base_color)) => color(base_color),
+        MaterialKind::Dielectric { ior, base_color } => {
+            within(&format!("{key}.ior"), ior, 1.0, 4.0)?;
+            color(base_color)
+        }
+        MaterialKind::MetallicRoughness {
+            base_color,
+            metallic,
+        } => {
+            within(&format!("{key}.metallic"), metallic, 0.0, 1.0)?;
+            color(base_color)
+        }
+    }
+}
+
+fn object(object: &Object, key: &str) -> Check {
+    point(&format!("{key}.translation_m"), object.translation_m)?;
+    for (i, angle) in object.rotation_deg.into_iter().enumerate() {
+        finite(&format!("{key}.rotation_deg[{i}]"), angle)?;
+    }
+    let scale = object.scale;
+    let scale_key = |i: usize| match scale[0] == scale[1] && scale[1] == scale[2] {
+        true => format!("{key}.scale"),
+        false => format!("{key}.scale[{i}]"),
+    };
+    for (i, factor) in scale.into_iter().enumerate() {
+        finite(&scale_key(i), factor)?;
+        if !(1e-6..=1e6).contains(&factor.abs()) {
+            return Err(Error::new(
+                scale_key(i),
+                format!("found {factor}"),
+                "its size must be between 1e-6 and 1e6",
+            ));
+        }
+    }
+    match (&object.surface, &object.material) {
+        (Surface::Shape(shape), Some(_)) => self::shape(shape, &format!("{key}.shape")),
+        (Surface::Shape(_), None) => Err(Error::new(
+            key,
+            "`material` is missing",
+            "a shape needs one; only a mesh brings its own",
+        )),
+        (Surface::Mesh(_), _) => Ok(()),
+    }
+}
+
+fn shape(shape: &Shape, key: &str) -> Check {
+    match shape {
+        Shape::Plane { size_m } => size_m
+            .iter()
+            .enumerate()
+            .try_for_each(|(i, &edge)| size(&format!("{key}.plane.size_m[{i}]"), edge)),
+        Shape::Disk { radius_m } => size(&format!("{key}.disk.radius_m"), *radius_m),
+        Shape::Sphere { radius_m } => size(&format!("{key}.sphere.radius_m"), *radius_m),
+        Shape::Lathe {
+            profile_m,
+            segments,
+            ..
+        } => {
+            let facets = format!("{key}.lathe.segments");
+            within(&facets, (*segments).into(), 3.0, 4096.0)?;
+            let profile = format!("{key}.lathe.profile_m");
+            if profile_m.len() < 2 {
+                let found = format!("found {} points", profile_m.len());
+                return Err(Error::new(profile, found, "must be at least two"));
+            }
+            for (i, [r, z]) in profile_m.iter().enumerate() {
+                within(&format!("{profile}[{i}][0]"), *r, 0.0, LARGEST_M)?;
+                within(&format!("{profile}[{i}][1]"), *z, -LARGEST_M, LARGEST_M)?;
+            }
+            Ok(())
+        }
+    }
+}
+
+fn scratches(scratches: &Scratches, key: &str) -> Check {
+    match &scratches.layer {
+        Layer::Laid(laid) => self::laid(laid, key),
+        Layer::Listed(_) => Ok(()),
+    }
+}
+
+fn laid(laid: &Laid, key: &str) -> Check {
+    if let Amount::DensityPerM2(density) = laid.amount {
+        not_negative(&format!("{key}.density_per_m2"), density)?;
+    }
+    for (name, drawn, largest) in [
+        ("length_m", laid.length_m, LARGEST_M),
+        ("width_um", laid.width_um, 100.0),
+        ("depth_nm", laid.depth_nm, 2000.0),
+    ] {
+        let way = format!("{key}.{name}");
+        spread(&way, drawn, 3.0)?;
+        let mean = match drawn.spread == 0.0 {
+            true => way,
+            false => format!("{way}.mean"),
+        };
+        positive(&mean, drawn.mean)?;
+        within(&mean, drawn.mean, 0.0, largest)?;
+    }
+    let jitter = |jitter_deg| within(&format!("{key}.jitter_deg"), jitter_deg, 0.0, 90.0);
+    let around = |around: &Around| {
+        direction(&format!("{key}.axis"), around.axis)?;
+        point(&format!("{key}.center_m"), around.center_m)?;
+        jitter(around.jitter_deg)
+    };
+    let curvature = |drawn: Distribution| {
+        // A scratch that turns within a coherence width is no straight groove to the model.
+        const SHARPEST_PER_M: f64 = 1e4;
+        let way = format!("{key}.curvature_per_m");
+        spread(&way, drawn, SHARPEST_PER_M)?;
+        within(&way, drawn.mean, -SHARPEST_PER_M, SHARPEST_PER_M)
+    };
+    match &laid.pattern {
+        Pattern::Random { curvature_per_m } => curvature(*curvature_per_m),
+        Pattern::Parallel {
+            direction: along,
+            jitter_deg,
+        } => {
+            direction(&format!("{key}.direction"), *along)?;
+            jitter(*jitter_deg)
+        }
+        Pattern::Circular(axis) | Pattern::Radial(axis) => around(axis),
+        Pattern::Spun {
+            around: axis,
+            curvature_per_m,
+        } => {
+            around(axis)?;
+            curvature(*curvature_per_m)
+        }
+        Pattern::Swirl { curvature_per_m } => {
+            curvature(*curvature_per_m)?;
+            if curvature_per_m.mean == 0.0 {
+                return Err(Error::new(
+                    format!("{key}.curvature_per_m"),
+                    "found a mean of 0",
+                    "swirls need one: one over their radius",
+                ));
+            }
+            Ok(())
+        }
+    }
+}
+
+fn light(light: &Light, key: &str) -> Check {
+    not_negative(&format!("{key}.radiance"), light.radiance)?;
+    components(&format!("{key}.color"), light.color, 0.0, f64::MAX)?;
+    match &light.kind {
+        LightKind::Sphere { center_m, radius_m } => {
+            point(&format!("{key}.center_m"), *center_m)?;
+            size(&format!("{key}.radius_m"), *radius_m)
+        }
+        LightKind::Polygon { vertices_m, .. } => {
+            let key = format!("{key}.vertices_m");
+            for (i, vertex) in vertices_m.iter().enumerate() {
+                point(&format!("{key}[{i}]"), *vertex)?;
+            }
+            let vertices: Vec<_> = vertices_m.iter().map(|v| (*v).into()).collect();
+            polygon::check(&vertices)
+                .map_err(|flaw| Error::new(key, flaw.to_string(), flaw.remedy()))
+        }
+    }
+}
+
+fn finite(key: &str, value: f64) -> Check {
+    match value.is_finite() {
+        true => Ok(()),
+        false => Err(Error::new(key, format!("found {value}"), "must be finite")),
+    }
+}
+
+fn positive(key: &str, value: f64) -> Check {
+    finite(key, value)?;
+    match value > 0.0 {
+        true => Ok(()),
+        false => Err(Error::new(
+            key,
+            format!("found {value}"),
+            "must be greater than 0",
+        )),
+    }
+}
+
+fn not_negative(key: &str, value: f64) -> Check {
+    finite(key, value)?;
+    match value >= 0.0 {
+        true => Ok(()),
+        false => Err(Error::new(
+            key,
+            format!("found {value}"),
+            "must be 0 or greater",
+        )),
+    }
+}
+
+fn within(key: &str, value: f64, least: f64, most: f64) -> Check {
+    finite(key, value)?;
+    match (least..=most).contains(&value) {
+        true => Ok(()),
+        false => Err(Error::new(
+            key,
+            format!("found {value}"),
+            format!("must be from {least} to {most}"),
+        )),
+    }
+}
+
+fn size(key: &str, value: f64) -> Check {
+    positive(key, value)?;
+    within(key, value, SMALLEST_M, LARGEST_M)
+}
+
+fn spread(key: &str, drawn: Distribution, most: f64) -> Check {
+    match drawn.spread == 0.0 {
+        true => finite(key, drawn.mean),
+        false => {
+            finite(&format!("{key}.mean"), drawn.mean)?;
+            within(&format!("{key}.spread"), drawn.spread, 0.0, most)
+        }
+    }
+}
+
+fn components(key: &str, values: [f64; 3], least: f64, most: f64) -> Check {
+    values.iter().enumerate().try_for_each(|(i, &value)| {
+        let key = format!("{key}[{i}]");
+        match most == f64::MAX {
+            true => not_negative(&key, value),
+            false => within(&key, value, least, most),
+        }
+    })
+}
+
+fn point(key: &str, point: [f64; 3]) -> Check {
+    components(key, point, -LARGEST_M, LARGEST_M)
+}
+
+fn direction(key: &str, direction: [f64; 3]) -> Check {
+    components(key, direction, -1e6, 1e6)?;
+    match glam::DVec3::from_array(direction).length() > 1e-6 {
+        true => Ok(()),
+        false => Err(Error::new(
+            key,
+            "found no direction: all three numbers are 0",
+            "must point somewhere",
+        )),
+    }
+}

@@ -1,0 +1,98 @@
+//! What is wrong with a scene, said to the person who wrote it.
+
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+use crate::description::locate;
+
+/// What was found in a scene, where, and what would be right there.
+///
+/// It prints as `file:line: key: what was found; what would be right`, leaving out what it does not know.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub struct Error {
+    place: Option<Place>,
+    key: String,
+    found: String,
+    right: String,
+}
+
+/// A file and, if known, a line in it, counted from 1.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Place {
+    file: PathBuf,
+    line: Option<usize>,
+}
+
+impl Error {
+    /// `key` is the way to the value, such as `light[1].radius_m`; `found` and `right` are halves of a sentence.
+    pub(crate) fn new(
+        key: impl Into<String>,
+        found: impl Into<String>,
+        right: impl Into<String>,
+    ) -> Self {
+        Self {
+            place: None,
+            key: key.into(),
+            found: found.into(),
+            right: right.into(),
+        }
+    }
+
+    /// Says where the mistake is, unless a more exact place is known already.
+    pub(crate) fn at(mut self, file: &Path, line: Option<usize>) -> Self {
+        self.place.get_or_insert_with(|| Place {
+            file: file.to_owned(),
+            line,
+        });
+        self
+    }
+
+    /// Adds the line to an error whose key belongs to the scene file of this text; `name` is what the error calls the file.
+    /// Errors of [`Scene::from_toml`](crate::Scene::from_toml) have it already.
+    #[must_use]
+    pub fn in_scene_file(self, text: &str, name: &Path) -> Self {
+        let line = locate::line_of_key(text, &self.key);
+        self.at(name, line)
+    }
+
+    /// The file that holds the mistake; `None` for a description that came from no file.
+    pub fn file(&self) -> Option<&Path> {
+        self.place.as_ref().map(|place| place.file.as_path())
+    }
+
+    /// The line of the mistake in [`Error::file`], counted from 1.
+    pub fn line(&self) -> Option<usize> {
+        self.place.as_ref().and_then(|place| place.line)
+    }
+
+    /// The way to the value, such as `light[1].radius_m` (tables of one name are counted from 0).
+    pub fn key(&self) -> &str {
+        &self.key
+    }
+
+    /// What was found there.
+    pub fn found(&self) -> &str {
+        &self.found
+    }
+
+    /// What would be right.
+    pub fn right(&self) -> &str {
+        &self.right
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(place) = &self.place {
+            write!(f, "{}:", place.file.display())?;
+            if let Some(line) = place.line {
+                write!(f, "{line}:")?;
+            }
+            write!(f, " ")?;
+        }
+        if !self.key.is_empty() {
+            write!(f, "{}: ", self.key)?;
+        }
+        write!(f, "{}; {}", self.found, self.right)
+    }
+}

@@ -1,0 +1,110 @@
+//! A layer whose scratches are drawn at random along a pattern.
+
+use std::f64::consts::TAU;
+
+use super::facet::Facet;
+use super::ground::Ground;
+use super::guide::{Bearing, Guide};
+use super::random::Stream;
+use super::swirl::Lattice;
+use super::walk::{Spot, Walker};
+use super::{DEPTHS_NM, Groove, Laying, WIDTHS_UM};
+use crate::description::{Around, Laid, Pattern};
+use crate::scene::Segment;
+
+/// Half of the usual coherence width; and more than the largest objects measure.
+const LENGTHS_M: (f64, f64) = (10e-6, 1e4);
+
+/// A layer's description with the ground that it goes on.
+pub(super) struct Drawn<'a> {
+    pub laid: &'a Laid,
+    pub layer: u32,
+    pub ground: &'a Ground<'a>,
+}
+
+impl Laying for Drawn<'_> {
+    fn lay(&self, walker: &Walker, index: u64, segments: &mut Vec<Segment>) -> Groove {
+        let laid = self.laid;
+        let mut stream = Stream::new(laid.seed, self.layer.into(), index);
+        // Everything is drawn for every pattern, in this order: a layer that changes its pattern keeps its places and sizes.
+        let seed = self.ground.random_spot(&mut stream);
+        let seed_angle_rad = TAU * stream.uniform();
+        let [length, width, depth, curvature, jitter] = std::array::from_fn(|_| stream.normal());
+
+        let within = |value: f64, (least, most): (f64, f64)| value.clamp(least, most);
+        let length_m = within(laid.length_m.log_normal_at(length), LENGTHS_M);
+        let guide = self.guide(seed, seed_angle_rad, curvature, jitter);
+        Groove {
+            width_um: within(laid.width_um.log_normal_at(width), WIDTHS_UM) as f32,
+            depth_nm: within(laid.depth_nm.log_normal_at(depth), DEPTHS_NM) as f32,
+            course: walker.lay(seed, &guide, length_m, segments),
+        }
+    }
+}
+
+impl Drawn<'_> {
+    /// `curvature` and `jitter` are standard normal draws.
+    fn guide(&self, seed: Spot, seed_angle_rad: f64, curvature: f64, jitter: f64) -> Guide {
+        let around = |around: &Around, bearing| Guide::Around {
+            axis: self.ground.direction_in_world(around.axis),
+            center_m: self.ground.point_in_world_m(around.center_m),
+            bearing,
+            jitter_rad: around.jitter_deg.to_radians() * jitter,
+        };
+        match &self.laid.pattern {
+            Pattern::Random { curvature_per_m } => Guide::Free {
+                seed_direction: Facet::new(self.ground.mesh, seed.triangle)
+                    .direction(seed_angle_rad),
+                curvature_per_m: curvature_per_m.normal_at(curvature),
+            },
+            Pattern::Parallel {
+                direction,
+                jitter_deg,
+            } => Guide::Parallel {
+                direction: self.ground.direction_in_world(*direction),
+                jitter_rad: jitter_deg.to_radians() * jitter,
+            },
+            Pattern::Circular(axis) => around(axis, Bearing::Circular),
+            Pattern::Radial(axis) => around(axis, Bearing::Radial),
+            Pattern::Spun {
+                around: axis,
+                curvature_per_m,
+            } => {
+                let curvature_per_m = curvature_per_m.normal_at(curvature);
+                around(axis, Bearing::Spun { curvature_per_m })
+            }
+            Pattern::Swirl { curvature_per_m } => {
+                let wanted_per_m = curvature_per_m.normal_at(curvature);
+                self.swirl(
+                    seed,
+                    seed_angle_rad,
+                    1.0 / curvature_per_m.mean.abs(),
+                    wanted_per_m,
+                )
+            }
+        }
+    }
+
+    fn swirl(&self, seed: Spot, seed_angle_rad: f64, cell_m: f64, wanted_per_m: f64) -> Guide {
+        let facet = Facet::new(self.ground.mesh, seed.triangle);
+        let (corner, _) = self.ground.mesh.bounds_m();
+        let lattice = Lattice {
+            seed: self.laid.seed,
+            layer: self.layer.into(),
+            cell_m,
+            origin_m: corner.as_dvec3(),
+        };
+        let center_m = lattice.center(&facet, seed.point_m, 1.0 / wanted_per_m.abs());
+        let arm_m = center_m - seed.point_m;
+        // On top of a centre every direction is as good; the floor keeps the curvature within what a scene may ask for.
+        let radius_m = arm_m.length().max(1e-4);
+        let seed_direction = match arm_m.cross(facet.normal).try_normalize() {
+            Some(tangent) => tangent,
+            None => facet.direction(seed_angle_rad),
+        };
+        Guide::Free {
+            seed_direction,
+            curvature_per_m: 1.0 / radius_m,
+        }
+    }
+}

@@ -1,0 +1,73 @@
+//! The surface that scratches are laid on, made ready for it.
+
+use glam::{DMat4, DVec3};
+
+use super::facet::Facet;
+use super::neighbours::Neighbours;
+use super::random::Stream;
+use super::walk::{Spot, Walker};
+use crate::scene::Mesh;
+
+/// A mesh with all that laying needs to know about it.
+pub(super) struct Ground<'a> {
+    pub mesh: &'a Mesh,
+    /// The object's own frame, in which patterns are described.
+    pub world_from_object: DMat4,
+    neighbours: Neighbours,
+    /// The area of all triangles up to and including each.
+    areas_m2: Vec<f64>,
+}
+
+impl<'a> Ground<'a> {
+    pub(super) fn new(mesh: &'a Mesh, world_from_object: DMat4) -> Self {
+        let mut sum = 0.0;
+        let areas_m2 = (0..mesh.triangles.len())
+            .map(|triangle| {
+                let [a, b, c] = mesh.corners_m(triangle);
+                sum += (b - a).cross(c - a).length() / 2.0;
+                sum
+            })
+            .collect();
+        Self {
+            mesh,
+            world_from_object,
+            neighbours: Neighbours::new(mesh),
+            areas_m2,
+        }
+    }
+
+    pub(super) fn area_m2(&self) -> f64 {
+        self.areas_m2.last().copied().unwrap_or(0.0)
+    }
+
+    pub(super) fn walker(&self) -> Walker<'_> {
+        Walker::new(self.mesh, &self.neighbours)
+    }
+
+    /// A place on the surface, each area alike.
+    pub(super) fn random_spot(&self, stream: &mut Stream) -> Spot {
+        let wanted = stream.uniform() * self.area_m2();
+        let triangle = self.areas_m2.partition_point(|area| *area <= wanted);
+        // Rounding may carry the product up to the whole area.
+        let triangle = triangle.min(self.areas_m2.len() - 1) as u32;
+        let [a, b, c] = Facet::new(self.mesh, triangle).corners_m;
+        // The square root makes the density even over the triangle.
+        let from_a = libm::sqrt(stream.uniform());
+        let to_c = stream.uniform();
+        Spot {
+            triangle,
+            point_m: a.lerp(b.lerp(c, to_c), from_a),
+        }
+    }
+
+    pub(super) fn point_in_world_m(&self, point_m: [f64; 3]) -> DVec3 {
+        self.world_from_object.transform_point3(point_m.into())
+    }
+
+    /// A unit direction in world space.
+    pub(super) fn direction_in_world(&self, direction: [f64; 3]) -> DVec3 {
+        self.world_from_object
+            .transform_vector3(direction.into())
+            .normalize_or_zero()
+    }
+}

@@ -1,0 +1,159 @@
+//! A layer whose scratches are listed in a CSV file, one straight scratch a row.
+
+use std::path::Path;
+
+use super::closest::Closest;
+use super::ground::Ground;
+use super::guide::Guide;
+use super::walk::{Course, Walker};
+use super::{Groove, Laying};
+use crate::error::Error;
+use crate::scene::Segment;
+
+const COLUMNS: [&str; 8] = [
+    "x0_m", "y0_m", "z0_m", "x1_m", "y1_m", "z1_m", "width_um", "depth_nm",
+];
+/// Ends may lie this far off the surface, relative to the diagonal of the object: a list made for the ideal shape fits its facets.
+const OFF_SURFACE: f64 = 0.01;
+/// On a curved surface the way between two points is longer than the straight line through it.
+const LONGEST_WAY: f64 = 4.0;
+
+/// A row of the file.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Row {
+    /// Counted from 1.
+    line: usize,
+    ends_m: [[f64; 3]; 2],
+    width_um: f64,
+    depth_nm: f64,
+}
+
+/// Reads all rows. `key` is the way to the layer's table in the scene file.
+pub(super) fn read(path: &Path, key: &str) -> Result<Vec<Row>, Error> {
+    let text = std::fs::read(path).map_err(|error| {
+        Error::new(
+            format!("{key}.file"),
+            format!("\"{}\" cannot be read ({error})", path.display()),
+            "must be a CSV file, relative to the scene file",
+        )
+    })?;
+    let text = String::from_utf8(text).map_err(|_| {
+        let right = format!("must be a text with the header `{}`", COLUMNS.join(","));
+        Error::new("", "found bytes that are no UTF-8", right).at(path, None)
+    })?;
+    parse(&text).map_err(|(line, error)| error.at(path, Some(line)))
+}
+
+/// An error goes with its line.
+fn parse(text: &str) -> Result<Vec<Row>, (usize, Error)> {
+    // A byte order mark is no part of the first name.
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let mut lines = text
+        .lines()
+        .enumerate()
+        .map(|(i, line)| (i + 1, line.trim()))
+        .filter(|(_, line)| !line.is_empty());
+    let header_is = || format!("must be the header `{}`", COLUMNS.join(","));
+    let Some((first, header)) = lines.next() else {
+        return Err((1, Error::new("", "found an empty file", header_is())));
+    };
+    let header: Vec<_> = header.split(',').map(str::trim).collect();
+    if header != COLUMNS {
+        let found = format!("found `{}`", header.join(","));
+        return Err((first, Error::new("", found, header_is())));
+    }
+    lines
+        .map(|(line, row)| parse_row(line, row).map_err(|error| (line, error)))
+        .collect()
+}
+
+fn parse_row(line: usize, row: &str) -> Result<Row, Error> {
+    let cells: Vec<_> = row.split(',').map(str::trim).collect();
+    if cells.len() != COLUMNS.len() {
+        let found = format!("found {} cells", cells.len());
+        let right = format!("must be {}, as in the header", COLUMNS.len());
+        return Err(Error::new("", found, right));
+    }
+    let mut values = [0.0; COLUMNS.len()];
+    for (i, cell) in cells.iter().enumerate() {
+        values[i] = cell
+            .parse()
+            .ok()
+            .filter(|value: &f64| value.is_finite())
+            .ok_or_else(|| {
+                Error::new(COLUMNS[i], format!("found \"{cell}\""), "must be a number")
+            })?;
+    }
+    let [x0, y0, z0, x1, y1, z1, width_um, depth_nm] = values;
+    for (name, value, (least, most)) in [
+        ("width_um", width_um, super::WIDTHS_UM),
+        ("depth_nm", depth_nm, super::DEPTHS_NM),
+    ] {
+        if !(least..=most).contains(&value) {
+            let right = format!("must be from {least} to {most}");
+            return Err(Error::new(name, format!("found {value}"), right));
+        }
+    }
+    Ok(Row {
+        line,
+        ends_m: [[x0, y0, z0], [x1, y1, z1]],
+        width_um,
+        depth_nm,
+    })
+}
+
+/// Rows with the ground that they go on.
+pub(super) struct Listed<'a> {
+    rows: Vec<Row>,
+    ground: &'a Ground<'a>,
+    closest: Closest<'a>,
+}
+
+impl<'a> Listed<'a> {
+    /// Refuses rows that do not lie on the surface.
+    pub(super) fn new(rows: Vec<Row>, path: &Path, ground: &'a Ground<'a>) -> Result<Self, Error> {
+        let closest = Closest::new(ground.mesh);
+        let (least, most) = ground.mesh.bounds_m();
+        let tolerance_m = OFF_SURFACE * f64::from((most - least).length());
+        for row in &rows {
+            for (end, prefix) in row.ends_m.iter().zip(["x0_m", "x1_m"]) {
+                let (_, distance_m) = closest.find(ground.point_in_world_m(*end));
+                // Written so that an overflow to NaN is refused too.
+                if !(distance_m <= tolerance_m) {
+                    let found =
+                        format!("found a point {distance_m:.3e} m off the object's surface");
+                    let right = format!(
+                        "must be at most {tolerance_m:.3e} m off, in metres of the object's own frame"
+                    );
+                    return Err(Error::new(prefix, found, right).at(path, Some(row.line)));
+                }
+            }
+        }
+        Ok(Self {
+            rows,
+            ground,
+            closest,
+        })
+    }
+
+    pub(super) fn count(&self) -> u64 {
+        self.rows.len() as u64
+    }
+}
+
+impl Laying for Listed<'_> {
+    fn lay(&self, walker: &Walker, index: u64, segments: &mut Vec<Segment>) -> Groove {
+        let row = &self.rows[index as usize];
+        let [(start, _), (end, _)] = row
+            .ends_m
+            .map(|point| self.closest.find(self.ground.point_in_world_m(point)));
+        let guide = Guide::Towards { end_m: end.point_m };
+        let length_m = LONGEST_WAY * start.point_m.distance(end.point_m);
+        walker.lay_from(start, &guide, length_m, segments);
+        Groove {
+            width_um: row.width_um as f32,
+            depth_nm: row.depth_nm as f32,
+            course: Course::Open,
+        }
+    }
+}

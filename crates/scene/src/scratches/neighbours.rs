@@ -1,0 +1,167 @@
+//! Which triangle lies beyond an edge.
+
+use std::collections::HashMap;
+
+use glam::{DVec3, Vec3};
+use rayon::prelude::*;
+
+use super::facet::Facet;
+use crate::scene::Mesh;
+
+/// Vertices this near to each other are one, relative to the mesh's diagonal: seams of texture coordinates and normals, and
+/// borders between primitives, hold the same point twice, give or take a rounding.
+const WELD: f32 = 1e-6;
+/// A scratching edge does not follow the surface around a sharper bend than this: 60 degrees between the normals.
+const CREASE_COS: f64 = 0.5;
+const NONE: u32 = u32::MAX;
+
+/// For each edge of each triangle the triangle beyond it, and which of that one's edges it is.
+#[derive(Debug)]
+pub(super) struct Neighbours(Vec<[u32; 3]>);
+
+impl Neighbours {
+    pub(super) fn new(mesh: &Mesh) -> Self {
+        let welded = welded(mesh);
+        let normals: Vec<DVec3> = (0..mesh.triangles.len() as u32)
+            .into_par_iter()
+            .map(|t| Facet::new(mesh, t).normal)
+            .collect();
+
+        // Half edges side by side with those of the same two ends.
+        let mut half_edges: Vec<_> = mesh
+            .triangles
+            .par_iter()
+            .enumerate()
+            .flat_map_iter(|(t, triangle)| {
+                let corners = triangle.map(|v| welded[v as usize]);
+                (0..3u32).map(move |edge| {
+                    let from = corners[edge as usize];
+                    let to = corners[(edge as usize + 1) % 3];
+                    let ends = (from.min(to), from.max(to));
+                    (ends, from > to, t as u32 * 4 + edge)
+                })
+            })
+            .collect();
+        half_edges.par_sort_unstable();
+
+        let mut beyond = vec![[NONE; 3]; mesh.triangles.len()];
+        for group in half_edges.chunk_by(|a, b| a.0 == b.0) {
+            for &(_, backwards, half_edge) in group {
+                let normal = normals[half_edge as usize / 4];
+                // Sheets that are closed by a back side have four triangles at an edge: go on with the one that bends least.
+                let best = group
+                    .iter()
+                    .filter(|other| other.1 != backwards)
+                    .map(|other| (normals[other.2 as usize / 4].dot(normal), other.2))
+                    .max_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1)));
+                if let Some((_, other)) = best.filter(|(bend, _)| *bend >= CREASE_COS) {
+                    beyond[half_edge as usize / 4][half_edge as usize % 4] = other;
+                }
+            }
+        }
+        Self(beyond)
+    }
+
+    /// The triangle beyond an edge and its own number for the edge; `None` at a boundary and at a crease.
+    pub(super) fn beyond(&self, triangle: u32, edge: usize) -> Option<(u32, usize)> {
+        match self.0[triangle as usize][edge] {
+            NONE => None,
+            other => Some((other / 4, other as usize % 4)),
+        }
+    }
+}
+
+/// For each vertex the first one at its place.
+fn welded(mesh: &Mesh) -> Vec<u32> {
+    let (least, most) = mesh.bounds_m();
+    let tolerance = (most - least).length() * WELD;
+    // Cells much wider than the tolerance: most vertices have to look into one only.
+    let cell = (tolerance * 64.0).max(f32::MIN_POSITIVE);
+    let cell_of = |p: Vec3| ((p - least) / cell).floor().as_i64vec3().to_array();
+    let mut in_cell: HashMap<[i64; 3], Vec<u32>> = HashMap::new();
+    let mut first = Vec::with_capacity(mesh.positions_m.len());
+    for (i, &position) in mesh.positions_m.iter().enumerate() {
+        let low = cell_of(position - Vec3::splat(tolerance));
+        let high = cell_of(position + Vec3::splat(tolerance));
+        let mut found = None;
+        for x in low[0]..=high[0] {
+            for y in low[1]..=high[1] {
+                for z in low[2]..=high[2] {
+                    let here = in_cell.get(&[x, y, z]).into_iter().flatten();
+                    let near = here.copied().filter(|&v| {
+                        mesh.positions_m[v as usize].distance_squared(position)
+                            <= tolerance * tolerance
+                    });
+                    found = found.into_iter().chain(near).min();
+                }
+            }
+        }
+        first.push(found.unwrap_or_else(|| {
+            in_cell.entry(cell_of(position)).or_default().push(i as u32);
+            i as u32
+        }));
+    }
+    first
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::description::Shape;
+    use crate::shape;
+    use glam::DMat4;
+
+    fn mesh(shape: &Shape) -> Mesh {
+        let mut mesh = Mesh::default();
+        shape::surface(shape).bake(&DMat4::IDENTITY, 0, &mut mesh);
+        mesh
+    }
+
+    fn open_edges(mesh: &Mesh) -> usize {
+        Neighbours::new(mesh)
+            .0
+            .iter()
+            .flatten()
+            .filter(|&&n| n == NONE)
+            .count()
+    }
+
+    #[test]
+    fn seams_are_closed_and_boundaries_open() {
+        assert_eq!(open_edges(&mesh(&Shape::Sphere { radius_m: 0.3 })), 0);
+        assert_eq!(open_edges(&mesh(&Shape::Disk { radius_m: 0.3 })), 256);
+        assert_eq!(open_edges(&mesh(&Shape::Plane { size_m: [1.0; 2] })), 4);
+    }
+
+    #[test]
+    fn creases_are_open() {
+        let bend = |rise: f64| {
+            open_edges(&mesh(&Shape::Lathe {
+                profile_m: vec![[0.01, 0.0], [0.02, 0.0], [0.03, rise]],
+                segments: 64,
+                smooth: false,
+            }))
+        };
+        // Two rims of 64 edges; the 63.4 degree bend adds both sides of another ring.
+        assert_eq!(bend(0.01), 128);
+        assert_eq!(bend(0.02), 256);
+    }
+
+    #[test]
+    fn the_two_sides_of_a_closed_sheet_keep_apart() {
+        let mut sheet = mesh(&Shape::Plane { size_m: [1.0; 2] });
+        for i in 0..2 {
+            let [a, b, c] = sheet.triangles[i];
+            sheet.triangles.push([a, c, b]);
+        }
+        let neighbours = Neighbours::new(&sheet);
+        for triangle in 0..4u32 {
+            for edge in 0..3 {
+                if let Some((other, _)) = neighbours.beyond(triangle, edge) {
+                    assert_eq!(triangle / 2, other / 2);
+                }
+            }
+        }
+        assert_eq!(open_edges(&sheet), 8);
+    }
+}
