@@ -1,0 +1,426 @@
+//! Set-up: which adapters there are, which one renders, and the device on it.
+//!
+//! Everything here is possible under WebGPU: no optional feature is asked for, and no limit above WebGPU's defaults is
+//! needed, except by scenes that outgrow one buffer.
+
+use std::sync::{Arc, Mutex};
+
+use crate::error::Error;
+
+/// What kind of machine an adapter stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum AdapterKind {
+    /// A GPU with its own memory.
+    Discrete,
+    /// A GPU that shares memory with the CPU.
+    Integrated,
+    /// A GPU lent to a virtual machine.
+    Virtual,
+    /// The driver does not say.
+    Unknown,
+    /// A driver that computes on the CPU, such as lavapipe.
+    Software,
+}
+
+/// An adapter and what it can do.
+#[derive(Clone, Debug)]
+pub struct Adapter {
+    /// The driver's name for it.
+    pub name: String,
+    /// What it is.
+    pub kind: AdapterKind,
+    /// The interface it is reached by: "vulkan", "metal", "dx12", "gl".
+    pub backend: String,
+    /// Driver and version, as far as known.
+    pub driver: String,
+    /// The largest array that a shader can see in one piece, bytes.
+    pub max_storage_binding_bytes: u64,
+    /// The largest picture side, pixels.
+    pub max_texture_px: u32,
+    /// Why it cannot render, if it cannot.
+    pub shortcoming: Option<String>,
+    handle: wgpu::Adapter,
+}
+
+/// Which adapters to consider.
+#[derive(Clone, Debug, Default)]
+pub struct AdapterRequest {
+    /// Hardware or software.
+    pub kind: KindRequest,
+    /// Part of the adapter's name, any case.
+    pub name: Option<String>,
+    /// Stay within WebGPU's default limits even if the adapter allows more, as a browser would.
+    pub default_limits: bool,
+}
+
+/// Which kinds of adapters to consider.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum KindRequest {
+    /// A GPU if there is one, else a software driver.
+    #[default]
+    Any,
+    /// GPUs only.
+    Hardware,
+    /// Software drivers only.
+    Software,
+}
+
+/// An open device. Renderers, window and tests share one.
+pub struct Gpu {
+    /// The device.
+    pub device: wgpu::Device,
+    /// Its queue.
+    pub queue: wgpu::Queue,
+    /// The adapter that it was opened on.
+    pub adapter: Adapter,
+    faults: Faults,
+}
+
+impl AdapterKind {
+    /// One word for people.
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::Discrete => "discrete GPU",
+            Self::Integrated => "integrated GPU",
+            Self::Virtual => "virtual GPU",
+            Self::Unknown => "adapter of unknown kind",
+            Self::Software => "software",
+        }
+    }
+}
+
+impl std::fmt::Display for Adapter {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(
+            out,
+            "{} ({}, {}",
+            self.name,
+            self.kind.label(),
+            self.backend
+        )?;
+        if !self.driver.is_empty() {
+            write!(out, ", {}", self.driver)?;
+        }
+        write!(out, ")")
+    }
+}
+
+/// All adapters of this machine, the ones to prefer first. In a browser: the one that it lends.
+///
+/// The environment variable `WGPU_BACKEND` narrows the choice ("vulkan", "gl", ...).
+pub async fn adapters() -> Vec<Adapter> {
+    let instance =
+        wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
+    #[cfg(not(target_arch = "wasm32"))]
+    let found = instance.enumerate_adapters(wgpu::Backends::all()).await;
+    #[cfg(target_arch = "wasm32")]
+    let found = instance
+        .request_adapter(&Default::default())
+        .await
+        .into_iter()
+        .collect::<Vec<_>>();
+
+    let mut adapters: Vec<_> = found.into_iter().map(Adapter::new).collect();
+    // GL comes last: the same card is nearly always there by a newer interface too, with less overhead.
+    adapters.sort_by_key(|adapter| (adapter.kind, adapter.backend == "gl"));
+    adapters
+}
+
+impl Adapter {
+    /// Describes an adapter, for a window that had to choose by its surface.
+    pub fn new(handle: wgpu::Adapter) -> Self {
+        let info = handle.get_info();
+        let limits = handle.limits();
+        let kind = match info.device_type {
+            wgpu::DeviceType::DiscreteGpu => AdapterKind::Discrete,
+            wgpu::DeviceType::IntegratedGpu => AdapterKind::Integrated,
+            wgpu::DeviceType::VirtualGpu => AdapterKind::Virtual,
+            wgpu::DeviceType::Other => AdapterKind::Unknown,
+            wgpu::DeviceType::Cpu => AdapterKind::Software,
+        };
+        let driver = [info.driver.as_str(), info.driver_info.as_str()]
+            .into_iter()
+            .filter(|s| !s.is_empty());
+        Self {
+            name: info.name,
+            kind,
+            backend: info.backend.to_string(),
+            driver: driver.collect::<Vec<_>>().join(" "),
+            max_storage_binding_bytes: limits.max_storage_buffer_binding_size,
+            max_texture_px: limits.max_texture_dimension_2d,
+            shortcoming: shortcoming(&limits, &handle.get_downlevel_capabilities()),
+            handle,
+        }
+    }
+
+    /// Opens a device.
+    pub async fn open(self, default_limits: bool) -> Result<Gpu, Error> {
+        if let Some(shortcoming) = &self.shortcoming {
+            return Err(Error::Refused {
+                adapter: self.name,
+                reason: shortcoming.clone(),
+            });
+        }
+        let descriptor = wgpu::DeviceDescriptor {
+            label: Some("hairline"),
+            required_features: wgpu::Features::empty(),
+            required_limits: if default_limits {
+                wgpu::Limits::defaults()
+            } else {
+                raised_limits(&self.handle.limits())
+            },
+            ..Default::default()
+        };
+        let (device, queue) = self
+            .handle
+            .request_device(&descriptor)
+            .await
+            .map_err(|error| Error::Refused {
+                adapter: self.name.clone(),
+                reason: error.to_string(),
+            })?;
+        Ok(Gpu::from_parts(self, device, queue))
+    }
+}
+
+/// What keeps an adapter from rendering: a limit below WebGPU's defaults, or no compute shaders.
+fn shortcoming(limits: &wgpu::Limits, downlevel: &wgpu::DownlevelCapabilities) -> Option<String> {
+    let mut missing = Vec::new();
+    wgpu::Limits::defaults().check_limits_with_fail_fn(limits, false, |name, needed, allowed| {
+        missing.push(format!("{name} is {allowed}, not {needed}"));
+    });
+    for (flag, name) in [
+        (wgpu::DownlevelFlags::COMPUTE_SHADERS, "compute shaders"),
+        (
+            wgpu::DownlevelFlags::VERTEX_STORAGE,
+            "storage buffers in vertex shaders",
+        ),
+    ] {
+        if !downlevel.flags.contains(flag) {
+            missing.push(format!("it has no {name}"));
+        }
+    }
+    (!missing.is_empty()).then(|| missing.join("; "))
+}
+
+/// WebGPU's default limits, save those that a large scene outgrows: the sizes of one buffer.
+fn raised_limits(allowed: &wgpu::Limits) -> wgpu::Limits {
+    wgpu::Limits {
+        max_buffer_size: allowed.max_buffer_size,
+        max_storage_buffer_binding_size: allowed.max_storage_buffer_binding_size,
+        ..wgpu::Limits::defaults()
+    }
+}
+
+impl Gpu {
+    /// Opens the best adapter that `request` admits.
+    pub async fn open(request: &AdapterRequest) -> Result<Self, Error> {
+        let adapters = adapters().await;
+        let admitted = |adapter: &Adapter| {
+            let kind = match request.kind {
+                KindRequest::Any => true,
+                KindRequest::Hardware => adapter.kind != AdapterKind::Software,
+                KindRequest::Software => adapter.kind == AdapterKind::Software,
+            };
+            let name = request.name.as_deref().unwrap_or("").to_lowercase();
+            kind && adapter.name.to_lowercase().contains(&name)
+        };
+        let found = describe(&adapters);
+        let mut refusal = Error::NoAdapter { found };
+        for adapter in adapters
+            .into_iter()
+            .filter(|a| a.shortcoming.is_none() && admitted(a))
+        {
+            match adapter.open(request.default_limits).await {
+                Ok(gpu) => return Ok(gpu),
+                Err(error) => refusal = error,
+            }
+        }
+        Err(refusal)
+    }
+
+    /// Takes over a device that somebody else opened, such as a window.
+    pub fn from_parts(adapter: Adapter, device: wgpu::Device, queue: wgpu::Queue) -> Self {
+        let faults = Faults::default();
+        faults.watch(&device, &adapter.name);
+        Self {
+            device,
+            queue,
+            adapter,
+            faults,
+        }
+    }
+
+    /// The limits that the device was opened with.
+    pub fn limits(&self) -> wgpu::Limits {
+        self.device.limits()
+    }
+
+    /// The first thing that went wrong since the last call. A lost device stays lost.
+    pub fn check(&self) -> Result<(), Error> {
+        // Calls on a lost device fail one by one before the loss itself is reported, which polling brings about.
+        let _ = self.device.poll(wgpu::PollType::Poll);
+        self.faults.take()
+    }
+
+    /// A buffer of `size` bytes, or why there can be none. `what` names it in messages, and is its label.
+    pub async fn buffer(
+        &self,
+        what: &str,
+        size: u64,
+        usage: wgpu::BufferUsages,
+    ) -> Result<wgpu::Buffer, Error> {
+        let limits = self.limits();
+        let allowed = if usage.contains(wgpu::BufferUsages::STORAGE) {
+            limits
+                .max_buffer_size
+                .min(limits.max_storage_buffer_binding_size)
+        } else {
+            limits.max_buffer_size
+        };
+        if size > allowed {
+            return Err(self.too_large(what, size, allowed, "bytes"));
+        }
+        let scope = self.device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
+        let descriptor = wgpu::BufferDescriptor {
+            label: Some(what),
+            size,
+            usage,
+            mapped_at_creation: false,
+        };
+        let buffer = self.device.create_buffer(&descriptor);
+        match scope.pop().await {
+            Some(_) => Err(self.out_of_memory(what, size)),
+            None => Ok(buffer),
+        }
+    }
+
+    /// A texture, or why there can be none. `what` names it in messages.
+    pub async fn texture(
+        &self,
+        what: &str,
+        descriptor: &wgpu::TextureDescriptor<'_>,
+    ) -> Result<wgpu::Texture, Error> {
+        let limits = self.limits();
+        let side = descriptor.size.width.max(descriptor.size.height);
+        if side > limits.max_texture_dimension_2d {
+            return Err(self.too_large(
+                what,
+                side.into(),
+                limits.max_texture_dimension_2d.into(),
+                "pixels a side",
+            ));
+        }
+        let layers = descriptor.size.depth_or_array_layers;
+        if layers > limits.max_texture_array_layers {
+            return Err(self.too_large(
+                what,
+                layers.into(),
+                limits.max_texture_array_layers.into(),
+                "layers",
+            ));
+        }
+        let scope = self.device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
+        let texture = self.device.create_texture(descriptor);
+        let texel_bytes: u32 = descriptor.format.block_copy_size(None).unwrap_or(4);
+        let bytes = u64::from(descriptor.size.width)
+            * u64::from(descriptor.size.height)
+            * u64::from(layers * texel_bytes);
+        match scope.pop().await {
+            Some(_) => Err(self.out_of_memory(what, bytes)),
+            None => Ok(texture),
+        }
+    }
+
+    pub(crate) fn too_large(
+        &self,
+        what: &str,
+        needed: u64,
+        allowed: u64,
+        unit: &'static str,
+    ) -> Error {
+        Error::TooLarge {
+            what: what.to_owned(),
+            needed,
+            allowed,
+            unit,
+            adapter: self.adapter.name.clone(),
+        }
+    }
+
+    fn out_of_memory(&self, what: &str, needed_bytes: u64) -> Error {
+        Error::OutOfMemory {
+            adapter: self.adapter.name.clone(),
+            what: what.to_owned(),
+            needed_bytes,
+        }
+    }
+
+    pub(crate) fn record_lost(&self, reason: String) {
+        self.faults.record(Error::Lost { reason });
+    }
+}
+
+fn describe(adapters: &[Adapter]) -> String {
+    if adapters.is_empty() {
+        return "none is installed (on Linux: libvulkan1 and mesa-vulkan-drivers)".to_owned();
+    }
+    let lines = adapters.iter().map(|adapter| match &adapter.shortcoming {
+        Some(shortcoming) => format!("{adapter} cannot: {shortcoming}"),
+        None => format!("{adapter} was not asked for"),
+    });
+    lines.collect::<Vec<_>>().join(", ")
+}
+
+/// Where errors that no scope caught wait until somebody asks. Unheard, the graphics library would panic.
+#[derive(Clone, Default)]
+struct Faults(Arc<Mutex<Option<Error>>>);
+
+impl Faults {
+    fn watch(&self, device: &wgpu::Device, adapter: &str) {
+        let (faults, adapter) = (self.clone(), adapter.to_owned());
+        device.on_uncaptured_error(Arc::new(move |error| {
+            faults.record(match error {
+                wgpu::Error::OutOfMemory { .. } => Error::OutOfMemory {
+                    adapter: adapter.clone(),
+                    what: "a command".to_owned(),
+                    needed_bytes: 0,
+                },
+                wgpu::Error::Validation { description, .. }
+                | wgpu::Error::Internal { description, .. } => Error::Validation { description },
+            });
+        }));
+        let faults = self.clone();
+        device.set_device_lost_callback(move |reason, message| {
+            let reason = if message.is_empty() {
+                format!("{reason:?}").to_lowercase()
+            } else {
+                message
+            };
+            faults.record(Error::Lost { reason });
+        });
+    }
+
+    /// The first error is the cause, later ones follow from it; but a lost device explains everything.
+    fn record(&self, error: Error) {
+        let mut slot = self
+            .0
+            .lock()
+            .unwrap_or_else(|poisoned| poisoned.into_inner());
+        if slot.is_none() || matches!(error, Error::Lost { .. }) {
+            *slot = Some(error);
+        }
+    }
+
+    fn take(&self) -> Result<(), Error> {
+        let mut slot = self
+            .0
+            .lock()
+            .unwrap_or_else(|poisoned| poisoned.into_inner());
+        match &*slot {
+            Some(Error::Lost { .. }) => Err(slot.clone().expect("matched above")),
+            Some(_) => Err(slot.take().expect("matched above")),
+            None => Ok(()),
+        }
+    }
+}

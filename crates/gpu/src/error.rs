@@ -1,0 +1,67 @@
+//! What can go wrong on the way to a picture from the GPU, in words for the person who waits for it.
+
+/// A failure of the GPU renderer.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Error {
+    /// No adapter of this machine can render.
+    #[error("no graphics driver can render here: {found}")]
+    NoAdapter {
+        /// What was found instead.
+        found: String,
+    },
+    /// The adapter refused to open a device.
+    #[error("{adapter} did not open: {reason}")]
+    Refused {
+        /// Name of the adapter.
+        adapter: String,
+        /// The driver's words.
+        reason: String,
+    },
+    /// The device went away: unplugged, reset by the system after a command that ran too long, or destroyed.
+    #[error("the graphics device was lost: {reason}")]
+    Lost {
+        /// The driver's words.
+        reason: String,
+    },
+    /// The device has no room left.
+    #[error("{adapter} is out of memory at {what} ({needed_bytes} bytes)")]
+    OutOfMemory {
+        /// Name of the adapter.
+        adapter: String,
+        /// What was to be stored.
+        what: String,
+        /// Its size, bytes; 0 where the driver did not say which allocation failed.
+        needed_bytes: u64,
+    },
+    /// Something is larger than the adapter can ever hold in one piece.
+    #[error("{what}: {needed} {unit}, but {adapter} allows {allowed}")]
+    TooLarge {
+        /// What is too large.
+        what: String,
+        /// How large it is.
+        needed: u64,
+        /// How large it may be.
+        allowed: u64,
+        /// What both are counted in.
+        unit: &'static str,
+        /// Name of the adapter.
+        adapter: String,
+    },
+    /// A shader gave up a loop before its end, so that the picture would be wrong.
+    #[error(
+        "{pixels} pixels meet more scratches than one shader invocation may visit on {adapter}; render a smaller field \
+         of view, or on the CPU"
+    )]
+    IterationBudget {
+        /// Name of the adapter.
+        adapter: String,
+        /// Shader invocations that gave up.
+        pixels: u32,
+    },
+    /// The graphics library refused a call: a mistake in this crate.
+    #[error("the graphics library refused a call (a mistake in Hairline): {description}")]
+    Validation {
+        /// The library's words.
+        description: String,
+    },
+}

@@ -1,0 +1,67 @@
+//! For programs with a thread to spare: drive a future to its end and let the device work meanwhile. A window or a
+//! browser has an event loop for this, and never calls it.
+
+use std::future::Future;
+use std::pin::pin;
+use std::sync::OnceLock;
+use std::task::{Context, Poll, Waker};
+
+use crate::device::{AdapterRequest, Gpu};
+use crate::error::Error;
+
+impl Gpu {
+    /// Blocks until `future`, which waits for this device, is done.
+    pub fn block_on<T>(&self, future: impl Future<Output = T>) -> T {
+        drive(future, || {
+            if let Err(error) = self.device.poll(wgpu::PollType::wait_indefinitely()) {
+                self.record_lost(error.to_string());
+            }
+        })
+    }
+}
+
+/// Blocks until a device is open.
+pub fn open(request: &AdapterRequest) -> Result<Gpu, Error> {
+    drive(Gpu::open(request), || {})
+}
+
+/// Blocks until the adapters are listed.
+pub fn adapters() -> Vec<crate::device::Adapter> {
+    drive(crate::device::adapters(), || {})
+}
+
+fn drive<T>(future: impl Future<Output = T>, work: impl Fn()) -> T {
+    let mut future = pin!(future);
+    let mut context = Context::from_waker(Waker::noop());
+    loop {
+        match future.as_mut().poll(&mut context) {
+            Poll::Ready(value) => return value,
+            Poll::Pending => {
+                work();
+                // Another thread may hold the callback that this future waits for.
+                std::thread::yield_now();
+            }
+        }
+    }
+}
+
+/// The one device that all tests of a process share; none if the machine has no adapter.
+///
+/// # Panics
+/// With `HAIRLINE_REQUIRE_GPU=1` in the environment, if there is none: then a test must not be skipped.
+pub fn test_gpu() -> Option<&'static Gpu> {
+    static SHARED: OnceLock<Result<Gpu, Error>> = OnceLock::new();
+    match SHARED.get_or_init(|| open(&AdapterRequest::default())) {
+        Ok(gpu) => Some(gpu),
+        Err(error)
+            if std::env::var_os("HAIRLINE_REQUIRE_GPU").is_some_and(|value| value == "1") =>
+        {
+            panic!("HAIRLINE_REQUIRE_GPU is set, but {error}")
+        }
+        Err(error) => {
+            let thread = std::thread::current();
+            eprintln!("skipped: {}: {error}", thread.name().unwrap_or("a test"));
+            None
+        }
+    }
+}

@@ -1,0 +1,97 @@
+//! From a buffer on the device to bytes on the host, without blocking: the future is done once somebody has driven the
+//! device that far (an event loop, or [`Gpu::block_on`](crate::device::Gpu::block_on)).
+
+use std::future::poll_fn;
+use std::ops::Range;
+use std::sync::{Arc, Mutex};
+use std::task::{Poll, Waker};
+
+use crate::device::Gpu;
+use crate::error::Error;
+
+/// A value that a callback brings later.
+struct Arrival<T>(Arc<Mutex<(Option<T>, Option<Waker>)>>);
+
+impl<T> Clone for Arrival<T> {
+    fn clone(&self) -> Self {
+        Self(self.0.clone())
+    }
+}
+
+impl<T> Arrival<T> {
+    fn new() -> Self {
+        Self(Arc::new(Mutex::new((None, None))))
+    }
+
+    fn bring(&self, value: T) {
+        let mut slot = self
+            .0
+            .lock()
+            .unwrap_or_else(|poisoned| poisoned.into_inner());
+        slot.0 = Some(value);
+        if let Some(waker) = slot.1.take() {
+            waker.wake();
+        }
+    }
+
+    /// Waits for the value, or for the loss of the device, after which it may never come.
+    async fn wait(self, gpu: &Gpu) -> Result<T, Error> {
+        poll_fn(|context| {
+            // First, and not under the lock: it may run the callback.
+            let state = gpu.check();
+            let mut slot = self
+                .0
+                .lock()
+                .unwrap_or_else(|poisoned| poisoned.into_inner());
+            match (state, slot.0.take()) {
+                (Err(error), _) => Poll::Ready(Err(error)),
+                (Ok(()), Some(value)) => Poll::Ready(Ok(value)),
+                (Ok(()), None) => {
+                    slot.1 = Some(context.waker().clone());
+                    Poll::Pending
+                }
+            }
+        })
+        .await
+    }
+}
+
+impl Gpu {
+    /// Waits until all that was submitted is done.
+    pub async fn finished(&self) -> Result<(), Error> {
+        let arrival = Arrival::new();
+        let callback = arrival.clone();
+        self.queue
+            .on_submitted_work_done(move || callback.bring(()));
+        arrival.wait(self).await?;
+        self.check()
+    }
+
+    /// The bytes of `range` in `buffer`, which must have the usage `COPY_SRC`. Submits a copy.
+    pub async fn read(&self, buffer: &wgpu::Buffer, range: Range<u64>) -> Result<Vec<u8>, Error> {
+        let size = range.end - range.start;
+        let usage = wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ;
+        let staging = self.buffer("the copy of a result", size, usage).await?;
+        let mut encoder = self.device.create_command_encoder(&Default::default());
+        encoder.copy_buffer_to_buffer(buffer, range.start, &staging, 0, size);
+        self.queue.submit([encoder.finish()]);
+
+        let arrival = Arrival::new();
+        let callback = arrival.clone();
+        staging.map_async(wgpu::MapMode::Read, .., move |result| {
+            callback.bring(result)
+        });
+        let mapped = arrival.wait(self).await?;
+        self.check()?;
+        mapped.map_err(|error| Error::Lost {
+            reason: error.to_string(),
+        })?;
+        let view = staging.get_mapped_range(..).map_err(|error| Error::Lost {
+            reason: error.to_string(),
+        })?;
+        let bytes = view.to_vec();
+        drop(view);
+        staging.unmap();
+        Ok(bytes)
+    }
+}

@@ -1,0 +1,108 @@
+//! The shader modules, and how they are joined.
+//!
+//! A physics module has no binding and no entry point: its data comes by arguments, so that another engine can lift it.
+//! Modules are joined by plain concatenation, what a module needs before it, each once; their module-level names are
+//! therefore unique over all modules.
+
+/// One file of WGSL and the modules that it calls.
+#[derive(Debug)]
+pub struct Module {
+    /// File stem.
+    pub name: &'static str,
+    /// The text.
+    pub source: &'static str,
+    /// Modules that must come before it.
+    pub needs: &'static [&'static Module],
+}
+
+macro_rules! modules {
+    ($($(#[$doc:meta])* $constant:ident = $name:literal needs [$($need:ident),*];)*) => {
+        $(
+            $(#[$doc])*
+            pub static $constant: Module = Module {
+                name: $name,
+                source: include_str!(concat!("../shaders/", $name, ".wgsl")),
+                needs: &[$(&$need),*],
+            };
+        )*
+        /// Every module and every pass.
+        pub static ALL: &[&Module] = &[$(&$constant),*];
+    };
+}
+
+modules! {
+    /// The normal distribution in single precision.
+    GAUSSIAN = "gaussian" needs [];
+    /// The footprint on a surface.
+    CAMERA = "camera" needs [];
+    /// One scratch under a footprint.
+    SCRATCH = "scratch" needs [GAUSSIAN];
+    /// The spectrum of a scratch.
+    SCRATCH_TABLE = "scratch_table" needs [];
+    /// Where an area light meets the band of a scratch.
+    BAND = "band" needs [GAUSSIAN];
+    /// An environment along the band of a scratch.
+    BAND_ENVIRONMENT = "band_environment" needs [BAND];
+    /// The energy that scratches take.
+    MASK = "mask" needs [SCRATCH];
+    /// Light from all around: look-ups in the maps.
+    ENVIRONMENT = "environment" needs [];
+    /// From linear radiance to the display.
+    TONE_MAP = "tone_map" needs [];
+    /// The structs that the host fills, and no binding.
+    LAYOUT = "layout" needs [];
+    /// Where the scene is bound: group 0 the frame, group 1 the scene's buffers, group 2 its tables and textures.
+    BINDINGS = "bindings" needs [LAYOUT];
+}
+
+/// The text of `modules` and of everything that they need.
+pub fn compose(modules: &[&Module]) -> String {
+    fn visit<'a>(module: &'a Module, joined: &mut Vec<&'a str>, text: &mut String) {
+        if joined.contains(&module.name) {
+            return;
+        }
+        for need in module.needs {
+            visit(need, joined, text);
+        }
+        joined.push(module.name);
+        text.push_str(&format!(
+            "// ---- {}.wgsl\n{}\n",
+            module.name,
+            module.source.trim_end()
+        ));
+    }
+    let (mut joined, mut text) = (Vec::new(), String::new());
+    for module in modules {
+        visit(module, &mut joined, &mut text);
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A lifted module must stand on its own needs.
+    #[test]
+    fn each_module_is_valid_with_what_it_needs() {
+        for module in ALL {
+            let text = compose(&[module]);
+            let parsed = naga::front::wgsl::parse_str(&text).unwrap_or_else(|error| {
+                panic!("{}:\n{}", module.name, error.emit_to_string(&text))
+            });
+            naga::valid::Validator::new(
+                naga::valid::ValidationFlags::all(),
+                naga::valid::Capabilities::empty(),
+            )
+            .validate(&parsed)
+            .unwrap_or_else(|error| panic!("{}:\n{}", module.name, error.emit_to_string(&text)));
+        }
+    }
+
+    #[test]
+    fn a_module_is_joined_once_and_after_its_needs() {
+        let text = compose(&[&BINDINGS, &LAYOUT]);
+        assert_eq!(text.matches("// ---- layout.wgsl").count(), 1);
+        assert!(text.find("// ---- layout.wgsl") < text.find("// ---- bindings.wgsl"));
+    }
+}
