@@ -1,0 +1,300 @@
+//! The command line from outside: exit codes, messages, and files that are whole or not there.
+
+use std::fs;
+use std::path::Path;
+
+use assert_cmd::Command;
+use hairline_image::{exr_file, png};
+
+/// Runs in `folder`; the arguments are separated by spaces.
+fn hairline(folder: &Path, arguments: &str) -> assert_cmd::assert::Assert {
+    Command::cargo_bin("hairline")
+        .unwrap()
+        .current_dir(folder)
+        .args(arguments.split_whitespace())
+        .assert()
+}
+
+fn stderr_of(assert: &assert_cmd::assert::Assert) -> String {
+    String::from_utf8(assert.get_output().stderr.clone()).unwrap()
+}
+
+fn names_in(folder: &Path) -> Vec<String> {
+    let mut names: Vec<String> = fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    names
+}
+
+/// A disk under a lamp, without scratches.
+const SCENE: &str = r#"
+[camera]
+position_m = [0.0, -0.22, 0.30]
+target_m = [0.0, 0.0, 0.0]
+up = [0.0, 0.0, 1.0]
+exposure_ev = 1.0
+
+[render]
+size_px = [64, 36]
+
+[[material]]
+name = "steel"
+kind = "metal"
+metal = "iron"
+roughness = 0.3
+
+[[object]]
+name = "plate"
+shape = { disk = { radius_m = 0.08 } }
+material = "steel"
+
+[[light]]
+kind = "sphere"
+center_m = [0.06, 0.10, 0.25]
+radius_m = 0.02
+radiance = 40.0
+"#;
+
+fn folder_with_scene() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("plate.v2.toml"), SCENE).unwrap();
+    folder
+}
+
+#[test]
+fn help_and_version() {
+    let folder = tempfile::tempdir().unwrap();
+    for arguments in ["", "--help", "render --help"] {
+        let assert = hairline(folder.path(), arguments).success();
+        let text = String::from_utf8(assert.get_output().stdout.clone()).unwrap();
+        assert!(text.contains("Usage:"), "{text}");
+    }
+    let assert = hairline(folder.path(), "--version").success();
+    let text = String::from_utf8(assert.get_output().stdout.clone()).unwrap();
+    assert_eq!(text.trim(), concat!("hairline ", env!("CARGO_PKG_VERSION")));
+}
+
+#[test]
+fn info_lists_backends() {
+    let folder = tempfile::tempdir().unwrap();
+    let assert = hairline(folder.path(), "info").success();
+    let text = String::from_utf8(assert.get_output().stdout.clone()).unwrap();
+    for part in [env!("CARGO_PKG_VERSION"), "adapters", "backends:", "cpu  "] {
+        assert!(text.contains(part), "{text}");
+    }
+}
+
+#[test]
+fn wrong_command_lines_are_2() {
+    let folder = folder_with_scene();
+    let before = names_in(folder.path());
+    for (arguments, message) in [
+        ("paint", "paint"),
+        ("render --size 12", "1280x720"),
+        ("render --size 0x5", "1280x720"),
+        ("render --size 99999x5", "16384"),
+        ("render --samples 0", "1..=1024"),
+        ("render --exposure much", "stops"),
+        ("render --exposure NaN", "stops"),
+        ("render --backend tpu", "auto, gpu, cpu"),
+        ("render --seed -1", "--seed"),
+        ("render -o picture.jpg", "end it in .png or .exr"),
+        ("render -o picture", "end it in .png or .exr"),
+        ("render missing.toml", "missing.toml"),
+        ("render . -o a.png", "scene file"),
+    ] {
+        let assert = hairline(folder.path(), arguments).code(2);
+        let text = stderr_of(&assert);
+        assert!(text.contains(message), "{arguments}: {text}");
+        assert_eq!(names_in(folder.path()), before, "{arguments}");
+    }
+}
+
+#[test]
+fn wrong_scenes_are_2_and_named_with_their_line() {
+    let folder = folder_with_scene();
+    for (from, to, message) in [
+        ("roughness", "roughnes", "roughness"),
+        ("0.02", "-0.02", "light[0].radius_m"),
+        ("\"steel\"\n\n[[light", "\"stele\"\n\n[[light", "steel"),
+        ("[camera]", "[camera", "scene.toml"),
+    ] {
+        fs::write(
+            folder.path().join("scene.toml"),
+            SCENE.replacen(from, to, 1),
+        )
+        .unwrap();
+        let assert = hairline(folder.path(), "render scene.toml").code(2);
+        let text = stderr_of(&assert);
+        assert!(
+            text.contains("scene.toml:") && text.contains(message),
+            "{text}"
+        );
+        assert!(!folder.path().join("scene.png").exists());
+    }
+}
+
+#[test]
+fn outputs_that_cannot_be_written_are_1_before_the_work() {
+    let folder = folder_with_scene();
+    fs::create_dir(folder.path().join("taken.png")).unwrap();
+    let before = names_in(folder.path());
+    for (output, message) in [
+        ("nowhere/a.png", "there is no folder"),
+        ("taken.png", "it is a folder"),
+        ("plate.v2.toml/a.exr", "a file where a folder is needed"),
+    ] {
+        let arguments = format!("render plate.v2.toml -o {output}");
+        let assert = hairline(folder.path(), &arguments).code(1);
+        let text = stderr_of(&assert);
+        assert!(text.contains(output) && text.contains(message), "{text}");
+        assert!(!text.contains("rendering"), "found out too late: {text}");
+        assert_eq!(names_in(folder.path()), before);
+    }
+}
+
+#[test]
+fn a_picture_is_named_after_its_scene() {
+    let folder = folder_with_scene();
+    let assert = hairline(
+        folder.path(),
+        "render plate.v2.toml --backend cpu --samples 1",
+    )
+    .success();
+    let text = stderr_of(&assert);
+    assert_eq!(
+        text.lines().count(),
+        1,
+        "one line and no bar in a pipe: {text}"
+    );
+    assert!(
+        text.starts_with("rendering on the CPU") && text.contains("as asked"),
+        "{text}"
+    );
+    assert_eq!(names_in(folder.path()), ["plate.v2.png", "plate.v2.toml"]);
+    let picture = png::read_picture(&folder.path().join("plate.v2.png")).unwrap();
+    assert_eq!(picture.size_px, [64, 36]);
+    assert!(picture.rgb.iter().flatten().any(|c| *c > 0.1), "black");
+}
+
+#[test]
+fn flags_change_the_picture() {
+    let folder = folder_with_scene();
+    hairline(
+        folder.path(),
+        "render plate.v2.toml --backend cpu --size 40x30 -o a.exr",
+    )
+    .success();
+    let image = exr_file::read_image(&folder.path().join("a.exr")).unwrap();
+    assert_eq!(image.size_px, [40, 30]);
+    let center = image.index(20, 15);
+    // The camera is sqrt(0.22^2 + 0.30^2) m away from the middle of the plate.
+    assert!(
+        (image.depth_m[center] - 0.372).abs() < 0.003,
+        "{}",
+        image.depth_m[center]
+    );
+    assert!(image.normal[center][2] > 0.999);
+
+    // Exposure is for displays: a stop more or less changes the PNG alone.
+    let mean = |name: &str| {
+        let picture = png::read_picture(&folder.path().join(name)).unwrap();
+        picture.rgb.iter().map(|c| f64::from(c[1])).sum::<f64>()
+    };
+    hairline(
+        folder.path(),
+        "render plate.v2.toml --backend cpu -o dim.png --exposure -2",
+    )
+    .success();
+    hairline(
+        folder.path(),
+        "render plate.v2.toml --backend cpu -o bright.png",
+    )
+    .success();
+    assert!(mean("bright.png") > 1.5 * mean("dim.png"));
+    hairline(
+        folder.path(),
+        "render plate.v2.toml --backend cpu --size 40x30 -o b.exr --exposure 5",
+    )
+    .success();
+    assert_eq!(
+        exr_file::read_image(&folder.path().join("b.exr")).unwrap(),
+        image
+    );
+}
+
+#[test]
+fn auto_says_what_rendered() {
+    let folder = folder_with_scene();
+    let assert = hairline(folder.path(), "render plate.v2.toml -o auto.png").success();
+    let text = stderr_of(&assert);
+    let said = text
+        .lines()
+        .filter(|line| line.starts_with("rendering on "))
+        .count();
+    assert!(said == 1, "{text}");
+    assert!(folder.path().join("auto.png").exists());
+}
+
+#[test]
+fn no_driver_still_renders() {
+    let folder = folder_with_scene();
+    // An empty list of drivers: as on a machine that has none.
+    let run = |backend: &str| {
+        Command::cargo_bin("hairline")
+            .unwrap()
+            .current_dir(folder.path())
+            .env("VK_ICD_FILENAMES", "/nonexistent")
+            .env("VK_DRIVER_FILES", "/nonexistent")
+            .env("WGPU_BACKEND", "vulkan")
+            .args([
+                "render",
+                "plate.v2.toml",
+                "-o",
+                "a.png",
+                "--backend",
+                backend,
+            ])
+            .assert()
+    };
+    if cfg!(target_os = "linux") {
+        let text = stderr_of(&run("gpu").code(1));
+        assert!(text.contains("no graphics driver"), "{text}");
+        assert!(!folder.path().join("a.png").exists());
+        let text = stderr_of(&run("auto").success());
+        assert!(
+            text.contains("rendering on the CPU") && text.contains("no graphics driver"),
+            "{text}"
+        );
+        assert!(folder.path().join("a.png").exists());
+    }
+}
+
+/// Ctrl-C in the middle of the work leaves nothing behind.
+#[cfg(unix)]
+#[test]
+fn an_interrupted_render_leaves_no_file() {
+    let folder = folder_with_scene();
+    let before = names_in(folder.path());
+    let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_hairline"))
+        .current_dir(folder.path())
+        .args(["render", "plate.v2.toml", "-o", "a.exr", "--backend", "cpu"])
+        .args(["--size", "8000x8000", "--samples", "64"])
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    // The line that says what renders comes when the work begins.
+    let mut line = String::new();
+    let mut stderr = std::io::BufReader::new(child.stderr.take().unwrap());
+    std::io::BufRead::read_line(&mut stderr, &mut line).unwrap();
+    assert!(line.starts_with("rendering on"), "{line}");
+    let killed = std::process::Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status()
+        .unwrap();
+    assert!(killed.success());
+    assert!(!child.wait().unwrap().success());
+    assert_eq!(names_in(folder.path()), before);
+}
