@@ -38,8 +38,12 @@ struct BandLines {
     std_xi: f32,
 }
 
+fn band_reaches(lowest: f32, highest: f32, std_xi: f32) -> bool {
+    return lowest < BAND_REACH_STD * std_xi && highest > -BAND_REACH_STD * std_xi && highest > lowest;
+}
+
 fn band_lines(lowest: f32, highest: f32, std_xi: f32) -> BandLines {
-    if !(lowest < BAND_REACH_STD * std_xi && highest > -BAND_REACH_STD * std_xi && highest > lowest) {
+    if !band_reaches(lowest, highest, std_xi) {
         return BandLines(0u, 0.0, 0.0, std_xi);
     }
     let half_extent = 0.5 * (highest - lowest) / std_xi;

@@ -101,6 +101,13 @@ fn gather_polygon(point: SurfacePoint, view: SegmentView, light: Light, std_xi: 
     if facing == 0.0 {
         return vec3f(0.0);
     }
+    // Most scratches are dark to most lights; a bounding sphere tells it without a look at the edges.
+    var bound = sphere_cap(surface_from_world(point, light.center_m - point.position_m), light.radius_m);
+    bound.axis = band_from_surface(view.tangent, bound.axis);
+    let bound_extent = sphere_band_extent(view.wo, bound);
+    if !band_reaches(bound_extent.x, bound_extent.y, std_xi) {
+        return vec3f(0.0);
+    }
     var extent = vec2f(9.0, -9.0);
     var highest_z = -1.0;
     var lowest_z = 1.0;

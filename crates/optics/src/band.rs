@@ -76,6 +76,11 @@ pub struct BandLines {
     pub std_xi: f64,
 }
 
+/// Whether a light of the given extent in xi_t meets the band at all.
+pub fn band_reaches(lowest: f64, highest: f64, std_xi: f64) -> bool {
+    lowest < BAND_REACH_STD * std_xi && highest > -BAND_REACH_STD * std_xi && highest > lowest
+}
+
 /// Chooses the lines. Large lights cover the whole band evenly and one line is enough; small ones need the band's shape.
 pub fn band_lines(lowest: f64, highest: f64, std_xi: f64) -> BandLines {
     let dark = BandLines {
@@ -84,7 +89,7 @@ pub fn band_lines(lowest: f64, highest: f64, std_xi: f64) -> BandLines {
         share: 0.0,
         std_xi,
     };
-    if !(lowest < BAND_REACH_STD * std_xi && highest > -BAND_REACH_STD * std_xi && highest > lowest) {
+    if !band_reaches(lowest, highest, std_xi) {
         return dark;
     }
     let half_extent = 0.5 * (highest - lowest) / std_xi;
@@ -177,7 +182,10 @@ pub struct Cap {
 impl Cap {
     /// A cap of the surface's frame in the frame of a scratch.
     pub fn turned(self, frame: BandFrame) -> Self {
-        Self { axis: frame.band_from_surface(self.axis), ..self }
+        Self {
+            axis: frame.band_from_surface(self.axis),
+            ..self
+        }
     }
 }
 

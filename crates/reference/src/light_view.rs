@@ -16,6 +16,8 @@ pub(crate) enum LightView {
         vertices: Range<usize>,
         away: DVec3,
         facing: f64,
+        /// Holds the whole polygon.
+        bound: Cap,
         radiance: DVec3,
     },
 }
@@ -81,10 +83,16 @@ impl<'a> LightViews<'a> {
                     self.directions
                         .extend(self.vertices[first..].iter().map(|v| v.normalize_or_zero()));
                     let vertices = first..self.vertices.len();
+                    let (center_m, radius_m) = light.bounding_sphere();
+                    let bound = sphere_cap(
+                        point.surface_from_world(center_m - point.position_m),
+                        radius_m,
+                    );
                     self.views.push(LightView::Polygon {
                         vertices,
                         away,
                         facing,
+                        bound,
                         radiance: DVec3::from(*radiance),
                     });
                 }

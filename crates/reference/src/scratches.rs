@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3};
 use hairline_index::IndexedSegment;
 use hairline_index::scratch_index::{FACING_MIN_COS, REACH_STD};
 use hairline_optics::band::{
-    BandFrame, BandLine, BandLines, band_lines, sphere_band_extent, sphere_chord,
+    BandFrame, BandLine, BandLines, band_lines, band_reaches, sphere_band_extent, sphere_chord,
 };
 use hairline_optics::band_environment::{ENVIRONMENT_CELLS, environment_cell};
 use hairline_optics::footprint::{Footprint, ScratchShare, scratch_share};
@@ -135,8 +135,14 @@ fn scratch_radiance(
                 vertices,
                 away,
                 facing,
+                bound,
                 radiance,
             } => {
+                // Most scratches are dark to most lights; the bound tells it without a look at the edges.
+                let (lowest, highest) = sphere_band_extent(wo, bound.turned(frame));
+                if !band_reaches(lowest, highest, std_xi) {
+                    continue;
+                }
                 let polygon = views.polygon(vertices, *away, *facing);
                 let (lowest, highest) = polygon.band_extent(frame, wo);
                 let lines = band_lines(lowest, highest, std_xi);
