@@ -1,1 +1,19 @@
+// Where the scene is bound. Twin: src/bindings.rs.
+
 @group(0) @binding(0) var<uniform> frame: Frame;
+
+@group(1) @binding(0) var<storage, read> vertices: array<Vertex>;
+@group(1) @binding(1) var<storage, read> objects: array<Object>;
+@group(1) @binding(2) var<storage, read> materials: array<Material>;
+@group(1) @binding(3) var<storage, read> lights: array<Light>;
+@group(1) @binding(4) var<storage, read> light_vertices: array<vec4f>;
+@group(1) @binding(5) var<storage, read> scratch_nodes: array<ScratchNode>;
+@group(1) @binding(6) var<storage, read> scratch_segments: array<ScratchSegment>;
+
+@group(2) @binding(0) var scratch_tables: texture_2d_array<f32>;
+@group(2) @binding(1) var lobe_albedo: texture_2d<f32>;
+@group(2) @binding(2) var lobe_ltc: texture_2d<f32>;
+@group(2) @binding(3) var lobe_sptd: texture_2d<f32>;
+@group(2) @binding(4) var environment_background: texture_2d<f32>;
+@group(2) @binding(5) var environment_levels: texture_2d<f32>;
+@group(2) @binding(6) var textures: texture_2d_array<f32>;

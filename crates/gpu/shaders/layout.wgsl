@@ -1,24 +1,110 @@
-// Every struct that the host fills. `layout.rs` holds the twins; a test compares names and offsets.
-// Positions are relative to the scene's origin (the middle of its bounds), metres.
+// Every struct that the host fills. Twin: src/layout.rs; a test holds names, offsets and sizes equal.
+// Positions are in metres and relative to the scene's origin, the middle of its bounds, for the sake of their last digits.
 
-// One picture sample: the view, and what is the same for every pixel.
+// The view, and what else is the same for every pixel of one sample.
 struct Frame {
-    camera: vec3f,            // the pinhole
-    near: f32,                // distance of the near plane along `forward`, metres
-    right: vec3f,             // unit
-    tan_half_fov_x: f32,
-    up: vec3f,                // unit
-    tan_half_fov_y: f32,
-    forward: vec3f,           // unit
-    footprint_std_px: f32,    // standard deviation of the Gaussian that shading filters with
-    size_px: vec2u,
-    rows: vec2u,              // first row of the film and the one after its last
-    jitter_px: vec2f,         // where in the pixel this sample lies, from its centre, y down
-    sample_weight: f32,       // the weights of a pixel's samples sum to one
+    camera_m: vec3f,            // the pinhole
+    sample_weight: f32,         // the weights of a pixel's samples sum to one
+    forward: vec3f,             // unit direction of the view
+    near_m: f32,                // distance of the near plane along it
+    per_px_x: vec3f,            // change of the ray's direction by one pixel to the right, at unit depth
+    px_per_slope: f32,          // pixels that a unit of slope spans
+    per_px_y: vec3f,            // and by one pixel down
+    footprint_std_px: f32,      // standard deviation of the Gaussian that shading filters with
+    size_px: vec2u,             // of the picture
+    rows: vec2u,                // first row of the film and the one after its last
+    jitter_px: vec2f,           // where the sample lies from the pixel's centre, y down
     light_count: u32,
-    environment_intensity: f32,   // 0: there is none
-    environment_rotation: f32,    // radians about the up axis
-    environment_levels: f32,      // mip levels; roughness picks one
-    environment_visible: f32,     // 1: seen behind the objects
-    environment_sh: array<vec4f, 9>,   // irradiance, spherical harmonics of order 2
+    environment_flags: u32,     // ENVIRONMENT_PRESENT, ENVIRONMENT_VISIBLE
+    environment_from_world: mat3x3f,
+    environment_sh: array<vec4f, 9>,    // irradiance; xyz are the channels
+    environment_texel_radiance: f32,    // radiance of a texel (or coefficient) of value 1
+}
+
+const ENVIRONMENT_PRESENT: u32 = 1u;
+const ENVIRONMENT_VISIBLE: u32 = 2u;
+
+// A corner of a triangle. Corners are not shared: triangle i has 3 i, 3 i + 1 and 3 i + 2.
+struct Vertex {
+    position_m: vec3f,
+    material: u32,              // index; VERTEX_BITANGENT_FLIPPED is its highest bit
+    normal: vec3f,
+    u: f32,
+    tangent: vec3f,
+    v: f32,
+}
+
+const VERTEX_BITANGENT_FLIPPED: u32 = 0x80000000u;
+
+// The scratches of an object: a range of nodes.
+struct Object {
+    first_node: u32,
+    end_node: u32,
+    depth_coherence: f32,
+}
+
+struct Material {
+    base_color: vec3f,
+    metallic: f32,
+    fresnel_a: vec3f,
+    roughness: f32,
+    emission: vec3f,
+    coherence_um: f32,
+    dielectric_f0: f32,
+    normal_scale: f32,
+    table: u32,                 // layer of the scratch tables
+    base_color_texture: vec2u,  // packed, see scene_texture(); zero: none
+    metallic_roughness_texture: vec2u,
+    normal_texture: vec2u,
+    emission_texture: vec2u,
+}
+
+struct Light {
+    radiance: vec3f,
+    kind: u32,                  // LIGHT_SPHERE or LIGHT_POLYGON
+    center_m: vec3f,            // of a sphere
+    radius_m: f32,
+    normal: vec3f,              // of a polygon, on the side that sees its vertices counter-clockwise
+    two_sided: u32,
+    first_vertex: u32,
+    vertex_count: u32,
+}
+
+const LIGHT_SPHERE: u32 = 0u;
+const LIGHT_POLYGON: u32 = 1u;
+
+// Nodes in depth-first order: a walk goes on with the next one, or with `skip`. Twin: crates/index.
+struct ScratchNode {
+    min_m: vec3f,
+    skip: u32,
+    max_m: vec3f,
+    leaf: u32,                  // 0, or the count of segments in the upper 4 bits and the first one in the lower 28
+}
+
+struct ScratchSegment {
+    start_m: vec3f,
+    width_um: f32,
+    end_m: vec3f,
+    depth_nm: f32,
+    normal: vec3f,
+    blur_um: f32,
+}
+
+// Weighted sums over the samples of a pixel.
+struct FilmPixel {
+    base: vec3f,
+    depth_m: f32,
+    scratches: vec3f,
+    coverage: f32,
+    density: vec3f,
+    unused_0: f32,
+    normal: vec3f,
+    unused_1: f32,
+}
+
+// How a film is shown.
+struct DisplaySettings {
+    size_px: vec2u,
+    tone_map: u32,
+    gain: f32,                  // 2^exposure_ev
 }

@@ -8,6 +8,7 @@ pub mod device;
 pub mod error;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod headless;
+pub mod layout;
 pub mod readback;
 pub mod shaders;
 

@@ -53,6 +53,14 @@ modules! {
     LAYOUT = "layout" needs [];
     /// Where the scene is bound: group 0 the frame, group 1 the scene's buffers, group 2 its tables and textures.
     BINDINGS = "bindings" needs [LAYOUT];
+    /// Look-ups in what the scene binds.
+    SCENE = "scene" needs [BINDINGS, ENVIRONMENT, TONE_MAP];
+    /// What the shading pass adds to: group 3.
+    FILM = "film" needs [BINDINGS];
+    /// Pass: triangle and object of each pixel.
+    VISIBILITY = "visibility" needs [BINDINGS];
+    /// Pass: from what is visible to radiance.
+    SHADE = "shade" needs [SCENE, FILM];
 }
 
 /// The text of `modules` and of everything that they need.

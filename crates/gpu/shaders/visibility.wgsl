@@ -1,0 +1,26 @@
+// Which triangle and object a pixel sees: x holds the triangle + 1 (0: nothing), y the object.
+
+struct VisibilityVertex {
+    @builtin(position) clip: vec4f,
+    @location(0) @interpolate(flat) ids: vec2u,
+}
+
+// One instance is one object; `vertex` counts corners over the whole scene.
+@vertex
+fn visibility_vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index) object: u32) -> VisibilityVertex {
+    let relative = vertices[vertex].position_m - frame.camera_m;
+    let depth = dot(frame.forward, relative);
+    // Pixels from the picture's centre, times depth. The sample's place comes to lie in the pixel's centre.
+    let scale = frame.px_per_slope * frame.px_per_slope;
+    let x = scale * dot(frame.per_px_x, relative) - frame.jitter_px.x * depth;
+    let y = scale * dot(frame.per_px_y, relative) - frame.jitter_px.y * depth;
+    let half_size = 0.5 * vec2f(frame.size_px);
+    // Reversed depth without a far plane: near_m / depth keeps all its digits at any distance.
+    let clip = vec4f(x / half_size.x, -y / half_size.y, frame.near_m, depth);
+    return VisibilityVertex(clip, vec2u(vertex / 3u + 1u, object));
+}
+
+@fragment
+fn visibility_fragment(in: VisibilityVertex) -> @location(0) vec2u {
+    return in.ids;
+}

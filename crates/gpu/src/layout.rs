@@ -1,0 +1,240 @@
+//! Every struct that host and shader share, once. Twin: `shaders/layout.wgsl`, which documents the members; the test
+//! below holds names, offsets and sizes equal by naga's reflection of the text.
+
+use bytemuck::{Pod, Zeroable};
+
+/// [`Frame::environment_flags`]: there is an environment.
+pub const ENVIRONMENT_PRESENT: u32 = 1;
+/// [`Frame::environment_flags`]: the camera sees it.
+pub const ENVIRONMENT_VISIBLE: u32 = 2;
+/// The highest bit of [`Vertex::material`]: the bitangent is minus the cross product of normal and tangent.
+pub const VERTEX_BITANGENT_FLIPPED: u32 = 0x8000_0000;
+/// [`Light::kind`].
+pub const LIGHT_SPHERE: u32 = 0;
+/// [`Light::kind`].
+pub const LIGHT_POLYGON: u32 = 1;
+
+/// Where the pixels of a film begin in its buffer, bytes: the count of invocations that gave up comes first.
+pub const FILM_PIXELS_OFFSET: u64 = 16;
+
+macro_rules! shared {
+    ($($(#[$doc:meta])* $name:ident { $($member:ident: $type:ty,)* })*) => {
+        $(
+            $(#[$doc])*
+            #[repr(C)]
+            #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+            #[allow(missing_docs, reason = "documented in layout.wgsl")]
+            pub struct $name {
+                $(pub $member: $type,)*
+            }
+        )*
+
+        /// Size, and name and offset of each member, of every struct.
+        #[cfg(test)]
+        fn host_structs() -> Vec<(&'static str, usize, Vec<(&'static str, usize)>)> {
+            vec![$((
+                stringify!($name),
+                size_of::<$name>(),
+                vec![$((stringify!($member), std::mem::offset_of!($name, $member))),*],
+            )),*]
+        }
+    };
+}
+
+// A member whose name begins with `pad` is room that WGSL leaves without a name.
+shared! {
+    /// The view of one sample; uniform.
+    Frame {
+        camera_m: [f32; 3],
+        sample_weight: f32,
+        forward: [f32; 3],
+        near_m: f32,
+        per_px_x: [f32; 3],
+        px_per_slope: f32,
+        per_px_y: [f32; 3],
+        footprint_std_px: f32,
+        size_px: [u32; 2],
+        rows: [u32; 2],
+        jitter_px: [f32; 2],
+        light_count: u32,
+        environment_flags: u32,
+        environment_from_world: [[f32; 4]; 3],
+        environment_sh: [[f32; 4]; 9],
+        environment_texel_radiance: f32,
+        pad: [u32; 3],
+    }
+    /// A corner of a triangle.
+    Vertex {
+        position_m: [f32; 3],
+        material: u32,
+        normal: [f32; 3],
+        u: f32,
+        tangent: [f32; 3],
+        v: f32,
+    }
+    /// The scratches of an object.
+    Object {
+        first_node: u32,
+        end_node: u32,
+        depth_coherence: f32,
+    }
+    /// A material.
+    Material {
+        base_color: [f32; 3],
+        metallic: f32,
+        fresnel_a: [f32; 3],
+        roughness: f32,
+        emission: [f32; 3],
+        coherence_um: f32,
+        dielectric_f0: f32,
+        normal_scale: f32,
+        table: u32,
+        pad_0: u32,
+        base_color_texture: [u32; 2],
+        metallic_roughness_texture: [u32; 2],
+        normal_texture: [u32; 2],
+        emission_texture: [u32; 2],
+    }
+    /// A light.
+    Light {
+        radiance: [f32; 3],
+        kind: u32,
+        center_m: [f32; 3],
+        radius_m: f32,
+        normal: [f32; 3],
+        two_sided: u32,
+        first_vertex: u32,
+        vertex_count: u32,
+        pad: [u32; 2],
+    }
+    /// A node over the segments of an object.
+    ScratchNode {
+        min_m: [f32; 3],
+        skip: u32,
+        max_m: [f32; 3],
+        leaf: u32,
+    }
+    /// A straight piece of a scratch.
+    ScratchSegment {
+        start_m: [f32; 3],
+        width_um: f32,
+        end_m: [f32; 3],
+        depth_nm: f32,
+        normal: [f32; 3],
+        blur_um: f32,
+    }
+    /// Weighted sums over the samples of a pixel.
+    FilmPixel {
+        base: [f32; 3],
+        depth_m: f32,
+        scratches: [f32; 3],
+        coverage: f32,
+        density: [f32; 3],
+        unused_0: f32,
+        normal: [f32; 3],
+        unused_1: f32,
+    }
+    /// How a film is shown; uniform.
+    DisplaySettings {
+        size_px: [u32; 2],
+        tone_map: u32,
+        gain: f32,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shaders;
+    use naga::{Module, TypeInner};
+
+    fn reflect() -> Module {
+        let text = shaders::compose(&[&shaders::LAYOUT, &shaders::FILM]);
+        naga::front::wgsl::parse_str(&text)
+            .unwrap_or_else(|error| panic!("{}", error.emit_to_string(&text)))
+    }
+
+    fn wgsl_struct<'a>(module: &'a Module, name: &str) -> Option<(&'a [naga::StructMember], u32)> {
+        module.types.iter().find_map(|(_, ty)| match &ty.inner {
+            TypeInner::Struct { members, span } if ty.name.as_deref() == Some(name) => {
+                Some((members.as_slice(), *span))
+            }
+            _ => None,
+        })
+    }
+
+    /// Why a host struct differs from the shader's, if it does.
+    fn difference(
+        module: &Module,
+        name: &str,
+        size: usize,
+        members: &[(&str, usize)],
+    ) -> Option<String> {
+        let Some((shader_members, shader_size)) = wgsl_struct(module, name) else {
+            return Some(format!("layout.wgsl has no struct {name}"));
+        };
+        if shader_size as usize != size {
+            return Some(format!(
+                "{name}: {size} bytes on the host, {shader_size} in the shader"
+            ));
+        }
+        let host: Vec<_> = members
+            .iter()
+            .filter(|(member, _)| !member.starts_with("pad"))
+            .copied()
+            .collect();
+        let shader: Vec<_> = shader_members
+            .iter()
+            .map(|m| (m.name.as_deref().unwrap_or(""), m.offset as usize))
+            .collect();
+        (host != shader).then(|| format!("{name}:\n  host   {host:?}\n  shader {shader:?}"))
+    }
+
+    #[test]
+    fn host_and_shader_structs_are_equal() {
+        let module = reflect();
+        let differences: Vec<_> = host_structs()
+            .iter()
+            .filter_map(|(name, size, members)| difference(&module, name, *size, members))
+            .collect();
+        assert!(differences.is_empty(), "{}", differences.join("\n"));
+    }
+
+    /// The comparison must be able to fail: a renamed member, a swapped pair, another size.
+    #[test]
+    fn a_drifted_struct_is_seen() {
+        let module = reflect();
+        let right = [("first_node", 0), ("end_node", 4), ("depth_coherence", 8)];
+        assert_eq!(difference(&module, "Object", 12, &right), None);
+        assert!(difference(&module, "Object", 16, &right).is_some());
+        let renamed = [("root", 0), ("end_node", 4), ("depth_coherence", 8)];
+        assert!(difference(&module, "Object", 12, &renamed).is_some());
+        let swapped = [("end_node", 0), ("first_node", 4), ("depth_coherence", 8)];
+        assert!(difference(&module, "Object", 12, &swapped).is_some());
+    }
+
+    /// Every struct of the shader has its host twin, and array strides are the structs' sizes.
+    #[test]
+    fn no_shader_struct_is_left_out() {
+        let module = reflect();
+        let host = host_structs();
+        for (_, ty) in module.types.iter() {
+            let name = ty.name.as_deref().unwrap_or("");
+            if let TypeInner::Struct { members, .. } = &ty.inner {
+                let known = host.iter().any(|(known, ..)| *known == name);
+                if name == "Film" {
+                    assert_eq!(u64::from(members[1].offset), FILM_PIXELS_OFFSET);
+                } else {
+                    assert!(known, "{name} has no host twin");
+                }
+            }
+            if let TypeInner::Array { base, stride, .. } = ty.inner
+                && let Some((_, size, _)) = host
+                    .iter()
+                    .find(|(n, ..)| module.types[base].name.as_deref() == Some(n))
+            {
+                assert_eq!(stride as usize, *size);
+            }
+        }
+    }
+}
