@@ -7,11 +7,13 @@ pub mod environment;
 mod error;
 mod load;
 pub mod material_optics;
+mod mesh_file;
 mod polygon;
 pub mod scene;
 mod scratches;
 mod shape;
 mod surface;
+mod texture;
 
 pub use camera::CameraFrame;
 pub use description::Description;

@@ -9,7 +9,7 @@ use crate::description::{self, Description, LightKind, MaterialKind, MetalColor,
 use crate::error::Error;
 use crate::scene::{Base, Camera, Light, Material, Mesh, Object, RenderSettings, Scene};
 use crate::surface::world_from_object;
-use crate::{scratches, shape};
+use crate::{mesh_file, scratches, shape};
 
 /// How far long work has come.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -312,13 +312,15 @@ fn object_mesh(
             shape::surface(shape).bake(&transform, material.unwrap_or(0), &mut mesh);
             Ok(mesh)
         }
-        Surface::Mesh(_) => {
-            let _ = (base_dir, scene);
-            Err(Error::new(
-                format!("{key}.mesh"),
-                "found a mesh file",
-                "reading them comes next",
-            ))
+        Surface::Mesh(file) => {
+            let stock = mesh_file::Stock {
+                materials: &mut scene.materials,
+                textures: &mut scene.textures,
+            };
+            mesh_file::read(&base_dir.join(file), material, &transform, stock).map_err(|flaw| {
+                let found = format!("\"{}\": {}", file.display(), flaw.found);
+                Error::new(format!("{key}.mesh"), found, flaw.right)
+            })
         }
     }
 }

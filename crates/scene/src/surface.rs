@@ -8,7 +8,7 @@ use crate::scene::Mesh;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Vertex {
     pub position_m: DVec3,
-    /// Unit, or zero for "made up of the triangles around it".
+    /// Unit.
     pub normal: DVec3,
     /// Unit, along increasing u; or zero for "any".
     pub tangent: DVec3,
@@ -69,35 +69,20 @@ impl Surface {
         }
     }
 
-    /// Gives every vertex whose normal is zero the mean of the triangles around it, weighted by their angles there, over all
-    /// vertices at that very place: seams of texture coordinates do not show. (Thürmer and Wüthrich, "Computing Vertex
-    /// Normals from Polygonal Facets", 1998.)
-    pub(crate) fn make_smooth_normals(&mut self) {
-        let mut at_place: std::collections::HashMap<[u64; 3], DVec3> = Default::default();
-        // 0.0 and -0.0 are one place.
-        let place = |p: DVec3| (p + DVec3::ZERO).to_array().map(f64::to_bits);
-        for triangle in &self.triangles {
-            let p = triangle.map(|v| self.vertices[v as usize].position_m);
-            let Some(normal) = (p[1] - p[0]).cross(p[2] - p[0]).try_normalize() else {
-                continue;
-            };
-            for i in 0..3 {
-                let (to_next, to_last) = (p[(i + 1) % 3] - p[i], p[(i + 2) % 3] - p[i]);
-                *at_place.entry(place(p[i])).or_default() += normal * angle(to_next, to_last);
-            }
+    /// Gives every triangle vertices of its own, with the triangle's normal: what glTF 2.0 asks for where a file has no normals
+    /// (section 3.7.2.1).
+    pub(crate) fn make_flat_normals(&mut self) {
+        let mut vertices = Vec::with_capacity(self.triangles.len() * 3);
+        for triangle in &mut self.triangles {
+            let corners = triangle.map(|v| self.vertices[v as usize]);
+            let [a, b, c] = corners.map(|corner| corner.position_m);
+            let normal = (b - a).cross(c - a).normalize_or(DVec3::Z);
+            let first = vertices.len() as u32;
+            vertices.extend(corners.map(|corner| Vertex { normal, ..corner }));
+            *triangle = [first, first + 1, first + 2];
         }
-        for vertex in &mut self.vertices {
-            if vertex.normal == DVec3::ZERO {
-                let sum = at_place.get(&place(vertex.position_m)).copied();
-                vertex.normal = sum.unwrap_or_default().normalize_or(DVec3::Z);
-            }
-        }
+        self.vertices = vertices;
     }
-}
-
-/// The angle between two directions of any length.
-fn angle(a: DVec3, b: DVec3) -> f64 {
-    libm::atan2(a.cross(b).length(), a.dot(b))
 }
 
 /// The unit part of `direction` perpendicular to `normal`; any perpendicular where there is none.
@@ -234,15 +219,17 @@ mod tests {
     }
 
     #[test]
-    fn made_up_normals_of_a_sphere_point_outwards() {
+    fn flat_normals_are_those_of_the_triangles() {
         let mut sphere = shape::sphere(1.0);
-        for vertex in &mut sphere.vertices {
-            vertex.normal = DVec3::ZERO;
-        }
-        sphere.make_smooth_normals();
-        for vertex in &sphere.vertices {
-            // The facets are 1.4 degrees wide and nearly regular: far less than one of them off.
-            assert!(vertex.normal.dot(vertex.position_m) > 0.99999);
+        sphere.make_flat_normals();
+        let mut mesh = Mesh::default();
+        sphere.bake(&DMat4::IDENTITY, 0, &mut mesh);
+        for (i, triangle) in mesh.triangles.iter().enumerate() {
+            for &v in triangle {
+                let normal = mesh.normals[v as usize].as_dvec3();
+                // The coordinates are rounded to 6e-8, the triangles down to 3e-4 high.
+                assert!(normal.distance(geometric_normal(&mesh, i)) < 1e-3);
+            }
         }
     }
 }

@@ -87,12 +87,11 @@ impl Drawn<'_> {
 
     fn swirl(&self, seed: Spot, seed_angle_rad: f64, cell_m: f64, wanted_per_m: f64) -> Guide {
         let facet = Facet::new(self.ground.mesh, seed.triangle);
-        let (corner, _) = self.ground.mesh.bounds_m();
         let lattice = Lattice {
             seed: self.laid.seed,
             layer: self.layer.into(),
             cell_m,
-            origin_m: corner.as_dvec3(),
+            origin_m: self.ground.corner_m,
         };
         let center_m = lattice.center(&facet, seed.point_m, 1.0 / wanted_per_m.abs());
         let arm_m = center_m - seed.point_m;

@@ -13,6 +13,10 @@ pub(super) struct Ground<'a> {
     pub mesh: &'a Mesh,
     /// The object's own frame, in which patterns are described.
     pub world_from_object: DMat4,
+    /// The corner of its bounding box with the least coordinates.
+    pub corner_m: DVec3,
+    /// The length of the box's diagonal.
+    pub diagonal_m: f64,
     neighbours: Neighbours,
     /// The area of all triangles up to and including each.
     areas_m2: Vec<f64>,
@@ -28,9 +32,12 @@ impl<'a> Ground<'a> {
                 sum
             })
             .collect();
+        let (least, most) = mesh.bounds_m();
         Self {
             mesh,
             world_from_object,
+            corner_m: least.as_dvec3(),
+            diagonal_m: f64::from((most - least).length()),
             neighbours: Neighbours::new(mesh),
             areas_m2,
         }

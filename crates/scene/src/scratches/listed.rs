@@ -113,8 +113,7 @@ impl<'a> Listed<'a> {
     /// Refuses rows that do not lie on the surface.
     pub(super) fn new(rows: Vec<Row>, path: &Path, ground: &'a Ground<'a>) -> Result<Self, Error> {
         let closest = Closest::new(ground.mesh);
-        let (least, most) = ground.mesh.bounds_m();
-        let tolerance_m = OFF_SURFACE * f64::from((most - least).length());
+        let tolerance_m = OFF_SURFACE * ground.diagonal_m;
         for row in &rows {
             for (end, prefix) in row.ends_m.iter().zip(["x0_m", "x1_m"]) {
                 let (_, distance_m) = closest.find(ground.point_in_world_m(*end));

@@ -1,0 +1,199 @@
+//! glTF 2.0 and GLB files, after the specification of the Khronos Group (2021).
+//!
+//! All nodes of the file's scene become one mesh with a material per triangle. What the file cannot be trusted with (bounds,
+//! cycles, numbers that are none) is checked here: a broken file ends in a [`Flaw`], never in a panic. Left out: skins and
+//! morph targets (the rest pose is shown), vertex colours, alpha, texture transforms; points and lines are skipped.
+
+mod accessor;
+mod material;
+mod primitive;
+mod source;
+mod tangents;
+
+use std::path::Path;
+
+use glam::{DMat4, DQuat, DVec3};
+use gltf::Gltf;
+
+use crate::scene::{Material, Mesh, Texture};
+use material::Materials;
+use source::Buffers;
+
+/// Nodes may lie this deep within each other; more is taken for a mistake.
+const DEEPEST: usize = 256;
+/// Instances of meshes that one file may place; each is baked.
+const MOST_TRIANGLES: usize = 1 << 28;
+/// Required extensions that need nothing done: the accessors read every component type.
+const EXTENSIONS: [&str; 1] = ["KHR_mesh_quantization"];
+
+/// What is wrong with a file, and what would be right.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{found}")]
+pub(crate) struct Flaw {
+    pub found: String,
+    pub right: String,
+}
+
+impl Flaw {
+    fn new(found: impl Into<String>, right: impl Into<String>) -> Self {
+        Self {
+            found: found.into(),
+            right: right.into(),
+        }
+    }
+}
+
+/// Where a file's own materials go.
+pub(crate) struct Stock<'a> {
+    pub materials: &'a mut Vec<Material>,
+    pub textures: &'a mut Vec<Texture>,
+}
+
+/// Reads a file's triangles into world space. Without `material`, an index into the stock, the file's own are added there.
+pub(crate) fn read(
+    path: &Path,
+    material: Option<u32>,
+    world_from_object: &DMat4,
+    stock: Stock,
+) -> Result<Mesh, Flaw> {
+    let bytes = std::fs::read(path).map_err(|error| {
+        Flaw::new(
+            format!("it cannot be read ({error})"),
+            "give the path of a .gltf or .glb file, relative to the scene file",
+        )
+    })?;
+    let gltf = parse(&bytes)?;
+    let base_dir = path.parent().unwrap_or(Path::new(""));
+    let buffers = Buffers::read(&gltf, base_dir)?;
+    let mut materials = match material {
+        Some(material) => Materials::One(material),
+        None => Materials::own(base_dir, &buffers, stock),
+    };
+    let mut mesh = Mesh::default();
+    for (node, world_from_node) in placed_meshes(&gltf.document, *world_from_object)? {
+        for primitive in node.mesh().into_iter().flat_map(|mesh| mesh.primitives()) {
+            let Some(surface) = primitive::read(&primitive, &buffers)? else {
+                continue;
+            };
+            let so_far = mesh.triangles.len().max(mesh.positions_m.len());
+            let more = surface.triangles.len().max(surface.vertices.len());
+            if so_far + more > MOST_TRIANGLES {
+                return Err(Flaw::new(
+                    "it places more than 268 million triangles",
+                    "must have fewer",
+                ));
+            }
+            let material = materials.index(&primitive)?;
+            surface.bake(&world_from_node, material, &mut mesh);
+        }
+    }
+    if mesh.positions_m.iter().any(|p| !p.is_finite()) {
+        return Err(Flaw::new(
+            "it has vertices beyond the range of single precision",
+            "must be of a finite size",
+        ));
+    }
+    Ok(mesh)
+}
+
+fn parse(bytes: &[u8]) -> Result<Gltf, Flaw> {
+    let right = "must be a whole glTF 2.0 file, text (.gltf) or binary (.glb)";
+    if bytes.starts_with(b"glTF") {
+        // The header of 12 bytes and a chunk header of 8; the length is the header's third number.
+        let length = bytes
+            .get(8..12)
+            .map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]));
+        if length.is_none_or(|length| length < 20) {
+            return Err(Flaw::new("it ends within its header", right));
+        }
+    }
+    let gltf = Gltf::from_slice(bytes)
+        .map_err(|error| Flaw::new(format!("it is no valid glTF ({error})"), right))?;
+    let required = &gltf.document.as_json().extensions_required;
+    match required
+        .iter()
+        .find(|name| !EXTENSIONS.contains(&name.as_str()))
+    {
+        Some(name) => Err(Flaw::new(
+            format!("it requires the extension {name}, which is not supported"),
+            "export it again without that",
+        )),
+        None => Ok(gltf),
+    }
+}
+
+/// The nodes of the file's scene that have a mesh, with their transforms.
+fn placed_meshes(
+    document: &gltf::Document,
+    world_from_object: DMat4,
+) -> Result<Vec<(gltf::Node<'_>, DMat4)>, Flaw> {
+    let scene = document
+        .default_scene()
+        .or_else(|| document.scenes().next());
+    let roots: Vec<_> = match scene {
+        Some(scene) => scene.nodes().collect(),
+        // A file without a scene is a library; then all that is nobody's child is shown.
+        None => {
+            let mut is_child = vec![false; document.nodes().len()];
+            for child in document.nodes().flat_map(|node| node.children()) {
+                is_child[child.index()] = true;
+            }
+            document
+                .nodes()
+                .filter(|node| !is_child[node.index()])
+                .collect()
+        }
+    };
+    let mut placed = Vec::new();
+    let mut seen = vec![false; document.nodes().len()];
+    let mut stack: Vec<_> = roots
+        .into_iter()
+        .rev()
+        .map(|root| (root, world_from_object, 0))
+        .collect();
+    while let Some((node, world_from_parent, depth)) = stack.pop() {
+        // Nodes form trees, so meeting one twice is a mistake, and might go on for ever.
+        if std::mem::replace(&mut seen[node.index()], true) || depth > DEEPEST {
+            return Err(Flaw::new(
+                format!(
+                    "its node {} is its own ancestor or has two parents",
+                    node.index()
+                ),
+                "nodes must form trees",
+            ));
+        }
+        let world_from_node = world_from_parent * parent_from_node(&node);
+        for child in node.children().collect::<Vec<_>>().into_iter().rev() {
+            stack.push((child, world_from_node, depth + 1));
+        }
+        if node.mesh().is_some() {
+            placed.push((node, world_from_node));
+        }
+    }
+    Ok(placed)
+}
+
+fn parent_from_node(node: &gltf::Node) -> DMat4 {
+    match node.transform() {
+        gltf::scene::Transform::Matrix { matrix } => {
+            DMat4::from_cols_array_2d(&matrix.map(|column| column.map(f64::from)))
+        }
+        gltf::scene::Transform::Decomposed {
+            translation,
+            rotation,
+            scale,
+        } => {
+            let rotation = DQuat::from_array(rotation.map(f64::from));
+            // Exporters round, and a zero quaternion has no direction.
+            let rotation = match rotation.length() > 1e-6 {
+                true => rotation.normalize(),
+                false => DQuat::IDENTITY,
+            };
+            DMat4::from_scale_rotation_translation(
+                DVec3::from_array(scale.map(f64::from)),
+                rotation,
+                DVec3::from_array(translation.map(f64::from)),
+            )
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! The bytes that a glTF file refers to: its own binary chunk, other files, data URIs.
+
+use std::path::Path;
+
+use gltf::Gltf;
+
+use super::Flaw;
+
+/// The file's buffers, each at least as long as the file says.
+pub(super) struct Buffers(Vec<Vec<u8>>);
+
+impl Buffers {
+    pub(super) fn read(gltf: &Gltf, base_dir: &Path) -> Result<Self, Flaw> {
+        let read = |buffer: gltf::Buffer| {
+            let what = format!("buffer {}", buffer.index());
+            let bytes = match buffer.source() {
+                gltf::buffer::Source::Uri(uri) => resource(uri, base_dir, &what)?,
+                gltf::buffer::Source::Bin => gltf.blob.clone().ok_or_else(|| {
+                    Flaw::new(
+                        format!("its {what} has neither a `uri` nor a binary chunk"),
+                        "must have one of them",
+                    )
+                })?,
+            };
+            if bytes.len() < buffer.length() {
+                return Err(Flaw::new(
+                    format!(
+                        "its {what} is cut off: {} of {} bytes are there",
+                        bytes.len(),
+                        buffer.length()
+                    ),
+                    "must be whole; export or copy the file again",
+                ));
+            }
+            Ok(bytes)
+        };
+        let buffers = gltf.document.buffers().map(read);
+        buffers.collect::<Result<_, _>>().map(Self)
+    }
+
+    /// The bytes of a view.
+    pub(super) fn view(&self, view: &gltf::buffer::View) -> Result<&[u8], Flaw> {
+        let end = view.offset().checked_add(view.length());
+        end.and_then(|end| self.0[view.buffer().index()].get(view.offset()..end))
+            .ok_or_else(|| {
+                Flaw::new(
+                    format!("its buffer view {} reaches beyond its buffer", view.index()),
+                    "must end within it",
+                )
+            })
+    }
+}
+
+/// What a URI of a glTF file stands for: a data URI or a file beside it.
+pub(super) fn resource(uri: &str, base_dir: &Path, what: &str) -> Result<Vec<u8>, Flaw> {
+    if uri.starts_with("data:") {
+        // The gltf crate decodes what follows `;base64,`.
+        return gltf::buffer::Data::from_source(gltf::buffer::Source::Uri(uri), None)
+            .map(|data| data.0)
+            .map_err(|error| {
+                Flaw::new(
+                    format!("the data URI of its {what} cannot be decoded ({error})"),
+                    "must be base64",
+                )
+            });
+    }
+    let right = "must be a file beside it, by a relative path";
+    if uri.contains("://") {
+        return Err(Flaw::new(format!("its {what} is at \"{uri}\""), right));
+    }
+    let path = base_dir.join(percent_decoded(uri));
+    std::fs::read(&path).map_err(|error| {
+        let found = format!(
+            "its {what}, \"{}\", cannot be read ({error})",
+            path.display()
+        );
+        Flaw::new(found, right)
+    })
+}
+
+/// `%20` and the like, RFC 3986, section 2.1. What is no escape stays.
+fn percent_decoded(uri: &str) -> String {
+    let bytes = uri.as_bytes();
+    let mut decoded = Vec::with_capacity(bytes.len());
+    let mut i = 0;
+    while i < bytes.len() {
+        let escaped = (bytes[i] == b'%')
+            .then(|| uri.get(i + 1..i + 3))
+            .flatten()
+            .and_then(|hex| u8::from_str_radix(hex, 16).ok());
+        decoded.push(escaped.unwrap_or(bytes[i]));
+        i += if escaped.is_some() { 3 } else { 1 };
+    }
+    String::from_utf8(decoded).unwrap_or_else(|_| uri.to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn escapes_are_decoded_and_the_rest_stays() {
+        for (uri, path) in [
+            ("a%20b.bin", "a b.bin"),
+            ("caf%C3%A9.png", "café.png"),
+            ("100%.bin", "100%.bin"),
+            ("%zz%4", "%zz%4"),
+            ("%ff.bin", "%ff.bin"),
+            ("%é", "%é"),
+        ] {
+            assert_eq!(percent_decoded(uri), path);
+        }
+    }
+}

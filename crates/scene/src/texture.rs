@@ -1,0 +1,155 @@
+//! Images of materials with their mip chains: each level the exact mean of the one below, in linear light.
+
+use std::io::Cursor;
+
+use image::{ImageReader, Limits};
+use rayon::prelude::*;
+
+use crate::scene::Texture;
+
+const LARGEST_PX: u32 = 16_384;
+
+/// Decodes a PNG, JPEG or WebP file and builds its mip chain. `srgb` says whether its colours are sRGB encoded.
+pub(crate) fn decode(bytes: &[u8], srgb: bool) -> Result<Texture, image::ImageError> {
+    let mut reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format()?;
+    let mut limits = Limits::default();
+    limits.max_image_width = Some(LARGEST_PX);
+    limits.max_image_height = Some(LARGEST_PX);
+    reader.limits(limits);
+    let image = reader.decode()?.into_rgba8();
+    let size_px = [image.width(), image.height()];
+    let texels = image.pixels().map(|pixel| pixel.0).collect();
+    Ok(with_mips(size_px, texels, srgb))
+}
+
+/// A texture from its texels, row by row from the top.
+pub(crate) fn with_mips(size_px: [u32; 2], texels: Vec<[u8; 4]>, srgb: bool) -> Texture {
+    let to_linear: Vec<f32> = (0..=255u8)
+        .map(|code| match srgb {
+            true => srgb_to_linear(f32::from(code) / 255.0),
+            false => f32::from(code) / 255.0,
+        })
+        .collect();
+    let linear = |texel: &[u8; 4]| {
+        let [r, g, b, a] = *texel;
+        let color = [r, g, b].map(|code| to_linear[usize::from(code)]);
+        [color[0], color[1], color[2], f32::from(a) / 255.0]
+    };
+    let encoded = |texel: &[f32; 4]| {
+        let [r, g, b, a] = *texel;
+        let code = |x: f32| (x.clamp(0.0, 1.0) * 255.0).round() as u8;
+        let [r, g, b] = [r, g, b].map(|x| code(if srgb { linear_to_srgb(x) } else { x }));
+        [r, g, b, code(a)]
+    };
+    let mut size = size_px;
+    // Each level is made of the exact one before it, not of its rounded codes.
+    let mut level: Vec<[f32; 4]> = texels.par_iter().map(linear).collect();
+    let mut levels = vec![texels];
+    while size != [1, 1] {
+        let half = size.map(|n| (n / 2).max(1));
+        level = halved(&level, size, half);
+        levels.push(level.par_iter().map(encoded).collect());
+        size = half;
+    }
+    Texture {
+        size_px,
+        levels,
+        srgb,
+    }
+}
+
+/// The mean over the area that each of the fewer texels covers.
+fn halved(texels: &[[f32; 4]], size: [u32; 2], half: [u32; 2]) -> Vec<[f32; 4]> {
+    let columns: Vec<_> = (0..half[0]).map(|x| covered(x, size[0], half[0])).collect();
+    (0..half[1])
+        .into_par_iter()
+        .flat_map_iter(|y| {
+            let rows = covered(y, size[1], half[1]);
+            columns.iter().map(move |columns| {
+                let mut mean = [0.0; 4];
+                for &(row, row_share) in &rows {
+                    for &(column, column_share) in columns {
+                        let texel = texels[(row * size[0] + column) as usize];
+                        for channel in 0..4 {
+                            mean[channel] += texel[channel] * row_share * column_share;
+                        }
+                    }
+                }
+                mean
+            })
+        })
+        .collect()
+}
+
+/// Which of `n` texels lie under texel `i` of `half`, and their shares of it: two, or three where `n` is odd.
+fn covered(i: u32, n: u32, half: u32) -> Vec<(u32, f32)> {
+    // In units of 1 / half of a texel everything is a whole number.
+    let (from, to) = (i * n, (i + 1) * n);
+    (from / half..to.div_ceil(half))
+        .map(|texel| {
+            let overlap = to.min((texel + 1) * half) - from.max(texel * half);
+            (texel, overlap as f32 / n as f32)
+        })
+        .collect()
+}
+
+/// IEC 61966-2-1.
+fn srgb_to_linear(code: f32) -> f32 {
+    match code <= 0.04045 {
+        true => code / 12.92,
+        false => ((code + 0.055) / 1.055).powf(2.4),
+    }
+}
+
+/// IEC 61966-2-1.
+fn linear_to_srgb(linear: f32) -> f32 {
+    match linear <= 0.003_130_8 {
+        true => linear * 12.92,
+        false => 1.055 * linear.powf(1.0 / 2.4) - 0.055,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn srgb_is_averaged_in_linear_light() {
+        let checkers = vec![[0, 0, 0, 255], [255, 255, 255, 255]];
+        let srgb = with_mips([2, 1], checkers.clone(), true);
+        // Half the light is code 188, not 128.
+        assert_eq!(srgb.levels[1], [[188, 188, 188, 255]]);
+        let linear = with_mips([2, 1], checkers, false);
+        assert_eq!(linear.levels[1], [[128, 128, 128, 255]]);
+    }
+
+    #[test]
+    fn every_level_has_the_mean_of_the_first() {
+        // Odd sizes in both directions, and levels down to one texel.
+        let size = [13, 6];
+        let texels: Vec<_> = (0..size[0] * size[1])
+            .map(|i| [(i * 37 % 256) as u8, (i * 91 % 256) as u8, 7, 255])
+            .collect();
+        let texture = with_mips(size, texels, false);
+        let sizes: Vec<_> = texture.levels.iter().map(Vec::len).collect();
+        assert_eq!(sizes, [78, 18, 3, 1]);
+        let mean = |level: &Vec<[u8; 4]>, channel: usize| {
+            level.iter().map(|t| f64::from(t[channel])).sum::<f64>() / level.len() as f64
+        };
+        for level in &texture.levels {
+            for channel in 0..4 {
+                let error = mean(level, channel) - mean(&texture.levels[0], channel);
+                // Each texel is rounded by at most half a code.
+                assert!(error.abs() <= 0.5, "{channel}: {error}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_curve_and_its_inverse_agree() {
+        for code in 0..=255u8 {
+            let code = f32::from(code) / 255.0;
+            assert!((linear_to_srgb(srgb_to_linear(code)) - code).abs() < 1e-6);
+        }
+    }
+}
