@@ -88,8 +88,9 @@ impl FresnelRgb {
     /// Fits both parameters to exact reflectances: `f0` at normal incidence, `a` by least squares over the angle.
     ///
     /// The squares are weighted by sin(2 theta), as a diffusely lit surface weights its directions. Against Hoffman's
-    /// choice, which makes the curve exact at cos = 1/7, this lowers the rms error by about a third for the metals
-    /// of this crate's tests (figures there) and leaves the furnace albedo closer to the exact one.
+    /// choice, which makes the curve exact at cos = 1/7, this lowers the rms error by up to a fifth (gold 0.0064 against
+    /// 0.0076) and the error of the hemispherical albedo by up to 40 % (copper 0.0025 against 0.0041); where nothing
+    /// is gained nothing is lost. Schlick's curve errs by 0.002 (silver) to 0.052 (chromium).
     pub fn fit(reflectance: impl Fn(f64) -> [f64; 3]) -> Self {
         // Midpoints in sin^2 theta, which is the weight sin(2 theta) made uniform.
         const STEPS: usize = 256;
@@ -131,5 +132,108 @@ impl FresnelRgb {
     /// `e` = [E0, E1, E2] are the albedos for F = 1, (1 - c)^5 and c (1 - c)^6 (see [`crate::ggx::ggx_albedo`]).
     pub fn albedo(&self, e: [f64; 3]) -> [f64; 3] {
         std::array::from_fn(|ch| self.f0[ch] * (e[0] - e[1]) + e[1] - self.a[ch] * e[2])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+    use crate::metal::Metal;
+
+    #[test]
+    fn conductor_without_absorption_is_the_dielectric() {
+        for eta in [1.0, 1.3, 1.5, 2.4] {
+            for i in 0..=90 {
+                let c = f64::from(i).to_radians().cos();
+                assert!((conductor(c, eta, 0.0) - dielectric(c, eta)).abs() < 1e-9 || eta == 1.0);
+            }
+        }
+    }
+
+    #[test]
+    fn known_values() {
+        // (n - 1)^2 / (n + 1)^2 and its complex form, by hand.
+        assert!((dielectric(1.0, 1.5) - 0.04).abs() < 1e-15);
+        assert!((conductor(1.0, 0.2, 3.0) - (0.64 + 9.0) / (1.44 + 9.0)).abs() < 1e-15);
+        // Brewster's angle leaves only the perpendicular half: ((eta^2 - 1)/(eta^2 + 1))^2 / 2.
+        let eta: f64 = 1.5;
+        let brewster = 1.0 / (1.0 + eta * eta).sqrt();
+        let expected = 0.5 * ((eta * eta - 1.0) / (eta * eta + 1.0)).powi(2);
+        assert!((dielectric(brewster, eta) - expected).abs() < 1e-12);
+        // Total internal reflection starts at asin(1/1.5).
+        assert_eq!(dielectric((42.0_f64).to_radians().cos(), 1.0 / 1.5), 1.0);
+        assert!(dielectric((41.0_f64).to_radians().cos(), 1.0 / 1.5) < 1.0);
+    }
+
+    #[test]
+    fn grazing_and_odd_input_stay_in_range() {
+        for c in [-1.0, 0.0, 1e-300, 1e-9, 1.0, 2.0] {
+            for (n, k) in [(0.05, 4.0), (1.0, 0.0), (1.0, 1e-12), (3.0, 3.0)] {
+                let r = conductor(c, n, k);
+                assert!((0.0..=1.0).contains(&r), "{c} {n} {k}: {r}");
+            }
+        }
+        assert!((conductor(0.0, 0.2, 3.0) - 1.0).abs() < 1e-12);
+        assert!((dielectric(0.0, 1.5) - 1.0).abs() < 1e-12);
+    }
+
+    /// (rms over the angle weighted by sin 2 theta, largest error, error of the hemispherical albedo)
+    fn errors(fit: &FresnelRgb, metal: Metal) -> [f64; 3] {
+        const STEPS: usize = 1000;
+        let (mut squares, mut largest, mut albedo) = (0.0, 0.0_f64, [0.0; 3]);
+        for i in 0..STEPS {
+            let c = ((i as f64 + 0.5) / STEPS as f64).sqrt();
+            let (approximate, exact) = (fit.eval(c), metal.reflectance_rgb(c));
+            for ch in 0..3 {
+                let e = approximate[ch] - exact[ch];
+                squares += e * e / (3.0 * STEPS as f64);
+                largest = largest.max(e.abs());
+                albedo[ch] += e / STEPS as f64;
+            }
+        }
+        let albedo = albedo.into_iter().fold(0.0, |m: f64, e| m.max(e.abs()));
+        [squares.sqrt(), largest, albedo]
+    }
+
+    #[test]
+    fn three_parameters_follow_every_metal() {
+        for metal in Metal::ALL {
+            let reflectance = |c| metal.reflectance_rgb(c);
+            let squares = errors(&FresnelRgb::fit(reflectance), metal);
+            let hoffman = errors(&FresnelRgb::fit_at_82_degrees(reflectance), metal);
+            let schlick = errors(&FresnelRgb::schlick(metal.reflectance_rgb(1.0)), metal);
+            let show = |e: [f64; 3]| e.map(|e| format!("{:.4}", e)).join(" ");
+            println!(
+                "{metal:?}: rms, largest, albedo: least squares {}; at 82 degrees {}; Schlick {}",
+                show(squares),
+                show(hoffman),
+                show(schlick)
+            );
+            assert!(squares[0] <= hoffman[0] && squares[0] <= schlick[0]);
+            assert!(squares[2] < 0.01, "{metal:?}");
+        }
+    }
+
+    #[test]
+    fn albedo_is_the_integral_of_eval() {
+        // A perfectly rough facet mix: any weights over c will do, because the form is linear.
+        let fresnel = FresnelRgb {
+            f0: [0.9, 0.5, 0.04],
+            a: [0.3, -0.1, 0.0],
+        };
+        let (mut e, mut direct) = ([0.0; 3], DVec3::ZERO);
+        for i in 0..64 {
+            let c = (f64::from(i) + 0.5) / 64.0;
+            let weight = c * c / 10.0;
+            e[0] += weight;
+            e[1] += weight * schlick_weight(c);
+            e[2] += weight * dip_weight(c);
+            direct += weight * DVec3::from(fresnel.eval(c));
+        }
+        for ch in 0..3 {
+            assert!((fresnel.albedo(e)[ch] - direct[ch]).abs() < 1e-12);
+        }
     }
 }

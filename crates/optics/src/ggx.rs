@@ -13,15 +13,20 @@ use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3};
 
-use crate::fresnel::{dip_weight, schlick_weight};
+use crate::fresnel::{FresnelRgb, dip_weight, schlick_weight};
 
 /// The smallest alpha: a mirror of 0.1 degrees. Below it single precision no longer resolves the lobe.
 pub const GGX_MIN_ALPHA: f64 = 0.002;
 
 /// Alpha from perceptual (glTF) roughness: its square, at least [`GGX_MIN_ALPHA`]. NaN counts as 0.
 pub fn ggx_alpha(roughness: f64) -> f64 {
-    let r = roughness.max(0.0).min(1.0);
+    let r = unit_clamp(roughness);
     (r * r).max(GGX_MIN_ALPHA)
+}
+
+/// Into [0, 1]; NaN, which `clamp` would hand on, becomes 0.
+pub(crate) fn unit_clamp(x: f64) -> f64 {
+    if x > 0.0 { x.min(1.0) } else { 0.0 }
 }
 
 /// The distribution of normals D at a half vector `h` of any length, per steradian.
@@ -122,4 +127,14 @@ pub fn ggx_albedo(cos_o: f64, alpha: f64, steps: usize) -> [f64; 3] {
 /// A lobe of albedo E0 and f0 = 1 comes back to albedo 1.
 pub fn ggx_multiple_scattering(f0: f64, e0: f64) -> f64 {
     1.0 + f0 * (1.0 / e0.clamp(1e-3, 1.0) - 1.0)
+}
+
+/// Radiance per unit of light radiance from the integral of the lobe over an area light: Fresnel by the ratio of
+/// albedos, times multiple scattering. `e` = [E0, E1, E2].
+pub fn ggx_area_reflectance(integral: f64, fresnel: &FresnelRgb, e: [f64; 3]) -> [f64; 3] {
+    let albedo = fresnel.albedo(e);
+    let e0 = e[0].max(1e-3);
+    std::array::from_fn(|ch| {
+        integral * albedo[ch] / e0 * ggx_multiple_scattering(fresnel.f0[ch], e[0])
+    })
 }

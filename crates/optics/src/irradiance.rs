@@ -126,6 +126,17 @@ pub fn irradiance_angle(sine: f64, cosine: f64) -> f64 {
     sine.atan2(cosine)
 }
 
+/// Two directions that complete `w` to a right-handed frame (u, v, w); v is level.
+pub fn irradiance_basis(w: DVec3) -> (DVec3, DVec3) {
+    let level = w.truncate().length();
+    let v = if level > 1e-6 {
+        DVec3::new(-w.y, w.x, 0.0) / level
+    } else {
+        DVec3::Y
+    };
+    (v.cross(w), v)
+}
+
 /// The cone {1, T1 cos t, T2 sin t} about `axis`: half-angles atan T1 <= atan T2 towards `side1` and `side2`.
 /// The three directions are orthonormal and right-handed.
 #[derive(Clone, Copy, Debug)]
@@ -235,7 +246,7 @@ pub fn lambert_sphere(axis: DVec3, sin2: f64) -> f64 {
     if sin2 >= 1.0 {
         return 1.0;
     }
-    let (side1, side2) = axis.any_orthonormal_pair();
+    let (side1, side2) = irradiance_basis(axis);
     let tangent = (sin2.max(0.0) / (1.0 - sin2)).sqrt();
     let cone = EllipticCone {
         axis,

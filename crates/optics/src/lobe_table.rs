@@ -6,6 +6,8 @@
 
 use std::sync::LazyLock;
 
+use crate::ggx::unit_clamp;
+
 /// Nodes along each axis.
 pub const LOBE_TABLE_SIZE: usize = 32;
 
@@ -64,8 +66,8 @@ impl LobeTable {
     /// Bilinear look-up; both arguments are clamped to [0, 1].
     pub fn lookup(&self, roughness: f64, cos_o: f64) -> [f64; 4] {
         let last = (LOBE_TABLE_SIZE - 1) as f64;
-        let x = cos_o.max(0.0).min(1.0).sqrt() * last;
-        let y = roughness.max(0.0).min(1.0) * last;
+        let x = unit_clamp(cos_o).sqrt() * last;
+        let y = unit_clamp(roughness) * last;
         let (x0, y0) = (x.floor().min(last - 1.0), y.floor().min(last - 1.0));
         let (fx, fy) = (x - x0, y - y0);
         let node = |dx: usize, dy: usize| {

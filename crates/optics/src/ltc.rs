@@ -15,12 +15,12 @@
 
 use std::f64::consts::PI;
 
-use glam::{DMat3, DVec2, DVec3};
+use glam::{DVec2, DVec3};
 
 use crate::ggx::{ggx_alpha, ggx_eval};
 use crate::irradiance::{
-    EllipticCone, PolygonIrradiance, irradiance_begin, irradiance_cone, irradiance_edge,
-    irradiance_end,
+    EllipticCone, PolygonIrradiance, irradiance_basis, irradiance_begin, irradiance_cone,
+    irradiance_edge, irradiance_end,
 };
 use crate::lobe_table::{LOBE_MIN_COS, albedo_lookup, ltc_table};
 
@@ -110,7 +110,7 @@ impl LtcLobe {
     }
 
     /// The inverse of [`LtcLobe::to_cosine`], times cos_peak^2, which keeps it finite for a peak on the horizon.
-    fn from_cosine(&self, w: DVec3) -> DVec3 {
+    fn undo_cosine(&self, w: DVec3) -> DVec3 {
         let (s, c) = (self.peak.x, self.peak.y);
         DVec3::new(
             self.width.x * w.x - s * c * w.z,
@@ -132,7 +132,7 @@ impl LtcLobe {
 
     /// A direction in the viewer's frame distributed as the density, from a cosine-distributed one: for the fit.
     pub fn sample(&self, cosine_distributed: DVec3) -> DVec3 {
-        self.from_cosine(cosine_distributed).normalize_or(DVec3::Z)
+        self.undo_cosine(cosine_distributed).normalize_or(DVec3::Z)
     }
 }
 
@@ -194,121 +194,67 @@ pub fn ltc_sphere(lobe: &LtcLobe, axis: DVec3, sin2: f64) -> f64 {
     if sin2 <= 0.0 {
         return 0.0;
     }
-    ltc_integral(lobe, ltc_cone_irradiance(lobe, lobe.rotate(axis), sin2))
+    let cone = ltc_transform_cone(lobe, lobe.rotate(axis), sin2);
+    ltc_integral(lobe, irradiance_cone(&cone))
 }
 
-/// Below the first of these widths in the cosine's space a sphere is treated as a point; above the second as a cone.
-const SMALL_CONE: [f64; 2] = [0.01, 0.03];
+/// Sweeps over the three pairs of axes in [`ltc_transform_cone`]. After three, what is left is below single precision.
+const CONE_SWEEPS: usize = 4;
 
-/// Vector irradiance in the cosine's space of a cone about `axis` (viewer's frame).
-fn ltc_cone_irradiance(lobe: &LtcLobe, axis: DVec3, sin2: f64) -> DVec3 {
-    let centre = lobe.to_cosine(axis);
-    let distance2 = centre.length_squared().max(1e-30);
-    // No direction of the cone's rim is further than this from the centre in the cosine's space, about.
-    let stretch = (1.0 / lobe.width.min_element()).max(1.0);
-    let extent = (sin2 / distance2).sqrt() * stretch;
-    let [low, high] = SMALL_CONE;
-    let blend = ((extent - low) / (high - low)).clamp(0.0, 1.0);
-
-    let mut vector = DVec3::ZERO;
-    if blend < 1.0 {
-        let determinant = lobe.peak.y * lobe.peak.y / (lobe.width.x * lobe.width.y);
-        let solid_angle = 2.0 * PI * sin2 / (1.0 + (1.0 - sin2).sqrt());
-        // The mean of max(z, 0) over the disk, whose edge is z +- half_height.
-        let half_height = (sin2 * (1.0 - axis.z * axis.z).max(0.0)).sqrt();
-        let z = if axis.z >= half_height {
-            axis.z
-        } else {
-            (axis.z + half_height).max(0.0).powi(2) / (4.0 * half_height).max(1e-30)
-        };
-        vector = centre.with_z(z) * (solid_angle * determinant / (distance2 * distance2));
-    }
-    if blend > 0.0 {
-        let large = irradiance_cone(&ltc_transform_cone(lobe, axis, sin2));
-        vector += blend * (large - vector);
-    }
-    vector
-}
-
-/// The cone of directions within asin sqrt(sin2) of `axis`, in the cosine's space.
+/// The cone of directions within asin sqrt(sin2) of `axis` (viewer's frame), in the cosine's space.
 ///
-/// It is the set where w' Q w >= 0; Q has one positive eigenvalue, whose vector is the elliptic cone's axis.
+/// The cone's rim is c + u cos t + v sin t. Rotating (u, v), or boosting (c, u) or (c, v) hyperbolically, moves points along
+/// the rim but leaves the cone; done in turn, until all three are perpendicular (Jacobi's method), they end as the axes of the
+/// elliptic cone. Unlike an eigenproblem this squares nothing, so slivers and specks keep their relative precision.
 fn ltc_transform_cone(lobe: &LtcLobe, axis: DVec3, sin2: f64) -> EllipticCone {
-    let columns = [DVec3::X, DVec3::Y, DVec3::Z].map(|e| lobe.from_cosine(e));
-    let normals = columns.map(|m| axis.cross(m));
-    // |w|^2 sin^2 - |axis x w|^2: the form with 1 - cos^2 would cancel for small cones.
-    let q = |i: usize, j: usize| sin2 * columns[i].dot(columns[j]) - normals[i].dot(normals[j]);
-    let scale = 1.0
-        / [q(0, 0), q(1, 1), q(2, 2)]
-            .into_iter()
-            .fold(1e-30, |m: f64, v| m.max(v.abs()));
-    let row0 = scale * DVec3::new(q(0, 0), q(0, 1), q(0, 2));
-    let row1 = scale * DVec3::new(q(0, 1), q(1, 1), q(1, 2));
-    let row2 = scale * DVec3::new(q(0, 2), q(1, 2), q(2, 2));
-
-    let lambda = ltc_largest_eigenvalue(row0, row1, row2);
-    let (s0, s1, s2) = (
-        row0 - lambda * DVec3::X,
-        row1 - lambda * DVec3::Y,
-        row2 - lambda * DVec3::Z,
-    );
-    // The eigenvector is perpendicular to all rows; the longest cross product is the best conditioned.
-    let (c01, c12, c20) = (s0.cross(s1), s1.cross(s2), s2.cross(s0));
-    let mut centre = c01;
-    if c12.length_squared() > centre.length_squared() {
-        centre = c12;
+    let (u, v) = irradiance_basis(axis);
+    let sine = sin2.sqrt();
+    let mut c = lobe.to_cosine(axis) * (1.0 - sin2).max(0.0).sqrt();
+    let mut u = lobe.to_cosine(u) * sine;
+    let mut v = lobe.to_cosine(v) * sine;
+    for _ in 0..CONE_SWEEPS {
+        (u, v) = ltc_rotate_pair(u, v);
+        (c, u) = ltc_boost_pair(c, u);
+        (c, v) = ltc_boost_pair(c, v);
     }
-    if c20.length_squared() > centre.length_squared() {
-        centre = c20;
+    if u.length_squared() > v.length_squared() {
+        (u, v) = (v, -u);
     }
-    let mut centre = centre.normalize_or(DVec3::Z);
-    if lobe.from_cosine(centre).dot(axis) < 0.0 {
-        centre = -centre;
-    }
-
-    // The other two: a 2 x 2 problem in the plane across.
-    let (u, v) = centre.any_orthonormal_pair();
-    let apply = |w: DVec3| DVec3::new(row0.dot(w), row1.dot(w), row2.dot(w));
-    let (uu, uv, vv) = (u.dot(apply(u)), u.dot(apply(v)), v.dot(apply(v)));
-    let mean = 0.5 * (uu + vv);
-    let half = 0.5 * (uu - vv);
-    let spread = half.hypot(uv);
-    // Cosine of twice the angle of the larger eigenvalue (the less negative: the major axis).
-    let cos_2 = if spread > 0.0 { half / spread } else { 1.0 };
-    let cos = (0.5 * (1.0 + cos_2)).max(0.0).sqrt();
-    let sin = (0.5 * (1.0 - cos_2)).max(0.0).sqrt().copysign(uv);
-    let side2 = cos * u + sin * v;
-    let tangent = |eigenvalue: f64| (lambda.max(0.0) / (-eigenvalue).max(1e-9)).sqrt();
+    let (length_u, length_v) = (u.length().max(1e-30), v.length().max(1e-30));
+    // Half-angles end at 0.006 degrees below 90.
+    let length_c = c.length().max(1e-4 * length_u);
+    let side2 = v / length_v;
+    let centre = u.cross(v).normalize_or(DVec3::Z);
     EllipticCone {
         axis: centre,
         side1: side2.cross(centre),
         side2,
-        t1: tangent(mean - spread),
-        t2: tangent(mean + spread),
+        t1: length_u / length_c,
+        t2: length_v / length_c,
     }
 }
 
-/// The largest eigenvalue of a symmetric matrix of trace-norm about 1, by Newton's method from above, where the
-/// characteristic polynomial is convex: it cannot overshoot.
-fn ltc_largest_eigenvalue(row0: DVec3, row1: DVec3, row2: DVec3) -> f64 {
-    let trace = row0.x + row1.y + row2.z;
-    let minors = row0.x * row1.y - row0.y * row0.y + row0.x * row2.z - row0.z * row0.z
-        + row1.y * row2.z
-        - row1.z * row1.z;
-    let determinant = DMat3::from_cols(row0, row1, row2).determinant();
-    let mut x: f64 = [row0, row1, row2]
-        .iter()
-        .map(|r| r.abs().element_sum())
-        .fold(0.0, f64::max);
-    for _ in 0..16 {
-        let value = ((x - trace) * x + minors) * x - determinant;
-        let slope = (3.0 * x - 2.0 * trace) * x + minors;
-        if slope <= 1e-12 {
-            break;
-        }
-        x -= value / slope;
+/// Rotates (u, v) into each other until they are perpendicular.
+fn ltc_rotate_pair(u: DVec3, v: DVec3) -> (DVec3, DVec3) {
+    let product = 2.0 * u.dot(v);
+    let difference = v.length_squared() - u.length_squared();
+    let sum = difference.abs() + difference.hypot(product);
+    if sum <= 0.0 {
+        return (u, v);
     }
-    x
+    let tangent = product.copysign(product * difference) / sum;
+    let cos = 1.0 / (1.0 + tangent * tangent).sqrt();
+    (cos * (u - tangent * v), cos * (v + tangent * u))
+}
+
+/// Boosts (c, u) into each other until they are perpendicular.
+fn ltc_boost_pair(c: DVec3, u: DVec3) -> (DVec3, DVec3) {
+    let sum = c.length_squared() + u.length_squared();
+    // sqrt(sum^2 - 4 (c . u)^2), without the cancellation.
+    let rest = (c + u).length() * (c - u).length();
+    let tangent = -2.0 * c.dot(u) / (sum + rest).max(1e-30);
+    let gain = 1.0 / (1.0 - tangent * tangent).max(1e-12).sqrt();
+    (gain * (c + tangent * u), gain * (u + tangent * c))
 }
 
 /// Where the fit is compared with GGX: the centre and a ring, in units of the sine of the light's radius, with weights. The
@@ -325,12 +271,12 @@ const CENTRE_WEIGHT: f64 = 1.0 / 3.0;
 fn ltc_integral(lobe: &LtcLobe, vector: DVec3) -> f64 {
     let share = (vector.z / PI).clamp(0.0, 1.0);
     let length = vector.length();
-    if !(length > 0.0) || share <= 0.0 {
+    if share <= 0.0 {
         return 0.0;
     }
     let centre = vector / length;
     let sin2 = (length / PI).min(1.0);
-    let (u, v) = centre.any_orthonormal_pair();
+    let (u, v) = irradiance_basis(centre);
     let radius = RING_RADIUS * sin2.sqrt();
     let height = (1.0 - radius * radius).max(0.0).sqrt();
     let ring = [u, v, -u, -v];
@@ -345,13 +291,13 @@ fn ltc_integral(lobe: &LtcLobe, vector: DVec3) -> f64 {
         }
     }
     let corrected = PI * exact / cosine.max(1e-30);
-    let fade = sin2 * sin2 * sin2 * sin2;
+    let fade = sin2 * sin2;
     share * (corrected + fade * (lobe.albedo[0] - corrected))
 }
 
 /// GGX at the direction that `w` stands for, times the solid angle there per solid angle at w.
 fn ltc_exact_over_jacobian(lobe: &LtcLobe, w: DVec3) -> f64 {
-    let direction = lobe.from_cosine(w);
+    let direction = lobe.undo_cosine(w);
     let l2 = direction.length_squared().max(1e-30);
     let l = l2.sqrt();
     let c2 = lobe.peak.y * lobe.peak.y;

@@ -1,0 +1,5 @@
+//! The area-light lobes against converged cubature of GGX, and what must hold for any input.
+
+mod accuracy;
+mod cubature;
+mod limits;
