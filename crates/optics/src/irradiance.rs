@@ -55,27 +55,36 @@ pub fn irradiance_edge(state: &mut PolygonIrradiance, a: DVec3, b: DVec3, ab: DV
     state.moment += volume * (state.offset + next) / 3.0;
     state.offset = next;
 
-    // Twice the signed area of the edge's shadow on z = 0: its sign says which way the edge turns about z.
+    // The edge leaves z on its left or on its right. Where it passes through z, it is as if all y were a trifle smaller:
+    // the crossings below count y = 0 as below too.
     let turn = a.x * ab.y - a.y * ab.x;
-    if a.y <= 0.0 && b.y > 0.0 && turn > 0.0 {
+    let left = turn > 0.0 || (turn == 0.0 && ab.x >= 0.0);
+    if a.y <= 0.0 && b.y > 0.0 && left {
         state.winding += 1.0;
-    } else if a.y > 0.0 && b.y <= 0.0 && turn < 0.0 {
+    } else if a.y > 0.0 && b.y <= 0.0 && !left {
         state.winding -= 1.0;
     }
+    let turn = turn.abs();
 
     if a.z >= 0.0 && b.z >= 0.0 {
         add_arc(state, a, b, a.cross(ab));
     } else if a.z <= 0.0 && b.z <= 0.0 {
-        add_shadow(state, a.truncate(), b.truncate(), turn);
+        add_shadow(state, a.truncate(), b.truncate(), turn, left);
     } else {
         let t = a.z / (a.z - b.z);
         let mut crossing = a + t * ab;
         crossing.z = 0.0;
         if a.z > 0.0 {
             add_arc(state, a, crossing, t * a.cross(ab));
-            add_shadow(state, crossing.truncate(), b.truncate(), (1.0 - t) * turn);
+            add_shadow(
+                state,
+                crossing.truncate(),
+                b.truncate(),
+                (1.0 - t) * turn,
+                left,
+            );
         } else {
-            add_shadow(state, a.truncate(), crossing.truncate(), t * turn);
+            add_shadow(state, a.truncate(), crossing.truncate(), t * turn, left);
             add_arc(state, crossing, b, (1.0 - t) * a.cross(ab));
         }
     }
@@ -96,7 +105,7 @@ pub fn irradiance_end(state: &PolygonIrradiance) -> DVec3 {
     vector.z = vector.z.max(0.0);
     if !state.cut && state.perimeter < SMALL_PERIMETER[1] {
         let centre = state.first + state.moment / state.volume;
-        let distance2 = centre.length_squared().max(1e-30);
+        let distance2 = centre.length_squared().max(1e-15);
         let small = centre * (0.5 * state.volume.abs() / (distance2 * distance2));
         let [low, high] = SMALL_PERIMETER;
         let blend = ((state.perimeter - low) / (high - low)).clamp(0.0, 1.0);
@@ -115,10 +124,17 @@ fn add_arc(state: &mut PolygonIrradiance, a: DVec3, b: DVec3, normal: DVec3) {
     }
 }
 
-/// The arc that an edge below the horizon casts on it; `turn` is a x b.
-fn add_shadow(state: &mut PolygonIrradiance, a: DVec2, b: DVec2, turn: f64) {
-    let angle = irradiance_angle(turn.abs(), a.dot(b));
-    state.vector.z += 0.5 * angle.copysign(turn);
+/// The arc that an edge below the horizon casts on it; `turn` is |a x b|.
+fn add_shadow(state: &mut PolygonIrradiance, a: DVec2, b: DVec2, turn: f64, left: bool) {
+    // A vertex at the nadir casts its shadow to -y, which is where smaller y would put it.
+    let angle = if a == DVec2::ZERO {
+        irradiance_angle(b.x.abs(), -b.y)
+    } else if b == DVec2::ZERO {
+        irradiance_angle(a.x.abs(), -a.y)
+    } else {
+        irradiance_angle(turn, a.dot(b))
+    };
+    state.vector.z += if left { 0.5 * angle } else { -0.5 * angle };
 }
 
 /// The angle in [0, pi] whose sine and cosine are in the proportion of `sine` >= 0 and `cosine`; 0 for (0, 0).
@@ -229,15 +245,29 @@ pub fn irradiance_cone(cone: &EllipticCone) -> DVec3 {
     vector.with_z(vector.z.max(0.0))
 }
 
+/// Starts a polygon on a diffuse surface; see [`lambert_end`].
+pub fn lambert_begin() -> PolygonIrradiance {
+    irradiance_begin()
+}
+
+/// Adds the edge from `a` to `b`, positions relative to the point, in the local frame. Edges follow one another and close.
+pub fn lambert_edge(state: &mut PolygonIrradiance, a: DVec3, b: DVec3) {
+    irradiance_edge(state, a, b, b - a);
+}
+
+/// Form factor of the polygon, in [0, 1]: radiosity over radiance times pi.
+pub fn lambert_end(state: &PolygonIrradiance) -> f64 {
+    (irradiance_end(state).z / PI).min(1.0)
+}
+
 /// Form factor of a polygon on a diffuse surface, in [0, 1]: radiosity over radiance times pi. Vertices are
 /// relative to the point, in the local frame, in order.
 pub fn lambert_polygon(vertices: &[DVec3]) -> f64 {
-    let mut state = irradiance_begin();
+    let mut state = lambert_begin();
     for (i, &a) in vertices.iter().enumerate() {
-        let b = vertices[(i + 1) % vertices.len()];
-        irradiance_edge(&mut state, a, b, b - a);
+        lambert_edge(&mut state, a, vertices[(i + 1) % vertices.len()]);
     }
-    (irradiance_end(&state).z / PI).min(1.0)
+    lambert_end(&state)
 }
 
 /// Form factor of a sphere on a diffuse surface, in [0, 1]; `axis` is the unit direction to its centre, `sin2` the squared

@@ -298,9 +298,9 @@ fn ltc_integral(lobe: &LtcLobe, vector: DVec3) -> f64 {
 /// GGX at the direction that `w` stands for, times the solid angle there per solid angle at w.
 fn ltc_exact_over_jacobian(lobe: &LtcLobe, w: DVec3) -> f64 {
     let direction = lobe.undo_cosine(w);
-    let l2 = direction.length_squared().max(1e-30);
-    let l = l2.sqrt();
-    let c2 = lobe.peak.y * lobe.peak.y;
-    let jacobian = lobe.width.x * lobe.width.y * c2 * c2 / (l2 * l);
+    let l = direction.length().max(1e-15);
+    // c^4 / l^3 in an order that stays within single precision for a peak on the horizon.
+    let c2_over_l = lobe.peak.y * lobe.peak.y / l;
+    let jacobian = lobe.width.x * lobe.width.y * c2_over_l * c2_over_l / l;
     ggx_eval(direction / l, lobe.wo, lobe.alpha) * jacobian
 }

@@ -461,3 +461,19 @@ fn cap_intersections_match_cubature() {
         assert!((value - exact).abs() < 2e-3, "{a:?} {b:?}: {value} {exact}");
     }
 }
+
+#[test]
+fn edges_through_the_nadir_cast_no_light() {
+    // Vertices at multiples of one unit: edges and corners exactly under the point, along either axis.
+    for x in -2..=1 {
+        for y in -2..=1 {
+            for (w, h) in [(1, 1), (2, 1), (1, 2), (2, 2)] {
+                let at = |i: i32, j: i32| DVec3::new(f64::from(x + i), f64::from(y + j), -1.0);
+                let mut floor = vec![at(0, 0), at(w, 0), at(w, h), at(0, h)];
+                assert!(lambert_polygon(&floor) < 1e-12, "{floor:?}");
+                floor.reverse();
+                assert!(lambert_polygon(&floor) < 1e-12, "{floor:?}");
+            }
+        }
+    }
+}

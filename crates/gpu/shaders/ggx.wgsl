@@ -1,0 +1,60 @@
+// The isotropic GGX lobe with F = 1, cosine inside. Local frame, z = normal. Needs fresnel.
+// Twin: optics::ggx, where the papers are named.
+
+const GGX_PI: f32 = 3.14159265358979;
+const GGX_MIN_ALPHA: f32 = 0.002;
+
+fn ggx_alpha(roughness: f32) -> f32 {
+    let r = clamp(roughness, 0.0, 1.0);
+    return max(r * r, GGX_MIN_ALPHA);
+}
+
+// `h` of any length: 1 - cos^2 would cancel near the mirror.
+fn ggx_d(h: vec3f, alpha: f32) -> f32 {
+    let a2 = alpha * alpha;
+    let tangential = h.x * h.x + h.y * h.y;
+    let normal = h.z * h.z;
+    let q = max(tangential + a2 * normal, 1e-30);
+    let ratio = (tangential + normal) / q;
+    return a2 / GGX_PI * ratio * ratio;
+}
+
+fn ggx_g1(cos_theta: f32, alpha: f32) -> f32 {
+    if (cos_theta <= 0.0) {
+        return 0.0;
+    }
+    return 2.0 * cos_theta / (cos_theta + ggx_projected_roughness(cos_theta, alpha));
+}
+
+// G2 / (4 cos_i cos_o), height-correlated.
+fn ggx_visibility(cos_i: f32, cos_o: f32, alpha: f32) -> f32 {
+    let sum = cos_o * ggx_projected_roughness(cos_i, alpha)
+        + cos_i * ggx_projected_roughness(cos_o, alpha);
+    return 0.5 / max(sum, 1e-30);
+}
+
+fn ggx_projected_roughness(cos_theta: f32, alpha: f32) -> f32 {
+    let a2 = alpha * alpha;
+    return sqrt(a2 + (1.0 - a2) * cos_theta * cos_theta);
+}
+
+fn ggx_eval(wi: vec3f, wo: vec3f, alpha: f32) -> f32 {
+    if (wi.z <= 0.0 || wo.z <= 0.0) {
+        return 0.0;
+    }
+    return ggx_d(wi + wo, alpha) * ggx_visibility(wi.z, wo.z, alpha) * wi.z;
+}
+
+fn ggx_multiple_scattering(f0: f32, e0: f32) -> f32 {
+    return 1.0 + f0 * (1.0 / clamp(e0, 1e-3, 1.0) - 1.0);
+}
+
+// Radiance per unit of light radiance from the lobe's integral over a light; e = (E0, E1, E2).
+fn ggx_area_reflectance(integral: f32, fresnel: FresnelRgb, e: vec3f) -> vec3f {
+    let gain = vec3f(
+        ggx_multiple_scattering(fresnel.f0.x, e.x),
+        ggx_multiple_scattering(fresnel.f0.y, e.x),
+        ggx_multiple_scattering(fresnel.f0.z, e.x),
+    );
+    return integral / max(e.x, 1e-3) * fresnel_albedo(fresnel, e) * gain;
+}

@@ -1,0 +1,196 @@
+// The GGX lobe (F = 1, cosine inside) over a polygon or a sphere, by linearly transformed cosines.
+// Needs ggx, irradiance, lobe_table. Twin: optics::ltc, which explains the method and names the papers.
+//
+// Polygons are streamed: ltc_begin, ltc_edge for each edge in order, ltc_end.
+
+struct LtcLobe {
+    wo: vec3f,
+    alpha: f32,
+    x_axis: vec2f,
+    peak: vec2f,
+    width: vec2f,
+    albedo: vec3f,
+}
+
+fn ltc_lobe(wo: vec3f, roughness: f32, ltc_table: texture_2d<f32>, albedo_table: texture_2d<f32>) -> LtcLobe {
+    let cos_o = max(wo.z, LOBE_MIN_COS);
+    let shape = lobe_table_lookup(ltc_table, roughness, cos_o);
+    let frame = lobe_viewer_frame(wo);
+    let alpha = ggx_alpha(roughness);
+    let lean = alpha * shape.z * frame.sin_cos.x;
+    let sin_lean = sin(lean);
+    let cos_lean = cos(lean);
+    let peak_sin = frame.sin_cos.x * cos_lean - frame.sin_cos.y * sin_lean;
+    let peak_cos = frame.sin_cos.y * cos_lean + frame.sin_cos.x * sin_lean;
+    return LtcLobe(
+        vec3f(frame.sin_cos.x, 0.0, frame.sin_cos.y),
+        alpha,
+        frame.x_axis,
+        vec2f(max(peak_sin, 0.0), peak_cos),
+        2.0 * alpha * shape.xy,
+        lobe_albedo_lookup(albedo_table, roughness, cos_o),
+    );
+}
+
+struct LobeViewerFrame {
+    x_axis: vec2f,
+    sin_cos: vec2f,
+}
+
+fn lobe_viewer_frame(wo: vec3f) -> LobeViewerFrame {
+    let sine = length(wo.xy);
+    let x_axis = select(vec2f(1.0, 0.0), wo.xy / max(sine, 1e-9), sine > 1e-9);
+    return LobeViewerFrame(x_axis, normalize(vec2f(sine, max(wo.z, LOBE_MIN_COS))));
+}
+
+fn lobe_rotate(x_axis: vec2f, w: vec3f) -> vec3f {
+    return vec3f(x_axis.x * w.x + x_axis.y * w.y, x_axis.x * w.y - x_axis.y * w.x, w.z);
+}
+
+fn ltc_to_cosine(lobe: LtcLobe, w: vec3f) -> vec3f {
+    return vec3f(
+        lobe.peak.y * (lobe.peak.y * w.x + lobe.peak.x * w.z) / lobe.width.x,
+        w.y / lobe.width.y,
+        w.z,
+    );
+}
+
+// The inverse, times cos_peak^2.
+fn ltc_undo_cosine(lobe: LtcLobe, w: vec3f) -> vec3f {
+    let s = lobe.peak.x;
+    let c = lobe.peak.y;
+    return vec3f(lobe.width.x * w.x - s * c * w.z, c * c * lobe.width.y * w.y, c * c * w.z);
+}
+
+fn ltc_begin() -> PolygonIrradiance {
+    return irradiance_begin();
+}
+
+// Positions relative to the point, in the local frame.
+fn ltc_edge(state: ptr<function, PolygonIrradiance>, lobe: LtcLobe, a: vec3f, b: vec3f) {
+    irradiance_edge(
+        state,
+        ltc_to_cosine(lobe, lobe_rotate(lobe.x_axis, a)),
+        ltc_to_cosine(lobe, lobe_rotate(lobe.x_axis, b)),
+        ltc_to_cosine(lobe, lobe_rotate(lobe.x_axis, b - a)),
+    );
+}
+
+fn ltc_end(state: PolygonIrradiance, lobe: LtcLobe) -> f32 {
+    return ltc_integral(lobe, irradiance_end(state));
+}
+
+fn ltc_sphere(lobe: LtcLobe, axis: vec3f, sin2: f32) -> f32 {
+    if (sin2 >= 1.0) {
+        return lobe.albedo.x;
+    }
+    if (sin2 <= 0.0) {
+        return 0.0;
+    }
+    return ltc_integral(lobe, irradiance_cone(ltc_transform_cone(lobe, lobe_rotate(lobe.x_axis, axis), sin2)));
+}
+
+fn sphere_light(
+    wo: vec3f,
+    roughness: f32,
+    axis: vec3f,
+    sin2: f32,
+    ltc_table: texture_2d<f32>,
+    albedo_table: texture_2d<f32>,
+) -> f32 {
+    return ltc_sphere(ltc_lobe(wo, roughness, ltc_table, albedo_table), axis, sin2);
+}
+
+const LTC_CONE_SWEEPS: i32 = 4;
+
+fn ltc_transform_cone(lobe: LtcLobe, axis: vec3f, sin2: f32) -> EllipticCone {
+    let sides = irradiance_basis(axis);
+    let sine = sqrt(sin2);
+    var c = ltc_to_cosine(lobe, axis) * sqrt(max(1.0 - sin2, 0.0));
+    var uv = LtcPair(ltc_to_cosine(lobe, sides.u) * sine, ltc_to_cosine(lobe, sides.v) * sine);
+    for (var i = 0; i < LTC_CONE_SWEEPS; i++) {
+        uv = ltc_rotate_pair(uv.a, uv.b);
+        let cu = ltc_boost_pair(c, uv.a);
+        let cv = ltc_boost_pair(cu.a, uv.b);
+        c = cv.a;
+        uv = LtcPair(cu.b, cv.b);
+    }
+    if (dot(uv.a, uv.a) > dot(uv.b, uv.b)) {
+        uv = LtcPair(uv.b, -uv.a);
+    }
+    let length_u = max(length(uv.a), 1e-18);
+    let length_v = max(length(uv.b), 1e-18);
+    let length_c = max(length(c), 1e-4 * length_u);
+    let side2 = uv.b / length_v;
+    // Of unit vectors: the product of two specks would underflow.
+    let normal = cross(uv.a / length_u, side2);
+    let length_n = length(normal);
+    let centre = select(vec3f(0.0, 0.0, 1.0), normal / max(length_n, 1e-18), length_n > 0.0);
+    return EllipticCone(centre, length_u / length_c, cross(side2, centre), length_v / length_c, side2);
+}
+
+struct LtcPair {
+    a: vec3f,
+    b: vec3f,
+}
+
+fn ltc_rotate_pair(u: vec3f, v: vec3f) -> LtcPair {
+    let product = 2.0 * dot(u, v);
+    let difference = dot(v, v) - dot(u, u);
+    let sum = abs(difference) + length(vec2f(difference, product));
+    if (sum <= 0.0) {
+        return LtcPair(u, v);
+    }
+    let tangent = select(product, -product, difference < 0.0) / sum;
+    let cosine = 1.0 / sqrt(1.0 + tangent * tangent);
+    return LtcPair(cosine * (u - tangent * v), cosine * (v + tangent * u));
+}
+
+fn ltc_boost_pair(c: vec3f, u: vec3f) -> LtcPair {
+    let sum = dot(c, c) + dot(u, u);
+    let rest = length(c + u) * length(c - u);
+    let tangent = -2.0 * dot(c, u) / max(sum + rest, 1e-30);
+    let gain = 1.0 / sqrt(max(1.0 - tangent * tangent, 1e-12));
+    return LtcPair(gain * (c + tangent * u), gain * (u + tangent * c));
+}
+
+const LTC_RING_RADIUS: f32 = 0.8660254;
+const LTC_RING_WEIGHT: f32 = 0.16666667;
+const LTC_CENTRE_WEIGHT: f32 = 0.33333333;
+
+fn ltc_integral(lobe: LtcLobe, vector: vec3f) -> f32 {
+    let share = clamp(vector.z / GGX_PI, 0.0, 1.0);
+    if (share <= 0.0) {
+        return 0.0;
+    }
+    let magnitude = length(vector);
+    let centre = vector / max(magnitude, 1e-30);
+    let sin2 = min(magnitude / GGX_PI, 1.0);
+    let sides = irradiance_basis(centre);
+    let radius = LTC_RING_RADIUS * sqrt(sin2);
+    let height = sqrt(max(1.0 - radius * radius, 0.0));
+
+    var sums = vec2f(ltc_exact_over_jacobian(lobe, centre), centre.z) * LTC_CENTRE_WEIGHT;
+    sums += ltc_ring_point(lobe, height * centre + radius * sides.u);
+    sums += ltc_ring_point(lobe, height * centre + radius * sides.v);
+    sums += ltc_ring_point(lobe, height * centre - radius * sides.u);
+    sums += ltc_ring_point(lobe, height * centre - radius * sides.v);
+    let corrected = GGX_PI * sums.x / max(sums.y, 1e-30);
+    return share * mix(corrected, lobe.albedo.x, sin2 * sin2);
+}
+
+fn ltc_ring_point(lobe: LtcLobe, w: vec3f) -> vec2f {
+    if (w.z <= 0.0) {
+        return vec2f(0.0);
+    }
+    return vec2f(ltc_exact_over_jacobian(lobe, w), w.z) * LTC_RING_WEIGHT;
+}
+
+fn ltc_exact_over_jacobian(lobe: LtcLobe, w: vec3f) -> f32 {
+    let direction = ltc_undo_cosine(lobe, w);
+    let l = max(length(direction), 1e-15);
+    // c^4 / l^3 in an order that stays within range for a peak on the horizon.
+    let c2_over_l = lobe.peak.y * lobe.peak.y / l;
+    let jacobian = lobe.width.x * lobe.width.y * c2_over_l * c2_over_l / l;
+    return ggx_eval(direction / l, lobe.wo, lobe.alpha) * jacobian;
+}
