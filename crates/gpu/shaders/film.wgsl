@@ -1,4 +1,4 @@
-// The film of the shading pass.
+// What the shading pass reads of the visibility pass, and the film that it adds to. Both hold the rows frame.rows alone.
 
 @group(3) @binding(0) var visibility: texture_2d<u32>;
 @group(3) @binding(1) var<storage, read_write> film: Film;
@@ -8,13 +8,14 @@ struct Film {
     pixels: array<FilmPixel>,
 }
 
-fn film_index(pixel: vec2u) -> u32 {
-    return (pixel.y - frame.rows.x) * frame.size_px.x + pixel.x;
+// The triangle that a pixel sees + 1, or 0, and the object.
+fn film_visible(pixel: vec2u) -> vec2u {
+    return textureLoad(visibility, vec2u(pixel.x, pixel.y - frame.rows.x), 0).xy;
 }
 
 // Adds a sample to its pixel.
 fn film_add(pixel: vec2u, value: FilmPixel) {
-    let at = film_index(pixel);
+    let at = (pixel.y - frame.rows.x) * frame.size_px.x + pixel.x;
     let weight = frame.sample_weight;
     film.pixels[at].base += weight * value.base;
     film.pixels[at].depth_m += weight * value.depth_m;
@@ -22,4 +23,9 @@ fn film_add(pixel: vec2u, value: FilmPixel) {
     film.pixels[at].coverage += weight * value.coverage;
     film.pixels[at].density += weight * value.density;
     film.pixels[at].normal += weight * value.normal;
+}
+
+// Says that the pixel is wrong: its loops met their bound.
+fn film_give_up() {
+    atomicAdd(&film.gave_up, 1u);
 }

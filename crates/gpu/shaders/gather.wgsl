@@ -11,6 +11,8 @@ const LEAF_FIRST_BITS: u32 = 28u;
 
 // Loop rounds of this invocation; a software driver ends loops silently after 65,536 in all.
 var<private> gather_rounds: u32;
+// The host lowers it there; the pass then gives up rather than show a wrong picture.
+override GATHER_MAX_ROUNDS: u32 = 0xffffffffu;
 
 // A segment as seen from the point.
 struct SegmentView {

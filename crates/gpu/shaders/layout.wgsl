@@ -62,7 +62,7 @@ struct Material {
 struct Light {
     radiance: vec3f,
     kind: u32,                  // LIGHT_SPHERE or LIGHT_POLYGON
-    center_m: vec3f,            // of a sphere
+    center_m: vec3f,            // of the sphere, or of one around the polygon
     radius_m: f32,
     normal: vec3f,              // of a polygon, on the side that sees its vertices counter-clockwise
     two_sided: u32,

@@ -1,4 +1,4 @@
-// From what is visible to radiance.
+// Pass: from what is visible to radiance. Twin: reference/src/closed_form.rs.
 
 @compute @workgroup_size(8, 8)
 fn shade(@builtin(global_invocation_id) id: vec3u) {
@@ -8,20 +8,28 @@ fn shade(@builtin(global_invocation_id) id: vec3u) {
     }
     let at = vec2f(pixel) + 0.5 + frame.jitter_px - 0.5 * vec2f(frame.size_px);
     let ray = frame.forward + frame.per_px_x * at.x + frame.per_px_y * at.y;
-    let seen = textureLoad(visibility, pixel, 0).xy;
+    let seen = film_visible(pixel);
     var value: FilmPixel;
     if seen.x == 0u {
         value.base = scene_background(normalize(ray));
         film_add(pixel, value);
         return;
     }
-    let first = 3u * (seen.x - 1u);
-    let a = vertices[first].position_m - frame.camera_m;
-    let geometric = cross(vertices[first + 1u].position_m - vertices[first].position_m,
-        vertices[first + 2u].position_m - vertices[first].position_m);
-    value.depth_m = dot(a, geometric) / dot(ray, geometric);
+    var depth_m: f32;
+    let point = hit_surface_point(seen.x - 1u, ray, &depth_m);
+    let object = objects[seen.y];
+    let sums = gather_scratches(point, object);
+    if gather_rounds > GATHER_MAX_ROUNDS {
+        film_give_up();
+    }
+    let masked = mask_resolve(sums, object.depth_coherence);
+    let light = base_radiance(point);
+    // A groove interrupts the reflecting surface; what shines from under it passes.
+    value.base = point.emission + light.diffuse + light.specular * (1.0 - masked.taken);
+    value.scratches = masked.scratches * fresnel_eval(FresnelRgb(point.f0, point.fresnel_a), point.wo.z);
+    value.density = masked.taken;
+    value.normal = point.normal;
+    value.depth_m = depth_m;
     value.coverage = 1.0;
-    value.normal = normalize(geometric);
-    value.base = 0.5 + 0.5 * value.normal;
     film_add(pixel, value);
 }

@@ -10,13 +10,15 @@ struct VisibilityVertex {
 fn visibility_vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index) object: u32) -> VisibilityVertex {
     let relative = vertices[vertex].position_m - frame.camera_m;
     let depth = dot(frame.forward, relative);
-    // Pixels from the picture's centre, times depth. The sample's place comes to lie in the pixel's centre.
+    // Pixels from the picture's centre, times depth; the sample's place comes to lie in the pixel's centre.
     let scale = frame.px_per_slope * frame.px_per_slope;
     let x = scale * dot(frame.per_px_x, relative) - frame.jitter_px.x * depth;
     let y = scale * dot(frame.per_px_y, relative) - frame.jitter_px.y * depth;
-    let half_size = 0.5 * vec2f(frame.size_px);
+    // The viewport is the film: these rows of the picture alone.
+    let half_size = 0.5 * vec2f(f32(frame.size_px.x), f32(frame.rows.y - frame.rows.x));
+    let middle = 0.5 * f32(frame.rows.x + frame.rows.y) - 0.5 * f32(frame.size_px.y);
     // Reversed depth without a far plane: near_m / depth keeps all its digits at any distance.
-    let clip = vec4f(x / half_size.x, -y / half_size.y, frame.near_m, depth);
+    let clip = vec4f(x / half_size.x, (middle * depth - y) / half_size.y, frame.near_m, depth);
     return VisibilityVertex(clip, vec2u(vertex / 3u + 1u, object));
 }
 

@@ -65,7 +65,8 @@ pub enum KindRequest {
     Software,
 }
 
-/// An open device. Renderers, window and tests share one.
+/// An open device. Renderers, window and tests share one; clones are the same device.
+#[derive(Clone)]
 pub struct Gpu {
     /// The device.
     pub device: wgpu::Device,

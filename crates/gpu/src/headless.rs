@@ -6,8 +6,13 @@ use std::pin::pin;
 use std::sync::OnceLock;
 use std::task::{Context, Poll, Waker};
 
+use hairline_image::Image;
+use hairline_index::ScratchIndex;
+use hairline_scene::{Scene, ScratchTables};
+
 use crate::device::{AdapterRequest, Gpu};
 use crate::error::Error;
+use crate::renderer::{RenderOptions, Renderer};
 
 impl Gpu {
     /// Blocks until `future`, which waits for this device, is done.
@@ -28,6 +33,25 @@ pub fn open(request: &AdapterRequest) -> Result<Gpu, Error> {
 /// Blocks until the adapters are listed.
 pub fn adapters() -> Vec<crate::device::Adapter> {
     drive(crate::device::adapters(), || {})
+}
+
+/// Blocks until the picture is there: index, tables, upload, pipelines and all. `progress` is told the share of the
+/// rendering that is done.
+///
+/// # Errors
+/// As [`Renderer::new`], [`Renderer::upload`] and [`Renderer::render`].
+pub fn render(
+    gpu: &Gpu,
+    scene: &Scene,
+    options: &RenderOptions,
+    progress: &dyn Fn(f64),
+) -> Result<Image, Error> {
+    let (index, tables) = (ScratchIndex::build(scene), ScratchTables::new(scene));
+    gpu.block_on(async {
+        let mut renderer = Renderer::new(gpu).await?;
+        let uploaded = renderer.upload(scene, &index, &tables).await?;
+        renderer.render(scene, &uploaded, options, progress).await
+    })
 }
 
 fn drive<T>(future: impl Future<Output = T>, work: impl Fn()) -> T {

@@ -3,14 +3,25 @@
 //! Nothing in this crate blocks, so that window, browser and command line can share it; [`headless`] is the one module
 //! for programs that want to wait.
 
+mod bindings;
 pub mod call;
 pub mod device;
+mod display;
 pub mod error;
+mod film;
+mod frame;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod headless;
 pub mod layout;
 pub mod readback;
+pub mod renderer;
+mod shade;
 pub mod shaders;
+mod textures;
+pub mod upload;
+mod visibility;
 
 pub use device::{Adapter, AdapterKind, AdapterRequest, Gpu, KindRequest};
 pub use error::Error;
+pub use renderer::{RenderOptions, Renderer};
+pub use upload::GpuScene;

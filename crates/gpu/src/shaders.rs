@@ -45,6 +45,20 @@ modules! {
     BAND_ENVIRONMENT = "band_environment" needs [BAND];
     /// The energy that scratches take.
     MASK = "mask" needs [SCRATCH];
+    /// Fresnel reflectance in three channels.
+    FRESNEL = "fresnel" needs [];
+    /// The GGX lobe.
+    GGX = "ggx" needs [FRESNEL];
+    /// Irradiance from polygons and elliptic cones.
+    IRRADIANCE = "irradiance" needs [];
+    /// Fitted tables over roughness and angle.
+    LOBE_TABLE = "lobe_table" needs [];
+    /// The GGX lobe over an area light, by transformed cosines.
+    LTC = "ltc" needs [GGX, IRRADIANCE, LOBE_TABLE];
+    /// The GGX lobe over a sphere, by a pivot transform.
+    SPTD = "sptd" needs [LTC];
+    /// A shading point and its frame.
+    SURFACE = "surface" needs [];
     /// Light from all around: look-ups in the maps.
     ENVIRONMENT = "environment" needs [];
     /// From linear radiance to the display.
@@ -57,10 +71,18 @@ modules! {
     SCENE = "scene" needs [BINDINGS, ENVIRONMENT, TONE_MAP];
     /// What the shading pass adds to: group 3.
     FILM = "film" needs [BINDINGS];
+    /// From a triangle to the surface point.
+    HIT = "hit" needs [SCENE, SURFACE, CAMERA];
+    /// The scratches under a footprint and their light.
+    GATHER = "gather" needs [SCENE, SURFACE, BAND_ENVIRONMENT, MASK, SCRATCH_TABLE];
+    /// The base under lights and environment.
+    BASE = "base" needs [GATHER, LTC];
     /// Pass: triangle and object of each pixel.
     VISIBILITY = "visibility" needs [BINDINGS];
     /// Pass: from what is visible to radiance.
-    SHADE = "shade" needs [SCENE, FILM];
+    SHADE = "shade" needs [HIT, GATHER, BASE, FILM];
+    /// Pass: the film on a display.
+    DISPLAY = "display" needs [LAYOUT, TONE_MAP];
 }
 
 /// The text of `modules` and of everything that they need.

@@ -1,0 +1,86 @@
+// From a triangle that a pixel sees to the surface point: interpolation, normal map, textures. Twin: reference/src/surface.rs.
+
+// Area of the footprint in texture space, as the side of a square.
+fn hit_texture_footprint(a: Vertex, b: Vertex, c: Vertex, geometric: vec3f, axis_x: vec3f, axis_y: vec3f) -> f32 {
+    let uv_b = vec2f(b.u - a.u, b.v - a.v);
+    let uv_c = vec2f(c.u - a.u, c.v - a.v);
+    let uv_area = abs(uv_b.x * uv_c.y - uv_b.y * uv_c.x);
+    return sqrt(uv_area / max(length(geometric), 1e-30) * length(cross(axis_x, axis_y)));
+}
+
+fn hit_texture(texture: vec2u, uv: vec2f, footprint: f32) -> vec4f {
+    let lod = surface_texture_lod(footprint, scene_texture_size(texture), scene_texture_levels(texture));
+    return scene_texture(texture, uv, lod);
+}
+
+// The surface that a ray of the camera sees on a triangle. `depth_m` is written beside it.
+fn hit_surface_point(triangle: u32, ray: vec3f, depth_m: ptr<function, f32>) -> SurfacePoint {
+    let a = vertices[3u * triangle];
+    let b = vertices[3u * triangle + 1u];
+    let c = vertices[3u * triangle + 2u];
+    let geometric = cross(b.position_m - a.position_m, c.position_m - a.position_m);
+    let to_viewer = -normalize(ray);
+    // Either side of a sheet is a surface of its own.
+    let side = select(1.0, -1.0, dot(geometric, to_viewer) < 0.0);
+    let bary = surface_barycentric(frame.camera_m, ray, a.position_m, b.position_m, c.position_m);
+    let weights = vec3f(1.0 - bary.x - bary.y, bary);
+    let interpolated = a.normal * weights.x + b.normal * weights.y + c.normal * weights.z;
+    let smooth_normal = surface_normalize_or(interpolated, normalize(geometric));
+
+    var point: SurfacePoint;
+    point.position_m = a.position_m + (b.position_m - a.position_m) * bary.x + (c.position_m - a.position_m) * bary.y;
+    let depth = dot(point.position_m - frame.camera_m, frame.forward);
+    *depth_m = depth;
+
+    let material = materials[a.material & ~VERTEX_BITANGENT_FLIPPED];
+    let uv = vec2f(a.u, a.v) * weights.x + vec2f(b.u, b.v) * weights.y + vec2f(c.u, c.v) * weights.z;
+    let std_px = frame.footprint_std_px;
+    let smooth_x = footprint_axis(ray, depth, side * smooth_normal, frame.per_px_x) * std_px;
+    let smooth_y = footprint_axis(ray, depth, side * smooth_normal, frame.per_px_y) * std_px;
+    let filter_side = hit_texture_footprint(a, b, c, geometric, smooth_x, smooth_y);
+
+    var normal = smooth_normal;
+    if scene_has_texture(material.normal_texture) {
+        let texel = hit_texture(material.normal_texture, uv, filter_side).xyz * 2.0 - 1.0;
+        var tangent = a.tangent * weights.x + b.tangent * weights.y + c.tangent * weights.z;
+        tangent = surface_normalize_or(tangent - smooth_normal * dot(smooth_normal, tangent), surface_any_across(smooth_normal));
+        let flip = select(1.0, -1.0, (a.material & VERTEX_BITANGENT_FLIPPED) != 0u);
+        let bitangent = cross(smooth_normal, tangent) * flip;
+        let scale = material.normal_scale;
+        normal = surface_normalize_or(
+            tangent * (texel.x * scale) + bitangent * (texel.y * scale) + smooth_normal * texel.z,
+            smooth_normal,
+        );
+    }
+    normal = surface_face_viewer(side * normal, to_viewer);
+    point.normal = normal;
+    // The viewer in the x-z plane; any x will do where they look along the normal.
+    point.axis_x = surface_normalize_or(to_viewer - normal * dot(normal, to_viewer), surface_any_across(normal));
+    point.axis_y = cross(normal, point.axis_x);
+    let cos_view = dot(normal, to_viewer);
+    point.wo = vec3f(sqrt(max(1.0 - cos_view * cos_view, 0.0)), 0.0, cos_view);
+    point.footprint_x_m = footprint_axis(ray, depth, normal, frame.per_px_x) * std_px;
+    point.footprint_y_m = footprint_axis(ray, depth, normal, frame.per_px_y) * std_px;
+
+    var base_color = material.base_color;
+    var metallic = material.metallic;
+    point.roughness = material.roughness;
+    point.emission = material.emission;
+    if scene_has_texture(material.base_color_texture) {
+        base_color *= hit_texture(material.base_color_texture, uv, filter_side).xyz;
+    }
+    if scene_has_texture(material.metallic_roughness_texture) {
+        let texel = hit_texture(material.metallic_roughness_texture, uv, filter_side);
+        point.roughness *= texel.y;
+        metallic *= texel.z;
+    }
+    if scene_has_texture(material.emission_texture) {
+        point.emission *= hit_texture(material.emission_texture, uv, filter_side).xyz;
+    }
+    point.f0 = mix(vec3f(material.dielectric_f0), base_color, metallic);
+    point.fresnel_a = material.fresnel_a;
+    point.diffuse = base_color * (1.0 - metallic);
+    point.coherence_um = material.coherence_um;
+    point.table = material.table;
+    return point;
+}

@@ -1,0 +1,139 @@
+//! What the passes bind, group by group. Twin: `shaders/bindings.wgsl` and `shaders/film.wgsl`.
+//!
+//! Group 0 the frame, group 1 the scene's buffers, group 2 its tables and textures, group 3 visibility and film: eight
+//! storage buffers in all, which is what every WebGPU device has.
+
+use wgpu::ShaderStages;
+
+use crate::device::Gpu;
+
+/// Names of the scene's buffers in the order of their bindings.
+pub const SCENE_BUFFERS: [&str; 7] = [
+    "triangles",
+    "objects",
+    "materials",
+    "lights",
+    "light vertices",
+    "scratch tree",
+    "scratch segments",
+];
+
+/// The layouts that the passes share.
+pub(crate) struct Layouts {
+    pub frame: wgpu::BindGroupLayout,
+    pub scene: wgpu::BindGroupLayout,
+    pub textures: wgpu::BindGroupLayout,
+    pub film: wgpu::BindGroupLayout,
+}
+
+impl Layouts {
+    pub fn new(gpu: &Gpu) -> Self {
+        let both = ShaderStages::VERTEX | ShaderStages::COMPUTE;
+        let compute = ShaderStages::COMPUTE;
+        let scene: Vec<_> = (0..SCENE_BUFFERS.len() as u32)
+            // Rasterising reads the vertices alone.
+            .map(|i| entry(i, if i == 0 { both } else { compute }, storage(true)))
+            .collect();
+        let textures = [
+            texture(wgpu::TextureViewDimension::D2Array, false),
+            texture(wgpu::TextureViewDimension::D2, false),
+            texture(wgpu::TextureViewDimension::D2, false),
+            texture(wgpu::TextureViewDimension::D2, false),
+            texture(wgpu::TextureViewDimension::D2, true),
+            texture(wgpu::TextureViewDimension::D2, true),
+            texture(wgpu::TextureViewDimension::D2Array, true),
+        ];
+        let textures: Vec<_> = (0..)
+            .zip(textures)
+            .map(|(i, ty)| entry(i, compute, ty))
+            .collect();
+        let visibility = wgpu::BindingType::Texture {
+            sample_type: wgpu::TextureSampleType::Uint,
+            view_dimension: wgpu::TextureViewDimension::D2,
+            multisampled: false,
+        };
+        Self {
+            frame: layout(gpu, "frame", &[entry(0, both, uniform())]),
+            scene: layout(gpu, "scene", &scene),
+            textures: layout(gpu, "textures", &textures),
+            film: layout(
+                gpu,
+                "film",
+                &[
+                    entry(0, compute, visibility),
+                    entry(1, compute, storage(false)),
+                ],
+            ),
+        }
+    }
+}
+
+pub(crate) fn layout(
+    gpu: &Gpu,
+    label: &str,
+    entries: &[wgpu::BindGroupLayoutEntry],
+) -> wgpu::BindGroupLayout {
+    gpu.device
+        .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some(label),
+            entries,
+        })
+}
+
+pub(crate) fn entry(
+    binding: u32,
+    visibility: ShaderStages,
+    ty: wgpu::BindingType,
+) -> wgpu::BindGroupLayoutEntry {
+    wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility,
+        ty,
+        count: None,
+    }
+}
+
+pub(crate) fn uniform() -> wgpu::BindingType {
+    wgpu::BindingType::Buffer {
+        ty: wgpu::BufferBindingType::Uniform,
+        has_dynamic_offset: false,
+        min_binding_size: None,
+    }
+}
+
+pub(crate) fn storage(read_only: bool) -> wgpu::BindingType {
+    wgpu::BindingType::Buffer {
+        ty: wgpu::BufferBindingType::Storage { read_only },
+        has_dynamic_offset: false,
+        min_binding_size: None,
+    }
+}
+
+fn texture(view_dimension: wgpu::TextureViewDimension, filterable: bool) -> wgpu::BindingType {
+    wgpu::BindingType::Texture {
+        sample_type: wgpu::TextureSampleType::Float { filterable },
+        view_dimension,
+        multisampled: false,
+    }
+}
+
+/// A bind group of `resources` in the order of their bindings.
+pub(crate) fn bind(
+    gpu: &Gpu,
+    label: &str,
+    layout: &wgpu::BindGroupLayout,
+    resources: &[wgpu::BindingResource<'_>],
+) -> wgpu::BindGroup {
+    let entries: Vec<_> = (0..)
+        .zip(resources)
+        .map(|(binding, resource)| wgpu::BindGroupEntry {
+            binding,
+            resource: resource.clone(),
+        })
+        .collect();
+    gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some(label),
+        layout,
+        entries: &entries,
+    })
+}

@@ -1,0 +1,116 @@
+//! Pass: the film on a display.
+//!
+//! Inputs: the film, exposure and tone curve. Output: a target of 8 bits a channel whose format does not encode to sRGB
+//! by itself (the shader does, and dithers), of the picture's size. One triangle.
+
+use hairline_image::Display;
+use wgpu::{BufferUsages, ShaderStages};
+
+use crate::bindings::{bind, entry, layout, storage, uniform};
+use crate::device::Gpu;
+use crate::error::Error;
+use crate::film::Film;
+use crate::layout::DisplaySettings;
+use crate::shaders;
+
+pub(crate) struct DisplayPass {
+    pub format: wgpu::TextureFormat,
+    pipeline: wgpu::RenderPipeline,
+    settings: wgpu::Buffer,
+    layout: wgpu::BindGroupLayout,
+}
+
+impl DisplayPass {
+    pub async fn new(gpu: &Gpu, format: wgpu::TextureFormat) -> Result<Self, Error> {
+        let entries = [
+            entry(0, ShaderStages::FRAGMENT, uniform()),
+            entry(1, ShaderStages::FRAGMENT, storage(true)),
+        ];
+        let group_layout = layout(gpu, "display", &entries);
+        let module = gpu
+            .device
+            .create_shader_module(wgpu::ShaderModuleDescriptor {
+                label: Some("display"),
+                source: wgpu::ShaderSource::Wgsl(shaders::compose(&[&shaders::DISPLAY]).into()),
+            });
+        let layout = gpu
+            .device
+            .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                label: Some("display"),
+                bind_group_layouts: &[Some(&group_layout)],
+                immediate_size: 0,
+            });
+        let pipeline = gpu
+            .device
+            .create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+                label: Some("display"),
+                layout: Some(&layout),
+                vertex: wgpu::VertexState {
+                    module: &module,
+                    entry_point: Some("display_vertex"),
+                    compilation_options: Default::default(),
+                    buffers: &[],
+                },
+                primitive: Default::default(),
+                depth_stencil: None,
+                multisample: Default::default(),
+                fragment: Some(wgpu::FragmentState {
+                    module: &module,
+                    entry_point: Some("display_fragment"),
+                    compilation_options: Default::default(),
+                    targets: &[Some(format.into())],
+                }),
+                multiview_mask: None,
+                cache: None,
+            });
+        let usage = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
+        let settings = gpu
+            .buffer(
+                "display settings",
+                size_of::<DisplaySettings>() as u64,
+                usage,
+            )
+            .await?;
+        Ok(Self {
+            format,
+            pipeline,
+            settings,
+            layout: group_layout,
+        })
+    }
+
+    pub fn record(
+        &self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        film: &Film,
+        display: &Display,
+        target: &wgpu::TextureView,
+    ) {
+        let settings = DisplaySettings {
+            size_px: [film.width_px, film.rows],
+            tone_map: display.tone_map.shader_index(),
+            gain: display.exposure_ev.exp2() as f32,
+        };
+        gpu.queue
+            .write_buffer(&self.settings, 0, bytemuck::bytes_of(&settings));
+        let resources = [
+            self.settings.as_entire_binding(),
+            film.buffer.as_entire_binding(),
+        ];
+        let group = bind(gpu, "display", &self.layout, &resources);
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("display"),
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view: target,
+                depth_slice: None,
+                resolve_target: None,
+                ops: Default::default(),
+            })],
+            ..Default::default()
+        });
+        pass.set_pipeline(&self.pipeline);
+        pass.set_bind_group(0, &group, &[]);
+        pass.draw(0..3, 0..1);
+    }
+}

@@ -1,0 +1,220 @@
+//! The way of a picture: visibility, shading, sample after sample on a film, then display or readback.
+
+use std::ops::Range;
+
+use hairline_image::{Display, Image};
+use hairline_index::ScratchIndex;
+use hairline_scene::{Scene, ScratchTables};
+use wgpu::BufferUsages;
+
+use crate::bindings::{Layouts, bind};
+use crate::device::Gpu;
+use crate::display::DisplayPass;
+use crate::error::Error;
+use crate::film::Film;
+use crate::frame::frame;
+use crate::layout::Frame;
+use crate::shade::ShadePass;
+use crate::upload::GpuScene;
+use crate::visibility::VisibilityPass;
+
+/// How to render, beside what the scene says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RenderOptions {
+    /// Jittered samples a pixel; 1 looks through the centre.
+    pub samples: u32,
+    /// Pixels in one submission: few enough that no system takes the device for hung (Windows waits two seconds), many
+    /// enough that it is busy.
+    pub submission_px: u32,
+}
+
+impl Default for RenderOptions {
+    fn default() -> Self {
+        Self {
+            samples: 1,
+            submission_px: 1 << 18,
+        }
+    }
+}
+
+/// Pipelines and targets. Window, browser and command line share it; it never blocks.
+pub struct Renderer {
+    gpu: Gpu,
+    layouts: Layouts,
+    visibility: VisibilityPass,
+    shade: ShadePass,
+    display: Option<DisplayPass>,
+    frame: wgpu::Buffer,
+    frame_group: wgpu::BindGroup,
+    film: Option<Film>,
+}
+
+impl Renderer {
+    /// Compiles the passes.
+    ///
+    /// # Errors
+    /// [`Error::Validation`] if the driver refuses a shader; [`Error::Lost`], [`Error::OutOfMemory`].
+    pub async fn new(gpu: &Gpu) -> Result<Self, Error> {
+        let gpu = gpu.clone();
+        let scope = gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
+        let layouts = Layouts::new(&gpu);
+        let visibility = VisibilityPass::new(&gpu, &layouts);
+        let shade = ShadePass::new(&gpu, &layouts);
+        let refusal = scope.pop();
+        let refusal = refusal.await;
+        // A lost device refuses everything; that it is lost says more.
+        gpu.check()?;
+        if let Some(error) = refusal {
+            return Err(Error::Validation {
+                description: error.to_string(),
+            });
+        }
+        let usage = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
+        let frame = gpu
+            .buffer("frame", size_of::<Frame>() as u64, usage)
+            .await?;
+        let frame_group = bind(&gpu, "frame", &layouts.frame, &[frame.as_entire_binding()]);
+        Ok(Self {
+            gpu,
+            layouts,
+            visibility,
+            shade,
+            display: None,
+            frame,
+            frame_group,
+            film: None,
+        })
+    }
+
+    /// The device that it renders on.
+    pub fn gpu(&self) -> &Gpu {
+        &self.gpu
+    }
+
+    /// Puts a scene on the device, with its index and its tables.
+    ///
+    /// # Errors
+    /// [`Error::TooLarge`] before memory is spent on it, [`Error::OutOfMemory`], [`Error::Lost`].
+    pub async fn upload(
+        &self,
+        scene: &Scene,
+        index: &ScratchIndex,
+        tables: &ScratchTables,
+    ) -> Result<GpuScene, Error> {
+        GpuScene::new(&self.gpu, &self.layouts, scene, index, tables).await
+    }
+
+    /// Renders `scene`, which was uploaded as `uploaded`, by its own camera and at its own size; `progress` is told the
+    /// share that is done.
+    ///
+    /// # Errors
+    /// [`Error::IterationBudget`] where the device ends loops too early for the scene; [`Error::TooLarge`],
+    /// [`Error::OutOfMemory`], [`Error::Lost`].
+    pub async fn render(
+        &mut self,
+        scene: &Scene,
+        uploaded: &GpuScene,
+        options: &RenderOptions,
+        progress: &dyn Fn(f64),
+    ) -> Result<Image, Error> {
+        let [width, height] = scene.render.size_px;
+        let band = (options.submission_px / width.max(1))
+            .clamp(1, Film::rows_max(&self.gpu, width).max(1))
+            .min(height);
+        let samples = options.samples.max(1);
+        let mut image = Image::new([width, height]);
+        for first in (0..height).step_by(band as usize) {
+            let rows = first..(first + band).min(height);
+            for sample in 0..samples {
+                self.submit(scene, uploaded, sample, samples, band, &rows)
+                    .await?;
+                self.gpu.finished().await?;
+                let done = f64::from(first)
+                    + f64::from(rows.end - first) * f64::from(sample + 1) / f64::from(samples);
+                progress(done / f64::from(height));
+            }
+            let film = self.take_film(width, band).await?;
+            film.read(&self.gpu, &mut image, &rows).await?;
+            self.film = Some(film);
+        }
+        Ok(image)
+    }
+
+    /// Adds sample `sample` of `samples` of the whole picture to the film; sample 0 clears it. For a window, which shows
+    /// the film by [`Self::show`] after any number of samples.
+    ///
+    /// # Errors
+    /// [`Error::TooLarge`] if the picture is larger than one film; [`Error::OutOfMemory`], [`Error::Lost`].
+    pub async fn accumulate(
+        &mut self,
+        scene: &Scene,
+        uploaded: &GpuScene,
+        sample: u32,
+        samples: u32,
+    ) -> Result<(), Error> {
+        let [_, height] = scene.render.size_px;
+        self.submit(scene, uploaded, sample, samples, height, &(0..height))
+            .await?;
+        self.gpu.check()
+    }
+
+    /// Draws the film to `target`, which has the picture's size and `format` (8 bits a channel, not sRGB: the shader
+    /// encodes). Nothing is drawn before the first [`Self::accumulate`].
+    ///
+    /// # Errors
+    /// [`Error::Lost`], [`Error::OutOfMemory`].
+    pub async fn show(
+        &mut self,
+        display: &Display,
+        target: &wgpu::TextureView,
+        format: wgpu::TextureFormat,
+    ) -> Result<(), Error> {
+        let pass = match self.display.take() {
+            Some(pass) if pass.format == format => pass,
+            _ => DisplayPass::new(&self.gpu, format).await?,
+        };
+        if let Some(film) = &self.film {
+            let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+            pass.record(&self.gpu, &mut encoder, film, display, target);
+            self.gpu.queue.submit([encoder.finish()]);
+        }
+        self.display = Some(pass);
+        self.gpu.check()
+    }
+
+    /// One sample of some rows of the picture.
+    async fn submit(
+        &mut self,
+        scene: &Scene,
+        uploaded: &GpuScene,
+        sample: u32,
+        samples: u32,
+        band: u32,
+        rows: &Range<u32>,
+    ) -> Result<(), Error> {
+        let film = self.take_film(scene.render.size_px[0], band).await?;
+        let uniform = frame(scene, uploaded, sample, samples, rows);
+        self.gpu
+            .queue
+            .write_buffer(&self.frame, 0, bytemuck::bytes_of(&uniform));
+        let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+        if sample == 0 {
+            film.clear(&mut encoder);
+        }
+        self.visibility
+            .record(&mut encoder, &self.frame_group, uploaded, &film, rows);
+        self.shade
+            .record(&mut encoder, &self.frame_group, uploaded, &film, rows);
+        self.gpu.queue.submit([encoder.finish()]);
+        self.film = Some(film);
+        Ok(())
+    }
+
+    /// A film for `rows` rows of `width_px` pixels: the one at hand if it fits.
+    async fn take_film(&mut self, width_px: u32, rows: u32) -> Result<Film, Error> {
+        match self.film.take() {
+            Some(film) if film.width_px == width_px && film.rows == rows => Ok(film),
+            _ => Film::new(&self.gpu, &self.layouts, width_px, rows).await,
+        }
+    }
+}

@@ -1,0 +1,80 @@
+//! Pass: from what is visible to radiance.
+//!
+//! Inputs: frame, scene, tables, visibility. Output: the film, added to. One invocation a pixel, 8 x 8 in a workgroup: a
+//! compute pass, since datacentre GPUs run fragment shaders on few of their processors.
+
+use std::ops::Range;
+
+use crate::bindings::Layouts;
+use crate::device::{AdapterKind, Gpu};
+use crate::film::Film;
+use crate::shaders;
+use crate::upload::GpuScene;
+
+pub(crate) struct ShadePass(wgpu::ComputePipeline);
+
+const WORKGROUP_PX: u32 = 8;
+
+/// A software driver (lavapipe) ends loops silently after 65,536 rounds of an invocation in total; the shader gives up
+/// before that, and says so.
+const SOFTWARE_MAX_ROUNDS: f64 = 60_000.0;
+
+impl ShadePass {
+    pub fn new(gpu: &Gpu, layouts: &Layouts) -> Self {
+        let module = gpu
+            .device
+            .create_shader_module(wgpu::ShaderModuleDescriptor {
+                label: Some("shade"),
+                source: wgpu::ShaderSource::Wgsl(shaders::compose(&[&shaders::SHADE]).into()),
+            });
+        let layout = gpu
+            .device
+            .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                label: Some("shade"),
+                bind_group_layouts: &[
+                    Some(&layouts.frame),
+                    Some(&layouts.scene),
+                    Some(&layouts.textures),
+                    Some(&layouts.film),
+                ],
+                immediate_size: 0,
+            });
+        let bound = [("GATHER_MAX_ROUNDS", SOFTWARE_MAX_ROUNDS)];
+        let bounded = gpu.adapter.kind == AdapterKind::Software;
+        Self(
+            gpu.device
+                .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                    label: Some("shade"),
+                    layout: Some(&layout),
+                    module: &module,
+                    entry_point: Some("shade"),
+                    compilation_options: wgpu::PipelineCompilationOptions {
+                        constants: if bounded { &bound } else { &[] },
+                        ..Default::default()
+                    },
+                    cache: None,
+                }),
+        )
+    }
+
+    pub fn record(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        frame: &wgpu::BindGroup,
+        scene: &GpuScene,
+        film: &Film,
+        rows: &Range<u32>,
+    ) {
+        let mut pass = encoder.begin_compute_pass(&Default::default());
+        pass.set_pipeline(&self.0);
+        for (group, bound) in (0..).zip([frame, &scene.buffers, &scene.textures, &film.group]) {
+            pass.set_bind_group(group, bound, &[]);
+        }
+        let rows = rows.end - rows.start;
+        pass.dispatch_workgroups(
+            film.width_px.div_ceil(WORKGROUP_PX),
+            rows.div_ceil(WORKGROUP_PX),
+            1,
+        );
+    }
+}

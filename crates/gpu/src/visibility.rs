@@ -1,0 +1,105 @@
+//! Pass: the triangle and the object that each pixel sees.
+//!
+//! Inputs: frame, vertices. Outputs: the film's visibility and depth. One draw for each object, without an index buffer:
+//! the shader divides the vertex's number by three, which works on every device.
+
+use std::ops::Range;
+
+use crate::bindings::Layouts;
+use crate::device::Gpu;
+use crate::film::{DEPTH_FORMAT, Film, VISIBILITY_FORMAT};
+use crate::shaders;
+use crate::upload::GpuScene;
+
+pub(crate) struct VisibilityPass(wgpu::RenderPipeline);
+
+impl VisibilityPass {
+    pub fn new(gpu: &Gpu, layouts: &Layouts) -> Self {
+        let module = gpu
+            .device
+            .create_shader_module(wgpu::ShaderModuleDescriptor {
+                label: Some("visibility"),
+                source: wgpu::ShaderSource::Wgsl(shaders::compose(&[&shaders::VISIBILITY]).into()),
+            });
+        let layout = gpu
+            .device
+            .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                label: Some("visibility"),
+                bind_group_layouts: &[Some(&layouts.frame), Some(&layouts.scene)],
+                immediate_size: 0,
+            });
+        Self(
+            gpu.device
+                .create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+                    label: Some("visibility"),
+                    layout: Some(&layout),
+                    vertex: wgpu::VertexState {
+                        module: &module,
+                        entry_point: Some("visibility_vertex"),
+                        compilation_options: Default::default(),
+                        buffers: &[],
+                    },
+                    // Both sides of a sheet are seen.
+                    primitive: wgpu::PrimitiveState {
+                        cull_mode: None,
+                        ..Default::default()
+                    },
+                    depth_stencil: Some(wgpu::DepthStencilState {
+                        format: DEPTH_FORMAT,
+                        depth_write_enabled: Some(true),
+                        // Reversed: one at the near plane, zero at infinity.
+                        depth_compare: Some(wgpu::CompareFunction::Greater),
+                        stencil: Default::default(),
+                        bias: Default::default(),
+                    }),
+                    multisample: Default::default(),
+                    fragment: Some(wgpu::FragmentState {
+                        module: &module,
+                        entry_point: Some("visibility_fragment"),
+                        compilation_options: Default::default(),
+                        targets: &[Some(VISIBILITY_FORMAT.into())],
+                    }),
+                    multiview_mask: None,
+                    cache: None,
+                }),
+        )
+    }
+
+    pub fn record(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        frame: &wgpu::BindGroup,
+        scene: &GpuScene,
+        film: &Film,
+        rows: &Range<u32>,
+    ) {
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("visibility"),
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view: &film.visibility,
+                depth_slice: None,
+                resolve_target: None,
+                ops: wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+                    store: wgpu::StoreOp::Store,
+                },
+            })],
+            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                view: &film.depth,
+                depth_ops: Some(wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(0.0),
+                    store: wgpu::StoreOp::Discard,
+                }),
+                stencil_ops: None,
+            }),
+            ..Default::default()
+        });
+        pass.set_viewport(0.0, 0.0, film.width_px as f32, rows.len() as f32, 0.0, 1.0);
+        pass.set_pipeline(&self.0);
+        pass.set_bind_group(0, frame, &[]);
+        pass.set_bind_group(1, &scene.buffers, &[]);
+        for (object, triangles) in (0..).zip(&scene.triangles) {
+            pass.draw(3 * triangles.start..3 * triangles.end, object..object + 1);
+        }
+    }
+}

@@ -1,0 +1,375 @@
+//! The way of a picture through the device: what is seen, sample after sample, band after band, and what goes wrong.
+
+use glam::{DVec2, DVec3, Vec3};
+use hairline_gpu::headless::{self, test_gpu};
+use hairline_gpu::{AdapterRequest, Error, Gpu, GpuScene, RenderOptions, Renderer};
+use hairline_image::tone_map::{display_code, dither_offset};
+use hairline_image::{Display, Image, ToneMap};
+use hairline_index::{ScratchIndex, ScratchNode};
+use hairline_scene::{Scene, ScratchTables};
+
+const PLATE: &str = r#"
+[camera]
+position_m = [0.05, -0.22, 0.30]
+target_m = [0.01, 0.0, 0.0]
+up = [0.0, 0.0, 1.0]
+fov_y_deg = 28.0
+
+[render]
+size_px = [97, 64]
+
+[[material]]
+name = "steel"
+kind = "mirror"
+roughness = 0.1
+
+[[object]]
+name = "plate"
+shape = { disk = { radius_m = 0.08 } }
+material = "steel"
+rotation_deg = [10.0, 20.0, 0.0]
+"#;
+
+fn scene(text: &str) -> Scene {
+    Scene::from_toml(text, "test", ".").unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn upload(renderer: &Renderer, scene: &Scene) -> Result<GpuScene, Error> {
+    let (index, tables) = (ScratchIndex::build(scene), ScratchTables::new(scene));
+    renderer
+        .gpu()
+        .block_on(renderer.upload(scene, &index, &tables))
+}
+
+fn render(gpu: &Gpu, scene: &Scene, options: &RenderOptions) -> Result<Image, Error> {
+    headless::render(gpu, scene, options, &|_| {})
+}
+
+/// The depth at which a pixel's ray meets the plate's plane, where it meets the plate; relative to the rim, how far out.
+fn plate_hit(scene: &Scene, pixel: DVec2) -> (f64, f64) {
+    let mesh = &scene.objects[0].mesh;
+    let [a, b, c] = mesh.triangles[0].map(|v| mesh.positions_m[v as usize].as_dvec3());
+    let normal = (b - a).cross(c - a).normalize();
+    let camera = scene.camera.frame(scene.render.size_px);
+    let ray = camera.camera_ray(pixel);
+    let depth = (a - camera.position_m).dot(normal) / ray.dot(normal);
+    (depth, (camera.position_m + ray * depth).length() / 0.08)
+}
+
+#[test]
+fn a_disk_is_seen_where_it_is() {
+    let Some(gpu) = test_gpu() else { return };
+    let scene = scene(PLATE);
+    let image = render(gpu, &scene, &RenderOptions::default()).unwrap();
+    let mesh = &scene.objects[0].mesh;
+    let normal = Vec3::from(mesh.normals[0]);
+    let mut seen = 0;
+    for y in 0..image.size_px[1] {
+        for x in 0..image.size_px[0] {
+            let i = image.index(x, y);
+            let (depth, out) = plate_hit(&scene, DVec2::new(x as f64 + 0.5, y as f64 + 0.5));
+            // The rim is a polygon of many corners: within a few tenths of a percent of the circle.
+            if out < 0.99 {
+                seen += 1;
+                assert!(
+                    (image.depth_m[i] as f64 / depth - 1.0).abs() < 1e-5,
+                    "{x} {y}: {} {depth}",
+                    image.depth_m[i]
+                );
+                assert!(Vec3::from(image.normal[i]).dot(normal) > 1.0 - 1e-6);
+            } else if out > 1.001 {
+                assert_eq!(
+                    (image.depth_m[i], image.normal[i]),
+                    (0.0, [0.0; 3]),
+                    "{x} {y}"
+                );
+                assert_eq!((image.base[i], image.scratches[i]), ([0.0; 3], [0.0; 3]));
+            }
+        }
+    }
+    assert!(seen > 1000, "the test looks past the plate: {seen}");
+}
+
+#[test]
+fn bands_join_to_the_same_picture() {
+    let Some(gpu) = test_gpu() else { return };
+    let scene = scene(PLATE);
+    for samples in [1, 3] {
+        let whole = render(
+            gpu,
+            &scene,
+            &RenderOptions {
+                samples,
+                ..Default::default()
+            },
+        )
+        .unwrap();
+        // 64 rows in bands of 5 and of a single one, the last of which is cut.
+        for submission_px in [5 * 97 + 20, 1] {
+            let banded = render(
+                gpu,
+                &scene,
+                &RenderOptions {
+                    samples,
+                    submission_px,
+                },
+            )
+            .unwrap();
+            let rim = |i: usize| {
+                let pixel = DVec2::new((i % 97) as f64 + 0.5, (i / 97) as f64 + 0.5);
+                (plate_hit(&scene, pixel).1 - 1.0).abs() < 0.05
+            };
+            for i in (0..whole.pixel_count()).filter(|i| !rim(*i)) {
+                assert!((whole.depth_m[i] - banded.depth_m[i]).abs() < 1e-6);
+                let normals = [whole.normal[i], banded.normal[i]].map(Vec3::from);
+                assert!(normals[0].distance(normals[1]) < 1e-6);
+            }
+        }
+    }
+}
+
+#[test]
+fn samples_smooth_the_rim() {
+    let Some(gpu) = test_gpu() else { return };
+    let mut scene = scene(PLATE);
+    scene.materials[0].emission = [1.0; 3];
+    let levels = |samples| {
+        let image = render(
+            gpu,
+            &scene,
+            &RenderOptions {
+                samples,
+                ..Default::default()
+            },
+        )
+        .unwrap();
+        let brightest = image.base.iter().map(|c| c[1]).fold(0.0, f32::max);
+        image
+            .base
+            .iter()
+            .filter(|c| c[1] > 0.1 * brightest && c[1] < 0.9 * brightest)
+            .count()
+    };
+    let rim = levels(16);
+    assert!(rim > 60, "{rim} pixels between inside and outside");
+}
+
+/// The nearest of several objects is seen, however near it is.
+#[test]
+fn near_objects_hide_far_ones_down_to_a_tenth_of_a_millimetre() {
+    let Some(gpu) = test_gpu() else { return };
+    for gap_m in [0.02, 1e-4] {
+        let scene = scene(&format!(
+            r#"
+[camera]
+position_m = [0.0, 0.0, 0.1]
+target_m = [0.0, 0.0, 0.0]
+up = [0.0, 1.0, 0.0]
+fov_y_deg = 40.0
+[render]
+size_px = [32, 32]
+[[material]]
+name = "m"
+kind = "mirror"
+[[object]]
+name = "near"
+shape = {{ disk = {{ radius_m = {radius} }} }}
+material = "m"
+translation_m = [0.0, 0.0, {z}]
+[[object]]
+name = "far"
+shape = {{ disk = {{ radius_m = 0.2 }} }}
+material = "m"
+"#,
+            radius = 0.1 * gap_m,
+            z = 0.1 - gap_m,
+        ));
+        let image = render(gpu, &scene, &RenderOptions::default()).unwrap();
+        let center = image.depth_m[image.index(16, 16)] as f64;
+        let corner = image.depth_m[image.index(0, 0)] as f64;
+        assert!((center / gap_m - 1.0).abs() < 1e-3, "{center}, not {gap_m}");
+        assert!((corner - 0.1).abs() < 1e-6, "{corner}");
+    }
+}
+
+/// Triangles that reach behind the camera are clipped, not dropped.
+#[test]
+fn a_plane_under_the_camera_reaches_the_horizon() {
+    let Some(gpu) = test_gpu() else { return };
+    let mut scene = scene(PLATE);
+    for position in &mut scene.objects[0].mesh.positions_m {
+        // The plate, flat and a kilometre wide.
+        *position = Vec3::new(position.x, position.y, 0.0) * 1e4;
+    }
+    scene.camera.position_m = DVec3::new(0.3, 0.2, 0.001);
+    scene.camera.target_m = DVec3::new(0.3, 1.2, 0.001);
+    let image = render(gpu, &scene, &RenderOptions::default()).unwrap();
+    let [width, height] = image.size_px;
+    for x in 0..width {
+        for y in 0..height {
+            // The horizon passes through the middle, between two rows.
+            let hit = image.depth_m[image.index(x, y)] > 0.0;
+            assert_eq!(hit, y >= height / 2, "{x} {y}");
+        }
+    }
+}
+
+#[test]
+fn the_display_shows_what_a_png_would() {
+    let Some(gpu) = test_gpu() else { return };
+    let scene = scene(PLATE);
+    let size = scene.render.size_px;
+    let mut renderer = gpu.block_on(Renderer::new(gpu)).unwrap();
+    let uploaded = upload(&renderer, &scene).unwrap();
+    let image = gpu
+        .block_on(renderer.render(&scene, &uploaded, &RenderOptions::default(), &|_| {}))
+        .unwrap();
+    gpu.block_on(renderer.accumulate(&scene, &uploaded, 0, 1))
+        .unwrap();
+
+    let format = wgpu::TextureFormat::Rgba8Unorm;
+    let extent = wgpu::Extent3d {
+        width: size[0],
+        height: size[1],
+        depth_or_array_layers: 1,
+    };
+    let target = gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: None,
+        size: extent,
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
+        view_formats: &[],
+    });
+    let row_bytes = 512; // the next multiple of 256 that holds 97 texels
+    for tone_map in ToneMap::ALL {
+        let display = Display {
+            exposure_ev: 0.5,
+            tone_map,
+        };
+        gpu.block_on(renderer.show(&display, &target.create_view(&Default::default()), format))
+            .unwrap();
+        let usage = wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::COPY_SRC;
+        let buffer = gpu
+            .block_on(gpu.buffer("shown", u64::from(row_bytes * size[1]), usage))
+            .unwrap();
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        let layout = wgpu::TexelCopyBufferLayout {
+            offset: 0,
+            bytes_per_row: Some(row_bytes),
+            rows_per_image: None,
+        };
+        encoder.copy_texture_to_buffer(
+            target.as_image_copy(),
+            wgpu::TexelCopyBufferInfo {
+                buffer: &buffer,
+                layout,
+            },
+            extent,
+        );
+        gpu.queue.submit([encoder.finish()]);
+        let shown = gpu.block_on(gpu.read(&buffer, 0..buffer.size())).unwrap();
+        let beauty = image.beauty();
+        for y in 0..size[1] {
+            for x in 0..size[0] {
+                let expected = display.apply(beauty.pixel(x, y));
+                for (c, encoded) in expected.into_iter().enumerate() {
+                    let code = display_code(encoded, dither_offset(x, y));
+                    let found = shown[(y * row_bytes + x * 4) as usize + c];
+                    // The curve's last digit may tip the rounding.
+                    assert!(
+                        code.abs_diff(found) <= 1,
+                        "{tone_map:?} {x} {y}: {found}, not {code}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+/// What a browser gives must do.
+#[test]
+fn default_limits_are_enough() {
+    if test_gpu().is_none() {
+        return;
+    }
+    let gpu = headless::open(&AdapterRequest {
+        default_limits: true,
+        ..Default::default()
+    })
+    .unwrap();
+    assert_eq!(gpu.limits().max_storage_buffers_per_shader_stage, 8);
+    assert_eq!(gpu.limits().max_storage_buffer_binding_size, 128 << 20);
+    let image = render(&gpu, &scene(PLATE), &RenderOptions::default()).unwrap();
+    assert!(image.depth_m[image.index(48, 32)] > 0.0);
+}
+
+#[test]
+fn a_scene_beyond_one_binding_is_refused_with_figures() {
+    if test_gpu().is_none() {
+        return;
+    }
+    let gpu = headless::open(&AdapterRequest {
+        default_limits: true,
+        ..Default::default()
+    })
+    .unwrap();
+    let scene = scene(PLATE);
+    let node = ScratchNode {
+        min_m: Vec3::ZERO,
+        skip: 1,
+        max_m: Vec3::ZERO,
+        leaf: 0,
+    };
+    let index = ScratchIndex {
+        nodes: vec![node; 4_300_000],
+        ..ScratchIndex::build(&scene)
+    };
+    let renderer = gpu.block_on(Renderer::new(&gpu)).unwrap();
+    let Err(error) = gpu.block_on(renderer.upload(&scene, &index, &ScratchTables::new(&scene)))
+    else {
+        panic!("4.3 million nodes of 32 bytes went into 128 MiB");
+    };
+    let message = error.to_string();
+    assert!(matches!(error, Error::TooLarge { .. }), "{message}");
+    assert!(
+        ["scratch tree", "4300000", "137600000 bytes", "134217728"]
+            .iter()
+            .all(|s| message.contains(s)),
+        "{message}"
+    );
+}
+
+#[test]
+fn a_picture_that_is_too_wide_is_refused() {
+    let Some(gpu) = test_gpu() else { return };
+    let mut scene = scene(PLATE);
+    scene.render.size_px = [gpu.limits().max_texture_dimension_2d + 1, 2];
+    let error = render(gpu, &scene, &RenderOptions::default()).unwrap_err();
+    assert!(matches!(error, Error::TooLarge { .. }), "{error}");
+}
+
+#[test]
+fn a_device_lost_between_two_pictures_is_an_error() {
+    if test_gpu().is_none() {
+        return;
+    }
+    let gpu = headless::open(&AdapterRequest::default()).unwrap();
+    let scene = scene(PLATE);
+    let mut renderer = gpu.block_on(Renderer::new(&gpu)).unwrap();
+    let uploaded = upload(&renderer, &scene).unwrap();
+    let options = RenderOptions::default();
+    gpu.block_on(renderer.render(&scene, &uploaded, &options, &|_| {}))
+        .unwrap();
+    gpu.device.destroy();
+    let error = gpu
+        .block_on(renderer.render(&scene, &uploaded, &options, &|_| {}))
+        .unwrap_err();
+    assert!(matches!(error, Error::Lost { .. }), "{error}");
+    assert!(matches!(
+        gpu.block_on(Renderer::new(&gpu)).err(),
+        Some(Error::Lost { .. })
+    ));
+}
