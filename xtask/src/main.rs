@@ -1,6 +1,7 @@
 //! What is not cargo's own. `cargo xtask COMMAND`; each command is one file.
 
 mod fit_lobes;
+mod make_models;
 
 use clap::Parser;
 
@@ -9,10 +10,13 @@ use clap::Parser;
 enum Command {
     /// Fit the tables of the area-light lobes and write them to crates/optics/data.
     FitLobes(fit_lobes::FitLobes),
+    /// Make the models of scenes/ and write them to scenes/models.
+    MakeModels(make_models::MakeModels),
 }
 
 fn main() -> anyhow::Result<()> {
     match Command::parse() {
         Command::FitLobes(command) => command.run(),
+        Command::MakeModels(command) => command.run(),
     }
 }
