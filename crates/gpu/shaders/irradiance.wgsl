@@ -14,6 +14,7 @@ struct PolygonIrradiance {
     moment: vec3f,
     started: bool,
     cut: bool,
+    risen: bool,
 }
 
 fn irradiance_begin() -> PolygonIrradiance {
@@ -56,11 +57,12 @@ fn irradiance_edge(state: ptr<function, PolygonIrradiance>, a: vec3f, b: vec3f, 
             irradiance_add_arc(state, crossing, b, (1.0 - t) * normal);
         }
     }
-    (*state).cut = (*state).cut || a.z < 0.0 || b.z < 0.0;
+    (*state).cut = (*state).cut || a.z < 0.0;
+    (*state).risen = (*state).risen || a.z > 0.0;
 }
 
 fn irradiance_end(state: PolygonIrradiance) -> vec3f {
-    if (state.volume == 0.0) {
+    if (state.volume == 0.0 || !state.risen) {
         return vec3f(0.0);
     }
     let orientation = sign(state.volume);

@@ -18,8 +18,10 @@ fn ltc_lobe(wo: vec3f, roughness: f32, ltc_table: texture_2d<f32>, albedo_table:
     let frame = lobe_viewer_frame(wo);
     let alpha = ggx_alpha(roughness);
     let lean = alpha * shape.z * frame.sin_cos.x;
-    let sin_lean = sin(lean);
-    let cos_lean = cos(lean);
+    // Taylor's series, 4e-6 at 90 degrees: the built-in sine may be off by 5e-4 anywhere, an eighth of a mirror's lobe.
+    let l2 = lean * lean;
+    let sin_lean = clamp(lean * (1.0 - l2 / 6.0 * (1.0 - l2 / 20.0 * (1.0 - l2 / 42.0 * (1.0 - l2 / 72.0)))), -1.0, 1.0);
+    let cos_lean = sqrt(1.0 - sin_lean * sin_lean);
     let peak_sin = frame.sin_cos.x * cos_lean - frame.sin_cos.y * sin_lean;
     let peak_cos = frame.sin_cos.y * cos_lean + frame.sin_cos.x * sin_lean;
     return LtcLobe(

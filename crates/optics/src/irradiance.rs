@@ -34,7 +34,9 @@ pub struct PolygonIrradiance {
     /// Six times the signed volume between origin and polygon, and its moment about the first vertex.
     volume: f64,
     moment: DVec3,
+    /// Whether part of it is below the horizon, and whether part is above.
     cut: bool,
+    risen: bool,
 }
 
 /// Starts a polygon.
@@ -88,13 +90,14 @@ pub fn irradiance_edge(state: &mut PolygonIrradiance, a: DVec3, b: DVec3, ab: DV
             add_arc(state, crossing, b, (1.0 - t) * a.cross(ab));
         }
     }
-    state.cut |= a.z < 0.0 || b.z < 0.0;
+    state.cut |= a.z < 0.0;
+    state.risen |= a.z > 0.0;
 }
 
 /// The integral of the unit direction over the part of the polygon above the horizon, for either orientation.
-/// Zero for a polygon that is seen edge-on or has no area.
+/// Zero for a polygon that is below the horizon, is seen edge-on or has no area.
 pub fn irradiance_end(state: &PolygonIrradiance) -> DVec3 {
-    if state.volume == 0.0 {
+    if state.volume == 0.0 || !state.risen {
         return DVec3::ZERO;
     }
     let orientation = state.volume.signum();

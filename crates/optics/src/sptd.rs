@@ -3,7 +3,7 @@
 //!
 //! J. Dupuy, E. Heitz and L. Belcour, "A spherical cap preserving parameterization for spherical distributions"
 //! (SIGGRAPH 2017): chords through a pivot inside the unit sphere map the sphere to itself and caps to caps. The uniform
-//! distribution so transformed stands for the lobe; light and hemisphere become two caps, whose intersection has a
+//! distribution so transformed stands for the lobe; light and horizon become two caps, whose intersection has a
 //! closed form. The lobe is symmetric about its axis, which GGX at grazing views is not: that is the method's error.
 
 use std::f64::consts::PI;
@@ -108,14 +108,16 @@ pub fn sptd_transform_cap(lobe: &SptdLobe, cap: SphericalCap) -> SphericalCap {
     }
 }
 
+/// The hemisphere below the horizon. Its image is the smaller one: less cancels than with the upper.
+const NADIR: SphericalCap = SphericalCap {
+    axis: DVec3::NEG_Z,
+    cosine: 0.0,
+    sine: 1.0,
+};
+
 /// The share of the untrimmed lobe above the horizon.
 fn sptd_horizon_share(lobe: &SptdLobe) -> f64 {
-    let horizon = SphericalCap {
-        axis: DVec3::Z,
-        cosine: 0.0,
-        sine: 1.0,
-    };
-    (0.5 * (1.0 - sptd_transform_cap(lobe, horizon).cosine)).max(1e-6)
+    (0.5 * (1.0 + sptd_transform_cap(lobe, NADIR).cosine)).max(1e-6)
 }
 
 /// Solid angle of a cap.
@@ -127,27 +129,60 @@ fn sptd_cap_solid_angle(cap: SphericalCap) -> f64 {
     }
 }
 
-/// Solid angle of the intersection of two caps, exact (Gauss-Bonnet on the lens between the two arcs).
+/// The other side of a cap.
+fn sptd_complement(cap: SphericalCap) -> SphericalCap {
+    SphericalCap {
+        axis: -cap.axis,
+        cosine: -cap.cosine,
+        sine: cap.sine,
+    }
+}
+
+/// Solid angle of the intersection of two caps.
 pub fn sptd_cap_intersection(a: SphericalCap, b: SphericalCap) -> f64 {
-    let cos_d = a.axis.dot(b.axis).clamp(-1.0, 1.0);
-    let sin_d = a.axis.cross(b.axis).length();
-    let both = a.sine * b.sine;
-    // Cosine of the lens's corner angle: beyond +-1 the two circles do not meet.
-    let corner = cos_d - a.cosine * b.cosine;
-    if corner >= both {
-        let (area_a, area_b) = (sptd_cap_solid_angle(a), sptd_cap_solid_angle(b));
+    // Of each cap the side that is at most a hemisphere.
+    let (flip_a, flip_b) = (a.cosine < 0.0, b.cosine < 0.0);
+    let small_a = if flip_a { sptd_complement(a) } else { a };
+    let small_b = if flip_b { sptd_complement(b) } else { b };
+    let lens = sptd_lens(small_a, small_b);
+    let (area_a, area_b) = (sptd_cap_solid_angle(small_a), sptd_cap_solid_angle(small_b));
+    match (flip_a, flip_b) {
+        (false, false) => lens,
+        (false, true) => (area_a - lens).max(0.0),
+        (true, false) => (area_b - lens).max(0.0),
+        (true, true) => (4.0 * PI - area_a - area_b + lens).max(0.0),
+    }
+}
+
+/// As [`sptd_cap_intersection`], of caps that are at most hemispheres.
+///
+/// Two sectors less the kite between the centres and the corners. With the kite's area by L'Huilier's formula all three are
+/// small when the caps are; the textbook sum of angles would cancel.
+fn sptd_lens(a: SphericalCap, b: SphericalCap) -> f64 {
+    let (area_a, area_b) = (sptd_cap_solid_angle(a), sptd_cap_solid_angle(b));
+    let radius_a = irradiance_angle(a.sine, a.cosine);
+    let radius_b = irradiance_angle(b.sine, b.cosine);
+    let distance = irradiance_angle(a.axis.cross(b.axis).length(), a.axis.dot(b.axis));
+    if distance >= radius_a + radius_b {
+        return 0.0;
+    }
+    if distance <= (radius_a - radius_b).abs() {
         return area_a.min(area_b);
     }
-    if corner <= -both {
-        // Apart, or together covering the sphere.
-        return (sptd_cap_solid_angle(a) + sptd_cap_solid_angle(b) - 4.0 * PI).max(0.0);
-    }
-    let angle = |cosine: f64, limit: f64| {
-        irradiance_angle((limit * limit - cosine * cosine).max(0.0).sqrt(), cosine)
+    // The triangle of the centres and one corner, by its half perimeter.
+    let s = 0.5 * (radius_a + radius_b + distance);
+    let (rest_a, rest_b, rest_d) = (s - radius_a, s - radius_b, s - distance);
+    let angle = |near: f64, opposite: f64| {
+        2.0 * irradiance_angle(
+            (near.sin() * rest_d.sin()).max(0.0).sqrt(),
+            (s.sin() * opposite.sin()).max(0.0).sqrt(),
+        )
     };
-    let half_a = angle(b.cosine - cos_d * a.cosine, sin_d * a.sine);
-    let half_b = angle(a.cosine - cos_d * b.cosine, sin_d * b.sine);
-    (2.0 * (PI - angle(corner, both) - a.cosine * half_a - b.cosine * half_b)).max(0.0)
+    let quarter = |x: f64| (0.5 * x).tan();
+    let product = quarter(s) * quarter(rest_a) * quarter(rest_b) * quarter(rest_d);
+    let triangle = 4.0 * irradiance_angle(product.max(0.0).sqrt(), 1.0);
+    let sectors = angle(rest_a, rest_b) * area_a / PI + angle(rest_b, rest_a) * area_b / PI;
+    (sectors - 2.0 * triangle).clamp(0.0, area_a.min(area_b))
 }
 
 /// The integral of the lobe (F = 1, cosine inside) over a sphere, cut by the horizon: as
@@ -174,14 +209,8 @@ pub fn sptd_sphere(lobe: &SptdLobe, axis: DVec3, sin2: f64) -> f64 {
         cosine: (1.0 - sin2).sqrt(),
         sine: sin2.sqrt(),
     };
-    let horizon = SphericalCap {
-        axis: DVec3::Z,
-        cosine: 0.0,
-        sine: 1.0,
-    };
-    let lit = sptd_cap_intersection(
-        sptd_transform_cap(lobe, light),
-        sptd_transform_cap(lobe, horizon),
-    );
+    let light = sptd_transform_cap(lobe, light);
+    let hidden = sptd_cap_intersection(light, sptd_transform_cap(lobe, NADIR));
+    let lit = (sptd_cap_solid_angle(light) - hidden).max(0.0);
     lobe.albedo * (lit / (4.0 * PI * sptd_horizon_share(lobe))).min(1.0)
 }
