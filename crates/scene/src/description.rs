@@ -244,7 +244,8 @@ pub struct Laid {
     pub amount: Amount,
     /// The same seed gives the same scratches, and a higher count keeps the first ones. Default: 1.
     pub seed: u64,
-    /// Log-normal, measured along the surface. Default: mean 0.02, spread 0.5.
+    /// Log-normal, measured along the surface; draws are kept from 1e-5 to a hundred times the object's diagonal.
+    /// Default: mean 0.02, spread 0.5.
     pub length_m: Distribution,
     /// Log-normal; draws are kept from 0.05 to 100. Default: mean 1.5, spread 0.3.
     pub width_um: Distribution,
@@ -380,9 +381,26 @@ impl Description {
         read::description(&root).map_err(|error| error.in_scene_file(text, name))
     }
 
-    /// The scene file that loads to this description.
+    /// The scene file that loads to this description: a `[table]` or `[[table]]` for each part, and one line for each key.
+    ///
+    /// # Errors
+    /// Numbers above 2^63 - 1, which TOML does not have.
     pub fn to_toml(&self) -> Result<String, toml::ser::Error> {
-        toml::to_string(self)
+        let mut text = String::new();
+        for (name, value) in toml::Table::try_from(self)? {
+            let (header, parts) = match value {
+                toml::Value::Array(parts) => (format!("[[{name}]]"), parts),
+                part => (format!("[{name}]"), vec![part]),
+            };
+            for part in parts {
+                text += &format!("{header}\n");
+                for (key, value) in part.as_table().into_iter().flatten() {
+                    text += &format!("{key} = {value}\n");
+                }
+                text.push('\n');
+            }
+        }
+        Ok(text)
     }
 }
 

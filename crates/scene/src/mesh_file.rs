@@ -107,19 +107,34 @@ fn parse(bytes: &[u8]) -> Result<Gltf, Flaw> {
             return Err(Flaw::new("it ends within its header", right));
         }
     }
-    let gltf = Gltf::from_slice(bytes)
-        .map_err(|error| Flaw::new(format!("it is no valid glTF ({error})"), right))?;
-    let required = &gltf.document.as_json().extensions_required;
-    match required
-        .iter()
-        .find(|name| !EXTENSIONS.contains(&name.as_str()))
-    {
-        Some(name) => Err(Flaw::new(
+    let invalid = |error| Flaw::new(format!("it is no valid glTF ({error})"), right);
+    let Gltf { document, blob } = Gltf::from_slice_without_validation(bytes).map_err(invalid)?;
+    let mut json = document.into_json();
+    json.extensions_required
+        .retain(|name| !EXTENSIONS.contains(&name.as_str()));
+    if let Some(name) = json.extensions_required.first() {
+        return Err(Flaw::new(
             format!("it requires the extension {name}, which is not supported"),
             "export it again without that",
-        )),
-        None => Ok(gltf),
+        ));
     }
+    // What the crate's own validation takes for granted.
+    let accessors = json.accessors.len();
+    let mut primitives = json.meshes.iter().flat_map(|mesh| &mesh.primitives);
+    if primitives.any(|p| p.attributes.values().any(|a| a.value() >= accessors)) {
+        let found = "an attribute refers to an accessor that is not there";
+        return Err(Flaw::new(found, right));
+    }
+    let has_source = |image: &gltf::json::Image| match image.buffer_view {
+        Some(_) => image.mime_type.is_some(),
+        None => image.uri.is_some(),
+    };
+    if !json.images.iter().all(has_source) {
+        let found = "an image has neither a `uri` nor a `bufferView` with its `mimeType`";
+        return Err(Flaw::new(found, right));
+    }
+    let document = gltf::Document::from_json(json).map_err(invalid)?;
+    Ok(Gltf { document, blob })
 }
 
 /// The nodes of the file's scene that have a mesh, with their transforms.

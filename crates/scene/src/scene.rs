@@ -203,14 +203,20 @@ impl Light {
     /// Centre and radius of a sphere around the light, for culling; not the smallest one.
     pub fn bounding_sphere(&self) -> (DVec3, f64) {
         match self {
-            Light::Sphere { center_m, radius_m, .. } => (*center_m, *radius_m),
+            Light::Sphere {
+                center_m, radius_m, ..
+            } => (*center_m, *radius_m),
             Light::Polygon { vertices_m, .. } => {
-                let (low, high) = vertices_m.iter().fold(
-                    (DVec3::INFINITY, DVec3::NEG_INFINITY),
-                    |(low, high), v| (low.min(*v), high.max(*v)),
-                );
+                let (low, high) = vertices_m
+                    .iter()
+                    .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), v| {
+                        (low.min(*v), high.max(*v))
+                    });
                 let center = 0.5 * (low + high);
-                let radius = vertices_m.iter().map(|v| v.distance(center)).fold(0.0, f64::max);
+                let radius = vertices_m
+                    .iter()
+                    .map(|v| v.distance(center))
+                    .fold(0.0, f64::max);
                 (center, radius)
             }
         }

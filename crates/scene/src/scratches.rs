@@ -14,8 +14,6 @@ mod listed;
 mod neighbours;
 mod random;
 mod swirl;
-#[cfg(test)]
-mod tests;
 mod walk;
 
 use std::path::Path;
@@ -41,8 +39,12 @@ const DEPTHS_NM: (f64, f64) = (0.0, 2000.0);
 /// What renderers keep for a segment besides the scene: its effective form and its share of a tree, in main memory and once
 /// more on the GPU.
 const RENDERED_SEGMENT_BYTES: u64 = 160;
-/// Scratches that are laid first to learn how many segments one has.
-const PILOT: u64 = 1024;
+/// The renderers' trees number the segments by 28 bits.
+const MOST_SEGMENTS: usize = 1 << 28;
+/// How many scratches are laid first to learn how many segments one has.
+const PILOTS: u64 = 1024;
+/// Segments that are enough to know.
+const PILOT_SEGMENTS: usize = 1 << 20;
 /// Scratches of one task, and of the tasks between two reports of progress.
 const CHUNK: u64 = 256;
 const BATCH: u64 = 128 * CHUNK;
@@ -169,16 +171,21 @@ impl<'a> Plan<'a> {
 
     /// Refuses a layer that would not fit into the budget beside what is used; returns what is used with it.
     fn check_memory(&self, budget_bytes: u64, used_bytes: f64) -> Result<f64, Error> {
+        // Few at first, lest scratches of a million segments fill the memory themselves.
+        let mut pilots = 0;
         let mut pilot = Laid::default();
-        let pilots = self.count.min(PILOT);
-        self.lay(0..pilots, &mut pilot)?;
+        while pilots < PILOTS.min(self.count) && pilot.segments.len() < PILOT_SEGMENTS {
+            pilots = self.count.min(4 * pilots.max(1));
+            pilot = Laid::default();
+            self.lay(0..pilots, &mut pilot)?;
+        }
         let segments_each = pilot.segments.len() as f64 / pilots.max(1) as f64;
+        let free_bytes = (budget_bytes as f64 - used_bytes).max(0.0);
         let segment_bytes = size_of::<Segment>() as u64 + RENDERED_SEGMENT_BYTES;
         let each_bytes = size_of::<Scratch>() as f64 + segments_each * segment_bytes as f64;
         let bytes = each_bytes * self.count as f64;
         let segments = segments_each * self.count as f64;
-        let free_bytes = (budget_bytes as f64 - used_bytes).max(0.0);
-        if bytes <= free_bytes && segments < f64::from(u32::MAX) {
+        if bytes <= free_bytes && segments < MOST_SEGMENTS as f64 {
             return Ok(used_bytes + bytes);
         }
         let key = match self.table.layer {
@@ -188,7 +195,7 @@ impl<'a> Plan<'a> {
                 Amount::DensityPerM2(_) => "density_per_m2",
             },
         };
-        let fitting = (free_bytes / each_bytes).min(f64::from(u32::MAX) / segments_each);
+        let fitting = (free_bytes / each_bytes).min(MOST_SEGMENTS as f64 / segments_each);
         Err(Error::new(
             format!("{}.{key}", self.table.key),
             format!(
@@ -211,17 +218,15 @@ impl<'a> Plan<'a> {
             .map(|first| self.lay_chunk(&walker, first..scratches.end.min(first + CHUNK)))
             .collect();
         for part in parts {
-            // Segments are counted by u32, and the estimate may have been short.
-            let offset = u32::try_from(object.segments.len())
-                .ok()
-                .filter(|offset| offset.checked_add(part.segments.len() as u32).is_some())
-                .ok_or_else(|| {
-                    Error::new(
-                        &self.table.key,
-                        "found more than 4 billion segments on one object",
-                        "ask for fewer or shorter scratches",
-                    )
-                })?;
+            // The estimate may have been short.
+            if object.segments.len() + part.segments.len() > MOST_SEGMENTS {
+                return Err(Error::new(
+                    &self.table.key,
+                    format!("found more than {MOST_SEGMENTS} segments on one object"),
+                    "ask for fewer or shorter scratches",
+                ));
+            }
+            let offset = object.segments.len() as u32;
             object.segments.extend_from_slice(&part.segments);
             object
                 .scratches

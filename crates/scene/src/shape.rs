@@ -134,9 +134,20 @@ fn lathe(profile_m: &[[f64; 2]], segments: u32, smooth: bool) -> Surface {
             _ => None,
         }
     };
+    // A floor has vertices at its rim only, so it stays flat and what follows on it is bent to meet it.
+    let is_floor = |piece: usize| {
+        points[piece].y == points[piece + 1].y && points[piece].x.min(points[piece + 1].x) == 0.0
+    };
+    let next_to_floor = |piece: usize, forward: bool| match forward {
+        true => piece + 1 < faces.len() && is_floor(piece + 1),
+        false => piece > 0 && is_floor(piece - 1),
+    };
     let normal = |piece: usize, forward: bool| match neighbour(piece, forward) {
         Some(other) if smooth && faces[piece].dot(other) > ROUNDED_BEND_COS => {
-            (faces[piece] + other).normalize()
+            match next_to_floor(piece, forward) {
+                true => other,
+                false => (faces[piece] + other).normalize(),
+            }
         }
         _ => faces[piece],
     };
@@ -146,7 +157,7 @@ fn lathe(profile_m: &[[f64; 2]], segments: u32, smooth: bool) -> Surface {
         let (from, to) = (ends[0], ends[1]);
         let v = [way_m / total, (way_m + lengths[piece]) / total];
         way_m += lengths[piece];
-        if from.y == to.y && from.x.min(to.x) == 0.0 {
+        if is_floor(piece) {
             let facing = faces[piece].y.signum();
             add_flat_disk(&mut surface, from.x.max(to.x), from.y, segments, facing);
             continue;

@@ -144,7 +144,7 @@ fn object(object: &Object, key: &str) -> Check {
         if !(1e-6..=1e6).contains(&factor.abs()) {
             return Err(Error::new(
                 scale_key(i),
-                format!("found {factor}"),
+                found(factor),
                 "its size must be between 1e-6 and 1e6",
             ));
         }
@@ -199,6 +199,15 @@ fn scratches(scratches: &Scratches, key: &str) -> Check {
 fn laid(laid: &Laid, key: &str) -> Check {
     if let Amount::DensityPerM2(density) = laid.amount {
         not_negative(&format!("{key}.density_per_m2"), density)?;
+    }
+    if i64::try_from(laid.seed).is_err() {
+        // TOML's integers end there, so it could not be saved.
+        let found = format!("found {}", laid.seed);
+        return Err(Error::new(
+            format!("{key}.seed"),
+            found,
+            "must be below 2^63",
+        ));
     }
     for (name, drawn, largest) in [
         ("length_m", laid.length_m, LARGEST_M),
@@ -278,10 +287,22 @@ fn light(light: &Light, key: &str) -> Check {
     }
 }
 
+fn found(value: f64) -> String {
+    format!("found {}", written(value))
+}
+
+/// A number without rows of zeros.
+fn written(value: f64) -> String {
+    match value == 0.0 || !value.is_finite() || (1e-3..1e7).contains(&value.abs()) {
+        true => format!("{value}"),
+        false => format!("{value:e}"),
+    }
+}
+
 fn finite(key: &str, value: f64) -> Check {
     match value.is_finite() {
         true => Ok(()),
-        false => Err(Error::new(key, format!("found {value}"), "must be finite")),
+        false => Err(Error::new(key, found(value), "must be finite")),
     }
 }
 
@@ -289,11 +310,7 @@ fn positive(key: &str, value: f64) -> Check {
     finite(key, value)?;
     match value > 0.0 {
         true => Ok(()),
-        false => Err(Error::new(
-            key,
-            format!("found {value}"),
-            "must be greater than 0",
-        )),
+        false => Err(Error::new(key, found(value), "must be greater than 0")),
     }
 }
 
@@ -301,11 +318,7 @@ fn not_negative(key: &str, value: f64) -> Check {
     finite(key, value)?;
     match value >= 0.0 {
         true => Ok(()),
-        false => Err(Error::new(
-            key,
-            format!("found {value}"),
-            "must be 0 or greater",
-        )),
+        false => Err(Error::new(key, found(value), "must be 0 or greater")),
     }
 }
 
@@ -315,8 +328,8 @@ fn within(key: &str, value: f64, least: f64, most: f64) -> Check {
         true => Ok(()),
         false => Err(Error::new(
             key,
-            format!("found {value}"),
-            format!("must be from {least} to {most}"),
+            found(value),
+            format!("must be from {} to {}", written(least), written(most)),
         )),
     }
 }

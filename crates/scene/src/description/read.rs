@@ -146,13 +146,14 @@ impl Read for Object {
                 "scale",
             ],
         )?;
+        let name = table.required("name")?;
         let surface = match table.either("shape", "mesh")? {
             "shape" => Surface::Shape(table.required("shape")?),
             _ => Surface::Mesh(table.required("mesh")?),
         };
         let ScaleFactors(scale) = table.or("scale", ScaleFactors([1.0; 3]))?;
         Ok(Self {
-            name: table.required("name")?,
+            name,
             surface,
             material: table.optional("material")?,
             translation_m: table.or("translation_m", [0.0; 3])?,
@@ -482,10 +483,13 @@ impl Read for f64 {
 impl Read for u64 {
     fn read(value: &Value, key: &str) -> Result<Self, Error> {
         let integer = match value.get_ref() {
-            DeValue::Integer(i) => u64::from_str_radix(i.as_str(), i.radix()).ok(),
+            // TOML promises 64 bits with a sign.
+            DeValue::Integer(i) => i64::from_str_radix(i.as_str(), i.radix()).ok(),
             _ => None,
         };
-        integer.ok_or_else(|| wrong_type(value, key, "a whole number, not negative"))
+        integer
+            .and_then(|i| Self::try_from(i).ok())
+            .ok_or_else(|| wrong_type(value, key, "a whole number from 0 to 2^63 - 1"))
     }
 }
 

@@ -12,8 +12,10 @@ use super::{DEPTHS_NM, Groove, Laying, WIDTHS_UM};
 use crate::description::{Around, Laid, Pattern};
 use crate::scene::Segment;
 
-/// Half of the usual coherence width; and more than the largest objects measure.
-const LENGTHS_M: (f64, f64) = (10e-6, 1e4);
+/// Half of the usual coherence width.
+const SHORTEST_M: f64 = 10e-6;
+/// A longer scratch only goes over itself again; relative to the object's diagonal.
+const LONGEST: f64 = 100.0;
 
 /// A layer's description with the ground that it goes on.
 pub(super) struct Drawn<'a> {
@@ -32,7 +34,11 @@ impl Laying for Drawn<'_> {
         let [length, width, depth, curvature, jitter] = std::array::from_fn(|_| stream.normal());
 
         let within = |value: f64, (least, most): (f64, f64)| value.clamp(least, most);
-        let length_m = within(laid.length_m.log_normal_at(length), LENGTHS_M);
+        let lengths_m = (
+            SHORTEST_M,
+            (LONGEST * self.ground.diagonal_m).max(SHORTEST_M),
+        );
+        let length_m = within(laid.length_m.log_normal_at(length), lengths_m);
         let guide = self.guide(seed, seed_angle_rad, curvature, jitter);
         Groove {
             width_um: within(laid.width_um.log_normal_at(width), WIDTHS_UM) as f32,

@@ -117,8 +117,7 @@ impl<'a> Listed<'a> {
         for row in &rows {
             for (end, prefix) in row.ends_m.iter().zip(["x0_m", "x1_m"]) {
                 let (_, distance_m) = closest.find(ground.point_in_world_m(*end));
-                // Written so that an overflow to NaN is refused too.
-                if !(distance_m <= tolerance_m) {
+                if distance_m > tolerance_m {
                     let found =
                         format!("found a point {distance_m:.3e} m off the object's surface");
                     let right = format!(

@@ -1,0 +1,408 @@
+//! Mistakes in scene files: each ends in one line that says where, what, and what would be right.
+
+mod common;
+
+use common::{object, scene_with, temporary_dir};
+use hairline_scene::{Loader, Scene};
+
+/// Lines 1 to 9 are the camera and the material, line 11 is the first of `rest`.
+fn message(rest: &str) -> String {
+    let dir = temporary_dir();
+    std::fs::write(dir.path().join("empty.csv"), "").unwrap();
+    Scene::from_toml(&scene_with(rest), "plate.toml", dir.path())
+        .map(|_| "it loads".to_owned())
+        .unwrap_or_else(|error| error.to_string())
+}
+
+fn check(cases: &[(&str, &str)]) {
+    for (rest, expected) in cases {
+        assert_eq!(message(rest), *expected, "\n{rest}");
+    }
+}
+
+fn disk() -> String {
+    object("{ disk = { radius_m = 0.08 } }")
+}
+
+/// A scene with a layer of scratches, whose table's lines are 15 (`[[scratches]]`), 16 (`object`) and on.
+fn scratches(rest: &str) -> String {
+    message(&format!("{}[[scratches]]\nobject = \"it\"\n{rest}", disk()))
+}
+
+/// A scene with a light, whose table's lines are 15 (`[[light]]`) and on.
+fn light(rest: &str) -> String {
+    message(&format!("{}[[light]]\n{rest}", disk()))
+}
+
+#[test]
+fn unknown_keys() {
+    check(&[
+        (
+            "[[object]]\nname = \"it\"\nshap = {}",
+            "plate.toml:13: object[0].shap: unknown key; did you mean `shape`?",
+        ),
+        (
+            "[[object]]\nname = \"it\"\nshape = { disk = { diameter = 1 } }",
+            "plate.toml:13: object[0].shape.disk.diameter: unknown key; the keys here are `radius_m`",
+        ),
+        (
+            "[rendering]\nsize_px = [1, 2]",
+            "plate.toml:11: rendering: unknown key; did you mean `render`?",
+        ),
+        (
+            "[render]\ntone_mapping = \"agx\"",
+            "plate.toml:12: render.tone_mapping: unknown key; did you mean `tone_map`?",
+        ),
+    ]);
+    assert_eq!(
+        scratches("pattern = \"random\"\ncount = 1\naxis = [0, 0, 1]"),
+        "plate.toml:19: scratches[0].axis: pattern `random` has no such key; it belongs to `circular`, `radial` and `spun`"
+    );
+    assert_eq!(
+        light("kind = \"sphere\"\ntwo_sided = true"),
+        "plate.toml:17: light[0].two_sided: kind `sphere` has no such key; it belongs to `polygon`"
+    );
+}
+
+#[test]
+fn wrong_units() {
+    check(&[
+        (
+            "[[object]]\nname = \"it\"\nshape = { disk = { radius_mm = 80 } }",
+            "plate.toml:13: object[0].shape.disk.radius_mm: unknown key; did you mean `radius_m = 0.08`?",
+        ),
+        (
+            "[[object]]\nname = \"it\"\nrotation_rad = [0, 0, 1]",
+            "plate.toml:13: object[0].rotation_rad: unknown key; did you mean `rotation_deg`?",
+        ),
+    ]);
+    assert_eq!(
+        scratches("pattern = \"random\"\ncount = 1\nwidth_nm = 1500.0"),
+        "plate.toml:19: scratches[0].width_nm: unknown key; did you mean `width_um = 1.5`?"
+    );
+    assert_eq!(
+        scratches("pattern = \"random\"\ndensity_per_cm2 = 12"),
+        "plate.toml:18: scratches[0].density_per_cm2: unknown key; did you mean `density_per_m2 = 120000.0`?"
+    );
+    assert_eq!(
+        scratches("pattern = \"random\"\ncount = 1\nlength = { mean = 2 }"),
+        "plate.toml:19: scratches[0].length: unknown key; did you mean `length_m`?"
+    );
+}
+
+#[test]
+fn wrong_types() {
+    check(&[
+        (
+            "[[object]]\nname = \"it\"\nshape = { disk = { radius_m = \"8 cm\" } }",
+            "plate.toml:13: object[0].shape.disk.radius_m: found the text \"8 cm\"; must be a number (metres)",
+        ),
+        (
+            "[[object]]\nname = 7",
+            "plate.toml:12: object[0].name: found the whole number 7; must be a text in quotes",
+        ),
+        (
+            "[[object]]\nname = \"it\"\nmesh = \"a.glb\"\ntranslation_m = [0.0,\n  1.0]",
+            "plate.toml:14: object[0].translation_m: found an array of 2; must be an array of 3 numbers",
+        ),
+        (
+            "[[object]]\nname = \"it\"\nmesh = \"a.glb\"\ntranslation_m = [0.0,\n  true, 1.0]",
+            "plate.toml:15: object[0].translation_m[1]: found `true`; must be a number (metres)",
+        ),
+        (
+            "[light]\nkind = \"sphere\"",
+            "plate.toml:11: light: found a table; must be written `[[light]]`, since there may be several",
+        ),
+        (
+            "[render]\nsize_px = [1280.5, 720]",
+            "plate.toml:12: render.size_px[0]: found the number 1280.5; must be a whole number from 0 to 2^63 - 1",
+        ),
+        (
+            "[render]\ntone_map = \"filmic\"",
+            "plate.toml:12: render.tone_map: found the text \"filmic\"; must be one of `neutral`, `agx`, `aces` and `none`",
+        ),
+        (
+            "[[material]]\nname = \"m\"\nkind = \"metal\"\nmetal = \"aluminum\"",
+            "plate.toml:14: material[1].metal: found the text \"aluminum\"; did you mean `aluminium`?",
+        ),
+        (
+            "[[material]]\nname = \"m\"\nkind = \"metalic-rougness\"",
+            "plate.toml:13: material[1].kind: found the text \"metalic-rougness\"; did you mean `metallic-roughness`?",
+        ),
+        (
+            "[[material]]\nname = \"m\"\nkind = \"metal\"",
+            "plate.toml:11: material[1]: found neither `metal` nor `base_color`; must have exactly one of them",
+        ),
+        (
+            "[[object]]\nname = \"it\"\nshape = { }\nmaterial = \"steel\"",
+            "plate.toml:13: object[0].shape: found 0 shapes; must be one, such as `{ disk = { radius_m = 0.1 } }`",
+        ),
+    ]);
+    assert_eq!(
+        scratches("pattern = \"random\"\ncount = -5"),
+        "plate.toml:18: scratches[0].count: found the whole number -5; must be a whole number from 0 to 2^63 - 1"
+    );
+    assert_eq!(
+        scratches("pattern = \"random\"\ncount = 5\ndensity_per_m2 = 5"),
+        "plate.toml:15: scratches[0]: found both `count` and `density_per_m2`; must have exactly one of them"
+    );
+    assert_eq!(
+        scratches("pattern = \"random\"\ncount = 5\nlength_m = \"long\""),
+        "plate.toml:19: scratches[0].length_m: found the text \"long\"; must be a number, or `{ mean = .., spread = .. }`"
+    );
+    assert_eq!(
+        scratches("count = 5"),
+        "plate.toml:15: scratches[0]: `pattern` is missing; must be one of `random`, `parallel`, `circular`, `radial`, `spun`, `swirl` and `file`"
+    );
+}
+
+#[test]
+fn missing_keys_and_broken_grammar() {
+    check(&[(
+        "[environment]\nintensity = 1.0",
+        "plate.toml:11: environment: `file` is missing; `environment` needs it",
+    )]);
+    let of = |text: &str| {
+        Scene::from_toml(text, "a.toml", "")
+            .unwrap_err()
+            .to_string()
+    };
+    assert_eq!(of(""), "a.toml: `camera` is missing; the scene needs it");
+    assert_eq!(
+        of("[camera]\nposition_m = [0, 0,\n"),
+        "a.toml:2: unclosed array, expected `]`; must be valid TOML (https://toml.io)"
+    );
+    assert_eq!(
+        of("[camera]\nposition_m = [0, 0, 1]\nposition_m = [0, 0, 1]\n"),
+        "a.toml:3: duplicate key; must be valid TOML (https://toml.io)"
+    );
+}
+
+#[test]
+fn sizes_that_are_negative_or_not_finite() {
+    for (value, found) in [
+        ("-0.1", "found -0.1; must be greater than 0"),
+        ("0", "found 0; must be greater than 0"),
+        ("nan", "found NaN; must be finite"),
+        ("inf", "found inf; must be finite"),
+        ("-inf", "found -inf; must be finite"),
+        ("1e300", "found 1e300; must be from 1e-5 to 1000"),
+    ] {
+        let shape = format!("{{ sphere = {{ radius_m = {value} }} }}");
+        let expected = format!("plate.toml:13: object[0].shape.sphere.radius_m: {found}");
+        assert_eq!(message(&object(&shape)), expected);
+    }
+    check(&[
+        (
+            &object("{ plane = { size_m = [1.0, -1.0] } }"),
+            "plate.toml:13: object[0].shape.plane.size_m[1]: found -1; must be greater than 0",
+        ),
+        (
+            &object("{ lathe = { profile_m = [[0.0, 0.0], [-0.1, 0.0]] } }"),
+            "plate.toml:13: object[0].shape.lathe.profile_m[1][0]: found -0.1; must be from 0 to 1000",
+        ),
+        (
+            &format!("{}scale = 0", disk()),
+            "plate.toml:15: object[0].scale: found 0; its size must be between 1e-6 and 1e6",
+        ),
+        (
+            &format!("{}rotation_deg = [0, nan, 0]", disk()),
+            "plate.toml:15: object[0].rotation_deg[1]: found NaN; must be finite",
+        ),
+        (
+            "[render]\nsize_px = [0, 720]",
+            "plate.toml:12: render.size_px[0]: found 0; must be from 1 to 16384",
+        ),
+        (
+            "[[material]]\nname = \"m\"\nkind = \"mirror\"\nroughness = 1.5",
+            "plate.toml:14: material[1].roughness: found 1.5; must be from 0 to 1",
+        ),
+    ]);
+    assert_eq!(
+        light("kind = \"sphere\"\ncenter_m = [0, 0, 0]\nradius_m = -1"),
+        "plate.toml:18: light[0].radius_m: found -1; must be greater than 0"
+    );
+    assert_eq!(
+        light("kind = \"sphere\"\ncenter_m = [0, inf, 0]\nradius_m = 1"),
+        "plate.toml:17: light[0].center_m[1]: found inf; must be finite"
+    );
+    assert_eq!(
+        light("kind = \"sphere\"\ncenter_m = [0, 0, 0]\nradius_m = 1\nradiance = -2.5"),
+        "plate.toml:19: light[0].radiance: found -2.5; must be 0 or greater"
+    );
+    assert_eq!(
+        scratches("pattern = \"random\"\ncount = 5\nwidth_um = { mean = nan, spread = 0.1 }"),
+        "plate.toml:19: scratches[0].width_um.mean: found NaN; must be finite"
+    );
+    assert_eq!(
+        scratches("pattern = \"random\"\ncount = 5\nwidth_um = -2"),
+        "plate.toml:19: scratches[0].width_um: found -2; must be greater than 0"
+    );
+    assert_eq!(
+        scratches("pattern = \"random\"\ncount = 5\ndepth_nm = { mean = 200, spread = -0.1 }"),
+        "plate.toml:19: scratches[0].depth_nm.spread: found -0.1; must be from 0 to 3"
+    );
+    assert_eq!(
+        scratches("pattern = \"circular\"\ncount = 5\naxis = [0, 0, 0]"),
+        "plate.toml:19: scratches[0].axis: found no direction: all three numbers are 0; must point somewhere"
+    );
+}
+
+#[test]
+fn cameras_that_see_nothing() {
+    let of = |keys: &str| {
+        let text = format!("[camera]\n{keys}\n{}", disk());
+        Scene::from_toml(&text, "a.toml", "")
+            .unwrap_err()
+            .to_string()
+    };
+    assert_eq!(
+        of("position_m = [1, 2, 3]\ntarget_m = [1, 2, 3]"),
+        "a.toml:3: camera.target_m: found the camera's own position; must be another point, for the camera to look at"
+    );
+    assert_eq!(
+        of("position_m = [0, 0, 3]\ntarget_m = [0, 0, 0]\nup = [0, 0, 1]"),
+        "a.toml:4: camera.up: found the direction of view; must be another direction"
+    );
+    assert_eq!(
+        of("position_m = [0, 0, 3]\ntarget_m = [0, 0, 0]\nfov_y_deg = 180"),
+        "a.toml:4: camera.fov_y_deg: found 180; must be from 0.001 to 179"
+    );
+}
+
+#[test]
+fn lights_that_are_no_polygons() {
+    let polygon = |vertices: &str| light(&format!("kind = \"polygon\"\nvertices_m = {vertices}"));
+    let cases = [
+        (
+            "[[0, 0, 1], [1, 0, 1]]",
+            "found 2 vertices; must be at least three",
+        ),
+        (
+            "[[0, 0, 1], [1, 0, 1], [1, 1, 1.5], [0, 1, 1]]",
+            "found a polygon that is not planar: vertex 0 (counted from 0) is 2.18e-1 m off its plane; all vertices must lie in one plane; split it into triangles",
+        ),
+        (
+            "[[0, 0, 1], [1, 1, 1], [1, 0, 1], [0, 1, 1]]",
+            "found a polygon that crosses itself: the edges after vertices 0 and 2 (counted from 0) meet; its edges must meet at vertices only; reorder the vertices",
+        ),
+        (
+            "[[0, 0, 1], [1, 0, 1], [2, 0, 1]]",
+            "found a polygon without area; its vertices must span an area",
+        ),
+        (
+            "[[0, 0, 1], [1, 0, 1], [1, 0, 1], [0, 1, 1]]",
+            "found two equal vertices, number 1 and the next (counted from 0); leave one out",
+        ),
+    ];
+    for (vertices, expected) in cases {
+        assert_eq!(
+            polygon(vertices),
+            format!("plate.toml:17: light[0].vertices_m: {expected}")
+        );
+    }
+    assert_eq!(
+        polygon("[[0, 0, 1], [1, 0], [0, 1, 1]]"),
+        "plate.toml:17: light[0].vertices_m[1]: found an array of 2; must be an array of 3 numbers"
+    );
+}
+
+#[test]
+fn references_to_nothing() {
+    check(&[
+        (
+            "[[object]]\nname = \"it\"\nshape = { disk = { radius_m = 1 } }\nmaterial = \"stele\"",
+            "plate.toml:14: object[0].material: found no material called \"stele\"; did you mean \"steel\"?",
+        ),
+        (
+            "[[object]]\nname = \"it\"\nshape = { disk = { radius_m = 1 } }",
+            "plate.toml:11: object[0]: `material` is missing; a shape needs one; only a mesh brings its own",
+        ),
+        (
+            "",
+            "plate.toml: object: found no object; must have at least one `[[object]]`",
+        ),
+        (
+            &format!("{}{}", disk(), disk()),
+            "plate.toml:16: object[1].name: found a second object called \"it\"; names must differ",
+        ),
+    ]);
+    let text = format!(
+        "{}[[scratches]]\nobject = \"plate\"\npattern = \"random\"\ncount = 5",
+        disk()
+    );
+    assert_eq!(
+        message(&text),
+        "plate.toml:16: scratches[0].object: found no object called \"plate\"; must be the name of a `[[object]]`"
+    );
+}
+
+#[test]
+fn files_that_are_not_there() {
+    let dir = temporary_dir();
+    let path = dir.path().join("gone.toml");
+    let message_of_load = Scene::load(&path).unwrap_err().to_string();
+    assert!(message_of_load.starts_with(&format!("{}: cannot be read (", path.display())));
+    assert!(message_of_load.ends_with("; give the path of a scene file (TOML)"));
+    let mesh = message("[[object]]\nname = \"it\"\nmesh = \"gone.glb\"");
+    assert!(
+        mesh.starts_with("plate.toml:13: object[0].mesh: \"gone.glb\": it cannot be read ("),
+        "{mesh}"
+    );
+    assert!(mesh.ends_with("; give the path of a .gltf or .glb file, relative to the scene file"));
+    let csv = scratches("pattern = \"file\"\nfile = \"gone.csv\"");
+    assert!(
+        csv.starts_with("plate.toml:18: scratches[0].file: \""),
+        "{csv}"
+    );
+    assert!(
+        csv.ends_with("; must be a CSV file, relative to the scene file"),
+        "{csv}"
+    );
+    let map = message(&format!("{}[environment]\nfile = \"gone.hdr\"", disk()));
+    assert!(
+        map.starts_with("plate.toml:16: environment.file: "),
+        "{map}"
+    );
+}
+
+#[test]
+fn more_scratches_than_memory() {
+    // Ten million work, or are refused before they are laid; here the budget decides.
+    let text = scene_with(&format!(
+        "{}[[scratches]]\nobject = \"it\"\npattern = \"random\"\ncount = 10_000_000\nlength_m = 0.001",
+        disk()
+    ));
+    let loader = Loader {
+        memory_budget_bytes: 1 << 30,
+        ..Default::default()
+    };
+    let started = std::time::Instant::now();
+    let message = loader
+        .from_toml(&text, "plate.toml", "")
+        .unwrap_err()
+        .to_string();
+    assert!(
+        started.elapsed().as_secs_f64() < 1.0,
+        "it is refused before it is laid"
+    );
+    assert!(
+        message.starts_with(
+            "plate.toml:18: scratches[0].count: found 10000000 scratches, which would take about 2."
+        ),
+        "{message}"
+    );
+    assert!(message.contains(" GiB of memory in 1.1e7 segments; there are 1.00 GiB for them; ask for at most about 4."), "{message}");
+    // All layers count together, and a budget for nothing else is not reached by a few.
+    let few = text.replace("10_000_000", "1000");
+    assert!(loader.from_toml(&few, "plate.toml", "").is_ok());
+    let unbounded = text.replace("count = 10_000_000", "density_per_m2 = 1e300");
+    let message = loader
+        .from_toml(&unbounded, "plate.toml", "")
+        .unwrap_err()
+        .to_string();
+    assert!(
+        message.starts_with("plate.toml:18: scratches[0].density_per_m2: found "),
+        "{message}"
+    );
+}

@@ -1,0 +1,384 @@
+//! Scene files: what is saved loads again, the documented example works, defaults are those of the documentation.
+
+mod common;
+
+use std::path::Path;
+
+use common::{asset, scene_with, temporary_dir};
+use hairline_image::ToneMap;
+use hairline_optics::metal::Metal;
+use hairline_scene::description::*;
+use hairline_scene::{Base, Light as SceneLight, Scene, description};
+
+const EXAMPLE: &str = include_str!("example.toml");
+
+fn parsed(text: &str) -> Description {
+    Description::from_toml(text, Path::new("test.toml")).unwrap_or_else(|e| panic!("{e}\n{text}"))
+}
+
+#[test]
+fn the_example_of_the_documentation_works() {
+    let description = parsed(EXAMPLE);
+    assert_eq!(description.camera.fov_y_deg, 28.0);
+    let dir = temporary_dir();
+    let scene = match asset("studio.hdr") {
+        Some(map) => {
+            std::fs::copy(map, dir.path().join("studio.hdr")).unwrap();
+            std::fs::write(dir.path().join("example.toml"), EXAMPLE).unwrap();
+            Scene::load(dir.path().join("example.toml"))
+        }
+        None => {
+            let without = Description {
+                environment: None,
+                ..description
+            };
+            Scene::build(&without, dir.path())
+        }
+    }
+    .unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!(scene.render.size_px, [1280, 720]);
+    assert_eq!(scene.render.tone_map, ToneMap::Neutral);
+    assert_eq!(scene.materials[0].base, Base::Metal(Metal::Iron));
+    assert_eq!(scene.lights.len(), 2);
+    assert!(
+        matches!(scene.lights[0], SceneLight::Sphere { radiance, .. } if radiance == [40.0, 0.96 * 40.0, 0.9 * 40.0])
+    );
+    assert_eq!(scene.objects[0].scratches.len(), 10_000);
+    assert!(
+        scene.camera.up.z == 1.0 && (scene.camera.fov_y_rad - 28f64.to_radians()).abs() < 1e-15
+    );
+}
+
+#[test]
+fn the_example_loads_again_after_it_was_saved() {
+    let description = parsed(EXAMPLE);
+    assert_eq!(parsed(&description.to_toml().unwrap()), description);
+}
+
+/// Every variant of everything, with numbers that are hard to write down.
+fn everything() -> Description {
+    let around = Around {
+        axis: [0.0, -1.0, 1e-3],
+        center_m: [0.1 + 0.2, -0.0, 1e-17],
+        jitter_deg: 89.9,
+    };
+    let drawn = |mean, spread| Distribution { mean, spread };
+    let patterns = [
+        Pattern::Random {
+            curvature_per_m: drawn(-1.0 / 3.0, 4.0),
+        },
+        Pattern::Parallel {
+            direction: [1.0, 2.0, 3.0],
+            jitter_deg: 0.0,
+        },
+        Pattern::Circular(around),
+        Pattern::Radial(Around::default()),
+        Pattern::Spun {
+            around,
+            curvature_per_m: drawn(0.0, 0.0),
+        },
+        Pattern::Swirl {
+            curvature_per_m: drawn(1e4, 1e-300),
+        },
+    ];
+    let amounts = [
+        Amount::Count(0),
+        Amount::Count(i64::MAX as u64),
+        Amount::DensityPerM2(1e22),
+    ];
+    let mut scratches: Vec<_> = patterns
+        .into_iter()
+        .zip(amounts.into_iter().cycle())
+        .map(|(pattern, amount)| Scratches {
+            object: "an \"odd\" name\n[äöü] = #".to_owned(),
+            layer: Layer::Laid(Laid {
+                pattern,
+                amount,
+                seed: 12_345_678_901_234,
+                length_m: drawn(f64::MIN_POSITIVE, 0.5),
+                width_um: drawn(1.5, 0.0),
+                depth_nm: drawn(200.0, 1e-9),
+            }),
+        })
+        .collect();
+    scratches.push(Scratches {
+        object: String::new(),
+        layer: Layer::Listed(Listed {
+            file: "dir with spaces/it's.csv".into(),
+        }),
+    });
+    let metals = [
+        Metal::Iron,
+        Metal::StainlessSteel,
+        Metal::Aluminium,
+        Metal::Copper,
+        Metal::Gold,
+        Metal::Silver,
+        Metal::Brass,
+        Metal::Chromium,
+        Metal::Titanium,
+        Metal::Nickel,
+    ];
+    let kinds = metals
+        .into_iter()
+        .map(|m| MaterialKind::Metal(MetalColor::Measured(m)))
+        .chain([
+            MaterialKind::Metal(MetalColor::Color([0.25, 0.5, 1.0])),
+            MaterialKind::Dielectric {
+                ior: 1.33,
+                base_color: [0.1; 3],
+            },
+            MaterialKind::MetallicRoughness {
+                base_color: [0.2; 3],
+                metallic: 0.7,
+            },
+            MaterialKind::Mirror,
+        ]);
+    let surfaces = [
+        Surface::Shape(Shape::Plane {
+            size_m: [1.0, 1.0 / 7.0],
+        }),
+        Surface::Shape(Shape::Disk { radius_m: 5.0 }),
+        Surface::Shape(Shape::Sphere { radius_m: 1e-5 }),
+        Surface::Shape(Shape::Lathe {
+            profile_m: vec![[0.0, 1.0], [2.0, -3.0], [4.5, 0.0]],
+            segments: 3,
+            smooth: false,
+        }),
+        Surface::Mesh("../models/a.glb".into()),
+    ];
+    Description {
+        camera: Camera {
+            position_m: [1.0, 2.0, 3.0],
+            target_m: [0.0; 3],
+            up: [0.0, 1.0, 0.0],
+            fov_y_deg: 45.5,
+            exposure_ev: -2.5,
+        },
+        render: Render {
+            size_px: [1, 16_384],
+            filter_std_px: 0.7,
+            tone_map: ToneMap::Agx,
+        },
+        environment: Some(Environment {
+            file: "a.exr".into(),
+            rotation_deg: -720.5,
+            intensity: 0.0,
+            visible: false,
+        }),
+        materials: kinds
+            .enumerate()
+            .map(|(i, kind)| Material {
+                name: format!("material {i}"),
+                kind,
+                roughness: 0.3,
+                coherence_um: 20.0,
+            })
+            .collect(),
+        objects: surfaces
+            .into_iter()
+            .enumerate()
+            .map(|(i, surface)| Object {
+                name: format!("object {i}"),
+                surface,
+                material: (i % 2 == 0).then(|| "material 0".to_owned()),
+                translation_m: [0.0, 1.0, 2.0],
+                rotation_deg: [10.0, 20.0, 30.0],
+                scale: if i == 1 { [2.0; 3] } else { [1.0, -2.0, 3.0] },
+            })
+            .collect(),
+        scratches,
+        lights: vec![
+            Light {
+                kind: LightKind::Sphere {
+                    center_m: [0.0; 3],
+                    radius_m: 0.5,
+                },
+                radiance: 0.0,
+                color: [1.0; 3],
+            },
+            Light {
+                kind: LightKind::Polygon {
+                    vertices_m: vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
+                    two_sided: true,
+                },
+                radiance: 1e30,
+                color: [0.1, 0.2, 0.3],
+            },
+        ],
+    }
+}
+
+#[test]
+fn whatever_is_saved_loads_again_to_the_same() {
+    let everything = everything();
+    let text = everything.to_toml().unwrap();
+    assert_eq!(parsed(&text), everything, "{text}");
+    let mut least = everything;
+    least.environment = None;
+    least.render = Render::default();
+    least.materials.clear();
+    least.objects.clear();
+    least.scratches.clear();
+    least.lights.clear();
+    assert_eq!(parsed(&least.to_toml().unwrap()), least);
+}
+
+mod round_trip {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn vector() -> impl Strategy<Value = [f64; 3]> {
+        [number(), number(), number()]
+    }
+
+    fn number() -> impl Strategy<Value = f64> {
+        prop_oneof![any::<f64>(), -10.0..10.0f64, Just(0.1 + 0.2)]
+            .prop_filter("TOML writes NaN without its sign and payload", |x| {
+                !x.is_nan()
+            })
+    }
+
+    proptest! {
+        /// Any numbers and names, in range or not: form is checked when reading, ranges when building.
+        #[test]
+        fn any_numbers_and_names_survive(
+            [position, target, up, axis, center] in [vector(), vector(), vector(), vector(), vector()],
+            [mean, spread, radiance] in [number(), number(), number()],
+            name in ".*",
+            vertices in prop::collection::vec(vector(), 0..5),
+            seed in 0..i64::MAX as u64,
+        ) {
+            let mut it = everything();
+            it.camera.position_m = position;
+            it.camera.target_m = target;
+            it.camera.up = up;
+            it.objects[0].name = name.clone();
+            it.objects[0].scale = center;
+            it.materials[0].name = name.clone();
+            it.scratches[2] = Scratches {
+                object: name,
+                layer: Layer::Laid(Laid {
+                    pattern: Pattern::Spun {
+                        around: Around { axis, center_m: center, jitter_deg: spread },
+                        curvature_per_m: Distribution { mean, spread },
+                    },
+                    amount: Amount::DensityPerM2(mean),
+                    seed,
+                    length_m: Distribution { mean, spread },
+                    width_um: Distribution { mean: spread, spread: 0.0 },
+                    depth_nm: Distribution { mean, spread },
+                }),
+            };
+            it.lights[1].radiance = radiance;
+            it.lights[1].kind = LightKind::Polygon { vertices_m: vertices, two_sided: false };
+            prop_assert_eq!(parsed(&it.to_toml().unwrap()), it);
+        }
+    }
+}
+
+#[test]
+fn defaults_are_those_of_the_documentation() {
+    let text = r#"
+        [camera]
+        position_m = [0, 0, 1]
+        target_m = [0, 0, 0]
+        [environment]
+        file = "a.hdr"
+        [[material]]
+        name = "m"
+        kind = "dielectric"
+        [[object]]
+        name = "o"
+        shape = { lathe = { profile_m = [[0, 0], [1, 0]] } }
+        material = "m"
+        [[scratches]]
+        object = "o"
+        pattern = "spun"
+        count = 1
+        [[light]]
+        kind = "polygon"
+        vertices_m = []
+    "#;
+    let it = parsed(text);
+    assert_eq!(it.render, Render::default());
+    assert_eq!(
+        (it.render.size_px, it.render.filter_std_px),
+        ([1280, 720], 0.5)
+    );
+    assert_eq!(
+        (it.camera.up, it.camera.fov_y_deg, it.camera.exposure_ev),
+        ([0.0, 1.0, 0.0], 30.0, 0.0)
+    );
+    let environment = it.environment.unwrap();
+    assert_eq!(
+        (
+            environment.rotation_deg,
+            environment.intensity,
+            environment.visible
+        ),
+        (0.0, 1.0, true)
+    );
+    assert_eq!(
+        (it.materials[0].roughness, it.materials[0].coherence_um),
+        (0.1, 20.0)
+    );
+    let kind = MaterialKind::Dielectric {
+        ior: 1.5,
+        base_color: [0.5; 3],
+    };
+    assert_eq!(it.materials[0].kind, kind);
+    let object = &it.objects[0];
+    assert_eq!(
+        (object.translation_m, object.rotation_deg, object.scale),
+        ([0.0; 3], [0.0; 3], [1.0; 3])
+    );
+    assert!(matches!(
+        object.surface,
+        Surface::Shape(Shape::Lathe {
+            segments: 256,
+            smooth: true,
+            ..
+        })
+    ));
+    let drawn = |mean, spread| Distribution { mean, spread };
+    let laid = Laid {
+        pattern: Pattern::Spun {
+            around: Around {
+                axis: [0.0, 0.0, 1.0],
+                center_m: [0.0; 3],
+                jitter_deg: 0.0,
+            },
+            curvature_per_m: drawn(20.0, 0.0),
+        },
+        amount: Amount::Count(1),
+        seed: 1,
+        length_m: drawn(0.02, 0.5),
+        width_um: drawn(1.5, 0.3),
+        depth_nm: drawn(200.0, 0.2),
+    };
+    assert_eq!(it.scratches[0].layer, description::Layer::Laid(laid));
+    assert_eq!((it.lights[0].radiance, it.lights[0].color), (1.0, [1.0; 3]));
+}
+
+#[test]
+fn long_work_reports_its_progress() {
+    let text = scene_with(
+        "[[object]]\nname = \"it\"\nshape = { disk = { radius_m = 0.1 } }\nmaterial = \"steel\"\n[[scratches]]\nobject = \"it\"\npattern = \"random\"\ncount = 100000\n",
+    );
+    let seen = std::cell::RefCell::new(Vec::new());
+    let loader = hairline_scene::Loader {
+        progress: &|progress| seen.borrow_mut().push(progress),
+        ..Default::default()
+    };
+    loader.from_toml(&text, "test.toml", "").unwrap();
+    let seen = seen.into_inner();
+    let scratches: Vec<_> = seen
+        .iter()
+        .filter(|p| p.stage == hairline_scene::Stage::Scratches)
+        .collect();
+    assert!(scratches.len() > 2);
+    assert!(scratches.windows(2).all(|pair| pair[0].done < pair[1].done));
+    assert!(scratches.iter().all(|p| p.total == 100_000));
+    assert_eq!(scratches.last().unwrap().done, 100_000);
+}

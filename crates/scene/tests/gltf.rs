@@ -1,0 +1,490 @@
+//! glTF and GLB files: what they may hold, and what becomes of broken ones. The files are made here.
+
+mod common;
+
+use std::path::Path;
+
+use common::{Glb, asset, cube, glb_of, scene_with, temporary_dir};
+use glam::DVec3;
+use hairline_scene::{Base, Error, Mesh, Scene};
+
+/// Loads a scene whose only object is a mesh file, with more keys for its table.
+fn load(path: &Path, more: &str) -> Result<Scene, Error> {
+    let file = path.file_name().unwrap().to_str().unwrap();
+    let text = scene_with(&format!(
+        "[[object]]\nname = \"it\"\nmesh = \"{file}\"\n{more}"
+    ));
+    Scene::from_toml(&text, "test.toml", path.parent().unwrap())
+}
+
+fn load_bytes(bytes: &[u8], more: &str) -> Result<Scene, Error> {
+    let dir = temporary_dir();
+    let path = dir.path().join("it.glb");
+    std::fs::write(&path, bytes).unwrap();
+    load(&path, more)
+}
+
+/// A file with a cube, without normals; `primitive` is added to its primitive's members.
+fn cube_glb(primitive: &str, nodes: &str, glb: &mut Glb) -> Vec<u8> {
+    let (corners, triangles) = cube();
+    let positions = glb.floats(&corners);
+    let indices = glb.indices(&triangles);
+    let mesh = format!(
+        r#"{{"primitives":[{{"attributes":{{"POSITION":{positions}}},"indices":{indices}{primitive}}}]}}"#
+    );
+    glb.bytes(&mesh, nodes)
+}
+
+fn plain_cube() -> Vec<u8> {
+    cube_glb("", r#"{"mesh":0}"#, &mut Glb::default())
+}
+
+fn corners(mesh: &Mesh, i: usize) -> [DVec3; 3] {
+    mesh.triangles[i].map(|v| mesh.positions_m[v as usize].as_dvec3())
+}
+
+/// The flux of r / 3 through a closed surface that faces outwards.
+fn volume_m3(mesh: &Mesh) -> f64 {
+    (0..mesh.triangles.len())
+        .map(|i| {
+            let [a, b, c] = corners(mesh, i);
+            a.dot(b.cross(c)) / 6.0
+        })
+        .sum()
+}
+
+fn check_frames(mesh: &Mesh) {
+    assert_eq!(mesh.positions_m.len(), mesh.normals.len());
+    assert_eq!(mesh.positions_m.len(), mesh.tangents.len());
+    assert_eq!(mesh.positions_m.len(), mesh.uvs.len());
+    assert_eq!(mesh.triangles.len(), mesh.triangle_materials.len());
+    for (normal, tangent) in mesh.normals.iter().zip(&mesh.tangents) {
+        assert!((normal.length() - 1.0).abs() < 1e-5);
+        assert!((tangent.truncate().length() - 1.0).abs() < 1e-5);
+        assert!(normal.dot(tangent.truncate()).abs() < 1e-5);
+        assert!(tangent.w.abs() == 1.0);
+    }
+}
+
+#[test]
+fn a_cube_without_normals_is_flat_shaded() {
+    let scene = load_bytes(&plain_cube(), "").unwrap();
+    let mesh = &scene.objects[0].mesh;
+    check_frames(mesh);
+    assert_eq!(mesh.triangles.len(), 12);
+    assert!((volume_m3(mesh) - 1.0).abs() < 1e-6);
+    for (i, triangle) in mesh.triangles.iter().enumerate() {
+        let [a, b, c] = corners(mesh, i);
+        let flat = (b - a).cross(c - a).normalize();
+        for &v in triangle {
+            assert!(mesh.normals[v as usize].as_dvec3().dot(flat) > 0.999_999);
+        }
+    }
+    // The file has no material: glTF's default, rough white metal.
+    let material = &scene.materials[mesh.triangle_materials[0] as usize];
+    let default = Base::MetallicRoughness {
+        base_color: [1.0; 3],
+        metallic: 1.0,
+    };
+    assert_eq!((material.base, material.roughness), (default, 1.0));
+}
+
+#[test]
+fn node_transforms_chain_and_mirror() {
+    // The child is mirrored and doubled along x, the parent turned by 90 degrees about z and moved.
+    let nodes = r#"{"children":[1],"translation":[1,0,0],"rotation":[0,0,0.70710678,0.70710678]},
+        {"mesh":0,"scale":[-2,1,1],"translation":[0.5,0,0]}"#;
+    let scene = load_bytes(
+        &cube_glb("", nodes, &mut Glb::default()),
+        "translation_m = [0, 0, 5]",
+    );
+    let mesh = &scene.unwrap().objects[0].mesh;
+    let (least, most) = mesh.bounds_m();
+    // Along the child's x: from -0.5 to 1.5, which the parent turns to y.
+    assert!(
+        least.abs_diff_eq(glam::vec3(0.5, -0.5, 4.5), 1e-6),
+        "{least}"
+    );
+    assert!(most.abs_diff_eq(glam::vec3(1.5, 1.5, 5.5), 1e-6), "{most}");
+    assert!((volume_m3(mesh) - 2.0).abs() < 1e-5);
+    let matrix = r#"{"mesh":0,"matrix":[0,1,0,0, -1,0,0,0, 0,0,1,0, 3,4,5,1]}"#;
+    let scene = load_bytes(&cube_glb("", matrix, &mut Glb::default()), "").unwrap();
+    let (least, _) = scene.objects[0].mesh.bounds_m();
+    assert!(least.abs_diff_eq(glam::vec3(2.5, 3.5, 4.5), 1e-6));
+}
+
+/// A PNG of one colour.
+fn png(size_px: [u32; 2], rgba: [u8; 4]) -> Vec<u8> {
+    let image = image::RgbaImage::from_pixel(size_px[0], size_px[1], image::Rgba(rgba));
+    let mut png = std::io::Cursor::new(Vec::new());
+    image.write_to(&mut png, image::ImageFormat::Png).unwrap();
+    png.into_inner()
+}
+
+fn base64(bytes: &[u8]) -> String {
+    const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let mut text = String::new();
+    for chunk in bytes.chunks(3) {
+        let number =
+            chunk.iter().fold(0u32, |n, b| n << 8 | u32::from(*b)) << (8 * (3 - chunk.len()));
+        for i in 0..4 {
+            match i <= chunk.len() {
+                true => text.push(DIGITS[(number >> (18 - 6 * i) & 63) as usize] as char),
+                false => text.push('='),
+            }
+        }
+    }
+    text
+}
+
+#[test]
+fn primitives_keep_their_materials_and_textures() {
+    let mut glb = Glb::default();
+    let quad = [
+        [0.0, 0.0, 0.0],
+        [1.0, 0.0, 0.0],
+        [1.0, 1.0, 0.0],
+        [0.0, 1.0, 0.0],
+    ];
+    let positions = glb.floats(&quad);
+    let normals = glb.floats(&[[0.0, 0.0, 1.0f32]; 4]);
+    // v runs down, as in glTF: the quad shows the image upright.
+    let uvs = glb.floats(&[[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0f32]]);
+    let indices = glb.indices(&[0, 1, 2, 0, 2, 3]);
+    let embedded = glb.view(&png([4, 2], [200, 100, 50, 255]));
+    let data_uri = base64(&png([1, 1], [0, 128, 255, 255]));
+    glb.more = format!(
+        r#","images":[{{"bufferView":{embedded},"mimeType":"image/png"}},{{"uri":"data:image/png;base64,{data_uri}"}},{{"uri":"beside%20it.png"}}],
+        "textures":[{{"source":0}},{{"source":1}},{{"source":2}}],
+        "materials":[
+          {{"name":"red","pbrMetallicRoughness":{{"baseColorFactor":[1,0,0,1],"metallicFactor":0.25,"roughnessFactor":0.5}}}},
+          {{"name":"mapped","pbrMetallicRoughness":{{"baseColorTexture":{{"index":0}},"metallicRoughnessTexture":{{"index":1}}}},
+            "normalTexture":{{"index":2,"scale":0.5}},"emissiveTexture":{{"index":0}},"emissiveFactor":[1,0.5,0],
+            "extensions":{{"KHR_materials_emissive_strength":{{"emissiveStrength":4}}}}}}]"#
+    );
+    let attributes =
+        format!(r#""attributes":{{"POSITION":{positions},"NORMAL":{normals},"TEXCOORD_0":{uvs}}}"#);
+    let mesh = format!(
+        r#"{{"primitives":[{{{attributes},"indices":{indices},"material":1}},{{{attributes},"mode":5,"material":0}},{{{attributes},"mode":1}}]}}"#
+    );
+    let nodes = r#"{"mesh":0,"children":[1]},{"mesh":0,"translation":[0,0,1]}"#;
+    let dir = temporary_dir();
+    std::fs::write(dir.path().join("it.glb"), glb.bytes(&mesh, nodes)).unwrap();
+    std::fs::write(
+        dir.path().join("beside it.png"),
+        png([3, 3], [128, 128, 255, 255]),
+    )
+    .unwrap();
+
+    let scene = load(&dir.path().join("it.glb"), "").unwrap();
+    let mesh = &scene.objects[0].mesh;
+    check_frames(mesh);
+    // Two quads of two triangles, twice; the lines are skipped.
+    assert_eq!(mesh.triangles.len(), 8);
+    let names: Vec<_> = mesh
+        .triangle_materials
+        .iter()
+        .map(|&m| scene.materials[m as usize].name.as_str())
+        .collect();
+    assert_eq!(names, ["mapped", "mapped", "red", "red"].repeat(2));
+    // Each of the file's materials comes once, after the scene's own.
+    assert_eq!(scene.materials.len(), 3);
+
+    let mapped = &scene.materials[mesh.triangle_materials[0] as usize];
+    let base = &scene.textures[mapped.base_color_texture.unwrap()];
+    assert!(base.srgb);
+    assert_eq!(base.size_px, [4, 2]);
+    assert_eq!(
+        base.levels.iter().map(Vec::len).collect::<Vec<_>>(),
+        [8, 2, 1]
+    );
+    assert_eq!(base.levels[2], [[200, 100, 50, 255]]);
+    assert_eq!(mapped.emission_texture, mapped.base_color_texture);
+    assert_eq!(mapped.emission, [4.0, 2.0, 0.0]);
+    let rough = &scene.textures[mapped.metallic_roughness_texture.unwrap()];
+    assert!(!rough.srgb && rough.levels[0] == [[0, 128, 255, 255]]);
+    let (normal, scale) = mapped.normal_texture.unwrap();
+    assert_eq!((scene.textures[normal].size_px, scale), ([3, 3], 0.5));
+    // Made up for the normal map: along u, which is x, with the bitangent up.
+    for triangle in &mesh.triangles[..2] {
+        for &v in triangle {
+            let tangent = mesh.tangents[v as usize];
+            assert!(
+                tangent.abs_diff_eq(glam::vec4(1.0, 0.0, 0.0, 1.0), 1e-5),
+                "{tangent}"
+            );
+        }
+    }
+    // A material of the scene replaces all of them, and no texture is read.
+    let scene = load(&dir.path().join("it.glb"), "material = \"steel\"").unwrap();
+    assert!(
+        scene.objects[0]
+            .mesh
+            .triangle_materials
+            .iter()
+            .all(|&m| m == 0)
+    );
+    assert!(scene.textures.is_empty());
+}
+
+#[test]
+fn buffers_may_lie_beside_or_in_a_data_uri() {
+    let (corners, triangles) = cube();
+    let mut glb = Glb::default();
+    let positions = glb.floats(&corners);
+    let indices = glb.indices(&triangles);
+    let mesh = format!(
+        r#"{{"primitives":[{{"attributes":{{"POSITION":{positions}}},"indices":{indices}}}]}}"#
+    );
+    let dir = temporary_dir();
+    let path = dir.path().join("it.gltf");
+    std::fs::write(dir.path().join("it data.bin"), &glb.bin).unwrap();
+    let data_uri = format!("data:application/octet-stream;base64,{}", base64(&glb.bin));
+    for uri in ["it%20data.bin", "it data.bin", &data_uri] {
+        std::fs::write(&path, glb.json(&mesh, r#"{"mesh":0}"#, Some(uri))).unwrap();
+        let scene = load(&path, "").unwrap();
+        assert!(
+            (volume_m3(&scene.objects[0].mesh) - 1.0).abs() < 1e-6,
+            "{uri}"
+        );
+    }
+}
+
+#[test]
+fn sparse_and_quantized_accessors_are_read() {
+    // Positions of zeros, three of which are replaced; normalised bytes as texture coordinates.
+    let mut glb = Glb::default();
+    let places = glb.view(&[1, 2]);
+    let values: Vec<u8> = [1f32, 0.0, 0.0, 0.0, 2.0, 0.0]
+        .iter()
+        .flat_map(|x| x.to_le_bytes())
+        .collect();
+    let values = glb.view(&values);
+    let positions = glb.accessor(format!(
+        r#"{{"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,2,0],"sparse":{{"count":2,"indices":{{"bufferView":{places},"componentType":5121}},"values":{{"bufferView":{values}}}}}}}"#
+    ));
+    let uv_bytes = glb.view(&[0, 255, 51, 0, 255, 0]);
+    let uvs = glb.accessor(format!(
+        r#"{{"bufferView":{uv_bytes},"componentType":5121,"normalized":true,"count":3,"type":"VEC2"}}"#
+    ));
+    let mesh = format!(
+        r#"{{"primitives":[{{"attributes":{{"POSITION":{positions},"TEXCOORD_0":{uvs}}}}}]}}"#
+    );
+    let scene = load_bytes(&glb.bytes(&mesh, r#"{"mesh":0}"#), "").unwrap();
+    let mesh = &scene.objects[0].mesh;
+    assert_eq!(mesh.triangles.len(), 1);
+    assert_eq!(mesh.positions_m[2], glam::vec3(0.0, 2.0, 0.0));
+    assert_eq!(mesh.uvs[1], glam::vec2(0.2, 0.0));
+}
+
+/// The error for a file, without the place in the scene file.
+fn flaw(bytes: &[u8]) -> String {
+    let error = load_bytes(bytes, "").unwrap_err();
+    assert_eq!(error.key(), "object[0].mesh");
+    assert_eq!(error.line(), Some(13));
+    format!("{}; {}", error.found(), error.right())
+}
+
+#[test]
+fn broken_files_end_in_a_message() {
+    let cube = plain_cube();
+    let json = |edit: &dyn Fn(String) -> String| {
+        let (corners, triangles) = common::cube();
+        let mut glb = Glb::default();
+        let positions = glb.floats(&corners);
+        let indices = glb.indices(&triangles);
+        let mesh = format!(
+            r#"{{"primitives":[{{"attributes":{{"POSITION":{positions}}},"indices":{indices}}}]}}"#
+        );
+        glb_of(&edit(glb.json(&mesh, r#"{"mesh":0}"#, None)), &glb.bin)
+    };
+    let replaced = |from: &str, to: &str| {
+        json(&|text| {
+            assert!(text.contains(from), "{from} is not in {text}");
+            text.replacen(from, to, 1)
+        })
+    };
+    let cases: Vec<(Vec<u8>, &str)> = vec![
+        (b"no glTF at all".to_vec(), "it is no valid glTF"),
+        (cube[..6].to_vec(), "it ends within its header"),
+        (cube[..cube.len() - 8].to_vec(), "it is no valid glTF"),
+        (
+            replaced(
+                r#""buffers":[{"byteLength":168"#,
+                r#""buffers":[{"byteLength":1680"#,
+            ),
+            "its buffer 0 is cut off: 168 of 1680 bytes are there; must be whole",
+        ),
+        (
+            replaced(
+                r#""byteOffset":0,"byteLength":96"#,
+                r#""byteOffset":100,"byteLength":96"#,
+            ),
+            "its buffer view 0 reaches beyond its buffer; must end within it",
+        ),
+        (
+            replaced(r#""count":8"#, r#""count":9"#),
+            "its accessor 0 reaches beyond its buffer view; must end within it",
+        ),
+        (
+            replaced(r#""count":8"#, r#""count":4"#),
+            "its primitive 0 refers to vertex 4 of 4; indices must be below the number of vertices",
+        ),
+        (
+            replaced(
+                r#""nodes":[{"mesh":0}]"#,
+                r#""nodes":[{"mesh":0,"children":[0]}]"#,
+            ),
+            "its node 0 is its own ancestor or has two parents; nodes must form trees",
+        ),
+        (
+            replaced(
+                r#""scene":0"#,
+                r#""extensionsRequired":["KHR_draco_mesh_compression"],"scene":0"#,
+            ),
+            "it requires the extension KHR_draco_mesh_compression, which is not supported; export it again without that",
+        ),
+        (
+            replaced(
+                r#"{"byteLength":168"#,
+                r#"{"uri":"gone.bin","byteLength":168"#,
+            ),
+            "its buffer 0, \"",
+        ),
+        (
+            replaced(
+                r#"{"byteLength":168"#,
+                r#"{"uri":"data:;base64,%%%","byteLength":168"#,
+            ),
+            "the data URI of its buffer 0 cannot be decoded",
+        ),
+        (
+            replaced(
+                r#"{"byteLength":168"#,
+                r#"{"uri":"https://example.org/a","byteLength":168"#,
+            ),
+            "its buffer 0 is at \"https://example.org/a\"; must be a file beside it, by a relative path",
+        ),
+    ];
+    for (bytes, expected) in cases {
+        let message = flaw(&bytes);
+        assert!(
+            message.starts_with(&format!("\"it.glb\": {expected}")),
+            "{message}\n{expected}"
+        );
+    }
+}
+
+#[test]
+fn vertices_that_are_no_numbers_are_refused() {
+    let (mut corners, triangles) = cube();
+    for bad in [f32::NAN, f32::INFINITY] {
+        corners[3][1] = bad;
+        let mut glb = Glb::default();
+        let bytes: Vec<u8> = corners
+            .iter()
+            .flatten()
+            .flat_map(|x| x.to_le_bytes())
+            .collect();
+        let view = glb.view(&bytes);
+        let positions = glb.accessor(format!(
+            r#"{{"bufferView":{view},"componentType":5126,"count":8,"type":"VEC3","min":[0,0,0],"max":[1,1,1]}}"#
+        ));
+        let indices = glb.indices(&triangles);
+        let mesh = format!(
+            r#"{{"primitives":[{{"attributes":{{"POSITION":{positions}}},"indices":{indices}}}]}}"#
+        );
+        let message = flaw(&glb.bytes(&mesh, r#"{"mesh":0}"#));
+        assert!(message.contains("holds infinities or NaN"), "{message}");
+    }
+}
+
+#[test]
+fn corrupt_images_are_refused() {
+    let mut glb = Glb::default();
+    let mut bytes = png([8, 8], [1, 2, 3, 255]);
+    bytes.truncate(bytes.len() / 2);
+    let view = glb.view(&bytes);
+    glb.more = format!(
+        r#","images":[{{"bufferView":{view},"mimeType":"image/png"}}],"textures":[{{"source":0}}],"materials":[{{"pbrMetallicRoughness":{{"baseColorTexture":{{"index":0}}}}}}]"#
+    );
+    let message = flaw(&cube_glb(r#","material":0"#, r#"{"mesh":0}"#, &mut glb));
+    assert!(
+        message.contains("its image 0 cannot be decoded"),
+        "{message}"
+    );
+}
+
+#[test]
+fn meshes_without_area_are_refused_and_degenerate_triangles_dropped() {
+    let message = |error: Error| format!("{}: {}; {}", error.key(), error.found(), error.right());
+    let flat = load_bytes(
+        &cube_glb("", r#"{"mesh":0,"scale":[1,0,0]}"#, &mut Glb::default()),
+        "",
+    );
+    assert_eq!(
+        message(flat.unwrap_err()),
+        "object[0]: found no surface: every triangle of \"it\" has zero area; must have triangles that span an area"
+    );
+    let empty = load_bytes(
+        &cube_glb(r#","mode":0"#, r#"{"mesh":0}"#, &mut Glb::default()),
+        "",
+    );
+    assert!(message(empty.unwrap_err()).contains("found no surface"));
+    // Flattened along z, the four sides vanish, top and bottom stay.
+    let sheet = load_bytes(
+        &cube_glb("", r#"{"mesh":0,"scale":[1,1,0]}"#, &mut Glb::default()),
+        "",
+    );
+    assert_eq!(sheet.unwrap().objects[0].mesh.triangles.len(), 4);
+}
+
+/// No byte of a file can make the loader panic: every truncation, and every byte overwritten.
+#[test]
+fn damaged_files_never_panic() {
+    let mut glb = Glb::default();
+    let view = glb.view(&png([2, 2], [1, 2, 3, 255]));
+    glb.more = format!(
+        r#","images":[{{"bufferView":{view},"mimeType":"image/png"}}],"textures":[{{"source":0}}],"materials":[{{"normalTexture":{{"index":0}}}}]"#
+    );
+    let whole = cube_glb(
+        r#","material":0"#,
+        r#"{"mesh":0,"children":[1]},{"scale":[1,2,3]}"#,
+        &mut glb,
+    );
+    assert!(load_bytes(&whole, "").is_ok());
+    let dir = temporary_dir();
+    let path = dir.path().join("it.glb");
+    let mut refused = 0;
+    let mut check = |bytes: &[u8]| {
+        std::fs::write(&path, bytes).unwrap();
+        refused += usize::from(load(&path, "").is_err());
+    };
+    for length in 0..whole.len() {
+        check(&whole[..length]);
+    }
+    for i in 0..whole.len() {
+        for value in [0, b'9', b'-', 0xff] {
+            let mut damaged = whole.clone();
+            damaged[i] = value;
+            check(&damaged);
+        }
+    }
+    assert!(refused > whole.len());
+}
+
+#[test]
+fn the_monkey_wears_scratches_under_the_studio() {
+    let (Some(mesh), Some(map)) = (asset("suzi.glb"), asset("studio.hdr")) else {
+        return;
+    };
+    let text = scene_with(&format!(
+        "[environment]\nfile = {map:?}\n[[object]]\nname = \"it\"\nmesh = {mesh:?}\n[[scratches]]\nobject = \"it\"\npattern = \"random\"\ncount = 50000\n"
+    ));
+    let scene = Scene::from_toml(&text, "test.toml", "").unwrap();
+    let object = &scene.objects[0];
+    check_frames(&object.mesh);
+    assert!(scene.environment.is_some());
+    // Some seeds lie at a boundary and leave nothing.
+    assert!(object.scratches.len() > 49_900);
+}
