@@ -42,12 +42,13 @@ fn band_reaches(lowest: f32, highest: f32, std_xi: f32) -> bool {
     return lowest < BAND_REACH_STD * std_xi && highest > -BAND_REACH_STD * std_xi && highest > lowest;
 }
 
-fn band_lines(lowest: f32, highest: f32, std_xi: f32) -> BandLines {
+fn band_lines(wo_t: f32, lowest: f32, highest: f32, std_xi: f32) -> BandLines {
     if !band_reaches(lowest, highest, std_xi) {
         return BandLines(0u, 0.0, 0.0, std_xi);
     }
     let half_extent = 0.5 * (highest - lowest) / std_xi;
-    let count = select(select(5u, 3u, half_extent > 3.0), 1u, half_extent > 16.0);
+    let steep = 1.0 - wo_t * wo_t < 32.0 * std_xi;
+    let count = select(select(1u, 3u, half_extent < 16.0), 5u, half_extent < 3.0 || steep);
     let share_below = gaussian_cdf(lowest / std_xi);
     return BandLines(count, share_below, gaussian_cdf(highest / std_xi) - share_below, std_xi);
 }
@@ -216,17 +217,17 @@ fn edge_band_extent(a: vec3f, b: vec3f) -> vec2f {
     return extent;
 }
 
-// The angle by which the edge turns about the direction straight down on the line.
-fn edge_winding(line: BandLine, a: vec3f, b: vec3f) -> f32 {
-    let down = line_down(line);
-    let sin_angle = dot(down, cross(a, b));
-    let cos_angle = dot(a, b) - dot(a, down) * dot(b, down);
+// The angle by which the edge turns about a unit direction.
+fn edge_winding(about: vec3f, a: vec3f, b: vec3f) -> f32 {
+    let sin_angle = dot(about, cross(a, b));
+    let cos_angle = dot(a, b) - dot(a, about) * dot(b, about);
     if sin_angle == 0.0 && cos_angle == 0.0 {
         return 0.0;
     }
     return atan2(sin_angle, cos_angle);
 }
 
+// The direction straight down on the line.
 fn line_down(line: BandLine) -> vec3f {
     return vec3f(line.along, 0.0, -line.radius);
 }

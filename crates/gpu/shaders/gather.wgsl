@@ -74,7 +74,7 @@ fn gather_sphere(point: SurfacePoint, view: SegmentView, light: Light, std_xi: f
     var cap = sphere_cap(center, light.radius_m);
     cap.axis = band_from_surface(view.tangent, cap.axis);
     let extent = sphere_band_extent(view.wo, cap);
-    let lines = band_lines(extent.x, extent.y, std_xi);
+    let lines = band_lines(view.wo.x, extent.x, extent.y, std_xi);
     var sum = vec3f(0.0);
     for (var i = 0u; i < lines.count; i += 1u) {
         let line_and_weight = band_line(lines, i);
@@ -111,22 +111,37 @@ fn gather_polygon(point: SurfacePoint, view: SegmentView, light: Light, std_xi: 
         return vec3f(0.0);
     }
     var extent = vec2f(9.0, -9.0);
-    var highest_z = -1.0;
-    var lowest_z = 1.0;
+    var corner_min = vec3f(1.0);
+    var corner_max = vec3f(-1.0);
     var a = gather_vertex(point, view, light, 0u);
     for (var i = 0u; i < light.vertex_count; i += 1u) {
         let b = gather_vertex(point, view, light, i + 1u);
         let edge = edge_band_extent(a, b);
         extent = vec2f(min(extent.x, edge.x), max(extent.y, edge.y));
-        lowest_z = min(lowest_z, a.z);
-        highest_z = max(highest_z, a.z);
+        corner_min = min(corner_min, a);
+        corner_max = max(corner_max, a);
         a = b;
         gather_rounds += 1u;
     }
-    if highest_z <= 0.0 {
+    if corner_max.z <= 0.0 {
         return vec3f(0.0);
     }
-    let lines = band_lines(view.wo.x + extent.x, view.wo.x + extent.y, std_xi);
+    let away = band_from_surface(view.tangent, surface_from_world(point, light.normal) * -facing);
+    // A light around the tangent's own direction reaches further than its outline. It has corners on all sides of it.
+    if all(corner_min.yz < vec2f(0.0)) && all(corner_max.yz > vec2f(0.0)) {
+        var turn = 0.0;
+        a = gather_vertex(point, view, light, 0u);
+        for (var i = 0u; i < light.vertex_count; i += 1u) {
+            let b = gather_vertex(point, view, light, i + 1u);
+            turn += edge_winding(vec3f(1.0, 0.0, 0.0), a, b);
+            a = b;
+            gather_rounds += 1u;
+        }
+        if abs(turn) > 3.14159265 {
+            extent = select(vec2f(-1.0, extent.y), vec2f(extent.x, 1.0), away.x > 0.0);
+        }
+    }
+    let lines = band_lines(view.wo.x, view.wo.x + extent.x, view.wo.x + extent.y, std_xi);
     var sum = vec3f(0.0);
     for (var l = 0u; l < lines.count; l += 1u) {
         let line_and_weight = band_line(lines, l);
@@ -143,18 +158,15 @@ fn gather_polygon(point: SurfacePoint, view: SegmentView, light: Light, std_xi: 
             if roots.falls {
                 integral -= facing * gather_table(point, view, roots.falling);
             }
-            if lowest_z < 0.0 {
-                winding += edge_winding(line, a, b);
+            if corner_min.z < 0.0 {
+                winding += edge_winding(line_down(line), a, b);
             }
             a = b;
             gather_rounds += 1u;
         }
         // The opposite direction winds as well; only a polygon in front of the ray counts.
-        if abs(winding) > 3.14159265 {
-            let normal = surface_from_world(point, light.normal) * -facing;
-            if dot(line_down(line), band_from_surface(view.tangent, normal)) > 0.0 {
-                integral += gather_table(point, view, band_q_start(line)) - gather_table(point, view, band_q_end(line));
-            }
+        if abs(winding) > 3.14159265 && dot(line_down(line), away) > 0.0 {
+            integral += gather_table(point, view, band_q_start(line)) - gather_table(point, view, band_q_end(line));
         }
         sum += line_and_weight.y * integral;
         gather_rounds += 1u;

@@ -26,5 +26,8 @@ fn mask_resolve(sums: ScratchSums, depth_coherence: f32) -> Masked {
     let itself = min(sums.share_by_line / share, sums.share);
     let scale = min(1.0 / (2.0 * depth_coherence * share), 1.0);
     let kept = scale * (1.0 - depth_coherence * scale * (sums.share - itself));
-    return Masked(kept * sums.radiance, clamp(kept * sums.energy, vec3f(0.0), vec3f(1.0)));
+    // A groove nearly as wide as the window would by itself scatter more than there is.
+    let most = kept * max(max(sums.energy.x, sums.energy.y), sums.energy.z);
+    let bounded = kept / max(most, 1.0);
+    return Masked(bounded * sums.radiance, bounded * sums.energy);
 }

@@ -10,7 +10,8 @@ use crate::{scratch, spectrum};
 use std::f64::consts::PI;
 
 /// c = |mean D|^2 / mean |D|^2 over scratches given as (depth in nm, weight), averaged over the visible by the eye's
-/// response. Between 0.5 and 1; 1 for no scratches.
+/// response. 1 for equal depths and for no scratches, 1/2 for phases spread evenly, below that only where shallow scratches
+/// and deep ones mix (the bound of 0.05 keeps the reciprocal finite).
 pub fn depth_coherence(depths: impl Iterator<Item = (f64, f64)> + Clone) -> f64 {
     let (mut of_mean, mut mean) = (0.0, 0.0);
     for sample in spectrum::samples().iter().step_by(4) {
@@ -30,7 +31,7 @@ pub fn depth_coherence(depths: impl Iterator<Item = (f64, f64)> + Clone) -> f64 
         }
     }
     if mean > 0.0 {
-        (of_mean / mean).clamp(0.5, 1.0)
+        (of_mean / mean).clamp(0.05, 1.0)
     } else {
         1.0
     }
@@ -74,9 +75,15 @@ impl ScratchSums {
         let itself = (self.share_by_line / self.share.max(1e-30)).min(self.share);
         let scale = (1.0 / (2.0 * depth_coherence * self.share.max(1e-30))).min(1.0);
         let kept = scale * (1.0 - depth_coherence * scale * (self.share - itself));
+        // A groove nearly as wide as the window would by itself scatter more than there is.
+        let most = self
+            .energy
+            .iter()
+            .fold(0.0, |most: f64, e| most.max(kept * e));
+        let kept = kept / most.max(1.0);
         Masked {
             scratches: self.radiance.map(|r| kept * r),
-            taken: self.energy.map(|e| (kept * e).clamp(0.0, 1.0)),
+            taken: self.energy.map(|e| kept * e),
         }
     }
 }
@@ -86,7 +93,8 @@ impl ScratchSums {
 pub struct Masked {
     /// Radiance of the scratches.
     pub scratches: [f64; 3],
-    /// The share of the base that is gone, in [0, 1].
+    /// The share of the base that is gone: at most 1. Below 0 in a channel where the scratches' colour is out of gamut: the
+    /// base gains there what the scratches show as negative, and energy is kept.
     pub taken: [f64; 3],
 }
 
@@ -181,6 +189,34 @@ mod tests {
             );
             assert!((with - expected).abs() < 0.02);
             assert!((without - expected).abs() > 2.0 * (with - expected).abs());
+        }
+    }
+
+    /// Wide grooves in a close-up, and colours out of gamut: light and loss stay equal, and within what there is.
+    #[test]
+    fn no_scratch_creates_energy() {
+        for (share, energy) in [
+            (0.5, [4.0, 4.0, 3.0]),
+            (3.0, [4.0, 2.0, 1.0]),
+            (0.1, [-1.1, 3.0, 3.5]),
+        ] {
+            let mut sums = ScratchSums::default();
+            // Under light of radiance one from everywhere a scratch radiates what it takes.
+            sums.add(
+                ScratchShare {
+                    segment: share,
+                    line: share,
+                },
+                energy,
+                energy,
+            );
+            let masked = sums.mask_resolve(1.0);
+            for c in 0..3 {
+                assert!(
+                    (masked.scratches[c] - masked.taken[c]).abs() < 1e-12
+                        && masked.taken[c] <= 1.0 + 1e-12
+                );
+            }
         }
     }
 

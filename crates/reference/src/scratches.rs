@@ -125,7 +125,7 @@ fn scratch_radiance(
             LightView::Sphere { cap, radiance } => {
                 let cap = cap.turned(frame);
                 let (lowest, highest) = sphere_band_extent(wo, cap);
-                let lines = band_lines(lowest, highest, std_xi);
+                let lines = band_lines(wo.x, lowest, highest, std_xi);
                 sum += *radiance
                     * over_lines(&lines, wo, |line| {
                         sphere_chord(line, cap).integral(line, antiderivative)
@@ -145,7 +145,7 @@ fn scratch_radiance(
                 }
                 let polygon = views.polygon(vertices, *away, *facing);
                 let (lowest, highest) = polygon.band_extent(frame, wo);
-                let lines = band_lines(lowest, highest, std_xi);
+                let lines = band_lines(wo.x, lowest, highest, std_xi);
                 sum += *radiance
                     * over_lines(&lines, wo, |line| {
                         polygon.integral(frame, line, antiderivative)

@@ -17,11 +17,12 @@ fn lines() {
     let mut random = Sequence(1);
     let s = STD_XI as f32;
     let mut rows = vec![
-        [-1.0, 1.0, 0.0],
-        [0.0, 0.0, 0.0],
-        [0.1, 0.2, 0.0],
-        [-3.9 * s, -3.8 * s, 2.0],
-        [s, 0.5 * s, 0.0],
+        [-1.0, 1.0, 0.0, 0.0],
+        [0.0, 0.0, 0.0, 0.3],
+        [0.1, 0.2, 0.0, 0.3],
+        [-3.9 * s, -3.8 * s, 2.0, 0.3],
+        [s, 0.5 * s, 0.0, 0.3],
+        [-0.01, 2.0, 4.0, 1.0],
     ];
     for _ in 0..1000 {
         let (low, extent) = (
@@ -31,21 +32,22 @@ fn lines() {
         // Well away from the extents at which the number of lines changes.
         let half = 0.5 * extent / s;
         if (half - 3.0).abs() > 0.01 && (half - 16.0).abs() > 0.01 {
-            rows.push([low, low + extent, (random.next() * 5.0).floor()]);
+            let i = (random.next() * 5.0).floor();
+            rows.push([low, low + extent, i, random.between(-0.9, 0.9)]);
         }
     }
     Twin {
         name: "band_lines and band_line",
         modules: &[&shaders::BAND],
-        snippet: "let lines = band_lines(x[0], x[1], 0.0031);
+        snippet: "let lines = band_lines(x[3], x[0], x[1], 0.0031);
             y[0] = f32(lines.count);
             if u32(x[2]) < lines.count {
                 let line = band_line(lines, u32(x[2]));
                 y[1] = line.x; y[2] = line.y;
             }",
         tables: &[],
-        expected: &|[low, high, i]: [f64; 3]| {
-            let lines = band_lines(low, high, STD_XI);
+        expected: &|[low, high, i, wo_t]: [f64; 4]| {
+            let lines = band_lines(wo_t, low, high, STD_XI);
             let (xi_t, weight) = if (i as usize) < lines.count {
                 lines.band_line(i as usize)
             } else {
@@ -150,7 +152,7 @@ fn polygons() {
                 let b = corners[(i + 1) % 3];
                 let roots = edge_roots(line, a, b);
                 y[0] += select(0.0, roots.rising, roots.rises) - select(0.0, roots.falling, roots.falls);
-                winding += edge_winding(line, a, b);
+                winding += edge_winding(line_down(line), a, b);
                 let extent = edge_band_extent(a, b);
                 low = min(low, extent.x);
                 high = max(high, extent.y);
