@@ -2,6 +2,7 @@
 
 mod fit_lobes;
 mod make_models;
+mod pictures;
 
 use clap::Parser;
 
@@ -12,11 +13,14 @@ enum Command {
     FitLobes(fit_lobes::FitLobes),
     /// Make the models of scenes/ and write them to scenes/models.
     MakeModels(make_models::MakeModels),
+    /// Render the pictures of the docs into docs/pictures.
+    Pictures(pictures::Pictures),
 }
 
 fn main() -> anyhow::Result<()> {
     match Command::parse() {
         Command::FitLobes(command) => command.run(),
         Command::MakeModels(command) => command.run(),
+        Command::Pictures(command) => command.run(),
     }
 }

@@ -181,10 +181,7 @@ impl Spoon {
                 for j in 0..row - 1 {
                     let a = (first + i * row + j) as u32;
                     let (b, c, d) = (a + row as u32, a + 1, a + row as u32 + 1);
-                    let is_closed = |k: usize| {
-                        let x = x_at(k as f64 / stations as f64);
-                        x < 1e-9 || x > LENGTH_MM - 1e-9
-                    };
+                    let is_closed = |k: usize| is_pole(x_at(k as f64 / stations as f64));
                     if !is_closed(i) {
                         part.triangles.push([a, c, b]);
                     }
@@ -194,15 +191,13 @@ impl Spoon {
                 }
             }
         }
-        // A pole has one place but as many vertices as a ring, for the texture; the last triangle at each needs its own.
-        part.weld_poles(AROUND / 2 + 1, stations, x_at(0.0) < 1e-9);
+        part.weld_pole(row, stations, is_pole(x_at(0.0)));
         part
     }
 
     fn vertex(&self, part: &mut Part, x: f64, angle: f64, is_upper: bool, origin_x: f64) {
         let position = self.point(x, angle.rem_euclid(TAU));
-        let is_pole = !(1e-9..=LENGTH_MM - 1e-9).contains(&x);
-        let normal = match is_pole {
+        let normal = match is_pole(x) {
             false => self.normal(x, angle),
             true => DVec3::X * if x < 1.0 { -1.0 } else { 1.0 },
         };
@@ -227,9 +222,14 @@ impl Spoon {
     }
 }
 
+/// Whether the section has closed to a point.
+fn is_pole(x: f64) -> bool {
+    !(1e-9..=LENGTH_MM - 1e-9).contains(&x)
+}
+
 impl Part {
-    /// Gives all vertices of a pole one position, so that rounding opens no slit.
-    fn weld_poles(&mut self, row: usize, stations: usize, at_start: bool) {
+    /// A pole has as many vertices as a ring, for the texture, but one position, so that rounding opens no slit.
+    fn weld_pole(&mut self, row: usize, stations: usize, at_start: bool) {
         let ring = if at_start { 0 } else { stations };
         let pole = self.positions_mm[ring * row];
         for face in 0..2 {
