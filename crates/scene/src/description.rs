@@ -9,6 +9,7 @@ mod check;
 pub(crate) mod hint;
 pub(crate) mod locate;
 mod read;
+mod table;
 
 use std::path::{Path, PathBuf};
 

@@ -1,0 +1,312 @@
+//! Reading TOML values by type, with errors that name the key, what was found and what would be right.
+
+use std::path::PathBuf;
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::{Named, hint};
+use crate::error::Error;
+
+pub(super) type Value<'a> = Spanned<DeValue<'a>>;
+
+/// Something that a scene file can hold as a value.
+pub(super) trait Read: Sized {
+    /// `key` is the way to the value, for errors.
+    fn read(value: &Value, key: &str) -> Result<Self, Error>;
+}
+
+/// A table all of whose keys are known.
+pub(super) struct Table<'a> {
+    pub(super) entries: &'a DeTable<'a>,
+    key: String,
+    known: Vec<&'a str>,
+}
+
+impl<'a> Table<'a> {
+    pub(super) fn open(
+        entries: &'a DeTable<'a>,
+        key: &str,
+        known: &[&'a str],
+    ) -> Result<Self, Error> {
+        let table = Self {
+            entries,
+            key: key.to_owned(),
+            known: known.to_vec(),
+        };
+        for (name, value) in entries {
+            let name = name.get_ref().as_ref();
+            if !known.contains(&name) {
+                let right = hint::instead_of_key(name, number(value.get_ref()), known);
+                return Err(Error::new(table.way(name), "unknown key", right));
+            }
+        }
+        Ok(table)
+    }
+
+    pub(super) fn read(value: &'a Value<'a>, key: &str, known: &[&'a str]) -> Result<Self, Error> {
+        match value.get_ref() {
+            DeValue::Table(entries) => Self::open(entries, key, known),
+            _ => Err(wrong_type(value, key, "a table")),
+        }
+    }
+
+    /// A table in which the value of `tag` decides what other keys belong to it, besides the `shared` ones.
+    pub(super) fn read_kind(
+        value: &'a Value<'a>,
+        key: &str,
+        tag: &'static str,
+        shared: &[&'a str],
+        kinds: &[(&'static str, &[&'a str])],
+    ) -> Result<(&'static str, Self), Error> {
+        let DeValue::Table(entries) = value.get_ref() else {
+            return Err(wrong_type(value, key, "a table"));
+        };
+        let unchecked = Self {
+            entries,
+            key: key.to_owned(),
+            known: vec![tag],
+        };
+        let Some(tag_value) = unchecked.get(tag) else {
+            let names = hint::list(kinds.iter().map(|(name, _)| *name));
+            return Err(Error::new(
+                key,
+                format!("`{tag}` is missing"),
+                format!("must be one of {names}"),
+            ));
+        };
+        let names: Vec<_> = kinds.iter().map(|(name, _)| (*name, *name)).collect();
+        let kind = one_of(tag_value, &unchecked.way(tag), &names)?;
+        let own = kinds.iter().find(|(name, _)| *name == kind);
+        let known = [shared, own.map_or(&[], |(_, own)| *own)].concat();
+        for name in entries.keys().map(|name| name.get_ref().as_ref()) {
+            let owners = kinds.iter().filter(|(_, keys)| keys.contains(&name));
+            let owners: Vec<_> = owners.map(|(owner, _)| *owner).collect();
+            if !known.contains(&name) && !owners.is_empty() {
+                return Err(Error::new(
+                    unchecked.way(name),
+                    format!("{tag} `{kind}` has no such key"),
+                    format!("it belongs to {}", hint::list(owners)),
+                ));
+            }
+        }
+        Ok((kind, Self::open(entries, key, &known)?))
+    }
+
+    pub(super) fn get(&self, name: &str) -> Option<&'a Value<'a>> {
+        debug_assert!(self.known.contains(&name), "{name} is read but not known");
+        self.entries.get(name)
+    }
+
+    pub(super) fn way(&self, name: &str) -> String {
+        match self.key.as_str() {
+            "" => name.to_owned(),
+            key => format!("{key}.{name}"),
+        }
+    }
+
+    pub(super) fn optional<T: Read>(&self, name: &str) -> Result<Option<T>, Error> {
+        self.get(name)
+            .map(|value| T::read(value, &self.way(name)))
+            .transpose()
+    }
+
+    pub(super) fn or<T: Read>(&self, name: &str, default: T) -> Result<T, Error> {
+        Ok(self.optional(name)?.unwrap_or(default))
+    }
+
+    pub(super) fn required<T: Read>(&self, name: &str) -> Result<T, Error> {
+        self.optional(name)?.ok_or_else(|| {
+            let place = match self.key.as_str() {
+                "" => "the scene".to_owned(),
+                key => format!("`{key}`"),
+            };
+            Error::new(
+                &self.key,
+                format!("`{name}` is missing"),
+                format!("{place} needs it"),
+            )
+        })
+    }
+
+    /// Which of two keys that exclude each other is there.
+    pub(super) fn either(&self, a: &'static str, b: &'static str) -> Result<&'static str, Error> {
+        match (self.get(a), self.get(b)) {
+            (Some(_), None) => Ok(a),
+            (None, Some(_)) => Ok(b),
+            (found, _) => {
+                let found = match found {
+                    Some(_) => format!("found both `{a}` and `{b}`"),
+                    None => format!("found neither `{a}` nor `{b}`"),
+                };
+                Err(Error::new(
+                    &self.key,
+                    found,
+                    "must have exactly one of them",
+                ))
+            }
+        }
+    }
+}
+
+impl Read for f64 {
+    fn read(value: &Value, key: &str) -> Result<Self, Error> {
+        number(value.get_ref()).ok_or_else(|| wrong_type(value, key, &a_number(key)))
+    }
+}
+
+impl Read for u64 {
+    fn read(value: &Value, key: &str) -> Result<Self, Error> {
+        let integer = match value.get_ref() {
+            // TOML promises 64 bits with a sign.
+            DeValue::Integer(i) => i64::from_str_radix(i.as_str(), i.radix()).ok(),
+            _ => None,
+        };
+        integer
+            .and_then(|i| Self::try_from(i).ok())
+            .ok_or_else(|| wrong_type(value, key, "a whole number from 0 to 2^63 - 1"))
+    }
+}
+
+impl Read for u32 {
+    fn read(value: &Value, key: &str) -> Result<Self, Error> {
+        let integer = u64::read(value, key)?;
+        u32::try_from(integer).map_err(|_| wrong_type(value, key, "a number below 2^32"))
+    }
+}
+
+impl Read for bool {
+    fn read(value: &Value, key: &str) -> Result<Self, Error> {
+        match value.get_ref() {
+            DeValue::Boolean(boolean) => Ok(*boolean),
+            _ => Err(wrong_type(value, key, "`true` or `false`")),
+        }
+    }
+}
+
+impl Read for String {
+    fn read(value: &Value, key: &str) -> Result<Self, Error> {
+        match value.get_ref() {
+            DeValue::String(text) => Ok(text.clone().into_owned()),
+            _ => Err(wrong_type(value, key, "a text in quotes")),
+        }
+    }
+}
+
+impl Read for PathBuf {
+    fn read(value: &Value, key: &str) -> Result<Self, Error> {
+        String::read(value, key).map(Self::from)
+    }
+}
+
+impl<T: Named> Read for T {
+    fn read(value: &Value, key: &str) -> Result<Self, Error> {
+        one_of(value, key, T::NAMES)
+    }
+}
+
+impl<T: Read + Default + Copy, const N: usize> Read for [T; N] {
+    fn read(value: &Value, key: &str) -> Result<Self, Error> {
+        let mut result = [T::default(); N];
+        match value.get_ref() {
+            DeValue::Array(array) if array.len() == N => {
+                for (i, element) in array.iter().enumerate() {
+                    result[i] = T::read(element, &format!("{key}[{i}]"))?;
+                }
+                Ok(result)
+            }
+            _ => Err(wrong_type(value, key, &format!("an array of {N} numbers"))),
+        }
+    }
+}
+
+impl<T: Read> Read for Vec<T> {
+    fn read(value: &Value, key: &str) -> Result<Self, Error> {
+        match value.get_ref() {
+            DeValue::Array(array) => array
+                .iter()
+                .enumerate()
+                .map(|(i, element)| T::read(element, &format!("{key}[{i}]")))
+                .collect(),
+            // `[light]` where `[[light]]` was meant.
+            DeValue::Table(_) if !key.contains('.') => Err(wrong_type(
+                value,
+                key,
+                &format!("written `[[{key}]]`, since there may be several"),
+            )),
+            _ => Err(wrong_type(value, key, "an array")),
+        }
+    }
+}
+
+fn one_of<T: Copy>(value: &Value, key: &str, names: &[(&'static str, T)]) -> Result<T, Error> {
+    let all = || names.iter().map(|(name, _)| *name);
+    let DeValue::String(text) = value.get_ref() else {
+        let right = format!("one of the texts {}", hint::list(all()));
+        return Err(wrong_type(value, key, &right));
+    };
+    if let Some((_, named)) = names.iter().find(|(name, _)| name == text) {
+        return Ok(*named);
+    }
+    let right = match hint::nearest(text, all()) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => format!("must be one of {}", hint::list(all())),
+    };
+    Err(Error::new(key, describe(value), right))
+}
+
+/// Integers are numbers too. `None` for anything else, and for numbers beyond the range of f64.
+pub(super) fn number(value: &DeValue) -> Option<f64> {
+    match value {
+        DeValue::Integer(i) => i64::from_str_radix(i.as_str(), i.radix())
+            .ok()
+            .map(|i| i as f64),
+        DeValue::Float(f) => f.as_str().parse().ok(),
+        _ => None,
+    }
+}
+
+/// "a number", with the unit that the key promises.
+fn a_number(key: &str) -> String {
+    const UNITS: [(&str, &str); 9] = [
+        ("_per_m2", "per square metre"),
+        ("_per_m", "per metre"),
+        ("_um", "micrometres"),
+        ("_nm", "nanometres"),
+        ("_m", "metres"),
+        ("_deg", "degrees"),
+        ("_px", "pixels"),
+        ("_ev", "stops"),
+        ("radiance", "W sr^-1 m^-2"),
+    ];
+    let name = key.rsplit('.').next().unwrap_or(key);
+    let name = name.split('[').next().unwrap_or(name);
+    match UNITS.iter().find(|(suffix, _)| name.ends_with(suffix)) {
+        Some((_, unit)) => format!("a number ({unit})"),
+        None => "a number".to_owned(),
+    }
+}
+
+pub(super) fn wrong_type(value: &Value, key: &str, right: &str) -> Error {
+    Error::new(key, describe(value), format!("must be {right}"))
+}
+
+fn describe(value: &Value) -> String {
+    match value.get_ref() {
+        DeValue::String(text) => format!("found the text \"{}\"", shortened(text)),
+        DeValue::Integer(i) => format!("found the whole number {i}"),
+        DeValue::Float(f) => format!("found the number {f}"),
+        DeValue::Boolean(boolean) => format!("found `{boolean}`"),
+        DeValue::Datetime(date) => format!("found the date {date}"),
+        DeValue::Array(array) => format!("found an array of {}", array.len()),
+        DeValue::Table(_) => "found a table".to_owned(),
+    }
+}
+
+fn shortened(text: &str) -> String {
+    const LONGEST: usize = 40;
+    match text.char_indices().nth(LONGEST) {
+        Some((end, _)) => format!("{}..", &text[..end]),
+        None => text.to_owned(),
+    }
+}
