@@ -1,12 +1,12 @@
 //! The way of a picture through the device: what is seen, sample after sample, band after band, and what goes wrong.
 
-use glam::{DVec2, DVec3, Vec3};
+use glam::{DVec2, DVec3, Vec2, Vec3, Vec4};
 use hairline_gpu::headless::{self, test_gpu};
 use hairline_gpu::{AdapterRequest, Error, Gpu, GpuScene, RenderOptions, Renderer};
-use hairline_image::tone_map::{display_code, dither_offset};
-use hairline_image::{Display, Image, ToneMap};
+use hairline_image::tone_map::{display_code, dither_offset, linear_from_srgb};
+use hairline_image::{Display, Image, Picture, ToneMap};
 use hairline_index::{ScratchIndex, ScratchNode};
-use hairline_scene::{Scene, ScratchTables};
+use hairline_scene::{Environment, Mesh, Scene, ScratchTables, Texture};
 
 const PLATE: &str = r#"
 [camera]
@@ -62,7 +62,7 @@ fn a_disk_is_seen_where_it_is() {
     let scene = scene(PLATE);
     let image = render(gpu, &scene, &RenderOptions::default()).unwrap();
     let mesh = &scene.objects[0].mesh;
-    let normal = Vec3::from(mesh.normals[0]);
+    let normal = mesh.normals[0];
     let mut seen = 0;
     for y in 0..image.size_px[1] {
         for x in 0..image.size_px[0] {
@@ -287,6 +287,120 @@ fn the_display_shows_what_a_png_would() {
             }
         }
     }
+}
+
+/// Texels arrive unfiltered and undistorted, whatever the sizes of the other textures, each decoded as its kind says.
+#[test]
+fn textures_keep_their_texels() {
+    let Some(gpu) = test_gpu() else { return };
+    let mut scene = scene(PLATE);
+    scene.camera.position_m = DVec3::new(0.0, 0.0, 1.0);
+    scene.camera.target_m = DVec3::ZERO;
+    scene.camera.up = DVec3::Y;
+    // 1 m high at 1 m: a pixel is a texel.
+    scene.camera.fov_y_rad = 2.0 * 0.5f64.atan();
+    scene.render.size_px = [12, 6];
+    let texels = |count: u8| {
+        (0..count)
+            .map(|i| [3 * i, 255 - 2 * i, 7 * i % 250, 255])
+            .collect::<Vec<_>>()
+    };
+    let srgb = Texture {
+        size_px: [12, 6],
+        levels: vec![texels(72), texels(18)],
+        srgb: true,
+    };
+    let linear = Texture {
+        size_px: [3, 17],
+        levels: vec![texels(51)],
+        srgb: false,
+    };
+    // Twice as wide as high, like the picture; u, v over it.
+    let corner = |x: f32, y: f32| (Vec3::new(x, y, 0.0), Vec2::new(0.5 + 0.5 * x, 0.5 - y));
+    let corners = [
+        corner(-1.0, -0.5),
+        corner(1.0, -0.5),
+        corner(1.0, 0.5),
+        corner(-1.0, 0.5),
+    ];
+    scene.objects[0].mesh = Mesh {
+        positions_m: corners.map(|c| c.0).to_vec(),
+        normals: vec![Vec3::Z; 4],
+        tangents: vec![Vec4::new(1.0, 0.0, 0.0, 1.0); 4],
+        uvs: corners.map(|c| c.1).to_vec(),
+        triangles: vec![[0, 1, 2], [0, 2, 3]],
+        triangle_materials: vec![0, 0],
+    };
+    scene.materials[0].emission = [2.0, 1.0, 0.5];
+    for (textures, used) in [
+        (vec![linear.clone(), srgb.clone()], 1),
+        (vec![srgb, linear], 0),
+    ] {
+        scene.textures = textures;
+        scene.materials[0].emission_texture = Some(used);
+        // Level 0: the footprint of half a pixel is half a texel.
+        let image = render(gpu, &scene, &RenderOptions::default()).unwrap();
+        for (i, texel) in scene.textures[used].levels[0].iter().enumerate() {
+            for (c, emission) in [2.0, 1.0, 0.5].into_iter().enumerate() {
+                let expected = emission * linear_from_srgb(texel[c] as f32 / 255.0);
+                let found = image.base[i][c];
+                assert!(
+                    (found - expected).abs() < 2e-4,
+                    "pixel {i}, channel {c}: {found}, not {expected}"
+                );
+            }
+        }
+    }
+    // The smooth one: the middle of the picture lies on the middle texel of 3 x 17.
+    scene.textures.swap(0, 1);
+    scene.materials[0].emission_texture = Some(0);
+    scene.render.size_px = [13, 7];
+    let image = render(gpu, &scene, &RenderOptions::default()).unwrap();
+    let texel = scene.textures[0].levels[0][8 * 3 + 1];
+    let found = image.base[image.index(6, 3)];
+    assert!(
+        (found[1] - texel[1] as f32 / 255.0).abs() < 1e-4,
+        "{found:?} {texel:?}"
+    );
+}
+
+/// The background is the map, turned as the scene says and as bright.
+#[test]
+fn the_environment_is_seen_where_it_is() {
+    let Some(gpu) = test_gpu() else { return };
+    let mut scene = scene(PLATE);
+    scene.objects.clear();
+    let map = Picture {
+        size_px: [32, 16],
+        rgb: (0..32 * 16)
+            .map(|i| [(i % 32) as f32, (i / 32) as f32 * 3.0, 1.0])
+            .collect(),
+    };
+    let visible = Environment::from_map(map, 0.0, 1.5, true).with_up(DVec3::Z, 0.7);
+    scene.environment = Some(visible.clone());
+    let camera = scene.camera.frame(scene.render.size_px);
+    let image = render(gpu, &scene, &RenderOptions::default()).unwrap();
+    for y in 0..image.size_px[1] {
+        for x in 0..image.size_px[0] {
+            let ray = camera
+                .camera_ray(DVec2::new(x as f64 + 0.5, y as f64 + 0.5))
+                .normalize();
+            let expected = visible.radiance(ray).as_vec3();
+            let found = Vec3::from(image.base[image.index(x, y)]);
+            assert!(
+                found.distance(expected) < 1e-3 * expected.length(),
+                "{x} {y}: {found}, not {expected}"
+            );
+        }
+    }
+    // A map of one colour takes no time to prefilter.
+    let white = Picture {
+        size_px: [2, 1],
+        rgb: vec![[1.0; 3]; 2],
+    };
+    scene.environment = Some(Environment::from_map(white, 0.0, 1.0, false));
+    let image = render(gpu, &scene, &RenderOptions::default()).unwrap();
+    assert!(image.base.iter().all(|c| *c == [0.0; 3]));
 }
 
 /// What a browser gives must do.
