@@ -238,3 +238,53 @@ impl Part {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::HashMap;
+
+    /// Positions as a glTF file keeps them, bit by bit.
+    fn key(p: DVec3) -> [u32; 3] {
+        (p + 0.0).as_vec3().to_array().map(f32::to_bits)
+    }
+
+    #[test]
+    fn the_surface_is_closed_but_for_the_joint_and_faces_outwards() {
+        let spoon = Spoon::new();
+        for (part, open_edges) in [(spoon.bowl(), AROUND), (spoon.handle(), AROUND)] {
+            let mut edges: HashMap<_, i32> = HashMap::new();
+            for &[a, b, c] in &part.triangles {
+                let [pa, pb, pc] = [a, b, c].map(|i| part.positions_mm[i as usize]);
+                let area = (pb - pa).cross(pc - pa);
+                assert!(area.length() > 0.0, "a triangle without area at {pa}");
+                assert!(
+                    area.dot(part.normals[a as usize]) > 0.0,
+                    "turned inwards at {pa}"
+                );
+                for (from, to) in [(pa, pb), (pb, pc), (pc, pa)] {
+                    *edges.entry((key(from), key(to))).or_default() += 1;
+                    *edges.entry((key(to), key(from))).or_default() -= 1;
+                }
+            }
+            let open = edges.values().filter(|&&n| n > 0).count();
+            assert_eq!(open, open_edges);
+        }
+    }
+
+    #[test]
+    fn bowl_and_handle_meet_without_a_kink() {
+        let (bowl, handle) = (Spoon::new().bowl(), Spoon::new().handle());
+        let row = AROUND / 2 + 1;
+        for face in 0..2 {
+            for j in 0..row {
+                let b = (face * (ALONG_BOWL + 1) + ALONG_BOWL) * row + j;
+                let h = face * (ALONG_HANDLE + 1) * row + j;
+                let gap = handle.positions_mm[h] + DVec3::X * JOINT_MM - bowl.positions_mm[b];
+                assert!(gap.length() < 1e-9, "a gap of {gap}");
+                // Normals come from differences over 1e-5 mm.
+                assert!(bowl.normals[b].dot(handle.normals[h]) > 1.0 - 1e-6);
+            }
+        }
+    }
+}
