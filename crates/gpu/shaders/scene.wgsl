@@ -71,7 +71,8 @@ fn scene_texture_level(texture: vec2u, level: u32, uv: vec2f) -> vec4f {
 }
 
 fn scene_texel(texture: vec2u, level: u32, at: vec2i) -> vec4f {
-    let texel = textureLoad(textures, at, texture.y & 0xffffu, level);
+    // Signed: GLSL, which some drivers are given, takes no other.
+    let texel = textureLoad(textures, at, i32(texture.y & 0xffffu), i32(level));
     if (texture.y >> 24u) == 0u {
         return texel;
     }

@@ -9,8 +9,8 @@ pub enum Error {
         /// What was found instead.
         found: String,
     },
-    /// The adapter refused to open a device.
-    #[error("{adapter} did not open: {reason}")]
+    /// The adapter refused to open a device, or its driver to compile a shader.
+    #[error("{adapter} cannot render: {reason}")]
     Refused {
         /// Name of the adapter.
         adapter: String,

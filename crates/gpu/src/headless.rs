@@ -75,7 +75,7 @@ fn drive<T>(future: impl Future<Output = T>, work: impl Fn()) -> T {
 /// With `HAIRLINE_REQUIRE_GPU=1` in the environment, if there is none: then a test must not be skipped.
 pub fn test_gpu() -> Option<&'static Gpu> {
     static SHARED: OnceLock<Result<Gpu, Error>> = OnceLock::new();
-    match SHARED.get_or_init(|| open(&AdapterRequest::default())) {
+    match SHARED.get_or_init(open_for_tests) {
         Ok(gpu) => Some(gpu),
         Err(error)
             if std::env::var_os("HAIRLINE_REQUIRE_GPU").is_some_and(|value| value == "1") =>
@@ -87,5 +87,15 @@ pub fn test_gpu() -> Option<&'static Gpu> {
             eprintln!("skipped: {}: {error}", thread.name().unwrap_or("a test"));
             None
         }
+    }
+}
+
+/// GL is left out: its context serves one thread at a time, and tests run on many.
+fn open_for_tests() -> Result<Gpu, Error> {
+    match open(&AdapterRequest::default())? {
+        gpu if gpu.adapter.backend == "gl" => Err(Error::NoAdapter {
+            found: format!("only {}", gpu.adapter),
+        }),
+        gpu => Ok(gpu),
     }
 }

@@ -53,18 +53,25 @@ impl Renderer {
     /// Compiles the passes.
     ///
     /// # Errors
-    /// [`Error::Validation`] if the driver refuses a shader; [`Error::Lost`], [`Error::OutOfMemory`].
+    /// [`Error::Refused`] if the driver cannot compile a shader; [`Error::Lost`], [`Error::OutOfMemory`].
     pub async fn new(gpu: &Gpu) -> Result<Self, Error> {
         let gpu = gpu.clone();
-        let scope = gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
+        let library = gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
+        let driver = gpu.device.push_error_scope(wgpu::ErrorFilter::Internal);
         let layouts = Layouts::new(&gpu);
         let visibility = VisibilityPass::new(&gpu, &layouts);
         let shade = ShadePass::new(&gpu, &layouts);
-        let refusal = scope.pop();
-        let refusal = refusal.await;
+        let (driver, library) = (driver.pop(), library.pop());
+        let (driver, library) = (driver.await, library.await);
         // A lost device refuses everything; that it is lost says more.
         gpu.check()?;
-        if let Some(error) = refusal {
+        if let Some(error) = driver {
+            return Err(Error::Refused {
+                adapter: gpu.adapter.name.clone(),
+                reason: error.to_string(),
+            });
+        }
+        if let Some(error) = library {
             return Err(Error::Validation {
                 description: error.to_string(),
             });
