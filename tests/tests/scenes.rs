@@ -74,22 +74,6 @@ fn compare(name: &str, gpu: &Image, cpu: &Image) -> Result<(), String> {
             layer.name(),
             100.0 * difference.relative_rms()
         );
-        if std::env::var("DBG").is_ok() {
-            let (a, b) = (gpu.layer(layer), cpu.layer(layer));
-            let mut n = 0;
-            for i in 0..a.len() {
-                if interior[i]
-                    && (0..3).any(|c| (a[i][c] - b[i][c]).abs() > 0.02 * b[i][c].abs() + 1e-4)
-                {
-                    n += 1;
-                    if n < 12 {
-                        println!("{} {:?} {:?}", i, a[i], b[i]);
-                    }
-                }
-            }
-            println!("{n} differ");
-            continue;
-        }
         if difference.not_finite > 0 {
             return Err(format!("{name}, {}: NaN", layer.name()));
         }

@@ -3,9 +3,9 @@
 @group(3) @binding(0) var visibility: texture_2d<u32>;
 @group(3) @binding(1) var<storage, read_write> film: Film;
 
-struct Film {
-    gave_up: atomic<u32>,       // invocations that ran out of their loop budget: the host discards the picture
-    pixels: array<FilmPixel>,
+// Where a pixel lies in the film.
+fn film_index(pixel: vec2u) -> u32 {
+    return (pixel.y - frame.rows.x) * frame.size_px.x + pixel.x;
 }
 
 // The triangle that a pixel sees + 1, or 0, and the object.
@@ -13,9 +13,9 @@ fn film_visible(pixel: vec2u) -> vec2u {
     return textureLoad(visibility, vec2u(pixel.x, pixel.y - frame.rows.x), 0).xy;
 }
 
-// Adds a sample to its pixel.
+// Adds a sample to its pixel and ends its walk.
 fn film_add(pixel: vec2u, value: FilmPixel) {
-    let at = (pixel.y - frame.rows.x) * frame.size_px.x + pixel.x;
+    let at = film_index(pixel);
     let weight = frame.sample_weight;
     film.pixels[at].base += weight * value.base;
     film.pixels[at].depth_m += weight * value.depth_m;
@@ -23,9 +23,44 @@ fn film_add(pixel: vec2u, value: FilmPixel) {
     film.pixels[at].coverage += weight * value.coverage;
     film.pixels[at].density += weight * value.density;
     film.pixels[at].normal += weight * value.normal;
+    film.pixels[at].samples = frame.sample + 1u;
+    film.pixels[at].walk_at = 0u;
+    film_check_loops();
 }
 
-// Says that the pixel is wrong: its loops met their bound.
-fn film_give_up() {
-    atomicAdd(&film.gave_up, 1u);
+// A software driver silently ends all loops of an invocation after a number of rounds, that of its neighbours counted in.
+// A loop that must go round twice tells.
+fn film_check_loops() {
+    var rounds = 0u;
+    for (var i = 0u; i < frame.rows.y + 2u; i += 1u) {
+        rounds += 1u;
+        if rounds == 2u {
+            break;
+        }
+    }
+    if rounds != 2u {
+        atomicAdd(&film.gave_up, 1u);
+    }
+}
+
+// The walk that an earlier dispatch left, or a new one from the object's first node.
+fn film_resume(pixel: vec2u, object: Object) -> ScratchWalk {
+    let kept = film.pixels[film_index(pixel)];
+    if kept.walk_at == 0u {
+        return ScratchWalk(object.first_node, ScratchSums(0.0, 0.0, vec3f(0.0), vec3f(0.0)));
+    }
+    let sums = ScratchSums(kept.walk_share, kept.walk_share_by_line, kept.walk_radiance, kept.walk_energy);
+    return ScratchWalk(kept.walk_at - 1u, sums);
+}
+
+// Leaves a walk for the next dispatch.
+fn film_keep(pixel: vec2u, walk: ScratchWalk) {
+    let at = film_index(pixel);
+    film.pixels[at].walk_at = walk.at + 1u;
+    film.pixels[at].walk_share = walk.sums.share;
+    film.pixels[at].walk_share_by_line = walk.sums.share_by_line;
+    film.pixels[at].walk_radiance = walk.sums.radiance;
+    film.pixels[at].walk_energy = walk.sums.energy;
+    atomicAdd(&film.unfinished, 1u);
+    film_check_loops();
 }

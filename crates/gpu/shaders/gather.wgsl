@@ -9,56 +9,59 @@ const FACING_MIN_COS: f32 = 0.2;
 const WAVELENGTH_MEAN_NM: f32 = 555.0;
 const LEAF_FIRST_BITS: u32 = 28u;
 
-// Loop rounds of this invocation; a software driver ends loops silently after 65,536 in all.
+// Loop rounds of this invocation. A software driver ends loops after 65,536, its neighbours' counted in; the host lowers
+// the bound there, and the walk goes on in another dispatch.
 var<private> gather_rounds: u32;
-// The host lowers it there; the pass then gives up rather than show a wrong picture.
 override GATHER_MAX_ROUNDS: u32 = 0xffffffffu;
+
+// A walk over the scratches of an object: the node to go on with, and what was added up before it.
+struct ScratchWalk {
+    at: u32,
+    sums: ScratchSums,
+}
 
 // A segment as seen from the point.
 struct SegmentView {
-    tangent: vec2f,
+    tangent: vec2f,             // in the surface's frame
+    start: vec3f,               // ends in the scratch's frame, um
+    end: vec3f,
     wo: vec3f,
-    share: ScratchShare,
     width_um: f32,
     depth_nm: f32,
 }
 
-// The share of the view is zero where the segment lies on another side of the surface or out of the footprint's reach.
-fn gather_segment(point: SurfacePoint, segment: ScratchSegment) -> SegmentView {
-    var view: SegmentView;
-    if dot(segment.normal, point.normal) < FACING_MIN_COS {
-        return view;
-    }
+fn gather_view(point: SurfacePoint, segment: ScratchSegment) -> SegmentView {
     let start = surface_from_world(point, segment.start_m - point.position_m) * 1e6;
     let end = surface_from_world(point, segment.end_m - point.position_m) * 1e6;
     let along = end.xy - start.xy;
-    let along_length = length(along);
-    if !(along_length > 0.0) {
-        return view;
-    }
-    let tangent = along / along_length;
-    let start_band = band_from_surface(tangent, start);
-    let end_band = band_from_surface(tangent, end);
-    let offset_um = 0.5 * (start_band.y + end_band.y);
-    let axis_x = band_from_surface(tangent, surface_from_world(point, point.footprint_x_m)) * 1e6;
-    let axis_y = band_from_surface(tangent, surface_from_world(point, point.footprint_y_m)) * 1e6;
+    let tangent = along * inverseSqrt(max(dot(along, along), 1e-30));
+    return SegmentView(
+        tangent,
+        band_from_surface(tangent, start),
+        band_from_surface(tangent, end),
+        band_from_surface(tangent, point.wo),
+        segment.width_um,
+        segment.depth_nm,
+    );
+}
+
+// The share of a segment; zero where it lies on another side of the surface or out of the footprint's reach.
+fn gather_share(point: SurfacePoint, segment: ScratchSegment, view: SegmentView) -> ScratchShare {
+    let axis_x = band_from_surface(view.tangent, surface_from_world(point, point.footprint_x_m)) * 1e6;
+    let axis_y = band_from_surface(view.tangent, surface_from_world(point, point.footprint_y_m)) * 1e6;
     let footprint = Footprint(
         axis_x.y * axis_x.y + axis_y.y * axis_y.y,
         axis_x.x * axis_x.x + axis_y.x * axis_y.x,
         axis_x.x * axis_x.y + axis_y.x * axis_y.y,
     );
     let sigma = point.coherence_um;
-    if offset_um * offset_um > REACH_STD * REACH_STD * (footprint.across_um2 + 0.5 * sigma * sigma) {
-        return view;
+    let offset_um = 0.5 * (view.start.y + view.end.y);
+    let beyond = offset_um * offset_um > REACH_STD * REACH_STD * (footprint.across_um2 + 0.5 * sigma * sigma);
+    let elsewhere = dot(segment.normal, point.normal) < FACING_MIN_COS;
+    if beyond || elsewhere || !(view.end.x > view.start.x) {
+        return ScratchShare(0.0, 0.0);
     }
-    view.tangent = tangent;
-    view.wo = band_from_surface(tangent, point.wo);
-    view.width_um = segment.width_um;
-    view.depth_nm = segment.depth_nm;
-    view.share = scratch_share(
-        segment.width_um, offset_um, start_band.x, end_band.x, segment.blur_um, footprint, sigma,
-    );
-    return view;
+    return scratch_share(segment.width_um, offset_um, view.start.x, view.end.x, segment.blur_um, footprint, sigma);
 }
 
 fn gather_table(point: SurfacePoint, view: SegmentView, q: f32) -> vec3f {
@@ -67,11 +70,7 @@ fn gather_table(point: SurfacePoint, view: SegmentView, q: f32) -> vec3f {
 
 // Radiance of a scratch by one sphere, per unit of its share and of the light's radiance.
 fn gather_sphere(point: SurfacePoint, view: SegmentView, light: Light, std_xi: f32) -> vec3f {
-    let center = surface_from_world(point, light.center_m - point.position_m);
-    if center.z <= -light.radius_m {
-        return vec3f(0.0);
-    }
-    var cap = sphere_cap(center, light.radius_m);
+    var cap = sphere_cap(surface_from_world(point, light.center_m - point.position_m), light.radius_m);
     cap.axis = band_from_surface(view.tangent, cap.axis);
     let extent = sphere_band_extent(view.wo, cap);
     let lines = band_lines(view.wo.x, extent.x, extent.y, std_xi);
@@ -100,16 +99,6 @@ fn gather_vertex(point: SurfacePoint, view: SegmentView, light: Light, i: u32) -
 // Radiance of a scratch by one polygon, per unit of its share and of the light's radiance.
 fn gather_polygon(point: SurfacePoint, view: SegmentView, light: Light, std_xi: f32) -> vec3f {
     let facing = gather_facing(point, light);
-    if facing == 0.0 {
-        return vec3f(0.0);
-    }
-    // Most scratches are dark to most lights; a bounding sphere tells it without a look at the edges.
-    var bound = sphere_cap(surface_from_world(point, light.center_m - point.position_m), light.radius_m);
-    bound.axis = band_from_surface(view.tangent, bound.axis);
-    let bound_extent = sphere_band_extent(view.wo, bound);
-    if !band_reaches(bound_extent.x, bound_extent.y, std_xi) {
-        return vec3f(0.0);
-    }
     var extent = vec2f(9.0, -9.0);
     var corner_min = vec3f(1.0);
     var corner_max = vec3f(-1.0);
@@ -198,51 +187,159 @@ fn gather_environment(point: SurfacePoint, view: SegmentView) -> vec3f {
     return sum;
 }
 
-// Adds up all scratches of an object under the point's footprint.
-fn gather_scratches(point: SurfacePoint, object: Object) -> ScratchSums {
-    var sums: ScratchSums;
+// Whether a light reaches a scratch at all. Most scratches are dark to most lights, and a bounding sphere tells it.
+fn gather_reaches(point: SurfacePoint, view: SegmentView, light: Light, std_xi: f32) -> bool {
+    let center = surface_from_world(point, light.center_m - point.position_m);
+    var bound = sphere_cap(center, light.radius_m);
+    bound.axis = band_from_surface(view.tangent, bound.axis);
+    let extent = sphere_band_extent(view.wo, bound);
+    let shines = light.kind == LIGHT_SPHERE || gather_facing(point, light) != 0.0;
+    return shines && center.z > -light.radius_m && band_reaches(extent.x, extent.y, std_xi);
+}
+
+// The walk is cut into stages, each a loop of its own: find segments, weigh them, light those that are lit. Lanes of a
+// processor that runs many in step then do the same work at the same time, and the dear stages run only as often as they
+// must; in one nest of loops, every lane would wait for the dearest step of any.
+
+// Segments found and not yet weighed.
+const GATHER_SEGMENTS: u32 = 32u;
+// Pairs of a segment and a light that reaches it: spheres from the front, polygons from the back.
+const GATHER_PAIRS: u32 = 64u;
+// A leaf holds no more segments than this. Twin: crates/index.
+const LEAF_SEGMENTS: u32 = 4u;
+
+struct GatherBatch {
+    segments: array<u32, GATHER_SEGMENTS>,
+    shares: array<f32, GATHER_SEGMENTS>,
+    pairs: array<u32, GATHER_PAIRS>,    // slot of the segment, light << 8
+    segment_count: u32,
+    sphere_count: u32,
+    polygon_count: u32,
+}
+
+// Walks on under the point's footprint, to the object's last node or until the rounds are spent.
+fn gather_scratches(point: SurfacePoint, object: Object, walk: ptr<function, ScratchWalk>) {
     let std_xi = band_std(point.coherence_um, WAVELENGTH_MEAN_NM);
+    // So that all pairs of a batch fit; with more lights than that, they take turns.
+    let lights_at_once = clamp(frame.light_count, 1u, GATHER_PAIRS);
+    let most = clamp(GATHER_PAIRS / lights_at_once, LEAF_SEGMENTS, GATHER_SEGMENTS);
+    var batch: GatherBatch;
+    while (*walk).at < object.end_node && gather_rounds < GATHER_MAX_ROUNDS {
+        gather_rounds += 1u;
+        gather_find(point, object, most, walk, &batch);
+        gather_weigh(point, &batch, walk);
+        for (var first = 0u; first < frame.light_count; first += GATHER_PAIRS / most) {
+            gather_rounds += 1u;
+            gather_pair(point, std_xi, first, min(first + GATHER_PAIRS / most, frame.light_count), &batch);
+            gather_light(point, std_xi, &batch, walk);
+        }
+        if scene_has_environment() {
+            gather_light_environment(point, &batch, walk);
+        }
+    }
+}
+
+// Stage 1: segments whose leaves the footprint touches, until the batch is full.
+fn gather_find(
+    point: SurfacePoint,
+    object: Object,
+    most: u32,
+    walk: ptr<function, ScratchWalk>,
+    batch: ptr<function, GatherBatch>,
+) {
     let sigma_m = point.coherence_um * 1e-6;
     let variance = point.footprint_x_m * point.footprint_x_m + point.footprint_y_m * point.footprint_y_m + 0.7 * sigma_m * sigma_m;
     let reach = REACH_STD * sqrt(variance);
     let lower = point.position_m - reach;
     let upper = point.position_m + reach;
-    var at = object.first_node;
-    while at < object.end_node {
+    var at = (*walk).at;
+    var found = 0u;
+    while at < object.end_node && found + LEAF_SEGMENTS <= most && gather_rounds < GATHER_MAX_ROUNDS {
         let node = scratch_nodes[at];
         // Lanes that a software driver has switched off read zeros, and would walk for ever.
-        if node.skip <= at || gather_rounds > GATHER_MAX_ROUNDS {
+        if node.skip <= at {
             break;
         }
-        gather_rounds += 1u;
-        if !(all(node.min_m <= upper) && all(node.max_m >= lower)) {
-            at = node.skip;
-            continue;
-        }
-        at += 1u;
+        // The inner loop goes round once even for nodes without segments there.
+        gather_rounds += 2u;
+        let touches = all(node.min_m <= upper) && all(node.max_m >= lower);
+        at = select(node.skip, at + 1u, touches);
         let first = node.leaf & ((1u << LEAF_FIRST_BITS) - 1u);
-        let count = node.leaf >> LEAF_FIRST_BITS;
-        for (var s = 0u; s < count; s += 1u) {
-            gather_rounds += 1u;
-            let view = gather_segment(point, scratch_segments[first + s]);
-            if !(view.share.segment > 0.0) {
-                continue;
-            }
-            var radiance = vec3f(0.0);
-            for (var i = 0u; i < frame.light_count; i += 1u) {
-                let light = lights[i];
-                gather_rounds += 1u;
-                if light.kind == LIGHT_SPHERE {
-                    radiance += light.radiance * gather_sphere(point, view, light, std_xi);
-                } else {
-                    radiance += light.radiance * gather_polygon(point, view, light, std_xi);
-                }
-            }
-            if scene_has_environment() {
-                radiance += gather_environment(point, view);
-            }
-            mask_add(&sums, view.share, scratch_table_total(scratch_tables, point.table, view.depth_nm), radiance);
+        let count = select(0u, node.leaf >> LEAF_FIRST_BITS, touches);
+        for (var i = 0u; i < count; i += 1u) {
+            (*batch).segments[found] = first + i;
+            found += 1u;
         }
     }
-    return sums;
+    (*walk).at = at;
+    (*batch).segment_count = found;
+}
+
+// Stage 2: the share of each segment, and the energy that it takes from the base.
+fn gather_weigh(point: SurfacePoint, batch: ptr<function, GatherBatch>, walk: ptr<function, ScratchWalk>) {
+    var sums = (*walk).sums;
+    for (var i = 0u; i < (*batch).segment_count; i += 1u) {
+        gather_rounds += 1u;
+        let segment = scratch_segments[(*batch).segments[i]];
+        let share = gather_share(point, segment, gather_view(point, segment));
+        (*batch).shares[i] = max(share.segment, 0.0);
+        if share.segment > 0.0 {
+            let energy = scratch_table_total(scratch_tables, point.table, segment.depth_nm);
+            mask_add(&sums, share, energy, vec3f(0.0));
+        }
+    }
+    (*walk).sums = sums;
+}
+
+// Stage 3: which of some lights reach which segments.
+fn gather_pair(point: SurfacePoint, std_xi: f32, first_light: u32, end_light: u32, batch: ptr<function, GatherBatch>) {
+    var spheres = 0u;
+    var polygons = 0u;
+    for (var i = 0u; i < (*batch).segment_count; i += 1u) {
+        gather_rounds += 1u;
+        let view = gather_view(point, scratch_segments[(*batch).segments[i]]);
+        let counts = (*batch).shares[i] > 0.0;
+        for (var l = first_light; l < end_light; l += 1u) {
+            gather_rounds += 1u;
+            let light = lights[l];
+            if counts && gather_reaches(point, view, light, std_xi) {
+                if light.kind == LIGHT_SPHERE {
+                    (*batch).pairs[spheres] = i | (l << 8u);
+                    spheres += 1u;
+                } else {
+                    polygons += 1u;
+                    (*batch).pairs[GATHER_PAIRS - polygons] = i | (l << 8u);
+                }
+            }
+        }
+    }
+    (*batch).sphere_count = spheres;
+    (*batch).polygon_count = polygons;
+}
+
+// Stage 4: their light.
+fn gather_light(point: SurfacePoint, std_xi: f32, batch: ptr<function, GatherBatch>, walk: ptr<function, ScratchWalk>) {
+    for (var i = 0u; i < (*batch).sphere_count; i += 1u) {
+        gather_rounds += 1u;
+        let slot = (*batch).pairs[i] & 0xffu;
+        let light = lights[(*batch).pairs[i] >> 8u];
+        let view = gather_view(point, scratch_segments[(*batch).segments[slot]]);
+        (*walk).sums.radiance += (*batch).shares[slot] * light.radiance * gather_sphere(point, view, light, std_xi);
+    }
+    for (var i = 0u; i < (*batch).polygon_count; i += 1u) {
+        gather_rounds += 1u;
+        let pair = (*batch).pairs[GATHER_PAIRS - 1u - i];
+        let slot = pair & 0xffu;
+        let light = lights[pair >> 8u];
+        let view = gather_view(point, scratch_segments[(*batch).segments[slot]]);
+        (*walk).sums.radiance += (*batch).shares[slot] * light.radiance * gather_polygon(point, view, light, std_xi);
+    }
+}
+
+fn gather_light_environment(point: SurfacePoint, batch: ptr<function, GatherBatch>, walk: ptr<function, ScratchWalk>) {
+    for (var i = 0u; i < (*batch).segment_count; i += 1u) {
+        gather_rounds += 1u;
+        let view = gather_view(point, scratch_segments[(*batch).segments[i]]);
+        (*walk).sums.radiance += (*batch).shares[i] * gather_environment(point, view);
+    }
 }

@@ -19,6 +19,7 @@ struct Frame {
     environment_from_world: mat3x3f,
     environment_sh: array<vec4f, 9>,    // irradiance; xyz are the channels
     environment_texel_radiance: f32,    // radiance of a texel (or coefficient) of value 1
+    sample: u32,                // counted from 0
 }
 
 const ENVIRONMENT_PRESENT: u32 = 1u;
@@ -90,16 +91,28 @@ struct ScratchSegment {
     blur_um: f32,
 }
 
-// Weighted sums over the samples of a pixel.
+// Weighted sums over the samples of a pixel, and the walk over the scratches of the sample in hand: a dispatch may leave it
+// unfinished for the next one.
 struct FilmPixel {
     base: vec3f,
     depth_m: f32,
     scratches: vec3f,
     coverage: f32,
     density: vec3f,
-    unused_0: f32,
+    samples: u32,               // samples that are complete
     normal: vec3f,
-    unused_1: f32,
+    walk_at: u32,               // 0: not begun; else the node to go on with + 1
+    walk_radiance: vec3f,
+    walk_share: f32,
+    walk_energy: vec3f,
+    walk_share_by_line: f32,
+}
+
+// What the shading pass adds to.
+struct Film {
+    gave_up: atomic<u32>,       // pixels whose loops were cut short: the host discards the picture
+    unfinished: atomic<u32>,    // pixels whose walk goes on in the next dispatch
+    pixels: array<FilmPixel>,
 }
 
 // How a film is shown.

@@ -69,6 +69,17 @@ impl Film {
         encoder.clear_buffer(&self.buffer, 0, None);
     }
 
+    /// Forgets which pixels are unfinished, before a dispatch counts them anew.
+    pub fn clear_unfinished(&self, encoder: &mut wgpu::CommandEncoder) {
+        encoder.clear_buffer(&self.buffer, 4, Some(4));
+    }
+
+    /// How many pixels the last dispatch left unfinished.
+    pub async fn unfinished(&self, gpu: &Gpu) -> Result<u32, Error> {
+        let bytes = gpu.read(&self.buffer, 4..8).await?;
+        Ok(bytemuck::pod_read_unaligned(&bytes))
+    }
+
     /// Writes what the film holds to `rows` of `image`.
     ///
     /// # Errors

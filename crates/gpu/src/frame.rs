@@ -40,7 +40,8 @@ pub(crate) fn frame(
         environment_from_world: environment.map_or_else(Default::default, environment_from_world),
         environment_sh: environment.map_or_else(Default::default, environment_sh),
         environment_texel_radiance: environment.map_or(0.0, |e| e.texel_radiance() as f32),
-        pad: [0; 3],
+        sample,
+        pad: [0; 2],
     }
 }
 

@@ -14,7 +14,8 @@ pub const LIGHT_SPHERE: u32 = 0;
 /// [`Light::kind`].
 pub const LIGHT_POLYGON: u32 = 1;
 
-/// Where the pixels of a film begin in its buffer, bytes: the count of invocations that gave up comes first.
+/// Where the pixels of a film begin in its buffer, bytes. Two counts come first: pixels that gave up, pixels that are
+/// unfinished.
 pub const FILM_PIXELS_OFFSET: u64 = 16;
 
 macro_rules! shared {
@@ -61,7 +62,8 @@ shared! {
         environment_from_world: [[f32; 4]; 3],
         environment_sh: [[f32; 4]; 9],
         environment_texel_radiance: f32,
-        pad: [u32; 3],
+        sample: u32,
+        pad: [u32; 2],
     }
     /// A corner of a triangle.
     Vertex {
@@ -123,16 +125,20 @@ shared! {
         normal: [f32; 3],
         blur_um: f32,
     }
-    /// Weighted sums over the samples of a pixel.
+    /// Weighted sums over the samples of a pixel, and the walk in hand.
     FilmPixel {
         base: [f32; 3],
         depth_m: f32,
         scratches: [f32; 3],
         coverage: f32,
         density: [f32; 3],
-        unused_0: f32,
+        samples: u32,
         normal: [f32; 3],
-        unused_1: f32,
+        walk_at: u32,
+        walk_radiance: [f32; 3],
+        walk_share: f32,
+        walk_energy: [f32; 3],
+        walk_share_by_line: f32,
     }
     /// How a film is shown; uniform.
     DisplaySettings {
@@ -149,7 +155,7 @@ mod tests {
     use naga::{Module, TypeInner};
 
     fn reflect() -> Module {
-        let text = shaders::compose(&[&shaders::LAYOUT, &shaders::FILM]);
+        let text = shaders::compose(&[&shaders::LAYOUT]);
         naga::front::wgsl::parse_str(&text)
             .unwrap_or_else(|error| panic!("{}", error.emit_to_string(&text)))
     }
@@ -223,7 +229,7 @@ mod tests {
             if let TypeInner::Struct { members, .. } = &ty.inner {
                 let known = host.iter().any(|(known, ..)| *known == name);
                 if name == "Film" {
-                    assert_eq!(u64::from(members[1].offset), FILM_PIXELS_OFFSET);
+                    assert_eq!(u64::from(members[2].offset), FILM_PIXELS_OFFSET);
                 } else {
                     assert!(known, "{name} has no host twin");
                 }

@@ -207,13 +207,35 @@ impl Renderer {
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         if sample == 0 {
             film.clear(&mut encoder);
+        } else {
+            film.clear_unfinished(&mut encoder);
         }
         self.visibility
             .record(&mut encoder, &self.frame_group, uploaded, &film, rows);
         self.shade
             .record(&mut encoder, &self.frame_group, uploaded, &film, rows);
         self.gpu.queue.submit([encoder.finish()]);
+        if self.shade.bounded {
+            self.finish_walks(uploaded, &film, rows).await?;
+        }
         self.film = Some(film);
+        Ok(())
+    }
+
+    /// Dispatches again until every pixel's walk over the scratches is at its end.
+    async fn finish_walks(
+        &self,
+        uploaded: &GpuScene,
+        film: &Film,
+        rows: &Range<u32>,
+    ) -> Result<(), Error> {
+        while film.unfinished(&self.gpu).await? > 0 {
+            let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+            film.clear_unfinished(&mut encoder);
+            self.shade
+                .record(&mut encoder, &self.frame_group, uploaded, film, rows);
+            self.gpu.queue.submit([encoder.finish()]);
+        }
         Ok(())
     }
 

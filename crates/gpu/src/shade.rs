@@ -11,13 +11,17 @@ use crate::film::Film;
 use crate::shaders;
 use crate::upload::GpuScene;
 
-pub(crate) struct ShadePass(wgpu::ComputePipeline);
+pub(crate) struct ShadePass {
+    pipeline: wgpu::ComputePipeline,
+    /// Whether a dispatch may leave pixels unfinished.
+    pub bounded: bool,
+}
 
 const WORKGROUP_PX: u32 = 8;
 
-/// A software driver (lavapipe) ends loops silently after 65,536 rounds of an invocation in total; the shader gives up
-/// before that, and says so.
-const SOFTWARE_MAX_ROUNDS: f64 = 60_000.0;
+/// A software driver (lavapipe) ends loops silently after 65,536 rounds, counted over the 8 pixels that it runs in step: the
+/// walk over the scratches stops well before and goes on in another dispatch.
+const SOFTWARE_MAX_ROUNDS: f64 = 5_000.0;
 
 impl ShadePass {
     pub fn new(gpu: &Gpu, layouts: &Layouts) -> Self {
@@ -41,8 +45,10 @@ impl ShadePass {
             });
         let bound = [("GATHER_MAX_ROUNDS", SOFTWARE_MAX_ROUNDS)];
         let bounded = gpu.adapter.kind == AdapterKind::Software;
-        Self(
-            gpu.device
+        Self {
+            bounded,
+            pipeline: gpu
+                .device
                 .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
                     label: Some("shade"),
                     layout: Some(&layout),
@@ -54,7 +60,7 @@ impl ShadePass {
                     },
                     cache: None,
                 }),
-        )
+        }
     }
 
     pub fn record(
@@ -66,7 +72,7 @@ impl ShadePass {
         rows: &Range<u32>,
     ) {
         let mut pass = encoder.begin_compute_pass(&Default::default());
-        pass.set_pipeline(&self.0);
+        pass.set_pipeline(&self.pipeline);
         for (group, bound) in (0..).zip([frame, &scene.buffers, &scene.textures, &film.group]) {
             pass.set_bind_group(group, bound, &[]);
         }

@@ -70,7 +70,7 @@ modules! {
     /// Look-ups in what the scene binds.
     SCENE = "scene" needs [BINDINGS, ENVIRONMENT, TONE_MAP];
     /// What the shading pass adds to: group 3.
-    FILM = "film" needs [BINDINGS];
+    FILM = "film" needs [GATHER];
     /// From a triangle to the surface point.
     HIT = "hit" needs [SCENE, SURFACE, CAMERA];
     /// The scratches under a footprint and their light.
