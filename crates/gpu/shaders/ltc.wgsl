@@ -17,13 +17,9 @@ fn ltc_lobe(wo: vec3f, roughness: f32, ltc_table: texture_2d<f32>, albedo_table:
     let shape = lobe_table_lookup(ltc_table, roughness, cos_o);
     let frame = lobe_viewer_frame(wo);
     let alpha = ggx_alpha(roughness);
-    let lean = alpha * shape.z * frame.sin_cos.x;
-    // Taylor's series, 4e-6 at 90 degrees: the built-in sine may be off by 5e-4 anywhere, an eighth of a mirror's lobe.
-    let l2 = lean * lean;
-    let sin_lean = clamp(lean * (1.0 - l2 / 6.0 * (1.0 - l2 / 20.0 * (1.0 - l2 / 42.0 * (1.0 - l2 / 72.0)))), -1.0, 1.0);
-    let cos_lean = sqrt(1.0 - sin_lean * sin_lean);
-    let peak_sin = frame.sin_cos.x * cos_lean - frame.sin_cos.y * sin_lean;
-    let peak_cos = frame.sin_cos.y * cos_lean + frame.sin_cos.x * sin_lean;
+    let lean = lobe_sin_cos(alpha * shape.z * frame.sin_cos.x);
+    let peak_sin = frame.sin_cos.x * lean.y - frame.sin_cos.y * lean.x;
+    let peak_cos = frame.sin_cos.y * lean.y + frame.sin_cos.x * lean.x;
     return LtcLobe(
         vec3f(frame.sin_cos.x, 0.0, frame.sin_cos.y),
         alpha,
@@ -32,6 +28,14 @@ fn ltc_lobe(wo: vec3f, roughness: f32, ltc_table: texture_2d<f32>, albedo_table:
         2.0 * alpha * shape.xy,
         lobe_albedo_lookup(albedo_table, roughness, cos_o),
     );
+}
+
+// Of an angle within 90 degrees. Taylor's series, 4e-6 at 90 degrees: the built-in sine may be off by 5e-4 anywhere, an
+// eighth of a mirror's lobe.
+fn lobe_sin_cos(angle: f32) -> vec2f {
+    let a2 = angle * angle;
+    let sine = clamp(angle * (1.0 - a2 / 6.0 * (1.0 - a2 / 20.0 * (1.0 - a2 / 42.0 * (1.0 - a2 / 72.0)))), -1.0, 1.0);
+    return vec2f(sine, sqrt(1.0 - sine * sine));
 }
 
 struct LobeViewerFrame {

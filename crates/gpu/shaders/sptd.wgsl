@@ -1,11 +1,13 @@
-// The GGX lobe over a sphere by a pivot transform: the published method, kept to be compared with (ltc_sphere is the default).
-// Needs ggx, irradiance, lobe_table, ltc. Twin: optics::sptd, where the paper is named.
+// The GGX lobe over a sphere by a pivot transform, as published and with what the fit misses put back (ltc_sphere is the default).
+// Needs ggx, irradiance, lobe_table, ltc. Twin: optics::sptd, which explains the method and names the paper.
 
 struct SptdLobe {
-    x_axis: vec2f,
-    gap: f32,
-    albedo: f32,
+    wo: vec3f,
+    alpha: f32,
     pivot: vec3f,
+    gap: f32,
+    x_axis: vec2f,
+    albedo: f32,
 }
 
 struct SphericalCap {
@@ -19,16 +21,18 @@ fn sptd_lobe(wo: vec3f, roughness: f32, sptd_table: texture_2d<f32>, albedo_tabl
     let shape = lobe_table_lookup(sptd_table, roughness, cos_o);
     let frame = lobe_viewer_frame(wo);
     let alpha = ggx_alpha(roughness);
-    let lean = alpha * shape.y * frame.sin_cos.x;
+    let lean = lobe_sin_cos(alpha * shape.y * frame.sin_cos.x);
     let width = alpha * shape.x;
     let r = (1.0 - width) / (1.0 + width);
-    let x = frame.sin_cos.x * cos(lean) - frame.sin_cos.y * sin(lean);
-    let z = frame.sin_cos.y * cos(lean) + frame.sin_cos.x * sin(lean);
+    let x = frame.sin_cos.x * lean.y - frame.sin_cos.y * lean.x;
+    let z = frame.sin_cos.y * lean.y + frame.sin_cos.x * lean.x;
     return SptdLobe(
-        frame.x_axis,
-        4.0 * width / ((1.0 + width) * (1.0 + width)),
-        lobe_albedo_lookup(albedo_table, roughness, cos_o).x,
+        vec3f(frame.sin_cos.x, 0.0, frame.sin_cos.y),
+        alpha,
         r * vec3f(-x, 0.0, z),
+        4.0 * width / ((1.0 + width) * (1.0 + width)),
+        frame.x_axis,
+        lobe_albedo_lookup(albedo_table, roughness, cos_o).x,
     );
 }
 
@@ -52,18 +56,29 @@ fn sptd_horizon_share(lobe: SptdLobe) -> f32 {
     return max(0.5 * (1.0 + sptd_transform_cap(lobe, sptd_nadir()).cosine), 1e-6);
 }
 
-fn sptd_cap_solid_angle(cap: SphericalCap) -> f32 {
+struct SphericalRegion {
+    vector: vec3f,
+    solid_angle: f32,
+}
+
+fn sptd_subtract(whole: SphericalRegion, part: SphericalRegion) -> SphericalRegion {
+    return SphericalRegion(whole.vector - part.vector, max(whole.solid_angle - part.solid_angle, 0.0));
+}
+
+fn sptd_cap_region(cap: SphericalCap) -> SphericalRegion {
+    let s2 = cap.sine * cap.sine;
+    var solid_angle = 2.0 * GGX_PI * (1.0 - cap.cosine);
     if (cap.cosine > 0.0) {
-        return 2.0 * GGX_PI * cap.sine * cap.sine / (1.0 + cap.cosine);
+        solid_angle = 2.0 * GGX_PI * s2 / (1.0 + cap.cosine);
     }
-    return 2.0 * GGX_PI * (1.0 - cap.cosine);
+    return SphericalRegion(GGX_PI * s2 * cap.axis, solid_angle);
 }
 
 fn sptd_complement(cap: SphericalCap) -> SphericalCap {
     return SphericalCap(-cap.axis, -cap.cosine, cap.sine);
 }
 
-fn sptd_cap_intersection(a: SphericalCap, b: SphericalCap) -> f32 {
+fn sptd_cap_intersection(a: SphericalCap, b: SphericalCap) -> SphericalRegion {
     // Of each cap the side that is at most a hemisphere.
     let flip_a = a.cosine < 0.0;
     let flip_b = b.cosine < 0.0;
@@ -77,29 +92,34 @@ fn sptd_cap_intersection(a: SphericalCap, b: SphericalCap) -> f32 {
     }
     let lens = sptd_lens(small_a, small_b);
     if (flip_a && flip_b) {
-        return max(4.0 * GGX_PI - sptd_cap_solid_angle(small_a) - sptd_cap_solid_angle(small_b) + lens, 0.0);
+        return sptd_subtract(sptd_cap_region(a), sptd_subtract(sptd_cap_region(small_b), lens));
     }
     if (flip_b) {
-        return max(sptd_cap_solid_angle(a) - lens, 0.0);
+        return sptd_subtract(sptd_cap_region(a), lens);
     }
     if (flip_a) {
-        return max(sptd_cap_solid_angle(b) - lens, 0.0);
+        return sptd_subtract(sptd_cap_region(b), lens);
     }
     return lens;
 }
 
 // Of caps that are at most hemispheres: two sectors less the kite between centres and corners.
-fn sptd_lens(a: SphericalCap, b: SphericalCap) -> f32 {
-    let area_a = sptd_cap_solid_angle(a);
-    let area_b = sptd_cap_solid_angle(b);
+fn sptd_lens(a: SphericalCap, b: SphericalCap) -> SphericalRegion {
+    let region_a = sptd_cap_region(a);
+    let region_b = sptd_cap_region(b);
+    let area_a = region_a.solid_angle;
+    let area_b = region_b.solid_angle;
     let radius_a = irradiance_angle(a.sine, a.cosine);
     let radius_b = irradiance_angle(b.sine, b.cosine);
     let distance = irradiance_angle(length(cross(a.axis, b.axis)), dot(a.axis, b.axis));
     if (distance >= radius_a + radius_b) {
-        return 0.0;
+        return SphericalRegion(vec3f(0.0), 0.0);
     }
     if (distance <= abs(radius_a - radius_b)) {
-        return min(area_a, area_b);
+        if (area_a < area_b) {
+            return region_a;
+        }
+        return region_b;
     }
     let s = 0.5 * (radius_a + radius_b + distance);
     let rest_a = s - radius_a;
@@ -115,21 +135,81 @@ fn sptd_lens(a: SphericalCap, b: SphericalCap) -> f32 {
     );
     let product = tan(0.5 * s) * tan(0.5 * rest_a) * tan(0.5 * rest_b) * tan(0.5 * rest_d);
     let triangle = 4.0 * irradiance_angle(sqrt(max(product, 0.0)), 1.0);
-    return clamp((angle_a * area_a + angle_b * area_b) / GGX_PI - 2.0 * triangle, 0.0, min(area_a, area_b));
+    let sectors = (angle_a * area_a + angle_b * area_b) / GGX_PI;
+    return SphericalRegion(
+        sptd_segment(angle_a) * region_a.vector + sptd_segment(angle_b) * region_b.vector,
+        clamp(sectors - 2.0 * triangle, 0.0, min(area_a, area_b)),
+    );
+}
+
+// The share of a disk that a chord cuts off, by half the angle that it is seen under from the centre.
+fn sptd_segment(angle: f32) -> f32 {
+    return (angle - sin(angle) * cos(angle)) / GGX_PI;
 }
 
 fn sptd_sphere(lobe: SptdLobe, axis: vec3f, sin2: f32) -> f32 {
     if (sin2 >= 1.0) {
         return lobe.albedo;
     }
-    if (sin2 <= 0.0) {
+    let lit = sptd_visible(lobe, axis, sin2);
+    let sphere = 4.0 * GGX_PI * sptd_horizon_share(lobe);
+    let share = min(lit.solid_angle / sphere, 1.0);
+    if (share <= 0.0) {
         return 0.0;
     }
-    let light = SphericalCap(lobe_rotate(lobe.x_axis, axis), sqrt(1.0 - sin2), sqrt(sin2));
+    let corrected = sphere * sptd_mean(lobe, lit);
+    let wide = min(2.0 * share, 1.0);
+    return share * mix(corrected, lobe.albedo, wide * (2.0 - wide));
+}
+
+// The published method: nothing put back.
+fn sptd_sphere_published(lobe: SptdLobe, axis: vec3f, sin2: f32) -> f32 {
+    if (sin2 >= 1.0) {
+        return lobe.albedo;
+    }
+    let lit = sptd_visible(lobe, axis, sin2);
+    return lobe.albedo * min(lit.solid_angle / (4.0 * GGX_PI * sptd_horizon_share(lobe)), 1.0);
+}
+
+fn sptd_visible(lobe: SptdLobe, axis: vec3f, sin2: f32) -> SphericalRegion {
+    let square = max(sin2, 0.0);
+    let light = SphericalCap(lobe_rotate(lobe.x_axis, axis), sqrt(1.0 - square), sqrt(square));
     let image = sptd_transform_cap(lobe, light);
     let hidden = sptd_cap_intersection(image, sptd_transform_cap(lobe, sptd_nadir()));
-    let lit = max(sptd_cap_solid_angle(image) - hidden, 0.0);
-    return lobe.albedo * min(lit / (4.0 * GGX_PI * sptd_horizon_share(lobe)), 1.0);
+    return sptd_subtract(sptd_cap_region(image), hidden);
+}
+
+const SPTD_RING_SHARE: f32 = 0.75;
+const SPTD_RING_WEIGHT: f32 = 0.16666667;
+const SPTD_CENTRE_WEIGHT: f32 = 0.33333333;
+
+fn sptd_mean(lobe: SptdLobe, region: SphericalRegion) -> f32 {
+    let magnitude = length(region.vector);
+    let centre = select(vec3f(0.0, 0.0, 1.0), region.vector / max(magnitude, 1e-30), magnitude > 0.0);
+    let sides = irradiance_basis(centre);
+    let depth = SPTD_RING_SHARE * region.solid_angle / (2.0 * GGX_PI);
+    let height = 1.0 - depth;
+    let radius = sqrt(max(depth * (2.0 - depth), 0.0));
+    var sums = sptd_ring_point(lobe, centre, SPTD_CENTRE_WEIGHT);
+    sums += sptd_ring_point(lobe, height * centre + radius * sides.u, SPTD_RING_WEIGHT);
+    sums += sptd_ring_point(lobe, height * centre + radius * sides.v, SPTD_RING_WEIGHT);
+    sums += sptd_ring_point(lobe, height * centre - radius * sides.u, SPTD_RING_WEIGHT);
+    sums += sptd_ring_point(lobe, height * centre - radius * sides.v, SPTD_RING_WEIGHT);
+    if (sums.y > 0.0) {
+        return sums.x / sums.y;
+    }
+    return lobe.albedo / (4.0 * GGX_PI * sptd_horizon_share(lobe));
+}
+
+// (GGX times the map's Jacobian, 1) times the weight; nothing below the horizon.
+fn sptd_ring_point(lobe: SptdLobe, w: vec3f, weight: f32) -> vec2f {
+    let d = -w - lobe.pivot;
+    let jacobian = lobe.gap / dot(d, d);
+    let wi = lobe.pivot - d * jacobian;
+    if (wi.z <= 0.0) {
+        return vec2f(0.0);
+    }
+    return vec2f(ggx_eval(wi, lobe.wo, lobe.alpha) * jacobian * jacobian, 1.0) * weight;
 }
 
 fn sptd_sphere_light(

@@ -1,17 +1,21 @@
-//! The GGX lobe over a sphere by a spherical-cap-preserving (pivot) transform: the published method, kept to be
-//! compared with. [`crate::ltc::sphere_light`] is the default.
+//! The GGX lobe over a sphere by a spherical-cap-preserving (pivot) transform.
 //!
 //! J. Dupuy, E. Heitz and L. Belcour, "A spherical cap preserving parameterization for spherical distributions"
 //! (SIGGRAPH 2017): chords through a pivot inside the unit sphere map the sphere to itself and caps to caps. The uniform
 //! distribution so transformed stands for the lobe; light and horizon become two caps, whose intersection has a
-//! closed form. The lobe is symmetric about its axis, which GGX at grazing views is not: that is the method's error.
+//! closed form. That is [`sptd_sphere_published`], kept to be compared with.
+//!
+//! The pivot's lobe is symmetric about its axis, which GGX at grazing views is not. [`sptd_sphere`] puts back what the fit
+//! misses as [`crate::ltc`] does: the integral is multiplied by the mean of GGX over the fit at a few directions spread
+//! over the visible part of the light, where that is small against the lobe. The default for spheres is
+//! [`crate::ltc::sphere_light`], whose fit is closer.
 
 use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3};
 
-use crate::ggx::ggx_alpha;
-use crate::irradiance::irradiance_angle;
+use crate::ggx::{ggx_alpha, ggx_eval};
+use crate::irradiance::{irradiance_angle, irradiance_basis};
 use crate::lobe_table::{LOBE_MIN_COS, albedo_lookup, sptd_table};
 use crate::ltc::viewer_frame;
 
@@ -27,6 +31,10 @@ pub struct SptdShape {
 /// The lobe seen from one direction on one surface, F = 1.
 #[derive(Clone, Copy, Debug)]
 pub struct SptdLobe {
+    /// Viewer in its own frame: y = 0, x >= 0.
+    pub wo: DVec3,
+    /// GGX alpha.
+    pub alpha: f64,
     /// The x axis of the viewer's frame in the local one.
     pub x_axis: DVec2,
     /// Pivot, in the viewer's frame.
@@ -70,6 +78,8 @@ impl SptdLobe {
         let x = sin_cos.x * lean.cos() - sin_cos.y * lean.sin();
         let z = sin_cos.y * lean.cos() + sin_cos.x * lean.sin();
         Self {
+            wo: DVec3::new(sin_cos.x, 0.0, sin_cos.y),
+            alpha,
             x_axis,
             pivot: r * DVec3::new(-x, 0.0, z),
             gap: 4.0 * width / ((1.0 + width) * (1.0 + width)),
@@ -86,7 +96,7 @@ impl SptdLobe {
         self.albedo / sptd_horizon_share(self) * ratio * ratio / (4.0 * PI)
     }
 
-    /// A direction in the viewer's frame distributed as the density, horizon aside, from a uniform one: for the fit.
+    /// A direction in the viewer's frame distributed as the density, horizon aside, from a uniform one.
     pub fn sample(&self, uniform: DVec3) -> DVec3 {
         let d = -uniform - self.pivot;
         self.pivot - d * (self.gap / d.length_squared())
@@ -120,12 +130,37 @@ fn sptd_horizon_share(lobe: &SptdLobe) -> f64 {
     (0.5 * (1.0 + sptd_transform_cap(lobe, NADIR).cosine)).max(1e-6)
 }
 
-/// Solid angle of a cap.
-fn sptd_cap_solid_angle(cap: SphericalCap) -> f64 {
-    if cap.cosine > 0.0 {
-        2.0 * PI * cap.sine * cap.sine / (1.0 + cap.cosine)
-    } else {
-        2.0 * PI * (1.0 - cap.cosine)
+/// A part of the unit sphere.
+#[derive(Clone, Copy, Debug)]
+pub struct SphericalRegion {
+    /// Solid angle, in steradians.
+    pub solid_angle: f64,
+    /// The integral of the unit direction; points to the centroid.
+    pub vector: DVec3,
+}
+
+impl std::ops::Sub for SphericalRegion {
+    type Output = Self;
+
+    fn sub(self, part: Self) -> Self {
+        Self {
+            solid_angle: (self.solid_angle - part.solid_angle).max(0.0),
+            vector: self.vector - part.vector,
+        }
+    }
+}
+
+/// A cap as a region.
+fn sptd_cap_region(cap: SphericalCap) -> SphericalRegion {
+    let s2 = cap.sine * cap.sine;
+    SphericalRegion {
+        solid_angle: if cap.cosine > 0.0 {
+            2.0 * PI * s2 / (1.0 + cap.cosine)
+        } else {
+            2.0 * PI * (1.0 - cap.cosine)
+        },
+        // A region's vector is that of any surface with the same rim: here the plane disk's.
+        vector: PI * s2 * cap.axis,
     }
 }
 
@@ -138,19 +173,18 @@ fn sptd_complement(cap: SphericalCap) -> SphericalCap {
     }
 }
 
-/// Solid angle of the intersection of two caps.
-pub fn sptd_cap_intersection(a: SphericalCap, b: SphericalCap) -> f64 {
+/// The intersection of two caps.
+pub fn sptd_cap_intersection(a: SphericalCap, b: SphericalCap) -> SphericalRegion {
     // Of each cap the side that is at most a hemisphere.
     let (flip_a, flip_b) = (a.cosine < 0.0, b.cosine < 0.0);
     let small_a = if flip_a { sptd_complement(a) } else { a };
     let small_b = if flip_b { sptd_complement(b) } else { b };
     let lens = sptd_lens(small_a, small_b);
-    let (area_a, area_b) = (sptd_cap_solid_angle(small_a), sptd_cap_solid_angle(small_b));
     match (flip_a, flip_b) {
         (false, false) => lens,
-        (false, true) => (area_a - lens).max(0.0),
-        (true, false) => (area_b - lens).max(0.0),
-        (true, true) => (4.0 * PI - area_a - area_b + lens).max(0.0),
+        (false, true) => sptd_cap_region(a) - lens,
+        (true, false) => sptd_cap_region(b) - lens,
+        (true, true) => sptd_cap_region(a) - (sptd_cap_region(small_b) - lens),
     }
 }
 
@@ -158,16 +192,20 @@ pub fn sptd_cap_intersection(a: SphericalCap, b: SphericalCap) -> f64 {
 ///
 /// Two sectors less the kite between the centres and the corners. With the kite's area by L'Huilier's formula all three are
 /// small when the caps are; the textbook sum of angles would cancel.
-fn sptd_lens(a: SphericalCap, b: SphericalCap) -> f64 {
-    let (area_a, area_b) = (sptd_cap_solid_angle(a), sptd_cap_solid_angle(b));
+fn sptd_lens(a: SphericalCap, b: SphericalCap) -> SphericalRegion {
+    let (region_a, region_b) = (sptd_cap_region(a), sptd_cap_region(b));
+    let (area_a, area_b) = (region_a.solid_angle, region_b.solid_angle);
     let radius_a = irradiance_angle(a.sine, a.cosine);
     let radius_b = irradiance_angle(b.sine, b.cosine);
     let distance = irradiance_angle(a.axis.cross(b.axis).length(), a.axis.dot(b.axis));
     if distance >= radius_a + radius_b {
-        return 0.0;
+        return SphericalRegion {
+            solid_angle: 0.0,
+            vector: DVec3::ZERO,
+        };
     }
     if distance <= (radius_a - radius_b).abs() {
-        return area_a.min(area_b);
+        return if area_a < area_b { region_a } else { region_b };
     }
     // The triangle of the centres and one corner, by its half perimeter.
     let s = 0.5 * (radius_a + radius_b + distance);
@@ -178,15 +216,21 @@ fn sptd_lens(a: SphericalCap, b: SphericalCap) -> f64 {
             (s.sin() * opposite.sin()).max(0.0).sqrt(),
         )
     };
+    let (angle_a, angle_b) = (angle(rest_a, rest_b), angle(rest_b, rest_a));
     let quarter = |x: f64| (0.5 * x).tan();
     let product = quarter(s) * quarter(rest_a) * quarter(rest_b) * quarter(rest_d);
     let triangle = 4.0 * irradiance_angle(product.max(0.0).sqrt(), 1.0);
-    let sectors = angle(rest_a, rest_b) * area_a / PI + angle(rest_b, rest_a) * area_b / PI;
-    (sectors - 2.0 * triangle).clamp(0.0, area_a.min(area_b))
+    let sectors = (angle_a * area_a + angle_b * area_b) / PI;
+    // The plane surface with the lens's rim: a segment of either cap's disk, joined at the chord.
+    let segment = |angle: f64| angle / PI - angle.sin() * angle.cos() / PI;
+    SphericalRegion {
+        solid_angle: (sectors - 2.0 * triangle).clamp(0.0, area_a.min(area_b)),
+        vector: segment(angle_a) * region_a.vector + segment(angle_b) * region_b.vector,
+    }
 }
 
 /// The integral of the lobe (F = 1, cosine inside) over a sphere, cut by the horizon: as
-/// [`crate::ltc::sphere_light`], by one pivot and nothing else.
+/// [`crate::ltc::sphere_light`], by a pivot.
 pub fn sptd_sphere_light(wo: DVec3, roughness: f64, axis: DVec3, sin2: f64) -> f64 {
     sptd_sphere(&sptd_lobe(wo, roughness), axis, sin2)
 }
@@ -196,9 +240,31 @@ pub fn sptd_sphere(lobe: &SptdLobe, axis: DVec3, sin2: f64) -> f64 {
     if sin2 >= 1.0 {
         return lobe.albedo;
     }
-    if sin2 <= 0.0 {
+    let lit = sptd_visible(lobe, axis, sin2);
+    let sphere = 4.0 * PI * sptd_horizon_share(lobe);
+    let share = (lit.solid_angle / sphere).min(1.0);
+    if share <= 0.0 {
         return 0.0;
     }
+    let corrected = sphere * sptd_mean(lobe, lit);
+    // Five points know GGX over a part of the lobe better than the fit does, over half of it or more worse.
+    let wide = (2.0 * share).min(1.0);
+    let fade = wide * (2.0 - wide);
+    share * (corrected + fade * (lobe.albedo - corrected))
+}
+
+/// The published method: the fitted lobe's own integral over a sphere, nothing put back. Arguments as for [`sptd_sphere`].
+pub fn sptd_sphere_published(lobe: &SptdLobe, axis: DVec3, sin2: f64) -> f64 {
+    if sin2 >= 1.0 {
+        return lobe.albedo;
+    }
+    let lit = sptd_visible(lobe, axis, sin2);
+    lobe.albedo * (lit.solid_angle / (4.0 * PI * sptd_horizon_share(lobe))).min(1.0)
+}
+
+/// The image of the part of a sphere above the horizon; `axis` in the local frame, sin2 < 1.
+fn sptd_visible(lobe: &SptdLobe, axis: DVec3, sin2: f64) -> SphericalRegion {
+    let sin2 = sin2.max(0.0);
     let x = lobe.x_axis;
     let light = SphericalCap {
         axis: DVec3::new(
@@ -209,8 +275,42 @@ pub fn sptd_sphere(lobe: &SptdLobe, axis: DVec3, sin2: f64) -> f64 {
         cosine: (1.0 - sin2).sqrt(),
         sine: sin2.sqrt(),
     };
-    let light = sptd_transform_cap(lobe, light);
-    let hidden = sptd_cap_intersection(light, sptd_transform_cap(lobe, NADIR));
-    let lit = (sptd_cap_solid_angle(light) - hidden).max(0.0);
-    lobe.albedo * (lit / (4.0 * PI * sptd_horizon_share(lobe))).min(1.0)
+    let image = sptd_transform_cap(lobe, light);
+    sptd_cap_region(image) - sptd_cap_intersection(image, sptd_transform_cap(lobe, NADIR))
+}
+
+/// Where the fit is compared with GGX: the centre and a ring that cuts off three quarters of the cap, with weights. On a
+/// small cap, a disk, the rule integrates cubics.
+const RING_SHARE: f64 = 0.75;
+const RING_WEIGHT: f64 = 1.0 / 6.0;
+const CENTRE_WEIGHT: f64 = 1.0 / 3.0;
+
+/// The mean of GGX times the map's Jacobian over the cap that has the region's centroid and solid angle, as far as it
+/// is above the horizon.
+fn sptd_mean(lobe: &SptdLobe, region: SphericalRegion) -> f64 {
+    let centre = region.vector.normalize_or(DVec3::Z);
+    let (u, v) = irradiance_basis(centre);
+    let depth = RING_SHARE * region.solid_angle / (2.0 * PI);
+    let height = 1.0 - depth;
+    let radius = (depth * (2.0 - depth)).max(0.0).sqrt();
+
+    let (mut sum, mut weights) = (0.0, 0.0);
+    let mut add = |weight: f64, w: DVec3| {
+        let d = -w - lobe.pivot;
+        let jacobian = lobe.gap / d.length_squared();
+        let wi = lobe.pivot - d * jacobian;
+        if wi.z > 0.0 {
+            sum += weight * ggx_eval(wi, lobe.wo, lobe.alpha) * jacobian * jacobian;
+            weights += weight;
+        }
+    };
+    add(CENTRE_WEIGHT, centre);
+    for offset in [u, v, -u, -v] {
+        add(RING_WEIGHT, height * centre + radius * offset);
+    }
+    if weights > 0.0 {
+        sum / weights
+    } else {
+        lobe.albedo / (4.0 * PI * sptd_horizon_share(lobe))
+    }
 }
