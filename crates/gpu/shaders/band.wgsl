@@ -38,6 +38,13 @@ struct BandLines {
     std_xi: f32,
 }
 
+const BAND_STD_MAX: f32 = 0.3;
+
+// Standard deviation of the band as a pixel sees it on a curved surface.
+fn curved_band_std(std_xi: f32, turn_t: vec2f, cos_sum: f32) -> f32 {
+    return min(sqrt(std_xi * std_xi + cos_sum * cos_sum * dot(turn_t, turn_t)), BAND_STD_MAX);
+}
+
 fn band_reaches(lowest: f32, highest: f32, std_xi: f32) -> bool {
     return lowest < BAND_REACH_STD * std_xi && highest > -BAND_REACH_STD * std_xi && highest > lowest;
 }
@@ -47,7 +54,7 @@ fn band_lines(wo_t: f32, lowest: f32, highest: f32, std_xi: f32) -> BandLines {
         return BandLines(0u, 0.0, 0.0, std_xi);
     }
     let half_extent = 0.5 * (highest - lowest) / std_xi;
-    let steep = 1.0 - wo_t * wo_t < 32.0 * std_xi;
+    let steep = 1.0 - wo_t * wo_t < 32.0 * std_xi * abs(wo_t);
     let count = select(select(1u, 3u, half_extent < 16.0), 5u, half_extent < 3.0 || steep);
     let share_below = gaussian_cdf(lowest / std_xi);
     return BandLines(count, share_below, gaussian_cdf(highest / std_xi) - share_below, std_xi);
@@ -152,6 +159,24 @@ fn sphere_chord(line: BandLine, cap: Cap) -> Chord {
     );
 }
 
+// The great circle of an edge: the part of b - a across a, the cosine of its angle, the square of its sine.
+struct EdgeCircle {
+    across: vec3f,
+    cos_edge: f32,
+    sin2: f32,
+}
+
+fn edge_circle(a: vec3f, b: vec3f) -> EdgeCircle {
+    let chord = b - a;
+    let across = chord - a * dot(a, chord);
+    return EdgeCircle(across, dot(a, b), dot(across, across));
+}
+
+// Whether the tangent component has its greatest value (`turn` 1) or its least (-1) between the ends.
+fn edge_turns(edge: EdgeCircle, a: vec3f, turn: f32) -> bool {
+    return turn * edge.across.x > 0.0 && turn * (edge.across.x * edge.cos_edge - a.x * edge.sin2) < 0.0;
+}
+
 // Roots of one polygon edge on a line; a flag is 1 where there is one.
 struct EdgeRoots {
     rising: f32,
@@ -167,32 +192,32 @@ fn band_edge_q(line: BandLine, a: vec3f, e2: vec3f, h2: f32, cos_psi: f32, sin_p
 
 // The roots of the edge from direction `a` to direction `b` (unit vectors), for a polygon seen counter-clockwise.
 fn edge_roots(line: BandLine, a: vec3f, b: vec3f) -> EdgeRoots {
-    let chord = b - a;
-    let across_a = chord - a * dot(a, chord);
-    let sin_edge = length(across_a);
-    if sin_edge < 1e-9 {
-        return EdgeRoots(0.0, 0.0, false, false);
-    }
-    let e2 = across_a / sin_edge;
-    let t1 = a.x;
-    let t2 = e2.x;
-    let s2 = t1 * t1 + t2 * t2 - line.along * line.along;
     let beyond_a = a.x >= line.along;
     let beyond_b = b.x >= line.along;
+    let edge = edge_circle(a, b);
     var rises = beyond_b && !beyond_a;
     var falls = beyond_a && !beyond_b;
     if beyond_a == beyond_b {
         // Both ends on one side: two roots if the edge turns back between them, on the other side of the line; else none.
-        let turn = select(1.0, -1.0, beyond_a);
-        let slope_b = t2 * dot(a, b) - t1 * sin_edge;
-        rises = turn * t2 > 0.0 && turn * slope_b < 0.0 && s2 > 0.0;
+        rises = edge_turns(edge, a, select(1.0, -1.0, beyond_a));
         falls = rises;
     }
+    if !(rises || falls) || edge.sin2 < 1e-18 {
+        return EdgeRoots(0.0, 0.0, false, false);
+    }
+    let e2 = edge.across * inverseSqrt(edge.sin2);
+    let t1 = a.x;
+    let t2 = e2.x;
+    let h2 = t1 * t1 + t2 * t2;
+    let s2 = h2 - line.along * line.along;
+    if rises && falls && s2 <= 0.0 {
+        return EdgeRoots(0.0, 0.0, false, false);
+    }
     let s = sqrt(max(s2, 0.0));
-    let h2 = max(t1 * t1 + t2 * t2, 1e-24);
+    let h2_safe = max(h2, 1e-24);
     return EdgeRoots(
-        band_edge_q(line, a, e2, h2, line.along * t1 + s * t2, line.along * t2 - s * t1),
-        band_edge_q(line, a, e2, h2, line.along * t1 - s * t2, line.along * t2 + s * t1),
+        band_edge_q(line, a, e2, h2_safe, line.along * t1 + s * t2, line.along * t2 - s * t1),
+        band_edge_q(line, a, e2, h2_safe, line.along * t1 - s * t2, line.along * t2 + s * t1),
         rises,
         falls,
     );
@@ -200,21 +225,12 @@ fn edge_roots(line: BandLine, a: vec3f, b: vec3f) -> EdgeRoots {
 
 // Least and greatest tangent component along the edge.
 fn edge_band_extent(a: vec3f, b: vec3f) -> vec2f {
-    let chord = b - a;
-    let across_a = chord - a * dot(a, chord);
-    let sin_edge = length(across_a);
-    var extent = vec2f(min(a.x, b.x), max(a.x, b.x));
-    if sin_edge > 1e-9 {
-        let t2 = across_a.x / sin_edge;
-        let slope_b = t2 * dot(a, b) - a.x * sin_edge;
-        let extreme = sqrt(a.x * a.x + t2 * t2);
-        if t2 > 0.0 && slope_b < 0.0 {
-            extent.y = extreme;
-        } else if t2 < 0.0 && slope_b > 0.0 {
-            extent.x = -extreme;
-        }
-    }
-    return extent;
+    let edge = edge_circle(a, b);
+    let extreme = min(sqrt(a.x * a.x + edge.across.x * edge.across.x / max(edge.sin2, 1e-18)), 1.0);
+    return vec2f(
+        select(min(a.x, b.x), -extreme, edge_turns(edge, a, -1.0)),
+        select(max(a.x, b.x), extreme, edge_turns(edge, a, 1.0)),
+    );
 }
 
 // The angle by which the edge turns about a unit direction.

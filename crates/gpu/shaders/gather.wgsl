@@ -69,10 +69,11 @@ fn gather_table(point: SurfacePoint, view: SegmentView, q: f32) -> vec3f {
 }
 
 // Radiance of a scratch by one sphere, per unit of its share and of the light's radiance.
-fn gather_sphere(point: SurfacePoint, view: SegmentView, light: Light, std_xi: f32) -> vec3f {
+fn gather_sphere(point: SurfacePoint, view: SegmentView, light: Light, flat_std_xi: f32) -> vec3f {
     var cap = sphere_cap(surface_from_world(point, light.center_m - point.position_m), light.radius_m);
     cap.axis = band_from_surface(view.tangent, cap.axis);
     let extent = sphere_band_extent(view.wo, cap);
+    let std_xi = gather_std(point, view, flat_std_xi, cap.axis);
     let lines = band_lines(view.wo.x, extent.x, extent.y, std_xi);
     var sum = vec3f(0.0);
     for (var i = 0u; i < lines.count; i += 1u) {
@@ -97,8 +98,10 @@ fn gather_vertex(point: SurfacePoint, view: SegmentView, light: Light, i: u32) -
 }
 
 // Radiance of a scratch by one polygon, per unit of its share and of the light's radiance.
-fn gather_polygon(point: SurfacePoint, view: SegmentView, light: Light, std_xi: f32) -> vec3f {
+fn gather_polygon(point: SurfacePoint, view: SegmentView, light: Light, flat_std_xi: f32) -> vec3f {
     let facing = gather_facing(point, light);
+    let bound = sphere_cap(surface_from_world(point, light.center_m - point.position_m), light.radius_m);
+    let std_xi = gather_std(point, view, flat_std_xi, bound.axis);
     var extent = vec2f(9.0, -9.0);
     var corner_min = vec3f(1.0);
     var corner_max = vec3f(-1.0);
@@ -130,6 +133,8 @@ fn gather_polygon(point: SurfacePoint, view: SegmentView, light: Light, std_xi: 
             extent = select(vec2f(-1.0, extent.y), vec2f(extent.x, 1.0), away.x > 0.0);
         }
     }
+    // Straight down may lie in a light with corners below the horizon and on both sides of the scratch.
+    let may_wrap = corner_min.z < 0.0 && corner_min.y < 0.0 && corner_max.y > 0.0;
     let lines = band_lines(view.wo.x, view.wo.x + extent.x, view.wo.x + extent.y, std_xi);
     var sum = vec3f(0.0);
     for (var l = 0u; l < lines.count; l += 1u) {
@@ -147,7 +152,7 @@ fn gather_polygon(point: SurfacePoint, view: SegmentView, light: Light, std_xi: 
             if roots.falls {
                 integral -= facing * gather_table(point, view, roots.falling);
             }
-            if corner_min.z < 0.0 {
+            if may_wrap {
                 winding += edge_winding(line_down(line), a, b);
             }
             a = b;
@@ -187,12 +192,19 @@ fn gather_environment(point: SurfacePoint, view: SegmentView) -> vec3f {
     return sum;
 }
 
+// The band's standard deviation towards a light in the direction `axis`.
+fn gather_std(point: SurfacePoint, view: SegmentView, flat_std_xi: f32, axis: vec3f) -> f32 {
+    let turn_t = vec2f(dot(point.turn_x, view.tangent), dot(point.turn_y, view.tangent));
+    return curved_band_std(flat_std_xi, turn_t, max(view.wo.z + axis.z, 0.0));
+}
+
 // Whether a light reaches a scratch at all. Most scratches are dark to most lights, and a bounding sphere tells it.
-fn gather_reaches(point: SurfacePoint, view: SegmentView, light: Light, std_xi: f32) -> bool {
+fn gather_reaches(point: SurfacePoint, view: SegmentView, light: Light, flat_std_xi: f32) -> bool {
     let center = surface_from_world(point, light.center_m - point.position_m);
     var bound = sphere_cap(center, light.radius_m);
     bound.axis = band_from_surface(view.tangent, bound.axis);
     let extent = sphere_band_extent(view.wo, bound);
+    let std_xi = gather_std(point, view, flat_std_xi, bound.axis);
     let shines = light.kind == LIGHT_SPHERE || gather_facing(point, light) != 0.0;
     return shines && center.z > -light.radius_m && band_reaches(extent.x, extent.y, std_xi);
 }
@@ -219,7 +231,7 @@ struct GatherBatch {
 
 // Walks on under the point's footprint, to the object's last node or until the rounds are spent.
 fn gather_scratches(point: SurfacePoint, object: Object, walk: ptr<function, ScratchWalk>) {
-    let std_xi = band_std(point.coherence_um, WAVELENGTH_MEAN_NM);
+    let flat_std_xi = band_std(point.coherence_um, WAVELENGTH_MEAN_NM);
     // So that all pairs of a batch fit; with more lights than that, they take turns.
     let lights_at_once = clamp(frame.light_count, 1u, GATHER_PAIRS);
     let most = clamp(GATHER_PAIRS / lights_at_once, LEAF_SEGMENTS, GATHER_SEGMENTS);
@@ -230,8 +242,8 @@ fn gather_scratches(point: SurfacePoint, object: Object, walk: ptr<function, Scr
         gather_weigh(point, &batch, walk);
         for (var first = 0u; first < frame.light_count; first += GATHER_PAIRS / most) {
             gather_rounds += 1u;
-            gather_pair(point, std_xi, first, min(first + GATHER_PAIRS / most, frame.light_count), &batch);
-            gather_light(point, std_xi, &batch, walk);
+            gather_pair(point, flat_std_xi, first, min(first + GATHER_PAIRS / most, frame.light_count), &batch);
+            gather_light(point, flat_std_xi, &batch, walk);
         }
         if scene_has_environment() {
             gather_light_environment(point, &batch, walk);
@@ -292,7 +304,7 @@ fn gather_weigh(point: SurfacePoint, batch: ptr<function, GatherBatch>, walk: pt
 }
 
 // Stage 3: which of some lights reach which segments.
-fn gather_pair(point: SurfacePoint, std_xi: f32, first_light: u32, end_light: u32, batch: ptr<function, GatherBatch>) {
+fn gather_pair(point: SurfacePoint, flat_std_xi: f32, first_light: u32, end_light: u32, batch: ptr<function, GatherBatch>) {
     var spheres = 0u;
     var polygons = 0u;
     for (var i = 0u; i < (*batch).segment_count; i += 1u) {
@@ -302,7 +314,7 @@ fn gather_pair(point: SurfacePoint, std_xi: f32, first_light: u32, end_light: u3
         for (var l = first_light; l < end_light; l += 1u) {
             gather_rounds += 1u;
             let light = lights[l];
-            if counts && gather_reaches(point, view, light, std_xi) {
+            if counts && gather_reaches(point, view, light, flat_std_xi) {
                 if light.kind == LIGHT_SPHERE {
                     (*batch).pairs[spheres] = i | (l << 8u);
                     spheres += 1u;
@@ -318,13 +330,13 @@ fn gather_pair(point: SurfacePoint, std_xi: f32, first_light: u32, end_light: u3
 }
 
 // Stage 4: their light.
-fn gather_light(point: SurfacePoint, std_xi: f32, batch: ptr<function, GatherBatch>, walk: ptr<function, ScratchWalk>) {
+fn gather_light(point: SurfacePoint, flat_std_xi: f32, batch: ptr<function, GatherBatch>, walk: ptr<function, ScratchWalk>) {
     for (var i = 0u; i < (*batch).sphere_count; i += 1u) {
         gather_rounds += 1u;
         let slot = (*batch).pairs[i] & 0xffu;
         let light = lights[(*batch).pairs[i] >> 8u];
         let view = gather_view(point, scratch_segments[(*batch).segments[slot]]);
-        (*walk).sums.radiance += (*batch).shares[slot] * light.radiance * gather_sphere(point, view, light, std_xi);
+        (*walk).sums.radiance += (*batch).shares[slot] * light.radiance * gather_sphere(point, view, light, flat_std_xi);
     }
     for (var i = 0u; i < (*batch).polygon_count; i += 1u) {
         gather_rounds += 1u;
@@ -332,7 +344,7 @@ fn gather_light(point: SurfacePoint, std_xi: f32, batch: ptr<function, GatherBat
         let slot = pair & 0xffu;
         let light = lights[pair >> 8u];
         let view = gather_view(point, scratch_segments[(*batch).segments[slot]]);
-        (*walk).sums.radiance += (*batch).shares[slot] * light.radiance * gather_polygon(point, view, light, std_xi);
+        (*walk).sums.radiance += (*batch).shares[slot] * light.radiance * gather_polygon(point, view, light, flat_std_xi);
     }
 }
 

@@ -9,6 +9,12 @@ fn ggx_alpha(roughness: f32) -> f32 {
     return max(r * r, GGX_MIN_ALPHA);
 }
 
+// The perceptual roughness of a curved surface under a pixel; `turn2` is the sum of the squared turns of the normal.
+fn ggx_curved_roughness(roughness: f32, turn2: f32) -> f32 {
+    let alpha = ggx_alpha(roughness);
+    return sqrt(sqrt(min(alpha * alpha + min(turn2, 0.12), 1.0)));
+}
+
 // `h` of any length: 1 - cos^2 would cancel near the mirror.
 fn ggx_d(h: vec3f, alpha: f32) -> f32 {
     let a2 = alpha * alpha;

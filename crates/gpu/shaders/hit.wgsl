@@ -13,6 +13,23 @@ fn hit_texture(texture: vec2u, uv: vec2f, footprint: f32) -> vec4f {
     return scene_texture(texture, uv, lod);
 }
 
+// How the interpolated normal of a triangle turns along a step on its plane; `interpolated` is not yet a unit vector.
+fn hit_normal_turn(a: Vertex, b: Vertex, c: Vertex, geometric: vec3f, interpolated: vec3f, step: vec3f) -> vec3f {
+    let e1 = b.position_m - a.position_m;
+    let e2 = c.position_m - a.position_m;
+    let length2 = dot(interpolated, interpolated);
+    // Unit geometric normal over twice the area, each factor by itself within the range of single precision.
+    let twice_area = max(length(geometric), 1e-30);
+    let unit = geometric / twice_area;
+    let u = dot(cross(step, e2), unit) / twice_area;
+    let v = dot(cross(e1, step), unit) / twice_area;
+    let change = (b.normal - a.normal) * u + (c.normal - a.normal) * v;
+    if length2 < 1e-12 {
+        return vec3f(0.0);
+    }
+    return (change - interpolated * (dot(change, interpolated) / length2)) * inverseSqrt(length2);
+}
+
 // The surface that a ray of the camera sees on a triangle. `depth_m` is written beside it.
 fn hit_surface_point(triangle: u32, ray: vec3f, depth_m: ptr<function, f32>) -> SurfacePoint {
     let a = vertices[3u * triangle];
@@ -77,6 +94,11 @@ fn hit_surface_point(triangle: u32, ray: vec3f, depth_m: ptr<function, f32>) -> 
     if scene_has_texture(material.emission_texture) {
         point.emission *= hit_texture(material.emission_texture, uv, filter_side).xyz;
     }
+    let turn_x = hit_normal_turn(a, b, c, geometric, interpolated, smooth_x);
+    let turn_y = hit_normal_turn(a, b, c, geometric, interpolated, smooth_y);
+    point.turn_x = vec2f(dot(turn_x, point.axis_x), dot(turn_x, point.axis_y));
+    point.turn_y = vec2f(dot(turn_y, point.axis_x), dot(turn_y, point.axis_y));
+    point.roughness = ggx_curved_roughness(point.roughness, dot(turn_x, turn_x) + dot(turn_y, turn_y));
     point.f0 = mix(vec3f(material.dielectric_f0), base_color, metallic);
     point.fresnel_a = material.fresnel_a;
     point.diffuse = base_color * (1.0 - metallic);

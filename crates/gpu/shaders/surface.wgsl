@@ -11,6 +11,8 @@ struct SurfacePoint {
     wo: vec3f,                  // unit direction to the viewer in the local frame
     footprint_x_m: vec3f,       // one standard deviation of the pixel's filter to the right, world space
     footprint_y_m: vec3f,       // and down
+    turn_x: vec2f,              // how the smooth normal turns over each of them, in the local frame
+    turn_y: vec2f,
     f0: vec3f,
     fresnel_a: vec3f,
     diffuse: vec3f,

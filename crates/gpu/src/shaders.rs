@@ -72,7 +72,7 @@ modules! {
     /// What the shading pass adds to: group 3.
     FILM = "film" needs [GATHER];
     /// From a triangle to the surface point.
-    HIT = "hit" needs [SCENE, SURFACE, CAMERA];
+    HIT = "hit" needs [SCENE, SURFACE, CAMERA, GGX];
     /// The scratches under a footprint and their light.
     GATHER = "gather" needs [SCENE, SURFACE, BAND_ENVIRONMENT, MASK, SCRATCH_TABLE];
     /// The base under lights and environment.

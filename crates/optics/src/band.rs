@@ -76,6 +76,19 @@ pub struct BandLines {
     pub std_xi: f64,
 }
 
+/// Standard deviation of the band as a pixel sees it on a curved surface: the surface's normal turns under the footprint, and
+/// with it xi_t = (wi + wo).t by minus the normal's turn along t, times (wi + wo).N. `turn_t` is the turn of the normal along
+/// t over one standard deviation of the pixel's filter to the right and down; `cos_sum` is (wi + wo).N.
+pub fn curved_band_std(std_xi: f64, turn_t: [f64; 2], cos_sum: f64) -> f64 {
+    let turn2 = turn_t[0] * turn_t[0] + turn_t[1] * turn_t[1];
+    (std_xi * std_xi + cos_sum * cos_sum * turn2)
+        .sqrt()
+        .min(BAND_STD_MAX)
+}
+
+/// Beyond this a pixel sees light from all around, and the small-angle picture of a turning normal is void.
+pub const BAND_STD_MAX: f64 = 0.3;
+
 /// Whether a light of the given extent in xi_t meets the band at all.
 pub fn band_reaches(lowest: f64, highest: f64, std_xi: f64) -> bool {
     lowest < BAND_REACH_STD * std_xi && highest > -BAND_REACH_STD * std_xi && highest > lowest
@@ -94,7 +107,7 @@ pub fn band_lines(wo_t: f64, lowest: f64, highest: f64, std_xi: f64) -> BandLine
         };
     }
     let half_extent = 0.5 * (highest - lowest) / std_xi;
-    let steep = 1.0 - wo_t * wo_t < 32.0 * std_xi;
+    let steep = 1.0 - wo_t * wo_t < 32.0 * std_xi * wo_t.abs();
     // The tests print the errors against 2-D quadrature: below 0.7 % everywhere.
     let count = if half_extent < 3.0 || steep {
         5
@@ -292,25 +305,24 @@ pub fn edge_roots(line: BandLine, a: DVec3, b: DVec3) -> EdgeRoots {
         rising: None,
         falling: None,
     };
-    // The edge's great circle is a cos psi + e2 sin psi; its tangent component is t1 cos psi + t2 sin psi.
-    let chord = b - a;
-    let across_a = chord - a * a.dot(chord);
-    let sin_edge = across_a.length();
-    if sin_edge < 1e-9 {
+    let (beyond_a, beyond_b) = (a.x >= line.along, b.x >= line.along);
+    let (mut rises, mut falls) = (beyond_b && !beyond_a, beyond_a && !beyond_b);
+    let edge = EdgeCircle::new(a, b);
+    if beyond_a == beyond_b {
+        // Both ends on one side: two roots if the edge turns back between them, on the other side of the line; else none.
+        let turns = edge.turns(a, if beyond_a { -1.0 } else { 1.0 });
+        (rises, falls) = (turns, turns);
+    }
+    if !(rises || falls) || edge.sin2 < 1e-18 {
         return roots;
     }
-    let e2 = across_a / sin_edge;
+    // The edge's great circle is a cos psi + e2 sin psi; its tangent component is t1 cos psi + t2 sin psi.
+    let e2 = edge.across / edge.sin2.sqrt();
     let (t1, t2) = (a.x, e2.x);
     let h2 = t1 * t1 + t2 * t2;
     let s2 = h2 - line.along * line.along;
-    let (beyond_a, beyond_b) = (a.x >= line.along, b.x >= line.along);
-    let (mut rises, mut falls) = (beyond_b && !beyond_a, beyond_a && !beyond_b);
-    if beyond_a == beyond_b {
-        // Both ends on one side: two roots if the edge turns back between them, on the other side of the line; else none.
-        let turn = if beyond_a { -1.0 } else { 1.0 };
-        let slope_b = t2 * a.dot(b) - t1 * sin_edge;
-        let turns = turn * t2 > 0.0 && turn * slope_b < 0.0 && s2 > 0.0;
-        (rises, falls) = (turns, turns);
+    if rises && falls && s2 <= 0.0 {
+        return roots;
     }
     let s = s2.max(0.0).sqrt();
     let h2 = h2.max(1e-24);
@@ -327,21 +339,44 @@ pub fn edge_roots(line: BandLine, a: DVec3, b: DVec3) -> EdgeRoots {
     roots
 }
 
+/// The great circle of an edge.
+struct EdgeCircle {
+    /// Part of b - a across a; as long as the sine of the edge's angle.
+    across: DVec3,
+    cos: f64,
+    sin2: f64,
+}
+
+impl EdgeCircle {
+    fn new(a: DVec3, b: DVec3) -> Self {
+        let chord = b - a;
+        let across = chord - a * a.dot(chord);
+        Self {
+            across,
+            cos: a.dot(b),
+            sin2: across.length_squared(),
+        }
+    }
+
+    /// Whether the tangent component has its greatest value (`sign` 1) or its least (-1) between the ends.
+    fn turns(&self, a: DVec3, sign: f64) -> bool {
+        sign * self.across.x > 0.0 && sign * (self.across.x * self.cos - a.x * self.sin2) < 0.0
+    }
+}
+
 /// Least and greatest tangent component along the edge from `a` to `b` (unit vectors): at its ends, or where it turns.
 pub fn edge_band_extent(a: DVec3, b: DVec3) -> (f64, f64) {
-    let chord = b - a;
-    let across_a = chord - a * a.dot(chord);
-    let sin_edge = across_a.length();
+    let edge = EdgeCircle::new(a, b);
     let (mut lowest, mut highest) = (a.x.min(b.x), a.x.max(b.x));
-    if sin_edge > 1e-9 {
-        let t2 = across_a.x / sin_edge;
-        let slope_b = t2 * a.dot(b) - a.x * sin_edge;
-        let extreme = (a.x * a.x + t2 * t2).sqrt();
-        if t2 > 0.0 && slope_b < 0.0 {
-            highest = extreme;
-        } else if t2 < 0.0 && slope_b > 0.0 {
-            lowest = -extreme;
-        }
+    let extreme = || {
+        (a.x * a.x + edge.across.x * edge.across.x / edge.sin2.max(1e-18))
+            .sqrt()
+            .min(1.0)
+    };
+    if edge.turns(a, 1.0) {
+        highest = extreme();
+    } else if edge.turns(a, -1.0) {
+        lowest = -extreme();
     }
     (lowest, highest)
 }
@@ -446,7 +481,7 @@ impl PolygonView<'_> {
             let t = antiderivative(q);
             (0..C).for_each(|c| sum[c] += sign * t[c]);
         };
-        let (down, mut winding, mut dips) = (line_down(line), 0.0, false);
+        let (mut corner_min, mut corner_max) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         for (a, b) in self.edges(frame) {
             let roots = edge_roots(line, a, b);
             if let Some(q) = roots.rising {
@@ -455,18 +490,20 @@ impl PolygonView<'_> {
             if let Some(q) = roots.falling {
                 add(-self.facing, q);
             }
-            dips |= a.z < 0.0;
+            (corner_min, corner_max) = (corner_min.min(a), corner_max.max(a));
         }
-        if dips {
-            winding = self
+        // Straight down may lie in a light with corners below the horizon and on both sides of the scratch.
+        if corner_min.z < 0.0 && corner_min.y < 0.0 && corner_max.y > 0.0 {
+            let down = line_down(line);
+            let winding: f64 = self
                 .edges(frame)
                 .map(|(a, b)| edge_winding(down, a, b))
                 .sum();
-        }
-        // The opposite direction winds as well; only a polygon in front of the ray counts.
-        if winding.abs() > PI && down.dot(frame.band_from_surface(self.away)) > 0.0 {
-            add(self.facing.abs(), line.q_start());
-            add(-self.facing.abs(), line.q_end());
+            // The opposite direction winds as well; only a polygon in front of the ray counts.
+            if winding.abs() > PI && down.dot(frame.band_from_surface(self.away)) > 0.0 {
+                add(self.facing.abs(), line.q_start());
+                add(-self.facing.abs(), line.q_end());
+            }
         }
         sum
     }

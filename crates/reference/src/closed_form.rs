@@ -4,6 +4,7 @@
 //! [`base`], film.
 
 use crate::light_view::LightViews;
+use crate::silhouettes::Silhouettes;
 use crate::surface::SurfacePoint;
 use crate::{base, scratches, surface};
 use glam::{DVec2, DVec3};
@@ -18,7 +19,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// How to render, beside what the scene says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RenderOptions {
-    /// Jittered samples a pixel; 1 shoots through the centre.
+    /// Jittered samples of a pixel on an edge or a crease; all other pixels, and all of them for 1, take one through the
+    /// centre.
     pub samples: u32,
 }
 
@@ -63,7 +65,7 @@ pub fn render(scene: &Scene, options: &RenderOptions, progress: &(dyn Fn(f64) + 
     let size = scene.render.size_px;
     let camera = scene.camera.frame(size);
     let samples = options.samples.max(1);
-    let footprint_std_px = scene.render.footprint_std_px(samples);
+    let silhouettes = (samples > 1).then(|| Silhouettes::new(&prepared.triangles, &camera, size));
     let done = AtomicUsize::new(0);
     let mut image = Image::new(size);
     let width = size[0] as usize;
@@ -78,6 +80,9 @@ pub fn render(scene: &Scene, options: &RenderOptions, progress: &(dyn Fn(f64) + 
         || LightViews::new(scene),
         |views, (y, (base, scratches, density, depth_m, normal))| {
             for x in 0..width {
+                let smooth = silhouettes.as_ref().is_some_and(|s| s.is_smooth(x, y));
+                let samples = if smooth { 1 } else { samples };
+                let footprint_std_px = scene.render.footprint_std_px(samples);
                 let mut sum = Sample::default();
                 for i in 0..samples {
                     let pixel =

@@ -4,4 +4,5 @@ mod base;
 pub mod closed_form;
 mod light_view;
 mod scratches;
+mod silhouettes;
 mod surface;

@@ -7,7 +7,8 @@ use glam::{DVec2, DVec3};
 use hairline_index::IndexedSegment;
 use hairline_index::scratch_index::{FACING_MIN_COS, REACH_STD};
 use hairline_optics::band::{
-    BandFrame, BandLine, BandLines, band_lines, band_reaches, sphere_band_extent, sphere_chord,
+    BandFrame, BandLine, BandLines, band_lines, band_reaches, curved_band_std, sphere_band_extent,
+    sphere_chord,
 };
 use hairline_optics::band_environment::{ENVIRONMENT_CELLS, environment_cell};
 use hairline_optics::footprint::{Footprint, ScratchShare, scratch_share};
@@ -117,13 +118,18 @@ fn scratch_radiance(
     point: &SurfacePoint,
 ) -> DVec3 {
     let (wo, frame) = (view.wo, view.frame);
-    let std_xi = band_std(point.coherence_um, WAVELENGTH_MEAN_NM);
+    let flat_std_xi = band_std(point.coherence_um, WAVELENGTH_MEAN_NM);
+    let turn_t = point
+        .normal_turns
+        .map(|turn| turn.truncate().dot(frame.tangent));
+    let std_towards = |axis: DVec3| curved_band_std(flat_std_xi, turn_t, (wo.z + axis.z).max(0.0));
     let antiderivative = |q: f64| table.scratch_table(view.width_um * q, view.depth_nm);
     let mut sum = DVec3::ZERO;
     for light in &views.views {
         match light {
             LightView::Sphere { cap, radiance } => {
                 let cap = cap.turned(frame);
+                let std_xi = std_towards(cap.axis);
                 let (lowest, highest) = sphere_band_extent(wo, cap);
                 let lines = band_lines(wo.x, lowest, highest, std_xi);
                 sum += *radiance
@@ -139,6 +145,7 @@ fn scratch_radiance(
                 radiance,
             } => {
                 // Most scratches are dark to most lights; the bound tells it without a look at the edges.
+                let std_xi = std_towards(bound.axis);
                 let (lowest, highest) = sphere_band_extent(wo, bound.turned(frame));
                 if !band_reaches(lowest, highest, std_xi) {
                     continue;

@@ -4,6 +4,7 @@ use crate::closed_form::Prepared;
 use glam::{DVec2, DVec3};
 use hairline_index::Hit;
 use hairline_optics::fresnel::FresnelRgb;
+use hairline_optics::ggx::ggx_curved_roughness;
 use hairline_scene::{CameraFrame, Mesh, Texture};
 
 /// A shading point. Its local frame has z along the shading normal and the viewer in the x-z plane.
@@ -19,6 +20,8 @@ pub(crate) struct SurfacePoint {
     pub wo: DVec3,
     /// How the point moves by one standard deviation of the pixel's filter to the right and down, world space.
     pub footprint_axes_m: [DVec3; 2],
+    /// How the smooth normal turns over each of them, in the local frame.
+    pub normal_turns: [DVec3; 2],
     pub fresnel: FresnelRgb,
     /// Albedo of the diffuse body.
     pub diffuse: DVec3,
@@ -114,6 +117,12 @@ pub(crate) fn surface_point(
         metallic *= texel.z;
     }
     let emission = texture(material.emission_texture).map_or(DVec3::ONE, |t| t.truncate());
+    let normal_turns = {
+        let normals = triangle.map(|i| mesh.normals[i as usize].as_dvec3());
+        axes.map(|axis| normal_turn(&corners, &normals, geometric, interpolated, axis))
+    };
+    let turn2 = normal_turns[0].length_squared() + normal_turns[1].length_squared();
+    let roughness = ggx_curved_roughness(roughness, turn2);
     let f0 = DVec3::splat(optics.dielectric_f0).lerp(base_color, metallic);
     let cos = normal.dot(to_viewer);
     SurfacePoint {
@@ -125,6 +134,7 @@ pub(crate) fn surface_point(
         footprint_axes_m: camera
             .footprint_axes(ray, depth_m, normal)
             .map(|a| a * footprint_std_px),
+        normal_turns: normal_turns.map(|turn| DVec3::new(turn.dot(axis_x), turn.dot(axis_y), 0.0)),
         fresnel: FresnelRgb {
             f0: f0.to_array(),
             a: optics.fresnel_a,
@@ -135,6 +145,28 @@ pub(crate) fn surface_point(
         coherence_um: material.coherence_um,
         table: optics.table as usize,
     }
+}
+
+/// How the interpolated normal of a triangle turns along a step on its plane. `geometric` is the cross product of the first
+/// two edges, `interpolated` the normal before it was made a unit vector.
+fn normal_turn(
+    corners: &[DVec3; 3],
+    normals: &[DVec3; 3],
+    geometric: DVec3,
+    interpolated: DVec3,
+    step: DVec3,
+) -> DVec3 {
+    let (e1, e2) = (corners[1] - corners[0], corners[2] - corners[0]);
+    let area2 = geometric.length_squared();
+    // Barycentric coordinates of the step.
+    let u = step.cross(e2).dot(geometric) / area2;
+    let v = e1.cross(step).dot(geometric) / area2;
+    let change = (normals[1] - normals[0]) * u + (normals[2] - normals[0]) * v;
+    let length2 = interpolated.length_squared();
+    if length2 < 1e-12 {
+        return DVec3::ZERO;
+    }
+    (change - interpolated * (change.dot(interpolated) / length2)) / length2.sqrt()
 }
 
 /// Bends a normal that the viewer cannot see until its cosine is [`MIN_VIEW_COS`].
