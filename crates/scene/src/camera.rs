@@ -68,14 +68,16 @@ impl CameraFrame {
 pub const MIN_FOOTPRINT_COS: f64 = 0.035;
 
 /// Offset of sample `i` of `count` from the pixel's centre, within half a pixel: R. Roberts' R2 sequence, whose points
-/// cover the square evenly for any count. A single sample sits in the centre.
+/// cover the square evenly for any count, each with its mirror image about the centre. So no count shifts the picture: a
+/// pixel on an edge, averaged over its samples, fits its neighbour that needs only one.
 pub fn pixel_jitter(i: u32, count: u32) -> DVec2 {
-    if count <= 1 {
+    if count % 2 == 1 && i + 1 == count {
         return DVec2::ZERO;
     }
     // Reciprocals of the plastic number and of its square.
     let step = DVec2::new(0.754_877_666_246_692_7, 0.569_840_290_998_053_2);
-    (step * i as f64 + 0.5).fract() - 0.5
+    let point = (step * f64::from(i / 2 + 1) + 0.5).fract() - 0.5;
+    if i % 2 == 0 { point } else { -point }
 }
 
 impl RenderSettings {
@@ -144,14 +146,25 @@ mod tests {
 
     #[test]
     fn jitter_covers_the_pixel_and_completes_the_filter() {
-        for count in [4, 16, 64] {
+        assert_eq!(pixel_jitter(0, 1), DVec2::ZERO);
+        for count in [2, 3, 4, 5, 16, 63, 64] {
             let points: Vec<DVec2> = (0..count).map(|i| pixel_jitter(i, count)).collect();
-            let mean: DVec2 = points.iter().sum::<DVec2>() / count as f64;
-            assert!(
-                mean.abs().max_element() < 1.0 / (count as f64).sqrt() * 0.5,
-                "{count}: {mean}"
-            );
+            let mean: DVec2 = points.iter().sum::<DVec2>() / f64::from(count);
+            assert!(mean.abs().max_element() < 1e-15, "{count}: {mean}");
             assert!(points.iter().all(|p| p.abs().max_element() <= 0.5));
+            // Evenly: every row and column of a grid has its share, within two.
+            let cells = f64::from(count).sqrt().floor();
+            for axis in [DVec2::X, DVec2::Y] {
+                let mut counts = vec![0; cells as usize];
+                for point in &points {
+                    counts[((point.dot(axis) + 0.5) * cells).min(cells - 1.0) as usize] += 1;
+                }
+                let share = f64::from(count) / cells;
+                assert!(
+                    counts.iter().all(|n| (f64::from(*n) - share).abs() <= 2.0),
+                    "{count}: {counts:?}"
+                );
+            }
         }
         let settings = RenderSettings {
             size_px: [1, 1],
