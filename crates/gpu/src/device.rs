@@ -106,12 +106,30 @@ impl std::fmt::Display for Adapter {
     }
 }
 
-/// All adapters of this machine, the ones to prefer first. In a browser: the one that it lends.
+/// The adapters of this machine, the ones to prefer first. In a browser: the one that it lends.
 ///
-/// The environment variable `WGPU_BACKEND` narrows the choice ("vulkan", "gl", ...).
+/// GL is asked only where nothing newer reaches a GPU: the same card is nearly always there by a newer interface too, with
+/// less overhead. The environment variable `WGPU_BACKEND` narrows the choice ("vulkan", "gl", ...).
 pub async fn adapters() -> Vec<Adapter> {
-    let instance =
-        wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
+    let mut adapters = adapters_by(!wgpu::Backends::GL).await;
+    if adapters
+        .iter()
+        .all(|a| a.kind == AdapterKind::Software || a.shortcoming.is_some())
+    {
+        adapters.extend(adapters_by(wgpu::Backends::GL).await);
+    }
+    adapters.sort_by_key(|adapter| (adapter.kind, adapter.backend == "gl"));
+    adapters
+}
+
+/// The adapters that these of the environment's interfaces reach.
+async fn adapters_by(backends: wgpu::Backends) -> Vec<Adapter> {
+    let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle_from_env();
+    descriptor.backends &= backends;
+    if descriptor.backends.is_empty() {
+        return Vec::new();
+    }
+    let instance = wgpu::Instance::new(descriptor);
     #[cfg(not(target_arch = "wasm32"))]
     let found = instance.enumerate_adapters(wgpu::Backends::all()).await;
     #[cfg(target_arch = "wasm32")]
@@ -120,11 +138,7 @@ pub async fn adapters() -> Vec<Adapter> {
         .await
         .into_iter()
         .collect::<Vec<_>>();
-
-    let mut adapters: Vec<_> = found.into_iter().map(Adapter::new).collect();
-    // GL comes last: the same card is nearly always there by a newer interface too, with less overhead.
-    adapters.sort_by_key(|adapter| (adapter.kind, adapter.backend == "gl"));
-    adapters
+    found.into_iter().map(Adapter::new).collect()
 }
 
 impl Adapter {

@@ -124,24 +124,44 @@ impl Renderer {
         options: &RenderOptions,
         progress: &dyn Fn(f64),
     ) -> Result<Image, Error> {
-        let [width, height] = scene.render.size_px;
+        let rows = 0..scene.render.size_px[1];
+        self.render_rows(scene, uploaded, options, rows, progress)
+            .await
+    }
+
+    /// Renders some rows of the picture, which is as high as they are many.
+    ///
+    /// # Errors
+    /// As [`Self::render`].
+    pub async fn render_rows(
+        &mut self,
+        scene: &Scene,
+        uploaded: &GpuScene,
+        options: &RenderOptions,
+        rows: Range<u32>,
+        progress: &dyn Fn(f64),
+    ) -> Result<Image, Error> {
+        let width = scene.render.size_px[0];
+        let height = rows.len() as u32;
         let band = (options.submission_px / width.max(1))
-            .clamp(1, Film::rows_max(&self.gpu, width).max(1))
-            .min(height);
+            .min(Film::rows_max(&self.gpu, width))
+            .min(height)
+            .max(1);
         let samples = options.samples.max(1);
         let mut image = Image::new([width, height]);
         for first in (0..height).step_by(band as usize) {
-            let rows = first..(first + band).min(height);
+            let in_image = first..(first + band).min(height);
+            let in_picture = rows.start + in_image.start..rows.start + in_image.end;
             for sample in 0..samples {
-                self.submit(scene, uploaded, sample, samples, band, &rows)
+                self.submit(scene, uploaded, sample, samples, band, &in_picture)
                     .await?;
                 self.gpu.finished().await?;
                 let done = f64::from(first)
-                    + f64::from(rows.end - first) * f64::from(sample + 1) / f64::from(samples);
+                    + f64::from(in_image.end - first) * f64::from(sample + 1) / f64::from(samples);
                 progress(done / f64::from(height));
             }
             let film = self.take_film(width, band).await?;
-            film.read(&self.gpu, &mut image, &rows).await?;
+            film.read(&self.gpu, &mut image, &in_image).await?;
             self.film = Some(film);
         }
         Ok(image)

@@ -129,6 +129,42 @@ fn bands_join_to_the_same_picture() {
 }
 
 #[test]
+fn some_rows_are_the_pictures() {
+    let Some(gpu) = test_gpu() else { return };
+    let scene = scene(PLATE);
+    let (index, tables) = (ScratchIndex::build(&scene), ScratchTables::new(&scene));
+    let options = RenderOptions {
+        submission_px: 3 * 97,
+        ..Default::default()
+    };
+    let rows = 20..28;
+    let (whole, some) = gpu
+        .block_on(async {
+            let mut renderer = Renderer::new(gpu).await?;
+            let uploaded = renderer.upload(&scene, &index, &tables).await?;
+            let some = renderer
+                .render_rows(&scene, &uploaded, &options, rows, &|_| {})
+                .await?;
+            let whole = renderer
+                .render(&scene, &uploaded, &options, &|_| {})
+                .await?;
+            Ok::<_, Error>((whole, some))
+        })
+        .unwrap();
+    assert_eq!(some.size_px, [97, 8]);
+    assert!(some.depth_m.iter().any(|depth| *depth > 0.0));
+    let depths = || some.depth_m.iter().zip(&whole.depth_m[20 * 97..]);
+    // A rasteriser may round an edge of the plate differently where bands begin elsewhere.
+    let at_the_edge = |(a, b): &(&f32, &f32)| (**a == 0.0) != (**b == 0.0);
+    assert!(depths().filter(at_the_edge).count() <= 4);
+    assert!(
+        depths()
+            .filter(|pair| !at_the_edge(pair))
+            .all(|(a, b)| (a - b).abs() < 1e-6)
+    );
+}
+
+#[test]
 fn samples_smooth_the_rim() {
     let Some(gpu) = test_gpu() else { return };
     let mut scene = scene(PLATE);
@@ -486,4 +522,23 @@ fn a_device_lost_between_two_pictures_is_an_error() {
         gpu.block_on(Renderer::new(&gpu)).err(),
         Some(Error::Lost { .. })
     ));
+}
+
+#[test]
+fn a_device_lost_in_the_middle_is_an_error() {
+    if test_gpu().is_none() {
+        return;
+    }
+    let gpu = headless::open(&AdapterRequest::default()).unwrap();
+    let options = RenderOptions {
+        samples: 2,
+        submission_px: 10 * 97,
+    };
+    let error = headless::render(&gpu, &scene(PLATE), &options, &|share| {
+        if share > 0.5 {
+            gpu.device.destroy();
+        }
+    })
+    .unwrap_err();
+    assert!(matches!(error, Error::Lost { .. }), "{error}");
 }
