@@ -14,6 +14,7 @@ use hairline_optics::mask::ScratchSums;
 use hairline_scene::camera::pixel_jitter;
 use hairline_scene::{CameraFrame, Scene, ScratchTables};
 use rayon::prelude::*;
+use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// How to render, beside what the scene says.
@@ -46,6 +47,83 @@ impl<'a> Prepared<'a> {
             tables,
         }
     }
+
+    /// The tree over the scratches.
+    pub fn scratches(&self) -> &ScratchIndex {
+        &self.scratches
+    }
+
+    /// The tables of the scratches' profiles.
+    pub fn tables(&self) -> &ScratchTables {
+        &self.tables
+    }
+
+    /// Renders the picture. `progress` is told the share that is done, from any thread.
+    pub fn render(&self, options: &RenderOptions, progress: &(dyn Fn(f64) + Sync)) -> Image {
+        self.render_rows(options, 0..self.scene.render.size_px[1], progress)
+    }
+
+    /// Renders some rows of the picture; the image is as high as they are many. `progress` is told the share that is
+    /// done, from any thread.
+    pub fn render_rows(
+        &self,
+        options: &RenderOptions,
+        rows: Range<u32>,
+        progress: &(dyn Fn(f64) + Sync),
+    ) -> Image {
+        let scene = self.scene;
+        let [width, height] = [scene.render.size_px[0], rows.len() as u32];
+        let camera = scene.camera.frame(scene.render.size_px);
+        let samples = options.samples.max(1);
+        let silhouettes = (samples > 1)
+            .then(|| Silhouettes::new(&self.triangles, &camera, scene.render.size_px, &rows));
+        let done = AtomicUsize::new(0);
+        let mut image = Image::new([width, height]);
+        let width = width as usize;
+        let layers = (
+            image.base.par_chunks_mut(width),
+            image.scratches.par_chunks_mut(width),
+            image.density.par_chunks_mut(width),
+            image.depth_m.par_chunks_mut(width),
+            image.normal.par_chunks_mut(width),
+        );
+        layers.into_par_iter().enumerate().for_each_init(
+            || LightViews::new(scene),
+            |views, (row, (base, scratches, density, depth_m, normal))| {
+                let y = rows.start as usize + row;
+                for x in 0..width {
+                    let smooth = silhouettes.as_ref().is_some_and(|s| s.is_smooth(x, y));
+                    let samples = if smooth { 1 } else { samples };
+                    let footprint_std_px = scene.render.footprint_std_px(samples);
+                    let mut sum = Sample::default();
+                    for i in 0..samples {
+                        let pixel =
+                            DVec2::new(x as f64 + 0.5, y as f64 + 0.5) + pixel_jitter(i, samples);
+                        let sample = shade_pixel(self, &camera, footprint_std_px, pixel, views);
+                        sum.base += sample.base;
+                        sum.scratches += sample.scratches;
+                        sum.density += sample.density;
+                        sum.normal += sample.normal;
+                        sum.depth_m += sample.depth_m;
+                        sum.coverage += sample.coverage;
+                    }
+                    let mean = |v: DVec3| (v / samples as f64).as_vec3().to_array();
+                    base[x] = mean(sum.base);
+                    scratches[x] = mean(sum.scratches);
+                    density[x] = mean(sum.density);
+                    normal[x] = sum.normal.normalize_or_zero().as_vec3().to_array();
+                    depth_m[x] = if sum.coverage > 0.0 {
+                        (sum.depth_m / sum.coverage) as f32
+                    } else {
+                        0.0
+                    };
+                }
+                let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+                progress(done as f64 / f64::from(height));
+            },
+        );
+        image
+    }
 }
 
 /// What one sample adds to the film.
@@ -61,55 +139,7 @@ struct Sample {
 
 /// Renders `scene` at its own size. `progress` is told the share that is done, from any thread.
 pub fn render(scene: &Scene, options: &RenderOptions, progress: &(dyn Fn(f64) + Sync)) -> Image {
-    let prepared = Prepared::new(scene);
-    let size = scene.render.size_px;
-    let camera = scene.camera.frame(size);
-    let samples = options.samples.max(1);
-    let silhouettes = (samples > 1).then(|| Silhouettes::new(&prepared.triangles, &camera, size));
-    let done = AtomicUsize::new(0);
-    let mut image = Image::new(size);
-    let width = size[0] as usize;
-    let rows = (
-        image.base.par_chunks_mut(width),
-        image.scratches.par_chunks_mut(width),
-        image.density.par_chunks_mut(width),
-        image.depth_m.par_chunks_mut(width),
-        image.normal.par_chunks_mut(width),
-    );
-    rows.into_par_iter().enumerate().for_each_init(
-        || LightViews::new(scene),
-        |views, (y, (base, scratches, density, depth_m, normal))| {
-            for x in 0..width {
-                let smooth = silhouettes.as_ref().is_some_and(|s| s.is_smooth(x, y));
-                let samples = if smooth { 1 } else { samples };
-                let footprint_std_px = scene.render.footprint_std_px(samples);
-                let mut sum = Sample::default();
-                for i in 0..samples {
-                    let pixel =
-                        DVec2::new(x as f64 + 0.5, y as f64 + 0.5) + pixel_jitter(i, samples);
-                    let sample = shade_pixel(&prepared, &camera, footprint_std_px, pixel, views);
-                    sum.base += sample.base;
-                    sum.scratches += sample.scratches;
-                    sum.density += sample.density;
-                    sum.normal += sample.normal;
-                    sum.depth_m += sample.depth_m;
-                    sum.coverage += sample.coverage;
-                }
-                let mean = |v: DVec3| (v / samples as f64).as_vec3().to_array();
-                base[x] = mean(sum.base);
-                scratches[x] = mean(sum.scratches);
-                density[x] = mean(sum.density);
-                normal[x] = sum.normal.normalize_or_zero().as_vec3().to_array();
-                depth_m[x] = if sum.coverage > 0.0 {
-                    (sum.depth_m / sum.coverage) as f32
-                } else {
-                    0.0
-                };
-            }
-            progress((done.fetch_add(1, Ordering::Relaxed) + 1) as f64 / size[1] as f64);
-        },
-    );
-    image
+    Prepared::new(scene).render(options, progress)
 }
 
 /// One ray through a point of the picture.
@@ -160,5 +190,34 @@ fn shade_surface(
         normal: point.normal,
         depth_m,
         coverage: 1.0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_are_the_pictures() {
+        let scene = Scene::from_toml(
+            "[camera]\nposition_m = [0.0, -0.3, 0.3]\ntarget_m = [0.0, 0.0, 0.0]\nup = [0.0, 0.0, 1.0]\n\
+             [render]\nsize_px = [60, 40]\n[[material]]\nname = \"m\"\nkind = \"mirror\"\n\
+             [[object]]\nname = \"o\"\nmaterial = \"m\"\nshape = { disk = { radius_m = 0.08 } }\n\
+             [[scratches]]\nobject = \"o\"\npattern = \"random\"\ncount = 500\nlength_m = 0.02\nwidth_um = 2.0\n\
+             depth_nm = 200.0\n[[light]]\nkind = \"sphere\"\ncenter_m = [0.0, 0.3, 0.3]\nradius_m = 0.05\nradiance = 9.0\n",
+            "test",
+            ".",
+        )
+        .unwrap_or_else(|error| panic!("{error}"));
+        let options = RenderOptions { samples: 3 };
+        let prepared = Prepared::new(&scene);
+        let whole = prepared.render(&options, &|_| {});
+        for rows in [0..1, 0..7, 7..24, 39..40] {
+            let pixels = 60 * rows.start as usize..60 * rows.end as usize;
+            let some = prepared.render_rows(&options, rows, &|_| {});
+            assert_eq!(some.scratches, whole.scratches[pixels.clone()]);
+            assert_eq!(some.base, whole.base[pixels.clone()]);
+            assert_eq!(some.depth_m, whole.depth_m[pixels]);
+        }
     }
 }

@@ -8,11 +8,14 @@ use glam::DVec2;
 use hairline_index::TriangleIndex;
 use hairline_scene::CameraFrame;
 use rayon::prelude::*;
+use std::ops::Range;
 
-/// What the centres of all pixels see.
+/// What the centres of the pixels in some rows, and in the row beyond at either end, see.
 pub(crate) struct Silhouettes {
     /// Object and reciprocal of the depth along the view axis, row by row; (u32::MAX, 0) for nothing.
     seen: Vec<(u32, f64)>,
+    /// The row that `seen` begins with.
+    first: usize,
     size_px: [usize; 2],
     /// How much the direction changes from pixel to pixel.
     per_px: f64,
@@ -23,9 +26,16 @@ pub(crate) struct Silhouettes {
 const CREASE_PX: f64 = 0.2;
 
 impl Silhouettes {
-    pub fn new(triangles: &TriangleIndex, camera: &CameraFrame, size_px: [u32; 2]) -> Self {
+    pub fn new(
+        triangles: &TriangleIndex,
+        camera: &CameraFrame,
+        size_px: [u32; 2],
+        rows: &Range<u32>,
+    ) -> Self {
         let [width, height] = size_px.map(|n| n as usize);
-        let seen = (0..width * height)
+        let first = (rows.start as usize).saturating_sub(1);
+        let end = (rows.end as usize + 1).min(height);
+        let seen = (first * width..end * width)
             .into_par_iter()
             .map(|i| {
                 let ray = camera.camera_ray(DVec2::new(
@@ -40,6 +50,7 @@ impl Silhouettes {
             .collect();
         Self {
             seen,
+            first,
             size_px: [width, height],
             per_px: camera.per_px_x.length(),
         }
@@ -48,7 +59,9 @@ impl Silhouettes {
     /// Whether one sample is enough.
     pub fn is_smooth(&self, x: usize, y: usize) -> bool {
         let [width, height] = self.size_px;
-        let at = |x: usize, y: usize| self.seen[y.min(height - 1) * width + x.min(width - 1)];
+        let at = |x: usize, y: usize| {
+            self.seen[(y.min(height - 1) - self.first) * width + x.min(width - 1)]
+        };
         let (object, middle) = at(x, y);
         let (left, up) = (x.saturating_sub(1), y.saturating_sub(1));
         let neighbours = [
@@ -84,6 +97,7 @@ mod tests {
             &TriangleIndex::build(&scene),
             &scene.camera.frame(size_px),
             size_px,
+            &(0..200),
         );
         let rough = (0..200 * 200)
             .filter(|i| !silhouettes.is_smooth(i % 200, i / 200))
