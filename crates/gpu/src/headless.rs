@@ -2,6 +2,7 @@
 //! browser has an event loop for this, and never calls it.
 
 use std::future::Future;
+use std::io::Write;
 use std::pin::pin;
 use std::sync::OnceLock;
 use std::task::{Context, Poll, Waker};
@@ -83,11 +84,18 @@ pub fn test_gpu() -> Option<&'static Gpu> {
             panic!("HAIRLINE_REQUIRE_GPU is set, but {error}")
         }
         Err(error) => {
-            let thread = std::thread::current();
-            eprintln!("skipped: {}: {error}", thread.name().unwrap_or("a test"));
+            skip(&error.to_string());
             None
         }
     }
+}
+
+/// Says on stderr that the test of this thread is skipped.
+pub fn skip(why: &str) {
+    let thread = std::thread::current();
+    let test = thread.name().unwrap_or("a test");
+    // Not eprintln: the test harness hides what it prints unless the test fails.
+    let _ = writeln!(std::io::stderr(), "skipped: {test}: {why}");
 }
 
 /// GL is left out: its context serves one thread at a time, and tests run on many.

@@ -1,6 +1,7 @@
 //! Files: what is written reads back, and what cannot be written leaves nothing behind.
 
 use std::fs;
+use std::io::Write;
 use std::path::Path;
 
 use hairline_image::{Display, Error, Format, Image, Output, Picture, exr_file, output, png};
@@ -282,7 +283,12 @@ fn a_read_only_file_is_respected() {
     fs::write(&path, b"old").unwrap();
     fs::set_permissions(&path, fs::Permissions::from_mode(0o444)).unwrap();
     if fs::OpenOptions::new().write(true).open(&path).is_ok() {
-        println!("skipped: this user may write read-only files");
+        // Not eprintln: the test harness hides what it prints unless the test fails.
+        let why = "this user may write read-only files";
+        let _ = writeln!(
+            std::io::stderr(),
+            "skipped: a_read_only_file_is_respected: {why}"
+        );
         return;
     }
     let error = Output::check(&path).unwrap_err().to_string();

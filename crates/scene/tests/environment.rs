@@ -1,10 +1,13 @@
 //! Environment maps: conventions, energy, prefiltering against quadrature, and files that are no maps.
 
+mod common;
+
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Instant;
 
+use common::asset;
 use glam::{DVec2, DVec3};
 use hairline_image::{Display, Output, Picture};
 use hairline_scene::Environment;
@@ -287,17 +290,6 @@ fn bright_maps_keep_their_radiance() {
         // Eleven bits, or less where dividing by 64 made half floats subnormal.
         assert!((got / want - 1.0).abs() < 5e-4, "{radiance}");
     }
-}
-
-fn asset(name: &str) -> Option<PathBuf> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("../../../shared/assets")
-        .join(name);
-    if !path.is_file() {
-        println!("skipped: no {name}");
-        return None;
-    }
-    Some(path)
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! What several tests share: scene files and glTF files made in code.
 #![allow(dead_code, reason = "each test file uses a part")]
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// A camera, a material called "steel", and what is given.
@@ -39,7 +40,13 @@ pub fn asset(name: &str) -> Option<PathBuf> {
     if path.exists() {
         return Some(path);
     }
-    eprintln!("SKIPPED: there is no {}", path.display());
+    let thread = std::thread::current();
+    let test = thread.name().unwrap_or("a test");
+    // Not eprintln: the test harness hides what it prints unless the test fails.
+    let _ = writeln!(
+        std::io::stderr(),
+        "skipped: {test}: no {name} in shared/assets"
+    );
     None
 }
 
