@@ -8,12 +8,14 @@ mod failure;
 mod info;
 mod progress;
 mod render;
+mod trial;
 
 use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser};
 
 fn main() -> ExitCode {
+    quiet_the_search_for_wayland();
     let cli = cli::Cli::parse();
     let result = match &cli.command {
         Some(cli::Command::Render(arguments)) => render::run(arguments),
@@ -27,6 +29,17 @@ fn main() -> ExitCode {
         Err(failure) => {
             eprintln!("error: {failure}");
             failure.exit_code()
+        }
+    }
+}
+
+/// Mesa's Vulkan drivers look for a Wayland display, and complain on stderr on machines that have none. With a folder
+/// to look in, they find nothing there and are quiet.
+fn quiet_the_search_for_wayland() {
+    if cfg!(target_os = "linux") && std::env::var_os("XDG_RUNTIME_DIR").is_none() {
+        #[expect(unsafe_code, reason = "sound at the start, while there is one thread")]
+        unsafe {
+            std::env::set_var("XDG_RUNTIME_DIR", "/nonexistent");
         }
     }
 }

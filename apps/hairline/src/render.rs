@@ -16,8 +16,8 @@ use crate::progress::Progress;
 pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
     // Before the work: nobody should wait for a picture that then has no place to go.
     let output = Output::check(&output_path(arguments))?;
-    let mut scene = load(arguments)?;
-    let image = backend::render(&mut scene, arguments.backend, arguments.samples)?;
+    let scene = load(arguments)?;
+    let image = backend::render(&scene, arguments.backend, arguments.samples)?;
     let display = Display {
         exposure_ev: scene.camera.exposure_ev,
         tone_map: scene.render.tone_map,

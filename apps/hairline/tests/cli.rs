@@ -225,51 +225,111 @@ fn flags_change_the_picture() {
     );
 }
 
+/// What a machine without graphics drivers has in its environment, in effect.
+const NO_DRIVERS: [(&str, &str); 3] = [
+    ("VK_ICD_FILENAMES", "/nonexistent"),
+    ("VK_DRIVER_FILES", "/nonexistent"),
+    ("__EGL_VENDOR_LIBRARY_FILENAMES", "/nonexistent"),
+];
+
+/// Runs on a machine without a display, and says what is on stderr.
+fn stderr_without_display<'a>(
+    folder: &Path,
+    arguments: &str,
+    environment: impl IntoIterator<Item = (&'a str, &'a str)>,
+    exit_code: i32,
+) -> String {
+    let assert = Command::cargo_bin("hairline")
+        .unwrap()
+        .current_dir(folder)
+        .env_remove("XDG_RUNTIME_DIR")
+        .env_remove("WAYLAND_DISPLAY")
+        .env_remove("DISPLAY")
+        .envs(environment)
+        .args(arguments.split_whitespace())
+        .assert()
+        .code(exit_code);
+    stderr_of(&assert)
+}
+
 #[test]
-fn auto_says_what_rendered() {
+fn auto_says_what_rendered_in_one_line() {
     let folder = folder_with_scene();
-    let assert = hairline(folder.path(), "render plate.v2.toml -o auto.png").success();
-    let text = stderr_of(&assert);
-    let said = text
-        .lines()
-        .filter(|line| line.starts_with("rendering on "))
-        .count();
-    assert!(said == 1, "{text}");
+    let text = stderr_without_display(folder.path(), "render plate.v2.toml -o auto.png", [], 0);
+    assert_eq!(text.lines().count(), 1, "{text}");
+    assert!(text.starts_with("rendering on "), "{text}");
     assert!(folder.path().join("auto.png").exists());
 }
 
 #[test]
+fn a_graphics_driver_renders_the_same_picture() {
+    if hairline_gpu::headless::test_gpu().is_none() {
+        return;
+    }
+    let folder = folder_with_scene();
+    let render = |backend: &str| {
+        let output = format!("{backend}.exr");
+        let arguments = format!("render plate.v2.toml --backend {backend} -o {output}");
+        let text = stderr_without_display(folder.path(), &arguments, [], 0);
+        assert_eq!(text.lines().count(), 1, "{text}");
+        assert!(text.contains("as asked"), "{text}");
+        exr_file::read_image(&folder.path().join(output)).unwrap()
+    };
+    let (gpu, cpu) = (render("gpu"), render("cpu"));
+    let sum = |image: &hairline_image::Image| -> f64 {
+        let green = image.base.iter().map(|c| f64::from(c[1]));
+        green.sum()
+    };
+    // Pixels on the rim may see a sample or two more of it.
+    assert!(
+        (sum(&gpu) / sum(&cpu) - 1.0).abs() < 0.01,
+        "{} {}",
+        sum(&gpu),
+        sum(&cpu)
+    );
+}
+
+#[cfg(target_os = "linux")]
+#[test]
 fn no_driver_still_renders() {
     let folder = folder_with_scene();
-    // An empty list of drivers: as on a machine that has none.
-    let run = |backend: &str| {
-        Command::cargo_bin("hairline")
-            .unwrap()
-            .current_dir(folder.path())
-            .env("VK_ICD_FILENAMES", "/nonexistent")
-            .env("VK_DRIVER_FILES", "/nonexistent")
-            .env("WGPU_BACKEND", "vulkan")
-            .args([
-                "render",
-                "plate.v2.toml",
-                "-o",
-                "a.png",
-                "--backend",
-                backend,
-            ])
-            .assert()
-    };
-    if cfg!(target_os = "linux") {
-        let text = stderr_of(&run("gpu").code(1));
-        assert!(text.contains("no graphics driver"), "{text}");
-        assert!(!folder.path().join("a.png").exists());
-        let text = stderr_of(&run("auto").success());
-        assert!(
-            text.contains("rendering on the CPU") && text.contains("no graphics driver"),
-            "{text}"
-        );
-        assert!(folder.path().join("a.png").exists());
+    // GL could be there without the vendor-neutral library, which the third variable speaks to.
+    let environment = || NO_DRIVERS.into_iter().chain([("WGPU_BACKEND", "vulkan")]);
+    let arguments = |backend| format!("render plate.v2.toml -o a.png --backend {backend}");
+    let picture = folder.path().join("a.png");
+
+    let text = stderr_without_display(folder.path(), &arguments("gpu"), environment(), 1);
+    assert!(text.contains("no graphics driver"), "{text}");
+    assert!(text.contains("--backend cpu"), "{text}");
+    assert!(!picture.exists());
+
+    let text = stderr_without_display(folder.path(), &arguments("auto"), environment(), 0);
+    assert_eq!(text.lines().count(), 1, "{text}");
+    assert!(
+        text.starts_with("rendering on the CPU") && text.contains("no graphics driver"),
+        "{text}"
+    );
+    assert!(picture.exists());
+}
+
+/// As the documentation prints it, with its files beside it.
+#[test]
+fn the_documented_scene_renders() {
+    let assets = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/assets");
+    let map = assets.join("studio.hdr");
+    if !map.exists() {
+        hairline_gpu::headless::skip("no studio.hdr in shared/assets");
+        return;
     }
+    let folder = tempfile::tempdir().unwrap();
+    let scene = include_str!("../../../crates/scene/tests/example.toml");
+    fs::write(folder.path().join("scene.toml"), scene).unwrap();
+    fs::copy(map, folder.path().join("studio.hdr")).unwrap();
+    hairline(folder.path(), "render scene.toml -o a.png").success();
+    let picture = png::read_picture(&folder.path().join("a.png")).unwrap();
+    assert_eq!(picture.size_px, [1280, 720]);
+    let brightest = picture.rgb.iter().flatten().fold(0.0, |a, b| b.max(a));
+    assert!(brightest > 0.9, "{brightest}");
 }
 
 /// Ctrl-C in the middle of the work leaves nothing behind.
