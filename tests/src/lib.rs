@@ -1,5 +1,7 @@
 //! Scenes in code and comparisons that the conformance tests share.
 
+pub mod two_renderers;
+
 use glam::{DVec3, Vec2, Vec3, Vec4};
 use hairline_scene::{
     Base, Camera, Environment, Light, Material, Mesh, Object, RenderSettings, Scene, Scratch,

@@ -24,7 +24,9 @@ fn environment_dir(uv: vec2<f32>) -> vec3<f32> {
 }
 
 fn environment_bilinear(map: texture_2d<f32>, level: i32, uv: vec2<f32>) -> vec3<f32> {
-    let size = vec2<i32>(textureDimensions(map, level));
+    // Not textureDimensions(map, level): a software driver (llvmpipe) answers all 8 pixels that it runs in step with the first
+    // one's level.
+    let size = vec2<i32>(max(textureDimensions(map) >> vec2<u32>(u32(level)), vec2<u32>(1u)));
     let at = uv * vec2<f32>(size) - 0.5;
     let corner = floor(at);
     let t = at - corner;
