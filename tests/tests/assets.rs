@@ -1,0 +1,107 @@
+//! A model and a map that others made: the files beside the repository that are not part of it.
+
+use std::path::{Path, PathBuf};
+
+use conformance::two_renderers::{at_test_size, compare, on_the_cpu, on_the_gpu};
+use hairline_gpu::headless;
+use hairline_image::Layer;
+use hairline_scene::Scene;
+
+/// A monkey's head of steel, 13 cm wide, in a studio with a lamp and a panel.
+const SCENE: &str = r#"
+[camera]
+position_m = [0.05, 0.03, 0.30]
+target_m = [0.0, -0.002, 0.0]
+fov_y_deg = 24.0
+
+[render]
+size_px = [900, 900]
+
+[environment]
+file = "studio.hdr"
+intensity = 0.1
+
+[[material]]
+name = "steel"
+kind = "metal"
+metal = "steel"
+roughness = 0.1
+
+[[object]]
+name = "monkey"
+mesh = "suzi.glb"
+material = "steel"
+scale = 0.05
+
+[[scratches]]
+object = "monkey"
+pattern = "random"
+count = 50000
+length_m = { mean = 0.008, spread = 0.4 }
+width_um = { mean = 3.0, spread = 0.3 }
+depth_nm = { mean = 180.0, spread = 0.15 }
+
+[[light]]
+kind = "sphere"
+center_m = [0.1, 0.2, 0.25]
+radius_m = 0.02
+radiance = 300.0
+
+[[light]]
+kind = "polygon"
+vertices_m = [[-0.2, 0.15, 0.1], [-0.2, -0.05, 0.1], [-0.2, -0.05, 0.25], [-0.2, 0.15, 0.25]]
+radiance = 15.0
+two_sided = true
+"#;
+
+/// The folder of these files, relative to the workspace; none, and a line on stderr, without them.
+fn assets() -> Option<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/assets");
+    for name in ["suzi.glb", "studio.hdr"] {
+        if !folder.join(name).is_file() {
+            headless::skip(&format!("no {name} in shared/assets"));
+            return None;
+        }
+    }
+    Some(folder)
+}
+
+#[test]
+fn a_monkey_with_fifty_thousand_scratches_in_a_studio() {
+    let Some(folder) = assets() else { return };
+    let scene =
+        Scene::from_toml(SCENE, "monkey.toml", &folder).unwrap_or_else(|error| panic!("{error}"));
+    // Seeds at a boundary may leave nothing.
+    assert!(scene.objects[0].scratches.len() > 49_900);
+    let scene = at_test_size(scene);
+    let cpu = on_the_cpu(&scene, 1);
+    for layer in Layer::ALL {
+        let values = cpu.layer(layer);
+        assert!(
+            values.iter().flatten().all(|value| value.is_finite()),
+            "{}",
+            layer.name()
+        );
+    }
+
+    let head: Vec<usize> = (0..cpu.pixel_count())
+        .filter(|i| cpu.depth_m[*i] > 0.0)
+        .collect();
+    assert!(head.len() > cpu.pixel_count() / 8, "{}", head.len());
+    // Scratches light up what the studio leaves dark.
+    let lit = head
+        .iter()
+        .filter(|&&i| cpu.scratches[i][1] > 0.25 * cpu.base[i][1])
+        .count();
+    assert!(lit > head.len() / 10, "{lit} of {}", head.len());
+    let coloured = head
+        .iter()
+        .filter(|&&i| cpu.scratches[i][0].max(cpu.scratches[i][2]) > 1.5 * cpu.scratches[i][1])
+        .count();
+    assert!(coloured > head.len() / 100, "{coloured} of {}", head.len());
+
+    let Some(gpu) = on_the_gpu(&scene, 1) else {
+        return;
+    };
+    compare("monkey", &scene, &gpu, &cpu).unwrap();
+}
