@@ -18,7 +18,7 @@ use hairline_scene::Scene;
 use crate::progress::Progress;
 
 /// Where the rows lie in the picture's height. Few places, since a driver has a cost for each.
-const STRIPS_AT: [f64; 3] = [0.25, 0.5, 0.75];
+const STRIPS_AT: [f64; 5] = [0.1, 0.3, 0.5, 0.7, 0.9];
 
 /// Pictures that the CPU renderer has sooner are not worth a trial: before its first row a software driver compiles the
 /// shaders, for 4 s or so (lavapipe, Mesa 22.3), and nothing can interrupt it.
@@ -98,7 +98,7 @@ pub fn run(gpu: &Gpu, scene: &Scene, prepared: &Prepared, samples: u32) -> Trial
 }
 
 /// As many rows in each strip as there are threads, so that all have work; none if that is much of the picture.
-fn strips(height: u32, threads: usize) -> Option<[Range<u32>; 3]> {
+fn strips(height: u32, threads: usize) -> Option<[Range<u32>; STRIPS_AT.len()]> {
     let rows = u32::try_from(threads).ok()?;
     let all_rows = rows.checked_mul(STRIPS_AT.len() as u32)?;
     (all_rows <= height / 8).then(|| {
@@ -183,7 +183,7 @@ mod tests {
         for height in [1, 7, 96, 97, 720, 16384] {
             for threads in [1, 2, 4, 16, 300] {
                 let Some(strips) = strips(height, threads) else {
-                    assert!(8 * 3 * threads > height as usize);
+                    assert!(8 * STRIPS_AT.len() * threads > height as usize);
                     continue;
                 };
                 assert!(strips.iter().all(|rows| rows.len() == threads));
