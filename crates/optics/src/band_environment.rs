@@ -39,13 +39,28 @@ pub fn environment_cell(i: usize, line: BandLine, width_um: f64) -> EnvironmentC
     // A scratch of no width has no lobe: every bound but zero lies beyond the arc.
     let width = width_um.max(1e-3);
     let bound = |u: f64| (u / width).clamp(line.q_end(), line.q_start());
-    let q_low = if i == 0 { line.q_end() } else { bound(CELL_BOUNDS_UM[i - 1]) };
-    let q_high = if i == ENVIRONMENT_CELLS - 1 { line.q_start() } else { bound(CELL_BOUNDS_UM[i]) };
+    let q_low = if i == 0 {
+        line.q_end()
+    } else {
+        bound(CELL_BOUNDS_UM[i - 1])
+    };
+    let q_high = if i == ENVIRONMENT_CELLS - 1 {
+        line.q_start()
+    } else {
+        bound(CELL_BOUNDS_UM[i])
+    };
     let across = 0.5 * (q_low + q_high) - line.offset;
-    let up = (line.radius * line.radius - across * across).max(0.0).sqrt();
+    let up = (line.radius * line.radius - across * across)
+        .max(0.0)
+        .sqrt();
     // Near the horizon a step in q spans a wide angle; the cell's own width bounds it.
     let angle_rad = (q_high - q_low) / up.max(0.5 * (q_high - q_low)).max(1e-6);
-    EnvironmentCell { q_low, q_high, direction: DVec3::new(line.along, across, up), angle_rad }
+    EnvironmentCell {
+        q_low,
+        q_high,
+        direction: DVec3::new(line.along, across, up),
+        angle_rad,
+    }
 }
 
 #[cfg(test)]
@@ -54,7 +69,11 @@ mod tests {
 
     #[test]
     fn cells_tile_the_arc() {
-        for wo in [DVec3::Z, DVec3::new(0.3, -0.5, 0.8).normalize(), DVec3::new(0.999, 0.0, 0.04).normalize()] {
+        for wo in [
+            DVec3::Z,
+            DVec3::new(0.3, -0.5, 0.8).normalize(),
+            DVec3::new(0.999, 0.0, 0.04).normalize(),
+        ] {
             for width in [0.0, 0.5, 2.0, 50.0] {
                 let line = BandLine::new(wo, 0.0);
                 let mut at = line.q_end();
@@ -62,7 +81,9 @@ mod tests {
                     let cell = environment_cell(i, line, width);
                     assert_eq!(cell.q_low, at);
                     assert!(cell.q_high >= cell.q_low);
-                    assert!((cell.direction.length() - 1.0).abs() < 1e-9 && cell.direction.z >= 0.0);
+                    assert!(
+                        (cell.direction.length() - 1.0).abs() < 1e-9 && cell.direction.z >= 0.0
+                    );
                     assert!(cell.angle_rad.is_finite() && cell.angle_rad <= 2.0 + 1e-9);
                     at = cell.q_high;
                 }
