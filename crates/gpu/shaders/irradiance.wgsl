@@ -175,8 +175,9 @@ fn irradiance_cone(cone: EllipticCone) -> vec3f {
     let arc = 0.5 * (cone.axis * (t1 * t2 / pq * swept) - cone.side1 * along1 - cone.side2 * along2);
 
     let start = (cone.axis + cone.side1 * (t1 * c_from) + cone.side2 * (t2 * s_from)).xy;
-    let stop = (cone.axis + cone.side1 * (t1 * c_to) + cone.side2 * (t2 * s_to)).xy;
-    let turn = stop.x * start.y - stop.y * start.x;
+    let back = 2.0 * sin_b * (cone.side1 * (t1 * sin_t0) - cone.side2 * (t2 * cos_t0)).xy;
+    let stop = start - back;
+    let turn = start.x * back.y - start.y * back.x;
     let closing = sign(turn) * irradiance_angle(abs(turn), dot(stop, start));
     return vec3f(arc.xy, max(arc.z + 0.5 * closing, 0.0));
 }
@@ -204,7 +205,7 @@ fn irradiance_cone_along2(c: f32, s: f32, t1: f32, p2: f32, q2: f32, kappa2: f32
 
 // Form factor from a finished state of irradiance_edge in the local frame, in [0, 1].
 fn lambert_end(state: PolygonIrradiance) -> f32 {
-    return min(irradiance_end(state).z / IRRADIANCE_PI, 1.0);
+    return clamp(irradiance_end(state).z / IRRADIANCE_PI, 0.0, 1.0);
 }
 
 fn lambert_begin() -> PolygonIrradiance {

@@ -182,7 +182,7 @@ fn ltc_integral(lobe: LtcLobe, vector: vec3f) -> f32 {
     sums += ltc_ring_point(lobe, height * centre - radius * sides.u);
     sums += ltc_ring_point(lobe, height * centre - radius * sides.v);
     let corrected = GGX_PI * sums.x / max(sums.y, 1e-30);
-    return share * mix(corrected, lobe.albedo.x, sin2 * sin2);
+    return min(share * mix(corrected, lobe.albedo.x, sin2 * sin2), lobe.albedo.x);
 }
 
 fn ltc_ring_point(lobe: LtcLobe, w: vec3f) -> vec2f {

@@ -4,6 +4,8 @@
 struct SptdLobe {
     wo: vec3f,
     alpha: f32,
+    axis: vec3f,
+    rest: f32,
     pivot: vec3f,
     gap: f32,
     x_axis: vec2f,
@@ -23,27 +25,38 @@ fn sptd_lobe(wo: vec3f, roughness: f32, sptd_table: texture_2d<f32>, albedo_tabl
     let alpha = ggx_alpha(roughness);
     let lean = lobe_sin_cos(alpha * shape.y * frame.sin_cos.x);
     let width = alpha * shape.x;
-    let r = (1.0 - width) / (1.0 + width);
+    let rest = 2.0 * width / (1.0 + width);
     let x = frame.sin_cos.x * lean.y - frame.sin_cos.y * lean.x;
     let z = frame.sin_cos.y * lean.y + frame.sin_cos.x * lean.x;
     return SptdLobe(
         vec3f(frame.sin_cos.x, 0.0, frame.sin_cos.y),
         alpha,
-        r * vec3f(-x, 0.0, z),
-        4.0 * width / ((1.0 + width) * (1.0 + width)),
+        vec3f(-x, 0.0, z),
+        rest,
+        (1.0 - rest) * vec3f(-x, 0.0, z),
+        rest * (2.0 - rest),
         frame.x_axis,
         lobe_albedo_lookup(albedo_table, roughness, cos_o).x,
     );
 }
 
+// In what is small near a mirror: the cap's versine and its distance from the peak.
 fn sptd_transform_cap(lobe: SptdLobe, cap: SphericalCap) -> SphericalCap {
-    let push = 2.0 * (dot(cap.axis, lobe.pivot) - cap.cosine) / lobe.gap;
-    let axis = cap.axis + push * lobe.pivot;
+    var versine = 1.0 - cap.cosine;
+    if (cap.cosine > 0.0) {
+        versine = cap.sine * cap.sine / (1.0 + cap.cosine);
+    }
+    let r = 1.0 - lobe.rest;
+    let off_peak = cap.axis - lobe.axis;
+    let shift = r * dot(off_peak, off_peak);
+    let along = lobe.rest * lobe.rest + r * (2.0 * versine - shift);
+    let height = lobe.rest * lobe.rest - versine * (2.0 - lobe.gap) + shift;
+    let axis = off_peak * lobe.gap + lobe.axis * along;
     let scale = 1.0 / max(length(axis), 1e-30);
     return SphericalCap(
         axis * scale,
-        clamp(-(cap.cosine + push) * scale, -1.0, 1.0),
-        min(cap.sine * scale, 1.0),
+        clamp(height * scale, -1.0, 1.0),
+        min(cap.sine * lobe.gap * scale, 1.0),
     );
 }
 
@@ -159,7 +172,7 @@ fn sptd_sphere(lobe: SptdLobe, axis: vec3f, sin2: f32) -> f32 {
     }
     let corrected = sphere * sptd_mean(lobe, lit);
     let wide = min(2.0 * share, 1.0);
-    return share * mix(corrected, lobe.albedo, wide * (2.0 - wide));
+    return min(share * mix(corrected, lobe.albedo, wide * (2.0 - wide)), lobe.albedo);
 }
 
 // The published method: nothing put back.
@@ -195,10 +208,7 @@ fn sptd_mean(lobe: SptdLobe, region: SphericalRegion) -> f32 {
     sums += sptd_ring_point(lobe, height * centre + radius * sides.v, SPTD_RING_WEIGHT);
     sums += sptd_ring_point(lobe, height * centre - radius * sides.u, SPTD_RING_WEIGHT);
     sums += sptd_ring_point(lobe, height * centre - radius * sides.v, SPTD_RING_WEIGHT);
-    if (sums.y > 0.0) {
-        return sums.x / sums.y;
-    }
-    return lobe.albedo / (4.0 * GGX_PI * sptd_horizon_share(lobe));
+    return sums.x / max(sums.y, 1e-30);
 }
 
 // (GGX times the map's Jacobian, 1) times the weight; nothing below the horizon.

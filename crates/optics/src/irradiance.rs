@@ -240,9 +240,11 @@ pub fn irradiance_cone(cone: &EllipticCone) -> DVec3 {
             - side2 * (along2(c_to, s_to) - along2(c_from, s_from)));
 
     // Back along the horizon, from the arc's end to its start.
-    let boundary = |c: f64, s: f64| (axis + side1 * (t1 * c) + side2 * (t2 * s)).truncate();
-    let (from, to) = (boundary(c_from, s_from), boundary(c_to, s_to));
-    let turn = to.perp_dot(from);
+    let from = (axis + side1 * (t1 * c_from) + side2 * (t2 * s_from)).truncate();
+    // from - to, by the difference of two cosines: as precise as the cone is small.
+    let back = 2.0 * sin_b * (side1 * (t1 * sin_t0) - side2 * (t2 * cos_t0)).truncate();
+    let to = from - back;
+    let turn = from.perp_dot(back);
     let closing = irradiance_angle(turn.abs(), to.dot(from)).copysign(turn);
     let vector = arc + DVec3::Z * (0.5 * closing);
     vector.with_z(vector.z.max(0.0))
@@ -260,7 +262,8 @@ pub fn lambert_edge(state: &mut PolygonIrradiance, a: DVec3, b: DVec3) {
 
 /// Form factor of the polygon, in [0, 1]: radiosity over radiance times pi.
 pub fn lambert_end(state: &PolygonIrradiance) -> f64 {
-    (irradiance_end(state).z / PI).min(1.0)
+    // A sliver in the horizon may come out a rounding below it.
+    (irradiance_end(state).z / PI).clamp(0.0, 1.0)
 }
 
 /// Form factor of a polygon on a diffuse surface, in [0, 1]: radiosity over radiance times pi. Vertices are

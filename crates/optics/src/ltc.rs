@@ -292,7 +292,8 @@ fn ltc_integral(lobe: &LtcLobe, vector: DVec3) -> f64 {
     }
     let corrected = PI * exact / cosine.max(1e-30);
     let fade = sin2 * sin2;
-    share * (corrected + fade * (lobe.albedo[0] - corrected))
+    // A part returns no more than the whole.
+    (share * (corrected + fade * (lobe.albedo[0] - corrected))).min(lobe.albedo[0])
 }
 
 /// GGX at the direction that `w` stands for, times the solid angle there per solid angle at w.

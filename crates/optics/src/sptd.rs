@@ -37,6 +37,10 @@ pub struct SptdLobe {
     pub alpha: f64,
     /// The x axis of the viewer's frame in the local one.
     pub x_axis: DVec2,
+    /// Unit direction of the lobe's peak, in the viewer's frame.
+    pub axis: DVec3,
+    /// 1 - r, for a pivot at r along the axis: precise where r is near 1.
+    pub rest: f64,
     /// Pivot, in the viewer's frame.
     pub pivot: DVec3,
     /// 1 - |pivot|^2.
@@ -74,15 +78,18 @@ impl SptdLobe {
         let (x_axis, sin_cos) = viewer_frame(wo);
         let lean = alpha * shape.lean * sin_cos.x;
         let width = alpha * shape.width;
-        let r = (1.0 - width) / (1.0 + width);
+        let rest = 2.0 * width / (1.0 + width);
         let x = sin_cos.x * lean.cos() - sin_cos.y * lean.sin();
         let z = sin_cos.y * lean.cos() + sin_cos.x * lean.sin();
+        let axis = DVec3::new(-x, 0.0, z);
         Self {
             wo: DVec3::new(sin_cos.x, 0.0, sin_cos.y),
             alpha,
             x_axis,
-            pivot: r * DVec3::new(-x, 0.0, z),
-            gap: 4.0 * width / ((1.0 + width) * (1.0 + width)),
+            axis,
+            rest,
+            pivot: (1.0 - rest) * axis,
+            gap: rest * (2.0 - rest),
             albedo,
         }
     }
@@ -105,16 +112,27 @@ impl SptdLobe {
 
 /// The cap that a cap (in the viewer's frame) maps to.
 ///
-/// A chord map is a Lorentz reflection of (direction, 1) in (pivot, 1), and a cap's plane (axis, cosine) goes with it.
+/// A chord map is a Lorentz reflection of (direction, 1) in (pivot, 1), and a cap's plane (axis, cosine) goes with it: with
+/// push = 2 (axis . pivot - cosine) / gap it becomes (axis + push pivot, -cosine - push). Near a mirror that is a difference
+/// of numbers near 1; here both are written in what is small, the cap's versine and its distance from the peak.
 pub fn sptd_transform_cap(lobe: &SptdLobe, cap: SphericalCap) -> SphericalCap {
-    let push = 2.0 * (cap.axis.dot(lobe.pivot) - cap.cosine) / lobe.gap;
-    let axis = cap.axis + push * lobe.pivot;
+    let versine = if cap.cosine > 0.0 {
+        cap.sine * cap.sine / (1.0 + cap.cosine)
+    } else {
+        1.0 - cap.cosine
+    };
+    let r = 1.0 - lobe.rest;
+    let off_peak = cap.axis - lobe.axis;
+    let shift = r * off_peak.length_squared();
+    let along = lobe.rest * lobe.rest + r * (2.0 * versine - shift);
+    let height = lobe.rest * lobe.rest - versine * (2.0 - lobe.gap) + shift;
+    let axis = off_peak * lobe.gap + lobe.axis * along;
     let scale = 1.0 / axis.length().max(1e-30);
     SphericalCap {
         axis: axis * scale,
-        cosine: (-(cap.cosine + push) * scale).clamp(-1.0, 1.0),
+        cosine: (height * scale).clamp(-1.0, 1.0),
         // The reflection keeps |axis|^2 - cosine^2.
-        sine: (cap.sine * scale).min(1.0),
+        sine: (cap.sine * lobe.gap * scale).min(1.0),
     }
 }
 
@@ -250,7 +268,8 @@ pub fn sptd_sphere(lobe: &SptdLobe, axis: DVec3, sin2: f64) -> f64 {
     // Five points know GGX over a part of the lobe better than the fit does, over half of it or more worse.
     let wide = (2.0 * share).min(1.0);
     let fade = wide * (2.0 - wide);
-    share * (corrected + fade * (lobe.albedo - corrected))
+    // A part returns no more than the whole: at grazing views GGX can be many times the fit at all five points.
+    (share * (corrected + fade * (lobe.albedo - corrected))).min(lobe.albedo)
 }
 
 /// The published method: the fitted lobe's own integral over a sphere, nothing put back. Arguments as for [`sptd_sphere`].
@@ -308,9 +327,6 @@ fn sptd_mean(lobe: &SptdLobe, region: SphericalRegion) -> f64 {
     for offset in [u, v, -u, -v] {
         add(RING_WEIGHT, height * centre + radius * offset);
     }
-    if weights > 0.0 {
-        sum / weights
-    } else {
-        lobe.albedo / (4.0 * PI * sptd_horizon_share(lobe))
-    }
+    // Of a sliver at the horizon rounding may leave no point above it; GGX ends there.
+    sum / weights.max(1e-30)
 }
