@@ -4,4 +4,5 @@ mod band;
 mod lobes;
 mod never_nan;
 mod scratch;
+mod surface;
 mod twin;
