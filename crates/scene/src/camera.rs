@@ -71,13 +71,13 @@ pub const MIN_FOOTPRINT_COS: f64 = 0.035;
 /// cover the square evenly for any count, each with its mirror image about the centre. So no count shifts the picture: a
 /// pixel on an edge, averaged over its samples, fits its neighbour that needs only one.
 pub fn pixel_jitter(i: u32, count: u32) -> DVec2 {
-    if count % 2 == 1 && i + 1 == count {
+    if !count.is_multiple_of(2) && i + 1 == count {
         return DVec2::ZERO;
     }
     // Reciprocals of the plastic number and of its square.
     let step = DVec2::new(0.754_877_666_246_692_7, 0.569_840_290_998_053_2);
     let point = (step * f64::from(i / 2 + 1) + 0.5).fract() - 0.5;
-    if i % 2 == 0 { point } else { -point }
+    if i.is_multiple_of(2) { point } else { -point }
 }
 
 impl RenderSettings {
