@@ -131,7 +131,7 @@ fn polygons() {
         // A triangle about a centre, in the plane across it: always seen from the front.
         let n = glam::Vec3::from(center);
         let (u, w) = n.any_orthonormal_pair();
-        let turn = random.between(0.0, 6.28);
+        let turn = random.between(0.0, std::f32::consts::TAU);
         let corner = |k: f32| n + size * (u * (turn + 2.1 * k).cos() + w * (turn + 2.1 * k).sin());
         let (a, b, c) = (corner(0.0), corner(1.0), corner(2.0));
         rows.push([

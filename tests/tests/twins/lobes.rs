@@ -291,7 +291,7 @@ fn elliptic_cones() {
             z
         };
         let [x, y, z] = Vec3::new(x, y, z).normalize_or(Vec3::X).to_array();
-        rows.push([x, y, z, t1, t2, random.between(0.0, 6.28)]);
+        rows.push([x, y, z, t1, t2, random.between(0.0, std::f32::consts::TAU)]);
     }
     Twin {
         name: "irradiance_cone",
@@ -466,7 +466,10 @@ fn polygon_rows(count: usize) -> Rows<17> {
         let (a, b) = centre.any_orthonormal_pair();
         // Seen obliquely up to 63 degrees, stretched up to 20 times, at any distance.
         let a = a + random.between(-2.0, 2.0) * centre;
-        let (thin, start) = (random.between(0.05, 1.0), random.between(0.0, 6.28));
+        let (thin, start) = (
+            random.between(0.05, 1.0),
+            random.between(0.0, std::f32::consts::TAU),
+        );
         let distance = 10f32.powf(random.between(-2.0, 2.0));
         let notch = random.between(-0.3, 1.0);
         let mut row = [0.0; 17];
