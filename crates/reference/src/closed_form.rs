@@ -1,7 +1,7 @@
 //! A picture by the closed forms: one ray a sample, no randomness, all cores.
 //!
-//! The way of a pixel is the shader's (crates/gpu/shaders/shade.wgsl): hit, [`surface`], footprint, [`scratches`], mask,
-//! [`base`], film.
+//! The way of a pixel is the shader's (crates/gpu/shaders/shade.wgsl): hit, `surface`, footprint, `scratches`, mask,
+//! `base`, film.
 
 use crate::light_view::LightViews;
 use crate::silhouettes::Silhouettes;
