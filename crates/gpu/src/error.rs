@@ -49,8 +49,8 @@ pub enum Error {
     },
     /// A shader gave up a loop before its end, so that the picture would be wrong.
     #[error(
-        "{pixels} pixels meet more scratches than one shader invocation may visit on {adapter}; render a smaller field \
-         of view, or on the CPU"
+        "{adapter} cut the loops of {pixels} pixels short, so their picture would be wrong; render with fewer lights, or on \
+         the CPU"
     )]
     IterationBudget {
         /// Name of the adapter.
