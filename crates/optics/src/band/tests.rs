@@ -1,0 +1,381 @@
+//! Chords and roots against quadrature by indicator functions, which shares no formula with them.
+
+use super::*;
+use crate::diffraction::chord_integral;
+use crate::scratch::band_std;
+
+const SIGMA_UM: f64 = 20.0;
+const NM: f64 = 555.0;
+
+/// A deterministic sequence of numbers in [0, 1).
+struct Sequence(u64);
+impl Sequence {
+    fn next(&mut self) -> f64 {
+        self.0 = self
+            .0
+            .wrapping_mul(6364136223846793005)
+            .wrapping_add(1442695040888963407);
+        (self.0 >> 11) as f64 / (1u64 << 53) as f64
+    }
+    fn between(&mut self, a: f64, b: f64) -> f64 {
+        a + (b - a) * self.next()
+    }
+    fn direction(&mut self, lowest_z: f64) -> DVec3 {
+        let z = self.between(lowest_z, 1.0);
+        let (sin, cos) = self.between(0.0, 2.0 * PI).sin_cos();
+        let r = (1.0 - z * z).sqrt();
+        DVec3::new(r * cos, r * sin, z)
+    }
+}
+
+/// The integral of the band's Gaussian times sinc^2 over the directions above the horizon that a light covers:
+/// over the plane of (w_t, w_n), with the indicator function of the light. Shares no formula with the roots.
+fn quadrature(
+    wo: DVec3,
+    width_um: f64,
+    covers: impl Fn(DVec3) -> bool,
+    lines: usize,
+    steps: usize,
+    single_line: bool,
+) -> f64 {
+    let std_xi = band_std(SIGMA_UM, NM);
+    let mut sum = 0.0;
+    let line_count = if single_line { 1 } else { lines };
+    for i in 0..line_count {
+        let z = if single_line {
+            0.0
+        } else {
+            -4.5 + 9.0 * (i as f64 + 0.5) / lines as f64
+        };
+        let weight = if single_line {
+            1.0
+        } else {
+            (-0.5 * z * z).exp() / (2.0 * PI).sqrt() * 9.0 / lines as f64
+        };
+        let w_t = z * std_xi - wo.x;
+        if w_t.abs() >= 1.0 {
+            continue;
+        }
+        let r = (1.0 - w_t * w_t).sqrt();
+        // Midpoints in phi; bisection would be a chord finder, so plain indicator sampling it is.
+        for j in 0..steps {
+            let phi = PI * (j as f64 + 0.5) / steps as f64;
+            let w = DVec3::new(w_t, r * phi.cos(), r * phi.sin());
+            if covers(w) {
+                let x = 2.0 * PI / (NM * 1e-3) * width_um * (wo.y + w.y) / 2.0;
+                let sinc = if x == 0.0 { 1.0 } else { x.sin() / x };
+                sum += weight * sinc * sinc * r * phi.sin() * PI / steps as f64;
+            }
+        }
+    }
+    sum
+}
+
+fn sphere_integral(wo: DVec3, cap: Cap, width_um: f64) -> f64 {
+    let (lowest, highest) = sphere_band_extent(wo, cap);
+    lines_integral(wo, lowest, highest, |line| {
+        sphere_chord(line, cap).integral(line, |q| [chord_integral(q, width_um, NM * 1e-3)])[0]
+    })
+}
+
+/// The scratch's frame is the surface's where a test needs no other.
+const ALONG_X: BandFrame = BandFrame { tangent: DVec2::X };
+
+fn with_view<R>(vertices: &[DVec3], two_sided: bool, f: impl Fn(&PolygonView) -> R) -> R {
+    let directions: Vec<DVec3> = vertices.iter().map(|v| v.normalize_or_zero()).collect();
+    let (away, facing) = polygon_facing(vertices.iter().copied(), two_sided);
+    f(&PolygonView {
+        directions: &directions,
+        away,
+        facing,
+    })
+}
+
+fn one_line(vertices: &[DVec3], line: BandLine, antiderivative: impl Fn(f64) -> f64) -> f64 {
+    with_view(vertices, true, |view| {
+        view.integral(ALONG_X, line, |q| [antiderivative(q)])[0]
+    })
+}
+
+fn polygon_integral(wo: DVec3, vertices: &[DVec3], width_um: f64) -> f64 {
+    let (lowest, highest) = with_view(vertices, true, |view| view.band_extent(ALONG_X, wo));
+    lines_integral(wo, lowest, highest, |line| {
+        one_line(vertices, line, |q| chord_integral(q, width_um, NM * 1e-3))
+    })
+}
+
+fn lines_integral(wo: DVec3, lowest: f64, highest: f64, on_line: impl Fn(BandLine) -> f64) -> f64 {
+    let lines = band_lines(wo.x, lowest, highest, band_std(SIGMA_UM, NM));
+    (0..lines.count)
+        .map(|i| {
+            let (xi_t, weight) = lines.band_line(i);
+            weight * on_line(BandLine::new(wo, xi_t))
+        })
+        .sum()
+}
+
+fn relative_rms(pairs: &[(f64, f64)]) -> f64 {
+    let (error2, value2) = pairs.iter().fold((0.0, 0.0), |(e, v), (value, expected)| {
+        (e + (value - expected).powi(2), v + expected * expected)
+    });
+    (error2 / value2).sqrt()
+}
+
+#[test]
+fn sphere_lights_equal_two_dimensional_quadrature() {
+    let std_xi = band_std(SIGMA_UM, NM);
+    for (radius, bound) in [
+        (0.001, 0.01),
+        (0.005, 0.01),
+        (0.02, 0.01),
+        (0.049, 0.01),
+        (0.05, 0.01),
+        (0.15, 0.005),
+        (0.6, 0.005),
+    ] {
+        let mut random = Sequence(7);
+        let mut pairs = Vec::new();
+        while pairs.len() < 24 {
+            let wo = random.direction(0.2);
+            // Near the band, or there is nothing to compare.
+            let (offset, turn) = (
+                random.between(-1.5, 1.5) * (radius + std_xi),
+                random.between(0.0, PI),
+            );
+            let w_t = -wo.x + offset;
+            if w_t.abs() > 0.9 {
+                continue;
+            }
+            let r = (1.0 - w_t * w_t).sqrt();
+            let axis = DVec3::new(w_t, r * turn.cos(), r * turn.sin());
+            let cap = Cap {
+                axis,
+                sin_radius: f64::sin(radius),
+                cos_radius: f64::cos(radius),
+            };
+            let steps = (2000.0 / radius.min(0.2)) as usize;
+            // A chord much shorter than the arc needs fine steps only near the light.
+            let expected = quadrature(
+                wo,
+                2.0,
+                |w| (w - axis).length() < 2.0 * (radius / 2.0).sin(),
+                if radius < 0.01 { 401 } else { 121 },
+                steps.min(40_000),
+                false,
+            );
+            pairs.push((sphere_integral(wo, cap, 2.0), expected));
+        }
+        let rms = relative_rms(&pairs);
+        println!(
+            "sphere of {radius} rad: relative rms error {:.3} %",
+            100.0 * rms
+        );
+        assert!(rms < bound, "{radius}: {rms}");
+    }
+}
+
+#[test]
+fn one_line_through_a_sphere_is_exact_wherever_it_lies() {
+    // On the line itself there is nothing to approximate: horizon, point under the light, huge lights.
+    let mut random = Sequence(3);
+    let mut pairs = Vec::new();
+    for _ in 0..200 {
+        let (wo, axis, radius) = (
+            random.direction(0.0),
+            random.direction(-1.0),
+            random.between(0.05, 3.0),
+        );
+        let cap = Cap {
+            axis,
+            sin_radius: f64::sin(radius),
+            cos_radius: f64::cos(radius),
+        };
+        let line = BandLine::new(wo, 0.0);
+        let value =
+            sphere_chord(line, cap).integral(line, |q| [chord_integral(q, 2.0, NM * 1e-3)])[0];
+        pairs.push((
+            value,
+            quadrature(wo, 2.0, |w| w.dot(axis) > f64::cos(radius), 1, 20_000, true),
+        ));
+    }
+    let rms = relative_rms(&pairs);
+    println!("sphere, one line: relative rms error {:.4} %", 100.0 * rms);
+    assert!(rms < 1e-3);
+}
+
+/// A random planar polygon, star-shaped about its centre and seldom convex, with its plane's normal.
+fn random_polygon(random: &mut Sequence, size: f64) -> Vec<DVec3> {
+    let center = random.direction(-0.4) * random.between(0.5, 2.0);
+    let normal = random.direction(-1.0);
+    let u = normal.any_orthonormal_vector();
+    let v = normal.cross(u);
+    let count = 3 + (random.next() * 6.0) as usize;
+    (0..count)
+        .map(|i| {
+            let (sin, cos) = (2.0 * PI * (i as f64 + 0.8 * random.next()) / count as f64).sin_cos();
+            center + size * random.between(0.2, 1.0) * (u * cos + v * sin)
+        })
+        .collect()
+}
+
+/// Whether the ray from the origin hits the polygon: planar crossing number.
+fn hits(vertices: &[DVec3], w: DVec3) -> bool {
+    let normal: DVec3 = (1..vertices.len() - 1)
+        .map(|i| (vertices[i] - vertices[0]).cross(vertices[i + 1] - vertices[0]))
+        .sum();
+    let t = normal.dot(vertices[0]) / normal.dot(w);
+    if !(t > 0.0) {
+        return false;
+    }
+    let u = normal.any_orthonormal_vector();
+    let v = normal.normalize().cross(u);
+    let flat = |p: DVec3| (p.dot(u), p.dot(v));
+    let (px, py) = flat(w * t);
+    let mut inside = false;
+    for i in 0..vertices.len() {
+        let ((ax, ay), (bx, by)) = (flat(vertices[i]), flat(vertices[(i + 1) % vertices.len()]));
+        if (ay > py) != (by > py) && px < ax + (py - ay) / (by - ay) * (bx - ax) {
+            inside = !inside;
+        }
+    }
+    inside
+}
+
+#[test]
+fn one_line_through_any_polygon_is_exact() {
+    let mut random = Sequence(11);
+    let (mut pairs, mut crossing, mut covering_down) = (Vec::new(), 0, 0);
+    while pairs.len() < 174 {
+        let size = random.between(0.1, 6.0);
+        let vertices = random_polygon(&mut random, size);
+        let wo = random.direction(0.0);
+        let line = BandLine::new(wo, 0.0);
+        let expected = quadrature(wo, 2.0, |w| hits(&vertices, w), 1, 20_000, true);
+        if expected == 0.0 && random.next() < 0.9 {
+            continue;
+        }
+        crossing += vertices.iter().any(|v| v.z < 0.0) as u32;
+        covering_down += hits(&vertices, line_down(line)) as u32;
+        pairs.push((
+            one_line(&vertices, line, |q| chord_integral(q, 2.0, NM * 1e-3)),
+            expected,
+        ));
+    }
+    let rms = relative_rms(&pairs);
+    println!(
+        "polygon, one line: relative rms error {:.4} % on {} polygons, {crossing} across the horizon, {covering_down} over the nadir",
+        100.0 * rms,
+        pairs.len()
+    );
+    assert!(
+        crossing > 40 && covering_down > 4,
+        "the set must hold the hard cases"
+    );
+    // 20,000 steps place each root within 1.6e-4 rad.
+    assert!(rms < 1e-3, "{rms}");
+}
+
+#[test]
+fn polygon_lights_equal_two_dimensional_quadrature() {
+    let mut random = Sequence(5);
+    for size in [0.01, 0.05, 0.3] {
+        let mut pairs = Vec::new();
+        while pairs.len() < 24 {
+            let mut vertices = random_polygon(&mut random, size);
+            let wo = random.direction(0.3);
+            // Moved onto the band.
+            let center: DVec3 = vertices.iter().sum::<DVec3>() / vertices.len() as f64;
+            let w_t = -wo.x + random.between(-1.0, 1.0) * 0.3 * size;
+            if w_t.abs() > 0.8 {
+                continue;
+            }
+            let (sin, cos) = random.between(0.3, PI - 0.3).sin_cos();
+            let r = (1.0 - w_t * w_t).sqrt();
+            let target = DVec3::new(w_t, r * cos, r * sin);
+            vertices.iter_mut().for_each(|v| *v += target - center);
+            let expected = quadrature(wo, 2.0, |w| hits(&vertices, w), 121, 20_000, false);
+            if expected > 0.0 {
+                pairs.push((polygon_integral(wo, &vertices, 2.0), expected));
+            }
+        }
+        let rms = relative_rms(&pairs);
+        println!("polygon of {size}: relative rms error {:.3} %", 100.0 * rms);
+        assert!(rms < 0.015, "{size}: {rms}");
+    }
+}
+
+/// A panel beyond the far end of the scratch, looked at along it: the band's arcs are small circles about the tangent,
+/// which the panel may hold whole, and its outline never meets them.
+#[test]
+fn panels_around_the_tangent_equal_two_dimensional_quadrature() {
+    let mut pairs = Vec::new();
+    for bottom in [-0.3, -0.05, 0.0, 0.01] {
+        for elevation in [0.05f64, 0.1, 0.2] {
+            let wo = DVec3::new(elevation.cos(), 0.0, elevation.sin());
+            let corner = |y: f64, z: f64| DVec3::new(-1.0, y, z);
+            let vertices = [
+                corner(-0.3, bottom),
+                corner(0.3, bottom),
+                corner(0.3, bottom + 0.6),
+                corner(-0.3, bottom + 0.6),
+            ];
+            let expected = quadrature(wo, 2.0, |w| hits(&vertices, w), 241, 20_000, false);
+            let value = polygon_integral(wo, &vertices, 2.0);
+            println!(
+                "panel from {bottom} seen at {elevation} rad: {value:.4}, quadrature {expected:.4}"
+            );
+            pairs.push((value, expected));
+        }
+    }
+    let rms = relative_rms(&pairs);
+    println!(
+        "panels around the tangent: relative rms error {:.3} %",
+        100.0 * rms
+    );
+    assert!(rms < 5e-3, "{rms}");
+}
+
+#[test]
+fn a_one_sided_polygon_is_dark_from_behind() {
+    let front = [
+        DVec3::new(-1.0, -1.0, 2.0),
+        DVec3::new(-1.0, 1.0, 2.0),
+        DVec3::new(1.0, 1.0, 2.0),
+        DVec3::new(1.0, -1.0, 2.0),
+    ];
+    let line = BandLine::new(DVec3::Z, 0.0);
+    let seen = |vertices: &[DVec3], two_sided| {
+        with_view(vertices, two_sided, |view| {
+            view.integral(ALONG_X, line, |q| [q])[0]
+        })
+    };
+    let back: Vec<DVec3> = front.iter().rev().copied().collect();
+    assert!(
+        seen(&front, false) > 0.1,
+        "counter-clockwise seen from below faces down"
+    );
+    assert_eq!(seen(&back, false), 0.0);
+    assert!((seen(&back, true) - seen(&front, true)).abs() < 1e-12);
+}
+
+#[test]
+fn no_input_yields_nan() {
+    let mut random = Sequence(1);
+    let awkward = [0.0, 1.0, -1.0, 1e-12, 1e-6];
+    for i in 0..20_000 {
+        let mut pick = || {
+            if random.next() < 0.3 {
+                awkward[(random.next() * 5.0) as usize]
+            } else {
+                random.between(-1.0, 1.0)
+            }
+        };
+        let wo = DVec3::new(pick(), pick(), pick().abs()).normalize_or(DVec3::Z);
+        let vertices: Vec<DVec3> = (0..3 + i % 4)
+            .map(|_| DVec3::new(pick(), pick(), pick()))
+            .collect();
+        let value = polygon_integral(wo, &vertices, 2.0)
+            + sphere_integral(wo, sphere_cap(vertices[0], vertices[1].x.abs()), 2.0);
+        assert!(value.is_finite(), "{wo} {vertices:?}");
+    }
+}
