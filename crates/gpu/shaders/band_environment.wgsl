@@ -1,6 +1,7 @@
-// An environment along the band of a scratch, cut into cells. Twin: optics/src/band_environment.rs.
+// An environment along the band of a scratch, cut into cells. Twin: optics/src/band_environment.rs, which gives the reasons.
 
-const ENVIRONMENT_CELLS: u32 = 10u;
+const ENVIRONMENT_CELLS: u32 = 24u;
+const ENVIRONMENT_CELL_ALPHA: f32 = 0.1;
 
 struct EnvironmentCell {
     q_low: f32,
@@ -11,9 +12,16 @@ struct EnvironmentCell {
 
 // The bound between cells i - 1 and i, in u.
 fn environment_cell_bound_um(i: u32) -> f32 {
-    let outward = abs(i32(i) - 5);
-    let bound = select(select(select(select(1.5, 0.7, outward == 3), 0.35, outward == 2), 0.15, outward == 1), 0.0, outward == 0);
-    return select(bound, -bound, i < 5u);
+    let outward = f32(i) - f32(ENVIRONMENT_CELLS / 2u);
+    let far = abs(outward) / 9.0;
+    let far2 = far * far;
+    return 0.07 * outward * (1.0 + far2 * far2 * far2 * far);
+}
+
+// The point of the arc at q, across and up.
+fn environment_arc_point(line: BandLine, q: f32) -> vec2f {
+    let across = q - line.offset;
+    return vec2f(across, sqrt(max((line.radius - across) * (line.radius + across), 0.0)));
 }
 
 fn environment_cell(i: u32, line: BandLine, width_um: f32) -> EnvironmentCell {
@@ -28,13 +36,17 @@ fn environment_cell(i: u32, line: BandLine, width_um: f32) -> EnvironmentCell {
     if i < ENVIRONMENT_CELLS - 1u {
         q_high = clamp(environment_cell_bound_um(i + 1u) / width, end, start);
     }
-    let across = 0.5 * (q_low + q_high) - line.offset;
-    let up = sqrt(max(line.radius * line.radius - across * across, 0.0));
-    let angle_rad = (q_high - q_low) / max(max(up, 0.5 * (q_high - q_low)), 1e-6);
-    return EnvironmentCell(q_low, q_high, vec3f(line.along, across, up), angle_rad);
+    let low = environment_arc_point(line, q_low);
+    let high = environment_arc_point(line, q_high);
+    let sum = low + high;
+    let length_sum = length(sum);
+    let middle = line.radius * select(vec2f(0.0, 1.0), sum / max(length_sum, 1e-30), length_sum > 0.0);
+    let half_chord = 0.5 * length(high - low);
+    let half_angle = asin(min(half_chord / max(line.radius, 1e-9), 1.0));
+    return EnvironmentCell(q_low, q_high, vec3f(line.along, middle), 2.0 * line.radius * half_angle);
 }
 
-// The perceptual roughness of the mirror lobe that is about as wide as the cell.
+// The perceptual roughness of the mirror lobe that stands for the cell.
 fn environment_cell_roughness(cell: EnvironmentCell) -> f32 {
-    return min(sqrt(0.25 * cell.angle_rad), 1.0);
+    return min(sqrt(ENVIRONMENT_CELL_ALPHA * cell.angle_rad), 1.0);
 }

@@ -181,13 +181,13 @@ fn gather_environment(point: SurfacePoint, view: SegmentView) -> vec3f {
     var before = gather_table(point, view, band_q_end(line));
     for (var i = 0u; i < ENVIRONMENT_CELLS; i += 1u) {
         let cell = environment_cell(i, line, view.width_um);
-        let after = gather_table(point, view, cell.q_high);
         if cell.q_high > cell.q_low {
+            let after = gather_table(point, view, cell.q_high);
             let direction = world_from_surface(point, surface_from_band(view.tangent, cell.direction));
             sum += (after - before) * scene_prefiltered(direction, environment_cell_roughness(cell));
+            before = after;
+            gather_rounds += 1u;
         }
-        before = after;
-        gather_rounds += 1u;
     }
     return sum;
 }

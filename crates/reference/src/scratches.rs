@@ -10,7 +10,7 @@ use hairline_optics::band::{
     BandFrame, BandLine, BandLines, band_lines, band_reaches, curved_band_std, sphere_band_extent,
     sphere_chord,
 };
-use hairline_optics::band_environment::{ENVIRONMENT_CELLS, environment_cell};
+use hairline_optics::band_environment::environment_band;
 use hairline_optics::footprint::{Footprint, ScratchShare, scratch_share};
 use hairline_optics::mask::ScratchSums;
 use hairline_optics::scratch::band_std;
@@ -182,17 +182,13 @@ fn environment_radiance(
     point: &SurfacePoint,
     antiderivative: impl Fn(f64) -> [f64; 3],
 ) -> DVec3 {
-    let line = BandLine::new(view.wo, 0.0);
-    let mut sum = DVec3::ZERO;
-    let mut before = DVec3::from(antiderivative(line.q_end()));
-    for i in 0..ENVIRONMENT_CELLS {
-        let cell = environment_cell(i, line, view.width_um);
-        let after = DVec3::from(antiderivative(cell.q_high));
-        if cell.q_high > cell.q_low {
-            let direction = point.world_from_surface(view.frame.surface_from_band(cell.direction));
-            sum += (after - before) * environment.prefiltered(direction, cell.roughness());
-        }
-        before = after;
-    }
-    sum
+    environment_band(
+        BandLine::new(view.wo, 0.0),
+        view.width_um,
+        antiderivative,
+        |direction, roughness| {
+            let direction = view.frame.surface_from_band(direction);
+            environment.prefiltered(point.world_from_surface(direction), roughness)
+        },
+    )
 }

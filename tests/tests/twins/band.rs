@@ -189,6 +189,29 @@ fn polygons() {
 }
 
 #[test]
+fn curved_bands() {
+    let mut random = Sequence(5);
+    let mut rows = vec![[0.0; 4], [0.003, 0.0, 0.0, 2.0], [0.003, 1e6, 1.0, 2.0]];
+    for _ in 0..2000 {
+        let scale = 10f32.powf(random.between(-5.0, 0.0));
+        let (x, y) = (random.between(-scale, scale), random.between(-scale, scale));
+        rows.push([random.between(0.001, 0.02), x, y, random.between(0.0, 2.0)]);
+    }
+    Twin {
+        name: "curved_band_std",
+        modules: &[&shaders::BAND],
+        snippet: "y[0] = curved_band_std(x[0], vec2f(x[1], x[2]), x[3]);",
+        tables: &[],
+        expected: &|[std_xi, x, y, cos_sum]: [f64; 4]| [curved_band_std(std_xi, [x, y], cos_sum)],
+        tolerance: Tolerance {
+            absolute: 0.0,
+            relative: 1e-6,
+        },
+    }
+    .check(&rows, 0);
+}
+
+#[test]
 fn environment_cells() {
     let mut random = Sequence(4);
     let mut rows = vec![
@@ -215,7 +238,7 @@ fn environment_cells() {
         tables: &[],
         expected: &|[ox, oy, oz, width, i]: [f64; 5]| {
             let cell = environment_cell(i as usize, BandLine::new(v(ox, oy, oz), 0.0), width);
-            [cell.q_low, cell.q_high, cell.direction.y, cell.direction.z, cell.roughness()]
+            [cell.q_low, cell.q_high, cell.direction.y, cell.direction.z, cell.environment_cell_roughness()]
         },
         // The height above the horizon is the square root of a rounded difference.
         tolerance: Tolerance { absolute: 2e-3, relative: 1e-3 },

@@ -67,7 +67,7 @@ fn in_the_shader() {
             let extent = edge_band_extent(a, b) + sphere_band_extent(wo, cap);
             let lines = band_lines(wo.x, extent.x, extent.y, 0.003);
             let node = band_line(lines, 0u);
-            let cell = environment_cell(u32(abs(x[9]) * 9.0), line, x[14]);
+            let cell = environment_cell(u32(abs(x[9]) * 23.0), line, x[14]);
             let t = scratch_table(table_0, 0u, x[14] * chord.enter, x[15]) + scratch_table(table_0, 0u, x[14] * chord.leave, x[15])
                 + scratch_table(table_0, 0u, x[14] * roots.rising, x[15]) + scratch_table(table_0, 0u, x[14] * roots.falling, x[15]);
             let share = scratch_share(x[14], x[16], x[17], x[18], x[19], Footprint(x[20], x[21], x[22]), 20.0);
