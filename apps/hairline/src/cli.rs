@@ -59,7 +59,7 @@ pub struct Render {
 /// What renders.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Backend {
-    /// A GPU if there is one, else the CPU renderer or a software graphics driver, whichever measures faster.
+    /// A GPU if there is one, else the CPU renderer; for long work a software graphics driver if it measures faster.
     Auto,
     /// A graphics adapter, be it a GPU or a software driver.
     Gpu,
