@@ -124,6 +124,23 @@ impl Sequence {
     pub fn between(&mut self, a: f32, b: f32) -> f32 {
         a + (b - a) * self.next()
     }
+
+    /// A unit vector with z at least `lowest_z`; one in eight lies along an axis or on the horizon.
+    pub fn direction(&mut self, lowest_z: f32) -> [f32; 3] {
+        let awkward = [
+            [1.0, 0.0, 0.0],
+            [0.0, 1.0, 0.0],
+            [0.0, 0.0, 1.0],
+            [0.6, 0.8, 0.0],
+        ];
+        if self.next() < 0.125 {
+            return awkward[(self.next() * 4.0) as usize];
+        }
+        let z = self.between(lowest_z, 1.0);
+        let (sin, cos) = self.between(0.0, std::f32::consts::TAU).sin_cos();
+        let r = (1.0 - z * z).sqrt();
+        [r * cos, r * sin, z]
+    }
 }
 
 /// Lays `count` straight scratches at random over the square.

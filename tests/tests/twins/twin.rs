@@ -1,5 +1,6 @@
 //! Feeds the same rows to a WGSL snippet and to an f64 function and compares what comes out.
 
+pub use conformance::Sequence;
 use hairline_gpu::call::{Call, Table};
 use hairline_gpu::device::Gpu;
 use hairline_gpu::headless;
@@ -60,40 +61,6 @@ impl<const N: usize, const M: usize> Twin<'_, N, M> {
             rows.len(),
             failures[..failures.len().min(5)].join("\n")
         );
-    }
-}
-
-/// A deterministic sequence of numbers in [0, 1).
-pub struct Sequence(pub u64);
-
-impl Sequence {
-    pub fn next(&mut self) -> f32 {
-        self.0 = self
-            .0
-            .wrapping_mul(6364136223846793005)
-            .wrapping_add(1442695040888963407);
-        (self.0 >> 40) as f32 / (1u64 << 24) as f32
-    }
-
-    pub fn between(&mut self, a: f32, b: f32) -> f32 {
-        a + (b - a) * self.next()
-    }
-
-    /// A unit vector with z at least `lowest_z`; one in eight lies along an axis or on the horizon.
-    pub fn direction(&mut self, lowest_z: f32) -> [f32; 3] {
-        let awkward = [
-            [1.0, 0.0, 0.0],
-            [0.0, 1.0, 0.0],
-            [0.0, 0.0, 1.0],
-            [0.6, 0.8, 0.0],
-        ];
-        if self.next() < 0.125 {
-            return awkward[(self.next() * 4.0) as usize];
-        }
-        let z = self.between(lowest_z, 1.0);
-        let (sin, cos) = self.between(0.0, std::f32::consts::TAU).sin_cos();
-        let r = (1.0 - z * z).sqrt();
-        [r * cos, r * sin, z]
     }
 }
 
