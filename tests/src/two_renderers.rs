@@ -31,7 +31,11 @@ pub fn on_the_gpu(scene: &Scene, samples: u32) -> Option<Image> {
 
 /// The picture by the closed form.
 pub fn on_the_cpu(scene: &Scene, samples: u32) -> Image {
-    closed_form::render(scene, &closed_form::RenderOptions { samples }, &|_| {})
+    let options = closed_form::RenderOptions {
+        samples,
+        ..Default::default()
+    };
+    closed_form::render(scene, &options, &|_| {})
 }
 
 /// Where a pixel's centre lies clear of the edges of its triangle. Within rounding of an edge the rasteriser and the ray may

@@ -8,7 +8,7 @@ use hairline_reference::closed_form::{RenderOptions, render};
 use hairline_scene::{Base, Scene};
 
 fn picture(scene: &Scene) -> Image {
-    render(scene, &RenderOptions { samples: 1 }, &|_| {})
+    render(scene, &RenderOptions::default(), &|_| {})
 }
 
 fn relative_rms(a: &[[f32; 3]], b: &[[f32; 3]]) -> f64 {

@@ -87,7 +87,10 @@ fn warn_of(gpu: &Gpu, error: &hairline_gpu::Error) {
 
 fn render_on_cpu(prepared: &Prepared, samples: u32) -> Image {
     let progress = Progress::start("rendering");
-    let options = closed_form::RenderOptions { samples };
+    let options = closed_form::RenderOptions {
+        samples,
+        ..Default::default()
+    };
     prepared.render(&options, &|share| progress.set(share))
 }
 

@@ -113,7 +113,10 @@ fn time_cpu(prepared: &Prepared, samples: u32, strips: &[Range<u32>]) -> Duratio
     let start = Instant::now();
     for rows in strips {
         prepared.render_rows(
-            &closed_form::RenderOptions { samples },
+            &closed_form::RenderOptions {
+                samples,
+                ..Default::default()
+            },
             rows.clone(),
             &|_| {},
         );

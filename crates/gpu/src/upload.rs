@@ -4,6 +4,7 @@ use bytemuck::Zeroable;
 use glam::{DVec3, Vec3};
 use hairline_index::ScratchIndex;
 use hairline_scene::{Scene, ScratchTables};
+use std::ops::Range;
 use wgpu::BufferUsages;
 
 use crate::bindings::{Layouts, SCENE_BUFFERS, bind};
@@ -53,18 +54,26 @@ impl GpuScene {
         let triangles = triangle_ranges(scene);
         let host = HostScene {
             vertices: vertices(scene, origin_m),
-            objects: index.objects.iter().map(object).collect(),
+            objects: index
+                .tree
+                .objects
+                .iter()
+                .zip(&index.depth_coherence)
+                .map(object)
+                .collect(),
             materials: (0..scene.materials.len())
                 .map(|i| material(scene, tables, &array, i))
                 .collect(),
             lights: lights(scene, origin_m),
             light_vertices: light_vertices(scene, origin_m),
             nodes: index
+                .tree
                 .nodes
                 .iter()
                 .map(|node| scratch_node(node, origin_m))
                 .collect(),
             segments: index
+                .tree
                 .segments
                 .iter()
                 .map(|segment| scratch_segment(segment, origin_m))
@@ -141,8 +150,8 @@ fn check_size(gpu: &Gpu, scene: &Scene, index: &ScratchIndex) -> Result<(), Erro
         (scene.materials.len(), size_of::<Material>()),
         (scene.lights.len(), size_of::<Light>()),
         (light_vertices, size_of::<[f32; 4]>()),
-        (index.nodes.len(), size_of::<ScratchNode>()),
-        (index.segments.len(), size_of::<ScratchSegment>()),
+        (index.tree.nodes.len(), size_of::<ScratchNode>()),
+        (index.tree.segments.len(), size_of::<ScratchSegment>()),
     ];
     let limits = gpu.limits();
     let allowed = limits
@@ -223,11 +232,11 @@ fn vertices(scene: &Scene, origin_m: DVec3) -> Vec<Vertex> {
         .collect()
 }
 
-fn object(scratches: &hairline_index::ObjectScratches) -> Object {
+fn object((nodes, depth_coherence): (&Range<u32>, &f32)) -> Object {
     Object {
-        first_node: scratches.nodes.start,
-        end_node: scratches.nodes.end,
-        depth_coherence: scratches.depth_coherence,
+        first_node: nodes.start,
+        end_node: nodes.end,
+        depth_coherence: *depth_coherence,
     }
 }
 

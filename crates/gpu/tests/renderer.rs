@@ -473,10 +473,8 @@ fn a_scene_beyond_one_binding_is_refused_with_figures() {
         max_m: Vec3::ZERO,
         leaf: 0,
     };
-    let index = ScratchIndex {
-        nodes: vec![node; 4_300_000],
-        ..ScratchIndex::build(&scene)
-    };
+    let mut index = ScratchIndex::build(&scene);
+    index.tree.nodes = vec![node; 4_300_000];
     let renderer = gpu.block_on(Renderer::new(&gpu)).unwrap();
     let Err(error) = gpu.block_on(renderer.upload(&scene, &index, &ScratchTables::new(&scene)))
     else {

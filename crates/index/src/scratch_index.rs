@@ -1,45 +1,12 @@
-//! Scratches under a footprint: a bounding volume hierarchy with skip pointers (B. Smits, *Efficiency Issues for Ray
-//! Tracing*, 1998), one for each object, so that no scratch shows on an object that merely touches its own.
-//!
-//! What the tree holds is ready for the footprint integral: free ends are moved inwards here, once, by what docs/model.md
-//! section 6 says of the whole scratch; where pieces are joined nothing moves, and pieces that an end's shift swallows
-//! are gone.
+//! Scratches as the closed form wants them under a footprint: free ends are moved inwards here, once, by what
+//! docs/model.md section 6 says of the whole scratch; where pieces are joined nothing moves, and pieces that an end's shift
+//! swallows are gone.
 
+use crate::segment_tree::{SegmentTree, Straight};
 use glam::Vec3;
 use hairline_optics::footprint;
 use hairline_optics::mask::depth_coherence;
 use hairline_scene::{Object, Scene};
-use obvhs::aabb::Aabb;
-use obvhs::bvh2::Bvh2;
-use obvhs::bvh2::builder::build_bvh2;
-use obvhs::{Boundable, BvhBuildParams};
-use std::ops::Range;
-
-/// A node in depth-first order. A walk goes on with the next node, or with `skip` if it wants nothing below this one.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ScratchNode {
-    /// Lower corner, world space, metres.
-    pub min_m: Vec3,
-    /// The next node that is not below this one; always greater than the node's own index.
-    pub skip: u32,
-    /// Upper corner, world space, metres.
-    pub max_m: Vec3,
-    /// 0 for an inner node; else the number of segments in the upper 4 bits and the first segment in the lower 28.
-    pub leaf: u32,
-}
-
-/// Most segments in one leaf.
-const LEAF_SEGMENTS: u32 = 4;
-/// Bits of [`ScratchNode::leaf`] that hold the first segment.
-pub const LEAF_FIRST_BITS: u32 = 28;
-
-impl ScratchNode {
-    /// The segments of a leaf; empty for an inner node.
-    pub fn segments(&self) -> Range<usize> {
-        let first = (self.leaf & ((1 << LEAF_FIRST_BITS) - 1)) as usize;
-        first..first + (self.leaf >> LEAF_FIRST_BITS) as usize
-    }
-}
 
 /// A straight piece of a scratch, its free ends moved inwards.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,24 +25,19 @@ pub struct IndexedSegment {
     pub blur_um: f32,
 }
 
-/// An object's part of the index.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ObjectScratches {
-    /// Its nodes in [`ScratchIndex::nodes`]; empty for an object without scratches.
-    pub nodes: Range<u32>,
-    /// How alike the phase steps of its scratches are (docs/model.md, section 3).
-    pub depth_coherence: f32,
+impl Straight for IndexedSegment {
+    fn ends_m(&self) -> [Vec3; 2] {
+        [self.start_m, self.end_m]
+    }
 }
 
-/// The trees of all objects of a scene.
-#[derive(Clone, Debug, Default)]
+/// The scratches of a scene under footprints.
+#[derive(Clone, Debug)]
 pub struct ScratchIndex {
-    /// Nodes, object by object, each object's in depth-first order.
-    pub nodes: Vec<ScratchNode>,
-    /// Segments in the order of the leaves.
-    pub segments: Vec<IndexedSegment>,
-    /// One for each object of the scene.
-    pub objects: Vec<ObjectScratches>,
+    /// What lies where.
+    pub tree: SegmentTree<IndexedSegment>,
+    /// How alike the phase steps of each object's scratches are (docs/model.md, section 3).
+    pub depth_coherence: Vec<f32>,
 }
 
 /// A footprint cannot be told apart from its Gaussian's tail beyond this many standard deviations (5e-4 of it is left).
@@ -88,122 +50,21 @@ pub const FACING_MIN_COS: f32 = 0.2;
 impl ScratchIndex {
     /// Builds the trees.
     pub fn build(scene: &Scene) -> Self {
-        let mut index = Self::default();
-        for object in &scene.objects {
-            let segments = effective_segments(scene, object);
-            let first_node = index.nodes.len() as u32;
-            index.append_tree(segments);
-            let depths = object.scratches.iter().map(|s| {
-                let pieces = &object.segments[s.segments.start as usize..s.segments.end as usize];
-                let length: f32 = pieces.iter().map(|p| p.start_m.distance(p.end_m)).sum();
-                (s.depth_nm as f64, (s.width_um * length) as f64)
-            });
-            index.objects.push(ObjectScratches {
-                nodes: first_node..index.nodes.len() as u32,
-                depth_coherence: depth_coherence(depths) as f32,
-            });
-        }
-        index
-    }
-
-    /// Calls `visit` for every segment of an object whose node touches the box around a point.
-    #[inline]
-    pub fn gather(
-        &self,
-        object: usize,
-        center_m: Vec3,
-        reach_m: Vec3,
-        mut visit: impl FnMut(&IndexedSegment),
-    ) {
-        let Range { start, end } = self.objects[object].nodes;
-        let (lower, upper) = (center_m - reach_m, center_m + reach_m);
-        let mut at = start;
-        while at < end {
-            let node = &self.nodes[at as usize];
-            if node.min_m.cmple(upper).all() && node.max_m.cmpge(lower).all() {
-                self.segments[node.segments()].iter().for_each(&mut visit);
-                at += 1;
-            } else {
-                at = node.skip;
-            }
-        }
-    }
-
-    fn append_tree(&mut self, segments: Vec<IndexedSegment>) {
-        if segments.is_empty() {
-            return;
-        }
-        let boxes: Vec<SegmentBox> = segments.iter().map(SegmentBox::new).collect();
-        let params = BvhBuildParams {
-            max_prims_per_leaf: LEAF_SEGMENTS,
-            ..BvhBuildParams::medium_build()
-        };
-        let tree = build_bvh2(&boxes, params, &mut std::time::Duration::default());
-        self.append_depth_first(&tree, &segments, 0);
-    }
-
-    /// obvhs keeps siblings side by side; skip pointers want depth-first order.
-    fn append_depth_first(&mut self, tree: &Bvh2, segments: &[IndexedSegment], root: usize) {
-        // The second child's turn comes when the first one's subtree is done; a node's skip is known when its own is.
-        enum Step {
-            Enter(usize),
-            Leave(usize),
-        }
-        let mut steps = vec![Step::Enter(root)];
-        while let Some(step) = steps.pop() {
-            match step {
-                Step::Leave(written) => self.nodes[written].skip = self.nodes.len() as u32,
-                Step::Enter(at) => {
-                    let node = &tree.nodes[at];
-                    let written = self.nodes.len();
-                    let mut leaf = 0;
-                    steps.push(Step::Leave(written));
-                    if node.is_leaf() {
-                        let first = self.segments.len() as u32;
-                        assert!(
-                            first < 1 << LEAF_FIRST_BITS,
-                            "more than 268 million segments"
-                        );
-                        let own = node.first_index as usize
-                            ..(node.first_index + node.prim_count) as usize;
-                        self.segments.extend(
-                            tree.primitive_indices[own]
-                                .iter()
-                                .map(|i| segments[*i as usize]),
-                        );
-                        leaf = first | node.prim_count << LEAF_FIRST_BITS;
-                    } else {
-                        steps.push(Step::Enter(node.first_index as usize + 1));
-                        steps.push(Step::Enter(node.first_index as usize));
-                    }
-                    let bounds = node.aabb();
-                    self.nodes.push(ScratchNode {
-                        min_m: bounds.min.into(),
-                        skip: 0,
-                        max_m: bounds.max.into(),
-                        leaf,
-                    });
-                }
-            }
+        let objects = scene.objects.iter();
+        Self {
+            tree: SegmentTree::build(objects.map(|object| effective_segments(scene, object))),
+            depth_coherence: scene.objects.iter().map(object_depth_coherence).collect(),
         }
     }
 }
 
-struct SegmentBox(Aabb);
-
-impl SegmentBox {
-    fn new(segment: &IndexedSegment) -> Self {
-        Self(Aabb::from_points(&[
-            segment.start_m.into(),
-            segment.end_m.into(),
-        ]))
-    }
-}
-
-impl Boundable for SegmentBox {
-    fn aabb(&self) -> Aabb {
-        self.0
-    }
+fn object_depth_coherence(object: &Object) -> f32 {
+    let depths = object.scratches.iter().map(|s| {
+        let pieces = &object.segments[s.segments.start as usize..s.segments.end as usize];
+        let length: f32 = pieces.iter().map(|p| p.start_m.distance(p.end_m)).sum();
+        (s.depth_nm as f64, (s.width_um * length) as f64)
+    });
+    depth_coherence(depths) as f32
 }
 
 /// The pieces of all scratches of an object, free ends moved inwards along the scratch.

@@ -66,6 +66,21 @@ impl ScratchSums {
         }
     }
 
+    /// Radiance of all scratches and the share of the base's energy that they take, by any of the masks.
+    pub fn resolve(&self, mask: Mask, depth_coherence: f64) -> Masked {
+        match mask {
+            Mask::Energy => self.mask_resolve(depth_coherence),
+            Mask::Linear => Masked {
+                scratches: self.radiance,
+                taken: self.energy,
+            },
+            Mask::Density => Masked {
+                scratches: self.radiance,
+                taken: [(2.0 * self.share).min(1.0); 3],
+            },
+        }
+    }
+
     /// Radiance of all scratches, each weakened by the others, and the share of the base's energy that they take.
     ///
     /// A scratch does not weaken itself, however many segments it is cut into: what counts as itself is its whole line,
@@ -86,6 +101,20 @@ impl ScratchSums {
             taken: self.energy.map(|e| kept * e),
         }
     }
+}
+
+/// How the base pays for what scratches scatter.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Mask {
+    /// |D|^2 rho in colour, scratches weakening one another: equation (9) of docs/model.md.
+    #[default]
+    Energy,
+    /// The same without the weakening and without a bound: linear in the shares, so its mean over a pixel is the mask of the mean
+    /// share. For comparisons; dense scratches take more than there is.
+    Linear,
+    /// The density of Velinov, Werner and Hullin (2018): twice the share, without colour (2 is the mean of |D|^2), and
+    /// nothing left beyond one half; the scratches themselves as if each were alone.
+    Density,
 }
 
 /// The result of [`ScratchSums::mask_resolve`].

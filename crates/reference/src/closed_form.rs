@@ -10,7 +10,7 @@ use crate::{base, scratches, surface};
 use glam::{DVec2, DVec3};
 use hairline_image::Image;
 use hairline_index::{ScratchIndex, TriangleIndex};
-use hairline_optics::mask::ScratchSums;
+use hairline_optics::mask::{Mask, ScratchSums};
 use hairline_scene::camera::pixel_jitter;
 use hairline_scene::{CameraFrame, Scene, ScratchTables};
 use rayon::prelude::*;
@@ -23,6 +23,17 @@ pub struct RenderOptions {
     /// Jittered samples of a pixel on an edge or a crease; all other pixels, and all of them for 1, take one through the
     /// centre.
     pub samples: u32,
+    /// How the base pays for what scratches scatter.
+    pub mask: Mask,
+}
+
+impl Default for RenderOptions {
+    fn default() -> Self {
+        Self {
+            samples: 1,
+            mask: Mask::default(),
+        }
+    }
 }
 
 /// A scene with everything that rendering looks up.
@@ -99,7 +110,14 @@ impl<'a> Prepared<'a> {
                     for i in 0..samples {
                         let pixel =
                             DVec2::new(x as f64 + 0.5, y as f64 + 0.5) + pixel_jitter(i, samples);
-                        let sample = shade_pixel(self, &camera, footprint_std_px, pixel, views);
+                        let sample = shade_pixel(
+                            self,
+                            options.mask,
+                            &camera,
+                            footprint_std_px,
+                            pixel,
+                            views,
+                        );
                         sum.base += sample.base;
                         sum.scratches += sample.scratches;
                         sum.density += sample.density;
@@ -145,6 +163,7 @@ pub fn render(scene: &Scene, options: &RenderOptions, progress: &(dyn Fn(f64) + 
 /// One ray through a point of the picture.
 fn shade_pixel(
     prepared: &Prepared,
+    mask: Mask,
     camera: &CameraFrame,
     footprint_std_px: f64,
     pixel: DVec2,
@@ -164,21 +183,35 @@ fn shade_pixel(
         };
     };
     let depth_m = hit.distance_m / ray.length();
-    let point = surface::surface_point(prepared, camera, footprint_std_px, ray, depth_m, &hit);
+    let footprint = |normal| {
+        camera
+            .footprint_axes(ray, depth_m, normal)
+            .map(|axis| axis * footprint_std_px)
+    };
+    let point = surface::surface_point(
+        prepared.scene,
+        &prepared.tables,
+        camera.position_m + ray * depth_m,
+        -direction,
+        footprint,
+        &hit,
+    );
     views.look_from(&point);
     let sums = scratches::gather_scratches(prepared, &point, hit.object as usize, views);
-    shade_surface(prepared, hit.object as usize, &point, &sums, views, depth_m)
+    let object = hit.object as usize;
+    shade_surface(prepared, mask, object, &point, &sums, views, depth_m)
 }
 
 fn shade_surface(
     prepared: &Prepared,
+    mask: Mask,
     object: usize,
     point: &SurfacePoint,
     sums: &ScratchSums,
     views: &LightViews,
     depth_m: f64,
 ) -> Sample {
-    let masked = sums.mask_resolve(prepared.scratches.objects[object].depth_coherence as f64);
+    let masked = sums.resolve(mask, prepared.scratches.depth_coherence[object] as f64);
     let taken = DVec3::from(masked.taken);
     let light = base::base_radiance(prepared.scene.environment.as_ref(), point, views);
     // A groove interrupts the reflecting surface; what shines from under it passes.
@@ -209,7 +242,10 @@ mod tests {
             ".",
         )
         .unwrap_or_else(|error| panic!("{error}"));
-        let options = RenderOptions { samples: 3 };
+        let options = RenderOptions {
+            samples: 3,
+            ..RenderOptions::default()
+        };
         let prepared = Prepared::new(&scene);
         let whole = prepared.render(&options, &|_| {});
         for rows in [0..1, 0..7, 7..24, 39..40] {

@@ -34,6 +34,7 @@ pub(crate) fn gather_scratches(
     let reach = (variance.map(f64::sqrt) * REACH_STD as f64).as_vec3();
     prepared
         .scratches
+        .tree
         .gather(object, point.position_m.as_vec3(), reach, |segment| {
             let Some(view) = SegmentView::new(point, segment) else {
                 return;

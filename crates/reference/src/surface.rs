@@ -1,11 +1,10 @@
 //! The surface under a pixel: position, frame, footprint, material with its textures.
 
-use crate::closed_form::Prepared;
 use glam::{DVec2, DVec3};
 use hairline_index::Hit;
 use hairline_optics::fresnel::FresnelRgb;
 use hairline_optics::ggx::ggx_curved_roughness;
-use hairline_scene::{CameraFrame, Mesh, Texture};
+use hairline_scene::{Mesh, Scene, ScratchTables, Texture};
 
 /// A shading point. Its local frame has z along the shading normal and the viewer in the x-z plane.
 #[derive(Clone, Copy, Debug)]
@@ -46,23 +45,22 @@ impl SurfacePoint {
 /// bent back.
 pub(crate) const MIN_VIEW_COS: f64 = 0.01;
 
-/// The surface at a hit. `ray` is the camera's, `depth_m` the hit's distance along the view axis.
+/// The surface at a hit, seen from the unit direction `to_viewer`. `footprint` gives, for a plane of a given unit normal
+/// through the hit, how the hit moves by one standard deviation of the pixel's filter to the right and down, metres.
 pub(crate) fn surface_point(
-    prepared: &Prepared,
-    camera: &CameraFrame,
-    footprint_std_px: f64,
-    ray: DVec3,
-    depth_m: f64,
+    scene: &Scene,
+    tables: &ScratchTables,
+    position_m: DVec3,
+    to_viewer: DVec3,
+    footprint: impl Fn(DVec3) -> [DVec3; 2],
     hit: &Hit,
 ) -> SurfacePoint {
-    let scene = prepared.scene;
     let mesh = &scene.objects[hit.object as usize].mesh;
     let triangle = mesh.triangles[hit.triangle as usize];
     let [u, v] = hit.barycentric;
     let weights = [1.0 - u - v, u, v];
     let corners = triangle.map(|i| mesh.positions_m[i as usize].as_dvec3());
     let geometric = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-    let to_viewer = -ray.normalize();
     // Either side of a sheet is a surface of its own.
     let side = if geometric.dot(to_viewer) < 0.0 {
         -1.0
@@ -77,11 +75,9 @@ pub(crate) fn surface_point(
 
     let material_index = mesh.triangle_materials[hit.triangle as usize] as usize;
     let material = &scene.materials[material_index];
-    let optics = &prepared.tables.materials[material_index];
+    let optics = &tables.materials[material_index];
     let uv = triangle_uv(mesh, triangle, weights);
-    let axes = camera
-        .footprint_axes(ray, depth_m, side * smooth)
-        .map(|a| a * footprint_std_px);
+    let axes = footprint(side * smooth);
     let texel_scale = texture_footprint(mesh, triangle, &corners, axes);
     let texture =
         |index: Option<usize>| index.map(|i| sample_texture(&scene.textures[i], uv, texel_scale));
@@ -126,14 +122,12 @@ pub(crate) fn surface_point(
     let f0 = DVec3::splat(optics.dielectric_f0).lerp(base_color, metallic);
     let cos = normal.dot(to_viewer);
     SurfacePoint {
-        position_m: camera.position_m + ray * depth_m,
+        position_m,
         axis_x,
         axis_y,
         normal,
         wo: DVec3::new((1.0 - cos * cos).max(0.0).sqrt(), 0.0, cos),
-        footprint_axes_m: camera
-            .footprint_axes(ray, depth_m, normal)
-            .map(|a| a * footprint_std_px),
+        footprint_axes_m: footprint(normal),
         normal_turns: normal_turns.map(|turn| DVec3::new(turn.dot(axis_x), turn.dot(axis_y), 0.0)),
         fresnel: FresnelRgb {
             f0: f0.to_array(),

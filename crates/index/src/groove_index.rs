@@ -1,0 +1,112 @@
+//! Scratches as they lie on the surface, for the references: every piece with its true ends, and how far its scratch
+//! goes on beyond them.
+
+use crate::segment_tree::{SegmentTree, Straight};
+use glam::Vec3;
+use hairline_scene::{Object, Scene};
+
+/// A straight piece of a scratch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Groove {
+    /// World space, metres.
+    pub start_m: Vec3,
+    /// World space, metres.
+    pub end_m: Vec3,
+    /// The surface's unit normal.
+    pub normal: Vec3,
+    /// Width of the groove.
+    pub width_um: f32,
+    /// Depth of the groove.
+    pub depth_nm: f32,
+    /// Length of the scratch before `start_m`; infinite for a closed ring.
+    pub before_um: f32,
+    /// Length of the scratch after `end_m`; infinite for a closed ring.
+    pub after_um: f32,
+}
+
+impl Straight for Groove {
+    fn ends_m(&self) -> [Vec3; 2] {
+        [self.start_m, self.end_m]
+    }
+}
+
+/// The trees over all pieces of a scene.
+pub fn build(scene: &Scene) -> SegmentTree<Groove> {
+    SegmentTree::build(scene.objects.iter().map(grooves))
+}
+
+fn grooves(object: &Object) -> Vec<Groove> {
+    let mut grooves = Vec::with_capacity(object.segments.len());
+    for scratch in &object.scratches {
+        let pieces =
+            &object.segments[scratch.segments.start as usize..scratch.segments.end as usize];
+        let length_um = |p: &hairline_scene::Segment| p.start_m.distance(p.end_m) as f64 * 1e6;
+        let whole_um: f64 = pieces.iter().map(length_um).sum();
+        let mut before_um = 0.0;
+        for piece in pieces {
+            let after_um = (whole_um - before_um - length_um(piece)).max(0.0);
+            let [before, after] = if scratch.closed {
+                [f32::INFINITY; 2]
+            } else {
+                [before_um as f32, after_um as f32]
+            };
+            before_um += length_um(piece);
+            if piece.start_m != piece.end_m {
+                grooves.push(Groove {
+                    start_m: piece.start_m,
+                    end_m: piece.end_m,
+                    normal: piece.normal,
+                    width_um: scratch.width_um,
+                    depth_nm: scratch.depth_nm,
+                    before_um: before,
+                    after_um: after,
+                });
+            }
+        }
+    }
+    grooves
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use hairline_scene::{Mesh, Scratch, Segment};
+
+    #[test]
+    fn a_piece_knows_how_far_its_scratch_goes_on() {
+        let at = |mm: f32| Vec3::new(mm * 1e-3, 0.0, 0.0);
+        let pieces = [(0.0, 1.0), (1.0, 3.0), (3.0, 3.0), (3.0, 3.5)];
+        let object = |closed| Object {
+            name: "o".into(),
+            mesh: Mesh::default(),
+            scratches: vec![Scratch {
+                width_um: 2.0,
+                depth_nm: 100.0,
+                layer: 0,
+                closed,
+                segments: 0..4,
+            }],
+            segments: pieces
+                .iter()
+                .map(|(start, end)| Segment {
+                    start_m: at(*start),
+                    end_m: at(*end),
+                    normal: Vec3::Z,
+                    triangle: 0,
+                })
+                .collect(),
+        };
+        let open = grooves(&object(false));
+        let beyond: Vec<_> = open.iter().map(|g| (g.before_um, g.after_um)).collect();
+        let expected = [(0.0, 2500.0), (1000.0, 500.0), (3000.0, 0.0)];
+        assert_eq!(beyond.len(), 3, "a piece of no length is no groove");
+        for (found, right) in beyond.iter().zip(expected) {
+            assert!((found.0 - right.0).abs() < 0.01 && (found.1 - right.1).abs() < 0.01);
+        }
+        assert!(
+            grooves(&object(true))
+                .iter()
+                .all(|g| g.before_um.is_infinite())
+        );
+    }
+}

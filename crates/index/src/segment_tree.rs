@@ -1,0 +1,162 @@
+//! Straight pieces of scratches under a box: bounding volume hierarchies with skip pointers (B. Smits, *Efficiency Issues
+//! for Ray Tracing*, 1998), one for each object, so that no scratch shows on an object that merely touches its own.
+
+use glam::Vec3;
+use obvhs::aabb::Aabb;
+use obvhs::bvh2::Bvh2;
+use obvhs::bvh2::builder::build_bvh2;
+use obvhs::{Boundable, BvhBuildParams};
+use std::ops::Range;
+
+/// A node in depth-first order. A walk goes on with the next node, or with `skip` if it wants nothing below this one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ScratchNode {
+    /// Lower corner, world space, metres.
+    pub min_m: Vec3,
+    /// The next node that is not below this one; always greater than the node's own index.
+    pub skip: u32,
+    /// Upper corner, world space, metres.
+    pub max_m: Vec3,
+    /// 0 for an inner node; else the number of segments in the upper 4 bits and the first segment in the lower 28.
+    pub leaf: u32,
+}
+
+/// Most segments in one leaf.
+const LEAF_SEGMENTS: u32 = 4;
+/// Bits of [`ScratchNode::leaf`] that hold the first segment.
+pub const LEAF_FIRST_BITS: u32 = 28;
+
+impl ScratchNode {
+    /// The segments of a leaf; empty for an inner node.
+    pub fn segments(&self) -> Range<usize> {
+        let first = (self.leaf & ((1 << LEAF_FIRST_BITS) - 1)) as usize;
+        first..first + (self.leaf >> LEAF_FIRST_BITS) as usize
+    }
+}
+
+/// What a tree can hold.
+pub trait Straight: Copy {
+    /// Both ends, world space, metres.
+    fn ends_m(&self) -> [Vec3; 2];
+}
+
+/// The trees of all objects of a scene.
+#[derive(Clone, Debug)]
+pub struct SegmentTree<S> {
+    /// Nodes, object by object, each object's in depth-first order.
+    pub nodes: Vec<ScratchNode>,
+    /// Segments in the order of the leaves.
+    pub segments: Vec<S>,
+    /// Each object's part of `nodes`; empty for an object without scratches.
+    pub objects: Vec<Range<u32>>,
+}
+
+impl<S: Straight> SegmentTree<S> {
+    /// Builds the trees; one list of segments for each object.
+    pub fn build(objects: impl Iterator<Item = Vec<S>>) -> Self {
+        let mut tree = Self {
+            nodes: Vec::new(),
+            segments: Vec::new(),
+            objects: Vec::new(),
+        };
+        for segments in objects {
+            let first = tree.nodes.len() as u32;
+            tree.append_tree(&segments);
+            tree.objects.push(first..tree.nodes.len() as u32);
+        }
+        tree
+    }
+
+    /// Calls `visit` for every segment of an object whose node touches the box around a point.
+    #[inline]
+    pub fn gather(&self, object: usize, center_m: Vec3, reach_m: Vec3, mut visit: impl FnMut(&S)) {
+        let Range { start, end } = self.objects[object];
+        let (lower, upper) = (center_m - reach_m, center_m + reach_m);
+        let mut at = start;
+        while at < end {
+            let node = &self.nodes[at as usize];
+            if node.min_m.cmple(upper).all() && node.max_m.cmpge(lower).all() {
+                self.segments[node.segments()].iter().for_each(&mut visit);
+                at += 1;
+            } else {
+                at = node.skip;
+            }
+        }
+    }
+
+    fn append_tree(&mut self, segments: &[S]) {
+        if segments.is_empty() {
+            return;
+        }
+        let boxes: Vec<SegmentBox> = segments
+            .iter()
+            .map(|s| SegmentBox::new(s.ends_m()))
+            .collect();
+        let params = BvhBuildParams {
+            max_prims_per_leaf: LEAF_SEGMENTS,
+            ..BvhBuildParams::medium_build()
+        };
+        let tree = build_bvh2(&boxes, params, &mut std::time::Duration::default());
+        self.append_depth_first(&tree, segments, 0);
+    }
+
+    /// obvhs keeps siblings side by side; skip pointers want depth-first order.
+    fn append_depth_first(&mut self, tree: &Bvh2, segments: &[S], root: usize) {
+        // The second child's turn comes when the first one's subtree is done; a node's skip is known when its own is.
+        enum Step {
+            Enter(usize),
+            Leave(usize),
+        }
+        let mut steps = vec![Step::Enter(root)];
+        while let Some(step) = steps.pop() {
+            match step {
+                Step::Leave(written) => self.nodes[written].skip = self.nodes.len() as u32,
+                Step::Enter(at) => {
+                    let node = &tree.nodes[at];
+                    let written = self.nodes.len();
+                    let mut leaf = 0;
+                    steps.push(Step::Leave(written));
+                    if node.is_leaf() {
+                        let first = self.segments.len() as u32;
+                        assert!(
+                            first < 1 << LEAF_FIRST_BITS,
+                            "more than 268 million segments"
+                        );
+                        let own = node.first_index as usize
+                            ..(node.first_index + node.prim_count) as usize;
+                        self.segments.extend(
+                            tree.primitive_indices[own]
+                                .iter()
+                                .map(|i| segments[*i as usize]),
+                        );
+                        leaf = first | node.prim_count << LEAF_FIRST_BITS;
+                    } else {
+                        steps.push(Step::Enter(node.first_index as usize + 1));
+                        steps.push(Step::Enter(node.first_index as usize));
+                    }
+                    let bounds = node.aabb();
+                    self.nodes.push(ScratchNode {
+                        min_m: bounds.min.into(),
+                        skip: 0,
+                        max_m: bounds.max.into(),
+                        leaf,
+                    });
+                }
+            }
+        }
+    }
+}
+
+struct SegmentBox(Aabb);
+
+impl SegmentBox {
+    fn new(ends_m: [Vec3; 2]) -> Self {
+        Self(Aabb::from_points(&ends_m.map(Into::into)))
+    }
+}
+
+impl Boundable for SegmentBox {
+    fn aabb(&self) -> Aabb {
+        self.0
+    }
+}
