@@ -2,6 +2,7 @@
 
 pub mod band;
 pub mod band_environment;
+pub mod coherent;
 pub mod diffraction;
 pub mod footprint;
 pub mod fresnel;
