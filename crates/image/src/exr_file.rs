@@ -1,76 +1,142 @@
 //! OpenEXR: the layers of a render as channels of one part, and any RGB file as a plain picture.
 //!
 //! Layout after the OpenEXR convention of dotted channel names ("Technical Introduction to OpenEXR", section on layers):
-//! the beauty is R, G, B, so that every viewer shows it; the layers are `base.R` and so on, `depth.Z`, `normal.X`.
+//! the beauty is R, G, B, so that every viewer shows it; the layers are `base.R` and so on, `depth.Z`, `normal.X`. A
+//! Monte Carlo estimate adds `variance.R` (of the beauty), `variance.base.R` and so on, and `samples`, a channel of whole
+//! numbers. Notes are text attributes whose names start with `hairline.`.
 
+use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{BufReader, Cursor};
 use std::path::Path;
 
 use exr::prelude::*;
 
-use crate::{Error, Image, Picture};
+use crate::{Error, Image, Noise, Picture};
 
-/// Encodes all layers of a render. The file reads back bit for bit, NaN payloads aside.
-pub(crate) fn encode_image(image: &Image) -> std::result::Result<Vec<u8>, String> {
-    let mut channels = Vec::with_capacity(16);
-    push_channels(&mut channels, ["R", "G", "B"], &image.beauty().rgb);
-    push_channels(&mut channels, ["base.R", "base.G", "base.B"], &image.base);
-    push_channels(
-        &mut channels,
-        ["scratches.R", "scratches.G", "scratches.B"],
-        &image.scratches,
-    );
-    push_channels(
-        &mut channels,
-        ["density.R", "density.G", "density.B"],
-        &image.density,
-    );
-    push_channels(
-        &mut channels,
-        ["normal.X", "normal.Y", "normal.Z"],
-        &image.normal,
-    );
+/// What a render should remember about its making (scene, model, seed), by name. Any text; names of 246 bytes at most.
+pub type Notes = BTreeMap<String, String>;
+
+/// What the names of notes start with in a file, so that they do not meet the attributes of other software.
+const NOTE_PREFIX: &str = "hairline.";
+
+/// Samples in a batch, an integer attribute. Outside the notes' prefix: no note can have its name.
+const BATCH_ATTRIBUTE: &str = "hairlineBatch";
+
+pub(crate) const SAMPLES: &str = "samples";
+
+/// The three channels of a layer of the render.
+pub(crate) fn channel_names(layer: crate::Layer) -> [&'static str; 3] {
+    match layer {
+        crate::Layer::Beauty => ["R", "G", "B"],
+        crate::Layer::Base => ["base.R", "base.G", "base.B"],
+        crate::Layer::Scratches => ["scratches.R", "scratches.G", "scratches.B"],
+        crate::Layer::Density => ["density.R", "density.G", "density.B"],
+        crate::Layer::Depth => ["depth.Z"; 3],
+        crate::Layer::Normal => ["normal.X", "normal.Y", "normal.Z"],
+    }
+}
+
+/// The three channels of a layer's variance, if it has one.
+pub(crate) fn variance_channel_names(layer: crate::Layer) -> Option<[&'static str; 3]> {
+    match layer {
+        crate::Layer::Beauty => Some(["variance.R", "variance.G", "variance.B"]),
+        crate::Layer::Base => Some(["variance.base.R", "variance.base.G", "variance.base.B"]),
+        crate::Layer::Scratches => Some([
+            "variance.scratches.R",
+            "variance.scratches.G",
+            "variance.scratches.B",
+        ]),
+        crate::Layer::Density => Some([
+            "variance.density.R",
+            "variance.density.G",
+            "variance.density.B",
+        ]),
+        crate::Layer::Depth | crate::Layer::Normal => None,
+    }
+}
+
+/// Encodes all layers of a render with its noise and notes. The file reads back bit for bit, NaN payloads aside.
+pub(crate) fn encode_image(image: &Image, notes: &Notes) -> std::result::Result<Vec<u8>, String> {
+    use crate::Layer as L;
+    let mut channels = Vec::with_capacity(29);
+    for layer in [L::Beauty, L::Base, L::Scratches, L::Density, L::Normal] {
+        push_channels(&mut channels, channel_names(layer), &image.layer(layer));
+    }
     channels.push(AnyChannel::new(
         "depth.Z",
         FlatSamples::F32(image.depth_m.clone()),
     ));
-    encode(image.size_px, channels)
+    let mut attributes = note_attributes(notes)?;
+    if let Some(noise) = &image.noise {
+        for layer in L::ALL {
+            if let (Some(names), Some(values)) =
+                (variance_channel_names(layer), noise.variance(layer))
+            {
+                push_channels(&mut channels, names, values);
+            }
+        }
+        channels.push(AnyChannel::new(
+            SAMPLES,
+            FlatSamples::U32(noise.samples.clone()),
+        ));
+        let batch = i32::try_from(noise.batch).map_err(|_| "a batch of too many samples")?;
+        attributes.push((
+            Text::new_or_panic(BATCH_ATTRIBUTE),
+            attribute::AttributeValue::I32(batch),
+        ));
+    }
+    encode(image.size_px, channels, attributes)
 }
 
 /// Encodes a plain picture.
 pub(crate) fn encode_picture(picture: &Picture) -> std::result::Result<Vec<u8>, String> {
     let mut channels = Vec::with_capacity(3);
     push_channels(&mut channels, ["R", "G", "B"], &picture.rgb);
-    encode(picture.size_px, channels)
+    encode(picture.size_px, channels, Vec::new())
 }
 
 /// Reads a render that [`crate::Output::write_image`] wrote.
 ///
 /// # Errors
-/// [`Error::CannotRead`], and [`Error::Unusable`] where a layer is missing.
+/// [`Error::CannotRead`], and [`Error::Unusable`] where a layer is missing, or a part of what says how sure it is.
 pub fn read_image(path: &Path) -> std::result::Result<Image, Error> {
-    let file = read_channels(path)?;
-    let part = |names: [&str; 3]| {
-        file.iter()
-            .find_map(|part| part.interleaved(names))
-            .ok_or_else(|| Error::Unusable {
-                path: path.to_owned(),
-                reason: format!(
-                    "no channels {}: this is not a layered render",
-                    names.join(", ")
-                ),
-            })
+    Ok(read_image_with_notes(path)?.0)
+}
+
+/// Reads a render with the notes that [`crate::Output::write_image_with_notes`] wrote; the notes are empty in files
+/// that have none, and attributes of other software are left alone.
+///
+/// # Errors
+/// As [`read_image`].
+pub fn read_image_with_notes(path: &Path) -> std::result::Result<(Image, Notes), Error> {
+    let file = Contents::read(path)?;
+    let whole = |names: [&str; 3]| {
+        file.find(names).ok_or_else(|| Error::Unusable {
+            path: path.to_owned(),
+            reason: format!(
+                "no channels {}: this is not a layered render",
+                listed(names)
+            ),
+        })
     };
-    let base = part(["base.R", "base.G", "base.B"])?;
-    Ok(Image {
+    let part = |layer| whole(channel_names(layer));
+    let base = part(crate::Layer::Base)?;
+    let mut image = Image {
         size_px: base.size_px,
         base: base.rgb,
-        scratches: part(["scratches.R", "scratches.G", "scratches.B"])?.rgb,
-        density: part(["density.R", "density.G", "density.B"])?.rgb,
-        depth_m: part(["depth.Z"; 3])?.rgb.iter().map(|z| z[0]).collect(),
-        normal: part(["normal.X", "normal.Y", "normal.Z"])?.rgb,
-    })
+        scratches: part(crate::Layer::Scratches)?.rgb,
+        density: part(crate::Layer::Density)?.rgb,
+        depth_m: part(crate::Layer::Depth)?
+            .rgb
+            .iter()
+            .map(|z| z[0])
+            .collect(),
+        normal: part(crate::Layer::Normal)?.rgb,
+        noise: None,
+    };
+    image.noise = file.noise(path)?;
+    Ok((image, file.notes))
 }
 
 /// Reads any EXR file with channels R, G and B (or Y alone: grey) in one of its parts; the largest level of a mip map.
@@ -78,14 +144,22 @@ pub fn read_image(path: &Path) -> std::result::Result<Image, Error> {
 /// # Errors
 /// [`Error::CannotRead`], and [`Error::Unusable`] for files without such channels and for deep images.
 pub fn read_picture(path: &Path) -> std::result::Result<Picture, Error> {
-    let file = read_channels(path)?;
-    let find = |names| file.iter().find_map(|part| part.interleaved(names));
-    find(["R", "G", "B"])
-        .or_else(|| find(["Y"; 3]))
+    let file = Contents::read(path)?;
+    file.find(["R", "G", "B"])
+        .or_else(|| file.find(["Y"; 3]))
         .ok_or_else(|| Error::Unusable {
             path: path.to_owned(),
             reason: "no channels R, G and B".to_owned(),
         })
+}
+
+/// Names for a message, each once: depth has one channel.
+fn listed(names: [&str; 3]) -> String {
+    if names[0] == names[1] {
+        names[0].to_owned()
+    } else {
+        names.join(", ")
+    }
 }
 
 fn push_channels(
@@ -99,9 +173,30 @@ fn push_channels(
     }
 }
 
+type Attributes = Vec<(Text, attribute::AttributeValue)>;
+
+/// Notes as attributes. The bytes are UTF-8, as OpenEXR asks for.
+fn note_attributes(notes: &Notes) -> std::result::Result<Attributes, String> {
+    notes
+        .iter()
+        .map(|(name, text)| {
+            let name = format!("{NOTE_PREFIX}{name}");
+            // 255 is the longest name of the format; names end with a zero byte.
+            if name.len() == NOTE_PREFIX.len() || name.len() > 255 || name.contains('\0') {
+                return Err(format!("the note `{name}` has a name that EXR cannot hold"));
+            }
+            Ok((
+                Text::from_slice_unchecked(name.as_bytes()),
+                attribute::AttributeValue::Text(Text::from_slice_unchecked(text.as_bytes())),
+            ))
+        })
+        .collect()
+}
+
 fn encode(
     size_px: [u32; 2],
     channels: Vec<AnyChannel<FlatSamples>>,
+    attributes: Attributes,
 ) -> std::result::Result<Vec<u8>, String> {
     let size = (size_px[0] as usize, size_px[1] as usize);
     let mut layer = Layer::new(
@@ -112,6 +207,7 @@ fn encode(
     );
     layer.attributes.software_name =
         Text::new_or_none(concat!("Hairline ", env!("CARGO_PKG_VERSION")));
+    layer.attributes.other.extend(attributes);
     let mut file = exr::prelude::Image::from_layer(layer);
     file.attributes.chromaticities = Some(REC_709);
     let mut bytes = Cursor::new(Vec::new());
@@ -129,6 +225,13 @@ const REC_709: attribute::Chromaticities = attribute::Chromaticities {
     white: Vec2(0.3127, 0.3290),
 };
 
+/// All that a file holds.
+pub(crate) struct Contents {
+    parts: Vec<Part>,
+    pub(crate) notes: Notes,
+    batch: Option<u32>,
+}
+
 /// One part of an EXR file.
 struct Part {
     size_px: [u32; 2],
@@ -136,14 +239,20 @@ struct Part {
 }
 
 impl Part {
-    /// Three channels side by side, if the part has them all in full resolution.
+    /// A channel in full resolution.
+    fn channel(&self, name: &str) -> Option<&AnyChannel<FlatSamples>> {
+        self.channels
+            .iter()
+            .find(|c| c.name.eq(name) && c.sampling == Vec2(1, 1))
+    }
+
+    /// Three channels side by side, if the part has them all.
     fn interleaved(&self, names: [&str; 3]) -> Option<Picture> {
-        let channel = |name: &str| {
-            self.channels
-                .iter()
-                .find(|c| c.name.eq(name) && c.sampling == Vec2(1, 1))
-        };
-        let [r, g, b] = [channel(names[0])?, channel(names[1])?, channel(names[2])?];
+        let [r, g, b] = [
+            self.channel(names[0])?,
+            self.channel(names[1])?,
+            self.channel(names[2])?,
+        ];
         let rgb = r
             .sample_data
             .values_as_f32()
@@ -158,28 +267,119 @@ impl Part {
     }
 }
 
-fn read_channels(path: &Path) -> std::result::Result<Vec<Part>, Error> {
-    let file = File::open(path).map_err(|e| Error::cannot_read(path, &e))?;
-    let contents = read()
-        .no_deep_data()
-        .largest_resolution_level()
-        .all_channels()
-        .all_layers()
-        .all_attributes()
-        .from_buffered(BufReader::new(file))
-        .map_err(|e| match e {
-            exr::error::Error::Io(e) => Error::cannot_read(path, &e),
-            e => Error::Unusable {
-                path: path.to_owned(),
-                reason: format!("not an EXR file that can be read: {e}"),
-            },
+impl Contents {
+    pub(crate) fn read(path: &Path) -> std::result::Result<Self, Error> {
+        let file = File::open(path).map_err(|e| Error::cannot_read(path, &e))?;
+        let file = read()
+            .no_deep_data()
+            .largest_resolution_level()
+            .all_channels()
+            .all_layers()
+            .all_attributes()
+            .from_buffered(BufReader::new(file))
+            .map_err(|e| match e {
+                exr::error::Error::Io(e) => Error::cannot_read(path, &e),
+                e => Error::Unusable {
+                    path: path.to_owned(),
+                    reason: format!("not an EXR file that can be read: {e}"),
+                },
+            })?;
+        let mut contents = Self {
+            parts: Vec::with_capacity(file.layer_data.len()),
+            notes: Notes::new(),
+            batch: None,
+        };
+        for layer in file.layer_data {
+            for (name, value) in &layer.attributes.other {
+                contents.take_attribute(name, value);
+            }
+            contents.parts.push(Part {
+                size_px: [layer.size.0 as u32, layer.size.1 as u32],
+                channels: layer.channel_data.list.into_vec(),
+            });
+        }
+        for (name, value) in &file.attributes.other {
+            contents.take_attribute(name, value);
+        }
+        Ok(contents)
+    }
+
+    fn take_attribute(&mut self, name: &Text, value: &attribute::AttributeValue) {
+        let Ok(name) = std::str::from_utf8(name.as_slice()) else {
+            return;
+        };
+        match value {
+            attribute::AttributeValue::I32(batch) if name == BATCH_ATTRIBUTE => {
+                self.batch = u32::try_from(*batch).ok();
+            }
+            attribute::AttributeValue::Text(text) => {
+                if let Some(name) = name.strip_prefix(NOTE_PREFIX)
+                    && let Ok(text) = std::str::from_utf8(text.as_slice())
+                {
+                    self.notes.insert(name.to_owned(), text.to_owned());
+                }
+            }
+            _ => {}
+        }
+    }
+
+    /// Three channels of one part.
+    pub(crate) fn find(&self, names: [&str; 3]) -> Option<Picture> {
+        self.parts.iter().find_map(|part| part.interleaved(names))
+    }
+
+    /// How many samples each pixel has had, and the size of a batch; only if the file says both.
+    pub(crate) fn samples(&self) -> Option<(Vec<u32>, u32)> {
+        let samples = self.parts.iter().find_map(|part| {
+            match &part.channel(SAMPLES)?.sample_data {
+                FlatSamples::U32(samples) => Some(samples.clone()),
+                // A count that went through floating point may have lost samples.
+                FlatSamples::F16(_) | FlatSamples::F32(_) => None,
+            }
         })?;
-    Ok(contents
-        .layer_data
-        .into_iter()
-        .map(|layer| Part {
-            size_px: [layer.size.0 as u32, layer.size.1 as u32],
-            channels: layer.channel_data.list.into_vec(),
-        })
-        .collect())
+        Some((samples, self.batch?))
+    }
+
+    /// The noise of a layered render: all of it, or none where the file has nothing of the kind.
+    fn noise(&self, path: &Path) -> std::result::Result<Option<Noise>, Error> {
+        let samples = self.samples();
+        let mut missing = Vec::new();
+        let mut found = 0;
+        if samples.is_none() {
+            missing.push(format!("{SAMPLES} (whole numbers, with {BATCH_ATTRIBUTE})"));
+        }
+        let mut variance = |layer| {
+            let names = variance_channel_names(layer)?;
+            let part = self.find(names);
+            match &part {
+                Some(_) => found += 1,
+                None => missing.push(listed(names)),
+            }
+            Some(part?.rgb)
+        };
+        let beauty = variance(crate::Layer::Beauty);
+        let base = variance(crate::Layer::Base);
+        let scratches = variance(crate::Layer::Scratches);
+        let density = variance(crate::Layer::Density);
+        match (beauty, base, scratches, density, samples) {
+            (Some(beauty), Some(base), Some(scratches), Some(density), Some((samples, batch))) => {
+                Ok(Some(Noise {
+                    beauty,
+                    base,
+                    scratches,
+                    density,
+                    samples,
+                    batch,
+                }))
+            }
+            (.., samples) if found == 0 && samples.is_none() => Ok(None),
+            _ => Err(Error::Unusable {
+                path: path.to_owned(),
+                reason: format!(
+                    "a part of the variance is missing: no channels {}",
+                    missing.join(", ")
+                ),
+            }),
+        }
+    }
 }

@@ -20,10 +20,69 @@ pub struct Image {
     pub depth_m: Vec<f32>,
     /// Unit shading normal in world space; (0, 0, 0) where nothing was hit.
     pub normal: Vec<[f32; 3]>,
+    /// How sure the colours are, where they are Monte Carlo estimates.
+    pub noise: Option<Noise>,
+}
+
+/// How sure a Monte Carlo estimate is. All vectors are as long as the image's layers.
+///
+/// The variances come from the scatter of batches: a pixel's samples are averaged by the batch, and the variance of the
+/// batches' means over their number is the variance of the pixel's mean.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Noise {
+    /// Variance of each pixel's mean, channel by channel, in squared radiance. Not the sum of the next two: base and
+    /// scratches come from the same samples and are correlated.
+    pub beauty: Vec<[f32; 3]>,
+    /// The same of [`Image::base`].
+    pub base: Vec<[f32; 3]>,
+    /// The same of [`Image::scratches`].
+    pub scratches: Vec<[f32; 3]>,
+    /// The same of [`Image::density`].
+    pub density: Vec<[f32; 3]>,
+    /// Samples that each pixel has had.
+    pub samples: Vec<u32>,
+    /// Samples in a batch. Two batches must be complete before a variance can be known; it is stored as 0 until then.
+    pub batch: u32,
+}
+
+impl Noise {
+    /// Nothing sampled yet, in batches of `batch` samples.
+    pub fn new(size_px: [u32; 2], batch: u32) -> Self {
+        let count = pixel_count(size_px);
+        Self {
+            beauty: vec![[0.0; 3]; count],
+            base: vec![[0.0; 3]; count],
+            scratches: vec![[0.0; 3]; count],
+            density: vec![[0.0; 3]; count],
+            samples: vec![0; count],
+            batch,
+        }
+    }
+
+    /// Whether the variances of pixel `i` mean something: it has had two batches or more.
+    pub fn is_known(&self, i: usize) -> bool {
+        self.batches(i) >= 2
+    }
+
+    /// The complete batches of pixel `i`: its variances have one degree of freedom less.
+    pub fn batches(&self, i: usize) -> u32 {
+        self.samples[i].checked_div(self.batch).unwrap_or(0)
+    }
+
+    /// The variances of a layer; `None` for depth and normal, which are not estimated.
+    pub fn variance(&self, layer: Layer) -> Option<&[[f32; 3]]> {
+        match layer {
+            Layer::Beauty => Some(&self.beauty),
+            Layer::Base => Some(&self.base),
+            Layer::Scratches => Some(&self.scratches),
+            Layer::Density => Some(&self.density),
+            Layer::Depth | Layer::Normal => None,
+        }
+    }
 }
 
 /// A layer of an [`Image`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Layer {
     /// Base plus scratches.
     Beauty,
@@ -74,6 +133,7 @@ impl Image {
             density: vec![[0.0; 3]; count],
             depth_m: vec![0.0; count],
             normal: vec![[0.0; 3]; count],
+            noise: None,
         }
     }
 
@@ -112,6 +172,11 @@ impl Image {
             Layer::Depth => self.depth_m.iter().map(|&z| [z; 3]).collect(),
             Layer::Normal => self.normal.clone(),
         }
+    }
+
+    /// The variance of each pixel's mean in a layer, where the image is an estimate of it; see [`Noise`].
+    pub fn variance(&self, layer: Layer) -> Option<&[[f32; 3]]> {
+        self.noise.as_ref()?.variance(layer)
     }
 }
 

@@ -5,12 +5,15 @@
 mod error;
 pub mod exr_file;
 mod film;
+mod layers;
 pub mod metrics;
 pub mod output;
 pub mod png;
 pub mod tone_map;
 
 pub use error::Error;
-pub use film::{Image, Layer, Picture};
+pub use exr_file::Notes;
+pub use film::{Image, Layer, Noise, Picture};
+pub use layers::{HeldLayer, Layers, Referred};
 pub use output::{Format, Output};
 pub use tone_map::{Display, ToneMap};

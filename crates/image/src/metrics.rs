@@ -1,125 +1,28 @@
-//! How far one image is from another.
+//! How far one image is from another, and whether noise explains it.
+//!
+//! Everywhere the second image is the reference. Values that are not finite in either image are left out, and counted
+//! by [`Difference`].
 
-use crate::{Image, Layer};
+mod compare;
+mod difference;
+mod error_map;
+mod estimate;
+mod flip;
+mod noise;
+mod psnr;
+mod relative;
+mod silhouettes;
+mod z_test;
 
-/// The difference of an image from a reference, over all pixels that a mask leaves in and all components.
-///
-/// Values that are not finite in either image are counted and left out of everything else.
-#[derive(Clone, Copy, Debug, PartialEq, Default)]
-pub struct Difference {
-    /// Pixels that the mask left in.
-    pub pixels: usize,
-    /// Values that are NaN or infinite in either image.
-    pub not_finite: usize,
-    /// Mean of the image.
-    pub mean: f64,
-    /// Mean of the reference.
-    pub reference_mean: f64,
-    /// Root of the mean squared difference.
-    pub rms: f64,
-    /// Root of the mean square of the reference.
-    pub reference_rms: f64,
-    /// The largest difference of a single value.
-    pub max_abs: f64,
-}
-
-impl Difference {
-    /// Of `image` from `reference`, arrays of pixels of equal length; `mask` is true where a pixel counts.
-    ///
-    /// # Panics
-    /// If the lengths differ.
-    pub fn between<const N: usize>(
-        image: &[[f32; N]],
-        reference: &[[f32; N]],
-        mask: Option<&[bool]>,
-    ) -> Self {
-        assert_eq!(image.len(), reference.len(), "images of different sizes");
-        if let Some(mask) = mask {
-            assert_eq!(image.len(), mask.len(), "a mask of a different size");
-        }
-        let mut result = Self::default();
-        let (mut sum, mut reference_sum) = (0.0, 0.0);
-        let (mut squares, mut reference_squares) = (0.0, 0.0);
-        let mut values = 0_usize;
-        for (i, (a, b)) in image.iter().zip(reference).enumerate() {
-            if mask.is_some_and(|mask| !mask[i]) {
-                continue;
-            }
-            result.pixels += 1;
-            for (a, b) in a.iter().zip(b) {
-                if !a.is_finite() || !b.is_finite() {
-                    result.not_finite += 1;
-                    continue;
-                }
-                let (a, b) = (f64::from(*a), f64::from(*b));
-                values += 1;
-                sum += a;
-                reference_sum += b;
-                squares += (a - b) * (a - b);
-                reference_squares += b * b;
-                result.max_abs = result.max_abs.max((a - b).abs());
-            }
-        }
-        let count = values.max(1) as f64;
-        result.mean = sum / count;
-        result.reference_mean = reference_sum / count;
-        result.rms = (squares / count).sqrt();
-        result.reference_rms = (reference_squares / count).sqrt();
-        result
-    }
-
-    /// The rms difference over the reference's rms: 0 for equal images, even black ones; infinite if only the
-    /// reference is black.
-    pub fn relative_rms(&self) -> f64 {
-        if self.rms == 0.0 {
-            0.0
-        } else {
-            self.rms / self.reference_rms
-        }
-    }
-}
-
-/// [`Difference::between`] for one layer of two renders.
-///
-/// # Panics
-/// If the sizes differ.
-pub fn layer_difference(
-    image: &Image,
-    reference: &Image,
-    layer: Layer,
-    mask: Option<&[bool]>,
-) -> Difference {
-    assert_eq!(
-        image.size_px, reference.size_px,
-        "images of different sizes"
-    );
-    Difference::between(&image.layer(layer), &reference.layer(layer), mask)
-}
-
-/// A mask that leaves silhouettes out: true where the pixel and its eight neighbours all hit a surface or all missed,
-/// in both images, and neighbouring depths differ by less than `relative_depth` of the depth.
-///
-/// # Panics
-/// If the sizes differ.
-pub fn away_from_silhouettes(a: &Image, b: &Image, relative_depth: f32) -> Vec<bool> {
-    assert_eq!(a.size_px, b.size_px, "images of different sizes");
-    let [width, height] = a.size_px;
-    let mut mask = Vec::with_capacity(a.pixel_count());
-    for y in 0..height {
-        for x in 0..width {
-            let here = a.depth_m[a.index(x, y)];
-            let mut smooth = true;
-            for v in y.saturating_sub(1)..=(y + 1).min(height - 1) {
-                for u in x.saturating_sub(1)..=(x + 1).min(width - 1) {
-                    let i = a.index(u, v);
-                    for depth in [a.depth_m[i], b.depth_m[i]] {
-                        // Zero is a miss: equal misses pass, a miss beside a hit differs by the whole depth.
-                        smooth &= (depth - here).abs() <= relative_depth * here.max(depth);
-                    }
-                }
-            }
-            mask.push(smooth);
-        }
-    }
-    mask
-}
+pub use compare::{Comparison, LayerComparison, Problem, Side, compare};
+pub use difference::{Difference, layer_difference};
+pub use error_map::{ErrorMap, error_map, magma};
+pub use estimate::Estimate;
+#[cfg(feature = "flip")]
+pub use flip::flip;
+pub use flip::{Flip, PIXELS_PER_DEGREE};
+pub use noise::BeyondNoise;
+pub use psnr::{Psnr, psnr_displayed, psnr_of_values};
+pub use relative::relative_mse;
+pub use silhouettes::away_from_silhouettes;
+pub use z_test::{Verdict, ZTest};

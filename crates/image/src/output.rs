@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
 
-use crate::{Display, Error, Image, Picture, exr_file, png};
+use crate::exr_file::{self, Notes};
+use crate::{Display, Error, Image, Picture, png};
 
 /// A picture format that can be written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -73,9 +74,22 @@ impl Output {
     /// # Errors
     /// [`Error::CannotWrite`].
     pub fn write_image(&self, image: &Image, display: &Display) -> Result<(), Error> {
+        self.write_image_with_notes(image, display, &Notes::new())
+    }
+
+    /// Writes a render with what it should remember about its making. A PNG holds neither notes nor noise.
+    ///
+    /// # Errors
+    /// [`Error::CannotWrite`].
+    pub fn write_image_with_notes(
+        &self,
+        image: &Image,
+        display: &Display,
+        notes: &Notes,
+    ) -> Result<(), Error> {
         let encoded = match self.format {
             Format::Png => png::encode(&image.beauty(), display),
-            Format::Exr => exr_file::encode_image(image),
+            Format::Exr => exr_file::encode_image(image, notes),
         };
         self.write_encoded(encoded)
     }

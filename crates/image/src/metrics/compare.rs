@@ -1,0 +1,265 @@
+//! Everything that can be said of two files.
+
+use std::fmt;
+
+use super::estimate::Estimate;
+use super::{BeyondNoise, Difference, ErrorMap, Flip, Psnr, ZTest};
+use super::{error_map, psnr, psnr_displayed, psnr_of_values, relative_mse};
+use crate::{Display, Layer, Layers, Referred};
+
+/// One of two images.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// The image.
+    A,
+    /// The reference.
+    B,
+}
+
+impl fmt::Display for Side {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::A => "A",
+            Self::B => "B",
+        })
+    }
+}
+
+/// What keeps a comparison from being complete.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Problem {
+    /// Nothing was compared.
+    SizesDiffer {
+        /// Width and height of A.
+        a: [u32; 2],
+        /// Width and height of B.
+        b: [u32; 2],
+    },
+    /// Layers that only the other image has.
+    MissingLayers {
+        /// The image that lacks them.
+        side: Side,
+        /// Which ones.
+        layers: Vec<Layer>,
+    },
+    /// There is no layer that both have.
+    NothingInCommon,
+    /// Values that are NaN or infinite, which no figure includes.
+    NotFinite {
+        /// The image that has them.
+        side: Side,
+        /// In this layer.
+        layer: Layer,
+        /// How many, each component by itself.
+        values: usize,
+    },
+    /// One image is a PNG, so that the other was tone-mapped too and only what a display shows was compared.
+    ToneMapped {
+        /// The image that was tone-mapped for it.
+        side: Side,
+    },
+}
+
+impl fmt::Display for Problem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::SizesDiffer { a, b } => write!(
+                f,
+                "the sizes differ, so nothing was compared: A is {} x {}, B is {} x {}",
+                a[0], a[1], b[0], b[1]
+            ),
+            Self::MissingLayers { side, layers } => {
+                let names: Vec<&str> = layers.iter().map(|layer| layer.name()).collect();
+                let plural = if names.len() == 1 { "" } else { "s" };
+                write!(f, "{side} lacks the layer{plural} {}", names.join(", "))
+            }
+            Self::NothingInCommon => f.write_str("there is no layer that both have"),
+            Self::NotFinite {
+                side,
+                layer,
+                values,
+            } => {
+                let plural = if *values == 1 { "" } else { "s" };
+                write!(
+                    f,
+                    "{side} has {values} value{plural} in the layer {} that are NaN or infinite; no figure includes them",
+                    layer.name()
+                )
+            }
+            Self::ToneMapped { side } => write!(
+                f,
+                "{side} was tone-mapped, since the other is: the figures are of what a display shows"
+            ),
+        }
+    }
+}
+
+/// All figures of one layer.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LayerComparison {
+    /// Which layer.
+    pub layer: Layer,
+    /// Root mean square, largest difference, means.
+    pub difference: Difference,
+    /// [`relative_mse`].
+    pub relative_mse: f64,
+    /// Of what a display shows for beauty, base and scratches; of the values for the others.
+    pub psnr: Option<Psnr>,
+    /// For beauty, base and scratches; `None` in a build without the feature `flip`.
+    pub flip: Option<Flip>,
+    /// What is left when the noise is taken off, if one of the images says how noisy it is.
+    pub beyond_noise: Option<BeyondNoise>,
+    /// Whether noise explains the difference, if one of the images says how noisy it is.
+    pub z_test: Option<ZTest>,
+    /// Where the differences are.
+    pub error_map: ErrorMap,
+}
+
+/// An image against a reference, layer by layer.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Comparison {
+    /// The layers that both have, in the order of [`Layer::ALL`].
+    pub layers: Vec<LayerComparison>,
+    /// What could not be compared, or was left out.
+    pub problems: Vec<Problem>,
+}
+
+/// Compares image `a` with the reference `b`, over the pixels where `mask` is true. `display` is for PSNR and FLIP,
+/// which are about what a viewer sees.
+///
+/// # Panics
+/// If the mask's length is not that of `a`.
+pub fn compare(a: &Layers, b: &Layers, display: &Display, mask: Option<&[bool]>) -> Comparison {
+    let mut problems = Vec::new();
+    if a.size_px != b.size_px {
+        problems.push(Problem::SizesDiffer {
+            a: a.size_px,
+            b: b.size_px,
+        });
+        return Comparison {
+            layers: Vec::new(),
+            problems,
+        };
+    }
+    for (side, image, other) in [(Side::A, a, b), (Side::B, b, a)] {
+        let missing: Vec<Layer> = Layer::ALL
+            .into_iter()
+            .filter(|&layer| image.get(layer).is_none() && other.get(layer).is_some())
+            .collect();
+        if !missing.is_empty() {
+            problems.push(Problem::MissingLayers {
+                side,
+                layers: missing,
+            });
+        }
+    }
+    let (shown_a, shown_b);
+    let (a, b, display) = match (a.referred, b.referred) {
+        (Referred::Scene, Referred::Scene) => (a, b, *display),
+        (referred_a, referred_b) => {
+            if referred_a != referred_b {
+                let side = if referred_a == Referred::Scene {
+                    Side::A
+                } else {
+                    Side::B
+                };
+                problems.push(Problem::ToneMapped { side });
+            }
+            (shown_a, shown_b) = (a.displayed(display), b.displayed(display));
+            // The curve is in the values already.
+            let as_it_is = Display {
+                exposure_ev: 0.0,
+                tone_map: crate::ToneMap::None,
+            };
+            (&shown_a, &shown_b, as_it_is)
+        }
+    };
+    let mut layers = Vec::new();
+    for layer in Layer::ALL {
+        if let (Some(of_a), Some(of_b)) = (a.estimate(layer), b.estimate(layer)) {
+            for (side, estimate) in [(Side::A, &of_a), (Side::B, &of_b)] {
+                let values = not_finite(estimate, mask);
+                if values > 0 {
+                    problems.push(Problem::NotFinite {
+                        side,
+                        layer,
+                        values,
+                    });
+                }
+            }
+            layers.push(compare_layer(
+                a.size_px, layer, &of_a, &of_b, &display, mask,
+            ));
+        }
+    }
+    if layers.is_empty() {
+        problems.push(Problem::NothingInCommon);
+    }
+    Comparison { layers, problems }
+}
+
+fn compare_layer(
+    size_px: [u32; 2],
+    layer: Layer,
+    a: &Estimate,
+    b: &Estimate,
+    display: &Display,
+    mask: Option<&[bool]>,
+) -> LayerComparison {
+    LayerComparison {
+        layer,
+        difference: Difference::between(a.values, b.values, mask),
+        relative_mse: relative_mse(a.values, b.values, mask),
+        psnr: if psnr::is_displayed(layer) {
+            psnr_displayed(a.values, b.values, display, mask)
+        } else {
+            psnr_of_values(a.values, b.values, mask)
+        },
+        flip: flip_of(size_px, layer, a.values, b.values, display, mask),
+        beyond_noise: BeyondNoise::between(a, b, mask),
+        z_test: ZTest::between(size_px, a, b, mask),
+        error_map: error_map(size_px, a.values, b.values),
+    }
+}
+
+#[cfg(feature = "flip")]
+fn flip_of(
+    size_px: [u32; 2],
+    layer: Layer,
+    a: &[[f32; 3]],
+    b: &[[f32; 3]],
+    display: &Display,
+    mask: Option<&[bool]>,
+) -> Option<Flip> {
+    let picture = |values: &[[f32; 3]]| crate::Picture {
+        size_px,
+        rgb: values.to_vec(),
+    };
+    psnr::is_displayed(layer)
+        .then(|| super::flip(&picture(a), &picture(b), display, mask))
+        .flatten()
+}
+
+#[cfg(not(feature = "flip"))]
+fn flip_of(
+    _: [u32; 2],
+    _: Layer,
+    _: &[[f32; 3]],
+    _: &[[f32; 3]],
+    _: &Display,
+    _: Option<&[bool]>,
+) -> Option<Flip> {
+    None
+}
+
+fn not_finite(estimate: &Estimate, mask: Option<&[bool]>) -> usize {
+    estimate
+        .values
+        .iter()
+        .enumerate()
+        .filter(|(i, _)| mask.is_none_or(|mask| mask[*i]))
+        .flat_map(|(_, rgb)| rgb)
+        .filter(|c| !c.is_finite())
+        .count()
+}
