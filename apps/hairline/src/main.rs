@@ -8,6 +8,7 @@ mod failure;
 mod info;
 mod progress;
 mod render;
+mod scene_file;
 mod trial;
 
 use std::process::ExitCode;
