@@ -1,0 +1,187 @@
+//! `hairline reference`: a scene file to a picture by Monte Carlo, with its variance, that can be stopped and gone on with.
+
+mod fingerprint;
+mod identity;
+mod interrupt;
+mod sampling;
+
+use anyhow::anyhow;
+use hairline_image::{Display, Format, Output};
+use hairline_optics::mask::Mask;
+use hairline_reference::monte_carlo::{BATCH_SAMPLES, Integrator, Model, Settings};
+
+use crate::cli;
+use crate::failure::Failure;
+use crate::scene_file::{self, Overrides};
+use interrupt::Interrupt;
+use sampling::{Count, End, Limits};
+
+/// Samples for each pixel if neither they nor a time are asked for.
+const DEFAULT_SAMPLES: u32 = 1024;
+
+/// Loads, samples and writes.
+pub fn run(arguments: &cli::Reference) -> Result<(), Failure> {
+    let scene_path = Some(arguments.scene.as_path());
+    let output_path = arguments
+        .output
+        .clone()
+        .unwrap_or_else(|| scene_file::picture_path(scene_path, "-reference.exr"));
+    // Before the work: nobody should wait for a picture that then has no place to go.
+    let output = Output::check(&output_path)?;
+    let name = output_path.display();
+    if output.format() == Format::Png && arguments.resume {
+        return Err(Failure::Input(anyhow!(
+            "{name}: --resume needs what a .png cannot hold, the samples and their variance; end it in .exr"
+        )));
+    }
+    let settings = settings(arguments)?;
+    let overrides = Overrides {
+        size_px: arguments.size,
+        exposure_ev: arguments.exposure,
+        scratch_seed: arguments.seed,
+    };
+    let loaded = scene_file::load(scene_path, &overrides)?;
+    let scene = &loaded.scene;
+    let fingerprint =
+        fingerprint::fingerprint(&loaded.description, &loaded.folder).map_err(Failure::Work)?;
+    let notes = identity::notes(&settings, &fingerprint);
+
+    let exists = output_path.exists();
+    let earlier = (exists && arguments.resume)
+        .then(|| identity::read_to_resume(&output_path, scene.render.size_px, &notes))
+        .transpose()?;
+    let limits = limits(arguments);
+    let count = earlier.as_ref().map(Count::of);
+    if let Some(count) = count
+        && count.least >= limits.samples
+    {
+        eprintln!(
+            "{name} has {} samples for each pixel already: nothing to do",
+            count.least
+        );
+        return Ok(());
+    }
+    let from = match (count, exists) {
+        (Some(count), _) => format!("going on from {}", listed(count)),
+        (None, true) if output.format() == Format::Exr => {
+            format!("from the start, in place of the {name} that is there (--resume goes on from it)")
+        }
+        (None, _) => "from the start".to_owned(),
+    };
+    eprintln!("{}: {from}", announcement(arguments, &settings, &limits));
+    if output.format() == Format::Png {
+        eprintln!(
+            "warning: a .png keeps neither the variance nor what --resume needs; an .exr does"
+        );
+    }
+
+    let display = Display {
+        exposure_ev: scene.camera.exposure_ev,
+        tone_map: scene.render.tone_map,
+    };
+    let save = |image: &_| -> Result<(), Failure> {
+        Ok(output.write_image_with_notes(image, &display, &notes)?)
+    };
+    // From here on there is something to lose.
+    let interrupt = Interrupt::listen()
+        .map_err(|error| Failure::Work(anyhow!("cannot listen for Ctrl-C: {error}")))?;
+    let integrator = Integrator::new(scene, settings);
+    let mut image = earlier.unwrap_or_else(|| integrator.start());
+    let end = sampling::sample(&integrator, &mut image, &limits, &interrupt, &save)?;
+
+    let reason = match end {
+        End::Complete => return Ok(()),
+        End::TimeUp => "the time is up",
+        End::Interrupted => "interrupted",
+    };
+    let count = Count::of(&image);
+    if count.mean == 0.0 {
+        return Err(Failure::Work(anyhow!(
+            "{reason} before the first samples were done; there is nothing to write"
+        )));
+    }
+    let black = if count.least == 0 {
+        "; pixels without samples are black"
+    } else {
+        ""
+    };
+    let go_on = if output.format() == Format::Exr {
+        "; --resume goes on from there"
+    } else {
+        ""
+    };
+    eprintln!("{reason}: {name} has {}{black}{go_on}", listed(count));
+    Ok(())
+}
+
+fn settings(arguments: &cli::Reference) -> Result<Settings, Failure> {
+    let model = match arguments.model {
+        cli::Model::Separable => Model::Separable,
+        cli::Model::Full => Model::Full,
+    };
+    if model == Model::Full && arguments.mask.is_some() {
+        return Err(Failure::Input(anyhow!(
+            "--mask is for --model separable: the full model knows by its phases what scratches take from the base"
+        )));
+    }
+    Ok(Settings {
+        model,
+        mask: match arguments.mask {
+            None | Some(cli::Mask::Energy) => Mask::Energy,
+            Some(cli::Mask::Linear) => Mask::Linear,
+            Some(cli::Mask::Density) => Mask::Density,
+        },
+        bounces: arguments.bounces,
+        shadows: arguments.shadows == cli::Switch::On,
+        seed: arguments.sample_seed,
+    })
+}
+
+/// Samples come in whole batches; with a time alone there are as many as fit in it.
+fn limits(arguments: &cli::Reference) -> Limits {
+    const MOST: u32 = u32::MAX / BATCH_SAMPLES * BATCH_SAMPLES;
+    let samples = match (arguments.spp, arguments.time) {
+        (Some(samples), _) => samples.next_multiple_of(BATCH_SAMPLES),
+        (None, Some(_)) => MOST,
+        (None, None) => DEFAULT_SAMPLES,
+    };
+    Limits {
+        samples,
+        time: arguments.time,
+    }
+}
+
+/// The model, the threads and how far to go.
+fn announcement(arguments: &cli::Reference, settings: &Settings, limits: &Limits) -> String {
+    let mut goal = Vec::new();
+    if arguments.spp.is_some() || arguments.time.is_none() {
+        goal.push(match arguments.spp {
+            Some(asked) if asked != limits.samples => format!(
+                "{} samples for each pixel ({asked} in whole batches of {BATCH_SAMPLES})",
+                limits.samples
+            ),
+            _ => format!("{} samples for each pixel", limits.samples),
+        });
+    }
+    if let Some(time) = limits.time {
+        goal.push(format!("at most {}", humantime::format_duration(time)));
+    }
+    format!(
+        "sampling by the {} model on {} threads, {}",
+        identity::model_name(settings.model),
+        rayon::current_num_threads(),
+        goal.join(", ")
+    )
+}
+
+/// "128 samples for each pixel", or the least and the mean where they differ.
+fn listed(count: Count) -> String {
+    if count.mean == f64::from(count.least) {
+        format!("{} samples for each pixel", count.least)
+    } else {
+        format!(
+            "at least {} samples for each pixel, {:.1} in the mean",
+            count.least, count.mean
+        )
+    }
+}

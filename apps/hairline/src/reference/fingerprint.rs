@@ -1,0 +1,222 @@
+//! A short name for all that a picture depends on, so that samples of two scenes are never mixed.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result};
+use hairline_scene::description::{Description, Layer, Surface};
+use percent_encoding::percent_decode_str;
+
+/// Hexadecimal digits of a fingerprint: 128 bits, beyond any accident.
+const DIGITS: usize = 32;
+
+/// A digest of what a scene's linear picture depends on: the description, with the contents of files in the place of
+/// their names. Not of the exposure and the tone map, which act on what is displayed alone, and not of the picture's size,
+/// which a picture tells by itself.
+///
+/// # Errors
+/// Files that cannot be read.
+pub fn fingerprint(description: &Description, folder: &Path) -> Result<String> {
+    let mut described = description.clone();
+    described.camera.exposure_ev = 0.0;
+    described.render.tone_map = hairline_image::ToneMap::default();
+    described.render.size_px = [0, 0];
+    let by_content = |file: &mut PathBuf, digest: fn(&Path) -> Result<String>| -> Result<()> {
+        *file = digest(&folder.join(&*file))?.into();
+        Ok(())
+    };
+    if let Some(environment) = &mut described.environment {
+        by_content(&mut environment.file, digest_of_file)?;
+    }
+    for object in &mut described.objects {
+        if let Surface::Mesh(file) = &mut object.surface {
+            by_content(file, digest_of_mesh)?;
+        }
+    }
+    for scratches in &mut described.scratches {
+        if let Layer::Listed(listed) = &mut scratches.layer {
+            by_content(&mut listed.file, digest_of_file)?;
+        }
+    }
+    // Not TOML, which does not have the upper half of the seeds.
+    let text = serde_json::to_vec(&described).context("the scene cannot be described")?;
+    Ok(shortened(&blake3::hash(&text)))
+}
+
+fn shortened(hash: &blake3::Hash) -> String {
+    let mut digits = hash.to_hex().to_string();
+    digits.truncate(DIGITS);
+    digits
+}
+
+fn read(path: &Path) -> Result<Vec<u8>> {
+    fs::read(path).with_context(|| format!("{}: cannot be read", path.display()))
+}
+
+fn digest_of_file(path: &Path) -> Result<String> {
+    Ok(shortened(&blake3::hash(&read(path)?)))
+}
+
+/// A glTF file and the files that it names in turn.
+fn digest_of_mesh(path: &Path) -> Result<String> {
+    let bytes = read(path)?;
+    let mut hasher = blake3::Hasher::new();
+    hasher.update(&bytes);
+    let gltf = gltf::Gltf::from_slice_without_validation(&bytes)
+        .with_context(|| format!("{}: is no glTF file", path.display()))?;
+    let of_buffers = gltf.buffers().filter_map(|buffer| match buffer.source() {
+        gltf::buffer::Source::Uri(uri) => Some(uri),
+        gltf::buffer::Source::Bin => None,
+    });
+    let of_images = gltf.images().filter_map(|image| match image.source() {
+        gltf::image::Source::Uri { uri, .. } => Some(uri),
+        gltf::image::Source::View { .. } => None,
+    });
+    let folder = path.parent().unwrap_or(Path::new(""));
+    for uri in of_buffers.chain(of_images) {
+        // Data URIs are within the file itself.
+        if !uri.starts_with("data:") {
+            let name = percent_decode_str(uri).decode_utf8_lossy();
+            // A texture that the scene had no use for may be absent.
+            match fs::read(folder.join(&*name)) {
+                Ok(bytes) => hasher.update(blake3::hash(&bytes).as_bytes()),
+                Err(_) => hasher.update(b"absent"),
+            };
+        }
+    }
+    Ok(shortened(&hasher.finalize()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SCENE: &str = r#"
+[camera]
+position_m = [0.0, -0.22, 0.30]
+target_m = [0.0, 0.0, 0.0]
+
+[environment]
+file = "sky.hdr"
+
+[[material]]
+name = "steel"
+kind = "metal"
+metal = "iron"
+
+[[object]]
+name = "plate"
+shape = { disk = { radius_m = 0.08 } }
+material = "steel"
+
+[[object]]
+name = "cup"
+mesh = "cup.gltf"
+
+[[scratches]]
+object = "plate"
+pattern = "random"
+count = 5
+seed = 18446744073709551
+
+[[scratches]]
+object = "plate"
+pattern = "file"
+file = "lines.csv"
+"#;
+
+    const CUP: &str = r#"{"asset": {"version": "2.0"},
+        "buffers": [{"byteLength": 3, "uri": "its%20data.bin"}], "images": [{"uri": "rust.png"}]}"#;
+
+    /// What `fingerprint` reads of the files: their bytes, and of glTF the names within.
+    fn folder() -> tempfile::TempDir {
+        let folder = tempfile::tempdir().unwrap();
+        for (name, contents) in [
+            ("sky.hdr", "sky"),
+            ("cup.gltf", CUP),
+            ("its data.bin", "123"),
+            ("rust.png", "rust"),
+            ("lines.csv", "x0_m"),
+        ] {
+            fs::write(folder.path().join(name), contents).unwrap();
+        }
+        folder
+    }
+
+    fn described(text: &str) -> Description {
+        Description::from_toml(text, Path::new("scene.toml")).unwrap()
+    }
+
+    #[test]
+    fn what_the_picture_depends_on_is_in_it() {
+        let folder = folder();
+        let of = |text: &str| fingerprint(&described(text), folder.path()).unwrap();
+        let first = of(SCENE);
+        assert_eq!(first.len(), DIGITS);
+        for (from, to) in [
+            ("0.30", "0.31"),
+            ("count = 5", "count = 6"),
+            ("seed = 1", "seed = 2"),
+            ("\"iron\"", "\"gold\""),
+            ("[camera]", "[render]\nfilter_std_px = 0.4\n[camera]"),
+        ] {
+            assert_ne!(of(&SCENE.replacen(from, to, 1)), first, "{from}");
+        }
+        for (from, to) in [
+            ("[camera]", "[camera]\nexposure_ev = 2.0"),
+            ("[camera]", "[render]\ntone_map = \"aces\"\n[camera]"),
+            ("[camera]", "[render]\nsize_px = [10, 10]\n[camera]"),
+            ("[camera]", "# A comment.\n[camera]"),
+            // A default, written out.
+            ("[camera]", "[camera]\nfov_y_deg = 30"),
+        ] {
+            assert_eq!(of(&SCENE.replacen(from, to, 1)), first, "{to}");
+        }
+    }
+
+    #[test]
+    fn so_are_the_bytes_of_files_and_not_their_names() {
+        let folder = folder();
+        let of = |text: &str| fingerprint(&described(text), folder.path()).unwrap();
+        let first = of(SCENE);
+        fs::copy(
+            folder.path().join("sky.hdr"),
+            folder.path().join("heaven.hdr"),
+        )
+        .unwrap();
+        assert_eq!(of(&SCENE.replace("sky.hdr", "heaven.hdr")), first);
+        for name in [
+            "sky.hdr",
+            "its data.bin",
+            "rust.png",
+            "lines.csv",
+            "cup.gltf",
+        ] {
+            let path = folder.path().join(name);
+            let before = fs::read(&path).unwrap();
+            fs::write(&path, [&before[..], b" "].concat()).unwrap();
+            assert_ne!(of(SCENE), first, "{name}");
+            fs::write(&path, before).unwrap();
+            assert_eq!(of(SCENE), first, "{name}");
+        }
+    }
+
+    /// Flags may take a seed beyond what a scene file can say.
+    #[test]
+    fn all_seeds_have_one() {
+        let folder = folder();
+        let mut description = described(SCENE);
+        if let Layer::Laid(laid) = &mut description.scratches[0].layer {
+            laid.seed = u64::MAX;
+        }
+        assert!(fingerprint(&description, folder.path()).is_ok());
+    }
+
+    #[test]
+    fn a_file_that_is_gone_is_named() {
+        let folder = folder();
+        fs::remove_file(folder.path().join("sky.hdr")).unwrap();
+        let error = fingerprint(&described(SCENE), folder.path()).unwrap_err();
+        assert!(error.to_string().contains("sky.hdr"), "{error}");
+    }
+}
