@@ -1,8 +1,13 @@
 //! The command line.
 
 use std::path::PathBuf;
+use std::time::Duration;
 
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use hairline_image::{Layer, ToneMap};
+
+use crate::compare::limits::{self, Limit};
 
 /// Renders the coloured, hair-thin scratches of worn surfaces.
 #[derive(Debug, Parser)]
@@ -21,6 +26,10 @@ const EXIT_CODES: &str =
 pub enum Command {
     /// Render a scene to a picture.
     Render(Render),
+    /// Compare a picture with a reference: figures, and a report to look at.
+    Compare(Compare),
+    /// Render a scene by Monte Carlo, slowly: what the closed forms of `render` must converge to, with its variance.
+    Reference(Reference),
     /// Show the version, the graphics adapters and what they can do, and the backends available.
     Info,
 }
@@ -56,6 +65,129 @@ pub struct Render {
     pub exposure: Option<f64>,
 }
 
+/// `hairline compare`
+#[derive(Args, Debug)]
+#[command(after_help = COMPARE_EXIT_CODES)]
+pub struct Compare {
+    /// The picture: .exr or .png.
+    pub a: PathBuf,
+    /// The reference: .exr or .png.
+    pub b: PathBuf,
+    /// A report to look at: one .html file that needs no other, with the pictures, error maps and all figures.
+    #[arg(short, long, value_name = "REPORT")]
+    pub output: Option<PathBuf>,
+    /// Print the figures as JSON. null stands for an infinite one.
+    #[arg(long)]
+    pub json: bool,
+    /// Compare this layer only. May be given several times.
+    #[arg(long = "layer", value_name = "NAME", value_parser = layers())]
+    pub layers: Vec<Layer>,
+    /// Exposure in stops at which FLIP, PSNR and the report see an .exr: radiances are multiplied by 2^EV.
+    #[arg(long, value_name = "EV", default_value_t = 0.0, allow_negative_numbers = true, value_parser = parse_exposure)]
+    pub exposure: f64,
+    /// The curve by which FLIP, PSNR and the report see an .exr. A .png is taken as it is.
+    #[arg(long, value_name = "CURVE", default_value = ToneMap::default().name(), value_parser = tone_maps())]
+    pub tone_map: ToneMap,
+    /// Fail, with exit code 1, if this figure is larger: `flip=0.05`, or of another layer than the beauty
+    /// `scratches.relative-rms=0.01`. The figures: rms, relative-rms, relmse, max, flip, flip95, rms-beyond-noise,
+    /// relative-rms-beyond-noise, z2. May be given several times. Values that are NaN or infinite fail too.
+    #[arg(long, value_name = "METRIC=VALUE", value_parser = limits::parse_above)]
+    pub fail_above: Vec<Limit>,
+    /// Fail, with exit code 1, if this figure, the larger the better, is smaller: `psnr=40`.
+    #[arg(long, value_name = "METRIC=VALUE", value_parser = limits::parse_below)]
+    pub fail_below: Vec<Limit>,
+}
+
+const COMPARE_EXIT_CODES: &str = "Exit codes: 0 done; 1 a figure is beyond its limit, or the work failed; \
+                                  2 the command line is wrong or the pictures cannot be compared.";
+
+/// `hairline reference`
+#[derive(Args, Debug)]
+#[command(after_help = REFERENCE_HELP)]
+pub struct Reference {
+    /// The scene file (TOML).
+    pub scene: PathBuf,
+    /// The picture: .exr (linear, layers, variance; can be gone on with) or .png (tone-mapped, sRGB). Without it: the scene's
+    /// name with -reference.exr, in the current folder.
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// What waves do at a scratch.
+    #[arg(long, value_enum, default_value_t = Model::Separable)]
+    pub model: Model,
+    /// Samples for each pixel, rounded up to whole batches. Without it 1024, or with --time as many as fit.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=16_777_216))]
+    pub spp: Option<u32>,
+    /// Stop sampling after this time: seconds, or with units as in 5m or 1h30m.
+    #[arg(long, value_name = "DURATION", value_parser = parse_duration)]
+    pub time: Option<Duration>,
+    /// Go on from the picture if it is there and has the same scene and flags.
+    #[arg(long)]
+    pub resume: bool,
+    /// Surfaces that light may meet on its way besides the one that is seen. 0: direct light, as the closed forms.
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=64))]
+    pub bounces: u32,
+    /// Whether objects hide lights from one another. The closed forms have no shadows.
+    #[arg(long, value_enum, default_value_t = Switch::Off)]
+    pub shadows: Switch,
+    /// What scratches take from the base, for the separable model. [default: energy]
+    #[arg(long, value_enum)]
+    pub mask: Option<Mask>,
+    /// Width and height in pixels, in place of the scene's.
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    pub size: Option<[u32; 2]>,
+    /// Other scratches of the same kinds, as for `render`: added to the seed of each layer.
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 0,
+        allow_negative_numbers = true
+    )]
+    pub seed: u64,
+    /// Other samples of the same picture: its noise, and nothing else.
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 0,
+        allow_negative_numbers = true
+    )]
+    pub sample_seed: u64,
+    /// Exposure in stops, in place of the scene's: radiances are multiplied by 2^EV before the tone map of a .png.
+    #[arg(long, value_name = "EV", allow_negative_numbers = true, value_parser = parse_exposure)]
+    pub exposure: Option<f64>,
+}
+
+const REFERENCE_HELP: &str =
+    "Ctrl-C stops and saves what there is, which is no failure; a second Ctrl-C gives up at once.";
+
+/// What waves do at a scratch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Model {
+    /// The model of the closed forms: each scratch on its own, its dependence on angles separated.
+    Separable,
+    /// All phases: interference between scratches and with the base, exact ends, oblique paths.
+    Full,
+}
+
+/// What scratches take from the base.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Mask {
+    /// What they scatter, in colour, scratches weakening one another: as `render`.
+    Energy,
+    /// The same without the weakening.
+    Linear,
+    /// The colourless density of Velinov et al. (2018).
+    Density,
+}
+
+/// On or off.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Switch {
+    /// Yes.
+    On,
+    /// No.
+    Off,
+}
+
 /// What renders.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Backend {
@@ -83,9 +215,37 @@ fn parse_size(text: &str) -> Result<[u32; 2], String> {
         })
 }
 
+fn tone_maps() -> impl TypedValueParser<Value = ToneMap> {
+    by_name(ToneMap::ALL, ToneMap::name)
+}
+
+fn layers() -> impl TypedValueParser<Value = Layer> {
+    by_name(Layer::ALL, Layer::name)
+}
+
+/// One of `all`, by its name.
+fn by_name<T: Copy + Send + Sync + 'static, const N: usize>(
+    all: [T; N],
+    name: fn(T) -> &'static str,
+) -> impl TypedValueParser<Value = T> {
+    PossibleValuesParser::new(all.map(name)).try_map(move |given| {
+        all.into_iter()
+            .find(|one| name(*one) == given)
+            .ok_or("unknown name")
+    })
+}
+
 fn parse_exposure(text: &str) -> Result<f64, String> {
     text.parse::<f64>()
         .ok()
         .filter(|ev| ev.abs() <= 100.0)
         .ok_or_else(|| "write a number of stops from -100 to 100, as in -1.5".to_owned())
+}
+
+fn parse_duration(text: &str) -> Result<Duration, String> {
+    let seconds = text.parse::<u64>().ok().map(Duration::from_secs);
+    seconds
+        .or_else(|| humantime::parse_duration(text).ok())
+        .filter(|time| !time.is_zero())
+        .ok_or_else(|| "write a time above 0, as in 90 (seconds), 5m or 1h30m".to_owned())
 }

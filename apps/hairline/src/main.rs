@@ -4,9 +4,11 @@
 
 mod backend;
 mod cli;
+mod compare;
 mod failure;
 mod info;
 mod progress;
+mod reference;
 mod render;
 mod scene_file;
 mod trial;
@@ -20,6 +22,8 @@ fn main() -> ExitCode {
     let cli = cli::Cli::parse();
     let result = match &cli.command {
         Some(cli::Command::Render(arguments)) => render::run(arguments),
+        Some(cli::Command::Compare(arguments)) => compare::run(arguments),
+        Some(cli::Command::Reference(arguments)) => reference::run(arguments),
         Some(cli::Command::Info) => info::run(),
         None => cli::Cli::command()
             .print_help()

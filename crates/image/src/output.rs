@@ -51,8 +51,7 @@ impl Output {
     /// [`Error::UnknownEnding`], [`Error::CannotWrite`].
     pub fn check(path: &Path) -> Result<Self, Error> {
         let format = Format::from_ending(path)?;
-        let target = resolve(path)?;
-        drop(temporary_beside(path, &target)?);
+        check_writable(path)?;
         Ok(Self {
             path: path.to_owned(),
             format,
@@ -113,6 +112,17 @@ impl Output {
         })?;
         write_atomically(&self.path, &bytes)
     }
+}
+
+/// Checks that [`write_atomically`] will be able to write here, whatever the ending. Leaves nothing behind and an existing
+/// file as it is.
+///
+/// # Errors
+/// [`Error::CannotWrite`].
+pub fn check_writable(path: &Path) -> Result<(), Error> {
+    let target = resolve(path)?;
+    drop(temporary_beside(path, &target)?);
+    Ok(())
 }
 
 /// Writes a whole file or none: a reader sees the old contents or the new ones, never a part.

@@ -1,0 +1,150 @@
+//! `hairline compare`: how far a picture is from a reference, in figures and in a report to look at.
+
+pub mod limits;
+mod report;
+mod table;
+
+use std::path::{Path, PathBuf};
+
+use anyhow::anyhow;
+use hairline_image::metrics::{self, Comparison, Problem};
+use hairline_image::{Display, Layers};
+
+use self::limits::Finding;
+use crate::cli;
+use crate::failure::Failure;
+use crate::progress::Progress;
+
+/// One of the two pictures.
+struct Side {
+    path: PathBuf,
+    layers: Layers,
+}
+
+impl Side {
+    fn read(path: &Path, only: &[hairline_image::Layer]) -> Result<Self, Failure> {
+        // A picture to look at is part of the command line, as a scene is.
+        let mut layers = Layers::read(path).map_err(|error| Failure::Input(error.into()))?;
+        if !only.is_empty() {
+            layers.held.retain(|held| only.contains(&held.layer));
+        }
+        Ok(Self {
+            path: path.to_owned(),
+            layers,
+        })
+    }
+}
+
+/// Reads, compares, prints, writes the report, and holds the figures to the limits.
+pub fn run(arguments: &cli::Compare) -> Result<(), Failure> {
+    // Before the work, as for a render.
+    let output = arguments.output.as_deref().map(check_output).transpose()?;
+    let progress = Progress::start("reading");
+    let a = Side::read(&arguments.a, &arguments.layers)?;
+    let b = Side::read(&arguments.b, &arguments.layers)?;
+    let display = Display {
+        exposure_ev: arguments.exposure,
+        tone_map: arguments.tone_map,
+    };
+    progress.restart("comparing");
+    let comparison = metrics::compare(&a.layers, &b.layers, &display, None);
+    drop(progress);
+    refuse_the_incomparable(&a, &b, &comparison)?;
+    for problem in &comparison.problems {
+        eprintln!("warning: {problem}");
+    }
+
+    if arguments.json {
+        println!("{:#}", table::json(&a, &b, &display, &comparison));
+    } else {
+        print!("{}", table::text(&a, &b, &comparison));
+    }
+    if let Some(path) = output {
+        let page = report::page(&a, &b, &display, &comparison)?;
+        hairline_image::output::write_atomically(path, page.as_bytes())?;
+    }
+    hold_to_limits(arguments, &comparison)
+}
+
+fn check_output(path: &Path) -> Result<&Path, Failure> {
+    let is_html = path
+        .extension()
+        .is_some_and(|ending| ending.eq_ignore_ascii_case("html") || ending.eq_ignore_ascii_case("htm"));
+    if !is_html {
+        return Err(Failure::Input(anyhow!(
+            "{}: the report is a web page: end its name in .html",
+            path.display()
+        )));
+    }
+    hairline_image::output::check_writable(path)?;
+    Ok(path)
+}
+
+/// Sizes that differ, and files without a layer in common.
+fn refuse_the_incomparable(a: &Side, b: &Side, comparison: &Comparison) -> Result<(), Failure> {
+    let (a_name, b_name) = (a.path.display(), b.path.display());
+    for problem in &comparison.problems {
+        let refusal = match problem {
+            Problem::SizesDiffer { a, b } => anyhow!(
+                "{a_name} has {} x {} pixels, {b_name} has {} x {}: render one of them again with `--size {}x{}` or \
+                 `--size {}x{}` to compare them",
+                a[0], a[1], b[0], b[1], b[0], b[1], a[0], a[1]
+            ),
+            Problem::NothingInCommon => anyhow!(
+                "{a_name} and {b_name} have no such layer in common: the first has {}, the second {}",
+                names(&a.layers),
+                names(&b.layers)
+            ),
+            _ => continue,
+        };
+        return Err(Failure::Input(refusal));
+    }
+    Ok(())
+}
+
+fn names(layers: &Layers) -> String {
+    let names: Vec<&str> = layers.held.iter().map(|held| held.layer.name()).collect();
+    if names.is_empty() {
+        return "none".to_owned();
+    }
+    names.join(", ")
+}
+
+/// One line for everything that is beyond its limit.
+fn hold_to_limits(arguments: &cli::Compare, comparison: &Comparison) -> Result<(), Failure> {
+    let mut broken = Vec::new();
+    let mut limits = arguments.fail_above.iter().chain(&arguments.fail_below).peekable();
+    if limits.peek().is_none() {
+        return Ok(());
+    }
+    for limit in limits {
+        match limit.judge(&comparison.layers) {
+            Finding::Kept => {}
+            Finding::Broken(how) => broken.push(how),
+            Finding::Absent(why) => return Err(Failure::Input(anyhow!(why))),
+        }
+    }
+    let not_finite = |problem: &&Problem| matches!(problem, Problem::NotFinite { .. });
+    broken.extend(comparison.problems.iter().filter(not_finite).map(Problem::to_string));
+    if broken.is_empty() {
+        return Ok(());
+    }
+    Err(Failure::Work(anyhow!(broken.join("; "))))
+}
+
+/// A figure with three or four digits that mean something.
+fn figure(value: f64) -> String {
+    let size = value.abs();
+    if !value.is_finite() {
+        return if value.is_nan() { "NaN" } else { "infinite" }.to_owned();
+    }
+    if size == 0.0 {
+        return "0".to_owned();
+    }
+    match size {
+        1e5.. | ..5e-4 => format!("{value:.2e}"),
+        100.0.. => format!("{value:.1}"),
+        1.0.. => format!("{value:.3}"),
+        _ => format!("{value:.4}"),
+    }
+}

@@ -1,0 +1,184 @@
+//! The figures as text and as JSON.
+
+use std::fmt::Write as _;
+
+use comfy_table::{CellAlignment, ContentArrangement, LineStyle, Row, Table, TableStyle};
+use hairline_image::Display;
+use hairline_image::metrics::{Comparison, LayerComparison, Verdict, ZTest};
+use serde_json::{Map, Value, json};
+
+use super::limits::Metric;
+use super::{Side, figure};
+
+/// A column of the table: a heading, the figure, and what it means to someone who meets it first.
+pub struct Column {
+    /// Short enough for a heading.
+    pub heading: &'static str,
+    /// What is shown.
+    pub metric: Metric,
+    /// For a hover.
+    pub meaning: &'static str,
+}
+
+/// The columns, the same on the terminal and in the report.
+pub const COLUMNS: [Column; 10] = [
+    Column {
+        heading: "FLIP",
+        metric: Metric::Flip,
+        meaning: "The difference that a viewer sees when the two pictures alternate in place, averaged over the pixels: \
+                  0 none, 1 black against white. Below 0.01 hardly anyone sees it.",
+    },
+    Column {
+        heading: "FLIP 95 %",
+        metric: Metric::Flip95,
+        meaning: "95 % of the pixels have a smaller FLIP than this: how bad the bad places are.",
+    },
+    Column {
+        heading: "PSNR dB",
+        metric: Metric::Psnr,
+        meaning: "Peak over rms difference of what a display shows, in decibels. The larger the better: 40 and more are \
+                  hard to tell apart. Layers that are no colours: of the values, by the reference's largest.",
+    },
+    Column {
+        heading: "rel. MSE",
+        metric: Metric::RelativeMse,
+        meaning: "Mean of the squared difference over the squared reference, on linear values: an error of a tenth \
+                  everywhere gives 0.01. Dark values are held up so that they do not count without bound.",
+    },
+    Column {
+        heading: "rms",
+        metric: Metric::Rms,
+        meaning: "Root of the mean squared difference of the linear values, in their own unit.",
+    },
+    Column {
+        heading: "rel. rms",
+        metric: Metric::RelativeRms,
+        meaning: "The rms difference over the rms of the reference: bright places decide.",
+    },
+    Column {
+        heading: "largest",
+        metric: Metric::Max,
+        meaning: "The largest difference of a single linear value.",
+    },
+    Column {
+        heading: "rms w/o noise",
+        metric: Metric::RmsBeyondNoise,
+        meaning: "What is left of the rms difference when the noise that the files tell of is taken off.",
+    },
+    Column {
+        heading: "relative",
+        metric: Metric::RelativeRmsBeyondNoise,
+        meaning: "The same over the rms of the reference: the error of the model itself.",
+    },
+    Column {
+        heading: "mean z\u{b2}",
+        metric: Metric::Z2,
+        meaning: "Mean squared difference in units of its own noise. 1 where noise is all there is; more where there is \
+                  more than noise.",
+    },
+];
+
+/// The columns for which a layer has a figure.
+pub fn columns(comparison: &Comparison) -> impl Iterator<Item = &'static Column> {
+    let layers = &comparison.layers;
+    COLUMNS
+        .iter()
+        .filter(|column| layers.iter().any(|layer| column.metric.of(layer).is_some()))
+}
+
+/// What the z-test says, in words.
+pub fn verdict(test: &ZTest) -> String {
+    let z2 = format!("mean z^2 = {}", figure(test.mean_z2));
+    match test.verdict {
+        Verdict::ExplainedByNoise => format!("the difference is explained by noise: {z2}"),
+        Verdict::MoreThanNoise => format!("the difference is not explained by noise: {z2}"),
+        Verdict::LessThanNoise => format!(
+            "the difference is smaller than the noise that the files tell of (the same noise in both?): {z2}"
+        ),
+        Verdict::TooFewValues => format!(
+            "too few values with a known variance to tell whether noise explains the difference: {}",
+            test.values
+        ),
+    }
+}
+
+/// A table, a row a layer, and a line on the noise of each layer that has any.
+pub fn text(a: &Side, b: &Side, comparison: &Comparison) -> String {
+    let columns: Vec<&Column> = columns(comparison).collect();
+    let mut table = Table::new();
+    let rule = LineStyle::none().fill('\u{2500}').junction('\u{2500}');
+    table
+        .load_style(TableStyle::new().header_separator(rule))
+        .set_content_arrangement(ContentArrangement::Disabled);
+    table.set_header(std::iter::once("layer").chain(columns.iter().map(|c| c.heading)));
+    for layer in &comparison.layers {
+        let mut row = Row::new();
+        row.add_cell(layer.layer.name().into());
+        for column in &columns {
+            row.add_cell(column.metric.of(layer).map_or("-".to_owned(), figure).into());
+        }
+        table.add_row(row);
+    }
+    for column in table.column_iter_mut().skip(1) {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+
+    let mut text = String::new();
+    let [width, height] = a.layers.size_px;
+    let (a, b) = (a.path.display(), b.path.display());
+    // Writing to a string cannot fail.
+    let _ = writeln!(text, "{a} against {b}, {width} x {height}\n{table}");
+    for layer in &comparison.layers {
+        if let Some(test) = &layer.z_test {
+            let _ = writeln!(text, "{}: {}", layer.layer.name(), verdict(test));
+        }
+    }
+    text
+}
+
+/// All figures by the names that limits have.
+pub fn json(a: &Side, b: &Side, display: &Display, comparison: &Comparison) -> Value {
+    let file = |side: &Side| {
+        json!({
+            "file": side.path.display().to_string(),
+            "size_px": side.layers.size_px,
+            "notes": side.layers.notes,
+        })
+    };
+    let layers: Map<String, Value> = comparison
+        .layers
+        .iter()
+        .map(|layer| (layer.layer.name().to_owned(), layer_json(layer)))
+        .collect();
+    let problems: Vec<String> = comparison.problems.iter().map(ToString::to_string).collect();
+    json!({
+        "a": file(a),
+        "b": file(b),
+        "display": { "exposure_ev": display.exposure_ev, "tone_map": display.tone_map.name() },
+        "layers": layers,
+        "problems": problems,
+    })
+}
+
+fn layer_json(layer: &LayerComparison) -> Value {
+    let mut figures = Map::new();
+    for metric in Metric::ALL {
+        if let Some(value) = metric.of(layer) {
+            // null where it is infinite.
+            figures.insert(metric.name().to_owned(), json!(value));
+        }
+    }
+    figures.insert("mean".to_owned(), json!(layer.difference.mean));
+    figures.insert("reference-mean".to_owned(), json!(layer.difference.reference_mean));
+    figures.insert("not-finite".to_owned(), json!(layer.difference.not_finite));
+    if let Some(test) = &layer.z_test {
+        let verdict = match test.verdict {
+            Verdict::ExplainedByNoise => "explained-by-noise",
+            Verdict::MoreThanNoise => "more-than-noise",
+            Verdict::LessThanNoise => "less-than-noise",
+            Verdict::TooFewValues => "too-few-values",
+        };
+        figures.insert("verdict".to_owned(), json!(verdict));
+    }
+    Value::Object(figures)
+}
