@@ -53,8 +53,13 @@ impl ScratchIndex {
         let objects = scene.objects.iter();
         Self {
             tree: SegmentTree::build(objects.map(|object| effective_segments(scene, object))),
-            depth_coherence: scene.objects.iter().map(object_depth_coherence).collect(),
+            depth_coherence: Self::depth_coherence(scene),
         }
+    }
+
+    /// How alike the phase steps of each object's scratches are, without the trees.
+    pub fn depth_coherence(scene: &Scene) -> Vec<f32> {
+        scene.objects.iter().map(object_depth_coherence).collect()
     }
 }
 

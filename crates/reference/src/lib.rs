@@ -3,6 +3,7 @@
 mod base;
 pub mod closed_form;
 mod light_view;
+pub mod monte_carlo;
 mod scratches;
 mod silhouettes;
 mod surface;

@@ -26,6 +26,8 @@ pub(crate) struct SurfacePoint {
     pub diffuse: DVec3,
     pub roughness: f64,
     pub emission: DVec3,
+    /// Index into the scene's materials.
+    pub material: usize,
     pub coherence_um: f64,
     /// Which scratch table.
     pub table: usize,
@@ -136,6 +138,7 @@ pub(crate) fn surface_point(
         diffuse: base_color * (1.0 - metallic),
         roughness,
         emission: emission * DVec3::from(material.emission),
+        material: material_index,
         coherence_um: material.coherence_um,
         table: optics.table as usize,
     }

@@ -103,3 +103,6 @@ fn cosine_sample(u: DVec2) -> DVec3 {
     let r = u.y.sqrt();
     DVec3::new(r * cos_phi, r * sin_phi, (1.0 - u.y).sqrt())
 }
+
+#[cfg(test)]
+mod tests;

@@ -188,3 +188,6 @@ fn linear(a: f64, b: f64, u: f64) -> f64 {
         0.0
     }
 }
+
+#[cfg(test)]
+mod tests;
