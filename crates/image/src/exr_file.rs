@@ -136,6 +136,7 @@ pub fn read_image_with_notes(path: &Path) -> std::result::Result<(Image, Notes),
         noise: None,
     };
     image.noise = file.noise(path)?;
+    check_lengths(&image, path)?;
     Ok((image, file.notes))
 }
 
@@ -151,6 +152,31 @@ pub fn read_picture(path: &Path) -> std::result::Result<Picture, Error> {
             path: path.to_owned(),
             reason: "no channels R, G and B".to_owned(),
         })
+}
+
+/// Layers may come from parts of different sizes in files that others made.
+fn check_lengths(image: &Image, path: &Path) -> std::result::Result<(), Error> {
+    let count = image.pixel_count();
+    let mut lengths = vec![
+        image.scratches.len(),
+        image.density.len(),
+        image.depth_m.len(),
+        image.normal.len(),
+    ];
+    if let Some(noise) = &image.noise {
+        lengths.push(noise.samples.len());
+        let layers = crate::Layer::ALL
+            .into_iter()
+            .filter_map(|l| noise.variance(l));
+        lengths.extend(layers.map(<[_]>::len));
+    }
+    if lengths.iter().all(|&length| length == count) {
+        return Ok(());
+    }
+    Err(Error::Unusable {
+        path: path.to_owned(),
+        reason: "its layers have different sizes".to_owned(),
+    })
 }
 
 /// Names for a message, each once: depth has one channel.

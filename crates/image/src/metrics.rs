@@ -3,6 +3,7 @@
 //! Everywhere the second image is the reference. Values that are not finite in either image are left out, and counted
 //! by [`Difference`].
 
+mod blocks;
 mod compare;
 mod difference;
 mod error_map;

@@ -3,7 +3,7 @@
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
 
-use crate::tone_map::{Display, display_code, dither_offset};
+use crate::tone_map::{Display, display_code, dither_offset, linear_from_srgb};
 use crate::{Error, Picture};
 use std::fs::File;
 use std::io::BufReader;
@@ -40,25 +40,26 @@ pub fn quantize(picture: &Picture, display: &Display) -> Vec<u8> {
         .collect()
 }
 
-/// Reads an 8-bit sRGB picture (PNG) back to linear Rec.709; the tone map stays in it.
+/// Reads an sRGB picture (PNG, 8 or 16 bits) back to linear Rec.709; the tone map stays in it. Grey becomes R = G = B,
+/// transparency is dropped.
 ///
 /// # Errors
 /// [`Error::CannotRead`], [`Error::Unusable`].
 pub fn read_picture(path: &Path) -> Result<Picture, Error> {
     let file = File::open(path).map_err(|e| Error::cannot_read(path, &e))?;
-    let decoded = image::load(BufReader::new(file), image::ImageFormat::Png)
-        .map_err(|e| Error::Unusable {
+    let decoded = image::load(BufReader::new(file), image::ImageFormat::Png).map_err(|e| {
+        Error::Unusable {
             path: path.to_owned(),
             reason: format!("not a PNG file that can be read: {e}"),
-        })?
-        .into_rgb8();
+        }
+    })?;
+    // 8-bit codes times 257 are the 16-bit codes of the same values, so that one way serves both.
+    let decoded = decoded.into_rgb16();
     Ok(Picture {
         size_px: [decoded.width(), decoded.height()],
         rgb: decoded
             .pixels()
-            .map(|p| {
-                p.0.map(|code| crate::tone_map::linear_from_srgb(f32::from(code) / 255.0))
-            })
+            .map(|p| p.0.map(|code| linear_from_srgb(f32::from(code) / 65535.0)))
             .collect(),
     })
 }

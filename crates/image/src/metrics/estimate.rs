@@ -39,7 +39,11 @@ impl<'a> Estimate<'a> {
     }
 }
 
-/// Difference of two values from a reference, and the variance that noise gives it.
+/// Noise below this share of a value is none: a constant background's batches scatter by rounding alone, which says
+/// nothing of the rounding between two renderers.
+const NOISE_MIN: f64 = 1e-5;
+
+/// Difference of a value from a reference, and the variance that noise gives it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Residual {
     /// Image minus reference.
@@ -59,6 +63,14 @@ pub(super) fn residual(a: &Estimate, b: &Estimate, i: usize, c: usize) -> Option
     let (va, na) = a.variance_at(i, c)?;
     let (vb, nb) = b.variance_at(i, c)?;
     let variance = va + vb;
+    let rounding = NOISE_MIN * x.abs().max(y.abs());
+    if !(variance > rounding * rounding) {
+        return Some(Residual {
+            difference: x - y,
+            variance: 0.0,
+            degrees_of_freedom: f64::INFINITY,
+        });
+    }
     // Satterthwaite 1946: the degrees of freedom of a sum of estimated variances.
     let spread = va * va / na + vb * vb / nb;
     Some(Residual {
@@ -67,6 +79,7 @@ pub(super) fn residual(a: &Estimate, b: &Estimate, i: usize, c: usize) -> Option
         degrees_of_freedom: if spread > 0.0 {
             variance * variance / spread
         } else {
+            // Variances that are known exactly.
             f64::INFINITY
         },
     })

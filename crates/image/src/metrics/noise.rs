@@ -32,8 +32,46 @@ impl BeyondNoise {
         if image.variance.is_none() && reference.variance.is_none() {
             return None;
         }
-        let _ = residual;
-        None
+        let mut values = 0_usize;
+        let (mut squares, mut variances) = (0.0, 0.0);
+        let (mut reference_squares, mut reference_variances) = (0.0, 0.0);
+        let (mut spread, mut least_spread) = (0.0, 0.0);
+        for i in 0..image.values.len() {
+            if mask.is_some_and(|mask| !mask[i]) {
+                continue;
+            }
+            let (mut square, mut variance, mut freedom) = (0.0, 0.0, f64::INFINITY);
+            for c in 0..3 {
+                let Some(r) = residual(image, reference, i, c) else {
+                    continue;
+                };
+                values += 1;
+                square += r.difference * r.difference;
+                variance += r.variance;
+                freedom = freedom.min(r.degrees_of_freedom);
+                reference_squares += f64::from(reference.values[i][c]).powi(2);
+                reference_variances += reference.variance_at(i, c).map_or(0.0, |(v, _)| v);
+            }
+            squares += square;
+            variances += variance;
+            // A normal difference of mean m and variance v has a square of variance 2 v^2 + 4 m^2 v, and the estimate of
+            // v a variance of 2 v^2 over its degrees of freedom. The three channels count as one: light that is missed
+            // is missed in all of them.
+            let least = 2.0 * variance * variance * (1.0 + 1.0 / freedom);
+            least_spread += least;
+            spread += least + 4.0 * variance * (square - variance);
+        }
+        if values == 0 {
+            return None;
+        }
+        let count = values as f64;
+        Some(Self {
+            values,
+            mean_square: (squares - variances) / count,
+            mean_square_error: spread.max(least_spread).sqrt() / count,
+            noise_rms: (variances / count).sqrt(),
+            reference_rms: ((reference_squares - reference_variances).max(0.0) / count).sqrt(),
+        })
     }
 
     /// The rms difference beyond the noise; 0 where the noise explains more than all.
@@ -41,7 +79,8 @@ impl BeyondNoise {
         self.mean_square.max(0.0).sqrt()
     }
 
-    /// [`Self::rms`] at one end of its interval of `sigmas` standard errors.
+    /// The ends of the interval around [`Self::rms`] that lie `sigmas` standard errors apart from it on either side: 2
+    /// for 95 %. Taken of the mean square, whose error is near normal where that of the root is not.
     pub fn rms_within(&self, sigmas: f64) -> [f64; 2] {
         [-sigmas, sigmas].map(|s| {
             (self.mean_square + s * self.mean_square_error)

@@ -53,7 +53,7 @@ pub(super) fn is_displayed(layer: Layer) -> bool {
     matches!(layer, Layer::Beauty | Layer::Base | Layer::Scratches)
 }
 
-/// Over the values that are finite, as they are, in both images.
+/// Over the pixels that are finite in both images.
 fn sum_of_squares(
     image: &[[f32; 3]],
     reference: &[[f32; 3]],
@@ -69,12 +69,13 @@ fn sum_of_squares(
         if mask.is_some_and(|mask| !mask[i]) {
             continue;
         }
-        let (shown_a, shown_b) = (shown(*a), shown(*b));
-        for c in 0..3 {
-            if a[c].is_finite() && b[c].is_finite() {
-                squares += (f64::from(shown_a[c]) - f64::from(shown_b[c])).powi(2);
-                values += 1;
-            }
+        // A tone curve mixes components, so that one of them spoils all.
+        if !a.iter().chain(b).all(|c| c.is_finite()) {
+            continue;
+        }
+        for (a, b) in shown(*a).into_iter().zip(shown(*b)) {
+            squares += (f64::from(a) - f64::from(b)).powi(2);
+            values += 1;
         }
     }
     (squares, values)
