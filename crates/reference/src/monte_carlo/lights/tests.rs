@@ -322,9 +322,10 @@ fn the_mean_of_cosine_over_density_is_the_irradiance() {
             // Light that mostly lies below the horizon comes with few samples: judge the error by the whole light's.
             let scale = 1.0 / lights.pdf(0, DVec3::ZERO, normal);
             assert!(error < 1e-3 * scale, "{name}: {error}");
+            // Lambert's edges cancel: 1e-16 is what is left of rounding for the smallest light.
             // Twelve seeds do not know their error well: six of them are like four and a half of a known one.
             assert!(
-                (measured - expected).abs() < 6.0 * error + 1e-9 * scale,
+                (measured - expected).abs() < 6.0 * error + 1e-9 * scale + 1e-16,
                 "{name}: {measured} {expected} {error}"
             );
         }
