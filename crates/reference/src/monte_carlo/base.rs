@@ -23,8 +23,6 @@ pub(crate) struct BaseLobes {
     compensation: DVec3,
     /// What reaches the body, times its albedo.
     body: DVec3,
-    /// Directional albedo of the specular lobe: (27) without the lights.
-    albedo: DVec3,
     /// How often the specular lobe is sampled.
     specular_share: f64,
 }
@@ -35,9 +33,7 @@ impl BaseLobes {
     }
 
     fn from_parts(wo: DVec3, fresnel: FresnelRgb, diffuse: DVec3, roughness: f64) -> Self {
-        let e = albedo_lookup(roughness, wo.z.max(LOBE_MIN_COS));
-        let compensation = DVec3::from(fresnel.f0).map(|f0| ggx_multiple_scattering(f0, e[0]));
-        let albedo = DVec3::from(fresnel.albedo(e)) * compensation;
+        let (albedo, compensation) = specular_albedo(wo, &fresnel, roughness);
         let body = diffuse * (DVec3::ONE - albedo).max(DVec3::ZERO);
         let (specular, below) = (albedo.element_sum().max(0.0), body.element_sum());
         // A faint lobe still needs samples: a narrow one is found by nothing else.
@@ -52,14 +48,8 @@ impl BaseLobes {
             fresnel,
             compensation,
             body,
-            albedo,
             specular_share,
         }
-    }
-
-    /// Directional albedos of (specular, diffuse), as the model has them.
-    pub fn albedo(&self) -> (DVec3, DVec3) {
-        (self.albedo, self.body)
     }
 
     /// BRDF times the cosine of `wi`: (specular, diffuse). Zero at and below the horizon.
@@ -95,6 +85,13 @@ impl BaseLobes {
         let specular = ggx_pdf(wi, self.wo, self.alpha);
         specular * self.specular_share + wi.z / PI * (1.0 - self.specular_share)
     }
+}
+
+/// Directional albedo of the specular lobe, which is (27) without the lights, and its bracket.
+fn specular_albedo(wo: DVec3, fresnel: &FresnelRgb, roughness: f64) -> (DVec3, DVec3) {
+    let e = albedo_lookup(roughness, wo.z.max(LOBE_MIN_COS));
+    let compensation = DVec3::from(fresnel.f0).map(|f0| ggx_multiple_scattering(f0, e[0]));
+    (DVec3::from(fresnel.albedo(e)) * compensation, compensation)
 }
 
 /// A direction in proportion to its cosine.

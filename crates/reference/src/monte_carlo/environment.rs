@@ -108,7 +108,8 @@ impl EnvironmentSampler {
         value * 4.0 * self.width as f64 / (TAU * self.total())
     }
 
-    /// A unit direction in world space and its density per steradian. `u` is in [0, 1)^2. A black map is sampled evenly.
+    /// A unit direction in world space and its density per steradian, which is positive. `u` is in [0, 1)^2. A black map is
+    /// sampled evenly.
     pub fn sample(&self, u: DVec2) -> (DVec3, f64) {
         if !(self.total() > 0.0) {
             return (self.world_from_map(u.x, 1.0 - 2.0 * u.y), 1.0 / (4.0 * PI));
@@ -122,7 +123,7 @@ impl EnvironmentSampler {
         let mut left = share_block * (sums[block] - begin);
         let (mut x, mut share_x) = (0, 0.0);
         for (cell, sum) in self.block(row, block).filter(|(_, sum)| *sum > 0.0) {
-            (x, share_x) = (cell, (left / sum).min(1.0));
+            (x, share_x) = (cell, (left / sum).clamp(OFF_EDGE, 1.0 - OFF_EDGE));
             if left < sum {
                 break;
             }
@@ -169,14 +170,18 @@ impl EnvironmentSampler {
     }
 }
 
-/// The interval of cumulative `sums` that a share `u` of the last falls into, and how far into it.
+/// What keeps places off the very edge of what is lit, where the density is zero.
+const OFF_EDGE: f64 = 1e-12;
+
+/// The interval of cumulative `sums` that a share `u` of the last falls into, and how far into it: never all the way.
 fn pick(sums: &[f64], u: f64) -> (usize, f64) {
     let target = u * sums[sums.len() - 1];
     // Not past the first that reaches the total: what follows is empty.
     let last = sums.partition_point(|s| *s < sums[sums.len() - 1]);
     let i = sums.partition_point(|s| *s <= target).min(last);
     let begin = if i == 0 { 0.0 } else { sums[i - 1] };
-    (i, ((target - begin) / (sums[i] - begin)).clamp(0.0, 1.0))
+    let share = (target - begin) / (sums[i] - begin);
+    (i, share.clamp(OFF_EDGE, 1.0 - OFF_EDGE))
 }
 
 /// The place in [0, 1] below which lies the share `u` of a density that goes from `a` to `b`.

@@ -168,7 +168,9 @@ impl AreaLights {
         }
     }
 
-    /// A cone that holds every direction from a point to light `i`.
+    /// A cone that holds every direction from a point to light `i`: what the tests draw even directions from. To tell which
+    /// directions a light can reach, [`AreaLights::extent`] is tighter.
+    #[cfg(test)]
     pub fn bound(&self, i: usize, from: DVec3) -> Cone {
         match &self.lights[i].shape {
             Shape::Sphere(sphere) => sphere.bound(from),

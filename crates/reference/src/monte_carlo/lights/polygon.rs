@@ -7,7 +7,9 @@
 
 use glam::{DVec2, DVec3};
 
-use super::{Cone, widened};
+use super::widened;
+#[cfg(test)]
+use super::{BOUND_SLACK, Cone};
 
 /// Points this near the plane, relative to the polygon and the way to it, see its edge: nothing. What is lost is as small.
 const EDGE_ON: f64 = 1e-10;
@@ -201,6 +203,7 @@ impl PolygonLight {
         if whole > 0.0 { 1.0 / whole } else { 0.0 }
     }
 
+    #[cfg(test)]
     pub fn bound(&self, from: DVec3) -> Cone {
         let directions = || {
             self.vertices_m
@@ -216,10 +219,10 @@ impl PolygonLight {
         }
         if cos > 1e-6 {
             // The sine has the digits that the cosine of a narrow cone has not.
-            let sin = (sin * (1.0 + super::BOUND_SLACK) + super::BOUND_SLACK).min(1.0);
+            let sin = (sin * (1.0 + BOUND_SLACK) + BOUND_SLACK).min(1.0);
             return Cone {
                 axis,
-                cos: (1.0 - sin * sin).max(0.0).sqrt() - super::BOUND_SLACK,
+                cos: (1.0 - sin * sin).max(0.0).sqrt() - BOUND_SLACK,
                 sin,
             };
         }

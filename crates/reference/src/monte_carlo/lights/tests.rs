@@ -271,6 +271,46 @@ fn the_density_is_one_over_the_solid_angle() {
     }
 }
 
+/// No part is lost or counted twice where a polygon is cut into triangles.
+#[test]
+fn polygons_of_every_outline_keep_their_solid_angle() {
+    let mut draw = Draw::new(6);
+    for round in 0..300 {
+        let n = 3 + (draw.one() * 60.0) as usize;
+        let outline: Vec<_> = if round % 3 == 0 {
+            // A comb: upright teeth on a back, many vertices on two lines.
+            let teeth = (0..n).rev().flat_map(|i| {
+                let x = i as f64 / n as f64;
+                let step = 1.0 / n as f64;
+                [
+                    [x + 0.6 * step, 0.2],
+                    [x + 0.6 * step, 1.0],
+                    [x, 1.0],
+                    [x, 0.2],
+                ]
+            });
+            [[0.0, 0.0], [1.0, 0.0]].into_iter().chain(teeth).collect()
+        } else {
+            // Spikes of any length about a centre.
+            (0..n)
+                .map(|i| {
+                    let (sin, cos) =
+                        (2.0 * PI * (i as f64 + 0.9 * draw.one()) / n as f64).sin_cos();
+                    let radius = 0.02 + draw.one();
+                    [0.3 + radius * cos, radius * sin]
+                })
+                .collect()
+        };
+        let light = askew(ceiling(&outline, 0.1 + draw.one()));
+        let expected = girard(vertices(&light).unwrap());
+        let measured = 1.0 / AreaLights::from_lights(&[light]).pdf(0, DVec3::ZERO, DVec3::Z);
+        assert!(
+            (measured - expected).abs() < 1e-11,
+            "{round}: {measured} {expected} {outline:?}"
+        );
+    }
+}
+
 /// The mean of cosine over density, cut at the horizon, and its standard error.
 fn irradiance(lights: &AreaLights, from: DVec3, normal: DVec3) -> (f64, f64) {
     const SIDE: usize = 100;
