@@ -9,11 +9,17 @@ pub struct Progress {
     bar: ProgressBar,
 }
 
-const STEPS: u64 = 1000;
+/// Enough for an hour's work to move in each second.
+const STEPS: u64 = 100_000;
 
 impl Progress {
     /// Begins at nothing done. `what` is a verb: "rendering".
     pub fn start(what: &'static str) -> Self {
+        Self::start_from(what, 0.0)
+    }
+
+    /// Begins where earlier work has come to: the time left is guessed from what follows alone.
+    pub fn start_from(what: &'static str, share: f64) -> Self {
         // Hidden by itself where stderr is no terminal.
         let bar = ProgressBar::with_draw_target(Some(STEPS), ProgressDrawTarget::stderr());
         let style = ProgressStyle::with_template("{msg:<20} {wide_bar} {percent:>3} %  {eta:>4}")
@@ -21,8 +27,23 @@ impl Progress {
             .progress_chars("=> ");
         bar.set_style(style);
         bar.set_message(what);
-        bar.enable_steady_tick(Duration::from_millis(200));
-        Self { bar }
+        let progress = Self { bar };
+        progress.set(share);
+        // The estimate takes the position in at a tick, and forgets the time that it took at the reset.
+        progress.bar.tick();
+        progress.bar.reset_eta();
+        progress.bar.enable_steady_tick(Duration::from_millis(200));
+        progress
+    }
+
+    /// Says what is done meanwhile; the share stays.
+    pub fn say(&self, what: &'static str) {
+        self.bar.set_message(what);
+    }
+
+    /// A line on stderr, in a pipe as well.
+    pub fn warn(&self, warning: &str) {
+        self.bar.suspend(|| eprintln!("warning: {warning}"));
     }
 
     /// Begins another part of the work.

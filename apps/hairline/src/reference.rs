@@ -5,6 +5,8 @@ mod identity;
 mod interrupt;
 mod sampling;
 
+use std::time::Duration;
+
 use anyhow::anyhow;
 use hairline_image::{Display, Format, Output};
 use hairline_optics::mask::Mask;
@@ -18,6 +20,9 @@ use sampling::{Count, End, Limits};
 
 /// Samples for each pixel if neither they nor a time are asked for.
 const DEFAULT_SAMPLES: u32 = 1024;
+
+/// What a crash or a power cut may cost.
+const SAVE_EVERY: Duration = Duration::from_secs(60);
 
 /// Loads, samples and writes.
 pub fn run(arguments: &cli::Reference) -> Result<(), Failure> {
@@ -64,10 +69,15 @@ pub fn run(arguments: &cli::Reference) -> Result<(), Failure> {
     let from = match (count, exists) {
         (Some(count), _) => format!("going on from {}", listed(count)),
         (None, true) if output.format() == Format::Exr => {
-            format!("from the start, in place of the {name} that is there (--resume goes on from it)")
+            format!(
+                "from the start, in place of the {name} that is there (--resume goes on from it)"
+            )
         }
         (None, _) => "from the start".to_owned(),
     };
+    // From here on there is something to lose.
+    let interrupt = Interrupt::listen()
+        .map_err(|error| Failure::Work(anyhow!("cannot listen for Ctrl-C: {error}")))?;
     eprintln!("{}: {from}", announcement(arguments, &settings, &limits));
     if output.format() == Format::Png {
         eprintln!(
@@ -82,9 +92,6 @@ pub fn run(arguments: &cli::Reference) -> Result<(), Failure> {
     let save = |image: &_| -> Result<(), Failure> {
         Ok(output.write_image_with_notes(image, &display, &notes)?)
     };
-    // From here on there is something to lose.
-    let interrupt = Interrupt::listen()
-        .map_err(|error| Failure::Work(anyhow!("cannot listen for Ctrl-C: {error}")))?;
     let integrator = Integrator::new(scene, settings);
     let mut image = earlier.unwrap_or_else(|| integrator.start());
     let end = sampling::sample(&integrator, &mut image, &limits, &interrupt, &save)?;
@@ -148,6 +155,7 @@ fn limits(arguments: &cli::Reference) -> Limits {
     Limits {
         samples,
         time: arguments.time,
+        save_every: SAVE_EVERY,
     }
 }
 

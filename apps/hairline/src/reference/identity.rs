@@ -80,7 +80,7 @@ pub fn read_to_resume(path: &Path, size_px: [u32; 2], wanted: &Notes) -> Result<
     let mut differences = Vec::new();
     if image.size_px != size_px {
         differences.push(format!(
-            "its size is {}, this one's {}",
+            "its size is {} and not {}",
             by(image.size_px),
             by(size_px)
         ));
@@ -97,7 +97,7 @@ pub fn read_to_resume(path: &Path, size_px: [u32; 2], wanted: &Notes) -> Result<
             (its, ours) => {
                 let value = |note: Option<&String>| note.map_or("unknown", |v| v).to_owned();
                 differences.push(format!(
-                    "its {called} is {}, this one's {}",
+                    "its {called} is {} and not {}",
                     value(its),
                     value(ours)
                 ));
@@ -106,7 +106,7 @@ pub fn read_to_resume(path: &Path, size_px: [u32; 2], wanted: &Notes) -> Result<
     }
     if noise.batch != BATCH_SAMPLES {
         differences.push(format!(
-            "its batches have {} samples, this one's {BATCH_SAMPLES}",
+            "its batches are of {} samples and not {BATCH_SAMPLES}",
             noise.batch
         ));
     } else if noise.samples.iter().any(|n| n % BATCH_SAMPLES != 0) {

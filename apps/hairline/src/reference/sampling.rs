@@ -10,9 +10,6 @@ use crate::failure::Failure;
 use crate::progress::Progress;
 use crate::reference::interrupt::Interrupt;
 
-/// What a crash or a power cut may cost.
-const SAVE_EVERY: Duration = Duration::from_secs(60);
-
 /// Work for each unit of time spent on saving, so that huge pictures are not mostly saved.
 const WORK_PER_SAVING: u32 = 20;
 
@@ -23,6 +20,8 @@ pub struct Limits {
     pub samples: u32,
     /// Time to sample for. The batches that are in progress then are finished.
     pub time: Option<Duration>,
+    /// What a crash or a power cut may cost.
+    pub save_every: Duration,
 }
 
 /// Why the work ended.
@@ -36,7 +35,7 @@ pub enum End {
     Interrupted,
 }
 
-/// Samples, and hands the image to `save` every minute and at the end. An image without a single sample is not saved.
+/// Samples, and hands the image to `save` now and then and at the end. An image without a single sample is not saved.
 ///
 /// # Errors
 /// What `save` says at the end. Before that it is a warning: there may be room by the next time.
@@ -49,7 +48,7 @@ pub fn sample(
 ) -> Result<End, Failure> {
     let start = Instant::now();
     let progress = Progress::start_from("sampling", Count::of(image).share_of(limits.samples));
-    let mut work = SAVE_EVERY;
+    let mut work = limits.save_every;
     loop {
         let since_save = Instant::now();
         let is_time_up = || limits.time.is_some_and(|limit| start.elapsed() >= limit);
@@ -78,14 +77,18 @@ pub fn sample(
         };
         let saving = Instant::now();
         progress.say("saving");
-        let saved = if count.mean > 0.0 { save(image) } else { Ok(()) };
+        let saved = if count.mean > 0.0 {
+            save(image)
+        } else {
+            Ok(())
+        };
         match (end, saved) {
             (Some(end), saved) => return saved.map(|()| end),
             (None, Ok(())) => {}
             (None, Err(failure)) => progress.warn(&format!("{failure}; going on")),
         }
         progress.say("sampling");
-        work = SAVE_EVERY.max(saving.elapsed() * WORK_PER_SAVING);
+        work = limits.save_every.max(saving.elapsed() * WORK_PER_SAVING);
     }
 }
 
@@ -111,5 +114,127 @@ impl Count {
 
     fn share_of(self, samples: u32) -> f64 {
         self.mean / f64::from(samples.max(1))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use hairline_reference::monte_carlo::{BATCH_SAMPLES, Settings};
+    use hairline_scene::Scene;
+    use std::cell::Cell;
+
+    const SAMPLES: u32 = 8 * BATCH_SAMPLES;
+
+    /// A scratched disk under a lamp.
+    fn scene() -> Scene {
+        let text = include_str!("../../tests/scratched.toml");
+        Scene::from_toml(text, "scratched.toml", "").unwrap()
+    }
+
+    /// Saves whenever it may.
+    fn limits() -> Limits {
+        Limits {
+            samples: SAMPLES,
+            time: None,
+            save_every: Duration::ZERO,
+        }
+    }
+
+    fn uninterrupted(integrator: &Integrator) -> Image {
+        let mut image = integrator.start();
+        let flow = integrator.run(&mut image, SAMPLES, &|_| ControlFlow::Continue(()));
+        assert!(flow.is_continue());
+        assert_eq!(Count::of(&image).mean, f64::from(SAMPLES));
+        image
+    }
+
+    #[test]
+    fn what_was_stopped_goes_on_to_the_same_picture() {
+        let scene = scene();
+        let integrator = Integrator::new(&scene, Settings::default());
+        let mut image = integrator.start();
+        let interrupt = Interrupt::default();
+        let saved = Cell::new(0);
+        let stop_at_third = |image: &Image| {
+            saved.set(saved.get() + 1);
+            assert!(Count::of(image).mean > 0.0);
+            if saved.get() == 3 {
+                interrupt.ask();
+            }
+            Ok(())
+        };
+        let end = sample(
+            &integrator,
+            &mut image,
+            &limits(),
+            &interrupt,
+            &stop_at_third,
+        );
+        assert_eq!(end.unwrap(), End::Interrupted);
+        assert_eq!(saved.get(), 4, "and once more at the end");
+        let count = Count::of(&image);
+        assert!(
+            count.mean > f64::from(count.least) && count.least < SAMPLES,
+            "the hard case has pixels with more samples than others: {count:?}"
+        );
+
+        let whole = uninterrupted(&integrator);
+        assert_ne!(image, whole);
+        let go_on = Interrupt::default();
+        let end = sample(&integrator, &mut image, &limits(), &go_on, &|_| Ok(()));
+        assert_eq!(end.unwrap(), End::Complete);
+        assert_eq!(image, whole, "bit for bit");
+    }
+
+    #[test]
+    fn time_is_a_limit() {
+        let scene = scene();
+        let integrator = Integrator::new(&scene, Settings::default());
+        let mut image = integrator.start();
+        let limits = Limits {
+            samples: u32::MAX / BATCH_SAMPLES * BATCH_SAMPLES,
+            time: Some(Duration::from_millis(50)),
+            save_every: Duration::from_secs(60),
+        };
+        let saved = Cell::new(0);
+        let save = |_: &Image| {
+            saved.set(saved.get() + 1);
+            Ok(())
+        };
+        let start = Instant::now();
+        let end = sample(
+            &integrator,
+            &mut image,
+            &limits,
+            &Interrupt::default(),
+            &save,
+        );
+        assert_eq!(end.unwrap(), End::TimeUp);
+        assert_eq!(saved.get(), 1);
+        // Generous: the machine may have other work.
+        assert!(start.elapsed() < Duration::from_secs(10));
+    }
+
+    /// A full disk an hour before the end may have room again by then.
+    #[test]
+    fn saving_may_fail_before_the_end_but_not_at_it() {
+        let scene = scene();
+        let integrator = Integrator::new(&scene, Settings::default());
+        let fail = || Err(Failure::Work(anyhow::anyhow!("the disk is full")));
+        let saved = Cell::new(0);
+        let once = |_: &Image| {
+            saved.set(saved.get() + 1);
+            if saved.get() == 1 { fail() } else { Ok(()) }
+        };
+        let quiet = Interrupt::default();
+        let mut image = integrator.start();
+        let end = sample(&integrator, &mut image, &limits(), &quiet, &once);
+        assert_eq!(end.unwrap(), End::Complete);
+        assert!(saved.get() > 1);
+
+        let mut image = integrator.start();
+        let end = sample(&integrator, &mut image, &limits(), &quiet, &|_| fail());
+        assert!(end.is_err());
     }
 }
