@@ -2,9 +2,9 @@
 
 use std::fmt::Write as _;
 
-use comfy_table::{CellAlignment, ContentArrangement, LineStyle, Row, Table, TableStyle};
-use hairline_image::Display;
-use hairline_image::metrics::{Comparison, LayerComparison, Verdict, ZTest};
+use comfy_table::{CellAlignment, ContentArrangement, LineStyle, Table, TableStyle};
+use hairline_image::metrics::{Comparison, LayerComparison, Problem, Verdict, ZTest};
+use hairline_image::{Display, Layer};
 use serde_json::{Map, Value, json};
 
 use super::limits::Metric;
@@ -86,6 +86,34 @@ pub fn columns(comparison: &Comparison) -> impl Iterator<Item = &'static Column>
         .filter(|column| layers.iter().any(|layer| column.metric.of(layer).is_some()))
 }
 
+/// What the problems are that belong to a layer, in a few words for its row.
+pub fn remarks(comparison: &Comparison) -> Vec<(Layer, String)> {
+    let mut remarks: Vec<(Layer, String)> = Vec::new();
+    let mut add = |layer: Layer, text: String| match remarks.iter_mut().find(|r| r.0 == layer) {
+        Some((_, before)) => {
+            before.push_str(", ");
+            before.push_str(&text);
+        }
+        None => remarks.push((layer, text)),
+    };
+    for problem in &comparison.problems {
+        match problem {
+            Problem::MissingLayers { side, layers } => {
+                for layer in layers {
+                    add(*layer, format!("missing in {side}"));
+                }
+            }
+            Problem::NotFinite {
+                side,
+                layer,
+                values,
+            } => add(*layer, format!("{values} NaN or infinite in {side}")),
+            _ => {}
+        }
+    }
+    remarks
+}
+
 /// What the z-test says, in words.
 pub fn verdict(test: &ZTest) -> String {
     let z2 = format!("mean z^2 = {}", figure(test.mean_z2));
@@ -110,16 +138,30 @@ pub fn text(a: &Side, b: &Side, comparison: &Comparison) -> String {
     table
         .load_style(TableStyle::new().header_separator(rule))
         .set_content_arrangement(ContentArrangement::Disabled);
-    table.set_header(std::iter::once("layer").chain(columns.iter().map(|c| c.heading)));
-    for layer in &comparison.layers {
-        let mut row = Row::new();
-        row.add_cell(layer.layer.name().into());
-        for column in &columns {
-            row.add_cell(column.metric.of(layer).map_or("-".to_owned(), figure).into());
+    let remarks = remarks(comparison);
+    let mut header = vec!["layer"];
+    header.extend(columns.iter().map(|column| column.heading));
+    if !remarks.is_empty() {
+        header.push("remarks");
+    }
+    table.set_header(header);
+    for layer in Layer::ALL {
+        let compared = comparison.layers.iter().find(|l| l.layer == layer);
+        let remark = remarks.iter().find(|(l, _)| *l == layer);
+        if compared.is_none() && remark.is_none() {
+            continue;
         }
+        let figure_of = |column: &Column| {
+            compared
+                .and_then(|compared| column.metric.of(compared))
+                .map_or("-".to_owned(), figure)
+        };
+        let mut row = vec![layer.name().to_owned()];
+        row.extend(columns.iter().map(|column| figure_of(column)));
+        row.extend(remark.map(|(_, text)| text.clone()));
         table.add_row(row);
     }
-    for column in table.column_iter_mut().skip(1) {
+    for column in table.column_iter_mut().skip(1).take(columns.len()) {
         column.set_cell_alignment(CellAlignment::Right);
     }
 
