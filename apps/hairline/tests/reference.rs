@@ -137,8 +137,8 @@ fn more_samples_are_added_to_the_same_picture() {
         stderr_of(&more)
     );
     hairline(path, "reference plate.v2.toml --spp 192 -o b.exr").success();
-    let once = fs::read(path.join("b.exr")).unwrap();
-    assert_eq!(fs::read(path.join("a.exr")).unwrap(), once);
+    assert!(read(path, "a.exr") == read(path, "b.exr"));
+    let before = fs::read(path.join("a.exr")).unwrap();
 
     let enough = hairline(path, "reference plate.v2.toml --spp 150 -o a.exr --resume").success();
     assert!(
@@ -146,7 +146,7 @@ fn more_samples_are_added_to_the_same_picture() {
         "{}",
         stderr_of(&enough)
     );
-    assert_eq!(fs::read(path.join("a.exr")).unwrap(), once);
+    assert!(fs::read(path.join("a.exr")).unwrap() == before);
 
     // Without the flag it starts anew, and says what it replaces.
     let anew = hairline(path, "reference plate.v2.toml --spp 64 -o a.exr").success();
@@ -194,10 +194,11 @@ fn samples_of_another_picture_are_refused() {
             text.contains("cannot go on") && text.contains(message),
             "{text}"
         );
-        // Nothing that is equal is named.
-        assert_eq!(text.matches(" its ").count(), 1, "{text}");
+        // Nothing that is equal is named. The full model has no mask.
+        let differences = if message.contains("full") { 2 } else { 1 };
+        assert_eq!(text.matches(" its ").count() - 1, differences, "{text}");
         assert!(!text.contains("sampling by"), "{text}");
-        assert_eq!(fs::read(path.join("a.exr")).unwrap(), before);
+        assert!(fs::read(path.join("a.exr")).unwrap() == before);
     }
     // Comments and exposure are not the scene's light.
     let same = format!("# The same.\n{SCENE}").replace("[render]", "exposure_ev = 1.0\n[render]");
@@ -219,7 +220,7 @@ fn what_is_no_reference_is_refused() {
             text.contains(name) && text.contains("not a reference"),
             "{text}"
         );
-        assert_eq!(fs::read(path.join(name)).unwrap(), before);
+        assert!(fs::read(path.join(name)).unwrap() == before);
     }
 }
 
@@ -246,7 +247,7 @@ fn wrong_command_lines_are_2() {
         ("plate.v2.toml --spp many", "--spp"),
         ("plate.v2.toml --time 0", "1h30m"),
         ("plate.v2.toml --time soon", "1h30m"),
-        ("plate.v2.toml --time -5", "--time"),
+        ("plate.v2.toml --time=-5", "1h30m"),
         ("plate.v2.toml --bounces 65", "0..=64"),
         ("plate.v2.toml --shadows some", "on, off"),
         ("plate.v2.toml --model waves", "separable, full"),
@@ -353,7 +354,7 @@ mod interrupted {
             hairline(path, &format!("{to} a.exr --resume")).success();
             hairline(path, &format!("{to} b.exr")).success();
             assert!(
-                fs::read(path.join("a.exr")).unwrap() == fs::read(path.join("b.exr")).unwrap(),
+                read(path, "a.exr") == read(path, "b.exr"),
                 "{name}: not bit for bit"
             );
         }
