@@ -98,8 +98,8 @@ impl Layers {
         })
     }
 
-    /// What a display shows of the beauty: tone-mapped unless that is done already, as linear values in [0, 1]. Without
-    /// layers, since their noise and their sum mean nothing after the curve.
+    /// What a display shows of the beauty, as linear values in [0, 1]: tone-mapped unless that is done already. The
+    /// other layers and the noise are left out: they mean nothing after the curve. Empty if there is no beauty.
     pub fn displayed(&self, display: &Display) -> Self {
         let values = match (self.get(Layer::Beauty), self.referred) {
             (None, _) => Vec::new(),

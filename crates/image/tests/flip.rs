@@ -34,8 +34,16 @@ fn from_nothing_to_everything() {
     assert_eq!((same.mean, same.percentile_95), (0.0, 0.0));
     assert_eq!(same.map.rgb[0], magma(0.0));
     let opposite = flip(&flat([0.0; 3]), &flat([1.0; 3]), &DISPLAY, None).unwrap();
-    // Flat pictures differ in colour alone; black and white are at 0.97 of the largest distance, which is green to blue.
-    assert!(opposite.mean > 0.9 && opposite.mean <= 1.0, "{opposite:?}");
+    // The scale ends at the largest distance of colours, which is green to blue; black and white are at 0.967 of it.
+    assert!((opposite.mean - 0.967).abs() < 1e-3, "{}", opposite.mean);
+    let farthest = flip(
+        &flat([0.0, 1.0, 0.0]),
+        &flat([0.0, 0.0, 1.0]),
+        &DISPLAY,
+        None,
+    )
+    .unwrap();
+    assert!((farthest.mean - 1.0).abs() < 1e-3 && (farthest.percentile_95 - 1.0).abs() < 1e-3);
     assert_eq!(opposite.map.rgb.len(), 64 * 48);
 }
 
@@ -93,6 +101,18 @@ fn what_the_display_does_not_show_is_no_difference() {
     // Values that are not finite have a place on the display, and do no harm.
     let spoiled = flip(&flat([f32::NAN, f32::INFINITY, -1.0]), &b, &DISPLAY, None).unwrap();
     assert!(spoiled.mean.is_finite());
+}
+
+#[test]
+fn the_map_has_the_colours_of_its_authors() {
+    let table = nv_flip::magma_lut().to_vec();
+    for (n, code) in table.chunks(3).enumerate() {
+        let color = DISPLAY.apply(magma(n as f64 / 255.0));
+        for c in 0..3 {
+            // Their table holds six digits of each colour, this one its 8-bit code.
+            assert!((255.0 * color[c] - f32::from(code[c])).abs() < 1.01, "{n}");
+        }
+    }
 }
 
 #[test]

@@ -58,8 +58,8 @@ impl Blocks<'_> {
     }
 }
 
-/// The normal number that is as likely as `t` under Student's distribution (Wallace 1959): off by 2 % at 3 degrees of
-/// freedom, by 10 % at one.
+/// The normal number that is as likely as `t` under Student's distribution (Wallace 1959): normal noise gets
+/// a mean square of 0.98 at 2 degrees of freedom, of 0.93 at one.
 fn normal_score(t: f64, degrees_of_freedom: f64) -> f64 {
     // Beyond this the two distributions are one, and the logarithm would lose digits.
     if degrees_of_freedom > 1e6 {

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use rayon::prelude::*;
+
 use super::estimate::Estimate;
 use super::{BeyondNoise, Difference, ErrorMap, Flip, Psnr, ZTest};
 use super::{error_map, psnr, psnr_displayed, psnr_of_values, relative_mse};
@@ -175,24 +177,26 @@ pub fn compare(a: &Layers, b: &Layers, display: &Display, mask: Option<&[bool]>)
             (&shown_a, &shown_b, as_it_is)
         }
     };
-    let mut layers = Vec::new();
-    for layer in Layer::ALL {
-        if let (Some(of_a), Some(of_b)) = (a.estimate(layer), b.estimate(layer)) {
-            for (side, estimate) in [(Side::A, &of_a), (Side::B, &of_b)] {
-                let values = not_finite(estimate, mask);
-                if values > 0 {
-                    problems.push(Problem::NotFinite {
-                        side,
-                        layer,
-                        values,
-                    });
-                }
+    let both: Vec<(Layer, Estimate, Estimate)> = Layer::ALL
+        .into_iter()
+        .filter_map(|layer| Some((layer, a.estimate(layer)?, b.estimate(layer)?)))
+        .collect();
+    for (layer, of_a, of_b) in &both {
+        for (side, estimate) in [(Side::A, of_a), (Side::B, of_b)] {
+            let values = not_finite(estimate, mask);
+            if values > 0 {
+                problems.push(Problem::NotFinite {
+                    side,
+                    layer: *layer,
+                    values,
+                });
             }
-            layers.push(compare_layer(
-                a.size_px, layer, &of_a, &of_b, &display, mask,
-            ));
         }
     }
+    let layers: Vec<LayerComparison> = both
+        .par_iter()
+        .map(|(layer, of_a, of_b)| compare_layer(a.size_px, *layer, of_a, of_b, &display, mask))
+        .collect();
     if layers.is_empty() {
         problems.push(Problem::NothingInCommon);
     }

@@ -63,8 +63,8 @@ pub fn error_map(size_px: [u32; 2], image: &[[f32; 3]], reference: &[[f32; 3]]) 
 /// The colour map magma (Stefan van der Walt and Nathaniel Smith, 2015: even steps to the eye, in grey too), from 0,
 /// black, to 1, pale yellow; clamped. Linear Rec.709 of a display.
 pub fn magma(value: f64) -> [f32; 3] {
-    // max and min drop NaN.
-    let index = (value.max(0.0).min(1.0) * 255.0).round() as usize;
+    // NaN becomes index 0.
+    let index = (value.clamp(0.0, 1.0) * 255.0).round() as usize;
     let color = colorous::MAGMA.eval_rational(index, 256);
     [color.r, color.g, color.b].map(|code| linear_from_srgb(f32::from(code) / 255.0))
 }

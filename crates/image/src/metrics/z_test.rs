@@ -82,6 +82,9 @@ impl ZTest {
     /// variance ratio is below 1/1.3 by four standard errors. Mean z, mean z^2 and the share beyond 3 are for the eye
     /// alone: single pixels have tails that no rule can trust when their batches are few or skewed.
     ///
+    /// Light that no sample of a whole block has found is not known to be missing: it counts as more than noise. Where
+    /// light is that rare, trust a verdict from 16 batches on.
+    ///
     /// # Panics
     /// If the lengths differ from each other or from the size.
     pub fn between(
