@@ -2,10 +2,13 @@
 //! Werner, Velinov, Jakob, Hullin, *Scratch Iridescence: Wave-Optical Rendering of Diffractive Surface Structure*, 2017).
 //!
 //! Straight rectangular grooves under a Gaussian coherence window, by scalar diffraction: nothing is separated, averaged
-//! or dropped. Grooves that cross are summed, 1 - sum of D, where a real floor would be as deep as the deeper of the two.
+//! or dropped. [`coherent_response`] sums grooves, 1 - sum of D, also where they cross; [`GrooveField`] has one floor
+//! there, the deeper one.
 
+mod crossings;
 mod window;
 
+pub use crossings::GrooveField;
 pub use window::window_fourier;
 
 use glam::DVec2;
@@ -42,6 +45,16 @@ pub struct CoherentResponse {
 }
 
 impl CoherentResponse {
+    /// From the amplitudes B and S in um.
+    pub fn of(base_um: f64, scratches_um: Complex64, coherence_um: f64) -> Self {
+        let per_area = 1.0 / (PI * coherence_um * coherence_um);
+        Self {
+            base: per_area * base_um * base_um,
+            cross: -2.0 * per_area * base_um * scratches_um.re,
+            scratches: per_area * scratches_um.norm_sqr(),
+        }
+    }
+
     /// f itself, never negative but by rounding.
     pub fn total(&self) -> f64 {
         self.base + self.cross + self.scratches
@@ -121,18 +134,13 @@ pub fn coherent_response<'a>(
     wavelength_nm: f64,
     with_base: bool,
 ) -> CoherentResponse {
-    let per_area = 1.0 / (PI * coherence_um * coherence_um);
     let s = scratch_amplitude(pieces, xi, cos_sum, coherence_um, wavelength_nm);
     let b = if with_base {
         base_amplitude(xi, coherence_um, wavelength_nm)
     } else {
         0.0
     };
-    CoherentResponse {
-        base: per_area * b * b,
-        cross: -2.0 * per_area * b * s.re,
-        scratches: per_area * s.norm_sqr(),
-    }
+    CoherentResponse::of(b, s, coherence_um)
 }
 
 /// The share of the window's energy exp(-|x|^2/sigma^2) that lies on the piece, (33). Grooves lower the mean reflection

@@ -3,8 +3,8 @@
 use crate::{pieces, random_grooves};
 use glam::DVec2;
 use hairline_optics::coherent::{
-    CoherentResponse, GroovePiece, base_amplitude, coherent_response, groove_amplitude,
-    groove_overlap, phase_step, scratch_amplitude, window_fourier,
+    CoherentResponse, GrooveField, GroovePiece, base_amplitude, coherent_response,
+    groove_amplitude, groove_overlap, phase_step, scratch_amplitude, window_fourier,
 };
 use hairline_optics::scratch::{phase_step_energy, window_overlap_um2, window_share};
 use num_complex::Complex64;
@@ -228,6 +228,58 @@ fn pieces_sum_to_the_whole() {
     assert!(worst[0] < 1e-14 && worst[1] < 1e-14, "{worst:?}");
 }
 
+/// Without crossings a field is the plain sum, and a groove cut in pieces hides nothing.
+#[test]
+fn a_field_without_crossings_is_the_sum() {
+    let groove = pieces(&random_grooves(1, 5.0, 60.0..80.0, 3))[0];
+    let beside = GroovePiece {
+        offset_um: groove.offset_um + 7.0,
+        ..groove
+    };
+    let cut = [-20.0, -3.0, 4.0, 20.0]
+        .windows(2)
+        .map(|e| GroovePiece {
+            start_um: e[0],
+            end_um: e[1],
+            ..groove
+        })
+        .collect::<Vec<_>>();
+    let all: Vec<GroovePiece> = cut.into_iter().chain([beside]).collect();
+    let field = GrooveField::new(all.clone(), 20.0);
+    for xi in [DVec2::ZERO, DVec2::new(0.02, -0.1), DVec2::new(0.7, 0.4)] {
+        let sum = coherent_response(&all, xi, 1.9, 20.0, 550.0, true);
+        assert_eq!(field.response(xi, 1.9, 550.0, true), sum);
+    }
+}
+
+/// A groove that bends is the sum of its pieces: their overlap within and their gap without are alike.
+#[test]
+fn a_bend_hides_nothing() {
+    let before = GroovePiece {
+        start_um: -100.0,
+        end_um: 0.0,
+        ..endless(1.0, 140.0, 0.0)
+    };
+    let after = GroovePiece {
+        tangent: DVec2::from_angle(0.3).rotate(before.tangent),
+        start_um: 0.0,
+        end_um: 100.0,
+        ..before
+    };
+    let field = GrooveField::new(vec![before, after], 20.0);
+    let xi = 0.3 * before.tangent.perp();
+    let sum = scratch_amplitude(field.pieces(), xi, 2.0, 20.0, 550.0);
+    assert_eq!(field.amplitude(xi, 2.0, 550.0), sum);
+    // Pieces of two grooves do hide one another there.
+    let other = GroovePiece {
+        depth_nm: 90.0,
+        ..after
+    };
+    let field = GrooveField::new(vec![before, other], 20.0);
+    let sum = scratch_amplitude(field.pieces(), xi, 2.0, 20.0, 550.0);
+    assert_ne!(field.amplitude(xi, 2.0, 550.0), sum);
+}
+
 /// Turning a groove's direction about names the same groove.
 #[test]
 fn a_groove_has_no_direction() {
@@ -262,7 +314,8 @@ fn numbers_come_out_whatever_goes_in() {
         f64::INFINITY,
         f64::NEG_INFINITY,
     ];
-    for _ in 0..1_000_000 {
+    let mut before = [endless(1.0, 100.0, 0.0); 2];
+    for round in 0..1_000_000 {
         let row: [f64; 8] = std::array::from_fn(|_| {
             if random.random_range(0.0..1.0) < 0.15 {
                 awkward[random.random_range(0..awkward.len())]
@@ -300,6 +353,17 @@ fn numbers_come_out_whatever_goes_in() {
             (-1e-15..=1.0 + 1e-15).contains(&overlap),
             "{groove:?} {sigma}: {overlap}"
         );
+        // One floor for this groove and the two before it; fewer, as widths of 1e9 um want many slices.
+        if round % 100 == 0 {
+            let field = GrooveField::new(vec![before[0], groove, before[1]], sigma);
+            let f = field.response(xi, 1.5, wavelength, true);
+            assert!(f.total().is_finite(), "{:?} {xi}: {f:?}", field.pieces());
+            assert!(
+                field.mean_reflection(1.5, wavelength).norm() < 1.0 + 1e-3,
+                "{field:?}"
+            );
+        }
+        before = [before[1], groove];
         // No phase can make a groove stronger than the base's peak.
         let amplitude = groove_amplitude(&groove, xi, sigma, wavelength).norm();
         assert!(
@@ -323,9 +387,22 @@ fn a_term_is_cheap() {
         .map(|&xi| coherent_response(&grooves, xi, 1.8, 20.0, 550.0, true).total())
         .sum();
     let count = (directions.len() * grooves.len()) as f64;
+    let plain_ns = start.elapsed().as_secs_f64() / count * 1e9;
+    let start = std::time::Instant::now();
+    let mut field = GrooveField::new(grooves.clone(), 20.0);
+    for _ in 0..1000 {
+        field = std::hint::black_box(GrooveField::new(grooves.clone(), 20.0));
+    }
+    let new_us = start.elapsed().as_secs_f64() * 1e3;
+    let start = std::time::Instant::now();
+    let with_floors: f64 = directions
+        .iter()
+        .map(|&xi| field.response(xi, 1.8, 550.0, true).total())
+        .sum();
     println!(
-        "{:.0} ns a groove and direction",
+        "a groove and direction: {plain_ns:.0} ns; with crossings {:.0} ns, and {new_us:.0} us to find those of ten",
         start.elapsed().as_secs_f64() / count * 1e9
     );
+    assert!(with_floors.is_finite());
     assert!(sum.is_finite());
 }
