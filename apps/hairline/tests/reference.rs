@@ -376,9 +376,10 @@ mod interrupted {
             let code = child.wait().unwrap().code();
             // 128 + SIGINT or SIGTERM, whichever is seen last, or it was faster than the second.
             assert!(matches!(code, Some(130 | 143 | 0)), "{code:?}");
-            let size_px = read(path, "a.exr").0.size_px;
-            assert_eq!(size_px == [300, 200], code == Some(0));
-            if code == Some(0) {
+            // Reading succeeds for whole files only.
+            let is_new = read(path, "a.exr").0.size_px == [300, 200];
+            assert!(is_new || code != Some(0));
+            if is_new {
                 hairline(path, "reference plate.v2.toml --spp 64 -o a.exr").success();
             }
         }
