@@ -76,7 +76,7 @@ fn without_crossings_and_horizon_energy_is_exact() {
 /// the energy exactly; what is missing lies beyond the horizon, what the plain sum has too much lies at crossings.
 #[test]
 fn a_scratched_mirror_reflects_what_falls_on_it() {
-    for (coherence_um, count, seeds) in [(10.0, 2, 0..6), (10.0, 4, 0..6), (20.0, 8, 3..4)] {
+    for (coherence_um, count, seeds) in [(10.0, 2, 0..4), (10.0, 4, 0..4), (20.0, 8, 1..2)] {
         let runs: Vec<_> = seeds
             .map(|seed| {
                 let lengths = 2.0 * coherence_um..6.0 * coherence_um;

@@ -120,8 +120,8 @@ fn the_field_is_that_of_the_rasterised_surface() {
 #[test]
 fn so_is_it_for_a_window_of_20_um() {
     let grid = Grid {
-        cells: 8192,
-        step_um: 0.03,
+        cells: 4096,
+        step_um: 0.06,
     };
     let grooves = random_grooves(5, 20.0, 20.0..60.0, 4);
     let witness = far_field(&grooves, Crossing::Sum, grid, 2.0, 20.0, 550.0);
