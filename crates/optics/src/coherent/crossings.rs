@@ -23,6 +23,7 @@ const NODES: [(f64, f64); 4] = [
 ];
 /// Parts shorter than this many sigma take the window's logarithm as linear along them: off by 0.2 % at most.
 const SHORT: f64 = 0.2;
+
 /// A part of a floor that is another groove's floor.
 #[derive(Clone, Copy, Debug)]
 enum Hidden {
