@@ -10,9 +10,10 @@ use hairline_optics::footprint::ScratchShare;
 use spec_math::cephes64::erf;
 use std::f64::consts::{PI, SQRT_2};
 
-/// The window's energy falls as exp(-p^2/sigma^2): 1e-7 of it lies beyond 4 sigma; its amplitude, which interference
-/// goes by, has fallen to 4e-6 at 5 sigma.
-const REACH_SIGMA: f64 = 5.0;
+/// How far grooves matter, in units of sigma. The window's energy falls as exp(-p^2/sigma^2): 7e-7 of it lies beyond 3.5.
+pub(super) const REACH_OF_ENERGY: f64 = 3.5;
+/// The window's amplitude, by which interference goes, has fallen to 4e-6 here.
+pub(super) const REACH_OF_AMPLITUDE: f64 = 5.0;
 
 /// A piece of a groove from a point.
 #[derive(Clone, Copy, Debug)]
@@ -27,7 +28,7 @@ pub(super) struct GrooveView {
 
 impl GrooveView {
     /// None where the piece lies on another side of the surface, or too far to matter.
-    pub fn new(point: &SurfacePoint, groove: &Groove) -> Option<Self> {
+    pub fn new(point: &SurfacePoint, groove: &Groove, reach_sigma: f64) -> Option<Self> {
         if groove.normal.as_dvec3().dot(point.normal) < FACING_MIN_COS as f64 {
             return None;
         }
@@ -53,7 +54,7 @@ impl GrooveView {
         };
         // Where along the groove the window ends.
         let nearest_um = 0.0_f64.clamp(piece.start_um, piece.end_um);
-        let reach_um = REACH_SIGMA * sigma_um + 0.5 * piece.width_um;
+        let reach_um = reach_sigma * sigma_um + 0.5 * piece.width_um;
         if piece.offset_um.abs() > reach_um || nearest_um.abs() > reach_um {
             return None;
         }
@@ -89,21 +90,22 @@ fn point_share(piece: &GroovePiece, whole_um: [f64; 2], sigma_um: f64) -> Scratc
     }
 }
 
-/// All grooves of an object in the window around a point. Clears `views` first.
+/// All grooves of an object in the window around a point.
 pub(super) fn gather(
     tree: &SegmentTree<Groove>,
     object: usize,
     point: &SurfacePoint,
-    views: &mut Vec<GrooveView>,
-) {
-    views.clear();
-    let reach_m = (REACH_SIGMA * point.coherence_um * 1e-6) as f32;
+    reach_sigma: f64,
+) -> Vec<GrooveView> {
+    let mut views = Vec::new();
+    let reach_m = (reach_sigma * point.coherence_um * 1e-6) as f32;
     tree.gather(
         object,
         point.position_m.as_vec3(),
         Vec3::splat(reach_m),
-        |groove| views.extend(GrooveView::new(point, groove)),
+        |groove| views.extend(GrooveView::new(point, groove, reach_sigma)),
     );
+    views
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use super::base::BaseLobes;
 use super::coherent::{Drawn, Field, FieldDirections, FieldResponse};
-use super::grooves::{self, GrooveView};
+use super::grooves::{self, GrooveView, REACH_OF_AMPLITUDE, REACH_OF_ENERGY};
 use super::random::{Purpose, Random};
 use super::separable::{Lobe, direction_from_cosines, world_axes};
 use super::wavelengths::{SpectralFresnel, Spectrum, Wavelengths};
@@ -33,9 +33,10 @@ impl Light {
     }
 }
 
-/// Draws to a light for the field at one vertex, and to the environment for each groove or the field. The integrands are narrow:
-/// more draws a sample cost less than more samples.
+/// Draws to a light for the field at one vertex and for each groove, and to the environment for either. The integrands are
+/// narrow: more draws a sample cost less than more samples.
 const FIELD_DRAWS: u32 = 2;
+const GROOVE_DRAWS: u32 = 2;
 const ENVIRONMENT_DRAWS: u32 = 4;
 
 /// A place on a path, with what it does to light.
@@ -110,8 +111,11 @@ impl Integrator<'_> {
             hit,
         );
         let object = hit.object as usize;
-        let mut views = Vec::new();
-        grooves::gather(&self.grooves, object, &point, &mut views);
+        let reach_sigma = match self.settings.model {
+            Model::Separable => REACH_OF_ENERGY,
+            Model::Full => REACH_OF_AMPLITUDE,
+        };
+        let views = grooves::gather(&self.grooves, object, &point, reach_sigma);
         let material = &self.scene.materials[point.material];
         let optics = &self.tables.materials[point.material];
         let fresnel = SpectralFresnel::new(&material.base, optics, &point);
@@ -258,19 +262,24 @@ impl Integrator<'_> {
                 let Some(directions) = lobe.directions(along, across) else {
                     continue;
                 };
-                let (groove, light_key) = (g as u32, light as u32);
-                let [u, v, ..] = vertex.random.four(Purpose::GrooveLight {
-                    groove,
-                    light: light_key,
-                });
-                let Some(drawn) = directions.sample(u, v) else {
-                    continue;
-                };
-                let direction = vertex.world(lobe.groove.frame.surface_from_band(drawn.wi));
-                if let Some(hit) = self.lights.hit(light, vertex.point.position_m, direction)
-                    && !self.is_hidden(vertex.point, direction, hit.distance_m)
-                {
-                    sum += hit.radiance * lobe.eval(drawn.xi_t, drawn.q) / drawn.pdf;
+                let draws = f64::from(GROOVE_DRAWS);
+                for draw in 0..GROOVE_DRAWS {
+                    let [u, v, ..] = vertex.random.four(Purpose::GrooveLight {
+                        groove: g as u32,
+                        light: light as u32,
+                        draw,
+                    });
+                    let u = (f64::from(draw) + u) / draws;
+                    let Some(drawn) = directions.sample(u, v) else {
+                        continue;
+                    };
+                    let direction = vertex.world(lobe.groove.frame.surface_from_band(drawn.wi));
+                    if let Some(hit) = self.lights.hit(light, vertex.point.position_m, direction)
+                        && !self.is_hidden(vertex.point, direction, hit.distance_m)
+                    {
+                        let value = lobe.eval(drawn.xi_t, drawn.q) / (draws * drawn.pdf);
+                        sum += hit.radiance * value;
+                    }
                 }
             }
             let Some(environment) = &self.scene.environment else {

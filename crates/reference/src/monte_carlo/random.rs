@@ -14,8 +14,8 @@ pub(super) enum Purpose {
     Light(u32),
     /// A direction in the environment for the base (2).
     Environment,
-    /// A direction from a groove to a light (2).
-    GrooveLight { groove: u32, light: u32 },
+    /// A direction from a groove to a light (2); several draws.
+    GrooveLight { groove: u32, light: u32, draw: u32 },
     /// A direction from a groove to the environment (2); several draws.
     GrooveEnvironment { groove: u32, draw: u32 },
     /// A direction of the coherent field to a light: which component (1), where (2); several draws.
@@ -33,7 +33,11 @@ impl Purpose {
             Self::BaseLobe => [1, 0, 0],
             Self::Light(light) => [2, light, 0],
             Self::Environment => [3, 0, 0],
-            Self::GrooveLight { groove, light } => [4, groove, light],
+            Self::GrooveLight {
+                groove,
+                light,
+                draw,
+            } => [4 + 16 * draw, groove, light],
             Self::GrooveEnvironment { groove, draw } => [5, groove, draw],
             Self::FieldLight { light, draw } => [6, light, draw],
             Self::FieldEnvironment { draw } => [7, draw, 0],
@@ -98,6 +102,7 @@ mod tests {
         let purpose = Purpose::GrooveLight {
             groove: 3,
             light: 1,
+            draw: 0,
         };
         let cells = |batch: u32| -> Vec<usize> {
             (0..BATCH_SAMPLES)
@@ -117,7 +122,8 @@ mod tests {
     #[test]
     fn purposes_and_vertices_are_independent() {
         let batches = 200;
-        let pairs: [fn(&Random) -> (f64, f64); 3] = [
+        type Pair = fn(&Random) -> (f64, f64);
+        let pairs: [Pair; 3] = [
             |r| (r.four(Purpose::Camera)[0], r.four(Purpose::BaseLobe)[0]),
             |r| (r.four(Purpose::Light(0))[1], r.four(Purpose::Light(1))[1]),
             |r| {
