@@ -10,14 +10,14 @@ use super::wavelengths::{SpectralFresnel, WIDEST_NM, Wavelengths};
 use crate::surface::SurfacePoint;
 use glam::{DVec2, DVec3};
 use hairline_optics::band::BandFrame;
-use hairline_optics::coherent::{GroovePiece, coherent_response};
+use hairline_optics::coherent::GrooveField;
 use hairline_optics::scratch::band_std;
 
 /// The field at a point.
 pub(super) struct Field<'a> {
     pub point: &'a SurfacePoint,
     pub grooves: &'a [GrooveView],
-    pieces: Vec<GroovePiece>,
+    field: GrooveField,
     /// Whether the base is one mirror: else its phases are random, and it does not interfere.
     pub smooth: bool,
     wavelengths: &'a Wavelengths,
@@ -43,7 +43,10 @@ impl<'a> Field<'a> {
         Self {
             point,
             grooves,
-            pieces: grooves.iter().map(|g| g.piece).collect(),
+            field: GrooveField::new(
+                grooves.iter().map(|g| g.piece).collect(),
+                point.coherence_um,
+            ),
             smooth,
             wavelengths,
             fresnel,
@@ -52,7 +55,7 @@ impl<'a> Field<'a> {
 
     /// Whether there is anything to evaluate.
     pub fn is_empty(&self) -> bool {
-        !self.smooth && self.pieces.is_empty()
+        !self.smooth && self.grooves.is_empty()
     }
 
     /// For a direction of the surface's frame.
@@ -66,8 +69,7 @@ impl<'a> Field<'a> {
         };
         for (nm, weight) in self.wavelengths.nm.into_iter().zip(weights) {
             let cos_sum = wi.z + wo.z;
-            let sigma_um = self.point.coherence_um;
-            let f = coherent_response(&self.pieces, xi, cos_sum, sigma_um, nm, self.smooth);
+            let f = self.field.response(xi, cos_sum, nm, self.smooth);
             sum.base += weight * (f.base + f.cross);
             sum.scratches += weight * f.scratches;
         }

@@ -170,7 +170,8 @@ impl Integrator<'_> {
         let table = &self.tables.tables[point.table];
         let mut sums = ScratchSums::default();
         for view in views {
-            let total = table.scratch_table_total(view.piece.depth_nm);
+            // In the mirror's direction both cosines are the viewer's.
+            let total = table.scratch_table_total(view.piece.depth_nm * point.wo.z);
             let share = match self.settings.model {
                 Model::Separable => view.share,
                 // What a groove takes is what it covers; ends don't scatter less.
@@ -277,7 +278,7 @@ impl Integrator<'_> {
                     if let Some(hit) = self.lights.hit(light, vertex.point.position_m, direction)
                         && !self.is_hidden(vertex.point, direction, hit.distance_m)
                     {
-                        let value = lobe.eval(drawn.xi_t, drawn.q) / (draws * drawn.pdf);
+                        let value = lobe.eval(&drawn) / (draws * drawn.pdf);
                         sum += hit.radiance * value;
                     }
                 }
@@ -298,7 +299,7 @@ impl Integrator<'_> {
                 if let Some(drawn) = directions.sample(u, v) {
                     let direction = vertex.world(lobe.groove.frame.surface_from_band(drawn.wi));
                     if self.next_surface(vertex, direction).is_none() {
-                        let value = lobe.eval(drawn.xi_t, drawn.q) / drawn.pdf;
+                        let value = lobe.eval(&drawn) / drawn.pdf;
                         sum +=
                             environment.radiance(direction) * value / f64::from(ENVIRONMENT_DRAWS);
                     }
@@ -337,7 +338,7 @@ impl Integrator<'_> {
             let Some(hit) = self.next_surface(vertex, direction) else {
                 break;
             };
-            let value = lobe.eval(drawn.xi_t, drawn.q) / (drawn.pdf * share / all);
+            let value = lobe.eval(&drawn) / (drawn.pdf * share / all);
             return value * self.beyond(vertex, direction, &hit, wavelengths);
         }
         DVec3::ZERO

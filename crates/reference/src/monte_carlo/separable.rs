@@ -1,4 +1,4 @@
-//! Light by way of grooves, each for itself: the separable |S|^2 of docs/model.md, (4) to (7), at a point.
+//! Light by way of grooves, each for itself: the separable |S|^2 of docs/model.md, (3) to (7), at a point.
 
 use super::grooves::GrooveView;
 use super::interval::{CutCauchy, CutNormal, normal};
@@ -15,8 +15,9 @@ const DRAWN_HALF_WIDTH_UM: f64 = 0.2;
 /// One groove's response, made ready for many directions.
 pub(super) struct Lobe<'a> {
     pub groove: &'a GrooveView,
-    /// |D|^2 rho W/lambda times the weight of each wavelength.
+    /// rho W/lambda times the weight of each wavelength: all but the angles and the phase.
     strength: Spectrum<DVec3>,
+    nm: Spectrum<f64>,
     half_k_width: Spectrum<f64>,
     band_std: Spectrum<f64>,
     drawn_std: f64,
@@ -33,24 +34,28 @@ impl<'a> Lobe<'a> {
         let piece = &groove.piece;
         let at = |j: usize| wavelengths.nm[j];
         let strength = std::array::from_fn(|j| {
-            let energy = phase_step_energy(piece.depth_nm, at(j)) * groove.share.segment;
-            weight[j] * (energy * piece.width_um / (at(j) * 1e-3))
+            weight[j] * (groove.share.segment * piece.width_um / (at(j) * 1e-3))
         });
         Self {
             groove,
             strength,
+            nm: wavelengths.nm,
             half_k_width: wavelengths.nm.map(|nm| PI * piece.width_um / (nm * 1e-3)),
             band_std: wavelengths.nm.map(|nm| band_std(coherence_um, nm)),
             drawn_std: band_std(coherence_um, WIDEST_NM),
         }
     }
 
-    /// The BRDF times the light's cosine, per solid angle over cosine (d xi), for `xi` in the groove's frame.
-    pub fn eval(&self, xi_t: f64, q: f64) -> DVec3 {
+    /// The BRDF times the light's cosine, per d xi, for a direction that [`LobeDirections`] drew.
+    pub fn eval(&self, to: &LobeDirection) -> DVec3 {
+        // The path into the groove and out is longer the steeper both are.
+        let depth_nm = self.groove.piece.depth_nm * 0.5 * (to.wi.z + self.groove.wo.z);
         (0..self.strength.len())
             .map(|j| {
-                let across = sinc(self.half_k_width[j] * q);
-                self.strength[j] * (across * across * normal(xi_t, self.band_std[j]))
+                let energy = phase_step_energy(depth_nm, self.nm[j]);
+                let across = sinc(self.half_k_width[j] * to.q);
+                let along = normal(to.xi_t, self.band_std[j]);
+                self.strength[j] * (energy * across * across * along)
             })
             .sum()
     }
