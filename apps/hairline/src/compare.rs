@@ -67,9 +67,9 @@ pub fn run(arguments: &cli::Compare) -> Result<(), Failure> {
 }
 
 fn check_output(path: &Path) -> Result<&Path, Failure> {
-    let is_html = path
-        .extension()
-        .is_some_and(|ending| ending.eq_ignore_ascii_case("html") || ending.eq_ignore_ascii_case("htm"));
+    let is_html = path.extension().is_some_and(|ending| {
+        ending.eq_ignore_ascii_case("html") || ending.eq_ignore_ascii_case("htm")
+    });
     if !is_html {
         return Err(Failure::Input(anyhow!(
             "{}: the report is a web page: end its name in .html",
@@ -88,7 +88,14 @@ fn refuse_the_incomparable(a: &Side, b: &Side, comparison: &Comparison) -> Resul
             Problem::SizesDiffer { a, b } => anyhow!(
                 "{a_name} has {} x {} pixels, {b_name} has {} x {}: render one of them again with `--size {}x{}` or \
                  `--size {}x{}` to compare them",
-                a[0], a[1], b[0], b[1], b[0], b[1], a[0], a[1]
+                a[0],
+                a[1],
+                b[0],
+                b[1],
+                b[0],
+                b[1],
+                a[0],
+                a[1]
             ),
             Problem::NothingInCommon => anyhow!(
                 "{a_name} and {b_name} have no such layer in common: the first has {}, the second {}",
@@ -113,7 +120,11 @@ fn names(layers: &Layers) -> String {
 /// One line for everything that is beyond its limit.
 fn hold_to_limits(arguments: &cli::Compare, comparison: &Comparison) -> Result<(), Failure> {
     let mut broken = Vec::new();
-    let mut limits = arguments.fail_above.iter().chain(&arguments.fail_below).peekable();
+    let mut limits = arguments
+        .fail_above
+        .iter()
+        .chain(&arguments.fail_below)
+        .peekable();
     if limits.peek().is_none() {
         return Ok(());
     }
@@ -125,7 +136,13 @@ fn hold_to_limits(arguments: &cli::Compare, comparison: &Comparison) -> Result<(
         }
     }
     let not_finite = |problem: &&Problem| matches!(problem, Problem::NotFinite { .. });
-    broken.extend(comparison.problems.iter().filter(not_finite).map(Problem::to_string));
+    broken.extend(
+        comparison
+            .problems
+            .iter()
+            .filter(not_finite)
+            .map(Problem::to_string),
+    );
     if broken.is_empty() {
         return Ok(());
     }
@@ -142,9 +159,10 @@ fn figure(value: f64) -> String {
         return "0".to_owned();
     }
     match size {
-        1e5.. | ..5e-4 => format!("{value:.2e}"),
-        100.0.. => format!("{value:.1}"),
-        1.0.. => format!("{value:.3}"),
-        _ => format!("{value:.4}"),
+        1e5.. | ..1e-3 => format!("{value:.2e}"),
+        _ => {
+            let decimals = (3 - size.log10().floor() as i32).clamp(0, 6) as usize;
+            format!("{value:.decimals$}")
+        }
     }
 }

@@ -1,7 +1,7 @@
 //! `--fail-above` and `--fail-below`: figures that a script holds pictures to.
 
 use hairline_image::Layer;
-use hairline_image::metrics::LayerComparison;
+use hairline_image::metrics::{LayerComparison, Verdict};
 
 use super::figure;
 
@@ -77,7 +77,10 @@ impl Metric {
             Self::Psnr => layer.psnr.map(|psnr| psnr.db),
             Self::RmsBeyondNoise => layer.beyond_noise.map(|noise| noise.rms()),
             Self::RelativeRmsBeyondNoise => layer.beyond_noise.map(|noise| noise.relative_rms()),
-            Self::Z2 => layer.z_test.map(|test| test.mean_z2),
+            Self::Z2 => layer
+                .z_test
+                .filter(|test| test.verdict != Verdict::TooFewValues)
+                .map(|test| test.mean_z2),
         }
     }
 
@@ -85,7 +88,7 @@ impl Metric {
     fn why_missing(self) -> &'static str {
         match self {
             Self::RmsBeyondNoise | Self::RelativeRmsBeyondNoise | Self::Z2 => {
-                "neither file says how noisy it is"
+                "the files do not say how noisy they are, or of too few values"
             }
             _ => "this layer is no picture for a display",
         }
@@ -156,7 +159,11 @@ fn parse(
     other_flag: &str,
     larger_is_better: bool,
 ) -> Result<Limit, String> {
-    let example = if larger_is_better { "psnr=40" } else { "flip=0.05" };
+    let example = if larger_is_better {
+        "psnr=40"
+    } else {
+        "flip=0.05"
+    };
     let (name, value) = text
         .split_once('=')
         .ok_or_else(|| format!("write METRIC=VALUE, as in {example}"))?;
@@ -164,7 +171,11 @@ fn parse(
     let layer = named("layer", layer_name, Layer::ALL, Layer::name)?;
     let metric = named("metric", metric_name, Metric::ALL, Metric::name)?;
     if metric.larger_is_better() != larger_is_better {
-        let better = if larger_is_better { "smaller" } else { "larger" };
+        let better = if larger_is_better {
+            "smaller"
+        } else {
+            "larger"
+        };
         let metric = metric.name();
         return Err(format!(
             "{metric} is better when {better}: write {other_flag} {text} instead of {flag}"
@@ -194,7 +205,12 @@ fn named<T: Copy, const N: usize>(
     }
     let nearest = all
         .into_iter()
-        .map(|one| (strsim::jaro_winkler(&word.to_lowercase(), name(one)), name(one)))
+        .map(|one| {
+            (
+                strsim::jaro_winkler(&word.to_lowercase(), name(one)),
+                name(one),
+            )
+        })
         .filter(|(similarity, _)| *similarity > 0.8)
         .max_by(|a, b| a.0.total_cmp(&b.0));
     Err(match nearest {

@@ -43,7 +43,9 @@ pub fn page(
     display: &Display,
     comparison: &Comparison,
 ) -> Result<String, Failure> {
-    let views = views(a, b, display, comparison).context("the report").map_err(Failure::Work)?;
+    let views = views(a, b, display, comparison)
+        .context("the report")
+        .map_err(Failure::Work)?;
     let names = [a, b].map(|side| side.path.display().to_string());
     let markup = html! {
         (DOCTYPE)
@@ -76,7 +78,9 @@ pub fn page(
 }
 
 fn is_scene_referred(a: &Side, b: &Side) -> bool {
-    [a, b].iter().all(|side| side.layers.referred == Referred::Scene)
+    [a, b]
+        .iter()
+        .all(|side| side.layers.referred == Referred::Scene)
 }
 
 /// The pictures as [`hairline_image::metrics::compare`] compared them: where one is a PNG, both as a display shows them.
@@ -126,11 +130,7 @@ fn views(
 }
 
 /// The difference by itself: that of two half floats would lose the small ones.
-fn linear(
-    layer: Layer,
-    a: &[[f32; 3]],
-    b: &[[f32; 3]],
-) -> std::io::Result<Option<[String; 2]>> {
+fn linear(layer: Layer, a: &[[f32; 3]], b: &[[f32; 3]]) -> std::io::Result<Option<[String; 2]>> {
     if a.len() > values::LINEAR_MAX_PX {
         return Ok(None);
     }
@@ -186,7 +186,11 @@ fn problems(comparison: &Comparison) -> Markup {
 }
 
 fn toolbar(views: &[View], scene_referred: bool) -> Markup {
-    let has = |kind| views.iter().any(|view| view.maps.iter().any(|(k, _)| *k == kind));
+    let has = |kind| {
+        views
+            .iter()
+            .any(|view| view.maps.iter().any(|(k, _)| *k == kind))
+    };
     html! {
         div.toolbar role="toolbar" aria-label="What to look at" {
             fieldset.segments {
@@ -311,7 +315,7 @@ fn magnifier() -> Markup {
                 table #values {
                     caption.hidden { "Values of the pixel" }
                     thead {
-                        tr { th scope="col" #unit {} th scope="col" { "R" } th scope="col" { "G" } th scope="col" { "B" } }
+                        tr { th scope="col" #unit {} th scope="col" { "red" } th scope="col" { "green" } th scope="col" { "blue" } }
                     }
                     tbody {
                         @for (id, label) in [("va", "A"), ("vb", "B"), ("vd", "A \u{2212} B")] {
@@ -334,10 +338,18 @@ fn figures(comparison: &Comparison) -> Markup {
     let columns: Vec<&Column> = table::columns(comparison).collect();
     let noisy = comparison.layers.iter().any(|layer| layer.z_test.is_some());
     let remarks: Vec<(Layer, String)> = table::remarks(comparison);
-    let remark = |layer: Layer| remarks.iter().find(|(l, _)| *l == layer).map(|(_, text)| text);
-    let missing = remarks
-        .iter()
-        .filter(|(layer, _)| comparison.layers.iter().all(|compared| compared.layer != *layer));
+    let remark = |layer: Layer| {
+        remarks
+            .iter()
+            .find(|(l, _)| *l == layer)
+            .map(|(_, text)| text)
+    };
+    let missing = remarks.iter().filter(|(layer, _)| {
+        comparison
+            .layers
+            .iter()
+            .all(|compared| compared.layer != *layer)
+    });
     html! {
         section.figures aria-label="Figures" {
             table {
@@ -457,7 +469,12 @@ fn data(a: &Side, views: &[View], display: &Display) -> anyhow::Result<Markup> {
         .collect();
     let palettes: serde_json::Map<_, _> = Kind::ALL
         .into_iter()
-        .map(|kind| (kind.name().to_owned(), json!(values::plain(&kind.palette()))))
+        .map(|kind| {
+            (
+                kind.name().to_owned(),
+                json!(values::plain(&kind.palette())),
+            )
+        })
         .collect();
     let text = json!({
         "size": a.layers.size_px,

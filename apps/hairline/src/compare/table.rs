@@ -61,12 +61,12 @@ pub const COLUMNS: [Column; 10] = [
         meaning: "The largest difference of a single linear value.",
     },
     Column {
-        heading: "rms w/o noise",
+        heading: "rms beyond noise",
         metric: Metric::RmsBeyondNoise,
         meaning: "What is left of the rms difference when the noise that the files tell of is taken off.",
     },
     Column {
-        heading: "relative",
+        heading: "rel. beyond noise",
         metric: Metric::RelativeRmsBeyondNoise,
         meaning: "The same over the rms of the reference: the error of the model itself.",
     },
@@ -107,7 +107,7 @@ pub fn remarks(comparison: &Comparison) -> Vec<(Layer, String)> {
                 side,
                 layer,
                 values,
-            } => add(*layer, format!("{values} NaN or infinite in {side}")),
+            } => add(*layer, format!("{values} not finite in {side}")),
             _ => {}
         }
     }
@@ -116,7 +116,7 @@ pub fn remarks(comparison: &Comparison) -> Vec<(Layer, String)> {
 
 /// What the z-test says, in words.
 pub fn verdict(test: &ZTest) -> String {
-    let z2 = format!("mean z^2 = {}", figure(test.mean_z2));
+    let z2 = format!("mean z\u{b2} = {}", figure(test.mean_z2));
     match test.verdict {
         Verdict::ExplainedByNoise => format!("the difference is explained by noise: {z2}"),
         Verdict::MoreThanNoise => format!("the difference is not explained by noise: {z2}"),
@@ -130,38 +130,43 @@ pub fn verdict(test: &ZTest) -> String {
     }
 }
 
-/// A table, a row a layer, and a line on the noise of each layer that has any.
+/// A table, a column a layer so that it fits a narrow terminal, and a line on the noise of each layer that has any.
 pub fn text(a: &Side, b: &Side, comparison: &Comparison) -> String {
-    let columns: Vec<&Column> = columns(comparison).collect();
-    let mut table = Table::new();
+    let remarks = remarks(comparison);
+    let remark = |layer: Layer| {
+        remarks
+            .iter()
+            .find(|(l, _)| *l == layer)
+            .map(|(_, text)| text)
+    };
+    let compared = |layer: Layer| comparison.layers.iter().find(|l| l.layer == layer);
+    let layers: Vec<Layer> = Layer::ALL
+        .into_iter()
+        .filter(|&layer| compared(layer).is_some() || remark(layer).is_some())
+        .collect();
+
     let rule = LineStyle::none().fill('\u{2500}').junction('\u{2500}');
+    let mut table = Table::new();
     table
         .load_style(TableStyle::new().header_separator(rule))
-        .set_content_arrangement(ContentArrangement::Disabled);
-    let remarks = remarks(comparison);
-    let mut header = vec!["layer"];
-    header.extend(columns.iter().map(|column| column.heading));
-    if !remarks.is_empty() {
-        header.push("remarks");
-    }
-    table.set_header(header);
-    for layer in Layer::ALL {
-        let compared = comparison.layers.iter().find(|l| l.layer == layer);
-        let remark = remarks.iter().find(|(l, _)| *l == layer);
-        if compared.is_none() && remark.is_none() {
-            continue;
-        }
-        let figure_of = |column: &Column| {
-            compared
+        .set_content_arrangement(ContentArrangement::Disabled)
+        .set_header(std::iter::once("").chain(layers.iter().map(|layer| layer.name())));
+    for column in columns(comparison) {
+        let figures = layers.iter().map(|&layer| {
+            compared(layer)
                 .and_then(|compared| column.metric.of(compared))
                 .map_or("-".to_owned(), figure)
-        };
-        let mut row = vec![layer.name().to_owned()];
-        row.extend(columns.iter().map(|column| figure_of(column)));
-        row.extend(remark.map(|(_, text)| text.clone()));
-        table.add_row(row);
+        });
+        table.add_row(std::iter::once(column.heading.to_owned()).chain(figures));
     }
-    for column in table.column_iter_mut().skip(1).take(columns.len()) {
+    if !remarks.is_empty() {
+        // A line each, so that the columns stay narrow.
+        let texts = layers
+            .iter()
+            .map(|&layer| remark(layer).map_or(String::new(), |text| text.replace(", ", ",\n")));
+        table.add_row(std::iter::once("remarks".to_owned()).chain(texts));
+    }
+    for column in table.column_iter_mut().skip(1) {
         column.set_cell_alignment(CellAlignment::Right);
     }
 
@@ -169,7 +174,11 @@ pub fn text(a: &Side, b: &Side, comparison: &Comparison) -> String {
     let [width, height] = a.layers.size_px;
     let (a, b) = (a.path.display(), b.path.display());
     // Writing to a string cannot fail.
-    let _ = writeln!(text, "{a} against {b}, {width} x {height}\n{table}");
+    let _ = writeln!(
+        text,
+        "{a} against {b}, {width} x {height}\n{}",
+        table.trim_fmt()
+    );
     for layer in &comparison.layers {
         if let Some(test) = &layer.z_test {
             let _ = writeln!(text, "{}: {}", layer.layer.name(), verdict(test));
@@ -192,7 +201,11 @@ pub fn json(a: &Side, b: &Side, display: &Display, comparison: &Comparison) -> V
         .iter()
         .map(|layer| (layer.layer.name().to_owned(), layer_json(layer)))
         .collect();
-    let problems: Vec<String> = comparison.problems.iter().map(ToString::to_string).collect();
+    let problems: Vec<String> = comparison
+        .problems
+        .iter()
+        .map(ToString::to_string)
+        .collect();
     json!({
         "a": file(a),
         "b": file(b),
@@ -211,7 +224,10 @@ fn layer_json(layer: &LayerComparison) -> Value {
         }
     }
     figures.insert("mean".to_owned(), json!(layer.difference.mean));
-    figures.insert("reference-mean".to_owned(), json!(layer.difference.reference_mean));
+    figures.insert(
+        "reference-mean".to_owned(),
+        json!(layer.difference.reference_mean),
+    );
     figures.insert("not-finite".to_owned(), json!(layer.difference.not_finite));
     if let Some(test) = &layer.z_test {
         let verdict = match test.verdict {

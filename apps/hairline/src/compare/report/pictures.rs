@@ -16,12 +16,8 @@ const AS_IT_IS: Display = Display {
 /// 8-bit sRGB codes, three a pixel, as a PNG in a URI.
 pub fn png_uri(size_px: [u32; 2], codes: &[u8]) -> ImageResult<String> {
     let mut file = Vec::new();
-    PngEncoder::new_with_quality(&mut file, CompressionType::Default, FilterType::Adaptive).write_image(
-        codes,
-        size_px[0],
-        size_px[1],
-        ExtendedColorType::Rgb8,
-    )?;
+    PngEncoder::new_with_quality(&mut file, CompressionType::Default, FilterType::Adaptive)
+        .write_image(codes, size_px[0], size_px[1], ExtendedColorType::Rgb8)?;
     Ok(format!("data:image/png;base64,{}", values::plain(&file)))
 }
 
@@ -38,9 +34,8 @@ pub fn shown(
     pair: [&[[f32; 3]]; 2],
     display: &Display,
 ) -> [Vec<u8>; 2] {
-    let quantized = |rgb: Vec<[f32; 3]>, display: &Display| {
-        png::quantize(&Picture { size_px, rgb }, display)
-    };
+    let quantized =
+        |rgb: Vec<[f32; 3]>, display: &Display| png::quantize(&Picture { size_px, rgb }, display);
     match layer {
         Layer::Beauty | Layer::Base | Layer::Scratches => {
             pair.map(|values| quantized(values.to_vec(), display))
@@ -54,7 +49,11 @@ pub fn shown(
             let far = hits().fold(0.0, f32::max);
             let grey = |z: f32| {
                 let share = (z - near) / (far - near).max(f32::MIN_POSITIVE);
-                if z > 0.0 { (235.0 - 190.0 * share.clamp(0.0, 1.0)) as u8 } else { 0 }
+                if z > 0.0 {
+                    (235.0 - 190.0 * share.clamp(0.0, 1.0)) as u8
+                } else {
+                    0
+                }
             };
             pair.map(|values| values.iter().flat_map(|z| [grey(z[0]); 3]).collect())
         }
@@ -62,7 +61,13 @@ pub fn shown(
             let color = |n: &[f32; 3]| {
                 // (0, 0, 0) is a miss.
                 let hit = n.iter().any(|c| *c != 0.0);
-                n.map(|c| if hit { (127.5 + 127.5 * c).round() as u8 } else { 0 })
+                n.map(|c| {
+                    if hit {
+                        (127.5 + 127.5 * c).round() as u8
+                    } else {
+                        0
+                    }
+                })
             };
             values.iter().flat_map(color).collect()
         }),
@@ -108,8 +113,8 @@ impl Kind {
             Self::Flip => "the difference that a viewer sees when the pictures alternate",
             Self::Relative => "the difference over the reference, a logarithmic scale",
             Self::Z => {
-                "difference in units of its noise, of the channel with the largest; beyond 3 is seldom noise. \
-                 Orange: A is brighter, blue: darker, grey: noise unknown"
+                "the difference over its noise, worst channel; beyond 3 is seldom noise. Orange: A is brighter, blue: \
+                 darker, grey: noise unknown"
             }
         }
     }
@@ -165,7 +170,10 @@ pub fn map(
     pair: [&Estimate; 2],
 ) -> Option<Vec<u8>> {
     match kind {
-        Kind::Flip => compared.flip.as_ref().map(|flip| png::quantize(&flip.map, &AS_IT_IS)),
+        Kind::Flip => compared
+            .flip
+            .as_ref()
+            .map(|flip| png::quantize(&flip.map, &AS_IT_IS)),
         Kind::Relative => Some(png::quantize(&compared.error_map.picture, &AS_IT_IS)),
         Kind::Z => {
             pair.iter().find(|estimate| estimate.variance.is_some())?;
@@ -186,7 +194,11 @@ fn z_pixel([a, b]: [&Estimate; 2], i: usize) -> [u8; 3] {
             continue;
         };
         // A difference without any noise is beyond all bounds.
-        let z = if difference == 0.0 { 0.0 } else { difference / (va + vb).sqrt() };
+        let z = if difference == 0.0 {
+            0.0
+        } else {
+            difference / (va + vb).sqrt()
+        };
         if largest.is_none_or(|largest: f64| z.abs() > largest.abs()) {
             largest = Some(z);
         }
@@ -215,7 +227,13 @@ mod tests {
 
     #[test]
     fn z_is_signed_and_bounded_and_says_what_it_does_not_know() {
-        let values = [[1.0; 3], [1.2, 1.0, 1.0], [1.0, 1.0, 0.4], [f32::NAN, 1.0, 1.0], [2.0; 3]];
+        let values = [
+            [1.0; 3],
+            [1.2, 1.0, 1.0],
+            [1.0, 1.0, 0.4],
+            [f32::NAN, 1.0, 1.0],
+            [2.0; 3],
+        ];
         let reference = [[1.0_f32; 3]; 5];
         let mut variance = [[0.01; 3]; 5];
         variance[4] = [-1.0; 3];
