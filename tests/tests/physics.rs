@@ -1,7 +1,7 @@
 //! Whole pictures against facts of physics: energy, joints, sides.
 
 use conformance::{furnace, lay, lay_random, sphere_light, square};
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use hairline_image::Image;
 use hairline_optics::metal::Metal;
 use hairline_reference::closed_form::{RenderOptions, render};
@@ -44,6 +44,36 @@ fn white_furnace() {
                 100.0 * taken
             );
             assert!((ratio - 1.0).abs() < 0.01, "{base:?}: {ratio}");
+        }
+    }
+}
+
+/// The same from above to a grazing view. What a groove sends to each direction it sends with the phase of that direction; what
+/// it takes goes by the mirror's alone. The two agree for a narrow lobe, and the wider it is and the lower the viewer, the less:
+/// of |B - S|^2 with all its phases the same is true.
+#[test]
+fn white_furnace_from_all_sides() {
+    let half_side = 2e-3;
+    for (angle_deg, bound) in [(0.0_f64, 0.01), (30.0, 0.01), (60.0, 0.02), (75.0, 0.03)] {
+        let mut scene = square(Base::Mirror, half_side, 48);
+        scene.environment = furnace();
+        lay_random(&mut scene, half_side, 150, 3e-3, 5);
+        let (sin, cos) = angle_deg.to_radians().sin_cos();
+        scene.camera.position_m = DVec3::new(0.0, -sin, cos) * 2.2 * half_side as f64;
+        scene.camera.fov_y_rad = 0.2;
+        let image = picture(&scene);
+        let mean = |layer: &[[f32; 3]], c: usize| {
+            layer.iter().map(|p| p[c] as f64).sum::<f64>() / layer.len() as f64
+        };
+        let (beauty, taken) = (&image.beauty().rgb, &image.density);
+        for c in 0..3 {
+            let (ratio, taken) = (mean(beauty, c), mean(taken, c));
+            println!(
+                "furnace from {angle_deg} deg: channel {c} at {ratio:.4}, {:.1} % taken by scratches",
+                100.0 * taken
+            );
+            assert!(taken > 0.02, "scratches must matter for the test: {taken}");
+            assert!((ratio - 1.0).abs() < bound, "{angle_deg}: {ratio}");
         }
     }
 }

@@ -24,6 +24,12 @@ fn band_q_end(line: BandLine) -> f32 {
     return line.offset - line.radius;
 }
 
+// Cosine to the normal of the direction above the horizon at `q`.
+fn band_cos_at(line: BandLine, q: f32) -> f32 {
+    let across = q - line.offset;
+    return sqrt(max((line.radius - across) * (line.radius + across), 0.0));
+}
+
 // q of a direction on the line; roots below the horizon move to the nearer end.
 fn band_q(line: BandLine, across: f32, up: f32) -> f32 {
     let end = select(line.radius, -line.radius, across < 0.0);
@@ -39,6 +45,9 @@ struct BandLines {
 }
 
 const BAND_STD_MAX: f32 = 0.3;
+
+// Scale of the weight that stands for sinc^2 in chord_cos.
+const CHORD_WEIGHT_UM: f32 = 0.2;
 
 // Standard deviation of the band as a pixel sees it on a curved surface.
 fn curved_band_std(std_xi: f32, turn_t: vec2f, cos_sum: f32) -> f32 {
@@ -157,6 +166,21 @@ fn sphere_chord(line: BandLine, cap: Cap) -> Chord {
         band_q(line, leave.x, leave.y),
         select(0.0, 1.0, -up > cos_delta),
     );
+}
+
+// Least and greatest q that the light covers; the whole arc where it goes around the nadir.
+fn chord_range(chord: Chord, line: BandLine) -> vec2f {
+    return select(vec2f(chord.leave, chord.enter), vec2f(band_q_end(line), band_q_start(line)), chord.wraps > 0.0);
+}
+
+// Cosine to the normal of the directions of a line within a range of q, as a scratch weighs them.
+fn chord_cos(line: BandLine, low: f32, high: f32, width_um: f32) -> f32 {
+    let h = CHORD_WEIGHT_UM / max(width_um, 1e-3);
+    let x_low = low / (abs(low) + h);
+    let x_high = high / (abs(high) + h);
+    let x = x_low + (x_high - x_low) * vec2f(0.211324865, 0.788675135);
+    let q = clamp(h * x / max(1.0 - abs(x), vec2f(1e-9)), vec2f(low), vec2f(high));
+    return 0.5 * (band_cos_at(line, q.x) + band_cos_at(line, q.y));
 }
 
 // The great circle of an edge: the part of b - a across a, the cosine of its angle, the square of its sine.

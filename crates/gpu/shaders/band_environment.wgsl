@@ -20,8 +20,7 @@ fn environment_cell_bound_um(i: u32) -> f32 {
 
 // The point of the arc at q, across and up.
 fn environment_arc_point(line: BandLine, q: f32) -> vec2f {
-    let across = q - line.offset;
-    return vec2f(across, sqrt(max((line.radius - across) * (line.radius + across), 0.0)));
+    return vec2f(q - line.offset, band_cos_at(line, q));
 }
 
 fn environment_cell(i: u32, line: BandLine, width_um: f32) -> EnvironmentCell {

@@ -64,8 +64,15 @@ fn gather_share(point: SurfacePoint, segment: ScratchSegment, view: SegmentView)
     return scratch_share(segment.width_um, offset_um, view.start.x, view.end.x, segment.blur_um, footprint, sigma);
 }
 
-fn gather_table(point: SurfacePoint, view: SegmentView, q: f32) -> vec3f {
-    return scratch_table(scratch_tables, point.table, view.width_um * q, view.depth_nm);
+// T at q, for a light whose direction has the cosine cos_i to the normal.
+fn gather_table(point: SurfacePoint, view: SegmentView, q: f32, cos_i: f32) -> vec3f {
+    let depth_nm = oblique_depth_nm(view.depth_nm, cos_i, view.wo.z);
+    return scratch_table(scratch_tables, point.table, view.width_um * q, depth_nm);
+}
+
+// The whole arc of a line.
+fn gather_arc(point: SurfacePoint, view: SegmentView, line: BandLine, cos_i: f32) -> vec3f {
+    return gather_table(point, view, band_q_start(line), cos_i) - gather_table(point, view, band_q_end(line), cos_i);
 }
 
 // Radiance of a scratch by one sphere, per unit of its share and of the light's radiance.
@@ -80,9 +87,11 @@ fn gather_sphere(point: SurfacePoint, view: SegmentView, light: Light, flat_std_
         let line_and_weight = band_line(lines, i);
         let line = band_line_at(view.wo, line_and_weight.x);
         let chord = sphere_chord(line, cap);
-        var integral = gather_table(point, view, chord.enter) - gather_table(point, view, chord.leave);
+        let range = chord_range(chord, line);
+        let cos_i = chord_cos(line, range.x, range.y, view.width_um);
+        var integral = gather_table(point, view, chord.enter, cos_i) - gather_table(point, view, chord.leave, cos_i);
         if chord.wraps > 0.0 {
-            integral += gather_table(point, view, band_q_start(line)) - gather_table(point, view, band_q_end(line));
+            integral += gather_arc(point, view, line, cos_i);
         }
         sum += line_and_weight.y * integral;
         gather_rounds += 1u;
@@ -95,6 +104,29 @@ fn gather_vertex(point: SurfacePoint, view: SegmentView, light: Light, i: u32) -
     let index = light.first_vertex + select(i, i - light.vertex_count, i >= light.vertex_count);
     let relative = surface_from_world(point, light_vertices[index].xyz - point.position_m);
     return band_from_surface(view.tangent, surface_normalize_or(relative, vec3f(0.0)));
+}
+
+// Least and greatest q of a polygon's roots on a line; the whole arc where there are none.
+fn gather_range(point: SurfacePoint, view: SegmentView, light: Light, line: BandLine) -> vec2f {
+    let arc = vec2f(band_q_end(line), band_q_start(line));
+    var range = arc.yx;
+    var found = false;
+    var a = gather_vertex(point, view, light, 0u);
+    for (var i = 0u; i < light.vertex_count; i += 1u) {
+        let b = gather_vertex(point, view, light, i + 1u);
+        let roots = edge_roots(line, a, b);
+        if roots.rises {
+            range = vec2f(min(range.x, roots.rising), max(range.y, roots.rising));
+            found = true;
+        }
+        if roots.falls {
+            range = vec2f(min(range.x, roots.falling), max(range.y, roots.falling));
+            found = true;
+        }
+        a = b;
+        gather_rounds += 1u;
+    }
+    return select(arc, range, found);
 }
 
 // Radiance of a scratch by one polygon, per unit of its share and of the light's radiance.
@@ -136,6 +168,13 @@ fn gather_polygon(point: SurfacePoint, view: SegmentView, light: Light, flat_std
     // Straight down may lie in a light with corners below the horizon and on both sides of the scratch.
     let may_wrap = corner_min.z < 0.0 && corner_min.y < 0.0 && corner_max.y > 0.0;
     let lines = band_lines(view.wo.x, view.wo.x + extent.x, view.wo.x + extent.y, std_xi);
+    if lines.count == 0u {
+        return vec3f(0.0);
+    }
+    // One cosine for all lines: else the outline would be walked twice for each.
+    let middle = band_line_at(view.wo, band_line(lines, lines.count / 2u).x);
+    let range = gather_range(point, view, light, middle);
+    let cos_i = chord_cos(middle, range.x, range.y, view.width_um);
     var sum = vec3f(0.0);
     for (var l = 0u; l < lines.count; l += 1u) {
         let line_and_weight = band_line(lines, l);
@@ -147,10 +186,10 @@ fn gather_polygon(point: SurfacePoint, view: SegmentView, light: Light, flat_std
             let b = gather_vertex(point, view, light, i + 1u);
             let roots = edge_roots(line, a, b);
             if roots.rises {
-                integral += facing * gather_table(point, view, roots.rising);
+                integral += facing * gather_table(point, view, roots.rising, cos_i);
             }
             if roots.falls {
-                integral -= facing * gather_table(point, view, roots.falling);
+                integral -= facing * gather_table(point, view, roots.falling, cos_i);
             }
             if may_wrap {
                 winding += edge_winding(line_down(line), a, b);
@@ -160,7 +199,7 @@ fn gather_polygon(point: SurfacePoint, view: SegmentView, light: Light, flat_std
         }
         // The opposite direction winds as well; only a polygon in front of the ray counts.
         if abs(winding) > 3.14159265 && dot(line_down(line), away) > 0.0 {
-            integral += gather_table(point, view, band_q_start(line)) - gather_table(point, view, band_q_end(line));
+            integral += gather_arc(point, view, line, cos_i);
         }
         sum += line_and_weight.y * integral;
         gather_rounds += 1u;
@@ -178,14 +217,13 @@ fn gather_facing(point: SurfacePoint, light: Light) -> f32 {
 fn gather_environment(point: SurfacePoint, view: SegmentView) -> vec3f {
     let line = band_line_at(view.wo, 0.0);
     var sum = vec3f(0.0);
-    var before = gather_table(point, view, band_q_end(line));
     for (var i = 0u; i < ENVIRONMENT_CELLS; i += 1u) {
         let cell = environment_cell(i, line, view.width_um);
         if cell.q_high > cell.q_low {
-            let after = gather_table(point, view, cell.q_high);
+            let cos_i = chord_cos(line, cell.q_low, cell.q_high, view.width_um);
+            let response = gather_table(point, view, cell.q_high, cos_i) - gather_table(point, view, cell.q_low, cos_i);
             let direction = world_from_surface(point, surface_from_band(view.tangent, cell.direction));
-            sum += (after - before) * scene_prefiltered(direction, environment_cell_roughness(cell));
-            before = after;
+            sum += response * scene_prefiltered(direction, environment_cell_roughness(cell));
             gather_rounds += 1u;
         }
     }
@@ -296,7 +334,9 @@ fn gather_weigh(point: SurfacePoint, batch: ptr<function, GatherBatch>, walk: pt
         let share = gather_share(point, segment, gather_view(point, segment));
         (*batch).shares[i] = max(share.segment, 0.0);
         if share.segment > 0.0 {
-            let energy = scratch_table_total(scratch_tables, point.table, segment.depth_nm);
+            // In the mirror's direction both cosines are the viewer's.
+            let depth_nm = oblique_depth_nm(segment.depth_nm, point.wo.z, point.wo.z);
+            let energy = scratch_table_total(scratch_tables, point.table, depth_nm);
             mask_add(&sums, share, energy, vec3f(0.0));
         }
     }

@@ -5,6 +5,11 @@ fn band_std(coherence_um: f32, wavelength_nm: f32) -> f32 {
     return wavelength_nm * 1e-3 / (8.88576588 * coherence_um);
 }
 
+// The depth whose phase step along the normal equals that of oblique light.
+fn oblique_depth_nm(depth_nm: f32, cos_i: f32, cos_o: f32) -> f32 {
+    return 0.5 * depth_nm * (cos_i + cos_o);
+}
+
 // Covariance of a footprint in a scratch's own axes, um^2.
 struct Footprint {
     across_um2: f32,

@@ -51,6 +51,14 @@ impl BandLine {
         self.offset - self.radius
     }
 
+    /// Cosine to the normal of the direction above the horizon at `q`.
+    pub fn cos_at(self, q: f64) -> f64 {
+        let across = q - self.offset;
+        ((self.radius - across) * (self.radius + across))
+            .max(0.0)
+            .sqrt()
+    }
+
     /// q of a direction on the line with components (across, up); roots below the horizon move to the nearer end.
     fn q(self, across: f64, up: f64) -> f64 {
         let inside = across.clamp(-self.radius, self.radius);
@@ -155,6 +163,21 @@ impl BandLines {
     }
 }
 
+/// Scale of the weight that stands for sinc^2 in [`chord_cos`], as u = W q. From 0.15 to 0.25 um the errors change little.
+const CHORD_WEIGHT_UM: f64 = 0.2;
+
+/// Cosine to the normal of the directions of a line from `low` to `high` in q, as a scratch of width `width_um` weighs them:
+/// the mean at two Gauss nodes in x = q / (|q| + h), that is with the density h / (|q| + h)^2 in the place of sinc^2.
+pub fn chord_cos(line: BandLine, low: f64, high: f64, width_um: f64) -> f64 {
+    let h = CHORD_WEIGHT_UM / width_um.max(1e-3);
+    let (x_low, x_high) = (low / (low.abs() + h), high / (high.abs() + h));
+    let cos_at = |node: f64| {
+        let x = x_low + (x_high - x_low) * node;
+        line.cos_at((h * x / (1.0 - x.abs()).max(1e-9)).clamp(low, high))
+    };
+    0.5 * (cos_at(0.211_324_865_405_187) + cos_at(0.788_675_134_594_813))
+}
+
 /// A light's chord on one line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Chord {
@@ -167,6 +190,15 @@ pub struct Chord {
 }
 
 impl Chord {
+    /// Least and greatest q that the light covers; the whole arc where it goes around the nadir.
+    pub fn range(&self, line: BandLine) -> (f64, f64) {
+        if self.wraps {
+            (line.q_end(), line.q_start())
+        } else {
+            (self.leave, self.enter)
+        }
+    }
+
     /// The light integral, given the antiderivative over q.
     pub fn integral<const C: usize>(
         &self,
@@ -467,6 +499,22 @@ impl PolygonView<'_> {
             }
         }
         (wo.x + lowest, wo.x + highest)
+    }
+
+    /// Least and greatest q of the outline's roots on a line; the whole arc where there are none.
+    pub fn range(&self, frame: BandFrame, line: BandLine) -> (f64, f64) {
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        for (a, b) in self.edges(frame) {
+            let roots = edge_roots(line, a, b);
+            for q in [roots.rising, roots.falling].into_iter().flatten() {
+                (low, high) = (low.min(q), high.max(q));
+            }
+        }
+        if low <= high {
+            (low, high)
+        } else {
+            (line.q_end(), line.q_start())
+        }
     }
 
     /// The light integral on one line, given the antiderivative over q.

@@ -5,7 +5,7 @@
 //! is: at u = W q near zero. Where even those are wider than a light, the map's own lobes blur it: across the band too, where
 //! the scratch would not. So the blur is kept narrower than the cell; narrower still, and a small light would show once a cell.
 
-use crate::band::BandLine;
+use crate::band::{BandLine, chord_cos};
 use glam::{DVec2, DVec3};
 
 /// Cells along the band. Those beyond the arc's ends, many on narrow scratches, are empty.
@@ -57,11 +57,7 @@ pub fn environment_cell(i: usize, line: BandLine, width_um: f64) -> EnvironmentC
         bound(i + 1)
     };
     // The points of the arc at both ends, across and up; their sum points to the middle.
-    let at = |q: f64| {
-        let across = q - line.offset;
-        let up2 = (line.radius - across) * (line.radius + across);
-        DVec2::new(across, up2.max(0.0).sqrt())
-    };
+    let at = |q: f64| DVec2::new(q - line.offset, line.cos_at(q));
     let (low, high) = (at(q_low), at(q_high));
     let middle = line.radius * (low + high).normalize_or(DVec2::Y);
     let half_chord = 0.5 * (high - low).length();
@@ -75,23 +71,23 @@ pub fn environment_cell(i: usize, line: BandLine, width_um: f64) -> EnvironmentC
 }
 
 /// The light of an environment off a scratch of width `width_um` along a line of its band, cell by cell. `antiderivative` is
-/// the scratch's response over q, from any fixed q on; `blurred` the environment towards a direction (in the frame of the
+/// the scratch's response over q, from any fixed q on, at a cosine of the light's direction to the normal; `blurred` the
+/// environment towards a direction (in the frame of the
 /// scratch), blurred by the mirror lobe of a perceptual roughness.
 pub fn environment_band(
     line: BandLine,
     width_um: f64,
-    antiderivative: impl Fn(f64) -> [f64; 3],
+    antiderivative: impl Fn(f64, f64) -> [f64; 3],
     blurred: impl Fn(DVec3, f64) -> DVec3,
 ) -> DVec3 {
     let mut sum = DVec3::ZERO;
-    let mut before = DVec3::from(antiderivative(line.q_end()));
     for i in 0..ENVIRONMENT_CELLS {
         let cell = environment_cell(i, line, width_um);
         if cell.q_high > cell.q_low {
-            let after = DVec3::from(antiderivative(cell.q_high));
+            let cos_i = chord_cos(line, cell.q_low, cell.q_high, width_um);
+            let at = |q: f64| DVec3::from(antiderivative(q, cos_i));
             let blur = cell.environment_cell_roughness();
-            sum += (after - before) * blurred(cell.direction, blur);
-            before = after;
+            sum += (at(cell.q_high) - at(cell.q_low)) * blurred(cell.direction, blur);
         }
     }
     sum

@@ -4,10 +4,17 @@
 use spec_math::cephes64::erf;
 use std::f64::consts::PI;
 
-/// |D|^2 = 4 sin^2(2 pi d / lambda): the energy of the phase step at the groove's floor, small angles assumed.
+/// |D|^2 = 4 sin^2(2 pi d / lambda): the energy of the phase step at the groove's floor. `depth_nm` is the groove's depth for
+/// light along the normal, else [`oblique_depth_nm`].
 pub fn phase_step_energy(depth_nm: f64, wavelength_nm: f64) -> f64 {
     let s = (2.0 * PI * depth_nm / wavelength_nm).sin();
     4.0 * s * s
+}
+
+/// The depth whose phase step along the normal, 2 k d, equals k d (cos_i + cos_o): the path down into a groove and up again is
+/// shorter the lower light and viewer stand.
+pub fn oblique_depth_nm(depth_nm: f64, cos_i: f64, cos_o: f64) -> f64 {
+    0.5 * depth_nm * (cos_i + cos_o)
 }
 
 /// |eta_s|^2 in um^2: how strongly the window at a point sees the groove. `offset_um` is the distance p_n of the point

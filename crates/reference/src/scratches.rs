@@ -7,13 +7,13 @@ use glam::{DVec2, DVec3};
 use hairline_index::IndexedSegment;
 use hairline_index::scratch_index::{FACING_MIN_COS, REACH_STD};
 use hairline_optics::band::{
-    BandFrame, BandLine, BandLines, band_lines, band_reaches, curved_band_std, sphere_band_extent,
-    sphere_chord,
+    BandFrame, BandLine, BandLines, band_lines, band_reaches, chord_cos, curved_band_std,
+    sphere_band_extent, sphere_chord,
 };
 use hairline_optics::band_environment::environment_band;
 use hairline_optics::footprint::{Footprint, ScratchShare, scratch_share};
 use hairline_optics::mask::ScratchSums;
-use hairline_optics::scratch::band_std;
+use hairline_optics::scratch::{band_std, oblique_depth_nm};
 use hairline_optics::spectrum::WAVELENGTH_MEAN_NM;
 use hairline_optics::table::ScratchTable;
 use hairline_scene::Environment;
@@ -48,7 +48,8 @@ pub(crate) fn gather_scratches(
             );
             sums.add(
                 view.share,
-                table.scratch_table_total(view.depth_nm),
+                // In the mirror's direction both cosines are the viewer's.
+                table.scratch_table_total(oblique_depth_nm(view.depth_nm, point.wo.z, point.wo.z)),
                 radiance.to_array(),
             );
         });
@@ -124,7 +125,11 @@ fn scratch_radiance(
         .normal_turns
         .map(|turn| turn.truncate().dot(frame.tangent));
     let std_towards = |axis: DVec3| curved_band_std(flat_std_xi, turn_t, (wo.z + axis.z).max(0.0));
-    let antiderivative = |q: f64| table.scratch_table(view.width_um * q, view.depth_nm);
+    let antiderivative = |cos_i: f64| {
+        let depth_nm = oblique_depth_nm(view.depth_nm, cos_i, wo.z);
+        move |q: f64| table.scratch_table(view.width_um * q, depth_nm)
+    };
+    let cos_over = |line, (low, high)| chord_cos(line, low, high, view.width_um);
     let mut sum = DVec3::ZERO;
     for light in &views.views {
         match light {
@@ -135,7 +140,9 @@ fn scratch_radiance(
                 let lines = band_lines(wo.x, lowest, highest, std_xi);
                 sum += *radiance
                     * over_lines(&lines, wo, |line| {
-                        sphere_chord(line, cap).integral(line, antiderivative)
+                        let chord = sphere_chord(line, cap);
+                        let cos_i = cos_over(line, chord.range(line));
+                        chord.integral(line, antiderivative(cos_i))
                     });
             }
             LightView::Polygon {
@@ -154,15 +161,23 @@ fn scratch_radiance(
                 let polygon = views.polygon(vertices, *away, *facing);
                 let (lowest, highest) = polygon.band_extent(frame, wo);
                 let lines = band_lines(wo.x, lowest, highest, std_xi);
+                if lines.count == 0 {
+                    continue;
+                }
+                // One cosine for all lines: else the outline would be walked twice for each.
+                let middle = BandLine::new(wo, lines.band_line(lines.count / 2).0);
+                let cos_i = cos_over(middle, polygon.range(frame, middle));
                 sum += *radiance
                     * over_lines(&lines, wo, |line| {
-                        polygon.integral(frame, line, antiderivative)
+                        polygon.integral(frame, line, antiderivative(cos_i))
                     });
             }
         }
     }
     if let Some(environment) = environment {
-        sum += environment_radiance(view, environment, point, antiderivative);
+        sum += environment_radiance(view, environment, point, |q, cos_i| {
+            antiderivative(cos_i)(q)
+        });
     }
     sum
 }
@@ -181,7 +196,7 @@ fn environment_radiance(
     view: &SegmentView,
     environment: &Environment,
     point: &SurfacePoint,
-    antiderivative: impl Fn(f64) -> [f64; 3],
+    antiderivative: impl Fn(f64, f64) -> [f64; 3],
 ) -> DVec3 {
     environment_band(
         BandLine::new(view.wo, 0.0),

@@ -212,6 +212,39 @@ fn curved_bands() {
 }
 
 #[test]
+fn cosines_over_chords() {
+    let mut random = Sequence(6);
+    // Straight down the tangent; a chord of no length; the whole arc of a scratch of no width.
+    let mut rows = vec![
+        [1.0, 0.0, 0.0, 0.0, 1.0, 2.0],
+        [0.0, 0.0, 1.0, 0.5, 0.5, 2.0],
+        [0.0, 0.0, 1.0, 0.0, 1.0, 0.0],
+    ];
+    for _ in 0..5000 {
+        let wo = random.direction(0.0);
+        let (a, b) = (random.next(), random.next());
+        let width = 10f32.powf(random.between(-1.0, 1.5));
+        rows.push([wo[0], wo[1], wo[2], a.min(b), a.max(b), width]);
+    }
+    Twin {
+        name: "chord_cos",
+        modules: &[&shaders::BAND],
+        snippet: "let line = band_line_at(vec3f(x[0], x[1], x[2]), 0.0);
+            let arc = band_q_start(line) - band_q_end(line);
+            y[0] = chord_cos(line, band_q_end(line) + arc * x[3], band_q_end(line) + arc * x[4], x[5]);",
+        tables: &[],
+        expected: &|[ox, oy, oz, low, high, width]: [f64; 6]| {
+            let line = BandLine::new(v(ox, oy, oz), 0.0);
+            let arc = line.q_start() - line.q_end();
+            [chord_cos(line, line.q_end() + arc * low, line.q_end() + arc * high, width)]
+        },
+        // The height above the horizon is the square root of a rounded difference.
+        tolerance: Tolerance { absolute: 1e-3, relative: 1e-4 },
+    }
+    .check(&rows, 0);
+}
+
+#[test]
 fn environment_cells() {
     let mut random = Sequence(4);
     let mut rows = vec![

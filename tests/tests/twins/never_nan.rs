@@ -76,7 +76,8 @@ fn in_the_shader() {
             let masked = mask_resolve(sums, x[23]);
             y[0] = masked.scratches.x + masked.taken.y;
             y[1] = select(0.0, node.x + node.y, lines.count > 0u) + edge_winding(line_down(line), a, b);
-            y[2] = cell.q_low + cell.q_high + cell.direction.y + cell.direction.z + environment_cell_roughness(cell);",
+            let range = chord_range(chord, line);
+            y[2] = chord_cos(line, range.x, range.y, x[14]) + chord_cos(line, x[16], x[17], x[14]) + cell.q_low + cell.q_high + cell.direction.y + cell.direction.z + environment_cell_roughness(cell);",
         tables: &tables,
     };
     let rows = rows(1_000_000);
@@ -124,6 +125,9 @@ fn in_the_optics() {
             table.scratch_table_total(x[15]),
             view.integral(frame, line, antiderivative),
         );
+        let (low, high) = sphere_chord(line, cap).range(line);
+        let cos_i = chord_cos(line, low, high, x[14]);
+        assert!((0.0..=1.0).contains(&cos_i), "{row:?}: {cos_i}");
         let masked = sums.mask_resolve(x[23]);
         let all = masked
             .scratches

@@ -6,7 +6,7 @@ use hairline_gpu::shaders;
 use hairline_optics::footprint::{Footprint, ScratchShare, scratch_share};
 use hairline_optics::mask::ScratchSums;
 use hairline_optics::metal::Metal;
-use hairline_optics::scratch::band_std;
+use hairline_optics::scratch::{band_std, oblique_depth_nm};
 use hairline_optics::table::{COLUMNS, ROWS, ScratchTable};
 use std::sync::LazyLock;
 
@@ -84,6 +84,25 @@ fn band_widths() {
         },
     }
     .check(&[[20.0, 555.0], [5.0, 400.0], [100.0, 780.0]], 0);
+}
+
+#[test]
+fn oblique_depths() {
+    Twin {
+        name: "oblique_depth_nm",
+        modules: &[&shaders::SCRATCH],
+        snippet: "y[0] = oblique_depth_nm(x[0], x[1], x[2]);",
+        tables: &[],
+        expected: &|[d, cos_i, cos_o]: [f64; 3]| [oblique_depth_nm(d, cos_i, cos_o)],
+        tolerance: Tolerance {
+            absolute: 0.0,
+            relative: 1e-6,
+        },
+    }
+    .check(
+        &[[200.0, 1.0, 1.0], [150.0, 0.3, 0.8], [900.0, 0.0, 0.01]],
+        0,
+    );
 }
 
 #[test]

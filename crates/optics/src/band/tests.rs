@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::diffraction::chord_integral;
-use crate::scratch::band_std;
+use crate::scratch::{band_std, oblique_depth_nm, phase_step_energy};
 
 const SIGMA_UM: f64 = 20.0;
 const NM: f64 = 555.0;
@@ -333,6 +333,72 @@ fn panels_around_the_tangent_equal_two_dimensional_quadrature() {
         100.0 * rms
     );
     assert!(rms < 5e-3, "{rms}");
+}
+
+/// A light's chord with the phase step of each direction inside the integral, against one depth for the whole chord. The
+/// lights are centred on the line, within about a lobe of the mirror's direction or `near_horizon`.
+fn oblique_errors(radius: f64, near_horizon: bool) -> [f64; 2] {
+    let mut random = Sequence(21);
+    let (mut pairs, mut normal) = (Vec::new(), Vec::new());
+    while pairs.len() < 400 {
+        let wo = random.direction(0.2);
+        let line = BandLine::new(wo, 0.0);
+        let (width_um, depth_nm) = (random.between(1.0, 5.0), random.between(60.0, 400.0));
+        let middle = if near_horizon {
+            random.between(-0.2, 0.2) + if random.next() < 0.5 { 0.0 } else { PI }
+        } else {
+            random.between(0.0, PI)
+        };
+        let off = (line.offset + line.radius * middle.cos()).abs();
+        if random.next() > (-(off - radius).max(0.0) / 0.25).exp() {
+            continue;
+        }
+        let (start, end) = ((middle - radius).max(0.0), (middle + radius).min(PI));
+        if end <= start {
+            continue;
+        }
+        let at = |phi: f64| line.offset + line.radius * phi.cos();
+        let antiderivative = |q: f64| chord_integral(q, width_um, NM * 1e-3);
+        let energy = |cos_i: f64| phase_step_energy(oblique_depth_nm(depth_nm, cos_i, wo.z), NM);
+        let steps = 2000;
+        let exact: f64 = (0..steps)
+            .map(|i| {
+                let phi = |i: f64| start + (end - start) * i / steps as f64;
+                let part =
+                    antiderivative(at(phi(i as f64))) - antiderivative(at(phi(i as f64 + 1.0)));
+                part * energy(line.radius * phi(i as f64 + 0.5).sin())
+            })
+            .sum();
+        let (low, high) = (at(end), at(start));
+        let chord = antiderivative(high) - antiderivative(low);
+        pairs.push((chord * energy(chord_cos(line, low, high, width_um)), exact));
+        normal.push((chord * phase_step_energy(depth_nm, NM), exact));
+    }
+    [relative_rms(&pairs), relative_rms(&normal)]
+}
+
+#[test]
+fn one_depth_serves_a_chord() {
+    for near_horizon in [false, true] {
+        // What is left grows with the range of angles that one depth stands for.
+        for (radius, bound) in [
+            (0.005, 0.001),
+            (0.02, 0.003),
+            (0.07, 0.015),
+            (0.2, 0.05),
+            (0.6, 0.07),
+        ] {
+            let [one, normal] = oblique_errors(radius, near_horizon);
+            println!(
+                "oblique, chord of {radius} rad{}: {:.2} %, at the depth of normal incidence {:.0} %",
+                if near_horizon { " at the horizon" } else { "" },
+                100.0 * one,
+                100.0 * normal
+            );
+            assert!(one < bound, "{radius}: {one}");
+            assert!(normal > 0.5, "a wrong depth must show: {normal}");
+        }
+    }
 }
 
 #[test]
