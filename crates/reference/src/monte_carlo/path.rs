@@ -391,6 +391,9 @@ impl Integrator<'_> {
         if self.scene.environment.is_some() || bounces {
             let directions = field.directions(|_| (-1.0, 1.0));
             let draws = f64::from(ENVIRONMENT_DRAWS);
+            // One of the draws goes on, or paths would multiply. Each has its own part of the mixture: any of them may be it.
+            let [goes_on, ..] = vertex.random.four(Purpose::Bounce);
+            let goes_on = (goes_on * draws) as u32;
             for draw in 0..ENVIRONMENT_DRAWS {
                 let [pick, u, v, _] = vertex.random.four(Purpose::FieldEnvironment { draw });
                 let pick = (f64::from(draw) + pick) / draws;
@@ -403,8 +406,7 @@ impl Integrator<'_> {
                     self.next_surface(vertex, direction),
                     &self.scene.environment,
                 ) {
-                    // One of the draws goes on, or paths would multiply.
-                    (Some(hit), _) if bounces && draw == 0 => {
+                    (Some(hit), _) if bounces && draw == goes_on => {
                         let beyond = draws * self.beyond(vertex, direction, &hit, wavelengths);
                         add(beyond, field.eval(wi), pdf);
                     }

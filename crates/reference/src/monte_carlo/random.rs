@@ -22,7 +22,7 @@ pub(super) enum Purpose {
     FieldLight { light: u32, draw: u32 },
     /// The same to the environment.
     FieldEnvironment { draw: u32 },
-    /// How a path goes on by way of scratches: which (1), whither (2).
+    /// How a path goes on by way of scratches: which of them, or of the field's draws (1), whither (2).
     Bounce,
 }
 
