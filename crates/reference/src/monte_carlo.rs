@@ -37,6 +37,10 @@ use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
+/// Counts the changes that make samples worth something else: pictures of different revisions must not be added up. Raise it with
+/// every change to the model, to what is drawn, or to the order of random numbers.
+pub const REVISION: u32 = 1;
+
 /// Samples in a batch.
 pub const BATCH_SAMPLES: u32 = 64;
 

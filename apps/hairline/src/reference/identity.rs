@@ -5,7 +5,7 @@ use std::path::Path;
 use anyhow::anyhow;
 use hairline_image::{Image, Notes, exr_file};
 use hairline_optics::mask::Mask;
-use hairline_reference::monte_carlo::{BATCH_SAMPLES, Model, Settings};
+use hairline_reference::monte_carlo::{BATCH_SAMPLES, Model, REVISION, Settings};
 
 use crate::failure::Failure;
 
@@ -41,7 +41,10 @@ fn mask_name(settings: &Settings) -> &'static str {
 /// All that two runs must have in common for their samples to be those of one picture.
 pub fn notes(settings: &Settings, scene_fingerprint: &str) -> Notes {
     let values = [
-        env!("CARGO_PKG_VERSION").to_owned(),
+        format!(
+            "{} (samples of revision {REVISION})",
+            env!("CARGO_PKG_VERSION")
+        ),
         model_name(settings.model).to_owned(),
         mask_name(settings).to_owned(),
         settings.bounces.to_string(),
