@@ -70,7 +70,6 @@ fn it_is_named_after_its_scene_and_says_how_it_was_made() {
     assert_eq!(image.size_px, [24, 16]);
     assert!(samples(&image).iter().all(|n| *n == 128));
     for (name, value) in [
-        ("version", env!("CARGO_PKG_VERSION")),
         ("model", "separable"),
         ("mask", "energy"),
         ("bounces", "0"),
@@ -80,6 +79,7 @@ fn it_is_named_after_its_scene_and_says_how_it_was_made() {
         assert_eq!(notes[name], value);
     }
     assert_eq!(notes["scene"].len(), 32);
+    assert!(notes["version"].starts_with(env!("CARGO_PKG_VERSION")));
 
     // Lit, scratched, and not equally sure everywhere.
     let noise = image.noise.as_ref().unwrap();
