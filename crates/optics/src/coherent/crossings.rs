@@ -133,6 +133,20 @@ impl GrooveField {
         CoherentResponse::of(base, scratches, self.coherence_um)
     }
 
+    /// [`Self::response`] at many wavelengths, into as many places of `out`.
+    pub fn responses(
+        &self,
+        xi: DVec2,
+        cos_sum: f64,
+        wavelengths_nm: &[f64],
+        with_base: bool,
+        out: &mut [CoherentResponse],
+    ) {
+        for (out, &nm) in out.iter_mut().zip(wavelengths_nm) {
+            *out = self.response(xi, cos_sum, nm, with_base);
+        }
+    }
+
     /// The mean of the reflection coefficient, weighted by the window's energy: 1 - sum of D times share, (33).
     pub fn mean_reflection(&self, cos_sum: f64, wavelength_nm: f64) -> Complex64 {
         let mut shares: Vec<f64> = self
