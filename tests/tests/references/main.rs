@@ -1,0 +1,14 @@
+//! The Monte Carlo reference against the closed form, against facts of physics, and against itself: docs/accuracy.md has
+//! the same comparisons on more scenes.
+
+mod chance;
+mod closed_form;
+mod environment;
+mod full_wave;
+mod furnace;
+mod going_on;
+mod mask;
+mod mirrored;
+mod pictures;
+mod scenes;
+mod shadows;

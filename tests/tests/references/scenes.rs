@@ -1,0 +1,98 @@
+//! Small scenes: a scratched plate of which the picture shows a millimetre or less.
+
+use conformance::{lay_random, square};
+use glam::{DVec3, Vec3};
+use hairline_scene::{Base, Light, Scene};
+
+/// Half the plate's side.
+pub const HALF_SIDE_M: f32 = 5e-3;
+const CAMERA_M: f64 = 0.4;
+const LIGHT_M: f64 = 1.0;
+
+/// How a plate is looked at.
+#[derive(Clone, Copy, Debug)]
+pub struct View {
+    /// From the normal, towards -y.
+    pub angle_rad: f64,
+    /// What a pixel covers across the view.
+    pub pixel_um: f64,
+    pub size_px: u32,
+}
+
+/// A plate without scratches and light.
+pub fn plate(base: Base, view: View) -> Scene {
+    let mut scene = square(base, HALF_SIDE_M, view.size_px);
+    let (sin, cos) = view.angle_rad.sin_cos();
+    scene.camera.position_m = CAMERA_M * DVec3::new(0.0, -sin, cos);
+    scene.camera.fov_y_rad =
+        2.0 * (0.5 * f64::from(view.size_px) * view.pixel_um * 1e-6 / CAMERA_M).atan();
+    scene
+}
+
+/// Scratches all over what the view shows, some to a pixel of 20 um: 1 to 4 um wide, 40 to 400 nm deep.
+pub fn scratch(scene: &mut Scene, view: View, count: u32) {
+    let shown_m = f64::from(view.size_px) * view.pixel_um * 1e-6 / view.angle_rad.cos();
+    // Half of it, and beyond the corners.
+    lay_random(scene, 0.7 * shown_m as f32, count, shown_m as f32, 5);
+}
+
+/// The unit direction whose components on the plate differ by (x, y) from those of the mirrored view.
+fn off_the_mirror(angle_rad: f64, x: f64, y: f64) -> DVec3 {
+    let y = angle_rad.sin() + y;
+    DVec3::new(x, y, (1.0 - x * x - y * y).sqrt())
+}
+
+/// A sphere of a given angular radius about a direction (x, y) in cosines from the mirror's.
+pub fn sphere(view: View, x: f64, y: f64, radius_rad: f64) -> Light {
+    Light::Sphere {
+        center_m: LIGHT_M * off_the_mirror(view.angle_rad, x, y),
+        radius_m: LIGHT_M * radius_rad.sin(),
+        radiance: [1.0, 0.8, 0.6],
+    }
+}
+
+/// A rectangle that faces the plate, of two given half widths.
+pub fn panel(view: View, x: f64, y: f64, half_rad: [f64; 2]) -> Light {
+    let towards = off_the_mirror(view.angle_rad, x, y);
+    let right = LIGHT_M * half_rad[0].tan() * towards.cross(DVec3::Y).normalize();
+    let up = LIGHT_M * half_rad[1].tan() * right.cross(towards).normalize();
+    let middle = LIGHT_M * towards;
+    Light::Polygon {
+        vertices_m: vec![
+            middle - right - up,
+            middle + right - up,
+            middle + right + up,
+            middle - right + up,
+        ],
+        radiance: [0.6, 0.8, 1.0],
+        two_sided: true,
+    }
+}
+
+/// The same with one width and one depth for all.
+pub fn scratch_alike(scene: &mut Scene, view: View, count: u32, width_um: f32, depth_nm: f32) {
+    scratch(scene, view, count);
+    for scratch in &mut scene.objects[0].scratches {
+        scratch.width_um = width_um;
+        scratch.depth_nm = depth_nm;
+    }
+}
+
+/// A quadrilateral with a material of its own; its corners counter-clockwise from the side that it faces.
+pub fn add_quad(scene: &mut Scene, base: Base, roughness: f64, corners_m: [Vec3; 4]) {
+    let mut quad = scene.objects[0].clone();
+    let [a, b, _, d] = corners_m;
+    quad.name = "quad".into();
+    quad.scratches.clear();
+    quad.segments.clear();
+    quad.mesh.positions_m = corners_m.to_vec();
+    quad.mesh.normals = vec![(b - a).cross(d - a).normalize(); 4];
+    quad.mesh.tangents = vec![(b - a).normalize().extend(1.0); 4];
+    quad.mesh.triangle_materials = vec![scene.materials.len() as u32; 2];
+    scene.objects.push(quad);
+    let mut material = scene.materials[0].clone();
+    material.name = "quad".into();
+    material.base = base;
+    material.roughness = roughness;
+    scene.materials.push(material);
+}
