@@ -40,7 +40,7 @@ modules! {
     /// The spectrum of a scratch.
     SCRATCH_TABLE = "scratch_table" needs [];
     /// Where an area light meets the band of a scratch.
-    BAND = "band" needs [GAUSSIAN];
+    BAND = "band" needs [SCRATCH];
     /// An environment along the band of a scratch.
     BAND_ENVIRONMENT = "band_environment" needs [BAND];
     /// The energy that scratches take.
@@ -63,6 +63,18 @@ modules! {
     ENVIRONMENT = "environment" needs [];
     /// From linear radiance to the display.
     TONE_MAP = "tone_map" needs [];
+    /// The method of 2018: segments of the band's middle line.
+    PUBLISHED_SEGMENTS = "published_segments" needs [];
+    /// The method of 2018: the sine integral, exact and approximated.
+    PUBLISHED_SINE_INTEGRAL = "published_sine_integral" needs [];
+    /// The method of 2018: a scratch's light by wavelength.
+    PUBLISHED_SPECTRUM = "published_spectrum" needs [PUBLISHED_SEGMENTS, PUBLISHED_SINE_INTEGRAL];
+    /// The method of 2018: spherical lights.
+    PUBLISHED_SPHERE = "published_sphere" needs [BAND, PUBLISHED_SEGMENTS];
+    /// The method of 2018: triangular lights.
+    PUBLISHED_POLYGON = "published_polygon" needs [PUBLISHED_SEGMENTS];
+    /// The method of 2018: the pixel's footprint.
+    PUBLISHED_FOOTPRINT = "published_footprint" needs [GAUSSIAN];
     /// The structs that the host fills, and no binding.
     LAYOUT = "layout" needs [];
     /// Where the scene is bound: group 0 the frame, group 1 the scene's buffers, group 2 its tables and textures.

@@ -14,3 +14,6 @@ pub mod segments;
 pub mod sine_integral;
 pub mod spectrum;
 pub mod sphere;
+
+#[cfg(test)]
+mod tests;

@@ -99,3 +99,311 @@ pub fn published_share(
         density: 2.0 * width_um * length / area.max(AREA_MIN_UM2),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::footprint::{Ends, Footprint, ends, scratch_share};
+    use crate::scratch::{window_overlap_um2, window_share};
+    use glam::DMat2;
+    use rand::{RngExt, SeedableRng};
+    use rand_pcg::Pcg64Mcg;
+    use rayon::prelude::*;
+
+    const SIGMA_UM: f64 = 20.0;
+
+    /// A straight scratch of width 1 at random near a pixel.
+    struct Groove {
+        offset_um: f64,
+        start_um: f64,
+        end_um: f64,
+        turn_rad: f64,
+    }
+
+    impl Groove {
+        /// Lengths from 15 um to 5 mm, wherever the pixel's mean may notice it.
+        fn random(random: &mut Pcg64Mcg, pixel_um: f64) -> Self {
+            let reach = 0.5f64.sqrt() * pixel_um + 2.0 * SIGMA_UM;
+            let length = 15.0 * (5000.0 / 15.0f64).powf(random.random_range(0.0..1.0));
+            let center = (0.5 * length + reach) * random.random_range(-1.0..1.0);
+            Self {
+                offset_um: reach * random.random_range(-1.0..1.0),
+                start_um: center - 0.5 * length,
+                end_um: center + 0.5 * length,
+                turn_rad: random.random_range(0.0..PI),
+            }
+        }
+
+        /// The share at a place of the pixel, in its axes.
+        fn share_at(&self, x_um: f64, y_um: f64) -> f64 {
+            let (sin, cos) = self.turn_rad.sin_cos();
+            let (along, across) = (x_um * cos + y_um * sin, y_um * cos - x_um * sin);
+            let overlap = window_overlap_um2(
+                self.offset_um - across,
+                self.start_um - along,
+                self.end_um - along,
+                SIGMA_UM,
+            );
+            window_share(1.0, overlap, SIGMA_UM)
+        }
+
+        /// Its mean over a square pixel, by Gauss-Legendre rules of three points in cells well below the window.
+        fn mean_over_square(&self, pixel_um: f64) -> f64 {
+            let cells = (pixel_um / (0.6 * SIGMA_UM)).ceil() as usize;
+            let nodes: Vec<(f64, f64)> = (0..cells)
+                .flat_map(|i| {
+                    [
+                        (-0.774_596_669_241_483, 5.0 / 18.0),
+                        (0.0, 8.0 / 18.0),
+                        (0.774_596_669_241_483, 5.0 / 18.0),
+                    ]
+                    .map(|(x, w)| {
+                        let x = (i as f64 + 0.5 + 0.5 * x) / cells as f64 - 0.5;
+                        (x * pixel_um, w / cells as f64)
+                    })
+                })
+                .collect();
+            let row = |&(y, wy): &(f64, f64)| -> f64 {
+                nodes
+                    .iter()
+                    .map(|&(x, wx)| wx * wy * self.share_at(x, y))
+                    .sum()
+            };
+            nodes.iter().map(row).sum()
+        }
+
+        /// Its mean over a Gaussian pixel, by the trapezoid rule.
+        fn mean_over_gaussian(&self, std_um: f64) -> f64 {
+            let cells = (12.0 * std_um / (0.5 * SIGMA_UM).min(0.5 * std_um)).ceil() as usize;
+            let nodes: Vec<(f64, f64)> = (0..=cells)
+                .map(|i| {
+                    let x = 12.0 * (i as f64 / cells as f64 - 0.5);
+                    let weight = (-0.5 * x * x).exp() / (2.0 * PI).sqrt() * 12.0 / cells as f64;
+                    (x * std_um, weight)
+                })
+                .collect();
+            let row = |&(y, wy): &(f64, f64)| -> f64 {
+                nodes
+                    .iter()
+                    .map(|&(x, wx)| wx * wy * self.share_at(x, y))
+                    .sum()
+            };
+            nodes.iter().map(row).sum()
+        }
+
+        fn effective(&self) -> (f64, f64, Ends) {
+            let ends = ends(self.end_um - self.start_um, SIGMA_UM);
+            (
+                self.start_um + ends.shrink_um,
+                self.end_um - ends.shrink_um,
+                ends,
+            )
+        }
+
+        fn square(&self, pixel_um: f64) -> PixelFootprint {
+            let (sin, cos) = self.turn_rad.sin_cos();
+            PixelFootprint {
+                right_um: DVec2::new(cos, -sin) * pixel_um,
+                down_um: DVec2::new(sin, cos) * pixel_um,
+            }
+        }
+
+        fn published(&self, pixel_um: f64) -> f64 {
+            let (start, end, ends) = self.effective();
+            let pixel = self.square(pixel_um);
+            published_share(
+                1.0,
+                self.offset_um,
+                start,
+                end,
+                ends.blur_um,
+                pixel,
+                SIGMA_UM,
+            )
+            .share
+        }
+
+        /// The formula as the talk has it, for a whole scratch and for any coherence area. `window_ends`: the integral
+        /// over the plane of a scratch of the contained length, which its two ends shorten, rather than of that length
+        /// of an endless one.
+        fn talk(&self, pixel_um: f64, coherence_area_um2: f64, window_ends: bool) -> f64 {
+            let pixel = self.square(pixel_um);
+            let mut length = contained_length_um(self.offset_um, self.start_um, self.end_um, pixel);
+            if window_ends && length > 0.0 {
+                length -= 2.0 * ends(length, SIGMA_UM).shrink_um;
+            }
+            let blend = (0.5 * pixel.area_um2() / coherence_area_um2).min(1.0);
+            blend * length / pixel.area_um2() + (1.0 - blend) * self.share_at(0.0, 0.0)
+        }
+
+        fn gaussian(&self, std_um: f64) -> f64 {
+            let (start, end, ends) = self.effective();
+            let round = Footprint {
+                across_um2: std_um * std_um,
+                along_um2: std_um * std_um,
+                cross_um2: 0.0,
+            };
+            scratch_share(
+                1.0,
+                self.offset_um,
+                start,
+                end,
+                ends.blur_um,
+                round,
+                SIGMA_UM,
+            )
+            .segment
+        }
+    }
+
+    /// Relative rms of `value` against `expected` over random scratches.
+    fn relative_rms(
+        grooves: &[Groove],
+        value: impl Fn(&Groove) -> f64 + Sync,
+        expected: impl Fn(&Groove) -> f64 + Sync,
+    ) -> f64 {
+        let pairs: Vec<(f64, f64)> = grooves
+            .par_iter()
+            .map(|g| (value(g), expected(g)))
+            .collect();
+        let square = |f: fn(&(f64, f64)) -> f64| pairs.iter().map(|p| f(p).powi(2)).sum::<f64>();
+        (square(|(value, expected)| value - expected) / square(|(_, expected)| *expected)).sqrt()
+    }
+
+    fn grooves(pixel_um: f64, count: usize) -> Vec<Groove> {
+        let mut random = Pcg64Mcg::seed_from_u64(3);
+        (0..count)
+            .map(|_| Groove::random(&mut random, pixel_um))
+            .collect()
+    }
+
+    #[test]
+    fn the_blend_errs_by_so_much() {
+        println!("square pixels, sigma 20 um, % rms:");
+        println!(
+            "published_share; the talk to the letter, with the integral of a scratch that ends,"
+        );
+        println!(
+            "with twice the coherence area, with half of it; no footprint; the default's Gaussian"
+        );
+        let area = PI * SIGMA_UM * SIGMA_UM;
+        let mut published = Vec::new();
+        for pixel_um in [5.0, 10.0, 20.0, 40.0, 80.0, 160.0, 320.0, 640.0] {
+            let grooves = grooves(pixel_um, 500);
+            let means: Vec<f64> = grooves
+                .par_iter()
+                .map(|g| g.mean_over_square(pixel_um))
+                .collect();
+            let rms = |value: &(dyn Fn(&Groove) -> f64 + Sync)| {
+                let error2: f64 = grooves
+                    .iter()
+                    .zip(&means)
+                    .map(|(g, mean)| (value(g) - mean).powi(2))
+                    .sum();
+                (error2 / means.iter().map(|m| m * m).sum::<f64>()).sqrt()
+            };
+            let errors = [
+                rms(&|g| g.published(pixel_um)),
+                rms(&|g| g.talk(pixel_um, area, false)),
+                rms(&|g| g.talk(pixel_um, area, true)),
+                rms(&|g| g.talk(pixel_um, 2.0 * area, false)),
+                rms(&|g| g.talk(pixel_um, 0.5 * area, false)),
+                rms(&|g| g.share_at(0.0, 0.0)),
+            ];
+            let std_um = pixel_um / 12f64.sqrt();
+            let gaussian = relative_rms(
+                &grooves[..100],
+                |g| g.gaussian(std_um),
+                |g| g.mean_over_gaussian(std_um),
+            );
+            println!(
+                "pixel {pixel_um:3} um: {}; {:.2}",
+                errors.map(|e| format!("{:4.1}", 100.0 * e)).join("  "),
+                100.0 * gaussian
+            );
+            assert!(gaussian < 5e-3, "{gaussian}");
+            published.push(errors[0]);
+        }
+        // Right in both limits, worst where the pixel is as large as the window.
+        assert!(published[0] < 0.05 && published[7] < 0.03, "{published:?}");
+        assert!((0.3..0.45).contains(&published[3]), "{published:?}");
+    }
+
+    #[test]
+    fn both_limits_are_the_mean_over_the_pixel() {
+        let small = relative_rms(
+            &grooves(0.5, 200),
+            |g| g.published(0.5),
+            |g| g.mean_over_square(0.5),
+        );
+        // A scratch's margin of two windows is then small against the pixel.
+        let large = relative_rms(
+            &grooves(3000.0, 100),
+            |g| g.published(3000.0),
+            |g| g.mean_over_square(3000.0),
+        );
+        println!("limits: {small:.1e} at 0.5 um, {large:.1e} at 3 mm");
+        assert!(small < 5e-3 && large < 5e-3, "{small} {large}");
+        // An integral over the pixel in the place of its mean would be found.
+        let integral = relative_rms(
+            &grooves(0.5, 200),
+            |g| g.published(0.5) * 0.25,
+            |g| g.mean_over_square(0.5),
+        );
+        assert!(integral > 0.5);
+    }
+
+    #[test]
+    fn contained_lengths_equal_sampling() {
+        let mut random = Pcg64Mcg::seed_from_u64(5);
+        let (mut inside, mut flipped) = (0, 0);
+        for _ in 0..2000 {
+            let mut side = || {
+                DVec2::new(
+                    random.random_range(-9.0..9.0),
+                    random.random_range(-9.0..9.0),
+                )
+            };
+            let pixel = PixelFootprint {
+                right_um: side(),
+                down_um: side(),
+            };
+            let offset = random.random_range(-6.0..6.0);
+            let start = random.random_range(-12.0..6.0);
+            let end = start + random.random_range(0.0..12.0);
+            // The inverse of the parallelogram's matrix, which the strips do not use.
+            let inverse = DMat2::from_cols(pixel.right_um, pixel.down_um).inverse();
+            let steps = 2000;
+            let step = (end - start) / steps as f64;
+            let expected = (0..steps)
+                .map(|i| DVec2::new(start + step * (i as f64 + 0.5), offset))
+                .filter(|&p| (inverse * p).abs().max_element() <= 0.5)
+                .count() as f64
+                * step;
+            let value = contained_length_um(offset, start, end, pixel);
+            assert!(
+                (value - expected).abs() <= 1.01 * step,
+                "{value} {expected}"
+            );
+            inside += (value > 0.0) as u32;
+            // The mirror image of the line is another line.
+            let mirrored = contained_length_um(-offset, start, end, pixel);
+            flipped += ((mirrored - expected).abs() > 2.0 * step) as u32;
+        }
+        assert!(inside > 500 && flipped > 300, "{inside} {flipped}");
+    }
+
+    #[test]
+    fn density_is_the_area_of_the_grooves_twice() {
+        // A groove of width 3 right across a square of 60: 5 % of it.
+        let pixel = PixelFootprint {
+            right_um: DVec2::new(60.0, 0.0),
+            down_um: DVec2::new(0.0, 60.0),
+        };
+        let share = published_share(3.0, 10.0, -500.0, 500.0, 16.0, pixel, SIGMA_UM);
+        assert!((share.density - 2.0 * 3.0 / 60.0).abs() < 1e-12);
+        // Beside the pixel it counts for nothing, though the window sees it.
+        let beside = published_share(3.0, 31.0, -500.0, 500.0, 16.0, pixel, SIGMA_UM);
+        assert_eq!(beside.density, 0.0);
+    }
+}

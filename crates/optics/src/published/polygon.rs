@@ -71,6 +71,35 @@ pub fn clip_triangle(corners: [DVec3; 3]) -> ClippedTriangle {
     clipped
 }
 
+/// Inward unit normal of the plane through the edge from `a` to `b` and the point; `side` is 1 or -1 by the triangle's
+/// sense.
+fn edge_plane(a: DVec3, b: DVec3, side: f64) -> DVec3 {
+    side * a.cross(b - a).normalize_or_zero()
+}
+
+/// Steps 3 and 4: y where the line at `x` meets the ellipse of one edge above the horizon and within the planes of the
+/// other two, [`CULLED`] where it does not.
+fn edge_places(x: f64, plane: DVec3, other: DVec3, another: DVec3) -> [f64; 2] {
+    let extent2 = plane.y * plane.y + plane.z * plane.z;
+    let s2 = extent2 - x * x;
+    if s2 <= 0.0 {
+        return [CULLED; 2];
+    }
+    let (s, middle) = (s2.sqrt() / extent2, -plane.x * x / extent2);
+    [-s, s].map(|s| {
+        let (y, z) = (
+            middle * plane.y + s * plane.z,
+            middle * plane.z - s * plane.y,
+        );
+        let point = DVec3::new(x, y, z);
+        if z.min(other.dot(point)).min(another.dot(point)) >= -CULL_SLACK {
+            y
+        } else {
+            CULLED
+        }
+    })
+}
+
 /// What a triangle above the horizon covers of the line xi_t = 0; `wo` and the corners, unit directions, in the frame of
 /// the scratch.
 pub fn triangle_segments(wo: DVec3, corners: [DVec3; 3]) -> BandSegments {
@@ -83,31 +112,18 @@ pub fn triangle_segments(wo: DVec3, corners: [DVec3; 3]) -> BandSegments {
     if volume == 0.0 {
         return segments;
     }
-    let inwards = |a: DVec3, b: DVec3| a.cross(b - a).normalize_or_zero() * volume.signum();
-    let edges = [inwards(a, b), inwards(b, c), inwards(c, a)];
+    let side = volume.signum();
+    let (ab, bc, ca) = (
+        edge_plane(a, b, side),
+        edge_plane(b, c, side),
+        edge_plane(c, a, side),
+    );
 
-    // 3 Intersect each edge's ellipse with the line: two points of known height, if any.
-    // 4 Cull those below the horizon or outside of the triangle.
+    // 3 Intersect. 4 Cull.
     let mut places = [CULLED; 8];
-    for (i, m) in edges.into_iter().enumerate() {
-        let extent2 = m.y * m.y + m.z * m.z;
-        let s2 = extent2 - x * x;
-        if s2 <= 0.0 {
-            continue;
-        }
-        let (s, middle) = (s2.sqrt() / extent2, -m.x * x / extent2);
-        for (side, sign) in [(0, -1.0), (1, 1.0)] {
-            let point = DVec3::new(
-                x,
-                middle * m.y + sign * s * m.z,
-                middle * m.z - sign * s * m.y,
-            );
-            let inside = |edge: DVec3| edge.dot(point) >= -CULL_SLACK;
-            if point.z >= -CULL_SLACK && inside(edges[(i + 1) % 3]) && inside(edges[(i + 2) % 3]) {
-                places[2 * i + side] = point.y;
-            }
-        }
-    }
+    places[0..2].copy_from_slice(&edge_places(x, ab, bc, ca));
+    places[2..4].copy_from_slice(&edge_places(x, bc, ca, ab));
+    places[4..6].copy_from_slice(&edge_places(x, ca, ab, bc));
 
     // 5 Sort and assemble. An odd count is a corner found twice: the last segment ends at the last point.
     let places = bitonic_sort(places);

@@ -19,10 +19,10 @@ const STEPS_NM: f64 = 0.25;
 /// A part of the visible.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PublishedWavelength {
-    /// The wavelength that stands for it.
-    pub wavelength_um: f64,
     /// Its weight in linear Rec.709, times R/F0 of the material.
     pub weight: [f64; 3],
+    /// The wavelength that stands for it.
+    pub wavelength_um: f64,
 }
 
 /// The visible in equal parts, with the colour of a material.
@@ -122,4 +122,110 @@ pub fn published_radiance(
     wavelength
         .weight
         .map(|w| w * energy * width_um / lambda_um * chords)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diffraction;
+    use crate::metal::Metal;
+
+    fn gold(nm: f64) -> f64 {
+        Metal::Gold.reflectance(1.0, nm)
+    }
+
+    #[test]
+    fn white_is_white_whatever_the_count() {
+        for count in [1, 3, 8, 16, 81, 400] {
+            let spectrum = PublishedSpectrum::new(count, gold);
+            assert_eq!(spectrum.wavelengths.len(), count);
+            for c in 0..3 {
+                let sum: f64 = spectrum.wavelengths.iter().map(|w| w.weight[c]).sum();
+                assert!((sum - 1.0).abs() < 1e-12, "{count}: {sum}");
+            }
+            assert!(
+                spectrum
+                    .wavelengths
+                    .is_sorted_by(|a, b| a.wavelength_um < b.wavelength_um)
+            );
+        }
+    }
+
+    /// All tabulated wavelengths, the exact Si: what the default path's table holds.
+    fn by_all(segments: &BandSegments, width_um: f64, depth_nm: f64) -> [f64; 3] {
+        let f0 = spectrum::rgb_from_reflectance(gold);
+        let sum = spectrum::rgb_from_reflectance(|nm| {
+            let lambda_um = 1e-3 * nm;
+            let chord = segments.integral(|q| diffraction::chord_integral(q, width_um, lambda_um));
+            gold(nm) * scratch::phase_step_energy(depth_nm, nm) * width_um / lambda_um * chord
+        });
+        std::array::from_fn(|c| sum[c] / f0[c])
+    }
+
+    /// Relative rms over chords that start at u = W q up to `u_max_um` and are `step_um` long, depths to 1000 nm.
+    fn relative_rms(
+        spectrum: &PublishedSpectrum,
+        si: SineIntegral,
+        step_um: f64,
+        u_max_um: f64,
+    ) -> f64 {
+        let (mut error2, mut value2) = (0.0, 0.0);
+        for i in 0..400 {
+            let golden = |ratio: f64| (ratio * i as f64).fract();
+            let width_um = 1.0 + 4.0 * golden(0.754_877_666_246_693);
+            let u = u_max_um * golden(0.618_033_988_749_895);
+            let depth_nm = 1000.0 * golden(0.414_213_562_373_095);
+            let mut segments = BandSegments::default();
+            segments.push_segment(u / width_um, (u + step_um) / width_um);
+            let value = spectrum.radiance(&segments, width_um, depth_nm, si);
+            let expected = by_all(&segments, width_um, depth_nm);
+            for c in 0..3 {
+                error2 += (value[c] - expected[c]).powi(2);
+                value2 += expected[c].powi(2);
+            }
+        }
+        (error2 / value2).sqrt()
+    }
+
+    #[test]
+    fn few_wavelengths_err_by_so_much() {
+        let chords = [(5.0, 10.0), (0.5, 10.0), (0.05, 10.0), (0.5, 2.0)];
+        let errors = |spectrum: &PublishedSpectrum, si| {
+            chords.map(|(step, u_max)| relative_rms(spectrum, si, step, u_max))
+        };
+        println!(
+            "gold against 81 wavelengths, chords of 5, 0.5, 0.05 um up to u = 10 um, of 0.5 um up to 2 um:"
+        );
+        for (count, bound) in [(3, 0.45), (8, 0.04), (16, 0.012)] {
+            let spectrum = PublishedSpectrum::new(count, gold);
+            let mut middles = spectrum.clone();
+            for (i, w) in middles.wavelengths.iter_mut().enumerate() {
+                w.wavelength_um = 0.38 + 0.4 / count as f64 * (i as f64 + 0.5);
+            }
+            let [exact, fast, middle] = [
+                errors(&spectrum, SineIntegral::Exact),
+                errors(&spectrum, SineIntegral::Fast),
+                errors(&middles, SineIntegral::Exact),
+            ];
+            let percent = |errors: [f64; 4]| errors.map(|e| format!("{:.1}", 100.0 * e)).join(", ");
+            println!(
+                "{count} wavelengths: {} % rms, with the fast Si {} %, at the parts' middles {} %",
+                percent(exact),
+                percent(fast),
+                percent(middle)
+            );
+            for i in 0..chords.len() {
+                assert!(exact[i] < bound && fast[i] < bound, "{count}");
+                assert!(count == 3 || exact[i] < middle[i], "{count}");
+            }
+        }
+        // The fast Si alone.
+        let all = PublishedSpectrum::new(81, gold);
+        let (exact, fast) = (
+            errors(&all, SineIntegral::Exact),
+            errors(&all, SineIntegral::Fast),
+        );
+        println!("81 parts: exact {exact:.4?}, fast {fast:.4?}");
+        assert!(exact.iter().all(|&e| e < 2e-3) && fast.iter().all(|&e| e < 6e-3));
+    }
 }

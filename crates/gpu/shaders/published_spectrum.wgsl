@@ -1,0 +1,48 @@
+// The method of 2018, kept to be compared with: a scratch's light, wavelength by wavelength. Twin:
+// optics/src/published/spectrum.rs. `fast` chooses the approximated sine integral.
+
+// A part of the visible: its weight in the three channels, and the wavelength that stands for it.
+struct PublishedWavelength {
+    weight: vec3f,
+    wavelength_um: f32,
+}
+
+// The integral of sinc^2(k W q'/2) over q' from 0 to q. One sine and one cosine, of half the angle, serve both terms.
+fn published_chord_integral(q: f32, width_um: f32, wavelength_um: f32, fast: bool) -> f32 {
+    let k_w = 6.28318531 * width_um / wavelength_um;
+    let x = min(k_w * abs(q), SINE_INTEGRAL_X_MAX);
+    // Below this the two terms cancel.
+    if x < 1e-2 {
+        return q * (1.0 - x * x / 36.0);
+    }
+    let s = sin(0.5 * x);
+    let c = cos(0.5 * x);
+    var si: f32;
+    if fast {
+        si = sine_integral_fast_of(x, 2.0 * s * c, 1.0 - 2.0 * s * s);
+    } else {
+        si = sine_integral_of(x, 2.0 * s * c, 1.0 - 2.0 * s * s);
+    }
+    return sign(q) * (2.0 * si - 4.0 * s * s / x) / k_w;
+}
+
+// What one wavelength adds to the channels per unit of the scratch's share, under a light of radiance 1, Fresnel left out.
+fn published_radiance(
+    wavelength: PublishedWavelength,
+    segments: BandSegments,
+    width_um: f32,
+    depth_nm: f32,
+    fast: bool,
+) -> vec3f {
+    let lambda_um = wavelength.wavelength_um;
+    var chords = 0.0;
+    for (var i = 0u; i < 3u; i += 1u) {
+        if i < segments.count {
+            chords += published_chord_integral(segments.ends[i].y, width_um, lambda_um, fast)
+                - published_chord_integral(segments.ends[i].x, width_um, lambda_um, fast);
+        }
+    }
+    // |D|^2 is the square of this.
+    let step = 2.0 * sin(6.28318531e-3 * depth_nm / lambda_um);
+    return wavelength.weight * (step * step * width_um / lambda_um * chords);
+}
