@@ -36,37 +36,52 @@ fn band_q(line: BandLine, across: f32, up: f32) -> f32 {
     return line.offset + select(end, clamp(across, -line.radius, line.radius), up >= 0.0);
 }
 
-// The lines that stand for the part of the band which a light covers.
+// The lines that stand for the part of the band which a light covers. Standard deviations of a band are four: one for each
+// colour channel, and in w the one by which lines are placed.
 struct BandLines {
     count: u32,
     share_below: f32,
     share: f32,
-    std_xi: f32,
+    channel_shares: vec3f,
+    stds: vec4f,
 }
 
 const BAND_STD_MAX: f32 = 0.3;
+// Mean wavelengths of the channels, and the one that stands for the visible.
+const BAND_MEAN_NM: vec4f = vec4f(642.5, 543.0, 440.8, 555.0);
 
 // Scale of the weight that stands for sinc^2 in chord_cos.
 const CHORD_WEIGHT_UM: f32 = 0.2;
 
-// Standard deviation of the band as a pixel sees it on a curved surface.
-fn curved_band_std(std_xi: f32, turn_t: vec2f, cos_sum: f32) -> f32 {
-    return min(sqrt(std_xi * std_xi + cos_sum * cos_sum * dot(turn_t, turn_t)), BAND_STD_MAX);
+fn band_stds(coherence_um: f32) -> vec4f {
+    return band_std(coherence_um, 1.0) * BAND_MEAN_NM;
 }
 
-fn band_reaches(lowest: f32, highest: f32, std_xi: f32) -> bool {
-    return lowest < BAND_REACH_STD * std_xi && highest > -BAND_REACH_STD * std_xi && highest > lowest;
+// Standard deviations of the band as a pixel sees it on a curved surface.
+fn curved_band_std(stds: vec4f, turn_t: vec2f, cos_sum: f32) -> vec4f {
+    return min(sqrt(stds * stds + cos_sum * cos_sum * dot(turn_t, turn_t)), vec4f(BAND_STD_MAX));
 }
 
-fn band_lines(wo_t: f32, lowest: f32, highest: f32, std_xi: f32) -> BandLines {
-    if !band_reaches(lowest, highest, std_xi) {
-        return BandLines(0u, 0.0, 0.0, std_xi);
+fn band_reaches(lowest: f32, highest: f32, stds: vec4f) -> bool {
+    return lowest < BAND_REACH_STD * stds.w && highest > -BAND_REACH_STD * stds.w && highest > lowest;
+}
+
+fn band_lines(wo_t: f32, lowest: f32, highest: f32, stds: vec4f) -> BandLines {
+    if !band_reaches(lowest, highest, stds) {
+        return BandLines(0u, 0.0, 0.0, vec3f(0.0), stds);
     }
-    let half_extent = 0.5 * (highest - lowest) / std_xi;
-    let steep = 1.0 - wo_t * wo_t < 32.0 * std_xi * abs(wo_t);
+    let half_extent = 0.5 * (highest - lowest) / stds.w;
+    let steep = 1.0 - wo_t * wo_t < 32.0 * stds.w * abs(wo_t);
     let count = select(select(1u, 3u, half_extent < 16.0), 5u, half_extent < 3.0 || steep);
-    let share_below = gaussian_cdf(lowest / std_xi);
-    return BandLines(count, share_below, gaussian_cdf(highest / std_xi) - share_below, std_xi);
+    let share_below = gaussian_cdf(lowest / stds.w);
+    let low = lowest / stds.xyz;
+    let high = highest / stds.xyz;
+    let channel_shares = vec3f(
+        gaussian_cdf(high.x) - gaussian_cdf(low.x),
+        gaussian_cdf(high.y) - gaussian_cdf(low.y),
+        gaussian_cdf(high.z) - gaussian_cdf(low.z),
+    );
+    return BandLines(count, share_below, gaussian_cdf(highest / stds.w) - share_below, channel_shares, stds);
 }
 
 // Gauss-Legendre node on [0, 1] and weight.
@@ -85,11 +100,19 @@ fn band_node(count: u32, i: u32) -> vec2f {
     return vec2f(0.5 + side * 0.453089923, 0.118463443);
 }
 
-// xi_t and weight of line `i`.
-fn band_line(lines: BandLines, i: u32) -> vec2f {
+// The weights of line `i` in each channel, and its xi_t.
+fn band_line(lines: BandLines, i: u32) -> vec4f {
     let node = band_node(lines.count, i);
     let quantile = clamp(lines.share_below + lines.share * node.x, 1e-6, 1.0 - 1e-6);
-    return vec2f(lines.std_xi * gaussian_quantile(quantile), lines.share * node.y);
+    let x = gaussian_quantile(quantile);
+    let narrower = lines.stds.w / lines.stds.xyz;
+    let ratio = narrower * exp(0.5 * x * x * (1.0 - narrower * narrower));
+    return vec4f(node.y * ratio, lines.stds.w * x);
+}
+
+// The band's integral over a light, given sums over its lines: of weights times light integrals, and of weights.
+fn band_integral(lines: BandLines, sum: vec3f, weights: vec3f) -> vec3f {
+    return lines.channel_shares * sum / max(weights, vec3f(1e-30));
 }
 
 // A vector of the surface's frame in the frame of a scratch with the given tangent, and back.

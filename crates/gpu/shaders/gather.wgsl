@@ -6,7 +6,6 @@
 const REACH_STD: f32 = 3.5;
 // A segment shows at a point only if their normals agree at least this well.
 const FACING_MIN_COS: f32 = 0.2;
-const WAVELENGTH_MEAN_NM: f32 = 555.0;
 const LEAF_FIRST_BITS: u32 = 28u;
 
 // Loop rounds of this invocation. A software driver ends loops after 65,536, its neighbours' counted in; the host lowers
@@ -76,16 +75,17 @@ fn gather_arc(point: SurfacePoint, view: SegmentView, line: BandLine, cos_i: f32
 }
 
 // Radiance of a scratch by one sphere, per unit of its share and of the light's radiance.
-fn gather_sphere(point: SurfacePoint, view: SegmentView, light: Light, flat_std_xi: f32) -> vec3f {
+fn gather_sphere(point: SurfacePoint, view: SegmentView, light: Light, flat_stds: vec4f) -> vec3f {
     var cap = sphere_cap(surface_from_world(point, light.center_m - point.position_m), light.radius_m);
     cap.axis = band_from_surface(view.tangent, cap.axis);
     let extent = sphere_band_extent(view.wo, cap);
-    let std_xi = gather_std(point, view, flat_std_xi, cap.axis);
-    let lines = band_lines(view.wo.x, extent.x, extent.y, std_xi);
+    let stds = gather_stds(point, view, flat_stds, cap.axis);
+    let lines = band_lines(view.wo.x, extent.x, extent.y, stds);
     var sum = vec3f(0.0);
+    var weights = vec3f(0.0);
     for (var i = 0u; i < lines.count; i += 1u) {
-        let line_and_weight = band_line(lines, i);
-        let line = band_line_at(view.wo, line_and_weight.x);
+        let weight_and_xi = band_line(lines, i);
+        let line = band_line_at(view.wo, weight_and_xi.w);
         let chord = sphere_chord(line, cap);
         let range = chord_range(chord, line);
         let cos_i = chord_cos(line, range.x, range.y, view.width_um);
@@ -93,10 +93,11 @@ fn gather_sphere(point: SurfacePoint, view: SegmentView, light: Light, flat_std_
         if chord.wraps > 0.0 {
             integral += gather_arc(point, view, line, cos_i);
         }
-        sum += line_and_weight.y * integral;
+        sum += weight_and_xi.xyz * integral;
+        weights += weight_and_xi.xyz;
         gather_rounds += 1u;
     }
-    return sum;
+    return band_integral(lines, sum, weights);
 }
 
 // The unit direction to vertex `i` of a polygon in the frame of the scratch; vertices repeat.
@@ -130,10 +131,10 @@ fn gather_range(point: SurfacePoint, view: SegmentView, light: Light, line: Band
 }
 
 // Radiance of a scratch by one polygon, per unit of its share and of the light's radiance.
-fn gather_polygon(point: SurfacePoint, view: SegmentView, light: Light, flat_std_xi: f32) -> vec3f {
+fn gather_polygon(point: SurfacePoint, view: SegmentView, light: Light, flat_stds: vec4f) -> vec3f {
     let facing = gather_facing(point, light);
     let bound = sphere_cap(surface_from_world(point, light.center_m - point.position_m), light.radius_m);
-    let std_xi = gather_std(point, view, flat_std_xi, bound.axis);
+    let stds = gather_stds(point, view, flat_stds, bound.axis);
     var extent = vec2f(9.0, -9.0);
     var corner_min = vec3f(1.0);
     var corner_max = vec3f(-1.0);
@@ -167,18 +168,19 @@ fn gather_polygon(point: SurfacePoint, view: SegmentView, light: Light, flat_std
     }
     // Straight down may lie in a light with corners below the horizon and on both sides of the scratch.
     let may_wrap = corner_min.z < 0.0 && corner_min.y < 0.0 && corner_max.y > 0.0;
-    let lines = band_lines(view.wo.x, view.wo.x + extent.x, view.wo.x + extent.y, std_xi);
+    let lines = band_lines(view.wo.x, view.wo.x + extent.x, view.wo.x + extent.y, stds);
     if lines.count == 0u {
         return vec3f(0.0);
     }
     // One cosine for all lines: else the outline would be walked twice for each.
-    let middle = band_line_at(view.wo, band_line(lines, lines.count / 2u).x);
+    let middle = band_line_at(view.wo, band_line(lines, lines.count / 2u).w);
     let range = gather_range(point, view, light, middle);
     let cos_i = chord_cos(middle, range.x, range.y, view.width_um);
     var sum = vec3f(0.0);
+    var weights = vec3f(0.0);
     for (var l = 0u; l < lines.count; l += 1u) {
-        let line_and_weight = band_line(lines, l);
-        let line = band_line_at(view.wo, line_and_weight.x);
+        let weight_and_xi = band_line(lines, l);
+        let line = band_line_at(view.wo, weight_and_xi.w);
         var integral = vec3f(0.0);
         var winding = 0.0;
         a = gather_vertex(point, view, light, 0u);
@@ -201,10 +203,11 @@ fn gather_polygon(point: SurfacePoint, view: SegmentView, light: Light, flat_std
         if abs(winding) > 3.14159265 && dot(line_down(line), away) > 0.0 {
             integral += gather_arc(point, view, line, cos_i);
         }
-        sum += line_and_weight.y * integral;
+        sum += weight_and_xi.xyz * integral;
+        weights += weight_and_xi.xyz;
         gather_rounds += 1u;
     }
-    return sum;
+    return band_integral(lines, sum, weights);
 }
 
 // 1 if the polygon's vertices are seen counter-clockwise, -1 if clockwise, 0 if it shines to the other side.
@@ -230,21 +233,21 @@ fn gather_environment(point: SurfacePoint, view: SegmentView) -> vec3f {
     return sum;
 }
 
-// The band's standard deviation towards a light in the direction `axis`.
-fn gather_std(point: SurfacePoint, view: SegmentView, flat_std_xi: f32, axis: vec3f) -> f32 {
+// The band's standard deviations towards a light in the direction `axis`.
+fn gather_stds(point: SurfacePoint, view: SegmentView, flat_stds: vec4f, axis: vec3f) -> vec4f {
     let turn_t = vec2f(dot(point.turn_x, view.tangent), dot(point.turn_y, view.tangent));
-    return curved_band_std(flat_std_xi, turn_t, max(view.wo.z + axis.z, 0.0));
+    return curved_band_std(flat_stds, turn_t, max(view.wo.z + axis.z, 0.0));
 }
 
 // Whether a light reaches a scratch at all. Most scratches are dark to most lights, and a bounding sphere tells it.
-fn gather_reaches(point: SurfacePoint, view: SegmentView, light: Light, flat_std_xi: f32) -> bool {
+fn gather_reaches(point: SurfacePoint, view: SegmentView, light: Light, flat_stds: vec4f) -> bool {
     let center = surface_from_world(point, light.center_m - point.position_m);
     var bound = sphere_cap(center, light.radius_m);
     bound.axis = band_from_surface(view.tangent, bound.axis);
     let extent = sphere_band_extent(view.wo, bound);
-    let std_xi = gather_std(point, view, flat_std_xi, bound.axis);
+    let stds = gather_stds(point, view, flat_stds, bound.axis);
     let shines = light.kind == LIGHT_SPHERE || gather_facing(point, light) != 0.0;
-    return shines && center.z > -light.radius_m && band_reaches(extent.x, extent.y, std_xi);
+    return shines && center.z > -light.radius_m && band_reaches(extent.x, extent.y, stds);
 }
 
 // The walk is cut into stages, each a loop of its own: find segments, weigh them, light those that are lit. Lanes of a
@@ -269,7 +272,7 @@ struct GatherBatch {
 
 // Walks on under the point's footprint, to the object's last node or until the rounds are spent.
 fn gather_scratches(point: SurfacePoint, object: Object, walk: ptr<function, ScratchWalk>) {
-    let flat_std_xi = band_std(point.coherence_um, WAVELENGTH_MEAN_NM);
+    let flat_stds = band_stds(point.coherence_um);
     // So that all pairs of a batch fit; with more lights than that, they take turns.
     let lights_at_once = clamp(frame.light_count, 1u, GATHER_PAIRS);
     let most = clamp(GATHER_PAIRS / lights_at_once, LEAF_SEGMENTS, GATHER_SEGMENTS);
@@ -280,8 +283,8 @@ fn gather_scratches(point: SurfacePoint, object: Object, walk: ptr<function, Scr
         gather_weigh(point, &batch, walk);
         for (var first = 0u; first < frame.light_count; first += GATHER_PAIRS / most) {
             gather_rounds += 1u;
-            gather_pair(point, flat_std_xi, first, min(first + GATHER_PAIRS / most, frame.light_count), &batch);
-            gather_light(point, flat_std_xi, &batch, walk);
+            gather_pair(point, flat_stds, first, min(first + GATHER_PAIRS / most, frame.light_count), &batch);
+            gather_light(point, flat_stds, &batch, walk);
         }
         if scene_has_environment() {
             gather_light_environment(point, &batch, walk);
@@ -344,7 +347,7 @@ fn gather_weigh(point: SurfacePoint, batch: ptr<function, GatherBatch>, walk: pt
 }
 
 // Stage 3: which of some lights reach which segments.
-fn gather_pair(point: SurfacePoint, flat_std_xi: f32, first_light: u32, end_light: u32, batch: ptr<function, GatherBatch>) {
+fn gather_pair(point: SurfacePoint, flat_stds: vec4f, first_light: u32, end_light: u32, batch: ptr<function, GatherBatch>) {
     var spheres = 0u;
     var polygons = 0u;
     for (var i = 0u; i < (*batch).segment_count; i += 1u) {
@@ -354,7 +357,7 @@ fn gather_pair(point: SurfacePoint, flat_std_xi: f32, first_light: u32, end_ligh
         for (var l = first_light; l < end_light; l += 1u) {
             gather_rounds += 1u;
             let light = lights[l];
-            if counts && gather_reaches(point, view, light, flat_std_xi) {
+            if counts && gather_reaches(point, view, light, flat_stds) {
                 if light.kind == LIGHT_SPHERE {
                     (*batch).pairs[spheres] = i | (l << 8u);
                     spheres += 1u;
@@ -370,13 +373,13 @@ fn gather_pair(point: SurfacePoint, flat_std_xi: f32, first_light: u32, end_ligh
 }
 
 // Stage 4: their light.
-fn gather_light(point: SurfacePoint, flat_std_xi: f32, batch: ptr<function, GatherBatch>, walk: ptr<function, ScratchWalk>) {
+fn gather_light(point: SurfacePoint, flat_stds: vec4f, batch: ptr<function, GatherBatch>, walk: ptr<function, ScratchWalk>) {
     for (var i = 0u; i < (*batch).sphere_count; i += 1u) {
         gather_rounds += 1u;
         let slot = (*batch).pairs[i] & 0xffu;
         let light = lights[(*batch).pairs[i] >> 8u];
         let view = gather_view(point, scratch_segments[(*batch).segments[slot]]);
-        (*walk).sums.radiance += (*batch).shares[slot] * light.radiance * gather_sphere(point, view, light, flat_std_xi);
+        (*walk).sums.radiance += (*batch).shares[slot] * light.radiance * gather_sphere(point, view, light, flat_stds);
     }
     for (var i = 0u; i < (*batch).polygon_count; i += 1u) {
         gather_rounds += 1u;
@@ -384,7 +387,7 @@ fn gather_light(point: SurfacePoint, flat_std_xi: f32, batch: ptr<function, Gath
         let slot = pair & 0xffu;
         let light = lights[pair >> 8u];
         let view = gather_view(point, scratch_segments[(*batch).segments[slot]]);
-        (*walk).sums.radiance += (*batch).shares[slot] * light.radiance * gather_polygon(point, view, light, flat_std_xi);
+        (*walk).sums.radiance += (*batch).shares[slot] * light.radiance * gather_polygon(point, view, light, flat_stds);
     }
 }
 

@@ -12,12 +12,15 @@
 //!
 //! All vectors are in the scratch's frame: x along the tangent t, y across it along n, z along the surface normal N.
 
-use glam::{DVec2, DVec3};
-use spec_math::cephes64::{ndtr, ndtri};
-use std::f64::consts::PI;
+mod lines;
 
-/// The band is cut off at this many standard deviations; 6e-5 of its energy lies beyond.
-pub const BAND_REACH_STD: f64 = 4.0;
+pub use lines::{
+    BAND_REACH_STD, BAND_STD_MAX, BandLines, BandStds, band_lines, band_reaches, band_stds,
+    curved_band_std,
+};
+
+use glam::{DVec2, DVec3};
+use std::f64::consts::PI;
 
 /// One line of the band.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -68,98 +71,6 @@ impl BandLine {
             } else {
                 self.radius.copysign(across)
             }
-    }
-}
-
-/// The lines that stand for the part of the band which a light covers, given the extent of the light's xi_t.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BandLines {
-    /// Number of lines: 0 (dark), 1, 3 or 5.
-    pub count: usize,
-    /// The band's share below the light's extent.
-    pub share_below: f64,
-    /// The band's share within the light's extent.
-    pub share: f64,
-    /// Standard deviation of the band.
-    pub std_xi: f64,
-}
-
-/// Standard deviation of the band as a pixel sees it on a curved surface: the surface's normal turns under the footprint, and
-/// with it xi_t = (wi + wo).t by minus the normal's turn along t, times (wi + wo).N. `turn_t` is the turn of the normal along
-/// t over one standard deviation of the pixel's filter to the right and down; `cos_sum` is (wi + wo).N.
-pub fn curved_band_std(std_xi: f64, turn_t: [f64; 2], cos_sum: f64) -> f64 {
-    let turn2 = turn_t[0] * turn_t[0] + turn_t[1] * turn_t[1];
-    (std_xi * std_xi + cos_sum * cos_sum * turn2)
-        .sqrt()
-        .min(BAND_STD_MAX)
-}
-
-/// Beyond this a pixel sees light from all around, and the small-angle picture of a turning normal is void.
-pub const BAND_STD_MAX: f64 = 0.3;
-
-/// Whether a light of the given extent in xi_t meets the band at all.
-pub fn band_reaches(lowest: f64, highest: f64, std_xi: f64) -> bool {
-    lowest < BAND_REACH_STD * std_xi && highest > -BAND_REACH_STD * std_xi && highest > lowest
-}
-
-/// Chooses the lines; `wo_t` is the component of `wo` along the tangent. Large lights cover the whole band evenly and one
-/// line is enough; small ones need the band's shape, and so does a viewer who looks along the scratch, where neighbouring
-/// lines are arcs of very different radius.
-pub fn band_lines(wo_t: f64, lowest: f64, highest: f64, std_xi: f64) -> BandLines {
-    if !band_reaches(lowest, highest, std_xi) {
-        return BandLines {
-            count: 0,
-            share_below: 0.0,
-            share: 0.0,
-            std_xi,
-        };
-    }
-    let half_extent = 0.5 * (highest - lowest) / std_xi;
-    let steep = 1.0 - wo_t * wo_t < 32.0 * std_xi * wo_t.abs();
-    // The tests print the errors against 2-D quadrature: below 0.7 % everywhere.
-    let count = if half_extent < 3.0 || steep {
-        5
-    } else if half_extent < 16.0 {
-        3
-    } else {
-        1
-    };
-    let share_below = ndtr(lowest / std_xi);
-    BandLines {
-        count,
-        share_below,
-        share: ndtr(highest / std_xi) - share_below,
-        std_xi,
-    }
-}
-
-/// Gauss-Legendre nodes on [0, 1] and weights, for 1, 3 and 5 points.
-const NODES: [[(f64, f64); 5]; 3] = [
-    [(0.5, 1.0), (0.0, 0.0), (0.0, 0.0), (0.0, 0.0), (0.0, 0.0)],
-    [
-        (0.112_701_665_379_258, 0.277_777_777_777_778),
-        (0.5, 0.444_444_444_444_444),
-        (0.887_298_334_620_742, 0.277_777_777_777_778),
-        (0.0, 0.0),
-        (0.0, 0.0),
-    ],
-    [
-        (0.046_910_077_030_668, 0.118_463_442_528_095),
-        (0.230_765_344_947_158, 0.239_314_335_249_683),
-        (0.5, 0.284_444_444_444_444),
-        (0.769_234_655_052_842, 0.239_314_335_249_683),
-        (0.953_089_922_969_332, 0.118_463_442_528_095),
-    ],
-];
-
-impl BandLines {
-    /// xi_t and weight of line `i`: Gauss-Legendre in the band's cumulative share, which follows the band where the light is
-    /// wide and the light where it is narrow. The weights sum to the band's share within the light's extent.
-    pub fn band_line(&self, i: usize) -> (f64, f64) {
-        let (node, weight) = NODES[self.count / 2][i];
-        // The quantile is cut where single precision loses it; the band's reach ends before.
-        let quantile = (self.share_below + self.share * node).clamp(1e-6, 1.0 - 1e-6);
-        (self.std_xi * ndtri(quantile), self.share * weight)
     }
 }
 

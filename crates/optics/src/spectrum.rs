@@ -15,6 +15,8 @@ pub const WAVELENGTH_MIN_NM: f64 = 380.0;
 pub const WAVELENGTH_COUNT: usize = 81;
 /// The wavelength that stands for the visible where one must: near the eye's greatest sensitivity under D65.
 pub const WAVELENGTH_MEAN_NM: f64 = 555.0;
+/// Mean wavelength of each colour channel by its weights. Red's negative lobe lies at short wavelengths and pushes it out.
+pub const CHANNEL_MEAN_NM: [f64; 3] = [642.5, 543.0, 440.8];
 
 /// Linear Rec.709 (D65 white) from CIE XYZ; ITU-R BT.709-6, inverted from its primaries.
 const REC709_FROM_XYZ: [[f64; 3]; 3] = [
@@ -111,6 +113,14 @@ mod tests {
     fn a_perfect_mirror_is_white() {
         for c in rgb_from_reflectance(|_| 1.0) {
             assert!((c - 1.0).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn channels_have_their_mean_wavelengths() {
+        let mean = rgb_from_reflectance(|nm| nm);
+        for c in 0..3 {
+            assert!((mean[c] - CHANNEL_MEAN_NM[c]).abs() < 0.1, "{mean:?}");
         }
     }
 

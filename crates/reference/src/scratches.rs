@@ -7,14 +7,13 @@ use glam::{DVec2, DVec3};
 use hairline_index::IndexedSegment;
 use hairline_index::scratch_index::{FACING_MIN_COS, REACH_STD};
 use hairline_optics::band::{
-    BandFrame, BandLine, BandLines, band_lines, band_reaches, chord_cos, curved_band_std,
+    BandFrame, BandLine, band_lines, band_reaches, band_stds, chord_cos, curved_band_std,
     sphere_band_extent, sphere_chord,
 };
 use hairline_optics::band_environment::environment_band;
 use hairline_optics::footprint::{Footprint, ScratchShare, scratch_share};
 use hairline_optics::mask::ScratchSums;
-use hairline_optics::scratch::{band_std, oblique_depth_nm};
-use hairline_optics::spectrum::WAVELENGTH_MEAN_NM;
+use hairline_optics::scratch::oblique_depth_nm;
 use hairline_optics::table::ScratchTable;
 use hairline_scene::Environment;
 
@@ -120,11 +119,11 @@ fn scratch_radiance(
     point: &SurfacePoint,
 ) -> DVec3 {
     let (wo, frame) = (view.wo, view.frame);
-    let flat_std_xi = band_std(point.coherence_um, WAVELENGTH_MEAN_NM);
+    let flat_stds = band_stds(point.coherence_um);
     let turn_t = point
         .normal_turns
         .map(|turn| turn.truncate().dot(frame.tangent));
-    let std_towards = |axis: DVec3| curved_band_std(flat_std_xi, turn_t, (wo.z + axis.z).max(0.0));
+    let std_towards = |axis: DVec3| curved_band_std(flat_stds, turn_t, (wo.z + axis.z).max(0.0));
     let antiderivative = |cos_i: f64| {
         let depth_nm = oblique_depth_nm(view.depth_nm, cos_i, wo.z);
         move |q: f64| table.scratch_table(view.width_um * q, depth_nm)
@@ -135,11 +134,11 @@ fn scratch_radiance(
         match light {
             LightView::Sphere { cap, radiance } => {
                 let cap = cap.turned(frame);
-                let std_xi = std_towards(cap.axis);
+                let stds = std_towards(cap.axis);
                 let (lowest, highest) = sphere_band_extent(wo, cap);
-                let lines = band_lines(wo.x, lowest, highest, std_xi);
+                let lines = band_lines(wo.x, lowest, highest, stds);
                 sum += *radiance
-                    * over_lines(&lines, wo, |line| {
+                    * lines.integral(wo, |line| {
                         let chord = sphere_chord(line, cap);
                         let cos_i = cos_over(line, chord.range(line));
                         chord.integral(line, antiderivative(cos_i))
@@ -153,14 +152,14 @@ fn scratch_radiance(
                 radiance,
             } => {
                 // Most scratches are dark to most lights; the bound tells it without a look at the edges.
-                let std_xi = std_towards(bound.axis);
+                let stds = std_towards(bound.axis);
                 let (lowest, highest) = sphere_band_extent(wo, bound.turned(frame));
-                if !band_reaches(lowest, highest, std_xi) {
+                if !band_reaches(lowest, highest, stds) {
                     continue;
                 }
                 let polygon = views.polygon(vertices, *away, *facing);
                 let (lowest, highest) = polygon.band_extent(frame, wo);
-                let lines = band_lines(wo.x, lowest, highest, std_xi);
+                let lines = band_lines(wo.x, lowest, highest, stds);
                 if lines.count == 0 {
                     continue;
                 }
@@ -168,7 +167,7 @@ fn scratch_radiance(
                 let middle = BandLine::new(wo, lines.band_line(lines.count / 2).0);
                 let cos_i = cos_over(middle, polygon.range(frame, middle));
                 sum += *radiance
-                    * over_lines(&lines, wo, |line| {
+                    * lines.integral(wo, |line| {
                         polygon.integral(frame, line, antiderivative(cos_i))
                     });
             }
@@ -180,15 +179,6 @@ fn scratch_radiance(
         });
     }
     sum
-}
-
-fn over_lines(lines: &BandLines, wo: DVec3, on_line: impl Fn(BandLine) -> [f64; 3]) -> DVec3 {
-    (0..lines.count)
-        .map(|i| {
-            let (xi_t, weight) = lines.band_line(i);
-            weight * DVec3::from(on_line(BandLine::new(wo, xi_t)))
-        })
-        .sum()
 }
 
 /// The 1-D integral of the environment along the band's middle line, cell by cell.

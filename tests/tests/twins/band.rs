@@ -7,6 +7,10 @@ use hairline_optics::band::*;
 use hairline_optics::band_environment::{ENVIRONMENT_CELLS, environment_cell};
 
 const STD_XI: f64 = 0.0031;
+const STDS: BandStds = BandStds {
+    mean: STD_XI,
+    channels: [0.0036, 0.003, 0.0025],
+};
 
 fn v(x: f64, y: f64, z: f64) -> DVec3 {
     DVec3::new(x, y, z)
@@ -39,21 +43,22 @@ fn lines() {
     Twin {
         name: "band_lines and band_line",
         modules: &[&shaders::BAND],
-        snippet: "let lines = band_lines(x[3], x[0], x[1], 0.0031);
-            y[0] = f32(lines.count);
+        snippet: "let lines = band_lines(x[3], x[0], x[1], vec4f(0.0036, 0.003, 0.0025, 0.0031));
+            y[0] = f32(lines.count); y[4] = lines.channel_shares.x; y[5] = lines.channel_shares.z;
             if u32(x[2]) < lines.count {
                 let line = band_line(lines, u32(x[2]));
-                y[1] = line.x; y[2] = line.y;
+                y[1] = line.w; y[2] = line.x; y[3] = line.z;
             }",
         tables: &[],
         expected: &|[low, high, i, wo_t]: [f64; 4]| {
-            let lines = band_lines(wo_t, low, high, STD_XI);
+            let lines = band_lines(wo_t, low, high, STDS);
             let (xi_t, weight) = if (i as usize) < lines.count {
                 lines.band_line(i as usize)
             } else {
-                (0.0, 0.0)
+                (0.0, DVec3::ZERO)
             };
-            [lines.count as f64, xi_t, weight]
+            let [red, _, blue] = lines.channel_shares;
+            [lines.count as f64, xi_t, weight.x, weight.z, red, blue]
         },
         // A share near 1 is rounded by 6e-8, which in the tail at 4 standard deviations moves a line by 5e-4 of one.
         tolerance: Tolerance {
@@ -189,6 +194,65 @@ fn polygons() {
 }
 
 #[test]
+fn band_widths() {
+    Twin {
+        name: "band_stds",
+        modules: &[&shaders::BAND],
+        snippet: "let stds = band_stds(x[0]); y[0] = stds.x; y[1] = stds.y; y[2] = stds.z; y[3] = stds.w;",
+        tables: &[],
+        expected: &|[sigma]: [f64; 1]| {
+            let BandStds { mean, channels: [red, green, blue] } = band_stds(sigma);
+            [red, green, blue, mean]
+        },
+        tolerance: Tolerance { absolute: 0.0, relative: 1e-6 },
+    }
+    .check(&[[20.0], [5.0], [100.0]], 0);
+}
+
+#[test]
+fn band_integrals() {
+    let mut random = Sequence(8);
+    let mut rows = Vec::new();
+    for _ in 0..1000 {
+        let low = random.between(-3.0, 3.0) * STD_XI as f32;
+        let extent = 10f32.powf(random.between(-1.5, 2.0)) * STD_XI as f32;
+        rows.push([low, low + extent]);
+    }
+    // Well away from the extents at which the number of lines changes.
+    rows.retain(|[low, high]| {
+        let half = 0.5 * (high - low) / STD_XI as f32;
+        (half - 3.0).abs() > 0.01 && (half - 16.0).abs() > 0.01
+    });
+    Twin {
+        name: "band_integral",
+        modules: &[&shaders::BAND],
+        snippet: "let lines = band_lines(0.3, x[0], x[1], vec4f(0.0036, 0.003, 0.0025, 0.0031));
+            var sum = vec3f(0.0);
+            var weights = vec3f(0.0);
+            for (var i = 0u; i < lines.count; i += 1u) {
+                let line = band_line(lines, i);
+                sum += line.xyz * vec3f(1.0, 2.0, 1.0 + 50.0 * line.w);
+                weights += line.xyz;
+            }
+            let integral = band_integral(lines, sum, weights);
+            y[0] = integral.x; y[1] = integral.y; y[2] = integral.z;",
+        tables: &[],
+        expected: &|[low, high]: [f64; 2]| {
+            let wo = v(0.3, 0.0, 0.9);
+            let integral = band_lines(wo.x, low, high, STDS)
+                .integral(wo, |line| [1.0, 2.0, 1.0 + 50.0 * (line.along + wo.x)]);
+            integral.to_array()
+        },
+        // The error function is right to 1.5e-7.
+        tolerance: Tolerance {
+            absolute: 2e-6,
+            relative: 1e-4,
+        },
+    }
+    .check(&rows, 0);
+}
+
+#[test]
 fn curved_bands() {
     let mut random = Sequence(5);
     let mut rows = vec![[0.0; 4], [0.003, 0.0, 0.0, 2.0], [0.003, 1e6, 1.0, 2.0]];
@@ -200,9 +264,18 @@ fn curved_bands() {
     Twin {
         name: "curved_band_std",
         modules: &[&shaders::BAND],
-        snippet: "y[0] = curved_band_std(x[0], vec2f(x[1], x[2]), x[3]);",
+        snippet:
+            "let stds = curved_band_std(x[0] * vec4f(1.1, 1.0, 0.8, 1.05), vec2f(x[1], x[2]), x[3]);
+            y[0] = stds.x; y[1] = stds.z; y[2] = stds.w;",
         tables: &[],
-        expected: &|[std_xi, x, y, cos_sum]: [f64; 4]| [curved_band_std(std_xi, [x, y], cos_sum)],
+        expected: &|[std, x, y, cos_sum]: [f64; 4]| {
+            let stds = BandStds {
+                mean: 1.05 * std,
+                channels: [1.1, 1.0, 0.8].map(|c| c * std),
+            };
+            let curved = curved_band_std(stds, [x, y], cos_sum);
+            [curved.channels[0], curved.channels[2], curved.mean]
+        },
         tolerance: Tolerance {
             absolute: 0.0,
             relative: 1e-6,

@@ -65,8 +65,9 @@ fn in_the_shader() {
             let chord = sphere_chord(line, cap);
             let roots = edge_roots(line, a, b);
             let extent = edge_band_extent(a, b) + sphere_band_extent(wo, cap);
-            let lines = band_lines(wo.x, extent.x, extent.y, 0.003);
+            let lines = band_lines(wo.x, extent.x, extent.y, curved_band_std(band_stds(20.0), vec2f(x[16], x[17]), abs(x[18])));
             let node = band_line(lines, 0u);
+            let band = band_integral(lines, node.xyz, node.xyz);
             let cell = environment_cell(u32(abs(x[9]) * 23.0), line, x[14]);
             let t = scratch_table(table_0, 0u, x[14] * chord.enter, x[15]) + scratch_table(table_0, 0u, x[14] * chord.leave, x[15])
                 + scratch_table(table_0, 0u, x[14] * roots.rising, x[15]) + scratch_table(table_0, 0u, x[14] * roots.falling, x[15]);
@@ -75,7 +76,7 @@ fn in_the_shader() {
             mask_add(&sums, share, scratch_table_total(table_0, 0u, x[15]), t);
             let masked = mask_resolve(sums, x[23]);
             y[0] = masked.scratches.x + masked.taken.y;
-            y[1] = select(0.0, node.x + node.y, lines.count > 0u) + edge_winding(line_down(line), a, b);
+            y[1] = select(0.0, node.x + node.z + node.w + band.x + band.z, lines.count > 0u) + edge_winding(line_down(line), a, b);
             let range = chord_range(chord, line);
             y[2] = chord_cos(line, range.x, range.y, x[14]) + chord_cos(line, x[16], x[17], x[14]) + cell.q_low + cell.q_high + cell.direction.y + cell.direction.z + environment_cell_roughness(cell);",
         tables: &tables,

@@ -105,13 +105,13 @@ fn polygon_integral(wo: DVec3, vertices: &[DVec3], width_um: f64) -> f64 {
 }
 
 fn lines_integral(wo: DVec3, lowest: f64, highest: f64, on_line: impl Fn(BandLine) -> f64) -> f64 {
-    let lines = band_lines(wo.x, lowest, highest, band_std(SIGMA_UM, NM));
-    (0..lines.count)
-        .map(|i| {
-            let (xi_t, weight) = lines.band_line(i);
-            weight * on_line(BandLine::new(wo, xi_t))
-        })
-        .sum()
+    let std = band_std(SIGMA_UM, NM);
+    let stds = BandStds {
+        mean: std,
+        channels: [std; 3],
+    };
+    let lines = band_lines(wo.x, lowest, highest, stds);
+    lines.integral(wo, |line| [on_line(line); 3]).x
 }
 
 fn relative_rms(pairs: &[(f64, f64)]) -> f64 {
@@ -333,6 +333,100 @@ fn panels_around_the_tangent_equal_two_dimensional_quadrature() {
         100.0 * rms
     );
     assert!(rms < 5e-3, "{rms}");
+}
+
+/// The whole spectrum's light off a scratch by a sphere, each wavelength by its own band, line by line; per unit of W |D|^2.
+fn spectral(wo: DVec3, cap: Cap, width_um: f64, depth_nm: f64) -> DVec3 {
+    let widest = band_std(SIGMA_UM, 780.0);
+    let (lowest, highest) = sphere_band_extent(wo, cap);
+    let (low, high) = (lowest.max(-5.0 * widest), highest.min(5.0 * widest));
+    let count = 240;
+    let mut sum = DVec3::ZERO;
+    for i in 0..count {
+        let xi_t = low + (high - low) * (i as f64 + 0.5) / count as f64;
+        let line = BandLine::new(wo, xi_t);
+        let chord = sphere_chord(line, cap);
+        for sample in crate::spectrum::samples().iter().step_by(2) {
+            let (nm, std) = (
+                sample.wavelength_nm,
+                band_std(SIGMA_UM, sample.wavelength_nm),
+            );
+            let along = (-0.5 * (xi_t / std).powi(2)).exp() / ((2.0 * PI).sqrt() * std);
+            let across = chord.integral(line, |q| [chord_integral(q, width_um, nm * 1e-3)])[0];
+            let weight = 2.0 * phase_step_energy(depth_nm, nm) * width_um / (nm * 1e-3);
+            sum += DVec3::from(sample.weight) * (weight * along * across);
+        }
+    }
+    sum * ((high - low) / count as f64)
+}
+
+/// The error in a light's colour for lights of some radius near the band: with a band for each channel, and with one for all.
+fn colour_errors(table: &crate::table::ScratchTable, radius: f64) -> [f64; 2] {
+    let mut random = Sequence(17);
+    let (mut own, mut one) = (Vec::new(), Vec::new());
+    let stds = band_stds(SIGMA_UM);
+    let for_all = BandStds {
+        channels: [stds.mean; 3],
+        ..stds
+    };
+    while own.len() < 3 * 60 {
+        let wo = random.direction(0.3);
+        let offset = random.between(-1.5, 1.5) * (radius + stds.mean);
+        let w_t = -wo.x + offset;
+        if w_t.abs() > 0.9 {
+            continue;
+        }
+        let r = (1.0 - w_t * w_t).sqrt();
+        // Within some lobes of the mirror's direction, where there is light.
+        let q = random.between(-0.4, 0.4);
+        let across = q - wo.y;
+        if across.abs() > 0.95 * r {
+            continue;
+        }
+        let axis = DVec3::new(w_t, across, (r * r - across * across).sqrt());
+        let (sin_radius, cos_radius) = radius.sin_cos();
+        let cap = Cap {
+            axis,
+            sin_radius,
+            cos_radius,
+        };
+        let (width_um, depth_nm) = (random.between(1.0, 5.0), random.between(60.0, 400.0));
+        let exact = spectral(wo, cap, width_um, depth_nm);
+        let (lowest, highest) = sphere_band_extent(wo, cap);
+        let value = |stds| {
+            band_lines(wo.x, lowest, highest, stds).integral(wo, |line| {
+                sphere_chord(line, cap)
+                    .integral(line, |q| table.scratch_table(width_um * q, depth_nm))
+            })
+        };
+        let (with_own, with_one) = (value(stds), value(for_all));
+        for c in 0..3 {
+            own.push((with_own[c], exact[c]));
+            one.push((with_one[c], exact[c]));
+        }
+    }
+    [relative_rms(&own), relative_rms(&one)]
+}
+
+#[test]
+fn each_channel_has_its_own_band() {
+    let table = crate::table::ScratchTable::new(|_| 1.0);
+    for (radius, bound) in [
+        (0.001, 0.03),
+        (0.005, 0.03),
+        (0.017, 0.015),
+        (0.07, 0.005),
+        (0.2, 0.005),
+        (0.6, 0.005),
+    ] {
+        let [own, one] = colour_errors(&table, radius);
+        println!(
+            "colours, sphere of {radius} rad: relative rms error {:.2} %, {:.2} % with one band for all",
+            100.0 * own,
+            100.0 * one
+        );
+        assert!(own < bound && own < one + 1e-3, "{radius}: {own} {one}");
+    }
 }
 
 /// A light's chord with the phase step of each direction inside the integral, against one depth for the whole chord. The
