@@ -3,6 +3,7 @@
 mod band;
 mod lobes;
 mod never_nan;
+mod published;
 mod scratch;
 mod surface;
 mod twin;
