@@ -7,21 +7,21 @@ struct BaseRadiance {
     diffuse: vec3f,             // from the body under it
 }
 
-// The lobe's integral and the diffuse form factor of a light.
-fn base_sphere(point: SurfacePoint, lobe: LtcLobe, light: Light) -> vec2f {
+// The lobe's integrals and the diffuse form factor of a light.
+fn base_sphere(point: SurfacePoint, lobe: LtcLobe, light: Light) -> vec4f {
     let center = surface_from_world(point, light.center_m - point.position_m);
     if center.z <= -light.radius_m {
-        return vec2f(0.0);
+        return vec4f(0.0);
     }
     let cap = sphere_cap(center, light.radius_m);
     // A cap that holds every direction stands for a sphere around the point.
     let sin2 = select(cap.sin_radius * cap.sin_radius, 1.0, cap.cos_radius < 0.0);
-    return vec2f(ltc_sphere(lobe, cap.axis, sin2), lambert_sphere(cap.axis, sin2));
+    return vec4f(ltc_sphere(lobe, cap.axis, sin2), lambert_sphere(cap.axis, sin2));
 }
 
-fn base_polygon(point: SurfacePoint, lobe: LtcLobe, light: Light) -> vec2f {
+fn base_polygon(point: SurfacePoint, lobe: LtcLobe, light: Light) -> vec4f {
     if gather_facing(point, light) == 0.0 {
-        return vec2f(0.0);
+        return vec4f(0.0);
     }
     var specular = ltc_begin();
     var diffuse = lambert_begin();
@@ -36,9 +36,9 @@ fn base_polygon(point: SurfacePoint, lobe: LtcLobe, light: Light) -> vec2f {
         gather_rounds += 1u;
     }
     if highest_z <= 0.0 {
-        return vec2f(0.0);
+        return vec4f(0.0);
     }
-    return vec2f(ltc_end(specular, lobe), lambert_end(diffuse));
+    return vec4f(ltc_end(specular, lobe), lambert_end(diffuse));
 }
 
 // Vertex `i` of a polygon relative to the point; vertices repeat.
@@ -51,7 +51,7 @@ fn base_vertex(point: SurfacePoint, light: Light, i: u32) -> vec3f {
 fn base_radiance(point: SurfacePoint) -> BaseRadiance {
     let lobe = ltc_lobe(point.wo, point.roughness, lobe_ltc, lobe_albedo);
     let fresnel = FresnelRgb(point.f0, point.fresnel_a);
-    let albedo = ggx_area_reflectance(lobe.albedo.x, fresnel, lobe.albedo);
+    let albedo = ggx_area_reflectance(lobe.albedo, fresnel, lobe.albedo.x);
     // What the surface does not reflect reaches the body.
     let body = point.diffuse * max(1.0 - albedo, vec3f(0.0));
 
@@ -59,20 +59,20 @@ fn base_radiance(point: SurfacePoint) -> BaseRadiance {
     var diffuse = vec3f(0.0);
     for (var i = 0u; i < frame.light_count; i += 1u) {
         let light = lights[i];
-        var share: vec2f;
+        var share: vec4f;
         if light.kind == LIGHT_SPHERE {
             share = base_sphere(point, lobe, light);
         } else {
             share = base_polygon(point, lobe, light);
         }
-        specular += light.radiance * (share.x / lobe.albedo.x);
-        diffuse += light.radiance * share.y;
+        specular += light.radiance * ggx_area_reflectance(share.xyz, fresnel, lobe.albedo.x);
+        diffuse += light.radiance * share.w;
         gather_rounds += 1u;
     }
     if scene_has_environment() {
         let mirror = vec3f(-point.wo.xy, point.wo.z);
-        specular += scene_prefiltered(world_from_surface(point, mirror), point.roughness);
+        specular += albedo * scene_prefiltered(world_from_surface(point, mirror), point.roughness);
         diffuse += scene_irradiance(point.normal) / 3.14159265;
     }
-    return BaseRadiance(specular * albedo, diffuse * body);
+    return BaseRadiance(specular, diffuse * body);
 }

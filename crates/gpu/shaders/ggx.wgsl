@@ -55,12 +55,12 @@ fn ggx_multiple_scattering(f0: f32, e0: f32) -> f32 {
     return 1.0 + f0 * (1.0 / clamp(e0, 1e-3, 1.0) - 1.0);
 }
 
-// Radiance per unit of light radiance from the lobe's integral over a light; e = (E0, E1, E2).
-fn ggx_area_reflectance(integral: f32, fresnel: FresnelRgb, e: vec3f) -> vec3f {
+// Radiance per unit of light radiance from the lobe's integrals over a light (or over the hemisphere: the albedos).
+fn ggx_area_reflectance(integrals: vec3f, fresnel: FresnelRgb, e0: f32) -> vec3f {
     let gain = vec3f(
-        ggx_multiple_scattering(fresnel.f0.x, e.x),
-        ggx_multiple_scattering(fresnel.f0.y, e.x),
-        ggx_multiple_scattering(fresnel.f0.z, e.x),
+        ggx_multiple_scattering(fresnel.f0.x, e0),
+        ggx_multiple_scattering(fresnel.f0.y, e0),
+        ggx_multiple_scattering(fresnel.f0.z, e0),
     );
-    return integral / max(e.x, 1e-3) * fresnel_albedo(fresnel, e) * gain;
+    return fresnel_albedo(fresnel, integrals) * gain;
 }

@@ -1,5 +1,5 @@
-// The GGX lobe (F = 1, cosine inside) over a polygon or a sphere, by linearly transformed cosines.
-// Needs ggx, irradiance, lobe_table. Twin: optics::ltc, which explains the method and names the papers.
+// The GGX lobe (cosine inside) over a polygon or a sphere, by linearly transformed cosines: its integrals for F = 1, (1 - c)^5
+// and c (1 - c)^6. Needs fresnel, ggx, irradiance, lobe_table. Twin: optics::ltc, which explains the method and names the papers.
 //
 // Polygons are streamed: ltc_begin, ltc_edge for each edge in order, ltc_end.
 
@@ -82,18 +82,18 @@ fn ltc_edge(state: ptr<function, PolygonIrradiance>, lobe: LtcLobe, a: vec3f, b:
     );
 }
 
-fn ltc_end(state: PolygonIrradiance, lobe: LtcLobe) -> f32 {
-    return ltc_integral(lobe, irradiance_end(state));
+fn ltc_end(state: PolygonIrradiance, lobe: LtcLobe) -> vec3f {
+    return ltc_integrals(lobe, irradiance_end(state));
 }
 
-fn ltc_sphere(lobe: LtcLobe, axis: vec3f, sin2: f32) -> f32 {
+fn ltc_sphere(lobe: LtcLobe, axis: vec3f, sin2: f32) -> vec3f {
     if (sin2 >= 1.0) {
-        return lobe.albedo.x;
+        return lobe.albedo;
     }
     if (sin2 <= 0.0) {
-        return 0.0;
+        return vec3f(0.0);
     }
-    return ltc_integral(lobe, irradiance_cone(ltc_transform_cone(lobe, lobe_rotate(lobe.x_axis, axis), sin2)));
+    return ltc_integrals(lobe, irradiance_cone(ltc_transform_cone(lobe, lobe_rotate(lobe.x_axis, axis), sin2)));
 }
 
 fn sphere_light(
@@ -103,7 +103,7 @@ fn sphere_light(
     sin2: f32,
     ltc_table: texture_2d<f32>,
     albedo_table: texture_2d<f32>,
-) -> f32 {
+) -> vec3f {
     return ltc_sphere(ltc_lobe(wo, roughness, ltc_table, albedo_table), axis, sin2);
 }
 
@@ -164,10 +164,10 @@ const LTC_RING_RADIUS: f32 = 0.8660254;
 const LTC_RING_WEIGHT: f32 = 0.16666667;
 const LTC_CENTRE_WEIGHT: f32 = 0.33333333;
 
-fn ltc_integral(lobe: LtcLobe, vector: vec3f) -> f32 {
+fn ltc_integrals(lobe: LtcLobe, vector: vec3f) -> vec3f {
     let share = clamp(vector.z / GGX_PI, 0.0, 1.0);
     if (share <= 0.0) {
-        return 0.0;
+        return vec3f(0.0);
     }
     let magnitude = length(vector);
     let centre = vector / max(magnitude, 1e-30);
@@ -176,27 +176,32 @@ fn ltc_integral(lobe: LtcLobe, vector: vec3f) -> f32 {
     let radius = LTC_RING_RADIUS * sqrt(sin2);
     let height = sqrt(max(1.0 - radius * radius, 0.0));
 
-    var sums = vec2f(ltc_exact_over_jacobian(lobe, centre), centre.z) * LTC_CENTRE_WEIGHT;
+    // GGX and its Fresnel terms, and the cosine.
+    var sums = vec4f(ltc_exact_over_jacobian(lobe, centre), centre.z) * LTC_CENTRE_WEIGHT;
     sums += ltc_ring_point(lobe, height * centre + radius * sides.u);
     sums += ltc_ring_point(lobe, height * centre + radius * sides.v);
     sums += ltc_ring_point(lobe, height * centre - radius * sides.u);
     sums += ltc_ring_point(lobe, height * centre - radius * sides.v);
-    let corrected = GGX_PI * sums.x / max(sums.y, 1e-30);
-    return min(share * mix(corrected, lobe.albedo.x, sin2 * sin2), lobe.albedo.x);
+    let corrected = GGX_PI * sums.x / max(sums.w, 1e-30);
+    let fade = sin2 * sin2;
+    let integral = min(share * mix(corrected, lobe.albedo.x, fade), lobe.albedo.x);
+    let terms = mix(sums.yz / max(sums.x, 1e-30), lobe.albedo.yz / lobe.albedo.x, fade * fade);
+    return integral * vec3f(1.0, terms);
 }
 
-fn ltc_ring_point(lobe: LtcLobe, w: vec3f) -> vec2f {
+fn ltc_ring_point(lobe: LtcLobe, w: vec3f) -> vec4f {
     if (w.z <= 0.0) {
-        return vec2f(0.0);
+        return vec4f(0.0);
     }
-    return vec2f(ltc_exact_over_jacobian(lobe, w), w.z) * LTC_RING_WEIGHT;
+    return vec4f(ltc_exact_over_jacobian(lobe, w), w.z) * LTC_RING_WEIGHT;
 }
 
-fn ltc_exact_over_jacobian(lobe: LtcLobe, w: vec3f) -> f32 {
+fn ltc_exact_over_jacobian(lobe: LtcLobe, w: vec3f) -> vec3f {
     let direction = ltc_undo_cosine(lobe, w);
     let l = max(length(direction), 1e-15);
     // c^4 / l^3 in an order that stays within range for a peak on the horizon.
     let c2_over_l = lobe.peak.y * lobe.peak.y / l;
     let jacobian = lobe.width.x * lobe.width.y * c2_over_l * c2_over_l / l;
-    return ggx_eval(direction / l, lobe.wo, lobe.alpha) * jacobian;
+    let wi = direction / l;
+    return ggx_eval(wi, lobe.wo, lobe.alpha) * jacobian * fresnel_terms(half_vector_cos(wi, lobe.wo));
 }

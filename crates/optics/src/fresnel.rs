@@ -7,6 +7,8 @@
 //!
 //! `cos_theta` is the cosine between a direction and the (micro)facet's normal, in [0, 1].
 
+use glam::DVec3;
+
 /// Unpolarised Fresnel reflectance of a conductor of refractive index n + i k (k >= 0), seen from vacuum.
 pub fn conductor(cos_theta: f64, n: f64, k: f64) -> f64 {
     let c = cos_theta.clamp(0.0, 1.0);
@@ -65,6 +67,16 @@ pub fn dip_weight(cos_theta: f64) -> f64 {
     let c = cos_theta.clamp(0.0, 1.0);
     let m2 = (1.0 - c) * (1.0 - c);
     c * m2 * m2 * m2
+}
+
+/// The three functions that [`FresnelRgb::eval`] is linear in: 1, (1 - cos)^5 and cos (1 - cos)^6.
+pub fn fresnel_terms(cos_theta: f64) -> [f64; 3] {
+    [1.0, schlick_weight(cos_theta), dip_weight(cos_theta)]
+}
+
+/// The cosine between either of two unit directions and their half vector.
+pub fn half_vector_cos(wi: DVec3, wo: DVec3) -> f64 {
+    0.5 * (wi + wo).length()
 }
 
 /// Fresnel reflectance in linear Rec.709: F(c) = f0 + (1 - f0)(1 - c)^5 - a c (1 - c)^6 for each channel.
@@ -129,7 +141,8 @@ impl FresnelRgb {
     }
 
     /// Directional albedo of a rough surface of this reflectance, single scattering: f0 (E0 - E1) + E1 - a E2, where
-    /// `e` = [E0, E1, E2] are the albedos for F = 1, (1 - c)^5 and c (1 - c)^6 (see [`crate::ggx::ggx_albedo`]).
+    /// `e` = [E0, E1, E2] are the albedos for F = 1, (1 - c)^5 and c (1 - c)^6 (see [`crate::ggx::ggx_albedo`]). From integrals of
+    /// the lobe over a light (see [`crate::ltc::polygon_light`]) it makes what that light gives.
     pub fn albedo(&self, e: [f64; 3]) -> [f64; 3] {
         std::array::from_fn(|ch| self.f0[ch] * (e[0] - e[1]) + e[1] - self.a[ch] * e[2])
     }

@@ -7,7 +7,8 @@
 //! lighting" (JCGT 2019): the energy that single scattering loses.
 //!
 //! Directions are unit vectors in the local frame, z = normal. `eval` and the lobes that stand for it hold the
-//! cosine of `wi`. Fresnel is the caller's: it multiplies the lobe (point lights) or its albedo (area lights).
+//! cosine of `wi`. Fresnel is the caller's: it multiplies the lobe, or comes in by the lobe's integrals with each of its
+//! terms (area lights).
 
 use std::f64::consts::PI;
 
@@ -140,12 +141,10 @@ pub fn ggx_multiple_scattering(f0: f64, e0: f64) -> f64 {
     1.0 + f0 * (1.0 / e0.clamp(1e-3, 1.0) - 1.0)
 }
 
-/// Radiance per unit of light radiance from the integral of the lobe over an area light: Fresnel by the ratio of
-/// albedos, times multiple scattering. `e` = [E0, E1, E2].
-pub fn ggx_area_reflectance(integral: f64, fresnel: &FresnelRgb, e: [f64; 3]) -> [f64; 3] {
-    let albedo = fresnel.albedo(e);
-    let e0 = e[0].max(1e-3);
-    std::array::from_fn(|ch| {
-        integral * albedo[ch] / e0 * ggx_multiple_scattering(fresnel.f0[ch], e[0])
-    })
+/// Radiance per unit of light radiance from the `integrals` [I0, I1, I2] of the lobe over an area light (see
+/// [`crate::ltc::polygon_light`]), Fresnel and multiple scattering inside. `e0` is the lobe's albedo for F = 1. The integrals
+/// over the hemisphere, [E0, E1, E2], give the albedo of the surface.
+pub fn ggx_area_reflectance(integrals: [f64; 3], fresnel: &FresnelRgb, e0: f64) -> [f64; 3] {
+    let single = fresnel.albedo(integrals);
+    std::array::from_fn(|ch| single[ch] * ggx_multiple_scattering(fresnel.f0[ch], e0))
 }

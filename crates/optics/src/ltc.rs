@@ -5,18 +5,20 @@
 //! is integrated against the cosine. E. Heitz and S. Hill, "Real-time line- and disk-light shading with LTCs" (2017):
 //! a cone transforms into an elliptic one.
 //!
-//! Three things differ from the papers.
+//! Four things differ from the papers.
 //! * M keeps the horizon: the lobe ends exactly where the surface does, one cut at z = 0 serves both, and a light that
 //!   covers the hemisphere returns the albedo by construction. That leaves three parameters, two widths and the angle
 //!   by which the peak leans from the mirror direction to the normal, which stay smooth down to the mirror.
 //! * What the fit misses is put back: the integral is multiplied by GGX over the fit at a few directions spread over the
 //!   visible part of the light. For a light small against the lobe the result is GGX itself.
+//! * Fresnel is taken at the same directions, and not from the lobe's average: a light shows what its own half vectors reflect.
 //! * The cut is exact for spheres too.
 
 use std::f64::consts::PI;
 
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, Vec3Swizzles};
 
+use crate::fresnel::{fresnel_terms, half_vector_cos};
 use crate::ggx::{ggx_alpha, ggx_eval};
 use crate::irradiance::{
     EllipticCone, PolygonIrradiance, irradiance_basis, irradiance_begin, irradiance_cone,
@@ -163,14 +165,17 @@ pub fn ltc_edge(state: &mut PolygonIrradiance, lobe: &LtcLobe, a: DVec3, b: DVec
     );
 }
 
-/// The integral of the lobe (F = 1, cosine inside) over the polygon, either orientation.
-pub fn ltc_end(state: &PolygonIrradiance, lobe: &LtcLobe) -> f64 {
-    ltc_integral(lobe, irradiance_end(state))
+/// The integrals of the lobe over the polygon, either orientation: [I0, I1, I2] as in [`polygon_light`].
+pub fn ltc_end(state: &PolygonIrradiance, lobe: &LtcLobe) -> [f64; 3] {
+    ltc_integrals(lobe, irradiance_end(state))
 }
 
-/// The integral of the GGX lobe (F = 1, the cosine inside) over a simple polygon, convex or not, cut by the horizon.
+/// The integrals [I0, I1, I2] of the GGX lobe (the cosine inside) for F = 1, (1 - c)^5 and c (1 - c)^6 over a simple polygon,
+/// convex or not, cut by the horizon; c is the cosine at the half vector. [`FresnelRgb::albedo`] makes reflectances of them.
 /// `wo` and the vertices (relative to the point) are in the local frame.
-pub fn polygon_light(wo: DVec3, roughness: f64, vertices: &[DVec3]) -> f64 {
+///
+/// [`FresnelRgb::albedo`]: crate::fresnel::FresnelRgb::albedo
+pub fn polygon_light(wo: DVec3, roughness: f64, vertices: &[DVec3]) -> [f64; 3] {
     let lobe = ltc_lobe(wo, roughness);
     let mut state = ltc_begin();
     for (i, &a) in vertices.iter().enumerate() {
@@ -179,23 +184,23 @@ pub fn polygon_light(wo: DVec3, roughness: f64, vertices: &[DVec3]) -> f64 {
     ltc_end(&state, &lobe)
 }
 
-/// The integral of the GGX lobe (F = 1, the cosine inside) over a sphere, cut by the horizon. `axis` is the unit direction
+/// The integrals [I0, I1, I2] of [`polygon_light`] over a sphere, cut by the horizon. `axis` is the unit direction
 /// to its centre in the local frame, `sin2` the squared sine of its angular radius: radius^2 / distance^2. From inside (sin2 >= 1)
 /// everything is lit.
-pub fn sphere_light(wo: DVec3, roughness: f64, axis: DVec3, sin2: f64) -> f64 {
+pub fn sphere_light(wo: DVec3, roughness: f64, axis: DVec3, sin2: f64) -> [f64; 3] {
     ltc_sphere(&ltc_lobe(wo, roughness), axis, sin2)
 }
 
 /// [`sphere_light`] for a lobe at hand.
-pub fn ltc_sphere(lobe: &LtcLobe, axis: DVec3, sin2: f64) -> f64 {
+pub fn ltc_sphere(lobe: &LtcLobe, axis: DVec3, sin2: f64) -> [f64; 3] {
     if sin2 >= 1.0 {
-        return lobe.albedo[0];
+        return lobe.albedo;
     }
     if sin2 <= 0.0 {
-        return 0.0;
+        return [0.0; 3];
     }
     let cone = ltc_transform_cone(lobe, lobe.rotate(axis), sin2);
-    ltc_integral(lobe, irradiance_cone(&cone))
+    ltc_integrals(lobe, irradiance_cone(&cone))
 }
 
 /// Sweeps over the three pairs of axes in [`ltc_transform_cone`]. After three, what is left is below single precision.
@@ -263,16 +268,16 @@ const RING_RADIUS: f64 = 0.866_025_403_784_438_6;
 const RING_WEIGHT: f64 = 1.0 / 6.0;
 const CENTRE_WEIGHT: f64 = 1.0 / 3.0;
 
-/// The lobe's integral from the light's vector irradiance in the cosine's space: E0 times the share of the cosine, times
-/// the mean of GGX over the fit.
+/// The lobe's integrals from the light's vector irradiance in the cosine's space: E0 times the share of the cosine, times
+/// the mean of GGX over the fit; then that, times the means of the Fresnel terms over GGX.
 ///
-/// The mean is taken over the circular cap that has the same irradiance. It fades as the light comes to fill the hemisphere,
-/// where the integral is E0 exactly.
-fn ltc_integral(lobe: &LtcLobe, vector: DVec3) -> f64 {
+/// The means are taken over the circular cap that has the same irradiance. They fade as the light comes to fill the hemisphere,
+/// where the integrals are E0, E1, E2 exactly.
+fn ltc_integrals(lobe: &LtcLobe, vector: DVec3) -> [f64; 3] {
     let share = (vector.z / PI).clamp(0.0, 1.0);
     let length = vector.length();
     if share <= 0.0 {
-        return 0.0;
+        return [0.0; 3];
     }
     let centre = vector / length;
     let sin2 = (length / PI).min(1.0);
@@ -290,18 +295,25 @@ fn ltc_integral(lobe: &LtcLobe, vector: DVec3) -> f64 {
             cosine += RING_WEIGHT * w.z;
         }
     }
-    let corrected = PI * exact / cosine.max(1e-30);
+    let corrected = PI * exact.x / cosine.max(1e-30);
     let fade = sin2 * sin2;
+    let [e0, e1, e2] = lobe.albedo;
     // A part returns no more than the whole.
-    (share * (corrected + fade * (lobe.albedo[0] - corrected))).min(lobe.albedo[0])
+    let integral = (share * (corrected + fade * (e0 - corrected))).min(e0);
+    // A mean of the terms over some directions or other: whatever it is made of, a reflectance stays within its range.
+    let terms = exact.yz() / exact.x.max(1e-30);
+    let terms = terms.lerp(DVec2::new(e1, e2) / e0, fade * fade);
+    [integral, integral * terms.x, integral * terms.y]
 }
 
-/// GGX at the direction that `w` stands for, times the solid angle there per solid angle at w.
-fn ltc_exact_over_jacobian(lobe: &LtcLobe, w: DVec3) -> f64 {
+/// GGX and its Fresnel terms at the direction that `w` stands for, times the solid angle there per solid angle at w.
+fn ltc_exact_over_jacobian(lobe: &LtcLobe, w: DVec3) -> DVec3 {
     let direction = lobe.undo_cosine(w);
     let l = direction.length().max(1e-15);
     // c^4 / l^3 in an order that stays within single precision for a peak on the horizon.
     let c2_over_l = lobe.peak.y * lobe.peak.y / l;
     let jacobian = lobe.width.x * lobe.width.y * c2_over_l * c2_over_l / l;
-    ggx_eval(direction / l, lobe.wo, lobe.alpha) * jacobian
+    let wi = direction / l;
+    let terms = DVec3::from(fresnel_terms(half_vector_cos(wi, lobe.wo)));
+    ggx_eval(wi, lobe.wo, lobe.alpha) * jacobian * terms
 }

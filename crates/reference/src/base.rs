@@ -3,7 +3,7 @@
 use crate::light_view::{LightView, LightViews};
 use crate::surface::SurfacePoint;
 use glam::DVec3;
-use hairline_optics::ggx::ggx_multiple_scattering;
+use hairline_optics::ggx::ggx_area_reflectance;
 use hairline_optics::irradiance::{lambert_polygon, lambert_sphere};
 use hairline_optics::ltc::{ltc_begin, ltc_edge, ltc_end, ltc_lobe, ltc_sphere};
 use hairline_scene::Environment;
@@ -23,16 +23,20 @@ pub(crate) fn base_radiance(
     views: &LightViews,
 ) -> BaseRadiance {
     let lobe = ltc_lobe(point.wo, point.roughness);
-    let [e0, e1, e2] = lobe.albedo;
-    let single = DVec3::from(point.fresnel.albedo([e0, e1, e2]));
-    let compensation = DVec3::from(point.fresnel.f0).map(|f0| ggx_multiple_scattering(f0, e0));
-    let albedo = single * compensation;
+    let reflectance = |integrals| {
+        DVec3::from(ggx_area_reflectance(
+            integrals,
+            &point.fresnel,
+            lobe.albedo[0],
+        ))
+    };
+    let albedo = reflectance(lobe.albedo);
     // What the surface does not reflect reaches the body.
     let body = point.diffuse * (DVec3::ONE - albedo).max(DVec3::ZERO);
 
     let (mut specular, mut diffuse) = (DVec3::ZERO, DVec3::ZERO);
     for light in &views.views {
-        let (integral, form_factor, radiance) = match light {
+        let (integrals, form_factor, radiance) = match light {
             LightView::Sphere { cap, radiance } => {
                 // A cap that holds every direction stands for a sphere around the point.
                 let sin2 = if cap.cos_radius < 0.0 {
@@ -62,16 +66,17 @@ pub(crate) fn base_radiance(
                 (ltc_end(&state, &lobe), lambert_polygon(vertices), radiance)
             }
         };
-        specular += *radiance * (integral / e0);
+        specular += *radiance * reflectance(integrals);
         diffuse += *radiance * form_factor;
     }
     if let Some(environment) = environment {
         let mirror = DVec3::new(-point.wo.x, -point.wo.y, point.wo.z);
-        specular += environment.prefiltered(point.world_from_surface(mirror), point.roughness);
+        specular +=
+            albedo * environment.prefiltered(point.world_from_surface(mirror), point.roughness);
         diffuse += environment.irradiance(point.normal) / std::f64::consts::PI;
     }
     BaseRadiance {
-        specular: specular * albedo,
+        specular,
         diffuse: diffuse * body,
     }
 }

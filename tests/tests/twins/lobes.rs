@@ -6,7 +6,9 @@ use crate::twin::{Sequence, Tolerance, Twin};
 use glam::{DVec3, Vec3};
 use hairline_gpu::call::{Call, Table};
 use hairline_gpu::{headless, shaders};
-use hairline_optics::fresnel::{FresnelRgb, dip_weight, schlick_weight};
+use hairline_optics::fresnel::{
+    FresnelRgb, dip_weight, fresnel_terms, half_vector_cos, schlick_weight,
+};
 use hairline_optics::ggx::*;
 use hairline_optics::irradiance::*;
 use hairline_optics::lobe_table::*;
@@ -153,7 +155,7 @@ fn ggx() {
             let wi = vec3f(x[4], x[5], x[6]);
             let alpha = ggx_alpha(x[3]);
             let f = FresnelRgb(vec3f(x[7], 0.5, 1.0), vec3f(0.3));
-            let r = ggx_area_reflectance(0.7, f, vec3f(0.1 + 0.9 * x[7], 0.1 * x[7], 0.02));
+            let r = ggx_area_reflectance(0.7 * vec3f(1.0, 0.1 * x[7], 0.02), f, 0.1 + 0.9 * x[7]);
             y[0] = alpha;
             y[1] = ggx_d(wo + wi, alpha) * alpha * alpha;
             y[2] = ggx_g1(wi.z, alpha);
@@ -161,7 +163,9 @@ fn ggx() {
             y[4] = ggx_eval(wi, wo, alpha) * alpha * alpha * alpha;
             y[5] = ggx_multiple_scattering(x[7], x[3]) * max(x[3], 1e-3);
             y[6] = r.x; y[7] = r.y; y[8] = r.z;
-            y[9] = ggx_curved_roughness(x[3], x[7] * x[7] * x[7]);",
+            y[9] = ggx_curved_roughness(x[3], x[7] * x[7] * x[7]);
+            let terms = fresnel_terms(half_vector_cos(wi, wo));
+            y[10] = terms.x; y[11] = terms.y; y[12] = terms.z;",
         tables: &[],
         expected: &|[ox, oy, oz, roughness, ix, iy, iz, f0]: [f64; 8]| {
             let (wo, wi) = (v(ox, oy, oz), v(ix, iy, iz));
@@ -170,7 +174,8 @@ fn ggx() {
                 f0: [f0, 0.5, 1.0],
                 a: [0.3; 3],
             };
-            let r = ggx_area_reflectance(0.7, &f, [0.1 + 0.9 * f0, 0.1 * f0, 0.02]);
+            let r = ggx_area_reflectance([0.7, 0.07 * f0, 0.014], &f, 0.1 + 0.9 * f0);
+            let terms = fresnel_terms(half_vector_cos(wi, wo));
             [
                 alpha,
                 ggx_d(wo + wi, alpha) * alpha * alpha,
@@ -182,6 +187,9 @@ fn ggx() {
                 r[1],
                 r[2],
                 ggx_curved_roughness(roughness, f0 * f0 * f0),
+                terms[0],
+                terms[1],
+                terms[2],
             ]
         },
         // The half vector's tangential part is rounded at 6e-8, which is 3e-5 of the narrowest lobe's width; D goes with its
@@ -387,7 +395,7 @@ fn sphere_rows(count: usize) -> Rows<9> {
         row[7] = sin2;
         let x = row.map(f64::from);
         let mirror = v(-x[0], -x[1], x[2].max(LOBE_MIN_COS)).normalize();
-        let brightest = sphere_light(v(x[0], x[1], x[2]), x[3], mirror, x[7]);
+        let brightest = sphere_light(v(x[0], x[1], x[2]), x[3], mirror, x[7])[0];
         row[8] = brightest.max(1e-12) as f32;
         rows.push(row, axis.z, sin2.sqrt());
     }
@@ -405,13 +413,17 @@ fn spheres() {
         name: "sphere_light and lambert_sphere",
         modules: &[&shaders::LTC],
         snippet: "let axis = vec3f(x[4], x[5], x[6]);
-            y[0] = sphere_light(vec3f(x[0], x[1], x[2]), x[3], axis, x[7], table_0, table_1) / x[8];
-            y[1] = lambert_sphere(axis, x[7]) / max(x[7], 1e-12);",
+            let i = sphere_light(vec3f(x[0], x[1], x[2]), x[3], axis, x[7], table_0, table_1) / x[8];
+            y[0] = i.x; y[1] = i.y; y[2] = i.z;
+            y[3] = lambert_sphere(axis, x[7]) / max(x[7], 1e-12);",
         tables: &tables,
         expected: &|row| {
             let (wo, roughness, axis, sin2, brightest) = sphere_row(row);
+            let [i0, i1, i2] = sphere_light(wo, roughness, axis, sin2).map(|i| i / brightest);
             [
-                sphere_light(wo, roughness, axis, sin2) / brightest,
+                i0,
+                i1,
+                i2,
                 lambert_sphere(axis, sin2) / sin2.max(1e-12),
             ]
         },
@@ -487,7 +499,7 @@ fn polygon_rows(count: usize) -> Rows<17> {
         let solid_angle = 0.5 * diagonals.length() / middle.length_squared();
         let mirror = v(-wo.x, -wo.y, wo.z.max(LOBE_MIN_COS)).normalize();
         let sin2 = (solid_angle / PI).min(1.0 - 1e-9);
-        row[16] = sphere_light(wo, roughness, mirror, sin2).max(1e-12) as f32;
+        row[16] = sphere_light(wo, roughness, mirror, sin2)[0].max(1e-12) as f32;
         // The longest half diagonal, seen on, is sqrt(5) times `size`.
         let narrow = size * thin;
         rows.push(row, centre.z - 2.3 * size, narrow);
@@ -516,15 +528,14 @@ fn polygons() {
                 ltc_edge(&ltc, lobe, a, b);
                 lambert_edge(&lambert, a, b);
             }
-            y[0] = ltc_end(ltc, lobe) / x[16];
-            y[1] = lambert_end(lambert);",
+            let i = ltc_end(ltc, lobe) / x[16];
+            y[0] = i.x; y[1] = i.y; y[2] = i.z;
+            y[3] = lambert_end(lambert);",
         tables: &tables,
         expected: &|row| {
             let (wo, roughness, corners, brightest) = polygon_row(row);
-            [
-                polygon_light(wo, roughness, &corners) / brightest,
-                lambert_polygon(&corners),
-            ]
+            let [i0, i1, i2] = polygon_light(wo, roughness, &corners).map(|i| i / brightest);
+            [i0, i1, i2, lambert_polygon(&corners)]
         },
         tolerance: CLEAR,
     };
@@ -577,18 +588,21 @@ fn never_nan_in_the_shader() {
             let axis = corners[0];
             let sides = irradiance_basis(axis);
             let cone = EllipticCone(axis, min(x[17], x[18]), sides.u, max(x[17], x[18]), sides.v);
-            y[0] = ltc_end(ltc, lobe);
+            let of_polygon = ltc_end(ltc, lobe);
+            let of_sphere = ltc_sphere(lobe, axis, x[7]);
+            y[0] = of_polygon.x;
             y[1] = lambert_end(lambert);
-            y[2] = ltc_sphere(lobe, axis, x[7]);
+            y[2] = of_sphere.x;
             y[3] = lambert_sphere(axis, x[7]);
             y[4] = sptd_sphere(pivot, axis, x[7]);
             y[5] = sptd_sphere_published(pivot, axis, x[7]);
             y[6] = length(irradiance_cone(cone)) / 3.1416;
-            y[7] = min(ggx_eval(axis, wo, lobe.alpha), 1.0);",
+            y[7] = min(ggx_eval(axis, wo, lobe.alpha), 1.0);
+            y[8] = of_polygon.y; y[9] = of_polygon.z; y[10] = of_sphere.y; y[11] = of_sphere.z;",
         tables: &tables,
     };
     let rows = wild_rows(1_000_000);
-    let results: Vec<[f32; 8]> = gpu.block_on(call.run(gpu, &rows)).unwrap();
+    let results: Vec<[f32; 12]> = gpu.block_on(call.run(gpu, &rows)).unwrap();
     for (row, result) in rows.iter().zip(&results) {
         // No light returns more than the whole hemisphere's; the albedo table is good to 0.005.
         let good = result.iter().all(|v| (0.0..=1.01).contains(v));
@@ -612,10 +626,16 @@ fn never_nan_in_the_optics() {
             t2: x[17].max(x[18]),
         };
         let (lobe, pivot) = (ltc_lobe(wo, x[3]), sptd_lobe(wo, x[3]));
+        let of_polygon = polygon_light(wo, x[3], &corners);
+        let of_sphere = ltc_sphere(&lobe, axis, x[7]);
         let results = [
-            polygon_light(wo, x[3], &corners),
+            of_polygon[0],
+            of_polygon[1],
+            of_polygon[2],
             lambert_polygon(&corners),
-            ltc_sphere(&lobe, axis, x[7]),
+            of_sphere[0],
+            of_sphere[1],
+            of_sphere[2],
             lambert_sphere(axis, x[7]),
             sptd_sphere(&pivot, axis, x[7]),
             sptd_sphere_published(&pivot, axis, x[7]),

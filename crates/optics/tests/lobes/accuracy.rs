@@ -2,10 +2,15 @@
 //!
 //! An error is |approximate - exact| over the largest exact value that a light of this shape and size has on this surface, seen from
 //! this angle, wherever it stands. So an error of 1 % is 1 % of the brightest highlight that can be had.
+//!
+//! With a Fresnel reflectance the exact value is the integral of GGX times that reflectance at the half vector.
 
 use glam::DVec3;
+use hairline_optics::fresnel::{FresnelRgb, fresnel_terms};
 use hairline_optics::ggx::{ggx_alpha, ggx_eval};
+use hairline_optics::lobe_table::albedo_lookup;
 use hairline_optics::ltc::{polygon_light, sphere_light};
+use hairline_optics::metal::Metal;
 use hairline_optics::sptd::{sptd_lobe, sptd_sphere, sptd_sphere_published};
 use rayon::prelude::*;
 
@@ -88,6 +93,40 @@ impl Surface {
     }
 }
 
+/// GGX with each of the terms that reflectances are linear in.
+fn ggx_terms(wo: DVec3, alpha: f64) -> impl Fn(DVec3) -> DVec3 {
+    move |wi| {
+        let cos_h = wo.dot((wi + wo).normalize());
+        ggx_eval(wi, wo, alpha) * DVec3::from(fresnel_terms(cos_h))
+    }
+}
+
+/// Reflectances in one channel: a dielectric, whose lobe's average is far from what it shows of most lights; gold's blue, which
+/// rises; chromium, with the deepest dip.
+fn reflectances() -> [(&'static str, FresnelRgb); 3] {
+    let channel = |metal: Metal, ch: usize| {
+        let fresnel = metal.fresnel_rgb();
+        FresnelRgb {
+            f0: [fresnel.f0[ch]; 3],
+            a: [fresnel.a[ch]; 3],
+        }
+    };
+    [
+        ("F0 = 0.04", FresnelRgb::schlick([0.04; 3])),
+        ("gold, blue", channel(Metal::Gold, 2)),
+        ("chromium", channel(Metal::Chromium, 0)),
+    ]
+}
+
+/// For each reflectance: the integral's own, and that for F = 1 times the ratio of albedos, which is what many renderers do.
+fn reflected(surface: &Surface, integrals: [f64; 3]) -> [[f64; 2]; 3] {
+    let e = albedo_lookup(surface.roughness, surface.wo.z);
+    reflectances().map(|(_, fresnel)| {
+        let ratio = fresnel.albedo(e)[0] / e[0];
+        [fresnel.albedo(integrals)[0], integrals[0] * ratio]
+    })
+}
+
 struct Sample {
     error: f64,
     exact: f64,
@@ -153,9 +192,9 @@ fn summarise(name: &str, samples: &[Sample]) -> Summary {
     }
 }
 
-/// Measures one kind of light: `evaluate` gives (approximate..., exact) for a light at a place.
+/// Measures one kind of light: `evaluate` gives (approximate, exact) of several quantities for a light at a place.
 fn measure<const N: usize>(
-    evaluate: impl Fn(&Surface, DVec3, f64) -> ([f64; N], f64) + Sync,
+    evaluate: impl Fn(&Surface, DVec3, f64) -> [(f64, f64); N] + Sync,
     what: &str,
 ) -> [Vec<Sample>; N] {
     let groups: Vec<[Vec<Sample>; N]> = Surface::grid()
@@ -167,12 +206,13 @@ fn measure<const N: usize>(
                 .into_iter()
                 .map(|(place, centre)| (place, evaluate(surface, centre, radius_rad)))
                 .collect();
-            let brightest = cases.iter().map(|c| c.1.1).fold(0.0, f64::max);
             std::array::from_fn(|k| {
+                let brightest = cases.iter().map(|c| c.1[k].1).fold(0.0, f64::max);
                 cases
                     .iter()
+                    .map(|(place, values)| (place, values[k]))
                     .map(|(place, (approximate, exact))| Sample {
-                        error: (approximate[k] - exact).abs() / brightest,
+                        error: (approximate - exact).abs() / brightest,
                         exact: exact / brightest,
                         angle_deg: surface.angle_deg,
                         radius_rad,
@@ -192,9 +232,24 @@ fn measure<const N: usize>(
     all
 }
 
+/// What [`measure`] compares for a light: each reflectance's two approximations.
+fn compared(surface: &Surface, approximate: [f64; 3], exact: DVec3) -> [(f64, f64); 6] {
+    let exact = reflectances().map(|(_, fresnel)| fresnel.albedo(exact.into())[0]);
+    let approximate = reflected(surface, approximate);
+    std::array::from_fn(|k| (approximate[k / 2][k % 2], exact[k / 2]))
+}
+
+/// Prints and checks errors with Fresnel: (reflectance's own, ratio of albedos) for each of [`reflectances`].
+fn judge_reflectances(name: &str, samples: &[Vec<Sample>; 6]) {
+    for (pair, (material, _)) in samples.chunks(2).zip(reflectances()) {
+        summarise(&format!("{name}, {material}"), &pair[0]);
+        summarise(&format!("{name}, {material}, ratio of albedos"), &pair[1]);
+    }
+}
+
 #[test]
 fn spheres_match_ggx() {
-    let [default, pivot, published] = measure(
+    let [default, pivot, published, r0, r1, r2, r3, r4, r5] = measure(
         |surface, centre, radius_rad| {
             let (wo, alpha) = (surface.wo, surface.alpha);
             let sin2 = radius_rad.sin().powi(2);
@@ -202,20 +257,29 @@ fn spheres_match_ggx() {
                 axis: centre,
                 radius_rad,
             };
-            let exact = integrate(light, surface.peak(), &|wi| ggx_eval(wi, wo, alpha));
+            let exact = integrate(light, surface.peak(), &ggx_terms(wo, alpha));
             let lobe = sptd_lobe(wo, surface.roughness);
-            let approximate = [
-                sphere_light(wo, surface.roughness, centre, sin2),
+            let integrals = sphere_light(wo, surface.roughness, centre, sin2);
+            let plain = [
+                integrals[0],
                 sptd_sphere(&lobe, centre, sin2),
                 sptd_sphere_published(&lobe, centre, sin2),
             ];
-            (approximate, exact)
+            let reflected = compared(surface, integrals, exact);
+            std::array::from_fn(|k| {
+                if k < 3 {
+                    (plain[k], exact.x)
+                } else {
+                    reflected[k - 3]
+                }
+            })
         },
         "sphere",
     );
     let summary = summarise("sphere_light", &default);
     let pivot = summarise("sptd_sphere", &pivot);
     let published = summarise("sptd_sphere_published", &published);
+    judge_reflectances("sphere_light", &[r0, r1, r2, r3, r4, r5]);
     assert!(summary.mean < 0.5, "mean {} %", summary.mean);
     assert!(summary.worst < 12.0, "worst {} %", summary.worst);
     assert!(pivot.mean < 3.0, "mean {} %", pivot.mean);
@@ -249,9 +313,10 @@ fn outlines() -> [(&'static str, Vec<(f64, f64)>); 4] {
 #[test]
 fn polygons_match_ggx() {
     let mut all = Vec::new();
+    let mut reflected: [Vec<Sample>; 6] = std::array::from_fn(|_| Vec::new());
     for (name, outline) in outlines() {
         for tilt in [0.0, 1.0] {
-            let [samples] = measure(
+            let [samples, parts @ ..] = measure(
                 |surface, centre, radius_rad| {
                     let (wo, alpha) = (surface.wo, surface.alpha);
                     let (x, y) = centre.any_orthonormal_pair();
@@ -263,16 +328,22 @@ fn polygons_match_ggx() {
                         .map(|&(u, v)| 2.0 * (centre + radius_rad.tan() * (u * x + v * y)))
                         .collect();
                     let exact =
-                        integrate_polygon(&vertices, surface.peak(), &|wi| ggx_eval(wi, wo, alpha));
-                    ([polygon_light(wo, surface.roughness, &vertices)], exact)
+                        integrate_polygon(&vertices, surface.peak(), &ggx_terms(wo, alpha)).abs();
+                    let integrals = polygon_light(wo, surface.roughness, &vertices);
+                    let [a, b, c, d, e, f] = compared(surface, integrals, exact);
+                    [(integrals[0], exact.x), a, b, c, d, e, f]
                 },
                 name,
             );
             summarise(&format!("polygon_light, {name}, tilt {tilt}"), &samples);
             all.extend(samples);
+            for (all, part) in reflected.iter_mut().zip::<[Vec<Sample>; 6]>(parts) {
+                all.extend(part);
+            }
         }
     }
     let summary = summarise("polygon_light, all", &all);
+    judge_reflectances("polygon_light, all", &reflected);
     assert!(summary.mean < 0.5, "mean {} %", summary.mean);
     assert!(summary.worst < 25.0, "worst {} %", summary.worst);
 }

@@ -5,6 +5,7 @@
 //! horizon, where lobes have a kink, are cut further.
 
 use std::f64::consts::PI;
+use std::ops::{Add, Mul};
 
 use glam::DVec3;
 
@@ -62,10 +63,15 @@ impl Patch for Triangle {
     }
 }
 
+/// What can be integrated: a number, or several at once.
+pub trait Integrand: Copy + Default + Add<Output = Self> + Mul<f64, Output = Self> {}
+
+impl<T: Copy + Default + Add<Output = T> + Mul<f64, Output = T>> Integrand for T {}
+
 /// The integral of `lobe` over the part of a patch above the horizon.
-pub fn integrate(patch: impl Patch, peak: Peak, lobe: &dyn Fn(DVec3) -> f64) -> f64 {
+pub fn integrate<T: Integrand>(patch: impl Patch, peak: Peak, lobe: &dyn Fn(DVec3) -> T) -> T {
     let mut cells = vec![([0.0, 1.0], [0.0, 0.5], 0), ([0.0, 1.0], [0.5, 1.0], 0)];
-    let mut sum = 0.0;
+    let mut sum = T::default();
     while let Some((u, v, depth)) = cells.pop() {
         let at = |i: usize, j: usize| {
             let lerp = |r: [f64; 2], k: usize| r[0] + 0.5 * k as f64 * (r[1] - r[0]);
@@ -100,7 +106,8 @@ pub fn integrate(patch: impl Patch, peak: Peak, lobe: &dyn Fn(DVec3) -> f64) -> 
                 let (direction, measure) =
                     patch.at(u[0] + half_u * (1.0 + x), v[0] + half_v * (1.0 + y));
                 if direction.z > 0.0 {
-                    sum += weight_x * weight_y * half_u * half_v * measure * lobe(direction);
+                    let weight = weight_x * weight_y * half_u * half_v * measure;
+                    sum = sum + lobe(direction) * weight;
                 }
             }
         }
@@ -108,9 +115,14 @@ pub fn integrate(patch: impl Patch, peak: Peak, lobe: &dyn Fn(DVec3) -> f64) -> 
     sum
 }
 
-/// The integral over a polygon whose vertices all lie in one plane, convex or not, as a fan of signed triangles.
-pub fn integrate_polygon(vertices: &[DVec3], peak: Peak, lobe: &dyn Fn(DVec3) -> f64) -> f64 {
-    let fan = (1..vertices.len() - 1)
+/// The integral over a polygon whose vertices all lie in one plane, convex or not, as a fan of triangles; its sign is that of
+/// the polygon's orientation.
+pub fn integrate_polygon<T: Integrand>(
+    vertices: &[DVec3],
+    peak: Peak,
+    lobe: &dyn Fn(DVec3) -> T,
+) -> T {
+    (1..vertices.len() - 1)
         .map(|i| {
             integrate(
                 Triangle([vertices[0], vertices[i], vertices[i + 1]]),
@@ -118,6 +130,5 @@ pub fn integrate_polygon(vertices: &[DVec3], peak: Peak, lobe: &dyn Fn(DVec3) ->
                 lobe,
             )
         })
-        .sum::<f64>();
-    fan.abs()
+        .fold(T::default(), T::add)
 }
