@@ -115,7 +115,7 @@ fn crops_of_the_scenes() {
         ("plate", [0.36, 0.53], SCRATCHES),
         ("spoon", [0.33, 0.47], SCRATCHES),
     ] {
-        let scene = Scene::load(&root.join(format!("scenes/{name}.toml"))).unwrap();
+        let scene = Scene::load(root.join(format!("scenes/{name}.toml"))).unwrap();
         let scene = crop(scene, place, 12);
         let (exact, reference) = (closed(&scene), sampled(&scene, LINEAR, 8));
         let [scratches, base] =
