@@ -1,10 +1,10 @@
 //! The talk's anti-aliasing: a blend of the pixel's two limits, and the density that masks the base.
 //!
-//! The talk writes |eta_phi|^2 = a (integral over the plane of |eta_s|^2, for the contained length)
-//! + (1 - a) A_phi |eta_s|^2 with a = min(A_phi/(2 A_c), 1). Both terms are integrals over the pixel, in um^4: the first
-//! where the pixel is far larger than the window (an endless scratch has 2 pi^1.5 sigma^3 per unit of length), the second
-//! where it is far smaller. What shading needs is the mean over the pixel, so here both are divided by A_phi, and by
-//! 2 pi^1.5 sigma^3 / W to become the share rho of [`crate::scratch::window_share`].
+//! The talk writes |eta_phi|^2 as the sum of two terms: a times the integral over the plane of |eta_s|^2 for the contained
+//! length, and (1 - a) A_phi |eta_s|^2, with a = min(A_phi/(2 A_c), 1). Both are integrals over the pixel, in um^4: the
+//! first where the pixel is far larger than the window (an endless scratch has 2 pi^1.5 sigma^3 per unit of length), the
+//! second where it is far smaller. What shading needs is the mean over the pixel. So here both are divided by A_phi, and
+//! by 2 pi^1.5 sigma^3 / W to become the share rho of [`crate::scratch::window_share`].
 //!
 //! A_c, the coherence area, is taken to be pi sigma^2, the integral of the window's square by which the talk normalises
 //! its BRDF. Off, no footprint at all, is [`crate::footprint::scratch_share`] under a footprint of zero.
