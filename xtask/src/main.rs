@@ -1,5 +1,6 @@
 //! What is not cargo's own. `cargo xtask COMMAND`; each command is one file.
 
+mod accuracy;
 mod fit_lobes;
 mod make_models;
 mod pictures;
@@ -9,6 +10,8 @@ use clap::Parser;
 #[derive(Parser)]
 #[command(name = "cargo xtask", about)]
 enum Command {
+    /// Measure closed form, separable model and full one against each other, and write docs/accuracy.md.
+    Accuracy(accuracy::Accuracy),
     /// Fit the tables of the area-light lobes and write them to crates/optics/data.
     FitLobes(fit_lobes::FitLobes),
     /// Make the models of scenes/ and write them to scenes/models.
@@ -19,6 +22,7 @@ enum Command {
 
 fn main() -> anyhow::Result<()> {
     match Command::parse() {
+        Command::Accuracy(command) => command.run(),
         Command::FitLobes(command) => command.run(),
         Command::MakeModels(command) => command.run(),
         Command::Pictures(command) => command.run(),
