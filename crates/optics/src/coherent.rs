@@ -5,15 +5,24 @@
 //! or dropped. [`coherent_response`] sums grooves, 1 - sum of D, also where they cross; [`GrooveField`] has one floor
 //! there, the deeper one.
 
+mod cell;
 mod crossings;
+mod ends;
+mod field;
+mod lanes;
+mod legendre;
+mod polygon;
 mod window;
 
-pub use crossings::GrooveField;
+pub use field::GrooveField;
 pub use window::window_fourier;
 
 use glam::DVec2;
 use num_complex::Complex64;
 use std::f64::consts::PI;
+
+/// What may be left out of a term of [`GrooveField::responses`], relative to the window's whole integral.
+const TOLERANCE: f64 = 3e-11;
 
 /// One straight piece of a groove as seen from the point that the window is centred on, in the surface's frame.
 #[derive(Clone, Copy, Debug, PartialEq)]

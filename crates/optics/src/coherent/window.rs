@@ -6,7 +6,7 @@ use spec_math::cephes64::{erf, erfc};
 use std::f64::consts::SQRT_2;
 
 /// Beyond 6 sqrt(2) = 8.5 sigma the window holds 2e-17 of its integral.
-const REACH: f64 = 6.0;
+pub(super) const REACH: f64 = 6.0;
 
 /// The Fourier integral of the window over an interval, relative to its whole integral:
 /// 1/(sqrt(2 pi) sigma) times the integral of exp(-s^2/(2 sigma^2) - i kappa s) over s from `low_um` to `high_um`, either

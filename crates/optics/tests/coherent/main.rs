@@ -2,6 +2,7 @@
 
 mod energy;
 mod far_field;
+mod fast;
 mod fringes;
 mod height_field;
 mod limits;
