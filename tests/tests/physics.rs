@@ -206,7 +206,8 @@ fn a_small_picture_of_a_sphere_is_the_mean_of_a_large_one() {
         "curvature: light of the small picture over the large one's {ratio:.3}, rms {:.1} %",
         100.0 * relative_rms(&small.scratches, &means)
     );
-    // A pixel here spans 4 degrees of the ball; with a band that does not know of it the rms error is 81 %.
+    // A pixel here spans 4 degrees of the ball; with a band that does not know of it the rms error is 81 %, with one that is
+    // widened and not moved 23 %.
     assert!((ratio - 1.0).abs() < 0.02, "{ratio}");
-    assert!(relative_rms(&small.scratches, &means) < 0.3);
+    assert!(relative_rms(&small.scratches, &means) < 0.2);
 }

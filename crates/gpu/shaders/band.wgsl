@@ -57,9 +57,28 @@ fn band_stds(coherence_um: f32) -> vec4f {
     return band_std(coherence_um, 1.0) * BAND_MEAN_NM;
 }
 
-// Standard deviations of the band as a pixel sees it on a curved surface.
-fn curved_band_std(stds: vec4f, turn_t: vec2f, cos_sum: f32) -> vec4f {
-    return min(sqrt(stds * stds + cos_sum * cos_sum * dot(turn_t, turn_t)), vec4f(BAND_STD_MAX));
+// How xi_t moves over one standard deviation of the pixel's filter.
+fn band_move(turn_t: f32, axis: vec3f, wo: vec3f, per_distance_o: f32, wi: vec3f, per_distance_i: f32) -> f32 {
+    let by_wo = (wo.x * dot(axis, wo) - axis.x) * per_distance_o;
+    let by_wi = (wi.x * dot(axis, wi) - axis.x) * per_distance_i;
+    return by_wo + by_wi - turn_t * max(wo.z + wi.z, 0.0);
+}
+
+// A band as a pixel sees it.
+struct MovedBand {
+    shift: f32,
+    stds: vec4f,
+}
+
+// The band of a scratch that a pixel sees at a distance across it.
+fn moved_band(stds: vec4f, moves: vec2f, across_um: vec2f, offset_um: f32, variance_um2: f32) -> MovedBand {
+    let slope = dot(moves, across_um) / variance_um2;
+    let left = moves - slope * across_um;
+    let window = slope * slope * max(variance_um2 - dot(across_um, across_um), 0.0);
+    return MovedBand(
+        clamp(slope * offset_um, -BAND_STD_MAX, BAND_STD_MAX),
+        min(sqrt(stds * stds + (dot(left, left) + window)), vec4f(BAND_STD_MAX)),
+    );
 }
 
 fn band_reaches(lowest: f32, highest: f32, stds: vec4f) -> bool {

@@ -25,6 +25,8 @@ struct SegmentView {
     start: vec3f,               // ends in the scratch's frame, um
     end: vec3f,
     wo: vec3f,
+    axis_x: vec3f,              // one standard deviation of the pixel's filter to the right and down, um
+    axis_y: vec3f,
     width_um: f32,
     depth_nm: f32,
 }
@@ -39,22 +41,29 @@ fn gather_view(point: SurfacePoint, segment: ScratchSegment) -> SegmentView {
         band_from_surface(tangent, start),
         band_from_surface(tangent, end),
         band_from_surface(tangent, point.wo),
+        band_from_surface(tangent, surface_from_world(point, point.footprint_x_m)) * 1e6,
+        band_from_surface(tangent, surface_from_world(point, point.footprint_y_m)) * 1e6,
         segment.width_um,
         segment.depth_nm,
     );
 }
 
+// Distance of a scratch across its tangent.
+fn gather_offset_um(view: SegmentView) -> f32 {
+    return 0.5 * (view.start.y + view.end.y);
+}
+
 // The share of a segment; zero where it lies on another side of the surface or out of the footprint's reach.
 fn gather_share(point: SurfacePoint, segment: ScratchSegment, view: SegmentView) -> ScratchShare {
-    let axis_x = band_from_surface(view.tangent, surface_from_world(point, point.footprint_x_m)) * 1e6;
-    let axis_y = band_from_surface(view.tangent, surface_from_world(point, point.footprint_y_m)) * 1e6;
+    let axis_x = view.axis_x;
+    let axis_y = view.axis_y;
     let footprint = Footprint(
         axis_x.y * axis_x.y + axis_y.y * axis_y.y,
         axis_x.x * axis_x.x + axis_y.x * axis_y.x,
         axis_x.x * axis_x.y + axis_y.x * axis_y.y,
     );
     let sigma = point.coherence_um;
-    let offset_um = 0.5 * (view.start.y + view.end.y);
+    let offset_um = gather_offset_um(view);
     let beyond = offset_um * offset_um > REACH_STD * REACH_STD * (footprint.across_um2 + 0.5 * sigma * sigma);
     let elsewhere = dot(segment.normal, point.normal) < FACING_MIN_COS;
     if beyond || elsewhere || !(view.end.x > view.start.x) {
@@ -78,14 +87,15 @@ fn gather_arc(point: SurfacePoint, view: SegmentView, line: BandLine, cos_i: f32
 fn gather_sphere(point: SurfacePoint, view: SegmentView, light: Light, flat_stds: vec4f) -> vec3f {
     var cap = sphere_cap(surface_from_world(point, light.center_m - point.position_m), light.radius_m);
     cap.axis = band_from_surface(view.tangent, cap.axis);
-    let extent = sphere_band_extent(view.wo, cap);
-    let stds = gather_stds(point, view, flat_stds, cap.axis);
-    let lines = band_lines(view.wo.x, extent.x, extent.y, stds);
+    let band = gather_band(point, view, flat_stds, light, cap.axis);
+    let wo = view.wo + vec3f(band.shift, 0.0, 0.0);
+    let extent = sphere_band_extent(wo, cap);
+    let lines = band_lines(wo.x, extent.x, extent.y, band.stds);
     var sum = vec3f(0.0);
     var weights = vec3f(0.0);
     for (var i = 0u; i < lines.count; i += 1u) {
         let weight_and_xi = band_line(lines, i);
-        let line = band_line_at(view.wo, weight_and_xi.w);
+        let line = band_line_at(wo, weight_and_xi.w);
         let chord = sphere_chord(line, cap);
         let range = chord_range(chord, line);
         let cos_i = chord_cos(line, range.x, range.y, view.width_um);
@@ -134,7 +144,8 @@ fn gather_range(point: SurfacePoint, view: SegmentView, light: Light, line: Band
 fn gather_polygon(point: SurfacePoint, view: SegmentView, light: Light, flat_stds: vec4f) -> vec3f {
     let facing = gather_facing(point, light);
     let bound = sphere_cap(surface_from_world(point, light.center_m - point.position_m), light.radius_m);
-    let stds = gather_stds(point, view, flat_stds, bound.axis);
+    let band = gather_band(point, view, flat_stds, light, band_from_surface(view.tangent, bound.axis));
+    let wo = view.wo + vec3f(band.shift, 0.0, 0.0);
     var extent = vec2f(9.0, -9.0);
     var corner_min = vec3f(1.0);
     var corner_max = vec3f(-1.0);
@@ -168,19 +179,19 @@ fn gather_polygon(point: SurfacePoint, view: SegmentView, light: Light, flat_std
     }
     // Straight down may lie in a light with corners below the horizon and on both sides of the scratch.
     let may_wrap = corner_min.z < 0.0 && corner_min.y < 0.0 && corner_max.y > 0.0;
-    let lines = band_lines(view.wo.x, view.wo.x + extent.x, view.wo.x + extent.y, stds);
+    let lines = band_lines(wo.x, wo.x + extent.x, wo.x + extent.y, band.stds);
     if lines.count == 0u {
         return vec3f(0.0);
     }
     // One cosine for all lines: else the outline would be walked twice for each.
-    let middle = band_line_at(view.wo, band_line(lines, lines.count / 2u).w);
+    let middle = band_line_at(wo, band_line(lines, lines.count / 2u).w);
     let range = gather_range(point, view, light, middle);
     let cos_i = chord_cos(middle, range.x, range.y, view.width_um);
     var sum = vec3f(0.0);
     var weights = vec3f(0.0);
     for (var l = 0u; l < lines.count; l += 1u) {
         let weight_and_xi = band_line(lines, l);
-        let line = band_line_at(view.wo, weight_and_xi.w);
+        let line = band_line_at(wo, weight_and_xi.w);
         var integral = vec3f(0.0);
         var winding = 0.0;
         a = gather_vertex(point, view, light, 0u);
@@ -233,10 +244,18 @@ fn gather_environment(point: SurfacePoint, view: SegmentView) -> vec3f {
     return sum;
 }
 
-// The band's standard deviations towards a light in the direction `axis`.
-fn gather_stds(point: SurfacePoint, view: SegmentView, flat_stds: vec4f, axis: vec3f) -> vec4f {
-    let turn_t = vec2f(dot(point.turn_x, view.tangent), dot(point.turn_y, view.tangent));
-    return curved_band_std(flat_stds, turn_t, max(view.wo.z + axis.z, 0.0));
+// The band as the pixel sees it towards the direction `axis` of a light.
+fn gather_band(point: SurfacePoint, view: SegmentView, flat_stds: vec4f, light: Light, axis: vec3f) -> MovedBand {
+    let distance_m = max(length(light.center_m - point.position_m), light.radius_m);
+    let per_o = 1e-6 / point.distance_m;
+    let per_i = 1e-6 / distance_m;
+    let moves = vec2f(
+        band_move(dot(point.turn_x, view.tangent), view.axis_x, view.wo, per_o, axis, per_i),
+        band_move(dot(point.turn_y, view.tangent), view.axis_y, view.wo, per_o, axis, per_i),
+    );
+    let across_um = vec2f(view.axis_x.y, view.axis_y.y);
+    let variance_um2 = dot(across_um, across_um) + 0.5 * point.coherence_um * point.coherence_um;
+    return moved_band(flat_stds, moves, across_um, gather_offset_um(view), variance_um2);
 }
 
 // Whether a light reaches a scratch at all. Most scratches are dark to most lights, and a bounding sphere tells it.
@@ -244,10 +263,10 @@ fn gather_reaches(point: SurfacePoint, view: SegmentView, light: Light, flat_std
     let center = surface_from_world(point, light.center_m - point.position_m);
     var bound = sphere_cap(center, light.radius_m);
     bound.axis = band_from_surface(view.tangent, bound.axis);
-    let extent = sphere_band_extent(view.wo, bound);
-    let stds = gather_stds(point, view, flat_stds, bound.axis);
+    let band = gather_band(point, view, flat_stds, light, bound.axis);
+    let extent = sphere_band_extent(view.wo + vec3f(band.shift, 0.0, 0.0), bound);
     let shines = light.kind == LIGHT_SPHERE || gather_facing(point, light) != 0.0;
-    return shines && center.z > -light.radius_m && band_reaches(extent.x, extent.y, stds);
+    return shines && center.z > -light.radius_m && band_reaches(extent.x, extent.y, band.stds);
 }
 
 // The walk is cut into stages, each a loop of its own: find segments, weigh them, light those that are lit. Lanes of a

@@ -47,6 +47,7 @@ fn hit_surface_point(triangle: u32, ray: vec3f, depth_m: ptr<function, f32>) -> 
     var point: SurfacePoint;
     point.position_m = a.position_m + (b.position_m - a.position_m) * bary.x + (c.position_m - a.position_m) * bary.y;
     let depth = dot(point.position_m - frame.camera_m, frame.forward);
+    point.distance_m = depth * length(ray);
     *depth_m = depth;
 
     let material = materials[a.material & ~VERTEX_BITANGENT_FLIPPED];
@@ -94,8 +95,8 @@ fn hit_surface_point(triangle: u32, ray: vec3f, depth_m: ptr<function, f32>) -> 
     if scene_has_texture(material.emission_texture) {
         point.emission *= hit_texture(material.emission_texture, uv, filter_side).xyz;
     }
-    let turn_x = hit_normal_turn(a, b, c, geometric, interpolated, smooth_x);
-    let turn_y = hit_normal_turn(a, b, c, geometric, interpolated, smooth_y);
+    let turn_x = side * hit_normal_turn(a, b, c, geometric, interpolated, smooth_x);
+    let turn_y = side * hit_normal_turn(a, b, c, geometric, interpolated, smooth_y);
     point.turn_x = vec2f(dot(turn_x, point.axis_x), dot(turn_x, point.axis_y));
     point.turn_y = vec2f(dot(turn_y, point.axis_x), dot(turn_y, point.axis_y));
     point.roughness = ggx_curved_roughness(point.roughness, dot(turn_x, turn_x) + dot(turn_y, turn_y));

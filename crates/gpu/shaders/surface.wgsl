@@ -9,9 +9,10 @@ struct SurfacePoint {
     axis_y: vec3f,
     normal: vec3f,
     wo: vec3f,                  // unit direction to the viewer in the local frame
+    distance_m: f32,            // to the viewer
     footprint_x_m: vec3f,       // one standard deviation of the pixel's filter to the right, world space
     footprint_y_m: vec3f,       // and down
-    turn_x: vec2f,              // how the smooth normal turns over each of them, in the local frame
+    turn_x: vec2f,              // how the smooth normal, on the viewer's side, turns over each of them, in the local frame
     turn_y: vec2f,
     f0: vec3f,
     fresnel_a: vec3f,

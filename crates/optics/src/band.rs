@@ -15,8 +15,8 @@
 mod lines;
 
 pub use lines::{
-    BAND_REACH_STD, BAND_STD_MAX, BandLines, BandStds, band_lines, band_reaches, band_stds,
-    curved_band_std,
+    BAND_REACH_STD, BAND_STD_MAX, BandLines, BandStds, MovedBand, band_lines, band_move,
+    band_reaches, band_stds, moved_band,
 };
 
 use glam::{DVec2, DVec3};

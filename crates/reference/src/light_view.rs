@@ -26,6 +26,8 @@ pub(crate) enum LightView {
 pub(crate) struct LightViews<'a> {
     lights: &'a [Light],
     pub views: Vec<LightView>,
+    /// From the point to the middle of each, held at its radius or above.
+    pub distances_m: Vec<f64>,
     /// Polygon vertices relative to the point, metres.
     pub vertices: Vec<DVec3>,
     /// Unit directions to them.
@@ -37,6 +39,7 @@ impl<'a> LightViews<'a> {
         Self {
             lights: &scene.lights,
             views: Vec::new(),
+            distances_m: Vec::new(),
             vertices: Vec::new(),
             directions: Vec::new(),
         }
@@ -45,6 +48,7 @@ impl<'a> LightViews<'a> {
     /// Looks at the lights from a point. Lights wholly under its horizon or turned away are left out.
     pub fn look_from(&mut self, point: &SurfacePoint) {
         self.views.clear();
+        self.distances_m.clear();
         self.vertices.clear();
         self.directions.clear();
         for light in self.lights {
@@ -57,6 +61,7 @@ impl<'a> LightViews<'a> {
                     let center = point.surface_from_world(*center_m - point.position_m);
                     if center.z > -radius_m {
                         let cap = sphere_cap(center, *radius_m);
+                        self.distances_m.push(center.length().max(*radius_m));
                         self.views.push(LightView::Sphere {
                             cap,
                             radiance: DVec3::from(*radiance),
@@ -84,10 +89,9 @@ impl<'a> LightViews<'a> {
                         .extend(self.vertices[first..].iter().map(|v| v.normalize_or_zero()));
                     let vertices = first..self.vertices.len();
                     let (center_m, radius_m) = light.bounding_sphere();
-                    let bound = sphere_cap(
-                        point.surface_from_world(center_m - point.position_m),
-                        radius_m,
-                    );
+                    let center = point.surface_from_world(center_m - point.position_m);
+                    let bound = sphere_cap(center, radius_m);
+                    self.distances_m.push(center.length().max(radius_m));
                     self.views.push(LightView::Polygon {
                         vertices,
                         away,

@@ -7,8 +7,8 @@ use glam::{DVec2, DVec3};
 use hairline_index::IndexedSegment;
 use hairline_index::scratch_index::{FACING_MIN_COS, REACH_STD};
 use hairline_optics::band::{
-    BandFrame, BandLine, band_lines, band_reaches, band_stds, chord_cos, curved_band_std,
-    sphere_band_extent, sphere_chord,
+    BandFrame, BandLine, MovedBand, band_lines, band_move, band_reaches, band_stds, chord_cos,
+    moved_band, sphere_band_extent, sphere_chord,
 };
 use hairline_optics::band_environment::environment_band;
 use hairline_optics::footprint::{Footprint, ScratchShare, scratch_share};
@@ -63,6 +63,12 @@ struct SegmentView {
     share: ScratchShare,
     width_um: f64,
     depth_nm: f64,
+    /// Distance of the scratch across its tangent.
+    offset_um: f64,
+    /// One standard deviation of the pixel's filter to the right and down.
+    axes_um: [DVec3; 2],
+    /// The footprint's variance across the scratch, and the coherence window's with it.
+    variance_um2: f64,
 }
 
 impl SegmentView {
@@ -83,17 +89,18 @@ impl SegmentView {
         };
         let (start, end) = (frame.band_from_surface(start), frame.band_from_surface(end));
         let offset_um = 0.5 * (start.y + end.y);
-        let [ax, ay] = point
+        let axes_um = point
             .footprint_axes_m
             .map(|a| frame.band_from_surface(point.surface_from_world(a)) * 1e6);
+        let [ax, ay] = axes_um;
         let footprint = Footprint {
             across_um2: ax.y * ax.y + ay.y * ay.y,
             along_um2: ax.x * ax.x + ay.x * ay.x,
             cross_um2: ax.x * ax.y + ay.x * ay.y,
         };
         let sigma = point.coherence_um;
-        let reach2 = (REACH_STD * REACH_STD) as f64 * (footprint.across_um2 + 0.5 * sigma * sigma);
-        if offset_um * offset_um > reach2 {
+        let variance_um2 = footprint.across_um2 + 0.5 * sigma * sigma;
+        if offset_um * offset_um > (REACH_STD * REACH_STD) as f64 * variance_um2 {
             return None;
         }
         let (width_um, blur_um) = (segment.width_um as f64, segment.blur_um as f64);
@@ -106,7 +113,22 @@ impl SegmentView {
             share,
             width_um,
             depth_nm: segment.depth_nm as f64,
+            offset_um,
+            axes_um,
+            variance_um2,
         })
+    }
+
+    /// The band as the pixel sees it towards a light in a direction of the scratch's frame.
+    fn band(&self, point: &SurfacePoint, wi: DVec3, distance_m: f64) -> MovedBand {
+        let (per_o, per_i) = (1e-6 / point.distance_m, 1e-6 / distance_m);
+        let moves = std::array::from_fn(|j| {
+            let turn_t = point.normal_turns[j].truncate().dot(self.frame.tangent);
+            band_move(turn_t, self.axes_um[j], self.wo, per_o, wi, per_i)
+        });
+        let across_um = self.axes_um.map(|axis| axis.y);
+        let stds = band_stds(point.coherence_um);
+        moved_band(stds, moves, across_um, self.offset_um, self.variance_um2)
     }
 }
 
@@ -118,23 +140,19 @@ fn scratch_radiance(
     environment: Option<&Environment>,
     point: &SurfacePoint,
 ) -> DVec3 {
-    let (wo, frame) = (view.wo, view.frame);
-    let flat_stds = band_stds(point.coherence_um);
-    let turn_t = point
-        .normal_turns
-        .map(|turn| turn.truncate().dot(frame.tangent));
-    let std_towards = |axis: DVec3| curved_band_std(flat_stds, turn_t, (wo.z + axis.z).max(0.0));
+    let frame = view.frame;
     let antiderivative = |cos_i: f64| {
-        let depth_nm = oblique_depth_nm(view.depth_nm, cos_i, wo.z);
+        let depth_nm = oblique_depth_nm(view.depth_nm, cos_i, view.wo.z);
         move |q: f64| table.scratch_table(view.width_um * q, depth_nm)
     };
     let cos_over = |line, (low, high)| chord_cos(line, low, high, view.width_um);
     let mut sum = DVec3::ZERO;
-    for light in &views.views {
+    for (light, &distance_m) in views.views.iter().zip(&views.distances_m) {
         match light {
             LightView::Sphere { cap, radiance } => {
                 let cap = cap.turned(frame);
-                let stds = std_towards(cap.axis);
+                let band = view.band(point, cap.axis, distance_m);
+                let (wo, stds) = (view.wo + band.shift * DVec3::X, band.stds);
                 let (lowest, highest) = sphere_band_extent(wo, cap);
                 let lines = band_lines(wo.x, lowest, highest, stds);
                 sum += *radiance
@@ -152,8 +170,10 @@ fn scratch_radiance(
                 radiance,
             } => {
                 // Most scratches are dark to most lights; the bound tells it without a look at the edges.
-                let stds = std_towards(bound.axis);
-                let (lowest, highest) = sphere_band_extent(wo, bound.turned(frame));
+                let bound = bound.turned(frame);
+                let band = view.band(point, bound.axis, distance_m);
+                let (wo, stds) = (view.wo + band.shift * DVec3::X, band.stds);
+                let (lowest, highest) = sphere_band_extent(wo, bound);
                 if !band_reaches(lowest, highest, stds) {
                     continue;
                 }

@@ -17,9 +17,11 @@ pub(crate) struct SurfacePoint {
     pub normal: DVec3,
     /// Unit direction to the viewer in the local frame.
     pub wo: DVec3,
+    /// Distance to the viewer.
+    pub distance_m: f64,
     /// How the point moves by one standard deviation of the pixel's filter to the right and down, world space.
     pub footprint_axes_m: [DVec3; 2],
-    /// How the smooth normal turns over each of them, in the local frame.
+    /// How the smooth normal, on the viewer's side, turns over each of them, in the local frame.
     pub normal_turns: [DVec3; 2],
     pub fresnel: FresnelRgb,
     /// Albedo of the diffuse body.
@@ -129,8 +131,10 @@ pub(crate) fn surface_point(
         axis_y,
         normal,
         wo: DVec3::new((1.0 - cos * cos).max(0.0).sqrt(), 0.0, cos),
+        distance_m: hit.distance_m,
         footprint_axes_m: footprint(normal),
-        normal_turns: normal_turns.map(|turn| DVec3::new(turn.dot(axis_x), turn.dot(axis_y), 0.0)),
+        normal_turns: normal_turns
+            .map(|turn| side * DVec3::new(turn.dot(axis_x), turn.dot(axis_y), 0.0)),
         fresnel: FresnelRgb {
             f0: f0.to_array(),
             a: optics.fresnel_a,

@@ -253,33 +253,50 @@ fn band_integrals() {
 }
 
 #[test]
-fn curved_bands() {
+fn moving_bands() {
     let mut random = Sequence(5);
-    let mut rows = vec![[0.0; 4], [0.003, 0.0, 0.0, 2.0], [0.003, 1e6, 1.0, 2.0]];
-    for _ in 0..2000 {
+    // Everything still; a turn beyond all bounds; a footprint of no size.
+    let mut rows = vec![
+        [0.003, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0],
+        [0.003, 1e6, 1.0, 100.0, 3.0, 50.0, 1.0, 0.0, 5.0],
+        [0.003, 0.1, 0.2, 0.0, 0.0, 40.0, 1.0, 0.0, 5.0],
+    ];
+    for _ in 0..5000 {
         let scale = 10f32.powf(random.between(-5.0, 0.0));
-        let (x, y) = (random.between(-scale, scale), random.between(-scale, scale));
-        rows.push([random.between(0.001, 0.02), x, y, random.between(0.0, 2.0)]);
+        let wide = 10f32.powf(random.between(0.0, 3.5));
+        let mut pick = |to: f32| random.between(-to, to);
+        let (x, y) = (pick(scale), pick(scale));
+        let (along, across, offset) = (pick(wide), pick(wide), pick(2.0 * wide));
+        let std = random.between(0.001, 0.02);
+        let wi = random.direction(0.0);
+        rows.push([std, x, y, along, across, offset, wi[0], wi[1], wi[2]]);
     }
     Twin {
-        name: "curved_band_std",
+        name: "band_move and moved_band",
         modules: &[&shaders::BAND],
-        snippet:
-            "let stds = curved_band_std(x[0] * vec4f(1.1, 1.0, 0.8, 1.05), vec2f(x[1], x[2]), x[3]);
-            y[0] = stds.x; y[1] = stds.z; y[2] = stds.w;",
+        snippet: "let wi = vec3f(x[6], x[7], x[8]);
+            let wo = vec3f(0.6, 0.0, 0.8);
+            let moves = vec2f(
+                band_move(x[1], vec3f(x[3], x[4], 0.0), wo, 2e-6, wi, 1e-5),
+                band_move(x[2], vec3f(-x[4], x[3], 0.0), wo, 2e-6, wi, 1e-5),
+            );
+            let across = vec2f(x[4], x[3]);
+            let band = moved_band(x[0] * vec4f(1.1, 1.0, 0.8, 1.05), moves, across, x[5], dot(across, across) + 200.0);
+            y[0] = band.shift; y[1] = band.stds.x; y[2] = band.stds.z; y[3] = band.stds.w;",
         tables: &[],
-        expected: &|[std, x, y, cos_sum]: [f64; 4]| {
-            let stds = BandStds {
-                mean: 1.05 * std,
-                channels: [1.1, 1.0, 0.8].map(|c| c * std),
-            };
-            let curved = curved_band_std(stds, [x, y], cos_sum);
-            [curved.channels[0], curved.channels[2], curved.mean]
+        expected: &|[std, turn_x, turn_y, along, across, offset, wx, wy, wz]: [f64; 9]| {
+            let (wi, wo) = (v(wx, wy, wz), v(0.6, 0.0, 0.8));
+            let stds = BandStds { mean: 1.05 * std, channels: [1.1, 1.0, 0.8].map(|c| c * std) };
+            let moves = [
+                band_move(turn_x, v(along, across, 0.0), wo, 2e-6, wi, 1e-5),
+                band_move(turn_y, v(-across, along, 0.0), wo, 2e-6, wi, 1e-5),
+            ];
+            let variance = along * along + across * across + 200.0;
+            let band = moved_band(stds, moves, [across, along], offset, variance);
+            let [red, _, blue] = band.stds.channels;
+            [band.shift, red, blue, band.stds.mean]
         },
-        tolerance: Tolerance {
-            absolute: 0.0,
-            relative: 1e-6,
-        },
+        tolerance: Tolerance { absolute: 1e-6, relative: 1e-4 },
     }
     .check(&rows, 0);
 }

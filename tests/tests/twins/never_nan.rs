@@ -65,7 +65,9 @@ fn in_the_shader() {
             let chord = sphere_chord(line, cap);
             let roots = edge_roots(line, a, b);
             let extent = edge_band_extent(a, b) + sphere_band_extent(wo, cap);
-            let lines = band_lines(wo.x, extent.x, extent.y, curved_band_std(band_stds(20.0), vec2f(x[16], x[17]), abs(x[18])));
+            let moves = vec2f(band_move(x[16], a, wo, x[14], b, x[15]), band_move(x[17], b, wo, x[14], a, x[15]));
+            let moved = moved_band(band_stds(20.0), moves, vec2f(x[14], x[16]), x[17], x[14] * x[14] + x[16] * x[16] + 200.0);
+            let lines = band_lines(wo.x + moved.shift, extent.x, extent.y, moved.stds);
             let node = band_line(lines, 0u);
             let band = band_integral(lines, node.xyz, node.xyz);
             let cell = environment_cell(u32(abs(x[9]) * 23.0), line, x[14]);

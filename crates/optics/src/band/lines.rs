@@ -40,12 +40,53 @@ impl BandStds {
 /// Beyond this a pixel sees light from all around, and the small-angle picture of a turning normal is void.
 pub const BAND_STD_MAX: f64 = 0.3;
 
-/// Standard deviations of the band as a pixel sees it on a curved surface: the surface's normal turns under the footprint, and
-/// with it xi_t = (wi + wo).t by minus the normal's turn along t, times (wi + wo).N. `turn_t` is the turn of the normal along
-/// t over one standard deviation of the pixel's filter to the right and down; `cos_sum` is (wi + wo).N.
-pub fn curved_band_std(stds: BandStds, turn_t: [f64; 2], cos_sum: f64) -> BandStds {
-    let turn2 = turn_t[0] * turn_t[0] + turn_t[1] * turn_t[1];
-    stds.widened(cos_sum * cos_sum * turn2)
+/// How xi_t = (wi + wo).t moves over one standard deviation of the pixel's filter, to the right or down. `turn_t` is the turn of
+/// the normal along t: t turns with it, towards or away from the normal. `axis` is the step on the surface, in the frame of the
+/// scratch: both directions turn against it. A light at infinity has no distance to divide by: `per_distance_i` is 1/distance,
+/// per unit of the axis, like `per_distance_o`.
+pub fn band_move(
+    turn_t: f64,
+    axis: DVec3,
+    wo: DVec3,
+    per_distance_o: f64,
+    wi: DVec3,
+    per_distance_i: f64,
+) -> f64 {
+    let turned = |w: DVec3| w.x * axis.dot(w) - axis.x;
+    turned(wo) * per_distance_o + turned(wi) * per_distance_i - turn_t * (wo.z + wi.z).max(0.0)
+}
+
+/// A band as a pixel sees it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MovedBand {
+    /// What xi_t is greater by, in the mean over the part of the pixel that sees the scratch, than at the pixel's centre.
+    pub shift: f64,
+    /// The band, widened by how xi_t varies there.
+    pub stds: BandStds,
+}
+
+/// The band of a scratch that a pixel sees at a distance of `offset_um` across it. `moves` is [`band_move`] along the pixel's two
+/// axes, `across_um` the axes' components across the scratch; `variance_um2` is the footprint's variance across plus the
+/// window's. Of two normal variables one is known: the part that sees the scratch lies about `offset_um` off.
+pub fn moved_band(
+    stds: BandStds,
+    moves: [f64; 2],
+    across_um: [f64; 2],
+    offset_um: f64,
+    variance_um2: f64,
+) -> MovedBand {
+    let slope = (moves[0] * across_um[0] + moves[1] * across_um[1]) / variance_um2;
+    // The variance that is left, as a sum of squares: a difference would cancel where the footprint is wide.
+    let left = [
+        moves[0] - slope * across_um[0],
+        moves[1] - slope * across_um[1],
+    ];
+    let across2 = across_um[0] * across_um[0] + across_um[1] * across_um[1];
+    let window = slope * slope * (variance_um2 - across2).max(0.0);
+    MovedBand {
+        shift: (slope * offset_um).clamp(-BAND_STD_MAX, BAND_STD_MAX),
+        stds: stds.widened(left[0] * left[0] + left[1] * left[1] + window),
+    }
 }
 
 /// The lines that stand for the part of the band which a light covers, given the extent of the light's xi_t.

@@ -495,6 +495,63 @@ fn one_depth_serves_a_chord() {
     }
 }
 
+/// The places of a pixel that see a scratch, one by one: the mean and the variance of xi_t over them.
+#[test]
+fn a_moved_band_is_that_of_the_places_which_see_the_scratch() {
+    let (moves, across) = ([0.004, -0.0015], [35.0, 12.0]);
+    let window2 = 0.5 * SIGMA_UM * SIGMA_UM;
+    for offset in [-60.0, 0.0, 25.0] {
+        let (mut total, mut mean, mut square) = (0.0, 0.0, 0.0);
+        for i in 0..200 * 200 {
+            let z = [i % 200, i / 200].map(|i| -5.0 + 0.05 * (f64::from(i) + 0.5));
+            let off = offset - z[0] * across[0] - z[1] * across[1];
+            let weight = (-0.5 * (z[0] * z[0] + z[1] * z[1] + off * off / window2)).exp();
+            let xi = z[0] * moves[0] + z[1] * moves[1];
+            (total, mean, square) = (
+                total + weight,
+                mean + weight * xi,
+                square + weight * xi * xi,
+            );
+        }
+        let mean = mean / total;
+        let variance = square / total - mean * mean;
+        let variance_um2 = across[0] * across[0] + across[1] * across[1] + window2;
+        let stds = band_stds(SIGMA_UM);
+        let band = moved_band(stds, moves, across, offset, variance_um2);
+        // The sum ends at five standard deviations.
+        assert!(
+            (band.shift - mean).abs() < 1e-6,
+            "{offset}: {band:?} {mean}"
+        );
+        let widened = band.stds.mean.powi(2) - stds.mean.powi(2);
+        assert!(
+            (widened / variance - 1.0).abs() < 1e-4,
+            "{offset}: {widened} {variance}"
+        );
+    }
+}
+
+/// A step of the point turns the direction to a light, and a turn of the normal the scratch.
+#[test]
+fn directions_move_as_vectors_do() {
+    let (eye, lamp) = (DVec3::new(0.2, -0.1, 0.9), DVec3::new(-0.3, 0.4, 0.5));
+    let (axis, turn_t) = (DVec3::new(3e-5, -2e-5, 0.0), 4e-5);
+    let tangent = DVec3::new(1.0, 0.0, -turn_t);
+    let xi = |step: DVec3, t: DVec3| ((eye - step).normalize() + (lamp - step).normalize()).dot(t);
+    let exact = xi(axis, tangent) - xi(DVec3::ZERO, DVec3::X);
+    let (wo, wi) = (eye.normalize(), lamp.normalize());
+    let value = band_move(
+        turn_t,
+        axis,
+        wo,
+        1.0 / eye.length(),
+        wi,
+        1.0 / lamp.length(),
+    );
+    // First order in steps of 1e-4.
+    assert!((value / exact - 1.0).abs() < 1e-3, "{value} {exact}");
+}
+
 #[test]
 fn a_one_sided_polygon_is_dark_from_behind() {
     let front = [
