@@ -6,11 +6,11 @@
 use super::grooves::GrooveView;
 use super::interval::{CutCauchy, CutNormal};
 use super::separable::direction_from_cosines;
-use super::wavelengths::{SpectralFresnel, WIDEST_NM, Wavelengths};
+use super::wavelengths::{SpectralFresnel, WAVELENGTHS, WIDEST_NM, Wavelengths};
 use crate::surface::SurfacePoint;
 use glam::{DVec2, DVec3};
 use hairline_optics::band::BandFrame;
-use hairline_optics::coherent::GrooveField;
+use hairline_optics::coherent::{CoherentResponse, GrooveField};
 use hairline_optics::scratch::band_std;
 
 /// The field at a point.
@@ -67,9 +67,11 @@ impl<'a> Field<'a> {
             base: DVec3::ZERO,
             scratches: DVec3::ZERO,
         };
-        for (nm, weight) in self.wavelengths.nm.into_iter().zip(weights) {
-            let cos_sum = wi.z + wo.z;
-            let f = self.field.response(xi, cos_sum, nm, self.smooth);
+        let mut responses = [CoherentResponse::default(); WAVELENGTHS];
+        let nm = &self.wavelengths.nm;
+        self.field
+            .responses(xi, wi.z + wo.z, nm, self.smooth, &mut responses);
+        for (f, weight) in responses.into_iter().zip(weights) {
             sum.base += weight * (f.base + f.cross);
             sum.scratches += weight * f.scratches;
         }
