@@ -78,7 +78,7 @@ pub fn base_amplitude(xi: DVec2, coherence_um: f64, wavelength_nm: f64) -> f64 {
         * (-0.5 * a * a * xi.length_squared()).exp()
 }
 
-/// One piece's term of S in (31) in um, without D: the Fourier integral of the window over the piece's rectangle. The
+/// One piece's term of S in (33) in um, without D: the Fourier integral of the window over the piece's rectangle. The
 /// window's fall across the groove counts too, so it holds for any width.
 pub fn groove_amplitude(
     piece: &GroovePiece,
@@ -104,7 +104,7 @@ pub fn groove_amplitude(
     2.0 * PI * coherence_um * coherence_um / wavelength_um * along * across
 }
 
-/// D = 1 - exp(-i k d (cos theta_i + cos theta_o)): what a groove's floor takes from the reflection coefficient, (32).
+/// D = 1 - exp(-i k d (cos theta_i + cos theta_o)): what a groove's floor takes from the reflection coefficient, (3).
 /// `cos_sum` is the sum of the cosines, 2 at normal incidence, where this is (3).
 pub fn phase_step(depth_nm: f64, cos_sum: f64, wavelength_nm: f64) -> Complex64 {
     let half_phase = PI * depth_nm * cos_sum / wavelength_nm;
@@ -113,7 +113,7 @@ pub fn phase_step(depth_nm: f64, cos_sum: f64, wavelength_nm: f64) -> Complex64 
     2.0 * sin * Complex64::new(sin, cos)
 }
 
-/// S of (31) in um: all grooves in the window with their phases.
+/// S of (33) in um: all grooves in the window with their phases.
 pub fn scratch_amplitude<'a>(
     pieces: impl IntoIterator<Item = &'a GroovePiece>,
     xi: DVec2,
@@ -152,7 +152,7 @@ pub fn coherent_response<'a>(
     CoherentResponse::of(b, s, coherence_um)
 }
 
-/// The share of the window's energy exp(-|x|^2/sigma^2) that lies on the piece, (33). Grooves lower the mean reflection
+/// The share of the window's energy exp(-|x|^2/sigma^2) that lies on the piece, (34). Grooves lower the mean reflection
 /// coefficient about the point from 1 to 1 - sum of D times this share.
 pub fn groove_overlap(piece: &GroovePiece, coherence_um: f64) -> f64 {
     let half = 0.5 * piece.width_um;

@@ -65,7 +65,7 @@ impl GrooveField {
         &self.pieces
     }
 
-    /// S in um, as [`super::scratch_amplitude`], less what is hidden: (34).
+    /// S in um, as [`super::scratch_amplitude`], less what is hidden: (35).
     pub fn amplitude(&self, xi: DVec2, cos_sum: f64, wavelength_nm: f64) -> Complex64 {
         let wavelength_um = wavelength_nm * 1e-3;
         let k = Lanes([2.0 * PI / wavelength_um]);
@@ -176,7 +176,7 @@ impl GrooveField {
         }
     }
 
-    /// The mean of the reflection coefficient, weighted by the window's energy: 1 - sum of D times share, (33).
+    /// The mean of the reflection coefficient, weighted by the window's energy: 1 - sum of D times share, (34).
     pub fn mean_reflection(&self, cos_sum: f64, wavelength_nm: f64) -> Complex64 {
         let step = |depth_nm: f64| phase_step(depth_nm, cos_sum, wavelength_nm);
         let taken: Complex64 = self
