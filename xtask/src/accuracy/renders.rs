@@ -1,5 +1,6 @@
 //! Renders for the measurements. References are kept as EXR files, so that a measurement which was stopped goes on.
 
+use std::cell::LazyCell;
 use std::fmt::{self, Write};
 use std::fs;
 use std::ops::ControlFlow;
@@ -80,7 +81,8 @@ impl Renders {
         let file = self
             .folder
             .join(format!("{}.exr", self.key(scene, settings)));
-        let integrator = Integrator::new(scene, settings);
+        // Trees and tables take their time, and what is on file needs none.
+        let integrator = LazyCell::new(|| Integrator::new(scene, settings));
         let mut image = if file.exists() {
             exr_file::read_image(&file)?
         } else {
@@ -90,11 +92,9 @@ impl Renders {
         let start = Instant::now();
         let mut samples = least;
         loop {
-            let has = |image: &Image| image.noise.as_ref().map_or(0, |n| n.samples[0]);
-            let before = has(&image);
-            let _: ControlFlow<()> =
-                integrator.run(&mut image, samples, &|_| ControlFlow::Continue(()));
-            if has(&image) > before {
+            if image.noise.as_ref().map_or(0, |n| n.samples[0]) < samples {
+                let _: ControlFlow<()> =
+                    integrator.run(&mut image, samples, &|_| ControlFlow::Continue(()));
                 Output::check(&file)?.write_image(&image, &Display::default())?;
             }
             let error = uncertainty(closed, &image, layer);
