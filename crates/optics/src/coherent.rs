@@ -22,7 +22,7 @@ use num_complex::Complex64;
 use std::f64::consts::PI;
 
 /// What may be left out of a term of [`GrooveField::responses`], relative to the window's whole integral.
-const TOLERANCE: f64 = 3e-11;
+const TOLERANCE: f64 = 5e-10;
 
 /// One straight piece of a groove as seen from the point that the window is centred on, in the surface's frame.
 #[derive(Clone, Copy, Debug, PartialEq)]

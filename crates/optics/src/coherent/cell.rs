@@ -13,9 +13,9 @@ use std::f64::consts::PI;
 const LONGEST: f64 = 1.0;
 /// Beyond this many sigma there is 1e-10 of the window's integral.
 pub(super) const REACH: f64 = 6.5;
-/// Half the change of phase, in radians, that as many nodes integrate across a tapering part. For sigma = 20 um and light
-/// of 380 nm it is reached at |xi| = 2.
+/// Half the change of phase, in radians, that one panel of Gauss's nodes integrates across a tapering part.
 const PHASE_OF_NODES: f64 = 70.0;
+/// Enough for sigma = 20 um and light of 380 nm up to |xi| = 2.
 const MOST_PANELS: f64 = 8.0;
 
 /// A part of a line.
@@ -122,8 +122,8 @@ pub(super) struct Trapezoid {
 }
 
 impl Trapezoid {
-    /// Its parts that the window reaches.
-    pub fn cells(&self, coherence_um: f64, cells: &mut Vec<Cell>) {
+    /// Its parts that the window reaches, to be added or, for a `sign` of -1, taken off.
+    pub fn cells(&self, sign: f64, coherence_um: f64, cells: &mut Vec<Cell>) {
         let [[a, b], [c, d]] = self.edges;
         let count = |p: f64, q: f64| (p.max(q) / (LONGEST * coherence_um)).ceil().max(1.0);
         let along = count(a.distance(b), c.distance(d));
@@ -140,7 +140,7 @@ impl Trapezoid {
                         [corner(u, v + 1), corner(u + 1, v + 1)],
                     ],
                 };
-                cells.extend(Cell::new(&part, coherence_um));
+                cells.extend(Cell::new(&part, sign, coherence_um));
             }
         }
     }
@@ -148,7 +148,7 @@ impl Trapezoid {
 
 impl Cell {
     /// None where the window is negligible.
-    fn new(trapezoid: &Trapezoid, coherence_um: f64) -> Option<Self> {
+    fn new(trapezoid: &Trapezoid, sign_of_all: f64, coherence_um: f64) -> Option<Self> {
         let [[a, b], [c, d]] = trapezoid.edges;
         let (first, second) = (a.distance(b), c.distance(d));
         let taper = (second - first) / (first + second);
@@ -190,7 +190,7 @@ impl Cell {
                 }
             }
             for (row, grid) in grid.iter_mut().enumerate().take(rows) {
-                let factor = 0.25 * front * wide * v.weight * v.polynomials[row];
+                let factor = 0.25 * sign_of_all * front * wide * v.weight * v.polynomials[row];
                 for (sum, c) in grid[..columns].iter_mut().zip(&line) {
                     *sum += factor * c;
                 }
@@ -268,9 +268,10 @@ impl Cell {
             // So far off that less than 1/phase of the part's size is left.
             return Complexes::ZERO;
         }
-        let nodes = 0.75 * phase / panels + 6.0 + 0.5 * self.lengths.len() as f64;
+        let nodes = 0.65 * phase / panels + 4.0 + 0.5 * self.lengths.len() as f64;
         let rule = rule((nodes.ceil() as usize).min(MOST_NODES));
         let longest = self.lengths.iter().fold(1, |m, &l| m.max(l));
+        let mut bessel = [Lanes::ZERO; MOST_TERMS];
         let mut total = Complexes::ZERO;
         for panel in 0..panels as usize {
             for node in &rule.nodes {
@@ -290,7 +291,6 @@ impl Cell {
                         *sum += factor * c;
                     }
                 }
-                let mut bessel = [Lanes::ZERO; MOST_TERMS];
                 spherical_bessel(along * (1.0 + self.taper * v), longest, &mut bessel);
                 total = total + Complexes::turned_back(across * v) * sum(&line[..longest], &bessel);
             }

@@ -13,7 +13,7 @@ const LEAST_AREA: f64 = 1e-11;
 /// As a part of sigma: corners that are one.
 const ROUNDING: f64 = 1e-10;
 
-/// The parts of floors of one depth that are other grooves' floors. They do not overlap.
+/// The parts of floors of one depth that are other grooves' floors. Cells that overlap count back.
 #[derive(Clone, Debug)]
 pub(super) struct Hidden {
     pub depth_nm: f64,
@@ -50,25 +50,28 @@ fn hidden_cells(pieces: &[GroovePiece], index: usize, coherence_um: f64) -> Vec<
         }
         let floor = floor.get_or_insert_with(|| rectangle(piece, FRAME * coherence_um));
         let sides = sides(other);
-        let common = sides
-            .iter()
-            .fold(floor.clone(), |polygon, side| polygon.cut(side));
+        let common = floor.within(&sides);
         if !(common.area() > least_area) {
             continue;
         }
-        let mut parts = vec![common];
-        for earlier in &before {
-            let mut left = Vec::new();
-            for part in parts {
-                part.without(earlier, least_area, &mut left);
+        // What earlier ones hide of it already counts back: mostly nothing, and the whole stays a parallelogram.
+        let tile = |part: &Polygon, sign: f64, cells: &mut Vec<Cell>| {
+            for trapezoid in part.trapezoids(ROUNDING * coherence_um) {
+                trapezoid.cells(sign, coherence_um, cells);
             }
-            parts = left;
-        }
-        for trapezoid in parts
-            .iter()
-            .flat_map(|part| part.trapezoids(ROUNDING * coherence_um))
-        {
-            trapezoid.cells(coherence_um, &mut cells);
+        };
+        tile(&common, 1.0, &mut cells);
+        for (at, earlier) in before.iter().enumerate() {
+            let mut parts = vec![common.within(earlier)];
+            for taken in &before[..at] {
+                parts = parts
+                    .iter()
+                    .flat_map(|part| part.without(taken, least_area))
+                    .collect();
+            }
+            for part in parts.iter().filter(|part| part.area() > least_area) {
+                tile(part, -1.0, &mut cells);
+            }
         }
         before.push(sides);
     }

@@ -8,6 +8,7 @@ use super::{CoherentResponse, GroovePiece, TOLERANCE};
 use super::{base_amplitude, groove_amplitude, groove_overlap, phase_step};
 use glam::DVec2;
 use num_complex::Complex64;
+use pulp::{Arch, Simd, WithSimd};
 use std::f64::consts::{PI, SQRT_2};
 
 /// Wavelengths that [`GrooveField::responses`] takes at once.
@@ -117,7 +118,13 @@ impl GrooveField {
     ) {
         for (nm, out) in wavelengths_nm.chunks(LANES).zip(out.chunks_mut(LANES)) {
             let lanes: Lanes<LANES> = Lanes(std::array::from_fn(|i| nm[i.min(nm.len() - 1)]));
-            let sums = self.lanes(xi, cos_sum, lanes);
+            // The same arithmetic with the widest vectors that the machine has.
+            let sums = Arch::new().dispatch(Direction {
+                field: self,
+                xi,
+                cos_sum,
+                wavelengths_nm: lanes,
+            });
             for (i, out) in out.iter_mut().enumerate().take(nm.len()) {
                 *out = Complex64::new(sums.re.0[i], sums.im.0[i]);
             }
@@ -148,6 +155,7 @@ impl GrooveField {
     }
 
     /// S in um.
+    #[inline(always)]
     fn lanes<const N: usize>(
         &self,
         xi: DVec2,
@@ -196,12 +204,31 @@ impl GrooveField {
     }
 }
 
+/// One call of [`GrooveField::lanes`], compiled for each kind of vectors. All that it calls is inlined, or would not be.
+struct Direction<'a> {
+    field: &'a GrooveField,
+    xi: DVec2,
+    cos_sum: f64,
+    wavelengths_nm: Lanes<LANES>,
+}
+
+impl WithSimd for Direction<'_> {
+    type Output = Complexes<LANES>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> Self::Output {
+        self.field.lanes(self.xi, self.cos_sum, self.wavelengths_nm)
+    }
+}
+
 /// The window's Fourier integral over the cells, relative to its whole integral.
 #[inline(always)]
 fn sum_of_cells<const N: usize>(cells: &[Cell], k_per_um: Lanes<N>, xi: DVec2) -> Complexes<N> {
-    cells.iter().fold(Complexes::ZERO, |sum, cell| {
-        sum + cell.fourier(k_per_um, xi)
-    })
+    let mut sum = Complexes::ZERO;
+    for cell in cells {
+        sum = sum + cell.fourier(k_per_um, xi);
+    }
+    sum
 }
 
 impl Strip {
@@ -242,10 +269,10 @@ impl Strip {
             Along::Long(ends) => ends.fourier(kappa, self.share)?,
         };
         let kappa = k_per_um * xi.dot(self.tangent.perp());
-        let across = self
-            .across
-            .iter()
-            .fold(Complexes::ZERO, |sum, span| sum + span.fourier(kappa));
+        let mut across = Complexes::ZERO;
+        for span in &self.across {
+            across = across + span.fourier(kappa);
+        }
         Some(along * across)
     }
 }

@@ -109,10 +109,11 @@ impl<const N: usize> Lanes<N> {
 /// Horner's rule, from the constant term on.
 #[inline(always)]
 fn polynomial<const N: usize>(coefficients: &[f64], x: Lanes<N>) -> Lanes<N> {
-    coefficients
-        .iter()
-        .rev()
-        .fold(Lanes::ZERO, |sum, &c| sum * x + Lanes::splat(c))
+    let mut sum = Lanes::ZERO;
+    for &c in coefficients.iter().rev() {
+        sum = sum * x + Lanes::splat(c);
+    }
+    sum
 }
 
 impl<const N: usize> Complexes<N> {

@@ -76,15 +76,14 @@ pub(super) fn polynomials(x: f64) -> [f64; MOST_TERMS] {
     p
 }
 
-/// How many terms a Gaussian's series needs, whose logarithm changes by `slope` at most from the middle of [-1, 1] but for
-/// its curvature, half `bend` squared: until `size` times a term is below `tolerance`. Term n falls as e^n/(2n - 1)!! by
-/// slope and as e^n (n - 1)!!/(2n - 1)!! by curvature.
+/// How many terms the series of exp(-slope u - (bend u)^2/2) needs: until `size` times a term is below `tolerance`. Term n
+/// is about the n-th derivative, by the recurrence of Hermite's polynomials, over (2n - 1)!!.
 pub(super) fn terms_needed(slope: f64, bend: f64, size: f64, tolerance: f64) -> usize {
-    let e = slope.abs() + bend;
-    let (mut term, mut before) = (size * e / 3.0, size);
+    let (mut before, mut term) = (size, size * slope.abs());
     let mut n = 2;
-    while term.max(before) > tolerance && n < MOST_TERMS {
-        let next = before * e * e * (n as f64) / ((2 * n + 1) as f64 * (2 * n - 1) as f64);
+    while before.max(term) > tolerance && n < MOST_TERMS {
+        let (m, odd) = (n as f64, (2 * n - 1) as f64);
+        let next = (slope.abs() * term + (m - 1.0) / (odd - 2.0) * bend * bend * before) / odd;
         (before, term) = (term, next);
         n += 1;
     }

@@ -61,8 +61,20 @@ impl Polygon {
         Self { corners }
     }
 
+    /// What lies in all of them.
+    pub fn within(&self, half_planes: &[HalfPlane]) -> Self {
+        let mut rest = self.clone();
+        for half_plane in half_planes {
+            if rest.corners.is_empty() {
+                break;
+            }
+            rest = rest.cut(half_plane);
+        }
+        rest
+    }
+
     /// What lies outside all that the half-planes share, in convex parts.
-    pub fn without(&self, half_planes: &[HalfPlane], least_area: f64, parts: &mut Vec<Self>) {
+    pub fn without(&self, half_planes: &[HalfPlane], least_area: f64) -> Vec<Self> {
         let mut rest = self.clone();
         let mut outside = Vec::new();
         for half_plane in half_planes {
@@ -71,13 +83,8 @@ impl Polygon {
                 outside.push(part);
             }
             rest = rest.cut(half_plane);
-            if !(rest.area() > least_area) {
-                // Nothing is shared: whole, it may stay a parallelogram.
-                parts.push(self.clone());
-                return;
-            }
         }
-        parts.append(&mut outside);
+        outside
     }
 
     /// Tiles it: one parallelogram, if it is one, else slices along its longest edge from corner to corner.
