@@ -39,7 +39,7 @@ use std::time::{Duration, Instant};
 
 /// Counts the changes that make samples worth something else: pictures of different revisions must not be added up. Raise it with
 /// every change to the model, to what is drawn, or to the order of random numbers.
-pub const REVISION: u32 = 1;
+pub const REVISION: u32 = 2;
 
 /// Samples in a batch.
 pub const BATCH_SAMPLES: u32 = 64;

@@ -6,12 +6,14 @@
 use super::grooves::GrooveView;
 use super::interval::{CutCauchy, CutNormal};
 use super::separable::direction_from_cosines;
-use super::wavelengths::{SpectralFresnel, WAVELENGTHS, WIDEST_NM, Wavelengths};
+use super::wavelengths::{SpectralFresnel, Spectrum, WAVELENGTHS, WIDEST_NM, Wavelengths};
 use crate::surface::SurfacePoint;
 use glam::{DVec2, DVec3};
 use hairline_optics::band::BandFrame;
-use hairline_optics::coherent::{CoherentResponse, GrooveField};
+use hairline_optics::coherent::{GrooveField, base_amplitude, groove_overlap, phase_step};
 use hairline_optics::scratch::band_std;
+use num_complex::Complex64;
+use std::f64::consts::PI;
 
 /// The field at a point.
 pub(super) struct Field<'a> {
@@ -22,13 +24,16 @@ pub(super) struct Field<'a> {
     pub smooth: bool,
     wavelengths: &'a Wavelengths,
     fresnel: &'a SpectralFresnel,
+    /// 1 - <r>: the part of the base's peak that grooves take from its amplitude, at each wavelength.
+    taken: Spectrum<Complex64>,
 }
 
-/// The BRDF times the light's cosine, per d xi, by layer.
+/// The BRDF times the light's cosine, per d xi, by layer. With r what the base's amplitude keeps and S' = S - (1 - r) B, which
+/// is S without what it has of the base's own peak, B - S = r B - S'; and r B and S' share no energy over all directions.
 pub(super) struct FieldResponse {
-    /// |B|^2 - 2 Re(B S*).
+    /// |r B|^2 - 2 Re(r B S'*); zero for a rough base, whose lobe stands for it.
     pub base: DVec3,
-    /// |S|^2.
+    /// |S'|^2.
     pub scratches: DVec3,
 }
 
@@ -50,7 +55,16 @@ impl<'a> Field<'a> {
             smooth,
             wavelengths,
             fresnel,
+            taken: taken_amplitude(point, grooves, wavelengths),
         }
+    }
+
+    /// What grooves take from the energy of the base's reflection: 1 - |r|^2.
+    pub fn taken(&self) -> DVec3 {
+        let shape = self.fresnel.shape(self.wavelengths);
+        (0..WAVELENGTHS)
+            .map(|j| shape[j] * (1.0 - (1.0 - self.taken[j]).norm_sqr()))
+            .sum()
     }
 
     /// Whether there is anything to evaluate.
@@ -67,13 +81,20 @@ impl<'a> Field<'a> {
             base: DVec3::ZERO,
             scratches: DVec3::ZERO,
         };
-        let mut responses = [CoherentResponse::default(); WAVELENGTHS];
+        let mut amplitudes = [Complex64::ZERO; WAVELENGTHS];
         let nm = &self.wavelengths.nm;
-        self.field
-            .responses(xi, wi.z + wo.z, nm, self.smooth, &mut responses);
-        for (f, weight) in responses.into_iter().zip(weights) {
-            sum.base += weight * (f.base + f.cross);
-            sum.scratches += weight * f.scratches;
+        self.field.amplitudes(xi, wi.z + wo.z, nm, &mut amplitudes);
+        let sigma_um = self.point.coherence_um;
+        let per_area = 1.0 / (PI * sigma_um * sigma_um);
+        for j in 0..WAVELENGTHS {
+            let base = base_amplitude(xi, sigma_um, nm[j]);
+            let scratches = amplitudes[j] - self.taken[j] * base;
+            sum.scratches += weights[j] * (per_area * scratches.norm_sqr());
+            if self.smooth {
+                let kept = (1.0 - self.taken[j]) * base;
+                let cross = (kept * scratches.conj()).re;
+                sum.base += weights[j] * (per_area * (kept.norm_sqr() - 2.0 * cross));
+            }
         }
         sum
     }
@@ -115,6 +136,31 @@ impl<'a> Field<'a> {
             elsewhere: 1.0 - drawn,
         }
     }
+}
+
+/// The sum of D times the share of each groove, in the mirror's direction. Grooves that cross share floor: of random ones
+/// that would cover x, 1 - exp(-x) is covered.
+fn taken_amplitude(
+    point: &SurfacePoint,
+    grooves: &[GrooveView],
+    wavelengths: &Wavelengths,
+) -> Spectrum<Complex64> {
+    let shares = grooves
+        .iter()
+        .map(|g| groove_overlap(&g.piece, point.coherence_um));
+    let all: f64 = shares.clone().sum();
+    let apart = if all > 0.0 {
+        -(-all).exp_m1() / all
+    } else {
+        1.0
+    };
+    let mut taken = [Complex64::ZERO; WAVELENGTHS];
+    for (groove, share) in grooves.iter().zip(shares) {
+        for (taken, nm) in taken.iter_mut().zip(wavelengths.nm) {
+            *taken += apart * share * phase_step(groove.piece.depth_nm, 2.0 * point.wo.z, nm);
+        }
+    }
+    taken
 }
 
 /// The peak's weight in the mixture, where all grooves together have 1.

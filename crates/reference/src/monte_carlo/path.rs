@@ -10,10 +10,8 @@ use super::{Integrator, Model};
 use crate::surface::{SurfacePoint, surface_point};
 use glam::{DVec2, DVec3};
 use hairline_index::Hit;
-use hairline_optics::coherent::groove_overlap;
-use hairline_optics::footprint::ScratchShare;
 use hairline_optics::ggx::{GGX_MIN_ALPHA, ggx_alpha};
-use hairline_optics::mask::{Mask, ScratchSums};
+use hairline_optics::mask::ScratchSums;
 use std::f64::consts::PI;
 
 /// What a sample adds to the film.
@@ -121,25 +119,31 @@ impl Integrator<'_> {
         let fresnel = SpectralFresnel::new(&material.base, optics, &point);
         let weights = fresnel.separable(wavelengths);
 
-        let (kept, taken) = self.mask(object, &point, &views);
-        let smooth =
-            self.settings.model == Model::Full && ggx_alpha(point.roughness) <= GGX_MIN_ALPHA;
-        let response = match self.settings.model {
-            Model::Separable => Response::Separable {
-                lobes: lobes(&views, wavelengths, &weights, point.coherence_um),
-                kept,
-            },
+        let (response, taken, specular_kept) = match self.settings.model {
+            Model::Separable => {
+                let (kept, taken) = self.mask(object, &point, &views);
+                let lobes = lobes(&views, wavelengths, &weights, point.coherence_um);
+                (
+                    Response::Separable { lobes, kept },
+                    taken,
+                    DVec3::ONE - taken,
+                )
+            }
             Model::Full => {
-                Response::Full(Field::new(&point, &views, smooth, wavelengths, &fresnel))
+                let smooth = ggx_alpha(point.roughness) <= GGX_MIN_ALPHA;
+                let field = Field::new(&point, &views, smooth, wavelengths, &fresnel);
+                let taken = field.taken();
+                let lobe = if smooth {
+                    DVec3::ZERO
+                } else {
+                    DVec3::ONE - taken
+                };
+                (Response::Full(field), taken, lobe)
             }
         };
         let vertex = Vertex {
             lobes: BaseLobes::new(&point),
-            specular_kept: if smooth {
-                DVec3::ZERO
-            } else {
-                DVec3::ONE - taken
-            },
+            specular_kept,
             response,
             depth,
             random,
@@ -172,26 +176,11 @@ impl Integrator<'_> {
         for view in views {
             // In the mirror's direction both cosines are the viewer's.
             let total = table.scratch_table_total(view.piece.depth_nm * point.wo.z);
-            let share = match self.settings.model {
-                Model::Separable => view.share,
-                // What a groove takes is what it covers; ends don't scatter less.
-                Model::Full => ScratchShare {
-                    segment: groove_overlap(&view.piece, point.coherence_um),
-                    ..view.share
-                },
-            };
-            sums.add(share, total, [1.0; 3]);
+            sums.add(view.share, total, [1.0; 3]);
         }
-        let mask = match self.settings.model {
-            Model::Separable => self.settings.mask,
-            Model::Full => Mask::Linear,
-        };
-        let masked = sums.resolve(mask, self.depth_coherence[object] as f64);
+        let coherence = self.depth_coherence[object] as f64;
+        let masked = sums.resolve(self.settings.mask, coherence);
         let taken = DVec3::from(masked.taken);
-        let taken = match self.settings.model {
-            Model::Separable => taken,
-            Model::Full => taken.min(DVec3::ONE),
-        };
         let kept = if sums.share > 0.0 {
             masked.scratches[0] / sums.share
         } else {

@@ -65,12 +65,17 @@ impl SpectralFresnel {
     /// viewer's angle.
     pub fn separable(&self, wavelengths: &Wavelengths) -> Spectrum<DVec3> {
         let fresnel = DVec3::from(self.fresnel.eval(self.cos_o));
-        std::array::from_fn(|j| {
-            let shape = match self.metal {
-                Some(metal) => metal.reflectance(1.0, wavelengths.nm[j]) / self.metal_f0,
-                None => DVec3::ONE,
-            };
-            wavelengths.weight[j] * shape * fresnel
+        self.shape(wavelengths).map(|weight| weight * fresnel)
+    }
+
+    /// Weights with the shape of the reflectance's spectrum alone: they add up to white.
+    pub fn shape(&self, wavelengths: &Wavelengths) -> Spectrum<DVec3> {
+        std::array::from_fn(|j| match self.metal {
+            Some(metal) => {
+                let reflectance = metal.reflectance(1.0, wavelengths.nm[j]);
+                wavelengths.weight[j] * reflectance / self.metal_f0
+            }
+            None => wavelengths.weight[j],
         })
     }
 
