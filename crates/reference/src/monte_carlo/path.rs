@@ -52,7 +52,7 @@ struct Vertex<'a> {
 /// What scratches do, by the model.
 enum Response<'a> {
     Separable { lobes: Vec<Lobe<'a>>, kept: f64 },
-    Full(Field<'a>),
+    Full(Box<Field<'a>>),
 }
 
 impl Vertex<'_> {
@@ -138,7 +138,7 @@ impl Integrator<'_> {
                 } else {
                     DVec3::ONE - taken
                 };
-                (Response::Full(field), taken, lobe)
+                (Response::Full(Box::new(field)), taken, lobe)
             }
         };
         let vertex = Vertex {
