@@ -325,7 +325,7 @@ fn missing_layers_and_tone_mapped_pictures_are_told() {
         errors.contains("warning: B lacks the layers base, scratches"),
         "{errors}"
     );
-    assert!(table.contains("missing in B"), "{table}");
+    assert!(table.contains("not in B"), "{table}");
 
     let assert = compare(folder.path(), "b.exr plain.png -o shown.html").success();
     assert!(

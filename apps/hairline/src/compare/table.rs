@@ -26,7 +26,7 @@ pub const COLUMNS: [Column; 10] = [
         heading: "FLIP",
         metric: Metric::Flip,
         meaning: "The difference that a viewer sees when the two pictures alternate in place, averaged over the pixels: \
-                  0 none, 1 black against white. Below 0.01 hardly anyone sees it.",
+                  0 none, 1 black against white.",
     },
     Column {
         heading: "FLIP 95 %",
@@ -73,8 +73,8 @@ pub const COLUMNS: [Column; 10] = [
     Column {
         heading: "mean z\u{b2}",
         metric: Metric::Z2,
-        meaning: "Mean squared difference in units of its own noise. 1 where noise is all there is; more where there is \
-                  more than noise.",
+        meaning: "Mean squared difference in units of its own noise. About 1 where noise is all there is, \
+                  more with few samples and rare bright ones; the verdict beside it looks at blocks of pixels too.",
     },
 ];
 
@@ -100,7 +100,7 @@ pub fn remarks(comparison: &Comparison) -> Vec<(Layer, String)> {
         match problem {
             Problem::MissingLayers { side, layers } => {
                 for layer in layers {
-                    add(*layer, format!("missing in {side}"));
+                    add(*layer, format!("not in {side}"));
                 }
             }
             Problem::NotFinite {
@@ -114,12 +114,15 @@ pub fn remarks(comparison: &Comparison) -> Vec<(Layer, String)> {
     remarks
 }
 
-/// What the z-test says, in words.
+/// What the z-test says, in words, and the figures that it rests on.
 pub fn verdict(test: &ZTest) -> String {
     let z2 = format!("mean z\u{b2} = {}", figure(test.mean_z2));
     match test.verdict {
         Verdict::ExplainedByNoise => format!("the difference is explained by noise: {z2}"),
-        Verdict::MoreThanNoise => format!("the difference is not explained by noise: {z2}"),
+        Verdict::MoreThanNoise => format!(
+            "the difference is not explained by noise: {z2}{}",
+            beyond_noise(test)
+        ),
         Verdict::LessThanNoise => format!(
             "the difference is smaller than the noise that the files tell of (the same noise in both?): {z2}"
         ),
@@ -128,6 +131,24 @@ pub fn verdict(test: &ZTest) -> String {
             test.values
         ),
     }
+}
+
+/// What gave it away, since single pixels often do not: blocks of pixels, the whole picture, places without noise.
+fn beyond_noise(test: &ZTest) -> String {
+    let mut text = format!(
+        ", {} of 8 x 8 blocks, largest |z| of a block {} ({} is allowed), z of the picture {}",
+        figure(test.block_mean_z2),
+        figure(test.block_max_z),
+        figure(test.block_max_z_allowed()),
+        figure(test.picture_z),
+    );
+    if test.share_without_noise > 0.0 {
+        let percent = figure(100.0 * test.share_without_noise);
+        text.push_str(&format!(
+            "; {percent} % of the values differ where there is no noise"
+        ));
+    }
+    text
 }
 
 /// A table, a column a layer so that it fits a narrow terminal, and a line on the noise of each layer that has any.

@@ -274,7 +274,7 @@
 
   // --- The values of a pixel ------------------------------------------------------------------------------------
 
-  const typeset = (text) => text.replace("-", "\u2212");
+  const typeset = (text) => text.replaceAll("-", "\u2212");
   function number(value) {
     if (!Number.isFinite(value)) return Number.isNaN(value) ? "NaN" : typeset(value < 0 ? "-\u221e" : "\u221e");
     const size = Math.abs(value);
