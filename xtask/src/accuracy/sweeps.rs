@@ -131,6 +131,8 @@ pub struct SweepPoint {
     pub x: f64,
     /// Closed form against separable.
     pub closed: Compared,
+    /// The same with the linear mask in both, but for the base's sweeps: without what (9) makes of a pixel's mean shares.
+    pub linear: Option<Compared>,
     /// Separable against full, but for the base's sweeps.
     pub full: Option<Compared>,
 }
@@ -167,19 +169,28 @@ fn measure_point(renders: &Renders, sweep: &Sweep, x: f64) -> Result<SweepPoint>
     let stage = (sweep.turn)(Stage::default(), x);
     let budget = if sweep.base { &BASE_BUDGET } else { &BUDGET };
     let label = |model, side| format!("{} = {x}, {model}, {side} x {side}", sweep.key);
-    let separable = |scene: &Scene, side| {
-        let closed = closed_form(scene, 1, Mask::Energy);
+    let separable = |scene: &Scene, side, mask| {
+        let closed = closed_form(scene, 1, mask);
         let label = label("separable", side);
-        let separable = renders.reference(&label, scene, Settings::default(), budget, &closed)?;
+        let settings = Settings {
+            mask,
+            ..Settings::default()
+        };
+        let separable = renders.reference(&label, scene, settings, budget, &closed)?;
         anyhow::Ok((closed, separable))
     };
-    let large = separable(&stage.scene()?, stage.size_px)?;
+    let scene = stage.scene()?;
+    let large = separable(&scene, stage.size_px, Mask::Energy)?;
+    let linear = match sweep.base {
+        true => None,
+        false => Some(separable(&scene, stage.size_px, Mask::Linear)?),
+    };
     let full = if sweep.base {
         None
     } else {
         let size_px = renders.pick(FULL_PX, FULL_QUICK_PX);
         let scene = Stage { size_px, ..stage }.scene()?;
-        let small = separable(&scene, size_px)?;
+        let small = separable(&scene, size_px, Mask::Energy)?;
         let settings = Settings {
             model: Model::Full,
             // Other samples than the separable model's, so that the noises are independent.
@@ -193,6 +204,7 @@ fn measure_point(renders: &Renders, sweep: &Sweep, x: f64) -> Result<SweepPoint>
     Ok(SweepPoint {
         x,
         closed: compared(&large.0, &large.1, &Display::default()),
+        linear: linear.map(|(closed, separable)| compared(&closed, &separable, &Display::default())),
         full,
     })
 }

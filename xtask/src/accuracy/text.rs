@@ -40,6 +40,8 @@ struct SweepFacts {
     /// The largest rms of the scratches for lights of 0.05 rad and more, and for smaller ones.
     large_lights: Figure,
     small_lights: Figure,
+    /// The same as the first with the linear mask.
+    large_lights_linear: Figure,
     /// The largest rms of each sweep, closed form against separable.
     worst: Vec<(String, f64, Figure)>,
 }
@@ -131,11 +133,9 @@ fn sweep_facts(sweeps: &[SweepFigures]) -> SweepFacts {
         let layers = &point.closed.layers;
         Some(layers.get("scratches").or_else(|| layers.get("base"))?.rms)
     };
-    let lights = |large: bool| {
-        let sweep = sweeps.iter().filter(|s| s.key == "light");
-        let points = sweep.flat_map(|s| &s.points);
-        largest(points.filter(|p| (p.x >= 0.05) == large).filter_map(rms))
-    };
+    let points = || sweeps.iter().filter(|s| s.key == "light").flat_map(|s| &s.points);
+    let lights = |large: bool| largest(points().filter(|p| (p.x >= 0.05) == large).filter_map(rms));
+    let linear = |p: &SweepPoint| Some(p.linear.as_ref()?.layers.get("scratches")?.rms);
     let worst = sweeps.iter().filter_map(|sweep| {
         let points = sweep.points.iter().filter_map(|p| Some((p.x, rms(p)?)));
         let (x, figure) = points.max_by(|a, b| a.1.value.total_cmp(&b.1.value))?;
@@ -144,6 +144,7 @@ fn sweep_facts(sweeps: &[SweepFigures]) -> SweepFacts {
     SweepFacts {
         large_lights: lights(true),
         small_lights: lights(false),
+        large_lights_linear: largest(points().filter(|p| p.x >= 0.05).filter_map(linear)),
         worst: worst.collect(),
     }
 }
