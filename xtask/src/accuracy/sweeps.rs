@@ -204,7 +204,8 @@ fn measure_point(renders: &Renders, sweep: &Sweep, x: f64) -> Result<SweepPoint>
     Ok(SweepPoint {
         x,
         closed: compared(&large.0, &large.1, &Display::default()),
-        linear: linear.map(|(closed, separable)| compared(&closed, &separable, &Display::default())),
+        linear: linear
+            .map(|(closed, separable)| compared(&closed, &separable, &Display::default())),
         full,
     })
 }

@@ -133,7 +133,12 @@ fn sweep_facts(sweeps: &[SweepFigures]) -> SweepFacts {
         let layers = &point.closed.layers;
         Some(layers.get("scratches").or_else(|| layers.get("base"))?.rms)
     };
-    let points = || sweeps.iter().filter(|s| s.key == "light").flat_map(|s| &s.points);
+    let points = || {
+        sweeps
+            .iter()
+            .filter(|s| s.key == "light")
+            .flat_map(|s| &s.points)
+    };
     let lights = |large: bool| largest(points().filter(|p| (p.x >= 0.05) == large).filter_map(rms));
     let linear = |p: &SweepPoint| Some(p.linear.as_ref()?.layers.get("scratches")?.rms);
     let worst = sweeps.iter().filter_map(|sweep| {
