@@ -16,7 +16,7 @@ const REFERENCE_SIZE: &str = "480x270";
 /// Scenes whose picture is a reference's, since `render` leaves out what they are about, with its flags.
 const REFERENCES: [(&str, &[&str]); 1] = [(
     "mirror",
-    &["--bounces", "2", "--shadows", "on", "--spp", "2048"],
+    &["--bounces", "2", "--shadows", "on", "--spp", "1024"],
 )];
 
 /// Options of `pictures`.
