@@ -25,7 +25,7 @@ pub fn on_the_gpu(scene: &Scene, samples: u32) -> Option<Image> {
         samples,
         ..Default::default()
     };
-    let image = headless::render(gpu, scene, &options, &|_| {});
+    let image = headless::render(gpu, scene, &Default::default(), &options, &|_| {});
     Some(image.unwrap_or_else(|error| panic!("{error}")))
 }
 

@@ -100,5 +100,7 @@ fn render_on_gpu(gpu: &Gpu, scene: &Scene, samples: u32) -> Result<Image, hairli
         samples,
         ..Default::default()
     };
-    headless::render(gpu, scene, &options, &|share| progress.set(share))
+    headless::render(gpu, scene, &Default::default(), &options, &|share| {
+        progress.set(share)
+    })
 }

@@ -137,7 +137,9 @@ fn time_driver(
     gpu.block_on(async {
         let mut renderer = Renderer::new(gpu).await?;
         let (scratches, tables) = (prepared.scratches(), prepared.tables());
-        let uploaded = renderer.upload(scene, scratches, tables).await?;
+        let uploaded = renderer
+            .upload(scene, scratches, tables, &Default::default())
+            .await?;
         // Drivers compile at the first use.
         let row = strips[0].start..strips[0].start + 1;
         renderer

@@ -17,3 +17,6 @@
 @group(2) @binding(4) var environment_background: texture_2d<f32>;
 @group(2) @binding(5) var environment_levels: texture_2d<f32>;
 @group(2) @binding(6) var textures: texture_2d_array<f32>;
+// Wavelengths in x, materials in y; and for each triangle its scratches. One texel where the method has no use for them.
+@group(2) @binding(7) var published_wavelengths: texture_2d<f32>;
+@group(2) @binding(8) var triangle_lists: texture_2d<u32>;

@@ -42,16 +42,13 @@ impl Layouts {
             texture(wgpu::TextureViewDimension::D2, true),
             texture(wgpu::TextureViewDimension::D2, true),
             texture(wgpu::TextureViewDimension::D2Array, true),
+            texture(wgpu::TextureViewDimension::D2, false),
+            integers(),
         ];
         let textures: Vec<_> = (0..)
             .zip(textures)
             .map(|(i, ty)| entry(i, compute, ty))
             .collect();
-        let visibility = wgpu::BindingType::Texture {
-            sample_type: wgpu::TextureSampleType::Uint,
-            view_dimension: wgpu::TextureViewDimension::D2,
-            multisampled: false,
-        };
         Self {
             frame: layout(gpu, "frame", &[entry(0, both, uniform())]),
             scene: layout(gpu, "scene", &scene),
@@ -60,7 +57,7 @@ impl Layouts {
                 gpu,
                 "film",
                 &[
-                    entry(0, compute, visibility),
+                    entry(0, compute, integers()),
                     entry(1, compute, storage(false)),
                 ],
             ),
@@ -113,6 +110,14 @@ fn texture(view_dimension: wgpu::TextureViewDimension, filterable: bool) -> wgpu
     wgpu::BindingType::Texture {
         sample_type: wgpu::TextureSampleType::Float { filterable },
         view_dimension,
+        multisampled: false,
+    }
+}
+
+fn integers() -> wgpu::BindingType {
+    wgpu::BindingType::Texture {
+        sample_type: wgpu::TextureSampleType::Uint,
+        view_dimension: wgpu::TextureViewDimension::D2,
         multisampled: false,
     }
 }

@@ -9,6 +9,7 @@ use std::task::{Context, Poll, Waker};
 
 use hairline_image::Image;
 use hairline_index::ScratchIndex;
+use hairline_optics::method::Method;
 use hairline_scene::{Scene, ScratchTables};
 
 use crate::device::{AdapterRequest, Gpu};
@@ -44,13 +45,14 @@ pub fn adapters() -> Vec<crate::device::Adapter> {
 pub fn render(
     gpu: &Gpu,
     scene: &Scene,
+    method: &Method,
     options: &RenderOptions,
     progress: &dyn Fn(f64),
 ) -> Result<Image, Error> {
     let (index, tables) = (ScratchIndex::build(scene), ScratchTables::new(scene));
     gpu.block_on(async {
         let mut renderer = Renderer::new(gpu).await?;
-        let uploaded = renderer.upload(scene, &index, &tables).await?;
+        let uploaded = renderer.upload(scene, &index, &tables, method).await?;
         renderer.render(scene, &uploaded, options, progress).await
     })
 }

@@ -13,6 +13,7 @@ mod frame;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod headless;
 pub mod layout;
+mod published;
 pub mod readback;
 pub mod renderer;
 mod shade;

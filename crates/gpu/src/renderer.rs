@@ -1,9 +1,12 @@
 //! The way of a picture: visibility, shading, sample after sample on a film, then display or readback.
 
+use std::collections::HashMap;
 use std::ops::Range;
+use std::sync::Arc;
 
 use hairline_image::{Display, Image};
 use hairline_index::ScratchIndex;
+use hairline_optics::method::Method;
 use hairline_scene::{Scene, ScratchTables};
 use wgpu::BufferUsages;
 
@@ -14,7 +17,7 @@ use crate::error::Error;
 use crate::film::Film;
 use crate::frame::frame;
 use crate::layout::Frame;
-use crate::shade::ShadePass;
+use crate::shade::{Contents, ShadePass, ShadeVariant};
 use crate::upload::GpuScene;
 use crate::visibility::VisibilityPass;
 
@@ -42,7 +45,7 @@ pub struct Renderer {
     gpu: Gpu,
     layouts: Layouts,
     visibility: VisibilityPass,
-    shade: ShadePass,
+    shade_passes: HashMap<ShadeVariant, Arc<ShadePass>>,
     display: Option<DisplayPass>,
     frame: wgpu::Buffer,
     frame_group: wgpu::BindGroup,
@@ -50,32 +53,14 @@ pub struct Renderer {
 }
 
 impl Renderer {
-    /// Compiles the passes.
+    /// Compiles the passes that serve every scene.
     ///
     /// # Errors
     /// [`Error::Refused`] if the driver cannot compile a shader; [`Error::Lost`], [`Error::OutOfMemory`].
     pub async fn new(gpu: &Gpu) -> Result<Self, Error> {
         let gpu = gpu.clone();
-        let library = gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
-        let driver = gpu.device.push_error_scope(wgpu::ErrorFilter::Internal);
         let layouts = Layouts::new(&gpu);
-        let visibility = VisibilityPass::new(&gpu, &layouts);
-        let shade = ShadePass::new(&gpu, &layouts);
-        let (driver, library) = (driver.pop(), library.pop());
-        let (driver, library) = (driver.await, library.await);
-        // A lost device refuses everything; that it is lost says more.
-        gpu.check()?;
-        if let Some(error) = driver {
-            return Err(Error::Refused {
-                adapter: gpu.adapter.name.clone(),
-                reason: error.to_string(),
-            });
-        }
-        if let Some(error) = library {
-            return Err(Error::Validation {
-                description: error.to_string(),
-            });
-        }
+        let visibility = compiled(&gpu, || VisibilityPass::new(&gpu, &layouts)).await?;
         let usage = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
         let frame = gpu
             .buffer("frame", size_of::<Frame>() as u64, usage)
@@ -85,7 +70,7 @@ impl Renderer {
             gpu,
             layouts,
             visibility,
-            shade,
+            shade_passes: HashMap::new(),
             display: None,
             frame,
             frame_group,
@@ -98,17 +83,43 @@ impl Renderer {
         &self.gpu
     }
 
-    /// Puts a scene on the device, with its index and its tables.
+    /// Puts a scene on the device, with its index and its tables, to be rendered by `method`. The first scene of a kind has
+    /// its shading pass compiled.
     ///
     /// # Errors
-    /// [`Error::TooLarge`] before memory is spent on it, [`Error::OutOfMemory`], [`Error::Lost`].
+    /// [`Error::TooLarge`] before memory is spent on it, [`Error::Refused`] if the driver cannot compile the pass,
+    /// [`Error::OutOfMemory`], [`Error::Lost`].
     pub async fn upload(
-        &self,
+        &mut self,
         scene: &Scene,
         index: &ScratchIndex,
         tables: &ScratchTables,
+        method: &Method,
     ) -> Result<GpuScene, Error> {
-        GpuScene::new(&self.gpu, &self.layouts, scene, index, tables).await
+        let variant = ShadeVariant {
+            method: *method,
+            has: Contents::of(scene),
+        };
+        let shade = match self.shade_passes.get(&variant) {
+            Some(pass) => Arc::clone(pass),
+            None => {
+                let (gpu, layouts) = (&self.gpu, &self.layouts);
+                let pass = compiled(gpu, || ShadePass::new(gpu, layouts, &variant)).await?;
+                let pass = Arc::new(pass);
+                self.shade_passes.insert(variant, Arc::clone(&pass));
+                pass
+            }
+        };
+        GpuScene::new(
+            &self.gpu,
+            &self.layouts,
+            scene,
+            index,
+            tables,
+            method,
+            shade,
+        )
+        .await
     }
 
     /// Renders `scene`, which was uploaded as `uploaded`, by its own camera and at its own size; `progress` is told the
@@ -232,10 +243,11 @@ impl Renderer {
         }
         self.visibility
             .record(&mut encoder, &self.frame_group, uploaded, &film, rows);
-        self.shade
+        uploaded
+            .shade
             .record(&mut encoder, &self.frame_group, uploaded, &film, rows);
         self.gpu.queue.submit([encoder.finish()]);
-        if self.shade.bounded {
+        if uploaded.shade.bounded {
             self.finish_walks(uploaded, &film, rows).await?;
         }
         self.film = Some(film);
@@ -252,7 +264,8 @@ impl Renderer {
         while film.unfinished(&self.gpu).await? > 0 {
             let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
             film.clear_unfinished(&mut encoder);
-            self.shade
+            uploaded
+                .shade
                 .record(&mut encoder, &self.frame_group, uploaded, film, rows);
             self.gpu.queue.submit([encoder.finish()]);
         }
@@ -266,4 +279,27 @@ impl Renderer {
             _ => Film::new(&self.gpu, &self.layouts, width_px, rows).await,
         }
     }
+}
+
+/// What `create` compiles, or why the driver or the shader's own rules refuse it.
+async fn compiled<T>(gpu: &Gpu, create: impl FnOnce() -> T) -> Result<T, Error> {
+    let library = gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
+    let driver = gpu.device.push_error_scope(wgpu::ErrorFilter::Internal);
+    let created = create();
+    let (driver, library) = (driver.pop(), library.pop());
+    let (driver, library) = (driver.await, library.await);
+    // A lost device refuses everything; that it is lost says more.
+    gpu.check()?;
+    if let Some(error) = driver {
+        return Err(Error::Refused {
+            adapter: gpu.adapter.name.clone(),
+            reason: error.to_string(),
+        });
+    }
+    if let Some(error) = library {
+        return Err(Error::Validation {
+            description: error.to_string(),
+        });
+    }
+    Ok(created)
 }

@@ -5,11 +5,43 @@
 
 use std::ops::Range;
 
+use hairline_optics::method::Method;
+use hairline_scene::{Light, Scene};
+
 use crate::bindings::Layouts;
 use crate::device::{AdapterKind, Gpu};
 use crate::film::Film;
 use crate::shaders;
 use crate::upload::GpuScene;
+
+/// What a pipeline is specialised for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct ShadeVariant {
+    pub method: Method,
+    /// What the scene has: code for what it lacks is left out, so that it costs nothing.
+    pub has: Contents,
+}
+
+/// Which parts of the shader a scene needs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct Contents {
+    pub scratches: bool,
+    pub spheres: bool,
+    pub polygons: bool,
+    pub environment: bool,
+}
+
+impl Contents {
+    pub fn of(scene: &Scene) -> Self {
+        let has = |wanted: fn(&Light) -> bool| scene.lights.iter().any(wanted);
+        Self {
+            scratches: scene.objects.iter().any(|o| !o.segments.is_empty()),
+            spheres: has(|light| matches!(light, Light::Sphere { .. })),
+            polygons: has(|light| matches!(light, Light::Polygon { .. })),
+            environment: scene.environment.is_some(),
+        }
+    }
+}
 
 pub(crate) struct ShadePass {
     pipeline: wgpu::ComputePipeline,
@@ -23,13 +55,18 @@ const WORKGROUP_PX: u32 = 8;
 /// walk over the scratches stops well before and goes on in another dispatch.
 const SOFTWARE_MAX_ROUNDS: f64 = 5_000.0;
 
+/// The entry file.
+fn pass_of(_variant: &ShadeVariant) -> &'static shaders::Module {
+    &shaders::SHADE
+}
+
 impl ShadePass {
-    pub fn new(gpu: &Gpu, layouts: &Layouts) -> Self {
+    pub fn new(gpu: &Gpu, layouts: &Layouts, variant: &ShadeVariant) -> Self {
         let module = gpu
             .device
             .create_shader_module(wgpu::ShaderModuleDescriptor {
                 label: Some("shade"),
-                source: wgpu::ShaderSource::Wgsl(shaders::compose(&[&shaders::SHADE]).into()),
+                source: wgpu::ShaderSource::Wgsl(shaders::compose(&[pass_of(variant)]).into()),
             });
         let layout = gpu
             .device

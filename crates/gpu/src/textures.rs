@@ -1,7 +1,9 @@
 //! The scene's tables and textures: group 2.
 
 use hairline_image::Picture;
+use hairline_index::ScratchIndex;
 use hairline_optics::lobe_table::{self, LOBE_TABLE_SIZE, LobeTable};
+use hairline_optics::method::Method;
 use hairline_optics::table;
 use hairline_scene::{Scene, ScratchTables, Texture};
 use half::f16;
@@ -10,6 +12,7 @@ use wgpu::{TextureFormat, TextureUsages, TextureViewDimension};
 use crate::bindings::{Layouts, bind};
 use crate::device::Gpu;
 use crate::error::Error;
+use crate::published;
 
 /// All textures of the materials in one array: a layer each, every texture in its own size in the upper left corner, so
 /// that no texel is resampled.
@@ -112,8 +115,10 @@ pub(crate) async fn bind_textures(
     gpu: &Gpu,
     layouts: &Layouts,
     scene: &Scene,
+    index: &ScratchIndex,
     tables: &ScratchTables,
     array: &TextureArray,
+    method: &Method,
 ) -> Result<wgpu::BindGroup, Error> {
     let black = [Picture::new([1, 1])];
     let environment = scene.environment.as_ref();
@@ -127,6 +132,8 @@ pub(crate) async fn bind_textures(
         radiance_map(gpu, "environment", std::slice::from_ref(background)).await?,
         radiance_map(gpu, "prefiltered environment", levels).await?,
         array.upload(gpu, &scene.textures).await?,
+        published::wavelengths(gpu, scene, tables, method).await?,
+        published::triangle_lists(gpu, scene, index, method).await?,
     ];
     let resources = views.each_ref().map(wgpu::BindingResource::TextureView);
     Ok(bind(gpu, "textures", &layouts.textures, &resources))
@@ -205,7 +212,7 @@ async fn radiance_map(
     Ok(texture.create_view(&Default::default()))
 }
 
-async fn texture(
+pub(crate) async fn texture(
     gpu: &Gpu,
     what: &str,
     [width, height]: [u32; 2],
@@ -238,7 +245,7 @@ fn array_view(texture: &wgpu::Texture) -> wgpu::TextureView {
     })
 }
 
-fn write(
+pub(crate) fn write(
     gpu: &Gpu,
     texture: &wgpu::Texture,
     level: u32,

@@ -3,8 +3,10 @@
 use bytemuck::Zeroable;
 use glam::{DVec3, Vec3};
 use hairline_index::ScratchIndex;
+use hairline_optics::method::Method;
 use hairline_scene::{Scene, ScratchTables};
 use std::ops::Range;
+use std::sync::Arc;
 use wgpu::BufferUsages;
 
 use crate::bindings::{Layouts, SCENE_BUFFERS, bind};
@@ -12,9 +14,10 @@ use crate::device::Gpu;
 use crate::error::Error;
 use crate::layout::{LIGHT_POLYGON, LIGHT_SPHERE, VERTEX_BITANGENT_FLIPPED};
 use crate::layout::{Light, Material, Object, ScratchNode, ScratchSegment, Vertex};
+use crate::shade::ShadePass;
 use crate::textures::{self, TextureArray};
 
-/// A scene on the device: everything but the camera.
+/// A scene on the device, for one method: everything but the camera.
 pub struct GpuScene {
     pub(crate) buffers: wgpu::BindGroup,
     pub(crate) textures: wgpu::BindGroup,
@@ -23,6 +26,8 @@ pub struct GpuScene {
     /// What uploaded positions are relative to, world space.
     pub(crate) origin_m: DVec3,
     pub(crate) light_count: u32,
+    pub(crate) method: Method,
+    pub(crate) shade: Arc<ShadePass>,
 }
 
 /// The scene's buffers in host memory, in the order of their bindings.
@@ -47,6 +52,8 @@ impl GpuScene {
         scene: &Scene,
         index: &ScratchIndex,
         tables: &ScratchTables,
+        method: &Method,
+        shade: Arc<ShadePass>,
     ) -> Result<Self, Error> {
         check_size(gpu, scene, index)?;
         let array = TextureArray::new(scene);
@@ -80,7 +87,8 @@ impl GpuScene {
                 .collect(),
         };
         let buffers = host.upload(gpu, layouts).await?;
-        let textures = textures::bind_textures(gpu, layouts, scene, tables, &array).await?;
+        let textures =
+            textures::bind_textures(gpu, layouts, scene, index, tables, &array, method).await?;
         gpu.check()?;
         Ok(Self {
             buffers,
@@ -88,6 +96,8 @@ impl GpuScene {
             triangles,
             origin_m,
             light_count: scene.lights.len() as u32,
+            method: *method,
+            shade,
         })
     }
 }

@@ -34,15 +34,14 @@ fn scene(text: &str) -> Scene {
     Scene::from_toml(text, "test", ".").unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn upload(renderer: &Renderer, scene: &Scene) -> Result<GpuScene, Error> {
+fn upload(renderer: &mut Renderer, scene: &Scene) -> Result<GpuScene, Error> {
     let (index, tables) = (ScratchIndex::build(scene), ScratchTables::new(scene));
-    renderer
-        .gpu()
-        .block_on(renderer.upload(scene, &index, &tables))
+    let gpu = renderer.gpu().clone();
+    gpu.block_on(renderer.upload(scene, &index, &tables, &Default::default()))
 }
 
 fn render(gpu: &Gpu, scene: &Scene, options: &RenderOptions) -> Result<Image, Error> {
-    headless::render(gpu, scene, options, &|_| {})
+    headless::render(gpu, scene, &Default::default(), options, &|_| {})
 }
 
 /// The depth at which a pixel's ray meets the plate's plane, where it meets the plate; relative to the rim, how far out.
@@ -141,7 +140,9 @@ fn some_rows_are_the_pictures() {
     let (whole, some) = gpu
         .block_on(async {
             let mut renderer = Renderer::new(gpu).await?;
-            let uploaded = renderer.upload(&scene, &index, &tables).await?;
+            let uploaded = renderer
+                .upload(&scene, &index, &tables, &Default::default())
+                .await?;
             let some = renderer
                 .render_rows(&scene, &uploaded, &options, rows, &|_| {})
                 .await?;
@@ -256,7 +257,7 @@ fn the_display_shows_what_a_png_would() {
     let scene = scene(PLATE);
     let size = scene.render.size_px;
     let mut renderer = gpu.block_on(Renderer::new(gpu)).unwrap();
-    let uploaded = upload(&renderer, &scene).unwrap();
+    let uploaded = upload(&mut renderer, &scene).unwrap();
     let image = gpu
         .block_on(renderer.render(&scene, &uploaded, &RenderOptions::default(), &|_| {}))
         .unwrap();
@@ -475,9 +476,13 @@ fn a_scene_beyond_one_binding_is_refused_with_figures() {
     };
     let mut index = ScratchIndex::build(&scene);
     index.tree.nodes = vec![node; 4_300_000];
-    let renderer = gpu.block_on(Renderer::new(&gpu)).unwrap();
-    let Err(error) = gpu.block_on(renderer.upload(&scene, &index, &ScratchTables::new(&scene)))
-    else {
+    let mut renderer = gpu.block_on(Renderer::new(&gpu)).unwrap();
+    let Err(error) = gpu.block_on(renderer.upload(
+        &scene,
+        &index,
+        &ScratchTables::new(&scene),
+        &Default::default(),
+    )) else {
         panic!("4.3 million nodes of 32 bytes went into 128 MiB");
     };
     let message = error.to_string();
@@ -507,7 +512,7 @@ fn a_device_lost_between_two_pictures_is_an_error() {
     let gpu = headless::open(&AdapterRequest::default()).unwrap();
     let scene = scene(PLATE);
     let mut renderer = gpu.block_on(Renderer::new(&gpu)).unwrap();
-    let uploaded = upload(&renderer, &scene).unwrap();
+    let uploaded = upload(&mut renderer, &scene).unwrap();
     let options = RenderOptions::default();
     gpu.block_on(renderer.render(&scene, &uploaded, &options, &|_| {}))
         .unwrap();
@@ -532,11 +537,17 @@ fn a_device_lost_in_the_middle_is_an_error() {
         samples: 2,
         submission_px: 10 * 97,
     };
-    let error = headless::render(&gpu, &scene(PLATE), &options, &|share| {
-        if share > 0.5 {
-            gpu.device.destroy();
-        }
-    })
+    let error = headless::render(
+        &gpu,
+        &scene(PLATE),
+        &Default::default(),
+        &options,
+        &|share| {
+            if share > 0.5 {
+                gpu.device.destroy();
+            }
+        },
+    )
     .unwrap_err();
     assert!(matches!(error, Error::Lost { .. }), "{error}");
 }

@@ -12,6 +12,7 @@ pub mod lobe_table;
 pub mod ltc;
 pub mod mask;
 pub mod metal;
+pub mod method;
 pub mod published;
 pub mod scratch;
 pub mod spectrum;

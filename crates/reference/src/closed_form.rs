@@ -11,6 +11,7 @@ use glam::{DVec2, DVec3};
 use hairline_image::Image;
 use hairline_index::{ScratchIndex, TriangleIndex};
 use hairline_optics::mask::{Mask, ScratchSums};
+use hairline_optics::method::Method;
 use hairline_scene::camera::pixel_jitter;
 use hairline_scene::{CameraFrame, Scene, ScratchTables};
 use rayon::prelude::*;
@@ -23,15 +24,15 @@ pub struct RenderOptions {
     /// Jittered samples of a pixel on an edge or a crease; all other pixels, and all of them for 1, take one through the
     /// centre.
     pub samples: u32,
-    /// How the base pays for what scratches scatter.
-    pub mask: Mask,
+    /// By which method scratches are computed.
+    pub method: Method,
 }
 
 impl Default for RenderOptions {
     fn default() -> Self {
         Self {
             samples: 1,
-            mask: Mask::default(),
+            method: Method::default(),
         }
     }
 }
@@ -112,7 +113,7 @@ impl<'a> Prepared<'a> {
                             DVec2::new(x as f64 + 0.5, y as f64 + 0.5) + pixel_jitter(i, samples);
                         let sample = shade_pixel(
                             self,
-                            options.mask,
+                            options.method.mask,
                             &camera,
                             footprint_std_px,
                             pixel,

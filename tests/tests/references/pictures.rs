@@ -3,6 +3,7 @@
 use hairline_image::metrics::{BeyondNoise, ZTest};
 use hairline_image::{Image, Layer, Layers, Noise};
 use hairline_optics::mask::Mask;
+use hairline_optics::method::Method;
 use hairline_reference::closed_form::{self, RenderOptions};
 use hairline_reference::monte_carlo::{Integrator, Settings};
 use hairline_scene::Scene;
@@ -30,7 +31,10 @@ pub fn sampled(scene: &Scene, settings: Settings, batches: u32) -> Image {
 pub fn closed(scene: &Scene) -> Image {
     let options = RenderOptions {
         samples: 1,
-        mask: Mask::Linear,
+        method: Method {
+            mask: Mask::Linear,
+            ..Method::default()
+        },
     };
     closed_form::render(scene, &options, &|_| {})
 }

@@ -10,6 +10,7 @@ use std::time::Instant;
 use anyhow::{Context, Result};
 use hairline_image::{Display, Image, Layer, Output, exr_file};
 use hairline_optics::mask::Mask;
+use hairline_optics::method::Method;
 use hairline_reference::closed_form::{self, RenderOptions};
 use hairline_reference::monte_carlo::{Integrator, Settings};
 use hairline_scene::Scene;
@@ -122,7 +123,11 @@ impl Renders {
 
 /// The closed form's picture.
 pub fn closed_form(scene: &Scene, samples: u32, mask: Mask) -> Image {
-    closed_form::render(scene, &RenderOptions { samples, mask }, &|_| {})
+    let method = Method {
+        mask,
+        ..Method::default()
+    };
+    closed_form::render(scene, &RenderOptions { samples, method }, &|_| {})
 }
 
 /// Text that is digested as it is written.

@@ -13,7 +13,7 @@ use crate::diffraction;
 use std::f64::consts::PI;
 
 /// Which sine integral a renderer evaluates.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum SineIntegral {
     /// To the last digits of its language: [`diffraction::sine_integral`], in the shader to 1e-6.
     Exact,
