@@ -1,7 +1,8 @@
 //! Set-up: which adapters there are, which one renders, and the device on it.
 //!
-//! Everything here is possible under WebGPU: no optional feature is asked for, and no limit above WebGPU's defaults is
-//! needed, except by scenes that outgrow one buffer.
+//! Everything here is possible under WebGPU: the one optional feature that is asked for is the device's clock, which only
+//! measurements miss where it is absent, and no limit above WebGPU's defaults is needed, except by scenes that outgrow one
+//! buffer.
 
 use std::sync::{Arc, Mutex};
 
@@ -178,7 +179,7 @@ impl Adapter {
         }
         let descriptor = wgpu::DeviceDescriptor {
             label: Some("hairline"),
-            required_features: wgpu::Features::empty(),
+            required_features: self.handle.features() & wgpu::Features::TIMESTAMP_QUERY,
             required_limits: if default_limits {
                 wgpu::Limits::defaults()
             } else {

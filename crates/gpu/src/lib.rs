@@ -19,10 +19,12 @@ pub mod renderer;
 mod shade;
 pub mod shaders;
 mod textures;
+pub mod timing;
 pub mod upload;
 mod visibility;
 
 pub use device::{Adapter, AdapterKind, AdapterRequest, Gpu, KindRequest};
 pub use error::Error;
 pub use renderer::{RenderOptions, Renderer};
+pub use timing::PassTime;
 pub use upload::GpuScene;

@@ -18,6 +18,7 @@ use crate::film::Film;
 use crate::frame::frame;
 use crate::layout::Frame;
 use crate::shade::{Contents, ShadePass, ShadeVariant};
+use crate::timing::{PassTime, Timing};
 use crate::upload::GpuScene;
 use crate::visibility::VisibilityPass;
 
@@ -50,6 +51,7 @@ pub struct Renderer {
     frame: wgpu::Buffer,
     frame_group: wgpu::BindGroup,
     film: Option<Film>,
+    timing: Timing,
 }
 
 impl Renderer {
@@ -75,12 +77,33 @@ impl Renderer {
             frame,
             frame_group,
             film: None,
+            timing: Timing::default(),
         })
     }
 
     /// The device that it renders on.
     pub fn gpu(&self) -> &Gpu {
         &self.gpu
+    }
+
+    /// Has the device note when each pass begins and ends from now on, for [`Self::pass_times`]. False where it has no clock.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`], [`Error::Lost`].
+    pub async fn time_passes(&mut self) -> Result<bool, Error> {
+        if !self.timing.is_on() {
+            self.timing = Timing::on(&self.gpu).await?;
+        }
+        Ok(self.timing.is_on())
+    }
+
+    /// What each pass took since [`Self::time_passes`] or the last call, summed over its runs, once they are done. None
+    /// where passes are not timed, and after more than 2,048 runs.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`], [`Error::Lost`].
+    pub async fn pass_times(&mut self) -> Result<Option<Vec<PassTime>>, Error> {
+        self.timing.read(&self.gpu).await
     }
 
     /// Puts a scene on the device, with its index and its tables, to be rendered by `method`. The first scene of a kind has
@@ -241,11 +264,22 @@ impl Renderer {
         } else {
             film.clear_unfinished(&mut encoder);
         }
-        self.visibility
-            .record(&mut encoder, &self.frame_group, uploaded, &film, rows);
-        uploaded
-            .shade
-            .record(&mut encoder, &self.frame_group, uploaded, &film, rows);
+        self.visibility.record(
+            &mut encoder,
+            &self.frame_group,
+            uploaded,
+            &film,
+            rows,
+            &self.timing,
+        );
+        uploaded.shade.record(
+            &mut encoder,
+            &self.frame_group,
+            uploaded,
+            &film,
+            rows,
+            &self.timing,
+        );
         self.gpu.queue.submit([encoder.finish()]);
         if uploaded.shade.bounded {
             self.finish_walks(uploaded, &film, rows).await?;
@@ -264,9 +298,14 @@ impl Renderer {
         while film.unfinished(&self.gpu).await? > 0 {
             let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
             film.clear_unfinished(&mut encoder);
-            uploaded
-                .shade
-                .record(&mut encoder, &self.frame_group, uploaded, film, rows);
+            uploaded.shade.record(
+                &mut encoder,
+                &self.frame_group,
+                uploaded,
+                film,
+                rows,
+                &self.timing,
+            );
             self.gpu.queue.submit([encoder.finish()]);
         }
         Ok(())

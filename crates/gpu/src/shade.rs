@@ -12,6 +12,7 @@ use crate::bindings::Layouts;
 use crate::device::{AdapterKind, Gpu};
 use crate::film::Film;
 use crate::shaders;
+use crate::timing::Timing;
 use crate::upload::GpuScene;
 
 /// What a pipeline is specialised for.
@@ -107,8 +108,12 @@ impl ShadePass {
         scene: &GpuScene,
         film: &Film,
         rows: &Range<u32>,
+        timing: &Timing,
     ) {
-        let mut pass = encoder.begin_compute_pass(&Default::default());
+        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+            label: Some("shade"),
+            timestamp_writes: timing.compute("shade"),
+        });
         pass.set_pipeline(&self.pipeline);
         for (group, bound) in (0..).zip([frame, &scene.buffers, &scene.textures, &film.group]) {
             pass.set_bind_group(group, bound, &[]);

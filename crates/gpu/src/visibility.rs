@@ -9,6 +9,7 @@ use crate::bindings::Layouts;
 use crate::device::Gpu;
 use crate::film::{DEPTH_FORMAT, Film, VISIBILITY_FORMAT};
 use crate::shaders;
+use crate::timing::Timing;
 use crate::upload::GpuScene;
 
 pub(crate) struct VisibilityPass(wgpu::RenderPipeline);
@@ -72,6 +73,7 @@ impl VisibilityPass {
         scene: &GpuScene,
         film: &Film,
         rows: &Range<u32>,
+        timing: &Timing,
     ) {
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("visibility"),
@@ -92,6 +94,7 @@ impl VisibilityPass {
                 }),
                 stencil_ops: None,
             }),
+            timestamp_writes: timing.render("visibility"),
             ..Default::default()
         });
         pass.set_viewport(0.0, 0.0, film.width_px as f32, rows.len() as f32, 0.0, 1.0);

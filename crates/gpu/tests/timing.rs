@@ -1,0 +1,127 @@
+//! The device's own clock around each pass.
+
+use std::time::{Duration, Instant};
+
+use hairline_gpu::headless::{skip, test_gpu};
+use hairline_gpu::{GpuScene, PassTime, RenderOptions, Renderer};
+use hairline_index::ScratchIndex;
+use hairline_scene::{Scene, ScratchTables};
+
+const SCRATCHED: &str = r#"
+[camera]
+position_m = [0.0, -0.22, 0.30]
+target_m = [0.0, 0.0, 0.0]
+up = [0.0, 0.0, 1.0]
+
+[render]
+size_px = [96, 64]
+
+[[material]]
+name = "steel"
+kind = "mirror"
+
+[[object]]
+name = "plate"
+shape = { disk = { radius_m = 0.08 } }
+material = "steel"
+
+[[scratches]]
+object = "plate"
+pattern = "random"
+count = 1000
+length_m = 0.02
+width_um = 2.0
+depth_nm = 200.0
+
+[[light]]
+kind = "sphere"
+center_m = [0.0, 0.3, 0.3]
+radius_m = 0.05
+radiance = 9.0
+"#;
+
+fn upload(renderer: &mut Renderer, scene: &Scene) -> GpuScene {
+    let (index, tables) = (ScratchIndex::build(scene), ScratchTables::new(scene));
+    let gpu = renderer.gpu().clone();
+    gpu.block_on(renderer.upload(scene, &index, &tables, &Default::default()))
+        .unwrap()
+}
+
+fn render(renderer: &mut Renderer, scene: &Scene, uploaded: &GpuScene, samples: u32) {
+    let gpu = renderer.gpu().clone();
+    let options = RenderOptions {
+        samples,
+        ..RenderOptions::default()
+    };
+    gpu.block_on(renderer.render(scene, uploaded, &options, &|_| {}))
+        .unwrap();
+}
+
+fn times(renderer: &mut Renderer) -> Option<Vec<PassTime>> {
+    let gpu = renderer.gpu().clone();
+    gpu.block_on(renderer.pass_times()).unwrap()
+}
+
+fn sum(times: &[PassTime]) -> Duration {
+    times.iter().map(|pass| pass.time).sum()
+}
+
+#[test]
+fn passes_take_time_and_not_more_than_has_gone_by() {
+    let Some(gpu) = test_gpu() else { return };
+    let scene = Scene::from_toml(SCRATCHED, "test", ".").unwrap_or_else(|error| panic!("{error}"));
+    let mut renderer = gpu.block_on(Renderer::new(gpu)).unwrap();
+    let uploaded = upload(&mut renderer, &scene);
+
+    // Nobody has asked.
+    render(&mut renderer, &scene, &uploaded, 1);
+    assert_eq!(times(&mut renderer), None);
+
+    if !gpu.block_on(renderer.time_passes()).unwrap() {
+        return skip("the device has no clock");
+    }
+    let mut before = Duration::ZERO;
+    for samples in [1, 3] {
+        let start = Instant::now();
+        render(&mut renderer, &scene, &uploaded, samples);
+        let wall = start.elapsed();
+        let times = times(&mut renderer).unwrap();
+        let names: Vec<&str> = times.iter().map(|pass| pass.name).collect();
+        assert!(
+            names.contains(&"visibility") && names.contains(&"shade"),
+            "{names:?}"
+        );
+        for pass in &times {
+            assert!(!pass.time.is_zero(), "{} took no time", pass.name);
+        }
+        // Passes run one after the other, so that their sum is bounded too.
+        assert!(sum(&times) < wall, "{times:?} within {wall:?}");
+        // Three samples are three runs, and summed; twice, since machines are shared.
+        assert!(
+            sum(&times) > 2 * before || before.is_zero(),
+            "{times:?} after {before:?}"
+        );
+        before = sum(&times);
+    }
+    // What was read is gone.
+    assert_eq!(times(&mut renderer), Some(Vec::new()));
+}
+
+#[test]
+fn more_runs_than_there_is_room_for_are_no_time() {
+    let Some(gpu) = test_gpu() else { return };
+    let text = SCRATCHED
+        .replace("[96, 64]", "[2, 2]")
+        .replace("count = 1000", "count = 0");
+    let scene = Scene::from_toml(&text, "test", ".").unwrap_or_else(|error| panic!("{error}"));
+    let mut renderer = gpu.block_on(Renderer::new(gpu)).unwrap();
+    let uploaded = upload(&mut renderer, &scene);
+    if !gpu.block_on(renderer.time_passes()).unwrap() {
+        return skip("the device has no clock");
+    }
+    // At least two passes a sample.
+    render(&mut renderer, &scene, &uploaded, 1100);
+    assert_eq!(times(&mut renderer), None);
+    render(&mut renderer, &scene, &uploaded, 1);
+    assert!(times(&mut renderer).is_some_and(|times| !times.is_empty()));
+}
