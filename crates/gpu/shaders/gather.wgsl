@@ -8,17 +8,6 @@ const REACH_STD: f32 = 3.5;
 const FACING_MIN_COS: f32 = 0.2;
 const LEAF_FIRST_BITS: u32 = 28u;
 
-// Loop rounds of this invocation. A software driver ends loops after 65,536, its neighbours' counted in; the host lowers
-// the bound there, and the walk goes on in another dispatch.
-var<private> gather_rounds: u32;
-override GATHER_MAX_ROUNDS: u32 = 0xffffffffu;
-
-// A walk over the scratches of an object: the node to go on with, and what was added up before it.
-struct ScratchWalk {
-    at: u32,
-    sums: ScratchSums,
-}
-
 // A segment as seen from the point.
 struct SegmentView {
     tangent: vec2f,             // in the surface's frame
@@ -31,7 +20,7 @@ struct SegmentView {
     depth_nm: f32,
 }
 
-fn gather_view(point: SurfacePoint, segment: ScratchSegment) -> SegmentView {
+fn gather_view(point: SurfacePoint, segment: Segment) -> SegmentView {
     let start = surface_from_world(point, segment.start_m - point.position_m) * 1e6;
     let end = surface_from_world(point, segment.end_m - point.position_m) * 1e6;
     let along = end.xy - start.xy;
@@ -54,7 +43,7 @@ fn gather_offset_um(view: SegmentView) -> f32 {
 }
 
 // The share of a segment; zero where it lies on another side of the surface or out of the footprint's reach.
-fn gather_share(point: SurfacePoint, segment: ScratchSegment, view: SegmentView) -> ScratchShare {
+fn gather_share(point: SurfacePoint, segment: Segment, view: SegmentView) -> ScratchShare {
     let axis_x = view.axis_x;
     let axis_y = view.axis_y;
     let footprint = Footprint(
@@ -352,7 +341,7 @@ fn gather_weigh(point: SurfacePoint, batch: ptr<function, GatherBatch>, walk: pt
     var sums = (*walk).sums;
     for (var i = 0u; i < (*batch).segment_count; i += 1u) {
         gather_rounds += 1u;
-        let segment = scratch_segments[(*batch).segments[i]];
+        let segment = segment_at((*batch).segments[i]);
         let share = gather_share(point, segment, gather_view(point, segment));
         (*batch).shares[i] = max(share.segment, 0.0);
         if share.segment > 0.0 {
@@ -371,7 +360,7 @@ fn gather_pair(point: SurfacePoint, flat_stds: vec4f, first_light: u32, end_ligh
     var polygons = 0u;
     for (var i = 0u; i < (*batch).segment_count; i += 1u) {
         gather_rounds += 1u;
-        let view = gather_view(point, scratch_segments[(*batch).segments[i]]);
+        let view = gather_view(point, segment_at((*batch).segments[i]));
         let counts = (*batch).shares[i] > 0.0;
         for (var l = first_light; l < end_light; l += 1u) {
             gather_rounds += 1u;
@@ -397,7 +386,7 @@ fn gather_light(point: SurfacePoint, flat_stds: vec4f, batch: ptr<function, Gath
         gather_rounds += 1u;
         let slot = (*batch).pairs[i] & 0xffu;
         let light = lights[(*batch).pairs[i] >> 8u];
-        let view = gather_view(point, scratch_segments[(*batch).segments[slot]]);
+        let view = gather_view(point, segment_at((*batch).segments[slot]));
         (*walk).sums.radiance += (*batch).shares[slot] * light.radiance * gather_sphere(point, view, light, flat_stds);
     }
     for (var i = 0u; i < (*batch).polygon_count; i += 1u) {
@@ -405,7 +394,7 @@ fn gather_light(point: SurfacePoint, flat_stds: vec4f, batch: ptr<function, Gath
         let pair = (*batch).pairs[GATHER_PAIRS - 1u - i];
         let slot = pair & 0xffu;
         let light = lights[pair >> 8u];
-        let view = gather_view(point, scratch_segments[(*batch).segments[slot]]);
+        let view = gather_view(point, segment_at((*batch).segments[slot]));
         (*walk).sums.radiance += (*batch).shares[slot] * light.radiance * gather_polygon(point, view, light, flat_stds);
     }
 }
@@ -413,7 +402,7 @@ fn gather_light(point: SurfacePoint, flat_stds: vec4f, batch: ptr<function, Gath
 fn gather_light_environment(point: SurfacePoint, batch: ptr<function, GatherBatch>, walk: ptr<function, ScratchWalk>) {
     for (var i = 0u; i < (*batch).segment_count; i += 1u) {
         gather_rounds += 1u;
-        let view = gather_view(point, scratch_segments[(*batch).segments[i]]);
+        let view = gather_view(point, segment_at((*batch).segments[i]));
         (*walk).sums.radiance += (*batch).shares[i] * gather_environment(point, view);
     }
 }

@@ -82,13 +82,12 @@ struct ScratchNode {
     leaf: u32,                  // 0, or the count of segments in the upper 4 bits and the first one in the lower 28
 }
 
+// Packed; segment_at() unpacks.
 struct ScratchSegment {
     start_m: vec3f,
-    width_um: f32,
+    width_depth: u32,           // half floats: um, nm
     end_m: vec3f,
-    depth_nm: f32,
-    normal: vec3f,
-    blur_um: f32,
+    normal_blur: u32,           // two bytes of an octahedral map, a half float in um
 }
 
 // Weighted sums over the samples of a pixel, and the walk over the scratches of the sample in hand: a dispatch may leave it

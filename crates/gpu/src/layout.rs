@@ -119,11 +119,9 @@ shared! {
     /// A straight piece of a scratch.
     ScratchSegment {
         start_m: [f32; 3],
-        width_um: f32,
+        width_depth: u32,
         end_m: [f32; 3],
-        depth_nm: f32,
-        normal: [f32; 3],
-        blur_um: f32,
+        normal_blur: u32,
     }
     /// Weighted sums over the samples of a pixel, and the walk in hand.
     FilmPixel {

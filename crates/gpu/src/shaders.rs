@@ -81,12 +81,18 @@ modules! {
     BINDINGS = "bindings" needs [LAYOUT];
     /// Look-ups in what the scene binds.
     SCENE = "scene" needs [BINDINGS, ENVIRONMENT, TONE_MAP];
+    /// What a scene has: pipelines are compiled for it.
+    CONTENTS = "contents" needs [];
+    /// A walk over scratches that may be left and gone on with.
+    WALK = "walk" needs [MASK];
+    /// The straight pieces of scratches, unpacked.
+    SEGMENTS = "segments" needs [BINDINGS];
     /// What the shading pass adds to: group 3.
-    FILM = "film" needs [GATHER];
+    FILM = "film" needs [BINDINGS, WALK];
     /// From a triangle to the surface point.
     HIT = "hit" needs [SCENE, SURFACE, CAMERA, GGX];
     /// The scratches under a footprint and their light.
-    GATHER = "gather" needs [SCENE, SURFACE, BAND_ENVIRONMENT, MASK, SCRATCH_TABLE];
+    GATHER = "gather" needs [SCENE, SURFACE, SEGMENTS, WALK, CONTENTS, BAND_ENVIRONMENT, SCRATCH_TABLE];
     /// The base under lights and environment.
     BASE = "base" needs [GATHER, LTC];
     /// Pass: triangle and object of each pixel.
@@ -134,7 +140,8 @@ mod tests {
             });
             naga::valid::Validator::new(
                 naga::valid::ValidationFlags::all(),
-                naga::valid::Capabilities::empty(),
+                // Half floats in words: every WebGPU device packs and unpacks them.
+                naga::valid::Capabilities::SHADER_FLOAT16_IN_FLOAT32,
             )
             .validate(&parsed)
             .unwrap_or_else(|error| panic!("{}:\n{}", module.name, error.emit_to_string(&text)));

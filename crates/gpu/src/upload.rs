@@ -5,6 +5,7 @@ use glam::{DVec3, Vec3};
 use hairline_index::ScratchIndex;
 use hairline_optics::method::Method;
 use hairline_scene::{Scene, ScratchTables};
+use half::f16;
 use std::ops::Range;
 use std::sync::Arc;
 use wgpu::BufferUsages;
@@ -344,10 +345,26 @@ fn scratch_node(node: &hairline_index::ScratchNode, origin_m: DVec3) -> ScratchN
 fn scratch_segment(segment: &hairline_index::IndexedSegment, origin_m: DVec3) -> ScratchSegment {
     ScratchSegment {
         start_m: relative(segment.start_m.as_dvec3(), origin_m),
-        width_um: segment.width_um,
+        width_depth: half_bits(segment.width_um) | half_bits(segment.depth_nm) << 16,
         end_m: relative(segment.end_m.as_dvec3(), origin_m),
-        depth_nm: segment.depth_nm,
-        normal: segment.normal.to_array(),
-        blur_um: segment.blur_um,
+        normal_blur: octahedral(segment.normal) | half_bits(segment.blur_um) << 16,
     }
+}
+
+fn half_bits(value: f32) -> u32 {
+    u32::from(f16::from_f32(value).to_bits())
+}
+
+/// A unit vector as two signed bytes. Twin: `segment_normal` in segments.wgsl.
+fn octahedral(normal: Vec3) -> u32 {
+    let v = normal / (normal.x.abs() + normal.y.abs() + normal.z.abs()).max(1e-30);
+    let folded = |value: f32, other: f32| {
+        if v.z >= 0.0 {
+            value
+        } else {
+            (1.0 - other.abs()).copysign(value)
+        }
+    };
+    let byte = |value: f32| u32::from((value * 127.0).round() as i8 as u8);
+    byte(folded(v.x, v.y)) | byte(folded(v.y, v.x)) << 8
 }

@@ -1,0 +1,12 @@
+// A walk over the scratches under a pixel, which may be left and gone on with in another dispatch.
+
+// Loop rounds of this invocation. A software driver ends loops after 65,536, its neighbours' counted in; the host lowers
+// the bound there, and the walk goes on in another dispatch.
+var<private> gather_rounds: u32;
+override GATHER_MAX_ROUNDS: u32 = 0xffffffffu;
+
+// Where to go on, and what was added up before it.
+struct ScratchWalk {
+    at: u32,
+    sums: ScratchSums,
+}
