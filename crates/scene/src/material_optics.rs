@@ -3,6 +3,7 @@
 use crate::scene::{Base, Material, Scene};
 use hairline_optics::fresnel::FresnelRgb;
 use hairline_optics::metal::Metal;
+use hairline_optics::published::spectrum::PublishedSpectrum;
 use hairline_optics::table::ScratchTable;
 
 /// A material's reflection before textures: a metallic part with the base colour as its reflectance at normal incidence, and
@@ -25,6 +26,8 @@ pub struct MaterialOptics {
 pub struct ScratchTables {
     /// Distinct tables.
     pub tables: Vec<ScratchTable>,
+    /// The metal of each table; none for white's.
+    pub metals: Vec<Option<Metal>>,
     /// One for each material of the scene.
     pub materials: Vec<MaterialOptics>,
 }
@@ -33,7 +36,7 @@ impl ScratchTables {
     /// Tables and coefficients for all materials of a scene.
     pub fn new(scene: &Scene) -> Self {
         // Colours given in RGB have no spectrum: their scratches use white's table and take the colour at the end.
-        let mut spectra: Vec<Option<Metal>> = Vec::new();
+        let mut metals: Vec<Option<Metal>> = Vec::new();
         let materials = scene
             .materials
             .iter()
@@ -42,19 +45,36 @@ impl ScratchTables {
                     Base::Metal(metal) => Some(metal),
                     _ => None,
                 };
-                let table = spectra.iter().position(|s| *s == metal).unwrap_or_else(|| {
-                    spectra.push(metal);
-                    spectra.len() - 1
+                let table = metals.iter().position(|m| *m == metal).unwrap_or_else(|| {
+                    metals.push(metal);
+                    metals.len() - 1
                 });
                 material_optics(material, table as u32)
             })
             .collect();
-        let tables = spectra
+        let tables = metals
             .iter()
-            .map(|metal| ScratchTable::new(|nm| metal.map_or(1.0, |m| m.reflectance(1.0, nm))))
+            .map(|metal| ScratchTable::new(|nm| reflectance(*metal, nm)))
             .collect();
-        Self { tables, materials }
+        Self {
+            tables,
+            metals,
+            materials,
+        }
     }
+
+    /// What the method of 2018 has in the place of each table: `count` wavelengths.
+    pub fn published_spectra(&self, count: usize) -> Vec<PublishedSpectrum> {
+        self.metals
+            .iter()
+            .map(|metal| PublishedSpectrum::new(count, |nm| reflectance(*metal, nm)))
+            .collect()
+    }
+}
+
+/// At normal incidence.
+fn reflectance(metal: Option<Metal>, wavelength_nm: f64) -> f64 {
+    metal.map_or(1.0, |m| m.reflectance(1.0, wavelength_nm))
 }
 
 fn material_optics(material: &Material, table: u32) -> MaterialOptics {
