@@ -5,8 +5,10 @@ pub mod groove_index;
 pub mod scratch_index;
 pub mod segment_tree;
 pub mod triangle_index;
+pub mod triangle_lists;
 
 pub use groove_index::Groove;
 pub use scratch_index::{IndexedSegment, ScratchIndex};
 pub use segment_tree::{ScratchNode, SegmentTree};
 pub use triangle_index::{Hit, TriangleIndex};
+pub use triangle_lists::TriangleLists;

@@ -70,13 +70,26 @@ impl<S: Straight> SegmentTree<S> {
     /// Calls `visit` for every segment of an object whose node touches the box around a point.
     #[inline]
     pub fn gather(&self, object: usize, center_m: Vec3, reach_m: Vec3, mut visit: impl FnMut(&S)) {
+        self.walk(object, center_m - reach_m, center_m + reach_m, |segments| {
+            self.segments[segments].iter().for_each(&mut visit);
+        });
+    }
+
+    /// Calls `visit` with the indices of every leaf of an object that touches the box from `lower` to `upper`.
+    #[inline]
+    pub fn walk(
+        &self,
+        object: usize,
+        lower: Vec3,
+        upper: Vec3,
+        mut visit: impl FnMut(Range<usize>),
+    ) {
         let Range { start, end } = self.objects[object];
-        let (lower, upper) = (center_m - reach_m, center_m + reach_m);
         let mut at = start;
         while at < end {
             let node = &self.nodes[at as usize];
             if node.min_m.cmple(upper).all() && node.max_m.cmpge(lower).all() {
-                self.segments[node.segments()].iter().for_each(&mut visit);
+                visit(node.segments());
                 at += 1;
             } else {
                 at = node.skip;
