@@ -3,6 +3,7 @@
 use anyhow::anyhow;
 use hairline_gpu::{AdapterKind, AdapterRequest, Gpu, headless};
 use hairline_image::Image;
+use hairline_optics::method::Method;
 use hairline_reference::closed_form::{self, Prepared};
 use hairline_scene::Scene;
 
@@ -12,37 +13,42 @@ use crate::progress::Progress;
 use crate::trial::{self, Winner};
 
 /// Renders, and says on stderr in one line on what and why.
-pub fn render(scene: &Scene, backend: Backend, samples: u32) -> Result<Image, Failure> {
+pub fn render(
+    scene: &Scene,
+    method: &Method,
+    backend: Backend,
+    samples: u32,
+) -> Result<Image, Failure> {
     match backend {
         Backend::Cpu => {
             announce_cpu("as asked");
-            Ok(render_on_cpu(&Prepared::new(scene), samples))
+            Ok(render_on_cpu(&Prepared::new(scene), method, samples))
         }
         Backend::Gpu => {
             let advise = |error| Failure::Work(anyhow!("{error}; --backend cpu needs no driver"));
             let gpu = open().map_err(advise)?;
             announce_gpu(&gpu, "as asked");
-            render_on_gpu(&gpu, scene, samples).map_err(advise)
+            render_on_gpu(&gpu, scene, method, samples).map_err(advise)
         }
-        Backend::Auto => Ok(render_on_the_faster(scene, samples)),
+        Backend::Auto => Ok(render_on_the_faster(scene, method, samples)),
     }
 }
 
 /// A GPU if there is one; else the CPU renderer or a software driver, by trial. What fails on a graphics adapter is
 /// done on the CPU.
-fn render_on_the_faster(scene: &Scene, samples: u32) -> Image {
+fn render_on_the_faster(scene: &Scene, method: &Method, samples: u32) -> Image {
     match open() {
         Err(error) => {
             announce_cpu(&error.to_string());
-            render_on_cpu(&Prepared::new(scene), samples)
+            render_on_cpu(&Prepared::new(scene), method, samples)
         }
         Ok(gpu) if gpu.adapter.kind == AdapterKind::Software => {
             let prepared = Prepared::new(scene);
-            let trial = trial::run(&gpu, scene, &prepared, samples);
+            let trial = trial::run(&gpu, scene, method, &prepared, samples);
             match trial.winner {
                 Winner::Cpu => {
                     announce_cpu(&trial.why);
-                    render_on_cpu(&prepared, samples)
+                    render_on_cpu(&prepared, method, samples)
                 }
                 Winner::Driver(mut ready) => {
                     announce_gpu(&gpu, &trial.why);
@@ -51,16 +57,16 @@ fn render_on_the_faster(scene: &Scene, samples: u32) -> Image {
                     drop(progress);
                     image.unwrap_or_else(|error| {
                         warn_of(&gpu, &error);
-                        render_on_cpu(&prepared, samples)
+                        render_on_cpu(&prepared, method, samples)
                     })
                 }
             }
         }
         Ok(gpu) => {
             announce_gpu(&gpu, "a GPU is there");
-            render_on_gpu(&gpu, scene, samples).unwrap_or_else(|error| {
+            render_on_gpu(&gpu, scene, method, samples).unwrap_or_else(|error| {
                 warn_of(&gpu, &error);
-                render_on_cpu(&Prepared::new(scene), samples)
+                render_on_cpu(&Prepared::new(scene), method, samples)
             })
         }
     }
@@ -85,22 +91,25 @@ fn warn_of(gpu: &Gpu, error: &hairline_gpu::Error) {
     eprintln!("warning: {name} failed ({error}); the CPU renders instead");
 }
 
-fn render_on_cpu(prepared: &Prepared, samples: u32) -> Image {
+fn render_on_cpu(prepared: &Prepared, method: &Method, samples: u32) -> Image {
     let progress = Progress::start("rendering");
     let options = closed_form::RenderOptions {
         samples,
-        ..Default::default()
+        method: *method,
     };
     prepared.render(&options, &|share| progress.set(share))
 }
 
-fn render_on_gpu(gpu: &Gpu, scene: &Scene, samples: u32) -> Result<Image, hairline_gpu::Error> {
+fn render_on_gpu(
+    gpu: &Gpu,
+    scene: &Scene,
+    method: &Method,
+    samples: u32,
+) -> Result<Image, hairline_gpu::Error> {
     let progress = Progress::start("rendering");
     let options = hairline_gpu::RenderOptions {
         samples,
         ..Default::default()
     };
-    headless::render(gpu, scene, &Default::default(), &options, &|share| {
-        progress.set(share)
-    })
+    headless::render(gpu, scene, method, &options, &|share| progress.set(share))
 }

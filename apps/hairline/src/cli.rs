@@ -8,6 +8,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use hairline_image::{Layer, ToneMap};
 
 use crate::compare::limits::{self, Limit};
+use crate::method_flags::{Mask, MethodFlags};
 
 /// Renders the coloured, hair-thin scratches of worn surfaces.
 #[derive(Debug, Parser)]
@@ -63,6 +64,9 @@ pub struct Render {
     /// Exposure in stops, in place of the scene's: radiances are multiplied by 2^EV before the tone map of a .png.
     #[arg(long, value_name = "EV", allow_negative_numbers = true, value_parser = parse_exposure)]
     pub exposure: Option<f64>,
+    /// By which method.
+    #[command(flatten)]
+    pub method: MethodFlags,
 }
 
 /// `hairline compare`
@@ -166,17 +170,6 @@ pub enum Model {
     Separable,
     /// All phases: interference between scratches and with the base, exact ends, oblique paths.
     Full,
-}
-
-/// What scratches take from the base.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Mask {
-    /// What they scatter, in colour, scratches weakening one another: as `render`.
-    Energy,
-    /// The same without the weakening.
-    Linear,
-    /// The colourless density of Velinov et al. (2018).
-    Density,
 }
 
 /// On or off.

@@ -7,6 +7,7 @@ mod cli;
 mod compare;
 mod failure;
 mod info;
+mod method_flags;
 mod progress;
 mod reference;
 mod render;

@@ -133,11 +133,7 @@ fn settings(arguments: &cli::Reference) -> Result<Settings, Failure> {
     }
     Ok(Settings {
         model,
-        mask: match arguments.mask {
-            None | Some(cli::Mask::Energy) => Mask::Energy,
-            Some(cli::Mask::Linear) => Mask::Linear,
-            Some(cli::Mask::Density) => Mask::Density,
-        },
+        mask: arguments.mask.map_or(Mask::Energy, Into::into),
         bounces: arguments.bounces,
         shadows: arguments.shadows == cli::Switch::On,
         seed: arguments.sample_seed,

@@ -1,13 +1,16 @@
 //! `hairline render`: a scene file to a picture.
 
+use hairline_image::exr_file::Notes;
 use hairline_image::{Display, Output};
+use hairline_optics::method::Method;
 
 use crate::failure::Failure;
 use crate::scene_file::{self, Overrides};
-use crate::{backend, cli};
+use crate::{backend, cli, method_flags};
 
 /// Loads, renders and writes.
 pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
+    let method = arguments.method.method()?;
     let scene_path = arguments.scene.as_deref();
     let output_path = arguments
         .output
@@ -21,11 +24,20 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
         scratch_seed: arguments.seed,
     };
     let scene = scene_file::load(scene_path, &overrides)?.scene;
-    let image = backend::render(&scene, arguments.backend, arguments.samples)?;
+    let image = backend::render(&scene, &method, arguments.backend, arguments.samples)?;
     let display = Display {
         exposure_ev: scene.camera.exposure_ev,
         tone_map: scene.render.tone_map,
     };
-    output.write_image(&image, &display)?;
+    output.write_image_with_notes(&image, &display, &notes(&method))?;
     Ok(())
+}
+
+/// By which method a picture was made, where that was another than the default.
+fn notes(method: &Method) -> Notes {
+    let mut notes = Notes::new();
+    if *method != Method::default() {
+        notes.insert("method".to_owned(), method_flags::flags_of(method));
+    }
+    notes
 }

@@ -12,6 +12,7 @@ use std::time::{Duration, Instant};
 
 use hairline_gpu::{Error, Gpu, GpuScene, RenderOptions, Renderer};
 use hairline_image::Image;
+use hairline_optics::method::Method;
 use hairline_reference::closed_form::{self, Prepared};
 use hairline_scene::Scene;
 
@@ -60,7 +61,7 @@ impl ReadyDriver {
 }
 
 /// Lets both renderers work on the same rows, for a small share of the time that the picture will take.
-pub fn run(gpu: &Gpu, scene: &Scene, prepared: &Prepared, samples: u32) -> Trial {
+pub fn run(gpu: &Gpu, scene: &Scene, method: &Method, prepared: &Prepared, samples: u32) -> Trial {
     let cpu = |why| Trial {
         winner: Winner::Cpu,
         why,
@@ -71,7 +72,7 @@ pub fn run(gpu: &Gpu, scene: &Scene, prepared: &Prepared, samples: u32) -> Trial
         return cpu(format!("no GPU; the picture is too small to try {driver}"));
     };
     let _bar = Progress::start("measuring");
-    let cpu_time = time_cpu(prepared, samples, &strips);
+    let cpu_time = time_cpu(prepared, method, samples, &strips);
     let whole_s = |strips_time: Duration| {
         let rows: usize = strips.iter().map(Range::len).sum();
         strips_time.as_secs_f64() * f64::from(height) / rows as f64
@@ -82,7 +83,7 @@ pub fn run(gpu: &Gpu, scene: &Scene, prepared: &Prepared, samples: u32) -> Trial
             "no GPU; {cpu_s:.1} s expected, too short to try {driver}"
         ));
     }
-    match time_driver(gpu, scene, prepared, samples, &strips, cpu_time) {
+    match time_driver(gpu, scene, method, prepared, samples, &strips, cpu_time) {
         Ok(Some((ready, time))) => Trial {
             winner: Winner::Driver(Box::new(ready)),
             why: format!(
@@ -109,13 +110,13 @@ fn strips(height: u32, threads: usize) -> Option<[Range<u32>; STRIPS_AT.len()]> 
     })
 }
 
-fn time_cpu(prepared: &Prepared, samples: u32, strips: &[Range<u32>]) -> Duration {
+fn time_cpu(prepared: &Prepared, method: &Method, samples: u32, strips: &[Range<u32>]) -> Duration {
     let start = Instant::now();
     for rows in strips {
         prepared.render_rows(
             &closed_form::RenderOptions {
                 samples,
-                ..Default::default()
+                method: *method,
             },
             rows.clone(),
             &|_| {},
@@ -128,6 +129,7 @@ fn time_cpu(prepared: &Prepared, samples: u32, strips: &[Range<u32>]) -> Duratio
 fn time_driver(
     gpu: &Gpu,
     scene: &Scene,
+    method: &Method,
     prepared: &Prepared,
     samples: u32,
     strips: &[Range<u32>],
@@ -137,9 +139,7 @@ fn time_driver(
     gpu.block_on(async {
         let mut renderer = Renderer::new(gpu).await?;
         let (scratches, tables) = (prepared.scratches(), prepared.tables());
-        let uploaded = renderer
-            .upload(scene, scratches, tables, &Default::default())
-            .await?;
+        let uploaded = renderer.upload(scene, scratches, tables, method).await?;
         // Drivers compile at the first use.
         let row = strips[0].start..strips[0].start + 1;
         renderer
@@ -212,7 +212,9 @@ mod tests {
         "#;
         let scene = Scene::from_toml(text, "test", ".").unwrap_or_else(|error| panic!("{error}"));
         let prepared = Prepared::new(&scene);
-        let time = |limit| time_driver(gpu, &scene, &prepared, 2, &[10..14, 30..34], limit);
+        let method = Method::default();
+        let strips = [10..14, 30..34];
+        let time = |limit| time_driver(gpu, &scene, &method, &prepared, 2, &strips, limit);
         assert!(time(Duration::ZERO).unwrap().is_none());
         let (mut ready, time) = time(Duration::from_secs(600)).unwrap().unwrap();
         assert!(time > Duration::ZERO);

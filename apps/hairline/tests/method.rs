@@ -1,0 +1,66 @@
+//! The flags that choose a method: what is refused, and what the picture remembers.
+
+use std::fs;
+use std::path::Path;
+
+use assert_cmd::Command;
+use hairline_image::exr_file;
+
+const SCENE: &str = include_str!("scratched.toml");
+
+fn hairline(folder: &Path, arguments: &str) -> assert_cmd::assert::Assert {
+    Command::cargo_bin("hairline")
+        .unwrap()
+        .current_dir(folder)
+        .args(arguments.split_whitespace())
+        .assert()
+}
+
+fn folder_with_scene() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("scratched.toml"), SCENE).unwrap();
+    folder
+}
+
+#[test]
+fn contradictions_are_2_and_nothing_is_written() {
+    let folder = folder_with_scene();
+    for (flags, message) in [
+        ("--wavelengths 8", "--spectrum si-fast or si-exact"),
+        ("--wavelengths 7 --spectrum si-fast", "3, 8, 16"),
+        ("--index triangles", "needs --footprint off"),
+        (
+            "--method published --index triangles",
+            "needs --footprint off",
+        ),
+        ("--method 2018", "default, published"),
+        ("--spectrum si", "table, si-fast, si-exact"),
+        ("--mask none", "energy, linear, density"),
+    ] {
+        let arguments = format!("render scratched.toml -o out.exr --backend cpu {flags}");
+        let assert = hairline(folder.path(), &arguments).code(2);
+        let text = String::from_utf8(assert.get_output().stderr.clone()).unwrap();
+        assert!(text.contains(message), "{flags}: {text}");
+        assert!(!folder.path().join("out.exr").exists(), "{flags}");
+    }
+}
+
+#[test]
+fn a_picture_remembers_another_method_than_the_default() {
+    let folder = folder_with_scene();
+    let mut pictures = Vec::new();
+    for flags in ["", "--mask density", "--mask linear"] {
+        let arguments = format!(
+            "render scratched.toml -o out.exr --backend cpu --size 32x18 --samples 1 {flags}"
+        );
+        hairline(folder.path(), &arguments).success();
+        let file = folder.path().join("out.exr");
+        let (image, notes) = exr_file::read_image_with_notes(&file).unwrap();
+        let noted = notes.get("method").map_or("", String::as_str);
+        assert_eq!(noted, flags);
+        pictures.push(image);
+    }
+    // The flag reached the renderer.
+    assert_ne!(pictures[0].density, pictures[1].density);
+    assert_ne!(pictures[0].density, pictures[2].density);
+}
