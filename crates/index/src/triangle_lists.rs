@@ -32,6 +32,11 @@ impl TriangleLists {
     /// # Panics
     /// Beyond 4 billion entries: 16 GiB.
     pub fn build(scene: &Scene, index: &ScratchIndex) -> Self {
+        Self::within(REACH_STD as f64, scene, index)
+    }
+
+    /// For points that see as far as `reach_std` standard deviations of what blurs a scratch.
+    fn within(reach_std: f64, scene: &Scene, index: &ScratchIndex) -> Self {
         let mut lists = Self {
             starts: vec![0],
             segments: Vec::new(),
@@ -44,7 +49,11 @@ impl TriangleLists {
                     let (mut lengths, mut segments) = (Vec::with_capacity(chunk.len()), Vec::new());
                     for &triangle in chunk {
                         let before = segments.len();
-                        TriangleReach::new(scene, object, triangle).list(index, o, &mut segments);
+                        TriangleReach::new(reach_std, scene, object, triangle).list(
+                            index,
+                            o,
+                            &mut segments,
+                        );
                         lengths.push(segments.len() - before);
                     }
                     (lengths, segments)
@@ -83,6 +92,7 @@ struct TriangleReach {
     axis_y: DVec3,
     normal: DVec3,
     corners_um: [DVec2; 3],
+    reach_std: f64,
     coherence_um: f64,
     /// Half the side of the box by which a point walks the tree.
     walk_um: f64,
@@ -91,14 +101,13 @@ struct TriangleReach {
 }
 
 impl TriangleReach {
-    fn new(scene: &Scene, object: &Object, triangle: usize) -> Self {
+    fn new(reach_std: f64, scene: &Scene, object: &Object, triangle: usize) -> Self {
         let mesh = &object.mesh;
         let corners_m = mesh.triangles[triangle].map(|v| mesh.positions_m[v as usize]);
         let [a, b, c] = corners_m.map(|v| v.as_dvec3());
         let normal = (b - a).cross(c - a).normalize_or(DVec3::Z);
         let (axis_x, axis_y) = normal.any_orthonormal_pair();
         let material = &scene.materials[mesh.triangle_materials[triangle] as usize];
-        let reach = REACH_STD as f64;
         let mut this = Self {
             corners_m,
             origin_m: a,
@@ -106,8 +115,9 @@ impl TriangleReach {
             axis_y,
             normal,
             corners_um: [DVec2::ZERO; 3],
+            reach_std,
             coherence_um: material.coherence_um,
-            walk_um: reach * WINDOW_VARIANCE.sqrt() * material.coherence_um,
+            walk_um: reach_std * WINDOW_VARIANCE.sqrt() * material.coherence_um,
             // A normal map may turn it anywhere.
             tilt_rad: if material.normal_texture.is_some() {
                 std::f64::consts::FRAC_PI_2
@@ -159,9 +169,8 @@ impl TriangleReach {
         }
         let (sin, cos) = self.tilt_rad.sin_cos();
         let height = highest.max(-lowest);
-        let reach = REACH_STD as f64;
-        let across = reach * 0.5f64.sqrt() * self.coherence_um;
-        let around = across.hypot(reach * segment.blur_um as f64);
+        let across = self.reach_std * 0.5f64.sqrt() * self.coherence_um;
+        let around = across.hypot(self.reach_std * segment.blur_um as f64);
         let in_plane = if cos > 1e-3 {
             ((around + height * sin) / cos).min(farthest)
         } else {
@@ -240,3 +249,6 @@ fn distance_to_segment(point: DVec2, start: DVec2, end: DVec2) -> f64 {
     let t = ((point - start).dot(along) / along.length_squared().max(1e-30)).clamp(0.0, 1.0);
     point.distance(start + along * t)
 }
+
+#[cfg(test)]
+mod tests;
