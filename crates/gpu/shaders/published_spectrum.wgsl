@@ -36,11 +36,9 @@ fn published_radiance(
 ) -> vec3f {
     let lambda_um = wavelength.wavelength_um;
     var chords = 0.0;
-    for (var i = 0u; i < 3u; i += 1u) {
-        if i < segments.count {
-            chords += published_chord_integral(segments.ends[i].y, width_um, lambda_um, fast)
-                - published_chord_integral(segments.ends[i].x, width_um, lambda_um, fast);
-        }
+    for (var i = 0u; i < segments.count; i += 1u) {
+        chords += published_chord_integral(segments.ends[i].y, width_um, lambda_um, fast)
+            - published_chord_integral(segments.ends[i].x, width_um, lambda_um, fast);
     }
     // |D|^2 is the square of this.
     let step = 2.0 * sin(6.28318531e-3 * depth_nm / lambda_um);

@@ -5,7 +5,9 @@
 
 use std::ops::Range;
 
-use hairline_optics::method::Method;
+use hairline_optics::mask::Mask;
+use hairline_optics::method::{Band, Chords, Lookup, Method, PixelFilter, Spectrum, SphereBase};
+use hairline_optics::published::sine_integral::SineIntegral;
 use hairline_scene::{Light, Scene};
 
 use crate::bindings::Layouts;
@@ -57,17 +59,83 @@ const WORKGROUP_PX: u32 = 8;
 const SOFTWARE_MAX_ROUNDS: f64 = 5_000.0;
 
 /// The entry file.
-fn pass_of(_variant: &ShadeVariant) -> &'static shaders::Module {
-    &shaders::SHADE
+fn pass_of(variant: &ShadeVariant) -> &'static shaders::Module {
+    if variant.method.is_default_path() {
+        &shaders::SHADE
+    } else {
+        &shaders::SHADE_PUBLISHED
+    }
+}
+
+/// What the shader is specialised by; names and numbers are those of contents.wgsl and method.wgsl.
+fn constants_of(variant: &ShadeVariant) -> [(&'static str, f64); 12] {
+    let ShadeVariant { method, has } = variant;
+    let (spectrum, wavelengths) = match method.spectrum {
+        Spectrum::Table => (0, 0),
+        Spectrum::Wavelengths { count, si } => match si {
+            SineIntegral::Exact => (1, count),
+            SineIntegral::Fast => (2, count),
+        },
+    };
+    let chords = match method.chords {
+        Chords::Roots => 0,
+        Chords::Steps => 1,
+    };
+    let band = match method.band {
+        Band::Lines => 0,
+        Band::MiddleLine => 1,
+    };
+    let footprint = match method.footprint {
+        PixelFilter::Gaussian => 0,
+        PixelFilter::Published => 1,
+        PixelFilter::Off => 2,
+    };
+    let mask = match method.mask {
+        Mask::Energy => 0,
+        Mask::Linear => 1,
+        Mask::Density => 2,
+    };
+    let sphere_base = match method.sphere_base {
+        SphereBase::Cosines => 0,
+        SphereBase::Pivot => 1,
+    };
+    let lookup = match method.lookup {
+        Lookup::Tiles => 0,
+        Lookup::Bvh => 1,
+        Lookup::Triangles => 2,
+    };
+    [
+        ("HAS_SCRATCHES", has.scratches.into()),
+        ("HAS_SPHERES", has.spheres.into()),
+        ("HAS_POLYGONS", has.polygons.into()),
+        ("HAS_ENVIRONMENT", has.environment.into()),
+        ("METHOD_SPECTRUM", spectrum.into()),
+        ("METHOD_WAVELENGTHS", wavelengths as f64),
+        ("METHOD_CHORDS", chords.into()),
+        ("METHOD_BAND", band.into()),
+        ("METHOD_FOOTPRINT", footprint.into()),
+        ("METHOD_MASK", mask.into()),
+        ("METHOD_SPHERE_BASE", sphere_base.into()),
+        ("METHOD_LOOKUP", lookup.into()),
+    ]
 }
 
 impl ShadePass {
     pub fn new(gpu: &Gpu, layouts: &Layouts, variant: &ShadeVariant) -> Self {
+        let text = shaders::compose(&[pass_of(variant)]);
+        let bounded = gpu.adapter.kind == AdapterKind::Software;
+        let bound = bounded.then_some(("GATHER_MAX_ROUNDS", SOFTWARE_MAX_ROUNDS));
+        // A constant that the shader does not declare would be refused.
+        let constants: Vec<_> = constants_of(variant)
+            .into_iter()
+            .chain(bound)
+            .filter(|(name, _)| text.contains(&format!("override {name}:")))
+            .collect();
         let module = gpu
             .device
             .create_shader_module(wgpu::ShaderModuleDescriptor {
                 label: Some("shade"),
-                source: wgpu::ShaderSource::Wgsl(shaders::compose(&[pass_of(variant)]).into()),
+                source: wgpu::ShaderSource::Wgsl(text.into()),
             });
         let layout = gpu
             .device
@@ -81,8 +149,6 @@ impl ShadePass {
                 ],
                 immediate_size: 0,
             });
-        let bound = [("GATHER_MAX_ROUNDS", SOFTWARE_MAX_ROUNDS)];
-        let bounded = gpu.adapter.kind == AdapterKind::Software;
         Self {
             bounded,
             pipeline: gpu
@@ -93,7 +159,7 @@ impl ShadePass {
                     module: &module,
                     entry_point: Some("shade"),
                     compilation_options: wgpu::PipelineCompilationOptions {
-                        constants: if bounded { &bound } else { &[] },
+                        constants: &constants,
                         ..Default::default()
                     },
                     cache: None,

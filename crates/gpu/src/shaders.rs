@@ -83,10 +83,14 @@ modules! {
     SCENE = "scene" needs [BINDINGS, ENVIRONMENT, TONE_MAP];
     /// What a scene has: pipelines are compiled for it.
     CONTENTS = "contents" needs [];
+    /// By which method scratches are computed: pipelines are compiled for it.
+    METHOD = "method" needs [];
     /// A walk over scratches that may be left and gone on with.
     WALK = "walk" needs [MASK];
     /// The straight pieces of scratches, unpacked.
     SEGMENTS = "segments" needs [BINDINGS];
+    /// The scratches of each triangle.
+    TRIANGLE_LISTS = "triangle_lists" needs [BINDINGS];
     /// What the shading pass adds to: group 3.
     FILM = "film" needs [BINDINGS, WALK];
     /// From a triangle to the surface point.
@@ -95,10 +99,21 @@ modules! {
     GATHER = "gather" needs [SCENE, SURFACE, SEGMENTS, WALK, CONTENTS, BAND_ENVIRONMENT, SCRATCH_TABLE];
     /// The base under lights and environment.
     BASE = "base" needs [GATHER, LTC];
+    /// The method of 2018: a scratch under lights and environment.
+    PUBLISHED_LIGHTS = "published_lights" needs [
+        SCENE, SURFACE, SEGMENTS, WALK, METHOD, BAND_ENVIRONMENT, SCRATCH_TABLE, PUBLISHED_SPECTRUM, PUBLISHED_SPHERE,
+        PUBLISHED_POLYGON
+    ];
+    /// The method of 2018: the scratches under a pixel.
+    PUBLISHED_GATHER = "published_gather" needs [PUBLISHED_LIGHTS, PUBLISHED_FOOTPRINT, TRIANGLE_LISTS, CONTENTS];
+    /// The method of 2018: the base.
+    PUBLISHED_BASE = "published_base" needs [PUBLISHED_LIGHTS, CONTENTS, SPTD];
     /// Pass: triangle and object of each pixel.
     VISIBILITY = "visibility" needs [BINDINGS];
     /// Pass: from what is visible to radiance.
     SHADE = "shade" needs [HIT, GATHER, BASE, FILM];
+    /// Pass: from what is visible to radiance by the method of 2018.
+    SHADE_PUBLISHED = "shade_published" needs [HIT, PUBLISHED_GATHER, PUBLISHED_BASE, FILM];
     /// Pass: the film on a display.
     DISPLAY = "display" needs [LAYOUT, TONE_MAP];
 }

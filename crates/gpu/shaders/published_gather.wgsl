@@ -1,0 +1,195 @@
+// The scratches under a pixel by the method of 2018, or by parts of it among the default's. Each pixel walks the hierarchy
+// by its skip pointers, or a list of its triangle. Twin: reference/src/published.rs.
+
+// Needs, beside its modules: scratch_nodes, scratch_segments, lights, triangle_lists.
+
+const PUBLISHED_REACH_STD: f32 = 3.5;
+const PUBLISHED_FACING_MIN_COS: f32 = 0.2;
+const PUBLISHED_LEAF_FIRST_BITS: u32 = 28u;
+const PUBLISHED_LEAF_SEGMENTS: u32 = 4u;
+// Sides of the box that has the variance of a Gaussian of standard deviation 1: the square root of 12.
+const PUBLISHED_BOX: f32 = 3.46410162;
+// Segments found and not yet lit. Finding and lighting are loops of their own, so that no driver that executes both sides of
+// every branch lights a scratch at each node.
+const PUBLISHED_BATCH: u32 = 16u;
+
+struct PublishedBatch {
+    count: u32,
+    segments: array<u32, PUBLISHED_BATCH>,
+    shares: array<f32, PUBLISHED_BATCH>,
+}
+
+// The point as scratches are seen from it: without a footprint it is the point in the pixel's middle.
+fn published_seen(point: SurfacePoint) -> SurfacePoint {
+    var seen = point;
+    if METHOD_FOOTPRINT == FOOTPRINT_OFF {
+        seen.footprint_x_m = vec3f(0.0);
+        seen.footprint_y_m = vec3f(0.0);
+        seen.turn_x = vec2f(0.0);
+        seen.turn_y = vec2f(0.0);
+    }
+    return seen;
+}
+
+// Where a walk is at its end. It counts nodes, or places in a triangle's list from the object's first node on.
+fn published_walk_end(object: Object, triangle: u32) -> u32 {
+    if METHOD_LOOKUP == LOOKUP_TRIANGLES {
+        let list = triangle_list(triangle);
+        return object.first_node + list.y - list.x;
+    }
+    return object.end_node;
+}
+
+// Walks on to the end or until the rounds are spent.
+fn published_scratches(point: SurfacePoint, object: Object, triangle: u32, end: u32, walk: ptr<function, ScratchWalk>) {
+    var batch: PublishedBatch;
+    while (*walk).at < end && gather_rounds < GATHER_MAX_ROUNDS {
+        gather_rounds += 1u;
+        if METHOD_LOOKUP == LOOKUP_TRIANGLES {
+            published_find_listed(object, triangle, end, walk, &batch);
+        } else {
+            published_find(point, end, walk, &batch);
+        }
+        published_weigh(point, &batch, walk);
+        published_light(point, &batch, walk);
+    }
+}
+
+// The next segments of the triangle's list.
+fn published_find_listed(
+    object: Object,
+    triangle: u32,
+    end: u32,
+    walk: ptr<function, ScratchWalk>,
+    batch: ptr<function, PublishedBatch>,
+) {
+    let at = (*walk).at;
+    let count = min(end - at, PUBLISHED_BATCH);
+    let first = triangle_list(triangle).x + at - object.first_node;
+    for (var i = 0u; i < count; i += 1u) {
+        (*batch).segments[i] = triangle_list_segment(first + i);
+        gather_rounds += 1u;
+    }
+    (*walk).at = at + count;
+    (*batch).count = count;
+}
+
+// The next segments whose leaves the footprint touches.
+fn published_find(
+    point: SurfacePoint,
+    end: u32,
+    walk: ptr<function, ScratchWalk>,
+    batch: ptr<function, PublishedBatch>,
+) {
+    let sigma_m = point.coherence_um * 1e-6;
+    let variance = point.footprint_x_m * point.footprint_x_m + point.footprint_y_m * point.footprint_y_m + 0.7 * sigma_m * sigma_m;
+    let reach = PUBLISHED_REACH_STD * sqrt(variance);
+    let lower = point.position_m - reach;
+    let upper = point.position_m + reach;
+    var at = (*walk).at;
+    var found = 0u;
+    while at < end && found + PUBLISHED_LEAF_SEGMENTS <= PUBLISHED_BATCH && gather_rounds < GATHER_MAX_ROUNDS {
+        let node = scratch_nodes[at];
+        // Lanes that a software driver has switched off read zeros, and would walk for ever.
+        if node.skip <= at {
+            break;
+        }
+        // The inner loop goes round once even for nodes without segments there.
+        gather_rounds += 2u;
+        let touches = all(node.min_m <= upper) && all(node.max_m >= lower);
+        at = select(node.skip, at + 1u, touches);
+        let first = node.leaf & ((1u << PUBLISHED_LEAF_FIRST_BITS) - 1u);
+        let count = select(0u, node.leaf >> PUBLISHED_LEAF_FIRST_BITS, touches);
+        for (var i = 0u; i < count; i += 1u) {
+            (*batch).segments[found] = first + i;
+            found += 1u;
+        }
+    }
+    (*walk).at = at;
+    (*batch).count = found;
+}
+
+// What a pixel sees of a segment.
+struct PublishedWeight {
+    share: ScratchShare,
+    density: f32,
+}
+
+// Nothing where the segment lies on another side of the surface or out of the footprint's reach.
+fn published_weight(point: SurfacePoint, segment: Segment, view: PublishedView) -> PublishedWeight {
+    let axis_x = view.axis_x;
+    let axis_y = view.axis_y;
+    let footprint = Footprint(
+        axis_x.y * axis_x.y + axis_y.y * axis_y.y,
+        axis_x.x * axis_x.x + axis_y.x * axis_y.x,
+        axis_x.x * axis_x.y + axis_y.x * axis_y.y,
+    );
+    let sigma = point.coherence_um;
+    let offset_um = published_offset_um(view);
+    let reach2 = PUBLISHED_REACH_STD * PUBLISHED_REACH_STD * (footprint.across_um2 + 0.5 * sigma * sigma);
+    let elsewhere = dot(segment.normal, point.normal) < PUBLISHED_FACING_MIN_COS;
+    if offset_um * offset_um > reach2 || elsewhere || !(view.end.x > view.start.x) {
+        return PublishedWeight(ScratchShare(0.0, 0.0), 0.0);
+    }
+    let width_um = segment.width_um;
+    if METHOD_FOOTPRINT != FOOTPRINT_PUBLISHED {
+        let share = scratch_share(width_um, offset_um, view.start.x, view.end.x, segment.blur_um, footprint, sigma);
+        return PublishedWeight(share, 2.0 * share.segment);
+    }
+    let pixel = PixelFootprint(PUBLISHED_BOX * axis_x.xy, PUBLISHED_BOX * axis_y.xy);
+    let seen = published_share(width_um, offset_um, view.start.x, view.end.x, segment.blur_um, pixel, sigma);
+    var line = 0.0;
+    if METHOD_MASK == MASK_ENERGY {
+        line = published_share(width_um, offset_um, -1e9, 1e9, segment.blur_um, pixel, sigma).share;
+    }
+    return PublishedWeight(ScratchShare(seen.share, line), seen.density);
+}
+
+// The share of each segment and what it takes from the base; keeps those that are seen.
+fn published_weigh(point: SurfacePoint, batch: ptr<function, PublishedBatch>, walk: ptr<function, ScratchWalk>) {
+    var sums = (*walk).sums;
+    var kept = 0u;
+    for (var i = 0u; i < (*batch).count; i += 1u) {
+        gather_rounds += 1u;
+        let index = (*batch).segments[i];
+        let segment = segment_at(index);
+        let weight = published_weight(point, segment, published_view(point, segment));
+        if weight.share.segment > 0.0 {
+            var taken = vec3f(weight.density / weight.share.segment);
+            if METHOD_MASK != MASK_DENSITY {
+                taken = published_total(point.table, published_mirror_depth_nm(point, segment.depth_nm));
+            }
+            mask_add(&sums, weight.share, taken, vec3f(0.0));
+            (*batch).segments[kept] = index;
+            (*batch).shares[kept] = weight.share.segment;
+            kept += 1u;
+        }
+    }
+    (*walk).sums = sums;
+    (*batch).count = kept;
+}
+
+// Their light.
+fn published_light(point: SurfacePoint, batch: ptr<function, PublishedBatch>, walk: ptr<function, ScratchWalk>) {
+    for (var i = 0u; i < (*batch).count; i += 1u) {
+        gather_rounds += 1u;
+        let view = published_view(point, segment_at((*batch).segments[i]));
+        var radiance = vec3f(0.0);
+        if HAS_SPHERES {
+            for (var l = published_next_light(0u, LIGHT_SPHERE); l < frame.light_count; l = published_next_light(l + 1u, LIGHT_SPHERE)) {
+                radiance += lights[l].radiance * published_sphere(point, view, lights[l]);
+                gather_rounds += 1u;
+            }
+        }
+        if HAS_POLYGONS {
+            for (var l = published_next_light(0u, LIGHT_POLYGON); l < frame.light_count; l = published_next_light(l + 1u, LIGHT_POLYGON)) {
+                radiance += lights[l].radiance * published_polygon(point, view, lights[l]);
+                gather_rounds += 1u;
+            }
+        }
+        if HAS_ENVIRONMENT {
+            radiance += published_environment(point, view);
+        }
+        (*walk).sums.radiance += (*batch).shares[i] * radiance;
+    }
+}
