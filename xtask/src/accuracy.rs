@@ -9,7 +9,6 @@ mod cost;
 mod figure;
 mod interference;
 mod masks;
-mod plot;
 mod plots;
 mod renders;
 mod scenes;

@@ -39,6 +39,19 @@ impl Camera {
             size_px: size,
         }
     }
+
+    /// The camera for a part of a picture: `crop_px` pixels about `middle`, given in parts of the picture's width and
+    /// height, as large as those of the picture of `picture_px` in its middle.
+    pub fn crop(&self, picture_px: [u32; 2], middle: DVec2, crop_px: [u32; 2]) -> Camera {
+        let frame = self.frame(picture_px);
+        let distance_m = self.position_m.distance(self.target_m);
+        let towards = frame.camera_ray(middle * frame.size_px).normalize();
+        Camera {
+            target_m: frame.position_m + distance_m * towards,
+            fov_y_rad: 2.0 * (0.5 * f64::from(crop_px[1]) * frame.per_px_y.length()).atan(),
+            ..*self
+        }
+    }
 }
 
 impl CameraFrame {
@@ -122,6 +135,16 @@ mod tests {
             (top.angle_between(bottom) - 0.5).abs() < 1e-9,
             "the vertical field of view"
         );
+    }
+
+    #[test]
+    fn a_crop_has_the_pictures_pixels_and_its_middle_the_pictures_ray() {
+        let (picture, crop_px, middle) = ([640, 480], [32, 18], DVec2::new(0.24, 0.58));
+        let whole = camera().frame(picture);
+        let crop = camera().crop(picture, middle, crop_px).frame(crop_px);
+        assert!((crop.per_px_y.length() / whole.per_px_y.length() - 1.0).abs() < 1e-9);
+        let ray = whole.camera_ray(middle * whole.size_px).normalize();
+        assert!((ray - crop.forward).length() < 1e-9);
     }
 
     #[test]

@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
-use anyhow::Result;
+use anyhow::{Context, Result};
+use hairline_image::output::write_atomically;
+use hairline_plot::{Axis, Series};
 
 use super::Figures;
 use super::compared::{Compared, LayerFigures};
@@ -10,7 +12,6 @@ use super::cost::Cost;
 use super::figure::Figure;
 use super::interference::{Errors, Interference};
 use super::masks::{MaskErrors, MaskFigures, Rms};
-use super::plot::{Axis, Series, plot};
 use super::sweeps::{SweepFigures, SweepPoint};
 
 const CLOSED: &str = "closed form against separable";
@@ -44,6 +45,13 @@ pub fn draw(folder: &Path, figures: &Figures) -> Result<()> {
         draw_cost(folder, cost)?;
     }
     Ok(())
+}
+
+/// Writes `folder/name.svg`.
+fn plot(folder: &Path, name: &str, axes: [Axis; 2], series: &[Series]) -> Result<()> {
+    let svg = hairline_plot::plot(axes, series).with_context(|| name.to_owned())?;
+    let path = folder.join(format!("{name}.svg"));
+    write_atomically(&path, svg.as_bytes()).with_context(|| path.display().to_string())
 }
 
 /// Name of a sweep's axis, and whether it is logarithmic; None for the base's.

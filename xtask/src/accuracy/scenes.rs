@@ -198,11 +198,7 @@ fn measure_view(renders: &Renders, root: &Path, view: &View) -> Result<SceneFigu
 /// The part of the picture about `middle`, in pixels as large as the picture's own.
 fn crop(scene: &Scene, middle: DVec2, size_px: [u32; 2]) -> Scene {
     let mut crop = scene.clone();
-    let frame = scene.camera.frame(scene.render.size_px);
-    let distance_m = scene.camera.position_m.distance(scene.camera.target_m);
-    crop.camera.target_m =
-        frame.position_m + distance_m * frame.camera_ray(middle * frame.size_px).normalize();
-    crop.camera.fov_y_rad = 2.0 * (0.5 * f64::from(size_px[1]) * frame.per_px_y.length()).atan();
+    crop.camera = scene.camera.crop(scene.render.size_px, middle, size_px);
     crop.render.size_px = size_px;
     crop
 }
@@ -214,27 +210,4 @@ fn pixel_um(scene: &Scene, image: &Image) -> f64 {
     depths.sort_by(f32::total_cmp);
     let depth_m = depths.get(depths.len() / 2).copied().unwrap_or(0.0);
     1e6 * f64::from(depth_m) * frame.per_px_y.length()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_crop_has_the_pictures_pixels_and_its_middle_the_pictures_ray() {
-        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-        let text = std::fs::read_to_string(root.join("scenes/plate.toml")).unwrap();
-        // Without its scratches, which take their time and change nothing here.
-        let text = text.replace("count = 10000", "count = 0");
-        let scene = Scene::from_toml(&text, "plate.toml", root.join("scenes")).unwrap();
-        let middle = DVec2::new(0.24, 0.58);
-        let crop = crop(&scene, middle, CROP_PX);
-        let (a, b) = (
-            scene.camera.frame(scene.render.size_px),
-            crop.camera.frame(CROP_PX),
-        );
-        assert!((a.per_px_y.length() / b.per_px_y.length() - 1.0).abs() < 1e-9);
-        let ray = a.camera_ray(middle * a.size_px).normalize();
-        assert!((ray - b.forward).length() < 1e-9);
-    }
 }

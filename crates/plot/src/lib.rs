@@ -1,9 +1,5 @@
 //! Plots as small SVG files that can be read on a light page and on a dark one: no background, grey axes.
 
-use std::path::Path;
-
-use anyhow::{Context, Result, anyhow};
-use hairline_image::output::write_atomically;
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
 use plotters::prelude::*;
 
@@ -22,19 +18,23 @@ const DECADES_MAX: f64 = 5.0;
 
 /// One axis.
 pub struct Axis<'a> {
+    /// What it shows, with its unit.
     pub name: &'a str,
+    /// Whether places are logarithms.
     pub log: bool,
 }
 
 /// One line.
 pub struct Series {
+    /// In the legend.
     pub name: String,
     /// x, y and y's standard error.
     pub points: Vec<[f64; 3]>,
-    /// Of [`COLORS`].
+    /// One of four, counted from 0.
     pub color: usize,
     /// A thin line without marks: for curves of many points.
     pub plain: bool,
+    /// Whether the line is dashed.
     pub dashed: bool,
 }
 
@@ -67,12 +67,19 @@ impl Series {
     }
 }
 
-/// Writes `folder/name.svg`.
-pub fn plot(folder: &Path, name: &str, axes: [Axis; 2], series: &[Series]) -> Result<()> {
+/// A plot that could not be drawn.
+#[derive(Debug, thiserror::Error)]
+#[error("cannot draw: {0}")]
+pub struct Error(String);
+
+/// The text of an SVG file: series over an x axis and a y axis.
+///
+/// # Errors
+/// Where the drawing library refuses.
+pub fn plot(axes: [Axis; 2], series: &[Series]) -> Result<String, Error> {
     let mut svg = String::new();
-    draw(&mut svg, &axes, series).map_err(|e| anyhow!("draw {name}: {e}"))?;
-    let path = folder.join(format!("{name}.svg"));
-    write_atomically(&path, svg.as_bytes()).with_context(|| path.display().to_string())
+    draw(&mut svg, &axes, series).map_err(|error| Error(error.to_string()))?;
+    Ok(svg)
 }
 
 type Drawn = std::result::Result<(), Box<dyn std::error::Error>>;
