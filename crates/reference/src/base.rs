@@ -5,7 +5,7 @@ use crate::surface::SurfacePoint;
 use glam::DVec3;
 use hairline_optics::ggx::ggx_area_reflectance;
 use hairline_optics::irradiance::{lambert_polygon, lambert_sphere};
-use hairline_optics::ltc::{ltc_begin, ltc_edge, ltc_end, ltc_lobe, ltc_sphere};
+use hairline_optics::ltc::{LtcLobe, ltc_begin, ltc_edge, ltc_end, ltc_lobe};
 use hairline_scene::Environment;
 
 /// Light by way of the base.
@@ -16,11 +16,13 @@ pub(crate) struct BaseRadiance {
     pub diffuse: DVec3,
 }
 
-/// Radiance of the base towards the viewer, before scratches take theirs.
+/// Radiance of the base towards the viewer, before scratches take theirs. `sphere` is the lobe's integrals over a sphere:
+/// [`hairline_optics::ltc::ltc_sphere`].
 pub(crate) fn base_radiance(
     environment: Option<&Environment>,
     point: &SurfacePoint,
     views: &LightViews,
+    sphere: impl Fn(&LtcLobe, DVec3, f64) -> [f64; 3],
 ) -> BaseRadiance {
     let lobe = ltc_lobe(point.wo, point.roughness);
     let reflectance = |integrals| {
@@ -45,7 +47,7 @@ pub(crate) fn base_radiance(
                     cap.sin_radius * cap.sin_radius
                 };
                 (
-                    ltc_sphere(&lobe, cap.axis, sin2),
+                    sphere(&lobe, cap.axis, sin2),
                     lambert_sphere(cap.axis, sin2),
                     radiance,
                 )

@@ -4,18 +4,21 @@
 //! `base`, film.
 
 use crate::light_view::LightViews;
+use crate::published::Published;
 use crate::silhouettes::Silhouettes;
 use crate::surface::SurfacePoint;
 use crate::{base, scratches, surface};
 use glam::{DVec2, DVec3};
 use hairline_image::Image;
-use hairline_index::{ScratchIndex, TriangleIndex};
-use hairline_optics::mask::{Mask, ScratchSums};
-use hairline_optics::method::Method;
+use hairline_index::{Hit, ScratchIndex, TriangleIndex, TriangleLists};
+use hairline_optics::ltc::ltc_sphere;
+use hairline_optics::mask::Masked;
+use hairline_optics::method::{Lookup, Method, PixelFilter};
 use hairline_scene::camera::pixel_jitter;
 use hairline_scene::{CameraFrame, Scene, ScratchTables};
 use rayon::prelude::*;
 use std::ops::Range;
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// How to render, beside what the scene says.
@@ -43,6 +46,10 @@ pub struct Prepared<'a> {
     pub(crate) triangles: TriangleIndex,
     pub(crate) scratches: ScratchIndex,
     pub(crate) tables: ScratchTables,
+    /// For methods that look scratches up by triangle.
+    lists: OnceLock<TriangleLists>,
+    /// Of each object, counted over the whole scene.
+    first_triangles: Vec<usize>,
 }
 
 impl<'a> Prepared<'a> {
@@ -57,12 +64,33 @@ impl<'a> Prepared<'a> {
             triangles,
             scratches,
             tables,
+            lists: OnceLock::new(),
+            first_triangles: scene
+                .objects
+                .iter()
+                .scan(0, |next, object| {
+                    let first = *next;
+                    *next += object.mesh.triangles.len();
+                    Some(first)
+                })
+                .collect(),
         }
     }
 
     /// The tree over the scratches.
     pub fn scratches(&self) -> &ScratchIndex {
         &self.scratches
+    }
+
+    /// The scratches that each triangle's points may see without a footprint; built when first asked for.
+    pub fn triangle_lists(&self) -> &TriangleLists {
+        self.lists
+            .get_or_init(|| TriangleLists::build(self.scene, &self.scratches))
+    }
+
+    fn triangle_list(&self, hit: &Hit) -> &[u32] {
+        let first = self.first_triangles[hit.object as usize];
+        self.triangle_lists().of(first + hit.triangle as usize)
     }
 
     /// The tables of the scratches' profiles.
@@ -87,6 +115,11 @@ impl<'a> Prepared<'a> {
         let [width, height] = [scene.render.size_px[0], rows.len() as u32];
         let camera = scene.camera.frame(scene.render.size_px);
         let samples = options.samples.max(1);
+        let way = Way {
+            prepared: self,
+            method: options.method,
+            published: Published::new(self, options.method),
+        };
         let silhouettes = (samples > 1)
             .then(|| Silhouettes::new(&self.triangles, &camera, scene.render.size_px, &rows));
         let done = AtomicUsize::new(0);
@@ -111,14 +144,7 @@ impl<'a> Prepared<'a> {
                     for i in 0..samples {
                         let pixel =
                             DVec2::new(x as f64 + 0.5, y as f64 + 0.5) + pixel_jitter(i, samples);
-                        let sample = shade_pixel(
-                            self,
-                            options.method.mask,
-                            &camera,
-                            footprint_std_px,
-                            pixel,
-                            views,
-                        );
+                        let sample = way.shade_pixel(&camera, footprint_std_px, pixel, views);
                         sum.base += sample.base;
                         sum.scratches += sample.scratches;
                         sum.density += sample.density;
@@ -161,69 +187,95 @@ pub fn render(scene: &Scene, options: &RenderOptions, progress: &(dyn Fn(f64) + 
     Prepared::new(scene).render(options, progress)
 }
 
-/// One ray through a point of the picture.
-fn shade_pixel(
-    prepared: &Prepared,
-    mask: Mask,
-    camera: &CameraFrame,
-    footprint_std_px: f64,
-    pixel: DVec2,
-    views: &mut LightViews,
-) -> Sample {
-    let scene = prepared.scene;
-    let ray = camera.camera_ray(pixel);
-    let direction = ray.normalize();
-    let Some(hit) = prepared.triangles.intersect(camera.position_m, direction) else {
-        let background = match &scene.environment {
-            Some(environment) if environment.visible() => environment.radiance(direction),
-            _ => DVec3::ZERO,
-        };
-        return Sample {
-            base: background,
-            ..Sample::default()
-        };
-    };
-    let depth_m = hit.distance_m / ray.length();
-    let footprint = |normal| {
-        camera
-            .footprint_axes(ray, depth_m, normal)
-            .map(|axis| axis * footprint_std_px)
-    };
-    let point = surface::surface_point(
-        prepared.scene,
-        &prepared.tables,
-        camera.position_m + ray * depth_m,
-        -direction,
-        footprint,
-        &hit,
-    );
-    views.look_from(&point);
-    let sums = scratches::gather_scratches(prepared, &point, hit.object as usize, views);
-    let object = hit.object as usize;
-    shade_surface(prepared, mask, object, &point, &sums, views, depth_m)
+/// A scene and the method to compute it by.
+struct Way<'a> {
+    prepared: &'a Prepared<'a>,
+    method: Method,
+    /// None on the default path.
+    published: Option<Published<'a>>,
 }
 
-fn shade_surface(
-    prepared: &Prepared,
-    mask: Mask,
-    object: usize,
-    point: &SurfacePoint,
-    sums: &ScratchSums,
-    views: &LightViews,
-    depth_m: f64,
-) -> Sample {
-    let masked = sums.resolve(mask, prepared.scratches.depth_coherence[object] as f64);
-    let taken = DVec3::from(masked.taken);
-    let light = base::base_radiance(prepared.scene.environment.as_ref(), point, views);
-    // A groove interrupts the reflecting surface; what shines from under it passes.
-    let fresnel = DVec3::from(point.fresnel.eval(point.wo.z));
-    Sample {
-        base: point.emission + light.diffuse + light.specular * (DVec3::ONE - taken),
-        scratches: DVec3::from(masked.scratches) * fresnel,
-        density: taken,
-        normal: point.normal,
-        depth_m,
-        coverage: 1.0,
+impl Way<'_> {
+    /// One ray through a point of the picture.
+    fn shade_pixel(
+        &self,
+        camera: &CameraFrame,
+        footprint_std_px: f64,
+        pixel: DVec2,
+        views: &mut LightViews,
+    ) -> Sample {
+        let Prepared {
+            scene,
+            triangles,
+            tables,
+            ..
+        } = self.prepared;
+        let ray = camera.camera_ray(pixel);
+        let direction = ray.normalize();
+        let Some(hit) = triangles.intersect(camera.position_m, direction) else {
+            let background = match &scene.environment {
+                Some(environment) if environment.visible() => environment.radiance(direction),
+                _ => DVec3::ZERO,
+            };
+            return Sample {
+                base: background,
+                ..Sample::default()
+            };
+        };
+        let depth_m = hit.distance_m / ray.length();
+        let footprint = |normal| {
+            camera
+                .footprint_axes(ray, depth_m, normal)
+                .map(|axis| axis * footprint_std_px)
+        };
+        let position_m = camera.position_m + ray * depth_m;
+        let point = surface::surface_point(scene, tables, position_m, -direction, footprint, &hit);
+        views.look_from(&point);
+        self.shade_surface(&hit, &point, views, depth_m)
+    }
+
+    fn shade_surface(
+        &self,
+        hit: &Hit,
+        point: &SurfacePoint,
+        views: &LightViews,
+        depth_m: f64,
+    ) -> Sample {
+        let masked = self.scratches(hit, point, views);
+        let environment = self.prepared.scene.environment.as_ref();
+        let light = match &self.published {
+            None => base::base_radiance(environment, point, views, ltc_sphere),
+            Some(published) => {
+                base::base_radiance(environment, point, views, published.base_sphere(point))
+            }
+        };
+        let taken = DVec3::from(masked.taken);
+        // A groove interrupts the reflecting surface; what shines from under it passes.
+        let fresnel = DVec3::from(point.fresnel.eval(point.wo.z));
+        Sample {
+            base: point.emission + light.diffuse + light.specular * (DVec3::ONE - taken),
+            scratches: DVec3::from(masked.scratches) * fresnel,
+            density: taken,
+            normal: point.normal,
+            depth_m,
+            coverage: 1.0,
+        }
+    }
+
+    /// Radiance of the scratches under the point's footprint and what they take from the base.
+    fn scratches(&self, hit: &Hit, point: &SurfacePoint, views: &LightViews) -> Masked {
+        let object = hit.object as usize;
+        let alone = (self.method.footprint == PixelFilter::Off).then(|| point.without_footprint());
+        let point = alone.as_ref().unwrap_or(point);
+        let list =
+            (self.method.lookup == Lookup::Triangles).then(|| self.prepared.triangle_list(hit));
+        match &self.published {
+            None => scratches::gather_scratches(self.prepared, point, object, list, views).resolve(
+                self.method.mask,
+                self.prepared.scratches.depth_coherence[object] as f64,
+            ),
+            Some(published) => published.scratches(point, object, list, views),
+        }
     }
 }
 

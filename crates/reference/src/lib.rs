@@ -4,6 +4,7 @@ mod base;
 pub mod closed_form;
 mod light_view;
 pub mod monte_carlo;
+mod published;
 mod scratches;
 mod silhouettes;
 mod surface;

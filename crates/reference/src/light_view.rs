@@ -13,6 +13,8 @@ pub(crate) enum LightView {
     Sphere { cap: Cap, radiance: DVec3 },
     /// A polygon; `vertices` index [`LightViews::vertices`] and [`LightViews::directions`].
     Polygon {
+        /// Index into the scene's lights.
+        light: usize,
         vertices: Range<usize>,
         away: DVec3,
         facing: f64,
@@ -51,7 +53,7 @@ impl<'a> LightViews<'a> {
         self.distances_m.clear();
         self.vertices.clear();
         self.directions.clear();
-        for light in self.lights {
+        for (index, light) in self.lights.iter().enumerate() {
             match light {
                 Light::Sphere {
                     center_m,
@@ -93,6 +95,7 @@ impl<'a> LightViews<'a> {
                     let bound = sphere_cap(center, radius_m);
                     self.distances_m.push(center.length().max(radius_m));
                     self.views.push(LightView::Polygon {
+                        light: index,
                         vertices,
                         away,
                         facing,

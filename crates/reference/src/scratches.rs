@@ -22,37 +22,52 @@ pub(crate) fn gather_scratches(
     prepared: &Prepared,
     point: &SurfacePoint,
     object: usize,
+    list: Option<&[u32]>,
     views: &LightViews,
 ) -> ScratchSums {
     let mut sums = ScratchSums::default();
     let table = &prepared.tables.tables[point.table];
+    each_segment(prepared, point, object, list, |segment| {
+        let Some(view) = SegmentView::new(point, segment) else {
+            return;
+        };
+        let radiance = scratch_radiance(
+            &view,
+            table,
+            views,
+            prepared.scene.environment.as_ref(),
+            point,
+        );
+        sums.add(
+            view.share,
+            // In the mirror's direction both cosines are the viewer's.
+            table.scratch_table_total(oblique_depth_nm(view.depth_nm, point.wo.z, point.wo.z)),
+            radiance.to_array(),
+        );
+    });
+    sums
+}
+
+/// Calls `visit` for every segment of an object that the point's footprint may touch: by the tree, or by the `list` of the
+/// point's triangle.
+pub(crate) fn each_segment(
+    prepared: &Prepared,
+    point: &SurfacePoint,
+    object: usize,
+    list: Option<&[u32]>,
+    mut visit: impl FnMut(&IndexedSegment),
+) {
+    let tree = &prepared.scratches.tree;
+    if let Some(list) = list {
+        list.iter().for_each(|i| visit(&tree.segments[*i as usize]));
+        return;
+    }
     let sigma_m = point.coherence_um * 1e-6;
     // Variances of position along the world's axes; 0.7 sigma^2 covers the window across and the ends' blur along.
     let [ax, ay] = point.footprint_axes_m;
     let variance = ax * ax + ay * ay + DVec3::splat(0.7 * sigma_m * sigma_m);
     let reach = (variance.map(f64::sqrt) * REACH_STD as f64).as_vec3();
-    prepared
-        .scratches
-        .tree
-        .gather(object, point.position_m.as_vec3(), reach, |segment| {
-            let Some(view) = SegmentView::new(point, segment) else {
-                return;
-            };
-            let radiance = scratch_radiance(
-                &view,
-                table,
-                views,
-                prepared.scene.environment.as_ref(),
-                point,
-            );
-            sums.add(
-                view.share,
-                // In the mirror's direction both cosines are the viewer's.
-                table.scratch_table_total(oblique_depth_nm(view.depth_nm, point.wo.z, point.wo.z)),
-                radiance.to_array(),
-            );
-        });
-    sums
+    tree.gather(object, point.position_m.as_vec3(), reach, visit);
 }
 
 /// A segment as seen from the point.
@@ -168,6 +183,7 @@ fn scratch_radiance(
                 facing,
                 bound,
                 radiance,
+                ..
             } => {
                 // Most scratches are dark to most lights; the bound tells it without a look at the edges.
                 let bound = bound.turned(frame);

@@ -43,6 +43,15 @@ impl SurfacePoint {
     pub fn world_from_surface(&self, v: DVec3) -> DVec3 {
         self.axis_x * v.x + self.axis_y * v.y + self.normal * v.z
     }
+
+    /// The point alone, for scratches that are not averaged over the pixel.
+    pub fn without_footprint(self) -> Self {
+        Self {
+            footprint_axes_m: [DVec3::ZERO; 2],
+            normal_turns: [DVec3::ZERO; 2],
+            ..self
+        }
+    }
 }
 
 /// The least cosine between the viewer and a shading normal; interpolated and mapped normals that turn further away are
