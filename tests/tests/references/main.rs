@@ -10,5 +10,6 @@ mod going_on;
 mod mask;
 mod mirrored;
 mod pictures;
+mod published;
 mod scenes;
 mod shadows;
