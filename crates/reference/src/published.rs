@@ -117,3 +117,6 @@ impl<'a> Published<'a> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

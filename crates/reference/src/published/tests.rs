@@ -1,0 +1,98 @@
+use super::*;
+use crate::surface::surface_point;
+use glam::DVec3;
+use hairline_optics::published::sine_integral::SineIntegral;
+use hairline_scene::Scene;
+
+/// A parallel brushed plate under a panel and a sphere.
+fn scene() -> Scene {
+    let text = "[camera]\nposition_m = [0.0, -0.1, 0.3]\ntarget_m = [0.0, 0.0, 0.0]\nup = [0.0, 1.0, 0.0]\n\
+         [[material]]\nname = \"m\"\nkind = \"metal\"\nmetal = \"gold\"\n\
+         [[object]]\nname = \"o\"\nmaterial = \"m\"\nshape = { plane = { size_m = [0.01, 0.01] } }\n\
+         [[scratches]]\nobject = \"o\"\npattern = \"parallel\"\ndirection = [1.0, 0.0, 0.0]\ncount = 400\nlength_m = 0.01\n\
+         width_um = 2.0\ndepth_nm = 150.0\n\
+         [[light]]\nkind = \"polygon\"\nvertices_m = [[-0.1, 0.05, 0.3], [-0.1, 0.15, 0.3], [0.1, 0.15, 0.3], [0.1, 0.05, 0.3]]\n\
+         radiance = 1.0\ntwo_sided = true\n\
+         [[light]]\nkind = \"sphere\"\ncenter_m = [0.0, 0.3, 0.3]\nradius_m = 0.05\nradiance = 1.0\n";
+    Scene::from_toml(text, "test", ".").unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// What the plate's middle sends, by a method that `change` may have spoilt.
+fn middle(prepared: &Prepared, method: Method, change: impl Fn(&mut Published)) -> Masked {
+    let scene = prepared.scene;
+    let to_camera = scene.camera.position_m;
+    let direction = -to_camera.normalize();
+    let hit = prepared
+        .triangles
+        .intersect(to_camera + DVec3::splat(1e-5), direction)
+        .unwrap();
+    let footprint = |_| [DVec3::X * 4e-5, DVec3::Y * 4e-5];
+    let position_m = to_camera + direction * hit.distance_m;
+    let tables = &prepared.tables;
+    let point = surface_point(scene, tables, position_m, -direction, footprint, &hit);
+    let mut views = LightViews::new(scene);
+    views.look_from(&point);
+    let mut published = Published::new(prepared, method).unwrap();
+    change(&mut published);
+    published.scratches(&point, 0, None, &views)
+}
+
+/// What a method is told to look up is what it uses.
+#[test]
+fn a_missing_triangle_and_a_wrong_wavelength_are_seen() {
+    let scene = scene();
+    let prepared = Prepared::new(&scene);
+    let wavelengths = |si| Method {
+        spectrum: Spectrum::Wavelengths { count: 8, si },
+        ..Method::PUBLISHED
+    };
+    for band in [Band::MiddleLine, Band::Lines] {
+        let steps = Method {
+            band,
+            ..wavelengths(SineIntegral::Exact)
+        };
+        let roots = Method {
+            chords: Chords::Roots,
+            ..steps
+        };
+        let green = |method, change: &dyn Fn(&mut Published)| {
+            middle(&prepared, method, change).scratches[1]
+        };
+        let right = green(steps, &|_| {});
+        assert!(right > 0.0);
+        assert!((green(roots, &|_| {}) / right - 1.0).abs() < 1e-6);
+        let half = green(steps, &|published| {
+            published.triangles[0].pop();
+        });
+        let none = green(steps, &|published| published.triangles[0].clear());
+        println!("{band:?}: {right:.4}, half the panel {half:.4}, none {none:.4}");
+        assert!(half < 0.95 * right && none < 0.95 * half && none > 0.0);
+        let red = green(steps, &|published| {
+            for wavelength in &mut published.spectra[0].wavelengths {
+                wavelength.wavelength_um *= 1.05;
+            }
+        });
+        assert!((red / right - 1.0).abs() > 1e-3, "{red} {right}");
+        let fast = Method {
+            band,
+            ..wavelengths(SineIntegral::Fast)
+        };
+        let fast = green(fast, &|_| {});
+        assert!((1e-5..0.05).contains(&(fast / right - 1.0).abs()), "{fast}");
+    }
+}
+
+/// The density mask of the published footprint is the width in the pixel, twice, over its area.
+#[test]
+fn parallel_scratches_take_their_density() {
+    let scene = scene();
+    let prepared = Prepared::new(&scene);
+    let taken = middle(&prepared, Method::PUBLISHED, |_| {}).taken;
+    // 400 on 10 mm, 2 um wide, cover 0.08 in the mean; some five lie in this pixel of 140 um.
+    println!("{taken:?}");
+    assert!(taken[0] > 0.04 && taken[0] < 0.4);
+    // Whole scratches: the count in the box times 2 W over its side.
+    let each = 2.0 * 2.0 / (12f64.sqrt() * 40.0);
+    let count = taken[0] / each;
+    assert!((count - count.round()).abs() < 0.05, "{count}");
+}
