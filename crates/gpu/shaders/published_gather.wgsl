@@ -43,12 +43,17 @@ fn published_walk_end(object: Object, triangle: u32) -> u32 {
 // Walks on to the end or until the rounds are spent.
 fn published_scratches(point: SurfacePoint, object: Object, triangle: u32, end: u32, walk: ptr<function, ScratchWalk>) {
     var batch: PublishedBatch;
+    // So that a batch cannot spend many more rounds than there are.
+    let cells = select(0u, ENVIRONMENT_CELLS, HAS_ENVIRONMENT);
+    let chords = frame.light_count * select(4u, 20u, METHOD_BAND == BAND_LINES);
+    let rounds = (chords + cells) * (2u * METHOD_WAVELENGTHS + 2u) + 1u;
+    let most = clamp(2u * (GATHER_MAX_ROUNDS / rounds), PUBLISHED_LEAF_SEGMENTS, PUBLISHED_BATCH);
     while (*walk).at < end && gather_rounds < GATHER_MAX_ROUNDS {
         gather_rounds += 1u;
         if METHOD_LOOKUP == LOOKUP_TRIANGLES {
-            published_find_listed(object, triangle, end, walk, &batch);
+            published_find_listed(object, triangle, end, most, walk, &batch);
         } else {
-            published_find(point, end, walk, &batch);
+            published_find(point, end, most, walk, &batch);
         }
         published_weigh(point, &batch, walk);
         published_light(point, &batch, walk);
@@ -60,11 +65,12 @@ fn published_find_listed(
     object: Object,
     triangle: u32,
     end: u32,
+    most: u32,
     walk: ptr<function, ScratchWalk>,
     batch: ptr<function, PublishedBatch>,
 ) {
     let at = (*walk).at;
-    let count = min(end - at, PUBLISHED_BATCH);
+    let count = min(end - at, most);
     let first = triangle_list(triangle).x + at - object.first_node;
     for (var i = 0u; i < count; i += 1u) {
         (*batch).segments[i] = triangle_list_segment(first + i);
@@ -78,6 +84,7 @@ fn published_find_listed(
 fn published_find(
     point: SurfacePoint,
     end: u32,
+    most: u32,
     walk: ptr<function, ScratchWalk>,
     batch: ptr<function, PublishedBatch>,
 ) {
@@ -88,7 +95,7 @@ fn published_find(
     let upper = point.position_m + reach;
     var at = (*walk).at;
     var found = 0u;
-    while at < end && found + PUBLISHED_LEAF_SEGMENTS <= PUBLISHED_BATCH && gather_rounds < GATHER_MAX_ROUNDS {
+    while at < end && found + PUBLISHED_LEAF_SEGMENTS <= most && gather_rounds < GATHER_MAX_ROUNDS {
         let node = scratch_nodes[at];
         // Lanes that a software driver has switched off read zeros, and would walk for ever.
         if node.skip <= at {

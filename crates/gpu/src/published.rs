@@ -92,7 +92,11 @@ pub(crate) async fn triangle_lists(
     if count as u64 > allowed {
         return Err(gpu.too_large(what, count as u64, allowed, "entries"));
     }
-    let mut words: Vec<u32> = lists.starts.iter().map(|start| start + first as u32).collect();
+    let mut words: Vec<u32> = lists
+        .starts
+        .iter()
+        .map(|start| start + first as u32)
+        .collect();
     words.extend(&lists.segments);
     words.resize(count.next_multiple_of(TRIANGLE_LISTS_WIDTH), 0);
     let size = [
