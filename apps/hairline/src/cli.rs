@@ -31,6 +31,8 @@ pub enum Command {
     Compare(Compare),
     /// Render a scene by Monte Carlo, slowly: what the closed forms of `render` must converge to, with its variance.
     Reference(Reference),
+    /// Measure how long the default method and the published one take, and how far they are from the truth.
+    Bench(Bench),
     /// Show the version, the graphics adapters and what they can do, and the backends available.
     Info,
 }
@@ -162,6 +164,53 @@ pub struct Reference {
 
 const REFERENCE_HELP: &str =
     "Ctrl-C stops and saves what there is, which is no failure; a second Ctrl-C gives up at once.";
+
+/// `hairline bench`
+#[derive(Args, Debug)]
+pub struct Bench {
+    /// A scene file (TOML) to measure at its own size. Without it: the bench's own scene, through all parts.
+    pub scene: Option<PathBuf>,
+    /// Write the figures as JSON.
+    #[arg(long, value_name = "FILE")]
+    pub json: Option<PathBuf>,
+    /// Write a report: Markdown, with plots (.svg) beside it.
+    #[arg(short, long, value_name = "REPORT.md")]
+    pub output: Option<PathBuf>,
+    /// What renders. auto: a graphics adapter, be it a software driver, if there is one.
+    #[arg(long, value_enum, default_value_t = Backend::Auto)]
+    pub backend: Backend,
+    /// Width and height in pixels, in place of the scene's. [default: 1280x720]
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    pub size: Option<[u32; 2]>,
+    /// Few repetitions, short references, fewer places along each curve: to see in a minute or so what it is like.
+    #[arg(long)]
+    pub quick: bool,
+    /// Measure this part only. May be given several times.
+    #[arg(long, value_enum, value_name = "PART")]
+    pub part: Vec<Part>,
+    /// Repetitions of each cell, in place of as many as fit the time.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub repetitions: Option<u32>,
+    /// Write the bench's scene to a file and measure nothing.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["scene", "json", "output", "part"])]
+    pub write_scene: Option<PathBuf>,
+    /// What is held against the published method.
+    #[command(flatten)]
+    pub method: MethodFlags,
+}
+
+/// A part of `hairline bench`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Part {
+    /// The talk's table: intersection only, sphere, triangle; three zooms; with anti-aliasing and without.
+    Table,
+    /// From a thousand scratches to a million.
+    Scratches,
+    /// From one light to 64.
+    Lights,
+    /// From half the size to twice it.
+    Resolution,
+}
 
 /// What waves do at a scratch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

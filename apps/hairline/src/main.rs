@@ -3,6 +3,7 @@
 //! Exit codes: 0 done; 1 the work failed; 2 the command line or the scene is wrong.
 
 mod backend;
+mod bench;
 mod cli;
 mod compare;
 mod failure;
@@ -25,6 +26,7 @@ fn main() -> ExitCode {
         Some(cli::Command::Render(arguments)) => render::run(arguments),
         Some(cli::Command::Compare(arguments)) => compare::run(arguments),
         Some(cli::Command::Reference(arguments)) => reference::run(arguments),
+        Some(cli::Command::Bench(arguments)) => bench::run(arguments),
         Some(cli::Command::Info) => info::run(),
         None => cli::Cli::command()
             .print_help()

@@ -1,0 +1,403 @@
+//! The figures as a Markdown document, with its plots beside it.
+
+use std::ffi::OsString;
+use std::fmt::Write as _;
+use std::path::Path;
+
+use anyhow::anyhow;
+use hairline_image::output::write_atomically;
+
+use super::counts::{Counts, work};
+use super::figures::{Columns, Figures, Row, Whose};
+use super::plots::{self, Plot};
+use super::text::{SCALED, curve_header, curve_lines, digits, refusals};
+use crate::failure::Failure;
+
+/// What ours should gain on the published method at 1x, set down before anything was measured.
+const EXPECTED: [(Row, Columns, f64); 4] = [
+    (Row::Triangle, Columns::PointBvh, 5.0),
+    (Row::Triangle, Columns::Filtered, 8.0),
+    (Row::Sphere, Columns::PointBvh, 3.0),
+    (Row::Sphere, Columns::Filtered, 4.0),
+];
+
+/// Limits below which neither arithmetic nor memory is what a renderer waits for.
+const NEAR_A_LIMIT: f64 = 0.25;
+
+/// Refuses what does not end in .md: the plots are named after it.
+pub fn check_name(path: &Path) -> Result<(), Failure> {
+    match path.extension() {
+        Some(ending) if ending.eq_ignore_ascii_case("md") => Ok(()),
+        _ => Err(Failure::Input(anyhow!(
+            "{}: the report is Markdown, its plots are .svg files beside it; end its name in .md",
+            path.display()
+        ))),
+    }
+}
+
+/// Writes the document and its plots.
+pub fn write(path: &Path, figures: &Figures) -> Result<(), Failure> {
+    let plots = plots::draw(figures)?;
+    let mut named = Vec::new();
+    for plot in plots {
+        let mut name = path.file_stem().unwrap_or_default().to_owned();
+        name.push(format!("-{}.svg", plot.name));
+        write_atomically(&path.with_file_name(&name), plot.svg.as_bytes())?;
+        named.push((name, plot));
+    }
+    write_atomically(path, document(figures, &named).as_bytes())?;
+    Ok(())
+}
+
+fn document(figures: &Figures, plots: &[(OsString, Plot)]) -> String {
+    let mut text = String::new();
+    // A string takes everything.
+    let _ = head(&mut text, figures)
+        .and_then(|()| table(&mut text, figures))
+        .and_then(|()| findings(&mut text, figures))
+        .and_then(|()| scaling(&mut text, figures))
+        .and_then(|()| pictures(&mut text, plots))
+        .and_then(|()| counts(&mut text, figures))
+        .and_then(|()| bounds(&mut text, figures));
+    text
+}
+
+fn head(text: &mut String, figures: &Figures) -> std::fmt::Result {
+    let machine = &figures.machine;
+    let [width, height] = figures.size_px;
+    writeln!(text, "# Performance\n")?;
+    writeln!(
+        text,
+        "Measured by Hairline {} with `hairline bench`{}, on {}.\n",
+        figures.hairline,
+        if figures.quick { " --quick" } else { "" },
+        machine.in_words()
+    )?;
+    if !figures.ours.is_empty() {
+        writeln!(text, "\"Ours\" is the method of `{}`.\n", figures.ours)?;
+    }
+    writeln!(
+        text,
+        "What is measured: {}, {width} x {height}, one sample a pixel, by the method of 2018 (`--method published`, section 9 of \
+         [model.md](model.md)) and by ours, by turns in one run. Times are milliseconds a picture, median and quartiles of \
+         several runs after a warm-up, {}. {SCALED} marks cells that were measured on some rows, spread evenly over the picture, \
+         and scaled to all. The published column has the talk's parts: eight wavelengths by the approximated sine integral, its \
+         six steps for each light, its blended footprint, its density mask.\n",
+        if figures.scene == "bench scene" {
+            "a worn disk of steel with 10,000 scratches in every direction under one lamp of 0.1 rad, about three scratches within \
+             the coherence window of each point (`hairline bench --write-scene FILE` writes it)"
+        } else {
+            &figures.scene
+        },
+        if machine.device_clock {
+            "by the device's own clock around its passes"
+        } else {
+            "from the call to the end of the wait"
+        }
+    )?;
+    writeln!(
+        text,
+        "The error is that of the scratch layer on a crop about the rim of the lamp's reflection, with pixels of the table's size: \
+         root mean square difference from the separable Monte Carlo beyond its noise, over the reference's root mean square. \
+         Without anti-aliasing the truth is that of the pixel's middle point, with it the mean over the Gaussian that has the square \
+         pixel's variance. The energy mask is the truth for both: what scratches take from one another does not depend on how it \
+         is computed.\n"
+    )?;
+    writeln!(
+        text,
+        "The talk's own figures stand beside them ({}). They are of another scene on another machine: their ratios can be \
+         compared, not their sizes.\n",
+        figures.talk
+    )
+}
+
+fn table(text: &mut String, figures: &Figures) -> std::fmt::Result {
+    for block in figures.blocks() {
+        let mut name = block.row.name().to_owned();
+        name[..1].make_ascii_uppercase();
+        writeln!(text, "## {name}\n")?;
+        let mut header = vec!["ms".to_owned()];
+        header.extend(block.zooms.iter().map(|zoom| format!("{zoom}x")));
+        markdown_header(text, &header)?;
+        for line in block.lines {
+            let bold = if line.strong { "**" } else { "" };
+            write!(text, "| {bold}{}{bold} |", line.label)?;
+            for cell in line.texts {
+                write!(text, " {bold}{cell}{bold} |")?;
+            }
+            writeln!(text)?;
+        }
+        writeln!(text)?;
+    }
+    let refused = refusals(figures);
+    for reason in &refused {
+        writeln!(text, "* refused: {reason}")?;
+    }
+    if !refused.is_empty() {
+        writeln!(text)?;
+    }
+    Ok(())
+}
+
+fn findings(text: &mut String, figures: &Figures) -> std::fmt::Result {
+    let found: Vec<_> = EXPECTED
+        .iter()
+        .filter_map(|(row, columns, least)| {
+            Some((row, columns, least, figures.speedup(*row, 1.0, *columns)?))
+        })
+        .collect();
+    if found.is_empty() {
+        return Ok(());
+    }
+    writeln!(text, "## What was expected, and what was found\n")?;
+    writeln!(text, "Set down before anything was measured. At 1x:\n")?;
+    let header = ["published over ours, time", "expected", "found", ""];
+    markdown_header(text, &header.map(str::to_owned))?;
+    for (row, columns, least, found) in found {
+        let name = format!("{}, {}", row.name(), columns.name());
+        let verdict = if found >= *least { "met" } else { "not met" };
+        writeln!(
+            text,
+            "| {name} | at least {least} | {found:.1} | {verdict} |"
+        )?;
+    }
+    writeln!(
+        text,
+        "\nWhat the talk's table shows, looked for in the published method's figures here:\n"
+    )?;
+    let ms = |row, zoom, columns| {
+        let cell = figures.cell(row, zoom, Whose::Published, columns)?;
+        Some(cell.outcome.ms()?.median)
+    };
+    let pairs = |one: &dyn Fn(Row, f64) -> Option<(f64, f64)>, rows: &[Row]| {
+        let zooms = super::talk::ZOOMS;
+        let pairs = rows
+            .iter()
+            .flat_map(|row| zooms.map(|zoom| one(*row, zoom)))
+            .flatten();
+        let pairs: Vec<(f64, f64)> = pairs.collect();
+        let holds = pairs.iter().filter(|(less, more)| less < more).count();
+        let ratios: Vec<String> = pairs.iter().map(|(l, m)| digits(m / l)).collect();
+        format!(
+            "in {holds} of {} cells (times {})",
+            pairs.len(),
+            ratios.join(", ")
+        )
+    };
+    let all = Row::TALK;
+    writeln!(
+        text,
+        "* lists for each triangle are faster than the hierarchy without anti-aliasing: {}",
+        pairs(
+            &|row, zoom| Some((
+                ms(row, zoom, Columns::PointTriangles)?,
+                ms(row, zoom, Columns::PointBvh)?
+            )),
+            &all
+        )
+    )?;
+    writeln!(
+        text,
+        "* a triangle is dearer than a sphere, without anti-aliasing: {}",
+        pairs(
+            &|_, zoom| Some((
+                ms(Row::Sphere, zoom, Columns::PointBvh)?,
+                ms(Row::Triangle, zoom, Columns::PointBvh)?
+            )),
+            &[Row::Triangle]
+        )
+    )?;
+    writeln!(
+        text,
+        "* anti-aliasing is dearer than none, by the hierarchy: {}\n",
+        pairs(
+            &|row, zoom| Some((
+                ms(row, zoom, Columns::PointBvh)?,
+                ms(row, zoom, Columns::Filtered)?
+            )),
+            &all
+        )
+    )
+}
+
+fn scaling(text: &mut String, figures: &Figures) -> std::fmt::Result {
+    for curve in &figures.scaling {
+        let (title, about) = match curve.along {
+            "scratches" => (
+                "Scratches",
+                "Under a sphere, at 1x. They are a tenth as long as the table's, so that 100,000 lie as densely as its 10,000.",
+            ),
+            "lights" => (
+                "Lights",
+                "Spheres and triangles by turns, spread over a radian about the mirror direction; at 1x.",
+            ),
+            _ => (
+                "Resolution",
+                "Under a sphere, at 1x and the same field of view: more pixels are smaller ones.",
+            ),
+        };
+        writeln!(text, "## {title}\n\n{about}\n")?;
+        markdown_header(text, &curve_header(curve))?;
+        for line in curve_lines(curve) {
+            writeln!(text, "| {} |", line.join(" | "))?;
+        }
+        writeln!(text)?;
+    }
+    Ok(())
+}
+
+fn pictures(text: &mut String, plots: &[(OsString, Plot)]) -> std::fmt::Result {
+    for (name, plot) in plots {
+        writeln!(text, "![{}]({})\n", plot.title, name.to_string_lossy())?;
+    }
+    Ok(())
+}
+
+fn counts(text: &mut String, figures: &Figures) -> std::fmt::Result {
+    if figures.counts.is_empty() {
+        return Ok(());
+    }
+    writeln!(
+        text,
+        "## What is done for a pixel\n\nCounted at 1x by walks over the same index on the CPU, mean over the pixels that see the disk. A tile's \
+         walk counts as a sixty-fourth for each of its pixels.\n"
+    )?;
+    let mut header = vec!["a pixel".to_owned()];
+    header.extend(figures.counts.iter().map(name));
+    markdown_header(text, &header)?;
+    let first = figures.counts[0].per_pixel.named();
+    for (i, (thing, _)) in first.iter().enumerate() {
+        write!(text, "| {thing} |")?;
+        for counts in &figures.counts {
+            write!(text, " {} |", digits(counts.per_pixel.named()[i].1))?;
+        }
+        writeln!(text)?;
+    }
+    type Of = fn(&Counts) -> f64;
+    for (thing, of) in [
+        ("bytes read", (|c| c.bytes) as Of),
+        ("operations", |c| c.operations),
+        ("operations a byte", |c| c.operations / c.bytes),
+    ] {
+        write!(text, "| {thing} |")?;
+        for counts in &figures.counts {
+            write!(text, " {} |", digits(of(counts)))?;
+        }
+        writeln!(text)?;
+    }
+    writeln!(
+        text,
+        "\nBytes and operations follow from the counts by this table. An operation is an addition, multiplication, comparison, \
+         division or root; a sine, exponential or error function is as many as its polynomial. Estimates to a quarter or so.\n"
+    )?;
+    let header = ["thing", "because", "bytes", "operations"];
+    markdown_header(text, &header.map(str::to_owned))?;
+    for cost in work::COSTS {
+        writeln!(
+            text,
+            "| {} | {} | {} | {} |",
+            cost.thing, cost.because, cost.bytes, cost.operations
+        )?;
+    }
+    writeln!(text)
+}
+
+fn bounds(text: &mut String, figures: &Figures) -> std::fmt::Result {
+    let machine = &figures.machine;
+    let [width, height] = figures.size_px;
+    let pixels = f64::from(width) * f64::from(height);
+    let lines: Vec<_> = figures
+        .counts
+        .iter()
+        .filter_map(|counts| {
+            let cell = figures.table.iter().find(|cell| {
+                cell.row == counts.row
+                    && cell.zoom == 1.0
+                    && cell.method == counts.method
+                    && cell.antialiasing == counts.antialiasing
+                    && cell.lookup == counts.lookup
+            })?;
+            let seconds = 1e-3 * cell.outcome.ms()?.median;
+            let a_second = 1e-9 * pixels * counts.covered / seconds;
+            Some((
+                counts,
+                a_second * counts.operations,
+                a_second * counts.bytes,
+            ))
+        })
+        .collect();
+    if lines.is_empty() {
+        return Ok(());
+    }
+    writeln!(text, "## What bounds the time\n")?;
+    let (peak, bandwidth) = (machine.peak_gflops(), machine.bandwidth_gb_s);
+    let header = [
+        "cell at 1x",
+        "10⁹ operations/s",
+        "of the peak",
+        "GB/s",
+        "of the memory's",
+    ];
+    markdown_header(text, &header.map(str::to_owned))?;
+    let percent = |share: Option<f64>| {
+        share.map_or_else(|| "–".to_owned(), |s| format!("{} %", digits(100.0 * s)))
+    };
+    for (counts, operations, bytes) in &lines {
+        writeln!(
+            text,
+            "| {} | {} | {} | {} | {} |",
+            name(counts),
+            digits(*operations),
+            percent(peak.map(|p| operations / p)),
+            digits(*bytes),
+            percent(bandwidth.map(|b| bytes / b)),
+        )?;
+    }
+    let (Some(peak), Some(bandwidth)) = (peak, bandwidth) else {
+        return writeln!(
+            text,
+            "\nThe adapter does not tell its peaks; hold the rates against its data sheet.\n"
+        );
+    };
+    writeln!(
+        text,
+        "\nThe peak: {} threads times 8 lanes times a multiply-add at {} MHz, {} 10⁹ operations/s. The memory's: {} GB/s, by \
+         summing an array of 256 MiB with all threads in this run.\n",
+        machine.threads,
+        machine.cpu_mhz,
+        digits(peak),
+        digits(bandwidth)
+    )?;
+    let largest =
+        |of: &dyn Fn(&(&Counts, f64, f64)) -> f64| lines.iter().map(of).fold(0.0, f64::max);
+    let arithmetic = largest(&|line| line.1 / peak);
+    let memory = largest(&|line| line.2 / bandwidth);
+    let verdict = if memory > arithmetic && memory > NEAR_A_LIMIT {
+        "**Bytes bound the time**: the rate at which they are read is nearer to the memory's than the arithmetic is to its peak."
+    } else if arithmetic > memory {
+        "**Arithmetic bounds the time, not bytes**: it is nearer to its peak than the bytes are to the memory's, and nodes, segments \
+         and table mostly come from caches, so that the memory itself has less to do than that."
+    } else {
+        "**Neither is near its limit**: the time goes where counts do not look."
+    };
+    writeln!(
+        text,
+        "{verdict} What is left to the peak are operations that no pixel asked for: a software driver executes both sides of every \
+         branch and every loop until the last of its eight lanes is done, gathers texels one by one, and few of the operations pair \
+         up to multiply-adds.\n"
+    )
+}
+
+fn name(counts: &Counts) -> String {
+    let whose = match counts.method {
+        Whose::Published => "published",
+        Whose::Ours => "ours",
+    };
+    let aa = if counts.antialiasing { "on" } else { "off" };
+    format!("{whose}, {}, AA {aa}, {}", counts.row.name(), counts.lookup)
+}
+
+fn markdown_header(text: &mut String, header: &[String]) -> std::fmt::Result {
+    writeln!(text, "| {} |", header.join(" | "))?;
+    writeln!(text, "|---|{}", "---:|".repeat(header.len() - 1))
+}

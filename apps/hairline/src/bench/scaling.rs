@@ -1,0 +1,161 @@
+//! One quantity at a time, for both methods with anti-aliasing, and for scratches without it as well.
+
+use hairline_gpu::Error;
+use hairline_optics::method::{Method, PixelFilter};
+use hairline_reference::closed_form::Prepared;
+
+use super::Thoroughness;
+use super::figures::{Curve, Point, Way, Whose};
+use super::stage::{Lamps, Stage};
+use super::timing::by_turns;
+use super::worker::{Ready, Worker};
+use crate::failure::Failure;
+use crate::progress::Progress;
+
+/// One of the functions below.
+pub type Measure =
+    fn(&mut Worker, [u32; 2], &Method, &Thoroughness, &Progress) -> Result<Curve, Failure>;
+
+/// A tenth of the table's: a hundred thousand of them lie as densely as the table's ten thousand, and a million still fit in
+/// one array of any adapter.
+const SHORT_M: f64 = 0.00236;
+
+/// From a thousand scratches to a million, under a sphere.
+pub fn scratches(
+    worker: &mut Worker,
+    size_px: [u32; 2],
+    ours: &Method,
+    thoroughness: &Thoroughness,
+    progress: &Progress,
+) -> Result<Curve, Failure> {
+    let counts: &[u32] = if thoroughness.quick {
+        &[1_000, 10_000, 100_000]
+    } else {
+        &[1_000, 10_000, 100_000, 1_000_000]
+    };
+    let stages = counts.iter().map(|&scratches| {
+        let stage = Stage {
+            scratches,
+            length_m: SHORT_M,
+            size_px,
+            ..Stage::default()
+        };
+        (f64::from(scratches), stage)
+    });
+    curve(
+        "scratches",
+        stages.collect(),
+        &ways(ours),
+        worker,
+        thoroughness,
+        progress,
+    )
+}
+
+/// From one light to 64, half of them spheres and half triangles.
+pub fn lights(
+    worker: &mut Worker,
+    size_px: [u32; 2],
+    ours: &Method,
+    thoroughness: &Thoroughness,
+    progress: &Progress,
+) -> Result<Curve, Failure> {
+    let counts: &[u32] = if thoroughness.quick {
+        &[2, 16]
+    } else {
+        &[1, 2, 4, 8, 16, 32, 64]
+    };
+    let stages = counts.iter().map(|&count| {
+        let stage = Stage {
+            lamps: Lamps::Many(count),
+            size_px,
+            ..Stage::default()
+        };
+        (f64::from(count), stage)
+    });
+    curve(
+        "lights",
+        stages.collect(),
+        &ways(ours)[..2],
+        worker,
+        thoroughness,
+        progress,
+    )
+}
+
+/// From half the size to twice it, at the same field of view, under a sphere.
+pub fn resolution(
+    worker: &mut Worker,
+    size_px: [u32; 2],
+    ours: &Method,
+    thoroughness: &Thoroughness,
+    progress: &Progress,
+) -> Result<Curve, Failure> {
+    // Halves of the size: 640 x 360 to 2560 x 1440 about the talk's.
+    let halves: &[u32] = if thoroughness.quick {
+        &[1, 2]
+    } else {
+        &[1, 2, 3, 4]
+    };
+    let stages = halves.iter().map(|halves| {
+        let size_px = size_px.map(|px| (px * halves / 2).max(1));
+        let stage = Stage {
+            size_px,
+            ..Stage::default()
+        };
+        (f64::from(size_px[0]) * f64::from(size_px[1]), stage)
+    });
+    curve(
+        "resolution",
+        stages.collect(),
+        &ways(ours)[..2],
+        worker,
+        thoroughness,
+        progress,
+    )
+}
+
+/// With anti-aliasing, then without it.
+fn ways(ours: &Method) -> [Way; 4] {
+    let of = |whose, method: Method| Way { whose, method };
+    let point = |method: Method| Method {
+        footprint: PixelFilter::Off,
+        ..method
+    };
+    [
+        of(Whose::Published, Method::PUBLISHED),
+        of(Whose::Ours, *ours),
+        of(Whose::Published, point(Method::PUBLISHED)),
+        of(Whose::Ours, point(*ours)),
+    ]
+}
+
+fn curve(
+    along: &'static str,
+    stages: Vec<(f64, Stage)>,
+    ways: &[Way],
+    worker: &mut Worker,
+    thoroughness: &Thoroughness,
+    progress: &Progress,
+) -> Result<Curve, Failure> {
+    progress.restart(along);
+    let mut points = Vec::new();
+    let count = stages.len();
+    for (i, (x, stage)) in stages.into_iter().enumerate() {
+        let scene = stage.build()?;
+        let prepared = Prepared::new(&scene);
+        let ready: Vec<Result<Ready, Error>> = ways
+            .iter()
+            .map(|way| worker.ready(&scene, &prepared, &way.method))
+            .collect();
+        let outcomes = by_turns(worker, &scene, &prepared, &ready, &thoroughness.effort);
+        points.extend(ways.iter().zip(outcomes).map(|(way, outcome)| Point {
+            x,
+            method: way.whose,
+            antialiasing: way.antialiasing(),
+            outcome,
+        }));
+        progress.set((i + 1) as f64 / count as f64);
+    }
+    Ok(Curve { along, points })
+}

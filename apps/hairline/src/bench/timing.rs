@@ -1,0 +1,213 @@
+//! From runs to a time: warm-up, as many rows as fit the effort, repetitions by turns, median and quartiles.
+//!
+//! Methods take turns (A B A B), so that a machine that grows warm or busy does so for all of them alike. All of a group render the
+//! same rows.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::time::{Duration, Instant};
+
+use hairline_gpu::Error;
+use hairline_reference::closed_form::Prepared;
+use hairline_scene::Scene;
+
+use super::figures::{Outcome, Spread, Timing};
+use super::worker::{Elapsed, Ready, Rows, Worker};
+
+/// How much time a measurement may take.
+#[derive(Clone, Copy, Debug)]
+pub struct Effort {
+    /// About what the runs of one method in one cell may take together.
+    pub cell: Duration,
+    /// Repetitions at least, whatever they take.
+    pub least: usize,
+    /// Repetitions at most.
+    pub most: usize,
+}
+
+/// Rows of a strip: a workgroup's, so that none works for rows that nobody wants.
+const STRIP_ROWS: u32 = 8;
+/// Strips at least: fewer would not know the picture.
+const STRIPS_LEAST: u32 = 5;
+/// A cell is refused whose strips would take so many times the effort.
+const TOO_LONG: f64 = 6.0;
+
+/// Times the same picture by several methods.
+pub fn by_turns(
+    worker: &mut Worker,
+    scene: &Scene,
+    prepared: &Prepared,
+    ready: &[Result<Ready, Error>],
+    effort: &Effort,
+) -> Vec<Outcome> {
+    let height = scene.render.size_px[1];
+    let mut runs: Vec<Runs> = ready.iter().map(|_| Runs::default()).collect();
+    let mut rows = Rows::Whole;
+    for (ready, runs) in ready.iter().zip(&mut runs) {
+        match ready {
+            Err(error) => runs.refused = Some(error.to_string()),
+            Ok(ready) => match warm_up(worker, scene, prepared, ready) {
+                Err(error) => runs.refused = Some(error.to_string()),
+                Ok(strip) => {
+                    let room = effort.cell.div_f64((effort.least + 1) as f64);
+                    let strips = (room.as_secs_f64() / strip.as_secs_f64().max(1e-9)) as u32;
+                    let least = strip * STRIPS_LEAST * effort.least as u32;
+                    if least > effort.cell.mul_f64(TOO_LONG) {
+                        runs.refused = Some(format!(
+                            "too slow to measure here: {STRIP_ROWS} rows took {:.1} s",
+                            strip.as_secs_f64()
+                        ));
+                    } else if strips < height.div_ceil(STRIP_ROWS) {
+                        rows = fewer(&rows, height, strips.max(STRIPS_LEAST));
+                    }
+                }
+            },
+        }
+    }
+    let start = Instant::now();
+    let measured = runs.iter().filter(|r| r.refused.is_none()).count();
+    let end = effort.cell * measured as u32;
+    for turn in 0..effort.most {
+        if turn >= effort.least && start.elapsed() > end {
+            break;
+        }
+        for (ready, runs) in ready.iter().zip(&mut runs) {
+            if let (Ok(ready), None) = (ready, &runs.refused) {
+                match worker.time(scene, prepared, ready, &rows) {
+                    Ok(elapsed) => runs.push(&elapsed),
+                    Err(error) => runs.refused = Some(error.to_string()),
+                }
+            }
+        }
+    }
+    let of_rows = (rows_of(&rows, height), height);
+    runs.into_iter().map(|runs| runs.outcome(of_rows)).collect()
+}
+
+/// Has the driver compile, and finds out what a strip in the middle takes.
+fn warm_up(
+    worker: &mut Worker,
+    scene: &Scene,
+    prepared: &Prepared,
+    ready: &Ready,
+) -> Result<Duration, Error> {
+    let strip = strips(scene.render.size_px[1], 1);
+    worker.time(scene, prepared, ready, &strip)?;
+    Ok(worker.time(scene, prepared, ready, &strip)?.wall)
+}
+
+/// The smaller of what was wanted so far and `count` strips.
+fn fewer(rows: &Rows, height: u32, count: u32) -> Rows {
+    match rows {
+        Rows::Strips(so_far) if so_far.len() as u32 <= count => rows.clone(),
+        _ => strips(height, count),
+    }
+}
+
+/// So many strips, spread evenly; the whole picture where they would cover it.
+fn strips(height: u32, count: u32) -> Rows {
+    if count * STRIP_ROWS >= height {
+        return Rows::Whole;
+    }
+    let strip = |i: u32| -> Range<u32> {
+        let middle = f64::from(height) * (f64::from(i) + 0.5) / f64::from(count);
+        // On the grid of workgroups.
+        let first = (middle / f64::from(STRIP_ROWS)) as u32 * STRIP_ROWS;
+        first..(first + STRIP_ROWS).min(height)
+    };
+    Rows::Strips((0..count).map(strip).collect())
+}
+
+fn rows_of(rows: &Rows, height: u32) -> u32 {
+    match rows {
+        Rows::Whole => height,
+        Rows::Strips(strips) => strips.iter().map(|rows| rows.end - rows.start).sum(),
+    }
+}
+
+/// The repetitions of one method, in milliseconds.
+#[derive(Default)]
+struct Runs {
+    wall: Vec<f64>,
+    device: Vec<f64>,
+    passes: BTreeMap<&'static str, Vec<f64>>,
+    refused: Option<String>,
+}
+
+impl Runs {
+    fn push(&mut self, elapsed: &Elapsed) {
+        self.wall.push(milliseconds(elapsed.wall));
+        if let Some(passes) = &elapsed.passes {
+            let sum = passes.iter().map(|pass| pass.time).sum();
+            self.device.push(milliseconds(sum));
+            for pass in passes {
+                let times = self.passes.entry(pass.name).or_default();
+                times.push(milliseconds(pass.time));
+            }
+        }
+    }
+
+    fn outcome(self, (rows, of_rows): (u32, u32)) -> Outcome {
+        if let Some(refused) = self.refused {
+            return Outcome::Refused(refused);
+        }
+        let scale = f64::from(of_rows) / f64::from(rows.max(1));
+        let spread = |values: &[f64]| {
+            let scaled: Vec<f64> = values.iter().map(|v| scale * v).collect();
+            Spread::of(&scaled)
+        };
+        Outcome::Timing(Timing {
+            wall_ms: spread(&self.wall),
+            // Without the clock's word on every run there is none.
+            device_ms: (self.device.len() == self.wall.len()).then(|| spread(&self.device)),
+            passes_ms: self
+                .passes
+                .iter()
+                .map(|(name, times)| (*name, spread(times).median))
+                .collect(),
+            repetitions: self.wall.len(),
+            rows,
+            of_rows,
+        })
+    }
+}
+
+fn milliseconds(time: Duration) -> f64 {
+    1e3 * time.as_secs_f64()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn strips_lie_on_the_grid_in_order_and_within_the_picture() {
+        for height in [1, 36, 54, 720, 1080] {
+            for count in 1..200 {
+                match strips(height, count) {
+                    Rows::Whole => assert!(count * STRIP_ROWS >= height),
+                    Rows::Strips(strips) => {
+                        assert_eq!(strips.len() as u32, count);
+                        assert!(strips.windows(2).all(|w| w[0].end <= w[1].start));
+                        assert!(strips.iter().all(|s| s.end <= height && s.start < s.end));
+                        assert!(strips.iter().all(|s| s.start.is_multiple_of(STRIP_ROWS)));
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn some_rows_are_scaled_to_all_and_say_so() {
+        let mut runs = Runs::default();
+        for ms in [10, 12, 11] {
+            runs.push(&Elapsed {
+                wall: Duration::from_millis(ms),
+                passes: None,
+            });
+        }
+        let outcome = runs.outcome((40, 720));
+        assert!(outcome.scaled());
+        assert!((outcome.ms().unwrap().median - 11.0 * 18.0).abs() < 1e-9);
+    }
+}

@@ -1,0 +1,195 @@
+//! What does the rendering that is measured: a graphics adapter or the CPU renderer, both made ready for a method and told which
+//! rows of a picture to render.
+
+use std::ops::Range;
+use std::time::{Duration, Instant};
+
+use anyhow::anyhow;
+use hairline_gpu::{Adapter, Error, Gpu, GpuScene, PassTime, Renderer, headless};
+use hairline_image::Image;
+use hairline_optics::method::Method;
+use hairline_reference::closed_form::{self, Prepared};
+use hairline_scene::Scene;
+
+use crate::cli::Backend;
+use crate::failure::Failure;
+
+/// A renderer.
+pub enum Worker {
+    Gpu(Box<GpuWorker>),
+    Cpu,
+}
+
+/// On a graphics adapter.
+pub struct GpuWorker {
+    gpu: Gpu,
+    renderer: Renderer,
+    clock: bool,
+}
+
+/// A scene that is ready to be rendered by a method.
+pub struct Ready {
+    pub method: Method,
+    uploaded: Option<GpuScene>,
+}
+
+/// Which rows of a picture.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Rows {
+    Whole,
+    Strips(Vec<Range<u32>>),
+}
+
+/// What rendering took.
+pub struct Elapsed {
+    pub wall: Duration,
+    /// By the device's own clock.
+    pub passes: Option<Vec<PassTime>>,
+}
+
+impl Worker {
+    /// A graphics adapter if there is one and nothing else is asked for.
+    pub fn open(backend: Backend) -> Result<Self, Failure> {
+        if backend == Backend::Cpu {
+            return Ok(Self::Cpu);
+        }
+        match (GpuWorker::open(), backend) {
+            (Ok(worker), _) => Ok(Self::Gpu(Box::new(worker))),
+            (Err(error), Backend::Gpu) => Err(Failure::Work(anyhow!(
+                "{error}; --backend cpu needs no driver"
+            ))),
+            (Err(error), _) => {
+                eprintln!("measuring the CPU renderer: {error}");
+                Ok(Self::Cpu)
+            }
+        }
+    }
+
+    /// None for the CPU renderer.
+    pub fn adapter(&self) -> Option<&Adapter> {
+        match self {
+            Self::Gpu(worker) => Some(&worker.gpu.adapter),
+            Self::Cpu => None,
+        }
+    }
+
+    /// Whether the device has a clock of its own.
+    pub fn has_clock(&self) -> bool {
+        matches!(self, Self::Gpu(worker) if worker.clock)
+    }
+
+    /// Compiles and uploads.
+    pub fn ready(
+        &mut self,
+        scene: &Scene,
+        prepared: &Prepared,
+        method: &Method,
+    ) -> Result<Ready, Error> {
+        let uploaded = match self {
+            Self::Gpu(worker) => {
+                let (index, tables) = (prepared.scratches(), prepared.tables());
+                let upload = worker.renderer.upload(scene, index, tables, method);
+                Some(worker.gpu.block_on(upload)?)
+            }
+            Self::Cpu => None,
+        };
+        Ok(Ready {
+            method: *method,
+            uploaded,
+        })
+    }
+
+    /// Renders, one sample a pixel, and waits.
+    pub fn time(
+        &mut self,
+        scene: &Scene,
+        prepared: &Prepared,
+        ready: &Ready,
+        rows: &Rows,
+    ) -> Result<Elapsed, Error> {
+        match (self, &ready.uploaded) {
+            (Self::Gpu(worker), Some(uploaded)) => worker.time(scene, uploaded, rows),
+            _ => {
+                let options = options(ready);
+                let start = Instant::now();
+                match rows {
+                    Rows::Whole => drop(prepared.render(&options, &|_| {})),
+                    Rows::Strips(strips) => {
+                        for rows in strips {
+                            drop(prepared.render_rows(&options, rows.clone(), &|_| {}));
+                        }
+                    }
+                }
+                Ok(Elapsed {
+                    wall: start.elapsed(),
+                    passes: None,
+                })
+            }
+        }
+    }
+
+    /// The picture, one sample a pixel. `scene` may differ from the one that was made ready in its camera and its render
+    /// settings; `prepared` is its own.
+    pub fn image(
+        &mut self,
+        scene: &Scene,
+        prepared: &Prepared,
+        ready: &Ready,
+    ) -> Result<Image, Error> {
+        match (self, &ready.uploaded) {
+            (Self::Gpu(worker), Some(uploaded)) => {
+                let options = Default::default();
+                let picture = worker.renderer.render(scene, uploaded, &options, &|_| {});
+                worker.gpu.block_on(picture)
+            }
+            _ => Ok(prepared.render(&options(ready), &|_| {})),
+        }
+    }
+}
+
+fn options(ready: &Ready) -> closed_form::RenderOptions {
+    closed_form::RenderOptions {
+        samples: 1,
+        method: ready.method,
+    }
+}
+
+impl GpuWorker {
+    fn open() -> Result<Self, Error> {
+        let gpu = headless::open(&Default::default())?;
+        let mut renderer = gpu.block_on(Renderer::new(&gpu))?;
+        let clock = gpu.block_on(renderer.time_passes())?;
+        Ok(Self {
+            gpu,
+            renderer,
+            clock,
+        })
+    }
+
+    fn time(&mut self, scene: &Scene, uploaded: &GpuScene, rows: &Rows) -> Result<Elapsed, Error> {
+        let Self { gpu, renderer, .. } = self;
+        gpu.block_on(async {
+            // Forgets what pictures took that nobody asked about.
+            renderer.pass_times().await?;
+            gpu.finished().await?;
+            let start = Instant::now();
+            match rows {
+                Rows::Whole => {
+                    renderer.accumulate(scene, uploaded, 0, 1).await?;
+                    gpu.finished().await?;
+                }
+                Rows::Strips(strips) => {
+                    for rows in strips {
+                        let options = Default::default();
+                        renderer
+                            .render_rows(scene, uploaded, &options, rows.clone(), &|_| {})
+                            .await?;
+                    }
+                }
+            }
+            let wall = start.elapsed();
+            let passes = renderer.pass_times().await?;
+            Ok(Elapsed { wall, passes })
+        })
+    }
+}
