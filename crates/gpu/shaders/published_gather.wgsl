@@ -47,7 +47,7 @@ fn published_scratches(point: SurfacePoint, object: Object, triangle: u32, end: 
     let cells = select(0u, ENVIRONMENT_CELLS, HAS_ENVIRONMENT);
     let chords = frame.light_count * select(4u, 20u, METHOD_BAND == BAND_LINES);
     let rounds = (chords + cells) * (2u * METHOD_WAVELENGTHS + 2u) + 1u;
-    let most = clamp(2u * (GATHER_MAX_ROUNDS / rounds), PUBLISHED_LEAF_SEGMENTS, PUBLISHED_BATCH);
+    let most = clamp(GATHER_MAX_ROUNDS / rounds, PUBLISHED_LEAF_SEGMENTS, PUBLISHED_BATCH);
     while (*walk).at < end && gather_rounds < GATHER_MAX_ROUNDS {
         gather_rounds += 1u;
         if METHOD_LOOKUP == LOOKUP_TRIANGLES {

@@ -86,8 +86,9 @@ fn published_response(table: u32, segments: BandSegments, width_um: f32, depth_n
     var sum = vec3f(0.0);
     if METHOD_SPECTRUM == SPECTRUM_TABLE {
         for (var i = 0u; i < segments.count; i += 1u) {
-            sum += scratch_table(scratch_tables, table, width_um * segments.ends[i].y, depth_nm)
-                - scratch_table(scratch_tables, table, width_um * segments.ends[i].x, depth_nm);
+            let ends = segment_ends(segments, i);
+            sum += scratch_table(scratch_tables, table, width_um * ends.y, depth_nm)
+                - scratch_table(scratch_tables, table, width_um * ends.x, depth_nm);
         }
     } else {
         for (var i = 0u; i < METHOD_WAVELENGTHS; i += 1u) {
@@ -299,15 +300,16 @@ fn published_polygon_steps(point: SurfacePoint, view: PublishedView, light: Ligh
         ));
         let a = band_from_surface(view.tangent, clipped.corners[0]);
         for (var i = 2u; i < clipped.count; i += 1u) {
-            let b = band_from_surface(view.tangent, clipped.corners[i - 1u]);
-            let c = band_from_surface(view.tangent, clipped.corners[i]);
+            let b = band_from_surface(view.tangent, select(clipped.corners[1], clipped.corners[2], i == 3u));
+            let c = band_from_surface(view.tangent, select(clipped.corners[2], clipped.corners[3], i == 3u));
             let segments = triangle_segments(wo, a, b, c);
             if segments.count > 0u {
                 sum += published_response(point.table, segments, view.width_um, depth_nm);
             }
             gather_rounds += 1u;
         }
-        gather_rounds += 1u;
+        // Its own, and those of clipping.
+        gather_rounds += 4u;
     }
     return sum;
 }

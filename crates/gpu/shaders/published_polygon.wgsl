@@ -23,22 +23,43 @@ fn published_unit(v: vec3f) -> vec3f {
 // Step 1, clip to the upper hemisphere. Corners are relative to the point, z along the normal. The triangles of the result
 // are corners 0, i - 1 and i, for i from 2 up to its count.
 fn clip_triangle(corners: array<vec3f, 3>) -> ClippedTriangle {
-    var clipped: ClippedTriangle;
-    var ring = corners;
-    for (var i = 0u; i < 3u; i += 1u) {
-        let a = ring[i];
-        let b = ring[select(i + 1u, 0u, i == 2u)];
-        if a.z >= 0.0 {
-            clipped.corners[clipped.count] = published_unit(a);
-            clipped.count += 1u;
-        }
-        if (a.z >= 0.0) != (b.z >= 0.0) {
-            let crossing = a + (b - a) * (a.z / (a.z - b.z));
-            clipped.corners[clipped.count] = published_unit(vec3f(crossing.xy, 0.0));
-            clipped.count += 1u;
-        }
+    let above = vec3<bool>(corners[0].z >= 0.0, corners[1].z >= 0.0, corners[2].z >= 0.0);
+    let a = published_unit(corners[0]);
+    let b = published_unit(corners[1]);
+    let c = published_unit(corners[2]);
+    if all(above) {
+        return ClippedTriangle(3u, array<vec3f, 4>(a, b, c, vec3f(0.0)));
     }
-    return clipped;
+    let ab = horizon_crossing(corners[0], corners[1]);
+    let bc = horizon_crossing(corners[1], corners[2]);
+    let ca = horizon_crossing(corners[2], corners[0]);
+    // Case by case and not corner by corner, so that they stay in registers.
+    if above.x {
+        if above.y {
+            return ClippedTriangle(4u, array<vec3f, 4>(a, b, bc, ca));
+        }
+        if above.z {
+            return ClippedTriangle(4u, array<vec3f, 4>(a, ab, bc, c));
+        }
+        return ClippedTriangle(3u, array<vec3f, 4>(a, ab, ca, vec3f(0.0)));
+    }
+    if above.y {
+        if above.z {
+            return ClippedTriangle(4u, array<vec3f, 4>(ab, b, c, ca));
+        }
+        return ClippedTriangle(3u, array<vec3f, 4>(ab, b, bc, vec3f(0.0)));
+    }
+    if above.z {
+        return ClippedTriangle(3u, array<vec3f, 4>(bc, c, ca, vec3f(0.0)));
+    }
+    return ClippedTriangle(0u, array<vec3f, 4>());
+}
+
+// Direction to where an edge with one end below the horizon meets it.
+fn horizon_crossing(a: vec3f, b: vec3f) -> vec3f {
+    let fall = a.z - b.z;
+    let crossing = a + (b - a) * (a.z / select(fall, 1.0, fall == 0.0));
+    return published_unit(vec3f(crossing.xy, 0.0));
 }
 
 // Inward unit normal of the plane through the edge from a to b and the point; `side` 1 or -1 by the triangle's sense.

@@ -7,7 +7,16 @@ struct BandSegments {
     ends: array<vec2f, 3>,
 }
 
+// Places are written and read by choice and not by index, so that they stay in registers.
 fn push_segment(segments: ptr<function, BandSegments>, low: f32, high: f32) {
-    (*segments).ends[(*segments).count] = vec2f(low, high);
-    (*segments).count += 1u;
+    let place = (*segments).count;
+    let ends = vec2f(low, high);
+    (*segments).ends[0] = select((*segments).ends[0], ends, place == 0u);
+    (*segments).ends[1] = select((*segments).ends[1], ends, place == 1u);
+    (*segments).ends[2] = select((*segments).ends[2], ends, place == 2u);
+    (*segments).count = place + 1u;
+}
+
+fn segment_ends(segments: BandSegments, i: u32) -> vec2f {
+    return select(select(segments.ends[0], segments.ends[1], i == 1u), segments.ends[2], i == 2u);
 }

@@ -37,8 +37,9 @@ fn published_radiance(
     let lambda_um = wavelength.wavelength_um;
     var chords = 0.0;
     for (var i = 0u; i < segments.count; i += 1u) {
-        chords += published_chord_integral(segments.ends[i].y, width_um, lambda_um, fast)
-            - published_chord_integral(segments.ends[i].x, width_um, lambda_um, fast);
+        let ends = segment_ends(segments, i);
+        chords += published_chord_integral(ends.y, width_um, lambda_um, fast)
+            - published_chord_integral(ends.x, width_um, lambda_um, fast);
     }
     // |D|^2 is the square of this.
     let step = 2.0 * sin(6.28318531e-3 * depth_nm / lambda_um);
