@@ -308,8 +308,8 @@ fn published_polygon_steps(point: SurfacePoint, view: PublishedView, light: Ligh
             }
             gather_rounds += 1u;
         }
-        // Its own, and those of clipping.
-        gather_rounds += 4u;
+        // The inner loop goes round once even for triangles below the horizon.
+        gather_rounds += 2u;
     }
     return sum;
 }
