@@ -13,11 +13,13 @@
 //! All vectors are in the scratch's frame: x along the tangent t, y across it along n, z along the surface normal N.
 
 mod lines;
+mod outline;
 
 pub use lines::{
-    BAND_REACH_STD, BAND_STD_MAX, BandLines, BandStds, MovedBand, band_lines, band_move,
-    band_reaches, band_stds, moved_band,
+    BAND_REACH_STD, BAND_STD_MAX, BandLines, BandMotion, BandPlace, BandStds, MovedBand,
+    WeightedLines, band_lines, band_move, band_moves, band_reaches, band_stds, moved_band,
 };
+pub use outline::{Outline, OutlineEdge, OutlineRoots};
 
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;

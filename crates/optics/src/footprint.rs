@@ -84,7 +84,9 @@ pub fn scratch_share(
         + blur_um * blur_um;
     let z = (2.0 * along_variance.max(0.0)).sqrt().max(1e-6);
     let line = width_um * across;
-    let along = 0.5 * (erf((end_um - shift) / z) - erf((start_um - shift) / z));
+    // Most scratches end far from most pixels. Beyond this erf is 1 to the last digit.
+    let erf_at = |x: f64| if x.abs() < 6.0 { erf(x) } else { x.signum() };
+    let along = 0.5 * (erf_at((end_um - shift) / z) - erf_at((start_um - shift) / z));
     ScratchShare {
         segment: line * along,
         line,

@@ -6,6 +6,7 @@ pub mod coherent;
 pub mod diffraction;
 pub mod footprint;
 pub mod fresnel;
+pub mod gaussian;
 pub mod ggx;
 pub mod irradiance;
 pub mod lobe_table;

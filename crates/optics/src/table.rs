@@ -25,6 +25,8 @@ pub struct ScratchTable {
     /// Row-major, `ROWS` rows of `2 * COLUMNS` texels: T and its derivative by the column index, side by side. The
     /// slope makes the look-up cubic, which small lights need: they see differences of T much finer than a column.
     pub texels: Vec<[f32; 4]>,
+    /// T(infinity, d) - T(-infinity, d) of each row: twice the last column, side by side.
+    totals: Vec<[f32; 4]>,
 }
 
 impl ScratchTable {
@@ -65,47 +67,73 @@ impl ScratchTable {
                 texel[1] = [s[3] as f32, s[4] as f32, s[5] as f32, 0.0];
             }
         }
-        Self { texels }
+        let last = texels.iter().skip(2 * (COLUMNS - 1)).step_by(2 * COLUMNS);
+        let totals = last.map(|t| t.map(|c| 2.0 * c)).collect();
+        Self { texels, totals }
     }
 
     /// T_c(u, d): cubic (Hermite) in u, linear in depth. Odd in u.
     pub fn scratch_table(&self, u_um: f64, depth_nm: f64) -> [f64; 3] {
-        let x = u_um.abs() / (u_um.abs() + U_HALF_UM) * (COLUMNS - 1) as f64;
-        let column = (x as usize).min(COLUMNS - 2);
-        let f = x - column as f64;
-        let y = depth_nm.clamp(0.0, DEPTH_MAX_NM) * (ROWS - 1) as f64 / DEPTH_MAX_NM;
-        let row = (y as usize).min(ROWS - 2);
-        let g = y - row as f64;
-        // Hermite basis: value and slope at the left, value and slope at the right.
-        let (f2, f3) = (f * f, f * f * f);
-        let basis = [
-            2.0 * f3 - 3.0 * f2 + 1.0,
-            f3 - 2.0 * f2 + f,
-            3.0 * f2 - 2.0 * f3,
-            f3 - f2,
-        ];
-        let at = (row * COLUMNS + column) * 2;
-        let (near, far) = (
-            &self.texels[at..at + 4],
-            &self.texels[at + 2 * COLUMNS..at + 2 * COLUMNS + 4],
-        );
-        std::array::from_fn(|c| {
-            let cubic = |t: &[[f32; 4]]| (0..4).map(|i| basis[i] * t[i][c] as f64).sum::<f64>();
-            u_um.signum() * ((1.0 - g) * cubic(near) + g * cubic(far))
-        })
+        self.at_depth(depth_nm).at(u_um)
+    }
+
+    /// T_c(., d), for several look-ups at one depth.
+    #[inline]
+    pub fn at_depth(&self, depth_nm: f64) -> TableRow<'_> {
+        let (row, share) = row_at(depth_nm);
+        let rows = &self.texels[row * 2 * COLUMNS..][..4 * COLUMNS];
+        let (near, far) = rows.split_at(2 * COLUMNS);
+        TableRow { near, far, share }
     }
 
     /// T(infinity, d) - T(-infinity, d): the mean of |D|^2 in each channel, which the mask of section 3 needs.
     pub fn scratch_table_total(&self, depth_nm: f64) -> [f64; 3] {
-        let y = depth_nm.clamp(0.0, DEPTH_MAX_NM) * (ROWS - 1) as f64 / DEPTH_MAX_NM;
-        let row = (y as usize).min(ROWS - 2);
-        let g = y - row as f64;
-        let last = (COLUMNS - 1) * 2;
-        let (near, far) = (
-            self.texels[row * 2 * COLUMNS + last],
-            self.texels[(row + 1) * 2 * COLUMNS + last],
-        );
-        std::array::from_fn(|c| 2.0 * ((1.0 - g) * near[c] as f64 + g * far[c] as f64))
+        let (row, g) = row_at(depth_nm);
+        let (near, far) = (self.totals[row], self.totals[row + 1]);
+        std::array::from_fn(|c| (1.0 - g) * near[c] as f64 + g * far[c] as f64)
+    }
+}
+
+/// The row at or below a depth, and the share of the next one.
+#[inline]
+fn row_at(depth_nm: f64) -> (usize, f64) {
+    let y = depth_nm.clamp(0.0, DEPTH_MAX_NM) * ((ROWS - 1) as f64 / DEPTH_MAX_NM);
+    let row = (y as usize).min(ROWS - 2);
+    (row, y - row as f64)
+}
+
+/// T at one depth.
+#[derive(Clone, Copy, Debug)]
+pub struct TableRow<'a> {
+    near: &'a [[f32; 4]],
+    far: &'a [[f32; 4]],
+    /// Of `far`.
+    share: f64,
+}
+
+impl TableRow<'_> {
+    /// T_c(u, d). Odd in u.
+    #[inline]
+    pub fn at(&self, u_um: f64) -> [f64; 3] {
+        let x = u_um.abs() / (u_um.abs() + U_HALF_UM) * (COLUMNS - 1) as f64;
+        let column = (x as usize).min(COLUMNS - 2);
+        let f = x - column as f64;
+        // Hermite basis: value and slope at the left, value and slope at the right.
+        let (f2, f3) = (f * f, f * f * f);
+        let right = 3.0 * f2 - 2.0 * f3;
+        let basis = [1.0 - right, f3 - 2.0 * f2 + f, right, f3 - f2];
+        let texels = 2 * column..2 * column + 4;
+        let (near, far) = (&self.near[texels.clone()], &self.far[texels]);
+        // Four lanes, of which one is empty, are two instructions each.
+        let mut sum = [0.0; 4];
+        for i in 0..4 {
+            let (b, c) = (basis[i] * (1.0 - self.share), basis[i] * self.share);
+            for lane in 0..4 {
+                sum[lane] += b * near[i][lane] as f64 + c * far[i][lane] as f64;
+            }
+        }
+        let sign = 1f64.copysign(u_um);
+        [sign * sum[0], sign * sum[1], sign * sum[2]]
     }
 }
 

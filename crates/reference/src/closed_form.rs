@@ -230,18 +230,21 @@ impl Way<'_> {
         };
         let position_m = camera.position_m + ray * depth_m;
         let point = surface::surface_point(scene, tables, position_m, -direction, footprint, &hit);
-        views.look_from(&point);
-        self.shade_surface(&hit, &point, views, depth_m)
+        // For a pixel that is the point in its middle nothing moves.
+        let alone = (self.method.footprint == PixelFilter::Off).then(|| point.without_footprint());
+        let scratched = alone.as_ref().unwrap_or(&point);
+        views.look_from(scratched);
+        let masked = self.scratches(&hit, scratched, views);
+        self.shade_surface(&masked, &point, views, depth_m)
     }
 
     fn shade_surface(
         &self,
-        hit: &Hit,
+        masked: &Masked,
         point: &SurfacePoint,
         views: &LightViews,
         depth_m: f64,
     ) -> Sample {
-        let masked = self.scratches(hit, point, views);
         let environment = self.prepared.scene.environment.as_ref();
         let light = match &self.published {
             None => base::base_radiance(environment, point, views, ltc_sphere),
@@ -265,8 +268,6 @@ impl Way<'_> {
     /// Radiance of the scratches under the point's footprint and what they take from the base.
     fn scratches(&self, hit: &Hit, point: &SurfacePoint, views: &LightViews) -> Masked {
         let object = hit.object as usize;
-        let alone = (self.method.footprint == PixelFilter::Off).then(|| point.without_footprint());
-        let point = alone.as_ref().unwrap_or(point);
         let list =
             (self.method.lookup == Lookup::Triangles).then(|| self.prepared.triangle_list(hit));
         match &self.published {

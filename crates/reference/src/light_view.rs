@@ -1,8 +1,10 @@
 //! The lights as seen from a point, in the frame of its surface.
 
 use crate::surface::SurfacePoint;
-use glam::DVec3;
-use hairline_optics::band::{Cap, PolygonView, polygon_facing, sphere_cap};
+use glam::{DVec2, DVec3};
+use hairline_optics::band::{
+    Cap, Outline, OutlineEdge, PolygonView, band_moves, polygon_facing, sphere_cap,
+};
 use hairline_scene::{Light, Scene};
 use std::ops::Range;
 
@@ -11,13 +13,15 @@ use std::ops::Range;
 pub(crate) enum LightView {
     /// A sphere, as the cap of directions that it covers.
     Sphere { cap: Cap, radiance: DVec3 },
-    /// A polygon; `vertices` index [`LightViews::vertices`] and [`LightViews::directions`].
+    /// A polygon; `vertices` index [`LightViews::vertices`], [`LightViews::directions`] and [`LightViews::edges`].
     Polygon {
         /// Index into the scene's lights.
         light: usize,
         vertices: Range<usize>,
         away: DVec3,
         facing: f64,
+        /// Whether a corner lies below the horizon.
+        sets: bool,
         /// Holds the whole polygon.
         bound: Cap,
         radiance: DVec3,
@@ -30,10 +34,14 @@ pub(crate) struct LightViews<'a> {
     pub views: Vec<LightView>,
     /// From the point to the middle of each, held at its radius or above.
     pub distances_m: Vec<f64>,
+    /// How xi moves towards each over one standard deviation of the pixel's filter, to the right and down: `band_moves`.
+    pub moves: Vec<[DVec2; 2]>,
     /// Polygon vertices relative to the point, metres.
     pub vertices: Vec<DVec3>,
     /// Unit directions to them.
     pub directions: Vec<DVec3>,
+    /// Edges from one to the next.
+    pub edges: Vec<OutlineEdge>,
 }
 
 impl<'a> LightViews<'a> {
@@ -42,8 +50,10 @@ impl<'a> LightViews<'a> {
             lights: &scene.lights,
             views: Vec::new(),
             distances_m: Vec::new(),
+            moves: Vec::new(),
             vertices: Vec::new(),
             directions: Vec::new(),
+            edges: Vec::new(),
         }
     }
 
@@ -51,8 +61,10 @@ impl<'a> LightViews<'a> {
     pub fn look_from(&mut self, point: &SurfacePoint) {
         self.views.clear();
         self.distances_m.clear();
+        self.moves.clear();
         self.vertices.clear();
         self.directions.clear();
+        self.edges.clear();
         for (index, light) in self.lights.iter().enumerate() {
             match light {
                 Light::Sphere {
@@ -63,7 +75,7 @@ impl<'a> LightViews<'a> {
                     let center = point.surface_from_world(*center_m - point.position_m);
                     if center.z > -radius_m {
                         let cap = sphere_cap(center, *radius_m);
-                        self.distances_m.push(center.length().max(*radius_m));
+                        self.place(point, cap.axis, center.length().max(*radius_m));
                         self.views.push(LightView::Sphere {
                             cap,
                             radiance: DVec3::from(*radiance),
@@ -90,20 +102,51 @@ impl<'a> LightViews<'a> {
                     self.directions
                         .extend(self.vertices[first..].iter().map(|v| v.normalize_or_zero()));
                     let vertices = first..self.vertices.len();
+                    let sets = self.vertices[first..].iter().any(|v| v.z < 0.0);
+                    self.edges
+                        .extend(OutlineEdge::around(&self.directions[vertices.clone()]));
                     let (center_m, radius_m) = light.bounding_sphere();
                     let center = point.surface_from_world(center_m - point.position_m);
                     let bound = sphere_cap(center, radius_m);
-                    self.distances_m.push(center.length().max(radius_m));
+                    self.place(point, bound.axis, center.length().max(radius_m));
                     self.views.push(LightView::Polygon {
                         light: index,
                         vertices,
                         away,
                         facing,
+                        sets,
                         bound,
                         radiance: DVec3::from(*radiance),
                     });
                 }
             }
+        }
+    }
+
+    /// A light's distance, and what a pixel makes of it.
+    fn place(&mut self, point: &SurfacePoint, wi: DVec3, distance_m: f64) {
+        let (per_o, per_i) = (1.0 / point.distance_m, 1.0 / distance_m);
+        self.distances_m.push(distance_m);
+        self.moves.push(std::array::from_fn(|j| {
+            let axis_m = point.surface_from_world(point.footprint_axes_m[j]);
+            let turn = point.normal_turns[j].truncate();
+            band_moves(turn, axis_m, point.wo, per_o, wi, per_i)
+        }));
+    }
+
+    /// A polygon made ready for many scratches.
+    pub fn outline(
+        &self,
+        vertices: &Range<usize>,
+        away: DVec3,
+        facing: f64,
+        sets: bool,
+    ) -> Outline<'_> {
+        Outline {
+            edges: &self.edges[vertices.clone()],
+            away,
+            facing,
+            sets,
         }
     }
 

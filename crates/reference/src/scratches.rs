@@ -7,14 +7,14 @@ use glam::{DVec2, DVec3};
 use hairline_index::IndexedSegment;
 use hairline_index::scratch_index::{FACING_MIN_COS, REACH_STD};
 use hairline_optics::band::{
-    BandFrame, BandLine, MovedBand, band_lines, band_move, band_reaches, band_stds, chord_cos,
-    moved_band, sphere_band_extent, sphere_chord,
+    BandFrame, BandLine, BandMotion, BandPlace, BandStds, Cap, Outline, OutlineRoots, band_lines,
+    band_stds, chord_cos, sphere_band_extent, sphere_chord,
 };
 use hairline_optics::band_environment::environment_band;
 use hairline_optics::footprint::{Footprint, ScratchShare, scratch_share};
 use hairline_optics::mask::ScratchSums;
 use hairline_optics::scratch::oblique_depth_nm;
-use hairline_optics::table::ScratchTable;
+use hairline_optics::table::{ScratchTable, TableRow};
 use hairline_scene::Environment;
 
 /// Adds up all scratches of an object under the point's footprint.
@@ -27,17 +27,17 @@ pub(crate) fn gather_scratches(
 ) -> ScratchSums {
     let mut sums = ScratchSums::default();
     let table = &prepared.tables.tables[point.table];
+    let environment = prepared.scene.environment.as_ref();
+    let pixel = Pixel::new(point);
+    let mut work = Work::default();
     each_segment(prepared, point, object, list, |segment| {
-        let Some(view) = SegmentView::new(point, segment) else {
+        let Some(view) = pixel.see(segment) else {
             return;
         };
-        let radiance = scratch_radiance(
-            &view,
-            table,
-            views,
-            prepared.scene.environment.as_ref(),
-            point,
-        );
+        let mut radiance = view.lights(&pixel, table, views, &mut work);
+        if let Some(environment) = environment {
+            radiance += view.environment(&pixel, table, environment);
+        }
         sums.add(
             view.share,
             // In the mirror's direction both cosines are the viewer's.
@@ -70,6 +70,108 @@ pub(crate) fn each_segment(
     tree.gather(object, point.position_m.as_vec3(), reach, visit);
 }
 
+/// A pixel as the scratches under it see it: what is the same for all of them.
+struct Pixel<'a> {
+    point: &'a SurfacePoint,
+    /// The surface's axes in world space, to micrometres.
+    axis_x_um: DVec3,
+    axis_y_um: DVec3,
+    /// How the point moves by one standard deviation of the pixel's filter to the right and down, in the surface's frame.
+    steps_um: [DVec2; 2],
+    /// Of both steps: xx, xy, yy.
+    covariance_um2: DVec3,
+    /// The coherence window's variance.
+    window_um2: f64,
+    /// Of the band that a pixel without perspective sees.
+    stds: BandStds,
+}
+
+impl<'a> Pixel<'a> {
+    fn new(point: &'a SurfacePoint) -> Self {
+        let steps_um = point
+            .footprint_axes_m
+            .map(|step| (point.surface_from_world(step) * 1e6).truncate());
+        let [x, y] = steps_um;
+        Self {
+            point,
+            axis_x_um: point.axis_x * 1e6,
+            axis_y_um: point.axis_y * 1e6,
+            steps_um,
+            covariance_um2: DVec3::new(
+                x.x * x.x + y.x * y.x,
+                x.x * x.y + y.x * y.y,
+                x.y * x.y + y.y * y.y,
+            ),
+            window_um2: 0.5 * point.coherence_um * point.coherence_um,
+            stds: band_stds(point.coherence_um),
+        }
+    }
+
+    /// None where the segment lies on another side of the surface or out of the footprint's reach.
+    fn see(&self, segment: &IndexedSegment) -> Option<SegmentView> {
+        if segment.normal.as_dvec3().dot(self.point.normal) < FACING_MIN_COS as f64 {
+            return None;
+        }
+        let local_um = |v: glam::Vec3| {
+            let v = v.as_dvec3() - self.point.position_m;
+            DVec2::new(v.dot(self.axis_x_um), v.dot(self.axis_y_um))
+        };
+        let (start, end) = (local_um(segment.start_m), local_um(segment.end_m));
+        let along = end - start;
+        let length2 = along.length_squared();
+        // Distance from the line and variance across it, times the length and its square: most segments of a leaf lie out of
+        // reach, which takes no root to tell.
+        let area = end.perp_dot(start);
+        let c = self.covariance_um2;
+        let across =
+            c.x * along.y * along.y - 2.0 * c.y * along.x * along.y + c.z * along.x * along.x;
+        let variance = across.max(0.0) + self.window_um2 * length2;
+        if !(length2 > 0.0) || area * area > (REACH_STD * REACH_STD) as f64 * variance {
+            return None;
+        }
+        let t = along / length2.sqrt();
+        let offset_um = area / length2.sqrt();
+        let footprint = Footprint {
+            across_um2: (c.x * t.y * t.y - 2.0 * c.y * t.x * t.y + c.z * t.x * t.x).max(0.0),
+            along_um2: (c.x * t.x * t.x + 2.0 * c.y * t.x * t.y + c.z * t.y * t.y).max(0.0),
+            cross_um2: (c.z - c.x) * t.x * t.y + c.y * (t.x * t.x - t.y * t.y),
+        };
+        let (width_um, blur_um) = (segment.width_um as f64, segment.blur_um as f64);
+        let share = scratch_share(
+            width_um,
+            offset_um,
+            start.dot(t),
+            end.dot(t),
+            blur_um,
+            footprint,
+            self.point.coherence_um,
+        );
+        (share.segment > 0.0).then(|| {
+            let frame = BandFrame { tangent: t };
+            let variance_um2 = footprint.across_um2 + self.window_um2;
+            SegmentView {
+                frame,
+                wo: frame.band_from_surface(self.point.wo),
+                share,
+                width_um,
+                depth_nm: segment.depth_nm as f64,
+                place: BandPlace::new(
+                    self.steps_um.map(|step| t.perp_dot(step)),
+                    offset_um,
+                    variance_um2,
+                ),
+            }
+        })
+    }
+}
+
+/// What the work on one scratch leaves for the next to fill again.
+#[derive(Default)]
+struct Work {
+    roots: OutlineRoots,
+    middle_roots: OutlineRoots,
+}
+
 /// A segment as seen from the point.
 struct SegmentView {
     frame: BandFrame,
@@ -78,159 +180,127 @@ struct SegmentView {
     share: ScratchShare,
     width_um: f64,
     depth_nm: f64,
-    /// Distance of the scratch across its tangent.
-    offset_um: f64,
-    /// One standard deviation of the pixel's filter to the right and down.
-    axes_um: [DVec3; 2],
-    /// The footprint's variance across the scratch, and the coherence window's with it.
-    variance_um2: f64,
+    place: BandPlace,
 }
 
 impl SegmentView {
-    /// None where the segment lies on another side of the surface or out of the footprint's reach.
-    fn new(point: &SurfacePoint, segment: &IndexedSegment) -> Option<Self> {
-        if segment.normal.as_dvec3().dot(point.normal) < FACING_MIN_COS as f64 {
-            return None;
+    /// Radiance by way of the lights, per unit of the share, Fresnel left out.
+    fn lights(
+        &self,
+        pixel: &Pixel,
+        table: &ScratchTable,
+        views: &LightViews,
+        work: &mut Work,
+    ) -> DVec3 {
+        let mut sum = DVec3::ZERO;
+        for (light, moves) in views.views.iter().zip(&views.moves) {
+            let motion = self.place.moved(moves.map(|m| m.dot(self.frame.tangent)));
+            let (LightView::Sphere { cap: bound, .. } | LightView::Polygon { bound, .. }) = light;
+            // Most scratches are dark to most lights.
+            let along = self.frame.tangent.dot(bound.axis.truncate());
+            if !self.may_meet(pixel, along, bound, motion) {
+                continue;
+            }
+            match light {
+                LightView::Sphere { cap, radiance } => {
+                    sum += *radiance * self.sphere(pixel, table, *cap, motion);
+                }
+                LightView::Polygon {
+                    vertices,
+                    away,
+                    facing,
+                    sets,
+                    radiance,
+                    ..
+                } => {
+                    let outline = views.outline(vertices, *away, *facing, *sets);
+                    sum += *radiance * self.polygon(pixel, table, outline, motion, work);
+                }
+            }
         }
-        let start = point.surface_from_world(segment.start_m.as_dvec3() - point.position_m) * 1e6;
-        let end = point.surface_from_world(segment.end_m.as_dvec3() - point.position_m) * 1e6;
-        let along = DVec2::new(end.x - start.x, end.y - start.y);
-        let length = along.length();
-        if !(length > 0.0) {
-            return None;
+        sum
+    }
+
+    /// Whether the band can meet a cap whose axis has the component `along` on the tangent.
+    fn may_meet(&self, pixel: &Pixel, along: f64, cap: &Cap, motion: BandMotion) -> bool {
+        let middle = self.wo.x + motion.shift + along * cap.cos_radius;
+        // Around the pole of the tangent a cap reaches further.
+        along.abs() >= cap.cos_radius
+            || motion.reaches(
+                middle - cap.sin_radius,
+                middle + cap.sin_radius,
+                pixel.stds.mean,
+            )
+    }
+
+    /// T over u at the depth for light with a cosine to the normal.
+    fn row<'t>(&self, table: &'t ScratchTable, cos_i: f64) -> TableRow<'t> {
+        table.at_depth(oblique_depth_nm(self.depth_nm, cos_i, self.wo.z))
+    }
+
+    /// By a sphere of radiance 1.
+    fn sphere(&self, pixel: &Pixel, table: &ScratchTable, cap: Cap, motion: BandMotion) -> DVec3 {
+        let cap = cap.turned(self.frame);
+        let wo = self.wo + motion.shift * DVec3::X;
+        let (lowest, highest) = sphere_band_extent(wo, cap);
+        if !motion.reaches(lowest, highest, pixel.stds.mean) {
+            return DVec3::ZERO;
         }
-        let frame = BandFrame {
-            tangent: along / length,
-        };
-        let (start, end) = (frame.band_from_surface(start), frame.band_from_surface(end));
-        let offset_um = 0.5 * (start.y + end.y);
-        let axes_um = point
-            .footprint_axes_m
-            .map(|a| frame.band_from_surface(point.surface_from_world(a)) * 1e6);
-        let [ax, ay] = axes_um;
-        let footprint = Footprint {
-            across_um2: ax.y * ax.y + ay.y * ay.y,
-            along_um2: ax.x * ax.x + ay.x * ay.x,
-            cross_um2: ax.x * ax.y + ay.x * ay.y,
-        };
-        let sigma = point.coherence_um;
-        let variance_um2 = footprint.across_um2 + 0.5 * sigma * sigma;
-        if offset_um * offset_um > (REACH_STD * REACH_STD) as f64 * variance_um2 {
-            return None;
-        }
-        let (width_um, blur_um) = (segment.width_um as f64, segment.blur_um as f64);
-        let share = scratch_share(
-            width_um, offset_um, start.x, end.x, blur_um, footprint, sigma,
-        );
-        (share.segment > 0.0).then(|| Self {
-            frame,
-            wo: frame.band_from_surface(point.wo),
-            share,
-            width_um,
-            depth_nm: segment.depth_nm as f64,
-            offset_um,
-            axes_um,
-            variance_um2,
+        let lines = band_lines(wo.x, lowest, highest, motion.band(pixel.stds).stds);
+        lines.integral(wo, |line| {
+            let chord = sphere_chord(line, cap);
+            let (low, high) = chord.range(line);
+            let row = self.row(table, chord_cos(line, low, high, self.width_um));
+            chord.integral(line, |q| row.at(self.width_um * q))
         })
     }
 
-    /// The band as the pixel sees it towards a light in a direction of the scratch's frame.
-    fn band(&self, point: &SurfacePoint, wi: DVec3, distance_m: f64) -> MovedBand {
-        let (per_o, per_i) = (1e-6 / point.distance_m, 1e-6 / distance_m);
-        let moves = std::array::from_fn(|j| {
-            let turn_t = point.normal_turns[j].truncate().dot(self.frame.tangent);
-            band_move(turn_t, self.axes_um[j], self.wo, per_o, wi, per_i)
-        });
-        let across_um = self.axes_um.map(|axis| axis.y);
-        let stds = band_stds(point.coherence_um);
-        moved_band(stds, moves, across_um, self.offset_um, self.variance_um2)
-    }
-}
-
-/// Radiance of a scratch per unit of its share, Fresnel left out.
-fn scratch_radiance(
-    view: &SegmentView,
-    table: &ScratchTable,
-    views: &LightViews,
-    environment: Option<&Environment>,
-    point: &SurfacePoint,
-) -> DVec3 {
-    let frame = view.frame;
-    let antiderivative = |cos_i: f64| {
-        let depth_nm = oblique_depth_nm(view.depth_nm, cos_i, view.wo.z);
-        move |q: f64| table.scratch_table(view.width_um * q, depth_nm)
-    };
-    let cos_over = |line, (low, high)| chord_cos(line, low, high, view.width_um);
-    let mut sum = DVec3::ZERO;
-    for (light, &distance_m) in views.views.iter().zip(&views.distances_m) {
-        match light {
-            LightView::Sphere { cap, radiance } => {
-                let cap = cap.turned(frame);
-                let band = view.band(point, cap.axis, distance_m);
-                let (wo, stds) = (view.wo + band.shift * DVec3::X, band.stds);
-                let (lowest, highest) = sphere_band_extent(wo, cap);
-                let lines = band_lines(wo.x, lowest, highest, stds);
-                sum += *radiance
-                    * lines.integral(wo, |line| {
-                        let chord = sphere_chord(line, cap);
-                        let cos_i = cos_over(line, chord.range(line));
-                        chord.integral(line, antiderivative(cos_i))
-                    });
-            }
-            LightView::Polygon {
-                vertices,
-                away,
-                facing,
-                bound,
-                radiance,
-                ..
-            } => {
-                // Most scratches are dark to most lights; the bound tells it without a look at the edges.
-                let bound = bound.turned(frame);
-                let band = view.band(point, bound.axis, distance_m);
-                let (wo, stds) = (view.wo + band.shift * DVec3::X, band.stds);
-                let (lowest, highest) = sphere_band_extent(wo, bound);
-                if !band_reaches(lowest, highest, stds) {
-                    continue;
-                }
-                let polygon = views.polygon(vertices, *away, *facing);
-                let (lowest, highest) = polygon.band_extent(frame, wo);
-                let lines = band_lines(wo.x, lowest, highest, stds);
-                if lines.count == 0 {
-                    continue;
-                }
-                // One cosine for all lines: else the outline would be walked twice for each.
-                let middle = BandLine::new(wo, lines.band_line(lines.count / 2).0);
-                let cos_i = cos_over(middle, polygon.range(frame, middle));
-                sum += *radiance
-                    * lines.integral(wo, |line| {
-                        polygon.integral(frame, line, antiderivative(cos_i))
-                    });
-            }
+    /// By a polygon of radiance 1.
+    fn polygon(
+        &self,
+        pixel: &Pixel,
+        table: &ScratchTable,
+        outline: Outline,
+        motion: BandMotion,
+        work: &mut Work,
+    ) -> DVec3 {
+        let wo = self.wo + motion.shift * DVec3::X;
+        let (lowest, highest) = outline.band_extent(self.frame, wo.x);
+        if !motion.reaches(lowest, highest, pixel.stds.mean) {
+            return DVec3::ZERO;
         }
+        let lines = band_lines(wo.x, lowest, highest, motion.band(pixel.stds).stds);
+        let lines = lines.weighted(wo);
+        // One cosine for all lines, that of the middle one.
+        let Some(&(middle, _)) = lines.iter().nth(lines.middle()) else {
+            return DVec3::ZERO;
+        };
+        outline.roots(self.frame, middle, &mut work.middle_roots);
+        let (low, high) = work.middle_roots.range;
+        let row = self.row(table, chord_cos(middle, low, high, self.width_um));
+        let mut sum = DVec3::ZERO;
+        for (i, &(line, weight)) in lines.iter().enumerate() {
+            let roots = if i == lines.middle() {
+                &work.middle_roots
+            } else {
+                outline.roots(self.frame, line, &mut work.roots);
+                &work.roots
+            };
+            sum += weight * DVec3::from(roots.integral(|q| row.at(self.width_um * q)));
+        }
+        sum
     }
-    if let Some(environment) = environment {
-        sum += environment_radiance(view, environment, point, |q, cos_i| {
-            antiderivative(cos_i)(q)
-        });
-    }
-    sum
-}
 
-/// The 1-D integral of the environment along the band's middle line, cell by cell.
-fn environment_radiance(
-    view: &SegmentView,
-    environment: &Environment,
-    point: &SurfacePoint,
-    antiderivative: impl Fn(f64, f64) -> [f64; 3],
-) -> DVec3 {
-    environment_band(
-        BandLine::new(view.wo, 0.0),
-        view.width_um,
-        antiderivative,
-        |direction, roughness| {
-            let direction = view.frame.surface_from_band(direction);
-            environment.prefiltered(point.world_from_surface(direction), roughness)
-        },
-    )
+    /// By the environment, along the band's middle line, cell by cell.
+    fn environment(&self, pixel: &Pixel, table: &ScratchTable, environment: &Environment) -> DVec3 {
+        environment_band(
+            BandLine::new(self.wo, 0.0),
+            self.width_um,
+            |q, cos_i| self.row(table, cos_i).at(self.width_um * q),
+            |direction, roughness| {
+                let direction = self.frame.surface_from_band(direction);
+                environment.prefiltered(pixel.point.world_from_surface(direction), roughness)
+            },
+        )
+    }
 }

@@ -1,10 +1,11 @@
 //! The lines that stand for the part of a band which a light covers, in each colour channel (docs/model.md, section 4).
 
 use super::BandLine;
+use crate::gaussian::gaussian_cdf;
 use crate::scratch::band_std;
 use crate::spectrum::{CHANNEL_MEAN_NM, WAVELENGTH_MEAN_NM};
-use glam::DVec3;
-use spec_math::cephes64::{ndtr, ndtri};
+use glam::{DVec2, DVec3};
+use spec_math::cephes64::ndtri;
 
 /// The band is cut off at this many standard deviations; 6e-5 of its energy lies beyond, 5e-4 in red.
 pub const BAND_REACH_STD: f64 = 4.0;
@@ -56,6 +57,20 @@ pub fn band_move(
     turned(wo) * per_distance_o + turned(wi) * per_distance_i - turn_t * (wo.z + wi.z).max(0.0)
 }
 
+/// [`band_move`] for every scratch of a surface at once: what it is, is the part of this along the scratch's tangent. Vectors
+/// are in the surface's frame, `turn` is the whole turn of the normal.
+pub fn band_moves(
+    turn: DVec2,
+    axis: DVec3,
+    wo: DVec3,
+    per_distance_o: f64,
+    wi: DVec3,
+    per_distance_i: f64,
+) -> DVec2 {
+    let turned = |w: DVec3| w.truncate() * axis.dot(w) - axis.truncate();
+    turned(wo) * per_distance_o + turned(wi) * per_distance_i - turn * (wo.z + wi.z).max(0.0)
+}
+
 /// A band as a pixel sees it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MovedBand {
@@ -75,17 +90,78 @@ pub fn moved_band(
     offset_um: f64,
     variance_um2: f64,
 ) -> MovedBand {
-    let slope = (moves[0] * across_um[0] + moves[1] * across_um[1]) / variance_um2;
-    // The variance that is left, as a sum of squares: a difference would cancel where the footprint is wide.
-    let left = [
-        moves[0] - slope * across_um[0],
-        moves[1] - slope * across_um[1],
-    ];
-    let across2 = across_um[0] * across_um[0] + across_um[1] * across_um[1];
-    let window = slope * slope * (variance_um2 - across2).max(0.0);
-    MovedBand {
-        shift: (slope * offset_um).clamp(-BAND_STD_MAX, BAND_STD_MAX),
-        stds: stds.widened(left[0] * left[0] + left[1] * left[1] + window),
+    BandPlace::new(across_um, offset_um, variance_um2)
+        .moved(moves)
+        .band(stds)
+}
+
+/// Where a scratch lies under a pixel: what of [`moved_band`] is the same for all lights.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BandPlace {
+    across_um: [f64; 2],
+    /// `across_um` over the variance.
+    slopes: [f64; 2],
+    offset_um: f64,
+    window_um2: f64,
+}
+
+impl BandPlace {
+    /// See [`moved_band`].
+    pub fn new(across_um: [f64; 2], offset_um: f64, variance_um2: f64) -> Self {
+        let across2 = across_um[0] * across_um[0] + across_um[1] * across_um[1];
+        let per_variance = 1.0 / variance_um2;
+        Self {
+            across_um,
+            slopes: across_um.map(|a| a * per_variance),
+            offset_um,
+            window_um2: (variance_um2 - across2).max(0.0),
+        }
+    }
+
+    /// How the band moves towards a light.
+    #[inline]
+    pub fn moved(&self, moves: [f64; 2]) -> BandMotion {
+        let slope = moves[0] * self.slopes[0] + moves[1] * self.slopes[1];
+        // The variance that is left, as a sum of squares: a difference would cancel where the footprint is wide.
+        let left = [
+            moves[0] - slope * self.across_um[0],
+            moves[1] - slope * self.across_um[1],
+        ];
+        BandMotion {
+            shift: (slope * self.offset_um).clamp(-BAND_STD_MAX, BAND_STD_MAX),
+            variance: left[0] * left[0] + left[1] * left[1] + slope * slope * self.window_um2,
+        }
+    }
+}
+
+/// The mean and the variance that a pixel adds to a band.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BandMotion {
+    /// See [`MovedBand`].
+    pub shift: f64,
+    /// Of xi_t over the part of the pixel that sees the scratch.
+    pub variance: f64,
+}
+
+impl BandMotion {
+    /// The band that was moved.
+    #[inline]
+    pub fn band(self, stds: BandStds) -> MovedBand {
+        MovedBand {
+            shift: self.shift,
+            stds: stds.widened(self.variance),
+        }
+    }
+
+    /// [`band_reaches`] without a root: whether a light with xi_t from `lowest` to `highest`, the shift included, meets a band
+    /// that was `std` wide.
+    #[inline]
+    pub fn reaches(self, lowest: f64, highest: f64, std: f64) -> bool {
+        let variance = (std * std + self.variance).min(BAND_STD_MAX * BAND_STD_MAX);
+        let reach2 = BAND_REACH_STD * BAND_REACH_STD * variance;
+        (lowest < 0.0 || lowest * lowest < reach2)
+            && (highest > 0.0 || highest * highest < reach2)
+            && highest > lowest
     }
 }
 
@@ -133,15 +209,30 @@ pub fn band_lines(wo_t: f64, lowest: f64, highest: f64, stds: BandStds) -> BandL
     } else {
         1
     };
-    let share_below = ndtr(lowest / stds.mean);
+    let [low, high] = [lowest, highest].map(|xi| xi / stds.mean);
+    // One line in the band's middle stands for all of it.
+    if count == 1 && low < -BAND_WHOLE_STD && high > BAND_WHOLE_STD {
+        return BandLines {
+            count,
+            share_below: 0.0,
+            share: 1.0,
+            channel_shares: [1.0; 3],
+            stds,
+        };
+    }
+    let cdf = gaussian_cdf();
+    let share_below = cdf.below(low);
     BandLines {
         count,
         share_below,
-        share: ndtr(highest / stds.mean) - share_below,
-        channel_shares: stds.channels.map(|s| ndtr(highest / s) - ndtr(lowest / s)),
+        share: cdf.below(high) - share_below,
+        channel_shares: stds.channels.map(|s| cdf.between(lowest / s, highest / s)),
         stds,
     }
 }
+
+/// A light that covers a band up to here covers all of it: 6e-8 is left out on either side at the mean wavelength, 3e-6 in red.
+const BAND_WHOLE_STD: f64 = 5.3;
 
 /// Gauss-Legendre nodes on [0, 1] and weights, for 1, 3 and 5 points.
 const NODES: [[(f64, f64); 5]; 3] = [
@@ -167,9 +258,7 @@ impl BandLines {
     /// is wide and the light where it is narrow. A weight is for each channel: its band over the band that placed the line.
     pub fn band_line(&self, i: usize) -> (f64, DVec3) {
         let (node, weight) = NODES[self.count / 2][i];
-        // The quantile is cut where single precision loses it; the band's reach ends before.
-        let quantile = (self.share_below + self.share * node).clamp(1e-6, 1.0 - 1e-6);
-        let x = ndtri(quantile);
+        let x = self.quantile(node);
         let ratio = self.stds.channels.map(|std| {
             let narrower = self.stds.mean / std;
             narrower * (0.5 * x * x * (1.0 - narrower * narrower)).exp()
@@ -177,15 +266,67 @@ impl BandLines {
         (self.stds.mean * x, weight * DVec3::from(ratio))
     }
 
-    /// The band's integral over a light, given the light integral on a line: the mean over the lines by their weights, times each
-    /// channel's share, so that a light that covers the band keeps its energy however few the lines.
-    pub fn integral(&self, wo: DVec3, on_line: impl Fn(BandLine) -> [f64; 3]) -> DVec3 {
-        let (mut sum, mut weights) = (DVec3::ZERO, DVec3::ZERO);
-        for i in 0..self.count {
-            let (xi_t, weight) = self.band_line(i);
-            sum += weight * DVec3::from(on_line(BandLine::new(wo, xi_t)));
-            weights += weight;
+    /// Where a share of the lit part of the band lies below, in standard deviations.
+    fn quantile(&self, node: f64) -> f64 {
+        // It is cut where single precision loses it; the band's reach ends before.
+        let quantile = (self.share_below + self.share * node).clamp(1e-6, 1.0 - 1e-6);
+        if quantile == 0.5 {
+            0.0
+        } else {
+            ndtri(quantile)
         }
-        DVec3::from(self.channel_shares) * sum / weights.max(DVec3::splat(1e-30))
+    }
+
+    /// The lines seen from `wo` with what each counts for: the mean over the lines by their weights, times each channel's share,
+    /// so that a light that covers the band keeps its energy however few the lines.
+    pub fn weighted(&self, wo: DVec3) -> WeightedLines {
+        let shares = DVec3::from(self.channel_shares);
+        let mut lines = [(BandLine::new(wo, 0.0), shares); 5];
+        if self.count == 1 {
+            // The only weight counts in full.
+            lines[0].0 = BandLine::new(wo, self.stds.mean * self.quantile(0.5));
+        } else {
+            let mut weights = DVec3::ZERO;
+            for (i, line) in lines.iter_mut().enumerate().take(self.count) {
+                let (xi_t, weight) = self.band_line(i);
+                *line = (BandLine::new(wo, xi_t), weight);
+                weights += weight;
+            }
+            let per_weight = shares / weights.max(DVec3::splat(1e-30));
+            lines[..self.count]
+                .iter_mut()
+                .for_each(|line| line.1 *= per_weight);
+        }
+        WeightedLines {
+            lines,
+            count: self.count,
+        }
+    }
+
+    /// The band's integral over a light, given the light integral on a line.
+    pub fn integral(&self, wo: DVec3, mut on_line: impl FnMut(BandLine) -> [f64; 3]) -> DVec3 {
+        self.weighted(wo)
+            .iter()
+            .map(|(line, weight)| *weight * DVec3::from(on_line(*line)))
+            .sum()
+    }
+}
+
+/// The lines of a band and what each counts for, in each colour channel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WeightedLines {
+    lines: [(BandLine, DVec3); 5],
+    count: usize,
+}
+
+impl WeightedLines {
+    /// All of them, in the order of xi_t.
+    pub fn iter(&self) -> std::slice::Iter<'_, (BandLine, DVec3)> {
+        self.lines[..self.count].iter()
+    }
+
+    /// Which one is in the middle.
+    pub fn middle(&self) -> usize {
+        self.count / 2
     }
 }

@@ -46,6 +46,7 @@ impl Published<'_> {
                     facing,
                     bound,
                     radiance,
+                    ..
                 } => {
                     let triangles = Triangles {
                         vertices: &views.vertices[vertices.clone()],
