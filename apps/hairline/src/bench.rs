@@ -20,6 +20,7 @@ use std::time::Duration;
 use anyhow::anyhow;
 use hairline_image::output::{check_writable, write_atomically};
 use hairline_optics::method::Method;
+use hairline_scene::Object;
 
 use crate::cli::{self, Part};
 use crate::failure::Failure;
@@ -33,6 +34,9 @@ use stage::{Stage, TALK_SIZE_PX};
 use timing::Effort;
 use worker::Worker;
 
+/// A quarter of the talk's pixels.
+const QUICK_SIZE_PX: [u32; 2] = [640, 360];
+
 /// How thoroughly to measure.
 struct Thoroughness {
     effort: Effort,
@@ -45,11 +49,13 @@ pub fn run(arguments: &cli::Bench) -> Result<(), Failure> {
     let ours = ours(arguments)?;
     if let Some(path) = &arguments.write_scene {
         check_writable(path)?;
-        let stage = Stage {
-            size_px: arguments.size.unwrap_or(TALK_SIZE_PX),
-            ..Stage::default()
-        };
+        let stage = stage(arguments, TALK_SIZE_PX);
         return Ok(write_atomically(path, stage.to_toml().as_bytes())?);
+    }
+    if arguments.scene.is_some() && arguments.scratches.is_some() {
+        return Err(Failure::Input(anyhow!(
+            "--scratches is for the bench's own scene; a SCENE says itself how many it has"
+        )));
     }
     if arguments.scene.is_some() && arguments.part.iter().any(|part| *part != Part::Table) {
         return Err(Failure::Input(anyhow!(
@@ -79,6 +85,16 @@ pub fn run(arguments: &cli::Bench) -> Result<(), Failure> {
     Ok(())
 }
 
+/// The bench's scene as it is asked for.
+fn stage(arguments: &cli::Bench, size_px: [u32; 2]) -> Stage {
+    let stage = Stage::default();
+    Stage {
+        size_px: arguments.size.unwrap_or(size_px),
+        scratches: arguments.scratches.unwrap_or(stage.scratches),
+        ..stage
+    }
+}
+
 /// What is held against the published method.
 fn ours(arguments: &cli::Bench) -> Result<Method, Failure> {
     if arguments.method.footprint.is_some() || arguments.method.index.is_some() {
@@ -95,12 +111,12 @@ fn thoroughness(arguments: &cli::Bench) -> Thoroughness {
         |thorough: u64, quickly: u64| Duration::from_millis(if quick { quickly } else { thorough });
     let (least, most) = match arguments.repetitions {
         Some(count) => (count as usize, count as usize),
-        None if quick => (3, 5),
-        None => (5, 25),
+        None if quick => (2, 5),
+        None => (3, 25),
     };
     Thoroughness {
         effort: Effort {
-            cell: pick(2500, 150),
+            cell: pick(3000, 250),
             least,
             most,
         },
@@ -119,13 +135,22 @@ fn measure(
     machine: Machine,
     thoroughness: &Thoroughness,
 ) -> Result<Figures, Failure> {
+    let base = stage(
+        arguments,
+        if arguments.quick {
+            QUICK_SIZE_PX
+        } else {
+            TALK_SIZE_PX
+        },
+    );
     let wanted = |part| arguments.part.is_empty() || arguments.part.contains(&part);
     let mut figures = Figures {
         hairline: env!("CARGO_PKG_VERSION"),
         machine,
         ours: flags_of(ours),
         scene: "bench scene".to_owned(),
-        size_px: arguments.size.unwrap_or(TALK_SIZE_PX),
+        size_px: base.size_px,
+        scratches: base.scratches,
         quick: thoroughness.quick,
         talk: talk::SOURCE,
         table: Vec::new(),
@@ -140,16 +165,17 @@ fn measure(
         let scene = scene_file::load(Some(path.as_path()), &overrides)?.scene;
         figures.scene = file_name(path);
         figures.size_px = scene.render.size_px;
+        let of = |object: &Object| object.scratches.len() as u32;
+        figures.scratches = scene.objects.iter().map(of).sum();
         let progress = Progress::start("measuring");
-        figures.table = table::of_scene(worker, &scene, ours, thoroughness, &progress);
+        figures.table = table::of_scene(worker, &scene, ours, thoroughness, &progress)?;
         return Ok(figures);
     }
-    let size_px = figures.size_px;
     let progress = Progress::start("measuring");
     if wanted(Part::Table) {
         progress.restart("the table");
-        figures.table = table::of_the_talk(worker, size_px, ours, thoroughness, &progress)?;
-        figures.counts = counts::of_the_table(size_px, ours)?;
+        figures.table = table::of_the_talk(worker, base, ours, thoroughness, &progress)?;
+        figures.counts = counts::of_the_table(base, ours)?;
     }
     for (part, measure) in [
         (Part::Scratches, scaling::scratches as scaling::Measure),
@@ -157,7 +183,7 @@ fn measure(
         (Part::Resolution, scaling::resolution),
     ] {
         if wanted(part) {
-            let curve = measure(worker, size_px, ours, thoroughness, &progress)?;
+            let curve = measure(worker, base, ours, thoroughness, &progress)?;
             figures.scaling.push(curve);
         }
     }

@@ -179,10 +179,14 @@ pub struct Bench {
     /// What renders. auto: a graphics adapter, be it a software driver, if there is one.
     #[arg(long, value_enum, default_value_t = Backend::Auto)]
     pub backend: Backend,
-    /// Width and height in pixels, in place of the scene's. [default: 1280x720]
+    /// Width and height in pixels, in place of the scene's. [default: 1280x720, the talk's]
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub size: Option<[u32; 2]>,
-    /// Few repetitions, short references, fewer places along each curve: to see in a minute or so what it is like.
+    /// Scratches of the bench's own scene. [default: 10000, the talk's]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    pub scratches: Option<u32>,
+    /// A quarter of the pixels, few repetitions, short references, fewer places along each curve: to see in a minute or so
+    /// what it is like.
     #[arg(long)]
     pub quick: bool,
     /// Measure this part only. May be given several times.

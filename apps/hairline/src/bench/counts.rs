@@ -39,23 +39,18 @@ pub struct Counts {
 const EVERY: u32 = 5;
 
 /// The lit cells at 1x.
-pub fn of_the_table(size_px: [u32; 2], ours: &Method) -> Result<Vec<Counts>, Failure> {
+pub fn of_the_table(base: Stage, ours: &Method) -> Result<Vec<Counts>, Failure> {
     let mut counts = Vec::new();
     for (row, lamps) in [
         (Row::Sphere, Lamps::Sphere),
         (Row::Triangle, Lamps::Triangle),
     ] {
-        let stage = Stage {
-            lamps,
-            size_px,
-            ..Stage::default()
-        };
-        let scene = stage.build()?;
+        let scene = Stage { lamps, ..base }.build()?;
         let counted = Counted::new(&scene);
         // Ours by look-ups that it has only to be compared with say nothing new.
         let own = |way: &Way| way.whose == Whose::Published || way.method.lookup == ours.lookup;
         for way in ways(ours).iter().filter(|way| own(way)) {
-            counts.push(of_way(&counted, size_px, row, way));
+            counts.push(of_way(&counted, base.size_px, row, way));
         }
     }
     Ok(counts)

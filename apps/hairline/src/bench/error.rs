@@ -54,10 +54,15 @@ pub fn errors(
     ready: &[&Result<Ready, Error>],
     accuracy: &Accuracy,
 ) -> Vec<Option<CellError>> {
-    let prepared = Prepared::new(crop);
+    // A device has its own.
+    let prepared = worker.adapter().is_none().then(|| Prepared::new(crop));
     let images: Vec<Option<Image>> = ready
         .iter()
-        .map(|ready| worker.image(crop, &prepared, ready.as_ref().ok()?).ok())
+        .map(|ready| {
+            worker
+                .image(crop, prepared.as_ref(), ready.as_ref().ok()?)
+                .ok()
+        })
         .collect();
     let Some(first) = images.iter().flatten().next() else {
         return images.iter().map(|_| None).collect();

@@ -17,6 +17,7 @@ pub struct Figures {
     /// What was measured: the scene file's name, or "bench scene".
     pub scene: String,
     pub size_px: [u32; 2],
+    pub scratches: u32,
     pub quick: bool,
     /// Where `talk_ms` is from.
     pub talk: &'static str,

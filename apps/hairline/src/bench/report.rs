@@ -10,6 +10,7 @@ use hairline_image::output::write_atomically;
 use super::counts::{Counts, work};
 use super::figures::{Columns, Figures, Row, Whose};
 use super::plots::{self, Plot};
+use super::stage::TALK_SCRATCHES;
 use super::text::{SCALED, curve_header, curve_lines, digits, refusals};
 use crate::failure::Failure;
 
@@ -84,10 +85,14 @@ fn head(text: &mut String, figures: &Figures) -> std::fmt::Result {
          and scaled to all. The published column has the talk's parts: eight wavelengths by the approximated sine integral, its \
          six steps for each light, its blended footprint, its density mask.\n",
         if figures.scene == "bench scene" {
-            "a worn disk of steel with 10,000 scratches in every direction under one lamp of 0.1 rad, about three scratches within \
-             the coherence window of each point (`hairline bench --write-scene FILE` writes it)"
+            format!(
+                "a worn disk of steel with {} scratches of 24 mm in every direction under one lamp of 0.1 rad, about {} within the \
+                 coherence window of each point (`hairline bench --write-scene FILE` writes it)",
+                figures.scratches,
+                digits(3.0 * f64::from(figures.scratches) / f64::from(TALK_SCRATCHES))
+            )
         } else {
-            &figures.scene
+            figures.scene.clone()
         },
         if machine.device_clock {
             "by the device's own clock around its passes"

@@ -14,7 +14,7 @@ use crate::progress::Progress;
 
 /// One of the functions below.
 pub type Measure =
-    fn(&mut Worker, [u32; 2], &Method, &Thoroughness, &Progress) -> Result<Curve, Failure>;
+    fn(&mut Worker, Stage, &Method, &Thoroughness, &Progress) -> Result<Curve, Failure>;
 
 /// A tenth of the table's: a hundred thousand of them lie as densely as the table's ten thousand, and a million still fit in
 /// one array of any adapter.
@@ -23,7 +23,7 @@ const SHORT_M: f64 = 0.00236;
 /// From a thousand scratches to a million, under a sphere.
 pub fn scratches(
     worker: &mut Worker,
-    size_px: [u32; 2],
+    base: Stage,
     ours: &Method,
     thoroughness: &Thoroughness,
     progress: &Progress,
@@ -37,8 +37,7 @@ pub fn scratches(
         let stage = Stage {
             scratches,
             length_m: SHORT_M,
-            size_px,
-            ..Stage::default()
+            ..base
         };
         (f64::from(scratches), stage)
     });
@@ -55,7 +54,7 @@ pub fn scratches(
 /// From one light to 64, half of them spheres and half triangles.
 pub fn lights(
     worker: &mut Worker,
-    size_px: [u32; 2],
+    base: Stage,
     ours: &Method,
     thoroughness: &Thoroughness,
     progress: &Progress,
@@ -68,8 +67,7 @@ pub fn lights(
     let stages = counts.iter().map(|&count| {
         let stage = Stage {
             lamps: Lamps::Many(count),
-            size_px,
-            ..Stage::default()
+            ..base
         };
         (f64::from(count), stage)
     });
@@ -86,7 +84,7 @@ pub fn lights(
 /// From half the size to twice it, at the same field of view, under a sphere.
 pub fn resolution(
     worker: &mut Worker,
-    size_px: [u32; 2],
+    base: Stage,
     ours: &Method,
     thoroughness: &Thoroughness,
     progress: &Progress,
@@ -98,11 +96,8 @@ pub fn resolution(
         &[1, 2, 3, 4]
     };
     let stages = halves.iter().map(|halves| {
-        let size_px = size_px.map(|px| (px * halves / 2).max(1));
-        let stage = Stage {
-            size_px,
-            ..Stage::default()
-        };
+        let size_px = base.size_px.map(|px| (px * halves / 2).max(1));
+        let stage = Stage { size_px, ..base };
         (f64::from(size_px[0]) * f64::from(size_px[1]), stage)
     });
     curve(
@@ -148,7 +143,7 @@ fn curve(
             .iter()
             .map(|way| worker.ready(&scene, &prepared, &way.method))
             .collect();
-        let outcomes = by_turns(worker, &scene, &prepared, &ready, &thoroughness.effort);
+        let outcomes = by_turns(worker, &scene, &prepared, &ready, &thoroughness.effort)?;
         points.extend(ways.iter().zip(outcomes).map(|(way, outcome)| Point {
             x,
             method: way.whose,

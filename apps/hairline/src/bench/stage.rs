@@ -136,6 +136,21 @@ depth_nm = {{ mean = 220.0, spread = 0.3 }}
             .map_err(|error| Failure::Work(anyhow!("{error}")))
     }
 
+    /// The camera and the lamps of this one before the disk of another.
+    pub fn of(self, worn: &Scene) -> Result<Scene, Failure> {
+        let bare = Self {
+            scratches: 0,
+            ..self
+        }
+        .build()?;
+        Ok(Scene {
+            camera: bare.camera,
+            lights: bare.lights,
+            render: bare.render,
+            ..worn.clone()
+        })
+    }
+
     fn lamps(self) -> Vec<String> {
         match self.lamps {
             Lamps::None => Vec::new(),

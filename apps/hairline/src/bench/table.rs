@@ -49,14 +49,16 @@ pub fn ways(ours: &Method) -> Vec<Way> {
     ways
 }
 
-/// All cells at one size.
+/// All cells, by lamps and zooms of one scene.
 pub fn of_the_talk(
     worker: &mut Worker,
-    size_px: [u32; 2],
+    base: Stage,
     ours: &Method,
     thoroughness: &Thoroughness,
     progress: &Progress,
 ) -> Result<Vec<Cell>, Failure> {
+    // Laid once: the cells differ in camera and lamps.
+    let worn = base.build()?;
     let mut cells = Vec::new();
     let groups = Row::TALK.len() * ZOOMS.len();
     for (r, row) in Row::TALK.into_iter().enumerate() {
@@ -69,12 +71,11 @@ pub fn of_the_talk(
             let stage = Stage {
                 lamps,
                 zoom,
-                size_px,
-                ..Stage::default()
+                ..base
             };
-            let scene = stage.build()?;
+            let scene = stage.of(&worn)?;
             let middle = rim_of_reflection(&scene);
-            let crop_px = thoroughness.accuracy.crop_px;
+            let crop_px = crop_px(thoroughness, base.size_px);
             let crops = (row != Row::Intersection).then(|| Crops::new(&scene, middle, crop_px));
             let group = Group {
                 row,
@@ -82,7 +83,7 @@ pub fn of_the_talk(
                 scene: &scene,
                 crops,
             };
-            cells.extend(group.measure(worker, &ways(ours), thoroughness));
+            cells.extend(group.measure(worker, &ways(ours), thoroughness)?);
             progress.set((r * ZOOMS.len() + z + 1) as f64 / groups as f64);
         }
     }
@@ -96,18 +97,23 @@ pub fn of_scene(
     ours: &Method,
     thoroughness: &Thoroughness,
     progress: &Progress,
-) -> Vec<Cell> {
-    let crop_px = thoroughness.accuracy.crop_px;
-    let crop_px = [0, 1].map(|i| crop_px[i].min(scene.render.size_px[i]));
+) -> Result<Vec<Cell>, Failure> {
+    let crop_px = crop_px(thoroughness, scene.render.size_px);
     let group = Group {
         row: Row::Scene,
         zoom: 1.0,
         scene,
         crops: Some(Crops::new(scene, brightest(scene, crop_px), crop_px)),
     };
-    let cells = group.measure(worker, &ways(ours), thoroughness);
+    let cells = group.measure(worker, &ways(ours), thoroughness)?;
     progress.set(1.0);
-    cells
+    Ok(cells)
+}
+
+/// A part of the picture, and not all of it.
+fn crop_px(thoroughness: &Thoroughness, size_px: [u32; 2]) -> [u32; 2] {
+    let most = thoroughness.accuracy.crop_px;
+    [0, 1].map(|i| most[i].min(size_px[i].div_ceil(2)))
 }
 
 /// The crop that errors are judged on, with points for pixels and with pixels.
@@ -134,13 +140,18 @@ struct Group<'a> {
 }
 
 impl Group<'_> {
-    fn measure(&self, worker: &mut Worker, ways: &[Way], thoroughness: &Thoroughness) -> Vec<Cell> {
+    fn measure(
+        &self,
+        worker: &mut Worker,
+        ways: &[Way],
+        thoroughness: &Thoroughness,
+    ) -> Result<Vec<Cell>, Failure> {
         let prepared = Prepared::new(self.scene);
         let ready: Vec<Result<Ready, Error>> = ways
             .iter()
             .map(|way| worker.ready(self.scene, &prepared, &way.method))
             .collect();
-        let outcomes = by_turns(worker, self.scene, &prepared, &ready, &thoroughness.effort);
+        let outcomes = by_turns(worker, self.scene, &prepared, &ready, &thoroughness.effort)?;
         let mut cells: Vec<Cell> = ways
             .iter()
             .zip(outcomes)
@@ -159,7 +170,7 @@ impl Group<'_> {
                 }
             }
         }
-        cells
+        Ok(cells)
     }
 
     fn cell(&self, way: &Way, outcome: Outcome) -> Cell {

@@ -7,12 +7,14 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::time::{Duration, Instant};
 
+use anyhow::anyhow;
 use hairline_gpu::Error;
 use hairline_reference::closed_form::Prepared;
 use hairline_scene::Scene;
 
 use super::figures::{Outcome, Spread, Timing};
 use super::worker::{Elapsed, Ready, Rows, Worker};
+use crate::failure::Failure;
 
 /// How much time a measurement may take.
 #[derive(Clone, Copy, Debug)]
@@ -25,12 +27,20 @@ pub struct Effort {
     pub most: usize,
 }
 
-/// Rows of a strip: a workgroup's, so that none works for rows that nobody wants.
-const STRIP_ROWS: u32 = 8;
+/// Rows of a workgroup.
+const WORKGROUP_ROWS: u32 = 8;
+/// Rows of a strip at most.
+const STRIP_ROWS_MAX: u32 = 64;
 /// Strips at least: fewer would not know the picture.
 const STRIPS_LEAST: u32 = 5;
 /// A cell is refused whose strips would take so many times the effort.
-const TOO_LONG: f64 = 6.0;
+const TOO_LONG: f64 = 20.0;
+
+/// Rows of a strip: one of workgroups for each thread. Software drivers deal workgroups out in runs, so that in a lower strip the
+/// threads at the picture's sides, where nothing is to be seen, would wait for those in its middle.
+fn strip_rows() -> u32 {
+    (WORKGROUP_ROWS * rayon::current_num_threads() as u32).min(STRIP_ROWS_MAX)
+}
 
 /// Times the same picture by several methods.
 pub fn by_turns(
@@ -39,25 +49,26 @@ pub fn by_turns(
     prepared: &Prepared,
     ready: &[Result<Ready, Error>],
     effort: &Effort,
-) -> Vec<Outcome> {
+) -> Result<Vec<Outcome>, Failure> {
     let height = scene.render.size_px[1];
     let mut runs: Vec<Runs> = ready.iter().map(|_| Runs::default()).collect();
     let mut rows = Rows::Whole;
     for (ready, runs) in ready.iter().zip(&mut runs) {
         match ready {
-            Err(error) => runs.refused = Some(error.to_string()),
+            Err(error) => runs.refused = Some(refusal(error)?),
             Ok(ready) => match warm_up(worker, scene, prepared, ready) {
-                Err(error) => runs.refused = Some(error.to_string()),
+                Err(error) => runs.refused = Some(refusal(&error)?),
                 Ok(strip) => {
                     let room = effort.cell.div_f64((effort.least + 1) as f64);
                     let strips = (room.as_secs_f64() / strip.as_secs_f64().max(1e-9)) as u32;
                     let least = strip * STRIPS_LEAST * effort.least as u32;
                     if least > effort.cell.mul_f64(TOO_LONG) {
                         runs.refused = Some(format!(
-                            "too slow to measure here: {STRIP_ROWS} rows took {:.1} s",
+                            "too slow to measure here: {} rows took {:.1} s",
+                            strip_rows(),
                             strip.as_secs_f64()
                         ));
-                    } else if strips < height.div_ceil(STRIP_ROWS) {
+                    } else if strips < height.div_ceil(strip_rows()) {
                         rows = fewer(&rows, height, strips.max(STRIPS_LEAST));
                     }
                 }
@@ -75,13 +86,23 @@ pub fn by_turns(
             if let (Ok(ready), None) = (ready, &runs.refused) {
                 match worker.time(scene, prepared, ready, &rows) {
                     Ok(elapsed) => runs.push(&elapsed),
-                    Err(error) => runs.refused = Some(error.to_string()),
+                    Err(error) => runs.refused = Some(refusal(&error)?),
                 }
             }
         }
     }
     let of_rows = (rows_of(&rows, height), height);
-    runs.into_iter().map(|runs| runs.outcome(of_rows)).collect()
+    Ok(runs.into_iter().map(|runs| runs.outcome(of_rows)).collect())
+}
+
+/// Why a cell has no time, where a device is too small for it; other errors are no measurement.
+fn refusal(error: &Error) -> Result<String, Failure> {
+    match error {
+        Error::TooLarge { .. } | Error::OutOfMemory { .. } | Error::IterationBudget { .. } => {
+            Ok(error.to_string())
+        }
+        _ => Err(Failure::Work(anyhow!("{error}"))),
+    }
 }
 
 /// Has the driver compile, and finds out what a strip in the middle takes.
@@ -106,14 +127,17 @@ fn fewer(rows: &Rows, height: u32, count: u32) -> Rows {
 
 /// So many strips, spread evenly; the whole picture where they would cover it.
 fn strips(height: u32, count: u32) -> Rows {
-    if count * STRIP_ROWS >= height {
+    strips_of(strip_rows(), height, count)
+}
+
+fn strips_of(strip_rows: u32, height: u32, count: u32) -> Rows {
+    if count * strip_rows >= height {
         return Rows::Whole;
     }
     let strip = |i: u32| -> Range<u32> {
         let middle = f64::from(height) * (f64::from(i) + 0.5) / f64::from(count);
-        // On the grid of workgroups.
-        let first = (middle / f64::from(STRIP_ROWS)) as u32 * STRIP_ROWS;
-        first..(first + STRIP_ROWS).min(height)
+        let first = middle as u32 - (strip_rows / 2).min(middle as u32);
+        first..(first + strip_rows).min(height)
     };
     Rows::Strips((0..count).map(strip).collect())
 }
@@ -181,16 +205,16 @@ mod tests {
     use super::*;
 
     #[test]
-    fn strips_lie_on_the_grid_in_order_and_within_the_picture() {
-        for height in [1, 36, 54, 720, 1080] {
+    fn strips_lie_in_order_and_within_the_picture() {
+        for (height, rows) in [(1, 8), (36, 8), (54, 16), (720, 32), (1080, 64)] {
             for count in 1..200 {
-                match strips(height, count) {
-                    Rows::Whole => assert!(count * STRIP_ROWS >= height),
+                match strips_of(rows, height, count) {
+                    Rows::Whole => assert!(count * rows >= height),
                     Rows::Strips(strips) => {
                         assert_eq!(strips.len() as u32, count);
                         assert!(strips.windows(2).all(|w| w[0].end <= w[1].start));
-                        assert!(strips.iter().all(|s| s.end <= height && s.start < s.end));
-                        assert!(strips.iter().all(|s| s.start.is_multiple_of(STRIP_ROWS)));
+                        assert!(strips.iter().all(|s| s.end <= height));
+                        assert!(strips.iter().all(|s| s.end - s.start == rows));
                     }
                 }
             }

@@ -129,11 +129,11 @@ impl Worker {
     }
 
     /// The picture, one sample a pixel. `scene` may differ from the one that was made ready in its camera and its render
-    /// settings; `prepared` is its own.
+    /// settings; `prepared` is its own, for the CPU renderer.
     pub fn image(
         &mut self,
         scene: &Scene,
-        prepared: &Prepared,
+        prepared: Option<&Prepared>,
         ready: &Ready,
     ) -> Result<Image, Error> {
         match (self, &ready.uploaded) {
@@ -142,7 +142,13 @@ impl Worker {
                 let picture = worker.renderer.render(scene, uploaded, &options, &|_| {});
                 worker.gpu.block_on(picture)
             }
-            _ => Ok(prepared.render(&options(ready), &|_| {})),
+            _ => {
+                let options = options(ready);
+                Ok(match prepared {
+                    Some(prepared) => prepared.render(&options, &|_| {}),
+                    None => closed_form::render(scene, &options, &|_| {}),
+                })
+            }
         }
     }
 }
