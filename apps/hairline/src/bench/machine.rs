@@ -58,7 +58,7 @@ impl Machine {
         const LANES: f64 = 8.0;
         const MULTIPLY_ADD: f64 = 2.0;
         (self.bandwidth_gb_s.is_some() && self.cpu_mhz > 0)
-            .then(|| self.threads as f64 * LANES * MULTIPLY_ADD * self.cpu_mhz as f64 * 1e-3)
+            .then_some(self.threads as f64 * LANES * MULTIPLY_ADD * self.cpu_mhz as f64 * 1e-3)
     }
 
     /// In one line.

@@ -131,7 +131,7 @@ impl Figures {
                 let (published, ours) = (error(&published, zoom)?, error(&ours, zoom)?);
                 // Of an error that is lost in the noise no more is known than that.
                 let least = ours.relative_rms.max(ours.standard_error);
-                (least > 0.0).then(|| format!("{}", digits(published.relative_rms / least)))
+                (least > 0.0).then(|| digits(published.relative_rms / least))
             });
         }
         block
