@@ -17,7 +17,7 @@ mod outline;
 
 pub use lines::{
     BAND_REACH_STD, BAND_STD_MAX, BandLines, BandMotion, BandPlace, BandStds, MovedBand,
-    WeightedLines, band_lines, band_move, band_moves, band_reaches, band_stds, moved_band,
+    band_is_whole, band_lines, band_move, band_moves, band_reaches, band_stds, moved_band,
 };
 pub use outline::{Outline, OutlineEdge, OutlineRoots};
 
@@ -37,6 +37,7 @@ pub struct BandLine {
 
 impl BandLine {
     /// The line at `xi_t` seen from `wo`.
+    #[inline]
     pub fn new(wo: DVec3, xi_t: f64) -> Self {
         let along = xi_t - wo.x;
         Self {
@@ -57,6 +58,7 @@ impl BandLine {
     }
 
     /// Cosine to the normal of the direction above the horizon at `q`.
+    #[inline]
     pub fn cos_at(self, q: f64) -> f64 {
         let across = q - self.offset;
         ((self.radius - across) * (self.radius + across))
@@ -65,6 +67,7 @@ impl BandLine {
     }
 
     /// q of a direction on the line with components (across, up); roots below the horizon move to the nearer end.
+    #[inline]
     fn q(self, across: f64, up: f64) -> f64 {
         let inside = across.clamp(-self.radius, self.radius);
         self.offset
@@ -81,6 +84,7 @@ const CHORD_WEIGHT_UM: f64 = 0.2;
 
 /// Cosine to the normal of the directions of a line from `low` to `high` in q, as a scratch of width `width_um` weighs them:
 /// the mean at two Gauss nodes in x = q / (|q| + h), that is with the density h / (|q| + h)^2 in the place of sinc^2.
+#[inline]
 pub fn chord_cos(line: BandLine, low: f64, high: f64, width_um: f64) -> f64 {
     let h = CHORD_WEIGHT_UM / width_um.max(1e-3);
     let (x_low, x_high) = (low / (low.abs() + h), high / (high.abs() + h));
@@ -104,6 +108,7 @@ pub struct Chord {
 
 impl Chord {
     /// Least and greatest q that the light covers; the whole arc where it goes around the nadir.
+    #[inline]
     pub fn range(&self, line: BandLine) -> (f64, f64) {
         if self.wraps {
             (line.q_end(), line.q_start())
@@ -118,11 +123,14 @@ impl Chord {
         line: BandLine,
         antiderivative: impl Fn(f64) -> [f64; C],
     ) -> [f64; C] {
-        let (enter, leave) = (antiderivative(self.enter), antiderivative(self.leave));
-        let mut sum: [f64; C] = std::array::from_fn(|c| enter[c] - leave[c]);
+        let mut sum = [0.0; C];
+        let mut add = |high: f64, low: f64| {
+            let (high, low) = (antiderivative(high), antiderivative(low));
+            (0..C).for_each(|c| sum[c] += high[c] - low[c]);
+        };
+        add(self.enter, self.leave);
         if self.wraps {
-            let (start, end) = (antiderivative(line.q_start()), antiderivative(line.q_end()));
-            sum = std::array::from_fn(|c| sum[c] + start[c] - end[c]);
+            add(line.q_start(), line.q_end());
         }
         sum
     }
@@ -141,6 +149,7 @@ pub struct Cap {
 
 impl Cap {
     /// A cap of the surface's frame in the frame of a scratch.
+    #[inline]
     pub fn turned(self, frame: BandFrame) -> Self {
         Self {
             axis: frame.band_from_surface(self.axis),
@@ -169,6 +178,7 @@ pub fn sphere_cap(center: DVec3, radius: f64) -> Cap {
 }
 
 /// The least and greatest xi_t of a cap.
+#[inline]
 pub fn sphere_band_extent(wo: DVec3, cap: Cap) -> (f64, f64) {
     let (along, rest) = (cap.axis.x, (1.0 - cap.axis.x * cap.axis.x).max(0.0).sqrt());
     let (middle, reach) = (along * cap.cos_radius, rest * cap.sin_radius);
@@ -189,6 +199,7 @@ pub fn sphere_band_extent(wo: DVec3, cap: Cap) -> (f64, f64) {
 /// The chord that a cap cuts out of a line. Half-angle (haversine) forms, since caps may be tiny:
 /// sin^2(Delta/2) = (sin^2(alpha/2) - sin^2((gamma_c - gamma_w)/2)) / (cos gamma_c cos gamma_w), gamma the elevations
 /// of the cap's axis and of the line over the plane across the tangent.
+#[inline]
 pub fn sphere_chord(line: BandLine, cap: Cap) -> Chord {
     let none = Chord {
         enter: line.offset,
@@ -348,6 +359,7 @@ pub struct BandFrame {
 
 impl BandFrame {
     /// A vector of the surface's frame in the frame of the scratch.
+    #[inline]
     pub fn band_from_surface(self, v: DVec3) -> DVec3 {
         let t = self.tangent;
         DVec3::new(v.x * t.x + v.y * t.y, v.y * t.x - v.x * t.y, v.z)

@@ -3,6 +3,7 @@
 //! The footprint replaces |eta_s|^2 by its average over a Gaussian on the surface, in closed form. What remains of a
 //! scratch is a line density across (a normal distribution) times a length share along (a difference of two erf).
 
+use crate::gaussian::gaussian;
 use spec_math::cephes64::erf;
 use std::f64::consts::PI;
 
@@ -77,16 +78,18 @@ pub fn scratch_share(
     coherence_um: f64,
 ) -> ScratchShare {
     let variance = footprint.across_um2 + 0.5 * coherence_um * coherence_um;
-    let across = (-0.5 * offset_um * offset_um / variance).exp() / (2.0 * PI * variance).sqrt();
+    let per_variance = 1.0 / variance;
+    let across = (-0.5 * offset_um * offset_um * per_variance).exp()
+        * (per_variance * (1.0 / (2.0 * PI))).sqrt();
     // Where the footprint is slanted, the part of it that lies on the scratch is displaced along it.
-    let shift = offset_um * footprint.cross_um2 / variance;
-    let along_variance = footprint.along_um2 - footprint.cross_um2 * footprint.cross_um2 / variance
+    let shift = offset_um * footprint.cross_um2 * per_variance;
+    let along_variance = footprint.along_um2
+        - footprint.cross_um2 * footprint.cross_um2 * per_variance
         + blur_um * blur_um;
-    let z = (2.0 * along_variance.max(0.0)).sqrt().max(1e-6);
+    let per_std = 1.0 / along_variance.max(0.0).sqrt().max(1e-6);
     let line = width_um * across;
-    // Most scratches end far from most pixels. Beyond this erf is 1 to the last digit.
-    let erf_at = |x: f64| if x.abs() < 6.0 { erf(x) } else { x.signum() };
-    let along = 0.5 * (erf_at((end_um - shift) / z) - erf_at((start_um - shift) / z));
+    // Pieces of a scratch still add up to the whole: the table's value at a joint counts once up and once down.
+    let along = gaussian().between((start_um - shift) * per_std, (end_um - shift) * per_std);
     ScratchShare {
         segment: line * along,
         line,

@@ -1,55 +1,95 @@
-//! The normal distribution function from a table, for the inner loop: bands are weighed by it eight times for each scratch and
-//! light. Twin: `gaussian_cdf` in gaussian.wgsl.
+//! The normal distribution from tables, for the inner loop: a scratch under a light asks for it a dozen times. Twins:
+//! `gaussian_cdf` and `gaussian_quantile` in gaussian.wgsl.
 
-use spec_math::cephes64::ndtr;
+use spec_math::cephes64::{ndtr, ndtri};
+use std::f64::consts::PI;
 use std::sync::LazyLock;
 
-/// Nodes per unit.
-const NODES: f64 = 32.0;
-/// Beyond this there is nothing: 6e-16.
-const REACH: f64 = 8.0;
-const COUNT: usize = (NODES * REACH) as usize + 1;
+/// The tables.
+pub struct Gaussian {
+    /// The share beyond a place, and its slope times the step: cubic between nodes.
+    tail: [[f64; 2]; CDF_COUNT],
+    /// How far out a tail of a given share begins, and that times the step.
+    quantile: [[f64; 2]; QUANTILE_COUNT],
+}
 
-/// Values at nodes, and their slopes times the step: cubic between them.
-static TABLE: LazyLock<GaussianCdf> = LazyLock::new(|| GaussianCdf {
-    nodes: std::array::from_fn(|i| {
-        let x = i as f64 / NODES;
-        let density = (-0.5 * x * x).exp() / (2.0 * std::f64::consts::PI).sqrt();
-        // The upper tail keeps its digits where the share below is close to one.
-        [ndtr(-x), -density / NODES]
-    }),
+/// Nodes per unit.
+const CDF_NODES: f64 = 32.0;
+/// Beyond this there is nothing: 6e-16.
+const CDF_REACH: f64 = 8.0;
+const CDF_COUNT: usize = (CDF_NODES * CDF_REACH) as usize + 1;
+
+/// Shares from 2^-20 to 1/2, a part for each power of two.
+const QUANTILE_OCTAVES: u64 = 19;
+/// Nodes in each, as bits of the mantissa.
+const QUANTILE_BITS: u32 = 4;
+const QUANTILE_COUNT: usize = ((QUANTILE_OCTAVES + 1) << QUANTILE_BITS) as usize;
+/// Bits of a share below those that tell its node.
+const REST_BITS: u32 = f64::MANTISSA_DIGITS - 1 - QUANTILE_BITS;
+/// The least share.
+const SHARE_MIN: f64 = 1.0 / (1u64 << (QUANTILE_OCTAVES + 1)) as f64;
+
+static TABLES: LazyLock<Gaussian> = LazyLock::new(|| {
+    let density = |x: f64| (-0.5 * x * x).exp() / (2.0 * PI).sqrt();
+    Gaussian {
+        tail: std::array::from_fn(|i| {
+            let x = i as f64 / CDF_NODES;
+            [ndtr(-x), -density(x) / CDF_NODES]
+        }),
+        quantile: std::array::from_fn(|i| {
+            let share = quantile_node(i as u64);
+            let x = -ndtri(share);
+            [x, -1.0 / density(x)]
+        }),
+    }
 });
 
-/// The shares of a standard normal distribution: within 1.5e-9, and differences of them within 3e-5 of themselves up to five
-/// standard deviations.
-pub struct GaussianCdf {
-    nodes: [[f64; 2]; COUNT],
+/// The share at a node of the quantile's table: nodes are even in the bits of a number, and so about even in its logarithm.
+fn quantile_node(i: u64) -> f64 {
+    f64::from_bits(SHARE_MIN.to_bits() + (i << REST_BITS))
 }
 
-/// The table.
-pub fn gaussian_cdf() -> &'static GaussianCdf {
-    &TABLE
+/// The tables.
+pub fn gaussian() -> &'static Gaussian {
+    &TABLES
 }
 
-impl GaussianCdf {
-    /// The share below `x`.
+impl Gaussian {
+    /// The share of a standard normal distribution below `x`: within 1.5e-9, differences within 3e-5 of themselves up to five
+    /// standard deviations.
     #[inline]
-    pub fn below(&self, x: f64) -> f64 {
-        let at = x.abs().min(REACH) * NODES;
-        let node = (at as usize).min(COUNT - 2);
-        let f = at - node as f64;
-        let [[v0, s0], [v1, s1]] = [self.nodes[node], self.nodes[node + 1]];
-        let rise = v1 - v0;
-        // Hermite, as a polynomial in f.
-        let tail = v0 + f * (s0 + f * (3.0 * rise - 2.0 * s0 - s1 + f * (s0 + s1 - 2.0 * rise)));
+    pub fn cdf(&self, x: f64) -> f64 {
+        let at = x.abs().min(CDF_REACH) * CDF_NODES;
+        let node = (at as usize).min(CDF_COUNT - 2);
+        let tail = hermite(self.tail[node], self.tail[node + 1], at - node as f64);
         if x < 0.0 { tail } else { 1.0 - tail }
     }
 
     /// The share from `low` to `high`.
     #[inline]
     pub fn between(&self, low: f64, high: f64) -> f64 {
-        self.below(high) - self.below(low)
+        self.cdf(high) - self.cdf(low)
     }
+
+    /// The place below which a share lies, for shares within [1e-6, 1 - 1e-6]: within 1e-7.
+    #[inline]
+    pub fn quantile(&self, share: f64) -> f64 {
+        let tail = share.min(1.0 - share).clamp(SHARE_MIN, 0.5);
+        let node = ((tail.to_bits() - SHARE_MIN.to_bits()) >> REST_BITS) as usize;
+        let node = node.min(QUANTILE_COUNT - 2);
+        let (low, high) = (quantile_node(node as u64), quantile_node(node as u64 + 1));
+        let step = high - low;
+        let [[x0, s0], [x1, s1]] = [self.quantile[node], self.quantile[node + 1]];
+        let out = hermite([x0, s0 * step], [x1, s1 * step], (tail - low) / step);
+        if share < 0.5 { -out } else { out }
+    }
+}
+
+/// The cubic with a value and a slope at either end of [0, 1].
+#[inline]
+fn hermite([v0, s0]: [f64; 2], [v1, s1]: [f64; 2], f: f64) -> f64 {
+    let rise = v1 - v0;
+    v0 + f * (s0 + f * (3.0 * rise - 2.0 * s0 - s1 + f * (s0 + s1 - 2.0 * rise)))
 }
 
 #[cfg(test)]
@@ -58,23 +98,40 @@ mod tests {
 
     #[test]
     fn the_table_equals_the_function() {
-        let cdf = gaussian_cdf();
+        let table = gaussian();
         let (mut worst, mut relative) = (0f64, 0f64);
         for i in -9000..=9000 {
             let x = 1e-3 * f64::from(i) + 3e-4;
-            worst = worst.max((cdf.below(x) - ndtr(x)).abs());
+            worst = worst.max((table.cdf(x) - ndtr(x)).abs());
             for step in [1e-4, 0.1, 2.0] {
                 if x < 0.0 && x > -5.0 {
                     let exact = ndtr(x + step) - ndtr(x);
-                    relative = relative.max((cdf.between(x, x + step) / exact - 1.0).abs());
+                    relative = relative.max((table.between(x, x + step) / exact - 1.0).abs());
                 }
             }
         }
-        println!("gaussian_cdf: {worst:.1e} at worst, differences {relative:.1e} of themselves");
+        println!("gaussian, cdf: {worst:.1e} at worst, differences {relative:.1e} of themselves");
         assert!(worst < 1.5e-9 && relative < 3e-5);
         assert_eq!(
-            (cdf.below(-1e300), cdf.below(1e300)),
-            (cdf.below(-8.0), cdf.below(8.0))
+            (table.cdf(-1e300), table.cdf(1e300)),
+            (table.cdf(-8.0), table.cdf(8.0))
         );
+    }
+
+    #[test]
+    fn quantiles_undo_shares() {
+        let table = gaussian();
+        let mut worst = 0f64;
+        for i in 1..400_000 {
+            // Even in the middle, and dense in both tails.
+            let x = -4.75 + 9.5 * f64::from(i) / 400_000.0;
+            for share in [ndtr(x), f64::from(i) / 400_000.0] {
+                worst = worst.max((table.quantile(share) - ndtri(share)).abs());
+            }
+        }
+        println!("gaussian, quantile: {worst:.1e} at worst");
+        assert!(worst < 1e-7);
+        assert_eq!(table.quantile(0.5), 0.0);
+        assert!(table.quantile(0.0).is_finite() && table.quantile(1.0).is_finite());
     }
 }

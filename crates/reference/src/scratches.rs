@@ -7,8 +7,8 @@ use glam::{DVec2, DVec3};
 use hairline_index::IndexedSegment;
 use hairline_index::scratch_index::{FACING_MIN_COS, REACH_STD};
 use hairline_optics::band::{
-    BandFrame, BandLine, BandMotion, BandPlace, BandStds, Cap, Outline, OutlineRoots, band_lines,
-    band_stds, chord_cos, sphere_band_extent, sphere_chord,
+    BandFrame, BandLine, BandMotion, BandPlace, BandStds, Cap, Outline, OutlineRoots,
+    band_is_whole, band_lines, band_stds, chord_cos, sphere_band_extent, sphere_chord,
 };
 use hairline_optics::band_environment::environment_band;
 use hairline_optics::footprint::{Footprint, ScratchShare, scratch_share};
@@ -265,30 +265,44 @@ impl SegmentView {
         work: &mut Work,
     ) -> DVec3 {
         let wo = self.wo + motion.shift * DVec3::X;
+        // Large lights cover the whole band, and their corners tell so.
+        let (low, high) = outline.corner_extent(self.frame);
+        let std = motion.widened(pixel.stds.mean);
+        if band_is_whole(wo.x, wo.x + low, wo.x + high, std) {
+            let line = BandLine::new(wo, 0.0);
+            let row = self.outline_row(table, outline, line, &mut work.roots);
+            return work.roots.integral(|q| row.at(self.width_um * q)).into();
+        }
         let (lowest, highest) = outline.band_extent(self.frame, wo.x);
         if !motion.reaches(lowest, highest, pixel.stds.mean) {
             return DVec3::ZERO;
         }
         let lines = band_lines(wo.x, lowest, highest, motion.band(pixel.stds).stds);
-        let lines = lines.weighted(wo);
         // One cosine for all lines, that of the middle one.
-        let Some(&(middle, _)) = lines.iter().nth(lines.middle()) else {
-            return DVec3::ZERO;
-        };
-        outline.roots(self.frame, middle, &mut work.middle_roots);
-        let (low, high) = work.middle_roots.range;
-        let row = self.row(table, chord_cos(middle, low, high, self.width_um));
-        let mut sum = DVec3::ZERO;
-        for (i, &(line, weight)) in lines.iter().enumerate() {
-            let roots = if i == lines.middle() {
+        let middle = lines.middle_line(wo);
+        let row = self.outline_row(table, outline, middle, &mut work.middle_roots);
+        lines.integral(wo, |line| {
+            let roots = if line == middle {
                 &work.middle_roots
             } else {
                 outline.roots(self.frame, line, &mut work.roots);
                 &work.roots
             };
-            sum += weight * DVec3::from(roots.integral(|q| row.at(self.width_um * q)));
-        }
-        sum
+            roots.integral(|q| row.at(self.width_um * q))
+        })
+    }
+
+    /// The roots of a polygon on a line, and T at the depth for light from there.
+    fn outline_row<'t>(
+        &self,
+        table: &'t ScratchTable,
+        outline: Outline,
+        line: BandLine,
+        roots: &mut OutlineRoots,
+    ) -> TableRow<'t> {
+        outline.roots(self.frame, line, roots);
+        let (low, high) = roots.range;
+        self.row(table, chord_cos(line, low, high, self.width_um))
     }
 
     /// By the environment, along the band's middle line, cell by cell.

@@ -1,11 +1,10 @@
 //! The lines that stand for the part of a band which a light covers, in each colour channel (docs/model.md, section 4).
 
 use super::BandLine;
-use crate::gaussian::gaussian_cdf;
+use crate::gaussian::gaussian;
 use crate::scratch::band_std;
 use crate::spectrum::{CHANNEL_MEAN_NM, WAVELENGTH_MEAN_NM};
 use glam::{DVec2, DVec3};
-use spec_math::cephes64::ndtri;
 
 /// The band is cut off at this many standard deviations; 6e-5 of its energy lies beyond, 5e-4 in red.
 pub const BAND_REACH_STD: f64 = 4.0;
@@ -29,11 +28,13 @@ pub fn band_stds(coherence_um: f64) -> BandStds {
 
 impl BandStds {
     /// Adds a variance that all wavelengths share.
+    #[inline]
     fn widened(self, variance: f64) -> Self {
         let wider = |std: f64| (std * std + variance).sqrt().min(BAND_STD_MAX);
+        let [red, green, blue] = self.channels;
         Self {
             mean: wider(self.mean),
-            channels: self.channels.map(wider),
+            channels: [wider(red), wider(green), wider(blue)],
         }
     }
 }
@@ -153,6 +154,12 @@ impl BandMotion {
         }
     }
 
+    /// The standard deviation of the band that was `std` wide.
+    #[inline]
+    pub fn widened(self, std: f64) -> f64 {
+        (std * std + self.variance).sqrt().min(BAND_STD_MAX)
+    }
+
     /// [`band_reaches`] without a root: whether a light with xi_t from `lowest` to `highest`, the shift included, meets a band
     /// that was `std` wide.
     #[inline]
@@ -189,6 +196,7 @@ pub fn band_reaches(lowest: f64, highest: f64, stds: BandStds) -> bool {
 /// Chooses the lines; `wo_t` is the component of `wo` along the tangent. Large lights cover the whole band evenly and one
 /// line is enough; small ones need the band's shape, and so does a viewer who looks along the scratch, where neighbouring
 /// lines are arcs of very different radius.
+#[inline]
 pub fn band_lines(wo_t: f64, lowest: f64, highest: f64, stds: BandStds) -> BandLines {
     if !band_reaches(lowest, highest, stds) {
         return BandLines {
@@ -199,40 +207,61 @@ pub fn band_lines(wo_t: f64, lowest: f64, highest: f64, stds: BandStds) -> BandL
             stds,
         };
     }
-    let half_extent = 0.5 * (highest - lowest) / stds.mean;
-    let steep = 1.0 - wo_t * wo_t < 32.0 * stds.mean * wo_t.abs();
-    // The tests print the errors against 2-D quadrature: below 0.7 % everywhere.
-    let count = if half_extent < 3.0 || steep {
-        5
-    } else if half_extent < 16.0 {
-        3
-    } else {
-        1
-    };
-    let [low, high] = [lowest, highest].map(|xi| xi / stds.mean);
-    // One line in the band's middle stands for all of it.
-    if count == 1 && low < -BAND_WHOLE_STD && high > BAND_WHOLE_STD {
+    if band_is_whole(wo_t, lowest, highest, stds.mean) {
         return BandLines {
-            count,
+            count: 1,
             share_below: 0.0,
             share: 1.0,
             channel_shares: [1.0; 3],
             stds,
         };
     }
-    let cdf = gaussian_cdf();
-    let share_below = cdf.below(low);
+    let half_extent = 0.5 * (highest - lowest) / stds.mean;
+    // The tests print the errors against 2-D quadrature: below 0.7 % everywhere.
+    let count = if half_extent < 3.0 || is_steep(wo_t, stds.mean) {
+        5
+    } else if half_extent < SINGLE_LINE_STD {
+        3
+    } else {
+        1
+    };
+    let table = gaussian();
+    let seen = |std: f64| {
+        let per_std = 1.0 / std;
+        table.between(lowest * per_std, highest * per_std)
+    };
+    let share_below = table.cdf(lowest / stds.mean);
+    let [red, green, blue] = stds.channels;
     BandLines {
         count,
         share_below,
-        share: cdf.below(high) - share_below,
-        channel_shares: stds.channels.map(|s| cdf.between(lowest / s, highest / s)),
+        share: table.cdf(highest / stds.mean) - share_below,
+        channel_shares: [seen(red), seen(green), seen(blue)],
         stds,
     }
 }
 
+/// Half an extent, in standard deviations, from which on one line serves.
+const SINGLE_LINE_STD: f64 = 16.0;
+
+/// Whether the viewer looks along the scratch.
+#[inline]
+fn is_steep(wo_t: f64, std: f64) -> bool {
+    1.0 - wo_t * wo_t < 32.0 * std * wo_t.abs()
+}
+
 /// A light that covers a band up to here covers all of it: 6e-8 is left out on either side at the mean wavelength, 3e-6 in red.
 const BAND_WHOLE_STD: f64 = 5.3;
+
+/// Whether the line in the middle stands for all of a band that is `std` wide, every share being 1. A part of the light's extent
+/// can tell.
+#[inline]
+pub fn band_is_whole(wo_t: f64, lowest: f64, highest: f64, std: f64) -> bool {
+    lowest < -BAND_WHOLE_STD * std
+        && highest > BAND_WHOLE_STD * std
+        && highest - lowest >= 2.0 * SINGLE_LINE_STD * std
+        && !is_steep(wo_t, std)
+}
 
 /// Gauss-Legendre nodes on [0, 1] and weights, for 1, 3 and 5 points.
 const NODES: [[(f64, f64); 5]; 3] = [
@@ -257,76 +286,47 @@ impl BandLines {
     /// xi_t and the weights of line `i`: Gauss-Legendre in the band's cumulative share, which follows the band where the light
     /// is wide and the light where it is narrow. A weight is for each channel: its band over the band that placed the line.
     pub fn band_line(&self, i: usize) -> (f64, DVec3) {
+        self.line_by(i, self.narrower())
+    }
+
+    /// How many times narrower the band of each channel is than the one that places the lines.
+    fn narrower(&self) -> DVec3 {
+        self.stds.mean / DVec3::from(self.stds.channels)
+    }
+
+    fn line_by(&self, i: usize, narrower: DVec3) -> (f64, DVec3) {
         let (node, weight) = NODES[self.count / 2][i];
         let x = self.quantile(node);
-        let ratio = self.stds.channels.map(|std| {
-            let narrower = self.stds.mean / std;
-            narrower * (0.5 * x * x * (1.0 - narrower * narrower)).exp()
-        });
-        (self.stds.mean * x, weight * DVec3::from(ratio))
+        let exponents = 0.5 * x * x * (DVec3::ONE - narrower * narrower);
+        (self.stds.mean * x, weight * narrower * exponents.exp())
     }
 
     /// Where a share of the lit part of the band lies below, in standard deviations.
     fn quantile(&self, node: f64) -> f64 {
         // It is cut where single precision loses it; the band's reach ends before.
-        let quantile = (self.share_below + self.share * node).clamp(1e-6, 1.0 - 1e-6);
-        if quantile == 0.5 {
-            0.0
-        } else {
-            ndtri(quantile)
-        }
+        gaussian().quantile((self.share_below + self.share * node).clamp(1e-6, 1.0 - 1e-6))
     }
 
-    /// The lines seen from `wo` with what each counts for: the mean over the lines by their weights, times each channel's share,
-    /// so that a light that covers the band keeps its energy however few the lines.
-    pub fn weighted(&self, wo: DVec3) -> WeightedLines {
+    /// The line that stands for the band alone, or the middle one of several.
+    pub fn middle_line(&self, wo: DVec3) -> BandLine {
+        BandLine::new(wo, self.stds.mean * self.quantile(0.5))
+    }
+
+    /// The band's integral over a light, given the light integral on a line: the mean over the lines by their weights, times each
+    /// channel's share, so that a light that covers the band keeps its energy however few the lines.
+    pub fn integral(&self, wo: DVec3, mut on_line: impl FnMut(BandLine) -> [f64; 3]) -> DVec3 {
         let shares = DVec3::from(self.channel_shares);
-        let mut lines = [(BandLine::new(wo, 0.0), shares); 5];
         if self.count == 1 {
             // The only weight counts in full.
-            lines[0].0 = BandLine::new(wo, self.stds.mean * self.quantile(0.5));
-        } else {
-            let mut weights = DVec3::ZERO;
-            for (i, line) in lines.iter_mut().enumerate().take(self.count) {
-                let (xi_t, weight) = self.band_line(i);
-                *line = (BandLine::new(wo, xi_t), weight);
-                weights += weight;
-            }
-            let per_weight = shares / weights.max(DVec3::splat(1e-30));
-            lines[..self.count]
-                .iter_mut()
-                .for_each(|line| line.1 *= per_weight);
+            return shares * DVec3::from(on_line(self.middle_line(wo)));
         }
-        WeightedLines {
-            lines,
-            count: self.count,
+        let narrower = self.narrower();
+        let (mut sum, mut weights) = (DVec3::ZERO, DVec3::ZERO);
+        for i in 0..self.count {
+            let (xi_t, weight) = self.line_by(i, narrower);
+            sum += weight * DVec3::from(on_line(BandLine::new(wo, xi_t)));
+            weights += weight;
         }
-    }
-
-    /// The band's integral over a light, given the light integral on a line.
-    pub fn integral(&self, wo: DVec3, mut on_line: impl FnMut(BandLine) -> [f64; 3]) -> DVec3 {
-        self.weighted(wo)
-            .iter()
-            .map(|(line, weight)| *weight * DVec3::from(on_line(*line)))
-            .sum()
-    }
-}
-
-/// The lines of a band and what each counts for, in each colour channel.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct WeightedLines {
-    lines: [(BandLine, DVec3); 5],
-    count: usize,
-}
-
-impl WeightedLines {
-    /// All of them, in the order of xi_t.
-    pub fn iter(&self) -> std::slice::Iter<'_, (BandLine, DVec3)> {
-        self.lines[..self.count].iter()
-    }
-
-    /// Which one is in the middle.
-    pub fn middle(&self) -> usize {
-        self.count / 2
+        shares * sum / weights.max(DVec3::splat(1e-30))
     }
 }

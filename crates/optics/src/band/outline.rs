@@ -92,6 +92,21 @@ fn along_tangent(tangent: DVec2, v: DVec3) -> f64 {
 }
 
 impl Outline<'_> {
+    /// Least and greatest tangent component of its corners.
+    #[inline]
+    pub fn corner_extent(&self, frame: BandFrame) -> (f64, f64) {
+        let components = self
+            .edges
+            .iter()
+            .map(|e| along_tangent(frame.tangent, e.start));
+        components.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), a| {
+            (
+                if a < low { a } else { low },
+                if a > high { a } else { high },
+            )
+        })
+    }
+
     /// Least and greatest xi_t of the light, `wo_t` being the tangent's component of `wo`: [`super::PolygonView::band_extent`].
     pub fn band_extent(&self, frame: BandFrame, wo_t: f64) -> (f64, f64) {
         let t = frame.tangent;
