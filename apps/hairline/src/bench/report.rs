@@ -22,7 +22,7 @@ const EXPECTED: [(Row, Columns, f64); 4] = [
     (Row::Sphere, Columns::Filtered, 4.0),
 ];
 
-/// Limits below which neither arithmetic nor memory is what a renderer waits for.
+/// Parts of a limit below which it is not what a renderer waits for.
 const NEAR_A_LIMIT: f64 = 0.25;
 
 /// Refuses what does not end in .md: the plots are named after it.
@@ -401,20 +401,34 @@ fn bounds(text: &mut String, figures: &Figures) -> std::fmt::Result {
         |of: &dyn Fn(&(&Counts, f64, f64)) -> f64| lines.iter().map(of).fold(0.0, f64::max);
     let arithmetic = largest(&|line| line.1 / peak);
     let memory = largest(&|line| line.2 / bandwidth);
-    let verdict = if memory > arithmetic && memory > NEAR_A_LIMIT {
-        "**Bytes bound the time**: the rate at which they are read is nearer to the memory's than the arithmetic is to its peak."
-    } else if arithmetic > memory {
-        "**Arithmetic bounds the time, not bytes**: it is nearer to its peak than the bytes are to the memory's, and nodes, segments \
-         and table mostly come from caches, so that the memory itself has less to do than that."
+    let verdict = if arithmetic.max(memory) < NEAR_A_LIMIT {
+        "**Neither what is counted of bytes nor of arithmetic is near its limit.**"
+    } else if memory > arithmetic {
+        "**Bytes bound the time.**"
     } else {
-        "**Neither is near its limit**: the time goes where counts do not look."
+        "**Arithmetic bounds the time, not bytes.**"
     };
     writeln!(
         text,
-        "{verdict} What is left to the peak are operations that no pixel asked for: a software driver executes both sides of every \
-         branch and every loop until the last of its eight lanes is done, gathers texels one by one, and few of the operations pair \
-         up to multiply-adds.\n"
-    )
+        "{verdict} If every byte that is counted came from memory, that would be {} % of what it gives at most; most come from caches. \
+         The counted operations are {} % of the peak at most.\n",
+        digits(100.0 * memory),
+        digits(100.0 * arithmetic)
+    )?;
+    if machine.adapter.is_some() {
+        writeln!(
+            text,
+            "What counts do not see: a software driver computes eight pixels in step, executes both sides of every branch and every loop \
+             until the last of the eight is done, fetches for each of them apart, and few of the operations pair up to multiply-adds.\n"
+        )?;
+    } else {
+        writeln!(
+            text,
+            "What counts do not see: the CPU renderer computes one pixel at a time in double precision, so that of the eight lanes one or \
+             two are at work, and calls sines, exponentials and error functions that are exact.\n"
+        )?;
+    }
+    Ok(())
 }
 
 fn name(counts: &Counts) -> String {

@@ -19,7 +19,8 @@ use crate::failure::Failure;
 /// How much time a measurement may take.
 #[derive(Clone, Copy, Debug)]
 pub struct Effort {
-    /// About what the runs of one method in one cell may take together.
+    /// What the runs of one method in one cell may take together; half of it for one run, though the least number of them
+    /// then takes longer.
     pub cell: Duration,
     /// Repetitions at least, whatever they take.
     pub least: usize,
@@ -59,7 +60,8 @@ pub fn by_turns(
             Ok(ready) => match warm_up(worker, scene, prepared, ready) {
                 Err(error) => runs.refused = Some(refusal(&error)?),
                 Ok(strip) => {
-                    let room = effort.cell.div_f64((effort.least + 1) as f64);
+                    // A dispatch for each strip costs a software driver something: as few as can be, or the whole picture.
+                    let room = effort.cell / 2;
                     let strips = (room.as_secs_f64() / strip.as_secs_f64().max(1e-9)) as u32;
                     let least = strip * STRIPS_LEAST * effort.least as u32;
                     if least > effort.cell.mul_f64(TOO_LONG) {
