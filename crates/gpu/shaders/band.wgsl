@@ -64,6 +64,13 @@ fn band_move(turn_t: f32, axis: vec3f, wo: vec3f, per_distance_o: f32, wi: vec3f
     return by_wo + by_wi - turn_t * max(wo.z + wi.z, 0.0);
 }
 
+// The same for every scratch there: what it is, is the part of this along its tangent. Vectors of the surface's frame.
+fn band_moves(turn: vec2f, axis: vec3f, wo: vec3f, per_distance_o: f32, wi: vec3f, per_distance_i: f32) -> vec2f {
+    let by_wo = (wo.xy * dot(axis, wo) - axis.xy) * per_distance_o;
+    let by_wi = (wi.xy * dot(axis, wi) - axis.xy) * per_distance_i;
+    return by_wo + by_wi - turn * max(wo.z + wi.z, 0.0);
+}
+
 // A band as a pixel sees it.
 struct MovedBand {
     shift: f32,
@@ -158,6 +165,11 @@ fn sphere_cap(center: vec3f, radius: f32) -> Cap {
     }
     let sin2 = radius * radius / distance2;
     return Cap(center * inverseSqrt(distance2), sqrt(sin2), sqrt(1.0 - sin2));
+}
+
+// A cap of the surface's frame in that of a scratch.
+fn cap_turned(tangent: vec2f, cap: Cap) -> Cap {
+    return Cap(band_from_surface(tangent, cap.axis), cap.sin_radius, cap.cos_radius);
 }
 
 // The least and greatest xi_t of a cap.

@@ -20,15 +20,15 @@ fn base_sphere(point: SurfacePoint, lobe: LtcLobe, light: Light) -> vec4f {
 }
 
 fn base_polygon(point: SurfacePoint, lobe: LtcLobe, light: Light) -> vec4f {
-    if gather_facing(point, light) == 0.0 {
+    if light_facing(point, light) == 0.0 {
         return vec4f(0.0);
     }
     var specular = ltc_begin();
     var diffuse = lambert_begin();
-    var a = base_vertex(point, light, 0u);
+    var a = light_vertex(point, light, 0u);
     var highest_z = a.z;
     for (var i = 0u; i < light.vertex_count; i += 1u) {
-        let b = base_vertex(point, light, i + 1u);
+        let b = light_vertex(point, light, i + 1u);
         ltc_edge(&specular, lobe, a, b);
         lambert_edge(&diffuse, a, b);
         highest_z = max(highest_z, b.z);
@@ -39,12 +39,6 @@ fn base_polygon(point: SurfacePoint, lobe: LtcLobe, light: Light) -> vec4f {
         return vec4f(0.0);
     }
     return vec4f(ltc_end(specular, lobe), lambert_end(diffuse));
-}
-
-// Vertex `i` of a polygon relative to the point; vertices repeat.
-fn base_vertex(point: SurfacePoint, light: Light, i: u32) -> vec3f {
-    let index = light.first_vertex + select(i, 0u, i >= light.vertex_count);
-    return surface_from_world(point, light_vertices[index].xyz - point.position_m);
 }
 
 // Radiance of the base towards the viewer, before scratches take theirs.
@@ -58,18 +52,19 @@ fn base_radiance(point: SurfacePoint) -> BaseRadiance {
     var specular = vec3f(0.0);
     var diffuse = vec3f(0.0);
     for (var i = 0u; i < frame.light_count; i += 1u) {
-        let light = lights[i];
+        let light = light_at(i);
         var share: vec4f;
-        if light.kind == LIGHT_SPHERE {
+        if HAS_SPHERES && light.kind == LIGHT_SPHERE {
             share = base_sphere(point, lobe, light);
-        } else {
+        }
+        if HAS_POLYGONS && light.kind == LIGHT_POLYGON {
             share = base_polygon(point, lobe, light);
         }
         specular += light.radiance * ggx_area_reflectance(share.xyz, fresnel, lobe.albedo.x);
         diffuse += light.radiance * share.w;
         gather_rounds += 1u;
     }
-    if scene_has_environment() {
+    if HAS_ENVIRONMENT {
         let mirror = vec3f(-point.wo.xy, point.wo.z);
         specular += albedo * scene_prefiltered(world_from_surface(point, mirror), point.roughness);
         diffuse += scene_irradiance(point.normal) / 3.14159265;

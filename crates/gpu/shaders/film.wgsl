@@ -3,6 +3,19 @@
 @group(3) @binding(0) var visibility: texture_2d<u32>;
 @group(3) @binding(1) var<storage, read_write> film: Film;
 
+// A software driver gives each of its threads one piece of a dispatch. Strided by so many, the pieces are equally dear, be they
+// of the object or of its background. 1 on GPUs, which want neighbours together.
+override FILM_STRIDE: u32 = 1u;
+
+// The pixel of an invocation: 8 x 8 of them in a workgroup, which numbers a multiple of FILM_STRIDE.
+fn film_pixel(workgroup: vec2u, workgroups: vec2u, local: vec2u) -> vec2u {
+    let i = workgroup.y * workgroups.x + workgroup.x;
+    let piece = workgroups.x * workgroups.y / FILM_STRIDE;
+    let strided = i % piece * FILM_STRIDE + i / piece;
+    let tile = vec2u(strided % workgroups.x, strided / workgroups.x);
+    return tile * 8u + local + vec2u(0u, frame.rows.x);
+}
+
 // Where a pixel lies in the film.
 fn film_index(pixel: vec2u) -> u32 {
     return (pixel.y - frame.rows.x) * frame.size_px.x + pixel.x;
@@ -43,11 +56,11 @@ fn film_check_loops() {
     }
 }
 
-// The walk that an earlier dispatch left, or a new one from the object's first node.
-fn film_resume(pixel: vec2u, object: Object) -> ScratchWalk {
+// The walk that an earlier dispatch left, or a new one from `first`.
+fn film_resume(pixel: vec2u, first: u32) -> ScratchWalk {
     let kept = film.pixels[film_index(pixel)];
     if kept.walk_at == 0u {
-        return ScratchWalk(object.first_node, ScratchSums(0.0, 0.0, vec3f(0.0), vec3f(0.0)));
+        return ScratchWalk(first, ScratchSums(0.0, 0.0, vec3f(0.0), vec3f(0.0)));
     }
     let sums = ScratchSums(kept.walk_share, kept.walk_share_by_line, kept.walk_radiance, kept.walk_energy);
     return ScratchWalk(kept.walk_at - 1u, sums);

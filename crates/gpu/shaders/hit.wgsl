@@ -8,6 +8,10 @@ fn hit_texture_footprint(a: Vertex, b: Vertex, c: Vertex, geometric: vec3f, axis
     return sqrt(uv_area / max(length(geometric), 1e-30) * length(cross(axis_x, axis_y)));
 }
 
+fn hit_has_texture(texture: vec2u) -> bool {
+    return HAS_TEXTURES && scene_has_texture(texture);
+}
+
 fn hit_texture(texture: vec2u, uv: vec2f, footprint: f32) -> vec4f {
     let lod = surface_texture_lod(footprint, scene_texture_size(texture), scene_texture_levels(texture));
     return scene_texture(texture, uv, lod);
@@ -58,7 +62,7 @@ fn hit_surface_point(triangle: u32, ray: vec3f, depth_m: ptr<function, f32>) -> 
     let filter_side = hit_texture_footprint(a, b, c, geometric, smooth_x, smooth_y);
 
     var normal = smooth_normal;
-    if scene_has_texture(material.normal_texture) {
+    if hit_has_texture(material.normal_texture) {
         let texel = hit_texture(material.normal_texture, uv, filter_side).xyz * 2.0 - 1.0;
         var tangent = a.tangent * weights.x + b.tangent * weights.y + c.tangent * weights.z;
         tangent = surface_normalize_or(tangent - smooth_normal * dot(smooth_normal, tangent), surface_any_across(smooth_normal));
@@ -72,6 +76,7 @@ fn hit_surface_point(triangle: u32, ray: vec3f, depth_m: ptr<function, f32>) -> 
     }
     normal = surface_face_viewer(side * normal, to_viewer);
     point.normal = normal;
+    point.facet = side * surface_normalize_or(geometric, normal);
     // The viewer in the x-z plane; any x will do where they look along the normal.
     point.axis_x = surface_normalize_or(to_viewer - normal * dot(normal, to_viewer), surface_any_across(normal));
     point.axis_y = cross(normal, point.axis_x);
@@ -84,15 +89,15 @@ fn hit_surface_point(triangle: u32, ray: vec3f, depth_m: ptr<function, f32>) -> 
     var metallic = material.metallic;
     point.roughness = material.roughness;
     point.emission = material.emission;
-    if scene_has_texture(material.base_color_texture) {
+    if hit_has_texture(material.base_color_texture) {
         base_color *= hit_texture(material.base_color_texture, uv, filter_side).xyz;
     }
-    if scene_has_texture(material.metallic_roughness_texture) {
+    if hit_has_texture(material.metallic_roughness_texture) {
         let texel = hit_texture(material.metallic_roughness_texture, uv, filter_side);
         point.roughness *= texel.y;
         metallic *= texel.z;
     }
-    if scene_has_texture(material.emission_texture) {
+    if hit_has_texture(material.emission_texture) {
         point.emission *= hit_texture(material.emission_texture, uv, filter_side).xyz;
     }
     let turn_x = side * hit_normal_turn(a, b, c, geometric, interpolated, smooth_x);

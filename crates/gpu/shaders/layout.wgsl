@@ -20,6 +20,7 @@ struct Frame {
     environment_sh: array<vec4f, 9>,    // irradiance; xyz are the channels
     environment_texel_radiance: f32,    // radiance of a texel (or coefficient) of value 1
     sample: u32,                // counted from 0
+    tile_entries: u32,          // room of a tile in the lists
 }
 
 const ENVIRONMENT_PRESENT: u32 = 1u;
@@ -112,6 +113,12 @@ struct Film {
     gave_up: atomic<u32>,       // pixels whose loops were cut short: the host discards the picture
     unfinished: atomic<u32>,    // pixels whose walk goes on in the next dispatch
     pixels: array<FilmPixel>,
+}
+
+// Which tiles are shaded how: three counts for each queue of tile_queues.wgsl, then the queues.
+struct TileQueues {
+    counts: array<atomic<u32>, 9>,
+    tiles: array<u32>,
 }
 
 // How a film is shown.

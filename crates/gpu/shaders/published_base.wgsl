@@ -59,17 +59,17 @@ fn published_base(point: SurfacePoint) -> PublishedBase {
     if HAS_SPHERES {
         let pivot = sptd_lobe(point.wo, point.roughness, lobe_sptd, lobe_albedo);
         for (var l = published_next_light(0u, LIGHT_SPHERE); l < frame.light_count; l = published_next_light(l + 1u, LIGHT_SPHERE)) {
-            let share = published_base_sphere(point, lobe, pivot, lights[l]);
-            specular += lights[l].radiance * ggx_area_reflectance(share.xyz, fresnel, lobe.albedo.x);
-            diffuse += lights[l].radiance * share.w;
+            let share = published_base_sphere(point, lobe, pivot, light_at(l));
+            specular += light_at(l).radiance * ggx_area_reflectance(share.xyz, fresnel, lobe.albedo.x);
+            diffuse += light_at(l).radiance * share.w;
             gather_rounds += 1u;
         }
     }
     if HAS_POLYGONS {
         for (var l = published_next_light(0u, LIGHT_POLYGON); l < frame.light_count; l = published_next_light(l + 1u, LIGHT_POLYGON)) {
-            let share = published_base_polygon(point, lobe, lights[l]);
-            specular += lights[l].radiance * ggx_area_reflectance(share.xyz, fresnel, lobe.albedo.x);
-            diffuse += lights[l].radiance * share.w;
+            let share = published_base_polygon(point, lobe, light_at(l));
+            specular += light_at(l).radiance * ggx_area_reflectance(share.xyz, fresnel, lobe.albedo.x);
+            diffuse += light_at(l).radiance * share.w;
             gather_rounds += 1u;
         }
     }

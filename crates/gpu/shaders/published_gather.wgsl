@@ -96,7 +96,7 @@ fn published_find(
     var at = (*walk).at;
     var found = 0u;
     while at < end && found + PUBLISHED_LEAF_SEGMENTS <= most && gather_rounds < GATHER_MAX_ROUNDS {
-        let node = scratch_nodes[at];
+        let node = scratch_node(at);
         // Lanes that a software driver has switched off read zeros, and would walk for ever.
         if node.skip <= at {
             break;
@@ -184,13 +184,13 @@ fn published_light(point: SurfacePoint, batch: ptr<function, PublishedBatch>, wa
         var radiance = vec3f(0.0);
         if HAS_SPHERES {
             for (var l = published_next_light(0u, LIGHT_SPHERE); l < frame.light_count; l = published_next_light(l + 1u, LIGHT_SPHERE)) {
-                radiance += lights[l].radiance * published_sphere(point, view, lights[l]);
+                radiance += light_at(l).radiance * published_sphere(point, view, light_at(l));
                 gather_rounds += 1u;
             }
         }
         if HAS_POLYGONS {
             for (var l = published_next_light(0u, LIGHT_POLYGON); l < frame.light_count; l = published_next_light(l + 1u, LIGHT_POLYGON)) {
-                radiance += lights[l].radiance * published_polygon(point, view, lights[l]);
+                radiance += light_at(l).radiance * published_polygon(point, view, light_at(l));
                 gather_rounds += 1u;
             }
         }

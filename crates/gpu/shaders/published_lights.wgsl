@@ -42,7 +42,7 @@ fn published_offset_um(view: PublishedView) -> f32 {
 // The first light of a kind from `first` on, or the count of lights.
 fn published_next_light(first: u32, kind: u32) -> u32 {
     var l = first;
-    while l < frame.light_count && lights[l].kind != kind {
+    while l < frame.light_count && light_at(l).kind != kind {
         l += 1u;
         gather_rounds += 1u;
     }
@@ -51,14 +51,14 @@ fn published_next_light(first: u32, kind: u32) -> u32 {
 
 // 1 if the polygon's vertices are seen counter-clockwise, -1 if clockwise, 0 if it shines to the other side.
 fn published_facing(point: SurfacePoint, light: Light) -> f32 {
-    let distance = dot(light.normal, light_vertices[light.first_vertex].xyz - point.position_m);
+    let distance = dot(light.normal, light_corner_m(light.first_vertex) - point.position_m);
     return select(select(0.0, -1.0, distance > 0.0 && light.two_sided != 0u), 1.0, distance < 0.0);
 }
 
 // Vertex `i` of a polygon relative to the point; vertices repeat.
 fn published_corner(point: SurfacePoint, light: Light, i: u32) -> vec3f {
     let index = light.first_vertex + select(i, i - light.vertex_count, i >= light.vertex_count);
-    return surface_from_world(point, light_vertices[index].xyz - point.position_m);
+    return surface_from_world(point, light_corner_m(index) - point.position_m);
 }
 
 // The unit direction to it in the frame of the scratch.

@@ -1,12 +1,12 @@
 // Look-ups in what the scene binds.
 
 fn scene_has_environment() -> bool {
-    return (frame.environment_flags & ENVIRONMENT_PRESENT) != 0u;
+    return HAS_ENVIRONMENT && (frame.environment_flags & ENVIRONMENT_PRESENT) != 0u;
 }
 
 // What the camera sees of the environment along a unit direction away from it, world space.
 fn scene_background(direction: vec3f) -> vec3f {
-    if (frame.environment_flags & ENVIRONMENT_VISIBLE) == 0u {
+    if !HAS_ENVIRONMENT || (frame.environment_flags & ENVIRONMENT_VISIBLE) == 0u {
         return vec3f(0.0);
     }
     let texel = environment_radiance(environment_background, frame.environment_from_world * direction);

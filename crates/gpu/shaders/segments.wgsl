@@ -7,12 +7,13 @@ struct Segment {
     width_um: f32,
     depth_nm: f32,
     blur_um: f32,
+    width_depth: u32,           // both as they are stored
 }
 
 // To half floats and bytes: five parts in ten thousand of a width, a depth or a blur, half a degree of a normal that is
 // only asked which side of a sheet it is on.
 fn segment_at(index: u32) -> Segment {
-    let packed = scratch_segments[index];
+    let packed = scratch_segment(index);
     let width_depth = unpack2x16float(packed.width_depth);
     let normal_blur = packed.normal_blur;
     let octahedral = unpack4x8snorm(normal_blur).xy;
@@ -23,6 +24,7 @@ fn segment_at(index: u32) -> Segment {
         width_depth.x,
         width_depth.y,
         unpack2x16float(normal_blur).y,
+        packed.width_depth,
     );
 }
 

@@ -1,8 +1,20 @@
-// Pass: from what is visible to radiance. Twin: reference/src/closed_form.rs.
+// Pass: from what is visible to radiance, pixel by pixel. Twin: reference/src/closed_form.rs.
+
+// Whether the pass does the tiles of a queue; else all pixels of the film.
+override SHADE_QUEUED: bool = false;
 
 @compute @workgroup_size(8, 8)
-fn shade(@builtin(global_invocation_id) id: vec3u) {
-    let pixel = vec2u(id.x, frame.rows.x + id.y);
+fn shade(
+    @builtin(workgroup_id) workgroup: vec3u,
+    @builtin(num_workgroups) workgroups: vec3u,
+    @builtin(local_invocation_id) local: vec3u,
+) {
+    var pixel: vec2u;
+    if SHADE_QUEUED {
+        pixel = tile_corner(queue_tile(QUEUE_WALKED, workgroup.x)) + local.xy + vec2u(0u, frame.rows.x);
+    } else {
+        pixel = film_pixel(workgroup.xy, workgroups.xy, local.xy);
+    }
     if pixel.x >= frame.size_px.x || pixel.y >= frame.rows.y {
         return;
     }
@@ -10,32 +22,30 @@ fn shade(@builtin(global_invocation_id) id: vec3u) {
     if film.pixels[film_index(pixel)].samples > frame.sample {
         return;
     }
-    let at = vec2f(pixel) + 0.5 + frame.jitter_px - 0.5 * vec2f(frame.size_px);
-    let ray = frame.forward + frame.per_px_x * at.x + frame.per_px_y * at.y;
+    let ray = film_ray(pixel);
     let seen = film_visible(pixel);
-    var value: FilmPixel;
     if seen.x == 0u {
-        value.base = scene_background(normalize(ray));
-        film_add(pixel, value);
+        film_add_background(pixel, ray);
         return;
     }
     var depth_m: f32;
     let point = hit_surface_point(seen.x - 1u, ray, &depth_m);
-    let object = objects[seen.y];
-    var walk = film_resume(pixel, object);
-    gather_scratches(point, object, &walk);
-    if walk.at < object.end_node {
-        film_keep(pixel, walk);
-        return;
+    var masked = Masked(vec3f(0.0), vec3f(0.0));
+    if HAS_SCRATCHES {
+        let object = objects[seen.y];
+        var list: SegmentList;
+        var start = object.first_node;
+        if METHOD_LOOKUP == LOOKUP_TRIANGLES {
+            list = segment_list(seen.x - 1u, object.end_node);
+            start = segment_list_begin(list);
+        }
+        var walk = film_resume(pixel, start);
+        gather_scratches(point, object, list, &walk);
+        if walk.at < object.end_node || walk.at >= WALK_LISTED {
+            film_keep(pixel, walk);
+            return;
+        }
+        masked = gather_masked(walk.sums, object.depth_coherence);
     }
-    let masked = mask_resolve(walk.sums, object.depth_coherence);
-    let light = base_radiance(point);
-    // A groove interrupts the reflecting surface; what shines from under it passes.
-    value.base = point.emission + light.diffuse + light.specular * (1.0 - masked.taken);
-    value.scratches = masked.scratches * fresnel_eval(FresnelRgb(point.f0, point.fresnel_a), point.wo.z);
-    value.density = masked.taken;
-    value.normal = point.normal;
-    value.depth_m = depth_m;
-    value.coverage = 1.0;
-    film_add(pixel, value);
+    shade_finish(pixel, point, depth_m, masked);
 }

@@ -13,8 +13,12 @@ fn published_masked(sums: ScratchSums, depth_coherence: f32) -> Masked {
 }
 
 @compute @workgroup_size(8, 8)
-fn shade(@builtin(global_invocation_id) id: vec3u) {
-    let pixel = vec2u(id.x, frame.rows.x + id.y);
+fn shade(
+    @builtin(workgroup_id) workgroup: vec3u,
+    @builtin(num_workgroups) workgroups: vec3u,
+    @builtin(local_invocation_id) local: vec3u,
+) {
+    let pixel = film_pixel(workgroup.xy, workgroups.xy, local.xy);
     if pixel.x >= frame.size_px.x || pixel.y >= frame.rows.y {
         return;
     }
@@ -36,7 +40,7 @@ fn shade(@builtin(global_invocation_id) id: vec3u) {
     let object = objects[seen.y];
     var masked: Masked;
     if HAS_SCRATCHES {
-        var walk = film_resume(pixel, object);
+        var walk = film_resume(pixel, object.first_node);
         let end = published_walk_end(object, seen.x - 1u);
         published_scratches(published_seen(point), object, seen.x - 1u, end, &walk);
         if walk.at < end {

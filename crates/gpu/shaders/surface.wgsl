@@ -8,6 +8,7 @@ struct SurfacePoint {
     axis_x: vec3f,
     axis_y: vec3f,
     normal: vec3f,
+    facet: vec3f,               // unit normal of the triangle, on the viewer's side
     wo: vec3f,                  // unit direction to the viewer in the local frame
     distance_m: f32,            // to the viewer
     footprint_x_m: vec3f,       // one standard deviation of the pixel's filter to the right, world space

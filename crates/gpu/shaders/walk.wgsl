@@ -10,3 +10,6 @@ struct ScratchWalk {
     at: u32,
     sums: ScratchSums,
 }
+
+// Set in ScratchWalk.at while a list is gone through; the rest is the place in it. Else it is a node of the hierarchy.
+const WALK_LISTED: u32 = 0x80000000u;

@@ -6,6 +6,7 @@
 use wgpu::ShaderStages;
 
 use crate::device::Gpu;
+use crate::tile_room::TILE_LISTS_FORMAT;
 
 /// Names of the scene's buffers in the order of their bindings.
 pub const SCENE_BUFFERS: [&str; 7] = [
@@ -18,12 +19,17 @@ pub const SCENE_BUFFERS: [&str; 7] = [
     "scratch segments",
 ];
 
+/// From this one on they lie in textures.
+const FIRST_ROWS: u32 = 3;
+
 /// The layouts that the passes share.
 pub(crate) struct Layouts {
     pub frame: wgpu::BindGroupLayout,
     pub scene: wgpu::BindGroupLayout,
     pub textures: wgpu::BindGroupLayout,
     pub film: wgpu::BindGroupLayout,
+    /// Group 3 of the pass that makes the tiles' lists, instead.
+    pub tiles: wgpu::BindGroupLayout,
 }
 
 impl Layouts {
@@ -32,10 +38,19 @@ impl Layouts {
         let compute = ShaderStages::COMPUTE;
         let scene: Vec<_> = (0..SCENE_BUFFERS.len() as u32)
             // Rasterising reads the vertices alone.
-            .map(|i| entry(i, if i == 0 { both } else { compute }, storage(true)))
+            .map(|i| match i {
+                0 => entry(i, both, storage(true)),
+                i if i < FIRST_ROWS => entry(i, compute, storage(true)),
+                i => entry(i, compute, integers()),
+            })
             .collect();
+        let integer_array = wgpu::BindingType::Texture {
+            sample_type: wgpu::TextureSampleType::Uint,
+            view_dimension: wgpu::TextureViewDimension::D2Array,
+            multisampled: false,
+        };
         let textures = [
-            texture(wgpu::TextureViewDimension::D2Array, false),
+            integer_array,
             texture(wgpu::TextureViewDimension::D2, false),
             texture(wgpu::TextureViewDimension::D2, false),
             texture(wgpu::TextureViewDimension::D2, false),
@@ -49,6 +64,17 @@ impl Layouts {
             .zip(textures)
             .map(|(i, ty)| entry(i, compute, ty))
             .collect();
+        let written = wgpu::BindingType::StorageTexture {
+            access: wgpu::StorageTextureAccess::WriteOnly,
+            format: TILE_LISTS_FORMAT,
+            view_dimension: wgpu::TextureViewDimension::D2,
+        };
+        let queues = entry(3, compute, storage(false));
+        let tiles = [
+            entry(0, compute, integers()),
+            entry(1, compute, written),
+            queues,
+        ];
         Self {
             frame: layout(gpu, "frame", &[entry(0, both, uniform())]),
             scene: layout(gpu, "scene", &scene),
@@ -59,8 +85,11 @@ impl Layouts {
                 &[
                     entry(0, compute, integers()),
                     entry(1, compute, storage(false)),
+                    entry(2, compute, integers()),
+                    queues,
                 ],
             ),
+            tiles: layout(gpu, "tiles", &tiles),
         }
     }
 }

@@ -26,15 +26,24 @@ pub struct Call<'a> {
     pub tables: &'a [Table<'a>],
 }
 
-/// A texture of four f32 a texel, read by `textureLoad`.
+/// A texture of four numbers a texel, read by `textureLoad`.
 #[derive(Clone, Copy, Debug)]
 pub struct Table<'a> {
     /// Width and height.
     pub size: [u32; 2],
-    /// `None` for a `texture_2d<f32>`, a count for a `texture_2d_array<f32>`.
+    /// `None` for a `texture_2d`, a count for a `texture_2d_array`.
     pub layers: Option<u32>,
     /// Layer by layer, row by row.
-    pub texels: &'a [[f32; 4]],
+    pub texels: Texels<'a>,
+}
+
+/// What the texels of a [`Table`] are.
+#[derive(Clone, Copy, Debug)]
+pub enum Texels<'a> {
+    /// For a texture of f32.
+    Floats(&'a [[f32; 4]]),
+    /// For a texture of u32.
+    Integers(&'a [[u32; 4]]),
 }
 
 const WORKGROUP: u32 = 64;
@@ -153,10 +162,14 @@ impl Call<'_> {
             } else {
                 "texture_2d"
             };
+            let scalar = match table.texels {
+                Texels::Floats(_) => "f32",
+                Texels::Integers(_) => "u32",
+            };
             // An automatic layout leaves out what is not used; a query of the size uses every table.
             (
                 format!(
-                    "@group(0) @binding({}) var table_{i}: {kind}<f32>;\n",
+                    "@group(0) @binding({}) var table_{i}: {kind}<{scalar}>;\n",
                     2 + i
                 ),
                 format!("    call_touched += textureDimensions(table_{i}).x;\n"),
@@ -197,6 +210,16 @@ fn call_main(@builtin(global_invocation_id) call_id: vec3u) {{
 
 impl Table<'_> {
     fn upload(&self, gpu: &Gpu) -> wgpu::TextureView {
+        let (format, bytes) = match self.texels {
+            Texels::Floats(texels) => (
+                wgpu::TextureFormat::Rgba32Float,
+                bytemuck::cast_slice(texels),
+            ),
+            Texels::Integers(texels) => (
+                wgpu::TextureFormat::Rgba32Uint,
+                bytemuck::cast_slice(texels),
+            ),
+        };
         let texture = gpu.device.create_texture_with_data(
             &gpu.queue,
             &wgpu::TextureDescriptor {
@@ -209,12 +232,12 @@ impl Table<'_> {
                 mip_level_count: 1,
                 sample_count: 1,
                 dimension: wgpu::TextureDimension::D2,
-                format: wgpu::TextureFormat::Rgba32Float,
+                format,
                 usage: wgpu::TextureUsages::TEXTURE_BINDING,
                 view_formats: &[],
             },
             Default::default(),
-            bytemuck::cast_slice(self.texels),
+            bytes,
         );
         texture.create_view(&wgpu::TextureViewDescriptor {
             dimension: Some(match self.layers {

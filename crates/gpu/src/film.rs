@@ -9,6 +9,7 @@ use crate::bindings::{Layouts, bind};
 use crate::device::Gpu;
 use crate::error::Error;
 use crate::layout::{FILM_PIXELS_OFFSET, FilmPixel};
+use crate::tile_room::{TILE_PX, TILES_MAX, TileRoom};
 
 /// Triangle + 1 and object.
 pub(crate) const VISIBILITY_FORMAT: TextureFormat = TextureFormat::Rg32Uint;
@@ -24,6 +25,7 @@ pub(crate) struct Film {
     pub buffer: wgpu::Buffer,
     /// Group 3.
     pub group: wgpu::BindGroup,
+    pub tiles: TileRoom,
 }
 
 impl Film {
@@ -35,7 +37,10 @@ impl Film {
             .min(limits.max_buffer_size)
             - FILM_PIXELS_OFFSET;
         let row_bytes = u64::from(width_px.max(1)) * size_of::<FilmPixel>() as u64;
-        ((bytes / row_bytes) as u32).min(limits.max_texture_dimension_2d)
+        let tile_rows = (TILES_MAX / width_px.div_ceil(TILE_PX).max(1)).max(1);
+        ((bytes / row_bytes) as u32)
+            .min(limits.max_texture_dimension_2d)
+            .min(tile_rows * TILE_PX)
     }
 
     pub async fn new(
@@ -43,6 +48,7 @@ impl Film {
         layouts: &Layouts,
         width_px: u32,
         rows: u32,
+        has_tiles: bool,
     ) -> Result<Self, Error> {
         let visibility = target(gpu, "picture", [width_px, rows], VISIBILITY_FORMAT, true).await?;
         let depth = target(gpu, "picture", [width_px, rows], DEPTH_FORMAT, false).await?;
@@ -50,9 +56,12 @@ impl Film {
             + u64::from(width_px) * u64::from(rows) * size_of::<FilmPixel>() as u64;
         let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST;
         let buffer = gpu.buffer("film", bytes, usage).await?;
+        let tiles = TileRoom::new(gpu, layouts, [width_px, rows], has_tiles, &visibility).await?;
         let resources = [
             wgpu::BindingResource::TextureView(&visibility),
             buffer.as_entire_binding(),
+            wgpu::BindingResource::TextureView(&tiles.lists),
+            tiles.queues.as_entire_binding(),
         ];
         let group = bind(gpu, "film", &layouts.film, &resources);
         Ok(Self {
@@ -62,6 +71,7 @@ impl Film {
             depth,
             buffer,
             group,
+            tiles,
         })
     }
 

@@ -5,6 +5,7 @@ use hairline_scene::camera::pixel_jitter;
 use hairline_scene::{Environment, Scene};
 use std::ops::Range;
 
+use crate::film::Film;
 use crate::layout::{ENVIRONMENT_PRESENT, ENVIRONMENT_VISIBLE, Frame};
 use crate::upload::GpuScene;
 
@@ -18,6 +19,7 @@ pub(crate) fn frame(
     uploaded: &GpuScene,
     sample: u32,
     samples: u32,
+    film: &Film,
     rows: &Range<u32>,
 ) -> Frame {
     let size_px = scene.render.size_px;
@@ -41,7 +43,8 @@ pub(crate) fn frame(
         environment_sh: environment.map_or_else(Default::default, environment_sh),
         environment_texel_radiance: environment.map_or(0.0, |e| e.texel_radiance() as f32),
         sample,
-        pad: [0; 2],
+        tile_entries: film.tiles.entries(),
+        pad: 0,
     }
 }
 

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use hairline_image::{Display, Image};
 use hairline_index::ScratchIndex;
-use hairline_optics::method::Method;
+use hairline_optics::method::{Lookup, Method};
 use hairline_scene::{Scene, ScratchTables};
 use wgpu::BufferUsages;
 
@@ -18,6 +18,7 @@ use crate::film::Film;
 use crate::frame::frame;
 use crate::layout::Frame;
 use crate::shade::{Contents, ShadePass, ShadeVariant};
+use crate::tiles::TilesPasses;
 use crate::timing::{PassTime, Timing};
 use crate::upload::GpuScene;
 use crate::visibility::VisibilityPass;
@@ -46,7 +47,7 @@ pub struct Renderer {
     gpu: Gpu,
     layouts: Layouts,
     visibility: VisibilityPass,
-    shade_passes: HashMap<ShadeVariant, Arc<ShadePass>>,
+    passes: HashMap<ShadeVariant, Arc<ScenePasses>>,
     display: Option<DisplayPass>,
     frame: wgpu::Buffer,
     frame_group: wgpu::BindGroup,
@@ -72,7 +73,7 @@ impl Renderer {
             gpu,
             layouts,
             visibility,
-            shade_passes: HashMap::new(),
+            passes: HashMap::new(),
             display: None,
             frame,
             frame_group,
@@ -123,14 +124,14 @@ impl Renderer {
             method: *method,
             has: Contents::of(scene),
         };
-        let shade = match self.shade_passes.get(&variant) {
-            Some(pass) => Arc::clone(pass),
+        let passes = match self.passes.get(&variant) {
+            Some(passes) => Arc::clone(passes),
             None => {
                 let (gpu, layouts) = (&self.gpu, &self.layouts);
-                let pass = compiled(gpu, || ShadePass::new(gpu, layouts, &variant)).await?;
-                let pass = Arc::new(pass);
-                self.shade_passes.insert(variant, Arc::clone(&pass));
-                pass
+                let passes = compiled(gpu, || ScenePasses::new(gpu, layouts, &variant)).await?;
+                let passes = Arc::new(passes);
+                self.passes.insert(variant, Arc::clone(&passes));
+                passes
             }
         };
         GpuScene::new(
@@ -140,7 +141,7 @@ impl Renderer {
             index,
             tables,
             method,
-            shade,
+            passes,
         )
         .await
     }
@@ -194,7 +195,7 @@ impl Renderer {
                     + f64::from(in_image.end - first) * f64::from(sample + 1) / f64::from(samples);
                 progress(done / f64::from(height));
             }
-            let film = self.take_film(width, band).await?;
+            let film = self.take_film(uploaded, width, band).await?;
             film.read(&self.gpu, &mut image, &in_image).await?;
             self.film = Some(film);
         }
@@ -253,8 +254,10 @@ impl Renderer {
         band: u32,
         rows: &Range<u32>,
     ) -> Result<(), Error> {
-        let film = self.take_film(scene.render.size_px[0], band).await?;
-        let uniform = frame(scene, uploaded, sample, samples, rows);
+        let film = self
+            .take_film(uploaded, scene.render.size_px[0], band)
+            .await?;
+        let uniform = frame(scene, uploaded, sample, samples, &film, rows);
         self.gpu
             .queue
             .write_buffer(&self.frame, 0, bytemuck::bytes_of(&uniform));
@@ -272,7 +275,17 @@ impl Renderer {
             rows,
             &self.timing,
         );
-        uploaded.shade.record(
+        if let Some(tiles) = &uploaded.passes.tiles {
+            film.tiles.clear(&self.gpu);
+            tiles.record(
+                &mut encoder,
+                &self.frame_group,
+                uploaded,
+                &film,
+                &self.timing,
+            );
+        }
+        uploaded.passes.shade.record(
             &mut encoder,
             &self.frame_group,
             uploaded,
@@ -281,7 +294,7 @@ impl Renderer {
             &self.timing,
         );
         self.gpu.queue.submit([encoder.finish()]);
-        if uploaded.shade.bounded {
+        if uploaded.passes.shade.bounded {
             self.finish_walks(uploaded, &film, rows).await?;
         }
         self.film = Some(film);
@@ -298,7 +311,7 @@ impl Renderer {
         while film.unfinished(&self.gpu).await? > 0 {
             let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
             film.clear_unfinished(&mut encoder);
-            uploaded.shade.record(
+            uploaded.passes.shade.record(
                 &mut encoder,
                 &self.frame_group,
                 uploaded,
@@ -312,10 +325,38 @@ impl Renderer {
     }
 
     /// A film for `rows` rows of `width_px` pixels: the one at hand if it fits.
-    async fn take_film(&mut self, width_px: u32, rows: u32) -> Result<Film, Error> {
+    async fn take_film(
+        &mut self,
+        uploaded: &GpuScene,
+        width_px: u32,
+        rows: u32,
+    ) -> Result<Film, Error> {
+        let has_tiles = uploaded.passes.tiles.is_some();
+        let fits = |film: &Film| {
+            film.width_px == width_px && film.rows == rows && (film.tiles.count > 0) == has_tiles
+        };
         match self.film.take() {
-            Some(film) if film.width_px == width_px && film.rows == rows => Ok(film),
-            _ => Film::new(&self.gpu, &self.layouts, width_px, rows).await,
+            Some(film) if fits(&film) => Ok(film),
+            _ => Film::new(&self.gpu, &self.layouts, width_px, rows, has_tiles).await,
+        }
+    }
+}
+
+/// The passes that are compiled for a method and for what a scene has.
+pub(crate) struct ScenePasses {
+    /// Where the method wants tiles, and there are scratches to find.
+    tiles: Option<TilesPasses>,
+    shade: ShadePass,
+}
+
+impl ScenePasses {
+    fn new(gpu: &Gpu, layouts: &Layouts, variant: &ShadeVariant) -> Self {
+        let method = &variant.method;
+        let wants_tiles = method.is_default_path() && method.lookup == Lookup::Tiles;
+        Self {
+            tiles: (wants_tiles && variant.has.scratches)
+                .then(|| TilesPasses::new(gpu, layouts, variant)),
+            shade: ShadePass::new(gpu, layouts, variant, wants_tiles && variant.has.scratches),
         }
     }
 }

@@ -14,6 +14,7 @@ use crate::bindings::Layouts;
 use crate::device::{AdapterKind, Gpu};
 use crate::film::Film;
 use crate::shaders;
+use crate::tile_room::Queue;
 use crate::timing::Timing;
 use crate::upload::GpuScene;
 
@@ -31,7 +32,9 @@ pub(crate) struct Contents {
     pub scratches: bool,
     pub spheres: bool,
     pub polygons: bool,
+    pub large_polygons: bool,
     pub environment: bool,
+    pub textures: bool,
 }
 
 impl Contents {
@@ -41,7 +44,11 @@ impl Contents {
             scratches: scene.objects.iter().any(|o| !o.segments.is_empty()),
             spheres: has(|light| matches!(light, Light::Sphere { .. })),
             polygons: has(|light| matches!(light, Light::Polygon { .. })),
+            large_polygons: has(
+                |light| matches!(light, Light::Polygon { vertices_m, .. } if vertices_m.len() > 4),
+            ),
             environment: scene.environment.is_some(),
+            textures: !scene.textures.is_empty(),
         }
     }
 }
@@ -50,6 +57,7 @@ pub(crate) struct ShadePass {
     pipeline: wgpu::ComputePipeline,
     /// Whether a dispatch may leave pixels unfinished.
     pub bounded: bool,
+    queued: bool,
 }
 
 const WORKGROUP_PX: u32 = 8;
@@ -57,6 +65,9 @@ const WORKGROUP_PX: u32 = 8;
 /// A software driver (lavapipe) ends loops silently after 65,536 rounds, counted over the 8 pixels that it runs in step: the
 /// walk over the scratches stops well before and goes on in another dispatch.
 const SOFTWARE_MAX_ROUNDS: f64 = 5_000.0;
+
+/// Into how many strides a software driver's dispatch is cut. More than its threads, so that each has several.
+const SOFTWARE_STRIDE: u32 = 64;
 
 /// The entry file.
 fn pass_of(variant: &ShadeVariant) -> &'static shaders::Module {
@@ -68,7 +79,7 @@ fn pass_of(variant: &ShadeVariant) -> &'static shaders::Module {
 }
 
 /// What the shader is specialised by; names and numbers are those of contents.wgsl and method.wgsl.
-fn constants_of(variant: &ShadeVariant) -> [(&'static str, f64); 12] {
+fn constants_of(variant: &ShadeVariant) -> [(&'static str, f64); 14] {
     let ShadeVariant { method, has } = variant;
     let (spectrum, wavelengths) = match method.spectrum {
         Spectrum::Table => (0, 0),
@@ -108,7 +119,9 @@ fn constants_of(variant: &ShadeVariant) -> [(&'static str, f64); 12] {
         ("HAS_SCRATCHES", has.scratches.into()),
         ("HAS_SPHERES", has.spheres.into()),
         ("HAS_POLYGONS", has.polygons.into()),
+        ("HAS_LARGE_POLYGONS", has.large_polygons.into()),
         ("HAS_ENVIRONMENT", has.environment.into()),
+        ("HAS_TEXTURES", has.textures.into()),
         ("METHOD_SPECTRUM", spectrum.into()),
         ("METHOD_WAVELENGTHS", wavelengths as f64),
         ("METHOD_CHORDS", chords.into()),
@@ -120,50 +133,41 @@ fn constants_of(variant: &ShadeVariant) -> [(&'static str, f64); 12] {
     ]
 }
 
-impl ShadePass {
-    pub fn new(gpu: &Gpu, layouts: &Layouts, variant: &ShadeVariant) -> Self {
-        let text = shaders::compose(&[pass_of(variant)]);
-        let bounded = gpu.adapter.kind == AdapterKind::Software;
-        let bound = bounded.then_some(("GATHER_MAX_ROUNDS", SOFTWARE_MAX_ROUNDS));
-        // A constant that the shader does not declare would be refused.
-        let constants: Vec<_> = constants_of(variant)
+/// Whether the device ends long loops.
+fn is_bounded(gpu: &Gpu) -> bool {
+    gpu.adapter.kind == AdapterKind::Software
+}
+
+impl ShadeVariant {
+    /// The constants that a shader declares; others would be refused.
+    pub fn constants(&self, gpu: &Gpu, text: &str) -> Vec<(&'static str, f64)> {
+        let software = [
+            ("GATHER_MAX_ROUNDS", SOFTWARE_MAX_ROUNDS),
+            ("FILM_STRIDE", SOFTWARE_STRIDE.into()),
+        ];
+        constants_of(self)
             .into_iter()
-            .chain(bound)
+            .chain(software.into_iter().filter(|_| is_bounded(gpu)))
             .filter(|(name, _)| text.contains(&format!("override {name}:")))
-            .collect();
-        let module = gpu
-            .device
-            .create_shader_module(wgpu::ShaderModuleDescriptor {
-                label: Some("shade"),
-                source: wgpu::ShaderSource::Wgsl(text.into()),
-            });
-        let layout = gpu
-            .device
-            .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-                label: Some("shade"),
-                bind_group_layouts: &[
-                    Some(&layouts.frame),
-                    Some(&layouts.scene),
-                    Some(&layouts.textures),
-                    Some(&layouts.film),
-                ],
-                immediate_size: 0,
-            });
+            .collect()
+    }
+}
+
+impl ShadePass {
+    /// For the tiles whose pixels walk if `queued`, else for all pixels.
+    pub fn new(gpu: &Gpu, layouts: &Layouts, variant: &ShadeVariant, queued: bool) -> Self {
+        let constants = |text: &str| {
+            let mut constants = variant.constants(gpu, text);
+            if text.contains("override SHADE_QUEUED:") {
+                constants.push(("SHADE_QUEUED", queued.into()));
+            }
+            constants
+        };
+        let module = pass_of(variant);
         Self {
-            bounded,
-            pipeline: gpu
-                .device
-                .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-                    label: Some("shade"),
-                    layout: Some(&layout),
-                    module: &module,
-                    entry_point: Some("shade"),
-                    compilation_options: wgpu::PipelineCompilationOptions {
-                        constants: &constants,
-                        ..Default::default()
-                    },
-                    cache: None,
-                }),
+            bounded: is_bounded(gpu),
+            queued,
+            pipeline: compute_pipeline(gpu, layouts, module, "shade", &layouts.film, constants),
         }
     }
 
@@ -176,6 +180,9 @@ impl ShadePass {
         rows: &Range<u32>,
         timing: &Timing,
     ) {
+        if self.queued {
+            film.tiles.count_queues(encoder);
+        }
         let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
             label: Some("shade"),
             timestamp_writes: timing.compute("shade"),
@@ -184,11 +191,57 @@ impl ShadePass {
         for (group, bound) in (0..).zip([frame, &scene.buffers, &scene.textures, &film.group]) {
             pass.set_bind_group(group, bound, &[]);
         }
-        let rows = rows.end - rows.start;
-        pass.dispatch_workgroups(
-            film.width_px.div_ceil(WORKGROUP_PX),
-            rows.div_ceil(WORKGROUP_PX),
-            1,
-        );
+        if self.queued {
+            film.tiles.dispatch(&mut pass, Queue::Walked);
+            return;
+        }
+        let across = film.width_px.div_ceil(WORKGROUP_PX);
+        let down = (rows.end - rows.start).div_ceil(WORKGROUP_PX);
+        let down = if self.bounded {
+            down.next_multiple_of(SOFTWARE_STRIDE)
+        } else {
+            down
+        };
+        pass.dispatch_workgroups(across, down, 1);
     }
+}
+
+/// A pipeline over the frame, the scene, its textures and `group_3`. `constants` are told the shader's text.
+pub(crate) fn compute_pipeline(
+    gpu: &Gpu,
+    layouts: &Layouts,
+    module: &'static shaders::Module,
+    entry_point: &str,
+    group_3: &wgpu::BindGroupLayout,
+    constants: impl Fn(&str) -> Vec<(&'static str, f64)>,
+) -> wgpu::ComputePipeline {
+    let text = shaders::compose(&[module]);
+    let constants = constants(&text);
+    let label = Some(module.name);
+    let shader = gpu
+        .device
+        .create_shader_module(wgpu::ShaderModuleDescriptor {
+            label,
+            source: wgpu::ShaderSource::Wgsl(text.into()),
+        });
+    let groups = [&layouts.frame, &layouts.scene, &layouts.textures, group_3];
+    let layout = gpu
+        .device
+        .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label,
+            bind_group_layouts: &groups.map(Some),
+            immediate_size: 0,
+        });
+    gpu.device
+        .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label,
+            layout: Some(&layout),
+            module: &shader,
+            entry_point: Some(entry_point),
+            compilation_options: wgpu::PipelineCompilationOptions {
+                constants: &constants,
+                ..Default::default()
+            },
+            cache: None,
+        })
 }

@@ -41,6 +41,8 @@ modules! {
     SCRATCH_TABLE = "scratch_table" needs [];
     /// Where an area light meets the band of a scratch.
     BAND = "band" needs [SCRATCH];
+    /// Where the lines of a band cross an outline of four edges.
+    FOUR_EDGES = "four_edges" needs [BAND];
     /// An environment along the band of a scratch.
     BAND_ENVIRONMENT = "band_environment" needs [BAND];
     /// The energy that scratches take.
@@ -79,8 +81,10 @@ modules! {
     LAYOUT = "layout" needs [];
     /// Where the scene is bound: group 0 the frame, group 1 the scene's buffers, group 2 its tables and textures.
     BINDINGS = "bindings" needs [LAYOUT];
+    /// Arrays that lie in textures.
+    ROWS = "rows" needs [BINDINGS];
     /// Look-ups in what the scene binds.
-    SCENE = "scene" needs [BINDINGS, ENVIRONMENT, TONE_MAP];
+    SCENE = "scene" needs [ROWS, CONTENTS, ENVIRONMENT, TONE_MAP];
     /// What a scene has: pipelines are compiled for it.
     CONTENTS = "contents" needs [];
     /// By which method scratches are computed: pipelines are compiled for it.
@@ -88,17 +92,31 @@ modules! {
     /// A walk over scratches that may be left and gone on with.
     WALK = "walk" needs [MASK];
     /// The straight pieces of scratches, unpacked.
-    SEGMENTS = "segments" needs [BINDINGS];
+    SEGMENTS = "segments" needs [ROWS];
     /// The scratches of each triangle.
     TRIANGLE_LISTS = "triangle_lists" needs [BINDINGS];
     /// What the shading pass adds to: group 3.
     FILM = "film" needs [BINDINGS, WALK];
+    /// Tiles of the picture.
+    TILE = "tile" needs [BINDINGS];
+    /// The list of a triangle's scratches, as a walk goes through it.
+    LISTED = "listed" needs [WALK, TRIANGLE_LISTS];
+    /// Area lights from a surface point.
+    LIGHTS = "lights" needs [ROWS, SURFACE, BAND];
     /// From a triangle to the surface point.
     HIT = "hit" needs [SCENE, SURFACE, CAMERA, GGX];
+    /// A pixel as the scratches under it see it.
+    GATHER_PIXEL = "gather_pixel" needs [SURFACE, BAND, METHOD];
+    /// What one scratch sends to the viewer of one light.
+    GATHER_LIGHT = "gather_light" needs [SCENE, GATHER_PIXEL, FOUR_EDGES, LIGHTS, SEGMENTS, WALK, BAND_ENVIRONMENT, SCRATCH_TABLE];
+    /// What scratches take from the base, by the method's mask.
+    GATHER_MASK = "gather_mask" needs [MASK, METHOD];
+    /// The same of a polygon with many vertices.
+    GATHER_LARGE_POLYGON = "gather_large_polygon" needs [GATHER_LIGHT];
     /// The scratches under a footprint and their light.
-    GATHER = "gather" needs [SCENE, SURFACE, SEGMENTS, WALK, CONTENTS, BAND_ENVIRONMENT, SCRATCH_TABLE];
+    GATHER = "gather" needs [GATHER_LIGHT, GATHER_LARGE_POLYGON, GATHER_MASK, LISTED, WALK];
     /// The base under lights and environment.
-    BASE = "base" needs [GATHER, LTC];
+    BASE = "base" needs [SCENE, LIGHTS, WALK, LTC];
     /// The method of 2018: a scratch under lights and environment.
     PUBLISHED_LIGHTS = "published_lights" needs [
         SCENE, SURFACE, SEGMENTS, WALK, METHOD, BAND_ENVIRONMENT, SCRATCH_TABLE, PUBLISHED_SPECTRUM, PUBLISHED_SPHERE,
@@ -110,8 +128,20 @@ modules! {
     PUBLISHED_BASE = "published_base" needs [PUBLISHED_LIGHTS, CONTENTS, SPTD];
     /// Pass: triangle and object of each pixel.
     VISIBILITY = "visibility" needs [BINDINGS];
-    /// Pass: from what is visible to radiance.
-    SHADE = "shade" needs [HIT, GATHER, BASE, FILM];
+    /// Which tiles are shaded how.
+    TILE_QUEUES = "tile_queues" needs [TILE];
+    /// A straight piece of a scratch in the picture.
+    SEGMENT_SEEN = "segment_seen" needs [BINDINGS];
+    /// What a pixel adds to the film.
+    SHADE_POINT = "shade_point" needs [BASE, FILM];
+    /// Pass: from what is visible to radiance, pixel by pixel.
+    SHADE = "shade" needs [HIT, GATHER, SHADE_POINT, TILE_QUEUES];
+    /// Pass: from what is visible to radiance, in tiles that have a list of scratches.
+    SHADE_TILES = "shade_tiles" needs [HIT, GATHER, SHADE_POINT, TILE_QUEUES];
+    /// Pass: tiles that show no object.
+    BACKGROUND = "background" needs [SHADE_POINT, TILE_QUEUES];
+    /// Pass: the scratches that each tile of pixels may see.
+    TILES = "tiles" needs [HIT, GATHER_PIXEL, WALK, TILE_QUEUES, SEGMENT_SEEN];
     /// Pass: from what is visible to radiance by the method of 2018.
     SHADE_PUBLISHED = "shade_published" needs [HIT, PUBLISHED_GATHER, PUBLISHED_BASE, FILM];
     /// Pass: the film on a display.

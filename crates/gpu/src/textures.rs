@@ -140,7 +140,7 @@ pub(crate) async fn bind_textures(
 }
 
 async fn scratch_tables(gpu: &Gpu, tables: &ScratchTables) -> Result<wgpu::TextureView, Error> {
-    let size = [2 * table::COLUMNS as u32, table::ROWS as u32];
+    let size = [table::COLUMNS as u32, table::ROWS as u32];
     let layers = tables.tables.len().max(1) as u32;
     let texture = texture(
         gpu,
@@ -148,7 +148,7 @@ async fn scratch_tables(gpu: &Gpu, tables: &ScratchTables) -> Result<wgpu::Textu
         size,
         layers,
         1,
-        TextureFormat::Rgba32Float,
+        TextureFormat::Rgba32Uint,
     )
     .await?;
     for (layer, table) in tables.tables.iter().enumerate() {
@@ -253,12 +253,34 @@ pub(crate) fn write(
     [width, height]: [u32; 2],
     texels: &[u8],
 ) {
+    write_at(gpu, texture, level, [0, layer], [width, height], texels);
+}
+
+/// Some rows of a texture without layers and levels.
+pub(crate) fn write_rows(
+    gpu: &Gpu,
+    texture: &wgpu::Texture,
+    first_row: u32,
+    size: [u32; 2],
+    texels: &[u8],
+) {
+    write_at(gpu, texture, 0, [first_row, 0], size, texels);
+}
+
+fn write_at(
+    gpu: &Gpu,
+    texture: &wgpu::Texture,
+    level: u32,
+    [row, layer]: [u32; 2],
+    [width, height]: [u32; 2],
+    texels: &[u8],
+) {
     let destination = wgpu::TexelCopyTextureInfo {
         texture,
         mip_level: level,
         origin: wgpu::Origin3d {
             x: 0,
-            y: 0,
+            y: row,
             z: layer,
         },
         aspect: wgpu::TextureAspect::All,

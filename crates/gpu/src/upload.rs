@@ -15,7 +15,8 @@ use crate::device::Gpu;
 use crate::error::Error;
 use crate::layout::{LIGHT_POLYGON, LIGHT_SPHERE, VERTEX_BITANGENT_FLIPPED};
 use crate::layout::{Light, Material, Object, ScratchNode, ScratchSegment, Vertex};
-use crate::shade::ShadePass;
+use crate::renderer::ScenePasses;
+use crate::rows;
 use crate::textures::{self, TextureArray};
 
 /// A scene on the device, for one method: everything but the camera.
@@ -27,8 +28,7 @@ pub struct GpuScene {
     /// What uploaded positions are relative to, world space.
     pub(crate) origin_m: DVec3,
     pub(crate) light_count: u32,
-    pub(crate) method: Method,
-    pub(crate) shade: Arc<ShadePass>,
+    pub(crate) passes: Arc<ScenePasses>,
 }
 
 /// The scene's buffers in host memory, in the order of their bindings.
@@ -54,7 +54,7 @@ impl GpuScene {
         index: &ScratchIndex,
         tables: &ScratchTables,
         method: &Method,
-        shade: Arc<ShadePass>,
+        passes: Arc<ScenePasses>,
     ) -> Result<Self, Error> {
         check_size(gpu, scene, index)?;
         let array = TextureArray::new(scene);
@@ -97,8 +97,7 @@ impl GpuScene {
             triangles,
             origin_m,
             light_count: scene.lights.len() as u32,
-            method: *method,
-            shade,
+            passes,
         })
     }
 }
@@ -118,12 +117,18 @@ impl HostScene {
             storage_buffer(gpu, triangles, &self.vertices).await?,
             storage_buffer(gpu, objects, &self.objects).await?,
             storage_buffer(gpu, materials, &self.materials).await?,
-            storage_buffer(gpu, lights, &self.lights).await?,
-            storage_buffer(gpu, corners, &self.light_vertices).await?,
-            storage_buffer(gpu, nodes, &self.nodes).await?,
-            storage_buffer(gpu, segments, &self.segments).await?,
         ];
-        let resources = buffers.each_ref().map(wgpu::Buffer::as_entire_binding);
+        let rows = [
+            rows::upload(gpu, lights, &self.lights).await?,
+            rows::upload(gpu, corners, &self.light_vertices).await?,
+            rows::upload(gpu, nodes, &self.nodes).await?,
+            rows::upload(gpu, segments, &self.segments).await?,
+        ];
+        let resources: Vec<_> = buffers
+            .iter()
+            .map(wgpu::Buffer::as_entire_binding)
+            .chain(rows.iter().map(wgpu::BindingResource::TextureView))
+            .collect();
         Ok(bind(gpu, "scene", &layouts.scene, &resources))
     }
 }
@@ -155,21 +160,31 @@ fn check_size(gpu: &Gpu, scene: &Scene, index: &ScratchIndex) -> Result<(), Erro
         .map(|object| object.mesh.triangles.len())
         .sum();
     let light_vertices: usize = scene.lights.iter().map(polygon_vertex_count).sum();
-    let counts = [
+    let buffers = [
         (triangles, 3 * size_of::<Vertex>()),
         (scene.objects.len(), size_of::<Object>()),
         (scene.materials.len(), size_of::<Material>()),
+    ];
+    let rows = [
         (scene.lights.len(), size_of::<Light>()),
         (light_vertices, size_of::<[f32; 4]>()),
         (index.tree.nodes.len(), size_of::<ScratchNode>()),
         (index.tree.segments.len(), size_of::<ScratchSegment>()),
     ];
     let limits = gpu.limits();
-    let allowed = limits
+    let buffer_max = limits
         .max_buffer_size
         .min(limits.max_storage_buffer_binding_size);
-    for (name, (count, stride)) in SCENE_BUFFERS.iter().zip(counts) {
+    let in_buffers = buffers.map(|(count, stride)| {
         let bytes = count as u64 * stride as u64;
+        (count, bytes, buffer_max)
+    });
+    let in_rows = rows.map(|(count, stride)| {
+        let (bytes, allowed) = rows::bytes_and_allowed(gpu, count, stride);
+        (count, bytes, allowed)
+    });
+    let sizes = in_buffers.into_iter().chain(in_rows);
+    for (name, (count, bytes, allowed)) in SCENE_BUFFERS.iter().zip(sizes) {
         if bytes > allowed {
             return Err(gpu.too_large(
                 &format!("{name} ({count} of them)"),

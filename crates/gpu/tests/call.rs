@@ -1,6 +1,6 @@
 //! The harness that calls WGSL functions: it must return what the function computes, and must be able to fail.
 
-use hairline_gpu::call::{Call, Table};
+use hairline_gpu::call::{Call, Table, Texels};
 use hairline_gpu::headless::test_gpu;
 use hairline_gpu::shaders::Module;
 use hairline_gpu::{AdapterRequest, Error, headless};
@@ -68,12 +68,12 @@ fn tables_arrive_texel_by_texel() {
         Table {
             size: [3, 2],
             layers: Some(2),
-            texels: &texels,
+            texels: Texels::Floats(&texels),
         },
         Table {
             size: [3, 4],
             layers: None,
-            texels: &texels,
+            texels: Texels::Floats(&texels),
         },
     ];
     let snippet = "y[0] = fetch(table_0, vec2i(i32(x[0]), i32(x[1])), i32(x[2])).x;";

@@ -1,7 +1,7 @@
 //! Look-ups in environment maps in WGSL against their twins in `hairline_scene::environment::lookup`.
 
 use glam::{DVec2, DVec3};
-use hairline_gpu::call::{Call, Table};
+use hairline_gpu::call::{Call, Table, Texels};
 use hairline_gpu::headless::test_gpu;
 use hairline_gpu::shaders;
 use hairline_image::Picture;
@@ -97,7 +97,7 @@ fn radiance_and_interpolation() {
     let tables = [Table {
         size: map.size_px,
         layers: None,
-        texels: &padded(&map),
+        texels: Texels::Floats(&padded(&map)),
     }];
     let rows = directions();
     let call = Call {
@@ -141,7 +141,7 @@ fn levels() {
     let tables = [Table {
         size: map.size_px,
         layers: None,
-        texels: &padded(&map),
+        texels: Texels::Floats(&padded(&map)),
     }];
     let mut roughness: Vec<f32> = (-10..=110).map(|i| i as f32 / 100.0).collect();
     roughness.extend(LEVEL_ROUGHNESS.map(|r| r as f32));

@@ -10,7 +10,7 @@
 use crate::{diffraction, scratch, spectrum};
 
 /// Columns, over u.
-pub const COLUMNS: usize = 512;
+pub const COLUMNS: usize = 1024;
 /// Rows, over depth.
 pub const ROWS: usize = 512;
 /// Largest depth: the last row. Deeper scratches are held there; their colours have washed out to straw long before.
@@ -19,14 +19,42 @@ pub const DEPTH_MAX_NM: f64 = 2000.0;
 /// the colours are (one fringe spans about 0.5 um of u), coarse where they have blurred into the tail.
 pub const U_HALF_UM: f64 = 2.0;
 
-/// T and its slope at every (u, d). A texel holds three channels and a zero.
+/// T and its slope at every (u, d), 16 bytes each.
 #[derive(Clone, Debug)]
 pub struct ScratchTable {
-    /// Row-major, `ROWS` rows of `2 * COLUMNS` texels: T and its derivative by the column index, side by side. The
-    /// slope makes the look-up cubic, which small lights need: they see differences of T much finer than a column.
-    pub texels: Vec<[f32; 4]>,
+    /// Row-major, `ROWS` rows of `COLUMNS` texels: the bits of three f32, T in each channel, then [`pack_slopes`] of the
+    /// derivatives by the column index. The slope makes the look-up one of the nearest column alone, and small lights
+    /// need it: they see differences of T much finer than a column.
+    pub texels: Vec<[u32; 4]>,
     /// T(infinity, d) - T(-infinity, d) of each row: twice the last column, side by side.
     totals: Vec<[f32; 4]>,
+}
+
+/// Bits of each slope, in two's complement; the rest of a word is the exponent that they share.
+const SLOPE_BITS: u32 = 9;
+/// The exponent of the word whose other bits would be whole numbers.
+const SLOPE_EXPONENT_BIAS: i32 = 36;
+
+/// Three numbers below 1/8 in one word, to 1/510 of the largest, or to 1e-13.
+fn pack_slopes(slopes: [f64; 3]) -> u32 {
+    let most = f64::from((1u32 << (SLOPE_BITS - 1)) - 1);
+    let largest = slopes.iter().fold(0.0, |m: f64, s| m.max(s.abs()));
+    let wanted = (largest / most).max(1e-300).log2().ceil() as i32;
+    let exponent = (wanted + SLOPE_EXPONENT_BIAS).clamp(0, 31);
+    let scale = f64::from(exponent - SLOPE_EXPONENT_BIAS).exp2();
+    let mantissa = |s: f64| ((s / scale).round().clamp(-most, most) as i32 as u32) & 0x1ff;
+    let [r, g, b] = slopes.map(mantissa);
+    r | g << SLOPE_BITS | b << (2 * SLOPE_BITS) | (exponent as u32) << (3 * SLOPE_BITS)
+}
+
+#[inline]
+fn unpack_slopes(word: u32) -> [f64; 3] {
+    let exponent = (word >> (3 * SLOPE_BITS)) as i32 - SLOPE_EXPONENT_BIAS;
+    // 2^exponent by its bits.
+    let scale = f64::from_bits(((1023 + exponent) as u64) << 52);
+    let signed =
+        |shift: u32| f64::from((word << (32 - SLOPE_BITS - shift)) as i32 >> (32 - SLOPE_BITS));
+    [0, SLOPE_BITS, 2 * SLOPE_BITS].map(|shift| scale * signed(shift))
 }
 
 impl ScratchTable {
@@ -47,8 +75,8 @@ impl ScratchTable {
                 })
             })
             .collect();
-        let mut texels = vec![[0f32; 4]; ROWS * 2 * COLUMNS];
-        for (row, texels) in texels.chunks_exact_mut(2 * COLUMNS).enumerate() {
+        let mut texels = vec![[0u32; 4]; ROWS * COLUMNS];
+        for (row, texels) in texels.chunks_exact_mut(COLUMNS).enumerate() {
             let depth_nm = row as f64 * DEPTH_MAX_NM / (ROWS - 1) as f64;
             let mut sums = vec![[0f64; 6]; COLUMNS];
             for (sample, chords) in samples.iter().zip(&chords) {
@@ -62,17 +90,20 @@ impl ScratchTable {
                     }
                 }
             }
-            for (texel, s) in texels.chunks_exact_mut(2).zip(&sums) {
-                texel[0] = [s[0] as f32, s[1] as f32, s[2] as f32, 0.0];
-                texel[1] = [s[3] as f32, s[4] as f32, s[5] as f32, 0.0];
+            for (texel, &[r, g, b, slopes @ ..]) in texels.iter_mut().zip(&sums) {
+                let [r, g, b] = [r, g, b].map(|t| (t as f32).to_bits());
+                *texel = [r, g, b, pack_slopes(slopes)];
             }
         }
-        let last = texels.iter().skip(2 * (COLUMNS - 1)).step_by(2 * COLUMNS);
-        let totals = last.map(|t| t.map(|c| 2.0 * c)).collect();
+        let last = texels.iter().skip(COLUMNS - 1).step_by(COLUMNS);
+        let twice = |bits: u32| 2.0 * f32::from_bits(bits);
+        let totals = last
+            .map(|&[r, g, b, _]| [twice(r), twice(g), twice(b), 0.0])
+            .collect();
         Self { texels, totals }
     }
 
-    /// T_c(u, d): cubic (Hermite) in u, linear in depth. Odd in u.
+    /// T_c(u, d): by value and slope of the nearest column, linear in depth. Odd in u.
     pub fn scratch_table(&self, u_um: f64, depth_nm: f64) -> [f64; 3] {
         self.at_depth(depth_nm).at(u_um)
     }
@@ -81,8 +112,7 @@ impl ScratchTable {
     #[inline]
     pub fn at_depth(&self, depth_nm: f64) -> TableRow<'_> {
         let (row, share) = row_at(depth_nm);
-        let rows = &self.texels[row * 2 * COLUMNS..][..4 * COLUMNS];
-        let (near, far) = rows.split_at(2 * COLUMNS);
+        let (near, far) = self.texels[row * COLUMNS..][..2 * COLUMNS].split_at(COLUMNS);
         TableRow { near, far, share }
     }
 
@@ -105,8 +135,8 @@ fn row_at(depth_nm: f64) -> (usize, f64) {
 /// T at one depth.
 #[derive(Clone, Copy, Debug)]
 pub struct TableRow<'a> {
-    near: &'a [[f32; 4]],
-    far: &'a [[f32; 4]],
+    near: &'a [[u32; 4]],
+    far: &'a [[u32; 4]],
     /// Of `far`.
     share: f64,
 }
@@ -115,25 +145,19 @@ impl TableRow<'_> {
     /// T_c(u, d). Odd in u.
     #[inline]
     pub fn at(&self, u_um: f64) -> [f64; 3] {
-        let x = u_um.abs() / (u_um.abs() + U_HALF_UM) * (COLUMNS - 1) as f64;
-        let column = (x as usize).min(COLUMNS - 2);
+        // Infinite u is in the last column too.
+        let u = u_um.abs().min(1e300);
+        let x = u / (u + U_HALF_UM) * (COLUMNS - 1) as f64;
+        let column = (x + 0.5) as usize;
         let f = x - column as f64;
-        // Hermite basis: value and slope at the left, value and slope at the right.
-        let (f2, f3) = (f * f, f * f * f);
-        let right = 3.0 * f2 - 2.0 * f3;
-        let basis = [1.0 - right, f3 - 2.0 * f2 + f, right, f3 - f2];
-        let texels = 2 * column..2 * column + 4;
-        let (near, far) = (&self.near[texels.clone()], &self.far[texels]);
-        // Four lanes, of which one is empty, are two instructions each.
-        let mut sum = [0.0; 4];
-        for i in 0..4 {
-            let (b, c) = (basis[i] * (1.0 - self.share), basis[i] * self.share);
-            for lane in 0..4 {
-                sum[lane] += b * near[i][lane] as f64 + c * far[i][lane] as f64;
-            }
-        }
+        let (near, far) = (self.near[column], self.far[column]);
+        let (near_slopes, far_slopes) = (unpack_slopes(near[3]), unpack_slopes(far[3]));
         let sign = 1f64.copysign(u_um);
-        [sign * sum[0], sign * sum[1], sign * sum[2]]
+        std::array::from_fn(|c| {
+            let near = f64::from(f32::from_bits(near[c])) + f * near_slopes[c];
+            let far = f64::from(f32::from_bits(far[c])) + f * far_slopes[c];
+            sign * (near + self.share * (far - near))
+        })
     }
 }
 

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use crate::twin::{Sequence, Tolerance, Twin};
 use glam::{DVec3, Vec3};
-use hairline_gpu::call::{Call, Table};
+use hairline_gpu::call::{Call, Table, Texels};
 use hairline_gpu::{headless, shaders};
 use hairline_optics::fresnel::{
     FresnelRgb, dip_weight, fresnel_terms, half_vector_cos, schlick_weight,
@@ -24,7 +24,7 @@ fn tables() -> [Table<'static>; 3] {
     [ltc_table(), albedo_table(), sptd_table()].map(|table| Table {
         size: [LOBE_TABLE_SIZE as u32; 2],
         layers: None,
-        texels: table.texels(),
+        texels: Texels::Floats(table.texels()),
     })
 }
 

@@ -2,7 +2,7 @@
 
 use crate::twin::Sequence;
 use glam::{DVec2, DVec3};
-use hairline_gpu::call::{Call, Table};
+use hairline_gpu::call::{Call, Table, Texels};
 use hairline_gpu::{headless, shaders};
 use hairline_optics::band::*;
 use hairline_optics::footprint::{Footprint, scratch_share};
@@ -51,9 +51,9 @@ fn in_the_shader() {
     };
     let table = ScratchTable::new(|_| 1.0);
     let tables = [Table {
-        size: [2 * COLUMNS as u32, ROWS as u32],
+        size: [COLUMNS as u32, ROWS as u32],
         layers: Some(1),
-        texels: &table.texels,
+        texels: Texels::Integers(&table.texels),
     }];
     let call = Call {
         modules: &[&shaders::BAND_ENVIRONMENT, &shaders::MASK, &shaders::SCRATCH_TABLE],

@@ -1,7 +1,7 @@
 //! One scratch: footprint, table, mask.
 
 use crate::twin::{Sequence, Tolerance, Twin};
-use hairline_gpu::call::Table;
+use hairline_gpu::call::{Table, Texels};
 use hairline_gpu::shaders;
 use hairline_optics::footprint::{Footprint, ScratchShare, scratch_share};
 use hairline_optics::mask::ScratchSums;
@@ -108,9 +108,9 @@ fn oblique_depths() {
 #[test]
 fn table_look_ups() {
     let tables = [Table {
-        size: [2 * COLUMNS as u32, ROWS as u32],
+        size: [COLUMNS as u32, ROWS as u32],
         layers: Some(1),
-        texels: &GOLD.texels,
+        texels: Texels::Integers(&GOLD.texels),
     }];
     let mut random = Sequence(2);
     let mut rows = vec![

@@ -1,0 +1,44 @@
+// Arrays that lie in textures, 16 bytes a texel, row after row. Software drivers read a texel several times as fast as four
+// words of a storage buffer, GPUs as fast; and textures may be larger than buffers. Twin: src/rows.rs writes them.
+
+// Texels to a row.
+const ROW_BITS: u32 = 12u;
+
+// Where texel `i` lies.
+fn row_texel(i: u32) -> vec2u {
+    return vec2u(i & ((1u << ROW_BITS) - 1u), i >> ROW_BITS);
+}
+
+fn scratch_node(i: u32) -> ScratchNode {
+    let a = textureLoad(scratch_nodes, row_texel(2u * i), 0);
+    let b = textureLoad(scratch_nodes, row_texel(2u * i + 1u), 0);
+    return ScratchNode(bitcast<vec3f>(a.xyz), a.w, bitcast<vec3f>(b.xyz), b.w);
+}
+
+fn scratch_segment(i: u32) -> ScratchSegment {
+    let a = textureLoad(scratch_segments, row_texel(2u * i), 0);
+    let b = textureLoad(scratch_segments, row_texel(2u * i + 1u), 0);
+    return ScratchSegment(bitcast<vec3f>(a.xyz), a.w, bitcast<vec3f>(b.xyz), b.w);
+}
+
+fn light_at(i: u32) -> Light {
+    let a = textureLoad(lights, row_texel(4u * i), 0);
+    let b = textureLoad(lights, row_texel(4u * i + 1u), 0);
+    let c = textureLoad(lights, row_texel(4u * i + 2u), 0);
+    let d = textureLoad(lights, row_texel(4u * i + 3u), 0);
+    return Light(
+        bitcast<vec3f>(a.xyz),
+        a.w,
+        bitcast<vec3f>(b.xyz),
+        bitcast<f32>(b.w),
+        bitcast<vec3f>(c.xyz),
+        c.w,
+        d.x,
+        d.y,
+    );
+}
+
+// A vertex of a polygonal light, metres.
+fn light_corner_m(i: u32) -> vec3f {
+    return bitcast<vec3f>(textureLoad(light_vertices, row_texel(i), 0).xyz);
+}

@@ -1,0 +1,103 @@
+// Pass: from what is visible to radiance, in tiles that have a list of scratches. The workgroup draws the scratches' lines into a
+// bit for each pixel and scratch, 64 scratches at a time; each pixel then takes those whose bit it finds. shade.wgsl does all
+// other pixels.
+
+@group(3) @binding(2) var tile_lists: texture_2d<u32>;
+
+// Two words a pixel: a bit for each scratch at hand.
+var<workgroup> touches: array<atomic<u32>, 128>;
+var<workgroup> listed_count: u32;
+// Whether a pixel saw more scratches than a batch holds, and the whole tile goes on by walks.
+var<workgroup> tile_overflows: atomic<u32>;
+
+@compute @workgroup_size(8, 8)
+fn shade(
+    @builtin(workgroup_id) workgroup: vec3u,
+    @builtin(local_invocation_id) local: vec3u,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let tile = queue_tile(QUEUE_LISTED, workgroup.x);
+    let list = tile * frame.tile_entries;
+    if lane == 0u {
+        listed_count = textureLoad(tile_lists, row_texel(list), 0).x;
+    }
+    let count = workgroupUniformLoad(&listed_count);
+    let reach_px = bitcast<f32>(textureLoad(tile_lists, row_texel(list + 1u), 0).y);
+
+    let in_film = tile_corner(tile) + local.xy;
+    let pixel = in_film + vec2u(0u, frame.rows.x);
+    let inside = pixel.x < frame.size_px.x && pixel.y < frame.rows.y;
+    let ray = film_ray(pixel);
+    let seen = select(vec2u(0u), film_visible(pixel), inside);
+    // Any triangle does for pixels that see none; what they find is dropped.
+    var depth_m: f32;
+    let point = hit_surface_point(max(seen.x, 1u) - 1u, ray, &depth_m);
+    let view = gather_pixel(point);
+    var batch: GatherBatch;
+    var sums: ScratchSums;
+    var overflows = false;
+    for (var first = 0u; first < count; first += 64u) {
+        atomicStore(&touches[2u * lane], 0u);
+        atomicStore(&touches[2u * lane + 1u], 0u);
+        workgroupBarrier();
+        if first + lane < count {
+            let entry = textureLoad(tile_lists, row_texel(list + TILE_HEAD + first + lane), 0).xy;
+            tile_draw_line(entry.y, reach_px, lane);
+        }
+        workgroupBarrier();
+        var low = atomicLoad(&touches[2u * lane]);
+        var high = atomicLoad(&touches[2u * lane + 1u]);
+        workgroupBarrier();
+        let touching = countOneBits(low) + countOneBits(high);
+        overflows = overflows || batch.count + touching > GATHER_SEGMENTS;
+        let wanted = select(touching, 0u, overflows || seen.x == 0u);
+        for (var i = 0u; i < wanted; i += 1u) {
+            gather_rounds += 1u;
+            let bit = select(firstTrailingBit(low), 32u + firstTrailingBit(high), low == 0u);
+            high = select(high, high & (high - 1u), low == 0u);
+            low = low & (max(low, 1u) - 1u);
+            let segment = textureLoad(tile_lists, row_texel(list + TILE_HEAD + first + bit), 0).x;
+            gather_weigh(point, view, segment, &batch, &sums);
+        }
+    }
+    if !inside {
+        return;
+    }
+    if seen.x == 0u {
+        film_add_background(pixel, ray);
+        return;
+    }
+    if overflows {
+        // The first one of its tile says so.
+        if atomicExchange(&tile_overflows, 1u) == 0u {
+            queue_push(QUEUE_WALKED, tile);
+        }
+        return;
+    }
+    sums.radiance += gather_light(point, view, &batch);
+    shade_finish(pixel, point, depth_m, gather_masked(sums, objects[seen.y].depth_coherence));
+}
+
+// Sets the bit of a scratch in every pixel that its line comes near to.
+fn tile_draw_line(line: u32, reach_px: f32, scratch: u32) {
+    let packed = bitcast<i32>(line);
+    let normal = vec2f(f32(extractBits(packed, 0u, 10u)), f32(extractBits(packed, 10u, 10u))) / 511.0;
+    let offset_px = f32(extractBits(packed, 20u, 12u)) / 127.0;
+    let first_px = tile_at_px(vec2u(0u));
+    let bit = 1u << (scratch & 31u);
+    let word = scratch >> 5u;
+    // Nearly level lines run through whole rows.
+    let steep = max(abs(normal.x), 1e-4);
+    let side = select(1.0, -1.0, normal.x < 0.0);
+    for (var y = 0u; y < TILE_PX; y += 1u) {
+        gather_rounds += 1u;
+        let middle = side * (offset_px - normal.y * (first_px.y + f32(y)));
+        let low = (middle - reach_px) / steep - first_px.x;
+        let high = (middle + reach_px) / steep - first_px.x;
+        let last = i32(clamp(floor(high), -1.0, f32(TILE_PX - 1u)));
+        for (var x = i32(clamp(ceil(low), 0.0, f32(TILE_PX))); x <= last; x += 1) {
+            gather_rounds += 1u;
+            atomicOr(&touches[2u * (y * TILE_PX + u32(x)) + word], bit);
+        }
+    }
+}

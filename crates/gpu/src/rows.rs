@@ -1,0 +1,55 @@
+//! Arrays that lie in textures, 16 bytes a texel, row after row. Twin: `shaders/rows.wgsl`.
+
+use wgpu::TextureFormat;
+
+use crate::device::Gpu;
+use crate::error::Error;
+use crate::textures;
+
+/// Texels to a row. Twin: rows.wgsl.
+pub(crate) const ROW_TEXELS: u32 = 1 << 12;
+const TEXEL_BYTES: usize = 16;
+
+/// The bytes that one texture of this many elements of `stride` bytes takes, and those that the device allows.
+pub(crate) fn bytes_and_allowed(gpu: &Gpu, count: usize, stride: usize) -> (u64, u64) {
+    let row_bytes = u64::from(ROW_TEXELS) * TEXEL_BYTES as u64;
+    let rows = (count as u64 * stride as u64).div_ceil(row_bytes).max(1);
+    let allowed_rows = u64::from(gpu.limits().max_texture_dimension_2d);
+    (rows * row_bytes, allowed_rows * row_bytes)
+}
+
+/// A texture with `elements`, whose size is a multiple of a texel's. An empty one holds a row of zeros.
+///
+/// # Errors
+/// [`Error::TooLarge`], [`Error::OutOfMemory`].
+pub(crate) async fn upload<T: bytemuck::Pod>(
+    gpu: &Gpu,
+    what: &str,
+    elements: &[T],
+) -> Result<wgpu::TextureView, Error> {
+    const { assert!(size_of::<T>().is_multiple_of(TEXEL_BYTES)) };
+    let bytes: &[u8] = bytemuck::cast_slice(elements);
+    let row_bytes = ROW_TEXELS as usize * TEXEL_BYTES;
+    let whole_rows = bytes.len() / row_bytes;
+    let rows = bytes.len().div_ceil(row_bytes).max(1);
+    let texture = textures::texture(
+        gpu,
+        what,
+        [ROW_TEXELS, rows as u32],
+        1,
+        1,
+        TextureFormat::Rgba32Uint,
+    )
+    .await?;
+    // In two pieces, so that nothing is copied but the last row.
+    let (whole, rest) = bytes.split_at(whole_rows * row_bytes);
+    if whole_rows > 0 {
+        textures::write_rows(gpu, &texture, 0, [ROW_TEXELS, whole_rows as u32], whole);
+    }
+    if !rest.is_empty() {
+        let mut last = rest.to_vec();
+        last.resize(row_bytes, 0);
+        textures::write_rows(gpu, &texture, whole_rows as u32, [ROW_TEXELS, 1], &last);
+    }
+    Ok(texture.create_view(&Default::default()))
+}

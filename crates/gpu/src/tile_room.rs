@@ -1,0 +1,133 @@
+//! Where the tiles of a film keep lists of their scratches, and which tiles are to be shaded how.
+
+use wgpu::{BufferUsages, TextureFormat, TextureUsages};
+
+use crate::bindings::Layouts;
+use crate::device::Gpu;
+use crate::error::Error;
+use crate::rows::ROW_TEXELS;
+
+/// A segment and its line in the picture.
+pub(crate) const TILE_LISTS_FORMAT: TextureFormat = TextureFormat::Rg32Uint;
+/// Pixels to a side of a tile. Twin: segment_list.wgsl.
+pub(crate) const TILE_PX: u32 = 8;
+/// Workgroups that every WebGPU device takes in one dispatch: one for each tile.
+pub(crate) const TILES_MAX: u32 = 65_535;
+/// Rows of a texture that every WebGPU device has.
+const ROWS_MAX: u32 = 8192;
+/// Room of a tile: more scratches than a footprint of usual wear holds. What does not fit is found pixel by pixel.
+const TILE_ENTRIES_MAX: u32 = 512;
+
+/// What an indirect dispatch reads for each queue. Twin: tile_queues.wgsl.
+const COUNTS: [u32; 9] = [0, 1, 1, 0, 1, 1, 0, 1, 1];
+pub(crate) const COUNTS_BYTES: u64 = size_of_val(&COUNTS) as u64;
+
+/// The queues, in the order of their counts.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Queue {
+    Listed,
+    Walked,
+    Empty,
+}
+
+/// Textures and buffers for the tiles of one film; the least there can be where the method has no use for tiles.
+pub(crate) struct TileRoom {
+    pub lists: wgpu::TextureView,
+    pub queues: wgpu::Buffer,
+    /// The queues' counts, where a dispatch may read them while a shader has the queues.
+    arguments: wgpu::Buffer,
+    /// Group 3 of the pass that fills the lists.
+    pub tiles_group: wgpu::BindGroup,
+    /// How many tiles there are; none where there is no room for them.
+    pub count: u32,
+}
+
+impl TileRoom {
+    pub async fn new(
+        gpu: &Gpu,
+        layouts: &Layouts,
+        size_px: [u32; 2],
+        wanted: bool,
+        visibility: &wgpu::TextureView,
+    ) -> Result<Self, Error> {
+        let count = if wanted {
+            size_px.map(|n| n.div_ceil(TILE_PX)).iter().product()
+        } else {
+            0
+        };
+        let lists = table(gpu, "tile lists", count * entries(count), TILE_LISTS_FORMAT).await?;
+        let queue_bytes = COUNTS_BYTES + u64::from(3 * count.max(1)) * 4;
+        let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST;
+        let queues = gpu.buffer("tile queues", queue_bytes, usage).await?;
+        let usage = BufferUsages::INDIRECT | BufferUsages::COPY_DST;
+        let arguments = gpu.buffer("tile counts", COUNTS_BYTES, usage).await?;
+        let entries = [
+            (0, wgpu::BindingResource::TextureView(visibility)),
+            (1, wgpu::BindingResource::TextureView(&lists)),
+            (3, queues.as_entire_binding()),
+        ]
+        .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource });
+        let tiles_group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("tiles"),
+            layout: &layouts.tiles,
+            entries: &entries,
+        });
+        Ok(Self {
+            tiles_group,
+            lists,
+            queues,
+            arguments,
+            count,
+        })
+    }
+
+    /// Entries of each tile in the lists.
+    pub fn entries(&self) -> u32 {
+        entries(self.count)
+    }
+
+    /// Empties the queues, before commands that are submitted later.
+    pub fn clear(&self, gpu: &Gpu) {
+        gpu.queue
+            .write_buffer(&self.queues, 0, bytemuck::cast_slice(&COUNTS));
+    }
+
+    /// Has the following dispatches see the queues as they are then.
+    pub fn count_queues(&self, encoder: &mut wgpu::CommandEncoder) {
+        encoder.copy_buffer_to_buffer(&self.queues, 0, &self.arguments, 0, Some(COUNTS_BYTES));
+    }
+
+    /// One workgroup for each tile of a queue.
+    pub fn dispatch(&self, pass: &mut wgpu::ComputePass<'_>, queue: Queue) {
+        pass.dispatch_workgroups_indirect(&self.arguments, queue as u64 * 12);
+    }
+}
+
+fn entries(tiles: u32) -> u32 {
+    (ROW_TEXELS * ROWS_MAX / tiles.max(1)).min(TILE_ENTRIES_MAX)
+}
+
+/// A texture of so many texels, row after row, which one pass writes and the next one reads.
+async fn table(
+    gpu: &Gpu,
+    what: &str,
+    texels: u32,
+    format: TextureFormat,
+) -> Result<wgpu::TextureView, Error> {
+    let descriptor = wgpu::TextureDescriptor {
+        label: Some(what),
+        size: wgpu::Extent3d {
+            width: ROW_TEXELS,
+            height: texels.div_ceil(ROW_TEXELS).max(1),
+            depth_or_array_layers: 1,
+        },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage: TextureUsages::STORAGE_BINDING | TextureUsages::TEXTURE_BINDING,
+        view_formats: &[],
+    };
+    let texture = gpu.texture(what, &descriptor).await?;
+    Ok(texture.create_view(&Default::default()))
+}

@@ -1,0 +1,71 @@
+//! Passes over the tiles of a film, 8 x 8 pixels each: what they show and which scratches they may see; the
+//! pixels of tiles whose list is complete, and those of empty tiles. What is left over is for the pixels' own pass, `shade`.
+//!
+//! Inputs: frame, scene, visibility. Outputs: lists, queues; the film, added to.
+
+use crate::bindings::Layouts;
+use crate::device::Gpu;
+use crate::film::Film;
+use crate::shade::{ShadeVariant, compute_pipeline};
+use crate::shaders;
+use crate::tile_room::Queue;
+use crate::timing::Timing;
+use crate::upload::GpuScene;
+
+pub(crate) struct TilesPasses {
+    tiles: wgpu::ComputePipeline,
+    shade: wgpu::ComputePipeline,
+    background: wgpu::ComputePipeline,
+}
+
+const WORKGROUP_TILES: u32 = 64;
+
+impl TilesPasses {
+    pub fn new(gpu: &Gpu, layouts: &Layouts, variant: &ShadeVariant) -> Self {
+        let pipeline = |module: &'static shaders::Module, entry_point, group_3| {
+            compute_pipeline(gpu, layouts, module, entry_point, group_3, |text| {
+                variant.constants(gpu, text)
+            })
+        };
+        Self {
+            tiles: pipeline(&shaders::TILES, "tiles", &layouts.tiles),
+            shade: pipeline(&shaders::SHADE_TILES, "shade", &layouts.film),
+            background: pipeline(&shaders::BACKGROUND, "background", &layouts.film),
+        }
+    }
+
+    /// All but the tiles whose pixels walk for themselves; their queue is complete then.
+    pub fn record(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        frame: &wgpu::BindGroup,
+        scene: &GpuScene,
+        film: &Film,
+        timing: &Timing,
+    ) {
+        let tiles = &film.tiles;
+        let mut run = |name, pipeline, group_3: &wgpu::BindGroup, queue: Option<Queue>| {
+            tiles.count_queues(encoder);
+            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+                label: Some(name),
+                timestamp_writes: timing.compute(name),
+            });
+            pass.set_pipeline(pipeline);
+            for (group, bound) in (0..).zip([frame, &scene.buffers, &scene.textures, group_3]) {
+                pass.set_bind_group(group, bound, &[]);
+            }
+            match queue {
+                Some(queue) => tiles.dispatch(&mut pass, queue),
+                None => pass.dispatch_workgroups(tiles.count.div_ceil(WORKGROUP_TILES), 1, 1),
+            }
+        };
+        run("tiles", &self.tiles, &tiles.tiles_group, None);
+        run("shade", &self.shade, &film.group, Some(Queue::Listed));
+        run(
+            "background",
+            &self.background,
+            &film.group,
+            Some(Queue::Empty),
+        );
+    }
+}
