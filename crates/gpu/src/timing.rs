@@ -147,3 +147,35 @@ impl Clock {
             .unwrap_or_else(|poisoned| poisoned.into_inner())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::headless::{skip, test_gpu};
+
+    #[test]
+    fn more_runs_than_there_is_room_for_are_no_time() {
+        let Some(gpu) = test_gpu() else { return };
+        let timing = gpu.block_on(Timing::on(gpu)).unwrap();
+        if !timing.is_on() {
+            return skip("the device has no clock");
+        }
+        let handed_out = (0..RUNS_MAX + 2)
+            .filter(|i| match i % 2 {
+                0 => timing.compute("one").is_some(),
+                _ => timing.render("other").is_some(),
+            })
+            .count();
+        assert_eq!(handed_out, RUNS_MAX);
+        assert_eq!(gpu.block_on(timing.read(gpu)).unwrap(), None);
+        // And begins anew.
+        assert_eq!(gpu.block_on(timing.read(gpu)).unwrap(), Some(Vec::new()));
+        assert!(timing.compute("one").is_some());
+    }
+
+    #[test]
+    fn nothing_is_handed_out_where_nobody_asked() {
+        let timing = Timing::default();
+        assert!(timing.compute("one").is_none() && timing.render("other").is_none());
+    }
+}

@@ -106,22 +106,3 @@ fn passes_take_time_and_not_more_than_has_gone_by() {
     // What was read is gone.
     assert_eq!(times(&mut renderer), Some(Vec::new()));
 }
-
-#[test]
-fn more_runs_than_there_is_room_for_are_no_time() {
-    let Some(gpu) = test_gpu() else { return };
-    let text = SCRATCHED
-        .replace("[96, 64]", "[2, 2]")
-        .replace("count = 1000", "count = 0");
-    let scene = Scene::from_toml(&text, "test", ".").unwrap_or_else(|error| panic!("{error}"));
-    let mut renderer = gpu.block_on(Renderer::new(gpu)).unwrap();
-    let uploaded = upload(&mut renderer, &scene);
-    if !gpu.block_on(renderer.time_passes()).unwrap() {
-        return skip("the device has no clock");
-    }
-    // At least two passes a sample.
-    render(&mut renderer, &scene, &uploaded, 1100);
-    assert_eq!(times(&mut renderer), None);
-    render(&mut renderer, &scene, &uploaded, 1);
-    assert!(times(&mut renderer).is_some_and(|times| !times.is_empty()));
-}
