@@ -81,7 +81,7 @@ fn passes_take_time_and_not_more_than_has_gone_by() {
         return skip("the device has no clock");
     }
     let mut before = Duration::ZERO;
-    for samples in [1, 3] {
+    for samples in [1, 16] {
         let start = Instant::now();
         render(&mut renderer, &scene, &uploaded, samples);
         let wall = start.elapsed();
@@ -96,7 +96,7 @@ fn passes_take_time_and_not_more_than_has_gone_by() {
         }
         // Passes run one after the other, so that their sum is bounded too.
         assert!(sum(&times) < wall, "{times:?} within {wall:?}");
-        // Three samples are three runs, and summed; twice, since machines are shared.
+        // Sixteen samples are sixteen runs, and summed; far less is asked for, since machines are shared.
         assert!(
             sum(&times) > 2 * before || before.is_zero(),
             "{times:?} after {before:?}"
