@@ -205,6 +205,9 @@ pub fn ltc_sphere(lobe: &LtcLobe, axis: DVec3, sin2: f64) -> [f64; 3] {
 
 /// Sweeps over the three pairs of axes in [`ltc_transform_cone`]. After three, what is left is below single precision.
 const CONE_SWEEPS: usize = 4;
+/// Squared cosine between two axes that counts as perpendicular: a sweep squares what is left, so more would change nothing. Small
+/// lights are there after two.
+const CONE_COS2: f64 = 1e-20;
 
 /// The cone of directions within asin sqrt(sin2) of `axis` (viewer's frame), in the cosine's space.
 ///
@@ -221,6 +224,11 @@ fn ltc_transform_cone(lobe: &LtcLobe, axis: DVec3, sin2: f64) -> EllipticCone {
         (u, v) = ltc_rotate_pair(u, v);
         (c, u) = ltc_boost_pair(c, u);
         (c, v) = ltc_boost_pair(c, v);
+        let [cc, uu, vv] = [c, u, v].map(DVec3::length_squared);
+        let perpendicular = |a: DVec3, b: DVec3, size: f64| a.dot(b).powi(2) <= CONE_COS2 * size;
+        if perpendicular(u, v, uu * vv) && perpendicular(c, u, cc * uu) {
+            break;
+        }
     }
     if u.length_squared() > v.length_squared() {
         (u, v) = (v, -u);
@@ -243,7 +251,7 @@ fn ltc_transform_cone(lobe: &LtcLobe, axis: DVec3, sin2: f64) -> EllipticCone {
 fn ltc_rotate_pair(u: DVec3, v: DVec3) -> (DVec3, DVec3) {
     let product = 2.0 * u.dot(v);
     let difference = v.length_squared() - u.length_squared();
-    let sum = difference.abs() + difference.hypot(product);
+    let sum = difference.abs() + (difference * difference + product * product).sqrt();
     if sum <= 0.0 {
         return (u, v);
     }

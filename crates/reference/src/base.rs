@@ -36,6 +36,8 @@ pub(crate) fn base_radiance(
     // What the surface does not reflect reaches the body.
     let body = point.diffuse * (DVec3::ONE - albedo).max(DVec3::ZERO);
 
+    // Metals have no body to light.
+    let has_body = body != DVec3::ZERO;
     let (mut specular, mut diffuse) = (DVec3::ZERO, DVec3::ZERO);
     for light in &views.views {
         let (integrals, form_factor, radiance) = match light {
@@ -48,7 +50,11 @@ pub(crate) fn base_radiance(
                 };
                 (
                     sphere(&lobe, cap.axis, sin2),
-                    lambert_sphere(cap.axis, sin2),
+                    if has_body {
+                        lambert_sphere(cap.axis, sin2)
+                    } else {
+                        0.0
+                    },
                     radiance,
                 )
             }
@@ -65,7 +71,12 @@ pub(crate) fn base_radiance(
                         vertices[if i + 1 < vertices.len() { i + 1 } else { 0 }],
                     );
                 }
-                (ltc_end(&state, &lobe), lambert_polygon(vertices), radiance)
+                let form_factor = if has_body {
+                    lambert_polygon(vertices)
+                } else {
+                    0.0
+                };
+                (ltc_end(&state, &lobe), form_factor, radiance)
             }
         };
         specular += *radiance * reflectance(integrals);

@@ -93,6 +93,10 @@ impl<'a> Prepared<'a> {
         self.triangle_lists().of(first + hit.triangle as usize)
     }
 
+    fn is_scratched(&self, hit: &Hit) -> bool {
+        !self.scratches.tree.objects[hit.object as usize].is_empty()
+    }
+
     /// The tables of the scratches' profiles.
     pub fn tables(&self) -> &ScratchTables {
         &self.tables
@@ -234,6 +238,9 @@ impl Way<'_> {
         let alone = (self.method.footprint == PixelFilter::Off).then(|| point.without_footprint());
         let scratched = alone.as_ref().unwrap_or(&point);
         views.look_from(scratched);
+        if self.published.is_none() && self.prepared.is_scratched(&hit) {
+            views.ready_for_scratches(scratched);
+        }
         let masked = self.scratches(&hit, scratched, views);
         self.shade_surface(&masked, &point, views, depth_m)
     }

@@ -34,13 +34,13 @@ pub(crate) struct LightViews<'a> {
     pub views: Vec<LightView>,
     /// From the point to the middle of each, held at its radius or above.
     pub distances_m: Vec<f64>,
-    /// How xi moves towards each over one standard deviation of the pixel's filter, to the right and down: `band_moves`.
+    /// For scratches, see [`LightViews::ready_for_scratches`]: how xi moves towards each over one standard deviation of the pixel's filter, to the right and down: `band_moves`.
     pub moves: Vec<[DVec2; 2]>,
     /// Polygon vertices relative to the point, metres.
     pub vertices: Vec<DVec3>,
     /// Unit directions to them.
     pub directions: Vec<DVec3>,
-    /// Edges from one to the next.
+    /// For scratches: edges from one to the next.
     pub edges: Vec<OutlineEdge>,
 }
 
@@ -75,7 +75,7 @@ impl<'a> LightViews<'a> {
                     let center = point.surface_from_world(*center_m - point.position_m);
                     if center.z > -radius_m {
                         let cap = sphere_cap(center, *radius_m);
-                        self.place(point, cap.axis, center.length().max(*radius_m));
+                        self.distances_m.push(center.length().max(*radius_m));
                         self.views.push(LightView::Sphere {
                             cap,
                             radiance: DVec3::from(*radiance),
@@ -103,12 +103,10 @@ impl<'a> LightViews<'a> {
                         .extend(self.vertices[first..].iter().map(|v| v.normalize_or_zero()));
                     let vertices = first..self.vertices.len();
                     let sets = self.vertices[first..].iter().any(|v| v.z < 0.0);
-                    self.edges
-                        .extend(OutlineEdge::around(&self.directions[vertices.clone()]));
                     let (center_m, radius_m) = light.bounding_sphere();
                     let center = point.surface_from_world(center_m - point.position_m);
                     let bound = sphere_cap(center, radius_m);
-                    self.place(point, bound.axis, center.length().max(radius_m));
+                    self.distances_m.push(center.length().max(radius_m));
                     self.views.push(LightView::Polygon {
                         light: index,
                         vertices,
@@ -123,15 +121,23 @@ impl<'a> LightViews<'a> {
         }
     }
 
-    /// A light's distance, and what a pixel makes of it.
-    fn place(&mut self, point: &SurfacePoint, wi: DVec3, distance_m: f64) {
-        let (per_o, per_i) = (1.0 / point.distance_m, 1.0 / distance_m);
-        self.distances_m.push(distance_m);
-        self.moves.push(std::array::from_fn(|j| {
-            let axis_m = point.surface_from_world(point.footprint_axes_m[j]);
-            let turn = point.normal_turns[j].truncate();
-            band_moves(turn, axis_m, point.wo, per_o, wi, per_i)
-        }));
+    /// Finds what all scratches at the point share; only once there are any.
+    pub fn ready_for_scratches(&mut self, point: &SurfacePoint) {
+        let axes_m = point
+            .footprint_axes_m
+            .map(|step| point.surface_from_world(step));
+        let per_o = 1.0 / point.distance_m;
+        for (view, distance_m) in self.views.iter().zip(&self.distances_m) {
+            let (LightView::Sphere { cap, .. } | LightView::Polygon { bound: cap, .. }) = view;
+            self.moves.push(std::array::from_fn(|j| {
+                let turn = point.normal_turns[j].truncate();
+                band_moves(turn, axes_m[j], point.wo, per_o, cap.axis, 1.0 / distance_m)
+            }));
+            if let LightView::Polygon { vertices, .. } = view {
+                let directions = &self.directions[vertices.clone()];
+                self.edges.extend(OutlineEdge::around(directions));
+            }
+        }
     }
 
     /// A polygon made ready for many scratches.

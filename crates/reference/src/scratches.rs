@@ -70,6 +70,9 @@ pub(crate) fn each_segment(
     tree.gather(object, point.position_m.as_vec3(), reach, visit);
 }
 
+/// A segment with less than this share of its line is left out: that is the Gaussian's tail beyond 5.5 standard deviations.
+const SHARE_MIN: f64 = 2e-8;
+
 /// A pixel as the scratches under it see it: what is the same for all of them.
 struct Pixel<'a> {
     point: &'a SurfacePoint,
@@ -146,7 +149,7 @@ impl<'a> Pixel<'a> {
             footprint,
             self.point.coherence_um,
         );
-        (share.segment > 0.0).then(|| {
+        (share.segment > SHARE_MIN * share.line).then(|| {
             let frame = BandFrame { tangent: t };
             let variance_um2 = footprint.across_um2 + self.window_um2;
             SegmentView {
