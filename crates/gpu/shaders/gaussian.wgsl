@@ -1,12 +1,15 @@
 // The normal distribution in single precision, which WGSL lacks.
-// Milton Abramowitz and Irene Stegun, "Handbook of Mathematical Functions", 1964, 7.1.26 (erf, absolute error 1.5e-7);
+// Milton Abramowitz and Irene Stegun, "Handbook of Mathematical Functions", 1964, 7.1.28 (erf, absolute error 3e-7);
 // Mike Giles, "Approximating the erfinv function", GPU Computing Gems, 2011.
 
 // The error function.
 fn gaussian_erf(x: f32) -> f32 {
-    let t = 1.0 / (1.0 + 0.3275911 * abs(x));
-    let p = t * (0.254829592 + t * (-0.284496736 + t * (1.421413741 + t * (-1.453152027 + t * 1.061405429))));
-    return sign(x) * (1.0 - p * exp(-min(x * x, 80.0)));
+    let a = min(abs(x), 9.0);
+    let p = a * (0.0705230784 + a * (0.0422820123 + a * (0.0092705272 + a * (0.0001520143 + a * (0.0002765672 + a * 0.0000430638)))));
+    let p2 = (1.0 + p) * (1.0 + p);
+    let p4 = p2 * p2;
+    let p8 = p4 * p4;
+    return sign(x) * (1.0 - 1.0 / (p8 * p8));
 }
 
 // erf(high) - erf(low). Where the two are close, the difference of two rounded values would be noise.

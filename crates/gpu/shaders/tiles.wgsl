@@ -10,6 +10,9 @@ const TILE_MARGIN_PX: f32 = 0.1;
 // Where shading bends the surface by more than this the footprint in the picture is not what the line tells.
 const TILE_BENT: f32 = 0.05;
 
+// Segments that a walk finds before it looks at them.
+const TILE_FOUND: u32 = 32u;
+
 // What the pixels of a tile see of one object.
 struct TileSight {
     object: u32,                // + 1; 0 if they see none
@@ -36,21 +39,31 @@ fn tiles(@builtin(global_invocation_id) id: vec3u) {
         at = object.first_node;
         end = object.end_node;
     }
-    while at < end && found + TILE_HEAD + LEAF_SEGMENTS <= frame.tile_entries && gather_rounds < GATHER_MAX_ROUNDS {
-        let node = scratch_node(at);
-        // Lanes that a software driver has switched off read zeros, and would walk for ever.
-        if node.skip <= at {
-            break;
+    // In two loops by turns: what leaves hold is found, and looked at.
+    var segments: array<u32, TILE_FOUND>;
+    while at < end && found + TILE_HEAD + TILE_FOUND <= frame.tile_entries && gather_rounds < GATHER_MAX_ROUNDS {
+        var count = 0u;
+        while at < end && count + LEAF_SEGMENTS <= TILE_FOUND && gather_rounds < GATHER_MAX_ROUNDS {
+            let node = scratch_node(at);
+            // Lanes that a software driver has switched off read zeros, and would walk for ever.
+            if node.skip <= at {
+                break;
+            }
+            gather_rounds += 2u;
+            let touches = all(node.min_m <= sight.upper_m) && all(node.max_m >= sight.lower_m);
+            at = select(node.skip, at + 1u, touches);
+            let first_segment = node.leaf & ((1u << LEAF_FIRST_BITS) - 1u);
+            let segment_count = select(0u, node.leaf >> LEAF_FIRST_BITS, touches);
+            for (var i = 0u; i < segment_count; i += 1u) {
+                segments[count] = first_segment + i;
+                count += 1u;
+            }
         }
-        gather_rounds += 2u;
-        let touches = all(node.min_m <= sight.upper_m) && all(node.max_m >= sight.lower_m);
-        at = select(node.skip, at + 1u, touches);
-        let first_segment = node.leaf & ((1u << LEAF_FIRST_BITS) - 1u);
-        let segment_count = select(0u, node.leaf >> LEAF_FIRST_BITS, touches);
-        for (var i = 0u; i < segment_count; i += 1u) {
-            let line = tile_line(first_segment + i, corner, sight);
+        for (var i = 0u; i < count; i += 1u) {
+            gather_rounds += 1u;
+            let line = tile_line(segments[i], corner, sight);
             if line.touches {
-                textureStore(tile_lists_out, row_texel(first + TILE_HEAD + found), vec4u(first_segment + i, line.packed, 0u, 0u));
+                textureStore(tile_lists_out, row_texel(first + TILE_HEAD + found), vec4u(segments[i], line.packed, 0u, 0u));
                 found += 1u;
             }
         }
