@@ -3,15 +3,10 @@
 @group(3) @binding(0) var visibility: texture_2d<u32>;
 @group(3) @binding(1) var<storage, read_write> film: Film;
 
-// A software driver gives each of its threads one piece of a dispatch. Strided by so many, the pieces are equally dear, be they
-// of the object or of its background. 1 on GPUs, which want neighbours together.
-override FILM_STRIDE: u32 = 1u;
-
-// The pixel of an invocation: 8 x 8 of them in a workgroup, which numbers a multiple of FILM_STRIDE.
+// The pixel of an invocation: 8 x 8 of them in a workgroup.
 fn film_pixel(workgroup: vec2u, workgroups: vec2u, local: vec2u) -> vec2u {
     let i = workgroup.y * workgroups.x + workgroup.x;
-    let piece = workgroups.x * workgroups.y / FILM_STRIDE;
-    let strided = i % piece * FILM_STRIDE + i / piece;
+    let strided = walk_strided(i, workgroups.x * workgroups.y);
     let tile = vec2u(strided % workgroups.x, strided / workgroups.x);
     return tile * 8u + local + vec2u(0u, frame.rows.x);
 }

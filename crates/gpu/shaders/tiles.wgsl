@@ -23,14 +23,19 @@ struct TileSight {
 }
 
 @compute @workgroup_size(64)
-fn tiles(@builtin(global_invocation_id) id: vec3u) {
+fn tiles(
+    @builtin(workgroup_id) workgroup: vec3u,
+    @builtin(num_workgroups) workgroups: vec3u,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let tile = 64u * walk_strided(workgroup.x, workgroups.x) + lane;
     let counts = tile_counts();
-    if id.x >= counts.x * counts.y {
+    if tile >= counts.x * counts.y {
         return;
     }
-    let corner = tile_corner(id.x);
+    let corner = tile_corner(tile);
     let sight = tile_sight(corner);
-    let first = id.x * frame.tile_entries;
+    let first = tile * frame.tile_entries;
     var found = 0u;
     var at = 0u;
     var end = 0u;
@@ -71,11 +76,11 @@ fn tiles(@builtin(global_invocation_id) id: vec3u) {
     tile_store(first, 0u, vec2u(found, 0u));
     tile_store(first, 1u, vec2u(sight.object, bitcast<u32>(sqrt(sight.reach2_px))));
     if sight.object == 0u {
-        queue_push(QUEUE_EMPTY, id.x);
+        queue_push(QUEUE_EMPTY, tile);
     } else if sight.one_object && at >= end {
-        queue_push(QUEUE_LISTED, id.x);
+        queue_push(QUEUE_LISTED, tile);
     } else {
-        queue_push(QUEUE_WALKED, id.x);
+        queue_push(QUEUE_WALKED, tile);
     }
 }
 

@@ -1,4 +1,5 @@
-// A walk over the scratches under a pixel, which may be left and gone on with in another dispatch.
+// A walk over the scratches under a pixel, which may be left and gone on with in another dispatch; and in which order pixels are
+// walked.
 
 // Loop rounds of this invocation. A software driver ends loops after 65,536, its neighbours' counted in; the host lowers
 // the bound there, and the walk goes on in another dispatch.
@@ -13,3 +14,13 @@ struct ScratchWalk {
 
 // Set in ScratchWalk.at while a list is gone through; the rest is the place in it. Else it is a node of the hierarchy.
 const WALK_LISTED: u32 = 0x80000000u;
+
+// A software driver gives each of its threads one piece of a dispatch. Strided by so many, the pieces are equally dear, be they
+// of the object or of its background. 1 on GPUs, which want neighbours together.
+override WALK_STRIDE: u32 = 1u;
+
+// The place of workgroup `i` of `count`, a multiple of WALK_STRIDE.
+fn walk_strided(i: u32, count: u32) -> u32 {
+    let piece = count / WALK_STRIDE;
+    return i % piece * WALK_STRIDE + i / piece;
+}

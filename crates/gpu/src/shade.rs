@@ -67,7 +67,7 @@ const WORKGROUP_PX: u32 = 8;
 const SOFTWARE_MAX_ROUNDS: f64 = 5_000.0;
 
 /// Into how many strides a software driver's dispatch is cut. More than its threads, so that each has several.
-const SOFTWARE_STRIDE: u32 = 64;
+pub(crate) const SOFTWARE_STRIDE: u32 = 64;
 
 /// The entry file.
 fn pass_of(variant: &ShadeVariant) -> &'static shaders::Module {
@@ -134,7 +134,7 @@ fn constants_of(variant: &ShadeVariant) -> [(&'static str, f64); 14] {
 }
 
 /// Whether the device ends long loops.
-fn is_bounded(gpu: &Gpu) -> bool {
+pub(crate) fn is_bounded(gpu: &Gpu) -> bool {
     gpu.adapter.kind == AdapterKind::Software
 }
 
@@ -143,7 +143,7 @@ impl ShadeVariant {
     pub fn constants(&self, gpu: &Gpu, text: &str) -> Vec<(&'static str, f64)> {
         let software = [
             ("GATHER_MAX_ROUNDS", SOFTWARE_MAX_ROUNDS),
-            ("FILM_STRIDE", SOFTWARE_STRIDE.into()),
+            ("WALK_STRIDE", SOFTWARE_STRIDE.into()),
         ];
         constants_of(self)
             .into_iter()

@@ -6,7 +6,7 @@
 use crate::bindings::Layouts;
 use crate::device::Gpu;
 use crate::film::Film;
-use crate::shade::{ShadeVariant, compute_pipeline};
+use crate::shade::{SOFTWARE_STRIDE, ShadeVariant, compute_pipeline, is_bounded};
 use crate::shaders;
 use crate::tile_room::Queue;
 use crate::timing::Timing;
@@ -16,6 +16,8 @@ pub(crate) struct TilesPasses {
     tiles: wgpu::ComputePipeline,
     shade: wgpu::ComputePipeline,
     background: wgpu::ComputePipeline,
+    /// The dispatch over tiles is a multiple of this.
+    stride: u32,
 }
 
 const WORKGROUP_TILES: u32 = 64;
@@ -31,6 +33,7 @@ impl TilesPasses {
             tiles: pipeline(&shaders::TILES, "tiles", &layouts.tiles),
             shade: pipeline(&shaders::SHADE_TILES, "shade", &layouts.film),
             background: pipeline(&shaders::BACKGROUND, "background", &layouts.film),
+            stride: if is_bounded(gpu) { SOFTWARE_STRIDE } else { 1 },
         }
     }
 
@@ -56,7 +59,10 @@ impl TilesPasses {
             }
             match queue {
                 Some(queue) => tiles.dispatch(&mut pass, queue),
-                None => pass.dispatch_workgroups(tiles.count.div_ceil(WORKGROUP_TILES), 1, 1),
+                None => {
+                    let groups = tiles.count.div_ceil(WORKGROUP_TILES);
+                    pass.dispatch_workgroups(groups.next_multiple_of(self.stride), 1, 1);
+                }
             }
         };
         run("tiles", &self.tiles, &tiles.tiles_group, None);
