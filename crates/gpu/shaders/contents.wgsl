@@ -5,5 +5,7 @@ override HAS_SPHERES: bool = true;
 override HAS_POLYGONS: bool = true;
 // With more than four vertices.
 override HAS_LARGE_POLYGONS: bool = true;
+// So many that pairs with scratches are found before any is lit.
+override HAS_MANY_LIGHTS: bool = true;
 override HAS_ENVIRONMENT: bool = true;
 override HAS_TEXTURES: bool = true;

@@ -19,11 +19,17 @@ struct GatherBatch {
     lit: array<u32, GATHER_SEGMENTS>,           // which of them a light reaches
 }
 
+// Loop rounds that a segment may take: to be asked for and lit by each light on several lines, and by the environment.
+fn gather_rounds_a_segment() -> u32 {
+    return 1u + 8u * frame.light_count + select(0u, 2u * ENVIRONMENT_CELLS, HAS_ENVIRONMENT);
+}
+
 // Walks on under the point's footprint, to the object's last node or until the rounds are spent.
 fn gather_scratches(point: SurfacePoint, object: Object, list: SegmentList, walk: ptr<function, ScratchWalk>) {
     let pixel = gather_pixel(point);
     var batch: GatherBatch;
     var segments: array<u32, GATHER_FOUND>;
+    let most = clamp(GATHER_MAX_ROUNDS / gather_rounds_a_segment(), LEAF_SEGMENTS, GATHER_FOUND);
     var sums = (*walk).sums;
     while (*walk).at < object.end_node || (*walk).at >= WALK_LISTED {
         if gather_rounds >= GATHER_MAX_ROUNDS {
@@ -32,9 +38,9 @@ fn gather_scratches(point: SurfacePoint, object: Object, list: SegmentList, walk
         gather_rounds += 1u;
         var found = 0u;
         if METHOD_LOOKUP == LOOKUP_TRIANGLES {
-            found = gather_find_listed(list, walk, &segments);
+            found = gather_find_listed(list, most, walk, &segments);
         } else {
-            found = gather_find(point, object, walk, &segments);
+            found = gather_find(point, object, most, walk, &segments);
         }
         batch.count = 0u;
         for (var i = 0u; i < found; i += 1u) {
@@ -49,12 +55,13 @@ fn gather_scratches(point: SurfacePoint, object: Object, list: SegmentList, walk
 // Stage 1, from a triangle's list: the segments that may touch the pixel, until the batch is full.
 fn gather_find_listed(
     list: SegmentList,
+    most: u32,
     walk: ptr<function, ScratchWalk>,
     segments: ptr<function, array<u32, GATHER_FOUND>>,
 ) -> u32 {
     var found = 0u;
     var at = (*walk).at & ~WALK_LISTED;
-    while at < list.count && found < GATHER_FOUND && gather_rounds < GATHER_MAX_ROUNDS {
+    while at < list.count && found < most && gather_rounds < GATHER_MAX_ROUNDS {
         gather_rounds += 1u;
         (*segments)[found] = triangle_list_segment(list.first + at);
         found += 1u;
@@ -68,6 +75,7 @@ fn gather_find_listed(
 fn gather_find(
     point: SurfacePoint,
     object: Object,
+    most: u32,
     walk: ptr<function, ScratchWalk>,
     segments: ptr<function, array<u32, GATHER_FOUND>>,
 ) -> u32 {
@@ -76,7 +84,7 @@ fn gather_find(
     let upper = point.position_m + reach;
     var at = (*walk).at;
     var found = 0u;
-    while at < object.end_node && found + LEAF_SEGMENTS <= GATHER_FOUND && gather_rounds < GATHER_MAX_ROUNDS {
+    while at < object.end_node && found + LEAF_SEGMENTS <= most && gather_rounds < GATHER_MAX_ROUNDS {
         let node = scratch_node(at);
         // Lanes that a software driver has switched off read zeros, and would walk for ever.
         if node.skip <= at {
@@ -139,37 +147,10 @@ fn gather_weigh(
 // Stages 3 and 4: the light of a batch.
 fn gather_light(point: SurfacePoint, pixel: GatherPixel, batch: ptr<function, GatherBatch>) -> vec3f {
     var radiance = vec3f(0.0);
-    if HAS_SPHERES || HAS_POLYGONS {
-        let light_count = select(frame.light_count, 0u, (*batch).count == 0u);
-        for (var l = 0u; l < light_count; l += 1u) {
-            gather_rounds += 1u;
-            let seen = gather_light_seen(point, pixel, l);
-            let reached = gather_reached(point, pixel, seen, batch);
-            if HAS_SPHERES {
-                for (var i = 0u; i < select(0u, reached, seen.kind == LIGHT_SPHERE); i += 1u) {
-                    gather_rounds += 1u;
-                    let slot = (*batch).lit[i];
-                    let lit = gather_lit((*batch).grooves[slot], (*batch).tangents[slot], (*batch).offsets_um[slot]);
-                    radiance += (*batch).shares[slot] * seen.radiance * gather_sphere(point, pixel, lit, seen);
-                }
-            }
-            if HAS_POLYGONS {
-                for (var i = 0u; i < select(0u, reached, seen.kind == LIGHT_POLYGON && seen.is_small); i += 1u) {
-                    gather_rounds += 1u;
-                    let slot = (*batch).lit[i];
-                    let lit = gather_lit((*batch).grooves[slot], (*batch).tangents[slot], (*batch).offsets_um[slot]);
-                    radiance += (*batch).shares[slot] * seen.radiance * gather_polygon(point, pixel, lit, seen);
-                }
-            }
-            if HAS_LARGE_POLYGONS {
-                for (var i = 0u; i < select(0u, reached, seen.kind == LIGHT_POLYGON && !seen.is_small); i += 1u) {
-                    gather_rounds += 1u;
-                    let slot = (*batch).lit[i];
-                    let lit = gather_lit((*batch).grooves[slot], (*batch).tangents[slot], (*batch).offsets_um[slot]);
-                    radiance += (*batch).shares[slot] * seen.radiance * gather_large_polygon(point, pixel, lit, seen);
-                }
-            }
-        }
+    if HAS_MANY_LIGHTS {
+        radiance += gather_light_pairs(point, pixel, batch);
+    } else if HAS_SPHERES || HAS_POLYGONS {
+        radiance += gather_light_by_light(point, pixel, batch);
     }
     if HAS_ENVIRONMENT {
         for (var i = 0u; i < (*batch).count; i += 1u) {
@@ -181,14 +162,109 @@ fn gather_light(point: SurfacePoint, pixel: GatherPixel, batch: ptr<function, Ga
     return radiance;
 }
 
-// Stage 3: which segments a light reaches. Most scratches are dark to most lights, and a bounding sphere tells it.
-fn gather_reached(point: SurfacePoint, pixel: GatherPixel, seen: LightSeen, batch: ptr<function, GatherBatch>) -> u32 {
-    var reached = 0u;
-    let count = select(0u, (*batch).count, seen.shines);
-    for (var i = 0u; i < count; i += 1u) {
+// Few lights: what is the same for all segments under a light is found once.
+fn gather_light_by_light(point: SurfacePoint, pixel: GatherPixel, batch: ptr<function, GatherBatch>) -> vec3f {
+    var radiance = vec3f(0.0);
+    let light_count = select(frame.light_count, 0u, (*batch).count == 0u);
+    for (var l = 0u; l < light_count; l += 1u) {
         gather_rounds += 1u;
-        (*batch).lit[reached] = i;
-        reached += u32(gather_reaches(point, pixel, seen, (*batch).tangents[i], (*batch).offsets_um[i]));
+        let seen = gather_light_seen(point, pixel, l);
+        var reached = 0u;
+        let count = select(0u, (*batch).count, seen.shines);
+        for (var i = 0u; i < count; i += 1u) {
+            gather_rounds += 1u;
+            (*batch).lit[reached] = i;
+            reached += u32(gather_reaches(point, pixel, seen, (*batch).tangents[i], (*batch).offsets_um[i]));
+        }
+        if HAS_SPHERES {
+            for (var i = 0u; i < select(0u, reached, seen.kind == LIGHT_SPHERE); i += 1u) {
+                radiance += gather_pair(point, pixel, seen, (*batch).lit[i], LIGHT_SPHERE, batch);
+            }
+        }
+        if HAS_POLYGONS {
+            for (var i = 0u; i < select(0u, reached, seen.kind == LIGHT_POLYGON && seen.is_small); i += 1u) {
+                radiance += gather_pair(point, pixel, seen, (*batch).lit[i], LIGHT_POLYGON, batch);
+            }
+        }
+        if HAS_LARGE_POLYGONS {
+            for (var i = 0u; i < select(0u, reached, seen.kind == LIGHT_POLYGON && !seen.is_small); i += 1u) {
+                radiance += gather_pair(point, pixel, seen, (*batch).lit[i], LIGHT_LARGE_POLYGON, batch);
+            }
+        }
     }
-    return reached;
+    return radiance;
+}
+
+// Many lights: first all pairs of a segment and a light that reaches it are found, spheres from the front, polygons from the
+// back; then those are lit, whichever light it is. Most pairs are dark.
+const GATHER_PAIRS: u32 = 128u;
+
+fn gather_light_pairs(point: SurfacePoint, pixel: GatherPixel, batch: ptr<function, GatherBatch>) -> vec3f {
+    var radiance = vec3f(0.0);
+    var pairs: array<u32, GATHER_PAIRS>;
+    // So that all pairs have room; with more lights than that, they take turns.
+    let at_once = GATHER_PAIRS / max((*batch).count, 1u);
+    let light_count = select(frame.light_count, 0u, (*batch).count == 0u);
+    for (var first = 0u; first < light_count; first += at_once) {
+        gather_rounds += 1u;
+        var spheres = 0u;
+        var polygons = 0u;
+        let end = min(first + at_once, light_count);
+        for (var l = first; l < end; l += 1u) {
+            gather_rounds += 1u;
+            let seen = gather_light_seen(point, pixel, l);
+            let count = select(0u, (*batch).count, seen.shines);
+            for (var i = 0u; i < count; i += 1u) {
+                gather_rounds += 1u;
+                let reaches = gather_reaches(point, pixel, seen, (*batch).tangents[i], (*batch).offsets_um[i]);
+                let is_sphere = seen.kind == LIGHT_SPHERE;
+                pairs[select(GATHER_PAIRS - 1u - polygons, spheres, is_sphere)] = i | (l << 8u);
+                spheres += u32(reaches && is_sphere);
+                polygons += u32(reaches && !is_sphere);
+            }
+        }
+        if HAS_SPHERES {
+            for (var i = 0u; i < spheres; i += 1u) {
+                let seen = gather_light_seen(point, pixel, pairs[i] >> 8u);
+                radiance += gather_pair(point, pixel, seen, pairs[i] & 0xffu, LIGHT_SPHERE, batch);
+            }
+        }
+        if HAS_POLYGONS {
+            for (var i = 0u; i < polygons; i += 1u) {
+                let pair = pairs[GATHER_PAIRS - 1u - i];
+                let seen = gather_light_seen(point, pixel, pair >> 8u);
+                if HAS_LARGE_POLYGONS && !seen.is_small {
+                    radiance += gather_pair(point, pixel, seen, pair & 0xffu, LIGHT_LARGE_POLYGON, batch);
+                } else {
+                    radiance += gather_pair(point, pixel, seen, pair & 0xffu, LIGHT_POLYGON, batch);
+                }
+            }
+        }
+    }
+    return radiance;
+}
+
+// A kind of its own here: a polygon whose outline is walked vertex by vertex.
+const LIGHT_LARGE_POLYGON: u32 = 2u;
+
+// The light of one pair; `kind` is known where this is called.
+fn gather_pair(
+    point: SurfacePoint,
+    pixel: GatherPixel,
+    seen: LightSeen,
+    slot: u32,
+    kind: u32,
+    batch: ptr<function, GatherBatch>,
+) -> vec3f {
+    gather_rounds += 1u;
+    let lit = gather_lit((*batch).grooves[slot], (*batch).tangents[slot], (*batch).offsets_um[slot]);
+    var radiance: vec3f;
+    if kind == LIGHT_SPHERE {
+        radiance = gather_sphere(point, pixel, lit, seen);
+    } else if kind == LIGHT_POLYGON {
+        radiance = gather_polygon(point, pixel, lit, seen);
+    } else {
+        radiance = gather_large_polygon(point, pixel, lit, seen);
+    }
+    return (*batch).shares[slot] * seen.radiance * radiance;
 }

@@ -7,7 +7,7 @@
 // Two words a pixel: a bit for each scratch at hand.
 var<workgroup> touches: array<atomic<u32>, 128>;
 var<workgroup> listed_count: u32;
-// Whether a pixel saw more scratches than a batch holds, and the whole tile goes on by walks.
+// Whether a pixel saw more scratches than there is room for, and goes on by a walk.
 var<workgroup> tile_overflows: atomic<u32>;
 
 @compute @workgroup_size(8, 8)
@@ -36,6 +36,8 @@ fn shade(
     var batch: GatherBatch;
     var sums: ScratchSums;
     var overflows = false;
+    // A walk may be left where a device ends long loops; this is not.
+    let room = min(GATHER_SEGMENTS, GATHER_MAX_ROUNDS / gather_rounds_a_segment());
     for (var first = 0u; first < count; first += 64u) {
         atomicStore(&touches[2u * lane], 0u);
         atomicStore(&touches[2u * lane + 1u], 0u);
@@ -49,7 +51,7 @@ fn shade(
         var high = atomicLoad(&touches[2u * lane + 1u]);
         workgroupBarrier();
         let touching = countOneBits(low) + countOneBits(high);
-        overflows = overflows || batch.count + touching > GATHER_SEGMENTS;
+        overflows = overflows || batch.count + touching > room;
         let wanted = select(touching, 0u, overflows || seen.x == 0u);
         for (var i = 0u; i < wanted; i += 1u) {
             gather_rounds += 1u;

@@ -33,9 +33,13 @@ pub(crate) struct Contents {
     pub spheres: bool,
     pub polygons: bool,
     pub large_polygons: bool,
+    pub many_lights: bool,
     pub environment: bool,
     pub textures: bool,
 }
+
+/// Up to so many lights a pixel looks at one after the other, with all scratches under it.
+const FEW_LIGHTS: usize = 4;
 
 impl Contents {
     pub fn of(scene: &Scene) -> Self {
@@ -47,6 +51,7 @@ impl Contents {
             large_polygons: has(
                 |light| matches!(light, Light::Polygon { vertices_m, .. } if vertices_m.len() > 4),
             ),
+            many_lights: scene.lights.len() > FEW_LIGHTS,
             environment: scene.environment.is_some(),
             textures: !scene.textures.is_empty(),
         }
@@ -79,7 +84,7 @@ fn pass_of(variant: &ShadeVariant) -> &'static shaders::Module {
 }
 
 /// What the shader is specialised by; names and numbers are those of contents.wgsl and method.wgsl.
-fn constants_of(variant: &ShadeVariant) -> [(&'static str, f64); 14] {
+fn constants_of(variant: &ShadeVariant) -> [(&'static str, f64); 15] {
     let ShadeVariant { method, has } = variant;
     let (spectrum, wavelengths) = match method.spectrum {
         Spectrum::Table => (0, 0),
@@ -120,6 +125,7 @@ fn constants_of(variant: &ShadeVariant) -> [(&'static str, f64); 14] {
         ("HAS_SPHERES", has.spheres.into()),
         ("HAS_POLYGONS", has.polygons.into()),
         ("HAS_LARGE_POLYGONS", has.large_polygons.into()),
+        ("HAS_MANY_LIGHTS", has.many_lights.into()),
         ("HAS_ENVIRONMENT", has.environment.into()),
         ("HAS_TEXTURES", has.textures.into()),
         ("METHOD_SPECTRUM", spectrum.into()),

@@ -383,3 +383,6 @@ fn octahedral(normal: Vec3) -> u32 {
     let byte = |value: f32| u32::from((value * 127.0).round() as i8 as u8);
     byte(folded(v.x, v.y)) | byte(folded(v.y, v.x)) << 8
 }
+
+#[cfg(test)]
+mod tests;
