@@ -13,8 +13,8 @@ pub(crate) const TILE_LISTS_FORMAT: TextureFormat = TextureFormat::Rg32Uint;
 pub(crate) const TILE_PX: u32 = 8;
 /// Workgroups that every WebGPU device takes in one dispatch: one for each tile.
 pub(crate) const TILES_MAX: u32 = 65_535;
-/// Rows of a texture that every WebGPU device has.
-const ROWS_MAX: u32 = 8192;
+/// Texels of all lists together: 128 MiB, and no more rows than every WebGPU device has.
+const TEXELS_MAX: u32 = 1 << 24;
 /// Room of a tile: more scratches than a footprint of usual wear holds. What does not fit is found pixel by pixel.
 const TILE_ENTRIES_MAX: u32 = 512;
 
@@ -55,6 +55,10 @@ impl TileRoom {
         } else {
             0
         };
+        if count > TILES_MAX {
+            let (needed, allowed) = (count.into(), TILES_MAX.into());
+            return Err(gpu.too_large("picture", needed, allowed, "tiles of 8 x 8 pixels"));
+        }
         let lists = table(gpu, "tile lists", count * entries(count), TILE_LISTS_FORMAT).await?;
         let queue_bytes = COUNTS_BYTES + u64::from(3 * count.max(1)) * 4;
         let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST;
@@ -104,7 +108,7 @@ impl TileRoom {
 }
 
 fn entries(tiles: u32) -> u32 {
-    (ROW_TEXELS * ROWS_MAX / tiles.max(1)).min(TILE_ENTRIES_MAX)
+    (TEXELS_MAX / tiles.max(1)).min(TILE_ENTRIES_MAX)
 }
 
 /// A texture of so many texels, row after row, which one pass writes and the next one reads.
