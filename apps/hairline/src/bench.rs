@@ -4,6 +4,7 @@ mod counts;
 mod error;
 mod figures;
 mod machine;
+mod off;
 mod plots;
 mod report;
 mod scaling;
@@ -59,7 +60,7 @@ pub fn run(arguments: &cli::Bench) -> Result<(), Failure> {
     }
     if arguments.scene.is_some() && arguments.part.iter().any(|part| *part != Part::Table) {
         return Err(Failure::Input(anyhow!(
-            "--part scratches, lights and resolution vary the bench's own scene; with a SCENE there is --part table alone"
+            "--part scratches, lights, resolution and off vary the bench's own scene; with a SCENE there is --part table alone"
         )));
     }
     // Before the work: nobody should wait for figures that then have no place to go.
@@ -156,6 +157,7 @@ fn measure(
         table: Vec::new(),
         scaling: Vec::new(),
         counts: Vec::new(),
+        off: None,
     };
     if let Some(path) = &arguments.scene {
         let overrides = Overrides {
@@ -175,7 +177,7 @@ fn measure(
     if wanted(Part::Table) {
         progress.restart("the table");
         figures.table = table::of_the_talk(worker, base, ours, thoroughness, &progress)?;
-        figures.counts = counts::of_the_table(base, ours)?;
+        figures.counts = counts::of_the_table(base, ours, worker.adapter().is_some())?;
     }
     for (part, measure) in [
         (Part::Scratches, scaling::scratches as scaling::Measure),
@@ -186,6 +188,10 @@ fn measure(
             let curve = measure(worker, base, ours, thoroughness, &progress)?;
             figures.scaling.push(curve);
         }
+    }
+    if wanted(Part::Off) {
+        let off = off::measure(worker, base, ours, thoroughness, &progress)?;
+        figures.off = Some(off);
     }
     Ok(figures)
 }

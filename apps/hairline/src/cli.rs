@@ -214,6 +214,8 @@ pub enum Part {
     Lights,
     /// From half the size to twice it.
     Resolution,
+    /// What a scene without scratches pays for them.
+    Off,
 }
 
 /// What waves do at a scratch.

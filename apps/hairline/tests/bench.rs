@@ -68,6 +68,19 @@ fn the_table_has_all_cells_and_the_report_says_on_what() {
     let cpu = figures["machine"]["cpu"].as_str().unwrap();
     assert!(report.contains(cpu), "{report}");
     assert!(report.contains("report-zoom.svg"));
+    // Each goal is said to be reached or not.
+    for goal in [
+        "triangle, AA off, BVH",
+        "triangle, AA on, BVH",
+        "sphere, AA off, BVH",
+        "sphere, AA on, BVH",
+    ] {
+        let line = report
+            .lines()
+            .find(|l| l.starts_with(&format!("| {goal} |")));
+        assert!(line.is_some_and(|l| l.ends_with("reached |")), "{goal}");
+    }
+    assert!(report.contains("\nReached: "));
     assert!(folder.path().join("report-zoom.svg").exists());
 }
 
@@ -85,6 +98,26 @@ fn curves_are_measured_on_the_adapter_that_the_report_names() {
     let report = fs::read_to_string(folder.path().join("report.md")).unwrap();
     assert!(report.contains(&gpu.adapter.name), "{report}");
     assert!(folder.path().join("report-resolution.svg").exists());
+}
+
+#[test]
+fn what_scratches_cost_where_there_are_none_is_measured_by_turns() {
+    let folder = tempfile::tempdir().unwrap();
+    let arguments = "bench --quick --backend cpu --size 40x24 --repetitions 3 --part off --json figures.json -o report.md";
+    let assert = hairline(folder.path(), arguments).success();
+    let shown = String::from_utf8(assert.get_output().stdout.clone()).unwrap();
+    assert!(shown.contains("without scratches, again"), "{shown}");
+    let off = &json(folder.path(), "figures.json")["off"];
+    for outcome in ["none", "again", "one"] {
+        assert!(positive(&off[outcome]), "{off}");
+    }
+    for ratio in ["again_over_none", "one_over_none"] {
+        let quartiles = [0, 1].map(|i| off[ratio]["quartiles"][i].as_f64().unwrap());
+        let median = off[ratio]["median"].as_f64().unwrap();
+        assert!(0.0 < quartiles[0] && quartiles[0] <= median && median <= quartiles[1]);
+    }
+    let report = fs::read_to_string(folder.path().join("report.md")).unwrap();
+    assert!(report.contains("## Without scratches"), "{report}");
 }
 
 #[test]
@@ -112,7 +145,7 @@ fn wrong_flags_are_2_and_nothing_is_measured() {
     for (arguments, message) in [
         (
             "bench --part everything",
-            "table, scratches, lights, resolution",
+            "table, scratches, lights, resolution, off",
         ),
         ("bench --footprint off", "leave them out"),
         ("bench --wavelengths 3", "si-fast"),

@@ -3,6 +3,7 @@
 //! [`work`], which says what each thing takes.
 
 mod tally;
+mod tile;
 mod walk;
 pub mod work;
 
@@ -15,7 +16,8 @@ use super::stage::{Lamps, Stage};
 use super::table::ways;
 use crate::failure::Failure;
 use tally::Tally;
-use walk::{Counted, TILE_PX};
+use tile::TILE_PX;
+use walk::Counted;
 
 /// Of one cell of the table, mean over the pixels that see the disk.
 #[derive(Clone, Debug, Serialize)]
@@ -38,8 +40,8 @@ pub struct Counts {
 /// Every so many tiles in x and in y one is looked at.
 const EVERY: u32 = 5;
 
-/// The lit cells at 1x.
-pub fn of_the_table(base: Stage, ours: &Method) -> Result<Vec<Counts>, Failure> {
+/// The lit cells at 1x, on a renderer with tiles or on one where each pixel walks for itself.
+pub fn of_the_table(base: Stage, ours: &Method, tiles: bool) -> Result<Vec<Counts>, Failure> {
     let mut counts = Vec::new();
     for (row, lamps) in [
         (Row::Sphere, Lamps::Sphere),
@@ -50,13 +52,20 @@ pub fn of_the_table(base: Stage, ours: &Method) -> Result<Vec<Counts>, Failure> 
         // Ours by look-ups that it has only to be compared with say nothing new.
         let own = |way: &Way| way.whose == Whose::Published || way.method.lookup == ours.lookup;
         for way in ways(ours).iter().filter(|way| own(way)) {
-            counts.push(of_way(&counted, base.size_px, row, way));
+            counts.push(of_way(&counted, base.size_px, row, way, tiles));
         }
     }
     Ok(counts)
 }
 
-fn of_way(counted: &Counted, size_px: [u32; 2], row: Row, way: &Way) -> Counts {
+fn of_way(counted: &Counted, size_px: [u32; 2], row: Row, way: &Way, has_tiles: bool) -> Counts {
+    let method = Method {
+        lookup: match way.method.lookup {
+            Lookup::Tiles if !has_tiles => Lookup::Bvh,
+            lookup => lookup,
+        },
+        ..way.method
+    };
     let tiles = size_px.map(|px| px.div_ceil(TILE_PX));
     let corners: Vec<[u32; 2]> = (0..tiles[1])
         .step_by(EVERY as usize)
@@ -65,10 +74,10 @@ fn of_way(counted: &Counted, size_px: [u32; 2], row: Row, way: &Way) -> Counts {
         .collect();
     let sum = corners
         .par_iter()
-        .map(|corner| counted.tile(*corner, &way.method))
+        .map(|corner| counted.tile(*corner, &method))
         .reduce(Default::default, |a, b| a + b);
     let per_pixel = sum.tally.over(sum.seen as f64);
-    let work = work::of(&per_pixel, row, way, way.method.lookup == Lookup::Tiles);
+    let work = work::of(&per_pixel, row, &method);
     Counts {
         row,
         method: way.whose,

@@ -24,6 +24,35 @@ pub struct Figures {
     pub table: Vec<Cell>,
     pub scaling: Vec<Curve>,
     pub counts: Vec<Counts>,
+    /// None where it was not asked for.
+    pub off: Option<Off>,
+}
+
+/// The disk without scratches, and with one that cannot be seen.
+#[derive(Serialize)]
+pub struct Off {
+    pub none: Outcome,
+    /// The same once more.
+    pub again: Outcome,
+    pub one: Outcome,
+    /// Turn by turn; None where one of them was refused.
+    pub again_over_none: Option<Spread>,
+    pub one_over_none: Option<Spread>,
+}
+
+impl Off {
+    /// Each with its name and its time over that without scratches.
+    pub fn lines(&self) -> [(&'static str, &Outcome, Option<Spread>); 3] {
+        [
+            ("without scratches", &self.none, None),
+            (
+                "without scratches, again",
+                &self.again,
+                self.again_over_none,
+            ),
+            ("with one of no depth", &self.one, self.one_over_none),
+        ]
+    }
 }
 
 /// A row of the table.

@@ -11,7 +11,9 @@ use super::counts::{Counts, work};
 use super::figures::{Columns, Figures, Row, Whose};
 use super::plots::{self, Plot};
 use super::stage::TALK_SCRATCHES;
-use super::text::{SCALED, curve_header, curve_lines, digits, refusals};
+use super::text::{
+    NOTHING, OFF_HEADER, SCALED, curve_header, curve_lines, digits, off_lines, refusals,
+};
 use crate::failure::Failure;
 
 /// What ours should gain on the published method at 1x, set down before anything was measured.
@@ -58,6 +60,7 @@ fn document(figures: &Figures, plots: &[(OsString, Plot)]) -> String {
         .and_then(|()| findings(&mut text, figures))
         .and_then(|()| scaling(&mut text, figures))
         .and_then(|()| pictures(&mut text, plots))
+        .and_then(|()| off(&mut text, figures))
         .and_then(|()| counts(&mut text, figures))
         .and_then(|()| bounds(&mut text, figures));
     text
@@ -155,17 +158,46 @@ fn findings(text: &mut String, figures: &Figures) -> std::fmt::Result {
         return Ok(());
     }
     writeln!(text, "## What was expected, and what was found\n")?;
-    writeln!(text, "Set down before anything was measured. At 1x:\n")?;
-    let header = ["published over ours, time", "expected", "found", ""];
+    writeln!(
+        text,
+        "How many times faster ours is at 1x, expected before measuring, and how the errors compare:\n"
+    )?;
+    let header = [
+        "published over ours",
+        "time, expected",
+        "time, found",
+        "error, found",
+        "",
+    ];
     markdown_header(text, &header.map(str::to_owned))?;
+    let (mut reached, mut missed) = (Vec::new(), Vec::new());
     for (row, columns, least, found) in found {
         let name = format!("{}, {}", row.name(), columns.name());
-        let verdict = if found >= *least { "met" } else { "not met" };
+        let error = figures.error_ratio(*row, 1.0, *columns);
+        let goal = format!("{name} ({found:.1} of {least})");
+        let verdict = if found >= *least {
+            reached.push(goal);
+            "reached"
+        } else {
+            missed.push(goal);
+            "not reached"
+        };
         writeln!(
             text,
-            "| {name} | at least {least} | {found:.1} | {verdict} |"
+            "| {name} | at least {least} | {found:.1} | {} | {verdict} |",
+            error.map_or_else(|| NOTHING.to_owned(), digits)
         )?;
     }
+    let listed = |goals: &[String]| match goals {
+        [] => "none".to_owned(),
+        goals => goals.join("; "),
+    };
+    writeln!(
+        text,
+        "\nReached: {}. Not reached: {}. An error ratio above 1 means that ours errs less.",
+        listed(&reached),
+        listed(&missed)
+    )?;
     writeln!(
         text,
         "\nWhat the talk's table shows, looked for in the published method's figures here:\n"
@@ -243,9 +275,9 @@ fn lists_because(figures: &Figures) -> Option<String> {
         "(a walk reads {} nodes and looks at {} segments for the {} that a pixel sees; a triangle's list spares the walk but holds {}, \
          the neighbours' pieces within reach of its edges included, since scratches are cut at the edges)",
         digits(walk.nodes),
-        digits(walk.fetched),
-        digits(walk.seen),
-        digits(lists.fetched)
+        digits(walk.weighed),
+        digits(walk.kept),
+        digits(lists.weighed)
     ))
 }
 
@@ -275,6 +307,44 @@ fn scaling(text: &mut String, figures: &Figures) -> std::fmt::Result {
     Ok(())
 }
 
+fn off(text: &mut String, figures: &Figures) -> std::fmt::Result {
+    let Some(off) = &figures.off else {
+        return Ok(());
+    };
+    writeln!(
+        text,
+        "## Without scratches\n\nThe disk at 1x under a sphere, by turns: without scratches, the same once more, and with a single scratch \
+         of no depth, which changes no light. Ratios are of one turn each, median and quartiles. {}\n",
+        if figures.machine.adapter.is_some() {
+            "Shaders are compiled for what a scene has: without scratches there is no code for them, with one there is all of it."
+        } else {
+            "The CPU renderer has one code for both, and asks an object first whether it has any."
+        }
+    )?;
+    markdown_header(text, &OFF_HEADER.map(str::to_owned))?;
+    for line in off_lines(off) {
+        writeln!(text, "| {} |", line.join(" | "))?;
+    }
+    let Some((again, one)) = off.again_over_none.zip(off.one_over_none) else {
+        return writeln!(text);
+    };
+    let percent = |ratio: f64| digits(100.0 * (ratio - 1.0).abs());
+    let [low, high] = again.quartiles;
+    let noise = (high - 1.0).max(1.0 - low);
+    let costs = match one.median - 1.0 {
+        dearer if dearer.abs() <= noise => "nothing beyond that".to_owned(),
+        dearer if dearer > 0.0 => format!("{} % more", percent(one.median)),
+        _ => format!("{} % less", percent(one.median)),
+    };
+    writeln!(
+        text,
+        "\nTwo times of the same scene without scratches are {} % apart in the median, their quartiles up to {} %. With the code for \
+         scratches and one to look for, a picture costs {costs}.\n",
+        percent(again.median),
+        digits(100.0 * noise)
+    )
+}
+
 fn pictures(text: &mut String, plots: &[(OsString, Plot)]) -> std::fmt::Result {
     for (name, plot) in plots {
         writeln!(text, "![{}]({})\n", plot.title, name.to_string_lossy())?;
@@ -288,8 +358,17 @@ fn counts(text: &mut String, figures: &Figures) -> std::fmt::Result {
     }
     writeln!(
         text,
-        "## What is done for a pixel\n\nCounted at 1x by walks over the same index on the CPU, mean over the pixels that see the disk. A tile's \
-         walk counts as a sixty-fourth for each of its pixels.\n"
+        "## What is done for a pixel\n\nCounted at 1x by walks over the same index on the CPU, mean over the pixels that see the disk; what a tile's \
+         pixels share is dealt out among those of them that do. {}\n",
+        if figures.machine.adapter.is_some() {
+            "By tiles, one walk for 8 x 8 pixels finds leaves whose segments are projected into the picture; those whose line comes near \
+             the tile are its list. The workgroup draws each line of the list into a bit for every pixel that it comes near to, and a \
+             pixel weighs only the segments whose bit it finds. Those with a share it keeps, asks of each light which of them its bound \
+             reaches, and lights these. The published method walks, weighs and lights for each pixel on its own."
+        } else {
+            "The CPU renderer has no tiles: both methods walk for each pixel on its own, and ours asks of each light which segments its \
+             bound reaches before it lights them."
+        }
     )?;
     let mut header = vec!["a pixel".to_owned()];
     header.extend(figures.counts.iter().map(name));

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use comfy_table::{CellAlignment, ContentArrangement, LineStyle, Table, TableStyle};
 
 use super::figures::{
-    Cell, CellError, Columns, Curve, Figures, Outcome, Point, Row, Spread, Whose,
+    Cell, CellError, Columns, Curve, Figures, Off, Outcome, Point, Row, Spread, Whose,
 };
 use crate::failure::Failure;
 
@@ -25,7 +25,7 @@ pub struct Line {
 }
 
 /// What stands where nothing was measured.
-const NOTHING: &str = "–";
+pub const NOTHING: &str = "–";
 /// Behind times that were scaled.
 pub const SCALED: &str = "*";
 
@@ -66,6 +66,15 @@ impl Figures {
     pub fn speedup(&self, row: Row, zoom: f64, columns: Columns) -> Option<f64> {
         let ms = |whose| Some(self.cell(row, zoom, whose, columns)?.outcome.ms()?.median);
         Some(ms(Whose::Published)? / ms(Whose::Ours)?)
+    }
+
+    /// Error of the published method over ours.
+    pub fn error_ratio(&self, row: Row, zoom: f64, columns: Columns) -> Option<f64> {
+        let error = |whose| self.cell(row, zoom, whose, columns)?.error.as_ref();
+        let (published, ours) = (error(Whose::Published)?, error(Whose::Ours)?);
+        // Of an error that is lost in the noise no more is known than that.
+        let least = ours.relative_rms.max(ours.standard_error);
+        (least > 0.0).then(|| published.relative_rms / least)
     }
 
     /// The table's rows, block by block.
@@ -128,10 +137,7 @@ impl Figures {
                 });
             }
             block.push("published over ours, error".to_owned(), |zoom| {
-                let (published, ours) = (error(&published, zoom)?, error(&ours, zoom)?);
-                // Of an error that is lost in the noise no more is known than that.
-                let least = ours.relative_rms.max(ours.standard_error);
-                (least > 0.0).then(|| digits(published.relative_rms / least))
+                self.error_ratio(row, zoom, columns).map(digits)
             });
         }
         block
@@ -174,20 +180,33 @@ fn lookup_name(columns: Columns) -> &'static str {
 }
 
 fn time(cell: Option<&Cell>) -> Option<String> {
-    let cell = cell?;
-    match &cell.outcome {
-        Outcome::Timing(_) => {
-            let mark = if cell.outcome.scaled() { SCALED } else { "" };
-            let Spread { median, quartiles } = cell.outcome.ms()?;
-            Some(format!(
-                "{} ({} to {}){mark}",
-                digits(median),
-                digits(quartiles[0]),
-                digits(quartiles[1])
-            ))
-        }
-        Outcome::Refused(_) => Some("refused".to_owned()),
-    }
+    Some(time_of(&cell?.outcome))
+}
+
+fn time_of(outcome: &Outcome) -> String {
+    let mark = if outcome.scaled() { SCALED } else { "" };
+    outcome.ms().map_or_else(
+        || "refused".to_owned(),
+        |ms| format!("{}{mark}", spread(ms, digits)),
+    )
+}
+
+fn spread(Spread { median, quartiles }: Spread, digits: impl Fn(f64) -> String) -> String {
+    let [low, high] = quartiles.map(&digits);
+    format!("{} ({low} to {high})", digits(median))
+}
+
+pub const OFF_HEADER: [&str; 3] = ["", "ms", "over without"];
+
+pub fn off_lines(off: &Off) -> [Vec<String>; 3] {
+    off.lines().map(|(name, outcome, ratio)| {
+        let ratio = ratio.map(|ratio| spread(ratio, |v| format!("{v:.3}")));
+        vec![
+            name.to_owned(),
+            time_of(outcome),
+            ratio.unwrap_or_else(|| NOTHING.to_owned()),
+        ]
+    })
 }
 
 /// Three digits.
@@ -244,10 +263,22 @@ fn write(out: &mut impl Write, figures: &Figures) -> io::Result<()> {
         align(&mut table);
         writeln!(out, "{table}")?;
     }
+    if let Some(off) = &figures.off {
+        writeln!(out, "\nwithout scratches, ms {clock}")?;
+        let mut table = table(OFF_HEADER.map(str::to_owned).to_vec());
+        for line in off_lines(off) {
+            table.add_row(line);
+        }
+        align(&mut table);
+        writeln!(out, "{table}")?;
+    }
     let outcomes = || {
         let cells = figures.table.iter().map(|cell| &cell.outcome);
         let points = figures.scaling.iter().flat_map(|curve| &curve.points);
-        cells.chain(points.map(|point| &point.outcome))
+        let off = figures.off.iter().flat_map(|off| off.lines());
+        cells
+            .chain(points.map(|point| &point.outcome))
+            .chain(off.map(|(_, outcome, _)| outcome))
     };
     if outcomes().any(Outcome::scaled) {
         writeln!(
@@ -291,6 +322,9 @@ pub fn refusals(figures: &Figures) -> Vec<String> {
                 &point.outcome,
             );
         }
+    }
+    for (name, outcome, _) in figures.off.iter().flat_map(Off::lines) {
+        add(Whose::Ours, name.to_owned(), outcome);
     }
     reasons
 }

@@ -43,6 +43,20 @@ fn strip_rows() -> u32 {
     (WORKGROUP_ROWS * rayon::current_num_threads() as u32).min(STRIP_ROWS_MAX)
 }
 
+/// One of those that take turns.
+pub struct Turn<'a> {
+    pub scene: &'a Scene,
+    pub prepared: &'a Prepared<'a>,
+    pub ready: &'a Result<Ready, Error>,
+}
+
+/// What came of it.
+pub struct Measured {
+    pub outcome: Outcome,
+    /// Of each turn, by the clock of [`Outcome::ms`], of the rows that were rendered; empty where it was refused.
+    pub ms: Vec<f64>,
+}
+
 /// Times the same picture by several methods.
 pub fn by_turns(
     worker: &mut Worker,
@@ -51,13 +65,30 @@ pub fn by_turns(
     ready: &[Result<Ready, Error>],
     effort: &Effort,
 ) -> Result<Vec<Outcome>, Failure> {
-    let height = scene.render.size_px[1];
-    let mut runs: Vec<Runs> = ready.iter().map(|_| Runs::default()).collect();
+    let turn = |ready| Turn {
+        scene,
+        prepared,
+        ready,
+    };
+    let turns: Vec<Turn> = ready.iter().map(turn).collect();
+    let measured = in_turns(worker, &turns, effort)?;
+    Ok(measured.into_iter().map(|one| one.outcome).collect())
+}
+
+/// Times several pictures of one height.
+pub fn in_turns(
+    worker: &mut Worker,
+    turns: &[Turn],
+    effort: &Effort,
+) -> Result<Vec<Measured>, Failure> {
+    let height = turns.iter().map(|turn| turn.scene.render.size_px[1]).max();
+    let height = height.unwrap_or(1);
+    let mut runs: Vec<Runs> = turns.iter().map(|_| Runs::default()).collect();
     let mut rows = Rows::Whole;
-    for (ready, runs) in ready.iter().zip(&mut runs) {
-        match ready {
+    for (turn, runs) in turns.iter().zip(&mut runs) {
+        match turn.ready {
             Err(error) => runs.refused = Some(refusal(error)?),
-            Ok(ready) => match warm_up(worker, scene, prepared, ready) {
+            Ok(ready) => match warm_up(worker, turn, ready) {
                 Err(error) => runs.refused = Some(refusal(&error)?),
                 Ok(strip) => {
                     // A dispatch for each strip costs a software driver something: as few as can be, or the whole picture.
@@ -80,13 +111,13 @@ pub fn by_turns(
     let start = Instant::now();
     let measured = runs.iter().filter(|r| r.refused.is_none()).count();
     let end = effort.cell * measured as u32;
-    for turn in 0..effort.most {
-        if turn >= effort.least && start.elapsed() > end {
+    for repetition in 0..effort.most {
+        if repetition >= effort.least && start.elapsed() > end {
             break;
         }
-        for (ready, runs) in ready.iter().zip(&mut runs) {
-            if let (Ok(ready), None) = (ready, &runs.refused) {
-                match worker.time(scene, prepared, ready, &rows) {
+        for (turn, runs) in turns.iter().zip(&mut runs) {
+            if let (Ok(ready), None) = (turn.ready, &runs.refused) {
+                match worker.time(turn.scene, turn.prepared, ready, &rows) {
                     Ok(elapsed) => runs.push(&elapsed),
                     Err(error) => runs.refused = Some(refusal(&error)?),
                 }
@@ -94,7 +125,11 @@ pub fn by_turns(
         }
     }
     let of_rows = (rows_of(&rows, height), height);
-    Ok(runs.into_iter().map(|runs| runs.outcome(of_rows)).collect())
+    let measured = |runs: Runs| Measured {
+        ms: runs.ms().to_vec(),
+        outcome: runs.outcome(of_rows),
+    };
+    Ok(runs.into_iter().map(measured).collect())
 }
 
 /// Why a cell has no time, where a device is too small for it; other errors are no measurement.
@@ -108,15 +143,10 @@ fn refusal(error: &Error) -> Result<String, Failure> {
 }
 
 /// Has the driver compile, and finds out what a strip in the middle takes.
-fn warm_up(
-    worker: &mut Worker,
-    scene: &Scene,
-    prepared: &Prepared,
-    ready: &Ready,
-) -> Result<Duration, Error> {
-    let strip = strips(scene.render.size_px[1], 1);
-    worker.time(scene, prepared, ready, &strip)?;
-    Ok(worker.time(scene, prepared, ready, &strip)?.wall)
+fn warm_up(worker: &mut Worker, turn: &Turn, ready: &Ready) -> Result<Duration, Error> {
+    let strip = strips(turn.scene.render.size_px[1], 1);
+    worker.time(turn.scene, turn.prepared, ready, &strip)?;
+    Ok(worker.time(turn.scene, turn.prepared, ready, &strip)?.wall)
 }
 
 /// The smaller of what was wanted so far and `count` strips.
@@ -170,6 +200,15 @@ impl Runs {
                 let times = self.passes.entry(pass.name).or_default();
                 times.push(milliseconds(pass.time));
             }
+        }
+    }
+
+    /// By the device's own clock where it has one.
+    fn ms(&self) -> &[f64] {
+        match &self.refused {
+            Some(_) => &[],
+            None if self.device.len() == self.wall.len() => &self.device,
+            None => &self.wall,
         }
     }
 

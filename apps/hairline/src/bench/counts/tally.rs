@@ -9,15 +9,21 @@ use serde::Serialize;
 pub struct Tally {
     /// Nodes of the hierarchy that are read.
     pub nodes: f64,
-    /// Entries of a tile's or a triangle's list that are read.
+    /// Segments of leaves that are projected into the picture for a tile's list.
+    pub projected: f64,
+    /// Entries of a tile's list, each once a tile, or of a triangle's, each in every pixel.
     pub entries: f64,
+    /// Bits that a tile's entries set, one for each pixel that a line comes near to.
+    pub drawn: f64,
     /// Segments that are fetched and looked at from the point.
-    pub fetched: f64,
+    pub weighed: f64,
     /// Those among them that the pixel sees a share of.
-    pub seen: f64,
-    /// Pairs of a seen segment and a light whose chord is looked for.
+    pub kept: f64,
+    /// Lights that a pixel with any such looks at.
+    pub lights: f64,
+    /// Pairs of a kept segment and a light that are tried.
     pub pairs: f64,
-    /// Those among them that are lit.
+    /// Those among them that are lit: by ours all whose bound meets the band, by the published method those with a chord.
     pub lit: f64,
     /// Lines of the band that are integrated.
     pub lines: f64,
@@ -36,12 +42,15 @@ impl Tally {
     }
 
     /// Name and value of each, in the order of the way through a pixel.
-    pub fn named(&self) -> [(&'static str, f64); 10] {
+    pub fn named(&self) -> [(&'static str, f64); 13] {
         [
             ("nodes read", self.nodes),
-            ("list entries read", self.entries),
-            ("segments fetched", self.fetched),
-            ("segments seen", self.seen),
+            ("segments projected", self.projected),
+            ("list entries", self.entries),
+            ("bits drawn", self.drawn),
+            ("segments weighed", self.weighed),
+            ("segments kept", self.kept),
+            ("lights looked at", self.lights),
             ("pairs tried", self.pairs),
             ("pairs lit", self.lit),
             ("lines", self.lines),
@@ -54,9 +63,12 @@ impl Tally {
     fn map(self, f: impl Fn(f64) -> f64) -> Self {
         Self {
             nodes: f(self.nodes),
+            projected: f(self.projected),
             entries: f(self.entries),
-            fetched: f(self.fetched),
-            seen: f(self.seen),
+            drawn: f(self.drawn),
+            weighed: f(self.weighed),
+            kept: f(self.kept),
+            lights: f(self.lights),
             pairs: f(self.pairs),
             lit: f(self.lit),
             lines: f(self.lines),
@@ -73,9 +85,12 @@ impl Add for Tally {
     fn add(self, other: Self) -> Self {
         Self {
             nodes: self.nodes + other.nodes,
+            projected: self.projected + other.projected,
             entries: self.entries + other.entries,
-            fetched: self.fetched + other.fetched,
-            seen: self.seen + other.seen,
+            drawn: self.drawn + other.drawn,
+            weighed: self.weighed + other.weighed,
+            kept: self.kept + other.kept,
+            lights: self.lights + other.lights,
             pairs: self.pairs + other.pairs,
             lit: self.lit + other.lit,
             lines: self.lines + other.lines,

@@ -8,9 +8,11 @@ use hairline_index::scratch_index::REACH_STD;
 use hairline_index::{IndexedSegment, ScratchIndex, TriangleIndex, TriangleLists};
 use hairline_optics::band::{
     BandFrame, BandLine, Cap, PolygonView, band_lines, band_move, band_reaches, band_stds,
-    edge_roots, moved_band, polygon_facing, sphere_band_extent, sphere_cap, sphere_chord,
+    edge_roots, edge_winding, line_down, moved_band, polygon_facing, sphere_band_extent,
+    sphere_cap, sphere_chord,
 };
 use hairline_optics::footprint::{Footprint, scratch_share};
+use hairline_optics::mask::Mask;
 use hairline_optics::method::{Chords, Lookup, Method, PixelFilter, Spectrum};
 use hairline_optics::published::footprint::{PixelFootprint, published_share};
 use hairline_optics::published::polygon::{clip_triangle, triangle_segments};
@@ -18,9 +20,7 @@ use hairline_optics::published::sphere::sphere_segments;
 use hairline_scene::{CameraFrame, Light, Scene};
 
 use super::tally::Tally;
-
-/// Side of the tiles that share a walk.
-pub const TILE_PX: u32 = 8;
+use super::tile::{self, TILE_PX, TileList};
 
 /// A scene with what finds things in it.
 pub struct Counted<'a> {
@@ -56,6 +56,8 @@ impl Add for Sum {
 /// What a pixel's middle sees.
 struct Sight {
     triangle: usize,
+    /// Its middle, from the picture's upper left corner.
+    at_px: DVec2,
     position_m: DVec3,
     /// One standard deviation of the filter to the right and down; zero without a footprint.
     axes_m: [DVec3; 2],
@@ -63,6 +65,8 @@ struct Sight {
     distance_m: f64,
     /// Half the box by which the hierarchy is walked.
     reach_m: Vec3,
+    /// How far from it the line of a scratch may be that it sees.
+    reach_px: f64,
 }
 
 impl<'a> Counted<'a> {
@@ -90,9 +94,9 @@ impl<'a> Counted<'a> {
             .filter_map(|pixel| self.sight(pixel, method))
             .collect();
         let mut tally = Tally::default();
-        let shared = self.tile_list(&sights, method, &mut tally);
+        let shared = self.tile_list(corner, &sights, method, &mut tally);
         for sight in &sights {
-            self.pixel(sight, method, shared.as_deref(), &mut tally);
+            self.pixel(sight, method, shared.as_ref(), &mut tally);
         }
         Sum {
             tally,
@@ -112,50 +116,70 @@ impl<'a> Counted<'a> {
             PixelFilter::Off => 0.0,
             PixelFilter::Gaussian | PixelFilter::Published => self.scene.render.filter_std_px,
         };
-        let axes_m = self
-            .camera
-            .footprint_axes(ray, depth_m, DVec3::Z)
-            .map(|axis| axis * filter_px);
+        let steps_m = self.camera.footprint_axes(ray, depth_m, DVec3::Z);
+        let axes_m = steps_m.map(|axis| axis * filter_px);
         let sigma_m = 1e-6 * self.coherence_um;
         let [ax, ay] = axes_m;
         let variance = ax * ax + ay * ay + DVec3::splat(0.7 * sigma_m * sigma_m);
         Some(Sight {
             triangle: hit.triangle as usize,
+            at_px: at,
             position_m: self.camera.position_m + ray * depth_m,
             axes_m,
             wo: -ray.normalize(),
             distance_m: hit.distance_m,
             reach_m: (variance.map(f64::sqrt) * f64::from(REACH_STD)).as_vec3(),
+            reach_px: tile::reach_px(steps_m, filter_px, self.coherence_um),
         })
     }
 
-    /// The segments that a tile's one walk finds for all its pixels; None for look-ups without tiles.
+    /// The segments that a tile's one walk finds for all its pixels, drawn; None for look-ups without tiles.
     fn tile_list(
         &self,
+        corner: [u32; 2],
         sights: &[Sight],
         method: &Method,
         tally: &mut Tally,
-    ) -> Option<Vec<usize>> {
-        if method.lookup != Lookup::Tiles || sights.is_empty() {
+    ) -> Option<TileList> {
+        let tiles = method.lookup == Lookup::Tiles && method.is_default_path();
+        if !tiles || sights.is_empty() {
             return None;
         }
         let (mut lower, mut upper) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+        let mut reach_px = 0.0_f64;
         for sight in sights {
             let at = sight.position_m.as_vec3();
             lower = lower.min(at - sight.reach_m);
             upper = upper.max(at + sight.reach_m);
+            reach_px = reach_px.max(sight.reach_px);
         }
-        let mut list = Vec::new();
-        self.walk(lower, upper, tally, |segment| {
-            // Kept only if its line comes near enough to any pixel.
-            if touches(&self.scratches.tree.segments[segment], lower, upper) {
-                list.push(segment);
+        let corner_px = DVec2::new(f64::from(corner[0]), f64::from(corner[1]));
+        let middle_px = corner_px + 0.5 * f64::from(TILE_PX);
+        let mut entries = Vec::new();
+        let mut projected = 0.0;
+        self.walk(lower, upper, tally, |index| {
+            projected += 1.0;
+            let segment = &self.scratches.tree.segments[index];
+            if touches(segment, lower, upper) {
+                entries.extend(tile::entry(
+                    &self.camera,
+                    index,
+                    segment,
+                    middle_px,
+                    reach_px,
+                ));
             }
         });
-        list.retain(|segment| {
-            let segment = &self.scratches.tree.segments[*segment];
-            sights.iter().any(|sight| self.reaches(sight, segment))
-        });
+        let list = TileList { entries, reach_px };
+        tally.projected += projected;
+        tally.entries += list.entries.len() as f64;
+        // Into all pixels of the tile, whether they see the object or not.
+        let pixels = (0..TILE_PX * TILE_PX)
+            .map(|i| corner_px + 0.5 + DVec2::new(f64::from(i % TILE_PX), f64::from(i / TILE_PX)));
+        for at_px in pixels {
+            let drawn = list.entries.iter().filter(|e| list.touches(e, at_px));
+            tally.drawn += drawn.count() as f64;
+        }
         Some(list)
     }
 
@@ -175,16 +199,14 @@ impl<'a> Counted<'a> {
         }
     }
 
-    fn pixel(&self, sight: &Sight, method: &Method, shared: Option<&[usize]>, tally: &mut Tally) {
+    fn pixel(&self, sight: &Sight, method: &Method, shared: Option<&TileList>, tally: &mut Tally) {
         let mut segments: Vec<usize> = Vec::new();
         match (shared, method.lookup) {
             (Some(list), _) => {
-                tally.entries += list.len() as f64;
-                // The line in the picture tells, before anything of the segment is fetched.
-                let near = |segment: &&usize| {
-                    self.reaches(sight, &self.scratches.tree.segments[**segment])
-                };
-                segments.extend(list.iter().filter(near));
+                // Those whose bit is set.
+                let near = list.entries.iter();
+                let near = near.filter(|entry| list.touches(entry, sight.at_px));
+                segments.extend(near.map(|entry| entry.segment));
             }
             (None, Lookup::Triangles) => {
                 let list = self.lists.of(sight.triangle);
@@ -197,21 +219,26 @@ impl<'a> Counted<'a> {
                 self.walk(lower, upper, tally, |segment| segments.push(segment));
             }
         }
-        tally.fetched += segments.len() as f64;
+        tally.weighed += segments.len() as f64;
+        let mut kept = 0;
         for segment in segments {
             let segment = &self.scratches.tree.segments[segment];
             if let Some(view) = self.view(sight, segment, method) {
-                tally.seen += 1.0;
-                if let Spectrum::Wavelengths { count, .. } = method.spectrum {
+                kept += 1;
+                // What the base pays; the density asks for no spectrum.
+                if let (Spectrum::Wavelengths { count, .. }, true) =
+                    (method.spectrum, method.mask != Mask::Density)
+                {
                     tally.wavelengths += count as f64;
-                } else {
-                    // The mask's.
-                    tally.table += 1.0;
                 }
                 for light in &self.scene.lights {
                     self.pair(sight, &view, light, method, tally);
                 }
             }
+        }
+        tally.kept += f64::from(kept);
+        if kept > 0 {
+            tally.lights += self.scene.lights.len() as f64;
         }
     }
 
@@ -263,23 +290,29 @@ impl<'a> Counted<'a> {
     }
 
     fn pair(&self, sight: &Sight, view: &View, light: &Light, method: &Method, tally: &mut Tally) {
-        tally.pairs += 1.0;
         let (center_m, radius_m) = light.bounding_sphere();
-        let bound = sphere_cap(center_m - sight.position_m, radius_m).turned(view.frame);
+        let center_m = center_m - sight.position_m;
+        let bound = sphere_cap(center_m, radius_m).turned(view.frame);
         if method.chords == Chords::Steps {
+            tally.pairs += 1.0;
             let count = self.steps(sight, view, light, bound);
             if count > 0 {
                 tally.lit += 1.0;
                 tally.lines += 1.0;
-                let Spectrum::Wavelengths { count: n, .. } = method.spectrum else {
-                    tally.table += 2.0 * count as f64;
-                    return;
-                };
-                tally.sine_integrals += 2.0 * (count * n) as f64;
+                look_up(2.0 * count as f64, method, tally);
             }
             return;
         }
-        let distance_m = (center_m - sight.position_m).length().max(radius_m);
+        // Lights below the horizon, and those that shine to the other side, are left out before any segment is asked.
+        if center_m.z <= -radius_m {
+            return;
+        }
+        let polygon = Polygon::of(sight, light);
+        if polygon.as_ref().is_some_and(|p| p.facing == 0.0) {
+            return;
+        }
+        tally.pairs += 1.0;
+        let distance_m = center_m.length().max(radius_m);
         let per = (1e-6 / sight.distance_m, 1e-6 / distance_m);
         let moves = view
             .axes_um
@@ -293,57 +326,24 @@ impl<'a> Counted<'a> {
         if !band_reaches(lowest, highest, band.stds) {
             return;
         }
-        let roots_of = |line: BandLine, corners: &[DVec3]| {
-            let edges = corners.iter().zip(corners.iter().cycle().skip(1));
-            edges
-                .map(|(a, b)| {
-                    let roots = edge_roots(line, *a, *b);
-                    usize::from(roots.rising.is_some()) + usize::from(roots.falling.is_some())
-                })
-                .sum::<usize>()
+        tally.lit += 1.0;
+        let Some(polygon) = polygon else {
+            let lines = band_lines(wo.x, lowest, highest, band.stds);
+            tally.lines += lines.count as f64;
+            for i in 0..lines.count {
+                let line = BandLine::new(wo, lines.band_line(i).0);
+                let wraps = sphere_chord(line, bound).wraps;
+                look_up(if wraps { 4.0 } else { 2.0 }, method, tally);
+            }
+            return;
         };
-        match light {
-            Light::Sphere { .. } => {
-                let lines = band_lines(wo.x, lowest, highest, band.stds);
-                tally.lit += 1.0;
-                tally.lines += lines.count as f64;
-                for i in 0..lines.count {
-                    let line = BandLine::new(wo, lines.band_line(i).0);
-                    let wraps = sphere_chord(line, bound).wraps;
-                    tally.table += if wraps { 4.0 } else { 2.0 };
-                }
-            }
-            Light::Polygon {
-                vertices_m,
-                two_sided,
-                ..
-            } => {
-                let relative: Vec<DVec3> =
-                    vertices_m.iter().map(|v| *v - sight.position_m).collect();
-                let (away, facing) = polygon_facing(relative.iter().copied(), *two_sided);
-                let directions: Vec<DVec3> =
-                    relative.iter().map(|v| v.normalize_or_zero()).collect();
-                let polygon = PolygonView {
-                    directions: &directions,
-                    away,
-                    facing,
-                };
-                let (lowest, highest) = polygon.band_extent(view.frame, wo);
-                let lines = band_lines(wo.x, lowest, highest, band.stds);
-                if facing == 0.0 || lines.count == 0 {
-                    return;
-                }
-                tally.lit += 1.0;
-                tally.lines += lines.count as f64;
-                let corners: Vec<DVec3> = directions
-                    .iter()
-                    .map(|d| view.frame.band_from_surface(*d))
-                    .collect();
-                for i in 0..lines.count {
-                    let line = BandLine::new(wo, lines.band_line(i).0);
-                    tally.table += roots_of(line, &corners) as f64;
-                }
-            }
+        // The outline itself may be out of reach though its cap is not.
+        let (lowest, highest) = polygon.view().band_extent(view.frame, wo);
+        let lines = band_lines(wo.x, lowest, highest, band.stds);
+        tally.lines += lines.count as f64;
+        for i in 0..lines.count {
+            let line = BandLine::new(wo, lines.band_line(i).0);
+            look_up(polygon.look_ups(view.frame, line), method, tally);
         }
     }
 
@@ -362,6 +362,69 @@ impl<'a> Counted<'a> {
                     .sum()
             }
         }
+    }
+}
+
+/// So many values of the antiderivative: by the table, or by a sine integral for each wavelength.
+fn look_up(count: f64, method: &Method, tally: &mut Tally) {
+    match method.spectrum {
+        Spectrum::Wavelengths {
+            count: wavelengths, ..
+        } => tally.sine_integrals += count * wavelengths as f64,
+        Spectrum::Table => tally.table += count,
+    }
+}
+
+/// A polygonal light as seen from a point.
+struct Polygon {
+    directions: Vec<DVec3>,
+    away: DVec3,
+    facing: f64,
+}
+
+impl Polygon {
+    fn of(sight: &Sight, light: &Light) -> Option<Self> {
+        let Light::Polygon {
+            vertices_m,
+            two_sided,
+            ..
+        } = light
+        else {
+            return None;
+        };
+        let relative = || vertices_m.iter().map(|v| *v - sight.position_m);
+        let (away, facing) = polygon_facing(relative(), *two_sided);
+        Some(Self {
+            directions: relative().map(DVec3::normalize_or_zero).collect(),
+            away,
+            facing,
+        })
+    }
+
+    fn view(&self) -> PolygonView<'_> {
+        PolygonView {
+            directions: &self.directions,
+            away: self.away,
+            facing: self.facing,
+        }
+    }
+
+    /// Values of the antiderivative on a line: two for each pair of roots, and for the whole arc where it holds straight down.
+    fn look_ups(&self, frame: BandFrame, line: BandLine) -> f64 {
+        let turned = |d: &DVec3| frame.band_from_surface(*d);
+        let corners: Vec<DVec3> = self.directions.iter().map(turned).collect();
+        let edges = || corners.iter().zip(corners.iter().cycle().skip(1));
+        let (mut rises, mut falls, mut winding) = (0, 0, 0.0);
+        let down = line_down(line);
+        for (a, b) in edges() {
+            let roots = edge_roots(line, *a, *b);
+            rises += i32::from(roots.rising.is_some());
+            falls += i32::from(roots.falling.is_some());
+            winding += edge_winding(down, *a, *b);
+        }
+        let around = winding.abs() > std::f64::consts::PI;
+        let wraps = around && down.dot(frame.band_from_surface(self.away)) > 0.0;
+        2.0 * f64::from(rises.max(falls) + i32::from(wraps))
     }
 }
 
