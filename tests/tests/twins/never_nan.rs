@@ -56,7 +56,7 @@ fn in_the_shader() {
         texels: Texels::Integers(&table.texels),
     }];
     let call = Call {
-        modules: &[&shaders::BAND_ENVIRONMENT, &shaders::MASK, &shaders::SCRATCH_TABLE],
+        modules: &[&shaders::BAND_ENVIRONMENT, &shaders::FOUR_EDGES, &shaders::MASK, &shaders::SCRATCH_TABLE],
         snippet: "let wo = vec3f(x[0], x[1], x[2]);
             let a = vec3f(x[3], x[4], x[5]);
             let b = vec3f(x[6], x[7], x[8]);
@@ -77,6 +77,17 @@ fn in_the_shader() {
             var sums: ScratchSums;
             mask_add(&sums, share, scratch_table_total(table_0, 0u, x[15]), t);
             let masked = mask_resolve(sums, x[23]);
+            // Repeated directions, opposite ones, and one that a point in a vertex has: none.
+            let c = select(a, vec3f(0.0), x[23] < 0.6);
+            let edges = four_edges(a, b, select(c, -b, x[23] > 0.9), c, a);
+            var four = four_edges_roots(edges, line, b);
+            let outline = four_edges_extent(edges, a);
+            y[3] = outline.x + outline.y + four.range.x + four.range.y + four.rising.x + four.rising.y + four.rising.z + four.rising.w
+                + four.falling.x + four.falling.y + four.falling.z + four.falling.w;
+            for (var i = 0u; i < four.count; i += 1u) {
+                let ends = next_roots(&four);
+                y[3] += ends.x + ends.y;
+            }
             y[0] = masked.scratches.x + masked.taken.y;
             y[1] = select(0.0, node.x + node.z + node.w + band.x + band.z, lines.count > 0u) + edge_winding(line_down(line), a, b);
             let range = chord_range(chord, line);
@@ -84,7 +95,7 @@ fn in_the_shader() {
         tables: &tables,
     };
     let rows = rows(1_000_000);
-    let results: Vec<[f32; 3]> = gpu.block_on(call.run(gpu, &rows)).unwrap();
+    let results: Vec<[f32; 4]> = gpu.block_on(call.run(gpu, &rows)).unwrap();
     for (row, result) in rows.iter().zip(&results) {
         assert!(result.iter().all(|v| v.is_finite()), "{row:?}: {result:?}");
     }
