@@ -10,7 +10,7 @@ struct Segment {
     width_depth: u32,           // both as they are stored
 }
 
-// To half floats and bytes: five parts in ten thousand of a width, a depth or a blur, half a degree of a normal that is
+// To half floats and bytes: five parts in ten thousand of a width, a depth or a blur, a degree of a normal that is
 // only asked which side of a sheet it is on.
 fn segment_at(index: u32) -> Segment {
     let packed = scratch_segment(index);

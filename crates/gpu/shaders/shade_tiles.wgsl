@@ -44,7 +44,7 @@ fn shade(
         workgroupBarrier();
         if first + lane < count {
             let entry = textureLoad(tile_lists, row_texel(list + TILE_HEAD + first + lane), 0).xy;
-            tile_draw_line(entry.y, reach_px, lane);
+            tile_draw_segment(entry, tile_middle_px(tile_corner(tile)), reach_px, lane);
         }
         workgroupBarrier();
         var low = atomicLoad(&touches[2u * lane]);
@@ -80,8 +80,18 @@ fn shade(
     shade_finish(pixel, point, depth_m, gather_masked(sums, objects[seen.y].depth_coherence));
 }
 
-// Sets the bit of a scratch in every pixel that its line comes near to.
-fn tile_draw_line(line: u32, reach_px: f32, scratch: u32) {
+// Beyond a segment's ends pixels see it a little further than across it: the ends are blurred by up to 0.83 sigma, and the
+// coherence window's standard deviation is 0.71 sigma.
+const TILE_REACH_ALONG: f32 = 1.2;
+
+// Sets the bit of a segment in every pixel that its line comes near to, between its ends.
+fn tile_draw_segment(entry: vec2u, middle_px: vec2f, reach_px: f32, scratch: u32) {
+    let segment = scratch_segment(entry.x);
+    let seen = segment_seen(segment.start_m, segment.end_m, middle_px);
+    let beyond_px = TILE_REACH_ALONG * reach_px;
+    let lowest = select(vec2f(-1e9), min(seen.start_px, seen.end_px) - beyond_px, seen.has_line);
+    let highest = select(vec2f(1e9), max(seen.start_px, seen.end_px) + beyond_px, seen.has_line);
+    let line = entry.y;
     let packed = bitcast<i32>(line);
     let normal = vec2f(f32(extractBits(packed, 0u, 10u)), f32(extractBits(packed, 10u, 10u))) / 511.0;
     let offset_px = f32(extractBits(packed, 20u, 12u)) / 127.0;
@@ -91,11 +101,13 @@ fn tile_draw_line(line: u32, reach_px: f32, scratch: u32) {
     // Nearly level lines run through whole rows.
     let steep = max(abs(normal.x), 1e-4);
     let side = select(1.0, -1.0, normal.x < 0.0);
-    for (var y = 0u; y < TILE_PX; y += 1u) {
+    let first_row = u32(clamp(ceil(lowest.y - first_px.y), 0.0, f32(TILE_PX)));
+    let end_row = u32(clamp(floor(highest.y - first_px.y) + 1.0, 0.0, f32(TILE_PX)));
+    for (var y = first_row; y < end_row; y += 1u) {
         gather_rounds += 1u;
         let middle = side * (offset_px - normal.y * (first_px.y + f32(y)));
-        let low = (middle - reach_px) / steep - first_px.x;
-        let high = (middle + reach_px) / steep - first_px.x;
+        let low = max((middle - reach_px) / steep, lowest.x) - first_px.x;
+        let high = min((middle + reach_px) / steep, highest.x) - first_px.x;
         let last = i32(clamp(floor(high), -1.0, f32(TILE_PX - 1u)));
         for (var x = i32(clamp(ceil(low), 0.0, f32(TILE_PX))); x <= last; x += 1) {
             gather_rounds += 1u;

@@ -19,8 +19,15 @@ const WALK_LISTED: u32 = 0x80000000u;
 // of the object or of its background. 1 on GPUs, which want neighbours together.
 override WALK_STRIDE: u32 = 1u;
 
-// The place of workgroup `i` of `count`, a multiple of WALK_STRIDE.
+// The place of workgroup `i` of `count`: first all places that leave no rest when divided by WALK_STRIDE, then those that leave 1.
 fn walk_strided(i: u32, count: u32) -> u32 {
     let piece = count / WALK_STRIDE;
-    return i % piece * WALK_STRIDE + i / piece;
+    // So many rests have a place more.
+    let longer = count % WALK_STRIDE;
+    let in_longer = longer * (piece + 1u);
+    if i < in_longer {
+        return i % (piece + 1u) * WALK_STRIDE + i / (piece + 1u);
+    }
+    let j = i - in_longer;
+    return j % max(piece, 1u) * WALK_STRIDE + longer + j / max(piece, 1u);
 }

@@ -72,7 +72,7 @@ const WORKGROUP_PX: u32 = 8;
 const SOFTWARE_MAX_ROUNDS: f64 = 5_000.0;
 
 /// Into how many strides a software driver's dispatch is cut. More than its threads, so that each has several.
-pub(crate) const SOFTWARE_STRIDE: u32 = 64;
+const SOFTWARE_STRIDE: u32 = 64;
 
 /// The entry file.
 fn pass_of(variant: &ShadeVariant) -> &'static shaders::Module {
@@ -140,7 +140,7 @@ fn constants_of(variant: &ShadeVariant) -> [(&'static str, f64); 15] {
 }
 
 /// Whether the device ends long loops.
-pub(crate) fn is_bounded(gpu: &Gpu) -> bool {
+fn is_bounded(gpu: &Gpu) -> bool {
     gpu.adapter.kind == AdapterKind::Software
 }
 
@@ -203,11 +203,6 @@ impl ShadePass {
         }
         let across = film.width_px.div_ceil(WORKGROUP_PX);
         let down = (rows.end - rows.start).div_ceil(WORKGROUP_PX);
-        let down = if self.bounded {
-            down.next_multiple_of(SOFTWARE_STRIDE)
-        } else {
-            down
-        };
         pass.dispatch_workgroups(across, down, 1);
     }
 }

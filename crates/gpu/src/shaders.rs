@@ -137,7 +137,7 @@ modules! {
     /// Pass: from what is visible to radiance, pixel by pixel.
     SHADE = "shade" needs [HIT, GATHER, SHADE_POINT, TILE_QUEUES];
     /// Pass: from what is visible to radiance, in tiles that have a list of scratches.
-    SHADE_TILES = "shade_tiles" needs [HIT, GATHER, SHADE_POINT, TILE_QUEUES];
+    SHADE_TILES = "shade_tiles" needs [HIT, GATHER, SHADE_POINT, TILE_QUEUES, SEGMENT_SEEN];
     /// Pass: tiles that show no object.
     BACKGROUND = "background" needs [SHADE_POINT, TILE_QUEUES];
     /// Pass: the scratches that each tile of pixels may see.

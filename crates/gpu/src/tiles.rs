@@ -6,7 +6,7 @@
 use crate::bindings::Layouts;
 use crate::device::Gpu;
 use crate::film::Film;
-use crate::shade::{SOFTWARE_STRIDE, ShadeVariant, compute_pipeline, is_bounded};
+use crate::shade::{ShadeVariant, compute_pipeline};
 use crate::shaders;
 use crate::tile_room::Queue;
 use crate::timing::Timing;
@@ -16,8 +16,6 @@ pub(crate) struct TilesPasses {
     tiles: wgpu::ComputePipeline,
     shade: wgpu::ComputePipeline,
     background: wgpu::ComputePipeline,
-    /// The dispatch over tiles is a multiple of this.
-    stride: u32,
 }
 
 const WORKGROUP_TILES: u32 = 64;
@@ -33,7 +31,6 @@ impl TilesPasses {
             tiles: pipeline(&shaders::TILES, "tiles", &layouts.tiles),
             shade: pipeline(&shaders::SHADE_TILES, "shade", &layouts.film),
             background: pipeline(&shaders::BACKGROUND, "background", &layouts.film),
-            stride: if is_bounded(gpu) { SOFTWARE_STRIDE } else { 1 },
         }
     }
 
@@ -59,10 +56,7 @@ impl TilesPasses {
             }
             match queue {
                 Some(queue) => tiles.dispatch(&mut pass, queue),
-                None => {
-                    let groups = tiles.count.div_ceil(WORKGROUP_TILES);
-                    pass.dispatch_workgroups(groups.next_multiple_of(self.stride), 1, 1);
-                }
+                None => pass.dispatch_workgroups(tiles.count.div_ceil(WORKGROUP_TILES), 1, 1),
             }
         };
         run("tiles", &self.tiles, &tiles.tiles_group, None);
