@@ -72,7 +72,7 @@ fn rows(count: usize) -> Vec<Row> {
         };
         // Counter-clockwise around the middle.
         let mut quarter = |i: f32| {
-            let angle = 1.5708 * (i + random.between(-0.45, 0.45));
+            let angle = std::f32::consts::FRAC_PI_2 * (i + random.between(-0.45, 0.45));
             Vec2::from_angle(angle) * random.between(0.3, 1.0)
         };
         let mut corners = [quarter(0.0), quarter(1.0), quarter(2.0), quarter(3.0)];
