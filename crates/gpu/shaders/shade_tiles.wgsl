@@ -91,21 +91,18 @@ fn tile_draw_segment(entry: vec2u, middle_px: vec2f, reach_px: f32, scratch: u32
     let beyond_px = TILE_REACH_ALONG * reach_px;
     let lowest = select(vec2f(-1e9), min(seen.start_px, seen.end_px) - beyond_px, seen.has_line);
     let highest = select(vec2f(1e9), max(seen.start_px, seen.end_px) + beyond_px, seen.has_line);
-    let line = entry.y;
-    let packed = bitcast<i32>(line);
-    let normal = vec2f(f32(extractBits(packed, 0u, 10u)), f32(extractBits(packed, 10u, 10u))) / 511.0;
-    let offset_px = f32(extractBits(packed, 20u, 12u)) / 127.0;
+    let line = unpack_tile_line(entry.y);
     let first_px = tile_at_px(vec2u(0u));
     let bit = 1u << (scratch & 31u);
     let word = scratch >> 5u;
     // Nearly level lines run through whole rows.
-    let steep = max(abs(normal.x), 1e-4);
-    let side = select(1.0, -1.0, normal.x < 0.0);
+    let steep = max(abs(line.x), 1e-4);
+    let side = select(1.0, -1.0, line.x < 0.0);
     let first_row = u32(clamp(ceil(lowest.y - first_px.y), 0.0, f32(TILE_PX)));
     let end_row = u32(clamp(floor(highest.y - first_px.y) + 1.0, 0.0, f32(TILE_PX)));
     for (var y = first_row; y < end_row; y += 1u) {
         gather_rounds += 1u;
-        let middle = side * (offset_px - normal.y * (first_px.y + f32(y)));
+        let middle = side * (line.z - line.y * (first_px.y + f32(y)));
         let low = max((middle - reach_px) / steep, lowest.x) - first_px.x;
         let high = min((middle + reach_px) / steep, highest.x) - first_px.x;
         let last = i32(clamp(floor(high), -1.0, f32(TILE_PX - 1u)));

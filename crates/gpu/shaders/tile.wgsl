@@ -41,9 +41,15 @@ fn pack_tile_line(normal: vec2f, offset_px: f32) -> u32 {
     return insertBits(insertBits(u32(n.x) & 0x3ffu, u32(n.y), 10u, 10u), u32(i32(round(offset_px * 127.0))), 20u, 12u);
 }
 
+// Its normal, and the distance.
+fn unpack_tile_line(line: u32) -> vec3f {
+    let packed = bitcast<i32>(line);
+    let steps = vec3f(vec3i(extractBits(packed, 0u, 10u), extractBits(packed, 10u, 10u), extractBits(packed, 20u, 12u)));
+    return steps / vec3f(511.0, 511.0, 127.0);
+}
+
 // How far a pixel is from it.
 fn tile_line_distance_px(line: u32, at_px: vec2f) -> f32 {
-    let packed = bitcast<i32>(line);
-    let normal = vec2f(f32(extractBits(packed, 0u, 10u)), f32(extractBits(packed, 10u, 10u))) / 511.0;
-    return abs(dot(normal, at_px) - f32(extractBits(packed, 20u, 12u)) / 127.0);
+    let unpacked = unpack_tile_line(line);
+    return abs(dot(unpacked.xy, at_px) - unpacked.z);
 }

@@ -9,7 +9,7 @@ use crate::rows::ROW_TEXELS;
 
 /// A segment and its line in the picture.
 pub(crate) const TILE_LISTS_FORMAT: TextureFormat = TextureFormat::Rg32Uint;
-/// Pixels to a side of a tile. Twin: segment_list.wgsl.
+/// Pixels to a side of a tile. Twin: tile.wgsl.
 pub(crate) const TILE_PX: u32 = 8;
 /// Workgroups that every WebGPU device takes in one dispatch: one for each tile.
 pub(crate) const TILES_MAX: u32 = 65_535;
