@@ -117,7 +117,7 @@ fn thoroughness(arguments: &cli::Bench) -> Thoroughness {
     };
     Thoroughness {
         effort: Effort {
-            cell: pick(3000, 250),
+            cell: pick(8000, 250),
             least,
             most,
         },

@@ -3,53 +3,23 @@
 
 // Needs, beside its modules: lights, light_vertices, lobe_ltc, lobe_sptd, lobe_albedo, and the environment.
 
-struct PublishedBase {
-    specular: vec3f,
-    diffuse: vec3f,
-}
-
 // The lobe's integrals and the diffuse form factor of a light.
 fn published_base_sphere(point: SurfacePoint, lobe: LtcLobe, pivot: SptdLobe, light: Light) -> vec4f {
-    let center = surface_from_world(point, light.center_m - point.position_m);
-    if center.z <= -light.radius_m {
+    if METHOD_SPHERE_BASE != SPHERE_BASE_PIVOT {
+        return base_sphere(point, lobe, light);
+    }
+    if dot(light.center_m - point.position_m, point.normal) <= -light.radius_m {
         return vec4f(0.0);
     }
-    let cap = sphere_cap(center, light.radius_m);
+    let cap = light_cap(point, light);
     let sin2 = select(cap.sin_radius * cap.sin_radius, 1.0, cap.cos_radius < 0.0);
-    var specular: vec3f;
-    if METHOD_SPHERE_BASE == SPHERE_BASE_PIVOT {
-        // The published fit knows F = 1 alone; Fresnel is that of the whole lobe.
-        specular = lobe.albedo * (sptd_sphere_published(pivot, cap.axis, sin2) / max(lobe.albedo.x, 1e-30));
-    } else {
-        specular = ltc_sphere(lobe, cap.axis, sin2);
-    }
+    // The published fit knows F = 1 alone; Fresnel is that of the whole lobe.
+    let specular = lobe.albedo * (sptd_sphere_published(pivot, cap.axis, sin2) / max(lobe.albedo.x, 1e-30));
     return vec4f(specular, lambert_sphere(cap.axis, sin2));
 }
 
-fn published_base_polygon(point: SurfacePoint, lobe: LtcLobe, light: Light) -> vec4f {
-    if published_facing(point, light) == 0.0 {
-        return vec4f(0.0);
-    }
-    var specular = ltc_begin();
-    var diffuse = lambert_begin();
-    var a = published_corner(point, light, 0u);
-    var highest_z = a.z;
-    for (var i = 0u; i < light.vertex_count; i += 1u) {
-        let b = published_corner(point, light, i + 1u);
-        ltc_edge(&specular, lobe, a, b);
-        lambert_edge(&diffuse, a, b);
-        highest_z = max(highest_z, b.z);
-        a = b;
-        gather_rounds += 1u;
-    }
-    if highest_z <= 0.0 {
-        return vec4f(0.0);
-    }
-    return vec4f(ltc_end(specular, lobe), lambert_end(diffuse));
-}
-
 // Radiance of the base towards the viewer, before scratches take theirs.
-fn published_base(point: SurfacePoint) -> PublishedBase {
+fn published_base(point: SurfacePoint) -> BaseRadiance {
     let lobe = ltc_lobe(point.wo, point.roughness, lobe_ltc, lobe_albedo);
     let fresnel = FresnelRgb(point.f0, point.fresnel_a);
     let albedo = ggx_area_reflectance(lobe.albedo, fresnel, lobe.albedo.x);
@@ -67,7 +37,7 @@ fn published_base(point: SurfacePoint) -> PublishedBase {
     }
     if HAS_POLYGONS {
         for (var l = published_next_light(0u, LIGHT_POLYGON); l < frame.light_count; l = published_next_light(l + 1u, LIGHT_POLYGON)) {
-            let share = published_base_polygon(point, lobe, light_at(l));
+            let share = base_polygon(point, lobe, light_at(l));
             specular += light_at(l).radiance * ggx_area_reflectance(share.xyz, fresnel, lobe.albedo.x);
             diffuse += light_at(l).radiance * share.w;
             gather_rounds += 1u;
@@ -78,5 +48,5 @@ fn published_base(point: SurfacePoint) -> PublishedBase {
         specular += albedo * scene_prefiltered(world_from_surface(point, mirror), point.roughness);
         diffuse += scene_irradiance(point.normal) / 3.14159265;
     }
-    return PublishedBase(specular, diffuse * body);
+    return BaseRadiance(specular, diffuse * body);
 }

@@ -49,21 +49,9 @@ fn published_next_light(first: u32, kind: u32) -> u32 {
     return l;
 }
 
-// 1 if the polygon's vertices are seen counter-clockwise, -1 if clockwise, 0 if it shines to the other side.
-fn published_facing(point: SurfacePoint, light: Light) -> f32 {
-    let distance = dot(light.normal, light_corner_m(light.first_vertex) - point.position_m);
-    return select(select(0.0, -1.0, distance > 0.0 && light.two_sided != 0u), 1.0, distance < 0.0);
-}
-
-// Vertex `i` of a polygon relative to the point; vertices repeat.
-fn published_corner(point: SurfacePoint, light: Light, i: u32) -> vec3f {
-    let index = light.first_vertex + select(i, i - light.vertex_count, i >= light.vertex_count);
-    return surface_from_world(point, light_corner_m(index) - point.position_m);
-}
-
-// The unit direction to it in the frame of the scratch.
+// The unit direction to vertex `i` of a polygon in the frame of the scratch.
 fn published_direction(point: SurfacePoint, view: PublishedView, light: Light, i: u32) -> vec3f {
-    return band_from_surface(view.tangent, surface_normalize_or(published_corner(point, light, i), vec3f(0.0)));
+    return band_from_surface(view.tangent, surface_normalize_or(light_vertex(point, light, i), vec3f(0.0)));
 }
 
 // Vertices of triangle `i` of a polygon, which has two less than vertices; some may be empty.
@@ -244,7 +232,7 @@ fn published_outline(point: SurfacePoint, view: PublishedView, light: Light, awa
 
 // Radiance of a scratch by one polygon, per unit of its share and of the light's radiance.
 fn published_polygon(point: SurfacePoint, view: PublishedView, light: Light) -> vec3f {
-    let facing = published_facing(point, light);
+    let facing = light_facing(point, light);
     if facing == 0.0 {
         return vec3f(0.0);
     }
@@ -294,9 +282,9 @@ fn published_polygon_steps(point: SurfacePoint, view: PublishedView, light: Ligh
     for (var t = 0u; t + 2u < light.vertex_count; t += 1u) {
         let vertices = published_triangle(light, t);
         let clipped = clip_triangle(array<vec3f, 3>(
-            published_corner(point, light, vertices.x),
-            published_corner(point, light, vertices.y),
-            published_corner(point, light, vertices.z),
+            light_vertex(point, light, vertices.x),
+            light_vertex(point, light, vertices.y),
+            light_vertex(point, light, vertices.z),
         ));
         let a = band_from_surface(view.tangent, clipped.corners[0]);
         for (var i = 2u; i < clipped.count; i += 1u) {

@@ -47,5 +47,5 @@ fn shade(
         }
         masked = gather_masked(walk.sums, object.depth_coherence);
     }
-    shade_finish(pixel, point, depth_m, masked);
+    film_add_surface(pixel, point, depth_m, masked, base_radiance(point));
 }

@@ -12,8 +12,7 @@ fn film_add_background(pixel: vec2u, ray: vec3f) {
     film_add(pixel, value);
 }
 
-fn shade_finish(pixel: vec2u, point: SurfacePoint, depth_m: f32, masked: Masked) {
-    let light = base_radiance(point);
+fn film_add_surface(pixel: vec2u, point: SurfacePoint, depth_m: f32, masked: Masked, light: BaseRadiance) {
     var value: FilmPixel;
     // A groove interrupts the reflecting surface; what shines from under it passes.
     value.base = point.emission + light.diffuse + light.specular * (1.0 - masked.taken);

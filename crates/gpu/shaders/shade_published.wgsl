@@ -26,17 +26,14 @@ fn shade(
     if film.pixels[film_index(pixel)].samples > frame.sample {
         return;
     }
-    let at = vec2f(pixel) + 0.5 + frame.jitter_px - 0.5 * vec2f(frame.size_px);
-    let ray = frame.forward + frame.per_px_x * at.x + frame.per_px_y * at.y;
+    let ray = film_ray(pixel);
     let seen = film_visible(pixel);
-    var value: FilmPixel;
     if seen.x == 0u {
-        value.base = scene_background(normalize(ray));
-        film_add(pixel, value);
+        film_add_background(pixel, ray);
         return;
     }
     var depth_m: f32;
-    var point = hit_surface_point(seen.x - 1u, ray, &depth_m);
+    let point = hit_surface_point(seen.x - 1u, ray, &depth_m);
     let object = objects[seen.y];
     var masked: Masked;
     if HAS_SCRATCHES {
@@ -49,13 +46,5 @@ fn shade(
         }
         masked = published_masked(walk.sums, object.depth_coherence);
     }
-    let light = published_base(point);
-    // A groove interrupts the reflecting surface; what shines from under it passes.
-    value.base = point.emission + light.diffuse + light.specular * (1.0 - masked.taken);
-    value.scratches = masked.scratches * fresnel_eval(FresnelRgb(point.f0, point.fresnel_a), point.wo.z);
-    value.density = masked.taken;
-    value.normal = point.normal;
-    value.depth_m = depth_m;
-    value.coverage = 1.0;
-    film_add(pixel, value);
+    film_add_surface(pixel, point, depth_m, masked, published_base(point));
 }

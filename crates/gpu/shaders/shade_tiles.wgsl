@@ -77,7 +77,8 @@ fn shade(
         return;
     }
     sums.radiance += gather_light(point, view, &batch);
-    shade_finish(pixel, point, depth_m, gather_masked(sums, objects[seen.y].depth_coherence));
+    let masked = gather_masked(sums, objects[seen.y].depth_coherence);
+    film_add_surface(pixel, point, depth_m, masked, base_radiance(point));
 }
 
 // Beyond a segment's ends pixels see it a little further than across it: the ends are blurred by up to 0.83 sigma, and the

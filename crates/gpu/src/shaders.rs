@@ -119,13 +119,13 @@ modules! {
     BASE = "base" needs [SCENE, LIGHTS, WALK, LTC];
     /// The method of 2018: a scratch under lights and environment.
     PUBLISHED_LIGHTS = "published_lights" needs [
-        SCENE, SURFACE, SEGMENTS, WALK, METHOD, BAND_ENVIRONMENT, SCRATCH_TABLE, PUBLISHED_SPECTRUM, PUBLISHED_SPHERE,
+        SCENE, SURFACE, LIGHTS, SEGMENTS, WALK, METHOD, BAND_ENVIRONMENT, SCRATCH_TABLE, PUBLISHED_SPECTRUM, PUBLISHED_SPHERE,
         PUBLISHED_POLYGON
     ];
     /// The method of 2018: the scratches under a pixel.
     PUBLISHED_GATHER = "published_gather" needs [PUBLISHED_LIGHTS, PUBLISHED_FOOTPRINT, TRIANGLE_LISTS, CONTENTS];
     /// The method of 2018: the base.
-    PUBLISHED_BASE = "published_base" needs [PUBLISHED_LIGHTS, CONTENTS, SPTD];
+    PUBLISHED_BASE = "published_base" needs [BASE, PUBLISHED_LIGHTS, SPTD];
     /// Pass: triangle and object of each pixel.
     VISIBILITY = "visibility" needs [BINDINGS];
     /// Which tiles are shaded how.
@@ -143,7 +143,7 @@ modules! {
     /// Pass: the scratches that each tile of pixels may see.
     TILES = "tiles" needs [HIT, GATHER_PIXEL, WALK, TILE_QUEUES, SEGMENT_SEEN];
     /// Pass: from what is visible to radiance by the method of 2018.
-    SHADE_PUBLISHED = "shade_published" needs [HIT, PUBLISHED_GATHER, PUBLISHED_BASE, FILM];
+    SHADE_PUBLISHED = "shade_published" needs [HIT, PUBLISHED_GATHER, PUBLISHED_BASE, SHADE_POINT];
     /// Pass: the film on a display.
     DISPLAY = "display" needs [LAYOUT, TONE_MAP];
 }
