@@ -22,7 +22,7 @@ pub const U_HALF_UM: f64 = 2.0;
 /// T and its slope at every (u, d), 16 bytes each.
 #[derive(Clone, Debug)]
 pub struct ScratchTable {
-    /// Row-major, `ROWS` rows of `COLUMNS` texels: the bits of three f32, T in each channel, then [`pack_slopes`] of the
+    /// Row-major, `ROWS` rows of `COLUMNS` texels: the bits of three f32, T in each channel, then `pack_slopes` of the
     /// derivatives by the column index. The slope makes the look-up one of the nearest column alone, and small lights
     /// need it: they see differences of T much finer than a column.
     pub texels: Vec<[u32; 4]>,
