@@ -41,6 +41,15 @@ fn base_polygon(point: SurfacePoint, lobe: LtcLobe, light: Light) -> vec4f {
     return vec4f(ltc_end(specular, lobe), lambert_end(diffuse));
 }
 
+// Light from all around: reflected at the surface, and falling on the body.
+fn base_environment(point: SurfacePoint, albedo: vec3f) -> BaseRadiance {
+    let mirror = vec3f(-point.wo.xy, point.wo.z);
+    return BaseRadiance(
+        albedo * scene_prefiltered(world_from_surface(point, mirror), point.roughness),
+        scene_irradiance(point.normal) / 3.14159265,
+    );
+}
+
 // Radiance of the base towards the viewer, before scratches take theirs.
 fn base_radiance(point: SurfacePoint) -> BaseRadiance {
     let lobe = ltc_lobe(point.wo, point.roughness, lobe_ltc, lobe_albedo);
@@ -65,9 +74,9 @@ fn base_radiance(point: SurfacePoint) -> BaseRadiance {
         gather_rounds += 1u;
     }
     if HAS_ENVIRONMENT {
-        let mirror = vec3f(-point.wo.xy, point.wo.z);
-        specular += albedo * scene_prefiltered(world_from_surface(point, mirror), point.roughness);
-        diffuse += scene_irradiance(point.normal) / 3.14159265;
+        let environment = base_environment(point, albedo);
+        specular += environment.specular;
+        diffuse += environment.diffuse;
     }
     return BaseRadiance(specular, diffuse * body);
 }

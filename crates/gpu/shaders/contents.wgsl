@@ -1,4 +1,4 @@
-// What a scene has. Pipelines are compiled for it, and code for what is not there goes away. Twin: src/shade.rs.
+// What a scene has. Pipelines are compiled for it, and code for what is not there goes away. Twin: src/variant.rs.
 
 override HAS_SCRATCHES: bool = true;
 override HAS_SPHERES: bool = true;

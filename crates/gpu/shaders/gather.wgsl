@@ -6,8 +6,6 @@
 
 // Segments that one batch holds.
 const GATHER_SEGMENTS: u32 = 64u;
-// Segments that a walk finds before it weighs them.
-const GATHER_FOUND: u32 = 32u;
 
 // Segments with a share under the pixel.
 struct GatherBatch {
@@ -27,9 +25,10 @@ fn gather_rounds_a_segment() -> u32 {
 // Walks on under the point's footprint, to the object's last node or until the rounds are spent.
 fn gather_scratches(point: SurfacePoint, object: Object, list: SegmentList, walk: ptr<function, ScratchWalk>) {
     let pixel = gather_pixel(point);
+    let reach_m = gather_reach_m(point);
     var batch: GatherBatch;
-    var segments: array<u32, GATHER_FOUND>;
-    let most = clamp(GATHER_MAX_ROUNDS / gather_rounds_a_segment(), LEAF_SEGMENTS, GATHER_FOUND);
+    var segments: array<u32, FIND_SEGMENTS>;
+    let most = clamp(GATHER_MAX_ROUNDS / gather_rounds_a_segment(), LEAF_SEGMENTS, FIND_SEGMENTS);
     var sums = (*walk).sums;
     while (*walk).at < object.end_node || (*walk).at >= WALK_LISTED {
         if gather_rounds >= GATHER_MAX_ROUNDS {
@@ -40,7 +39,9 @@ fn gather_scratches(point: SurfacePoint, object: Object, list: SegmentList, walk
         if METHOD_LOOKUP == LOOKUP_TRIANGLES {
             found = gather_find_listed(list, most, walk, &segments);
         } else {
-            found = gather_find(point, object, most, walk, &segments);
+            var at = (*walk).at;
+            found = find_segments(point.position_m - reach_m, point.position_m + reach_m, object.end_node, most, &at, &segments);
+            (*walk).at = at;
         }
         batch.count = 0u;
         for (var i = 0u; i < found; i += 1u) {
@@ -57,7 +58,7 @@ fn gather_find_listed(
     list: SegmentList,
     most: u32,
     walk: ptr<function, ScratchWalk>,
-    segments: ptr<function, array<u32, GATHER_FOUND>>,
+    segments: ptr<function, array<u32, FIND_SEGMENTS>>,
 ) -> u32 {
     var found = 0u;
     var at = (*walk).at & ~WALK_LISTED;
@@ -68,40 +69,6 @@ fn gather_find_listed(
         at += 1u;
     }
     (*walk).at = select(list.end_node, at | WALK_LISTED, at < list.count);
-    return found;
-}
-
-// Stage 1, from the hierarchy: segments whose leaves the footprint touches.
-fn gather_find(
-    point: SurfacePoint,
-    object: Object,
-    most: u32,
-    walk: ptr<function, ScratchWalk>,
-    segments: ptr<function, array<u32, GATHER_FOUND>>,
-) -> u32 {
-    let reach = gather_reach_m(point);
-    let lower = point.position_m - reach;
-    let upper = point.position_m + reach;
-    var at = (*walk).at;
-    var found = 0u;
-    while at < object.end_node && found + LEAF_SEGMENTS <= most && gather_rounds < GATHER_MAX_ROUNDS {
-        let node = scratch_node(at);
-        // Lanes that a software driver has switched off read zeros, and would walk for ever.
-        if node.skip <= at {
-            break;
-        }
-        // The inner loop goes round once even for nodes without segments there.
-        gather_rounds += 2u;
-        let touches = all(node.min_m <= upper) && all(node.max_m >= lower);
-        at = select(node.skip, at + 1u, touches);
-        let first = node.leaf & ((1u << LEAF_FIRST_BITS) - 1u);
-        let count = select(0u, node.leaf >> LEAF_FIRST_BITS, touches);
-        for (var i = 0u; i < count; i += 1u) {
-            (*segments)[found] = first + i;
-            found += 1u;
-        }
-    }
-    (*walk).at = at;
     return found;
 }
 

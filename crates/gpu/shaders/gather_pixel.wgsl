@@ -4,9 +4,6 @@
 const REACH_STD: f32 = 3.5;
 // A segment shows at a point only if their normals agree at least this well.
 const FACING_MIN_COS: f32 = 0.2;
-const LEAF_FIRST_BITS: u32 = 28u;
-// A leaf holds no more segments than this. Twin: crates/index.
-const LEAF_SEGMENTS: u32 = 4u;
 
 // 0 where the pixel is the point in its middle, else 1.
 fn gather_filtered() -> f32 {

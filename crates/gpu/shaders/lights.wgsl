@@ -1,4 +1,4 @@
-// Area lights as seen from a surface point. Needs lights and light_vertices. Twin: reference/src/light_view.rs.
+// Area lights as seen from a surface point. Needs lights, light_vertices. Twin: reference/src/light_view.rs.
 
 // 1 if a polygon's vertices are seen counter-clockwise, -1 if clockwise, 0 if it shines to the other side.
 fn light_facing(point: SurfacePoint, light: Light) -> f32 {
@@ -15,10 +15,4 @@ fn light_vertex(point: SurfacePoint, light: Light, i: u32) -> vec3f {
 // The cap of directions that holds a light.
 fn light_cap(point: SurfacePoint, light: Light) -> Cap {
     return sphere_cap(surface_from_world(point, light.center_m - point.position_m), light.radius_m);
-}
-
-// Whether any of it is above the horizon and shines this way.
-fn light_shines(point: SurfacePoint, light: Light) -> bool {
-    let above = dot(light.center_m - point.position_m, point.normal) > -light.radius_m;
-    return above && (light.kind == LIGHT_SPHERE || light_facing(point, light) != 0.0);
 }

@@ -1,5 +1,5 @@
 // By which of the known ways scratches are computed. Pipelines are compiled for it, and code for other ways goes away. Twin:
-// optics/src/method.rs; src/shade.rs sets the numbers.
+// optics/src/method.rs; src/variant.rs sets the numbers.
 
 override METHOD_SPECTRUM: u32 = 0u;
 const SPECTRUM_TABLE: u32 = 0u;

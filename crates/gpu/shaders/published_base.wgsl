@@ -44,9 +44,9 @@ fn published_base(point: SurfacePoint) -> BaseRadiance {
         }
     }
     if HAS_ENVIRONMENT {
-        let mirror = vec3f(-point.wo.xy, point.wo.z);
-        specular += albedo * scene_prefiltered(world_from_surface(point, mirror), point.roughness);
-        diffuse += scene_irradiance(point.normal) / 3.14159265;
+        let environment = base_environment(point, albedo);
+        specular += environment.specular;
+        diffuse += environment.diffuse;
     }
     return BaseRadiance(specular, diffuse * body);
 }

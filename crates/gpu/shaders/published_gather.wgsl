@@ -3,13 +3,9 @@
 
 // Needs, beside its modules: scratch_nodes, scratch_segments, lights, triangle_lists.
 
-const PUBLISHED_REACH_STD: f32 = 3.5;
-const PUBLISHED_FACING_MIN_COS: f32 = 0.2;
-const PUBLISHED_LEAF_FIRST_BITS: u32 = 28u;
-const PUBLISHED_LEAF_SEGMENTS: u32 = 4u;
 // Sides of the box that has the variance of a Gaussian of standard deviation 1: the square root of 12.
 const PUBLISHED_BOX: f32 = 3.46410162;
-// Segments found and not yet lit. Finding and lighting are loops of their own, so that no driver that executes both sides of
+// Segments seen and not yet lit. Finding and lighting are loops of their own, so that no driver that executes both sides of
 // every branch lights a scratch at each node.
 const PUBLISHED_BATCH: u32 = 16u;
 
@@ -43,19 +39,24 @@ fn published_walk_end(object: Object, triangle: u32) -> u32 {
 // Walks on to the end or until the rounds are spent.
 fn published_scratches(point: SurfacePoint, object: Object, triangle: u32, end: u32, walk: ptr<function, ScratchWalk>) {
     var batch: PublishedBatch;
+    var segments: array<u32, FIND_SEGMENTS>;
+    let reach_m = gather_reach_m(point);
     // So that a batch cannot spend many more rounds than there are.
     let cells = select(0u, ENVIRONMENT_CELLS, HAS_ENVIRONMENT);
     let chords = frame.light_count * select(4u, 20u, METHOD_BAND == BAND_LINES);
     let rounds = (chords + cells) * (2u * METHOD_WAVELENGTHS + 2u) + 1u;
-    let most = clamp(GATHER_MAX_ROUNDS / rounds, PUBLISHED_LEAF_SEGMENTS, PUBLISHED_BATCH);
+    let most = clamp(GATHER_MAX_ROUNDS / rounds, LEAF_SEGMENTS, PUBLISHED_BATCH);
     while (*walk).at < end && gather_rounds < GATHER_MAX_ROUNDS {
         gather_rounds += 1u;
+        var found = 0u;
         if METHOD_LOOKUP == LOOKUP_TRIANGLES {
-            published_find_listed(object, triangle, end, most, walk, &batch);
+            found = published_find_listed(object, triangle, end, most, walk, &segments);
         } else {
-            published_find(point, end, most, walk, &batch);
+            var at = (*walk).at;
+            found = find_segments(point.position_m - reach_m, point.position_m + reach_m, end, most, &at, &segments);
+            (*walk).at = at;
         }
-        published_weigh(point, &batch, walk);
+        published_weigh(point, found, &segments, &batch, walk);
         published_light(point, &batch, walk);
     }
 }
@@ -67,53 +68,17 @@ fn published_find_listed(
     end: u32,
     most: u32,
     walk: ptr<function, ScratchWalk>,
-    batch: ptr<function, PublishedBatch>,
-) {
+    segments: ptr<function, array<u32, FIND_SEGMENTS>>,
+) -> u32 {
     let at = (*walk).at;
     let count = min(end - at, most);
     let first = triangle_list(triangle).x + at - object.first_node;
     for (var i = 0u; i < count; i += 1u) {
-        (*batch).segments[i] = triangle_list_segment(first + i);
+        (*segments)[i] = triangle_list_segment(first + i);
         gather_rounds += 1u;
     }
     (*walk).at = at + count;
-    (*batch).count = count;
-}
-
-// The next segments whose leaves the footprint touches.
-fn published_find(
-    point: SurfacePoint,
-    end: u32,
-    most: u32,
-    walk: ptr<function, ScratchWalk>,
-    batch: ptr<function, PublishedBatch>,
-) {
-    let sigma_m = point.coherence_um * 1e-6;
-    let variance = point.footprint_x_m * point.footprint_x_m + point.footprint_y_m * point.footprint_y_m + 0.7 * sigma_m * sigma_m;
-    let reach = PUBLISHED_REACH_STD * sqrt(variance);
-    let lower = point.position_m - reach;
-    let upper = point.position_m + reach;
-    var at = (*walk).at;
-    var found = 0u;
-    while at < end && found + PUBLISHED_LEAF_SEGMENTS <= most && gather_rounds < GATHER_MAX_ROUNDS {
-        let node = scratch_node(at);
-        // Lanes that a software driver has switched off read zeros, and would walk for ever.
-        if node.skip <= at {
-            break;
-        }
-        // The inner loop goes round once even for nodes without segments there.
-        gather_rounds += 2u;
-        let touches = all(node.min_m <= upper) && all(node.max_m >= lower);
-        at = select(node.skip, at + 1u, touches);
-        let first = node.leaf & ((1u << PUBLISHED_LEAF_FIRST_BITS) - 1u);
-        let count = select(0u, node.leaf >> PUBLISHED_LEAF_FIRST_BITS, touches);
-        for (var i = 0u; i < count; i += 1u) {
-            (*batch).segments[found] = first + i;
-            found += 1u;
-        }
-    }
-    (*walk).at = at;
-    (*batch).count = found;
+    return count;
 }
 
 // What a pixel sees of a segment.
@@ -133,8 +98,8 @@ fn published_weight(point: SurfacePoint, segment: Segment, view: PublishedView) 
     );
     let sigma = point.coherence_um;
     let offset_um = published_offset_um(view);
-    let reach2 = PUBLISHED_REACH_STD * PUBLISHED_REACH_STD * (footprint.across_um2 + 0.5 * sigma * sigma);
-    let elsewhere = dot(segment.normal, point.normal) < PUBLISHED_FACING_MIN_COS;
+    let reach2 = REACH_STD * REACH_STD * (footprint.across_um2 + 0.5 * sigma * sigma);
+    let elsewhere = dot(segment.normal, point.normal) < FACING_MIN_COS;
     if offset_um * offset_um > reach2 || elsewhere || !(view.end.x > view.start.x) {
         return PublishedWeight(ScratchShare(0.0, 0.0), 0.0);
     }
@@ -153,12 +118,18 @@ fn published_weight(point: SurfacePoint, segment: Segment, view: PublishedView) 
 }
 
 // The share of each segment and what it takes from the base; keeps those that are seen.
-fn published_weigh(point: SurfacePoint, batch: ptr<function, PublishedBatch>, walk: ptr<function, ScratchWalk>) {
+fn published_weigh(
+    point: SurfacePoint,
+    found: u32,
+    segments: ptr<function, array<u32, FIND_SEGMENTS>>,
+    batch: ptr<function, PublishedBatch>,
+    walk: ptr<function, ScratchWalk>,
+) {
     var sums = (*walk).sums;
     var kept = 0u;
-    for (var i = 0u; i < (*batch).count; i += 1u) {
+    for (var i = 0u; i < found; i += 1u) {
         gather_rounds += 1u;
-        let index = (*batch).segments[i];
+        let index = (*segments)[i];
         let segment = segment_at(index);
         let weight = published_weight(point, segment, published_view(point, segment));
         if weight.share.segment > 0.0 {

@@ -1,9 +1,5 @@
 // Look-ups in what the scene binds.
 
-fn scene_has_environment() -> bool {
-    return HAS_ENVIRONMENT && (frame.environment_flags & ENVIRONMENT_PRESENT) != 0u;
-}
-
 // What the camera sees of the environment along a unit direction away from it, world space.
 fn scene_background(direction: vec3f) -> vec3f {
     if !HAS_ENVIRONMENT || (frame.environment_flags & ENVIRONMENT_VISIBLE) == 0u {

@@ -6,7 +6,7 @@
 
 // Two words a pixel: a bit for each scratch at hand.
 var<workgroup> touches: array<atomic<u32>, 128>;
-var<workgroup> listed_count: u32;
+var<workgroup> tile_head: vec2u;
 // Whether a pixel saw more scratches than there is room for, and goes on by a walk.
 var<workgroup> tile_overflows: atomic<u32>;
 
@@ -19,10 +19,11 @@ fn shade(
     let tile = queue_tile(QUEUE_LISTED, workgroup.x);
     let list = tile * frame.tile_entries;
     if lane == 0u {
-        listed_count = textureLoad(tile_lists, row_texel(list), 0).x;
+        tile_head = textureLoad(tile_lists, row_texel(list), 0).xy;
     }
-    let count = workgroupUniformLoad(&listed_count);
-    let reach_px = bitcast<f32>(textureLoad(tile_lists, row_texel(list + 1u), 0).y);
+    let head = workgroupUniformLoad(&tile_head);
+    let count = head.x;
+    let reach_px = bitcast<f32>(head.y);
 
     let in_film = tile_corner(tile) + local.xy;
     let pixel = in_film + vec2u(0u, frame.rows.x);

@@ -2,8 +2,8 @@
 
 // Pixels to a side of a tile.
 const TILE_PX: u32 = 8u;
-// Texels of a tile before its list: how many there are and for which object, and how far off they may be.
-const TILE_HEAD: u32 = 2u;
+// Texels of a tile before its list: how many entries it has, and how far off their lines may be.
+const TILE_HEAD: u32 = 1u;
 
 // Tiles across the film, and down it.
 fn tile_counts() -> vec2u {
@@ -46,10 +46,4 @@ fn unpack_tile_line(line: u32) -> vec3f {
     let packed = bitcast<i32>(line);
     let steps = vec3f(vec3i(extractBits(packed, 0u, 10u), extractBits(packed, 10u, 10u), extractBits(packed, 20u, 12u)));
     return steps / vec3f(511.0, 511.0, 127.0);
-}
-
-// How far a pixel is from it.
-fn tile_line_distance_px(line: u32, at_px: vec2f) -> f32 {
-    let unpacked = unpack_tile_line(line);
-    return abs(dot(unpacked.xy, at_px) - unpacked.z);
 }

@@ -10,9 +10,6 @@ const TILE_MARGIN_PX: f32 = 0.1;
 // Where shading bends the surface by more than this the footprint in the picture is not what the line tells.
 const TILE_BENT: f32 = 0.05;
 
-// Segments that a walk finds before it looks at them.
-const TILE_FOUND: u32 = 32u;
-
 // What the pixels of a tile see of one object.
 struct TileSight {
     object: u32,                // + 1; 0 if they see none
@@ -45,25 +42,9 @@ fn tiles(
         end = object.end_node;
     }
     // In two loops by turns: what leaves hold is found, and looked at.
-    var segments: array<u32, TILE_FOUND>;
-    while at < end && found + TILE_HEAD + TILE_FOUND <= frame.tile_entries && gather_rounds < GATHER_MAX_ROUNDS {
-        var count = 0u;
-        while at < end && count + LEAF_SEGMENTS <= TILE_FOUND && gather_rounds < GATHER_MAX_ROUNDS {
-            let node = scratch_node(at);
-            // Lanes that a software driver has switched off read zeros, and would walk for ever.
-            if node.skip <= at {
-                break;
-            }
-            gather_rounds += 2u;
-            let touches = all(node.min_m <= sight.upper_m) && all(node.max_m >= sight.lower_m);
-            at = select(node.skip, at + 1u, touches);
-            let first_segment = node.leaf & ((1u << LEAF_FIRST_BITS) - 1u);
-            let segment_count = select(0u, node.leaf >> LEAF_FIRST_BITS, touches);
-            for (var i = 0u; i < segment_count; i += 1u) {
-                segments[count] = first_segment + i;
-                count += 1u;
-            }
-        }
+    var segments: array<u32, FIND_SEGMENTS>;
+    while at < end && found + TILE_HEAD + FIND_SEGMENTS <= frame.tile_entries && gather_rounds < GATHER_MAX_ROUNDS {
+        let count = find_segments(sight.lower_m, sight.upper_m, end, FIND_SEGMENTS, &at, &segments);
         for (var i = 0u; i < count; i += 1u) {
             gather_rounds += 1u;
             let line = tile_line(segments[i], corner, sight);
@@ -73,8 +54,7 @@ fn tiles(
             }
         }
     }
-    tile_store(first, 0u, vec2u(found, 0u));
-    tile_store(first, 1u, vec2u(sight.object, bitcast<u32>(sqrt(sight.reach2_px))));
+    textureStore(tile_lists_out, row_texel(first), vec4u(found, bitcast<u32>(sqrt(sight.reach2_px)), 0u, 0u));
     if sight.object == 0u {
         queue_push(QUEUE_EMPTY, tile);
     } else if sight.one_object && at >= end {
@@ -82,10 +62,6 @@ fn tiles(
     } else {
         queue_push(QUEUE_WALKED, tile);
     }
-}
-
-fn tile_store(first: u32, i: u32, value: vec2u) {
-    textureStore(tile_lists_out, row_texel(first + i), vec4u(value, 0u, 0u));
 }
 
 fn tile_sight(corner: vec2u) -> TileSight {

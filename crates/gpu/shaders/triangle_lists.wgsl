@@ -1,11 +1,8 @@
 // The scratches that each triangle's points may see. Needs triangle_lists. Twin: src/published.rs lays it out; the lists are
 // those of crates/index.
 
-const TRIANGLE_LISTS_WIDTH_BITS: u32 = 12u;
-
 fn triangle_lists_word(i: u32) -> u32 {
-    let at = vec2u(i & ((1u << TRIANGLE_LISTS_WIDTH_BITS) - 1u), i >> TRIANGLE_LISTS_WIDTH_BITS);
-    return textureLoad(triangle_lists, at, 0).x;
+    return textureLoad(triangle_lists, row_texel(i), 0).x;
 }
 
 // Where the list of a triangle begins and ends, for triangle_list_segment.

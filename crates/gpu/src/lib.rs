@@ -24,6 +24,7 @@ mod tile_room;
 mod tiles;
 pub mod timing;
 pub mod upload;
+mod variant;
 mod visibility;
 
 pub use device::{Adapter, AdapterKind, AdapterRequest, Gpu, KindRequest};

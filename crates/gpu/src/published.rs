@@ -10,13 +10,11 @@ use wgpu::TextureFormat;
 
 use crate::device::Gpu;
 use crate::error::Error;
+use crate::rows::ROW_TEXELS;
 use crate::textures;
 
 /// Columns beyond the wavelengths. Twin: published_lights.wgsl.
 const LIGHT_TRIANGLE_COLUMNS: usize = 64;
-
-/// Twin: triangle_lists.wgsl.
-const TRIANGLE_LISTS_WIDTH: usize = 1 << 12;
 
 /// A row of wavelengths for each scratch table: weights in the three channels, wavelength in um. In columns of their own
 /// beside them the triangles of the lights, each as three vertices counted from its light's first. Triangle i of a light
@@ -88,7 +86,7 @@ pub(crate) async fn triangle_lists(
     let lists = TriangleLists::build(scene, index);
     let first = lists.starts.len();
     let count = first + lists.segments.len();
-    let allowed = TRIANGLE_LISTS_WIDTH as u64 * u64::from(gpu.limits().max_texture_dimension_2d);
+    let allowed = u64::from(ROW_TEXELS) * u64::from(gpu.limits().max_texture_dimension_2d);
     if count as u64 > allowed {
         return Err(gpu.too_large(what, count as u64, allowed, "entries"));
     }
@@ -98,11 +96,8 @@ pub(crate) async fn triangle_lists(
         .map(|start| start + first as u32)
         .collect();
     words.extend(&lists.segments);
-    words.resize(count.next_multiple_of(TRIANGLE_LISTS_WIDTH), 0);
-    let size = [
-        TRIANGLE_LISTS_WIDTH as u32,
-        (words.len() / TRIANGLE_LISTS_WIDTH) as u32,
-    ];
+    words.resize(count.next_multiple_of(ROW_TEXELS as usize), 0);
+    let size = [ROW_TEXELS, (words.len() / ROW_TEXELS as usize) as u32];
     let texture = textures::texture(gpu, what, size, 1, 1, TextureFormat::R32Uint).await?;
     textures::write(gpu, &texture, 0, 0, size, bytemuck::cast_slice(&words));
     Ok(texture.create_view(&Default::default()))

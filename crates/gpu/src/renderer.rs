@@ -17,10 +17,11 @@ use crate::error::Error;
 use crate::film::Film;
 use crate::frame::frame;
 use crate::layout::Frame;
-use crate::shade::{Contents, ShadePass, ShadeVariant};
+use crate::shade::ShadePass;
 use crate::tiles::TilesPasses;
 use crate::timing::{PassTime, Timing};
 use crate::upload::GpuScene;
+use crate::variant::{Contents, ShadeVariant};
 use crate::visibility::VisibilityPass;
 
 /// How to render, beside what the scene says.

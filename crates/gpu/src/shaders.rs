@@ -94,7 +94,9 @@ modules! {
     /// The straight pieces of scratches, unpacked.
     SEGMENTS = "segments" needs [ROWS];
     /// The scratches of each triangle.
-    TRIANGLE_LISTS = "triangle_lists" needs [BINDINGS];
+    TRIANGLE_LISTS = "triangle_lists" needs [ROWS];
+    /// Segments in a box.
+    FIND = "find" needs [ROWS, WALK];
     /// What the shading pass adds to: group 3.
     FILM = "film" needs [BINDINGS, WALK];
     /// Tiles of the picture.
@@ -114,7 +116,7 @@ modules! {
     /// The same of a polygon with many vertices.
     GATHER_LARGE_POLYGON = "gather_large_polygon" needs [GATHER_LIGHT];
     /// The scratches under a footprint and their light.
-    GATHER = "gather" needs [GATHER_LIGHT, GATHER_LARGE_POLYGON, GATHER_MASK, LISTED, WALK];
+    GATHER = "gather" needs [FIND, GATHER_LIGHT, GATHER_LARGE_POLYGON, GATHER_MASK, LISTED, WALK];
     /// The base under lights and environment.
     BASE = "base" needs [SCENE, LIGHTS, WALK, LTC];
     /// The method of 2018: a scratch under lights and environment.
@@ -123,7 +125,7 @@ modules! {
         PUBLISHED_POLYGON
     ];
     /// The method of 2018: the scratches under a pixel.
-    PUBLISHED_GATHER = "published_gather" needs [PUBLISHED_LIGHTS, PUBLISHED_FOOTPRINT, TRIANGLE_LISTS, CONTENTS];
+    PUBLISHED_GATHER = "published_gather" needs [FIND, GATHER_PIXEL, PUBLISHED_LIGHTS, PUBLISHED_FOOTPRINT, TRIANGLE_LISTS, CONTENTS];
     /// The method of 2018: the base.
     PUBLISHED_BASE = "published_base" needs [BASE, PUBLISHED_LIGHTS, SPTD];
     /// Pass: triangle and object of each pixel.
@@ -141,7 +143,7 @@ modules! {
     /// Pass: tiles that show no object.
     BACKGROUND = "background" needs [SHADE_POINT, TILE_QUEUES];
     /// Pass: the scratches that each tile of pixels may see.
-    TILES = "tiles" needs [HIT, GATHER_PIXEL, WALK, TILE_QUEUES, SEGMENT_SEEN];
+    TILES = "tiles" needs [HIT, FIND, GATHER_PIXEL, TILE_QUEUES, SEGMENT_SEEN];
     /// Pass: from what is visible to radiance by the method of 2018.
     SHADE_PUBLISHED = "shade_published" needs [HIT, PUBLISHED_GATHER, PUBLISHED_BASE, SHADE_POINT];
     /// Pass: the film on a display.

@@ -6,11 +6,11 @@
 use crate::bindings::Layouts;
 use crate::device::Gpu;
 use crate::film::Film;
-use crate::shade::{ShadeVariant, compute_pipeline};
 use crate::shaders;
 use crate::tile_room::Queue;
 use crate::timing::Timing;
 use crate::upload::GpuScene;
+use crate::variant::{ShadeVariant, compute_pipeline};
 
 pub(crate) struct TilesPasses {
     tiles: wgpu::ComputePipeline,

@@ -19,7 +19,8 @@ fn packed(rows: &[[f32; 5]]) -> Option<Vec<[f32; 2]>> {
     let call = Call {
         modules: &[&shaders::TILE],
         snippet: "let line = pack_tile_line(vec2f(x[0], x[1]), x[2]);
-            y[0] = tile_line_distance_px(line, vec2f(x[3], x[4]));
+            let unpacked = unpack_tile_line(line);
+            y[0] = abs(dot(unpacked.xy, vec2f(x[3], x[4])) - unpacked.z);
             y[1] = select(0.0, 1.0, line == 0u);",
         tables: &[],
     };

@@ -121,8 +121,13 @@ fn draw(svg: &mut String, [x, y]: &[Axis; 2], series: &[Series]) -> Drawn {
         } else {
             chart.draw_series(LineSeries::new(line, color.stroke_width(width)))?
         };
+        // The legend shows the line as it is drawn: two dashes and the gap between them, or the whole.
+        let ends = if one.dashed { [6, 10] } else { [8, 8] };
         drawn.label(&one.name).legend(move |(x, y)| {
-            PathElement::new(vec![(x, y), (x + 16, y)], color.stroke_width(2))
+            let stroke = color.stroke_width(2);
+            EmptyElement::at((x, y))
+                + PathElement::new(vec![(0, 0), (ends[0], 0)], stroke)
+                + PathElement::new(vec![(ends[1], 0), (16, 0)], stroke)
         });
         if !one.plain {
             chart.draw_series(

@@ -1,0 +1,38 @@
+// Segments in a box: a walk over the hierarchy by its skip pointers. Twin: index/src/segment_tree.rs.
+
+const LEAF_FIRST_BITS: u32 = 28u;
+// A leaf holds no more segments than this.
+const LEAF_SEGMENTS: u32 = 4u;
+// Segments that are found before somebody looks at them.
+const FIND_SEGMENTS: u32 = 32u;
+
+// The segments of leaves that touch a box, from node `at` on, until the node `end`, until `most` might be exceeded, or until the
+// rounds are spent. Returns how many; `at` is where to go on.
+fn find_segments(
+    lower_m: vec3f,
+    upper_m: vec3f,
+    end: u32,
+    most: u32,
+    at: ptr<function, u32>,
+    segments: ptr<function, array<u32, FIND_SEGMENTS>>,
+) -> u32 {
+    var found = 0u;
+    while *at < end && found + LEAF_SEGMENTS <= most && gather_rounds < GATHER_MAX_ROUNDS {
+        let node = scratch_node(*at);
+        // Lanes that a software driver has switched off read zeros, and would walk for ever.
+        if node.skip <= *at {
+            break;
+        }
+        // The inner loop goes round once even for nodes without segments there.
+        gather_rounds += 2u;
+        let touches = all(node.min_m <= upper_m) && all(node.max_m >= lower_m);
+        *at = select(node.skip, *at + 1u, touches);
+        let first = node.leaf & ((1u << LEAF_FIRST_BITS) - 1u);
+        let count = select(0u, node.leaf >> LEAF_FIRST_BITS, touches);
+        for (var i = 0u; i < count; i += 1u) {
+            (*segments)[found] = first + i;
+            found += 1u;
+        }
+    }
+    return found;
+}
