@@ -18,8 +18,8 @@ use hairline_scene::camera::pixel_jitter;
 use hairline_scene::{CameraFrame, Scene, ScratchTables};
 use rayon::prelude::*;
 use std::ops::Range;
-use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, OnceLock};
 
 /// How to render, beside what the scene says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,9 +43,9 @@ impl Default for RenderOptions {
 /// A scene with everything that rendering looks up.
 pub struct Prepared<'a> {
     pub(crate) scene: &'a Scene,
-    pub(crate) triangles: TriangleIndex,
-    pub(crate) scratches: ScratchIndex,
-    pub(crate) tables: ScratchTables,
+    pub(crate) triangles: Arc<TriangleIndex>,
+    pub(crate) scratches: Arc<ScratchIndex>,
+    pub(crate) tables: Arc<ScratchTables>,
     /// For methods that look scratches up by triangle.
     lists: OnceLock<TriangleLists>,
     /// Of each object, counted over the whole scene.
@@ -59,6 +59,16 @@ impl<'a> Prepared<'a> {
             || TriangleIndex::build(scene),
             || rayon::join(|| ScratchIndex::build(scene), || ScratchTables::new(scene)),
         );
+        Self::from_parts(scene, triangles.into(), scratches.into(), tables.into())
+    }
+
+    /// Takes trees and tables that were built before, of `scene` or of one with the same surfaces, scratches and materials.
+    pub fn from_parts(
+        scene: &'a Scene,
+        triangles: Arc<TriangleIndex>,
+        scratches: Arc<ScratchIndex>,
+        tables: Arc<ScratchTables>,
+    ) -> Self {
         Self {
             scene,
             triangles,
