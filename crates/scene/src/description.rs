@@ -7,6 +7,7 @@
 
 mod check;
 pub(crate) mod hint;
+pub mod limits;
 pub(crate) mod locate;
 mod read;
 mod table;

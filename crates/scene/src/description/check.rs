@@ -1,23 +1,22 @@
 //! Ranges: what a number may be, whoever wrote it.
 
+use super::limits;
 use super::{
     Amount, Around, Camera, Description, Distribution, Laid, Layer, Light, LightKind, Material,
     MaterialKind, MetalColor, Object, Pattern, Render, Scratches, Shape, Surface,
 };
 use crate::error::Error;
 use crate::polygon;
-
-/// Beyond this single precision leaves less than a coherence width between neighbouring coordinates.
-const LARGEST_M: f64 = 1e3;
-/// Smaller things than this are lost between the coordinates of single precision, and below the model's scale.
-const SMALLEST_M: f64 = 1e-5;
-const LARGEST_PICTURE_PX: u32 = 16_384;
+use std::ops::RangeInclusive;
 
 type Check = Result<(), Error>;
 
 impl Description {
     /// Refuses values out of range. References between tables are checked where they are resolved.
-    pub(crate) fn check(&self) -> Check {
+    ///
+    /// # Errors
+    /// What is out of range, and where.
+    pub fn check(&self) -> Result<(), Error> {
         camera(&self.camera, "camera")?;
         render(&self.render, "render")?;
         if let Some(environment) = &self.environment {
@@ -68,14 +67,17 @@ fn camera(camera: &Camera, key: &str) -> Check {
     within(
         &format!("{key}.exposure_ev"),
         camera.exposure_ev,
-        -64.0,
-        64.0,
+        limits::EXPOSURE_EV,
     )?;
-    within(&format!("{key}.fov_y_deg"), camera.fov_y_deg, 0.001, 179.0)?;
+    within(
+        &format!("{key}.fov_y_deg"),
+        camera.fov_y_deg,
+        limits::FOV_Y_DEG,
+    )?;
     let [position, target, up] =
         [camera.position_m, camera.target_m, camera.up].map(glam::DVec3::from_array);
     let view = target - position;
-    if view.length() < SMALLEST_M {
+    if view.length() < limits::SMALLEST_M {
         return Err(Error::new(
             format!("{key}.target_m"),
             "found the camera's own position",
@@ -97,33 +99,36 @@ fn camera(camera: &Camera, key: &str) -> Check {
 fn render(render: &Render, key: &str) -> Check {
     for (i, &size) in render.size_px.iter().enumerate() {
         let key = format!("{key}.size_px[{i}]");
-        within(&key, size.into(), 1.0, LARGEST_PICTURE_PX.into())?;
+        within(&key, size.into(), limits::PICTURE_PX)?;
     }
     within(
         &format!("{key}.filter_std_px"),
         render.filter_std_px,
-        0.1,
-        10.0,
+        limits::FILTER_STD_PX,
     )
 }
 
 fn material(material: &Material, key: &str) -> Check {
-    within(&format!("{key}.roughness"), material.roughness, 0.0, 1.0)?;
+    within(
+        &format!("{key}.roughness"),
+        material.roughness,
+        limits::ROUGHNESS,
+    )?;
     let coherence = format!("{key}.coherence_um");
-    within(&coherence, material.coherence_um, 1.0, 1000.0)?;
-    let color = |rgb: [f64; 3]| components(&format!("{key}.base_color"), rgb, 0.0, 1.0);
+    within(&coherence, material.coherence_um, limits::COHERENCE_UM)?;
+    let color = |rgb: [f64; 3]| components(&format!("{key}.base_color"), rgb, limits::BASE_COLOR);
     match material.kind {
         MaterialKind::Metal(MetalColor::Measured(_)) | MaterialKind::Mirror => Ok(()),
         MaterialKind::Metal(MetalColor::Color(base_color)) => color(base_color),
         MaterialKind::Dielectric { ior, base_color } => {
-            within(&format!("{key}.ior"), ior, 1.0, 4.0)?;
+            within(&format!("{key}.ior"), ior, limits::IOR)?;
             color(base_color)
         }
         MaterialKind::MetallicRoughness {
             base_color,
             metallic,
         } => {
-            within(&format!("{key}.metallic"), metallic, 0.0, 1.0)?;
+            within(&format!("{key}.metallic"), metallic, limits::METALLIC)?;
             color(base_color)
         }
     }
@@ -141,7 +146,7 @@ fn object(object: &Object, key: &str) -> Check {
     };
     for (i, factor) in scale.into_iter().enumerate() {
         finite(&scale_key(i), factor)?;
-        if !(1e-6..=1e6).contains(&factor.abs()) {
+        if !limits::SCALE.contains(&factor.abs()) {
             return Err(Error::new(
                 scale_key(i),
                 found(factor),
@@ -174,15 +179,15 @@ fn shape(shape: &Shape, key: &str) -> Check {
             ..
         } => {
             let facets = format!("{key}.lathe.segments");
-            within(&facets, (*segments).into(), 3.0, 4096.0)?;
+            within(&facets, (*segments).into(), limits::LATHE_SEGMENTS)?;
             let profile = format!("{key}.lathe.profile_m");
             if profile_m.len() < 2 {
                 let found = format!("found {} points", profile_m.len());
                 return Err(Error::new(profile, found, "must be at least two"));
             }
             for (i, [r, z]) in profile_m.iter().enumerate() {
-                within(&format!("{profile}[{i}][0]"), *r, 0.0, LARGEST_M)?;
-                within(&format!("{profile}[{i}][1]"), *z, -LARGEST_M, LARGEST_M)?;
+                within(&format!("{profile}[{i}][0]"), *r, limits::PROFILE_RADIUS_M)?;
+                within(&format!("{profile}[{i}][1]"), *z, limits::COORDINATE_M)?;
             }
             Ok(())
         }
@@ -200,7 +205,7 @@ fn laid(laid: &Laid, key: &str) -> Check {
     if let Amount::DensityPerM2(density) = laid.amount {
         not_negative(&format!("{key}.density_per_m2"), density)?;
     }
-    if i64::try_from(laid.seed).is_err() {
+    if laid.seed > limits::LARGEST_SEED {
         // TOML's integers end there, so it could not be saved.
         let found = format!("found {}", laid.seed);
         return Err(Error::new(
@@ -209,32 +214,30 @@ fn laid(laid: &Laid, key: &str) -> Check {
             "must be below 2^63",
         ));
     }
-    for (name, drawn, largest) in [
-        ("length_m", laid.length_m, LARGEST_M),
-        ("width_um", laid.width_um, 100.0),
-        ("depth_nm", laid.depth_nm, 2000.0),
+    for (name, drawn, means) in [
+        ("length_m", laid.length_m, limits::SCRATCH_LENGTH_M),
+        ("width_um", laid.width_um, limits::SCRATCH_WIDTH_UM),
+        ("depth_nm", laid.depth_nm, limits::SCRATCH_DEPTH_NM),
     ] {
         let way = format!("{key}.{name}");
-        spread(&way, drawn, 3.0)?;
+        spread(&way, drawn, limits::LOG_NORMAL_SPREAD)?;
         let mean = match drawn.spread == 0.0 {
             true => way,
             false => format!("{way}.mean"),
         };
         positive(&mean, drawn.mean)?;
-        within(&mean, drawn.mean, 0.0, largest)?;
+        within(&mean, drawn.mean, means)?;
     }
-    let jitter = |jitter_deg| within(&format!("{key}.jitter_deg"), jitter_deg, 0.0, 90.0);
+    let jitter = |jitter_deg| within(&format!("{key}.jitter_deg"), jitter_deg, limits::JITTER_DEG);
     let around = |around: &Around| {
         direction(&format!("{key}.axis"), around.axis)?;
         point(&format!("{key}.center_m"), around.center_m)?;
         jitter(around.jitter_deg)
     };
     let curvature = |drawn: Distribution| {
-        // A scratch that turns within a coherence width is no straight groove to the model.
-        const SHARPEST_PER_M: f64 = 1e4;
         let way = format!("{key}.curvature_per_m");
-        spread(&way, drawn, SHARPEST_PER_M)?;
-        within(&way, drawn.mean, -SHARPEST_PER_M, SHARPEST_PER_M)
+        spread(&way, drawn, limits::CURVATURE_SPREAD_PER_M)?;
+        within(&way, drawn.mean, limits::CURVATURE_PER_M)
     };
     match &laid.pattern {
         Pattern::Random { curvature_per_m } => curvature(*curvature_per_m),
@@ -269,7 +272,7 @@ fn laid(laid: &Laid, key: &str) -> Check {
 
 fn light(light: &Light, key: &str) -> Check {
     not_negative(&format!("{key}.radiance"), light.radiance)?;
-    components(&format!("{key}.color"), light.color, 0.0, f64::MAX)?;
+    components(&format!("{key}.color"), light.color, 0.0..=f64::MAX)?;
     match &light.kind {
         LightKind::Sphere { center_m, radius_m } => {
             point(&format!("{key}.center_m"), *center_m)?;
@@ -322,9 +325,10 @@ fn not_negative(key: &str, value: f64) -> Check {
     }
 }
 
-fn within(key: &str, value: f64, least: f64, most: f64) -> Check {
+fn within(key: &str, value: f64, range: RangeInclusive<f64>) -> Check {
     finite(key, value)?;
-    match (least..=most).contains(&value) {
+    let (least, most) = (*range.start(), *range.end());
+    match range.contains(&value) {
         true => Ok(()),
         false => Err(Error::new(
             key,
@@ -336,35 +340,35 @@ fn within(key: &str, value: f64, least: f64, most: f64) -> Check {
 
 fn size(key: &str, value: f64) -> Check {
     positive(key, value)?;
-    within(key, value, SMALLEST_M, LARGEST_M)
+    within(key, value, limits::SIZE_M)
 }
 
-fn spread(key: &str, drawn: Distribution, most: f64) -> Check {
+fn spread(key: &str, drawn: Distribution, spreads: RangeInclusive<f64>) -> Check {
     match drawn.spread == 0.0 {
         true => finite(key, drawn.mean),
         false => {
             finite(&format!("{key}.mean"), drawn.mean)?;
-            within(&format!("{key}.spread"), drawn.spread, 0.0, most)
+            within(&format!("{key}.spread"), drawn.spread, spreads)
         }
     }
 }
 
-fn components(key: &str, values: [f64; 3], least: f64, most: f64) -> Check {
+fn components(key: &str, values: [f64; 3], range: RangeInclusive<f64>) -> Check {
     values.iter().enumerate().try_for_each(|(i, &value)| {
         let key = format!("{key}[{i}]");
-        match most == f64::MAX {
+        match *range.end() == f64::MAX {
             true => not_negative(&key, value),
-            false => within(&key, value, least, most),
+            false => within(&key, value, range.clone()),
         }
     })
 }
 
 fn point(key: &str, point: [f64; 3]) -> Check {
-    components(key, point, -LARGEST_M, LARGEST_M)
+    components(key, point, limits::COORDINATE_M)
 }
 
 fn direction(key: &str, direction: [f64; 3]) -> Check {
-    components(key, direction, -1e6, 1e6)?;
+    components(key, direction, limits::DIRECTION)?;
     match glam::DVec3::from_array(direction).length() > 1e-6 {
         true => Ok(()),
         false => Err(Error::new(

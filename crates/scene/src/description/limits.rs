@@ -1,0 +1,61 @@
+//! What `check` lets a number be, as constants, so that an editor's controls stop where scenes do.
+//!
+//! Where a range starts at 0, [`Description::check`](super::Description::check) may want more than 0; the constant says so.
+
+use std::ops::RangeInclusive;
+
+/// Beyond this single precision leaves less than a coherence width between neighbouring coordinates.
+pub const LARGEST_M: f64 = 1e3;
+/// Smaller things than this are lost between the coordinates of single precision, and below the model's scale.
+pub const SMALLEST_M: f64 = 1e-5;
+
+/// Coordinates of points.
+pub const COORDINATE_M: RangeInclusive<f64> = -LARGEST_M..=LARGEST_M;
+/// Components of directions, not all of them 0.
+pub const DIRECTION: RangeInclusive<f64> = -1e6..=1e6;
+/// Radii and edges of shapes and lights.
+pub const SIZE_M: RangeInclusive<f64> = SMALLEST_M..=LARGEST_M;
+
+/// `camera.fov_y_deg`
+pub const FOV_Y_DEG: RangeInclusive<f64> = 0.001..=179.0;
+/// `camera.exposure_ev`
+pub const EXPOSURE_EV: RangeInclusive<f64> = -64.0..=64.0;
+/// `render.size_px`, either way.
+pub const PICTURE_PX: RangeInclusive<f64> = 1.0..=16_384.0;
+/// `render.filter_std_px`
+pub const FILTER_STD_PX: RangeInclusive<f64> = 0.1..=10.0;
+
+/// `material.roughness`
+pub const ROUGHNESS: RangeInclusive<f64> = 0.0..=1.0;
+/// `material.coherence_um`
+pub const COHERENCE_UM: RangeInclusive<f64> = 1.0..=1000.0;
+/// `material.ior`
+pub const IOR: RangeInclusive<f64> = 1.0..=4.0;
+/// `material.metallic`
+pub const METALLIC: RangeInclusive<f64> = 0.0..=1.0;
+/// Channels of `material.base_color`.
+pub const BASE_COLOR: RangeInclusive<f64> = 0.0..=1.0;
+
+/// Sizes of the factors of `object.scale`, which may be negative.
+pub const SCALE: RangeInclusive<f64> = 1e-6..=1e6;
+/// `segments` of a lathe.
+pub const LATHE_SEGMENTS: RangeInclusive<f64> = 3.0..=4096.0;
+/// Radii of a lathe's profile.
+pub const PROFILE_RADIUS_M: RangeInclusive<f64> = 0.0..=LARGEST_M;
+
+/// Mean of `scratches.length_m`, above 0.
+pub const SCRATCH_LENGTH_M: RangeInclusive<f64> = 0.0..=LARGEST_M;
+/// Mean of `scratches.width_um`, above 0.
+pub const SCRATCH_WIDTH_UM: RangeInclusive<f64> = 0.0..=100.0;
+/// Mean of `scratches.depth_nm`, above 0.
+pub const SCRATCH_DEPTH_NM: RangeInclusive<f64> = 0.0..=2000.0;
+/// Spread of a log-normal quantity.
+pub const LOG_NORMAL_SPREAD: RangeInclusive<f64> = 0.0..=3.0;
+/// Mean of `scratches.curvature_per_m`: a scratch that turns within a coherence width is no straight groove to the model.
+pub const CURVATURE_PER_M: RangeInclusive<f64> = -1e4..=1e4;
+/// Spread of `scratches.curvature_per_m`.
+pub const CURVATURE_SPREAD_PER_M: RangeInclusive<f64> = 0.0..=1e4;
+/// `scratches.jitter_deg`
+pub const JITTER_DEG: RangeInclusive<f64> = 0.0..=90.0;
+/// `scratches.seed`: TOML's integers end there.
+pub const LARGEST_SEED: u64 = i64::MAX as u64;
