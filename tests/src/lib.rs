@@ -7,6 +7,7 @@ use hairline_scene::{
     Base, Camera, Environment, Light, Material, Mesh, Object, RenderSettings, Scene, Scratch,
     Segment,
 };
+use std::sync::Arc;
 
 /// A square in the x-y plane seen from above, its normal along +z, with nothing on it and no light.
 pub fn square(base: Base, half_side_m: f32, size_px: u32) -> Scene {
@@ -49,13 +50,13 @@ pub fn square(base: Base, half_side_m: f32, size_px: u32) -> Scene {
             tone_map: Default::default(),
         },
         environment: None,
-        textures: Vec::new(),
+        textures: Arc::default(),
         materials: vec![material],
         objects: vec![Object {
             name: "square".into(),
-            mesh,
-            scratches: Vec::new(),
-            segments: Vec::new(),
+            mesh: Arc::new(mesh),
+            scratches: Arc::default(),
+            segments: Arc::default(),
         }],
         lights: Vec::new(),
     }
@@ -88,13 +89,13 @@ pub fn lay(
     let object = &mut scene.objects[0];
     let first = object.segments.len() as u32;
     let at = |i: u32| start_m.lerp(end_m, i as f32 / pieces as f32);
-    object.segments.extend((0..pieces).map(|i| Segment {
+    Arc::make_mut(&mut object.segments).extend((0..pieces).map(|i| Segment {
         start_m: at(i),
         end_m: at(i + 1),
         normal: Vec3::Z,
         triangle: 0,
     }));
-    object.scratches.push(Scratch {
+    Arc::make_mut(&mut object.scratches).push(Scratch {
         width_um,
         depth_nm,
         layer: 0,

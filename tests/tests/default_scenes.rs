@@ -2,6 +2,7 @@
 //! share one walk, against pixels that walk for themselves.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use conformance::two_renderers::compare;
 use conformance::{Sequence, lay, sphere_light, square};
@@ -296,11 +297,11 @@ fn many_lights_on_many_scratches() {
 fn two_objects_in_a_tile() {
     let mut scene = scratched([77, 59], 300, |u| u);
     let mut upper = scene.objects[0].clone();
-    for position in &mut upper.mesh.positions_m {
+    for position in &mut Arc::make_mut(&mut upper.mesh).positions_m {
         *position = Vec3::new(0.4 * position.x + 0.3e-3, 0.3 * position.y, 1e-3);
     }
     // Upright ones on the upper plate.
-    for segment in &mut upper.segments {
+    for segment in Arc::make_mut(&mut upper.segments).iter_mut() {
         for end in [&mut segment.start_m, &mut segment.end_m] {
             *end = Vec3::new(0.4 * end.y + 0.3e-3, 0.3 * end.x, 1e-3);
         }

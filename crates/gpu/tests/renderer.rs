@@ -7,6 +7,7 @@ use hairline_image::tone_map::{display_code, dither_offset, linear_from_srgb};
 use hairline_image::{Display, Image, Picture, ToneMap};
 use hairline_index::ScratchIndex;
 use hairline_scene::{Environment, Mesh, Scene, ScratchTables, Texture};
+use std::sync::Arc;
 
 const PLATE: &str = r#"
 [camera]
@@ -234,7 +235,7 @@ material = "m"
 fn a_plane_under_the_camera_reaches_the_horizon() {
     let Some(gpu) = test_gpu() else { return };
     let mut scene = scene(PLATE);
-    for position in &mut scene.objects[0].mesh.positions_m {
+    for position in &mut Arc::make_mut(&mut scene.objects[0].mesh).positions_m {
         // The plate, flat and a kilometre wide.
         *position = Vec3::new(position.x, position.y, 0.0) * 1e4;
     }
@@ -360,20 +361,20 @@ fn textures_keep_their_texels() {
         corner(1.0, 0.5),
         corner(-1.0, 0.5),
     ];
-    scene.objects[0].mesh = Mesh {
+    scene.objects[0].mesh = Arc::new(Mesh {
         positions_m: corners.map(|c| c.0).to_vec(),
         normals: vec![Vec3::Z; 4],
         tangents: vec![Vec4::new(1.0, 0.0, 0.0, 1.0); 4],
         uvs: corners.map(|c| c.1).to_vec(),
         triangles: vec![[0, 1, 2], [0, 2, 3]],
         triangle_materials: vec![0, 0],
-    };
+    });
     scene.materials[0].emission = [2.0, 1.0, 0.5];
     for (textures, used) in [
         (vec![linear.clone(), srgb.clone()], 1),
         (vec![srgb, linear], 0),
     ] {
-        scene.textures = textures;
+        scene.textures = Arc::new(textures);
         scene.materials[0].emission_texture = Some(used);
         // Level 0: the footprint of half a pixel is half a texel.
         let image = render(gpu, &scene, &RenderOptions::default()).unwrap();
@@ -389,7 +390,7 @@ fn textures_keep_their_texels() {
         }
     }
     // The smooth one: the middle of the picture lies on the middle texel of 3 x 17.
-    scene.textures.swap(0, 1);
+    Arc::make_mut(&mut scene.textures).swap(0, 1);
     scene.materials[0].emission_texture = Some(0);
     scene.render.size_px = [13, 7];
     let image = render(gpu, &scene, &RenderOptions::default()).unwrap();
@@ -470,7 +471,7 @@ fn a_scene_beyond_one_binding_is_refused_with_figures() {
     .unwrap();
     let mut scene = scene(PLATE);
     let (index, tables) = (ScratchIndex::build(&scene), ScratchTables::new(&scene));
-    let mesh = &mut scene.objects[0].mesh;
+    let mesh = Arc::make_mut(&mut scene.objects[0].mesh);
     mesh.triangles = vec![[0, 1, 2]; 1_000_000];
     mesh.triangle_materials = vec![0; 1_000_000];
     let mut renderer = gpu.block_on(Renderer::new(&gpu)).unwrap();

@@ -37,7 +37,7 @@ pub fn build(scene: &Scene) -> SegmentTree<Groove> {
 
 fn grooves(object: &Object) -> Vec<Groove> {
     let mut grooves = Vec::with_capacity(object.segments.len());
-    for scratch in &object.scratches {
+    for scratch in object.scratches.iter() {
         let pieces =
             &object.segments[scratch.segments.start as usize..scratch.segments.end as usize];
         let length_um = |p: &hairline_scene::Segment| p.start_m.distance(p.end_m) as f64 * 1e6;
@@ -70,31 +70,30 @@ fn grooves(object: &Object) -> Vec<Groove> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use hairline_scene::{Mesh, Scratch, Segment};
+    use hairline_scene::{Scratch, Segment};
+    use std::sync::Arc;
 
     #[test]
     fn a_piece_knows_how_far_its_scratch_goes_on() {
         let at = |mm: f32| Vec3::new(mm * 1e-3, 0.0, 0.0);
         let pieces = [(0.0, 1.0), (1.0, 3.0), (3.0, 3.0), (3.0, 3.5)];
+        let segments = pieces.map(|(start, end)| Segment {
+            start_m: at(start),
+            end_m: at(end),
+            normal: Vec3::Z,
+            triangle: 0,
+        });
         let object = |closed| Object {
             name: "o".into(),
-            mesh: Mesh::default(),
-            scratches: vec![Scratch {
+            mesh: Arc::default(),
+            scratches: Arc::new(vec![Scratch {
                 width_um: 2.0,
                 depth_nm: 100.0,
                 layer: 0,
                 closed,
                 segments: 0..4,
-            }],
-            segments: pieces
-                .iter()
-                .map(|(start, end)| Segment {
-                    start_m: at(*start),
-                    end_m: at(*end),
-                    normal: Vec3::Z,
-                    triangle: 0,
-                })
-                .collect(),
+            }]),
+            segments: Arc::new(segments.to_vec()),
         };
         let open = grooves(&object(false));
         let beyond: Vec<_> = open.iter().map(|g| (g.before_um, g.after_um)).collect();

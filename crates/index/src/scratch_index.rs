@@ -75,7 +75,7 @@ fn object_depth_coherence(object: &Object) -> f32 {
 /// The pieces of all scratches of an object, free ends moved inwards along the scratch.
 fn effective_segments(scene: &Scene, object: &Object) -> Vec<IndexedSegment> {
     let mut effective = Vec::with_capacity(object.segments.len());
-    for scratch in &object.scratches {
+    for scratch in object.scratches.iter() {
         let pieces =
             &object.segments[scratch.segments.start as usize..scratch.segments.end as usize];
         let Some(first) = pieces.first() else {

@@ -114,6 +114,11 @@ impl Environment {
         self
     }
 
+    /// Whether two environments share their texels: they then differ by rotation, intensity and visibility at most.
+    pub fn same_map(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.maps, &other.maps)
+    }
+
     /// The radiance that arrives from a direction: what the camera sees of the map. `dir` is a unit vector in world
     /// space, away from the viewer.
     pub fn radiance(&self, dir: DVec3) -> DVec3 {

@@ -1,6 +1,7 @@
 //! From a description to a [`Scene`]: units, references, files.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use glam::{DMat4, DVec3};
 
@@ -126,7 +127,7 @@ impl Loader<'_> {
                 tone_map: description.render.tone_map,
             },
             environment: None,
-            textures: Vec::new(),
+            textures: Arc::default(),
             materials: description.materials.iter().map(material).collect(),
             objects: Vec::new(),
             lights: description.lights.iter().map(light).collect(),
@@ -148,9 +149,9 @@ impl Loader<'_> {
             }
             scene.objects.push(Object {
                 name: object.name.clone(),
-                mesh,
-                scratches: Vec::new(),
-                segments: Vec::new(),
+                mesh: Arc::new(mesh),
+                scratches: Arc::default(),
+                segments: Arc::default(),
             });
         }
         self.report(Stage::Meshes, objects, objects);
@@ -184,13 +185,13 @@ impl Loader<'_> {
         let meshes: Vec<_> = scene
             .objects
             .iter()
-            .map(|o| &o.mesh)
+            .map(|o| o.mesh.as_ref())
             .zip(transforms)
             .collect();
         let laid = scratches::lay(self, &tables, base_dir, &meshes)?;
         for (object, laid) in scene.objects.iter_mut().zip(laid) {
-            object.scratches = laid.scratches;
-            object.segments = laid.segments;
+            object.scratches = Arc::new(laid.scratches);
+            object.segments = Arc::new(laid.segments);
         }
         Ok(())
     }
@@ -315,7 +316,7 @@ fn object_mesh(
         Surface::Mesh(file) => {
             let stock = mesh_file::Stock {
                 materials: &mut scene.materials,
-                textures: &mut scene.textures,
+                textures: Arc::make_mut(&mut scene.textures),
             };
             mesh_file::read(&base_dir.join(file), material, &transform, stock).map_err(|flaw| {
                 let found = format!("\"{}\": {}", file.display(), flaw.found);

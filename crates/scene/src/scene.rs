@@ -7,10 +7,15 @@
 use glam::{DVec3, Vec2, Vec3, Vec4};
 use hairline_optics::metal::Metal;
 use std::ops::Range;
+use std::sync::Arc;
 
 use crate::environment::Environment;
 
 /// Everything that a picture depends on.
+///
+/// What is large lies behind an [`Arc`], so a clone costs microseconds: an editor clones a scene, changes what is small (a
+/// light, the camera, a material) and hands it on, and who has seen the scene before tells by [`Arc::ptr_eq`] what is still
+/// the same. [`Arc::make_mut`] changes what is large.
 #[derive(Clone, Debug)]
 pub struct Scene {
     /// The view.
@@ -20,7 +25,7 @@ pub struct Scene {
     /// Light from all around, if there is any.
     pub environment: Option<Environment>,
     /// Images that materials refer to.
-    pub textures: Vec<Texture>,
+    pub textures: Arc<Vec<Texture>>,
     /// Materials that the triangles of the objects refer to.
     pub materials: Vec<Material>,
     /// Objects in world space.
@@ -123,11 +128,24 @@ pub struct Object {
     /// The name in the scene file.
     pub name: String,
     /// The surface.
-    pub mesh: Mesh,
+    pub mesh: Arc<Mesh>,
     /// Scratches, each a run of `segments`.
-    pub scratches: Vec<Scratch>,
+    pub scratches: Arc<Vec<Scratch>>,
     /// Straight pieces, one triangle each, those of one scratch side by side in the order of its walk.
-    pub segments: Vec<Segment>,
+    pub segments: Arc<Vec<Segment>>,
+}
+
+impl Object {
+    /// Whether two objects share their surface, unchanged.
+    pub fn same_mesh(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.mesh, &other.mesh)
+    }
+
+    /// Whether two objects share their scratches, unchanged.
+    pub fn same_scratches(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.scratches, &other.scratches)
+            && Arc::ptr_eq(&self.segments, &other.segments)
+    }
 }
 
 /// Triangles in world space. The vertex arrays are equally long.

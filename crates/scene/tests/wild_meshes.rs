@@ -53,7 +53,7 @@ fn any_pattern_ends_on_any_mesh() {
             Scene::from_toml(&text, "test.toml", dir.path()).unwrap_or_else(|e| panic!("{e}"));
         let object = &scene.objects[0];
         assert!(object.scratches.len() > 300, "{seed}");
-        for segment in &object.segments {
+        for segment in object.segments.iter() {
             let finite = segment.start_m.is_finite() && segment.end_m.is_finite();
             assert!(finite && segment.start_m != segment.end_m, "{seed}");
             assert!((segment.normal.length() - 1.0).abs() < 1e-5, "{seed}");

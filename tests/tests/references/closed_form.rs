@@ -7,6 +7,7 @@ use hairline_image::Layer;
 use hairline_optics::metal::Metal;
 use hairline_scene::{Base, Scene};
 use std::path::Path;
+use std::sync::Arc;
 
 /// A scratch layer: no more than `limit` of rms error beyond the noise that two standard errors are sure of, and half a percent in
 /// the mean beyond three.
@@ -79,7 +80,7 @@ fn a_wrong_groove_is_seen() {
         ("3 % deeper", 1.0, 1.03, false),
     ] {
         let mut other = scene.clone();
-        for scratch in &mut other.objects[0].scratches {
+        for scratch in Arc::make_mut(&mut other.objects[0].scratches).iter_mut() {
             scratch.width_um *= wider;
             scratch.depth_nm *= deeper;
         }

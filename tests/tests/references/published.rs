@@ -12,6 +12,7 @@ use hairline_optics::method::{Band, Chords, Lookup, Method, PixelFilter, Spectru
 use hairline_optics::published::sine_integral::SineIntegral;
 use hairline_reference::closed_form::{self, RenderOptions};
 use hairline_scene::{Base, Light, Scene};
+use std::sync::Arc;
 
 fn by(scene: &Scene, method: Method) -> Image {
     let options = RenderOptions { samples: 1, method };
@@ -73,7 +74,7 @@ fn equals_monte_carlo_where_the_talk_is_exact() {
         if let Light::Polygon { vertices_m, .. } = &mut wrong.lights[0] {
             vertices_m.pop();
         } else {
-            for scratch in &mut wrong.objects[0].scratches {
+            for scratch in Arc::make_mut(&mut wrong.objects[0].scratches).iter_mut() {
                 scratch.width_um *= 1.1;
             }
         }
@@ -301,11 +302,11 @@ fn the_published_mask_is_the_density() {
         println!("{footprint:?}: {mean:.4} of the base");
     }
     let before = by_mask(&scene, PixelFilter::Published);
-    for scratch in &mut scene.objects[0].scratches {
+    for scratch in Arc::make_mut(&mut scene.objects[0].scratches).iter_mut() {
         scratch.depth_nm *= 0.3;
     }
     assert_eq!(by_mask(&scene, PixelFilter::Published), before);
-    for scratch in &mut scene.objects[0].scratches {
+    for scratch in Arc::make_mut(&mut scene.objects[0].scratches).iter_mut() {
         scratch.width_um *= 100.0;
     }
     let taken = by_mask(&scene, PixelFilter::Published);

@@ -3,6 +3,7 @@
 use conformance::{lay_random, square};
 use glam::{DVec3, Vec3};
 use hairline_scene::{Base, Light, Scene};
+use std::sync::Arc;
 
 /// Half the plate's side.
 pub const HALF_SIDE_M: f32 = 5e-3;
@@ -72,7 +73,7 @@ pub fn panel(view: View, x: f64, y: f64, half_rad: [f64; 2]) -> Light {
 /// The same with one width and one depth for all.
 pub fn scratch_alike(scene: &mut Scene, view: View, count: u32, width_um: f32, depth_nm: f32) {
     scratch(scene, view, count);
-    for scratch in &mut scene.objects[0].scratches {
+    for scratch in Arc::make_mut(&mut scene.objects[0].scratches).iter_mut() {
         scratch.width_um = width_um;
         scratch.depth_nm = depth_nm;
     }
@@ -83,12 +84,13 @@ pub fn add_quad(scene: &mut Scene, base: Base, roughness: f64, corners_m: [Vec3;
     let mut quad = scene.objects[0].clone();
     let [a, b, _, d] = corners_m;
     quad.name = "quad".into();
-    quad.scratches.clear();
-    quad.segments.clear();
-    quad.mesh.positions_m = corners_m.to_vec();
-    quad.mesh.normals = vec![(b - a).cross(d - a).normalize(); 4];
-    quad.mesh.tangents = vec![(b - a).normalize().extend(1.0); 4];
-    quad.mesh.triangle_materials = vec![scene.materials.len() as u32; 2];
+    quad.scratches = Arc::default();
+    quad.segments = Arc::default();
+    let mesh = Arc::make_mut(&mut quad.mesh);
+    mesh.positions_m = corners_m.to_vec();
+    mesh.normals = vec![(b - a).cross(d - a).normalize(); 4];
+    mesh.tangents = vec![(b - a).normalize().extend(1.0); 4];
+    mesh.triangle_materials = vec![scene.materials.len() as u32; 2];
     scene.objects.push(quad);
     let mut material = scene.materials[0].clone();
     material.name = "quad".into();

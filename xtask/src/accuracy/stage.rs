@@ -1,6 +1,7 @@
 //! One plain scene for all sweeps: a mirror with straight scratches under one light, of which each sweep turns one knob.
 
 use std::f64::consts::{FRAC_PI_2, PI};
+use std::sync::Arc;
 
 use anyhow::{Result, anyhow};
 use glam::{DVec2, DVec3, Vec3};
@@ -152,13 +153,13 @@ impl Stage {
             let half = 0.5 * self.length_um * DVec2::new(angle.sin(), angle.cos());
             let place = |um: DVec2| Vec3::new(um.x as f32, um.y as f32, 0.0) * 1e-6;
             let first = object.segments.len() as u32;
-            object.segments.push(Segment {
+            Arc::make_mut(&mut object.segments).push(Segment {
                 start_m: place(middle_um - half),
                 end_m: place(middle_um + half),
                 normal: Vec3::Z,
                 triangle: 0,
             });
-            object.scratches.push(Scratch {
+            Arc::make_mut(&mut object.scratches).push(Scratch {
                 width_um: self.width_um as f32,
                 depth_nm: self.depth_nm as f32,
                 layer: 0,

@@ -5,6 +5,7 @@ use hairline_gpu::Error;
 use hairline_optics::method::Method;
 use hairline_reference::closed_form::Prepared;
 use hairline_scene::Scene;
+use std::sync::Arc;
 
 use super::Thoroughness;
 use super::figures::{Off, Outcome, Spread};
@@ -68,7 +69,7 @@ fn scenes(base: Stage) -> Result<(Scene, Scene), Failure> {
     };
     let (none, mut one) = (of(0)?, of(1)?);
     for object in &mut one.objects {
-        for scratch in &mut object.scratches {
+        for scratch in Arc::make_mut(&mut object.scratches).iter_mut() {
             scratch.depth_nm = 0.0;
         }
     }
@@ -114,7 +115,7 @@ mod tests {
         let expected = picture(&none);
         assert!(picture(&one).beauty() == expected.beauty());
         // With a depth and wide it could.
-        for scratch in &mut one.objects[0].scratches {
+        for scratch in Arc::make_mut(&mut one.objects[0].scratches).iter_mut() {
             scratch.depth_nm = 220.0;
             scratch.width_um = 15.0;
         }
