@@ -10,6 +10,7 @@ pub(crate) mod hint;
 pub mod limits;
 pub(crate) mod locate;
 mod read;
+pub(crate) mod references;
 mod table;
 
 use std::path::{Path, PathBuf};

@@ -25,11 +25,7 @@ struct Place {
 
 impl Error {
     /// `key` is the way to the value, such as `light[1].radius_m`; `found` and `right` are halves of a sentence.
-    pub(crate) fn new(
-        key: impl Into<String>,
-        found: impl Into<String>,
-        right: impl Into<String>,
-    ) -> Self {
+    pub fn new(key: impl Into<String>, found: impl Into<String>, right: impl Into<String>) -> Self {
         Self {
             place: None,
             key: key.into(),
@@ -39,7 +35,8 @@ impl Error {
     }
 
     /// Says where the mistake is, unless a more exact place is known already.
-    pub(crate) fn at(mut self, file: &Path, line: Option<usize>) -> Self {
+    #[must_use]
+    pub fn at(mut self, file: &Path, line: Option<usize>) -> Self {
         self.place.get_or_insert_with(|| Place {
             file: file.to_owned(),
             line,

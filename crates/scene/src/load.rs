@@ -6,6 +6,7 @@ use std::sync::Arc;
 use glam::{DMat4, DVec3};
 
 use crate::Environment;
+use crate::description::references::find;
 use crate::description::{self, Description, LightKind, MaterialKind, MetalColor, Surface};
 use crate::error::Error;
 use crate::scene::{Base, Camera, Light, Material, Mesh, Object, RenderSettings, Scene};
@@ -324,27 +325,4 @@ fn object_mesh(
             })
         }
     }
-}
-
-/// The index of the table called `name`.
-fn find<'n>(
-    name: &str,
-    names: impl Iterator<Item = &'n str> + Clone,
-    key: &str,
-    table: &str,
-) -> Result<usize, Error> {
-    names
-        .clone()
-        .position(|other| other == name)
-        .ok_or_else(|| {
-            let right = match (
-                description::hint::nearest(name, names.clone()),
-                names.count(),
-            ) {
-                (Some(near), _) => format!("did you mean \"{near}\"?"),
-                (None, 0) => format!("there is no `[[{table}]]` in the scene; add one"),
-                (None, _) => format!("must be the name of a `[[{table}]]`"),
-            };
-            Error::new(key, format!("found no {table} called \"{name}\""), right)
-        })
 }

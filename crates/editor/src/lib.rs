@@ -1,0 +1,17 @@
+//! What an artist does to a scene, without any user interface: a document with undo, the actions on it, what the controls
+//! of a panel need to know, and the tools that move cameras and lights or draw scratches.
+//!
+//! The document is a [`Description`](hairline_scene::Description), the scene file itself, so what is edited is what is
+//! saved. Nothing here draws, waits or starts a thread.
+
+pub mod actions;
+pub mod document;
+mod history;
+mod paths;
+pub mod presets;
+pub mod selection;
+
+pub use actions::ActionError;
+pub use document::Document;
+pub use history::DragKey;
+pub use selection::Selection;

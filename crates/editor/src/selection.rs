@@ -1,0 +1,80 @@
+//! What the panel shows.
+
+use hairline_scene::Description;
+
+/// One part of a scene, or none.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Selection {
+    /// Nothing.
+    #[default]
+    None,
+    /// `[camera]`
+    Camera,
+    /// `[environment]`, whether there is one or not.
+    Environment,
+    /// `[render]`
+    Render,
+    /// An `[[object]]`, by its place in the description, as in all that follow.
+    Object(usize),
+    /// A `[[material]]`.
+    Material(usize),
+    /// A `[[scratches]]`.
+    Layer(usize),
+    /// A `[[light]]`.
+    Light(usize),
+}
+
+impl Selection {
+    /// Whether the description has it.
+    pub fn is_in(self, description: &Description) -> bool {
+        match self {
+            Self::None | Self::Camera | Self::Environment | Self::Render => true,
+            Self::Object(i) => i < description.objects.len(),
+            Self::Material(i) => i < description.materials.len(),
+            Self::Layer(i) => i < description.scratches.len(),
+            Self::Light(i) => i < description.lights.len(),
+        }
+    }
+
+    /// Itself if the description has it, else the last of its kind, else nothing.
+    #[must_use]
+    pub fn held_by(self, description: &Description) -> Self {
+        let last = |n: usize, make: fn(usize) -> Self| n.checked_sub(1).map_or(Self::None, make);
+        match self {
+            held if held.is_in(description) => held,
+            Self::Object(_) => last(description.objects.len(), Self::Object),
+            Self::Material(_) => last(description.materials.len(), Self::Material),
+            Self::Layer(_) => last(description.scratches.len(), Self::Layer),
+            Self::Light(_) => last(description.lights.len(), Self::Light),
+            _ => Self::None,
+        }
+    }
+
+    /// The object that it is or belongs to: a layer's is the one that it lies on.
+    pub fn object(self, description: &Description) -> Option<usize> {
+        match self {
+            Self::Object(i) => (i < description.objects.len()).then_some(i),
+            Self::Layer(i) => {
+                let name = &description.scratches.get(i)?.object;
+                description.objects.iter().position(|o| o.name == *name)
+            }
+            _ => None,
+        }
+    }
+}
+
+/// Where index `i` is after item `removed` was taken out of `left` remaining ones: the one that took the place of a removed
+/// one, or the last.
+pub(crate) fn after_removal(i: usize, removed: usize, left: usize) -> Option<usize> {
+    let i = if i > removed { i - 1 } else { i };
+    left.checked_sub(1).map(|last| i.min(last))
+}
+
+/// Where index `i` is after items `a` and `b` changed places.
+pub(crate) fn after_swap(i: usize, a: usize, b: usize) -> usize {
+    match i {
+        i if i == a => b,
+        i if i == b => a,
+        i => i,
+    }
+}
