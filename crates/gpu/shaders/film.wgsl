@@ -2,6 +2,8 @@
 
 @group(3) @binding(0) var visibility: texture_2d<u32>;
 @group(3) @binding(1) var<storage, read_write> film: Film;
+// One element where no dispatch leaves a walk.
+@group(3) @binding(4) var<storage, read_write> film_walks: array<FilmWalk>;
 
 // The pixel of an invocation: 8 x 8 of them in a workgroup.
 fn film_pixel(workgroup: vec2u, workgroups: vec2u, local: vec2u) -> vec2u {
@@ -24,13 +26,12 @@ fn film_visible(pixel: vec2u) -> vec2u {
 // Adds a sample to its pixel and ends its walk.
 fn film_add(pixel: vec2u, value: FilmPixel) {
     let at = film_index(pixel);
-    let weight = frame.sample_weight;
-    film.pixels[at].base += weight * value.base;
-    film.pixels[at].depth_m += weight * value.depth_m;
-    film.pixels[at].scratches += weight * value.scratches;
-    film.pixels[at].coverage += weight * value.coverage;
-    film.pixels[at].density += weight * value.density;
-    film.pixels[at].normal += weight * value.normal;
+    film.pixels[at].base += value.base;
+    film.pixels[at].depth_m += value.depth_m;
+    film.pixels[at].scratches += value.scratches;
+    film.pixels[at].coverage += value.coverage;
+    film.pixels[at].density += value.density;
+    film.pixels[at].normal += value.normal;
     film.pixels[at].samples = frame.sample + 1u;
     film.pixels[at].walk_at = 0u;
     film_check_loops();
@@ -53,22 +54,23 @@ fn film_check_loops() {
 
 // The walk that an earlier dispatch left, or a new one from `first`.
 fn film_resume(pixel: vec2u, first: u32) -> ScratchWalk {
-    let kept = film.pixels[film_index(pixel)];
-    if kept.walk_at == 0u {
+    let at = film_index(pixel);
+    let walk_at = film.pixels[at].walk_at;
+    if walk_at == 0u {
         return ScratchWalk(first, ScratchSums(0.0, 0.0, vec3f(0.0), vec3f(0.0)));
     }
-    let sums = ScratchSums(kept.walk_share, kept.walk_share_by_line, kept.walk_radiance, kept.walk_energy);
-    return ScratchWalk(kept.walk_at - 1u, sums);
+    let kept = film_walks[at];
+    return ScratchWalk(walk_at - 1u, ScratchSums(kept.share, kept.share_by_line, kept.radiance, kept.energy));
 }
 
 // Leaves a walk for the next dispatch.
 fn film_keep(pixel: vec2u, walk: ScratchWalk) {
     let at = film_index(pixel);
     film.pixels[at].walk_at = walk.at + 1u;
-    film.pixels[at].walk_share = walk.sums.share;
-    film.pixels[at].walk_share_by_line = walk.sums.share_by_line;
-    film.pixels[at].walk_radiance = walk.sums.radiance;
-    film.pixels[at].walk_energy = walk.sums.energy;
+    film_walks[at].share = walk.sums.share;
+    film_walks[at].share_by_line = walk.sums.share_by_line;
+    film_walks[at].radiance = walk.sums.radiance;
+    film_walks[at].energy = walk.sums.energy;
     atomicAdd(&film.unfinished, 1u);
     film_check_loops();
 }

@@ -4,7 +4,6 @@
 // The view, and what else is the same for every pixel of one sample.
 struct Frame {
     camera_m: vec3f,            // the pinhole
-    sample_weight: f32,         // the weights of a pixel's samples sum to one
     forward: vec3f,             // unit direction of the view
     near_m: f32,                // distance of the near plane along it
     per_px_x: vec3f,            // change of the ray's direction by one pixel to the right, at unit depth
@@ -91,8 +90,7 @@ struct ScratchSegment {
     normal_blur: u32,           // two bytes of an octahedral map, a half float in um
 }
 
-// Weighted sums over the samples of a pixel, and the walk over the scratches of the sample in hand: a dispatch may leave it
-// unfinished for the next one.
+// Sums over the samples of a pixel: who reads them divides by their count.
 struct FilmPixel {
     base: vec3f,
     depth_m: f32,
@@ -102,10 +100,14 @@ struct FilmPixel {
     samples: u32,               // samples that are complete
     normal: vec3f,
     walk_at: u32,               // 0: not begun; else the node to go on with + 1
-    walk_radiance: vec3f,
-    walk_share: f32,
-    walk_energy: vec3f,
-    walk_share_by_line: f32,
+}
+
+// The walk over the scratches of the sample in hand, where a dispatch may leave it unfinished for the next one.
+struct FilmWalk {
+    radiance: vec3f,
+    share: f32,
+    energy: vec3f,
+    share_by_line: f32,
 }
 
 // What the shading pass adds to.

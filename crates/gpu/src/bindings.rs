@@ -1,7 +1,7 @@
 //! What the passes bind, group by group. Twin: `shaders/bindings.wgsl` and `shaders/film.wgsl`.
 //!
-//! Group 0 the frame, group 1 the scene's buffers, group 2 its tables and textures, group 3 visibility and film: eight
-//! storage buffers in all, which is what every WebGPU device has.
+//! Group 0 the frame, group 1 the scene's buffers, group 2 its tables and textures, group 3 visibility and film: six
+//! storage buffers in all, of the eight that every WebGPU device has.
 
 use wgpu::ShaderStages;
 
@@ -87,6 +87,7 @@ impl Layouts {
                     entry(1, compute, storage(false)),
                     entry(2, compute, integers()),
                     queues,
+                    entry(4, compute, storage(false)),
                 ],
             ),
             tiles: layout(gpu, "tiles", &tiles),

@@ -171,13 +171,22 @@ impl Adapter {
 
     /// Opens a device.
     pub async fn open(self, default_limits: bool) -> Result<Gpu, Error> {
-        if let Some(shortcoming) = &self.shortcoming {
-            return Err(Error::Refused {
-                adapter: self.name,
-                reason: shortcoming.clone(),
-            });
-        }
-        let descriptor = wgpu::DeviceDescriptor {
+        self.usable()?;
+        let (device, queue) = self
+            .handle
+            .request_device(&self.device_descriptor(default_limits))
+            .await
+            .map_err(|error| Error::Refused {
+                adapter: self.name.clone(),
+                reason: error.to_string(),
+            })?;
+        Ok(Gpu::from_parts(self, device, queue))
+    }
+
+    /// What a device must be opened with to render: no more than WebGPU's default limits if `default_limits`, else with
+    /// the largest buffers that the adapter has; and the device's clock, if it has one.
+    pub fn device_descriptor(&self, default_limits: bool) -> wgpu::DeviceDescriptor<'static> {
+        wgpu::DeviceDescriptor {
             label: Some("hairline"),
             required_features: self.handle.features() & wgpu::Features::TIMESTAMP_QUERY,
             required_limits: if default_limits {
@@ -186,16 +195,19 @@ impl Adapter {
                 raised_limits(&self.handle.limits())
             },
             ..Default::default()
-        };
-        let (device, queue) = self
-            .handle
-            .request_device(&descriptor)
-            .await
-            .map_err(|error| Error::Refused {
+        }
+    }
+}
+
+impl Adapter {
+    fn usable(&self) -> Result<(), Error> {
+        match &self.shortcoming {
+            None => Ok(()),
+            Some(shortcoming) => Err(Error::Refused {
                 adapter: self.name.clone(),
-                reason: error.to_string(),
-            })?;
-        Ok(Gpu::from_parts(self, device, queue))
+                reason: shortcoming.clone(),
+            }),
+        }
     }
 }
 
@@ -255,8 +267,29 @@ impl Gpu {
         Err(refusal)
     }
 
-    /// Takes over a device that somebody else opened, such as a window.
-    pub fn from_parts(adapter: Adapter, device: wgpu::Device, queue: wgpu::Queue) -> Self {
+    /// Shares the device of a window, which opened it by [`Adapter::device_descriptor`]: what is rendered on it can be shown
+    /// without a copy.
+    ///
+    /// A device has one place for who hears of its errors and one for who hears of its loss. This takes both, in place of
+    /// any that were there (eframe sets none), and hands what it hears to the next [`Gpu::check`], errors of the
+    /// window's own calls included: a caller that sees [`Error::Validation`] cannot tell whose call it was. The window must
+    /// not set its own callbacks later, or a loss is heard of only when [`Gpu::finished`] or a readback fails.
+    ///
+    /// # Errors
+    /// [`Error::Refused`] if the adapter, or the limits that the device was opened with, are below WebGPU's defaults.
+    pub fn from_window(
+        adapter: wgpu::Adapter,
+        device: wgpu::Device,
+        queue: wgpu::Queue,
+    ) -> Result<Self, Error> {
+        let mut adapter = Adapter::new(adapter);
+        let downlevel = adapter.handle.get_downlevel_capabilities();
+        adapter.shortcoming = shortcoming(&device.limits(), &downlevel);
+        adapter.usable()?;
+        Ok(Self::from_parts(adapter, device, queue))
+    }
+
+    fn from_parts(adapter: Adapter, device: wgpu::Device, queue: wgpu::Queue) -> Self {
         let faults = Faults::default();
         faults.watch(&device, &adapter.name);
         Self {

@@ -1,20 +1,19 @@
 //! Pass: the film on a display.
 //!
-//! Inputs: the film, exposure and tone curve. Output: a target of 8 bits a channel whose format does not encode to sRGB
-//! by itself (the shader does, and dithers), of the picture's size. One triangle.
+//! Inputs: the films of a canvas, exposure and tone curve. Output: a target of 8 bits a channel whose format does not encode to sRGB
+//! by itself (the shader does, and dithers), of the picture's size. One triangle a band.
 
 use hairline_image::Display;
 use wgpu::{BufferUsages, ShaderStages};
 
 use crate::bindings::{bind, entry, layout, storage, uniform};
+use crate::canvas::Canvas;
 use crate::device::Gpu;
 use crate::error::Error;
-use crate::film::Film;
 use crate::layout::DisplaySettings;
 use crate::shaders;
 
 pub(crate) struct DisplayPass {
-    pub format: wgpu::TextureFormat,
     pipeline: wgpu::RenderPipeline,
     settings: wgpu::Buffer,
     layout: wgpu::BindGroupLayout,
@@ -72,7 +71,6 @@ impl DisplayPass {
             )
             .await?;
         Ok(Self {
-            format,
             pipeline,
             settings,
             layout: group_layout,
@@ -83,22 +81,17 @@ impl DisplayPass {
         &self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
-        film: &Film,
+        canvas: &Canvas,
         display: &Display,
         target: &wgpu::TextureView,
     ) {
         let settings = DisplaySettings {
-            size_px: [film.width_px, film.rows],
+            size_px: canvas.size_px(),
             tone_map: display.tone_map.shader_index(),
             gain: display.exposure_ev.exp2() as f32,
         };
         gpu.queue
             .write_buffer(&self.settings, 0, bytemuck::bytes_of(&settings));
-        let resources = [
-            self.settings.as_entire_binding(),
-            film.buffer.as_entire_binding(),
-        ];
-        let group = bind(gpu, "display", &self.layout, &resources);
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("display"),
             color_attachments: &[Some(wgpu::RenderPassColorAttachment {
@@ -110,7 +103,50 @@ impl DisplayPass {
             ..Default::default()
         });
         pass.set_pipeline(&self.pipeline);
-        pass.set_bind_group(0, &group, &[]);
-        pass.draw(0..3, 0..1);
+        for (rows, film) in canvas.films() {
+            let resources = [
+                self.settings.as_entire_binding(),
+                film.buffer.as_entire_binding(),
+            ];
+            let group = bind(gpu, "display", &self.layout, &resources);
+            pass.set_bind_group(0, &group, &[]);
+            pass.set_scissor_rect(0, rows.start, canvas.size_px()[0], rows.len() as u32);
+            // The shader learns by the instance where the band begins.
+            pass.draw(0..3, rows.start..rows.start + 1);
+        }
+    }
+}
+
+/// A target to be read back.
+pub(crate) struct Shown {
+    pub size_px: [u32; 2],
+    pub texture: wgpu::Texture,
+    pub view: wgpu::TextureView,
+}
+
+impl Shown {
+    pub const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+
+    pub async fn new(gpu: &Gpu, size_px: [u32; 2]) -> Result<Self, Error> {
+        let descriptor = wgpu::TextureDescriptor {
+            label: Some("shown picture"),
+            size: wgpu::Extent3d {
+                width: size_px[0],
+                height: size_px[1],
+                depth_or_array_layers: 1,
+            },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: Self::FORMAT,
+            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
+            view_formats: &[],
+        };
+        let texture = gpu.texture("shown picture", &descriptor).await?;
+        Ok(Self {
+            size_px,
+            view: texture.create_view(&Default::default()),
+            texture,
+        })
     }
 }

@@ -3,9 +3,8 @@
 use glam::{DVec3, UVec2};
 use hairline_scene::camera::pixel_jitter;
 use hairline_scene::{Environment, Scene};
-use std::ops::Range;
 
-use crate::film::Film;
+use crate::film::Band;
 use crate::layout::{ENVIRONMENT_PRESENT, ENVIRONMENT_VISIBLE, Frame};
 use crate::upload::GpuScene;
 
@@ -13,21 +12,20 @@ use crate::upload::GpuScene;
 /// camera comes nearer to anything that it can show.
 const NEAR_M: f32 = 1e-5;
 
-/// The uniform for sample `sample` of `samples`, on a film that holds `rows` of the picture.
+/// The uniform for sample `sample` of `samples` of a band of a picture of `size_px`.
 pub(crate) fn frame(
     scene: &Scene,
     uploaded: &GpuScene,
+    size_px: [u32; 2],
     sample: u32,
     samples: u32,
-    film: &Film,
-    rows: &Range<u32>,
+    band: &Band<'_>,
 ) -> Frame {
-    let size_px = scene.render.size_px;
     let camera = scene.camera.frame(size_px);
     let environment = scene.environment.as_ref();
     Frame {
         camera_m: vec3(camera.position_m - uploaded.origin_m),
-        sample_weight: 1.0 / samples as f32,
+        pad_0: 0.0,
         forward: vec3(camera.forward),
         near_m: NEAR_M,
         per_px_x: vec3(camera.per_px_x),
@@ -35,7 +33,7 @@ pub(crate) fn frame(
         per_px_y: vec3(camera.per_px_y),
         footprint_std_px: scene.render.footprint_std_px(samples) as f32,
         size_px,
-        rows: UVec2::new(rows.start, rows.end).to_array(),
+        rows: UVec2::new(band.rows.start, band.rows.end).to_array(),
         jitter_px: pixel_jitter(sample, samples).as_vec2().to_array(),
         light_count: uploaded.light_count,
         environment_flags: environment.map_or(0, environment_flags),
@@ -43,7 +41,7 @@ pub(crate) fn frame(
         environment_sh: environment.map_or_else(Default::default, environment_sh),
         environment_texel_radiance: environment.map_or(0.0, |e| e.texel_radiance() as f32),
         sample,
-        tile_entries: film.tiles.entries(),
+        tile_entries: band.room.tiles.entries(),
         pad: 0,
     }
 }

@@ -4,7 +4,7 @@
 use std::future::Future;
 use std::io::Write;
 use std::pin::pin;
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 use std::task::{Context, Poll, Waker};
 
 use hairline_image::Image;
@@ -49,7 +49,10 @@ pub fn render(
     options: &RenderOptions,
     progress: &dyn Fn(f64),
 ) -> Result<Image, Error> {
-    let (index, tables) = (ScratchIndex::build(scene), ScratchTables::new(scene));
+    let (index, tables) = (
+        Arc::new(ScratchIndex::build(scene)),
+        ScratchTables::new(scene),
+    );
     gpu.block_on(async {
         let mut renderer = Renderer::new(gpu).await?;
         let uploaded = renderer.upload(scene, &index, &tables, method).await?;

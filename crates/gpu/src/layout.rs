@@ -47,7 +47,7 @@ shared! {
     /// The view of one sample; uniform.
     Frame {
         camera_m: [f32; 3],
-        sample_weight: f32,
+        pad_0: f32,
         forward: [f32; 3],
         near_m: f32,
         per_px_x: [f32; 3],
@@ -124,7 +124,7 @@ shared! {
         end_m: [f32; 3],
         normal_blur: u32,
     }
-    /// Weighted sums over the samples of a pixel, and the walk in hand.
+    /// Sums over the samples of a pixel.
     FilmPixel {
         base: [f32; 3],
         depth_m: f32,
@@ -134,10 +134,13 @@ shared! {
         samples: u32,
         normal: [f32; 3],
         walk_at: u32,
-        walk_radiance: [f32; 3],
-        walk_share: f32,
-        walk_energy: [f32; 3],
-        walk_share_by_line: f32,
+    }
+    /// The walk of a pixel that a dispatch left unfinished.
+    FilmWalk {
+        radiance: [f32; 3],
+        share: f32,
+        energy: [f32; 3],
+        share_by_line: f32,
     }
     /// How a film is shown; uniform.
     DisplaySettings {

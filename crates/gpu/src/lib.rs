@@ -5,6 +5,7 @@
 
 mod bindings;
 pub mod call;
+pub mod canvas;
 pub mod device;
 mod display;
 pub mod error;
@@ -27,8 +28,9 @@ pub mod upload;
 mod variant;
 mod visibility;
 
+pub use canvas::Canvas;
 pub use device::{Adapter, AdapterKind, AdapterRequest, Gpu, KindRequest};
 pub use error::Error;
 pub use renderer::{RenderOptions, Renderer};
 pub use timing::PassTime;
-pub use upload::GpuScene;
+pub use upload::{GpuScene, Written};

@@ -75,7 +75,45 @@ impl Gpu {
         let mut encoder = self.device.create_command_encoder(&Default::default());
         encoder.copy_buffer_to_buffer(buffer, range.start, &staging, 0, size);
         self.queue.submit([encoder.finish()]);
+        self.map(&staging, |bytes| bytes.to_vec()).await
+    }
 
+    /// The texels of a texture of one layer, level 0, four bytes each, row by row. It must have the usage `COPY_SRC`.
+    /// Submits a copy.
+    pub async fn read_texture(&self, texture: &wgpu::Texture) -> Result<Vec<u8>, Error> {
+        let extent = texture.size();
+        let row_bytes = 4 * extent.width;
+        // Rows of a copy begin at multiples of 256 bytes.
+        let padded = row_bytes.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+        let size = u64::from(padded) * u64::from(extent.height);
+        let usage = wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ;
+        let staging = self.buffer("the copy of a picture", size, usage).await?;
+        let mut encoder = self.device.create_command_encoder(&Default::default());
+        let destination = wgpu::TexelCopyBufferInfo {
+            buffer: &staging,
+            layout: wgpu::TexelCopyBufferLayout {
+                offset: 0,
+                bytes_per_row: Some(padded),
+                rows_per_image: None,
+            },
+        };
+        encoder.copy_texture_to_buffer(texture.as_image_copy(), destination, extent);
+        self.queue.submit([encoder.finish()]);
+        let unpadded = |bytes: &[u8]| {
+            let rows = bytes.chunks_exact(padded as usize);
+            rows.flat_map(|row| &row[..row_bytes as usize])
+                .copied()
+                .collect()
+        };
+        self.map(&staging, unpadded).await
+    }
+
+    /// What `take` makes of the bytes of a buffer with the usage `MAP_READ`, once what was submitted is done.
+    async fn map(
+        &self,
+        staging: &wgpu::Buffer,
+        take: impl Fn(&[u8]) -> Vec<u8>,
+    ) -> Result<Vec<u8>, Error> {
         let arrival = Arrival::new();
         let callback = arrival.clone();
         staging.map_async(wgpu::MapMode::Read, .., move |result| {
@@ -89,7 +127,7 @@ impl Gpu {
         let view = staging.get_mapped_range(..).map_err(|error| Error::Lost {
             reason: error.to_string(),
         })?;
-        let bytes = view.to_vec();
+        let bytes = take(&view);
         drop(view);
         staging.unmap();
         Ok(bytes)

@@ -1,6 +1,7 @@
 //! The way of a picture: visibility, shading, sample after sample on a film, then display or readback.
 
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -11,10 +12,11 @@ use hairline_scene::{Scene, ScratchTables};
 use wgpu::BufferUsages;
 
 use crate::bindings::{Layouts, bind};
+use crate::canvas::Canvas;
 use crate::device::Gpu;
-use crate::display::DisplayPass;
+use crate::display::{DisplayPass, Shown};
 use crate::error::Error;
-use crate::film::Film;
+use crate::film::{Band, BandRoom, Film};
 use crate::frame::frame;
 use crate::layout::Frame;
 use crate::shade::ShadePass;
@@ -49,10 +51,12 @@ pub struct Renderer {
     layouts: Layouts,
     visibility: VisibilityPass,
     passes: HashMap<ShadeVariant, Arc<ScenePasses>>,
-    display: Option<DisplayPass>,
+    displays: HashMap<wgpu::TextureFormat, DisplayPass>,
+    shown: Option<Shown>,
     frame: wgpu::Buffer,
     frame_group: wgpu::BindGroup,
-    film: Option<Film>,
+    /// What [`Renderer::render`] works on.
+    band: Option<(BandRoom, Film)>,
     timing: Timing,
 }
 
@@ -75,10 +79,11 @@ impl Renderer {
             layouts,
             visibility,
             passes: HashMap::new(),
-            display: None,
+            displays: HashMap::new(),
+            shown: None,
             frame,
             frame_group,
-            film: None,
+            band: None,
             timing: Timing::default(),
         })
     }
@@ -117,7 +122,7 @@ impl Renderer {
     pub async fn upload(
         &mut self,
         scene: &Scene,
-        index: &ScratchIndex,
+        index: &Arc<ScratchIndex>,
         tables: &ScratchTables,
         method: &Method,
     ) -> Result<GpuScene, Error> {
@@ -145,6 +150,28 @@ impl Renderer {
             passes,
         )
         .await
+    }
+
+    /// Brings what was uploaded up to date with a scene, its index and its tables: only what changed is written, as
+    /// [`GpuScene::written`] tells. What is large is known by its [`Arc`] (meshes, textures, the environment's map, the
+    /// index), what is small is compared. The passes are compiled again only for a kind of scene or a method that this
+    /// renderer has not had.
+    ///
+    /// After an error `uploaded` is what it was, and can be rendered still; the device holds both what was and what is
+    /// to be until the call is done.
+    ///
+    /// # Errors
+    /// As [`Self::upload`].
+    pub async fn update(
+        &mut self,
+        uploaded: &mut GpuScene,
+        scene: &Scene,
+        index: &Arc<ScratchIndex>,
+        tables: &ScratchTables,
+        method: &Method,
+    ) -> Result<(), Error> {
+        *uploaded = self.upload(scene, index, tables, method).await?;
+        Ok(())
     }
 
     /// Renders `scene`, which was uploaded as `uploaded`, by its own camera and at its own size; `progress` is told the
@@ -179,167 +206,190 @@ impl Renderer {
     ) -> Result<Image, Error> {
         let width = scene.render.size_px[0];
         let height = rows.len() as u32;
-        let band = (options.submission_px / width.max(1))
-            .min(Film::rows_max(&self.gpu, width))
-            .min(height)
-            .max(1);
+        let band = Film::band_rows(&self.gpu, [width, height], options.submission_px);
         let samples = options.samples.max(1);
         let mut image = Image::new([width, height]);
         for first in (0..height).step_by(band as usize) {
             let in_image = first..(first + band).min(height);
             let in_picture = rows.start + in_image.start..rows.start + in_image.end;
             for sample in 0..samples {
-                self.submit(scene, uploaded, sample, samples, band, &in_picture)
+                let (room, film) = self.take_band(uploaded, width, band).await?;
+                let band = Band {
+                    room: &room,
+                    film: &film,
+                    rows: in_picture.clone(),
+                };
+                let size_px = scene.render.size_px;
+                self.submit(scene, uploaded, size_px, sample, samples, &band)
                     .await?;
                 self.gpu.finished().await?;
+                self.band = Some((room, film));
                 let done = f64::from(first)
                     + f64::from(in_image.end - first) * f64::from(sample + 1) / f64::from(samples);
                 progress(done / f64::from(height));
             }
-            let film = self.take_film(uploaded, width, band).await?;
-            film.read(&self.gpu, &mut image, &in_image).await?;
-            self.film = Some(film);
+            if let Some((_, film)) = &self.band {
+                film.read(&self.gpu, &mut image, &in_image).await?;
+            }
         }
         Ok(image)
     }
 
-    /// Adds sample `sample` of `samples` of the whole picture to the film; sample 0 clears it. For a window, which shows
-    /// the film by [`Self::show`] after any number of samples.
+    /// Adds sample `sample` of `samples` to a band of the canvas: 0, which begins anew, or as many as
+    /// [`Canvas::samples`] says that it has. The picture has the canvas's size, whatever the scene says.
+    ///
+    /// It submits the work and, save on software drivers, does not wait for it: [`Gpu::finished`] does. Dropped or failed,
+    /// it leaves the band to be begun anew.
     ///
     /// # Errors
-    /// [`Error::TooLarge`] if the picture is larger than one film; [`Error::OutOfMemory`], [`Error::Lost`].
+    /// [`Error::IterationBudget`] where a software driver ended loops too early (elsewhere reading says so);
+    /// [`Error::OutOfMemory`], [`Error::Lost`].
+    ///
+    /// # Panics
+    /// If the band does not exist, or `sample` does not follow what it has.
     pub async fn accumulate(
         &mut self,
         scene: &Scene,
         uploaded: &GpuScene,
+        canvas: &mut Canvas,
+        band: usize,
         sample: u32,
         samples: u32,
     ) -> Result<(), Error> {
-        let [_, height] = scene.render.size_px;
-        self.submit(scene, uploaded, sample, samples, height, &(0..height))
-            .await?;
-        self.gpu.check()
+        let has_tiles = uploaded.passes.tiles.is_some();
+        canvas.make_room(&self.layouts, has_tiles).await?;
+        canvas.begin(band, sample);
+        let size_px = canvas.size_px();
+        self.submit(
+            scene,
+            uploaded,
+            size_px,
+            sample,
+            samples,
+            &canvas.band(band),
+        )
+        .await?;
+        self.gpu.check()?;
+        canvas.finish(band, sample + 1);
+        Ok(())
     }
 
-    /// Draws the film to `target`, which has the picture's size and `format` (8 bits a channel, not sRGB: the shader
-    /// encodes). Nothing is drawn before the first [`Self::accumulate`].
+    /// Draws the canvas, as far as it has come, to `target`, which has its size and `format` (8 bits a channel, not sRGB:
+    /// the shader encodes). Every pixel is exposed alike, however many samples it has; what has none is black.
     ///
     /// # Errors
     /// [`Error::Lost`], [`Error::OutOfMemory`].
     pub async fn show(
         &mut self,
+        canvas: &Canvas,
         display: &Display,
         target: &wgpu::TextureView,
         format: wgpu::TextureFormat,
     ) -> Result<(), Error> {
-        let pass = match self.display.take() {
-            Some(pass) if pass.format == format => pass,
-            _ => DisplayPass::new(&self.gpu, format).await?,
+        let pass = match self.displays.entry(format) {
+            Entry::Occupied(entry) => entry.into_mut(),
+            Entry::Vacant(entry) => entry.insert(DisplayPass::new(&self.gpu, format).await?),
         };
-        if let Some(film) = &self.film {
-            let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
-            pass.record(&self.gpu, &mut encoder, film, display, target);
-            self.gpu.queue.submit([encoder.finish()]);
-        }
-        self.display = Some(pass);
+        let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+        pass.record(&self.gpu, &mut encoder, canvas, display, target);
+        self.gpu.queue.submit([encoder.finish()]);
         self.gpu.check()
     }
 
-    /// One sample of some rows of the picture.
-    async fn submit(
+    /// What [`Self::show`] draws, in memory: red, green, blue and opaque alpha, 8 bits each, row by row from the top. For
+    /// a window whose own device is another one.
+    ///
+    /// # Errors
+    /// [`Error::TooLarge`] if the canvas is higher than the device's textures; [`Error::OutOfMemory`], [`Error::Lost`].
+    pub async fn read_shown(
         &mut self,
+        canvas: &Canvas,
+        display: &Display,
+    ) -> Result<Vec<u8>, Error> {
+        let shown = match self.shown.take() {
+            Some(shown) if shown.size_px == canvas.size_px() => shown,
+            _ => Shown::new(&self.gpu, canvas.size_px()).await?,
+        };
+        self.show(canvas, display, &shown.view, Shown::FORMAT)
+            .await?;
+        let pixels = self.gpu.read_texture(&shown.texture).await?;
+        self.shown = Some(shown);
+        Ok(pixels)
+    }
+
+    /// One sample of a band.
+    async fn submit(
+        &self,
         scene: &Scene,
         uploaded: &GpuScene,
+        size_px: [u32; 2],
         sample: u32,
         samples: u32,
-        band: u32,
-        rows: &Range<u32>,
+        band: &Band<'_>,
     ) -> Result<(), Error> {
-        let film = self
-            .take_film(uploaded, scene.render.size_px[0], band)
-            .await?;
-        let uniform = frame(scene, uploaded, sample, samples, &film, rows);
+        let uniform = frame(scene, uploaded, size_px, sample, samples, band);
         self.gpu
             .queue
             .write_buffer(&self.frame, 0, bytemuck::bytes_of(&uniform));
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         if sample == 0 {
-            film.clear(&mut encoder);
+            band.film.clear(&mut encoder);
         } else {
-            film.clear_unfinished(&mut encoder);
+            band.film.clear_unfinished(&mut encoder);
         }
-        self.visibility.record(
-            &mut encoder,
-            &self.frame_group,
-            uploaded,
-            &film,
-            rows,
-            &self.timing,
-        );
+        let (frame, timing) = (&self.frame_group, &self.timing);
+        self.visibility
+            .record(&mut encoder, frame, uploaded, band, timing);
         if let Some(tiles) = &uploaded.passes.tiles {
-            film.tiles.clear(&self.gpu);
-            tiles.record(
-                &mut encoder,
-                &self.frame_group,
-                uploaded,
-                &film,
-                &self.timing,
-            );
+            band.room.tiles.clear(&self.gpu);
+            tiles.record(&mut encoder, frame, uploaded, band, timing);
         }
-        uploaded.passes.shade.record(
-            &mut encoder,
-            &self.frame_group,
-            uploaded,
-            &film,
-            rows,
-            &self.timing,
-        );
+        let shade = &uploaded.passes.shade;
+        shade.record(&mut encoder, frame, uploaded, band, timing);
         self.gpu.queue.submit([encoder.finish()]);
-        if uploaded.passes.shade.bounded {
-            self.finish_walks(uploaded, &film, rows).await?;
+        if shade.bounded {
+            self.finish_walks(uploaded, band).await?;
         }
-        self.film = Some(film);
         Ok(())
     }
 
     /// Dispatches again until every pixel's walk over the scratches is at its end.
-    async fn finish_walks(
-        &self,
-        uploaded: &GpuScene,
-        film: &Film,
-        rows: &Range<u32>,
-    ) -> Result<(), Error> {
-        while film.unfinished(&self.gpu).await? > 0 {
+    async fn finish_walks(&self, uploaded: &GpuScene, band: &Band<'_>) -> Result<(), Error> {
+        while band.film.unfinished(&self.gpu).await? > 0 {
             let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
-            film.clear_unfinished(&mut encoder);
-            uploaded.passes.shade.record(
-                &mut encoder,
-                &self.frame_group,
-                uploaded,
-                film,
-                rows,
-                &self.timing,
-            );
+            band.film.clear_unfinished(&mut encoder);
+            let (frame, timing) = (&self.frame_group, &self.timing);
+            let shade = &uploaded.passes.shade;
+            shade.record(&mut encoder, frame, uploaded, band, timing);
             self.gpu.queue.submit([encoder.finish()]);
         }
         Ok(())
     }
 
-    /// A film for `rows` rows of `width_px` pixels: the one at hand if it fits.
-    async fn take_film(
+    /// A film for `rows` rows of `width_px` pixels and the room to work on it: those at hand if they fit.
+    async fn take_band(
         &mut self,
         uploaded: &GpuScene,
         width_px: u32,
         rows: u32,
-    ) -> Result<Film, Error> {
+    ) -> Result<(BandRoom, Film), Error> {
         let has_tiles = uploaded.passes.tiles.is_some();
-        let fits = |film: &Film| {
-            film.width_px == width_px && film.rows == rows && (film.tiles.count > 0) == has_tiles
+        let fits = |room: &BandRoom| {
+            room.width_px == width_px && room.rows == rows && room.has_tiles() == has_tiles
         };
-        match self.film.take() {
-            Some(film) if fits(&film) => Ok(film),
-            _ => Film::new(&self.gpu, &self.layouts, width_px, rows, has_tiles).await,
+        if let Some((room, film)) = self.band.take()
+            && fits(&room)
+        {
+            return Ok((room, film));
         }
+        let (gpu, layouts) = (&self.gpu, &self.layouts);
+        let room = BandRoom::new(gpu, layouts, width_px, rows, has_tiles).await?;
+        let film = Film::new(gpu, layouts, &room, rows).await?;
+        Ok((room, film))
+    }
+
+    pub(crate) fn layouts(&self) -> &Layouts {
+        &self.layouts
     }
 }
 

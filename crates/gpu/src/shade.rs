@@ -3,11 +3,9 @@
 //! Inputs: frame, scene, tables, visibility. Output: the film, added to. One invocation a pixel, 8 x 8 in a workgroup: a
 //! compute pass, since datacentre GPUs run fragment shaders on few of their processors.
 
-use std::ops::Range;
-
 use crate::bindings::Layouts;
 use crate::device::Gpu;
-use crate::film::Film;
+use crate::film::Band;
 use crate::shaders;
 use crate::tile_room::Queue;
 use crate::timing::Timing;
@@ -55,27 +53,27 @@ impl ShadePass {
         encoder: &mut wgpu::CommandEncoder,
         frame: &wgpu::BindGroup,
         scene: &GpuScene,
-        film: &Film,
-        rows: &Range<u32>,
+        band: &Band<'_>,
         timing: &Timing,
     ) {
         if self.queued {
-            film.tiles.count_queues(encoder);
+            band.room.tiles.count_queues(encoder);
         }
         let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
             label: Some("shade"),
             timestamp_writes: timing.compute("shade"),
         });
         pass.set_pipeline(&self.pipeline);
-        for (group, bound) in (0..).zip([frame, &scene.buffers, &scene.textures, &film.group]) {
+        for (group, bound) in (0..).zip([frame, &scene.buffers, &scene.textures, &band.film.group])
+        {
             pass.set_bind_group(group, bound, &[]);
         }
         if self.queued {
-            film.tiles.dispatch(&mut pass, Queue::Walked);
+            band.room.tiles.dispatch(&mut pass, Queue::Walked);
             return;
         }
-        let across = film.width_px.div_ceil(WORKGROUP_PX);
-        let down = (rows.end - rows.start).div_ceil(WORKGROUP_PX);
+        let across = band.room.width_px.div_ceil(WORKGROUP_PX);
+        let down = (band.rows.len() as u32).div_ceil(WORKGROUP_PX);
         pass.dispatch_workgroups(across, down, 1);
     }
 }

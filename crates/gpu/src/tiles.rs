@@ -5,7 +5,7 @@
 
 use crate::bindings::Layouts;
 use crate::device::Gpu;
-use crate::film::Film;
+use crate::film::Band;
 use crate::shaders;
 use crate::tile_room::Queue;
 use crate::timing::Timing;
@@ -40,10 +40,10 @@ impl TilesPasses {
         encoder: &mut wgpu::CommandEncoder,
         frame: &wgpu::BindGroup,
         scene: &GpuScene,
-        film: &Film,
+        band: &Band<'_>,
         timing: &Timing,
     ) {
-        let tiles = &film.tiles;
+        let tiles = &band.room.tiles;
         let mut run = |name, pipeline, group_3: &wgpu::BindGroup, queue: Option<Queue>| {
             tiles.count_queues(encoder);
             let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
@@ -60,11 +60,11 @@ impl TilesPasses {
             }
         };
         run("tiles", &self.tiles, &tiles.tiles_group, None);
-        run("shade", &self.shade, &film.group, Some(Queue::Listed));
+        run("shade", &self.shade, &band.film.group, Some(Queue::Listed));
         run(
             "background",
             &self.background,
-            &film.group,
+            &band.film.group,
             Some(Queue::Empty),
         );
     }

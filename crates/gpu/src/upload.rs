@@ -29,6 +29,23 @@ pub struct GpuScene {
     pub(crate) origin_m: DVec3,
     pub(crate) light_count: u32,
     pub(crate) passes: Arc<ScenePasses>,
+    written: Vec<Written>,
+}
+
+/// What an upload wrote of one of a scene's arrays or textures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Written {
+    /// Its name.
+    pub what: &'static str,
+    /// What was written of it.
+    pub bytes: u64,
+}
+
+impl GpuScene {
+    /// What the last upload or update wrote; nothing about what stayed as it was.
+    pub fn written(&self) -> &[Written] {
+        &self.written
+    }
 }
 
 /// The scene's buffers in host memory, in the order of their bindings.
@@ -98,6 +115,7 @@ impl GpuScene {
             origin_m,
             light_count: scene.lights.len() as u32,
             passes,
+            written: Vec::new(),
         })
     }
 }

@@ -3,11 +3,9 @@
 //! Inputs: frame, vertices. Outputs: the film's visibility and depth. One draw for each object, without an index buffer:
 //! the shader divides the vertex's number by three, which works on every device.
 
-use std::ops::Range;
-
 use crate::bindings::Layouts;
 use crate::device::Gpu;
-use crate::film::{DEPTH_FORMAT, Film, VISIBILITY_FORMAT};
+use crate::film::{Band, DEPTH_FORMAT, VISIBILITY_FORMAT};
 use crate::shaders;
 use crate::timing::Timing;
 use crate::upload::GpuScene;
@@ -71,14 +69,13 @@ impl VisibilityPass {
         encoder: &mut wgpu::CommandEncoder,
         frame: &wgpu::BindGroup,
         scene: &GpuScene,
-        film: &Film,
-        rows: &Range<u32>,
+        band: &Band<'_>,
         timing: &Timing,
     ) {
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("visibility"),
             color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                view: &film.visibility,
+                view: &band.room.visibility,
                 depth_slice: None,
                 resolve_target: None,
                 ops: wgpu::Operations {
@@ -87,7 +84,7 @@ impl VisibilityPass {
                 },
             })],
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-                view: &film.depth,
+                view: &band.room.depth,
                 depth_ops: Some(wgpu::Operations {
                     load: wgpu::LoadOp::Clear(0.0),
                     store: wgpu::StoreOp::Discard,
@@ -97,7 +94,14 @@ impl VisibilityPass {
             timestamp_writes: timing.render("visibility"),
             ..Default::default()
         });
-        pass.set_viewport(0.0, 0.0, film.width_px as f32, rows.len() as f32, 0.0, 1.0);
+        pass.set_viewport(
+            0.0,
+            0.0,
+            band.room.width_px as f32,
+            band.rows.len() as f32,
+            0.0,
+            1.0,
+        );
         pass.set_pipeline(&self.0);
         pass.set_bind_group(0, frame, &[]);
         pass.set_bind_group(1, &scene.buffers, &[]);

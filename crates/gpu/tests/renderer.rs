@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3, Vec2, Vec3, Vec4};
 use hairline_gpu::headless::{self, test_gpu};
-use hairline_gpu::{AdapterRequest, Error, Gpu, GpuScene, RenderOptions, Renderer};
+use hairline_gpu::{AdapterRequest, Canvas, Error, Gpu, GpuScene, RenderOptions, Renderer};
 use hairline_image::tone_map::{display_code, dither_offset, linear_from_srgb};
 use hairline_image::{Display, Image, Picture, ToneMap};
 use hairline_index::ScratchIndex;
@@ -36,7 +36,10 @@ fn scene(text: &str) -> Scene {
 }
 
 fn upload(renderer: &mut Renderer, scene: &Scene) -> Result<GpuScene, Error> {
-    let (index, tables) = (ScratchIndex::build(scene), ScratchTables::new(scene));
+    let (index, tables) = (
+        Arc::new(ScratchIndex::build(scene)),
+        ScratchTables::new(scene),
+    );
     let gpu = renderer.gpu().clone();
     gpu.block_on(renderer.upload(scene, &index, &tables, &Default::default()))
 }
@@ -132,7 +135,10 @@ fn bands_join_to_the_same_picture() {
 fn some_rows_are_the_pictures() {
     let Some(gpu) = test_gpu() else { return };
     let scene = scene(PLATE);
-    let (index, tables) = (ScratchIndex::build(&scene), ScratchTables::new(&scene));
+    let (index, tables) = (
+        Arc::new(ScratchIndex::build(&scene)),
+        ScratchTables::new(&scene),
+    );
     let options = RenderOptions {
         submission_px: 3 * 97,
         ..Default::default()
@@ -262,60 +268,30 @@ fn the_display_shows_what_a_png_would() {
     let image = gpu
         .block_on(renderer.render(&scene, &uploaded, &RenderOptions::default(), &|_| {}))
         .unwrap();
-    gpu.block_on(renderer.accumulate(&scene, &uploaded, 0, 1))
+    // Bands of 10 rows, the last of 4.
+    let mut canvas = gpu
+        .block_on(Canvas::new(&renderer, size, 10 * size[0]))
         .unwrap();
-
-    let format = wgpu::TextureFormat::Rgba8Unorm;
-    let extent = wgpu::Extent3d {
-        width: size[0],
-        height: size[1],
-        depth_or_array_layers: 1,
-    };
-    let target = gpu.device.create_texture(&wgpu::TextureDescriptor {
-        label: None,
-        size: extent,
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format,
-        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
-        view_formats: &[],
-    });
-    let row_bytes = 512; // the next multiple of 256 that holds 97 texels
+    for band in 0..canvas.bands() {
+        gpu.block_on(renderer.accumulate(&scene, &uploaded, &mut canvas, band, 0, 1))
+            .unwrap();
+    }
     for tone_map in ToneMap::ALL {
         let display = Display {
             exposure_ev: 0.5,
             tone_map,
         };
-        gpu.block_on(renderer.show(&display, &target.create_view(&Default::default()), format))
+        let shown = gpu
+            .block_on(renderer.read_shown(&canvas, &display))
             .unwrap();
-        let usage = wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::COPY_SRC;
-        let buffer = gpu
-            .block_on(gpu.buffer("shown", u64::from(row_bytes * size[1]), usage))
-            .unwrap();
-        let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        let layout = wgpu::TexelCopyBufferLayout {
-            offset: 0,
-            bytes_per_row: Some(row_bytes),
-            rows_per_image: None,
-        };
-        encoder.copy_texture_to_buffer(
-            target.as_image_copy(),
-            wgpu::TexelCopyBufferInfo {
-                buffer: &buffer,
-                layout,
-            },
-            extent,
-        );
-        gpu.queue.submit([encoder.finish()]);
-        let shown = gpu.block_on(gpu.read(&buffer, 0..buffer.size())).unwrap();
+        assert_eq!(shown.len(), 4 * image.pixel_count());
         let beauty = image.beauty();
         for y in 0..size[1] {
             for x in 0..size[0] {
                 let expected = display.apply(beauty.pixel(x, y));
                 for (c, encoded) in expected.into_iter().enumerate() {
                     let code = display_code(encoded, dither_offset(x, y));
-                    let found = shown[(y * row_bytes + x * 4) as usize + c];
+                    let found = shown[4 * image.index(x, y) + c];
                     // The curve's last digit may tip the rounding.
                     assert!(
                         code.abs_diff(found) <= 1,
@@ -470,7 +446,10 @@ fn a_scene_beyond_one_binding_is_refused_with_figures() {
     })
     .unwrap();
     let mut scene = scene(PLATE);
-    let (index, tables) = (ScratchIndex::build(&scene), ScratchTables::new(&scene));
+    let (index, tables) = (
+        Arc::new(ScratchIndex::build(&scene)),
+        ScratchTables::new(&scene),
+    );
     let mesh = Arc::make_mut(&mut scene.objects[0].mesh);
     mesh.triangles = vec![[0, 1, 2]; 1_000_000];
     mesh.triangle_materials = vec![0; 1_000_000];

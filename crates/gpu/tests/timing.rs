@@ -1,5 +1,6 @@
 //! The device's own clock around each pass.
 
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use hairline_gpu::headless::{skip, test_gpu};
@@ -41,7 +42,8 @@ radiance = 9.0
 "#;
 
 fn upload(renderer: &mut Renderer, scene: &Scene) -> GpuScene {
-    let (index, tables) = (ScratchIndex::build(scene), ScratchTables::new(scene));
+    let index = Arc::new(ScratchIndex::build(scene));
+    let tables = ScratchTables::new(scene);
     let gpu = renderer.gpu().clone();
     gpu.block_on(renderer.upload(scene, &index, &tables, &Default::default()))
         .unwrap()

@@ -88,7 +88,7 @@ impl<'a> Prepared<'a> {
     }
 
     /// The tree over the scratches.
-    pub fn scratches(&self) -> &ScratchIndex {
+    pub fn scratches(&self) -> &Arc<ScratchIndex> {
         &self.scratches
     }
 

@@ -5,7 +5,7 @@ use std::ops::Range;
 use std::time::{Duration, Instant};
 
 use anyhow::anyhow;
-use hairline_gpu::{Adapter, Error, Gpu, GpuScene, PassTime, Renderer, headless};
+use hairline_gpu::{Adapter, Canvas, Error, Gpu, GpuScene, PassTime, Renderer, headless};
 use hairline_image::Image;
 use hairline_optics::method::Method;
 use hairline_reference::closed_form::{self, Prepared};
@@ -24,6 +24,8 @@ pub enum Worker {
 pub struct GpuWorker {
     gpu: Gpu,
     renderer: Renderer,
+    /// For whole pictures of one size.
+    canvas: Option<Canvas>,
     clock: bool,
 }
 
@@ -168,20 +170,35 @@ impl GpuWorker {
         Ok(Self {
             gpu,
             renderer,
+            canvas: None,
             clock,
         })
     }
 
     fn time(&mut self, scene: &Scene, uploaded: &GpuScene, rows: &Rows) -> Result<Elapsed, Error> {
-        let Self { gpu, renderer, .. } = self;
+        let Self {
+            gpu,
+            renderer,
+            canvas,
+            ..
+        } = self;
         gpu.block_on(async {
+            let size_px = scene.render.size_px;
+            let canvas = match canvas {
+                Some(canvas) if canvas.size_px() == size_px => canvas,
+                _ => canvas.insert(Canvas::new(renderer, size_px, u32::MAX).await?),
+            };
             // Forgets what pictures took that nobody asked about.
             renderer.pass_times().await?;
             gpu.finished().await?;
             let start = Instant::now();
             match rows {
                 Rows::Whole => {
-                    renderer.accumulate(scene, uploaded, 0, 1).await?;
+                    for band in 0..canvas.bands() {
+                        renderer
+                            .accumulate(scene, uploaded, canvas, band, 0, 1)
+                            .await?;
+                    }
                     gpu.finished().await?;
                 }
                 Rows::Strips(strips) => {
