@@ -6,7 +6,7 @@ use crate::segment_tree::{SegmentTree, Straight};
 use glam::Vec3;
 use hairline_optics::footprint;
 use hairline_optics::mask::depth_coherence;
-use hairline_scene::{Object, Scene};
+use hairline_scene::{Object, Scene, Scratch};
 
 /// A straight piece of a scratch, its free ends moved inwards.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,7 +52,7 @@ impl ScratchIndex {
     pub fn build(scene: &Scene) -> Self {
         let objects = scene.objects.iter();
         Self {
-            tree: SegmentTree::build(objects.map(|object| effective_segments(scene, object))),
+            tree: SegmentTree::build(objects.map(|object| effective_segments(scene, object, None))),
             depth_coherence: Self::depth_coherence(scene),
         }
     }
@@ -72,10 +72,16 @@ fn object_depth_coherence(object: &Object) -> f32 {
     depth_coherence(depths) as f32
 }
 
-/// The pieces of all scratches of an object, free ends moved inwards along the scratch.
-fn effective_segments(scene: &Scene, object: &Object) -> Vec<IndexedSegment> {
-    let mut effective = Vec::with_capacity(object.segments.len());
-    for scratch in object.scratches.iter() {
+/// The pieces of an object's scratches, those of one layer or all, free ends moved inwards along the scratch.
+pub(crate) fn effective_segments(
+    scene: &Scene,
+    object: &Object,
+    layer: Option<u32>,
+) -> Vec<IndexedSegment> {
+    let of_layer = |scratch: &&Scratch| layer.is_none_or(|layer| scratch.layer == layer);
+    let scratches = || object.scratches.iter().filter(of_layer);
+    let mut effective = Vec::with_capacity(scratches().map(|s| s.segments.len()).sum());
+    for scratch in scratches() {
         let pieces =
             &object.segments[scratch.segments.start as usize..scratch.segments.end as usize];
         let Some(first) = pieces.first() else {

@@ -22,6 +22,8 @@ pub struct Method {
     pub sphere_base: SphereBase,
     /// How the scratches under a pixel are found.
     pub lookup: Lookup,
+    /// Whether many scratches may be taken as one.
+    pub gather: Gather,
 }
 
 impl Method {
@@ -37,6 +39,7 @@ impl Method {
         mask: Mask::Density,
         sphere_base: SphereBase::Pivot,
         lookup: Lookup::Bvh,
+        gather: Gather::Exact,
     };
 
     /// Whether the default path can compute this: it has every footprint but the blend, every mask and every look-up, and
@@ -120,6 +123,17 @@ pub enum Lookup {
     /// A list for each triangle, of all scratches within the coherence window's reach of it. Larger footprints reach
     /// further: only for [`PixelFilter::Off`].
     Triangles,
+}
+
+/// Whether many scratches may be taken as one (docs/model.md, section 7). On the CPU only, and on the default path; elsewhere
+/// every scratch is taken for itself.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Gather {
+    /// Every scratch under the pixel for itself.
+    #[default]
+    Exact,
+    /// Bundles that are thin against the pixel's footprint as one scratch each.
+    Clusters,
 }
 
 #[cfg(test)]
