@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
-use hairline_scene::description::{Description, Layer};
+use hairline_scene::description::Description;
 use hairline_scene::{Loader, Scene, Stage};
 
 use crate::failure::Failure;
@@ -41,8 +41,8 @@ pub fn load(path: Option<&Path>, overrides: &Overrides) -> Result<Loaded, Failur
         description.camera.exposure_ev = exposure_ev;
     }
     for scratches in &mut description.scratches {
-        if let Layer::Laid(laid) = &mut scratches.layer {
-            laid.seed = laid.seed.wrapping_add(overrides.scratch_seed);
+        if let Some(seed) = scratches.layer.seed_mut() {
+            *seed = seed.wrapping_add(overrides.scratch_seed);
         }
     }
 

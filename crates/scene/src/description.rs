@@ -212,9 +212,35 @@ pub enum Shape {
 pub struct Scratches {
     /// The name of the object they lie on. Required.
     pub object: String,
+    /// Free text, for lists that people read. Default: none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
+    /// Laid nowhere. Other layers' scratches stay as they are. Default: false.
+    #[serde(skip_serializing_if = "is_false")]
+    pub hidden: bool,
+    /// Where any layer of the scene is solo, only solo ones that are not hidden are laid. Default: false.
+    #[serde(skip_serializing_if = "is_false")]
+    pub solo: bool,
     /// How they are laid.
     #[serde(flatten)]
     pub layer: Layer,
+    /// What a brush did, in this order; the pattern's own scratches come before all strokes. Default: none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub strokes: Vec<Stroke>,
+}
+
+impl Scratches {
+    /// A layer with nothing but its pattern: no name, not hidden, not solo, no strokes.
+    pub fn new(object: impl Into<String>, layer: Layer) -> Self {
+        Self {
+            object: object.into(),
+            name: None,
+            hidden: false,
+            solo: false,
+            layer,
+            strokes: Vec::new(),
+        }
+    }
 }
 
 /// Where the scratches of a layer come from.
@@ -223,8 +249,112 @@ pub struct Scratches {
 pub enum Layer {
     /// Drawn at random along a pattern.
     Laid(Laid),
+    /// `pattern = "drawn"`
+    Brushed(Brushed),
     /// `pattern = "file"`
     Listed(Listed),
+}
+
+impl Layer {
+    /// The seed of a layer that draws random numbers.
+    pub fn seed(&self) -> Option<u64> {
+        match self {
+            Self::Laid(laid) => Some(laid.seed),
+            Self::Brushed(brushed) => Some(brushed.seed),
+            Self::Listed(_) => None,
+        }
+    }
+
+    /// See [`Layer::seed`].
+    pub fn seed_mut(&mut self) -> Option<&mut u64> {
+        match self {
+            Self::Laid(laid) => Some(&mut laid.seed),
+            Self::Brushed(brushed) => Some(&mut brushed.seed),
+            Self::Listed(_) => None,
+        }
+    }
+}
+
+/// Scratches along the strokes of a brush; [`Scratches::strokes`] holds them.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(tag = "pattern", rename = "drawn")]
+pub struct Brushed {
+    /// Standard deviation of a scratch's angle to its stroke. Default: 0.
+    pub jitter_deg: f64,
+    /// As in [`Laid::seed`]. Default: 1.
+    pub seed: u64,
+    /// As in [`Laid::length_m`].
+    pub length_m: Distribution,
+    /// As in [`Laid::width_um`].
+    pub width_um: Distribution,
+    /// As in [`Laid::depth_nm`].
+    pub depth_nm: Distribution,
+}
+
+impl Default for Brushed {
+    fn default() -> Self {
+        Self {
+            jitter_deg: 0.0,
+            seed: DEFAULT_SEED,
+            length_m: DEFAULT_LENGTH_M,
+            width_um: DEFAULT_WIDTH_UM,
+            depth_nm: DEFAULT_DEPTH_NM,
+        }
+    }
+}
+
+/// One of the `strokes` of a `[[scratches]]`: where a brush went.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stroke {
+    /// On or near the surface, in the object's own frame, in the order of the stroke. One point is a dab. Required.
+    pub points_m: Vec<[f64; 3]>,
+    /// Half of the brush's width, in the world's metres, whatever the object's `scale`. Required.
+    pub radius_m: f64,
+    /// `density_per_m` with its factors, or `erase`.
+    pub brush: Brush,
+}
+
+/// What a stroke does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Brush {
+    /// Lays scratches along the stroke; in layers of pattern `"drawn"` only.
+    Paint {
+        /// Scratches on each metre of the stroke. A stroke has at least one, and a dab as many as a stroke of its width.
+        /// Required.
+        density_per_m: f64,
+        /// Factor on the layer's widths. Default: 1.
+        width: f64,
+        /// Factor on the layer's depths. Default: 1.
+        depth: f64,
+    },
+    /// `erase = true`: takes away what the layer laid before, as far as it comes within the radius, exactly at the brush's
+    /// edge. It does not reach through a sheet: what faces away from the surface under the brush stays.
+    Erase,
+}
+
+impl Serialize for Stroke {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        use serde::ser::SerializeMap;
+        let mut table = serializer.serialize_map(None)?;
+        table.serialize_entry("points_m", &self.points_m)?;
+        table.serialize_entry("radius_m", &self.radius_m)?;
+        match self.brush {
+            Brush::Paint {
+                density_per_m,
+                width,
+                depth,
+            } => {
+                table.serialize_entry("density_per_m", &density_per_m)?;
+                for (key, factor) in [("width", width), ("depth", depth)] {
+                    if factor != 1.0 {
+                        table.serialize_entry(key, &factor)?;
+                    }
+                }
+            }
+            Brush::Erase => table.serialize_entry("erase", &true)?,
+        }
+        table.end()
+    }
 }
 
 /// Scratches read from a file.
@@ -245,7 +375,9 @@ pub struct Laid {
     /// `count` or `density_per_m2`; one of them is required.
     #[serde(flatten)]
     pub amount: Amount,
-    /// The same seed gives the same scratches, and a higher count keeps the first ones. Default: 1.
+    /// The same seed gives the same scratches, and a higher count keeps the first ones. Layers of different seeds do not
+    /// depend on one another, nor on their order. Of layers of one object that have the same seed, hidden ones included,
+    /// the second draws other numbers than the first, and so on. Default: 1.
     pub seed: u64,
     /// Log-normal, measured along the surface; draws are kept from 1e-5 to a hundred times the object's diagonal.
     /// Default: mean 0.02, spread 0.5.
@@ -342,6 +474,12 @@ pub struct Distribution {
 /// `[[light]]`
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Light {
+    /// Free text, for lists that people read. Default: none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
+    /// Lights nothing, as if it were not there. Default: false.
+    #[serde(skip_serializing_if = "is_false")]
+    pub hidden: bool,
     /// `kind` and the keys that belong to it.
     #[serde(flatten)]
     pub kind: LightKind,
@@ -370,6 +508,37 @@ pub enum LightKind {
         two_sided: bool,
     },
 }
+
+impl Light {
+    /// A white light of radiance 1, without a name, not hidden.
+    pub fn new(kind: LightKind) -> Self {
+        Self {
+            name: None,
+            hidden: false,
+            kind,
+            radiance: 1.0,
+            color: [1.0; 3],
+        }
+    }
+}
+
+/// What layers that draw random numbers start from, where they do not say it.
+pub const DEFAULT_SEED: u64 = 1;
+/// Lengths where a layer does not say them.
+pub const DEFAULT_LENGTH_M: Distribution = Distribution {
+    mean: 0.02,
+    spread: 0.5,
+};
+/// Widths where a layer does not say them.
+pub const DEFAULT_WIDTH_UM: Distribution = Distribution {
+    mean: 1.5,
+    spread: 0.3,
+};
+/// Depths where a layer does not say them.
+pub const DEFAULT_DEPTH_NM: Distribution = Distribution {
+    mean: 200.0,
+    spread: 0.2,
+};
 
 /// sigma of materials that do not say it, those of glTF files among them.
 pub(crate) const DEFAULT_COHERENCE_UM: f64 = 20.0;
@@ -434,6 +603,10 @@ impl Named for Metal {
         ("titanium", Metal::Titanium),
         ("nickel", Metal::Nickel),
     ];
+}
+
+fn is_false(value: &bool) -> bool {
+    !value
 }
 
 fn serialize_named<T: Named, S: Serializer>(value: &T, serializer: S) -> Result<S::Ok, S::Error> {

@@ -14,6 +14,7 @@ pub struct Error {
     key: String,
     found: String,
     right: String,
+    is_cancelled: bool,
 }
 
 /// A file and, if known, a line in it, counted from 1.
@@ -31,7 +32,21 @@ impl Error {
             key: key.into(),
             found: found.into(),
             right: right.into(),
+            is_cancelled: false,
         }
+    }
+
+    /// What work ends with that its caller gave up.
+    pub(crate) fn cancelled() -> Self {
+        Self {
+            is_cancelled: true,
+            ..Self::new("", "the scene was not finished", "it was cancelled")
+        }
+    }
+
+    /// Whether nothing is wrong, but [`Loader::cancelled`](crate::Loader::cancelled) said so.
+    pub fn is_cancelled(&self) -> bool {
+        self.is_cancelled
     }
 
     /// Says where the mistake is, unless a more exact place is known already.

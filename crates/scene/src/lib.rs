@@ -1,6 +1,7 @@
 //! From a scene file to one validated [`Scene`] in canonical units: the only home of defaults, unit conversion and
 //! errors that speak to a user.
 
+mod builder;
 pub mod camera;
 pub mod description;
 pub mod environment;
@@ -15,6 +16,7 @@ mod shape;
 mod surface;
 mod texture;
 
+pub use builder::SceneBuilder;
 pub use camera::CameraFrame;
 pub use description::Description;
 pub use environment::Environment;

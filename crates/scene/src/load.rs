@@ -43,6 +43,9 @@ pub struct Loader<'a> {
     pub memory_budget_bytes: u64,
     /// Is told how far long work has come, from the calling thread.
     pub progress: &'a dyn Fn(Progress),
+    /// Is asked now and then, from the calling thread, whether to give up. Then the work ends with an error for which
+    /// [`Error::is_cancelled`] holds.
+    pub cancelled: &'a dyn Fn() -> bool,
 }
 
 impl Default for Loader<'_> {
@@ -53,6 +56,7 @@ impl Default for Loader<'_> {
         Self {
             memory_budget_bytes: LARGEST_BUDGET_BYTES.min(free),
             progress: &|_| {},
+            cancelled: &|| false,
         }
     }
 }

@@ -152,6 +152,9 @@ impl<'a> Plan<'a> {
                 };
                 (Box::new(drawn), count)
             }
+            Layer::Brushed(_) => {
+                return Err(Error::new(&table.key, "found strokes", "are not laid yet"));
+            }
             Layer::Listed(listed) => {
                 let path = base_dir.join(&listed.file);
                 let rows = listed::read(&path, &table.key)?;
@@ -190,6 +193,7 @@ impl<'a> Plan<'a> {
         }
         let key = match self.table.layer {
             Layer::Listed(_) => "file",
+            Layer::Brushed(_) => "strokes",
             Layer::Laid(laid) => match laid.amount {
                 Amount::Count(_) => "count",
                 Amount::DensityPerM2(_) => "density_per_m2",

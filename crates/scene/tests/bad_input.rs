@@ -152,7 +152,7 @@ fn wrong_types() {
     );
     assert_eq!(
         scratches("count = 5"),
-        "plate.toml:15: scratches[0]: `pattern` is missing; must be one of `random`, `parallel`, `circular`, `radial`, `spun`, `swirl` and `file`"
+        "plate.toml:15: scratches[0]: `pattern` is missing; must be one of `random`, `parallel`, `circular`, `radial`, `spun`, `swirl`, `drawn` and `file`"
     );
 }
 

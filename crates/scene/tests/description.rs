@@ -89,24 +89,26 @@ fn everything() -> Description {
     let mut scratches: Vec<_> = patterns
         .into_iter()
         .zip(amounts.into_iter().cycle())
-        .map(|(pattern, amount)| Scratches {
-            object: "an \"odd\" name\n[äöü] = #".to_owned(),
-            layer: Layer::Laid(Laid {
-                pattern,
-                amount,
-                seed: 12_345_678_901_234,
-                length_m: drawn(f64::MIN_POSITIVE, 0.5),
-                width_um: drawn(1.5, 0.0),
-                depth_nm: drawn(200.0, 1e-9),
-            }),
+        .map(|(pattern, amount)| {
+            Scratches::new(
+                "an \"odd\" name\n[äöü] = #",
+                Layer::Laid(Laid {
+                    pattern,
+                    amount,
+                    seed: 12_345_678_901_234,
+                    length_m: drawn(f64::MIN_POSITIVE, 0.5),
+                    width_um: drawn(1.5, 0.0),
+                    depth_nm: drawn(200.0, 1e-9),
+                }),
+            )
         })
         .collect();
-    scratches.push(Scratches {
-        object: String::new(),
-        layer: Layer::Listed(Listed {
+    scratches.push(Scratches::new(
+        "",
+        Layer::Listed(Listed {
             file: "dir with spaces/it's.csv".into(),
         }),
-    });
+    ));
     let metals = [
         Metal::Iron,
         Metal::StainlessSteel,
@@ -190,6 +192,8 @@ fn everything() -> Description {
         scratches,
         lights: vec![
             Light {
+                name: None,
+                hidden: false,
                 kind: LightKind::Sphere {
                     center_m: [0.0; 3],
                     radius_m: 0.5,
@@ -198,6 +202,8 @@ fn everything() -> Description {
                 color: [1.0; 3],
             },
             Light {
+                name: None,
+                hidden: false,
                 kind: LightKind::Polygon {
                     vertices_m: vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
                     two_sided: true,
@@ -256,9 +262,7 @@ mod round_trip {
             it.objects[0].name = name.clone();
             it.objects[0].scale = center;
             it.materials[0].name = name.clone();
-            it.scratches[2] = Scratches {
-                object: name,
-                layer: Layer::Laid(Laid {
+            it.scratches[2] = Scratches::new(name, Layer::Laid(Laid {
                     pattern: Pattern::Spun {
                         around: Around { axis, center_m: center, jitter_deg: spread },
                         curvature_per_m: Distribution { mean, spread },
@@ -268,8 +272,7 @@ mod round_trip {
                     length_m: Distribution { mean, spread },
                     width_um: Distribution { mean: spread, spread: 0.0 },
                     depth_nm: Distribution { mean, spread },
-                }),
-            };
+                }));
             it.lights[1].radiance = radiance;
             it.lights[1].kind = LightKind::Polygon { vertices_m: vertices, two_sided: false };
             prop_assert_eq!(parsed(&it.to_toml().unwrap()), it);

@@ -2,8 +2,8 @@
 
 use super::limits;
 use super::{
-    Amount, Around, Camera, Description, Distribution, Laid, Layer, Light, LightKind, Material,
-    MaterialKind, MetalColor, Object, Pattern, Render, Scratches, Shape, Surface,
+    Amount, Around, Brush, Camera, Description, Distribution, Laid, Layer, Light, LightKind,
+    Material, MaterialKind, MetalColor, Object, Pattern, Render, Scratches, Shape, Stroke, Surface,
 };
 use crate::error::Error;
 use crate::polygon;
@@ -196,29 +196,71 @@ fn shape(shape: &Shape, key: &str) -> Check {
 
 fn scratches(scratches: &Scratches, key: &str) -> Check {
     match &scratches.layer {
-        Layer::Laid(laid) => self::laid(laid, key),
-        Layer::Listed(_) => Ok(()),
+        Layer::Laid(laid) => self::laid(laid, key)?,
+        Layer::Brushed(brushed) => {
+            let sizes = [brushed.length_m, brushed.width_um, brushed.depth_nm];
+            drawn(brushed.seed, sizes, key)?;
+            jitter(brushed.jitter_deg, key)?;
+        }
+        Layer::Listed(_) => {}
+    }
+    let paints = matches!(scratches.layer, Layer::Brushed(_));
+    each(&format!("{key}.strokes"), &scratches.strokes, |s, key| {
+        stroke(s, paints, key)
+    })
+}
+
+/// `paints` says whether the layer takes strokes that lay scratches.
+fn stroke(stroke: &Stroke, paints: bool, key: &str) -> Check {
+    let points = format!("{key}.points_m");
+    if !limits::STROKE_POINTS.contains(&stroke.points_m.len()) {
+        let (least, most) = limits::STROKE_POINTS.into_inner();
+        return Err(Error::new(
+            points,
+            format!("found {} points", stroke.points_m.len()),
+            format!("must be from {least} to {most}"),
+        ));
+    }
+    each(&points, &stroke.points_m, |p, key| point(key, *p))?;
+    size(&format!("{key}.radius_m"), stroke.radius_m)?;
+    match stroke.brush {
+        Brush::Erase => Ok(()),
+        Brush::Paint { .. } if !paints => Err(Error::new(
+            key,
+            "found a stroke that lays scratches in a layer of another pattern than `drawn`",
+            "must be `erase = true` here; draw in a layer of its own",
+        )),
+        Brush::Paint {
+            density_per_m,
+            width,
+            depth,
+        } => {
+            not_negative(&format!("{key}.density_per_m"), density_per_m)?;
+            within(&format!("{key}.width"), width, limits::STROKE_FACTOR)?;
+            within(&format!("{key}.depth"), depth, limits::STROKE_FACTOR)
+        }
     }
 }
 
-fn laid(laid: &Laid, key: &str) -> Check {
-    if let Amount::DensityPerM2(density) = laid.amount {
-        not_negative(&format!("{key}.density_per_m2"), density)?;
-    }
-    if laid.seed > limits::LARGEST_SEED {
+/// The seed of a layer that draws random numbers, and its lengths, widths and depths.
+fn drawn(seed: u64, sizes: [Distribution; 3], key: &str) -> Check {
+    if seed > limits::LARGEST_SEED {
         // TOML's integers end there, so it could not be saved.
-        let found = format!("found {}", laid.seed);
+        let found = format!("found {seed}");
         return Err(Error::new(
             format!("{key}.seed"),
             found,
             "must be below 2^63",
         ));
     }
-    for (name, drawn, means) in [
-        ("length_m", laid.length_m, limits::SCRATCH_LENGTH_M),
-        ("width_um", laid.width_um, limits::SCRATCH_WIDTH_UM),
-        ("depth_nm", laid.depth_nm, limits::SCRATCH_DEPTH_NM),
-    ] {
+    for ((name, means), drawn) in [
+        ("length_m", limits::SCRATCH_LENGTH_M),
+        ("width_um", limits::SCRATCH_WIDTH_UM),
+        ("depth_nm", limits::SCRATCH_DEPTH_NM),
+    ]
+    .into_iter()
+    .zip(sizes)
+    {
         let way = format!("{key}.{name}");
         spread(&way, drawn, limits::LOG_NORMAL_SPREAD)?;
         let mean = match drawn.spread == 0.0 {
@@ -228,7 +270,23 @@ fn laid(laid: &Laid, key: &str) -> Check {
         positive(&mean, drawn.mean)?;
         within(&mean, drawn.mean, means)?;
     }
-    let jitter = |jitter_deg| within(&format!("{key}.jitter_deg"), jitter_deg, limits::JITTER_DEG);
+    Ok(())
+}
+
+fn jitter(jitter_deg: f64, key: &str) -> Check {
+    within(&format!("{key}.jitter_deg"), jitter_deg, limits::JITTER_DEG)
+}
+
+fn laid(laid: &Laid, key: &str) -> Check {
+    if let Amount::DensityPerM2(density) = laid.amount {
+        not_negative(&format!("{key}.density_per_m2"), density)?;
+    }
+    drawn(
+        laid.seed,
+        [laid.length_m, laid.width_um, laid.depth_nm],
+        key,
+    )?;
+    let jitter = |jitter_deg| jitter(jitter_deg, key);
     let around = |around: &Around| {
         direction(&format!("{key}.axis"), around.axis)?;
         point(&format!("{key}.center_m"), around.center_m)?;

@@ -59,3 +59,7 @@ pub const CURVATURE_SPREAD_PER_M: RangeInclusive<f64> = 0.0..=1e4;
 pub const JITTER_DEG: RangeInclusive<f64> = 0.0..=90.0;
 /// `scratches.seed`: TOML's integers end there.
 pub const LARGEST_SEED: u64 = i64::MAX as u64;
+/// `width` and `depth` of a stroke: factors on its layer's sizes.
+pub const STROKE_FACTOR: RangeInclusive<f64> = 0.01..=100.0;
+/// Points of one stroke.
+pub const STROKE_POINTS: RangeInclusive<usize> = 1..=65_536;

@@ -4,8 +4,9 @@ use toml::de::{DeTable, DeValue};
 
 use super::table::{Read, Table, Value, number, wrong_type};
 use super::{
-    Amount, Around, Camera, Description, Distribution, Environment, Laid, Layer, Light, LightKind,
-    Listed, Material, MaterialKind, MetalColor, Object, Pattern, Render, Scratches, Shape, Surface,
+    Amount, Around, Brush, Brushed, Camera, Description, Distribution, Environment, Laid, Layer,
+    Light, LightKind, Listed, Material, MaterialKind, MetalColor, Object, Pattern, Render,
+    Scratches, Shape, Stroke, Surface,
 };
 use crate::error::Error;
 
@@ -202,20 +203,14 @@ impl Read for Shape {
 impl Read for Scratches {
     fn read(value: &Value, key: &str) -> Result<Self, Error> {
         const AROUND: [&str; 3] = ["axis", "center_m", "jitter_deg"];
-        const LAID: [&str; 6] = [
-            "count",
-            "density_per_m2",
-            "seed",
-            "length_m",
-            "width_um",
-            "depth_nm",
-        ];
-        let with = |own: &[&'static str]| [&LAID[..], own].concat();
+        const SIZES: [&str; 4] = ["seed", "length_m", "width_um", "depth_nm"];
+        const AMOUNTS: [&str; 2] = ["count", "density_per_m2"];
+        let with = |own: &[&'static str]| [&AMOUNTS[..], &SIZES[..], own].concat();
         let (pattern, table) = Table::read_kind(
             value,
             key,
             "pattern",
-            &["object", "pattern"],
+            &["object", "pattern", "name", "hidden", "solo", "strokes"],
             &[
                 ("random", &with(&["curvature_per_m"])),
                 ("parallel", &with(&["direction", "jitter_deg"])),
@@ -223,60 +218,114 @@ impl Read for Scratches {
                 ("radial", &with(&AROUND)),
                 ("spun", &with(&[&AROUND[..], &["curvature_per_m"]].concat())),
                 ("swirl", &with(&["curvature_per_m"])),
+                ("drawn", &[&SIZES[..], &["jitter_deg"]].concat()),
                 ("file", &["file"]),
             ],
         )?;
-        let object = table.required("object")?;
-        if pattern == "file" {
-            let file = table.required("file")?;
-            return Ok(Self {
-                object,
-                layer: Layer::Listed(Listed { file }),
-            });
-        }
-        let around = || -> Result<Around, Error> {
-            let default = Around::default();
-            Ok(Around {
-                axis: table.or("axis", default.axis)?,
-                center_m: table.or("center_m", default.center_m)?,
-                jitter_deg: table.or("jitter_deg", default.jitter_deg)?,
-            })
-        };
-        let curvature_per_m =
-            |mean, spread| table.or("curvature_per_m", Distribution { mean, spread });
-        let pattern = match pattern {
-            "random" => Pattern::Random {
-                curvature_per_m: curvature_per_m(0.0, 0.0)?,
-            },
-            "parallel" => Pattern::Parallel {
-                direction: table.or("direction", [1.0, 0.0, 0.0])?,
-                jitter_deg: table.or("jitter_deg", 0.0)?,
-            },
-            "circular" => Pattern::Circular(around()?),
-            "radial" => Pattern::Radial(around()?),
-            "spun" => Pattern::Spun {
-                around: around()?,
-                curvature_per_m: curvature_per_m(20.0, 0.0)?,
-            },
-            _ => Pattern::Swirl {
-                curvature_per_m: curvature_per_m(25.0, 8.0)?,
-            },
-        };
-        let amount = match table.either("count", "density_per_m2")? {
-            "count" => Amount::Count(table.required("count")?),
-            _ => Amount::DensityPerM2(table.required("density_per_m2")?),
-        };
-        let drawn = |key, mean, spread| table.or(key, Distribution { mean, spread });
         Ok(Self {
-            object,
-            layer: Layer::Laid(Laid {
-                pattern,
-                amount,
-                seed: table.or("seed", 1)?,
-                length_m: drawn("length_m", 0.02, 0.5)?,
-                width_um: drawn("width_um", 1.5, 0.3)?,
-                depth_nm: drawn("depth_nm", 200.0, 0.2)?,
-            }),
+            object: table.required("object")?,
+            name: table.optional("name")?,
+            hidden: table.or("hidden", false)?,
+            solo: table.or("solo", false)?,
+            layer: layer(pattern, &table)?,
+            strokes: table.or("strokes", Vec::new())?,
+        })
+    }
+}
+
+/// What is read of a `[[scratches]]` for its pattern.
+fn layer(pattern: &str, table: &Table) -> Result<Layer, Error> {
+    if pattern == "file" {
+        let file = table.required("file")?;
+        return Ok(Layer::Listed(Listed { file }));
+    }
+    let seed = table.or("seed", super::DEFAULT_SEED)?;
+    let length_m = table.or("length_m", super::DEFAULT_LENGTH_M)?;
+    let width_um = table.or("width_um", super::DEFAULT_WIDTH_UM)?;
+    let depth_nm = table.or("depth_nm", super::DEFAULT_DEPTH_NM)?;
+    let around = || -> Result<Around, Error> {
+        let default = Around::default();
+        Ok(Around {
+            axis: table.or("axis", default.axis)?,
+            center_m: table.or("center_m", default.center_m)?,
+            jitter_deg: table.or("jitter_deg", default.jitter_deg)?,
+        })
+    };
+    let curvature_per_m = |mean, spread| table.or("curvature_per_m", Distribution { mean, spread });
+    let pattern = match pattern {
+        "random" => Pattern::Random {
+            curvature_per_m: curvature_per_m(0.0, 0.0)?,
+        },
+        "parallel" => Pattern::Parallel {
+            direction: table.or("direction", [1.0, 0.0, 0.0])?,
+            jitter_deg: table.or("jitter_deg", 0.0)?,
+        },
+        "circular" => Pattern::Circular(around()?),
+        "radial" => Pattern::Radial(around()?),
+        "spun" => Pattern::Spun {
+            around: around()?,
+            curvature_per_m: curvature_per_m(20.0, 0.0)?,
+        },
+        "swirl" => Pattern::Swirl {
+            curvature_per_m: curvature_per_m(25.0, 8.0)?,
+        },
+        _ => {
+            return Ok(Layer::Brushed(Brushed {
+                jitter_deg: table.or("jitter_deg", 0.0)?,
+                seed,
+                length_m,
+                width_um,
+                depth_nm,
+            }));
+        }
+    };
+    let amount = match table.either("count", "density_per_m2")? {
+        "count" => Amount::Count(table.required("count")?),
+        _ => Amount::DensityPerM2(table.required("density_per_m2")?),
+    };
+    Ok(Layer::Laid(Laid {
+        pattern,
+        amount,
+        seed,
+        length_m,
+        width_um,
+        depth_nm,
+    }))
+}
+
+impl Read for Stroke {
+    fn read(value: &Value, key: &str) -> Result<Self, Error> {
+        const PAINT: [&str; 3] = ["density_per_m", "width", "depth"];
+        let known = [&["points_m", "radius_m", "erase"][..], &PAINT[..]].concat();
+        let table = Table::read(value, key, &known)?;
+        let brush = match table.or("erase", false)? {
+            true => {
+                if let Some(extra) = PAINT.into_iter().find(|name| table.get(name).is_some()) {
+                    return Err(Error::new(
+                        table.way(extra),
+                        "an erasing stroke has no such key",
+                        "leave it out, or leave out `erase = true`",
+                    ));
+                }
+                Brush::Erase
+            }
+            false if table.get("density_per_m").is_none() => {
+                return Err(Error::new(
+                    key,
+                    "found neither `density_per_m` nor `erase = true`",
+                    "must have exactly one of them",
+                ));
+            }
+            false => Brush::Paint {
+                density_per_m: table.required("density_per_m")?,
+                width: table.or("width", 1.0)?,
+                depth: table.or("depth", 1.0)?,
+            },
+        };
+        Ok(Self {
+            points_m: table.required("points_m")?,
+            radius_m: table.required("radius_m")?,
+            brush,
         })
     }
 }
@@ -309,7 +358,7 @@ impl Read for Light {
             value,
             key,
             "kind",
-            &["kind", "radiance", "color"],
+            &["kind", "name", "hidden", "radiance", "color"],
             &[
                 ("sphere", &["center_m", "radius_m"]),
                 ("polygon", &["vertices_m", "two_sided"]),
@@ -326,6 +375,8 @@ impl Read for Light {
             },
         };
         Ok(Self {
+            name: table.optional("name")?,
+            hidden: table.or("hidden", false)?,
             kind,
             radiance: table.or("radiance", 1.0)?,
             color: table.or("color", [1.0; 3])?,
