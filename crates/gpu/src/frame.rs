@@ -24,7 +24,7 @@ pub(crate) fn frame(
     let camera = scene.camera.frame(size_px);
     let environment = scene.environment.as_ref();
     Frame {
-        camera_m: vec3(camera.position_m - uploaded.origin_m),
+        camera_m: vec3(camera.position_m - uploaded.origin_m()),
         pad_0: 0.0,
         forward: vec3(camera.forward),
         near_m: NEAR_M,

@@ -2,32 +2,67 @@
 //! scratches of each triangle. Where a method has no use for a texture, a single texel takes its place, since no binding may
 //! be empty.
 
-use hairline_index::{ScratchIndex, TriangleLists};
-use hairline_optics::method::{Chords, Lookup, Method, Spectrum};
+use hairline_index::TriangleLists;
+use hairline_optics::method::{Chords, Lookup, Spectrum};
 use hairline_optics::published::polygon::triangulate;
-use hairline_scene::{Light, Scene, ScratchTables};
+use hairline_scene::{Light, Scene};
 use wgpu::TextureFormat;
 
-use crate::device::Gpu;
 use crate::error::Error;
 use crate::rows::ROW_TEXELS;
-use crate::textures;
+use crate::transfer::{Place, Transfer};
+use crate::upload::Source;
 
 /// Columns beyond the wavelengths. Twin: published_lights.wgsl.
 const LIGHT_TRIANGLE_COLUMNS: usize = 64;
 
+/// The two textures, which only other methods than the default look at.
+pub(crate) struct Published {
+    pub wavelengths: wgpu::TextureView,
+    pub triangle_lists: wgpu::TextureView,
+    is_empty: bool,
+}
+
+impl Published {
+    /// `last`, where there was nothing to look up and is nothing now; else all of it anew.
+    pub async fn upload(
+        transfer: &mut Transfer<'_>,
+        source: &Source<'_>,
+        last: Option<&Self>,
+    ) -> Result<Self, Error> {
+        let method = source.method;
+        let is_empty = method.is_default_path() && method.lookup != Lookup::Triangles;
+        if let Some(last) = last.filter(|last| is_empty && last.is_empty) {
+            return Ok(Self {
+                wavelengths: last.wavelengths.clone(),
+                triangle_lists: last.triangle_lists.clone(),
+                is_empty,
+            });
+        }
+        Ok(Self {
+            wavelengths: wavelengths(transfer, source).await?,
+            triangle_lists: triangle_lists(transfer, source).await?,
+            is_empty,
+        })
+    }
+}
+
 /// A row of wavelengths for each scratch table: weights in the three channels, wavelength in um. In columns of their own
 /// beside them the triangles of the lights, each as three vertices counted from its light's first. Triangle i of a light
 /// has the place of its vertex i; a polygon has two places more than triangles.
-pub(crate) async fn wavelengths(
-    gpu: &Gpu,
-    scene: &Scene,
-    tables: &ScratchTables,
-    method: &Method,
+async fn wavelengths(
+    transfer: &mut Transfer<'_>,
+    source: &Source<'_>,
 ) -> Result<wgpu::TextureView, Error> {
+    let Source {
+        scene,
+        tables,
+        method,
+        ..
+    } = source;
     let what = "wavelengths";
     if method.is_default_path() {
-        return none(gpu, what, TextureFormat::Rgba32Float).await;
+        return none(transfer, what, TextureFormat::Rgba32Float).await;
     }
     let (count, spectra) = match method.spectrum {
         Spectrum::Wavelengths { count, .. } => (count, tables.published_spectra(count)),
@@ -43,7 +78,9 @@ pub(crate) async fn wavelengths(
         .max(triangles.len().div_ceil(LIGHT_TRIANGLE_COLUMNS))
         .max(1);
     let size = [width as u32, height as u32];
-    let texture = textures::texture(gpu, what, size, 1, 1, TextureFormat::Rgba32Float).await?;
+    let texture = transfer
+        .texture(what, size, 1, 1, TextureFormat::Rgba32Float)
+        .await?;
     let mut texels = vec![[0.0_f32; 4]; width * height];
     for (row, spectrum) in spectra.iter().enumerate() {
         for (texel, w) in texels[row * width..].iter_mut().zip(&spectrum.wavelengths) {
@@ -55,7 +92,13 @@ pub(crate) async fn wavelengths(
         let (row, column) = (i / LIGHT_TRIANGLE_COLUMNS, i % LIGHT_TRIANGLE_COLUMNS);
         texels[row * width + count + column] = [a, b, c, 0].map(|corner| corner as f32);
     }
-    textures::write(gpu, &texture, 0, 0, size, bytemuck::cast_slice(&texels));
+    transfer.write_texture(
+        what,
+        &texture,
+        Place::default(),
+        size,
+        bytemuck::cast_slice(&texels),
+    );
     Ok(texture.create_view(&Default::default()))
 }
 
@@ -73,22 +116,28 @@ fn light_triangles(scene: &Scene) -> Vec<[usize; 3]> {
 }
 
 /// Where each triangle's list begins and the last one ends, then the lists.
-pub(crate) async fn triangle_lists(
-    gpu: &Gpu,
-    scene: &Scene,
-    index: &ScratchIndex,
-    method: &Method,
+async fn triangle_lists(
+    transfer: &mut Transfer<'_>,
+    source: &Source<'_>,
 ) -> Result<wgpu::TextureView, Error> {
+    let Source {
+        scene,
+        index,
+        method,
+        ..
+    } = source;
     let what = "triangle lists";
     if method.lookup != Lookup::Triangles {
-        return none(gpu, what, TextureFormat::R32Uint).await;
+        return none(transfer, what, TextureFormat::R32Uint).await;
     }
     let lists = TriangleLists::build(scene, index);
     let first = lists.starts.len();
     let count = first + lists.segments.len();
-    let allowed = u64::from(ROW_TEXELS) * u64::from(gpu.limits().max_texture_dimension_2d);
+    let allowed = u64::from(ROW_TEXELS) * u64::from(transfer.gpu.limits().max_texture_dimension_2d);
     if count as u64 > allowed {
-        return Err(gpu.too_large(what, count as u64, allowed, "entries"));
+        return Err(transfer
+            .gpu
+            .too_large(what, count as u64, allowed, "entries"));
     }
     let mut words: Vec<u32> = lists
         .starts
@@ -98,12 +147,24 @@ pub(crate) async fn triangle_lists(
     words.extend(&lists.segments);
     words.resize(count.next_multiple_of(ROW_TEXELS as usize), 0);
     let size = [ROW_TEXELS, (words.len() / ROW_TEXELS as usize) as u32];
-    let texture = textures::texture(gpu, what, size, 1, 1, TextureFormat::R32Uint).await?;
-    textures::write(gpu, &texture, 0, 0, size, bytemuck::cast_slice(&words));
+    let texture = transfer
+        .texture(what, size, 1, 1, TextureFormat::R32Uint)
+        .await?;
+    transfer.write_texture(
+        what,
+        &texture,
+        Place::default(),
+        size,
+        bytemuck::cast_slice(&words),
+    );
     Ok(texture.create_view(&Default::default()))
 }
 
-async fn none(gpu: &Gpu, what: &str, format: TextureFormat) -> Result<wgpu::TextureView, Error> {
-    let texture = textures::texture(gpu, what, [1, 1], 1, 1, format).await?;
+async fn none(
+    transfer: &Transfer<'_>,
+    what: &str,
+    format: TextureFormat,
+) -> Result<wgpu::TextureView, Error> {
+    let texture = transfer.texture(what, [1, 1], 1, 1, format).await?;
     Ok(texture.create_view(&Default::default()))
 }

@@ -22,7 +22,7 @@ use crate::layout::Frame;
 use crate::shade::ShadePass;
 use crate::tiles::TilesPasses;
 use crate::timing::{PassTime, Timing};
-use crate::upload::GpuScene;
+use crate::upload::{GpuScene, Source};
 use crate::variant::{Contents, ShadeVariant};
 use crate::visibility::VisibilityPass;
 
@@ -126,30 +126,13 @@ impl Renderer {
         tables: &ScratchTables,
         method: &Method,
     ) -> Result<GpuScene, Error> {
-        let variant = ShadeVariant {
-            method: *method,
-            has: Contents::of(scene),
-        };
-        let passes = match self.passes.get(&variant) {
-            Some(passes) => Arc::clone(passes),
-            None => {
-                let (gpu, layouts) = (&self.gpu, &self.layouts);
-                let passes = compiled(gpu, || ScenePasses::new(gpu, layouts, &variant)).await?;
-                let passes = Arc::new(passes);
-                self.passes.insert(variant, Arc::clone(&passes));
-                passes
-            }
-        };
-        GpuScene::new(
-            &self.gpu,
-            &self.layouts,
+        let source = Source {
             scene,
             index,
             tables,
             method,
-            passes,
-        )
-        .await
+        };
+        self.upload_over(None, &source).await
     }
 
     /// Brings what was uploaded up to date with a scene, its index and its tables: only what changed is written, as
@@ -170,8 +153,34 @@ impl Renderer {
         tables: &ScratchTables,
         method: &Method,
     ) -> Result<(), Error> {
-        *uploaded = self.upload(scene, index, tables, method).await?;
+        let source = Source {
+            scene,
+            index,
+            tables,
+            method,
+        };
+        *uploaded = self.upload_over(Some(uploaded), &source).await?;
         Ok(())
+    }
+
+    async fn upload_over(
+        &mut self,
+        last: Option<&GpuScene>,
+        source: &Source<'_>,
+    ) -> Result<GpuScene, Error> {
+        let variant = ShadeVariant {
+            method: *source.method,
+            has: Contents::of(source.scene),
+        };
+        let (gpu, layouts) = (&self.gpu, &self.layouts);
+        let passes = match self.passes.entry(variant) {
+            Entry::Occupied(entry) => Arc::clone(entry.get()),
+            Entry::Vacant(entry) => {
+                let passes = compiled(gpu, || ScenePasses::new(gpu, layouts, &variant)).await?;
+                Arc::clone(entry.insert(Arc::new(passes)))
+            }
+        };
+        GpuScene::new(gpu, layouts, source, passes, last).await
     }
 
     /// Renders `scene`, which was uploaded as `uploaded`, by its own camera and at its own size; `progress` is told the

@@ -4,7 +4,7 @@ use wgpu::TextureFormat;
 
 use crate::device::Gpu;
 use crate::error::Error;
-use crate::textures;
+use crate::transfer::{Place, Transfer};
 
 /// Texels to a row. Twin: rows.wgsl.
 pub(crate) const ROW_TEXELS: u32 = 1 << 12;
@@ -18,13 +18,13 @@ pub(crate) fn bytes_and_allowed(gpu: &Gpu, count: usize, stride: usize) -> (u64,
     (rows * row_bytes, allowed_rows * row_bytes)
 }
 
-/// A texture with `elements`, whose size is a multiple of a texel's. An empty one holds a row of zeros.
+/// A texture with `elements`, whose size is a multiple of a texel's; zeros follow them.
 ///
 /// # Errors
 /// [`Error::TooLarge`], [`Error::OutOfMemory`].
 pub(crate) async fn upload<T: bytemuck::Pod>(
-    gpu: &Gpu,
-    what: &str,
+    transfer: &mut Transfer<'_>,
+    what: &'static str,
     elements: &[T],
 ) -> Result<wgpu::TextureView, Error> {
     const { assert!(size_of::<T>().is_multiple_of(TEXEL_BYTES)) };
@@ -32,24 +32,23 @@ pub(crate) async fn upload<T: bytemuck::Pod>(
     let row_bytes = ROW_TEXELS as usize * TEXEL_BYTES;
     let whole_rows = bytes.len() / row_bytes;
     let rows = bytes.len().div_ceil(row_bytes).max(1);
-    let texture = textures::texture(
-        gpu,
-        what,
-        [ROW_TEXELS, rows as u32],
-        1,
-        1,
-        TextureFormat::Rgba32Uint,
-    )
-    .await?;
-    // In two pieces, so that nothing is copied but the last row.
+    let size = [ROW_TEXELS, rows as u32];
+    let texture = transfer
+        .texture(what, size, 1, 1, TextureFormat::Rgba32Uint)
+        .await?;
     let (whole, rest) = bytes.split_at(whole_rows * row_bytes);
     if whole_rows > 0 {
-        textures::write_rows(gpu, &texture, 0, [ROW_TEXELS, whole_rows as u32], whole);
+        let size = [ROW_TEXELS, whole_rows as u32];
+        transfer.write_texture(what, &texture, Place::default(), size, whole);
     }
     if !rest.is_empty() {
-        let mut last = rest.to_vec();
-        last.resize(row_bytes, 0);
-        textures::write_rows(gpu, &texture, whole_rows as u32, [ROW_TEXELS, 1], &last);
+        let row = whole_rows as u32;
+        let place = Place {
+            row,
+            ..Place::default()
+        };
+        let size = [(rest.len() / TEXEL_BYTES) as u32, 1];
+        transfer.write_texture(what, &texture, place, size, rest);
     }
     Ok(texture.create_view(&Default::default()))
 }

@@ -64,8 +64,12 @@ impl ShadePass {
             timestamp_writes: timing.compute("shade"),
         });
         pass.set_pipeline(&self.pipeline);
-        for (group, bound) in (0..).zip([frame, &scene.buffers, &scene.textures, &band.film.group])
-        {
+        for (group, bound) in (0..).zip([
+            frame,
+            &scene.buffers.group,
+            &scene.textures.group,
+            &band.film.group,
+        ]) {
             pass.set_bind_group(group, bound, &[]);
         }
         if self.queued {

@@ -1,18 +1,21 @@
 //! The scene's tables and textures: group 2.
 
+use std::sync::Arc;
+
 use hairline_image::Picture;
-use hairline_index::ScratchIndex;
 use hairline_optics::lobe_table::{self, LOBE_TABLE_SIZE, LobeTable};
-use hairline_optics::method::Method;
+use hairline_optics::metal::Metal;
 use hairline_optics::table;
-use hairline_scene::{Scene, ScratchTables, Texture};
+use hairline_scene::{Environment, Scene, ScratchTables, Texture};
 use half::f16;
-use wgpu::{TextureFormat, TextureUsages, TextureViewDimension};
+use rayon::prelude::*;
+use wgpu::{TextureFormat, TextureViewDimension};
 
 use crate::bindings::{Layouts, bind};
-use crate::device::Gpu;
 use crate::error::Error;
-use crate::published;
+use crate::published::Published;
+use crate::transfer::{Place, Transfer};
+use crate::upload::Source;
 
 /// All textures of the materials in one array: a layer each, every texture in its own size in the upper left corner, so
 /// that no texel is resampled.
@@ -77,29 +80,28 @@ impl TextureArray {
         texture.map_or([0; 2], |i| self.packed[i])
     }
 
-    async fn upload(&self, gpu: &Gpu, textures: &[Texture]) -> Result<wgpu::TextureView, Error> {
+    async fn upload(
+        &self,
+        transfer: &mut Transfer<'_>,
+        textures: &[Texture],
+    ) -> Result<wgpu::TextureView, Error> {
+        let what = "textures";
         let layers = textures.len().max(1) as u32;
-        let array = texture(
-            gpu,
-            "textures",
-            self.size_px,
-            layers,
-            self.levels,
-            TextureFormat::Rgba8Unorm,
-        )
-        .await?;
-        for (layer, texture) in textures.iter().enumerate() {
-            let first = self.first_levels[layer];
+        let format = TextureFormat::Rgba8Unorm;
+        let array = transfer
+            .texture(what, self.size_px, layers, self.levels, format)
+            .await?;
+        for (layer, texture) in (0..).zip(textures) {
+            let first = self.first_levels[layer as usize];
             for level in first..texture.levels.len() as u32 {
                 let texels = bytemuck::cast_slice(&texture.levels[level as usize]);
-                write(
-                    gpu,
-                    &array,
-                    level - first,
-                    layer as u32,
-                    level_size(texture, level),
-                    texels,
-                );
+                let place = Place {
+                    level: level - first,
+                    layer,
+                    row: 0,
+                };
+                let size = level_size(texture, level);
+                transfer.write_texture(what, &array, place, size, texels);
             }
         }
         Ok(array_view(&array))
@@ -110,131 +112,164 @@ fn level_size(texture: &Texture, level: u32) -> [u32; 2] {
     texture.size_px.map(|n| (n >> level).max(1))
 }
 
-/// Uploads all tables and textures, and binds them.
-pub(crate) async fn bind_textures(
-    gpu: &Gpu,
-    layouts: &Layouts,
-    scene: &Scene,
-    index: &ScratchIndex,
-    tables: &ScratchTables,
-    array: &TextureArray,
-    method: &Method,
-) -> Result<wgpu::BindGroup, Error> {
-    let black = [Picture::new([1, 1])];
-    let environment = scene.environment.as_ref();
-    let background = environment.map_or(&black[0], |e| e.background());
-    let levels = environment.map_or(black.as_slice(), |e| e.prefiltered_levels());
-    let views = [
-        scratch_tables(gpu, tables).await?,
-        lobe(gpu, "albedo table", lobe_table::albedo_table()).await?,
-        lobe(gpu, "polygon lobe table", lobe_table::ltc_table()).await?,
-        lobe(gpu, "sphere lobe table", lobe_table::sptd_table()).await?,
-        radiance_map(gpu, "environment", std::slice::from_ref(background)).await?,
-        radiance_map(gpu, "prefiltered environment", levels).await?,
-        array.upload(gpu, &scene.textures).await?,
-        published::wavelengths(gpu, scene, tables, method).await?,
-        published::triangle_lists(gpu, scene, index, method).await?,
-    ];
-    let resources = views.each_ref().map(wgpu::BindingResource::TextureView);
-    Ok(bind(gpu, "textures", &layouts.textures, &resources))
+/// What is bound, and what it was made from.
+pub(crate) struct SceneTextures {
+    pub group: wgpu::BindGroup,
+    /// Each has one table.
+    metals: Vec<Option<Metal>>,
+    scratch_tables: wgpu::TextureView,
+    lobes: [wgpu::TextureView; 3],
+    environment: Option<Environment>,
+    maps: [wgpu::TextureView; 2],
+    textures: Arc<Vec<Texture>>,
+    array: wgpu::TextureView,
+    published: Published,
 }
 
-async fn scratch_tables(gpu: &Gpu, tables: &ScratchTables) -> Result<wgpu::TextureView, Error> {
+impl SceneTextures {
+    /// Writes what `last` does not have.
+    pub async fn upload(
+        transfer: &mut Transfer<'_>,
+        layouts: &Layouts,
+        source: &Source<'_>,
+        array: &TextureArray,
+        last: Option<&Self>,
+    ) -> Result<Self, Error> {
+        let Source { scene, tables, .. } = *source;
+        let scratch_tables = match last.filter(|last| last.metals == tables.metals) {
+            Some(last) => last.scratch_tables.clone(),
+            None => scratch_tables(transfer, tables).await?,
+        };
+        let lobes = match last {
+            Some(last) => last.lobes.clone(),
+            None => [
+                lobe(transfer, "albedo table", lobe_table::albedo_table()).await?,
+                lobe(transfer, "polygon lobe table", lobe_table::ltc_table()).await?,
+                lobe(transfer, "sphere lobe table", lobe_table::sptd_table()).await?,
+            ],
+        };
+        let environment = scene.environment.as_ref();
+        let maps = match last.filter(|last| same_map(last.environment.as_ref(), environment)) {
+            Some(last) => last.maps.clone(),
+            None => environment_maps(transfer, environment).await?,
+        };
+        let same_textures = |last: &&Self| Arc::ptr_eq(&last.textures, &scene.textures);
+        let array = match last.filter(same_textures) {
+            Some(last) => last.array.clone(),
+            None => array.upload(transfer, &scene.textures).await?,
+        };
+        let last_published = last.map(|last| &last.published);
+        let published = Published::upload(transfer, source, last_published).await?;
+        let [albedo, ltc, sptd] = &lobes;
+        let [background, levels] = &maps;
+        let resources = [
+            &scratch_tables,
+            albedo,
+            ltc,
+            sptd,
+            background,
+            levels,
+            &array,
+            &published.wavelengths,
+            &published.triangle_lists,
+        ]
+        .map(wgpu::BindingResource::TextureView);
+        Ok(Self {
+            group: bind(transfer.gpu, "textures", &layouts.textures, &resources),
+            metals: tables.metals.clone(),
+            scratch_tables,
+            lobes,
+            environment: scene.environment.clone(),
+            maps,
+            textures: Arc::clone(&scene.textures),
+            array,
+            published,
+        })
+    }
+}
+
+fn same_map(a: Option<&Environment>, b: Option<&Environment>) -> bool {
+    match (a, b) {
+        (Some(a), Some(b)) => a.same_map(b),
+        (None, None) => true,
+        _ => false,
+    }
+}
+
+async fn scratch_tables(
+    transfer: &mut Transfer<'_>,
+    tables: &ScratchTables,
+) -> Result<wgpu::TextureView, Error> {
+    let what = "scratch tables";
     let size = [table::COLUMNS as u32, table::ROWS as u32];
     let layers = tables.tables.len().max(1) as u32;
-    let texture = texture(
-        gpu,
-        "scratch tables",
-        size,
-        layers,
-        1,
-        TextureFormat::Rgba32Uint,
-    )
-    .await?;
-    for (layer, table) in tables.tables.iter().enumerate() {
-        write(
-            gpu,
-            &texture,
-            0,
-            layer as u32,
-            size,
-            bytemuck::cast_slice(&table.texels),
-        );
+    let texture = transfer
+        .texture(what, size, layers, 1, TextureFormat::Rgba32Uint)
+        .await?;
+    for (layer, table) in (0..).zip(&tables.tables) {
+        let place = Place {
+            layer,
+            ..Place::default()
+        };
+        let texels = bytemuck::cast_slice(&table.texels);
+        transfer.write_texture(what, &texture, place, size, texels);
     }
     Ok(array_view(&texture))
 }
 
-async fn lobe(gpu: &Gpu, what: &str, table: &LobeTable) -> Result<wgpu::TextureView, Error> {
+async fn lobe(
+    transfer: &mut Transfer<'_>,
+    what: &'static str,
+    table: &LobeTable,
+) -> Result<wgpu::TextureView, Error> {
     let size = [LOBE_TABLE_SIZE as u32; 2];
-    let texture = texture(gpu, what, size, 1, 1, TextureFormat::Rgba32Float).await?;
-    write(
-        gpu,
-        &texture,
-        0,
-        0,
-        size,
-        bytemuck::cast_slice(table.texels()),
-    );
+    let texture = transfer
+        .texture(what, size, 1, 1, TextureFormat::Rgba32Float)
+        .await?;
+    let texels = bytemuck::cast_slice(table.texels());
+    transfer.write_texture(what, &texture, Place::default(), size, texels);
     Ok(texture.create_view(&Default::default()))
+}
+
+/// What the camera sees and what rough surfaces reflect; black where there is no environment.
+async fn environment_maps(
+    transfer: &mut Transfer<'_>,
+    environment: Option<&Environment>,
+) -> Result<[wgpu::TextureView; 2], Error> {
+    let black = [Picture::new([1, 1])];
+    let background = environment.map_or(&black[0], |e| e.background());
+    let levels = environment.map_or(black.as_slice(), |e| e.prefiltered_levels());
+    Ok([
+        radiance_map(transfer, "environment", std::slice::from_ref(background)).await?,
+        radiance_map(transfer, "prefiltered environment", levels).await?,
+    ])
 }
 
 /// Level by level, each half the size of the one before. The texels are half floats already.
 async fn radiance_map(
-    gpu: &Gpu,
-    what: &str,
+    transfer: &mut Transfer<'_>,
+    what: &'static str,
     levels: &[Picture],
 ) -> Result<wgpu::TextureView, Error> {
-    let size = levels[0].size_px;
-    let texture = texture(
-        gpu,
-        what,
-        size,
-        1,
-        levels.len() as u32,
-        TextureFormat::Rgba16Float,
-    )
-    .await?;
-    for (level, map) in levels.iter().enumerate() {
+    let (size, count) = (levels[0].size_px, levels.len() as u32);
+    let texture = transfer
+        .texture(what, size, 1, count, TextureFormat::Rgba16Float)
+        .await?;
+    for (level, map) in (0..).zip(levels) {
         let half: Vec<[f16; 4]> = map
             .rgb
-            .iter()
+            .par_iter()
+            .with_min_len(1 << 14)
             .map(|[r, g, b]| [*r, *g, *b, 1.0].map(f16::from_f32))
             .collect();
-        write(
-            gpu,
-            &texture,
-            level as u32,
-            0,
-            map.size_px,
-            bytemuck::cast_slice(&half),
-        );
+        let place = Place {
+            level,
+            ..Place::default()
+        };
+        let texels = bytemuck::cast_slice(&half);
+        transfer.write_texture(what, &texture, place, map.size_px, texels);
     }
     Ok(texture.create_view(&Default::default()))
-}
-
-pub(crate) async fn texture(
-    gpu: &Gpu,
-    what: &str,
-    [width, height]: [u32; 2],
-    layers: u32,
-    levels: u32,
-    format: TextureFormat,
-) -> Result<wgpu::Texture, Error> {
-    let descriptor = wgpu::TextureDescriptor {
-        label: Some(what),
-        size: wgpu::Extent3d {
-            width,
-            height,
-            depth_or_array_layers: layers,
-        },
-        mip_level_count: levels,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format,
-        usage: TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST,
-        view_formats: &[],
-    };
-    gpu.texture(what, &descriptor).await
 }
 
 fn array_view(texture: &wgpu::Texture) -> wgpu::TextureView {
@@ -243,57 +278,4 @@ fn array_view(texture: &wgpu::Texture) -> wgpu::TextureView {
         dimension,
         ..Default::default()
     })
-}
-
-pub(crate) fn write(
-    gpu: &Gpu,
-    texture: &wgpu::Texture,
-    level: u32,
-    layer: u32,
-    [width, height]: [u32; 2],
-    texels: &[u8],
-) {
-    write_at(gpu, texture, level, [0, layer], [width, height], texels);
-}
-
-/// Some rows of a texture without layers and levels.
-pub(crate) fn write_rows(
-    gpu: &Gpu,
-    texture: &wgpu::Texture,
-    first_row: u32,
-    size: [u32; 2],
-    texels: &[u8],
-) {
-    write_at(gpu, texture, 0, [first_row, 0], size, texels);
-}
-
-fn write_at(
-    gpu: &Gpu,
-    texture: &wgpu::Texture,
-    level: u32,
-    [row, layer]: [u32; 2],
-    [width, height]: [u32; 2],
-    texels: &[u8],
-) {
-    let destination = wgpu::TexelCopyTextureInfo {
-        texture,
-        mip_level: level,
-        origin: wgpu::Origin3d {
-            x: 0,
-            y: row,
-            z: layer,
-        },
-        aspect: wgpu::TextureAspect::All,
-    };
-    let rows = wgpu::TexelCopyBufferLayout {
-        offset: 0,
-        bytes_per_row: Some((texels.len() / height as usize) as u32),
-        rows_per_image: None,
-    };
-    let extent = wgpu::Extent3d {
-        width,
-        height,
-        depth_or_array_layers: 1,
-    };
-    gpu.queue.write_texture(destination, texels, rows, extent);
 }

@@ -51,7 +51,9 @@ impl TilesPasses {
                 timestamp_writes: timing.compute(name),
             });
             pass.set_pipeline(pipeline);
-            for (group, bound) in (0..).zip([frame, &scene.buffers, &scene.textures, group_3]) {
+            for (group, bound) in
+                (0..).zip([frame, &scene.buffers.group, &scene.textures.group, group_3])
+            {
                 pass.set_bind_group(group, bound, &[]);
             }
             match queue {

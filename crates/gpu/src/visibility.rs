@@ -104,8 +104,8 @@ impl VisibilityPass {
         );
         pass.set_pipeline(&self.0);
         pass.set_bind_group(0, frame, &[]);
-        pass.set_bind_group(1, &scene.buffers, &[]);
-        for (object, triangles) in (0..).zip(&scene.triangles) {
+        pass.set_bind_group(1, &scene.buffers.group, &[]);
+        for (object, triangles) in (0..).zip(scene.triangles()) {
             pass.draw(3 * triangles.start..3 * triangles.end, object..object + 1);
         }
     }

@@ -1,0 +1,193 @@
+//! The scene's arrays: group 1.
+
+use std::sync::Arc;
+
+use bytemuck::Pod;
+use hairline_index::ScratchIndex;
+use wgpu::BufferUsages;
+
+use crate::bindings::{Layouts, SCENE_BUFFERS, bind};
+use crate::device::Gpu;
+use crate::error::Error;
+use crate::host;
+use crate::layout::{Light, Material, Object, ScratchNode, ScratchSegment, Vertex};
+use crate::rows;
+use crate::textures::TextureArray;
+use crate::transfer::Transfer;
+use crate::upload::Source;
+use crate::vertices::Vertices;
+
+/// What is bound, and what it was made from.
+pub(crate) struct SceneBuffers {
+    pub group: wgpu::BindGroup,
+    pub vertices: Vertices,
+    objects: Small<Object, wgpu::Buffer>,
+    materials: Small<Material, wgpu::Buffer>,
+    lights: Small<Light, wgpu::TextureView>,
+    light_vertices: Small<[f32; 4], wgpu::TextureView>,
+    index: Arc<ScratchIndex>,
+    nodes: wgpu::TextureView,
+    segments: wgpu::TextureView,
+}
+
+impl SceneBuffers {
+    /// Writes what `last` does not have.
+    pub async fn upload(
+        transfer: &mut Transfer<'_>,
+        layouts: &Layouts,
+        source: &Source<'_>,
+        array: &TextureArray,
+        last: Option<&Self>,
+    ) -> Result<Self, Error> {
+        let Source {
+            scene,
+            index,
+            tables,
+            ..
+        } = *source;
+        let [
+            triangles,
+            objects,
+            materials,
+            lights,
+            corners,
+            nodes,
+            segments,
+        ] = SCENE_BUFFERS;
+        let last_vertices = last.map(|last| &last.vertices);
+        let vertices = Vertices::upload(transfer, triangles, scene, last_vertices).await?;
+        let origin_m = vertices.origin_m;
+        let objects = Small::keep(
+            last.map(|last| &last.objects),
+            host::objects(index),
+            async |elements| storage_buffer(transfer, objects, elements).await,
+        );
+        let objects = objects.await?;
+        let materials = Small::keep(
+            last.map(|last| &last.materials),
+            host::materials(scene, tables, array),
+            async |elements| storage_buffer(transfer, materials, elements).await,
+        );
+        let materials = materials.await?;
+        let lights = Small::keep(
+            last.map(|last| &last.lights),
+            host::lights(scene, origin_m),
+            async |elements| rows::upload(transfer, lights, elements).await,
+        );
+        let lights = lights.await?;
+        let light_vertices = Small::keep(
+            last.map(|last| &last.light_vertices),
+            host::light_vertices(scene, origin_m),
+            async |elements| rows::upload(transfer, corners, elements).await,
+        );
+        let light_vertices = light_vertices.await?;
+        let same_index =
+            |last: &&Self| Arc::ptr_eq(&last.index, index) && last.vertices.origin_m == origin_m;
+        let [nodes, segments] = match last.filter(same_index) {
+            Some(last) => [last.nodes.clone(), last.segments.clone()],
+            None => [
+                rows::upload(transfer, nodes, &host::nodes(index, origin_m)).await?,
+                rows::upload(transfer, segments, &host::segments(index, origin_m)).await?,
+            ],
+        };
+        let buffers = [&vertices.buffer, &objects.there, &materials.there];
+        let rows = [&lights.there, &light_vertices.there, &nodes, &segments];
+        let resources: Vec<_> = buffers
+            .into_iter()
+            .map(wgpu::Buffer::as_entire_binding)
+            .chain(rows.into_iter().map(wgpu::BindingResource::TextureView))
+            .collect();
+        Ok(Self {
+            group: bind(transfer.gpu, "scene", &layouts.scene, &resources),
+            vertices,
+            objects,
+            materials,
+            lights,
+            light_vertices,
+            index: Arc::clone(index),
+            nodes,
+            segments,
+        })
+    }
+}
+
+/// An array so small that a copy stays on the host, to be compared.
+struct Small<T, R> {
+    elements: Vec<T>,
+    there: R,
+}
+
+impl<T: PartialEq, R: Clone> Small<T, R> {
+    /// What lies there already, if it is the same; else what `upload` brings.
+    async fn keep(
+        last: Option<&Self>,
+        elements: Vec<T>,
+        upload: impl AsyncFnOnce(&[T]) -> Result<R, Error>,
+    ) -> Result<Self, Error> {
+        let there = match last {
+            Some(last) if last.elements == elements => last.there.clone(),
+            _ => upload(&elements).await?,
+        };
+        Ok(Self { elements, there })
+    }
+}
+
+/// A buffer with `elements`. An empty one holds a zero, since no binding may be empty.
+async fn storage_buffer<T: Pod>(
+    transfer: &mut Transfer<'_>,
+    what: &'static str,
+    elements: &[T],
+) -> Result<wgpu::Buffer, Error> {
+    let none = [T::zeroed()];
+    let bytes: &[u8] = bytemuck::cast_slice(if elements.is_empty() { &none } else { elements });
+    let usage = BufferUsages::STORAGE | BufferUsages::COPY_DST;
+    let buffer = transfer.gpu.buffer(what, bytes.len() as u64, usage).await?;
+    transfer.write_buffer(what, &buffer, 0, bytes);
+    Ok(buffer)
+}
+
+/// Refuses what no binding of the device can hold, before memory is spent on it.
+pub(crate) fn check_size(gpu: &Gpu, source: &Source<'_>) -> Result<(), Error> {
+    let Source { scene, index, .. } = source;
+    let triangles: usize = scene
+        .objects
+        .iter()
+        .map(|object| object.mesh.triangles.len())
+        .sum();
+    let light_vertices: usize = scene.lights.iter().map(host::polygon_vertex_count).sum();
+    let buffers = [
+        (triangles, 3 * size_of::<Vertex>()),
+        (scene.objects.len(), size_of::<Object>()),
+        (scene.materials.len(), size_of::<Material>()),
+    ];
+    let rows = [
+        (scene.lights.len(), size_of::<Light>()),
+        (light_vertices, size_of::<[f32; 4]>()),
+        (index.tree.nodes.len(), size_of::<ScratchNode>()),
+        (index.tree.segments.len(), size_of::<ScratchSegment>()),
+    ];
+    let limits = gpu.limits();
+    let buffer_max = limits
+        .max_buffer_size
+        .min(limits.max_storage_buffer_binding_size);
+    let in_buffers = buffers.map(|(count, stride)| {
+        let bytes = count as u64 * stride as u64;
+        (count, bytes, buffer_max)
+    });
+    let in_rows = rows.map(|(count, stride)| {
+        let (bytes, allowed) = rows::bytes_and_allowed(gpu, count, stride);
+        (count, bytes, allowed)
+    });
+    let sizes = in_buffers.into_iter().chain(in_rows);
+    for (name, (count, bytes, allowed)) in SCENE_BUFFERS.iter().zip(sizes) {
+        if bytes > allowed {
+            return Err(gpu.too_large(
+                &format!("{name} ({count} of them)"),
+                bytes,
+                allowed,
+                "bytes",
+            ));
+        }
+    }
+    Ok(())
+}

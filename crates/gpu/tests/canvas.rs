@@ -1,0 +1,204 @@
+//! A picture that comes together in bands is the rendered one, at any size, and looks right at any moment.
+
+mod common;
+
+use std::future::Future;
+use std::pin::pin;
+use std::task::{Context, Waker};
+
+use common::{BUILT_IN, PLATES, Stage, scene};
+use hairline_gpu::headless::{self, test_gpu};
+use hairline_gpu::{AdapterRequest, Canvas, Error, Gpu, RenderOptions};
+use hairline_image::{Display, Image, ToneMap};
+
+const DISPLAY: Display = Display {
+    exposure_ev: 0.0,
+    tone_map: ToneMap::None,
+};
+
+/// In bands of the same rows, since a rasteriser may round an edge differently where a band begins elsewhere.
+fn rendered(stage: &mut Stage, size_px: [u32; 2], samples: u32, submission_px: u32) -> Image {
+    let mut scene = stage.made.scene.clone();
+    scene.render.size_px = size_px;
+    let options = RenderOptions {
+        samples,
+        submission_px,
+    };
+    let picture = stage
+        .renderer
+        .render(&scene, &stage.uploaded, &options, &|_| {});
+    stage.gpu.block_on(picture).unwrap()
+}
+
+fn image(canvas: &Canvas, gpu: &Gpu) -> Image {
+    gpu.block_on(canvas.image()).unwrap()
+}
+
+fn default_limits() -> Option<Gpu> {
+    test_gpu()?;
+    let request = AdapterRequest {
+        default_limits: true,
+        ..Default::default()
+    };
+    Some(headless::open(&request).unwrap())
+}
+
+#[test]
+fn a_canvas_of_any_size_becomes_the_rendered_picture() {
+    let Some(gpu) = test_gpu() else { return };
+    let mut stage = Stage::new(gpu, scene(PLATES));
+    for (size_px, submission_px, bands) in [
+        ([97, 64], 7 * 97 + 5, 10),
+        ([64, 96], 1 << 18, 1),
+        ([33, 5], 1, 5),
+        ([1, 9], 4, 3),
+        ([1, 1], 64, 1),
+    ] {
+        let mut canvas = stage.canvas(size_px, submission_px);
+        assert_eq!((canvas.size_px(), canvas.bands()), (size_px, bands));
+        stage.paint(&mut canvas, 3, 3);
+        let expected = rendered(&mut stage, size_px, 3, submission_px);
+        // The same commands in the same order: not a digit differs.
+        assert!(image(&canvas, gpu) == expected, "{size_px:?}");
+    }
+}
+
+fn mean(image: &Image, rows: std::ops::Range<u32>) -> f64 {
+    let (first, end) = (image.index(0, rows.start), rows.end * image.size_px[0]);
+    let beauty = image.beauty();
+    let pixels = &beauty.rgb[first..end as usize];
+    pixels.iter().map(|rgb| f64::from(rgb[1])).sum::<f64>() / pixels.len() as f64
+}
+
+/// A few samples of many are as bright as all of them, in memory and on the display, band by band.
+#[test]
+fn bands_with_fewer_samples_are_exposed_alike() {
+    let Some(gpu) = test_gpu() else { return };
+    let mut stage = Stage::new(gpu, scene(PLATES));
+    let mut canvas = stage.canvas([97, 64], 16 * 97);
+    stage.paint(&mut canvas, 4, 32);
+    for band in [1, 3] {
+        for sample in 4..9 {
+            stage.accumulate(&mut canvas, band, sample, 32).unwrap();
+        }
+    }
+    let samples: Vec<u32> = (0..4).map(|band| canvas.samples(band)).collect();
+    assert_eq!(samples, [4, 9, 4, 9]);
+    let few = image(&canvas, gpu);
+    let few_shown = gpu
+        .block_on(stage.renderer.read_shown(&canvas, &DISPLAY))
+        .unwrap();
+    stage.paint(&mut canvas, 32, 32);
+    let all = image(&canvas, gpu);
+    let all_shown = gpu
+        .block_on(stage.renderer.read_shown(&canvas, &DISPLAY))
+        .unwrap();
+    for band in 0..canvas.bands() {
+        let [few, all] = [&few, &all].map(|image| mean(image, canvas.rows(band)));
+        // Over 1,500 pixels the noise of 4 samples is well below a percent, but for the few that catch a glint.
+        assert!((few / all - 1.0).abs() < 0.03, "{band}: {few}, not {all}");
+    }
+    let [few, all] = [few_shown, all_shown].map(|shown| {
+        assert_eq!(shown.len(), 4 * 97 * 64);
+        shown.iter().map(|code| f64::from(*code)).sum::<f64>() / shown.len() as f64
+    });
+    assert!((few - all).abs() < 1.0, "{few}, not {all} of 255");
+}
+
+/// What an earlier view left, complete or not, is gone.
+#[test]
+fn an_interrupted_view_leaves_nothing_behind() {
+    let Some(gpu) = test_gpu() else { return };
+    let mut stage = Stage::new(gpu, scene(PLATES));
+    let mut canvas = stage.canvas([97, 64], 16 * 97);
+    let view = stage.made.scene.camera;
+    stage.made.scene.camera.position_m.x += 0.05;
+    for (band, samples) in [(0, 3), (1, 1)] {
+        for sample in 0..samples {
+            stage.accumulate(&mut canvas, band, sample, 4).unwrap();
+        }
+    }
+    // Dropped where it first waits: nowhere on a GPU, on a software driver between two dispatches.
+    {
+        let (scene, uploaded) = (&stage.made.scene, &stage.uploaded);
+        let renderer = &mut stage.renderer;
+        let step = pin!(renderer.accumulate(scene, uploaded, &mut canvas, 0, 3, 4));
+        let _ = step.poll(&mut Context::from_waker(Waker::noop()));
+    }
+    assert!([0, 4].contains(&canvas.samples(0)));
+    let moved = image(&canvas, gpu);
+    stage.made.scene.camera = view;
+    for band in 0..canvas.bands() {
+        for sample in 0..2 {
+            stage.accumulate(&mut canvas, band, sample, 2).unwrap();
+        }
+    }
+    let expected = rendered(&mut stage, [97, 64], 2, 16 * 97);
+    assert!(image(&canvas, gpu) == expected);
+    assert!(moved != expected, "the views do not differ");
+}
+
+#[test]
+#[should_panic(expected = "cannot follow")]
+fn a_sample_that_does_not_follow_is_a_mistake() {
+    let Some(gpu) = test_gpu() else {
+        panic!("cannot follow what there is not");
+    };
+    let mut stage = Stage::new(gpu, scene(PLATES));
+    let mut canvas = stage.canvas([8, 8], 64);
+    stage.accumulate(&mut canvas, 0, 0, 4).unwrap();
+    let _ = stage.accumulate(&mut canvas, 0, 2, 4);
+}
+
+/// Edits, bands and display of the built-in scene ask for nothing beyond WebGPU's defaults, 3,840 pixels wide.
+#[test]
+fn default_limits_are_enough_for_a_wide_canvas() {
+    let Some(gpu) = default_limits() else { return };
+    let mut stage = Stage::new(&gpu, scene(BUILT_IN));
+    let mut canvas = stage.canvas([3840, 6], 3840 * 4);
+    assert_eq!(canvas.bands(), 2);
+    stage.paint(&mut canvas, 1, 1);
+    let expected = rendered(&mut stage, [3840, 6], 1, 3840 * 4);
+    assert!(image(&canvas, &gpu) == expected);
+
+    let mut canvas = stage.canvas([90, 60], u32::MAX);
+    stage.paint(&mut canvas, 2, 2);
+    let before = image(&canvas, &gpu);
+    // Without the lamp.
+    stage.made.scene.lights.remove(0);
+    let Stage {
+        renderer,
+        made,
+        uploaded,
+        ..
+    } = &mut stage;
+    gpu.block_on(made.update(renderer, uploaded)).unwrap();
+    for sample in 0..2 {
+        stage.accumulate(&mut canvas, 0, sample, 2).unwrap();
+    }
+    let after = image(&canvas, &gpu);
+    assert!(mean(&after, 0..60) < mean(&before, 0..60));
+    let shown = gpu
+        .block_on(stage.renderer.read_shown(&canvas, &DISPLAY))
+        .unwrap();
+    assert!(shown.iter().step_by(4).any(|red| *red > 100));
+}
+
+/// A whole 4K picture is 531 MB of films: there, or refused in words.
+#[test]
+fn a_4k_canvas_is_there_or_refused_by_its_memory() {
+    let Some(gpu) = default_limits() else { return };
+    let stage = Stage::new(&gpu, scene(PLATES));
+    match gpu.block_on(Canvas::new(&stage.renderer, [3840, 2160], u32::MAX)) {
+        Ok(canvas) => {
+            assert_eq!(canvas.bytes(), 3840 * 2160 * 64);
+            // 128 MiB hold 546 rows.
+            assert_eq!((canvas.bands(), canvas.rows(0)), (4, 0..546));
+            assert_eq!(canvas.rows(3), 1638..2160);
+        }
+        Err(error) => {
+            assert!(matches!(error, Error::OutOfMemory { .. }), "{error}");
+            assert!(error.to_string().contains("memory"), "{error}");
+        }
+    }
+}

@@ -1,0 +1,172 @@
+//! Scenes and the way to a picture that several tests take.
+
+#![allow(dead_code, reason = "each test uses a part")]
+
+use std::sync::Arc;
+
+use hairline_gpu::{Canvas, Error, Gpu, GpuScene, Renderer};
+use hairline_image::Image;
+use hairline_index::ScratchIndex;
+use hairline_scene::{Scene, ScratchTables};
+
+/// A plate with scratches, a smooth one behind it, a lamp, a tube.
+pub const PLATES: &str = r#"
+[camera]
+position_m = [0.0, -0.22, 0.30]
+target_m = [0.0, 0.0, 0.0]
+up = [0.0, 0.0, 1.0]
+fov_y_deg = 34.0
+
+[render]
+size_px = [97, 64]
+
+[[material]]
+name = "steel"
+kind = "metal"
+metal = "steel"
+roughness = 0.2
+
+[[material]]
+name = "wood"
+kind = "dielectric"
+base_color = [0.4, 0.3, 0.2]
+roughness = 0.6
+
+[[object]]
+name = "plate"
+shape = { disk = { radius_m = 0.08 } }
+material = "steel"
+
+[[object]]
+name = "table"
+shape = { plane = { size_m = [0.5, 0.5] } }
+material = "wood"
+translation_m = [0.0, 0.0, -0.01]
+
+[[scratches]]
+object = "plate"
+pattern = "random"
+count = 1500
+seed = 3
+length_m = 0.03
+width_um = 3.0
+depth_nm = 200.0
+
+[[light]]
+kind = "sphere"
+center_m = [0.02, 0.3, 0.3]
+radius_m = 0.02
+radiance = 40.0
+
+[[light]]
+kind = "polygon"
+vertices_m = [[-0.2, 0.3, 0.2], [0.2, 0.3, 0.2], [0.2, 0.25, 0.3], [-0.2, 0.25, 0.3]]
+radiance = 3.0
+"#;
+
+/// What `hairline render` shows without a scene.
+pub const BUILT_IN: &str = include_str!("../../../../apps/hairline/src/built_in_scene.toml");
+
+pub fn scene(text: &str) -> Scene {
+    Scene::from_toml(text, "test", ".").unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// A scene with what is made of it, as an editor keeps it.
+#[derive(Clone)]
+pub struct Made {
+    pub scene: Scene,
+    pub index: Arc<ScratchIndex>,
+    pub tables: Arc<ScratchTables>,
+}
+
+impl Made {
+    pub fn new(scene: Scene) -> Self {
+        Self {
+            index: Arc::new(ScratchIndex::build(&scene)),
+            tables: Arc::new(ScratchTables::new(&scene)),
+            scene,
+        }
+    }
+
+    pub async fn upload(&self, renderer: &mut Renderer) -> Result<GpuScene, Error> {
+        renderer
+            .upload(&self.scene, &self.index, &self.tables, &Default::default())
+            .await
+    }
+
+    pub async fn update(
+        &self,
+        renderer: &mut Renderer,
+        uploaded: &mut GpuScene,
+    ) -> Result<(), Error> {
+        let method = Default::default();
+        renderer
+            .update(uploaded, &self.scene, &self.index, &self.tables, &method)
+            .await
+    }
+
+    pub async fn render(
+        &self,
+        renderer: &mut Renderer,
+        uploaded: &GpuScene,
+    ) -> Result<Image, Error> {
+        let options = Default::default();
+        renderer
+            .render(&self.scene, uploaded, &options, &|_| {})
+            .await
+    }
+}
+
+/// A renderer with a scene.
+pub struct Stage {
+    pub gpu: Gpu,
+    pub renderer: Renderer,
+    pub made: Made,
+    pub uploaded: GpuScene,
+}
+
+impl Stage {
+    pub fn new(gpu: &Gpu, scene: Scene) -> Self {
+        let made = Made::new(scene);
+        let mut renderer = gpu.block_on(Renderer::new(gpu)).unwrap();
+        let uploaded = gpu.block_on(made.upload(&mut renderer)).unwrap();
+        Self {
+            gpu: gpu.clone(),
+            renderer,
+            made,
+            uploaded,
+        }
+    }
+
+    pub fn canvas(&self, size_px: [u32; 2], submission_px: u32) -> Canvas {
+        let canvas = Canvas::new(&self.renderer, size_px, submission_px);
+        self.gpu.block_on(canvas).unwrap()
+    }
+
+    /// Adds one sample to one band.
+    pub fn accumulate(
+        &mut self,
+        canvas: &mut Canvas,
+        band: usize,
+        sample: u32,
+        samples: u32,
+    ) -> Result<(), Error> {
+        let Self {
+            gpu,
+            renderer,
+            made,
+            uploaded,
+        } = self;
+        let (scene, uploaded) = (&made.scene, &*uploaded);
+        gpu.block_on(renderer.accumulate(scene, uploaded, canvas, band, sample, samples))
+    }
+
+    /// Adds samples up to `end` of `samples` to all bands.
+    pub fn paint(&mut self, canvas: &mut Canvas, end: u32, samples: u32) {
+        for band in 0..canvas.bands() {
+            for sample in canvas.samples(band)..end {
+                self.accumulate(canvas, band, sample, samples).unwrap();
+            }
+        }
+    }
+}
