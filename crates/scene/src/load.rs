@@ -6,12 +6,12 @@ use std::sync::Arc;
 use glam::{DMat4, DVec3};
 
 use crate::Environment;
+use crate::builder::SceneBuilder;
 use crate::description::references::find;
-use crate::description::{self, Description, LightKind, MaterialKind, MetalColor, Surface};
+use crate::description::{self, Description, LightKind, MaterialKind, MetalColor};
 use crate::error::Error;
-use crate::scene::{Base, Camera, Light, Material, Mesh, Object, RenderSettings, Scene};
+use crate::scene::{Base, Camera, Light, Material, RenderSettings, Scene};
 use crate::surface::world_from_object;
-use crate::{mesh_file, scratches, shape};
 
 /// How far long work has come.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -122,87 +122,37 @@ impl Loader<'_> {
         description: &Description,
         base_dir: impl AsRef<Path>,
     ) -> Result<Scene, Error> {
-        let base_dir = base_dir.as_ref();
-        description.check()?;
-        let mut scene = Scene {
-            camera: camera(&description.camera),
-            render: RenderSettings {
-                size_px: description.render.size_px,
-                filter_std_px: description.render.filter_std_px,
-                tone_map: description.render.tone_map,
-            },
-            environment: None,
-            textures: Arc::default(),
-            materials: description.materials.iter().map(material).collect(),
-            objects: Vec::new(),
-            lights: description.lights.iter().map(light).collect(),
-        };
-        let objects = description.objects.len() as u64;
-        for (i, object) in description.objects.iter().enumerate() {
-            self.report(Stage::Meshes, i as u64, objects);
-            let key = format!("object[{i}]");
-            let mesh = object_mesh(object, &key, description, base_dir, &mut scene)?;
-            if mesh.triangles.is_empty() {
-                return Err(Error::new(
-                    key,
-                    format!(
-                        "found no surface: every triangle of \"{}\" has zero area",
-                        object.name
-                    ),
-                    "must have triangles that span an area",
-                ));
-            }
-            scene.objects.push(Object {
-                name: object.name.clone(),
-                mesh: Arc::new(mesh),
-                scratches: Arc::default(),
-                segments: Arc::default(),
-            });
-        }
-        self.report(Stage::Meshes, objects, objects);
-        if let Some(environment) = &description.environment {
-            self.report(Stage::Environment, 0, 1);
-            let up = vertical_axis(scene.camera.up);
-            scene.environment = Some(load_environment(environment, up, base_dir)?);
-            self.report(Stage::Environment, 1, 1);
-        }
-        self.lay_scratches(description, base_dir, &mut scene)?;
-        Ok(scene)
+        SceneBuilder::new().build(self, description, base_dir.as_ref())
     }
 
-    fn lay_scratches(
-        &self,
-        description: &Description,
-        base_dir: &Path,
-        scene: &mut Scene,
-    ) -> Result<(), Error> {
-        let mut tables = Vec::new();
-        for (i, table) in description.scratches.iter().enumerate() {
-            let key = format!("scratches[{i}]");
-            let names = description.objects.iter().map(|o| o.name.as_str());
-            tables.push(scratches::Table {
-                object: find(&table.object, names, &format!("{key}.object"), "object")?,
-                layer: &table.layer,
-                key,
-            });
+    /// An error if the caller gave up.
+    pub(crate) fn go_on(&self) -> Result<(), Error> {
+        match (self.cancelled)() {
+            true => Err(Error::cancelled()),
+            false => Ok(()),
         }
-        let transforms = description.objects.iter().map(transform);
-        let meshes: Vec<_> = scene
-            .objects
-            .iter()
-            .map(|o| o.mesh.as_ref())
-            .zip(transforms)
-            .collect();
-        let laid = scratches::lay(self, &tables, base_dir, &meshes)?;
-        for (object, laid) in scene.objects.iter_mut().zip(laid) {
-            object.scratches = Arc::new(laid.scratches);
-            object.segments = Arc::new(laid.segments);
-        }
-        Ok(())
     }
 
-    fn report(&self, stage: Stage, done: u64, total: u64) {
+    pub(crate) fn report(&self, stage: Stage, done: u64, total: u64) {
         (self.progress)(Progress { stage, done, total });
+    }
+}
+
+/// All that takes no time: camera, settings, materials, lights.
+pub(crate) fn without_surfaces(description: &Description) -> Scene {
+    let lights = description.lights.iter().filter(|light| !light.hidden);
+    Scene {
+        camera: camera(&description.camera),
+        render: RenderSettings {
+            size_px: description.render.size_px,
+            filter_std_px: description.render.filter_std_px,
+            tone_map: description.render.tone_map,
+        },
+        environment: None,
+        textures: Arc::default(),
+        materials: description.materials.iter().map(material).collect(),
+        objects: Vec::new(),
+        lights: lights.map(light).collect(),
     }
 }
 
@@ -268,21 +218,9 @@ fn vertical_axis(up: DVec3) -> DVec3 {
     axis * axis.dot(up).signum()
 }
 
-fn load_environment(
-    environment: &description::Environment,
-    up: DVec3,
-    base_dir: &Path,
-) -> Result<Environment, Error> {
-    let path = base_dir.join(&environment.file);
-    let rotation_rad = environment.rotation_deg.to_radians();
-    Environment::load(
-        &path,
-        rotation_rad,
-        environment.intensity,
-        environment.visible,
-    )
-    .map(|map| map.with_up(up, rotation_rad))
-    .map_err(|error| {
+/// A map as its file has it: not turned, intensity 1.
+pub(crate) fn environment_map(path: &Path) -> Result<Environment, Error> {
+    Environment::load(path, 0.0, 1.0, true).map_err(|error| {
         Error::new(
             "environment.file",
             error.to_string(),
@@ -291,42 +229,48 @@ fn load_environment(
     })
 }
 
-fn transform(object: &description::Object) -> DMat4 {
-    world_from_object(object.translation_m, object.rotation_deg, object.scale)
+/// The map as it is described, for a camera with `up`.
+pub(crate) fn environment(
+    described: &description::Environment,
+    map: Environment,
+    up: DVec3,
+) -> Environment {
+    map.with_up(vertical_axis(up), described.rotation_deg.to_radians())
+        .with_intensity(described.intensity)
+        .with_visible(described.visible)
 }
 
-/// The object's triangles in world space. A mesh that keeps its own materials adds them to the scene.
-fn object_mesh(
+impl description::Object {
+    /// Where its `scale`, `rotation_deg` and `translation_m` put it.
+    pub fn world_from_object(&self) -> DMat4 {
+        world_from_object(self.translation_m, self.rotation_deg, self.scale)
+    }
+}
+
+/// The number of the material that all of an object is of; `None` where its file brings its own.
+pub(crate) fn object_material(
     object: &description::Object,
     key: &str,
-    description: &Description,
-    base_dir: &Path,
-    scene: &mut Scene,
-) -> Result<Mesh, Error> {
-    let transform = transform(object);
-    let material = match &object.material {
-        Some(name) => {
-            let names = description.materials.iter().map(|m| m.name.as_str());
-            Some(find(name, names, &format!("{key}.material"), "material")? as u32)
-        }
-        None => None,
+    materials: &[description::Material],
+) -> Result<Option<u32>, Error> {
+    let Some(name) = &object.material else {
+        return Ok(None);
     };
-    match &object.surface {
-        Surface::Shape(shape) => {
-            let mut mesh = Mesh::default();
-            // `check` saw to it that a shape has a material.
-            shape::surface(shape).bake(&transform, material.unwrap_or(0), &mut mesh);
-            Ok(mesh)
-        }
-        Surface::Mesh(file) => {
-            let stock = mesh_file::Stock {
-                materials: &mut scene.materials,
-                textures: Arc::make_mut(&mut scene.textures),
-            };
-            mesh_file::read(&base_dir.join(file), material, &transform, stock).map_err(|flaw| {
-                let found = format!("\"{}\": {}", file.display(), flaw.found);
-                Error::new(format!("{key}.mesh"), found, flaw.right)
-            })
-        }
+    let names = materials.iter().map(|m| m.name.as_str());
+    let index = find(name, names, &format!("{key}.material"), "material")?;
+    Ok(Some(index as u32))
+}
+
+/// The material with its textures numbered from `first` on instead of 0.
+pub(crate) fn with_textures_from(material: Material, first: usize) -> Material {
+    let shifted = |texture: Option<usize>| texture.map(|texture| texture + first);
+    Material {
+        base_color_texture: shifted(material.base_color_texture),
+        metallic_roughness_texture: shifted(material.metallic_roughness_texture),
+        normal_texture: material
+            .normal_texture
+            .map(|(texture, scale)| (texture + first, scale)),
+        emission_texture: shifted(material.emission_texture),
+        ..material
     }
 }

@@ -36,6 +36,16 @@ impl Description {
     }
 }
 
+impl Light {
+    /// Refuses values out of range, and polygons that are not planar and simple. Keys begin with `light`.
+    ///
+    /// # Errors
+    /// What is wrong.
+    pub fn check(&self) -> Result<(), Error> {
+        light(self, "light")
+    }
+}
+
 fn each<T>(key: &str, items: &[T], check: impl Fn(&T, &str) -> Check) -> Check {
     items
         .iter()
