@@ -1,15 +1,37 @@
 //! Builds scenes one after the other and keeps what has not changed: what an editor needs.
 
+mod kept;
+
+use std::fmt;
 use std::path::Path;
+use std::sync::Arc;
 
-use crate::description::Description;
+use crate::description::references::find;
+use crate::description::{self, Description, Layer};
 use crate::error::Error;
-use crate::load::Loader;
-use crate::scene::Scene;
+use crate::load::{self, Loader, Stage};
+use crate::scene::{Object, Scene};
+use crate::scratches;
+use kept::{Kept, KeptLayer, KeptSurface, Stamp, SurfaceKey};
 
-/// Builds scenes one after the other; see [`SceneBuilder::build`].
-#[derive(Debug, Default)]
-pub struct SceneBuilder {}
+/// Builds scenes one after the other. What of a scene is as it was in the one before is not made again, but shared with it:
+///
+/// * surfaces, by their shape or file and their transform;
+/// * the environment map, by its file, whatever its rotation and intensity;
+/// * scratches, layer by layer, by all that the layer's table says but its name. Hidden layers stay at hand.
+///
+/// Files are known by their path, their length and the time of their last change. A scene that was built so equals one that
+/// was built from nothing.
+#[derive(Default)]
+pub struct SceneBuilder {
+    kept: Kept,
+}
+
+impl fmt::Debug for SceneBuilder {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("SceneBuilder").finish_non_exhaustive()
+    }
+}
 
 impl SceneBuilder {
     /// A builder that has built nothing yet.
@@ -17,16 +39,206 @@ impl SceneBuilder {
         Self::default()
     }
 
-    /// Builds what is described.
+    /// Builds what is described. Files are looked for in `base_dir`.
+    ///
+    /// Where it fails, the builder keeps what it had before.
     ///
     /// # Errors
-    /// What is wrong with the scene, or that the work was cancelled.
+    /// What is wrong with the scene, by its key, or that [`Loader::cancelled`] said so; see [`Error::is_cancelled`].
     pub fn build(
         &mut self,
         loader: &Loader,
         description: &Description,
         base_dir: &Path,
     ) -> Result<Scene, Error> {
-        loader.build(description, base_dir)
+        description.check()?;
+        let mut work = Work {
+            loader,
+            description,
+            base_dir,
+            old: &self.kept,
+            new: Kept::default(),
+        };
+        let scene = work.scene()?;
+        self.kept = work.new;
+        Ok(scene)
+    }
+}
+
+/// One build.
+struct Work<'a> {
+    loader: &'a Loader<'a>,
+    description: &'a Description,
+    base_dir: &'a Path,
+    old: &'a Kept,
+    /// What the next build will find.
+    new: Kept,
+}
+
+/// A `[[scratches]]` table and where it goes.
+struct Coat<'a> {
+    table: &'a description::Scratches,
+    object: usize,
+    /// How many earlier layers on the same object have the same seed.
+    number: u64,
+    is_shown: bool,
+    /// From the last build or this one.
+    laid: Option<Arc<KeptLayer>>,
+}
+
+impl<'a> Work<'a> {
+    fn scene(&mut self) -> Result<Scene, Error> {
+        let mut scene = load::without_surfaces(self.description);
+        let surfaces = self.surfaces(&mut scene)?;
+        self.loader.go_on()?;
+        scene.environment = self.environment(&scene)?;
+        self.scratches(&surfaces, &mut scene)?;
+        self.new.surfaces = surfaces;
+        Ok(scene)
+    }
+
+    /// The objects' surfaces, which are added to the scene with the materials and textures that they bring.
+    fn surfaces(&mut self, scene: &mut Scene) -> Result<Vec<Arc<KeptSurface>>, Error> {
+        let objects = &self.description.objects;
+        let total = objects.len() as u64;
+        let mut surfaces = Vec::new();
+        let mut textures = Vec::new();
+        let mut texture_count = 0;
+        for (i, object) in objects.iter().enumerate() {
+            self.loader.go_on()?;
+            self.loader.report(Stage::Meshes, i as u64, total);
+            let key = format!("object[{i}]");
+            let material = load::object_material(object, &key, &self.description.materials)?;
+            let surface_key = SurfaceKey::new(object, self.base_dir);
+            let first_material = material.unwrap_or(scene.materials.len() as u32);
+            let surface = match self.old.surface(&surface_key) {
+                Some(kept) => kept,
+                None => Arc::new(KeptSurface::read(surface_key, object, &key)?),
+            };
+            let surface = surface.with_materials_from(first_material);
+            let own = surface.materials.iter().cloned();
+            scene
+                .materials
+                .extend(own.map(|own| load::with_textures_from(own, texture_count)));
+            texture_count += surface.textures.len();
+            if !surface.textures.is_empty() {
+                textures.push(surface.textures.clone());
+            }
+            scene.objects.push(Object {
+                name: object.name.clone(),
+                mesh: surface.mesh.clone(),
+                scratches: Arc::default(),
+                segments: Arc::default(),
+            });
+            surfaces.push(surface);
+        }
+        self.loader.report(Stage::Meshes, total, total);
+        self.new.textures = self.old.textures(textures);
+        scene.textures = self.new.textures.together.clone();
+        Ok(surfaces)
+    }
+
+    fn environment(&mut self, scene: &Scene) -> Result<Option<crate::Environment>, Error> {
+        let Some(described) = &self.description.environment else {
+            return Ok(None);
+        };
+        self.loader.report(Stage::Environment, 0, 1);
+        let path = self.base_dir.join(&described.file);
+        let stamp = Stamp::of(&path);
+        let map = match self.old.map(&stamp) {
+            Some(map) => map,
+            None => load::environment_map(&path)?,
+        };
+        self.new.map = Some((stamp, map.clone()));
+        self.loader.report(Stage::Environment, 1, 1);
+        Ok(Some(load::environment(described, map, scene.camera.up)))
+    }
+
+    fn scratches(&mut self, surfaces: &[Arc<KeptSurface>], scene: &mut Scene) -> Result<(), Error> {
+        let mut coats = self.coats(surfaces)?;
+        let is_due = |coat: &Coat| coat.is_shown && coat.laid.is_none();
+        let used_bytes = coats.iter().filter(|coat| coat.is_shown);
+        let used_bytes = used_bytes.filter_map(|coat| coat.laid.as_ref());
+        let used_bytes = used_bytes.map(|kept| kept.laid.bytes()).sum();
+        let tables: Vec<_> = coats
+            .iter()
+            .enumerate()
+            .filter(|(_, coat)| is_due(coat))
+            .map(|(i, coat)| scratches::Table {
+                key: format!("scratches[{i}]"),
+                layer: &coat.table.layer,
+                strokes: &coat.table.strokes,
+                number: coat.number,
+                ground: surfaces[coat.object].ground(),
+            })
+            .collect();
+        // Before they are read.
+        let stamps: Vec<_> = tables.iter().map(|t| self.stamp(t.layer)).collect();
+        let laid = scratches::lay(self.loader, &tables, self.base_dir, used_bytes)?;
+        drop(tables);
+        let due = coats.iter_mut().filter(|coat| is_due(coat));
+        for ((coat, laid), file) in due.zip(laid).zip(stamps) {
+            coat.laid = Some(Arc::new(KeptLayer {
+                layer: coat.table.layer.clone(),
+                strokes: coat.table.strokes.clone(),
+                number: coat.number,
+                ground: surfaces[coat.object].ground().clone(),
+                file,
+                laid,
+            }));
+        }
+        for (i, object) in scene.objects.iter_mut().enumerate() {
+            let layers = (0..).zip(&coats).filter_map(|(layer, coat)| {
+                let is_here = coat.is_shown && coat.object == i;
+                let laid = coat.laid.as_ref().filter(|_| is_here)?;
+                Some((layer, laid.clone()))
+            });
+            let together = self.old.together(layers.collect())?;
+            object.scratches = together.scratches.clone();
+            object.segments = together.segments.clone();
+            self.new.objects.push(together);
+        }
+        let laid = coats.into_iter().filter_map(|coat| coat.laid);
+        self.new.layers = laid.collect();
+        Ok(())
+    }
+
+    /// All tables, with what the last build has laid for them.
+    fn coats(&self, surfaces: &[Arc<KeptSurface>]) -> Result<Vec<Coat<'a>>, Error> {
+        let tables = &self.description.scratches;
+        let solo = tables.iter().any(|table| table.solo);
+        let mut coats: Vec<Coat> = Vec::new();
+        for (i, table) in tables.iter().enumerate() {
+            let names = self.description.objects.iter().map(|o| o.name.as_str());
+            let key = format!("scratches[{i}].object");
+            let object = find(&table.object, names, &key, "object")?;
+            let seed = table.layer.seed();
+            let alike = |other: &&Coat| {
+                seed.is_some() && other.object == object && other.table.layer.seed() == seed
+            };
+            let number = coats.iter().filter(alike).count() as u64;
+            let is_shown = !table.hidden && (table.solo || !solo);
+            let ground = surfaces[object].ground_if_made();
+            let laid = ground.and_then(|ground| {
+                let file = self.stamp(&table.layer);
+                self.old.layer(table, number, ground, &file)
+            });
+            coats.push(Coat {
+                table,
+                object,
+                number,
+                is_shown,
+                laid,
+            });
+        }
+        Ok(coats)
+    }
+
+    /// Of the file that the layer is read from.
+    fn stamp(&self, layer: &Layer) -> Option<Stamp> {
+        match layer {
+            Layer::Listed(listed) => Some(Stamp::of(&self.base_dir.join(&listed.file))),
+            Layer::Laid(_) | Layer::Brushed(_) => None,
+        }
     }
 }

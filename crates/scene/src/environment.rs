@@ -114,6 +114,20 @@ impl Environment {
         self
     }
 
+    /// Sets the factor on the map's radiance.
+    #[must_use]
+    pub fn with_intensity(mut self, intensity: f64) -> Self {
+        self.intensity = intensity;
+        self
+    }
+
+    /// Sets whether the camera sees it.
+    #[must_use]
+    pub fn with_visible(mut self, visible: bool) -> Self {
+        self.visible = visible;
+        self
+    }
+
     /// Whether two environments share their texels: they then differ by rotation, intensity and visibility at most.
     pub fn same_map(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.maps, &other.maps)

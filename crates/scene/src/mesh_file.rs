@@ -10,7 +10,7 @@ mod primitive;
 mod source;
 mod tangents;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use glam::{DMat4, DQuat, DVec3};
 use gltf::Gltf;
@@ -47,6 +47,8 @@ impl Flaw {
 pub(crate) struct Stock<'a> {
     pub materials: &'a mut Vec<Material>,
     pub textures: &'a mut Vec<Texture>,
+    /// The files that it refers to and that were read.
+    pub files: &'a mut Vec<PathBuf>,
 }
 
 /// Reads a file's triangles into world space. Without `material`, an index into the stock, the file's own are added there.
@@ -64,7 +66,7 @@ pub(crate) fn read(
     })?;
     let gltf = parse(&bytes)?;
     let base_dir = path.parent().unwrap_or(Path::new(""));
-    let buffers = Buffers::read(&gltf, base_dir)?;
+    let buffers = Buffers::read(&gltf, base_dir, stock.files)?;
     let mut materials = match material {
         Some(material) => Materials::One(material),
         None => Materials::own(base_dir, &buffers, stock),

@@ -6,29 +6,32 @@
 //! stream of its own, so the result depends neither on the number of threads nor, for the first ones, on the count.
 
 mod closest;
-mod drawn;
+mod erase;
 mod facet;
 mod ground;
 mod guide;
 mod listed;
 mod neighbours;
+mod painted;
 mod random;
+mod strewn;
 mod swirl;
 mod walk;
 
 use std::path::Path;
 
-use glam::DMat4;
 use rayon::prelude::*;
 
-use crate::description::{Amount, Layer};
+use crate::description::{Amount, Distribution, Layer, Stroke};
 use crate::error::Error;
 use crate::load::{Loader, Progress, Stage};
-use crate::scene::{Mesh, Scratch, Segment};
+use crate::scene::{Scratch, Segment};
 
-use drawn::Drawn;
-use ground::Ground;
+use erase::Eraser;
+pub(crate) use ground::Ground;
 use listed::Listed;
+use painted::Painted;
+use strewn::Strewn;
 use walk::{Course, Walker};
 
 /// Widths are kept within the spectral table's range, and below the coherence windows that scenes ask for.
@@ -45,24 +48,47 @@ const MOST_SEGMENTS: usize = 1 << 28;
 const PILOTS: u64 = 1024;
 /// Segments that are enough to know.
 const PILOT_SEGMENTS: usize = 1 << 20;
-/// Scratches of one task, and of the tasks between two reports of progress.
+/// Scratches of one task, and of the tasks between two reports of progress: some hundredths of a second.
 const CHUNK: u64 = 256;
-const BATCH: u64 = 128 * CHUNK;
+const BATCH: u64 = 32 * CHUNK;
 
-/// A `[[scratches]]` table.
+/// A `[[scratches]]` table with the surface that it goes on.
 pub(crate) struct Table<'a> {
     /// The way to it in the scene file.
     pub key: String,
-    /// Its object, as an index into the meshes.
-    pub object: usize,
     pub layer: &'a Layer,
+    pub strokes: &'a [Stroke],
+    /// How many earlier layers on the same object have the same seed.
+    pub number: u64,
+    pub ground: &'a Ground,
 }
 
-/// The scratches of one object.
+/// The scratches of one layer; their `layer` is 0.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Laid {
     pub scratches: Vec<Scratch>,
     pub segments: Vec<Segment>,
+}
+
+impl Laid {
+    /// What it takes, here and in what renderers make of it.
+    pub(crate) fn bytes(&self) -> u64 {
+        let segment_bytes = size_of::<Segment>() as u64 + RENDERED_SEGMENT_BYTES;
+        (self.scratches.len() * size_of::<Scratch>()) as u64
+            + self.segments.len() as u64 * segment_bytes
+    }
+
+    fn push(&mut self, groove: &Groove, course: Course, segments: std::ops::Range<usize>) {
+        if !segments.is_empty() {
+            self.scratches.push(Scratch {
+                width_um: groove.width_um,
+                depth_nm: groove.depth_nm,
+                layer: 0,
+                closed: course == Course::Closed,
+                segments: segments.start as u32..segments.end as u32,
+            });
+        }
+    }
 }
 
 /// What is known of a scratch besides its segments.
@@ -76,51 +102,59 @@ struct Groove {
 trait Laying: Sync {
     /// Appends the segments of one scratch.
     fn lay(&self, walker: &Walker, index: u64, segments: &mut Vec<Segment>) -> Groove;
+
+    /// How many of the layer's strokes came before a scratch, its own included.
+    fn strokes_before(&self, _index: u64) -> usize {
+        0
+    }
+}
+
+/// A width that lies `normal` standard deviations from the mean, times a factor.
+fn scratch_width_um(drawn: &Distribution, normal: f64, factor: f64) -> f32 {
+    let (least, most) = WIDTHS_UM;
+    (drawn.log_normal_at(normal) * factor).clamp(least, most) as f32
+}
+
+/// A depth that lies `normal` standard deviations from the mean, times a factor.
+fn scratch_depth_nm(drawn: &Distribution, normal: f64, factor: f64) -> f32 {
+    let (least, most) = DEPTHS_NM;
+    (drawn.log_normal_at(normal) * factor).clamp(least, most) as f32
 }
 
 /// A layer that is ready to be laid.
 struct Plan<'a> {
     table: &'a Table<'a>,
-    layer: u32,
-    ground: &'a Ground<'a>,
     laying: Box<dyn Laying + 'a>,
+    eraser: Option<Eraser>,
     count: u64,
 }
 
-/// Lays all layers on the meshes, each with its object's transform. Refuses before laying what would not fit into memory.
+/// Lays all layers, each for itself. Refuses before laying what would not fit into memory beside `used_bytes`.
 pub(crate) fn lay(
     loader: &Loader,
     tables: &[Table],
     base_dir: &Path,
-    meshes: &[(&Mesh, DMat4)],
+    used_bytes: u64,
 ) -> Result<Vec<Laid>, Error> {
-    let grounds: Vec<_> = meshes
-        .iter()
-        .enumerate()
-        .map(|(i, (mesh, world_from_object))| {
-            let is_scratched = tables.iter().any(|table| table.object == i);
-            is_scratched.then(|| Ground::new(mesh, *world_from_object))
-        })
-        .collect();
     let mut plans = Vec::new();
-    for (i, table) in tables.iter().enumerate() {
-        if let Some(ground) = &grounds[table.object] {
-            plans.push(Plan::new(table, i as u32, ground, base_dir)?);
-        }
+    for table in tables {
+        plans.push(Plan::new(table, base_dir)?);
     }
-    let mut used_bytes = 0.0;
+    let mut used_bytes = used_bytes as f64;
     for plan in &plans {
+        loader.go_on()?;
         used_bytes = plan.check_memory(loader.memory_budget_bytes, used_bytes)?;
     }
 
     let total = plans.iter().map(|plan| plan.count).sum();
     let mut done = 0;
-    let mut laid = vec![Laid::default(); meshes.len()];
+    let mut all = Vec::new();
     for plan in &plans {
-        let object = &mut laid[plan.table.object];
+        let mut laid = Laid::default();
         for first in (0..plan.count).step_by(BATCH as usize) {
+            loader.go_on()?;
             let end = plan.count.min(first + BATCH);
-            plan.lay(first..end, object)?;
+            plan.lay(first..end, &mut laid)?;
             done += end - first;
             (loader.progress)(Progress {
                 stage: Stage::Scratches,
@@ -128,32 +162,71 @@ pub(crate) fn lay(
                 total,
             });
         }
+        all.push(laid);
     }
-    Ok(laid)
+    Ok(all)
+}
+
+/// Puts the scratches of layers on one object side by side; each goes with the place of its table in the scene file.
+///
+/// # Errors
+/// More segments than renderers can number.
+pub(crate) fn put_together<'l>(
+    layers: impl Iterator<Item = (u32, &'l Laid)> + Clone,
+) -> Result<Laid, Error> {
+    let mut all = Laid::default();
+    let lengths = layers.clone();
+    all.scratches
+        .reserve_exact(lengths.map(|(_, laid)| laid.scratches.len()).sum());
+    let lengths = layers.clone();
+    all.segments
+        .reserve_exact(lengths.map(|(_, laid)| laid.segments.len()).sum());
+    for (layer, laid) in layers {
+        let offset = all.segments.len();
+        check_segments(offset + laid.segments.len(), &format!("scratches[{layer}]"))?;
+        let offset = offset as u32;
+        all.segments.extend_from_slice(&laid.segments);
+        all.scratches
+            .extend(laid.scratches.iter().map(|scratch| Scratch {
+                layer,
+                segments: scratch.segments.start + offset..scratch.segments.end + offset,
+                ..*scratch
+            }));
+    }
+    Ok(all)
+}
+
+fn check_segments(segments: usize, key: &str) -> Result<(), Error> {
+    match segments <= MOST_SEGMENTS {
+        true => Ok(()),
+        false => Err(Error::new(
+            key,
+            format!("found more than {MOST_SEGMENTS} segments on one object"),
+            "ask for fewer or shorter scratches",
+        )),
+    }
 }
 
 impl<'a> Plan<'a> {
-    fn new(
-        table: &'a Table<'a>,
-        layer: u32,
-        ground: &'a Ground<'a>,
-        base_dir: &Path,
-    ) -> Result<Self, Error> {
+    fn new(table: &'a Table<'a>, base_dir: &Path) -> Result<Self, Error> {
+        let ground = table.ground;
         let (laying, count): (Box<dyn Laying>, u64) = match table.layer {
             Layer::Laid(laid) => {
                 let count = match laid.amount {
                     Amount::Count(count) => count,
                     Amount::DensityPerM2(density) => (density * ground.area_m2()).round() as u64,
                 };
-                let drawn = Drawn {
+                let strewn = Strewn {
                     laid,
-                    layer,
+                    number: table.number,
                     ground,
                 };
-                (Box::new(drawn), count)
+                (Box::new(strewn), count)
             }
-            Layer::Brushed(_) => {
-                return Err(Error::new(&table.key, "found strokes", "are not laid yet"));
+            Layer::Brushed(brushed) => {
+                let painted = Painted::new(brushed, table.number, table.strokes, ground);
+                let count = painted.count();
+                (Box::new(painted), count)
             }
             Layer::Listed(listed) => {
                 let path = base_dir.join(&listed.file);
@@ -165,9 +238,8 @@ impl<'a> Plan<'a> {
         };
         Ok(Self {
             table,
-            layer,
-            ground,
             laying,
+            eraser: Eraser::new(table.strokes, ground),
             count,
         })
     }
@@ -214,8 +286,8 @@ impl<'a> Plan<'a> {
         ))
     }
 
-    fn lay(&self, scratches: std::ops::Range<u64>, object: &mut Laid) -> Result<(), Error> {
-        let walker = self.ground.walker();
+    fn lay(&self, scratches: std::ops::Range<u64>, laid: &mut Laid) -> Result<(), Error> {
+        let walker = self.table.ground.walker();
         let chunks: Vec<u64> = scratches.clone().step_by(CHUNK as usize).collect();
         let parts: Vec<Laid> = chunks
             .into_par_iter()
@@ -223,17 +295,11 @@ impl<'a> Plan<'a> {
             .collect();
         for part in parts {
             // The estimate may have been short.
-            if object.segments.len() + part.segments.len() > MOST_SEGMENTS {
-                return Err(Error::new(
-                    &self.table.key,
-                    format!("found more than {MOST_SEGMENTS} segments on one object"),
-                    "ask for fewer or shorter scratches",
-                ));
-            }
-            let offset = object.segments.len() as u32;
-            object.segments.extend_from_slice(&part.segments);
-            object
-                .scratches
+            let offset = laid.segments.len();
+            check_segments(offset + part.segments.len(), &self.table.key)?;
+            let offset = offset as u32;
+            laid.segments.extend_from_slice(&part.segments);
+            laid.scratches
                 .extend(part.scratches.into_iter().map(|scratch| Scratch {
                     segments: scratch.segments.start + offset..scratch.segments.end + offset,
                     ..scratch
@@ -245,17 +311,22 @@ impl<'a> Plan<'a> {
     fn lay_chunk(&self, walker: &Walker, scratches: std::ops::Range<u64>) -> Laid {
         let mut laid = Laid::default();
         for index in scratches {
-            let start = laid.segments.len() as u32;
+            let start = laid.segments.len();
             let groove = self.laying.lay(walker, index, &mut laid.segments);
-            let end = laid.segments.len() as u32;
-            if start < end {
-                laid.scratches.push(Scratch {
-                    width_um: groove.width_um,
-                    depth_nm: groove.depth_nm,
-                    layer: self.layer,
-                    closed: groove.course == Course::Closed,
-                    segments: start..end,
-                });
+            let rest = self.eraser.as_ref().and_then(|eraser| {
+                let strokes_before = self.laying.strokes_before(index);
+                let whole = &laid.segments[start..];
+                eraser.rest(walker, strokes_before, groove.course, whole)
+            });
+            let Some(runs) = rest else {
+                laid.push(&groove, groove.course, start..laid.segments.len());
+                continue;
+            };
+            laid.segments.truncate(start);
+            for run in runs {
+                let start = laid.segments.len();
+                laid.segments.extend(run);
+                laid.push(&groove, Course::Open, start..laid.segments.len());
             }
         }
         laid

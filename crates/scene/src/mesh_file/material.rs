@@ -113,12 +113,13 @@ impl Own<'_> {
             return Ok(Some(index));
         }
         let index = self.stock.textures.len();
-        self.stock.textures.push(self.read_image(&image, srgb)?);
+        let texture = self.read_image(&image, srgb)?;
+        self.stock.textures.push(texture);
         self.textures.insert(key, index);
         Ok(Some(index))
     }
 
-    fn read_image(&self, image: &gltf::Image, srgb: bool) -> Result<Texture, Flaw> {
+    fn read_image(&mut self, image: &gltf::Image, srgb: bool) -> Result<Texture, Flaw> {
         let what = format!("image {}", image.index());
         let decode = |bytes: &[u8]| {
             texture::decode(bytes, srgb).map_err(|error| {
@@ -130,7 +131,9 @@ impl Own<'_> {
         };
         match image.source() {
             gltf::image::Source::View { view, .. } => decode(self.buffers.view(&view)?),
-            gltf::image::Source::Uri { uri, .. } => decode(&resource(uri, self.base_dir, &what)?),
+            gltf::image::Source::Uri { uri, .. } => {
+                decode(&resource(uri, self.base_dir, &what, self.stock.files)?)
+            }
         }
     }
 }

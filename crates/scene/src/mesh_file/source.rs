@@ -1,6 +1,6 @@
 //! The bytes that a glTF file refers to: its own binary chunk, other files, data URIs.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use gltf::Gltf;
 
@@ -10,11 +10,15 @@ use super::Flaw;
 pub(super) struct Buffers(Vec<Vec<u8>>);
 
 impl Buffers {
-    pub(super) fn read(gltf: &Gltf, base_dir: &Path) -> Result<Self, Flaw> {
+    pub(super) fn read(
+        gltf: &Gltf,
+        base_dir: &Path,
+        files: &mut Vec<PathBuf>,
+    ) -> Result<Self, Flaw> {
         let read = |buffer: gltf::Buffer| {
             let what = format!("buffer {}", buffer.index());
             let bytes = match buffer.source() {
-                gltf::buffer::Source::Uri(uri) => resource(uri, base_dir, &what)?,
+                gltf::buffer::Source::Uri(uri) => resource(uri, base_dir, &what, files)?,
                 gltf::buffer::Source::Bin => gltf.blob.clone().ok_or_else(|| {
                     Flaw::new(
                         format!("its {what} has neither a `uri` nor a binary chunk"),
@@ -51,8 +55,13 @@ impl Buffers {
     }
 }
 
-/// What a URI of a glTF file stands for: a data URI or a file beside it.
-pub(super) fn resource(uri: &str, base_dir: &Path, what: &str) -> Result<Vec<u8>, Flaw> {
+/// What a URI of a glTF file stands for: a data URI or a file beside it, which is added to `files`.
+pub(super) fn resource(
+    uri: &str,
+    base_dir: &Path,
+    what: &str,
+    files: &mut Vec<PathBuf>,
+) -> Result<Vec<u8>, Flaw> {
     if uri.starts_with("data:") {
         // The gltf crate decodes what follows `;base64,`.
         return gltf::buffer::Data::from_source(gltf::buffer::Source::Uri(uri), None)
@@ -69,6 +78,7 @@ pub(super) fn resource(uri: &str, base_dir: &Path, what: &str) -> Result<Vec<u8>
         return Err(Flaw::new(format!("its {what} is at \"{uri}\""), right));
     }
     let path = base_dir.join(percent_decoded(uri));
+    files.push(path.clone());
     std::fs::read(&path).map_err(|error| {
         let found = format!(
             "its {what}, \"{}\", cannot be read ({error})",

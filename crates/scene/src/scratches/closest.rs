@@ -1,5 +1,7 @@
 //! The point of a mesh that is nearest to a given one: a tree of boxes over the triangles, split at the median.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 
 use super::walk::Spot;
@@ -9,13 +11,14 @@ use crate::scene::Mesh;
 const LEAF: usize = 8;
 
 /// A tree over a mesh's triangles. Node i has the children 2 i + 1 and 2 i + 2, each with half of its triangles.
-pub(super) struct Closest<'a> {
-    mesh: &'a Mesh,
+#[derive(Debug)]
+pub(super) struct Closest {
+    mesh: Arc<Mesh>,
     triangles: Vec<u32>,
     nodes: Vec<Bounds>,
 }
 
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 struct Bounds {
     least: DVec3,
     most: DVec3,
@@ -32,12 +35,12 @@ impl Bounds {
     }
 }
 
-impl<'a> Closest<'a> {
+impl Closest {
     /// `mesh` must have a triangle.
-    pub(super) fn new(mesh: &'a Mesh) -> Self {
+    pub(super) fn new(mesh: Arc<Mesh>) -> Self {
         let mut tree = Self {
-            mesh,
             triangles: (0..mesh.triangles.len() as u32).collect(),
+            mesh,
             nodes: Vec::new(),
         };
         tree.split(0, 0, tree.triangles.len());
@@ -48,7 +51,7 @@ impl<'a> Closest<'a> {
         if self.nodes.len() <= node {
             self.nodes.resize(node + 1, Bounds::EMPTY);
         }
-        let mesh = self.mesh;
+        let mesh = &self.mesh;
         let corners = |t: &u32| mesh.corners_m(*t as usize);
         self.nodes[node] =
             self.triangles[first..end]
@@ -140,7 +143,8 @@ mod tests {
     fn finds_what_a_search_through_all_finds() {
         let mut mesh = Mesh::default();
         shape::sphere(0.1).bake(&DMat4::from_scale(DVec3::new(1.0, 2.0, 0.5)), 0, &mut mesh);
-        let tree = Closest::new(&mesh);
+        let mesh = Arc::new(mesh);
+        let tree = Closest::new(mesh.clone());
         for i in 0..50 {
             let angle = f64::from(i);
             let point = DVec3::new(angle.sin(), angle.cos(), (2.0 * angle).sin()) * 0.15;

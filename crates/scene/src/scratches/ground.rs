@@ -1,29 +1,41 @@
 //! The surface that scratches are laid on, made ready for it.
 
+use std::sync::{Arc, OnceLock};
+
 use glam::{DMat4, DVec3};
 
+use super::closest::Closest;
 use super::facet::Facet;
 use super::neighbours::Neighbours;
 use super::random::Stream;
 use super::walk::{Spot, Walker};
+use crate::description::Distribution;
 use crate::scene::Mesh;
 
+/// Half of the usual coherence width.
+const SHORTEST_M: f64 = 10e-6;
+/// A longer scratch only goes over itself again; relative to the object's diagonal.
+const LONGEST: f64 = 100.0;
+
 /// A mesh with all that laying needs to know about it.
-pub(super) struct Ground<'a> {
-    pub mesh: &'a Mesh,
+#[derive(Debug)]
+pub(crate) struct Ground {
+    pub(super) mesh: Arc<Mesh>,
     /// The object's own frame, in which patterns are described.
-    pub world_from_object: DMat4,
+    pub(super) world_from_object: DMat4,
     /// The corner of its bounding box with the least coordinates.
-    pub corner_m: DVec3,
+    pub(super) corner_m: DVec3,
     /// The length of the box's diagonal.
-    pub diagonal_m: f64,
+    pub(super) diagonal_m: f64,
     neighbours: Neighbours,
     /// The area of all triangles up to and including each.
     areas_m2: Vec<f64>,
+    /// Made when it is asked for: few layers need it.
+    closest: OnceLock<Closest>,
 }
 
-impl<'a> Ground<'a> {
-    pub(super) fn new(mesh: &'a Mesh, world_from_object: DMat4) -> Self {
+impl Ground {
+    pub(crate) fn new(mesh: Arc<Mesh>, world_from_object: DMat4) -> Self {
         let mut sum = 0.0;
         let areas_m2 = (0..mesh.triangles.len())
             .map(|triangle| {
@@ -34,12 +46,13 @@ impl<'a> Ground<'a> {
             .collect();
         let (least, most) = mesh.bounds_m();
         Self {
+            neighbours: Neighbours::new(&mesh),
             mesh,
             world_from_object,
             corner_m: least.as_dvec3(),
             diagonal_m: f64::from((most - least).length()),
-            neighbours: Neighbours::new(mesh),
             areas_m2,
+            closest: OnceLock::new(),
         }
     }
 
@@ -48,7 +61,18 @@ impl<'a> Ground<'a> {
     }
 
     pub(super) fn walker(&self) -> Walker<'_> {
-        Walker::new(self.mesh, &self.neighbours)
+        Walker::new(&self.mesh, &self.neighbours)
+    }
+
+    /// The nearest places on the surface.
+    pub(super) fn closest(&self) -> &Closest {
+        self.closest.get_or_init(|| Closest::new(self.mesh.clone()))
+    }
+
+    /// A length that lies `normal` standard deviations from the mean, kept within what this surface has a use for.
+    pub(super) fn scratch_length_m(&self, drawn: &Distribution, normal: f64) -> f64 {
+        let longest_m = (LONGEST * self.diagonal_m).max(SHORTEST_M);
+        drawn.log_normal_at(normal).clamp(SHORTEST_M, longest_m)
     }
 
     /// A place on the surface, each area alike.
@@ -57,7 +81,7 @@ impl<'a> Ground<'a> {
         let triangle = self.areas_m2.partition_point(|area| *area <= wanted);
         // Rounding may carry the product up to the whole area.
         let triangle = triangle.min(self.areas_m2.len() - 1) as u32;
-        let [a, b, c] = Facet::new(self.mesh, triangle).corners_m;
+        let [a, b, c] = Facet::new(&self.mesh, triangle).corners_m;
         // The square root makes the density even over the triangle.
         let from_a = libm::sqrt(stream.uniform());
         let to_c = stream.uniform();

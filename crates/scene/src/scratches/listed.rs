@@ -2,7 +2,6 @@
 
 use std::path::Path;
 
-use super::closest::Closest;
 use super::ground::Ground;
 use super::guide::Guide;
 use super::walk::{Course, Walker};
@@ -105,18 +104,16 @@ fn parse_row(line: usize, row: &str) -> Result<Row, Error> {
 /// Rows with the ground that they go on.
 pub(super) struct Listed<'a> {
     rows: Vec<Row>,
-    ground: &'a Ground<'a>,
-    closest: Closest<'a>,
+    ground: &'a Ground,
 }
 
 impl<'a> Listed<'a> {
     /// Refuses rows that do not lie on the surface.
-    pub(super) fn new(rows: Vec<Row>, path: &Path, ground: &'a Ground<'a>) -> Result<Self, Error> {
-        let closest = Closest::new(ground.mesh);
+    pub(super) fn new(rows: Vec<Row>, path: &Path, ground: &'a Ground) -> Result<Self, Error> {
         let tolerance_m = OFF_SURFACE * ground.diagonal_m;
         for row in &rows {
             for (end, prefix) in row.ends_m.iter().zip(["x0_m", "x1_m"]) {
-                let (_, distance_m) = closest.find(ground.point_in_world_m(*end));
+                let (_, distance_m) = ground.closest().find(ground.point_in_world_m(*end));
                 if distance_m > tolerance_m {
                     let found =
                         format!("found a point {distance_m:.3e} m off the object's surface");
@@ -127,11 +124,7 @@ impl<'a> Listed<'a> {
                 }
             }
         }
-        Ok(Self {
-            rows,
-            ground,
-            closest,
-        })
+        Ok(Self { rows, ground })
     }
 
     pub(super) fn count(&self) -> u64 {
@@ -142,9 +135,11 @@ impl<'a> Listed<'a> {
 impl Laying for Listed<'_> {
     fn lay(&self, walker: &Walker, index: u64, segments: &mut Vec<Segment>) -> Groove {
         let row = &self.rows[index as usize];
-        let [(start, _), (end, _)] = row
-            .ends_m
-            .map(|point| self.closest.find(self.ground.point_in_world_m(point)));
+        let [(start, _), (end, _)] = row.ends_m.map(|point| {
+            self.ground
+                .closest()
+                .find(self.ground.point_in_world_m(point))
+        });
         let guide = Guide::Towards { end_m: end.point_m };
         let length_m = LONGEST_WAY * start.point_m.distance(end.point_m);
         walker.lay_from(start, &guide, length_m, segments);

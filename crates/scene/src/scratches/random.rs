@@ -16,15 +16,16 @@ use crate::description::Distribution;
 pub(super) struct Stream(Pcg64);
 
 impl Stream {
-    /// The stream of a scratch: streams with different arguments have nothing to do with each other.
-    pub(super) fn new(seed: u64, layer: u64, index: u64) -> Self {
+    /// The stream of a scratch: streams with different arguments have nothing to do with each other. `number` tells layers of
+    /// one object and one seed apart.
+    pub(super) fn new(seed: u64, number: u64, index: u64) -> Self {
         // PCG's own streams are correlated when their numbers are, so the state is scrambled too.
-        let low = mixed(mixed(mixed(seed) ^ layer) ^ index);
+        let low = mixed(mixed(mixed(seed) ^ number) ^ index);
         let high = mixed(low ^ seed);
         let state = (u128::from(high) << 64) | u128::from(low);
         Self(Pcg64::new(
             state,
-            (u128::from(layer) << 64) | u128::from(index),
+            (u128::from(number) << 64) | u128::from(index),
         ))
     }
 

@@ -12,7 +12,7 @@ const LATTICE_STREAMS: u64 = 1 << 63;
 /// The centres of a layer.
 pub(super) struct Lattice {
     pub seed: u64,
-    pub layer: u64,
+    pub number: u64,
     pub cell_m: f64,
     /// A corner of a cell.
     pub origin_m: DVec3,
@@ -46,7 +46,7 @@ impl Lattice {
             .to_array()
             .iter()
             .fold(0, |number, c| (number << 20) | (*c as u64 & 0xf_ffff));
-        let mut stream = Stream::new(self.seed, self.layer, LATTICE_STREAMS | number);
+        let mut stream = Stream::new(self.seed, self.number, LATTICE_STREAMS | number);
         let within = DVec3::new(stream.uniform(), stream.uniform(), stream.uniform());
         self.origin_m + (cell.as_dvec3() + within) * self.cell_m
     }

@@ -43,7 +43,8 @@ struct Piece {
 pub(super) struct Walker<'a> {
     mesh: &'a Mesh,
     neighbours: &'a Neighbours,
-    shortest_piece_m: f64,
+    /// Shorter pieces are left out.
+    pub(super) shortest_piece_m: f64,
 }
 
 /// What a walk left behind besides its segments.
@@ -229,7 +230,8 @@ impl<'a> Walker<'a> {
         }
     }
 
-    fn segment(&self, start_m: DVec3, end_m: DVec3, triangle: u32) -> Segment {
+    /// A piece of a triangle with the shading normal at its middle.
+    pub(super) fn segment(&self, start_m: DVec3, end_m: DVec3, triangle: u32) -> Segment {
         let facet = Facet::new(self.mesh, triangle);
         let weights = facet.barycentric((start_m + end_m) / 2.0);
         let corners = self.mesh.triangles[triangle as usize];

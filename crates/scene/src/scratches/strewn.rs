@@ -1,4 +1,4 @@
-//! A layer whose scratches are drawn at random along a pattern.
+//! A layer whose scratches are strewn over the whole surface at random, along a pattern.
 
 use std::f64::consts::TAU;
 
@@ -8,47 +8,38 @@ use super::guide::{Bearing, Guide};
 use super::random::Stream;
 use super::swirl::Lattice;
 use super::walk::{Spot, Walker};
-use super::{DEPTHS_NM, Groove, Laying, WIDTHS_UM};
+use super::{Groove, Laying, scratch_depth_nm, scratch_width_um};
 use crate::description::{Around, Laid, Pattern};
 use crate::scene::Segment;
 
-/// Half of the usual coherence width.
-const SHORTEST_M: f64 = 10e-6;
-/// A longer scratch only goes over itself again; relative to the object's diagonal.
-const LONGEST: f64 = 100.0;
-
 /// A layer's description with the ground that it goes on.
-pub(super) struct Drawn<'a> {
+pub(super) struct Strewn<'a> {
     pub laid: &'a Laid,
-    pub layer: u32,
-    pub ground: &'a Ground<'a>,
+    /// Tells layers of one seed apart.
+    pub number: u64,
+    pub ground: &'a Ground,
 }
 
-impl Laying for Drawn<'_> {
+impl Laying for Strewn<'_> {
     fn lay(&self, walker: &Walker, index: u64, segments: &mut Vec<Segment>) -> Groove {
         let laid = self.laid;
-        let mut stream = Stream::new(laid.seed, self.layer.into(), index);
+        let mut stream = Stream::new(laid.seed, self.number, index);
         // Everything is drawn for every pattern, in this order: a layer that changes its pattern keeps its places and sizes.
         let seed = self.ground.random_spot(&mut stream);
         let seed_angle_rad = TAU * stream.uniform();
         let [length, width, depth, curvature, jitter] = std::array::from_fn(|_| stream.normal());
 
-        let within = |value: f64, (least, most): (f64, f64)| value.clamp(least, most);
-        let lengths_m = (
-            SHORTEST_M,
-            (LONGEST * self.ground.diagonal_m).max(SHORTEST_M),
-        );
-        let length_m = within(laid.length_m.log_normal_at(length), lengths_m);
+        let length_m = self.ground.scratch_length_m(&laid.length_m, length);
         let guide = self.guide(seed, seed_angle_rad, curvature, jitter);
         Groove {
-            width_um: within(laid.width_um.log_normal_at(width), WIDTHS_UM) as f32,
-            depth_nm: within(laid.depth_nm.log_normal_at(depth), DEPTHS_NM) as f32,
+            width_um: scratch_width_um(&laid.width_um, width, 1.0),
+            depth_nm: scratch_depth_nm(&laid.depth_nm, depth, 1.0),
             course: walker.lay(seed, &guide, length_m, segments),
         }
     }
 }
 
-impl Drawn<'_> {
+impl Strewn<'_> {
     /// `curvature` and `jitter` are standard normal draws.
     fn guide(&self, seed: Spot, seed_angle_rad: f64, curvature: f64, jitter: f64) -> Guide {
         let around = |around: &Around, bearing| Guide::Around {
@@ -59,7 +50,7 @@ impl Drawn<'_> {
         };
         match &self.laid.pattern {
             Pattern::Random { curvature_per_m } => Guide::Free {
-                seed_direction: Facet::new(self.ground.mesh, seed.triangle)
+                seed_direction: Facet::new(&self.ground.mesh, seed.triangle)
                     .direction(seed_angle_rad),
                 curvature_per_m: curvature_per_m.normal_at(curvature),
             },
@@ -92,10 +83,10 @@ impl Drawn<'_> {
     }
 
     fn swirl(&self, seed: Spot, seed_angle_rad: f64, cell_m: f64, wanted_per_m: f64) -> Guide {
-        let facet = Facet::new(self.ground.mesh, seed.triangle);
+        let facet = Facet::new(&self.ground.mesh, seed.triangle);
         let lattice = Lattice {
             seed: self.laid.seed,
-            layer: self.layer.into(),
+            number: self.number,
             cell_m,
             origin_m: self.ground.corner_m,
         };

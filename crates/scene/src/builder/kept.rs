@@ -1,0 +1,265 @@
+//! What a build leaves for the next one, and how that finds it.
+
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, OnceLock};
+use std::time::SystemTime;
+
+use glam::DMat4;
+
+use crate::description::{self, Layer, Stroke, Surface};
+use crate::error::Error;
+use crate::mesh_file::{self, Stock};
+use crate::scene::{Material, Mesh, Scratch, Segment, Texture};
+use crate::scratches::{self, Ground, Laid};
+use crate::{Environment, shape};
+
+/// What the last build left.
+#[derive(Default)]
+pub(super) struct Kept {
+    pub surfaces: Vec<Arc<KeptSurface>>,
+    pub textures: Textures,
+    /// The map with no rotation, intensity 1.
+    pub map: Option<(Stamp, Environment)>,
+    pub layers: Vec<Arc<KeptLayer>>,
+    pub objects: Vec<Together>,
+}
+
+/// What is known of a file without reading it; equal stamps, equal contents. What cannot be told is `None`.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Stamp {
+    path: PathBuf,
+    changed: Option<SystemTime>,
+    length: Option<u64>,
+}
+
+impl Stamp {
+    pub(super) fn of(path: &Path) -> Self {
+        let metadata = std::fs::metadata(path).ok();
+        Self {
+            path: path.to_owned(),
+            changed: metadata.as_ref().and_then(|m| m.modified().ok()),
+            length: metadata.map(|m| m.len()),
+        }
+    }
+
+    fn is_current(&self) -> bool {
+        *self == Self::of(&self.path)
+    }
+}
+
+/// What an object's triangles depend on, but for the numbers of their materials.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct SurfaceKey {
+    surface: Surface,
+    /// Whether the file's own materials are kept.
+    owns_materials: bool,
+    world_from_object: DMat4,
+    /// The file, if it is one.
+    file: Option<Stamp>,
+}
+
+impl SurfaceKey {
+    pub(super) fn new(object: &description::Object, base_dir: &Path) -> Self {
+        let file = match &object.surface {
+            Surface::Shape(_) => None,
+            Surface::Mesh(file) => Some(Stamp::of(&base_dir.join(file))),
+        };
+        Self {
+            surface: object.surface.clone(),
+            owns_materials: object.material.is_none(),
+            world_from_object: object.world_from_object(),
+            file,
+        }
+    }
+}
+
+/// An object's surface with what it brings along.
+pub(super) struct KeptSurface {
+    key: SurfaceKey,
+    /// Files that the mesh's file refers to.
+    others: Vec<Stamp>,
+    /// Its triangles' materials count from `first_material`.
+    pub mesh: Arc<Mesh>,
+    first_material: u32,
+    /// The file's own; their textures count from 0.
+    pub materials: Arc<Vec<Material>>,
+    pub textures: Arc<Vec<Texture>>,
+    /// Laying does not look at materials, so one serves all numbers of them.
+    ground: Arc<OnceLock<Arc<Ground>>>,
+}
+
+impl KeptSurface {
+    /// `key` is the way to the object in the scene file.
+    pub(super) fn read(
+        surface_key: SurfaceKey,
+        object: &description::Object,
+        key: &str,
+    ) -> Result<Self, Error> {
+        let (mut materials, mut textures) = (Vec::new(), Vec::new());
+        let mut files = Vec::new();
+        let transform = &surface_key.world_from_object;
+        let mesh = match (&surface_key.surface, &surface_key.file) {
+            (Surface::Mesh(file), Some(stamp)) => {
+                let stock = Stock {
+                    materials: &mut materials,
+                    textures: &mut textures,
+                    files: &mut files,
+                };
+                let material = (!surface_key.owns_materials).then_some(0);
+                mesh_file::read(&stamp.path, material, transform, stock).map_err(|flaw| {
+                    let found = format!("\"{}\": {}", file.display(), flaw.found);
+                    Error::new(format!("{key}.mesh"), found, flaw.right)
+                })?
+            }
+            (Surface::Shape(shape), _) => {
+                let mut mesh = Mesh::default();
+                shape::surface(shape).bake(transform, 0, &mut mesh);
+                mesh
+            }
+            (Surface::Mesh(_), None) => unreachable!("a file has a stamp"),
+        };
+        if mesh.triangles.is_empty() {
+            let found = format!(
+                "found no surface: every triangle of \"{}\" has zero area",
+                object.name
+            );
+            let right = "must have triangles that span an area";
+            return Err(Error::new(key, found, right));
+        }
+        Ok(Self {
+            key: surface_key,
+            others: files.iter().map(|path| Stamp::of(path)).collect(),
+            mesh: Arc::new(mesh),
+            first_material: 0,
+            materials: Arc::new(materials),
+            textures: Arc::new(textures),
+            ground: Arc::default(),
+        })
+    }
+
+    /// The surface with its materials numbered from `first` on.
+    pub(super) fn with_materials_from(self: Arc<Self>, first: u32) -> Arc<Self> {
+        if self.first_material == first {
+            return self;
+        }
+        let renumber = |mesh: &mut Mesh| {
+            for material in &mut mesh.triangle_materials {
+                *material = *material - self.first_material + first;
+            }
+        };
+        let mut mesh = Mesh::clone(&self.mesh);
+        renumber(&mut mesh);
+        Arc::new(Self {
+            key: self.key.clone(),
+            others: self.others.clone(),
+            mesh: Arc::new(mesh),
+            first_material: first,
+            materials: self.materials.clone(),
+            textures: self.textures.clone(),
+            ground: self.ground.clone(),
+        })
+    }
+
+    pub(super) fn ground(&self) -> &Arc<Ground> {
+        self.ground.get_or_init(|| {
+            let transform = self.key.world_from_object;
+            Arc::new(Ground::new(self.mesh.clone(), transform))
+        })
+    }
+
+    pub(super) fn ground_if_made(&self) -> Option<&Arc<Ground>> {
+        self.ground.get()
+    }
+}
+
+/// The textures of several surfaces, one after the other.
+#[derive(Clone, Default)]
+pub(super) struct Textures {
+    parts: Vec<Arc<Vec<Texture>>>,
+    pub together: Arc<Vec<Texture>>,
+}
+
+/// A layer's scratches with all that they depend on.
+pub(super) struct KeptLayer {
+    pub layer: Layer,
+    pub strokes: Vec<Stroke>,
+    pub number: u64,
+    pub ground: Arc<Ground>,
+    /// The file that it was read from, if any.
+    pub file: Option<Stamp>,
+    pub laid: Laid,
+}
+
+/// The scratches of all layers of an object.
+#[derive(Clone)]
+pub(super) struct Together {
+    /// The layers with their places in the scene file.
+    layers: Vec<(u32, Arc<KeptLayer>)>,
+    pub scratches: Arc<Vec<Scratch>>,
+    pub segments: Arc<Vec<Segment>>,
+}
+
+impl Kept {
+    pub(super) fn surface(&self, key: &SurfaceKey) -> Option<Arc<KeptSurface>> {
+        let alike = |kept: &&Arc<KeptSurface>| {
+            kept.key == *key && kept.others.iter().all(Stamp::is_current)
+        };
+        self.surfaces.iter().find(alike).cloned()
+    }
+
+    pub(super) fn map(&self, stamp: &Stamp) -> Option<Environment> {
+        let (_, map) = self.map.as_ref().filter(|(kept, _)| kept == stamp)?;
+        Some(map.clone())
+    }
+
+    pub(super) fn textures(&self, parts: Vec<Arc<Vec<Texture>>>) -> Textures {
+        let kept = &self.textures;
+        if same(&kept.parts, &parts, Arc::ptr_eq) {
+            return kept.clone();
+        }
+        let together = match parts.as_slice() {
+            [only] => only.clone(),
+            parts => Arc::new(parts.iter().flat_map(|part| part.iter().cloned()).collect()),
+        };
+        Textures { parts, together }
+    }
+
+    pub(super) fn layer(
+        &self,
+        table: &description::Scratches,
+        number: u64,
+        ground: &Arc<Ground>,
+        file: &Option<Stamp>,
+    ) -> Option<Arc<KeptLayer>> {
+        let alike = |kept: &&Arc<KeptLayer>| {
+            Arc::ptr_eq(&kept.ground, ground)
+                && kept.number == number
+                && kept.layer == table.layer
+                && kept.strokes == table.strokes
+                && kept.file == *file
+        };
+        self.layers.iter().find(alike).cloned()
+    }
+
+    /// The scratches of all layers of one object, each with its place in the scene file.
+    pub(super) fn together(&self, layers: Vec<(u32, Arc<KeptLayer>)>) -> Result<Together, Error> {
+        let alike = |kept: &&Together| {
+            same(&kept.layers, &layers, |a, b| {
+                a.0 == b.0 && Arc::ptr_eq(&a.1, &b.1)
+            })
+        };
+        if let Some(kept) = self.objects.iter().find(alike) {
+            return Ok(kept.clone());
+        }
+        let laid = scratches::put_together(layers.iter().map(|(i, kept)| (*i, &kept.laid)))?;
+        Ok(Together {
+            layers,
+            scratches: Arc::new(laid.scratches),
+            segments: Arc::new(laid.segments),
+        })
+    }
+}
+
+fn same<T>(a: &[T], b: &[T], equal: impl Fn(&T, &T) -> bool) -> bool {
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| equal(a, b))
+}

@@ -1,0 +1,277 @@
+//! What the strokes of an eraser leave of a scratch: it is cut exactly at the brush's edge.
+//!
+//! Between two of its points a stroke covers a capsule: all that lies within the radius of the line between them. A capsule is
+//! convex, so it covers one interval of a straight segment. A tree of boxes (obvhs) finds the capsules near a segment.
+
+use glam::DVec3;
+use obvhs::Boundable;
+use obvhs::BvhBuildParams;
+use obvhs::aabb::Aabb;
+use obvhs::bvh2::Bvh2;
+use obvhs::bvh2::builder::build_bvh2;
+
+use super::facet::Facet;
+use super::ground::Ground;
+use super::painted::world_points_m;
+use super::walk::{Course, Walker};
+use crate::description::{Brush, Stroke};
+use crate::scene::Segment;
+
+/// All erasing strokes of a layer.
+pub(super) struct Eraser {
+    capsules: Vec<Capsule>,
+    tree: Bvh2,
+}
+
+/// A straight piece of a stroke.
+struct Capsule {
+    ends_m: [DVec3; 2],
+    radius_m: f64,
+    /// The surface under its ends: what faces away from both is on another side of the object.
+    normals: [DVec3; 2],
+    /// The stroke's place among all strokes.
+    stroke: usize,
+}
+
+impl Eraser {
+    /// `None` where no stroke erases.
+    pub(super) fn new(strokes: &[Stroke], ground: &Ground) -> Option<Self> {
+        let mut capsules = Vec::new();
+        for (i, stroke) in strokes.iter().enumerate() {
+            if stroke.brush != Brush::Erase {
+                continue;
+            }
+            let mut points_m = world_points_m(stroke, ground);
+            if let [only] = points_m[..] {
+                points_m.push(only);
+            }
+            let normals: Vec<_> = points_m
+                .iter()
+                .map(|p| {
+                    let (spot, _) = ground.closest().find(*p);
+                    Facet::new(&ground.mesh, spot.triangle).normal
+                })
+                .collect();
+            for (ends_m, normals) in points_m.windows(2).zip(normals.windows(2)) {
+                capsules.push(Capsule {
+                    ends_m: [ends_m[0], ends_m[1]],
+                    radius_m: stroke.radius_m,
+                    normals: [normals[0], normals[1]],
+                    stroke: i,
+                });
+            }
+        }
+        (!capsules.is_empty()).then(|| {
+            let params = BvhBuildParams::medium_build();
+            let tree = build_bvh2(&capsules, params, &mut std::time::Duration::default());
+            Self { capsules, tree }
+        })
+    }
+
+    /// What is left of a scratch that `strokes_before` strokes came before, in runs of joined segments; `None` where it is
+    /// untouched.
+    pub(super) fn rest(
+        &self,
+        walker: &Walker,
+        strokes_before: usize,
+        course: Course,
+        segments: &[Segment],
+    ) -> Option<Vec<Vec<Segment>>> {
+        let erased: Vec<_> = segments
+            .iter()
+            .map(|segment| self.erased(segment, strokes_before))
+            .collect();
+        if erased.iter().all(Vec::is_empty) {
+            return None;
+        }
+        let mut runs = vec![Vec::new()];
+        let mut push = |segment: Option<Segment>| match (segment, runs.last_mut()) {
+            (Some(segment), Some(run)) => run.push(segment),
+            (None, Some(run)) if !run.is_empty() => runs.push(Vec::new()),
+            _ => {}
+        };
+        for (segment, erased) in segments.iter().zip(&erased) {
+            let mut from = 0.0;
+            for &[start, end] in erased {
+                push(part(walker, segment, [from, start]));
+                push(None);
+                from = end;
+            }
+            push(part(walker, segment, [from, 1.0]));
+        }
+        if runs.last().is_some_and(Vec::is_empty) {
+            runs.pop();
+        }
+        // A ring that is cut begins and ends at its cuts, and not where its list of segments does.
+        if course == Course::Closed
+            && let [first, .., last] = runs.as_mut_slice()
+            && last.last().map(|s| s.end_m) == first.first().map(|s| s.start_m)
+        {
+            last.append(first);
+            runs.swap_remove(0);
+        }
+        Some(runs)
+    }
+
+    /// The parts of a segment that are erased, from 0 to 1, in order and apart.
+    fn erased(&self, segment: &Segment, strokes_before: usize) -> Vec<[f64; 2]> {
+        let [start, end] = [segment.start_m, segment.end_m].map(|p| p.as_dvec3());
+        let normal = segment.normal.as_dvec3();
+        let mut parts: Vec<[f64; 2]> = Vec::new();
+        let bounds = Aabb::from_points(&[segment.start_m.into(), segment.end_m.into()]);
+        self.tree.aabb_traverse(bounds, |tree, node| {
+            let node = &tree.nodes[node as usize];
+            let own = node.first_index as usize..(node.first_index + node.prim_count) as usize;
+            for &i in &tree.primitive_indices[own] {
+                let capsule = &self.capsules[i as usize];
+                let is_after = capsule.stroke >= strokes_before;
+                if is_after && capsule.normals.iter().any(|n| n.dot(normal) >= 0.0) {
+                    parts.extend(capsule.covered(start, end));
+                }
+            }
+            true
+        });
+        parts.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]));
+        parts.dedup_by(|next, last| {
+            let joins = next[0] <= last[1];
+            if joins {
+                last[1] = last[1].max(next[1]);
+            }
+            joins
+        });
+        parts
+    }
+}
+
+/// A part of a segment, if it is long enough to matter.
+fn part(walker: &Walker, segment: &Segment, [from, to]: [f64; 2]) -> Option<Segment> {
+    if [from, to] == [0.0, 1.0] {
+        return Some(*segment);
+    }
+    let [start, end] = [segment.start_m, segment.end_m].map(|p| p.as_dvec3());
+    if !((to - from) * start.distance(end) >= walker.shortest_piece_m) {
+        return None;
+    }
+    let cut = walker.segment(start.lerp(end, from), start.lerp(end, to), segment.triangle);
+    Some(Segment {
+        // Joints stay as they are, to the last bit.
+        start_m: if from == 0.0 {
+            segment.start_m
+        } else {
+            cut.start_m
+        },
+        end_m: if to == 1.0 { segment.end_m } else { cut.end_m },
+        ..cut
+    })
+}
+
+impl Capsule {
+    /// The part of a line from `start` to `end` that is inside, within 0 to 1.
+    fn covered(&self, start: DVec3, end: DVec3) -> Option<[f64; 2]> {
+        let way = end - start;
+        let axis = self.ends_m[1] - self.ends_m[0];
+        let length_m = axis.length();
+        let balls = self
+            .ends_m
+            .iter()
+            .filter_map(|center| ball(start - center, way, self.radius_m));
+        let tube = axis.try_normalize().and_then(|axis| {
+            let offset = start - self.ends_m[0];
+            let (height, rise) = (offset.dot(axis), way.dot(axis));
+            let around = ball(offset - axis * height, way - axis * rise, self.radius_m)?;
+            let between = slab(height, rise, length_m)?;
+            Some([around[0].max(between[0]), around[1].min(between[1])])
+                .filter(|[from, to]| from < to)
+        });
+        // The three overlap, and what they are parts of is convex.
+        let [from, to] = balls
+            .chain(tube)
+            .reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])?;
+        let inside = [from.max(0.0), to.min(1.0)];
+        (inside[0] < inside[1]).then_some(inside)
+    }
+}
+
+/// Where |offset + t way| is below the radius.
+fn ball(offset: DVec3, way: DVec3, radius_m: f64) -> Option<[f64; 2]> {
+    let outside = offset.length_squared() - radius_m * radius_m;
+    let squared = way.length_squared();
+    // Also where nothing changes along the way, but for rounding.
+    if squared <= 1e-24 * radius_m * radius_m {
+        return (outside < 0.0).then_some([f64::NEG_INFINITY, f64::INFINITY]);
+    }
+    let middle = -offset.dot(way) / squared;
+    let half_squared = middle * middle - outside / squared;
+    (half_squared > 0.0).then(|| {
+        let half = libm::sqrt(half_squared);
+        [middle - half, middle + half]
+    })
+}
+
+/// Where height + t rise lies between 0 and `length_m`.
+fn slab(height: f64, rise: f64, length_m: f64) -> Option<[f64; 2]> {
+    if rise.abs() <= 1e-12 * length_m {
+        return (0.0..=length_m)
+            .contains(&height)
+            .then_some([f64::NEG_INFINITY, f64::INFINITY]);
+    }
+    let (a, b) = (-height / rise, (length_m - height) / rise);
+    Some([a.min(b), a.max(b)])
+}
+
+impl Boundable for Capsule {
+    fn aabb(&self) -> Aabb {
+        // A little more than it is, for what single precision rounds away.
+        let [a, b] = self.ends_m;
+        let largest = a.abs().max(b.abs()).max_element() + self.radius_m;
+        let margin = self.radius_m + largest * f64::from(f32::EPSILON);
+        let (least, most) = (a.min(b) - margin, a.max(b) + margin);
+        Aabb::new(least.as_vec3().into(), most.as_vec3().into())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Against points along the line, one by one.
+    #[test]
+    fn what_is_covered_is_what_lies_within_the_radius() {
+        let random = |i: f64| DVec3::new((7.1 * i).sin(), (3.7 * i).cos(), (5.3 * i + 1.0).sin());
+        let mut covered = 0;
+        for i in 0..500 {
+            let i = f64::from(i);
+            let ends_m = match i as u32 % 5 {
+                0 => [random(i), random(i)],
+                _ => [random(i), random(i + 0.5)],
+            };
+            let capsule = Capsule {
+                ends_m,
+                radius_m: 0.3 + 0.2 * (1.9 * i).sin(),
+                normals: [DVec3::Z; 2],
+                stroke: 0,
+            };
+            // Some run along the axis.
+            let start = random(i + 0.25);
+            let end = match i as u32 % 7 {
+                0 => start + 2.0 * (ends_m[1] - ends_m[0]),
+                _ => random(i + 0.75),
+            };
+            let [from, to] = capsule.covered(start, end).unwrap_or([2.0, 2.0]);
+            covered += u32::from(from < 1.0);
+            let axis = ends_m[1] - ends_m[0];
+            for k in 0..=1000 {
+                let t = f64::from(k) / 1000.0;
+                let p = start.lerp(end, t);
+                let share = (p - ends_m[0]).dot(axis) / axis.length_squared().max(1e-300);
+                let nearest = ends_m[0].lerp(ends_m[1], share.clamp(0.0, 1.0));
+                let beyond = p.distance(nearest) - capsule.radius_m;
+                // On the edge itself rounding decides.
+                if beyond.abs() > 1e-9 {
+                    assert_eq!(beyond < 0.0, (from..=to).contains(&t), "{i} {t} {beyond}");
+                }
+            }
+        }
+        assert!(covered > 50 && covered < 450, "{covered}");
+    }
+}

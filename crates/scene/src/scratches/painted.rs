@@ -1,0 +1,218 @@
+//! A layer whose scratches lie along the strokes of a brush.
+//!
+//! Scratches are strewn evenly: each has its own share of the stroke, in which its middle lies anywhere. So a stroke that is
+//! still being drawn keeps the scratches it has.
+
+use std::f64::consts::TAU;
+
+use glam::DVec3;
+
+use super::facet::Facet;
+use super::ground::Ground;
+use super::guide::Guide;
+use super::random::Stream;
+use super::walk::{Course, Spot, Walker};
+use super::{Groove, Laying, scratch_depth_nm, scratch_width_um};
+use crate::description::{Brush, Brushed, Stroke};
+use crate::scene::Segment;
+
+/// The surface may lie this far from the brush, as a multiple of its radius.
+const REACH: f64 = 2.0;
+
+/// A layer's description with the ground that it goes on.
+pub(super) struct Painted<'a> {
+    layer: &'a Brushed,
+    /// Tells layers of one seed apart.
+    number: u64,
+    ground: &'a Ground,
+    paths: Vec<Path>,
+}
+
+/// A stroke that lays scratches.
+struct Path {
+    /// Its place among all strokes.
+    stroke: usize,
+    /// World space; one is a dab.
+    points_m: Vec<DVec3>,
+    /// The length of the stroke until each point.
+    lengths_m: Vec<f64>,
+    radius_m: f64,
+    density_per_m: f64,
+    width: f64,
+    depth: f64,
+    /// How many scratches the strokes before it have.
+    first: u64,
+    count: u64,
+}
+
+/// Where the brush is when it makes a scratch.
+struct Touch {
+    /// Anywhere under the brush, not yet on the surface.
+    point_m: DVec3,
+    /// The surface under the middle of the brush.
+    normal: DVec3,
+    /// Where the brush goes; `None` for a dab.
+    along: Option<DVec3>,
+}
+
+impl<'a> Painted<'a> {
+    pub(super) fn new(
+        layer: &'a Brushed,
+        number: u64,
+        strokes: &[Stroke],
+        ground: &'a Ground,
+    ) -> Self {
+        let mut paths: Vec<Path> = Vec::new();
+        for (i, stroke) in strokes.iter().enumerate() {
+            let first = paths.last().map_or(0, |last| last.first + last.count);
+            paths.extend(Path::new(i, stroke, ground, first));
+        }
+        Self {
+            layer,
+            number,
+            ground,
+            paths,
+        }
+    }
+
+    pub(super) fn count(&self) -> u64 {
+        self.paths.last().map_or(0, |last| last.first + last.count)
+    }
+
+    /// The number of a scratch's stroke among those that lay scratches.
+    fn path(&self, index: u64) -> usize {
+        self.paths.partition_point(|path| path.first <= index) - 1
+    }
+
+    /// The nearest place on the side of the surface that the brush is on.
+    fn land(&self, touch: &Touch, radius_m: f64) -> Option<Spot> {
+        let (spot, distance_m) = self.ground.closest().find(touch.point_m);
+        let normal = Facet::new(&self.ground.mesh, spot.triangle).normal;
+        (distance_m <= REACH * radius_m && normal.dot(touch.normal) >= 0.0).then_some(spot)
+    }
+}
+
+impl Laying for Painted<'_> {
+    fn lay(&self, walker: &Walker, index: u64, segments: &mut Vec<Segment>) -> Groove {
+        let number = self.path(index);
+        let path = &self.paths[number];
+        let nth = index - path.first;
+        // Erasing strokes are not counted, so that they may come and go. Far more scratches than 2^32 fit into no memory.
+        let mut stream = Stream::new(self.layer.seed, self.number, (number as u64) << 32 | nth);
+        let [along, across, angle] = std::array::from_fn(|_| stream.uniform());
+        let [length, width, depth, jitter] = std::array::from_fn(|_| stream.normal());
+
+        let touch = path.touch(self.ground, nth, along, across);
+        if let Some(seed) = self.land(&touch, path.radius_m) {
+            let facet = Facet::new(&self.ground.mesh, seed.triangle);
+            let direction = touch
+                .along
+                .and_then(|along| facet.in_plane(along).try_normalize())
+                .unwrap_or_else(|| facet.direction(TAU * angle));
+            let (sin, cos) = libm::sincos(self.layer.jitter_deg.to_radians() * jitter);
+            let guide = Guide::Free {
+                seed_direction: direction * cos + facet.normal.cross(direction) * sin,
+                curvature_per_m: 0.0,
+            };
+            let length_m = self.ground.scratch_length_m(&self.layer.length_m, length);
+            walker.lay(seed, &guide, length_m, segments);
+        }
+        Groove {
+            width_um: scratch_width_um(&self.layer.width_um, width, path.width),
+            depth_nm: scratch_depth_nm(&self.layer.depth_nm, depth, path.depth),
+            course: Course::Open,
+        }
+    }
+
+    fn strokes_before(&self, index: u64) -> usize {
+        self.paths[self.path(index)].stroke + 1
+    }
+}
+
+impl Path {
+    /// `None` for a stroke that erases.
+    fn new(stroke: usize, description: &Stroke, ground: &Ground, first: u64) -> Option<Self> {
+        let Brush::Paint {
+            density_per_m,
+            width,
+            depth,
+        } = description.brush
+        else {
+            return None;
+        };
+        let points_m = world_points_m(description, ground);
+        let mut lengths_m = vec![0.0];
+        for pair in points_m.windows(2) {
+            lengths_m.push(lengths_m[lengths_m.len() - 1] + pair[0].distance(pair[1]));
+        }
+        let radius_m = description.radius_m;
+        let mut length_m = lengths_m[lengths_m.len() - 1];
+        if points_m.len() == 1 {
+            length_m = 2.0 * radius_m;
+        }
+        Some(Self {
+            stroke,
+            points_m,
+            lengths_m,
+            radius_m,
+            density_per_m,
+            width,
+            depth,
+            first,
+            count: (density_per_m * length_m).round().max(1.0) as u64,
+        })
+    }
+
+    /// Where scratch `nth` of the stroke is made; the last two are uniform draws.
+    fn touch(&self, ground: &Ground, nth: u64, along: f64, across: f64) -> Touch {
+        let normal_at = |point_m| {
+            let (spot, _) = ground.closest().find(point_m);
+            Facet::new(&ground.mesh, spot.triangle).normal
+        };
+        if self.points_m.len() == 1 {
+            return self.dab(normal_at(self.points_m[0]), along, across);
+        }
+        // The last share may reach beyond the end, since the count is rounded.
+        let length_m = self.lengths_m[self.lengths_m.len() - 1];
+        let share_m = (nth as f64 + along) / self.density_per_m;
+        let way_m = match share_m < length_m {
+            true => share_m,
+            false => along * length_m,
+        };
+        let next = self.lengths_m.partition_point(|length| *length <= way_m);
+        let next = next.clamp(1, self.points_m.len() - 1);
+        let (from, to) = (self.points_m[next - 1], self.points_m[next]);
+        let step_m = self.lengths_m[next] - self.lengths_m[next - 1];
+        let middle_m = from.lerp(to, (way_m - self.lengths_m[next - 1]) / step_m);
+        let tangent = (to - from) / step_m;
+        let normal = normal_at(middle_m);
+        let sideways = normal
+            .cross(tangent)
+            .try_normalize()
+            .unwrap_or_else(|| tangent.any_orthonormal_vector());
+        Touch {
+            point_m: middle_m + sideways * (self.radius_m * (2.0 * across - 1.0)),
+            normal,
+            along: Some(tangent),
+        }
+    }
+
+    /// Anywhere in a circle, each area alike.
+    fn dab(&self, normal: DVec3, share: f64, turn: f64) -> Touch {
+        let (x, y) = normal.any_orthonormal_pair();
+        let (sin, cos) = libm::sincos(TAU * turn);
+        Touch {
+            point_m: self.points_m[0] + (x * cos + y * sin) * (self.radius_m * libm::sqrt(share)),
+            normal,
+            along: None,
+        }
+    }
+}
+
+/// A stroke's points in world space, without repetitions.
+pub(super) fn world_points_m(stroke: &Stroke, ground: &Ground) -> Vec<DVec3> {
+    let points = stroke.points_m.iter();
+    let mut points_m: Vec<_> = points.map(|p| ground.point_in_world_m(*p)).collect();
+    points_m.dedup_by(|next, last| next.distance(*last) == 0.0);
+    points_m
+}
