@@ -6,6 +6,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::Arc;
 
 use hairline_scene::Description;
+use hairline_scene::description::{LightKind, Stroke};
 
 use crate::Selection;
 
@@ -154,14 +155,24 @@ fn turn(step: Step, now: State) -> (String, State, Step) {
     (step.label, step.other, back)
 }
 
-/// About what a description takes in memory: names and small lists count as one flat sum for each table.
+/// About what a description takes in memory: the points of strokes and polygons as they are, all else as one flat sum for
+/// each table.
 fn estimated_bytes(description: &Description) -> usize {
     const TABLE_BYTES: usize = 512;
     let tables = description.materials.len()
         + description.objects.len()
         + description.scratches.len()
         + description.lights.len();
-    TABLE_BYTES * (1 + tables)
+    let strokes = description
+        .scratches
+        .iter()
+        .flat_map(|layer| &layer.strokes);
+    let stroke_bytes = strokes.map(|s| size_of::<Stroke>() + size_of_val(&s.points_m[..]));
+    let lights = description.lights.iter().map(|light| match &light.kind {
+        LightKind::Polygon { vertices_m, .. } => size_of_val(&vertices_m[..]),
+        LightKind::Sphere { .. } => 0,
+    });
+    TABLE_BYTES * (1 + tables) + stroke_bytes.sum::<usize>() + lights.sum::<usize>()
 }
 
 #[cfg(test)]

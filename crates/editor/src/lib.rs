@@ -2,13 +2,21 @@
 //! of a panel need to know, and the tools that move cameras and lights or draw scratches.
 //!
 //! The document is a [`Description`](hairline_scene::Description), the scene file itself, so what is edited is what is
-//! saved. Nothing here draws, waits or starts a thread.
+//! saved. Nothing here draws, waits or starts a thread; only opening and saving of a [`Document`], [`autosave`] and
+//! [`recent`] touch files.
 
 pub mod actions;
+pub mod autosave;
+pub mod brush;
 pub mod document;
+pub mod folders;
 mod history;
+pub mod navigate;
 mod paths;
+pub mod place_light;
 pub mod presets;
+pub mod ranges;
+pub mod recent;
 pub mod selection;
 
 pub use actions::ActionError;

@@ -2,9 +2,9 @@
 
 use hairline_scene::Description;
 use hairline_scene::description::limits::LARGEST_SEED;
-use hairline_scene::description::{Layer, Scratches};
+use hairline_scene::description::{Layer, Pattern, Scratches};
 
-use super::ActionError;
+use super::{ActionError, unique_name};
 use crate::Selection;
 use crate::selection::{after_removal, after_swap};
 
@@ -43,7 +43,7 @@ pub fn duplicate(description: &mut Description, index: usize) -> Result<Selectio
 pub fn reseed(description: &mut Description, index: usize) -> Result<Selection, ActionError> {
     get(description, index)?;
     let seed = free_seed(description);
-    if let Some(own) = seed_mut(&mut description.scratches[index]) {
+    if let Some(own) = description.scratches[index].layer.seed_mut() {
         *own = seed;
     }
     Ok(Selection::Layer(index))
@@ -109,6 +109,67 @@ pub fn shift(
     })
 }
 
+/// Gives a layer a name; an empty one takes it away.
+///
+/// # Errors
+/// [`ActionError::Missing`].
+pub fn rename(
+    description: &mut Description,
+    index: usize,
+    name: &str,
+) -> Result<Selection, ActionError> {
+    let name = Some(name.trim()).filter(|name| !name.is_empty());
+    get_mut(description, index)?.name = name.map(str::to_owned);
+    Ok(Selection::Layer(index))
+}
+
+/// Hides a layer or shows it again.
+///
+/// # Errors
+/// [`ActionError::Missing`].
+pub fn toggle_hidden(
+    description: &mut Description,
+    index: usize,
+) -> Result<Selection, ActionError> {
+    let layer = get_mut(description, index)?;
+    layer.hidden = !layer.hidden;
+    Ok(Selection::Layer(index))
+}
+
+/// Makes a layer solo or lets it be one of all again. While any is solo, the scene shows only those.
+///
+/// # Errors
+/// [`ActionError::Missing`].
+pub fn toggle_solo(description: &mut Description, index: usize) -> Result<Selection, ActionError> {
+    let layer = get_mut(description, index)?;
+    layer.solo = !layer.solo;
+    Ok(Selection::Layer(index))
+}
+
+/// Whether the scene shows a layer: it is not hidden, and solo if any layer is.
+pub fn is_shown(description: &Description, index: usize) -> bool {
+    let any_solo = description.scratches.iter().any(|layer| layer.solo);
+    let layer = description.scratches.get(index);
+    layer.is_some_and(|layer| !layer.hidden && (layer.solo || !any_solo))
+}
+
+/// What a list calls a layer: its name, else its pattern.
+pub fn title(layer: &Scratches) -> &str {
+    match (&layer.name, &layer.layer) {
+        (Some(name), _) => name,
+        (None, Layer::Listed(_)) => "scratches of a file",
+        (None, Layer::Brushed(_)) => "drawn scratches",
+        (None, Layer::Laid(laid)) => match laid.pattern {
+            Pattern::Random { .. } => "random scratches",
+            Pattern::Parallel { .. } => "parallel scratches",
+            Pattern::Circular(_) => "circular scratches",
+            Pattern::Radial(_) => "radial scratches",
+            Pattern::Spun { .. } => "spun scratches",
+            Pattern::Swirl { .. } => "swirls",
+        },
+    }
+}
+
 /// Puts a layer on another object.
 ///
 /// # Errors
@@ -127,7 +188,10 @@ pub fn move_to(
 
 /// The least seed above every other: it stays new when layers come and go in between.
 pub fn free_seed(description: &Description) -> u64 {
-    let seeds = description.scratches.iter().filter_map(seed);
+    let seeds = description
+        .scratches
+        .iter()
+        .filter_map(|layer| layer.layer.seed());
     match seeds.clone().max() {
         Some(largest) if largest < LARGEST_SEED => largest + 1,
         Some(_) => (1..)
@@ -139,8 +203,12 @@ pub fn free_seed(description: &Description) -> u64 {
 
 fn insert(description: &mut Description, place: usize, mut layer: Scratches) -> Selection {
     let free = free_seed(description);
-    if let Some(seed) = seed_mut(&mut layer) {
+    if let Some(seed) = layer.layer.seed_mut() {
         *seed = free;
+    }
+    if let Some(name) = &mut layer.name {
+        let others = description.scratches.iter();
+        *name = unique_name(name, others.filter_map(|other| other.name.as_deref()));
     }
     description.scratches.insert(place, layer);
     Selection::Layer(place)
@@ -151,16 +219,7 @@ fn get(description: &Description, index: usize) -> Result<&Scratches, ActionErro
     layer.ok_or(ActionError::Missing("layer"))
 }
 
-fn seed(layer: &Scratches) -> Option<u64> {
-    match &layer.layer {
-        Layer::Laid(laid) => Some(laid.seed),
-        Layer::Listed(_) => None,
-    }
-}
-
-fn seed_mut(layer: &mut Scratches) -> Option<&mut u64> {
-    match &mut layer.layer {
-        Layer::Laid(laid) => Some(&mut laid.seed),
-        Layer::Listed(_) => None,
-    }
+fn get_mut(description: &mut Description, index: usize) -> Result<&mut Scratches, ActionError> {
+    let layer = description.scratches.get_mut(index);
+    layer.ok_or(ActionError::Missing("layer"))
 }

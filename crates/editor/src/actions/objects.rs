@@ -82,7 +82,7 @@ pub fn duplicate(description: &mut Description, index: usize) -> Result<Selectio
         .cloned()
         .collect();
     for layer in &mut layers {
-        layer.object = copy.name.clone();
+        layer.object.clone_from(&copy.name);
     }
     description.scratches.extend(layers);
     description.objects.insert(index + 1, copy);

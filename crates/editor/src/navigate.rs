@@ -1,0 +1,299 @@
+//! Moving the camera: a turntable about its target, as the scene file's own camera, so that a view is saved as it is.
+//!
+//! Pixels count to the right and down, as a pointer moves; `size_px` is the size of the view.
+
+use glam::{DQuat, DVec2, DVec3};
+use hairline_scene::CameraFrame;
+use hairline_scene::description::Camera;
+use hairline_scene::description::limits;
+
+/// A view along `up` has no up, so the poles are kept away from by this: less than a pixel's difference to the eye.
+const POLE_RAD: f64 = 1e-3;
+/// A drag over the whole height turns by this.
+const TURN_PER_HEIGHT_RAD: f64 = std::f64::consts::PI;
+/// What one step of a wheel leaves of the distance.
+const STEP_FACTOR: f64 = 0.88;
+/// The target is never nearer than this, nor farther than that.
+const DISTANCES_M: std::ops::RangeInclusive<f64> = 10.0 * limits::SMALLEST_M..=limits::LARGEST_M;
+/// How much of the view, on its tighter side, a framed box fills.
+const FRAMED_SHARE: f64 = 0.9;
+
+/// Turns the camera about its target by a drag: the surface follows the pointer. Goes no further than above and below the
+/// target.
+pub fn orbit(camera: &mut Camera, drag_px: DVec2, size_px: DVec2) {
+    let per_px = TURN_PER_HEIGHT_RAD / size_px.y.max(1.0);
+    turn(camera, -drag_px.x * per_px);
+    let place = Place::of(camera);
+    let polar_rad = place.polar_rad - drag_px.y * per_px;
+    Place { polar_rad, ..place }.give(camera);
+}
+
+/// Turns the camera about the axis through its target along `up`, counter-clockwise seen from above, at the same height.
+pub fn turn(camera: &mut Camera, angle_rad: f64) {
+    let place = Place::of(camera);
+    Place {
+        outwards: DQuat::from_axis_angle(place.up, angle_rad) * place.outwards,
+        ..place
+    }
+    .give(camera);
+}
+
+/// Moves camera and target by a drag: what lies at the target's depth follows the pointer exactly.
+pub fn pan(camera: &mut Camera, drag_px: DVec2, size_px: DVec2) {
+    let axes = Axes::of(camera);
+    let m_per_px = 2.0 * half_fov_tan(camera) * axes.distance_m / size_px.y.max(1.0);
+    let moved = (axes.up * drag_px.y - axes.right * drag_px.x) * m_per_px;
+    shift(camera, moved);
+}
+
+/// Moves the camera towards its target by steps of a wheel, away from it for negative ones; each step by the same share, so
+/// that it never passes the target.
+pub fn dolly(camera: &mut Camera, steps: f64) {
+    let axes = Axes::of(camera);
+    let distance_m =
+        (axes.distance_m * STEP_FACTOR.powf(steps)).clamp(*DISTANCES_M.start(), *DISTANCES_M.end());
+    let target = DVec3::from(camera.target_m);
+    camera.position_m = (target - axes.forward * distance_m).into();
+}
+
+/// Moves the camera towards a point by steps of a wheel, the target along with it: the point stays where it is in the view.
+pub fn zoom_to(camera: &mut Camera, point_m: DVec3, steps: f64) {
+    let distance_m = Axes::of(camera).distance_m;
+    let wanted = distance_m * STEP_FACTOR.powf(steps);
+    let factor = wanted.clamp(*DISTANCES_M.start(), *DISTANCES_M.end()) / distance_m;
+    for place in [&mut camera.position_m, &mut camera.target_m] {
+        *place = (point_m + (DVec3::from(*place) - point_m) * factor).into();
+    }
+}
+
+/// Makes a point the target, and moves the camera along with it: direction and distance stay.
+pub fn center_on(camera: &mut Camera, point_m: DVec3) {
+    shift(camera, point_m - DVec3::from(camera.target_m));
+}
+
+/// Moves the camera so that a box fills the view, without turning it. The target comes to the depth of the box's middle.
+///
+/// `aspect` is the view's width over its height. A box without extent is only centred; the bounds
+/// of nothing change nothing.
+pub fn frame_box(camera: &mut Camera, low_m: DVec3, high_m: DVec3, aspect: f64) {
+    let middle = 0.5 * (low_m + high_m);
+    let is_box = low_m.is_finite() && high_m.is_finite() && low_m.cmple(high_m).all();
+    if !is_box {
+        return;
+    }
+    if low_m.distance(high_m) < limits::SMALLEST_M {
+        center_on(camera, middle);
+        return;
+    }
+    let axes = Axes::of(camera);
+    let tan_y = half_fov_tan(camera) * FRAMED_SHARE;
+    let tan = DVec2::new(tan_y * aspect.max(1e-3), tan_y);
+    // A corner at (x, z), right of and in front of the middle, is in view from (cx, cz) if |x - cx| <= (z - cz) tan: so
+    // cz <= (min(x + z tan) - max(x - z tan)) / (2 tan) suffices for some cx, and the middle of those cx is the best. Likewise
+    // upwards.
+    let (mut nearest, mut least, mut most) = (f64::INFINITY, DVec2::INFINITY, DVec2::NEG_INFINITY);
+    for corner in corners(low_m, high_m) {
+        let corner = corner - middle;
+        let flat = DVec2::new(corner.dot(axes.right), corner.dot(axes.up));
+        let depth = corner.dot(axes.forward);
+        least = least.min(flat + depth * tan);
+        most = most.max(flat - depth * tan);
+        nearest = nearest.min(depth);
+    }
+    let cz = ((least - most) / (2.0 * tan)).min_element();
+    // Of a box seen along a face without extent nothing holds the camera back from entering it.
+    let cz = cz.min(nearest - *DISTANCES_M.start());
+    let c = 0.5 * (least + most);
+    let position = middle + axes.right * c.x + axes.up * c.y + axes.forward * cz;
+    camera.position_m = position.into();
+    camera.target_m = (position - axes.forward * cz).into();
+}
+
+/// The eight corners of a box.
+pub fn corners(low_m: DVec3, high_m: DVec3) -> [DVec3; 8] {
+    std::array::from_fn(|i| {
+        let pick = |axis: usize, bit: usize| match i >> bit & 1 {
+            0 => low_m[axis],
+            _ => high_m[axis],
+        };
+        DVec3::new(pick(0, 0), pick(1, 1), pick(2, 2))
+    })
+}
+
+/// Where to look from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Viewpoint {
+    /// Where glTF models look to: +z if y is up; -y if z is up.
+    Front,
+    /// Opposite to the front.
+    Back,
+    /// From the left side of the front view.
+    Left,
+    /// From the right side of the front view.
+    Right,
+    /// From where `up` points; the front is at the bottom of the picture.
+    Top,
+    /// From below.
+    Bottom,
+    /// From the front, the right and above at once.
+    ThreeQuarter,
+}
+
+impl Viewpoint {
+    /// Every viewpoint, in the order of a menu.
+    pub const ALL: [Self; 7] = [
+        Self::Front,
+        Self::Back,
+        Self::Left,
+        Self::Right,
+        Self::Top,
+        Self::Bottom,
+        Self::ThreeQuarter,
+    ];
+
+    /// What a menu calls it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Front => "Front",
+            Self::Back => "Back",
+            Self::Left => "Left",
+            Self::Right => "Right",
+            Self::Top => "Top",
+            Self::Bottom => "Bottom",
+            Self::ThreeQuarter => "Three-quarter",
+        }
+    }
+}
+
+/// Moves the camera to a viewpoint, at the same distance from the same target.
+pub fn look_from(camera: &mut Camera, viewpoint: Viewpoint) {
+    let up = unit_up(camera);
+    let front = front_of(up);
+    let right = up.cross(front);
+    const QUARTER_RAD: f64 = std::f64::consts::FRAC_PI_2;
+    let (outwards, polar_rad) = match viewpoint {
+        Viewpoint::Front => (front, QUARTER_RAD),
+        Viewpoint::Back => (-front, QUARTER_RAD),
+        Viewpoint::Left => (-right, QUARTER_RAD),
+        Viewpoint::Right => (right, QUARTER_RAD),
+        Viewpoint::Top => (front, 0.0),
+        Viewpoint::Bottom => (front, std::f64::consts::PI),
+        Viewpoint::ThreeQuarter => ((front + 0.7 * right).normalize(), 1.0),
+    };
+    Place {
+        up,
+        outwards,
+        polar_rad,
+        distance_m: Axes::of(camera).distance_m,
+    }
+    .give(camera);
+}
+
+/// The rays of a view of `size_px`, as the renderers take them.
+pub fn view(camera: &Camera, size_px: [u32; 2]) -> CameraFrame {
+    hairline_scene::Camera {
+        position_m: camera.position_m.into(),
+        target_m: camera.target_m.into(),
+        up: camera.up.into(),
+        fov_y_rad: camera.fov_y_deg.to_radians(),
+        exposure_ev: camera.exposure_ev,
+    }
+    .frame(size_px)
+}
+
+/// Where a point is seen, in pixels from the upper left corner; none behind the camera.
+pub fn project(camera: &Camera, point_m: DVec3, size_px: DVec2) -> Option<DVec2> {
+    let axes = Axes::of(camera);
+    let from_eye = point_m - DVec3::from(camera.position_m);
+    let depth_m = from_eye.dot(axes.forward);
+    if !(depth_m > 0.0) {
+        return None;
+    }
+    let px = 0.5 * size_px.y / (half_fov_tan(camera) * depth_m);
+    let flat = DVec2::new(from_eye.dot(axes.right), -from_eye.dot(axes.up));
+    Some(0.5 * size_px + flat * px)
+}
+
+/// Where the camera stands on the turntable.
+#[derive(Clone, Copy)]
+struct Place {
+    /// Unit.
+    up: DVec3,
+    /// Unit, level: from the axis to the camera.
+    outwards: DVec3,
+    /// From `up` to the direction from the target to the camera.
+    polar_rad: f64,
+    distance_m: f64,
+}
+
+impl Place {
+    fn of(camera: &Camera) -> Self {
+        let axes = Axes::of(camera);
+        let up = unit_up(camera);
+        let to_camera = -axes.forward;
+        let level = to_camera - up * to_camera.dot(up);
+        Self {
+            up,
+            outwards: level.try_normalize().unwrap_or_else(|| front_of(up)),
+            polar_rad: level.length().atan2(to_camera.dot(up)),
+            distance_m: axes.distance_m,
+        }
+    }
+
+    fn give(self, camera: &mut Camera) {
+        let polar_rad = self
+            .polar_rad
+            .clamp(POLE_RAD, std::f64::consts::PI - POLE_RAD);
+        let (sin, cos) = polar_rad.sin_cos();
+        let to_camera = self.up * cos + self.outwards * sin;
+        camera.position_m = (DVec3::from(camera.target_m) + to_camera * self.distance_m).into();
+    }
+}
+
+/// The directions of a view.
+struct Axes {
+    forward: DVec3,
+    right: DVec3,
+    up: DVec3,
+    distance_m: f64,
+}
+
+impl Axes {
+    fn of(camera: &Camera) -> Self {
+        let way = DVec3::from(camera.target_m) - DVec3::from(camera.position_m);
+        let forward = way.normalize_or(DVec3::NEG_Z);
+        let right = forward
+            .cross(unit_up(camera))
+            .try_normalize()
+            .unwrap_or_else(|| forward.any_orthonormal_vector());
+        Self {
+            forward,
+            right,
+            up: right.cross(forward),
+            distance_m: way.length().max(limits::SMALLEST_M),
+        }
+    }
+}
+
+fn unit_up(camera: &Camera) -> DVec3 {
+    DVec3::from(camera.up).normalize_or(DVec3::Y)
+}
+
+/// The level direction that is the front: +z of glTF, whose up is y, and -y where z is up.
+fn front_of(up: DVec3) -> DVec3 {
+    let front = match up.abs().max_position() {
+        1 => DVec3::Z,
+        _ => DVec3::NEG_Y,
+    };
+    (front - up * front.dot(up)).normalize_or(up.any_orthonormal_vector())
+}
+
+fn half_fov_tan(camera: &Camera) -> f64 {
+    (0.5 * camera.fov_y_deg.to_radians()).tan()
+}
+
+fn shift(camera: &mut Camera, by_m: DVec3) {
+    for place in [&mut camera.position_m, &mut camera.target_m] {
+        *place = (DVec3::from(*place) + by_m).into();
+    }
+}

@@ -1,0 +1,229 @@
+//! Lights moved, turned, sized and reshaped by hand, and placed where their highlight is wanted.
+
+use glam::{DQuat, DVec3};
+use hairline_scene::description::limits::{LARGEST_M, SMALLEST_M};
+use hairline_scene::description::{Light, LightKind};
+
+use crate::ActionError;
+
+/// The middle of a light: of a sphere its centre, of a polygon the centroid of its area.
+pub fn center(light: &Light) -> DVec3 {
+    match &light.kind {
+        LightKind::Sphere { center_m, .. } => (*center_m).into(),
+        LightKind::Polygon { vertices_m, .. } => centroid(&points(vertices_m)),
+    }
+}
+
+/// The unit normal of the side on which a polygon shines; none for a sphere.
+pub fn facing(light: &Light) -> Option<DVec3> {
+    match &light.kind {
+        LightKind::Sphere { .. } => None,
+        LightKind::Polygon { vertices_m, .. } => vector_area(&points(vertices_m)).try_normalize(),
+    }
+}
+
+/// Moves a light.
+pub fn translate(light: &mut Light, delta_m: DVec3) {
+    each_point(light, |point| point + delta_m);
+}
+
+/// Turns a light about its middle; a sphere stays as it is.
+pub fn rotate(light: &mut Light, axis: DVec3, angle_rad: f64) {
+    let Some(axis) = axis.try_normalize() else {
+        return;
+    };
+    turn(light, DQuat::from_axis_angle(axis, angle_rad));
+}
+
+/// Scales a light about its middle, as far as lights may be small or large. What it radiates per area stays, so a larger one
+/// lights more.
+pub fn resize(light: &mut Light, factor: f64) {
+    let middle = center(light);
+    let extent_m = match &light.kind {
+        LightKind::Sphere { radius_m, .. } => *radius_m,
+        LightKind::Polygon { vertices_m, .. } => points(vertices_m)
+            .iter()
+            .map(|v| v.distance(middle))
+            .fold(0.0, f64::max),
+    };
+    let wanted_m = (extent_m * factor).clamp(SMALLEST_M, LARGEST_M);
+    if !wanted_m.is_finite() || !(extent_m > 0.0) {
+        return;
+    }
+    match &mut light.kind {
+        LightKind::Sphere { radius_m, .. } => *radius_m = wanted_m,
+        LightKind::Polygon { vertices_m, .. } => {
+            for vertex in vertices_m {
+                let arm = DVec3::from(*vertex) - middle;
+                *vertex = (middle + arm * (wanted_m / extent_m)).into();
+            }
+        }
+    }
+}
+
+/// Moves a light so that an eye sees the middle of its mirror image at a point of a surface. It keeps its distance to the
+/// point and its size; a polygon is turned to face the point, by the shortest way.
+///
+/// The side of the surface is the one that the eye is on. Nothing happens where the point is the eye or the light's middle.
+pub fn place_highlight(light: &mut Light, eye_m: DVec3, point_m: DVec3, normal: DVec3) {
+    let middle = center(light);
+    let distance_m = middle.distance(point_m);
+    let (Some(wo), Some(normal)) = ((eye_m - point_m).try_normalize(), normal.try_normalize())
+    else {
+        return;
+    };
+    if !(distance_m > 0.0) {
+        return;
+    }
+    // Even in the normal: the side does not matter.
+    let wi = 2.0 * wo.dot(normal) * normal - wo;
+    translate(light, point_m + wi * distance_m - middle);
+    face(light, point_m);
+}
+
+/// Turns a polygon about its middle, by the shortest way, until it faces a point. A sphere stays as it is.
+pub fn face(light: &mut Light, point_m: DVec3) {
+    let Some(normal) = facing(light) else {
+        return;
+    };
+    let Some(towards) = (point_m - center(light)).try_normalize() else {
+        return;
+    };
+    let two_sided = matches!(
+        &light.kind,
+        LightKind::Polygon {
+            two_sided: true,
+            ..
+        }
+    );
+    let towards = match two_sided && normal.dot(towards) < 0.0 {
+        true => -towards,
+        false => towards,
+    };
+    turn(light, DQuat::from_rotation_arc(normal, towards));
+}
+
+/// Drags a vertex of a polygon. With more than three it stays in the plane of the polygon, at the place nearest to
+/// `to_m`; three span a plane wherever they are.
+///
+/// # Errors
+/// [`ActionError`], where the polygon would cross itself or lose its area; then it is as it was.
+pub fn move_vertex(light: &mut Light, index: usize, to_m: DVec3) -> Result<(), ActionError> {
+    reshape(light, |vertices| {
+        let n = vertices.len();
+        if index >= n {
+            return Err(ActionError::Missing("vertex"));
+        }
+        let to = match (n > 3, vector_area(vertices).try_normalize()) {
+            (true, Some(normal)) => {
+                // Through the others, so that dragging to and fro does not let the plane drift.
+                let others = vertices.iter().enumerate().filter(|(i, _)| *i != index);
+                let through = others.map(|(_, v)| *v).sum::<DVec3>() / (n - 1) as f64;
+                to_m - normal * (to_m - through).dot(normal)
+            }
+            _ => to_m,
+        };
+        vertices[index] = to;
+        Ok(())
+    })
+}
+
+/// Adds a vertex in the middle of the edge that begins at vertex `edge`; its index is `edge + 1`.
+///
+/// # Errors
+/// [`ActionError`]; then the polygon is as it was.
+pub fn insert_vertex(light: &mut Light, edge: usize) -> Result<(), ActionError> {
+    reshape(light, |vertices| {
+        let a = *vertices.get(edge).ok_or(ActionError::Missing("vertex"))?;
+        let b = vertices[(edge + 1) % vertices.len()];
+        vertices.insert(edge + 1, 0.5 * (a + b));
+        Ok(())
+    })
+}
+
+/// Takes a vertex out.
+///
+/// # Errors
+/// [`ActionError`], where fewer than three would be left or the rest would cross itself; then the polygon is as it was.
+pub fn delete_vertex(light: &mut Light, index: usize) -> Result<(), ActionError> {
+    reshape(light, |vertices| {
+        if index >= vertices.len() {
+            return Err(ActionError::Missing("vertex"));
+        }
+        vertices.remove(index);
+        Ok(())
+    })
+}
+
+/// Changes the vertices of a polygon, unless what comes out is no light.
+fn reshape(
+    light: &mut Light,
+    change: impl FnOnce(&mut Vec<DVec3>) -> Result<(), ActionError>,
+) -> Result<(), ActionError> {
+    let LightKind::Polygon {
+        vertices_m,
+        two_sided,
+    } = &light.kind
+    else {
+        return Err(ActionError::Missing("vertex"));
+    };
+    let mut vertices = points(vertices_m);
+    change(&mut vertices)?;
+    let reshaped = Light {
+        kind: LightKind::Polygon {
+            vertices_m: vertices.into_iter().map(|v| v.to_array()).collect(),
+            two_sided: *two_sided,
+        },
+        ..light.clone()
+    };
+    reshaped
+        .check()
+        .map_err(|flaw| ActionError::Shape(format!("{}; {}", flaw.found(), flaw.right())))?;
+    *light = reshaped;
+    Ok(())
+}
+
+fn turn(light: &mut Light, rotation: DQuat) {
+    let middle = center(light);
+    if let LightKind::Polygon { .. } = light.kind {
+        each_point(light, |point| middle + rotation * (point - middle));
+    }
+}
+
+fn each_point(light: &mut Light, change: impl Fn(DVec3) -> DVec3) {
+    let change = |point: &mut [f64; 3]| *point = change((*point).into()).into();
+    match &mut light.kind {
+        LightKind::Sphere { center_m, .. } => change(center_m),
+        LightKind::Polygon { vertices_m, .. } => vertices_m.iter_mut().for_each(change),
+    }
+}
+
+fn points(vertices_m: &[[f64; 3]]) -> Vec<DVec3> {
+    vertices_m.iter().map(|&v| v.into()).collect()
+}
+
+/// Half the sum of the cross products of a polygon's fan.
+fn vector_area(vertices: &[DVec3]) -> DVec3 {
+    fan(vertices).map(|(_, area)| area).sum()
+}
+
+fn centroid(vertices: &[DVec3]) -> DVec3 {
+    let total = vector_area(vertices);
+    let weighted: DVec3 = fan(vertices)
+        .map(|(middle, area)| middle * area.dot(total))
+        .sum();
+    let centroid = weighted / total.length_squared();
+    match centroid.is_finite() {
+        true => centroid,
+        false => vertices.iter().sum::<DVec3>() / vertices.len().max(1) as f64,
+    }
+}
+
+/// The triangles of a fan from the first vertex: the middle of each and its vector area, which is turned where the polygon
+/// is not convex.
+fn fan(vertices: &[DVec3]) -> impl Iterator<Item = (DVec3, DVec3)> + '_ {
+    vertices.windows(2).map(|edge| {
+        let [a, b, c] = [vertices[0], edge[0], edge[1]];
+        ((a + b + c) / 3.0, (b - a).cross(c - a) / 2.0)
+    })
+}

@@ -1,0 +1,371 @@
+//! What the controls of a panel need to know of each number of the scene file: where a slider ends, where the scene does,
+//! how it counts, and what it does to the look.
+//!
+//! Hard limits are the scene's own, from [`limits`]; sliders end where looks do, and typing goes on to the hard ones.
+
+mod texts;
+
+use std::ops::RangeInclusive;
+
+use hairline_scene::description::limits;
+
+/// A number, or the numbers of a vector or a colour, that a panel edits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Parameter {
+    /// `camera.position_m`
+    CameraPosition,
+    /// `camera.target_m`
+    CameraTarget,
+    /// `camera.up`
+    CameraUp,
+    /// `camera.fov_y_deg`
+    FieldOfView,
+    /// `camera.exposure_ev`
+    Exposure,
+    /// `render.size_px`
+    PictureSize,
+    /// `render.filter_std_px`
+    Filter,
+    /// `environment.rotation_deg`
+    EnvironmentRotation,
+    /// `environment.intensity`
+    EnvironmentIntensity,
+    /// `material.roughness`
+    Roughness,
+    /// `material.coherence_um`
+    Coherence,
+    /// `material.ior`
+    Ior,
+    /// `material.base_color`
+    BaseColor,
+    /// `material.metallic`
+    Metallic,
+    /// `object.translation_m`
+    Translation,
+    /// `object.rotation_deg`
+    Rotation,
+    /// `object.scale`
+    Scale,
+    /// `size_m` of a plane.
+    PlaneSize,
+    /// `radius_m` of a disk or a sphere.
+    ShapeRadius,
+    /// `segments` of a lathe.
+    LatheSegments,
+    /// The radius of a point of a lathe's profile.
+    ProfileRadius,
+    /// The height of a point of a lathe's profile.
+    ProfileHeight,
+    /// `scratches.count`
+    Count,
+    /// `scratches.density_per_m2`
+    Density,
+    /// `scratches.seed`
+    Seed,
+    /// Mean of `scratches.length_m`
+    Length,
+    /// Spread of `scratches.length_m`
+    LengthSpread,
+    /// Mean of `scratches.width_um`
+    Width,
+    /// Spread of `scratches.width_um`
+    WidthSpread,
+    /// Mean of `scratches.depth_nm`
+    Depth,
+    /// Spread of `scratches.depth_nm`
+    DepthSpread,
+    /// Mean of `scratches.curvature_per_m`
+    Curvature,
+    /// Spread of `scratches.curvature_per_m`
+    CurvatureSpread,
+    /// `scratches.jitter_deg`
+    Jitter,
+    /// `scratches.axis`
+    Axis,
+    /// `scratches.center_m`
+    AxisCenter,
+    /// `scratches.direction`
+    Direction,
+    /// `radius_m` of a stroke.
+    BrushRadius,
+    /// `density_per_m` of a stroke.
+    BrushDensity,
+    /// `width` of a stroke.
+    BrushWidth,
+    /// `depth` of a stroke.
+    BrushDepth,
+    /// `light.center_m`
+    LightCenter,
+    /// `light.radius_m`
+    LightRadius,
+    /// A point of `light.vertices_m`
+    LightVertex,
+    /// `light.radiance`
+    Radiance,
+    /// `light.color`
+    LightColor,
+}
+
+/// What a control needs to know.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Range {
+    /// What a panel calls it.
+    pub label: &'static str,
+    /// From one end of the slider to the other: what looks good lies within.
+    pub slider: RangeInclusive<f64>,
+    /// What the scene allows.
+    pub hard: RangeInclusive<f64>,
+    /// Whether equal ways of the slider are equal factors.
+    pub logarithmic: bool,
+    /// The unit as it is shown behind the number, with the space that belongs there; empty for none.
+    pub suffix: &'static str,
+    /// Digits behind the point.
+    pub decimals: usize,
+    /// What it does to the look.
+    pub tooltip: &'static str,
+}
+
+/// The diagonal of an object that is not known yet: a pan's.
+pub const DEFAULT_DIAGONAL_M: f64 = 0.3;
+
+impl Parameter {
+    /// Every parameter.
+    pub const ALL: [Self; 46] = [
+        Self::CameraPosition,
+        Self::CameraTarget,
+        Self::CameraUp,
+        Self::FieldOfView,
+        Self::Exposure,
+        Self::PictureSize,
+        Self::Filter,
+        Self::EnvironmentRotation,
+        Self::EnvironmentIntensity,
+        Self::Roughness,
+        Self::Coherence,
+        Self::Ior,
+        Self::BaseColor,
+        Self::Metallic,
+        Self::Translation,
+        Self::Rotation,
+        Self::Scale,
+        Self::PlaneSize,
+        Self::ShapeRadius,
+        Self::LatheSegments,
+        Self::ProfileRadius,
+        Self::ProfileHeight,
+        Self::Count,
+        Self::Density,
+        Self::Seed,
+        Self::Length,
+        Self::LengthSpread,
+        Self::Width,
+        Self::WidthSpread,
+        Self::Depth,
+        Self::DepthSpread,
+        Self::Curvature,
+        Self::CurvatureSpread,
+        Self::Jitter,
+        Self::Axis,
+        Self::AxisCenter,
+        Self::Direction,
+        Self::BrushRadius,
+        Self::BrushDensity,
+        Self::BrushWidth,
+        Self::BrushDepth,
+        Self::LightCenter,
+        Self::LightRadius,
+        Self::LightVertex,
+        Self::Radiance,
+        Self::LightColor,
+    ];
+
+    /// What its control needs to know. Sliders of lengths and curvatures fit the object or the scene whose bounding box has
+    /// this diagonal.
+    pub fn range(self, diagonal_m: f64) -> Range {
+        use Parameter as P;
+        let d = match diagonal_m.is_finite() && diagonal_m > 0.0 {
+            true => diagonal_m.clamp(1e-3, 100.0),
+            false => DEFAULT_DIAGONAL_M,
+        };
+        const ANY: RangeInclusive<f64> = -f64::MAX..=f64::MAX;
+        // 2^53: beyond it a control's number is no longer the whole number that it shows. The scene's own end is 2^63.
+        const LARGEST_EXACT: f64 = 9_007_199_254_740_992.0;
+        const NOT_NEGATIVE: RangeInclusive<f64> = 0.0..=f64::MAX;
+        let (slider, hard) = match self {
+            P::CameraPosition | P::CameraTarget => (-5.0 * d..=5.0 * d, limits::COORDINATE_M),
+            P::CameraUp | P::Axis | P::Direction => (-1.0..=1.0, limits::DIRECTION),
+            P::FieldOfView => (5.0..=90.0, limits::FOV_Y_DEG),
+            P::Exposure => (-8.0..=8.0, limits::EXPOSURE_EV),
+            P::PictureSize => (64.0..=4096.0, limits::PICTURE_PX),
+            P::Filter => (0.3..=2.0, limits::FILTER_STD_PX),
+            P::EnvironmentRotation | P::Rotation => (-180.0..=180.0, ANY),
+            P::EnvironmentIntensity => (0.01..=10.0, NOT_NEGATIVE),
+            P::Roughness => (0.0..=0.6, limits::ROUGHNESS),
+            P::Coherence => (5.0..=100.0, limits::COHERENCE_UM),
+            P::Ior => (1.0..=2.5, limits::IOR),
+            P::BaseColor => (0.0..=1.0, limits::BASE_COLOR),
+            P::Metallic => (0.0..=1.0, limits::METALLIC),
+            P::Translation => (-2.0 * d..=2.0 * d, limits::COORDINATE_M),
+            // Smaller than 1e-6 neither way; 0 lies between and is refused.
+            P::Scale => (0.01..=10.0, -*limits::SCALE.end()..=*limits::SCALE.end()),
+            P::PlaneSize | P::ShapeRadius => (0.05 * d..=5.0 * d, limits::SIZE_M),
+            P::LatheSegments => (16.0..=512.0, limits::LATHE_SEGMENTS),
+            P::ProfileRadius => (0.0..=d, limits::PROFILE_RADIUS_M),
+            P::ProfileHeight => (-d..=d, limits::COORDINATE_M),
+            P::Count => (10.0..=100_000.0, 0.0..=LARGEST_EXACT),
+            P::Density => (10.0 / (d * d)..=100_000.0 / (d * d), NOT_NEGATIVE),
+            P::Seed => (0.0..=1000.0, 0.0..=LARGEST_EXACT),
+            P::Length => (1e-3 * d..=2.0 * d, above_zero(limits::SCRATCH_LENGTH_M)),
+            P::LengthSpread => (0.0..=1.5, limits::LOG_NORMAL_SPREAD),
+            P::Width => (0.5..=10.0, above_zero(limits::SCRATCH_WIDTH_UM)),
+            P::WidthSpread => (0.0..=0.6, limits::LOG_NORMAL_SPREAD),
+            P::Depth => (20.0..=600.0, above_zero(limits::SCRATCH_DEPTH_NM)),
+            P::DepthSpread => (0.0..=0.5, limits::LOG_NORMAL_SPREAD),
+            P::Curvature => (-50.0 / d..=50.0 / d, limits::CURVATURE_PER_M),
+            P::CurvatureSpread => (0.0..=50.0 / d, limits::CURVATURE_SPREAD_PER_M),
+            P::Jitter => (0.0..=30.0, limits::JITTER_DEG),
+            P::AxisCenter => (-d..=d, limits::COORDINATE_M),
+            P::BrushRadius => (2e-3 * d..=0.3 * d, limits::SIZE_M),
+            P::BrushDensity => (10.0 / d..=10_000.0 / d, NOT_NEGATIVE),
+            P::BrushWidth | P::BrushDepth => (0.25..=4.0, limits::STROKE_FACTOR),
+            P::LightCenter | P::LightVertex => (-5.0 * d..=5.0 * d, limits::COORDINATE_M),
+            P::LightRadius => (2e-3 * d..=d, limits::SIZE_M),
+            P::Radiance => (0.01..=1000.0, NOT_NEGATIVE),
+            P::LightColor => (0.0..=1.0, NOT_NEGATIVE),
+        };
+        let text = texts::of(self);
+        Range {
+            label: text.label,
+            // An object may be larger than what a scratch can be.
+            slider: clipped(&slider, &hard),
+            hard,
+            logarithmic: self.is_logarithmic(),
+            suffix: self.suffix(),
+            decimals: self.decimals(d),
+            tooltip: text.tooltip,
+        }
+    }
+
+    fn is_logarithmic(self) -> bool {
+        use Parameter as P;
+        matches!(
+            self,
+            P::EnvironmentIntensity
+                | P::Coherence
+                | P::Scale
+                | P::PlaneSize
+                | P::ShapeRadius
+                | P::Count
+                | P::Density
+                | P::Length
+                | P::BrushRadius
+                | P::BrushDensity
+                | P::BrushWidth
+                | P::BrushDepth
+                | P::LightRadius
+                | P::Radiance
+        )
+    }
+
+    fn suffix(self) -> &'static str {
+        use Parameter as P;
+        match self {
+            P::CameraPosition
+            | P::CameraTarget
+            | P::Translation
+            | P::PlaneSize
+            | P::ShapeRadius
+            | P::ProfileRadius
+            | P::ProfileHeight
+            | P::Length
+            | P::AxisCenter
+            | P::BrushRadius
+            | P::LightCenter
+            | P::LightRadius
+            | P::LightVertex => " m",
+            P::FieldOfView | P::EnvironmentRotation | P::Rotation | P::Jitter => "°",
+            P::Exposure => " EV",
+            P::PictureSize | P::Filter => " px",
+            P::Coherence | P::Width => " µm",
+            P::Depth => " nm",
+            P::Density => " /m²",
+            P::Curvature | P::CurvatureSpread | P::BrushDensity => " /m",
+            _ => "",
+        }
+    }
+
+    /// Enough for a thousandth of the slider.
+    fn decimals(self, diagonal_m: f64) -> usize {
+        let places = |step: f64| (-step.log10()).ceil().clamp(0.0, 6.0) as usize;
+        match self.suffix() {
+            " m" => places(1e-4 * diagonal_m),
+            " px" if self == Self::PictureSize => 0,
+            " nm" | " /m²" => 0,
+            " /m" => places(0.02 / diagonal_m),
+            "°" => 1,
+            " µm" if self == Self::Coherence => 1,
+            _ if matches!(self, Self::LatheSegments | Self::Count | Self::Seed) => 0,
+            _ if matches!(
+                self,
+                Self::Roughness | Self::CameraUp | Self::Axis | Self::Direction
+            ) =>
+            {
+                3
+            }
+            _ => 2,
+        }
+    }
+}
+
+/// The range without its end at 0, which the scene refuses.
+fn above_zero(range: RangeInclusive<f64>) -> RangeInclusive<f64> {
+    f64::MIN_POSITIVE..=*range.end()
+}
+
+fn clipped(slider: &RangeInclusive<f64>, hard: &RangeInclusive<f64>) -> RangeInclusive<f64> {
+    let into = |x: f64| x.clamp(*hard.start(), *hard.end());
+    into(*slider.start())..=into(*slider.end())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sliders_lie_within_the_limits_for_objects_of_any_size() {
+        for d in [1e-4, 0.03, 0.3, 4.5, 80.0, f64::NAN, 0.0] {
+            for parameter in Parameter::ALL {
+                let range = parameter.range(d);
+                let (from, to) = (*range.slider.start(), *range.slider.end());
+                assert!(from < to, "{parameter:?} at {d}: {range:?}");
+                assert!(range.hard.contains(&from) && range.hard.contains(&to));
+                assert!(!range.logarithmic || from > 0.0, "{parameter:?}");
+                // A step of the last digit is no more than a tenth of the slider.
+                assert!(
+                    10_f64.powi(-(range.decimals as i32)) <= 0.1 * (to - from),
+                    "{parameter:?} at {d}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn tooltips_are_sentences_and_labels_differ_within_a_panel() {
+        for parameter in Parameter::ALL {
+            let Range { label, tooltip, .. } = parameter.range(0.3);
+            assert!(
+                tooltip.len() > 30 && tooltip.len() < 320,
+                "{parameter:?}: {}",
+                tooltip.len()
+            );
+            assert!(
+                tooltip.ends_with('.') && !tooltip.contains('\n'),
+                "{parameter:?}"
+            );
+            assert!(
+                label.starts_with(|c: char| c.is_uppercase()),
+                "{parameter:?}"
+            );
+        }
+    }
+}

@@ -1,0 +1,196 @@
+//! What each parameter is called and what it does to the look. Written for those who judge pictures; true to docs/model.md.
+
+use super::Parameter;
+
+pub(super) struct Text {
+    pub label: &'static str,
+    pub tooltip: &'static str,
+}
+
+pub(super) fn of(parameter: Parameter) -> Text {
+    use Parameter as P;
+    let (label, tooltip) = match parameter {
+        P::CameraPosition => (
+            "Position",
+            "Where the camera stands. Scratches flash and change colour as it moves: each shows only to eyes in its own fan.",
+        ),
+        P::CameraTarget => (
+            "Target",
+            "The point in the middle of the picture; orbiting turns about it.",
+        ),
+        P::CameraUp => (
+            "Up",
+            "The direction that is up in the picture. Tilt it to roll the camera.",
+        ),
+        P::FieldOfView => (
+            "Field of view",
+            "Small: a long lens, flat, with highlights that spread over much of the surface. Large: a wide lens, with tighter highlights.",
+        ),
+        P::Exposure => (
+            "Exposure",
+            "Each step doubles or halves the brightness. High enough for the core of a highlight to wash out softly, low enough to keep the colours around it.",
+        ),
+        P::PictureSize => (
+            "Size",
+            "Width and height of the picture. Larger pictures resolve single scratches; smaller ones blend them into sheen.",
+        ),
+        P::Filter => (
+            "Filter",
+            "How softly pixels blend into one another. Small: crisp scratches that may look jagged. Large: smooth lines, less sparkle.",
+        ),
+        P::EnvironmentRotation => (
+            "Rotation",
+            "Turns the surroundings about the vertical, and with them the reflections and the streaks that bright spots draw.",
+        ),
+        P::EnvironmentIntensity => (
+            "Intensity",
+            "Brightness of the surroundings. Dim ones let the colours of lamps on scratches stand out; bright ones wash them out.",
+        ),
+        P::Roughness => (
+            "Roughness",
+            "How far the polished highlight spreads. 0.05 to 0.15 leaves dark room around it where scratches shine; rougher surfaces drown them. The scratches themselves stay as sharp.",
+        ),
+        P::Coherence => (
+            "Coherence",
+            "How far apart two points of the surface still act together on light. Larger: each scratch catches a lamp in a narrower band, so glints are thinner and crisper. Smaller: broader, softer glints. 20 suits most.",
+        ),
+        P::Ior => (
+            "Refractive index",
+            "How much the clear coat mirrors: 1.5 is lacquer or glass, about 4 %. Higher: brighter highlights and brighter scratches.",
+        ),
+        P::BaseColor => (
+            "Colour",
+            "On metals it tints the mirror image and the scratches in it; on coated surfaces it is the body under the coat, which scratches leave as it is. Dark bodies let scratches show.",
+        ),
+        P::Metallic => (
+            "Metallic",
+            "0: a painted surface with weak, white reflections. 1: bare metal, whose reflections and scratches are bright and take its colour.",
+        ),
+        P::Translation => ("Position", "Moves the object with its scratches."),
+        P::Rotation => (
+            "Rotation",
+            "Turns the object about the world's x axis, then y, then z. Scratches turn along, so their fans sweep through the light.",
+        ),
+        P::Scale => (
+            "Scale",
+            "Makes the object larger or smaller; scratches keep their own lengths, widths and depths, and cover it less or more densely. Negative mirrors it.",
+        ),
+        P::PlaneSize => (
+            "Edge",
+            "Length of an edge. With a count, the same scratches spread over more surface; with a density, there are more of them.",
+        ),
+        P::ShapeRadius => (
+            "Radius",
+            "Half its width. With a count, the same scratches spread over more surface; with a density, there are more of them.",
+        ),
+        P::LatheSegments => (
+            "Segments",
+            "Facets around the axis. More: a rounder outline and smoother highlights, and a little more work.",
+        ),
+        P::ProfileRadius => (
+            "Radius",
+            "Distance of this point of the outline from the axis. Steps and bends of the outline show as rings of highlight.",
+        ),
+        P::ProfileHeight => (
+            "Height",
+            "Height of this point of the outline along the axis.",
+        ),
+        P::Count => (
+            "Count",
+            "Number of scratches. More: a denser, brighter sheen, and a polished highlight that loses the light they take. A higher count keeps the first ones in their place.",
+        ),
+        P::Density => (
+            "Density",
+            "Scratches for each square metre: a larger object gets more of them. More: a denser, brighter sheen, less light left in the polished highlight.",
+        ),
+        P::Seed => (
+            "Seed",
+            "Another number lays other scratches of the same kind. Layers with different numbers do not repeat one another.",
+        ),
+        P::Length => (
+            "Length",
+            "Mean length. Long scratches draw unbroken arcs of colour across the surface; short ones break them into dashes and glitter.",
+        ),
+        P::LengthSpread => (
+            "Length spread",
+            "How much lengths differ. 0 looks machined; 0.5 and above mixes long strokes with nicks, as wear does.",
+        ),
+        P::Width => (
+            "Width",
+            "Wider scratches: brighter, and the rainbow starts closer to the highlight and its colours lie denser. Narrow ones spread it far out; below 2 µm little more than its first tint is seen.",
+        ),
+        P::WidthSpread => (
+            "Width spread",
+            "How much widths differ. Small: rainbows of all scratches agree and their bands stay apart. Large: bands blur into one another, further out first.",
+        ),
+        P::Depth => (
+            "Depth",
+            "Picks the overall tint, also close to the highlight: each depth favours some wavelengths and cancels others. Very shallow scratches are faint and bluish. Seen or lit aslant they act shallower, so tints shift as things turn.",
+        ),
+        P::DepthSpread => (
+            "Depth spread",
+            "How much depths differ. Up to 0.15 scratches share a tint and colours stay clean; above 0.2 tints mix to straw and white.",
+        ),
+        P::Curvature => (
+            "Curvature",
+            "One over the radius of the arcs. 0 is straight. Bent scratches turn through many directions, so each lights up over a shorter piece, and more of them light up at once.",
+        ),
+        P::CurvatureSpread => (
+            "Curvature spread",
+            "How much bends differ, to both sides. Some is what makes wear look casual instead of ruled.",
+        ),
+        P::Jitter => (
+            "Jitter",
+            "How far scratches stray from the pattern's direction. 0: fans and streaks with hard edges, as new. A few degrees soften them and look worn.",
+        ),
+        P::Axis => (
+            "Axis",
+            "The direction that the pattern turns about, in the object's own frame.",
+        ),
+        P::AxisCenter => (
+            "Centre",
+            "The point that the pattern turns about, in the object's own frame. Fans of light meet there.",
+        ),
+        P::Direction => (
+            "Direction",
+            "Where the scratches run, in the object's own frame. Lamps are drawn out into streaks across it.",
+        ),
+        P::BrushRadius => (
+            "Brush radius",
+            "Half the width of the band in which scratches are laid or taken away.",
+        ),
+        P::BrushDensity => (
+            "Brush density",
+            "Scratches for each metre of a stroke. Few: single marks. Many: a worn track.",
+        ),
+        P::BrushWidth => (
+            "Brush width",
+            "Factor on the widths of the layer for this stroke. Above 1: bolder, with denser rainbows. Below 1: finer, with wider ones.",
+        ),
+        P::BrushDepth => (
+            "Brush depth",
+            "Factor on the depths of the layer for this stroke. It shifts the tint of the stroke against the rest.",
+        ),
+        P::LightCenter => (
+            "Position",
+            "Where the light hangs. Around its highlight those scratches light up that run crosswise to the way there.",
+        ),
+        P::LightRadius => (
+            "Radius",
+            "Small lights give pure rainbows and hard-edged glints; large ones overlap the colours to white around the highlight. At the same radiance a larger one also lights more.",
+        ),
+        P::LightVertex => (
+            "Vertex",
+            "A corner of the light. Its outline is mirrored in the surface, and scratches draw it out; long, thin shapes keep colours pure across their short side.",
+        ),
+        P::Radiance => (
+            "Radiance",
+            "Brightness of the light as it is seen. 40 to 200 for small lamps in dim surroundings lets the highlight clip and its scratches glow.",
+        ),
+        P::LightColor => (
+            "Colour",
+            "Tint of the light. Scratches split what is in it: white light shows every colour, a warm one fewer blues.",
+        ),
+    };
+    Text { label, tooltip }
+}
