@@ -43,6 +43,11 @@ fn default_limits() -> Option<Gpu> {
     Some(headless::open(&request).unwrap())
 }
 
+/// Pixels of the size that they have in a picture of 64 rows: else a few rows would each see all scratches.
+fn look_through(stage: &mut Stage, rows: u32) {
+    stage.made.scene.camera.fov_y_rad = 0.1 * f64::from(rows) / 64.0;
+}
+
 #[test]
 fn a_canvas_of_any_size_becomes_the_rendered_picture() {
     let Some(gpu) = test_gpu() else { return };
@@ -54,6 +59,7 @@ fn a_canvas_of_any_size_becomes_the_rendered_picture() {
         ([1, 9], 4, 3),
         ([1, 1], 64, 1),
     ] {
+        look_through(&mut stage, size_px[1]);
         let mut canvas = stage.canvas(size_px, submission_px);
         assert_eq!((canvas.size_px(), canvas.bands()), (size_px, bands));
         stage.paint(&mut canvas, 3, 3);
@@ -155,17 +161,20 @@ fn a_sample_that_does_not_follow_is_a_mistake() {
 fn default_limits_are_enough_for_a_wide_canvas() {
     let Some(gpu) = default_limits() else { return };
     let mut stage = Stage::new(&gpu, scene(BUILT_IN));
+    // A strip through the pan.
+    stage.made.scene.camera.fov_y_rad = 1e-3;
     let mut canvas = stage.canvas([3840, 6], 3840 * 4);
     assert_eq!(canvas.bands(), 2);
     stage.paint(&mut canvas, 1, 1);
     let expected = rendered(&mut stage, [3840, 6], 1, 3840 * 4);
     assert!(image(&canvas, &gpu) == expected);
 
+    stage.made.scene.camera.fov_y_rad = 0.03;
     let mut canvas = stage.canvas([90, 60], u32::MAX);
     stage.paint(&mut canvas, 2, 2);
     let before = image(&canvas, &gpu);
-    // Without the lamp.
-    stage.made.scene.lights.remove(0);
+    // Without the ceiling, which the steel mirrors.
+    stage.made.scene.lights.remove(2);
     let Stage {
         renderer,
         made,
@@ -181,7 +190,7 @@ fn default_limits_are_enough_for_a_wide_canvas() {
     let shown = gpu
         .block_on(stage.renderer.read_shown(&canvas, &DISPLAY))
         .unwrap();
-    assert!(shown.iter().step_by(4).any(|red| *red > 100));
+    assert!(shown.iter().step_by(4).any(|red| *red > 20));
 }
 
 /// A whole 4K picture is 531 MB of films: there, or refused in words.

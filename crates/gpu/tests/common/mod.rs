@@ -9,13 +9,13 @@ use hairline_image::Image;
 use hairline_index::ScratchIndex;
 use hairline_scene::{Scene, ScratchTables};
 
-/// A plate with scratches, a smooth one behind it, a lamp, a tube.
+/// The rim of a plate with scratches on a table, under a lamp and a tube; so near that no pixel sees many scratches.
 pub const PLATES: &str = r#"
 [camera]
 position_m = [0.0, -0.22, 0.30]
-target_m = [0.0, 0.0, 0.0]
+target_m = [0.0, -0.075, 0.0]
 up = [0.0, 0.0, 1.0]
-fov_y_deg = 34.0
+fov_y_deg = 6.0
 
 [render]
 size_px = [97, 64]
@@ -46,7 +46,7 @@ translation_m = [0.0, 0.0, -0.01]
 [[scratches]]
 object = "plate"
 pattern = "random"
-count = 1500
+count = 1000
 seed = 3
 length_m = 0.03
 width_um = 3.0
