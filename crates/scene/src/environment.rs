@@ -20,6 +20,7 @@ mod prefilter;
 mod resample;
 
 pub use file::Error;
+pub(crate) use file::read;
 pub use prefilter::LEVEL_ROUGHNESS;
 
 use lookup::{

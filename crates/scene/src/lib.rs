@@ -10,6 +10,7 @@ mod load;
 pub mod material_optics;
 mod mesh_file;
 mod polygon;
+pub mod probe;
 pub mod scene;
 mod scratches;
 mod shape;

@@ -49,6 +49,8 @@ pub(crate) struct Stock<'a> {
     pub textures: &'a mut Vec<Texture>,
     /// The files that it refers to and that were read.
     pub files: &'a mut Vec<PathBuf>,
+    /// Whether textures get their mip chains, which take longer than the rest.
+    pub with_mips: bool,
 }
 
 /// Reads a file's triangles into world space. Without `material`, an index into the stock, the file's own are added there.
@@ -100,14 +102,23 @@ pub(crate) fn read(
 
 fn parse(bytes: &[u8]) -> Result<Gltf, Flaw> {
     let right = "must be a whole glTF 2.0 file, text (.gltf) or binary (.glb)";
+    if bytes.is_empty() {
+        return Err(Flaw::new("it is empty", right));
+    }
     if bytes.starts_with(b"glTF") {
         // The header of 12 bytes and a chunk header of 8; the length is the header's third number.
         let length = bytes
             .get(8..12)
             .map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]));
-        if length.is_none_or(|length| length < 20) {
+        let Some(length) = length.filter(|length| *length >= 20) else {
             return Err(Flaw::new("it ends within its header", right));
+        };
+        if (bytes.len() as u64) < u64::from(length) {
+            let found = format!("it is cut off: {} of {length} bytes are there", bytes.len());
+            return Err(Flaw::new(found, right));
         }
+    } else if !bytes.trim_ascii_start().starts_with(b"{") {
+        return Err(Flaw::new("it is neither binary nor text glTF", right));
     }
     let invalid = |error| Flaw::new(format!("it is no valid glTF ({error})"), right);
     let Gltf { document, blob } = Gltf::from_slice_without_validation(bytes).map_err(invalid)?;

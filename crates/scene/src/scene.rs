@@ -61,7 +61,7 @@ pub struct RenderSettings {
 }
 
 /// What a surface is made of.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Material {
     /// The name in the scene file or the glTF file.
     pub name: String,

@@ -9,8 +9,13 @@ use crate::scene::Texture;
 
 const LARGEST_PX: u32 = 16_384;
 
-/// Decodes a PNG, JPEG or WebP file and builds its mip chain. `srgb` says whether its colours are sRGB encoded.
-pub(crate) fn decode(bytes: &[u8], srgb: bool) -> Result<Texture, image::ImageError> {
+/// Decodes a PNG, JPEG or WebP file and builds its mip chain; without it, there is the first level alone. `srgb` says whether
+/// its colours are sRGB encoded.
+pub(crate) fn decode(
+    bytes: &[u8],
+    srgb: bool,
+    with_mips: bool,
+) -> Result<Texture, image::ImageError> {
     let mut reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format()?;
     let mut limits = Limits::default();
     limits.max_image_width = Some(LARGEST_PX);
@@ -19,7 +24,14 @@ pub(crate) fn decode(bytes: &[u8], srgb: bool) -> Result<Texture, image::ImageEr
     let image = reader.decode()?.into_rgba8();
     let size_px = [image.width(), image.height()];
     let texels = image.pixels().map(|pixel| pixel.0).collect();
-    Ok(with_mips(size_px, texels, srgb))
+    Ok(match with_mips {
+        true => self::with_mips(size_px, texels, srgb),
+        false => Texture {
+            size_px,
+            levels: vec![texels],
+            srgb,
+        },
+    })
 }
 
 /// A texture from its texels, row by row from the top.

@@ -305,9 +305,12 @@ fn broken_files_end_in_a_message() {
         })
     };
     let cases: Vec<(Vec<u8>, &str)> = vec![
-        (b"no glTF at all".to_vec(), "it is no valid glTF"),
+        (
+            b"no glTF at all".to_vec(),
+            "it is neither binary nor text glTF",
+        ),
         (cube[..6].to_vec(), "it ends within its header"),
-        (cube[..cube.len() - 8].to_vec(), "it is no valid glTF"),
+        (cube[..cube.len() - 8].to_vec(), "it is cut off: "),
         (
             replaced(
                 r#""buffers":[{"byteLength":168"#,

@@ -104,6 +104,7 @@ impl KeptSurface {
                     materials: &mut materials,
                     textures: &mut textures,
                     files: &mut files,
+                    with_mips: true,
                 };
                 let material = (!surface_key.owns_materials).then_some(0);
                 mesh_file::read(&stamp.path, material, transform, stock).map_err(|flaw| {

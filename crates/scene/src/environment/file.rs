@@ -62,7 +62,7 @@ pub enum Error {
 const WIDTH_MAX: u32 = 16384;
 
 /// Reads an equirectangular map.
-pub(super) fn read(path: &Path) -> Result<Picture, Error> {
+pub(crate) fn read(path: &Path) -> Result<Picture, Error> {
     let ending = path.extension().map(|e| e.to_ascii_lowercase());
     match ending.as_ref().and_then(|e| e.to_str()) {
         Some("hdr") => read_radiance(path),

@@ -121,8 +121,9 @@ impl Own<'_> {
 
     fn read_image(&mut self, image: &gltf::Image, srgb: bool) -> Result<Texture, Flaw> {
         let what = format!("image {}", image.index());
+        let with_mips = self.stock.with_mips;
         let decode = |bytes: &[u8]| {
-            texture::decode(bytes, srgb).map_err(|error| {
+            texture::decode(bytes, srgb, with_mips).map_err(|error| {
                 Flaw::new(
                     format!("its {what} cannot be decoded ({error})"),
                     "must be a PNG, JPEG or WebP image",

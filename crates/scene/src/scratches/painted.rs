@@ -18,6 +18,11 @@ use crate::scene::Segment;
 
 /// The surface may lie this far from the brush, as a multiple of its radius.
 const REACH: f64 = 2.0;
+/// A point whose nearest place lies this much more beside it than below it, as a sine, is over the rim: without this all that a
+/// brush does out there would pile up along it. Edges of a right angle are no rims.
+const BESIDE_SINE: f64 = 0.9;
+/// Nearer than this, the direction is rounding.
+const BESIDE_M: f64 = 1e-7;
 
 /// A layer's description with the ground that it goes on.
 pub(super) struct Painted<'a> {
@@ -84,11 +89,15 @@ impl<'a> Painted<'a> {
         self.paths.partition_point(|path| path.first <= index) - 1
     }
 
-    /// The nearest place on the side of the surface that the brush is on.
+    /// The nearest place on the side of the surface that the brush is on; `None` where it hangs over the rim.
     fn land(&self, touch: &Touch, radius_m: f64) -> Option<Spot> {
         let (spot, distance_m) = self.ground.closest().find(touch.point_m);
-        let normal = Facet::new(&self.ground.mesh, spot.triangle).normal;
-        (distance_m <= REACH * radius_m && normal.dot(touch.normal) >= 0.0).then_some(spot)
+        let facet = Facet::new(&self.ground.mesh, spot.triangle);
+        let off = touch.point_m - spot.point_m;
+        let is_beside =
+            off.length() > BESIDE_M && facet.in_plane(off).length() > BESIDE_SINE * off.length();
+        let is_near = distance_m <= REACH * radius_m && facet.normal.dot(touch.normal) >= 0.0;
+        (is_near && !is_beside).then_some(spot)
     }
 }
 
