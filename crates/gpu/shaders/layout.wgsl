@@ -1,5 +1,5 @@
 // Every struct that the host fills. Twin: src/layout.rs; a test holds names, offsets and sizes equal.
-// Positions are in metres and relative to the scene's origin, the middle of its bounds, for the sake of their last digits.
+// Positions are in metres and relative to the origin that src/vertices.rs chooses, for the sake of their last digits.
 
 // The view, and what else is the same for every pixel of one sample.
 struct Frame {
