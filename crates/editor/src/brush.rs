@@ -200,13 +200,26 @@ pub fn apply_stroke(
     Ok(selection)
 }
 
-/// The points of a way that are needed to stay within `straying_m` of all.
+/// The points of a way that are needed to stay within `straying_m` of all. Work is at worst the square of the number of
+/// points, so a long scribble is thinned in runs.
 fn thinned(way: &[DVec3], straying_m: f64) -> Vec<DVec3> {
-    if way.len() < 3 {
-        return way.to_vec();
+    const RUN: usize = 512;
+    let mut points = Vec::new();
+    let mut from = 0;
+    while from + 1 < way.len() {
+        let to = (from + RUN).min(way.len() - 1);
+        points.extend(thinned_run(&way[from..=to], straying_m));
+        // The next run begins with it.
+        points.pop();
+        from = to;
     }
-    let mut kept = vec![false; way.len()];
+    points.extend(way.last());
+    points
+}
+
+fn thinned_run(way: &[DVec3], straying_m: f64) -> Vec<DVec3> {
     let last = way.len() - 1;
+    let mut kept = vec![false; way.len()];
     (kept[0], kept[last]) = (true, true);
     let mut spans = vec![(0, last)];
     while let Some((from, to)) = spans.pop() {

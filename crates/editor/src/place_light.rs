@@ -46,7 +46,9 @@ pub fn resize(light: &mut Light, factor: f64) {
             .map(|v| v.distance(middle))
             .fold(0.0, f64::max),
     };
-    let wanted_m = (extent_m * factor).clamp(SMALLEST_M, LARGEST_M);
+    // Corners stay within the coordinates that scenes have.
+    let largest_m = (LARGEST_M - middle.abs().max_element()).max(SMALLEST_M);
+    let wanted_m = (extent_m * factor).clamp(SMALLEST_M, largest_m);
     if !wanted_m.is_finite() || !(extent_m > 0.0) {
         return;
     }

@@ -177,7 +177,7 @@ pub fn drawn_layer(object: impl Into<String>, radius_m: f64) -> Scratches {
         jitter_deg: 4.0,
         seed: 1,
         length_m: Distribution {
-            mean: 4.0 * fitting(radius_m),
+            mean: (4.0 * radius_m).clamp(1e-4, 10.0),
             spread: 0.5,
         },
         width_um: Distribution {
@@ -208,7 +208,7 @@ fn count(cover: f64, length_m: f64, width_um: f64, diagonal_m: f64) -> u64 {
 /// A size that presets can be fitted to.
 fn fitting(size_m: f64) -> f64 {
     match size_m.is_finite() {
-        true => size_m.clamp(1e-3, 100.0),
+        true => size_m.clamp(0.01, 100.0),
         false => 0.2,
     }
 }

@@ -132,12 +132,12 @@ mod tests {
             let mut recent = Recent::load(&store);
             assert!(recent.list().is_empty());
             recent.add(&scene);
-            assert_eq!(Recent::load(&store).list(), [scene.clone()]);
+            assert_eq!(Recent::load(&store).list(), std::slice::from_ref(&scene));
         }
         // A folder in the place of the store: nothing can be kept, but this run has its list.
         let mut recent = Recent::load(folder.path());
         recent.add(&scene);
-        assert_eq!(recent.list(), [scene.clone()]);
+        assert_eq!(recent.list(), std::slice::from_ref(&scene));
         assert!(Recent::default().list().is_empty());
     }
 }
