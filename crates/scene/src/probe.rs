@@ -70,7 +70,7 @@ pub fn environment(path: &Path) -> Result<EnvironmentSummary, Error> {
 }
 
 /// Reads a scene file: its form, its ranges, and the names that its tables call one another by. What its files hold is left
-/// to [`mesh`] and [`environment`].
+/// to [`mesh()`] and [`environment()`].
 ///
 /// # Errors
 /// What is wrong with the scene, with its line.

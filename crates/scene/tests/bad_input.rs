@@ -406,3 +406,80 @@ fn more_scratches_than_memory() {
         "{message}"
     );
 }
+
+#[test]
+fn strokes() {
+    let stroke = |pattern: &str, stroke: &str| {
+        scratches(&format!(
+            "pattern = {pattern}\nstrokes = [\n  {{ {stroke} }},\n]"
+        ))
+    };
+    let drawn = |rest: &str| stroke("\"drawn\"", rest);
+    for (found, expected) in [
+        (
+            drawn("points_m = [[0, 0, 0]], radius_m = 0.01"),
+            "plate.toml:19: scratches[0].strokes[0]: found neither `density_per_m` nor `erase = true`; must have exactly one of them",
+        ),
+        (
+            drawn("points_m = [[0, 0, 0]], radius_m = 0.01, erase = true, width = 2"),
+            "plate.toml:19: scratches[0].strokes[0].width: an erasing stroke has no such key; leave it out, or leave out `erase = true`",
+        ),
+        (
+            drawn("points_m = [[0, 0, 0]], radius_mm = 4, density_per_m = 1"),
+            "plate.toml:19: scratches[0].strokes[0].radius_mm: unknown key; did you mean `radius_m = 0.004`?",
+        ),
+        (
+            drawn("points_m = [], radius_m = 0.01, density_per_m = 1"),
+            "plate.toml:19: scratches[0].strokes[0].points_m: found 0 points; must be from 1 to 65536",
+        ),
+        (
+            drawn("points_m = [[0, 0, 0], [0, nan, 0]], radius_m = 0.01, erase = true"),
+            "plate.toml:19: scratches[0].strokes[0].points_m[1][1]: found NaN; must be finite",
+        ),
+        (
+            drawn("points_m = [[0, 0, 0]], radius_m = 0, erase = true"),
+            "plate.toml:19: scratches[0].strokes[0].radius_m: found 0; must be greater than 0",
+        ),
+        (
+            drawn("points_m = [[0, 0, 0]], radius_m = 0.01, density_per_m = 1, depth = 0"),
+            "plate.toml:19: scratches[0].strokes[0].depth: found 0; must be from 0.01 to 100",
+        ),
+        (
+            stroke(
+                "\"random\"\ncount = 1",
+                "points_m = [[0, 0, 0]], radius_m = 0.01, density_per_m = 1",
+            ),
+            "plate.toml:20: scratches[0].strokes[0]: found a stroke that lays scratches in a layer of another pattern than `drawn`; must be `erase = true` here; draw in a layer of its own",
+        ),
+        (
+            scratches("pattern = \"drawn\"\ncount = 5"),
+            "plate.toml:18: scratches[0].count: pattern `drawn` has no such key; it belongs to `random`, `parallel`, `circular`, `radial`, `spun` and `swirl`",
+        ),
+        (
+            scratches("pattern = \"drawn\"\njitter_deg = 91"),
+            "plate.toml:18: scratches[0].jitter_deg: found 91; must be from 0 to 90",
+        ),
+        (
+            scratches("pattern = \"drawn\"\nhidden = 1"),
+            "plate.toml:18: scratches[0].hidden: found the whole number 1; must be `true` or `false`",
+        ),
+        (
+            drawn("points_m = [[0, 0, 0]], radius_m = 0.01, density_per_m = 1e12"),
+            "",
+        ),
+    ] {
+        match expected {
+            // More than fits into memory.
+            "" => assert!(
+                found.starts_with("plate.toml:18: scratches[0].strokes: found 20000000000 scratches, which would take about "),
+                "{found}"
+            ),
+            _ => assert_eq!(found, expected),
+        }
+    }
+    // A hidden light is no light, but its numbers are checked.
+    assert!(
+        light("kind = \"sphere\"\nhidden = true\ncenter_m = [0, 0, 1]\nradius_m = -1")
+            .contains("radius_m")
+    );
+}

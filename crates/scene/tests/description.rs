@@ -109,6 +109,28 @@ fn everything() -> Description {
             file: "dir with spaces/it's.csv".into(),
         }),
     ));
+    scratches.push(Scratches {
+        name: Some("drawn, \"by hand\"\n".to_owned()),
+        hidden: true,
+        solo: true,
+        strokes: vec![
+            Stroke {
+                points_m: vec![[1.0 / 3.0, -0.0, 1e-17], [0.0; 3]],
+                radius_m: 0.004,
+                brush: Brush::Paint {
+                    density_per_m: 2e4,
+                    width: 1.0,
+                    depth: 0.7,
+                },
+            },
+            Stroke {
+                points_m: vec![[0.0; 3]],
+                radius_m: 1e-5,
+                brush: Brush::Erase,
+            },
+        ],
+        ..Scratches::new("o", Layer::Brushed(Brushed::default()))
+    });
     let metals = [
         Metal::Iron,
         Metal::StainlessSteel,

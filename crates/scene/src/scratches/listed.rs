@@ -40,11 +40,11 @@ pub(super) fn read(path: &Path, key: &str) -> Result<Vec<Row>, Error> {
         let right = format!("must be a text with the header `{}`", COLUMNS.join(","));
         Error::new("", "found bytes that are no UTF-8", right).at(path, None)
     })?;
-    parse(&text).map_err(|(line, error)| error.at(path, Some(line)))
+    parse(&text, path)
 }
 
-/// An error goes with its line.
-fn parse(text: &str) -> Result<Vec<Row>, (usize, Error)> {
+/// An error goes with its line in the file of this path.
+fn parse(text: &str, path: &Path) -> Result<Vec<Row>, Error> {
     // A byte order mark is no part of the first name.
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let mut lines = text
@@ -54,15 +54,15 @@ fn parse(text: &str) -> Result<Vec<Row>, (usize, Error)> {
         .filter(|(_, line)| !line.is_empty());
     let header_is = || format!("must be the header `{}`", COLUMNS.join(","));
     let Some((first, header)) = lines.next() else {
-        return Err((1, Error::new("", "found an empty file", header_is())));
+        return Err(Error::new("", "found an empty file", header_is()).at(path, Some(1)));
     };
     let header: Vec<_> = header.split(',').map(str::trim).collect();
     if header != COLUMNS {
         let found = format!("found `{}`", header.join(","));
-        return Err((first, Error::new("", found, header_is())));
+        return Err(Error::new("", found, header_is()).at(path, Some(first)));
     }
     lines
-        .map(|(line, row)| parse_row(line, row).map_err(|error| (line, error)))
+        .map(|(line, row)| parse_row(line, row).map_err(|error| error.at(path, Some(line))))
         .collect()
 }
 
