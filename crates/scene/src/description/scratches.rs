@@ -1,0 +1,300 @@
+//! The `[[scratches]]` tables of a scene file.
+
+use std::path::PathBuf;
+
+use serde::{Serialize, Serializer};
+
+/// `[[scratches]]`
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Scratches {
+    /// The name of the object they lie on. Required.
+    pub object: String,
+    /// Free text, for lists that people read. Default: none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
+    /// Laid nowhere. Other layers' scratches stay as they are. Default: false.
+    #[serde(skip_serializing_if = "super::is_false")]
+    pub hidden: bool,
+    /// Where any layer of the scene is solo, only solo ones that are not hidden are laid. Default: false.
+    #[serde(skip_serializing_if = "super::is_false")]
+    pub solo: bool,
+    /// How they are laid.
+    #[serde(flatten)]
+    pub layer: Layer,
+    /// What a brush did, in this order; the pattern's own scratches come before all strokes. Default: none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub strokes: Vec<Stroke>,
+}
+
+impl Scratches {
+    /// A layer with nothing but its pattern: no name, not hidden, not solo, no strokes.
+    pub fn new(object: impl Into<String>, layer: Layer) -> Self {
+        Self {
+            object: object.into(),
+            name: None,
+            hidden: false,
+            solo: false,
+            layer,
+            strokes: Vec::new(),
+        }
+    }
+}
+
+/// Where the scratches of a layer come from.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Layer {
+    /// Drawn at random along a pattern.
+    Laid(Laid),
+    /// `pattern = "drawn"`
+    Brushed(Brushed),
+    /// `pattern = "file"`
+    Listed(Listed),
+}
+
+impl Layer {
+    /// The seed of a layer that draws random numbers.
+    pub fn seed(&self) -> Option<u64> {
+        match self {
+            Self::Laid(laid) => Some(laid.seed),
+            Self::Brushed(brushed) => Some(brushed.seed),
+            Self::Listed(_) => None,
+        }
+    }
+
+    /// See [`Layer::seed`].
+    pub fn seed_mut(&mut self) -> Option<&mut u64> {
+        match self {
+            Self::Laid(laid) => Some(&mut laid.seed),
+            Self::Brushed(brushed) => Some(&mut brushed.seed),
+            Self::Listed(_) => None,
+        }
+    }
+}
+
+/// Scratches along the strokes of a brush; [`Scratches::strokes`] holds them.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(tag = "pattern", rename = "drawn")]
+pub struct Brushed {
+    /// Standard deviation of a scratch's angle to its stroke. Default: 0.
+    pub jitter_deg: f64,
+    /// As in [`Laid::seed`]. Default: 1.
+    pub seed: u64,
+    /// As in [`Laid::length_m`].
+    pub length_m: Distribution,
+    /// As in [`Laid::width_um`].
+    pub width_um: Distribution,
+    /// As in [`Laid::depth_nm`].
+    pub depth_nm: Distribution,
+}
+
+impl Default for Brushed {
+    fn default() -> Self {
+        Self {
+            jitter_deg: 0.0,
+            seed: DEFAULT_SEED,
+            length_m: DEFAULT_LENGTH_M,
+            width_um: DEFAULT_WIDTH_UM,
+            depth_nm: DEFAULT_DEPTH_NM,
+        }
+    }
+}
+
+/// One of the `strokes` of a `[[scratches]]`: where a brush went.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stroke {
+    /// On or near the surface, in the object's own frame, in the order of the stroke. One point is a dab. Required.
+    pub points_m: Vec<[f64; 3]>,
+    /// Half of the brush's width, in the world's metres, whatever the object's `scale`. Required.
+    pub radius_m: f64,
+    /// `density_per_m` with its factors, or `erase`.
+    pub brush: Brush,
+}
+
+/// What a stroke does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Brush {
+    /// Lays scratches along the stroke; in layers of pattern `"drawn"` only.
+    Paint {
+        /// Scratches on each metre of the stroke. A stroke has at least one, and a dab as many as a stroke of its width.
+        /// Required.
+        density_per_m: f64,
+        /// Factor on the layer's widths. Default: 1.
+        width: f64,
+        /// Factor on the layer's depths. Default: 1.
+        depth: f64,
+    },
+    /// `erase = true`: takes away what the layer laid before, as far as it comes within the radius, exactly at the brush's
+    /// edge. It does not reach through a sheet: what faces away from the surface under the brush stays.
+    Erase,
+}
+
+impl Serialize for Stroke {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        use serde::ser::SerializeMap;
+        let mut table = serializer.serialize_map(None)?;
+        table.serialize_entry("points_m", &self.points_m)?;
+        table.serialize_entry("radius_m", &self.radius_m)?;
+        match self.brush {
+            Brush::Paint {
+                density_per_m,
+                width,
+                depth,
+            } => {
+                table.serialize_entry("density_per_m", &density_per_m)?;
+                for (key, factor) in [("width", width), ("depth", depth)] {
+                    if factor != 1.0 {
+                        table.serialize_entry(key, &factor)?;
+                    }
+                }
+            }
+            Brush::Erase => table.serialize_entry("erase", &true)?,
+        }
+        table.end()
+    }
+}
+
+/// Scratches read from a file.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(tag = "pattern", rename = "file")]
+pub struct Listed {
+    /// A CSV file with the header `x0_m,y0_m,z0_m,x1_m,y1_m,z1_m,width_um,depth_nm`, relative to the scene file. Each row is
+    /// a straight scratch, in the object's own frame: metres before its `scale`, `rotation_deg` and `translation_m`. Required.
+    pub file: PathBuf,
+}
+
+/// Scratches drawn at random along a pattern.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Laid {
+    /// `pattern` and the keys that belong to it.
+    #[serde(flatten)]
+    pub pattern: Pattern,
+    /// `count` or `density_per_m2`; one of them is required.
+    #[serde(flatten)]
+    pub amount: Amount,
+    /// The same seed gives the same scratches, and a higher count keeps the first ones. Layers of different seeds do not
+    /// depend on one another, nor on their order. Of layers of one object that have the same seed, hidden ones included,
+    /// the second draws other numbers than the first, and so on. Default: 1.
+    pub seed: u64,
+    /// Log-normal, measured along the surface; draws are kept from 1e-5 to a hundred times the object's diagonal.
+    /// Default: mean 0.02, spread 0.5.
+    pub length_m: Distribution,
+    /// Log-normal; draws are kept from 0.05 to 100. Default: mean 1.5, spread 0.3.
+    pub width_um: Distribution,
+    /// Log-normal; draws are kept from 0 to 2000. Default: mean 200, spread 0.2.
+    pub depth_nm: Distribution,
+}
+
+/// How many scratches.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Amount {
+    /// `count`
+    Count(u64),
+    /// `density_per_m2`: times the object's area.
+    #[serde(rename = "density_per_m2")]
+    DensityPerM2(f64),
+}
+
+/// `pattern` of a `[[scratches]]`. Axes, centres and directions are in the object's own frame, before its `scale`,
+/// `rotation_deg` and `translation_m`, so they move with it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(tag = "pattern", rename_all = "lowercase")]
+pub enum Pattern {
+    /// `"random"`: every place and every direction alike. Daily wear: cutlery in a drawer, a phone in a pocket.
+    Random {
+        /// Normal. Default: mean 0, spread 0: straight.
+        curvature_per_m: Distribution,
+    },
+    /// `"parallel"`: all along one direction. A brushed panel.
+    Parallel {
+        /// Default: `[1, 0, 0]`.
+        direction: [f64; 3],
+        /// Standard deviation of a scratch's angle to the pattern. Default: 0.
+        jitter_deg: f64,
+    },
+    /// `"circular"`: around an axis. A turned pan, a lathe's marks, a plate wiped in circles.
+    Circular(Around),
+    /// `"radial"`: away from an axis. The sunburst of a watch dial.
+    Radial(Around),
+    /// `"spun"`: arcs of one curvature that leave the axis in all directions and sweep to the rim, all turning the same way. A
+    /// cup wheel or a rotary polisher on a turning part: ground wafers, spiral-brushed watch parts.
+    Spun {
+        /// The axis.
+        #[serde(flatten)]
+        around: Around,
+        /// One over the radius of the tool; normal. Default: mean 20, spread 0.
+        curvature_per_m: Distribution,
+    },
+    /// `"swirl"`: arcs around many centres strewn over the surface. A polished or machine-washed car: the cobweb around
+    /// each highlight.
+    Swirl {
+        /// One over the distance to the centres, which a scratch follows as closely as they allow; normal.
+        /// Default: mean 25, spread 8.
+        curvature_per_m: Distribution,
+    },
+}
+
+/// An axis that a pattern turns about.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Around {
+    /// Its direction. Default: `[0, 0, 1]`.
+    pub axis: [f64; 3],
+    /// A point on it. Default: `[0, 0, 0]`.
+    pub center_m: [f64; 3],
+    /// Standard deviation of a scratch's angle to the pattern. Default: 0.
+    pub jitter_deg: f64,
+}
+
+impl Default for Around {
+    fn default() -> Self {
+        Self {
+            axis: [0.0, 0.0, 1.0],
+            center_m: [0.0; 3],
+            jitter_deg: 0.0,
+        }
+    }
+}
+
+/// A number that is drawn anew for each scratch: `{ mean = .., spread = .. }`, or a plain number for no spread.
+///
+/// For a log-normal quantity `mean` is the mean itself and `spread` the standard deviation of the natural logarithm; for a
+/// normal one `spread` is the standard deviation, in the unit of the mean.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Distribution {
+    /// The mean.
+    pub mean: f64,
+    /// Not negative.
+    pub spread: f64,
+}
+
+/// What layers that draw random numbers start from, where they do not say it.
+pub const DEFAULT_SEED: u64 = 1;
+/// Lengths where a layer does not say them.
+pub const DEFAULT_LENGTH_M: Distribution = Distribution {
+    mean: 0.02,
+    spread: 0.5,
+};
+/// Widths where a layer does not say them.
+pub const DEFAULT_WIDTH_UM: Distribution = Distribution {
+    mean: 1.5,
+    spread: 0.3,
+};
+/// Depths where a layer does not say them.
+pub const DEFAULT_DEPTH_NM: Distribution = Distribution {
+    mean: 200.0,
+    spread: 0.2,
+};
+
+impl Serialize for Distribution {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        use serde::ser::SerializeStruct;
+        if self.spread == 0.0 {
+            return self.mean.serialize(serializer);
+        }
+        let mut table = serializer.serialize_struct("Distribution", 2)?;
+        table.serialize_field("mean", &self.mean)?;
+        table.serialize_field("spread", &self.spread)?;
+        table.end()
+    }
+}
