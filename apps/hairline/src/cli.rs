@@ -10,7 +10,7 @@ use hairline_image::{Layer, ToneMap};
 use crate::compare::limits::{self, Limit};
 use crate::method_flags::{Mask, MethodFlags};
 
-/// Renders the coloured, hair-thin scratches of worn surfaces.
+/// Renders the coloured, hair-thin scratches of worn surfaces. Without a command: opens the viewer on the built-in scene.
 #[derive(Debug, Parser)]
 #[command(version, after_help = EXIT_CODES)]
 pub struct Cli {
@@ -25,6 +25,8 @@ const EXIT_CODES: &str =
 /// A subcommand.
 #[derive(Debug, Subcommand)]
 pub enum Command {
+    /// Edit a scene in a window: scratches, lights and materials, live.
+    View(View),
     /// Render a scene to a picture.
     Render(Render),
     /// Compare a picture with a reference: figures, and a report to look at.
@@ -35,6 +37,22 @@ pub enum Command {
     Bench(Bench),
     /// Show the version, the graphics adapters and what they can do, and the backends available.
     Info,
+}
+
+/// `hairline view`
+#[derive(Args, Debug, Default)]
+pub struct View {
+    /// The scene file (TOML). Without it: the built-in scene.
+    pub scene: Option<PathBuf>,
+    /// What renders. auto: the window's GPU, or the CPU renderer where the window is drawn by a software driver.
+    #[arg(long, value_enum, default_value_t = Backend::Auto)]
+    pub backend: Backend,
+    /// Where autosaves and the list of recent files are kept, in place of the user's folders.
+    #[arg(long, value_name = "FOLDER")]
+    pub state_dir: Option<PathBuf>,
+    /// Ask for files by a line in the window, not by the system's dialogs.
+    #[arg(long)]
+    pub plain_dialogs: bool,
 }
 
 /// `hairline render`
@@ -237,8 +255,9 @@ pub enum Switch {
 }
 
 /// What renders.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum Backend {
+    #[default]
     /// A GPU if there is one, else the CPU renderer; for long work a software graphics driver if it measures faster.
     Auto,
     /// A graphics adapter, be it a GPU or a software driver.

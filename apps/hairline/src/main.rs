@@ -1,4 +1,4 @@
-//! `hairline`: pictures of iridescent scratches from the command line.
+//! `hairline`: the viewer, and pictures of iridescent scratches from the command line.
 //!
 //! Exit codes: 0 done; 1 the work failed; 2 the command line or the scene is wrong.
 
@@ -14,10 +14,11 @@ mod reference;
 mod render;
 mod scene_file;
 mod trial;
+mod view;
 
 use std::process::ExitCode;
 
-use clap::{CommandFactory, Parser};
+use clap::Parser;
 
 fn main() -> ExitCode {
     quiet_the_search_for_wayland();
@@ -28,9 +29,8 @@ fn main() -> ExitCode {
         Some(cli::Command::Reference(arguments)) => reference::run(arguments),
         Some(cli::Command::Bench(arguments)) => bench::run(arguments),
         Some(cli::Command::Info) => info::run(),
-        None => cli::Cli::command()
-            .print_help()
-            .map_err(|e| failure::Failure::Work(e.into())),
+        Some(cli::Command::View(arguments)) => view::run(arguments),
+        None => view::run(&cli::View::default()),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -9,6 +9,9 @@ use hairline_scene::{Loader, Scene, Stage};
 use crate::failure::Failure;
 use crate::progress::Progress;
 
+/// The scene that is there without a file.
+pub const BUILT_IN: &str = include_str!("built_in_scene.toml");
+
 /// What flags put in the place of what the scene file says.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Overrides {
@@ -98,7 +101,7 @@ impl Source {
     fn read(scene: Option<&Path>) -> Result<Self, Failure> {
         let Some(path) = scene else {
             return Ok(Self {
-                text: include_str!("built_in_scene.toml").to_owned(),
+                text: BUILT_IN.to_owned(),
                 name: "built-in scene".into(),
                 folder: PathBuf::new(),
             });

@@ -1,1 +1,26 @@
-//! The viewer.
+//! The viewer: edit scratches, light and material live.
+//!
+//! What it edits is a [`Document`](hairline_editor::Document); what paints it is an [`engine::Engine`]. Widgets read the
+//! document and hand changes to it; the engine is given the document's newest description and the view, and never waited
+//! for. [`window`] opens it on a screen; tests drive [`Viewer`] without one.
+
+mod app;
+mod command;
+mod compare;
+mod dialogs;
+pub mod engine;
+mod export;
+mod files;
+mod notices;
+mod panels;
+mod tools;
+mod viewport;
+pub mod window;
+
+pub use app::{Options, Viewer};
+pub use window::open;
+
+/// The user's folder for autosaves and the list of recent files; none where the system has none.
+pub fn state_dir() -> Option<std::path::PathBuf> {
+    hairline_editor::folders::config_dir()
+}

@@ -1,0 +1,255 @@
+//! The viewer's state, and a pass over it: commands, engine, panels, picture.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Instant;
+
+use eframe::egui_wgpu::RenderState;
+use hairline_editor::{Document, Selection};
+use hairline_scene::Description;
+
+use crate::command::Command;
+use crate::compare::Compare;
+use crate::dialogs::Dialogs;
+use crate::engine::{Backend, Engine, Event};
+use crate::export::Export;
+use crate::files::Files;
+use crate::notices::Notices;
+use crate::panels;
+use crate::tools::{Tool, Toolbox};
+use crate::viewport::Viewport;
+
+/// What the viewer starts with.
+pub struct Options {
+    /// A scene file; none: `built_in`.
+    pub scene: Option<PathBuf>,
+    /// The text of the scene that is there without a file.
+    pub built_in: &'static str,
+    /// What paints.
+    pub backend: Backend,
+    /// Where autosaves and the list of recent files are kept; none: nowhere.
+    pub state_dir: Option<PathBuf>,
+    /// Whether to ask for files by the system's dialogs; else by a line in the window.
+    pub native_dialogs: bool,
+}
+
+/// The whole window.
+pub struct Viewer {
+    pub(crate) document: Document,
+    pub(crate) engine: Engine,
+    pub(crate) viewport: Viewport,
+    pub(crate) toolbox: Toolbox,
+    pub(crate) notices: Notices,
+    pub(crate) dialogs: Dialogs,
+    pub(crate) files: Files,
+    pub(crate) export: Export,
+    pub(crate) compare: Compare,
+    /// The camera is to show all of the next scene that is built.
+    pub(crate) frame_when_built: bool,
+    built_in: &'static str,
+    /// The description that the engine was given last, and when the notes about it were read.
+    asked: Option<Arc<Description>>,
+}
+
+impl Viewer {
+    /// Opens the scene. A scene that cannot be opened is told of in the window, which then shows the built-in one.
+    ///
+    /// # Errors
+    /// What is wrong in `built_in`.
+    pub fn new(
+        ctx: &egui::Context,
+        render_state: Option<RenderState>,
+        options: Options,
+    ) -> Result<Self, hairline_scene::Error> {
+        crate::window::set_style(ctx);
+        let mut notices = Notices::default();
+        let opened = options.scene.as_ref().map(Document::open);
+        let document = match opened {
+            Some(Ok(document)) => document,
+            other => {
+                if let Some(Err(error)) = other {
+                    notices.error("open", error.to_string());
+                }
+                built_in(options.built_in)?
+            }
+        };
+        let wake = ctx.clone();
+        let mut viewer = Self {
+            engine: Engine::start(
+                options.backend,
+                Arc::new(move || wake.request_repaint()),
+            ),
+            viewport: Viewport::new(render_state),
+            toolbox: Toolbox::default(),
+            notices,
+            dialogs: Dialogs::default(),
+            files: Files::new(options.state_dir, options.native_dialogs),
+            export: Export::default(),
+            compare: Compare::default(),
+            frame_when_built: false,
+            built_in: options.built_in,
+            asked: None,
+            document,
+        };
+        viewer.files.start(&mut viewer.dialogs);
+        if let Some(path) = viewer.document.path() {
+            viewer.files.remember(path);
+        }
+        Ok(viewer)
+    }
+
+    /// The scene being edited, for tests.
+    pub fn document(&self) -> &Document {
+        &self.document
+    }
+
+    /// What paints, for tests.
+    pub fn engine(&self) -> &Engine {
+        &self.engine
+    }
+
+    /// The messages in the window, for tests.
+    pub fn messages(&self) -> Vec<&str> {
+        self.notices.texts()
+    }
+
+    /// One pass of the interface.
+    pub fn show(&mut self, ui: &mut egui::Ui) {
+        let ctx = ui.ctx().clone();
+        self.hear_engine();
+        for path in dropped_files(&ctx) {
+            self.take_file(&ctx, &path);
+        }
+        if let Some(outcome) = self.files.chosen() {
+            self.take_choice(&ctx, outcome);
+        }
+        if !self.dialogs.is_modal() {
+            for command in Command::pressed(&ctx) {
+                self.run(&ctx, command);
+            }
+        }
+        let mut wished = None;
+        panels::menu::show(ui, self, &mut wished);
+        panels::status::show(ui, self);
+        panels::outliner::show(ui, self, &mut wished);
+        panels::inspector::show(ui, self);
+        let area = crate::viewport::show(ui, self);
+        self.notices.show(&ctx, area);
+        if let Some(command) = wished {
+            self.run(&ctx, command);
+        }
+        self.show_dialogs(&ctx);
+        self.end_drag_where_nothing_is_held(&ctx);
+        self.ask_engine();
+        if let Some(failed) = self.files.autosave(&self.document) {
+            self.notices.error("autosave", format!("No autosave: {failed}"));
+        }
+        self.watch_close(&ctx);
+        let title = format!(
+            "{}{} · Hairline",
+            self.document.title(),
+            if self.document.is_modified() { " •" } else { "" }
+        );
+        ctx.send_viewport_cmd(egui::ViewportCommand::Title(title));
+    }
+
+    /// A drag of a widget is over when no button is held: what comes next is a step of its own.
+    fn end_drag_where_nothing_is_held(&mut self, ctx: &egui::Context) {
+        if !ctx.input(|input| input.pointer.any_down()) && !self.viewport.is_wheeling(ctx) {
+            self.document.end_drag();
+        }
+    }
+
+    fn hear_engine(&mut self) {
+        for event in self.engine.events() {
+            match event {
+                Event::NotBuilt { revision, message } => {
+                    if self.engine.built().is_none_or(|built| built.revision < revision) {
+                        self.notices.error("scene", message);
+                    }
+                }
+                Event::FellBack { message } => {
+                    let text = format!("{message}. The CPU renders from now on.");
+                    self.notices.error("device", text);
+                }
+                Event::Recovered => self
+                    .notices
+                    .note("device", "The graphics device was lost, and is back."),
+            }
+        }
+    }
+
+    /// Hands the description to the engine if more than the view has changed.
+    fn ask_engine(&mut self) {
+        let description = self.document.description();
+        let is_asked = self.asked.as_ref().is_some_and(|asked| {
+            Arc::ptr_eq(asked, description) || makes_same_scene(asked, description)
+        });
+        if !is_asked {
+            self.notices.clear("scene");
+            self.engine.set_scene(
+                self.document.revision(),
+                Arc::clone(description),
+                self.document.base_dir().to_owned(),
+            );
+        }
+        self.asked = Some(Arc::clone(description));
+    }
+
+    /// Puts another document in the place of this one.
+    pub(crate) fn replace_document(&mut self, document: Document) {
+        self.files.reopen();
+        self.document = document;
+        self.asked = None;
+        self.toolbox.tool = Tool::Select;
+        self.notices.clear("open");
+        if let Some(path) = self.document.path() {
+            self.files.remember(path);
+        }
+    }
+
+    /// The built-in scene as a new document.
+    pub(crate) fn built_in(&self) -> Result<Document, hairline_scene::Error> {
+        built_in(self.built_in)
+    }
+
+    /// What is selected.
+    pub(crate) fn selection(&self) -> Selection {
+        self.document.selection()
+    }
+}
+
+impl eframe::App for Viewer {
+    fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
+        let start = Instant::now();
+        self.show(ui);
+        self.viewport.note_interface_time(start.elapsed());
+    }
+
+    fn on_exit(&mut self) {
+        self.files.close();
+    }
+}
+
+fn built_in(text: &str) -> Result<Document, hairline_scene::Error> {
+    let description = Document::read(text, Path::new("built-in scene"))?;
+    Ok(Document::untitled(description, PathBuf::new()))
+}
+
+/// Whether only the view, the exposure or the way of showing differs, which the painter is told without a new scene. The
+/// camera's up is left to the builder: it turns the environment.
+fn makes_same_scene(a: &Description, b: &Description) -> bool {
+    a.camera.up == b.camera.up
+        && a.environment == b.environment
+        && a.materials == b.materials
+        && a.objects == b.objects
+        && a.scratches == b.scratches
+        && a.lights == b.lights
+}
+
+fn dropped_files(ctx: &egui::Context) -> Vec<PathBuf> {
+    ctx.input(|input| {
+        let files = &input.raw.dropped_files;
+        files.iter().map(|file| file.path().to_owned()).collect()
+    })
+}

@@ -1,0 +1,148 @@
+//! What makes pictures of the scene while the interface goes on: nothing here is ever waited for by a widget.
+//!
+//! Two threads, in the order of the data: `builder` makes a scene of the newest description, with its trees and tables;
+//! `painter` paints the newest scene from the newest view, coarsely while something moves and ever finer while nothing does.
+//! The interface hands in what it wants with [`Engine::set_scene`] and [`Engine::set_view`], which only store it, and takes
+//! what is there with [`Engine::latest`].
+
+mod build;
+mod builder;
+mod cpu;
+mod frame;
+mod gpu;
+mod pace;
+mod painter;
+mod pool;
+mod request;
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::thread::JoinHandle;
+
+use hairline_gpu::Gpu;
+use hairline_scene::description::Description;
+
+pub use build::{BuildStages, Built};
+pub use frame::{Frame, Latency, Painted, Picture};
+pub use request::View;
+
+use request::Shared;
+
+/// What paints.
+#[derive(Clone)]
+pub enum Backend {
+    /// The CPU renderer, on threads of low priority.
+    Cpu,
+    /// A device of its own, whose pictures are copied to the window's: what a window on another adapter needs.
+    Gpu(Gpu),
+    /// The window's own device: its pictures are shown where they are.
+    Shared(Gpu),
+}
+
+impl Backend {
+    /// What the status line calls it.
+    pub fn label(&self) -> String {
+        match self {
+            Self::Cpu => format!("CPU, {} threads", pool::threads()),
+            Self::Gpu(gpu) | Self::Shared(gpu) => gpu.adapter.to_string(),
+        }
+    }
+}
+
+/// What went wrong or is worth a line, in the order of its coming.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Event {
+    /// The description of this revision makes no scene; the last good one stays in the picture.
+    NotBuilt {
+        /// Of the description.
+        revision: u64,
+        /// Names the key, what was found and what would be right.
+        message: String,
+    },
+    /// The device was lost or refused the scene; the CPU paints from now on.
+    FellBack {
+        /// What the device said.
+        message: String,
+    },
+    /// A device that was lost is back.
+    Recovered,
+}
+
+/// How the interface is told that something new is there.
+pub type Wake = Arc<dyn Fn() + Send + Sync>;
+
+/// The two threads. Dropping it stops them, at once or after the pixels that they are at.
+pub struct Engine {
+    shared: Arc<Shared>,
+    threads: Vec<JoinHandle<()>>,
+}
+
+impl Engine {
+    /// Starts with nothing to paint.
+    pub fn start(backend: Backend, wake: Wake) -> Self {
+        let shared = Arc::new(Shared::new(backend, wake));
+        let spawn = |name: &str, work: fn(&Shared)| {
+            let shared = Arc::clone(&shared);
+            std::thread::Builder::new()
+                .name(name.to_owned())
+                .spawn(move || {
+                    pool::lower_priority();
+                    work(&shared)
+                })
+        };
+        // A system that cannot start two threads cannot open a window either.
+        let threads = [
+            spawn("scene builder", builder::run),
+            spawn("painter", painter::run),
+        ];
+        Self {
+            threads: threads.into_iter().flatten().collect(),
+            shared,
+        }
+    }
+
+    /// Wants `description` in the picture. Revisions grow; a newer one replaces one that waits.
+    pub fn set_scene(&self, revision: u64, description: Arc<Description>, base_dir: PathBuf) {
+        self.shared.want_scene(revision, description, base_dir);
+    }
+
+    /// Wants the picture from here.
+    pub fn set_view(&self, view: View) {
+        self.shared.want_view(view);
+    }
+
+    /// The newest picture.
+    pub fn latest(&self) -> Option<Arc<Frame>> {
+        self.shared.frame()
+    }
+
+    /// The newest scene that was built.
+    pub fn built(&self) -> Option<Arc<Built>> {
+        self.shared.built()
+    }
+
+    /// Whether a newer description than that of the newest scene is being built.
+    pub fn is_building(&self) -> bool {
+        self.shared.is_building()
+    }
+
+    /// What happened since the last call.
+    pub fn events(&self) -> Vec<Event> {
+        self.shared.take_events()
+    }
+
+    /// What paints at the moment.
+    pub fn backend(&self) -> Backend {
+        self.shared.backend()
+    }
+}
+
+impl Drop for Engine {
+    fn drop(&mut self) {
+        self.shared.stop();
+        for thread in self.threads.drain(..) {
+            // A thread that panicked has said so on stderr.
+            let _ = thread.join();
+        }
+    }
+}

@@ -1,0 +1,232 @@
+//! Painting by the GPU renderer, a sample of a band at a time.
+
+use std::sync::{Arc, Weak};
+use std::time::{Duration, Instant};
+
+use egui::ColorImage;
+use hairline_gpu::canvas::Canvas;
+use hairline_gpu::{
+    AdapterKind, AdapterRequest, Error, Gpu, GpuScene, PassTime, Renderer, headless,
+};
+use hairline_optics::method::Method;
+use hairline_scene::Scene;
+
+use super::Built;
+use super::frame::Picture;
+use super::painter::{Easel, Shown, Step};
+use super::request::Order;
+
+/// Pixels of one submission on a software driver, between two looks at whether something newer is wanted.
+const SOFTWARE_BAND_PX: u32 = 1 << 16;
+/// On a GPU: well below what any system takes for hung.
+const HARDWARE_BAND_PX: u32 = 1 << 21;
+/// Samples of a finished picture.
+const BEST_SAMPLES: u32 = 32;
+/// Fewer of them are no better than the one sample through the pixels' centres that came before.
+const FEWEST_SHOWN: u32 = 4;
+/// Between two pictures of one that becomes finer.
+const REFRESH: Duration = Duration::from_millis(100);
+
+pub(super) struct GpuEasel {
+    renderer: Renderer,
+    /// Whether the window can show textures of this device.
+    is_shared: bool,
+    is_timed: bool,
+    uploaded: Option<(Weak<Built>, GpuScene)>,
+    canvas: Option<Canvas>,
+    /// Of the canvas.
+    step: Option<Step>,
+}
+
+impl GpuEasel {
+    pub fn open(gpu: Gpu, is_shared: bool) -> Result<Self, Error> {
+        let (renderer, is_timed) = gpu.block_on(async {
+            let mut renderer = Renderer::new(&gpu).await?;
+            let is_timed = renderer.time_passes().await?;
+            Ok::<_, Error>((renderer, is_timed))
+        })?;
+        Ok(Self {
+            renderer,
+            is_shared,
+            is_timed,
+            uploaded: None,
+            canvas: None,
+            step: None,
+        })
+    }
+
+    /// The adapter again, after its device was lost.
+    pub fn reopen() -> Result<Gpu, Error> {
+        headless::open(&AdapterRequest::default())
+    }
+
+    fn shown(&mut self, order: &Order, samples: u32) -> Result<Option<Shown>, Error> {
+        let Some(canvas) = &self.canvas else {
+            return Ok(None);
+        };
+        let size_px = canvas.size_px();
+        let display = &order.view.display;
+        let gpu = self.renderer.gpu().clone();
+        let picture = gpu.block_on(async {
+            if self.is_shared {
+                let view = target(&gpu, size_px).await?;
+                self.renderer
+                    .show(canvas, display, &view, TARGET_FORMAT)
+                    .await?;
+                gpu.finished().await?;
+                return Ok(Picture::Texture(view));
+            }
+            let pixels = self.renderer.read_shown(canvas, display).await?;
+            let size = size_px.map(|side| side as usize);
+            let image = ColorImage::from_rgba_premultiplied(size, &pixels);
+            Ok::<_, Error>(Picture::Pixels(Arc::new(image)))
+        })?;
+        let passes = self.pass_times()?;
+        Ok(Some(Shown {
+            picture,
+            size_px,
+            samples,
+            passes,
+        }))
+    }
+
+    fn pass_times(&mut self) -> Result<Vec<PassTime>, Error> {
+        if !self.is_timed {
+            return Ok(Vec::new());
+        }
+        let gpu = self.renderer.gpu().clone();
+        let times = gpu.block_on(self.renderer.pass_times())?;
+        Ok(times.unwrap_or_default())
+    }
+}
+
+impl Easel for GpuEasel {
+    fn take(&mut self, order: &Order) -> Result<bool, Error> {
+        let built = Arc::downgrade(&order.built);
+        if let Some((last, _)) = &self.uploaded
+            && last.ptr_eq(&built)
+        {
+            return Ok(false);
+        }
+        let gpu = self.renderer.gpu().clone();
+        let Built {
+            scene,
+            scratches,
+            tables,
+            ..
+        } = &*order.built;
+        let method = Method::default();
+        match &mut self.uploaded {
+            Some((last, uploaded)) => {
+                gpu.block_on(
+                    self.renderer
+                        .update(uploaded, scene, scratches, tables, &method),
+                )?;
+                *last = built;
+            }
+            None => {
+                let uploaded =
+                    gpu.block_on(self.renderer.upload(scene, scratches, tables, &method))?;
+                self.uploaded = Some((built, uploaded));
+            }
+        }
+        Ok(true)
+    }
+
+    fn paint(
+        &mut self,
+        order: &Order,
+        step: &Step,
+        interrupted: &(dyn Fn() -> bool + Sync),
+        show: &mut dyn FnMut(Shown),
+    ) -> Result<bool, Error> {
+        let gpu = self.renderer.gpu().clone();
+        let is_software = gpu.adapter.kind == AdapterKind::Software;
+        let band_px = if is_software {
+            SOFTWARE_BAND_PX
+        } else {
+            HARDWARE_BAND_PX
+        };
+        let mut canvas = match self.canvas.take() {
+            Some(canvas) if canvas.size_px() == step.size_px => canvas,
+            _ => gpu.block_on(Canvas::new(&self.renderer, step.size_px, band_px))?,
+        };
+        let scene = scene_seen(order, step);
+        self.step = Some(*step);
+        let mut last_shown = Instant::now();
+        for sample in 0..step.samples {
+            for band in 0..canvas.bands() {
+                if interrupted() {
+                    self.canvas = Some(canvas);
+                    return Ok(false);
+                }
+                let Some((_, uploaded)) = &self.uploaded else {
+                    return Ok(false);
+                };
+                let renderer = &mut self.renderer;
+                gpu.block_on(async {
+                    renderer
+                        .accumulate(&scene, uploaded, &mut canvas, band, sample, step.samples)
+                        .await?;
+                    gpu.finished().await
+                })?;
+            }
+            let done = sample + 1;
+            let is_last = done == step.samples;
+            if is_last || done >= FEWEST_SHOWN && last_shown.elapsed() > REFRESH {
+                self.canvas = Some(canvas);
+                if let Some(shown) = self.shown(order, done)? {
+                    show(shown);
+                }
+                last_shown = Instant::now();
+                canvas = match self.canvas.take() {
+                    Some(canvas) => canvas,
+                    None => return Ok(false),
+                };
+            }
+        }
+        self.canvas = Some(canvas);
+        Ok(true)
+    }
+
+    fn show_again(&mut self, order: &Order) -> Result<Option<Shown>, Error> {
+        let samples = self.step.map_or(1, |step| step.samples);
+        self.shown(order, samples)
+    }
+
+    fn best_samples(&self) -> u32 {
+        BEST_SAMPLES
+    }
+}
+
+/// The scene from where it is seen.
+fn scene_seen(order: &Order, step: &Step) -> Scene {
+    let mut scene = order.built.scene.clone();
+    scene.camera = order.view.camera;
+    scene.render.size_px = step.size_px;
+    scene.render.filter_std_px = order.view.filter_std_px;
+    scene
+}
+
+/// What egui takes for a picture.
+const TARGET_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+
+/// A new one for each picture: the window may be drawing the last.
+async fn target(gpu: &Gpu, [width, height]: [u32; 2]) -> Result<wgpu::TextureView, Error> {
+    let descriptor = wgpu::TextureDescriptor {
+        label: Some("picture for the window"),
+        size: wgpu::Extent3d {
+            width,
+            height,
+            depth_or_array_layers: 1,
+        },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: TARGET_FORMAT,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
+        view_formats: &[],
+    };
+    let texture = gpu.texture("picture for the window", &descriptor).await?;
+    Ok(texture.create_view(&Default::default()))
+}

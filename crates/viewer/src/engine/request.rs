@@ -1,0 +1,232 @@
+//! What the interface wants and what the threads have made of it: one lock, held for as long as it takes to move a pointer.
+
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+use hairline_image::Display;
+use hairline_scene::description::Description;
+use hairline_scene::scene::Camera;
+
+use super::{Backend, Built, Event, Frame, Wake};
+
+/// Where the picture is taken from, and how it is shown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct View {
+    /// The camera; its exposure is that of `display`.
+    pub camera: Camera,
+    /// Physical pixels.
+    pub size_px: [u32; 2],
+    /// Exposure and tone curve: a change of them paints nothing anew.
+    pub display: Display,
+    /// Standard deviation of the pixel's Gaussian filter.
+    pub filter_std_px: f64,
+}
+
+impl View {
+    /// Whether the same pixels see the same points.
+    pub fn has_same_pixels(&self, other: &Self) -> bool {
+        self.camera == other.camera
+            && self.size_px == other.size_px
+            && self.filter_std_px == other.filter_std_px
+    }
+}
+
+/// A description that waits to be built.
+pub(super) struct WantedScene {
+    pub revision: u64,
+    pub description: Arc<Description>,
+    pub base_dir: PathBuf,
+    pub asked: Instant,
+}
+
+#[derive(Default)]
+struct State {
+    wanted_scene: Option<WantedScene>,
+    is_building: bool,
+    built: Option<Arc<Built>>,
+    view: Option<View>,
+    frame: Option<Arc<Frame>>,
+    events: Vec<Event>,
+}
+
+pub(super) struct Shared {
+    state: Mutex<State>,
+    /// Something new is wanted.
+    news: Condvar,
+    stopped: AtomicBool,
+    backend: Mutex<Backend>,
+    wake: Wake,
+}
+
+/// What the painter is to paint.
+#[derive(Clone)]
+pub(super) struct Order {
+    pub built: Arc<Built>,
+    pub view: View,
+}
+
+impl Order {
+    /// Whether a picture of `other` is one of this too, but for exposure and tone curve.
+    pub fn has_same_pixels(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.built, &other.built) && self.view.has_same_pixels(&other.view)
+    }
+}
+
+impl Shared {
+    pub fn new(backend: Backend, wake: Wake) -> Self {
+        Self {
+            state: Mutex::default(),
+            news: Condvar::new(),
+            stopped: AtomicBool::new(false),
+            backend: Mutex::new(backend),
+            wake,
+        }
+    }
+
+    /// A thread that panicked left nothing half-moved: each lock covers one move.
+    fn lock(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    pub fn want_scene(&self, revision: u64, description: Arc<Description>, base_dir: PathBuf) {
+        self.lock().wanted_scene = Some(WantedScene {
+            revision,
+            description,
+            base_dir,
+            asked: Instant::now(),
+        });
+        self.news.notify_all();
+    }
+
+    pub fn want_view(&self, view: View) {
+        let mut state = self.lock();
+        if state.view != Some(view) {
+            state.view = Some(view);
+            drop(state);
+            self.news.notify_all();
+        }
+    }
+
+    /// Blocks until there is a scene to build; none when it is time to end.
+    pub fn next_scene(&self) -> Option<WantedScene> {
+        let mut state = self.lock();
+        state.is_building = false;
+        loop {
+            if self.is_stopped() {
+                return None;
+            }
+            if let Some(wanted) = state.wanted_scene.take() {
+                state.is_building = true;
+                return Some(wanted);
+            }
+            state = self
+                .news
+                .wait(state)
+                .unwrap_or_else(PoisonError::into_inner);
+        }
+    }
+
+    pub fn put_built(&self, built: Built) {
+        self.lock().built = Some(Arc::new(built));
+        self.news.notify_all();
+        (self.wake)();
+    }
+
+    /// What is to be painted now, if scene and view are there.
+    pub fn order(&self) -> Option<Order> {
+        let state = self.lock();
+        Some(Order {
+            built: Arc::clone(state.built.as_ref()?),
+            view: state.view?,
+        })
+    }
+
+    /// Blocks until the order is another one than `done`, or until `patience` is over; none when it is time to end.
+    pub fn next_order(&self, done: Option<&Order>, patience: Option<Duration>) -> Option<Order> {
+        let deadline = patience.map(|patience| Instant::now() + patience);
+        let mut state = self.lock();
+        loop {
+            if self.is_stopped() {
+                return None;
+            }
+            if let (Some(built), Some(view)) = (&state.built, state.view) {
+                let order = Order {
+                    built: Arc::clone(built),
+                    view,
+                };
+                let is_new = done.is_none_or(|done| {
+                    !done.has_same_pixels(&order) || done.view.display != view.display
+                });
+                let is_late = deadline.is_some_and(|deadline| Instant::now() >= deadline);
+                if is_new || is_late {
+                    return Some(order);
+                }
+            }
+            state = match deadline {
+                None => self
+                    .news
+                    .wait(state)
+                    .unwrap_or_else(PoisonError::into_inner),
+                Some(deadline) => {
+                    let left = deadline.saturating_duration_since(Instant::now());
+                    self.news
+                        .wait_timeout(state, left)
+                        .unwrap_or_else(PoisonError::into_inner)
+                        .0
+                }
+            };
+        }
+    }
+
+    pub fn put_frame(&self, frame: Frame) {
+        self.lock().frame = Some(Arc::new(frame));
+        (self.wake)();
+    }
+
+    pub fn put_event(&self, event: Event) {
+        self.lock().events.push(event);
+        (self.wake)();
+    }
+
+    pub fn frame(&self) -> Option<Arc<Frame>> {
+        self.lock().frame.clone()
+    }
+
+    pub fn built(&self) -> Option<Arc<Built>> {
+        self.lock().built.clone()
+    }
+
+    pub fn is_building(&self) -> bool {
+        let state = self.lock();
+        state.is_building || state.wanted_scene.is_some()
+    }
+
+    pub fn take_events(&self) -> Vec<Event> {
+        std::mem::take(&mut self.lock().events)
+    }
+
+    pub fn backend(&self) -> Backend {
+        self.backend
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .clone()
+    }
+
+    pub fn set_backend(&self, backend: Backend) {
+        *self.backend.lock().unwrap_or_else(PoisonError::into_inner) = backend;
+    }
+
+    pub fn is_stopped(&self) -> bool {
+        self.stopped.load(Ordering::Relaxed)
+    }
+
+    pub fn stop(&self) {
+        // Under the lock, lest a thread that has just looked should sleep through the call.
+        let state = self.lock();
+        self.stopped.store(true, Ordering::Relaxed);
+        drop(state);
+        self.news.notify_all();
+    }
+}

@@ -1,0 +1,210 @@
+//! Files: dialogs of the system, recent ones, and autosaves.
+//!
+//! A dialog of the system waits in a thread of its own. Where the system has none, a line in the window asks for the path.
+
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::time::{Duration, Instant};
+
+use hairline_editor::Document;
+use hairline_editor::autosave::{self, Autosave, Pending};
+use hairline_editor::recent::Recent;
+
+use crate::dialogs::Dialogs;
+
+/// What a path is wanted for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Purpose {
+    Open,
+    SaveAs,
+    AddModel,
+    Environment,
+    Screenshot,
+    Turntable,
+}
+
+impl Purpose {
+    /// The title of the dialog.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Open => "Open a scene",
+            Self::SaveAs => "Save the scene as",
+            Self::AddModel => "Add a model",
+            Self::Environment => "Set the environment",
+            Self::Screenshot => "Save a picture",
+            Self::Turntable => "Export a turntable: name of the first frame",
+        }
+    }
+
+    /// What files are shown.
+    fn filter(self) -> (&'static str, &'static [&'static str]) {
+        match self {
+            Self::Open | Self::SaveAs => ("Hairline scenes", &["toml"]),
+            Self::AddModel => ("glTF models", &["glb", "gltf"]),
+            Self::Environment => ("Environment maps", &["hdr", "exr"]),
+            Self::Screenshot | Self::Turntable => ("Pictures", &["png", "exr"]),
+        }
+    }
+
+    fn writes(self) -> bool {
+        matches!(self, Self::SaveAs | Self::Screenshot | Self::Turntable)
+    }
+
+    /// What a new file is called before anyone has said.
+    pub fn proposal(self, document: &Document) -> String {
+        let stem = document.path().and_then(Path::file_stem);
+        let stem = stem.map_or("scene".into(), |stem| stem.to_string_lossy());
+        match self {
+            Self::Open | Self::AddModel | Self::Environment => String::new(),
+            Self::SaveAs => format!("{stem}.toml"),
+            Self::Screenshot => format!("{stem}.png"),
+            Self::Turntable => format!("{stem}-turntable.png"),
+        }
+    }
+}
+
+/// What came of a dialog.
+pub(crate) enum Choice {
+    Path(Purpose, PathBuf),
+    /// It was closed without a choice.
+    Nothing,
+    /// The system has no dialogs: ask in the window.
+    NoDialogs(Purpose),
+}
+
+/// Faster than any hand: the dialog did not open.
+const NO_HAND: Duration = Duration::from_millis(250);
+
+pub(crate) struct Files {
+    waiting: Option<Waiting>,
+    native: bool,
+    recent: Recent,
+    autosaves: Option<PathBuf>,
+    autosave: Option<Autosave>,
+    started: Instant,
+}
+
+struct Waiting {
+    purpose: Purpose,
+    since: Instant,
+    answer: Receiver<Option<PathBuf>>,
+}
+
+impl Files {
+    /// Without a folder nothing is kept.
+    pub fn new(state_dir: Option<PathBuf>, native: bool) -> Self {
+        let recent = match &state_dir {
+            Some(folder) => Recent::load(folder.join("recent.toml")),
+            None => Recent::default(),
+        };
+        Self {
+            waiting: None,
+            native,
+            recent,
+            autosaves: state_dir.map(|folder| folder.join("autosave")),
+            autosave: None,
+            started: Instant::now(),
+        }
+    }
+
+    /// Offers what earlier runs left, and begins to keep what this one does.
+    pub fn start(&mut self, dialogs: &mut Dialogs) {
+        let Some(folder) = &self.autosaves else {
+            return;
+        };
+        dialogs.offer_recovery(autosave::pending(folder));
+        // Without a place to write the work goes on; nothing better could be done.
+        self.autosave = Autosave::new(folder).ok();
+    }
+
+    /// Asks for a path; the answer comes by [`Self::chosen`].
+    pub fn ask(&mut self, purpose: Purpose, document: &Document, wake: egui::Context) {
+        if self.waiting.is_some() {
+            return;
+        }
+        let (sender, answer) = channel();
+        self.waiting = Some(Waiting {
+            purpose,
+            since: Instant::now(),
+            answer,
+        });
+        if !self.native {
+            drop(sender);
+            return;
+        }
+        let (name, endings) = purpose.filter();
+        let folder = std::path::absolute(document.base_dir()).unwrap_or_default();
+        let dialog = rfd::AsyncFileDialog::new()
+            .set_title(purpose.title())
+            .add_filter(name, endings)
+            .set_directory(folder)
+            .set_file_name(purpose.proposal(document));
+        let work = move || {
+            let chosen = pollster::block_on(async {
+                if purpose.writes() {
+                    dialog.save_file().await
+                } else {
+                    dialog.pick_file().await
+                }
+            });
+            // A window that was closed meanwhile wants no answer.
+            let _ = sender.send(chosen.map(|file| file.path().to_owned()));
+            wake.request_repaint();
+        };
+        // If no thread starts, the sender goes, and the window asks itself.
+        let _ = std::thread::Builder::new().spawn(work);
+    }
+
+    /// What came of the dialog, once.
+    pub fn chosen(&mut self) -> Option<Choice> {
+        let waiting = self.waiting.as_ref()?;
+        let purpose = waiting.purpose;
+        let choice = match waiting.answer.try_recv() {
+            Err(TryRecvError::Empty) => return None,
+            Ok(Some(path)) => Choice::Path(purpose, path),
+            Ok(None) if waiting.since.elapsed() > NO_HAND => Choice::Nothing,
+            Ok(None) | Err(TryRecvError::Disconnected) => Choice::NoDialogs(purpose),
+        };
+        self.waiting = None;
+        Some(choice)
+    }
+
+    pub fn remember(&mut self, path: &Path) {
+        self.recent.add(path);
+    }
+
+    pub fn recent(&self) -> Vec<PathBuf> {
+        self.recent.list()
+    }
+
+    /// Keeps what is not saved, if it is time. Why it could not, where it could not.
+    pub fn autosave(&mut self, document: &Document) -> Option<String> {
+        let autosave = self.autosave.as_mut()?;
+        let failed = autosave.tick(self.started.elapsed(), document).err()?;
+        Some(failed.to_string())
+    }
+
+    /// What was recovered is kept until it is saved or given up.
+    pub fn take_over(&mut self, pending: Pending) {
+        match &mut self.autosave {
+            Some(autosave) => autosave.take_over(pending),
+            None => pending.discard(),
+        }
+    }
+
+    /// The document is given up or safe: its autosave goes.
+    pub fn close(&mut self) {
+        if let Some(autosave) = self.autosave.take() {
+            autosave.close();
+        }
+    }
+
+    /// Another document begins.
+    pub fn reopen(&mut self) {
+        self.close();
+        self.autosave = self
+            .autosaves
+            .as_ref()
+            .and_then(|folder| Autosave::new(folder).ok());
+    }
+}

@@ -1,0 +1,107 @@
+//! Messages in the window: what went wrong, and what was done. An error stays until it is dismissed.
+
+use egui::{Align2, Color32, RichText};
+
+/// How a line reads.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kind {
+    Error,
+    Note,
+}
+
+struct Notice {
+    kind: Kind,
+    text: String,
+    /// When it was first shown, seconds.
+    since: Option<f64>,
+    /// Replaced by the next of the same topic.
+    topic: &'static str,
+}
+
+/// The newest last.
+#[derive(Default)]
+pub(crate) struct Notices {
+    list: Vec<Notice>,
+}
+
+/// A note goes by itself after this time.
+const NOTE_SECONDS: f64 = 5.0;
+/// More would hide the picture.
+const MOST: usize = 4;
+
+impl Notices {
+    pub fn error(&mut self, topic: &'static str, text: impl Into<String>) {
+        self.push(Kind::Error, topic, text.into());
+    }
+
+    pub fn note(&mut self, topic: &'static str, text: impl Into<String>) {
+        self.push(Kind::Note, topic, text.into());
+    }
+
+    /// What was wrong is right again.
+    pub fn clear(&mut self, topic: &'static str) {
+        self.list.retain(|notice| notice.topic != topic);
+    }
+
+    fn push(&mut self, kind: Kind, topic: &'static str, text: String) {
+        self.clear(topic);
+        self.list.push(Notice {
+            kind,
+            text,
+            since: None,
+            topic,
+        });
+        if self.list.len() > MOST {
+            self.list.remove(0);
+        }
+    }
+
+    /// The text of all that are there, for tests and the log.
+    pub fn texts(&self) -> Vec<&str> {
+        self.list.iter().map(|notice| notice.text.as_str()).collect()
+    }
+
+    /// Above the lower edge of `area`.
+    pub fn show(&mut self, ctx: &egui::Context, area: egui::Rect) {
+        let now = ctx.input(|input| input.time);
+        for notice in &mut self.list {
+            notice.since.get_or_insert(now);
+        }
+        self.list.retain(|notice| {
+            notice.kind == Kind::Error
+                || notice.since.is_none_or(|since| now - since < NOTE_SECONDS)
+        });
+        if self.list.is_empty() {
+            return;
+        }
+        if self.list.iter().any(|notice| notice.kind == Kind::Note) {
+            ctx.request_repaint_after(std::time::Duration::from_secs_f64(NOTE_SECONDS));
+        }
+        let mut dismissed = None;
+        egui::Area::new(egui::Id::unique("notices"))
+            .anchor(Align2::LEFT_BOTTOM, egui::vec2(area.left() + 12.0, area.bottom() - ctx.content_rect().bottom() - 12.0))
+            .order(egui::Order::Foreground)
+            .show(ctx, |ui| {
+                ui.set_max_width((area.width() - 24.0).clamp(200.0, 640.0));
+                for (i, notice) in self.list.iter().enumerate() {
+                    egui::Frame::popup(ui.style()).show(ui, |ui| {
+                        ui.horizontal(|ui| {
+                            let color = match notice.kind {
+                                Kind::Error => Color32::from_rgb(255, 140, 120),
+                                Kind::Note => ui.visuals().text_color(),
+                            };
+                            if notice.kind == Kind::Error
+                                && ui.small_button("Dismiss").clicked()
+                            {
+                                dismissed = Some(i);
+                            }
+                            ui.add(egui::Label::new(RichText::new(&notice.text).color(color)).wrap());
+                        });
+                    });
+                }
+            });
+        if let Some(i) = dismissed {
+            self.list.remove(i);
+        }
+    }
+}

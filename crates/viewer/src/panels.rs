@@ -1,0 +1,14 @@
+//! What is around the picture. A panel reads the document and hands changes to it; it keeps nothing.
+
+pub(crate) mod form;
+pub(crate) mod inspector;
+pub(crate) mod menu;
+pub(crate) mod outliner;
+pub(crate) mod status;
+
+mod camera;
+mod environment;
+mod layer;
+mod light;
+mod material;
+mod object;

@@ -1,0 +1,47 @@
+//! Light from all around.
+
+use egui::Ui;
+use hairline_editor::actions;
+use hairline_editor::ranges::Parameter;
+
+use super::form::Form;
+use crate::app::Viewer;
+use crate::command::Command;
+
+pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer) {
+    ui.heading("Environment");
+    let Some(mut environment) = viewer.document.description().environment.clone() else {
+        ui.label("No map: the lights alone light the scene, and the background is black.");
+        if ui.button(Command::SetEnvironment.label()).clicked() {
+            viewer.run(&ui.ctx().clone(), Command::SetEnvironment);
+        }
+        return;
+    };
+    ui.label(environment.file.display().to_string());
+    let mut form = Form::new(ui, "environment", viewer.diagonal_m(None));
+    form.number(Parameter::EnvironmentRotation, &mut environment.rotation_deg);
+    form.number(Parameter::EnvironmentIntensity, &mut environment.intensity);
+    form.toggle(
+        "Visible",
+        "Whether the camera sees it behind the objects; it lights them either way",
+        &mut environment.visible,
+    );
+    if let Some(change) = form.change() {
+        viewer.document.drag(&change.label, change.key, |d| {
+            d.environment = Some(environment);
+        });
+    }
+    ui.add_space(8.0);
+    ui.horizontal(|ui| {
+        if ui.button("Another map…").clicked() {
+            viewer.run(&ui.ctx().clone(), Command::SetEnvironment);
+        }
+        if ui.button("Remove the map").clicked() {
+            let base_dir = viewer.document.base_dir().to_owned();
+            let done = viewer.document.apply("Remove the environment", |d, _| {
+                Ok(actions::set_environment(d, None, &base_dir))
+            });
+            viewer.tell(done);
+        }
+    });
+}

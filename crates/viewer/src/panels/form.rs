@@ -1,0 +1,280 @@
+//! Rows of a panel: a label and a control, with the unit, the range and the tooltip of a parameter.
+//!
+//! A form is shown for a copy of a part of the description. Each row says whether it changed the copy and which control did
+//! it, so that all that one control does while it is held becomes one step.
+
+use std::hash::Hash;
+
+use egui::{Align, DragValue, Layout, Response, Slider, SliderClamping, TextEdit, Ui};
+use hairline_editor::DragKey;
+use hairline_editor::ranges::{Parameter, Range};
+use hairline_scene::description::Distribution;
+
+/// Width of the labels' column, points.
+const LABEL_WIDTH: f32 = 92.0;
+/// Width of a number's box.
+const VALUE_WIDTH: f32 = 78.0;
+
+/// What a control changed.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Change {
+    /// The step's name in the history.
+    pub label: String,
+    /// The control.
+    pub key: DragKey,
+}
+
+/// Rows for one part of the scene.
+pub(crate) struct Form<'a> {
+    pub ui: &'a mut Ui,
+    /// Of the object or the scene that lengths are to fit.
+    pub diagonal_m: f64,
+    /// Names the part, so that controls of two parts are two.
+    scope: DragKey,
+    change: Option<Change>,
+}
+
+impl<'a> Form<'a> {
+    pub fn new(ui: &'a mut Ui, scope: impl Hash, diagonal_m: f64) -> Self {
+        Self {
+            ui,
+            diagonal_m,
+            scope: DragKey::of(scope),
+            change: None,
+        }
+    }
+
+    /// What was changed in this pass.
+    pub fn change(self) -> Option<Change> {
+        self.change
+    }
+
+    /// A title between rows.
+    pub fn section(&mut self, title: &str) {
+        self.ui.add_space(8.0);
+        self.ui.strong(title);
+    }
+
+    fn note(&mut self, label: &str) {
+        self.change = Some(Change {
+            label: label.to_owned(),
+            key: DragKey::of((self.scope, label)),
+        });
+    }
+
+    /// A label with its tooltip, and `control` beside it.
+    fn row(
+        &mut self,
+        label: &str,
+        tooltip: &str,
+        control: impl FnOnce(&mut Ui, &Response) -> bool,
+    ) {
+        let changed = self.ui.horizontal(|ui| {
+            let text = ui
+                .scope(|ui| {
+                    ui.set_width(LABEL_WIDTH);
+                    ui.add(egui::Label::new(label).truncate())
+                })
+                .inner;
+            if !tooltip.is_empty() {
+                text.clone().on_hover_text(tooltip);
+            }
+            control(ui, &text)
+        });
+        if changed.inner {
+            self.note(label);
+        }
+    }
+
+    /// A number: slider and box.
+    pub fn number(&mut self, parameter: Parameter, value: &mut f64) {
+        let range = parameter.range(self.diagonal_m);
+        self.row(range.label, range.tooltip, |ui, label| {
+            slider_and_box(ui, label, &range, value)
+        });
+    }
+
+    /// A whole number.
+    pub fn whole(&mut self, parameter: Parameter, value: &mut u64) {
+        let mut number = *value as f64;
+        self.number(parameter, &mut number);
+        if number != *value as f64 {
+            *value = number.max(0.0).round() as u64;
+        }
+    }
+
+    /// A number that is drawn for each scratch: its mean, and how far it spreads.
+    pub fn distribution(&mut self, mean: Parameter, spread: Parameter, value: &mut Distribution) {
+        self.number(mean, &mut value.mean);
+        self.number(spread, &mut value.spread);
+    }
+
+    /// Three numbers side by side.
+    pub fn vector(&mut self, parameter: Parameter, value: &mut [f64; 3]) {
+        self.boxes(parameter, &["x", "y", "z"], value);
+    }
+
+    /// Numbers side by side, each a box to drag in.
+    pub fn boxes(&mut self, parameter: Parameter, names: &[&str], values: &mut [f64]) {
+        let range = parameter.range(self.diagonal_m);
+        self.boxes_labelled(range.label, &range, names, values);
+    }
+
+    fn boxes_labelled(&mut self, label: &str, range: &Range, names: &[&str], values: &mut [f64]) {
+        self.row(label, range.tooltip, |ui, _| {
+            names.iter().zip(values).fold(false, |changed, (name, value)| {
+                small_box(ui, label, name, range, value) || changed
+            })
+        });
+    }
+
+    /// A linear colour, each channel in [0, 1].
+    pub fn color(&mut self, parameter: Parameter, value: &mut [f64; 3]) {
+        let range = parameter.range(self.diagonal_m);
+        self.row(range.label, range.tooltip, |ui, label| {
+            let mut rgb = value.map(|channel| channel as f32);
+            let response = ui.color_edit_button_rgb(&mut rgb).labelled_by(label.id);
+            if response.changed() {
+                *value = rgb.map(f64::from);
+            }
+            response.changed()
+        });
+    }
+
+    /// Yes or no.
+    pub fn toggle(&mut self, label: &str, tooltip: &str, value: &mut bool) {
+        self.row(label, tooltip, |ui, text| {
+            ui.checkbox(value, "").labelled_by(text.id).changed()
+        });
+    }
+
+    /// One of several, by name.
+    pub fn choice<T: PartialEq + Clone>(
+        &mut self,
+        label: &str,
+        tooltip: &str,
+        options: impl IntoIterator<Item = (T, String)>,
+        value: &mut T,
+    ) {
+        let options: Vec<_> = options.into_iter().collect();
+        self.row(label, tooltip, |ui, text| {
+            let chosen = options.iter().find(|(option, _)| option == value);
+            let name = chosen.map_or("", |(_, name)| name.as_str());
+            let before = value.clone();
+            egui::ComboBox::from_id_salt(label)
+                .selected_text(name)
+                .width(ui.available_width() - 8.0)
+                .show_ui(ui, |ui| {
+                    for (option, name) in &options {
+                        ui.selectable_value(value, option.clone(), name);
+                    }
+                })
+                .response
+                .labelled_by(text.id);
+            *value != before
+        });
+    }
+
+    /// A line of text, which counts when it is left.
+    pub fn text(&mut self, label: &str, tooltip: &str, value: &mut String) {
+        let scope = self.scope;
+        self.row(label, tooltip, |ui, text| {
+            let id = ui.make_persistent_id((scope, label));
+            // What is being typed lives in egui's memory until it is done.
+            let mut typed = ui
+                .data(|data| data.get_temp::<String>(id))
+                .unwrap_or_else(|| value.clone());
+            let edit = TextEdit::singleline(&mut typed).desired_width(ui.available_width() - 8.0);
+            let response = ui.add(edit).labelled_by(text.id);
+            if response.has_focus() {
+                ui.data_mut(|data| data.insert_temp(id, typed));
+                return false;
+            }
+            ui.data_mut(|data| data.remove_temp::<String>(id));
+            let changed = response.lost_focus() && typed != *value;
+            if changed {
+                *value = typed;
+            }
+            changed
+        });
+    }
+
+    /// A corner of a polygon, counted from 1 on the screen.
+    pub fn corner(&mut self, i: usize, position_m: &mut [f64; 3]) {
+        let range = Parameter::LightVertex.range(self.diagonal_m);
+        let label = format!("{} {}", range.label, i + 1);
+        self.boxes_labelled(&label, &range, &["x", "y", "z"], position_m);
+    }
+
+    /// A point of a lathe's profile.
+    pub fn point(&mut self, i: usize, radius_m: &mut f64, height_m: &mut f64) {
+        let range = Parameter::ProfileRadius.range(self.diagonal_m);
+        let heights = Parameter::ProfileHeight.range(self.diagonal_m);
+        let label = format!("Point {}", i + 1);
+        self.row(&label, range.tooltip, |ui, _| {
+            let parts = [("r", &range, radius_m), ("z", &heights, height_m)];
+            parts.into_iter().fold(false, |changed, (name, range, value)| {
+                small_box(ui, &label, name, range, value) || changed
+            })
+        });
+    }
+
+    /// Buttons or words in the controls' column.
+    pub fn custom(
+        &mut self,
+        label: &str,
+        tooltip: &str,
+        control: impl FnOnce(&mut Ui, &Response) -> bool,
+    ) {
+        self.row(label, tooltip, control);
+    }
+}
+
+fn slider_and_box(ui: &mut Ui, label: &Response, range: &Range, value: &mut f64) -> bool {
+    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+        let typed = ui
+            .add_sized([VALUE_WIDTH, 20.0], number_box(range, value))
+            .labelled_by(label.id)
+            .on_hover_text(range.tooltip);
+        ui.spacing_mut().slider_width = (ui.available_width() - 8.0).max(24.0);
+        let mut on_slider = *value;
+        let slider = Slider::new(&mut on_slider, range.slider.clone())
+            .logarithmic(range.logarithmic)
+            .clamping(SliderClamping::Never)
+            .show_value(false);
+        let slid = ui.add(slider).labelled_by(label.id).on_hover_text(range.tooltip);
+        if slid.changed() {
+            *value = on_slider.clamp(*range.hard.start(), *range.hard.end());
+        }
+        typed.changed() || slid.changed()
+    })
+    .inner
+}
+
+/// One of several numbers in a row.
+fn small_box(ui: &mut Ui, label: &str, name: &str, range: &Range, value: &mut f64) -> bool {
+    let drag = number_box(range, value).prefix(format!("{name} ")).suffix("");
+    let response = ui.add_sized([58.0, 20.0], drag);
+    ui.ctx().accesskit_node_builder(response.id, |node| {
+        node.set_label(format!("{label} {name}"));
+    });
+    response
+        .on_hover_text(format!("{} (in{})", range.tooltip, range.suffix))
+        .changed()
+}
+
+/// A number to drag or type. Typing counts when it is done: half a number is no wish.
+fn number_box<'v>(range: &Range, value: &'v mut f64) -> DragValue<'v> {
+    let way = range.slider.end() - range.slider.start();
+    let speed = if range.logarithmic {
+        (value.abs() * 0.01).max(way * 1e-6)
+    } else {
+        way / 400.0
+    };
+    DragValue::new(value)
+        .range(range.hard.clone())
+        .speed(speed)
+        .max_decimals(range.decimals)
+        .suffix(range.suffix)
+        .update_while_editing(false)
+}

@@ -1,0 +1,45 @@
+//! The panel of what is selected.
+
+use egui::{Panel, ScrollArea, Ui};
+use hairline_editor::Selection;
+
+use super::{camera, environment, layer, light, material, object};
+use crate::app::Viewer;
+
+pub(crate) fn show(ui: &mut Ui, viewer: &mut Viewer) {
+    Panel::right("inspector")
+        .default_size(320.0)
+        .size_range(260.0..=480.0)
+        .show(ui, |ui| {
+            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+                ui.add_space(4.0);
+                match viewer.selection() {
+                    Selection::None => overview(ui, viewer),
+                    Selection::Camera => camera::show(ui, viewer),
+                    Selection::Render => camera::show_render(ui, viewer),
+                    Selection::Environment => environment::show(ui, viewer),
+                    Selection::Object(i) => object::show(ui, viewer, i),
+                    Selection::Material(i) => material::show(ui, viewer, i),
+                    Selection::Layer(i) => layer::show(ui, viewer, i),
+                    Selection::Light(i) => light::show(ui, viewer, i),
+                }
+                super::menu::brush_settings(ui, viewer);
+            });
+        });
+}
+
+/// What there is to select, for someone who has selected nothing.
+fn overview(ui: &mut Ui, viewer: &Viewer) {
+    let description = viewer.document.description();
+    ui.heading("Scene");
+    ui.label(format!(
+        "{} objects, {} layers of scratches, {} lights",
+        description.objects.len(),
+        description.scratches.len(),
+        description.lights.len()
+    ));
+    ui.add_space(8.0);
+    ui.label("Click an object in the picture, or a line on the left, to change it here.");
+    ui.label("Drag turns the view, Shift and drag moves it, the wheel comes nearer.");
+    ui.label("F1 shows all keys.");
+}

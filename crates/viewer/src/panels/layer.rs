@@ -1,0 +1,271 @@
+//! A layer of scratches.
+
+use egui::Ui;
+use hairline_editor::Selection;
+use hairline_editor::actions::layers;
+use hairline_editor::presets::LayerPreset;
+use hairline_editor::ranges::Parameter;
+use hairline_scene::description::{
+    Amount, Around, Distribution, Laid, Layer, Pattern, Scratches,
+};
+
+use super::form::Form;
+use crate::app::Viewer;
+use crate::command::Command;
+use crate::tools::Tool;
+
+pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer, index: usize) {
+    let description = viewer.document.description().clone();
+    let Some(mut layer) = description.scratches.get(index).cloned() else {
+        return;
+    };
+    let object = Selection::Layer(index).object(&description);
+    let diagonal_m = viewer.diagonal_m(object);
+    ui.heading("Scratches");
+    let mut form = Form::new(ui, ("layer", index), diagonal_m);
+    let mut name = layer.name.clone().unwrap_or_default();
+    form.text("Name", "What the outliner calls it", &mut name);
+    layer.name = (!name.is_empty()).then_some(name);
+    let objects = description.objects.iter().map(|o| (o.name.clone(), o.name.clone()));
+    form.choice("Object", "What they lie on", objects, &mut layer.object);
+    form.toggle("Hidden", "A hidden layer is laid nowhere", &mut layer.hidden);
+    form.toggle("Solo", "If a layer is solo, only solo layers are seen", &mut layer.solo);
+    match &mut layer.layer {
+        Layer::Laid(laid) => laid_rows(&mut form, laid),
+        Layer::Brushed(brushed) => {
+            form.section("Look");
+            form.distribution(Parameter::Width, Parameter::WidthSpread, &mut brushed.width_um);
+            form.distribution(Parameter::Depth, Parameter::DepthSpread, &mut brushed.depth_nm);
+            form.distribution(Parameter::Length, Parameter::LengthSpread, &mut brushed.length_m);
+            form.number(Parameter::Jitter, &mut brushed.jitter_deg);
+            form.whole(Parameter::Seed, &mut brushed.seed);
+        }
+        Layer::Listed(listed) => form.custom("File", "", |ui, _| {
+            ui.add(egui::Label::new(listed.file.display().to_string()).truncate());
+            false
+        }),
+    }
+    if let Some(change) = form.change() {
+        viewer.document.drag(&change.label, change.key, |d| {
+            d.scratches[index] = layer.clone();
+        });
+    }
+    strokes(ui, viewer, index, &layer);
+    buttons(ui, viewer, index, &layer, diagonal_m);
+}
+
+fn laid_rows(form: &mut Form, laid: &mut Laid) {
+    let mut kind = Kind::of(&laid.pattern);
+    form.choice(
+        "Pattern",
+        "How they run over the surface",
+        Kind::ALL.map(|kind| (kind, kind.name().to_owned())),
+        &mut kind,
+    );
+    if kind != Kind::of(&laid.pattern) {
+        laid.pattern = kind.begin(&laid.pattern);
+    }
+    amount(form, &mut laid.amount);
+    form.section("Look");
+    form.distribution(Parameter::Width, Parameter::WidthSpread, &mut laid.width_um);
+    form.distribution(Parameter::Depth, Parameter::DepthSpread, &mut laid.depth_nm);
+    form.distribution(Parameter::Length, Parameter::LengthSpread, &mut laid.length_m);
+    form.section("Course");
+    match &mut laid.pattern {
+        Pattern::Random { curvature_per_m } | Pattern::Swirl { curvature_per_m } => {
+            curvature(form, curvature_per_m);
+        }
+        Pattern::Parallel {
+            direction,
+            jitter_deg,
+        } => {
+            form.number(Parameter::Jitter, jitter_deg);
+            form.vector(Parameter::Direction, direction);
+        }
+        Pattern::Circular(around) | Pattern::Radial(around) => axis(form, around),
+        Pattern::Spun {
+            around,
+            curvature_per_m,
+        } => {
+            axis(form, around);
+            curvature(form, curvature_per_m);
+        }
+    }
+    form.whole(Parameter::Seed, &mut laid.seed);
+}
+
+fn curvature(form: &mut Form, value: &mut Distribution) {
+    form.distribution(Parameter::Curvature, Parameter::CurvatureSpread, value);
+}
+
+fn axis(form: &mut Form, around: &mut Around) {
+    form.number(Parameter::Jitter, &mut around.jitter_deg);
+    form.vector(Parameter::Axis, &mut around.axis);
+    form.vector(Parameter::AxisCenter, &mut around.center_m);
+}
+
+/// A number of scratches, or a number on each square metre.
+fn amount(form: &mut Form, amount: &mut Amount) {
+    let mut is_density = matches!(amount, Amount::DensityPerM2(_));
+    form.choice(
+        "Amount by",
+        "A number of scratches in all, or on each square metre",
+        [(false, "count".to_owned()), (true, "density".to_owned())],
+        &mut is_density,
+    );
+    match (is_density, *amount) {
+        (true, Amount::Count(_)) => *amount = Amount::DensityPerM2(1e5),
+        (false, Amount::DensityPerM2(_)) => *amount = Amount::Count(5000),
+        _ => {}
+    }
+    match amount {
+        Amount::Count(count) => form.whole(Parameter::Count, count),
+        Amount::DensityPerM2(density) => form.number(Parameter::Density, density),
+    }
+}
+
+/// The strokes of a brush and an eraser.
+fn strokes(ui: &mut Ui, viewer: &mut Viewer, index: usize, layer: &Scratches) {
+    ui.add_space(8.0);
+    ui.strong("Strokes");
+    ui.horizontal_wrapped(|ui| {
+        ui.label(match layer.strokes.len() {
+            0 => "none yet".to_owned(),
+            1 => "1 stroke".to_owned(),
+            n => format!("{n} strokes"),
+        });
+        for tool in [Tool::Brush, Tool::Eraser] {
+            let command = Command::Pick(tool);
+            if ui.button(command.label()).on_hover_text(tool.hint()).clicked() {
+                viewer.toolbox.tool = tool;
+            }
+        }
+        let last = ui.add_enabled(!layer.strokes.is_empty(), egui::Button::new("Remove the last"));
+        if last.clicked() {
+            viewer
+                .document
+                .edit("Remove a stroke", |d| drop(d.scratches[index].strokes.pop()));
+        }
+    });
+}
+
+fn buttons(ui: &mut Ui, viewer: &mut Viewer, index: usize, layer: &Scratches, diagonal_m: f64) {
+    ui.add_space(8.0);
+    ui.horizontal_wrapped(|ui| {
+        ui.menu_button("Make it…", |ui| {
+            for preset in LayerPreset::ALL {
+                if ui.button(preset.name()).on_hover_text(preset.tooltip()).clicked() {
+                    let made = preset.layer(layer.object.clone(), diagonal_m);
+                    viewer.document.edit("Layer preset", |d| {
+                        let kept = &mut d.scratches[index];
+                        let seed = kept.layer.seed();
+                        kept.layer = made.layer;
+                        if let (Some(seed), Some(own)) = (seed, kept.layer.seed_mut()) {
+                            *own = seed;
+                        }
+                        // Paint needs a drawn layer; an eraser serves any.
+                        kept.strokes.retain(|stroke| {
+                            matches!(stroke.brush, hairline_scene::description::Brush::Erase)
+                        });
+                    });
+                }
+            }
+        });
+        let others = ui
+            .button("Other scratches")
+            .on_hover_text("The same kind of scratches in other places: another seed");
+        if others.clicked() {
+            let done = viewer
+                .document
+                .apply("Other scratches", |d, _| layers::reseed(d, index));
+            viewer.tell(done);
+        }
+        for command in [
+            Command::Duplicate,
+            Command::MoveUp,
+            Command::MoveDown,
+            Command::Delete,
+        ] {
+            if ui.button(command.label()).clicked() {
+                viewer.run(&ui.ctx().clone(), command);
+            }
+        }
+    });
+}
+
+/// A pattern by name.
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    Random,
+    Parallel,
+    Circular,
+    Radial,
+    Spun,
+    Swirl,
+}
+
+impl Kind {
+    const ALL: [Self; 6] = [
+        Self::Random,
+        Self::Parallel,
+        Self::Circular,
+        Self::Radial,
+        Self::Spun,
+        Self::Swirl,
+    ];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Random => "random",
+            Self::Parallel => "parallel",
+            Self::Circular => "circular",
+            Self::Radial => "radial",
+            Self::Spun => "spun",
+            Self::Swirl => "swirl",
+        }
+    }
+
+    fn of(pattern: &Pattern) -> Self {
+        match pattern {
+            Pattern::Random { .. } => Self::Random,
+            Pattern::Parallel { .. } => Self::Parallel,
+            Pattern::Circular(_) => Self::Circular,
+            Pattern::Radial(_) => Self::Radial,
+            Pattern::Spun { .. } => Self::Spun,
+            Pattern::Swirl { .. } => Self::Swirl,
+        }
+    }
+
+    /// The pattern with what it shares with the one before: the axis stays where it was.
+    fn begin(self, before: &Pattern) -> Pattern {
+        let around = match before {
+            Pattern::Circular(around) | Pattern::Radial(around) | Pattern::Spun { around, .. } => {
+                *around
+            }
+            Pattern::Parallel { jitter_deg, .. } => Around {
+                jitter_deg: *jitter_deg,
+                ..Around::default()
+            },
+            Pattern::Random { .. } | Pattern::Swirl { .. } => Around::default(),
+        };
+        let curvature = |mean, spread| Distribution { mean, spread };
+        match self {
+            Self::Random => Pattern::Random {
+                curvature_per_m: curvature(0.0, 0.0),
+            },
+            Self::Parallel => Pattern::Parallel {
+                direction: [1.0, 0.0, 0.0],
+                jitter_deg: around.jitter_deg,
+            },
+            Self::Circular => Pattern::Circular(around),
+            Self::Radial => Pattern::Radial(around),
+            Self::Spun => Pattern::Spun {
+                around,
+                curvature_per_m: curvature(20.0, 0.0),
+            },
+            Self::Swirl => Pattern::Swirl {
+                curvature_per_m: curvature(25.0, 8.0),
+            },
+        }
+    }
+}

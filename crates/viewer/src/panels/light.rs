@@ -1,0 +1,121 @@
+//! A light.
+
+use egui::Ui;
+use hairline_editor::actions::lights;
+use hairline_editor::ranges::Parameter;
+use hairline_editor::{Selection, place_light};
+use hairline_scene::description::LightKind;
+
+use super::form::Form;
+use crate::app::Viewer;
+use crate::command::Command;
+use crate::tools::Tool;
+
+pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer, index: usize) {
+    let Some(mut light) = viewer.document.description().lights.get(index).cloned() else {
+        return;
+    };
+    ui.heading("Light");
+    let mut form = Form::new(ui, ("light", index), viewer.diagonal_m(None));
+    let mut name = light.name.clone().unwrap_or_default();
+    form.text("Name", "What the outliner calls it", &mut name);
+    light.name = (!name.is_empty()).then_some(name);
+    form.toggle("Hidden", "A hidden light gives no light", &mut light.hidden);
+    form.number(Parameter::Radiance, &mut light.radiance);
+    form.color(Parameter::LightColor, &mut light.color);
+    match &mut light.kind {
+        LightKind::Sphere { center_m, radius_m } => {
+            form.vector(Parameter::LightCenter, center_m);
+            form.number(Parameter::LightRadius, radius_m);
+        }
+        LightKind::Polygon { two_sided, .. } => {
+            form.toggle(
+                "Two-sided",
+                "Whether the other side shines too",
+                two_sided,
+            );
+        }
+    }
+    if let Some(change) = form.change() {
+        viewer.document.drag(&change.label, change.key, |d| {
+            d.lights[index] = light.clone();
+        });
+    }
+    if let LightKind::Polygon { vertices_m, .. } = &light.kind {
+        vertices(ui, viewer, index, vertices_m);
+    }
+    ui.add_space(8.0);
+    ui.horizontal_wrapped(|ui| {
+        let place = ui
+            .button("Place by its highlight")
+            .on_hover_text(Tool::PlaceLight.hint());
+        if place.clicked() {
+            viewer.toolbox.tool = Tool::PlaceLight;
+        }
+        if ui.button(Command::Duplicate.label()).clicked() {
+            let done = viewer
+                .document
+                .apply("Duplicate light", |d, _| lights::duplicate(d, index));
+            viewer.tell(done);
+        }
+        if ui.button(Command::Delete.label()).clicked() {
+            viewer.run(&ui.ctx().clone(), Command::Delete);
+        }
+    });
+}
+
+/// The corners of a polygon: they stay in its plane.
+fn vertices(ui: &mut Ui, viewer: &mut Viewer, index: usize, vertices_m: &[[f64; 3]]) {
+    let mut moved = None;
+    let mut inserted = None;
+    let mut deleted = None;
+    ui.add_space(8.0);
+    ui.strong("Corners");
+    for (i, vertex_m) in vertices_m.iter().enumerate() {
+        ui.horizontal(|ui| {
+            let mut position_m = *vertex_m;
+            let mut form = Form::new(ui, ("corner", index, i), viewer.diagonal_m(None));
+            form.corner(i, &mut position_m);
+            if let Some(change) = form.change() {
+                moved = Some((i, position_m, change));
+            }
+        });
+        ui.horizontal(|ui| {
+            let split = ui.small_button(format!("Split after {}", i + 1));
+            if split
+                .on_hover_text("A new corner in the middle of the edge to the next one")
+                .clicked()
+            {
+                inserted = Some(i);
+            }
+            let may_go = vertices_m.len() > 3;
+            let remove = ui.add_enabled(may_go, egui::Button::new(format!("Remove {}", i + 1)).small());
+            if remove.clicked() {
+                deleted = Some(i);
+            }
+        });
+    }
+    if let Some((i, to_m, change)) = moved {
+        let mut failed = None;
+        viewer.document.drag(&change.label, change.key, |d| {
+            failed = place_light::move_vertex(&mut d.lights[index], i, to_m.into()).err();
+        });
+        if let Some(error) = failed {
+            viewer.notices.error("light", error.to_string());
+        }
+    }
+    if let Some(i) = inserted {
+        let done = viewer.document.apply("Split an edge", |d, _| {
+            place_light::insert_vertex(&mut d.lights[index], i)?;
+            Ok(Selection::Light(index))
+        });
+        viewer.tell(done);
+    }
+    if let Some(i) = deleted {
+        let done = viewer.document.apply("Remove a corner", |d, _| {
+            place_light::delete_vertex(&mut d.lights[index], i)?;
+            Ok(Selection::Light(index))
+        });
+        viewer.tell(done);
+    }
+}

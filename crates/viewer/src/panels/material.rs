@@ -1,0 +1,139 @@
+//! A material.
+
+use egui::Ui;
+use hairline_editor::actions::materials;
+use hairline_editor::presets::MaterialPreset;
+use hairline_editor::ranges::Parameter;
+use hairline_optics::metal::Metal;
+use hairline_scene::description::{MaterialKind, MetalColor};
+
+use super::form::Form;
+use crate::app::Viewer;
+use crate::command::Command;
+
+/// The kinds by name, each as it begins.
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    Measured,
+    Colored,
+    Dielectric,
+    MetallicRoughness,
+    Mirror,
+}
+
+const KINDS: [(Kind, &str); 5] = [
+    (Kind::Measured, "measured metal"),
+    (Kind::Colored, "coloured metal"),
+    (Kind::Dielectric, "clear coat over a body"),
+    (Kind::MetallicRoughness, "metallic-roughness"),
+    (Kind::Mirror, "mirror"),
+];
+
+impl Kind {
+    fn of(kind: &MaterialKind) -> Self {
+        match kind {
+            MaterialKind::Metal(MetalColor::Measured(_)) => Self::Measured,
+            MaterialKind::Metal(MetalColor::Color(_)) => Self::Colored,
+            MaterialKind::Dielectric { .. } => Self::Dielectric,
+            MaterialKind::MetallicRoughness { .. } => Self::MetallicRoughness,
+            MaterialKind::Mirror => Self::Mirror,
+        }
+    }
+
+    fn begin(self) -> MaterialKind {
+        match self {
+            Self::Measured => MaterialKind::Metal(MetalColor::Measured(Metal::StainlessSteel)),
+            Self::Colored => MaterialKind::Metal(MetalColor::Color([0.9, 0.9, 0.9])),
+            Self::Dielectric => MaterialKind::Dielectric {
+                ior: 1.5,
+                base_color: [0.5; 3],
+            },
+            Self::MetallicRoughness => MaterialKind::MetallicRoughness {
+                base_color: [1.0; 3],
+                metallic: 1.0,
+            },
+            Self::Mirror => MaterialKind::Mirror,
+        }
+    }
+}
+
+pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer, index: usize) {
+    let Some(mut material) = viewer.document.description().materials.get(index).cloned() else {
+        return;
+    };
+    ui.heading("Material");
+    let mut form = Form::new(ui, ("material", index), viewer.diagonal_m(None));
+    let mut name = material.name.clone();
+    form.text("Name", "What objects call it", &mut name);
+    let mut kind = Kind::of(&material.kind);
+    form.choice(
+        "Kind",
+        "What the surface is made of",
+        KINDS.map(|(kind, name)| (kind, name.to_owned())),
+        &mut kind,
+    );
+    if kind != Kind::of(&material.kind) {
+        material.kind = kind.begin();
+    }
+    match &mut material.kind {
+        MaterialKind::Metal(MetalColor::Measured(metal)) => {
+            let metals = MaterialPreset::all().filter_map(|preset| match preset {
+                MaterialPreset::Metal(metal) => Some((metal, preset.name().to_owned())),
+                _ => None,
+            });
+            form.choice("Metal", "By its measured n and k", metals, metal);
+        }
+        MaterialKind::Metal(MetalColor::Color(base_color)) => {
+            form.color(Parameter::BaseColor, base_color);
+        }
+        MaterialKind::Dielectric { ior, base_color } => {
+            form.color(Parameter::BaseColor, base_color);
+            form.number(Parameter::Ior, ior);
+        }
+        MaterialKind::MetallicRoughness {
+            base_color,
+            metallic,
+        } => {
+            form.color(Parameter::BaseColor, base_color);
+            form.number(Parameter::Metallic, metallic);
+        }
+        MaterialKind::Mirror => {}
+    }
+    form.number(Parameter::Roughness, &mut material.roughness);
+    form.number(Parameter::Coherence, &mut material.coherence_um);
+    if let Some(change) = form.change() {
+        if name != material.name {
+            // Objects call it by its name.
+            let done = viewer
+                .document
+                .apply("Rename material", |d, _| materials::rename(d, index, &name));
+            viewer.tell(done);
+        } else {
+            viewer.document.drag(&change.label, change.key, |d| {
+                d.materials[index] = material;
+            });
+        }
+    }
+    ui.add_space(8.0);
+    ui.horizontal_wrapped(|ui| {
+        ui.menu_button("Make it…", |ui| {
+            for preset in MaterialPreset::all() {
+                if ui.button(preset.name()).on_hover_text(preset.tooltip()).clicked() {
+                    viewer.document.edit("Material preset", |d| {
+                        let name = d.materials[index].name.clone();
+                        d.materials[index] = hairline_scene::description::Material {
+                            name,
+                            ..preset.material()
+                        };
+                    });
+                }
+            }
+        });
+        if ui.button(Command::Duplicate.label()).clicked() {
+            viewer.run(&ui.ctx().clone(), Command::Duplicate);
+        }
+        if ui.button(Command::Delete.label()).clicked() {
+            viewer.run(&ui.ctx().clone(), Command::Delete);
+        }
+    });
+}

@@ -1,0 +1,119 @@
+//! An object: where it is, what it is made of, and the layers on it.
+
+use egui::Ui;
+use hairline_editor::Selection;
+use hairline_editor::actions::{layers, objects};
+use hairline_editor::presets::LayerPreset;
+use hairline_editor::ranges::Parameter;
+use hairline_scene::description::{Shape, Surface};
+
+use super::form::Form;
+use crate::app::Viewer;
+use crate::command::Command;
+
+pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer, index: usize) {
+    let description = viewer.document.description().clone();
+    let Some(mut object) = description.objects.get(index).cloned() else {
+        return;
+    };
+    let diagonal_m = viewer.diagonal_m(Some(index));
+    ui.heading("Object");
+    let mut form = Form::new(ui, ("object", index), diagonal_m);
+    let mut name = object.name.clone();
+    form.text("Name", "What layers of scratches call it", &mut name);
+    // A mesh may keep the materials of its file.
+    let keeps_own = matches!(object.surface, Surface::Mesh(_)).then(|| (None, "of its file".to_owned()));
+    let named = description.materials.iter().map(|m| (Some(m.name.clone()), m.name.clone()));
+    form.choice("Material", "What it is made of", keeps_own.into_iter().chain(named), &mut object.material);
+    form.vector(Parameter::Translation, &mut object.translation_m);
+    form.vector(Parameter::Rotation, &mut object.rotation_deg);
+    scale(&mut form, &mut object.scale);
+    match &mut object.surface {
+        Surface::Mesh(file) => {
+            form.custom("File", "", |ui, _| {
+                ui.add(egui::Label::new(file.display().to_string()).truncate());
+                false
+            });
+        }
+        Surface::Shape(shape) => shape_rows(&mut form, shape),
+    }
+    if let Some(change) = form.change() {
+        if name != object.name {
+            let done = viewer
+                .document
+                .apply("Rename object", |d, _| objects::rename(d, index, &name));
+            viewer.tell(done);
+        } else {
+            viewer
+                .document
+                .drag(&change.label, change.key, |d| d.objects[index] = object.clone());
+        }
+    }
+    ui.add_space(8.0);
+    ui.strong("Scratches");
+    for i in objects::layers(&description, index) {
+        if ui.link(layers::title(&description.scratches[i])).clicked() {
+            viewer.document.select(Selection::Layer(i));
+        }
+    }
+    ui.menu_button("Add scratches…", |ui| add_layer(ui, viewer, index));
+    ui.add_space(8.0);
+    ui.horizontal(|ui| {
+        for command in [Command::FrameSelection, Command::Duplicate, Command::Delete] {
+            if ui.button(command.label()).clicked() {
+                viewer.run(&ui.ctx().clone(), command);
+            }
+        }
+    });
+}
+
+/// The presets as a menu.
+pub(super) fn add_layer(ui: &mut Ui, viewer: &mut Viewer, object: usize) {
+    for preset in LayerPreset::ALL {
+        if ui.button(preset.name()).on_hover_text(preset.tooltip()).clicked() {
+            let diagonal_m = viewer.diagonal_m(Some(object));
+            let done = viewer.document.apply("Add scratches", |d, _| {
+                let name = d.objects[object].name.clone();
+                layers::add(d, preset.layer(name, diagonal_m))
+            });
+            viewer.tell(done);
+        }
+    }
+}
+
+/// One factor while all are alike, three where they are not.
+fn scale(form: &mut Form, scale: &mut [f64; 3]) {
+    if scale[0] == scale[1] && scale[1] == scale[2] {
+        let mut factor = scale[0];
+        form.number(Parameter::Scale, &mut factor);
+        // Zero would have no surface; the slider passes it by.
+        if factor != scale[0] && factor != 0.0 {
+            *scale = [factor; 3];
+        }
+    } else {
+        form.vector(Parameter::Scale, scale);
+    }
+}
+
+fn shape_rows(form: &mut Form, shape: &mut Shape) {
+    match shape {
+        Shape::Plane { size_m } => form.boxes(Parameter::PlaneSize, &["x", "y"], size_m),
+        Shape::Disk { radius_m } | Shape::Sphere { radius_m } => {
+            form.number(Parameter::ShapeRadius, radius_m);
+        }
+        Shape::Lathe {
+            profile_m,
+            segments,
+            smooth,
+        } => {
+            let mut facets = u64::from(*segments);
+            form.whole(Parameter::LatheSegments, &mut facets);
+            *segments = u32::try_from(facets).unwrap_or(u32::MAX);
+            form.toggle("Smooth", "Whether the profile is rounded where it bends gently", smooth);
+            form.section("Profile");
+            for (i, [radius_m, height_m]) in profile_m.iter_mut().enumerate() {
+                form.point(i, radius_m, height_m);
+            }
+        }
+    }
+}

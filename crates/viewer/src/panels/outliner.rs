@@ -1,0 +1,174 @@
+//! The list of all that the scene has.
+
+use egui::{Panel, RichText, ScrollArea, Ui};
+use hairline_editor::Selection;
+use hairline_editor::actions::{layers, lights, materials, objects};
+use hairline_editor::presets::{LightPreset, MaterialPreset, ShapePreset};
+use hairline_scene::Description;
+
+use super::object::add_layer;
+use crate::app::Viewer;
+use crate::command::Command;
+
+pub(crate) fn show(ui: &mut Ui, viewer: &mut Viewer, wished: &mut Option<Command>) {
+    Panel::left("outliner")
+        .default_size(230.0)
+        .size_range(160.0..=400.0)
+        .show(ui, |ui| {
+            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+                ui.add_space(4.0);
+                rows(ui, viewer, wished);
+            });
+        });
+}
+
+fn rows(ui: &mut Ui, viewer: &mut Viewer, wished: &mut Option<Command>) {
+    let description = viewer.document.description().clone();
+    line(ui, viewer, Selection::Camera, "Camera", true);
+    let map = description.environment.as_ref();
+    let map = map.and_then(|e| e.file.file_name()).map_or("none".into(), |f| f.to_string_lossy());
+    line(ui, viewer, Selection::Environment, &format!("Environment: {map}"), true);
+
+    section(ui, "Objects", |ui| {
+        if ui.button(Command::AddModel.label()).clicked() {
+            *wished = Some(Command::AddModel);
+        }
+        add_shape(ui, viewer);
+    });
+    for (i, object) in description.objects.iter().enumerate() {
+        line(ui, viewer, Selection::Object(i), &object.name, true);
+        ui.indent(("layers", i), |ui| {
+            for layer in objects::layers(&description, i) {
+                layer_line(ui, viewer, &description, layer);
+            }
+            let add = ui.menu_button("+ scratches", |ui| add_layer(ui, viewer, i));
+            add.response
+                .on_hover_text(format!("Lay a layer of scratches on {}", object.name));
+        });
+    }
+
+    section(ui, "Lights", |ui| add_light(ui, viewer));
+    for (i, light) in description.lights.iter().enumerate() {
+        ui.horizontal(|ui| {
+            let name = numbered(lights::title(light), &description, i);
+            let mut shown = !light.hidden;
+            let eye = ui.checkbox(&mut shown, "").on_hover_text("Whether it shines");
+            name_node(ui, &eye, &format!("Show light {}", i + 1));
+            if eye.changed() {
+                let done = viewer
+                    .document
+                    .apply("Hide or show a light", |d, _| lights::toggle_hidden(d, i));
+                viewer.tell(done);
+            }
+            line(ui, viewer, Selection::Light(i), &name, shown);
+        });
+    }
+
+    section(ui, "Materials", |ui| add_material(ui, viewer));
+    for (i, material) in description.materials.iter().enumerate() {
+        line(ui, viewer, Selection::Material(i), &material.name, true);
+    }
+}
+
+fn layer_line(ui: &mut Ui, viewer: &mut Viewer, description: &Description, i: usize) {
+    let layer = &description.scratches[i];
+    ui.horizontal(|ui| {
+        let mut shown = !layer.hidden;
+        let eye = ui.checkbox(&mut shown, "").on_hover_text("Hide or show the layer");
+        name_node(ui, &eye, &format!("Show layer {}", i + 1));
+        if eye.changed() {
+            let done = viewer
+                .document
+                .apply("Hide or show a layer", |d, _| layers::toggle_hidden(d, i));
+            viewer.tell(done);
+        }
+        let solo = ui
+            .selectable_label(layer.solo, "S")
+            .on_hover_text("Solo: if a layer is solo, only solo layers are seen");
+        name_node(ui, &solo, &format!("Solo layer {}", i + 1));
+        if solo.clicked() {
+            let done = viewer.document.apply("Solo", |d, _| layers::toggle_solo(d, i));
+            viewer.tell(done);
+        }
+        let is_shown = layers::is_shown(description, i);
+        line(ui, viewer, Selection::Layer(i), layers::title(layer), is_shown);
+    });
+}
+
+/// What screen readers and tests call a control that shows no text.
+fn name_node(ui: &Ui, response: &egui::Response, name: &str) {
+    ui.ctx().accesskit_node_builder(response.id, |node| node.set_label(name));
+}
+
+/// A line that selects; faint where the part is not seen.
+fn line(ui: &mut Ui, viewer: &mut Viewer, selection: Selection, name: &str, is_shown: bool) {
+    let text = if is_shown {
+        RichText::new(name)
+    } else {
+        RichText::new(name).weak()
+    };
+    let is_selected = viewer.selection() == selection;
+    let response = ui.add(egui::Button::selectable(is_selected, text).truncate());
+    if response.clicked() {
+        viewer.document.select(selection);
+    }
+    if response.double_clicked() {
+        viewer.run(&ui.ctx().clone(), Command::FrameSelection);
+    }
+}
+
+/// Lights often have no name: their place tells them apart.
+fn numbered(title: &str, description: &Description, i: usize) -> String {
+    if description.lights[i].name.is_some() {
+        title.to_owned()
+    } else {
+        format!("{title} {}", i + 1)
+    }
+}
+
+/// A title with a menu of what can be added.
+fn section(ui: &mut Ui, title: &str, add: impl FnOnce(&mut Ui)) {
+    ui.add_space(10.0);
+    ui.horizontal(|ui| {
+        ui.strong(title);
+        let menu = ui.menu_button("+", add).response;
+        name_node(ui, &menu, &format!("Add to {}", title.to_lowercase()));
+    });
+}
+
+fn add_shape(ui: &mut Ui, viewer: &mut Viewer) {
+    let diagonal_m = viewer.diagonal_m(None);
+    for preset in ShapePreset::ALL {
+        if ui.button(preset.name()).clicked() {
+            let done = viewer.document.apply("Add an object", |d, _| {
+                objects::add_shape(d, preset.shape(diagonal_m), None)
+            });
+            viewer.tell(done);
+        }
+    }
+}
+
+fn add_light(ui: &mut Ui, viewer: &mut Viewer) {
+    for preset in LightPreset::ALL {
+        if ui.button(preset.name()).on_hover_text(preset.tooltip()).clicked() {
+            let diagonal_m = viewer.diagonal_m(None);
+            let done = viewer.document.apply("Add a light", |d, _| {
+                let camera = &d.camera;
+                let light = preset.light(camera.target_m.into(), camera.up.into(), diagonal_m);
+                Ok(lights::add(d, light))
+            });
+            viewer.tell(done);
+        }
+    }
+}
+
+fn add_material(ui: &mut Ui, viewer: &mut Viewer) {
+    for preset in MaterialPreset::all() {
+        if ui.button(preset.name()).on_hover_text(preset.tooltip()).clicked() {
+            let done = viewer
+                .document
+                .apply("Add a material", |d, _| Ok(materials::add(d, preset.material())));
+            viewer.tell(done);
+        }
+    }
+}

@@ -1,0 +1,108 @@
+//! The line at the bottom: what is shown, how fast, and on what.
+
+use std::time::Duration;
+
+use egui::{Panel, RichText, Ui};
+
+use crate::app::Viewer;
+use crate::engine::{Frame, Latency};
+
+pub(crate) fn show(ui: &mut Ui, viewer: &mut Viewer) {
+    Panel::bottom("status").exact_size(26.0).show(ui, |ui| {
+        ui.horizontal_centered(|ui| {
+            ui.spacing_mut().item_spacing.x = 14.0;
+            match viewer.engine.latest() {
+                Some(frame) => picture(ui, &frame),
+                None => drop(ui.label("making the first picture")),
+            }
+            if let Some(built) = viewer.engine.built() {
+                let (scratches, segments) = built.scratch_counts();
+                ui.label(format!("{} scratches", grouped(scratches)))
+                    .on_hover_text(format!("in {} straight pieces", grouped(segments)));
+            }
+            if viewer.engine.is_building() {
+                ui.spinner();
+                ui.label("laying scratches");
+            }
+            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                let time = viewer.viewport.interface_time();
+                ui.label(RichText::new(format!("interface {}", milliseconds(time))).weak())
+                    .on_hover_text("The longest pass of the interface itself of late");
+                ui.label(viewer.engine.backend().label())
+                    .on_hover_text("What renders the picture");
+            });
+        });
+    });
+}
+
+fn picture(ui: &mut Ui, frame: &Frame) {
+    let painted = &frame.painted;
+    let [width, height] = painted.size_px;
+    let text = format!("{width} × {height}, {}", milliseconds(painted.time));
+    let mut details = String::from("The picture and what it took");
+    for pass in &painted.passes {
+        details += &format!("\n{}: {}", pass.name, milliseconds(pass.time));
+    }
+    if let Some(latency) = &painted.latency {
+        details += &latency_text(latency);
+    }
+    ui.label(text).on_hover_text(details);
+    ui.label(match (painted.is_final, painted.samples) {
+        (true, _) => "finished".to_owned(),
+        (false, 1) => "refining".to_owned(),
+        (false, samples) => format!("refining, {samples} samples"),
+    });
+    if !painted.passes.is_empty() {
+        let device: Duration = painted.passes.iter().map(|pass| pass.time).sum();
+        ui.label(format!("device {}", milliseconds(device)));
+    }
+}
+
+/// The way of the last edit to the picture.
+fn latency_text(latency: &Latency) -> String {
+    let build = &latency.build;
+    let stages = [
+        ("waited", build.waited),
+        ("scratches laid", build.scene),
+        ("trees", build.index),
+        ("tables", build.tables),
+        ("upload", latency.upload),
+        ("first picture", latency.paint),
+        ("in all", latency.total),
+    ];
+    let lines = stages.map(|(name, time)| format!("\n  {name}: {}", milliseconds(time)));
+    format!("\nThe last edit:{}", lines.concat())
+}
+
+fn milliseconds(time: Duration) -> String {
+    let ms = 1e3 * time.as_secs_f64();
+    if ms < 10.0 {
+        format!("{ms:.1} ms")
+    } else {
+        format!("{ms:.0} ms")
+    }
+}
+
+/// With a thin space between thousands.
+fn grouped(n: usize) -> String {
+    let digits = n.to_string();
+    let mut out = String::new();
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            out.push('\u{202f}');
+        }
+        out.push(digit);
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::grouped;
+
+    #[test]
+    fn thousands_are_set_apart() {
+        assert_eq!(grouped(999), "999");
+        assert_eq!(grouped(1234567), "1\u{202f}234\u{202f}567");
+    }
+}

@@ -1,0 +1,47 @@
+//! What the left mouse button does in the picture.
+
+use hairline_editor::brush::BrushSettings;
+
+/// A tool.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Tool {
+    /// Click selects, drag orbits.
+    #[default]
+    Select,
+    /// Drag lays scratches along the stroke.
+    Brush,
+    /// Drag takes scratches of the selected layer away.
+    Eraser,
+    /// Click moves the selected light so that its highlight falls there.
+    PlaceLight,
+}
+
+impl Tool {
+    pub const ALL: [Self; 4] = [Self::Select, Self::Brush, Self::Eraser, Self::PlaceLight];
+
+    /// What it does, for a tooltip.
+    pub fn hint(self) -> &'static str {
+        match self {
+            Self::Select => "Click selects what is there; drag turns the view",
+            Self::Brush => "Drag over an object to lay scratches along the stroke",
+            Self::Eraser => "Drag over an object to take scratches of the selected layer away",
+            Self::PlaceLight => "Click on an object: the selected light moves so that its highlight falls there",
+        }
+    }
+}
+
+/// The tools and how they are set.
+pub(crate) struct Toolbox {
+    pub tool: Tool,
+    /// None until an object tells how large a brush should be.
+    pub brush: Option<BrushSettings>,
+}
+
+impl Default for Toolbox {
+    fn default() -> Self {
+        Self {
+            tool: Tool::Select,
+            brush: None,
+        }
+    }
+}

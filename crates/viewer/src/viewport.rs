@@ -1,0 +1,233 @@
+//! The picture, and what the mouse does in it.
+
+mod canvas;
+mod pick;
+mod strokes;
+
+use std::time::Duration;
+
+use eframe::egui_wgpu::RenderState;
+use egui::{PointerButton, Pos2, Rect, Response, Role, Sense, WidgetInfo};
+use glam::{DVec2, DVec3};
+use hairline_editor::{DragKey, Selection, navigate, place_light};
+use hairline_image::Display;
+
+use crate::app::Viewer;
+use crate::engine::View;
+use crate::tools::Tool;
+
+use canvas::CanvasTexture;
+use strokes::StrokeTool;
+
+/// What the picture's area keeps between passes.
+pub(crate) struct Viewport {
+    canvas: CanvasTexture,
+    stroke: StrokeTool,
+    /// The largest time of the interface's own passes of late, for the status line.
+    interface_time: Duration,
+    /// Width over height.
+    aspect: f64,
+    /// When the wheel was last turned, seconds: its turns in a row are one step.
+    wheeled: f64,
+}
+
+/// A pause of the wheel that ends the step.
+const WHEEL_PAUSE_S: f64 = 0.4;
+
+impl Viewport {
+    pub fn new(render_state: Option<RenderState>) -> Self {
+        Self {
+            canvas: CanvasTexture::new(render_state),
+            stroke: StrokeTool::default(),
+            interface_time: Duration::ZERO,
+            aspect: 16.0 / 9.0,
+            wheeled: f64::NEG_INFINITY,
+        }
+    }
+
+    /// A pass of the interface took this long.
+    pub fn note_interface_time(&mut self, time: Duration) {
+        // Falls by half in some 20 passes: a peak can be read.
+        self.interface_time = time.max(self.interface_time.mul_f64(0.966));
+    }
+
+    pub fn interface_time(&self) -> Duration {
+        self.interface_time
+    }
+
+    pub fn aspect(&self) -> f64 {
+        self.aspect
+    }
+
+    pub fn is_wheeling(&self, ctx: &egui::Context) -> bool {
+        ctx.input(|input| input.time) - self.wheeled < WHEEL_PAUSE_S
+    }
+}
+
+/// The picture's area on the screen, in points.
+#[derive(Clone, Copy)]
+pub(crate) struct Area {
+    pub rect: Rect,
+    pub pixels_per_point: f32,
+}
+
+impl Area {
+    /// In physical pixels.
+    pub fn size_px(&self) -> [u32; 2] {
+        let size = self.rect.size() * self.pixels_per_point;
+        [size.x, size.y].map(|side| (side.round() as u32).clamp(1, 8192))
+    }
+
+    /// Width and height in points, which the navigation counts in: it needs ratios only.
+    pub fn size(&self) -> DVec2 {
+        DVec2::new(self.rect.width().into(), self.rect.height().into())
+    }
+
+    /// From the upper left corner.
+    pub fn within(&self, pos: Pos2) -> DVec2 {
+        let offset = pos - self.rect.min;
+        DVec2::new(offset.x.into(), offset.y.into())
+    }
+
+    pub fn on_screen(&self, point: DVec2) -> Pos2 {
+        self.rect.min + egui::vec2(point.x as f32, point.y as f32)
+    }
+}
+
+/// Shows the picture in what is left of the window, and returns where.
+pub(crate) fn show(ui: &mut egui::Ui, viewer: &mut Viewer) -> Rect {
+    let frame = egui::Frame::new().fill(ui.visuals().extreme_bg_color);
+    let shown = egui::CentralPanel::default().frame(frame).show(ui, |ui| {
+        let rect = ui.available_rect_before_wrap();
+        let response = ui.allocate_rect(rect, Sense::click_and_drag());
+        response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Picture"));
+        let area = Area {
+            rect,
+            pixels_per_point: ui.pixels_per_point(),
+        };
+        viewer.viewport.aspect = f64::from(rect.width() / rect.height().max(1.0));
+        viewer.engine.set_view(view(viewer, &area));
+        if let Some(frame) = viewer.engine.latest() {
+            viewer.viewport.canvas.paint(ui, &area, &frame);
+        } else {
+            ui.put(rect, egui::Spinner::new().size(32.0));
+        }
+        interact(ui, viewer, &area, &response);
+        rect
+    });
+    shown.inner
+}
+
+fn view(viewer: &Viewer, area: &Area) -> View {
+    let description = viewer.document.description();
+    let camera = &description.camera;
+    View {
+        camera: hairline_scene::Camera {
+            position_m: camera.position_m.into(),
+            target_m: camera.target_m.into(),
+            up: camera.up.into(),
+            fov_y_rad: camera.fov_y_deg.to_radians(),
+            // Shown by `display`, so that a change of it paints nothing anew.
+            exposure_ev: 0.0,
+        },
+        size_px: area.size_px(),
+        display: Display {
+            exposure_ev: camera.exposure_ev,
+            tone_map: description.render.tone_map,
+        },
+        filter_std_px: description.render.filter_std_px,
+    }
+}
+
+fn interact(ui: &mut egui::Ui, viewer: &mut Viewer, area: &Area, response: &Response) {
+    let tool = viewer.toolbox.tool;
+    let shift = ui.input(|input| input.modifiers.shift);
+    let is_brush = matches!(tool, Tool::Brush | Tool::Eraser);
+    let alt = ui.input(|input| input.modifiers.alt);
+    let size = area.size();
+    let delta = response.drag_delta();
+    let moved = DVec2::new(delta.x.into(), delta.y.into());
+
+    // Alt orbits with any tool, as in every other program.
+    let orbits = response.dragged_by(PointerButton::Primary) && !shift && (!is_brush || alt)
+        || response.dragged_by(PointerButton::Secondary);
+    let pans = response.dragged_by(PointerButton::Middle)
+        || response.dragged_by(PointerButton::Primary) && shift && !is_brush;
+    if is_brush && !alt {
+        strokes::interact(ui, viewer, area, response);
+    }
+    if pans && moved != DVec2::ZERO {
+        let key = DragKey::of("pan");
+        viewer
+            .document
+            .drag("Pan", key, |d| navigate::pan(&mut d.camera, moved, size));
+    } else if orbits && moved != DVec2::ZERO {
+        let key = DragKey::of("orbit");
+        viewer
+            .document
+            .drag("Orbit", key, |d| navigate::orbit(&mut d.camera, moved, size));
+    }
+    wheel(ui, viewer, area, response);
+    click(viewer, area, response);
+}
+
+/// A notch of a wheel is this many points in egui.
+const POINTS_A_NOTCH: f64 = 50.0;
+
+fn wheel(ui: &egui::Ui, viewer: &mut Viewer, area: &Area, response: &Response) {
+    let Some(pos) = response.hover_pos() else {
+        return;
+    };
+    let (scrolled, zoomed, now) = ui.input(|input| {
+        let points = f64::from(input.smooth_scroll_delta().y);
+        (points, f64::from(input.zoom_delta()), input.time)
+    });
+    let steps = -scrolled / POINTS_A_NOTCH - 4.0 * zoomed.ln();
+    if steps == 0.0 {
+        return;
+    }
+    viewer.viewport.wheeled = now;
+    let under = pick::surface(viewer, area, pos).map(|hit| hit.point_m);
+    viewer
+        .document
+        .drag("Zoom", DragKey::of("zoom"), |d| match under {
+            Some(point_m) => navigate::zoom_to(&mut d.camera, point_m, steps),
+            None => navigate::dolly(&mut d.camera, steps),
+        });
+}
+
+fn click(viewer: &mut Viewer, area: &Area, response: &Response) {
+    let Some(pos) = response.interact_pointer_pos() else {
+        return;
+    };
+    let hit = pick::surface(viewer, area, pos);
+    if response.double_clicked() {
+        if let Some(hit) = hit {
+            viewer
+                .document
+                .edit("Look at a point", |d| navigate::center_on(&mut d.camera, hit.point_m));
+        }
+    } else if response.clicked() {
+        match viewer.toolbox.tool {
+            Tool::Select => {
+                let picked = hit.map_or(Selection::None, |hit| Selection::Object(hit.object));
+                viewer.document.select(picked);
+            }
+            Tool::PlaceLight => match (viewer.selection(), hit) {
+                (Selection::Light(i), Some(hit)) => {
+                    viewer.document.edit("Place light", |d| {
+                        let eye_m = DVec3::from(d.camera.position_m);
+                        if let Some(light) = d.lights.get_mut(i) {
+                            place_light::place_highlight(light, eye_m, hit.point_m, hit.normal);
+                        }
+                    });
+                }
+                (_, Some(_)) => viewer
+                    .notices
+                    .error("place", "Select a light first: it is moved so that its highlight falls where you click."),
+                _ => {}
+            },
+            Tool::Brush | Tool::Eraser => {}
+        }
+    }
+}

@@ -1,0 +1,113 @@
+//! The window on a screen: which device draws it, how it looks.
+
+use std::sync::Arc;
+
+use eframe::egui_wgpu::{RenderState, WgpuSetup, WgpuSetupCreateNew};
+use egui::{Color32, ThemePreference, ViewportBuilder, Visuals};
+use hairline_gpu::{Adapter, AdapterKind, AdapterRequest, Gpu, headless};
+
+use crate::app::{Options, Viewer};
+use crate::engine::Backend;
+
+/// What is to paint.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Renderer {
+    /// The window's GPU; where that is a driver that computes on the CPU, the CPU renderer, which is faster.
+    #[default]
+    Auto,
+    /// A graphics adapter, be it a software driver.
+    Gpu,
+    /// The CPU renderer.
+    Cpu,
+}
+
+/// Why there is no window.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// No display, or no driver that can draw a window.
+    #[error("no window could be opened: {0}")]
+    NoWindow(String),
+    /// The built-in scene is wrong.
+    #[error(transparent)]
+    Scene(#[from] hairline_scene::Error),
+}
+
+/// Opens the window and returns when it is closed. `backend` of the options is replaced by what `renderer` asks for.
+///
+/// # Errors
+/// [`Error::NoWindow`].
+pub fn open(options: Options, renderer: Renderer) -> Result<(), Error> {
+    let mut native = eframe::NativeOptions {
+        viewport: ViewportBuilder::default()
+            .with_title("Hairline")
+            .with_app_id("hairline")
+            .with_inner_size([1280.0, 800.0])
+            .with_min_inner_size([720.0, 480.0])
+            .with_drag_and_drop(true),
+        ..Default::default()
+    };
+    let mut setup = WgpuSetupCreateNew::without_display_handle();
+    // What the renderer needs, so that it can share the device.
+    setup.device_descriptor = Arc::new(|adapter| {
+        Adapter::new(adapter.clone()).device_descriptor(false)
+    });
+    native.wgpu_options.wgpu_setup = WgpuSetup::CreateNew(setup);
+    eframe::run_native(
+        "hairline",
+        native,
+        Box::new(move |context| {
+            let state = context.wgpu_render_state.clone();
+            let backend = backend(state.as_ref(), renderer)?;
+            let options = Options { backend, ..options };
+            let viewer = Viewer::new(&context.egui_ctx, state, options)?;
+            Ok(Box::new(viewer))
+        }),
+    )
+    .map_err(|error| Error::NoWindow(error.to_string()))
+}
+
+/// The window's own device where it is a GPU; else what was asked for.
+fn backend(
+    state: Option<&RenderState>,
+    renderer: Renderer,
+) -> Result<Backend, hairline_gpu::Error> {
+    let shared = || -> Option<Gpu> {
+        let state = state?;
+        let kind = Adapter::new(state.adapter.clone()).kind;
+        // A software driver does one thing after the other: a picture on the window's device would hold the window up.
+        if kind == AdapterKind::Software {
+            return None;
+        }
+        Gpu::from_window(
+            state.adapter.clone(),
+            state.device.clone(),
+            state.queue.clone(),
+        )
+        .ok()
+    };
+    Ok(match renderer {
+        Renderer::Cpu => Backend::Cpu,
+        Renderer::Auto => shared().map_or(Backend::Cpu, Backend::Shared),
+        Renderer::Gpu => match shared() {
+            Some(gpu) => Backend::Shared(gpu),
+            None => Backend::Gpu(headless::open(&AdapterRequest::default())?),
+        },
+    })
+}
+
+/// Dark and without hue, so that the eye judges the picture's colours and not the frame's.
+pub(crate) fn set_style(ctx: &egui::Context) {
+    ctx.set_theme(ThemePreference::Dark);
+    let mut visuals = Visuals::dark();
+    visuals.panel_fill = Color32::from_gray(30);
+    visuals.window_fill = Color32::from_gray(34);
+    visuals.extreme_bg_color = Color32::from_gray(16);
+    visuals.selection.bg_fill = Color32::from_gray(78);
+    visuals.selection.stroke.color = Color32::from_gray(240);
+    visuals.hyperlink_color = Color32::from_gray(210);
+    ctx.set_visuals_of(egui::Theme::Dark, visuals);
+    ctx.all_styles_mut(|style| {
+        style.spacing.item_spacing = egui::vec2(6.0, 4.0);
+        style.interaction.tooltip_delay = 0.3;
+    });
+}
