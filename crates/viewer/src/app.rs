@@ -75,10 +75,7 @@ impl Viewer {
         };
         let wake = ctx.clone();
         let mut viewer = Self {
-            engine: Engine::start(
-                options.backend,
-                Arc::new(move || wake.request_repaint()),
-            ),
+            engine: Engine::start(options.backend, Arc::new(move || wake.request_repaint())),
             viewport: Viewport::new(render_state),
             toolbox: Toolbox::default(),
             notices,
@@ -142,13 +139,18 @@ impl Viewer {
         self.end_drag_where_nothing_is_held(&ctx);
         self.ask_engine();
         if let Some(failed) = self.files.autosave(&self.document) {
-            self.notices.error("autosave", format!("No autosave: {failed}"));
+            self.notices
+                .error("autosave", format!("No autosave: {failed}"));
         }
         self.watch_close(&ctx);
         let title = format!(
             "{}{} · Hairline",
             self.document.title(),
-            if self.document.is_modified() { " •" } else { "" }
+            if self.document.is_modified() {
+                " •"
+            } else {
+                ""
+            }
         );
         ctx.send_viewport_cmd(egui::ViewportCommand::Title(title));
     }
@@ -164,7 +166,11 @@ impl Viewer {
         for event in self.engine.events() {
             match event {
                 Event::NotBuilt { revision, message } => {
-                    if self.engine.built().is_none_or(|built| built.revision < revision) {
+                    if self
+                        .engine
+                        .built()
+                        .is_none_or(|built| built.revision < revision)
+                    {
                         self.notices.error("scene", message);
                     }
                 }

@@ -174,7 +174,12 @@ mod tests {
         for (i, a) in TABLE.iter().enumerate() {
             for b in &TABLE[i + 1..] {
                 assert_ne!(a.label, b.label);
-                assert!(a.shortcut.is_none() || a.shortcut != b.shortcut, "{} {}", a.label, b.label);
+                assert!(
+                    a.shortcut.is_none() || a.shortcut != b.shortcut,
+                    "{} {}",
+                    a.label,
+                    b.label
+                );
                 assert_ne!(a.command, b.command);
             }
         }

@@ -129,7 +129,8 @@ impl Viewer {
             if ctx.memory(|memory| memory.focused().is_none()) {
                 response.request_focus();
             }
-            let entered = response.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
+            let entered =
+                response.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
             ui.add_space(8.0);
             ui.horizontal(|ui| {
                 let ok = ui.button("OK").clicked() || entered;
@@ -162,9 +163,10 @@ impl Viewer {
             let mut answer = None;
             for (i, entry) in pending.iter().enumerate() {
                 ui.horizontal(|ui| {
-                    let name = entry.path.as_ref().map_or("untitled".into(), |path| {
-                        path.display().to_string()
-                    });
+                    let name = entry
+                        .path
+                        .as_ref()
+                        .map_or("untitled".into(), |path| path.display().to_string());
                     ui.label(name);
                     if ui.button("Recover").clicked() {
                         answer = Some(Answer::Recover(i));
@@ -204,30 +206,35 @@ fn help(ui: &mut Ui) -> bool {
         ("Wheel or pinch", "comes nearer to what is under the mouse"),
         ("Click", "selects"),
         ("Double click", "looks at the point"),
-        ("Drop a file", "opens a scene, adds a model, sets the environment"),
+        (
+            "Drop a file",
+            "opens a scene, adds a model, sets the environment",
+        ),
     ];
     ui.set_width(720.0);
     ui.heading("Keys and mouse");
-    egui::ScrollArea::vertical().max_height(480.0).show(ui, |ui| {
-        ui.columns(2, |columns| {
-            let (left, right) = columns.split_at_mut(1);
-            for group in Group::ALL {
-                let ui = match group {
-                    Group::File | Group::Edit => &mut left[0],
-                    Group::View | Group::Tools | Group::Help => &mut right[0],
-                };
-                keys(ui, group);
-            }
-            let ui = &mut left[0];
-            ui.strong("Mouse in the picture");
-            Grid::new("mouse").num_columns(1).show(ui, |ui| {
-                for (what, does) in MOUSE {
-                    ui.label(format!("{what}: {does}"));
-                    ui.end_row();
+    egui::ScrollArea::vertical()
+        .max_height(480.0)
+        .show(ui, |ui| {
+            ui.columns(2, |columns| {
+                let (left, right) = columns.split_at_mut(1);
+                for group in Group::ALL {
+                    let ui = match group {
+                        Group::File | Group::Edit => &mut left[0],
+                        Group::View | Group::Tools | Group::Help => &mut right[0],
+                    };
+                    keys(ui, group);
                 }
+                let ui = &mut left[0];
+                ui.strong("Mouse in the picture");
+                Grid::new("mouse").num_columns(1).show(ui, |ui| {
+                    for (what, does) in MOUSE {
+                        ui.label(format!("{what}: {does}"));
+                        ui.end_row();
+                    }
+                });
             });
         });
-    });
     ui.add_space(8.0);
     ui.button("Close").clicked()
 }

@@ -58,7 +58,10 @@ impl Notices {
 
     /// The text of all that are there, for tests and the log.
     pub fn texts(&self) -> Vec<&str> {
-        self.list.iter().map(|notice| notice.text.as_str()).collect()
+        self.list
+            .iter()
+            .map(|notice| notice.text.as_str())
+            .collect()
     }
 
     /// Above the lower edge of `area`.
@@ -79,7 +82,13 @@ impl Notices {
         }
         let mut dismissed = None;
         egui::Area::new(egui::Id::unique("notices"))
-            .anchor(Align2::LEFT_BOTTOM, egui::vec2(area.left() + 12.0, area.bottom() - ctx.content_rect().bottom() - 12.0))
+            .anchor(
+                Align2::LEFT_BOTTOM,
+                egui::vec2(
+                    area.left() + 12.0,
+                    area.bottom() - ctx.content_rect().bottom() - 12.0,
+                ),
+            )
             .order(egui::Order::Foreground)
             .show(ctx, |ui| {
                 ui.set_max_width((area.width() - 24.0).clamp(200.0, 640.0));
@@ -90,12 +99,12 @@ impl Notices {
                                 Kind::Error => Color32::from_rgb(255, 140, 120),
                                 Kind::Note => ui.visuals().text_color(),
                             };
-                            if notice.kind == Kind::Error
-                                && ui.small_button("Dismiss").clicked()
-                            {
+                            if notice.kind == Kind::Error && ui.small_button("Dismiss").clicked() {
                                 dismissed = Some(i);
                             }
-                            ui.add(egui::Label::new(RichText::new(&notice.text).color(color)).wrap());
+                            ui.add(
+                                egui::Label::new(RichText::new(&notice.text).color(color)).wrap(),
+                            );
                         });
                     });
                 }

@@ -25,7 +25,9 @@ impl Tool {
             Self::Select => "Click selects what is there; drag turns the view",
             Self::Brush => "Drag over an object to lay scratches along the stroke",
             Self::Eraser => "Drag over an object to take scratches of the selected layer away",
-            Self::PlaceLight => "Click on an object: the selected light moves so that its highlight falls there",
+            Self::PlaceLight => {
+                "Click on an object: the selected light moves so that its highlight falls there"
+            }
         }
     }
 }

@@ -67,30 +67,73 @@ impl Viewport {
 /// The picture's area on the screen, in points.
 #[derive(Clone, Copy)]
 pub(crate) struct Area {
+    /// All of it.
     pub rect: Rect,
+    /// The part that the scene's own picture shows: as large as fits, in the middle. What is seen around it is not in the
+    /// picture that is rendered or exported.
+    pub frame: Rect,
     pub pixels_per_point: f32,
 }
 
 impl Area {
+    fn new(rect: Rect, picture_px: [u32; 2], pixels_per_point: f32) -> Self {
+        let [width, height] = picture_px.map(|side| side.max(1) as f32);
+        let fitting = (rect.width() / width).min(rect.height() / height);
+        let size = egui::vec2(width, height) * fitting;
+        Self {
+            rect,
+            frame: Rect::from_center_size(rect.center(), size),
+            pixels_per_point,
+        }
+    }
+
     /// In physical pixels.
     pub fn size_px(&self) -> [u32; 2] {
         let size = self.rect.size() * self.pixels_per_point;
         [size.x, size.y].map(|side| (side.round() as u32).clamp(1, 8192))
     }
 
-    /// Width and height in points, which the navigation counts in: it needs ratios only.
+    /// Width and height of the frame in points, which navigation and projection count in: they need ratios only.
     pub fn size(&self) -> DVec2 {
-        DVec2::new(self.rect.width().into(), self.rect.height().into())
+        DVec2::new(self.frame.width().into(), self.frame.height().into())
     }
 
-    /// From the upper left corner.
+    /// From the upper left corner of the frame.
     pub fn within(&self, pos: Pos2) -> DVec2 {
-        let offset = pos - self.rect.min;
+        let offset = pos - self.frame.min;
         DVec2::new(offset.x.into(), offset.y.into())
     }
 
+    /// The other way.
     pub fn on_screen(&self, point: DVec2) -> Pos2 {
-        self.rect.min + egui::vec2(point.x as f32, point.y as f32)
+        self.frame.min + egui::vec2(point.x as f32, point.y as f32)
+    }
+
+    /// The vertical field of view of all of the area, where the frame has `fov_y_rad`.
+    fn fov_y_rad(&self, fov_y_rad: f64) -> f64 {
+        let taller = f64::from(self.rect.height() / self.frame.height().max(1.0));
+        2.0 * ((0.5 * fov_y_rad).tan() * taller).atan()
+    }
+
+    /// Dims what the picture does not have.
+    fn paint_frame(&self, ui: &egui::Ui) {
+        let dim = egui::Color32::from_black_alpha(110);
+        let (all, frame) = (self.rect, self.frame);
+        let around = [
+            Rect::from_min_max(all.min, egui::pos2(all.max.x, frame.min.y)),
+            Rect::from_min_max(egui::pos2(all.min.x, frame.max.y), all.max),
+            Rect::from_min_max(
+                egui::pos2(all.min.x, frame.min.y),
+                egui::pos2(frame.min.x, frame.max.y),
+            ),
+            Rect::from_min_max(
+                egui::pos2(frame.max.x, frame.min.y),
+                egui::pos2(all.max.x, frame.max.y),
+            ),
+        ];
+        for rect in around.into_iter().filter(Rect::is_positive) {
+            ui.painter().rect_filled(rect, 0.0, dim);
+        }
     }
 }
 
@@ -101,14 +144,13 @@ pub(crate) fn show(ui: &mut egui::Ui, viewer: &mut Viewer) -> Rect {
         let rect = ui.available_rect_before_wrap();
         let response = ui.allocate_rect(rect, Sense::click_and_drag());
         response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Picture"));
-        let area = Area {
-            rect,
-            pixels_per_point: ui.pixels_per_point(),
-        };
-        viewer.viewport.aspect = f64::from(rect.width() / rect.height().max(1.0));
+        let picture_px = viewer.document.description().render.size_px;
+        let area = Area::new(rect, picture_px, ui.pixels_per_point());
+        viewer.viewport.aspect = f64::from(picture_px[0]) / f64::from(picture_px[1].max(1));
         viewer.engine.set_view(view(viewer, &area));
         if let Some(frame) = viewer.engine.latest() {
             viewer.viewport.canvas.paint(ui, &area, &frame);
+            area.paint_frame(ui);
         } else {
             ui.put(rect, egui::Spinner::new().size(32.0));
         }
@@ -126,7 +168,7 @@ fn view(viewer: &Viewer, area: &Area) -> View {
             position_m: camera.position_m.into(),
             target_m: camera.target_m.into(),
             up: camera.up.into(),
-            fov_y_rad: camera.fov_y_deg.to_radians(),
+            fov_y_rad: area.fov_y_rad(camera.fov_y_deg.to_radians()),
             // Shown by `display`, so that a change of it paints nothing anew.
             exposure_ev: 0.0,
         },
@@ -163,9 +205,9 @@ fn interact(ui: &mut egui::Ui, viewer: &mut Viewer, area: &Area, response: &Resp
             .drag("Pan", key, |d| navigate::pan(&mut d.camera, moved, size));
     } else if orbits && moved != DVec2::ZERO {
         let key = DragKey::of("orbit");
-        viewer
-            .document
-            .drag("Orbit", key, |d| navigate::orbit(&mut d.camera, moved, size));
+        viewer.document.drag("Orbit", key, |d| {
+            navigate::orbit(&mut d.camera, moved, size)
+        });
     }
     wheel(ui, viewer, area, response);
     click(viewer, area, response);
@@ -203,9 +245,9 @@ fn click(viewer: &mut Viewer, area: &Area, response: &Response) {
     let hit = pick::surface(viewer, area, pos);
     if response.double_clicked() {
         if let Some(hit) = hit {
-            viewer
-                .document
-                .edit("Look at a point", |d| navigate::center_on(&mut d.camera, hit.point_m));
+            viewer.document.edit("Look at a point", |d| {
+                navigate::center_on(&mut d.camera, hit.point_m)
+            });
         }
     } else if response.clicked() {
         match viewer.toolbox.tool {

@@ -48,9 +48,8 @@ pub fn open(options: Options, renderer: Renderer) -> Result<(), Error> {
     };
     let mut setup = WgpuSetupCreateNew::without_display_handle();
     // What the renderer needs, so that it can share the device.
-    setup.device_descriptor = Arc::new(|adapter| {
-        Adapter::new(adapter.clone()).device_descriptor(false)
-    });
+    setup.device_descriptor =
+        Arc::new(|adapter| Adapter::new(adapter.clone()).device_descriptor(false));
     native.wgpu_options.wgpu_setup = WgpuSetup::CreateNew(setup);
     eframe::run_native(
         "hairline",

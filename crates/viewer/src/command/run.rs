@@ -75,9 +75,9 @@ impl Viewer {
             | Command::ToggleSolo => self.on_selection(command),
             Command::FrameAll => self.frame(None),
             Command::FrameSelection => self.frame(Some(self.selection())),
-            Command::Look(viewpoint) => self
-                .document
-                .edit(command.label(), |d| navigate::look_from(&mut d.camera, viewpoint)),
+            Command::Look(viewpoint) => self.document.edit(command.label(), |d| {
+                navigate::look_from(&mut d.camera, viewpoint)
+            }),
             Command::Pick(tool) => self.toolbox.tool = tool,
             Command::BrushSmaller => self.scale_brush(1.0 / BRUSH_STEP),
             Command::BrushLarger => self.scale_brush(BRUSH_STEP),
@@ -229,7 +229,8 @@ impl Viewer {
                 self.notices.clear("save");
                 if let Some(path) = self.document.path() {
                     self.files.remember(path);
-                    self.notices.note("saved", format!("Saved {}", path.display()));
+                    self.notices
+                        .note("saved", format!("Saved {}", path.display()));
                 }
                 if let Some(wish) = after {
                     self.fulfil(ctx, wish);
@@ -318,7 +319,8 @@ impl Viewer {
             Ok(document) => {
                 self.replace_document(document);
                 self.files.take_over(pending);
-                self.notices.note("recovered", "Recovered. Save it to keep it.");
+                self.notices
+                    .note("recovered", "Recovered. Save it to keep it.");
             }
             Err(error) => self.notices.error("recovered", error.to_string()),
         }

@@ -24,10 +24,7 @@ pub(super) struct CpuEasel {
 impl Easel for CpuEasel {
     fn take(&mut self, order: &Order) -> Result<bool, hairline_gpu::Error> {
         let built = Arc::downgrade(&order.built);
-        let is_new = !self
-            .scene
-            .as_ref()
-            .is_some_and(|last| last.ptr_eq(&built));
+        let is_new = !self.scene.as_ref().is_some_and(|last| last.ptr_eq(&built));
         self.scene = Some(built);
         Ok(is_new)
     }

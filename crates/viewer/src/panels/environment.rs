@@ -19,7 +19,10 @@ pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer) {
     };
     ui.label(environment.file.display().to_string());
     let mut form = Form::new(ui, "environment", viewer.diagonal_m(None));
-    form.number(Parameter::EnvironmentRotation, &mut environment.rotation_deg);
+    form.number(
+        Parameter::EnvironmentRotation,
+        &mut environment.rotation_deg,
+    );
     form.number(Parameter::EnvironmentIntensity, &mut environment.intensity);
     form.toggle(
         "Visible",

@@ -122,9 +122,12 @@ impl<'a> Form<'a> {
 
     fn boxes_labelled(&mut self, label: &str, range: &Range, names: &[&str], values: &mut [f64]) {
         self.row(label, range.tooltip, |ui, _| {
-            names.iter().zip(values).fold(false, |changed, (name, value)| {
-                small_box(ui, label, name, range, value) || changed
-            })
+            names
+                .iter()
+                .zip(values)
+                .fold(false, |changed, (name, value)| {
+                    small_box(ui, label, name, range, value) || changed
+                })
         });
     }
 
@@ -213,9 +216,11 @@ impl<'a> Form<'a> {
         let label = format!("Point {}", i + 1);
         self.row(&label, range.tooltip, |ui, _| {
             let parts = [("r", &range, radius_m), ("z", &heights, height_m)];
-            parts.into_iter().fold(false, |changed, (name, range, value)| {
-                small_box(ui, &label, name, range, value) || changed
-            })
+            parts
+                .into_iter()
+                .fold(false, |changed, (name, range, value)| {
+                    small_box(ui, &label, name, range, value) || changed
+                })
         });
     }
 
@@ -242,7 +247,10 @@ fn slider_and_box(ui: &mut Ui, label: &Response, range: &Range, value: &mut f64)
             .logarithmic(range.logarithmic)
             .clamping(SliderClamping::Never)
             .show_value(false);
-        let slid = ui.add(slider).labelled_by(label.id).on_hover_text(range.tooltip);
+        let slid = ui
+            .add(slider)
+            .labelled_by(label.id)
+            .on_hover_text(range.tooltip);
         if slid.changed() {
             *value = on_slider.clamp(*range.hard.start(), *range.hard.end());
         }
@@ -253,7 +261,9 @@ fn slider_and_box(ui: &mut Ui, label: &Response, range: &Range, value: &mut f64)
 
 /// One of several numbers in a row.
 fn small_box(ui: &mut Ui, label: &str, name: &str, range: &Range, value: &mut f64) -> bool {
-    let drag = number_box(range, value).prefix(format!("{name} ")).suffix("");
+    let drag = number_box(range, value)
+        .prefix(format!("{name} "))
+        .suffix("");
     let response = ui.add_sized([58.0, 20.0], drag);
     ui.ctx().accesskit_node_builder(response.id, |node| {
         node.set_label(format!("{label} {name}"));

@@ -5,9 +5,7 @@ use hairline_editor::Selection;
 use hairline_editor::actions::layers;
 use hairline_editor::presets::LayerPreset;
 use hairline_editor::ranges::Parameter;
-use hairline_scene::description::{
-    Amount, Around, Distribution, Laid, Layer, Pattern, Scratches,
-};
+use hairline_scene::description::{Amount, Around, Distribution, Laid, Layer, Pattern, Scratches};
 
 use super::form::Form;
 use crate::app::Viewer;
@@ -26,17 +24,40 @@ pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer, index: usize) {
     let mut name = layer.name.clone().unwrap_or_default();
     form.text("Name", "What the outliner calls it", &mut name);
     layer.name = (!name.is_empty()).then_some(name);
-    let objects = description.objects.iter().map(|o| (o.name.clone(), o.name.clone()));
+    let objects = description
+        .objects
+        .iter()
+        .map(|o| (o.name.clone(), o.name.clone()));
     form.choice("Object", "What they lie on", objects, &mut layer.object);
-    form.toggle("Hidden", "A hidden layer is laid nowhere", &mut layer.hidden);
-    form.toggle("Solo", "If a layer is solo, only solo layers are seen", &mut layer.solo);
+    form.toggle(
+        "Hidden",
+        "A hidden layer is laid nowhere",
+        &mut layer.hidden,
+    );
+    form.toggle(
+        "Solo",
+        "If a layer is solo, only solo layers are seen",
+        &mut layer.solo,
+    );
     match &mut layer.layer {
         Layer::Laid(laid) => laid_rows(&mut form, laid),
         Layer::Brushed(brushed) => {
             form.section("Look");
-            form.distribution(Parameter::Width, Parameter::WidthSpread, &mut brushed.width_um);
-            form.distribution(Parameter::Depth, Parameter::DepthSpread, &mut brushed.depth_nm);
-            form.distribution(Parameter::Length, Parameter::LengthSpread, &mut brushed.length_m);
+            form.distribution(
+                Parameter::Width,
+                Parameter::WidthSpread,
+                &mut brushed.width_um,
+            );
+            form.distribution(
+                Parameter::Depth,
+                Parameter::DepthSpread,
+                &mut brushed.depth_nm,
+            );
+            form.distribution(
+                Parameter::Length,
+                Parameter::LengthSpread,
+                &mut brushed.length_m,
+            );
             form.number(Parameter::Jitter, &mut brushed.jitter_deg);
             form.whole(Parameter::Seed, &mut brushed.seed);
         }
@@ -69,7 +90,11 @@ fn laid_rows(form: &mut Form, laid: &mut Laid) {
     form.section("Look");
     form.distribution(Parameter::Width, Parameter::WidthSpread, &mut laid.width_um);
     form.distribution(Parameter::Depth, Parameter::DepthSpread, &mut laid.depth_nm);
-    form.distribution(Parameter::Length, Parameter::LengthSpread, &mut laid.length_m);
+    form.distribution(
+        Parameter::Length,
+        Parameter::LengthSpread,
+        &mut laid.length_m,
+    );
     form.section("Course");
     match &mut laid.pattern {
         Pattern::Random { curvature_per_m } | Pattern::Swirl { curvature_per_m } => {
@@ -136,15 +161,22 @@ fn strokes(ui: &mut Ui, viewer: &mut Viewer, index: usize, layer: &Scratches) {
         });
         for tool in [Tool::Brush, Tool::Eraser] {
             let command = Command::Pick(tool);
-            if ui.button(command.label()).on_hover_text(tool.hint()).clicked() {
+            if ui
+                .button(command.label())
+                .on_hover_text(tool.hint())
+                .clicked()
+            {
                 viewer.toolbox.tool = tool;
             }
         }
-        let last = ui.add_enabled(!layer.strokes.is_empty(), egui::Button::new("Remove the last"));
+        let last = ui.add_enabled(
+            !layer.strokes.is_empty(),
+            egui::Button::new("Remove the last"),
+        );
         if last.clicked() {
-            viewer
-                .document
-                .edit("Remove a stroke", |d| drop(d.scratches[index].strokes.pop()));
+            viewer.document.edit("Remove a stroke", |d| {
+                drop(d.scratches[index].strokes.pop())
+            });
         }
     });
 }
@@ -154,7 +186,11 @@ fn buttons(ui: &mut Ui, viewer: &mut Viewer, index: usize, layer: &Scratches, di
     ui.horizontal_wrapped(|ui| {
         ui.menu_button("Make it…", |ui| {
             for preset in LayerPreset::ALL {
-                if ui.button(preset.name()).on_hover_text(preset.tooltip()).clicked() {
+                if ui
+                    .button(preset.name())
+                    .on_hover_text(preset.tooltip())
+                    .clicked()
+                {
                     let made = preset.layer(layer.object.clone(), diagonal_m);
                     viewer.document.edit("Layer preset", |d| {
                         let kept = &mut d.scratches[index];

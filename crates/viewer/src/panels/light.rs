@@ -29,11 +29,7 @@ pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer, index: usize) {
             form.number(Parameter::LightRadius, radius_m);
         }
         LightKind::Polygon { two_sided, .. } => {
-            form.toggle(
-                "Two-sided",
-                "Whether the other side shines too",
-                two_sided,
-            );
+            form.toggle("Two-sided", "Whether the other side shines too", two_sided);
         }
     }
     if let Some(change) = form.change() {
@@ -89,7 +85,10 @@ fn vertices(ui: &mut Ui, viewer: &mut Viewer, index: usize, vertices_m: &[[f64; 
                 inserted = Some(i);
             }
             let may_go = vertices_m.len() > 3;
-            let remove = ui.add_enabled(may_go, egui::Button::new(format!("Remove {}", i + 1)).small());
+            let remove = ui.add_enabled(
+                may_go,
+                egui::Button::new(format!("Remove {}", i + 1)).small(),
+            );
             if remove.clicked() {
                 deleted = Some(i);
             }

@@ -118,7 +118,11 @@ pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer, index: usize) {
     ui.horizontal_wrapped(|ui| {
         ui.menu_button("Make it…", |ui| {
             for preset in MaterialPreset::all() {
-                if ui.button(preset.name()).on_hover_text(preset.tooltip()).clicked() {
+                if ui
+                    .button(preset.name())
+                    .on_hover_text(preset.tooltip())
+                    .clicked()
+                {
                     viewer.document.edit("Material preset", |d| {
                         let name = d.materials[index].name.clone();
                         d.materials[index] = hairline_scene::description::Material {

@@ -22,9 +22,18 @@ pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer, index: usize) {
     let mut name = object.name.clone();
     form.text("Name", "What layers of scratches call it", &mut name);
     // A mesh may keep the materials of its file.
-    let keeps_own = matches!(object.surface, Surface::Mesh(_)).then(|| (None, "of its file".to_owned()));
-    let named = description.materials.iter().map(|m| (Some(m.name.clone()), m.name.clone()));
-    form.choice("Material", "What it is made of", keeps_own.into_iter().chain(named), &mut object.material);
+    let keeps_own =
+        matches!(object.surface, Surface::Mesh(_)).then(|| (None, "of its file".to_owned()));
+    let named = description
+        .materials
+        .iter()
+        .map(|m| (Some(m.name.clone()), m.name.clone()));
+    form.choice(
+        "Material",
+        "What it is made of",
+        keeps_own.into_iter().chain(named),
+        &mut object.material,
+    );
     form.vector(Parameter::Translation, &mut object.translation_m);
     form.vector(Parameter::Rotation, &mut object.rotation_deg);
     scale(&mut form, &mut object.scale);
@@ -44,9 +53,9 @@ pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer, index: usize) {
                 .apply("Rename object", |d, _| objects::rename(d, index, &name));
             viewer.tell(done);
         } else {
-            viewer
-                .document
-                .drag(&change.label, change.key, |d| d.objects[index] = object.clone());
+            viewer.document.drag(&change.label, change.key, |d| {
+                d.objects[index] = object.clone()
+            });
         }
     }
     ui.add_space(8.0);
@@ -70,7 +79,11 @@ pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer, index: usize) {
 /// The presets as a menu.
 pub(super) fn add_layer(ui: &mut Ui, viewer: &mut Viewer, object: usize) {
     for preset in LayerPreset::ALL {
-        if ui.button(preset.name()).on_hover_text(preset.tooltip()).clicked() {
+        if ui
+            .button(preset.name())
+            .on_hover_text(preset.tooltip())
+            .clicked()
+        {
             let diagonal_m = viewer.diagonal_m(Some(object));
             let done = viewer.document.apply("Add scratches", |d, _| {
                 let name = d.objects[object].name.clone();
@@ -109,7 +122,11 @@ fn shape_rows(form: &mut Form, shape: &mut Shape) {
             let mut facets = u64::from(*segments);
             form.whole(Parameter::LatheSegments, &mut facets);
             *segments = u32::try_from(facets).unwrap_or(u32::MAX);
-            form.toggle("Smooth", "Whether the profile is rounded where it bends gently", smooth);
+            form.toggle(
+                "Smooth",
+                "Whether the profile is rounded where it bends gently",
+                smooth,
+            );
             form.section("Profile");
             for (i, [radius_m, height_m]) in profile_m.iter_mut().enumerate() {
                 form.point(i, radius_m, height_m);

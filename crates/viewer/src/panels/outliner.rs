@@ -26,8 +26,16 @@ fn rows(ui: &mut Ui, viewer: &mut Viewer, wished: &mut Option<Command>) {
     let description = viewer.document.description().clone();
     line(ui, viewer, Selection::Camera, "Camera", true);
     let map = description.environment.as_ref();
-    let map = map.and_then(|e| e.file.file_name()).map_or("none".into(), |f| f.to_string_lossy());
-    line(ui, viewer, Selection::Environment, &format!("Environment: {map}"), true);
+    let map = map
+        .and_then(|e| e.file.file_name())
+        .map_or("none".into(), |f| f.to_string_lossy());
+    line(
+        ui,
+        viewer,
+        Selection::Environment,
+        &format!("Environment: {map}"),
+        true,
+    );
 
     section(ui, "Objects", |ui| {
         if ui.button(Command::AddModel.label()).clicked() {
@@ -52,7 +60,9 @@ fn rows(ui: &mut Ui, viewer: &mut Viewer, wished: &mut Option<Command>) {
         ui.horizontal(|ui| {
             let name = numbered(lights::title(light), &description, i);
             let mut shown = !light.hidden;
-            let eye = ui.checkbox(&mut shown, "").on_hover_text("Whether it shines");
+            let eye = ui
+                .checkbox(&mut shown, "")
+                .on_hover_text("Whether it shines");
             name_node(ui, &eye, &format!("Show light {}", i + 1));
             if eye.changed() {
                 let done = viewer
@@ -74,7 +84,9 @@ fn layer_line(ui: &mut Ui, viewer: &mut Viewer, description: &Description, i: us
     let layer = &description.scratches[i];
     ui.horizontal(|ui| {
         let mut shown = !layer.hidden;
-        let eye = ui.checkbox(&mut shown, "").on_hover_text("Hide or show the layer");
+        let eye = ui
+            .checkbox(&mut shown, "")
+            .on_hover_text("Hide or show the layer");
         name_node(ui, &eye, &format!("Show layer {}", i + 1));
         if eye.changed() {
             let done = viewer
@@ -87,17 +99,26 @@ fn layer_line(ui: &mut Ui, viewer: &mut Viewer, description: &Description, i: us
             .on_hover_text("Solo: if a layer is solo, only solo layers are seen");
         name_node(ui, &solo, &format!("Solo layer {}", i + 1));
         if solo.clicked() {
-            let done = viewer.document.apply("Solo", |d, _| layers::toggle_solo(d, i));
+            let done = viewer
+                .document
+                .apply("Solo", |d, _| layers::toggle_solo(d, i));
             viewer.tell(done);
         }
         let is_shown = layers::is_shown(description, i);
-        line(ui, viewer, Selection::Layer(i), layers::title(layer), is_shown);
+        line(
+            ui,
+            viewer,
+            Selection::Layer(i),
+            layers::title(layer),
+            is_shown,
+        );
     });
 }
 
 /// What screen readers and tests call a control that shows no text.
 fn name_node(ui: &Ui, response: &egui::Response, name: &str) {
-    ui.ctx().accesskit_node_builder(response.id, |node| node.set_label(name));
+    ui.ctx()
+        .accesskit_node_builder(response.id, |node| node.set_label(name));
 }
 
 /// A line that selects; faint where the part is not seen.
@@ -150,7 +171,11 @@ fn add_shape(ui: &mut Ui, viewer: &mut Viewer) {
 
 fn add_light(ui: &mut Ui, viewer: &mut Viewer) {
     for preset in LightPreset::ALL {
-        if ui.button(preset.name()).on_hover_text(preset.tooltip()).clicked() {
+        if ui
+            .button(preset.name())
+            .on_hover_text(preset.tooltip())
+            .clicked()
+        {
             let diagonal_m = viewer.diagonal_m(None);
             let done = viewer.document.apply("Add a light", |d, _| {
                 let camera = &d.camera;
@@ -164,10 +189,14 @@ fn add_light(ui: &mut Ui, viewer: &mut Viewer) {
 
 fn add_material(ui: &mut Ui, viewer: &mut Viewer) {
     for preset in MaterialPreset::all() {
-        if ui.button(preset.name()).on_hover_text(preset.tooltip()).clicked() {
-            let done = viewer
-                .document
-                .apply("Add a material", |d, _| Ok(materials::add(d, preset.material())));
+        if ui
+            .button(preset.name())
+            .on_hover_text(preset.tooltip())
+            .clicked()
+        {
+            let done = viewer.document.apply("Add a material", |d, _| {
+                Ok(materials::add(d, preset.material()))
+            });
             viewer.tell(done);
         }
     }

@@ -37,7 +37,11 @@ pub(super) fn surface(viewer: &Viewer, area: &Area, pos: Pos2) -> Option<Picked>
     Some(Picked {
         object: hit.object as usize,
         point_m: frame.position_m + ray * hit.distance_m,
-        normal: if normal.dot(ray) > 0.0 { -normal } else { normal },
+        normal: if normal.dot(ray) > 0.0 {
+            -normal
+        } else {
+            normal
+        },
     })
 }
 

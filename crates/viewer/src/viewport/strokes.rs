@@ -83,7 +83,14 @@ fn finish(viewer: &mut Viewer, object: usize, recorder: Recorder, erase: bool) {
 }
 
 /// The brush's edge on the surface.
-fn draw_ring(ui: &egui::Ui, viewer: &Viewer, area: &Area, point_m: DVec3, normal: DVec3, radius_m: f64) {
+fn draw_ring(
+    ui: &egui::Ui,
+    viewer: &Viewer,
+    area: &Area,
+    point_m: DVec3,
+    normal: DVec3,
+    radius_m: f64,
+) {
     let camera = &viewer.document.description().camera;
     let (across, along) = normal.any_orthonormal_pair();
     let points = (0..=48).filter_map(|i| {
@@ -95,7 +102,8 @@ fn draw_ring(ui: &egui::Ui, viewer: &Viewer, area: &Area, point_m: DVec3, normal
         Tool::Eraser => Color32::from_rgb(255, 150, 130),
         _ => Color32::from_rgb(255, 230, 150),
     };
-    ui.painter().add(egui::Shape::line(points.collect(), Stroke::new(1.5, color)));
+    ui.painter()
+        .add(egui::Shape::line(points.collect(), Stroke::new(1.5, color)));
 }
 
 /// The stroke so far.
@@ -110,5 +118,6 @@ fn draw_way(ui: &egui::Ui, viewer: &Viewer, area: &Area) {
     };
     let points = recorder.way_m().iter().filter_map(on_screen).collect();
     let color = Color32::from_rgba_unmultiplied(255, 230, 150, 160);
-    ui.painter().add(egui::Shape::line(points, Stroke::new(3.0, color)));
+    ui.painter()
+        .add(egui::Shape::line(points, Stroke::new(3.0, color)));
 }
