@@ -1,14 +1,14 @@
 //! Finding what lies where: scratches under a footprint, triangles along a ray. Trees are built by obvhs; the walk over
 //! scratches is stackless, the same on the CPU and in a shader.
 
-pub mod cluster_tree;
+pub mod bundles;
 pub mod groove_index;
 pub mod scratch_index;
 pub mod segment_tree;
 pub mod triangle_index;
 pub mod triangle_lists;
 
-pub use cluster_tree::{ClusterIndex, ClusterNode, ClusterTree};
+pub use bundles::{Bundle, BundleIndex, BundleLevel};
 pub use groove_index::Groove;
 pub use scratch_index::{IndexedSegment, ScratchIndex};
 pub use segment_tree::{ScratchNode, SegmentTree};

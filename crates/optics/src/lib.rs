@@ -17,5 +17,6 @@ pub mod method;
 pub mod published;
 pub mod scratch;
 pub mod spectrum;
+pub mod spread_table;
 pub mod sptd;
 pub mod table;

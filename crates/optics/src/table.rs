@@ -71,7 +71,10 @@ impl ScratchTable {
                 let g =
                     |u: f64| diffraction::sinc_squared_integral(u, wavelength_um) / wavelength_um;
                 std::array::from_fn(|column| {
-                    [g(column_u_um(column)), chord_slope(column, wavelength_um)]
+                    [
+                        g(column_u_um(column as f64)),
+                        chord_slope(column, wavelength_um),
+                    ]
                 })
             })
             .collect();
@@ -95,6 +98,22 @@ impl ScratchTable {
                 *texel = [r, g, b, pack_slopes(slopes)];
             }
         }
+        Self::from_texels(texels)
+    }
+
+    /// A table from T and its slope in each column, row by row.
+    pub(crate) fn from_values(values: impl Iterator<Item = ([f64; 3], [f64; 3])>) -> Self {
+        Self::from_texels(
+            values
+                .map(|(value, slopes)| {
+                    let [r, g, b] = value.map(|t| (t as f32).to_bits());
+                    [r, g, b, pack_slopes(slopes)]
+                })
+                .collect(),
+        )
+    }
+
+    fn from_texels(texels: Vec<[u32; 4]>) -> Self {
         let last = texels.iter().skip(COLUMNS - 1).step_by(COLUMNS);
         let twice = |bits: u32| 2.0 * f32::from_bits(bits);
         let totals = last
@@ -161,9 +180,9 @@ impl TableRow<'_> {
     }
 }
 
-/// u at a column; infinite at the last one.
-fn column_u_um(column: usize) -> f64 {
-    let x = column as f64 / (COLUMNS - 1) as f64;
+/// u at a column or between two; infinite at the last one.
+pub(crate) fn column_u_um(column: f64) -> f64 {
+    let x = column / (COLUMNS - 1) as f64;
     U_HALF_UM * x / (1.0 - x)
 }
 
@@ -174,7 +193,7 @@ fn chord_slope(column: usize, wavelength_um: f64) -> f64 {
         // sinc^2 averages to 2/(k u)^2 far out, which du/dx grows to meet: a finite slope at infinity.
         return wavelength_um / (2.0 * std::f64::consts::PI.powi(2) * U_HALF_UM * columns);
     }
-    let u = column_u_um(column);
+    let u = column_u_um(column as f64);
     let k = 2.0 * std::f64::consts::PI / wavelength_um;
     let du = (u + U_HALF_UM).powi(2) / (U_HALF_UM * columns);
     diffraction::sinc(k * u / 2.0).powi(2) * du / wavelength_um

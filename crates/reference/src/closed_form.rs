@@ -3,17 +3,19 @@
 //! The way of a pixel is the shader's (crates/gpu/shaders/shade.wgsl): hit, `surface`, footprint, `scratches`, mask,
 //! `base`, film.
 
+use crate::bundles::Bundles;
 use crate::light_view::LightViews;
 use crate::published::Published;
+use crate::scratches::{GatherCounts, Work};
 use crate::silhouettes::Silhouettes;
 use crate::surface::SurfacePoint;
-use crate::{base, scratches, surface};
+use crate::{base, bundles, scratches, surface};
 use glam::{DVec2, DVec3};
 use hairline_image::Image;
-use hairline_index::{Hit, ScratchIndex, TriangleIndex, TriangleLists};
+use hairline_index::{BundleIndex, Hit, ScratchIndex, TriangleIndex, TriangleLists};
 use hairline_optics::ltc::ltc_sphere;
 use hairline_optics::mask::Masked;
-use hairline_optics::method::{Lookup, Method, PixelFilter};
+use hairline_optics::method::{Gather, Lookup, Method, PixelFilter};
 use hairline_scene::camera::pixel_jitter;
 use hairline_scene::{CameraFrame, Scene, ScratchTables};
 use rayon::prelude::*;
@@ -48,6 +50,8 @@ pub struct Prepared<'a> {
     pub(crate) tables: Arc<ScratchTables>,
     /// For methods that look scratches up by triangle.
     lists: OnceLock<TriangleLists>,
+    /// For methods that take many scratches together.
+    bundles: OnceLock<Arc<Bundles>>,
     /// Of each object, counted over the whole scene.
     first_triangles: Vec<usize>,
 }
@@ -75,6 +79,7 @@ impl<'a> Prepared<'a> {
             scratches,
             tables,
             lists: OnceLock::new(),
+            bundles: OnceLock::new(),
             first_triangles: scene
                 .objects
                 .iter()
@@ -87,6 +92,19 @@ impl<'a> Prepared<'a> {
         }
     }
 
+    /// The same for a scene that differs in what none of this looks at: camera, lights, environment, settings.
+    pub fn with_scene<'b>(&self, scene: &'b Scene) -> Prepared<'b> {
+        Prepared {
+            scene,
+            triangles: self.triangles.clone(),
+            scratches: self.scratches.clone(),
+            tables: self.tables.clone(),
+            lists: self.lists.clone(),
+            bundles: self.bundles.clone(),
+            first_triangles: self.first_triangles.clone(),
+        }
+    }
+
     /// The tree over the scratches.
     pub fn scratches(&self) -> &Arc<ScratchIndex> {
         &self.scratches
@@ -96,6 +114,16 @@ impl<'a> Prepared<'a> {
     pub fn triangle_lists(&self) -> &TriangleLists {
         self.lists
             .get_or_init(|| TriangleLists::build(self.scene, &self.scratches))
+    }
+
+    /// What many scratches add up to, for [`Gather::Clusters`]; built when first asked for.
+    pub fn bundle_index(&self) -> &BundleIndex {
+        &self.bundles().index
+    }
+
+    pub(crate) fn bundles(&self) -> &Bundles {
+        self.bundles
+            .get_or_init(|| Bundles::new(self.scene, &self.tables).into())
     }
 
     fn triangle_list(&self, hit: &Hit) -> &[u32] {
@@ -147,8 +175,8 @@ impl<'a> Prepared<'a> {
             image.normal.par_chunks_mut(width),
         );
         layers.into_par_iter().enumerate().for_each_init(
-            || LightViews::new(scene),
-            |views, (row, (base, scratches, density, depth_m, normal))| {
+            || (LightViews::new(scene), Work::default()),
+            |(views, work), (row, (base, scratches, density, depth_m, normal))| {
                 let y = rows.start as usize + row;
                 for x in 0..width {
                     let smooth = silhouettes.as_ref().is_some_and(|s| s.is_smooth(x, y));
@@ -158,7 +186,7 @@ impl<'a> Prepared<'a> {
                     for i in 0..samples {
                         let pixel =
                             DVec2::new(x as f64 + 0.5, y as f64 + 0.5) + pixel_jitter(i, samples);
-                        let sample = way.shade_pixel(&camera, footprint_std_px, pixel, views);
+                        let sample = way.shade_pixel(&camera, footprint_std_px, pixel, views, work);
                         sum.base += sample.base;
                         sum.scratches += sample.scratches;
                         sum.density += sample.density;
@@ -182,6 +210,43 @@ impl<'a> Prepared<'a> {
             },
         );
         image
+    }
+
+    /// How much work the scratches of the picture are, one sample a pixel: the sum over every `step`-th pixel of every `step`-th
+    /// row, and how many of these show scratches.
+    pub fn gather_counts(&self, method: Method, step: usize) -> (GatherCounts, u64) {
+        let scene = self.scene;
+        let [width, height] = scene.render.size_px;
+        let camera = scene.camera.frame(scene.render.size_px);
+        let way = Way {
+            prepared: self,
+            method,
+            published: Published::new(self, method),
+        };
+        let footprint_std_px = scene.render.footprint_std_px(1);
+        let rows: Vec<u32> = (0..height).step_by(step.max(1)).collect();
+        rows.into_par_iter()
+            .map_init(
+                || (LightViews::new(scene), Work::default()),
+                |(views, work), y| {
+                    work.counts = GatherCounts::default();
+                    let mut scratched = 0;
+                    for x in (0..width).step_by(step.max(1)) {
+                        let pixel = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
+                        let before = work.counts.shares + work.counts.clusters;
+                        way.shade_pixel(&camera, footprint_std_px, pixel, views, work);
+                        scratched += u64::from(work.counts.shares + work.counts.clusters > before);
+                    }
+                    (work.counts, scratched)
+                },
+            )
+            .reduce(
+                || (GatherCounts::default(), 0),
+                |(mut a, n), (b, m)| {
+                    a += b;
+                    (a, n + m)
+                },
+            )
     }
 }
 
@@ -217,6 +282,7 @@ impl Way<'_> {
         footprint_std_px: f64,
         pixel: DVec2,
         views: &mut LightViews,
+        work: &mut Work,
     ) -> Sample {
         let Prepared {
             scene,
@@ -251,7 +317,7 @@ impl Way<'_> {
         if self.published.is_none() && self.prepared.is_scratched(&hit) {
             views.ready_for_scratches(scratched);
         }
-        let masked = self.scratches(&hit, scratched, views);
+        let masked = self.scratches(&hit, scratched, views, work);
         self.shade_surface(&masked, &point, views, depth_m)
     }
 
@@ -283,15 +349,31 @@ impl Way<'_> {
     }
 
     /// Radiance of the scratches under the point's footprint and what they take from the base.
-    fn scratches(&self, hit: &Hit, point: &SurfacePoint, views: &LightViews) -> Masked {
+    fn scratches(
+        &self,
+        hit: &Hit,
+        point: &SurfacePoint,
+        views: &LightViews,
+        work: &mut Work,
+    ) -> Masked {
         let object = hit.object as usize;
         let list =
             (self.method.lookup == Lookup::Triangles).then(|| self.prepared.triangle_list(hit));
         match &self.published {
-            None => scratches::gather_scratches(self.prepared, point, object, list, views).resolve(
-                self.method.mask,
-                self.prepared.scratches.depth_coherence[object] as f64,
-            ),
+            None => {
+                let sums = match self.method.gather {
+                    Gather::Exact => {
+                        scratches::gather_scratches(self.prepared, point, object, list, views, work)
+                    }
+                    Gather::Clusters => {
+                        bundles::gather_bundles(self.prepared, point, object, list, views, work)
+                    }
+                };
+                sums.resolve(
+                    self.method.mask,
+                    self.prepared.scratches.depth_coherence[object] as f64,
+                )
+            }
             Some(published) => published.scratches(point, object, list, views),
         }
     }

@@ -1,6 +1,7 @@
 //! Rendering on the CPU in f64: the readable twin of the shader, and the renderer where no driver exists.
 
 mod base;
+mod bundles;
 pub mod closed_form;
 mod light_view;
 pub mod monte_carlo;
@@ -8,3 +9,5 @@ mod published;
 mod scratches;
 mod silhouettes;
 mod surface;
+
+pub use scratches::GatherCounts;

@@ -24,17 +24,19 @@ pub(crate) fn gather_scratches(
     object: usize,
     list: Option<&[u32]>,
     views: &LightViews,
+    work: &mut Work,
 ) -> ScratchSums {
     let mut sums = ScratchSums::default();
     let table = &prepared.tables.tables[point.table];
     let environment = prepared.scene.environment.as_ref();
     let pixel = Pixel::new(point);
-    let mut work = Work::default();
     each_segment(prepared, point, object, list, |segment| {
+        work.counts.segments += 1;
         let Some(view) = pixel.see(segment) else {
             return;
         };
-        let mut radiance = view.lights(&pixel, table, views, &mut work);
+        work.counts.shares += 1;
+        let mut radiance = view.lights(&pixel, table, views, work);
         if let Some(environment) = environment {
             radiance += view.environment(&pixel, table, environment);
         }
@@ -74,23 +76,23 @@ pub(crate) fn each_segment(
 const SHARE_MIN: f64 = 2e-8;
 
 /// A pixel as the scratches under it see it: what is the same for all of them.
-struct Pixel<'a> {
-    point: &'a SurfacePoint,
+pub(crate) struct Pixel<'a> {
+    pub point: &'a SurfacePoint,
     /// The surface's axes in world space, to micrometres.
     axis_x_um: DVec3,
     axis_y_um: DVec3,
     /// How the point moves by one standard deviation of the pixel's filter to the right and down, in the surface's frame.
     steps_um: [DVec2; 2],
     /// Of both steps: xx, xy, yy.
-    covariance_um2: DVec3,
+    pub covariance_um2: DVec3,
     /// The coherence window's variance.
-    window_um2: f64,
+    pub window_um2: f64,
     /// Of the band that a pixel without perspective sees.
-    stds: BandStds,
+    pub stds: BandStds,
 }
 
 impl<'a> Pixel<'a> {
-    fn new(point: &'a SurfacePoint) -> Self {
+    pub fn new(point: &'a SurfacePoint) -> Self {
         let steps_um = point
             .footprint_axes_m
             .map(|step| (point.surface_from_world(step) * 1e6).truncate());
@@ -158,11 +160,13 @@ impl<'a> Pixel<'a> {
                 share,
                 width_um,
                 depth_nm: segment.depth_nm as f64,
+                turn_rad2: 0.0,
                 place: BandPlace::new(
                     self.steps_um.map(|step| t.perp_dot(step)),
                     offset_um,
                     variance_um2,
                 ),
+                variance_um2,
             }
         })
     }
@@ -170,23 +174,88 @@ impl<'a> Pixel<'a> {
 
 /// What the work on one scratch leaves for the next to fill again.
 #[derive(Default)]
-struct Work {
+pub(crate) struct Work {
     roots: OutlineRoots,
     middle_roots: OutlineRoots,
+    pub counts: GatherCounts,
+}
+
+/// How much work finding and lighting scratches was.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct GatherCounts {
+    /// Vertices of grids that were looked for.
+    pub nodes: u64,
+    /// Segments of leaves that were looked at.
+    pub segments: u64,
+    /// Of these, those under the footprint.
+    pub shares: u64,
+    /// Vertices that were found.
+    pub clusters: u64,
+    /// Pairs of a scratch and a light of which the one was asked whether it reaches the other.
+    pub pairs: u64,
+    /// Of these, lit ones: integrals over a light.
+    pub lit: u64,
+}
+
+impl std::ops::AddAssign for GatherCounts {
+    fn add_assign(&mut self, other: Self) {
+        self.nodes += other.nodes;
+        self.segments += other.segments;
+        self.shares += other.shares;
+        self.clusters += other.clusters;
+        self.pairs += other.pairs;
+        self.lit += other.lit;
+    }
 }
 
 /// A segment as seen from the point.
-struct SegmentView {
+pub(crate) struct SegmentView {
     frame: BandFrame,
     /// `wo` in the frame of the scratch.
     wo: DVec3,
     share: ScratchShare,
     width_um: f64,
     depth_nm: f64,
+    /// Variance of the tangent's angle about it; 0 for a single scratch.
+    turn_rad2: f64,
     place: BandPlace,
+    variance_um2: f64,
 }
 
 impl SegmentView {
+    /// What stands for many scratches of one direction, which lie all over the footprint: with them the band is as wide as it moves
+    /// over the whole pixel.
+    pub fn of_many(
+        pixel: &Pixel,
+        tangent: DVec2,
+        width_um: f64,
+        depth_nm: f64,
+        turn_rad2: f64,
+    ) -> Self {
+        let frame = BandFrame { tangent };
+        let across_um = pixel.steps_um.map(|step| tangent.perp_dot(step));
+        let variance_um2 =
+            across_um[0] * across_um[0] + across_um[1] * across_um[1] + pixel.window_um2;
+        Self {
+            frame,
+            wo: frame.band_from_surface(pixel.point.wo),
+            share: ScratchShare {
+                segment: 1.0,
+                line: 1.0,
+            },
+            width_um,
+            depth_nm,
+            turn_rad2,
+            place: BandPlace::new(across_um, 0.0, variance_um2),
+            variance_um2,
+        }
+    }
+
+    /// Variance across of footprint and window.
+    pub fn variance_um2(&self) -> f64 {
+        self.variance_um2
+    }
+
     /// Radiance by way of the lights, per unit of the share, Fresnel left out.
     fn lights(
         &self,
@@ -196,32 +265,52 @@ impl SegmentView {
         work: &mut Work,
     ) -> DVec3 {
         let mut sum = DVec3::ZERO;
-        for (light, moves) in views.views.iter().zip(&views.moves) {
-            let motion = self.place.moved(moves.map(|m| m.dot(self.frame.tangent)));
-            let (LightView::Sphere { cap: bound, .. } | LightView::Polygon { bound, .. }) = light;
-            // Most scratches are dark to most lights.
-            let along = self.frame.tangent.dot(bound.axis.truncate());
-            if !self.may_meet(pixel, along, bound, motion) {
-                continue;
-            }
-            match light {
-                LightView::Sphere { cap, radiance } => {
-                    sum += *radiance * self.sphere(pixel, table, *cap, motion);
-                }
-                LightView::Polygon {
-                    vertices,
-                    away,
-                    facing,
-                    sets,
-                    radiance,
-                    ..
-                } => {
-                    let outline = views.outline(vertices, *away, *facing, *sets);
-                    sum += *radiance * self.polygon(pixel, table, outline, motion, work);
-                }
-            }
+        for light in 0..views.views.len() {
+            sum += self.light(pixel, table, views, light, work);
         }
         sum
+    }
+
+    /// Radiance by way of one light.
+    pub fn light(
+        &self,
+        pixel: &Pixel,
+        table: &ScratchTable,
+        views: &LightViews,
+        light: usize,
+        work: &mut Work,
+    ) -> DVec3 {
+        let (light, moves) = (&views.views[light], views.moves[light]);
+        let tangent = self.frame.tangent;
+        let mut motion = self.place.moved(moves.map(|m| m.dot(tangent)));
+        let (LightView::Sphere { cap: bound, .. } | LightView::Polygon { bound, .. }) = light;
+        work.counts.pairs += 1;
+        if self.turn_rad2 > 0.0 {
+            let sum = pixel.point.wo.truncate() + bound.cos_radius * bound.axis.truncate();
+            let aside = tangent.perp_dot(sum);
+            motion.variance += self.turn_rad2 * aside * aside;
+        }
+        // Most scratches are dark to most lights.
+        let along = tangent.dot(bound.axis.truncate());
+        if !self.may_meet(pixel, along, bound, motion) {
+            return DVec3::ZERO;
+        }
+        match light {
+            LightView::Sphere { cap, radiance } => {
+                *radiance * self.sphere(pixel, table, *cap, motion, work)
+            }
+            LightView::Polygon {
+                vertices,
+                away,
+                facing,
+                sets,
+                radiance,
+                ..
+            } => {
+                let outline = views.outline(vertices, *away, *facing, *sets);
+                *radiance * self.polygon(pixel, table, outline, motion, work)
+            }
+        }
     }
 
     /// Whether the band can meet a cap whose axis has the component `along` on the tangent.
@@ -242,13 +331,21 @@ impl SegmentView {
     }
 
     /// By a sphere of radiance 1.
-    fn sphere(&self, pixel: &Pixel, table: &ScratchTable, cap: Cap, motion: BandMotion) -> DVec3 {
+    fn sphere(
+        &self,
+        pixel: &Pixel,
+        table: &ScratchTable,
+        cap: Cap,
+        motion: BandMotion,
+        work: &mut Work,
+    ) -> DVec3 {
         let cap = cap.turned(self.frame);
         let wo = self.wo + motion.shift * DVec3::X;
         let (lowest, highest) = sphere_band_extent(wo, cap);
         if !motion.reaches(lowest, highest, pixel.stds.mean) {
             return DVec3::ZERO;
         }
+        work.counts.lit += 1;
         let lines = band_lines(wo.x, lowest, highest, motion.band(pixel.stds).stds);
         lines.integral(wo, |line| {
             let chord = sphere_chord(line, cap);
@@ -272,6 +369,7 @@ impl SegmentView {
         let (low, high) = outline.corner_extent(self.frame);
         let std = motion.widened(pixel.stds.mean);
         if band_is_whole(wo.x, wo.x + low, wo.x + high, std) {
+            work.counts.lit += 1;
             let line = BandLine::new(wo, 0.0);
             let row = self.outline_row(table, outline, line, &mut work.roots);
             return work.roots.integral(|q| row.at(self.width_um * q)).into();
@@ -280,6 +378,7 @@ impl SegmentView {
         if !motion.reaches(lowest, highest, pixel.stds.mean) {
             return DVec3::ZERO;
         }
+        work.counts.lit += 1;
         let lines = band_lines(wo.x, lowest, highest, motion.band(pixel.stds).stds);
         // One cosine for all lines, that of the middle one.
         let middle = lines.middle_line(wo);
@@ -309,7 +408,12 @@ impl SegmentView {
     }
 
     /// By the environment, along the band's middle line, cell by cell.
-    fn environment(&self, pixel: &Pixel, table: &ScratchTable, environment: &Environment) -> DVec3 {
+    pub fn environment(
+        &self,
+        pixel: &Pixel,
+        table: &ScratchTable,
+        environment: &Environment,
+    ) -> DVec3 {
         environment_band(
             BandLine::new(self.wo, 0.0),
             self.width_um,

@@ -1,0 +1,266 @@
+//! From scratches to the finest grid, and from a grid to the next one. Tiles of vertices are filled one by one, each by one thread
+//! with all that touches it, in a fixed order.
+
+use super::{BUNDLE_BINS, Bundle, BundleLevel, HEIGHT_CELLS, Side, Vertex, runs};
+use crate::scratch_index::IndexedSegment;
+use glam::Vec3;
+use rayon::prelude::*;
+
+/// Vertices along the side of a tile, as a power of two.
+const TILE_BITS: u32 = 5;
+const TILE: usize = 1 << TILE_BITS;
+/// Steps along a scratch for each cell.
+const STEPS_PER_CELL: f32 = 2.0;
+
+/// A tile as one number that orders by side, then by place.
+fn tile_key(side: u32, at: [i32; 2]) -> u64 {
+    let [x, y] = at.map(|i| u64::from(((i >> TILE_BITS) + (1 << 28)) as u32));
+    (u64::from(side) << 60) | (x << 30) | y
+}
+
+/// Vertices of one tile while they are filled.
+struct Tile {
+    key: u64,
+    /// The first of the bundles at each place, plus one; further ones by `next`.
+    first: Vec<u32>,
+    next: Vec<u32>,
+    vertices: Vec<Vertex>,
+    sums: Vec<Sums>,
+}
+
+#[derive(Clone)]
+struct Sums {
+    weight: f32,
+    height_m: f32,
+    normal: Vec3,
+    width_um: f32,
+    depth_nm: f32,
+    bins: [f32; BUNDLE_BINS],
+}
+
+impl Tile {
+    fn new(key: u64) -> Self {
+        Self {
+            key,
+            first: vec![0; TILE * TILE],
+            next: Vec::new(),
+            vertices: Vec::new(),
+            sums: Vec::new(),
+        }
+    }
+
+    /// The sums at a vertex, if it is of this tile.
+    fn at(&mut self, vertex: Vertex) -> Option<&mut Sums> {
+        if tile_key(vertex.side, vertex.at) != self.key {
+            return None;
+        }
+        let [x, y] = vertex.at.map(|i| i as usize & (TILE - 1));
+        let place = y * TILE + x;
+        let mut index = self.first[place];
+        while index != 0 && self.vertices[index as usize - 1].height != vertex.height {
+            index = self.next[index as usize - 1];
+        }
+        if index == 0 {
+            self.vertices.push(vertex);
+            self.next.push(self.first[place]);
+            self.sums.push(Sums {
+                weight: 0.0,
+                height_m: 0.0,
+                normal: Vec3::ZERO,
+                width_um: 0.0,
+                depth_nm: 0.0,
+                bins: [0.0; BUNDLE_BINS],
+            });
+            index = self.vertices.len() as u32;
+            self.first[place] = index;
+        }
+        Some(&mut self.sums[index as usize - 1])
+    }
+
+    fn bundles(self, cell_m: f32) -> Vec<(Vertex, Bundle)> {
+        let both = self.vertices.into_iter().zip(&self.sums);
+        both.filter(|(_, sums)| sums.weight > 0.0)
+            .map(|(vertex, sums)| (vertex, sums.bundle(vertex, cell_m)))
+            .collect()
+    }
+}
+
+impl Sums {
+    fn bundle(&self, vertex: Vertex, cell_m: f32) -> Bundle {
+        let per_weight = 1.0 / self.weight;
+        let [u, v, w] = Side(vertex.side).axes();
+        let mut place_m = Vec3::ZERO;
+        place_m[u] = vertex.at[0] as f32 * cell_m;
+        place_m[v] = vertex.at[1] as f32 * cell_m;
+        place_m[w] = self.height_m * per_weight;
+        let most = self.bins.iter().fold(0.0, |m: f32, b| m.max(*b));
+        Bundle {
+            place_m,
+            weight_um2: self.weight,
+            normal: self.normal * per_weight,
+            bin_scale: most * per_weight,
+            width_um: self.width_um * per_weight,
+            depth_nm: self.depth_nm * per_weight,
+            unused: [0.0; 2],
+            bins: self.bins.map(|b| (b / most * 255.0).round() as u8),
+        }
+    }
+}
+
+/// Fills all tiles: `items` are what touches each, by tile and then in order.
+fn fill(
+    mut items: Vec<(u64, u32)>,
+    cell_m: f32,
+    add: impl Fn(&mut Tile, usize) + Sync,
+) -> BundleLevel {
+    items.par_sort_unstable();
+    let tiles: Vec<Vec<(Vertex, Bundle)>> = runs(&items, |item| item.0)
+        .into_par_iter()
+        .map(|run| {
+            let mut tile = Tile::new(items[run.start].0);
+            for (_, item) in &items[run] {
+                add(&mut tile, *item as usize);
+            }
+            tile.bundles(cell_m)
+        })
+        .collect();
+    let (vertices, bundles) = tiles.into_iter().flatten().unzip();
+    BundleLevel::new(cell_m, vertices, bundles)
+}
+
+/// The tiles of all vertices within a rectangle.
+fn tiles_between(side: u32, low: [i32; 2], high: [i32; 2]) -> impl Iterator<Item = u64> {
+    let [xs, ys] = [0, 1].map(|i| (low[i] >> TILE_BITS)..=(high[i] >> TILE_BITS));
+    xs.flat_map(move |x| {
+        ys.clone()
+            .map(move |y| tile_key(side, [x << TILE_BITS, y << TILE_BITS]))
+    })
+}
+
+/// The finest grid.
+pub(super) fn finest(segments: &[IndexedSegment], cell_m: f32) -> BundleLevel {
+    let per_cell = 1.0 / cell_m;
+    let items: Vec<(u64, u32)> = segments
+        .par_iter()
+        .enumerate()
+        .flat_map_iter(|(i, segment)| {
+            let side = Side::of(segment.normal);
+            let [u, v, _] = side.axes();
+            let (a, b) = (
+                segment.start_m.min(segment.end_m),
+                segment.start_m.max(segment.end_m),
+            );
+            let low = [a[u], a[v]].map(|x| (x * per_cell).floor() as i32);
+            let high = [b[u], b[v]].map(|x| (x * per_cell).floor() as i32 + 1);
+            tiles_between(side.0, low, high).map(move |key| (key, i as u32))
+        })
+        .collect();
+    fill(items, cell_m, |tile, i| splat(tile, &segments[i], cell_m))
+}
+
+fn splat(tile: &mut Tile, segment: &IndexedSegment, cell_m: f32) {
+    let side = Side::of(segment.normal);
+    let [u, v, w] = side.axes();
+    let along = segment.end_m - segment.start_m;
+    let length_m = along.length();
+    let steps = (length_m / cell_m * STEPS_PER_CELL).ceil().max(1.0);
+    let weight = segment.width_um * length_m * 1e6 / steps;
+    let reference = side.reference(segment.normal);
+    let angle = along
+        .dot(segment.normal.cross(reference))
+        .atan2(along.dot(reference));
+    let bin = angle.rem_euclid(std::f32::consts::PI) / std::f32::consts::PI * BUNDLE_BINS as f32;
+    let (low_bin, share) = (bin.floor(), bin.fract());
+    let low_bin = low_bin as usize % BUNDLE_BINS;
+    for step in 0..steps as u32 {
+        let place = segment.start_m + along * ((step as f32 + 0.5) / steps);
+        let (x, y) = (place[u] / cell_m, place[v] / cell_m);
+        let height = (place[w] / (HEIGHT_CELLS * cell_m) + 0.5).floor() as i32;
+        let corner = [x.floor(), y.floor()];
+        let [fx, fy] = [x - corner[0], y - corner[1]];
+        for (dx, dy, tent) in [
+            (0, 0, (1.0 - fx) * (1.0 - fy)),
+            (1, 0, fx * (1.0 - fy)),
+            (0, 1, (1.0 - fx) * fy),
+            (1, 1, fx * fy),
+        ] {
+            let vertex = Vertex {
+                side: side.0,
+                at: [corner[0] as i32 + dx, corner[1] as i32 + dy],
+                height,
+            };
+            if let Some(sums) = tile.at(vertex) {
+                let weight = weight * tent;
+                sums.weight += weight;
+                // The height of the surface over the vertex itself.
+                let aside = [dx as f32 - fx, dy as f32 - fy];
+                let n = segment.normal;
+                let rise = -(n[u] * aside[0] + n[v] * aside[1]) / n[w] * cell_m;
+                sums.height_m += weight * (place[w] + rise);
+                sums.normal += weight * n;
+                sums.width_um += weight * segment.width_um;
+                sums.depth_nm += weight * segment.depth_nm;
+                sums.bins[low_bin] += weight * (1.0 - share);
+                sums.bins[(low_bin + 1) % BUNDLE_BINS] += weight * share;
+            }
+        }
+    }
+}
+
+/// The grid that is twice as coarse.
+pub(super) fn coarser(fine: &BundleLevel) -> BundleLevel {
+    let cell_m = 2.0 * fine.cell_m;
+    let items: Vec<(u64, u32)> = fine
+        .vertices
+        .par_iter()
+        .enumerate()
+        .flat_map_iter(|(i, vertex)| {
+            let low = vertex.at.map(|x| x.div_euclid(2));
+            let high = vertex.at.map(|x| (x + 1).div_euclid(2));
+            tiles_between(vertex.side, low, high).map(move |key| (key, i as u32))
+        })
+        .collect();
+    fill(items, cell_m, |tile, i| {
+        let (vertex, bundle) = (fine.vertices[i], &fine.bundles[i]);
+        let halves = |x: i32| {
+            let (low, high) = (x.div_euclid(2), (x + 1).div_euclid(2));
+            let both = [(low, 0.5), (high, 0.5)];
+            if low == high {
+                [(low, 1.0), (low, 0.0)]
+            } else {
+                both
+            }
+        };
+        for (x, x_share) in halves(vertex.at[0]) {
+            for (y, y_share) in halves(vertex.at[1]) {
+                if x_share * y_share == 0.0 {
+                    continue;
+                }
+                let coarse = Vertex {
+                    side: vertex.side,
+                    at: [x, y],
+                    height: (vertex.height + 1).div_euclid(2),
+                };
+                if let Some(sums) = tile.at(coarse) {
+                    let weight = x_share * y_share * bundle.weight_um2;
+                    let [u, v, w] = Side(vertex.side).axes();
+                    let n = bundle.normal;
+                    let aside = [
+                        x as f32 * cell_m - bundle.place_m[u],
+                        y as f32 * cell_m - bundle.place_m[v],
+                    ];
+                    let rise = -(n[u] * aside[0] + n[v] * aside[1]) / n[w];
+                    sums.weight += weight;
+                    sums.height_m += weight * (bundle.place_m[w] + rise);
+                    sums.normal += weight * n;
+                    sums.width_um += weight * bundle.width_um;
+                    sums.depth_nm += weight * bundle.depth_nm;
+                    let scale = weight * bundle.bin_scale / 255.0;
+                    for (sum, bin) in sums.bins.iter_mut().zip(&bundle.bins) {
+                        *sum += scale * f32::from(*bin);
+                    }
+                }
+            }
+        }
+    })
+}
