@@ -77,7 +77,7 @@ impl Side {
     /// How far a normal leans to this side.
     pub fn lean(self, normal: Vec3) -> f32 {
         let up = normal[self.axes()[2]];
-        if self.0 % 2 == 0 { up } else { -up }
+        if self.0.is_multiple_of(2) { up } else { -up }
     }
 
     /// The direction across a normal that directions are measured from.
@@ -203,8 +203,8 @@ const WIDTH_CLASSES: usize = 4;
 /// So many scratches cross a cell of the finest grid, in the mean. The fewer, the more the lit ones of a footprint differ from the
 /// mean of their class.
 const CELL_SCRATCHES: f64 = 25.0;
-/// Unless the grids would take more than this for each segment of a scratch, about what the tree of single ones takes.
-const SEGMENT_BYTES: f64 = 160.0;
+/// Unless the grids would take more than this for each segment of a scratch, about twice what the tree of single ones takes.
+const SEGMENT_BYTES: f64 = 128.0;
 /// No footprint is narrower than the coherence window.
 const CELL_MIN_M: f64 = 16e-6;
 /// The coarsest grid has about so many cells.

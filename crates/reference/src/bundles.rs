@@ -26,7 +26,7 @@ const LEAST_CELLS: f64 = 0.9;
 /// A footprint reads vertices up to this many standard deviations away; what lies beyond is made up for.
 const FOOTPRINT_REACH: f64 = 3.0;
 /// Directions are at most this share of the angle apart over which a light shines alike.
-const TURN_SHARE: f64 = 0.5;
+const TURN_SHARE: f64 = 1.0;
 /// Most bins between one direction and the next.
 const STRIDE_MAX: usize = 8;
 /// Bins between directions that light an environment.
