@@ -1,0 +1,143 @@
+//! The window without a screen: what tests of the viewer share. A test file uses some of it.
+#![allow(dead_code)]
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use egui::{PointerButton, Pos2, Rect};
+use egui_kittest::{Harness, kittest::Queryable};
+use hairline_scene::Description;
+use hairline_scene::description::Light;
+use hairline_viewer::engine::Backend;
+use hairline_viewer::{Options, Viewer};
+
+/// The scene of `hairline view` without a file.
+pub const BUILT_IN: &str = include_str!("../../../../apps/hairline/src/built_in_scene.toml");
+
+/// A disk with a few scratches, a lamp and a square light, all in the picture; small enough to be built at once.
+pub const SMALL: &str = include_str!("small_scene.toml");
+
+/// No test waits longer than this for another thread, however busy the machine.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// The window with the scene of that text, 1280 by 800 points, painted by the CPU, after its first pass. Nothing is read or
+/// written outside.
+pub fn viewer(scene: &'static str) -> Harness<'static, Viewer> {
+    viewer_with(Options {
+        scene: None,
+        built_in: scene,
+        backend: Backend::Cpu,
+        state_dir: None,
+        native_dialogs: false,
+    })
+}
+
+/// The same with other options.
+pub fn viewer_with(options: Options) -> Harness<'static, Viewer> {
+    Harness::builder()
+        .with_size([1280.0, 800.0])
+        .build_eframe(|cc| {
+            Viewer::new(&cc.egui_ctx, None, options).expect("the test's scene is good")
+        })
+}
+
+/// Passes until `is_done`.
+pub fn wait_until(
+    harness: &mut Harness<'static, Viewer>,
+    what: &str,
+    is_done: impl Fn(&Viewer) -> bool,
+) {
+    let start = Instant::now();
+    loop {
+        harness.step();
+        if is_done(harness.state()) {
+            return;
+        }
+        assert!(start.elapsed() < PATIENCE, "{what}: not in {PATIENCE:?}");
+        std::thread::sleep(Duration::from_millis(2));
+    }
+}
+
+/// Passes until the newest description is built.
+pub fn wait_built(harness: &mut Harness<'static, Viewer>) {
+    wait_until(harness, "the scene is built", |viewer| {
+        let engine = viewer.engine();
+        !engine.is_building()
+            && engine
+                .built()
+                .is_some_and(|built| built.description.objects == viewer.document().description().objects)
+    });
+    // What picking and gizmos show of it.
+    harness.run_steps(2);
+}
+
+/// The scene as it is.
+pub fn description(harness: &Harness<'static, Viewer>) -> Arc<Description> {
+    Arc::clone(harness.state().document().description())
+}
+
+/// Light `i` as it is.
+pub fn light(harness: &Harness<'static, Viewer>, i: usize) -> Light {
+    description(harness).lights[i].clone()
+}
+
+/// Where the picture is.
+pub fn picture(harness: &Harness<'static, Viewer>) -> Rect {
+    harness.get_by_label("Picture").rect()
+}
+
+/// Clicks on what has this label.
+pub fn click_on(harness: &mut Harness<'static, Viewer>, label: &str) {
+    harness.get_by_label(label).click();
+    harness.run_steps(3);
+}
+
+/// Presses and releases a key.
+pub fn key(harness: &mut Harness<'static, Viewer>, key: egui::Key) {
+    harness.key_press(key);
+    harness.run_steps(2);
+}
+
+/// The pointer comes to a place, and a button goes down there.
+pub fn press(harness: &mut Harness<'static, Viewer>, at: Pos2) {
+    harness.hover_at(at);
+    harness.run_steps(2);
+    button(harness, at, true);
+}
+
+/// The button goes up.
+pub fn release(harness: &mut Harness<'static, Viewer>, at: Pos2) {
+    button(harness, at, false);
+    harness.step();
+}
+
+/// Moves the pointer on a straight way, a pass for each step.
+pub fn move_to(harness: &mut Harness<'static, Viewer>, from: Pos2, to: Pos2, steps: usize) {
+    for i in 1..=steps {
+        harness.hover_at(from.lerp(to, i as f32 / steps as f32));
+        harness.step();
+    }
+}
+
+/// Drags with the left button, in so many moves.
+pub fn drag(harness: &mut Harness<'static, Viewer>, from: Pos2, to: Pos2, steps: usize) {
+    press(harness, from);
+    move_to(harness, from, to, steps);
+    release(harness, to);
+}
+
+/// A click of the left button.
+pub fn click_at(harness: &mut Harness<'static, Viewer>, at: Pos2) {
+    press(harness, at);
+    release(harness, at);
+}
+
+fn button(harness: &mut Harness<'static, Viewer>, pos: Pos2, pressed: bool) {
+    harness.event(egui::Event::PointerButton {
+        pos,
+        button: PointerButton::Primary,
+        pressed,
+        modifiers: egui::Modifiers::NONE,
+    });
+    harness.step();
+}
