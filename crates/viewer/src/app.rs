@@ -120,7 +120,7 @@ impl Viewer {
         if let Some(outcome) = self.files.chosen() {
             self.take_choice(&ctx, outcome);
         }
-        if !self.dialogs.is_modal() {
+        if !self.dialogs.is_modal() && !self.export.is_asking() {
             for command in Command::pressed(&ctx) {
                 self.run(&ctx, command);
             }
@@ -132,6 +132,7 @@ impl Viewer {
         panels::inspector::show(ui, self);
         let area = crate::viewport::show(ui, self);
         self.notices.show(&ctx, area);
+        self.show_export(&ctx, area);
         if let Some(command) = wished {
             self.run(&ctx, command);
         }

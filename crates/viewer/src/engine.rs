@@ -7,7 +7,7 @@
 
 mod build;
 mod builder;
-mod cpu;
+pub(crate) mod cpu;
 mod frame;
 mod gpu;
 mod pace;

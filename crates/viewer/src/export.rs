@@ -1,22 +1,328 @@
-//! Pictures and turntables to files, in the background.
+//! Pictures and turntables to files, in the background: the scene may be edited meanwhile.
+//!
+//! An export keeps the scene and the camera of the moment it began. Each picture is written whole or not at all; those that
+//! are there when it is cancelled stay.
+
+mod form;
+mod work;
 
 use std::path::Path;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
 
-use hairline_scene::Description;
+use egui::{Align2, Id, ProgressBar, Rect};
+use hairline_image::Output;
 
 use crate::app::Viewer;
 use crate::files::Purpose;
+use crate::jobs::Job;
+use form::{Answer, Form};
+use work::{End, Report, Wish};
 
-/// What is being exported.
+/// What is being asked and what is being exported.
 #[derive(Default)]
-pub(crate) struct Export {}
+pub(crate) struct Export {
+    /// The question that is open.
+    form: Option<Form>,
+    /// The last one of each kind, a picture's and a turntable's.
+    earlier: [Option<Form>; 2],
+    /// Begins as soon as the newest scene is built.
+    waiting: Option<Wish>,
+    running: Option<Running>,
+}
+
+struct Running {
+    job: Job,
+    wish: Wish,
+    report: Report,
+    since: Instant,
+    is_cancelled: bool,
+}
 
 impl Export {
-    pub fn ask_still(&mut self, _description: &Description) {}
+    /// Whether keys are answers and not commands.
+    pub fn is_asking(&self) -> bool {
+        self.form.is_some()
+    }
 
-    pub fn ask_turntable(&mut self, _description: &Description) {}
+    /// What the next question of its kind begins with.
+    fn remember(&mut self, form: Form) {
+        let kind = usize::from(form.is_turntable);
+        self.earlier[kind] = Some(form);
+    }
+
+    fn is_busy(&self) -> bool {
+        self.running.is_some() || self.waiting.is_some()
+    }
 }
 
 impl Viewer {
-    pub(crate) fn export_to(&mut self, _purpose: Purpose, _path: &Path) {}
+    /// Whether pictures are being exported, for tests.
+    pub fn is_exporting(&self) -> bool {
+        self.export.is_busy()
+    }
+
+    /// Asks how large, how fine and where to.
+    pub(crate) fn ask_export(&mut self, purpose: Purpose) {
+        if self.export.is_busy() {
+            self.notices.error(
+                "export",
+                "One export at a time: the one before is not complete yet.",
+            );
+            return;
+        }
+        let is_turntable = purpose == Purpose::Turntable;
+        let form = self.export.earlier[usize::from(is_turntable)]
+            .clone()
+            .unwrap_or_else(|| {
+                let folder = std::path::absolute(self.document.base_dir());
+                let folder = folder
+                    .or_else(|_| std::env::current_dir())
+                    .unwrap_or_default();
+                let path = folder.join(purpose.proposal(&self.document));
+                let size_px = self.document.description().render.size_px;
+                Form::new(is_turntable, size_px, &path)
+            });
+        self.export.form = Some(form);
+    }
+
+    /// Takes the path that was chosen in a dialog.
+    pub(crate) fn export_to(&mut self, purpose: Purpose, path: &Path) {
+        if self.export.form.is_none() {
+            self.ask_export(purpose);
+        }
+        if let Some(form) = &mut self.export.form {
+            form.path = path.display().to_string();
+            form.refused = None;
+        }
+    }
+
+    /// The question, the progress and the end of an export. `area` is the picture's.
+    pub(crate) fn show_export(&mut self, ctx: &egui::Context, area: Rect) {
+        if !self.dialogs.is_modal() {
+            self.show_form(ctx);
+        }
+        self.start_export(ctx);
+        self.end_export();
+        self.show_progress(ctx, area);
+    }
+
+    fn show_form(&mut self, ctx: &egui::Context) {
+        let Some(mut form) = self.export.form.take() else {
+            return;
+        };
+        let scene_px = self.document.description().render.size_px;
+        let window_px = self
+            .engine
+            .latest()
+            .map_or(scene_px, |frame| fitting(scene_px, frame.view.size_px));
+        let purpose = if form.is_turntable {
+            Purpose::Turntable
+        } else {
+            Purpose::Screenshot
+        };
+        let answer = form.show(ctx, window_px, scene_px);
+        match answer {
+            None => self.export.form = Some(form),
+            Some(Answer::ChooseFile) => {
+                self.export.form = Some(form);
+                self.ask_path(ctx, purpose);
+            }
+            Some(Answer::Close) => self.export.remember(form),
+            Some(Answer::Start) => self.begin_export(form),
+        }
+    }
+
+    /// Refuses at once what could not be written in the end.
+    fn begin_export(&mut self, mut form: Form) {
+        let wish = Wish {
+            description: Arc::clone(self.document.description()),
+            size_px: form.size_px,
+            samples: form.samples,
+            motion: form.motion(),
+            path: form.path(),
+            backend: self.engine.backend(),
+        };
+        match Output::check(&wish.frame_path(0)) {
+            Err(error) => {
+                let message = error.to_string();
+                self.notices.error("export", message.clone());
+                form.refused = Some(message);
+                self.export.form = Some(form);
+            }
+            Ok(_) => {
+                self.notices.clear("export");
+                form.refused = None;
+                self.export.remember(form);
+                self.export.waiting = Some(wish);
+            }
+        }
+    }
+
+    fn start_export(&mut self, ctx: &egui::Context) {
+        if self.export.running.is_some() || self.engine.is_building() {
+            return;
+        }
+        let (Some(built), Some(wish)) = (self.engine.built(), self.export.waiting.take()) else {
+            return;
+        };
+        let wake = ctx.clone();
+        let report = Report::new(Arc::new(move || wake.request_repaint()));
+        let (wished, told) = (wish.clone(), report.clone());
+        let job = Job::start("export", move |stop| {
+            work::run(&wished, &built, stop, &told)
+        });
+        match job {
+            Err(error) => self.notices.error("export", error.to_string()),
+            Ok(job) => {
+                self.export.running = Some(Running {
+                    job,
+                    wish,
+                    report,
+                    since: Instant::now(),
+                    is_cancelled: false,
+                });
+            }
+        }
+    }
+
+    fn end_export(&mut self) {
+        let Some(running) = self.export.running.take_if(|running| running.job.is_over()) else {
+            return;
+        };
+        let state = running.report.state();
+        let wish = &running.wish;
+        let written = state.written;
+        let name = |frame: u32| wish.frame_path(frame).display().to_string();
+        let kept = match written {
+            0 => "No picture was written.".to_owned(),
+            1 => format!("{} is complete and stays.", name(0)),
+            _ => format!(
+                "{written} of {} pictures are complete and stay, up to {}",
+                wish.frames(),
+                name(written - 1)
+            ),
+        };
+        match state.end {
+            Some(End::Complete) if written <= 1 => {
+                self.notices.note("export", format!("Saved {}", name(0)));
+            }
+            Some(End::Complete) => self.notices.note(
+                "export",
+                format!(
+                    "Saved {written} pictures, {} to {}",
+                    name(0),
+                    name(written - 1)
+                ),
+            ),
+            Some(End::Cancelled) => self
+                .notices
+                .note("export", format!("The export was cancelled. {kept}")),
+            Some(End::Failed(message)) => {
+                self.notices.error("export", format!("{message}. {kept}"));
+            }
+            None => self
+                .notices
+                .error("export", format!("The export failed. {kept}")),
+        }
+    }
+
+    fn show_progress(&mut self, ctx: &egui::Context, area: Rect) {
+        if !self.export.is_busy() {
+            return;
+        }
+        let corner = area.right_bottom() - egui::vec2(12.0, 12.0);
+        let cancel = egui::Area::new(Id::unique("export progress"))
+            .pivot(Align2::RIGHT_BOTTOM)
+            .fixed_pos(corner)
+            .order(egui::Order::Foreground)
+            .show(ctx, |ui| {
+                egui::Frame::popup(ui.style())
+                    .show(ui, |ui| {
+                        ui.set_width(260.0);
+                        match &self.export.running {
+                            None => drop(ui.label("Waiting for the scene")),
+                            Some(running) => running.show(ui),
+                        }
+                        ui.button("Cancel the export").clicked()
+                    })
+                    .inner
+            });
+        if cancel.inner {
+            self.export.waiting = None;
+            if let Some(running) = &mut self.export.running {
+                running.is_cancelled = true;
+                running.job.stop();
+            }
+        }
+        // The time that is left goes on between two bands too.
+        ctx.request_repaint_after(Duration::from_millis(500));
+    }
+}
+
+impl Running {
+    fn show(&self, ui: &mut egui::Ui) {
+        let state = self.report.state();
+        let frames = self.wish.frames();
+        let done = (f64::from(state.written) + state.share) / f64::from(frames.max(1));
+        let what = if frames == 1 {
+            "Saving a picture".to_owned()
+        } else {
+            format!("Picture {} of {frames}", (state.written + 1).min(frames))
+        };
+        ui.label(what);
+        let text = match (self.is_cancelled, time_left(self.since.elapsed(), done)) {
+            (true, _) => "stopping".to_owned(),
+            (false, None) => percent(done),
+            (false, Some(left)) => format!("{}, {left} left", percent(done)),
+        };
+        ui.add(ProgressBar::new(done as f32).text(text));
+        if frames > 1 {
+            ui.weak("Cancelling keeps the pictures that are complete.");
+        }
+    }
+}
+
+fn percent(share: f64) -> String {
+    format!("{:.0} %", 100.0 * share)
+}
+
+/// None before anything can be said.
+fn time_left(elapsed: Duration, done: f64) -> Option<String> {
+    if done < 0.01 || elapsed < Duration::from_secs(1) {
+        return None;
+    }
+    let seconds = elapsed.as_secs_f64() * (1.0 - done) / done;
+    Some(match seconds {
+        s if s < 90.0 => format!("{s:.0} s"),
+        s if s < 5400.0 => format!("{:.0} min", s / 60.0),
+        s => format!("{:.1} h", s / 3600.0),
+    })
+}
+
+/// The largest size of the shape of `scene_px` within `within_px`.
+fn fitting(scene_px: [u32; 2], within_px: [u32; 2]) -> [u32; 2] {
+    let [width, height] = scene_px.map(|side| f64::from(side.max(1)));
+    let scale = (f64::from(within_px[0]) / width).min(f64::from(within_px[1]) / height);
+    [width, height].map(|side| ((side * scale).round() as u32).max(1))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_time_that_is_left_is_told_in_units_that_fit() {
+        let left = |seconds, done| time_left(Duration::from_secs(seconds), done);
+        assert_eq!(left(10, 0.001), None);
+        assert_eq!(left(10, 0.5).as_deref(), Some("10 s"));
+        assert_eq!(left(100, 0.1).as_deref(), Some("15 min"));
+        assert_eq!(left(3600, 0.1).as_deref(), Some("9.0 h"));
+    }
+
+    #[test]
+    fn the_windows_picture_has_the_scenes_shape() {
+        assert_eq!(fitting([1600, 900], [800, 800]), [800, 450]);
+        assert_eq!(fitting([900, 1600], [800, 800]), [450, 800]);
+    }
 }

@@ -11,6 +11,7 @@ mod dialogs;
 pub mod engine;
 mod export;
 mod files;
+mod jobs;
 mod notices;
 mod panels;
 mod tools;

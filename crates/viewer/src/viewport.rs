@@ -160,17 +160,25 @@ pub(crate) fn show(ui: &mut egui::Ui, viewer: &mut Viewer) -> Rect {
     shown.inner
 }
 
+/// The scene's own camera, that of its frame.
+pub(crate) fn camera(camera: &hairline_scene::description::Camera) -> hairline_scene::Camera {
+    hairline_scene::Camera {
+        position_m: camera.position_m.into(),
+        target_m: camera.target_m.into(),
+        up: camera.up.into(),
+        fov_y_rad: camera.fov_y_deg.to_radians(),
+        // Shown by a `Display`, so that a change of it paints nothing anew.
+        exposure_ev: 0.0,
+    }
+}
+
 fn view(viewer: &Viewer, area: &Area) -> View {
     let description = viewer.document.description();
     let camera = &description.camera;
     View {
         camera: hairline_scene::Camera {
-            position_m: camera.position_m.into(),
-            target_m: camera.target_m.into(),
-            up: camera.up.into(),
             fov_y_rad: area.fov_y_rad(camera.fov_y_deg.to_radians()),
-            // Shown by `display`, so that a change of it paints nothing anew.
-            exposure_ev: 0.0,
+            ..self::camera(camera)
         },
         size_px: area.size_px(),
         display: Display {

@@ -53,8 +53,8 @@ impl Viewer {
             Command::SaveAs => self.ask_path(ctx, Purpose::SaveAs),
             Command::AddModel => self.ask_path(ctx, Purpose::AddModel),
             Command::SetEnvironment => self.ask_path(ctx, Purpose::Environment),
-            Command::Screenshot => self.export.ask_still(self.document.description()),
-            Command::Turntable => self.export.ask_turntable(self.document.description()),
+            Command::Screenshot => self.ask_export(Purpose::Screenshot),
+            Command::Turntable => self.ask_export(Purpose::Turntable),
             Command::Compare => self.compare.toggle(),
             Command::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
             Command::Undo => {

@@ -1,0 +1,265 @@
+//! The pictures of an export, one after the other: rendered, written whole, then the next.
+
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use hairline_editor::navigate;
+use hairline_gpu::{AdapterKind, Gpu, GpuScene, RenderOptions, Renderer};
+use hairline_image::{Display, Image, Output};
+use hairline_optics::method::Method;
+use hairline_scene::{Description, Scene};
+
+use crate::engine::{Backend, Built, Wake, cpu};
+use crate::jobs::Stop;
+
+/// How many pictures, and how the camera moves between them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Motion {
+    /// One, from the camera's place.
+    Still,
+    /// Pictures on the way around the target. The step after the last one would complete the angle.
+    Turntable { frames: u32, degrees: f64 },
+}
+
+/// What is to be exported.
+#[derive(Clone)]
+pub(super) struct Wish {
+    /// Its camera, exposure and filter.
+    pub description: Arc<Description>,
+    pub size_px: [u32; 2],
+    pub samples: u32,
+    pub motion: Motion,
+    /// As it was asked for; a turntable's pictures have numbers in their names.
+    pub path: PathBuf,
+    pub backend: Backend,
+}
+
+impl Wish {
+    pub fn frames(&self) -> u32 {
+        match self.motion {
+            Motion::Still => 1,
+            Motion::Turntable { frames, .. } => frames,
+        }
+    }
+
+    /// Where a picture goes, counted from 0: NAME.png, or NAME-0001.png and on.
+    pub fn frame_path(&self, frame: u32) -> PathBuf {
+        match self.motion {
+            Motion::Still => self.path.clone(),
+            Motion::Turntable { .. } => numbered(&self.path, frame + 1),
+        }
+    }
+
+    fn scene(&self, built: &Built, frame: u32) -> Scene {
+        let mut camera = self.description.camera.clone();
+        if let Motion::Turntable { frames, degrees } = self.motion {
+            let share = f64::from(frame) / f64::from(frames.max(1));
+            navigate::turn(&mut camera, share * degrees.to_radians());
+        }
+        let mut scene = built.scene.clone();
+        scene.camera = crate::viewport::camera(&camera);
+        scene.render.size_px = self.size_px;
+        scene.render.filter_std_px = self.description.render.filter_std_px;
+        scene
+    }
+
+    fn display(&self) -> Display {
+        Display {
+            exposure_ev: self.description.camera.exposure_ev,
+            tone_map: self.description.render.tone_map,
+        }
+    }
+}
+
+pub(super) fn numbered(path: &Path, number: u32) -> PathBuf {
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let ending = path.extension().unwrap_or_default().to_string_lossy();
+    path.with_file_name(format!("{stem}-{number:04}.{ending}"))
+}
+
+/// How far it has come.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct State {
+    /// Pictures that are whole and in their places.
+    pub written: u32,
+    /// Of the one that is being rendered.
+    pub share: f64,
+    pub end: Option<End>,
+}
+
+/// How it ended.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum End {
+    Complete,
+    Cancelled,
+    Failed(String),
+}
+
+/// What the job tells the window.
+#[derive(Clone)]
+pub(super) struct Report {
+    state: Arc<Mutex<State>>,
+    wake: Wake,
+}
+
+impl Report {
+    pub fn new(wake: Wake) -> Self {
+        Self {
+            state: Arc::default(),
+            wake,
+        }
+    }
+
+    pub fn state(&self) -> State {
+        self.lock().clone()
+    }
+
+    fn lock(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn tell(&self, change: impl FnOnce(&mut State)) {
+        change(&mut self.lock());
+        (self.wake)();
+    }
+}
+
+/// Renders and writes all pictures, or those until `stop` is asked.
+pub(super) fn run(wish: &Wish, built: &Built, stop: &Stop, report: &Report) {
+    let end = match frames(wish, built, stop, report) {
+        Ok(true) => End::Complete,
+        Ok(false) => End::Cancelled,
+        Err(message) => End::Failed(message),
+    };
+    report.tell(|state| state.end = Some(end));
+}
+
+/// False if it was stopped.
+fn frames(wish: &Wish, built: &Built, stop: &Stop, report: &Report) -> Result<bool, String> {
+    let mut painter = Painter::open(wish, built).map_err(|error| error.to_string())?;
+    for frame in 0..wish.frames() {
+        // Before the work: the folder may have gone meanwhile.
+        let output = Output::check(&wish.frame_path(frame)).map_err(|error| error.to_string())?;
+        let go_on = |share: f64| {
+            report.tell(|state| state.share = share);
+            !stop.is_asked()
+        };
+        let scene = wish.scene(built, frame);
+        let image = painter
+            .paint(built, &scene, wish.samples, &go_on)
+            .map_err(|error| error.to_string())?;
+        let Some(image) = image else {
+            return Ok(false);
+        };
+        if stop.is_asked() {
+            return Ok(false);
+        }
+        output
+            .write_image(&image, &wish.display())
+            .map_err(|error| error.to_string())?;
+        report.tell(|state| {
+            state.written += 1;
+            state.share = 0.0;
+        });
+    }
+    Ok(true)
+}
+
+/// Pixels of the first band on the CPU.
+const CPU_BAND_PX: u32 = 1 << 13;
+/// On a driver that computes on the CPU, between two looks at whether to go on; all samples of them.
+const SOFTWARE_BAND_PX: u32 = 1 << 13;
+/// On a GPU.
+const HARDWARE_BAND_PX: u32 = 1 << 19;
+
+/// What renders: what the window's painter uses too, but a renderer of its own.
+enum Painter {
+    Cpu,
+    Gpu {
+        renderer: Box<Renderer>,
+        uploaded: Box<GpuScene>,
+        band_px: u32,
+    },
+}
+
+impl Painter {
+    fn open(wish: &Wish, built: &Built) -> Result<Self, hairline_gpu::Error> {
+        match &wish.backend {
+            Backend::Cpu => Ok(Self::Cpu),
+            Backend::Gpu(gpu) | Backend::Shared(gpu) => Self::on_gpu(gpu, built),
+        }
+    }
+
+    fn on_gpu(gpu: &Gpu, built: &Built) -> Result<Self, hairline_gpu::Error> {
+        let Built {
+            scene,
+            scratches,
+            tables,
+            ..
+        } = built;
+        gpu.block_on(async {
+            let mut renderer = Renderer::new(gpu).await?;
+            let method = Method::default();
+            let uploaded = renderer.upload(scene, scratches, tables, &method).await?;
+            Ok(Self::Gpu {
+                renderer: Box::new(renderer),
+                uploaded: Box::new(uploaded),
+                band_px: match gpu.adapter.kind {
+                    AdapterKind::Software => SOFTWARE_BAND_PX,
+                    _ => HARDWARE_BAND_PX,
+                },
+            })
+        })
+    }
+
+    /// None if `go_on` said no.
+    fn paint(
+        &mut self,
+        built: &Built,
+        scene: &Scene,
+        samples: u32,
+        go_on: &dyn Fn(f64) -> bool,
+    ) -> Result<Option<Image>, hairline_gpu::Error> {
+        match self {
+            Self::Cpu => Ok(cpu::render(built, scene, samples, CPU_BAND_PX, go_on)),
+            Self::Gpu {
+                renderer,
+                uploaded,
+                band_px,
+            } => {
+                let options = RenderOptions {
+                    samples,
+                    ..Default::default()
+                };
+                let gpu = renderer.gpu().clone();
+                let [width, height] = scene.render.size_px;
+                let band = (*band_px / width).max(1);
+                let mut image = Image::new(scene.render.size_px);
+                for first in (0..height).step_by(band as usize) {
+                    if !go_on(f64::from(first) / f64::from(height)) {
+                        return Ok(None);
+                    }
+                    let rows = first..(first + band).min(height);
+                    let pixels =
+                        first as usize * width as usize..rows.end as usize * width as usize;
+                    let part = renderer.render_rows(scene, uploaded, &options, rows, &|_| {});
+                    let part = gpu.block_on(part)?;
+                    cpu::put_rows(&mut image, pixels, &part);
+                }
+                Ok(Some(image))
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pictures_of_a_turntable_are_numbered_before_the_ending() {
+        let path = Path::new("/a.b/pan.old.png");
+        assert_eq!(numbered(path, 7), Path::new("/a.b/pan.old-0007.png"));
+        assert_eq!(numbered(path, 12345), Path::new("/a.b/pan.old-12345.png"));
+    }
+}
