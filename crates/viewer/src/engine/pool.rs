@@ -6,7 +6,7 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 use thread_priority::{ThreadPriority, ThreadPriorityValue, set_current_thread_priority};
 
 /// Of 0 to 99: the interface, and a software driver that draws it, come first.
-const PRIORITY: u8 = 20;
+const PRIORITY: u8 = 40;
 
 /// Lets the interface's threads go first where they want the same core.
 pub(super) fn lower_priority() {

@@ -1,0 +1,73 @@
+//! Where things are in the window: the same interface, run without one, tells.
+
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use egui::accesskit::Role;
+use egui::{Pos2, Rect};
+use egui_kittest::Harness;
+use egui_kittest::kittest::{NodeT, Queryable};
+use hairline_viewer::engine::Backend;
+use hairline_viewer::{Options, Viewer};
+
+pub struct Layout {
+    picture: Rect,
+    layer: Pos2,
+    width: Pos2,
+}
+
+impl Layout {
+    /// Of the viewer on this scene, in a window as large as the display.
+    pub fn of(scene: &Path) -> Self {
+        let scene = scene.to_owned();
+        let mut harness = Harness::builder()
+            .with_size([1280.0, 800.0])
+            .with_pixels_per_point(1.0)
+            .build_eframe(|context| {
+                let options = Options {
+                    scene: Some(scene),
+                    built_in: "",
+                    backend: Backend::Cpu,
+                    state_dir: None,
+                    native_dialogs: false,
+                };
+                Viewer::new(&context.egui_ctx, None, options).unwrap()
+            });
+        let start = Instant::now();
+        while harness.state().engine().built().is_none() {
+            assert!(start.elapsed() < Duration::from_secs(60), "no scene was built");
+            harness.step();
+        }
+        harness.run_steps(3);
+        let layer = harness.get_by_label("random scratches").rect().center();
+        harness.get_by_label("random scratches").click();
+        harness.run_steps(3);
+        // With the layer's panel open: it may be wider.
+        let picture = harness.get_by_label("Picture").rect();
+        let width = harness
+            .get_all_by_role(Role::SpinButton)
+            .find(|node| node.accesskit_node().labelled_by().any(|label| label.value().as_deref() == Some("Width")))
+            .expect("a box for the width")
+            .rect()
+            .center();
+        Self {
+            picture,
+            layer,
+            width,
+        }
+    }
+
+    pub fn picture(&self) -> Rect {
+        self.picture
+    }
+
+    /// The line of the layer in the outliner.
+    pub fn layer(&self) -> Pos2 {
+        self.layer
+    }
+
+    /// The box of the layer's width, once the layer is selected.
+    pub fn width(&self) -> Pos2 {
+        self.width
+    }
+}

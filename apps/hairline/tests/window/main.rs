@@ -1,0 +1,241 @@
+//! The viewer as a person meets it: a real window, on a display without a screen, worked with a mouse and a keyboard. Where
+//! things are is asked of the same interface run beside it without a window.
+//!
+//! Skipped where there is no Xvfb or no graphics driver; `HAIRLINE_REQUIRE_GPU=1` forbids that. With
+//! `HAIRLINE_SCREENSHOTS=FOLDER` it leaves what it saw in that folder.
+
+mod display;
+mod layout;
+
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command};
+use std::time::{Duration, Instant};
+
+use display::{Display, Picture};
+use hairline_gpu::headless::{skip, test_gpu};
+use hairline_scene::Description;
+use hairline_scene::description::Layer;
+use layout::Layout;
+
+/// A small scene, so that pictures come quickly on any machine. The view is oblique: a drag turns it.
+const SCENE: &str = r#"
+[camera]
+position_m = [0.0, -0.21, 0.18]
+target_m = [0.0, 0.0, 0.0]
+up = [0.0, 0.0, 1.0]
+fov_y_deg = 40.0
+
+[[material]]
+name = "steel"
+kind = "metal"
+metal = "steel"
+
+[[object]]
+name = "plate"
+shape = { disk = { radius_m = 0.08 } }
+material = "steel"
+
+[[scratches]]
+object = "plate"
+pattern = "random"
+count = 400
+width_um = { mean = 4.0, spread = 0.1 }
+
+[[light]]
+kind = "sphere"
+center_m = [-0.065, 0.20, 0.24]
+radius_m = 0.01
+radiance = 300.0
+"#;
+
+/// A loaded machine with two cores is slow; a person would have given up by then.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// The program with its window.
+struct Window<'d> {
+    program: Child,
+    display: &'d Display,
+    folder: PathBuf,
+}
+
+impl<'d> Window<'d> {
+    fn open(display: &'d Display, folder: &Path, scene: &Path) -> Self {
+        let program = Command::new(env!("CARGO_BIN_EXE_hairline"))
+            .args(["view", "--backend", "cpu", "--plain-dialogs", "--state-dir"])
+            .arg(folder.join("state"))
+            .arg(scene)
+            .env("DISPLAY", display.name())
+            .env_remove("WAYLAND_DISPLAY")
+            .spawn()
+            .unwrap();
+        let window = Self {
+            program,
+            display,
+            folder: folder.to_owned(),
+        };
+        window.wait_for_title("plate.toml · Hairline");
+        window.display.focus();
+        window
+    }
+
+    fn wait_for_title(&self, wanted: &str) {
+        self.wait_for(&format!("the title {wanted:?}"), || {
+            self.display.title().as_deref() == Some(wanted)
+        });
+    }
+
+    fn wait_for(&self, what: &str, mut is_there: impl FnMut() -> bool) {
+        let start = Instant::now();
+        while !is_there() {
+            assert!(
+                start.elapsed() < PATIENCE,
+                "waited in vain for {what}; the title is {:?}",
+                self.display.title()
+            );
+            std::thread::sleep(Duration::from_millis(100));
+        }
+    }
+
+    /// Saves by the keyboard and reads what was saved.
+    fn save(&self) -> Description {
+        self.display.keys(&["Control_L", "s"]);
+        self.wait_for_title("plate.toml · Hairline");
+        let path = self.folder.join("plate.toml");
+        let text = std::fs::read_to_string(&path).unwrap();
+        Description::from_toml(&text, &path).unwrap()
+    }
+
+    fn is_modified(&self) {
+        self.wait_for_title("plate.toml • · Hairline");
+    }
+
+    /// The picture's area once it does not change any more.
+    fn settled(&self, layout: &Layout) -> Picture {
+        let area = layout.picture();
+        let mut last = self.display.screenshot(area);
+        let mut since = Instant::now();
+        self.wait_for("a picture that stands still", || {
+            let now = self.display.screenshot(area);
+            if now.differing(&last) > 0 {
+                last = now;
+                since = Instant::now();
+            }
+            // Between two refinements less time passes, on a scene as small as this.
+            since.elapsed() > Duration::from_secs(3)
+        });
+        last
+    }
+
+    fn quit(mut self) {
+        self.display.keys(&["Control_L", "q"]);
+        let start = Instant::now();
+        loop {
+            if let Some(status) = self.program.try_wait().unwrap() {
+                assert!(status.success(), "{status}");
+                return;
+            }
+            assert!(start.elapsed() < PATIENCE, "it does not quit");
+            std::thread::sleep(Duration::from_millis(50));
+        }
+    }
+}
+
+impl Drop for Window<'_> {
+    fn drop(&mut self) {
+        let _ = self.program.kill();
+        let _ = self.program.wait();
+    }
+}
+
+/// Where a person would look afterwards.
+fn keep(picture: &Picture, name: &str) {
+    if let Some(folder) = std::env::var_os("HAIRLINE_SCREENSHOTS") {
+        picture.write(&Path::new(&folder).join(format!("{name}.png")));
+    }
+}
+
+fn width_um(description: &Description) -> f64 {
+    match &description.scratches[0].layer {
+        Layer::Laid(laid) => laid.width_um.mean,
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn an_artist_opens_turns_changes_draws_undoes_saves_and_comes_back() {
+    // eframe draws by the same drivers.
+    if test_gpu().is_none() {
+        return;
+    }
+    let Some(display) = Display::start([1280, 800]) else {
+        assert!(
+            std::env::var_os("HAIRLINE_REQUIRE_GPU").is_none_or(|value| value != "1"),
+            "HAIRLINE_REQUIRE_GPU is set, but Xvfb cannot be started"
+        );
+        skip("Xvfb cannot be started");
+        return;
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let scene = folder.path().join("plate.toml");
+    std::fs::write(&scene, SCENE).unwrap();
+    let before = Description::from_toml(SCENE, &scene).unwrap();
+    let layout = Layout::of(&scene);
+    let window = Window::open(&display, folder.path(), &scene);
+    let first = window.settled(&layout);
+    assert!(first.brightest() > 100, "the picture is dark");
+    keep(&display.screen(), "opened");
+
+    // The picture turns under the mouse.
+    let middle = layout.picture().center();
+    display.drag(&[middle, middle + egui::vec2(60.0, 10.0), middle + egui::vec2(120.0, 20.0)]);
+    window.is_modified();
+    let turned = window.save();
+    assert_ne!(turned.camera.position_m, before.camera.position_m);
+    assert_eq!(turned.scratches, before.scratches);
+    let seen = window.settled(&layout);
+    assert!(seen.differing(&first) > 1000, "the picture did not turn");
+
+    // A layer is chosen in the outliner, and its width typed.
+    display.click(layout.layer());
+    display.double_click(layout.width());
+    display.type_text("7.5");
+    display.keys(&["Return"]);
+    window.is_modified();
+    let widened = window.save();
+    assert_eq!(width_um(&widened), 7.5);
+    assert_eq!(widened.camera, turned.camera);
+    keep(&display.screen(), "width");
+
+    // The brush is picked by its key, and a stroke drawn.
+    display.move_to(middle);
+    display.keys(&["b"]);
+    display.drag(&[
+        middle + egui::vec2(-60.0, 20.0),
+        middle + egui::vec2(-20.0, 0.0),
+        middle + egui::vec2(20.0, 10.0),
+        middle + egui::vec2(60.0, 30.0),
+    ]);
+    window.is_modified();
+    keep(&display.screen(), "stroke");
+    let drawn = window.save();
+    let strokes = |d: &Description| d.scratches.iter().map(|s| s.strokes.len()).sum::<usize>();
+    assert_eq!(strokes(&drawn), 1, "{:?}", drawn.scratches);
+
+    // Undone, the scene is what it was before the stroke, to the last digit.
+    display.keys(&["Control_L", "z"]);
+    window.is_modified();
+    let undone = window.save();
+    assert_eq!(undone, widened);
+
+    // And back: what was saved is what is seen.
+    let last = window.settled(&layout);
+    window.quit();
+    let window = Window::open(&display, folder.path(), &scene);
+    let reopened = window.settled(&layout);
+    keep(&display.screen(), "reopened");
+    // The mouse's ring, the selection's lines and dither are the only differences left.
+    let share = reopened.differing(&last) as f64 / reopened.pixels() as f64;
+    assert!(share < 0.05, "{share} of the pixels differ after the scene was opened again");
+    assert!(reopened.differing(&first) > 1000, "it shows the scene as it was at first");
+    window.quit();
+}
