@@ -34,6 +34,7 @@ use hairline_scene::{CameraFrame, Scene, ScratchTables};
 use rayon::prelude::*;
 use spec_math::cephes64::ndtri;
 use std::ops::ControlFlow;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
@@ -69,14 +70,40 @@ pub struct Settings {
     pub seed: u64,
 }
 
+/// What is looked up of a scene's surfaces, scratches and materials. A clone is the same one.
+#[derive(Clone)]
+pub struct Parts {
+    /// Triangles along a ray.
+    pub triangles: Arc<TriangleIndex>,
+    /// The scratches as they lie.
+    pub grooves: Arc<SegmentTree<Groove>>,
+    /// What the materials mean to the physics.
+    pub tables: Arc<ScratchTables>,
+}
+
+impl Parts {
+    /// Builds the trees and the tables.
+    pub fn new(scene: &Scene) -> Self {
+        let (triangles, (grooves, tables)) = rayon::join(
+            || TriangleIndex::build(scene),
+            || rayon::join(|| groove_index::build(scene), || ScratchTables::new(scene)),
+        );
+        Self {
+            triangles: triangles.into(),
+            grooves: grooves.into(),
+            tables: tables.into(),
+        }
+    }
+}
+
 /// A scene made ready.
 pub struct Integrator<'a> {
     scene: &'a Scene,
     settings: Settings,
-    triangles: TriangleIndex,
-    grooves: SegmentTree<Groove>,
+    triangles: Arc<TriangleIndex>,
+    grooves: Arc<SegmentTree<Groove>>,
     depth_coherence: Vec<f32>,
-    tables: ScratchTables,
+    tables: Arc<ScratchTables>,
     lights: AreaLights,
     environment: Option<EnvironmentSampler>,
     camera: CameraFrame,
@@ -87,10 +114,16 @@ pub struct Integrator<'a> {
 impl<'a> Integrator<'a> {
     /// Builds the trees and the tables.
     pub fn new(scene: &'a Scene, settings: Settings) -> Self {
-        let (triangles, (grooves, tables)) = rayon::join(
-            || TriangleIndex::build(scene),
-            || rayon::join(|| groove_index::build(scene), || ScratchTables::new(scene)),
-        );
+        Self::from_parts(scene, settings, Parts::new(scene))
+    }
+
+    /// Takes trees and tables that were built before, of `scene` or of one with the same surfaces, scratches and materials.
+    pub fn from_parts(scene: &'a Scene, settings: Settings, parts: Parts) -> Self {
+        let Parts {
+            triangles,
+            grooves,
+            tables,
+        } = parts;
         let positions = scene.objects.iter().flat_map(|o| &o.mesh.positions_m);
         Self {
             scene,
