@@ -7,6 +7,7 @@ use glam::Vec3;
 use hairline_optics::footprint;
 use hairline_optics::mask::depth_coherence;
 use hairline_scene::{Object, Scene, Scratch};
+use rayon::prelude::*;
 
 /// A straight piece of a scratch, its free ends moved inwards.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,40 +80,56 @@ pub(crate) fn effective_segments(
     layer: Option<u32>,
 ) -> Vec<IndexedSegment> {
     let of_layer = |scratch: &&Scratch| layer.is_none_or(|layer| scratch.layer == layer);
-    let scratches = || object.scratches.iter().filter(of_layer);
-    let mut effective = Vec::with_capacity(scratches().map(|s| s.segments.len()).sum());
-    for scratch in scratches() {
-        let pieces =
-            &object.segments[scratch.segments.start as usize..scratch.segments.end as usize];
-        let Some(first) = pieces.first() else {
-            continue;
-        };
-        let material = object.mesh.triangle_materials[first.triangle as usize] as usize;
-        let coherence_um = scene.materials[material].coherence_um;
-        let length_um: f64 = pieces
-            .iter()
-            .map(|p| p.start_m.distance(p.end_m) as f64 * 1e6)
-            .sum();
-        let ends = footprint::ends(length_um, coherence_um);
-        let shrink_um = if scratch.closed { 0.0 } else { ends.shrink_um };
-        let mut arc_um = 0.0;
-        for piece in pieces {
-            let piece_um = piece.start_m.distance(piece.end_m) as f64 * 1e6;
-            let start = (shrink_um - arc_um).max(0.0) / piece_um;
-            let end = (length_um - shrink_um - arc_um).min(piece_um) / piece_um;
-            arc_um += piece_um;
-            // Also false for a piece of no length.
-            if start < end {
-                effective.push(IndexedSegment {
-                    start_m: piece.start_m.lerp(piece.end_m, start as f32),
-                    end_m: piece.start_m.lerp(piece.end_m, end as f32),
-                    normal: piece.normal,
-                    width_um: scratch.width_um,
-                    depth_nm: scratch.depth_nm,
-                    blur_um: ends.blur_um as f32,
-                });
-            }
+    // Scratches in a row, so that the order is that of the object whatever the number of threads.
+    let runs = object.scratches.par_chunks(RUN).map(|run| {
+        let pieces = run.iter().map(|s| s.segments.len()).sum();
+        let mut effective = Vec::with_capacity(pieces);
+        for scratch in run.iter().filter(of_layer) {
+            append_effective(scene, object, scratch, &mut effective);
+        }
+        effective
+    });
+    runs.collect::<Vec<_>>().concat()
+}
+
+/// Scratches of one task.
+const RUN: usize = 1024;
+
+/// Appends the pieces of one scratch.
+fn append_effective(
+    scene: &Scene,
+    object: &Object,
+    scratch: &Scratch,
+    effective: &mut Vec<IndexedSegment>,
+) {
+    let pieces = &object.segments[scratch.segments.start as usize..scratch.segments.end as usize];
+    let Some(first) = pieces.first() else {
+        return;
+    };
+    let material = object.mesh.triangle_materials[first.triangle as usize] as usize;
+    let coherence_um = scene.materials[material].coherence_um;
+    let length_um: f64 = pieces
+        .iter()
+        .map(|p| p.start_m.distance(p.end_m) as f64 * 1e6)
+        .sum();
+    let ends = footprint::ends(length_um, coherence_um);
+    let shrink_um = if scratch.closed { 0.0 } else { ends.shrink_um };
+    let mut arc_um = 0.0;
+    for piece in pieces {
+        let piece_um = piece.start_m.distance(piece.end_m) as f64 * 1e6;
+        let start = (shrink_um - arc_um).max(0.0) / piece_um;
+        let end = (length_um - shrink_um - arc_um).min(piece_um) / piece_um;
+        arc_um += piece_um;
+        // Also false for a piece of no length.
+        if start < end {
+            effective.push(IndexedSegment {
+                start_m: piece.start_m.lerp(piece.end_m, start as f32),
+                end_m: piece.start_m.lerp(piece.end_m, end as f32),
+                normal: piece.normal,
+                width_um: scratch.width_um,
+                depth_nm: scratch.depth_nm,
+                blur_um: ends.blur_um as f32,
+            });
         }
     }
-    effective
 }

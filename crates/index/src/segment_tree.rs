@@ -1,11 +1,9 @@
 //! Straight pieces of scratches under a box: bounding volume hierarchies with skip pointers (B. Smits, *Efficiency Issues
 //! for Ray Tracing*, 1998), one for each object, so that no scratch shows on an object that merely touches its own.
 
+mod grow;
+
 use glam::Vec3;
-use obvhs::aabb::Aabb;
-use obvhs::bvh2::Bvh2;
-use obvhs::bvh2::builder::build_bvh2;
-use obvhs::{Boundable, BvhBuildParams};
 use std::ops::Range;
 
 /// A node in depth-first order. A walk goes on with the next node, or with `skip` if it wants nothing below this one.
@@ -21,8 +19,6 @@ pub struct ScratchNode {
     pub leaf: u32,
 }
 
-/// Most segments in one leaf.
-const LEAF_SEGMENTS: u32 = 4;
 /// Bits of [`ScratchNode::leaf`] that hold the first segment.
 pub const LEAF_FIRST_BITS: u32 = 28;
 
@@ -32,10 +28,23 @@ impl ScratchNode {
         let first = (self.leaf & ((1 << LEAF_FIRST_BITS) - 1)) as usize;
         first..first + (self.leaf >> LEAF_FIRST_BITS) as usize
     }
+
+    /// The same node behind this many others and their segments.
+    fn moved(self, nodes: u32, segments: u32) -> Self {
+        Self {
+            skip: self.skip + nodes,
+            leaf: if self.leaf == 0 {
+                0
+            } else {
+                self.leaf + segments
+            },
+            ..self
+        }
+    }
 }
 
 /// What a tree can hold.
-pub trait Straight: Copy {
+pub trait Straight: Copy + Send + Sync {
     /// Both ends, world space, metres.
     fn ends_m(&self) -> [Vec3; 2];
 }
@@ -61,7 +70,7 @@ impl<S: Straight> SegmentTree<S> {
         };
         for segments in objects {
             let first = tree.nodes.len() as u32;
-            tree.append_tree(&segments);
+            tree.append(grow::grow(segments));
             tree.objects.push(first..tree.nodes.len() as u32);
         }
         tree
@@ -97,79 +106,17 @@ impl<S: Straight> SegmentTree<S> {
         }
     }
 
-    fn append_tree(&mut self, segments: &[S]) {
-        if segments.is_empty() {
-            return;
-        }
-        let boxes: Vec<SegmentBox> = segments
-            .iter()
-            .map(|s| SegmentBox::new(s.ends_m()))
-            .collect();
-        let params = BvhBuildParams {
-            max_prims_per_leaf: LEAF_SEGMENTS,
-            ..BvhBuildParams::medium_build()
-        };
-        let tree = build_bvh2(&boxes, params, &mut std::time::Duration::default());
-        self.append_depth_first(&tree, segments, 0);
-    }
-
-    /// obvhs keeps siblings side by side; skip pointers want depth-first order.
-    fn append_depth_first(&mut self, tree: &Bvh2, segments: &[S], root: usize) {
-        // The second child's turn comes when the first one's subtree is done; a node's skip is known when its own is.
-        enum Step {
-            Enter(usize),
-            Leave(usize),
-        }
-        let mut steps = vec![Step::Enter(root)];
-        while let Some(step) = steps.pop() {
-            match step {
-                Step::Leave(written) => self.nodes[written].skip = self.nodes.len() as u32,
-                Step::Enter(at) => {
-                    let node = &tree.nodes[at];
-                    let written = self.nodes.len();
-                    let mut leaf = 0;
-                    steps.push(Step::Leave(written));
-                    if node.is_leaf() {
-                        let first = self.segments.len() as u32;
-                        assert!(
-                            first < 1 << LEAF_FIRST_BITS,
-                            "more than 268 million segments"
-                        );
-                        let own = node.first_index as usize
-                            ..(node.first_index + node.prim_count) as usize;
-                        self.segments.extend(
-                            tree.primitive_indices[own]
-                                .iter()
-                                .map(|i| segments[*i as usize]),
-                        );
-                        leaf = first | node.prim_count << LEAF_FIRST_BITS;
-                    } else {
-                        steps.push(Step::Enter(node.first_index as usize + 1));
-                        steps.push(Step::Enter(node.first_index as usize));
-                    }
-                    let bounds = node.aabb();
-                    self.nodes.push(ScratchNode {
-                        min_m: bounds.min.into(),
-                        skip: 0,
-                        max_m: bounds.max.into(),
-                        leaf,
-                    });
-                }
-            }
-        }
-    }
-}
-
-struct SegmentBox(Aabb);
-
-impl SegmentBox {
-    fn new(ends_m: [Vec3; 2]) -> Self {
-        Self(Aabb::from_points(&ends_m.map(Into::into)))
-    }
-}
-
-impl Boundable for SegmentBox {
-    fn aabb(&self) -> Aabb {
-        self.0
+    fn append(&mut self, part: grow::Part<S>) {
+        let (nodes, segments) = (self.nodes.len() as u32, self.segments.len() as u32);
+        assert!(
+            segments as usize + part.segments.len() < 1 << LEAF_FIRST_BITS,
+            "more than 268 million segments"
+        );
+        self.nodes.extend(
+            part.nodes
+                .into_iter()
+                .map(|node| node.moved(nodes, segments)),
+        );
+        self.segments.extend(part.segments);
     }
 }
