@@ -121,6 +121,7 @@ impl Viewer {
             self.take_choice(&ctx, outcome);
         }
         if !self.dialogs.is_modal() && !self.export.is_asking() {
+            crate::viewport::cancel_on_escape(&ctx, self);
             for command in Command::pressed(&ctx) {
                 self.run(&ctx, command);
             }

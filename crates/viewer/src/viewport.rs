@@ -1,13 +1,17 @@
 //! The picture, and what the mouse does in it.
 
 mod canvas;
+mod gizmo;
+mod ink;
+mod lens;
+mod line_field;
 mod pick;
 mod strokes;
 
 use std::time::Duration;
 
 use eframe::egui_wgpu::RenderState;
-use egui::{PointerButton, Pos2, Rect, Response, Role, Sense, WidgetInfo};
+use egui::{PointerButton, Rect, Response, Role, Sense, WidgetInfo};
 use glam::{DVec2, DVec3};
 use hairline_editor::{DragKey, Selection, navigate, place_light};
 use hairline_image::Display;
@@ -17,12 +21,17 @@ use crate::engine::View;
 use crate::tools::Tool;
 
 use canvas::CanvasTexture;
+use gizmo::Gizmo;
+use lens::Lens;
+use line_field::LineField;
 use strokes::StrokeTool;
 
 /// What the picture's area keeps between passes.
 pub(crate) struct Viewport {
     canvas: CanvasTexture,
     stroke: StrokeTool,
+    gizmo: Gizmo,
+    line_field: LineField,
     /// The largest time of the interface's own passes of late, for the status line.
     interface_time: Duration,
     /// Width over height.
@@ -39,6 +48,8 @@ impl Viewport {
         Self {
             canvas: CanvasTexture::new(render_state),
             stroke: StrokeTool::default(),
+            gizmo: Gizmo::default(),
+            line_field: LineField::default(),
             interface_time: Duration::ZERO,
             aspect: 16.0 / 9.0,
             wheeled: f64::NEG_INFINITY,
@@ -98,21 +109,19 @@ impl Area {
         DVec2::new(self.frame.width().into(), self.frame.height().into())
     }
 
-    /// From the upper left corner of the frame.
-    pub fn within(&self, pos: Pos2) -> DVec2 {
-        let offset = pos - self.frame.min;
-        DVec2::new(offset.x.into(), offset.y.into())
-    }
-
-    /// The other way.
-    pub fn on_screen(&self, point: DVec2) -> Pos2 {
-        self.frame.min + egui::vec2(point.x as f32, point.y as f32)
-    }
-
     /// The vertical field of view of all of the area, where the frame has `fov_y_rad`.
     fn fov_y_rad(&self, fov_y_rad: f64) -> f64 {
         let taller = f64::from(self.rect.height() / self.frame.height().max(1.0));
         2.0 * ((0.5 * fov_y_rad).tan() * taller).atan()
+    }
+
+    /// The camera that sees all of the area.
+    fn camera(&self, camera: &hairline_scene::description::Camera) -> hairline_scene::Camera {
+        let camera = self::camera(camera);
+        hairline_scene::Camera {
+            fov_y_rad: self.fov_y_rad(camera.fov_y_rad),
+            ..camera
+        }
     }
 
     /// Dims what the picture does not have.
@@ -155,6 +164,7 @@ pub(crate) fn show(ui: &mut egui::Ui, viewer: &mut Viewer) -> Rect {
             ui.put(rect, egui::Spinner::new().size(32.0));
         }
         interact(ui, viewer, &area, &response);
+        overlays(ui, viewer, &area);
         rect
     });
     shown.inner
@@ -172,14 +182,43 @@ pub(crate) fn camera(camera: &hairline_scene::description::Camera) -> hairline_s
     }
 }
 
+/// What is drawn over the picture and can be dragged there.
+fn overlays(ui: &mut egui::Ui, viewer: &mut Viewer, area: &Area) {
+    let tool = viewer.toolbox.tool;
+    line_field::show(ui, viewer, area);
+    if matches!(tool, Tool::Select | Tool::PlaceLight) {
+        let description = viewer.document.description();
+        let selected = match viewer.selection() {
+            Selection::Light(i) => Some(i),
+            _ => None,
+        };
+        let lens = Lens::new(&description.camera, area);
+        let painter = ui.painter().with_clip_rect(area.rect);
+        gizmo::show_lights(&painter, &lens, description, selected);
+    }
+    gizmo::show(ui, viewer, area);
+}
+
+/// Escape takes back what a handle or the brush is doing. To be asked before the commands: else it means to select nothing.
+pub(crate) fn cancel_on_escape(ctx: &egui::Context, viewer: &mut Viewer) {
+    if !ctx.input(|input| input.key_pressed(egui::Key::Escape)) {
+        return;
+    }
+    let viewport = &mut viewer.viewport;
+    let is_held = viewport.gizmo.cancel();
+    if is_held {
+        viewer.document.cancel_drag();
+    }
+    if is_held | viewer.viewport.stroke.cancel() {
+        ctx.input_mut(|input| input.consume_key(egui::Modifiers::NONE, egui::Key::Escape));
+    }
+}
+
 fn view(viewer: &Viewer, area: &Area) -> View {
     let description = viewer.document.description();
     let camera = &description.camera;
     View {
-        camera: hairline_scene::Camera {
-            fov_y_rad: area.fov_y_rad(camera.fov_y_deg.to_radians()),
-            ..self::camera(camera)
-        },
+        camera: area.camera(camera),
         size_px: area.size_px(),
         display: Display {
             exposure_ev: camera.exposure_ev,
@@ -203,9 +242,7 @@ fn interact(ui: &mut egui::Ui, viewer: &mut Viewer, area: &Area, response: &Resp
         || response.dragged_by(PointerButton::Secondary);
     let pans = response.dragged_by(PointerButton::Middle)
         || response.dragged_by(PointerButton::Primary) && shift && !is_brush;
-    if is_brush && !alt {
-        strokes::interact(ui, viewer, area, response);
-    }
+    strokes::interact(ui, viewer, area, response, is_brush && !alt);
     if pans && moved != DVec2::ZERO {
         let key = DragKey::of("pan");
         viewer
@@ -250,6 +287,10 @@ fn click(viewer: &mut Viewer, area: &Area, response: &Response) {
     let Some(pos) = response.interact_pointer_pos() else {
         return;
     };
+    // A press on a handle that moved nothing.
+    if viewer.viewport.gizmo.has_pointer() {
+        return;
+    }
     let hit = pick::surface(viewer, area, pos);
     if response.double_clicked() {
         if let Some(hit) = hit {
@@ -260,7 +301,13 @@ fn click(viewer: &mut Viewer, area: &Area, response: &Response) {
     } else if response.clicked() {
         match viewer.toolbox.tool {
             Tool::Select => {
-                let picked = hit.map_or(Selection::None, |hit| Selection::Object(hit.object));
+                let description = viewer.document.description();
+                let lens = Lens::new(&description.camera, area);
+                let picked = match (gizmo::light_at(description, &lens, pos), hit) {
+                    (Some(light), _) => Selection::Light(light),
+                    (None, Some(hit)) => Selection::Object(hit.object),
+                    (None, None) => Selection::None,
+                };
                 viewer.document.select(picked);
             }
             Tool::PlaceLight => match (viewer.selection(), hit) {

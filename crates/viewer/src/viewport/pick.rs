@@ -2,11 +2,11 @@
 
 use egui::Pos2;
 use glam::{DMat4, DVec3};
-use hairline_editor::navigate;
 
 use crate::app::Viewer;
+use crate::engine::Built;
 
-use super::Area;
+use super::{Area, lens::Lens};
 
 /// A place on a surface.
 #[derive(Clone, Copy, Debug)]
@@ -22,21 +22,36 @@ pub(super) struct Picked {
 /// The nearest surface under `pos`, of the newest scene that was built.
 pub(super) fn surface(viewer: &Viewer, area: &Area, pos: Pos2) -> Option<Picked> {
     let built = viewer.engine.built()?;
-    let camera = &viewer.document.description().camera;
-    // A pixel of this frame is a point of the screen.
-    let size = area.size();
-    let frame = navigate::view(camera, [size.x as u32, size.y as u32]);
-    let ray = frame.camera_ray(area.within(pos)).normalize();
-    let hit = built.triangles.intersect(frame.position_m, ray)?;
+    let lens = Lens::new(&viewer.document.description().camera, area);
+    along(&built, &lens, pos)
+}
+
+/// The same of a scene and a view that are at hand: two rays, some microseconds.
+///
+/// A ray that runs exactly along an edge may miss both of its triangles by a rounding, and then meets what lies behind; one
+/// a hair beside it does not.
+pub(super) fn along(built: &Built, lens: &Lens, pos: Pos2) -> Option<Picked> {
+    const HAIR: egui::Vec2 = egui::vec2(0.013, 0.007);
+    let (hit, beside) = (meet(built, lens, pos), meet(built, lens, pos + HAIR));
+    let distance_m = |hit: &Picked| hit.point_m.distance(lens.eye_m());
+    match (hit, beside) {
+        (Some(hit), Some(beside)) if distance_m(&beside) < 0.99 * distance_m(&hit) => Some(beside),
+        (hit, beside) => hit.or(beside),
+    }
+}
+
+fn meet(built: &Built, lens: &Lens, pos: Pos2) -> Option<Picked> {
+    let ray = lens.ray(pos);
+    let hit = built.triangles.intersect(lens.eye_m(), ray)?;
     let mesh = &built.scene.objects.get(hit.object as usize)?.mesh;
     let corners = mesh.triangles.get(hit.triangle as usize)?;
     let normals = corners.map(|corner| mesh.normals[corner as usize].as_dvec3());
     let [b, c] = hit.barycentric;
     let normal = normals[0] * (1.0 - b - c) + normals[1] * b + normals[2] * c;
-    let normal = normal.normalize_or_zero();
+    let normal = normal.normalize_or(-ray);
     Some(Picked {
         object: hit.object as usize,
-        point_m: frame.position_m + ray * hit.distance_m,
+        point_m: lens.eye_m() + ray * hit.distance_m,
         normal: if normal.dot(ray) > 0.0 {
             -normal
         } else {

@@ -1,55 +1,241 @@
 //! The brush and the eraser.
 
-use egui::{Color32, PointerButton, Response, Stroke};
-use glam::{DVec2, DVec3};
+use egui::{Color32, Painter, PointerButton, Pos2, Response, Shape, Stroke, Ui};
+use glam::{DMat4, DVec3};
 use hairline_editor::Selection;
 use hairline_editor::brush::{BrushSettings, Recorder, apply_stroke};
-use hairline_editor::navigate;
+use hairline_scene::description;
 
 use crate::app::Viewer;
+use crate::engine::Built;
 use crate::tools::Tool;
 
-use super::{Area, pick};
+use super::lens::Lens;
+use super::pick::{self, Picked};
+use super::{Area, ink};
 
-/// A stroke on its way.
+/// Rays between two places of the pointer lie so far apart, points.
+const SPACING: f32 = 3.0;
+/// The distance between two rays is halved so often before a surface counts as torn: to a twentieth of a point.
+const HALVINGS: u32 = 6;
+/// A jump of the pointer over the whole of a large screen is no reason for more rays in one pass.
+const MOST_RAYS: usize = 2000;
+
+/// The brush in the hand.
 #[derive(Default)]
 pub(super) struct StrokeTool {
-    going_on: Option<(usize, Recorder)>,
+    going_on: Option<Going>,
+    /// Where the pointer was last in a drag that has met no object yet.
+    before: Option<Pos2>,
+    /// Escape was pressed; nothing is drawn until the button is up.
+    is_cancelled: bool,
 }
 
-pub(super) fn interact(ui: &egui::Ui, viewer: &mut Viewer, area: &Area, response: &Response) {
-    let erase = viewer.toolbox.tool == Tool::Eraser;
-    let Some(pos) = response.interact_pointer_pos().or(response.hover_pos()) else {
-        return;
-    };
-    let under = pick::surface(viewer, area, pos);
-    let settings = under.map(|hit| BrushSettings {
-        erase,
-        ..settings(viewer, hit.object)
-    });
-    let is_held = response.is_pointer_button_down_on()
-        && ui.input(|input| input.pointer.button_down(PointerButton::Primary));
-    if let (Some(hit), Some(settings)) = (under, settings) {
-        draw_ring(ui, viewer, area, hit.point_m, hit.normal, settings.radius_m);
-        if is_held {
-            if viewer.viewport.stroke.going_on.is_none()
-                && let Some(world_from_object) = pick::world_from_object(viewer, hit.object)
-            {
-                let recorder = Recorder::new(settings, world_from_object);
-                viewer.viewport.stroke.going_on = Some((hit.object, recorder));
-            }
-            // A stroke stays on the object that it began on.
-            if let Some((object, recorder)) = &mut viewer.viewport.stroke.going_on
-                && *object == hit.object
-            {
-                recorder.add(hit.point_m);
-            }
+/// All of one drag. It stays on the object that it began on, and is one step.
+struct Going {
+    object: usize,
+    settings: BrushSettings,
+    world_from_object: DMat4,
+    /// Where the pointer was last.
+    pos: Pos2,
+    /// The stroke that the pointer draws, with its last point; none while the pointer is beside the object.
+    open: Option<(Recorder, Place)>,
+    /// Strokes that ended where the pointer left the object, and their ways.
+    done: Vec<(description::Stroke, Vec<DVec3>)>,
+}
+
+impl StrokeTool {
+    /// Forgets the drag that goes on; whether there was one.
+    pub fn cancel(&mut self) -> bool {
+        let was_going_on = self.going_on.take().is_some();
+        self.is_cancelled |= was_going_on;
+        was_going_on
+    }
+}
+
+/// A place on the screen, and what a ray through it met.
+#[derive(Clone, Copy)]
+struct Place {
+    pos: Pos2,
+    hit: Picked,
+}
+
+/// What rays are cast in.
+#[derive(Clone, Copy)]
+struct World<'a> {
+    built: &'a Built,
+    lens: &'a Lens,
+    area: &'a Area,
+}
+
+impl World<'_> {
+    fn at(&self, pos: Pos2) -> Option<Place> {
+        let is_in_picture = self.area.rect.contains(pos);
+        let hit = is_in_picture.then(|| pick::along(self.built, self.lens, pos))??;
+        Some(Place { pos, hit })
+    }
+
+    /// Points on the surface from one place to a neighbouring one, `b` but not `a` among them; none if the surface goes
+    /// behind itself between them. Where it is seen from the side they are found by halving: however steep it is, it comes
+    /// together, and over a gap it does not.
+    fn bridge(&self, a: &Place, b: &Place, radius_m: f64, halvings: u32) -> Option<Vec<DVec3>> {
+        if a.hit.point_m.distance(b.hit.point_m) <= radius_m {
+            return Some(vec![b.hit.point_m]);
+        }
+        let halvings = halvings.checked_sub(1)?;
+        let middle = self.at(a.pos.lerp(b.pos, 0.5))?;
+        if middle.hit.object != a.hit.object {
+            return None;
+        }
+        let mut points_m = self.bridge(a, &middle, radius_m, halvings)?;
+        points_m.extend(self.bridge(&middle, b, radius_m, halvings)?);
+        Some(points_m)
+    }
+}
+
+impl Going {
+    /// Follows the pointer: what lies between two passes is looked up too, since a surface is not straight between them.
+    fn follow(&mut self, world: World, to: Pos2) {
+        for pos in way(self.pos, to) {
+            self.take(world, world.at(pos));
+        }
+        self.pos = to;
+    }
+
+    fn take(&mut self, world: World, place: Option<Place>) {
+        let Some(place) = place.filter(|place| place.hit.object == self.object) else {
+            self.lift();
+            return;
+        };
+        let radius_m = self.settings.radius_m;
+        let last = self.open.as_ref().map(|(_, last)| *last);
+        let bridge = last.map(|last| world.bridge(&last, &place, radius_m, HALVINGS));
+        if matches!(bridge, Some(None)) {
+            self.lift();
+        }
+        let points_m = bridge.flatten().unwrap_or_else(|| vec![place.hit.point_m]);
+        let (settings, world_from_object) = (self.settings, self.world_from_object);
+        let (recorder, last) = self
+            .open
+            .get_or_insert_with(|| (Recorder::new(settings, world_from_object), place));
+        for point_m in points_m {
+            recorder.add(point_m);
+        }
+        *last = place;
+    }
+
+    /// Ends the stroke that is open, not the drag.
+    fn lift(&mut self) {
+        if let Some((recorder, _)) = self.open.take() {
+            let way_m = recorder.way_m().to_vec();
+            self.done
+                .extend(recorder.finish().map(|stroke| (stroke, way_m)));
         }
     }
-    draw_way(ui, viewer, area);
-    if !is_held && let Some((object, recorder)) = viewer.viewport.stroke.going_on.take() {
-        finish(viewer, object, recorder, erase);
+}
+
+/// What the mouse does with the brush, if one `is_in_hand`; else ends what it has begun.
+pub(super) fn interact(
+    ui: &Ui,
+    viewer: &mut Viewer,
+    area: &Area,
+    response: &Response,
+    is_in_hand: bool,
+) {
+    let is_held = is_in_hand
+        && response.is_pointer_button_down_on()
+        && ui.input(|input| input.pointer.button_down(PointerButton::Primary));
+    if let Some(built) = viewer.engine.built()
+        && is_in_hand
+    {
+        let lens = Lens::new(&viewer.document.description().camera, area);
+        let painter = ui.painter().with_clip_rect(area.rect);
+        let tool = &viewer.viewport.stroke;
+        if (is_held || tool.going_on.is_some() || tool.before.is_some()) && !tool.is_cancelled {
+            let world = World {
+                built: &built,
+                lens: &lens,
+                area,
+            };
+            draw(ui, viewer, world);
+        }
+        let pos = response.interact_pointer_pos().or(response.hover_pos());
+        let pos = pos.filter(|pos| area.rect.contains(*pos));
+        if let Some(hit) = pos.and_then(|pos| pick::along(&built, &lens, pos)) {
+            let radius_m = settings(viewer, hit.object).radius_m;
+            let color = color(viewer.toolbox.tool);
+            show_ring(&painter, &lens, &hit, radius_m, color);
+        }
+        show_ways(&painter, viewer, &lens);
     }
+    if !is_held {
+        viewer.viewport.stroke.is_cancelled = false;
+        viewer.viewport.stroke.before = None;
+        if let Some(going) = viewer.viewport.stroke.going_on.take() {
+            finish(viewer, going);
+        }
+    }
+}
+
+/// Takes up where the pointer has been since the last pass.
+fn draw(ui: &Ui, viewer: &mut Viewer, world: World) {
+    let mut places: Vec<Pos2> = Vec::new();
+    ui.input(|input| {
+        for event in &input.events {
+            match event {
+                egui::Event::PointerMoved(pos) => places.push(*pos),
+                // The way to where the button went down is none of the stroke's, nor is that after it went up.
+                egui::Event::PointerButton { pos, pressed, .. } => {
+                    if *pressed {
+                        places.clear();
+                    }
+                    places.push(*pos);
+                    if !*pressed {
+                        return;
+                    }
+                }
+                _ => {}
+            }
+        }
+        places.extend(input.pointer.interact_pos());
+    });
+    for pos in places {
+        if viewer.viewport.stroke.going_on.is_none() {
+            let from = viewer.viewport.stroke.before.replace(pos).unwrap_or(pos);
+            let begun = way(from, pos).find_map(|at| begin(viewer, world, at));
+            viewer.viewport.stroke.going_on = begun;
+        }
+        if let Some(going) = &mut viewer.viewport.stroke.going_on {
+            going.follow(world, pos);
+        }
+    }
+}
+
+/// Places from one to another, close enough that a surface is straight between them; the first is left out.
+fn way(from: Pos2, to: Pos2) -> impl Iterator<Item = Pos2> {
+    let rays = ((to - from).length() / SPACING).ceil() as usize;
+    let rays = rays.clamp(1, MOST_RAYS);
+    (1..=rays).map(move |i| from.lerp(to, i as f32 / rays as f32))
+}
+
+fn begin(viewer: &mut Viewer, world: World, pos: Pos2) -> Option<Going> {
+    let place = world.at(pos)?;
+    let hit = place.hit;
+    let world_from_object = pick::world_from_object(viewer, hit.object)?;
+    let settings = BrushSettings {
+        erase: viewer.toolbox.tool == Tool::Eraser,
+        ..settings(viewer, hit.object)
+    };
+    let mut going = Going {
+        object: hit.object,
+        settings,
+        world_from_object,
+        pos,
+        open: None,
+        done: Vec::new(),
+    };
+    going.take(world, Some(place));
+    Some(going)
 }
 
 /// How the brush is set; as large as fits the object, before anyone has set it.
@@ -64,60 +250,73 @@ fn settings(viewer: &mut Viewer, object: usize) -> BrushSettings {
         .get_or_insert_with(|| BrushSettings::for_object(diagonal_m.unwrap_or(0.1)))
 }
 
-fn finish(viewer: &mut Viewer, object: usize, recorder: Recorder, erase: bool) {
-    let Some(stroke) = recorder.finish() else {
+/// All strokes of the drag as one step.
+fn finish(viewer: &mut Viewer, mut going: Going) {
+    going.lift();
+    if going.done.is_empty() {
         return;
+    }
+    let label = match going.settings.erase {
+        true => "Erase",
+        false => "Brush stroke",
     };
-    let label = if erase { "Erase" } else { "Brush stroke" };
-    // The stroke goes where it was drawn, whatever was selected.
     let done = viewer.document.apply(label, |description, selection| {
-        let selection = match selection.object(description) {
-            Some(selected) if selected == object => selection,
-            _ => Selection::Object(object),
+        // The strokes go where they were drawn, whatever was selected.
+        let mut selection = match selection.object(description) {
+            Some(selected) if selected == going.object => selection,
+            _ => Selection::Object(going.object),
         };
-        apply_stroke(description, selection, stroke)
+        for (stroke, _) in going.done {
+            selection = apply_stroke(description, selection, stroke)?;
+        }
+        Ok(selection)
     });
     if let Err(error) = done {
         viewer.notices.error("stroke", error.to_string());
     }
 }
 
-/// The brush's edge on the surface.
-fn draw_ring(
-    ui: &egui::Ui,
-    viewer: &Viewer,
-    area: &Area,
-    point_m: DVec3,
-    normal: DVec3,
-    radius_m: f64,
-) {
-    let camera = &viewer.document.description().camera;
-    let (across, along) = normal.any_orthonormal_pair();
-    let points = (0..=48).filter_map(|i| {
-        let (sin, cos) = (f64::from(i) / 48.0 * std::f64::consts::TAU).sin_cos();
-        let edge_m = point_m + (across * cos + along * sin) * radius_m;
-        navigate::project(camera, edge_m, area.size()).map(|p| area.on_screen(p))
-    });
-    let color = match viewer.toolbox.tool {
+fn color(tool: Tool) -> Color32 {
+    match tool {
         Tool::Eraser => Color32::from_rgb(255, 150, 130),
         _ => Color32::from_rgb(255, 230, 150),
-    };
-    ui.painter()
-        .add(egui::Shape::line(points.collect(), Stroke::new(1.5, color)));
+    }
 }
 
-/// The stroke so far.
-fn draw_way(ui: &egui::Ui, viewer: &Viewer, area: &Area) {
-    let Some((_, recorder)) = &viewer.viewport.stroke.going_on else {
+/// The brush's edge on the surface.
+fn show_ring(painter: &Painter, lens: &Lens, hit: &Picked, radius_m: f64, color: Color32) {
+    let (across, along) = hit.normal.any_orthonormal_pair();
+    let points = (0..=48).filter_map(|i| {
+        let (sin, cos) = (f64::from(i) / 48.0 * std::f64::consts::TAU).sin_cos();
+        lens.project(hit.point_m + (across * cos + along * sin) * radius_m)
+    });
+    ink::line(painter, points.collect(), 1.5, color);
+}
+
+/// The strokes so far.
+fn show_ways(painter: &Painter, viewer: &Viewer, lens: &Lens) {
+    let Some(going) = &viewer.viewport.stroke.going_on else {
         return;
     };
-    let camera = &viewer.document.description().camera;
-    let on_screen = |point: &DVec3| -> Option<egui::Pos2> {
-        let p: DVec2 = navigate::project(camera, *point, area.size())?;
-        Some(area.on_screen(p))
-    };
-    let points = recorder.way_m().iter().filter_map(on_screen).collect();
-    let color = Color32::from_rgba_unmultiplied(255, 230, 150, 160);
-    ui.painter()
-        .add(egui::Shape::line(points, Stroke::new(3.0, color)));
+    let [r, g, b, _] = color(viewer.toolbox.tool).to_array();
+    let color = Color32::from_rgba_unmultiplied(r, g, b, 160);
+    let open = going.open.iter().map(|(recorder, _)| recorder.way_m());
+    for way_m in going
+        .done
+        .iter()
+        .map(|(_, way_m)| way_m.as_slice())
+        .chain(open)
+    {
+        let mut points: Vec<Pos2> = Vec::new();
+        for pos in way_m.iter().filter_map(|point_m| lens.project(*point_m)) {
+            // Nobody sees more of a line than a bend every other point.
+            if points.last().is_none_or(|last| last.distance(pos) >= 2.0) {
+                points.push(pos);
+            }
+        }
+        if let [only] = points[..] {
+            painter.circle_filled(only, 1.5, color);
+        }
+        painter.add(Shape::line(points, Stroke::new(3.0, color)));
+    }
 }

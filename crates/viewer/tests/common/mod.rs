@@ -63,9 +63,9 @@ pub fn wait_built(harness: &mut Harness<'static, Viewer>) {
     wait_until(harness, "the scene is built", |viewer| {
         let engine = viewer.engine();
         !engine.is_building()
-            && engine
-                .built()
-                .is_some_and(|built| built.description.objects == viewer.document().description().objects)
+            && engine.built().is_some_and(|built| {
+                built.description.objects == viewer.document().description().objects
+            })
     });
     // What picking and gizmos show of it.
     harness.run_steps(2);
@@ -95,6 +95,12 @@ pub fn click_on(harness: &mut Harness<'static, Viewer>, label: &str) {
 /// Presses and releases a key.
 pub fn key(harness: &mut Harness<'static, Viewer>, key: egui::Key) {
     harness.key_press(key);
+    harness.run_steps(2);
+}
+
+/// One step back.
+pub fn undo(harness: &mut Harness<'static, Viewer>) {
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
     harness.run_steps(2);
 }
 

@@ -1,0 +1,102 @@
+//! Lights as outlines in the picture, and which one a click means.
+
+use egui::{Color32, Painter, Pos2};
+use glam::DVec3;
+use hairline_editor::place_light;
+use hairline_scene::Description;
+use hairline_scene::description::{Light, LightKind};
+
+use super::handles::distance_to_segment;
+use crate::viewport::ink;
+use crate::viewport::lens::Lens;
+
+/// A click within this of an outline or a middle means the light, points.
+const REACH: f32 = 8.0;
+/// A lamp is never seen smaller than this.
+const SMALLEST: f32 = 6.0;
+/// Length of the tick on the side on which a polygon shines.
+const TICK: f32 = 18.0;
+
+/// The outlines of all lights but hidden ones.
+pub(in crate::viewport) fn show(
+    painter: &Painter,
+    lens: &Lens,
+    description: &Description,
+    selected: Option<usize>,
+) {
+    for (i, light) in description.lights.iter().enumerate() {
+        if light.hidden {
+            continue;
+        }
+        let (width, color) = match selected == Some(i) {
+            true => (1.75, Color32::from_rgba_unmultiplied(255, 224, 160, 230)),
+            false => (1.0, Color32::from_rgba_unmultiplied(255, 236, 200, 105)),
+        };
+        for piece in outline(light, lens) {
+            ink::segment(painter, piece, width, color);
+        }
+        if let Some(middle) = lens.project(place_light::center(light)) {
+            ink::dot(painter, middle, 1.75, color);
+            if let Some(tip) = tick(light, lens) {
+                ink::segment(painter, [middle, tip], width, color);
+            }
+        }
+    }
+}
+
+/// The light whose outline or middle is nearest to a click, within reach.
+pub(in crate::viewport) fn at(description: &Description, lens: &Lens, pos: Pos2) -> Option<usize> {
+    let lights = description.lights.iter().enumerate();
+    let distances = lights.filter(|(_, light)| !light.hidden).map(|(i, light)| {
+        let to_outline = outline(light, lens)
+            .into_iter()
+            .map(|piece| distance_to_segment(piece, pos));
+        let to_middle = lens
+            .project(place_light::center(light))
+            .map(|middle| middle.distance(pos));
+        (to_outline.chain(to_middle).fold(f32::INFINITY, f32::min), i)
+    });
+    let nearest = distances.min_by(|a, b| a.0.total_cmp(&b.0));
+    nearest
+        .filter(|(distance, _)| *distance <= REACH)
+        .map(|(_, i)| i)
+}
+
+/// What of the outline lies before the eye, in pieces.
+fn outline(light: &Light, lens: &Lens) -> Vec<[Pos2; 2]> {
+    let points_m = match &light.kind {
+        LightKind::Sphere { center_m, radius_m } => {
+            let smallest_m = lens.m_per_point(DVec3::from(*center_m)) * f64::from(SMALLEST);
+            circle(lens, (*center_m).into(), radius_m.max(smallest_m))
+        }
+        LightKind::Polygon { vertices_m, .. } => vertices_m.iter().map(|&v| v.into()).collect(),
+    };
+    let next = points_m.iter().cycle().skip(1);
+    let edges = points_m.iter().zip(next);
+    edges.filter_map(|(a, b)| lens.segment(*a, *b)).collect()
+}
+
+/// What the eye sees as a sphere's edge; nothing from within.
+fn circle(lens: &Lens, center_m: DVec3, radius_m: f64) -> Vec<DVec3> {
+    let to_eye = lens.eye_m() - center_m;
+    let sin = radius_m / to_eye.length();
+    if !(sin < 1.0) {
+        return Vec::new();
+    }
+    // The rays that touch a sphere do so before its middle.
+    let middle_m = center_m + to_eye * (sin * sin);
+    let edge_m = radius_m * (1.0 - sin * sin).sqrt();
+    let (across, along) = to_eye.normalize().any_orthonormal_pair();
+    let at = |i: u32| {
+        let (sin, cos) = (f64::from(i) / 48.0 * std::f64::consts::TAU).sin_cos();
+        middle_m + (across * cos + along * sin) * edge_m
+    };
+    (0..48).map(at).collect()
+}
+
+/// The end of a polygon's tick, as long as the polygon faces the side; none for a sphere.
+fn tick(light: &Light, lens: &Lens) -> Option<Pos2> {
+    let center_m = place_light::center(light);
+    let length_m = lens.m_per_point(center_m) * f64::from(TICK);
+    lens.project(center_m + place_light::facing(light)? * length_m)
+}

@@ -1,0 +1,289 @@
+//! Short strokes on the surface along the scratches of the selected layer: which way they run, and so where their light goes.
+//!
+//! They are scratches that are there, some hundred of them, spread evenly over what is seen of their object. While the view
+//! moves the same ones stay and are projected anew; when it rests, others are found.
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use egui::{Color32, Pos2, Ui};
+use glam::{DVec3, Vec3};
+use hairline_editor::Selection;
+use hairline_scene::scene::{Scratch, Segment};
+
+use crate::app::Viewer;
+use crate::engine::Built;
+use crate::tools::Tool;
+
+use super::lens::Lens;
+use super::{Area, ink};
+
+/// Length of a stroke that lies across the view, points.
+const LENGTH: f64 = 14.0;
+/// The view is laid out in squares of this side, each with one stroke.
+const CELL: f32 = 27.0;
+/// No more strokes than this.
+const MOST: usize = 400;
+/// No more scratches are looked at for one view.
+const MOST_TRIES: usize = 60_000;
+/// So many between looks at the clock.
+const BATCH: usize = 64;
+/// What a pass of the interface may spend.
+const BUDGET: Duration = Duration::from_micros(1500);
+/// A view that has not changed for so long is at rest, seconds.
+const REST_S: f64 = 0.12;
+/// Least cosine between the surface's normal and the way to the eye.
+const LEAST_FACING: f64 = 0.12;
+
+/// The strokes, and what they were made for.
+#[derive(Default)]
+pub(super) struct LineField {
+    layer: Option<Layer>,
+    lens: Option<Lens>,
+    /// When the view changed last.
+    moved_s: f64,
+    /// How many scratches were looked at for this view; none while it moves.
+    search: Option<Search>,
+    marks: Vec<Mark>,
+    lines: Vec<[Pos2; 2]>,
+}
+
+/// The scratches of a layer, in the newest scene.
+struct Layer {
+    index: u32,
+    object: usize,
+    segments: Arc<Vec<Segment>>,
+    scratches: Arc<Vec<Scratch>>,
+    /// Those of `scratches` that are this layer's.
+    first: usize,
+    count: usize,
+}
+
+struct Search {
+    tried: usize,
+    taken: Vec<bool>,
+    columns: usize,
+}
+
+/// A place on the surface and which way a scratch runs there.
+#[derive(Clone, Copy)]
+struct Mark {
+    point_m: DVec3,
+    normal: DVec3,
+    along: DVec3,
+}
+
+/// Shows the field while a layer is selected and a tool is in hand that works with it.
+pub(super) fn show(ui: &Ui, viewer: &mut Viewer, area: &Area) {
+    let is_wanted = matches!(
+        viewer.toolbox.tool,
+        Tool::Select | Tool::Brush | Tool::Eraser
+    );
+    let (Selection::Layer(index), true, Some(built)) =
+        (viewer.selection(), is_wanted, viewer.engine.built())
+    else {
+        viewer.viewport.line_field = LineField::default();
+        return;
+    };
+    let description = viewer.document.description();
+    let object = viewer.selection().object(description);
+    let lens = Lens::new(&description.camera, area);
+    let now_s = ui.input(|input| input.time);
+    let field = &mut viewer.viewport.line_field;
+    let is_settled = field.update(&built, index as u32, object, lens, area, now_s);
+    if !is_settled {
+        ui.ctx().request_repaint();
+    }
+    let painter = ui.painter().with_clip_rect(area.rect);
+    let color = Color32::from_rgba_unmultiplied(255, 244, 214, 165);
+    for line in &field.lines {
+        ink::segment(&painter, *line, 1.0, color);
+    }
+}
+
+impl LineField {
+    /// Says whether there is nothing left to do.
+    fn update(
+        &mut self,
+        built: &Built,
+        index: u32,
+        object: Option<usize>,
+        lens: Lens,
+        area: &Area,
+        now_s: f64,
+    ) -> bool {
+        let start = Instant::now();
+        let is_same_layer = self
+            .layer
+            .as_ref()
+            .is_some_and(|layer| layer.is_of(built, index, object));
+        if !is_same_layer {
+            self.layer = object.and_then(|object| Layer::of(built, index, object));
+            self.marks.clear();
+            self.lines.clear();
+            self.search = None;
+            // Found at once.
+            self.moved_s = f64::NEG_INFINITY;
+        }
+        let is_same_view = self.lens.as_ref() == Some(&lens);
+        if !is_same_view {
+            let is_first = self.lens.replace(lens.clone()).is_none();
+            self.moved_s = if is_first { f64::NEG_INFINITY } else { now_s };
+            self.search = None;
+            self.lines = lines(&self.marks, built, &lens, start);
+        }
+        let Some(layer) = &self.layer else {
+            return true;
+        };
+        if now_s - self.moved_s < REST_S {
+            return false;
+        }
+        let search = self.search.get_or_insert_with(|| {
+            self.marks.clear();
+            self.lines.clear();
+            Search::new(area)
+        });
+        search.go_on(
+            layer,
+            built,
+            &lens,
+            area,
+            start,
+            &mut self.marks,
+            &mut self.lines,
+        )
+    }
+}
+
+/// Those of the marks that are seen. What the time does not suffice for comes back when the view rests.
+fn lines(marks: &[Mark], built: &Built, lens: &Lens, start: Instant) -> Vec<[Pos2; 2]> {
+    let batches = marks.chunks(BATCH).take_while(|_| start.elapsed() < BUDGET);
+    let seen = batches.flatten().filter(|mark| mark.is_seen(built, lens));
+    seen.filter_map(|mark| mark.line(lens)).collect()
+}
+
+impl Layer {
+    fn of(built: &Built, index: u32, object: usize) -> Option<Self> {
+        let there = built.scene.objects.get(object)?;
+        let scratches = Arc::clone(&there.scratches);
+        // Layers lie one behind the other.
+        let first = scratches.partition_point(|scratch| scratch.layer < index);
+        let end = scratches.partition_point(|scratch| scratch.layer <= index);
+        Some(Self {
+            index,
+            object,
+            segments: Arc::clone(&there.segments),
+            first,
+            count: end - first,
+            scratches,
+        })
+    }
+
+    fn is_of(&self, built: &Built, index: u32, object: Option<usize>) -> bool {
+        let there = object.and_then(|object| built.scene.objects.get(object));
+        self.index == index
+            && Some(self.object) == object
+            && there.is_some_and(|there| {
+                Arc::ptr_eq(&there.segments, &self.segments)
+                    && Arc::ptr_eq(&there.scratches, &self.scratches)
+            })
+    }
+
+    /// A place on one of its scratches, another for each number, all over the layer.
+    fn mark(&self, number: usize) -> Option<Mark> {
+        // Parts of the golden ratio and of the plastic number: evenly spread, and no two alike for long.
+        let part = |step: f64| (0.5 + step * number as f64).fract();
+        let scratch = (part(0.618_033_988_749_895) * self.count as f64) as usize;
+        let scratch = self
+            .scratches
+            .get(self.first + scratch.min(self.count.checked_sub(1)?))?;
+        let run = self
+            .segments
+            .get(scratch.segments.start as usize..scratch.segments.end as usize)?;
+        let place = part(0.754_877_666_246_692_7) * run.len() as f64;
+        let segment = run.get(place as usize)?;
+        let way = segment.end_m - segment.start_m;
+        let within = place.fract() as f32;
+        Some(Mark {
+            point_m: (segment.start_m + way * within).as_dvec3(),
+            normal: segment.normal.as_dvec3(),
+            along: way.try_normalize().unwrap_or(Vec3::ZERO).as_dvec3(),
+        })
+    }
+}
+
+impl Mark {
+    /// Whether the surface shows this side and nothing is before it.
+    fn is_seen(&self, built: &Built, lens: &Lens) -> bool {
+        let way = self.point_m - lens.eye_m();
+        let distance_m = way.length();
+        let ray = way / distance_m;
+        if !(-ray.dot(self.normal) > LEAST_FACING) {
+            return false;
+        }
+        // The surface itself is met a rounding before or behind the scratch.
+        let hit = built.triangles.intersect(lens.eye_m(), ray);
+        hit.is_none_or(|hit| hit.distance_m > distance_m * (1.0 - 1e-4))
+    }
+
+    fn line(&self, lens: &Lens) -> Option<[Pos2; 2]> {
+        let half = self.along * (0.5 * LENGTH * lens.m_per_point(self.point_m));
+        lens.segment(self.point_m - half, self.point_m + half)
+    }
+}
+
+impl Search {
+    fn new(area: &Area) -> Self {
+        let cells = (area.rect.size() / CELL).ceil().max(egui::Vec2::splat(1.0));
+        let (columns, rows) = (cells.x as usize, cells.y as usize);
+        Self {
+            tried: 0,
+            taken: vec![false; columns * rows],
+            columns,
+        }
+    }
+
+    fn cell(&self, area: &Area, pos: Pos2) -> Option<usize> {
+        let at = (pos - area.rect.min) / CELL;
+        let cell = at.y as usize * self.columns + at.x as usize;
+        (area.rect.contains(pos) && cell < self.taken.len()).then_some(cell)
+    }
+
+    /// Looks for scratches in squares that have none yet, for as long as a pass may take; says whether that was all.
+    #[allow(clippy::too_many_arguments)]
+    fn go_on(
+        &mut self,
+        layer: &Layer,
+        built: &Built,
+        lens: &Lens,
+        area: &Area,
+        start: Instant,
+        marks: &mut Vec<Mark>,
+        lines: &mut Vec<[Pos2; 2]>,
+    ) -> bool {
+        while self.tried < MOST_TRIES && marks.len() < MOST && layer.count > 0 {
+            if self.tried.is_multiple_of(BATCH) && start.elapsed() >= BUDGET {
+                self.tried += 1;
+                return false;
+            }
+            let mark = layer.mark(self.tried);
+            self.tried += 1;
+            let Some(mark) = mark else { continue };
+            let Some(cell) = lens
+                .project(mark.point_m)
+                .and_then(|pos| self.cell(area, pos))
+            else {
+                continue;
+            };
+            if !self.taken[cell]
+                && mark.is_seen(built, lens)
+                && let Some(line) = mark.line(lens)
+            {
+                self.taken[cell] = true;
+                marks.push(mark);
+                lines.push(line);
+            }
+        }
+        true
+    }
+}
