@@ -100,6 +100,11 @@ impl Viewer {
         &self.document
     }
 
+    /// To edit it by other hands than the widgets': tests and benches.
+    pub fn document_mut(&mut self) -> &mut Document {
+        &mut self.document
+    }
+
     /// What paints, for tests.
     pub fn engine(&self) -> &Engine {
         &self.engine
@@ -117,7 +122,8 @@ impl Viewer {
         for path in dropped_files(&ctx) {
             self.take_file(&ctx, &path);
         }
-        if let Some(outcome) = self.files.chosen() {
+        self.frame_what_was_added();
+        while let Some(outcome) = self.files.chosen() {
             self.take_choice(&ctx, outcome);
         }
         if !self.dialogs.is_modal() && !self.export.is_asking() {
@@ -161,6 +167,19 @@ impl Viewer {
     fn end_drag_where_nothing_is_held(&mut self, ctx: &egui::Context) {
         if !ctx.input(|input| input.pointer.any_down()) && !self.viewport.is_wheeling(ctx) {
             self.document.end_drag();
+        }
+    }
+
+    /// A model that was added may be far larger or smaller than what was there.
+    fn frame_what_was_added(&mut self) {
+        let objects = &self.document.description().objects;
+        let is_built = self
+            .engine
+            .built()
+            .is_some_and(|built| built.description.objects == *objects);
+        if self.frame_when_built && is_built {
+            self.frame_when_built = false;
+            self.frame_selection();
         }
     }
 

@@ -1,17 +1,200 @@
-//! The reference of the view beside the picture.
+//! The reference of the view beside the picture: what the closed forms must converge to, sampled for as long as one looks.
+//!
+//! Left of a divider is the picture as ever; right of it the reference, or where the two differ. A change of the view or of
+//! the scene begins anew, once it is over.
+
+mod figures;
+mod overlay;
+mod work;
+
+use std::sync::{Arc, Mutex};
+use std::time::Duration;
+
+use hairline_image::Display;
+
+use crate::app::Viewer;
+use crate::jobs::Job;
+use crate::viewport::Area;
+pub use figures::{Figures, LayerFigures};
+use overlay::SideTexture;
+use work::{Kept, Report, Shown, Wanted};
+
+/// What stands still for so many seconds is sampled.
+const STILL_S: f64 = 0.3;
 
 /// The comparison, while it is open.
-#[derive(Default)]
 pub(crate) struct Compare {
     open: bool,
+    side: Side,
+    /// From 0, left, to 1.
+    divider: f32,
+    /// What was wanted in the last pass, and since when.
+    wanted: Option<(Wanted, f64)>,
+    sampling: Option<Sampling>,
+    /// Asked to stop, and not yet over.
+    ending: Vec<Job>,
+    kept: Arc<Mutex<Kept>>,
+    refused: Option<String>,
+    texture: SideTexture,
+}
+
+/// What is right of the divider.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Side {
+    Reference,
+    Errors,
+}
+
+impl Side {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Reference => "Reference",
+            Self::Errors => "Error map",
+        }
+    }
+}
+
+struct Sampling {
+    job: Job,
+    report: Report,
+}
+
+impl Default for Compare {
+    fn default() -> Self {
+        Self {
+            open: false,
+            side: Side::Reference,
+            divider: 0.5,
+            wanted: None,
+            sampling: None,
+            ending: Vec::new(),
+            kept: Arc::default(),
+            refused: None,
+            texture: SideTexture::default(),
+        }
+    }
 }
 
 impl Compare {
     pub fn toggle(&mut self) {
-        self.open = !self.open;
+        if self.open {
+            self.close();
+        } else {
+            self.open = true;
+        }
     }
 
     pub fn is_open(&self) -> bool {
         self.open
+    }
+
+    fn close(&mut self) {
+        self.open = false;
+        self.end();
+        self.wanted = None;
+        // Whoever does not look needs no tree.
+        self.kept = Arc::default();
+    }
+
+    /// Asks the thread to stop, without waiting for it.
+    fn end(&mut self) {
+        if let Some(sampling) = self.sampling.take() {
+            sampling.job.stop();
+            self.ending.push(sampling.job);
+        }
+        self.texture.forget();
+    }
+
+    /// Samples what is wanted once it has stood still. `now` is in seconds.
+    fn follow(&mut self, ctx: &egui::Context, wanted: Wanted, now: f64) {
+        let since = match &self.wanted {
+            Some((last, since)) if last.is_same(&wanted) => *since,
+            _ => {
+                self.end();
+                now
+            }
+        };
+        let wait = STILL_S - (now - since);
+        if self.sampling.is_none() {
+            self.refused = work::refusal(&wanted.built);
+            // No two at a time, whatever the hand does.
+            if wait > 0.0 || !self.ending.is_empty() {
+                ctx.request_repaint_after(Duration::from_secs_f64(wait.clamp(0.05, STILL_S)));
+            } else if self.refused.is_none() {
+                self.start(ctx, &wanted);
+            }
+        }
+        self.wanted = Some((wanted, since));
+    }
+
+    fn start(&mut self, ctx: &egui::Context, wanted: &Wanted) {
+        let wake = ctx.clone();
+        let report = Report::new(Arc::new(move || wake.request_repaint()));
+        let (wanted, told) = (wanted.clone(), report.clone());
+        let kept = Arc::clone(&self.kept);
+        let job = Job::start("reference", move |stop| {
+            work::run(&wanted, stop, &told, &kept);
+        });
+        match job {
+            Ok(job) => self.sampling = Some(Sampling { job, report }),
+            Err(error) => self.refused = Some(format!("There is no reference: {error}")),
+        }
+    }
+
+    fn shown(&self) -> Option<Arc<Shown>> {
+        self.sampling.as_ref()?.report.newest()
+    }
+
+    /// Whether the thread has ended before it had enough samples.
+    fn is_failed(&self) -> bool {
+        let enough = || {
+            let shown = self.shown();
+            shown.is_some_and(|shown| work::is_enough(shown.figures.samples))
+        };
+        let sampling = self.sampling.as_ref();
+        sampling.is_some_and(|sampling| sampling.job.is_over()) && !enough()
+    }
+}
+
+impl Viewer {
+    /// The figures of the comparison that is open, for tests.
+    pub fn comparison(&self) -> Option<Figures> {
+        Some(self.compare.shown()?.figures.clone())
+    }
+
+    /// Whether a thread samples a reference, for tests.
+    pub fn is_sampling(&self) -> bool {
+        let compare = &self.compare;
+        let jobs = compare.sampling.iter().map(|sampling| &sampling.job);
+        jobs.chain(&compare.ending).any(|job| !job.is_over())
+    }
+}
+
+/// Shows the comparison over the picture, if it is open.
+pub(crate) fn show(ui: &mut egui::Ui, viewer: &mut Viewer, area: &Area) {
+    viewer.compare.ending.retain(|job| !job.is_over());
+    if !viewer.compare.is_open() {
+        return;
+    }
+    let Some(built) = viewer.engine.built() else {
+        return;
+    };
+    let description = viewer.document.description();
+    let wanted = Wanted {
+        built,
+        camera: crate::viewport::camera(&description.camera),
+        shown_px: area.frame_px(),
+        filter_std_px: description.render.filter_std_px,
+    };
+    let display = Display {
+        exposure_ev: description.camera.exposure_ev,
+        tone_map: description.render.tone_map,
+    };
+    let ctx = ui.ctx().clone();
+    let now = ui.input(|input| input.time);
+    viewer.compare.follow(&ctx, wanted, now);
+    viewer.compare.draw(ui, area.frame, &display);
+    if viewer.compare.panel(&ctx, area.rect) {
+        viewer.compare.close();
     }
 }

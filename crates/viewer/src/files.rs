@@ -9,6 +9,7 @@ use std::time::{Duration, Instant};
 use hairline_editor::Document;
 use hairline_editor::autosave::{self, Autosave, Pending};
 use hairline_editor::recent::Recent;
+use hairline_scene::probe;
 
 use crate::dialogs::Dialogs;
 
@@ -70,6 +71,8 @@ pub(crate) enum Choice {
     Nothing,
     /// The system has no dialogs: ask in the window.
     NoDialogs(Purpose),
+    /// A model or a map that can be read, or why it cannot.
+    Probed(Purpose, PathBuf, Result<(), hairline_scene::Error>),
 }
 
 /// Faster than any hand: the dialog did not open.
@@ -77,6 +80,8 @@ const NO_HAND: Duration = Duration::from_millis(250);
 
 pub(crate) struct Files {
     waiting: Option<Waiting>,
+    /// Files that are being looked into.
+    probes: Vec<Receiver<Choice>>,
     native: bool,
     recent: Recent,
     autosaves: Option<PathBuf>,
@@ -99,6 +104,7 @@ impl Files {
         };
         Self {
             waiting: None,
+            probes: Vec::new(),
             native,
             recent,
             autosaves: state_dir.map(|folder| folder.join("autosave")),
@@ -155,8 +161,38 @@ impl Files {
         let _ = std::thread::Builder::new().spawn(work);
     }
 
-    /// What came of the dialog, once.
+    /// Looks into a model or a map in a thread of its own: a large one takes its time. The answer comes by
+    /// [`Self::chosen`].
+    pub fn probe(&mut self, purpose: Purpose, path: PathBuf, wake: egui::Context) {
+        let (sender, answer) = channel();
+        self.probes.push(answer);
+        let work = move || {
+            let probed = match purpose {
+                Purpose::Environment => probe::environment(&path).map(drop),
+                _ => probe::mesh(&path).map(drop),
+            };
+            let _ = sender.send(Choice::Probed(purpose, path, probed));
+            wake.request_repaint();
+        };
+        // If no thread starts, the file is not taken; a system in that state has other worries.
+        let _ = std::thread::Builder::new().spawn(work);
+    }
+
+    /// What came of a dialog or a look into a file, once each.
     pub fn chosen(&mut self) -> Option<Choice> {
+        for i in 0..self.probes.len() {
+            match self.probes[i].try_recv() {
+                Err(TryRecvError::Empty) => {}
+                Err(TryRecvError::Disconnected) => {
+                    self.probes.remove(i);
+                    return None;
+                }
+                Ok(choice) => {
+                    self.probes.remove(i);
+                    return Some(choice);
+                }
+            }
+        }
         let waiting = self.waiting.as_ref()?;
         let purpose = waiting.purpose;
         let choice = match waiting.answer.try_recv() {

@@ -1,10 +1,10 @@
 //! Work in the background that nobody waits for: exports, references. On all cores, but after the picture in the window.
 
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, OnceLock};
 use std::thread::JoinHandle;
 
-use rayon::{ThreadPool, ThreadPoolBuilder};
+use rayon::ThreadPoolBuilder;
 use thread_priority::{ThreadPriority, ThreadPriorityValue, set_current_thread_priority};
 
 /// Of 0 to 99: what the engine paints is waited for, and comes first.
@@ -31,7 +31,7 @@ pub(crate) struct Job {
 }
 
 impl Job {
-    /// Starts `work`, whose parallel parts run on threads that all jobs share.
+    /// Starts `work`, its parallel parts on all cores.
     ///
     /// # Errors
     /// If the system starts no thread.
@@ -78,40 +78,60 @@ fn lower_priority() {
     }
 }
 
-/// Not the engine's threads: there the picture would wait for the work that came before it.
+/// On threads of the job's own, which end with it. Where several share a pool, a thread that waits for a part of one's work
+/// may take up all of another's, and the first goes on only when the second has ended.
 fn install<T: Send>(work: impl FnOnce() -> T + Send) -> T {
-    static POOL: OnceLock<Option<ThreadPool>> = OnceLock::new();
-    let pool = POOL.get_or_init(|| {
-        ThreadPoolBuilder::new()
-            .thread_name(|i| format!("viewer job {i}"))
-            .start_handler(|_| lower_priority())
-            .build()
-            .ok()
-    });
+    let pool = ThreadPoolBuilder::new()
+        .thread_name(|i| format!("viewer job {i}"))
+        .start_handler(|_| lower_priority())
+        .build();
     match pool {
-        Some(pool) => pool.install(work),
-        None => work(),
+        Ok(pool) => pool.install(work),
+        Err(_) => work(),
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rayon::prelude::*;
     use std::time::Duration;
 
     #[test]
     fn a_job_that_is_dropped_has_stopped() {
-        let rounds = Arc::new(AtomicBool::new(false));
-        let ended = Arc::clone(&rounds);
+        let ended = Arc::new(AtomicBool::new(false));
+        let tell = Arc::clone(&ended);
         let job = Job::start("test", move |stop| {
             while !stop.is_asked() {
                 std::thread::sleep(Duration::from_millis(1));
             }
-            ended.store(true, Ordering::Relaxed);
-        });
-        let Ok(job) = job else { return };
+            tell.store(true, Ordering::Relaxed);
+        })
+        .unwrap();
         assert!(!job.is_over());
         drop(job);
-        assert!(rounds.load(Ordering::Relaxed));
+        assert!(ended.load(Ordering::Relaxed));
+    }
+
+    #[test]
+    fn a_job_does_not_wait_for_another() {
+        let forever = Job::start("forever", |stop| {
+            while !stop.is_asked() {
+                (0..64_u32).into_par_iter().for_each(|_| {
+                    std::thread::sleep(Duration::from_micros(100));
+                });
+            }
+        })
+        .unwrap();
+        for _ in 0..20 {
+            let short = Job::start("short", |_| {
+                (0..64_u32).into_par_iter().for_each(|_| {
+                    std::thread::sleep(Duration::from_micros(100));
+                });
+            })
+            .unwrap();
+            drop(short);
+        }
+        assert!(!forever.is_over());
     }
 }

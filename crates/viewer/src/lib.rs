@@ -19,6 +19,7 @@ mod viewport;
 pub mod window;
 
 pub use app::{Options, Viewer};
+pub use compare::{Figures, LayerFigures};
 pub use window::open;
 
 /// The user's folder for autosaves and the list of recent files; none where the system has none.

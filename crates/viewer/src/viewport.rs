@@ -104,6 +104,12 @@ impl Area {
         [size.x, size.y].map(|side| (side.round() as u32).clamp(1, 8192))
     }
 
+    /// The same of the frame.
+    pub fn frame_px(&self) -> [u32; 2] {
+        let size = self.frame.size() * self.pixels_per_point;
+        [size.x, size.y].map(|side| (side.round() as u32).clamp(1, 8192))
+    }
+
     /// Width and height of the frame in points, which navigation and projection count in: they need ratios only.
     pub fn size(&self) -> DVec2 {
         DVec2::new(self.frame.width().into(), self.frame.height().into())
@@ -160,6 +166,7 @@ pub(crate) fn show(ui: &mut egui::Ui, viewer: &mut Viewer) -> Rect {
         if let Some(frame) = viewer.engine.latest() {
             viewer.viewport.canvas.paint(ui, &area, &frame);
             area.paint_frame(ui);
+            crate::compare::show(ui, viewer, &area);
         } else {
             ui.put(rect, egui::Spinner::new().size(32.0));
         }

@@ -7,7 +7,6 @@ use glam::DVec3;
 use hairline_editor::actions::{layers, lights, materials, objects};
 use hairline_editor::autosave::Pending;
 use hairline_editor::{ActionError, Document, Selection, actions, navigate};
-use hairline_scene::probe;
 
 use super::Command;
 use crate::app::Viewer;
@@ -74,7 +73,7 @@ impl Viewer {
             | Command::ToggleHidden
             | Command::ToggleSolo => self.on_selection(command),
             Command::FrameAll => self.frame(None),
-            Command::FrameSelection => self.frame(Some(self.selection())),
+            Command::FrameSelection => self.frame_selection(),
             Command::Look(viewpoint) => self.document.edit(command.label(), |d| {
                 navigate::look_from(&mut d.camera, viewpoint)
             }),
@@ -132,6 +131,10 @@ impl Viewer {
         if let Some(brush) = &mut self.toolbox.brush {
             brush.radius_m = (brush.radius_m * factor).clamp(1e-5, 10.0);
         }
+    }
+
+    pub(crate) fn frame_selection(&mut self) {
+        self.frame(Some(self.selection()));
     }
 
     /// Brings a part, or all, into the picture.
@@ -253,6 +256,7 @@ impl Viewer {
                 self.dialogs.ask_for_path(purpose, proposal);
             }
             Choice::Path(purpose, path) => self.take_path(ctx, purpose, &path),
+            Choice::Probed(purpose, path, probed) => self.take_probed(purpose, &path, probed),
         }
     }
 
@@ -261,8 +265,8 @@ impl Viewer {
         match purpose {
             Purpose::Open => self.wish(ctx, Wish::Open(path.to_owned())),
             Purpose::SaveAs => self.save_as(ctx, path),
-            Purpose::AddModel => self.add_model(path),
-            Purpose::Environment => self.set_environment(path),
+            Purpose::AddModel => self.probe(ctx, Purpose::AddModel, path),
+            Purpose::Environment => self.probe(ctx, Purpose::Environment, path),
             Purpose::Screenshot | Purpose::Turntable => self.export_to(purpose, path),
         }
     }
@@ -272,8 +276,8 @@ impl Viewer {
         let ending = path.extension().unwrap_or_default();
         match ending.to_string_lossy().to_lowercase().as_str() {
             "toml" => self.wish(ctx, Wish::Open(path.to_owned())),
-            "glb" | "gltf" => self.add_model(path),
-            "hdr" | "exr" => self.set_environment(path),
+            "glb" | "gltf" => self.probe(ctx, Purpose::AddModel, path),
+            "hdr" | "exr" => self.probe(ctx, Purpose::Environment, path),
             _ => self.notices.error(
                 "file",
                 format!(
@@ -285,32 +289,33 @@ impl Viewer {
         }
     }
 
-    fn add_model(&mut self, path: &Path) {
-        if let Err(error) = probe::mesh(path) {
-            self.notices.error("file", error.to_string());
-            return;
-        }
-        self.notices.clear("file");
-        let base_dir = self.document.base_dir().to_owned();
-        let path = absolute(path);
-        let done = self.document.apply("Add a model", |d, _| {
-            Ok(objects::add_mesh(d, &path, &base_dir))
-        });
-        self.tell(done);
-        self.frame_when_built = true;
+    fn probe(&mut self, ctx: &egui::Context, purpose: Purpose, path: &Path) {
+        self.files.probe(purpose, absolute(path), ctx.clone());
     }
 
-    fn set_environment(&mut self, path: &Path) {
-        if let Err(error) = probe::environment(path) {
+    /// Takes a model or a map that was looked into.
+    fn take_probed(
+        &mut self,
+        purpose: Purpose,
+        path: &Path,
+        probed: Result<(), hairline_scene::Error>,
+    ) {
+        if let Err(error) = probed {
             self.notices.error("file", error.to_string());
             return;
         }
         self.notices.clear("file");
         let base_dir = self.document.base_dir().to_owned();
-        let path = absolute(path);
-        let done = self.document.apply("Set the environment", |d, _| {
-            Ok(actions::set_environment(d, Some(&path), &base_dir))
-        });
+        let done = if purpose == Purpose::Environment {
+            self.document.apply("Set the environment", |d, _| {
+                Ok(actions::set_environment(d, Some(path), &base_dir))
+            })
+        } else {
+            self.frame_when_built = true;
+            self.document.apply("Add a model", |d, _| {
+                Ok(objects::add_mesh(d, path, &base_dir))
+            })
+        };
         self.tell(done);
     }
 

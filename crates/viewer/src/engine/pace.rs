@@ -29,7 +29,7 @@ impl Pace {
     /// The size of a picture in motion, of `full_px`.
     pub fn moving_size_px(&mut self, full_px: [u32; 2]) -> [u32; 2] {
         // Nothing is known yet: a small picture soon beats a large one late.
-        let seconds_per_px = self.seconds_per_px.unwrap_or(4e-7);
+        let seconds_per_px = self.seconds_per_px.unwrap_or(1.5e-6);
         let full = full_px.iter().map(|&side| f64::from(side)).product::<f64>();
         let share = |step: usize| {
             let seconds = seconds_per_px * full * SCALES[step] * SCALES[step];

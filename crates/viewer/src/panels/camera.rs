@@ -39,7 +39,7 @@ pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer) {
 
 pub(super) fn show_render(ui: &mut Ui, viewer: &mut Viewer) {
     ui.add_space(8.0);
-    ui.heading("Picture");
+    ui.heading("Rendered picture");
     let mut render = viewer.document.description().render.clone();
     let mut form = Form::new(ui, "render", viewer.diagonal_m(None));
     let curves = ToneMap::ALL.map(|curve| (curve, curve.name().to_owned()));

@@ -1,0 +1,267 @@
+//! What a comparison draws over the picture: the right side, the divider, the figures and the scale of the errors.
+
+use egui::accesskit::Action;
+use egui::{
+    Align2, Color32, ColorImage, CursorIcon, EventFilter, FontId, Grid, Id, Key, Rect, Role, Sense,
+    Shape, TextureHandle, TextureOptions, Ui, WidgetInfo, pos2, vec2,
+};
+use hairline_image::metrics::magma;
+use hairline_image::{Display, ToneMap, png};
+
+use super::figures::LayerFigures;
+use super::work::Shown;
+use super::{Compare, Side};
+
+/// A hand finds it.
+const GRIP: f32 = 12.0;
+/// It never leaves the picture.
+const DIVIDER: std::ops::RangeInclusive<f32> = 0.02..=0.98;
+/// A press of an arrow.
+const DIVIDER_STEP: f32 = 0.02;
+const WIDTH: f32 = 236.0;
+
+/// The right side as something that egui can draw, until it changes.
+#[derive(Default)]
+pub(super) struct SideTexture {
+    texture: Option<TextureHandle>,
+    held: Option<(u64, Side, Option<Display>)>,
+}
+
+impl SideTexture {
+    /// Another reference begins: numbers count from the start.
+    pub fn forget(&mut self) {
+        self.held = None;
+    }
+
+    fn paint(&mut self, ui: &Ui, rect: Rect, shown: &Shown, side: Side, display: &Display) {
+        let key = (
+            shown.number,
+            side,
+            (side == Side::Reference).then_some(*display),
+        );
+        if self.held != Some(key) {
+            let image = match side {
+                Side::Reference => {
+                    let size = shown.reference.size_px.map(|side| side as usize);
+                    let codes = png::quantize(&shown.reference, display);
+                    ColorImage::from_rgb(size, &codes).into()
+                }
+                Side::Errors => std::sync::Arc::clone(&shown.errors),
+            };
+            let options = TextureOptions::LINEAR;
+            match &mut self.texture {
+                Some(texture) => texture.set(image, options),
+                None => {
+                    self.texture = Some(ui.ctx().load_texture("reference", image, options));
+                }
+            }
+            self.held = Some(key);
+        }
+        if let Some(texture) = &self.texture {
+            let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+            ui.painter()
+                .image(texture.id(), rect, whole, Color32::WHITE);
+        }
+    }
+}
+
+impl Compare {
+    /// Over the picture, whose frame is `frame`.
+    pub(super) fn draw(&mut self, ui: &mut Ui, frame: Rect, display: &Display) {
+        let shown = self.shown();
+        let x = frame.left() + self.divider * frame.width();
+        let right = Rect::from_min_max(pos2(x, frame.top()), frame.max);
+        if let Some(shown) = &shown {
+            ui.scope(|ui| {
+                ui.set_clip_rect(right.intersect(ui.clip_rect()));
+                self.texture.paint(ui, frame, shown, self.side, display);
+            });
+            names(ui, frame, x, self.side);
+        }
+        self.grip(ui, frame, x);
+    }
+
+    /// The line between the sides, to drag or to move by arrows.
+    fn grip(&mut self, ui: &mut Ui, frame: Rect, x: f32) {
+        let strip = Rect::from_center_size(pos2(x, frame.center().y), vec2(GRIP, frame.height()));
+        let id = ui.scope_id().with("divider");
+        let response = ui
+            .interact(strip, id, Sense::drag())
+            .on_hover_cursor(CursorIcon::ResizeHorizontal);
+        if let Some(pos) = response.interact_pointer_pos()
+            && response.dragged()
+        {
+            self.divider = (pos.x - frame.left()) / frame.width().max(1.0);
+        }
+        let has_focus = response.has_focus();
+        if has_focus {
+            let filter = EventFilter {
+                horizontal_arrows: true,
+                ..Default::default()
+            };
+            ui.memory_mut(|memory| memory.set_focus_lock_filter(id, filter));
+        }
+        let steps = ui.input(|input| {
+            let by = |key, action| {
+                let presses = if has_focus { input.num_presses(key) } else { 0 };
+                (presses + input.num_accesskit_action_requests(id, action)) as f32
+            };
+            by(Key::ArrowRight, Action::Increment) - by(Key::ArrowLeft, Action::Decrement)
+        });
+        self.divider += steps * DIVIDER_STEP;
+        self.divider = self.divider.clamp(*DIVIDER.start(), *DIVIDER.end());
+        let value = f64::from(self.divider);
+        response.widget_info(|| {
+            WidgetInfo::slider(true, value, "Divider between picture and reference")
+        });
+        ui.ctx().accesskit_node_builder(id, |node| {
+            node.add_action(Action::Increment);
+            node.add_action(Action::Decrement);
+        });
+        let is_held = response.hovered() || response.dragged() || has_focus;
+        let color = Color32::from_gray(if is_held { 255 } else { 190 });
+        let painter = ui.painter();
+        painter.vline(x, frame.y_range(), (1.5, color));
+        painter.circle_filled(pos2(x, frame.center().y), 5.0, color);
+    }
+
+    /// Figures, and what is shown; true where it is to be closed.
+    pub(super) fn panel(&mut self, ctx: &egui::Context, area: Rect) -> bool {
+        let shown = self.shown();
+        let corner = area.right_top() + vec2(-12.0, 12.0);
+        egui::Area::new(Id::unique("comparison"))
+            .pivot(Align2::RIGHT_TOP)
+            .fixed_pos(corner)
+            .show(ctx, |ui| {
+                egui::Frame::popup(ui.style()).show(ui, |ui| {
+                    ui.set_width(WIDTH);
+                    ui.horizontal(|ui| {
+                        for side in [Side::Reference, Side::Errors] {
+                            ui.selectable_value(&mut self.side, side, side.name());
+                        }
+                    });
+                    match (&self.refused, shown) {
+                        (Some(refused), _) => drop(ui.label(refused)),
+                        (None, Some(shown)) => self.about(ui, &shown),
+                        (None, None) => {
+                            ui.horizontal(|ui| {
+                                ui.spinner();
+                                ui.label("Waiting for the first samples");
+                            });
+                        }
+                    }
+                    ui.button("Close the comparison").clicked()
+                })
+            })
+            .inner
+            .inner
+    }
+
+    fn about(&self, ui: &mut Ui, shown: &Shown) {
+        let figures = &shown.figures;
+        let [width, height] = figures.size_px;
+        ui.label(format!(
+            "{:.0} samples a pixel, {width} × {height}",
+            figures.samples
+        ))
+        .on_hover_text(
+            "Monte Carlo by the model of the closed forms, without the integrals that they are. It goes on for as long \
+             as this is open",
+        );
+        Grid::new("differences").num_columns(3).show(ui, |ui| {
+            ui.weak("relative rms");
+            ui.weak("differs");
+            ui.weak("noise");
+            ui.end_row();
+            row(ui, "Scratches", &figures.scratches);
+            row(ui, "All", &figures.beauty);
+        })
+        .response
+        .on_hover_text(
+            "The rms difference of the closed form at this size from the reference, over the rms of the reference; and \
+             how much of it is the reference's own noise",
+        );
+        if self.side == Side::Errors {
+            scale(ui, shown.range);
+        }
+        if self.is_failed() {
+            ui.label("The reference stopped by a mistake of Hairline.");
+        }
+    }
+}
+
+fn row(ui: &mut Ui, name: &str, figures: &LayerFigures) {
+    ui.label(name);
+    ui.label(percent(figures.relative_rms));
+    ui.label(figures.relative_noise.map_or("–".into(), percent));
+    ui.end_row();
+}
+
+fn percent(share: f64) -> String {
+    match 100.0 * share {
+        p if !p.is_finite() => "–".into(),
+        p if p < 10.0 => format!("{p:.2} %"),
+        p => format!("{p:.0} %"),
+    }
+}
+
+/// Which side is which, beside the divider.
+fn names(ui: &Ui, frame: Rect, x: f32, side: Side) {
+    let y = frame.bottom() - 10.0;
+    let sides = [
+        (Align2::RIGHT_BOTTOM, x - 10.0, "Picture"),
+        (Align2::LEFT_BOTTOM, x + 10.0, side.name()),
+    ];
+    for (align, x, name) in sides {
+        let painter = ui.painter();
+        let font = FontId::proportional(13.0);
+        let galley = painter.layout_no_wrap(name.into(), font, Color32::from_gray(230));
+        let rect = align.anchor_size(pos2(x, y), galley.size());
+        painter.rect_filled(rect.expand(3.0), 3.0, Color32::from_black_alpha(150));
+        painter.galley(rect.min, galley, Color32::WHITE);
+    }
+}
+
+/// The colours of the error map, with their relative errors.
+fn scale(ui: &mut Ui, [lowest, highest]: [f64; 2]) {
+    ui.add_space(4.0);
+    let (rect, response) = ui.allocate_exact_size(vec2(WIDTH, 12.0), Sense::hover());
+    response.widget_info(|| {
+        let text = format!(
+            "Relative error from {} (black) to {} (pale yellow)",
+            percent(lowest),
+            percent(highest)
+        );
+        WidgetInfo::labeled(Role::Image, true, text)
+    });
+    response
+        .on_hover_text("The relative error of a pixel; dark pixels count as a tenth of the mean");
+    let display = Display {
+        exposure_ev: 0.0,
+        tone_map: ToneMap::None,
+    };
+    let steps = 64;
+    for i in 0..steps {
+        let at = |i: usize| egui::lerp(rect.x_range(), i as f32 / steps as f32);
+        let part = Rect::from_x_y_ranges(at(i)..=at(i + 1), rect.y_range());
+        let [r, g, b] = display
+            .apply(magma((i as f64 + 0.5) / steps as f64))
+            .map(|code| (255.0 * code).round() as u8);
+        ui.painter()
+            .add(Shape::rect_filled(part, 0.0, Color32::from_rgb(r, g, b)));
+    }
+    ui.horizontal(|ui| {
+        ui.weak(percent(lowest));
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            ui.weak(percent(highest));
+        });
+        let middle = pos2(rect.center().x, ui.min_rect().center().y);
+        ui.painter().text(
+            middle,
+            Align2::CENTER_CENTER,
+            percent((lowest * highest).sqrt()),
+            FontId::proportional(13.0),
+            ui.visuals().weak_text_color(),
+        );
+    });
+}

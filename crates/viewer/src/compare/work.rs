@@ -1,0 +1,301 @@
+//! The thread of a comparison: a small reference at once, then one as large as a round of samples soon fills, ever less noisy.
+
+use std::ops::ControlFlow;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
+use std::time::{Duration, Instant};
+
+use egui::{Color32, ColorImage};
+use hairline_image::metrics::{ErrorMap, error_map};
+use hairline_image::{Display, Image, Layer, Picture, ToneMap, png};
+use hairline_index::{Groove, ScratchIndex, SegmentTree, groove_index};
+use hairline_reference::monte_carlo::{BATCH_SAMPLES, Integrator, Parts, Settings};
+use hairline_scene::{Camera, Scene};
+
+use super::figures::Figures;
+use crate::engine::{Built, Wake, cpu};
+use crate::jobs::Stop;
+
+/// What is to be compared.
+#[derive(Clone)]
+pub(super) struct Wanted {
+    pub built: Arc<Built>,
+    pub camera: Camera,
+    /// Of the picture in the window: the comparison is no larger, and has its shape.
+    pub shown_px: [u32; 2],
+    pub filter_std_px: f64,
+}
+
+impl Wanted {
+    pub fn is_same(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.built, &other.built)
+            && self.camera == other.camera
+            && self.shown_px == other.shown_px
+            && self.filter_std_px == other.filter_std_px
+    }
+
+    /// The scene in the shape of the window, of at most so many pixels.
+    fn scene(&self, most_px: f64) -> Scene {
+        let mut scene = self.built.scene.clone();
+        scene.camera = self.camera;
+        scene.render.filter_std_px = self.filter_std_px;
+        scene.render.size_px = scaled(self.shown_px, most_px);
+        scene
+    }
+}
+
+fn scaled(shown_px: [u32; 2], most_px: f64) -> [u32; 2] {
+    let shown = shown_px.map(|side| f64::from(side.max(1)));
+    let scale = (most_px / (shown[0] * shown[1])).sqrt().min(1.0);
+    shown.map(|side| ((side * scale).round() as u32).max(1))
+}
+
+/// A straight piece takes some 200 bytes in the tree and while it is built: this is 600 MB, built in a few seconds.
+const MOST_PIECES: usize = 3_000_000;
+
+/// Why there can be no reference of the scene, in words for the artist.
+pub(super) fn refusal(built: &Built) -> Option<String> {
+    let (_, pieces) = built.scratch_counts();
+    (pieces > MOST_PIECES).then(|| {
+        format!(
+            "The reference keeps each scratch as it lies, and takes at most {} million straight pieces; this scene has \
+             {:.1} million. Hide some layers, or run `hairline reference` where there is more memory.",
+            MOST_PIECES / 1_000_000,
+            pieces as f64 * 1e-6
+        )
+    })
+}
+
+/// The reference's tree, for as long as the scratches stay.
+#[derive(Default)]
+pub(super) struct Kept(Option<(Weak<ScratchIndex>, Arc<SegmentTree<Groove>>)>);
+
+impl Kept {
+    fn of(&self, built: &Built) -> Option<Arc<SegmentTree<Groove>>> {
+        let (scratches, grooves) = self.0.as_ref()?;
+        let is_same = scratches.ptr_eq(&Arc::downgrade(&built.scratches));
+        is_same.then(|| Arc::clone(grooves))
+    }
+}
+
+/// A reference and the picture beside it, as far as they have come.
+pub(super) struct Shown {
+    /// Counts up.
+    pub number: u64,
+    pub reference: Picture,
+    /// In false colours.
+    pub errors: Arc<ColorImage>,
+    /// Relative errors of the darkest and the brightest colour.
+    pub range: [f64; 2],
+    pub figures: Figures,
+}
+
+/// What the thread tells the window.
+#[derive(Clone)]
+pub(super) struct Report {
+    newest: Arc<Mutex<Option<Arc<Shown>>>>,
+    wake: Wake,
+}
+
+impl Report {
+    pub fn new(wake: Wake) -> Self {
+        Self {
+            newest: Arc::default(),
+            wake,
+        }
+    }
+
+    pub fn newest(&self) -> Option<Arc<Shown>> {
+        lock(&self.newest).clone()
+    }
+
+    fn put(&self, shown: Shown) {
+        *lock(&self.newest) = Some(Arc::new(shown));
+        (self.wake)();
+    }
+}
+
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Pixels of the reference that comes at once.
+const FIRST_PX: f64 = 1500.0;
+/// Of the one that is refined: never fewer, or there is nothing to see; never more, or the noise stays.
+const LEAST_PX: f64 = 12_000.0;
+const MOST_PX: f64 = 160_000.0;
+/// What a round of one batch for each pixel may take.
+const ROUND: Duration = Duration::from_secs(4);
+/// Between two pictures in the window.
+const REFRESH: Duration = Duration::from_millis(700);
+/// Then no eye sees noise any more.
+const ENOUGH_SAMPLES: u32 = 1 << 16;
+
+pub(super) fn is_enough(samples: f64) -> bool {
+    samples >= f64::from(ENOUGH_SAMPLES)
+}
+
+/// Of the closed form, on edges.
+const PICTURE_SAMPLES: u32 = 16;
+/// Pixels of its first band.
+const BAND_PX: u32 = 1 << 12;
+
+/// Samples until there are enough or `stop` is asked, which it heeds within a batch.
+pub(super) fn run(wanted: &Wanted, stop: &Stop, report: &Report, kept: &Mutex<Kept>) {
+    let built = &wanted.built;
+    let earlier = lock(kept).of(built);
+    let grooves = earlier.unwrap_or_else(|| Arc::new(groove_index::build(&built.scene)));
+    lock(kept).0 = Some((Arc::downgrade(&built.scratches), Arc::clone(&grooves)));
+    let parts = Parts {
+        triangles: Arc::clone(&built.triangles),
+        grooves,
+        tables: Arc::clone(&built.tables),
+    };
+    let first = wanted.scene(FIRST_PX);
+    let start = Instant::now();
+    let Some(coarse) = Sampled::one_round(wanted, &first, &parts, stop) else {
+        return;
+    };
+    let seconds_per_px = start.elapsed().as_secs_f64() / coarse.reference.pixel_count() as f64;
+    report.put(coarse.shown(1, None));
+    let most_px = (ROUND.as_secs_f64() / seconds_per_px.max(1e-9)).clamp(LEAST_PX, MOST_PX);
+    let scene = wanted.scene(most_px);
+    refine(wanted, &scene, &parts, &coarse, stop, report);
+}
+
+fn refine(
+    wanted: &Wanted,
+    scene: &Scene,
+    parts: &Parts,
+    coarse: &Sampled,
+    stop: &Stop,
+    report: &Report,
+) {
+    let Some(mut sampled) = Sampled::start(wanted, scene, stop) else {
+        return;
+    };
+    let integrator = Integrator::from_parts(scene, Settings::default(), parts.clone());
+    sampled.reference = integrator.start();
+    let mut number = 1;
+    let mut is_complete = false;
+    while !is_complete && !stop.is_asked() {
+        let start = Instant::now();
+        let observe = |_| {
+            if stop.is_asked() || start.elapsed() > REFRESH {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        };
+        let flow = integrator.run(&mut sampled.reference, ENOUGH_SAMPLES, &observe);
+        is_complete = flow.is_continue();
+        if !stop.is_asked() {
+            number += 1;
+            report.put(sampled.shown(number, Some(&coarse.reference)));
+        }
+    }
+}
+
+/// A picture and a reference of the same size.
+struct Sampled {
+    picture: Image,
+    reference: Image,
+}
+
+impl Sampled {
+    /// The picture, and no reference yet. None if `stop` was asked.
+    fn start(wanted: &Wanted, scene: &Scene, stop: &Stop) -> Option<Self> {
+        let go_on = |_| !stop.is_asked();
+        let picture = cpu::render(&wanted.built, scene, PICTURE_SAMPLES, BAND_PX, &go_on)?;
+        Some(Self {
+            picture,
+            reference: Image::new(scene.render.size_px),
+        })
+    }
+
+    /// With a batch for each pixel.
+    fn one_round(wanted: &Wanted, scene: &Scene, parts: &Parts, stop: &Stop) -> Option<Self> {
+        let mut sampled = Self::start(wanted, scene, stop)?;
+        let integrator = Integrator::from_parts(scene, Settings::default(), parts.clone());
+        let observe = |_| {
+            if stop.is_asked() {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        };
+        sampled.reference = integrator.start();
+        let flow = integrator.run(&mut sampled.reference, BATCH_SAMPLES, &observe);
+        flow.is_continue().then_some(sampled)
+    }
+
+    /// What the window shows of it. Pixels without samples are those of `coarse`, and have no error.
+    fn shown(&self, number: u64, coarse: Option<&Image>) -> Shown {
+        let size_px = self.reference.size_px;
+        let noise = self.reference.noise.as_ref();
+        let is_sampled: Vec<bool> = noise.map_or_else(Vec::new, |noise| {
+            noise.samples.iter().map(|&n| n > 0).collect()
+        });
+        let mut reference = self.reference.beauty();
+        let ErrorMap {
+            picture: errors,
+            lowest,
+            highest,
+        } = error_map(size_px, &self.picture.layer(Layer::Beauty), &reference.rgb);
+        let codes = png::quantize(&errors, &AS_IT_IS);
+        let mut errors = ColorImage::from_rgb(size_px.map(|side| side as usize), &codes);
+        if let Some(coarse) = coarse {
+            let coarse = coarse.beauty();
+            for (i, _) in is_sampled.iter().enumerate().filter(|(_, is)| !**is) {
+                reference.rgb[i] = nearest(&coarse, size_px, i);
+                errors.pixels[i] = UNKNOWN;
+            }
+        }
+        Shown {
+            number,
+            reference,
+            errors: Arc::new(errors),
+            range: [lowest, highest],
+            figures: Figures::of(&self.picture, &self.reference, &is_sampled),
+        }
+    }
+}
+
+/// Colours that are meant for the display already.
+const AS_IT_IS: Display = Display {
+    exposure_ev: 0.0,
+    tone_map: ToneMap::None,
+};
+/// A colour that the error map does not have.
+const UNKNOWN: Color32 = Color32::from_gray(70);
+
+/// The pixel of a smaller picture where pixel `i` of one of `size_px` lies.
+fn nearest(picture: &Picture, size_px: [u32; 2], i: usize) -> [f32; 3] {
+    let width = size_px[0].max(1) as usize;
+    let at = [i % width, i / width];
+    let [x, y] = std::array::from_fn(|axis| {
+        let share = (at[axis] as f64 + 0.5) / f64::from(size_px[axis].max(1));
+        let side = picture.size_px[axis];
+        ((share * f64::from(side)) as u32).min(side - 1)
+    });
+    picture.pixel(x, y)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_comparison_has_the_shape_of_the_window_and_is_not_larger() {
+        assert_eq!(scaled([1600, 900], 1600.0 * 900.0 / 4.0), [800, 450]);
+        assert_eq!(scaled([160, 90], 1e6), [160, 90]);
+        assert_eq!(scaled([4000, 1], 100.0), [632, 1]);
+    }
+
+    #[test]
+    fn a_pixel_without_samples_is_that_of_the_coarse_picture() {
+        let mut coarse = Picture::new([2, 1]);
+        coarse.rgb[1] = [1.0; 3];
+        let row: Vec<f32> = (0..4).map(|i| nearest(&coarse, [4, 1], i)[0]).collect();
+        assert_eq!(row, [0.0, 0.0, 1.0, 1.0]);
+    }
+}

@@ -1,0 +1,304 @@
+//! Every control of every panel: named, live, and undone in one step.
+
+mod common;
+
+use std::sync::Arc;
+
+use common::{BUILT_IN, click_on, description, viewer, wait_built};
+use egui::accesskit::Role;
+use egui_kittest::Harness;
+use egui_kittest::kittest::{NodeT, Queryable};
+use hairline_editor::Selection;
+use hairline_editor::presets::{LayerPreset, MaterialPreset};
+use hairline_scene::Description;
+use hairline_scene::description::Amount;
+use hairline_scene::description::{Environment, Layer, Pattern};
+use hairline_viewer::Viewer;
+
+/// What the panel on the right holds of a kind.
+fn controls(harness: &Harness<'static, Viewer>, role: Role) -> Vec<String> {
+    let picture = common::picture(harness);
+    let mut names: Vec<String> = harness
+        .query_all_by_role(role)
+        .filter(|node| node.rect().min.x >= picture.max.x)
+        .map(|node| {
+            let name = node.accesskit_node().label();
+            name.unwrap_or_else(|| panic!("a control without a name at {}", node.rect()))
+        })
+        .collect();
+    names.dedup();
+    names
+}
+
+fn select(harness: &mut Harness<'static, Viewer>, selection: Selection) {
+    harness.state_mut().document_mut().select(selection);
+    harness.run_steps(3);
+}
+
+/// Changes each number of the open panel by its box, and sees the scene change, stay good, and come back by one undo.
+fn every_number_is_live(harness: &mut Harness<'static, Viewer>) -> usize {
+    let names = controls(harness, Role::SpinButton);
+    for name in &names {
+        let before = description(harness);
+        let node = harness.get_by_role_and_label(Role::SpinButton, name);
+        let value = node.accesskit_node().numeric_value().expect("a number");
+        let wanted = match value {
+            0.0 => 0.5,
+            // Whole numbers are rounded.
+            1.0 if name == "Seed" => 2.0,
+            other => 0.75 * other,
+        };
+        node.set_value_accesskit(wanted);
+        harness.run_steps(3);
+        let after = description(harness);
+        assert!(
+            *after != *before,
+            "{name}: {value} -> {wanted} changed nothing"
+        );
+        after
+            .check()
+            .unwrap_or_else(|error| panic!("{name}: {error}"));
+        harness.state_mut().document_mut().undo();
+        harness.run_steps(2);
+        let undone = description(harness);
+        assert!(
+            *undone == *before,
+            "{name}: one undo is not enough, or too much"
+        );
+    }
+    names.len()
+}
+
+fn edit(harness: &mut Harness<'static, Viewer>, change: impl FnOnce(&mut Description)) {
+    harness
+        .state_mut()
+        .document_mut()
+        .edit("by the test", change);
+    harness.run_steps(3);
+}
+
+#[test]
+fn the_camera_and_the_picture() {
+    let mut harness = viewer(BUILT_IN);
+    wait_built(&mut harness);
+    click_on(&mut harness, "Camera");
+    // Exposure, field of view, three vectors, filter, size.
+    assert_eq!(every_number_is_live(&mut harness), 2 + 9 + 1 + 2);
+    let before = description(&harness);
+    click_on(&mut harness, "Top");
+    assert_ne!(
+        description(&harness).camera.position_m,
+        before.camera.position_m
+    );
+}
+
+#[test]
+fn an_object_of_every_shape() {
+    let mut harness = viewer(BUILT_IN);
+    wait_built(&mut harness);
+    for i in 0..description(&harness).objects.len() {
+        select(&mut harness, Selection::Object(i));
+        assert!(every_number_is_live(&mut harness) >= 8, "object {i}");
+    }
+}
+
+#[test]
+fn a_layer_of_every_pattern() {
+    let mut harness = viewer(BUILT_IN);
+    wait_built(&mut harness);
+    for preset in LayerPreset::ALL {
+        edit(&mut harness, |d| d.scratches[0] = preset.layer("pan", 0.2));
+        select(&mut harness, Selection::Layer(0));
+        let count = every_number_is_live(&mut harness);
+        assert!(count >= 8, "{}: {count} numbers", preset.name());
+    }
+    edit(&mut harness, |d| {
+        d.scratches[0] = hairline_editor::presets::drawn_layer("pan", 0.01);
+    });
+    select(&mut harness, Selection::Layer(0));
+    assert_eq!(every_number_is_live(&mut harness), 8);
+}
+
+#[test]
+fn a_material_of_every_kind_and_lights() {
+    let mut harness = viewer(BUILT_IN);
+    wait_built(&mut harness);
+    for preset in MaterialPreset::all() {
+        edit(&mut harness, |d| {
+            d.materials[0] = hairline_scene::description::Material {
+                name: d.materials[0].name.clone(),
+                ..preset.material()
+            };
+        });
+        select(&mut harness, Selection::Material(0));
+        assert!(every_number_is_live(&mut harness) >= 2, "{}", preset.name());
+    }
+    // A sphere: radiance, centre, radius.
+    select(&mut harness, Selection::Light(0));
+    assert_eq!(every_number_is_live(&mut harness), 1 + 3 + 1);
+    // A polygon's corners move in its plane: along some axes not at all. Its radiance is a number like others.
+    select(&mut harness, Selection::Light(1));
+    assert_eq!(controls(&harness, Role::SpinButton).len(), 1 + 4 * 3);
+}
+
+#[test]
+fn the_environment() {
+    let mut harness = viewer(BUILT_IN);
+    wait_built(&mut harness);
+    edit(&mut harness, |d| {
+        d.environment = Some(Environment {
+            file: "there is none.hdr".into(),
+            rotation_deg: 10.0,
+            intensity: 1.0,
+            visible: true,
+        });
+    });
+    select(&mut harness, Selection::Environment);
+    assert_eq!(every_number_is_live(&mut harness), 2);
+    // What cannot be read is told of, and the picture stays.
+    common::wait_until(&mut harness, "a message", |viewer| {
+        viewer
+            .messages()
+            .iter()
+            .any(|text| text.contains("there is none.hdr"))
+    });
+    assert!(harness.state().engine().built().is_some());
+    click_on(&mut harness, "Remove the map");
+    assert_eq!(description(&harness).environment, None);
+    harness.run_steps(3);
+    assert!(harness.state().messages().is_empty(), "the message stays");
+}
+
+#[test]
+fn choices_and_switches_of_a_layer() {
+    let mut harness = viewer(BUILT_IN);
+    wait_built(&mut harness);
+    select(&mut harness, Selection::Layer(1));
+    for (name, is_on) in [
+        (
+            "Hidden",
+            (|d: &Description| d.scratches[1].hidden) as fn(&Description) -> bool,
+        ),
+        ("Solo", |d| d.scratches[1].solo),
+    ] {
+        harness.get_by_role_and_label(Role::CheckBox, name).click();
+        harness.run_steps(3);
+        assert!(is_on(&description(&harness)), "{name}");
+        harness.state_mut().document_mut().undo();
+        harness.run_steps(2);
+        assert!(!is_on(&description(&harness)), "{name}");
+    }
+    choose(&mut harness, "Pattern", "radial");
+    let radial = description(&harness);
+    let Layer::Laid(laid) = &radial.scratches[1].layer else {
+        panic!("{:?}", radial.scratches[1]);
+    };
+    assert!(matches!(laid.pattern, Pattern::Radial(_)));
+    choose(&mut harness, "Amount by", "density");
+    let dense = description(&harness);
+    let Layer::Laid(laid) = &dense.scratches[1].layer else {
+        panic!("{:?}", dense.scratches[1]);
+    };
+    assert!(matches!(laid.amount, Amount::DensityPerM2(_)));
+}
+
+fn choose(harness: &mut Harness<'static, Viewer>, name: &str, option: &str) {
+    harness.get_by_role_and_label(Role::ComboBox, name).click();
+    harness.run_steps(3);
+    harness.get_by_label(option).click();
+    harness.run_steps(3);
+}
+
+#[test]
+fn the_outliner_hides_adds_and_solos() {
+    let mut harness = viewer(BUILT_IN);
+    wait_built(&mut harness);
+    for (name, is_so) in [
+        (
+            "Show layer 1",
+            (|d: &Description| d.scratches[0].hidden) as fn(&Description) -> bool,
+        ),
+        ("Solo layer 2", |d| d.scratches[1].solo),
+        ("Show light 1", |d| d.lights[0].hidden),
+    ] {
+        click_on(&mut harness, name);
+        assert!(is_so(&description(&harness)), "{name}");
+        harness.state_mut().document_mut().undo();
+        harness.run_steps(2);
+        assert!(!is_so(&description(&harness)), "{name}");
+    }
+    let before = description(&harness);
+    click_on(&mut harness, "Add to lights");
+    click_on(&mut harness, "Softbox");
+    assert_eq!(description(&harness).lights.len(), before.lights.len() + 1);
+    click_on(&mut harness, "Add to materials");
+    click_on(&mut harness, "Gold");
+    assert_eq!(
+        description(&harness).materials.len(),
+        before.materials.len() + 1
+    );
+    click_on(&mut harness, "Add to objects");
+    click_on(&mut harness, "Sphere");
+    assert_eq!(
+        description(&harness).objects.len(),
+        before.objects.len() + 1
+    );
+    description(&harness).check_references().unwrap();
+    while harness.state_mut().document_mut().undo().is_some() {}
+    assert_eq!(*description(&harness), *before);
+}
+
+#[test]
+fn names_are_typed_and_followed() {
+    let mut harness = viewer(BUILT_IN);
+    wait_built(&mut harness);
+    select(&mut harness, Selection::Object(0));
+    let field = harness.get_by_role_and_label(Role::TextInput, "Name");
+    field.focus();
+    harness.run_steps(2);
+    harness
+        .get_by_role_and_label(Role::TextInput, "Name")
+        .type_text("ny");
+    harness.run_steps(2);
+    // Half a name is no name.
+    assert_eq!(description(&harness).objects[0].name, "pan");
+    harness.key_press(egui::Key::Enter);
+    harness.run_steps(3);
+    let after = description(&harness);
+    assert_ne!(after.objects[0].name, "pan");
+    // Its layers follow.
+    assert_eq!(after.scratches[0].object, after.objects[0].name);
+    after.check_references().unwrap();
+}
+
+/// Undo all and redo all by the interface's own commands, after edits by its own widgets; then through the file.
+#[test]
+fn undo_all_redo_all_save_and_open() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut harness = viewer(BUILT_IN);
+    wait_built(&mut harness);
+    let first = description(&harness);
+    select(&mut harness, Selection::Layer(0));
+    for (name, value) in [("Width", 3.25), ("Depth", 312.0), ("Count", 50.0)] {
+        let node = harness.get_by_role_and_label(Role::SpinButton, name);
+        node.set_value_accesskit(value);
+        harness.run_steps(3);
+    }
+    click_on(&mut harness, "Duplicate");
+    let last = description(&harness);
+    for _ in 0..4 {
+        click_on(&mut harness, "Undo");
+    }
+    assert_eq!(*description(&harness), *first);
+    for _ in 0..4 {
+        click_on(&mut harness, "Redo");
+    }
+    assert_eq!(*description(&harness), *last);
+
+    let path = folder.path().join("saved.toml");
+    harness.state_mut().document_mut().save_as(&path).unwrap();
+    let saved = std::fs::read_to_string(&path).unwrap();
+    let read = Description::from_toml(&saved, &path).unwrap();
+    assert_eq!(read, *last);
+    assert!(Arc::strong_count(&last) > 0);
+}
