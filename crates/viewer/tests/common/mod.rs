@@ -138,12 +138,27 @@ pub fn click_at(harness: &mut Harness<'static, Viewer>, at: Pos2) {
     release(harness, at);
 }
 
+/// Two clicks in one pass: passes of tests are a quarter of a second apart, too slow for a double click.
+pub fn double_click_at(harness: &mut Harness<'static, Viewer>, at: Pos2) {
+    harness.hover_at(at);
+    harness.run_steps(2);
+    for pressed in [true, false, true, false] {
+        let event = button_event(at, pressed);
+        harness.input_mut().events.push(event);
+    }
+    harness.step();
+}
+
 fn button(harness: &mut Harness<'static, Viewer>, pos: Pos2, pressed: bool) {
-    harness.event(egui::Event::PointerButton {
+    harness.event(button_event(pos, pressed));
+    harness.step();
+}
+
+fn button_event(pos: Pos2, pressed: bool) -> egui::Event {
+    egui::Event::PointerButton {
         pos,
         button: PointerButton::Primary,
         pressed,
         modifiers: egui::Modifiers::NONE,
-    });
-    harness.step();
+    }
 }

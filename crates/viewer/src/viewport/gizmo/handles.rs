@@ -97,10 +97,11 @@ pub(super) fn place(body: &Body, lens: &Lens) -> Option<Vec<Placed>> {
         });
     }
     if body.resizes {
-        let knob = middle + freest(&directions) * SIZE;
+        let way = freest(&directions);
+        let knob = middle + way * SIZE;
         placed.push(Placed {
             handle: Handle::Size,
-            line: Vec::new(),
+            line: vec![middle + way * GAP, knob],
             knob,
         });
     }

@@ -61,7 +61,12 @@ fn one(painter: &Painter, placed: &Placed, is_active: bool, color: Color32) {
             ink::circle(painter, knob, 7.0 + grown, 1.5, color);
             ink::dot(painter, knob, 2.0 + grown, color);
         }
-        Handle::Size => ink::blot(painter, square(knob, 4.5 + grown, Vec2::angled(0.0)), color),
+        Handle::Size => {
+            if let [from, _] = placed.line[..] {
+                ink::segment(painter, [from, knob], 1.0, color.gamma_multiply(0.5));
+            }
+            ink::blot(painter, square(knob, 4.5 + grown, Vec2::RIGHT), color);
+        }
         Handle::Corner(_) => {
             let slant = Vec2::angled(std::f32::consts::FRAC_PI_4);
             ink::blot(painter, square(knob, 4.0 + grown, slant), color);
@@ -82,7 +87,7 @@ fn square(middle: Pos2, half: f32, along: Vec2) -> Vec<Pos2> {
 
 /// A few words beside the pointer.
 pub(super) fn words(painter: &Painter, pos: Pos2, words: &str, color: Color32) {
-    let at = pos + vec2(18.0, -18.0);
+    let at = pos + vec2(18.0, -26.0);
     boxed(painter, at, Align2::LEFT_CENTER, words, color);
 }
 
