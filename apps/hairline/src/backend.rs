@@ -3,78 +3,175 @@
 use anyhow::anyhow;
 use hairline_gpu::{AdapterKind, AdapterRequest, Gpu, headless};
 use hairline_image::Image;
-use hairline_optics::method::Method;
+use hairline_index::ScratchIndex;
+use hairline_optics::method::{Gather, Lookup, Method};
 use hairline_reference::closed_form::{self, Prepared};
-use hairline_scene::Scene;
+use hairline_scene::{Scene, ScratchTables};
 
 use crate::cli::Backend;
 use crate::failure::Failure;
 use crate::progress::Progress;
-use crate::trial::{self, Winner};
+use crate::trial::{self, ReadyDriver, Winner};
 
-/// Renders, and says on stderr in one line on what and why.
-pub fn render(
-    scene: &Scene,
-    method: &Method,
-    backend: Backend,
-    samples: u32,
-) -> Result<Image, Failure> {
-    match backend {
-        Backend::Cpu => {
-            announce_cpu("as asked");
-            Ok(render_on_cpu(&Prepared::new(scene), method, samples))
-        }
-        Backend::Gpu => {
-            let advise = |error| Failure::Work(anyhow!("{error}; --backend cpu needs no driver"));
-            let gpu = open().map_err(advise)?;
-            announce_gpu(&gpu, "as asked");
-            render_on_gpu(&gpu, scene, method, samples).map_err(advise)
-        }
-        Backend::Auto => Ok(render_on_the_faster(scene, method, samples)),
-    }
+/// What is to be rendered, and how.
+#[derive(Clone, Copy, Debug)]
+pub struct Task {
+    /// By which method.
+    pub method: Method,
+    /// What the user wants to render.
+    pub backend: Backend,
+    /// For each pixel.
+    pub samples: u32,
+    /// How many pictures, each of the same size from another camera.
+    pub pictures: u32,
 }
 
-/// A GPU if there is one; else the CPU renderer or a software driver, by trial. What fails on a graphics adapter is
-/// done on the CPU.
-fn render_on_the_faster(scene: &Scene, method: &Method, samples: u32) -> Image {
-    match open() {
-        Err(error) => {
-            announce_cpu(&error.to_string());
-            render_on_cpu(&Prepared::new(scene), method, samples)
-        }
-        Ok(gpu) if gpu.adapter.kind == AdapterKind::Software => {
-            let prepared = Prepared::new(scene);
-            let trial = trial::run(&gpu, scene, method, &prepared, samples);
-            match trial.winner {
-                Winner::Cpu => {
-                    announce_cpu(&trial.why);
-                    render_on_cpu(&prepared, method, samples)
-                }
-                Winner::Driver(mut ready) => {
-                    announce_gpu(&gpu, &trial.why);
-                    let progress = Progress::start("rendering");
-                    let image = ready.render(scene, samples, &|share| progress.set(share));
-                    drop(progress);
-                    image.unwrap_or_else(|error| {
-                        warn_of(&gpu, &error);
-                        render_on_cpu(&prepared, method, samples)
-                    })
+/// Refuses what no renderer that is asked for can do: before the scene is read.
+///
+/// # Errors
+/// [`Failure::Input`].
+pub fn check(method: &Method, backend: Backend) -> Result<(), Failure> {
+    if backend == Backend::Gpu && method.gather == Gather::Clusters {
+        return Err(Failure::Input(anyhow!(
+            "--gather clusters is on the CPU only as yet: take --backend cpu or auto with it, or --gather exact"
+        )));
+    }
+    Ok(())
+}
+
+/// A renderer that holds a scene with its trees and tables, for one picture or many.
+pub struct Painter<'a> {
+    scene: &'a Scene,
+    task: Task,
+    on: On<'a>,
+}
+
+enum On<'a> {
+    Cpu(Box<Prepared<'a>>),
+    Gpu(Box<ReadyDriver>),
+}
+
+impl<'a> Painter<'a> {
+    /// Builds what rendering looks up, chooses what renders, and says on stderr in one line on what and why. `Auto` takes a GPU
+    /// if there is one, else the CPU renderer or a software driver, by trial.
+    ///
+    /// # Errors
+    /// [`Failure::Input`] as [`check`]; [`Failure::Work`] where the GPU that was asked for fails.
+    pub fn open(scene: &'a Scene, task: Task) -> Result<Self, Failure> {
+        check(&task.method, task.backend)?;
+        let on = match task.backend {
+            Backend::Cpu => On::on_cpu(scene, &task.method, "as asked"),
+            Backend::Gpu => {
+                let gpu = open().map_err(advise)?;
+                announce_gpu(&gpu, "as asked");
+                On::on_gpu(&gpu, scene, &task.method).map_err(advise)?
+            }
+            Backend::Auto if task.method.gather == Gather::Clusters => On::on_cpu(
+                scene,
+                &task.method,
+                "--gather clusters is not on the GPU as yet",
+            ),
+            Backend::Auto => On::the_faster(scene, &task),
+        };
+        Ok(Self { scene, task, on })
+    }
+
+    /// Renders `scene`, which is the one that this was opened with but for its camera. What fails on a graphics adapter that was
+    /// not asked for is done on the CPU, from then on.
+    ///
+    /// # Errors
+    /// [`Failure::Work`] where the GPU that was asked for fails.
+    pub fn render(
+        &mut self,
+        scene: &Scene,
+        progress: &(dyn Fn(f64) + Sync),
+    ) -> Result<Image, Failure> {
+        if let On::Gpu(ready) = &mut self.on {
+            match ready.render(scene, self.task.samples, &|share| progress(share)) {
+                Ok(image) => return Ok(image),
+                Err(error) if self.task.backend == Backend::Gpu => return Err(advise(error)),
+                Err(error) => {
+                    warn_of(ready.gpu(), &error);
+                    self.on = On::Cpu(prepared(self.scene, &self.task.method));
                 }
             }
         }
-        Ok(gpu) => {
-            announce_gpu(&gpu, "a GPU is there");
-            render_on_gpu(&gpu, scene, method, samples).unwrap_or_else(|error| {
-                warn_of(&gpu, &error);
-                render_on_cpu(&Prepared::new(scene), method, samples)
-            })
+        let On::Cpu(prepared) = &self.on else {
+            unreachable!("a GPU has returned or was left");
+        };
+        let options = closed_form::RenderOptions {
+            samples: self.task.samples,
+            method: self.task.method,
+        };
+        Ok(prepared.with_scene(scene).render(&options, progress))
+    }
+}
+
+impl<'a> On<'a> {
+    fn on_cpu(scene: &'a Scene, method: &Method, why: &str) -> Self {
+        announce_cpu(why);
+        Self::Cpu(prepared(scene, method))
+    }
+
+    fn on_gpu(gpu: &Gpu, scene: &Scene, method: &Method) -> Result<Self, hairline_gpu::Error> {
+        let (scratches, tables) = rayon::join(
+            || ScratchIndex::build(scene).into(),
+            || ScratchTables::new(scene),
+        );
+        let ready = gpu.block_on(ReadyDriver::new(gpu, scene, &scratches, &tables, method))?;
+        Ok(Self::Gpu(Box::new(ready)))
+    }
+
+    /// A GPU if there is one; else the CPU renderer or a software driver, by trial.
+    fn the_faster(scene: &'a Scene, task: &Task) -> Self {
+        let method = &task.method;
+        match open() {
+            Err(error) => Self::on_cpu(scene, method, &error.to_string()),
+            Ok(gpu) if gpu.adapter.kind == AdapterKind::Software => {
+                let prepared = prepared(scene, method);
+                let trial = trial::run(&gpu, scene, task, &prepared);
+                match trial.winner {
+                    Winner::Cpu => {
+                        announce_cpu(&trial.why);
+                        Self::Cpu(prepared)
+                    }
+                    Winner::Driver(ready) => {
+                        announce_gpu(&gpu, &trial.why);
+                        Self::Gpu(ready)
+                    }
+                }
+            }
+            Ok(gpu) => {
+                announce_gpu(&gpu, "a GPU is there");
+                Self::on_gpu(&gpu, scene, method).unwrap_or_else(|error| {
+                    warn_of(&gpu, &error);
+                    Self::Cpu(prepared(scene, method))
+                })
+            }
         }
     }
+}
+
+/// Trees and tables, and what only some methods look up: now, and not again for each picture.
+fn prepared<'a>(scene: &'a Scene, method: &Method) -> Box<Prepared<'a>> {
+    let _bar = Progress::start("sorting scratches");
+    let prepared = Prepared::new(scene);
+    if method.gather == Gather::Clusters {
+        prepared.bundle_index();
+    }
+    if method.lookup == Lookup::Triangles {
+        prepared.triangle_lists();
+    }
+    Box::new(prepared)
 }
 
 /// The best adapter: GPUs come before software drivers.
 fn open() -> Result<Gpu, hairline_gpu::Error> {
     headless::open(&AdapterRequest::default())
+}
+
+fn advise(error: hairline_gpu::Error) -> Failure {
+    Failure::Work(anyhow!("{error}; --backend cpu needs no driver"))
 }
 
 fn announce_cpu(why: &str) {
@@ -89,27 +186,4 @@ fn announce_gpu(gpu: &Gpu, why: &str) {
 fn warn_of(gpu: &Gpu, error: &hairline_gpu::Error) {
     let name = &gpu.adapter.name;
     eprintln!("warning: {name} failed ({error}); the CPU renders instead");
-}
-
-fn render_on_cpu(prepared: &Prepared, method: &Method, samples: u32) -> Image {
-    let progress = Progress::start("rendering");
-    let options = closed_form::RenderOptions {
-        samples,
-        method: *method,
-    };
-    prepared.render(&options, &|share| progress.set(share))
-}
-
-fn render_on_gpu(
-    gpu: &Gpu,
-    scene: &Scene,
-    method: &Method,
-    samples: u32,
-) -> Result<Image, hairline_gpu::Error> {
-    let progress = Progress::start("rendering");
-    let options = hairline_gpu::RenderOptions {
-        samples,
-        ..Default::default()
-    };
-    headless::render(gpu, scene, method, &options, &|share| progress.set(share))
 }

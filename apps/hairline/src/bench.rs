@@ -20,10 +20,11 @@ use std::time::Duration;
 
 use anyhow::anyhow;
 use hairline_image::output::{check_writable, write_atomically};
-use hairline_optics::method::Method;
+use hairline_optics::method::{Gather, Method};
 use hairline_scene::Object;
 
-use crate::cli::{self, Part};
+use crate::backend;
+use crate::cli::{self, Backend, Part};
 use crate::failure::Failure;
 use crate::method_flags::flags_of;
 use crate::progress::Progress;
@@ -70,7 +71,12 @@ pub fn run(arguments: &cli::Bench) -> Result<(), Failure> {
     if let Some(path) = &arguments.output {
         report::check_name(path)?;
     }
-    let mut worker = Worker::open(arguments.backend)?;
+    backend::check(&ours, arguments.backend)?;
+    // What is on the CPU only is not measured on another device than the published method.
+    let mut worker = Worker::open(match ours.gather {
+        Gather::Clusters => Backend::Cpu,
+        Gather::Exact => arguments.backend,
+    })?;
     let machine = Machine::of(&worker);
     eprintln!("measuring on {}", machine.in_words());
     let thoroughness = thoroughness(arguments);

@@ -4,7 +4,7 @@ use anyhow::anyhow;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 use hairline_optics::mask;
-use hairline_optics::method::{self, Chords, Lookup, Method, PixelFilter, SphereBase};
+use hairline_optics::method::{self, Chords, Gather, Lookup, Method, PixelFilter, SphereBase};
 use hairline_optics::published::sine_integral::SineIntegral;
 use hairline_optics::published::spectrum::PUBLISHED_WAVELENGTHS;
 
@@ -41,6 +41,9 @@ pub struct MethodFlags {
     /// How the scratches under a pixel are found.
     #[arg(long, value_enum)]
     pub index: Option<Index>,
+    /// Whether many scratches under a pixel may be taken together. On the CPU only as yet. [default: exact]
+    #[arg(long, value_enum)]
+    pub gather: Option<GatherFlag>,
 }
 
 /// `--method`
@@ -124,6 +127,15 @@ pub enum Index {
     Triangles,
 }
 
+/// `--gather`
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum GatherFlag {
+    /// Each for itself: the time grows with their number.
+    Exact,
+    /// Where a pixel covers many, what they add up to: the time is bounded.
+    Clusters,
+}
+
 impl MethodFlags {
     /// The method that the flags ask for.
     ///
@@ -161,6 +173,12 @@ impl MethodFlags {
         replace(&mut method.mask, self.mask.map(Into::into));
         replace(&mut method.sphere_base, self.sphere_base.map(Into::into));
         replace(&mut method.lookup, self.index.map(Into::into));
+        replace(&mut method.gather, self.gather.map(Into::into));
+        if method.gather == Gather::Clusters && !method.is_default_path() {
+            return Err(Failure::Input(anyhow!(
+                "--gather clusters is of the default method: only --mask, --index and --footprint gaussian or off go with it"
+            )));
+        }
         if method.lookup == Lookup::Triangles && method.footprint != PixelFilter::Off {
             return Err(Failure::Input(anyhow!(
                 "--index triangles needs --footprint off: a triangle's list reaches as far as the coherence window, and a \
@@ -203,6 +221,7 @@ impl MethodFlags {
             sphere_base: (method.sphere_base != base.sphere_base)
                 .then_some(method.sphere_base.into()),
             index: (method.lookup != base.lookup).then_some(method.lookup.into()),
+            gather: (method.gather != base.gather).then_some(method.gather.into()),
         }
     }
 
@@ -220,6 +239,7 @@ impl MethodFlags {
         flags.extend(self.mask.map(|v| written("mask", v)));
         flags.extend(self.sphere_base.map(|v| written("sphere-base", v)));
         flags.extend(self.index.map(|v| written("index", v)));
+        flags.extend(self.gather.map(|v| written("gather", v)));
         flags
     }
 }
@@ -281,6 +301,7 @@ same!(Footprint, PixelFilter, Gaussian => Gaussian, Published => Published, Off 
 same!(Mask, mask::Mask, Energy => Energy, Linear => Linear, Density => Density);
 same!(SphereBaseFlag, SphereBase, Ltc => Cosines, Sptd => Pivot);
 same!(Index, Lookup, Tiles => Tiles, Bvh => Bvh, Triangles => Triangles);
+same!(GatherFlag, Gather, Exact => Exact, Clusters => Clusters);
 
 #[cfg(test)]
 mod tests {
@@ -338,6 +359,9 @@ mod tests {
             ("--index triangles", "--footprint off"),
             ("--method published --index triangles", "--footprint off"),
             ("--wavelengths 5 --spectrum si-fast", "3, 8, 16"),
+            ("--gather clusters --method published", "default method"),
+            ("--gather clusters --footprint published", "gaussian or off"),
+            ("--gather few", "exact, clusters"),
         ] {
             let message = parsed(flags).unwrap_err();
             assert!(message.contains(right), "{flags}: {message}");
@@ -364,22 +388,28 @@ mod tests {
                         for mask in [mask::Mask::Energy, mask::Mask::Linear, mask::Mask::Density] {
                             for sphere_base in [SphereBase::Cosines, SphereBase::Pivot] {
                                 for lookup in [Lookup::Tiles, Lookup::Bvh, Lookup::Triangles] {
-                                    let method = Method {
-                                        spectrum,
-                                        chords,
-                                        band,
-                                        footprint,
-                                        mask,
-                                        sphere_base,
-                                        lookup,
-                                    };
-                                    let back = parsed(&flags_of(&method));
-                                    if lookup == Lookup::Triangles && footprint != PixelFilter::Off
-                                    {
-                                        assert!(back.is_err());
-                                    } else {
-                                        assert_eq!(back, Ok(method));
-                                        count += 1;
+                                    for gather in [Gather::Exact, Gather::Clusters] {
+                                        let method = Method {
+                                            spectrum,
+                                            chords,
+                                            band,
+                                            footprint,
+                                            mask,
+                                            sphere_base,
+                                            lookup,
+                                            gather,
+                                        };
+                                        let back = parsed(&flags_of(&method));
+                                        let has_list = footprint == PixelFilter::Off;
+                                        if lookup == Lookup::Triangles && !has_list
+                                            || gather == Gather::Clusters
+                                                && !method.is_default_path()
+                                        {
+                                            assert!(back.is_err());
+                                        } else {
+                                            assert_eq!(back, Ok(method));
+                                            count += 1;
+                                        }
                                     }
                                 }
                             }
@@ -388,6 +418,9 @@ mod tests {
                 }
             }
         }
-        assert_eq!(count, 4 * 2 * 2 * 3 * 2 * (3 + 2 + 2));
+        let exact = 4 * 2 * 2 * 3 * 2 * (3 + 2 + 2);
+        // The default path alone, with three masks.
+        let clusters = 3 * (3 + 2);
+        assert_eq!(count, exact + clusters);
     }
 }

@@ -4,13 +4,16 @@ use hairline_image::exr_file::Notes;
 use hairline_image::{Display, Output};
 use hairline_optics::method::Method;
 
+use crate::backend::{Painter, Task};
 use crate::failure::Failure;
+use crate::progress::Progress;
 use crate::scene_file::{self, Overrides};
 use crate::{backend, cli, method_flags};
 
 /// Loads, renders and writes.
 pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
     let method = arguments.method.method()?;
+    backend::check(&method, arguments.backend)?;
     let scene_path = arguments.scene.as_deref();
     let output_path = arguments
         .output
@@ -24,7 +27,16 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
         scratch_seed: arguments.seed,
     };
     let scene = scene_file::load(scene_path, &overrides)?.scene;
-    let image = backend::render(&scene, &method, arguments.backend, arguments.samples)?;
+    let task = Task {
+        method,
+        backend: arguments.backend,
+        samples: arguments.samples,
+        pictures: 1,
+    };
+    let mut painter = Painter::open(&scene, task)?;
+    let progress = Progress::start("rendering");
+    let image = painter.render(&scene, &|share| progress.set(share))?;
+    drop(progress);
     let display = Display {
         exposure_ev: scene.camera.exposure_ev,
         tone_map: scene.render.tone_map,

@@ -7,15 +7,18 @@
 use std::future::Future;
 use std::ops::Range;
 use std::pin::pin;
+use std::sync::Arc;
 use std::task::Poll;
 use std::time::{Duration, Instant};
 
 use hairline_gpu::{Error, Gpu, GpuScene, RenderOptions, Renderer};
 use hairline_image::Image;
+use hairline_index::ScratchIndex;
 use hairline_optics::method::Method;
 use hairline_reference::closed_form::{self, Prepared};
-use hairline_scene::Scene;
+use hairline_scene::{Scene, ScratchTables};
 
+use crate::backend::Task;
 use crate::progress::Progress;
 
 /// Where the rows lie in the picture's height. Few places, since a driver has a cost for each.
@@ -44,6 +47,24 @@ pub struct ReadyDriver {
 }
 
 impl ReadyDriver {
+    /// Compiles and uploads.
+    pub async fn new(
+        gpu: &Gpu,
+        scene: &Scene,
+        scratches: &Arc<ScratchIndex>,
+        tables: &ScratchTables,
+        method: &Method,
+    ) -> Result<Self, Error> {
+        let mut renderer = Renderer::new(gpu).await?;
+        let uploaded = renderer.upload(scene, scratches, tables, method).await?;
+        Ok(Self { renderer, uploaded })
+    }
+
+    /// The device.
+    pub fn gpu(&self) -> &Gpu {
+        self.renderer.gpu()
+    }
+
     /// Blocks until the picture is there.
     pub fn render(
         &mut self,
@@ -60,8 +81,14 @@ impl ReadyDriver {
     }
 }
 
-/// Lets both renderers work on the same rows, for a small share of the time that the picture will take.
-pub fn run(gpu: &Gpu, scene: &Scene, method: &Method, prepared: &Prepared, samples: u32) -> Trial {
+/// Lets both renderers work on the same rows, for a small share of the time that the pictures will take.
+pub fn run(gpu: &Gpu, scene: &Scene, task: &Task, prepared: &Prepared) -> Trial {
+    let Task {
+        method,
+        samples,
+        pictures,
+        ..
+    } = task;
     let cpu = |why| Trial {
         winner: Winner::Cpu,
         why,
@@ -72,10 +99,10 @@ pub fn run(gpu: &Gpu, scene: &Scene, method: &Method, prepared: &Prepared, sampl
         return cpu(format!("no GPU; the picture is too small to try {driver}"));
     };
     let _bar = Progress::start("measuring");
-    let cpu_time = time_cpu(prepared, method, samples, &strips);
+    let cpu_time = time_cpu(prepared, method, *samples, &strips);
     let whole_s = |strips_time: Duration| {
         let rows: usize = strips.iter().map(Range::len).sum();
-        strips_time.as_secs_f64() * f64::from(height) / rows as f64
+        strips_time.as_secs_f64() * f64::from(height) * f64::from(*pictures) / rows as f64
     };
     let cpu_s = whole_s(cpu_time);
     if cpu_s < WORTH_A_TRIAL_S {
@@ -83,7 +110,7 @@ pub fn run(gpu: &Gpu, scene: &Scene, method: &Method, prepared: &Prepared, sampl
             "no GPU; {cpu_s:.1} s expected, too short to try {driver}"
         ));
     }
-    match time_driver(gpu, scene, method, prepared, samples, &strips, cpu_time) {
+    match time_driver(gpu, scene, method, prepared, *samples, &strips, cpu_time) {
         Ok(Some((ready, time))) => Trial {
             winner: Winner::Driver(Box::new(ready)),
             why: format!(
@@ -137,25 +164,24 @@ fn time_driver(
 ) -> Result<Option<(ReadyDriver, Duration)>, Error> {
     let options = driver_options(samples);
     gpu.block_on(async {
-        let mut renderer = Renderer::new(gpu).await?;
         let (scratches, tables) = (prepared.scratches(), prepared.tables());
-        let uploaded = renderer.upload(scene, scratches, tables, method).await?;
+        let mut ready = ReadyDriver::new(gpu, scene, scratches, tables, method).await?;
+        let ReadyDriver { renderer, uploaded } = &mut ready;
         // Drivers compile at the first use.
         let row = strips[0].start..strips[0].start + 1;
         renderer
-            .render_rows(scene, &uploaded, &driver_options(1), row, &|_| {})
+            .render_rows(scene, uploaded, &driver_options(1), row, &|_| {})
             .await?;
         let start = Instant::now();
         let in_time = before(start + limit, async {
             for rows in strips {
                 renderer
-                    .render_rows(scene, &uploaded, &options, rows.clone(), &|_| {})
+                    .render_rows(scene, uploaded, &options, rows.clone(), &|_| {})
                     .await?;
             }
             Ok(())
         });
         let in_time = in_time.await.transpose()?.is_some();
-        let ready = ReadyDriver { renderer, uploaded };
         Ok(in_time.then(|| (ready, start.elapsed())))
     })
 }

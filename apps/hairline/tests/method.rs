@@ -36,8 +36,10 @@ fn contradictions_are_2_and_nothing_is_written() {
         ("--method 2018", "default, published"),
         ("--spectrum si", "table, si-fast, si-exact"),
         ("--mask none", "energy, linear, density"),
+        ("--method published --gather clusters", "default method"),
+        ("--gather clusters --backend gpu", "on the CPU only"),
     ] {
-        let arguments = format!("render scratched.toml -o out.exr --backend cpu {flags}");
+        let arguments = format!("render scratched.toml -o out.exr {flags}");
         let assert = hairline(folder.path(), &arguments).code(2);
         let text = String::from_utf8(assert.get_output().stderr.clone()).unwrap();
         assert!(text.contains(message), "{flags}: {text}");
@@ -49,7 +51,7 @@ fn contradictions_are_2_and_nothing_is_written() {
 fn a_picture_remembers_another_method_than_the_default() {
     let folder = folder_with_scene();
     let mut pictures = Vec::new();
-    for flags in ["", "--mask density", "--mask linear"] {
+    for flags in ["", "--mask density", "--mask linear", "--gather clusters"] {
         let arguments = format!(
             "render scratched.toml -o out.exr --backend cpu --size 32x18 --samples 1 {flags}"
         );
@@ -63,4 +65,17 @@ fn a_picture_remembers_another_method_than_the_default() {
     // The flag reached the renderer.
     assert_ne!(pictures[0].density, pictures[1].density);
     assert_ne!(pictures[0].density, pictures[2].density);
+}
+
+/// No GPU has it: what is rendered on is chosen by it, and said.
+#[test]
+fn clusters_take_the_cpu_and_say_why() {
+    let folder = folder_with_scene();
+    let arguments = "render scratched.toml -o out.png --size 8x6 --gather clusters";
+    let assert = hairline(folder.path(), arguments).success();
+    let text = String::from_utf8(assert.get_output().stderr.clone()).unwrap();
+    assert!(
+        text.contains("on the CPU") && text.contains("--gather clusters"),
+        "{text}"
+    );
 }
