@@ -13,6 +13,12 @@ pub enum Error {
         /// The output path.
         path: PathBuf,
     },
+    /// The path of an animation does not end in the name of a format of animations that can be written.
+    #[error("{}: animations are written as animated PNG: end it in .apng or .png", path.display())]
+    NoAnimation {
+        /// The output path.
+        path: PathBuf,
+    },
     /// The output path cannot be written.
     #[error("{}: cannot write: {reason}", path.display())]
     CannotWrite {

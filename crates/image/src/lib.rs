@@ -2,6 +2,7 @@
 //!
 //! Colours are linear Rec.709 in `f32` until [`png`] encodes them for a display; rows run from the top.
 
+mod animation;
 mod error;
 pub mod exr_file;
 mod film;
@@ -11,6 +12,7 @@ pub mod output;
 pub mod png;
 pub mod tone_map;
 
+pub use animation::{Animation, FPS_MAX};
 pub use error::Error;
 pub use exr_file::Notes;
 pub use film::{Image, Layer, Noise, Picture};

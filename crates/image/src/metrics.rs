@@ -13,6 +13,7 @@ mod noise;
 mod psnr;
 mod relative;
 mod silhouettes;
+mod stability;
 mod z_test;
 
 pub use compare::{Comparison, LayerComparison, Problem, Side, compare};
@@ -26,4 +27,5 @@ pub use noise::BeyondNoise;
 pub use psnr::{Psnr, psnr_displayed, psnr_of_values};
 pub use relative::relative_mse;
 pub use silhouettes::away_from_silhouettes;
+pub use stability::{Move, Stability};
 pub use z_test::{Verdict, ZTest};

@@ -1,0 +1,233 @@
+//! Animated PNG (the third edition of the PNG specification): frames as a display shows them, 8 bits a channel, sRGB, without
+//! loss. What shows no animations shows the first frame.
+
+use std::path::{Path, PathBuf};
+
+use png::{BitDepth, ColorType, Compression, Encoder, Filter, SrgbRenderingIntent, Writer};
+
+use crate::output::{check_writable, write_atomically};
+use crate::png::quantize;
+use crate::{Display, Error, Picture};
+
+/// More frames in a second than this are shown slower than asked: viewers take delays below 10 ms for a mistake.
+pub const FPS_MAX: u16 = 100;
+
+/// An animation in the making. It is kept in memory, compressed, until [`Animation::finish`]: the file is whole or not there.
+pub struct Animation {
+    path: PathBuf,
+    size_px: [u32; 2],
+    left: u32,
+    writer: Writer<Shared>,
+    bytes: Shared,
+}
+
+impl Animation {
+    /// Whether a file name's ending asks for an animation: .apng, in either case.
+    pub fn is_asked_by(path: &Path) -> bool {
+        path.extension()
+            .is_some_and(|ending| ending.eq_ignore_ascii_case("apng"))
+    }
+
+    /// Checks a path before the work that is to go there: .apng or .png, the folder, the right to write. Leaves nothing behind
+    /// and an existing file as it is.
+    ///
+    /// # Errors
+    /// [`Error::NoAnimation`], [`Error::CannotWrite`].
+    pub fn check(path: &Path) -> Result<(), Error> {
+        let is_png = |ending: &std::ffi::OsStr| ending.eq_ignore_ascii_case("png");
+        if !Self::is_asked_by(path) && !path.extension().is_some_and(is_png) {
+            return Err(Error::NoAnimation {
+                path: path.to_owned(),
+            });
+        }
+        check_writable(path)
+    }
+
+    /// Begins an animation of `frames` pictures, `fps` of them in a second (1 to [`FPS_MAX`]), that repeats without end.
+    ///
+    /// # Errors
+    /// As [`Animation::check`]; [`Error::CannotWrite`] for no frames or an empty picture.
+    pub fn begin(path: &Path, size_px: [u32; 2], frames: u32, fps: u16) -> Result<Self, Error> {
+        Self::check(path)?;
+        let bytes = Shared::default();
+        let writer = header(bytes.clone(), size_px, frames, fps.clamp(1, FPS_MAX));
+        Ok(Self {
+            path: path.to_owned(),
+            size_px,
+            left: frames,
+            writer: writer.map_err(|error| refused(path, &error))?,
+            bytes,
+        })
+    }
+
+    /// Adds the next frame.
+    ///
+    /// # Errors
+    /// [`Error::CannotWrite`] for one frame too many.
+    ///
+    /// # Panics
+    /// If the frame has another size.
+    pub fn add(&mut self, frame: &Picture, display: &Display) -> Result<(), Error> {
+        assert_eq!(frame.size_px, self.size_px, "frames of different sizes");
+        let written = self.writer.write_image_data(&quantize(frame, display));
+        written.map_err(|error| refused(&self.path, &error))?;
+        self.left = self.left.saturating_sub(1);
+        Ok(())
+    }
+
+    /// Writes the file.
+    ///
+    /// # Errors
+    /// [`Error::CannotWrite`], also where frames are missing.
+    pub fn finish(self) -> Result<(), Error> {
+        let Self {
+            path,
+            left,
+            writer,
+            bytes,
+            ..
+        } = self;
+        if left > 0 {
+            return Err(Error::CannotWrite {
+                path,
+                reason: format!("{left} frames are missing"),
+            });
+        }
+        writer.finish().map_err(|error| refused(&path, &error))?;
+        write_atomically(&path, &bytes.take())
+    }
+}
+
+fn header(
+    bytes: Shared,
+    [width, height]: [u32; 2],
+    frames: u32,
+    fps: u16,
+) -> Result<Writer<Shared>, png::EncodingError> {
+    let mut encoder = Encoder::new(bytes, width, height);
+    encoder.set_color(ColorType::Rgb);
+    encoder.set_depth(BitDepth::Eight);
+    encoder.set_compression(Compression::High);
+    encoder.set_filter(Filter::Adaptive);
+    encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
+    // 0 plays: for ever.
+    encoder.set_animated(frames, 0)?;
+    encoder.set_frame_delay(1, fps)?;
+    encoder.validate_sequence(true);
+    encoder.write_header()
+}
+
+fn refused(path: &Path, error: &png::EncodingError) -> Error {
+    Error::CannotWrite {
+        path: path.to_owned(),
+        reason: error.to_string(),
+    }
+}
+
+/// Bytes that the encoder writes and that can be had back when it is done: it keeps what it writes to.
+#[derive(Clone, Default)]
+struct Shared(std::sync::Arc<std::sync::Mutex<Vec<u8>>>);
+
+impl Shared {
+    fn take(&self) -> Vec<u8> {
+        std::mem::take(&mut self.lock())
+    }
+
+    fn lock(&self) -> std::sync::MutexGuard<'_, Vec<u8>> {
+        self.0
+            .lock()
+            .unwrap_or_else(std::sync::PoisonError::into_inner)
+    }
+}
+
+impl std::io::Write for Shared {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        self.lock().extend_from_slice(bytes);
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use image::AnimationDecoder;
+    use image::codecs::png::PngDecoder;
+    use std::fs::File;
+    use std::io::BufReader;
+
+    const SIZE_PX: [u32; 2] = [7, 5];
+
+    fn grey(level: f32) -> Picture {
+        let mut picture = Picture::new(SIZE_PX);
+        picture.rgb.fill([level; 3]);
+        picture
+    }
+
+    fn animation(path: &Path, frames: u32) -> Animation {
+        Animation::begin(path, SIZE_PX, frames, 25).unwrap_or_else(|error| panic!("{error}"))
+    }
+
+    #[test]
+    fn frames_come_back_in_order_as_they_are_shown() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("grey.apng");
+        let levels = [0.1, 0.5, 0.9];
+        let display = Display::default();
+        let mut writer = animation(&path, 3);
+        for level in levels {
+            assert!(!path.exists(), "not before it is whole");
+            writer.add(&grey(level), &display).unwrap();
+        }
+        writer.finish().unwrap();
+        let file = BufReader::new(File::open(&path).unwrap());
+        let frames = PngDecoder::new(file).unwrap().apng().unwrap().into_frames();
+        let frames = frames.collect_frames().unwrap();
+        assert_eq!(frames.len(), levels.len());
+        for (frame, level) in frames.iter().zip(levels) {
+            assert_eq!(frame.delay().numer_denom_ms(), (40, 1));
+            let codes: Vec<u8> = frame
+                .buffer()
+                .pixels()
+                .flat_map(|pixel| pixel.0[..3].to_vec())
+                .collect();
+            assert_eq!(codes, quantize(&grey(level), &display));
+        }
+        // What knows no animations sees the first.
+        let still = crate::png::read_picture(&path).unwrap();
+        assert_eq!(still.size_px, SIZE_PX);
+    }
+
+    #[test]
+    fn nothing_is_left_of_an_animation_that_is_not_whole() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("short.apng");
+        let mut writer = animation(&path, 2);
+        writer.add(&grey(0.2), &Display::default()).unwrap();
+        let error = writer.finish().unwrap_err().to_string();
+        assert!(error.contains("1 frames are missing"), "{error}");
+        drop(animation(&path, 2));
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+        let mut writer = animation(&path, 1);
+        writer.add(&grey(0.2), &Display::default()).unwrap();
+        assert!(writer.add(&grey(0.2), &Display::default()).is_err());
+    }
+
+    #[test]
+    fn endings_tell_animations() {
+        for (name, asked, possible) in [
+            ("a.apng", true, true),
+            ("a.APNG", true, true),
+            ("a.png", false, true),
+            ("a.webp", false, false),
+            ("apng", false, false),
+        ] {
+            let path = std::env::temp_dir().join(name);
+            assert_eq!(Animation::is_asked_by(&path), asked, "{name}");
+            assert_eq!(Animation::check(&path).is_ok(), possible, "{name}");
+        }
+    }
+}
