@@ -258,7 +258,9 @@ impl Picture {
         let differs = |(a, b): &(&[u8; 3], &[u8; 3])| {
             std::iter::zip(a.iter(), b.iter()).any(|(a, b)| a.abs_diff(*b) > 8)
         };
-        std::iter::zip(&self.rgb, &other.rgb).filter(differs).count()
+        std::iter::zip(&self.rgb, &other.rgb)
+            .filter(differs)
+            .count()
     }
 
     pub fn brightest(&self) -> u8 {

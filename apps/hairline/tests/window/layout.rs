@@ -35,7 +35,10 @@ impl Layout {
             });
         let start = Instant::now();
         while harness.state().engine().built().is_none() {
-            assert!(start.elapsed() < Duration::from_secs(60), "no scene was built");
+            assert!(
+                start.elapsed() < Duration::from_secs(60),
+                "no scene was built"
+            );
             harness.step();
         }
         harness.run_steps(3);
@@ -46,7 +49,11 @@ impl Layout {
         let picture = harness.get_by_label("Picture").rect();
         let width = harness
             .get_all_by_role(Role::SpinButton)
-            .find(|node| node.accesskit_node().labelled_by().any(|label| label.value().as_deref() == Some("Width")))
+            .find(|node| {
+                node.accesskit_node()
+                    .labelled_by()
+                    .any(|label| label.value().as_deref() == Some("Width"))
+            })
             .expect("a box for the width")
             .rect()
             .center();

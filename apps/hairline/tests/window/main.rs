@@ -46,6 +46,12 @@ kind = "sphere"
 center_m = [-0.065, 0.20, 0.24]
 radius_m = 0.01
 radiance = 300.0
+
+[[light]]
+kind = "polygon"
+vertices_m = [[-1.0, -1.0, 0.6], [-1.0, 1.0, 0.6], [1.0, 1.0, 0.6], [1.0, -1.0, 0.6]]
+radiance = 0.3
+two_sided = true
 "#;
 
 /// A loaded machine with two cores is slow; a person would have given up by then.
@@ -187,7 +193,11 @@ fn an_artist_opens_turns_changes_draws_undoes_saves_and_comes_back() {
 
     // The picture turns under the mouse.
     let middle = layout.picture().center();
-    display.drag(&[middle, middle + egui::vec2(60.0, 10.0), middle + egui::vec2(120.0, 20.0)]);
+    display.drag(&[
+        middle,
+        middle + egui::vec2(60.0, 10.0),
+        middle + egui::vec2(120.0, 20.0),
+    ]);
     window.is_modified();
     let turned = window.save();
     assert_ne!(turned.camera.position_m, before.camera.position_m);
@@ -235,7 +245,13 @@ fn an_artist_opens_turns_changes_draws_undoes_saves_and_comes_back() {
     keep(&display.screen(), "reopened");
     // The mouse's ring, the selection's lines and dither are the only differences left.
     let share = reopened.differing(&last) as f64 / reopened.pixels() as f64;
-    assert!(share < 0.05, "{share} of the pixels differ after the scene was opened again");
-    assert!(reopened.differing(&first) > 1000, "it shows the scene as it was at first");
+    assert!(
+        share < 0.05,
+        "{share} of the pixels differ after the scene was opened again"
+    );
+    assert!(
+        reopened.differing(&first) > 1000,
+        "it shows the scene as it was at first"
+    );
     window.quit();
 }

@@ -122,11 +122,12 @@ impl<'a> Form<'a> {
 
     fn boxes_labelled(&mut self, label: &str, range: &Range, names: &[&str], values: &mut [f64]) {
         self.row(label, range.tooltip, |ui, _| {
+            let width = share(ui, names.len());
             names
                 .iter()
                 .zip(values)
                 .fold(false, |changed, (name, value)| {
-                    small_box(ui, label, name, range, value) || changed
+                    small_box(ui, width, label, name, range, value) || changed
                 })
         });
     }
@@ -215,11 +216,12 @@ impl<'a> Form<'a> {
         let heights = Parameter::ProfileHeight.range(self.diagonal_m);
         let label = format!("Point {}", i + 1);
         self.row(&label, range.tooltip, |ui, _| {
+            let width = share(ui, 2);
             let parts = [("r", &range, radius_m), ("z", &heights, height_m)];
             parts
                 .into_iter()
                 .fold(false, |changed, (name, range, value)| {
-                    small_box(ui, &label, name, range, value) || changed
+                    small_box(ui, width, &label, name, range, value) || changed
                 })
         });
     }
@@ -238,7 +240,10 @@ impl<'a> Form<'a> {
 fn slider_and_box(ui: &mut Ui, label: &Response, range: &Range, value: &mut f64) -> bool {
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         let typed = ui
-            .add_sized([VALUE_WIDTH, 20.0], number_box(range, value))
+            .add_sized(
+                [VALUE_WIDTH, 20.0],
+                number_box(range, value).suffix(range.suffix),
+            )
             .labelled_by(label.id)
             .on_hover_text(range.tooltip);
         ui.spacing_mut().slider_width = (ui.available_width() - 8.0).max(24.0);
@@ -259,18 +264,35 @@ fn slider_and_box(ui: &mut Ui, label: &Response, range: &Range, value: &mut f64)
     .inner
 }
 
-/// One of several numbers in a row.
-fn small_box(ui: &mut Ui, label: &str, name: &str, range: &Range, value: &mut f64) -> bool {
-    let drag = number_box(range, value)
-        .prefix(format!("{name} "))
-        .suffix("");
-    let response = ui.add_sized([58.0, 20.0], drag);
+/// The width of one of `n` boxes in what is left of a row.
+fn share(ui: &Ui, n: usize) -> f32 {
+    let gaps = ui.spacing().item_spacing.x * (n as f32 - 1.0);
+    ((ui.available_width() - gaps) / n as f32).max(40.0)
+}
+
+/// One of several numbers in a row, without its unit, for which there is no room: the tooltip tells it.
+fn small_box(
+    ui: &mut Ui,
+    width: f32,
+    label: &str,
+    name: &str,
+    range: &Range,
+    value: &mut f64,
+) -> bool {
+    let drag = number_box(range, value).prefix(format!("{name} "));
+    let response = ui.add_sized([width, 20.0], drag);
     ui.ctx().accesskit_node_builder(response.id, |node| {
         node.set_label(format!("{label} {name}"));
     });
-    response
-        .on_hover_text(format!("{} (in{})", range.tooltip, range.suffix))
-        .changed()
+    response.on_hover_text(in_unit(range)).changed()
+}
+
+/// The tooltip with the unit.
+fn in_unit(range: &Range) -> String {
+    match range.suffix.trim() {
+        "" => range.tooltip.to_owned(),
+        unit => format!("{} (in {unit})", range.tooltip),
+    }
 }
 
 /// A number to drag or type. Typing counts when it is done: half a number is no wish.
@@ -285,6 +307,5 @@ fn number_box<'v>(range: &Range, value: &'v mut f64) -> DragValue<'v> {
         .range(range.hard.clone())
         .speed(speed)
         .max_decimals(range.decimals)
-        .suffix(range.suffix)
         .update_while_editing(false)
 }

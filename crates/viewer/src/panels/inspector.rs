@@ -8,11 +8,13 @@ use crate::app::Viewer;
 
 pub(crate) fn show(ui: &mut Ui, viewer: &mut Viewer) {
     Panel::right("inspector")
-        .default_size(320.0)
-        .size_range(260.0..=480.0)
+        .default_size(340.0)
+        .size_range(300.0..=480.0)
         .show(ui, |ui| {
             ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                 ui.add_space(4.0);
+                // Whatever is selected, the panel keeps its width: else the picture would jump.
+                ui.set_width(ui.available_width());
                 match viewer.selection() {
                     Selection::None => overview(ui, viewer),
                     Selection::Camera => camera::show(ui, viewer),
@@ -32,14 +34,22 @@ pub(crate) fn show(ui: &mut Ui, viewer: &mut Viewer) {
 fn overview(ui: &mut Ui, viewer: &Viewer) {
     let description = viewer.document.description();
     ui.heading("Scene");
-    ui.label(format!(
-        "{} objects, {} layers of scratches, {} lights",
-        description.objects.len(),
-        description.scratches.len(),
-        description.lights.len()
-    ));
+    let counts = [
+        count(description.objects.len(), "object", "objects"),
+        count(
+            description.scratches.len(),
+            "layer of scratches",
+            "layers of scratches",
+        ),
+        count(description.lights.len(), "light", "lights"),
+    ];
+    ui.label(counts.join(", "));
     ui.add_space(8.0);
     ui.label("Click an object in the picture, or a line on the left, to change it here.");
     ui.label("Drag turns the view, Shift and drag moves it, the wheel comes nearer.");
     ui.label("F1 shows all keys.");
+}
+
+fn count(n: usize, one: &str, many: &str) -> String {
+    format!("{n} {}", if n == 1 { one } else { many })
 }
