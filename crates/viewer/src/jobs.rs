@@ -7,8 +7,8 @@ use std::thread::JoinHandle;
 use rayon::ThreadPoolBuilder;
 use thread_priority::{ThreadPriority, ThreadPriorityValue, set_current_thread_priority};
 
-/// Of 0 to 99: what the engine paints is waited for, and comes first.
-const PRIORITY: u8 = 10;
+/// Of 0 to 99: what the engine paints is waited for, and comes first. Not so low that a busy machine would let it starve.
+const PRIORITY: u8 = 30;
 
 /// Whether the work is still wanted.
 #[derive(Clone, Default)]

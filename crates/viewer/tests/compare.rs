@@ -1,0 +1,177 @@
+//! The reference beside the picture: it agrees with it, follows it, and ends when it is closed.
+
+mod common;
+
+use std::time::{Duration, Instant};
+
+use egui::Key;
+use egui_kittest::{Harness, kittest::Queryable};
+use hairline_image::{Image, Layer};
+use hairline_reference::closed_form::{self, RenderOptions};
+use hairline_scene::Scene;
+use hairline_viewer::engine::Backend;
+use hairline_viewer::{Figures, LayerFigures, Options, Viewer};
+
+/// A window in which the panels leave little room for the picture, so that samples are soon there.
+fn viewer(scene: &'static str, width: f32) -> Harness<'static, Viewer> {
+    let options = Options {
+        scene: None,
+        built_in: scene,
+        backend: Backend::Cpu,
+        state_dir: None,
+        native_dialogs: false,
+    };
+    let mut harness = Harness::builder()
+        .with_size([width, 400.0])
+        .build_eframe(|cc| Viewer::new(&cc.egui_ctx, None, options).unwrap());
+    common::wait_built(&mut harness);
+    common::wait_until(&mut harness, "a picture", |viewer| {
+        viewer.engine().latest().is_some()
+    });
+    harness
+}
+
+/// Figures of pixels that have two batches of samples each, at least.
+fn sampled(harness: &mut Harness<'static, Viewer>) -> Figures {
+    common::wait_until(harness, "two batches", |viewer| {
+        let figures = viewer.comparison();
+        figures.is_some_and(|figures| figures.beauty.reference_mean_error.is_some())
+    });
+    harness.state().comparison().unwrap()
+}
+
+fn mean(image: &Image, layer: Layer) -> f64 {
+    let values = image.layer(layer);
+    let sum: f64 = values.iter().flatten().map(|&v| f64::from(v)).sum();
+    sum / (3 * values.len()) as f64
+}
+
+/// Whether noise, and the part that the closed form is off by at most where nothing is wrong, explain the difference.
+fn agrees(figures: &LayerFigures, mean: f64, share: f64) -> bool {
+    let noise = figures.reference_mean_error.unwrap();
+    (mean - figures.reference_mean).abs() < 4.0 * noise + share * mean
+}
+
+fn rendered(text: &str, size_px: [u32; 2]) -> Image {
+    let mut scene = Scene::from_toml(text, "test", "").unwrap();
+    scene.render.size_px = size_px;
+    let options = RenderOptions {
+        samples: 16,
+        ..Default::default()
+    };
+    closed_form::render(&scene, &options, &|_| {})
+}
+
+/// The built-in scene with a tenth of its scratches: from afar each pixel sees thousands of them, which takes the closed form
+/// its time.
+fn thinned() -> &'static str {
+    let text = common::BUILT_IN.replace("count = 3400", "count = 340");
+    assert_ne!(text, common::BUILT_IN);
+    text.leak()
+}
+
+#[test]
+fn the_built_in_scene_agrees_with_its_reference_and_another_scene_does_not() {
+    let text = thinned();
+    let mut harness = viewer(text, 640.0);
+    common::key(&mut harness, Key::C);
+    // Until noise is a small part of what is to be seen.
+    common::wait_until(&mut harness, "little noise", |viewer| {
+        let scratches = viewer.comparison().map(|figures| figures.scratches);
+        scratches.is_some_and(|scratches| {
+            let noise = scratches.reference_mean_error;
+            noise.is_some_and(|noise| noise < 0.06 * scratches.reference_mean)
+        })
+    });
+    let figures = sampled(&mut harness);
+    let (beauty, scratches) = (figures.beauty, figures.scratches);
+    assert!(agrees(&beauty, beauty.mean, 0.01), "{figures:?}");
+    // The closed form is within a few percent of the integral where scratches are many.
+    assert!(agrees(&scratches, scratches.mean, 0.03), "{figures:?}");
+    // What the window compares is what the renderer makes.
+    let right = rendered(text, figures.size_px);
+    assert!((mean(&right, Layer::Scratches) / scratches.mean - 1.0).abs() < 1e-6);
+
+    // Grooves half as deep scatter less.
+    let shallow = text
+        .replace("depth_nm = { mean = 180.0", "depth_nm = { mean = 90.0")
+        .replace("depth_nm = { mean = 195.0", "depth_nm = { mean = 97.5");
+    assert_ne!(shallow, text);
+    let wrong = mean(&rendered(&shallow, figures.size_px), Layer::Scratches);
+    assert!(!agrees(&scratches, wrong, 0.03), "{wrong} {figures:?}");
+}
+
+#[test]
+fn another_view_begins_anew() {
+    let mut harness = viewer(common::SMALL, 640.0);
+    common::key(&mut harness, Key::C);
+    let before = sampled(&mut harness);
+    common::key(&mut harness, Key::Num5);
+    assert_eq!(
+        harness.state().comparison(),
+        None,
+        "not that of another view"
+    );
+    let after = sampled(&mut harness);
+    assert_ne!(before.scratches.mean, after.scratches.mean);
+    // In a picture of so few pixels the lamp's image is as small as one, and the base has one ray for each.
+    assert!(agrees(&after.beauty, after.beauty.mean, 0.06), "{after:?}");
+}
+
+#[test]
+fn closing_it_stops_the_thread() {
+    let mut harness = viewer(common::SMALL, 640.0);
+    common::key(&mut harness, Key::C);
+    common::wait_until(&mut harness, "samples", |viewer| {
+        viewer.comparison().is_some()
+    });
+    assert!(harness.state().is_sampling());
+    let asked = Instant::now();
+    common::click_on(&mut harness, "Close the comparison");
+    common::wait_until(&mut harness, "the end", |viewer| !viewer.is_sampling());
+    // A batch takes milliseconds; the rest is for a busy machine.
+    assert!(
+        asked.elapsed() < Duration::from_secs(2),
+        "{:?}",
+        asked.elapsed()
+    );
+    assert_eq!(harness.state().comparison(), None);
+    assert!(harness.query_by_label("Close the comparison").is_none());
+}
+
+#[test]
+fn the_divider_can_be_dragged_and_moved_by_keys() {
+    const DIVIDER: &str = "Divider between picture and reference";
+    let mut harness = viewer(common::SMALL, 640.0);
+    common::key(&mut harness, Key::C);
+    let camera = common::description(&harness).camera.clone();
+    let at = |harness: &Harness<'static, Viewer>| harness.get_by_label(DIVIDER).rect().center();
+    let middle = at(&harness);
+    common::drag(&mut harness, middle, middle + egui::vec2(-30.0, 5.0), 6);
+    harness.run_steps(2);
+    let dragged = at(&harness);
+    assert!(
+        (dragged.x - (middle.x - 30.0)).abs() < 2.0,
+        "{dragged} from {middle}"
+    );
+    harness.get_by_label(DIVIDER).increment_accesskit();
+    harness.run_steps(2);
+    assert!(at(&harness).x > dragged.x);
+    assert_eq!(
+        common::description(&harness).camera,
+        camera,
+        "the view stays"
+    );
+}
+
+#[test]
+fn the_error_map_has_a_scale() {
+    let mut harness = viewer(common::SMALL, 640.0);
+    common::key(&mut harness, Key::C);
+    common::wait_until(&mut harness, "samples", |viewer| {
+        viewer.comparison().is_some()
+    });
+    common::click_on(&mut harness, "Error map");
+    let scale = harness.get_by_label_contains("Relative error from");
+    assert!(scale.rect().is_positive());
+}

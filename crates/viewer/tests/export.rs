@@ -1,0 +1,242 @@
+//! Pictures and turntables to files: whole or not at all, whatever happens meanwhile.
+
+mod common;
+
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use egui::accesskit::Role;
+use egui::{Key, Modifiers};
+use egui_kittest::{Harness, kittest::Queryable};
+use hairline_editor::navigate;
+use hairline_image::tone_map::srgb_from_linear;
+use hairline_image::{Display, Image, exr_file, png};
+use hairline_reference::closed_form::{self, RenderOptions};
+use hairline_scene::{Description, Loader, Scene};
+use hairline_viewer::Viewer;
+
+/// Pictures that are soon done.
+const TINY: &str = concat!(
+    include_str!("common/small_scene.toml"),
+    "\n[render]\nsize_px = [48, 32]\n"
+);
+/// Pictures that take a moment.
+const MODEST: &str = concat!(
+    include_str!("common/small_scene.toml"),
+    "\n[render]\nsize_px = [160, 100]\n"
+);
+
+/// What the dialog begins with.
+const SAMPLES: u32 = 16;
+
+fn viewer(scene: &'static str) -> Harness<'static, Viewer> {
+    let mut harness = common::viewer(scene);
+    common::wait_built(&mut harness);
+    harness
+}
+
+fn type_path(harness: &mut Harness<'static, Viewer>, path: &Path) {
+    let text = path.display().to_string();
+    harness
+        .get_by_role_and_label(Role::TextInput, "File")
+        .set_text_value_accesskit(&text);
+    harness.run_steps(3);
+}
+
+fn save_picture(harness: &mut Harness<'static, Viewer>, path: &Path) {
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::P);
+    harness.run_steps(3);
+    type_path(harness, path);
+    common::click_on(harness, "Save the picture");
+}
+
+fn export_turntable(harness: &mut Harness<'static, Viewer>, path: &Path, frames: u32) {
+    common::click_on(harness, "File");
+    common::click_on(harness, "Export a turntable…");
+    type_path(harness, path);
+    harness
+        .get_by_role_and_label(Role::SpinButton, "Pictures")
+        .set_value_accesskit(f64::from(frames));
+    harness.run_steps(3);
+    common::click_on(harness, "Export");
+}
+
+fn wait_exported(harness: &mut Harness<'static, Viewer>) {
+    common::wait_until(harness, "the export ends", |viewer| !viewer.is_exporting());
+}
+
+/// What the CPU renderer makes of the scene, turned by so much.
+fn rendered(text: &str, turned_deg: f64) -> (Image, Display) {
+    let mut description = Description::from_toml(text, Path::new("test")).unwrap();
+    navigate::turn(&mut description.camera, turned_deg.to_radians());
+    let scene: Scene = Loader::default()
+        .build(&description, Path::new(""))
+        .unwrap();
+    let options = RenderOptions {
+        samples: SAMPLES,
+        ..Default::default()
+    };
+    let display = Display {
+        exposure_ev: scene.camera.exposure_ev,
+        tone_map: scene.render.tone_map,
+    };
+    (closed_form::render(&scene, &options, &|_| {}), display)
+}
+
+fn codes_of(path: &Path) -> Vec<u8> {
+    let picture = png::read_picture(path).unwrap();
+    let codes = picture.rgb.iter().flatten();
+    codes
+        .map(|&linear| (255.0 * srgb_from_linear(linear)).round() as u8)
+        .collect()
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    let mut names: Vec<String> = std::fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn a_picture_is_what_the_renderer_makes() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut harness = viewer(TINY);
+    let (image, display) = rendered(TINY, 0.0);
+    assert!(image.scratches.iter().flatten().sum::<f32>() > 0.0);
+
+    let path = folder.path().join("a.png");
+    save_picture(&mut harness, &path);
+    wait_exported(&mut harness);
+    let right = png::quantize(&image.beauty(), &display);
+    assert_eq!(codes_of(&path), right);
+    let said = harness.state().messages().concat();
+    assert!(said.contains("a.png"), "{said}");
+
+    let path = folder.path().join("a.exr");
+    save_picture(&mut harness, &path);
+    wait_exported(&mut harness);
+    // Bit for bit: the file holds the floats as they are, and bands of rows change none.
+    assert_eq!(exr_file::read_image(&path).unwrap(), image);
+    assert_eq!(names(folder.path()), ["a.exr", "a.png"]);
+}
+
+#[test]
+fn a_turntable_goes_round() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut harness = viewer(TINY);
+    export_turntable(&mut harness, &folder.path().join("t.exr"), 3);
+    wait_exported(&mut harness);
+    assert_eq!(
+        names(folder.path()),
+        ["t-0001.exr", "t-0002.exr", "t-0003.exr"]
+    );
+    for (i, name) in names(folder.path()).iter().enumerate() {
+        let found = exr_file::read_image(&folder.path().join(name)).unwrap();
+        assert_eq!(found, rendered(TINY, 120.0 * i as f64).0, "{name}");
+    }
+    let (first, _) = rendered(TINY, 0.0);
+    assert_ne!(first, rendered(TINY, 120.0).0, "the camera does turn");
+}
+
+/// Only whole pictures, numbered without a gap; returns how many.
+fn whole_pictures(folder: &Path) -> usize {
+    let names = names(folder);
+    for (i, name) in names.iter().enumerate() {
+        assert_eq!(*name, format!("t-{:04}.png", i + 1), "{names:?}");
+        assert_eq!(codes_of(&folder.join(name)).len(), 3 * 160 * 100);
+    }
+    names.len()
+}
+
+/// A turntable of which some pictures are there, and by far not all.
+fn begun(folder: &Path) -> Harness<'static, Viewer> {
+    let mut harness = viewer(MODEST);
+    export_turntable(&mut harness, &folder.join("t.png"), 2000);
+    let second: PathBuf = folder.join("t-0002.png");
+    common::wait_until(&mut harness, "two pictures", |_| second.exists());
+    assert!(harness.state().is_exporting());
+    harness
+}
+
+#[test]
+fn cancelling_leaves_whole_pictures_and_nothing_else() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut harness = begun(folder.path());
+    let asked = Instant::now();
+    common::click_on(&mut harness, "Cancel the export");
+    wait_exported(&mut harness);
+    // A band takes a tenth of a second; the rest is for a busy machine.
+    assert!(asked.elapsed() < Duration::from_secs(5));
+    let written = whole_pictures(folder.path());
+    assert!((2..2000).contains(&written));
+    let said = harness.state().messages().concat();
+    let count = format!("{written} of 2000 pictures are complete and stay");
+    assert!(said.contains(&count), "{said}");
+}
+
+#[test]
+fn closing_the_window_leaves_whole_pictures_and_nothing_else() {
+    let folder = tempfile::tempdir().unwrap();
+    drop(begun(folder.path()));
+    let written = whole_pictures(folder.path());
+    assert!((2..2000).contains(&written));
+    std::thread::sleep(Duration::from_millis(300));
+    assert_eq!(
+        whole_pictures(folder.path()),
+        written,
+        "the thread has ended"
+    );
+}
+
+#[test]
+fn a_path_that_cannot_be_written_is_told_before_the_work() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("file"), "no folder").unwrap();
+    let mut harness = viewer(TINY);
+    for (path, word) in [
+        ("missing/a.png", "there is no folder"),
+        ("file/a.png", "file"),
+        ("a.gif", ".png"),
+    ] {
+        save_picture(&mut harness, &folder.path().join(path));
+        assert!(!harness.state().is_exporting(), "{path}");
+        let said = harness.state().messages().concat();
+        assert!(said.contains(word), "{path}: {said}");
+        // The question stays, so that the path can be mended.
+        common::click_on(&mut harness, "Cancel");
+    }
+    assert_eq!(names(folder.path()), ["file"]);
+}
+
+#[test]
+fn a_picture_that_cannot_be_written_ends_the_export_with_a_message() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::create_dir(folder.path().join("t-0003.exr")).unwrap();
+    let mut harness = viewer(TINY);
+    export_turntable(&mut harness, &folder.path().join("t.exr"), 5);
+    wait_exported(&mut harness);
+    let said = harness.state().messages().concat();
+    assert!(said.contains("it is a folder"), "{said}");
+    assert!(
+        said.contains("2 of 5 pictures are complete and stay"),
+        "{said}"
+    );
+    let right = ["t-0001.exr", "t-0002.exr", "t-0003.exr"];
+    assert_eq!(names(folder.path()), right);
+}
+
+#[test]
+fn the_scene_may_change_meanwhile() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut harness = viewer(TINY);
+    export_turntable(&mut harness, &folder.path().join("t.exr"), 8);
+    harness.run_steps(2);
+    // From above: another camera than that of the export.
+    common::key(&mut harness, Key::Num5);
+    wait_exported(&mut harness);
+    let last = exr_file::read_image(&folder.path().join("t-0008.exr")).unwrap();
+    assert_eq!(last, rendered(TINY, 7.0 * 45.0).0);
+}
