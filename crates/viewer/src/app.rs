@@ -49,6 +49,8 @@ pub struct Viewer {
     built_in: &'static str,
     /// The description that the engine was given last, and when the notes about it were read.
     asked: Option<Arc<Description>>,
+    /// That the window was given.
+    title: String,
 }
 
 impl Viewer {
@@ -86,6 +88,7 @@ impl Viewer {
             frame_when_built: false,
             built_in: options.built_in,
             asked: None,
+            title: String::new(),
             document,
         };
         viewer.files.start(&mut viewer.dialogs);
@@ -160,7 +163,11 @@ impl Viewer {
                 ""
             }
         );
-        ctx.send_viewport_cmd(egui::ViewportCommand::Title(title));
+        // A command to the window asks for another pass: without a change there would be no end of them.
+        if self.title != title {
+            ctx.send_viewport_cmd(egui::ViewportCommand::Title(title.clone()));
+            self.title = title;
+        }
     }
 
     /// A drag of a widget is over when no button is held: what comes next is a step of its own.

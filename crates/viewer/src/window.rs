@@ -41,7 +41,7 @@ pub fn open(options: Options, renderer: Renderer) -> Result<(), Error> {
         viewport: ViewportBuilder::default()
             .with_title("Hairline")
             .with_app_id("hairline")
-            .with_inner_size([1280.0, 800.0])
+            .with_inner_size([1440.0, 900.0])
             .with_min_inner_size([720.0, 480.0])
             .with_drag_and_drop(true),
         ..Default::default()
