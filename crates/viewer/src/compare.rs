@@ -149,7 +149,7 @@ impl Compare {
     fn is_failed(&self) -> bool {
         let enough = || {
             let shown = self.shown();
-            shown.is_some_and(|shown| work::is_enough(shown.figures.samples))
+            shown.is_some_and(|shown| work::is_enough(shown.samples))
         };
         let sampling = self.sampling.as_ref();
         sampling.is_some_and(|sampling| sampling.job.is_over()) && !enough()
@@ -159,7 +159,8 @@ impl Compare {
 impl Viewer {
     /// The figures of the comparison that is open, for tests.
     pub fn comparison(&self) -> Option<Figures> {
-        Some(self.compare.shown()?.figures.clone())
+        let shown = self.compare.shown()?;
+        Some(shown.compared.as_ref()?.figures.clone())
     }
 
     /// Whether a thread samples a reference, for tests.

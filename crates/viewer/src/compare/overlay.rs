@@ -9,7 +9,7 @@ use hairline_image::metrics::magma;
 use hairline_image::{Display, ToneMap, png};
 
 use super::figures::LayerFigures;
-use super::work::Shown;
+use super::work::{Compared, Shown};
 use super::{Compare, Side};
 
 /// A hand finds it.
@@ -46,7 +46,10 @@ impl SideTexture {
                     let codes = png::quantize(&shown.reference, display);
                     ColorImage::from_rgb(size, &codes).into()
                 }
-                Side::Errors => std::sync::Arc::clone(&shown.errors),
+                Side::Errors => match &shown.compared {
+                    Some(compared) => std::sync::Arc::clone(&compared.errors),
+                    None => return,
+                },
             };
             let options = TextureOptions::LINEAR;
             match &mut self.texture {
@@ -158,16 +161,28 @@ impl Compare {
     }
 
     fn about(&self, ui: &mut Ui, shown: &Shown) {
-        let figures = &shown.figures;
-        let [width, height] = figures.size_px;
-        ui.label(format!(
-            "{:.0} samples a pixel, {width} × {height}",
-            figures.samples
-        ))
-        .on_hover_text(
+        let [width, height] = shown.reference.size_px;
+        let text = format!("{:.0} samples a pixel, {width} × {height}", shown.samples);
+        ui.label(text).on_hover_text(
             "Monte Carlo by the model of the closed forms, without the integrals that they are. It goes on for as long \
              as this is open",
         );
+        match &shown.compared {
+            Some(compared) => self.differences(ui, compared),
+            None => {
+                ui.horizontal(|ui| {
+                    ui.spinner();
+                    ui.label("Rendering the picture at this size");
+                });
+            }
+        }
+        if self.is_failed() {
+            ui.label("The reference stopped by a mistake of Hairline.");
+        }
+    }
+
+    fn differences(&self, ui: &mut Ui, compared: &Compared) {
+        let figures = &compared.figures;
         Grid::new("differences").num_columns(3).show(ui, |ui| {
             ui.weak("relative rms");
             ui.weak("differs");
@@ -182,10 +197,7 @@ impl Compare {
              how much of it is the reference's own noise",
         );
         if self.side == Side::Errors {
-            scale(ui, shown.range);
-        }
-        if self.is_failed() {
-            ui.label("The reference stopped by a mistake of Hairline.");
+            scale(ui, compared.range);
         }
     }
 }

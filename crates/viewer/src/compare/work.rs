@@ -82,6 +82,14 @@ pub(super) struct Shown {
     /// Counts up.
     pub number: u64,
     pub reference: Picture,
+    /// Of the reference's pixels, in the mean.
+    pub samples: f64,
+    /// Nothing to compare with at first: the closed form takes longer than the first samples.
+    pub compared: Option<Compared>,
+}
+
+/// Where picture and reference differ, and how far.
+pub(super) struct Compared {
     /// In false colours.
     pub errors: Arc<ColorImage>,
     /// Relative errors of the darkest and the brightest colour.
@@ -152,11 +160,16 @@ pub(super) fn run(wanted: &Wanted, stop: &Stop, report: &Report, kept: &Mutex<Ke
     };
     let first = wanted.scene(FIRST_PX);
     let start = Instant::now();
-    let Some(coarse) = Sampled::one_round(wanted, &first, &parts, stop) else {
+    let Some(coarse) = one_round(&first, &parts, stop) else {
         return;
     };
-    let seconds_per_px = start.elapsed().as_secs_f64() / coarse.reference.pixel_count() as f64;
-    report.put(coarse.shown(1, None));
+    let seconds_per_px = start.elapsed().as_secs_f64() / coarse.pixel_count() as f64;
+    report.put(Shown {
+        number: 1,
+        reference: coarse.beauty(),
+        samples: f64::from(BATCH_SAMPLES),
+        compared: None,
+    });
     let most_px = (ROUND.as_secs_f64() / seconds_per_px.max(1e-9)).clamp(LEAST_PX, MOST_PX);
     let scene = wanted.scene(most_px);
     refine(wanted, &scene, &parts, &coarse, stop, report);
@@ -166,15 +179,20 @@ fn refine(
     wanted: &Wanted,
     scene: &Scene,
     parts: &Parts,
-    coarse: &Sampled,
+    coarse: &Image,
     stop: &Stop,
     report: &Report,
 ) {
-    let Some(mut sampled) = Sampled::start(wanted, scene, stop) else {
+    let go_on = |_| !stop.is_asked();
+    let picture = cpu::render(&wanted.built, scene, PICTURE_SAMPLES, BAND_PX, &go_on);
+    let Some(picture) = picture else {
         return;
     };
     let integrator = Integrator::from_parts(scene, Settings::default(), parts.clone());
-    sampled.reference = integrator.start();
+    let mut sampled = Sampled {
+        picture,
+        reference: integrator.start(),
+    };
     let mut number = 1;
     let mut is_complete = false;
     while !is_complete && !stop.is_asked() {
@@ -190,9 +208,24 @@ fn refine(
         is_complete = flow.is_continue();
         if !stop.is_asked() {
             number += 1;
-            report.put(sampled.shown(number, Some(&coarse.reference)));
+            report.put(sampled.shown(number, coarse));
         }
     }
+}
+
+/// A reference with a batch for each pixel. None if `stop` was asked.
+fn one_round(scene: &Scene, parts: &Parts, stop: &Stop) -> Option<Image> {
+    let integrator = Integrator::from_parts(scene, Settings::default(), parts.clone());
+    let observe = |_| {
+        if stop.is_asked() {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    };
+    let mut reference = integrator.start();
+    let flow = integrator.run(&mut reference, BATCH_SAMPLES, &observe);
+    flow.is_continue().then_some(reference)
 }
 
 /// A picture and a reference of the same size.
@@ -202,34 +235,8 @@ struct Sampled {
 }
 
 impl Sampled {
-    /// The picture, and no reference yet. None if `stop` was asked.
-    fn start(wanted: &Wanted, scene: &Scene, stop: &Stop) -> Option<Self> {
-        let go_on = |_| !stop.is_asked();
-        let picture = cpu::render(&wanted.built, scene, PICTURE_SAMPLES, BAND_PX, &go_on)?;
-        Some(Self {
-            picture,
-            reference: Image::new(scene.render.size_px),
-        })
-    }
-
-    /// With a batch for each pixel.
-    fn one_round(wanted: &Wanted, scene: &Scene, parts: &Parts, stop: &Stop) -> Option<Self> {
-        let mut sampled = Self::start(wanted, scene, stop)?;
-        let integrator = Integrator::from_parts(scene, Settings::default(), parts.clone());
-        let observe = |_| {
-            if stop.is_asked() {
-                ControlFlow::Break(())
-            } else {
-                ControlFlow::Continue(())
-            }
-        };
-        sampled.reference = integrator.start();
-        let flow = integrator.run(&mut sampled.reference, BATCH_SAMPLES, &observe);
-        flow.is_continue().then_some(sampled)
-    }
-
     /// What the window shows of it. Pixels without samples are those of `coarse`, and have no error.
-    fn shown(&self, number: u64, coarse: Option<&Image>) -> Shown {
+    fn shown(&self, number: u64, coarse: &Image) -> Shown {
         let size_px = self.reference.size_px;
         let noise = self.reference.noise.as_ref();
         let is_sampled: Vec<bool> = noise.map_or_else(Vec::new, |noise| {
@@ -243,19 +250,21 @@ impl Sampled {
         } = error_map(size_px, &self.picture.layer(Layer::Beauty), &reference.rgb);
         let codes = png::quantize(&errors, &AS_IT_IS);
         let mut errors = ColorImage::from_rgb(size_px.map(|side| side as usize), &codes);
-        if let Some(coarse) = coarse {
-            let coarse = coarse.beauty();
-            for (i, _) in is_sampled.iter().enumerate().filter(|(_, is)| !**is) {
-                reference.rgb[i] = nearest(&coarse, size_px, i);
-                errors.pixels[i] = UNKNOWN;
-            }
+        let coarse = coarse.beauty();
+        for (i, _) in is_sampled.iter().enumerate().filter(|(_, is)| !**is) {
+            reference.rgb[i] = nearest(&coarse, size_px, i);
+            errors.pixels[i] = UNKNOWN;
         }
+        let figures = Figures::of(&self.picture, &self.reference, &is_sampled);
         Shown {
             number,
             reference,
-            errors: Arc::new(errors),
-            range: [lowest, highest],
-            figures: Figures::of(&self.picture, &self.reference, &is_sampled),
+            samples: figures.samples,
+            compared: Some(Compared {
+                errors: Arc::new(errors),
+                range: [lowest, highest],
+                figures,
+            }),
         }
     }
 }
