@@ -36,12 +36,13 @@ pub struct BrushSettings {
 }
 
 impl BrushSettings {
-    /// For an object whose bounding box has this diagonal: as wide as a finger is on a pan, a dozen scratches on each width.
+    /// For an object whose bounding box has this diagonal: as wide as a finger is on a pan, sixty scratches on each width: a
+    /// stroke that is seen at once.
     pub fn for_object(diagonal_m: f64) -> Self {
         let radius_m = (0.03 * diagonal_m).clamp(limits::SMALLEST_M, limits::LARGEST_M);
         Self {
             radius_m,
-            density_per_m: 6.0 / radius_m,
+            density_per_m: 30.0 / radius_m,
             width: 1.0,
             depth: 1.0,
             erase: false,
