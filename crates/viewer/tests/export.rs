@@ -9,11 +9,15 @@ use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::{Harness, kittest::Queryable};
 use hairline_editor::navigate;
+use hairline_gpu::headless;
+use hairline_image::metrics::layer_difference;
 use hairline_image::tone_map::srgb_from_linear;
-use hairline_image::{Display, Image, exr_file, png};
+use hairline_image::{Display, Image, Layer, exr_file, png};
+use hairline_optics::method::Method;
 use hairline_reference::closed_form::{self, RenderOptions};
 use hairline_scene::{Description, Loader, Scene};
-use hairline_viewer::Viewer;
+use hairline_viewer::engine::Backend;
+use hairline_viewer::{Options, Viewer};
 
 /// Pictures that are soon done.
 const TINY: &str = concat!(
@@ -121,6 +125,42 @@ fn a_picture_is_what_the_renderer_makes() {
     // Bit for bit: the file holds the floats as they are, and bands of rows change none.
     assert_eq!(exr_file::read_image(&path).unwrap(), image);
     assert_eq!(names(folder.path()), ["a.exr", "a.png"]);
+}
+
+#[test]
+fn a_picture_of_a_gpu_is_what_its_renderer_makes() {
+    let Some(gpu) = headless::test_gpu() else {
+        return;
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let mut harness = common::viewer_with(Options {
+        scene: None,
+        built_in: TINY,
+        backend: Backend::Gpu(gpu.clone()),
+        state_dir: None,
+        native_dialogs: false,
+    });
+    common::wait_built(&mut harness);
+    let path = folder.path().join("a.exr");
+    save_picture(&mut harness, &path);
+    wait_exported(&mut harness);
+    let found = exr_file::read_image(&path).unwrap();
+    let scene = Scene::from_toml(TINY, "test", "").unwrap();
+    let options = hairline_gpu::RenderOptions {
+        samples: SAMPLES,
+        ..Default::default()
+    };
+    let right = headless::render(gpu, &scene, &Method::default(), &options, &|_| {}).unwrap();
+    for layer in [Layer::Beauty, Layer::Scratches, Layer::Depth] {
+        let difference = layer_difference(&found, &right, layer, None);
+        // Tiles are those of a band, and segments that a pixel barely sees are added in another order.
+        assert!(
+            difference.relative_rms() < 1e-3,
+            "{layer:?}: {difference:?}"
+        );
+        assert!(difference.reference_rms > 0.0);
+    }
+    assert_eq!(names(folder.path()), ["a.exr"]);
 }
 
 #[test]
