@@ -1,5 +1,7 @@
 //! What renders: a GPU, the CPU renderer, or a graphics driver that computes on the CPU.
 
+mod fine;
+
 use anyhow::anyhow;
 use hairline_gpu::{AdapterKind, AdapterRequest, Gpu, headless};
 use hairline_image::Image;
@@ -12,6 +14,7 @@ use crate::cli::Backend;
 use crate::failure::Failure;
 use crate::progress::Progress;
 use crate::trial::{self, ReadyDriver, Winner};
+pub use fine::FINE_SAMPLES;
 
 /// What is to be rendered, and how.
 #[derive(Clone, Copy, Debug)]
@@ -86,8 +89,43 @@ impl<'a> Painter<'a> {
         scene: &Scene,
         progress: &(dyn Fn(f64) + Sync),
     ) -> Result<Image, Failure> {
+        let Task {
+            method, samples, ..
+        } = self.task;
+        self.paint(scene, samples, progress, |prepared| {
+            let options = closed_form::RenderOptions { samples, method };
+            prepared.with_scene(scene).render(&options, progress)
+        })
+    }
+
+    /// The same with [`FINE_SAMPLES`] in every pixel and each scratch for itself: what the closed forms' averages over a pixel must
+    /// come near to.
+    ///
+    /// # Errors
+    /// As [`Self::render`].
+    pub fn render_finely(
+        &mut self,
+        scene: &Scene,
+        progress: &(dyn Fn(f64) + Sync),
+    ) -> Result<Image, Failure> {
+        let method = Method {
+            gather: Gather::Exact,
+            ..self.task.method
+        };
+        self.paint(scene, FINE_SAMPLES, progress, |prepared| {
+            fine::render(prepared, scene, &method, progress)
+        })
+    }
+
+    fn paint(
+        &mut self,
+        scene: &Scene,
+        samples: u32,
+        progress: &(dyn Fn(f64) + Sync),
+        on_cpu: impl FnOnce(&Prepared) -> Image,
+    ) -> Result<Image, Failure> {
         if let On::Gpu(ready) = &mut self.on {
-            match ready.render(scene, self.task.samples, &|share| progress(share)) {
+            match ready.render(scene, samples, &|share| progress(share)) {
                 Ok(image) => return Ok(image),
                 Err(error) if self.task.backend == Backend::Gpu => return Err(advise(error)),
                 Err(error) => {
@@ -96,14 +134,10 @@ impl<'a> Painter<'a> {
                 }
             }
         }
-        let On::Cpu(prepared) = &self.on else {
-            unreachable!("a GPU has returned or was left");
-        };
-        let options = closed_form::RenderOptions {
-            samples: self.task.samples,
-            method: self.task.method,
-        };
-        Ok(prepared.with_scene(scene).render(&options, progress))
+        match &self.on {
+            On::Cpu(prepared) => Ok(on_cpu(prepared)),
+            On::Gpu(_) => unreachable!("a GPU has returned or was left"),
+        }
     }
 }
 

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use hairline_image::{Layer, ToneMap};
+use hairline_image::{FPS_MAX, Layer, ToneMap};
 
 use crate::compare::limits::{self, Limit};
 use crate::method_flags::{Mask, MethodFlags};
@@ -84,9 +84,40 @@ pub struct Render {
     /// Exposure in stops, in place of the scene's: radiances are multiplied by 2^EV before the tone map of a .png.
     #[arg(long, value_name = "EV", allow_negative_numbers = true, value_parser = parse_exposure)]
     pub exposure: Option<f64>,
+    /// Many pictures in place of one.
+    #[command(flatten)]
+    pub sequence: SequenceFlags,
     /// By which method.
     #[command(flatten)]
     pub method: MethodFlags,
+}
+
+/// A sequence of pictures on a way of the camera.
+#[derive(Args, Clone, Debug, Default)]
+#[command(next_help_heading = "Sequences")]
+pub struct SequenceFlags {
+    /// So many pictures, NAME-0001.png and on for -o NAME.png (or .exr), on the way that --turntable and --zoom say. For -o
+    /// NAME.apng one animation.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    pub frames: Option<u32>,
+    /// Turn the camera about its target, around its `up`, by so many degrees in all, counter-clockwise seen from above.
+    /// The step after the last frame completes them: a full turn of 360 shows no view twice.
+    #[arg(long, value_name = "DEG", allow_negative_numbers = true, value_parser = parse_turn)]
+    pub turntable: Option<f64>,
+    /// Divide the camera's distance to its target by A in the first frame, by B in the last one, by equal factors in
+    /// between. 1 is the scene's own view; 1:8 comes within an eighth of the distance, where the target is 8 times as large.
+    #[arg(long, value_name = "A:B", value_parser = parse_zoom)]
+    pub zoom: Option<[f64; 2]>,
+    /// Write one animated PNG (.apng or .png), in place of numbered pictures; with -o NAME.png both.
+    #[arg(long, value_name = "FILE")]
+    pub animation: Option<PathBuf>,
+    /// Frames of the animation in a second. [default: 30]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=i64::from(FPS_MAX)))]
+    pub fps: Option<u16>,
+    /// Render the frames with 64 samples in every pixel as well, and print how steady both sequences are: mean FLIP between
+    /// each frame and the one before it, moved to where its surfaces are now. Takes 64 times as long.
+    #[arg(long)]
+    pub stability: bool,
 }
 
 /// `hairline compare`
@@ -300,6 +331,26 @@ fn by_name<T: Copy + Send + Sync + 'static, const N: usize>(
             .find(|one| name(*one) == given)
             .ok_or("unknown name")
     })
+}
+
+/// What a zoom's factors may be. How near a scene lets a camera come is known when it is read.
+const ZOOMS: std::ops::RangeInclusive<f64> = 1e-3..=1e5;
+
+fn parse_zoom(text: &str) -> Result<[f64; 2], String> {
+    let factor = |text: &str| text.parse::<f64>().ok().filter(|f| ZOOMS.contains(f));
+    text.split_once(':')
+        .and_then(|(from, to)| Some([factor(from)?, factor(to)?]))
+        .ok_or_else(|| {
+            let (least, most) = (ZOOMS.start(), ZOOMS.end());
+            format!("write two factors from {least} to {most}, FROM:TO, as in 1:8")
+        })
+}
+
+fn parse_turn(text: &str) -> Result<f64, String> {
+    text.parse::<f64>()
+        .ok()
+        .filter(|degrees| degrees.abs() <= 36000.0)
+        .ok_or_else(|| "write a number of degrees from -36000 to 36000, as in 360".to_owned())
 }
 
 fn parse_exposure(text: &str) -> Result<f64, String> {

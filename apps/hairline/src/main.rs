@@ -8,6 +8,7 @@ mod cli;
 mod compare;
 mod failure;
 mod info;
+mod interrupt;
 mod method_flags;
 mod progress;
 mod reference;

@@ -2,7 +2,6 @@
 
 mod fingerprint;
 mod identity;
-mod interrupt;
 mod sampling;
 
 use std::time::Duration;
@@ -14,8 +13,8 @@ use hairline_reference::monte_carlo::{BATCH_SAMPLES, Integrator, Model, Settings
 
 use crate::cli;
 use crate::failure::Failure;
+use crate::interrupt::Interrupt;
 use crate::scene_file::{self, Overrides};
-use interrupt::Interrupt;
 use sampling::{Count, End, Limits};
 
 /// Samples for each pixel if neither they nor a time are asked for.

@@ -1,7 +1,13 @@
-//! `hairline render`: a scene file to a picture.
+//! `hairline render`: a scene file to a picture, or to a sequence of them.
 
+mod goals;
+mod motion;
+mod sequence;
+mod steadiness;
+
+use anyhow::anyhow;
 use hairline_image::exr_file::Notes;
-use hairline_image::{Display, Output};
+use hairline_image::{Animation, Display, Image, Output};
 use hairline_optics::method::Method;
 
 use crate::backend::{Painter, Task};
@@ -9,40 +15,75 @@ use crate::failure::Failure;
 use crate::progress::Progress;
 use crate::scene_file::{self, Overrides};
 use crate::{backend, cli, method_flags};
+use goals::Goals;
+use motion::Motion;
 
 /// Loads, renders and writes.
 pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
     let method = arguments.method.method()?;
     backend::check(&method, arguments.backend)?;
-    let scene_path = arguments.scene.as_deref();
-    let output_path = arguments
-        .output
-        .clone()
-        .unwrap_or_else(|| scene_file::picture_path(scene_path, ".png"));
+    let motion = Motion::of(&arguments.sequence)?;
     // Before the work: nobody should wait for a picture that then has no place to go.
-    let output = Output::check(&output_path)?;
+    let target = match &motion {
+        None => Target::One(single(arguments)?),
+        Some(motion) => Target::Many(motion, Goals::check(arguments, motion.frames)?),
+    };
     let overrides = Overrides {
         size_px: arguments.size,
         exposure_ev: arguments.exposure,
         scratch_seed: arguments.seed,
     };
-    let scene = scene_file::load(scene_path, &overrides)?.scene;
-    let task = Task {
-        method,
-        backend: arguments.backend,
-        samples: arguments.samples,
-        pictures: 1,
-    };
-    let mut painter = Painter::open(&scene, task)?;
-    let progress = Progress::start("rendering");
-    let image = painter.render(&scene, &|share| progress.set(share))?;
-    drop(progress);
+    let loaded = scene_file::load(arguments.scene.as_deref(), &overrides)?;
+    if let Some(motion) = &motion {
+        motion.check(&loaded.description.camera)?;
+    }
+    let scene = &loaded.scene;
     let display = Display {
         exposure_ev: scene.camera.exposure_ev,
         tone_map: scene.render.tone_map,
     };
-    output.write_image_with_notes(&image, &display, &notes(&method))?;
-    Ok(())
+    let write = |output: &Output, image: &Image| -> Result<(), Failure> {
+        Ok(output.write_image_with_notes(image, &display, &notes(&method))?)
+    };
+    let task = Task {
+        method,
+        backend: arguments.backend,
+        samples: arguments.samples,
+        pictures: motion.map_or(1, |motion| motion.frames),
+    };
+    let mut painter = Painter::open(scene, task)?;
+    match target {
+        Target::One(output) => {
+            let progress = Progress::start("rendering");
+            let image = painter.render(scene, &|share| progress.set(share))?;
+            drop(progress);
+            write(&output, &image)
+        }
+        Target::Many(motion, goals) => {
+            let stability = arguments.sequence.stability;
+            sequence::run(&loaded, motion, &goals, stability, &mut painter, &write)
+        }
+    }
+}
+
+/// Where pictures go.
+enum Target<'a> {
+    One(Output),
+    Many(&'a Motion, Goals),
+}
+
+fn single(arguments: &cli::Render) -> Result<Output, Failure> {
+    let path = arguments
+        .output
+        .clone()
+        .unwrap_or_else(|| scene_file::picture_path(arguments.scene.as_deref(), ".png"));
+    if Animation::is_asked_by(&path) {
+        let path = path.display();
+        return Err(Failure::Input(anyhow!(
+            "{path}: an animation needs --frames N, with --turntable DEG or --zoom A:B"
+        )));
+    }
+    Ok(Output::check(&path)?)
 }
 
 /// By which method a picture was made, where that was another than the default.

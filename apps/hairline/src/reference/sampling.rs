@@ -7,8 +7,8 @@ use hairline_image::Image;
 use hairline_reference::monte_carlo::Integrator;
 
 use crate::failure::Failure;
+use crate::interrupt::Interrupt;
 use crate::progress::Progress;
-use crate::reference::interrupt::Interrupt;
 
 /// Work for each unit of time spent on saving, so that huge pictures are not mostly saved.
 const WORK_PER_SAVING: u32 = 20;

@@ -1,0 +1,70 @@
+//! A picture with many samples in every pixel. The CPU renderer takes several at edges only, since the closed forms average over
+//! the rest of a pixel; here they average over a sample's share of it.
+
+use hairline_image::Image;
+use hairline_optics::method::Method;
+use hairline_reference::closed_form::{Prepared, RenderOptions};
+use hairline_scene::Scene;
+
+/// Samples along each side of a pixel.
+const SIDE: u32 = 8;
+/// In each pixel.
+pub const FINE_SAMPLES: u32 = SIDE * SIDE;
+/// Rows of the picture that are rendered together: enough for all threads, and little memory.
+const BAND_ROWS: u32 = 8;
+
+/// Renders with [`FINE_SAMPLES`] in every pixel: a picture so many times larger, whose pixels are the samples.
+pub fn render(
+    prepared: &Prepared,
+    scene: &Scene,
+    method: &Method,
+    progress: &(dyn Fn(f64) + Sync),
+) -> Image {
+    let [width, height] = scene.render.size_px;
+    let mut large = scene.clone();
+    large.render.size_px = [SIDE * width, SIDE * height];
+    large.render.filter_std_px = f64::from(SIDE) * scene.render.footprint_std_px(FINE_SAMPLES);
+    let prepared = prepared.with_scene(&large);
+    let options = RenderOptions {
+        samples: 1,
+        method: *method,
+    };
+    let mut image = Image::new([width, height]);
+    for first in (0..height).step_by(BAND_ROWS as usize) {
+        let rows = first..(first + BAND_ROWS).min(height);
+        let samples =
+            prepared.render_rows(&options, SIDE * rows.start..SIDE * rows.end, &|share| {
+                let done = f64::from(rows.start) + share * f64::from(rows.end - rows.start);
+                progress(done / f64::from(height));
+            });
+        let mut at = image.index(0, rows.start);
+        for y in 0..rows.end - rows.start {
+            for x in 0..width {
+                average(&samples, [x, y], &mut image, at);
+                at += 1;
+            }
+        }
+    }
+    image
+}
+
+fn average(samples: &Image, [x, y]: [u32; 2], image: &mut Image, at: usize) {
+    let mut hits = 0;
+    let share = 1.0 / FINE_SAMPLES as f32;
+    for (dx, dy) in (0..SIDE).flat_map(|dy| (0..SIDE).map(move |dx| (dx, dy))) {
+        let i = samples.index(SIDE * x + dx, SIDE * y + dy);
+        for c in 0..3 {
+            image.base[at][c] += share * samples.base[i][c];
+            image.scratches[at][c] += share * samples.scratches[i][c];
+            image.density[at][c] += share * samples.density[i][c];
+            image.normal[at][c] += samples.normal[i][c];
+        }
+        if samples.depth_m[i] > 0.0 {
+            hits += 1;
+            image.depth_m[at] += samples.depth_m[i];
+        }
+    }
+    image.depth_m[at] /= hits.max(1) as f32;
+    let normal = glam::Vec3::from(image.normal[at]);
+    image.normal[at] = normal.normalize_or_zero().to_array();
+}

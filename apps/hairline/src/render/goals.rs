@@ -1,0 +1,123 @@
+//! Where the pictures of a sequence go: numbered files, an animation, or both.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::anyhow;
+use hairline_image::{Animation, Output};
+
+use crate::cli;
+use crate::failure::Failure;
+use crate::scene_file;
+
+/// Frames in a second if nothing else is asked for.
+const DEFAULT_FPS: u16 = 30;
+
+/// Where the pictures go.
+pub struct Goals {
+    /// In the order of the frames; none where there is only an animation.
+    pub pictures: Vec<Output>,
+    /// Where all of them go together.
+    pub animation: Option<PathBuf>,
+    /// How many in a second.
+    pub fps: u16,
+}
+
+impl Goals {
+    /// Checks, before the work, that every file will have its place.
+    ///
+    /// # Errors
+    /// [`Failure::Input`] for flags that contradict one another and unknown endings, [`Failure::Work`] for places that cannot be
+    /// written.
+    pub fn check(arguments: &cli::Render, frames: u32) -> Result<Self, Failure> {
+        let flags = &arguments.sequence;
+        let mut animation = flags.animation.clone();
+        let mut pictures = arguments.output.clone();
+        if let Some(path) = pictures.take_if(|path| Animation::is_asked_by(path)) {
+            if animation.is_some() {
+                let path = path.display();
+                return Err(Failure::Input(anyhow!(
+                    "{path}: -o names an animation, and so does --animation; leave one of them out"
+                )));
+            }
+            animation = Some(path);
+        }
+        if animation.is_none() {
+            if flags.fps.is_some() {
+                return Err(Failure::Input(anyhow!(
+                    "--fps is for an animation: add --animation FILE.apng, or end -o in .apng"
+                )));
+            }
+            pictures.get_or_insert_with(|| {
+                scene_file::picture_path(arguments.scene.as_deref(), ".png")
+            });
+        }
+        if let Some(path) = &pictures
+            && path
+                .extension()
+                .is_some_and(|ending| ending.eq_ignore_ascii_case("webp"))
+        {
+            let path = path.display();
+            return Err(Failure::Input(anyhow!(
+                "{path}: animations are written as animated PNG: end it in .apng"
+            )));
+        }
+        if let Some(path) = &animation {
+            Animation::check(path)?;
+        }
+        let pictures = pictures.map_or(Ok(Vec::new()), |path| {
+            let numbers = 1..=frames;
+            numbers
+                .map(|number| Output::check(&numbered(&path, number, frames)))
+                .collect::<Result<_, _>>()
+        })?;
+        Ok(Self {
+            pictures,
+            animation,
+            fps: flags.fps.unwrap_or(DEFAULT_FPS),
+        })
+    }
+
+    /// What is there after `whole` frames, and what is not.
+    pub fn kept(&self, whole: usize) -> String {
+        let mut parts = Vec::new();
+        let name = |i: usize| self.pictures[i].path().display();
+        match (whole, self.pictures.len()) {
+            (_, 0) => {}
+            (0, frames) => parts.push(format!("none of {frames} frames was written")),
+            (1, frames) => parts.push(format!("1 of {frames} frames is whole, {}", name(0))),
+            (whole, frames) => parts.push(format!(
+                "{whole} of {frames} frames are whole, {} to {}",
+                name(0),
+                name(whole - 1)
+            )),
+        }
+        if let Some(path) = &self.animation {
+            parts.push(format!("{} was not written", path.display()));
+        }
+        parts.join("; ")
+    }
+}
+
+/// NAME-0001.png for NAME.png: as many digits as the last one needs, so that names sort as the frames do.
+fn numbered(path: &Path, number: u32, last: u32) -> PathBuf {
+    let digits = last.to_string().len().max(4);
+    let mut name = path.file_stem().unwrap_or_default().to_owned();
+    name.push(format!("-{number:0digits$}"));
+    if let Some(ending) = path.extension() {
+        name.push(".");
+        name.push(ending);
+    }
+    path.with_file_name(name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_sort_as_frames_do() {
+        let name = |number, last| numbered(Path::new("/a.b/pan.old.png"), number, last);
+        assert_eq!(name(7, 24), Path::new("/a.b/pan.old-0007.png"));
+        assert_eq!(name(7, 12345), Path::new("/a.b/pan.old-00007.png"));
+    }
+}

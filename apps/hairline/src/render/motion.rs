@@ -1,0 +1,149 @@
+//! The way of the camera through a sequence.
+
+use anyhow::anyhow;
+use glam::DVec3;
+use hairline_editor::navigate;
+use hairline_scene::description::{self, limits};
+
+use crate::cli::SequenceFlags;
+use crate::failure::Failure;
+
+/// Where the camera stands in each frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Motion {
+    /// How many pictures.
+    pub frames: u32,
+    /// Turned about the target over the whole sequence.
+    turn_deg: f64,
+    /// What the distance to the target is divided by, in the first frame and in the last.
+    zoom: [f64; 2],
+}
+
+impl Motion {
+    /// What the flags ask for; none for a single picture.
+    ///
+    /// # Errors
+    /// [`Failure::Input`] where they contradict one another.
+    pub fn of(flags: &SequenceFlags) -> Result<Option<Self>, Failure> {
+        let refuse = |what: &str| Err(Failure::Input(anyhow!("{what}")));
+        let Some(frames) = flags.frames else {
+            let lonely = [
+                ("--turntable", flags.turntable.is_some()),
+                ("--zoom", flags.zoom.is_some()),
+                ("--animation", flags.animation.is_some()),
+                ("--fps", flags.fps.is_some()),
+                ("--stability", flags.stability),
+            ];
+            return match lonely.into_iter().find(|(_, given)| *given) {
+                Some((flag, _)) => refuse(&format!(
+                    "{flag} is for a sequence: say of how many pictures by --frames N"
+                )),
+                None => Ok(None),
+            };
+        };
+        if flags.turntable.is_none() && flags.zoom.is_none() {
+            return refuse(
+                "--frames needs a way for the camera: --turntable DEG, --zoom A:B, or both",
+            );
+        }
+        if flags.stability && frames < 2 {
+            return refuse(
+                "--stability compares frames with one another: it needs --frames 2 or more",
+            );
+        }
+        Ok(Some(Self {
+            frames,
+            turn_deg: flags.turntable.unwrap_or(0.0),
+            zoom: flags.zoom.unwrap_or([1.0, 1.0]),
+        }))
+    }
+
+    /// Refuses a way that leaves what scenes allow.
+    ///
+    /// # Errors
+    /// [`Failure::Input`].
+    pub fn check(&self, camera: &description::Camera) -> Result<(), Failure> {
+        let distance_m = DVec3::from(camera.position_m).distance(camera.target_m.into());
+        for factor in self.zoom {
+            let there_m = distance_m / factor;
+            if !limits::SIZE_M.contains(&there_m) {
+                let (least, most) = (limits::SIZE_M.start(), limits::SIZE_M.end());
+                return Err(Failure::Input(anyhow!(
+                    "--zoom: at {factor} the camera would be {there_m:.3e} m from its target; {least} m to {most} m are possible"
+                )));
+            }
+        }
+        Ok(())
+    }
+
+    /// Where the camera stands in a frame, counted from 0. The step after the last frame would complete the turn; the last
+    /// frame is the end of the zoom.
+    pub fn position_m(&self, camera: &description::Camera, frame: u32) -> DVec3 {
+        let mut camera = camera.clone();
+        let turned = f64::from(frame) / f64::from(self.frames);
+        if self.turn_deg != 0.0 {
+            navigate::turn(&mut camera, (turned * self.turn_deg).to_radians());
+        }
+        let come = f64::from(frame) / f64::from(self.frames.max(2) - 1);
+        let [from, to] = self.zoom;
+        let factor = from * (to / from).powf(come);
+        let target = DVec3::from(camera.target_m);
+        target + (DVec3::from(camera.position_m) - target) / factor
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn camera() -> description::Camera {
+        description::Camera {
+            position_m: [0.1, -0.3, 0.2],
+            target_m: [0.1, 0.0, 0.0],
+            up: [0.0, 0.0, 1.0],
+            fov_y_deg: 30.0,
+            exposure_ev: 0.0,
+        }
+    }
+
+    fn motion(frames: u32, turn_deg: f64, zoom: [f64; 2]) -> Motion {
+        Motion {
+            frames,
+            turn_deg,
+            zoom,
+        }
+    }
+
+    #[test]
+    fn a_turntable_keeps_height_and_distance_and_shows_no_place_twice() {
+        let full = motion(4, 360.0, [1.0, 1.0]);
+        let places: Vec<DVec3> = (0..4).map(|i| full.position_m(&camera(), i)).collect();
+        assert_eq!(places[0], DVec3::from(camera().position_m));
+        let quarter = DVec3::new(0.4, 0.0, 0.2);
+        assert!((places[1] - quarter).length() < 1e-12, "{}", places[1]);
+        assert!((places[2] - DVec3::new(0.1, 0.3, 0.2)).length() < 1e-12);
+        assert!(places[3].distance(places[0]) > 0.4);
+    }
+
+    #[test]
+    fn a_zoom_goes_by_equal_factors_from_end_to_end() {
+        let near = motion(4, 0.0, [0.5, 4.0]);
+        let target = DVec3::from(camera().target_m);
+        let whole_m = DVec3::from(camera().position_m).distance(target);
+        for (frame, factor) in [(0, 0.5), (1, 1.0), (2, 2.0), (3, 4.0)] {
+            let distance_m = near.position_m(&camera(), frame).distance(target);
+            assert!((distance_m * factor / whole_m - 1.0).abs() < 1e-12);
+        }
+        let single = motion(1, 0.0, [0.5, 4.0]).position_m(&camera(), 0);
+        assert!((single.distance(target) * 0.5 / whole_m - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_zoom_into_the_target_or_out_of_the_world_is_refused() {
+        assert!(motion(2, 0.0, [1.0, 1e3]).check(&camera()).is_ok());
+        for zoom in [[1.0, 1e6], [1e-6, 1.0]] {
+            let error = motion(2, 0.0, zoom).check(&camera()).unwrap_err();
+            assert!(error.to_string().contains("from its target"), "{error}");
+        }
+    }
+}
