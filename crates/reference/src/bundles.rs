@@ -324,8 +324,8 @@ impl Directions {
         }
         let depth = oblique_depth_nm(self.depth_nm, point.wo.z, point.wo.z);
         let energy = table.scratch_table_total(depth);
-        for c in 0..3 {
-            sums.energy[c] += weight * self.share * energy[c];
+        for (sum, energy) in sums.energy.iter_mut().zip(energy) {
+            *sum += weight * self.share * energy;
         }
     }
 }

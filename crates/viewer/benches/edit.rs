@@ -20,6 +20,8 @@ const SCRATCHES: u64 = 100_000;
 const LENGTH_M: f64 = 0.005;
 const EDITS: usize = 12;
 
+type Stage = fn(&Latency) -> Duration;
+
 fn main() {
     // `cargo test --benches` only wants to see it compile and begin.
     if std::env::args().any(|argument| argument == "--test") {
@@ -76,7 +78,7 @@ fn measure(backend: Backend) {
         .built()
         .map_or(0, |built| built.scratch_counts().1);
     println!("\n{name}: {segments} straight pieces; medians, and the largest in brackets");
-    let stages: [(&str, fn(&Latency) -> Duration); 7] = [
+    let stages: [(&str, Stage); 7] = [
         ("waited for the thread", |l| l.build.waited),
         ("scratches laid", |l| l.build.scene),
         ("trees", |l| l.build.index),

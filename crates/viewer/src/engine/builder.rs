@@ -10,7 +10,7 @@ pub(super) fn run(shared: &Shared) {
     let mut workshop = Workshop::default();
     while let Some(wanted) = shared.next_scene() {
         let cancelled = || shared.is_stopped();
-        let built = pool::install(|| {
+        let built = pool::Crew::Builder.install(|| {
             let loader = Loader {
                 cancelled: &cancelled,
                 ..Loader::default()

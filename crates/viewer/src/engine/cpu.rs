@@ -42,7 +42,7 @@ impl Easel for CpuEasel {
         interrupted: &(dyn Fn() -> bool + Sync),
         show: &mut dyn FnMut(Shown),
     ) -> Result<bool, hairline_gpu::Error> {
-        let Some(image) = pool::install(|| paint(order, step, interrupted)) else {
+        let Some(image) = pool::Crew::Painter.install(|| paint(order, step, interrupted)) else {
             return Ok(false);
         };
         show(shown(order, &image, step));

@@ -16,28 +16,45 @@ pub(super) fn lower_priority() {
     }
 }
 
-/// The pool that scenes are built and painted in; None where the system starts no threads: then the caller computes.
-fn pool() -> Option<&'static ThreadPool> {
-    static POOL: OnceLock<Option<ThreadPool>> = OnceLock::new();
-    POOL.get_or_init(|| {
-        ThreadPoolBuilder::new()
-            .thread_name(|i| format!("viewer {i}"))
-            .start_handler(|_| lower_priority())
-            .build()
-            .ok()
-    })
-    .as_ref()
+/// Whose threads. Two pools: a thread that waits takes up other work of its own pool, and a painter that took up the building
+/// of a scene would show nothing until that is done.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Crew {
+    Builder,
+    Painter,
 }
 
-/// Does `work`, with its parallel parts on these threads.
-pub(super) fn install<T: Send>(work: impl FnOnce() -> T + Send) -> T {
-    match pool() {
-        Some(pool) => pool.install(work),
-        None => work(),
+impl Crew {
+    /// None where the system starts no threads: then the caller computes.
+    fn pool(self) -> Option<&'static ThreadPool> {
+        static BUILDER: OnceLock<Option<ThreadPool>> = OnceLock::new();
+        static PAINTER: OnceLock<Option<ThreadPool>> = OnceLock::new();
+        let (pool, name) = match self {
+            Self::Builder => (&BUILDER, "builder"),
+            Self::Painter => (&PAINTER, "painter"),
+        };
+        let start = || {
+            ThreadPoolBuilder::new()
+                .thread_name(move |i| format!("{name} {i}"))
+                .start_handler(|_| lower_priority())
+                .build()
+                .ok()
+        };
+        pool.get_or_init(start).as_ref()
+    }
+
+    /// Does `work`, with its parallel parts on these threads.
+    pub fn install<T: Send>(self, work: impl FnOnce() -> T + Send) -> T {
+        match self.pool() {
+            Some(pool) => pool.install(work),
+            None => work(),
+        }
     }
 }
 
 /// How many there are.
 pub(super) fn threads() -> usize {
-    pool().map_or(1, ThreadPool::current_num_threads)
+    Crew::Painter
+        .pool()
+        .map_or(1, ThreadPool::current_num_threads)
 }
