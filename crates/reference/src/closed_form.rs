@@ -157,11 +157,7 @@ impl<'a> Prepared<'a> {
         let [width, height] = [scene.render.size_px[0], rows.len() as u32];
         let camera = scene.camera.frame(scene.render.size_px);
         let samples = options.samples.max(1);
-        let way = Way {
-            prepared: self,
-            method: options.method,
-            published: Published::new(self, options.method),
-        };
+        let way = Way::new(self, options.method);
         let silhouettes = (samples > 1)
             .then(|| Silhouettes::new(&self.triangles, &camera, scene.render.size_px, &rows));
         let done = AtomicUsize::new(0);
@@ -218,11 +214,7 @@ impl<'a> Prepared<'a> {
         let scene = self.scene;
         let [width, height] = scene.render.size_px;
         let camera = scene.camera.frame(scene.render.size_px);
-        let way = Way {
-            prepared: self,
-            method,
-            published: Published::new(self, method),
-        };
+        let way = Way::new(self, method);
         let footprint_std_px = scene.render.footprint_std_px(1);
         let rows: Vec<u32> = (0..height).step_by(step.max(1)).collect();
         rows.into_par_iter()
@@ -274,7 +266,23 @@ struct Way<'a> {
     published: Option<Published<'a>>,
 }
 
-impl Way<'_> {
+impl<'a> Way<'a> {
+    /// Builds what the method looks up beside the trees. Now, on one thread: a thread that builds it in parallel while others
+    /// wait for it may take up one of their pixels meanwhile, and wait for itself.
+    fn new(prepared: &'a Prepared<'a>, method: Method) -> Self {
+        if method.gather == Gather::Clusters {
+            prepared.bundles();
+        }
+        if method.lookup == Lookup::Triangles {
+            prepared.triangle_lists();
+        }
+        Self {
+            prepared,
+            method,
+            published: Published::new(prepared, method),
+        }
+    }
+
     /// One ray through a point of the picture.
     fn shade_pixel(
         &self,

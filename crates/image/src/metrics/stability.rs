@@ -11,8 +11,10 @@
 use super::away_from_silhouettes;
 use crate::{Display, Image, Picture};
 
-/// Depths that differ by more than this share are of two surfaces.
+/// A surface that is found again lies at the depth that it should have, but for this share.
 const SAME_DEPTH: f64 = 0.01;
+/// Neighbours whose depths differ by more than this share are of two surfaces: a slope has less, in all but tiny pictures.
+const EDGE: f64 = 0.05;
 
 /// Where a point of a surface, seen at a pixel (from the upper left corner, pixel centres at half-integers) and a depth in
 /// metres in one frame, lies in another, and how deep; none behind the camera.
@@ -71,7 +73,7 @@ fn difference(frame: &Picture, moved: &Picture, _display: &Display, seen: &[bool
 /// no difference there.
 fn moved(frame: &Image, previous: &Image, to_previous: Move<'_>) -> (Picture, Vec<bool>) {
     let [now, before] = [frame, previous].map(Image::beauty);
-    let inside = away_from_silhouettes(frame, frame, SAME_DEPTH as f32);
+    let inside = away_from_silhouettes(frame, frame, EDGE as f32);
     let width = frame.size_px[0].max(1) as usize;
     let mut moved = now;
     let mut seen = vec![false; frame.pixel_count()];
@@ -91,7 +93,7 @@ fn moved(frame: &Image, previous: &Image, to_previous: Move<'_>) -> (Picture, Ve
     (moved, seen)
 }
 
-/// The four pixels around a place, if all of them show a surface of that depth.
+/// The mean of the four pixels around a place, if they show one surface, of that depth.
 fn bilinear(
     picture: &Picture,
     depths_m: &[f32],
@@ -107,7 +109,7 @@ fn bilinear(
             place
         }
     });
-    let mut sum = [0.0; 3];
+    let (mut sum, mut sum_m) = ([0.0; 3], 0.0);
     for (column, row) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
         let (column, row) = (x.floor() + column as f64, y.floor() + row as f64);
         let weight = (1.0 - (x - column).abs()) * (1.0 - (y - row).abs());
@@ -120,14 +122,15 @@ fn bilinear(
         }
         let i = row as usize * (width + 1) as usize + column as usize;
         let there_m = f64::from(depths_m[i]);
-        if !((there_m - depth_m).abs() <= SAME_DEPTH * depth_m) {
+        if !((there_m - depth_m).abs() <= EDGE * depth_m) {
             return None;
         }
+        sum_m += weight * there_m;
         for (sum, value) in sum.iter_mut().zip(picture.rgb[i]) {
             *sum += weight * f64::from(value);
         }
     }
-    Some(sum.map(|value| value as f32))
+    ((sum_m - depth_m).abs() <= SAME_DEPTH * depth_m).then(|| sum.map(|value| value as f32))
 }
 
 #[cfg(test)]
@@ -213,7 +216,7 @@ mod tests {
         let (pixels, mean) = add(&now, stay);
         assert!(mean.unwrap() > 0.1);
         assert_eq!(pixels, all);
-        let hidden: Move<'_> = &|pixel, depth_m| Some((pixel, 1.1 * depth_m));
+        let hidden: Move<'_> = &|pixel, depth_m| Some((pixel, 1.02 * depth_m));
         assert_eq!(add(&now, hidden), (0, None));
         let behind: Move<'_> = &|_, _| None;
         assert_eq!(add(&now, behind), (0, None));
