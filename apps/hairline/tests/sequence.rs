@@ -1,0 +1,197 @@
+//! Sequences from outside: what is written, what is refused, and that stopping leaves whole files only.
+
+use std::fs;
+use std::path::Path;
+
+use assert_cmd::Command;
+use hairline_image::{exr_file, png};
+
+const SCENE: &str = include_str!("scratched.toml");
+
+fn hairline(folder: &Path, arguments: &str) -> assert_cmd::assert::Assert {
+    Command::cargo_bin("hairline")
+        .unwrap()
+        .current_dir(folder)
+        .args(arguments.split_whitespace())
+        .assert()
+}
+
+fn stderr_of(assert: &assert_cmd::assert::Assert) -> String {
+    String::from_utf8(assert.get_output().stderr.clone()).unwrap()
+}
+
+fn names_in(folder: &Path) -> Vec<String> {
+    let mut names: Vec<String> = fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .filter(|name| name != "plate.toml")
+        .collect();
+    names.sort();
+    names
+}
+
+fn folder_with_scene() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("plate.toml"), SCENE).unwrap();
+    folder
+}
+
+#[test]
+fn frames_are_numbered_and_the_first_is_the_scenes_own_view() {
+    let folder = folder_with_scene();
+    let render = |flags: &str| {
+        hairline(
+            folder.path(),
+            &format!("render plate.toml --backend cpu {flags}"),
+        )
+        .success()
+    };
+    render("-o still.exr");
+    render("-o turn.exr --frames 3 --turntable 360");
+    render("-o zoom.exr --frames 2 --zoom 2:1");
+    assert_eq!(
+        names_in(folder.path()),
+        [
+            "still.exr",
+            "turn-0001.exr",
+            "turn-0002.exr",
+            "turn-0003.exr",
+            "zoom-0001.exr",
+            "zoom-0002.exr"
+        ]
+    );
+    let read = |name: &str| {
+        exr_file::read_image_with_notes(&folder.path().join(name))
+            .unwrap()
+            .0
+    };
+    let still = read("still.exr");
+    assert_eq!(read("turn-0001.exr"), still);
+    assert_ne!(read("turn-0002.exr"), still);
+    // The step after the last frame would be the first again.
+    assert_ne!(read("turn-0003.exr"), still);
+    assert_eq!(read("zoom-0002.exr"), still);
+    let middle = still.index(12, 8);
+    let (near, far) = (read("zoom-0001.exr").depth_m[middle], still.depth_m[middle]);
+    // The pixel beside the middle is not the target itself.
+    assert!((near / far - 0.5).abs() < 0.02, "{near} {far}");
+}
+
+#[test]
+fn an_animation_is_one_file_and_its_first_frame_is_the_picture() {
+    let folder = folder_with_scene();
+    for (flags, names) in [
+        ("-o a.apng", vec!["a.apng"]),
+        ("--animation b.png", vec!["a.apng", "b.png"]),
+        (
+            "--animation b.png -o c.png",
+            vec!["a.apng", "b.png", "c-0001.png", "c-0002.png"],
+        ),
+    ] {
+        let arguments =
+            format!("render plate.toml --backend cpu --frames 2 --turntable 90 --fps 12 {flags}");
+        hairline(folder.path(), &arguments).success();
+        assert_eq!(names_in(folder.path()), names);
+    }
+    let read = |name: &str| png::read_picture(&folder.path().join(name)).unwrap();
+    assert_eq!(read("a.apng"), read("c-0001.png"));
+    assert_eq!(read("b.png"), read("c-0001.png"));
+    assert_ne!(read("c-0001.png"), read("c-0002.png"));
+}
+
+#[test]
+fn contradictions_are_2_and_nothing_is_written() {
+    let folder = folder_with_scene();
+    for (flags, message) in [
+        ("--frames 3", "--turntable DEG, --zoom A:B"),
+        ("--frames 0 --turntable 9", "1..=100000"),
+        ("--turntable 90", "--frames N"),
+        ("--zoom 1:2", "--frames N"),
+        ("--stability", "--frames N"),
+        ("--animation a.apng", "--frames N"),
+        ("-o a.apng", "--frames N"),
+        ("--frames 2 --turntable much", "360"),
+        ("--frames 2 --zoom 8", "1:8"),
+        ("--frames 2 --zoom 0:8", "1:8"),
+        ("--frames 2 --zoom 1:90000", "from its target"),
+        ("--frames 2 --zoom 1:2 --fps 12", "--animation FILE"),
+        ("--frames 2 --zoom 1:2 --fps 0", "1..=100"),
+        ("--frames 1 --zoom 1:2 --stability", "--frames 2 or more"),
+        ("--frames 2 --zoom 1:2 -o a.webp", "end it in .apng"),
+        ("--frames 2 --zoom 1:2 --animation a.gif", ".apng or .png"),
+        (
+            "--frames 2 --zoom 1:2 -o a.apng --animation b.apng",
+            "leave one of them out",
+        ),
+    ] {
+        let arguments = format!("render plate.toml --backend cpu {flags}");
+        let text = stderr_of(&hairline(folder.path(), &arguments).code(2));
+        assert!(text.contains(message), "{flags}: {text}");
+        assert!(names_in(folder.path()).is_empty(), "{flags}");
+    }
+    let arguments = "render plate.toml --backend cpu --frames 2 --zoom 1:2 -o nowhere/a.png";
+    hairline(folder.path(), arguments).code(1);
+}
+
+/// "mean FLIP a; of 64 samples b; ratio c"
+fn figures(folder: &Path, flags: &str) -> [f64; 3] {
+    let arguments = format!("render plate.toml --backend cpu --stability -o a.png {flags}");
+    let assert = hairline(folder, &arguments).success();
+    let text = String::from_utf8(assert.get_output().stdout.clone()).unwrap();
+    let numbers: Vec<f64> = text
+        .split([' ', ';', '\n'])
+        .filter_map(|word| word.parse().ok())
+        .collect();
+    assert!(text.starts_with("stability: mean FLIP"), "{text}");
+    // The third number is how many samples.
+    [numbers[0], numbers[2], numbers[3]]
+}
+
+#[test]
+fn a_camera_that_stands_still_is_steady_and_a_moving_one_as_its_reference() {
+    let folder = folder_with_scene();
+    let still = figures(folder.path(), "--frames 2 --zoom 1:1");
+    assert_eq!(still, [0.0, 0.0, 1.0]);
+    let [own, reference, ratio] = figures(folder.path(), "--frames 3 --turntable 3");
+    assert!(own > 0.0 && reference > 0.0);
+    assert!((ratio - own / reference).abs() < 0.01);
+    // The averages over pixels are closed forms: they flicker no more than what they stand for.
+    assert!((0.8..1.2).contains(&ratio), "{ratio}");
+}
+
+#[cfg(unix)]
+#[test]
+fn ctrl_c_leaves_whole_frames_and_no_animation() {
+    let folder = folder_with_scene();
+    let child = std::process::Command::new(assert_cmd::cargo::cargo_bin("hairline"))
+        .current_dir(folder.path())
+        .args("render plate.toml --backend cpu --frames 100000 --turntable 360 -o a.png".split(' '))
+        .args(["--animation", "b.apng", "--size", "160x90"])
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    let second = folder.path().join("a-000002.png");
+    let start = std::time::Instant::now();
+    while !second.exists() {
+        assert!(start.elapsed().as_secs() < 60, "no second frame");
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+    let killed = std::process::Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status();
+    assert!(killed.unwrap().success());
+    let output = child.wait_with_output().unwrap();
+    let text = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(1), "{text}");
+    let names = names_in(folder.path());
+    let said = format!(
+        "interrupted; {} of 100000 frames are whole, a-000001.png to {}; b.apng was not written",
+        names.len(),
+        names.last().unwrap()
+    );
+    assert!(text.contains(&said), "{text} {names:?}");
+    for name in names {
+        let picture = png::read_picture(&folder.path().join(name)).unwrap();
+        assert_eq!(picture.size_px, [160, 90]);
+    }
+}
