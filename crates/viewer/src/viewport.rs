@@ -154,7 +154,8 @@ impl Area {
 
 /// Shows the picture in what is left of the window, and returns where.
 pub(crate) fn show(ui: &mut egui::Ui, viewer: &mut Viewer) -> Rect {
-    let frame = egui::Frame::new().fill(ui.visuals().extreme_bg_color);
+    // Not filled: the picture covers it, and a software driver pays for each layer.
+    let frame = egui::Frame::NONE;
     let shown = egui::CentralPanel::default().frame(frame).show(ui, |ui| {
         let rect = ui.available_rect_before_wrap();
         let response = ui.allocate_rect(rect, Sense::click_and_drag());

@@ -44,6 +44,8 @@ pub fn open(options: Options, renderer: Renderer) -> Result<(), Error> {
             .with_inner_size([1440.0, 900.0])
             .with_min_inner_size([720.0, 480.0])
             .with_drag_and_drop(true),
+        // The picture is dithered when it is made; for grey panels it would cost a software driver much for nothing.
+        dithering: false,
         ..Default::default()
     };
     let mut setup = WgpuSetupCreateNew::without_display_handle();

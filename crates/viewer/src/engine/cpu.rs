@@ -76,7 +76,7 @@ fn paint(order: &Order, step: &Step, interrupted: &(dyn Fn() -> bool + Sync)) ->
     let mut scene = order.built.scene.clone();
     scene.camera = order.view.camera;
     scene.render.size_px = step.size_px;
-    scene.render.filter_std_px = order.view.filter_std_px;
+    scene.render.filter_std_px = step.filter_std_px(&order.view);
     render(&order.built, &scene, step.samples, BAND_PX, &|_| {
         !interrupted()
     })

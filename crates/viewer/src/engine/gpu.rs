@@ -204,7 +204,7 @@ fn scene_seen(order: &Order, step: &Step) -> Scene {
     let mut scene = order.built.scene.clone();
     scene.camera = order.view.camera;
     scene.render.size_px = step.size_px;
-    scene.render.filter_std_px = order.view.filter_std_px;
+    scene.render.filter_std_px = step.filter_std_px(&order.view);
     scene
 }
 

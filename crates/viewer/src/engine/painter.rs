@@ -7,7 +7,7 @@ use super::frame::{Frame, Latency, Painted, Picture};
 use super::gpu::GpuEasel;
 use super::pace::{Pace, scaled};
 use super::request::{Order, Shared};
-use super::{Backend, Event};
+use super::{Backend, Event, View};
 
 /// What stands still for this long is refined.
 const STILL: Duration = Duration::from_millis(150);
@@ -20,6 +20,15 @@ pub(super) struct Step {
     pub size_px: [u32; 2],
     /// Samples of the finished picture; 1 looks through the pixels' centres.
     pub samples: u32,
+}
+
+impl Step {
+    /// The pixel's filter. A coarse picture looks through the small filter of the full one: through its own, each of its few
+    /// pixels would see as many more scratches as it is larger, and a coarse picture would take as long as a fine one. It
+    /// sparkles instead, for as long as something moves.
+    pub fn filter_std_px(&self, view: &View) -> f64 {
+        view.filter_std_px * f64::from(self.size_px[0]) / f64::from(view.size_px[0].max(1))
+    }
 }
 
 /// What a painter can do in one step.
@@ -109,7 +118,12 @@ fn work(shared: &Shared, easel: &mut dyn Easel) -> Result<(), hairline_gpu::Erro
                 done = Some(order.clone());
                 while !steps.is_empty() {
                     let step = steps[0];
-                    if !studio.paint(easel, &order, &step, steps.len() == 1)? {
+                    let turn = if steps.len() == 1 {
+                        Turn::Last
+                    } else {
+                        Turn::Between
+                    };
+                    if !studio.paint(easel, &order, &step, turn)? {
                         break;
                     }
                     steps.remove(0);
@@ -121,6 +135,14 @@ fn work(shared: &Shared, easel: &mut dyn Easel) -> Result<(), hairline_gpu::Erro
             }
         }
     }
+}
+
+/// The place of a step among those of an order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Turn {
+    First,
+    Between,
+    Last,
 }
 
 struct Studio<'a> {
@@ -161,7 +183,7 @@ impl Studio<'_> {
             size_px: full_px,
             samples: easel.best_samples(),
         });
-        if !self.paint(easel, order, &coarse, false)? {
+        if !self.paint(easel, order, &coarse, Turn::First)? {
             steps.clear();
         }
         Ok(steps)
@@ -173,17 +195,17 @@ impl Studio<'_> {
         easel: &mut dyn Easel,
         order: &Order,
         step: &Step,
-        is_last: bool,
+        turn: Turn,
     ) -> Result<bool, hairline_gpu::Error> {
         let start = Instant::now();
         let is_new = easel.take(order)?;
         let uploaded = start.elapsed();
         // The first picture of a movement comes to its end, whatever is wanted meanwhile: else a steady hand would see none.
-        let must_end = step.size_px != order.view.size_px || step.samples == 1;
+        let may_stop = turn != Turn::First;
         let shared = self.shared;
         let interrupted = || {
             shared.is_stopped()
-                || (!must_end || start.elapsed() > 4 * STILL)
+                || (may_stop || start.elapsed() > 4 * STILL)
                     && shared
                         .order()
                         .is_none_or(|newest| !newest.has_same_pixels(order))
@@ -209,7 +231,7 @@ impl Studio<'_> {
                     total: order.built.asked.elapsed(),
                 }
             });
-            self.put(order, shown, is_last && finished, time, latency);
+            self.put(order, shown, turn == Turn::Last && finished, time, latency);
         }
         Ok(finished)
     }

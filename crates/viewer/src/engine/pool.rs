@@ -1,4 +1,4 @@
-//! The threads that compute: all cores, but after the interface.
+//! The threads that compute: all cores but one, and after the interface.
 
 use std::sync::OnceLock;
 
@@ -6,7 +6,7 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 use thread_priority::{ThreadPriority, ThreadPriorityValue, set_current_thread_priority};
 
 /// Of 0 to 99: the interface, and a software driver that draws it, come first.
-const PRIORITY: u8 = 40;
+const PRIORITY: u8 = 30;
 
 /// Lets the interface's threads go first where they want the same core.
 pub(super) fn lower_priority() {
@@ -33,8 +33,11 @@ impl Crew {
             Self::Builder => (&BUILDER, "builder"),
             Self::Painter => (&PAINTER, "painter"),
         };
+        // A core is left to the interface, which a software driver may be drawing.
+        let cores = std::thread::available_parallelism().map_or(1, |n| n.get());
         let start = || {
             ThreadPoolBuilder::new()
+                .num_threads((cores - 1).max(1))
                 .thread_name(move |i| format!("{name} {i}"))
                 .start_handler(|_| lower_priority())
                 .build()
