@@ -45,6 +45,9 @@ pub(crate) struct Bundles {
     tables: HashMap<[usize; 3], ScratchTable>,
 }
 
+/// Sizes that differ by less than this share, as rounding does, are the same.
+const ALIKE: f64 = 1e-5;
+
 impl Bundles {
     pub fn new(scene: &Scene, tables: &ScratchTables) -> Self {
         let index = BundleIndex::build(scene);
@@ -67,7 +70,14 @@ impl Bundles {
             .map(|key| {
                 let [object, class, table] = key;
                 let sizes = &index.objects[object].classes[class].sizes;
-                let sizes: Vec<_> = sizes.iter().map(|size| size.map(f64::from)).collect();
+                let mut sizes: Vec<_> = sizes.iter().map(|size| size.map(f64::from)).collect();
+                // Scratches that are all alike need no mean.
+                let alike = |a: &[f64; 2], b: &[f64; 2]| {
+                    (0..2).all(|i| (a[i] - b[i]).abs() <= ALIKE * b[i])
+                };
+                if sizes.iter().all(|size| alike(size, &sizes[0])) {
+                    sizes.truncate(1);
+                }
                 (key, tables.tables[table].spread(&sizes))
             })
             .collect();

@@ -1,16 +1,18 @@
 use crate::closed_form::{Prepared, RenderOptions};
 use hairline_image::Image;
+use hairline_index::{ScratchIndex, TriangleIndex};
 use hairline_optics::method::{Gather, Method};
-use hairline_scene::Scene;
+use hairline_scene::{Scene, ScratchTables};
+use std::sync::{Arc, OnceLock};
 
-/// Scratches of two layers, from far away.
-fn dense(shape: &str, count: u32, width_spread: f64, distance_m: f64) -> Scene {
+/// Scratches of two layers, from far away: one of sizes that are spread, one of a single size.
+fn dense(shape: &str, count: u32, spread: f64, distance_m: f64) -> Scene {
     let text = format!(
         "[camera]\nposition_m = [0.0, {}, {distance_m}]\ntarget_m = [0.0, 0.0, 0.0]\nup = [0.0, 0.0, 1.0]\nfov_y_deg = 0.6\n\
          [render]\nsize_px = [5, 4]\n[[material]]\nname = \"m\"\nkind = \"metal\"\nmetal = \"steel\"\nroughness = 0.1\n\
          [[object]]\nname = \"o\"\nmaterial = \"m\"\nshape = {{ {shape} }}\n\
          [[scratches]]\nobject = \"o\"\npattern = \"random\"\ncount = {count}\nlength_m = {{ mean = 0.01, spread = 0.4 }}\n\
-         width_um = {{ mean = 3.0, spread = {width_spread} }}\ndepth_nm = {{ mean = 180.0, spread = 0.1 }}\n\
+         width_um = {{ mean = 3.0, spread = {spread} }}\ndepth_nm = {{ mean = 180.0, spread = {spread} }}\n\
          [[scratches]]\nobject = \"o\"\npattern = \"circular\"\njitter_deg = 3.0\ncount = {count}\nlength_m = 0.02\n\
          width_um = 2.0\ndepth_nm = 250.0\n\
          [[light]]\nkind = \"sphere\"\ncenter_m = [-0.3, 0.9, 0.9]\nradius_m = 0.05\nradiance = 50.0\n\
@@ -20,15 +22,20 @@ fn dense(shape: &str, count: u32, width_spread: f64, distance_m: f64) -> Scene {
     Scene::from_toml(&text, "dense", ".").unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn pictures(scene: &Scene) -> [Image; 2] {
-    let prepared = Prepared::new(scene);
-    [Gather::Exact, Gather::Clusters].map(|gather| {
-        let method = Method {
-            gather,
-            ..Method::default()
-        };
-        prepared.render(&RenderOptions { samples: 1, method }, &|_| {})
-    })
+/// All scenes here have one metal, and share its table.
+fn prepared(scene: &Scene) -> Prepared<'_> {
+    static TABLES: OnceLock<Arc<ScratchTables>> = OnceLock::new();
+    let tables = TABLES.get_or_init(|| ScratchTables::new(scene).into());
+    let (triangles, scratches) = (TriangleIndex::build(scene), ScratchIndex::build(scene));
+    Prepared::from_parts(scene, triangles.into(), scratches.into(), tables.clone())
+}
+
+fn picture(prepared: &Prepared, gather: Gather) -> Image {
+    let method = Method {
+        gather,
+        ..Method::default()
+    };
+    prepared.render(&RenderOptions { samples: 1, method }, &|_| {})
 }
 
 /// Relative rms difference of the scratch layer, and of its mean and of what is taken from the base.
@@ -56,14 +63,15 @@ fn errors([exact, many]: &[Image; 2]) -> [f64; 3] {
 /// The disk fills the picture. Thousands of scratches lie under each pixel; what is left is that single ones differ from their class.
 #[test]
 fn grids_equal_all_scratches_one_by_one() {
-    for (shape, bound, bias) in [
-        ("disk = { radius_m = 0.08 }", 0.04, 0.01),
+    for (shape, spread, bound, bias) in [
+        ("disk = { radius_m = 0.08 }", 0.1, 0.04, 0.01),
         // The normal turns by a quarter radian within three standard deviations of a pixel: a band for all scratches of a direction
         // is wider there than those of single ones, and more of it misses the lights.
-        ("sphere = { radius_m = 0.04 }", 0.12, 0.07),
+        ("sphere = { radius_m = 0.04 }", 0.0, 0.12, 0.07),
     ] {
-        let scene = dense(shape, 8_000, 0.1, 2.0);
-        let pictures = pictures(&scene);
+        let scene = dense(shape, 8_000, spread, 2.0);
+        let prepared = prepared(&scene);
+        let pictures = [Gather::Exact, Gather::Clusters].map(|gather| picture(&prepared, gather));
         assert_ne!(pictures[0].scratches, pictures[1].scratches, "one by one");
         let [rms, mean, taken] = errors(&pictures);
         println!(
@@ -79,37 +87,28 @@ fn grids_equal_all_scratches_one_by_one() {
 /// The comparison sees what it should: scratches of another width.
 #[test]
 fn another_width_is_seen() {
-    let scene = dense("disk = { radius_m = 0.08 }", 3_000, 0.1, 2.0);
+    let scene = dense("disk = { radius_m = 0.08 }", 3_000, 0.0, 2.0);
     let mut wider = scene.clone();
     let object = &mut wider.objects[0];
     for scratch in std::sync::Arc::make_mut(&mut object.scratches) {
         scratch.width_um *= 1.1;
     }
-    let [exact, _] = pictures(&scene);
-    let [_, wider] = pictures(&wider);
+    let exact = picture(&prepared(&scene), Gather::Exact);
+    let wider = picture(&prepared(&wider), Gather::Clusters);
     assert!(errors(&[exact, wider])[0] > 0.06);
 }
 
 /// As the camera leaves, grids take over from scratches and coarser grids from finer ones: no step of the distance shows.
 #[test]
 fn nothing_jumps_as_the_camera_leaves() {
-    let scene = dense("disk = { radius_m = 0.08 }", 3_000, 0.1, 1.0);
-    let prepared = Prepared::new(&scene);
+    let scene = dense("disk = { radius_m = 0.08 }", 3_000, 0.0, 1.0);
+    let prepared = prepared(&scene);
     assert!(prepared.bundle_index().bytes() > 0);
     let mean = |distance: f64| {
         let mut scene = scene.clone();
         scene.camera.position_m *= distance;
         scene.render.size_px = [4, 4];
-        let image = prepared.with_scene(&scene).render(
-            &RenderOptions {
-                samples: 1,
-                method: Method {
-                    gather: Gather::Clusters,
-                    ..Method::default()
-                },
-            },
-            &|_| {},
-        );
+        let image = picture(&prepared.with_scene(&scene), Gather::Clusters);
         image.scratches.iter().flatten().sum::<f32>()
     };
     let steps: Vec<f32> = (0..60).map(|i| mean(1.02f64.powi(i))).collect();
