@@ -66,7 +66,7 @@ fn folder_with_scene() -> tempfile::TempDir {
 #[test]
 fn help_and_version() {
     let folder = tempfile::tempdir().unwrap();
-    for arguments in ["", "--help", "render --help"] {
+    for arguments in ["--help", "render --help"] {
         let assert = hairline(folder.path(), arguments).success();
         let text = String::from_utf8(assert.get_output().stdout.clone()).unwrap();
         assert!(text.contains("Usage:"), "{text}");
