@@ -177,7 +177,7 @@ pub fn drawn_layer(object: impl Into<String>, radius_m: f64) -> Scratches {
         jitter_deg: 4.0,
         seed: 1,
         length_m: Distribution {
-            mean: (4.0 * radius_m).clamp(1e-4, 10.0),
+            mean: (1.5 * radius_m).clamp(1e-4, 10.0),
             spread: 0.5,
         },
         width_um: Distribution {
