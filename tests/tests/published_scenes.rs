@@ -9,7 +9,9 @@ use hairline_gpu::{Renderer, headless};
 use hairline_image::metrics::layer_difference;
 use hairline_image::{Image, Layer, Picture};
 use hairline_optics::mask::Mask;
-use hairline_optics::method::{Band, Chords, Lookup, Method, PixelFilter, Spectrum, SphereBase};
+use hairline_optics::method::{
+    Band, Chords, Gather, Lookup, Method, PixelFilter, Spectrum, SphereBase,
+};
 use hairline_optics::published::sine_integral::SineIntegral;
 use hairline_reference::closed_form::{self, Prepared};
 use hairline_scene::{Environment, Scene};
@@ -22,6 +24,7 @@ const OURS: Method = Method {
     mask: Mask::Energy,
     sphere_base: SphereBase::Cosines,
     lookup: Lookup::Tiles,
+    gather: Gather::Exact,
 };
 const THEIRS: Method = Method::PUBLISHED;
 
