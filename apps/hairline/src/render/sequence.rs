@@ -61,7 +61,10 @@ pub fn run(
         if let Some(animation) = &mut animation {
             animation.add(&image.beauty(), &display)?;
         }
-        if let Some(steadiness) = &mut steadiness {
+        // A reference may take minutes: not for a figure that nobody waits for any more.
+        if let Some(steadiness) = &mut steadiness
+            && !interrupt.is_asked()
+        {
             let rest = |share| done(frame, own + (1.0 - own) * share);
             let reference = painter.render_finely(&scene, &rest).map_err(kept)?;
             let camera = scene.camera.frame(scene.render.size_px);
@@ -73,6 +76,11 @@ pub fn run(
         animation.finish()?;
     }
     if let Some(steadiness) = steadiness {
+        if interrupt.is_asked() {
+            return Err(Failure::Work(anyhow!(
+                "interrupted; all frames are whole, and how steady they are is not known"
+            )));
+        }
         println!("{}", steadiness.in_words(FINE_SAMPLES));
     }
     Ok(())
