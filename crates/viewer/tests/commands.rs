@@ -1,0 +1,192 @@
+//! Every command of the menus, by its key where it has one.
+
+mod common;
+
+use common::{SMALL, click_on, description, viewer, wait_built};
+use egui::{Key, Modifiers};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use hairline_editor::Selection;
+use hairline_scene::Description;
+use hairline_viewer::Viewer;
+
+fn press(harness: &mut Harness<'static, Viewer>, modifiers: Modifiers, key: Key) {
+    harness.key_press_modifiers(modifiers, key);
+    harness.run_steps(3);
+}
+
+/// A key that must change the scene, and one undo that must bring it back.
+fn changes(
+    harness: &mut Harness<'static, Viewer>,
+    selection: Selection,
+    (modifiers, key): (Modifiers, Key),
+    is_done: impl Fn(&Description, &Description) -> bool,
+) {
+    harness.state_mut().document_mut().select(selection);
+    harness.run_steps(2);
+    let before = description(harness);
+    press(harness, modifiers, key);
+    let after = description(harness);
+    assert!(is_done(&before, &after), "{key:?} on {selection:?}");
+    press(harness, Modifiers::COMMAND, Key::Z);
+    assert!(
+        *description(harness) == *before,
+        "undo of {key:?} on {selection:?}"
+    );
+    // Redo, and back again.
+    press(harness, Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
+    assert!(
+        *description(harness) == *after,
+        "redo of {key:?} on {selection:?}"
+    );
+    press(harness, Modifiers::COMMAND, Key::Z);
+}
+
+#[test]
+fn keys_edit_what_is_selected() {
+    let mut harness = viewer(SMALL);
+    wait_built(&mut harness);
+    let duplicate = (Modifiers::COMMAND, Key::D);
+    let delete = (Modifiers::NONE, Key::Delete);
+    let h = &mut harness;
+    changes(h, Selection::Layer(0), duplicate, |a, b| {
+        b.scratches.len() == a.scratches.len() + 1
+    });
+    changes(h, Selection::Light(0), duplicate, |a, b| {
+        b.lights.len() == a.lights.len() + 1
+    });
+    changes(h, Selection::Object(0), duplicate, |a, b| {
+        b.objects.len() == a.objects.len() + 1
+    });
+    changes(h, Selection::Material(0), duplicate, |a, b| {
+        b.materials.len() == a.materials.len() + 1
+    });
+    changes(h, Selection::Layer(0), delete, |a, b| {
+        b.scratches.len() + 1 == a.scratches.len()
+    });
+    changes(h, Selection::Light(1), delete, |a, b| {
+        b.lights.len() + 1 == a.lights.len()
+    });
+    let hide = (Modifiers::NONE, Key::H);
+    changes(h, Selection::Layer(0), hide, |_, b| b.scratches[0].hidden);
+    changes(h, Selection::Light(0), hide, |_, b| b.lights[0].hidden);
+    changes(
+        h,
+        Selection::Layer(0),
+        (Modifiers::SHIFT, Key::H),
+        |_, b| b.scratches[0].solo,
+    );
+    changes(
+        h,
+        Selection::Light(0),
+        (Modifiers::ALT, Key::ArrowDown),
+        |a, b| b.lights[1] == a.lights[0],
+    );
+    changes(
+        h,
+        Selection::Light(1),
+        (Modifiers::ALT, Key::ArrowUp),
+        |a, b| b.lights[0] == a.lights[1],
+    );
+}
+
+#[test]
+fn what_is_in_use_is_not_deleted_and_why_is_told() {
+    let mut harness = viewer(SMALL);
+    wait_built(&mut harness);
+    let before = description(&harness);
+    harness
+        .state_mut()
+        .document_mut()
+        .select(Selection::Material(0));
+    harness.run_steps(2);
+    press(&mut harness, Modifiers::NONE, Key::Delete);
+    assert_eq!(*description(&harness), *before);
+    let messages = harness.state().messages().join("\n");
+    assert!(
+        messages.contains("steel") && messages.contains("disk"),
+        "{messages}"
+    );
+}
+
+#[test]
+fn keys_move_the_camera_and_nothing_else() {
+    let mut harness = viewer(SMALL);
+    wait_built(&mut harness);
+    let keys = [
+        Key::A,
+        Key::Num1,
+        Key::Num2,
+        Key::Num3,
+        Key::Num4,
+        Key::Num5,
+        Key::Num6,
+        Key::Num7,
+    ];
+    for key in keys {
+        changes(
+            &mut harness,
+            Selection::None,
+            (Modifiers::NONE, key),
+            |a, b| a.camera != b.camera && a.objects == b.objects && a.lights == b.lights,
+        );
+    }
+    let frame = (Modifiers::NONE, Key::F);
+    for selection in [
+        Selection::Object(0),
+        Selection::Light(0),
+        Selection::Layer(0),
+    ] {
+        changes(&mut harness, selection, frame, |a, b| a.camera != b.camera);
+    }
+}
+
+#[test]
+fn tools_help_and_the_reference_open_by_key_and_close() {
+    let mut harness = viewer(SMALL);
+    wait_built(&mut harness);
+    press(&mut harness, Modifiers::NONE, Key::B);
+    assert!(
+        harness.query_all_by_label("Brush radius").count() > 0,
+        "the brush's settings"
+    );
+    press(&mut harness, Modifiers::NONE, Key::Escape);
+    assert!(
+        harness.query_all_by_label("Brush radius").count() == 0,
+        "Escape puts the brush away"
+    );
+    press(&mut harness, Modifiers::NONE, Key::F1);
+    assert!(harness.query_by_label("Close").is_some(), "the help");
+    harness.run_steps(10);
+    click_on(&mut harness, "Close");
+    harness.run_steps(10);
+    assert!(harness.query_by_label("Close").is_none());
+    // Typing is not commanding.
+    harness
+        .state_mut()
+        .document_mut()
+        .select(Selection::Object(0));
+    harness.run_steps(2);
+    let before = description(&harness);
+    harness
+        .get_by_role_and_label(egui::accesskit::Role::TextInput, "Name")
+        .focus();
+    harness.run_steps(2);
+    press(&mut harness, Modifiers::NONE, Key::Delete);
+    press(&mut harness, Modifiers::NONE, Key::A);
+    assert_eq!(*description(&harness), *before);
+}
+
+#[test]
+fn menus_hold_what_keys_do() {
+    let mut harness = viewer(SMALL);
+    wait_built(&mut harness);
+    click_on(&mut harness, "View");
+    // Its key stands behind it.
+    harness.get_by_label_contains("From above").click();
+    harness.run_steps(3);
+    assert_eq!(harness.state().document().undo_label(), Some("From above"));
+    click_on(&mut harness, "Edit");
+    // The toolbar has one too.
+    assert!(harness.query_all_by_label_contains("Undo").count() >= 2);
+}
