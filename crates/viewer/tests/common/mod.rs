@@ -86,8 +86,13 @@ pub fn picture(harness: &Harness<'static, Viewer>) -> Rect {
     harness.get_by_label("Picture").rect()
 }
 
-/// Clicks on what has this label.
+/// Clicks on what has this label, as soon as it is there: what another thread tells of is seen a pass later.
 pub fn click_on(harness: &mut Harness<'static, Viewer>, label: &str) {
+    let start = Instant::now();
+    while harness.query_by_label(label).is_none() && start.elapsed() < PATIENCE {
+        harness.step();
+        std::thread::sleep(Duration::from_millis(2));
+    }
     harness.get_by_label(label).click();
     harness.run_steps(3);
 }
