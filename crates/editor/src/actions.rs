@@ -8,6 +8,8 @@ pub mod lights;
 pub mod materials;
 pub mod objects;
 
+mod list;
+
 use std::path::Path;
 
 use hairline_scene::Description;
@@ -35,7 +37,7 @@ pub enum ActionError {
     /// Another one is called that.
     #[error("there is already {what} called \"{name}\"; choose another name")]
     NameTaken {
-        /// "an object" or "a material".
+        /// "an object", say.
         what: &'static str,
         /// The name.
         name: String,

@@ -2,11 +2,10 @@
 
 use hairline_scene::Description;
 use hairline_scene::description::limits::LARGEST_SEED;
-use hairline_scene::description::{Layer, Pattern, Scratches};
+use hairline_scene::description::{Layer, Object, Pattern, Scratches};
 
-use super::{ActionError, unique_name};
+use super::{ActionError, list};
 use crate::Selection;
-use crate::selection::{after_removal, after_swap};
 
 /// Adds a layer behind the last one of its object, with a seed that no other layer has.
 ///
@@ -32,7 +31,7 @@ pub fn add(description: &mut Description, layer: Scratches) -> Result<Selection,
 /// # Errors
 /// [`ActionError::Missing`].
 pub fn duplicate(description: &mut Description, index: usize) -> Result<Selection, ActionError> {
-    let copy = get(description, index)?.clone();
+    let copy: Scratches = list::get(description, index).cloned()?;
     Ok(insert(description, index + 1, copy))
 }
 
@@ -41,7 +40,7 @@ pub fn duplicate(description: &mut Description, index: usize) -> Result<Selectio
 /// # Errors
 /// [`ActionError::Missing`].
 pub fn reseed(description: &mut Description, index: usize) -> Result<Selection, ActionError> {
-    get(description, index)?;
+    list::get::<Scratches>(description, index)?;
     let seed = free_seed(description);
     if let Some(own) = description.scratches[index].layer.seed_mut() {
         *own = seed;
@@ -58,27 +57,23 @@ pub fn delete(
     index: usize,
     selection: Selection,
 ) -> Result<Selection, ActionError> {
-    let object = get(description, index)?.object.clone();
-    description.scratches.remove(index);
-    Ok(match selection {
-        Selection::Layer(i) if i == index => {
-            let on_object = |i: &usize| {
-                let layer = description.scratches.get(*i);
-                layer.is_some_and(|layer| layer.object == object)
-            };
-            // Its place is the next layer's now; else the nearest one before it.
-            let next = (index..description.scratches.len()).find(on_object);
-            match next.or_else(|| (0..index).rev().find(on_object)) {
-                Some(i) => Selection::Layer(i),
-                None => {
-                    let object = description.objects.iter().position(|o| o.name == object);
-                    object.map_or(Selection::None, Selection::Object)
-                }
-            }
+    let object = list::get::<Scratches>(description, index)?.object.clone();
+    let after = list::remove::<Scratches>(description, index, selection)?;
+    if selection != Selection::Layer(index) {
+        return Ok(after);
+    }
+    let on_object = |i: &usize| {
+        let layer = description.scratches.get(*i);
+        layer.is_some_and(|layer| layer.object == object)
+    };
+    // Its place is the next layer's now; else the nearest one before it.
+    let next = (index..description.scratches.len()).find(on_object);
+    Ok(match next.or_else(|| (0..index).rev().find(on_object)) {
+        Some(i) => Selection::Layer(i),
+        None => {
+            let object = description.objects.iter().position(|o| o.name == object);
+            object.map_or(Selection::None, Selection::Object)
         }
-        Selection::Layer(i) => after_removal(i, index, description.scratches.len())
-            .map_or(Selection::None, Selection::Layer),
-        other => other,
     })
 }
 
@@ -92,21 +87,7 @@ pub fn shift(
     by: isize,
     selection: Selection,
 ) -> Result<Selection, ActionError> {
-    let object = &get(description, index)?.object;
-    let is_on_it = |i: &usize| description.scratches[*i].object == *object;
-    let other = match by {
-        ..0 => (0..index).rev().find(is_on_it),
-        0 => None,
-        1.. => (index + 1..description.scratches.len()).find(is_on_it),
-    };
-    let Some(other) = other else {
-        return Ok(selection);
-    };
-    description.scratches.swap(index, other);
-    Ok(match selection {
-        Selection::Layer(i) => Selection::Layer(after_swap(i, index, other)),
-        held => held,
-    })
+    list::shift::<Scratches>(description, index, by, selection)
 }
 
 /// Gives a layer a name; an empty one takes it away.
@@ -118,9 +99,7 @@ pub fn rename(
     index: usize,
     name: &str,
 ) -> Result<Selection, ActionError> {
-    let name = Some(name.trim()).filter(|name| !name.is_empty());
-    get_mut(description, index)?.name = name.map(str::to_owned);
-    Ok(Selection::Layer(index))
+    list::rename_freely::<Scratches>(description, index, name)
 }
 
 /// Hides a layer or shows it again.
@@ -131,7 +110,7 @@ pub fn toggle_hidden(
     description: &mut Description,
     index: usize,
 ) -> Result<Selection, ActionError> {
-    let layer = get_mut(description, index)?;
+    let layer: &mut Scratches = list::get_mut(description, index)?;
     layer.hidden = !layer.hidden;
     Ok(Selection::Layer(index))
 }
@@ -141,7 +120,7 @@ pub fn toggle_hidden(
 /// # Errors
 /// [`ActionError::Missing`].
 pub fn toggle_solo(description: &mut Description, index: usize) -> Result<Selection, ActionError> {
-    let layer = get_mut(description, index)?;
+    let layer: &mut Scratches = list::get_mut(description, index)?;
     layer.solo = !layer.solo;
     Ok(Selection::Layer(index))
 }
@@ -179,10 +158,9 @@ pub fn move_to(
     index: usize,
     object: usize,
 ) -> Result<Selection, ActionError> {
-    get(description, index)?;
-    let object = description.objects.get(object);
-    let name = &object.ok_or(ActionError::Missing("object"))?.name;
-    description.scratches[index].object = name.clone();
+    list::get::<Scratches>(description, index)?;
+    let name = list::get::<Object>(description, object)?.name.clone();
+    description.scratches[index].object = name;
     Ok(Selection::Layer(index))
 }
 
@@ -206,20 +184,5 @@ fn insert(description: &mut Description, place: usize, mut layer: Scratches) -> 
     if let Some(seed) = layer.layer.seed_mut() {
         *seed = free;
     }
-    if let Some(name) = &mut layer.name {
-        let others = description.scratches.iter();
-        *name = unique_name(name, others.filter_map(|other| other.name.as_deref()));
-    }
-    description.scratches.insert(place, layer);
-    Selection::Layer(place)
-}
-
-fn get(description: &Description, index: usize) -> Result<&Scratches, ActionError> {
-    let layer = description.scratches.get(index);
-    layer.ok_or(ActionError::Missing("layer"))
-}
-
-fn get_mut(description: &mut Description, index: usize) -> Result<&mut Scratches, ActionError> {
-    let layer = description.scratches.get_mut(index);
-    layer.ok_or(ActionError::Missing("layer"))
+    list::insert(description, place, layer)
 }

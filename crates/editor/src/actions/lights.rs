@@ -3,13 +3,12 @@
 use hairline_scene::Description;
 use hairline_scene::description::{Light, LightKind};
 
-use super::{ActionError, unique_name};
+use super::{ActionError, list};
 use crate::Selection;
-use crate::selection::{after_removal, after_swap};
 
 /// Adds a light, under another name if its own is taken.
 pub fn add(description: &mut Description, light: Light) -> Selection {
-    insert(description, description.lights.len(), light)
+    list::insert(description, description.lights.len(), light)
 }
 
 /// Adds a copy in the same place, behind the original.
@@ -17,8 +16,8 @@ pub fn add(description: &mut Description, light: Light) -> Selection {
 /// # Errors
 /// [`ActionError::Missing`].
 pub fn duplicate(description: &mut Description, index: usize) -> Result<Selection, ActionError> {
-    let copy = get(description, index)?.clone();
-    Ok(insert(description, index + 1, copy))
+    let copy: Light = list::get(description, index).cloned()?;
+    Ok(list::insert(description, index + 1, copy))
 }
 
 /// Gives a light a name; an empty one takes it away.
@@ -30,9 +29,7 @@ pub fn rename(
     index: usize,
     name: &str,
 ) -> Result<Selection, ActionError> {
-    let name = Some(name.trim()).filter(|name| !name.is_empty());
-    get_mut(description, index)?.name = name.map(str::to_owned);
-    Ok(Selection::Light(index))
+    list::rename_freely::<Light>(description, index, name)
 }
 
 /// Puts a light out or on again.
@@ -43,7 +40,7 @@ pub fn toggle_hidden(
     description: &mut Description,
     index: usize,
 ) -> Result<Selection, ActionError> {
-    let light = get_mut(description, index)?;
+    let light: &mut Light = list::get_mut(description, index)?;
     light.hidden = !light.hidden;
     Ok(Selection::Light(index))
 }
@@ -66,13 +63,7 @@ pub fn delete(
     index: usize,
     selection: Selection,
 ) -> Result<Selection, ActionError> {
-    get(description, index)?;
-    description.lights.remove(index);
-    Ok(match selection {
-        Selection::Light(i) => after_removal(i, index, description.lights.len())
-            .map_or(Selection::None, Selection::Light),
-        other => other,
-    })
+    list::remove::<Light>(description, index, selection)
 }
 
 /// Changes places with the next one up (`by` -1) or down (1); at the end nothing happens.
@@ -85,35 +76,5 @@ pub fn shift(
     by: isize,
     selection: Selection,
 ) -> Result<Selection, ActionError> {
-    get(description, index)?;
-    let Some(other) = index
-        .checked_add_signed(by.signum())
-        .filter(|&other| other < description.lights.len())
-    else {
-        return Ok(selection);
-    };
-    description.lights.swap(index, other);
-    Ok(match selection {
-        Selection::Light(i) => Selection::Light(after_swap(i, index, other)),
-        held => held,
-    })
-}
-
-fn get(description: &Description, index: usize) -> Result<&Light, ActionError> {
-    let light = description.lights.get(index);
-    light.ok_or(ActionError::Missing("light"))
-}
-
-fn get_mut(description: &mut Description, index: usize) -> Result<&mut Light, ActionError> {
-    let light = description.lights.get_mut(index);
-    light.ok_or(ActionError::Missing("light"))
-}
-
-fn insert(description: &mut Description, place: usize, mut light: Light) -> Selection {
-    if let Some(name) = &mut light.name {
-        let others = description.lights.iter();
-        *name = unique_name(name, others.filter_map(|other| other.name.as_deref()));
-    }
-    description.lights.insert(place, light);
-    Selection::Light(place)
+    list::shift::<Light>(description, index, by, selection)
 }

@@ -1,17 +1,14 @@
 //! Materials.
 
 use hairline_scene::Description;
-use hairline_scene::description::Material;
+use hairline_scene::description::{Material, Object};
 
-use super::{ActionError, unique_name};
+use super::{ActionError, list};
 use crate::Selection;
-use crate::selection::{after_removal, after_swap};
 
 /// Adds a material, under another name if its own is taken.
 pub fn add(description: &mut Description, material: Material) -> Selection {
-    let name = unique(description, &material.name);
-    description.materials.push(Material { name, ..material });
-    Selection::Material(description.materials.len() - 1)
+    list::insert(description, description.materials.len(), material)
 }
 
 /// Adds a copy, behind the original.
@@ -19,10 +16,8 @@ pub fn add(description: &mut Description, material: Material) -> Selection {
 /// # Errors
 /// [`ActionError::Missing`].
 pub fn duplicate(description: &mut Description, index: usize) -> Result<Selection, ActionError> {
-    let mut copy = get(description, index)?.clone();
-    copy.name = unique(description, &copy.name);
-    description.materials.insert(index + 1, copy);
-    Ok(Selection::Material(index + 1))
+    let copy: Material = list::get(description, index).cloned()?;
+    Ok(list::insert(description, index + 1, copy))
 }
 
 /// Removes a material that no object has.
@@ -34,7 +29,7 @@ pub fn delete(
     index: usize,
     selection: Selection,
 ) -> Result<Selection, ActionError> {
-    let material = get(description, index)?.name.clone();
+    let material = list::get::<Material>(description, index)?.name.clone();
     let users = users(description, index);
     if !users.is_empty() {
         let users = users
@@ -43,12 +38,7 @@ pub fn delete(
             .collect();
         return Err(ActionError::MaterialInUse { material, users });
     }
-    description.materials.remove(index);
-    Ok(match selection {
-        Selection::Material(i) => after_removal(i, index, description.materials.len())
-            .map_or(Selection::None, Selection::Material),
-        other => other,
-    })
+    list::remove::<Material>(description, index, selection)
 }
 
 /// Changes places with the next one up (`by` -1) or down (1); at the end nothing happens.
@@ -61,18 +51,7 @@ pub fn shift(
     by: isize,
     selection: Selection,
 ) -> Result<Selection, ActionError> {
-    get(description, index)?;
-    let Some(other) = index
-        .checked_add_signed(by.signum())
-        .filter(|&other| other < description.materials.len())
-    else {
-        return Ok(selection);
-    };
-    description.materials.swap(index, other);
-    Ok(match selection {
-        Selection::Material(i) => Selection::Material(after_swap(i, index, other)),
-        held => held,
-    })
+    list::shift::<Material>(description, index, by, selection)
 }
 
 /// Renames a material; objects that have it keep it.
@@ -84,23 +63,10 @@ pub fn rename(
     index: usize,
     name: &str,
 ) -> Result<Selection, ActionError> {
-    let old = get(description, index)?.name.clone();
-    let name = name.trim();
-    let mut others = description.materials.iter().enumerate();
-    match name {
-        "" => return Err(ActionError::EmptyName),
-        _ if others.any(|(i, m)| i != index && m.name == name) => {
-            return Err(ActionError::NameTaken {
-                what: "a material",
-                name: name.to_owned(),
-            });
-        }
-        _ => {}
-    }
-    description.materials[index].name = name.to_owned();
+    let [old, name] = list::rename_known::<Material>(description, index, name)?;
     for object in &mut description.objects {
         if object.material.as_ref() == Some(&old) {
-            object.material = Some(name.to_owned());
+            object.material = Some(name.clone());
         }
     }
     Ok(Selection::Material(index))
@@ -111,18 +77,7 @@ pub fn users(description: &Description, index: usize) -> Vec<usize> {
     let Some(material) = description.materials.get(index) else {
         return Vec::new();
     };
-    let objects = description.objects.iter().enumerate();
-    objects
-        .filter(|(_, object)| object.material.as_ref() == Some(&material.name))
-        .map(|(i, _)| i)
-        .collect()
-}
-
-fn get(description: &Description, index: usize) -> Result<&Material, ActionError> {
-    let material = description.materials.get(index);
-    material.ok_or(ActionError::Missing("material"))
-}
-
-fn unique(description: &Description, name: &str) -> String {
-    unique_name(name, description.materials.iter().map(|m| m.name.as_str()))
+    list::places(description, |object: &Object| {
+        object.material.as_ref() == Some(&material.name)
+    })
 }

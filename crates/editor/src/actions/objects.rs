@@ -3,10 +3,9 @@
 use std::path::Path;
 
 use hairline_scene::Description;
-use hairline_scene::description::{Object, Shape, Surface};
+use hairline_scene::description::{Material, Object, Scratches, Shape, Surface};
 
-use super::{ActionError, materials, unique_name};
-use crate::selection::{after_removal, after_swap};
+use super::{ActionError, list, materials};
 use crate::{Selection, paths, presets};
 
 /// Adds a mesh file, with the materials of the file, named after it. `file` is written relative to `base_dir`, the
@@ -30,23 +29,15 @@ pub fn add_shape(
     if description.materials.is_empty() && material.is_none() {
         materials::add(description, presets::plain_steel());
     }
-    let material = description.materials.get(material.unwrap_or(0));
-    let material = material
-        .ok_or(ActionError::Missing("material"))?
-        .name
-        .clone();
+    let material: &Material = list::get(description, material.unwrap_or(0))?;
+    let material = Some(material.name.clone());
     let name = match shape {
         Shape::Plane { .. } => "plane",
         Shape::Disk { .. } => "disk",
         Shape::Sphere { .. } => "sphere",
         Shape::Lathe { .. } => "lathe",
     };
-    Ok(add(
-        description,
-        name,
-        Surface::Shape(shape),
-        Some(material),
-    ))
+    Ok(add(description, name, Surface::Shape(shape), material))
 }
 
 fn add(
@@ -55,16 +46,15 @@ fn add(
     surface: Surface,
     material: Option<String>,
 ) -> Selection {
-    let name = unique(description, name);
-    description.objects.push(Object {
-        name,
+    let object = Object {
+        name: name.to_owned(),
         surface,
         material,
         translation_m: [0.0; 3],
         rotation_deg: [0.0; 3],
         scale: [1.0; 3],
-    });
-    Selection::Object(description.objects.len() - 1)
+    };
+    list::insert(description, description.objects.len(), object)
 }
 
 /// Adds a copy in the same place, with copies of its layers: they keep their seeds, so it is scratched alike.
@@ -72,21 +62,20 @@ fn add(
 /// # Errors
 /// [`ActionError::Missing`].
 pub fn duplicate(description: &mut Description, index: usize) -> Result<Selection, ActionError> {
-    let mut copy = get(description, index)?.clone();
-    let name = unique(description, &copy.name);
-    let original = std::mem::replace(&mut copy.name, name);
-    let mut layers: Vec<_> = description
-        .scratches
-        .iter()
+    let copy: Object = list::get(description, index).cloned()?;
+    let original = copy.name.clone();
+    let selection = list::insert(description, index + 1, copy);
+    let name = description.objects[index + 1].name.clone();
+    let layers = description.scratches.iter();
+    let copies: Vec<_> = layers
         .filter(|layer| layer.object == original)
-        .cloned()
+        .map(|layer| Scratches {
+            object: name.clone(),
+            ..layer.clone()
+        })
         .collect();
-    for layer in &mut layers {
-        layer.object.clone_from(&copy.name);
-    }
-    description.scratches.extend(layers);
-    description.objects.insert(index + 1, copy);
-    Ok(Selection::Object(index + 1))
+    description.scratches.extend(copies);
+    Ok(selection)
 }
 
 /// Removes an object and its layers.
@@ -98,27 +87,23 @@ pub fn delete(
     index: usize,
     selection: Selection,
 ) -> Result<Selection, ActionError> {
-    let name = get(description, index)?.name.clone();
+    let name = list::get::<Object>(description, index)?.name.clone();
     if description.objects.len() == 1 {
         return Err(ActionError::LastObject(name));
     }
-    let neighbour = after_removal(index, index, description.objects.len() - 1)
-        .map_or(Selection::None, Selection::Object);
     let selection = match selection {
-        Selection::Object(i) => after_removal(i, index, description.objects.len() - 1)
-            .map_or(Selection::None, Selection::Object),
         Selection::Layer(i) => match description.scratches.get(i) {
             Some(layer) if layer.object != name => {
                 let before = description.scratches[..i].iter();
                 Selection::Layer(before.filter(|layer| layer.object != name).count())
             }
-            _ => neighbour,
+            // The layer goes with its object: as if that had been selected.
+            _ => Selection::Object(index),
         },
         other => other,
     };
-    description.objects.remove(index);
     description.scratches.retain(|layer| layer.object != name);
-    Ok(selection)
+    list::remove::<Object>(description, index, selection)
 }
 
 /// Changes places with the next one up (`by` -1) or down (1); at the end nothing happens.
@@ -131,18 +116,7 @@ pub fn shift(
     by: isize,
     selection: Selection,
 ) -> Result<Selection, ActionError> {
-    get(description, index)?;
-    let Some(other) = index
-        .checked_add_signed(by.signum())
-        .filter(|&other| other < description.objects.len())
-    else {
-        return Ok(selection);
-    };
-    description.objects.swap(index, other);
-    Ok(match selection {
-        Selection::Object(i) => Selection::Object(after_swap(i, index, other)),
-        held => held,
-    })
+    list::shift::<Object>(description, index, by, selection)
 }
 
 /// Renames an object; its layers stay on it.
@@ -154,23 +128,10 @@ pub fn rename(
     index: usize,
     name: &str,
 ) -> Result<Selection, ActionError> {
-    let old = get(description, index)?.name.clone();
-    let name = name.trim();
-    let mut others = description.objects.iter().enumerate();
-    match name {
-        "" => return Err(ActionError::EmptyName),
-        _ if others.any(|(i, o)| i != index && o.name == name) => {
-            return Err(ActionError::NameTaken {
-                what: "an object",
-                name: name.to_owned(),
-            });
-        }
-        _ => {}
-    }
-    description.objects[index].name = name.to_owned();
+    let [old, name] = list::rename_known::<Object>(description, index, name)?;
     for layer in &mut description.scratches {
         if layer.object == old {
-            layer.object = name.to_owned();
+            layer.object.clone_from(&name);
         }
     }
     Ok(Selection::Object(index))
@@ -181,11 +142,7 @@ pub fn layers(description: &Description, index: usize) -> Vec<usize> {
     let Some(object) = description.objects.get(index) else {
         return Vec::new();
     };
-    let layers = description.scratches.iter().enumerate();
-    layers
-        .filter(|(_, layer)| layer.object == object.name)
-        .map(|(i, _)| i)
-        .collect()
+    list::places(description, |layer: &Scratches| layer.object == object.name)
 }
 
 /// Gives an object another material of the scene; none where a mesh shall have those of its file.
@@ -197,17 +154,9 @@ pub fn set_material(
     index: usize,
     material: Option<usize>,
 ) -> Result<Selection, ActionError> {
-    let object = get(description, index)?;
+    let object: &Object = list::get(description, index)?;
     let name = match material {
-        Some(i) => {
-            let material = description.materials.get(i);
-            Some(
-                material
-                    .ok_or(ActionError::Missing("material"))?
-                    .name
-                    .clone(),
-            )
-        }
+        Some(i) => Some(list::get::<Material>(description, i)?.name.clone()),
         None if matches!(object.surface, Surface::Shape(_)) => {
             return Err(ActionError::Missing("material"));
         }
@@ -215,13 +164,4 @@ pub fn set_material(
     };
     description.objects[index].material = name;
     Ok(Selection::Object(index))
-}
-
-fn get(description: &Description, index: usize) -> Result<&Object, ActionError> {
-    let object = description.objects.get(index);
-    object.ok_or(ActionError::Missing("object"))
-}
-
-fn unique(description: &Description, name: &str) -> String {
-    unique_name(name, description.objects.iter().map(|o| o.name.as_str()))
 }

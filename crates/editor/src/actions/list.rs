@@ -1,0 +1,211 @@
+//! What the lists of a description have in common: parts with a place, most with a name, that are copied, moved and removed.
+
+use hairline_scene::Description;
+use hairline_scene::description::{Light, Material, Object, Scratches};
+
+use super::{ActionError, unique_name};
+use crate::Selection;
+use crate::selection::{after_removal, after_swap};
+
+/// A part of a description that stands in a list.
+pub(super) trait Part: Clone + 'static {
+    /// What errors call it.
+    const WHAT: &'static str;
+    /// The same with its article.
+    const A_WHAT: &'static str;
+
+    /// Its list.
+    fn list(description: &Description) -> &Vec<Self>;
+    /// Its list, to change.
+    fn list_mut(description: &mut Description) -> &mut Vec<Self>;
+    /// The selection of the one at a place.
+    fn at(place: usize) -> Selection;
+    /// The place, if one of these is selected.
+    fn place(selection: Selection) -> Option<usize>;
+    /// Its name, if it has one.
+    fn name(&self) -> Option<&str>;
+    /// Gives it a name, which is not empty, or takes away one that may be missing.
+    fn set_name(&mut self, name: Option<String>);
+    /// Whether they are listed one after the other, so that they can change places.
+    fn is_listed_with(&self, _other: &Self) -> bool {
+        true
+    }
+}
+
+/// The part at a place.
+pub(super) fn get<P: Part>(description: &Description, index: usize) -> Result<&P, ActionError> {
+    let part = P::list(description).get(index);
+    part.ok_or(ActionError::Missing(P::WHAT))
+}
+
+/// The part at a place, to change.
+pub(super) fn get_mut<P: Part>(
+    description: &mut Description,
+    index: usize,
+) -> Result<&mut P, ActionError> {
+    let part = P::list_mut(description).get_mut(index);
+    part.ok_or(ActionError::Missing(P::WHAT))
+}
+
+/// Puts a part in its list, under another name if its own is taken.
+pub(super) fn insert<P: Part>(
+    description: &mut Description,
+    place: usize,
+    mut part: P,
+) -> Selection {
+    if let Some(name) = part.name() {
+        let others = P::list(description).iter();
+        let name = unique_name(name, others.filter_map(P::name));
+        part.set_name(Some(name));
+    }
+    P::list_mut(description).insert(place, part);
+    P::at(place)
+}
+
+/// Takes a part out of its list. Where it was selected, the one that took its place is, or the last.
+pub(super) fn remove<P: Part>(
+    description: &mut Description,
+    index: usize,
+    selection: Selection,
+) -> Result<Selection, ActionError> {
+    get::<P>(description, index)?;
+    P::list_mut(description).remove(index);
+    Ok(match P::place(selection) {
+        Some(i) => {
+            let left = P::list(description).len();
+            after_removal(i, index, left).map_or(Selection::None, P::at)
+        }
+        None => selection,
+    })
+}
+
+/// Changes places with the next part up (`by` -1) or down (1) that it is listed with; at the end nothing happens.
+pub(super) fn shift<P: Part>(
+    description: &mut Description,
+    index: usize,
+    by: isize,
+    selection: Selection,
+) -> Result<Selection, ActionError> {
+    let part = get::<P>(description, index)?;
+    let list = P::list(description);
+    let is_listed_with = |i: &usize| part.is_listed_with(&list[*i]);
+    let other = match by {
+        ..0 => (0..index).rev().find(is_listed_with),
+        0 => None,
+        1.. => (index + 1..list.len()).find(is_listed_with),
+    };
+    let Some(other) = other else {
+        return Ok(selection);
+    };
+    P::list_mut(description).swap(index, other);
+    Ok(match P::place(selection) {
+        Some(i) => P::at(after_swap(i, index, other)),
+        None => selection,
+    })
+}
+
+/// Renames a part that may go without a name: an empty one takes it away.
+pub(super) fn rename_freely<P: Part>(
+    description: &mut Description,
+    index: usize,
+    name: &str,
+) -> Result<Selection, ActionError> {
+    let name = Some(name.trim()).filter(|name| !name.is_empty());
+    get_mut::<P>(description, index)?.set_name(name.map(str::to_owned));
+    Ok(P::at(index))
+}
+
+/// Renames a part that others know by its name. Returns the old name and the new one, for them.
+pub(super) fn rename_known<P: Part>(
+    description: &mut Description,
+    index: usize,
+    name: &str,
+) -> Result<[String; 2], ActionError> {
+    let old = get::<P>(description, index)?.name().unwrap_or_default();
+    let (old, name) = (old.to_owned(), name.trim().to_owned());
+    if name.is_empty() {
+        return Err(ActionError::EmptyName);
+    }
+    let mut others = P::list(description).iter().enumerate();
+    if others.any(|(i, other)| i != index && other.name() == Some(&name)) {
+        let what = P::A_WHAT;
+        return Err(ActionError::NameTaken { what, name });
+    }
+    get_mut::<P>(description, index)?.set_name(Some(name.clone()));
+    Ok([old, name])
+}
+
+/// The places of the parts that are so.
+pub(super) fn places<P: Part>(description: &Description, is_so: impl Fn(&P) -> bool) -> Vec<usize> {
+    let parts = P::list(description).iter().enumerate();
+    parts
+        .filter(|(_, part)| is_so(part))
+        .map(|(i, _)| i)
+        .collect()
+}
+
+macro_rules! part {
+    ($part:ty, $what:literal, $a_what:literal, $list:ident, $selection:ident, { $($own:item)* }) => {
+        impl Part for $part {
+            const WHAT: &'static str = $what;
+            const A_WHAT: &'static str = $a_what;
+
+            fn list(description: &Description) -> &Vec<Self> {
+                &description.$list
+            }
+            fn list_mut(description: &mut Description) -> &mut Vec<Self> {
+                &mut description.$list
+            }
+            fn at(place: usize) -> Selection {
+                Selection::$selection(place)
+            }
+            fn place(selection: Selection) -> Option<usize> {
+                match selection {
+                    Selection::$selection(place) => Some(place),
+                    _ => None,
+                }
+            }
+            $($own)*
+        }
+    };
+}
+
+part!(Object, "object", "an object", objects, Object, {
+    fn name(&self) -> Option<&str> {
+        Some(&self.name)
+    }
+    fn set_name(&mut self, name: Option<String>) {
+        self.name = name.unwrap_or_default();
+    }
+});
+
+part!(Material, "material", "a material", materials, Material, {
+    fn name(&self) -> Option<&str> {
+        Some(&self.name)
+    }
+    fn set_name(&mut self, name: Option<String>) {
+        self.name = name.unwrap_or_default();
+    }
+});
+
+part!(Light, "light", "a light", lights, Light, {
+    fn name(&self) -> Option<&str> {
+        self.name.as_deref()
+    }
+    fn set_name(&mut self, name: Option<String>) {
+        self.name = name;
+    }
+});
+
+part!(Scratches, "layer", "a layer", scratches, Layer, {
+    fn name(&self) -> Option<&str> {
+        self.name.as_deref()
+    }
+    fn set_name(&mut self, name: Option<String>) {
+        self.name = name;
+    }
+    // An artist sees the layers of one object at a time.
+    fn is_listed_with(&self, other: &Self) -> bool {
+        self.object == other.object
+    }
+});
