@@ -1,19 +1,13 @@
 //! `hairline bench` on pictures of a few pixels: that all is measured and written, not what comes out.
 
+mod common;
+
 use std::fs;
 use std::path::Path;
 
-use assert_cmd::Command;
+use common::{hairline, stderr_of, stdout_of};
 use hairline_gpu::headless::test_gpu;
 use serde_json::Value;
-
-fn hairline(folder: &Path, arguments: &str) -> assert_cmd::assert::Assert {
-    Command::cargo_bin("hairline")
-        .unwrap()
-        .current_dir(folder)
-        .args(arguments.split_whitespace())
-        .assert()
-}
 
 fn json(folder: &Path, name: &str) -> Value {
     let text = fs::read_to_string(folder.join(name)).unwrap();
@@ -33,7 +27,7 @@ fn the_table_has_all_cells_and_the_report_says_on_what() {
     let arguments = "bench --quick --backend cpu --size 40x24 --scratches 300 --repetitions 1 --part table \
                      --json figures.json -o report.md";
     let assert = hairline(folder.path(), arguments).success();
-    let shown = String::from_utf8(assert.get_output().stdout.clone()).unwrap();
+    let shown = stdout_of(&assert);
     for part in ["intersection only", "sphere", "triangle", "GTX 970M"] {
         assert!(shown.contains(part), "{part}: {shown}");
     }
@@ -105,7 +99,7 @@ fn what_scratches_cost_where_there_are_none_is_measured_by_turns() {
     let folder = tempfile::tempdir().unwrap();
     let arguments = "bench --quick --backend cpu --size 40x24 --repetitions 3 --part off --json figures.json -o report.md";
     let assert = hairline(folder.path(), arguments).success();
-    let shown = String::from_utf8(assert.get_output().stdout.clone()).unwrap();
+    let shown = stdout_of(&assert);
     assert!(shown.contains("without scratches, again"), "{shown}");
     let off = &json(folder.path(), "figures.json")["off"];
     for outcome in ["none", "again", "one"] {
@@ -160,7 +154,7 @@ fn wrong_flags_are_2_and_nothing_is_measured() {
         ),
     ] {
         let assert = hairline(folder.path(), arguments).code(2);
-        let text = String::from_utf8(assert.get_output().stderr.clone()).unwrap();
+        let text = stderr_of(&assert);
         assert!(text.contains(message), "{arguments}: {text}");
     }
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);

@@ -1,32 +1,13 @@
 //! The command line from outside: exit codes, messages, and files that are whole or not there.
 
+mod common;
+
 use std::fs;
 use std::path::Path;
 
 use assert_cmd::Command;
+use common::{folder_with, hairline, names_in, stderr_of, stdout_of};
 use hairline_image::{exr_file, png};
-
-/// Runs in `folder`; the arguments are separated by spaces.
-fn hairline(folder: &Path, arguments: &str) -> assert_cmd::assert::Assert {
-    Command::cargo_bin("hairline")
-        .unwrap()
-        .current_dir(folder)
-        .args(arguments.split_whitespace())
-        .assert()
-}
-
-fn stderr_of(assert: &assert_cmd::assert::Assert) -> String {
-    String::from_utf8(assert.get_output().stderr.clone()).unwrap()
-}
-
-fn names_in(folder: &Path) -> Vec<String> {
-    let mut names: Vec<String> = fs::read_dir(folder)
-        .unwrap()
-        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-        .collect();
-    names.sort();
-    names
-}
 
 /// A disk under a lamp, without scratches.
 const SCENE: &str = r#"
@@ -58,9 +39,7 @@ radiance = 40.0
 "#;
 
 fn folder_with_scene() -> tempfile::TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join("plate.v2.toml"), SCENE).unwrap();
-    folder
+    folder_with("plate.v2.toml", SCENE)
 }
 
 #[test]
@@ -68,11 +47,11 @@ fn help_and_version() {
     let folder = tempfile::tempdir().unwrap();
     for arguments in ["--help", "render --help"] {
         let assert = hairline(folder.path(), arguments).success();
-        let text = String::from_utf8(assert.get_output().stdout.clone()).unwrap();
+        let text = stdout_of(&assert);
         assert!(text.contains("Usage:"), "{text}");
     }
     let assert = hairline(folder.path(), "--version").success();
-    let text = String::from_utf8(assert.get_output().stdout.clone()).unwrap();
+    let text = stdout_of(&assert);
     assert_eq!(text.trim(), concat!("hairline ", env!("CARGO_PKG_VERSION")));
 }
 
@@ -80,7 +59,7 @@ fn help_and_version() {
 fn info_lists_backends() {
     let folder = tempfile::tempdir().unwrap();
     let assert = hairline(folder.path(), "info").success();
-    let text = String::from_utf8(assert.get_output().stdout.clone()).unwrap();
+    let text = stdout_of(&assert);
     for part in [env!("CARGO_PKG_VERSION"), "adapters", "backends:", "cpu  "] {
         assert!(text.contains(part), "{text}");
     }

@@ -1,12 +1,15 @@
 //! `hairline compare` from outside: figures that are known beforehand, limits, refusals, and a report that is whole.
 
+mod common;
+
 use std::fs;
 use std::io::Read as _;
 use std::path::Path;
 
-use assert_cmd::Command;
+use assert_cmd::assert::Assert;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD as BASE64;
+use common::{hairline, stderr_of, stdout_of};
 use hairline_image::{Display, Image, Noise, Output, Picture};
 use half::f16;
 use html5gum::emitters::default::DefaultEmitter;
@@ -15,26 +18,12 @@ use serde_json::Value;
 
 const SIZE: [u32; 2] = [48, 30];
 
-/// Runs in `folder`; the arguments are separated by spaces.
-fn compare(folder: &Path, arguments: &str) -> assert_cmd::assert::Assert {
-    Command::cargo_bin("hairline")
-        .unwrap()
-        .current_dir(folder)
-        .arg("compare")
-        .args(arguments.split_whitespace())
-        .assert()
+fn compare(folder: &Path, arguments: &str) -> Assert {
+    hairline(folder, &format!("compare {arguments}"))
 }
 
 fn text_of(bytes: &[u8]) -> String {
     String::from_utf8(bytes.to_vec()).unwrap()
-}
-
-fn stderr_of(assert: &assert_cmd::assert::Assert) -> String {
-    text_of(&assert.get_output().stderr)
-}
-
-fn stdout_of(assert: &assert_cmd::assert::Assert) -> String {
-    text_of(&assert.get_output().stdout)
 }
 
 fn json_of(folder: &Path, arguments: &str) -> Value {

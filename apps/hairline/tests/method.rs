@@ -1,25 +1,12 @@
 //! The flags that choose a method: what is refused, and what the picture remembers.
 
-use std::fs;
-use std::path::Path;
+mod common;
 
-use assert_cmd::Command;
+use common::{SCRATCHED, folder_with, hairline, stderr_of};
 use hairline_image::exr_file;
 
-const SCENE: &str = include_str!("scratched.toml");
-
-fn hairline(folder: &Path, arguments: &str) -> assert_cmd::assert::Assert {
-    Command::cargo_bin("hairline")
-        .unwrap()
-        .current_dir(folder)
-        .args(arguments.split_whitespace())
-        .assert()
-}
-
 fn folder_with_scene() -> tempfile::TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join("scratched.toml"), SCENE).unwrap();
-    folder
+    folder_with("scratched.toml", SCRATCHED)
 }
 
 #[test]
@@ -41,7 +28,7 @@ fn contradictions_are_2_and_nothing_is_written() {
     ] {
         let arguments = format!("render scratched.toml -o out.exr {flags}");
         let assert = hairline(folder.path(), &arguments).code(2);
-        let text = String::from_utf8(assert.get_output().stderr.clone()).unwrap();
+        let text = stderr_of(&assert);
         assert!(text.contains(message), "{flags}: {text}");
         assert!(!folder.path().join("out.exr").exists(), "{flags}");
     }
@@ -73,7 +60,7 @@ fn clusters_take_the_cpu_and_say_why() {
     let folder = folder_with_scene();
     let arguments = "render scratched.toml -o out.png --size 8x6 --gather clusters";
     let assert = hairline(folder.path(), arguments).success();
-    let text = String::from_utf8(assert.get_output().stderr.clone()).unwrap();
+    let text = stderr_of(&assert);
     assert!(
         text.contains("on the CPU") && text.contains("--gather clusters"),
         "{text}"

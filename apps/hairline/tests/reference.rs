@@ -1,39 +1,15 @@
 //! `hairline reference` from outside: what it says, what it leaves behind, and that stopping costs nothing.
 
+mod common;
+
 use std::fs;
 use std::path::Path;
 
-use assert_cmd::Command;
+use common::{SCRATCHED, folder_with, hairline, names_in, stderr_of};
 use hairline_image::{Image, Notes, exr_file, png};
 
-const SCENE: &str = include_str!("scratched.toml");
-
-/// Runs in `folder`; the arguments are separated by spaces.
-fn hairline(folder: &Path, arguments: &str) -> assert_cmd::assert::Assert {
-    Command::cargo_bin("hairline")
-        .unwrap()
-        .current_dir(folder)
-        .args(arguments.split_whitespace())
-        .assert()
-}
-
-fn stderr_of(assert: &assert_cmd::assert::Assert) -> String {
-    String::from_utf8(assert.get_output().stderr.clone()).unwrap()
-}
-
-fn names_in(folder: &Path) -> Vec<String> {
-    let mut names: Vec<String> = fs::read_dir(folder)
-        .unwrap()
-        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-        .collect();
-    names.sort();
-    names
-}
-
 fn folder_with_scene() -> tempfile::TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join("plate.v2.toml"), SCENE).unwrap();
-    folder
+    folder_with("plate.v2.toml", SCRATCHED)
 }
 
 fn read(folder: &Path, name: &str) -> (Image, Notes) {
@@ -161,7 +137,7 @@ fn samples_of_another_picture_are_refused() {
     hairline(path, "reference plate.v2.toml --spp 64 -o a.exr").success();
     fs::write(
         path.join("other.toml"),
-        SCENE.replace("radiance = 40.0", "radiance = 41.0"),
+        SCRATCHED.replace("radiance = 40.0", "radiance = 41.0"),
     )
     .unwrap();
     let before = fs::read(path.join("a.exr")).unwrap();
@@ -201,7 +177,8 @@ fn samples_of_another_picture_are_refused() {
         assert!(fs::read(path.join("a.exr")).unwrap() == before);
     }
     // Comments and exposure are not the scene's light.
-    let same = format!("# The same.\n{SCENE}").replace("[render]", "exposure_ev = 1.0\n[render]");
+    let same =
+        format!("# The same.\n{SCRATCHED}").replace("[render]", "exposure_ev = 1.0\n[render]");
     fs::write(path.join("same.toml"), same).unwrap();
     hairline(path, "reference same.toml --spp 128 -o a.exr --resume").success();
 }

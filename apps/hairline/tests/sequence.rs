@@ -1,39 +1,21 @@
 //! Sequences from outside: what is written, what is refused, and that stopping leaves whole files only.
 
-use std::fs;
+mod common;
+
 use std::path::Path;
 
-use assert_cmd::Command;
+use common::{SCRATCHED, folder_with, hairline, names_in, stderr_of, stdout_of};
 use hairline_image::{exr_file, png};
 
-const SCENE: &str = include_str!("scratched.toml");
-
-fn hairline(folder: &Path, arguments: &str) -> assert_cmd::assert::Assert {
-    Command::cargo_bin("hairline")
-        .unwrap()
-        .current_dir(folder)
-        .args(arguments.split_whitespace())
-        .assert()
-}
-
-fn stderr_of(assert: &assert_cmd::assert::Assert) -> String {
-    String::from_utf8(assert.get_output().stderr.clone()).unwrap()
-}
-
-fn names_in(folder: &Path) -> Vec<String> {
-    let mut names: Vec<String> = fs::read_dir(folder)
-        .unwrap()
-        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-        .filter(|name| name != "plate.toml")
-        .collect();
-    names.sort();
-    names
-}
-
 fn folder_with_scene() -> tempfile::TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join("plate.toml"), SCENE).unwrap();
-    folder
+    folder_with("plate.toml", SCRATCHED)
+}
+
+/// All but the scene.
+fn written_in(folder: &Path) -> Vec<String> {
+    let mut names = names_in(folder);
+    names.retain(|name| name != "plate.toml");
+    names
 }
 
 #[test]
@@ -50,7 +32,7 @@ fn frames_are_numbered_and_the_first_is_the_scenes_own_view() {
     render("-o turn.exr --frames 3 --turntable 360");
     render("-o zoom.exr --frames 2 --zoom 2:1");
     assert_eq!(
-        names_in(folder.path()),
+        written_in(folder.path()),
         [
             "still.exr",
             "turn-0001.exr",
@@ -91,7 +73,7 @@ fn an_animation_is_one_file_and_its_first_frame_is_the_picture() {
         let arguments =
             format!("render plate.toml --backend cpu --frames 2 --turntable 90 --fps 12 {flags}");
         hairline(folder.path(), &arguments).success();
-        assert_eq!(names_in(folder.path()), names);
+        assert_eq!(written_in(folder.path()), names);
     }
     let read = |name: &str| png::read_picture(&folder.path().join(name)).unwrap();
     assert_eq!(read("a.apng"), read("c-0001.png"));
@@ -127,7 +109,7 @@ fn contradictions_are_2_and_nothing_is_written() {
         let arguments = format!("render plate.toml --backend cpu {flags}");
         let text = stderr_of(&hairline(folder.path(), &arguments).code(2));
         assert!(text.contains(message), "{flags}: {text}");
-        assert!(names_in(folder.path()).is_empty(), "{flags}");
+        assert!(written_in(folder.path()).is_empty(), "{flags}");
     }
     let arguments = "render plate.toml --backend cpu --frames 2 --zoom 1:2 -o nowhere/a.png";
     hairline(folder.path(), arguments).code(1);
@@ -137,7 +119,7 @@ fn contradictions_are_2_and_nothing_is_written() {
 fn figures(folder: &Path, flags: &str) -> [f64; 3] {
     let arguments = format!("render plate.toml --backend cpu --stability -o a.png {flags}");
     let assert = hairline(folder, &arguments).success();
-    let text = String::from_utf8(assert.get_output().stdout.clone()).unwrap();
+    let text = stdout_of(&assert);
     let numbers: Vec<f64> = text
         .split([' ', ';', '\n'])
         .filter_map(|word| word.parse().ok())
@@ -183,7 +165,7 @@ fn ctrl_c_leaves_whole_frames_and_no_animation() {
     let output = child.wait_with_output().unwrap();
     let text = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(1), "{text}");
-    let names = names_in(folder.path());
+    let names = written_in(folder.path());
     let said = format!(
         "interrupted; {} of 100000 frames are whole, a-000001.png to {}; b.apng was not written",
         names.len(),

@@ -1,0 +1,48 @@
+//! What the tests of the command line share: a folder, a run in it, what it said and what it left behind.
+
+#![allow(dead_code, reason = "each test file takes what it needs of it")]
+
+use std::fs;
+use std::path::Path;
+
+use assert_cmd::Command;
+use assert_cmd::assert::Assert;
+
+/// A disk under a lamp, with scratches, 24 x 16 pixels.
+pub const SCRATCHED: &str = include_str!("../scratched.toml");
+
+/// A new folder with one scene in it.
+pub fn folder_with(name: &str, scene: &str) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join(name), scene).unwrap();
+    folder
+}
+
+/// Runs in `folder`; the arguments are separated by spaces.
+pub fn hairline(folder: &Path, arguments: &str) -> Assert {
+    Command::cargo_bin("hairline")
+        .unwrap()
+        .current_dir(folder)
+        .args(arguments.split_whitespace())
+        .assert()
+}
+
+/// What it printed as its result.
+pub fn stdout_of(assert: &Assert) -> String {
+    String::from_utf8(assert.get_output().stdout.clone()).unwrap()
+}
+
+/// What it said meanwhile.
+pub fn stderr_of(assert: &Assert) -> String {
+    String::from_utf8(assert.get_output().stderr.clone()).unwrap()
+}
+
+/// What lies in a folder, sorted.
+pub fn names_in(folder: &Path) -> Vec<String> {
+    let mut names: Vec<String> = fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    names
+}
