@@ -9,7 +9,10 @@
 //! Vertices that have no scratch do not exist: the others are found by a hash of their coordinates, in a table of open addresses.
 
 mod sizes;
+mod spectra;
 mod splat;
+
+pub use spectra::Bundles;
 
 use crate::scratch_index::effective_segments;
 use glam::Vec3;

@@ -10,14 +10,12 @@ use crate::light_view::{LightView, LightViews};
 use crate::scratches::{Pixel, SegmentView, Work, gather_scratches};
 use crate::surface::SurfacePoint;
 use glam::{DMat2, DVec2, DVec3};
-use hairline_index::bundles::{BUNDLE_BINS, BundleIndex, BundleLevel, HEIGHT_CELLS, Side, Vertex};
+use hairline_index::bundles::{BUNDLE_BINS, BundleLevel, HEIGHT_CELLS, Side, Vertex};
 use hairline_index::scratch_index::FACING_MIN_COS;
 use hairline_optics::mask::ScratchSums;
 use hairline_optics::scratch::oblique_depth_nm;
 use hairline_optics::table::ScratchTable;
-use hairline_scene::{Environment, Scene, ScratchTables};
-use rayon::prelude::*;
-use std::collections::HashMap;
+use hairline_scene::Environment;
 use std::f64::consts::PI;
 
 /// A footprint's least standard deviation is at least so many cells of the grids that it reads: from here on their sum over its
@@ -36,54 +34,6 @@ const ENVIRONMENT_STRIDE: usize = 4;
 const SMEAR: f64 = 0.1;
 /// How far a side may lean away from a footprint's normal and still have scratches under it.
 const LEAN_MIN: f32 = 0.4;
-
-/// What many scratches add up to, and the spectra of their populations.
-#[derive(Clone, Debug)]
-pub(crate) struct Bundles {
-    pub index: BundleIndex,
-    /// By object, class and table.
-    tables: HashMap<[usize; 3], ScratchTable>,
-}
-
-/// Sizes that differ by less than this share, as rounding does, are the same.
-const ALIKE: f64 = 1e-5;
-
-impl Bundles {
-    pub fn new(scene: &Scene, tables: &ScratchTables) -> Self {
-        let index = BundleIndex::build(scene);
-        let mut wanted = Vec::new();
-        for (o, object) in scene.objects.iter().enumerate() {
-            let mut of_object: Vec<usize> = object
-                .mesh
-                .triangle_materials
-                .iter()
-                .map(|m| tables.materials[*m as usize].table as usize)
-                .collect();
-            of_object.sort_unstable();
-            of_object.dedup();
-            for class in 0..index.objects[o].classes.len() {
-                wanted.extend(of_object.iter().map(|table| [o, class, *table]));
-            }
-        }
-        let tables = wanted
-            .into_par_iter()
-            .map(|key| {
-                let [object, class, table] = key;
-                let sizes = &index.objects[object].classes[class].sizes;
-                let mut sizes: Vec<_> = sizes.iter().map(|size| size.map(f64::from)).collect();
-                // Scratches that are all alike need no mean.
-                let alike = |a: &[f64; 2], b: &[f64; 2]| {
-                    (0..2).all(|i| (a[i] - b[i]).abs() <= ALIKE * b[i])
-                };
-                if sizes.iter().all(|size| alike(size, &sizes[0])) {
-                    sizes.truncate(1);
-                }
-                (key, tables.tables[table].spread(&sizes))
-            })
-            .collect();
-        Self { index, tables }
-    }
-}
 
 /// The footprint's size goes up by this factor while one grid takes over from another, as a power of two.
 const HAND_OVER: f64 = 0.35;
@@ -112,7 +62,7 @@ pub(crate) fn gather_bundles(
     let mut sums = ScratchSums::default();
     let mut add_level = |level: usize, weight: f64| {
         for (i, class) in bundles.classes.iter().enumerate() {
-            let table = &found.tables[&[object, i, point.table]];
+            let table = found.table(object, i, point.table);
             for side in Side::ALL {
                 if let Some(directions) =
                     Directions::under(&pixel, &class.levels[level], side, work)

@@ -3,7 +3,6 @@
 //! The way of a pixel is the shader's (crates/gpu/shaders/shade.wgsl): hit, `surface`, footprint, `scratches`, mask,
 //! `base`, film.
 
-use crate::bundles::Bundles;
 use crate::light_view::LightViews;
 use crate::published::Published;
 use crate::scratches::{GatherCounts, Work};
@@ -12,6 +11,7 @@ use crate::surface::SurfacePoint;
 use crate::{base, bundles, scratches, surface};
 use glam::{DVec2, DVec3};
 use hairline_image::Image;
+use hairline_index::bundles::Bundles;
 use hairline_index::{BundleIndex, Hit, ScratchIndex, TriangleIndex, TriangleLists};
 use hairline_optics::ltc::ltc_sphere;
 use hairline_optics::mask::Masked;

@@ -246,7 +246,8 @@ impl SegmentView {
             width_um,
             depth_nm,
             turn_rad2,
-            place: BandPlace::new(across_um, 0.0, variance_um2),
+            // They lie on both sides, as far as the footprint goes: to none of them does the place across tell how ξt moves.
+            place: BandPlace::new([0.0; 2], 0.0, pixel.window_um2),
             variance_um2,
         }
     }

@@ -1,0 +1,72 @@
+//! The spectra of many scratches (docs/model.md, equation 24c): a table for each class of an object and each material's table there.
+
+use super::BundleIndex;
+use hairline_optics::table::ScratchTable;
+use hairline_scene::{Scene, ScratchTables};
+use rayon::prelude::*;
+use std::collections::HashMap;
+
+/// What many scratches add up to, and the spectra of their populations.
+#[derive(Clone, Debug)]
+pub struct Bundles {
+    /// The grids.
+    pub index: BundleIndex,
+    tables: Vec<ScratchTable>,
+    /// By object, class and the table of single scratches.
+    places: HashMap<[usize; 3], usize>,
+}
+
+/// Sizes that differ by less than this share, as rounding does, are the same.
+const ALIKE: f64 = 1e-5;
+
+impl Bundles {
+    /// Builds the grids and the tables, all cores at work; `tables` are those of the scene's single scratches.
+    pub fn new(scene: &Scene, tables: &ScratchTables) -> Self {
+        let index = BundleIndex::build(scene);
+        let mut wanted = Vec::new();
+        for (o, object) in scene.objects.iter().enumerate() {
+            let mut of_object: Vec<usize> = object
+                .mesh
+                .triangle_materials
+                .iter()
+                .map(|m| tables.materials[*m as usize].table as usize)
+                .collect();
+            of_object.sort_unstable();
+            of_object.dedup();
+            for class in 0..index.objects[o].classes.len() {
+                wanted.extend(of_object.iter().map(|table| [o, class, *table]));
+            }
+        }
+        let spread = |[object, class, table]: &[usize; 3]| {
+            let sizes = &index.objects[*object].classes[*class].sizes;
+            let mut sizes: Vec<_> = sizes.iter().map(|size| size.map(f64::from)).collect();
+            // Scratches that are all alike need no mean.
+            let alike =
+                |a: &[f64; 2], b: &[f64; 2]| (0..2).all(|i| (a[i] - b[i]).abs() <= ALIKE * b[i]);
+            if sizes.iter().all(|size| alike(size, &sizes[0])) {
+                sizes.truncate(1);
+            }
+            tables.tables[*table].spread(&sizes)
+        };
+        Self {
+            tables: wanted.par_iter().map(spread).collect(),
+            places: wanted.into_iter().zip(0..).collect(),
+            index,
+        }
+    }
+
+    /// The table of an object's class where the material's own is `table`, one that the object has.
+    pub fn table(&self, object: usize, class: usize, table: usize) -> &ScratchTable {
+        &self.tables[self.places[&[object, class, table]]]
+    }
+
+    /// All tables.
+    pub fn tables(&self) -> &[ScratchTable] {
+        &self.tables
+    }
+
+    /// The place of [`Self::table`] in [`Self::tables`]; none for a table that the object does not have.
+    pub fn place(&self, object: usize, class: usize, table: usize) -> Option<usize> {
+        self.places.get(&[object, class, table]).copied()
+    }
+}
