@@ -26,6 +26,7 @@ pub use build::{BuildStages, Built};
 pub use frame::{Frame, Latency, Painted, Picture};
 pub use request::View;
 
+use crate::priority;
 use request::Shared;
 
 /// What paints.
@@ -86,7 +87,7 @@ impl Engine {
             std::thread::Builder::new()
                 .name(name.to_owned())
                 .spawn(move || {
-                    pool::lower_priority();
+                    priority::lower();
                     work(&shared)
                 })
         };

@@ -5,10 +5,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::JoinHandle;
 
 use rayon::ThreadPoolBuilder;
-use thread_priority::{ThreadPriority, ThreadPriorityValue, set_current_thread_priority};
 
-/// Of 0 to 99: what the engine paints is waited for, and comes first. Not so low that a busy machine would let it starve.
-const PRIORITY: u8 = 30;
+use crate::priority;
 
 /// Whether the work is still wanted.
 #[derive(Clone, Default)]
@@ -41,7 +39,7 @@ impl Job {
         let thread = std::thread::Builder::new()
             .name(name.to_owned())
             .spawn(move || {
-                lower_priority();
+                priority::lower();
                 install(|| work(&asked));
             })?;
         Ok(Self {
@@ -71,19 +69,12 @@ impl Drop for Job {
     }
 }
 
-fn lower_priority() {
-    if let Ok(priority) = ThreadPriorityValue::try_from(PRIORITY) {
-        // Where the system refuses, the picture comes a little later.
-        let _ = set_current_thread_priority(ThreadPriority::Crossplatform(priority));
-    }
-}
-
 /// On threads of the job's own, which end with it. Where several share a pool, a thread that waits for a part of one's work
 /// may take up all of another's, and the first goes on only when the second has ended.
 fn install<T: Send>(work: impl FnOnce() -> T + Send) -> T {
     let pool = ThreadPoolBuilder::new()
         .thread_name(|i| format!("viewer job {i}"))
-        .start_handler(|_| lower_priority())
+        .start_handler(|_| priority::lower())
         .build();
     match pool {
         Ok(pool) => pool.install(work),

@@ -1,5 +1,6 @@
 //! What is around the picture. A panel reads the document and hands changes to it; it keeps nothing.
 
+pub(crate) mod busy;
 pub(crate) mod form;
 pub(crate) mod inspector;
 pub(crate) mod menu;

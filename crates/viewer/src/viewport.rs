@@ -18,6 +18,7 @@ use hairline_image::Display;
 
 use crate::app::Viewer;
 use crate::engine::View;
+use crate::panels::busy::Busy;
 use crate::tools::Tool;
 
 use canvas::CanvasTexture;
@@ -169,7 +170,7 @@ pub(crate) fn show(ui: &mut egui::Ui, viewer: &mut Viewer) -> Rect {
             area.paint_frame(ui);
             crate::compare::show(ui, viewer, &area);
         } else {
-            ui.put(rect, egui::Spinner::new().size(32.0));
+            ui.put(rect, Busy::size(32.0));
         }
         interact(ui, viewer, &area, &response);
         overlays(ui, viewer, &area);

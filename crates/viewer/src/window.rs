@@ -7,7 +7,9 @@ use egui::{Color32, ThemePreference, ViewportBuilder, Visuals};
 use hairline_gpu::{Adapter, AdapterKind, AdapterRequest, Gpu, headless};
 
 use crate::app::{Options, Viewer};
+use crate::drawing::Drawing;
 use crate::engine::Backend;
+use crate::priority;
 
 /// What is to paint.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -37,6 +39,18 @@ pub enum Error {
 /// # Errors
 /// [`Error::NoWindow`].
 pub fn open(options: Options, renderer: Renderer) -> Result<(), Error> {
+    open_as(options, renderer, |viewer| Box::new(viewer))
+}
+
+/// The same, with the viewer in the hands of another program, such as one that takes its times.
+///
+/// # Errors
+/// [`Error::NoWindow`].
+pub fn open_as(
+    options: Options,
+    renderer: Renderer,
+    app: impl FnOnce(Viewer) -> Box<dyn eframe::App>,
+) -> Result<(), Error> {
     let mut native = eframe::NativeOptions {
         viewport: ViewportBuilder::default()
             .with_title("Hairline")
@@ -59,9 +73,16 @@ pub fn open(options: Options, renderer: Renderer) -> Result<(), Error> {
         Box::new(move |context| {
             let state = context.wgpu_render_state.clone();
             let backend = backend(state.as_ref(), renderer)?;
+            // Its shader writes what is encoded for the display already.
+            if let Some(state) = &state
+                && Adapter::new(state.adapter.clone()).kind == AdapterKind::Software
+                && !state.target_format.is_srgb()
+            {
+                context.egui_ctx.add_plugin(Drawing::new(state));
+            }
             let options = Options { backend, ..options };
             let viewer = Viewer::new(&context.egui_ctx, state, options)?;
-            Ok(Box::new(viewer))
+            Ok(app(viewer))
         }),
     )
     .map_err(|error| Error::NoWindow(error.to_string()))
@@ -91,9 +112,23 @@ fn backend(
         Renderer::Auto => shared().map_or(Backend::Cpu, Backend::Shared),
         Renderer::Gpu => match shared() {
             Some(gpu) => Backend::Shared(gpu),
-            None => Backend::Gpu(headless::open(&AdapterRequest::default())?),
+            None => Backend::Gpu(open_beside()?),
         },
     })
+}
+
+/// A device beside the window's. A driver that computes starts its threads here, and on most systems they inherit the priority
+/// of the thread that starts them: the window's own driver is to go first.
+fn open_beside() -> Result<Gpu, hairline_gpu::Error> {
+    let open = || headless::open(&AdapterRequest::default());
+    let opened = std::thread::scope(|scope| {
+        let opening = scope.spawn(|| {
+            priority::lower();
+            open()
+        });
+        opening.join()
+    });
+    opened.unwrap_or_else(|panic| std::panic::resume_unwind(panic))
 }
 
 /// Dark and without hue, so that the eye judges the picture's colours and not the frame's.

@@ -8,6 +8,8 @@ use egui::{
 use hairline_image::metrics::magma;
 use hairline_image::{Display, ToneMap, png};
 
+use crate::panels::busy::Busy;
+
 use super::figures::LayerFigures;
 use super::work::{Compared, Shown};
 use super::{Compare, Side};
@@ -148,7 +150,7 @@ impl Compare {
                         (None, Some(shown)) => self.about(ui, &shown),
                         (None, None) => {
                             ui.horizontal(|ui| {
-                                ui.spinner();
+                                ui.add(Busy::new());
                                 ui.label("Waiting for the first samples");
                             });
                         }
@@ -171,7 +173,7 @@ impl Compare {
             Some(compared) => self.differences(ui, compared),
             None => {
                 ui.horizontal(|ui| {
-                    ui.spinner();
+                    ui.add(Busy::new());
                     ui.label("Rendering the picture at this size");
                 });
             }

@@ -3,18 +3,8 @@
 use std::sync::OnceLock;
 
 use rayon::{ThreadPool, ThreadPoolBuilder};
-use thread_priority::{ThreadPriority, ThreadPriorityValue, set_current_thread_priority};
 
-/// Of 0 to 99: the interface, and a software driver that draws it, come first.
-const PRIORITY: u8 = 30;
-
-/// Lets the interface's threads go first where they want the same core.
-pub(super) fn lower_priority() {
-    if let Ok(priority) = ThreadPriorityValue::try_from(PRIORITY) {
-        // Where the system refuses, the interface is a little less smooth.
-        let _ = set_current_thread_priority(ThreadPriority::Crossplatform(priority));
-    }
-}
+use crate::priority;
 
 /// Whose threads. Two pools: a thread that waits takes up other work of its own pool, and a painter that took up the building
 /// of a scene would show nothing until that is done.
@@ -39,7 +29,7 @@ impl Crew {
             ThreadPoolBuilder::new()
                 .num_threads((cores - 1).max(1))
                 .thread_name(move |i| format!("{name} {i}"))
-                .start_handler(|_| lower_priority())
+                .start_handler(|_| priority::lower())
                 .build()
                 .ok()
         };

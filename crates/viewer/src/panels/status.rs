@@ -6,6 +6,7 @@ use egui::{Panel, RichText, Ui};
 
 use crate::app::Viewer;
 use crate::engine::{Frame, Latency};
+use crate::panels::busy::Busy;
 
 pub(crate) fn show(ui: &mut Ui, viewer: &mut Viewer) {
     Panel::bottom("status").exact_size(26.0).show(ui, |ui| {
@@ -21,7 +22,7 @@ pub(crate) fn show(ui: &mut Ui, viewer: &mut Viewer) {
                     .on_hover_text(format!("in {} straight pieces", grouped(segments)));
             }
             if viewer.engine.is_building() {
-                ui.spinner();
+                ui.add(Busy::new());
                 ui.label("laying scratches");
             }
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
