@@ -2,11 +2,14 @@
 //! scratches is stackless, the same on the CPU and in a shader.
 
 pub mod bundles;
+mod depth_spread;
 pub mod groove_index;
+mod layer_runs;
 pub mod scratch_index;
 pub mod segment_tree;
 pub mod triangle_index;
 pub mod triangle_lists;
+pub mod watch;
 
 pub use bundles::{Bundle, BundleIndex, BundleLevel};
 pub use groove_index::Groove;
@@ -14,3 +17,4 @@ pub use scratch_index::{IndexedSegment, ScratchIndex};
 pub use segment_tree::{ScratchNode, SegmentTree};
 pub use triangle_index::{Hit, TriangleIndex};
 pub use triangle_lists::TriangleLists;
+pub use watch::Watch;

@@ -2,12 +2,12 @@
 //! docs/model.md section 6 says of the whole scratch; where pieces are joined nothing moves, and pieces that an end's shift
 //! swallows are gone.
 
-use crate::segment_tree::{SegmentTree, Straight};
+use crate::depth_spread::object_coherence;
+use crate::layer_runs::LayerRun;
+use crate::segment_tree::{Plot, SegmentTree, Straight, Tree, plant};
+use crate::watch::Watch;
 use glam::Vec3;
-use hairline_optics::footprint;
-use hairline_optics::mask::depth_coherence;
-use hairline_scene::{Object, Scene, Scratch};
-use rayon::prelude::*;
+use hairline_scene::{Object, Scene};
 
 /// A straight piece of a scratch, its free ends moved inwards.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,7 +32,8 @@ impl Straight for IndexedSegment {
     }
 }
 
-/// The scratches of a scene under footprints.
+/// The scratches of a scene under footprints. Each layer on an object has a tree of its own, so that those that an edit leaves
+/// alone are grown once.
 #[derive(Clone, Debug)]
 pub struct ScratchIndex {
     /// What lies where.
@@ -49,28 +50,66 @@ pub const REACH_STD: f32 = 3.5;
 pub const FACING_MIN_COS: f32 = 0.2;
 
 impl ScratchIndex {
-    /// Builds the trees.
+    /// Builds the trees, all cores at work; the same for any number of them.
+    ///
+    /// # Panics
+    /// Beyond 268 million pieces; no loaded scene has as many on one object.
     pub fn build(scene: &Scene) -> Self {
-        let objects = scene.objects.iter();
-        Self {
-            tree: SegmentTree::build(objects.map(|object| effective_segments(scene, object, None))),
-            depth_coherence: Self::depth_coherence(scene),
-        }
+        Self::rebuild(scene, None, &Watch::default())
+            .unwrap_or_else(|| unreachable!("nobody cancels it"))
+    }
+
+    /// The same while another watches, with the trees of an earlier scene for those layers that lie as they lay there. `None` if
+    /// it was cancelled.
+    ///
+    /// # Panics
+    /// As [`Self::build`].
+    pub fn rebuild(scene: &Scene, last: Option<(&Scene, &Self)>, watch: &Watch) -> Option<Self> {
+        let plots = plots(scene, last);
+        let (tree, depth_coherence) = rayon::join(
+            || plant(plots, last.map(|(_, index)| &index.tree), watch),
+            || Self::depth_coherence(scene),
+        );
+        Some(Self {
+            tree: tree?,
+            depth_coherence,
+        })
     }
 
     /// How alike the phase steps of each object's scratches are, without the trees.
     pub fn depth_coherence(scene: &Scene) -> Vec<f32> {
-        scene.objects.iter().map(object_depth_coherence).collect()
+        scene.objects.iter().map(object_coherence).collect()
+    }
+
+    /// The layers of the scene that this was built of, with their trees.
+    fn layers<'s>(&self, scene: &'s Scene) -> Vec<(LayerRun<'s>, &Tree)> {
+        let objects = scene.objects.iter().zip(&self.tree.trees);
+        objects
+            .flat_map(|(object, trees)| LayerRun::of(scene, object).zip(trees))
+            .collect()
     }
 }
 
-fn object_depth_coherence(object: &Object) -> f32 {
-    let depths = object.scratches.iter().map(|s| {
-        let pieces = &object.segments[s.segments.start as usize..s.segments.end as usize];
-        let length: f32 = pieces.iter().map(|p| p.start_m.distance(p.end_m)).sum();
-        (s.depth_nm as f64, (s.width_um * length) as f64)
-    });
-    depth_coherence(depths) as f32
+/// For each layer on each object the tree that it has already, or what to grow one over.
+fn plots<'a>(
+    scene: &'a Scene,
+    last: Option<(&Scene, &ScratchIndex)>,
+) -> Vec<Vec<Plot<'a, IndexedSegment>>> {
+    let kept = last.map_or_else(Vec::new, |(scene, index)| index.layers(scene));
+    let plot = |run: LayerRun<'a>| {
+        let same = kept.iter().find(|(before, _)| before.is_like(&run));
+        match same {
+            Some((_, tree)) => Plot::Kept((*tree).clone()),
+            None => Plot::New {
+                most: run.piece_count(),
+                fill: Box::new(move |pieces: &mut Vec<_>| run.append_effective(pieces)),
+            },
+        }
+    };
+    let objects = scene.objects.iter();
+    objects
+        .map(|object| LayerRun::of(scene, object).map(plot).collect())
+        .collect()
 }
 
 /// The pieces of an object's scratches, those of one layer or all, free ends moved inwards along the scratch.
@@ -79,57 +118,16 @@ pub(crate) fn effective_segments(
     object: &Object,
     layer: Option<u32>,
 ) -> Vec<IndexedSegment> {
-    let of_layer = |scratch: &&Scratch| layer.is_none_or(|layer| scratch.layer == layer);
-    // Scratches in a row, so that the order is that of the object whatever the number of threads.
-    let runs = object.scratches.par_chunks(RUN).map(|run| {
-        let pieces = run.iter().map(|s| s.segments.len()).sum();
-        let mut effective = Vec::with_capacity(pieces);
-        for scratch in run.iter().filter(of_layer) {
-            append_effective(scene, object, scratch, &mut effective);
-        }
-        effective
-    });
-    runs.collect::<Vec<_>>().concat()
-}
-
-/// Scratches of one task.
-const RUN: usize = 1024;
-
-/// Appends the pieces of one scratch.
-fn append_effective(
-    scene: &Scene,
-    object: &Object,
-    scratch: &Scratch,
-    effective: &mut Vec<IndexedSegment>,
-) {
-    let pieces = &object.segments[scratch.segments.start as usize..scratch.segments.end as usize];
-    let Some(first) = pieces.first() else {
-        return;
-    };
-    let material = object.mesh.triangle_materials[first.triangle as usize] as usize;
-    let coherence_um = scene.materials[material].coherence_um;
-    let length_um: f64 = pieces
-        .iter()
-        .map(|p| p.start_m.distance(p.end_m) as f64 * 1e6)
-        .sum();
-    let ends = footprint::ends(length_um, coherence_um);
-    let shrink_um = if scratch.closed { 0.0 } else { ends.shrink_um };
-    let mut arc_um = 0.0;
-    for piece in pieces {
-        let piece_um = piece.start_m.distance(piece.end_m) as f64 * 1e6;
-        let start = (shrink_um - arc_um).max(0.0) / piece_um;
-        let end = (length_um - shrink_um - arc_um).min(piece_um) / piece_um;
-        arc_um += piece_um;
-        // Also false for a piece of no length.
-        if start < end {
-            effective.push(IndexedSegment {
-                start_m: piece.start_m.lerp(piece.end_m, start as f32),
-                end_m: piece.start_m.lerp(piece.end_m, end as f32),
-                normal: piece.normal,
-                width_um: scratch.width_um,
-                depth_nm: scratch.depth_nm,
-                blur_um: ends.blur_um as f32,
-            });
-        }
+    let runs = LayerRun::of(scene, object);
+    let runs: Vec<_> = runs
+        .filter(|run| layer.is_none_or(|layer| run.layer() == layer))
+        .collect();
+    let mut effective = Vec::with_capacity(runs.iter().map(LayerRun::piece_count).sum());
+    for run in runs {
+        run.append_effective(&mut effective);
     }
+    effective
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,10 +1,15 @@
 //! Straight pieces of scratches under a box: bounding volume hierarchies with skip pointers (B. Smits, *Efficiency Issues
-//! for Ray Tracing*, 1998), one for each object, so that no scratch shows on an object that merely touches its own.
+//! for Ray Tracing*, 1998). Each object has its own, so that no scratch shows on an object that merely touches its own, and may
+//! have several, one after the other: to a walk they are one.
 
 mod grow;
+mod plant;
 
+use crate::watch::Watch;
 use glam::Vec3;
 use std::ops::Range;
+
+pub(crate) use plant::{Plot, plant};
 
 /// A node in depth-first order. A walk goes on with the next node, or with `skip` if it wants nothing below this one.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,14 +34,14 @@ impl ScratchNode {
         first..first + (self.leaf >> LEAF_FIRST_BITS) as usize
     }
 
-    /// The same node behind this many others and their segments.
+    /// The same node with others and their segments before it: so many more, or, wrapped around, less.
     fn moved(self, nodes: u32, segments: u32) -> Self {
         Self {
-            skip: self.skip + nodes,
+            skip: self.skip.wrapping_add(nodes),
             leaf: if self.leaf == 0 {
                 0
             } else {
-                self.leaf + segments
+                self.leaf.wrapping_add(segments)
             },
             ..self
         }
@@ -58,22 +63,31 @@ pub struct SegmentTree<S> {
     pub segments: Vec<S>,
     /// Each object's part of `nodes`; empty for an object without scratches.
     pub objects: Vec<Range<u32>>,
+    /// The trees of each object, which follow one another in `nodes` and `segments`.
+    pub(crate) trees: Vec<Vec<Tree>>,
+}
+
+/// Where a tree lies among all.
+#[derive(Clone, Debug)]
+pub(crate) struct Tree {
+    nodes: Range<u32>,
+    segments: Range<u32>,
 }
 
 impl<S: Straight> SegmentTree<S> {
     /// Builds the trees; one list of segments for each object.
+    ///
+    /// # Panics
+    /// Beyond 268 million segments.
     pub fn build(objects: impl Iterator<Item = Vec<S>>) -> Self {
-        let mut tree = Self {
-            nodes: Vec::new(),
-            segments: Vec::new(),
-            objects: Vec::new(),
-        };
-        for segments in objects {
-            let first = tree.nodes.len() as u32;
-            tree.append(grow::grow(segments));
-            tree.objects.push(first..tree.nodes.len() as u32);
-        }
-        tree
+        let plots = objects.map(|segments| {
+            vec![Plot::New {
+                most: segments.len(),
+                fill: Box::new(move |all: &mut Vec<S>| all.extend(segments)),
+            }]
+        });
+        plant(plots.collect(), None, &Watch::default())
+            .unwrap_or_else(|| unreachable!("nobody cancels it"))
     }
 
     /// Calls `visit` for every segment of an object whose node touches the box around a point.
@@ -104,19 +118,5 @@ impl<S: Straight> SegmentTree<S> {
                 at = node.skip;
             }
         }
-    }
-
-    fn append(&mut self, part: grow::Part<S>) {
-        let (nodes, segments) = (self.nodes.len() as u32, self.segments.len() as u32);
-        assert!(
-            segments as usize + part.segments.len() < 1 << LEAF_FIRST_BITS,
-            "more than 268 million segments"
-        );
-        self.nodes.extend(
-            part.nodes
-                .into_iter()
-                .map(|node| node.moved(nodes, segments)),
-        );
-        self.segments.extend(part.segments);
     }
 }

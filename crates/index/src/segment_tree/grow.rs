@@ -1,137 +1,168 @@
 //! Growing a tree on all cores: halves by the median until they are small, then obvhs (PLOC and reinsertion) for each, side
 //! by side. The size of a part is fixed, so the tree does not depend on the number of cores.
 
+use std::borrow::Cow;
+
 use glam::Vec3;
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::builder::build_bvh2;
 use obvhs::{Boundable, BvhBuildParams};
+use rayon::prelude::*;
 
+use super::plant::Piece;
 use super::{LEAF_FIRST_BITS, ScratchNode, Straight};
 
 /// Most segments in one leaf.
 const LEAF_SEGMENTS: u32 = 4;
-/// Segments that one thread takes: enough that the medians above them are few, and the tree as good as one grown whole.
-const PART_SEGMENTS: usize = 1 << 15;
+/// Segments that one thread takes: few, so that all have work on a small layer too, yet the tree is as good as one grown whole: a
+/// walk reads 1 % more nodes.
+const PART_SEGMENTS: usize = 1 << 13;
 
-/// A tree or a part of one, counted from its own beginning, in depth-first order.
-pub(super) struct Part<S> {
-    pub nodes: Vec<ScratchNode>,
-    pub segments: Vec<S>,
+/// The tree over some segments, which are put in the order of its leaves: nothing for none. The first of them is number `first`
+/// of all. `goes_on` is told how many are done; when it says no, what is returned is no tree.
+pub(super) fn grow<S: Straight>(
+    segments: &mut [S],
+    first: u32,
+    goes_on: &(dyn Fn(usize) -> bool + Sync),
+) -> Vec<Piece<'static>> {
+    grow_part(segments, first, goes_on).pieces
 }
 
-/// The tree over an object's segments; nothing for none.
-pub(super) fn grow<S: Straight>(mut segments: Vec<S>) -> Part<S> {
-    grow_part(&mut segments)
+/// A tree in depth-first order.
+struct Part {
+    min_m: Vec3,
+    max_m: Vec3,
+    node_count: u32,
+    pieces: Vec<Piece<'static>>,
 }
 
-fn grow_part<S: Straight>(segments: &mut [S]) -> Part<S> {
+fn grow_part<S: Straight>(
+    segments: &mut [S],
+    first: u32,
+    goes_on: &(dyn Fn(usize) -> bool + Sync),
+) -> Part {
     if segments.len() <= PART_SEGMENTS {
-        return Part::of_few(segments);
+        let part = Part::new(of_few(segments), first);
+        goes_on(segments.len());
+        return part;
     }
-    let middle = segments.len() / 2;
+    if !goes_on(0) {
+        return Part::new(Vec::new(), first);
+    }
     let place = |s: &S| {
         let [a, b] = s.ends_m();
         a + b
     };
-    let (low, high) = segments.iter().map(place).fold(
-        (Vec3::INFINITY, Vec3::NEG_INFINITY),
-        |(low, high), place| (low.min(place), high.max(place)),
-    );
+    let nothing = || (Vec3::INFINITY, Vec3::NEG_INFINITY);
+    let (low, high) = segments
+        .par_iter()
+        .with_min_len(PART_SEGMENTS)
+        .map(|s| (place(s), place(s)))
+        .reduce(nothing, |a, b| (a.0.min(b.0), a.1.max(b.1)));
     let axis = (high - low).max_position();
+    let middle = segments.len() / 2;
     segments.select_nth_unstable_by(middle, |a, b| place(a)[axis].total_cmp(&place(b)[axis]));
     let (left, right) = segments.split_at_mut(middle);
-    let (left, right) = rayon::join(|| grow_part(left), || grow_part(right));
-    Part::of_halves(left, right)
+    let (left, right) = rayon::join(
+        || grow_part(left, first, goes_on),
+        || grow_part(right, first + middle as u32, goes_on),
+    );
+    Part::over(left, right)
 }
 
-impl<S: Straight> Part<S> {
-    /// A node over two trees.
-    fn of_halves(left: Self, right: Self) -> Self {
-        let (first, second) = (left.nodes[0], right.nodes[0]);
+impl Part {
+    fn new(nodes: Vec<ScratchNode>, first: u32) -> Self {
+        let root = nodes.first();
+        Self {
+            min_m: root.map_or(Vec3::INFINITY, |root| root.min_m),
+            max_m: root.map_or(Vec3::NEG_INFINITY, |root| root.max_m),
+            node_count: nodes.len() as u32,
+            pieces: vec![Piece {
+                nodes: Cow::Owned(nodes),
+                first_node: 0,
+                segments_by: first,
+            }],
+        }
+    }
+
+    /// With a node over two trees.
+    fn over(left: Self, right: Self) -> Self {
+        let node_count = 1 + left.node_count + right.node_count;
         let above = ScratchNode {
-            min_m: first.min_m.min(second.min_m),
-            skip: (1 + left.nodes.len() + right.nodes.len()) as u32,
-            max_m: first.max_m.max(second.max_m),
+            min_m: left.min_m.min(right.min_m),
+            skip: node_count,
+            max_m: left.max_m.max(right.max_m),
             leaf: 0,
         };
-        let mut nodes = Vec::with_capacity(above.skip as usize);
-        nodes.push(above);
-        nodes.extend(left.nodes.iter().map(|node| node.moved(1, 0)));
-        let before = (nodes.len() as u32, left.segments.len() as u32);
-        nodes.extend(
-            right
-                .nodes
-                .iter()
-                .map(|node| node.moved(before.0, before.1)),
-        );
-        let mut segments = left.segments;
-        segments.extend(right.segments);
-        Self { nodes, segments }
-    }
-
-    fn of_few(segments: &[S]) -> Self {
-        let mut part = Self {
-            nodes: Vec::new(),
-            segments: Vec::with_capacity(segments.len()),
-        };
-        if segments.is_empty() {
-            return part;
-        }
-        let boxes: Vec<SegmentBox> = segments
-            .iter()
-            .map(|s| SegmentBox::new(s.ends_m()))
-            .collect();
-        let params = BvhBuildParams {
-            max_prims_per_leaf: LEAF_SEGMENTS,
-            ..BvhBuildParams::medium_build()
-        };
-        let tree = build_bvh2(&boxes, params, &mut std::time::Duration::default());
-        part.append_depth_first(&tree, segments);
+        let mut part = Self::new(vec![above], 0);
+        part.node_count = node_count;
+        part.pieces.extend(left.pieces);
+        part.pieces.extend(right.pieces);
         part
     }
+}
 
-    /// obvhs keeps siblings side by side; skip pointers want depth-first order.
-    fn append_depth_first(&mut self, tree: &Bvh2, segments: &[S]) {
-        // The second child's turn comes when the first one's subtree is done; a node's skip is known when its own is.
-        enum Step {
-            Enter(usize),
-            Leave(usize),
-        }
-        let mut steps = vec![Step::Enter(0)];
-        while let Some(step) = steps.pop() {
-            match step {
-                Step::Leave(written) => self.nodes[written].skip = self.nodes.len() as u32,
-                Step::Enter(at) => {
-                    let node = &tree.nodes[at];
-                    let written = self.nodes.len();
-                    let mut leaf = 0;
-                    steps.push(Step::Leave(written));
-                    if node.is_leaf() {
-                        let first = self.segments.len() as u32;
-                        let own = node.first_index as usize
-                            ..(node.first_index + node.prim_count) as usize;
-                        self.segments.extend(
-                            tree.primitive_indices[own]
-                                .iter()
-                                .map(|i| segments[*i as usize]),
-                        );
-                        leaf = first | node.prim_count << LEAF_FIRST_BITS;
-                    } else {
-                        steps.push(Step::Enter(node.first_index as usize + 1));
-                        steps.push(Step::Enter(node.first_index as usize));
-                    }
-                    let bounds = node.aabb();
-                    self.nodes.push(ScratchNode {
-                        min_m: bounds.min.into(),
-                        skip: 0,
-                        max_m: bounds.max.into(),
-                        leaf,
-                    });
+/// The nodes over as many segments as one thread takes.
+fn of_few<S: Straight>(segments: &mut [S]) -> Vec<ScratchNode> {
+    if segments.is_empty() {
+        return Vec::new();
+    }
+    let boxes: Vec<SegmentBox> = segments
+        .iter()
+        .map(|s| SegmentBox::new(s.ends_m()))
+        .collect();
+    // The medium one takes 1.7 times as long for a tree of which a walk reads 2 % fewer nodes and 5 % more segments.
+    let params = BvhBuildParams {
+        max_prims_per_leaf: LEAF_SEGMENTS,
+        ..BvhBuildParams::fast_build()
+    };
+    let tree = build_bvh2(&boxes, params, &mut std::time::Duration::default());
+    let (nodes, order) = depth_first(&tree);
+    let unordered = segments.to_vec();
+    for (segment, i) in segments.iter_mut().zip(order) {
+        *segment = unordered[i as usize];
+    }
+    nodes
+}
+
+/// obvhs keeps siblings side by side; skip pointers want depth-first order. Returns the primitives in the order of the leaves too.
+fn depth_first(tree: &Bvh2) -> (Vec<ScratchNode>, Vec<u32>) {
+    // The second child's turn comes when the first one's subtree is done; a node's skip is known when its own is.
+    enum Step {
+        Enter(usize),
+        Leave(usize),
+    }
+    let mut nodes = Vec::<ScratchNode>::with_capacity(tree.nodes.len());
+    let mut order = Vec::with_capacity(tree.primitive_indices.len());
+    let mut steps = vec![Step::Enter(0)];
+    while let Some(step) = steps.pop() {
+        match step {
+            Step::Leave(written) => nodes[written].skip = nodes.len() as u32,
+            Step::Enter(at) => {
+                let node = &tree.nodes[at];
+                steps.push(Step::Leave(nodes.len()));
+                let mut leaf = 0;
+                let first = node.first_index as usize;
+                if node.is_leaf() {
+                    leaf = order.len() as u32 | node.prim_count << LEAF_FIRST_BITS;
+                    let own = first..first + node.prim_count as usize;
+                    order.extend_from_slice(&tree.primitive_indices[own]);
+                } else {
+                    steps.push(Step::Enter(first + 1));
+                    steps.push(Step::Enter(first));
                 }
+                let bounds = node.aabb();
+                nodes.push(ScratchNode {
+                    min_m: bounds.min.into(),
+                    skip: 0,
+                    max_m: bounds.max.into(),
+                    leaf,
+                });
             }
         }
     }
+    (nodes, order)
 }
 
 struct SegmentBox(Aabb);

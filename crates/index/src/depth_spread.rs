@@ -1,0 +1,64 @@
+//! How alike the phase steps of an object's scratches are (docs/model.md, section 3), for millions of them.
+
+use hairline_optics::mask::depth_coherence;
+use hairline_scene::{Object, Scratch};
+use rayon::prelude::*;
+
+/// Depths that are told apart: for grooves of 2 µm those within 0.13 nm are taken at their mean, which moves a phase by 0.002 at
+/// most and, since deeper and shallower ones even out, what comes of it by some millionths.
+const BINS: usize = 1 << 14;
+
+/// By area: a scratch counts by its width times its length.
+pub(crate) fn object_coherence(object: &Object) -> f32 {
+    let deepest = object.scratches.iter().map(|s| s.depth_nm);
+    let deepest = deepest.fold(0.0_f32, f32::max);
+    let area = |s: &Scratch| {
+        let pieces = &object.segments[s.segments.start as usize..s.segments.end as usize];
+        let length: f32 = pieces.iter().map(|p| p.start_m.distance(p.end_m)).sum();
+        (s.width_um * length) as f64
+    };
+    let areas: Vec<f64> = object.scratches.par_iter().map(area).collect();
+    // Weights, and weights times depths.
+    let mut bins = vec![[0.0_f64; 2]; BINS];
+    for (scratch, area) in object.scratches.iter().zip(areas) {
+        let depth_nm = scratch.depth_nm.max(0.0);
+        let bin = (depth_nm / deepest.max(f32::MIN_POSITIVE) * BINS as f32) as usize;
+        let [weight, moment] = &mut bins[bin.min(BINS - 1)];
+        *weight += area;
+        *moment += area * depth_nm as f64;
+    }
+    bins.retain(|[weight, _]| *weight > 0.0);
+    let depths = bins
+        .iter()
+        .map(|[weight, moment]| (moment / weight, *weight));
+    depth_coherence(depths) as f32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use hairline_scene::Scene;
+
+    #[test]
+    fn depths_in_bins_are_as_alike_as_they_are_one_by_one() {
+        let text = "
+            camera = { position_m = [0.0, -0.3, 0.3], target_m = [0.0, 0.0, 0.0], up = [0.0, 0.0, 1.0] }
+            material = [{ name = \"m\", kind = \"mirror\" }]
+            object = [{ name = \"o\", material = \"m\", shape = { disk = { radius_m = 0.08 } } }]
+            scratches = [{ object = \"o\", pattern = \"random\", count = 20000, seed = 1, length_m = 0.002, \
+                width_um = { mean = 2.0, spread = 0.5 }, depth_nm = { mean = 150.0, spread = 0.6 } }]
+        ";
+        let scene = Scene::from_toml(text, "test", ".").unwrap_or_else(|error| panic!("{error}"));
+        let object = &scene.objects[0];
+        let one_by_one = object.scratches.iter().map(|s| {
+            let pieces = &object.segments[s.segments.start as usize..s.segments.end as usize];
+            let length: f32 = pieces.iter().map(|p| p.start_m.distance(p.end_m)).sum();
+            (s.depth_nm as f64, (s.width_um * length) as f64)
+        });
+        let right = depth_coherence(one_by_one.clone());
+        assert!((object_coherence(object) as f64 - right).abs() < 1e-5);
+        // Not so coarse that anything would do.
+        let wrong = depth_coherence(one_by_one.map(|(depth, weight)| (0.99 * depth, weight)));
+        assert!((wrong - right).abs() > 1e-4, "{wrong} {right}");
+    }
+}

@@ -1,0 +1,116 @@
+//! The scratches of one layer on one object, which stand in a row: what a tree is grown over, and what is known again in the
+//! next scene of an editor.
+
+use hairline_optics::footprint;
+use hairline_scene::{Object, Scene, Scratch, Segment};
+use rayon::prelude::*;
+
+use crate::scratch_index::IndexedSegment;
+
+/// Neighbouring scratches of the same layer.
+#[derive(Clone, Copy)]
+pub(crate) struct LayerRun<'a> {
+    scene: &'a Scene,
+    object: &'a Object,
+    scratches: &'a [Scratch],
+}
+
+/// Scratches of one task.
+const TASK: usize = 1024;
+/// Scratches whose pieces wait to be put in their place: some tens of megabytes.
+const BATCH: usize = 32 * TASK;
+
+impl<'a> LayerRun<'a> {
+    /// All of an object, in their order; one for each layer, since a builder lays them layer by layer.
+    pub fn of(scene: &'a Scene, object: &'a Object) -> impl Iterator<Item = Self> {
+        let runs = object.scratches.chunk_by(|a, b| a.layer == b.layer);
+        runs.map(move |scratches| Self {
+            scene,
+            object,
+            scratches,
+        })
+    }
+
+    /// The place of its table in the scene file.
+    pub fn layer(&self) -> u32 {
+        self.scratches[0].layer
+    }
+
+    /// How many straight pieces it has.
+    pub fn piece_count(&self) -> usize {
+        self.scratches.iter().map(|s| s.segments.len()).sum()
+    }
+
+    fn pieces(&self, scratch: &Scratch) -> &'a [Segment] {
+        &self.object.segments[scratch.segments.start as usize..scratch.segments.end as usize]
+    }
+
+    /// Of the material under the scratch's beginning.
+    fn coherence_um(&self, scratch: &Scratch) -> Option<f64> {
+        let first = self.pieces(scratch).first()?;
+        let material = self.object.mesh.triangle_materials[first.triangle as usize];
+        Some(self.scene.materials[material as usize].coherence_um)
+    }
+
+    /// Whether the same pieces come of both, in the same order. Wherever their layers stand, and whatever else their objects
+    /// have.
+    pub fn is_like(&self, other: &LayerRun) -> bool {
+        let alike = |(a, b): (&Scratch, &Scratch)| {
+            (a.width_um, a.depth_nm, a.closed) == (b.width_um, b.depth_nm, b.closed)
+                && self.pieces(a) == other.pieces(b)
+                && self.coherence_um(a) == other.coherence_um(b)
+        };
+        self.scratches.len() == other.scratches.len()
+            && (self.scratches.par_iter().with_min_len(TASK))
+                .zip(other.scratches)
+                .all(alike)
+    }
+
+    /// Appends the pieces with their free ends moved inwards, in the order of the scratches whatever the number of threads.
+    pub fn append_effective(&self, effective: &mut Vec<IndexedSegment>) {
+        for batch in self.scratches.chunks(BATCH) {
+            let tasks = batch.par_chunks(TASK).map(|scratches| {
+                let pieces = scratches.iter().map(|s| s.segments.len()).sum();
+                let mut effective = Vec::with_capacity(pieces);
+                for scratch in scratches {
+                    self.append_scratch(scratch, &mut effective);
+                }
+                effective
+            });
+            for mut part in tasks.collect::<Vec<_>>() {
+                effective.append(&mut part);
+            }
+        }
+    }
+
+    fn append_scratch(&self, scratch: &Scratch, effective: &mut Vec<IndexedSegment>) {
+        let pieces = self.pieces(scratch);
+        let Some(coherence_um) = self.coherence_um(scratch) else {
+            return;
+        };
+        let length_um: f64 = pieces
+            .iter()
+            .map(|p| p.start_m.distance(p.end_m) as f64 * 1e6)
+            .sum();
+        let ends = footprint::ends(length_um, coherence_um);
+        let shrink_um = if scratch.closed { 0.0 } else { ends.shrink_um };
+        let mut arc_um = 0.0;
+        for piece in pieces {
+            let piece_um = piece.start_m.distance(piece.end_m) as f64 * 1e6;
+            let start = (shrink_um - arc_um).max(0.0) / piece_um;
+            let end = (length_um - shrink_um - arc_um).min(piece_um) / piece_um;
+            arc_um += piece_um;
+            // Also false for a piece of no length.
+            if start < end {
+                effective.push(IndexedSegment {
+                    start_m: piece.start_m.lerp(piece.end_m, start as f32),
+                    end_m: piece.start_m.lerp(piece.end_m, end as f32),
+                    normal: piece.normal,
+                    width_um: scratch.width_um,
+                    depth_nm: scratch.depth_nm,
+                    blur_um: ends.blur_um as f32,
+                });
+            }
+        }
+    }
+}

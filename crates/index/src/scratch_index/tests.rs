@@ -1,0 +1,173 @@
+use super::*;
+use hairline_scene::description::{Description, Layer};
+use hairline_scene::{Loader, SceneBuilder};
+use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex};
+
+/// Two objects, two layers on the first, which has a part of its own size each, and one on the second.
+fn description() -> Description {
+    let layer = |object: &str, count: u32, seed: u32, width_um: f64| {
+        format!(
+            "[[scratches]]\nobject = \"{object}\"\npattern = \"random\"\ncount = {count}\nseed = {seed}\n\
+             length_m = {{ mean = 0.01, spread = 0.5 }}\nwidth_um = {{ mean = {width_um}, spread = 0.3 }}\n\
+             depth_nm = 200.0\n"
+        )
+    };
+    let text = "[camera]\nposition_m = [0.0, -0.3, 0.3]\ntarget_m = [0.0, 0.0, 0.0]\nup = [0.0, 0.0, 1.0]\n\
+                [[material]]\nname = \"m\"\nkind = \"mirror\"\n\
+                [[object]]\nname = \"a\"\nmaterial = \"m\"\nshape = { disk = { radius_m = 0.08 } }\n\
+                [[object]]\nname = \"b\"\nmaterial = \"m\"\nshape = { sphere = { radius_m = 0.05 } }\n"
+        .to_owned();
+    let layers = [layer("a", 4000, 1, 2.0), layer("b", 300, 2, 1.0)].concat();
+    let text = text + &layers + &layer("a", 500, 3, 3.0);
+    Description::from_toml(&text, Path::new("test")).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn built(builder: &mut SceneBuilder, description: &Description) -> Scene {
+    let scene = builder.build(&Loader::default(), description, Path::new("."));
+    scene.unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn with_width(mut description: Description, layer: usize, width_um: f64) -> Description {
+    if let Layer::Laid(laid) = &mut description.scratches[layer].layer {
+        laid.width_um.mean = width_um;
+    }
+    description
+}
+
+/// How many trees are grown anew.
+fn grown(scene: &Scene, last: (&Scene, &ScratchIndex)) -> usize {
+    let plots = plots(scene, Some(last));
+    let plots = plots.iter().flatten();
+    plots
+        .filter(|plot| matches!(plot, Plot::New { .. }))
+        .count()
+}
+
+fn assert_same(a: &ScratchIndex, b: &ScratchIndex) {
+    assert_eq!(a.tree.nodes, b.tree.nodes);
+    assert_eq!(a.tree.segments, b.tree.segments);
+    assert_eq!(a.tree.objects, b.tree.objects);
+    assert_eq!(a.depth_coherence, b.depth_coherence);
+}
+
+#[test]
+fn only_the_layer_that_changed_is_grown_and_all_is_as_if_built_anew() {
+    let mut builder = SceneBuilder::new();
+    let mut scene = built(&mut builder, &description());
+    let mut index = ScratchIndex::build(&scene);
+    assert_eq!(grown(&scene, (&scene, &index)), 0);
+
+    let mut hidden = description();
+    hidden.scratches[0].hidden = true;
+    let mut shorter = description();
+    if let Layer::Laid(laid) = &mut shorter.scratches[2].layer {
+        laid.length_m.mean = 0.004;
+    }
+    let mut turned = description();
+    turned.scratches.swap(0, 2);
+    let mut fewer = description();
+    fewer.objects.remove(0);
+    fewer.scratches.retain(|layer| layer.object == "b");
+    for (description, expected) in [
+        (with_width(description(), 2, 4.0), 1),
+        (with_width(description(), 0, 4.0), 2),
+        (description(), 1),
+        (shorter, 1),
+        // What lies further back moves to the front.
+        (hidden, 1),
+        (description(), 1),
+        (turned, 0),
+        (fewer, 0),
+        (description(), 2),
+    ] {
+        let next = built(&mut builder, &description);
+        assert_eq!(grown(&next, (&scene, &index)), expected);
+        let rebuilt = ScratchIndex::rebuild(&next, Some((&scene, &index)), &Watch::default());
+        index = rebuilt.unwrap();
+        assert_same(&index, &ScratchIndex::build(&next));
+        scene = next;
+    }
+}
+
+#[test]
+fn what_pieces_depend_on_is_seen_to_change() {
+    let scene = built(&mut SceneBuilder::new(), &description());
+    let index = ScratchIndex::build(&scene);
+    type Change = fn(&mut Scene);
+    let changes: [(Change, usize); 5] = [
+        // The ends of all move with it.
+        (|scene| scene.materials[0].coherence_um *= 2.0, 3),
+        (|scene| scene.materials[0].roughness += 0.1, 0),
+        (
+            |scene| Arc::make_mut(&mut scene.objects[0].scratches)[0].depth_nm += 1.0,
+            1,
+        ),
+        (
+            |scene| Arc::make_mut(&mut scene.objects[1].scratches)[7].closed ^= true,
+            1,
+        ),
+        (
+            |scene| {
+                Arc::make_mut(&mut scene.objects[1].segments)[7].start_m.x += 1e-6;
+            },
+            1,
+        ),
+    ];
+    for (i, (change, expected)) in changes.into_iter().enumerate() {
+        let mut changed = scene.clone();
+        change(&mut changed);
+        assert_eq!(grown(&changed, (&scene, &index)), expected, "{i}");
+    }
+}
+
+#[test]
+fn a_walk_goes_through_all_trees_of_its_object_and_no_other() {
+    let scene = built(&mut SceneBuilder::new(), &description());
+    let index = ScratchIndex::build(&scene);
+    for object in 0..2 {
+        let all: Vec<IndexedSegment> =
+            effective_segments(&scene, &scene.objects[object], None).to_vec();
+        for i in 0..50 {
+            let reach = Vec3::splat(1e-4 * (1 + i) as f32);
+            let middle = all[i * 37 % all.len()].start_m;
+            let mut found = Vec::new();
+            index.tree.gather(object, middle, reach, |s| found.push(*s));
+            let (lower, upper) = (middle - reach, middle + reach);
+            let is_near = |s: &&IndexedSegment| {
+                let (low, high) = (s.start_m.min(s.end_m), s.start_m.max(s.end_m));
+                low.cmple(upper).all() && high.cmpge(lower).all()
+            };
+            let near: Vec<_> = all.iter().filter(is_near).collect();
+            assert!(near.iter().all(|s| found.contains(s)));
+            assert!(found.iter().all(|s| all.contains(s)));
+            assert!(found.len() < all.len() / 2);
+        }
+    }
+}
+
+#[test]
+fn the_work_is_told_and_can_be_given_up() {
+    let scene = built(&mut SceneBuilder::new(), &description());
+    let told = Mutex::new(Vec::new());
+    let asked = AtomicUsize::new(0);
+    let run = |patience: usize| {
+        told.lock().unwrap().clear();
+        asked.store(0, Ordering::Relaxed);
+        let watch = Watch {
+            progress: &|share| told.lock().unwrap().push(share),
+            cancelled: &|| asked.fetch_add(1, Ordering::Relaxed) >= patience,
+        };
+        ScratchIndex::rebuild(&scene, None, &watch)
+    };
+    assert!(run(usize::MAX).is_some());
+    let told = told.lock().unwrap().clone();
+    assert!(told.iter().all(|share| (0.0..=1.0).contains(share)));
+    assert_eq!(told.iter().copied().fold(0.0, f64::max), 1.0);
+    let count = asked.load(Ordering::Relaxed);
+    assert!(count > 5, "{count}");
+    for patience in 0..count {
+        assert!(run(patience).is_none(), "{patience}");
+    }
+}

@@ -1,0 +1,140 @@
+//! Trees side by side: new ones grown at the same time, each in its part of the segments, and those that were grown before.
+
+use std::borrow::Cow;
+use std::ops::Range;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use rayon::prelude::*;
+
+use super::{LEAF_FIRST_BITS, ScratchNode, SegmentTree, Straight, Tree, grow};
+use crate::watch::Watch;
+
+/// Appends segments.
+type Fill<'a, S> = Box<dyn FnOnce(&mut Vec<S>) + Send + 'a>;
+
+/// Where a tree comes from.
+pub(crate) enum Plot<'a, S> {
+    /// It is grown over the segments that are appended, so many at most.
+    New { most: usize, fill: Fill<'a, S> },
+    /// It was grown before.
+    Kept(Tree),
+}
+
+/// Nodes in a row, with what their numbers have to become.
+pub(super) struct Piece<'a> {
+    pub nodes: Cow<'a, [ScratchNode]>,
+    /// The number of its first node.
+    pub first_node: u32,
+    /// How far its segments move, wrapped around.
+    pub segments_by: u32,
+}
+
+/// Of all the work, what filling in the segments takes.
+const FILL_SHARE: f64 = 0.1;
+
+/// Grows the trees, several for each object, all cores at work. Those that were grown before lie in `last`. `None` if it was
+/// cancelled.
+///
+/// # Panics
+/// Beyond 268 million segments.
+pub(crate) fn plant<S: Straight>(
+    objects: Vec<Vec<Plot<S>>>,
+    last: Option<&SegmentTree<S>>,
+    watch: &Watch,
+) -> Option<SegmentTree<S>> {
+    let counts: Vec<usize> = objects.iter().map(Vec::len).collect();
+    let plots: Vec<Plot<S>> = objects.into_iter().flatten().collect();
+    let most = plots.iter().map(|plot| match plot {
+        Plot::New { most, .. } => *most,
+        Plot::Kept(tree) => tree.segments.len(),
+    });
+    let most = most.sum::<usize>();
+    let mut segments = Vec::with_capacity(most);
+    let mut beds = Vec::with_capacity(plots.len());
+    for plot in plots {
+        if (watch.cancelled)() {
+            return None;
+        }
+        let first = segments.len();
+        let kept = match plot {
+            Plot::New { fill, .. } => {
+                fill(&mut segments);
+                None
+            }
+            Plot::Kept(tree) => {
+                let last = last?;
+                segments.extend_from_slice(&last.segments[as_usize(&tree.segments)]);
+                Some((last, tree))
+            }
+        };
+        let end = segments.len();
+        assert!(end < 1 << LEAF_FIRST_BITS, "more than 268 million segments");
+        (watch.progress)(FILL_SHARE * end as f64 / most.max(1) as f64);
+        beds.push((first as u32..end as u32, kept));
+    }
+
+    let (all, done) = (segments.len(), AtomicUsize::new(0));
+    let goes_on = |count: usize| {
+        let done = done.fetch_add(count, Ordering::Relaxed) + count;
+        (watch.progress)(FILL_SHARE + (1.0 - FILL_SHARE) * done as f64 / all as f64);
+        !(watch.cancelled)()
+    };
+    let mut rest = segments.as_mut_slice();
+    let beds: Vec<_> = beds
+        .into_iter()
+        .map(|(place, kept)| {
+            let (own, others) = std::mem::take(&mut rest).split_at_mut(place.len());
+            rest = others;
+            (place, own, kept)
+        })
+        .collect();
+    let grown: Vec<(Range<u32>, Vec<Piece>)> = beds
+        .into_par_iter()
+        .map(|(place, own, kept)| {
+            let pieces = match kept {
+                None => grow::grow(own, place.start, &goes_on),
+                Some((last, tree)) => {
+                    goes_on(own.len());
+                    vec![Piece {
+                        nodes: Cow::Borrowed(&last.nodes[as_usize(&tree.nodes)]),
+                        first_node: tree.nodes.start,
+                        segments_by: place.start.wrapping_sub(tree.segments.start),
+                    }]
+                }
+            };
+            (place, pieces)
+        })
+        .collect();
+    if (watch.cancelled)() {
+        return None;
+    }
+
+    let pieces = grown.iter().flat_map(|(_, pieces)| pieces);
+    let mut nodes = Vec::with_capacity(pieces.map(|piece| piece.nodes.len()).sum());
+    let mut grown = grown.into_iter();
+    let (mut ranges, mut trees) = (Vec::new(), Vec::new());
+    for count in counts {
+        let first = nodes.len() as u32;
+        let own = grown.by_ref().take(count).map(|(segments, pieces)| {
+            let first = nodes.len() as u32;
+            for piece in pieces {
+                let by = (nodes.len() as u32).wrapping_sub(piece.first_node);
+                nodes.extend(piece.nodes.iter().map(|n| n.moved(by, piece.segments_by)));
+            }
+            let nodes = first..nodes.len() as u32;
+            Tree { nodes, segments }
+        });
+        trees.push(own.collect());
+        ranges.push(first..nodes.len() as u32);
+    }
+    Some(SegmentTree {
+        nodes,
+        segments,
+        objects: ranges,
+        trees,
+    })
+}
+
+fn as_usize(range: &Range<u32>) -> Range<usize> {
+    range.start as usize..range.end as usize
+}
