@@ -5,7 +5,7 @@ mod fine;
 use anyhow::anyhow;
 use hairline_gpu::{AdapterKind, AdapterRequest, Gpu, headless};
 use hairline_image::Image;
-use hairline_index::ScratchIndex;
+use hairline_index::{ScratchIndex, Watch};
 use hairline_optics::method::{Gather, Lookup, Method};
 use hairline_reference::closed_form::{self, Prepared};
 use hairline_scene::{Scene, ScratchTables};
@@ -29,19 +29,6 @@ pub struct Task {
     pub pictures: u32,
 }
 
-/// Refuses what no renderer that is asked for can do: before the scene is read.
-///
-/// # Errors
-/// [`Failure::Input`].
-pub fn check(method: &Method, backend: Backend) -> Result<(), Failure> {
-    if backend == Backend::Gpu && method.gather == Gather::Clusters {
-        return Err(Failure::Input(anyhow!(
-            "--gather clusters is on the CPU only as yet: take --backend cpu or auto with it, or --gather exact"
-        )));
-    }
-    Ok(())
-}
-
 /// A renderer that holds a scene with its trees and tables, for one picture or many.
 pub struct Painter<'a> {
     scene: &'a Scene,
@@ -59,9 +46,8 @@ impl<'a> Painter<'a> {
     /// if there is one, else the CPU renderer or a software driver, by trial.
     ///
     /// # Errors
-    /// [`Failure::Input`] as [`check`]; [`Failure::Work`] where the GPU that was asked for fails.
+    /// [`Failure::Work`] where the GPU that was asked for fails.
     pub fn open(scene: &'a Scene, task: Task) -> Result<Self, Failure> {
-        check(&task.method, task.backend)?;
         let on = match task.backend {
             Backend::Cpu => On::on_cpu(scene, &task.method, "as asked"),
             Backend::Gpu => {
@@ -69,11 +55,6 @@ impl<'a> Painter<'a> {
                 announce_gpu(&gpu, "as asked");
                 On::on_gpu(&gpu, scene, &task.method).map_err(advise)?
             }
-            Backend::Auto if task.method.gather == Gather::Clusters => On::on_cpu(
-                scene,
-                &task.method,
-                "--gather clusters is not on the GPU as yet",
-            ),
             Backend::Auto => On::the_faster(scene, &task),
         };
         Ok(Self { scene, task, on })
@@ -148,10 +129,8 @@ impl<'a> On<'a> {
     }
 
     fn on_gpu(gpu: &Gpu, scene: &Scene, method: &Method) -> Result<Self, hairline_gpu::Error> {
-        let (scratches, tables) = rayon::join(
-            || ScratchIndex::build(scene).into(),
-            || ScratchTables::new(scene),
-        );
+        let (scratches, tables) =
+            rayon::join(|| sorted(scene).into(), || ScratchTables::new(scene));
         let ready = gpu.block_on(ReadyDriver::new(gpu, scene, &scratches, &tables, method))?;
         Ok(Self::Gpu(Box::new(ready)))
     }
@@ -188,8 +167,8 @@ impl<'a> On<'a> {
 
 /// Trees and tables, and what only some methods look up: now, and not again for each picture.
 fn prepared<'a>(scene: &'a Scene, method: &Method) -> Box<Prepared<'a>> {
-    let _bar = Progress::start("sorting scratches");
-    let prepared = Prepared::new(scene);
+    let bar = Progress::start("sorting scratches");
+    let prepared = watched(&bar, |watch| Prepared::watched(scene, watch));
     if method.gather == Gather::Clusters {
         prepared.bundle_index();
     }
@@ -197,6 +176,20 @@ fn prepared<'a>(scene: &'a Scene, method: &Method) -> Box<Prepared<'a>> {
         prepared.triangle_lists();
     }
     Box::new(prepared)
+}
+
+fn sorted(scene: &Scene) -> ScratchIndex {
+    let bar = Progress::start("sorting scratches");
+    watched(&bar, |watch| ScratchIndex::rebuild(scene, None, watch))
+}
+
+/// Work that a bar shows, and that nobody ends but by ending the process.
+fn watched<T>(bar: &Progress, work: impl FnOnce(&Watch) -> Option<T>) -> T {
+    let watch = Watch {
+        progress: &|share| bar.set(share),
+        ..Watch::default()
+    };
+    work(&watch).unwrap_or_else(|| unreachable!("nobody cancels it"))
 }
 
 /// The best adapter: GPUs come before software drivers.

@@ -20,11 +20,10 @@ use std::time::Duration;
 
 use anyhow::anyhow;
 use hairline_image::output::{check_writable, write_atomically};
-use hairline_optics::method::{Gather, Method};
+use hairline_optics::method::Method;
 use hairline_scene::Object;
 
-use crate::backend;
-use crate::cli::{self, Backend, Part};
+use crate::cli::{self, Part};
 use crate::failure::Failure;
 use crate::method_flags::flags_of;
 use crate::progress::Progress;
@@ -71,12 +70,7 @@ pub fn run(arguments: &cli::Bench) -> Result<(), Failure> {
     if let Some(path) = &arguments.output {
         report::check_name(path)?;
     }
-    backend::check(&ours, arguments.backend)?;
-    // What is on the CPU only is not measured on another device than the published method.
-    let mut worker = Worker::open(match ours.gather {
-        Gather::Clusters => Backend::Cpu,
-        Gather::Exact => arguments.backend,
-    })?;
+    let mut worker = Worker::open(arguments.backend)?;
     let machine = Machine::of(&worker);
     eprintln!("measuring on {}", machine.in_words());
     let thoroughness = thoroughness(arguments);

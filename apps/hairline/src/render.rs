@@ -21,7 +21,6 @@ use motion::Motion;
 /// Loads, renders and writes.
 pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
     let method = arguments.method.method()?;
-    backend::check(&method, arguments.backend)?;
     let motion = Motion::of(&arguments.sequence)?;
     // Before the work: nobody should wait for a picture that then has no place to go.
     let target = match &motion {

@@ -24,7 +24,6 @@ fn contradictions_are_2_and_nothing_is_written() {
         ("--spectrum si", "table, si-fast, si-exact"),
         ("--mask none", "energy, linear, density"),
         ("--method published --gather clusters", "default method"),
-        ("--gather clusters --backend gpu", "on the CPU only"),
     ] {
         let arguments = format!("render scratched.toml -o out.exr {flags}");
         let assert = hairline(folder.path(), &arguments).code(2);
@@ -54,15 +53,3 @@ fn a_picture_remembers_another_method_than_the_default() {
     assert_ne!(pictures[0].density, pictures[2].density);
 }
 
-/// No GPU has it: what is rendered on is chosen by it, and said.
-#[test]
-fn clusters_take_the_cpu_and_say_why() {
-    let folder = folder_with_scene();
-    let arguments = "render scratched.toml -o out.png --size 8x6 --gather clusters";
-    let assert = hairline(folder.path(), arguments).success();
-    let text = stderr_of(&assert);
-    assert!(
-        text.contains("on the CPU") && text.contains("--gather clusters"),
-        "{text}"
-    );
-}

@@ -21,3 +21,5 @@
 // Wavelengths in x, materials in y; and for each triangle its scratches. One texel where the method has no use for them.
 @group(2) @binding(7) var published_wavelengths: texture_2d<f32>;
 @group(2) @binding(8) var triangle_lists: texture_2d<u32>;
+// What many scratches add up to; bundles.wgsl reads it. One texel where the method has no use for it.
+@group(2) @binding(9) var bundle_rows: texture_2d<u32>;

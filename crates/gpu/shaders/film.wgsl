@@ -60,7 +60,8 @@ fn film_resume(pixel: vec2u, first: u32) -> ScratchWalk {
         return ScratchWalk(first, ScratchSums(0.0, 0.0, vec3f(0.0), vec3f(0.0)));
     }
     let kept = film_walks[at];
-    return ScratchWalk(walk_at - 1u, ScratchSums(kept.share, kept.share_by_line, kept.radiance, kept.energy));
+    let go_on = select(walk_at - 1u, first, walk_at - 1u == WALK_FRESH);
+    return ScratchWalk(go_on, ScratchSums(kept.share, kept.share_by_line, kept.radiance, kept.energy));
 }
 
 // Leaves a walk for the next dispatch.
@@ -72,5 +73,31 @@ fn film_keep(pixel: vec2u, walk: ScratchWalk) {
     film_walks[at].radiance = walk.sums.radiance;
     film_walks[at].energy = walk.sums.energy;
     atomicAdd(&film.unfinished, 1u);
+    film_check_loops();
+}
+
+// How many of a pixel's grids earlier dispatches have gone through, or WALK_BUNDLES_DONE.
+fn film_bundled(pixel: vec2u) -> u32 {
+    let walk_at = film.pixels[film_index(pixel)].walk_at;
+    let at = walk_at - 1u;
+    let begun = select(WALK_BUNDLES_DONE, at & ~WALK_BUNDLED, at < WALK_LISTED && at >= WALK_BUNDLED);
+    return select(begun, 0u, walk_at == 0u);
+}
+
+// Leaves the sums over grids, with those of earlier dispatches, for the walk over single scratches or for the next dispatch.
+fn film_keep_bundles(pixel: vec2u, continues: bool, is_done: bool, next: u32, sums: ScratchSums) {
+    let at = film_index(pixel);
+    var kept = FilmWalk(vec3f(0.0), 0.0, vec3f(0.0), 0.0);
+    if continues {
+        kept = film_walks[at];
+    }
+    film.pixels[at].walk_at = next + 1u;
+    film_walks[at].share = kept.share + sums.share;
+    film_walks[at].share_by_line = kept.share_by_line + sums.share_by_line;
+    film_walks[at].radiance = kept.radiance + sums.radiance;
+    film_walks[at].energy = kept.energy + sums.energy;
+    if !is_done {
+        atomicAdd(&film.unfinished, 1u);
+    }
     film_check_loops();
 }

@@ -23,8 +23,16 @@ fn gather_rounds_a_segment() -> u32 {
 }
 
 // Walks on under the point's footprint, to the object's last node or until the rounds are spent.
-fn gather_scratches(point: SurfacePoint, object: Object, list: SegmentList, walk: ptr<function, ScratchWalk>) {
-    let pixel = gather_pixel(point);
+// `single_share` is the weight of scratches that are looked at one by one.
+fn gather_scratches(
+    point: SurfacePoint,
+    object: Object,
+    list: SegmentList,
+    single_share: f32,
+    walk: ptr<function, ScratchWalk>,
+) {
+    var pixel = gather_pixel(point);
+    pixel.single_share = single_share;
     let reach_m = gather_reach_m(point);
     var batch: GatherBatch;
     var segments: array<u32, FIND_SEGMENTS>;
@@ -96,7 +104,8 @@ fn gather_weigh(
     }
     let start = dot(tangent, start_um);
     let end = dot(tangent, end_um);
-    let share = scratch_share(segment.width_um, offset_um, start, end, segment.blur_um, footprint, point.coherence_um);
+    var share = scratch_share(segment.width_um, offset_um, start, end, segment.blur_um, footprint, point.coherence_um);
+    share.segment *= pixel.single_share;
     if !(share.segment > 0.0) {
         return;
     }

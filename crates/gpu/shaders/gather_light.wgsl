@@ -1,6 +1,9 @@
 // What one scratch sends to the viewer of one light, per unit of its share and of the light's radiance, Fresnel left out.
 // Twin: reference/src/scratches.rs.
 
+// Whether what is lit stands for many scratches of one direction, which lie all over the footprint.
+override LIGHTS_MANY: bool = false;
+
 // A segment that a light reaches.
 struct LitSegment {
     tangent: vec2f,             // in the surface's frame
@@ -23,6 +26,8 @@ struct LightSeen {
     cap: Cap,                   // holds it
     move_x: vec2f,              // how xi moves over one standard deviation of the pixel's filter to the right and down
     move_y: vec2f,
+    mirror: vec2f,              // of the sum of both unit directions what lies in the surface
+    solid_angle: f32,           // of a polygon that faces this way, about
     facing: f32,                // of a polygon: 1 or -1, as light_facing()
     away: vec3f,                // its normal on the side that faces away
     corners: Corners,           // its vertices, if it has no more than four
@@ -51,10 +56,15 @@ fn gather_light_seen(point: SurfacePoint, pixel: GatherPixel, index: u32) -> Lig
     seen.kind = light.kind;
     seen.is_small = light.vertex_count <= CORNERS;
     let per_o = 1e-6 / point.distance_m;
-    let per_i = 1e-6 / max(length(center_m), light.radius_m);
+    let per_distance = 1.0 / max(length(center_m), light.radius_m);
+    let per_i = 1e-6 * per_distance;
     let turned = gather_filtered();
     seen.move_x = band_moves(point.turn_x * turned, pixel.axis_x_um, point.wo, per_o, seen.cap.axis, per_i);
     seen.move_y = band_moves(point.turn_y * turned, pixel.axis_y_um, point.wo, per_o, seen.cap.axis, per_i);
+    if LIGHTS_MANY {
+        seen.mirror = point.wo.xy + seen.cap.cos_radius * seen.cap.axis.xy;
+        seen.solid_angle = light.area_m2 * per_distance * per_distance;
+    }
     if HAS_POLYGONS && light.kind == LIGHT_POLYGON {
         seen.facing = light_facing(point, light);
         seen.shines = seen.shines && seen.facing != 0.0;
@@ -85,6 +95,11 @@ fn gather_band(pixel: GatherPixel, seen: LightSeen, tangent: vec2f, offset_um: f
     let across = vec2f(-tangent.y, tangent.x);
     let across_um = vec2f(dot(pixel.axis_x_um.xy, across), dot(pixel.axis_y_um.xy, across));
     let moves = vec2f(dot(seen.move_x, tangent), dot(seen.move_y, tangent));
+    if LIGHTS_MANY {
+        let aside = tangent.x * seen.mirror.y - tangent.y * seen.mirror.x;
+        let variance = dot(moves, moves) + pixel.turn_rad2 * aside * aside;
+        return MovedBand(0.0, min(sqrt(pixel.stds * pixel.stds + variance), vec4f(BAND_STD_MAX)));
+    }
     return moved_band(pixel.stds, moves, across_um, offset_um, dot(across_um, across_um) + pixel.window_um2);
 }
 

@@ -17,6 +17,8 @@ struct GatherPixel {
     covariance_um2: vec3f,      // xx, xy, yy of both
     window_um2: f32,            // the coherence window's variance
     stds: vec4f,                // of the band that a pixel without perspective sees
+    turn_rad2: f32,             // variance of a tangent's angle, where one scratch stands for many
+    single_share: f32,          // weight of scratches that are looked at one by one
 }
 
 fn gather_pixel(point: SurfacePoint) -> GatherPixel {
@@ -28,6 +30,8 @@ fn gather_pixel(point: SurfacePoint) -> GatherPixel {
         vec3f(x.x * x.x + y.x * y.x, x.x * x.y + y.x * y.y, x.y * x.y + y.y * y.y),
         0.5 * point.coherence_um * point.coherence_um,
         band_stds(point.coherence_um),
+        0.0,
+        1.0,
     );
 }
 

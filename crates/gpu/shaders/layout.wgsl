@@ -69,6 +69,7 @@ struct Light {
     two_sided: u32,
     first_vertex: u32,
     vertex_count: u32,
+    area_m2: f32,               // of a polygon
 }
 
 const LIGHT_SPHERE: u32 = 0u;

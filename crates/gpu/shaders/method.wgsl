@@ -30,6 +30,10 @@ override METHOD_SPHERE_BASE: u32 = 0u;
 const SPHERE_BASE_COSINES: u32 = 0u;
 const SPHERE_BASE_PIVOT: u32 = 1u;
 
+override METHOD_GATHER: u32 = 0u;
+const GATHER_EXACT: u32 = 0u;
+const GATHER_CLUSTERS: u32 = 1u;
+
 override METHOD_LOOKUP: u32 = 0u;
 const LOOKUP_TILES: u32 = 0u;
 const LOOKUP_BVH: u32 = 1u;

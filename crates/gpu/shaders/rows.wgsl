@@ -35,6 +35,7 @@ fn light_at(i: u32) -> Light {
         c.w,
         d.x,
         d.y,
+        bitcast<f32>(d.z),
     );
 }
 

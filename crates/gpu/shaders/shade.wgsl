@@ -40,7 +40,7 @@ fn shade(
             start = segment_list_begin(list);
         }
         var walk = film_resume(pixel, start);
-        gather_scratches(point, object, list, &walk);
+        gather_scratches(point, object, list, bundle_single_share_at(point, seen.y), &walk);
         if walk.at < object.end_node || walk.at >= WALK_LISTED {
             film_keep(pixel, walk);
             return;

@@ -33,9 +33,15 @@ fn shade(
     // Any triangle does for pixels that see none; what they find is dropped.
     var depth_m: f32;
     let point = hit_surface_point(max(seen.x, 1u) - 1u, ray, &depth_m);
-    let view = gather_pixel(point);
+    var view = gather_pixel(point);
     var batch: GatherBatch;
     var sums: ScratchSums;
+    var alone = true;
+    if METHOD_GATHER == GATHER_CLUSTERS {
+        view.single_share = bundle_single_share_at(point, seen.y);
+        alone = view.single_share > 0.0;
+        sums = film_resume(pixel, 0u).sums;
+    }
     var overflows = false;
     // A walk may be left where a device ends long loops; this is not.
     let room = min(GATHER_SEGMENTS, GATHER_MAX_ROUNDS / gather_rounds_a_segment());
@@ -51,7 +57,7 @@ fn shade(
         var low = atomicLoad(&touches[2u * lane]);
         var high = atomicLoad(&touches[2u * lane + 1u]);
         workgroupBarrier();
-        let touching = countOneBits(low) + countOneBits(high);
+        let touching = select(0u, countOneBits(low) + countOneBits(high), alone);
         overflows = overflows || batch.count + touching > room;
         let wanted = select(touching, 0u, overflows || seen.x == 0u);
         for (var i = 0u; i < wanted; i += 1u) {

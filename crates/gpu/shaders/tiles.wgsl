@@ -80,6 +80,10 @@ fn tile_sight(corner: vec2u) -> TileSight {
         let ray = tile_ray(middle + tile_at_px(in_film));
         var depth_m: f32;
         let point = hit_surface_point(seen.x - 1u, ray, &depth_m);
+        // What grids stand for needs no list.
+        if METHOD_GATHER == GATHER_CLUSTERS && bundle_single_share_at(point, seen.y) == 0.0 {
+            continue;
+        }
         let reach = gather_reach_m(point);
         sight.lower_m = min(sight.lower_m, point.position_m - reach);
         sight.upper_m = max(sight.upper_m, point.position_m + reach);

@@ -14,6 +14,12 @@ struct ScratchWalk {
 
 // Set in ScratchWalk.at while a list is gone through; the rest is the place in it. Else it is a node of the hierarchy.
 const WALK_LISTED: u32 = 0x80000000u;
+// Set while grids of many scratches are gone through; the rest counts those that are done.
+const WALK_BUNDLED: u32 = 0x40000000u;
+// Grids are done, single scratches not begun.
+const WALK_FRESH: u32 = 0x3fffffffu;
+// Nothing is left to do with grids.
+const WALK_BUNDLES_DONE: u32 = 0xffffffffu;
 
 // A software driver gives each of its threads one piece of a dispatch. Strided by so many, the pieces are equally dear, be they
 // of the object or of its background. 1 on GPUs, which want neighbours together.

@@ -59,6 +59,7 @@ impl Layouts {
             texture(wgpu::TextureViewDimension::D2Array, true),
             texture(wgpu::TextureViewDimension::D2, false),
             integers(),
+            integers(),
         ];
         let textures: Vec<_> = (0..)
             .zip(textures)

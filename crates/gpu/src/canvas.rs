@@ -8,7 +8,7 @@ use hairline_image::Image;
 use crate::bindings::Layouts;
 use crate::device::Gpu;
 use crate::error::Error;
-use crate::film::{Band, BandRoom, Film};
+use crate::film::{Band, BandRoom, Film, RoomNeeds};
 use crate::layout::FilmPixel;
 use crate::renderer::Renderer;
 
@@ -45,7 +45,7 @@ impl Canvas {
         let (gpu, layouts) = (renderer.gpu(), renderer.layouts());
         let size_px = size_px.map(|n| n.max(1));
         let band_rows = Film::band_rows(gpu, size_px, submission_px);
-        let room = BandRoom::new(gpu, layouts, size_px[0], band_rows, false).await?;
+        let room = BandRoom::new(gpu, layouts, size_px[0], band_rows, RoomNeeds::default()).await?;
         let mut canvas = Self {
             gpu: gpu.clone(),
             size_px,
@@ -101,13 +101,17 @@ impl Canvas {
         Ok(image)
     }
 
-    /// Makes room for lists of scratches, if they are wanted and there is none.
-    pub(crate) async fn make_room(&mut self, layouts: &Layouts, tiles: bool) -> Result<(), Error> {
-        if !tiles || self.room.has_tiles() {
+    /// Makes room for what a scene's passes need, if there is none.
+    pub(crate) async fn make_room(
+        &mut self,
+        layouts: &Layouts,
+        needs: RoomNeeds,
+    ) -> Result<(), Error> {
+        if self.room.has(needs) {
             return Ok(());
         }
         let (gpu, width) = (&self.gpu, self.size_px[0]);
-        self.room = BandRoom::new(gpu, layouts, width, self.band_rows, true).await?;
+        self.room = BandRoom::new(gpu, layouts, width, self.band_rows, needs).await?;
         for band in &mut self.bands {
             band.film.move_to(gpu, layouts, &self.room);
         }

@@ -405,6 +405,7 @@ impl Gpu {
         }
     }
 
+    #[cfg(not(target_arch = "wasm32"))]
     pub(crate) fn record_lost(&self, reason: String) {
         self.faults.record(Error::Lost { reason });
     }

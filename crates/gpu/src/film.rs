@@ -25,10 +25,20 @@ pub(crate) struct Band<'a> {
     pub rows: Range<u32>,
 }
 
+/// For what a scene's passes need a place.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct RoomNeeds {
+    /// Lists of scratches.
+    pub tiles: bool,
+    /// Walks that are begun in one dispatch and ended in another, whatever the device.
+    pub walks: bool,
+}
+
 /// What the passes leave for one another while they work on a band. Bands that take turns share it.
 pub(crate) struct BandRoom {
     pub width_px: u32,
     pub rows: u32,
+    pub needs: RoomNeeds,
     pub visibility: wgpu::TextureView,
     pub depth: wgpu::TextureView,
     pub tiles: TileRoom,
@@ -43,12 +53,12 @@ impl BandRoom {
         layouts: &Layouts,
         width_px: u32,
         rows: u32,
-        has_tiles: bool,
+        needs: RoomNeeds,
     ) -> Result<Self, Error> {
         let size = [width_px, rows];
         let visibility = target(gpu, "picture", size, VISIBILITY_FORMAT, true).await?;
         let depth = target(gpu, "picture", size, DEPTH_FORMAT, false).await?;
-        let walks = if is_bounded(gpu) {
+        let walks = if needs.walks || is_bounded(gpu) {
             u64::from(width_px) * u64::from(rows)
         } else {
             1
@@ -58,16 +68,17 @@ impl BandRoom {
         Ok(Self {
             width_px,
             rows,
+            needs,
             walks: walks.await?,
-            tiles: TileRoom::new(gpu, layouts, size, has_tiles, &visibility).await?,
+            tiles: TileRoom::new(gpu, layouts, size, needs.tiles, &visibility).await?,
             visibility,
             depth,
         })
     }
 
-    /// Whether the passes find a place for lists of scratches.
-    pub fn has_tiles(&self) -> bool {
-        self.tiles.count > 0
+    /// Whether the passes find a place for all that they need.
+    pub fn has(&self, needs: RoomNeeds) -> bool {
+        (self.needs.tiles || !needs.tiles) && (self.needs.walks || !needs.walks)
     }
 }
 

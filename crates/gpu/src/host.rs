@@ -143,12 +143,20 @@ pub(crate) fn lights(scene: &Scene, origin_m: DVec3) -> Vec<Light> {
                     two_sided: u32::from(*two_sided),
                     first_vertex,
                     vertex_count: vertices_m.len() as u32,
+                    area_m2: polygon_area_m2(vertices_m) as f32,
                     ..bounded
                 }
             }
         }
     };
     scene.lights.iter().map(light).collect()
+}
+
+/// Of a polygon in a plane.
+fn polygon_area_m2(vertices_m: &[DVec3]) -> f64 {
+    let from_first = |edge: &[DVec3]| (edge[0] - vertices_m[0]).cross(edge[1] - vertices_m[0]);
+    let sum: DVec3 = vertices_m.windows(2).map(from_first).sum();
+    0.5 * sum.length()
 }
 
 /// The unit normal on the side that sees the vertices counter-clockwise.

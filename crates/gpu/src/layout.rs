@@ -108,7 +108,8 @@ shared! {
         two_sided: u32,
         first_vertex: u32,
         vertex_count: u32,
-        pad: [u32; 2],
+        area_m2: f32,
+        pad: u32,
     }
     /// A node over the segments of an object.
     ScratchNode {

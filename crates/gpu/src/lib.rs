@@ -4,6 +4,7 @@
 //! for programs that want to wait.
 
 mod bindings;
+mod bundles;
 pub mod call;
 pub mod canvas;
 pub mod device;
@@ -21,6 +22,7 @@ pub mod renderer;
 mod rows;
 mod scene_buffers;
 mod shade;
+mod shade_bundles;
 pub mod shaders;
 mod textures;
 mod tile_room;

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use hairline_image::{Display, Image};
 use hairline_index::ScratchIndex;
-use hairline_optics::method::{Lookup, Method};
+use hairline_optics::method::{Gather, Lookup, Method};
 use hairline_scene::{Scene, ScratchTables};
 use wgpu::BufferUsages;
 
@@ -16,10 +16,11 @@ use crate::canvas::Canvas;
 use crate::device::Gpu;
 use crate::display::{DisplayPass, Shown};
 use crate::error::Error;
-use crate::film::{Band, BandRoom, Film};
+use crate::film::{Band, BandRoom, Film, RoomNeeds};
 use crate::frame::frame;
 use crate::layout::Frame;
 use crate::shade::ShadePass;
+use crate::shade_bundles::BundlesPass;
 use crate::tiles::TilesPasses;
 use crate::timing::{PassTime, Timing};
 use crate::upload::{GpuScene, Source};
@@ -265,8 +266,9 @@ impl Renderer {
         sample: u32,
         samples: u32,
     ) -> Result<(), Error> {
-        let has_tiles = uploaded.passes.tiles.is_some();
-        canvas.make_room(&self.layouts, has_tiles).await?;
+        canvas
+            .make_room(&self.layouts, uploaded.passes.needs())
+            .await?;
         canvas.begin(band, sample);
         let size_px = canvas.size_px();
         self.submit(
@@ -349,6 +351,20 @@ impl Renderer {
         let (frame, timing) = (&self.frame_group, &self.timing);
         self.visibility
             .record(&mut encoder, frame, uploaded, band, timing);
+        if let Some(bundles) = &uploaded.passes.bundles {
+            bundles.record(&mut encoder, frame, uploaded, band, timing);
+            if bundles.bounded {
+                // The passes that follow go on where it ends, once.
+                self.gpu.queue.submit([encoder.finish()]);
+                while band.film.unfinished(&self.gpu).await? > 0 {
+                    let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+                    band.film.clear_unfinished(&mut encoder);
+                    bundles.record(&mut encoder, frame, uploaded, band, timing);
+                    self.gpu.queue.submit([encoder.finish()]);
+                }
+                encoder = self.gpu.device.create_command_encoder(&Default::default());
+            }
+        }
         if let Some(tiles) = &uploaded.passes.tiles {
             band.room.tiles.clear(&self.gpu);
             tiles.record(&mut encoder, frame, uploaded, band, timing);
@@ -382,17 +398,16 @@ impl Renderer {
         width_px: u32,
         rows: u32,
     ) -> Result<(BandRoom, Film), Error> {
-        let has_tiles = uploaded.passes.tiles.is_some();
-        let fits = |room: &BandRoom| {
-            room.width_px == width_px && room.rows == rows && room.has_tiles() == has_tiles
-        };
+        let needs = uploaded.passes.needs();
+        let fits =
+            |room: &BandRoom| room.width_px == width_px && room.rows == rows && room.needs == needs;
         if let Some((room, film)) = self.band.take()
             && fits(&room)
         {
             return Ok((room, film));
         }
         let (gpu, layouts) = (&self.gpu, &self.layouts);
-        let room = BandRoom::new(gpu, layouts, width_px, rows, has_tiles).await?;
+        let room = BandRoom::new(gpu, layouts, width_px, rows, needs).await?;
         let film = Film::new(gpu, layouts, &room, rows).await?;
         Ok((room, film))
     }
@@ -406,6 +421,8 @@ impl Renderer {
 pub(crate) struct ScenePasses {
     /// Where the method wants tiles, and there are scratches to find.
     tiles: Option<TilesPasses>,
+    /// Where the method gathers by grids.
+    bundles: Option<BundlesPass>,
     shade: ShadePass,
 }
 
@@ -416,7 +433,16 @@ impl ScenePasses {
         Self {
             tiles: (wants_tiles && variant.has.scratches)
                 .then(|| TilesPasses::new(gpu, layouts, variant)),
+            bundles: (method.gather == Gather::Clusters && variant.has.scratches)
+                .then(|| BundlesPass::new(gpu, layouts, variant)),
             shade: ShadePass::new(gpu, layouts, variant, wants_tiles && variant.has.scratches),
+        }
+    }
+
+    fn needs(&self) -> RoomNeeds {
+        RoomNeeds {
+            tiles: self.tiles.is_some(),
+            walks: self.bundles.is_some(),
         }
     }
 }

@@ -111,6 +111,10 @@ modules! {
     GATHER_PIXEL = "gather_pixel" needs [SURFACE, BAND, METHOD];
     /// What one scratch sends to the viewer of one light.
     GATHER_LIGHT = "gather_light" needs [SCENE, GATHER_PIXEL, FOUR_EDGES, LIGHTS, SEGMENTS, WALK, BAND_ENVIRONMENT, SCRATCH_TABLE];
+    /// What many scratches add up to: grids over the surfaces.
+    BUNDLES = "bundles" needs [ROWS, WALK, SURFACE];
+    /// A footprint on the grids of many scratches.
+    BUNDLE_FOOTPRINT = "bundle_footprint" needs [BUNDLES, GATHER_PIXEL];
     /// What scratches take from the base, by the method's mask.
     GATHER_MASK = "gather_mask" needs [MASK, METHOD];
     /// The same of a polygon with many vertices.
@@ -137,13 +141,15 @@ modules! {
     /// What a pixel adds to the film.
     SHADE_POINT = "shade_point" needs [BASE, FILM];
     /// Pass: from what is visible to radiance, pixel by pixel.
-    SHADE = "shade" needs [HIT, GATHER, SHADE_POINT, TILE_QUEUES];
+    SHADE = "shade" needs [HIT, GATHER, BUNDLE_FOOTPRINT, SHADE_POINT, TILE_QUEUES];
     /// Pass: from what is visible to radiance, in tiles that have a list of scratches.
-    SHADE_TILES = "shade_tiles" needs [HIT, GATHER, SHADE_POINT, TILE_QUEUES, SEGMENT_SEEN];
+    SHADE_TILES = "shade_tiles" needs [HIT, GATHER, BUNDLE_FOOTPRINT, SHADE_POINT, TILE_QUEUES, SEGMENT_SEEN];
+    /// Pass: what many scratches under a pixel add up to.
+    SHADE_BUNDLES = "shade_bundles" needs [HIT, BUNDLE_FOOTPRINT, GATHER_LIGHT, GATHER_LARGE_POLYGON, SHADE_POINT];
     /// Pass: tiles that show no object.
     BACKGROUND = "background" needs [SHADE_POINT, TILE_QUEUES];
     /// Pass: the scratches that each tile of pixels may see.
-    TILES = "tiles" needs [HIT, FIND, GATHER_PIXEL, TILE_QUEUES, SEGMENT_SEEN];
+    TILES = "tiles" needs [HIT, FIND, BUNDLE_FOOTPRINT, TILE_QUEUES, SEGMENT_SEEN];
     /// Pass: from what is visible to radiance by the method of 2018.
     SHADE_PUBLISHED = "shade_published" needs [HIT, PUBLISHED_GATHER, PUBLISHED_BASE, SHADE_POINT];
     /// Pass: the film on a display.

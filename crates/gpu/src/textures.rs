@@ -2,16 +2,18 @@
 
 use std::sync::Arc;
 
+use glam::DVec3;
 use hairline_image::Picture;
 use hairline_optics::lobe_table::{self, LOBE_TABLE_SIZE, LobeTable};
 use hairline_optics::metal::Metal;
-use hairline_optics::table;
+use hairline_optics::table::{self, ScratchTable};
 use hairline_scene::{Environment, Scene, ScratchTables, Texture};
 use half::f16;
 use rayon::prelude::*;
 use wgpu::{TextureFormat, TextureViewDimension};
 
 use crate::bindings::{Layouts, bind};
+use crate::bundles::UploadedBundles;
 use crate::error::Error;
 use crate::published::Published;
 use crate::transfer::{Place, Transfer};
@@ -124,6 +126,7 @@ pub(crate) struct SceneTextures {
     textures: Arc<Vec<Texture>>,
     array: wgpu::TextureView,
     published: Published,
+    bundles: UploadedBundles,
 }
 
 impl SceneTextures {
@@ -133,12 +136,17 @@ impl SceneTextures {
         layouts: &Layouts,
         source: &Source<'_>,
         array: &TextureArray,
+        origin_m: DVec3,
         last: Option<&Self>,
     ) -> Result<Self, Error> {
         let Source { scene, tables, .. } = *source;
-        let scratch_tables = match last.filter(|last| last.metals == tables.metals) {
+        let last_bundles = last.map(|last| &last.bundles);
+        let bundles = UploadedBundles::upload(transfer, source, origin_m, last_bundles).await?;
+        let same_tables =
+            |last: &&Self| last.metals == tables.metals && last.bundles.same_as(&bundles);
+        let scratch_tables = match last.filter(same_tables) {
             Some(last) => last.scratch_tables.clone(),
-            None => scratch_tables(transfer, tables).await?,
+            None => scratch_tables(transfer, tables, bundles.tables()).await?,
         };
         let lobes = match last {
             Some(last) => last.lobes.clone(),
@@ -172,6 +180,7 @@ impl SceneTextures {
             &array,
             &published.wavelengths,
             &published.triangle_lists,
+            &bundles.rows,
         ]
         .map(wgpu::BindingResource::TextureView);
         Ok(Self {
@@ -184,6 +193,7 @@ impl SceneTextures {
             textures: Arc::clone(&scene.textures),
             array,
             published,
+            bundles,
         })
     }
 }
@@ -199,14 +209,21 @@ fn same_map(a: Option<&Environment>, b: Option<&Environment>) -> bool {
 async fn scratch_tables(
     transfer: &mut Transfer<'_>,
     tables: &ScratchTables,
+    of_bundles: &[ScratchTable],
 ) -> Result<wgpu::TextureView, Error> {
     let what = "scratch tables";
     let size = [table::COLUMNS as u32, table::ROWS as u32];
-    let layers = tables.tables.len().max(1) as u32;
+    let count = tables.tables.len() + of_bundles.len();
+    let allowed = transfer.gpu.limits().max_texture_array_layers;
+    if count > allowed as usize {
+        let (count, allowed) = (count as u64, allowed.into());
+        return Err(transfer.gpu.too_large(what, count, allowed, "layers"));
+    }
+    let layers = count.max(1) as u32;
     let texture = transfer
         .texture(what, size, layers, 1, TextureFormat::Rgba32Uint)
         .await?;
-    for (layer, table) in (0..).zip(&tables.tables) {
+    for (layer, table) in (0..).zip(tables.tables.iter().chain(of_bundles)) {
         let place = Place {
             layer,
             ..Place::default()

@@ -58,8 +58,16 @@ impl GpuScene {
         let mut transfer = Transfer::new(gpu);
         let buffers =
             SceneBuffers::upload(&mut transfer, layouts, source, &array, last_buffers).await?;
-        let textures =
-            SceneTextures::upload(&mut transfer, layouts, source, &array, last_textures).await?;
+        let origin_m = buffers.vertices.origin_m;
+        let textures = SceneTextures::upload(
+            &mut transfer,
+            layouts,
+            source,
+            &array,
+            origin_m,
+            last_textures,
+        )
+        .await?;
         gpu.check()?;
         Ok(Self {
             buffers,

@@ -1,7 +1,9 @@
 //! What shaders are compiled for: a method, what a scene has, and what a device can do.
 
 use hairline_optics::mask::Mask;
-use hairline_optics::method::{Band, Chords, Lookup, Method, PixelFilter, Spectrum, SphereBase};
+use hairline_optics::method::{
+    Band, Chords, Gather, Lookup, Method, PixelFilter, Spectrum, SphereBase,
+};
 use hairline_optics::published::sine_integral::SineIntegral;
 use hairline_scene::{Light, Scene};
 
@@ -57,7 +59,7 @@ const SOFTWARE_MAX_ROUNDS: f64 = 5_000.0;
 const SOFTWARE_STRIDE: u32 = 64;
 
 /// What the shader is specialised by; names and numbers are those of contents.wgsl and method.wgsl.
-fn constants_of(variant: &ShadeVariant) -> [(&'static str, f64); 15] {
+fn constants_of(variant: &ShadeVariant) -> [(&'static str, f64); 16] {
     let ShadeVariant { method, has } = variant;
     let (spectrum, wavelengths) = match method.spectrum {
         Spectrum::Table => (0, 0),
@@ -93,6 +95,10 @@ fn constants_of(variant: &ShadeVariant) -> [(&'static str, f64); 15] {
         Lookup::Bvh => 1,
         Lookup::Triangles => 2,
     };
+    let gather = match method.gather {
+        Gather::Exact => 0,
+        Gather::Clusters => 1,
+    };
     [
         ("HAS_SCRATCHES", has.scratches.into()),
         ("HAS_SPHERES", has.spheres.into()),
@@ -108,6 +114,7 @@ fn constants_of(variant: &ShadeVariant) -> [(&'static str, f64); 15] {
         ("METHOD_FOOTPRINT", footprint.into()),
         ("METHOD_MASK", mask.into()),
         ("METHOD_SPHERE_BASE", sphere_base.into()),
+        ("METHOD_GATHER", gather.into()),
         ("METHOD_LOOKUP", lookup.into()),
     ]
 }

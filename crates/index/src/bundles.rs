@@ -15,6 +15,7 @@ mod splat;
 pub use spectra::Bundles;
 
 use crate::scratch_index::effective_segments;
+use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 use hairline_scene::{Object, Scene};
 use rayon::prelude::*;
@@ -27,7 +28,7 @@ pub const HEIGHT_CELLS: f32 = 4.0;
 
 /// All scratches around a vertex: eleven texels of 16 bytes.
 #[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct Bundle {
     /// World space, metres; the mean height on the surface.
     pub place_m: Vec3,
@@ -102,7 +103,8 @@ pub struct Vertex {
 }
 
 impl Vertex {
-    fn hash(self) -> u32 {
+    /// What a table of open addresses begins a search at, but for its size. Twin: bundles.wgsl.
+    pub fn hash(self) -> u32 {
         // Mixing by H. Prospector's 32-bit constants ("lowbias32"), one coordinate after the other.
         let mut hash = self.side;
         for word in [self.at[0] as u32, self.at[1] as u32, self.height as u32] {

@@ -12,7 +12,7 @@ use crate::{base, bundles, scratches, surface};
 use glam::{DVec2, DVec3};
 use hairline_image::Image;
 use hairline_index::bundles::Bundles;
-use hairline_index::{BundleIndex, Hit, ScratchIndex, TriangleIndex, TriangleLists};
+use hairline_index::{BundleIndex, Hit, ScratchIndex, TriangleIndex, TriangleLists, Watch};
 use hairline_optics::ltc::ltc_sphere;
 use hairline_optics::mask::Masked;
 use hairline_optics::method::{Gather, Lookup, Method, PixelFilter};
@@ -59,11 +59,22 @@ pub struct Prepared<'a> {
 impl<'a> Prepared<'a> {
     /// Builds the trees and the tables.
     pub fn new(scene: &'a Scene) -> Self {
+        Self::watched(scene, &Watch::default()).unwrap_or_else(|| unreachable!("nobody cancels it"))
+    }
+
+    /// The same while another watches the tree over the scratches grow, which takes the most time. `None` if it was cancelled.
+    pub fn watched(scene: &'a Scene, watch: &Watch) -> Option<Self> {
         let (triangles, (scratches, tables)) = rayon::join(
             || TriangleIndex::build(scene),
-            || rayon::join(|| ScratchIndex::build(scene), || ScratchTables::new(scene)),
+            || {
+                rayon::join(
+                    || ScratchIndex::rebuild(scene, None, watch),
+                    || ScratchTables::new(scene),
+                )
+            },
         );
-        Self::from_parts(scene, triangles.into(), scratches.into(), tables.into())
+        let prepared = Self::from_parts(scene, triangles.into(), scratches?.into(), tables.into());
+        Some(prepared)
     }
 
     /// Takes trees and tables that were built before, of `scene` or of one with the same surfaces, scratches and materials.
