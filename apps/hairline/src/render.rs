@@ -14,7 +14,7 @@ use crate::backend::{Painter, Task};
 use crate::failure::Failure;
 use crate::progress::Progress;
 use crate::scene_file::{self, Overrides};
-use crate::{backend, cli, method_flags};
+use crate::{cli, method_flags};
 use goals::Goals;
 use motion::Motion;
 
