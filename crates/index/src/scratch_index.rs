@@ -3,7 +3,7 @@
 //! swallows are gone.
 
 use crate::depth_spread::object_coherence;
-use crate::layer_runs::LayerRun;
+use crate::layer_runs::{LayerRun, groups};
 use crate::segment_tree::{Plot, SegmentTree, Straight, Tree, plant};
 use crate::watch::Watch;
 use glam::Vec3;
@@ -32,8 +32,8 @@ impl Straight for IndexedSegment {
     }
 }
 
-/// The scratches of a scene under footprints. Each layer on an object has a tree of its own, so that those that an edit leaves
-/// alone are grown once.
+/// The scratches of a scene under footprints. Each large layer on an object has a tree of its own, so that those that an edit
+/// leaves alone are grown once.
 #[derive(Clone, Debug)]
 pub struct ScratchIndex {
     /// What lies where.
@@ -82,33 +82,38 @@ impl ScratchIndex {
     }
 
     /// The layers of the scene that this was built of, with their trees.
-    fn layers<'s>(&self, scene: &'s Scene) -> Vec<(LayerRun<'s>, &Tree)> {
+    fn groups<'s>(&self, scene: &'s Scene) -> Vec<(Vec<LayerRun<'s>>, &Tree)> {
         let objects = scene.objects.iter().zip(&self.tree.trees);
         objects
-            .flat_map(|(object, trees)| LayerRun::of(scene, object).zip(trees))
+            .flat_map(|(object, trees)| groups(scene, object).into_iter().zip(trees))
             .collect()
     }
 }
 
-/// For each layer on each object the tree that it has already, or what to grow one over.
+/// For the layers on each object the trees that they have already, or what to grow them over.
 fn plots<'a>(
     scene: &'a Scene,
     last: Option<(&Scene, &ScratchIndex)>,
 ) -> Vec<Vec<Plot<'a, IndexedSegment>>> {
-    let kept = last.map_or_else(Vec::new, |(scene, index)| index.layers(scene));
-    let plot = |run: LayerRun<'a>| {
-        let same = kept.iter().find(|(before, _)| before.is_like(&run));
-        match same {
+    let kept = last.map_or_else(Vec::new, |(scene, index)| index.groups(scene));
+    let plot = |group: Vec<LayerRun<'a>>| {
+        let is_like = |before: &[LayerRun]| {
+            let mut pairs = before.iter().zip(&group);
+            before.len() == group.len() && pairs.all(|(a, b)| a.is_like(b))
+        };
+        match kept.iter().find(|(before, _)| is_like(before)) {
             Some((_, tree)) => Plot::Kept((*tree).clone()),
             None => Plot::New {
-                most: run.piece_count(),
-                fill: Box::new(move |pieces: &mut Vec<_>| run.append_effective(pieces)),
+                most: group.iter().map(LayerRun::piece_count).sum(),
+                fill: Box::new(move |pieces: &mut Vec<_>| {
+                    group.iter().for_each(|run| run.append_effective(pieces));
+                }),
             },
         }
     };
     let objects = scene.objects.iter();
     objects
-        .map(|object| LayerRun::of(scene, object).map(plot).collect())
+        .map(|object| groups(scene, object).into_iter().map(plot).collect())
         .collect()
 }
 

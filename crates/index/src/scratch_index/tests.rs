@@ -5,13 +5,13 @@ use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 
-/// Two objects, two layers on the first, which has a part of its own size each, and one on the second.
+/// Two objects. On the first a large layer and two small ones, which share a tree; on the second another small one.
 fn description() -> Description {
     let layer = |object: &str, count: u32, seed: u32, width_um: f64| {
         format!(
             "[[scratches]]\nobject = \"{object}\"\npattern = \"random\"\ncount = {count}\nseed = {seed}\n\
              length_m = {{ mean = 0.01, spread = 0.5 }}\nwidth_um = {{ mean = {width_um}, spread = 0.3 }}\n\
-             depth_nm = 200.0\n"
+             depth_nm = 200.0\ncurvature_per_m = {{ mean = 0.0, spread = 4.0 }}\n"
         )
     };
     let text = "[camera]\nposition_m = [0.0, -0.3, 0.3]\ntarget_m = [0.0, 0.0, 0.0]\nup = [0.0, 0.0, 1.0]\n\
@@ -19,8 +19,9 @@ fn description() -> Description {
                 [[object]]\nname = \"a\"\nmaterial = \"m\"\nshape = { disk = { radius_m = 0.08 } }\n\
                 [[object]]\nname = \"b\"\nmaterial = \"m\"\nshape = { sphere = { radius_m = 0.05 } }\n"
         .to_owned();
-    let layers = [layer("a", 4000, 1, 2.0), layer("b", 300, 2, 1.0)].concat();
-    let text = text + &layers + &layer("a", 500, 3, 3.0);
+    let large = layer("a", 20_000, 1, 2.0);
+    let small = [("b", 2), ("a", 3), ("a", 4)].map(|(object, seed)| layer(object, 300, seed, 3.0));
+    let text = text + &large + &small.concat();
     Description::from_toml(&text, Path::new("test")).unwrap_or_else(|error| panic!("{error}"))
 }
 
@@ -66,7 +67,7 @@ fn only_the_layer_that_changed_is_grown_and_all_is_as_if_built_anew() {
         laid.length_m.mean = 0.004;
     }
     let mut turned = description();
-    turned.scratches.swap(0, 2);
+    turned.scratches.rotate_left(1);
     let mut fewer = description();
     fewer.objects.remove(0);
     fewer.scratches.retain(|layer| layer.object == "b");
@@ -163,7 +164,8 @@ fn the_work_is_told_and_can_be_given_up() {
     };
     assert!(run(usize::MAX).is_some());
     let told = told.lock().unwrap().clone();
-    assert!(told.iter().all(|share| (0.0..=1.0).contains(share)));
+    let is_share = |share: &f64| (0.0..=1.0).contains(share);
+    assert!(told.iter().all(is_share), "{told:?}");
     assert_eq!(told.iter().copied().fold(0.0, f64::max), 1.0);
     let count = asked.load(Ordering::Relaxed);
     assert!(count > 5, "{count}");

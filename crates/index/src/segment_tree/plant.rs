@@ -76,7 +76,8 @@ pub(crate) fn plant<S: Straight>(
     let (all, done) = (segments.len(), AtomicUsize::new(0));
     let goes_on = |count: usize| {
         let done = done.fetch_add(count, Ordering::Relaxed) + count;
-        (watch.progress)(FILL_SHARE + (1.0 - FILL_SHARE) * done as f64 / all as f64);
+        let share = FILL_SHARE + (1.0 - FILL_SHARE) * done as f64 / all as f64;
+        (watch.progress)(share.min(1.0));
         !(watch.cancelled)()
     };
     let mut rest = segments.as_mut_slice();
