@@ -2,11 +2,11 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::Instant;
 
 use eframe::egui_wgpu::RenderState;
 use hairline_editor::{Document, Selection};
 use hairline_scene::Description;
+use web_time::Instant;
 
 use crate::command::Command;
 use crate::compare::Compare;
@@ -63,7 +63,7 @@ impl Viewer {
         render_state: Option<RenderState>,
         options: Options,
     ) -> Result<Self, hairline_scene::Error> {
-        crate::window::set_style(ctx);
+        crate::style::set(ctx);
         let mut notices = Notices::default();
         let opened = options.scene.as_ref().map(Document::open);
         let document = match opened {
@@ -149,6 +149,9 @@ impl Viewer {
         self.show_dialogs(&ctx);
         self.end_drag_where_nothing_is_held(&ctx);
         self.ask_engine();
+        if let Some(pause) = self.engine.work() {
+            ctx.request_repaint_after(pause);
+        }
         if let Some(failed) = self.files.autosave(&self.document) {
             self.notices
                 .error("autosave", format!("No autosave: {failed}"));

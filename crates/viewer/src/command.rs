@@ -5,6 +5,7 @@ mod run;
 use egui::{Key, KeyboardShortcut, Modifiers};
 use hairline_editor::navigate::Viewpoint;
 
+use crate::platform::{HAS_FILES, HAS_THREADS};
 use crate::tools::Tool;
 
 /// A wish of the artist.
@@ -98,7 +99,7 @@ const PLAIN: Modifiers = Modifiers::NONE;
 
 /// In the order of the menus. Of two shortcuts where one's modifiers include the other's, the larger comes first.
 #[rustfmt::skip]
-pub(crate) const TABLE: &[Entry] = &[
+const TABLE: &[Entry] = &[
     entry(Command::New, Group::File, "New from the built-in scene", Some((COMMAND, Key::N))),
     entry(Command::Open, Group::File, "Open…", Some((COMMAND, Key::O))),
     entry(Command::SaveAs, Group::File, "Save as…", Some((COMMAND_SHIFT, Key::S))),
@@ -136,9 +137,30 @@ pub(crate) const TABLE: &[Entry] = &[
     entry(Command::Help, Group::Help, "Keys and mouse", Some((PLAIN, Key::F1))),
 ];
 
+/// The commands that are here, in the order of the menus.
+pub(crate) fn entries() -> impl Iterator<Item = &'static Entry> {
+    TABLE.iter().filter(|entry| entry.command.is_here())
+}
+
 impl Command {
     fn entry(self) -> Option<&'static Entry> {
         TABLE.iter().find(|entry| entry.command == self)
+    }
+
+    /// Whether this platform has what it needs: then it is in the menus and has its key.
+    pub fn is_here(self) -> bool {
+        match self {
+            Self::Open
+            | Self::Save
+            | Self::SaveAs
+            | Self::AddModel
+            | Self::SetEnvironment
+            | Self::Screenshot
+            | Self::Turntable
+            | Self::Quit => HAS_FILES,
+            Self::Compare => HAS_THREADS,
+            _ => true,
+        }
     }
 
     /// What menus and screen readers call it.
@@ -161,7 +183,7 @@ impl Command {
             ctx.input_mut(|input| input.consume_shortcut(&shortcut))
                 .then_some(entry.command)
         };
-        TABLE.iter().filter_map(|entry| wanted(&entry)).collect()
+        entries().filter_map(|entry| wanted(&entry)).collect()
     }
 }
 

@@ -6,7 +6,7 @@ use egui::{Grid, Id, Modal, Ui};
 use hairline_editor::autosave::Pending;
 
 use crate::app::Viewer;
-use crate::command::{Group, TABLE};
+use crate::command::{self, Group};
 use crate::files::Purpose;
 
 /// What was asked for while there were unsaved changes.
@@ -242,7 +242,7 @@ fn help(ui: &mut Ui) -> bool {
 fn keys(ui: &mut Ui, group: Group) {
     ui.strong(group.name());
     Grid::new(group.name()).num_columns(2).show(ui, |ui| {
-        for entry in TABLE.iter().filter(|entry| entry.group == group) {
+        for entry in command::entries().filter(|entry| entry.group == group) {
             if let Some(shortcut) = &entry.shortcut {
                 ui.monospace(ui.ctx().format_shortcut(shortcut));
                 ui.label(entry.label);

@@ -4,12 +4,16 @@
 //! `painter` paints the newest scene from the newest view, coarsely while something moves and ever finer while nothing does.
 //! The interface hands in what it wants with [`Engine::set_scene`] and [`Engine::set_view`], which only store it, and takes
 //! what is there with [`Engine::latest`].
+//!
+//! Where there are no threads, in a browser, both work in turn with the interface: [`Engine::work`] does a slice.
 
 mod build;
 mod builder;
 pub(crate) mod cpu;
 mod frame;
+#[cfg(not(target_arch = "wasm32"))]
 mod gpu;
+mod in_turn;
 mod pace;
 mod painter;
 mod pool;
@@ -17,8 +21,11 @@ mod request;
 
 use std::path::PathBuf;
 use std::sync::Arc;
+#[cfg(not(target_arch = "wasm32"))]
 use std::thread::JoinHandle;
+use std::time::Duration;
 
+#[cfg(not(target_arch = "wasm32"))]
 use hairline_gpu::Gpu;
 use hairline_scene::description::Description;
 
@@ -26,7 +33,7 @@ pub use build::{BuildStages, Built};
 pub use frame::{Frame, Latency, Painted, Picture};
 pub use request::View;
 
-use crate::priority;
+use in_turn::InTurn;
 use request::Shared;
 
 /// What paints.
@@ -34,9 +41,12 @@ use request::Shared;
 pub enum Backend {
     /// The CPU renderer, on threads of low priority.
     Cpu,
-    /// A device of its own, whose pictures are copied to the window's: what a window on another adapter needs.
+    /// A device of its own, whose pictures are copied to the window's: what a window on another adapter needs. Not in a
+    /// browser: the painter waits for it, which a page must not.
+    #[cfg(not(target_arch = "wasm32"))]
     Gpu(Gpu),
-    /// The window's own device: its pictures are shown where they are.
+    /// The window's own device: its pictures are shown where they are. Not in a browser, for the same reason.
+    #[cfg(not(target_arch = "wasm32"))]
     Shared(Gpu),
 }
 
@@ -45,6 +55,7 @@ impl Backend {
     pub fn label(&self) -> String {
         match self {
             Self::Cpu => format!("CPU, {} threads", pool::threads()),
+            #[cfg(not(target_arch = "wasm32"))]
             Self::Gpu(gpu) | Self::Shared(gpu) => gpu.adapter.to_string(),
         }
     }
@@ -72,14 +83,21 @@ pub enum Event {
 /// How the interface is told that something new is there.
 pub type Wake = Arc<dyn Fn() + Send + Sync>;
 
-/// The two threads. Dropping it stops them, at once or after the pixels that they are at.
+/// The two threads, or what does their work in turn. Dropping it stops them, at once or after the pixels that they are at.
 pub struct Engine {
     shared: Arc<Shared>,
-    threads: Vec<JoinHandle<()>>,
+    workers: Workers,
+}
+
+enum Workers {
+    #[cfg(not(target_arch = "wasm32"))]
+    Threads(Vec<JoinHandle<()>>),
+    InTurn(Box<InTurn>),
 }
 
 impl Engine {
     /// Starts with nothing to paint.
+    #[cfg(not(target_arch = "wasm32"))]
     pub fn start(backend: Backend, wake: Wake) -> Self {
         let shared = Arc::new(Shared::new(backend, wake));
         let spawn = |name: &str, work: fn(&Shared)| {
@@ -87,7 +105,7 @@ impl Engine {
             std::thread::Builder::new()
                 .name(name.to_owned())
                 .spawn(move || {
-                    priority::lower();
+                    crate::priority::lower();
                     work(&shared)
                 })
         };
@@ -97,8 +115,33 @@ impl Engine {
             spawn("painter", painter::run),
         ];
         Self {
-            threads: threads.into_iter().flatten().collect(),
+            workers: Workers::Threads(threads.into_iter().flatten().collect()),
             shared,
+        }
+    }
+
+    /// Starts with nothing to paint; [`Self::work`] does all of it.
+    #[cfg(target_arch = "wasm32")]
+    pub fn start(backend: Backend, wake: Wake) -> Self {
+        debug_assert!(matches!(backend, Backend::Cpu));
+        Self::start_in_turn(wake)
+    }
+
+    /// Starts without threads: the CPU renderer paints, where and when [`Self::work`] is called.
+    pub fn start_in_turn(wake: Wake) -> Self {
+        Self {
+            shared: Arc::new(Shared::new(Backend::Cpu, wake)),
+            workers: Workers::InTurn(Box::new(InTurn::new())),
+        }
+    }
+
+    /// Does a slice of what is wanted, where there are no threads for it: some 20 ms, but for the building of a scene, the first
+    /// picture of a movement and what a single row takes. Returns when to come again; none: when something is wanted.
+    pub fn work(&mut self) -> Option<Duration> {
+        match &mut self.workers {
+            #[cfg(not(target_arch = "wasm32"))]
+            Workers::Threads(_) => None,
+            Workers::InTurn(in_turn) => in_turn.slice(&self.shared),
         }
     }
 
@@ -141,9 +184,15 @@ impl Engine {
 impl Drop for Engine {
     fn drop(&mut self) {
         self.shared.stop();
-        for thread in self.threads.drain(..) {
-            // A thread that panicked has said so on stderr.
-            let _ = thread.join();
+        match &mut self.workers {
+            #[cfg(not(target_arch = "wasm32"))]
+            Workers::Threads(threads) => {
+                for thread in threads.drain(..) {
+                    // A thread that panicked has said so on stderr.
+                    let _ = thread.join();
+                }
+            }
+            Workers::InTurn(_) => {}
         }
     }
 }

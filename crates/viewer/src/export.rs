@@ -8,10 +8,11 @@ mod work;
 
 use std::path::Path;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use egui::{Align2, Id, ProgressBar, Rect};
 use hairline_image::Output;
+use web_time::Instant;
 
 use crate::app::Viewer;
 use crate::files::Purpose;

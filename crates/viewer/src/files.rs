@@ -1,15 +1,17 @@
 //! Files: dialogs of the system, recent ones, and autosaves.
 //!
 //! A dialog of the system waits in a thread of its own. Where the system has none, a line in the window asks for the path.
+//! A browser has no paths: none of the commands that would come here is in its menus.
 
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use hairline_editor::Document;
 use hairline_editor::autosave::{self, Autosave, Pending};
 use hairline_editor::recent::Recent;
 use hairline_scene::probe;
+use web_time::Instant;
 
 use crate::dialogs::Dialogs;
 
@@ -38,6 +40,7 @@ impl Purpose {
     }
 
     /// What files are shown.
+    #[cfg(not(target_arch = "wasm32"))]
     fn filter(self) -> (&'static str, &'static [&'static str]) {
         match self {
             Self::Open | Self::SaveAs => ("Hairline scenes", &["toml"]),
@@ -47,6 +50,7 @@ impl Purpose {
         }
     }
 
+    #[cfg(not(target_arch = "wasm32"))]
     fn writes(self) -> bool {
         matches!(self, Self::SaveAs | Self::Screenshot | Self::Turntable)
     }
@@ -124,6 +128,7 @@ impl Files {
     }
 
     /// Asks for a path; the answer comes by [`Self::chosen`].
+    #[cfg_attr(target_arch = "wasm32", expect(unused_variables))]
     pub fn ask(&mut self, purpose: Purpose, document: &Document, wake: egui::Context) {
         if self.waiting.is_some() {
             return;
@@ -134,31 +139,11 @@ impl Files {
             since: Instant::now(),
             answer,
         });
-        if !self.native {
-            drop(sender);
-            return;
+        // Without a dialog the sender goes here, and the window asks itself.
+        if self.native {
+            #[cfg(not(target_arch = "wasm32"))]
+            ask_system(purpose, document, sender, wake);
         }
-        let (name, endings) = purpose.filter();
-        let folder = std::path::absolute(document.base_dir()).unwrap_or_default();
-        let dialog = rfd::AsyncFileDialog::new()
-            .set_title(purpose.title())
-            .add_filter(name, endings)
-            .set_directory(folder)
-            .set_file_name(purpose.proposal(document));
-        let work = move || {
-            let chosen = pollster::block_on(async {
-                if purpose.writes() {
-                    dialog.save_file().await
-                } else {
-                    dialog.pick_file().await
-                }
-            });
-            // A window that was closed meanwhile wants no answer.
-            let _ = sender.send(chosen.map(|file| file.path().to_owned()));
-            wake.request_repaint();
-        };
-        // If no thread starts, the sender goes, and the window asks itself.
-        let _ = std::thread::Builder::new().spawn(work);
     }
 
     /// Looks into a model or a map in a thread of its own: a large one takes its time. The answer comes by
@@ -243,4 +228,35 @@ impl Files {
             .as_ref()
             .and_then(|folder| Autosave::new(folder).ok());
     }
+}
+
+/// Opens a dialog of the system; `answer` gets the path that was chosen, or nothing.
+#[cfg(not(target_arch = "wasm32"))]
+fn ask_system(
+    purpose: Purpose,
+    document: &Document,
+    answer: std::sync::mpsc::Sender<Option<PathBuf>>,
+    wake: egui::Context,
+) {
+    let (name, endings) = purpose.filter();
+    let folder = std::path::absolute(document.base_dir()).unwrap_or_default();
+    let dialog = rfd::AsyncFileDialog::new()
+        .set_title(purpose.title())
+        .add_filter(name, endings)
+        .set_directory(folder)
+        .set_file_name(purpose.proposal(document));
+    let work = move || {
+        let chosen = pollster::block_on(async {
+            if purpose.writes() {
+                dialog.save_file().await
+            } else {
+                dialog.pick_file().await
+            }
+        });
+        // A window that was closed meanwhile wants no answer.
+        let _ = answer.send(chosen.map(|file| file.path().to_owned()));
+        wake.request_repaint();
+    };
+    // If no thread starts, the sender goes, and the window asks itself.
+    let _ = std::thread::Builder::new().spawn(work);
 }

@@ -1,4 +1,5 @@
-//! Work in the background that nobody waits for: exports, references. On all cores, but after the picture in the window.
+//! Work in the background that nobody waits for: exports, references. On all cores, but after the picture in the window. A
+//! browser starts no threads: none of the commands that would come here is in its menus.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};

@@ -8,6 +8,7 @@ mod app;
 mod command;
 mod compare;
 mod dialogs;
+#[cfg(not(target_arch = "wasm32"))]
 mod drawing;
 pub mod engine;
 mod export;
@@ -15,13 +16,17 @@ mod files;
 mod jobs;
 mod notices;
 mod panels;
+mod platform;
 mod priority;
+mod style;
 mod tools;
 mod viewport;
+#[cfg(not(target_arch = "wasm32"))]
 pub mod window;
 
 pub use app::{Options, Viewer};
 pub use compare::{Figures, LayerFigures};
+#[cfg(not(target_arch = "wasm32"))]
 pub use window::open;
 
 /// The user's folder for autosaves and the list of recent files; none where the system has none.

@@ -1,9 +1,9 @@
-//! The window on a screen: which device draws it, how it looks.
+//! The window on a screen: which device draws it and what paints in it.
 
 use std::sync::Arc;
 
 use eframe::egui_wgpu::{RenderState, WgpuSetup, WgpuSetupCreateNew};
-use egui::{Color32, ThemePreference, ViewportBuilder, Visuals};
+use egui::ViewportBuilder;
 use hairline_gpu::{Adapter, AdapterKind, AdapterRequest, Gpu, headless};
 
 use crate::app::{Options, Viewer};
@@ -129,21 +129,4 @@ fn open_beside() -> Result<Gpu, hairline_gpu::Error> {
         opening.join()
     });
     opened.unwrap_or_else(|panic| std::panic::resume_unwind(panic))
-}
-
-/// Dark and without hue, so that the eye judges the picture's colours and not the frame's.
-pub(crate) fn set_style(ctx: &egui::Context) {
-    ctx.set_theme(ThemePreference::Dark);
-    let mut visuals = Visuals::dark();
-    visuals.panel_fill = Color32::from_gray(30);
-    visuals.window_fill = Color32::from_gray(34);
-    visuals.extreme_bg_color = Color32::from_gray(16);
-    visuals.selection.bg_fill = Color32::from_gray(78);
-    visuals.selection.stroke.color = Color32::from_gray(240);
-    visuals.hyperlink_color = Color32::from_gray(210);
-    ctx.set_visuals_of(egui::Theme::Dark, visuals);
-    ctx.all_styles_mut(|style| {
-        style.spacing.item_spacing = egui::vec2(6.0, 4.0);
-        style.interaction.tooltip_delay = 0.3;
-    });
 }

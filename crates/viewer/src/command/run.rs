@@ -21,6 +21,7 @@ impl Viewer {
     pub(crate) fn can(&self, command: Command) -> bool {
         let selection = self.selection();
         match command {
+            _ if !command.is_here() => false,
             Command::Undo => self.document.undo_label().is_some(),
             Command::Redo => self.document.redo_label().is_some(),
             Command::Duplicate | Command::Delete | Command::MoveUp | Command::MoveDown => {

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use egui::{Color32, ColorImage};
 use hairline_image::metrics::{ErrorMap, error_map};
@@ -10,6 +10,7 @@ use hairline_image::{Display, Image, Layer, Picture, ToneMap, png};
 use hairline_index::{Groove, ScratchIndex, SegmentTree, groove_index};
 use hairline_reference::monte_carlo::{BATCH_SAMPLES, Integrator, Parts, Settings};
 use hairline_scene::{Camera, Scene};
+use web_time::Instant;
 
 use super::figures::Figures;
 use crate::engine::{Built, Wake, cpu};

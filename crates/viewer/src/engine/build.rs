@@ -2,11 +2,12 @@
 
 use std::path::Path;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use hairline_index::{ScratchIndex, TriangleIndex};
+use hairline_index::{ScratchIndex, TriangleIndex, Watch};
 use hairline_scene::description::Description;
 use hairline_scene::{Loader, Scene, SceneBuilder, ScratchTables};
+use web_time::Instant;
 
 /// A scene with all that painting and picking look up.
 pub struct Built {
@@ -71,28 +72,46 @@ struct Kept {
 }
 
 impl Workshop {
+    /// Gives up where `cancelled` says so, which is asked from any thread: then there is none.
+    ///
     /// # Errors
     /// As [`Loader::build`]; what was kept stays.
     pub fn build(
         &mut self,
-        loader: &Loader,
+        cancelled: &(dyn Fn() -> bool + Sync),
         revision: u64,
         asked: Instant,
         description: Arc<Description>,
         base_dir: &Path,
-    ) -> Result<Built, hairline_scene::Error> {
+    ) -> Result<Option<Built>, hairline_scene::Error> {
         let start = Instant::now();
-        let scene = self.scenes.build(loader, &description, base_dir)?;
+        let loader = Loader {
+            cancelled,
+            ..Loader::default()
+        };
+        let scene = match self.scenes.build(&loader, &description, base_dir) {
+            Err(error) if error.is_cancelled() => return Ok(None),
+            scene => scene?,
+        };
         let scene_done = Instant::now();
-        let last = self.last.take();
-        let last = last.as_ref();
+        let last = self.last.as_ref();
         let triangles = match last {
             Some(last) if has_same_meshes(&last.scene, &scene) => Arc::clone(&last.triangles),
             _ => Arc::new(TriangleIndex::build(&scene)),
         };
         let scratches = match last {
             Some(last) if has_same_scratches(&last.scene, &scene) => Arc::clone(&last.scratches),
-            _ => Arc::new(ScratchIndex::build(&scene)),
+            _ => {
+                let before = last.map(|last| (&last.scene, &*last.scratches));
+                let watch = Watch {
+                    cancelled,
+                    ..Watch::default()
+                };
+                match ScratchIndex::rebuild(&scene, before, &watch) {
+                    Some(scratches) => Arc::new(scratches),
+                    None => return Ok(None),
+                }
+            }
         };
         let index_done = Instant::now();
         let tables = match last {
@@ -105,7 +124,7 @@ impl Workshop {
             scratches: Arc::clone(&scratches),
             tables: Arc::clone(&tables),
         });
-        Ok(Built {
+        Ok(Some(Built {
             revision,
             asked,
             description,
@@ -119,7 +138,7 @@ impl Workshop {
                 index: index_done - scene_done,
                 tables: index_done.elapsed(),
             },
-        })
+        }))
     }
 }
 

@@ -2,12 +2,13 @@
 
 use std::ops::Range;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use egui::ColorImage;
 use hairline_image::{Image, png};
 use hairline_reference::closed_form::{Prepared, RenderOptions};
 use hairline_scene::Scene;
+use web_time::Instant;
 
 use super::Built;
 use super::frame::Picture;
@@ -15,16 +16,66 @@ use super::painter::{Easel, Shown, Step};
 use super::pool;
 use super::request::Order;
 
-/// Pixels to the first look at whether something newer is wanted.
-const BAND_PX: u32 = 1 << 16;
-/// Bands that take less become larger, bands that take more become smaller.
-const BAND_TIMES: [Duration; 2] = [Duration::from_millis(40), Duration::from_millis(120)];
+/// How much is painted between two looks at whether something newer is wanted.
+#[derive(Clone, Copy)]
+struct BandSize {
+    /// The first, pixels.
+    first_px: u32,
+    /// Of which there are at least so many, rows.
+    fewest_rows: u32,
+    /// Bands that take less become larger, bands that take more become smaller.
+    times: [Duration; 2],
+}
 
-/// Keeps the last picture, so that another exposure costs next to nothing.
-#[derive(Default)]
+/// Many rows, so that no thread waits long for another.
+const OF_A_THREAD: BandSize = BandSize {
+    first_px: 1 << 16,
+    fewest_rows: 8,
+    times: [Duration::from_millis(40), Duration::from_millis(120)],
+};
+
+/// The interface waits meanwhile.
+const IN_TURN: BandSize = BandSize {
+    first_px: 1 << 10,
+    fewest_rows: 1,
+    times: [Duration::from_millis(4), Duration::from_millis(12)],
+};
+
+/// Keeps the last picture, so that another exposure costs next to nothing, and one that was interrupted, to go on with it.
 pub(super) struct CpuEasel {
     scene: Option<std::sync::Weak<super::Built>>,
     last: Option<(Image, Step)>,
+    begun: Option<Begun>,
+    band_size: BandSize,
+}
+
+/// A picture that is not done yet.
+struct Begun {
+    order: Order,
+    step: Step,
+    bands: Bands,
+}
+
+impl CpuEasel {
+    /// For a thread that paints.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub fn of_a_thread() -> Self {
+        Self::new(OF_A_THREAD)
+    }
+
+    /// For an interface that waits meanwhile.
+    pub fn in_turn() -> Self {
+        Self::new(IN_TURN)
+    }
+
+    fn new(band_size: BandSize) -> Self {
+        Self {
+            scene: None,
+            last: None,
+            begun: None,
+            band_size,
+        }
+    }
 }
 
 impl Easel for CpuEasel {
@@ -32,6 +83,9 @@ impl Easel for CpuEasel {
         let built = Arc::downgrade(&order.built);
         let is_new = !self.scene.as_ref().is_some_and(|last| last.ptr_eq(&built));
         self.scene = Some(built);
+        if is_new {
+            self.begun = None;
+        }
         Ok(is_new)
     }
 
@@ -42,11 +96,28 @@ impl Easel for CpuEasel {
         interrupted: &(dyn Fn() -> bool + Sync),
         show: &mut dyn FnMut(Shown),
     ) -> Result<bool, hairline_gpu::Error> {
-        let Some(image) = pool::Crew::Painter.install(|| paint(order, step, interrupted)) else {
-            return Ok(false);
+        let begun = self
+            .begun
+            .take()
+            .filter(|begun| begun.step == *step && begun.order.has_same_pixels(order));
+        let mut bands = match begun {
+            Some(begun) => begun.bands,
+            None => Bands::new(step.size_px, self.band_size),
         };
-        show(shown(order, &image, step));
-        self.last = Some((image, *step));
+        let scene = scene_seen(order, step);
+        let samples = step.samples;
+        let is_done = pool::Crew::Painter
+            .install(|| bands.go_on(&order.built, &scene, samples, &|_| !interrupted()));
+        if !is_done {
+            self.begun = Some(Begun {
+                order: order.clone(),
+                step: *step,
+                bands,
+            });
+            return Ok(false);
+        }
+        show(shown(order, &bands.image, step));
+        self.last = Some((bands.image, *step));
         Ok(true)
     }
 
@@ -72,14 +143,13 @@ fn shown(order: &Order, image: &Image, step: &Step) -> Shown {
     }
 }
 
-fn paint(order: &Order, step: &Step, interrupted: &(dyn Fn() -> bool + Sync)) -> Option<Image> {
+/// The scene from where it is seen.
+fn scene_seen(order: &Order, step: &Step) -> Scene {
     let mut scene = order.built.scene.clone();
     scene.camera = order.view.camera;
     scene.render.size_px = step.size_px;
     scene.render.filter_std_px = step.filter_std_px(&order.view);
-    render(&order.built, &scene, step.samples, BAND_PX, &|_| {
-        !interrupted()
-    })
+    scene
 }
 
 /// Renders `scene`, which is that of `built` from elsewhere, in bands of `band_px` pixels at first, then of as many as are
@@ -91,40 +161,75 @@ pub(crate) fn render(
     band_px: u32,
     go_on: &dyn Fn(f64) -> bool,
 ) -> Option<Image> {
-    let prepared = Prepared::from_parts(
-        scene,
-        Arc::clone(&built.triangles),
-        Arc::clone(&built.scratches),
-        Arc::clone(&built.tables),
-    );
-    let options = RenderOptions {
-        samples,
-        ..Default::default()
+    let band_size = BandSize {
+        first_px: band_px,
+        ..OF_A_THREAD
     };
-    let [width, height] = scene.render.size_px;
-    // A row is the least that a thread takes.
-    let fewest = pool::threads() as u32;
-    let mut band = (band_px / width).max(8);
-    let mut image = Image::new(scene.render.size_px);
-    let mut first = 0;
-    while first < height {
-        if !go_on(f64::from(first) / f64::from(height)) {
-            return None;
-        }
-        let start = Instant::now();
-        let rows = first..(first + band).min(height);
-        let pixels = first as usize * width as usize..rows.end as usize * width as usize;
-        first = rows.end;
-        let part = prepared.render_rows(&options, rows, &|_| {});
-        put_rows(&mut image, pixels, &part);
-        let time = start.elapsed();
-        if time > BAND_TIMES[1] {
-            band = (band / 2).max(fewest);
-        } else if time < BAND_TIMES[0] {
-            band *= 2;
+    let mut bands = Bands::new(scene.render.size_px, band_size);
+    bands
+        .go_on(built, scene, samples, go_on)
+        .then_some(bands.image)
+}
+
+/// A picture from its first row to its last, with pauses.
+struct Bands {
+    image: Image,
+    next_row: u32,
+    rows: u32,
+    size: BandSize,
+}
+
+impl Bands {
+    fn new(size_px: [u32; 2], size: BandSize) -> Self {
+        Self {
+            image: Image::new(size_px),
+            next_row: 0,
+            rows: (size.first_px / size_px[0].max(1)).max(size.fewest_rows),
+            size,
         }
     }
-    Some(image)
+
+    /// Renders rows for as long as `go_on` says so; true if all are there. `built` and `scene` are as in [`render`], and each
+    /// time the same.
+    fn go_on(
+        &mut self,
+        built: &Built,
+        scene: &Scene,
+        samples: u32,
+        go_on: &dyn Fn(f64) -> bool,
+    ) -> bool {
+        let prepared = Prepared::from_parts(
+            scene,
+            Arc::clone(&built.triangles),
+            Arc::clone(&built.scratches),
+            Arc::clone(&built.tables),
+        );
+        let options = RenderOptions {
+            samples,
+            ..Default::default()
+        };
+        let [width, height] = scene.render.size_px;
+        // A row is the least that a thread takes.
+        let fewest = pool::threads() as u32;
+        while self.next_row < height {
+            if !go_on(f64::from(self.next_row) / f64::from(height)) {
+                return false;
+            }
+            let start = Instant::now();
+            let rows = self.next_row..(self.next_row + self.rows).min(height);
+            let pixels = rows.start as usize * width as usize..rows.end as usize * width as usize;
+            self.next_row = rows.end;
+            let part = prepared.render_rows(&options, rows, &|_| {});
+            put_rows(&mut self.image, pixels, &part);
+            let time = start.elapsed();
+            if time > self.size.times[1] {
+                self.rows = (self.rows / 2).max(fewest);
+            } else if time < self.size.times[0] {
+                self.rows *= 2;
+            }
+        }
+        true
+    }
 }
 
 /// Puts a part of the picture in its place.

@@ -1,7 +1,7 @@
 //! Painting by the GPU renderer, a sample of a band at a time.
 
 use std::sync::{Arc, Weak};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use egui::ColorImage;
 use hairline_gpu::canvas::Canvas;
@@ -10,6 +10,7 @@ use hairline_gpu::{
 };
 use hairline_optics::method::Method;
 use hairline_scene::Scene;
+use web_time::Instant;
 
 use super::Built;
 use super::frame::Picture;

@@ -1,17 +1,24 @@
-//! The thread that paints: a coarse picture at once, then finer ones for as long as nothing moves.
+//! The painting, by a thread of its own where there are threads: a coarse picture at once, then finer ones for as long as nothing moves.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
+use web_time::Instant;
+
+use super::View;
+#[cfg(not(target_arch = "wasm32"))]
 use super::cpu::CpuEasel;
 use super::frame::{Frame, Latency, Painted, Picture};
+#[cfg(not(target_arch = "wasm32"))]
 use super::gpu::GpuEasel;
 use super::pace::{Pace, scaled};
 use super::request::{Order, Shared};
-use super::{Backend, Event, View};
+#[cfg(not(target_arch = "wasm32"))]
+use super::{Backend, Event};
 
 /// What stands still for this long is refined.
-const STILL: Duration = Duration::from_millis(150);
+pub(super) const STILL: Duration = Duration::from_millis(150);
 /// How often a lost device is opened anew before the CPU takes over.
+#[cfg(not(target_arch = "wasm32"))]
 const REOPENINGS: u32 = 2;
 
 /// One picture on the way to the final one.
@@ -58,11 +65,12 @@ pub(super) struct Shown {
     pub passes: Vec<hairline_gpu::PassTime>,
 }
 
+#[cfg(not(target_arch = "wasm32"))]
 pub(super) fn run(shared: &Shared) {
     let mut reopenings = 0;
     loop {
         let outcome = match shared.backend() {
-            Backend::Cpu => work(shared, &mut CpuEasel::default()),
+            Backend::Cpu => work(shared, &mut CpuEasel::of_a_thread()),
             Backend::Gpu(gpu) => {
                 GpuEasel::open(gpu, false).and_then(|mut easel| work(shared, &mut easel))
             }
@@ -93,47 +101,84 @@ pub(super) fn run(shared: &Shared) {
 }
 
 /// Paints until it is time to end.
+#[cfg(not(target_arch = "wasm32"))]
 fn work(shared: &Shared, easel: &mut dyn Easel) -> Result<(), hairline_gpu::Error> {
-    let mut studio = Studio {
-        shared,
-        pace: Pace::default(),
-        number: shared.frame().map_or(0, |frame| frame.number),
-        latency_told: None,
-    };
-    let mut done: Option<Order> = None;
-    let mut steps: Vec<Step> = Vec::new();
+    let mut progress = Progress::new(shared);
     loop {
         // A moment to see whether the movement goes on; then finer and finer.
-        let patience = (!steps.is_empty()).then_some(STILL);
-        let Some(order) = shared.next_order(done.as_ref(), patience) else {
+        let patience = progress.has_more().then_some(STILL);
+        let Some(order) = shared.next_order(progress.done.as_ref(), patience) else {
             return Ok(());
         };
-        match &done {
+        progress.go_on(shared, easel, order, None)?;
+    }
+}
+
+/// Which order is being painted, and how far it is.
+pub(super) struct Progress {
+    studio: Studio,
+    /// Whose first picture is there.
+    done: Option<Order>,
+    /// The finer ones that are left.
+    steps: Vec<Step>,
+}
+
+impl Progress {
+    pub fn new(shared: &Shared) -> Self {
+        Self {
+            studio: Studio::new(shared),
+            done: None,
+            steps: Vec::new(),
+        }
+    }
+
+    /// Whether there is something finer to come of the same.
+    pub fn has_more(&self) -> bool {
+        !self.steps.is_empty()
+    }
+
+    /// Whether `order` is what is being painted already, exposure and all.
+    pub fn is_at(&self, order: &Order) -> bool {
+        self.done.as_ref().is_some_and(|done| {
+            done.has_same_pixels(order) && done.view.display == order.view.display
+        })
+    }
+
+    /// Paints the first picture of an order that is new; else the finer ones until something newer is wanted or it is `until`.
+    pub fn go_on(
+        &mut self,
+        shared: &Shared,
+        easel: &mut dyn Easel,
+        order: Order,
+        until: Option<Instant>,
+    ) -> Result<(), hairline_gpu::Error> {
+        let studio = &mut self.studio;
+        match &self.done {
             Some(last) if last.has_same_pixels(&order) => {
                 if last.view.display != order.view.display
                     && let Some(shown) = easel.show_again(&order)?
                 {
-                    studio.put(&order, shown, steps.is_empty(), Duration::ZERO, None);
+                    let is_final = self.steps.is_empty();
+                    studio.put(shared, &order, shown, is_final, Duration::ZERO, None);
                 }
-                done = Some(order.clone());
-                while !steps.is_empty() {
-                    let step = steps[0];
-                    let turn = if steps.len() == 1 {
-                        Turn::Last
-                    } else {
-                        Turn::Between
+                self.done = Some(order.clone());
+                while let Some(&step) = self.steps.first() {
+                    let turn = match self.steps.len() {
+                        1 => Turn::Last,
+                        _ => Turn::Between,
                     };
-                    if !studio.paint(easel, &order, &step, turn)? {
+                    if !studio.paint(shared, easel, &order, &step, turn, until)? {
                         break;
                     }
-                    steps.remove(0);
+                    self.steps.remove(0);
                 }
             }
             _ => {
-                steps = studio.first(easel, &order)?;
-                done = Some(order);
+                self.steps = studio.first(shared, easel, &order)?;
+                self.done = Some(order);
             }
         }
+        Ok(())
     }
 }
 
@@ -145,18 +190,29 @@ enum Turn {
     Last,
 }
 
-struct Studio<'a> {
-    shared: &'a Shared,
+struct Studio {
     pace: Pace,
     number: u64,
+    /// What the step that is not done yet has taken.
+    spent: Duration,
     /// The revision whose latency was told.
     latency_told: Option<u64>,
 }
 
-impl Studio<'_> {
+impl Studio {
+    fn new(shared: &Shared) -> Self {
+        Self {
+            pace: Pace::default(),
+            number: shared.frame().map_or(0, |frame| frame.number),
+            spent: Duration::ZERO,
+            latency_told: None,
+        }
+    }
+
     /// The first picture of an order, as coarse as it must be; returns the steps that are left.
     fn first(
         &mut self,
+        shared: &Shared,
         easel: &mut dyn Easel,
         order: &Order,
     ) -> Result<Vec<Step>, hairline_gpu::Error> {
@@ -183,28 +239,31 @@ impl Studio<'_> {
             size_px: full_px,
             samples: easel.best_samples(),
         });
-        if !self.paint(easel, order, &coarse, Turn::First)? {
+        self.spent = Duration::ZERO;
+        if !self.paint(shared, easel, order, &coarse, Turn::First, None)? {
             steps.clear();
         }
         Ok(steps)
     }
 
-    /// Paints a step; false if something newer is wanted.
+    /// Paints a step; false if something newer is wanted or it is `until`.
     fn paint(
         &mut self,
+        shared: &Shared,
         easel: &mut dyn Easel,
         order: &Order,
         step: &Step,
         turn: Turn,
+        until: Option<Instant>,
     ) -> Result<bool, hairline_gpu::Error> {
         let start = Instant::now();
         let is_new = easel.take(order)?;
         let uploaded = start.elapsed();
         // The first picture of a movement comes to its end, whatever is wanted meanwhile: else a steady hand would see none.
         let may_stop = turn != Turn::First;
-        let shared = self.shared;
         let interrupted = || {
             shared.is_stopped()
+                || until.is_some_and(|until| Instant::now() >= until)
                 || (may_stop || start.elapsed() > 4 * STILL)
                     && shared
                         .order()
@@ -213,10 +272,11 @@ impl Studio<'_> {
         let mut shown_now: Option<Shown> = None;
         let finished = easel.paint(order, step, &interrupted, &mut |shown| {
             if let Some(earlier) = shown_now.replace(shown) {
-                self.put(order, earlier, false, start.elapsed(), None);
+                self.put(shared, order, earlier, false, start.elapsed(), None);
             }
         })?;
-        let time = start.elapsed() - uploaded;
+        let time = self.spent + (start.elapsed() - uploaded);
+        self.spent = if finished { Duration::ZERO } else { time };
         if let Some(shown) = shown_now {
             if step.samples == 1 {
                 self.pace.took(step.size_px, time);
@@ -231,13 +291,15 @@ impl Studio<'_> {
                     total: order.built.asked.elapsed(),
                 }
             });
-            self.put(order, shown, turn == Turn::Last && finished, time, latency);
+            let is_final = turn == Turn::Last && finished;
+            self.put(shared, order, shown, is_final, time, latency);
         }
         Ok(finished)
     }
 
     fn put(
         &mut self,
+        shared: &Shared,
         order: &Order,
         shown: Shown,
         is_final: bool,
@@ -246,10 +308,10 @@ impl Studio<'_> {
     ) {
         self.number += 1;
         let latency = latency.or_else(|| {
-            let last = self.shared.frame()?;
+            let last = shared.frame()?;
             last.painted.latency
         });
-        self.shared.put_frame(Frame {
+        shared.put_frame(Frame {
             number: self.number,
             built: std::sync::Arc::clone(&order.built),
             view: order.view,

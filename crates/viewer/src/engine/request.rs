@@ -3,11 +3,13 @@
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
-use std::time::{Duration, Instant};
+#[cfg(not(target_arch = "wasm32"))]
+use std::time::Duration;
 
 use hairline_image::Display;
 use hairline_scene::description::Description;
 use hairline_scene::scene::Camera;
+use web_time::Instant;
 
 use super::{Backend, Built, Event, Frame, Wake};
 
@@ -109,7 +111,13 @@ impl Shared {
         }
     }
 
-    /// Blocks until there is a scene to build; none when it is time to end.
+    /// The scene that is to be built next, if there is one.
+    pub fn take_scene(&self) -> Option<WantedScene> {
+        self.lock().wanted_scene.take()
+    }
+
+    /// Blocks, which only a thread may: until there is a scene to build; none when it is time to end.
+    #[cfg(not(target_arch = "wasm32"))]
     pub fn next_scene(&self) -> Option<WantedScene> {
         let mut state = self.lock();
         state.is_building = false;
@@ -143,7 +151,8 @@ impl Shared {
         })
     }
 
-    /// Blocks until the order is another one than `done`, or until `patience` is over; none when it is time to end.
+    /// Blocks, which only a thread may: until the order is another one than `done`, or until `patience` is over; none when it is time to end.
+    #[cfg(not(target_arch = "wasm32"))]
     pub fn next_order(&self, done: Option<&Order>, patience: Option<Duration>) -> Option<Order> {
         let deadline = patience.map(|patience| Instant::now() + patience);
         let mut state = self.lock();
@@ -214,6 +223,7 @@ impl Shared {
             .clone()
     }
 
+    #[cfg(not(target_arch = "wasm32"))]
     pub fn set_backend(&self, backend: Backend) {
         *self.backend.lock().unwrap_or_else(PoisonError::into_inner) = backend;
     }

@@ -4,8 +4,10 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use hairline_editor::navigate;
+#[cfg(not(target_arch = "wasm32"))]
 use hairline_gpu::{AdapterKind, Gpu, GpuScene, RenderOptions, Renderer};
 use hairline_image::{Display, Image, Output};
+#[cfg(not(target_arch = "wasm32"))]
 use hairline_optics::method::Method;
 use hairline_scene::{Description, Scene};
 
@@ -168,13 +170,16 @@ fn frames(wish: &Wish, built: &Built, stop: &Stop, report: &Report) -> Result<bo
 /// Pixels of the first band on the CPU.
 const CPU_BAND_PX: u32 = 1 << 13;
 /// On a driver that computes on the CPU, between two looks at whether to go on; all samples of them.
+#[cfg(not(target_arch = "wasm32"))]
 const SOFTWARE_BAND_PX: u32 = 1 << 13;
 /// On a GPU.
+#[cfg(not(target_arch = "wasm32"))]
 const HARDWARE_BAND_PX: u32 = 1 << 19;
 
 /// What renders: what the window's painter uses too, but a renderer of its own.
 enum Painter {
     Cpu,
+    #[cfg(not(target_arch = "wasm32"))]
     Gpu {
         renderer: Box<Renderer>,
         uploaded: Box<GpuScene>,
@@ -183,13 +188,16 @@ enum Painter {
 }
 
 impl Painter {
+    #[cfg_attr(target_arch = "wasm32", expect(unused_variables))]
     fn open(wish: &Wish, built: &Built) -> Result<Self, hairline_gpu::Error> {
         match &wish.backend {
             Backend::Cpu => Ok(Self::Cpu),
+            #[cfg(not(target_arch = "wasm32"))]
             Backend::Gpu(gpu) | Backend::Shared(gpu) => Self::on_gpu(gpu, built),
         }
     }
 
+    #[cfg(not(target_arch = "wasm32"))]
     fn on_gpu(gpu: &Gpu, built: &Built) -> Result<Self, hairline_gpu::Error> {
         let Built {
             scene,
@@ -222,6 +230,7 @@ impl Painter {
     ) -> Result<Option<Image>, hairline_gpu::Error> {
         match self {
             Self::Cpu => Ok(cpu::render(built, scene, samples, CPU_BAND_PX, go_on)),
+            #[cfg(not(target_arch = "wasm32"))]
             Self::Gpu {
                 renderer,
                 uploaded,

@@ -10,9 +10,10 @@ use crate::command::Command;
 
 pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer) {
     ui.heading("Environment");
+    let is_choosable = Command::SetEnvironment.is_here();
     let Some(mut environment) = viewer.document.description().environment.clone() else {
         ui.label("No map: the lights alone light the scene, and the background is black.");
-        if ui.button(Command::SetEnvironment.label()).clicked() {
+        if is_choosable && ui.button(Command::SetEnvironment.label()).clicked() {
             viewer.run(&ui.ctx().clone(), Command::SetEnvironment);
         }
         return;
@@ -36,7 +37,7 @@ pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer) {
     }
     ui.add_space(8.0);
     ui.horizontal(|ui| {
-        if ui.button("Another map…").clicked() {
+        if is_choosable && ui.button("Another map…").clicked() {
             viewer.run(&ui.ctx().clone(), Command::SetEnvironment);
         }
         if ui.button("Remove the map").clicked() {

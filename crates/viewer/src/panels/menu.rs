@@ -6,7 +6,8 @@ use hairline_editor::ranges::Parameter;
 
 use super::form::Form;
 use crate::app::Viewer;
-use crate::command::{Command, Group, TABLE};
+use crate::command::{self, Command, Group};
+use crate::platform::HAS_FILES;
 use crate::tools::Tool;
 
 pub(crate) fn show(ui: &mut Ui, viewer: &mut Viewer, wished: &mut Option<Command>) {
@@ -34,6 +35,9 @@ pub(crate) fn show(ui: &mut Ui, viewer: &mut Viewer, wished: &mut Option<Command
                     *wished = Some(command);
                 }
             }
+            if !Command::Compare.is_here() {
+                return;
+            }
             ui.separator();
             let button = Button::selectable(viewer.compare.is_open(), "Compare");
             if ui
@@ -51,7 +55,7 @@ pub(crate) fn show(ui: &mut Ui, viewer: &mut Viewer, wished: &mut Option<Command
 }
 
 fn menu(ui: &mut Ui, viewer: &mut Viewer, group: Group, wished: &mut Option<Command>) {
-    for entry in TABLE.iter().filter(|entry| entry.group == group) {
+    for entry in command::entries().filter(|entry| entry.group == group) {
         let mut button = Button::new(entry.label);
         if let Some(shortcut) = &entry.shortcut {
             button = button.shortcut_text(ui.ctx().format_shortcut(shortcut));
@@ -60,7 +64,7 @@ fn menu(ui: &mut Ui, viewer: &mut Viewer, group: Group, wished: &mut Option<Comm
             *wished = Some(entry.command);
         }
     }
-    if group == Group::File {
+    if group == Group::File && HAS_FILES {
         ui.menu_button("Recent", |ui| {
             for path in viewer.files.recent() {
                 if ui.button(path.display().to_string()).clicked() {

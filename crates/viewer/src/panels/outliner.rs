@@ -38,7 +38,7 @@ fn rows(ui: &mut Ui, viewer: &mut Viewer, wished: &mut Option<Command>) {
     );
 
     section(ui, "Objects", |ui| {
-        if ui.button(Command::AddModel.label()).clicked() {
+        if Command::AddModel.is_here() && ui.button(Command::AddModel.label()).clicked() {
             *wished = Some(Command::AddModel);
         }
         add_shape(ui, viewer);

@@ -4,12 +4,13 @@
 //! moves the same ones stay and are projected anew; when it rests, others are found.
 
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use egui::{Color32, Pos2, Ui};
 use glam::{DVec3, Vec3};
 use hairline_editor::Selection;
 use hairline_scene::scene::{Scratch, Segment};
+use web_time::Instant;
 
 use crate::app::Viewer;
 use crate::engine::Built;

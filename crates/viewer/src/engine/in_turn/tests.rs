@@ -1,0 +1,148 @@
+//! Without threads the same pictures come, and no slice of a finer one holds the interface up.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Duration;
+
+use glam::DVec3;
+use hairline_editor::Document;
+use hairline_image::{Display, ToneMap};
+use hairline_scene::{Camera, Description};
+use web_time::Instant;
+
+use super::super::{Backend, Engine, Frame, Picture, View};
+
+const SCENE: &str = r#"
+[camera]
+position_m = [0.0, -0.21, 0.18]
+target_m = [0.0, 0.0, 0.0]
+up = [0.0, 0.0, 1.0]
+fov_y_deg = 40.0
+
+[[material]]
+name = "steel"
+kind = "metal"
+metal = "steel"
+
+[[object]]
+name = "plate"
+shape = { disk = { radius_m = 0.08 } }
+material = "steel"
+
+[[scratches]]
+object = "plate"
+pattern = "random"
+count = 300
+width_um = { mean = 4.0, spread = 0.1 }
+
+[[light]]
+kind = "sphere"
+center_m = [-0.065, 0.20, 0.24]
+radius_m = 0.01
+radiance = 300.0
+"#;
+
+/// A loaded machine is slow.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+fn description() -> Arc<Description> {
+    Arc::new(Document::read(SCENE, Path::new("a plate")).unwrap())
+}
+
+fn view() -> View {
+    View {
+        camera: Camera {
+            position_m: DVec3::new(0.0, -0.21, 0.18),
+            target_m: DVec3::ZERO,
+            up: DVec3::Z,
+            fov_y_rad: 0.7,
+            exposure_ev: 0.0,
+        },
+        size_px: [160, 90],
+        display: Display {
+            exposure_ev: 0.0,
+            tone_map: ToneMap::default(),
+        },
+        filter_std_px: 0.5,
+    }
+}
+
+/// Lets the engine work until its picture is the last one. Never waits where it says that there is nothing to do.
+fn last_picture(engine: &mut Engine) -> Arc<Frame> {
+    let start = Instant::now();
+    loop {
+        assert!(start.elapsed() < PATIENCE, "no picture came");
+        let pause = engine.work();
+        if let Some(frame) = engine.latest()
+            && frame.painted.is_final
+        {
+            return frame;
+        }
+        std::thread::sleep(pause.unwrap_or(Duration::from_millis(1)));
+    }
+}
+
+fn pixels(frame: &Frame) -> Vec<egui::Color32> {
+    match &frame.picture {
+        Picture::Pixels(image) => image.pixels.clone(),
+        Picture::Texture(_) => panic!("the CPU renders no texture"),
+    }
+}
+
+fn wanted(engine: &Engine) {
+    engine.set_scene(1, description(), PathBuf::new());
+    engine.set_view(view());
+}
+
+#[test]
+fn it_paints_what_the_threads_paint() {
+    let mut in_turn = Engine::start_in_turn(Arc::new(|| {}));
+    wanted(&in_turn);
+    let ours = pixels(&last_picture(&mut in_turn));
+    let mut threads = Engine::start(Backend::Cpu, Arc::new(|| {}));
+    wanted(&threads);
+    let theirs = pixels(&last_picture(&mut threads));
+    assert!(ours == theirs, "other pixels");
+    let lit = ours.iter().filter(|pixel| pixel.g() > 100).count();
+    assert!(lit > 20, "{lit} pixels are bright");
+}
+
+#[test]
+fn a_finer_picture_comes_in_slices() {
+    let mut engine = Engine::start_in_turn(Arc::new(|| {}));
+    engine.set_scene(1, description(), PathBuf::new());
+    engine.set_view(View {
+        size_px: [640, 360],
+        ..view()
+    });
+    let start = Instant::now();
+    let mut slices = 0;
+    while engine.latest().is_none_or(|frame| !frame.painted.is_final) {
+        assert!(start.elapsed() < PATIENCE, "no picture came");
+        let pause = engine.work();
+        slices += 1;
+        std::thread::sleep(pause.unwrap_or_default());
+    }
+    // A scene, a coarse picture and three finer ones would be 5, were they painted in one piece each.
+    assert!(slices > 10, "{slices} slices");
+    assert_eq!(engine.work(), None);
+}
+
+#[test]
+fn a_new_view_takes_the_place_of_what_is_being_refined() {
+    let mut engine = Engine::start_in_turn(Arc::new(|| {}));
+    wanted(&engine);
+    let still = pixels(&last_picture(&mut engine));
+    let mut moved = view();
+    moved.camera.position_m.x += 0.05;
+    engine.set_view(moved);
+    // Begun, not done.
+    engine.work();
+    engine.set_view(view());
+    let back = last_picture(&mut engine);
+    assert_eq!(back.view.camera, view().camera);
+    assert!(
+        pixels(&back) == still,
+        "what was begun from elsewhere is in it"
+    );
+}
