@@ -1,5 +1,5 @@
 //! From an edit to the picture: a layer of 100,000 scratches on the built-in pan whose width is changed again and again, as
-//! by a hand on a slider, and what the interface's own passes take meanwhile.
+//! by a hand on a slider, then one of 1,000 beside it, and what the interface's own passes take meanwhile.
 //!
 //! `cargo bench -p hairline-viewer --bench edit` prints a table. No statistics crate: what is measured spans three threads,
 //! and each stage says its own time.
@@ -18,6 +18,8 @@ const BUILT_IN: &str = include_str!("../../../apps/hairline/src/built_in_scene.t
 const SCRATCHES: u64 = 100_000;
 /// Half a kilometre of scratches in all, as on a pan that was scoured for years.
 const LENGTH_M: f64 = 0.005;
+/// Of the layer beside it.
+const FEW: u64 = 1000;
 const EDITS: usize = 12;
 
 type Stage = fn(&Latency) -> Duration;
@@ -28,7 +30,7 @@ fn main() {
         return;
     }
     println!(
-        "{SCRATCHES} scratches in a third layer of the built-in pan; {EDITS} changes of their width"
+        "{SCRATCHES} scratches in a third layer of the built-in pan and {FEW} in a fourth; {EDITS} changes of their width"
     );
     measure(Backend::Cpu);
     match headless::open(&AdapterRequest::default()) {
@@ -52,32 +54,40 @@ fn measure(backend: Backend) {
             Viewer::new(&context.egui_ctx, None, options).expect("the built-in scene")
         });
     let document = harness.state_mut().document_mut();
-    let mut layer = LayerPreset::RandomWear.layer("pan", 0.21);
-    if let Layer::Laid(laid) = &mut layer.layer {
-        laid.amount = Amount::Count(SCRATCHES);
-        laid.length_m.mean = LENGTH_M;
-        laid.seed = 3;
+    for (count, seed) in [(SCRATCHES, 3), (FEW, 4)] {
+        let mut layer = LayerPreset::RandomWear.layer("pan", 0.21);
+        if let Layer::Laid(laid) = &mut layer.layer {
+            laid.amount = Amount::Count(count);
+            laid.length_m.mean = LENGTH_M;
+            laid.seed = seed;
+        }
+        document.edit("Add a layer", |d| d.scratches.push(layer));
     }
-    document.edit("Add a layer", |d| d.scratches.push(layer));
-    let mut passes = Vec::new();
     wait_for_picture(&mut harness, &mut Vec::new());
-
-    let mut latencies: Vec<Latency> = Vec::new();
-    for i in 0..EDITS {
-        let document = harness.state_mut().document_mut();
-        document.drag("Width", DragKey::of("bench"), |d| {
-            if let Layer::Laid(laid) = &mut d.scratches[2].layer {
-                laid.width_um.mean = 3.0 + 0.1 * i as f64;
-            }
-        });
-        latencies.push(wait_for_picture(&mut harness, &mut passes));
-    }
     let segments = harness
         .state()
         .engine()
         .built()
         .map_or(0, |built| built.scratch_counts().1);
     println!("\n{name}: {segments} straight pieces; medians, and the largest in brackets");
+    for (layer, count) in [(2, SCRATCHES), (3, FEW)] {
+        println!("edits of the layer of {count}");
+        measure_edits(&mut harness, layer);
+    }
+}
+
+fn measure_edits(harness: &mut Harness<Viewer>, layer: usize) {
+    let mut passes = Vec::new();
+    let mut latencies: Vec<Latency> = Vec::new();
+    for i in 0..EDITS {
+        let document = harness.state_mut().document_mut();
+        document.drag("Width", DragKey::of("bench"), |d| {
+            if let Layer::Laid(laid) = &mut d.scratches[layer].layer {
+                laid.width_um.mean = 3.0 + 0.1 * i as f64;
+            }
+        });
+        latencies.push(wait_for_picture(harness, &mut passes));
+    }
     let stages: [(&str, Stage); 7] = [
         ("waited for the thread", |l| l.build.waited),
         ("scratches laid", |l| l.build.scene),
