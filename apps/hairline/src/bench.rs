@@ -60,7 +60,7 @@ pub fn run(arguments: &cli::Bench) -> Result<(), Failure> {
     }
     if arguments.scene.is_some() && arguments.part.iter().any(|part| *part != Part::Table) {
         return Err(Failure::Input(anyhow!(
-            "--part scratches, lights, resolution and off vary the bench's own scene; with a SCENE there is --part table alone"
+            "--part scratches, zoom, lights, resolution and off vary the bench's own scene; with a SCENE there is --part table alone"
         )));
     }
     // Before the work: nobody should wait for figures that then have no place to go.
@@ -181,6 +181,7 @@ fn measure(
     }
     for (part, measure) in [
         (Part::Scratches, scaling::scratches as scaling::Measure),
+        (Part::Zoom, scaling::zoom),
         (Part::Lights, scaling::lights),
         (Part::Resolution, scaling::resolution),
     ] {

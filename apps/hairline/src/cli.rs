@@ -259,6 +259,8 @@ pub enum Part {
     Table,
     /// From a thousand scratches to a million.
     Scratches,
+    /// A million scratches from a tenth of the zoom to eight times it, one by one and by grids.
+    Zoom,
     /// From one light to 64.
     Lights,
     /// From half the size to twice it.

@@ -139,7 +139,7 @@ fn wrong_flags_are_2_and_nothing_is_measured() {
     for (arguments, message) in [
         (
             "bench --part everything",
-            "table, scratches, lights, resolution, off",
+            "table, scratches, zoom, lights, resolution, off",
         ),
         ("bench --footprint off", "leave them out"),
         ("bench --wavelengths 3", "si-fast"),

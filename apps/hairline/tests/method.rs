@@ -52,4 +52,3 @@ fn a_picture_remembers_another_method_than_the_default() {
     assert_ne!(pictures[0].density, pictures[1].density);
     assert_ne!(pictures[0].density, pictures[2].density);
 }
-

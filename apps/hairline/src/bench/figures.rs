@@ -121,6 +121,19 @@ impl Columns {
 pub enum Whose {
     Published,
     Ours,
+    /// Ours, with grids for what many scratches add up to.
+    Grids,
+}
+
+impl Whose {
+    /// In tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Published => "published",
+            Self::Ours => "ours",
+            Self::Grids => "grids",
+        }
+    }
 }
 
 /// One method's way through one cell of the table.
@@ -260,7 +273,7 @@ pub struct CellError {
 /// A series of measurements along one quantity, for both methods.
 #[derive(Serialize)]
 pub struct Curve {
-    /// "scratches", "lights" or "resolution".
+    /// "scratches", "zoom", "lights" or "resolution".
     pub along: &'static str,
     pub points: Vec<Point>,
 }
@@ -268,7 +281,7 @@ pub struct Curve {
 /// One of them.
 #[derive(Serialize)]
 pub struct Point {
-    /// Scratches, lights, or pixels.
+    /// Scratches, zoom, lights, or pixels.
     pub x: f64,
     pub method: Whose,
     pub antialiasing: bool,

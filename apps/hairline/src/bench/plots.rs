@@ -73,13 +73,13 @@ fn along(curve: &Curve) -> Result<Plot, Failure> {
                 .iter()
                 .filter(|p| (p.method, p.antialiasing) == one)
                 .filter_map(|p| Some([p.x, p.outcome.ms()?.median, 0.0]));
-            let color = usize::from(whose == Whose::Ours);
-            let line = Series::new(&series_name(one), color, points);
+            let line = Series::new(&series_name(one), whose as usize, points);
             if antialiasing { line } else { line.dashed() }
         })
         .collect();
     let (axis, title) = match curve.along {
         "scratches" => ("scratches", "Time over the number of scratches"),
+        "zoom" => ("zoom", "Time over the zoom, a million scratches"),
         "lights" => ("lights", "Time over the number of lights"),
         _ => ("pixels", "Time over the size"),
     };

@@ -288,6 +288,11 @@ fn scaling(text: &mut String, figures: &Figures) -> std::fmt::Result {
                 "Scratches",
                 "Under a sphere, at 1x. They are a tenth as long as the table's, so that 100,000 lie as densely as its 10,000.",
             ),
+            "zoom" => (
+                "Zoom",
+                "Short scratches under a sphere, a million of them unless the report's head says otherwise: from 0.1x, where the disk is a tenth as \
+                 high, to 8x. A whole picture, of which the disk fills a hundredth at 0.1x and all from 2x on.",
+            ),
             "lights" => (
                 "Lights",
                 "Spheres and triangles by turns, spread over a radian about the mirror direction; at 1x.",
@@ -511,11 +516,8 @@ fn bounds(text: &mut String, figures: &Figures) -> std::fmt::Result {
 }
 
 fn name(counts: &Counts) -> String {
-    let whose = match counts.method {
-        Whose::Published => "published",
-        Whose::Ours => "ours",
-    };
     let aa = if counts.antialiasing { "on" } else { "off" };
+    let whose = counts.method.name();
     format!("{whose}, {}, AA {aa}, {}", counts.row.name(), counts.lookup)
 }
 

@@ -1,12 +1,12 @@
 //! One quantity at a time, for both methods with anti-aliasing, and for scratches without it as well.
 
 use hairline_gpu::Error;
-use hairline_optics::method::{Method, PixelFilter};
+use hairline_optics::method::{Gather, Method, PixelFilter};
 use hairline_reference::closed_form::Prepared;
 
 use super::Thoroughness;
 use super::figures::{Curve, Point, Way, Whose};
-use super::stage::{Lamps, Stage};
+use super::stage::{Lamps, Stage, TALK_SCRATCHES};
 use super::timing::by_turns;
 use super::worker::{Ready, Worker};
 use crate::failure::Failure;
@@ -41,14 +41,71 @@ pub fn scratches(
         };
         (f64::from(scratches), stage)
     });
+    let mut ways = ways(ours).to_vec();
+    ways.insert(2, grids(ours));
     curve(
         "scratches",
         stages.collect(),
-        &ways(ours),
+        &ways,
         worker,
         thoroughness,
         progress,
     )
+}
+
+/// A million scratches, or as many as the base has if it is not the talk's number, from far away to single ones.
+pub fn zoom(
+    worker: &mut Worker,
+    base: Stage,
+    ours: &Method,
+    thoroughness: &Thoroughness,
+    progress: &Progress,
+) -> Result<Curve, Failure> {
+    let zooms: &[f64] = if thoroughness.quick {
+        &[0.1, 1.0, 8.0]
+    } else {
+        &[0.1, 0.2, 0.35, 0.6, 1.0, 2.0, 4.0, 8.0]
+    };
+    let scratches = match base.scratches {
+        TALK_SCRATCHES if thoroughness.quick => 100_000,
+        TALK_SCRATCHES => 1_000_000,
+        wanted => wanted,
+    };
+    let worn = Stage {
+        scratches,
+        length_m: SHORT_M,
+        ..base
+    };
+    let one_by_one = Way {
+        whose: Whose::Ours,
+        method: Method {
+            gather: Gather::Exact,
+            ..*ours
+        },
+    };
+    let ways = [one_by_one, grids(ours)];
+    progress.restart("zoom");
+    // The disk is laid and sorted once; before it the camera moves.
+    let scene = worn.build()?;
+    let prepared = Prepared::new(&scene);
+    let ready = ways.map(|way| worker.ready(&scene, &prepared, &way.method));
+    let mut points = Vec::new();
+    for (i, &zoom) in zooms.iter().enumerate() {
+        let scene = Stage { zoom, ..worn }.of(&scene)?;
+        let prepared = prepared.with_scene(&scene);
+        let outcomes = by_turns(worker, &scene, &prepared, &ready, &thoroughness.effort)?;
+        points.extend(ways.iter().zip(outcomes).map(|(way, outcome)| Point {
+            x: zoom,
+            method: way.whose,
+            antialiasing: way.antialiasing(),
+            outcome,
+        }));
+        progress.set((i + 1) as f64 / zooms.len() as f64);
+    }
+    Ok(Curve {
+        along: "zoom",
+        points,
+    })
 }
 
 /// From one light to 64, half of them spheres and half triangles.
@@ -108,6 +165,17 @@ pub fn resolution(
         thoroughness,
         progress,
     )
+}
+
+/// Grids for what many scratches add up to.
+fn grids(ours: &Method) -> Way {
+    Way {
+        whose: Whose::Grids,
+        method: Method {
+            gather: Gather::Clusters,
+            ..*ours
+        },
+    }
 }
 
 /// With anti-aliasing, then without it.

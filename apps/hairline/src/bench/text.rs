@@ -34,7 +34,7 @@ impl Figures {
     pub fn cell(&self, row: Row, zoom: f64, whose: Whose, columns: Columns) -> Option<&Cell> {
         let lookup = match whose {
             Whose::Published => lookup_name(columns),
-            Whose::Ours => self.own_lookup()?,
+            Whose::Ours | Whose::Grids => self.own_lookup()?,
         };
         self.cell_by(row, zoom, whose, columns.antialiasing(), lookup)
     }
@@ -297,11 +297,7 @@ pub fn refusals(figures: &Figures) -> Vec<String> {
     let mut reasons: Vec<String> = Vec::new();
     let mut add = |whose: Whose, what: String, outcome: &Outcome| {
         if let Outcome::Refused(reason) = outcome {
-            let whose = match whose {
-                Whose::Published => "published",
-                Whose::Ours => "ours",
-            };
-            reasons.push(format!("{whose}, {what}: {reason}"));
+            reasons.push(format!("{}, {what}: {reason}", whose.name()));
         }
     };
     for cell in &figures.table {
@@ -343,12 +339,8 @@ pub fn series(curve: &Curve) -> Vec<(Whose, bool)> {
 
 /// "published, AA on"
 pub fn series_name((whose, antialiasing): (Whose, bool)) -> String {
-    let whose = match whose {
-        Whose::Published => "published",
-        Whose::Ours => "ours",
-    };
     let aa = if antialiasing { "on" } else { "off" };
-    format!("{whose}, AA {aa}")
+    format!("{}, AA {aa}", whose.name())
 }
 
 pub fn curve_header(curve: &Curve) -> Vec<String> {
@@ -358,8 +350,16 @@ pub fn curve_header(curve: &Curve) -> Vec<String> {
     };
     let mut header = vec![x.to_owned()];
     header.extend(series(curve).into_iter().map(series_name));
-    header.push("published over ours, AA on".to_owned());
+    header.extend(ratios(curve).map(|(a, b)| format!("{} over {}, AA on", a.name(), b.name())));
     header
+}
+
+/// What is held against what.
+fn ratios(curve: &Curve) -> impl Iterator<Item = (Whose, Whose)> {
+    let there = series(curve);
+    [(Whose::Published, Whose::Ours), (Whose::Ours, Whose::Grids)]
+        .into_iter()
+        .filter(move |(a, b)| there.contains(&(*a, true)) && there.contains(&(*b, true)))
 }
 
 pub fn curve_lines(curve: &Curve) -> Vec<Vec<String>> {
@@ -384,8 +384,10 @@ pub fn curve_lines(curve: &Curve) -> Vec<Vec<String>> {
                     None => "refused".to_owned(),
                 });
             }
-            let ratio = ms((Whose::Published, true)).zip(ms((Whose::Ours, true)));
-            line.push(ratio.map_or_else(|| NOTHING.to_owned(), |(p, o)| format!("{:.1}", p / o)));
+            line.extend(ratios(curve).map(|(a, b)| {
+                let ratio = ms((a, true)).zip(ms((b, true)));
+                ratio.map_or_else(|| NOTHING.to_owned(), |(a, b)| format!("{:.1}", a / b))
+            }));
             line
         })
         .collect()
