@@ -120,7 +120,7 @@ struct Film {
 
 // Which tiles are shaded how: three counts for each queue of tile_queues.wgsl, then the queues.
 struct TileQueues {
-    counts: array<atomic<u32>, 9>,
+    counts: array<atomic<u32>, 12>,
     tiles: array<u32>,
 }
 

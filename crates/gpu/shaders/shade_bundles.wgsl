@@ -32,8 +32,11 @@ fn shade_bundles(
     @builtin(num_workgroups) workgroups: vec3u,
     @builtin(local_invocation_index) lane: u32,
 ) {
-    let strided = walk_strided(workgroup.y * workgroups.x + workgroup.x, workgroups.x * workgroups.y);
-    let pixel = vec2u(strided % workgroups.x, strided / workgroups.x + frame.rows.x);
+    let tile = queue_tile(QUEUE_BUNDLED, walk_strided(workgroup.x, workgroups.x));
+    let pixel = tile_corner(tile) + vec2u(workgroup.y % TILE_PX, workgroup.y / TILE_PX + frame.rows.x);
+    if pixel.x >= frame.size_px.x || pixel.y >= frame.rows.y {
+        return;
+    }
     let seen = film_visible(pixel);
     if seen.x == 0u {
         return;

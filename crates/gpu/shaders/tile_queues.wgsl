@@ -8,8 +8,10 @@ const QUEUE_LISTED: u32 = 0u;
 const QUEUE_WALKED: u32 = 1u;
 // Tiles that show no object.
 const QUEUE_EMPTY: u32 = 2u;
+// Tiles with pixels whose footprints cover many scratches, beside being in another queue. A workgroup for each of their pixels.
+const QUEUE_BUNDLED: u32 = 3u;
 
-// A queue's count is the number of workgroups of an indirect dispatch, and followed by two ones.
+// A queue's count is the number of workgroups of an indirect dispatch along x; what follows is that along the others.
 fn queue_push(queue: u32, tile: u32) {
     let place = atomicAdd(&queues.counts[3u * queue], 1u);
     let tiles = tile_counts();

@@ -20,7 +20,7 @@ use crate::film::{Band, BandRoom, Film, RoomNeeds};
 use crate::frame::frame;
 use crate::layout::Frame;
 use crate::shade::ShadePass;
-use crate::shade_bundles::BundlesPass;
+use crate::shade_bundles::BundlesPasses;
 use crate::tiles::TilesPasses;
 use crate::timing::{PassTime, Timing};
 use crate::upload::{GpuScene, Source};
@@ -349,9 +349,13 @@ impl Renderer {
             band.film.clear_unfinished(&mut encoder);
         }
         let (frame, timing) = (&self.frame_group, &self.timing);
+        if uploaded.passes.needs().tiles {
+            band.room.tiles.clear(&self.gpu);
+        }
         self.visibility
             .record(&mut encoder, frame, uploaded, band, timing);
         if let Some(bundles) = &uploaded.passes.bundles {
+            bundles.find(&mut encoder, frame, uploaded, band, timing);
             bundles.record(&mut encoder, frame, uploaded, band, timing);
             if bundles.bounded {
                 // The passes that follow go on where it ends, once.
@@ -366,7 +370,6 @@ impl Renderer {
             }
         }
         if let Some(tiles) = &uploaded.passes.tiles {
-            band.room.tiles.clear(&self.gpu);
             tiles.record(&mut encoder, frame, uploaded, band, timing);
         }
         let shade = &uploaded.passes.shade;
@@ -422,7 +425,7 @@ pub(crate) struct ScenePasses {
     /// Where the method wants tiles, and there are scratches to find.
     tiles: Option<TilesPasses>,
     /// Where the method gathers by grids.
-    bundles: Option<BundlesPass>,
+    bundles: Option<BundlesPasses>,
     shade: ShadePass,
 }
 
@@ -434,14 +437,14 @@ impl ScenePasses {
             tiles: (wants_tiles && variant.has.scratches)
                 .then(|| TilesPasses::new(gpu, layouts, variant)),
             bundles: (method.gather == Gather::Clusters && variant.has.scratches)
-                .then(|| BundlesPass::new(gpu, layouts, variant)),
+                .then(|| BundlesPasses::new(gpu, layouts, variant)),
             shade: ShadePass::new(gpu, layouts, variant, wants_tiles && variant.has.scratches),
         }
     }
 
     fn needs(&self) -> RoomNeeds {
         RoomNeeds {
-            tiles: self.tiles.is_some(),
+            tiles: self.tiles.is_some() || self.bundles.is_some(),
             walks: self.bundles.is_some(),
         }
     }

@@ -1,17 +1,20 @@
-//! Pass: what many scratches under a pixel add up to, before the others look at single ones.
+//! Passes: which tiles have pixels whose footprints cover many scratches, and what those scratches add up to; before the others
+//! look at single ones.
 //!
-//! Inputs: frame, scene, grids, visibility. Output: the sums with which walks over single scratches begin. One workgroup a pixel.
+//! Inputs: frame, scene, grids, visibility. Outputs: a queue of tiles; the sums with which walks over single scratches begin.
 
 use crate::bindings::Layouts;
 use crate::device::Gpu;
 use crate::film::Band;
 use crate::shaders;
+use crate::tile_room::{Queue, TILE_PX};
 use crate::timing::Timing;
 use crate::upload::GpuScene;
 use crate::variant::{ShadeVariant, compute_pipeline, is_bounded};
 
-pub(crate) struct BundlesPass {
-    pipeline: wgpu::ComputePipeline,
+pub(crate) struct BundlesPasses {
+    find: wgpu::ComputePipeline,
+    shade: wgpu::ComputePipeline,
     /// Whether a dispatch may leave pixels unfinished.
     pub bounded: bool,
 }
@@ -19,30 +22,43 @@ pub(crate) struct BundlesPass {
 /// Lanes of a software driver, which runs so many in step.
 const SOFTWARE_LANES: u32 = 8;
 
-impl BundlesPass {
+impl BundlesPasses {
     pub fn new(gpu: &Gpu, layouts: &Layouts, variant: &ShadeVariant) -> Self {
-        let module = &shaders::SHADE_BUNDLES;
-        let constants = |text: &str| {
-            let mut constants = variant.constants(gpu, text);
-            constants.push(("LIGHTS_MANY", 1.0));
-            if is_bounded(gpu) {
-                constants.push(("BUNDLE_LANES", SOFTWARE_LANES.into()));
-            }
-            constants
+        let pipeline = |module: &'static shaders::Module, more: &[(&'static str, f64)]| {
+            compute_pipeline(gpu, layouts, module, module.name, &layouts.film, |text| {
+                let mut constants = variant.constants(gpu, text);
+                constants.extend(more);
+                constants
+            })
         };
+        let bounded = is_bounded(gpu);
+        let many = ("LIGHTS_MANY", 1.0);
+        let lanes = ("BUNDLE_LANES", SOFTWARE_LANES.into());
+        let of_driver: &[_] = if bounded { &[many, lanes] } else { &[many] };
         Self {
-            pipeline: compute_pipeline(
-                gpu,
-                layouts,
-                module,
-                "shade_bundles",
-                &layouts.film,
-                constants,
-            ),
-            bounded: is_bounded(gpu),
+            find: pipeline(&shaders::BUNDLE_TILES, &[]),
+            shade: pipeline(&shaders::SHADE_BUNDLES, of_driver),
+            bounded,
         }
     }
 
+    /// Fills the queue, which must be empty.
+    pub fn find(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        frame: &wgpu::BindGroup,
+        scene: &GpuScene,
+        band: &Band<'_>,
+        timing: &Timing,
+    ) {
+        let mut pass = begin(encoder, "bundle tiles", timing);
+        bind(&mut pass, &self.find, frame, scene, band);
+        let across = band.room.width_px.div_ceil(TILE_PX);
+        let down = (band.rows.len() as u32).div_ceil(TILE_PX);
+        pass.dispatch_workgroups(across, down, 1);
+    }
+
+    /// Adds up what the queue's pixels see, or, where a dispatch left some unfinished, goes on with those.
     pub fn record(
         &self,
         encoder: &mut wgpu::CommandEncoder,
@@ -51,20 +67,40 @@ impl BundlesPass {
         band: &Band<'_>,
         timing: &Timing,
     ) {
-        let name = "bundles";
-        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
-            label: Some(name),
-            timestamp_writes: timing.compute(name),
-        });
-        pass.set_pipeline(&self.pipeline);
-        for (group, bound) in (0..).zip([
-            frame,
-            &scene.buffers.group,
-            &scene.textures.group,
-            &band.film.group,
-        ]) {
-            pass.set_bind_group(group, bound, &[]);
-        }
-        pass.dispatch_workgroups(band.room.width_px, band.rows.len() as u32, 1);
+        let tiles = &band.room.tiles;
+        tiles.count_queues(encoder);
+        let mut pass = begin(encoder, "bundles", timing);
+        bind(&mut pass, &self.shade, frame, scene, band);
+        tiles.dispatch(&mut pass, Queue::Bundled);
+    }
+}
+
+fn begin<'a>(
+    encoder: &'a mut wgpu::CommandEncoder,
+    name: &'static str,
+    timing: &Timing,
+) -> wgpu::ComputePass<'a> {
+    encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+        label: Some(name),
+        timestamp_writes: timing.compute(name),
+    })
+}
+
+fn bind(
+    pass: &mut wgpu::ComputePass<'_>,
+    pipeline: &wgpu::ComputePipeline,
+    frame: &wgpu::BindGroup,
+    scene: &GpuScene,
+    band: &Band<'_>,
+) {
+    pass.set_pipeline(pipeline);
+    let groups = [
+        frame,
+        &scene.buffers.group,
+        &scene.textures.group,
+        &band.film.group,
+    ];
+    for (group, bound) in (0..).zip(groups) {
+        pass.set_bind_group(group, bound, &[]);
     }
 }

@@ -144,8 +144,10 @@ modules! {
     SHADE = "shade" needs [HIT, GATHER, BUNDLE_FOOTPRINT, SHADE_POINT, TILE_QUEUES];
     /// Pass: from what is visible to radiance, in tiles that have a list of scratches.
     SHADE_TILES = "shade_tiles" needs [HIT, GATHER, BUNDLE_FOOTPRINT, SHADE_POINT, TILE_QUEUES, SEGMENT_SEEN];
+    /// Pass: which tiles have pixels whose footprints cover many scratches.
+    BUNDLE_TILES = "bundle_tiles" needs [HIT, BUNDLE_FOOTPRINT, TILE_QUEUES, SHADE_POINT];
     /// Pass: what many scratches under a pixel add up to.
-    SHADE_BUNDLES = "shade_bundles" needs [HIT, BUNDLE_FOOTPRINT, GATHER_LIGHT, GATHER_LARGE_POLYGON, SHADE_POINT];
+    SHADE_BUNDLES = "shade_bundles" needs [HIT, BUNDLE_FOOTPRINT, GATHER_LIGHT, GATHER_LARGE_POLYGON, TILE_QUEUES, SHADE_POINT];
     /// Pass: tiles that show no object.
     BACKGROUND = "background" needs [SHADE_POINT, TILE_QUEUES];
     /// Pass: the scratches that each tile of pixels may see.

@@ -19,7 +19,8 @@ const TEXELS_MAX: u32 = 1 << 24;
 const TILE_ENTRIES_MAX: u32 = 512;
 
 /// What an indirect dispatch reads for each queue. Twin: tile_queues.wgsl.
-const COUNTS: [u32; 9] = [0, 1, 1, 0, 1, 1, 0, 1, 1];
+const COUNTS: [u32; 12] = [0, 1, 1, 0, 1, 1, 0, 1, 1, 0, TILE_PX * TILE_PX, 1];
+const QUEUES: u32 = COUNTS.len() as u32 / 3;
 pub(crate) const COUNTS_BYTES: u64 = size_of_val(&COUNTS) as u64;
 
 /// The queues, in the order of their counts.
@@ -28,6 +29,7 @@ pub(crate) enum Queue {
     Listed,
     Walked,
     Empty,
+    Bundled,
 }
 
 /// Textures and buffers for the tiles of one film; the least there can be where the method has no use for tiles.
@@ -60,7 +62,7 @@ impl TileRoom {
             return Err(gpu.too_large("picture", needed, allowed, "tiles of 8 x 8 pixels"));
         }
         let lists = table(gpu, "tile lists", count * entries(count), TILE_LISTS_FORMAT).await?;
-        let queue_bytes = COUNTS_BYTES + u64::from(3 * count.max(1)) * 4;
+        let queue_bytes = COUNTS_BYTES + u64::from(QUEUES * count.max(1)) * 4;
         let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST;
         let queues = gpu.buffer("tile queues", queue_bytes, usage).await?;
         let usage = BufferUsages::INDIRECT | BufferUsages::COPY_DST;
@@ -101,7 +103,7 @@ impl TileRoom {
         encoder.copy_buffer_to_buffer(&self.queues, 0, &self.arguments, 0, Some(COUNTS_BYTES));
     }
 
-    /// One workgroup for each tile of a queue.
+    /// One workgroup for each tile of a queue, or for each of its pixels.
     pub fn dispatch(&self, pass: &mut wgpu::ComputePass<'_>, queue: Queue) {
         pass.dispatch_workgroups_indirect(&self.arguments, queue as u64 * 12);
     }
