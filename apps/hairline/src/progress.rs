@@ -49,8 +49,9 @@ impl Progress {
     /// Begins another part of the work.
     pub fn restart(&self, what: &'static str) {
         if self.bar.message() != what {
-            self.bar.set_message(what);
+            // In this order: the new name never stands beside the old share.
             self.bar.reset();
+            self.bar.set_message(what);
         }
     }
 

@@ -49,12 +49,12 @@ pub struct Loader<'a> {
 }
 
 impl Default for Loader<'_> {
-    /// Silent, and with 8 GiB or three quarters of the memory that is free, where that is known and less.
+    /// Silent, and with three quarters of the memory that is free; where that is not known, with 8 GiB.
     fn default() -> Self {
-        const LARGEST_BUDGET_BYTES: u64 = 8 << 30;
-        let free = free_memory_bytes().map_or(u64::MAX, |bytes| bytes / 4 * 3);
+        const UNKNOWN_BUDGET_BYTES: u64 = 8 << 30;
+        let free = free_memory_bytes().map(|bytes| bytes / 4 * 3);
         Self {
-            memory_budget_bytes: LARGEST_BUDGET_BYTES.min(free),
+            memory_budget_bytes: free.unwrap_or(UNKNOWN_BUDGET_BYTES),
             progress: &|_| {},
             cancelled: &|| false,
         }

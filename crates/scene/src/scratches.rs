@@ -151,10 +151,15 @@ pub(crate) fn lay(
     let mut all = Vec::new();
     for plan in &plans {
         let mut laid = Laid::default();
+        // One batch is put with the others while the next one is laid.
+        let mut parts = Vec::new();
         for first in (0..plan.count).step_by(BATCH as usize) {
             loader.go_on()?;
             let end = plan.count.min(first + BATCH);
-            plan.lay(first..end, &mut laid)?;
+            let last = std::mem::take(&mut parts);
+            let (next, taken) = rayon::join(|| plan.lay(first..end), || plan.take(last, &mut laid));
+            taken?;
+            parts = next;
             done += end - first;
             (loader.progress)(Progress {
                 stage: Stage::Scratches,
@@ -162,6 +167,7 @@ pub(crate) fn lay(
                 total,
             });
         }
+        plan.take(parts, &mut laid)?;
         all.push(laid);
     }
     Ok(all)
@@ -252,7 +258,7 @@ impl<'a> Plan<'a> {
         while pilots < PILOTS.min(self.count) && pilot.segments.len() < PILOT_SEGMENTS {
             pilots = self.count.min(4 * pilots.max(1));
             pilot = Laid::default();
-            self.lay(0..pilots, &mut pilot)?;
+            self.take(self.lay(0..pilots), &mut pilot)?;
         }
         let segments_each = pilot.segments.len() as f64 / pilots.max(1) as f64;
         let free_bytes = (budget_bytes as f64 - used_bytes).max(0.0);
@@ -286,13 +292,18 @@ impl<'a> Plan<'a> {
         ))
     }
 
-    fn lay(&self, scratches: std::ops::Range<u64>, laid: &mut Laid) -> Result<(), Error> {
+    /// In parts, each of its own.
+    fn lay(&self, scratches: std::ops::Range<u64>) -> Vec<Laid> {
         let walker = self.table.ground.walker();
         let chunks: Vec<u64> = scratches.clone().step_by(CHUNK as usize).collect();
-        let parts: Vec<Laid> = chunks
+        chunks
             .into_par_iter()
             .map(|first| self.lay_chunk(&walker, first..scratches.end.min(first + CHUNK)))
-            .collect();
+            .collect()
+    }
+
+    /// Puts parts behind what is laid.
+    fn take(&self, parts: Vec<Laid>, laid: &mut Laid) -> Result<(), Error> {
         for part in parts {
             // The estimate may have been short.
             let offset = laid.segments.len();
