@@ -33,54 +33,77 @@ fn interface(ui: &mut egui::Ui, image: &egui::TextureHandle) {
     );
 }
 
+/// What is to be drawn.
+struct Drawn {
+    primitives: Vec<ClippedPrimitive>,
+    images: TexturesDelta,
+    pixels_per_point: f32,
+}
+
+impl Drop for Drawn {
+    fn drop(&mut self) {
+        // egui wants to be told.
+        self.images.clear();
+    }
+}
+
 /// The interface's triangles and images.
-fn output(ctx: &egui::Context) -> (Vec<ClippedPrimitive>, TexturesDelta) {
+fn output(pixels_per_point: f32) -> Drawn {
+    let ctx = egui::Context::default();
+    ctx.set_zoom_factor(pixels_per_point);
     let pixels = (0..64).map(|i| Color32::from_rgb(4 * i, 255 - 3 * i, (i * 37) % 255));
     let image = ColorImage::new([8, 8], pixels.collect());
     let image = ctx.load_texture("image", image, TextureOptions::LINEAR);
-    let size = SIZE_PX.map(|side| side as f32);
+    let size = SIZE_PX.map(|side| side as f32 / pixels_per_point);
     let input = egui::RawInput {
         screen_rect: Some(Rect::from_min_size(pos2(0.0, 0.0), size.into())),
         ..Default::default()
     };
     let mut output = ctx.run_ui(input, |ui| interface(ui, &image));
-    let primitives = ctx.tessellate(std::mem::take(&mut output.shapes), 1.0);
+    let primitives = ctx.tessellate(std::mem::take(&mut output.shapes), output.pixels_per_point);
     let mut images = std::mem::take(&mut output.textures_delta);
     // Not yet: it is still to be drawn.
     images.free.clear();
-    (primitives, images)
-}
-
-fn screen() -> ScreenDescriptor {
-    ScreenDescriptor {
-        size_in_pixels: SIZE_PX,
-        pixels_per_point: 1.0,
+    assert_eq!(output.pixels_per_point, pixels_per_point);
+    Drawn {
+        primitives,
+        images,
+        pixels_per_point,
     }
 }
 
-fn by_egui(gpu: &Gpu, primitives: &[ClippedPrimitive], images: &TexturesDelta) -> Vec<u8> {
+fn screen(pixels_per_point: f32) -> ScreenDescriptor {
+    ScreenDescriptor {
+        size_in_pixels: SIZE_PX,
+        pixels_per_point,
+    }
+}
+
+fn by_egui(gpu: &Gpu, of: &Drawn) -> Vec<u8> {
     let options = RendererOptions {
         dithering: false,
         ..Default::default()
     };
-    let mut renderer = Renderer::new(&gpu.device, FORMAT, options);
-    for (&id, deltas) in &images.set {
+    let (device, queue) = (&gpu.device, &gpu.queue);
+    let mut renderer = Renderer::new(device, FORMAT, options);
+    for (&id, deltas) in &of.images.set {
         for delta in deltas {
-            renderer.update_texture(&gpu.device, &gpu.queue, id, delta);
+            renderer.update_texture(device, queue, id, delta);
         }
     }
-    let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    renderer.update_buffers(&gpu.device, &gpu.queue, &mut encoder, primitives, &screen());
+    let screen = screen(of.pixels_per_point);
+    let mut encoder = device.create_command_encoder(&Default::default());
+    renderer.update_buffers(device, queue, &mut encoder, &of.primitives, &screen);
     drawn(gpu, encoder, |pass| {
-        renderer.render(pass, primitives, &screen())
+        renderer.render(pass, &of.primitives, &screen)
     })
 }
 
-fn by_us(gpu: &Gpu, primitives: &[ClippedPrimitive], images: &TexturesDelta) -> Vec<u8> {
+fn by_us(gpu: &Gpu, of: &Drawn) -> Vec<u8> {
     let mut drawing = Device::new(&gpu.device, FORMAT);
-    drawing.images = images.clone();
-    drawing.primitives = primitives.to_vec();
-    drawing.prepare(&gpu.device, &gpu.queue, &screen());
+    drawing.images = of.images.clone();
+    drawing.primitives = of.primitives.clone();
+    drawing.prepare(&gpu.device, &gpu.queue, &screen(of.pixels_per_point));
     let encoder = gpu.device.create_command_encoder(&Default::default());
     drawn(gpu, encoder, |pass| drawing.draw(pass))
 }
@@ -165,31 +188,26 @@ fn differing(a: &[u8], b: &[u8]) -> usize {
 #[test]
 fn it_draws_what_egui_draws() {
     let Some(gpu) = test_gpu() else { return };
-    let (primitives, mut images) = output(&egui::Context::default());
-    let theirs = by_egui(gpu, &primitives, &images);
-    let ours = by_us(gpu, &primitives, &images);
-    assert_eq!(differing(&theirs, &ours), 0);
-    // All kinds of things are in the picture, and would be missed.
-    for missing in 0..primitives.len() {
-        let mut some = primitives.clone();
-        some.remove(missing);
-        let ours = by_us(gpu, &some, &images);
-        assert!(
-            differing(&theirs, &ours) > 10,
-            "{missing} is not to be seen"
-        );
+    for pixels_per_point in [1.0, 1.5] {
+        let mut of = output(pixels_per_point);
+        let theirs = by_egui(gpu, &of);
+        assert_eq!(differing(&theirs, &by_us(gpu, &of)), 0);
+        // All kinds of things are in the picture, and would be missed.
+        for missing in 0..of.primitives.len() {
+            let primitive = of.primitives.remove(missing);
+            let count = differing(&theirs, &by_us(gpu, &of));
+            assert!(count > 10, "{missing} is not to be seen");
+            of.primitives.insert(missing, primitive);
+        }
     }
-    images.clear();
 }
 
 #[test]
 fn what_is_freed_is_drawn_once_more() {
     let Some(gpu) = test_gpu() else { return };
-    let (primitives, mut images) = output(&egui::Context::default());
-    let kept = by_us(gpu, &primitives, &images);
-    let ids: Vec<_> = images.set.keys().copied().collect();
-    images.free.extend(ids);
-    let freed = by_us(gpu, &primitives, &images);
-    assert_eq!(differing(&kept, &freed), 0);
-    images.clear();
+    let mut of = output(1.0);
+    let kept = by_us(gpu, &of);
+    let ids: Vec<_> = of.images.set.keys().copied().collect();
+    of.images.free.extend(ids);
+    assert_eq!(differing(&kept, &by_us(gpu, &of)), 0);
 }
