@@ -3,7 +3,8 @@
 //! again and again under a hand on a slider.
 //!
 //! `xvfb-run -s "-screen 0 1280x800x24" cargo bench -p hairline-viewer --bench window` prints a table. Without a display it
-//! says so; with `-- gpu` the GPU renderer paints, be it on a software driver. No statistics crate: what is measured is the pace of an event loop.
+//! says so; with `-- gpu` the GPU renderer paints, be it on a software driver. No statistics crate: what is measured is the
+//! pace of an event loop.
 
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
