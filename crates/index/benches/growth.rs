@@ -1,7 +1,7 @@
 //! How laying scratches and building what finds them grows with their number: time, cores at work, and memory.
 //!
 //! `cargo bench -p hairline-index --bench growth` prints a table; numbers behind `--` are other counts than 10,000, 100,000 and
-//! 1,000,000. No statistics crate: each step takes seconds, and what is asked is how it grows.
+//! 1,000,000, and `no-grids` leaves the grids out. No statistics crate: each step takes seconds, and what is asked is how it grows.
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -93,10 +93,11 @@ const RUNS: usize = 3;
 struct Row {
     count: u64,
     segments: usize,
-    steps: [Step; 3],
+    /// As they are in [`STEPS`], the grids' or not.
+    steps: Vec<Step>,
 }
 
-fn measure(count: u64) -> Row {
+fn measure(count: u64, grids: bool) -> Row {
     let text = format!(
         "[camera]\nposition_m = [0.0, -0.3, 0.3]\ntarget_m = [0.0, 0.0, 0.0]\nup = [0.0, 0.0, 1.0]\n\
          [[material]]\nname = \"m\"\nkind = \"mirror\"\n\
@@ -115,11 +116,14 @@ fn measure(count: u64) -> Row {
     });
     let (tree, built) = step(|| ScratchIndex::build(&scene));
     let segments = tree.tree.segments.len();
-    let (_grids, gridded) = step(|| BundleIndex::build(&scene));
+    let mut steps = vec![lay, built];
+    if grids {
+        steps.push(step(|| BundleIndex::build(&scene)).1);
+    }
     Row {
         count,
         segments,
-        steps: [lay, built, gridded],
+        steps,
     }
 }
 
@@ -128,13 +132,14 @@ fn main() {
     if std::env::args().any(|argument| argument == "--test") {
         return;
     }
+    let grids = !std::env::args().any(|argument| argument == "no-grids");
     let asked: Vec<u64> = std::env::args().filter_map(|a| a.parse().ok()).collect();
     let counts = match asked.as_slice() {
         [] => vec![10_000, 100_000, 1_000_000],
         _ => asked,
     };
     // Threads and tables that the first one would pay for.
-    measure(1000);
+    measure(1000, grids);
     println!(
         "scratches of 10 mm on a disk of 16 cm, {} threads, the shortest of {RUNS} runs; bytes for each scratch; growth as a power \
          of the number, and that of n log n\n",
@@ -144,16 +149,15 @@ fn main() {
     println!("|---:|---:|---|---:|---:|---:|---:|---:|---:|");
     let mut last: Option<Row> = None;
     for count in counts {
-        let mut row = measure(count);
+        let mut row = measure(count, grids);
         for _ in 1..RUNS {
-            for (least, step) in row.steps.iter_mut().zip(measure(count).steps) {
+            for (least, step) in row.steps.iter_mut().zip(measure(count, grids).steps) {
                 if step.wall < least.wall {
                     *least = step;
                 }
             }
         }
-        for (i, name) in STEPS.iter().enumerate() {
-            let step = &row.steps[i];
+        for (i, (name, step)) in STEPS.iter().zip(&row.steps).enumerate() {
             let (wall, cpu) = (step.wall.as_secs_f64(), step.cpu.as_secs_f64());
             // Of the wall time over the number: 1 is in proportion.
             let growth = last.as_ref().map_or("–".to_owned(), |last| {

@@ -51,6 +51,8 @@ const PILOT_SEGMENTS: usize = 1 << 20;
 /// Scratches of one task, and of the tasks between two reports of progress: some hundredths of a second.
 const CHUNK: u64 = 256;
 const BATCH: u64 = 32 * CHUNK;
+/// So many scratches or segments are worth another thread to copy them.
+const COPY: usize = 1 << 14;
 
 /// A `[[scratches]]` table with the surface that it goes on.
 pub(crate) struct Table<'a> {
@@ -191,13 +193,14 @@ pub(crate) fn put_together<'l>(
         let offset = all.segments.len();
         check_segments(offset + laid.segments.len(), &format!("scratches[{layer}]"))?;
         let offset = offset as u32;
-        all.segments.extend_from_slice(&laid.segments);
-        all.scratches
-            .extend(laid.scratches.iter().map(|scratch| Scratch {
-                layer,
-                segments: scratch.segments.start + offset..scratch.segments.end + offset,
-                ..*scratch
-            }));
+        let segments = laid.segments.par_iter().with_min_len(COPY);
+        all.segments.par_extend(segments.copied());
+        let scratches = laid.scratches.par_iter().with_min_len(COPY);
+        all.scratches.par_extend(scratches.map(|scratch| Scratch {
+            layer,
+            segments: scratch.segments.start + offset..scratch.segments.end + offset,
+            ..*scratch
+        }));
     }
     Ok(all)
 }

@@ -32,6 +32,9 @@ pub(super) struct Piece<'a> {
 /// Of all the work, what filling in the segments takes.
 const FILL_SHARE: f64 = 0.1;
 
+/// So many segments or nodes are worth another thread to copy them.
+const COPY: usize = 1 << 14;
+
 /// Grows the trees, several for each object, all cores at work. Those that were grown before lie in `last`. `None` if it was
 /// cancelled.
 ///
@@ -63,7 +66,8 @@ pub(crate) fn plant<S: Straight>(
             }
             Plot::Kept(tree) => {
                 let last = last?;
-                segments.extend_from_slice(&last.segments[as_usize(&tree.segments)]);
+                let own = last.segments[as_usize(&tree.segments)].par_iter();
+                segments.par_extend(own.with_min_len(COPY).copied());
                 Some((last, tree))
             }
         };
@@ -120,7 +124,8 @@ pub(crate) fn plant<S: Straight>(
             let first = nodes.len() as u32;
             for piece in pieces {
                 let by = (nodes.len() as u32).wrapping_sub(piece.first_node);
-                nodes.extend(piece.nodes.iter().map(|n| n.moved(by, piece.segments_by)));
+                let own = piece.nodes.par_iter().with_min_len(COPY);
+                nodes.par_extend(own.map(|n| n.moved(by, piece.segments_by)));
             }
             let nodes = first..nodes.len() as u32;
             Tree { nodes, segments }
