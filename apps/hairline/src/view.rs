@@ -26,6 +26,7 @@ pub fn run(arguments: &cli::View) -> Result<(), Failure> {
         Error::NoWindow(_) => Failure::Work(anyhow::anyhow!(
             "{error}; `hairline render` needs no window, and `hairline --help` tells the rest"
         )),
+        Error::Lost(_) => Failure::Work(anyhow::anyhow!("{error}")),
         Error::Scene(error) => error.into(),
     })
 }

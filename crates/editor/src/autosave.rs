@@ -100,10 +100,24 @@ impl Autosave {
         let too_early = self
             .last_try
             .is_some_and(|last| now.saturating_sub(last) < INTERVAL);
-        if too_early || self.written == Some(document.revision()) {
+        if too_early {
             return Ok(Tick::Nothing);
         }
-        self.last_try = Some(now);
+        let revision = document.revision();
+        if self.written != Some(revision) {
+            self.last_try = Some(now);
+        }
+        self.keep(document)
+    }
+
+    /// Writes the document now, if it has unsaved changes that are not kept yet: there may be no later.
+    ///
+    /// # Errors
+    /// [`SaveError`].
+    pub fn keep(&mut self, document: &Document) -> Result<Tick, SaveError> {
+        if !document.is_modified() || self.written == Some(document.revision()) {
+            return Ok(Tick::Nothing);
+        }
         write_atomically(&self.file, text(document)?.as_bytes())?;
         self.written = Some(document.revision());
         self.discard_taken_over();

@@ -4,7 +4,7 @@
 //! measurements miss where it is absent, and no limit above WebGPU's defaults is needed, except by scenes that outgrow one
 //! buffer.
 
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, OnceLock};
 
 use crate::error::Error;
 
@@ -300,6 +300,11 @@ impl Gpu {
         }
     }
 
+    /// Has `tell` called with the driver's reason as soon as the device is lost, from any thread. The first one is heard.
+    pub fn on_lost(&self, tell: impl Fn(&str) + Send + Sync + 'static) {
+        let _ = self.faults.on_lost.set(Box::new(tell));
+    }
+
     /// The limits that the device was opened with.
     pub fn limits(&self) -> wgpu::Limits {
         self.device.limits()
@@ -424,7 +429,13 @@ fn describe(adapters: &[Adapter]) -> String {
 
 /// Where errors that no scope caught wait until somebody asks. Unheard, the graphics library would panic.
 #[derive(Clone, Default)]
-struct Faults(Arc<Mutex<Option<Error>>>);
+struct Faults {
+    first: Arc<Mutex<Option<Error>>>,
+    /// Who wants to know of a loss at once.
+    on_lost: Arc<OnceLock<LossListener>>,
+}
+
+type LossListener = Box<dyn Fn(&str) + Send + Sync>;
 
 impl Faults {
     fn watch(&self, device: &wgpu::Device, adapter: &str) {
@@ -447,6 +458,9 @@ impl Faults {
             } else {
                 message
             };
+            if let Some(tell) = faults.on_lost.get() {
+                tell(&reason);
+            }
             faults.record(Error::Lost { reason });
         });
     }
@@ -454,7 +468,7 @@ impl Faults {
     /// The first error is the cause, later ones follow from it; but a lost device explains everything.
     fn record(&self, error: Error) {
         let mut slot = self
-            .0
+            .first
             .lock()
             .unwrap_or_else(|poisoned| poisoned.into_inner());
         if slot.is_none() || matches!(error, Error::Lost { .. }) {
@@ -464,7 +478,7 @@ impl Faults {
 
     fn take(&self) -> Result<(), Error> {
         let mut slot = self
-            .0
+            .first
             .lock()
             .unwrap_or_else(|poisoned| poisoned.into_inner());
         match &*slot {

@@ -14,6 +14,7 @@ use crate::dialogs::Dialogs;
 use crate::engine::{Backend, Engine, Event};
 use crate::export::Export;
 use crate::files::Files;
+use crate::loss::WindowLoss;
 use crate::notices::Notices;
 use crate::panels;
 use crate::tools::{Tool, Toolbox};
@@ -51,6 +52,8 @@ pub struct Viewer {
     asked: Option<Arc<Description>>,
     /// That the window was given.
     title: String,
+    /// Of the device that draws the window.
+    loss: WindowLoss,
 }
 
 impl Viewer {
@@ -89,6 +92,7 @@ impl Viewer {
             built_in: options.built_in,
             asked: None,
             title: String::new(),
+            loss: WindowLoss::default(),
             document,
         };
         viewer.files.start(&mut viewer.dialogs);
@@ -121,6 +125,10 @@ impl Viewer {
     /// One pass of the interface.
     pub fn show(&mut self, ui: &mut egui::Ui) {
         let ctx = ui.ctx().clone();
+        if self.loss.reason().is_some() {
+            self.leave_lost_window(&ctx);
+            return;
+        }
         self.hear_engine();
         for path in dropped_files(&ctx) {
             self.take_file(&ctx, &path);
@@ -171,6 +179,20 @@ impl Viewer {
             ctx.send_viewport_cmd(egui::ViewportCommand::Title(title.clone()));
             self.title = title;
         }
+    }
+
+    /// Has the window closed, without a question, when `loss` is told.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub(crate) fn watch(&mut self, loss: WindowLoss) {
+        self.loss = loss;
+    }
+
+    /// What is not saved is kept, and offered at the next start: nothing can be asked any more.
+    fn leave_lost_window(&mut self, ctx: &egui::Context) {
+        if let Some(failed) = self.files.autosave_now(&self.document) {
+            eprintln!("warning: no autosave: {failed}");
+        }
+        ctx.send_viewport_cmd(egui::ViewportCommand::Close);
     }
 
     /// A drag of a widget is over when no button is held: what comes next is a step of its own.
@@ -264,7 +286,11 @@ impl eframe::App for Viewer {
     }
 
     fn on_exit(&mut self) {
-        self.files.close();
+        self.loss.close();
+        // What a lost window kept is for the next start.
+        if self.loss.reason().is_none() {
+            self.files.close();
+        }
     }
 }
 

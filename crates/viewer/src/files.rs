@@ -205,6 +205,12 @@ impl Files {
         Some(failed.to_string())
     }
 
+    /// Keeps what is not saved, whether it is time or not.
+    pub fn autosave_now(&mut self, document: &Document) -> Option<String> {
+        let autosave = self.autosave.as_mut()?;
+        Some(autosave.keep(document).err()?.to_string())
+    }
+
     /// What was recovered is kept until it is saved or given up.
     pub fn take_over(&mut self, pending: Pending) {
         match &mut self.autosave {

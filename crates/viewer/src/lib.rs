@@ -14,6 +14,7 @@ pub mod engine;
 mod export;
 mod files;
 mod jobs;
+mod loss;
 mod notices;
 mod panels;
 mod platform;

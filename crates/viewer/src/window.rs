@@ -9,6 +9,7 @@ use hairline_gpu::{Adapter, AdapterKind, AdapterRequest, Gpu, headless};
 use crate::app::{Options, Viewer};
 use crate::drawing::Drawing;
 use crate::engine::Backend;
+use crate::loss::WindowLoss;
 use crate::priority;
 
 /// What is to paint.
@@ -29,6 +30,11 @@ pub enum Error {
     /// No display, or no driver that can draw a window.
     #[error("no window could be opened: {0}")]
     NoWindow(String),
+    /// Its graphics device is gone.
+    #[error(
+        "the window's graphics device was lost ({0}); what was not saved is kept and offered at the next start"
+    )]
+    Lost(String),
     /// The built-in scene is wrong.
     #[error(transparent)]
     Scene(#[from] hairline_scene::Error),
@@ -37,7 +43,7 @@ pub enum Error {
 /// Opens the window and returns when it is closed. `backend` of the options is replaced by what `renderer` asks for.
 ///
 /// # Errors
-/// [`Error::NoWindow`].
+/// [`Error::NoWindow`], [`Error::Lost`].
 pub fn open(options: Options, renderer: Renderer) -> Result<(), Error> {
     open_as(options, renderer, |viewer| Box::new(viewer))
 }
@@ -45,7 +51,7 @@ pub fn open(options: Options, renderer: Renderer) -> Result<(), Error> {
 /// The same, with the viewer in the hands of another program, such as one that takes its times.
 ///
 /// # Errors
-/// [`Error::NoWindow`].
+/// [`Error::NoWindow`], [`Error::Lost`].
 pub fn open_as(
     options: Options,
     renderer: Renderer,
@@ -67,12 +73,15 @@ pub fn open_as(
     setup.device_descriptor =
         Arc::new(|adapter| Adapter::new(adapter.clone()).device_descriptor(false));
     native.wgpu_options.wgpu_setup = WgpuSetup::CreateNew(setup);
+    let loss = WindowLoss::default();
+    let watched = loss.clone();
     eframe::run_native(
         "hairline",
         native,
         Box::new(move |context| {
             let state = context.wgpu_render_state.clone();
             let backend = backend(state.as_ref(), renderer)?;
+            watch(state.as_ref(), &backend, &watched);
             // Its shader writes what is encoded for the display already.
             if let Some(state) = &state
                 && Adapter::new(state.adapter.clone()).kind == AdapterKind::Software
@@ -81,11 +90,30 @@ pub fn open_as(
                 context.egui_ctx.add_plugin(Drawing::new(state));
             }
             let options = Options { backend, ..options };
-            let viewer = Viewer::new(&context.egui_ctx, state, options)?;
+            let mut viewer = Viewer::new(&context.egui_ctx, state, options)?;
+            viewer.watch(watched);
             Ok(app(viewer))
         }),
     )
-    .map_err(|error| Error::NoWindow(error.to_string()))
+    .map_err(|error| Error::NoWindow(error.to_string()))?;
+    match loss.reason() {
+        Some(reason) => Err(Error::Lost(reason.to_owned())),
+        None => Ok(()),
+    }
+}
+
+/// Has `loss` told when the window's device is lost.
+fn watch(state: Option<&RenderState>, backend: &Backend, loss: &WindowLoss) {
+    let Some(state) = state else { return };
+    loss.watch(&state.device);
+    let loss = loss.clone();
+    match backend {
+        // Which hears of it for the engine.
+        Backend::Shared(gpu) => gpu.on_lost(move |reason| loss.tell(reason)),
+        _ => state
+            .device
+            .set_device_lost_callback(move |_, reason| loss.tell(&reason)),
+    }
 }
 
 /// The window's own device where it is a GPU; else what was asked for.
