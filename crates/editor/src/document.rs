@@ -1,6 +1,7 @@
 //! A scene that is being edited: its description, where it came from, what was done to it.
 
 mod file;
+mod layout;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -25,6 +26,8 @@ pub struct Document {
     path: Option<PathBuf>,
     base_dir: PathBuf,
     revision: u64,
+    /// The file's text as it was opened or saved last; none where there is no file.
+    text: Option<Arc<str>>,
 }
 
 /// A drag that goes on.
@@ -54,6 +57,7 @@ impl Document {
             path: None,
             base_dir: base_dir.into(),
             revision: next_revision(),
+            text: None,
         }
     }
 

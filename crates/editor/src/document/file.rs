@@ -6,7 +6,7 @@ use std::sync::Arc;
 use hairline_image::output::write_atomically;
 use hairline_scene::{Description, Error};
 
-use super::{Document, next_revision};
+use super::{Document, layout, next_revision};
 use crate::paths;
 
 /// Why a document was not saved.
@@ -37,6 +37,7 @@ impl Document {
         let description = Self::read(&text, path)?;
         Ok(Self {
             path: Some(path.to_owned()),
+            text: Some(text.into()),
             ..Self::untitled(description, path.parent().unwrap_or(Path::new("")))
         })
     }
@@ -54,13 +55,13 @@ impl Document {
         Ok(description)
     }
 
-    /// Writes the scene to its file. Comments that the file had are lost.
+    /// Writes the scene to its file. Comments and layout of what was not edited stay as they are.
     ///
     /// # Errors
     /// [`SaveError`]; then the file is as it was.
     pub fn save(&mut self) -> Result<(), SaveError> {
         let path = self.path.clone().ok_or(SaveError::NoPath)?;
-        write(&self.state.description, &path)?;
+        self.text = Some(self.write(&path)?);
         self.was_saved();
         Ok(())
     }
@@ -79,12 +80,25 @@ impl Document {
         if from != to {
             rebased.rebase(&from, &to);
         }
-        write(&rebased.state.description, path)?;
+        rebased.text = Some(rebased.write(path)?);
         rebased.path = Some(path.to_owned());
         rebased.base_dir = folder.to_owned();
         rebased.was_saved();
         *self = rebased;
         Ok(())
+    }
+
+    /// Returns the text that the file has now.
+    fn write(&self, path: &Path) -> Result<Arc<str>, SaveError> {
+        let description = &self.state.description;
+        let mut text = description
+            .to_toml()
+            .map_err(|error| SaveError::Form(error.to_string()))?;
+        if let Some(original) = &self.text {
+            text = layout::kept(original, description, text);
+        }
+        write_atomically(path, text.as_bytes())?;
+        Ok(text.into())
     }
 
     fn was_saved(&mut self) {
@@ -118,12 +132,4 @@ impl Document {
         self.history.rewrite(&mut change);
         self.end_drag();
     }
-}
-
-fn write(description: &Description, path: &Path) -> Result<(), SaveError> {
-    let text = description
-        .to_toml()
-        .map_err(|error| SaveError::Form(error.to_string()))?;
-    write_atomically(path, text.as_bytes())?;
-    Ok(())
 }
