@@ -134,7 +134,10 @@ pub struct BundleLevel {
 }
 
 impl BundleLevel {
-    fn new(cell_m: f32, vertices: Vec<Vertex>, bundles: Vec<Bundle>) -> Self {
+    fn new(cell_m: f32, mut vertices: Vec<Vertex>, mut bundles: Vec<Bundle>) -> Self {
+        // They grew piece by piece, to up to twice their size.
+        vertices.shrink_to_fit();
+        bundles.shrink_to_fit();
         let mut slots = vec![EMPTY; (2 * vertices.len()).next_power_of_two()];
         let mask = slots.len() - 1;
         for (i, vertex) in vertices.iter().enumerate() {
@@ -208,8 +211,8 @@ const WIDTH_CLASSES: usize = 4;
 /// So many scratches cross a cell of the finest grid, in the mean. The fewer, the more the lit ones of a footprint differ from the
 /// mean of their class.
 const CELL_SCRATCHES: f64 = 25.0;
-/// Unless the grids would take more than this for each segment of a scratch, about twice what the tree of single ones takes.
-const SEGMENT_BYTES: f64 = 128.0;
+/// Unless the grids would take more than this for each segment of a scratch, some three times what the tree of single ones takes.
+const SEGMENT_BYTES: f64 = 256.0;
 /// No footprint is narrower than the coherence window.
 const CELL_MIN_M: f64 = 16e-6;
 /// The coarsest grid has about so many cells.
@@ -290,8 +293,12 @@ fn grids(object: &Object, classes: usize) -> (f32, usize) {
     let bundle_bytes = 1.5 * size_of::<Bundle>() as f64 * classes as f64;
     let most = (SEGMENT_BYTES * object.segments.len() as f64 / bundle_bytes).max(1.0);
     let by_memory = (area_m2 / most).sqrt();
-    let cell_um = 1e6 * by_scratches.max(by_memory).max(CELL_MIN_M);
-    let cell_um = cell_um.log2().round().exp2();
+    let octave = |cell_m: f64| (1e6 * cell_m.max(CELL_MIN_M)).log2();
+    // The memory stays within its bound.
+    let cell_um = octave(by_scratches)
+        .round()
+        .max(octave(by_memory).ceil())
+        .exp2();
     let across = (area_m2 / COARSEST_CELLS).sqrt() * 1e6 / cell_um;
     (
         (cell_um * 1e-6) as f32,
