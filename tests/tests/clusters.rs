@@ -70,23 +70,30 @@ fn clusters(lookup: Lookup) -> Method {
     }
 }
 
-/// The GPU's picture and the CPU's; none where there is no driver.
-fn both(scene: &Scene, method: Method) -> Option<[Image; 2]> {
+/// The GPU's pictures, method by method; none where there is no driver.
+fn on_the_gpu<const N: usize>(
+    prepared: &Prepared,
+    scene: &Scene,
+    methods: [Method; N],
+) -> Option<[Image; N]> {
     let gpu = headless::test_gpu()?;
-    let prepared = Prepared::new(scene);
     let mut renderer = gpu.block_on(Renderer::new(gpu)).unwrap();
-    let (index, tables) = (prepared.scratches(), prepared.tables());
-    let uploaded = gpu
-        .block_on(renderer.upload(scene, index, tables, &method))
-        .unwrap();
-    let options = RenderOptions {
-        samples: 1,
-        ..Default::default()
-    };
-    let image = renderer.render(scene, &uploaded, &options, &|_| {});
-    let image = gpu.block_on(image).unwrap();
+    Some(methods.map(|method| {
+        let (index, tables) = (prepared.scratches(), prepared.tables());
+        let uploaded = renderer.upload(scene, index, tables, &method);
+        let uploaded = gpu.block_on(uploaded).unwrap();
+        let options = RenderOptions {
+            samples: 1,
+            ..Default::default()
+        };
+        let image = renderer.render(scene, &uploaded, &options, &|_| {});
+        gpu.block_on(image).unwrap()
+    }))
+}
+
+fn on_the_cpu(prepared: &Prepared, method: Method) -> Image {
     let options = closed_form::RenderOptions { samples: 1, method };
-    Some([image, prepared.render(&options, &|_| {})])
+    prepared.render(&options, &|_| {})
 }
 
 /// Where both renderers hit the object alike: at edges of triangles one pixel may take either.
@@ -123,23 +130,22 @@ fn compare(name: &str, a: &Image, b: &Image) {
     }
 }
 
-fn check(name: &str, scene: &Scene, method: Method) -> Option<Image> {
-    let [gpu, cpu] = both(scene, method)?;
-    compare(name, &gpu, &cpu);
-    Some(gpu)
-}
-
 #[test]
 fn a_plane_from_few_to_many() {
     let scene = plane();
-    let Some(tiles) = check("plane", &scene, clusters(Lookup::Tiles)) else {
+    let prepared = Prepared::new(&scene);
+    let methods = [
+        clusters(Lookup::Tiles),
+        clusters(Lookup::Bvh),
+        Method::default(),
+    ];
+    let Some([tiles, walked, exact]) = on_the_gpu(&prepared, &scene, methods) else {
         return;
     };
-    let walked = check("plane, walked", &scene, clusters(Lookup::Bvh)).unwrap();
+    compare("plane", &tiles, &on_the_cpu(&prepared, methods[0]));
     // Whether a pixel's own walk or its tile's list finds the single ones is no difference.
     compare("plane, tiles and walks", &tiles, &walked);
     // Grids were read, and not everywhere.
-    let [exact, _] = both(&scene, Method::default()).unwrap();
     let scratched = (0..exact.density.len()).filter(|i| exact.density[*i] != [0.0; 3]);
     let (alone, many): (Vec<_>, Vec<_>) =
         scratched.partition(|i| exact.density[*i] == tiles.density[*i]);
@@ -150,8 +156,20 @@ fn a_plane_from_few_to_many() {
 
 #[test]
 fn a_ball_and_an_environment() {
-    let mut scene = ball();
-    check("ball", &scene, clusters(Lookup::Tiles));
-    scene.environment = furnace();
-    check("ball, environment", &scene, clusters(Lookup::Tiles));
+    for environment in [None, furnace()] {
+        let name = match environment {
+            None => "ball",
+            Some(_) => "ball, environment",
+        };
+        let scene = Scene {
+            environment,
+            ..ball()
+        };
+        let prepared = Prepared::new(&scene);
+        let method = clusters(Lookup::Tiles);
+        let Some([gpu]) = on_the_gpu(&prepared, &scene, [method]) else {
+            return;
+        };
+        compare(name, &gpu, &on_the_cpu(&prepared, method));
+    }
 }

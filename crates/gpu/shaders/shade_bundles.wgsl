@@ -24,7 +24,9 @@ var<workgroup> bundle_counts: array<u32, BUNDLE_LANES_MAX>;
 var<workgroup> bundle_found: array<vec2u, BUNDLE_HEIGHTS * BUNDLE_LANES_MAX>;
 // Directions that a light reaches and their shares.
 var<workgroup> bundle_lit: array<vec2u, BUNDLE_BINS>;
-var<workgroup> bundle_begun: u32;
+// What all lanes go by. Loads from here are known to be the same for all, which barriers ask for.
+var<workgroup> bundle_common: u32;
+var<workgroup> bundle_total: vec3f;
 
 @compute @workgroup_size(BUNDLE_LANES)
 fn shade_bundles(
@@ -32,7 +34,10 @@ fn shade_bundles(
     @builtin(num_workgroups) workgroups: vec3u,
     @builtin(local_invocation_index) lane: u32,
 ) {
-    let tile = queue_tile(QUEUE_BUNDLED, walk_strided(workgroup.x, workgroups.x));
+    if lane == 0u {
+        bundle_common = queue_tile(QUEUE_BUNDLED, walk_strided(workgroup.x, workgroups.x));
+    }
+    let tile = workgroupUniformLoad(&bundle_common);
     let pixel = tile_corner(tile) + vec2u(workgroup.y % TILE_PX, workgroup.y / TILE_PX + frame.rows.x);
     if pixel.x >= frame.size_px.x || pixel.y >= frame.rows.y {
         return;
@@ -53,9 +58,9 @@ fn shade_bundles(
         return;
     }
     if lane == 0u {
-        bundle_begun = film_bundled(pixel);
+        bundle_common = film_bundled(pixel);
     }
-    let begun = workgroupUniformLoad(&bundle_begun);
+    let begun = workgroupUniformLoad(&bundle_common);
     if begun == WALK_BUNDLES_DONE {
         return;
     }
@@ -107,12 +112,14 @@ fn bundle_is_spent(lane: u32) -> bool {
     }
     bundle_counts[lane] = gather_rounds;
     workgroupBarrier();
-    var most = 0u;
-    for (var i = 0u; i < BUNDLE_LANES; i += 1u) {
-        most = max(most, bundle_counts[i]);
+    if lane == 0u {
+        var most = 0u;
+        for (var i = 0u; i < BUNDLE_LANES; i += 1u) {
+            most = max(most, bundle_counts[i]);
+        }
+        bundle_common = most;
     }
-    workgroupBarrier();
-    return most >= GATHER_MAX_ROUNDS;
+    return workgroupUniformLoad(&bundle_common) >= GATHER_MAX_ROUNDS;
 }
 
 // How many have been counted by the lanes before this one, and by all.
@@ -187,13 +194,15 @@ fn bundle_read(point: SurfacePoint, footprint: BundleFootprint, level: BundleLev
         }
         bundle_bins[bin] = sum;
     }
-    var sum = vec3f(0.0);
-    for (var i = 0u; i < BUNDLE_LANES; i += 1u) {
-        sum += bundle_sums[i].xyz;
+    if lane == 0u {
+        var sum = vec3f(0.0);
+        for (var i = 0u; i < BUNDLE_LANES; i += 1u) {
+            sum += bundle_sums[i].xyz;
+        }
+        bundle_total = vec3f(sum.x, sum.yz / max(sum.x, 1e-30));
     }
     gather_rounds += BUNDLE_LANES;
-    workgroupBarrier();
-    return vec3f(sum.x, sum.yz / max(sum.x, 1e-30));
+    return workgroupUniformLoad(&bundle_total);
 }
 
 // The share of a direction where only those `stride` bins apart are told from one another.
