@@ -3,6 +3,7 @@
 use glam::{DQuat, DVec3};
 use hairline_scene::description::limits::{LARGEST_M, SMALLEST_M};
 use hairline_scene::description::{Light, LightKind};
+use hairline_scene::vector_area_m2;
 
 use crate::ActionError;
 
@@ -18,7 +19,9 @@ pub fn center(light: &Light) -> DVec3 {
 pub fn facing(light: &Light) -> Option<DVec3> {
     match &light.kind {
         LightKind::Sphere { .. } => None,
-        LightKind::Polygon { vertices_m, .. } => vector_area(&points(vertices_m)).try_normalize(),
+        LightKind::Polygon { vertices_m, .. } => {
+            vector_area_m2(&points(vertices_m)).try_normalize()
+        }
     }
 }
 
@@ -116,7 +119,7 @@ pub fn move_vertex(light: &mut Light, index: usize, to_m: DVec3) -> Result<(), A
         if index >= n {
             return Err(ActionError::Missing("vertex"));
         }
-        let to = match (n > 3, vector_area(vertices).try_normalize()) {
+        let to = match (n > 3, vector_area_m2(vertices).try_normalize()) {
             (true, Some(normal)) => {
                 // Through the others, so that dragging to and fro does not let the plane drift.
                 let others = vertices.iter().enumerate().filter(|(i, _)| *i != index);
@@ -204,13 +207,8 @@ fn points(vertices_m: &[[f64; 3]]) -> Vec<DVec3> {
     vertices_m.iter().map(|&v| v.into()).collect()
 }
 
-/// Half the sum of the cross products of a polygon's fan.
-fn vector_area(vertices: &[DVec3]) -> DVec3 {
-    fan(vertices).map(|(_, area)| area).sum()
-}
-
 fn centroid(vertices: &[DVec3]) -> DVec3 {
-    let total = vector_area(vertices);
+    let total = vector_area_m2(vertices);
     let weighted: DVec3 = fan(vertices)
         .map(|(middle, area)| middle * area.dot(total))
         .sum();

@@ -3,7 +3,7 @@
 use bytemuck::Zeroable;
 use glam::{DVec3, Vec3};
 use hairline_index::{IndexedSegment, ScratchIndex};
-use hairline_scene::{Mesh, Scene, ScratchTables};
+use hairline_scene::{Mesh, Scene, ScratchTables, vector_area_m2};
 use half::f16;
 use rayon::prelude::*;
 use std::ops::Range;
@@ -134,39 +134,23 @@ pub(crate) fn lights(scene: &Scene, origin_m: DVec3) -> Vec<Light> {
                 radiance,
                 two_sided,
             } => {
+                let area_m2 = vector_area_m2(vertices_m);
                 let first_vertex = next_vertex;
                 next_vertex += vertices_m.len() as u32;
                 Light {
                     radiance: radiance.map(|c| c as f32),
                     kind: LIGHT_POLYGON,
-                    normal: polygon_normal(vertices_m).as_vec3().to_array(),
+                    normal: area_m2.normalize_or_zero().as_vec3().to_array(),
                     two_sided: u32::from(*two_sided),
                     first_vertex,
                     vertex_count: vertices_m.len() as u32,
-                    area_m2: polygon_area_m2(vertices_m) as f32,
+                    area_m2: area_m2.length() as f32,
                     ..bounded
                 }
             }
         }
     };
     scene.lights.iter().map(light).collect()
-}
-
-/// Of a polygon in a plane.
-fn polygon_area_m2(vertices_m: &[DVec3]) -> f64 {
-    let from_first = |edge: &[DVec3]| (edge[0] - vertices_m[0]).cross(edge[1] - vertices_m[0]);
-    let sum: DVec3 = vertices_m.windows(2).map(from_first).sum();
-    0.5 * sum.length()
-}
-
-/// The unit normal on the side that sees the vertices counter-clockwise.
-fn polygon_normal(vertices_m: &[DVec3]) -> DVec3 {
-    let from_first = |edge: &[DVec3]| (edge[0] - vertices_m[0]).cross(edge[1] - vertices_m[0]);
-    vertices_m
-        .windows(2)
-        .map(from_first)
-        .sum::<DVec3>()
-        .normalize_or_zero()
 }
 
 pub(crate) fn light_vertices(scene: &Scene, origin_m: DVec3) -> Vec<[f32; 4]> {

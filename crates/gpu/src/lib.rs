@@ -7,6 +7,7 @@ mod bindings;
 mod bundles;
 pub mod call;
 pub mod canvas;
+mod compute_pass;
 pub mod device;
 mod display;
 pub mod error;

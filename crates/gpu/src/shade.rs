@@ -4,6 +4,7 @@
 //! compute pass, since datacentre GPUs run fragment shaders on few of their processors.
 
 use crate::bindings::Layouts;
+use crate::compute_pass;
 use crate::device::Gpu;
 use crate::film::Band;
 use crate::shaders;
@@ -59,19 +60,9 @@ impl ShadePass {
         if self.queued {
             band.room.tiles.count_queues(encoder);
         }
-        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
-            label: Some("shade"),
-            timestamp_writes: timing.compute("shade"),
-        });
-        pass.set_pipeline(&self.pipeline);
-        for (group, bound) in (0..).zip([
-            frame,
-            &scene.buffers.group,
-            &scene.textures.group,
-            &band.film.group,
-        ]) {
-            pass.set_bind_group(group, bound, &[]);
-        }
+        let film = &band.film.group;
+        let mut pass =
+            compute_pass::begin(encoder, "shade", timing, &self.pipeline, frame, scene, film);
         if self.queued {
             band.room.tiles.dispatch(&mut pass, Queue::Walked);
             return;

@@ -4,6 +4,7 @@
 //! Inputs: frame, scene, grids, visibility. Outputs: a queue of tiles; the sums with which walks over single scratches begin.
 
 use crate::bindings::Layouts;
+use crate::compute_pass;
 use crate::device::Gpu;
 use crate::film::Band;
 use crate::shaders;
@@ -51,8 +52,16 @@ impl BundlesPasses {
         band: &Band<'_>,
         timing: &Timing,
     ) {
-        let mut pass = begin(encoder, "bundle tiles", timing);
-        bind(&mut pass, &self.find, frame, scene, band);
+        let film = &band.film.group;
+        let mut pass = compute_pass::begin(
+            encoder,
+            "bundle tiles",
+            timing,
+            &self.find,
+            frame,
+            scene,
+            film,
+        );
         let across = band.room.width_px.div_ceil(TILE_PX);
         let down = (band.rows.len() as u32).div_ceil(TILE_PX);
         pass.dispatch_workgroups(across, down, 1);
@@ -69,38 +78,9 @@ impl BundlesPasses {
     ) {
         let tiles = &band.room.tiles;
         tiles.count_queues(encoder);
-        let mut pass = begin(encoder, "bundles", timing);
-        bind(&mut pass, &self.shade, frame, scene, band);
+        let film = &band.film.group;
+        let mut pass =
+            compute_pass::begin(encoder, "bundles", timing, &self.shade, frame, scene, film);
         tiles.dispatch(&mut pass, Queue::Bundled);
-    }
-}
-
-fn begin<'a>(
-    encoder: &'a mut wgpu::CommandEncoder,
-    name: &'static str,
-    timing: &Timing,
-) -> wgpu::ComputePass<'a> {
-    encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
-        label: Some(name),
-        timestamp_writes: timing.compute(name),
-    })
-}
-
-fn bind(
-    pass: &mut wgpu::ComputePass<'_>,
-    pipeline: &wgpu::ComputePipeline,
-    frame: &wgpu::BindGroup,
-    scene: &GpuScene,
-    band: &Band<'_>,
-) {
-    pass.set_pipeline(pipeline);
-    let groups = [
-        frame,
-        &scene.buffers.group,
-        &scene.textures.group,
-        &band.film.group,
-    ];
-    for (group, bound) in (0..).zip(groups) {
-        pass.set_bind_group(group, bound, &[]);
     }
 }

@@ -4,6 +4,7 @@
 //! Inputs: frame, scene, visibility. Outputs: lists, queues; the film, added to.
 
 use crate::bindings::Layouts;
+use crate::compute_pass;
 use crate::device::Gpu;
 use crate::film::Band;
 use crate::shaders;
@@ -46,16 +47,8 @@ impl TilesPasses {
         let tiles = &band.room.tiles;
         let mut run = |name, pipeline, group_3: &wgpu::BindGroup, queue: Option<Queue>| {
             tiles.count_queues(encoder);
-            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
-                label: Some(name),
-                timestamp_writes: timing.compute(name),
-            });
-            pass.set_pipeline(pipeline);
-            for (group, bound) in
-                (0..).zip([frame, &scene.buffers.group, &scene.textures.group, group_3])
-            {
-                pass.set_bind_group(group, bound, &[]);
-            }
+            let mut pass =
+                compute_pass::begin(encoder, name, timing, pipeline, frame, scene, group_3);
             match queue {
                 Some(queue) => tiles.dispatch(&mut pass, queue),
                 None => pass.dispatch_workgroups(tiles.count.div_ceil(WORKGROUP_TILES), 1, 1),

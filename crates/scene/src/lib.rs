@@ -24,4 +24,5 @@ pub use environment::Environment;
 pub use error::Error;
 pub use load::{Loader, Progress, Stage};
 pub use material_optics::{MaterialOptics, ScratchTables};
+pub use polygon::vector_area_m2;
 pub use scene::*;

@@ -43,7 +43,7 @@ impl Flaw {
 }
 
 /// The vector area: half the sum of cross products; its direction is the side that sees the vertices counter-clockwise.
-pub(crate) fn vector_area_m2(vertices_m: &[DVec3]) -> DVec3 {
+pub fn vector_area_m2(vertices_m: &[DVec3]) -> DVec3 {
     let Some(&origin) = vertices_m.first() else {
         return DVec3::ZERO;
     };

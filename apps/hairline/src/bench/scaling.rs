@@ -5,7 +5,7 @@ use hairline_optics::method::{Gather, Method, PixelFilter};
 use hairline_reference::closed_form::Prepared;
 
 use super::Thoroughness;
-use super::figures::{Curve, Point, Way, Whose};
+use super::figures::{Curve, Outcome, Point, Way, Whose};
 use super::stage::{Lamps, Stage, TALK_SCRATCHES};
 use super::timing::by_turns;
 use super::worker::{Ready, Worker};
@@ -94,12 +94,7 @@ pub fn zoom(
         let scene = Stage { zoom, ..worn }.of(&scene)?;
         let prepared = prepared.with_scene(&scene);
         let outcomes = by_turns(worker, &scene, &prepared, &ready, &thoroughness.effort)?;
-        points.extend(ways.iter().zip(outcomes).map(|(way, outcome)| Point {
-            x: zoom,
-            method: way.whose,
-            antialiasing: way.antialiasing(),
-            outcome,
-        }));
+        points.extend(points_at(zoom, &ways, outcomes));
         progress.set((i + 1) as f64 / zooms.len() as f64);
     }
     Ok(Curve {
@@ -193,6 +188,16 @@ fn ways(ours: &Method) -> [Way; 4] {
     ]
 }
 
+/// What came of each way at one place of a curve.
+fn points_at(x: f64, ways: &[Way], outcomes: Vec<Outcome>) -> impl Iterator<Item = Point> {
+    ways.iter().zip(outcomes).map(move |(way, outcome)| Point {
+        x,
+        method: way.whose,
+        antialiasing: way.antialiasing(),
+        outcome,
+    })
+}
+
 fn curve(
     along: &'static str,
     stages: Vec<(f64, Stage)>,
@@ -212,12 +217,7 @@ fn curve(
             .map(|way| worker.ready(&scene, &prepared, &way.method))
             .collect();
         let outcomes = by_turns(worker, &scene, &prepared, &ready, &thoroughness.effort)?;
-        points.extend(ways.iter().zip(outcomes).map(|(way, outcome)| Point {
-            x,
-            method: way.whose,
-            antialiasing: way.antialiasing(),
-            outcome,
-        }));
+        points.extend(points_at(x, ways, outcomes));
         progress.set((i + 1) as f64 / count as f64);
     }
     Ok(Curve { along, points })
