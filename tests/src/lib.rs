@@ -48,6 +48,7 @@ pub fn square(base: Base, half_side_m: f32, size_px: u32) -> Scene {
             size_px: [size_px; 2],
             filter_std_px: 0.5,
             tone_map: Default::default(),
+            gather: Default::default(),
         },
         environment: None,
         textures: Arc::default(),

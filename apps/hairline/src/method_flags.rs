@@ -41,7 +41,7 @@ pub struct MethodFlags {
     /// How the scratches under a pixel are found.
     #[arg(long, value_enum)]
     pub index: Option<Index>,
-    /// Whether many scratches under a pixel may be taken together. On the CPU only as yet. [default: exact]
+    /// Whether many scratches under a pixel may be taken together. [default: what the scene says]
     #[arg(long, value_enum)]
     pub gather: Option<GatherFlag>,
 }
@@ -186,6 +186,15 @@ impl MethodFlags {
             )));
         }
         Ok(method)
+    }
+
+    /// What takes the place of a scene's own wish: what the flag says, and every scratch for itself where `method`, which these
+    /// flags asked for, knows nothing else.
+    pub fn gather_override(&self, method: &Method) -> Option<Gather> {
+        match self.gather {
+            Some(gather) => Some(gather.into()),
+            None => (!method.is_default_path()).then_some(Gather::Exact),
+        }
     }
 
     /// The fewest flags that ask for `method`.

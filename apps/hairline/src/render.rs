@@ -20,7 +20,7 @@ use motion::Motion;
 
 /// Loads, renders and writes.
 pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
-    let method = arguments.method.method()?;
+    let mut method = arguments.method.method()?;
     let motion = Motion::of(&arguments.sequence)?;
     // Before the work: nobody should wait for a picture that then has no place to go.
     let target = match &motion {
@@ -31,8 +31,10 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
         size_px: arguments.size,
         exposure_ev: arguments.exposure,
         scratch_seed: arguments.seed,
+        gather: arguments.method.gather_override(&method),
     };
     let loaded = scene_file::load(arguments.scene.as_deref(), &overrides)?;
+    method.gather = loaded.scene.render.gather;
     if let Some(motion) = &motion {
         motion.check(&loaded.description.camera)?;
     }

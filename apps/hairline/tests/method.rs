@@ -52,3 +52,25 @@ fn a_picture_remembers_another_method_than_the_default() {
     assert_ne!(pictures[0].density, pictures[1].density);
     assert_ne!(pictures[0].density, pictures[2].density);
 }
+
+#[test]
+fn a_scene_says_whether_scratches_are_taken_together_and_a_flag_says_otherwise() {
+    let wish = "[render]\ngather = \"clusters\"";
+    let folder = folder_with("wish.toml", &SCRATCHED.replacen("[render]", wish, 1));
+    for (flags, right) in [
+        ("", "--gather clusters"),
+        ("--gather clusters", "--gather clusters"),
+        ("--gather exact", ""),
+        ("--mask density", "--mask density --gather clusters"),
+        // Which knows no clusters, and need not be told so.
+        ("--method published", "--method published"),
+        ("--footprint published", "--footprint published"),
+    ] {
+        let arguments =
+            format!("render wish.toml -o out.exr --backend cpu --size 8x4 --samples 1 {flags}");
+        hairline(folder.path(), &arguments).success();
+        let (_, notes) = exr_file::read_image_with_notes(&folder.path().join("out.exr")).unwrap();
+        let noted = notes.get("method").map_or("", String::as_str);
+        assert_eq!(noted, right, "{flags}");
+    }
+}

@@ -125,14 +125,14 @@ pub enum Lookup {
     Triangles,
 }
 
-/// Whether many scratches may be taken as one (docs/model.md, section 7). On the CPU only, and on the default path; elsewhere
-/// every scratch is taken for itself.
+/// Whether many scratches may be taken together (docs/model.md, section 7). On the default path; elsewhere every scratch is taken
+/// for itself.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Gather {
     /// Every scratch under the pixel for itself.
     #[default]
     Exact,
-    /// Bundles that are thin against the pixel's footprint as one scratch each.
+    /// Where a footprint covers many, what they add up to.
     Clusters,
 }
 

@@ -103,6 +103,13 @@ impl<'a> Prepared<'a> {
         }
     }
 
+    /// Takes what many scratches add up to as it was built before, for [`Gather::Clusters`]: of a scene as for
+    /// [`Self::from_parts`].
+    pub fn with_bundles(mut self, bundles: Arc<Bundles>) -> Self {
+        self.bundles = bundles.into();
+        self
+    }
+
     /// The same for a scene that differs in what none of this looks at: camera, lights, environment, settings.
     pub fn with_scene<'b>(&self, scene: &'b Scene) -> Prepared<'b> {
         Prepared {

@@ -18,6 +18,7 @@ use std::path::{Path, PathBuf};
 
 use hairline_image::ToneMap;
 use hairline_optics::metal::Metal;
+use hairline_optics::method::Gather;
 use serde::{Serialize, Serializer};
 
 use crate::error::Error;
@@ -76,6 +77,9 @@ pub struct Render {
     /// `"neutral"` (default), `"agx"`, `"aces"` or `"none"`.
     #[serde(serialize_with = "serialize_named")]
     pub tone_map: ToneMap,
+    /// Whether many scratches under a pixel may be taken together: `"exact"` (default), `"clusters"`.
+    #[serde(serialize_with = "serialize_named", skip_serializing_if = "is_exact")]
+    pub gather: Gather,
 }
 
 impl Default for Render {
@@ -84,6 +88,7 @@ impl Default for Render {
             size_px: [1280, 720],
             filter_std_px: 0.5,
             tone_map: ToneMap::Neutral,
+            gather: Gather::Exact,
         }
     }
 }
@@ -314,6 +319,11 @@ impl Named for ToneMap {
     ];
 }
 
+impl Named for Gather {
+    const NAMES: &'static [(&'static str, Self)] =
+        &[("exact", Gather::Exact), ("clusters", Gather::Clusters)];
+}
+
 impl Named for Metal {
     const NAMES: &'static [(&'static str, Self)] = &[
         ("iron", Metal::Iron),
@@ -331,6 +341,10 @@ impl Named for Metal {
 
 fn is_false(value: &bool) -> bool {
     !value
+}
+
+fn is_exact(value: &Gather) -> bool {
+    *value == Gather::Exact
 }
 
 fn serialize_named<T: Named, S: Serializer>(value: &T, serializer: S) -> Result<S::Ok, S::Error> {

@@ -147,6 +147,7 @@ pub(crate) fn without_surfaces(description: &Description) -> Scene {
             size_px: description.render.size_px,
             filter_std_px: description.render.filter_std_px,
             tone_map: description.render.tone_map,
+            gather: description.render.gather,
         },
         environment: None,
         textures: Arc::default(),

@@ -58,6 +58,9 @@ pub struct RenderSettings {
     pub filter_std_px: f64,
     /// The curve from linear radiance to the display.
     pub tone_map: hairline_image::ToneMap,
+    /// Whether many scratches under a pixel may be taken together (docs/model.md, section 7). The author's wish: a renderer
+    /// computes by the method that it is given.
+    pub gather: hairline_optics::method::Gather,
 }
 
 /// What a surface is made of.

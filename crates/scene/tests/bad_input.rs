@@ -122,6 +122,10 @@ fn wrong_types() {
             "plate.toml:12: render.tone_map: found the text \"filmic\"; must be one of `neutral`, `agx`, `aces` and `none`",
         ),
         (
+            "[render]\ngather = \"few\"",
+            "plate.toml:12: render.gather: found the text \"few\"; must be one of `exact` and `clusters`",
+        ),
+        (
             "[[material]]\nname = \"m\"\nkind = \"metal\"\nmetal = \"aluminum\"",
             "plate.toml:14: material[1].metal: found the text \"aluminum\"; did you mean `aluminium`?",
         ),

@@ -7,6 +7,7 @@ use std::path::Path;
 use common::{asset, scene_with, temporary_dir};
 use hairline_image::ToneMap;
 use hairline_optics::metal::Metal;
+use hairline_optics::method::Gather;
 use hairline_scene::description::*;
 use hairline_scene::{Base, Light as SceneLight, Scene, description};
 
@@ -183,6 +184,7 @@ fn everything() -> Description {
             size_px: [1, 16_384],
             filter_std_px: 0.7,
             tone_map: ToneMap::Agx,
+            gather: Gather::Clusters,
         },
         environment: Some(Environment {
             file: "a.exr".into(),

@@ -300,9 +300,10 @@ fn built_in(text: &str) -> Result<Document, hairline_scene::Error> {
 }
 
 /// Whether only the view, the exposure or the way of showing differs, which the painter is told without a new scene. The
-/// camera's up is left to the builder: it turns the environment.
+/// camera's up is left to the builder: it turns the environment; and so is how scratches are gathered, which may take grids.
 fn makes_same_scene(a: &Description, b: &Description) -> bool {
     a.camera.up == b.camera.up
+        && a.render.gather == b.render.gather
         && a.environment == b.environment
         && a.materials == b.materials
         && a.objects == b.objects

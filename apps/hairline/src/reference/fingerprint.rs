@@ -21,6 +21,8 @@ pub fn fingerprint(description: &Description, folder: &Path) -> Result<String> {
     described.camera.exposure_ev = 0.0;
     described.render.tone_map = hairline_image::ToneMap::default();
     described.render.size_px = [0, 0];
+    // A reference takes every scratch for itself.
+    described.render.gather = hairline_optics::method::Gather::Exact;
     let by_content = |file: &mut PathBuf, digest: fn(&Path) -> Result<String>| -> Result<()> {
         *file = digest(&folder.join(&*file))?.into();
         Ok(())
@@ -166,6 +168,7 @@ file = "lines.csv"
             ("[camera]", "[camera]\nexposure_ev = 2.0"),
             ("[camera]", "[render]\ntone_map = \"aces\"\n[camera]"),
             ("[camera]", "[render]\nsize_px = [10, 10]\n[camera]"),
+            ("[camera]", "[render]\ngather = \"clusters\"\n[camera]"),
             ("[camera]", "# A comment.\n[camera]"),
             // A default, written out.
             ("[camera]", "[camera]\nfov_y_deg = 30"),

@@ -55,12 +55,17 @@ impl Read for Camera {
 
 impl Read for Render {
     fn read(value: &Value, key: &str) -> Result<Self, Error> {
-        let table = Table::read(value, key, &["size_px", "filter_std_px", "tone_map"])?;
+        let table = Table::read(
+            value,
+            key,
+            &["size_px", "filter_std_px", "tone_map", "gather"],
+        )?;
         let default = Self::default();
         Ok(Self {
             size_px: table.or("size_px", default.size_px)?,
             filter_std_px: table.or("filter_std_px", default.filter_std_px)?,
             tone_map: table.or("tone_map", default.tone_map)?,
+            gather: table.or("gather", default.gather)?,
         })
     }
 }

@@ -1,10 +1,12 @@
 //! A description made ready to be painted.
 
 use std::path::Path;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
+use hairline_index::bundles::Bundles;
 use hairline_index::{ScratchIndex, TriangleIndex, Watch};
+use hairline_optics::method::{Gather, Method};
 use hairline_scene::description::Description;
 use hairline_scene::{Loader, Scene, SceneBuilder, ScratchTables};
 use web_time::Instant;
@@ -27,6 +29,8 @@ pub struct Built {
     pub tables: Arc<ScratchTables>,
     /// How long each stage took.
     pub stages: BuildStages,
+    /// What many scratches add up to; see [`Self::bundles`].
+    bundles: Arc<OnceLock<Arc<Bundles>>>,
 }
 
 /// How long a scene waited and took.
@@ -40,9 +44,35 @@ pub struct BuildStages {
     pub index: Duration,
     /// Spectral tables.
     pub tables: Duration,
+    /// Grids of many scratches, where the CPU needs them.
+    pub grids: Duration,
 }
 
 impl Built {
+    /// By which method it is painted, compared and exported.
+    pub fn method(&self) -> Method {
+        Method {
+            gather: self.scene.render.gather,
+            ..Method::default()
+        }
+    }
+
+    /// What many scratches add up to, for the CPU renderer; none where the scene wants every scratch for itself. Built when first
+    /// asked for, by the builder or by a thread that is of no pool: one that is might take up a picture meanwhile that waits for it.
+    pub fn bundles(&self) -> Option<Arc<Bundles>> {
+        let build = || Bundles::new(&self.scene, &self.tables).into();
+        let is_wanted = self.scene.render.gather == Gather::Clusters;
+        is_wanted.then(|| Arc::clone(self.bundles.get_or_init(build)))
+    }
+
+    /// Builds what [`Self::bundles`] returns, and notes how long it takes.
+    pub(super) fn make_bundles(&mut self) {
+        let start = Instant::now();
+        if self.bundles().is_some() {
+            self.stages.grids = start.elapsed();
+        }
+    }
+
     /// How many scratches and straight pieces it has.
     pub fn scratch_counts(&self) -> (usize, usize) {
         self.scene
@@ -69,6 +99,7 @@ struct Kept {
     triangles: Arc<TriangleIndex>,
     scratches: Arc<ScratchIndex>,
     tables: Arc<ScratchTables>,
+    bundles: Arc<OnceLock<Arc<Bundles>>>,
 }
 
 impl Workshop {
@@ -118,11 +149,24 @@ impl Workshop {
             Some(last) if has_same_optics(&last.scene, &scene) => Arc::clone(&last.tables),
             _ => Arc::new(ScratchTables::new(&scene)),
         };
+        // Nobody keeps grids that nobody wants.
+        let is_clustered = scene.render.gather == Gather::Clusters;
+        let bundles = match last {
+            Some(last)
+                if is_clustered
+                    && Arc::ptr_eq(&last.scratches, &scratches)
+                    && Arc::ptr_eq(&last.tables, &tables) =>
+            {
+                Arc::clone(&last.bundles)
+            }
+            _ => Arc::default(),
+        };
         self.last = Some(Kept {
             scene: scene.clone(),
             triangles: Arc::clone(&triangles),
             scratches: Arc::clone(&scratches),
             tables: Arc::clone(&tables),
+            bundles: Arc::clone(&bundles),
         });
         Ok(Some(Built {
             revision,
@@ -137,7 +181,9 @@ impl Workshop {
                 scene: scene_done - start,
                 index: index_done - scene_done,
                 tables: index_done.elapsed(),
+                grids: Duration::ZERO,
             },
+            bundles,
         }))
     }
 }

@@ -106,6 +106,8 @@ impl Easel for CpuEasel {
         };
         let scene = scene_seen(order, step);
         let samples = step.samples;
+        // On a thread of no pool.
+        order.built.bundles();
         let is_done = pool::Crew::Painter
             .install(|| bands.go_on(&order.built, &scene, samples, &|_| !interrupted()));
         if !is_done {
@@ -153,7 +155,8 @@ fn scene_seen(order: &Order, step: &Step) -> Scene {
 }
 
 /// Renders `scene`, which is that of `built` from elsewhere, in bands of `band_px` pixels at first, then of as many as are
-/// soon done. `go_on` is told before each which share of the picture is done; when it says no, there is no picture.
+/// soon done. `go_on` is told before each which share of the picture is done; when it says no, there is no picture. Not for a thread of
+/// a pool: see [`Built::bundles`].
 pub(crate) fn render(
     built: &Built,
     scene: &Scene,
@@ -198,15 +201,18 @@ impl Bands {
         samples: u32,
         go_on: &dyn Fn(f64) -> bool,
     ) -> bool {
-        let prepared = Prepared::from_parts(
+        let mut prepared = Prepared::from_parts(
             scene,
             Arc::clone(&built.triangles),
             Arc::clone(&built.scratches),
             Arc::clone(&built.tables),
         );
+        if let Some(bundles) = built.bundles() {
+            prepared = prepared.with_bundles(bundles);
+        }
         let options = RenderOptions {
             samples,
-            ..Default::default()
+            method: built.method(),
         };
         let [width, height] = scene.render.size_px;
         // A row is the least that a thread takes.

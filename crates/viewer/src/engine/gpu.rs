@@ -8,7 +8,6 @@ use hairline_gpu::canvas::Canvas;
 use hairline_gpu::{
     AdapterKind, AdapterRequest, Error, Gpu, GpuScene, PassTime, Renderer, headless,
 };
-use hairline_optics::method::Method;
 use hairline_scene::Scene;
 use web_time::Instant;
 
@@ -116,7 +115,7 @@ impl Easel for GpuEasel {
             tables,
             ..
         } = &*order.built;
-        let method = Method::default();
+        let method = order.built.method();
         match &mut self.uploaded {
             Some((last, uploaded)) => {
                 gpu.block_on(

@@ -7,8 +7,6 @@ use hairline_editor::navigate;
 #[cfg(not(target_arch = "wasm32"))]
 use hairline_gpu::{AdapterKind, Gpu, GpuScene, RenderOptions, Renderer};
 use hairline_image::{Display, Image, Output};
-#[cfg(not(target_arch = "wasm32"))]
-use hairline_optics::method::Method;
 use hairline_scene::{Description, Scene};
 
 use crate::engine::{Backend, Built, Wake, cpu};
@@ -207,7 +205,7 @@ impl Painter {
         } = built;
         gpu.block_on(async {
             let mut renderer = Renderer::new(gpu).await?;
-            let method = Method::default();
+            let method = built.method();
             let uploaded = renderer.upload(scene, scratches, tables, &method).await?;
             Ok(Self::Gpu {
                 renderer: Box::new(renderer),

@@ -67,6 +67,7 @@ fn latency_text(latency: &Latency) -> String {
         ("scratches laid", build.scene),
         ("trees", build.index),
         ("tables", build.tables),
+        ("grids", build.grids),
         ("upload", latency.upload),
         ("first picture", latency.paint),
         ("in all", latency.total),

@@ -34,11 +34,14 @@ pub fn viewer(scene: &'static str) -> Harness<'static, Viewer> {
 
 /// The same with other options.
 pub fn viewer_with(options: Options) -> Harness<'static, Viewer> {
-    Harness::builder()
-        .with_size([1280.0, 800.0])
-        .build_eframe(|cc| {
-            Viewer::new(&cc.egui_ctx, None, options).expect("the test's scene is good")
-        })
+    viewer_of(options, [1280.0, 800.0])
+}
+
+/// The same in another size.
+pub fn viewer_of(options: Options, size: [f32; 2]) -> Harness<'static, Viewer> {
+    Harness::builder().with_size(size).build_eframe(|cc| {
+        Viewer::new(&cc.egui_ctx, None, options).expect("the test's scene is good")
+    })
 }
 
 /// Passes until `is_done`.
