@@ -121,7 +121,7 @@ struct Film {
 // Which tiles are shaded how: three counts for each queue of tile_queues.wgsl, then the queues.
 struct TileQueues {
     counts: array<atomic<u32>, 12>,
-    tiles: array<u32>,
+    tiles: array<atomic<u32>>,
 }
 
 // How a film is shown.

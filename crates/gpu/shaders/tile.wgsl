@@ -2,8 +2,11 @@
 
 // Pixels to a side of a tile.
 const TILE_PX: u32 = 8u;
-// Texels of a tile before its list: how many entries it has, and how far off their lines may be.
+// Texels of a tile before its list: how many entries it has.
 const TILE_HEAD: u32 = 1u;
+// Entries of a list come in blocks, with as many texels as a tile has rows. Texel `i` of a block holds the block's segment `i`,
+// and in its next two words, for row `i` of pixels, a byte for each segment of the block: which of the row's pixels it is near to.
+const TILE_BLOCK: u32 = 8u;
 
 // Tiles across the film, and down it.
 fn tile_counts() -> vec2u {
@@ -29,21 +32,4 @@ fn tile_middle_px(corner: vec2u) -> vec2f {
 // A ray of the camera, one along the view axis.
 fn tile_ray(at_px: vec2f) -> vec3f {
     return frame.forward + frame.per_px_x * at_px.x + frame.per_px_y * at_px.y;
-}
-
-// A line in the picture as the tile's pixels see it: unit normal in steps of 1/511, distance from the tile's middle in steps of
-// 1/127 px. Zero stands for one that runs through every pixel.
-fn pack_tile_line(normal: vec2f, offset_px: f32) -> u32 {
-    if !(abs(offset_px) < 16.0) {
-        return 0u;
-    }
-    let n = vec2i(round(normal * 511.0));
-    return insertBits(insertBits(u32(n.x) & 0x3ffu, u32(n.y), 10u, 10u), u32(i32(round(offset_px * 127.0))), 20u, 12u);
-}
-
-// Its normal, and the distance.
-fn unpack_tile_line(line: u32) -> vec3f {
-    let packed = bitcast<i32>(line);
-    let steps = vec3f(vec3i(extractBits(packed, 0u, 10u), extractBits(packed, 10u, 10u), extractBits(packed, 20u, 12u)));
-    return steps / vec3f(511.0, 511.0, 127.0);
 }

@@ -15,10 +15,21 @@ const QUEUE_BUNDLED: u32 = 3u;
 fn queue_push(queue: u32, tile: u32) {
     let place = atomicAdd(&queues.counts[3u * queue], 1u);
     let tiles = tile_counts();
-    queues.tiles[queue * tiles.x * tiles.y + place] = tile;
+    atomicStore(&queues.tiles[queue * tiles.x * tiles.y + place], tile);
+}
+
+// Set in an entry of QUEUE_LISTED once its tile is in QUEUE_WALKED too.
+const QUEUE_MOVED: u32 = 0x80000000u;
+
+// Has a listed tile's pixels walk for themselves as well: the first pixel that asks puts it in the queue.
+fn queue_move(place: u32) {
+    let tile = atomicOr(&queues.tiles[place], QUEUE_MOVED);
+    if (tile & QUEUE_MOVED) == 0u {
+        queue_push(QUEUE_WALKED, tile);
+    }
 }
 
 fn queue_tile(queue: u32, place: u32) -> u32 {
     let tiles = tile_counts();
-    return queues.tiles[queue * tiles.x * tiles.y + place];
+    return atomicLoad(&queues.tiles[queue * tiles.x * tiles.y + place]) & ~QUEUE_MOVED;
 }

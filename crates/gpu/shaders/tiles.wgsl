@@ -2,11 +2,12 @@
 // serves 64 pixels.
 
 @group(3) @binding(0) var tile_visibility: texture_2d<u32>;
-@group(3) @binding(1) var tile_lists_out: texture_storage_2d<rg32uint, write>;
+@group(3) @binding(1) var tile_lists_out: texture_storage_2d<rgba32uint, write>;
 
-// The line's distance is rounded, and the surface is a plane within a tile only nearly.
-const TILE_MARGIN: f32 = 1.15;
-const TILE_MARGIN_PX: f32 = 0.1;
+// How far a line reaches is known to rounding; where shading bends the surface, it is wrong by up to some of this for each part.
+const TILE_MARGIN: f32 = 1.02;
+const TILE_MARGIN_BENT: f32 = 2.6;
+const TILE_MARGIN_PX: f32 = 0.02;
 // Where shading bends the surface by more than this the footprint in the picture is not what the line tells.
 const TILE_BENT: f32 = 0.05;
 
@@ -16,7 +17,7 @@ struct TileSight {
     one_object: bool,
     lower_m: vec3f,             // a box that every footprint lies in
     upper_m: vec3f,
-    reach2_px: f32,             // the square of how far a line may be from a pixel that sees its scratch
+    reach2_px: vec2f,           // the squares of how far a pixel that sees a scratch may be from its line, and beyond its ends
 }
 
 @compute @workgroup_size(64)
@@ -41,20 +42,26 @@ fn tiles(
         at = object.first_node;
         end = object.end_node;
     }
-    // In two loops by turns: what leaves hold is found, and looked at.
+    // In three loops by turns: what leaves hold is found, looked at, and what is left of it written.
     var segments: array<u32, FIND_SEGMENTS>;
+    var pixels: array<vec2u, FIND_SEGMENTS>;
     while at < end && found + TILE_HEAD + FIND_SEGMENTS <= frame.tile_entries && gather_rounds < GATHER_MAX_ROUNDS {
         let count = find_segments(sight.lower_m, sight.upper_m, end, FIND_SEGMENTS, &at, &segments);
+        var kept = 0u;
         for (var i = 0u; i < count; i += 1u) {
             gather_rounds += 1u;
-            let line = tile_line(segments[i], corner, sight);
-            if line.touches {
-                textureStore(tile_lists_out, row_texel(first + TILE_HEAD + found), vec4u(segments[i], line.packed, 0u, 0u));
-                found += 1u;
-            }
+            let near = tile_pixels_near(segments[i], corner, sight);
+            segments[kept] = segments[i];
+            pixels[kept] = near;
+            kept += u32(any(near != vec2u(0u)));
+        }
+        for (var i = 0u; i < kept; i += TILE_BLOCK) {
+            gather_rounds += 1u;
+            tile_write_block(first + TILE_HEAD + found, i, kept, &segments, &pixels);
+            found += TILE_BLOCK;
         }
     }
-    textureStore(tile_lists_out, row_texel(first), vec4u(found, bitcast<u32>(sqrt(sight.reach2_px)), 0u, 0u));
+    textureStore(tile_lists_out, row_texel(first), vec4u(found, 0u, 0u, 0u));
     if sight.object == 0u {
         queue_push(QUEUE_EMPTY, tile);
     } else if sight.one_object && at >= end {
@@ -65,7 +72,7 @@ fn tiles(
 }
 
 fn tile_sight(corner: vec2u) -> TileSight {
-    var sight = TileSight(0u, true, vec3f(1e30), vec3f(-1e30), 0.0);
+    var sight = TileSight(0u, true, vec3f(1e30), vec3f(-1e30), vec2f(0.0));
     let middle = tile_middle_px(corner);
     for (var i = 0u; i < TILE_PX * TILE_PX; i += 1u) {
         gather_rounds += 1u;
@@ -92,8 +99,8 @@ fn tile_sight(corner: vec2u) -> TileSight {
     return sight;
 }
 
-// The square of the distance in pixels beyond which a scratch's line does not touch a pixel.
-fn tile_reach2_px(point: SurfacePoint, ray: vec3f) -> f32 {
+// The squares of the distances in pixels beyond which a scratch does not touch a pixel: from its line, and along it from its ends.
+fn tile_reach2_px(point: SurfacePoint, ray: vec3f) -> vec2f {
     let bent = abs(dot(ray, point.normal) / dot(ray, point.facet) - 1.0);
     // The side of a pixel on the surface where it is narrowest: the least singular value of its two steps.
     let step = max(frame.footprint_std_px, 1e-9);
@@ -103,29 +110,40 @@ fn tile_reach2_px(point: SurfacePoint, ray: vec3f) -> f32 {
     let product = dot(x, x) * dot(y, y) - dot(x, y) * dot(x, y);
     let narrowest2 = product / max(mean + sqrt(max(mean * mean - product, 0.0)), 1e-37);
     if !(narrowest2 > 0.0) {
-        return 1e30;
+        return vec2f(1e30);
     }
     let sigma_m = point.coherence_um * 1e-6;
     let filter_px = frame.footprint_std_px * gather_filtered();
-    let reach = TILE_MARGIN * REACH_STD * sqrt(filter_px * filter_px + 0.5 * sigma_m * sigma_m / narrowest2) + TILE_MARGIN_PX;
-    return select(1e30, reach * reach, bent < TILE_BENT);
+    // The window's variance, and that of the blur at an end.
+    let variance = filter_px * filter_px + vec2f(0.5, 0.7) * (sigma_m * sigma_m / narrowest2);
+    let reach = (TILE_MARGIN + TILE_MARGIN_BENT * bent) * REACH_STD * sqrt(variance) + TILE_MARGIN_PX;
+    return select(vec2f(1e30), reach * reach, bent < TILE_BENT);
 }
 
-struct TileLine {
-    packed: u32,
-    touches: bool,              // any pixel of the tile
-}
-
-// A segment's line in the picture.
-fn tile_line(index: u32, corner: vec2u, sight: TileSight) -> TileLine {
+// The tile's pixels that a segment is near to: a byte for each row, the first four in x.
+fn tile_pixels_near(index: u32, corner: vec2u, sight: TileSight) -> vec2u {
     let segment = scratch_segment(index);
     let in_box = all(min(segment.start_m, segment.end_m) <= sight.upper_m)
         && all(max(segment.start_m, segment.end_m) >= sight.lower_m);
     let seen = segment_seen(segment.start_m, segment.end_m, tile_middle_px(corner));
-    if !seen.has_line {
-        return TileLine(0u, in_box);
+    let near = tile_near(seen.start_px, seen.end_px, seen.normal, sqrt(sight.reach2_px), tile_at_px(vec2u(0u)));
+    return select(vec2u(0u), select(vec2u(0xffffffffu), near, seen.has_line), in_box);
+}
+
+// Writes the block of segments from `begin` on to the list. Beyond `kept` there are none: no pixel is near to them.
+fn tile_write_block(
+    at: u32,
+    begin: u32,
+    kept: u32,
+    segments: ptr<function, array<u32, FIND_SEGMENTS>>,
+    pixels: ptr<function, array<vec2u, FIND_SEGMENTS>>,
+) {
+    var near: array<vec2u, TILE_BLOCK>;
+    for (var i = 0u; i < TILE_BLOCK; i += 1u) {
+        near[i] = select(vec2u(0u), (*pixels)[begin + i], begin + i < kept);
     }
-    // Half the diagonal of the pixels' centres, and a jitter.
-    let touches = abs(seen.offset_px) <= 0.7072 * f32(TILE_PX) + sqrt(sight.reach2_px);
-    return TileLine(pack_tile_line(seen.normal, seen.offset_px), in_box && touches);
+    let rows = tile_rows(near);
+    for (var i = 0u; i < TILE_BLOCK; i += 1u) {
+        textureStore(tile_lists_out, row_texel(at + i), vec4u((*segments)[begin + i], rows[i], 0u));
+    }
 }

@@ -101,6 +101,8 @@ modules! {
     FILM = "film" needs [BINDINGS, WALK];
     /// Tiles of the picture.
     TILE = "tile" needs [BINDINGS];
+    /// Which pixels of a tile a line comes near to.
+    TILE_NEAR = "tile_near" needs [];
     /// The list of a triangle's scratches, as a walk goes through it.
     LISTED = "listed" needs [WALK, TRIANGLE_LISTS];
     /// Area lights from a surface point.
@@ -143,7 +145,7 @@ modules! {
     /// Pass: from what is visible to radiance, pixel by pixel.
     SHADE = "shade" needs [HIT, GATHER, BUNDLE_FOOTPRINT, SHADE_POINT, TILE_QUEUES];
     /// Pass: from what is visible to radiance, in tiles that have a list of scratches.
-    SHADE_TILES = "shade_tiles" needs [HIT, GATHER, BUNDLE_FOOTPRINT, SHADE_POINT, TILE_QUEUES, SEGMENT_SEEN];
+    SHADE_TILES = "shade_tiles" needs [HIT, GATHER, BUNDLE_FOOTPRINT, SHADE_POINT, TILE_QUEUES, TILE_NEAR];
     /// Pass: which tiles have pixels whose footprints cover many scratches.
     BUNDLE_TILES = "bundle_tiles" needs [HIT, BUNDLE_FOOTPRINT, TILE_QUEUES, SHADE_POINT];
     /// Pass: what many scratches under a pixel add up to.
@@ -151,7 +153,7 @@ modules! {
     /// Pass: tiles that show no object.
     BACKGROUND = "background" needs [SHADE_POINT, TILE_QUEUES];
     /// Pass: the scratches that each tile of pixels may see.
-    TILES = "tiles" needs [HIT, FIND, BUNDLE_FOOTPRINT, TILE_QUEUES, SEGMENT_SEEN];
+    TILES = "tiles" needs [HIT, FIND, BUNDLE_FOOTPRINT, TILE_QUEUES, TILE_NEAR, SEGMENT_SEEN];
     /// Pass: from what is visible to radiance by the method of 2018.
     SHADE_PUBLISHED = "shade_published" needs [HIT, PUBLISHED_GATHER, PUBLISHED_BASE, SHADE_POINT];
     /// Pass: the film on a display.

@@ -7,8 +7,8 @@ use crate::device::Gpu;
 use crate::error::Error;
 use crate::rows::ROW_TEXELS;
 
-/// A segment and its line in the picture.
-pub(crate) const TILE_LISTS_FORMAT: TextureFormat = TextureFormat::Rg32Uint;
+/// A segment, and for each segment of a block its pixels in one row.
+pub(crate) const TILE_LISTS_FORMAT: TextureFormat = TextureFormat::Rgba32Uint;
 /// Pixels to a side of a tile. Twin: tile.wgsl.
 pub(crate) const TILE_PX: u32 = 8;
 /// Workgroups that every WebGPU device takes in one dispatch: one for each tile.

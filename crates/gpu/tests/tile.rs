@@ -1,69 +1,131 @@
-//! Lines of scratches in a tile of pixels: what packing loses stays within the margin that the tiles' pass adds.
+//! Lines of scratches in a tile of pixels: what is written of them is what their distances say.
 
 use hairline_gpu::call::Call;
 use hairline_gpu::headless::test_gpu;
 use hairline_gpu::shaders;
 
-/// TILE_MARGIN_PX of tiles.wgsl.
-const MARGIN_PX: f32 = 0.1;
-/// Where a sample of the tile lies at most from its middle: the outermost pixel's centre and a jitter of half a pixel.
-const REACH_PX: f32 = 4.0;
+const TILE_PX: usize = 8;
+/// Roundings of single precision over distances of some ten pixels; nearly level lines take the place of level ones, which
+/// moves them by a thousandth of a pixel.
+const TOLERANCE_PX: f32 = 2e-3;
 
 fn pseudo_random(i: u32) -> f32 {
     (f64::from(i) * 0.618_033_988_749_895).fract() as f32
 }
 
-/// The distances that a packed line has from some points, and whether it is the one that touches all.
-fn packed(rows: &[[f32; 5]]) -> Option<Vec<[f32; 2]>> {
-    let gpu = test_gpu()?;
+/// Ends of a line from the tile's middle, how far pixels see it across and beyond its ends, and a jitter.
+fn lines() -> Vec<[f32; 8]> {
+    let line = |i: u32| {
+        let angle = match i % 5 {
+            // Level, upright and diagonal ones.
+            0 => (i / 5 % 8) as f32 * std::f32::consts::FRAC_PI_4,
+            _ => pseudo_random(i) * std::f32::consts::TAU,
+        };
+        let middle = [11, 13].map(|k| 8.0 * (2.0 * pseudo_random(k * i + 5) - 1.0));
+        let half = [0.2, 2.0, 30.0][i as usize % 3] * (0.5 + pseudo_random(7 * i + 3));
+        let [x, y] = [half * angle.cos(), half * angle.sin()];
+        let reach = [17, 19].map(|k| 0.2 + 3.0 * pseudo_random(k * i + 1).powi(2));
+        let jitter = [23, 29].map(|k| pseudo_random(k * i + 2) - 0.5);
+        [
+            middle[0] - x,
+            middle[1] - y,
+            middle[0] + x,
+            middle[1] + y,
+            reach[0],
+            reach[1],
+            jitter[0],
+            jitter[1],
+        ]
+    };
+    (0..6_000).map(line).collect()
+}
+
+/// By how much a pixel is within reach of a line, in pixels; negative beyond it.
+fn within_px(line: &[f32; 8], column: usize, row: usize) -> f32 {
+    let [ax, ay, bx, by, across, beyond, jx, jy] = *line;
+    let [x, y] = [column as f32 + 0.5 + jx - 4.0, row as f32 + 0.5 + jy - 4.0];
+    let [dx, dy] = [bx - ax, by - ay];
+    let distance = ((x - ax) * dy - (y - ay) * dx).abs() / dx.hypot(dy);
+    let outside = |v: f32, a: f32, b: f32| (a.min(b) - v).max(v - a.max(b));
+    (across - distance)
+        .min(beyond - outside(x, ax, bx))
+        .min(beyond - outside(y, ay, by))
+}
+
+const NEAR: &str = "let along = vec2f(x[2], x[3]) - vec2f(x[0], x[1]);
+    let normal = vec2f(-along.y, along.x) / length(along);
+    let first = vec2f(0.5 - 4.0) + vec2f(x[6], x[7]);
+    let near = tile_near(vec2f(x[0], x[1]), vec2f(x[2], x[3]), normal, vec2f(x[4], x[5]), first);";
+
+#[test]
+fn a_tile_knows_the_pixels_that_a_line_is_near_to() {
+    let Some(gpu) = test_gpu() else { return };
+    // Halves of words are whole numbers of single precision.
+    let snippet = format!(
+        "{NEAR}
+        y[0] = f32(near.x & 0xffffu);
+        y[1] = f32(near.x >> 16u);
+        y[2] = f32(near.y & 0xffffu);
+        y[3] = f32(near.y >> 16u);"
+    );
     let call = Call {
-        modules: &[&shaders::TILE],
-        snippet: "let line = pack_tile_line(vec2f(x[0], x[1]), x[2]);
-            let unpacked = unpack_tile_line(line);
-            y[0] = abs(dot(unpacked.xy, vec2f(x[3], x[4])) - unpacked.z);
-            y[1] = select(0.0, 1.0, line == 0u);",
+        modules: &[&shaders::TILE_NEAR],
+        snippet: &snippet,
         tables: &[],
     };
-    Some(gpu.block_on(call.run(gpu, rows)).unwrap())
+    let lines = lines();
+    let results: Vec<[f32; 4]> = gpu.block_on(call.run(gpu, &lines)).unwrap();
+    let (mut near, mut far) = (0, 0);
+    for (line, halves) in lines.iter().zip(results) {
+        for row in 0..TILE_PX {
+            for column in 0..TILE_PX {
+                let bit = halves[row / 2] as u32 >> (row % 2 * 8 + column) & 1;
+                let within = within_px(line, column, row);
+                match within {
+                    _ if within > TOLERANCE_PX => assert_eq!(bit, 1, "{line:?} {column} {row}"),
+                    _ if within < -TOLERANCE_PX => assert_eq!(bit, 0, "{line:?} {column} {row}"),
+                    _ => {}
+                }
+                near += bit;
+                far += 1 - bit;
+            }
+        }
+    }
+    assert!(near > 20_000 && far > 20_000, "{near} {far}");
 }
 
+/// What a pixel finds in the rows of eight lines is the bit that each line has for it.
 #[test]
-fn a_packed_line_lies_where_it_did() {
-    let rows: Vec<[f32; 5]> = (0..20_000)
-        .map(|i| {
-            let angle = match i % 10 {
-                // Level, upright and diagonal ones.
-                0 => (i / 10 % 8) as f32 * std::f32::consts::FRAC_PI_4,
-                _ => pseudo_random(i) * std::f32::consts::TAU,
-            };
-            let offset = 15.999 * (2.0 * pseudo_random(7 * i + 3) - 1.0);
-            let at = [11, 13].map(|k| REACH_PX * (2.0 * pseudo_random(k * i + 5) - 1.0));
-            [angle.cos(), angle.sin(), offset, at[0], at[1]]
-        })
-        .collect();
-    let Some(results) = packed(&rows) else { return };
-    for (row, [distance, touches_all]) in rows.iter().zip(results) {
-        let [nx, ny, offset, x, y] = *row;
-        let expected = (nx * x + ny * y - offset).abs();
-        // Half a step of the offset and of either component of the normal leave most of the margin to the surface's bend.
-        assert!(
-            (distance - expected).abs() < 0.2 * MARGIN_PX,
-            "{row:?}: {distance}, not {expected}"
-        );
-        assert_eq!(touches_all, 0.0, "{row:?}");
+fn a_pixel_finds_its_bits_of_eight_lines() {
+    let Some(gpu) = test_gpu() else { return };
+    let call = Call {
+        modules: &[&shaders::TILE_NEAR],
+        snippet: "var near: array<vec2u, 8>;
+            for (var i = 0u; i < 8u; i += 1u) {
+                let seed = u32(x[0]) * 8u + i + 1u;
+                near[i] = vec2u(seed * 2654435761u, seed * 2246822519u) ^ (vec2u(seed * 3266489917u) >> vec2u(9u));
+            }
+            let rows = tile_rows(near);
+            var wrong = 0u;
+            var ones = 0u;
+            for (var row = 0u; row < 8u; row += 1u) {
+                for (var column = 0u; column < 8u; column += 1u) {
+                    let bits = tile_row_bits(rows[row], column);
+                    for (var i = 0u; i < 8u; i += 1u) {
+                        let bit = (near[i][row / 4u] >> (row % 4u * 8u + column)) & 1u;
+                        wrong += u32(((bits >> i) & 1u) != bit);
+                        ones += bit;
+                    }
+                }
+            }
+            y[0] = f32(wrong);
+            y[1] = f32(ones);",
+        tables: &[],
+    };
+    let rows: Vec<[f32; 1]> = (0..64).map(|i| [i as f32]).collect();
+    let results: Vec<[f32; 2]> = gpu.block_on(call.run(gpu, &rows)).unwrap();
+    for [wrong, set] in results {
+        assert_eq!(wrong, 0.0);
+        assert!((128.0..384.0).contains(&set), "{set} of 512 bits are set");
     }
-}
-
-/// Lines that are too far off for the packing count as touching every pixel, as do lines of which nothing is known.
-#[test]
-fn a_line_out_of_range_touches_all() {
-    let far = [16.0, -16.0, 17.0, 1e6, -1e30, f32::INFINITY, f32::NAN];
-    let rows = far.map(|offset| [0.6, -0.8, offset, 3.5, -2.5]);
-    let Some(results) = packed(&rows) else { return };
-    for (row, result) in rows.iter().zip(results) {
-        assert_eq!(result, [0.0, 1.0], "{row:?}");
-    }
-    // Within the range by a step of the offset.
-    let near = packed(&[[0.6, -0.8, 15.99, 0.0, 0.0]]).unwrap();
-    assert_eq!(near[0][1], 0.0);
 }
