@@ -6,6 +6,8 @@ use std::fmt;
 use std::path::Path;
 use std::sync::Arc;
 
+use hairline_optics::method::Gather;
+
 use crate::description::references::find;
 use crate::description::{self, Description, Layer};
 use crate::error::Error;
@@ -157,9 +159,14 @@ impl<'a> Work<'a> {
     fn scratches(&mut self, surfaces: &[Arc<KeptSurface>], scene: &mut Scene) -> Result<(), Error> {
         let mut coats = self.coats(surfaces)?;
         let is_due = |coat: &Coat| coat.is_shown && coat.laid.is_none();
-        let used_bytes = coats.iter().filter(|coat| coat.is_shown);
-        let used_bytes = used_bytes.filter_map(|coat| coat.laid.as_ref());
-        let used_bytes = used_bytes.map(|kept| kept.laid.bytes()).sum();
+        let gather = self.description.render.gather;
+        let used = coats.iter().filter(|coat| coat.is_shown);
+        let used = used.filter_map(|coat| coat.laid.as_deref());
+        if gather == Gather::Clusters && self.old.gather != gather {
+            let segments = used.clone().map(|kept| kept.laid.segments.len()).sum();
+            scratches::check_grids(segments, self.loader.memory_budget_bytes as f64)?;
+        }
+        let used_bytes = used.map(|kept| kept.laid.bytes(gather)).sum();
         let tables: Vec<_> = coats
             .iter()
             .enumerate()
@@ -174,7 +181,7 @@ impl<'a> Work<'a> {
             .collect();
         // Before they are read.
         let stamps: Vec<_> = tables.iter().map(|t| self.stamp(t.layer)).collect();
-        let laid = scratches::lay(self.loader, &tables, self.base_dir, used_bytes)?;
+        let laid = scratches::lay(self.loader, &tables, self.base_dir, gather, used_bytes)?;
         drop(tables);
         let due = coats.iter_mut().filter(|coat| is_due(coat));
         for ((coat, laid), file) in due.zip(laid).zip(stamps) {
@@ -200,6 +207,7 @@ impl<'a> Work<'a> {
         }
         let laid = coats.into_iter().filter_map(|coat| coat.laid);
         self.new.layers = laid.collect();
+        self.new.gather = gather;
         Ok(())
     }
 

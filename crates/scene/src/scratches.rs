@@ -11,6 +11,7 @@ mod facet;
 mod ground;
 mod guide;
 mod listed;
+mod memory;
 mod neighbours;
 mod painted;
 mod random;
@@ -20,6 +21,7 @@ mod walk;
 
 use std::path::Path;
 
+use hairline_optics::method::Gather;
 use rayon::prelude::*;
 
 use crate::description::{Amount, Distribution, Layer, Stroke};
@@ -30,6 +32,9 @@ use crate::scene::{Scratch, Segment};
 use erase::Eraser;
 pub(crate) use ground::Ground;
 use listed::Listed;
+pub use memory::GRID_SEGMENT_BYTES;
+pub(crate) use memory::check_grids;
+use memory::{Demand, segment_bytes};
 use painted::Painted;
 use strewn::Strewn;
 use walk::{Course, Walker};
@@ -39,9 +44,6 @@ const WIDTHS_UM: (f64, f64) = (0.05, 100.0);
 /// Depths are kept within the spectral table's range.
 const DEPTHS_NM: (f64, f64) = (0.0, 2000.0);
 
-/// What renderers keep for a segment besides the scene: its effective form and its share of a tree, in main memory and once
-/// more on the GPU.
-const RENDERED_SEGMENT_BYTES: u64 = 160;
 /// The renderers' trees number the segments by 28 bits.
 const MOST_SEGMENTS: usize = 1 << 28;
 /// How many scratches are laid first to learn how many segments one has.
@@ -74,10 +76,9 @@ pub(crate) struct Laid {
 
 impl Laid {
     /// What it takes, here and in what renderers make of it.
-    pub(crate) fn bytes(&self) -> u64 {
-        let segment_bytes = size_of::<Segment>() as u64 + RENDERED_SEGMENT_BYTES;
-        (self.scratches.len() * size_of::<Scratch>()) as u64
-            + self.segments.len() as u64 * segment_bytes
+    pub(crate) fn bytes(&self, gather: Gather) -> f64 {
+        (self.scratches.len() * size_of::<Scratch>()) as f64
+            + self.segments.len() as f64 * segment_bytes(gather)
     }
 
     fn push(&mut self, groove: &Groove, course: Course, segments: std::ops::Range<usize>) {
@@ -131,21 +132,22 @@ struct Plan<'a> {
     count: u64,
 }
 
-/// Lays all layers, each for itself. Refuses before laying what would not fit into memory beside `used_bytes`.
+/// Lays all layers, each for itself. Refuses before laying what would not fit into memory beside `used_bytes`, gathered so.
 pub(crate) fn lay(
     loader: &Loader,
     tables: &[Table],
     base_dir: &Path,
-    used_bytes: u64,
+    gather: Gather,
+    mut used_bytes: f64,
 ) -> Result<Vec<Laid>, Error> {
     let mut plans = Vec::new();
     for table in tables {
         plans.push(Plan::new(table, base_dir)?);
     }
-    let mut used_bytes = used_bytes as f64;
     for plan in &plans {
         loader.go_on()?;
-        used_bytes = plan.check_memory(loader.memory_budget_bytes, used_bytes)?;
+        let free_bytes = (loader.memory_budget_bytes as f64 - used_bytes).max(0.0);
+        used_bytes += plan.check_memory(gather, free_bytes)?;
     }
 
     let total = plans.iter().map(|plan| plan.count).sum();
@@ -253,8 +255,8 @@ impl<'a> Plan<'a> {
         })
     }
 
-    /// Refuses a layer that would not fit into the budget beside what is used; returns what is used with it.
-    fn check_memory(&self, budget_bytes: u64, used_bytes: f64) -> Result<f64, Error> {
+    /// Refuses a layer that would not fit; returns what it takes.
+    fn check_memory(&self, gather: Gather, free_bytes: f64) -> Result<f64, Error> {
         // Few at first, lest scratches of a million segments fill the memory themselves.
         let mut pilots = 0;
         let mut pilot = Laid::default();
@@ -263,36 +265,22 @@ impl<'a> Plan<'a> {
             pilot = Laid::default();
             self.take(self.lay(0..pilots), &mut pilot)?;
         }
-        let segments_each = pilot.segments.len() as f64 / pilots.max(1) as f64;
-        let free_bytes = (budget_bytes as f64 - used_bytes).max(0.0);
-        let segment_bytes = size_of::<Segment>() as u64 + RENDERED_SEGMENT_BYTES;
-        let each_bytes = size_of::<Scratch>() as f64 + segments_each * segment_bytes as f64;
-        let bytes = each_bytes * self.count as f64;
-        let segments = segments_each * self.count as f64;
-        if bytes <= free_bytes && segments < MOST_SEGMENTS as f64 {
-            return Ok(used_bytes + bytes);
-        }
-        let key = match self.table.layer {
-            Layer::Listed(_) => "file",
-            Layer::Brushed(_) => "strokes",
-            Layer::Laid(laid) => match laid.amount {
-                Amount::Count(_) => "count",
-                Amount::DensityPerM2(_) => "density_per_m2",
-            },
+        let demand = Demand {
+            count: self.count,
+            segments_each: pilot.segments.len() as f64 / pilots.max(1) as f64,
+            gather,
         };
-        let fitting = (free_bytes / each_bytes).min(MOST_SEGMENTS as f64 / segments_each);
-        Err(Error::new(
-            format!("{}.{key}", self.table.key),
-            format!(
-                "found {} scratches, which would take about {} of memory in {segments:.1e} segments",
-                self.count,
-                gibibytes(bytes)
-            ),
-            format!(
-                "there are {} for them; ask for at most about {fitting:.1e}, or for shorter ones",
-                gibibytes(free_bytes)
-            ),
-        ))
+        demand.check(free_bytes, || {
+            let key = match self.table.layer {
+                Layer::Listed(_) => "file",
+                Layer::Brushed(_) => "strokes",
+                Layer::Laid(laid) => match laid.amount {
+                    Amount::Count(_) => "count",
+                    Amount::DensityPerM2(_) => "density_per_m2",
+                },
+            };
+            format!("{}.{key}", self.table.key)
+        })
     }
 
     /// In parts, each of its own.
@@ -345,8 +333,4 @@ impl<'a> Plan<'a> {
         }
         laid
     }
-}
-
-fn gibibytes(bytes: f64) -> String {
-    format!("{:.2} GiB", bytes / f64::from(1 << 30))
 }

@@ -400,3 +400,43 @@ fn clones_are_cheap() {
     // A busy machine is given a hundred times what it takes.
     assert!(each_us < 200.0, "{each_us} us");
 }
+
+#[test]
+fn grids_of_kept_scratches_are_refused_where_they_do_not_fit() {
+    let text = common::scene_with(
+        r#"
+[[object]]
+name = "disk"
+shape = { disk = { radius_m = 0.08 } }
+material = "steel"
+[[scratches]]
+object = "disk"
+pattern = "random"
+count = 20000
+length_m = 0.001
+"#,
+    );
+    let each = Description::from_toml(&text, Path::new("test.toml")).unwrap();
+    let mut added_up = each.clone();
+    added_up.render.gather = hairline_optics::method::Gather::Clusters;
+    let loader = |budget_mib: u64| Loader {
+        memory_budget_bytes: budget_mib << 20,
+        ..Loader::default()
+    };
+    let mut builder = SceneBuilder::new();
+    builder.build(&loader(8), &each, Path::new("")).unwrap();
+    let error = builder.build(&loader(8), &added_up, Path::new(""));
+    let message = error.unwrap_err().to_string();
+    assert!(
+        message.starts_with("render.gather: found \"clusters\", which would take about 0.01 GiB"),
+        "{message}"
+    );
+    assert!(message.ends_with("or for \"exact\""), "{message}");
+    // What the builder had before it still has; with more memory it goes on.
+    builder.build(&loader(8), &each, Path::new("")).unwrap();
+    builder
+        .build(&loader(20), &added_up, Path::new(""))
+        .unwrap();
+    // Grids that are there are not asked for a second time.
+    builder.build(&loader(8), &added_up, Path::new("")).unwrap();
+}
