@@ -3,8 +3,9 @@
 
 // Directions in a half circle.
 const BUNDLE_BINS: u32 = 128u;
-// Texels of a vertex; its directions begin at the fourth, 16 to a texel.
-const BUNDLE_TEXELS: u32 = 11u;
+// Texels of a vertex; its directions begin at the fourth, 16 to a texel: shares, then those times how much wider, then how much
+// deeper what lies there is.
+const BUNDLE_TEXELS: u32 = 27u;
 const BUNDLE_BIN_TEXELS: u32 = 8u;
 // Heights of vertices are kept in steps of so many cells.
 const BUNDLE_HEIGHT_CELLS: f32 = 4.0;
@@ -23,17 +24,24 @@ struct BundleGrids {
     tables: u32,
     first_layer: u32,           // texels of the populations' tables
     first_level: u32,           // texels of the levels
+    first_size: u32,            // texels of the populations' mean widths and depths
+    width_um: f32,              // mean of all
 }
 
 fn bundle_grids(object: u32) -> BundleGrids {
     let a = bundle_texel(2u * object);
     let b = bundle_texel(2u * object + 1u);
-    return BundleGrids(a.x, a.y, bitcast<f32>(a.z), a.w, b.x, b.y);
+    return BundleGrids(a.x, a.y, bitcast<f32>(a.z), a.w, b.x, b.y, b.z, bitcast<f32>(b.w));
 }
 
 // The layer of the scratch tables that holds a population's spectrum on a material whose own table is `table`.
 fn bundle_table(grids: BundleGrids, population: u32, table: u32) -> u32 {
     return bundle_texel(grids.first_layer + population * grids.tables + table).x;
+}
+
+// Mean width (um) and depth (nm) of a population.
+fn bundle_size(grids: BundleGrids, population: u32) -> vec2f {
+    return bitcast<vec2f>(bundle_texel(grids.first_size + population).xy);
 }
 
 // One grid of a population.

@@ -8,7 +8,9 @@ use std::sync::Arc;
 
 use glam::DVec3;
 use hairline_index::ScratchIndex;
-use hairline_index::bundles::{Bundle, BundleLevel, Bundles, HEIGHT_CELLS, ObjectBundles, Vertex};
+use hairline_index::bundles::{
+    Bundle, BundleLevel, Bundles, ClassBundles, HEIGHT_CELLS, ObjectBundles, Vertex,
+};
 use hairline_optics::method::Gather;
 use hairline_optics::table::ScratchTable;
 use hairline_scene::{Scene, ScratchTables};
@@ -139,7 +141,7 @@ fn texel_count(bundles: &Bundles, tables: &ScratchTables, skipped: usize) -> usi
         let of_levels: usize = levels
             .map(|level| 2 + slot_count(level) + BUNDLE_TEXELS * level.bundles.len())
             .sum();
-        2 + object.classes.len() * tables.tables.len() + of_levels
+        2 + object.classes.len() * (tables.tables.len() + 1) + of_levels
     };
     objects.map(of_object).sum()
 }
@@ -182,6 +184,12 @@ impl Packing {
                     packing.texels.push([layer as u32, 0, 0, 0]);
                 }
             }
+            let sizes = packing.texels.len();
+            let size = |class: &ClassBundles| {
+                let [width, depth] = [class.width_um, class.depth_nm].map(f32::to_bits);
+                [width, depth, 0, 0]
+            };
+            packing.texels.extend(object.classes.iter().map(size));
             // Two texels for each level of each class, class by class.
             let heads = packing.texels.len();
             let level_count = object.level_count - first;
@@ -202,7 +210,8 @@ impl Packing {
                 cell_m.to_bits(),
                 tables.tables.len() as u32,
             ];
-            packing.texels[2 * o + 1] = [layers as u32, heads as u32, 0, 0];
+            let width = object.width_um.to_bits();
+            packing.texels[2 * o + 1] = [layers as u32, heads as u32, sizes as u32, width];
         }
         packing.texels
     }

@@ -17,6 +17,7 @@ pub use spectra::Bundles;
 use crate::scratch_index::effective_segments;
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
+use hairline_optics::spread_table::SizePart;
 use hairline_scene::{Object, Scene};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -26,7 +27,7 @@ pub const BUNDLE_BINS: usize = 128;
 /// Heights of a vertex are kept in steps of so many cells.
 pub const HEIGHT_CELLS: f32 = 4.0;
 
-/// All scratches around a vertex: eleven texels of 16 bytes.
+/// All scratches around a vertex: 27 texels of 16 bytes.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct Bundle {
@@ -38,14 +39,16 @@ pub struct Bundle {
     pub normal: Vec3,
     /// What a bin's 255 stands for, as a share of `weight_um2`.
     pub bin_scale: f32,
-    /// Mean width, weighted by area like the next.
-    pub width_um: f32,
-    /// Mean depth.
-    pub depth_nm: f32,
+    /// What 127 stands for in `wider` and in `deeper`, as a share of `weight_um2`.
+    pub moved_scales: [f32; 2],
     /// Nothing; a whole number of texels.
     pub unused: [f32; 2],
     /// How the weight is spread over directions: bin b stands for the angle pi b / 128 from [`Side::reference`].
     pub bins: [u8; BUNDLE_BINS],
+    /// The same, each scratch times the share by which it is wider than the class's mean.
+    pub wider: [i8; BUNDLE_BINS],
+    /// And deeper.
+    pub deeper: [i8; BUNDLE_BINS],
 }
 
 /// One of the six sides that normals lean to.
@@ -178,13 +181,35 @@ impl BundleLevel {
     }
 }
 
+/// Widths (um) and depths (nm) from `low` on and below `high`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SizeRange {
+    /// Of the range.
+    pub low: [f32; 2],
+    /// Not of the range.
+    pub high: [f32; 2],
+}
+
+impl SizeRange {
+    /// Whether a width and a depth are of the range.
+    pub fn holds(&self, size: [f32; 2]) -> bool {
+        (0..2).all(|i| self.low[i] <= size[i] && size[i] < self.high[i])
+    }
+}
+
 /// The grids of one class of scratches, from fine to coarse, each twice as coarse as the one before.
 #[derive(Clone, Debug, Default)]
 pub struct ClassBundles {
     /// Not empty.
     pub levels: Vec<BundleLevel>,
-    /// Widths and depths over the mean ones that stand for the class's: each for as much of the scratches' area.
-    pub sizes: Vec<[f32; 2]>,
+    /// Mean width, weighted by area like the next.
+    pub width_um: f32,
+    /// Mean depth.
+    pub depth_nm: f32,
+    /// Whose scratches these are.
+    pub range: SizeRange,
+    /// Widths and depths that stand for the class's.
+    pub sizes: Vec<SizePart>,
 }
 
 /// The grids of all scratches of an object.
@@ -194,8 +219,19 @@ pub struct ObjectBundles {
     pub cell_m: f32,
     /// How many levels each class has.
     pub level_count: usize,
-    /// Layer by layer, each layer's by width.
+    /// Mean width of all scratches, by area.
+    pub width_um: f32,
+    /// Scratches of like sizes together.
     pub classes: Vec<ClassBundles>,
+}
+
+impl ObjectBundles {
+    /// The class of a scratch.
+    pub fn class_of(&self, width_um: f32, depth_nm: f32) -> usize {
+        let size = [width_um, depth_nm];
+        let mut classes = self.classes.iter();
+        classes.position(|c| c.range.holds(size)).unwrap_or(0)
+    }
 }
 
 /// The grids of all objects of a scene.
@@ -205,9 +241,8 @@ pub struct BundleIndex {
     pub objects: Vec<ObjectBundles>,
 }
 
-/// Into how many classes of width a layer is parted. The colours of single scratches are gone in a mean over all widths: against
-/// all scratches one by one, 3,200 of them in a footprint err by 3.4 % in one class, 2.3, 1.8 and 1.6 % in two, three and four.
-const WIDTH_CLASSES: usize = 4;
+/// Into how many classes of size an object's scratches are parted at most.
+pub const CLASSES_MAX: usize = 4;
 /// So many scratches cross a cell of the finest grid, in the mean. The fewer, the more the lit ones of a footprint differ from the
 /// mean of their class.
 const CELL_SCRATCHES: f64 = 25.0;
@@ -241,25 +276,29 @@ impl BundleIndex {
 }
 
 fn build_object(scene: &Scene, object: &Object) -> ObjectBundles {
-    let layers = layers(object);
-    if layers.is_empty() {
+    let segments = effective_segments(scene, object, None);
+    if segments.is_empty() {
         return ObjectBundles::default();
     }
-    let (cell_m, level_count) = grids(object, WIDTH_CLASSES * layers.len());
-    let classes = layers
+    let [width_um, _] = sizes::mean(&segments);
+    let classes = sizes::classes(segments, CLASSES_MAX);
+    let (cell_m, level_count) = grids(object, classes.len());
+    let classes = classes
         .into_par_iter()
-        .flat_map_iter(|layer| {
-            let segments = effective_segments(scene, object, Some(layer));
-            sizes::by_width(segments, WIDTH_CLASSES)
-        })
-        .map(|segments| {
-            let mut levels = vec![splat::finest(&segments, cell_m)];
+        .map(|class| {
+            let segments = class.segments;
+            let mean = sizes::mean(&segments);
+            let mut levels = vec![splat::finest(&segments, mean, cell_m)];
             while levels.len() < level_count {
                 let coarser = splat::coarser(&levels[levels.len() - 1]);
                 levels.push(coarser);
             }
+            let [width_um, depth_nm] = mean;
             ClassBundles {
                 levels,
+                width_um,
+                depth_nm,
+                range: class.range,
                 sizes: sizes::representative(&segments),
             }
         })
@@ -267,6 +306,7 @@ fn build_object(scene: &Scene, object: &Object) -> ObjectBundles {
     ObjectBundles {
         cell_m,
         level_count,
+        width_um,
         classes,
     }
 }
@@ -304,14 +344,6 @@ fn grids(object: &Object, classes: usize) -> (f32, usize) {
         (cell_um * 1e-6) as f32,
         across.log2().ceil().max(0.0) as usize + 1,
     )
-}
-
-/// The layers that have scratches on an object, ascending.
-fn layers(object: &Object) -> Vec<u32> {
-    let mut layers: Vec<u32> = object.scratches.iter().map(|s| s.layer).collect();
-    layers.sort_unstable();
-    layers.dedup();
-    layers
 }
 
 /// Splits sorted items into runs of equal keys.

@@ -4,37 +4,51 @@
 //! T(u, d). So the mean of a population is a table of the same kind, and lighting it costs what lighting one scratch does. The
 //! fringes far out, which differ from scratch to scratch, are averaged away in it.
 
-use crate::table::{COLUMNS, DEPTH_MAX_NM, ROWS, ScratchTable, column_u_um};
+use crate::table::{COLUMNS, DEPTH_MAX_NM, ROWS, ScratchTable, TableSums, column_u_um};
+
+/// A part of a population: scratches about as wide, over the mean width, with depths over the mean depth. All count alike.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SizePart {
+    /// Width.
+    pub width: f64,
+    /// At least one.
+    pub depths: Vec<f64>,
+}
 
 impl ScratchTable {
-    /// The table of a population: the mean over `sizes`, each a width and a depth over the mean ones.
-    pub fn spread(&self, sizes: &[[f64; 2]]) -> Self {
-        let per_size = 1.0 / sizes.len().max(1) as f64;
+    /// The table of a population: the mean over parts that count alike.
+    pub fn spread(&self, parts: &[SizePart]) -> Self {
+        let per_part = 1.0 / parts.len().max(1) as f64;
+        // Every half column: those between are for slopes.
+        let places: Vec<f64> = (0..2 * COLUMNS - 1)
+            .map(|half| column_u_um(0.5 * f64::from(half as u32)))
+            .collect();
+        let mut mean = vec![[0.0; 3]; places.len()];
         let rows = (0..ROWS).flat_map(|row| {
             let depth_nm = row as f64 * DEPTH_MAX_NM / (ROWS - 1) as f64;
-            // Every half column: those between are for slopes.
-            let mean: Vec<[f64; 3]> = (0..2 * COLUMNS - 1)
-                .map(|half| {
-                    let u_um = column_u_um(0.5 * half as f64);
-                    let mut sum = [0.0; 3];
-                    for [width, depth] in sizes {
-                        let t = self.scratch_table(width * u_um, depth * depth_nm);
-                        (0..3).for_each(|c| sum[c] += per_size * t[c]);
-                    }
-                    sum
+            mean.fill([0.0; 3]);
+            for part in parts {
+                // A mean over depths is one row, whatever the width.
+                let row = TableSums::over(self, part.depths.iter().map(|depth| depth * depth_nm));
+                for (sum, u_um) in mean.iter_mut().zip(&places) {
+                    let t = row.at(part.width * u_um);
+                    (0..3).for_each(|c| sum[c] += per_part * t[c]);
+                }
+            }
+            let texels: Vec<_> = (0..COLUMNS)
+                .map(|column| {
+                    let at = 2 * column;
+                    let (before, after, step) = match column {
+                        // T is odd in u.
+                        0 => (mean[1].map(|t| -t), mean[1], 1.0),
+                        _ if at + 1 == mean.len() => (mean[at - 1], mean[at], 0.5),
+                        _ => (mean[at - 1], mean[at + 1], 1.0),
+                    };
+                    let slopes = std::array::from_fn(|c| (after[c] - before[c]) / step);
+                    (mean[at], slopes)
                 })
                 .collect();
-            (0..COLUMNS).map(move |column| {
-                let at = 2 * column;
-                let (before, after, step) = match column {
-                    // T is odd in u.
-                    0 => (mean[1].map(|t| -t), mean[1], 1.0),
-                    _ if at + 1 == mean.len() => (mean[at - 1], mean[at], 0.5),
-                    _ => (mean[at - 1], mean[at + 1], 1.0),
-                };
-                let slopes = std::array::from_fn(|c| (after[c] - before[c]) / step);
-                (mean[at], slopes)
-            })
+            texels
         });
         Self::from_values(rows)
     }
@@ -44,12 +58,19 @@ impl ScratchTable {
 mod tests {
     use super::*;
 
+    fn part(width: f64, depths: &[f64]) -> SizePart {
+        SizePart {
+            width,
+            depths: depths.to_vec(),
+        }
+    }
+
     /// Chords of a table that was averaged are the means of chords.
     #[test]
     fn a_population_is_the_mean_of_its_scratches() {
         let one = ScratchTable::new(|_| 1.0);
-        let sizes = [[0.85, 1.1], [0.95, 0.85], [1.05, 1.15], [1.15, 0.9]];
-        let many = one.spread(&sizes);
+        let sizes = [[0.85, 1.1], [0.85, 0.85], [1.15, 1.15], [1.15, 0.9]];
+        let many = one.spread(&[part(0.85, &[1.1, 0.85]), part(1.15, &[1.15, 0.9])]);
         let (mut error2, mut alone2, mut value2) = (0.0, 0.0, 0.0);
         for i in 0..2000 {
             let u = 6.0 * (0.618_033_988_749_895 * f64::from(i)).fract();
@@ -85,7 +106,7 @@ mod tests {
     #[test]
     fn one_size_changes_nothing() {
         let one = ScratchTable::new(|_| 1.0);
-        let same = one.spread(&[[1.0, 1.0]]);
+        let same = one.spread(&[part(1.0, &[1.0])]);
         for (a, b) in one.texels.iter().zip(&same.texels) {
             for c in 0..3 {
                 assert!((f32::from_bits(a[c]) - f32::from_bits(b[c])).abs() < 1e-6);

@@ -7,6 +7,7 @@ mod light_view;
 pub mod monte_carlo;
 mod published;
 mod scratches;
+mod segment_view;
 mod silhouettes;
 mod surface;
 

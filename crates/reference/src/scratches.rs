@@ -1,20 +1,17 @@
 //! The scratches under a footprint and the light that they send to the viewer (docs/model.md, sections 4 to 6).
 
 use crate::closed_form::Prepared;
-use crate::light_view::{LightView, LightViews};
+use crate::light_view::LightViews;
+use crate::segment_view::{Groove, SegmentView};
 use crate::surface::SurfacePoint;
 use glam::{DVec2, DVec3};
 use hairline_index::IndexedSegment;
 use hairline_index::scratch_index::{FACING_MIN_COS, REACH_STD};
-use hairline_optics::band::{
-    BandFrame, BandLine, BandMotion, BandPlace, BandStds, Cap, Outline, OutlineRoots,
-    band_is_whole, band_lines, band_stds, chord_cos, sphere_band_extent, sphere_chord,
-};
-use hairline_optics::band_environment::environment_band;
+use hairline_optics::band::{BandPlace, BandStds, OutlineRoots, band_stds};
 use hairline_optics::footprint::{Footprint, ScratchShare, scratch_share};
 use hairline_optics::mask::ScratchSums;
 use hairline_optics::scratch::oblique_depth_nm;
-use hairline_optics::table::{ScratchTable, TableRow};
+use hairline_optics::table::ScratchTable;
 use hairline_scene::Environment;
 
 /// Adds up all scratches of an object under the point's footprint.
@@ -32,20 +29,11 @@ pub(crate) fn gather_scratches(
     let pixel = Pixel::new(point);
     each_segment(prepared, point, object, list, |segment| {
         work.counts.segments += 1;
-        let Some(view) = pixel.see(segment) else {
-            return;
-        };
-        work.counts.shares += 1;
-        let mut radiance = view.lights(&pixel, table, views, work);
-        if let Some(environment) = environment {
-            radiance += view.environment(&pixel, table, environment);
+        if let Some(seen) = pixel.see(segment) {
+            work.counts.shares += 1;
+            let radiance = seen.radiance(&pixel, table, views, environment, work);
+            seen.add(&pixel, table, radiance, &mut sums);
         }
-        sums.add(
-            view.share,
-            // In the mirror's direction both cosines are the viewer's.
-            table.scratch_table_total(oblique_depth_nm(view.depth_nm, point.wo.z, point.wo.z)),
-            radiance.to_array(),
-        );
     });
     sums
 }
@@ -113,7 +101,7 @@ impl<'a> Pixel<'a> {
     }
 
     /// None where the segment lies on another side of the surface or out of the footprint's reach.
-    fn see(&self, segment: &IndexedSegment) -> Option<SegmentView> {
+    pub fn see(&self, segment: &IndexedSegment) -> Option<SeenSegment> {
         if segment.normal.as_dvec3().dot(self.point.normal) < FACING_MIN_COS as f64 {
             return None;
         }
@@ -151,32 +139,89 @@ impl<'a> Pixel<'a> {
             footprint,
             self.point.coherence_um,
         );
-        (share.segment > SHARE_MIN * share.line).then(|| {
-            let frame = BandFrame { tangent: t };
-            let variance_um2 = footprint.across_um2 + self.window_um2;
-            SegmentView {
-                frame,
-                wo: frame.band_from_surface(self.point.wo),
-                share,
-                width_um,
-                depth_nm: segment.depth_nm as f64,
-                turn_rad2: 0.0,
-                place: BandPlace::new(
-                    self.steps_um.map(|step| t.perp_dot(step)),
-                    offset_um,
-                    variance_um2,
-                ),
-                variance_um2,
-            }
+        (share.segment > SHARE_MIN * share.line).then(|| SeenSegment {
+            tangent: t,
+            offset_um,
+            share,
+            width_um,
+            depth_nm: segment.depth_nm as f64,
+            variance_um2: footprint.across_um2 + self.window_um2,
         })
+    }
+
+    /// Variance of footprint and window across a tangent.
+    pub fn variance_across_um2(&self, tangent: DVec2) -> f64 {
+        let [x, y] = self.steps_um.map(|step| tangent.perp_dot(step));
+        x * x + y * y + self.window_um2
+    }
+}
+
+/// A segment under the footprint.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SeenSegment {
+    pub tangent: DVec2,
+    /// Of its line from the pixel's middle.
+    offset_um: f64,
+    pub share: ScratchShare,
+    pub width_um: f64,
+    pub depth_nm: f64,
+    /// Of footprint and window across it.
+    variance_um2: f64,
+}
+
+impl SeenSegment {
+    /// Radiance to the viewer, per unit of the share, Fresnel left out.
+    pub fn radiance(
+        &self,
+        pixel: &Pixel,
+        table: &ScratchTable,
+        views: &LightViews,
+        environment: Option<&Environment>,
+        work: &mut Work,
+    ) -> DVec3 {
+        let groove = Groove {
+            table,
+            width_um: self.width_um,
+            depth_nm: self.depth_nm,
+            moved: [0.0; 2],
+            share: 1.0,
+        };
+        let place = BandPlace::new(
+            pixel.steps_um.map(|step| self.tangent.perp_dot(step)),
+            self.offset_um,
+            self.variance_um2,
+        );
+        let view = SegmentView::new(pixel, self.tangent, [groove], place);
+        let mut radiance = view.lights(pixel, views, work);
+        if let Some(environment) = environment {
+            radiance += view.environment(pixel, environment);
+        }
+        radiance
+    }
+
+    /// Adds it to a footprint's sums.
+    pub fn add(
+        &self,
+        pixel: &Pixel,
+        table: &ScratchTable,
+        radiance: DVec3,
+        sums: &mut ScratchSums,
+    ) {
+        // In the mirror's direction both cosines are the viewer's.
+        let cos_o = pixel.point.wo.z;
+        let depth_nm = oblique_depth_nm(self.depth_nm, cos_o, cos_o);
+        let energy = table.scratch_table_total(depth_nm);
+        sums.add(self.share, energy, radiance.to_array());
     }
 }
 
 /// What the work on one scratch leaves for the next to fill again.
 #[derive(Default)]
 pub(crate) struct Work {
-    roots: OutlineRoots,
-    middle_roots: OutlineRoots,
+    pub roots: OutlineRoots,
+    pub middle_roots: OutlineRoots,
+    /// Scratches under a footprint.
+    pub seen: Vec<SeenSegment>,
     pub counts: GatherCounts,
 }
 
@@ -205,224 +250,5 @@ impl std::ops::AddAssign for GatherCounts {
         self.clusters += other.clusters;
         self.pairs += other.pairs;
         self.lit += other.lit;
-    }
-}
-
-/// A segment as seen from the point.
-pub(crate) struct SegmentView {
-    frame: BandFrame,
-    /// `wo` in the frame of the scratch.
-    wo: DVec3,
-    share: ScratchShare,
-    width_um: f64,
-    depth_nm: f64,
-    /// Variance of the tangent's angle about it; 0 for a single scratch.
-    turn_rad2: f64,
-    place: BandPlace,
-    variance_um2: f64,
-}
-
-impl SegmentView {
-    /// What stands for many scratches of one direction, which lie all over the footprint: with them the band is as wide as it moves
-    /// over the whole pixel.
-    pub fn of_many(
-        pixel: &Pixel,
-        tangent: DVec2,
-        width_um: f64,
-        depth_nm: f64,
-        turn_rad2: f64,
-    ) -> Self {
-        let frame = BandFrame { tangent };
-        let across_um = pixel.steps_um.map(|step| tangent.perp_dot(step));
-        let variance_um2 =
-            across_um[0] * across_um[0] + across_um[1] * across_um[1] + pixel.window_um2;
-        Self {
-            frame,
-            wo: frame.band_from_surface(pixel.point.wo),
-            share: ScratchShare {
-                segment: 1.0,
-                line: 1.0,
-            },
-            width_um,
-            depth_nm,
-            turn_rad2,
-            // They lie on both sides, as far as the footprint goes: to none of them does the place across tell how ξt moves.
-            place: BandPlace::new([0.0; 2], 0.0, pixel.window_um2),
-            variance_um2,
-        }
-    }
-
-    /// Variance across of footprint and window.
-    pub fn variance_um2(&self) -> f64 {
-        self.variance_um2
-    }
-
-    /// Radiance by way of the lights, per unit of the share, Fresnel left out.
-    fn lights(
-        &self,
-        pixel: &Pixel,
-        table: &ScratchTable,
-        views: &LightViews,
-        work: &mut Work,
-    ) -> DVec3 {
-        let mut sum = DVec3::ZERO;
-        for light in 0..views.views.len() {
-            sum += self.light(pixel, table, views, light, work);
-        }
-        sum
-    }
-
-    /// Radiance by way of one light.
-    pub fn light(
-        &self,
-        pixel: &Pixel,
-        table: &ScratchTable,
-        views: &LightViews,
-        light: usize,
-        work: &mut Work,
-    ) -> DVec3 {
-        let (light, moves) = (&views.views[light], views.moves[light]);
-        let tangent = self.frame.tangent;
-        let mut motion = self.place.moved(moves.map(|m| m.dot(tangent)));
-        let (LightView::Sphere { cap: bound, .. } | LightView::Polygon { bound, .. }) = light;
-        work.counts.pairs += 1;
-        if self.turn_rad2 > 0.0 {
-            let sum = pixel.point.wo.truncate() + bound.cos_radius * bound.axis.truncate();
-            let aside = tangent.perp_dot(sum);
-            motion.variance += self.turn_rad2 * aside * aside;
-        }
-        // Most scratches are dark to most lights.
-        let along = tangent.dot(bound.axis.truncate());
-        if !self.may_meet(pixel, along, bound, motion) {
-            return DVec3::ZERO;
-        }
-        match light {
-            LightView::Sphere { cap, radiance } => {
-                *radiance * self.sphere(pixel, table, *cap, motion, work)
-            }
-            LightView::Polygon {
-                vertices,
-                away,
-                facing,
-                sets,
-                radiance,
-                ..
-            } => {
-                let outline = views.outline(vertices, *away, *facing, *sets);
-                *radiance * self.polygon(pixel, table, outline, motion, work)
-            }
-        }
-    }
-
-    /// Whether the band can meet a cap whose axis has the component `along` on the tangent.
-    fn may_meet(&self, pixel: &Pixel, along: f64, cap: &Cap, motion: BandMotion) -> bool {
-        let middle = self.wo.x + motion.shift + along * cap.cos_radius;
-        // Around the pole of the tangent a cap reaches further.
-        along.abs() >= cap.cos_radius
-            || motion.reaches(
-                middle - cap.sin_radius,
-                middle + cap.sin_radius,
-                pixel.stds.mean,
-            )
-    }
-
-    /// T over u at the depth for light with a cosine to the normal.
-    fn row<'t>(&self, table: &'t ScratchTable, cos_i: f64) -> TableRow<'t> {
-        table.at_depth(oblique_depth_nm(self.depth_nm, cos_i, self.wo.z))
-    }
-
-    /// By a sphere of radiance 1.
-    fn sphere(
-        &self,
-        pixel: &Pixel,
-        table: &ScratchTable,
-        cap: Cap,
-        motion: BandMotion,
-        work: &mut Work,
-    ) -> DVec3 {
-        let cap = cap.turned(self.frame);
-        let wo = self.wo + motion.shift * DVec3::X;
-        let (lowest, highest) = sphere_band_extent(wo, cap);
-        if !motion.reaches(lowest, highest, pixel.stds.mean) {
-            return DVec3::ZERO;
-        }
-        work.counts.lit += 1;
-        let lines = band_lines(wo.x, lowest, highest, motion.band(pixel.stds).stds);
-        lines.integral(wo, |line| {
-            let chord = sphere_chord(line, cap);
-            let (low, high) = chord.range(line);
-            let row = self.row(table, chord_cos(line, low, high, self.width_um));
-            chord.integral(line, |q| row.at(self.width_um * q))
-        })
-    }
-
-    /// By a polygon of radiance 1.
-    fn polygon(
-        &self,
-        pixel: &Pixel,
-        table: &ScratchTable,
-        outline: Outline,
-        motion: BandMotion,
-        work: &mut Work,
-    ) -> DVec3 {
-        let wo = self.wo + motion.shift * DVec3::X;
-        // Large lights cover the whole band, and their corners tell so.
-        let (low, high) = outline.corner_extent(self.frame);
-        let std = motion.widened(pixel.stds.mean);
-        if band_is_whole(wo.x, wo.x + low, wo.x + high, std) {
-            work.counts.lit += 1;
-            let line = BandLine::new(wo, 0.0);
-            let row = self.outline_row(table, outline, line, &mut work.roots);
-            return work.roots.integral(|q| row.at(self.width_um * q)).into();
-        }
-        let (lowest, highest) = outline.band_extent(self.frame, wo.x);
-        if !motion.reaches(lowest, highest, pixel.stds.mean) {
-            return DVec3::ZERO;
-        }
-        work.counts.lit += 1;
-        let lines = band_lines(wo.x, lowest, highest, motion.band(pixel.stds).stds);
-        // One cosine for all lines, that of the middle one.
-        let middle = lines.middle_line(wo);
-        let row = self.outline_row(table, outline, middle, &mut work.middle_roots);
-        lines.integral(wo, |line| {
-            let roots = if line == middle {
-                &work.middle_roots
-            } else {
-                outline.roots(self.frame, line, &mut work.roots);
-                &work.roots
-            };
-            roots.integral(|q| row.at(self.width_um * q))
-        })
-    }
-
-    /// The roots of a polygon on a line, and T at the depth for light from there.
-    fn outline_row<'t>(
-        &self,
-        table: &'t ScratchTable,
-        outline: Outline,
-        line: BandLine,
-        roots: &mut OutlineRoots,
-    ) -> TableRow<'t> {
-        outline.roots(self.frame, line, roots);
-        let (low, high) = roots.range;
-        self.row(table, chord_cos(line, low, high, self.width_um))
-    }
-
-    /// By the environment, along the band's middle line, cell by cell.
-    pub fn environment(
-        &self,
-        pixel: &Pixel,
-        table: &ScratchTable,
-        environment: &Environment,
-    ) -> DVec3 {
-        environment_band(
-            BandLine::new(self.wo, 0.0),
-            self.width_um,
-            |q, cos_i| self.row(table, cos_i).at(self.width_um * q),
-            |direction, roughness| {
-                let direction = self.frame.surface_from_band(direction);
-                environment.prefiltered(pixel.point.world_from_surface(direction), roughness)
-            },
-        )
     }
 }

@@ -1,6 +1,7 @@
 //! The spectra of many scratches (docs/model.md, equation 24c): a table for each class of an object and each material's table there.
 
 use super::BundleIndex;
+use hairline_optics::spread_table::SizePart;
 use hairline_optics::table::ScratchTable;
 use hairline_scene::{Scene, ScratchTables};
 use rayon::prelude::*;
@@ -39,14 +40,16 @@ impl Bundles {
         }
         let spread = |[object, class, table]: &[usize; 3]| {
             let sizes = &index.objects[*object].classes[*class].sizes;
-            let mut sizes: Vec<_> = sizes.iter().map(|size| size.map(f64::from)).collect();
             // Scratches that are all alike need no mean.
-            let alike =
-                |a: &[f64; 2], b: &[f64; 2]| (0..2).all(|i| (a[i] - b[i]).abs() <= ALIKE * b[i]);
-            if sizes.iter().all(|size| alike(size, &sizes[0])) {
-                sizes.truncate(1);
+            let alike = |part: &SizePart| {
+                let depths = part.depths.iter();
+                (part.width - 1.0).abs() <= ALIKE
+                    && depths.into_iter().all(|d| (d - 1.0).abs() <= ALIKE)
+            };
+            if sizes.iter().all(alike) {
+                return tables.tables[*table].clone();
             }
-            tables.tables[*table].spread(&sizes)
+            tables.tables[*table].spread(sizes)
         };
         Self {
             tables: wanted.par_iter().map(spread).collect(),

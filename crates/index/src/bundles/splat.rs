@@ -33,9 +33,9 @@ struct Sums {
     weight: f32,
     height_m: f32,
     normal: Vec3,
-    width_um: f32,
-    depth_nm: f32,
     bins: [f32; BUNDLE_BINS],
+    wider: [f32; BUNDLE_BINS],
+    deeper: [f32; BUNDLE_BINS],
 }
 
 impl Tile {
@@ -67,9 +67,9 @@ impl Tile {
                 weight: 0.0,
                 height_m: 0.0,
                 normal: Vec3::ZERO,
-                width_um: 0.0,
-                depth_nm: 0.0,
                 bins: [0.0; BUNDLE_BINS],
+                wider: [0.0; BUNDLE_BINS],
+                deeper: [0.0; BUNDLE_BINS],
             });
             index = self.vertices.len() as u32;
             self.first[place] = index;
@@ -93,16 +93,28 @@ impl Sums {
         place_m[u] = vertex.at[0] as f32 * cell_m;
         place_m[v] = vertex.at[1] as f32 * cell_m;
         place_m[w] = self.height_m * per_weight;
-        let most = self.bins.iter().fold(0.0, |m: f32, b| m.max(*b));
+        let most = |bins: &[f32]| bins.iter().fold(0.0, |m: f32, b| m.max(b.abs()));
+        let most_bin = most(&self.bins);
+        let signed = |bins: &[f32; BUNDLE_BINS]| {
+            let most = most(bins);
+            let per_most = if most > 0.0 { 127.0 / most } else { 0.0 };
+            (
+                bins.map(|b| (b * per_most).round() as i8),
+                most * per_weight,
+            )
+        };
+        let (wider, widest) = signed(&self.wider);
+        let (deeper, deepest) = signed(&self.deeper);
         Bundle {
             place_m,
             weight_um2: self.weight,
             normal: self.normal * per_weight,
-            bin_scale: most * per_weight,
-            width_um: self.width_um * per_weight,
-            depth_nm: self.depth_nm * per_weight,
+            bin_scale: most_bin * per_weight,
+            moved_scales: [widest, deepest],
             unused: [0.0; 2],
-            bins: self.bins.map(|b| (b / most * 255.0).round() as u8),
+            bins: self.bins.map(|b| (b / most_bin * 255.0).round() as u8),
+            wider,
+            deeper,
         }
     }
 }
@@ -137,8 +149,8 @@ fn tiles_between(side: u32, low: [i32; 2], high: [i32; 2]) -> impl Iterator<Item
     })
 }
 
-/// The finest grid.
-pub(super) fn finest(segments: &[IndexedSegment], cell_m: f32) -> BundleLevel {
+/// The finest grid. `mean` is the class's mean width (um) and depth (nm).
+pub(super) fn finest(segments: &[IndexedSegment], mean: [f32; 2], cell_m: f32) -> BundleLevel {
     let per_cell = 1.0 / cell_m;
     let items: Vec<(u64, u32)> = segments
         .par_iter()
@@ -155,10 +167,15 @@ pub(super) fn finest(segments: &[IndexedSegment], cell_m: f32) -> BundleLevel {
             tiles_between(side.0, low, high).map(move |key| (key, i as u32))
         })
         .collect();
-    fill(items, cell_m, |tile, i| splat(tile, &segments[i], cell_m))
+    fill(items, cell_m, |tile, i| {
+        splat(tile, &segments[i], mean, cell_m);
+    })
 }
 
-fn splat(tile: &mut Tile, segment: &IndexedSegment, cell_m: f32) {
+fn splat(tile: &mut Tile, segment: &IndexedSegment, mean: [f32; 2], cell_m: f32) {
+    let over = |size: f32, mean: f32| if mean > 0.0 { size / mean - 1.0 } else { 0.0 };
+    let wider = over(segment.width_um, mean[0]);
+    let deeper = over(segment.depth_nm, mean[1]);
     let side = Side::of(segment.normal);
     let [u, v, w] = side.axes();
     let along = segment.end_m - segment.start_m;
@@ -198,10 +215,14 @@ fn splat(tile: &mut Tile, segment: &IndexedSegment, cell_m: f32) {
                 let rise = -(n[u] * aside[0] + n[v] * aside[1]) / n[w] * cell_m;
                 sums.height_m += weight * (place[w] + rise);
                 sums.normal += weight * n;
-                sums.width_um += weight * segment.width_um;
-                sums.depth_nm += weight * segment.depth_nm;
-                sums.bins[low_bin] += weight * (1.0 - share);
-                sums.bins[(low_bin + 1) % BUNDLE_BINS] += weight * share;
+                for (bin, weight) in [
+                    (low_bin, weight * (1.0 - share)),
+                    ((low_bin + 1) % BUNDLE_BINS, weight * share),
+                ] {
+                    sums.bins[bin] += weight;
+                    sums.wider[bin] += weight * wider;
+                    sums.deeper[bin] += weight * deeper;
+                }
             }
         }
     }
@@ -253,11 +274,16 @@ pub(super) fn coarser(fine: &BundleLevel) -> BundleLevel {
                     sums.weight += weight;
                     sums.height_m += weight * (bundle.place_m[w] + rise);
                     sums.normal += weight * n;
-                    sums.width_um += weight * bundle.width_um;
-                    sums.depth_nm += weight * bundle.depth_nm;
                     let scale = weight * bundle.bin_scale / 255.0;
                     for (sum, bin) in sums.bins.iter_mut().zip(&bundle.bins) {
                         *sum += scale * f32::from(*bin);
+                    }
+                    let [wider, deeper] = bundle.moved_scales.map(|s| weight * s / 127.0);
+                    for (sum, bin) in sums.wider.iter_mut().zip(&bundle.wider) {
+                        *sum += wider * f32::from(*bin);
+                    }
+                    for (sum, bin) in sums.deeper.iter_mut().zip(&bundle.deeper) {
+                        *sum += deeper * f32::from(*bin);
                     }
                 }
             }

@@ -27,6 +27,9 @@ fn random_segments(count: usize) -> Vec<IndexedSegment> {
         .collect()
 }
 
+/// Of the sizes of those.
+const MEAN: [f32; 2] = [1.5, 150.0];
+
 fn weight_um2(segments: &[IndexedSegment]) -> f64 {
     segments
         .iter()
@@ -49,7 +52,7 @@ fn moments(level: &BundleLevel) -> (f64, DVec3, DVec3) {
 #[test]
 fn levels_keep_weights_places_and_directions() {
     let segments = random_segments(3000);
-    let mut level = splat::finest(&segments, 1e-3);
+    let mut level = splat::finest(&segments, MEAN, 1e-3);
     let (weight, place, square) = moments(&level);
     assert!((weight / weight_um2(&segments) - 1.0).abs() < 1e-4);
     for _ in 0..3 {
@@ -74,7 +77,7 @@ fn levels_keep_weights_places_and_directions() {
 #[test]
 fn a_vertex_is_found_and_sides_do_not_mix() {
     let segments = random_segments(2000);
-    let level = splat::finest(&segments, 2e-3);
+    let level = splat::finest(&segments, MEAN, 2e-3);
     for (vertex, bundle) in level.vertices.iter().zip(&level.bundles) {
         assert_eq!(level.find(*vertex), Some(bundle));
         assert!(Side(vertex.side).lean(bundle.normal) > 0.9);
@@ -107,7 +110,7 @@ fn directions_are_those_of_the_scratches() {
         let t = reference * angle.cos() + n.cross(reference) * angle.sin();
         segments[0].start_m = Vec3::ZERO;
         segments[0].end_m = 1e-3 * t;
-        let level = splat::finest(&segments, 1e-2);
+        let level = splat::finest(&segments, MEAN, 1e-2);
         let bins = level.bundles[0].bins;
         let at = angle / std::f32::consts::PI * BUNDLE_BINS as f32;
         let low = at as usize;
@@ -117,20 +120,74 @@ fn directions_are_those_of_the_scratches() {
     }
 }
 
+/// How much wider and deeper than the mean scratches are is kept too, direction by direction.
 #[test]
-fn sizes_keep_their_means_and_classes_their_areas() {
+fn sizes_go_with_directions() {
+    // The more they turn, the wider and the less deep: wider and deeper by a cosine of twice the angle.
+    let mut segments = random_segments(3000);
+    segments.retain(|s| s.normal.z > 0.0);
+    for segment in &mut segments {
+        let along = (segment.end_m - segment.start_m).normalize();
+        let reference = Side::of(segment.normal).reference(segment.normal);
+        let cosine = 2.0 * along.dot(reference).powi(2) - 1.0;
+        segment.width_um = MEAN[0] * (1.0 + 0.1 * cosine);
+        segment.depth_nm = MEAN[1] * (1.0 - 0.2 * cosine);
+    }
+    let mut level = splat::finest(&segments, MEAN, 1e-2);
+    for _ in 0..2 {
+        for bundle in &level.bundles {
+            let [wider, deeper] = bundle.moved_scales.map(|scale| scale / 127.0);
+            let mut errors = [0.0; 2];
+            for b in 0..BUNDLE_BINS {
+                let share = f32::from(bundle.bins[b]) * bundle.bin_scale / 255.0;
+                let cosine = (std::f32::consts::TAU * b as f32 / BUNDLE_BINS as f32).cos();
+                errors[0] += (wider * f32::from(bundle.wider[b]) - 0.1 * share * cosine).abs();
+                errors[1] += (deeper * f32::from(bundle.deeper[b]) + 0.2 * share * cosine).abs();
+            }
+            // Each of 128 is rounded to a part in 254 of the largest, and a bin is a fortieth of a radian.
+            assert!(errors[0] < 0.005 && errors[1] < 0.01, "{errors:?}");
+        }
+        level = splat::coarser(&level);
+    }
+}
+
+#[test]
+fn classes_hold_like_sizes() {
     let segments = random_segments(4000);
-    let sizes = sizes::representative(&segments);
-    for i in 0..2 {
-        let mean = sizes.iter().map(|s| s[i]).sum::<f32>() / sizes.len() as f32;
-        assert!((mean - 1.0).abs() < 1e-3, "{mean}");
-    }
     let total = weight_um2(&segments);
-    let classes = sizes::by_width(segments, 4);
+    let classes = sizes::classes(segments, 4);
     assert_eq!(classes.len(), 4);
+    assert!(
+        (classes.iter().map(|c| weight_um2(&c.segments)).sum::<f64>() / total - 1.0).abs() < 1e-4
+    );
     for class in &classes {
-        assert!((weight_um2(class) / total - 0.25).abs() < 0.01);
+        let (mean, sizes) = (
+            sizes::mean(&class.segments),
+            sizes::representative(&class.segments),
+        );
+        let mean_of = |sizes: &[f64]| sizes.iter().sum::<f64>() / sizes.len() as f64;
+        let widths: Vec<_> = sizes.iter().map(|part| part.width).collect();
+        let depths: Vec<_> = sizes.iter().map(|part| mean_of(&part.depths)).collect();
+        for sizes in [widths, depths] {
+            assert!((mean_of(&sizes) - 1.0).abs() < 1e-3, "{sizes:?}");
+        }
+        let widest = class
+            .segments
+            .iter()
+            .map(|s| s.width_um)
+            .fold(0.0, f32::max);
+        assert!(widest < 1.4 * mean[0], "{widest} {mean:?}");
     }
-    let same = vec![random_segments(1)[0]; 10];
-    assert_eq!(sizes::by_width(same, 4).len(), 1);
+    // Two kinds of scratches are two classes, all alike are one.
+    let mut kinds = vec![random_segments(1)[0]; 10];
+    for kind in &mut kinds[3..] {
+        kind.width_um *= 2.0;
+    }
+    let mut counts: Vec<_> = sizes::classes(kinds.clone(), 4)
+        .iter()
+        .map(|class| class.segments.len())
+        .collect();
+    counts.sort_unstable();
+    assert_eq!(counts, [3, 7]);
+    assert_eq!(sizes::classes(kinds[3..].to_vec(), 4).len(), 1);
 }
