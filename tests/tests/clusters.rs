@@ -154,6 +154,52 @@ fn a_plane_from_few_to_many() {
     assert!(alone > 60 && many > 60);
 }
 
+/// So dense that hundreds of scratches lie under pixels that are fine against the finest grid, fewer towards the camera; from few
+/// under the picture's lower edge on.
+fn dense() -> Scene {
+    scene(
+        "plane = { size_m = [0.01, 0.04] }",
+        5_000,
+        "position_m = [0.0, -0.048, 0.012]\ntarget_m = [0.0, -0.01, 0.0]\nfov_y_deg = 2.5\n",
+        POLYGONS,
+        [16, 32],
+    )
+}
+
+/// Single scratches are added up where they are many, however they are found.
+#[test]
+fn many_under_a_fine_pixel() {
+    let scene = dense();
+    let prepared = Prepared::new(&scene);
+    let methods = [
+        clusters(Lookup::Tiles),
+        clusters(Lookup::Bvh),
+        Method::default(),
+    ];
+    let Some([tiles, walked, exact]) = on_the_gpu(&prepared, &scene, methods) else {
+        return;
+    };
+    compare("dense", &tiles, &on_the_cpu(&prepared, methods[0]));
+    compare("dense, tiles and walks", &tiles, &walked);
+    let scratched = (0..exact.density.len()).filter(|i| exact.density[*i] != [0.0; 3]);
+    let (alone, many): (Vec<_>, Vec<_>) =
+        scratched.partition(|i| exact.scratches[*i] == tiles.scratches[*i]);
+    // What they take from the base is that of all, one by one.
+    let tallied = many.iter().filter(|i| {
+        let (a, b) = (exact.density[**i][1], tiles.density[**i][1]);
+        (a - b).abs() < 1e-4 * a
+    });
+    let (alone, many, tallied) = (alone.len(), many.len(), tallied.count());
+    println!("{alone} pixels saw single scratches, {many} many, {tallied} of them without a grid");
+    assert!(alone > 60 && tallied > 60);
+    let difference = layer_difference(&exact, &tiles, Layer::Scratches, None);
+    println!(
+        "{:.2} % off all scratches",
+        100.0 * difference.relative_rms()
+    );
+    assert!(difference.relative_rms() < 0.02);
+}
+
 #[test]
 fn a_ball_and_an_environment() {
     for environment in [None, furnace()] {

@@ -5,12 +5,14 @@ const BUNDLE_LEAST_CELLS: f32 = 0.9;
 const BUNDLE_REACH: f32 = 3.0;
 const BUNDLE_HAND_OVER: f32 = 0.35;
 const BUNDLE_LEAN_MIN: f32 = 0.4;
+const BUNDLE_TALLY_OCTAVE: f32 = -3.0;
 
 // Which grids stand for the scratches under a pixel.
 struct BundleChoice {
     level: u32,
     share: f32,                 // of this level; the rest is the finer one's, or, at the finest, that of single scratches
-    any: bool,                  // else each scratch is looked at for itself
+    any: bool,                  // else no grid does
+    may_tally: bool,            // whether the footprint is large enough for single scratches to be many
 }
 
 fn bundle_choice(pixel: GatherPixel, grids: BundleGrids) -> BundleChoice {
@@ -19,11 +21,12 @@ fn bundle_choice(pixel: GatherPixel, grids: BundleGrids) -> BundleChoice {
     let std_um = sqrt(max(least, 0.0) + pixel.window_um2);
     let octave = log2(std_um / (BUNDLE_LEAST_CELLS * 1e6 * grids.cell_m));
     if grids.populations == 0u || !(octave > 0.0) {
-        return BundleChoice(0u, 0.0, false);
+        return BundleChoice(0u, 0.0, false, grids.populations > 0u && octave > BUNDLE_TALLY_OCTAVE);
     }
     let level = min(u32(min(octave, 31.0)), grids.levels - 1u);
     let over = min((octave - f32(level)) / BUNDLE_HAND_OVER, 1.0);
-    return BundleChoice(level, over * over * (3.0 - 2.0 * over), true);
+    let share = over * over * (3.0 - 2.0 * over);
+    return BundleChoice(level, share, true, level == 0u && share < 1.0);
 }
 
 // The weight of single scratches.

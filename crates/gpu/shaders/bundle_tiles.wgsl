@@ -1,4 +1,4 @@
-// Pass: which tiles have pixels whose footprints cover many scratches. One invocation a pixel; tiles are workgroups.
+// Pass: which tiles have pixels whose footprints may cover many scratches. One invocation a pixel; tiles are workgroups.
 
 var<workgroup> bundle_wanted: atomic<u32>;
 
@@ -15,7 +15,8 @@ fn bundle_tiles(
         if seen.x != 0u && bundle_grids(seen.y).populations > 0u {
             var depth_m: f32;
             let point = hit_surface_point(seen.x - 1u, film_ray(pixel), &depth_m);
-            if bundle_choice(gather_pixel(point), bundle_grids(seen.y)).any {
+            let choice = bundle_choice(gather_pixel(point), bundle_grids(seen.y));
+            if choice.any || choice.may_tally {
                 atomicStore(&bundle_wanted, 1u);
             }
         }

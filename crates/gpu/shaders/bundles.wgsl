@@ -41,7 +41,19 @@ fn bundle_table(grids: BundleGrids, population: u32, table: u32) -> u32 {
 
 // Mean width (um) and depth (nm) of a population.
 fn bundle_size(grids: BundleGrids, population: u32) -> vec2f {
-    return bitcast<vec2f>(bundle_texel(grids.first_size + population).xy);
+    return bitcast<vec2f>(bundle_texel(grids.first_size + 2u * population).xy);
+}
+
+// The population of a width and a depth: its range begins with these and ends before those.
+fn bundle_population(grids: BundleGrids, size: vec2f) -> u32 {
+    for (var i = 0u; i < grids.populations; i += 1u) {
+        gather_rounds += 1u;
+        let range = bitcast<vec4f>(bundle_texel(grids.first_size + 2u * i + 1u));
+        if all(range.xy <= size) && all(size < range.zw) {
+            return i;
+        }
+    }
+    return 0u;
 }
 
 // One grid of a population.
@@ -98,6 +110,13 @@ const BUNDLE_SIDES: u32 = 6u;
 // A vector's components along a side's grid, and, third, along its axis.
 fn bundle_turned(side: u32, v: vec3f) -> vec3f {
     return select(select(v.xyz, v.zxy, side / 2u == 1u), v.yzx, side / 2u == 0u);
+}
+
+// The side of a normal.
+fn bundle_side(normal: vec3f) -> u32 {
+    let size = abs(normal);
+    let axis = select(select(2u, 1u, size.y >= size.z), 0u, size.x >= size.y && size.x >= size.z);
+    return 2u * axis + u32(normal[axis] < 0.0);
 }
 
 // How far a normal leans to a side.

@@ -84,6 +84,12 @@ fn film_bundled(pixel: vec2u) -> u32 {
     return select(begun, 0u, walk_at == 0u);
 }
 
+// Whether single scratches of a pixel are still to be looked at, none having been.
+fn film_wants_singles(pixel: vec2u) -> bool {
+    let walk_at = film.pixels[film_index(pixel)].walk_at;
+    return walk_at == 0u || walk_at - 1u == WALK_FRESH;
+}
+
 // Leaves the sums over grids, with those of earlier dispatches, for the walk over single scratches or for the next dispatch.
 fn film_keep_bundles(pixel: vec2u, continues: bool, is_done: bool, next: u32, sums: ScratchSums) {
     let at = film_index(pixel);

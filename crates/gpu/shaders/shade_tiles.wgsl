@@ -25,7 +25,7 @@ fn shade(
     var alone = true;
     if METHOD_GATHER == GATHER_CLUSTERS {
         view.single_share = bundle_single_share_at(point, seen.y);
-        alone = view.single_share > 0.0;
+        alone = view.single_share > 0.0 && film_wants_singles(pixel);
         sums = film_resume(pixel, 0u).sums;
     }
     var overflows = false;

@@ -10,6 +10,7 @@ const QUEUE_WALKED: u32 = 1u;
 const QUEUE_EMPTY: u32 = 2u;
 // Tiles with pixels whose footprints cover many scratches, beside being in another queue. A workgroup for each of their pixels.
 const QUEUE_BUNDLED: u32 = 3u;
+const QUEUES: u32 = 4u;
 
 // A queue's count is the number of workgroups of an indirect dispatch along x; what follows is that along the others.
 fn queue_push(queue: u32, tile: u32) {
@@ -32,4 +33,17 @@ fn queue_move(place: u32) {
 fn queue_tile(queue: u32, place: u32) -> u32 {
     let tiles = tile_counts();
     return atomicLoad(&queues.tiles[queue * tiles.x * tiles.y + place]) & ~QUEUE_MOVED;
+}
+
+// Marks a pixel of a tile whose single scratches have been added up: no list is for it. `place` counts row by row.
+fn queue_mark_tallied(tile: u32, place: u32) {
+    let tiles = tile_counts();
+    atomicOr(&queues.tiles[QUEUES * tiles.x * tiles.y + 2u * tile + place / 32u], 1u << (place % 32u));
+}
+
+// The pixels of a tile that are marked, a bit for each.
+fn queue_tallied(tile: u32) -> vec2u {
+    let tiles = tile_counts();
+    let first = QUEUES * tiles.x * tiles.y + 2u * tile;
+    return vec2u(atomicLoad(&queues.tiles[first]), atomicLoad(&queues.tiles[first + 1u]));
 }

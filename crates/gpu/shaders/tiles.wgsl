@@ -32,7 +32,7 @@ fn tiles(
         return;
     }
     let corner = tile_corner(tile);
-    let sight = tile_sight(corner);
+    let sight = tile_sight(corner, tile);
     let first = tile * frame.tile_entries;
     var found = 0u;
     var at = 0u;
@@ -71,9 +71,13 @@ fn tiles(
     }
 }
 
-fn tile_sight(corner: vec2u) -> TileSight {
+fn tile_sight(corner: vec2u, tile: u32) -> TileSight {
     var sight = TileSight(0u, true, vec3f(1e30), vec3f(-1e30), vec2f(0.0));
     let middle = tile_middle_px(corner);
+    var tallied = vec2u(0u);
+    if METHOD_GATHER == GATHER_CLUSTERS {
+        tallied = queue_tallied(tile);
+    }
     for (var i = 0u; i < TILE_PX * TILE_PX; i += 1u) {
         gather_rounds += 1u;
         let in_film = corner + vec2u(i % TILE_PX, i / TILE_PX);
@@ -87,8 +91,9 @@ fn tile_sight(corner: vec2u) -> TileSight {
         let ray = tile_ray(middle + tile_at_px(in_film));
         var depth_m: f32;
         let point = hit_surface_point(seen.x - 1u, ray, &depth_m);
-        // What grids stand for needs no list.
-        if METHOD_GATHER == GATHER_CLUSTERS && bundle_single_share_at(point, seen.y) == 0.0 {
+        // What grids stand for needs no list, nor what is added up.
+        let is_tallied = ((select(tallied.x, tallied.y, i >= 32u) >> (i % 32u)) & 1u) == 1u;
+        if METHOD_GATHER == GATHER_CLUSTERS && (is_tallied || bundle_single_share_at(point, seen.y) == 0.0) {
             continue;
         }
         let reach = gather_reach_m(point);

@@ -141,7 +141,7 @@ fn texel_count(bundles: &Bundles, tables: &ScratchTables, skipped: usize) -> usi
         let of_levels: usize = levels
             .map(|level| 2 + slot_count(level) + BUNDLE_TEXELS * level.bundles.len())
             .sum();
-        2 + object.classes.len() * (tables.tables.len() + 1) + of_levels
+        2 + object.classes.len() * (tables.tables.len() + 2) + of_levels
     };
     objects.map(of_object).sum()
 }
@@ -186,10 +186,13 @@ impl Packing {
             }
             let sizes = packing.texels.len();
             let size = |class: &ClassBundles| {
-                let [width, depth] = [class.width_um, class.depth_nm].map(f32::to_bits);
-                [width, depth, 0, 0]
+                let [low, high] = [class.range.low, class.range.high];
+                // Shaders need not know infinities.
+                let range = [low[0], low[1], high[0], high[1]].map(|x| x.clamp(-1e30, 1e30));
+                let mean = [class.width_um, class.depth_nm, 0.0, 0.0];
+                [mean, range].map(|texel| texel.map(f32::to_bits))
             };
-            packing.texels.extend(object.classes.iter().map(size));
+            packing.texels.extend(object.classes.iter().flat_map(size));
             // Two texels for each level of each class, class by class.
             let heads = packing.texels.len();
             let level_count = object.level_count - first;

@@ -350,7 +350,7 @@ impl Renderer {
         }
         let (frame, timing) = (&self.frame_group, &self.timing);
         if uploaded.passes.needs().tiles {
-            band.room.tiles.clear(&self.gpu);
+            band.room.tiles.clear(&self.gpu, &mut encoder);
         }
         self.visibility
             .record(&mut encoder, frame, uploaded, band, timing);
@@ -368,6 +368,7 @@ impl Renderer {
                 }
                 encoder = self.gpu.device.create_command_encoder(&Default::default());
             }
+            bundles.tally(&mut encoder, frame, uploaded, band, timing);
         }
         if let Some(tiles) = &uploaded.passes.tiles {
             tiles.record(&mut encoder, frame, uploaded, band, timing);

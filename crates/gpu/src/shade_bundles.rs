@@ -1,5 +1,5 @@
-//! Passes: which tiles have pixels whose footprints cover many scratches, and what those scratches add up to; before the others
-//! look at single ones.
+//! Passes: which tiles have pixels whose footprints cover many scratches, and what those scratches add up to, read from grids or, where
+//! no grid is fine enough, one by one; before the others look at single ones.
 //!
 //! Inputs: frame, scene, grids, visibility. Outputs: a queue of tiles; the sums with which walks over single scratches begin.
 
@@ -16,6 +16,7 @@ use crate::variant::{ShadeVariant, compute_pipeline, is_bounded};
 pub(crate) struct BundlesPasses {
     find: wgpu::ComputePipeline,
     shade: wgpu::ComputePipeline,
+    tally: wgpu::ComputePipeline,
     /// Whether a dispatch may leave pixels unfinished.
     pub bounded: bool,
 }
@@ -39,6 +40,7 @@ impl BundlesPasses {
         Self {
             find: pipeline(&shaders::BUNDLE_TILES, &[]),
             shade: pipeline(&shaders::SHADE_BUNDLES, of_driver),
+            tally: pipeline(&shaders::BUNDLE_TALLY, of_driver),
             bounded,
         }
     }
@@ -82,5 +84,20 @@ impl BundlesPasses {
         let mut pass =
             compute_pass::begin(encoder, "bundles", timing, &self.shade, frame, scene, film);
         tiles.dispatch(&mut pass, Queue::Bundled);
+    }
+
+    /// Adds up single scratches of the queue's pixels where they are many, after all grids.
+    pub fn tally(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        frame: &wgpu::BindGroup,
+        scene: &GpuScene,
+        band: &Band<'_>,
+        timing: &Timing,
+    ) {
+        let film = &band.film.group;
+        let mut pass =
+            compute_pass::begin(encoder, "tally", timing, &self.tally, frame, scene, film);
+        band.room.tiles.dispatch(&mut pass, Queue::Bundled);
     }
 }

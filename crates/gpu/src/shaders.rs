@@ -117,6 +117,8 @@ modules! {
     BUNDLES = "bundles" needs [ROWS, WALK, SURFACE];
     /// A footprint on the grids of many scratches.
     BUNDLE_FOOTPRINT = "bundle_footprint" needs [BUNDLES, GATHER_PIXEL];
+    /// How much scratch lies in which direction, and the light of that.
+    BUNDLE_LIGHT = "bundle_light" needs [BUNDLES, GATHER_LIGHT, GATHER_LARGE_POLYGON];
     /// What scratches take from the base, by the method's mask.
     GATHER_MASK = "gather_mask" needs [MASK, METHOD];
     /// The same of a polygon with many vertices.
@@ -149,7 +151,9 @@ modules! {
     /// Pass: which tiles have pixels whose footprints cover many scratches.
     BUNDLE_TILES = "bundle_tiles" needs [HIT, BUNDLE_FOOTPRINT, TILE_QUEUES, SHADE_POINT];
     /// Pass: what many scratches under a pixel add up to.
-    SHADE_BUNDLES = "shade_bundles" needs [HIT, BUNDLE_FOOTPRINT, GATHER_LIGHT, GATHER_LARGE_POLYGON, TILE_QUEUES, SHADE_POINT];
+    SHADE_BUNDLES = "shade_bundles" needs [HIT, BUNDLE_FOOTPRINT, BUNDLE_LIGHT, TILE_QUEUES, SHADE_POINT];
+    /// Pass: what many single scratches under a pixel add up to.
+    BUNDLE_TALLY = "bundle_tally" needs [HIT, BUNDLE_FOOTPRINT, BUNDLE_LIGHT, GATHER, TILE_QUEUES, SHADE_POINT];
     /// Pass: tiles that show no object.
     BACKGROUND = "background" needs [SHADE_POINT, TILE_QUEUES];
     /// Pass: the scratches that each tile of pixels may see.

@@ -21,6 +21,8 @@ const TILE_ENTRIES_MAX: u32 = 512;
 /// What an indirect dispatch reads for each queue. Twin: tile_queues.wgsl.
 const COUNTS: [u32; 12] = [0, 1, 1, 0, 1, 1, 0, 1, 1, 0, TILE_PX * TILE_PX, 1];
 const QUEUES: u32 = COUNTS.len() as u32 / 3;
+/// For each tile, a bit for each pixel whose single scratches have been added up.
+const TALLIED_WORDS: u32 = TILE_PX * TILE_PX / 32;
 pub(crate) const COUNTS_BYTES: u64 = size_of_val(&COUNTS) as u64;
 
 /// The queues, in the order of their counts.
@@ -62,7 +64,7 @@ impl TileRoom {
             return Err(gpu.too_large("picture", needed, allowed, "tiles of 8 x 8 pixels"));
         }
         let lists = table(gpu, "tile lists", count * entries(count), TILE_LISTS_FORMAT).await?;
-        let queue_bytes = COUNTS_BYTES + u64::from(QUEUES * count.max(1)) * 4;
+        let queue_bytes = COUNTS_BYTES + u64::from((QUEUES + TALLIED_WORDS) * count.max(1)) * 4;
         let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST;
         let queues = gpu.buffer("tile queues", queue_bytes, usage).await?;
         let usage = BufferUsages::INDIRECT | BufferUsages::COPY_DST;
@@ -93,9 +95,11 @@ impl TileRoom {
     }
 
     /// Empties the queues, before commands that are submitted later.
-    pub fn clear(&self, gpu: &Gpu) {
+    pub fn clear(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder) {
         gpu.queue
             .write_buffer(&self.queues, 0, bytemuck::cast_slice(&COUNTS));
+        let marks = COUNTS_BYTES + u64::from(QUEUES * self.count) * 4;
+        encoder.clear_buffer(&self.queues, marks, None);
     }
 
     /// Has the following dispatches see the queues as they are then.

@@ -44,8 +44,11 @@ pub(crate) fn gather_bundles(
     };
     let cell_um = many.grids.cell_m as f64 * 1e6;
     let octave = (least_std_um(many.pixel) / (LEAST_CELLS * cell_um)).log2();
-    if !(octave > 0.0) || many.grids.classes.is_empty() {
-        return many.one_by_one(work);
+    if many.grids.classes.is_empty() {
+        return ScratchSums::default();
+    }
+    if !(octave > 0.0) {
+        return many.one_by_one(octave, work);
     }
     let level = (octave as usize).min(many.grids.level_count - 1);
     let over = smooth((octave - level as f64) / HAND_OVER);
@@ -53,7 +56,7 @@ pub(crate) fn gather_bundles(
     add_scaled(&mut sums, &many.by_grid(level, work), over);
     if over < 1.0 {
         let finer = match level {
-            0 => many.one_by_one(work),
+            0 => many.one_by_one(octave, work),
             _ => many.by_grid(level - 1, work),
         };
         add_scaled(&mut sums, &finer, 1.0 - over);

@@ -139,7 +139,7 @@ impl<'a> Pixel<'a> {
             footprint,
             self.point.coherence_um,
         );
-        (share.segment > SHARE_MIN * share.line).then(|| SeenSegment {
+        (share.segment > SHARE_MIN * share.line).then_some(SeenSegment {
             tangent: t,
             offset_um,
             share,

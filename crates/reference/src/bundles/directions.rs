@@ -208,8 +208,8 @@ impl Directions {
     }
 }
 
-/// The angle by which a scratch may turn and still see a light about alike.
-fn light_turn(many: &Many, light: usize) -> f64 {
+/// Into which steps of directions a light is resolved.
+fn stride(many: &Many, light: usize) -> usize {
     let (pixel, views) = (many.pixel, many.views);
     let view = &views.views[light];
     let (LightView::Sphere { cap, .. } | LightView::Polygon { bound: cap, .. }) = view;
@@ -225,20 +225,11 @@ fn light_turn(many: &Many, light: usize) -> f64 {
             (solid_angle / (4.0 * cap.sin_radius.max(1e-6))).min(cap.sin_radius)
         }
     };
-    (half + std) / sum.length().max(0.1)
-}
-
-/// Into which steps of directions a light is resolved.
-fn stride(many: &Many, light: usize) -> usize {
-    let turn = light_turn(many, light);
+    // So far a scratch may turn and still see the light about alike.
+    let turn = (half + std) / sum.length().max(0.1);
     let mut stride = 1;
     while stride < STRIDE_MAX && 2.0 * stride as f64 * BIN_RAD < TURN_SHARE * turn {
         stride *= 2;
     }
     stride
-}
-
-/// Whether directions are fine enough for a light.
-pub(super) fn resolves(many: &Many, light: usize) -> bool {
-    light_turn(many, light) >= 0.0 * BIN_RAD
 }

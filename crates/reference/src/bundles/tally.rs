@@ -1,28 +1,27 @@
 //! Directions from single scratches: where no grid is fine against the footprint, the scratches under it are added up one by
 //! one, which is a fraction of the work of lighting each.
 
-use super::directions::resolves;
-use super::{Directions, Many, add_scaled, smooth};
+use super::{Directions, Many};
 use crate::scratches::{SeenSegment, Work, each_segment};
 use glam::{DVec2, DVec3};
 use hairline_index::bundles::{BUNDLE_BINS, ObjectBundles, Side};
 use hairline_optics::mask::ScratchSums;
 use std::f64::consts::PI;
 
-/// From so many scratches under the footprint on lighting each takes longer than lighting all directions.
-const TALLY_FROM: usize = usize::MAX - 1;
-/// So many are all added up; between the two, both are mixed.
-const TALLY_FULL: usize = usize::MAX;
+/// From so many scratches under the footprint on lighting each takes longer than lighting all directions. The light is the same
+/// but for what a class's spectrum leaves out, half a percent: a step that is not seen.
+const TALLY_FROM: usize = 448;
+/// Footprints are this much narrower than the finest grid wants, as a power of two, or scratches are not counted.
+const TALLY_OCTAVE: f64 = -3.0;
 
 impl Many<'_> {
-    /// What the scratches under the footprint have, found one by one.
-    pub(super) fn one_by_one(&self, work: &mut Work) -> ScratchSums {
+    /// What the scratches under the footprint have, found one by one. `octave` is how much wider it is than the finest grid wants.
+    pub(super) fn one_by_one(&self, octave: f64, work: &mut Work) -> ScratchSums {
         let pixel = self.pixel;
         let table = &self.prepared.tables.tables[pixel.point.table];
-        let may_tally = (0..self.views.views.len()).all(|light| resolves(self, light));
-        let full = if may_tally { TALLY_FULL } else { usize::MAX };
+        let environment = self.prepared.scene.environment.as_ref();
+        let may_tally = octave > TALLY_OCTAVE;
         let mut tally = None;
-        let new_tally = || Tally::new(self);
         let mut sums = ScratchSums::default();
         let mut found = std::mem::take(&mut work.seen);
         found.clear();
@@ -33,38 +32,33 @@ impl Many<'_> {
                 return;
             };
             work.counts.shares += 1;
-            if found.len() < full {
-                found.push(seen);
+            if !may_tally {
+                let radiance = seen.radiance(pixel, table, self.views, environment, work);
+                seen.add(pixel, table, radiance, &mut sums);
+                return;
+            }
+            if let Some(tally) = &mut tally {
+                Tally::add(tally, &seen);
             } else {
-                tally.get_or_insert_with(new_tally).add(&seen);
-                seen.add(pixel, table, DVec3::ZERO, &mut sums);
+                found.push(seen);
+                if found.len() == TALLY_FROM {
+                    let begun = tally.insert(Tally::new(self));
+                    found.iter().for_each(|seen| begun.add(seen));
+                }
             }
+            seen.add(pixel, table, DVec3::ZERO, &mut sums);
         });
-        let tallied = match tally {
-            None if may_tally => {
-                let more = found.len() as f64 - TALLY_FROM as f64;
-                smooth(more / (TALLY_FULL - TALLY_FROM) as f64)
-            }
-            None => 0.0,
-            Some(_) => 1.0,
+        let radiance = match tally {
+            Some(tally) => tally.directions.radiance(self, work),
+            None => found
+                .iter()
+                .map(|seen| {
+                    let share = seen.share.segment;
+                    share * seen.radiance(pixel, table, self.views, environment, work)
+                })
+                .sum(),
         };
-        let environment = self.prepared.scene.environment.as_ref();
-        let mut single = ScratchSums::default();
-        for seen in &found {
-            let mut radiance = DVec3::ZERO;
-            if tallied < 1.0 {
-                let alone = seen.radiance(pixel, table, self.views, environment, work);
-                radiance = (1.0 - tallied) * alone;
-            }
-            seen.add(pixel, table, radiance, &mut single);
-        }
-        add_scaled(&mut sums, &single, 1.0);
-        if tallied > 0.0 {
-            let mut tally = tally.unwrap_or_else(new_tally);
-            found.iter().for_each(|seen| tally.add(seen));
-            let radiance = tally.directions.radiance(self, work);
-            (0..3).for_each(|c| sums.radiance[c] += tallied * radiance[c]);
-        }
+        (0..3).for_each(|c| sums.radiance[c] += radiance[c]);
         work.seen = found;
         sums
     }
