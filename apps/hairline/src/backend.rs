@@ -73,7 +73,8 @@ impl<'a> Painter<'a> {
         let Task {
             method, samples, ..
         } = self.task;
-        self.paint(scene, samples, progress, |prepared| {
+        let on_gpu = |ready: &mut ReadyDriver| ready.render(scene, samples, &|at| progress(at));
+        self.paint(on_gpu, |prepared| {
             let options = closed_form::RenderOptions { samples, method };
             prepared.with_scene(scene).render(&options, progress)
         })
@@ -93,20 +94,21 @@ impl<'a> Painter<'a> {
             gather: Gather::Exact,
             ..self.task.method
         };
-        self.paint(scene, FINE_SAMPLES, progress, |prepared| {
+        let on_gpu = |ready: &mut ReadyDriver| {
+            ready.render_one_by_one(scene, FINE_SAMPLES, &|at| progress(at))
+        };
+        self.paint(on_gpu, |prepared| {
             fine::render(prepared, scene, &method, progress)
         })
     }
 
     fn paint(
         &mut self,
-        scene: &Scene,
-        samples: u32,
-        progress: &(dyn Fn(f64) + Sync),
+        on_gpu: impl FnOnce(&mut ReadyDriver) -> Result<Image, hairline_gpu::Error>,
         on_cpu: impl FnOnce(&Prepared) -> Image,
     ) -> Result<Image, Failure> {
         if let On::Gpu(ready) = &mut self.on {
-            match ready.render(scene, samples, &|share| progress(share)) {
+            match on_gpu(ready) {
                 Ok(image) => return Ok(image),
                 Err(error) if self.task.backend == Backend::Gpu => return Err(advise(error)),
                 Err(error) => {

@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 use hairline_gpu::{Error, Gpu, GpuScene, RenderOptions, Renderer};
 use hairline_image::Image;
 use hairline_index::ScratchIndex;
-use hairline_optics::method::Method;
+use hairline_optics::method::{Gather, Method};
 use hairline_reference::closed_form::{self, Prepared};
 use hairline_scene::{Scene, ScratchTables};
 
@@ -44,6 +44,10 @@ pub enum Winner {
 pub struct ReadyDriver {
     renderer: Renderer,
     uploaded: GpuScene,
+    scratches: Arc<ScratchIndex>,
+    method: Method,
+    /// The same for every scratch for itself, once it was asked for, where the method takes many together.
+    one_by_one: Option<GpuScene>,
 }
 
 impl ReadyDriver {
@@ -57,7 +61,13 @@ impl ReadyDriver {
     ) -> Result<Self, Error> {
         let mut renderer = Renderer::new(gpu).await?;
         let uploaded = renderer.upload(scene, scratches, tables, method).await?;
-        Ok(Self { renderer, uploaded })
+        Ok(Self {
+            renderer,
+            uploaded,
+            scratches: Arc::clone(scratches),
+            method: *method,
+            one_by_one: None,
+        })
     }
 
     /// The device.
@@ -78,6 +88,40 @@ impl ReadyDriver {
             self.renderer
                 .render(scene, &self.uploaded, &options, progress),
         )
+    }
+
+    /// The same with every scratch for itself, whatever the method. `scene` has the scratches and materials of the one that was
+    /// uploaded.
+    pub fn render_one_by_one(
+        &mut self,
+        scene: &Scene,
+        samples: u32,
+        progress: &dyn Fn(f64),
+    ) -> Result<Image, Error> {
+        if self.method.gather == Gather::Exact {
+            return self.render(scene, samples, progress);
+        }
+        let method = Method {
+            gather: Gather::Exact,
+            ..self.method
+        };
+        let gpu = self.renderer.gpu().clone();
+        let options = driver_options(samples);
+        gpu.block_on(async {
+            let uploaded = match &mut self.one_by_one {
+                Some(uploaded) => uploaded,
+                none => {
+                    let tables = ScratchTables::new(scene);
+                    let upload = self
+                        .renderer
+                        .upload(scene, &self.scratches, &tables, &method);
+                    none.insert(upload.await?)
+                }
+            };
+            self.renderer
+                .render(scene, uploaded, &options, progress)
+                .await
+        })
     }
 }
 
@@ -166,7 +210,9 @@ fn time_driver(
     gpu.block_on(async {
         let (scratches, tables) = (prepared.scratches(), prepared.tables());
         let mut ready = ReadyDriver::new(gpu, scene, scratches, tables, method).await?;
-        let ReadyDriver { renderer, uploaded } = &mut ready;
+        let ReadyDriver {
+            renderer, uploaded, ..
+        } = &mut ready;
         // Drivers compile at the first use.
         let row = strips[0].start..strips[0].start + 1;
         renderer

@@ -117,7 +117,7 @@ fn contradictions_are_2_and_nothing_is_written() {
 
 /// "mean FLIP a; of 64 samples b; ratio c"
 fn figures(folder: &Path, flags: &str) -> [f64; 3] {
-    let arguments = format!("render plate.toml --backend cpu --stability -o a.png {flags}");
+    let arguments = format!("render plate.toml --stability -o a.png {flags}");
     let assert = hairline(folder, &arguments).success();
     let text = stdout_of(&assert);
     let numbers: Vec<f64> = text
@@ -132,13 +132,40 @@ fn figures(folder: &Path, flags: &str) -> [f64; 3] {
 #[test]
 fn a_camera_that_stands_still_is_steady_and_a_moving_one_as_its_reference() {
     let folder = folder_with_scene();
-    let still = figures(folder.path(), "--frames 2 --zoom 1:1");
+    let still = figures(folder.path(), "--backend cpu --frames 2 --zoom 1:1");
     assert_eq!(still, [0.0, 0.0, 1.0]);
-    let [own, reference, ratio] = figures(folder.path(), "--frames 3 --turntable 3");
+    let [own, reference, ratio] = figures(folder.path(), "--backend cpu --frames 3 --turntable 3");
     assert!(own > 0.0 && reference > 0.0);
     assert!((ratio - own / reference).abs() < 0.01);
     // The averages over pixels are closed forms: they flicker no more than what they stand for.
     assert!((0.8..1.2).contains(&ratio), "{ratio}");
+}
+
+/// Grids are held against all scratches one by one, never against themselves. The CPU renderer is told its method with each picture,
+/// but what a GPU gathers it was given with the scene.
+#[test]
+fn the_reference_of_many_scratches_takes_each_for_itself() {
+    if hairline_gpu::headless::test_gpu().is_none() {
+        return;
+    }
+    // From afar, by a lens that leaves it a few pixels, wider than the finest cells; on a mirror, which shows scratches alone.
+    let far = SCRATCHED
+        .replacen("[0.0, -0.22, 0.30]", "[0.0, -2.2, 3.0]", 1)
+        .replacen("[camera]", "[camera]\nfov_y_deg = 6.5", 1)
+        .replacen(
+            "kind = \"metal\"\nmetal = \"iron\"\nroughness = 0.3",
+            "kind = \"mirror\"",
+            1,
+        )
+        .replacen("count = 200", "count = 3000", 1);
+    let folder = folder_with("plate.toml", &far);
+    let [each, added_up] = ["exact", "clusters"].map(|gather| {
+        let flags =
+            format!("--backend gpu --frames 2 --turntable 4 --exposure 8 --gather {gather}");
+        figures(folder.path(), &flags)
+    });
+    assert_ne!(each[0], added_up[0], "grids are not in use");
+    assert_eq!(each[1], added_up[1]);
 }
 
 #[cfg(unix)]
