@@ -36,7 +36,8 @@ pub(super) fn classes(segments: Vec<IndexedSegment>, most: usize) -> Vec<Class> 
         } = classes.swap_remove(i);
         let [low, high] = cut_in_two(segments, by);
         let (mut below, mut above) = (range, range);
-        let bound = size(&high[0])[by] as f32;
+        // Sizes are single precision.
+        let bound = least(&high, by) as f32;
         (below.high[by], above.low[by]) = (bound, bound);
         classes.extend([Class::new(low, below), Class::new(high, above)]);
     }
@@ -79,6 +80,13 @@ impl Class {
     }
 }
 
+fn least(segments: &[IndexedSegment], by: usize) -> f64 {
+    segments
+        .iter()
+        .map(|s| size(s)[by])
+        .fold(f64::INFINITY, f64::min)
+}
+
 fn size(segment: &IndexedSegment) -> [f64; 2] {
     [segment.width_um, segment.depth_nm].map(f64::from)
 }
@@ -88,22 +96,35 @@ fn area_of(segment: &IndexedSegment) -> f64 {
 }
 
 /// Cut between two sizes so that the least variance is left within both parts.
-fn cut_in_two(mut segments: Vec<IndexedSegment>, by: usize) -> [Vec<IndexedSegment>; 2] {
-    segments.par_sort_by(|a, b| size(a)[by].total_cmp(&size(b)[by]));
-    let sum = |(area, sum): (f64, f64), s: &IndexedSegment| {
-        (area + area_of(s), sum + area_of(s) * size(s)[by])
-    };
-    let (area, total) = segments.iter().fold((0.0, 0.0), sum);
-    let (mut low, mut best) = ((0.0, 0.0), (0.0, 0));
-    for i in 1..segments.len() {
-        low = sum(low, &segments[i - 1]);
+fn cut_in_two(segments: Vec<IndexedSegment>, by: usize) -> [Vec<IndexedSegment>; 2] {
+    let mut areas = areas(&segments);
+    areas.par_sort_unstable_by(|a, b| a.0[by].total_cmp(&b.0[by]));
+    let sum =
+        |(area, sum): (f64, f64), (size, of): &([f64; 2], f64)| (area + of, sum + of * size[by]);
+    let (area, total) = areas.iter().fold((0.0, 0.0), sum);
+    let (mut low, mut best) = ((0.0, 0.0), (0.0, f64::INFINITY));
+    for pair in areas.windows(2) {
+        low = sum(low, &pair[0]);
         let between = (low.1 * area - total * low.0).powi(2) / (low.0 * (area - low.0));
-        if between > best.0 && size(&segments[i - 1])[by] < size(&segments[i])[by] {
-            best = (between, i);
+        if between > best.0 && pair[0].0[by] < pair[1].0[by] {
+            best = (between, pair[1].0[by]);
         }
     }
-    let high = segments.split_off(best.1);
-    [segments, high]
+    let (low, high) = segments.into_iter().partition(|s| size(s)[by] < best.1);
+    [low, high]
+}
+
+/// Sizes and areas. A scratch's segments follow one another: one entry for all of them.
+fn areas(segments: &[IndexedSegment]) -> Vec<([f64; 2], f64)> {
+    let mut areas: Vec<([f64; 2], f64)> = Vec::new();
+    for segment in segments {
+        let (size, area) = (size(segment), area_of(segment));
+        match areas.last_mut() {
+            Some((last, sum)) if *last == size => *sum += area,
+            _ => areas.push((size, area)),
+        }
+    }
+    areas
 }
 
 /// The mean width (um) and depth (nm), by area.
@@ -113,15 +134,7 @@ pub(super) fn mean(segments: &[IndexedSegment]) -> [f32; 2] {
 
 /// Parts that hold equal areas, over the means of all.
 pub(super) fn representative(segments: &[IndexedSegment]) -> Vec<SizePart> {
-    // A scratch's segments follow one another: one entry for all of them.
-    let mut areas: Vec<([f64; 2], f64)> = Vec::new();
-    for segment in segments {
-        let (size, area) = (size(segment), area_of(segment));
-        match areas.last_mut() {
-            Some((last, sum)) if *last == size => *sum += area,
-            _ => areas.push((size, area)),
-        }
-    }
+    let areas = areas(segments);
     let [width, depth] = mean_of(areas.iter().copied());
     parts(areas, 0)
         .into_iter()
@@ -149,7 +162,7 @@ fn mean_of(areas: impl Iterator<Item = ([f64; 2], f64)>) -> [f64; 2] {
 
 /// Sorted by one of both sizes and cut into parts of equal area; what lies on a cut is in both parts.
 fn parts(mut areas: Vec<([f64; 2], f64)>, by: usize) -> Vec<Vec<([f64; 2], f64)>> {
-    areas.sort_by(|a, b| a.0[by].total_cmp(&b.0[by]));
+    areas.par_sort_by(|a, b| a.0[by].total_cmp(&b.0[by]));
     let total: f64 = areas.iter().map(|a| a.1).sum();
     let mut parts = vec![Vec::new(); PARTS];
     let mut before = 0.0;

@@ -6,11 +6,11 @@ use crate::scratch_index::IndexedSegment;
 use glam::Vec3;
 use rayon::prelude::*;
 
-/// Vertices along the side of a tile, as a power of two.
-const TILE_BITS: u32 = 5;
+/// Vertices along the side of a tile, as a power of two: half a megabyte for all of them, which stays in a core's own cache.
+const TILE_BITS: u32 = 4;
 const TILE: usize = 1 << TILE_BITS;
-/// Steps along a scratch for each cell.
-const STEPS_PER_CELL: f32 = 2.0;
+/// Steps along a scratch for each cell. Footprints are wide enough to blur them: exp(-2 pi^2 0.64) is left of their rhythm.
+const STEPS_PER_CELL: f32 = 1.0;
 
 /// A tile as one number that orders by side, then by place.
 fn tile_key(side: u32, at: [i32; 2]) -> u64 {
@@ -20,7 +20,9 @@ fn tile_key(side: u32, at: [i32; 2]) -> u64 {
 
 /// Vertices of one tile while they are filled.
 struct Tile {
-    key: u64,
+    side: u32,
+    /// The least coordinates of its vertices.
+    low: [i32; 2],
     /// The first of the bundles at each place, plus one; further ones by `next`.
     first: Vec<u32>,
     next: Vec<u32>,
@@ -33,15 +35,16 @@ struct Sums {
     weight: f32,
     height_m: f32,
     normal: Vec3,
-    bins: [f32; BUNDLE_BINS],
-    wider: [f32; BUNDLE_BINS],
-    deeper: [f32; BUNDLE_BINS],
+    /// Weight, and that times how much wider and deeper; the fourth is nothing, so that an addition is one of vectors.
+    bins: [[f32; 4]; BUNDLE_BINS],
 }
 
 impl Tile {
-    fn new(key: u64) -> Self {
+    /// The tile of a vertex.
+    fn of(side: u32, at: [i32; 2]) -> Self {
         Self {
-            key,
+            side,
+            low: at.map(|i| i >> TILE_BITS << TILE_BITS),
             first: vec![0; TILE * TILE],
             next: Vec::new(),
             vertices: Vec::new(),
@@ -49,32 +52,40 @@ impl Tile {
         }
     }
 
-    /// The sums at a vertex, if it is of this tile.
-    fn at(&mut self, vertex: Vertex) -> Option<&mut Sums> {
-        if tile_key(vertex.side, vertex.at) != self.key {
+    /// The sums at a vertex of its side, if it is of this tile.
+    #[inline]
+    fn at(&mut self, at: [i32; 2], height: i32) -> Option<&mut Sums> {
+        let [x, y] = [0, 1].map(|i| at[i].wrapping_sub(self.low[i]) as usize);
+        if x >= TILE || y >= TILE {
             return None;
         }
-        let [x, y] = vertex.at.map(|i| i as usize & (TILE - 1));
         let place = y * TILE + x;
         let mut index = self.first[place];
-        while index != 0 && self.vertices[index as usize - 1].height != vertex.height {
+        while index != 0 && self.vertices[index as usize - 1].height != height {
             index = self.next[index as usize - 1];
         }
         if index == 0 {
-            self.vertices.push(vertex);
-            self.next.push(self.first[place]);
-            self.sums.push(Sums {
-                weight: 0.0,
-                height_m: 0.0,
-                normal: Vec3::ZERO,
-                bins: [0.0; BUNDLE_BINS],
-                wider: [0.0; BUNDLE_BINS],
-                deeper: [0.0; BUNDLE_BINS],
-            });
-            index = self.vertices.len() as u32;
-            self.first[place] = index;
+            index = self.begin(place, at, height);
         }
         Some(&mut self.sums[index as usize - 1])
+    }
+
+    #[cold]
+    fn begin(&mut self, place: usize, at: [i32; 2], height: i32) -> u32 {
+        self.vertices.push(Vertex {
+            side: self.side,
+            at,
+            height,
+        });
+        self.next.push(self.first[place]);
+        self.sums.push(Sums {
+            weight: 0.0,
+            height_m: 0.0,
+            normal: Vec3::ZERO,
+            bins: [[0.0; 4]; BUNDLE_BINS],
+        });
+        self.first[place] = self.vertices.len() as u32;
+        self.first[place]
     }
 
     fn bundles(self, cell_m: f32) -> Vec<(Vertex, Bundle)> {
@@ -93,18 +104,19 @@ impl Sums {
         place_m[u] = vertex.at[0] as f32 * cell_m;
         place_m[v] = vertex.at[1] as f32 * cell_m;
         place_m[w] = self.height_m * per_weight;
-        let most = |bins: &[f32]| bins.iter().fold(0.0, |m: f32, b| m.max(b.abs()));
-        let most_bin = most(&self.bins);
-        let signed = |bins: &[f32; BUNDLE_BINS]| {
-            let most = most(bins);
+        let most = |kind: usize| self.bins.iter().fold(0.0, |m: f32, b| m.max(b[kind].abs()));
+        let most_bin = most(0);
+        let signed = |kind: usize| {
+            let most = most(kind);
             let per_most = if most > 0.0 { 127.0 / most } else { 0.0 };
-            (
-                bins.map(|b| (b * per_most).round() as i8),
-                most * per_weight,
-            )
+            // Of a positive number the part before the point.
+            let bins = self
+                .bins
+                .map(|b| (b[kind] * per_most + 128.5) as i32 as i8 ^ i8::MIN);
+            (bins, most * per_weight)
         };
-        let (wider, widest) = signed(&self.wider);
-        let (deeper, deepest) = signed(&self.deeper);
+        let (wider, widest) = signed(1);
+        let (deeper, deepest) = signed(2);
         Bundle {
             place_m,
             weight_um2: self.weight,
@@ -112,11 +124,17 @@ impl Sums {
             bin_scale: most_bin * per_weight,
             moved_scales: [widest, deepest],
             unused: [0.0; 2],
-            bins: self.bins.map(|b| (b / most_bin * 255.0).round() as u8),
+            bins: self.bins.map(|b| (b[0] * (255.0 / most_bin) + 0.5) as u8),
             wider,
             deeper,
         }
     }
+}
+
+/// A vertex of the tile of a key, and its side.
+fn tile_of(key: u64) -> (u32, [i32; 2]) {
+    let place = |shift: u32| (((key >> shift) & 0x3fff_ffff) as i32 - (1 << 28)) << TILE_BITS;
+    ((key >> 60) as u32, [place(30), place(0)])
 }
 
 /// Fills all tiles: `items` are what touches each, by tile and then in order.
@@ -129,7 +147,8 @@ fn fill(
     let tiles: Vec<Vec<(Vertex, Bundle)>> = runs(&items, |item| item.0)
         .into_par_iter()
         .map(|run| {
-            let mut tile = Tile::new(items[run.start].0);
+            let (side, at) = tile_of(items[run.start].0);
+            let mut tile = Tile::of(side, at);
             for (_, item) in &items[run] {
                 add(&mut tile, *item as usize);
             }
@@ -181,51 +200,55 @@ fn splat(tile: &mut Tile, segment: &IndexedSegment, mean: [f32; 2], cell_m: f32)
     let along = segment.end_m - segment.start_m;
     let length_m = along.length();
     let steps = (length_m / cell_m * STEPS_PER_CELL).ceil().max(1.0);
-    let weight = segment.width_um * length_m * 1e6 / steps;
-    let reference = side.reference(segment.normal);
-    let angle = along
-        .dot(segment.normal.cross(reference))
-        .atan2(along.dot(reference));
+    let per_step = 1.0 / steps;
+    let weight = segment.width_um * length_m * 1e6 * per_step;
+    let n = segment.normal;
+    let reference = side.reference(n);
+    let angle = along.dot(n.cross(reference)).atan2(along.dot(reference));
     let bin = angle.rem_euclid(std::f32::consts::PI) / std::f32::consts::PI * BUNDLE_BINS as f32;
-    let (low_bin, share) = (bin.floor(), bin.fract());
-    let low_bin = low_bin as usize % BUNDLE_BINS;
+    let low_bin = bin as usize % BUNDLE_BINS;
+    let high_share = bin.fract();
+    let bins = [
+        (low_bin, 1.0 - high_share),
+        ((low_bin + 1) % BUNDLE_BINS, high_share),
+    ];
+    let per_cell = 1.0 / cell_m;
+    let rise = [u, v].map(|axis| -n[axis] / n[w] * cell_m);
     for step in 0..steps as u32 {
-        let place = segment.start_m + along * ((step as f32 + 0.5) / steps);
-        let (x, y) = (place[u] / cell_m, place[v] / cell_m);
-        let height = (place[w] / (HEIGHT_CELLS * cell_m) + 0.5).floor() as i32;
-        let corner = [x.floor(), y.floor()];
-        let [fx, fy] = [x - corner[0], y - corner[1]];
+        let place = segment.start_m + along * ((step as f32 + 0.5) * per_step);
+        let (x, y) = (place[u] * per_cell, place[v] * per_cell);
+        let height = whole(place[w] * per_cell / HEIGHT_CELLS + 0.5);
+        let corner = [whole(x), whole(y)];
+        let [fx, fy] = [x - corner[0] as f32, y - corner[1] as f32];
         for (dx, dy, tent) in [
             (0, 0, (1.0 - fx) * (1.0 - fy)),
             (1, 0, fx * (1.0 - fy)),
             (0, 1, (1.0 - fx) * fy),
             (1, 1, fx * fy),
         ] {
-            let vertex = Vertex {
-                side: side.0,
-                at: [corner[0] as i32 + dx, corner[1] as i32 + dy],
-                height,
-            };
-            if let Some(sums) = tile.at(vertex) {
+            if let Some(sums) = tile.at([corner[0] + dx, corner[1] + dy], height) {
                 let weight = weight * tent;
                 sums.weight += weight;
                 // The height of the surface over the vertex itself.
-                let aside = [dx as f32 - fx, dy as f32 - fy];
-                let n = segment.normal;
-                let rise = -(n[u] * aside[0] + n[v] * aside[1]) / n[w] * cell_m;
-                sums.height_m += weight * (place[w] + rise);
+                let aside = rise[0] * (dx as f32 - fx) + rise[1] * (dy as f32 - fy);
+                sums.height_m += weight * (place[w] + aside);
                 sums.normal += weight * n;
-                for (bin, weight) in [
-                    (low_bin, weight * (1.0 - share)),
-                    ((low_bin + 1) % BUNDLE_BINS, weight * share),
-                ] {
-                    sums.bins[bin] += weight;
-                    sums.wider[bin] += weight * wider;
-                    sums.deeper[bin] += weight * deeper;
+                for (bin, share) in bins {
+                    let (sum, weight) = (&mut sums.bins[bin], weight * share);
+                    for (sum, moved) in sum.iter_mut().zip([1.0, wider, deeper, 0.0]) {
+                        *sum += weight * moved;
+                    }
                 }
             }
         }
     }
+}
+
+/// The whole number at or below: `floor` is a call where processors are not known to have it.
+#[inline]
+fn whole(x: f32) -> i32 {
+    let towards_zero = x as i32;
+    towards_zero - i32::from(x < towards_zero as f32)
 }
 
 /// The grid that is twice as coarse.
@@ -257,12 +280,7 @@ pub(super) fn coarser(fine: &BundleLevel) -> BundleLevel {
                 if x_share * y_share == 0.0 {
                     continue;
                 }
-                let coarse = Vertex {
-                    side: vertex.side,
-                    at: [x, y],
-                    height: (vertex.height + 1).div_euclid(2),
-                };
-                if let Some(sums) = tile.at(coarse) {
+                if let Some(sums) = tile.at([x, y], (vertex.height + 1).div_euclid(2)) {
                     let weight = x_share * y_share * bundle.weight_um2;
                     let [u, v, w] = Side(vertex.side).axes();
                     let n = bundle.normal;
@@ -274,16 +292,12 @@ pub(super) fn coarser(fine: &BundleLevel) -> BundleLevel {
                     sums.weight += weight;
                     sums.height_m += weight * (bundle.place_m[w] + rise);
                     sums.normal += weight * n;
-                    let scale = weight * bundle.bin_scale / 255.0;
-                    for (sum, bin) in sums.bins.iter_mut().zip(&bundle.bins) {
-                        *sum += scale * f32::from(*bin);
-                    }
                     let [wider, deeper] = bundle.moved_scales.map(|s| weight * s / 127.0);
-                    for (sum, bin) in sums.wider.iter_mut().zip(&bundle.wider) {
-                        *sum += wider * f32::from(*bin);
-                    }
-                    for (sum, bin) in sums.deeper.iter_mut().zip(&bundle.deeper) {
-                        *sum += deeper * f32::from(*bin);
+                    let scale = weight * bundle.bin_scale / 255.0;
+                    for (b, sum) in sums.bins.iter_mut().enumerate() {
+                        sum[0] += scale * f32::from(bundle.bins[b]);
+                        sum[1] += wider * f32::from(bundle.wider[b]);
+                        sum[2] += deeper * f32::from(bundle.deeper[b]);
                     }
                 }
             }
