@@ -8,6 +8,8 @@
 const TILE_MARGIN: f32 = 1.02;
 const TILE_MARGIN_BENT: f32 = 2.6;
 const TILE_MARGIN_PX: f32 = 0.02;
+// Ends are followed further than lines: around a short stroke little else is to be seen than how it fades.
+const TILE_REACH_ENDS: f32 = 1.3;
 // Where shading bends the surface by more than this the footprint in the picture is not what the line tells.
 const TILE_BENT: f32 = 0.05;
 
@@ -121,7 +123,7 @@ fn tile_reach2_px(point: SurfacePoint, ray: vec3f) -> vec2f {
     let filter_px = frame.footprint_std_px * gather_filtered();
     // The window's variance, and that of the blur at an end.
     let variance = filter_px * filter_px + vec2f(0.5, 0.7) * (sigma_m * sigma_m / narrowest2);
-    let reach = (TILE_MARGIN + TILE_MARGIN_BENT * bent) * REACH_STD * sqrt(variance) + TILE_MARGIN_PX;
+    let reach = (TILE_MARGIN + TILE_MARGIN_BENT * bent) * vec2f(REACH_STD, TILE_REACH_ENDS * REACH_STD) * sqrt(variance) + TILE_MARGIN_PX;
     return select(vec2f(1e30), reach * reach, bent < TILE_BENT);
 }
 
