@@ -34,7 +34,7 @@ fn scratch_share(
     coherence_um: f32,
 ) -> ScratchShare {
     let variance = footprint.across_um2 + 0.5 * coherence_um * coherence_um;
-    let across = exp(-min(0.5 * offset_um * offset_um / variance, 80.0)) * inverseSqrt(6.28318531 * variance);
+    let across = exp(-min(0.5 * offset_um * offset_um / variance, GAUSSIAN_TAIL)) * inverseSqrt(6.28318531 * variance);
     // Where the footprint is slanted, the part of it that lies on the scratch is displaced along it.
     let slant = footprint.cross_um2 / variance;
     let shift = offset_um * slant;
