@@ -6,6 +6,7 @@
 use wgpu::ShaderStages;
 
 use crate::device::Gpu;
+use crate::storage_textures;
 use crate::tile_room::TILE_LISTS_FORMAT;
 
 /// Names of the scene's buffers in the order of their bindings.
@@ -21,6 +22,8 @@ pub const SCENE_BUFFERS: [&str; 7] = [
 
 /// From this one on they lie in textures.
 const FIRST_ROWS: u32 = 3;
+/// From this one on in storage textures, where they are used.
+const FIRST_STORED: u32 = 5;
 
 /// The layouts that the passes share.
 pub(crate) struct Layouts {
@@ -41,16 +44,16 @@ impl Layouts {
             .map(|i| match i {
                 0 => entry(i, both, storage(true)),
                 i if i < FIRST_ROWS => entry(i, compute, storage(true)),
-                i => entry(i, compute, integers()),
+                i if i < FIRST_STORED => entry(i, compute, integers()),
+                i => entry(
+                    i,
+                    compute,
+                    storage_textures::binding(gpu, wgpu::TextureViewDimension::D2),
+                ),
             })
             .collect();
-        let integer_array = wgpu::BindingType::Texture {
-            sample_type: wgpu::TextureSampleType::Uint,
-            view_dimension: wgpu::TextureViewDimension::D2Array,
-            multisampled: false,
-        };
         let textures = [
-            integer_array,
+            storage_textures::binding(gpu, wgpu::TextureViewDimension::D2Array),
             texture(wgpu::TextureViewDimension::D2, false),
             texture(wgpu::TextureViewDimension::D2, false),
             texture(wgpu::TextureViewDimension::D2, false),
@@ -86,7 +89,11 @@ impl Layouts {
                 &[
                     entry(0, compute, integers()),
                     entry(1, compute, storage(false)),
-                    entry(2, compute, integers()),
+                    entry(
+                        2,
+                        compute,
+                        storage_textures::binding(gpu, wgpu::TextureViewDimension::D2),
+                    ),
                     queues,
                     entry(4, compute, storage(false)),
                 ],

@@ -25,6 +25,7 @@ mod scene_buffers;
 mod shade;
 mod shade_bundles;
 pub mod shaders;
+mod storage_textures;
 mod textures;
 mod tile_room;
 mod tiles;

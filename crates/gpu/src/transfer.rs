@@ -4,6 +4,7 @@ use wgpu::{TextureFormat, TextureUsages};
 
 use crate::device::Gpu;
 use crate::error::Error;
+use crate::storage_textures::{self, TEXEL_FORMAT};
 
 /// What an upload wrote of one of a scene's arrays or textures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -67,6 +68,7 @@ impl<'a> Transfer<'a> {
         levels: u32,
         format: TextureFormat,
     ) -> Result<wgpu::Texture, Error> {
+        let usage = TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST;
         let descriptor = wgpu::TextureDescriptor {
             label: Some(what),
             size: wgpu::Extent3d {
@@ -78,7 +80,11 @@ impl<'a> Transfer<'a> {
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,
             format,
-            usage: TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST,
+            usage: if format == TEXEL_FORMAT && storage_textures::are_used(self.gpu) {
+                usage | TextureUsages::STORAGE_BINDING
+            } else {
+                usage
+            },
             view_formats: &[],
         };
         self.gpu.texture(what, &descriptor).await
