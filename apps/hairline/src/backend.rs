@@ -2,6 +2,8 @@
 
 mod fine;
 
+use std::sync::Arc;
+
 use anyhow::anyhow;
 use hairline_gpu::{AdapterKind, AdapterRequest, Gpu, headless};
 use hairline_image::Image;
@@ -132,7 +134,8 @@ impl<'a> On<'a> {
 
     fn on_gpu(gpu: &Gpu, scene: &Scene, method: &Method) -> Result<Self, hairline_gpu::Error> {
         let (scratches, tables) =
-            rayon::join(|| sorted(scene).into(), || ScratchTables::new(scene));
+            rayon::join(|| Arc::new(sorted(scene)), || ScratchTables::new(scene));
+        add_up(scene, &scratches, method);
         let ready = gpu.block_on(ReadyDriver::new(gpu, scene, &scratches, &tables, method))?;
         Ok(Self::Gpu(Box::new(ready)))
     }
@@ -171,9 +174,7 @@ impl<'a> On<'a> {
 fn prepared<'a>(scene: &'a Scene, method: &Method) -> Box<Prepared<'a>> {
     let bar = Progress::start("sorting scratches");
     let prepared = watched(&bar, |watch| Prepared::watched(scene, watch));
-    if method.gather == Gather::Clusters {
-        prepared.bundle_index();
-    }
+    add_up(scene, prepared.scratches(), method);
     if method.lookup == Lookup::Triangles {
         prepared.triangle_lists();
     }
@@ -183,6 +184,14 @@ fn prepared<'a>(scene: &'a Scene, method: &Method) -> Box<Prepared<'a>> {
 fn sorted(scene: &Scene) -> ScratchIndex {
     let bar = Progress::start("sorting scratches");
     watched(&bar, |watch| ScratchIndex::rebuild(scene, None, watch))
+}
+
+/// Builds the grids of many scratches, if the method has a use for them.
+fn add_up(scene: &Scene, scratches: &ScratchIndex, method: &Method) {
+    if method.gather == Gather::Clusters {
+        let bar = Progress::start("adding up scratches");
+        watched(&bar, |watch| scratches.grids_watched(scene, watch));
+    }
 }
 
 /// Work that a bar shows, and that nobody ends but by ending the process.

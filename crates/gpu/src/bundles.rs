@@ -11,6 +11,7 @@ use hairline_index::ScratchIndex;
 use hairline_index::bundles::{
     Bundle, BundleLevel, Bundles, ClassBundles, HEIGHT_CELLS, ObjectBundles, Vertex,
 };
+use hairline_optics::metal::Metal;
 use hairline_optics::method::Gather;
 use hairline_optics::table::ScratchTable;
 use hairline_scene::{Scene, ScratchTables};
@@ -34,7 +35,24 @@ pub(crate) struct UploadedBundles {
     /// None where the method has no use for any.
     pub made: Option<Arc<Bundles>>,
     index: Arc<ScratchIndex>,
+    spectra: SpectraKey,
     origin_m: DVec3,
+}
+
+/// What the spectra of populations are made from, beside the scratches: the metal of each table, and each material's table.
+#[derive(Clone, PartialEq)]
+struct SpectraKey {
+    metals: Vec<Option<Metal>>,
+    of_materials: Vec<u32>,
+}
+
+impl SpectraKey {
+    fn of(tables: &ScratchTables) -> Self {
+        Self {
+            metals: tables.metals.clone(),
+            of_materials: tables.materials.iter().map(|m| m.table).collect(),
+        }
+    }
 }
 
 impl UploadedBundles {
@@ -55,19 +73,21 @@ impl UploadedBundles {
             method,
         } = *source;
         let wanted = method.gather == Gather::Clusters;
-        let same = |last: &&Self| {
-            last.made.is_some() == wanted
-                && (!wanted || Arc::ptr_eq(&last.index, index) && last.origin_m == origin_m)
+        let spectra = SpectraKey::of(tables);
+        let is_like = |last: &Self| {
+            Arc::ptr_eq(&last.index, index) && last.spectra == spectra && last.origin_m == origin_m
         };
+        let same = |last: &&Self| last.made.is_some() == wanted && (!wanted || is_like(last));
         if let Some(last) = last.filter(same) {
             return Ok(Self {
                 rows: last.rows.clone(),
                 made: last.made.clone(),
                 index: Arc::clone(index),
+                spectra,
                 origin_m,
             });
         }
-        let made = wanted.then(|| Arc::new(Bundles::new(scene, tables)));
+        let made = wanted.then(|| Arc::new(Bundles::new(scene, index, tables)));
         let what = "grids of scratches";
         let texels = match &made {
             Some(bundles) => {
@@ -85,6 +105,7 @@ impl UploadedBundles {
             rows: rows::upload(transfer, what, &texels).await?,
             made,
             index: Arc::clone(index),
+            spectra,
             origin_m,
         })
     }

@@ -12,7 +12,7 @@ use hairline_gpu::{AdapterRequest, Error, GpuScene, Renderer};
 use hairline_image::{Image, Picture};
 use hairline_index::ScratchIndex;
 use hairline_optics::metal::Metal;
-use hairline_optics::method::{Lookup, Method};
+use hairline_optics::method::{Gather, Lookup, Method};
 use hairline_scene::{Base, Environment, Light, Scene, ScratchTables, Texture};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_pcg::Pcg32;
@@ -187,6 +187,50 @@ fn after_any_edits_the_picture_is_a_fresh_ones() {
             stale.is_none_or(|stale| stale != expected || round == 10),
             "edit {round} shows nothing"
         );
+    }
+}
+
+/// Scratches that are added up have spectra of their own, which go with the metal and with who has it.
+#[test]
+fn added_up_scratches_follow_their_metal() {
+    let Some(gpu) = test_gpu() else { return };
+    let metal = |name: &str, metal: &str| {
+        format!(
+            "[[material]]\nname = \"{name}\"\nkind = \"metal\"\nmetal = \"{metal}\"\nroughness = 0.1\n"
+        )
+    };
+    let text = format!(
+        "[camera]\nposition_m = [0.0, -2.0, 2.0]\ntarget_m = [0.0, 0.0, 0.0]\nup = [0.0, 0.0, 1.0]\nfov_y_deg = 2.0\n\
+         [render]\nsize_px = [8, 8]\ngather = \"clusters\"\n{}{}\
+         [[object]]\nname = \"disk\"\nmaterial = \"a\"\nshape = {{ disk = {{ radius_m = 0.05 }} }}\n\
+         [[object]]\nname = \"other\"\nmaterial = \"b\"\ntranslation_m = [0.0, 0.0, -9.0]\nshape = {{ disk = {{ radius_m = 0.05 }} }}\n\
+         [[scratches]]\nobject = \"disk\"\npattern = \"random\"\ncount = 3000\nlength_m = 0.02\nwidth_um = 3.0\n\
+         depth_nm = {{ mean = 200.0, spread = 0.1 }}\n\
+         [[light]]\nkind = \"sphere\"\ncenter_m = [0.0, 1.2, 1.0]\nradius_m = 0.2\nradiance = 20.0\n",
+        metal("a", "steel"),
+        metal("b", "gold"),
+    );
+    let mut stage = Stage::new(gpu, scene(&text));
+    let added_up = image(&mut stage);
+    stage.made.method = Method::default();
+    update(&mut stage).unwrap();
+    assert!(image(&mut stage) != added_up, "scratch by scratch");
+    stage.made.method.gather = Gather::Clusters;
+    for what in ["the disk's material is another", "so are both metals"] {
+        let stale = image(&mut stage);
+        if what.starts_with("the disk") {
+            let mesh = Arc::make_mut(&mut stage.made.scene.objects[0].mesh);
+            mesh.triangle_materials.fill(1);
+        } else {
+            for material in &mut stage.made.scene.materials {
+                material.base = Base::Metal(Metal::Copper);
+            }
+        }
+        stage.made.tables = Arc::new(ScratchTables::new(&stage.made.scene));
+        update(&mut stage).unwrap();
+        let (found, expected) = (image(&mut stage), fresh(&mut stage));
+        assert!(found == expected, "{what}");
+        assert!(stale != expected, "{what}: shows nothing");
     }
 }
 

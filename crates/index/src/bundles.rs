@@ -15,12 +15,14 @@ mod splat;
 pub use spectra::Bundles;
 
 use crate::scratch_index::effective_segments;
+use crate::watch::Watch;
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 use hairline_optics::spread_table::SizePart;
-use hairline_scene::{Object, Scene};
+use hairline_scene::{GRID_SEGMENT_BYTES, Object, Scene};
 use rayon::prelude::*;
 use std::ops::Range;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Directions in a half circle.
 pub const BUNDLE_BINS: usize = 128;
@@ -246,8 +248,6 @@ pub const CLASSES_MAX: usize = 4;
 /// So many scratches cross a cell of the finest grid, in the mean. The fewer, the more the lit ones of a footprint differ from the
 /// mean of their class.
 const CELL_SCRATCHES: f64 = 25.0;
-/// Unless the grids would take more than this for each segment of a scratch, some three times what the tree of single ones takes.
-const SEGMENT_BYTES: f64 = 256.0;
 /// No footprint is narrower than the coherence window.
 const CELL_MIN_M: f64 = 16e-6;
 /// The coarsest grid has about so many cells.
@@ -256,13 +256,26 @@ const COARSEST_CELLS: f64 = 64.0;
 impl BundleIndex {
     /// Builds the grids, all cores at work; the same for any number of them.
     pub fn build(scene: &Scene) -> Self {
-        Self {
-            objects: scene
-                .objects
-                .iter()
-                .map(|object| build_object(scene, object))
-                .collect(),
-        }
+        Self::watched(scene, &Watch::default()).unwrap_or_else(|| unreachable!("nobody cancels it"))
+    }
+
+    /// The same while another watches. `None` if it was cancelled.
+    pub fn watched(scene: &Scene, watch: &Watch) -> Option<Self> {
+        let account = Account {
+            watch,
+            all: scene.objects.iter().map(|o| o.segments.len()).sum(),
+            done: AtomicUsize::new(0),
+        };
+        let objects = scene.objects.iter();
+        let objects = objects.map(|object| build_object(scene, object, &account));
+        let index = Self {
+            objects: objects.collect(),
+        };
+        // What was left out makes no grid.
+        (!(watch.cancelled)()).then(|| {
+            (watch.progress)(1.0);
+            index
+        })
     }
 
     /// Bytes in memory.
@@ -275,7 +288,27 @@ impl BundleIndex {
     }
 }
 
-fn build_object(scene: &Scene, object: &Object) -> ObjectBundles {
+/// How far the work on all segments has come.
+struct Account<'a> {
+    watch: &'a Watch<'a>,
+    all: usize,
+    done: AtomicUsize,
+}
+
+/// Of all the work, what the finest grids take.
+const FINEST_SHARE: f64 = 0.8;
+
+impl Account<'_> {
+    /// Notes that segments have been splatted. Whether to go on.
+    fn add(&self, segments: usize) -> bool {
+        let done = self.done.fetch_add(segments, Ordering::Relaxed) + segments;
+        let share = done as f64 / self.all.max(1) as f64;
+        (self.watch.progress)(FINEST_SHARE * share.min(1.0));
+        !(self.watch.cancelled)()
+    }
+}
+
+fn build_object(scene: &Scene, object: &Object, account: &Account) -> ObjectBundles {
     let segments = effective_segments(scene, object, None);
     if segments.is_empty() {
         return ObjectBundles::default();
@@ -288,7 +321,7 @@ fn build_object(scene: &Scene, object: &Object) -> ObjectBundles {
         .map(|class| {
             let segments = class.segments;
             let mean = sizes::mean(&segments);
-            let mut levels = vec![splat::finest(&segments, mean, cell_m)];
+            let mut levels = vec![splat::finest(&segments, mean, cell_m, account)];
             while levels.len() < level_count {
                 let coarser = splat::coarser(&levels[levels.len() - 1]);
                 levels.push(coarser);
@@ -331,7 +364,9 @@ fn grids(object: &Object, classes: usize) -> (f32, usize) {
     let by_scratches = CELL_SCRATCHES * area_m2 / length_m.max(1e-9);
     // Coarser levels add a third; hash and coordinates a tenth.
     let bundle_bytes = 1.5 * size_of::<Bundle>() as f64 * classes as f64;
-    let most = (SEGMENT_BYTES * object.segments.len() as f64 / bundle_bytes).max(1.0);
+    // What the estimate of a scene's memory counts on.
+    let bytes = GRID_SEGMENT_BYTES as f64 * object.segments.len() as f64;
+    let most = (bytes / bundle_bytes).max(1.0);
     let by_memory = (area_m2 / most).sqrt();
     let octave = |cell_m: f64| (1e6 * cell_m.max(CELL_MIN_M)).log2();
     // The memory stays within its bound.

@@ -2,12 +2,14 @@
 //! docs/model.md section 6 says of the whole scratch; where pieces are joined nothing moves, and pieces that an end's shift
 //! swallows are gone.
 
+use crate::bundles::BundleIndex;
 use crate::depth_spread::object_coherence;
 use crate::layer_runs::{LayerRun, groups};
 use crate::segment_tree::{Plot, SegmentTree, Straight, Tree, plant};
 use crate::watch::Watch;
 use glam::Vec3;
 use hairline_scene::{Object, Scene};
+use std::sync::{Arc, OnceLock};
 
 /// A straight piece of a scratch, its free ends moved inwards.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,6 +42,8 @@ pub struct ScratchIndex {
     pub tree: SegmentTree<IndexedSegment>,
     /// How alike the phase steps of each object's scratches are (docs/model.md, section 3).
     pub depth_coherence: Vec<f32>,
+    /// See [`Self::grids`].
+    grids: OnceLock<Arc<BundleIndex>>,
 }
 
 /// A footprint cannot be told apart from its Gaussian's tail beyond this many standard deviations (5e-4 of it is left).
@@ -73,7 +77,24 @@ impl ScratchIndex {
         Some(Self {
             tree: tree?,
             depth_coherence,
+            grids: OnceLock::new(),
         })
+    }
+
+    /// What the scratches of the scene that this was built of add up to; built when first asked for, and shared by clones made after.
+    pub fn grids(&self, scene: &Scene) -> Arc<BundleIndex> {
+        let build = || BundleIndex::build(scene).into();
+        Arc::clone(self.grids.get_or_init(build))
+    }
+
+    /// Builds what [`Self::grids`] returns while another watches. `None` if it was cancelled.
+    pub fn grids_watched(&self, scene: &Scene, watch: &Watch) -> Option<Arc<BundleIndex>> {
+        if self.grids.get().is_none() {
+            let grids = BundleIndex::watched(scene, watch)?;
+            // Another may have been quicker.
+            self.grids.set(grids.into()).ok();
+        }
+        self.grids.get().cloned()
     }
 
     /// How alike the phase steps of each object's scratches are, without the trees.

@@ -141,7 +141,7 @@ impl<'a> Prepared<'a> {
 
     pub(crate) fn bundles(&self) -> &Bundles {
         self.bundles
-            .get_or_init(|| Bundles::new(self.scene, &self.tables).into())
+            .get_or_init(|| Bundles::new(self.scene, &self.scratches, &self.tables).into())
     }
 
     fn triangle_list(&self, hit: &Hit) -> &[u32] {

@@ -7,6 +7,7 @@ use std::sync::Arc;
 use hairline_gpu::{Canvas, Error, Gpu, GpuScene, Renderer};
 use hairline_image::Image;
 use hairline_index::ScratchIndex;
+use hairline_optics::method::Method;
 use hairline_scene::{Scene, ScratchTables};
 
 /// The rim of a plate with scratches on a table, under a lamp and a tube; so near that no pixel sees many scratches.
@@ -77,6 +78,7 @@ pub struct Made {
     pub scene: Scene,
     pub index: Arc<ScratchIndex>,
     pub tables: Arc<ScratchTables>,
+    pub method: Method,
 }
 
 impl Made {
@@ -84,13 +86,17 @@ impl Made {
         Self {
             index: Arc::new(ScratchIndex::build(&scene)),
             tables: Arc::new(ScratchTables::new(&scene)),
+            method: Method {
+                gather: scene.render.gather,
+                ..Method::default()
+            },
             scene,
         }
     }
 
     pub async fn upload(&self, renderer: &mut Renderer) -> Result<GpuScene, Error> {
         renderer
-            .upload(&self.scene, &self.index, &self.tables, &Default::default())
+            .upload(&self.scene, &self.index, &self.tables, &self.method)
             .await
     }
 
@@ -99,9 +105,14 @@ impl Made {
         renderer: &mut Renderer,
         uploaded: &mut GpuScene,
     ) -> Result<(), Error> {
-        let method = Default::default();
         renderer
-            .update(uploaded, &self.scene, &self.index, &self.tables, &method)
+            .update(
+                uploaded,
+                &self.scene,
+                &self.index,
+                &self.tables,
+                &self.method,
+            )
             .await
     }
 

@@ -1,17 +1,19 @@
 //! The spectra of many scratches (docs/model.md, equation 24c): a table for each class of an object and each material's table there.
 
 use super::BundleIndex;
+use crate::scratch_index::ScratchIndex;
 use hairline_optics::spread_table::SizePart;
 use hairline_optics::table::ScratchTable;
 use hairline_scene::{Scene, ScratchTables};
 use rayon::prelude::*;
 use std::collections::HashMap;
+use std::sync::Arc;
 
 /// What many scratches add up to, and the spectra of their populations.
 #[derive(Clone, Debug)]
 pub struct Bundles {
     /// The grids.
-    pub index: BundleIndex,
+    pub index: Arc<BundleIndex>,
     tables: Vec<ScratchTable>,
     /// By object, class and the table of single scratches.
     places: HashMap<[usize; 3], usize>,
@@ -21,9 +23,10 @@ pub struct Bundles {
 const ALIKE: f64 = 1e-5;
 
 impl Bundles {
-    /// Builds the grids and the tables, all cores at work; `tables` are those of the scene's single scratches.
-    pub fn new(scene: &Scene, tables: &ScratchTables) -> Self {
-        let index = BundleIndex::build(scene);
+    /// Takes the grids of the scene's scratches, or builds them, and builds the tables, all cores at work; `tables` are those of
+    /// single scratches.
+    pub fn new(scene: &Scene, scratches: &ScratchIndex, tables: &ScratchTables) -> Self {
+        let index = scratches.grids(scene);
         let mut wanted = Vec::new();
         for (o, object) in scene.objects.iter().enumerate() {
             let mut of_object: Vec<usize> = object

@@ -1,7 +1,7 @@
 //! From scratches to the finest grid, and from a grid to the next one. Tiles of vertices are filled one by one, each by one thread
 //! with all that touches it, in a fixed order.
 
-use super::{BUNDLE_BINS, Bundle, BundleLevel, HEIGHT_CELLS, Side, Vertex, runs};
+use super::{Account, BUNDLE_BINS, Bundle, BundleLevel, HEIGHT_CELLS, Side, Vertex, runs};
 use crate::scratch_index::IndexedSegment;
 use glam::Vec3;
 use rayon::prelude::*;
@@ -137,10 +137,12 @@ fn tile_of(key: u64) -> (u32, [i32; 2]) {
     ((key >> 60) as u32, [place(30), place(0)])
 }
 
-/// Fills all tiles: `items` are what touches each, by tile and then in order.
+/// Fills all tiles: `items` are what touches each, by tile and then in order. Is told after each tile how many of them were its, and
+/// leaves the rest empty where it is not to go on.
 fn fill(
     mut items: Vec<(u64, u32)>,
     cell_m: f32,
+    goes_on: &(dyn Fn(usize) -> bool + Sync),
     add: impl Fn(&mut Tile, usize) + Sync,
 ) -> BundleLevel {
     items.par_sort_unstable();
@@ -149,6 +151,9 @@ fn fill(
         .map(|run| {
             let (side, at) = tile_of(items[run.start].0);
             let mut tile = Tile::of(side, at);
+            if !goes_on(run.len()) {
+                return Vec::new();
+            }
             for (_, item) in &items[run] {
                 add(&mut tile, *item as usize);
             }
@@ -169,7 +174,12 @@ fn tiles_between(side: u32, low: [i32; 2], high: [i32; 2]) -> impl Iterator<Item
 }
 
 /// The finest grid. `mean` is the class's mean width (um) and depth (nm).
-pub(super) fn finest(segments: &[IndexedSegment], mean: [f32; 2], cell_m: f32) -> BundleLevel {
+pub(super) fn finest(
+    segments: &[IndexedSegment],
+    mean: [f32; 2],
+    cell_m: f32,
+    account: &Account,
+) -> BundleLevel {
     let per_cell = 1.0 / cell_m;
     let items: Vec<(u64, u32)> = segments
         .par_iter()
@@ -186,7 +196,10 @@ pub(super) fn finest(segments: &[IndexedSegment], mean: [f32; 2], cell_m: f32) -
             tiles_between(side.0, low, high).map(move |key| (key, i as u32))
         })
         .collect();
-    fill(items, cell_m, |tile, i| {
+    // A segment counts for the tiles that it touches.
+    let each = segments.len() as f64 / items.len().max(1) as f64;
+    let goes_on = |items: usize| account.add((items as f64 * each) as usize);
+    fill(items, cell_m, &goes_on, |tile, i| {
         splat(tile, &segments[i], mean, cell_m);
     })
 }
@@ -264,7 +277,7 @@ pub(super) fn coarser(fine: &BundleLevel) -> BundleLevel {
             tiles_between(vertex.side, low, high).map(move |key| (key, i as u32))
         })
         .collect();
-    fill(items, cell_m, |tile, i| {
+    fill(items, cell_m, &|_| true, |tile, i| {
         let (vertex, bundle) = (fine.vertices[i], &fine.bundles[i]);
         let halves = |x: i32| {
             let (low, high) = (x.div_euclid(2), (x + 1).div_euclid(2));

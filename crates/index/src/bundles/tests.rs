@@ -27,6 +27,16 @@ fn random_segments(count: usize) -> Vec<IndexedSegment> {
         .collect()
 }
 
+/// The finest grid, and nobody watches.
+fn finest(segments: &[IndexedSegment], cell_m: f32) -> BundleLevel {
+    let account = Account {
+        watch: &Watch::default(),
+        all: segments.len(),
+        done: AtomicUsize::new(0),
+    };
+    splat::finest(segments, MEAN, cell_m, &account)
+}
+
 /// Of the sizes of those.
 const MEAN: [f32; 2] = [1.5, 150.0];
 
@@ -52,7 +62,7 @@ fn moments(level: &BundleLevel) -> (f64, DVec3, DVec3) {
 #[test]
 fn levels_keep_weights_places_and_directions() {
     let segments = random_segments(3000);
-    let mut level = splat::finest(&segments, MEAN, 1e-3);
+    let mut level = finest(&segments, 1e-3);
     let (weight, place, square) = moments(&level);
     assert!((weight / weight_um2(&segments) - 1.0).abs() < 1e-4);
     for _ in 0..3 {
@@ -77,7 +87,7 @@ fn levels_keep_weights_places_and_directions() {
 #[test]
 fn a_vertex_is_found_and_sides_do_not_mix() {
     let segments = random_segments(2000);
-    let level = splat::finest(&segments, MEAN, 2e-3);
+    let level = finest(&segments, 2e-3);
     for (vertex, bundle) in level.vertices.iter().zip(&level.bundles) {
         assert_eq!(level.find(*vertex), Some(bundle));
         assert!(Side(vertex.side).lean(bundle.normal) > 0.9);
@@ -110,7 +120,7 @@ fn directions_are_those_of_the_scratches() {
         let t = reference * angle.cos() + n.cross(reference) * angle.sin();
         segments[0].start_m = Vec3::ZERO;
         segments[0].end_m = 1e-3 * t;
-        let level = splat::finest(&segments, MEAN, 1e-2);
+        let level = finest(&segments, 1e-2);
         let bins = level.bundles[0].bins;
         let at = angle / std::f32::consts::PI * BUNDLE_BINS as f32;
         let low = at as usize;
@@ -133,7 +143,7 @@ fn sizes_go_with_directions() {
         segment.width_um = MEAN[0] * (1.0 + 0.1 * cosine);
         segment.depth_nm = MEAN[1] * (1.0 - 0.2 * cosine);
     }
-    let mut level = splat::finest(&segments, MEAN, 1e-2);
+    let mut level = finest(&segments, 1e-2);
     for _ in 0..2 {
         for bundle in &level.bundles {
             let [wider, deeper] = bundle.moved_scales.map(|scale| scale / 127.0);
@@ -190,4 +200,29 @@ fn classes_hold_like_sizes() {
     counts.sort_unstable();
     assert_eq!(counts, [3, 7]);
     assert_eq!(sizes::classes(kinds[3..].to_vec(), 4).len(), 1);
+}
+
+/// Progress is told from 0 to 1, and who cancels gets nothing.
+#[test]
+fn work_is_watched() {
+    let text = "[[material]]\nname = \"m\"\nkind = \"metal\"\nmetal = \"steel\"\nroughness = 0.1\n\
+                [[object]]\nname = \"o\"\nmaterial = \"m\"\nshape = { disk = { radius_m = 0.05 } }\n\
+                [[scratches]]\nobject = \"o\"\npattern = \"random\"\ncount = 2000\nlength_m = 0.01\nwidth_um = 3.0\ndepth_nm = 200.0\n\
+                [camera]\nposition_m = [0.0, 0.0, 1.0]\ntarget_m = [0.0, 0.0, 0.0]\nup = [0.0, 1.0, 0.0]\n";
+    let scene = Scene::from_toml(text, "disk", ".").unwrap_or_else(|error| panic!("{error}"));
+    let told = std::sync::Mutex::new(Vec::new());
+    let watch = Watch {
+        progress: &|share| told.lock().unwrap().push(share),
+        ..Watch::default()
+    };
+    let grids = BundleIndex::watched(&scene, &watch).unwrap();
+    assert!(grids.bytes() > 0);
+    let told = told.into_inner().unwrap();
+    assert!(told.len() > 3 && told.iter().all(|share| (0.0..=1.0).contains(share)));
+    assert_eq!(told.last(), Some(&1.0));
+    let watch = Watch {
+        cancelled: &|| true,
+        ..Watch::default()
+    };
+    assert!(BundleIndex::watched(&scene, &watch).is_none());
 }

@@ -44,7 +44,7 @@ pub struct BuildStages {
     pub index: Duration,
     /// Spectral tables.
     pub tables: Duration,
-    /// Grids of many scratches, where the CPU needs them.
+    /// Grids of many scratches, and their spectra where the CPU needs them.
     pub grids: Duration,
 }
 
@@ -60,7 +60,7 @@ impl Built {
     /// What many scratches add up to, for the CPU renderer; none where the scene wants every scratch for itself. Built when first
     /// asked for, by the builder or by a thread that is of no pool: one that is might take up a picture meanwhile that waits for it.
     pub fn bundles(&self) -> Option<Arc<Bundles>> {
-        let build = || Bundles::new(&self.scene, &self.tables).into();
+        let build = || Bundles::new(&self.scene, &self.scratches, &self.tables).into();
         let is_wanted = self.scene.render.gather == Gather::Clusters;
         is_wanted.then(|| Arc::clone(self.bundles.get_or_init(build)))
     }
@@ -69,7 +69,7 @@ impl Built {
     pub(super) fn make_bundles(&mut self) {
         let start = Instant::now();
         if self.bundles().is_some() {
-            self.stages.grids = start.elapsed();
+            self.stages.grids += start.elapsed();
         }
     }
 
@@ -149,8 +149,16 @@ impl Workshop {
             Some(last) if has_same_optics(&last.scene, &scene) => Arc::clone(&last.tables),
             _ => Arc::new(ScratchTables::new(&scene)),
         };
-        // Nobody keeps grids that nobody wants.
+        let tables_done = Instant::now();
+        // Nobody keeps grids that nobody wants. What uploads to a GPU finds them with the scratches.
         let is_clustered = scene.render.gather == Gather::Clusters;
+        let watch = Watch {
+            cancelled,
+            ..Watch::default()
+        };
+        if is_clustered && scratches.grids_watched(&scene, &watch).is_none() {
+            return Ok(None);
+        }
         let bundles = match last {
             Some(last)
                 if is_clustered
@@ -180,8 +188,8 @@ impl Workshop {
                 waited: start - asked,
                 scene: scene_done - start,
                 index: index_done - scene_done,
-                tables: index_done.elapsed(),
-                grids: Duration::ZERO,
+                tables: tables_done - index_done,
+                grids: tables_done.elapsed(),
             },
             bundles,
         }))
