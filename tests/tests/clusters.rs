@@ -63,8 +63,12 @@ fn ball() -> Scene {
 }
 
 fn clusters(lookup: Lookup) -> Method {
+    gathered(Gather::Clusters, lookup)
+}
+
+fn gathered(gather: Gather, lookup: Lookup) -> Method {
     Method {
-        gather: Gather::Clusters,
+        gather,
         lookup,
         ..Method::default()
     }
@@ -172,8 +176,8 @@ fn many_under_a_fine_pixel() {
     let scene = dense();
     let prepared = Prepared::new(&scene);
     let methods = [
-        clusters(Lookup::Tiles),
-        clusters(Lookup::Bvh),
+        gathered(Gather::Tally, Lookup::Tiles),
+        gathered(Gather::Tally, Lookup::Bvh),
         Method::default(),
     ];
     let Some([tiles, walked, exact]) = on_the_gpu(&prepared, &scene, methods) else {

@@ -188,7 +188,7 @@ fn sorted(scene: &Scene) -> ScratchIndex {
 
 /// Builds the grids of many scratches, if the method has a use for them.
 fn add_up(scene: &Scene, scratches: &ScratchIndex, method: &Method) {
-    if method.gather == Gather::Clusters {
+    if method.gather.has_grids() {
         let bar = Progress::start("adding up scratches");
         watched(&bar, |watch| scratches.grids_watched(scene, watch));
     }

@@ -132,8 +132,11 @@ pub enum Index {
 pub enum GatherFlag {
     /// Each for itself: the time grows with their number.
     Exact,
-    /// Where a pixel covers many, what they add up to: the time is bounded.
+    /// Where a pixel covers many, what they add up to, from grids that are fine against it.
     Clusters,
+    /// The same, and where no grid is fine enough hundreds of scratches are added up one by one. Quicker than clusters on the CPU,
+    /// slower on a software driver.
+    Tally,
 }
 
 impl MethodFlags {
@@ -174,9 +177,9 @@ impl MethodFlags {
         replace(&mut method.sphere_base, self.sphere_base.map(Into::into));
         replace(&mut method.lookup, self.index.map(Into::into));
         replace(&mut method.gather, self.gather.map(Into::into));
-        if method.gather == Gather::Clusters && !method.is_default_path() {
+        if method.gather.has_grids() && !method.is_default_path() {
             return Err(Failure::Input(anyhow!(
-                "--gather clusters is of the default method: only --mask, --index and --footprint gaussian or off go with it"
+                "--gather clusters and tally are of the default method: only --mask, --index and --footprint gaussian or off go with it"
             )));
         }
         if method.lookup == Lookup::Triangles && method.footprint != PixelFilter::Off {
@@ -310,7 +313,7 @@ same!(Footprint, PixelFilter, Gaussian => Gaussian, Published => Published, Off 
 same!(Mask, mask::Mask, Energy => Energy, Linear => Linear, Density => Density);
 same!(SphereBaseFlag, SphereBase, Ltc => Cosines, Sptd => Pivot);
 same!(Index, Lookup, Tiles => Tiles, Bvh => Bvh, Triangles => Triangles);
-same!(GatherFlag, Gather, Exact => Exact, Clusters => Clusters);
+same!(GatherFlag, Gather, Exact => Exact, Clusters => Clusters, Tally => Tally);
 
 #[cfg(test)]
 mod tests {
@@ -370,7 +373,7 @@ mod tests {
             ("--wavelengths 5 --spectrum si-fast", "3, 8, 16"),
             ("--gather clusters --method published", "default method"),
             ("--gather clusters --footprint published", "gaussian or off"),
-            ("--gather few", "exact, clusters"),
+            ("--gather few", "exact, clusters, tally"),
         ] {
             let message = parsed(flags).unwrap_err();
             assert!(message.contains(right), "{flags}: {message}");
@@ -397,7 +400,7 @@ mod tests {
                         for mask in [mask::Mask::Energy, mask::Mask::Linear, mask::Mask::Density] {
                             for sphere_base in [SphereBase::Cosines, SphereBase::Pivot] {
                                 for lookup in [Lookup::Tiles, Lookup::Bvh, Lookup::Triangles] {
-                                    for gather in [Gather::Exact, Gather::Clusters] {
+                                    for gather in [Gather::Exact, Gather::Clusters, Gather::Tally] {
                                         let method = Method {
                                             spectrum,
                                             chords,
@@ -411,8 +414,7 @@ mod tests {
                                         let back = parsed(&flags_of(&method));
                                         let has_list = footprint == PixelFilter::Off;
                                         if lookup == Lookup::Triangles && !has_list
-                                            || gather == Gather::Clusters
-                                                && !method.is_default_path()
+                                            || gather.has_grids() && !method.is_default_path()
                                         {
                                             assert!(back.is_err());
                                         } else {
@@ -429,7 +431,7 @@ mod tests {
         }
         let exact = 4 * 2 * 2 * 3 * 2 * (3 + 2 + 2);
         // The default path alone, with three masks.
-        let clusters = 3 * (3 + 2);
+        let clusters = 2 * 3 * (3 + 2);
         assert_eq!(count, exact + clusters);
     }
 }

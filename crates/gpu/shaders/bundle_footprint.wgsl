@@ -19,14 +19,15 @@ fn bundle_choice(pixel: GatherPixel, grids: BundleGrids) -> BundleChoice {
     let c = pixel.covariance_um2;
     let least = 0.5 * (c.x + c.z) - length(vec2f(0.5 * (c.x - c.z), c.y));
     let std_um = sqrt(max(least, 0.0) + pixel.window_um2);
+    let may_tally = METHOD_GATHER == GATHER_TALLY;
     let octave = log2(std_um / (BUNDLE_LEAST_CELLS * 1e6 * grids.cell_m));
     if grids.populations == 0u || !(octave > 0.0) {
-        return BundleChoice(0u, 0.0, false, grids.populations > 0u && octave > BUNDLE_TALLY_OCTAVE);
+        return BundleChoice(0u, 0.0, false, may_tally && grids.populations > 0u && octave > BUNDLE_TALLY_OCTAVE);
     }
     let level = min(u32(min(octave, 31.0)), grids.levels - 1u);
     let over = min((octave - f32(level)) / BUNDLE_HAND_OVER, 1.0);
     let share = over * over * (3.0 - 2.0 * over);
-    return BundleChoice(level, share, true, level == 0u && share < 1.0);
+    return BundleChoice(level, share, true, may_tally && level == 0u && share < 1.0);
 }
 
 // The weight of single scratches.
@@ -36,7 +37,7 @@ fn bundle_single_share(choice: BundleChoice) -> f32 {
 
 // The same for a point of an object, where the method has grids at all.
 fn bundle_single_share_at(point: SurfacePoint, object: u32) -> f32 {
-    if METHOD_GATHER == GATHER_CLUSTERS {
+    if METHOD_GATHER != GATHER_EXACT {
         return bundle_single_share(bundle_choice(gather_pixel(point), bundle_grids(object)));
     }
     return 1.0;

@@ -72,7 +72,6 @@ fn bundle_radiance(
     pixel: GatherPixel,
     side: u32,
     size: vec2f,
-    mean_width_um: f32,
     lane: u32,
 ) -> vec3f {
     let axes = bundle_frame(point, side);
@@ -81,7 +80,7 @@ fn bundle_radiance(
         gather_rounds += 1u;
         let seen = gather_light_seen(point, pixel, l);
         if seen.shines {
-            radiance += seen.radiance * bundle_light(point, pixel, axes, size, mean_width_um, seen, lane);
+            radiance += seen.radiance * bundle_light(point, pixel, axes, size, seen, lane);
         }
     }
     if HAS_ENVIRONMENT {
@@ -89,7 +88,7 @@ fn bundle_radiance(
             gather_rounds += 1u + ENVIRONMENT_CELLS;
             let direction = bundle_direction(at, BUNDLE_ENVIRONMENT_STRIDE);
             if direction.x > 0.0 {
-                let lit = bundle_lit_segment(bundle_tangent(axes, at), size, mean_width_um, direction);
+                let lit = bundle_lit_segment(bundle_tangent(axes, at), size, direction);
                 radiance += direction.x * gather_environment(point, lit);
             }
         }
@@ -98,8 +97,8 @@ fn bundle_radiance(
 }
 
 // What stands for the scratches of a population in a direction.
-fn bundle_lit_segment(tangent: vec2f, size: vec2f, mean_width_um: f32, direction: vec3f) -> LitSegment {
-    return LitSegment(tangent, 0.0, mean_width_um, size.y, vec3f(direction.yz, size.x / mean_width_um));
+fn bundle_lit_segment(tangent: vec2f, size: vec2f, direction: vec3f) -> LitSegment {
+    return LitSegment(tangent, 0.0, size.x, size.y, direction.yz);
 }
 
 // This lane's part of what a light of radiance 1 sends.
@@ -108,7 +107,6 @@ fn bundle_light(
     pixel: GatherPixel,
     axes: BundleFrame,
     size: vec2f,
-    mean_width_um: f32,
     seen: LightSeen,
     lane: u32,
 ) -> vec3f {
@@ -141,7 +139,7 @@ fn bundle_light(
         gather_rounds += 1u;
         let at = bundle_lit[i];
         let direction = bundle_direction(at, stride);
-        let lit = bundle_lit_segment(bundle_tangent(axes, at), size, mean_width_um, direction);
+        let lit = bundle_lit_segment(bundle_tangent(axes, at), size, direction);
         var value = vec3f(0.0);
         if HAS_SPHERES && seen.kind == LIGHT_SPHERE {
             value = gather_sphere(point, view, lit, seen);

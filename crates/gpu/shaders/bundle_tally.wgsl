@@ -71,7 +71,7 @@ fn bundle_tally(
         }
         workgroupBarrier();
         point.table = bundle_table(grids, population, own_table);
-        sums.radiance += bundle_radiance(point, view, side, bundle_size(grids, population), grids.width_um, lane);
+        sums.radiance += bundle_radiance(point, view, side, bundle_size(grids, population), lane);
         workgroupBarrier();
     }
     bundle_join_sums(lane, &sums);

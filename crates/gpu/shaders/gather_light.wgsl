@@ -10,13 +10,12 @@ struct LitSegment {
     offset_um: f32,             // across the tangent
     width_um: f32,
     depth_nm: f32,
-    // Of many: the shares by which they are wider and deeper than their class, and the class's width over `width_um`.
-    class_moved: vec3f,
+    moved: vec2f,               // shares by which many are wider and deeper than their population
 }
 
 fn gather_lit(width_depth: u32, tangent: vec2f, offset_um: f32) -> LitSegment {
     let groove = unpack2x16float(width_depth);
-    return LitSegment(tangent, offset_um, groove.x, groove.y, vec3f(0.0, 0.0, 1.0));
+    return LitSegment(tangent, offset_um, groove.x, groove.y, vec2f(0.0));
 }
 
 // A light from a pixel, in the surface's frame.
@@ -116,8 +115,7 @@ fn gather_reaches(point: SurfacePoint, pixel: GatherPixel, seen: LightSeen, tang
 // T at q, for a light whose direction has the cosine cos_i to the normal.
 fn gather_table(point: SurfacePoint, lit: LitSegment, q: f32, depth_nm: f32) -> vec3f {
     if LIGHTS_MANY {
-        let width_um = lit.width_um * lit.class_moved.z;
-        return scratch_table_moved(scratch_tables, point.table, width_um * q, depth_nm, lit.class_moved.xy);
+        return scratch_table_moved(scratch_tables, point.table, lit.width_um * q, depth_nm, lit.moved);
     }
     return scratch_table(scratch_tables, point.table, lit.width_um * q, depth_nm);
 }

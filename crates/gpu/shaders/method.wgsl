@@ -33,6 +33,7 @@ const SPHERE_BASE_PIVOT: u32 = 1u;
 override METHOD_GATHER: u32 = 0u;
 const GATHER_EXACT: u32 = 0u;
 const GATHER_CLUSTERS: u32 = 1u;
+const GATHER_TALLY: u32 = 2u;
 
 override METHOD_LOOKUP: u32 = 0u;
 const LOOKUP_TILES: u32 = 0u;

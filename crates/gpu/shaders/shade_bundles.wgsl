@@ -66,7 +66,7 @@ fn shade_bundles(
             if footprint.rows > 0u {
                 let share = bundle_read(point, footprint, level, lane);
                 if share > 0.0 {
-                    bundle_add(point, view, side, share, size, grids.width_um, weight, lane, &sums);
+                    bundle_add(point, view, side, share, size, weight, lane, &sums);
                 }
             }
         }
@@ -221,13 +221,12 @@ fn bundle_add(
     side: u32,
     share: f32,
     size: vec2f,
-    mean_width_um: f32,
     weight: f32,
     lane: u32,
     sums: ptr<function, ScratchSums>,
 ) {
     let axes = bundle_frame(point, side);
-    let radiance = bundle_radiance(point, pixel, side, size, mean_width_um, lane);
+    let radiance = bundle_radiance(point, pixel, side, size, lane);
     (*sums).radiance += weight * radiance;
     (*sums).share += weight * share;
     // The mean of a Gaussian over itself is 1/sqrt2 of its peak.

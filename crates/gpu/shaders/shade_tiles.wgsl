@@ -23,7 +23,7 @@ fn shade(
     var batch: GatherBatch;
     var sums: ScratchSums;
     var alone = true;
-    if METHOD_GATHER == GATHER_CLUSTERS {
+    if METHOD_GATHER != GATHER_EXACT {
         view.single_share = bundle_single_share_at(point, seen.y);
         alone = view.single_share > 0.0 && film_wants_singles(pixel);
         sums = film_resume(pixel, 0u).sums;

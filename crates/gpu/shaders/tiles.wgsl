@@ -77,7 +77,7 @@ fn tile_sight(corner: vec2u, tile: u32) -> TileSight {
     var sight = TileSight(0u, true, vec3f(1e30), vec3f(-1e30), vec2f(0.0));
     let middle = tile_middle_px(corner);
     var tallied = vec2u(0u);
-    if METHOD_GATHER == GATHER_CLUSTERS {
+    if METHOD_GATHER != GATHER_EXACT {
         tallied = queue_tallied(tile);
     }
     for (var i = 0u; i < TILE_PX * TILE_PX; i += 1u) {
@@ -95,7 +95,7 @@ fn tile_sight(corner: vec2u, tile: u32) -> TileSight {
         let point = hit_surface_point(seen.x - 1u, ray, &depth_m);
         // What grids stand for needs no list, nor what is added up.
         let is_tallied = ((select(tallied.x, tallied.y, i >= 32u) >> (i % 32u)) & 1u) == 1u;
-        if METHOD_GATHER == GATHER_CLUSTERS && (is_tallied || bundle_single_share_at(point, seen.y) == 0.0) {
+        if METHOD_GATHER != GATHER_EXACT && (is_tallied || bundle_single_share_at(point, seen.y) == 0.0) {
             continue;
         }
         let reach = gather_reach_m(point);

@@ -12,7 +12,6 @@ use hairline_index::bundles::{
     Bundle, BundleLevel, Bundles, ClassBundles, HEIGHT_CELLS, ObjectBundles, Vertex,
 };
 use hairline_optics::metal::Metal;
-use hairline_optics::method::Gather;
 use hairline_optics::table::ScratchTable;
 use hairline_scene::{Scene, ScratchTables};
 
@@ -72,7 +71,7 @@ impl UploadedBundles {
             tables,
             method,
         } = *source;
-        let wanted = method.gather == Gather::Clusters;
+        let wanted = method.gather.has_grids();
         let spectra = SpectraKey::of(tables);
         let is_like = |last: &Self| {
             Arc::ptr_eq(&last.index, index) && last.spectra == spectra && last.origin_m == origin_m
@@ -234,8 +233,7 @@ impl Packing {
                 cell_m.to_bits(),
                 tables.tables.len() as u32,
             ];
-            let width = object.width_um.to_bits();
-            packing.texels[2 * o + 1] = [layers as u32, heads as u32, sizes as u32, width];
+            packing.texels[2 * o + 1] = [layers as u32, heads as u32, sizes as u32, 0];
         }
         packing.texels
     }

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use hairline_image::{Display, Image};
 use hairline_index::ScratchIndex;
-use hairline_optics::method::{Gather, Lookup, Method};
+use hairline_optics::method::{Lookup, Method};
 use hairline_scene::{Scene, ScratchTables};
 use wgpu::BufferUsages;
 
@@ -437,7 +437,7 @@ impl ScenePasses {
         Self {
             tiles: (wants_tiles && variant.has.scratches)
                 .then(|| TilesPasses::new(gpu, layouts, variant)),
-            bundles: (method.gather == Gather::Clusters && variant.has.scratches)
+            bundles: (method.gather.has_grids() && variant.has.scratches)
                 .then(|| BundlesPasses::new(gpu, layouts, variant)),
             shade: ShadePass::new(gpu, layouts, variant, wants_tiles && variant.has.scratches),
         }

@@ -3,6 +3,8 @@
 //!
 //! Inputs: frame, scene, grids, visibility. Outputs: a queue of tiles; the sums with which walks over single scratches begin.
 
+use hairline_optics::method::Gather;
+
 use crate::bindings::Layouts;
 use crate::compute_pass;
 use crate::device::Gpu;
@@ -16,7 +18,8 @@ use crate::variant::{ShadeVariant, compute_pipeline, is_bounded};
 pub(crate) struct BundlesPasses {
     find: wgpu::ComputePipeline,
     shade: wgpu::ComputePipeline,
-    tally: wgpu::ComputePipeline,
+    /// Where the method adds up single scratches.
+    tally: Option<wgpu::ComputePipeline>,
     /// Whether a dispatch may leave pixels unfinished.
     pub bounded: bool,
 }
@@ -40,7 +43,8 @@ impl BundlesPasses {
         Self {
             find: pipeline(&shaders::BUNDLE_TILES, &[]),
             shade: pipeline(&shaders::SHADE_BUNDLES, of_driver),
-            tally: pipeline(&shaders::BUNDLE_TALLY, of_driver),
+            tally: (variant.method.gather == Gather::Tally)
+                .then(|| pipeline(&shaders::BUNDLE_TALLY, of_driver)),
             bounded,
         }
     }
@@ -86,7 +90,7 @@ impl BundlesPasses {
         tiles.dispatch(&mut pass, Queue::Bundled);
     }
 
-    /// Adds up single scratches of the queue's pixels where they are many, after all grids.
+    /// Adds up single scratches of the queue's pixels where they are many and the method does so, after all grids.
     pub fn tally(
         &self,
         encoder: &mut wgpu::CommandEncoder,
@@ -95,9 +99,11 @@ impl BundlesPasses {
         band: &Band<'_>,
         timing: &Timing,
     ) {
+        let Some(tally) = &self.tally else {
+            return;
+        };
         let film = &band.film.group;
-        let mut pass =
-            compute_pass::begin(encoder, "tally", timing, &self.tally, frame, scene, film);
+        let mut pass = compute_pass::begin(encoder, "tally", timing, tally, frame, scene, film);
         band.room.tiles.dispatch(&mut pass, Queue::Bundled);
     }
 }

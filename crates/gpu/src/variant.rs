@@ -99,6 +99,7 @@ fn constants_of(variant: &ShadeVariant) -> [(&'static str, f64); 16] {
     let gather = match method.gather {
         Gather::Exact => 0,
         Gather::Clusters => 1,
+        Gather::Tally => 2,
     };
     [
         ("HAS_SCRATCHES", has.scratches.into()),

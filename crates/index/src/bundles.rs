@@ -221,8 +221,6 @@ pub struct ObjectBundles {
     pub cell_m: f32,
     /// How many levels each class has.
     pub level_count: usize,
-    /// Mean width of all scratches, by area.
-    pub width_um: f32,
     /// Scratches of like sizes together.
     pub classes: Vec<ClassBundles>,
 }
@@ -313,7 +311,6 @@ fn build_object(scene: &Scene, object: &Object, account: &Account) -> ObjectBund
     if segments.is_empty() {
         return ObjectBundles::default();
     }
-    let [width_um, _] = sizes::mean(&segments);
     let classes = sizes::classes(segments, CLASSES_MAX);
     let (cell_m, level_count) = grids(object, classes.len());
     let classes = classes
@@ -339,7 +336,6 @@ fn build_object(scene: &Scene, object: &Object, account: &Account) -> ObjectBund
     ObjectBundles {
         cell_m,
         level_count,
-        width_um,
         classes,
     }
 }

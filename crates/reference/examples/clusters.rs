@@ -94,7 +94,7 @@ fn report(name: &str, scene: &Scene, built: &Prepared, zoom: f64, size_px: [u32;
     let prepared = built.with_scene(&scene);
     let exact = Method::default();
     let bundled = Method {
-        gather: Gather::Clusters,
+        gather: Gather::Tally,
         ..exact
     };
     let (reference, exact_us) = render(&prepared, exact);

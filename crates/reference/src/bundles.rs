@@ -16,6 +16,7 @@ use crate::surface::SurfacePoint;
 use directions::Directions;
 use hairline_index::bundles::{Bundles, ObjectBundles, Side};
 use hairline_optics::mask::ScratchSums;
+use hairline_optics::method::Gather;
 
 /// A footprint's least standard deviation is at least so many cells of the grids that it reads: from here on their sum over its
 /// Gaussian is an integral to 1e-3, the tents' variance taken off.
@@ -23,13 +24,15 @@ const LEAST_CELLS: f64 = 0.9;
 /// The footprint's size goes up by this factor while one grid takes over from another, as a power of two.
 const HAND_OVER: f64 = 0.35;
 
-/// Adds up all scratches of an object under the point's footprint.
+/// Adds up all scratches of an object under the point's footprint; `gather` is any but [`Gather::Exact`].
+#[expect(clippy::too_many_arguments)]
 pub(crate) fn gather_bundles(
     prepared: &Prepared,
     point: &SurfacePoint,
     object: usize,
     list: Option<&[u32]>,
     views: &LightViews,
+    gather: Gather,
     work: &mut Work,
 ) -> ScratchSums {
     let bundles = prepared.bundles();
@@ -41,6 +44,7 @@ pub(crate) fn gather_bundles(
         object,
         list,
         views,
+        may_tally: gather == Gather::Tally,
     };
     let cell_um = many.grids.cell_m as f64 * 1e6;
     let octave = (least_std_um(many.pixel) / (LEAST_CELLS * cell_um)).log2();
@@ -73,6 +77,7 @@ struct Many<'a> {
     object: usize,
     list: Option<&'a [u32]>,
     views: &'a LightViews<'a>,
+    may_tally: bool,
 }
 
 impl Many<'_> {

@@ -288,7 +288,7 @@ impl<'a> Way<'a> {
     /// Builds what the method looks up beside the trees. Now, on one thread: a thread that builds it in parallel while others
     /// wait for it may take up one of their pixels meanwhile, and wait for itself.
     fn new(prepared: &'a Prepared<'a>, method: Method) -> Self {
-        if method.gather == Gather::Clusters {
+        if method.gather.has_grids() {
             prepared.bundles();
         }
         if method.lookup == Lookup::Triangles {
@@ -391,9 +391,15 @@ impl<'a> Way<'a> {
                     Gather::Exact => {
                         scratches::gather_scratches(self.prepared, point, object, list, views, work)
                     }
-                    Gather::Clusters => {
-                        bundles::gather_bundles(self.prepared, point, object, list, views, work)
-                    }
+                    Gather::Clusters | Gather::Tally => bundles::gather_bundles(
+                        self.prepared,
+                        point,
+                        object,
+                        list,
+                        views,
+                        self.method.gather,
+                        work,
+                    ),
                 };
                 sums.resolve(
                     self.method.mask,

@@ -41,8 +41,6 @@ pub(crate) struct SegmentView<'a, const N: usize> {
     /// `wo` in the frame of the scratch.
     wo: DVec3,
     grooves: [Groove<'a>; N],
-    /// Of a scratch for which the directions of light count alike: of many the mean one.
-    width_um: f64,
     /// Variance of the tangent's angle about it; 0 for a single scratch.
     turn_rad2: f64,
     place: BandPlace,
@@ -56,7 +54,6 @@ impl<'a, const N: usize> SegmentView<'a, N> {
             frame,
             wo: frame.band_from_surface(pixel.point.wo),
             grooves,
-            width_um: grooves[0].width_um,
             turn_rad2: 0.0,
             place,
         }
@@ -68,13 +65,11 @@ impl<'a, const N: usize> SegmentView<'a, N> {
         pixel: &Pixel,
         tangent: DVec2,
         grooves: [Groove<'a>; N],
-        width_um: f64,
         turn_rad2: f64,
     ) -> Self {
         // They lie on both sides, as far as the footprint goes: to none of them does the place across tell how ξt moves.
         let place = BandPlace::new([0.0; 2], 0.0, pixel.window_um2);
         Self {
-            width_um,
             turn_rad2,
             ..Self::new(pixel, tangent, grooves, place)
         }
@@ -136,10 +131,13 @@ impl<'a, const N: usize> SegmentView<'a, N> {
             )
     }
 
-    /// The antiderivative over q of what all grooves send for light from directions with a cosine to the normal.
-    fn spectrum(&self, cos_i: f64) -> impl Fn(f64) -> [f64; 3] + 'a {
+    /// The antiderivative over q of what all grooves send for light from a part of a line.
+    fn spectrum(&self, line: BandLine, (low, high): (f64, f64)) -> impl Fn(f64) -> [f64; 3] + 'a {
         let grooves = self.grooves;
-        let rows = grooves.map(|groove| groove.row(cos_i, self.wo.z));
+        let rows = grooves.map(|groove| {
+            let cos_i = chord_cos(line, low, high, groove.width_um);
+            groove.row(cos_i, self.wo.z)
+        });
         move |q| {
             let mut sum = [0.0; 3];
             for (groove, row) in grooves.iter().zip(&rows) {
@@ -150,15 +148,6 @@ impl<'a, const N: usize> SegmentView<'a, N> {
             }
             sum
         }
-    }
-
-    /// The same for light from a part of a line.
-    fn line_spectrum(
-        &self,
-        line: BandLine,
-        (low, high): (f64, f64),
-    ) -> impl Fn(f64) -> [f64; 3] + 'a {
-        self.spectrum(chord_cos(line, low, high, self.width_um))
     }
 
     /// By a sphere of radiance 1.
@@ -173,7 +162,7 @@ impl<'a, const N: usize> SegmentView<'a, N> {
         let lines = band_lines(wo.x, lowest, highest, motion.band(pixel.stds).stds);
         lines.integral(wo, |line| {
             let chord = sphere_chord(line, cap);
-            chord.integral(line, self.line_spectrum(line, chord.range(line)))
+            chord.integral(line, self.spectrum(line, chord.range(line)))
         })
     }
 
@@ -223,19 +212,24 @@ impl<'a, const N: usize> SegmentView<'a, N> {
         roots: &mut OutlineRoots,
     ) -> impl Fn(f64) -> [f64; 3] + 'a {
         outline.roots(self.frame, line, roots);
-        self.line_spectrum(line, roots.range)
+        self.spectrum(line, roots.range)
     }
 
     /// By the environment, along the band's middle line, cell by cell.
     pub fn environment(&self, pixel: &Pixel, environment: &Environment) -> DVec3 {
-        environment_band(
-            BandLine::new(self.wo, 0.0),
-            self.width_um,
-            |q, cos_i| self.spectrum(cos_i)(q),
-            |direction, roughness| {
-                let direction = self.frame.surface_from_band(direction);
-                environment.prefiltered(pixel.point.world_from_surface(direction), roughness)
-            },
-        )
+        let of_groove = |groove: &Groove| {
+            let sum = environment_band(
+                BandLine::new(self.wo, 0.0),
+                groove.width_um,
+                |q, cos_i| groove.row(cos_i, self.wo.z).at(groove.width_um * q),
+                |direction, roughness| {
+                    let direction = self.frame.surface_from_band(direction);
+                    environment.prefiltered(pixel.point.world_from_surface(direction), roughness)
+                },
+            );
+            groove.share * sum
+        };
+        let lit = self.grooves.iter().filter(|groove| groove.share > 0.0);
+        lit.map(of_groove).sum()
     }
 }

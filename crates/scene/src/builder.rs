@@ -6,8 +6,6 @@ use std::fmt;
 use std::path::Path;
 use std::sync::Arc;
 
-use hairline_optics::method::Gather;
-
 use crate::description::references::find;
 use crate::description::{self, Description, Layer};
 use crate::error::Error;
@@ -162,9 +160,9 @@ impl<'a> Work<'a> {
         let gather = self.description.render.gather;
         let used = coats.iter().filter(|coat| coat.is_shown);
         let used = used.filter_map(|coat| coat.laid.as_deref());
-        if gather == Gather::Clusters && self.old.gather != gather {
+        if gather.has_grids() && !self.old.gather.has_grids() {
             let segments = used.clone().map(|kept| kept.laid.segments.len()).sum();
-            scratches::check_grids(segments, self.loader.memory_budget_bytes as f64)?;
+            scratches::check_grids(gather, segments, self.loader.memory_budget_bytes as f64)?;
         }
         let used_bytes = used.map(|kept| kept.laid.bytes(gather)).sum();
         let tables: Vec<_> = coats

@@ -77,7 +77,7 @@ pub struct Render {
     /// `"neutral"` (default), `"agx"`, `"aces"` or `"none"`.
     #[serde(serialize_with = "serialize_named")]
     pub tone_map: ToneMap,
-    /// Whether many scratches under a pixel may be taken together: `"exact"` (default), `"clusters"`.
+    /// Whether many scratches under a pixel may be taken together: `"exact"` (default), `"clusters"`, `"tally"`.
     #[serde(serialize_with = "serialize_named", skip_serializing_if = "is_exact")]
     pub gather: Gather,
 }
@@ -320,8 +320,11 @@ impl Named for ToneMap {
 }
 
 impl Named for Gather {
-    const NAMES: &'static [(&'static str, Self)] =
-        &[("exact", Gather::Exact), ("clusters", Gather::Clusters)];
+    const NAMES: &'static [(&'static str, Self)] = &[
+        ("exact", Gather::Exact),
+        ("clusters", Gather::Clusters),
+        ("tally", Gather::Tally),
+    ];
 }
 
 impl Named for Metal {

@@ -123,7 +123,7 @@ fn wrong_types() {
         ),
         (
             "[render]\ngather = \"few\"",
-            "plate.toml:12: render.gather: found the text \"few\"; must be one of `exact` and `clusters`",
+            "plate.toml:12: render.gather: found the text \"few\"; must be one of `exact`, `clusters` and `tally`",
         ),
         (
             "[[material]]\nname = \"m\"\nkind = \"metal\"\nmetal = \"aluminum\"",

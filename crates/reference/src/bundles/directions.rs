@@ -149,13 +149,7 @@ impl Directions {
             grooves.iter().any(|groove| groove.share > 0.0).then(|| {
                 let tangent = (reference * CIRCLE[at].x + across * CIRCLE[at].y).normalize();
                 let turn = BIN_RAD * stride as f64;
-                SegmentView::of_many(
-                    pixel,
-                    tangent,
-                    grooves,
-                    many.grids.width_um.into(),
-                    SMEAR * turn * turn,
-                )
+                SegmentView::of_many(pixel, tangent, grooves, SMEAR * turn * turn)
             })
         };
         let mut radiance = DVec3::ZERO;

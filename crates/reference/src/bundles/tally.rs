@@ -20,7 +20,7 @@ impl Many<'_> {
         let pixel = self.pixel;
         let table = &self.prepared.tables.tables[pixel.point.table];
         let environment = self.prepared.scene.environment.as_ref();
-        let may_tally = octave > TALLY_OCTAVE;
+        let may_tally = self.may_tally && octave > TALLY_OCTAVE;
         let mut tally = None;
         let mut sums = ScratchSums::default();
         let mut found = std::mem::take(&mut work.seen);

@@ -25,7 +25,7 @@ pub(crate) fn segment_bytes(gather: Gather) -> f64 {
 fn grid_bytes(gather: Gather) -> f64 {
     match gather {
         Gather::Exact => 0.0,
-        Gather::Clusters => GRIDS_IN_MAKING * GRID_SEGMENT_BYTES as f64,
+        Gather::Clusters | Gather::Tally => GRIDS_IN_MAKING * GRID_SEGMENT_BYTES as f64,
     }
 }
 
@@ -63,11 +63,11 @@ impl Demand {
         let fitting = (free_bytes / each_bytes).min(MOST_SEGMENTS as f64 / self.segments_each);
         let (with_grids, or_exact) = match self.gather {
             Gather::Exact => ("", ""),
-            Gather::Clusters if self.fits(Gather::Exact, free_bytes) => (
+            Gather::Clusters | Gather::Tally if self.fits(Gather::Exact, free_bytes) => (
                 WITH_GRIDS,
                 ", or for gather = \"exact\", with which they fit",
             ),
-            Gather::Clusters => (WITH_GRIDS, ""),
+            Gather::Clusters | Gather::Tally => (WITH_GRIDS, ""),
         };
         Err(Error::new(
             key(),
@@ -90,15 +90,20 @@ const WITH_GRIDS: &str = ", grids of many scratches included";
 ///
 /// # Errors
 /// They do not fit into `free_bytes`.
-pub(crate) fn check_grids(segments: usize, free_bytes: f64) -> Result<(), Error> {
-    let bytes = segments as f64 * grid_bytes(Gather::Clusters);
+pub(crate) fn check_grids(gather: Gather, segments: usize, free_bytes: f64) -> Result<(), Error> {
+    let bytes = segments as f64 * grid_bytes(gather);
     if bytes <= free_bytes {
         return Ok(());
     }
     Err(Error::new(
         "render.gather",
         format!(
-            "found \"clusters\", which would take about {} of memory for grids of {:.1e} segments",
+            "found \"{}\", which would take about {} of memory for grids of {:.1e} segments",
+            if gather == Gather::Tally {
+                "tally"
+            } else {
+                "clusters"
+            },
             gibibytes(bytes),
             segments as f64
         ),

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use hairline_index::bundles::Bundles;
 use hairline_index::{ScratchIndex, TriangleIndex, Watch};
-use hairline_optics::method::{Gather, Method};
+use hairline_optics::method::Method;
 use hairline_scene::description::Description;
 use hairline_scene::{Loader, Scene, SceneBuilder, ScratchTables};
 use web_time::Instant;
@@ -61,7 +61,7 @@ impl Built {
     /// asked for, by the builder or by a thread that is of no pool: one that is might take up a picture meanwhile that waits for it.
     pub fn bundles(&self) -> Option<Arc<Bundles>> {
         let build = || Bundles::new(&self.scene, &self.scratches, &self.tables).into();
-        let is_wanted = self.scene.render.gather == Gather::Clusters;
+        let is_wanted = self.scene.render.gather.has_grids();
         is_wanted.then(|| Arc::clone(self.bundles.get_or_init(build)))
     }
 
@@ -151,7 +151,7 @@ impl Workshop {
         };
         let tables_done = Instant::now();
         // Nobody keeps grids that nobody wants. What uploads to a GPU finds them with the scratches.
-        let is_clustered = scene.render.gather == Gather::Clusters;
+        let is_clustered = scene.render.gather.has_grids();
         let watch = Watch {
             cancelled,
             ..Watch::default()

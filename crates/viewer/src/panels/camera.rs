@@ -61,6 +61,7 @@ pub(super) fn show_render(ui: &mut Ui, viewer: &mut Viewer) {
     let gathers = [
         (Gather::Exact, "each one".to_owned()),
         (Gather::Clusters, "added up".to_owned()),
+        (Gather::Tally, "all added up".to_owned()),
     ];
     form.choice(
         "Many scratches",
