@@ -13,7 +13,7 @@ pub(crate) const TILE_LISTS_FORMAT: TextureFormat = TextureFormat::Rgba32Uint;
 pub(crate) const TILE_PX: u32 = 8;
 /// Workgroups that every WebGPU device takes in one dispatch: one for each tile.
 pub(crate) const TILES_MAX: u32 = 65_535;
-/// Texels of all lists together: 128 MiB, and no more rows than every WebGPU device has.
+/// Texels of all lists together: 256 MiB, and no more rows than every WebGPU device has.
 const TEXELS_MAX: u32 = 1 << 24;
 /// Room of a tile: more scratches than a footprint of usual wear holds. What does not fit is found pixel by pixel.
 const TILE_ENTRIES_MAX: u32 = 512;

@@ -367,7 +367,7 @@ fn counts(text: &mut String, figures: &Figures) -> std::fmt::Result {
          pixels share is dealt out among those of them that do. {}\n",
         if figures.machine.adapter.is_some() {
             "By tiles, one walk for 8 x 8 pixels finds leaves whose segments are projected into the picture; those whose line comes near \
-             the tile are its list. The workgroup draws each line of the list into a bit for every pixel that it comes near to, and a \
+             the tile are its list, with a bit for every pixel that the line comes near to. A \
              pixel weighs only the segments whose bit it finds. Those with a share it keeps, asks of each light which of them its bound \
              reaches, and lights these. The published method walks, weighs and lights for each pixel on its own."
         } else {

@@ -47,7 +47,7 @@ impl Tally {
             ("nodes read", self.nodes),
             ("segments projected", self.projected),
             ("list entries", self.entries),
-            ("bits drawn", self.drawn),
+            ("bits set", self.drawn),
             ("segments weighed", self.weighed),
             ("segments kept", self.kept),
             ("lights looked at", self.lights),

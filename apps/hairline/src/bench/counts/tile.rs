@@ -1,5 +1,5 @@
-//! A tile of pixels as a graphics adapter's default path sees it: scratches are lines in the picture, and a line is drawn into a
-//! bit for each pixel that it comes near to. Twin: crates/gpu/shaders/tiles.wgsl, shade_tiles.wgsl.
+//! A tile of pixels as a graphics adapter's default path sees it: scratches are lines in the picture, with a bit for each pixel
+//! that a line comes near to; that the shader leaves out pixels beyond a line's ends is left out here. Twin: crates/gpu/shaders/tiles.wgsl, shade_tiles.wgsl.
 
 use glam::{DVec2, DVec3, Vec3};
 use hairline_index::IndexedSegment;
@@ -10,8 +10,8 @@ use hairline_scene::CameraFrame;
 pub const TILE_PX: u32 = 8;
 
 // Of the shader: the line's distance is rounded, and the surface is a plane within a tile only nearly.
-const MARGIN: f64 = 1.15;
-const MARGIN_PX: f64 = 0.1;
+const MARGIN: f64 = 1.02;
+const MARGIN_PX: f64 = 0.02;
 /// Segments shorter than this have no line, and touch every pixel.
 const LENGTH_MIN_PX: f64 = 0.05;
 
@@ -127,7 +127,7 @@ mod tests {
         let steps = [DVec3::X * 1e-4, DVec3::Y * 2e-4];
         let fine = reach_px(steps, 0.0, 20.0);
         // 3.5 standard deviations of the window over the narrower side.
-        let expected = 1.15 * 3.5 * 20e-6 / 2.0_f64.sqrt() / 1e-4 + 0.1;
+        let expected = 1.02 * 3.5 * 20e-6 / 2.0_f64.sqrt() / 1e-4 + 0.02;
         assert!((fine - expected).abs() < 1e-9, "{fine} {expected}");
         assert!(reach_px(steps, 0.3, 20.0) > fine);
     }

@@ -49,12 +49,7 @@ pub const PROJECTED: Cost = cost(
     97.0,
 );
 pub const TILE_ENTRY: Cost = cost("tile's entry", "unpacking 12, eight rows of 14", 8.0, 124.0);
-pub const DRAWN: Cost = cost(
-    "bit drawn",
-    "an atomic or in the workgroup's memory",
-    0.0,
-    3.0,
-);
+pub const DRAWN: Cost = cost("bit set", "a pixel of a line near to it", 0.0, 3.0);
 pub const TRIANGLE_ENTRY: Cost = cost("triangle's entry", "an index", 4.0, 1.0);
 pub const SEGMENT: Cost = cost(
     "segment weighed",
