@@ -25,7 +25,6 @@ const LEAST_CELLS: f64 = 0.9;
 const HAND_OVER: f64 = 0.35;
 
 /// Adds up all scratches of an object under the point's footprint; `gather` is any but [`Gather::Exact`].
-#[expect(clippy::too_many_arguments)]
 pub(crate) fn gather_bundles(
     prepared: &Prepared,
     point: &SurfacePoint,
