@@ -8,7 +8,6 @@ const BUNDLE_STRIDE_MAX: u32 = 8u;
 const BUNDLE_ENVIRONMENT_STRIDE: u32 = 4u;
 const BUNDLE_TURN_SHARE: f32 = 1.0;
 const BUNDLE_SMEAR: f32 = 0.1;
-
 const BUNDLE_MOVED_MAX: f32 = 1.0;
 
 // How much scratch lies in which direction; the same times by how much it is wider, and deeper, than its population.
@@ -20,6 +19,27 @@ var<workgroup> bundle_counts: array<u32, BUNDLE_LANES_MAX>;
 var<workgroup> bundle_lit: array<u32, BUNDLE_BINS>;
 // What all lanes go by. Loads from here are known to be the same for all, which barriers ask for.
 var<workgroup> bundle_common: u32;
+
+// The tile of a workgroup: one for each pixel of each tile in the queue.
+fn bundle_tile(i: u32, count: u32, lane: u32) -> u32 {
+    if lane == 0u {
+        bundle_common = queue_tile(QUEUE_BUNDLED, walk_strided(i, count));
+    }
+    return workgroupUniformLoad(&bundle_common);
+}
+
+// Pixel `i` of a tile.
+fn bundle_pixel(tile: u32, i: u32) -> vec2u {
+    return tile_corner(tile) + vec2u(i % TILE_PX, i / TILE_PX + frame.rows.x);
+}
+
+// As film_visible; nothing for pixels of a tile beyond the film.
+fn bundle_seen(pixel: vec2u) -> vec2u {
+    if pixel.x >= frame.size_px.x || pixel.y >= frame.rows.y {
+        return vec2u(0u);
+    }
+    return film_visible(pixel);
+}
 
 // How many have been counted by the lanes before this one, and by all.
 fn bundle_places(lane: u32, count: u32) -> vec2u {

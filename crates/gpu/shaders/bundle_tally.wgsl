@@ -23,15 +23,9 @@ fn bundle_tally(
     @builtin(num_workgroups) workgroups: vec3u,
     @builtin(local_invocation_index) lane: u32,
 ) {
-    if lane == 0u {
-        bundle_common = queue_tile(QUEUE_BUNDLED, walk_strided(workgroup.x, workgroups.x));
-    }
-    let tile = workgroupUniformLoad(&bundle_common);
-    let pixel = tile_corner(tile) + vec2u(workgroup.y % TILE_PX, workgroup.y / TILE_PX + frame.rows.x);
-    if pixel.x >= frame.size_px.x || pixel.y >= frame.rows.y {
-        return;
-    }
-    let seen = film_visible(pixel);
+    let tile = bundle_tile(workgroup.x, workgroups.x, lane);
+    let pixel = bundle_pixel(tile, workgroup.y);
+    let seen = bundle_seen(pixel);
     if seen.x == 0u {
         return;
     }
@@ -45,9 +39,6 @@ fn bundle_tally(
     }
     for (var i = lane; i < 3u * BUNDLE_POPULATIONS_MAX * BUNDLE_BINS; i += BUNDLE_LANES) {
         atomicStore(&bundle_tallies[i], 0);
-    }
-    if lane == 0u {
-        bundle_common = 0u;
     }
     workgroupBarrier();
     view.single_share = bundle_single_share(choice);

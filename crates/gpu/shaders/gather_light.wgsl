@@ -1,5 +1,5 @@
 // What one scratch sends to the viewer of one light, per unit of its share and of the light's radiance, Fresnel left out.
-// Twin: reference/src/scratches.rs.
+// Twin: reference/src/segment_view.rs.
 
 // Whether what is lit stands for many scratches of one direction, which lie all over the footprint.
 override LIGHTS_MANY: bool = false;

@@ -18,15 +18,8 @@ fn shade_bundles(
     @builtin(num_workgroups) workgroups: vec3u,
     @builtin(local_invocation_index) lane: u32,
 ) {
-    if lane == 0u {
-        bundle_common = queue_tile(QUEUE_BUNDLED, walk_strided(workgroup.x, workgroups.x));
-    }
-    let tile = workgroupUniformLoad(&bundle_common);
-    let pixel = tile_corner(tile) + vec2u(workgroup.y % TILE_PX, workgroup.y / TILE_PX + frame.rows.x);
-    if pixel.x >= frame.size_px.x || pixel.y >= frame.rows.y {
-        return;
-    }
-    let seen = film_visible(pixel);
+    let pixel = bundle_pixel(bundle_tile(workgroup.x, workgroups.x, lane), workgroup.y);
+    let seen = bundle_seen(pixel);
     if seen.x == 0u {
         return;
     }

@@ -118,7 +118,7 @@ modules! {
     /// A footprint on the grids of many scratches.
     BUNDLE_FOOTPRINT = "bundle_footprint" needs [BUNDLES, GATHER_PIXEL];
     /// How much scratch lies in which direction, and the light of that.
-    BUNDLE_LIGHT = "bundle_light" needs [BUNDLES, GATHER_LIGHT, GATHER_LARGE_POLYGON];
+    BUNDLE_LIGHT = "bundle_light" needs [BUNDLES, GATHER_LIGHT, GATHER_LARGE_POLYGON, FILM, TILE_QUEUES];
     /// What scratches take from the base, by the method's mask.
     GATHER_MASK = "gather_mask" needs [MASK, METHOD];
     /// The same of a polygon with many vertices.
@@ -187,6 +187,20 @@ pub fn compose(modules: &[&Module]) -> String {
     text
 }
 
+/// Parses and validates what a module has become.
+#[cfg(test)]
+pub(crate) fn assert_valid(module: &Module, text: &str) {
+    let parsed = naga::front::wgsl::parse_str(text)
+        .unwrap_or_else(|error| panic!("{}:\n{}", module.name, error.emit_to_string(text)));
+    naga::valid::Validator::new(
+        naga::valid::ValidationFlags::all(),
+        // Half floats in words: every WebGPU device packs and unpacks them.
+        naga::valid::Capabilities::SHADER_FLOAT16_IN_FLOAT32,
+    )
+    .validate(&parsed)
+    .unwrap_or_else(|error| panic!("{}:\n{}", module.name, error.emit_to_string(text)));
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -195,17 +209,7 @@ mod tests {
     #[test]
     fn each_module_is_valid_with_what_it_needs() {
         for module in ALL {
-            let text = compose(&[module]);
-            let parsed = naga::front::wgsl::parse_str(&text).unwrap_or_else(|error| {
-                panic!("{}:\n{}", module.name, error.emit_to_string(&text))
-            });
-            naga::valid::Validator::new(
-                naga::valid::ValidationFlags::all(),
-                // Half floats in words: every WebGPU device packs and unpacks them.
-                naga::valid::Capabilities::SHADER_FLOAT16_IN_FLOAT32,
-            )
-            .validate(&parsed)
-            .unwrap_or_else(|error| panic!("{}:\n{}", module.name, error.emit_to_string(&text)));
+            assert_valid(module, &compose(&[module]));
         }
     }
 

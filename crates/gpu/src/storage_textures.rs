@@ -82,21 +82,12 @@ fn end_of_arguments(call: &str) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::shaders::{ALL, SHADE_TILES, compose};
+    use crate::shaders::{ALL, SHADE_TILES, assert_valid, compose};
 
     #[test]
     fn each_module_is_valid_with_them() {
         for module in ALL {
-            let text = in_text(&compose(&[module]));
-            let parsed = naga::front::wgsl::parse_str(&text).unwrap_or_else(|error| {
-                panic!("{}:\n{}", module.name, error.emit_to_string(&text))
-            });
-            naga::valid::Validator::new(
-                naga::valid::ValidationFlags::all(),
-                naga::valid::Capabilities::SHADER_FLOAT16_IN_FLOAT32,
-            )
-            .validate(&parsed)
-            .unwrap_or_else(|error| panic!("{}:\n{}", module.name, error.emit_to_string(&text)));
+            assert_valid(module, &in_text(&compose(&[module])));
         }
     }
 

@@ -307,7 +307,7 @@ impl Account<'_> {
 }
 
 fn build_object(scene: &Scene, object: &Object, account: &Account) -> ObjectBundles {
-    let segments = effective_segments(scene, object, None);
+    let segments = effective_segments(scene, object);
     if segments.is_empty() {
         return ObjectBundles::default();
     }

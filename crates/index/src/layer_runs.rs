@@ -56,11 +56,6 @@ impl<'a> LayerRun<'a> {
         })
     }
 
-    /// The place of its table in the scene file.
-    pub fn layer(&self) -> u32 {
-        self.scratches[0].layer
-    }
-
     /// How many straight pieces it has.
     pub fn piece_count(&self) -> usize {
         self.scratches.iter().map(|s| s.segments.len()).sum()

@@ -138,16 +138,9 @@ fn plots<'a>(
         .collect()
 }
 
-/// The pieces of an object's scratches, those of one layer or all, free ends moved inwards along the scratch.
-pub(crate) fn effective_segments(
-    scene: &Scene,
-    object: &Object,
-    layer: Option<u32>,
-) -> Vec<IndexedSegment> {
-    let runs = LayerRun::of(scene, object);
-    let runs: Vec<_> = runs
-        .filter(|run| layer.is_none_or(|layer| run.layer() == layer))
-        .collect();
+/// The pieces of an object's scratches, free ends moved inwards along the scratch.
+pub(crate) fn effective_segments(scene: &Scene, object: &Object) -> Vec<IndexedSegment> {
+    let runs: Vec<_> = LayerRun::of(scene, object).collect();
     let mut effective = Vec::with_capacity(runs.iter().map(LayerRun::piece_count).sum());
     for run in runs {
         run.append_effective(&mut effective);

@@ -34,10 +34,8 @@ pub(super) fn classes(segments: Vec<IndexedSegment>, most: usize) -> Vec<Class> 
         let Class {
             segments, range, ..
         } = classes.swap_remove(i);
-        let [low, high] = cut_in_two(segments, by);
+        let (bound, [low, high]) = cut_in_two(segments, by);
         let (mut below, mut above) = (range, range);
-        // Sizes are single precision.
-        let bound = least(&high, by) as f32;
         (below.high[by], above.low[by]) = (bound, bound);
         classes.extend([Class::new(low, below), Class::new(high, above)]);
     }
@@ -80,13 +78,6 @@ impl Class {
     }
 }
 
-fn least(segments: &[IndexedSegment], by: usize) -> f64 {
-    segments
-        .iter()
-        .map(|s| size(s)[by])
-        .fold(f64::INFINITY, f64::min)
-}
-
 fn size(segment: &IndexedSegment) -> [f64; 2] {
     [segment.width_um, segment.depth_nm].map(f64::from)
 }
@@ -95,8 +86,8 @@ fn area_of(segment: &IndexedSegment) -> f64 {
     f64::from(segment.width_um * segment.start_m.distance(segment.end_m))
 }
 
-/// Cut between two sizes so that the least variance is left within both parts.
-fn cut_in_two(segments: Vec<IndexedSegment>, by: usize) -> [Vec<IndexedSegment>; 2] {
+/// Cut at a size, the least of the second part, so that the least variance is left within both.
+fn cut_in_two(segments: Vec<IndexedSegment>, by: usize) -> (f32, [Vec<IndexedSegment>; 2]) {
     let mut areas = areas(&segments);
     areas.par_sort_unstable_by(|a, b| a.0[by].total_cmp(&b.0[by]));
     let sum =
@@ -111,7 +102,8 @@ fn cut_in_two(segments: Vec<IndexedSegment>, by: usize) -> [Vec<IndexedSegment>;
         }
     }
     let (low, high) = segments.into_iter().partition(|s| size(s)[by] < best.1);
-    [low, high]
+    // Sizes are single precision.
+    (best.1 as f32, [low, high])
 }
 
 /// Sizes and areas. A scratch's segments follow one another: one entry for all of them.

@@ -45,9 +45,8 @@ impl Bundles {
             let sizes = &index.objects[*object].classes[*class].sizes;
             // Scratches that are all alike need no mean.
             let alike = |part: &SizePart| {
-                let depths = part.depths.iter();
-                (part.width - 1.0).abs() <= ALIKE
-                    && depths.into_iter().all(|d| (d - 1.0).abs() <= ALIKE)
+                let is_one = |size: f64| (size - 1.0).abs() <= ALIKE;
+                is_one(part.width) && part.depths.iter().all(|depth| is_one(*depth))
             };
             if sizes.iter().all(alike) {
                 return tables.tables[*table].clone();

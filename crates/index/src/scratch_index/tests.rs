@@ -128,8 +128,7 @@ fn a_walk_goes_through_all_trees_of_its_object_and_no_other() {
     let scene = built(&mut SceneBuilder::new(), &description());
     let index = ScratchIndex::build(&scene);
     for object in 0..2 {
-        let all: Vec<IndexedSegment> =
-            effective_segments(&scene, &scene.objects[object], None).to_vec();
+        let all: Vec<IndexedSegment> = effective_segments(&scene, &scene.objects[object]).to_vec();
         for i in 0..50 {
             let reach = Vec3::splat(1e-4 * (1 + i) as f32);
             let middle = all[i * 37 % all.len()].start_m;
