@@ -93,7 +93,19 @@ fn ltc_sphere(lobe: LtcLobe, axis: vec3f, sin2: f32) -> vec3f {
     if (sin2 <= 0.0) {
         return vec3f(0.0);
     }
-    return ltc_integrals(lobe, irradiance_cone(ltc_transform_cone(lobe, lobe_rotate(lobe.x_axis, axis), sin2)));
+    // The horizon is the same here as in the cosine's space.
+    let whole = axis.z * axis.z >= sin2;
+    if (whole && axis.z <= 0.0) {
+        return vec3f(0.0);
+    }
+    let cone = ltc_cone(lobe, lobe_rotate(lobe.x_axis, axis), sin2);
+    var vector: vec3f;
+    if (whole) {
+        vector = ltc_cone_whole(cone);
+    } else {
+        vector = irradiance_cone(ltc_cone_axes(cone));
+    }
+    return ltc_integrals(lobe, vector);
 }
 
 fn sphere_light(
@@ -107,32 +119,95 @@ fn sphere_light(
     return ltc_sphere(ltc_lobe(wo, roughness, ltc_table, albedo_table), axis, sin2);
 }
 
-const LTC_CONE_SWEEPS: i32 = 4;
+// What is within the rim c + u cos t + v sin t in the cosine's space; in the frame of u, v and n, c is `centre`.
+struct LtcCone {
+    u: vec3f,
+    root: f32,
+    v: vec3f,
+    volume: f32,
+    n: vec3f,
+    size2: vec2f,
+    centre: vec3f,
+}
 
-fn ltc_transform_cone(lobe: LtcLobe, axis: vec3f, sin2: f32) -> EllipticCone {
+const LTC_CONE_ROUNDS: i32 = 3;
+
+fn ltc_cone(lobe: LtcLobe, axis: vec3f, sin2: f32) -> LtcCone {
     let sides = irradiance_basis(axis);
-    let sine = sqrt(sin2);
-    var c = ltc_to_cosine(lobe, axis) * sqrt(max(1.0 - sin2, 0.0));
-    var uv = LtcPair(ltc_to_cosine(lobe, sides.u) * sine, ltc_to_cosine(lobe, sides.v) * sine);
-    for (var i = 0; i < LTC_CONE_SWEEPS; i++) {
-        uv = ltc_rotate_pair(uv.a, uv.b);
-        let cu = ltc_boost_pair(c, uv.a);
-        let cv = ltc_boost_pair(cu.a, uv.b);
-        c = cv.a;
-        uv = LtcPair(cu.b, cv.b);
+    let cosine = sqrt(max(1.0 - sin2, 0.0));
+    let c = ltc_to_cosine(lobe, axis) * cosine;
+    let uv = ltc_rotate_pair(ltc_to_cosine(lobe, sides.u), ltc_to_cosine(lobe, sides.v));
+    let size = sqrt(max(vec2f(dot(uv.a, uv.a), dot(uv.b, uv.b)), vec2f(1e-36)));
+    let u = uv.a / size.x;
+    let v = uv.b / size.y;
+    let volume = lobe.peak.y * lobe.peak.y / (lobe.width.x * lobe.width.y) * cosine;
+    let centre = vec3f(dot(c, u), dot(c, v), volume / (size.x * size.y));
+    let size2 = size * size * sin2;
+    return LtcCone(u, ltc_cone_root(centre * centre, size2), v, volume * sin2, cross(u, v), size2, centre);
+}
+
+fn ltc_cone_root(centre2: vec3f, size2: vec2f) -> f32 {
+    let level = centre2.x + centre2.y;
+    var root = ltc_one_pole(level, dot(centre2.xy, size2) / max(level, 1e-30), centre2.z);
+    for (var i = 0; i < LTC_CONE_ROUNDS; i++) {
+        let x = root + size2.x;
+        let y = root + size2.y;
+        let value = centre2.x * y + centre2.y * x;
+        let per_slope = value / max(centre2.x * y * y + centre2.y * x * x, 1e-30);
+        root = ltc_one_pole(value * per_slope, x * y * per_slope - root, centre2.z);
     }
+    return root;
+}
+
+// The positive root of a / (mu + pole) + b / mu = 1.
+fn ltc_one_pole(a: f32, pole: f32, b: f32) -> f32 {
+    let half = 0.5 * (a + b - pole);
+    let rest = sqrt(max(half * half + b * pole, 0.0));
+    return select(b * pole / max(rest - half, 1e-30), half + rest, half > 0.0);
+}
+
+fn ltc_cone_middle(cone: LtcCone) -> vec3f {
+    let root = max(cone.root, 1e-30);
+    return cone.centre / vec3f(root + cone.size2, root);
+}
+
+// The vector irradiance of a cone that the horizon does not cut.
+fn ltc_cone_whole(cone: LtcCone) -> vec3f {
+    let root = max(cone.root, 1e-30);
+    let middle = ltc_cone_middle(cone);
+    let poles = sqrt((root + cone.size2.x) * (root + cone.size2.y));
+    let magnitude = GGX_PI * cone.volume / (root * poles * dot(middle, middle));
+    return magnitude * (cone.u * middle.x + cone.v * middle.y + cone.n * middle.z);
+}
+
+fn ltc_cone_axes(cone: LtcCone) -> EllipticCone {
+    let root = max(cone.root, 1e-30);
+    let middle = ltc_cone_middle(cone);
+    let per_length = inverseSqrt(root * dot(middle, middle));
+    let size = sqrt(cone.size2);
+    let boost = -per_length * middle.xy * size;
+    let forward = boost / (1.0 + per_length);
+    // In the frame of u, v and n.
+    var uv = ltc_rotate_pair(
+        cone.centre * boost.x + vec3f(size.x * (1.0 + boost.x * forward.x), size.y * boost.x * forward.y, 0.0),
+        cone.centre * boost.y + vec3f(size.x * boost.y * forward.x, size.y * (1.0 + boost.y * forward.y), 0.0),
+    );
     if (dot(uv.a, uv.a) > dot(uv.b, uv.b)) {
         uv = LtcPair(uv.b, -uv.a);
     }
     let length_u = max(length(uv.a), 1e-18);
     let length_v = max(length(uv.b), 1e-18);
-    let length_c = max(length(c), 1e-4 * length_u);
-    let side2 = uv.b / length_v;
+    let length_c = max(sqrt(root), 1e-4 * length_u);
+    let side2 = ltc_from_frame(cone, uv.b / length_v);
     // Of unit vectors: the product of two specks would underflow.
-    let normal = cross(uv.a / length_u, side2);
+    let normal = cross(ltc_from_frame(cone, uv.a / length_u), side2);
     let length_n = length(normal);
     let centre = select(vec3f(0.0, 0.0, 1.0), normal / max(length_n, 1e-18), length_n > 0.0);
     return EllipticCone(centre, length_u / length_c, cross(side2, centre), length_v / length_c, side2);
+}
+
+fn ltc_from_frame(cone: LtcCone, w: vec3f) -> vec3f {
+    return cone.u * w.x + cone.v * w.y + cone.n * w.z;
 }
 
 struct LtcPair {
@@ -150,14 +225,6 @@ fn ltc_rotate_pair(u: vec3f, v: vec3f) -> LtcPair {
     let tangent = select(product, -product, difference < 0.0) / sum;
     let cosine = 1.0 / sqrt(1.0 + tangent * tangent);
     return LtcPair(cosine * (u - tangent * v), cosine * (v + tangent * u));
-}
-
-fn ltc_boost_pair(c: vec3f, u: vec3f) -> LtcPair {
-    let sum = dot(c, c) + dot(u, u);
-    let rest = length(c + u) * length(c - u);
-    let tangent = -2.0 * dot(c, u) / max(sum + rest, 1e-30);
-    let gain = 1.0 / sqrt(max(1.0 - tangent * tangent, 1e-12));
-    return LtcPair(gain * (c + tangent * u), gain * (u + tangent * c));
 }
 
 const LTC_RING_RADIUS: f32 = 0.8660254;
