@@ -58,6 +58,15 @@ impl TriangleIndex {
         Self { tree, triangles }
     }
 
+    pub(crate) fn tree(&self) -> &Bvh2 {
+        &self.tree
+    }
+
+    /// Object, triangle and corners, in the order of the tree's leaves.
+    pub(crate) fn triangles(&self) -> &[(u32, u32, [DVec3; 3])] {
+        &self.triangles
+    }
+
     /// The nearest hit of a ray from `origin` along the unit `direction`, either side of a triangle.
     pub fn intersect(&self, origin: DVec3, direction: DVec3) -> Option<Hit> {
         if self.triangles.is_empty() {

@@ -57,7 +57,7 @@ pub fn ggx_visibility(cos_i: f64, cos_o: f64, alpha: f64) -> f64 {
 }
 
 /// sqrt(cos^2 + alpha^2 sin^2).
-fn projected_roughness(cos_theta: f64, alpha: f64) -> f64 {
+pub(crate) fn projected_roughness(cos_theta: f64, alpha: f64) -> f64 {
     let a2 = alpha * alpha;
     (a2 + (1.0 - a2) * cos_theta * cos_theta).sqrt()
 }

@@ -68,11 +68,10 @@ impl LobeTable {
         let last = (LOBE_TABLE_SIZE - 1) as f64;
         let x = unit_clamp(cos_o).sqrt() * last;
         let y = unit_clamp(roughness) * last;
-        let (x0, y0) = (x.floor().min(last - 1.0), y.floor().min(last - 1.0));
-        let (fx, fy) = (x - x0, y - y0);
-        let node = |dx: usize, dy: usize| {
-            self.texels[(y0 as usize + dy) * LOBE_TABLE_SIZE + x0 as usize + dx]
-        };
+        // Neither is negative: to cut off is to round down.
+        let [x0, y0] = [x, y].map(|at| (at as usize).min(LOBE_TABLE_SIZE - 2));
+        let (fx, fy) = (x - x0 as f64, y - y0 as f64);
+        let node = |dx: usize, dy: usize| self.texels[(y0 + dy) * LOBE_TABLE_SIZE + x0 + dx];
         let (n00, n10, n01, n11) = (node(0, 0), node(1, 0), node(0, 1), node(1, 1));
         std::array::from_fn(|c| {
             let low = f64::from(n00[c]) + fx * f64::from(n10[c] - n00[c]);

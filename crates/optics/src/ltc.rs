@@ -18,8 +18,7 @@ use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3, Vec3Swizzles};
 
-use crate::fresnel::{fresnel_terms, half_vector_cos};
-use crate::ggx::{ggx_alpha, ggx_eval};
+use crate::ggx::{ggx_alpha, projected_roughness};
 use crate::irradiance::{
     EllipticCone, PolygonIrradiance, irradiance_basis, irradiance_begin, irradiance_cone,
     irradiance_edge, irradiance_end,
@@ -104,9 +103,14 @@ impl LtcLobe {
 
     /// From the viewer's frame into the cosine's space; linear, keeps z.
     pub fn to_cosine(&self, w: DVec3) -> DVec3 {
+        self.to_cosine_by(self.width.recip(), w)
+    }
+
+    /// The same with the reciprocal widths at hand.
+    fn to_cosine_by(&self, per_width: DVec2, w: DVec3) -> DVec3 {
         DVec3::new(
-            self.peak.y * (self.peak.y * w.x + self.peak.x * w.z) / self.width.x,
-            w.y / self.width.y,
+            self.peak.y * (self.peak.y * w.x + self.peak.x * w.z) * per_width.x,
+            w.y * per_width.y,
             w.z,
         )
     }
@@ -243,8 +247,10 @@ const CONE_CHANGE: f64 = 1e-8;
 fn ltc_cone(lobe: &LtcLobe, axis: DVec3, sin2: f64) -> LtcCone {
     let (u, v) = irradiance_basis(axis);
     let cosine = (1.0 - sin2).max(0.0).sqrt();
-    let c = lobe.to_cosine(axis) * cosine;
-    let (u, v) = ltc_rotate_pair(lobe.to_cosine(u), lobe.to_cosine(v));
+    let per_width = lobe.width.recip();
+    let [c, u, v] = [axis, u, v].map(|w| lobe.to_cosine_by(per_width, w));
+    let c = c * cosine;
+    let (u, v) = ltc_rotate_pair(u, v);
     let (length_u, length_v) = (u.length().max(1e-30), v.length().max(1e-30));
     let (u, v) = (u / length_u, v / length_v);
     let determinant = lobe.peak.y * lobe.peak.y / (lobe.width.x * lobe.width.y);
@@ -284,6 +290,7 @@ fn ltc_cone_root(centre2: DVec3, size2: DVec2) -> f64 {
 }
 
 /// The positive root of a / (mu + pole) + b / mu = 1.
+#[inline]
 fn ltc_one_pole(a: f64, pole: f64, b: f64) -> f64 {
     let half = 0.5 * (a + b - pole);
     let rest = (half * half + b * pole).max(0.0).sqrt();
@@ -357,6 +364,7 @@ fn ltc_cone_axes(cone: &LtcCone) -> EllipticCone {
 }
 
 /// Rotates (u, v) into each other until they are perpendicular.
+#[inline]
 fn ltc_rotate_pair(u: DVec3, v: DVec3) -> (DVec3, DVec3) {
     let product = 2.0 * u.dot(v);
     let difference = v.length_squared() - u.length_squared();
@@ -391,14 +399,14 @@ fn ltc_integrals(lobe: &LtcLobe, vector: DVec3) -> [f64; 3] {
     let (u, v) = irradiance_basis(centre);
     let radius = RING_RADIUS * sin2.sqrt();
     let height = (1.0 - radius * radius).max(0.0).sqrt();
-    let ring = [u, v, -u, -v];
-
-    let mut exact = CENTRE_WEIGHT * ltc_exact_over_jacobian(lobe, centre);
+    let [centre_terms] = ltc_exact_over_jacobian(lobe, [centre]);
+    let mut exact = CENTRE_WEIGHT * centre_terms;
     let mut cosine = CENTRE_WEIGHT * centre.z;
-    for offset in ring {
-        let w = height * centre + radius * offset;
+    let (up, u, v) = (height * centre, radius * u, radius * v);
+    let ring = [up + u, up + v, up - u, up - v];
+    for (w, terms) in ring.iter().zip(ltc_exact_over_jacobian(lobe, ring)) {
         if w.z > 0.0 {
-            exact += RING_WEIGHT * ltc_exact_over_jacobian(lobe, w);
+            exact += RING_WEIGHT * terms;
             cosine += RING_WEIGHT * w.z;
         }
     }
@@ -413,16 +421,40 @@ fn ltc_integrals(lobe: &LtcLobe, vector: DVec3) -> [f64; 3] {
     [integral, integral * terms.x, integral * terms.y]
 }
 
-/// GGX and its Fresnel terms at the direction that `w` stands for, times the solid angle there per solid angle at w.
-fn ltc_exact_over_jacobian(lobe: &LtcLobe, w: DVec3) -> DVec3 {
-    let direction = lobe.undo_cosine(w);
-    let l = direction.length().max(1e-15);
-    // c^4 / l^3 in an order that stays within single precision for a peak on the horizon.
-    let c2_over_l = lobe.peak.y * lobe.peak.y / l;
-    let jacobian = lobe.width.x * lobe.width.y * c2_over_l * c2_over_l / l;
-    let wi = direction / l;
-    let terms = DVec3::from(fresnel_terms(half_vector_cos(wi, lobe.wo)));
-    ggx_eval(wi, lobe.wo, lobe.alpha) * jacobian * terms
+/// GGX and its Fresnel terms at the directions that each `w` stands for, times the solid angle there per solid angle at w.
+///
+/// [`ggx_eval`] written out, the viewer's part taken once and with as few divisions as there can be, step by step for all of them:
+/// compilers then do several at a time.
+fn ltc_exact_over_jacobian<const N: usize>(lobe: &LtcLobe, w: [DVec3; N]) -> [DVec3; N] {
+    let (wo, alpha2) = (lobe.wo, lobe.alpha * lobe.alpha);
+    let rough_o = projected_roughness(wo.z, lobe.alpha);
+    let c2 = lobe.peak.y * lobe.peak.y;
+    let scale = lobe.width.x * lobe.width.y * c2 * c2 * 0.5 * alpha2 / PI;
+    let direction = w.map(|w| lobe.undo_cosine(w));
+    let [x, y, z]: [[f64; N]; 3] =
+        std::array::from_fn(|axis| std::array::from_fn(|i| direction[i][axis]));
+    let mut terms = [[0.0; N]; 3];
+    for i in 0..N {
+        let l2 = (x[i] * x[i] + y[i] * y[i] + z[i] * z[i]).max(1e-30);
+        let per_l = 1.0 / l2.sqrt();
+        let cos_i = z[i] * per_l;
+        // The half vector, of any length.
+        let (hx, hy, hz) = (x[i] * per_l + wo.x, y[i] * per_l + wo.y, cos_i + wo.z);
+        let (tangential, normal) = (hx * hx + hy * hy, hz * hz);
+        let length2 = tangential + normal;
+        let q = (tangential + alpha2 * normal).max(1e-30);
+        let rough_i = (alpha2 + (1.0 - alpha2) * cos_i * cos_i).sqrt();
+        let sum = (wo.z * rough_i + cos_i * rough_o).max(1e-30);
+        let value = scale * per_l * per_l * per_l * cos_i * (length2 * length2) / (q * q * sum);
+        let value = if cos_i > 0.0 { value } else { 0.0 };
+        let c = (0.5 * length2.sqrt()).min(1.0);
+        let m2 = (1.0 - c) * (1.0 - c);
+        let m4 = m2 * m2;
+        terms[0][i] = value;
+        terms[1][i] = value * m4 * (1.0 - c);
+        terms[2][i] = value * m4 * m2 * c;
+    }
+    std::array::from_fn(|i| DVec3::new(terms[0][i], terms[1][i], terms[2][i]))
 }
 
 #[cfg(test)]

@@ -318,7 +318,7 @@ impl<'a> Way<'a> {
         } = self.prepared;
         let ray = camera.camera_ray(pixel);
         let direction = ray.normalize();
-        let Some(hit) = triangles.intersect(camera.position_m, direction) else {
+        let Some(hit) = views.rays.intersect(triangles, camera, pixel, direction) else {
             let background = match &scene.environment {
                 Some(environment) if environment.visible() => environment.radiance(direction),
                 _ => DVec3::ZERO,

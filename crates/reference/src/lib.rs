@@ -2,6 +2,7 @@
 
 mod base;
 mod bundles;
+mod camera_beam;
 pub mod closed_form;
 mod light_view;
 pub mod monte_carlo;

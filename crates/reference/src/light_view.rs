@@ -1,5 +1,6 @@
 //! The lights as seen from a point, in the frame of its surface.
 
+use crate::camera_beam::CameraBeam;
 use crate::surface::SurfacePoint;
 use glam::{DVec2, DVec3};
 use hairline_optics::band::{
@@ -31,6 +32,8 @@ pub(crate) enum LightView {
 /// All lights of a scene from a point. One for each thread, filled anew for every point without allocating.
 pub(crate) struct LightViews<'a> {
     lights: &'a [Light],
+    /// Along which such points are found: it, too, is kept from pixel to pixel.
+    pub rays: CameraBeam,
     pub views: Vec<LightView>,
     /// From the point to the middle of each, held at its radius or above.
     pub distances_m: Vec<f64>,
@@ -48,6 +51,7 @@ impl<'a> LightViews<'a> {
     pub fn new(scene: &'a Scene) -> Self {
         Self {
             lights: &scene.lights,
+            rays: CameraBeam::default(),
             views: Vec::new(),
             distances_m: Vec::new(),
             moves: Vec::new(),

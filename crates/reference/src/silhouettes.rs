@@ -4,6 +4,7 @@
 //! creases. A pixel whose centre and eight neighbours lie on one smooth surface is done with one sample and the whole
 //! filter. Features thinner than a pixel that no pixel's centre meets are missed, as by any single sample.
 
+use crate::camera_beam::CameraBeam;
 use glam::DVec2;
 use hairline_index::TriangleIndex;
 use hairline_scene::CameraFrame;
@@ -37,12 +38,10 @@ impl Silhouettes {
         let end = (rows.end as usize + 1).min(height);
         let seen = (first * width..end * width)
             .into_par_iter()
-            .map(|i| {
-                let ray = camera.camera_ray(DVec2::new(
-                    (i % width) as f64 + 0.5,
-                    (i / width) as f64 + 0.5,
-                ));
-                let hit = triangles.intersect(camera.position_m, ray.normalize());
+            .map_init(CameraBeam::default, |rays, i| {
+                let pixel = DVec2::new((i % width) as f64 + 0.5, (i / width) as f64 + 0.5);
+                let ray = camera.camera_ray(pixel);
+                let hit = rays.intersect(triangles, camera, pixel, ray.normalize());
                 hit.map_or((u32::MAX, 0.0), |hit| {
                     (hit.object, ray.length() / hit.distance_m)
                 })

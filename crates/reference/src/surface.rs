@@ -80,24 +80,28 @@ pub(crate) fn surface_point(
     } else {
         1.0
     };
-    let interpolated = interpolate(
-        weights,
-        triangle.map(|i| mesh.normals[i as usize].as_dvec3()),
-    );
-    let smooth = interpolated.normalize_or(geometric.normalize());
+    let normals = triangle.map(|i| mesh.normals[i as usize].as_dvec3());
+    let interpolated = interpolate(weights, normals);
+    let smooth = interpolated
+        .try_normalize()
+        .unwrap_or_else(|| geometric.normalize());
 
     let material_index = mesh.triangle_materials[hit.triangle as usize] as usize;
     let material = &scene.materials[material_index];
     let optics = &tables.materials[material_index];
-    let uv = triangle_uv(mesh, triangle, weights);
     let axes = footprint(side * smooth);
-    let texel_scale = texture_footprint(mesh, triangle, &corners, axes);
-    let texture =
-        |index: Option<usize>| index.map(|i| sample_texture(&scene.textures[i], uv, texel_scale));
+    let texture = |index: Option<usize>| {
+        index.map(|i| {
+            let uv = triangle_uv(mesh, triangle, weights);
+            let texel_scale = texture_footprint(mesh, triangle, &corners, axes);
+            sample_texture(&scene.textures[i], uv, texel_scale)
+        })
+    };
 
     let mut normal = smooth;
-    if let Some((index, scale)) = material.normal_texture {
-        let texel = sample_texture(&scene.textures[index], uv, texel_scale);
+    if let Some((index, scale)) = material.normal_texture
+        && let Some(texel) = texture(Some(index))
+    {
         let tangents = triangle.map(|i| mesh.tangents[i as usize].as_dvec4());
         let tangent = interpolate(weights, tangents.map(|t| t.truncate()));
         let tangent =
@@ -107,6 +111,7 @@ pub(crate) fn surface_point(
         normal = (tangent * (n.x * scale) + bitangent * (n.y * scale) + smooth * n.z)
             .normalize_or(smooth);
     }
+    let smooth = side * smooth;
     let normal = face_viewer(side * normal, to_viewer);
     // The viewer in the x-z plane; any x will do where they look along the normal.
     let tangential = to_viewer - normal * normal.dot(to_viewer);
@@ -126,8 +131,11 @@ pub(crate) fn surface_point(
         metallic *= texel.z;
     }
     let emission = texture(material.emission_texture).map_or(DVec3::ONE, |t| t.truncate());
-    let normal_turns = {
-        let normals = triangle.map(|i| mesh.normals[i as usize].as_dvec3());
+    // Most triangles of what is flat have one normal.
+    let is_flat = normals[0] == normals[1] && normals[0] == normals[2];
+    let normal_turns = if is_flat {
+        [DVec3::ZERO; 2]
+    } else {
         axes.map(|axis| normal_turn(&corners, &normals, geometric, interpolated, axis))
     };
     let turn2 = normal_turns[0].length_squared() + normal_turns[1].length_squared();
@@ -141,7 +149,11 @@ pub(crate) fn surface_point(
         normal,
         wo: DVec3::new((1.0 - cos * cos).max(0.0).sqrt(), 0.0, cos),
         distance_m: hit.distance_m,
-        footprint_axes_m: footprint(normal),
+        footprint_axes_m: if normal == smooth {
+            axes
+        } else {
+            footprint(normal)
+        },
         normal_turns: normal_turns
             .map(|turn| side * DVec3::new(turn.dot(axis_x), turn.dot(axis_y), 0.0)),
         fresnel: FresnelRgb {
