@@ -127,7 +127,7 @@ struct IrradianceBasis {
 
 fn irradiance_basis(w: vec3f) -> IrradianceBasis {
     let level = length(w.xy);
-    let v = select(vec3f(0.0, 1.0, 0.0), vec3f(-w.y, w.x, 0.0) / max(level, 1e-6), level > 1e-6);
+    let v = select(vec3f(0.0, 1.0, 0.0), vec3f(-w.y, w.x, 0.0) * (1.0 / max(level, 1e-6)), level > 1e-6);
     return IrradianceBasis(cross(v, w), v);
 }
 

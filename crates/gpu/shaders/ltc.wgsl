@@ -54,9 +54,11 @@ fn lobe_rotate(x_axis: vec2f, w: vec3f) -> vec3f {
 }
 
 fn ltc_to_cosine(lobe: LtcLobe, w: vec3f) -> vec3f {
+    // One division for all that go there.
+    let per_width = 1.0 / lobe.width;
     return vec3f(
-        lobe.peak.y * (lobe.peak.y * w.x + lobe.peak.x * w.z) / lobe.width.x,
-        w.y / lobe.width.y,
+        lobe.peak.y * (lobe.peak.y * w.x + lobe.peak.x * w.z) * per_width.x,
+        w.y * per_width.y,
         w.z,
     );
 }
@@ -138,10 +140,11 @@ fn ltc_cone(lobe: LtcLobe, axis: vec3f, sin2: f32) -> LtcCone {
     let c = ltc_to_cosine(lobe, axis) * cosine;
     let uv = ltc_rotate_pair(ltc_to_cosine(lobe, sides.u), ltc_to_cosine(lobe, sides.v));
     let size = sqrt(max(vec2f(dot(uv.a, uv.a), dot(uv.b, uv.b)), vec2f(1e-36)));
-    let u = uv.a / size.x;
-    let v = uv.b / size.y;
+    let per_size = 1.0 / size;
+    let u = uv.a * per_size.x;
+    let v = uv.b * per_size.y;
     let volume = lobe.peak.y * lobe.peak.y / (lobe.width.x * lobe.width.y) * cosine;
-    let centre = vec3f(dot(c, u), dot(c, v), volume / (size.x * size.y));
+    let centre = vec3f(dot(c, u), dot(c, v), volume * per_size.x * per_size.y);
     let size2 = size * size * sin2;
     return LtcCone(u, ltc_cone_root(centre * centre, size2), v, volume * sin2, cross(u, v), size2, centre);
 }
@@ -237,7 +240,7 @@ fn ltc_integrals(lobe: LtcLobe, vector: vec3f) -> vec3f {
         return vec3f(0.0);
     }
     let magnitude = length(vector);
-    let centre = vector / max(magnitude, 1e-30);
+    let centre = vector * (1.0 / max(magnitude, 1e-30));
     let sin2 = min(magnitude / GGX_PI, 1.0);
     let sides = irradiance_basis(centre);
     let radius = LTC_RING_RADIUS * sqrt(sin2);
@@ -265,10 +268,10 @@ fn ltc_ring_point(lobe: LtcLobe, w: vec3f) -> vec4f {
 
 fn ltc_exact_over_jacobian(lobe: LtcLobe, w: vec3f) -> vec3f {
     let direction = ltc_undo_cosine(lobe, w);
-    let l = max(length(direction), 1e-15);
+    let per_l = 1.0 / max(length(direction), 1e-15);
     // c^4 / l^3 in an order that stays within range for a peak on the horizon.
-    let c2_over_l = lobe.peak.y * lobe.peak.y / l;
-    let jacobian = lobe.width.x * lobe.width.y * c2_over_l * c2_over_l / l;
-    let wi = direction / l;
+    let c2_over_l = lobe.peak.y * lobe.peak.y * per_l;
+    let jacobian = lobe.width.x * lobe.width.y * c2_over_l * c2_over_l * per_l;
+    let wi = direction * per_l;
     return ggx_eval(wi, lobe.wo, lobe.alpha) * jacobian * fresnel_terms(half_vector_cos(wi, lobe.wo));
 }
