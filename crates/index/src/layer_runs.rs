@@ -7,6 +7,29 @@ use rayon::prelude::*;
 
 use crate::scratch_index::IndexedSegment;
 
+/// Pieces that turn by less are one: a tenth of what the narrowest bands are wide, and a micrometre off in the middle of a
+/// centimetre.
+const STRAIGHT_RAD: f32 = 2e-4;
+/// Normals of both, which tell sides of a sheet apart, agree to this cosine.
+const SAME_SIDE_COS: f32 = 0.9999;
+/// No longer piece is made of others: boxes about long slanting ones hold little but air.
+const LONGEST_M: f32 = 4e-3;
+
+/// Whether a piece that follows another is its straight continuation: scratches are cut at the edges of triangles, which on flat
+/// surfaces are nothing to see.
+fn goes_on(last: &IndexedSegment, next: &IndexedSegment) -> bool {
+    let (a, b) = (last.end_m - last.start_m, next.end_m - next.start_m);
+    let whole = next.end_m - last.start_m;
+    last.end_m == next.start_m
+        && whole.length_squared() <= LONGEST_M * LONGEST_M
+        && last.normal.dot(next.normal) >= SAME_SIDE_COS
+        && a.dot(b) > 0.0
+        && a.cross(b).length_squared()
+            < STRAIGHT_RAD * STRAIGHT_RAD * a.length_squared() * b.length_squared()
+        && whole.cross(b).length_squared()
+            < STRAIGHT_RAD * STRAIGHT_RAD * whole.length_squared() * b.length_squared()
+}
+
 /// Neighbouring scratches of the same layer.
 #[derive(Clone, Copy)]
 pub(crate) struct LayerRun<'a> {
@@ -114,6 +137,7 @@ impl<'a> LayerRun<'a> {
             .sum();
         let ends = footprint::ends(length_um, coherence_um);
         let shrink_um = if scratch.closed { 0.0 } else { ends.shrink_um };
+        let first = effective.len();
         let mut arc_um = 0.0;
         for piece in pieces {
             let piece_um = piece.start_m.distance(piece.end_m) as f64 * 1e6;
@@ -122,14 +146,18 @@ impl<'a> LayerRun<'a> {
             arc_um += piece_um;
             // Also false for a piece of no length.
             if start < end {
-                effective.push(IndexedSegment {
+                let next = IndexedSegment {
                     start_m: piece.start_m.lerp(piece.end_m, start as f32),
                     end_m: piece.start_m.lerp(piece.end_m, end as f32),
                     normal: piece.normal,
                     width_um: scratch.width_um,
                     depth_nm: scratch.depth_nm,
                     blur_um: ends.blur_um as f32,
-                });
+                };
+                match effective[first..].last_mut() {
+                    Some(last) if goes_on(last, &next) => last.end_m = next.end_m,
+                    _ => effective.push(next),
+                }
             }
         }
     }

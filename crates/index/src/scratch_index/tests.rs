@@ -172,3 +172,57 @@ fn the_work_is_told_and_can_be_given_up() {
         assert!(run(patience).is_none(), "{patience}");
     }
 }
+
+/// What is cut at the edges of triangles that lie in one plane is whole again, up to the length of a piece; where the surface bends
+/// nothing is put together across an edge.
+#[test]
+fn straight_pieces_are_one_and_bent_ones_are_not() {
+    let of = |shape: &str| {
+        let text = format!(
+            "[camera]\nposition_m = [0.0, -0.3, 0.3]\ntarget_m = [0.0, 0.0, 0.0]\nup = [0.0, 0.0, 1.0]\n\
+             [[material]]\nname = \"m\"\nkind = \"mirror\"\n[[object]]\nname = \"a\"\nmaterial = \"m\"\nshape = {{ {shape} }}\n\
+             [[scratches]]\nobject = \"a\"\npattern = \"random\"\ncount = 500\nseed = 1\nlength_m = 0.01\n\
+             width_um = 3.0\ndepth_nm = 200.0\n"
+        );
+        Scene::from_toml(&text, "test", ".").unwrap_or_else(|error| panic!("{error}"))
+    };
+    // Rings of 1 mm: a scratch of 10 mm is cut a dozen times.
+    let rings: Vec<String> = (0..=40)
+        .map(|i| format!("[{}, 0.0]", f64::from(i) * 1e-3))
+        .collect();
+    let flat = of(&format!("lathe = {{ profile_m = [{}] }}", rings.join(", ")));
+    let pieces = effective_segments(&flat, &flat.objects[0]);
+    assert!(
+        flat.objects[0].segments.len() > 4000,
+        "{}",
+        flat.objects[0].segments.len()
+    );
+    // 4 mm at most: three of them make 10 mm, or four with what is left at cuts.
+    assert!(pieces.len() < 2000, "{}", pieces.len());
+    assert!(
+        pieces
+            .iter()
+            .all(|s| s.start_m.distance(s.end_m) <= 4.001e-3)
+    );
+    assert_length(&pieces, &flat.objects[0]);
+
+    // Two triangles of a sphere's grid make a flat cell, and no two cells lie in one plane: put together across their edge, pieces
+    // of 0.25 mm that turn by 0.25/30 would be shorter by 9e-6.
+    let bent = of("sphere = { radius_m = 0.03 }");
+    let pieces = effective_segments(&bent, &bent.objects[0]);
+    assert!(pieces.len() < bent.objects[0].segments.len());
+    assert_length(&pieces, &bent.objects[0]);
+}
+
+/// As long as all segments of 500 scratches are together: ends move inwards by 20 um over the root of pi each.
+fn assert_length(pieces: &[IndexedSegment], object: &Object) {
+    let length = |ends: [glam::Vec3; 2]| ends[0].as_dvec3().distance(ends[1].as_dvec3());
+    let all: f64 = pieces.iter().map(|s| length([s.start_m, s.end_m])).sum();
+    let whole = object.segments.iter();
+    let whole: f64 = whole.map(|s| length([s.start_m, s.end_m])).sum();
+    let ends = 500.0 * 2.0 * 20e-6 / std::f64::consts::PI.sqrt();
+    assert!(
+        (all - whole + ends).abs() < 1e-6 * whole,
+        "{all} {whole} {ends}"
+    );
+}
