@@ -4,7 +4,9 @@ use anyhow::anyhow;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 use hairline_optics::mask;
-use hairline_optics::method::{self, Chords, Gather, Lookup, Method, PixelFilter, SphereBase};
+use hairline_optics::method::{
+    self, Chords, Gather, LightAt, Lookup, Method, PixelFilter, SphereBase,
+};
 use hairline_optics::published::sine_integral::SineIntegral;
 use hairline_optics::published::spectrum::PUBLISHED_WAVELENGTHS;
 
@@ -44,6 +46,9 @@ pub struct MethodFlags {
     /// Whether many scratches under a pixel may be taken together. [default: what the scene says]
     #[arg(long, value_enum)]
     pub gather: Option<GatherFlag>,
+    /// At which places a single scratch's light is worked out.
+    #[arg(long, value_enum)]
+    pub light_at: Option<LightAtFlag>,
 }
 
 /// `--method`
@@ -139,6 +144,15 @@ pub enum GatherFlag {
     Tally,
 }
 
+/// `--light-at`
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum LightAtFlag {
+    /// For each pixel that it lies under.
+    Pixels,
+    /// Along it, as densely as its light changes, and interpolated for the pixels: several times as fast where scratches are dense.
+    Scratches,
+}
+
 impl MethodFlags {
     /// The method that the flags ask for.
     ///
@@ -177,9 +191,17 @@ impl MethodFlags {
         replace(&mut method.sphere_base, self.sphere_base.map(Into::into));
         replace(&mut method.lookup, self.index.map(Into::into));
         replace(&mut method.gather, self.gather.map(Into::into));
+        replace(&mut method.light_at, self.light_at.map(Into::into));
         if method.gather.has_grids() && !method.is_default_path() {
             return Err(Failure::Input(anyhow!(
                 "--gather clusters and tally are of the default method: only --mask, --index and --footprint gaussian or off go with it"
+            )));
+        }
+        let has_tiles = method.lookup == Lookup::Tiles && method.is_default_path();
+        if method.light_at == LightAt::Scratches && !has_tiles {
+            return Err(Failure::Input(anyhow!(
+                "--light-at scratches is of the default method with --index tiles: only --mask, --gather and --footprint gaussian or \
+                 off go with it"
             )));
         }
         if method.lookup == Lookup::Triangles && method.footprint != PixelFilter::Off {
@@ -234,6 +256,7 @@ impl MethodFlags {
                 .then_some(method.sphere_base.into()),
             index: (method.lookup != base.lookup).then_some(method.lookup.into()),
             gather: (method.gather != base.gather).then_some(method.gather.into()),
+            light_at: (method.light_at != base.light_at).then_some(method.light_at.into()),
         }
     }
 
@@ -252,6 +275,7 @@ impl MethodFlags {
         flags.extend(self.sphere_base.map(|v| written("sphere-base", v)));
         flags.extend(self.index.map(|v| written("index", v)));
         flags.extend(self.gather.map(|v| written("gather", v)));
+        flags.extend(self.light_at.map(|v| written("light-at", v)));
         flags
     }
 }
@@ -313,6 +337,7 @@ same!(Footprint, PixelFilter, Gaussian => Gaussian, Published => Published, Off 
 same!(Mask, mask::Mask, Energy => Energy, Linear => Linear, Density => Density);
 same!(SphereBaseFlag, SphereBase, Ltc => Cosines, Sptd => Pivot);
 same!(Index, Lookup, Tiles => Tiles, Bvh => Bvh, Triangles => Triangles);
+same!(LightAtFlag, LightAt, Pixels => Pixels, Scratches => Scratches);
 same!(GatherFlag, Gather, Exact => Exact, Clusters => Clusters, Tally => Tally);
 
 #[cfg(test)]
@@ -374,6 +399,8 @@ mod tests {
             ("--gather clusters --method published", "default method"),
             ("--gather clusters --footprint published", "gaussian or off"),
             ("--gather few", "exact, clusters, tally"),
+            ("--light-at scratches --index bvh", "--index tiles"),
+            ("--light-at scratches --band line", "default method"),
         ] {
             let message = parsed(flags).unwrap_err();
             assert!(message.contains(right), "{flags}: {message}");
@@ -400,7 +427,11 @@ mod tests {
                         for mask in [mask::Mask::Energy, mask::Mask::Linear, mask::Mask::Density] {
                             for sphere_base in [SphereBase::Cosines, SphereBase::Pivot] {
                                 for lookup in [Lookup::Tiles, Lookup::Bvh, Lookup::Triangles] {
-                                    for gather in [Gather::Exact, Gather::Clusters, Gather::Tally] {
+                                    let gathers = [Gather::Exact, Gather::Clusters, Gather::Tally];
+                                    let places = [LightAt::Pixels, LightAt::Scratches];
+                                    for (gather, light_at) in
+                                        gathers.into_iter().flat_map(|g| places.map(|at| (g, at)))
+                                    {
                                         let method = Method {
                                             spectrum,
                                             chords,
@@ -410,11 +441,15 @@ mod tests {
                                             sphere_base,
                                             lookup,
                                             gather,
+                                            light_at,
                                         };
                                         let back = parsed(&flags_of(&method));
                                         let has_list = footprint == PixelFilter::Off;
                                         if lookup == Lookup::Triangles && !has_list
                                             || gather.has_grids() && !method.is_default_path()
+                                            || light_at == LightAt::Scratches
+                                                && !(lookup == Lookup::Tiles
+                                                    && method.is_default_path())
                                         {
                                             assert!(back.is_err());
                                         } else {
@@ -432,6 +467,8 @@ mod tests {
         let exact = 4 * 2 * 2 * 3 * 2 * (3 + 2 + 2);
         // The default path alone, with three masks.
         let clusters = 2 * 3 * (3 + 2);
-        assert_eq!(count, exact + clusters);
+        // The same by tiles, with and without a footprint, each mask and each gather.
+        let light_at_scratches = 2 * 3 * 3;
+        assert_eq!(count, exact + clusters + light_at_scratches);
     }
 }

@@ -39,3 +39,7 @@ override METHOD_LOOKUP: u32 = 0u;
 const LOOKUP_TILES: u32 = 0u;
 const LOOKUP_BVH: u32 = 1u;
 const LOOKUP_TRIANGLES: u32 = 2u;
+
+override METHOD_LIGHT_AT: u32 = 0u;
+const LIGHT_AT_PIXELS: u32 = 0u;
+const LIGHT_AT_SCRATCHES: u32 = 1u;

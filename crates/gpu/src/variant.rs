@@ -2,7 +2,7 @@
 
 use hairline_optics::mask::Mask;
 use hairline_optics::method::{
-    Band, Chords, Gather, Lookup, Method, PixelFilter, Spectrum, SphereBase,
+    Band, Chords, Gather, LightAt, Lookup, Method, PixelFilter, Spectrum, SphereBase,
 };
 use hairline_optics::published::sine_integral::SineIntegral;
 use hairline_scene::{Light, Scene};
@@ -59,8 +59,11 @@ const SOFTWARE_MAX_ROUNDS: f64 = 5_000.0;
 /// Into how many strides a software driver's dispatch is cut. More than its threads, so that each has several.
 const SOFTWARE_STRIDE: u32 = 64;
 
+/// Invocations that a software driver runs in step.
+const SOFTWARE_LANES: u32 = 8;
+
 /// What the shader is specialised by; names and numbers are those of contents.wgsl and method.wgsl.
-fn constants_of(variant: &ShadeVariant) -> [(&'static str, f64); 16] {
+fn constants_of(variant: &ShadeVariant) -> [(&'static str, f64); 17] {
     let ShadeVariant { method, has } = variant;
     let (spectrum, wavelengths) = match method.spectrum {
         Spectrum::Table => (0, 0),
@@ -101,6 +104,10 @@ fn constants_of(variant: &ShadeVariant) -> [(&'static str, f64); 16] {
         Gather::Clusters => 1,
         Gather::Tally => 2,
     };
+    let light_at = match method.light_at {
+        LightAt::Pixels => 0,
+        LightAt::Scratches => 1,
+    };
     [
         ("HAS_SCRATCHES", has.scratches.into()),
         ("HAS_SPHERES", has.spheres.into()),
@@ -118,6 +125,7 @@ fn constants_of(variant: &ShadeVariant) -> [(&'static str, f64); 16] {
         ("METHOD_SPHERE_BASE", sphere_base.into()),
         ("METHOD_GATHER", gather.into()),
         ("METHOD_LOOKUP", lookup.into()),
+        ("METHOD_LIGHT_AT", light_at.into()),
     ]
 }
 
@@ -132,6 +140,7 @@ impl ShadeVariant {
         let software = [
             ("GATHER_MAX_ROUNDS", SOFTWARE_MAX_ROUNDS),
             ("WALK_STRIDE", SOFTWARE_STRIDE.into()),
+            ("RECORD_LANES", SOFTWARE_LANES.into()),
         ];
         constants_of(self)
             .into_iter()

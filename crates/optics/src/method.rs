@@ -24,6 +24,8 @@ pub struct Method {
     pub lookup: Lookup,
     /// Whether many scratches may be taken as one.
     pub gather: Gather,
+    /// At which places a scratch's light is worked out.
+    pub light_at: LightAt,
 }
 
 impl Method {
@@ -40,6 +42,7 @@ impl Method {
         sphere_base: SphereBase::Pivot,
         lookup: Lookup::Bvh,
         gather: Gather::Exact,
+        light_at: LightAt::Pixels,
     };
 
     /// Whether the default path can compute this: it has every footprint but the blend, every mask and every look-up, and
@@ -144,6 +147,16 @@ impl Gather {
     pub fn has_grids(self) -> bool {
         self != Self::Exact
     }
+}
+
+/// At which places the light of a single scratch is worked out. On the default path with [`Lookup::Tiles`]; elsewhere at pixels.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum LightAt {
+    /// For each pixel that it lies under.
+    #[default]
+    Pixels,
+    /// At places along it, as many as its light changes, and interpolated between them: the pixels under it are weighed alone.
+    Scratches,
 }
 
 #[cfg(test)]

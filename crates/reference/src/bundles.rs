@@ -34,37 +34,25 @@ pub(crate) fn gather_bundles(
     gather: Gather,
     work: &mut Work,
 ) -> ScratchSums {
-    let bundles = prepared.bundles();
-    let many = Many {
-        prepared,
-        bundles,
-        grids: &bundles.index.objects[object],
-        pixel: &Pixel::new(point),
-        object,
-        list,
-        views,
-        may_tally: gather == Gather::Tally,
-    };
-    let cell_um = many.grids.cell_m as f64 * 1e6;
-    let octave = (least_std_um(many.pixel) / (LEAST_CELLS * cell_um)).log2();
-    if many.grids.classes.is_empty() {
-        return ScratchSums::default();
-    }
-    if !(octave > 0.0) {
-        return many.one_by_one(octave, work);
-    }
-    let level = (octave as usize).min(many.grids.level_count - 1);
-    let over = smooth((octave - level as f64) / HAND_OVER);
-    let mut sums = ScratchSums::default();
-    add_scaled(&mut sums, &many.by_grid(level, work), over);
-    if over < 1.0 {
-        let finer = match level {
-            0 => many.one_by_one(octave, work),
-            _ => many.by_grid(level - 1, work),
-        };
-        add_scaled(&mut sums, &finer, 1.0 - over);
+    let pixel = Pixel::new(point);
+    let many = Many::new(prepared, &pixel, object, views);
+    let (mut sums, single_share) = many.grids(work);
+    if single_share > 0.0 {
+        let singles = many.one_by_one(list, gather == Gather::Tally, work);
+        add_scaled(&mut sums, &singles, single_share);
     }
     sums
+}
+
+/// What grids have of the scratches of an object under the point's footprint, and the share that they leave to single ones.
+pub(crate) fn gather_grids(
+    prepared: &Prepared,
+    point: &SurfacePoint,
+    object: usize,
+    views: &LightViews,
+    work: &mut Work,
+) -> (ScratchSums, f64) {
+    Many::new(prepared, &Pixel::new(point), object, views).grids(work)
 }
 
 /// What the scratches of an object under a pixel are added up from.
@@ -74,12 +62,50 @@ struct Many<'a> {
     grids: &'a ObjectBundles,
     pixel: &'a Pixel<'a>,
     object: usize,
-    list: Option<&'a [u32]>,
     views: &'a LightViews<'a>,
-    may_tally: bool,
+    /// How much wider the footprint is than the finest grid wants, as a power of two.
+    octave: f64,
 }
 
-impl Many<'_> {
+impl<'a> Many<'a> {
+    fn new(
+        prepared: &'a Prepared<'a>,
+        pixel: &'a Pixel<'a>,
+        object: usize,
+        views: &'a LightViews<'a>,
+    ) -> Self {
+        let bundles = prepared.bundles();
+        let grids = &bundles.index.objects[object];
+        let cell_um = grids.cell_m as f64 * 1e6;
+        Self {
+            prepared,
+            bundles,
+            grids,
+            pixel,
+            object,
+            views,
+            octave: (least_std_um(pixel) / (LEAST_CELLS * cell_um)).log2(),
+        }
+    }
+
+    /// What the grids have, and the share that they leave to single scratches.
+    fn grids(&self, work: &mut Work) -> (ScratchSums, f64) {
+        let mut sums = ScratchSums::default();
+        if self.grids.classes.is_empty() {
+            return (sums, 0.0);
+        }
+        if !(self.octave > 0.0) {
+            return (sums, 1.0);
+        }
+        let level = (self.octave as usize).min(self.grids.level_count - 1);
+        let over = smooth((self.octave - level as f64) / HAND_OVER);
+        add_scaled(&mut sums, &self.by_grid(level, work), over);
+        if level > 0 && over < 1.0 {
+            add_scaled(&mut sums, &self.by_grid(level - 1, work), 1.0 - over);
+        }
+        (sums, if level > 0 { 0.0 } else { 1.0 - over })
+    }
+
     /// What all sides' grids of a level have.
     fn by_grid(&self, level: usize, work: &mut Work) -> ScratchSums {
         let mut sums = ScratchSums::default();
@@ -100,7 +126,8 @@ fn smooth(x: f64) -> f64 {
     x * x * (3.0 - 2.0 * x)
 }
 
-fn add_scaled(sums: &mut ScratchSums, more: &ScratchSums, weight: f64) {
+/// Adds so many times as much.
+pub(crate) fn add_scaled(sums: &mut ScratchSums, more: &ScratchSums, weight: f64) {
     sums.share += weight * more.share;
     sums.share_by_line += weight * more.share_by_line;
     for c in 0..3 {

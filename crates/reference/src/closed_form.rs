@@ -3,21 +3,20 @@
 //! The way of a pixel is the shader's (crates/gpu/shaders/shade.wgsl): hit, `surface`, footprint, `scratches`, mask,
 //! `base`, film.
 
+mod pixel;
+
+pub(crate) use pixel::{Picture, Sample, Seen, SeenSurface, Way};
+
+use crate::along;
 use crate::light_view::LightViews;
-use crate::published::Published;
 use crate::scratches::{GatherCounts, Work};
 use crate::silhouettes::Silhouettes;
-use crate::surface::SurfacePoint;
-use crate::{base, bundles, scratches, surface};
 use glam::{DVec2, DVec3};
 use hairline_image::Image;
 use hairline_index::bundles::Bundles;
 use hairline_index::{BundleIndex, Hit, ScratchIndex, TriangleIndex, TriangleLists, Watch};
-use hairline_optics::ltc::ltc_sphere;
-use hairline_optics::mask::Masked;
-use hairline_optics::method::{Gather, Lookup, Method, PixelFilter};
-use hairline_scene::camera::pixel_jitter;
-use hairline_scene::{CameraFrame, Scene, ScratchTables};
+use hairline_optics::method::Method;
+use hairline_scene::{Scene, ScratchTables};
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -144,12 +143,21 @@ impl<'a> Prepared<'a> {
             .get_or_init(|| Bundles::new(self.scene, &self.scratches, &self.tables).into())
     }
 
+    /// Unit normal of the triangle that was hit.
+    pub(crate) fn facet(&self, hit: &Hit) -> DVec3 {
+        let mesh = &self.scene.objects[hit.object as usize].mesh;
+        let corners = mesh.triangles[hit.triangle as usize];
+        let [a, b, c] = corners.map(|i| mesh.positions_m[i as usize].as_dvec3());
+        (b - a).cross(c - a).normalize_or_zero()
+    }
+
     fn triangle_list(&self, hit: &Hit) -> &[u32] {
         let first = self.first_triangles[hit.object as usize];
         self.triangle_lists().of(first + hit.triangle as usize)
     }
 
-    fn is_scratched(&self, hit: &Hit) -> bool {
+    /// Whether the object has any scratches.
+    pub(crate) fn is_scratched(&self, hit: &Hit) -> bool {
         !self.scratches.tree.objects[hit.object as usize].is_empty()
     }
 
@@ -178,6 +186,15 @@ impl<'a> Prepared<'a> {
         let way = Way::new(self, options.method);
         let silhouettes = (samples > 1)
             .then(|| Silhouettes::new(&self.triangles, &camera, scene.render.size_px, &rows));
+        let picture = Picture {
+            way: &way,
+            camera,
+            samples,
+            silhouettes,
+        };
+        if along::is_for(options.method) {
+            return along::render_rows(&picture, rows, progress);
+        }
         let done = AtomicUsize::new(0);
         let mut image = Image::new([width, height]);
         let width = width as usize;
@@ -193,31 +210,12 @@ impl<'a> Prepared<'a> {
             |(views, work), (row, (base, scratches, density, depth_m, normal))| {
                 let y = rows.start as usize + row;
                 for x in 0..width {
-                    let smooth = silhouettes.as_ref().is_some_and(|s| s.is_smooth(x, y));
-                    let samples = if smooth { 1 } else { samples };
-                    let footprint_std_px = scene.render.footprint_std_px(samples);
-                    let mut sum = Sample::default();
-                    for i in 0..samples {
-                        let pixel =
-                            DVec2::new(x as f64 + 0.5, y as f64 + 0.5) + pixel_jitter(i, samples);
-                        let sample = way.shade_pixel(&camera, footprint_std_px, pixel, views, work);
-                        sum.base += sample.base;
-                        sum.scratches += sample.scratches;
-                        sum.density += sample.density;
-                        sum.normal += sample.normal;
-                        sum.depth_m += sample.depth_m;
-                        sum.coverage += sample.coverage;
-                    }
-                    let mean = |v: DVec3| (v / samples as f64).as_vec3().to_array();
-                    base[x] = mean(sum.base);
-                    scratches[x] = mean(sum.scratches);
-                    density[x] = mean(sum.density);
+                    let sum = picture.pixel(x, y, picture.samples_at(x, y), views, work);
+                    base[x] = sum.base.as_vec3().to_array();
+                    scratches[x] = sum.scratches.as_vec3().to_array();
+                    density[x] = sum.density.as_vec3().to_array();
                     normal[x] = sum.normal.normalize_or_zero().as_vec3().to_array();
-                    depth_m[x] = if sum.coverage > 0.0 {
-                        (sum.depth_m / sum.coverage) as f32
-                    } else {
-                        0.0
-                    };
+                    depth_m[x] = sum.depth_m as f32;
                 }
                 let done = done.fetch_add(1, Ordering::Relaxed) + 1;
                 progress(done as f64 / f64::from(height));
@@ -260,155 +258,19 @@ impl<'a> Prepared<'a> {
     }
 }
 
-/// What one sample adds to the film.
-#[derive(Clone, Copy, Debug, Default)]
-struct Sample {
-    base: DVec3,
-    scratches: DVec3,
-    density: DVec3,
-    normal: DVec3,
-    depth_m: f64,
-    coverage: f64,
+/// How many rows a method does together, tile by tile: parts of a picture are the whole's, and take no longer, if they begin and end
+/// at a multiple of this.
+pub fn rows_together(method: Method) -> u32 {
+    if along::is_for(method) {
+        along::TILE_PX as u32
+    } else {
+        1
+    }
 }
 
 /// Renders `scene` at its own size. `progress` is told the share that is done, from any thread.
 pub fn render(scene: &Scene, options: &RenderOptions, progress: &(dyn Fn(f64) + Sync)) -> Image {
     Prepared::new(scene).render(options, progress)
-}
-
-/// A scene and the method to compute it by.
-struct Way<'a> {
-    prepared: &'a Prepared<'a>,
-    method: Method,
-    /// None on the default path.
-    published: Option<Published<'a>>,
-}
-
-impl<'a> Way<'a> {
-    /// Builds what the method looks up beside the trees. Now, on one thread: a thread that builds it in parallel while others
-    /// wait for it may take up one of their pixels meanwhile, and wait for itself.
-    fn new(prepared: &'a Prepared<'a>, method: Method) -> Self {
-        if method.gather.has_grids() {
-            prepared.bundles();
-        }
-        if method.lookup == Lookup::Triangles {
-            prepared.triangle_lists();
-        }
-        Self {
-            prepared,
-            method,
-            published: Published::new(prepared, method),
-        }
-    }
-
-    /// One ray through a point of the picture.
-    fn shade_pixel(
-        &self,
-        camera: &CameraFrame,
-        footprint_std_px: f64,
-        pixel: DVec2,
-        views: &mut LightViews,
-        work: &mut Work,
-    ) -> Sample {
-        let Prepared {
-            scene,
-            triangles,
-            tables,
-            ..
-        } = self.prepared;
-        let ray = camera.camera_ray(pixel);
-        let direction = ray.normalize();
-        let Some(hit) = views.rays.intersect(triangles, camera, pixel, direction) else {
-            let background = match &scene.environment {
-                Some(environment) if environment.visible() => environment.radiance(direction),
-                _ => DVec3::ZERO,
-            };
-            return Sample {
-                base: background,
-                ..Sample::default()
-            };
-        };
-        let depth_m = hit.distance_m / ray.length();
-        let footprint = |normal| {
-            camera
-                .footprint_axes(ray, depth_m, normal)
-                .map(|axis| axis * footprint_std_px)
-        };
-        let position_m = camera.position_m + ray * depth_m;
-        let point = surface::surface_point(scene, tables, position_m, -direction, footprint, &hit);
-        // For a pixel that is the point in its middle nothing moves.
-        let alone = (self.method.footprint == PixelFilter::Off).then(|| point.without_footprint());
-        let scratched = alone.as_ref().unwrap_or(&point);
-        views.look_from(scratched);
-        if self.published.is_none() && self.prepared.is_scratched(&hit) {
-            views.ready_for_scratches(scratched);
-        }
-        let masked = self.scratches(&hit, scratched, views, work);
-        self.shade_surface(&masked, &point, views, depth_m)
-    }
-
-    fn shade_surface(
-        &self,
-        masked: &Masked,
-        point: &SurfacePoint,
-        views: &LightViews,
-        depth_m: f64,
-    ) -> Sample {
-        let environment = self.prepared.scene.environment.as_ref();
-        let light = match &self.published {
-            None => base::base_radiance(environment, point, views, ltc_sphere),
-            Some(published) => {
-                base::base_radiance(environment, point, views, published.base_sphere(point))
-            }
-        };
-        let taken = DVec3::from(masked.taken);
-        // A groove interrupts the reflecting surface; what shines from under it passes.
-        let fresnel = DVec3::from(point.fresnel.eval(point.wo.z));
-        Sample {
-            base: point.emission + light.diffuse + light.specular * (DVec3::ONE - taken),
-            scratches: DVec3::from(masked.scratches) * fresnel,
-            density: taken,
-            normal: point.normal,
-            depth_m,
-            coverage: 1.0,
-        }
-    }
-
-    /// Radiance of the scratches under the point's footprint and what they take from the base.
-    fn scratches(
-        &self,
-        hit: &Hit,
-        point: &SurfacePoint,
-        views: &LightViews,
-        work: &mut Work,
-    ) -> Masked {
-        let object = hit.object as usize;
-        let list =
-            (self.method.lookup == Lookup::Triangles).then(|| self.prepared.triangle_list(hit));
-        match &self.published {
-            None => {
-                let sums = match self.method.gather {
-                    Gather::Exact => {
-                        scratches::gather_scratches(self.prepared, point, object, list, views, work)
-                    }
-                    Gather::Clusters | Gather::Tally => bundles::gather_bundles(
-                        self.prepared,
-                        point,
-                        object,
-                        list,
-                        views,
-                        self.method.gather,
-                        work,
-                    ),
-                };
-                sums.resolve(
-                    self.method.mask,
-                    self.prepared.scratches.depth_coherence[object] as f64,
-                )
-            }
-            Some(published) => published.scratches(point, object, list, views),
-        }
-    }
 }
 
 #[cfg(test)]

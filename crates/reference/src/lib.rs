@@ -1,5 +1,6 @@
 //! Rendering on the CPU in f64: the readable twin of the shader, and the renderer where no driver exists.
 
+mod along;
 mod base;
 mod bundles;
 mod camera_beam;

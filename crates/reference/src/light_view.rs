@@ -29,6 +29,16 @@ pub(crate) enum LightView {
     },
 }
 
+impl LightView {
+    /// A cap of directions that holds it.
+    pub fn bound(&self) -> &Cap {
+        match self {
+            Self::Sphere { cap, .. } => cap,
+            Self::Polygon { bound, .. } => bound,
+        }
+    }
+}
+
 /// All lights of a scene from a point. One for each thread, filled anew for every point without allocating.
 pub(crate) struct LightViews<'a> {
     lights: &'a [Light],
@@ -132,7 +142,7 @@ impl<'a> LightViews<'a> {
             .map(|step| point.surface_from_world(step));
         let per_o = 1.0 / point.distance_m;
         for (view, distance_m) in self.views.iter().zip(&self.distances_m) {
-            let (LightView::Sphere { cap, .. } | LightView::Polygon { bound: cap, .. }) = view;
+            let cap = view.bound();
             self.moves.push(std::array::from_fn(|j| {
                 let turn = point.normal_turns[j].truncate();
                 band_moves(turn, axes_m[j], point.wo, per_o, cap.axis, 1.0 / distance_m)

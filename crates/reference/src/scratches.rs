@@ -102,6 +102,22 @@ impl<'a> Pixel<'a> {
 
     /// None where the segment lies on another side of the surface or out of the footprint's reach.
     pub fn see(&self, segment: &IndexedSegment) -> Option<SeenSegment> {
+        let line = self.line(segment, f64::from(REACH_STD))?;
+        let share = scratch_share(
+            line.width_um,
+            line.offset_um,
+            line.start_um,
+            line.end_um,
+            line.blur_um,
+            line.footprint,
+            self.point.coherence_um,
+        );
+        (share.segment > SHARE_MIN * share.line).then_some(SeenSegment { line, share })
+    }
+
+    /// The segment's line. None where it lies on another side of the surface or more than `reach` standard deviations of the footprint
+    /// away.
+    pub fn line(&self, segment: &IndexedSegment, reach: f64) -> Option<SeenLine> {
         if segment.normal.as_dvec3().dot(self.point.normal) < FACING_MIN_COS as f64 {
             return None;
         }
@@ -119,33 +135,23 @@ impl<'a> Pixel<'a> {
         let across =
             c.x * along.y * along.y - 2.0 * c.y * along.x * along.y + c.z * along.x * along.x;
         let variance = across.max(0.0) + self.window_um2 * length2;
-        if !(length2 > 0.0) || area * area > (REACH_STD * REACH_STD) as f64 * variance {
+        if !(length2 > 0.0) || area * area > reach * reach * variance {
             return None;
         }
         let t = along / length2.sqrt();
-        let offset_um = area / length2.sqrt();
-        let footprint = Footprint {
-            across_um2: (c.x * t.y * t.y - 2.0 * c.y * t.x * t.y + c.z * t.x * t.x).max(0.0),
-            along_um2: (c.x * t.x * t.x + 2.0 * c.y * t.x * t.y + c.z * t.y * t.y).max(0.0),
-            cross_um2: (c.z - c.x) * t.x * t.y + c.y * (t.x * t.x - t.y * t.y),
-        };
-        let (width_um, blur_um) = (segment.width_um as f64, segment.blur_um as f64);
-        let share = scratch_share(
-            width_um,
-            offset_um,
-            start.dot(t),
-            end.dot(t),
-            blur_um,
-            footprint,
-            self.point.coherence_um,
-        );
-        (share.segment > SHARE_MIN * share.line).then_some(SeenSegment {
+        Some(SeenLine {
             tangent: t,
-            offset_um,
-            share,
-            width_um,
+            offset_um: area / length2.sqrt(),
+            start_um: start.dot(t),
+            end_um: end.dot(t),
+            footprint: Footprint {
+                across_um2: (c.x * t.y * t.y - 2.0 * c.y * t.x * t.y + c.z * t.x * t.x).max(0.0),
+                along_um2: (c.x * t.x * t.x + 2.0 * c.y * t.x * t.y + c.z * t.y * t.y).max(0.0),
+                cross_um2: (c.z - c.x) * t.x * t.y + c.y * (t.x * t.x - t.y * t.y),
+            },
+            width_um: segment.width_um as f64,
             depth_nm: segment.depth_nm as f64,
-            variance_um2: footprint.across_um2 + self.window_um2,
+            blur_um: segment.blur_um as f64,
         })
     }
 
@@ -156,17 +162,54 @@ impl<'a> Pixel<'a> {
     }
 }
 
+/// The line of a segment, from a pixel.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SeenLine {
+    /// In the surface's frame.
+    pub tangent: DVec2,
+    /// Of the line from the pixel's middle.
+    offset_um: f64,
+    /// The segment's ends, along it.
+    pub start_um: f64,
+    pub end_um: f64,
+    pub footprint: Footprint,
+    pub width_um: f64,
+    pub depth_nm: f64,
+    /// Standard deviation that smooths the ends.
+    pub blur_um: f64,
+}
+
+impl SeenLine {
+    /// The scratch as light sees it, from the pixel.
+    pub fn view<'a>(&self, pixel: &Pixel, table: &'a ScratchTable) -> SegmentView<'a, 1> {
+        let groove = Groove {
+            table,
+            width_um: self.width_um,
+            depth_nm: self.depth_nm,
+            moved: [0.0; 2],
+            share: 1.0,
+        };
+        let place = BandPlace::new(
+            pixel.steps_um.map(|step| self.tangent.perp_dot(step)),
+            self.offset_um,
+            self.footprint.across_um2 + pixel.window_um2,
+        );
+        SegmentView::new(pixel, self.tangent, [groove], place)
+    }
+
+    /// What it takes from the base, per unit of its share.
+    pub fn energy(&self, pixel: &Pixel, table: &ScratchTable) -> [f64; 3] {
+        // In the mirror's direction both cosines are the viewer's.
+        let cos_o = pixel.point.wo.z;
+        table.scratch_table_total(oblique_depth_nm(self.depth_nm, cos_o, cos_o))
+    }
+}
+
 /// A segment under the footprint.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SeenSegment {
-    pub tangent: DVec2,
-    /// Of its line from the pixel's middle.
-    offset_um: f64,
+    pub line: SeenLine,
     pub share: ScratchShare,
-    pub width_um: f64,
-    pub depth_nm: f64,
-    /// Of footprint and window across it.
-    variance_um2: f64,
 }
 
 impl SeenSegment {
@@ -179,19 +222,7 @@ impl SeenSegment {
         environment: Option<&Environment>,
         work: &mut Work,
     ) -> DVec3 {
-        let groove = Groove {
-            table,
-            width_um: self.width_um,
-            depth_nm: self.depth_nm,
-            moved: [0.0; 2],
-            share: 1.0,
-        };
-        let place = BandPlace::new(
-            pixel.steps_um.map(|step| self.tangent.perp_dot(step)),
-            self.offset_um,
-            self.variance_um2,
-        );
-        let view = SegmentView::new(pixel, self.tangent, [groove], place);
+        let view = self.line.view(pixel, table);
         let mut radiance = view.lights(pixel, views, work);
         if let Some(environment) = environment {
             radiance += view.environment(pixel, environment);
@@ -207,10 +238,7 @@ impl SeenSegment {
         radiance: DVec3,
         sums: &mut ScratchSums,
     ) {
-        // In the mirror's direction both cosines are the viewer's.
-        let cos_o = pixel.point.wo.z;
-        let depth_nm = oblique_depth_nm(self.depth_nm, cos_o, cos_o);
-        let energy = table.scratch_table_total(depth_nm);
+        let energy = self.line.energy(pixel, table);
         sums.add(self.share, energy, radiance.to_array());
     }
 }

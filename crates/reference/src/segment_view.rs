@@ -44,6 +44,33 @@ pub(crate) struct SegmentView<'a, const N: usize> {
     /// Variance of the tangent's angle about it; 0 for a single scratch.
     turn_rad2: f64,
     place: BandPlace,
+    /// Which part of it is meant; else what the pixel sees of an endless one.
+    part: Part,
+}
+
+/// A part of a scratch under a footprint.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Part {
+    /// What is left of the footprint's variance along the scratch, in which a piece with ends has less room.
+    pub seen_along: f64,
+    /// How far ahead of the pixel's middle it lies: in the picture, in standard deviations of the pixel's filter.
+    pub ahead: [f64; 2],
+}
+
+impl Part {
+    const WHOLE: Self = Self {
+        seen_along: 1.0,
+        ahead: [0.0; 2],
+    };
+}
+
+/// Where the lights of a view are from the band's middle line: a bit for each, the 64th and those beyond share one.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Sides {
+    /// Lights that send nothing by way of the scratch.
+    pub dark: u64,
+    /// Lights beyond the line, along the tangent; others are before it.
+    pub positive: u64,
 }
 
 impl<'a, const N: usize> SegmentView<'a, N> {
@@ -56,7 +83,20 @@ impl<'a, const N: usize> SegmentView<'a, N> {
             grooves,
             turn_rad2: 0.0,
             place,
+            part: Part::WHOLE,
         }
+    }
+
+    /// The light of a part of the scratch.
+    pub fn at(self, part: Part) -> Self {
+        Self { part, ..self }
+    }
+
+    /// How the band moves towards a light, itself given by how it moves over the pixel's filter.
+    fn moved(&self, moves: [DVec2; 2]) -> BandMotion {
+        let moves = moves.map(|m| m.dot(self.frame.tangent));
+        let ahead = moves[0] * self.part.ahead[0] + moves[1] * self.part.ahead[1];
+        self.place.moved_along(moves, self.part.seen_along, ahead)
     }
 
     /// What stands for many scratches of one direction, which lie all over the footprint: with them the band is as wide as it moves
@@ -84,12 +124,34 @@ impl<'a, const N: usize> SegmentView<'a, N> {
         sum
     }
 
+    /// The same, and where lights are that don't reach it.
+    pub fn lights_and_sides(
+        &self,
+        pixel: &Pixel,
+        views: &LightViews,
+        work: &mut Work,
+    ) -> (DVec3, Sides) {
+        let (mut sum, mut sides) = (DVec3::ZERO, Sides::default());
+        for (light, view) in views.views.iter().enumerate() {
+            let sent = self.light(pixel, views, light, work);
+            sum += sent;
+            let cap = view.bound();
+            let along = self.frame.tangent.dot(cap.axis.truncate());
+            let shift = self.moved(views.moves[light]).shift;
+            let middle = self.wo.x + shift + along * cap.cos_radius;
+            let bit = 1 << light.min(63);
+            sides.dark |= if sent == DVec3::ZERO { bit } else { 0 };
+            sides.positive |= if middle > 0.0 { bit } else { 0 };
+        }
+        (sum, sides)
+    }
+
     /// Radiance by way of one light.
     pub fn light(&self, pixel: &Pixel, views: &LightViews, light: usize, work: &mut Work) -> DVec3 {
         let (light, moves) = (&views.views[light], views.moves[light]);
         let tangent = self.frame.tangent;
-        let mut motion = self.place.moved(moves.map(|m| m.dot(tangent)));
-        let (LightView::Sphere { cap: bound, .. } | LightView::Polygon { bound, .. }) = light;
+        let mut motion = self.moved(moves);
+        let bound = light.bound();
         work.counts.pairs += 1;
         if self.turn_rad2 > 0.0 {
             let sum = pixel.point.wo.truncate() + bound.cos_radius * bound.axis.truncate();

@@ -30,6 +30,8 @@ pub struct Effort {
 
 /// Rows of a workgroup.
 const WORKGROUP_ROWS: u32 = 8;
+/// Rows of the largest tiles: [`hairline_reference::closed_form::rows_together`].
+const TILE_ROWS: u32 = 32;
 /// Rows of a strip at most.
 const STRIP_ROWS_MAX: u32 = 64;
 /// Strips at least: fewer would not know the picture.
@@ -38,9 +40,12 @@ const STRIPS_LEAST: u32 = 5;
 const TOO_LONG: f64 = 20.0;
 
 /// Rows of a strip: one of workgroups for each thread. Software drivers deal workgroups out in runs, so that in a lower strip the
-/// threads at the picture's sides, where nothing is to be seen, would wait for those in its middle.
+/// threads at the picture's sides, where nothing is to be seen, would wait for those in its middle. And whole tiles of the CPU
+/// renderer's.
 fn strip_rows() -> u32 {
-    (WORKGROUP_ROWS * rayon::current_num_threads() as u32).min(STRIP_ROWS_MAX)
+    (WORKGROUP_ROWS * rayon::current_num_threads() as u32)
+        .next_multiple_of(TILE_ROWS)
+        .min(STRIP_ROWS_MAX)
 }
 
 /// One of those that take turns.
@@ -169,6 +174,13 @@ fn strips_of(strip_rows: u32, height: u32, count: u32) -> Rows {
     let strip = |i: u32| -> Range<u32> {
         let middle = f64::from(height) * (f64::from(i) + 0.5) / f64::from(count);
         let first = middle as u32 - (strip_rows / 2).min(middle as u32);
+        // At a tile's edge if strips are made of tiles.
+        let first = first
+            - if strip_rows % TILE_ROWS == 0 {
+                first % TILE_ROWS
+            } else {
+                0
+            };
         first..(first + strip_rows).min(height)
     };
     Rows::Strips((0..count).map(strip).collect())

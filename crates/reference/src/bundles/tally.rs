@@ -15,18 +15,22 @@ const TALLY_FROM: usize = 448;
 const TALLY_OCTAVE: f64 = -3.0;
 
 impl Many<'_> {
-    /// What the scratches under the footprint have, found one by one. `octave` is how much wider it is than the finest grid wants.
-    pub(super) fn one_by_one(&self, octave: f64, work: &mut Work) -> ScratchSums {
+    /// What the scratches under the footprint have, found one by one, if need be in the `list` of the point's triangle.
+    pub(super) fn one_by_one(
+        &self,
+        list: Option<&[u32]>,
+        may_tally: bool,
+        work: &mut Work,
+    ) -> ScratchSums {
         let pixel = self.pixel;
         let table = &self.prepared.tables.tables[pixel.point.table];
         let environment = self.prepared.scene.environment.as_ref();
-        let may_tally = self.may_tally && octave > TALLY_OCTAVE;
+        let may_tally = may_tally && self.octave > TALLY_OCTAVE;
         let mut tally = None;
         let mut sums = ScratchSums::default();
         let mut found = std::mem::take(&mut work.seen);
         found.clear();
-        let (object, list) = (self.object, self.list);
-        each_segment(self.prepared, pixel.point, object, list, |segment| {
+        each_segment(self.prepared, pixel.point, self.object, list, |segment| {
             work.counts.segments += 1;
             let Some(seen) = pixel.see(segment) else {
                 return;
@@ -85,10 +89,10 @@ impl<'a> Tally<'a> {
     }
 
     fn add(&mut self, seen: &SeenSegment) {
-        let t = seen.tangent;
+        let t = seen.line.tangent;
         let angle = t.dot(self.across).atan2(t.dot(self.reference));
         let bin = (angle * (BUNDLE_BINS as f64 / PI)).rem_euclid(BUNDLE_BINS as f64);
-        let (width_um, depth_nm) = (seen.width_um as f32, seen.depth_nm as f32);
+        let (width_um, depth_nm) = (seen.line.width_um as f32, seen.line.depth_nm as f32);
         let class = self.grids.class_of(width_um, depth_nm);
         let of_class = &self.grids.classes[class];
         let over = |size: f32, mean: f32| if mean > 0.0 { size / mean - 1.0 } else { 0.0 };

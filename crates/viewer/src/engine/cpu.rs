@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use egui::ColorImage;
 use hairline_image::{Image, png};
-use hairline_reference::closed_form::{Prepared, RenderOptions};
+use hairline_reference::closed_form::{Prepared, RenderOptions, rows_together};
 use hairline_scene::Scene;
 use web_time::Instant;
 
@@ -215,14 +215,20 @@ impl Bands {
             method: built.method(),
         };
         let [width, height] = scene.render.size_px;
-        // A row is the least that a thread takes.
-        let fewest = pool::threads() as u32;
+        // A row is the least that a thread takes, or a tile of rows that are done together.
+        let together = rows_together(options.method);
+        let fewest = if together > 1 {
+            together
+        } else {
+            pool::threads() as u32
+        };
         while self.next_row < height {
             if !go_on(f64::from(self.next_row) / f64::from(height)) {
                 return false;
             }
             let start = Instant::now();
-            let rows = self.next_row..(self.next_row + self.rows).min(height);
+            let many = self.rows.next_multiple_of(together);
+            let rows = self.next_row..(self.next_row + many).min(height);
             let pixels = rows.start as usize * width as usize..rows.end as usize * width as usize;
             self.next_row = rows.end;
             let part = prepared.render_rows(&options, rows, &|_| {});
