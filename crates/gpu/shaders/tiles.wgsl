@@ -20,6 +20,7 @@ struct TileSight {
     lower_m: vec3f,             // a box that every footprint lies in
     upper_m: vec3f,
     reach2_px: vec2f,           // the squares of how far a pixel that sees a scratch may be from its line, and beyond its ends
+    plane: TilePlane,           // if light is looked for along scratches
 }
 
 @compute @workgroup_size(64)
@@ -47,7 +48,7 @@ fn tiles(
     // In three loops by turns: what leaves hold is found, looked at, and what is left of it written.
     var segments: array<u32, FIND_SEGMENTS>;
     var pixels: array<vec2u, FIND_SEGMENTS>;
-    while at < end && found + TILE_HEAD + FIND_SEGMENTS <= frame.tile_entries && gather_rounds < GATHER_MAX_ROUNDS {
+    while at < end && found + tile_head() + FIND_SEGMENTS <= frame.tile_entries && gather_rounds < GATHER_MAX_ROUNDS {
         let count = find_segments(sight.lower_m, sight.upper_m, end, FIND_SEGMENTS, &at, &segments);
         var kept = 0u;
         for (var i = 0u; i < count; i += 1u) {
@@ -59,11 +60,18 @@ fn tiles(
         }
         for (var i = 0u; i < kept; i += TILE_BLOCK) {
             gather_rounds += 1u;
-            tile_write_block(first + TILE_HEAD + found, i, kept, &segments, &pixels);
+            tile_write_block(first + tile_head() + found, i, kept, &segments, &pixels);
             found += TILE_BLOCK;
         }
     }
-    textureStore(tile_lists_out, row_texel(first), vec4u(found, 0u, 0u, 0u));
+    var records = 0u;
+    if METHOD_LIGHT_AT == LIGHT_AT_SCRATCHES {
+        records = queue_take_records(found);
+        for (var i = 0u; i < PLANE_TEXELS; i += 1u) {
+            textureStore(tile_lists_out, row_texel(first + 1u + i), plane_texel(sight.plane, i));
+        }
+    }
+    textureStore(tile_lists_out, row_texel(first), vec4u(found, records, 0u, 0u));
     if sight.object == 0u {
         queue_push(QUEUE_EMPTY, tile);
     } else if sight.one_object && at >= end {
@@ -74,7 +82,10 @@ fn tiles(
 }
 
 fn tile_sight(corner: vec2u, tile: u32) -> TileSight {
-    var sight = TileSight(0u, true, vec3f(1e30), vec3f(-1e30), vec2f(0.0));
+    var sight: TileSight;
+    sight.one_object = true;
+    sight.lower_m = vec3f(1e30);
+    sight.upper_m = vec3f(-1e30);
     let middle = tile_middle_px(corner);
     var tallied = vec2u(0u);
     if METHOD_GATHER != GATHER_EXACT {
@@ -88,11 +99,18 @@ fn tile_sight(corner: vec2u, tile: u32) -> TileSight {
         if !inside || seen.x == 0u {
             continue;
         }
-        sight.one_object = sight.one_object && (sight.object == 0u || sight.object == seen.y + 1u);
+        let is_first = sight.object == 0u;
+        sight.one_object = sight.one_object && (is_first || sight.object == seen.y + 1u);
         sight.object = seen.y + 1u;
         let ray = tile_ray(middle + tile_at_px(in_film));
         var depth_m: f32;
         let point = hit_surface_point(seen.x - 1u, ray, &depth_m);
+        if METHOD_LIGHT_AT == LIGHT_AT_SCRATCHES {
+            if is_first {
+                sight.plane = plane_of(point);
+            }
+            sight.plane.holds &= u32(plane_holds(sight.plane, point));
+        }
         // What grids stand for needs no list, nor what is added up.
         let is_tallied = ((select(tallied.x, tallied.y, i >= 32u) >> (i % 32u)) & 1u) == 1u;
         if METHOD_GATHER != GATHER_EXACT && (is_tallied || bundle_single_share_at(point, seen.y) == 0.0) {
@@ -151,6 +169,10 @@ fn tile_write_block(
     }
     let rows = tile_rows(near);
     for (var i = 0u; i < TILE_BLOCK; i += 1u) {
-        textureStore(tile_lists_out, row_texel(at + i), vec4u((*segments)[begin + i], rows[i], 0u));
+        var segment = (*segments)[begin + i];
+        if METHOD_LIGHT_AT == LIGHT_AT_SCRATCHES {
+            segment = select(TILE_NO_SEGMENT, segment, begin + i < kept);
+        }
+        textureStore(tile_lists_out, row_texel(at + i), vec4u(segment, rows[i], 0u));
     }
 }

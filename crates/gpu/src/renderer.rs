@@ -446,6 +446,7 @@ impl ScenePasses {
     fn needs(&self) -> RoomNeeds {
         RoomNeeds {
             tiles: self.tiles.is_some() || self.bundles.is_some(),
+            records: self.tiles.as_ref().is_some_and(TilesPasses::has_records),
             walks: self.bundles.is_some(),
         }
     }

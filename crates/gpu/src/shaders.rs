@@ -100,7 +100,7 @@ modules! {
     /// What the shading pass adds to: group 3.
     FILM = "film" needs [BINDINGS, WALK];
     /// Tiles of the picture.
-    TILE = "tile" needs [BINDINGS];
+    TILE = "tile" needs [BINDINGS, METHOD];
     /// Which pixels of a tile a line comes near to.
     TILE_NEAR = "tile_near" needs [];
     /// The list of a triangle's scratches, as a walk goes through it.
@@ -148,6 +148,16 @@ modules! {
     SHADE = "shade" needs [HIT, GATHER, BUNDLE_FOOTPRINT, SHADE_POINT, TILE_QUEUES];
     /// Pass: from what is visible to radiance, in tiles that have a list of scratches.
     SHADE_TILES = "shade_tiles" needs [HIT, GATHER, BUNDLE_FOOTPRINT, SHADE_POINT, TILE_QUEUES, TILE_NEAR];
+    /// The plane that a tile's pixels see.
+    TILE_PLANE = "tile_plane" needs [SURFACE];
+    /// What the pixels of a tile need to know of a scratch.
+    TILE_RECORD = "tile_record" needs [TILE, TILE_PLANE];
+    /// Pass: the records of the scratches of each tile.
+    TILE_RECORDS = "tile_records" needs [GATHER, CAMERA, TILE_RECORD, TILE_QUEUES, SEGMENT_SEEN];
+    /// Pass: from what is visible to radiance, in tiles whose scratches have records.
+    SHADE_TILE_SCRATCHES = "shade_tile_scratches" needs [
+        HIT, GATHER, TILE_RECORD, BUNDLE_FOOTPRINT, SHADE_POINT, TILE_QUEUES, TILE_NEAR
+    ];
     /// Pass: which tiles have pixels whose footprints cover many scratches.
     BUNDLE_TILES = "bundle_tiles" needs [HIT, BUNDLE_FOOTPRINT, TILE_QUEUES, SHADE_POINT];
     /// Pass: what many scratches under a pixel add up to.
@@ -157,7 +167,7 @@ modules! {
     /// Pass: tiles that show no object.
     BACKGROUND = "background" needs [SHADE_POINT, TILE_QUEUES];
     /// Pass: the scratches that each tile of pixels may see.
-    TILES = "tiles" needs [HIT, FIND, BUNDLE_FOOTPRINT, TILE_QUEUES, TILE_NEAR, SEGMENT_SEEN];
+    TILES = "tiles" needs [HIT, FIND, BUNDLE_FOOTPRINT, TILE_PLANE, TILE_QUEUES, TILE_NEAR, SEGMENT_SEEN];
     /// Pass: from what is visible to radiance by the method of 2018.
     SHADE_PUBLISHED = "shade_published" needs [HIT, PUBLISHED_GATHER, PUBLISHED_BASE, SHADE_POINT];
     /// Pass: the film on a display.

@@ -5,6 +5,7 @@ use wgpu::{BufferUsages, TextureFormat, TextureUsages};
 use crate::bindings::Layouts;
 use crate::device::Gpu;
 use crate::error::Error;
+use crate::film::RoomNeeds;
 use crate::rows::ROW_TEXELS;
 
 /// A segment, and for each segment of a block its pixels in one row.
@@ -23,6 +24,8 @@ const COUNTS: [u32; 12] = [0, 1, 1, 0, 1, 1, 0, 1, 1, 0, TILE_PX * TILE_PX, 1];
 const QUEUES: u32 = COUNTS.len() as u32 / 3;
 /// For each tile, a bit for each pixel whose single scratches have been added up.
 const TALLIED_WORDS: u32 = TILE_PX * TILE_PX / 32;
+/// How many records have been given a place.
+const RECORDS_WORDS: u32 = 1;
 pub(crate) const COUNTS_BYTES: u64 = size_of_val(&COUNTS) as u64;
 
 /// The queues, in the order of their counts.
@@ -37,6 +40,10 @@ pub(crate) enum Queue {
 /// Textures and buffers for the tiles of one film; the least there can be where the method has no use for tiles.
 pub(crate) struct TileRoom {
     pub lists: wgpu::TextureView,
+    /// What pixels need to know of the scratches in the lists, with the lists, where it is wanted.
+    pub records: Option<wgpu::TextureView>,
+    /// Group 3 of the pass that writes it.
+    pub records_group: Option<wgpu::BindGroup>,
     pub queues: wgpu::Buffer,
     /// The queues' counts, where a dispatch may read them while a shader has the queues.
     arguments: wgpu::Buffer,
@@ -51,10 +58,10 @@ impl TileRoom {
         gpu: &Gpu,
         layouts: &Layouts,
         size_px: [u32; 2],
-        wanted: bool,
+        needs: RoomNeeds,
         visibility: &wgpu::TextureView,
     ) -> Result<Self, Error> {
-        let count = if wanted {
+        let count = if needs.tiles {
             size_px.map(|n| n.div_ceil(TILE_PX)).iter().product()
         } else {
             0
@@ -64,25 +71,37 @@ impl TileRoom {
             return Err(gpu.too_large("picture", needed, allowed, "tiles of 8 x 8 pixels"));
         }
         let lists = table(gpu, "tile lists", count * entries(count), TILE_LISTS_FORMAT).await?;
-        let queue_bytes = COUNTS_BYTES + u64::from((QUEUES + TALLIED_WORDS) * count.max(1)) * 4;
+        let queue_bytes =
+            COUNTS_BYTES + u64::from((QUEUES + TALLIED_WORDS) * count.max(1) + RECORDS_WORDS) * 4;
         let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST;
         let queues = gpu.buffer("tile queues", queue_bytes, usage).await?;
         let usage = BufferUsages::INDIRECT | BufferUsages::COPY_DST;
         let arguments = gpu.buffer("tile counts", COUNTS_BYTES, usage).await?;
-        let entries = [
-            (0, wgpu::BindingResource::TextureView(visibility)),
-            (1, wgpu::BindingResource::TextureView(&lists)),
-            (3, queues.as_entire_binding()),
-        ]
-        .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource });
-        let tiles_group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("tiles"),
-            layout: &layouts.tiles,
-            entries: &entries,
-        });
+        let group = |read: &wgpu::TextureView, written: &wgpu::TextureView| {
+            let entries = [
+                (0, wgpu::BindingResource::TextureView(read)),
+                (1, wgpu::BindingResource::TextureView(written)),
+                (3, queues.as_entire_binding()),
+            ]
+            .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource });
+            gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: Some("tiles"),
+                layout: &layouts.tiles,
+                entries: &entries,
+            })
+        };
+        let tiles_group = group(visibility, &lists);
+        let records = if needs.records {
+            Some(table(gpu, "tile records", TEXELS_MAX, TILE_LISTS_FORMAT).await?)
+        } else {
+            None
+        };
+        let records_group = records.as_ref().map(|records| group(&lists, records));
         Ok(Self {
             tiles_group,
+            records_group,
             lists,
+            records,
             queues,
             arguments,
             count,

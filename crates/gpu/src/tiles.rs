@@ -3,6 +3,8 @@
 //!
 //! Inputs: frame, scene, visibility. Outputs: lists, queues; the film, added to.
 
+use hairline_optics::method::LightAt;
+
 use crate::bindings::Layouts;
 use crate::compute_pass;
 use crate::device::Gpu;
@@ -15,11 +17,21 @@ use crate::variant::{ShadeVariant, compute_pipeline};
 
 pub(crate) struct TilesPasses {
     tiles: wgpu::ComputePipeline,
+    /// Where a scratch's light is found for a whole tile.
+    records: Option<wgpu::ComputePipeline>,
     shade: wgpu::ComputePipeline,
     background: wgpu::ComputePipeline,
 }
 
 const WORKGROUP_TILES: u32 = 64;
+
+/// The entry file for tiles that have a list.
+fn shade_of(variant: &ShadeVariant) -> &'static shaders::Module {
+    match variant.method.light_at {
+        LightAt::Pixels => &shaders::SHADE_TILES,
+        LightAt::Scratches => &shaders::SHADE_TILE_SCRATCHES,
+    }
+}
 
 impl TilesPasses {
     pub fn new(gpu: &Gpu, layouts: &Layouts, variant: &ShadeVariant) -> Self {
@@ -30,9 +42,16 @@ impl TilesPasses {
         };
         Self {
             tiles: pipeline(&shaders::TILES, "tiles", &layouts.tiles),
-            shade: pipeline(&shaders::SHADE_TILES, "shade", &layouts.film),
+            records: (variant.method.light_at == LightAt::Scratches)
+                .then(|| pipeline(&shaders::TILE_RECORDS, "tile_records", &layouts.tiles)),
+            shade: pipeline(shade_of(variant), "shade", &layouts.film),
             background: pipeline(&shaders::BACKGROUND, "background", &layouts.film),
         }
+    }
+
+    /// Whether they keep records of scratches.
+    pub fn has_records(&self) -> bool {
+        self.records.is_some()
     }
 
     /// All but the tiles whose pixels walk for themselves; their queue is complete then.
@@ -55,7 +74,14 @@ impl TilesPasses {
             }
         };
         run("tiles", &self.tiles, &tiles.tiles_group, None);
-        run("shade", &self.shade, &band.film.group, Some(Queue::Listed));
+        let mut film = &band.film.group;
+        if let (Some(records), Some(group), Some(recorded)) =
+            (&self.records, &tiles.records_group, &band.film.recorded)
+        {
+            run("records", records, group, Some(Queue::Listed));
+            film = recorded;
+        }
+        run("shade", &self.shade, film, Some(Queue::Listed));
         run(
             "background",
             &self.background,
