@@ -39,6 +39,11 @@ fn light_at(i: u32) -> Light {
     );
 }
 
+// Middle and radius of the sphere that a light is, or that is around it, metres.
+fn light_around(i: u32) -> vec4f {
+    return bitcast<vec4f>(textureLoad(lights, row_texel(4u * i + 1u), 0));
+}
+
 // A vertex of a polygonal light, metres.
 fn light_corner_m(i: u32) -> vec3f {
     return bitcast<vec3f>(textureLoad(light_vertices, row_texel(i), 0).xyz);

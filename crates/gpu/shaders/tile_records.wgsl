@@ -137,8 +137,8 @@ fn records_tangent(point: SurfacePoint, along_m: vec3f) -> vec2f {
 // its middle, in the surface's frame.
 fn records_steps(point: SurfacePoint, view: GatherPixel, lit: LitSegment, half_m: vec3f, index: u32) -> f32 {
     let seen = gather_light_seen(point, view, index);
-    let light = light_at(index);
-    let per_i = 1.0 / max(length(light.center_m - point.position_m), light.radius_m);
+    let around = light_around(index);
+    let per_i = 1.0 / max(length(around.xyz - point.position_m), around.w);
     let moves = band_moves(vec2f(0.0), half_m, point.wo, 1.0 / point.distance_m, seen.cap.axis, per_i);
     let moves_along = abs(dot(moves, lit.tangent));
     let moves_across = abs(lit.tangent.x * moves.y - lit.tangent.y * moves.x);
@@ -150,7 +150,7 @@ fn records_steps(point: SurfacePoint, view: GatherPixel, lit: LitSegment, half_m
     }
     // Of an edge or a corner to the band.
     var nearest = min(abs(extent.x), abs(extent.y));
-    if HAS_POLYGONS && light.kind == LIGHT_POLYGON {
+    if HAS_POLYGONS && seen.kind == LIGHT_POLYGON {
         let corners = wo.x + vec4f(
             dot(seen.corners.a.xy, lit.tangent),
             dot(seen.corners.b.xy, lit.tangent),
@@ -182,7 +182,8 @@ fn records_light(point: SurfacePoint, view: GatherPixel, lit: LitSegment) -> vec
         for (var l = 0u; l < frame.light_count; l += 1u) {
             gather_rounds += 1u;
             let seen = gather_light_seen(point, view, l);
-            let reaches = seen.shines && gather_reaches(point, view, seen, lit.tangent, lit.offset_um);
+            // Where lights are few, most of them reach what any of them reaches.
+            let reaches = seen.shines && (!HAS_MANY_LIGHTS || gather_reaches(point, view, seen, lit.tangent, lit.offset_um));
             if HAS_SPHERES && reaches && seen.kind == LIGHT_SPHERE {
                 radiance += seen.radiance * gather_sphere(point, view, lit, seen);
             }
