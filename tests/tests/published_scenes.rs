@@ -10,7 +10,7 @@ use hairline_image::metrics::layer_difference;
 use hairline_image::{Image, Layer, Picture};
 use hairline_optics::mask::Mask;
 use hairline_optics::method::{
-    Band, Chords, Gather, Lookup, Method, PixelFilter, Spectrum, SphereBase,
+    Band, Chords, Gather, LightAt, Lookup, Method, PixelFilter, Spectrum, SphereBase,
 };
 use hairline_optics::published::sine_integral::SineIntegral;
 use hairline_reference::closed_form::{self, Prepared};
@@ -25,6 +25,7 @@ const OURS: Method = Method {
     sphere_base: SphereBase::Cosines,
     lookup: Lookup::Tiles,
     gather: Gather::Exact,
+    light_at: LightAt::Pixels,
 };
 const THEIRS: Method = Method::PUBLISHED;
 

@@ -46,7 +46,7 @@ pub struct MethodFlags {
     /// Whether many scratches under a pixel may be taken together. [default: what the scene says]
     #[arg(long, value_enum)]
     pub gather: Option<GatherFlag>,
-    /// At which places a single scratch's light is worked out.
+    /// At which places a single scratch's light is worked out. [default: fastest]
     #[arg(long, value_enum)]
     pub light_at: Option<LightAtFlag>,
 }
@@ -147,9 +147,12 @@ pub enum GatherFlag {
 /// `--light-at`
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum LightAtFlag {
+    /// Along scratches on the CPU, for each pixel on graphics adapters.
+    Fastest,
     /// For each pixel that it lies under.
     Pixels,
-    /// Along it, as densely as its light changes, and interpolated for the pixels: several times as fast where scratches are dense.
+    /// Along it, as densely as its light changes, and interpolated for the pixels: on the CPU several times as fast where scratches
+    /// are dense.
     Scratches,
 }
 
@@ -160,7 +163,7 @@ impl MethodFlags {
     /// Where they contradict one another.
     pub fn method(&self) -> Result<Method, Failure> {
         let mut method = match self.method {
-            Whole::Default => Method::default(),
+            Whole::Default => Method::fastest(),
             Whole::Published => Method::PUBLISHED,
         };
         if let Some(spectrum) = self.spectrum {
@@ -198,7 +201,7 @@ impl MethodFlags {
             )));
         }
         let has_tiles = method.lookup == Lookup::Tiles && method.is_default_path();
-        if method.light_at == LightAt::Scratches && !has_tiles {
+        if self.light_at == Some(LightAtFlag::Scratches) && !has_tiles {
             return Err(Failure::Input(anyhow!(
                 "--light-at scratches is of the default method with --index tiles: only --mask, --gather and --footprint gaussian or \
                  off go with it"
@@ -225,7 +228,7 @@ impl MethodFlags {
     /// The fewest flags that ask for `method`.
     fn of(method: &Method) -> Self {
         let beside = [
-            (Whole::Default, Method::default()),
+            (Whole::Default, Method::fastest()),
             (Whole::Published, Method::PUBLISHED),
         ]
         .map(|(whole, base)| Self::differing(method, whole, &base));
@@ -337,7 +340,7 @@ same!(Footprint, PixelFilter, Gaussian => Gaussian, Published => Published, Off 
 same!(Mask, mask::Mask, Energy => Energy, Linear => Linear, Density => Density);
 same!(SphereBaseFlag, SphereBase, Ltc => Cosines, Sptd => Pivot);
 same!(Index, Lookup, Tiles => Tiles, Bvh => Bvh, Triangles => Triangles);
-same!(LightAtFlag, LightAt, Pixels => Pixels, Scratches => Scratches);
+same!(LightAtFlag, LightAt, Fastest => Fastest, Pixels => Pixels, Scratches => Scratches);
 same!(GatherFlag, Gather, Exact => Exact, Clusters => Clusters, Tally => Tally);
 
 #[cfg(test)]
@@ -362,9 +365,9 @@ mod tests {
 
     #[test]
     fn no_flag_is_the_default_and_published_is_published() {
-        assert_eq!(parsed(""), Ok(Method::default()));
+        assert_eq!(parsed(""), Ok(Method::fastest()));
         assert_eq!(parsed("--method published"), Ok(Method::PUBLISHED));
-        assert_eq!(flags_of(&Method::default()), "");
+        assert_eq!(flags_of(&Method::fastest()), "");
         assert_eq!(flags_of(&Method::PUBLISHED), "--method published");
     }
 
@@ -372,7 +375,7 @@ mod tests {
     fn a_part_is_replaced_and_the_others_stay() {
         let exact = Method {
             spectrum: with_si(16, SineIntegral::Exact),
-            ..Method::default()
+            ..Method::fastest()
         };
         assert_eq!(parsed("--spectrum si-exact --wavelengths 16"), Ok(exact));
         let point = Method {
@@ -428,7 +431,8 @@ mod tests {
                             for sphere_base in [SphereBase::Cosines, SphereBase::Pivot] {
                                 for lookup in [Lookup::Tiles, Lookup::Bvh, Lookup::Triangles] {
                                     let gathers = [Gather::Exact, Gather::Clusters, Gather::Tally];
-                                    let places = [LightAt::Pixels, LightAt::Scratches];
+                                    let places =
+                                        [LightAt::Pixels, LightAt::Scratches, LightAt::Fastest];
                                     for (gather, light_at) in
                                         gathers.into_iter().flat_map(|g| places.map(|at| (g, at)))
                                     {
@@ -464,11 +468,12 @@ mod tests {
                 }
             }
         }
+        // Light at pixels goes with all.
         let exact = 4 * 2 * 2 * 3 * 2 * (3 + 2 + 2);
         // The default path alone, with three masks.
         let clusters = 2 * 3 * (3 + 2);
-        // The same by tiles, with and without a footprint, each mask and each gather.
-        let light_at_scratches = 2 * 3 * 3;
-        assert_eq!(count, exact + clusters + light_at_scratches);
+        // The fastest with all of them, and along scratches with what goes by tiles.
+        let along = 2 * 3 * 3;
+        assert_eq!(count, 2 * (exact + clusters) + along);
     }
 }

@@ -90,7 +90,7 @@ fn single(arguments: &cli::Render) -> Result<Output, Failure> {
 /// By which method a picture was made, where that was another than the default.
 fn notes(method: &Method) -> Notes {
     let mut notes = Notes::new();
-    if *method != Method::default() {
+    if *method != Method::fastest() {
         notes.insert("method".to_owned(), method_flags::flags_of(method));
     }
     notes

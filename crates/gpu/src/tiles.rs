@@ -28,7 +28,7 @@ const WORKGROUP_TILES: u32 = 64;
 /// The entry file for tiles that have a list.
 fn shade_of(variant: &ShadeVariant) -> &'static shaders::Module {
     match variant.method.light_at {
-        LightAt::Pixels => &shaders::SHADE_TILES,
+        LightAt::Pixels | LightAt::Fastest => &shaders::SHADE_TILES,
         LightAt::Scratches => &shaders::SHADE_TILE_SCRATCHES,
     }
 }

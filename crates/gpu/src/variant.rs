@@ -105,7 +105,7 @@ fn constants_of(variant: &ShadeVariant) -> [(&'static str, f64); 17] {
         Gather::Tally => 2,
     };
     let light_at = match method.light_at {
-        LightAt::Pixels => 0,
+        LightAt::Pixels | LightAt::Fastest => 0,
         LightAt::Scratches => 1,
     };
     [

@@ -25,7 +25,7 @@ pub(crate) const TILE_PX: usize = 32;
 
 /// Whether pictures by a method are done this way.
 pub(crate) fn is_for(method: Method) -> bool {
-    method.light_at == LightAt::Scratches
+    method.light_at != LightAt::Pixels
         && method.lookup == Lookup::Tiles
         && method.gather != Gather::Tally
         && method.is_default_path()

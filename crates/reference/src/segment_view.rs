@@ -65,8 +65,10 @@ impl Part {
 }
 
 /// Where the lights of a view are from the band's middle line: a bit for each, the 64th and those beyond share one.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Sides {
+    /// By how much the sum of the directions to the viewer and to a light that does reach it turns for a step along the scratch.
+    pub turn: f64,
     /// Lights that send nothing by way of the scratch.
     pub dark: u64,
     /// Lights beyond the line, along the tangent; others are before it.
@@ -124,11 +126,13 @@ impl<'a, const N: usize> SegmentView<'a, N> {
         sum
     }
 
-    /// The same, and where lights are that don't reach it.
+    /// The same, and where lights are that don't reach it. `step` is one along the scratch in the picture, in standard deviations of the
+    /// pixel's filter.
     pub fn lights_and_sides(
         &self,
         pixel: &Pixel,
         views: &LightViews,
+        step: DVec2,
         work: &mut Work,
     ) -> (DVec3, Sides) {
         let (mut sum, mut sides) = (DVec3::ZERO, Sides::default());
@@ -140,7 +144,12 @@ impl<'a, const N: usize> SegmentView<'a, N> {
             let shift = self.moved(views.moves[light]).shift;
             let middle = self.wo.x + shift + along * cap.cos_radius;
             let bit = 1 << light.min(63);
-            sides.dark |= if sent == DVec3::ZERO { bit } else { 0 };
+            if sent == DVec3::ZERO {
+                sides.dark |= bit;
+            } else {
+                let [x, y] = views.moves[light];
+                sides.turn = sides.turn.max((x * step.x + y * step.y).length());
+            }
             sides.positive |= if middle > 0.0 { bit } else { 0 };
         }
         (sum, sides)

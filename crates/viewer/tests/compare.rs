@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 use egui::Key;
 use egui_kittest::{Harness, kittest::Queryable};
 use hairline_image::{Image, Layer};
+use hairline_optics::method::Method;
 use hairline_reference::closed_form::{self, RenderOptions};
 use hairline_scene::Scene;
 use hairline_viewer::engine::Backend;
@@ -57,7 +58,7 @@ fn rendered(text: &str, size_px: [u32; 2]) -> Image {
     scene.render.size_px = size_px;
     let options = RenderOptions {
         samples: 16,
-        ..Default::default()
+        method: Method::fastest(),
     };
     closed_form::render(&scene, &options, &|_| {})
 }

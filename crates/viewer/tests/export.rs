@@ -78,7 +78,7 @@ fn rendered(text: &str, turned_deg: f64) -> (Image, Display) {
         .unwrap();
     let options = RenderOptions {
         samples: SAMPLES,
-        ..Default::default()
+        method: Method::fastest(),
     };
     let display = Display {
         exposure_ev: scene.camera.exposure_ev,

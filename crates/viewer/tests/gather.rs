@@ -128,7 +128,7 @@ fn options(gather: Gather) -> RenderOptions {
 fn method(gather: Gather) -> Method {
     Method {
         gather,
-        ..Method::default()
+        ..Method::fastest()
     }
 }
 

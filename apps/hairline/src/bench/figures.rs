@@ -121,6 +121,8 @@ impl Columns {
 pub enum Whose {
     Published,
     Ours,
+    /// Ours, with each scratch's light worked out at each pixel.
+    AtPixels,
     /// Ours, with grids for what many scratches add up to.
     Grids,
 }
@@ -131,6 +133,7 @@ impl Whose {
         match self {
             Self::Published => "published",
             Self::Ours => "ours",
+            Self::AtPixels => "ours at pixels",
             Self::Grids => "grids",
         }
     }

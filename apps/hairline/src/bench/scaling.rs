@@ -1,7 +1,7 @@
 //! One quantity at a time, for both methods with anti-aliasing, and for scratches without it as well.
 
 use hairline_gpu::Error;
-use hairline_optics::method::{Gather, Method, PixelFilter};
+use hairline_optics::method::{Gather, LightAt, Method, PixelFilter};
 use hairline_reference::closed_form::Prepared;
 
 use super::Thoroughness;
@@ -83,7 +83,7 @@ pub fn zoom(
             ..*ours
         },
     };
-    let ways = [one_by_one, grids(ours)];
+    let ways = [at_pixels(ours), one_by_one, grids(ours)];
     progress.restart("zoom");
     // The disk is laid and sorted once; before it the camera moves.
     let scene = worn.build()?;
@@ -160,6 +160,18 @@ pub fn resolution(
         thoroughness,
         progress,
     )
+}
+
+/// Each scratch's light worked out at each pixel.
+fn at_pixels(ours: &Method) -> Way {
+    Way {
+        whose: Whose::AtPixels,
+        method: Method {
+            gather: Gather::Exact,
+            light_at: LightAt::Pixels,
+            ..*ours
+        },
+    }
 }
 
 /// Grids for what many scratches add up to.

@@ -34,7 +34,7 @@ impl Figures {
     pub fn cell(&self, row: Row, zoom: f64, whose: Whose, columns: Columns) -> Option<&Cell> {
         let lookup = match whose {
             Whose::Published => lookup_name(columns),
-            Whose::Ours | Whose::Grids => self.own_lookup()?,
+            Whose::Ours | Whose::AtPixels | Whose::Grids => self.own_lookup()?,
         };
         self.cell_by(row, zoom, whose, columns.antialiasing(), lookup)
     }
@@ -357,7 +357,12 @@ pub fn curve_header(curve: &Curve) -> Vec<String> {
 /// What is held against what.
 fn ratios(curve: &Curve) -> impl Iterator<Item = (Whose, Whose)> {
     let there = series(curve);
-    [(Whose::Published, Whose::Ours), (Whose::Ours, Whose::Grids)]
+    let pairs = [
+        (Whose::Published, Whose::Ours),
+        (Whose::AtPixels, Whose::Ours),
+        (Whose::Ours, Whose::Grids),
+    ];
+    pairs
         .into_iter()
         .filter(move |(a, b)| there.contains(&(*a, true)) && there.contains(&(*b, true)))
 }

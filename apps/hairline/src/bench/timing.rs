@@ -176,7 +176,7 @@ fn strips_of(strip_rows: u32, height: u32, count: u32) -> Rows {
         let first = middle as u32 - (strip_rows / 2).min(middle as u32);
         // At a tile's edge if strips are made of tiles.
         let first = first
-            - if strip_rows % TILE_ROWS == 0 {
+            - if strip_rows.is_multiple_of(TILE_ROWS) {
                 first % TILE_ROWS
             } else {
                 0

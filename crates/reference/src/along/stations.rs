@@ -21,6 +21,9 @@ pub(super) struct Station {
     pub energy: DVec3,
     /// How pixels about it see the scratch.
     pub weights: FlatWeights,
+    /// By how much the phase between both edges of the groove changes for a pixel along it, by way of any light that reaches it. None
+    /// if that is not known.
+    pub phase_per_px: Option<f64>,
     /// Where lights are that don't reach it.
     pub sides: Sides,
     /// How far pixels see the scratch here.
@@ -69,14 +72,16 @@ pub(super) struct Stations {
 
 /// Up to this length in pixels one station is enough.
 const ONE_PX: f64 = 1.5;
-/// Between stations farther apart there is always another.
-const FAR_PX: f64 = 4.0;
+/// Between stations farther apart there is always another: spectra turn with the phase, and ends of chords with more than that.
+const FAR_RAD: f64 = 0.1;
+/// At least, and where the phase is not known; and at most.
+const FAR_PX: [f64; 2] = [4.0, 16.0];
 /// Up to here nothing can shine between two that are dark, all lights being on the same side for both.
 const DARK_PX: f64 = 16.0;
 /// Closer ones are not looked for: pixels are no finer.
 const NEAR_PX: f64 = 1.5;
 /// If stations closer than this are needed, pixels are interpolated one by one.
-const FINE_PX: f64 = 4.0;
+pub(super) const FINE_PX: f64 = 4.0;
 /// What neighbours may differ by, as a share of the larger, without another between them.
 const ALIKE: f64 = 0.1;
 /// By what share of the largest of three the middle one may be off the mean of its neighbours: what is then left of the error after a
@@ -155,7 +160,8 @@ impl Stations {
         if are_dark && span < DARK_PX && !may_hide_light(a, b) {
             return;
         }
-        let far = span > FAR_PX;
+        let far_px = far_px(a, b);
+        let far = span > far_px;
         if !(far || span > NEAR_PX && (differ(a, b, ALIKE) || may_hide_light(a, b))) {
             return;
         }
@@ -169,7 +175,7 @@ impl Stations {
         let mean = a.radiance.lerp(b.radiance, f);
         let largest = largest(a).max(largest(b)).max(largest(&middle));
         let off = (middle.radiance - mean).abs().max_element();
-        let is_long = span > 2.0 * FAR_PX;
+        let is_long = span > 2.0 * far_px;
         if is_long
             || off > STRAIGHT * largest
             || may_hide_light(a, &middle)
@@ -270,6 +276,14 @@ fn numbers(station: &Station) -> Numbers {
     std::array::from_fn(|i| given.get(i).map_or(0.0, |&number| number as f32))
 }
 
+/// Beyond which distance there is always another station between two.
+fn far_px(a: &Station, b: &Station) -> f64 {
+    match (a.phase_per_px, b.phase_per_px) {
+        (Some(a), Some(b)) => (FAR_RAD / a.max(b).max(1e-9)).clamp(FAR_PX[0], FAR_PX[1]),
+        _ => FAR_PX[0],
+    }
+}
+
 fn largest(station: &Station) -> f64 {
     station.radiance.abs().max_element()
 }
@@ -303,7 +317,9 @@ mod tests {
                     skew: 0.0,
                     ends_per_px: 1.0,
                 },
+                phase_per_px: None,
                 sides: Sides {
+                    turn: 0.0,
                     dark,
                     positive: u64::from(place_px > 13.0),
                 },

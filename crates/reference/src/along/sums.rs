@@ -1,7 +1,7 @@
 //! What the scratches under the pixels of a tile add up to.
 
 use super::line::{Line, Reach};
-use super::stations::{ENERGY, Stations, WEIGHTS};
+use super::stations::{ENERGY, FINE_PX, Stations, WEIGHTS};
 use super::weigh::{Block, LANES, Lanes, Limits, Passing, Piece, PixelLanes, weigh, weigh_flat};
 use hairline_optics::mask::ScratchSums;
 use pulp::{Simd, WithSimd};
@@ -172,7 +172,7 @@ impl AddPiece<'_> {
         block.add(&mut sums.share, weights);
         block.add(&mut sums.share_by_line, times(whole));
         let channels = if stations.are_lit() { 0..6 } else { ENERGY..6 };
-        if stations.are_fine() {
+        if stations.are_fine() && farthest - nearest > FINE_PX as f32 {
             let sent = seen_px.map(|place| stations.at(place));
             for channel in channels {
                 block.add(

@@ -18,6 +18,8 @@ use hairline_optics::method::{Gather, PixelFilter};
 use pulp::Arch;
 use std::f64::consts::SQRT_2;
 
+/// By how much the phase between both edges of a groove changes with a direction's sine, at 555 nm.
+const PHASE_PER_UM: f64 = std::f64::consts::TAU / 0.555;
 /// The standard normal distribution at 0.
 const PER_ROOT_TAU: f64 = 0.398_942_280_401_432_7;
 /// A row of pixels and what lanes read beyond its end.
@@ -461,7 +463,8 @@ impl<'a> Tile<'a> {
         } else {
             pixel_px
         };
-        let ahead = line.along * ((place_px - pixel_px) / filter_std_px.max(1e-9));
+        let step = line.along / filter_std_px.max(1e-9);
+        let ahead = step * (place_px - pixel_px);
         let part = Part {
             // The variance of what a normal distribution and an even one over the length have in common, about.
             seen_along: 1.0 / (1.0 + 12.0 * along_um2 / (length_um * length_um)),
@@ -470,13 +473,16 @@ impl<'a> Tile<'a> {
         let way = self.picture.way;
         let table = &way.prepared.tables.tables[point.table];
         let view = on_line.view(&pixel, table).at(part);
-        let (mut radiance, sides) = view.lights_and_sides(&pixel, &self.views[i], &mut self.work);
+        let (mut radiance, sides) =
+            view.lights_and_sides(&pixel, &self.views[i], step, &mut self.work);
         if let Some(environment) = &way.prepared.scene.environment {
             radiance += view.environment(&pixel, environment);
         }
         let per_std = 1.0 / variances_um2[0].sqrt();
+        let has_turn = filter_std_px > 0.0 && way.prepared.scene.environment.is_none();
         Some(Station {
             place_px,
+            phase_per_px: has_turn.then_some(PHASE_PER_UM * on_line.width_um * sides.turn),
             radiance,
             energy: on_line.energy(&pixel, table).into(),
             sides,

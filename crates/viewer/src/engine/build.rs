@@ -53,7 +53,7 @@ impl Built {
     pub fn method(&self) -> Method {
         Method {
             gather: self.scene.render.gather,
-            ..Method::default()
+            ..Method::fastest()
         }
     }
 
