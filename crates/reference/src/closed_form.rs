@@ -102,7 +102,7 @@ impl<'a> Prepared<'a> {
         }
     }
 
-    /// Takes what many scratches add up to as it was built before, for [`Gather::Clusters`]: of a scene as for
+    /// Takes what many scratches add up to as it was built before, for [`hairline_optics::method::Gather::Clusters`]: of a scene as for
     /// [`Self::from_parts`].
     pub fn with_bundles(mut self, bundles: Arc<Bundles>) -> Self {
         self.bundles = bundles.into();
@@ -133,7 +133,7 @@ impl<'a> Prepared<'a> {
             .get_or_init(|| TriangleLists::build(self.scene, &self.scratches))
     }
 
-    /// What many scratches add up to, for [`Gather::Clusters`]; built when first asked for.
+    /// What many scratches add up to, for [`hairline_optics::method::Gather::Clusters`]; built when first asked for.
     pub fn bundle_index(&self) -> &BundleIndex {
         &self.bundles().index
     }
