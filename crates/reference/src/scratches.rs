@@ -52,12 +52,17 @@ pub(crate) fn each_segment(
         list.iter().for_each(|i| visit(&tree.segments[*i as usize]));
         return;
     }
+    let reach_m = gather_reach_m(point).as_vec3();
+    tree.gather(object, point.position_m.as_vec3(), reach_m, visit);
+}
+
+/// Half the sides of the box around a point that holds every segment with a share there, world space.
+pub(crate) fn gather_reach_m(point: &SurfacePoint) -> DVec3 {
     let sigma_m = point.coherence_um * 1e-6;
     // Variances of position along the world's axes; 0.7 sigma^2 covers the window across and the ends' blur along.
     let [ax, ay] = point.footprint_axes_m;
     let variance = ax * ax + ay * ay + DVec3::splat(0.7 * sigma_m * sigma_m);
-    let reach = (variance.map(f64::sqrt) * REACH_STD as f64).as_vec3();
-    tree.gather(object, point.position_m.as_vec3(), reach, visit);
+    variance.map(f64::sqrt) * REACH_STD as f64
 }
 
 /// A segment with less than this share of its line is left out: that is the Gaussian's tail beyond 5.5 standard deviations.

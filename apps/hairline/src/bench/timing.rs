@@ -9,7 +9,8 @@ use std::time::{Duration, Instant};
 
 use anyhow::anyhow;
 use hairline_gpu::Error;
-use hairline_reference::closed_form::Prepared;
+use hairline_optics::method::Method;
+use hairline_reference::closed_form::{Prepared, rows_together};
 use hairline_scene::Scene;
 
 use super::figures::{Outcome, Spread, Timing};
@@ -30,8 +31,6 @@ pub struct Effort {
 
 /// Rows of a workgroup.
 const WORKGROUP_ROWS: u32 = 8;
-/// Rows of the largest tiles: [`hairline_reference::closed_form::rows_together`].
-const TILE_ROWS: u32 = 32;
 /// Rows of a strip at most.
 const STRIP_ROWS_MAX: u32 = 64;
 /// Strips at least: fewer would not know the picture.
@@ -44,8 +43,13 @@ const TOO_LONG: f64 = 20.0;
 /// renderer's.
 fn strip_rows() -> u32 {
     (WORKGROUP_ROWS * rayon::current_num_threads() as u32)
-        .next_multiple_of(TILE_ROWS)
+        .next_multiple_of(tile_rows())
         .min(STRIP_ROWS_MAX)
+}
+
+/// Rows of the CPU renderer's tiles.
+fn tile_rows() -> u32 {
+    rows_together(Method::fastest())
 }
 
 /// One of those that take turns.
@@ -176,8 +180,8 @@ fn strips_of(strip_rows: u32, height: u32, count: u32) -> Rows {
         let first = middle as u32 - (strip_rows / 2).min(middle as u32);
         // At a tile's edge if strips are made of tiles.
         let first = first
-            - if strip_rows.is_multiple_of(TILE_ROWS) {
-                first % TILE_ROWS
+            - if strip_rows.is_multiple_of(tile_rows()) {
+                first % tile_rows()
             } else {
                 0
             };

@@ -96,12 +96,12 @@ impl Stations {
         [begin, end]: [f64; 2],
         mut station: impl FnMut(f64) -> Option<Station>,
     ) {
-        self.knots.clear();
-        self.are_lit = false;
-        self.are_fine = false;
-        self.are_short = false;
-        self.depth_room = 0.0;
-        self.reach = Reach::default();
+        let mut knots = std::mem::take(&mut self.knots);
+        knots.clear();
+        *self = Self {
+            knots,
+            ..Self::default()
+        };
         if end - begin <= ONE_PX {
             if let Some(only) = station(0.5 * (begin + end)) {
                 self.push(&only);

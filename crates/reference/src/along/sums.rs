@@ -2,7 +2,7 @@
 
 use super::line::{Line, Reach};
 use super::stations::{ENERGY, FINE_PX, Stations, WEIGHTS};
-use super::weigh::{Block, LANES, Lanes, Limits, Passing, Piece, PixelLanes, weigh, weigh_flat};
+use super::weigh::{Block, LANES, Lanes, Passing, Piece, PixelLanes, weigh, weigh_flat};
 use hairline_optics::mask::ScratchSums;
 use pulp::{Simd, WithSimd};
 
@@ -54,7 +54,6 @@ pub(super) struct AddPiece<'a> {
     pub sums: &'a mut TileSums,
     pub pixels: &'a PixelLanes,
     pub piece: &'a Piece,
-    pub limits: Limits,
     pub line: Line,
     pub reach: Reach,
     pub stations: &'a Stations,
@@ -148,7 +147,7 @@ impl AddPiece<'_> {
             lanes
         };
         let [weights, whole] = match &self.piece.flat {
-            None => weigh(self.pixels, &block, self.piece, self.limits),
+            None => weigh(self.pixels, &block, self.piece),
             Some(flat) => {
                 let passing = Passing {
                     place_px,
@@ -158,7 +157,7 @@ impl AddPiece<'_> {
                     skew: number(WEIGHTS + 2),
                     ends_per_px: number(WEIGHTS + 3),
                 };
-                weigh_flat(self.pixels, &block, self.piece, flat, &passing, self.limits)
+                weigh_flat(self.pixels, &block, self.piece, flat, &passing)
             }
         };
         let times = |numbers: Lanes| -> Lanes {

@@ -4,22 +4,23 @@ use super::TILE_PX;
 use super::line::{Line, Reach};
 use super::stations::{FlatWeights, Station, Stations};
 use super::sums::{AddPiece, TileSums};
-use super::weigh::{Flat, LANES, Limits, Piece, PixelLanes};
+use super::weigh::{Flat, LANES, Piece, PixelLanes};
 use crate::bundles;
 use crate::closed_form::{Picture, Sample, Seen, SeenSurface};
 use crate::light_view::LightViews;
-use crate::scratches::{Pixel, Work};
+use crate::scratches::{Pixel, Work, gather_reach_m};
 use crate::segment_view::Part;
 use glam::{DVec2, DVec3, Vec3};
 use hairline_index::IndexedSegment;
-use hairline_index::scratch_index::{FACING_MIN_COS, REACH_STD};
+use hairline_index::scratch_index::REACH_STD;
 use hairline_optics::mask::ScratchSums;
 use hairline_optics::method::{Gather, PixelFilter};
+use hairline_optics::spectrum::WAVELENGTH_MEAN_NM;
 use pulp::Arch;
 use std::f64::consts::SQRT_2;
 
-/// By how much the phase between both edges of a groove changes with a direction's sine, at 555 nm.
-const PHASE_PER_UM: f64 = std::f64::consts::TAU / 0.555;
+/// By how much the phase between both edges of a groove changes with a direction's sine, at the wavelength that stands for the visible.
+const PHASE_PER_UM: f64 = std::f64::consts::TAU * 1e3 / WAVELENGTH_MEAN_NM;
 /// The standard normal distribution at 0.
 const PER_ROOT_TAU: f64 = 0.398_942_280_401_432_7;
 /// A row of pixels and what lanes read beyond its end.
@@ -98,7 +99,10 @@ impl<'a> Tile<'a> {
         (self.corner, self.size) = (corner, size);
         let mut samples = self.look();
         self.sums.clear();
-        for object in 0..self.picture.way.prepared.scene.objects.len() {
+        let mut objects: Vec<u32> = self.seen.iter().flatten().map(|s| s.hit.object).collect();
+        objects.sort_unstable();
+        objects.dedup();
+        for object in objects.into_iter().map(|object| object as usize) {
             if let Some(around) = self.around(object) {
                 self.draw(object, &around);
             }
@@ -214,11 +218,7 @@ impl<'a> Tile<'a> {
                 continue;
             }
             let point = &seen.point;
-            let sigma_m = point.coherence_um * 1e-6;
-            let [ax, ay] = point.footprint_axes_m;
-            // As for a pixel's own walk.
-            let variance = ax * ax + ay * ay + DVec3::splat(0.7 * sigma_m * sigma_m);
-            let reach_m = variance.map(f64::sqrt) * f64::from(REACH_STD);
+            let reach_m = gather_reach_m(point);
             let (low, high) = (point.position_m - reach_m, point.position_m + reach_m);
             let around = around.get_or_insert(Around {
                 lower_m: low,
@@ -329,10 +329,6 @@ impl<'a> Tile<'a> {
                 sums: &mut self.sums,
                 pixels: &self.lanes,
                 piece: &piece,
-                limits: Limits {
-                    facing_min_cos: FACING_MIN_COS,
-                    reach_std: REACH_STD,
-                },
                 line,
                 reach: Reach {
                     across_px: reach.across_px * MARGIN + MARGIN_PX,

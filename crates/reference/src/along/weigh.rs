@@ -2,6 +2,8 @@
 //! is for one, in single precision. Loops over lanes have no branches and no calls, so that compilers turn them into vector
 //! instructions.
 
+use hairline_index::scratch_index::{FACING_MIN_COS, REACH_STD};
+
 /// Pixels at once.
 pub(super) const LANES: usize = 8;
 
@@ -145,24 +147,12 @@ pub(super) struct Passing {
     pub ends_per_px: Lanes,
 }
 
-/// A segment counts only where its normal and the point's agree as well as that; it is out of reach beyond so many standard deviations.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Limits {
-    pub facing_min_cos: f32,
-    pub reach_std: f32,
-}
-
 /// Segments with less than this share of their line are left out.
 const SHARE_MIN: f32 = 1e-6;
 
 /// Shares of the segment and of its endless line, for a block of pixels; 0 where they don't see it.
 #[inline(always)]
-pub(super) fn weigh(
-    pixels: &PixelLanes,
-    block: &Block,
-    piece: &Piece,
-    limits: Limits,
-) -> [Lanes; 2] {
+pub(super) fn weigh(pixels: &PixelLanes, block: &Block, piece: &Piece) -> [Lanes; 2] {
     let of3 = |arrays: &[Vec<f32>; 3]| -> [Lanes; 3] {
         [
             block.of(&arrays[0]),
@@ -177,7 +167,7 @@ pub(super) fn weigh(
     let single = block.of(&pixels.single_share);
     let object = block.of(&pixels.object);
     let (s, e, n) = (piece.start_m, piece.end_m, piece.normal);
-    let reach2 = limits.reach_std * limits.reach_std;
+    let reach2 = REACH_STD * REACH_STD;
     let mut segment = [0.0; LANES];
     let mut line = [0.0; LANES];
     for i in 0..LANES {
@@ -213,7 +203,7 @@ pub(super) fn weigh(
             0.5 * (erf(high) - erf(low))
         };
         let seen = (object[i] == piece.object)
-            & (facing >= limits.facing_min_cos)
+            & (facing >= FACING_MIN_COS)
             & (far2 <= reach2)
             & (share > SHARE_MIN);
         // What is computed where nothing is seen may be no number.
@@ -234,12 +224,11 @@ pub(super) fn weigh_flat(
     piece: &Piece,
     flat: &Flat,
     passing: &Passing,
-    limits: Limits,
 ) -> [Lanes; 2] {
     let object = block.of(&pixels.object);
     let per_depth_m = block.of(&pixels.per_depth_m);
     let single = block.of(&pixels.single_share);
-    let reach2 = limits.reach_std * limits.reach_std;
+    let reach2 = REACH_STD * REACH_STD;
     let mut segment = [0.0; LANES];
     let mut line = [0.0; LANES];
     let mut low = [0.0; LANES];
@@ -406,12 +395,8 @@ mod tests {
                 is_short: false,
                 flat: None,
             };
-            let limits = Limits {
-                facing_min_cos: 0.2,
-                reach_std: 3.5,
-            };
             let block = Block::new(LANES, [[0, 0], [4, 0]]);
-            let [segment, _] = weigh(&pixels, &block, &piece, limits);
+            let [segment, _] = weigh(&pixels, &block, &piece);
 
             let local = |end: [f64; 3]| {
                 let (x, y) = (end[0] * 1e6 - at[0], end[1] * 1e6 - at[1]);
