@@ -5,6 +5,7 @@
 //! The picture is done tile by tile: one walk finds a tile's scratches. What a pixel adds up is the same sum as ever, in another
 //! order.
 
+mod dark;
 mod line;
 mod stations;
 mod sums;

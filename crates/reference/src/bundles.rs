@@ -138,9 +138,9 @@ pub(crate) fn add_scaled(sums: &mut ScratchSums, more: &ScratchSums, weight: f64
 
 /// The least standard deviation of footprint and window together in any direction.
 fn least_std_um(pixel: &Pixel) -> f64 {
-    let c = pixel.covariance_um2;
+    let c = pixel.frame.covariance_um2;
     let (mean, half) = (0.5 * (c.x + c.z), 0.5 * (c.x - c.z));
-    ((mean - half.hypot(c.y)).max(0.0) + pixel.window_um2).sqrt()
+    ((mean - half.hypot(c.y)).max(0.0) + pixel.frame.window_um2).sqrt()
 }
 
 #[cfg(test)]

@@ -69,8 +69,15 @@ pub(crate) fn gather_reach_m(point: &SurfacePoint) -> DVec3 {
 const SHARE_MIN: f64 = 2e-8;
 
 /// A pixel as the scratches under it see it: what is the same for all of them.
+#[derive(Clone, Copy)]
 pub(crate) struct Pixel<'a> {
     pub point: &'a SurfacePoint,
+    pub frame: PixelFrame,
+}
+
+/// What a [`Pixel`] works out of its point.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct PixelFrame {
     /// The surface's axes in world space, to micrometres.
     axis_x_um: DVec3,
     axis_y_um: DVec3,
@@ -84,14 +91,13 @@ pub(crate) struct Pixel<'a> {
     pub stds: BandStds,
 }
 
-impl<'a> Pixel<'a> {
-    pub fn new(point: &'a SurfacePoint) -> Self {
+impl PixelFrame {
+    fn new(point: &SurfacePoint) -> Self {
         let steps_um = point
             .footprint_axes_m
             .map(|step| (point.surface_from_world(step) * 1e6).truncate());
         let [x, y] = steps_um;
         Self {
-            point,
             axis_x_um: point.axis_x * 1e6,
             axis_y_um: point.axis_y * 1e6,
             steps_um,
@@ -102,6 +108,15 @@ impl<'a> Pixel<'a> {
             ),
             window_um2: 0.5 * point.coherence_um * point.coherence_um,
             stds: band_stds(point.coherence_um),
+        }
+    }
+}
+
+impl<'a> Pixel<'a> {
+    pub fn new(point: &'a SurfacePoint) -> Self {
+        Self {
+            point,
+            frame: PixelFrame::new(point),
         }
     }
 
@@ -128,7 +143,7 @@ impl<'a> Pixel<'a> {
         }
         let local_um = |v: glam::Vec3| {
             let v = v.as_dvec3() - self.point.position_m;
-            DVec2::new(v.dot(self.axis_x_um), v.dot(self.axis_y_um))
+            DVec2::new(v.dot(self.frame.axis_x_um), v.dot(self.frame.axis_y_um))
         };
         let (start, end) = (local_um(segment.start_m), local_um(segment.end_m));
         let along = end - start;
@@ -136,10 +151,10 @@ impl<'a> Pixel<'a> {
         // Distance from the line and variance across it, times the length and its square: most segments of a leaf lie out of
         // reach, which takes no root to tell.
         let area = end.perp_dot(start);
-        let c = self.covariance_um2;
+        let c = self.frame.covariance_um2;
         let across =
             c.x * along.y * along.y - 2.0 * c.y * along.x * along.y + c.z * along.x * along.x;
-        let variance = across.max(0.0) + self.window_um2 * length2;
+        let variance = across.max(0.0) + self.frame.window_um2 * length2;
         if !(length2 > 0.0) || area * area > reach * reach * variance {
             return None;
         }
@@ -162,8 +177,8 @@ impl<'a> Pixel<'a> {
 
     /// Variance of footprint and window across a tangent.
     pub fn variance_across_um2(&self, tangent: DVec2) -> f64 {
-        let [x, y] = self.steps_um.map(|step| tangent.perp_dot(step));
-        x * x + y * y + self.window_um2
+        let [x, y] = self.frame.steps_um.map(|step| tangent.perp_dot(step));
+        x * x + y * y + self.frame.window_um2
     }
 }
 
@@ -195,9 +210,9 @@ impl SeenLine {
             share: 1.0,
         };
         let place = BandPlace::new(
-            pixel.steps_um.map(|step| self.tangent.perp_dot(step)),
+            pixel.frame.steps_um.map(|step| self.tangent.perp_dot(step)),
             self.offset_um,
-            self.footprint.across_um2 + pixel.window_um2,
+            self.footprint.across_um2 + pixel.frame.window_um2,
         );
         SegmentView::new(pixel, self.tangent, [groove], place)
     }

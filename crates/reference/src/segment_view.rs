@@ -110,7 +110,7 @@ impl<'a, const N: usize> SegmentView<'a, N> {
         turn_rad2: f64,
     ) -> Self {
         // They lie on both sides, as far as the footprint goes: to none of them does the place across tell how ξt moves.
-        let place = BandPlace::new([0.0; 2], 0.0, pixel.window_um2);
+        let place = BandPlace::new([0.0; 2], 0.0, pixel.frame.window_um2);
         Self {
             turn_rad2,
             ..Self::new(pixel, tangent, grooves, place)
@@ -198,7 +198,7 @@ impl<'a, const N: usize> SegmentView<'a, N> {
             || motion.reaches(
                 middle - cap.sin_radius,
                 middle + cap.sin_radius,
-                pixel.stds.mean,
+                pixel.frame.stds.mean,
             )
     }
 
@@ -226,11 +226,11 @@ impl<'a, const N: usize> SegmentView<'a, N> {
         let cap = cap.turned(self.frame);
         let wo = self.wo + motion.shift * DVec3::X;
         let (lowest, highest) = sphere_band_extent(wo, cap);
-        if !motion.reaches(lowest, highest, pixel.stds.mean) {
+        if !motion.reaches(lowest, highest, pixel.frame.stds.mean) {
             return DVec3::ZERO;
         }
         work.counts.lit += 1;
-        let lines = band_lines(wo.x, lowest, highest, motion.band(pixel.stds).stds);
+        let lines = band_lines(wo.x, lowest, highest, motion.band(pixel.frame.stds).stds);
         lines.integral(wo, |line| {
             let chord = sphere_chord(line, cap);
             chord.integral(line, self.spectrum(line, chord.range(line)))
@@ -248,7 +248,7 @@ impl<'a, const N: usize> SegmentView<'a, N> {
         let wo = self.wo + motion.shift * DVec3::X;
         // Large lights cover the whole band, and their corners tell so.
         let (low, high) = outline.corner_extent(self.frame);
-        let std = motion.widened(pixel.stds.mean);
+        let std = motion.widened(pixel.frame.stds.mean);
         if band_is_whole(wo.x, wo.x + low, wo.x + high, std) {
             work.counts.lit += 1;
             let line = BandLine::new(wo, 0.0);
@@ -256,11 +256,11 @@ impl<'a, const N: usize> SegmentView<'a, N> {
             return work.roots.integral(spectrum).into();
         }
         let (lowest, highest) = outline.band_extent(self.frame, wo.x);
-        if !motion.reaches(lowest, highest, pixel.stds.mean) {
+        if !motion.reaches(lowest, highest, pixel.frame.stds.mean) {
             return DVec3::ZERO;
         }
         work.counts.lit += 1;
-        let lines = band_lines(wo.x, lowest, highest, motion.band(pixel.stds).stds);
+        let lines = band_lines(wo.x, lowest, highest, motion.band(pixel.frame.stds).stds);
         // One cosine for all lines, that of the middle one.
         let middle = lines.middle_line(wo);
         let spectrum = self.outline_spectrum(outline, middle, &mut work.middle_roots);

@@ -10,7 +10,7 @@ use glam::{DVec2, DVec3};
 pub const BAND_REACH_STD: f64 = 4.0;
 
 /// Standard deviations of a band in xi_t: it is wider the longer the wavelength.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BandStds {
     /// At the wavelength that stands for the visible; lines are placed by it.
     pub mean: f64,

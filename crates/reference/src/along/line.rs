@@ -127,7 +127,7 @@ impl Line {
     }
 
     /// The rows of a tile in which pixels may be near.
-    pub fn rows(&self, height: usize, reach: Reach) -> RangeInclusive<usize> {
+    pub fn rows(&self, height: usize, reach: Reach) -> RangeInclusive<u32> {
         let [a, b] = [self.start_px.y, self.at(self.length_px).y];
         let low = (a.min(b) - reach.farthest_px()).ceil();
         let high = (a.max(b) + reach.farthest_px()).floor();
@@ -135,7 +135,7 @@ impl Line {
             // None.
             return RangeInclusive::new(1, 0);
         }
-        low.max(0.0) as usize..=(high as usize).min(height - 1)
+        low.max(0.0) as u32..=(high as u32).min(height as u32 - 1)
     }
 
     /// For [`Self::columns`].
@@ -186,16 +186,38 @@ impl Crossing {
 
     /// From which pixel to before which the pixels of a row are near.
     #[inline(always)]
-    pub fn columns(&self, row: usize) -> [usize; 2] {
-        let middle = self.at_first_row + row as f32 * self.per_row;
+    pub fn columns(&self, row: u32) -> [u32; 2] {
+        let middle = self.at_first_row + row as i32 as f32 * self.per_row;
         let low = (middle - self.half).max(self.range[0]).ceil();
         let high = (middle + self.half).min(self.range[1]).floor();
-        let begin = low.clamp(0.0, self.width);
+        let begin = within(low, self.width);
+        let end = within(high + 1.0, self.width);
         [
-            begin as usize,
-            (high + 1.0).clamp(begin, self.width) as usize,
+            rounded(begin),
+            rounded(if end > begin { end } else { begin }),
         ]
     }
+}
+
+/// From 0 to a number; 0 for what is none.
+#[inline(always)]
+fn within(x: f32, most: f32) -> f32 {
+    let x = if x > 0.0 { x } else { 0.0 };
+    if x < most { x } else { most }
+}
+
+/// To the nearest whole number, from 0 to 2^22 and no other: without the branches that a conversion has for all others.
+#[inline(always)]
+fn rounded(x: f32) -> u32 {
+    // Added to it, it is rounded to a whole one, which then are the last bits of the sum.
+    const ROUND: f32 = 8_388_608.0;
+    (x + ROUND).to_bits() & 0x7f_ffff
+}
+
+/// The nearest of so many places, `per_px` in a pixel from the first on.
+#[inline(always)]
+pub(super) fn nearest_place(beyond_px: f32, per_px: f32, last: u32) -> u32 {
+    rounded(within(beyond_px * per_px, last as i32 as f32))
 }
 
 #[cfg(test)]
@@ -227,8 +249,8 @@ mod tests {
             let crossing = line.crossing(size[0], reach);
             let inside = line.inside(size, reach);
             for y in 0..size[1] {
-                let [begin, end] = if rows.contains(&y) {
-                    crossing.columns(y)
+                let [begin, end] = if rows.contains(&(y as u32)) {
+                    crossing.columns(y as u32).map(|x| x as usize)
                 } else {
                     [0, 0]
                 };

@@ -1,15 +1,20 @@
 //! What a scratch sends at places along it.
 
-use super::line::Reach;
+use super::line::{Reach, nearest_place};
 use crate::segment_view::Sides;
 use glam::DVec3;
 
-/// What pixels near to a place take from it: [`Station`]'s numbers, radiance first, and room to make it a whole number of vectors.
+/// What pixels near to a place take from it: one for the share, nothing for the share by line, radiance and energy, [`Station`]'s
+/// weights, and what these grow by for a pixel.
 pub(super) type Numbers = [f32; 16];
 
-/// Where the others begin.
-pub(super) const ENERGY: usize = 3;
-pub(super) const WEIGHTS: usize = 6;
+/// So many of them pixels add up.
+pub(super) const SUMS: usize = 8;
+/// What is of the pixel alone.
+pub(super) const SHARE_BY_LINE: usize = 1;
+/// Where the weights begin, and what they grow by.
+pub(super) const WEIGHTS: usize = 8;
+pub(super) const SLOPES: usize = 12;
 
 /// What a scratch sends at one place.
 #[derive(Clone, Copy, Debug)]
@@ -50,6 +55,18 @@ pub(super) struct FlatWeights {
     pub ends_per_px: f64,
 }
 
+impl FlatWeights {
+    fn lerp(&self, to: &Self, part: f64) -> Self {
+        let lerp = |from: f64, to: f64| from + part * (to - from);
+        Self {
+            stds_per_px: lerp(self.stds_per_px, to.stds_per_px),
+            middle: lerp(self.middle, to.middle),
+            skew: lerp(self.skew, to.skew),
+            ends_per_px: lerp(self.ends_per_px, to.ends_per_px),
+        }
+    }
+}
+
 /// From a place on, up to the next.
 struct Knot {
     place_px: f32,
@@ -62,16 +79,83 @@ struct Knot {
 #[derive(Default)]
 pub(super) struct Stations {
     knots: Vec<Knot>,
-    are_lit: bool,
-    are_fine: bool,
+    course: Box<Course>,
     are_short: bool,
     facet: DVec3,
     depth_room: f64,
     reach: Reach,
 }
 
+/// The numbers of a line's places, half a pixel apart: pixels take those of the nearest, which are found at once.
+pub(super) struct Course {
+    places: [Numbers; PLACES],
+    last: u32,
+    first_px: f32,
+    per_px: f32,
+}
+
+const PLACES_PER_PX: f32 = 2.0;
+/// As many as the diagonal of a tile needs, ends and rounding included.
+const PLACES: usize = 96;
+
+impl Default for Course {
+    fn default() -> Self {
+        Self {
+            places: [Numbers::default(); PLACES],
+            last: 0,
+            first_px: 0.0,
+            per_px: 0.0,
+        }
+    }
+}
+
+impl Course {
+    #[inline(always)]
+    fn follow(&mut self, knots: &[Knot]) {
+        let [first, .., last] = knots else {
+            if let Some(only) = knots.first() {
+                self.places[0] = only.at;
+            }
+            (self.last, self.first_px, self.per_px) = (0, 0.0, 0.0);
+            return;
+        };
+        let length_px = last.place_px - first.place_px;
+        let steps = ((length_px * PLACES_PER_PX) as usize + 1).min(PLACES - 1);
+        let step_px = length_px / steps as f32;
+        self.last = steps as u32;
+        (self.first_px, self.per_px) = (first.place_px, 1.0 / step_px);
+        let mut at = 0;
+        for (i, place) in self.places[..=steps].iter_mut().enumerate() {
+            let place_px = first.place_px + i as f32 * step_px;
+            while at + 1 < knots.len() && knots[at + 1].place_px <= place_px {
+                at += 1;
+            }
+            let knot = &knots[at];
+            let beyond = place_px - knot.place_px;
+            let (mut numbers, slopes) = (knot.at, knot.slopes);
+            for i in 0..numbers.len() {
+                numbers[i] += beyond * slopes[i];
+            }
+            *place = numbers;
+        }
+    }
+
+    /// Where the numbers of a place are; of any, also of what is no number.
+    #[inline(always)]
+    pub fn index(&self, place_px: f32) -> u32 {
+        nearest_place(place_px - self.first_px, self.per_px, self.last)
+    }
+
+    #[inline(always)]
+    pub fn at(&self, index: u32) -> &Numbers {
+        &self.places[index as usize]
+    }
+}
+
 /// Up to this length in pixels one station is enough.
 const ONE_PX: f64 = 1.5;
+/// The same for a dark scratch on a plane, where perspective alone changes how it is seen.
+const PLANE_PX: f64 = 6.0;
 /// Between stations farther apart there is always another: spectra turn with the phase, and ends of chords with more than that.
 const FAR_RAD: f64 = 0.1;
 /// At least, and where the phase is not known; and at most.
@@ -80,13 +164,15 @@ const FAR_PX: [f64; 2] = [4.0, 16.0];
 const DARK_PX: f64 = 16.0;
 /// Closer ones are not looked for: pixels are no finer.
 const NEAR_PX: f64 = 1.5;
-/// If stations closer than this are needed, pixels are interpolated one by one.
-pub(super) const FINE_PX: f64 = 4.0;
 /// What neighbours may differ by, as a share of the larger, without another between them.
 const ALIKE: f64 = 0.1;
 /// By what share of the largest of three the middle one may be off the mean of its neighbours: what is then left of the error after a
 /// parabola through the three is of the next order.
 const STRAIGHT: f64 = 0.02;
+
+/// Where a station is looked for: what is nearest to an edge may be hidden there.
+const FROM_START: [f64; 7] = [0.0, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5];
+const FROM_END: [f64; 7] = [1.0, 0.95, 0.9, 0.8, 0.7, 0.6, 0.5];
 
 impl Stations {
     /// Puts stations along a part of a line, as many as it needs. `station` is asked for them at places of the line; it takes the
@@ -96,33 +182,58 @@ impl Stations {
         [begin, end]: [f64; 2],
         mut station: impl FnMut(f64) -> Option<Station>,
     ) {
-        let mut knots = std::mem::take(&mut self.knots);
-        knots.clear();
-        *self = Self {
-            knots,
-            ..Self::default()
-        };
+        self.clear();
         if end - begin <= ONE_PX {
             if let Some(only) = station(0.5 * (begin + end)) {
                 self.push(&only);
             }
             return;
         }
-        let from = |at: f64, towards: f64, station: &mut dyn FnMut(f64) -> Option<Station>| {
-            // What is nearest to an edge may be hidden there.
-            let steps = [0.0, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5];
-            steps
+        let from = |parts: [f64; 7], station: &mut dyn FnMut(f64) -> Option<Station>| {
+            parts
                 .iter()
-                .find_map(|step| station(at + step * (towards - at)))
+                .find_map(|part| station(begin + part * (end - begin)))
         };
-        let Some(first) = from(begin, end, &mut station) else {
+        let Some(first) = from(FROM_START, &mut station) else {
             return;
         };
         self.push(&first);
-        if let Some(last) = from(end, begin, &mut station) {
+        if let Some(last) = from(FROM_END, &mut station) {
             self.between(&first, &last, &mut station);
             self.push(&last);
         }
+    }
+
+    /// The same for a scratch that is dark all along: how it is seen changes slowly, or not at all on a plane.
+    pub fn place_dark(
+        &mut self,
+        [begin, end]: [f64; 2],
+        is_plane: bool,
+        mut station: impl FnMut(f64) -> Option<Station>,
+    ) {
+        self.clear();
+        let one_px = if is_plane { PLANE_PX } else { ONE_PX };
+        let parts: &[&[f64]] = if end - begin <= one_px {
+            &[&[0.5, 0.3, 0.7, 0.1, 0.9, 0.0, 1.0]]
+        } else {
+            &[&FROM_START, &FROM_END]
+        };
+        for parts in parts {
+            let first = parts
+                .iter()
+                .find_map(|part| station(begin + part * (end - begin)));
+            if let Some(first) = first {
+                self.push(&first);
+            }
+        }
+    }
+
+    fn clear(&mut self) {
+        self.knots.clear();
+        self.are_short = false;
+        self.facet = DVec3::ZERO;
+        self.depth_room = 0.0;
+        self.reach = Reach::default();
     }
 
     fn push(&mut self, station: &Station) {
@@ -135,8 +246,9 @@ impl Stations {
             }
             let per_px = 1.0 / (place_px - last.place_px);
             last.slopes = std::array::from_fn(|i| (at[i] - last.at[i]) * per_px);
+            last.at[SLOPES..].copy_from_slice(&last.slopes[WEIGHTS..SLOPES]);
+            last.slopes[SLOPES..].fill(0.0);
         }
-        self.are_lit |= station.radiance != DVec3::ZERO;
         self.are_short |= station.is_short;
         self.facet = station.facet;
         self.depth_room = self.depth_room.max(station.depth_room);
@@ -181,7 +293,6 @@ impl Stations {
             || may_hide_light(a, &middle)
             || may_hide_light(&middle, b)
         {
-            self.are_fine |= span < 2.0 * FINE_PX;
             self.between(a, &middle, station);
             self.push(&middle);
             self.between(&middle, b, station);
@@ -193,38 +304,23 @@ impl Stations {
                 place_px: a.place_px + part * span,
                 radiance: a.radiance.lerp(b.radiance, part) + curve * (part * (1.0 - part)),
                 energy: a.energy.lerp(b.energy, part),
+                weights: if part < f {
+                    a.weights.lerp(&middle.weights, part / f)
+                } else {
+                    middle.weights.lerp(&b.weights, (part - f) / (1.0 - f))
+                },
                 ..middle
             };
             self.push(&on_parabola);
         }
     }
 
-    /// The numbers at a place: linear between stations, and beyond the last ones as there.
+    /// What they say at all places, once all are there: linear between them, and beyond the last ones as there.
     #[inline(always)]
-    pub fn at(&self, place_px: f32) -> Numbers {
-        let mut knot = &self.knots[0];
-        for next in &self.knots[1..] {
-            if next.place_px > place_px {
-                break;
-            }
-            knot = next;
-        }
-        let beyond = (place_px - knot.place_px).max(0.0);
-        let mut at = knot.at;
-        for (number, slope) in at.iter_mut().zip(&knot.slopes) {
-            *number += beyond * slope;
-        }
-        at
-    }
-
-    /// Whether any light reaches the scratch.
-    pub fn are_lit(&self) -> bool {
-        self.are_lit
-    }
-
-    /// Whether they may be closer than a few pixels.
-    pub fn are_fine(&self) -> bool {
-        self.are_fine
+    pub fn course(&mut self) -> &Course {
+        let Self { knots, course, .. } = self;
+        course.follow(knots);
+        course
     }
 
     /// Whether the scratch is short against a pixel's footprint.
@@ -261,7 +357,9 @@ impl Stations {
 
 fn numbers(station: &Station) -> Numbers {
     let (r, e, w) = (station.radiance, station.energy, &station.weights);
-    let given = [
+    let numbers = [
+        1.0,
+        0.0,
         r.x,
         r.y,
         r.z,
@@ -272,8 +370,12 @@ fn numbers(station: &Station) -> Numbers {
         w.middle,
         w.skew,
         w.ends_per_px,
+        0.0,
+        0.0,
+        0.0,
+        0.0,
     ];
-    std::array::from_fn(|i| given.get(i).map_or(0.0, |&number| number as f32))
+    numbers.map(|number| number as f32)
 }
 
 /// Beyond which distance there is always another station between two.
@@ -332,10 +434,15 @@ mod tests {
         (stations, count)
     }
 
+    fn radiance(course: &Course, place_px: f32) -> f32 {
+        course.at(course.index(place_px))[2]
+    }
+
     fn largest_error(range: [f64; 2], light: impl Fn(f64) -> f64) -> (f64, usize) {
-        let (stations, count) = placed(range, &light);
+        let (mut stations, count) = placed(range, &light);
+        let course = stations.course();
         let places = (0..=500).map(|i| range[0] + (range[1] - range[0]) * f64::from(i) / 500.0);
-        let errors = places.map(|p| (f64::from(stations.at(p as f32)[0]) - light(p)).abs());
+        let errors = places.map(|p| (f64::from(radiance(course, p as f32)) - light(p)).abs());
         (errors.fold(0.0, f64::max), count)
     }
 
@@ -343,7 +450,8 @@ mod tests {
     #[test]
     fn stations_are_as_dense_as_the_light_changes() {
         let (error, count) = largest_error([0.0, 32.0], |p| 1.0 + (p * 0.05).sin());
-        assert!(error < 2e-3 && count <= 10, "{error} {count}");
+        // Half of the way to the next place, at 0.05 for a pixel, and what the parabolas leave.
+        assert!(error < 0.0125 + 2e-3 && count <= 10, "{error} {count}");
         let band = |width: f64| move |p: f64| (-0.5 * ((p - 13.0) / width).powi(2)).exp();
         let (error, count) = largest_error([0.0, 32.0], band(4.0));
         assert!(error < 0.04 && count <= 40, "{error} {count}");
@@ -356,9 +464,8 @@ mod tests {
     #[test]
     fn a_light_between_dark_places_is_found() {
         let light = |p: f64| f64::from((p - 13.0).abs() < 1.2);
-        let (stations, _) = placed([0.0, 32.0], light);
-        assert!(stations.are_lit());
-        assert!(stations.at(13.0)[0] > 0.5);
+        let (mut stations, _) = placed([0.0, 32.0], light);
+        assert!(radiance(stations.course(), 13.0) > 0.5);
         // One that stays on its side is not looked for.
         let (_, count) = placed([14.5, 28.0], light);
         assert_eq!(count, 2);
@@ -366,10 +473,12 @@ mod tests {
 
     #[test]
     fn beyond_its_ends_it_is_as_there() {
-        let (stations, _) = placed([2.0, 6.0], |p| p);
-        assert_eq!(stations.at(-5.0)[0], 2.0);
-        assert_eq!(stations.at(50.0)[0], 6.0);
-        let (one, count) = placed([2.0, 3.0], |p| p);
-        assert_eq!((one.at(7.0)[0], count), (2.5, 1));
+        let (mut stations, _) = placed([2.0, 6.0], |p| p);
+        let course = stations.course();
+        for (place_px, expected) in [(-5.0, 2.0), (50.0, 6.0), (f32::NAN, 2.0)] {
+            assert_eq!(radiance(course, place_px), expected);
+        }
+        let (mut one, count) = placed([2.0, 3.0], |p| p);
+        assert_eq!((radiance(one.course(), 7.0), count), (2.5, 1));
     }
 }

@@ -1,6 +1,7 @@
 //! A tile of pixels, its surfaces, and the scratches on them.
 
 use super::TILE_PX;
+use super::dark::Darkness;
 use super::line::{Line, Reach};
 use super::stations::{FlatWeights, Station, Stations};
 use super::sums::{AddPiece, TileSums};
@@ -8,8 +9,8 @@ use super::weigh::{Flat, LANES, Piece, PixelLanes};
 use crate::bundles;
 use crate::closed_form::{Picture, Sample, Seen, SeenSurface};
 use crate::light_view::LightViews;
-use crate::scratches::{Pixel, Work, gather_reach_m};
-use crate::segment_view::Part;
+use crate::scratches::{Pixel, PixelFrame, Work, gather_reach_m};
+use crate::segment_view::{Part, Sides};
 use glam::{DVec2, DVec3, Vec3};
 use hairline_index::IndexedSegment;
 use hairline_index::scratch_index::REACH_STD;
@@ -29,7 +30,7 @@ const STRIDE: usize = TILE_PX + LANES;
 /// Segments that are shorter than this share of the footprint's standard deviation have their ends' error functions as a derivative.
 const SHORT: f64 = 0.07;
 /// A pixel's place on the surface is that of a scratch in the picture if it is within so many standard deviations.
-const STATION_STD: f64 = 6.0;
+pub(super) const STATION_STD: f64 = 6.0;
 /// The reach of stations is this much longer, since pixels between them see the surface from elsewhere.
 const MARGIN: f64 = 1.05;
 const MARGIN_PX: f64 = 0.05;
@@ -51,6 +52,15 @@ struct Around {
     is_flat: bool,
 }
 
+/// The plane of the triangle that a pixel sees.
+#[derive(Clone, Copy, Default)]
+struct Facet {
+    /// Unit, on either side.
+    normal: DVec3,
+    /// How the point where a ray meets it moves for a pixel to the right and down, in the surface's frame.
+    steps_um: [DVec2; 2],
+}
+
 /// Room for a tile, to be filled again and again.
 pub(super) struct Tile<'a> {
     picture: &'a Picture<'a>,
@@ -59,15 +69,19 @@ pub(super) struct Tile<'a> {
     size: [usize; 2],
     /// What pixels see whose scratches are drawn, row by row.
     seen: Vec<Option<SeenSurface>>,
-    /// Unit normals of the triangles there, on either side.
-    facets: Vec<DVec3>,
+    /// What is seen there: of scratches' pixels alone.
+    frames: Vec<PixelFrame>,
+    facets: Vec<Facet>,
     views: Vec<LightViews<'a>>,
     /// Sums of what is not drawn: of grids, and of scratches that are added exactly.
     beside: Vec<ScratchSums>,
     lanes: PixelLanes,
     origin_m: DVec3,
+    /// Of the object that is drawn.
+    darkness: Darkness,
     sums: TileSums,
-    stations: Stations,
+    /// Taken while a piece is drawn.
+    stations: Option<Stations>,
     work: Work,
     single: LightViews<'a>,
 }
@@ -82,13 +96,15 @@ impl<'a> Tile<'a> {
             corner: [0; 2],
             size: [0; 2],
             seen: Vec::with_capacity(pixels),
-            facets: vec![DVec3::ZERO; pixels],
+            frames: vec![PixelFrame::default(); pixels],
+            facets: vec![Facet::default(); pixels],
             views: std::iter::repeat_with(views).take(pixels).collect(),
             beside: Vec::with_capacity(pixels),
             lanes: PixelLanes::new(TILE_PX, STRIDE),
             origin_m: DVec3::ZERO,
+            darkness: Darkness::default(),
             sums: TileSums::new(TILE_PX, STRIDE),
-            stations: Stations::default(),
+            stations: None,
             work: Work::default(),
             single: views(),
         }
@@ -104,6 +120,7 @@ impl<'a> Tile<'a> {
         objects.dedup();
         for object in objects.into_iter().map(|object| object as usize) {
             if let Some(around) = self.around(object) {
+                self.darken(object);
                 self.draw(object, &around);
             }
         }
@@ -189,8 +206,17 @@ impl<'a> Tile<'a> {
             if !(single_share > 0.0) {
                 continue;
             }
-            self.facets[i] = way.prepared.facet(&seen.hit);
-            let pixel = Pixel::new(point);
+            let normal = way.prepared.facet(&seen.hit);
+            let ray = self.picture.camera.camera_ray(self.middle_px(i));
+            let steps_m = self
+                .picture
+                .camera
+                .footprint_axes(ray, seen.depth_m, normal);
+            self.facets[i] = Facet {
+                normal,
+                steps_um: steps_m.map(|step| (point.surface_from_world(step) * 1e6).truncate()),
+            };
+            self.frames[i] = Pixel::new(point).frame;
             let lanes = &mut self.lanes;
             let at_um = (point.position_m - self.origin_m) * 1e6;
             let put = |arrays: &mut [Vec<f32>; 3], v: DVec3| {
@@ -200,10 +226,10 @@ impl<'a> Tile<'a> {
             put(&mut lanes.axis_x_um, point.axis_x * 1e6);
             put(&mut lanes.axis_y_um, point.axis_y * 1e6);
             put(&mut lanes.normal, point.normal);
-            put(&mut lanes.covariance_um2, pixel.covariance_um2);
+            put(&mut lanes.covariance_um2, self.frames[i].covariance_um2);
             lanes.at_x_um[at] = at_um.dot(point.axis_x) as f32;
             lanes.at_y_um[at] = at_um.dot(point.axis_y) as f32;
-            lanes.window_um2[at] = pixel.window_um2 as f32;
+            lanes.window_um2[at] = self.frames[i].window_um2 as f32;
             lanes.single_share[at] = single_share as f32;
             lanes.per_depth_m[at] = (1.0 / seen.depth_m) as f32;
         }
@@ -236,6 +262,21 @@ impl<'a> Tile<'a> {
         around
     }
 
+    /// Finds out which scratches of an object are dark.
+    fn darken(&mut self, object: usize) {
+        self.darkness.clear();
+        // An environment shines on all.
+        if self.picture.way.prepared.scene.environment.is_some() {
+            return;
+        }
+        for (i, seen) in self.seen.iter().enumerate() {
+            let Some(seen) = seen else { continue };
+            if self.lanes.object[self.lane(i)] == object as u32 + 1 {
+                self.darkness.add(seen, &self.views[i]);
+            }
+        }
+    }
+
     /// Whether the neighbours to the right and below see nearly the same.
     fn is_flat_at(&self, i: usize, seen: &SeenSurface) -> bool {
         let [width, height] = self.size;
@@ -254,7 +295,7 @@ impl<'a> Tile<'a> {
     fn reach_of(&self, i: usize, seen: &SeenSurface) -> Reach {
         let point = &seen.point;
         let camera = &self.picture.camera;
-        let at = self.middle_px(i % self.size[0], i / self.size[0]);
+        let at = self.middle_px(i);
         let [x, y] = camera.footprint_axes(camera.camera_ray(at), seen.depth_m, point.normal);
         // The side of a pixel on the surface where it is narrowest: the least singular value of its two steps.
         let mean = 0.5 * (x.length_squared() + y.length_squared());
@@ -277,10 +318,10 @@ impl<'a> Tile<'a> {
     }
 
     /// The middle of a pixel of the tile in the picture.
-    fn middle_px(&self, x: usize, y: usize) -> DVec2 {
+    fn middle_px(&self, i: usize) -> DVec2 {
         DVec2::new(
-            (self.corner[0] + x) as f64 + 0.5,
-            (self.corner[1] + y) as f64 + 0.5,
+            (self.corner[0] + i % self.size[0]) as f64 + 0.5,
+            (self.corner[1] + i / self.size[0]) as f64 + 0.5,
         )
     }
 
@@ -315,10 +356,20 @@ impl<'a> Tile<'a> {
         let Some(inside) = line.inside(self.size, around.reach) else {
             return;
         };
-        let mut stations = std::mem::take(&mut self.stations);
+        let mut stations = self.stations.take().unwrap_or_default();
         // Beyond its ends a scratch is as at them.
         let inside = inside.map(|place| place.clamp(0.0, line.length_px));
-        stations.place(inside, |place| self.station(object, segment, &line, place));
+        let along = (segment.end_m - segment.start_m).as_dvec3();
+        if self.darkness.covers(along.normalize_or_zero()) {
+            let is_plane = self.darkness.is_plane();
+            stations.place_dark(inside, is_plane, |place| {
+                self.station(object, segment, &line, place, true)
+            });
+        } else {
+            stations.place(inside, |place| {
+                self.station(object, segment, &line, place, false)
+            });
+        }
         if stations.is_empty() {
             self.add_exactly(object, segment, line, around.reach);
         } else {
@@ -334,12 +385,12 @@ impl<'a> Tile<'a> {
                     across_px: reach.across_px * MARGIN + MARGIN_PX,
                     ends_px: reach.ends_px * MARGIN + MARGIN_PX,
                 },
-                stations: &stations,
+                stations: &mut stations,
                 size: self.size,
                 stride: STRIDE,
             });
         }
-        self.stations = stations;
+        self.stations = Some(stations);
     }
 
     /// Pixel by pixel, where no station is seen: the object shows in a part of the tile only.
@@ -350,7 +401,7 @@ impl<'a> Tile<'a> {
         for y in line.rows(self.size[1], reach) {
             let [begin, end] = crossing.columns(y);
             for x in begin..end {
-                let i = y * self.size[0] + x;
+                let i = y as usize * self.size[0] + x as usize;
                 let at = self.lane(i);
                 if self.lanes.object[at] != object as u32 + 1 {
                     continue;
@@ -398,7 +449,7 @@ impl<'a> Tile<'a> {
         let camera = &self.picture.camera;
         let normal = stations.facet();
         let to_plane_m = normal.dot(segment.start_m.as_dvec3() - camera.position_m);
-        let ray = camera.camera_ray(self.middle_px(0, 0));
+        let ray = camera.camera_ray(self.middle_px(0));
         let per_m = 1.0 / to_plane_m;
         let distance_m = (segment.start_m.as_dvec3() - camera.position_m).length();
         (to_plane_m.abs() > FLAT_MIN_COS * distance_m).then(|| Flat {
@@ -409,42 +460,38 @@ impl<'a> Tile<'a> {
         })
     }
 
-    /// What a piece sends at a place of its line, as the nearest pixel sees it.
+    /// What a piece sends at a place of its line, as the nearest pixel sees it. Nothing if it `is_dark` to all lights.
     fn station(
         &mut self,
         object: usize,
         segment: &IndexedSegment,
         line: &Line,
         place_px: f64,
+        is_dark: bool,
     ) -> Option<Station> {
         let at = line.at(place_px);
-        let nearest = |x: f64, size: usize| (x.round().max(0.0) as usize).min(size - 1);
+        let nearest = |x: f64, size: usize| ((x + 0.5) as usize).min(size - 1);
         let [x, y] = [nearest(at.x, self.size[0]), nearest(at.y, self.size[1])];
         let i = y * self.size[0] + x;
         if self.lanes.object[y * STRIDE + x] != object as u32 + 1 {
             return None;
         }
-        let point = &self.seen[i].as_ref()?.point;
-        let pixel = Pixel::new(point);
+        let SeenSurface { point, depth_m, .. } = self.seen[i].as_ref()?;
+        let pixel = Pixel {
+            point,
+            frame: self.frames[i],
+        };
         let on_line = pixel.line(segment, STATION_STD)?;
         let footprint = on_line.footprint;
         let variances_um2 = [
-            footprint.across_um2 + pixel.window_um2,
+            footprint.across_um2 + pixel.frame.window_um2,
             footprint.along_um2 + on_line.blur_um * on_line.blur_um,
         ];
         let length_um = on_line.end_um - on_line.start_um;
         let slant = footprint.cross_um2 / variances_um2[0];
         let along_um2 = (variances_um2[1] - footprint.cross_um2 * slant).max(0.0);
-        // The plane that the piece lies in.
-        let camera = &self.picture.camera;
-        let depth_m = (point.position_m - camera.position_m).dot(camera.forward);
-        let steps_um = camera
-            .footprint_axes(
-                camera.camera_ray(self.middle_px(x, y)),
-                depth_m,
-                self.facets[i],
-            )
-            .map(|step| (point.surface_from_world(step) * 1e6).truncate());
+        // On the plane that the piece lies in.
+        let Facet { normal, steps_um } = self.facets[i];
         let [across, along] =
             [line.along.perp(), line.along].map(|d| steps_um[0] * d.x + steps_um[1] * d.y);
         let tangent = on_line.tangent;
@@ -459,20 +506,22 @@ impl<'a> Tile<'a> {
         } else {
             pixel_px
         };
-        let step = line.along / filter_std_px.max(1e-9);
-        let ahead = step * (place_px - pixel_px);
-        let part = Part {
-            // The variance of what a normal distribution and an even one over the length have in common, about.
-            seen_along: 1.0 / (1.0 + 12.0 * along_um2 / (length_um * length_um)),
-            ahead: ahead.to_array(),
-        };
         let way = self.picture.way;
         let table = &way.prepared.tables.tables[point.table];
-        let view = on_line.view(&pixel, table).at(part);
-        let (mut radiance, sides) =
-            view.lights_and_sides(&pixel, &self.views[i], step, &mut self.work);
-        if let Some(environment) = &way.prepared.scene.environment {
-            radiance += view.environment(&pixel, environment);
+        let (mut radiance, mut sides) = (DVec3::ZERO, Sides::default());
+        if !is_dark {
+            let step = line.along / filter_std_px.max(1e-9);
+            let ahead = step * (place_px - pixel_px);
+            let part = Part {
+                // The variance of what a normal distribution and an even one over the length have in common, about.
+                seen_along: 1.0 / (1.0 + 12.0 * along_um2 / (length_um * length_um)),
+                ahead: ahead.to_array(),
+            };
+            let view = on_line.view(&pixel, table).at(part);
+            (radiance, sides) = view.lights_and_sides(&pixel, &self.views[i], step, &mut self.work);
+            if let Some(environment) = &way.prepared.scene.environment {
+                radiance += view.environment(&pixel, environment);
+            }
         }
         let per_std = 1.0 / variances_um2[0].sqrt();
         let has_turn = filter_std_px > 0.0 && way.prepared.scene.environment.is_none();
@@ -489,7 +538,7 @@ impl<'a> Tile<'a> {
                 skew,
                 ends_per_px: along_um / (SQRT_2 * along_um2.sqrt()).max(1e-9),
             },
-            facet: self.facets[i],
+            facet: normal,
             depth_room: f64::from(REACH_STD) * variances_um2[0].max(variances_um2[1]).sqrt() * 1e-6
                 / (depth_m * depth_m),
             is_short: length_um < SHORT * variances_um2[1].sqrt(),

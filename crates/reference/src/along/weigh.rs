@@ -100,15 +100,16 @@ pub(super) struct Block {
 impl Block {
     /// From these pixels on.
     #[inline(always)]
-    pub fn new(stride: usize, [[x0, y0], [x1, y1]]: [[usize; 2]; 2]) -> Self {
-        let (mut x, mut y) = ([x0 as f32; LANES], [y0 as f32; LANES]);
+    pub fn new(stride: usize, from: [[u32; 2]; 2]) -> Self {
+        let [[x0, y0], [x1, y1]] = from.map(|at| at.map(|of| of as i32 as f32));
+        let (mut x, mut y) = ([x0; LANES], [y0; LANES]);
         for i in 0..HALF {
-            x[i] = x0 as f32 + COUNTED[i];
-            x[HALF + i] = x1 as f32 + COUNTED[i];
-            y[HALF + i] = y1 as f32;
+            x[i] = x0 + COUNTED[i];
+            x[HALF + i] = x1 + COUNTED[i];
+            y[HALF + i] = y1;
         }
         Self {
-            at: [y0 * stride + x0, y1 * stride + x1],
+            at: from.map(|[x, y]| y as usize * stride + x as usize),
             x,
             y,
         }
@@ -121,17 +122,6 @@ impl Block {
         lanes[..HALF].copy_from_slice(&array[self.at[0]..self.at[0] + HALF]);
         lanes[HALF..].copy_from_slice(&array[self.at[1]..self.at[1] + HALF]);
         lanes
-    }
-
-    /// Adds to their numbers.
-    #[inline(always)]
-    pub fn add(&self, array: &mut [f32], more: Lanes) {
-        for half in 0..2 {
-            let room = &mut array[self.at[half]..self.at[half] + HALF];
-            for i in 0..HALF {
-                room[i] += more[half * HALF + i];
-            }
-        }
     }
 }
 
@@ -213,9 +203,6 @@ pub(super) fn weigh(pixels: &PixelLanes, block: &Block, piece: &Piece) -> [Lanes
     [segment, line]
 }
 
-/// Beyond so many an end is not seen: its error function is 1 to 1e-6.
-const ENDS_FAR: f32 = 3.5;
-
 /// The same where the surface is flat.
 #[inline(always)]
 pub(super) fn weigh_flat(
@@ -248,36 +235,16 @@ pub(super) fn weigh_flat(
         let is_seen = (object[i] == piece.object) & (far2 <= reach2) & (off <= flat.room);
         seen[i] = if is_seen { single[i] } else { 0.0 };
     }
-    let (mut highest_low, mut lowest_high) = (low[0], high[0]);
-    for i in 1..LANES {
-        highest_low = if low[i] > highest_low {
-            low[i]
-        } else {
-            highest_low
-        };
-        lowest_high = if high[i] < lowest_high {
-            high[i]
-        } else {
-            lowest_high
-        };
-    }
-    let inside = highest_low < -ENDS_FAR && lowest_high > ENDS_FAR;
-    if inside {
-        for i in 0..LANES {
-            segment[i] = seen[i] * line[i];
-        }
-    } else if piece.is_short {
-        for i in 0..LANES {
+    // What most pixels see has no end, but a branch that is often guessed wrong takes longer than two error functions.
+    for i in 0..LANES {
+        let share = if piece.is_short {
             let middle = 0.5 * (low[i] + high[i]);
-            let share = 0.564_189_6 * (high[i] - low[i]) * exp_of_minus(middle * middle);
-            segment[i] = seen[i] * line[i] * share;
-        }
-    } else {
-        for i in 0..LANES {
-            let share = 0.5 * (erf(high[i]) - erf(low[i]));
-            let share = if share > SHARE_MIN { share } else { 0.0 };
-            segment[i] = seen[i] * line[i] * share;
-        }
+            0.564_189_6 * (high[i] - low[i]) * exp_of_minus(middle * middle)
+        } else {
+            0.5 * (erf(high[i]) - erf(low[i]))
+        };
+        let share = if share > SHARE_MIN { share } else { 0.0 };
+        segment[i] = seen[i] * line[i] * share;
     }
     [segment, line]
 }

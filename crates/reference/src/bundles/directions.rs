@@ -209,7 +209,7 @@ fn stride(many: &Many, light: usize) -> usize {
     let (LightView::Sphere { cap, .. } | LightView::Polygon { bound: cap, .. }) = view;
     let sum = (pixel.point.wo + cap.cos_radius * cap.axis).truncate();
     let [x, y] = views.moves[light].map(|m| m.length_squared());
-    let std = (pixel.stds.mean * pixel.stds.mean + x + y).sqrt();
+    let std = (pixel.frame.stds.mean * pixel.frame.stds.mean + x + y).sqrt();
     let half = match view {
         LightView::Sphere { cap, .. } => cap.sin_radius,
         LightView::Polygon { away, .. } => {

@@ -33,10 +33,10 @@ pub(super) fn read(many: &Many, level: usize, side: Side, work: &mut Work) -> Op
     let steps = DMat2::from_cols(step(u), step(v));
     // The tents' own variance is part of what the footprint blurs by.
     let tents = steps * steps.transpose() * (1.0 / 6.0);
-    let c = pixel.covariance_um2;
+    let c = pixel.frame.covariance_um2;
     let blur = DMat2::from_cols(
-        DVec2::new(c.x + pixel.window_um2, c.y),
-        DVec2::new(c.y, c.z + pixel.window_um2),
+        DVec2::new(c.x + pixel.frame.window_um2, c.y),
+        DVec2::new(c.y, c.z + pixel.frame.window_um2),
     ) - tents;
     let density = 1.0 / (2.0 * PI * blur.determinant().max(1e-12).sqrt());
     let per_blur = blur.inverse();
