@@ -21,8 +21,11 @@ use hairline_scene::{Scene, ScratchTables};
 use crate::backend::Task;
 use crate::progress::Progress;
 
-/// Where the rows lie in the picture's height. Few places, since a driver has a cost for each.
-const STRIPS_AT: [f64; 5] = [0.1, 0.3, 0.5, 0.7, 0.9];
+/// At so many places of the picture's height, evenly. Few, since a driver has a cost for each, and not one alone, which may be of
+/// background.
+const STRIPS: std::ops::RangeInclusive<u32> = 2..=5;
+/// All of them together are no more than this part of the picture.
+const PART: u32 = 8;
 
 /// Pictures that the CPU renderer has sooner are not worth a trial: before its first row a software driver compiles the
 /// shaders, for 4 s or so (lavapipe, Mesa 22.3), and nothing can interrupt it.
@@ -139,7 +142,10 @@ pub fn run(gpu: &Gpu, scene: &Scene, task: &Task, prepared: &Prepared) -> Trial 
     };
     let driver = &gpu.adapter.name;
     let height = scene.render.size_px[1];
-    let Some(strips) = strips(height, rayon::current_num_threads()) else {
+    let threads = rayon::current_num_threads() as u32;
+    // All threads have work, and the CPU renderer does no rows twice.
+    let rows = threads.next_multiple_of(closed_form::rows_together(*method));
+    let Some(strips) = strips(height, rows) else {
         return cpu(format!("no GPU; the picture is too small to try {driver}"));
     };
     let _bar = Progress::start("measuring");
@@ -169,15 +175,16 @@ pub fn run(gpu: &Gpu, scene: &Scene, task: &Task, prepared: &Prepared) -> Trial 
     }
 }
 
-/// As many rows in each strip as there are threads, so that all have work; none if that is much of the picture.
-fn strips(height: u32, threads: usize) -> Option<[Range<u32>; STRIPS_AT.len()]> {
-    let rows = u32::try_from(threads).ok()?;
-    let all_rows = rows.checked_mul(STRIPS_AT.len() as u32)?;
-    (all_rows <= height / 8).then(|| {
-        STRIPS_AT.map(|at| {
-            let first = (f64::from(height) * at) as u32;
+/// Strips of so many rows; none if that is much of the picture.
+fn strips(height: u32, rows: u32) -> Option<Vec<Range<u32>>> {
+    let count = (height / PART / rows.max(1)).min(*STRIPS.end());
+    (count >= *STRIPS.start()).then(|| {
+        let strip = |i: u32| {
+            let middle = (2 * i + 1) * height / (2 * count);
+            let first = middle - rows / 2;
             first..first + rows
-        })
+        };
+        (0..count).map(strip).collect()
     })
 }
 
@@ -258,16 +265,19 @@ mod tests {
     #[test]
     fn strips_lie_in_the_picture_and_are_a_small_part_of_it() {
         for height in [1, 7, 96, 97, 720, 16384] {
-            for threads in [1, 2, 4, 16, 300] {
-                let Some(strips) = strips(height, threads) else {
-                    assert!(8 * STRIPS_AT.len() * threads > height as usize);
+            for rows in [1, 2, 4, 16, 32, 300] {
+                let Some(strips) = strips(height, rows) else {
+                    assert!(PART * STRIPS.start() * rows > height);
                     continue;
                 };
-                assert!(strips.iter().all(|rows| rows.len() == threads));
-                assert!(strips.iter().all(|rows| rows.end <= height));
+                assert!(strips.iter().all(|strip| strip.len() == rows as usize));
+                assert!(strips.iter().all(|strip| strip.end <= height));
                 assert!(strips.windows(2).all(|pair| pair[0].end <= pair[1].start));
+                assert!(strips.len() as u32 * rows * PART <= height);
             }
         }
+        // The usual size by tiles.
+        assert_eq!(strips(720, 32).map(|strips| strips.len()), Some(2));
     }
 
     #[test]
