@@ -1,4 +1,5 @@
-//! Which scratches of a tile no light can reach, told for the whole of a piece at once and not place by place: most are dark.
+//! Which scratches of a tile no light can reach, told for the whole of a piece at once and not place by place: where lamps are small
+//! most are dark.
 
 use super::tile::STATION_STD;
 use crate::closed_form::SeenSurface;
@@ -10,7 +11,7 @@ use std::f64::consts::SQRT_2;
 /// How many standard deviations of a pixel's filter a band is shifted by how it moves over it, and its variance likewise (docs/model.md,
 /// section 5): a place of a scratch is within [`STATION_STD`] of its pixel, and what it is off along the scratch and across it adds up.
 const SHIFT_STDS: f64 = SQRT_2 * STATION_STD;
-const VARIANCE: f64 = 1.25;
+const VARIANCE_SHARE: f64 = 1.25;
 
 /// Pixels whose normals are no farther apart see a dark scratch alike: shares change by less than its square.
 const PLANE_TURN: f64 = 0.01;
@@ -18,14 +19,15 @@ const PLANE_TURN: f64 = 0.01;
 /// The bands of all scratches of one direction under an object's pixels, against all lights that these see.
 #[derive(Default)]
 pub(super) struct Darkness {
-    lights: Vec<Halves>,
+    lights: Vec<LightBounds>,
     normals: Bounds,
-    /// Whether pixels have been added, all of which see as many lights.
+    has_pixels: bool,
+    /// Whether all pixels see as many lights.
     is_known: bool,
 }
 
 /// One light from all the pixels.
-struct Halves {
+struct LightBounds {
     /// Component of the sum of the directions to the viewer and to the light's middle in the plane of the surface, world space.
     sum: Bounds,
     /// The same of the light's direction alone.
@@ -76,19 +78,21 @@ impl Darkness {
     pub fn clear(&mut self) {
         self.lights.clear();
         self.normals = Bounds::NONE;
+        self.has_pixels = false;
         self.is_known = false;
     }
 
     /// Adds a pixel, with the lights as it sees them.
     pub fn add(&mut self, seen: &SeenSurface, views: &LightViews) {
-        if self.lights.is_empty() && !self.is_known {
-            let none = || Halves {
+        if !self.has_pixels {
+            let none = || LightBounds {
                 sum: Bounds::NONE,
                 axis: Bounds::NONE,
                 cos_radius: 1.0,
                 reach: 0.0,
             };
             self.lights.resize_with(views.views.len(), none);
+            self.has_pixels = true;
             self.is_known = true;
         }
         self.is_known &= self.lights.len() == views.views.len();
@@ -97,19 +101,19 @@ impl Darkness {
         let in_plane = |v: DVec2| point.axis_x * v.x + point.axis_y * v.y;
         let std = band_stds(point.coherence_um).mean;
         // Which light it is, does not matter: all that are seen are among those that are bounded.
-        for ((halves, view), moves) in self.lights.iter_mut().zip(&views.views).zip(&views.moves) {
+        for ((bounds, view), moves) in self.lights.iter_mut().zip(&views.views).zip(&views.moves) {
             let cap = view.bound();
             let axis = in_plane(cap.axis.truncate());
             let moved = moves[0].length().hypot(moves[1].length());
             let reach = cap.sin_radius
                 + SHIFT_STDS * moved
-                + BAND_REACH_STD * (std * std + VARIANCE * moved * moved).sqrt();
-            halves
+                + BAND_REACH_STD * (std * std + VARIANCE_SHARE * moved * moved).sqrt();
+            bounds
                 .sum
                 .add(in_plane(point.wo.truncate()) + axis * cap.cos_radius);
-            halves.axis.add(axis);
-            halves.cos_radius = halves.cos_radius.min(cap.cos_radius);
-            halves.reach = halves.reach.max(reach);
+            bounds.axis.add(axis);
+            bounds.cos_radius = bounds.cos_radius.min(cap.cos_radius);
+            bounds.reach = bounds.reach.max(reach);
         }
     }
 
