@@ -213,8 +213,11 @@ fn advise(error: hairline_gpu::Error) -> Failure {
 }
 
 fn announce_cpu(why: &str) {
-    let threads = rayon::current_num_threads();
-    eprintln!("rendering on the CPU, {threads} threads: {why}");
+    let threads = match rayon::current_num_threads() {
+        1 => String::from("1 thread"),
+        threads => format!("{threads} threads"),
+    };
+    eprintln!("rendering on the CPU, {threads}: {why}");
 }
 
 fn announce_gpu(gpu: &Gpu, why: &str) {

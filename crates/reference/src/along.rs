@@ -5,6 +5,7 @@
 //! The picture is done tile by tile: one walk finds a tile's scratches. What a pixel adds up is the same sum as ever, in another
 //! order.
 
+mod course;
 mod dark;
 mod line;
 mod stations;

@@ -54,7 +54,10 @@ impl Backend {
     /// What the status line calls it.
     pub fn label(&self) -> String {
         match self {
-            Self::Cpu => format!("CPU, {} threads", pool::threads()),
+            Self::Cpu => match pool::threads() {
+                1 => String::from("CPU, 1 thread"),
+                threads => format!("CPU, {threads} threads"),
+            },
             #[cfg(not(target_arch = "wasm32"))]
             Self::Gpu(gpu) | Self::Shared(gpu) => gpu.adapter.to_string(),
         }

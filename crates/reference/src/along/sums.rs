@@ -1,7 +1,8 @@
 //! What the scratches under the pixels of a tile add up to.
 
+use super::course::{Course, Numbers, SHARE_BY_LINE, SLOPES, SUMS, WEIGHTS};
 use super::line::{Line, Reach};
-use super::stations::{Course, Numbers, SHARE_BY_LINE, SLOPES, SUMS, Stations, WEIGHTS};
+use super::stations::Stations;
 use super::weigh::{Block, LANES, Lanes, Passing, Piece, PixelLanes, weigh, weigh_flat};
 use glam::Vec2;
 use hairline_optics::mask::ScratchSums;
