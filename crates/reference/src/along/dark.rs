@@ -13,7 +13,7 @@ use std::f64::consts::SQRT_2;
 const SHIFT_STDS: f64 = SQRT_2 * STATION_STD;
 const VARIANCE_SHARE: f64 = 1.25;
 
-/// Pixels whose normals are no farther apart see a dark scratch alike: shares change by less than its square.
+/// Pixels whose normals are no farther apart see a dark scratch alike, but for perspective.
 const PLANE_TURN: f64 = 0.01;
 
 /// The bands of all scratches of one direction under an object's pixels, against all lights that these see.

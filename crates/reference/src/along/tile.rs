@@ -409,7 +409,10 @@ impl<'a> Tile<'a> {
                 let Some(surface) = &self.seen[i] else {
                     continue;
                 };
-                let pixel = Pixel::new(&surface.point);
+                let pixel = Pixel {
+                    point: &surface.point,
+                    frame: self.frames[i],
+                };
                 let Some(seen) = pixel.see(segment) else {
                     continue;
                 };
