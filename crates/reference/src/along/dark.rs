@@ -228,4 +228,46 @@ mod tests {
             );
         }
     }
+
+    /// Where a light has set for one of the pixels, nothing is said about any scratch.
+    #[test]
+    fn lights_that_only_some_pixels_see_are_not_judged() {
+        let scene = scene("{ disk = { radius_m = 0.04 } }");
+        let prepared = Prepared::new(&scene);
+        let way = Way::new(&prepared, Method::default());
+        let camera = scene.camera.frame(scene.render.size_px);
+        let mut views = LightViews::new(&scene);
+        let mut darkness = Darkness::default();
+        darkness.clear();
+        let mut add = |turned_away: bool, darkness: &mut Darkness| {
+            let std_px = scene.render.footprint_std_px(1);
+            let middle = DVec2::new(48.5, 32.5);
+            let Seen::Surface(mut seen) = way.look(&camera, std_px, middle, &mut views.rays) else {
+                panic!("the disk fills the picture");
+            };
+            if turned_away {
+                let point = &mut seen.point;
+                (point.axis_y, point.normal) = (-point.axis_y, -point.normal);
+            }
+            views.look_from(&seen.point);
+            views.ready_for_scratches(&seen.point);
+            darkness.add(&seen, &views);
+            views.views.len()
+        };
+        assert_eq!(add(false, &mut darkness), 2);
+        let directions: Vec<DVec3> = (0..64)
+            .map(|i| {
+                let (y, x) = (f64::from(i) * std::f64::consts::PI / 64.0).sin_cos();
+                DVec3::new(x, y, 0.0)
+            })
+            .filter(|direction| darkness.covers(*direction))
+            .collect();
+        assert!(directions.len() > 10);
+        assert!(add(true, &mut darkness) < 2);
+        assert!(
+            directions
+                .iter()
+                .all(|direction| !darkness.covers(*direction))
+        );
+    }
 }
