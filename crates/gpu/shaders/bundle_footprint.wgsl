@@ -20,9 +20,11 @@ fn bundle_choice(pixel: GatherPixel, grids: BundleGrids) -> BundleChoice {
     let least = 0.5 * (c.x + c.z) - length(vec2f(0.5 * (c.x - c.z), c.y));
     let std_um = sqrt(max(least, 0.0) + pixel.window_um2);
     let may_tally = METHOD_GATHER == GATHER_TALLY;
-    let octave = log2(std_um / (BUNDLE_LEAST_CELLS * 1e6 * grids.cell_m));
+    let cells_um = BUNDLE_LEAST_CELLS * 1e6 * vec2f(grids.cell_m, grids.dense_cell_m);
+    let octaves = log2(std_um / cells_um);
+    let octave = octaves.x;
     if grids.populations == 0u || !(octave > 0.0) {
-        return BundleChoice(0u, 0.0, false, may_tally && grids.populations > 0u && octave > BUNDLE_TALLY_OCTAVE);
+        return BundleChoice(0u, 0.0, false, may_tally && grids.populations > 0u && octaves.y > BUNDLE_TALLY_OCTAVE);
     }
     let level = min(u32(min(octave, 31.0)), grids.levels - 1u);
     let over = min((octave - f32(level)) / BUNDLE_HAND_OVER, 1.0);

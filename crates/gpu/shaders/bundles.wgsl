@@ -25,12 +25,13 @@ struct BundleGrids {
     first_layer: u32,           // texels of the populations' tables
     first_level: u32,           // texels of the levels
     first_size: u32,            // texels of the populations' mean widths and depths
+    dense_cell_m: f32,          // side of the finest cells if scratches were short
 }
 
 fn bundle_grids(object: u32) -> BundleGrids {
     let a = bundle_texel(2u * object);
     let b = bundle_texel(2u * object + 1u);
-    return BundleGrids(a.x, a.y, bitcast<f32>(a.z), a.w, b.x, b.y, b.z);
+    return BundleGrids(a.x, a.y, bitcast<f32>(a.z), a.w, b.x, b.y, b.z, bitcast<f32>(b.w));
 }
 
 // The layer of the scratch tables that holds a population's spectrum on a material whose own table is `table`.

@@ -227,13 +227,19 @@ impl Packing {
                 }
             }
             let cell_m = object.classes[0].levels[first].cell_m;
+            let dense_cell_m = object.dense_cell_m * (cell_m / object.cell_m);
             packing.texels[2 * o] = [
                 object.classes.len() as u32,
                 level_count as u32,
                 cell_m.to_bits(),
                 tables.tables.len() as u32,
             ];
-            packing.texels[2 * o + 1] = [layers as u32, heads as u32, sizes as u32, 0];
+            packing.texels[2 * o + 1] = [
+                layers as u32,
+                heads as u32,
+                sizes as u32,
+                dense_cell_m.to_bits(),
+            ];
         }
         packing.texels
     }

@@ -219,6 +219,8 @@ pub struct ClassBundles {
 pub struct ObjectBundles {
     /// Side of the finest grid's cells, the same for all classes.
     pub cell_m: f32,
+    /// What that would be however long scratches are: it tells from which footprints on they are so many that adding them up may pay.
+    pub dense_cell_m: f32,
     /// How many levels each class has.
     pub level_count: usize,
     /// Scratches of like sizes together.
@@ -246,6 +248,9 @@ pub const CLASSES_MAX: usize = 4;
 /// So many scratches cross a cell of the finest grid, in the mean. The fewer, the more the lit ones of a footprint differ from the
 /// mean of their class.
 const CELL_SCRATCHES: f64 = 25.0;
+/// A scratch crosses about so many cells of the finest grid at most: each crossing has to be splatted, and with cells that only shrink
+/// as scratches become more, the time that grids take would grow faster than they do.
+const SCRATCH_CELLS: f64 = 16.0;
 /// No footprint is narrower than the coherence window.
 const CELL_MIN_M: f64 = 16e-6;
 /// The coarsest grid has about so many cells.
@@ -312,7 +317,8 @@ fn build_object(scene: &Scene, object: &Object, account: &Account) -> ObjectBund
         return ObjectBundles::default();
     }
     let classes = sizes::classes(segments, CLASSES_MAX);
-    let (cell_m, level_count) = grids(object, classes.len());
+    let [dense_cell_m, cell_m] = finest_cells_m(object, classes.len());
+    let level_count = level_count(object, cell_m);
     let classes = classes
         .into_par_iter()
         .map(|class| {
@@ -335,29 +341,24 @@ fn build_object(scene: &Scene, object: &Object, account: &Account) -> ObjectBund
         .collect();
     ObjectBundles {
         cell_m,
+        dense_cell_m,
         level_count,
         classes,
     }
 }
 
-/// The side of the finest cells and the number of levels. The side is a power of two in micrometres: it stays what it is when a
-/// layer changes a little.
-fn grids(object: &Object, classes: usize) -> (f32, usize) {
-    let mesh = &object.mesh;
-    let area_m2: f64 = mesh
-        .triangles
-        .iter()
-        .map(|t| {
-            let [a, b, c] = t.map(|v| mesh.positions_m[v as usize].as_dvec3());
-            0.5 * (b - a).cross(c - a).length()
-        })
-        .sum();
+/// The side of the finest cells: [`ObjectBundles::dense_cell_m`], [`ObjectBundles::cell_m`]. Each is a power of two in micrometres: it
+/// stays what it is when a layer changes a little.
+fn finest_cells_m(object: &Object, classes: usize) -> [f32; 2] {
+    let area_m2 = area_m2(object);
     let length_m: f64 = object
         .segments
         .iter()
         .map(|s| s.start_m.distance(s.end_m) as f64)
         .sum();
     let by_scratches = CELL_SCRATCHES * area_m2 / length_m.max(1e-9);
+    let mean_length_m = length_m / object.scratches.len().max(1) as f64;
+    let by_crossings = mean_length_m / SCRATCH_CELLS;
     // Coarser levels add a third; hash and coordinates a tenth.
     let bundle_bytes = 1.5 * size_of::<Bundle>() as f64 * classes as f64;
     // What the estimate of a scene's memory counts on.
@@ -366,15 +367,26 @@ fn grids(object: &Object, classes: usize) -> (f32, usize) {
     let by_memory = (area_m2 / most).sqrt();
     let octave = |cell_m: f64| (1e6 * cell_m.max(CELL_MIN_M)).log2();
     // The memory stays within its bound.
-    let cell_um = octave(by_scratches)
-        .round()
-        .max(octave(by_memory).ceil())
-        .exp2();
-    let across = (area_m2 / COARSEST_CELLS).sqrt() * 1e6 / cell_um;
-    (
-        (cell_um * 1e-6) as f32,
-        across.log2().ceil().max(0.0) as usize + 1,
-    )
+    let dense = octave(by_scratches).round().max(octave(by_memory).ceil());
+    let cell = dense.max(octave(by_crossings).round());
+    [dense, cell].map(|octave| (octave.exp2() * 1e-6) as f32)
+}
+
+/// From the finest cells to the coarsest.
+fn level_count(object: &Object, cell_m: f32) -> usize {
+    let across = (area_m2(object) / COARSEST_CELLS).sqrt() / f64::from(cell_m);
+    across.log2().ceil().max(0.0) as usize + 1
+}
+
+fn area_m2(object: &Object) -> f64 {
+    let mesh = &object.mesh;
+    mesh.triangles
+        .iter()
+        .map(|t| {
+            let [a, b, c] = t.map(|v| mesh.positions_m[v as usize].as_dvec3());
+            0.5 * (b - a).cross(c - a).length()
+        })
+        .sum()
 }
 
 /// Splits sorted items into runs of equal keys.

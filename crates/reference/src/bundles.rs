@@ -65,6 +65,8 @@ struct Many<'a> {
     views: &'a LightViews<'a>,
     /// How much wider the footprint is than the finest grid wants, as a power of two.
     octave: f64,
+    /// The same where scratches may be long.
+    dense_octave: f64,
 }
 
 impl<'a> Many<'a> {
@@ -76,7 +78,8 @@ impl<'a> Many<'a> {
     ) -> Self {
         let bundles = prepared.bundles();
         let grids = &bundles.index.objects[object];
-        let cell_um = grids.cell_m as f64 * 1e6;
+        let std_um = least_std_um(pixel);
+        let octave = |cell_m: f32| (std_um / (LEAST_CELLS * f64::from(cell_m) * 1e6)).log2();
         Self {
             prepared,
             bundles,
@@ -84,7 +87,8 @@ impl<'a> Many<'a> {
             pixel,
             object,
             views,
-            octave: (least_std_um(pixel) / (LEAST_CELLS * cell_um)).log2(),
+            octave: octave(grids.cell_m),
+            dense_octave: octave(grids.dense_cell_m),
         }
     }
 

@@ -187,7 +187,7 @@ impl Crossing {
     /// From which pixel to before which the pixels of a row are near.
     #[inline(always)]
     pub fn columns(&self, row: u32) -> [u32; 2] {
-        let middle = self.at_first_row + row as i32 as f32 * self.per_row;
+        let middle = self.at_first_row + lane_of(row) * self.per_row;
         let low = (middle - self.half).max(self.range[0]).ceil();
         let high = (middle + self.half).min(self.range[1]).floor();
         let begin = within(low, self.width);
@@ -214,10 +214,16 @@ fn rounded(x: f32) -> u32 {
     (x + ROUND).to_bits() & 0x7f_ffff
 }
 
+/// A whole number below 2^31. That it has a sign spares the branch that a conversion of all unsigned ones has.
+#[inline(always)]
+pub(super) fn lane_of(whole: u32) -> f32 {
+    whole as i32 as f32
+}
+
 /// The nearest of so many places, `per_px` in a pixel from the first on.
 #[inline(always)]
 pub(super) fn nearest_place(beyond_px: f32, per_px: f32, last: u32) -> u32 {
-    rounded(within(beyond_px * per_px, last as i32 as f32))
+    rounded(within(beyond_px * per_px, lane_of(last)))
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! What the scratches under the pixels of a tile add up to.
 
 use super::course::{Course, Numbers, SHARE_BY_LINE, SLOPES, SUMS, WEIGHTS};
-use super::line::{Line, Reach};
+use super::line::{Line, Reach, lane_of};
 use super::stations::Stations;
 use super::weigh::{Block, LANES, Lanes, Passing, Piece, PixelLanes, weigh, weigh_flat};
 use glam::Vec2;
@@ -158,7 +158,7 @@ impl Adding<'_> {
             }
         };
         for i in 0..LANES {
-            let end = ends[i / half] as i32 as f32;
+            let end = lane_of(ends[i / half]);
             weights[i] = if block.x[i] < end { weights[i] } else { 0.0 };
         }
         // To all: how many there are, is guessed wrong too often.

@@ -2,6 +2,7 @@
 //! is for one, in single precision. Loops over lanes have no branches and no calls, so that compilers turn them into vector
 //! instructions.
 
+use super::line::lane_of;
 use hairline_index::scratch_index::{FACING_MIN_COS, REACH_STD};
 
 /// Pixels at once.
@@ -101,7 +102,7 @@ impl Block {
     /// From these pixels on.
     #[inline(always)]
     pub fn new(stride: usize, from: [[u32; 2]; 2]) -> Self {
-        let [[x0, y0], [x1, y1]] = from.map(|at| at.map(|of| of as i32 as f32));
+        let [[x0, y0], [x1, y1]] = from.map(|at| at.map(lane_of));
         let (mut x, mut y) = ([x0; LANES], [y0; LANES]);
         for i in 0..HALF {
             x[i] = x0 + COUNTED[i];

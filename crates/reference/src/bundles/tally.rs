@@ -11,7 +11,8 @@ use std::f64::consts::PI;
 /// From so many scratches under the footprint on lighting each takes longer than lighting all directions. The light is the same
 /// but for what a class's spectrum leaves out, half a percent: a step that is not seen.
 const TALLY_FROM: usize = 448;
-/// Footprints are this much narrower than the finest grid wants, as a power of two, or scratches are not counted.
+/// Footprints are at most this much narrower than the finest grid wants that scratches are enough for, as a power of two, or they are
+/// not counted.
 const TALLY_OCTAVE: f64 = -3.0;
 
 impl Many<'_> {
@@ -25,7 +26,7 @@ impl Many<'_> {
         let pixel = self.pixel;
         let table = &self.prepared.tables.tables[pixel.point.table];
         let environment = self.prepared.scene.environment.as_ref();
-        let may_tally = may_tally && self.octave > TALLY_OCTAVE;
+        let may_tally = may_tally && self.dense_octave > TALLY_OCTAVE;
         let mut tally = None;
         let mut sums = ScratchSums::default();
         let mut found = std::mem::take(&mut work.seen);
