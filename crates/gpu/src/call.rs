@@ -210,7 +210,7 @@ fn call_main(@builtin(global_invocation_id) call_id: vec3u) {{
 
 impl Table<'_> {
     fn upload(&self, gpu: &Gpu) -> wgpu::TextureView {
-        let (format, bytes) = match self.texels {
+        let (format, bytes): (_, &[u8]) = match self.texels {
             Texels::Floats(texels) => (
                 wgpu::TextureFormat::Rgba32Float,
                 bytemuck::cast_slice(texels),
@@ -220,6 +220,13 @@ impl Table<'_> {
                 bytemuck::cast_slice(texels),
             ),
         };
+        let layers = self.layers.map_or(1, |layers| gpu.array_layers(layers));
+        let texel_bytes = 16;
+        let mut bytes: Vec<u8> = bytes.to_vec();
+        bytes.resize(
+            (self.size[0] * self.size[1] * layers * texel_bytes) as usize,
+            0,
+        );
         let texture = gpu.device.create_texture_with_data(
             &gpu.queue,
             &wgpu::TextureDescriptor {
@@ -227,7 +234,7 @@ impl Table<'_> {
                 size: wgpu::Extent3d {
                     width: self.size[0],
                     height: self.size[1],
-                    depth_or_array_layers: self.layers.unwrap_or(1),
+                    depth_or_array_layers: layers,
                 },
                 mip_level_count: 1,
                 sample_count: 1,
@@ -237,7 +244,7 @@ impl Table<'_> {
                 view_formats: &[],
             },
             Default::default(),
-            bytes,
+            &bytes,
         );
         texture.create_view(&wgpu::TextureViewDescriptor {
             dimension: Some(match self.layers {

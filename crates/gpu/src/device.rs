@@ -316,6 +316,13 @@ impl Gpu {
         self.device.limits()
     }
 
+    /// The layers that a texture must have to be bound as an array of `count` of them. By way of OpenGL wgpu makes an array of what has
+    /// more than one layer and nothing else; what is bound as an array and is none reads as zeros.
+    pub(crate) fn array_layers(&self, count: u32) -> u32 {
+        let least = if self.adapter.backend == "gl" { 2 } else { 1 };
+        count.max(least)
+    }
+
     /// The first thing that went wrong since the last call. A lost device stays lost.
     pub fn check(&self) -> Result<(), Error> {
         // Calls on a lost device fail one by one before the loss itself is reported, which polling brings about.

@@ -34,7 +34,7 @@ const fn layers(name: &'static str) -> Texels {
     }
 }
 
-/// As many as WebGPU allows a stage: those that are read most.
+/// As many textures as WebGPU allows a stage, those that are read most. `spectra` stands for the tables.
 const FEW: [Texels; 5] = [
     layers("scratch_tables"),
     layers("spectra"),
@@ -43,7 +43,7 @@ const FEW: [Texels; 5] = [
     texels("tile_lists", TextureFormat::Rgba32Uint),
 ];
 
-/// The others.
+/// The others, and what stands for tables of lobes.
 const REST: [Texels; 15] = [
     texels("lights", TextureFormat::Rgba32Uint),
     texels("light_vertices", TextureFormat::Rgba32Uint),
@@ -75,8 +75,10 @@ pub(crate) enum Stored {
 
 impl Stored {
     pub fn on(gpu: &Gpu) -> Self {
+        // By way of OpenGL they cannot be arguments of functions, and not all formats can be read.
+        let is_gl = gpu.adapter.backend == "gl";
         match gpu.limits().max_storage_textures_per_shader_stage {
-            _ if !is_bounded(gpu) => Self::None,
+            _ if !is_bounded(gpu) || is_gl => Self::None,
             0..STAGE_MOST => Self::Few,
             _ => Self::All,
         }

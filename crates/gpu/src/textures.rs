@@ -88,7 +88,7 @@ impl TextureArray {
         textures: &[Texture],
     ) -> Result<wgpu::TextureView, Error> {
         let what = "textures";
-        let layers = textures.len().max(1) as u32;
+        let layers = transfer.gpu.array_layers(textures.len() as u32);
         let format = TextureFormat::Rgba8Unorm;
         let array = transfer
             .texture(what, self.size_px, layers, self.levels, format)
@@ -219,7 +219,7 @@ async fn scratch_tables(
         let (count, allowed) = (count as u64, allowed.into());
         return Err(transfer.gpu.too_large(what, count, allowed, "layers"));
     }
-    let layers = count.max(1) as u32;
+    let layers = transfer.gpu.array_layers(count as u32);
     let texture = transfer
         .texture(what, size, layers, 1, TextureFormat::Rgba32Uint)
         .await?;
