@@ -31,33 +31,33 @@ fn scratch_table_place(u: f32, depth_nm: f32) -> ScratchTablePlace {
 }
 
 // T from there: by value and slope of the nearest column, linear in depth.
-fn scratch_table_from(spectra: texture_2d_array<u32>, layer: u32, place: ScratchTablePlace, beside: vec2f) -> vec3f {
-    let near = scratch_table_near(textureLoad(spectra, vec2i(place.column, place.row), layer, 0), beside.x);
-    let far = scratch_table_near(textureLoad(spectra, vec2i(place.column, place.row + 1), layer, 0), beside.x);
+fn scratch_table_from(table: texture_2d_array<u32>, layer: u32, place: ScratchTablePlace, beside: vec2f) -> vec3f {
+    let near = scratch_table_near(textureLoad(table, vec2i(place.column, place.row), layer, 0), beside.x);
+    let far = scratch_table_near(textureLoad(table, vec2i(place.column, place.row + 1), layer, 0), beside.x);
     return near + (far - near) * beside.y;
 }
 
 // T(u, d), odd in u.
-fn scratch_table(spectra: texture_2d_array<u32>, layer: u32, u_um: f32, depth_nm: f32) -> vec3f {
+fn scratch_table(table: texture_2d_array<u32>, layer: u32, u_um: f32, depth_nm: f32) -> vec3f {
     let place = scratch_table_place(min(abs(u_um), 1e18), depth_nm);
-    let sum = scratch_table_from(spectra, layer, place, place.beside);
+    let sum = scratch_table_from(table, layer, place, place.beside);
     return select(sum, -sum, u_um < 0.0);
 }
 
 // T((1 + moved.x) u, (1 + moved.y) d) to first order in both.
-fn scratch_table_moved(spectra: texture_2d_array<u32>, layer: u32, u_um: f32, depth_nm: f32, moved: vec2f) -> vec3f {
+fn scratch_table_moved(table: texture_2d_array<u32>, layer: u32, u_um: f32, depth_nm: f32, moved: vec2f) -> vec3f {
     let place = scratch_table_place(min(abs(u_um), 1e18), depth_nm);
     // u dx/du and d dy/dd, in columns and rows.
     let steps = place.at * vec2f(1.0 - place.at.x / f32(SCRATCH_TABLE_COLUMNS - 1), 1.0);
-    let sum = scratch_table_from(spectra, layer, place, place.beside + moved * steps);
+    let sum = scratch_table_from(table, layer, place, place.beside + moved * steps);
     return select(sum, -sum, u_um < 0.0);
 }
 
 // T(infinity, d) - T(-infinity, d): the mean of |D|^2 in each channel.
-fn scratch_table_total(spectra: texture_2d_array<u32>, layer: u32, depth_nm: f32) -> vec3f {
+fn scratch_table_total(table: texture_2d_array<u32>, layer: u32, depth_nm: f32) -> vec3f {
     let y = clamp(depth_nm, 0.0, SCRATCH_TABLE_DEPTH_MAX_NM) * (f32(SCRATCH_TABLE_ROWS - 1) / SCRATCH_TABLE_DEPTH_MAX_NM);
     let row = min(i32(y), SCRATCH_TABLE_ROWS - 2);
-    let near = bitcast<vec3f>(textureLoad(spectra, vec2i(SCRATCH_TABLE_COLUMNS - 1, row), layer, 0).xyz);
-    let far = bitcast<vec3f>(textureLoad(spectra, vec2i(SCRATCH_TABLE_COLUMNS - 1, row + 1), layer, 0).xyz);
+    let near = bitcast<vec3f>(textureLoad(table, vec2i(SCRATCH_TABLE_COLUMNS - 1, row), layer, 0).xyz);
+    let far = bitcast<vec3f>(textureLoad(table, vec2i(SCRATCH_TABLE_COLUMNS - 1, row + 1), layer, 0).xyz);
     return 2.0 * (near + (far - near) * (y - f32(row)));
 }

@@ -6,7 +6,7 @@
 use wgpu::ShaderStages;
 
 use crate::device::Gpu;
-use crate::storage_textures::Stored;
+use crate::storage_textures;
 use crate::tile_room::TILE_LISTS_FORMAT;
 
 /// Names of the scene's buffers in the order of their bindings.
@@ -20,13 +20,10 @@ pub const SCENE_BUFFERS: [&str; 7] = [
     "scratch segments",
 ];
 
-/// From the fourth on they lie in textures, which have these names in WGSL.
-const SCENE_TEXTURES: [&str; 4] = [
-    "lights",
-    "light_vertices",
-    "scratch_nodes",
-    "scratch_segments",
-];
+/// From this one on they lie in textures.
+const FIRST_ROWS: u32 = 3;
+/// From this one on in storage textures, where they are used.
+const FIRST_STORED: u32 = 5;
 
 /// The layouts that the passes share.
 pub(crate) struct Layouts {
@@ -36,33 +33,36 @@ pub(crate) struct Layouts {
     pub film: wgpu::BindGroupLayout,
     /// Group 3 of the pass that makes the tiles' lists, instead.
     pub tiles: wgpu::BindGroupLayout,
-    /// Of the pass that makes records of them.
-    pub records: wgpu::BindGroupLayout,
 }
 
 impl Layouts {
     pub fn new(gpu: &Gpu) -> Self {
         let both = ShaderStages::VERTEX | ShaderStages::COMPUTE;
         let compute = ShaderStages::COMPUTE;
-        let stored = Stored::on(gpu);
-        // Rasterising reads the vertices alone.
-        let buffers = [both, compute, compute].map(|stages| (stages, storage(true)));
-        let rows = SCENE_TEXTURES.map(|name| (compute, stored.binding(name)));
-        let scene: Vec<_> = (0..)
-            .zip(buffers.into_iter().chain(rows))
-            .map(|(i, (stages, ty))| entry(i, stages, ty))
+        let scene: Vec<_> = (0..SCENE_BUFFERS.len() as u32)
+            // Rasterising reads the vertices alone.
+            .map(|i| match i {
+                0 => entry(i, both, storage(true)),
+                i if i < FIRST_ROWS => entry(i, compute, storage(true)),
+                i if i < FIRST_STORED => entry(i, compute, integers()),
+                i => entry(
+                    i,
+                    compute,
+                    storage_textures::binding(gpu, wgpu::TextureViewDimension::D2),
+                ),
+            })
             .collect();
         let textures = [
-            stored.binding("scratch_tables"),
-            stored.binding("lobe_albedo"),
-            stored.binding("lobe_ltc"),
-            stored.binding("lobe_sptd"),
-            texture(wgpu::TextureViewDimension::D2),
-            texture(wgpu::TextureViewDimension::D2),
-            texture(wgpu::TextureViewDimension::D2Array),
-            stored.binding("published_wavelengths"),
-            stored.binding("triangle_lists"),
-            stored.binding("bundle_rows"),
+            storage_textures::binding(gpu, wgpu::TextureViewDimension::D2Array),
+            texture(wgpu::TextureViewDimension::D2, false),
+            texture(wgpu::TextureViewDimension::D2, false),
+            texture(wgpu::TextureViewDimension::D2, false),
+            texture(wgpu::TextureViewDimension::D2, true),
+            texture(wgpu::TextureViewDimension::D2, true),
+            texture(wgpu::TextureViewDimension::D2Array, true),
+            texture(wgpu::TextureViewDimension::D2, false),
+            integers(),
+            integers(),
         ];
         let textures: Vec<_> = (0..)
             .zip(textures)
@@ -74,13 +74,11 @@ impl Layouts {
             view_dimension: wgpu::TextureViewDimension::D2,
         };
         let queues = entry(3, compute, storage(false));
-        let over_tiles = |read| {
-            [
-                entry(0, compute, stored.binding(read)),
-                entry(1, compute, written),
-                queues,
-            ]
-        };
+        let tiles = [
+            entry(0, compute, integers()),
+            entry(1, compute, written),
+            queues,
+        ];
         Self {
             frame: layout(gpu, "frame", &[entry(0, both, uniform())]),
             scene: layout(gpu, "scene", &scene),
@@ -89,15 +87,18 @@ impl Layouts {
                 gpu,
                 "film",
                 &[
-                    entry(0, compute, stored.binding("visibility")),
+                    entry(0, compute, integers()),
                     entry(1, compute, storage(false)),
-                    entry(2, compute, stored.binding("tile_lists")),
+                    entry(
+                        2,
+                        compute,
+                        storage_textures::binding(gpu, wgpu::TextureViewDimension::D2),
+                    ),
                     queues,
                     entry(4, compute, storage(false)),
                 ],
             ),
-            tiles: layout(gpu, "tiles", &over_tiles("tile_visibility")),
-            records: layout(gpu, "records", &over_tiles("tile_entries")),
+            tiles: layout(gpu, "tiles", &tiles),
         }
     }
 }
@@ -143,10 +144,18 @@ pub(crate) fn storage(read_only: bool) -> wgpu::BindingType {
     }
 }
 
-fn texture(view_dimension: wgpu::TextureViewDimension) -> wgpu::BindingType {
+fn texture(view_dimension: wgpu::TextureViewDimension, filterable: bool) -> wgpu::BindingType {
     wgpu::BindingType::Texture {
-        sample_type: wgpu::TextureSampleType::Float { filterable: true },
+        sample_type: wgpu::TextureSampleType::Float { filterable },
         view_dimension,
+        multisampled: false,
+    }
+}
+
+fn integers() -> wgpu::BindingType {
+    wgpu::BindingType::Texture {
+        sample_type: wgpu::TextureSampleType::Uint,
+        view_dimension: wgpu::TextureViewDimension::D2,
         multisampled: false,
     }
 }

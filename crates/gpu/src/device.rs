@@ -7,7 +7,6 @@
 use std::sync::{Arc, Mutex, OnceLock};
 
 use crate::error::Error;
-use crate::storage_textures;
 
 /// What kind of machine an adapter stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -232,17 +231,12 @@ fn shortcoming(limits: &wgpu::Limits, downlevel: &wgpu::DownlevelCapabilities) -
     (!missing.is_empty()).then(|| missing.join("; "))
 }
 
-/// WebGPU's default limits, save those that a large scene outgrows, the sizes of one buffer, and what software drivers are quicker with.
+/// WebGPU's default limits, save those that a large scene outgrows: the sizes of one buffer.
 fn raised_limits(allowed: &wgpu::Limits) -> wgpu::Limits {
-    let defaults = wgpu::Limits::defaults();
     wgpu::Limits {
-        max_storage_textures_per_shader_stage: allowed
-            .max_storage_textures_per_shader_stage
-            .min(storage_textures::STAGE_MOST)
-            .max(defaults.max_storage_textures_per_shader_stage),
         max_buffer_size: allowed.max_buffer_size,
         max_storage_buffer_binding_size: allowed.max_storage_buffer_binding_size,
-        ..defaults
+        ..wgpu::Limits::defaults()
     }
 }
 

@@ -9,7 +9,6 @@ use crate::bindings::{Layouts, bind};
 use crate::device::Gpu;
 use crate::error::Error;
 use crate::layout::{FILM_PIXELS_OFFSET, FilmPixel, FilmWalk};
-use crate::storage_textures::Stored;
 use crate::tile_room::{TILE_PX, TILES_MAX, TileRoom};
 use crate::variant::is_bounded;
 
@@ -240,11 +239,6 @@ async fn target(
     read: bool,
 ) -> Result<wgpu::TextureView, Error> {
     let usage = TextureUsages::RENDER_ATTACHMENT;
-    let stored = if Stored::on(gpu).has(format) {
-        TextureUsages::STORAGE_BINDING
-    } else {
-        TextureUsages::empty()
-    };
     let descriptor = wgpu::TextureDescriptor {
         label: Some(what),
         size: wgpu::Extent3d {
@@ -257,7 +251,7 @@ async fn target(
         dimension: wgpu::TextureDimension::D2,
         format,
         usage: if read {
-            usage | TextureUsages::TEXTURE_BINDING | stored
+            usage | TextureUsages::TEXTURE_BINDING
         } else {
             usage
         },

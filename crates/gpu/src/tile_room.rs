@@ -77,7 +77,7 @@ impl TileRoom {
         let queues = gpu.buffer("tile queues", queue_bytes, usage).await?;
         let usage = BufferUsages::INDIRECT | BufferUsages::COPY_DST;
         let arguments = gpu.buffer("tile counts", COUNTS_BYTES, usage).await?;
-        let group = |layout, read: &wgpu::TextureView, written: &wgpu::TextureView| {
+        let group = |read: &wgpu::TextureView, written: &wgpu::TextureView| {
             let entries = [
                 (0, wgpu::BindingResource::TextureView(read)),
                 (1, wgpu::BindingResource::TextureView(written)),
@@ -86,19 +86,17 @@ impl TileRoom {
             .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource });
             gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
                 label: Some("tiles"),
-                layout,
+                layout: &layouts.tiles,
                 entries: &entries,
             })
         };
-        let tiles_group = group(&layouts.tiles, visibility, &lists);
+        let tiles_group = group(visibility, &lists);
         let records = if needs.records {
             Some(table(gpu, "tile records", TEXELS_MAX, TILE_LISTS_FORMAT).await?)
         } else {
             None
         };
-        let records_group = records
-            .as_ref()
-            .map(|records| group(&layouts.records, &lists, records));
+        let records_group = records.as_ref().map(|records| group(&lists, records));
         Ok(Self {
             tiles_group,
             records_group,

@@ -43,7 +43,7 @@ impl TilesPasses {
         Self {
             tiles: pipeline(&shaders::TILES, "tiles", &layouts.tiles),
             records: (variant.method.light_at == LightAt::Scratches)
-                .then(|| pipeline(&shaders::TILE_RECORDS, "tile_records", &layouts.records)),
+                .then(|| pipeline(&shaders::TILE_RECORDS, "tile_records", &layouts.tiles)),
             shade: pipeline(shade_of(variant), "shade", &layouts.film),
             background: pipeline(&shaders::BACKGROUND, "background", &layouts.film),
         }

@@ -10,7 +10,7 @@ use hairline_scene::{Light, Scene};
 use crate::bindings::Layouts;
 use crate::device::{AdapterKind, Gpu};
 use crate::shaders;
-use crate::storage_textures::Stored;
+use crate::storage_textures;
 
 /// What a pipeline is specialised for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -159,9 +159,11 @@ pub(crate) fn compute_pipeline(
     group_3: &wgpu::BindGroupLayout,
     constants: impl Fn(&str) -> Vec<(&'static str, f64)>,
 ) -> wgpu::ComputePipeline {
-    let text = shaders::compose(&[module]);
+    let mut text = shaders::compose(&[module]);
     let constants = constants(&text);
-    let text = Stored::on(gpu).in_text(&text);
+    if storage_textures::are_used(gpu) {
+        text = storage_textures::in_text(&text);
+    }
     let label = Some(module.name);
     let shader = gpu
         .device
