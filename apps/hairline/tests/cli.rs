@@ -5,8 +5,7 @@ mod common;
 use std::fs;
 use std::path::Path;
 
-use assert_cmd::Command;
-use common::{folder_with, hairline, names_in, stderr_of, stdout_of};
+use common::{command, folder_with, hairline, names_in, stderr_of, stdout_of};
 use hairline_image::{exr_file, png};
 
 /// A disk under a lamp, without scratches.
@@ -218,14 +217,11 @@ fn stderr_without_display<'a>(
     environment: impl IntoIterator<Item = (&'a str, &'a str)>,
     exit_code: i32,
 ) -> String {
-    let assert = Command::cargo_bin("hairline")
-        .unwrap()
-        .current_dir(folder)
+    let assert = command(folder, arguments)
         .env_remove("XDG_RUNTIME_DIR")
         .env_remove("WAYLAND_DISPLAY")
         .env_remove("DISPLAY")
         .envs(environment)
-        .args(arguments.split_whitespace())
         .assert()
         .code(exit_code);
     stderr_of(&assert)

@@ -227,6 +227,7 @@ impl Packing {
                 }
             }
             let cell_m = object.classes[0].levels[first].cell_m;
+            // As many levels coarser.
             let dense_cell_m = object.dense_cell_m * (cell_m / object.cell_m);
             packing.texels[2 * o] = [
                 object.classes.len() as u32,

@@ -317,8 +317,9 @@ fn build_object(scene: &Scene, object: &Object, account: &Account) -> ObjectBund
         return ObjectBundles::default();
     }
     let classes = sizes::classes(segments, CLASSES_MAX);
-    let [dense_cell_m, cell_m] = finest_cells_m(object, classes.len());
-    let level_count = level_count(object, cell_m);
+    let area_m2 = area_m2(object);
+    let [dense_cell_m, cell_m] = finest_cells_m(object, area_m2, classes.len());
+    let level_count = level_count(area_m2, cell_m);
     let classes = classes
         .into_par_iter()
         .map(|class| {
@@ -349,8 +350,7 @@ fn build_object(scene: &Scene, object: &Object, account: &Account) -> ObjectBund
 
 /// The side of the finest cells: [`ObjectBundles::dense_cell_m`], [`ObjectBundles::cell_m`]. Each is a power of two in micrometres: it
 /// stays what it is when a layer changes a little.
-fn finest_cells_m(object: &Object, classes: usize) -> [f32; 2] {
-    let area_m2 = area_m2(object);
+fn finest_cells_m(object: &Object, area_m2: f64, classes: usize) -> [f32; 2] {
     let length_m: f64 = object
         .segments
         .iter()
@@ -373,8 +373,8 @@ fn finest_cells_m(object: &Object, classes: usize) -> [f32; 2] {
 }
 
 /// From the finest cells to the coarsest.
-fn level_count(object: &Object, cell_m: f32) -> usize {
-    let across = (area_m2(object) / COARSEST_CELLS).sqrt() / f64::from(cell_m);
+fn level_count(area_m2: f64, cell_m: f32) -> usize {
+    let across = (area_m2 / COARSEST_CELLS).sqrt() / f64::from(cell_m);
     across.log2().ceil().max(0.0) as usize + 1
 }
 

@@ -18,13 +18,18 @@ pub fn folder_with(name: &str, scene: &str) -> tempfile::TempDir {
     folder
 }
 
-/// Runs in `folder`; the arguments are separated by spaces.
-pub fn hairline(folder: &Path, arguments: &str) -> Assert {
-    Command::cargo_bin("hairline")
-        .unwrap()
+/// To be run in `folder`; the arguments are separated by spaces.
+pub fn command(folder: &Path, arguments: &str) -> Command {
+    let mut command = Command::cargo_bin("hairline").unwrap();
+    command
         .current_dir(folder)
-        .args(arguments.split_whitespace())
-        .assert()
+        .args(arguments.split_whitespace());
+    command
+}
+
+/// Runs it.
+pub fn hairline(folder: &Path, arguments: &str) -> Assert {
+    command(folder, arguments).assert()
 }
 
 /// What it printed as its result.
