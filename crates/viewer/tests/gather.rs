@@ -87,14 +87,17 @@ fn choose(harness: &mut Harness<'static, Viewer>, option: &str) {
     harness.run_steps(3);
 }
 
-/// The last picture of the scene as it is gathered now.
+/// The last picture of the document as it is now, which gathers so. It is waited for: the painter may still show an older one when the
+/// newest description has been built.
 fn last_frame(harness: &mut Harness<'static, Viewer>, gather: Gather) -> Arc<Frame> {
     wait_until(harness, "the final picture", |viewer| {
-        viewer.engine().latest().is_some_and(|frame| {
-            frame.painted.is_final && frame.built.scene.render.gather == gather
-        })
+        let newest = viewer.document().revision();
+        let latest = viewer.engine().latest();
+        latest.is_some_and(|frame| frame.painted.is_final && frame.built.revision == newest)
     });
-    harness.state().engine().latest().unwrap()
+    let frame = harness.state().engine().latest().unwrap();
+    assert_eq!(frame.built.scene.render.gather, gather);
+    frame
 }
 
 fn pixels(frame: &Frame) -> Vec<Color32> {
