@@ -20,6 +20,7 @@ struct Frame {
     environment_texel_radiance: f32,    // radiance of a texel (or coefficient) of value 1
     sample: u32,                // counted from 0
     tile_entries: u32,          // room of a tile in the lists
+    record_segments: u32,       // straight pieces of scratches that may have records
 }
 
 const ENVIRONMENT_PRESENT: u32 = 1u;
@@ -120,7 +121,7 @@ struct Film {
 
 // Which tiles are shaded how: three counts for each queue of tile_queues.wgsl, then the queues.
 struct TileQueues {
-    counts: array<atomic<u32>, 12>,
+    counts: array<atomic<u32>, 15>,
     tiles: array<atomic<u32>>,
 }
 

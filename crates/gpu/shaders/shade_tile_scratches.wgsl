@@ -1,5 +1,5 @@
-// Pass: from what is visible to radiance, in tiles whose scratches have records (tile_records.wgsl). Each pixel takes those whose bit
-// it finds, and weighs and lights for itself those of which the record says so.
+// Pass: from what is visible to radiance, in tiles that have a list of scratches, which have records (scratch_records.wgsl). Each
+// pixel takes those whose bit it finds, and weighs and lights for itself those of which no record serves it.
 
 @group(3) @binding(2) var tile_lists: texture_2d<u32>;
 
@@ -9,25 +9,19 @@ fn shade(
     @builtin(local_invocation_id) local: vec3u,
 ) {
     let tile = queue_tile(QUEUE_LISTED, workgroup.x);
-    let head = textureLoad(tile_lists, row_texel(RECORD_HEAD * tile), 0);
-    if head.x == RECORDS_NONE {
-        return;
-    }
-    let plane = plane_from_texels(
-        textureLoad(tile_lists, row_texel(RECORD_HEAD * tile + 1u), 0),
-        textureLoad(tile_lists, row_texel(RECORD_HEAD * tile + 2u), 0),
-        textureLoad(tile_lists, row_texel(RECORD_HEAD * tile + 3u), 0),
-    );
+    let list = tile * frame.tile_entries;
+    let head = textureLoad(tile_lists, row_texel(list), 0);
     let count = head.x;
+    let plane_key = head.y;
     let in_film = tile_corner(tile) + local.xy;
     let pixel = in_film + vec2u(0u, frame.rows.x);
     let inside = pixel.x < frame.size_px.x && pixel.y < frame.rows.y;
-    let ray = film_ray(pixel);
+    let at_px = tile_middle_px(tile_corner(tile)) + tile_at_px(in_film);
+    let ray = tile_ray(at_px);
     let seen = select(vec2u(0u), film_visible(pixel), inside);
     // Any triangle does for pixels that see none; what they find is dropped.
     var depth_m: f32;
     let point = hit_surface_point(max(seen.x, 1u) - 1u, ray, &depth_m);
-    let at_um = plane_from_world(plane, point.position_m);
     var view = gather_pixel(point);
     var batch: GatherBatch;
     var sums: ScratchSums;
@@ -43,19 +37,20 @@ fn shade(
     for (var first = 0u; first < count; first += 64u) {
         var near = vec2u(0u);
         for (var i = 0u; i < 4u; i += 1u) {
-            let low = tile_bits_near(head, first + TILE_BLOCK * i, local.xy);
-            let high = tile_bits_near(head, first + TILE_BLOCK * (4u + i), local.xy);
+            let low = tile_bits_near(list, count, first + TILE_BLOCK * i, local.xy);
+            let high = tile_bits_near(list, count, first + TILE_BLOCK * (4u + i), local.xy);
             near |= vec2u(low, high) << vec2u(TILE_BLOCK * i);
         }
         near = select(vec2u(0u), near, alone);
         var left = near;
-        if plane.holds != 0u {
+        if plane_key != 0u {
             left = vec2u(0u);
             let adds = countOneBits(near.x) + countOneBits(near.y);
             for (var i = 0u; i < adds; i += 1u) {
                 gather_rounds += 1u;
                 let bit = bits_take(&near);
-                if !record_add(head.y + record_texel(first + bit), at_um, view.single_share, &sums) {
+                let entry = textureLoad(tile_lists, row_texel(list + TILE_HEAD + first + bit), 0);
+                if !record_add(entry.w, at_px, plane_key, view.single_share, &sums) {
                     left |= select(vec2u(1u << bit, 0u), vec2u(0u, 1u << (bit % 32u)), bit >= 32u);
                 }
             }
@@ -65,7 +60,7 @@ fn shade(
         let wanted = select(touching, 0u, overflows);
         for (var i = 0u; i < wanted; i += 1u) {
             gather_rounds += 1u;
-            let segment = textureLoad(tile_lists, row_texel(head.y + record_list_texel(first + bits_take(&left))), 0).x;
+            let segment = textureLoad(tile_lists, row_texel(list + TILE_HEAD + first + bits_take(&left)), 0).x;
             gather_weigh(point, view, segment, &batch, &sums);
         }
     }
@@ -86,38 +81,34 @@ fn shade(
 }
 
 // Which segments of a block a pixel of the tile is near to, a bit for each.
-fn tile_bits_near(head: vec4u, block: u32, in_tile: vec2u) -> u32 {
-    let row = textureLoad(tile_lists, row_texel(head.y + record_list_texel(block + in_tile.y)), 0).yz;
-    return select(0u, tile_row_bits(row, in_tile.x), block < head.x);
+fn tile_bits_near(list: u32, count: u32, block: u32, in_tile: vec2u) -> u32 {
+    let row = textureLoad(tile_lists, row_texel(list + TILE_HEAD + block + in_tile.y), 0).yz;
+    return select(0u, tile_row_bits(row, in_tile.x), block < count);
 }
 
-// Adds what a scratch does at a place on the plane; false if its record leaves it to the pixel.
-fn record_add(texel: u32, at_um: vec2f, single_share: f32, sums: ptr<function, ScratchSums>) -> bool {
-    let across = textureLoad(tile_lists, row_texel(texel), 0);
-    if bitcast<f32>(across.w) < 0.0 {
-        // It has nothing but this.
-        return false;
-    }
+// Adds what a scratch does at a place in the picture; false if its record does not serve there.
+fn record_add(number: u32, at_px: vec2f, plane_key: u32, single_share: f32, sums: ptr<function, ScratchSums>) -> bool {
+    let texel = record_at(select(number, 0u, number == RECORD_NONE));
     let record = record_from_texels(
-        across,
+        textureLoad(tile_lists, row_texel(texel), 0),
         textureLoad(tile_lists, row_texel(texel + 1u), 0),
-        textureLoad(tile_lists, row_texel(texel + 2u), 0),
     );
-    let by_place = vec3f(1.0, at_um);
-    let p = dot(record.across.xyz, by_place);
-    let y = dot(record.along.xyz, by_place);
-    let near = p * p <= 0.5 * REACH_STD * REACH_STD;
-    let half_line = select(0.0, record.across.w * exp(-min(p * p, GAUSSIAN_TAIL)), near);
-    let segment = single_share * half_line * max(gaussian_erf(record.end - y) - gaussian_erf(record.along.w - y), 0.0);
+    let apart_px = at_px - record.middle_px;
+    let across = dot(record.across, apart_px);
+    let along = 0.5 * record.last + dot(record.along, apart_px);
+    let station = min(u32(clamp(along, 0.0, record.last)), u32(max(record.last, 1.0)) - 1u);
+    let sent = textureLoad(tile_lists, row_texel(texel + RECORD_HEAD_TEXELS + station), 0);
+    let serves = number != RECORD_NONE && record.half_line >= 0.0 && record_key(sent) == plane_key;
+    let near = across * across <= 0.5 * REACH_STD * REACH_STD;
+    let half_line = select(0.0, record.half_line * exp(-min(across * across, GAUSSIAN_TAIL)), near);
+    let ends = (record.ends - along) * record.per_blur;
+    let share = half_line * max(gaussian_erf(ends.y) - gaussian_erf(ends.x), 0.0);
+    let segment = select(0.0, single_share * share, serves);
     (*sums).share += segment;
     (*sums).share_by_line += segment * 2.0 * half_line;
     (*sums).energy += segment * record.energy;
-    let at = clamp(y * record.steps, 0.0, record.last);
-    let station = u32(at);
-    let before = textureLoad(tile_lists, row_texel(texel + 3u + station), 0).xyz;
-    let after = textureLoad(tile_lists, row_texel(texel + 3u + min(station + 1u, u32(record.last))), 0).xyz;
-    (*sums).radiance += segment * mix(bitcast<vec3f>(before), bitcast<vec3f>(after), at - f32(station));
-    return true;
+    (*sums).radiance += segment * record_between(sent, clamp(along - f32(station), 0.0, 1.0));
+    return serves;
 }
 
 // The lowest bit of two words, which is taken from them.

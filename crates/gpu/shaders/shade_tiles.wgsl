@@ -46,7 +46,7 @@ fn shade(
             let bit = select(firstTrailingBit(low), 32u + firstTrailingBit(high), low == 0u);
             high = select(high, high & (high - 1u), low == 0u);
             low = low & (max(low, 1u) - 1u);
-            let segment = textureLoad(tile_lists, row_texel(list + tile_head() + first + bit), 0).x;
+            let segment = textureLoad(tile_lists, row_texel(list + TILE_HEAD + first + bit), 0).x;
             gather_weigh(point, view, segment, &batch, &sums);
         }
     }
@@ -68,6 +68,6 @@ fn shade(
 
 // Which segments of a block a pixel of the tile is near to, a bit for each.
 fn tile_bits_near(list: u32, count: u32, block: u32, in_tile: vec2u) -> u32 {
-    let row = textureLoad(tile_lists, row_texel(list + tile_head() + block + in_tile.y), 0).yz;
+    let row = textureLoad(tile_lists, row_texel(list + TILE_HEAD + block + in_tile.y), 0).yz;
     return select(0u, tile_row_bits(row, in_tile.x), block < count);
 }

@@ -2,16 +2,13 @@
 
 // Pixels to a side of a tile.
 const TILE_PX: u32 = 8u;
-// In place of a segment, where a block of entries is not full and somebody asks.
-const TILE_NO_SEGMENT: u32 = 0xffffffffu;
 // Entries of a list come in blocks, with as many texels as a tile has rows. Texel `i` of a block holds the block's segment `i`,
 // and in its next two words, for row `i` of pixels, a byte for each segment of the block: which of the row's pixels it is near to.
+// Where light is looked for along scratches, the last word has the place of the record that serves the tile.
 const TILE_BLOCK: u32 = 8u;
 
-// Texels of a tile before its list: how many entries it has, and its plane where it is asked for.
-fn tile_head() -> u32 {
-    return select(1u, 4u, METHOD_LIGHT_AT == LIGHT_AT_SCRATCHES);
-}
+// Texels of a tile before its list: how many entries it has, and the key of the plane that its pixels see, where it is asked for.
+const TILE_HEAD: u32 = 1u;
 
 // Tiles across the film, and down it.
 fn tile_counts() -> vec2u {

@@ -47,9 +47,3 @@ fn queue_tallied(tile: u32) -> vec2u {
     let first = QUEUES * tiles.x * tiles.y + 2u * tile;
     return vec2u(atomicLoad(&queues.tiles[first]), atomicLoad(&queues.tiles[first + 1u]));
 }
-
-// Gives a tile places for so many records; returns the first. They are counted behind all else.
-fn queue_take_records(count: u32) -> u32 {
-    let tiles = tile_counts();
-    return atomicAdd(&queues.tiles[(QUEUES + 2u) * tiles.x * tiles.y], count);
-}

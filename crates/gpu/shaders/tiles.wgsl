@@ -45,10 +45,11 @@ fn tiles(
         at = object.first_node;
         end = object.end_node;
     }
-    // In three loops by turns: what leaves hold is found, looked at, and what is left of it written.
+    // In loops by turns: what leaves hold is found, looked at, records of it asked for, and what is left of it written.
     var segments: array<u32, FIND_SEGMENTS>;
     var pixels: array<vec2u, FIND_SEGMENTS>;
-    while at < end && found + tile_head() + FIND_SEGMENTS <= frame.tile_entries && gather_rounds < GATHER_MAX_ROUNDS {
+    var records: array<u32, FIND_SEGMENTS>;
+    while at < end && found + TILE_HEAD + FIND_SEGMENTS <= frame.tile_entries && gather_rounds < GATHER_MAX_ROUNDS {
         let count = find_segments(sight.lower_m, sight.upper_m, end, FIND_SEGMENTS, &at, &segments);
         var kept = 0u;
         for (var i = 0u; i < count; i += 1u) {
@@ -58,20 +59,26 @@ fn tiles(
             pixels[kept] = near;
             kept += u32(any(near != vec2u(0u)));
         }
+        if METHOD_LIGHT_AT == LIGHT_AT_SCRATCHES {
+            for (var i = 0u; i < kept; i += 1u) {
+                gather_rounds += 1u;
+                records[i] = tile_want_record(segments[i], tile, corner, sight);
+            }
+        }
         for (var i = 0u; i < kept; i += TILE_BLOCK) {
             gather_rounds += 1u;
-            tile_write_block(first + tile_head() + found, i, kept, &segments, &pixels);
+            tile_write_block(first + TILE_HEAD + found, i, kept, &segments, &pixels, &records);
             found += TILE_BLOCK;
         }
     }
-    var records = 0u;
+    var key = 0u;
     if METHOD_LIGHT_AT == LIGHT_AT_SCRATCHES {
-        records = queue_take_records(found);
-        for (var i = 0u; i < PLANE_TEXELS; i += 1u) {
-            textureStore(tile_lists_out, row_texel(first + 1u + i), plane_texel(sight.plane, i));
+        if frame.record_segments > 0u {
+            record_set_plane(tile, sight.plane.normal, sight.plane.coherence_um, sight.plane.table);
         }
+        key = select(0u, plane_key(sight.plane.normal), sight.plane.holds);
     }
-    textureStore(tile_lists_out, row_texel(first), vec4u(found, records, 0u, 0u));
+    textureStore(tile_lists_out, row_texel(first), vec4u(found, key, 0u, 0u));
     if sight.object == 0u {
         queue_push(QUEUE_EMPTY, tile);
     } else if sight.one_object && at >= end {
@@ -109,7 +116,7 @@ fn tile_sight(corner: vec2u, tile: u32) -> TileSight {
             if is_first {
                 sight.plane = plane_of(point);
             }
-            sight.plane.holds &= u32(plane_holds(sight.plane, point));
+            sight.plane.holds = sight.plane.holds && plane_holds(sight.plane, point);
         }
         // What grids stand for needs no list, nor what is added up.
         let is_tallied = ((select(tallied.x, tallied.y, i >= 32u) >> (i % 32u)) & 1u) == 1u;
@@ -155,6 +162,22 @@ fn tile_pixels_near(index: u32, corner: vec2u, sight: TileSight) -> vec2u {
     return select(vec2u(0u), select(vec2u(0xffffffffu), near, seen.has_line), in_box);
 }
 
+// Asks for the record of that part of a segment that is nearest to the tile. Returns its number, or RECORD_NONE.
+fn tile_want_record(index: u32, tile: u32, corner: vec2u, sight: TileSight) -> u32 {
+    let first = record_first(index);
+    if first == RECORD_NONE || !sight.plane.holds {
+        return RECORD_NONE;
+    }
+    let segment = scratch_segment(index);
+    let seen = segment_seen(segment.start_m, segment.end_m, tile_middle_px(corner));
+    let along = seen.end_px - seen.start_px;
+    let place = -dot(seen.start_px, along) / max(dot(along, along), 1e-9);
+    let parts = record_part(first).parts;
+    let part = min(u32(clamp(place, 0.0, 1.0) * f32(parts)), parts - 1u);
+    record_want(first + part, tile);
+    return first + part;
+}
+
 // Writes the block of segments from `begin` on to the list. Beyond `kept` there are none: no pixel is near to them.
 fn tile_write_block(
     at: u32,
@@ -162,6 +185,7 @@ fn tile_write_block(
     kept: u32,
     segments: ptr<function, array<u32, FIND_SEGMENTS>>,
     pixels: ptr<function, array<vec2u, FIND_SEGMENTS>>,
+    records: ptr<function, array<u32, FIND_SEGMENTS>>,
 ) {
     var near: array<vec2u, TILE_BLOCK>;
     for (var i = 0u; i < TILE_BLOCK; i += 1u) {
@@ -169,10 +193,6 @@ fn tile_write_block(
     }
     let rows = tile_rows(near);
     for (var i = 0u; i < TILE_BLOCK; i += 1u) {
-        var segment = (*segments)[begin + i];
-        if METHOD_LIGHT_AT == LIGHT_AT_SCRATCHES {
-            segment = select(TILE_NO_SEGMENT, segment, begin + i < kept);
-        }
-        textureStore(tile_lists_out, row_texel(at + i), vec4u(segment, rows[i], 0u));
+        textureStore(tile_lists_out, row_texel(at + i), vec4u((*segments)[begin + i], rows[i], (*records)[begin + i]));
     }
 }

@@ -30,8 +30,8 @@ pub(crate) struct Band<'a> {
 pub(crate) struct RoomNeeds {
     /// Lists of scratches.
     pub tiles: bool,
-    /// Records of the scratches in those lists.
-    pub records: bool,
+    /// Records of so many straight pieces of scratches; 0 where none are kept.
+    pub records: u32,
     /// Walks that are begun in one dispatch and ended in another, whatever the device.
     pub walks: bool,
 }
@@ -81,7 +81,7 @@ impl BandRoom {
     /// Whether the passes find a place for all that they need.
     pub fn has(&self, needs: RoomNeeds) -> bool {
         (self.needs.tiles || !needs.tiles)
-            && (self.needs.records || !needs.records)
+            && self.needs.records >= needs.records
             && (self.needs.walks || !needs.walks)
     }
 }
@@ -91,8 +91,6 @@ pub(crate) struct Film {
     pub buffer: wgpu::Buffer,
     /// Group 3.
     pub group: wgpu::BindGroup,
-    /// The same with records of scratches in place of the bare lists, where the room has them.
-    pub recorded: Option<wgpu::BindGroup>,
 }
 
 impl Film {
@@ -130,16 +128,14 @@ impl Film {
         let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST;
         let buffer = gpu.buffer("film", bytes, usage).await?;
         Ok(Self {
-            group: group(gpu, layouts, room, &room.tiles.lists, &buffer),
-            recorded: recorded(gpu, layouts, room, &buffer),
+            group: group(gpu, layouts, room, &buffer),
             buffer,
         })
     }
 
     /// Has the passes work in another room.
     pub fn move_to(&mut self, gpu: &Gpu, layouts: &Layouts, room: &BandRoom) {
-        self.group = group(gpu, layouts, room, &room.tiles.lists, &self.buffer);
-        self.recorded = recorded(gpu, layouts, room, &self.buffer);
+        self.group = group(gpu, layouts, room, &self.buffer);
     }
 
     pub fn clear(&self, encoder: &mut wgpu::CommandEncoder) {
@@ -194,27 +190,11 @@ impl Film {
     }
 }
 
-fn recorded(
-    gpu: &Gpu,
-    layouts: &Layouts,
-    room: &BandRoom,
-    film: &wgpu::Buffer,
-) -> Option<wgpu::BindGroup> {
-    let records = room.tiles.records.as_ref()?;
-    Some(group(gpu, layouts, room, records, film))
-}
-
-fn group(
-    gpu: &Gpu,
-    layouts: &Layouts,
-    room: &BandRoom,
-    lists: &wgpu::TextureView,
-    film: &wgpu::Buffer,
-) -> wgpu::BindGroup {
+fn group(gpu: &Gpu, layouts: &Layouts, room: &BandRoom, film: &wgpu::Buffer) -> wgpu::BindGroup {
     let resources = [
         wgpu::BindingResource::TextureView(&room.visibility),
         film.as_entire_binding(),
-        wgpu::BindingResource::TextureView(lists),
+        wgpu::BindingResource::TextureView(&room.tiles.lists),
         room.tiles.queues.as_entire_binding(),
         room.walks.as_entire_binding(),
     ];

@@ -42,7 +42,7 @@ pub(crate) fn frame(
         environment_texel_radiance: environment.map_or(0.0, |e| e.texel_radiance() as f32),
         sample,
         tile_entries: band.room.tiles.entries(),
-        pad: 0,
+        record_segments: band.room.tiles.record_segments(),
     }
 }
 

@@ -64,7 +64,7 @@ shared! {
         environment_texel_radiance: f32,
         sample: u32,
         tile_entries: u32,
-        pad: u32,
+        record_segments: u32,
     }
     /// A corner of a triangle.
     Vertex {

@@ -266,9 +266,7 @@ impl Renderer {
         sample: u32,
         samples: u32,
     ) -> Result<(), Error> {
-        canvas
-            .make_room(&self.layouts, uploaded.passes.needs())
-            .await?;
+        canvas.make_room(&self.layouts, uploaded.needs()).await?;
         canvas.begin(band, sample);
         let size_px = canvas.size_px();
         self.submit(
@@ -349,7 +347,7 @@ impl Renderer {
             band.film.clear_unfinished(&mut encoder);
         }
         let (frame, timing) = (&self.frame_group, &self.timing);
-        if uploaded.passes.needs().tiles {
+        if uploaded.needs().tiles {
             band.room.tiles.clear(&self.gpu, &mut encoder);
         }
         self.visibility
@@ -402,7 +400,7 @@ impl Renderer {
         width_px: u32,
         rows: u32,
     ) -> Result<(BandRoom, Film), Error> {
-        let needs = uploaded.passes.needs();
+        let needs = uploaded.needs();
         let fits =
             |room: &BandRoom| room.width_px == width_px && room.rows == rows && room.needs == needs;
         if let Some((room, film)) = self.band.take()
@@ -443,10 +441,12 @@ impl ScenePasses {
         }
     }
 
-    fn needs(&self) -> RoomNeeds {
+    /// For what they need a place, with so many straight pieces of scratches.
+    pub fn needs(&self, segments: u32) -> RoomNeeds {
+        let has_records = self.tiles.as_ref().is_some_and(TilesPasses::has_records);
         RoomNeeds {
             tiles: self.tiles.is_some() || self.bundles.is_some(),
-            records: self.tiles.as_ref().is_some_and(TilesPasses::has_records),
+            records: if has_records { segments } else { 0 },
             walks: self.bundles.is_some(),
         }
     }

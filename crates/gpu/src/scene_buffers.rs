@@ -31,6 +31,11 @@ pub(crate) struct SceneBuffers {
 }
 
 impl SceneBuffers {
+    /// Straight pieces of scratches.
+    pub fn segment_count(&self) -> u32 {
+        self.index.tree.segments.len() as u32
+    }
+
     /// Writes what `last` does not have.
     pub async fn upload(
         transfer: &mut Transfer<'_>,

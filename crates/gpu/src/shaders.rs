@@ -150,13 +150,17 @@ modules! {
     SHADE_TILES = "shade_tiles" needs [HIT, GATHER, BUNDLE_FOOTPRINT, SHADE_POINT, TILE_QUEUES, TILE_NEAR];
     /// The plane that a tile's pixels see.
     TILE_PLANE = "tile_plane" needs [SURFACE];
-    /// What the pixels of a tile need to know of a scratch.
-    TILE_RECORD = "tile_record" needs [TILE, TILE_PLANE];
-    /// Pass: the records of the scratches of each tile.
-    TILE_RECORDS = "tile_records" needs [GATHER, CAMERA, TILE_RECORD, TILE_QUEUES, SEGMENT_SEEN];
+    /// What pixels need to know of a part of a scratch.
+    SCRATCH_RECORD = "scratch_record" needs [];
+    /// Where records of parts of scratches lie, and which are wanted.
+    RECORD_QUEUE = "record_queue" needs [TILE_QUEUES, SCRATCH_RECORD];
+    /// Pass: a place for the records of each straight piece.
+    RECORD_PLACES = "record_places" needs [SEGMENTS, ROWS, WALK, RECORD_QUEUE, SEGMENT_SEEN];
+    /// Pass: the records of parts of scratches.
+    SCRATCH_RECORDS = "scratch_records" needs [GATHER, CAMERA, TILE_PLANE, RECORD_QUEUE, SEGMENT_SEEN];
     /// Pass: from what is visible to radiance, in tiles whose scratches have records.
     SHADE_TILE_SCRATCHES = "shade_tile_scratches" needs [
-        HIT, GATHER, TILE_RECORD, BUNDLE_FOOTPRINT, SHADE_POINT, TILE_QUEUES, TILE_NEAR
+        HIT, GATHER, RECORD_QUEUE, BUNDLE_FOOTPRINT, SHADE_POINT, TILE_NEAR
     ];
     /// Pass: which tiles have pixels whose footprints cover many scratches.
     BUNDLE_TILES = "bundle_tiles" needs [HIT, BUNDLE_FOOTPRINT, TILE_QUEUES, SHADE_POINT];
@@ -167,7 +171,7 @@ modules! {
     /// Pass: tiles that show no object.
     BACKGROUND = "background" needs [SHADE_POINT, TILE_QUEUES];
     /// Pass: the scratches that each tile of pixels may see.
-    TILES = "tiles" needs [HIT, FIND, BUNDLE_FOOTPRINT, TILE_PLANE, TILE_QUEUES, TILE_NEAR, SEGMENT_SEEN];
+    TILES = "tiles" needs [HIT, FIND, BUNDLE_FOOTPRINT, TILE_PLANE, RECORD_QUEUE, TILE_NEAR, SEGMENT_SEEN];
     /// Pass: from what is visible to radiance by the method of 2018.
     SHADE_PUBLISHED = "shade_published" needs [HIT, PUBLISHED_GATHER, PUBLISHED_BASE, SHADE_POINT];
     /// Pass: the film on a display.

@@ -20,12 +20,17 @@ const TEXELS_MAX: u32 = 1 << 24;
 const TILE_ENTRIES_MAX: u32 = 512;
 
 /// What an indirect dispatch reads for each queue. Twin: tile_queues.wgsl.
-const COUNTS: [u32; 12] = [0, 1, 1, 0, 1, 1, 0, 1, 1, 0, TILE_PX * TILE_PX, 1];
-const QUEUES: u32 = COUNTS.len() as u32 / 3;
+const COUNTS: [u32; 15] = [0, 1, 1, 0, 1, 1, 0, 1, 1, 0, TILE_PX * TILE_PX, 1, 0, 1, 1];
+/// Those that hold tiles.
+const QUEUES: u32 = 4;
 /// For each tile, a bit for each pixel whose single scratches have been added up.
 const TALLIED_WORDS: u32 = TILE_PX * TILE_PX / 32;
-/// How many records have been given a place.
-const RECORDS_WORDS: u32 = 1;
+/// How many parts of scratches have been given a place; what each tile sees; what each part is of. Twin: record_queue.wgsl.
+const COUNTED_WORDS: u64 = 1;
+const PLANE_WORDS: u32 = 5;
+const PART_WORDS: u32 = 3;
+/// Of the record of a part. Twin: scratch_record.wgsl.
+const RECORD_TEXELS: u32 = 9;
 pub(crate) const COUNTS_BYTES: u64 = size_of_val(&COUNTS) as u64;
 
 /// The queues, in the order of their counts.
@@ -35,19 +40,19 @@ pub(crate) enum Queue {
     Walked,
     Empty,
     Bundled,
+    /// Of parts of scratches.
+    Records,
 }
 
 /// Textures and buffers for the tiles of one film; the least there can be where the method has no use for tiles.
 pub(crate) struct TileRoom {
+    layout: Layout,
+    /// Lists and records.
     pub lists: wgpu::TextureView,
-    /// What pixels need to know of the scratches in the lists, with the lists, where it is wanted.
-    pub records: Option<wgpu::TextureView>,
-    /// Group 3 of the pass that writes it.
-    pub records_group: Option<wgpu::BindGroup>,
     pub queues: wgpu::Buffer,
     /// The queues' counts, where a dispatch may read them while a shader has the queues.
     arguments: wgpu::Buffer,
-    /// Group 3 of the pass that fills the lists.
+    /// Group 3 of the passes that fill the lists.
     pub tiles_group: wgpu::BindGroup,
     /// How many tiles there are; none where there is no room for them.
     pub count: u32,
@@ -70,38 +75,36 @@ impl TileRoom {
             let (needed, allowed) = (count.into(), TILES_MAX.into());
             return Err(gpu.too_large("picture", needed, allowed, "tiles of 8 x 8 pixels"));
         }
-        let lists = table(gpu, "tile lists", count * entries(count), TILE_LISTS_FORMAT).await?;
-        let queue_bytes =
-            COUNTS_BYTES + u64::from((QUEUES + TALLIED_WORDS) * count.max(1) + RECORDS_WORDS) * 4;
+        let limits = gpu.limits();
+        let words_allowed = limits
+            .max_storage_buffer_binding_size
+            .min(limits.max_buffer_size)
+            / 4;
+        let mut layout = Layout::new(count, needs.records);
+        if layout.words() > words_allowed {
+            layout = Layout::new(count, 0);
+        }
+        let lists = table(gpu, "tile lists", layout.texels(), TILE_LISTS_FORMAT).await?;
+        let queue_bytes = COUNTS_BYTES + layout.words() * 4;
         let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST;
         let queues = gpu.buffer("tile queues", queue_bytes, usage).await?;
         let usage = BufferUsages::INDIRECT | BufferUsages::COPY_DST;
         let arguments = gpu.buffer("tile counts", COUNTS_BYTES, usage).await?;
-        let group = |read: &wgpu::TextureView, written: &wgpu::TextureView| {
-            let entries = [
-                (0, wgpu::BindingResource::TextureView(read)),
-                (1, wgpu::BindingResource::TextureView(written)),
-                (3, queues.as_entire_binding()),
-            ]
-            .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource });
-            gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-                label: Some("tiles"),
-                layout: &layouts.tiles,
-                entries: &entries,
-            })
-        };
-        let tiles_group = group(visibility, &lists);
-        let records = if needs.records {
-            Some(table(gpu, "tile records", TEXELS_MAX, TILE_LISTS_FORMAT).await?)
-        } else {
-            None
-        };
-        let records_group = records.as_ref().map(|records| group(&lists, records));
+        let entries = [
+            (0, wgpu::BindingResource::TextureView(visibility)),
+            (1, wgpu::BindingResource::TextureView(&lists)),
+            (3, queues.as_entire_binding()),
+        ]
+        .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource });
+        let tiles_group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("tiles"),
+            layout: &layouts.tiles,
+            entries: &entries,
+        });
         Ok(Self {
+            layout,
             tiles_group,
-            records_group,
             lists,
-            records,
             queues,
             arguments,
             count,
@@ -110,15 +113,21 @@ impl TileRoom {
 
     /// Entries of each tile in the lists.
     pub fn entries(&self) -> u32 {
-        entries(self.count)
+        self.layout.entries
+    }
+
+    /// Straight pieces of scratches that may have records.
+    pub fn record_segments(&self) -> u32 {
+        self.layout.segments
     }
 
     /// Empties the queues, before commands that are submitted later.
     pub fn clear(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder) {
         gpu.queue
             .write_buffer(&self.queues, 0, bytemuck::cast_slice(&COUNTS));
-        let marks = COUNTS_BYTES + u64::from(QUEUES * self.count) * 4;
-        encoder.clear_buffer(&self.queues, marks, None);
+        // A band may have fewer tiles than there is room for: what is counted then lies further ahead.
+        let words = Layout::tile_words(self.count) + COUNTED_WORDS;
+        encoder.clear_buffer(&self.queues, COUNTS_BYTES, Some(words * 4));
     }
 
     /// Has the following dispatches see the queues as they are then.
@@ -132,8 +141,59 @@ impl TileRoom {
     }
 }
 
-fn entries(tiles: u32) -> u32 {
-    (TEXELS_MAX / tiles.max(1)).min(TILE_ENTRIES_MAX)
+/// How much there is of what.
+struct Layout {
+    tiles: u32,
+    /// Of each tile.
+    entries: u32,
+    segments: u32,
+    /// Parts of scratches that can have a record.
+    parts: u32,
+}
+
+impl Layout {
+    /// Records take half of the room, where there are any.
+    fn new(tiles: u32, segments: u32) -> Self {
+        let for_lists = if segments > 0 {
+            TEXELS_MAX / 2
+        } else {
+            TEXELS_MAX
+        };
+        let entries = (for_lists / tiles.max(1)).min(TILE_ENTRIES_MAX);
+        let parts = if segments > 0 {
+            (TEXELS_MAX - tiles * entries) / RECORD_TEXELS
+        } else {
+            0
+        };
+        Self {
+            tiles,
+            entries,
+            segments,
+            parts,
+        }
+    }
+
+    /// Of all queues, without their counts.
+    fn words(&self) -> u64 {
+        let of_records = if self.segments > 0 {
+            COUNTED_WORDS
+                + u64::from(PLANE_WORDS) * u64::from(self.tiles)
+                + u64::from(self.segments)
+                + u64::from(PART_WORDS) * u64::from(self.parts)
+        } else {
+            COUNTED_WORDS
+        };
+        Self::tile_words(self.tiles) + of_records
+    }
+
+    /// Of the tiles' own queues, and of their marks.
+    fn tile_words(tiles: u32) -> u64 {
+        u64::from(QUEUES + TALLIED_WORDS) * u64::from(tiles.max(1))
+    }
+
+    fn texels(&self) -> u32 {
+        self.tiles * self.entries + self.parts * RECORD_TEXELS
+    }
 }
 
 /// A texture of so many texels, row after row, which one pass writes and the next one reads.

@@ -17,13 +17,26 @@ use crate::variant::{ShadeVariant, compute_pipeline};
 
 pub(crate) struct TilesPasses {
     tiles: wgpu::ComputePipeline,
-    /// Where a scratch's light is found for a whole tile.
-    records: Option<wgpu::ComputePipeline>,
+    /// Where a scratch's light is found along it: a place for it, and what it is.
+    records: Option<[wgpu::ComputePipeline; 2]>,
     shade: wgpu::ComputePipeline,
     background: wgpu::ComputePipeline,
 }
 
-const WORKGROUP_TILES: u32 = 64;
+/// Invocations of a workgroup where each is on its own.
+const WORKGROUP: u32 = 64;
+/// Straight pieces that an invocation gives places. Twin: record_places.wgsl.
+const PLACES: u32 = 16;
+/// Each WebGPU device takes so many; invocations that have more to do go round.
+const WORKGROUPS_MAX: u32 = 65_535;
+
+/// What a pass is about.
+enum Work {
+    /// Workgroups for what is in a queue.
+    Queue(Queue),
+    /// An invocation for each of so many.
+    Each(u32),
+}
 
 /// The entry file for tiles that have a list.
 fn shade_of(variant: &ShadeVariant) -> &'static shaders::Module {
@@ -42,8 +55,13 @@ impl TilesPasses {
         };
         Self {
             tiles: pipeline(&shaders::TILES, "tiles", &layouts.tiles),
-            records: (variant.method.light_at == LightAt::Scratches)
-                .then(|| pipeline(&shaders::TILE_RECORDS, "tile_records", &layouts.tiles)),
+            records: (variant.method.light_at == LightAt::Scratches).then(|| {
+                [
+                    (&shaders::RECORD_PLACES, "record_places"),
+                    (&shaders::SCRATCH_RECORDS, "scratch_records"),
+                ]
+                .map(|(module, entry_point)| pipeline(module, entry_point, &layouts.tiles))
+            }),
             shade: pipeline(shade_of(variant), "shade", &layouts.film),
             background: pipeline(&shaders::BACKGROUND, "background", &layouts.film),
         }
@@ -64,29 +82,41 @@ impl TilesPasses {
         timing: &Timing,
     ) {
         let tiles = &band.room.tiles;
-        let mut run = |name, pipeline, group_3: &wgpu::BindGroup, queue: Option<Queue>| {
+        let mut run = |name, pipeline, group_3: &wgpu::BindGroup, work: Work| {
             tiles.count_queues(encoder);
             let mut pass =
                 compute_pass::begin(encoder, name, timing, pipeline, frame, scene, group_3);
-            match queue {
-                Some(queue) => tiles.dispatch(&mut pass, queue),
-                None => pass.dispatch_workgroups(tiles.count.div_ceil(WORKGROUP_TILES), 1, 1),
+            match work {
+                Work::Queue(queue) => tiles.dispatch(&mut pass, queue),
+                Work::Each(count) => {
+                    let workgroups = count.div_ceil(WORKGROUP).min(WORKGROUPS_MAX);
+                    pass.dispatch_workgroups(workgroups, 1, 1);
+                }
             }
         };
-        run("tiles", &self.tiles, &tiles.tiles_group, None);
-        let mut film = &band.film.group;
-        if let (Some(records), Some(group), Some(recorded)) =
-            (&self.records, &tiles.records_group, &band.film.recorded)
-        {
-            run("records", records, group, Some(Queue::Listed));
-            film = recorded;
+        let group = &tiles.tiles_group;
+        // None where there is no room for them.
+        let records = self.records.as_ref();
+        let records = records.filter(|_| tiles.record_segments() > 0);
+        if let Some([places, _]) = records {
+            run(
+                "places",
+                places,
+                group,
+                Work::Each(tiles.record_segments().div_ceil(PLACES)),
+            );
         }
-        run("shade", &self.shade, film, Some(Queue::Listed));
+        run("tiles", &self.tiles, group, Work::Each(tiles.count));
+        if let Some([_, records]) = records {
+            run("records", records, group, Work::Queue(Queue::Records));
+        }
+        let film = &band.film.group;
+        run("shade", &self.shade, film, Work::Queue(Queue::Listed));
         run(
             "background",
             &self.background,
-            &band.film.group,
-            Some(Queue::Empty),
+            film,
+            Work::Queue(Queue::Empty),
         );
     }
 }

@@ -11,6 +11,7 @@ use hairline_scene::{Scene, ScratchTables};
 use crate::bindings::Layouts;
 use crate::device::Gpu;
 use crate::error::Error;
+use crate::film::RoomNeeds;
 use crate::renderer::ScenePasses;
 use crate::scene_buffers::{SceneBuffers, check_size};
 use crate::textures::{SceneTextures, TextureArray};
@@ -77,6 +78,11 @@ impl GpuScene {
             written: transfer.end(),
             device: gpu.device.clone(),
         })
+    }
+
+    /// For what its passes need a place.
+    pub(crate) fn needs(&self) -> RoomNeeds {
+        self.passes.needs(self.buffers.segment_count())
     }
 
     /// What the last upload or update wrote, beside what it copied on the device; nothing about what stayed as it was.

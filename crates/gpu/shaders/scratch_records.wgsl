@@ -1,101 +1,76 @@
-// Pass: the records of the scratches of each tile that has a list of them and sees a plane. Each invocation works out the records of
-// some scratches, then the light at all their stations: loops of their own, so that lanes which run in step do the same work. Where
-// a scratch's light changes faster than stations could tell, the record says that pixels look at it for themselves.
+// Pass: the records of parts of scratches that tiles have asked for. Each invocation works out the records of some parts, then the
+// light at all their stations: loops of their own, so that lanes which run in step do the same work. Where a scratch's light changes
+// faster than stations could tell, the record says that pixels look at it for themselves.
 
-@group(3) @binding(0) var tile_entries: texture_2d<u32>;
-@group(3) @binding(1) var tile_records_out: texture_storage_2d<rgba32uint, write>;
-
-// Invocations that share a tile: so many as a processor runs in step.
-override RECORD_LANES: u32 = 32u;
-// Entries of a list that an invocation works on at once.
-const RECORDS: u32 = 8u;
+@group(3) @binding(1) var scratch_records_out: texture_storage_2d<rgba32uint, write>;
 
 // What may change from one station to the next: of an edge of the light beside the band, in the band's standard deviations; of the
 // band's place in the light, in half the light's extent; of q, in wavelengths over the width; of directions to the environment, rad.
-const STEP_EDGE: f32 = 0.7;
-const STEP_LIGHT: f32 = 0.5;
-const STEP_LOBE: f32 = 0.06;
+const STEP_EDGE: f32 = 1.0;
+const STEP_LIGHT: f32 = 0.35;
+const STEP_LOBE: f32 = 0.12;
 const STEP_ENVIRONMENT: f32 = 0.02;
 // How far the band and q may move for pixels to both sides of a scratch, which all take what its middle sends: in standard
 // deviations, and in wavelengths over the width; for a distance of BESIDE_STD of the window's.
 const BESIDE_EDGE: f32 = 0.1;
 const BESIDE_LOBE: f32 = 0.0015;
 const BESIDE_STD: f32 = 1.5;
-// Pixels see more of a scratch than lies between them: so many standard deviations of their filter.
-const PART_STD: f32 = 2.5;
 // Where less than this share of a step is gone along the whole part, one station does.
 const STEPS_NONE: f32 = 0.05;
 // More than there may be stations.
 const STEPS_MANY: f32 = 100.0;
+// Pixels of tiles that the next part serves see some of this one.
+const RECORD_BEYOND_PX: f32 = 6.0;
+// By how much the surface's depth may change over a part and the pixels about it: so much shares are wrong there.
+const RECORD_DEEPER: f32 = 0.06;
 
-// Stations at which light is to be found.
+// Stations at which light is to be found: those of a part follow one another.
 struct RecordStations {
     count: u32,
-    // The entry, its segment, and the share of that before the station.
-    entries: array<u32, RECORDS * RECORD_STATIONS>,
-    segments: array<u32, RECORDS * RECORD_STATIONS>,
+    // The part, how many stations follow, and the share of the part's piece before the station.
+    parts: array<u32, RECORDS * RECORD_STATIONS>,
+    left: array<u32, RECORDS * RECORD_STATIONS>,
     shares: array<f32, RECORDS * RECORD_STATIONS>,
 }
 
 @compute @workgroup_size(RECORD_LANES)
-fn tile_records(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let tile = queue_tile(QUEUE_LISTED, workgroup.x);
-    let list = tile * frame.tile_entries;
-    let head = textureLoad(tile_entries, row_texel(list), 0);
-    let count = head.x;
-    let plane = plane_from_texels(
-        textureLoad(tile_entries, row_texel(list + 1u), 0),
-        textureLoad(tile_entries, row_texel(list + 2u), 0),
-        textureLoad(tile_entries, row_texel(list + 3u), 0),
-    );
-    let tiles = tile_counts();
-    let own = RECORD_HEAD * tiles.x * tiles.y + head.y / TILE_BLOCK * RECORD_BLOCK_TEXELS;
-    let room = textureDimensions(tile_records_out);
-    let has_room = own + count / TILE_BLOCK * RECORD_BLOCK_TEXELS <= room.x * room.y;
-    if lane == 0u {
-        let said = vec4u(select(RECORDS_NONE, count, has_room), own, 0u, 0u);
-        textureStore(tile_records_out, row_texel(RECORD_HEAD * tile), said);
-        for (var i = 0u; i < PLANE_TEXELS; i += 1u) {
-            textureStore(tile_records_out, row_texel(RECORD_HEAD * tile + 1u + i), plane_texel(plane, i));
-        }
-        if !has_room {
-            queue_move(workgroup.x);
-        }
-    }
-    if !has_room {
-        return;
-    }
-    let middle_px = tile_middle_px(tile_corner(tile));
-    for (var first = lane; first < count; first += RECORDS * RECORD_LANES) {
+fn scratch_records(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let count = record_count();
+    let first = RECORDS * RECORD_LANES * workgroup.x + lane;
+    var stations: RecordStations;
+    for (var i = 0u; i < RECORDS; i += 1u) {
         gather_rounds += 1u;
-        var stations: RecordStations;
-        for (var i = 0u; i < RECORDS; i += 1u) {
-            gather_rounds += 1u;
-            let at = first + i * RECORD_LANES;
-            if at < count {
-                let entry = textureLoad(tile_entries, row_texel(list + tile_head() + at), 0);
-                textureStore(tile_records_out, row_texel(own + record_list_texel(at)), entry);
-                if plane.holds != 0u && entry.x != TILE_NO_SEGMENT {
-                    records_keep(at, entry.x, own + record_texel(at), plane, middle_px, &stations);
-                }
-            }
+        let at = first + i * RECORD_LANES;
+        let of_piece = record_part(min(at, max(count, 1u) - 1u));
+        if at < count && of_piece.tile != 0u {
+            records_keep(at, of_piece, &stations);
         }
-        for (var i = 0u; i < stations.count; i += 1u) {
-            gather_rounds += 1u;
-            let entry = stations.entries[i];
-            let texel = own + record_texel(entry & 0xffffu) + 3u + (entry >> 16u);
-            let radiance = records_find_light(stations.segments[i], stations.shares[i], plane);
-            textureStore(tile_records_out, row_texel(texel), vec4u(bitcast<vec3u>(radiance), 0u));
+    }
+    var before = vec3f(0.0);
+    var number = 0u;
+    for (var i = 0u; i < stations.count; i += 1u) {
+        gather_rounds += 1u;
+        let at = stations.parts[i];
+        let of_piece = record_part(at);
+        let plane = record_plane(of_piece.tile - 1u);
+        let after = records_find_light(of_piece, plane, stations.shares[i]);
+        let is_alone = number == 0u && stations.left[i] == 0u;
+        if number > 0u || is_alone {
+            let texel = record_at(at) + RECORD_HEAD_TEXELS + max(number, 1u) - 1u;
+            let sent = record_station_texel(select(before, after, is_alone), after, plane_key(plane.normal));
+            textureStore(scratch_records_out, row_texel(texel), sent);
         }
+        before = after;
+        number = select(number + 1u, 0u, stations.left[i] == 0u);
     }
 }
 
 // The surface at a point of the plane, as a pixel with its middle there sees it.
-fn records_point(plane: TilePlane, position_m: vec3f) -> SurfacePoint {
+fn records_point(plane: RecordPlane, position_m: vec3f) -> SurfacePoint {
     let to_camera = frame.camera_m - position_m;
     let distance_m = length(to_camera);
     let to_viewer = to_camera / distance_m;
-    let normal = surface_face_viewer(cross(plane.axis_x, plane.axis_y), to_viewer);
+    let normal = surface_face_viewer(plane.normal, to_viewer);
     let cos_view = dot(normal, to_viewer);
     let depth_m = max(-dot(to_camera, frame.forward), frame.near_m);
     let ray = -to_camera / depth_m;
@@ -113,20 +88,9 @@ fn records_point(plane: TilePlane, position_m: vec3f) -> SurfacePoint {
     return point;
 }
 
-// The part of a segment that lies in the tile: shares of its length.
-fn records_part(seen: SegmentSeen, depths_m: vec2f) -> vec2f {
-    let along = seen.end_px - seen.start_px;
-    let per_along = 1.0 / select(along, vec2f(1e-6), abs(along) < vec2f(1e-6));
-    let half = 0.5 * f32(TILE_PX) + PART_STD * frame.footprint_std_px * gather_filtered();
-    let a = (-half - seen.start_px) * per_along;
-    let b = (half - seen.start_px) * per_along;
-    let enters = clamp(max(min(a.x, b.x), min(a.y, b.y)), 0.0, 1.0);
-    let leaves = clamp(min(max(a.x, b.x), max(a.y, b.y)), 0.0, 1.0);
-    // A line that passes by is near to the tile about where it is between being in its rows and in its columns.
-    let part = select(vec2f(0.5 * (enters + leaves)), vec2f(enters, leaves), enters < leaves);
-    // Shares of the picture's line are not those of the segment, whose one end is further away.
-    let shares = part * depths_m.x / mix(vec2f(depths_m.y), vec2f(depths_m.x), part);
-    return select(vec2f(0.0, 1.0), shares, seen.has_line);
+// Shares of a piece's line in the picture as shares of the piece, whose one end is further away.
+fn records_shares(in_picture: vec2f, depths_m: vec2f) -> vec2f {
+    return in_picture * depths_m.x / mix(vec2f(depths_m.y), vec2f(depths_m.x), in_picture);
 }
 
 fn records_tangent(point: SurfacePoint, along_m: vec3f) -> vec2f {
@@ -201,46 +165,40 @@ fn records_light(point: SurfacePoint, view: GatherPixel, lit: LitSegment) -> vec
     return radiance;
 }
 
-
-// Works out the record of a segment, but for its light, and asks for that.
-fn records_keep(
-    entry: u32,
-    index: u32,
-    texel: u32,
-    plane: TilePlane,
-    middle_px: vec2f,
-    wanted: ptr<function, RecordStations>,
-) {
-    let segment = segment_at(index);
+// Works out the record of a part but for its light, and asks for that.
+fn records_keep(at: u32, of_piece: ScratchPart, wanted: ptr<function, RecordStations>) {
+    let segment = segment_at(of_piece.segment);
+    let plane = record_plane(of_piece.tile - 1u);
     let along_m = segment.end_m - segment.start_m;
-    let depths_m = max(
-        vec2f(dot(segment.start_m - frame.camera_m, frame.forward), dot(segment.end_m - frame.camera_m, frame.forward)),
-        vec2f(frame.near_m),
+    let depths_m = vec2f(
+        dot(segment.start_m - frame.camera_m, frame.forward),
+        dot(segment.end_m - frame.camera_m, frame.forward),
     );
-    let part = records_part(segment_seen(segment.start_m, segment.end_m, middle_px), depths_m);
-    let point = records_point(plane, segment.start_m + along_m * (0.5 * (part.x + part.y)));
+    let seen = segment_seen(segment.start_m, segment.end_m, vec2f(0.0));
+    let line_px = seen.end_px - seen.start_px;
+    let length_px = length(line_px);
+    // The part that has stations, and its middle: shares of the line in the picture.
+    let beyond = RECORD_BEYOND_PX / length_px;
+    let range = vec2f(vec2u(of_piece.part, of_piece.part + 1u)) / f32(of_piece.parts);
+    let part = clamp(range + vec2f(-beyond, beyond), vec2f(0.0), vec2f(1.0));
+    let middle = 0.5 * (part.x + part.y);
+    let shares = records_shares(part, depths_m);
+    let start_m = segment.start_m + along_m * shares.x;
+    let end_m = segment.start_m + along_m * shares.y;
+    let point = records_point(plane, segment.start_m + along_m * records_shares(vec2f(middle), depths_m).x);
     let view = gather_pixel(point);
     let tangent = records_tangent(point, along_m);
 
-    // On the plane.
-    let start_um = plane_from_world(plane, segment.start_m);
-    let end_um = plane_from_world(plane, segment.end_m);
-    let chord_um = end_um - start_um;
-    let length_um = length(chord_um);
-    let t = chord_um / max(length_um, 1e-9);
-    let n = vec2f(-t.y, t.x);
     let footprint = gather_footprint(view, tangent);
     let variance = footprint.across_um2 + view.window_um2;
     let slant = footprint.cross_um2 / variance;
     let along_variance = footprint.along_um2 - footprint.cross_um2 * slant + segment.blur_um * segment.blur_um;
     let per_z = 1.0 / max(sqrt(2.0 * max(along_variance, 0.0)), 1e-6);
     let per_across = inverseSqrt(2.0 * variance);
-    let offset_um = dot(n, 0.5 * (start_um + end_um));
-    let first_um = part.x * length_um;
-    let shows = length_um > 0.0 && dot(segment.normal, point.normal) >= FACING_MIN_COS;
+    let shows = length_px > 0.0 && dot(segment.normal, point.normal) >= FACING_MIN_COS;
 
-    let half_m = surface_from_world(point, along_m * (0.5 * (part.y - part.x)));
     let lit = gather_lit(segment.width_depth, tangent, 0.0);
+    let half_m = surface_from_world(point, 0.5 * (end_m - start_m));
     var steps = 0.0;
     if HAS_SPHERES || HAS_POLYGONS {
         for (var l = 0u; l < frame.light_count; l += 1u) {
@@ -255,41 +213,64 @@ fn records_keep(
     if shows && steps > 0.0 {
         stations = select(1u, 1u + u32(ceil(min(steps, STEPS_MANY))), steps > STEPS_NONE);
     }
-    if stations > RECORD_STATIONS {
-        textureStore(tile_records_out, row_texel(texel), vec4u(0u, 0u, 0u, bitcast<u32>(RECORD_LEFT)));
-        return;
-    }
-    if stations == 0u {
-        textureStore(tile_records_out, row_texel(texel + 3u), vec4u(0u));
-    }
+
+    // A pixel to the right and down, on the plane.
+    let to_camera = frame.camera_m - point.position_m;
+    let depth_m = max(-dot(to_camera, frame.forward), frame.near_m);
+    let ray = -to_camera / depth_m;
+    let x_m = footprint_axis(ray, depth_m, point.normal, frame.per_px_x);
+    let y_m = footprint_axis(ray, depth_m, point.normal, frame.per_px_y);
+    let x_um = 1e6 * surface_from_world(point, x_m).xy;
+    let y_um = 1e6 * surface_from_world(point, y_m).xy;
+    let n = vec2f(-tangent.y, tangent.x);
+    // How far along the scratch lies what a pixel sees of it: a slanted footprint moves it.
+    let t = tangent - slant * n;
+    // The line in the picture is where the distance across is nothing, to the last digit.
+    let across_um = dot(vec2f(dot(n, x_um), dot(n, y_um)), seen.normal);
+    let along_um = vec2f(dot(t, x_um), dot(t, y_um));
+    let um_per_px = dot(along_um, line_px) / length_px;
     let last = f32(max(stations, 1u) - 1u);
+    let stations_per_px = last / max((part.y - part.x) * length_px, 1e-6);
+    // One station: places count in pixels.
+    let per_px = select(stations_per_px, 1.0, last == 0.0);
+    let per_um = per_px / um_per_px;
+    let deeper = length(vec2f(dot(x_m, frame.forward), dot(y_m, frame.forward))) / depth_m;
+    let apart_px = 0.5 * (part.y - part.x) * length_px + f32(TILE_PX);
+    let serves = stations <= RECORD_STATIONS && deeper * apart_px <= RECORD_DEEPER && um_per_px > 0.0;
     // W / sqrt(2 pi V), by halves.
-    let on_line = 0.5 * segment.width_um * per_across * 0.56418958;
+    let half_line = 0.5 * segment.width_um * per_across * 0.56418958;
     let depth_nm = oblique_depth_nm(segment.depth_nm, point.wo.z, point.wo.z);
     let record = Record(
-        vec4f(vec3f(offset_um, -n) * per_across, select(0.0, on_line, shows)),
-        // How far along the scratch lies what a pixel sees of it: a slanted footprint moves it.
-        vec4f(vec3f(slant * offset_um - dot(t, start_um) - first_um, t - slant * n) * per_z, -first_um * per_z),
-        (length_um - first_um) * per_z,
-        last / max((part.y - part.x) * length_um * per_z, 1e-6),
+        seen.start_px + middle * line_px,
         last,
+        select(-1.0, select(0.0, half_line, shows), serves),
+        seen.normal * across_um * per_across,
+        along_um * per_um,
+        0.5 * last + (vec2f(0.0, 1.0) - middle) * length_px * per_px,
+        per_z / per_um,
         scratch_table_total(scratch_tables, point.table, depth_nm),
     );
-    textureStore(tile_records_out, row_texel(texel), bitcast<vec4u>(record.across));
-    textureStore(tile_records_out, row_texel(texel + 1u), bitcast<vec4u>(record.along));
-    textureStore(tile_records_out, row_texel(texel + 2u), record_rest(record));
+    for (var i = 0u; i < RECORD_HEAD_TEXELS; i += 1u) {
+        textureStore(scratch_records_out, row_texel(record_at(at) + i), record_texel(record, i));
+    }
+    if !serves || stations == 0u {
+        let nothing = record_station_texel(vec3f(0.0), vec3f(0.0), plane_key(plane.normal));
+        textureStore(scratch_records_out, row_texel(record_at(at) + RECORD_HEAD_TEXELS), nothing);
+        return;
+    }
     for (var i = 0u; i < stations; i += 1u) {
-        let at = (*wanted).count;
-        (*wanted).entries[at] = entry | (i << 16u);
-        (*wanted).segments[at] = index;
-        (*wanted).shares[at] = mix(part.x, part.y, select(f32(i) / max(last, 1.0), 0.5, stations == 1u));
-        (*wanted).count = at + 1u;
+        let place = (*wanted).count;
+        let in_picture = mix(part.x, part.y, select(f32(i) / max(last, 1.0), 0.5, stations == 1u));
+        (*wanted).parts[place] = at;
+        (*wanted).left[place] = stations - 1u - i;
+        (*wanted).shares[place] = records_shares(vec2f(in_picture), depths_m).x;
+        (*wanted).count = place + 1u;
     }
 }
 
-// Finds what of a segment's light reaches the viewer from a place on it.
-fn records_find_light(index: u32, share: f32, plane: TilePlane) -> vec3f {
-    let segment = segment_at(index);
+// Finds what of a scratch's light reaches the viewer from a place on a piece.
+fn records_find_light(of_piece: ScratchPart, plane: RecordPlane, share: f32) -> vec3f {
+    let segment = segment_at(of_piece.segment);
     let along_m = segment.end_m - segment.start_m;
     let point = records_point(plane, segment.start_m + along_m * share);
     let lit = gather_lit(segment.width_depth, records_tangent(point, along_m), 0.0);
