@@ -19,7 +19,7 @@ struct Frame {
     environment_sh: array<vec4f, 9>,    // irradiance; xyz are the channels
     environment_texel_radiance: f32,    // radiance of a texel (or coefficient) of value 1
     sample: u32,                // counted from 0
-    tile_entries: u32,          // room of a tile in the lists
+    tile_chunks: u32,           // of the lists of all tiles
     record_segments: u32,       // straight pieces of scratches that may have records
 }
 

@@ -23,7 +23,7 @@ struct ScratchPart {
 
 fn record_counted() -> u32 {
     let tiles = tile_counts();
-    return (QUEUES + 2u) * tiles.x * tiles.y;
+    return (QUEUES + 2u) * tiles.x * tiles.y + 1u;
 }
 
 fn record_plane_word(tile: u32) -> u32 {
@@ -70,8 +70,7 @@ fn record_plane(tile: u32) -> RecordPlane {
 
 // The texel of a part's record, behind all lists.
 fn record_at(number: u32) -> u32 {
-    let tiles = tile_counts();
-    return tiles.x * tiles.y * frame.tile_entries + RECORD_TEXELS * number;
+    return tile_chunk_texel(frame.tile_chunks) + RECORD_TEXELS * number;
 }
 
 // How many parts there are.

@@ -9,10 +9,9 @@ fn shade(
     @builtin(local_invocation_id) local: vec3u,
 ) {
     let tile = queue_tile(QUEUE_LISTED, workgroup.x);
-    let list = tile * frame.tile_entries;
-    let head = textureLoad(tile_lists, row_texel(list), 0);
+    let head = textureLoad(tile_lists, row_texel(tile), 0);
     let count = head.x;
-    let plane_key = head.y;
+    let plane_key = head.z;
     let in_film = tile_corner(tile) + local.xy;
     let pixel = in_film + vec2u(0u, frame.rows.x);
     let inside = pixel.x < frame.size_px.x && pixel.y < frame.rows.y;
@@ -34,11 +33,14 @@ fn shade(
     var overflows = false;
     // A walk may be left where a device ends long loops; this is not.
     let room = min(GATHER_SEGMENTS, GATHER_MAX_ROUNDS / gather_rounds_a_segment());
-    for (var first = 0u; first < count; first += 64u) {
+    var chunk = head.y;
+    for (var first = 0u; first < count; first += TILE_CHUNK) {
+        let list = tile_chunk_texel(chunk);
+        chunk = textureLoad(tile_lists, row_texel(list + TILE_CHUNK), 0).x;
         var near = vec2u(0u);
         for (var i = 0u; i < 4u; i += 1u) {
-            let low = tile_bits_near(list, count, first + TILE_BLOCK * i, local.xy);
-            let high = tile_bits_near(list, count, first + TILE_BLOCK * (4u + i), local.xy);
+            let low = tile_bits_near(list, count - first, TILE_BLOCK * i, local.xy);
+            let high = tile_bits_near(list, count - first, TILE_BLOCK * (4u + i), local.xy);
             near |= vec2u(low, high) << vec2u(TILE_BLOCK * i);
         }
         near = select(vec2u(0u), near, alone);
@@ -49,7 +51,7 @@ fn shade(
             for (var i = 0u; i < adds; i += 1u) {
                 gather_rounds += 1u;
                 let bit = bits_take(&near);
-                let entry = textureLoad(tile_lists, row_texel(list + TILE_HEAD + first + bit), 0);
+                let entry = textureLoad(tile_lists, row_texel(list + bit), 0);
                 if !record_add(entry.w, at_px, plane_key, view.single_share, &sums) {
                     left |= select(vec2u(1u << bit, 0u), vec2u(0u, 1u << (bit % 32u)), bit >= 32u);
                 }
@@ -60,7 +62,7 @@ fn shade(
         let wanted = select(touching, 0u, overflows);
         for (var i = 0u; i < wanted; i += 1u) {
             gather_rounds += 1u;
-            let segment = textureLoad(tile_lists, row_texel(list + TILE_HEAD + first + bits_take(&left)), 0).x;
+            let segment = textureLoad(tile_lists, row_texel(list + bits_take(&left)), 0).x;
             gather_weigh(point, view, segment, &batch, &sums);
         }
     }
@@ -82,7 +84,7 @@ fn shade(
 
 // Which segments of a block a pixel of the tile is near to, a bit for each.
 fn tile_bits_near(list: u32, count: u32, block: u32, in_tile: vec2u) -> u32 {
-    let row = textureLoad(tile_lists, row_texel(list + TILE_HEAD + block + in_tile.y), 0).yz;
+    let row = textureLoad(tile_lists, row_texel(list + block + in_tile.y), 0).yz;
     return select(0u, tile_row_bits(row, in_tile.x), block < count);
 }
 

@@ -9,8 +9,8 @@ fn shade(
     @builtin(local_invocation_id) local: vec3u,
 ) {
     let tile = queue_tile(QUEUE_LISTED, workgroup.x);
-    let list = tile * frame.tile_entries;
-    let count = textureLoad(tile_lists, row_texel(list), 0).x;
+    let head = textureLoad(tile_lists, row_texel(tile), 0);
+    let count = head.x;
     let in_film = tile_corner(tile) + local.xy;
     let pixel = in_film + vec2u(0u, frame.rows.x);
     let inside = pixel.x < frame.size_px.x && pixel.y < frame.rows.y;
@@ -31,12 +31,15 @@ fn shade(
     var overflows = false;
     // A walk may be left where a device ends long loops; this is not.
     let room = min(GATHER_SEGMENTS, GATHER_MAX_ROUNDS / gather_rounds_a_segment());
-    for (var first = 0u; first < count; first += 64u) {
+    var chunk = head.y;
+    for (var first = 0u; first < count; first += TILE_CHUNK) {
+        let list = tile_chunk_texel(chunk);
+        chunk = textureLoad(tile_lists, row_texel(list + TILE_CHUNK), 0).x;
         var low = 0u;
         var high = 0u;
         for (var i = 0u; i < 4u; i += 1u) {
-            low |= tile_bits_near(list, count, first + TILE_BLOCK * i, local.xy) << (TILE_BLOCK * i);
-            high |= tile_bits_near(list, count, first + TILE_BLOCK * (4u + i), local.xy) << (TILE_BLOCK * i);
+            low |= tile_bits_near(list, count - first, TILE_BLOCK * i, local.xy) << (TILE_BLOCK * i);
+            high |= tile_bits_near(list, count - first, TILE_BLOCK * (4u + i), local.xy) << (TILE_BLOCK * i);
         }
         let touching = select(0u, countOneBits(low) + countOneBits(high), alone);
         overflows = overflows || batch.count + touching > room;
@@ -46,7 +49,7 @@ fn shade(
             let bit = select(firstTrailingBit(low), 32u + firstTrailingBit(high), low == 0u);
             high = select(high, high & (high - 1u), low == 0u);
             low = low & (max(low, 1u) - 1u);
-            let segment = textureLoad(tile_lists, row_texel(list + TILE_HEAD + first + bit), 0).x;
+            let segment = textureLoad(tile_lists, row_texel(list + bit), 0).x;
             gather_weigh(point, view, segment, &batch, &sums);
         }
     }
@@ -68,6 +71,6 @@ fn shade(
 
 // Which segments of a block a pixel of the tile is near to, a bit for each.
 fn tile_bits_near(list: u32, count: u32, block: u32, in_tile: vec2u) -> u32 {
-    let row = textureLoad(tile_lists, row_texel(list + TILE_HEAD + block + in_tile.y), 0).yz;
+    let row = textureLoad(tile_lists, row_texel(list + block + in_tile.y), 0).yz;
     return select(0u, tile_row_bits(row, in_tile.x), block < count);
 }

@@ -7,8 +7,16 @@ const TILE_PX: u32 = 8u;
 // Where light is looked for along scratches, the last word has the place of the record that serves the tile.
 const TILE_BLOCK: u32 = 8u;
 
-// Texels of a tile before its list: how many entries it has, and the key of the plane that its pixels see, where it is asked for.
-const TILE_HEAD: u32 = 1u;
+// A list is a chain of chunks of so many entries, from a pool that all tiles share. The texel after a chunk's entries has the number of
+// the next one. Before the pool there is a texel for each tile: how many entries its list has, where it begins, and the key of the
+// plane that its pixels see, where that is asked for. Twin: src/tile_room.rs.
+const TILE_CHUNK: u32 = 64u;
+
+// The first texel of a chunk.
+fn tile_chunk_texel(chunk: u32) -> u32 {
+    let tiles = tile_counts();
+    return tiles.x * tiles.y + (TILE_CHUNK + 1u) * chunk;
+}
 
 // Tiles across the film, and down it.
 fn tile_counts() -> vec2u {

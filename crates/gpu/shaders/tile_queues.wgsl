@@ -35,6 +35,12 @@ fn queue_tile(queue: u32, place: u32) -> u32 {
     return atomicLoad(&queues.tiles[queue * tiles.x * tiles.y + place]) & ~QUEUE_MOVED;
 }
 
+// Takes a chunk for a list; one that there is no room for is beyond frame.tile_chunks. They are counted behind the marks.
+fn queue_take_chunk() -> u32 {
+    let tiles = tile_counts();
+    return atomicAdd(&queues.tiles[(QUEUES + 2u) * tiles.x * tiles.y], 1u);
+}
+
 // Marks a pixel of a tile whose single scratches have been added up: no list is for it. `place` counts row by row.
 fn queue_mark_tallied(tile: u32, place: u32) {
     let tiles = tile_counts();

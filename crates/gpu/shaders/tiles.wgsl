@@ -36,8 +36,9 @@ fn tiles(
     }
     let corner = tile_corner(tile);
     let sight = tile_sight(corner, tile);
-    let first = tile * frame.tile_entries;
     var found = 0u;
+    var first_chunk = 0u;
+    var chunk = 0u;
     var at = 0u;
     var end = 0u;
     if sight.object != 0u {
@@ -49,7 +50,7 @@ fn tiles(
     var segments: array<u32, FIND_SEGMENTS>;
     var pixels: array<vec2u, FIND_SEGMENTS>;
     var records: array<u32, FIND_SEGMENTS>;
-    while at < end && found + TILE_HEAD + FIND_SEGMENTS <= frame.tile_entries && gather_rounds < GATHER_MAX_ROUNDS {
+    while at < end && chunk < frame.tile_chunks && gather_rounds < GATHER_MAX_ROUNDS {
         let count = find_segments(sight.lower_m, sight.upper_m, end, FIND_SEGMENTS, &at, &segments);
         var kept = 0u;
         for (var i = 0u; i < count; i += 1u) {
@@ -67,8 +68,20 @@ fn tiles(
         }
         for (var i = 0u; i < kept; i += TILE_BLOCK) {
             gather_rounds += 1u;
-            tile_write_block(first + TILE_HEAD + found, i, kept, &segments, &pixels, &records);
-            found += TILE_BLOCK;
+            if found % TILE_CHUNK == 0u && chunk < frame.tile_chunks {
+                let next = queue_take_chunk();
+                if found == 0u {
+                    first_chunk = next;
+                } else {
+                    textureStore(tile_lists_out, row_texel(tile_chunk_texel(chunk) + TILE_CHUNK), vec4u(next, 0u, 0u, 0u));
+                }
+                chunk = next;
+            }
+            if chunk < frame.tile_chunks {
+                let texel = tile_chunk_texel(chunk) + found % TILE_CHUNK;
+                tile_write_block(texel, i, kept, &segments, &pixels, &records);
+                found += TILE_BLOCK;
+            }
         }
     }
     var key = 0u;
@@ -78,10 +91,10 @@ fn tiles(
         }
         key = select(0u, plane_key(sight.plane.normal), sight.plane.holds);
     }
-    textureStore(tile_lists_out, row_texel(first), vec4u(found, key, 0u, 0u));
+    textureStore(tile_lists_out, row_texel(tile), vec4u(found, first_chunk, key, 0u));
     if sight.object == 0u {
         queue_push(QUEUE_EMPTY, tile);
-    } else if sight.one_object && at >= end {
+    } else if sight.one_object && at >= end && chunk < frame.tile_chunks {
         queue_push(QUEUE_LISTED, tile);
     } else {
         queue_push(QUEUE_WALKED, tile);

@@ -41,7 +41,7 @@ pub(crate) fn frame(
         environment_sh: environment.map_or_else(Default::default, environment_sh),
         environment_texel_radiance: environment.map_or(0.0, |e| e.texel_radiance() as f32),
         sample,
-        tile_entries: band.room.tiles.entries(),
+        tile_chunks: band.room.tiles.chunks(),
         record_segments: band.room.tiles.record_segments(),
     }
 }

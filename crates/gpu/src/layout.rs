@@ -63,7 +63,7 @@ shared! {
         environment_sh: [[f32; 4]; 9],
         environment_texel_radiance: f32,
         sample: u32,
-        tile_entries: u32,
+        tile_chunks: u32,
         record_segments: u32,
     }
     /// A corner of a triangle.

@@ -34,18 +34,18 @@ fn pass_of(variant: &ShadeVariant) -> &'static shaders::Module {
 impl ShadePass {
     /// For the tiles whose pixels walk if `queued`, else for all pixels.
     pub fn new(gpu: &Gpu, layouts: &Layouts, variant: &ShadeVariant, queued: bool) -> Self {
-        let constants = |text: &str| {
-            let mut constants = variant.constants(gpu, text);
-            if text.contains("override SHADE_QUEUED:") {
-                constants.push(("SHADE_QUEUED", queued.into()));
-            }
-            constants
-        };
         let module = pass_of(variant);
         Self {
             bounded: is_bounded(gpu),
             queued,
-            pipeline: compute_pipeline(gpu, layouts, module, "shade", &layouts.film, constants),
+            pipeline: compute_pipeline(
+                gpu,
+                layouts,
+                variant,
+                (module, "shade"),
+                &layouts.film,
+                &[("SHADE_QUEUED", queued.into())],
+            ),
         }
     }
 

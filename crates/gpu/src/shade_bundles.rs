@@ -13,7 +13,7 @@ use crate::shaders;
 use crate::tile_room::{Queue, TILE_PX};
 use crate::timing::Timing;
 use crate::upload::GpuScene;
-use crate::variant::{ShadeVariant, compute_pipeline, is_bounded};
+use crate::variant::{Constant, ShadeVariant, compute_pipeline, is_bounded};
 
 pub(crate) struct BundlesPasses {
     find: wgpu::ComputePipeline,
@@ -29,12 +29,9 @@ const SOFTWARE_LANES: u32 = 8;
 
 impl BundlesPasses {
     pub fn new(gpu: &Gpu, layouts: &Layouts, variant: &ShadeVariant) -> Self {
-        let pipeline = |module: &'static shaders::Module, more: &[(&'static str, f64)]| {
-            compute_pipeline(gpu, layouts, module, module.name, &layouts.film, |text| {
-                let mut constants = variant.constants(gpu, text);
-                constants.extend(more);
-                constants
-            })
+        let pipeline = |module: &'static shaders::Module, more: &[Constant]| {
+            let entry = (module, module.name);
+            compute_pipeline(gpu, layouts, variant, entry, &layouts.film, more)
         };
         let bounded = is_bounded(gpu);
         let many = ("LIGHTS_MANY", 1.0);

@@ -16,8 +16,10 @@ pub(crate) const TILE_PX: u32 = 8;
 pub(crate) const TILES_MAX: u32 = 65_535;
 /// Texels of all lists together: 256 MiB, and no more rows than every WebGPU device has.
 const TEXELS_MAX: u32 = 1 << 24;
-/// Room of a tile: more scratches than a footprint of usual wear holds. What does not fit is found pixel by pixel.
-const TILE_ENTRIES_MAX: u32 = 512;
+/// Texels of a chunk of a list: its entries, and where the next one is. Twin: tile.wgsl.
+const CHUNK_TEXELS: u32 = 64 + 1;
+/// Chunks for each tile, in the mean: more scratches than footprints of usual wear hold. What does not fit is found pixel by pixel.
+const TILE_CHUNKS_MEAN: u32 = 8;
 
 /// What an indirect dispatch reads for each queue. Twin: tile_queues.wgsl.
 const COUNTS: [u32; 15] = [0, 1, 1, 0, 1, 1, 0, 1, 1, 0, TILE_PX * TILE_PX, 1, 0, 1, 1];
@@ -25,8 +27,9 @@ const COUNTS: [u32; 15] = [0, 1, 1, 0, 1, 1, 0, 1, 1, 0, TILE_PX * TILE_PX, 1, 0
 const QUEUES: u32 = 4;
 /// For each tile, a bit for each pixel whose single scratches have been added up.
 const TALLIED_WORDS: u32 = TILE_PX * TILE_PX / 32;
-/// How many parts of scratches have been given a place; what each tile sees; what each part is of. Twin: record_queue.wgsl.
-const COUNTED_WORDS: u64 = 1;
+/// How many chunks of lists and parts of scratches have been given a place. Twin: tile_queues.wgsl, record_queue.wgsl.
+const COUNTED_WORDS: u64 = 2;
+/// What each tile sees; what each part is of. Twin: record_queue.wgsl.
 const PLANE_WORDS: u32 = 5;
 const PART_WORDS: u32 = 3;
 /// Of the record of a part. Twin: scratch_record.wgsl.
@@ -111,9 +114,9 @@ impl TileRoom {
         })
     }
 
-    /// Entries of each tile in the lists.
-    pub fn entries(&self) -> u32 {
-        self.layout.entries
+    /// Chunks of the lists of all tiles.
+    pub fn chunks(&self) -> u32 {
+        self.layout.chunks
     }
 
     /// Straight pieces of scratches that may have records.
@@ -144,8 +147,8 @@ impl TileRoom {
 /// How much there is of what.
 struct Layout {
     tiles: u32,
-    /// Of each tile.
-    entries: u32,
+    /// Of all lists.
+    chunks: u32,
     segments: u32,
     /// Parts of scratches that can have a record.
     parts: u32,
@@ -159,15 +162,15 @@ impl Layout {
         } else {
             TEXELS_MAX
         };
-        let entries = (for_lists / tiles.max(1)).min(TILE_ENTRIES_MAX);
+        let chunks = ((for_lists - tiles) / CHUNK_TEXELS).min(tiles * TILE_CHUNKS_MEAN);
         let parts = if segments > 0 {
-            (TEXELS_MAX - tiles * entries) / RECORD_TEXELS
+            (TEXELS_MAX - tiles - chunks * CHUNK_TEXELS) / RECORD_TEXELS
         } else {
             0
         };
         Self {
             tiles,
-            entries,
+            chunks,
             segments,
             parts,
         }
@@ -192,7 +195,7 @@ impl Layout {
     }
 
     fn texels(&self) -> u32 {
-        self.tiles * self.entries + self.parts * RECORD_TEXELS
+        self.tiles + self.chunks * CHUNK_TEXELS + self.parts * RECORD_TEXELS
     }
 }
 

@@ -13,7 +13,7 @@ use crate::shaders;
 use crate::tile_room::Queue;
 use crate::timing::Timing;
 use crate::upload::GpuScene;
-use crate::variant::{ShadeVariant, compute_pipeline};
+use crate::variant::{SOFTWARE_MAX_TILE_ROUNDS, ShadeVariant, compute_pipeline, is_bounded};
 
 pub(crate) struct TilesPasses {
     tiles: wgpu::ComputePipeline,
@@ -49,9 +49,10 @@ fn shade_of(variant: &ShadeVariant) -> &'static shaders::Module {
 impl TilesPasses {
     pub fn new(gpu: &Gpu, layouts: &Layouts, variant: &ShadeVariant) -> Self {
         let pipeline = |module: &'static shaders::Module, entry_point, group_3| {
-            compute_pipeline(gpu, layouts, module, entry_point, group_3, |text| {
-                variant.constants(gpu, text)
-            })
+            let of_tiles = [("GATHER_MAX_ROUNDS", SOFTWARE_MAX_TILE_ROUNDS)];
+            let is_walk = is_bounded(gpu) && entry_point == "tiles";
+            let more: &[_] = if is_walk { &of_tiles } else { &[] };
+            compute_pipeline(gpu, layouts, variant, (module, entry_point), group_3, more)
         };
         Self {
             tiles: pipeline(&shaders::TILES, "tiles", &layouts.tiles),

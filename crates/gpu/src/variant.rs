@@ -24,6 +24,8 @@ pub(crate) struct ShadeVariant {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct Contents {
     pub scratches: bool,
+    /// So many that hundreds may lie under one pixel.
+    pub many_scratches: bool,
     pub spheres: bool,
     pub polygons: bool,
     pub large_polygons: bool,
@@ -32,14 +34,19 @@ pub(crate) struct Contents {
     pub textures: bool,
 }
 
+/// Up to so many straight pieces of scratches the few pixels that see more of them than a small batch holds walk.
+const FEW_PIECES: usize = 1 << 18;
+
 /// Up to so many lights a pixel looks at one after the other, with all scratches under it.
 const FEW_LIGHTS: usize = 4;
 
 impl Contents {
     pub fn of(scene: &Scene) -> Self {
         let has = |wanted: fn(&Light) -> bool| scene.lights.iter().any(wanted);
+        let pieces: usize = scene.objects.iter().map(|o| o.segments.len()).sum();
         Self {
-            scratches: scene.objects.iter().any(|o| !o.segments.is_empty()),
+            scratches: pieces > 0,
+            many_scratches: pieces > FEW_PIECES,
             spheres: has(|light| matches!(light, Light::Sphere { .. })),
             polygons: has(|light| matches!(light, Light::Polygon { .. })),
             large_polygons: has(
@@ -55,6 +62,8 @@ impl Contents {
 /// A software driver (lavapipe) ends loops silently after 65,536 rounds, counted over the 8 pixels that it runs in step: the
 /// walk over the scratches stops well before and goes on in another dispatch.
 const SOFTWARE_MAX_ROUNDS: f64 = 5_000.0;
+/// The walks of tiles do not go on: what they have not found by then is left to pixels. They count each of their rounds.
+pub(crate) const SOFTWARE_MAX_TILE_ROUNDS: f64 = 7_000.0;
 
 /// Into how many strides a software driver's dispatch is cut. More than its threads, so that each has several.
 const SOFTWARE_STRIDE: u32 = 64;
@@ -135,35 +144,59 @@ pub(crate) fn is_bounded(gpu: &Gpu) -> bool {
 }
 
 impl ShadeVariant {
-    /// The constants that a shader declares; others would be refused.
-    pub fn constants(&self, gpu: &Gpu, text: &str) -> Vec<(&'static str, f64)> {
+    /// The constants that a shader declares, `more` of them before its own; others would be refused.
+    fn constants(&self, gpu: &Gpu, text: &str, more: &[Constant]) -> Vec<Constant> {
         let software = [
             ("GATHER_MAX_ROUNDS", SOFTWARE_MAX_ROUNDS),
             ("WALK_STRIDE", SOFTWARE_STRIDE.into()),
             ("RECORD_LANES", SOFTWARE_LANES.into()),
         ];
-        constants_of(self)
+        let mut constants: Vec<Constant> = more.to_vec();
+        for (name, value) in constants_of(self)
             .into_iter()
             .chain(software.into_iter().filter(|_| is_bounded(gpu)))
-            .filter(|(name, _)| text.contains(&format!("override {name}:")))
-            .collect()
+        {
+            if !more.iter().any(|(own, _)| *own == name) {
+                constants.push((name, value));
+            }
+        }
+        constants.retain(|(name, _)| text.contains(&format!("override {name}:")));
+        constants
+    }
+
+    /// A shader's text, as the device is given it.
+    fn text(&self, gpu: &Gpu, module: &'static shaders::Module) -> String {
+        let mut text = shaders::compose(&[module]);
+        if self.has.many_scratches && is_bounded(gpu) {
+            // The lengths of a shader's arrays cannot be constants that a pipeline sets.
+            text = text.replace(SMALL_BATCH, LARGE_BATCH);
+        }
+        if storage_textures::are_used(gpu) {
+            text = storage_textures::in_text(&text);
+        }
+        text
     }
 }
 
-/// A pipeline over the frame, the scene, its textures and `group_3`. `constants` are told the shader's text.
+/// A constant that a pipeline sets.
+pub(crate) type Constant = (&'static str, f64);
+
+/// How many scratches under a pixel a shader takes at once. On a software driver a large batch costs pictures with few of them a twelfth
+/// (all of it is cleared for each pixel), and saves those with many the walks of pixels that see more.
+const SMALL_BATCH: &str = "const GATHER_SEGMENTS: u32 = 64u;";
+const LARGE_BATCH: &str = "const GATHER_SEGMENTS: u32 = 192u;";
+
+/// A pipeline over the frame, the scene, its textures and `group_3`, for a variant. `more` goes before the variant's own constants.
 pub(crate) fn compute_pipeline(
     gpu: &Gpu,
     layouts: &Layouts,
-    module: &'static shaders::Module,
-    entry_point: &str,
+    variant: &ShadeVariant,
+    (module, entry_point): (&'static shaders::Module, &str),
     group_3: &wgpu::BindGroupLayout,
-    constants: impl Fn(&str) -> Vec<(&'static str, f64)>,
+    more: &[Constant],
 ) -> wgpu::ComputePipeline {
-    let mut text = shaders::compose(&[module]);
-    let constants = constants(&text);
-    if storage_textures::are_used(gpu) {
-        text = storage_textures::in_text(&text);
-    }
+    let text = variant.text(gpu, module);
+    let constants = variant.constants(gpu, &text, more);
     let label = Some(module.name);
     let shader = gpu
         .device
@@ -191,4 +224,14 @@ pub(crate) fn compute_pipeline(
             },
             cache: None,
         })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_batch_is_where_it_is_looked_for() {
+        assert_eq!(shaders::GATHER.source.matches(SMALL_BATCH).count(), 1);
+    }
 }
