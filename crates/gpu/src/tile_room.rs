@@ -20,6 +20,8 @@ const TEXELS_MAX: u32 = 1 << 24;
 const CHUNK_TEXELS: u32 = 64 + 1;
 /// Chunks for each tile, in the mean: more scratches than footprints of usual wear hold. What does not fit is found pixel by pixel.
 const TILE_CHUNKS_MEAN: u32 = 8;
+/// Small pictures are often of large things from afar. 8 MiB.
+const CHUNKS_LEAST: u32 = 1 << 13;
 
 /// What an indirect dispatch reads for each queue. Twin: tile_queues.wgsl.
 const COUNTS: [u32; 15] = [0, 1, 1, 0, 1, 1, 0, 1, 1, 0, TILE_PX * TILE_PX, 1, 0, 1, 1];
@@ -162,7 +164,11 @@ impl Layout {
         } else {
             TEXELS_MAX
         };
-        let chunks = ((for_lists - tiles) / CHUNK_TEXELS).min(tiles * TILE_CHUNKS_MEAN);
+        let wanted = match tiles {
+            0 => 0,
+            _ => CHUNKS_LEAST.max(tiles * TILE_CHUNKS_MEAN),
+        };
+        let chunks = ((for_lists - tiles) / CHUNK_TEXELS).min(wanted);
         let parts = if segments > 0 {
             (TEXELS_MAX - tiles - chunks * CHUNK_TEXELS) / RECORD_TEXELS
         } else {
