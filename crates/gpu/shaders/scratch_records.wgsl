@@ -4,7 +4,7 @@
 
 @group(3) @binding(1) var scratch_records_out: texture_storage_2d<rgba32uint, write>;
 
-// What may change from one station to the next: of an edge of the light beside the band, in the band's standard deviations, and of
+// What may change from one station to the next: of an edge of the light that runs along the band, in the band's standard deviations, and of
 // a light that is not much wider than the band, which is a peak; of the band's place in the light, in half the light's extent; of q,
 // in wavelengths over the width; of directions to the environment, rad. Between two a straight line is off by an eighth of the step's
 // square times the curvature: by 3 hundredths of the light at an edge, and of a peak's.
@@ -12,6 +12,7 @@ const STEP_EDGE: f32 = 1.0;
 const STEP_NARROW: f32 = 0.5;
 const NARROW_STD: f32 = 4.0;
 const STEP_LIGHT: f32 = 0.35;
+const STEP_CHORD: f32 = 0.1;
 const STEP_LOBE: f32 = 0.12;
 const STEP_ENVIRONMENT: f32 = 0.02;
 // How far the band and q may move for pixels to both sides of a scratch, which all take what its middle sends: in standard
@@ -101,6 +102,20 @@ fn records_tangent(point: SurfacePoint, along_m: vec3f) -> vec2f {
     return surface_normalize_or(vec3f(surface_from_world(point, along_m).xy, 0.0), vec3f(1.0, 0.0, 0.0)).xy;
 }
 
+// A step of the band in which the chord of an outline changes little: its length is a straight line between corners, so that it
+// changes fast by an edge that runs along the band. `narrow` is the least step, `near` how far from the band a corner counts.
+fn records_outline_step(wo_t: f32, corners: Corners, tangent: vec2f, narrow: f32, near: f32) -> f32 {
+    let c = corners;
+    let at = vec4f(dot(c.a.xy, tangent), dot(c.b.xy, tangent), dot(c.c.xy, tangent), dot(c.d.xy, tangent));
+    let to = vec4f(at.yzw, dot(c.next.xy, tangent));
+    let is_near = min(abs(wo_t + at), abs(wo_t + to)) < vec4f(near);
+    // A triangle's last edge has no length.
+    let edges = vec4f(distance(c.a, c.b), distance(c.b, c.c), distance(c.c, c.d), distance(c.d, c.next));
+    let steps = max(vec4f(narrow), STEP_CHORD * abs(to - at));
+    let least = select(vec4f(1e9), steps, is_near & (edges > vec4f(1e-6)));
+    return min(min(least.x, least.y), min(least.z, least.w));
+}
+
 // How many steps a light changes by along a part of a segment: none if it does not reach it at all. `half_m` is half the part, from
 // its middle, in the surface's frame.
 fn records_steps(point: SurfacePoint, view: GatherPixel, lit: LitSegment, half_m: vec3f, index: u32) -> f32 {
@@ -116,18 +131,6 @@ fn records_steps(point: SurfacePoint, view: GatherPixel, lit: LitSegment, half_m
     if !seen.shines || !band_reaches(extent.x - moves_along, extent.y + moves_along, band.stds) {
         return 0.0;
     }
-    // Of an edge or a corner to the band.
-    var nearest = min(abs(extent.x), abs(extent.y));
-    if HAS_POLYGONS && seen.kind == LIGHT_POLYGON {
-        let corners = wo.x + vec4f(
-            dot(seen.corners.a.xy, lit.tangent),
-            dot(seen.corners.b.xy, lit.tangent),
-            dot(seen.corners.c.xy, lit.tangent),
-            dot(seen.corners.d.xy, lit.tangent),
-        );
-        let apart = min(abs(corners.xy), abs(corners.zw));
-        nearest = select(0.0, min(apart.x, apart.y), seen.is_small);
-    }
     let across = vec2f(-lit.tangent.y, lit.tangent.x);
     let footprint = gather_footprint(view, lit.tangent);
     let beside_m = 1e-6 * BESIDE_STD * view.window_um2 * inverseSqrt(footprint.across_um2 + view.window_um2);
@@ -137,9 +140,13 @@ fn records_steps(point: SurfacePoint, view: GatherPixel, lit: LitSegment, half_m
     }
     let differs = abs(dot(beside, lit.tangent)) > BESIDE_EDGE * band.stds.w;
     let is_narrow = extent.y - extent.x < NARROW_STD * band.stds.w;
-    let step = select(STEP_EDGE, STEP_NARROW, is_narrow) * band.stds.w;
-    let steps = select(2.0 * moves_along / step, STEPS_MANY, differs);
-    let by_edge = select(0.0, steps, nearest < moves_along + BAND_REACH_STD * band.stds.w);
+    let narrow = select(STEP_EDGE, STEP_NARROW, is_narrow) * band.stds.w;
+    let near = moves_along + BAND_REACH_STD * band.stds.w;
+    var step = select(1e9, narrow, min(abs(extent.x), abs(extent.y)) < near);
+    if HAS_POLYGONS && seen.kind == LIGHT_POLYGON {
+        step = select(narrow, records_outline_step(wo.x, seen.corners, lit.tangent, narrow, near), seen.is_small);
+    }
+    let by_edge = select(2.0 * moves_along / step, STEPS_MANY, differs && step < 1e9);
     let by_light = 4.0 * moves_along / (STEP_LIGHT * max(extent.y - extent.x, 1e-9));
     let by_lobe = 2.0 * moves_across * lit.width_um / (STEP_LOBE * 0.555);
     return max(max(max(by_edge, min(by_light, STEPS_MANY)), by_lobe), 1e-9);
