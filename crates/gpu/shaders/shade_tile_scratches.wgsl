@@ -109,7 +109,9 @@ fn record_add(number: u32, at_px: vec2f, plane_key: u32, single_share: f32, sums
     (*sums).share += segment;
     (*sums).share_by_line += segment * 2.0 * half_line;
     (*sums).energy += segment * record.energy;
-    (*sums).radiance += segment * record_between(sent, clamp(along - f32(station), 0.0, 1.0));
+    // A record that does not serve may hold what is no number.
+    let radiance = segment * record_between(sent, clamp(along - f32(station), 0.0, 1.0));
+    (*sums).radiance += select(vec3f(0.0), radiance, serves);
     return serves;
 }
 

@@ -94,6 +94,8 @@ pub fn in_turns(
     let height = height.unwrap_or(1);
     let mut runs: Vec<Runs> = turns.iter().map(|_| Runs::default()).collect();
     let mut rows = Rows::Whole;
+    let has_strips = |turn: &Turn| turn.ready.as_ref().ok().is_none_or(Ready::has_strips);
+    let has_strips = turns.iter().all(has_strips);
     for (turn, runs) in turns.iter().zip(&mut runs) {
         match turn.ready {
             Err(error) => runs.refused = Some(refusal(error)?),
@@ -110,7 +112,7 @@ pub fn in_turns(
                             strip_rows(),
                             strip.as_secs_f64()
                         ));
-                    } else if strips < height.div_ceil(strip_rows()) {
+                    } else if has_strips && strips < height.div_ceil(strip_rows()) {
                         rows = fewer(&rows, height, strips.max(STRIPS_LEAST));
                     }
                 }

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use anyhow::anyhow;
 use hairline_gpu::{Adapter, Canvas, Error, Gpu, GpuScene, PassTime, Renderer, headless};
 use hairline_image::Image;
-use hairline_optics::method::Method;
+use hairline_optics::method::{LightAt, Lookup, Method};
 use hairline_reference::closed_form::{self, Prepared};
 use hairline_scene::Scene;
 
@@ -33,6 +33,16 @@ pub struct GpuWorker {
 pub struct Ready {
     pub method: Method,
     uploaded: Option<GpuScene>,
+}
+
+impl Ready {
+    /// Whether some rows of a picture tell what all take. A device that finds the light of scratches along them does so anew for each
+    /// strip, of those that reach beyond it too.
+    pub fn has_strips(&self) -> bool {
+        let finds_whole_scratches =
+            self.method.light_at == LightAt::Scratches && self.method.lookup == Lookup::Tiles;
+        self.uploaded.is_none() || !finds_whole_scratches
+    }
 }
 
 /// Which rows of a picture.
