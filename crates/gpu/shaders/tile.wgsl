@@ -11,6 +11,8 @@ const TILE_BLOCK: u32 = 8u;
 // the next one. Before the pool there is a texel for each tile: how many entries its list has, where it begins, and the key of the
 // plane that its pixels see, where that is asked for. Twin: src/tile_room.rs.
 const TILE_CHUNK: u32 = 64u;
+// Longer lists are left to walks.
+const TILE_LIST_MOST: u32 = 512u;
 
 // The first texel of a chunk.
 fn tile_chunk_texel(chunk: u32) -> u32 {

@@ -50,7 +50,7 @@ fn tiles(
     var segments: array<u32, FIND_SEGMENTS>;
     var pixels: array<vec2u, FIND_SEGMENTS>;
     var records: array<u32, FIND_SEGMENTS>;
-    while at < end && chunk < frame.tile_chunks && gather_rounds < GATHER_MAX_ROUNDS {
+    while at < end && found + FIND_SEGMENTS < TILE_LIST_MOST && chunk < frame.tile_chunks && gather_rounds < GATHER_MAX_ROUNDS {
         let count = find_segments(sight.lower_m, sight.upper_m, end, FIND_SEGMENTS, &at, &segments);
         var kept = 0u;
         for (var i = 0u; i < count; i += 1u) {

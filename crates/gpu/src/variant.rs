@@ -170,6 +170,7 @@ impl ShadeVariant {
         if self.has.many_scratches && is_bounded(gpu) {
             // The lengths of a shader's arrays cannot be constants that a pipeline sets.
             text = text.replace(SMALL_BATCH, LARGE_BATCH);
+            text = text.replace(SHORT_LIST, LONG_LIST);
         }
         if storage_textures::are_used(gpu) {
             text = storage_textures::in_text(&text);
@@ -185,6 +186,9 @@ pub(crate) type Constant = (&'static str, f64);
 /// (all of it is cleared for each pixel), and saves those with many the walks of pixels that see more.
 const SMALL_BATCH: &str = "const GATHER_SEGMENTS: u32 = 64u;";
 const LARGE_BATCH: &str = "const GATHER_SEGMENTS: u32 = 192u;";
+/// And how many a tile lists. Where lists are short, pixels with more than a small batch are soon found to be for walks.
+const SHORT_LIST: &str = "const TILE_LIST_MOST: u32 = 512u;";
+const LONG_LIST: &str = "const TILE_LIST_MOST: u32 = 16384u;";
 
 /// A pipeline over the frame, the scene, its textures and `group_3`, for a variant. `more` goes before the variant's own constants.
 pub(crate) fn compute_pipeline(
@@ -233,5 +237,6 @@ mod tests {
     #[test]
     fn the_batch_is_where_it_is_looked_for() {
         assert_eq!(shaders::GATHER.source.matches(SMALL_BATCH).count(), 1);
+        assert_eq!(shaders::TILE.source.matches(SHORT_LIST).count(), 1);
     }
 }
