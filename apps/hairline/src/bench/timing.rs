@@ -157,6 +157,10 @@ fn refusal(error: &Error) -> Result<String, Failure> {
 fn warm_up(worker: &mut Worker, turn: &Turn, ready: &Ready) -> Result<Duration, Error> {
     let strip = strips(turn.scene.render.size_px[1], 1);
     worker.time(turn.scene, turn.prepared, ready, &strip)?;
+    if !ready.has_strips() {
+        // Some drivers compile a pass once it has something to do, which may be at the picture's edge.
+        worker.time(turn.scene, turn.prepared, ready, &Rows::Whole)?;
+    }
     Ok(worker.time(turn.scene, turn.prepared, ready, &strip)?.wall)
 }
 
