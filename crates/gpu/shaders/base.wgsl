@@ -2,6 +2,9 @@
 
 // Needs, beside its modules: lights, light_vertices, lobe_ltc, lobe_albedo, and the environment.
 
+// Set where each light is known to be all above the surface's horizon, or all below it.
+override BASE_CLEAR: bool = false;
+
 struct BaseRadiance {
     specular: vec3f,            // reflected at the surface; scratches take from it
     diffuse: vec3f,             // from the body under it
@@ -16,7 +19,18 @@ fn base_sphere(point: SurfacePoint, lobe: LtcLobe, light: Light) -> vec4f {
     let cap = sphere_cap(center, light.radius_m);
     // A cap that holds every direction stands for a sphere around the point.
     let sin2 = select(cap.sin_radius * cap.sin_radius, 1.0, cap.cos_radius < 0.0);
-    return vec4f(ltc_sphere(lobe, cap.axis, sin2), lambert_sphere(cap.axis, sin2));
+    if BASE_CLEAR {
+        return vec4f(ltc_sphere_above(lobe, cap.axis, sin2), lambert_sphere_above(cap.axis, sin2));
+    }
+    return vec4f(ltc_sphere(lobe, cap.axis, sin2), base_lambert_sphere(cap.axis, sin2));
+}
+
+fn base_lambert_sphere(axis: vec3f, sin2: f32) -> f32 {
+    var form_factor = 0.0;
+    if HAS_BODIES {
+        form_factor = lambert_sphere(axis, sin2);
+    }
+    return form_factor;
 }
 
 fn base_polygon(point: SurfacePoint, lobe: LtcLobe, light: Light) -> vec4f {
@@ -29,8 +43,16 @@ fn base_polygon(point: SurfacePoint, lobe: LtcLobe, light: Light) -> vec4f {
     var highest_z = a.z;
     for (var i = 0u; i < light.vertex_count; i += 1u) {
         let b = light_vertex(point, light, i + 1u);
-        ltc_edge(&specular, lobe, a, b);
-        lambert_edge(&diffuse, a, b);
+        if BASE_CLEAR {
+            ltc_edge_above(&specular, lobe, a, b);
+        } else {
+            ltc_edge(&specular, lobe, a, b);
+        }
+        if HAS_BODIES && BASE_CLEAR {
+            lambert_edge_above(&diffuse, a, b);
+        } else if HAS_BODIES {
+            lambert_edge(&diffuse, a, b);
+        }
         highest_z = max(highest_z, b.z);
         a = b;
         gather_rounds += 1u;
@@ -38,7 +60,7 @@ fn base_polygon(point: SurfacePoint, lobe: LtcLobe, light: Light) -> vec4f {
     if highest_z <= 0.0 {
         return vec4f(0.0);
     }
-    return vec4f(ltc_end(specular, lobe), lambert_end(diffuse));
+    return vec4f(ltc_end(specular, lobe), select(0.0, lambert_end(diffuse), HAS_BODIES));
 }
 
 // Light from all around: reflected at the surface, and falling on the body.

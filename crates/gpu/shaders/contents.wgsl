@@ -9,3 +9,5 @@ override HAS_LARGE_POLYGONS: bool = true;
 override HAS_MANY_LIGHTS: bool = true;
 override HAS_ENVIRONMENT: bool = true;
 override HAS_TEXTURES: bool = true;
+// Materials that are not metal through and through: light falls on a body under the surface.
+override HAS_BODIES: bool = true;

@@ -23,16 +23,7 @@ fn irradiance_begin() -> PolygonIrradiance {
 
 // `ab` is b - a, more precise than its ends. Edges follow one another and close.
 fn irradiance_edge(state: ptr<function, PolygonIrradiance>, a: vec3f, b: vec3f, ab: vec3f) {
-    if (!(*state).started) {
-        (*state).started = true;
-        (*state).first = a;
-    }
-    let next = (*state).offset + ab;
-    let volume = dot((*state).first, cross((*state).offset, ab));
-    (*state).volume += volume;
-    (*state).moment += volume * ((*state).offset + next) / 3.0;
-    (*state).offset = next;
-
+    irradiance_follow(state, a, ab);
     let turn = a.x * ab.y - a.y * ab.x;
     let left = turn > 0.0 || (turn == 0.0 && ab.x >= 0.0);
     if (a.y <= 0.0 && b.y > 0.0 && left) {
@@ -59,6 +50,26 @@ fn irradiance_edge(state: ptr<function, PolygonIrradiance>, a: vec3f, b: vec3f, 
     }
     (*state).cut = (*state).cut || a.z < 0.0;
     (*state).risen = (*state).risen || a.z > 0.0;
+}
+
+// Where all of the polygon is above the horizon.
+fn irradiance_edge_above(state: ptr<function, PolygonIrradiance>, a: vec3f, b: vec3f, ab: vec3f) {
+    irradiance_follow(state, a, ab);
+    irradiance_add_arc(state, a, b, cross(a, ab));
+    (*state).risen = true;
+}
+
+// The solid that the outline spans with the origin.
+fn irradiance_follow(state: ptr<function, PolygonIrradiance>, a: vec3f, ab: vec3f) {
+    if (!(*state).started) {
+        (*state).started = true;
+        (*state).first = a;
+    }
+    let next = (*state).offset + ab;
+    let volume = dot((*state).first, cross((*state).offset, ab));
+    (*state).volume += volume;
+    (*state).moment += volume * ((*state).offset + next) / 3.0;
+    (*state).offset = next;
 }
 
 fn irradiance_end(state: PolygonIrradiance) -> vec3f {
@@ -214,6 +225,15 @@ fn lambert_begin() -> PolygonIrradiance {
 
 fn lambert_edge(state: ptr<function, PolygonIrradiance>, a: vec3f, b: vec3f) {
     irradiance_edge(state, a, b, b - a);
+}
+
+fn lambert_edge_above(state: ptr<function, PolygonIrradiance>, a: vec3f, b: vec3f) {
+    irradiance_edge_above(state, a, b, b - a);
+}
+
+// Of a sphere above the horizon.
+fn lambert_sphere_above(axis: vec3f, sin2: f32) -> f32 {
+    return clamp(axis.z * sin2, 0.0, 1.0);
 }
 
 fn lambert_sphere(axis: vec3f, sin2: f32) -> f32 {

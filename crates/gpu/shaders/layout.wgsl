@@ -121,7 +121,7 @@ struct Film {
 
 // Which tiles are shaded how: three counts for each queue of tile_queues.wgsl, then the queues.
 struct TileQueues {
-    counts: array<atomic<u32>, 15>,
+    counts: array<atomic<u32>, 18>,
     tiles: array<atomic<u32>>,
 }
 

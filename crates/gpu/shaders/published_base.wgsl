@@ -15,7 +15,7 @@ fn published_base_sphere(point: SurfacePoint, lobe: LtcLobe, pivot: SptdLobe, li
     let sin2 = select(cap.sin_radius * cap.sin_radius, 1.0, cap.cos_radius < 0.0);
     // The published fit knows F = 1 alone; Fresnel is that of the whole lobe.
     let specular = lobe.albedo * (sptd_sphere_published(pivot, cap.axis, sin2) / max(lobe.albedo.x, 1e-30));
-    return vec4f(specular, lambert_sphere(cap.axis, sin2));
+    return vec4f(specular, base_lambert_sphere(cap.axis, sin2));
 }
 
 // Radiance of the base towards the viewer, before scratches take theirs.

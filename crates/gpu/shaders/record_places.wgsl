@@ -5,7 +5,7 @@
 const PLACES: u32 = 16u;
 
 // A part is no longer than this.
-const RECORD_PART_PX: f32 = 24.0;
+const RECORD_PART_PX: f32 = 28.0;
 // Longer pieces have no records: pixels look at them for themselves.
 const RECORD_PARTS: f32 = 64.0;
 // How far from a piece it is seen, in standard deviations.

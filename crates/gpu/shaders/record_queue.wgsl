@@ -1,17 +1,19 @@
 // Where the records of parts of scratches lie, and which are wanted.
 //
 // Behind all else of the queues follow: how many parts there are; five words for each tile, the plane that it sees; a word for each
-// straight piece, the number of its first part; three words for each part: its piece, which part of how many it is, and a tile that
+// straight piece, the number of its first part and in the upper bits how many follow; three words for each part: its piece, which part of how many it is, and a tile that
 // wants it. Twin: src/tile_room.rs.
 
 // The queue that the parts' workgroups are counted in.
-const QUEUE_RECORDS: u32 = 4u;
+const QUEUE_RECORDS: u32 = 5u;
 // Invocations that share a workgroup: so many as a processor runs in step.
 override RECORD_LANES: u32 = 32u;
 // Parts that an invocation works on at once.
-const RECORDS: u32 = 8u;
-// In place of the number of a piece's first part, where it has none.
+const RECORDS: u32 = 16u;
+// In place of the number of a part, where there is none.
 const RECORD_NONE: u32 = 0xffffffffu;
+// Of the number of a part: there is room for fewer. Pieces have no more parts than the other bits count.
+const RECORD_BITS: u32 = 26u;
 
 // A part of a straight piece.
 struct ScratchPart {
@@ -78,10 +80,14 @@ fn record_count() -> u32 {
     return min(atomicLoad(&queues.tiles[record_counted()]), record_room());
 }
 
-// The number of a piece's first part, or RECORD_NONE.
-fn record_first(segment: u32) -> u32 {
+// The number of a piece's part at a share of its length, or RECORD_NONE.
+fn record_number(segment: u32, share: f32) -> u32 {
     let word = record_piece_word(min(segment, max(frame.record_segments, 1u) - 1u));
-    return select(RECORD_NONE, atomicLoad(&queues.tiles[word]), segment < frame.record_segments);
+    let first = atomicLoad(&queues.tiles[word]);
+    let last_part = first >> RECORD_BITS;
+    let part = min(u32(share * f32(last_part + 1u)), last_part);
+    let has_parts = segment < frame.record_segments && first != RECORD_NONE;
+    return select(RECORD_NONE, (first & ((1u << RECORD_BITS) - 1u)) + part, has_parts);
 }
 
 // Takes places for so many parts; returns the first.
@@ -100,7 +106,8 @@ fn record_take(parts: u32) -> u32 {
 // Says that a piece's parts have their places from `first` on, if there is room for them; no tile wants them yet.
 fn record_put(segment: u32, first: u32, parts: u32) {
     let has_room = parts > 0u && first + parts <= record_room();
-    atomicStore(&queues.tiles[record_piece_word(segment)], select(RECORD_NONE, first, has_room));
+    let word = first | ((parts - 1u) << RECORD_BITS);
+    atomicStore(&queues.tiles[record_piece_word(segment)], select(RECORD_NONE, word, has_room));
     for (var i = 0u; i < parts; i += 1u) {
         if first + i < record_room() {
             let place = record_part_word(first + i);
@@ -120,6 +127,13 @@ fn record_part(i: u32) -> ScratchPart {
         which >> 16u,
         atomicLoad(&queues.tiles[place + 2u]),
     );
+}
+
+// What lengths across scratches are to be multiplied with at a pixel that sees the surface at a depth. Seen from the camera, a length in
+// the picture stands for one on the plane that grows with the depth: exactly so, where no footprint that grows with it as well blurs
+// what lies there; else a part is too short to tell.
+fn record_scale(depth_m: f32) -> f32 {
+    return select(1.0, depth_m, METHOD_FOOTPRINT == FOOTPRINT_OFF);
 }
 
 // Says that a tile wants a part's record.

@@ -17,7 +17,7 @@ struct Record {
     middle_px: vec2f,           // in the picture, from its middle: halfway between the first station and the last
     last: f32,                  // number of the last station
     half_line: f32,             // half of the share on the line; negative where pixels look at the scratch for themselves
-    across: vec2f,              // how the distance across over sqrt(2) standard deviations grows by pixel
+    across: vec2f,              // how the distance across over sqrt(2) standard deviations grows by pixel, over record_scale()
     along: vec2f,               // likewise the place along it, in stations
     ends: vec2f,                // where the piece begins and ends, in stations
     per_blur: f32,              // units of the blur at its ends to a station
@@ -38,16 +38,20 @@ fn record_texel(record: Record, i: u32) -> vec4u {
     );
 }
 
+// Of its second texel.
+fn record_half_line(b: vec4u) -> f32 {
+    return unpack2x16float(b.z).y / RECORD_SCALE;
+}
+
 fn record_from_texels(a: vec4u, b: vec4u) -> Record {
-    let blur_line = unpack2x16float(b.z);
     return Record(
         vec2f(bitcast<f32>(a.x), bitcast<f32>(a.y & ~7u)),
         f32(a.y & 7u),
-        blur_line.y / RECORD_SCALE,
+        record_half_line(b),
         bitcast<vec2f>(a.zw),
         unpack2x16float(b.x),
         unpack2x16float(b.y),
-        blur_line.x,
+        unpack2x16float(b.z).x,
         record_energy(b.w),
     );
 }

@@ -22,7 +22,9 @@ const BESIDE_LOBE: f32 = 0.0015;
 const BESIDE_STD: f32 = 1.5;
 // Where less than this share of a step is gone along the whole part, one station does.
 const STEPS_NONE: f32 = 0.05;
-// More than there may be stations.
+// Steps that all stations together stand for: each then spans half more than it should, so that a light's edge is off by 7 hundredths.
+// Tiles of which a single pixel finds a part that does not serve it are shaded by pixels, and few should be.
+const STEPS_MOST: f32 = 10.5;
 const STEPS_MANY: f32 = 100.0;
 // Pixels of tiles that the next part serves see some of this one.
 const RECORD_BEYOND_PX: f32 = 6.0;
@@ -224,7 +226,7 @@ fn records_keep(at: u32, of_piece: ScratchPart, wanted: ptr<function, RecordStat
     }
     var stations = 0u;
     if shows && steps > 0.0 {
-        stations = select(1u, 1u + u32(ceil(min(steps, STEPS_MANY))), steps > STEPS_NONE);
+        stations = select(1u, min(1u + u32(ceil(min(steps, STEPS_MANY))), RECORD_STATIONS), steps > STEPS_NONE);
     }
 
     // A pixel to the right and down, on the plane.
@@ -249,7 +251,7 @@ fn records_keep(at: u32, of_piece: ScratchPart, wanted: ptr<function, RecordStat
     let per_um = per_px / um_per_px;
     let deeper = length(vec2f(dot(x_m, frame.forward), dot(y_m, frame.forward))) / depth_m;
     let apart_px = 0.5 * (part.y - part.x) * length_px + f32(TILE_PX);
-    let serves = stations <= RECORD_STATIONS && deeper * apart_px <= RECORD_DEEPER && um_per_px > 0.0;
+    let serves = steps <= STEPS_MOST && deeper * apart_px <= RECORD_DEEPER && um_per_px > 0.0;
     // W / sqrt(2 pi V), by halves.
     let half_line = 0.5 * segment.width_um * per_across * 0.56418958;
     let depth_nm = oblique_depth_nm(segment.depth_nm, point.wo.z, point.wo.z);
@@ -257,7 +259,7 @@ fn records_keep(at: u32, of_piece: ScratchPart, wanted: ptr<function, RecordStat
         seen.start_px + middle * line_px,
         last,
         select(-1.0, select(0.0, half_line, shows), serves),
-        seen.normal * across_um * per_across,
+        seen.normal * across_um * per_across / record_scale(depth_m),
         along_um * per_um,
         0.5 * last + (vec2f(0.0, 1.0) - middle) * length_px * per_px,
         per_z / per_um,

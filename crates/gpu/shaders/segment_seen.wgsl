@@ -19,5 +19,5 @@ fn segment_seen(start_m: vec3f, end_m: vec3f, middle_px: vec2f) -> SegmentSeen {
     let length_px = length(along);
     let normal = vec2f(-along.y, along.x) / max(length_px, 1e-9);
     let in_front = min(depths.x, depths.y) > frame.near_m;
-    return SegmentSeen(start, end, normal, dot(normal, start), in_front && length_px > 0.05);
+    return SegmentSeen(start, end, normal, dot(normal, start), in_front && length_px > 0.001);
 }

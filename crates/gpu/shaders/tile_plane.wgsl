@@ -25,6 +25,12 @@ fn plane_holds(plane: TilePlane, point: SurfacePoint) -> bool {
         && point.table == plane.table;
 }
 
+// Whether a light in a sphere is all above the plane, or all below it, as seen from each point that the plane stands for.
+fn plane_is_clear_of(plane: TilePlane, center_m: vec3f, radius_m: f32) -> bool {
+    let apart_m = center_m - plane.origin_m;
+    return abs(dot(apart_m, plane.normal)) > radius_m + 2.0 * PLANE_TURN_MAX * (length(apart_m) + radius_m);
+}
+
 // 24 bits that planes share only if they are turned the same way, but for chance; 0 for what is no plane.
 fn plane_key(normal: vec3f) -> u32 {
     let turned = vec3i(round(normal * (0.5 / PLANE_TURN_MAX)));

@@ -10,7 +10,9 @@ const QUEUE_WALKED: u32 = 1u;
 const QUEUE_EMPTY: u32 = 2u;
 // Tiles with pixels whose footprints cover many scratches, beside being in another queue. A workgroup for each of their pixels.
 const QUEUE_BUNDLED: u32 = 3u;
-const QUEUES: u32 = 4u;
+// Tiles whose list is complete, and whose scratches all have records that serve there.
+const QUEUE_RECORDED: u32 = 4u;
+const QUEUES: u32 = 5u;
 
 // A queue's count is the number of workgroups of an indirect dispatch along x; what follows is that along the others.
 fn queue_push(queue: u32, tile: u32) {

@@ -41,6 +41,7 @@ fn tiles(
     var chunk = 0u;
     var at = 0u;
     var end = 0u;
+    var has_records = METHOD_LIGHT_AT == LIGHT_AT_SCRATCHES && sight.plane.holds;
     if sight.object != 0u {
         let object = objects[sight.object - 1u];
         at = object.first_node;
@@ -50,6 +51,7 @@ fn tiles(
     var segments: array<u32, FIND_SEGMENTS>;
     var pixels: array<vec2u, FIND_SEGMENTS>;
     var records: array<u32, FIND_SEGMENTS>;
+    var shares: array<f32, FIND_SEGMENTS>;
     while at < end && found + FIND_SEGMENTS < TILE_LIST_MOST && chunk < frame.tile_chunks && gather_rounds < GATHER_MAX_ROUNDS {
         let count = find_segments(sight.lower_m, sight.upper_m, end, FIND_SEGMENTS, &at, &segments);
         var kept = 0u;
@@ -57,13 +59,18 @@ fn tiles(
             gather_rounds += 1u;
             let near = tile_pixels_near(segments[i], corner, sight);
             segments[kept] = segments[i];
-            pixels[kept] = near;
-            kept += u32(any(near != vec2u(0u)));
+            pixels[kept] = near.pixels;
+            shares[kept] = near.share;
+            kept += u32(any(near.pixels != vec2u(0u)));
         }
         if METHOD_LIGHT_AT == LIGHT_AT_SCRATCHES {
             for (var i = 0u; i < kept; i += 1u) {
                 gather_rounds += 1u;
-                records[i] = tile_want_record(segments[i], tile, corner, sight);
+                records[i] = select(RECORD_NONE, record_number(segments[i], shares[i]), sight.plane.holds);
+                if records[i] != RECORD_NONE {
+                    record_want(records[i], tile);
+                }
+                has_records = has_records && records[i] != RECORD_NONE;
             }
         }
         for (var i = 0u; i < kept; i += TILE_BLOCK) {
@@ -91,14 +98,27 @@ fn tiles(
         }
         key = select(0u, plane_key(sight.plane.normal), sight.plane.holds);
     }
-    textureStore(tile_lists_out, row_texel(tile), vec4u(found, first_chunk, key, 0u));
+    let is_complete = sight.one_object && at >= end && chunk < frame.tile_chunks;
+    let asks = has_records && is_complete && tile_is_clear(sight.plane);
+    textureStore(tile_lists_out, row_texel(tile), vec4u(found, first_chunk, key, u32(asks)));
     if sight.object == 0u {
         queue_push(QUEUE_EMPTY, tile);
-    } else if sight.one_object && at >= end && chunk < frame.tile_chunks {
-        queue_push(QUEUE_LISTED, tile);
-    } else {
+    } else if !is_complete {
         queue_push(QUEUE_WALKED, tile);
+    } else if !asks {
+        queue_push(QUEUE_LISTED, tile);
     }
+}
+
+// Whether no light is cut by the horizon of a tile's plane.
+fn tile_is_clear(plane: TilePlane) -> bool {
+    var is_clear = true;
+    for (var l = 0u; l < frame.light_count; l += 1u) {
+        gather_rounds += 1u;
+        let around = light_around(l);
+        is_clear = is_clear && plane_is_clear_of(plane, around.xyz, around.w);
+    }
+    return is_clear;
 }
 
 fn tile_sight(corner: vec2u, tile: u32) -> TileSight {
@@ -165,30 +185,20 @@ fn tile_reach2_px(point: SurfacePoint, ray: vec3f) -> vec2f {
     return select(vec2f(1e30), reach * reach, bent < TILE_BENT);
 }
 
-// The tile's pixels that a segment is near to: a byte for each row, the first four in x.
-fn tile_pixels_near(index: u32, corner: vec2u, sight: TileSight) -> vec2u {
+struct TileSegment {
+    pixels: vec2u,              // of the tile, that it is near to: a byte for each row, the first four in x
+    share: f32,                 // of its length in the picture before the place nearest to the tile's middle
+}
+
+fn tile_pixels_near(index: u32, corner: vec2u, sight: TileSight) -> TileSegment {
     let segment = scratch_segment(index);
     let in_box = all(min(segment.start_m, segment.end_m) <= sight.upper_m)
         && all(max(segment.start_m, segment.end_m) >= sight.lower_m);
     let seen = segment_seen(segment.start_m, segment.end_m, tile_middle_px(corner));
     let near = tile_near(seen.start_px, seen.end_px, seen.normal, sqrt(sight.reach2_px), tile_at_px(vec2u(0u)));
-    return select(vec2u(0u), select(vec2u(0xffffffffu), near, seen.has_line), in_box);
-}
-
-// Asks for the record of that part of a segment that is nearest to the tile. Returns its number, or RECORD_NONE.
-fn tile_want_record(index: u32, tile: u32, corner: vec2u, sight: TileSight) -> u32 {
-    let first = record_first(index);
-    if first == RECORD_NONE || !sight.plane.holds {
-        return RECORD_NONE;
-    }
-    let segment = scratch_segment(index);
-    let seen = segment_seen(segment.start_m, segment.end_m, tile_middle_px(corner));
+    let pixels = select(vec2u(0u), select(vec2u(0xffffffffu), near, seen.has_line), in_box);
     let along = seen.end_px - seen.start_px;
-    let place = -dot(seen.start_px, along) / max(dot(along, along), 1e-9);
-    let parts = record_part(first).parts;
-    let part = min(u32(clamp(place, 0.0, 1.0) * f32(parts)), parts - 1u);
-    record_want(first + part, tile);
-    return first + part;
+    return TileSegment(pixels, clamp(-dot(seen.start_px, along) / max(dot(along, along), 1e-9), 0.0, 1.0));
 }
 
 // Writes the block of segments from `begin` on to the list. Beyond `kept` there are none: no pixel is near to them.
@@ -206,6 +216,7 @@ fn tile_write_block(
     }
     let rows = tile_rows(near);
     for (var i = 0u; i < TILE_BLOCK; i += 1u) {
-        textureStore(tile_lists_out, row_texel(at + i), vec4u((*segments)[begin + i], rows[i], (*records)[begin + i]));
+        let record = select(RECORD_NONE, (*records)[begin + i], begin + i < kept);
+        textureStore(tile_lists_out, row_texel(at + i), vec4u((*segments)[begin + i], rows[i], record));
     }
 }

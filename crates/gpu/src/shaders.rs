@@ -147,7 +147,9 @@ modules! {
     /// Pass: from what is visible to radiance, pixel by pixel.
     SHADE = "shade" needs [HIT, GATHER, BUNDLE_FOOTPRINT, SHADE_POINT, TILE_QUEUES];
     /// Pass: from what is visible to radiance, in tiles that have a list of scratches.
-    SHADE_TILES = "shade_tiles" needs [HIT, GATHER, BUNDLE_FOOTPRINT, SHADE_POINT, TILE_QUEUES, TILE_NEAR];
+    SHADE_TILES = "shade_tiles" needs [HIT, GATHER, BUNDLE_FOOTPRINT, SHADE_POINT, TILE_QUEUES, TILE_LIST];
+    /// What pixels read of their tile's list: group 3.
+    TILE_LIST = "tile_list" needs [ROWS, TILE, TILE_NEAR];
     /// The plane that a tile's pixels see.
     TILE_PLANE = "tile_plane" needs [SURFACE];
     /// What pixels need to know of a part of a scratch.
@@ -158,10 +160,14 @@ modules! {
     RECORD_PLACES = "record_places" needs [SEGMENTS, ROWS, WALK, RECORD_QUEUE, SEGMENT_SEEN];
     /// Pass: the records of parts of scratches.
     SCRATCH_RECORDS = "scratch_records" needs [GATHER, CAMERA, TILE_PLANE, RECORD_QUEUE, SEGMENT_SEEN];
-    /// Pass: from what is visible to radiance, in tiles whose scratches have records.
-    SHADE_TILE_SCRATCHES = "shade_tile_scratches" needs [
-        HIT, GATHER, RECORD_QUEUE, BUNDLE_FOOTPRINT, SHADE_POINT, TILE_NEAR
-    ];
+    /// Pass: which tiles have records that serve them.
+    SERVED_TILES = "served_tiles" needs [WALK, RECORD_QUEUE, TILE_LIST];
+    /// What a scratch adds to a pixel, from a record.
+    RECORD_ADD = "record_add" needs [GATHER_PIXEL, GAUSSIAN, MASK, RECORD_QUEUE, TILE_LIST];
+    /// Pass: from what is visible to radiance, in tiles whose scratches all have records.
+    SHADE_TILE_RECORDS = "shade_tile_records" needs [HIT, GATHER_MASK, BUNDLE_FOOTPRINT, SHADE_POINT, RECORD_ADD];
+    /// Pass: from what is visible to radiance, in tiles of which some scratches have records.
+    SHADE_TILE_SCRATCHES = "shade_tile_scratches" needs [HIT, GATHER, BUNDLE_FOOTPRINT, SHADE_POINT, RECORD_ADD];
     /// Pass: which tiles have pixels whose footprints cover many scratches.
     BUNDLE_TILES = "bundle_tiles" needs [HIT, BUNDLE_FOOTPRINT, TILE_QUEUES, SHADE_POINT];
     /// Pass: what many scratches under a pixel add up to.
@@ -171,7 +177,7 @@ modules! {
     /// Pass: tiles that show no object.
     BACKGROUND = "background" needs [SHADE_POINT, TILE_QUEUES];
     /// Pass: the scratches that each tile of pixels may see.
-    TILES = "tiles" needs [HIT, FIND, BUNDLE_FOOTPRINT, TILE_PLANE, RECORD_QUEUE, TILE_NEAR, SEGMENT_SEEN];
+    TILES = "tiles" needs [HIT, FIND, LIGHTS, BUNDLE_FOOTPRINT, TILE_PLANE, RECORD_QUEUE, TILE_NEAR, SEGMENT_SEEN];
     /// Pass: from what is visible to radiance by the method of 2018.
     SHADE_PUBLISHED = "shade_published" needs [HIT, PUBLISHED_GATHER, PUBLISHED_BASE, SHADE_POINT];
     /// Pass: the film on a display.

@@ -24,9 +24,28 @@ const TILE_CHUNKS_MEAN: u32 = 8;
 const CHUNKS_LEAST: u32 = 1 << 13;
 
 /// What an indirect dispatch reads for each queue. Twin: tile_queues.wgsl.
-const COUNTS: [u32; 15] = [0, 1, 1, 0, 1, 1, 0, 1, 1, 0, TILE_PX * TILE_PX, 1, 0, 1, 1];
+const COUNTS: [u32; 18] = [
+    0,
+    1,
+    1,
+    0,
+    1,
+    1,
+    0,
+    1,
+    1,
+    0,
+    TILE_PX * TILE_PX,
+    1,
+    0,
+    1,
+    1,
+    0,
+    1,
+    1,
+];
 /// Those that hold tiles.
-const QUEUES: u32 = 4;
+const QUEUES: u32 = 5;
 /// For each tile, a bit for each pixel whose single scratches have been added up.
 const TALLIED_WORDS: u32 = TILE_PX * TILE_PX / 32;
 /// How many chunks of lists and parts of scratches have been given a place. Twin: tile_queues.wgsl, record_queue.wgsl.
@@ -45,6 +64,7 @@ pub(crate) enum Queue {
     Walked,
     Empty,
     Bundled,
+    Recorded,
     /// Of parts of scratches.
     Records,
 }

@@ -17,10 +17,18 @@ use crate::variant::{SOFTWARE_MAX_TILE_ROUNDS, ShadeVariant, compute_pipeline, i
 
 pub(crate) struct TilesPasses {
     tiles: wgpu::ComputePipeline,
-    /// Where a scratch's light is found along it: a place for it, and what it is.
-    records: Option<[wgpu::ComputePipeline; 2]>,
+    /// Where a scratch's light is found along it.
+    records: Option<RecordPasses>,
     shade: wgpu::ComputePipeline,
     background: wgpu::ComputePipeline,
+}
+
+/// What each part of a scratch sends: a place for it, what it is, and the tiles that take it from there.
+struct RecordPasses {
+    places: wgpu::ComputePipeline,
+    records: wgpu::ComputePipeline,
+    served: wgpu::ComputePipeline,
+    shade: wgpu::ComputePipeline,
 }
 
 /// Invocations of a workgroup where each is on its own.
@@ -49,19 +57,23 @@ fn shade_of(variant: &ShadeVariant) -> &'static shaders::Module {
 impl TilesPasses {
     pub fn new(gpu: &Gpu, layouts: &Layouts, variant: &ShadeVariant) -> Self {
         let pipeline = |module: &'static shaders::Module, entry_point, group_3| {
-            let of_tiles = [("GATHER_MAX_ROUNDS", SOFTWARE_MAX_TILE_ROUNDS)];
-            let is_walk = is_bounded(gpu) && entry_point == "tiles";
-            let more: &[_] = if is_walk { &of_tiles } else { &[] };
-            compute_pipeline(gpu, layouts, variant, (module, entry_point), group_3, more)
+            let mut more = Vec::new();
+            if is_bounded(gpu) && entry_point == "tiles" {
+                more.push(("GATHER_MAX_ROUNDS", SOFTWARE_MAX_TILE_ROUNDS));
+            }
+            // Only tiles where the horizon cuts no light are shaded by records alone.
+            if module.name == shaders::SHADE_TILE_RECORDS.name {
+                more.push(("BASE_CLEAR", true.into()));
+            }
+            compute_pipeline(gpu, layouts, variant, (module, entry_point), group_3, &more)
         };
         Self {
             tiles: pipeline(&shaders::TILES, "tiles", &layouts.tiles),
-            records: (variant.method.light_at == LightAt::Scratches).then(|| {
-                [
-                    (&shaders::RECORD_PLACES, "record_places"),
-                    (&shaders::SCRATCH_RECORDS, "scratch_records"),
-                ]
-                .map(|(module, entry_point)| pipeline(module, entry_point, &layouts.tiles))
+            records: (variant.method.light_at == LightAt::Scratches).then(|| RecordPasses {
+                places: pipeline(&shaders::RECORD_PLACES, "record_places", &layouts.tiles),
+                records: pipeline(&shaders::SCRATCH_RECORDS, "scratch_records", &layouts.tiles),
+                served: pipeline(&shaders::SERVED_TILES, "served_tiles", &layouts.film),
+                shade: pipeline(&shaders::SHADE_TILE_RECORDS, "shade", &layouts.film),
             }),
             shade: pipeline(shade_of(variant), "shade", &layouts.film),
             background: pipeline(&shaders::BACKGROUND, "background", &layouts.film),
@@ -99,19 +111,19 @@ impl TilesPasses {
         // None where there is no room for them.
         let records = self.records.as_ref();
         let records = records.filter(|_| tiles.record_segments() > 0);
-        if let Some([places, _]) = records {
-            run(
-                "places",
-                places,
-                group,
-                Work::Each(tiles.record_segments().div_ceil(PLACES)),
-            );
+        let film = &band.film.group;
+        if let Some(records) = records {
+            let invocations = Work::Each(tiles.record_segments().div_ceil(PLACES));
+            run("places", &records.places, group, invocations);
         }
         run("tiles", &self.tiles, group, Work::Each(tiles.count));
-        if let Some([_, records]) = records {
-            run("records", records, group, Work::Queue(Queue::Records));
+        if let Some(records) = records {
+            let queue = Work::Queue(Queue::Records);
+            run("records", &records.records, group, queue);
+            run("served", &records.served, film, Work::Each(tiles.count));
+            let queue = Work::Queue(Queue::Recorded);
+            run("recorded", &records.shade, film, queue);
         }
-        let film = &band.film.group;
         run("shade", &self.shade, film, Work::Queue(Queue::Listed));
         run(
             "background",

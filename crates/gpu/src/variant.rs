@@ -5,7 +5,7 @@ use hairline_optics::method::{
     Band, Chords, Gather, LightAt, Lookup, Method, PixelFilter, Spectrum, SphereBase,
 };
 use hairline_optics::published::sine_integral::SineIntegral;
-use hairline_scene::{Light, Scene};
+use hairline_scene::{Base, Light, Material, Scene};
 
 use crate::bindings::Layouts;
 use crate::device::{AdapterKind, Gpu};
@@ -32,6 +32,8 @@ pub(crate) struct Contents {
     pub many_lights: bool,
     pub environment: bool,
     pub textures: bool,
+    /// Materials that are not metal through and through.
+    pub bodies: bool,
 }
 
 /// Up to so many straight pieces of scratches the few pixels that see more of them than a small batch holds walk.
@@ -55,6 +57,20 @@ impl Contents {
             many_lights: scene.lights.len() > FEW_LIGHTS,
             environment: scene.environment.is_some(),
             textures: !scene.textures.is_empty(),
+            bodies: scene.materials.iter().any(has_body),
+        }
+    }
+}
+
+/// Whether light may fall on something diffuse under a material's surface.
+fn has_body(material: &Material) -> bool {
+    match material.base {
+        Base::Mirror | Base::Metal(_) | Base::ColoredMetal { .. } => {
+            material.metallic_roughness_texture.is_some()
+        }
+        Base::Dielectric { .. } => true,
+        Base::MetallicRoughness { metallic, .. } => {
+            metallic < 1.0 || material.metallic_roughness_texture.is_some()
         }
     }
 }
@@ -72,7 +88,7 @@ const SOFTWARE_STRIDE: u32 = 64;
 const SOFTWARE_LANES: u32 = 8;
 
 /// What the shader is specialised by; names and numbers are those of contents.wgsl and method.wgsl.
-fn constants_of(variant: &ShadeVariant) -> [(&'static str, f64); 17] {
+fn constants_of(variant: &ShadeVariant) -> [(&'static str, f64); 18] {
     let ShadeVariant { method, has } = variant;
     let (spectrum, wavelengths) = match method.spectrum {
         Spectrum::Table => (0, 0),
@@ -125,6 +141,7 @@ fn constants_of(variant: &ShadeVariant) -> [(&'static str, f64); 17] {
         ("HAS_MANY_LIGHTS", has.many_lights.into()),
         ("HAS_ENVIRONMENT", has.environment.into()),
         ("HAS_TEXTURES", has.textures.into()),
+        ("HAS_BODIES", has.bodies.into()),
         ("METHOD_SPECTRUM", spectrum.into()),
         ("METHOD_WAVELENGTHS", wavelengths as f64),
         ("METHOD_CHORDS", chords.into()),

@@ -433,6 +433,19 @@ fn spheres() {
     twin.check(&rows.clear, 0);
     twin.tolerance = HORIZON;
     twin.check(&rows.horizon, rows.horizon.len() / 1000);
+
+    // Where no part is below the horizon, without a word about it.
+    twin.name = "ltc_sphere_above and lambert_sphere_above";
+    twin.snippet = "let axis = vec3f(x[4], x[5], x[6]);
+        let lobe = ltc_lobe(vec3f(x[0], x[1], x[2]), x[3], table_0, table_1);
+        let i = ltc_sphere_above(lobe, axis, x[7]) / x[8];
+        y[0] = i.x; y[1] = i.y; y[2] = i.z;
+        y[3] = lambert_sphere_above(axis, x[7]) / max(x[7], 1e-12);";
+    twin.tolerance = CLEAR;
+    let is_above = |row: &[f32; 9]| row[6] > 0.0 && row[6] * row[6] > row[7];
+    let above: Vec<[f32; 9]> = rows.clear.into_iter().filter(is_above).collect();
+    assert!(above.len() > 2000);
+    twin.check(&above, 0);
 }
 
 #[test]
@@ -543,6 +556,18 @@ fn polygons() {
     twin.check(&rows.clear, 0);
     twin.tolerance = HORIZON;
     twin.check(&rows.horizon, rows.horizon.len() / 1000);
+
+    let snippet = twin
+        .snippet
+        .replace("ltc_edge(", "ltc_edge_above(")
+        .replace("lambert_edge(", "lambert_edge_above(");
+    twin.name = "ltc_edge_above and lambert_edge_above";
+    twin.snippet = &snippet;
+    twin.tolerance = CLEAR;
+    let is_above = |row: &[f32; 17]| (0..4).all(|i| row[6 + 3 * i] > 0.0);
+    let above: Vec<[f32; 17]> = rows.clear.into_iter().filter(is_above).collect();
+    assert!(above.len() > 2000);
+    twin.check(&above, 0);
 }
 
 /// A viewer, a roughness, a light's direction and squared sine, three more vertices, two half-axes' tangents; many
