@@ -12,6 +12,9 @@ use hairline_scene::Scene;
 /// A scratch's light lies between those of its stations by a straight line: where stations are a step apart that is wrong by a
 /// hundredth or two beside a light's edge, and right elsewhere.
 const SCRATCHES_MOST: f64 = 0.011;
+/// Stations are as close as an outline's corners ask for, not as where the horizon cuts it: 2.4 % of a light that grazes the surface,
+/// which is a ten thousandth of one above it.
+const SCRATCHES_CUT_MOST: f64 = 0.03;
 /// A scratch's light is a small part of most pictures.
 const BEAUTY_MOST: f64 = 0.0015;
 /// What a scratch takes from the base depends on the viewer's angle, which is that of the part's middle for a whole tile.
@@ -49,6 +52,13 @@ fn disk(light: &str, filter_std_px: f64) -> Scene {
 const SPHERE: &str = "kind = \"sphere\"\ncenter_m = [0.0, 0.2, 0.34641]\nradius_m = 0.02\n";
 const TRIANGLE: &str = "kind = \"polygon\"\ntwo_sided = true\n\
     vertices_m = [[0.04, 0.2, 0.34641], [-0.02, 0.17, 0.3637], [-0.02, 0.23, 0.3291]]\n";
+
+/// Half below the disk's horizon.
+const SPHERE_CUT: &str = "kind = \"sphere\"\ncenter_m = [0.15, 0.0, 0.0]\nradius_m = 0.04\n";
+const TRIANGLE_CUT: &str = "kind = \"polygon\"\ntwo_sided = true\n\
+    vertices_m = [[0.15, -0.06, -0.03], [0.15, 0.06, -0.02], [0.15, 0.0, 0.07]]\n";
+/// All below it, where nothing of it may be seen.
+const SPHERE_BELOW: &str = "kind = \"sphere\"\ncenter_m = [0.0, 0.2, -0.34641]\nradius_m = 0.04\n";
 
 /// The GPU's pictures, method by method.
 fn on_the_gpu<const N: usize>(gpu: &Gpu, scene: &Scene, methods: [Method; N]) -> [Image; N] {
@@ -113,6 +123,34 @@ fn a_disk_under_either_lamp_with_footprints_and_without() {
             assert!(wanted.scratches.iter().any(|c| c[1] > 0.0));
             assert_ne!(image.scratches, wanted.scratches);
         }
+    }
+}
+
+/// Tiles that are shaded by records alone know of no horizon; where it cuts a lamp, none are.
+#[test]
+fn the_horizon_is_kept() {
+    let Some(gpu) = headless::test_gpu() else {
+        return;
+    };
+    let above_and_below = format!("{SPHERE}[[light]]\nradiance = 40.0\n{SPHERE_BELOW}");
+    for (name, light) in [
+        ("sphere, cut", SPHERE_CUT),
+        ("triangle, cut", TRIANGLE_CUT),
+        ("above and below", above_and_below.as_str()),
+    ] {
+        let pixels = by_pixels(PixelFilter::Gaussian, Gather::Exact);
+        let mut scene = disk(light, 0.2887);
+        scene.render.size_px = [160, 120];
+        let [wanted, image] = on_the_gpu(gpu, &scene, [pixels, by_scratches(pixels)]);
+        for (layer, most) in [
+            (Layer::Scratches, SCRATCHES_CUT_MOST),
+            (Layer::Base, BEAUTY_MOST),
+        ] {
+            let rms = layer_difference(&image, &wanted, layer, None).relative_rms();
+            println!("{name}, {}: {:.4} % rms", layer.name(), 100.0 * rms);
+            assert!(rms < most, "{name}, {}: {rms}", layer.name());
+        }
+        assert!(wanted.base.iter().any(|c| c[1] > 0.0));
     }
 }
 
