@@ -154,6 +154,42 @@ fn the_horizon_is_kept() {
     }
 }
 
+/// So many that a software driver would end the loops over some invocation's stations, were there no bound to them: what an earlier
+/// picture had left there would be taken for their light.
+#[test]
+fn many_lamps() {
+    let Some(gpu) = headless::test_gpu() else {
+        return;
+    };
+    let mut renderer = gpu.block_on(Renderer::new(gpu)).unwrap();
+    let mut render = |light: &str, method| {
+        let mut scene = disk(light, 0.2887);
+        scene.render.size_px = [96, 72];
+        let prepared = Prepared::new(&scene);
+        let (index, tables) = (prepared.scratches(), prepared.tables());
+        let uploaded = gpu.block_on(renderer.upload(&scene, index, tables, &method));
+        let uploaded = uploaded.unwrap();
+        let options = RenderOptions::default();
+        let image = renderer.render(&scene, &uploaded, &options, &|_| {});
+        gpu.block_on(image).unwrap()
+    };
+    let lamps: Vec<String> = (0..500)
+        .map(|i| {
+            let angle = f64::from(i) * 0.01256;
+            let (x, y) = (0.3 * angle.cos(), 0.3 * angle.sin());
+            format!("kind = \"sphere\"\ncenter_m = [{x}, {y}, 0.3]\nradius_m = 0.004\n")
+        })
+        .collect();
+    let lamps = lamps.join("[[light]]\nradiance = 40.0\n");
+    let pixels = by_pixels(PixelFilter::Gaussian, Gather::Exact);
+    let wanted = render(&lamps, pixels);
+    render(SPHERE, by_scratches(pixels));
+    let image = render(&lamps, by_scratches(pixels));
+    let rms = layer_difference(&image, &wanted, Layer::Scratches, None).relative_rms();
+    println!("500 lamps: {:.4} % rms", 100.0 * rms);
+    assert!(rms < SCRATCHES_MOST, "{rms}");
+}
+
 /// Small lamps, tubes, a brushed face; curves, which no plane stands for; a camera so close that stations do not serve.
 #[test]
 fn scenes_are_the_same() {

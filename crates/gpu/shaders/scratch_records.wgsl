@@ -55,16 +55,23 @@ fn scratch_records(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invoc
     }
     var before = vec3f(0.0);
     var number = 0u;
+    var in_time = true;
     for (var i = 0u; i < stations.count; i += 1u) {
         gather_rounds += 1u;
         let at = stations.parts[i];
         let of_piece = record_part(at);
         let plane = record_plane(of_piece.tile - 1u);
-        let after = records_find_light(of_piece, plane, stations.shares[i]);
+        // All stations of a part are lit, or none: then its key is no plane's.
+        in_time = select(in_time, gather_rounds < GATHER_MAX_ROUNDS, number == 0u);
+        var after = vec3f(0.0);
+        if in_time {
+            after = records_find_light(of_piece, plane, stations.shares[i]);
+        }
         let is_alone = number == 0u && stations.left[i] == 0u;
         if number > 0u || is_alone {
             let texel = record_at(at) + RECORD_HEAD_TEXELS + max(number, 1u) - 1u;
-            let sent = record_station_texel(select(before, after, is_alone), after, plane_key(plane.normal));
+            let key = select(0u, plane_key(plane.normal), in_time);
+            let sent = record_station_texel(select(before, after, is_alone), after, key);
             textureStore(scratch_records_out, row_texel(texel), sent);
         }
         before = after;

@@ -12,7 +12,8 @@ fn served_tiles(@builtin(global_invocation_id) id: vec3u) {
     let plane_key = head.z;
     let asks = head.w != 0u;
     let count = select(0u, head.x, asks);
-    var serves = true;
+    // A list too long for a loop that a driver may end is not looked through.
+    var serves = count <= GATHER_MAX_ROUNDS;
     var chunk = head.y;
     for (var at = 0u; at < count && serves; at += 1u) {
         gather_rounds += 1u;

@@ -13,7 +13,10 @@ use crate::shaders;
 use crate::tile_room::Queue;
 use crate::timing::Timing;
 use crate::upload::GpuScene;
-use crate::variant::{SOFTWARE_MAX_TILE_ROUNDS, ShadeVariant, compute_pipeline, is_bounded};
+use crate::variant::{
+    SOFTWARE_MAX_RECORD_ROUNDS, SOFTWARE_MAX_TILE_ROUNDS, ShadeVariant, compute_pipeline,
+    is_bounded,
+};
 
 pub(crate) struct TilesPasses {
     tiles: wgpu::ComputePipeline,
@@ -58,8 +61,13 @@ impl TilesPasses {
     pub fn new(gpu: &Gpu, layouts: &Layouts, variant: &ShadeVariant) -> Self {
         let pipeline = |module: &'static shaders::Module, entry_point, group_3| {
             let mut more = Vec::new();
-            if is_bounded(gpu) && entry_point == "tiles" {
-                more.push(("GATHER_MAX_ROUNDS", SOFTWARE_MAX_TILE_ROUNDS));
+            if is_bounded(gpu) {
+                let rounds = match entry_point {
+                    "tiles" => Some(SOFTWARE_MAX_TILE_ROUNDS),
+                    "scratch_records" => Some(SOFTWARE_MAX_RECORD_ROUNDS),
+                    _ => None,
+                };
+                more.extend(rounds.map(|rounds| ("GATHER_MAX_ROUNDS", rounds)));
             }
             // Only tiles where the horizon cuts no light are shaded by records alone.
             if module.name == shaders::SHADE_TILE_RECORDS.name {
