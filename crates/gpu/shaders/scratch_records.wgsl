@@ -62,7 +62,8 @@ fn scratch_records(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invoc
         let of_piece = record_part(at);
         let plane = record_plane(of_piece.tile - 1u);
         // All stations of a part are lit, or none: then its key is no plane's.
-        in_time = select(in_time, gather_rounds < GATHER_MAX_ROUNDS, number == 0u);
+        let ahead = (stations.left[i] + 1u) * frame.light_count;
+        in_time = select(in_time, gather_rounds + ahead < GATHER_MAX_ROUNDS, number == 0u);
         var after = vec3f(0.0);
         if in_time {
             after = records_find_light(of_piece, plane, stations.shares[i]);

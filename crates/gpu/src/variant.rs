@@ -80,9 +80,9 @@ fn has_body(material: &Material) -> bool {
 const SOFTWARE_MAX_ROUNDS: f64 = 5_000.0;
 /// The walks of tiles do not go on: what they have not found by then is left to pixels. They count each of their rounds.
 pub(crate) const SOFTWARE_MAX_TILE_ROUNDS: f64 = 7_000.0;
-/// Neighbours look at their stations at the same time, so that hardly any round counts more than once. What is not lit by then is left
-/// to pixels: many lights on many stations.
-pub(crate) const SOFTWARE_MAX_RECORD_ROUNDS: f64 = 20_000.0;
+/// Rounds of inner loops that only a neighbour goes are not counted here: some five for each light. What is not lit by then is left to
+/// pixels: many lights on many stations.
+pub(crate) const SOFTWARE_MAX_RECORD_ROUNDS: f64 = 6_000.0;
 
 /// Into how many strides a software driver's dispatch is cut. More than its threads, so that each has several.
 const SOFTWARE_STRIDE: u32 = 64;
