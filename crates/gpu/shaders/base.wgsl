@@ -60,7 +60,7 @@ fn base_polygon(point: SurfacePoint, lobe: LtcLobe, light: Light) -> vec4f {
     if highest_z <= 0.0 {
         return vec4f(0.0);
     }
-    return vec4f(ltc_end(specular, lobe), select(0.0, lambert_end(diffuse), HAS_BODIES));
+    return vec4f(ltc_end(specular, lobe), lambert_end(diffuse));
 }
 
 // Light from all around: reflected at the surface, and falling on the body.

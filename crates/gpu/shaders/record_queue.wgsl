@@ -1,8 +1,8 @@
 // Where the records of parts of scratches lie, and which are wanted.
 //
 // Behind all else of the queues follow: how many parts there are; five words for each tile, the plane that it sees; a word for each
-// straight piece, the number of its first part and in the upper bits how many follow; three words for each part: its piece, which part of how many it is, and a tile that
-// wants it. Twin: src/tile_room.rs.
+// straight piece, the number of its first part and in the upper bits how many follow; three words for each part: its piece, which part
+// of how many it is, and a tile that wants it. Twin: src/tile_room.rs.
 
 // The queue that the parts' workgroups are counted in.
 const QUEUE_RECORDS: u32 = 5u;

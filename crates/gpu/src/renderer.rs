@@ -171,7 +171,7 @@ impl Renderer {
     ) -> Result<GpuScene, Error> {
         let variant = ShadeVariant {
             method: *source.method,
-            has: Contents::of(source.scene),
+            has: Contents::of(source.scene, source.tables),
         };
         let (gpu, layouts) = (&self.gpu, &self.layouts);
         let passes = match self.passes.entry(variant) {

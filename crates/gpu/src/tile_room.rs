@@ -24,26 +24,11 @@ const TILE_CHUNKS_MEAN: u32 = 8;
 const CHUNKS_LEAST: u32 = 1 << 13;
 
 /// What an indirect dispatch reads for each queue. Twin: tile_queues.wgsl.
-const COUNTS: [u32; 18] = [
-    0,
-    1,
-    1,
-    0,
-    1,
-    1,
-    0,
-    1,
-    1,
-    0,
-    TILE_PX * TILE_PX,
-    1,
-    0,
-    1,
-    1,
-    0,
-    1,
-    1,
-];
+const COUNTS: [[u32; 3]; 6] = {
+    let each = [0, 1, 1];
+    let each_pixel = [0, TILE_PX * TILE_PX, 1];
+    [each, each, each, each_pixel, each, each]
+};
 /// Those that hold tiles.
 const QUEUES: u32 = 5;
 /// For each tile, a bit for each pixel whose single scratches have been added up.

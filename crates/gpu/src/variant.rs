@@ -5,7 +5,7 @@ use hairline_optics::method::{
     Band, Chords, Gather, LightAt, Lookup, Method, PixelFilter, Spectrum, SphereBase,
 };
 use hairline_optics::published::sine_integral::SineIntegral;
-use hairline_scene::{Base, Light, Material, Scene};
+use hairline_scene::{Light, Scene, ScratchTables};
 
 use crate::bindings::Layouts;
 use crate::device::{AdapterKind, Gpu};
@@ -43,7 +43,7 @@ const FEW_PIECES: usize = 1 << 18;
 const FEW_LIGHTS: usize = 4;
 
 impl Contents {
-    pub fn of(scene: &Scene) -> Self {
+    pub fn of(scene: &Scene, tables: &ScratchTables) -> Self {
         let has = |wanted: fn(&Light) -> bool| scene.lights.iter().any(wanted);
         let pieces: usize = scene.objects.iter().map(|o| o.segments.len()).sum();
         Self {
@@ -57,20 +57,9 @@ impl Contents {
             many_lights: scene.lights.len() > FEW_LIGHTS,
             environment: scene.environment.is_some(),
             textures: !scene.textures.is_empty(),
-            bodies: scene.materials.iter().any(has_body),
-        }
-    }
-}
-
-/// Whether light may fall on something diffuse under a material's surface.
-fn has_body(material: &Material) -> bool {
-    match material.base {
-        Base::Mirror | Base::Metal(_) | Base::ColoredMetal { .. } => {
-            material.metallic_roughness_texture.is_some()
-        }
-        Base::Dielectric { .. } => true,
-        Base::MetallicRoughness { metallic, .. } => {
-            metallic < 1.0 || material.metallic_roughness_texture.is_some()
+            bodies: (scene.materials.iter().zip(&tables.materials)).any(|(material, optics)| {
+                optics.metallic < 1.0 || material.metallic_roughness_texture.is_some()
+            }),
         }
     }
 }
