@@ -25,6 +25,22 @@ fn plane_holds(plane: TilePlane, point: SurfacePoint) -> bool {
         && point.table == plane.table;
 }
 
+// Whether whoever sees any point of a triangle of the same material sees the plane.
+fn plane_holds_triangle(plane: TilePlane, triangle: u32) -> bool {
+    let a = vertices[3u * triangle];
+    let b = vertices[3u * triangle + 1u];
+    let c = vertices[3u * triangle + 2u];
+    let geometric = cross(b.position_m - a.position_m, c.position_m - a.position_m);
+    // Sheets are seen from either side. Normals on the wrong side of their triangle are bent to the viewer, each in its own way.
+    let side = select(1.0, -1.0, dot(geometric, plane.normal) < 0.0);
+    return plane_holds_vertex(plane, a, side) && plane_holds_vertex(plane, b, side) && plane_holds_vertex(plane, c, side);
+}
+
+fn plane_holds_vertex(plane: TilePlane, vertex: Vertex, side: f32) -> bool {
+    return length(side * vertex.normal - plane.normal) <= PLANE_TURN_MAX
+        && abs(dot(vertex.position_m - plane.origin_m, plane.normal)) <= 2e-6 * plane.coherence_um;
+}
+
 // Whether a light in a sphere is all above the plane, or all below it, as seen from each point that the plane stands for.
 fn plane_is_clear_of(plane: TilePlane, center_m: vec3f, radius_m: f32) -> bool {
     let apart_m = center_m - plane.origin_m;

@@ -13,6 +13,10 @@ const TILE_REACH_ENDS: f32 = 1.3;
 // Where shading bends the surface by more than this the footprint in the picture is not what the line tells.
 const TILE_BENT: f32 = 0.05;
 
+const TILE_CORNERS: u32 = 4u;
+// Only of tiles that see no more triangles than this it is asked whether these lie in one plane.
+const TILE_TRIANGLES: u32 = 8u;
+
 // What the pixels of a tile see of one object.
 struct TileSight {
     object: u32,                // + 1; 0 if they see none
@@ -121,47 +125,117 @@ fn tile_is_clear(plane: TilePlane) -> bool {
     return is_clear;
 }
 
-fn tile_sight(corner: vec2u, tile: u32) -> TileSight {
+// The triangles that a tile's pixels see, if they are few.
+struct TileTriangles {
+    object: u32,                // + 1, of the last of them; 0 if they see none
+    one_object: bool,
+    count: u32,
+    triangles: array<u32, TILE_TRIANGLES>,
+    are_few: bool,              // else they are not all told
+}
+
+fn tile_holds(in_film: vec2u) -> bool {
+    return in_film.x < frame.size_px.x && in_film.y + frame.rows.x < frame.rows.y;
+}
+
+fn tile_triangles(corner: vec2u) -> TileTriangles {
+    var seen: TileTriangles;
+    seen.one_object = true;
+    seen.are_few = true;
+    for (var i = 0u; i < TILE_PX * TILE_PX; i += 1u) {
+        gather_rounds += 1u;
+        let in_film = corner + vec2u(i % TILE_PX, i / TILE_PX);
+        let ids = textureLoad(tile_visibility, in_film, 0).xy;
+        if !tile_holds(in_film) || ids.x == 0u {
+            continue;
+        }
+        seen.one_object = seen.one_object && (seen.object == 0u || seen.object == ids.y + 1u);
+        seen.object = ids.y + 1u;
+        var is_known = false;
+        for (var t = 0u; t < TILE_TRIANGLES; t += 1u) {
+            is_known = is_known || (t < seen.count && seen.triangles[t] == ids.x - 1u);
+        }
+        seen.are_few = seen.are_few && (is_known || seen.count < TILE_TRIANGLES);
+        if !is_known && seen.count < TILE_TRIANGLES {
+            seen.triangles[seen.count] = ids.x - 1u;
+            seen.count += 1u;
+        }
+    }
+    return seen;
+}
+
+fn tile_sight_none(triangles: TileTriangles) -> TileSight {
     var sight: TileSight;
-    sight.one_object = true;
+    sight.object = triangles.object;
+    sight.one_object = triangles.one_object;
     sight.lower_m = vec3f(1e30);
     sight.upper_m = vec3f(-1e30);
+    return sight;
+}
+
+// What the corners see of the plane of the first triangle lies around what all pixels see, if all triangles lie in that plane. If not,
+// pixels are looked at one by one.
+fn tile_sight(corner: vec2u, tile: u32) -> TileSight {
+    let triangles = tile_triangles(corner);
     let middle = tile_middle_px(corner);
     var tallied = vec2u(0u);
     if METHOD_GATHER != GATHER_EXACT {
         tallied = queue_tallied(tile);
     }
-    for (var i = 0u; i < TILE_PX * TILE_PX; i += 1u) {
+    var by_corners = METHOD_GATHER == GATHER_EXACT && triangles.are_few;
+    var rounds = select(TILE_PX * TILE_PX, select(0u, TILE_CORNERS, triangles.count > 0u), by_corners);
+    var sight = tile_sight_none(triangles);
+    var is_first = true;
+    for (var i = 0u; i < rounds; i += 1u) {
         gather_rounds += 1u;
-        let in_film = corner + vec2u(i % TILE_PX, i / TILE_PX);
-        let inside = in_film.x < frame.size_px.x && in_film.y + frame.rows.x < frame.rows.y;
-        let seen = textureLoad(tile_visibility, in_film, 0).xy;
-        if !inside || seen.x == 0u {
-            continue;
-        }
-        let is_first = sight.object == 0u;
-        sight.one_object = sight.one_object && (is_first || sight.object == seen.y + 1u);
-        sight.object = seen.y + 1u;
-        let ray = tile_ray(middle + tile_at_px(in_film));
-        var depth_m: f32;
-        let point = hit_surface_point(seen.x - 1u, ray, &depth_m);
-        if METHOD_LIGHT_AT == LIGHT_AT_SCRATCHES {
+        let in_tile = select(vec2u(i % TILE_PX, i / TILE_PX), (TILE_PX - 1u) * vec2u(i & 1u, i >> 1u), by_corners);
+        let in_film = corner + in_tile;
+        let ids = textureLoad(tile_visibility, in_film, 0).xy;
+        let triangle = select(select(0u, ids.x, tile_holds(in_film)), triangles.triangles[0] + 1u, by_corners);
+        if triangle != 0u {
+            let ray = tile_ray(middle + tile_at_px(in_film));
+            var depth_m: f32;
+            let point = hit_surface_point(triangle - 1u, ray, &depth_m);
             if is_first {
                 sight.plane = plane_of(point);
             }
-            sight.plane.holds = sight.plane.holds && plane_holds(sight.plane, point);
+            is_first = false;
+            // A corner above the plane's horizon sees nothing of it.
+            sight.plane.holds = sight.plane.holds && plane_holds(sight.plane, point) && depth_m > 0.0;
+            // What grids stand for needs no list, nor what is added up.
+            let is_tallied = ((select(tallied.x, tallied.y, i >= 32u) >> (i % 32u)) & 1u) == 1u;
+            if METHOD_GATHER == GATHER_EXACT || !(is_tallied || bundle_single_share_at(point, ids.y) == 0.0) {
+                let reach = gather_reach_m(point);
+                sight.lower_m = min(sight.lower_m, point.position_m - reach);
+                sight.upper_m = max(sight.upper_m, point.position_m + reach);
+                sight.reach2_px = max(sight.reach2_px, tile_reach2_px(point, ray));
+            }
         }
-        // What grids stand for needs no list, nor what is added up.
-        let is_tallied = ((select(tallied.x, tallied.y, i >= 32u) >> (i % 32u)) & 1u) == 1u;
-        if METHOD_GATHER != GATHER_EXACT && (is_tallied || bundle_single_share_at(point, seen.y) == 0.0) {
-            continue;
+        if by_corners && i + 1u == TILE_CORNERS && !(sight.plane.holds && tile_is_flat(triangles, sight.plane)) {
+            by_corners = false;
+            rounds = TILE_PX * TILE_PX;
+            sight = tile_sight_none(triangles);
+            is_first = true;
+            i = 0xffffffffu;
         }
-        let reach = gather_reach_m(point);
-        sight.lower_m = min(sight.lower_m, point.position_m - reach);
-        sight.upper_m = max(sight.upper_m, point.position_m + reach);
-        sight.reach2_px = max(sight.reach2_px, tile_reach2_px(point, ray));
     }
     return sight;
+}
+
+// Whether all triangles lie in a plane that the first one's corners see, and are of its material; with a normal map none is a plane.
+fn tile_is_flat(seen: TileTriangles, plane: TilePlane) -> bool {
+    let material = tile_material(seen.triangles[0]);
+    var is_flat = !hit_has_texture(materials[material].normal_texture);
+    for (var t = 0u; t < seen.count; t += 1u) {
+        gather_rounds += 1u;
+        let triangle = seen.triangles[t];
+        is_flat = is_flat && tile_material(triangle) == material && plane_holds_triangle(plane, triangle);
+    }
+    return is_flat;
+}
+
+fn tile_material(triangle: u32) -> u32 {
+    return vertices[3u * triangle].material & ~VERTEX_BITANGENT_FLIPPED;
 }
 
 // The squares of the distances in pixels beyond which a scratch does not touch a pixel: from its line, and along it from its ends.

@@ -151,7 +151,7 @@ modules! {
     /// What pixels read of their tile's list: group 3.
     TILE_LIST = "tile_list" needs [ROWS, TILE, TILE_NEAR];
     /// The plane that a tile's pixels see.
-    TILE_PLANE = "tile_plane" needs [SURFACE];
+    TILE_PLANE = "tile_plane" needs [BINDINGS, SURFACE];
     /// What pixels need to know of a part of a scratch.
     SCRATCH_RECORD = "scratch_record" needs [];
     /// Where records of parts of scratches lie, and which are wanted.
