@@ -292,6 +292,69 @@ fn many_lights_on_many_scratches() {
     assert!(lit > 21 * 19 / 2, "{lit} pixels see light from scratches");
 }
 
+/// Cuts the square of a scene into `side` times `side` smaller ones, of two triangles each.
+fn cut(
+    scene: &mut Scene,
+    side: u32,
+    material_of: impl Fn(u32) -> u32,
+    height_m: impl Fn(f32) -> f32,
+) {
+    let mesh = Arc::make_mut(&mut scene.objects[0].mesh);
+    let (normal, tangent, uv) = (mesh.normals[0], mesh.tangents[0], mesh.uvs[0]);
+    let corners = side + 1;
+    let at = |i: u32| HALF_M * (2.0 * i as f32 / side as f32 - 1.0);
+    mesh.positions_m = (0..corners * corners)
+        .map(|i| Vec3::new(at(i % corners), at(i / corners), height_m(at(i % corners))))
+        .collect();
+    mesh.normals = vec![normal; mesh.positions_m.len()];
+    mesh.tangents = vec![tangent; mesh.positions_m.len()];
+    mesh.uvs = vec![uv; mesh.positions_m.len()];
+    let lowest = (0..side * side).map(|i| i % side + corners * (i / side));
+    mesh.triangles = lowest
+        .flat_map(|i| {
+            [
+                [i, i + 1, i + 1 + corners],
+                [i, i + 1 + corners, i + corners],
+            ]
+        })
+        .collect();
+    mesh.triangle_materials = (0..2 * side * side).map(|i| material_of(i / 2)).collect();
+}
+
+/// Tiles that see several triangles ask few pixels where these lie in one plane, and each pixel else.
+#[test]
+fn triangles_smaller_than_a_tile() {
+    let flat = |_: f32| 0.0;
+    let fold = |x: f32| 0.003 * x.abs();
+    let coarser = |scene: &mut Scene| {
+        let mut material = scene.materials[0].clone();
+        material.coherence_um *= 4.0;
+        scene.materials.push(material);
+    };
+    for side in [3, 8, 24] {
+        let mut scene = scratched([61, 53], 300, |u| u);
+        cut(&mut scene, side, |_| 0, flat);
+        let Some(mut both) = Both::new("small triangles", &scene) else {
+            return;
+        };
+        let [tiles, walked] = ways().map(|way| both.gpu(&way, 1));
+        same(&format!("{side} to a side"), &tiles, &walked);
+
+        // Wider footprints beside narrow ones.
+        coarser(&mut scene);
+        cut(&mut scene, side, |i| i % 2, flat);
+        let mut both = Both::new("two materials", &scene).unwrap();
+        let [tiles, walked] = ways().map(|way| both.gpu(&way, 1));
+        same(&format!("{side} to a side, two materials"), &tiles, &walked);
+
+        // Both slopes are within the reach of footprints.
+        cut(&mut scene, side, |_| 0, fold);
+        let mut both = Both::new("a fold", &scene).unwrap();
+        let [tiles, walked] = ways().map(|way| both.gpu(&way, 1));
+        same(&format!("{side} to a side, a fold"), &tiles, &walked);
+    }
+}
+
 /// Two plates side by side, an edge of which runs through tiles; the other plate's scratches must not show on either.
 #[test]
 fn two_objects_in_a_tile() {

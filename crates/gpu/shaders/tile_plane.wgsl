@@ -38,7 +38,7 @@ fn plane_holds_triangle(plane: TilePlane, triangle: u32) -> bool {
 
 fn plane_holds_vertex(plane: TilePlane, vertex: Vertex, side: f32) -> bool {
     return length(side * vertex.normal - plane.normal) <= PLANE_TURN_MAX
-        && abs(dot(vertex.position_m - plane.origin_m, plane.normal)) <= 2e-6 * plane.coherence_um;
+        && abs(dot(vertex.position_m - plane.origin_m, plane.normal)) <= 0.25e-6 * plane.coherence_um;
 }
 
 // Whether a light in a sphere is all above the plane, or all below it, as seen from each point that the plane stands for.

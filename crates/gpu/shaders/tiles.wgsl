@@ -13,7 +13,6 @@ const TILE_REACH_ENDS: f32 = 1.3;
 // Where shading bends the surface by more than this the footprint in the picture is not what the line tells.
 const TILE_BENT: f32 = 0.05;
 
-const TILE_CORNERS: u32 = 4u;
 // Only of tiles that see no more triangles than this it is asked whether these lie in one plane.
 const TILE_TRIANGLES: u32 = 8u;
 
@@ -132,6 +131,7 @@ struct TileTriangles {
     count: u32,
     triangles: array<u32, TILE_TRIANGLES>,
     are_few: bool,              // else they are not all told
+    first_pixel: u32,           // that sees an object
 }
 
 fn tile_holds(in_film: vec2u) -> bool {
@@ -149,6 +149,7 @@ fn tile_triangles(corner: vec2u) -> TileTriangles {
         if !tile_holds(in_film) || ids.x == 0u {
             continue;
         }
+        seen.first_pixel = select(seen.first_pixel, i, seen.object == 0u);
         seen.one_object = seen.one_object && (seen.object == 0u || seen.object == ids.y + 1u);
         seen.object = ids.y + 1u;
         var is_known = false;
@@ -173,8 +174,7 @@ fn tile_sight_none(triangles: TileTriangles) -> TileSight {
     return sight;
 }
 
-// What the corners see of the plane of the first triangle lies around what all pixels see, if all triangles lie in that plane. If not,
-// pixels are looked at one by one.
+// Where all triangles lie in one plane, a pixel and the tile's corners tell what all pixels see. If not, pixels are looked at one by one.
 fn tile_sight(corner: vec2u, tile: u32) -> TileSight {
     let triangles = tile_triangles(corner);
     let middle = tile_middle_px(corner);
@@ -183,46 +183,73 @@ fn tile_sight(corner: vec2u, tile: u32) -> TileSight {
         tallied = queue_tallied(tile);
     }
     var by_corners = METHOD_GATHER == GATHER_EXACT && triangles.are_few;
-    var rounds = select(TILE_PX * TILE_PX, select(0u, TILE_CORNERS, triangles.count > 0u), by_corners);
+    var rounds = select(TILE_PX * TILE_PX, 1u, by_corners);
     var sight = tile_sight_none(triangles);
     var is_first = true;
     for (var i = 0u; i < rounds; i += 1u) {
         gather_rounds += 1u;
-        let in_tile = select(vec2u(i % TILE_PX, i / TILE_PX), (TILE_PX - 1u) * vec2u(i & 1u, i >> 1u), by_corners);
-        let in_film = corner + in_tile;
-        let ids = textureLoad(tile_visibility, in_film, 0).xy;
-        let triangle = select(select(0u, ids.x, tile_holds(in_film)), triangles.triangles[0] + 1u, by_corners);
-        if triangle != 0u {
-            let ray = tile_ray(middle + tile_at_px(in_film));
-            var depth_m: f32;
-            let point = hit_surface_point(triangle - 1u, ray, &depth_m);
-            if is_first {
-                sight.plane = plane_of(point);
-            }
-            is_first = false;
-            // A corner above the plane's horizon sees nothing of it.
-            sight.plane.holds = sight.plane.holds && plane_holds(sight.plane, point) && depth_m > 0.0;
-            // What grids stand for needs no list, nor what is added up.
-            let is_tallied = ((select(tallied.x, tallied.y, i >= 32u) >> (i % 32u)) & 1u) == 1u;
-            if METHOD_GATHER == GATHER_EXACT || !(is_tallied || bundle_single_share_at(point, ids.y) == 0.0) {
-                let reach = gather_reach_m(point);
-                sight.lower_m = min(sight.lower_m, point.position_m - reach);
-                sight.upper_m = max(sight.upper_m, point.position_m + reach);
-                sight.reach2_px = max(sight.reach2_px, tile_reach2_px(point, ray));
-            }
+        let place = select(i, triangles.first_pixel, by_corners);
+        let in_film = corner + vec2u(place % TILE_PX, place / TILE_PX);
+        let seen = select(vec2u(0u), textureLoad(tile_visibility, in_film, 0).xy, tile_holds(in_film));
+        if seen.x == 0u {
+            continue;
         }
-        if by_corners && i + 1u == TILE_CORNERS && !(sight.plane.holds && tile_is_flat(triangles, sight.plane)) {
-            by_corners = false;
-            rounds = TILE_PX * TILE_PX;
-            sight = tile_sight_none(triangles);
-            is_first = true;
-            i = 0xffffffffu;
+        let ray = tile_ray(middle + tile_at_px(in_film));
+        var depth_m: f32;
+        let point = hit_surface_point(seen.x - 1u, ray, &depth_m);
+        if is_first {
+            sight.plane = plane_of(point);
         }
+        is_first = false;
+        if by_corners {
+            by_corners = tile_is_flat(triangles, sight.plane);
+            for (var c = 0u; c < 4u; c += 1u) {
+                gather_rounds += 1u;
+                let in_tile = (TILE_PX - 1u) * vec2u(c & 1u, c >> 1u);
+                by_corners = by_corners && tile_sight_add_corner(&sight, point, tile_ray(middle + tile_at_px(corner + in_tile)));
+            }
+            if !by_corners {
+                rounds = TILE_PX * TILE_PX;
+                sight = tile_sight_none(triangles);
+                is_first = true;
+                i = 0xffffffffu;
+            }
+            continue;
+        }
+        if METHOD_LIGHT_AT == LIGHT_AT_SCRATCHES {
+            sight.plane.holds = sight.plane.holds && plane_holds(sight.plane, point);
+        }
+        // What grids stand for needs no list, nor what is added up.
+        let is_tallied = ((select(tallied.x, tallied.y, i >= 32u) >> (i % 32u)) & 1u) == 1u;
+        if METHOD_GATHER != GATHER_EXACT && (is_tallied || bundle_single_share_at(point, seen.y) == 0.0) {
+            continue;
+        }
+        tile_sight_add(&sight, point, ray);
     }
     return sight;
 }
 
-// Whether all triangles lie in a plane that the first one's corners see, and are of its material; with a normal map none is a plane.
+fn tile_sight_add(sight: ptr<function, TileSight>, point: SurfacePoint, ray: vec3f) {
+    let reach = gather_reach_m(point);
+    (*sight).lower_m = min((*sight).lower_m, point.position_m - reach);
+    (*sight).upper_m = max((*sight).upper_m, point.position_m + reach);
+    (*sight).reach2_px = max((*sight).reach2_px, tile_reach2_px(point, ray));
+}
+
+// What a corner's ray sees of the plane about a point. False if it is not seen as the point is.
+fn tile_sight_add_corner(sight: ptr<function, TileSight>, about: SurfacePoint, ray: vec3f) -> bool {
+    let to_camera = frame.camera_m - about.position_m;
+    let depth_m = -dot(about.facet, to_camera) / dot(about.facet, ray);
+    var point = about;
+    point.position_m = frame.camera_m + ray * depth_m;
+    point.footprint_x_m = footprint_axis(ray, depth_m, about.normal, frame.per_px_x) * frame.footprint_std_px;
+    point.footprint_y_m = footprint_axis(ray, depth_m, about.normal, frame.per_px_y) * frame.footprint_std_px;
+    tile_sight_add(sight, point, ray);
+    let least = MIN_VIEW_COS * length(ray);
+    return depth_m > 0.0 && -dot(about.normal, ray) > least && -dot(about.facet, ray) > least;
+}
+
+// Whether all triangles lie in a plane that the first of them shows, and are of its material; with a normal map none is a plane.
 fn tile_is_flat(seen: TileTriangles, plane: TilePlane) -> bool {
     let material = tile_material(seen.triangles[0]);
     var is_flat = !hit_has_texture(materials[material].normal_texture);
