@@ -24,28 +24,30 @@ fn shade(
     }
     let ray = film_ray(pixel);
     let seen = film_visible(pixel);
+    var value: FilmPixel;
     if seen.x == 0u {
-        film_add_background(pixel, ray);
-        return;
-    }
-    var depth_m: f32;
-    let point = hit_surface_point(seen.x - 1u, ray, &depth_m);
-    var masked = Masked(vec3f(0.0), vec3f(0.0));
-    if HAS_SCRATCHES {
-        let object = objects[seen.y];
-        var list: SegmentList;
-        var start = object.first_node;
-        if METHOD_LOOKUP == LOOKUP_TRIANGLES {
-            list = segment_list(seen.x - 1u, object.end_node);
-            start = segment_list_begin(list);
+        value = shade_background(ray);
+    } else {
+        var depth_m: f32;
+        let point = hit_surface_point(seen.x - 1u, ray, &depth_m);
+        var masked = Masked(vec3f(0.0), vec3f(0.0));
+        if HAS_SCRATCHES {
+            let object = objects[seen.y];
+            var list: SegmentList;
+            var start = object.first_node;
+            if METHOD_LOOKUP == LOOKUP_TRIANGLES {
+                list = segment_list(seen.x - 1u, object.end_node);
+                start = segment_list_begin(list);
+            }
+            var walk = film_resume(pixel, start);
+            gather_scratches(point, object, list, bundle_single_share_at(point, seen.y), &walk);
+            if walk.at < object.end_node || walk.at >= WALK_LISTED {
+                film_keep(pixel, walk);
+                return;
+            }
+            masked = gather_masked(walk.sums, object.depth_coherence);
         }
-        var walk = film_resume(pixel, start);
-        gather_scratches(point, object, list, bundle_single_share_at(point, seen.y), &walk);
-        if walk.at < object.end_node || walk.at >= WALK_LISTED {
-            film_keep(pixel, walk);
-            return;
-        }
-        masked = gather_masked(walk.sums, object.depth_coherence);
+        value = shade_surface(point, depth_m, masked, base_radiance(point));
     }
-    film_add_surface(pixel, point, depth_m, masked, base_radiance(point));
+    film_add(pixel, value);
 }

@@ -1,4 +1,6 @@
-// What a pixel adds to the film, once it is known what scratches do there.
+// What a pixel is on the film, once it is known what scratches do there.
+//
+// A pass adds to the film in one place: a software driver goes both ways at every branch, and compiles each place.
 
 // The ray of a pixel's sample, one along the view axis.
 fn film_ray(pixel: vec2u) -> vec3f {
@@ -6,13 +8,13 @@ fn film_ray(pixel: vec2u) -> vec3f {
     return frame.forward + frame.per_px_x * at.x + frame.per_px_y * at.y;
 }
 
-fn film_add_background(pixel: vec2u, ray: vec3f) {
+fn shade_background(ray: vec3f) -> FilmPixel {
     var value: FilmPixel;
     value.base = scene_background(normalize(ray));
-    film_add(pixel, value);
+    return value;
 }
 
-fn film_add_surface(pixel: vec2u, point: SurfacePoint, depth_m: f32, masked: Masked, light: BaseRadiance) {
+fn shade_surface(point: SurfacePoint, depth_m: f32, masked: Masked, light: BaseRadiance) -> FilmPixel {
     var value: FilmPixel;
     // A groove interrupts the reflecting surface; what shines from under it passes.
     value.base = point.emission + light.diffuse + light.specular * (1.0 - masked.taken);
@@ -21,5 +23,5 @@ fn film_add_surface(pixel: vec2u, point: SurfacePoint, depth_m: f32, masked: Mas
     value.normal = point.normal;
     value.depth_m = depth_m;
     value.coverage = 1.0;
-    film_add(pixel, value);
+    return value;
 }

@@ -28,23 +28,25 @@ fn shade(
     }
     let ray = film_ray(pixel);
     let seen = film_visible(pixel);
+    var value: FilmPixel;
     if seen.x == 0u {
-        film_add_background(pixel, ray);
-        return;
-    }
-    var depth_m: f32;
-    let point = hit_surface_point(seen.x - 1u, ray, &depth_m);
-    let object = objects[seen.y];
-    var masked: Masked;
-    if HAS_SCRATCHES {
-        var walk = film_resume(pixel, object.first_node);
-        let end = published_walk_end(object, seen.x - 1u);
-        published_scratches(published_seen(point), object, seen.x - 1u, end, &walk);
-        if walk.at < end {
-            film_keep(pixel, walk);
-            return;
+        value = shade_background(ray);
+    } else {
+        var depth_m: f32;
+        let point = hit_surface_point(seen.x - 1u, ray, &depth_m);
+        let object = objects[seen.y];
+        var masked: Masked;
+        if HAS_SCRATCHES {
+            var walk = film_resume(pixel, object.first_node);
+            let end = published_walk_end(object, seen.x - 1u);
+            published_scratches(published_seen(point), object, seen.x - 1u, end, &walk);
+            if walk.at < end {
+                film_keep(pixel, walk);
+                return;
+            }
+            masked = published_masked(walk.sums, object.depth_coherence);
         }
-        masked = published_masked(walk.sums, object.depth_coherence);
+        value = shade_surface(point, depth_m, masked, published_base(point));
     }
-    film_add_surface(pixel, point, depth_m, masked, published_base(point));
+    film_add(pixel, value);
 }
