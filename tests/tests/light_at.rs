@@ -12,9 +12,9 @@ use hairline_scene::Scene;
 /// A scratch's light lies between those of its stations by a straight line: where stations are a step apart that is wrong by a
 /// hundredth or two beside a light's edge, and right elsewhere.
 const SCRATCHES_MOST: f64 = 0.011;
-/// Stations are as close as an outline's corners ask for, not as where the horizon cuts it: 2.4 % of a light that grazes the surface,
-/// which is a ten thousandth of one above it.
-const SCRATCHES_CUT_MOST: f64 = 0.03;
+/// Of a light that grazes the surface, which is a ten thousandth of one above it: 1.6 %; 2.4 % where stations are not as close as corners
+/// ask for where the horizon cuts an outline.
+const SCRATCHES_CUT_MOST: f64 = 0.02;
 /// A scratch's light is a small part of most pictures.
 const BEAUTY_MOST: f64 = 0.0015;
 /// What a scratch takes from the base depends on the viewer's angle, which is that of the part's middle for a whole tile.

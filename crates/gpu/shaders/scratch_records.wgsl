@@ -116,14 +116,20 @@ fn records_tangent(point: SurfacePoint, along_m: vec3f) -> vec2f {
 // changes fast by an edge that runs along the band. `narrow` is the least step, `near` how far from the band a corner counts.
 fn records_outline_step(wo_t: f32, corners: Corners, tangent: vec2f, narrow: f32, near: f32) -> f32 {
     let c = corners;
-    let at = vec4f(dot(c.a.xy, tangent), dot(c.b.xy, tangent), dot(c.c.xy, tangent), dot(c.d.xy, tangent));
-    let to = vec4f(at.yzw, dot(c.next.xy, tangent));
-    let is_near = min(abs(wo_t + at), abs(wo_t + to)) < vec4f(near);
-    // A triangle's last edge has no length.
-    let edges = vec4f(distance(c.a, c.b), distance(c.b, c.c), distance(c.c, c.d), distance(c.d, c.next));
-    let steps = max(vec4f(narrow), STEP_CHORD * abs(to - at));
-    let least = select(vec4f(1e9), steps, is_near & (edges > vec4f(1e-6)));
-    return min(min(least.x, least.y), min(least.z, least.w));
+    return min(
+        min(records_edge_step(wo_t, c.a, c.b, tangent, narrow, near), records_edge_step(wo_t, c.b, c.c, tangent, narrow, near)),
+        min(records_edge_step(wo_t, c.c, c.d, tangent, narrow, near), records_edge_step(wo_t, c.d, c.next, tangent, narrow, near)),
+    );
+}
+
+// An edge has a corner where it meets the horizon, too; a triangle's last edge has no length.
+fn records_edge_step(wo_t: f32, a: vec3f, b: vec3f, tangent: vec2f, narrow: f32, near: f32) -> f32 {
+    let corner = surface_normalize_or(a * abs(b.z) + b * abs(a.z), a);
+    let at = dot(select(a, corner, a.z < 0.0).xy, tangent);
+    let to = dot(select(b, corner, b.z < 0.0).xy, tangent);
+    let is_near = min(abs(wo_t + at), abs(wo_t + to)) < near;
+    let counts = is_near && max(a.z, b.z) > 0.0 && distance(a, b) > 1e-6;
+    return select(1e9, max(narrow, STEP_CHORD * abs(to - at)), counts);
 }
 
 // How many steps a light changes by along a part of a segment: none if it does not reach it at all. `half_m` is half the part, from
