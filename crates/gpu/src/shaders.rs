@@ -178,8 +178,10 @@ modules! {
     BUNDLE_TALLY = "bundle_tally" needs [HIT, BUNDLE_FOOTPRINT, BUNDLE_LIGHT, GATHER, TILE_QUEUES, SHADE_POINT];
     /// Pass: tiles that show no object.
     BACKGROUND = "background" needs [SHADE_POINT, TILE_QUEUES];
+    /// What a tile's pixels see: group 3.
+    TILE_SIGHT = "tile_sight" needs [HIT, BUNDLE_FOOTPRINT, TILE_PLANE, TILE_QUEUES];
     /// Pass: the scratches that each tile of pixels may see.
-    TILES = "tiles" needs [HIT, FIND, LIGHTS, BUNDLE_FOOTPRINT, TILE_PLANE, RECORD_QUEUE, TILE_NEAR, SEGMENT_SEEN];
+    TILES = "tiles" needs [FIND, LIGHTS, TILE_SIGHT, RECORD_QUEUE, TILE_NEAR, SEGMENT_SEEN];
     /// Pass: from what is visible to radiance by the method of 2018.
     SHADE_PUBLISHED = "shade_published" needs [HIT, PUBLISHED_GATHER, PUBLISHED_BASE, SHADE_POINT];
     /// Pass: the film on a display.
