@@ -169,15 +169,7 @@ fn a_closeup() {
 /// Ten lights, among them a star with ten corners.
 #[test]
 fn ten_lights() {
-    let scene = middle("lights.toml", 768, 77);
-    let Some(mut both) = Both::new("lights", &scene) else {
-        return;
-    };
-    // Not every way: under so many lights each takes a software driver half a minute to compile.
-    let [tiles, walked] = [Lookup::Tiles, Lookup::Bvh]
-        .map(|lookup| method(lookup, PixelFilter::Gaussian, Mask::Density));
-    let tiles = both.check(&tiles);
-    same("lights, tiles and walks", &tiles, &both.gpu(&walked, 1));
+    every_way("lights", &middle("lights.toml", 768, 77), Mask::Density);
 }
 
 /// Half the side of the square below, metres.
