@@ -34,12 +34,5 @@ fn shade(
     if !here.inside {
         return;
     }
-    var value: FilmPixel;
-    if here.seen.x == 0u {
-        value = shade_background(here.ray);
-    } else {
-        let masked = gather_masked(sums, objects[here.seen.y].depth_coherence);
-        value = shade_surface(point, depth_m, masked, base_radiance(point));
-    }
-    film_add(here.pixel, value);
+    tile_pixel_add(here, point, depth_m, sums);
 }

@@ -61,13 +61,8 @@ fn shade(
         queue_move(workgroup.x);
         return;
     }
-    var value: FilmPixel;
-    if here.seen.x == 0u {
-        value = shade_background(here.ray);
-    } else {
+    if here.seen.x != 0u {
         sums.radiance += gather_light(point, view, &batch);
-        let masked = gather_masked(sums, objects[here.seen.y].depth_coherence);
-        value = shade_surface(point, depth_m, masked, base_radiance(point));
     }
-    film_add(here.pixel, value);
+    tile_pixel_add(here, point, depth_m, sums);
 }

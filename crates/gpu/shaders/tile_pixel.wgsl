@@ -22,3 +22,15 @@ fn tile_pixel(tile: u32, in_tile: vec2u) -> TilePixel {
 fn tile_pixel_point(here: TilePixel, depth_m: ptr<function, f32>) -> SurfacePoint {
     return hit_surface_point(max(here.seen.x, 1u) - 1u, here.ray, depth_m);
 }
+
+// Adds it to the film, once it is known what scratches do there.
+fn tile_pixel_add(here: TilePixel, point: SurfacePoint, depth_m: f32, sums: ScratchSums) {
+    var value: FilmPixel;
+    if here.seen.x == 0u {
+        value = shade_background(here.ray);
+    } else {
+        let masked = gather_masked(sums, objects[here.seen.y].depth_coherence);
+        value = shade_surface(point, depth_m, masked, base_radiance(point));
+    }
+    film_add(here.pixel, value);
+}

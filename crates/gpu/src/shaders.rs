@@ -147,11 +147,11 @@ modules! {
     /// Pass: from what is visible to radiance, pixel by pixel.
     SHADE = "shade" needs [HIT, GATHER, BUNDLE_FOOTPRINT, SHADE_POINT, TILE_QUEUES];
     /// Pass: from what is visible to radiance, in tiles that have a list of scratches.
-    SHADE_TILES = "shade_tiles" needs [GATHER, BUNDLE_FOOTPRINT, SHADE_POINT, TILE_QUEUES, TILE_PIXEL];
+    SHADE_TILES = "shade_tiles" needs [GATHER, BUNDLE_FOOTPRINT, TILE_QUEUES, TILE_PIXEL];
     /// What pixels read of their tile's list: group 3.
     TILE_LIST = "tile_list" needs [ROWS, TILE, TILE_NEAR];
     /// A pixel of a tile that has a list.
-    TILE_PIXEL = "tile_pixel" needs [HIT, FILM, TILE_LIST];
+    TILE_PIXEL = "tile_pixel" needs [HIT, TILE_LIST, GATHER_MASK, SHADE_POINT];
     /// The plane that a tile's pixels see.
     TILE_PLANE = "tile_plane" needs [BINDINGS, SURFACE];
     /// What pixels need to know of a part of a scratch.
@@ -167,9 +167,9 @@ modules! {
     /// What a scratch adds to a pixel, from a record.
     RECORD_ADD = "record_add" needs [GATHER_PIXEL, GAUSSIAN, MASK, RECORD_QUEUE, TILE_LIST];
     /// Pass: from what is visible to radiance, in tiles whose scratches all have records.
-    SHADE_TILE_RECORDS = "shade_tile_records" needs [GATHER_MASK, BUNDLE_FOOTPRINT, SHADE_POINT, RECORD_ADD, TILE_PIXEL];
+    SHADE_TILE_RECORDS = "shade_tile_records" needs [BUNDLE_FOOTPRINT, RECORD_ADD, TILE_PIXEL];
     /// Pass: from what is visible to radiance, in tiles of which some scratches have records.
-    SHADE_TILE_SCRATCHES = "shade_tile_scratches" needs [GATHER, BUNDLE_FOOTPRINT, SHADE_POINT, RECORD_ADD, TILE_PIXEL];
+    SHADE_TILE_SCRATCHES = "shade_tile_scratches" needs [GATHER, BUNDLE_FOOTPRINT, RECORD_ADD, TILE_PIXEL];
     /// Pass: which tiles have pixels whose footprints cover many scratches.
     BUNDLE_TILES = "bundle_tiles" needs [HIT, BUNDLE_FOOTPRINT, TILE_QUEUES, SHADE_POINT];
     /// Pass: what many scratches under a pixel add up to.
