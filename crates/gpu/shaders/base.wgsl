@@ -1,6 +1,6 @@
 // The base under lights and environment: a GGX lobe over a diffuse body. Twin: reference/src/base.rs.
 
-// Needs, beside its modules: lights, light_vertices, lobe_ltc, lobe_albedo, and the environment.
+// Needs, beside its modules: lights, lobe_ltc, lobe_albedo, and the environment.
 
 // Set where each light is known to be all above the surface's horizon, or all below it.
 override BASE_CLEAR: bool = false;

@@ -4,12 +4,11 @@
 
 @group(1) @binding(0) var<storage, read> vertices: array<Vertex>;
 @group(1) @binding(1) var<storage, read> objects: array<Object>;
-@group(1) @binding(2) var<storage, read> materials: array<Material>;
-// Arrays of Light, vec4f, ScratchNode and ScratchSegment; rows.wgsl reads them.
+// Arrays of Material, Light (and behind them vertices of polygons), ScratchNode and ScratchSegment; rows.wgsl reads them.
+@group(1) @binding(2) var materials: texture_2d<u32>;
 @group(1) @binding(3) var lights: texture_2d<u32>;
-@group(1) @binding(4) var light_vertices: texture_2d<u32>;
-@group(1) @binding(5) var scratch_nodes: texture_2d<u32>;
-@group(1) @binding(6) var scratch_segments: texture_2d<u32>;
+@group(1) @binding(4) var scratch_nodes: texture_2d<u32>;
+@group(1) @binding(5) var scratch_segments: texture_2d<u32>;
 
 @group(2) @binding(0) var scratch_tables: texture_2d_array<u32>;
 @group(2) @binding(1) var lobe_albedo: texture_2d<f32>;

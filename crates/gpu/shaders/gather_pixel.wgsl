@@ -52,5 +52,9 @@ fn gather_footprint(pixel: GatherPixel, tangent: vec2f) -> Footprint {
 fn gather_reach_m(point: SurfacePoint) -> vec3f {
     let sigma_m = point.coherence_um * 1e-6;
     let footprint = point.footprint_x_m * point.footprint_x_m + point.footprint_y_m * point.footprint_y_m;
-    return REACH_STD * sqrt(footprint * gather_filtered() + 0.7 * sigma_m * sigma_m);
+    let variance = footprint * gather_filtered() + 0.7 * sigma_m * sigma_m;
+    // The footprint lies in the plane that shading sees. Scratches lie on triangles: this one leaves it by as much as its normal is
+    // another one, and its neighbours by about as much again.
+    let aside = 2.0 * distance(point.normal, point.facet) * sqrt(variance.x + variance.y + variance.z);
+    return REACH_STD * (sqrt(variance) + abs(point.normal) * aside);
 }

@@ -34,6 +34,62 @@ fn hit_normal_turn(a: Vertex, b: Vertex, c: Vertex, geometric: vec3f, interpolat
     return (change - interpolated * (dot(change, interpolated) / length2)) * inverseSqrt(length2);
 }
 
+// How a point's surface is turned to the viewer, and the footprint there.
+fn hit_turn(point: ptr<function, SurfacePoint>, normal: vec3f, to_viewer: vec3f, ray: vec3f, depth: f32) {
+    (*point).normal = normal;
+    // The viewer in the x-z plane; any x will do where they look along the normal.
+    (*point).axis_x = surface_normalize_or(to_viewer - normal * dot(normal, to_viewer), surface_any_across(normal));
+    (*point).axis_y = cross(normal, (*point).axis_x);
+    let cos_view = dot(normal, to_viewer);
+    (*point).wo = vec3f(sqrt(max(1.0 - cos_view * cos_view, 0.0)), 0.0, cos_view);
+    (*point).footprint_x_m = footprint_axis(ray, depth, normal, frame.per_px_x) * frame.footprint_std_px;
+    (*point).footprint_y_m = footprint_axis(ray, depth, normal, frame.per_px_y) * frame.footprint_std_px;
+}
+
+// What a point's surface is made of.
+fn hit_paint(point: ptr<function, SurfacePoint>, material: Material) {
+    (*point).emission = material.emission;
+    (*point).roughness = material.roughness;
+    (*point).f0 = mix(vec3f(material.dielectric_f0), material.base_color, material.metallic);
+    (*point).fresnel_a = material.fresnel_a;
+    (*point).diffuse = material.base_color * (1.0 - material.metallic);
+    (*point).coherence_um = material.coherence_um;
+    (*point).table = material.table;
+}
+
+// What a material is at a place of its textures.
+fn hit_textured(material: Material, uv: vec2f, filter_side: f32) -> Material {
+    var there = material;
+    if hit_has_texture(material.base_color_texture) {
+        there.base_color *= hit_texture(material.base_color_texture, uv, filter_side).xyz;
+    }
+    if hit_has_texture(material.metallic_roughness_texture) {
+        let texel = hit_texture(material.metallic_roughness_texture, uv, filter_side);
+        there.roughness *= texel.y;
+        there.metallic *= texel.z;
+    }
+    if hit_has_texture(material.emission_texture) {
+        there.emission *= hit_texture(material.emission_texture, uv, filter_side).xyz;
+    }
+    return there;
+}
+
+// The surface that a ray of the camera sees on a plane without textures, whose normal is given and how far it lies before the camera.
+// `depth_m` is written beside it.
+fn hit_plane_point(plane: vec4f, material: u32, ray: vec3f, depth_m: ptr<function, f32>) -> SurfacePoint {
+    let to_viewer = -normalize(ray);
+    let towards = dot(plane.xyz, ray);
+    let depth = plane.w / select(towards, -1e-30, abs(towards) < 1e-30);
+    *depth_m = depth;
+    var point: SurfacePoint;
+    point.position_m = frame.camera_m + ray * depth;
+    point.distance_m = depth * length(ray);
+    point.facet = plane.xyz;
+    hit_turn(&point, surface_face_viewer(plane.xyz, to_viewer), to_viewer, ray, depth);
+    hit_paint(&point, material_at(material));
+    return point;
+}
+
 // The surface that a ray of the camera sees on a triangle. `depth_m` is written beside it.
 fn hit_surface_point(triangle: u32, ray: vec3f, depth_m: ptr<function, f32>) -> SurfacePoint {
     let a = vertices[3u * triangle];
@@ -54,7 +110,7 @@ fn hit_surface_point(triangle: u32, ray: vec3f, depth_m: ptr<function, f32>) -> 
     point.distance_m = depth * length(ray);
     *depth_m = depth;
 
-    let material = materials[a.material & ~VERTEX_BITANGENT_FLIPPED];
+    let material = material_at(a.material & ~VERTEX_BITANGENT_FLIPPED);
     let uv = vec2f(a.u, a.v) * weights.x + vec2f(b.u, b.v) * weights.y + vec2f(c.u, c.v) * weights.z;
     let std_px = frame.footprint_std_px;
     let smooth_x = footprint_axis(ray, depth, side * smooth_normal, frame.per_px_x) * std_px;
@@ -75,40 +131,13 @@ fn hit_surface_point(triangle: u32, ray: vec3f, depth_m: ptr<function, f32>) -> 
         );
     }
     normal = surface_face_viewer(side * normal, to_viewer);
-    point.normal = normal;
     point.facet = side * surface_normalize_or(geometric, normal);
-    // The viewer in the x-z plane; any x will do where they look along the normal.
-    point.axis_x = surface_normalize_or(to_viewer - normal * dot(normal, to_viewer), surface_any_across(normal));
-    point.axis_y = cross(normal, point.axis_x);
-    let cos_view = dot(normal, to_viewer);
-    point.wo = vec3f(sqrt(max(1.0 - cos_view * cos_view, 0.0)), 0.0, cos_view);
-    point.footprint_x_m = footprint_axis(ray, depth, normal, frame.per_px_x) * std_px;
-    point.footprint_y_m = footprint_axis(ray, depth, normal, frame.per_px_y) * std_px;
-
-    var base_color = material.base_color;
-    var metallic = material.metallic;
-    point.roughness = material.roughness;
-    point.emission = material.emission;
-    if hit_has_texture(material.base_color_texture) {
-        base_color *= hit_texture(material.base_color_texture, uv, filter_side).xyz;
-    }
-    if hit_has_texture(material.metallic_roughness_texture) {
-        let texel = hit_texture(material.metallic_roughness_texture, uv, filter_side);
-        point.roughness *= texel.y;
-        metallic *= texel.z;
-    }
-    if hit_has_texture(material.emission_texture) {
-        point.emission *= hit_texture(material.emission_texture, uv, filter_side).xyz;
-    }
+    hit_turn(&point, normal, to_viewer, ray, depth);
+    hit_paint(&point, hit_textured(material, uv, filter_side));
     let turn_x = side * hit_normal_turn(a, b, c, geometric, interpolated, smooth_x);
     let turn_y = side * hit_normal_turn(a, b, c, geometric, interpolated, smooth_y);
     point.turn_x = vec2f(dot(turn_x, point.axis_x), dot(turn_x, point.axis_y));
     point.turn_y = vec2f(dot(turn_y, point.axis_x), dot(turn_y, point.axis_y));
     point.roughness = ggx_curved_roughness(point.roughness, dot(turn_x, turn_x) + dot(turn_y, turn_y));
-    point.f0 = mix(vec3f(material.dielectric_f0), base_color, metallic);
-    point.fresnel_a = material.fresnel_a;
-    point.diffuse = base_color * (1.0 - metallic);
-    point.coherence_um = material.coherence_um;
-    point.table = material.table;
     return point;
 }

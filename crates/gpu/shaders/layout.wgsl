@@ -68,7 +68,7 @@ struct Light {
     radius_m: f32,
     normal: vec3f,              // of a polygon, on the side that sees its vertices counter-clockwise
     two_sided: u32,
-    first_vertex: u32,
+    first_vertex: u32,          // of those of all lights
     vertex_count: u32,
     area_m2: f32,               // of a polygon
 }

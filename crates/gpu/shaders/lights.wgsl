@@ -1,4 +1,4 @@
-// Area lights as seen from a surface point. Needs lights, light_vertices. Twin: reference/src/light_view.rs.
+// Area lights as seen from a surface point. Needs lights. Twin: reference/src/light_view.rs.
 
 // 1 if a polygon's vertices are seen counter-clockwise, -1 if clockwise, 0 if it shines to the other side.
 fn light_facing(point: SurfacePoint, light: Light) -> f32 {

@@ -1,7 +1,7 @@
 // The base under lights and environment, spheres by cosines or by the pivot transform of 2017. Twin: reference/src/published.rs;
 // base.wgsl is the default path's, and explains what is the same here.
 
-// Needs, beside its modules: lights, light_vertices, lobe_ltc, lobe_sptd, lobe_albedo, and the environment.
+// Needs, beside its modules: lights, lobe_ltc, lobe_sptd, lobe_albedo, and the environment.
 
 // The lobe's integrals and the diffuse form factor of a light.
 fn published_base_sphere(point: SurfacePoint, lobe: LtcLobe, pivot: SptdLobe, light: Light) -> vec4f {

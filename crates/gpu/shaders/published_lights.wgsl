@@ -1,7 +1,7 @@
 // What a scratch sends to the viewer from a light by the method of 2018, or by parts of it among the default's; gather.wgsl
 // explains what is the same there. Twin: reference/src/published.rs.
 
-// Needs, beside its modules: lights, light_vertices, scratch_tables, published_wavelengths, and the environment.
+// Needs, beside its modules: lights, scratch_tables, published_wavelengths, and the environment.
 
 // Columns of published_wavelengths that hold triangles of lights, beyond the wavelengths. Twin: src/published.rs.
 const LIGHT_TRIANGLE_COLUMNS: u32 = 64u;

@@ -9,6 +9,30 @@ fn row_texel(i: u32) -> vec2u {
     return vec2u(i & ((1u << ROW_BITS) - 1u), i >> ROW_BITS);
 }
 
+fn material_at(i: u32) -> Material {
+    let a = textureLoad(materials, row_texel(6u * i), 0);
+    let b = textureLoad(materials, row_texel(6u * i + 1u), 0);
+    let c = textureLoad(materials, row_texel(6u * i + 2u), 0);
+    let d = textureLoad(materials, row_texel(6u * i + 3u), 0);
+    let e = textureLoad(materials, row_texel(6u * i + 4u), 0);
+    let f = textureLoad(materials, row_texel(6u * i + 5u), 0);
+    return Material(
+        bitcast<vec3f>(a.xyz),
+        bitcast<f32>(a.w),
+        bitcast<vec3f>(b.xyz),
+        bitcast<f32>(b.w),
+        bitcast<vec3f>(c.xyz),
+        bitcast<f32>(c.w),
+        bitcast<f32>(d.x),
+        bitcast<f32>(d.y),
+        d.z,
+        e.xy,
+        e.zw,
+        f.xy,
+        f.zw,
+    );
+}
+
 fn scratch_node(i: u32) -> ScratchNode {
     let a = textureLoad(scratch_nodes, row_texel(2u * i), 0);
     let b = textureLoad(scratch_nodes, row_texel(2u * i + 1u), 0);
@@ -44,7 +68,7 @@ fn light_around(i: u32) -> vec4f {
     return bitcast<vec4f>(textureLoad(lights, row_texel(4u * i + 1u), 0));
 }
 
-// A vertex of a polygonal light, metres.
+// A vertex of a polygonal light, metres: they lie behind the lights.
 fn light_corner_m(i: u32) -> vec3f {
-    return bitcast<vec3f>(textureLoad(light_vertices, row_texel(i), 0).xyz);
+    return bitcast<vec3f>(textureLoad(lights, row_texel(4u * frame.light_count + i), 0).xyz);
 }

@@ -8,7 +8,7 @@ fn served_tiles(@builtin(global_invocation_id) id: vec3u) {
     if tile >= counts.x * counts.y {
         return;
     }
-    let head = tile_list_texel(tile);
+    let head = tile_list_texel(TILE_HEAD_TEXELS * tile);
     let plane_key = head.z;
     let asks = head.w != 0u;
     let count = select(0u, head.x, asks);

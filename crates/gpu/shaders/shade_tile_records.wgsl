@@ -4,12 +4,13 @@
 @compute @workgroup_size(8, 8)
 fn shade(
     @builtin(workgroup_id) workgroup: vec3u,
-    @builtin(local_invocation_id) local: vec3u,
+    @builtin(local_invocation_index) lane: u32,
 ) {
-    let here = tile_pixel(queue_tile(QUEUE_RECORDED, workgroup.x), local.xy);
+    let tile = queue_tile(QUEUE_RECORDED, workgroup.x);
+    let here = tile_pixel(tile, lane);
     let count = here.list.x;
     var depth_m: f32;
-    let point = tile_pixel_point(here, &depth_m);
+    let point = tile_pixel_on_plane(here, tile_plane_at(tile), &depth_m);
     var single_share = 1.0;
     var sums: ScratchSums;
     var alone = here.seen.x != 0u;
@@ -23,7 +24,7 @@ fn shade(
     for (var first = 0u; first < count; first += TILE_CHUNK) {
         let list = tile_chunk_texel(chunk);
         chunk = tile_list_texel(list + TILE_CHUNK).x;
-        var near = select(vec2u(0u), tile_chunk_near(list, count - first, local.xy), alone);
+        var near = select(vec2u(0u), tile_chunk_near(list, count - first, here.in_tile), alone);
         let adds = bits_count(near);
         for (var i = 0u; i < adds; i += 1u) {
             gather_rounds += 1u;

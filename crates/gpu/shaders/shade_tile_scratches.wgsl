@@ -4,9 +4,9 @@
 @compute @workgroup_size(8, 8)
 fn shade(
     @builtin(workgroup_id) workgroup: vec3u,
-    @builtin(local_invocation_id) local: vec3u,
+    @builtin(local_invocation_index) lane: u32,
 ) {
-    let here = tile_pixel(queue_tile(QUEUE_LISTED, workgroup.x), local.xy);
+    let here = tile_pixel(queue_tile(QUEUE_LISTED, workgroup.x), lane);
     let count = here.list.x;
     let plane_key = here.list.z;
     var depth_m: f32;
@@ -28,7 +28,7 @@ fn shade(
     for (var first = 0u; first < count; first += TILE_CHUNK) {
         let list = tile_chunk_texel(chunk);
         chunk = tile_list_texel(list + TILE_CHUNK).x;
-        var near = select(vec2u(0u), tile_chunk_near(list, count - first, local.xy), alone);
+        var near = select(vec2u(0u), tile_chunk_near(list, count - first, here.in_tile), alone);
         var left = near;
         if plane_key != 0u {
             left = vec2u(0u);

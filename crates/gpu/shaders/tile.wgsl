@@ -8,16 +8,18 @@ const TILE_PX: u32 = 8u;
 const TILE_BLOCK: u32 = 8u;
 
 // A list is a chain of chunks of so many entries, from a pool that all tiles share. The texel after a chunk's entries has the number of
-// the next one. Before the pool there is a texel for each tile: how many entries its list has, where it begins, and the key of the
-// plane that its pixels see, where that is asked for. Twin: src/tile_room.rs.
+// the next one. Before the pool each tile has a head. Twin: src/tile_room.rs.
 const TILE_CHUNK: u32 = 64u;
+// How many entries its list has, where it begins, and where that is asked for the key of the plane that its pixels see, and what the plane
+// is made of + 1; then the plane's normal, and how far it lies before the camera.
+const TILE_HEAD_TEXELS: u32 = 2u;
 // Longer lists are left to walks.
 const TILE_LIST_MOST: u32 = 512u;
 
 // The first texel of a chunk.
 fn tile_chunk_texel(chunk: u32) -> u32 {
     let tiles = tile_counts();
-    return tiles.x * tiles.y + (TILE_CHUNK + 1u) * chunk;
+    return TILE_HEAD_TEXELS * tiles.x * tiles.y + (TILE_CHUNK + 1u) * chunk;
 }
 
 // Tiles across the film, and down it.

@@ -6,6 +6,11 @@ fn tile_list_texel(at: u32) -> vec4u {
     return textureLoad(tile_lists, row_texel(at), 0);
 }
 
+// Of a tile that has one: its normal, and how far it lies before the camera.
+fn tile_plane_at(tile: u32) -> vec4f {
+    return bitcast<vec4f>(tile_list_texel(TILE_HEAD_TEXELS * tile + 1u));
+}
+
 // Which entries of the chunk that begins at a texel a pixel of the tile is near to, a bit for each. `count` of the list are left.
 fn tile_chunk_near(list: u32, count: u32, in_tile: vec2u) -> vec2u {
     var near = vec2u(0u);

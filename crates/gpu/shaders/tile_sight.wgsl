@@ -22,6 +22,8 @@ struct TileSight {
     upper_m: vec3f,
     reach2_px: vec2f,           // the squares of how far a pixel that sees a scratch may be from its line, and beyond its ends
     plane: TilePlane,           // whether it holds is asked only where light is looked for along scratches
+    material: u32,              // + 1, of its first pixel
+    one_material: bool,         // asked likewise
 }
 
 // The triangles that a tile's pixels see, if they are few.
@@ -69,6 +71,7 @@ fn tile_sight_none(triangles: TileTriangles) -> TileSight {
     var sight: TileSight;
     sight.object = triangles.object;
     sight.one_object = triangles.one_object;
+    sight.one_material = true;
     sight.lower_m = vec3f(1e30);
     sight.upper_m = vec3f(-1e30);
     return sight;
@@ -97,10 +100,13 @@ fn tile_sight(corner: vec2u, tile: u32) -> TileSight {
         let ray = tile_ray(middle + tile_at_px(in_film));
         var depth_m: f32;
         let point = hit_surface_point(seen.x - 1u, ray, &depth_m);
+        let material = tile_material(seen.x - 1u) + 1u;
         if is_first {
             sight.plane = plane_of(point);
+            sight.material = material;
         }
         is_first = false;
+        sight.one_material = sight.one_material && material == sight.material;
         if by_corners {
             by_corners = tile_is_flat(triangles, sight.plane);
             for (var c = 0u; c < 4u; c += 1u) {
@@ -152,7 +158,7 @@ fn tile_sight_add_corner(sight: ptr<function, TileSight>, about: SurfacePoint, r
 // Whether all triangles lie in a plane that the first of them shows, and are of its material; with a normal map none is a plane.
 fn tile_is_flat(seen: TileTriangles, plane: TilePlane) -> bool {
     let material = tile_material(seen.triangles[0]);
-    var is_flat = !hit_has_texture(materials[material].normal_texture);
+    var is_flat = !hit_has_texture(material_at(material).normal_texture);
     for (var t = 0u; t < seen.count; t += 1u) {
         gather_rounds += 1u;
         let triangle = seen.triangles[t];

@@ -79,8 +79,12 @@ fn tiles(
         key = select(0u, plane_key(sight.plane.normal), sight.plane.holds);
     }
     let is_complete = sight.one_object && at >= end && chunk < frame.tile_chunks;
-    let asks = has_records && is_complete && tile_is_clear(sight.plane);
-    textureStore(tile_lists_out, row_texel(tile), vec4u(found, first_chunk, key, u32(asks)));
+    let asks = has_records && is_complete && sight.one_material && tile_is_clear(sight.plane);
+    textureStore(tile_lists_out, row_texel(TILE_HEAD_TEXELS * tile), vec4u(found, first_chunk, key, select(0u, sight.material, asks)));
+    if METHOD_LIGHT_AT == LIGHT_AT_SCRATCHES {
+        let plane = vec4f(sight.plane.normal, dot(sight.plane.normal, sight.plane.origin_m - frame.camera_m));
+        textureStore(tile_lists_out, row_texel(TILE_HEAD_TEXELS * tile + 1u), bitcast<vec4u>(plane));
+    }
     if sight.object == 0u {
         queue_push(QUEUE_EMPTY, tile);
     } else if !is_complete {

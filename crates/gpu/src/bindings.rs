@@ -1,29 +1,26 @@
 //! What the passes bind, group by group. Twin: `shaders/bindings.wgsl` and `shaders/film.wgsl`.
 //!
-//! Group 0 the frame, group 1 the scene's buffers, group 2 its tables and textures, group 3 visibility and film: six
+//! Group 0 the frame, group 1 the scene's buffers, group 2 its tables and textures, group 3 visibility and film: five
 //! storage buffers in all, of the eight that every WebGPU device has.
 
 use wgpu::ShaderStages;
 
 use crate::device::Gpu;
-use crate::storage_textures;
+use crate::storage_textures::{self, NUMBERS_FORMAT, TEXEL_FORMAT};
 use crate::tile_room::TILE_LISTS_FORMAT;
 
 /// Names of the scene's buffers in the order of their bindings.
-pub const SCENE_BUFFERS: [&str; 7] = [
+pub const SCENE_BUFFERS: [&str; 6] = [
     "triangles",
     "objects",
     "materials",
     "lights",
-    "light vertices",
     "scratch tree",
     "scratch segments",
 ];
 
 /// From this one on they lie in textures.
-const FIRST_ROWS: u32 = 3;
-/// From this one on in storage textures, where they are used.
-const FIRST_STORED: u32 = 5;
+const FIRST_ROWS: u32 = 2;
 
 /// The layouts that the passes share.
 pub(crate) struct Layouts {
@@ -44,19 +41,20 @@ impl Layouts {
             .map(|i| match i {
                 0 => entry(i, both, storage(true)),
                 i if i < FIRST_ROWS => entry(i, compute, storage(true)),
-                i if i < FIRST_STORED => entry(i, compute, integers()),
                 i => entry(
                     i,
                     compute,
-                    storage_textures::binding(gpu, wgpu::TextureViewDimension::D2),
+                    storage_textures::binding(gpu, TEXEL_FORMAT, wgpu::TextureViewDimension::D2),
                 ),
             })
             .collect();
+        let numbers =
+            storage_textures::binding(gpu, NUMBERS_FORMAT, wgpu::TextureViewDimension::D2);
         let textures = [
-            storage_textures::binding(gpu, wgpu::TextureViewDimension::D2Array),
-            texture(wgpu::TextureViewDimension::D2, false),
-            texture(wgpu::TextureViewDimension::D2, false),
-            texture(wgpu::TextureViewDimension::D2, false),
+            storage_textures::binding(gpu, TEXEL_FORMAT, wgpu::TextureViewDimension::D2Array),
+            numbers,
+            numbers,
+            numbers,
             texture(wgpu::TextureViewDimension::D2, true),
             texture(wgpu::TextureViewDimension::D2, true),
             texture(wgpu::TextureViewDimension::D2Array, true),
@@ -92,7 +90,11 @@ impl Layouts {
                     entry(
                         2,
                         compute,
-                        storage_textures::binding(gpu, wgpu::TextureViewDimension::D2),
+                        storage_textures::binding(
+                            gpu,
+                            TEXEL_FORMAT,
+                            wgpu::TextureViewDimension::D2,
+                        ),
                     ),
                     queues,
                     entry(4, compute, storage(false)),

@@ -14,6 +14,8 @@ use crate::textures::TextureArray;
 
 /// Elements that a thread takes at a time: fewer are not worth another thread.
 const CHUNK: usize = 4096;
+/// Of a light.
+const LIGHT_TEXELS: usize = size_of::<Light>() / 16;
 
 fn relative(position_m: DVec3, origin_m: DVec3) -> [f32; 3] {
     (position_m - origin_m).as_vec3().to_array()
@@ -76,7 +78,7 @@ pub(crate) fn materials(
         .collect()
 }
 
-pub(crate) fn polygon_vertex_count(light: &hairline_scene::Light) -> usize {
+fn polygon_vertex_count(light: &hairline_scene::Light) -> usize {
     match light {
         hairline_scene::Light::Polygon { vertices_m, .. } => vertices_m.len(),
         hairline_scene::Light::Sphere { .. } => 0,
@@ -114,8 +116,10 @@ fn material(scene: &Scene, tables: &ScratchTables, array: &TextureArray, index: 
     }
 }
 
-pub(crate) fn lights(scene: &Scene, origin_m: DVec3) -> Vec<Light> {
+/// All lights, and behind them the vertices of those that are polygons, as texels.
+pub(crate) fn lights(scene: &Scene, origin_m: DVec3) -> Vec<[u32; 4]> {
     let mut next_vertex = 0;
+    let mut vertices: Vec<[f32; 4]> = Vec::new();
     let light = |light: &hairline_scene::Light| {
         let (center_m, radius_m) = light.bounding_sphere();
         let bounded = Light {
@@ -137,6 +141,10 @@ pub(crate) fn lights(scene: &Scene, origin_m: DVec3) -> Vec<Light> {
                 let area_m2 = vector_area_m2(vertices_m);
                 let first_vertex = next_vertex;
                 next_vertex += vertices_m.len() as u32;
+                vertices.extend(vertices_m.iter().map(|vertex| {
+                    let [x, y, z] = relative(*vertex, origin_m);
+                    [x, y, z, 0.0]
+                }));
                 Light {
                     radiance: radiance.map(|c| c as f32),
                     kind: LIGHT_POLYGON,
@@ -150,19 +158,16 @@ pub(crate) fn lights(scene: &Scene, origin_m: DVec3) -> Vec<Light> {
             }
         }
     };
-    scene.lights.iter().map(light).collect()
+    let lights: Vec<Light> = scene.lights.iter().map(light).collect();
+    let mut texels = bytemuck::cast_slice(&lights).to_vec();
+    texels.extend_from_slice(bytemuck::cast_slice(&vertices));
+    texels
 }
 
-pub(crate) fn light_vertices(scene: &Scene, origin_m: DVec3) -> Vec<[f32; 4]> {
-    let vertices = |light: &hairline_scene::Light| match light {
-        hairline_scene::Light::Polygon { vertices_m, .. } => vertices_m.clone(),
-        hairline_scene::Light::Sphere { .. } => Vec::new(),
-    };
-    let padded = |vertex: DVec3| {
-        let [x, y, z] = relative(vertex, origin_m);
-        [x, y, z, 0.0]
-    };
-    scene.lights.iter().flat_map(vertices).map(padded).collect()
+/// How many texels [`lights`] are.
+pub(crate) fn light_texels(scene: &Scene) -> usize {
+    let vertices: usize = scene.lights.iter().map(polygon_vertex_count).sum();
+    scene.lights.len() * LIGHT_TEXELS + vertices
 }
 
 fn scratch_node(node: &hairline_index::ScratchNode, origin_m: DVec3) -> ScratchNode {

@@ -10,7 +10,7 @@ use crate::bindings::{Layouts, SCENE_BUFFERS, bind};
 use crate::device::Gpu;
 use crate::error::Error;
 use crate::host;
-use crate::layout::{Light, Material, Object, ScratchNode, ScratchSegment, Vertex};
+use crate::layout::{Material, Object, ScratchNode, ScratchSegment, Vertex};
 use crate::rows;
 use crate::textures::TextureArray;
 use crate::transfer::Transfer;
@@ -22,9 +22,8 @@ pub(crate) struct SceneBuffers {
     pub group: wgpu::BindGroup,
     pub vertices: Vertices,
     objects: Small<Object, wgpu::Buffer>,
-    materials: Small<Material, wgpu::Buffer>,
-    lights: Small<Light, wgpu::TextureView>,
-    light_vertices: Small<[f32; 4], wgpu::TextureView>,
+    materials: Small<Material, wgpu::TextureView>,
+    lights: Small<[u32; 4], wgpu::TextureView>,
     index: Arc<ScratchIndex>,
     nodes: wgpu::TextureView,
     segments: wgpu::TextureView,
@@ -50,15 +49,7 @@ impl SceneBuffers {
             tables,
             ..
         } = *source;
-        let [
-            triangles,
-            objects,
-            materials,
-            lights,
-            corners,
-            nodes,
-            segments,
-        ] = SCENE_BUFFERS;
+        let [triangles, objects, materials, lights, nodes, segments] = SCENE_BUFFERS;
         let last_vertices = last.map(|last| &last.vertices);
         let vertices = Vertices::upload(transfer, triangles, scene, last_vertices).await?;
         let origin_m = vertices.origin_m;
@@ -71,7 +62,7 @@ impl SceneBuffers {
         let materials = Small::keep(
             last.map(|last| &last.materials),
             host::materials(scene, tables, array),
-            async |elements| storage_buffer(transfer, materials, elements).await,
+            async |elements| rows::upload(transfer, materials, elements).await,
         );
         let materials = materials.await?;
         let lights = Small::keep(
@@ -80,12 +71,6 @@ impl SceneBuffers {
             async |elements| rows::upload(transfer, lights, elements).await,
         );
         let lights = lights.await?;
-        let light_vertices = Small::keep(
-            last.map(|last| &last.light_vertices),
-            host::light_vertices(scene, origin_m),
-            async |elements| rows::upload(transfer, corners, elements).await,
-        );
-        let light_vertices = light_vertices.await?;
         let same_index =
             |last: &&Self| Arc::ptr_eq(&last.index, index) && last.vertices.origin_m == origin_m;
         let [nodes, segments] = match last.filter(same_index) {
@@ -95,8 +80,8 @@ impl SceneBuffers {
                 rows::upload(transfer, segments, &host::segments(index, origin_m)).await?,
             ],
         };
-        let buffers = [&vertices.buffer, &objects.there, &materials.there];
-        let rows = [&lights.there, &light_vertices.there, &nodes, &segments];
+        let buffers = [&vertices.buffer, &objects.there];
+        let rows = [&materials.there, &lights.there, &nodes, &segments];
         let resources: Vec<_> = buffers
             .into_iter()
             .map(wgpu::Buffer::as_entire_binding)
@@ -108,7 +93,6 @@ impl SceneBuffers {
             objects,
             materials,
             lights,
-            light_vertices,
             index: Arc::clone(index),
             nodes,
             segments,
@@ -159,15 +143,13 @@ pub(crate) fn check_size(gpu: &Gpu, source: &Source<'_>) -> Result<(), Error> {
         .iter()
         .map(|object| object.mesh.triangles.len())
         .sum();
-    let light_vertices: usize = scene.lights.iter().map(host::polygon_vertex_count).sum();
     let buffers = [
         (triangles, 3 * size_of::<Vertex>()),
         (scene.objects.len(), size_of::<Object>()),
-        (scene.materials.len(), size_of::<Material>()),
     ];
     let rows = [
-        (scene.lights.len(), size_of::<Light>()),
-        (light_vertices, size_of::<[f32; 4]>()),
+        (scene.materials.len(), size_of::<Material>()),
+        (host::light_texels(scene), size_of::<[u32; 4]>()),
         (index.tree.nodes.len(), size_of::<ScratchNode>()),
         (index.tree.segments.len(), size_of::<ScratchSegment>()),
     ];

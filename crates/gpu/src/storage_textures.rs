@@ -11,43 +11,79 @@ use crate::variant::is_bounded;
 /// Of whole texels: four words each.
 pub(crate) const TEXEL_FORMAT: TextureFormat = TextureFormat::Rgba32Uint;
 
-/// With the scratch tables as many as WebGPU allows a stage. The look-up of the tables knows its texture as an argument, and is
-/// told by its layer.
-const STORED: [&str; 3] = ["scratch_nodes", "scratch_segments", "tile_lists"];
+/// Of numbers that come as such.
+pub(crate) const NUMBERS_FORMAT: TextureFormat = TextureFormat::Rgba32Float;
+
+/// Names and formats. Tables of lobes are arguments of functions as well, by other names; so are scratch tables, which are told by
+/// their layer.
+const STORED: [(&str, &str); 12] = [
+    ("materials", "rgba32uint"),
+    ("lights", "rgba32uint"),
+    ("scratch_nodes", "rgba32uint"),
+    ("scratch_segments", "rgba32uint"),
+    ("tile_lists", "rgba32uint"),
+    ("lobe_albedo", "rgba32float"),
+    ("lobe_ltc", "rgba32float"),
+    ("lobe_sptd", "rgba32float"),
+    ("albedo_table", "rgba32float"),
+    ("ltc_table", "rgba32float"),
+    ("sptd_table", "rgba32float"),
+    ("table", "rgba32float"),
+];
+
+/// As many of them as a stage binds: more than WebGPU allows one unless it is asked.
+pub(crate) const STORAGE_TEXTURES: u32 = 9;
 
 /// Whether the device is given storage textures. By way of OpenGL they cannot be arguments of functions.
 pub(crate) fn are_used(gpu: &Gpu) -> bool {
-    is_bounded(gpu) && gpu.adapter.backend != "gl"
+    is_bounded(gpu)
+        && gpu.adapter.backend != "gl"
+        && gpu.limits().max_storage_textures_per_shader_stage >= STORAGE_TEXTURES
 }
 
 /// The binding of one of them.
-pub(crate) fn binding(gpu: &Gpu, view_dimension: wgpu::TextureViewDimension) -> BindingType {
+pub(crate) fn binding(
+    gpu: &Gpu,
+    format: TextureFormat,
+    view_dimension: wgpu::TextureViewDimension,
+) -> BindingType {
     if are_used(gpu) {
         BindingType::StorageTexture {
             access: StorageTextureAccess::ReadOnly,
-            format: TEXEL_FORMAT,
+            format,
             view_dimension,
         }
     } else {
         BindingType::Texture {
-            sample_type: TextureSampleType::Uint,
+            sample_type: if format == NUMBERS_FORMAT {
+                TextureSampleType::Float { filterable: false }
+            } else {
+                TextureSampleType::Uint
+            },
             view_dimension,
             multisampled: false,
         }
     }
 }
 
-/// A shader's text that reads scratches, their tables and their lists from storage textures.
+/// A shader's text that reads them from storage textures.
 pub(crate) fn in_text(text: &str) -> String {
     let mut stored = text.replace(
         "texture_2d_array<u32>",
         "texture_storage_2d_array<rgba32uint, read>",
     );
-    for name in STORED {
-        stored = stored.replace(
-            &format!("var {name}: texture_2d<u32>"),
-            &format!("var {name}: texture_storage_2d<rgba32uint, read>"),
-        );
+    for (name, format) in STORED {
+        let numbers = if format.ends_with("float") {
+            "f32"
+        } else {
+            "u32"
+        };
+        for before in [" ", "("] {
+            stored = stored.replace(
+                &format!("{before}{name}: texture_2d<{numbers}>"),
+                &format!("{before}{name}: texture_storage_2d<{format}, read>"),
+            );
+        }
     }
     // They have one level, and it is not named.
     let mut calls = stored.split("textureLoad(");
@@ -56,8 +92,9 @@ pub(crate) fn in_text(text: &str) -> String {
         text.push_str("textureLoad(");
         let end = end_of_arguments(call);
         let (arguments, rest) = call.split_at(end);
+        let texture = arguments.split(',').next().unwrap_or_default();
         let is_stored =
-            arguments.contains(" layer, ") || STORED.iter().any(|name| arguments.starts_with(name));
+            arguments.contains(" layer, ") || STORED.iter().any(|(name, _)| *name == texture);
         let level = if is_stored { ", 0" } else { "" };
         text.push_str(arguments.strip_suffix(level).unwrap_or(arguments));
         text.push_str(rest);
@@ -95,13 +132,12 @@ mod tests {
     fn all_of_them_are_found() {
         let text = in_text(&compose(&[&SHADE_TILES]));
         // The tables in their binding and as an argument, and the others.
-        assert!(
-            text.matches("texture_storage_2d_array<rgba32uint, read>")
-                .count()
-                > 1
-        );
-        let others = text.matches("texture_storage_2d<rgba32uint, read>").count();
-        assert_eq!(others, STORED.len());
+        let tables = text.matches("texture_storage_2d_array<rgba32uint, read>");
+        assert!(tables.count() > 1);
         assert!(!text.contains("texture_2d_array<u32>"));
+        let bound = text
+            .lines()
+            .filter(|line| line.contains("@binding") && line.contains(": texture_storage"));
+        assert_eq!(bound.count(), STORAGE_TEXTURES as usize);
     }
 }

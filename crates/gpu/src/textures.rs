@@ -16,6 +16,7 @@ use crate::bindings::{Layouts, bind};
 use crate::bundles::UploadedBundles;
 use crate::error::Error;
 use crate::published::Published;
+use crate::storage_textures::NUMBERS_FORMAT;
 use crate::transfer::{Place, Transfer};
 use crate::upload::Source;
 
@@ -240,9 +241,7 @@ async fn lobe(
     table: &LobeTable,
 ) -> Result<wgpu::TextureView, Error> {
     let size = [LOBE_TABLE_SIZE as u32; 2];
-    let texture = transfer
-        .texture(what, size, 1, 1, TextureFormat::Rgba32Float)
-        .await?;
+    let texture = transfer.texture(what, size, 1, 1, NUMBERS_FORMAT).await?;
     let texels = bytemuck::cast_slice(table.texels());
     transfer.write_texture(what, &texture, Place::default(), size, texels);
     Ok(texture.create_view(&Default::default()))

@@ -18,6 +18,8 @@ pub(crate) const TILES_MAX: u32 = 65_535;
 const TEXELS_MAX: u32 = 1 << 24;
 /// Texels of a chunk of a list: its entries, and where the next one is. Twin: tile.wgsl.
 const CHUNK_TEXELS: u32 = 64 + 1;
+/// Before all chunks, of each tile. Twin: tile.wgsl.
+const HEAD_TEXELS: u32 = 2;
 /// Chunks for each tile, in the mean: more scratches than footprints of usual wear hold. What does not fit is found pixel by pixel.
 const TILE_CHUNKS_MEAN: u32 = 8;
 /// Small pictures are often of large things from afar. 8 MiB.
@@ -173,9 +175,9 @@ impl Layout {
             0 => 0,
             _ => CHUNKS_LEAST.max(tiles * TILE_CHUNKS_MEAN),
         };
-        let chunks = ((for_lists - tiles) / CHUNK_TEXELS).min(wanted);
+        let chunks = ((for_lists - tiles * HEAD_TEXELS) / CHUNK_TEXELS).min(wanted);
         let parts = if segments > 0 {
-            (TEXELS_MAX - tiles - chunks * CHUNK_TEXELS) / RECORD_TEXELS
+            (TEXELS_MAX - tiles * HEAD_TEXELS - chunks * CHUNK_TEXELS) / RECORD_TEXELS
         } else {
             0
         };
@@ -206,7 +208,7 @@ impl Layout {
     }
 
     fn texels(&self) -> u32 {
-        self.tiles + self.chunks * CHUNK_TEXELS + self.parts * RECORD_TEXELS
+        self.tiles * HEAD_TEXELS + self.chunks * CHUNK_TEXELS + self.parts * RECORD_TEXELS
     }
 }
 

@@ -62,7 +62,11 @@ pub(crate) fn gather_reach_m(point: &SurfacePoint) -> DVec3 {
     // Variances of position along the world's axes; 0.7 sigma^2 covers the window across and the ends' blur along.
     let [ax, ay] = point.footprint_axes_m;
     let variance = ax * ax + ay * ay + DVec3::splat(0.7 * sigma_m * sigma_m);
-    variance.map(f64::sqrt) * REACH_STD as f64
+    let on_plane = variance.map(f64::sqrt);
+    // The footprint lies in the plane that shading sees. Scratches lie on triangles: this one leaves it by as much as its normal is
+    // another one, and its neighbours by about as much again.
+    let aside = 2.0 * point.normal.distance(point.facet) * variance.element_sum().sqrt();
+    (on_plane + point.normal.abs() * aside) * REACH_STD as f64
 }
 
 /// A segment with less than this share of its line is left out: that is the Gaussian's tail beyond 5.5 standard deviations.

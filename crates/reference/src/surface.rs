@@ -15,6 +15,8 @@ pub(crate) struct SurfacePoint {
     pub axis_x: DVec3,
     pub axis_y: DVec3,
     pub normal: DVec3,
+    /// Unit normal of the triangle, on the viewer's side.
+    pub facet: DVec3,
     /// Unit direction to the viewer in the local frame.
     pub wo: DVec3,
     /// Distance to the viewer.
@@ -147,6 +149,7 @@ pub(crate) fn surface_point(
         axis_x,
         axis_y,
         normal,
+        facet: side * geometric.normalize_or(normal),
         wo: DVec3::new((1.0 - cos * cos).max(0.0).sqrt(), 0.0, cos),
         distance_m: hit.distance_m,
         footprint_axes_m: if normal == smooth {

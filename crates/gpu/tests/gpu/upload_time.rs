@@ -1,15 +1,13 @@
 //! How long an upload takes, by stage: printed, not judged.
 
-mod common;
-
 use std::time::Instant;
 
-use common::{BUILT_IN, Made, scene};
+use crate::common::{BUILT_IN, Made, scene};
 use hairline_gpu::Renderer;
 use hairline_gpu::headless::test_gpu;
 
 #[test]
-#[ignore = "a measurement: cargo test --release -p hairline-gpu --test upload_time -- --ignored --nocapture"]
+#[ignore = "a measurement: cargo test --release -p hairline-gpu --test gpu -- --ignored --nocapture"]
 fn a_layer_of_a_hundred_thousand_scratches() {
     let Some(gpu) = test_gpu() else { return };
     let layer = r#"

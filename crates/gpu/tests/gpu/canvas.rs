@@ -1,12 +1,10 @@
 //! A picture that comes together in bands is the rendered one, at any size, and looks right at any moment.
 
-mod common;
-
 use std::future::Future;
 use std::pin::pin;
 use std::task::{Context, Waker};
 
-use common::{BUILT_IN, PLATES, Stage, scene};
+use crate::common::{BUILT_IN, PLATES, Stage, scene};
 use hairline_gpu::headless::{self, test_gpu};
 use hairline_gpu::{AdapterRequest, Canvas, Error, Gpu, RenderOptions};
 use hairline_image::{Display, Image, ToneMap};
