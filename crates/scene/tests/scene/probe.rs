@@ -1,8 +1,7 @@
 //! Files are looked at before a scene names them: what is wrong is said as clearly as when a scene is loaded.
 
-mod common;
-
-use common::{Glb, cube, temporary_dir};
+use crate::common;
+use crate::common::{Glb, cube, temporary_dir};
 use hairline_image::{Display, Output, Picture};
 use hairline_scene::probe;
 

@@ -1,7 +1,6 @@
 //! Handles in the picture: they do what they say, in one step, and take it back.
 
-mod common;
-
+use crate::common;
 use egui::{Pos2, vec2};
 use egui_kittest::{Harness, kittest::Queryable};
 use glam::DVec3;

@@ -1,8 +1,6 @@
 //! Scratches on meshes that nobody would make on purpose: they end, and hold only finite numbers.
 
-mod common;
-
-use common::{Glb, scene_with, temporary_dir};
+use crate::common::{Glb, scene_with, temporary_dir};
 use hairline_scene::Scene;
 
 /// Triangles between random points, some of them equal, some nearly in line: crossing, sharing edges by threes and more.

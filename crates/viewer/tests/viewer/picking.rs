@@ -1,7 +1,6 @@
 //! What a click in the picture meets.
 
-mod common;
-
+use crate::common;
 use egui::{Rect, vec2};
 use glam::{DVec2, DVec3};
 use hairline_editor::{Selection, navigate};

@@ -1,17 +1,15 @@
 //! Scene files: what is saved loads again, the documented example works, defaults are those of the documentation.
 
-mod common;
-
 use std::path::Path;
 
-use common::{asset, scene_with, temporary_dir};
+use crate::common::{asset, scene_with, temporary_dir};
 use hairline_image::ToneMap;
 use hairline_optics::metal::Metal;
 use hairline_optics::method::Gather;
 use hairline_scene::description::*;
 use hairline_scene::{Base, Light as SceneLight, Scene, description};
 
-const EXAMPLE: &str = include_str!("example.toml");
+const EXAMPLE: &str = include_str!("../example.toml");
 
 fn parsed(text: &str) -> Description {
     Description::from_toml(text, Path::new("test.toml")).unwrap_or_else(|e| panic!("{e}\n{text}"))

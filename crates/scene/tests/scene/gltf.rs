@@ -1,10 +1,9 @@
 //! glTF and GLB files: what they may hold, and what becomes of broken ones. The files are made here.
 
-mod common;
-
+use crate::common;
 use std::path::Path;
 
-use common::{Glb, asset, cube, glb_of, scene_with, temporary_dir};
+use crate::common::{Glb, asset, cube, glb_of, scene_with, temporary_dir};
 use glam::DVec3;
 use hairline_scene::{Base, Error, Mesh, Scene};
 

@@ -1,8 +1,6 @@
 //! Every command of the menus, by its key where it has one.
 
-mod common;
-
-use common::{SMALL, click_on, description, viewer, wait_built};
+use crate::common::{SMALL, click_on, description, viewer, wait_built};
 use egui::{Key, Modifiers};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;

@@ -1,11 +1,9 @@
 //! Files that come from outside: good ones, and wrong ones, which are told of and change nothing.
 
-mod common;
-
 use std::path::Path;
 use std::sync::Arc;
 
-use common::{SMALL, click_on, description, viewer, viewer_with, wait_built, wait_until};
+use crate::common::{SMALL, click_on, description, viewer, viewer_with, wait_built, wait_until};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use hairline_viewer::engine::Backend;

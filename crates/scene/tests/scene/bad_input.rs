@@ -1,8 +1,6 @@
 //! Mistakes in scene files: each ends in one line that says where, what, and what would be right.
 
-mod common;
-
-use common::{object, scene_with, temporary_dir};
+use crate::common::{object, scene_with, temporary_dir};
 use hairline_scene::{Loader, Scene};
 
 /// Lines 1 to 9 are the camera and the material, line 11 is the first of `rest`.

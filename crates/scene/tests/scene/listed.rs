@@ -1,8 +1,6 @@
 //! Scratches from CSV files.
 
-mod common;
-
-use common::{object, scene_with, temporary_dir};
+use crate::common::{object, scene_with, temporary_dir};
 use hairline_scene::{Error, Object, Scene};
 
 const HEADER: &str = "x0_m,y0_m,z0_m,x1_m,y1_m,z1_m,width_um,depth_nm\n";

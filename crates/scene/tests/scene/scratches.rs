@@ -1,8 +1,6 @@
 //! Scratches lie on their surface, follow their pattern, and are the same everywhere.
 
-mod common;
-
-use common::{object, scene_with};
+use crate::common::{object, scene_with};
 use glam::DVec3;
 use hairline_scene::{Object, Scene, Scratch, Segment};
 

@@ -1,10 +1,8 @@
 //! Scratches along strokes, what an eraser leaves of a layer, and layers that do not depend on their place in the list.
 
-mod common;
-
 use std::path::Path;
 
-use common::{object, scene_with};
+use crate::common::{object, scene_with};
 use glam::{DVec2, DVec3};
 use hairline_scene::description::*;
 use hairline_scene::{Object, Scene, Scratch, Segment};

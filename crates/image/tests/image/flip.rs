@@ -1,6 +1,4 @@
 //! FLIP on pictures whose answer is known.
-#![cfg(feature = "flip")]
-
 use hairline_image::metrics::{flip, magma};
 use hairline_image::{Display, Picture, ToneMap};
 

@@ -1,9 +1,7 @@
 //! A window in which nothing happens draws nothing: on a machine that draws by software each pass costs the picture its
 //! cores, on a laptop the battery.
 
-mod common;
-
-use common::{SMALL, viewer, wait_until};
+use crate::common::{SMALL, viewer, wait_until};
 use egui::ViewportId;
 
 #[test]

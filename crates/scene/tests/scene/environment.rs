@@ -1,13 +1,11 @@
 //! Environment maps: conventions, energy, prefiltering against quadrature, and files that are no maps.
 
-mod common;
-
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::fs;
 use std::path::PathBuf;
 use std::time::Instant;
 
-use common::asset;
+use crate::common::asset;
 use glam::{DVec2, DVec3};
 use hairline_image::{Display, Output, Picture};
 use hairline_scene::Environment;

@@ -1,0 +1,11 @@
+//! Files, tone curve and comparisons.
+//! In one program, since each that is linked takes seconds.
+
+mod compare;
+mod files;
+#[cfg(feature = "flip")]
+mod flip;
+mod metrics;
+mod noise_files;
+mod tone_map;
+mod z_test;

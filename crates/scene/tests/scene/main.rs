@@ -1,0 +1,16 @@
+//! From files to scenes.
+//! In one program, since each that is linked takes seconds.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod bad_input;
+mod builder;
+mod description;
+mod environment;
+mod gltf;
+mod listed;
+mod probe;
+mod scratches;
+mod strokes;
+mod wild_meshes;

@@ -1,0 +1,13 @@
+//! The viewer without a window, but for what is held against a clock or loses a device.
+//! In one program, since each that is linked takes seconds.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod commands;
+mod files;
+mod gather;
+mod gizmos;
+mod panels;
+mod picking;
+mod rest;
