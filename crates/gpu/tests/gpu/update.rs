@@ -253,8 +253,8 @@ fn only_what_changed_is_written() {
         all.copied().collect::<BTreeMap<_, _>>()
     };
     let expected = [
-        // A light is 64 bytes, a corner 16.
-        (0, BTreeMap::from([("lights", 128)])),
+        // Two of 64 bytes, and the four corners of one of them of 16.
+        (0, BTreeMap::from([("lights", 192)])),
         (1, BTreeMap::from([("lights", 192)])),
         (2, BTreeMap::from([("materials", all["materials"])])),
         (4, BTreeMap::from([("textures", 20)])),
