@@ -48,13 +48,17 @@ fn gather_footprint(pixel: GatherPixel, tangent: vec2f) -> Footprint {
     );
 }
 
+// How far a surface may be off the plane of a footprint for each length along it.
+const GATHER_BENDS: f32 = 0.125;
+
 // Half the sides of the box around a point that holds every segment with a share there, world space.
 fn gather_reach_m(point: SurfacePoint) -> vec3f {
     let sigma_m = point.coherence_um * 1e-6;
     let footprint = point.footprint_x_m * point.footprint_x_m + point.footprint_y_m * point.footprint_y_m;
     let variance = footprint * gather_filtered() + 0.7 * sigma_m * sigma_m;
     // The footprint lies in the plane that shading sees. Scratches lie on triangles: this one leaves it by as much as its normal is
-    // another one, and its neighbours by about as much again.
-    let aside = 2.0 * distance(point.normal, point.facet) * sqrt(variance.x + variance.y + variance.z);
+    // another one, its neighbours by about as much again; and where a surface bends elsewhere under a footprint, by a share of its size.
+    let leaves = GATHER_BENDS + 2.0 * distance(point.normal, point.facet);
+    let aside = leaves * sqrt(variance.x + variance.y + variance.z);
     return REACH_STD * (sqrt(variance) + abs(point.normal) * aside);
 }
