@@ -4,18 +4,20 @@ use std::cell::RefCell;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use egui::{Pos2, Rect};
 use x11rb::connection::Connection;
+use x11rb::protocol::Event;
 use x11rb::protocol::xproto::{
-    self, AtomEnum, ConnectionExt as _, ImageFormat, InputFocus, Window,
+    self, Atom, AtomEnum, ChangeWindowAttributesAux, ClientMessageEvent, ConnectionExt as _,
+    EventMask, ImageFormat, InputFocus, Window,
 };
 use x11rb::protocol::xtest::ConnectionExt as _;
 use x11rb::rust_connection::RustConnection;
 
-/// After each movement of a hand: a program that draws by software needs its time to see it.
-const REST: Duration = Duration::from_millis(120);
+/// A program that has not answered by then hangs.
+const PATIENCE: Duration = Duration::from_secs(60);
 
 pub struct Display {
     server: Child,
@@ -35,8 +37,9 @@ impl Display {
         let mut server = Command::new("Xvfb")
             .args(["-displayfd", "1", "-screen", "0"])
             .arg(format!("{width}x{height}x24"))
-            .arg("-nolisten")
-            .arg("tcp")
+            .args(["-nolisten", "tcp"])
+            // A key held while a slow program draws is pressed once.
+            .arg("-r")
             .stdout(Stdio::piped())
             .stderr(Stdio::null())
             .spawn()
@@ -56,6 +59,11 @@ impl Display {
         let (first, last) = (setup.min_keycode, setup.max_keycode);
         let mapping = connection.get_keyboard_mapping(first, last - first + 1);
         let mapping = mapping.unwrap().reply().unwrap();
+        // Answers to pings come to who watches the root.
+        let watching = ChangeWindowAttributesAux::new().event_mask(EventMask::SUBSTRUCTURE_NOTIFY);
+        connection
+            .change_window_attributes(root, &watching)
+            .unwrap();
         Some(Self {
             server,
             name,
@@ -81,12 +89,22 @@ impl Display {
         })
     }
 
+    fn atom(&self, name: &str) -> Atom {
+        let cookie = self.connection.intern_atom(false, name.as_bytes()).unwrap();
+        cookie.reply().unwrap().atom
+    }
+
     pub fn title(&self) -> Option<String> {
-        let name = self.connection.intern_atom(false, b"_NET_WM_NAME").ok()?;
-        let name = name.reply().ok()?.atom;
         let property = self
             .connection
-            .get_property(false, self.window()?, name, AtomEnum::ANY, 0, 1024)
+            .get_property(
+                false,
+                self.window()?,
+                self.atom("_NET_WM_NAME"),
+                AtomEnum::ANY,
+                0,
+                1024,
+            )
             .ok()?;
         String::from_utf8(property.reply().ok()?.value).ok()
     }
@@ -105,72 +123,77 @@ impl Display {
         self.connection
             .set_input_focus(InputFocus::POINTER_ROOT, window, x11rb::CURRENT_TIME)
             .unwrap();
-        self.connection.flush().unwrap();
-        self.rest();
         self.rest();
     }
 
+    /// Until the program has taken in all that was sent to it and has drawn what it makes of that: time alone would be too short on
+    /// some machine. It answers a ping once it has taken in what came before, then draws; so that the next but one is answered after
+    /// a frame.
     fn rest(&self) {
-        self.connection.flush().unwrap();
-        std::thread::sleep(REST);
+        for _ in 0..3 {
+            self.ping();
+        }
     }
 
-    fn fake(&self, kind: u8, detail: u8, at: Pos2) {
+    /// As a window manager asks whether a program is alive. A program that has quit need not answer.
+    fn ping(&self) {
+        let Some(window) = self.window() else { return };
+        let (protocols, ping) = (self.atom("WM_PROTOCOLS"), self.atom("_NET_WM_PING"));
+        let message = ClientMessageEvent::new(32, window, protocols, [ping, 0, window, 0, 0]);
+        self.connection
+            .send_event(false, window, EventMask::NO_EVENT, message)
+            .unwrap();
+        self.connection.flush().unwrap();
+        let start = Instant::now();
+        loop {
+            while let Some(event) = self.connection.poll_for_event().unwrap() {
+                if matches!(event, Event::ClientMessage(answer) if answer.data.as_data32()[0] == ping)
+                {
+                    return;
+                }
+            }
+            if self.window().is_none() {
+                return;
+            }
+            assert!(start.elapsed() < PATIENCE, "the program does not answer");
+            std::thread::sleep(Duration::from_millis(5));
+        }
+    }
+
+    fn send(&self, kind: u8, detail: u8) {
+        let at = *self.at.borrow();
         let (x, y) = (at.x.round() as i16, at.y.round() as i16);
         self.connection
             .xtest_fake_input(kind, detail, x11rb::CURRENT_TIME, self.root, x, y, 0)
             .unwrap();
-        self.rest();
+        self.connection.flush().unwrap();
     }
 
     pub fn move_to(&self, to: Pos2) {
         *self.at.borrow_mut() = to;
-        self.fake(xproto::MOTION_NOTIFY_EVENT, 0, to);
+        self.send(xproto::MOTION_NOTIFY_EVENT, 0);
         self.rest();
     }
 
-    fn press(&self) {
-        self.fake(xproto::BUTTON_PRESS_EVENT, 1, *self.at.borrow());
-    }
-
-    fn release(&self) {
-        self.fake(xproto::BUTTON_RELEASE_EVENT, 1, *self.at.borrow());
-    }
-
+    /// Let go at once: a button that is held for long does not click.
     pub fn click(&self, at: Pos2) {
         self.move_to(at);
-        self.press();
-        self.release();
-        self.rest();
-    }
-
-    pub fn double_click(&self, at: Pos2) {
-        self.move_to(at);
-        for _ in 0..2 {
-            // Without the rests: the second click must come soon.
-            for kind in [xproto::BUTTON_PRESS_EVENT, xproto::BUTTON_RELEASE_EVENT] {
-                let (x, y) = (at.x.round() as i16, at.y.round() as i16);
-                self.connection
-                    .xtest_fake_input(kind, 1, x11rb::CURRENT_TIME, self.root, x, y, 0)
-                    .unwrap();
-                self.connection.flush().unwrap();
-                std::thread::sleep(Duration::from_millis(40));
-            }
-        }
+        self.send(xproto::BUTTON_PRESS_EVENT, 1);
+        self.send(xproto::BUTTON_RELEASE_EVENT, 1);
         self.rest();
     }
 
     /// With the left button held, some steps between each two places.
     pub fn drag(&self, way: &[Pos2]) {
         self.move_to(way[0]);
-        self.press();
+        self.send(xproto::BUTTON_PRESS_EVENT, 1);
+        self.rest();
         for pair in way.windows(2) {
             for step in 1..=6 {
-                *self.at.borrow_mut() = pair[0].lerp(pair[1], step as f32 / 6.0);
-                self.fake(xproto::MOTION_NOTIFY_EVENT, 0, *self.at.borrow());
+                self.move_to(pair[0].lerp(pair[1], step as f32 / 6.0));
             }
         }
-        self.release();
+        self.send(xproto::BUTTON_RELEASE_EVENT, 1);
         self.rest();
     }
 
@@ -191,12 +214,12 @@ impl Display {
 
     /// Pressed one after the other and let go in the opposite order.
     pub fn keys(&self, names: &[&str]) {
-        let at = *self.at.borrow();
         for name in names {
-            self.fake(xproto::KEY_PRESS_EVENT, self.keycode(name), at);
+            self.send(xproto::KEY_PRESS_EVENT, self.keycode(name));
+            self.rest();
         }
         for name in names.iter().rev() {
-            self.fake(xproto::KEY_RELEASE_EVENT, self.keycode(name), at);
+            self.send(xproto::KEY_RELEASE_EVENT, self.keycode(name));
         }
         self.rest();
     }

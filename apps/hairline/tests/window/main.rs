@@ -207,7 +207,7 @@ fn an_artist_opens_turns_changes_draws_undoes_saves_and_comes_back() {
 
     // A layer is chosen in the outliner, and its width typed.
     display.click(layout.layer());
-    display.double_click(layout.width());
+    display.click(layout.width());
     display.type_text("7.5");
     display.keys(&["Return"]);
     window.is_modified();
