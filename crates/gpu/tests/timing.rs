@@ -82,8 +82,8 @@ fn passes_take_time_and_not_more_than_has_gone_by() {
     if !gpu.block_on(renderer.time_passes()).unwrap() {
         return skip("the device has no clock");
     }
-    let mut before = Duration::ZERO;
-    for samples in [1, 16] {
+    let mut least = Duration::MAX;
+    for samples in [1, 1, 1, 16] {
         let start = Instant::now();
         render(&mut renderer, &scene, &uploaded, samples);
         let wall = start.elapsed();
@@ -98,12 +98,13 @@ fn passes_take_time_and_not_more_than_has_gone_by() {
         }
         // Passes run one after the other, so that their sum is bounded too.
         assert!(sum(&times) < wall, "{times:?} within {wall:?}");
-        // Sixteen samples are sixteen runs, and summed; far less is asked for, since machines are shared.
-        assert!(
-            sum(&times) > 2 * before || before.is_zero(),
-            "{times:?} after {before:?}"
-        );
-        before = sum(&times);
+        if samples == 1 {
+            // The least: others may be at work on the machine.
+            least = least.min(sum(&times));
+        } else {
+            // Sixteen samples are sixteen runs, and summed; far less is asked for.
+            assert!(sum(&times) > 2 * least, "{times:?} after {least:?}");
+        }
     }
     // What was read is gone.
     assert_eq!(times(&mut renderer), Some(Vec::new()));

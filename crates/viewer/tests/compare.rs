@@ -130,9 +130,9 @@ fn closing_it_stops_the_thread() {
     let asked = Instant::now();
     common::click_on(&mut harness, "Close the comparison");
     common::wait_until(&mut harness, "the end", |viewer| !viewer.is_sampling());
-    // A batch takes milliseconds; the rest is for a busy machine.
+    // A batch takes milliseconds; the rest is for a machine that stands still now and then. All samples take minutes.
     assert!(
-        asked.elapsed() < Duration::from_secs(2),
+        asked.elapsed() < Duration::from_secs(20),
         "{:?}",
         asked.elapsed()
     );

@@ -208,8 +208,8 @@ fn cancelling_leaves_whole_pictures_and_nothing_else() {
     let asked = Instant::now();
     common::click_on(&mut harness, "Cancel the export");
     wait_exported(&mut harness);
-    // A band takes a tenth of a second; the rest is for a busy machine.
-    assert!(asked.elapsed() < Duration::from_secs(5));
+    // A band takes a tenth of a second; the rest is for a machine that stands still now and then. All pictures take minutes.
+    assert!(asked.elapsed() < Duration::from_secs(20));
     let written = whole_pictures(folder.path());
     assert!((2..2000).contains(&written));
     let said = harness.state().messages().concat();
