@@ -16,6 +16,7 @@ var<workgroup> bundle_tallies: array<atomic<i32>, 3u * BUNDLE_POPULATIONS_MAX * 
 // So many segments at least are found before somebody looks at them.
 const BUNDLE_FIND: u32 = 32u;
 const BUNDLE_FIND_ROOM: u32 = BUNDLE_FIND + 2u * LEAF_SEGMENTS;
+var<private> bundle_segments: array<u32, BUNDLE_FIND_ROOM>;
 
 @compute @workgroup_size(BUNDLE_LANES)
 fn bundle_tally(
@@ -97,18 +98,17 @@ fn bundle_tally_all(
     var found = 0u;
     while walk.at < object.end_node && gather_rounds < most_rounds {
         gather_rounds += 1u;
-        var segments: array<u32, BUNDLE_FIND_ROOM>;
         walk.found = 0u;
         let before = walk.at;
         while walk.at < object.end_node && walk.found < BUNDLE_FIND && gather_rounds < most_rounds {
             gather_rounds += 1u;
             // Two at a time: a driver that ends long loops counts rounds.
-            bundle_visit(lower_m, upper_m, object.end_node, &walk, &segments);
-            bundle_visit(lower_m, upper_m, object.end_node, &walk, &segments);
+            bundle_visit(lower_m, upper_m, object.end_node, &walk, &bundle_segments);
+            bundle_visit(lower_m, upper_m, object.end_node, &walk, &bundle_segments);
         }
         for (var i = lane; i < walk.found; i += BUNDLE_LANES) {
             gather_rounds += 1u;
-            found += bundle_tally_one(point, view, grids, axes, segments[i], sums);
+            found += bundle_tally_one(point, view, grids, axes, bundle_segments[i], sums);
         }
         // Lanes that a software driver has switched off read zeros, and would walk for ever.
         if walk.at <= before {
@@ -136,7 +136,7 @@ fn bundle_visit(
     upper_m: vec3f,
     end: u32,
     walk: ptr<function, BundleWalk>,
-    segments: ptr<function, array<u32, BUNDLE_FIND_ROOM>>,
+    segments: ptr<private, array<u32, BUNDLE_FIND_ROOM>>,
 ) {
     let node = scratch_node(min((*walk).at, end - 1u));
     let touches = all(node.min_m <= upper_m) && all(node.max_m >= lower_m);
@@ -158,13 +158,13 @@ fn bundle_tally_one(
     index: u32,
     sums: ptr<function, ScratchSums>,
 ) -> u32 {
-    var batch: GatherBatch;
-    gather_weigh(point, view, index, &batch, sums);
-    if batch.count == 0u {
+    gather_batch.count = 0u;
+    gather_weigh(point, view, index, &gather_batch, sums);
+    if gather_batch.count == 0u {
         return 0u;
     }
-    let tangent = batch.tangents[0];
-    let size = unpack2x16float(batch.grooves[0]);
+    let tangent = gather_batch.tangents[0];
+    let size = unpack2x16float(gather_batch.grooves[0]);
     let population = bundle_population(grids, size);
     let mean = bundle_size(grids, population);
     let moved = select(vec2f(0.0), size / mean - 1.0, mean > vec2f(0.0));
@@ -173,7 +173,7 @@ fn bundle_tally_one(
     let high_share = bin - low;
     for (var i = 0u; i < 2u; i += 1u) {
         gather_rounds += 1u;
-        let share = batch.shares[0] * select(1.0 - high_share, high_share, i == 1u);
+        let share = gather_batch.shares[0] * select(1.0 - high_share, high_share, i == 1u);
         let first = 3u * (population * BUNDLE_BINS + (u32(low) + i) % BUNDLE_BINS);
         let parts = vec3i(round(clamp(share * vec3f(1.0, moved) / BUNDLE_TALLY_PART, vec3f(-1e9), vec3f(1e9))));
         atomicAdd(&bundle_tallies[first], parts.x);

@@ -5,6 +5,7 @@ const LEAF_FIRST_BITS: u32 = 28u;
 const LEAF_SEGMENTS: u32 = 4u;
 // Segments that are found before somebody looks at them.
 const FIND_SEGMENTS: u32 = 32u;
+var<private> found_segments: array<u32, FIND_SEGMENTS>;
 
 // The segments of leaves that touch a box, from node `at` on, until the node `end`, until `most` might be exceeded, or until the
 // rounds are spent. Returns how many; `at` is where to go on.
@@ -14,7 +15,7 @@ fn find_segments(
     end: u32,
     most: u32,
     at: ptr<function, u32>,
-    segments: ptr<function, array<u32, FIND_SEGMENTS>>,
+    segments: ptr<private, array<u32, FIND_SEGMENTS>>,
 ) -> u32 {
     var found = 0u;
     while *at < end && found + LEAF_SEGMENTS <= most && gather_rounds < GATHER_MAX_ROUNDS {

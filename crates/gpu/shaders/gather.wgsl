@@ -17,6 +17,11 @@ struct GatherBatch {
     lit: array<u32, GATHER_SEGMENTS>,           // which of them a light reaches
 }
 
+// Of the module and not of a function, as all arrays here: WGSL has variables cleared where they are declared. In a function that is called
+// under a condition a software driver does that element by element and lane by lane, as often as it comes there, and the code for it takes
+// as long to compile as the rest.
+var<private> gather_batch: GatherBatch;
+
 // Loop rounds that a segment may take: to be asked for and lit by each light on several lines, and by the environment.
 fn gather_rounds_a_segment() -> u32 {
     return 1u + 8u * frame.light_count + select(0u, 2u * ENVIRONMENT_CELLS, HAS_ENVIRONMENT);
@@ -34,8 +39,6 @@ fn gather_scratches(
     var pixel = gather_pixel(point);
     pixel.single_share = single_share;
     let reach_m = gather_reach_m(point);
-    var batch: GatherBatch;
-    var segments: array<u32, FIND_SEGMENTS>;
     let most = clamp(GATHER_MAX_ROUNDS / gather_rounds_a_segment(), LEAF_SEGMENTS, FIND_SEGMENTS);
     var sums = (*walk).sums;
     while (*walk).at < object.end_node || (*walk).at >= WALK_LISTED {
@@ -45,18 +48,18 @@ fn gather_scratches(
         gather_rounds += 1u;
         var found = 0u;
         if METHOD_LOOKUP == LOOKUP_TRIANGLES {
-            found = gather_find_listed(list, most, walk, &segments);
+            found = gather_find_listed(list, most, walk, &found_segments);
         } else {
             var at = (*walk).at;
-            found = find_segments(point.position_m - reach_m, point.position_m + reach_m, object.end_node, most, &at, &segments);
+            found = find_segments(point.position_m - reach_m, point.position_m + reach_m, object.end_node, most, &at, &found_segments);
             (*walk).at = at;
         }
-        batch.count = 0u;
+        gather_batch.count = 0u;
         for (var i = 0u; i < found; i += 1u) {
             gather_rounds += 1u;
-            gather_weigh(point, pixel, segments[i], &batch, &sums);
+            gather_weigh(point, pixel, found_segments[i], &gather_batch, &sums);
         }
-        sums.radiance += gather_light(point, pixel, &batch);
+        sums.radiance += gather_light(point, pixel, &gather_batch);
     }
     (*walk).sums = sums;
 }
@@ -66,7 +69,7 @@ fn gather_find_listed(
     list: SegmentList,
     most: u32,
     walk: ptr<function, ScratchWalk>,
-    segments: ptr<function, array<u32, FIND_SEGMENTS>>,
+    segments: ptr<private, array<u32, FIND_SEGMENTS>>,
 ) -> u32 {
     var found = 0u;
     var at = (*walk).at & ~WALK_LISTED;
@@ -86,7 +89,7 @@ fn gather_weigh(
     point: SurfacePoint,
     pixel: GatherPixel,
     index: u32,
-    batch: ptr<function, GatherBatch>,
+    batch: ptr<private, GatherBatch>,
     sums: ptr<function, ScratchSums>,
 ) {
     let segment = segment_at(index);
@@ -121,7 +124,7 @@ fn gather_weigh(
 }
 
 // Stages 3 and 4: the light of a batch.
-fn gather_light(point: SurfacePoint, pixel: GatherPixel, batch: ptr<function, GatherBatch>) -> vec3f {
+fn gather_light(point: SurfacePoint, pixel: GatherPixel, batch: ptr<private, GatherBatch>) -> vec3f {
     var radiance = vec3f(0.0);
     if HAS_MANY_LIGHTS {
         radiance += gather_light_pairs(point, pixel, batch);
@@ -139,7 +142,7 @@ fn gather_light(point: SurfacePoint, pixel: GatherPixel, batch: ptr<function, Ga
 }
 
 // Few lights: what is the same for all segments under a light is found once.
-fn gather_light_by_light(point: SurfacePoint, pixel: GatherPixel, batch: ptr<function, GatherBatch>) -> vec3f {
+fn gather_light_by_light(point: SurfacePoint, pixel: GatherPixel, batch: ptr<private, GatherBatch>) -> vec3f {
     var radiance = vec3f(0.0);
     let light_count = select(frame.light_count, 0u, (*batch).count == 0u);
     for (var l = 0u; l < light_count; l += 1u) {
@@ -174,10 +177,10 @@ fn gather_light_by_light(point: SurfacePoint, pixel: GatherPixel, batch: ptr<fun
 // Many lights: first all pairs of a segment and a light that reaches it are found, spheres from the front, polygons from the
 // back; then those are lit, whichever light it is. Most pairs are dark.
 const GATHER_PAIRS: u32 = 128u;
+var<private> gather_pairs: array<u32, GATHER_PAIRS>;
 
-fn gather_light_pairs(point: SurfacePoint, pixel: GatherPixel, batch: ptr<function, GatherBatch>) -> vec3f {
+fn gather_light_pairs(point: SurfacePoint, pixel: GatherPixel, batch: ptr<private, GatherBatch>) -> vec3f {
     var radiance = vec3f(0.0);
-    var pairs: array<u32, GATHER_PAIRS>;
     // So that all pairs have room; with more lights than that, they take turns.
     let at_once = GATHER_PAIRS / max((*batch).count, 1u);
     let light_count = select(frame.light_count, 0u, (*batch).count == 0u);
@@ -194,20 +197,20 @@ fn gather_light_pairs(point: SurfacePoint, pixel: GatherPixel, batch: ptr<functi
                 gather_rounds += 1u;
                 let reaches = gather_reaches(point, pixel, seen, (*batch).tangents[i], (*batch).offsets_um[i]);
                 let is_sphere = seen.kind == LIGHT_SPHERE;
-                pairs[select(GATHER_PAIRS - 1u - polygons, spheres, is_sphere)] = i | (l << 8u);
+                gather_pairs[select(GATHER_PAIRS - 1u - polygons, spheres, is_sphere)] = i | (l << 8u);
                 spheres += u32(reaches && is_sphere);
                 polygons += u32(reaches && !is_sphere);
             }
         }
         if HAS_SPHERES {
             for (var i = 0u; i < spheres; i += 1u) {
-                let seen = gather_light_seen(point, pixel, pairs[i] >> 8u);
-                radiance += gather_pair(point, pixel, seen, pairs[i] & 0xffu, LIGHT_SPHERE, batch);
+                let seen = gather_light_seen(point, pixel, gather_pairs[i] >> 8u);
+                radiance += gather_pair(point, pixel, seen, gather_pairs[i] & 0xffu, LIGHT_SPHERE, batch);
             }
         }
         if HAS_POLYGONS {
             for (var i = 0u; i < polygons; i += 1u) {
-                let pair = pairs[GATHER_PAIRS - 1u - i];
+                let pair = gather_pairs[GATHER_PAIRS - 1u - i];
                 let seen = gather_light_seen(point, pixel, pair >> 8u);
                 if HAS_LARGE_POLYGONS && !seen.is_small {
                     radiance += gather_pair(point, pixel, seen, pair & 0xffu, LIGHT_LARGE_POLYGON, batch);
@@ -230,7 +233,7 @@ fn gather_pair(
     seen: LightSeen,
     slot: u32,
     kind: u32,
-    batch: ptr<function, GatherBatch>,
+    batch: ptr<private, GatherBatch>,
 ) -> vec3f {
     gather_rounds += 1u;
     let lit = gather_lit((*batch).grooves[slot], (*batch).tangents[slot], (*batch).offsets_um[slot]);

@@ -8,6 +8,8 @@ fn gather_vertex(point: SurfacePoint, lit: LitSegment, light: Light, i: u32) -> 
 // Roots on a line that are kept until all are found, since they tell at which cosine the table is to be read. Of an outline
 // that crosses the line more often, the first ones tell.
 const GATHER_ROOTS: u32 = 16u;
+// q, and 1 where the line enters the polygon, -1 where it leaves it.
+var<private> gather_roots: array<vec2f, GATHER_ROOTS + 2u>;
 
 fn gather_large_polygon(point: SurfacePoint, pixel: GatherPixel, lit: LitSegment, seen: LightSeen) -> vec3f {
     let light = light_at(seen.index);
@@ -30,16 +32,14 @@ fn gather_large_polygon(point: SurfacePoint, pixel: GatherPixel, lit: LitSegment
         var edge = 0u;
         while edge < light.vertex_count {
             gather_rounds += 1u;
-            // q, and 1 where the line enters the polygon, -1 where it leaves it.
-            var roots: array<vec2f, GATHER_ROOTS + 2u>;
             var count = 0u;
             var range = arc.yx;
             while edge < light.vertex_count && count + 2u <= GATHER_ROOTS {
                 let b = gather_vertex(point, lit, light, edge + 1u);
                 let found = edge_roots(line, a, b);
-                roots[count] = vec2f(found.rising, facing);
+                gather_roots[count] = vec2f(found.rising, facing);
                 count += u32(found.rises);
-                roots[count] = vec2f(found.falling, -facing);
+                gather_roots[count] = vec2f(found.falling, -facing);
                 count += u32(found.falls);
                 range.x = min(range.x, min(select(arc.y, found.rising, found.rises), select(arc.y, found.falling, found.falls)));
                 range.y = max(range.y, max(select(arc.x, found.rising, found.rises), select(arc.x, found.falling, found.falls)));
@@ -53,12 +53,12 @@ fn gather_large_polygon(point: SurfacePoint, pixel: GatherPixel, lit: LitSegment
             }
             // The whole arc, once, where the light holds the direction straight down.
             if wraps && edge >= light.vertex_count {
-                roots[count] = vec2f(arc.y, 1.0);
-                roots[count + 1u] = vec2f(arc.x, -1.0);
+                gather_roots[count] = vec2f(arc.y, 1.0);
+                gather_roots[count + 1u] = vec2f(arc.x, -1.0);
                 count += 2u;
             }
             for (var i = 0u; i < count; i += 1u) {
-                integral += roots[i].y * gather_table(point, lit, roots[i].x, depth_nm);
+                integral += gather_roots[i].y * gather_table(point, lit, gather_roots[i].x, depth_nm);
                 gather_rounds += 1u;
             }
         }

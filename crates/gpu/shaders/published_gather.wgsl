@@ -15,6 +15,8 @@ struct PublishedBatch {
     shares: array<f32, PUBLISHED_BATCH>,
 }
 
+var<private> published_batch: PublishedBatch;
+
 // The point as scratches are seen from it: without a footprint it is the point in the pixel's middle.
 fn published_seen(point: SurfacePoint) -> SurfacePoint {
     var seen = point;
@@ -38,8 +40,6 @@ fn published_walk_end(object: Object, triangle: u32) -> u32 {
 
 // Walks on to the end or until the rounds are spent.
 fn published_scratches(point: SurfacePoint, object: Object, triangle: u32, end: u32, walk: ptr<function, ScratchWalk>) {
-    var batch: PublishedBatch;
-    var segments: array<u32, FIND_SEGMENTS>;
     let reach_m = gather_reach_m(point);
     // So that a batch cannot spend many more rounds than there are.
     let cells = select(0u, ENVIRONMENT_CELLS, HAS_ENVIRONMENT);
@@ -50,14 +50,14 @@ fn published_scratches(point: SurfacePoint, object: Object, triangle: u32, end: 
         gather_rounds += 1u;
         var found = 0u;
         if METHOD_LOOKUP == LOOKUP_TRIANGLES {
-            found = published_find_listed(object, triangle, end, most, walk, &segments);
+            found = published_find_listed(object, triangle, end, most, walk, &found_segments);
         } else {
             var at = (*walk).at;
-            found = find_segments(point.position_m - reach_m, point.position_m + reach_m, end, most, &at, &segments);
+            found = find_segments(point.position_m - reach_m, point.position_m + reach_m, end, most, &at, &found_segments);
             (*walk).at = at;
         }
-        published_weigh(point, found, &segments, &batch, walk);
-        published_light(point, &batch, walk);
+        published_weigh(point, found, &found_segments, &published_batch, walk);
+        published_light(point, &published_batch, walk);
     }
 }
 
@@ -68,7 +68,7 @@ fn published_find_listed(
     end: u32,
     most: u32,
     walk: ptr<function, ScratchWalk>,
-    segments: ptr<function, array<u32, FIND_SEGMENTS>>,
+    segments: ptr<private, array<u32, FIND_SEGMENTS>>,
 ) -> u32 {
     let at = (*walk).at;
     let count = min(end - at, most);
@@ -121,8 +121,8 @@ fn published_weight(point: SurfacePoint, segment: Segment, view: PublishedView) 
 fn published_weigh(
     point: SurfacePoint,
     found: u32,
-    segments: ptr<function, array<u32, FIND_SEGMENTS>>,
-    batch: ptr<function, PublishedBatch>,
+    segments: ptr<private, array<u32, FIND_SEGMENTS>>,
+    batch: ptr<private, PublishedBatch>,
     walk: ptr<function, ScratchWalk>,
 ) {
     var sums = (*walk).sums;
@@ -148,7 +148,7 @@ fn published_weigh(
 }
 
 // Their light.
-fn published_light(point: SurfacePoint, batch: ptr<function, PublishedBatch>, walk: ptr<function, ScratchWalk>) {
+fn published_light(point: SurfacePoint, batch: ptr<private, PublishedBatch>, walk: ptr<function, ScratchWalk>) {
     for (var i = 0u; i < (*batch).count; i += 1u) {
         gather_rounds += 1u;
         let view = published_view(point, segment_at((*batch).segments[i]));

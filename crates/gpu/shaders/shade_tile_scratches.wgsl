@@ -12,7 +12,6 @@ fn shade(
     var depth_m: f32;
     let point = tile_pixel_point(here, &depth_m);
     var view = gather_pixel(point);
-    var batch: GatherBatch;
     var sums: ScratchSums;
     var alone = here.seen.x != 0u;
     if METHOD_GATHER != GATHER_EXACT {
@@ -46,12 +45,12 @@ fn shade(
             }
         }
         let touching = bits_count(left);
-        overflows = overflows || batch.count + touching > room;
+        overflows = overflows || gather_batch.count + touching > room;
         let wanted = select(touching, 0u, overflows);
         for (var i = 0u; i < wanted; i += 1u) {
             gather_rounds += 1u;
             let segment = tile_list_texel(list + bits_take(&left)).x;
-            gather_weigh(point, view, segment, &batch, &sums);
+            gather_weigh(point, view, segment, &gather_batch, &sums);
         }
     }
     if !here.inside {
@@ -62,7 +61,7 @@ fn shade(
         return;
     }
     if here.seen.x != 0u {
-        sums.radiance += gather_light(point, view, &batch);
+        sums.radiance += gather_light(point, view, &gather_batch);
     }
     tile_pixel_add(here, point, depth_m, sums);
 }

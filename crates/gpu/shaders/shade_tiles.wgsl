@@ -11,7 +11,6 @@ fn shade(
     var depth_m: f32;
     let point = tile_pixel_point(here, &depth_m);
     var view = gather_pixel(point);
-    var batch: GatherBatch;
     var sums: ScratchSums;
     var alone = here.seen.x != 0u;
     if METHOD_GATHER != GATHER_EXACT {
@@ -28,12 +27,12 @@ fn shade(
         chunk = tile_list_texel(list + TILE_CHUNK).x;
         var near = select(vec2u(0u), tile_chunk_near(list, count - first, here.in_tile), alone);
         let touching = bits_count(near);
-        overflows = overflows || batch.count + touching > room;
+        overflows = overflows || gather_batch.count + touching > room;
         let wanted = select(touching, 0u, overflows);
         for (var i = 0u; i < wanted; i += 1u) {
             gather_rounds += 1u;
             let segment = tile_list_texel(list + bits_take(&near)).x;
-            gather_weigh(point, view, segment, &batch, &sums);
+            gather_weigh(point, view, segment, &gather_batch, &sums);
         }
     }
     if !here.inside {
@@ -44,7 +43,7 @@ fn shade(
         return;
     }
     if here.seen.x != 0u {
-        sums.radiance += gather_light(point, view, &batch);
+        sums.radiance += gather_light(point, view, &gather_batch);
     }
     tile_pixel_add(here, point, depth_m, sums);
 }

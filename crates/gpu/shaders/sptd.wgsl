@@ -155,9 +155,13 @@ fn sptd_lens(a: SphericalCap, b: SphericalCap) -> SphericalRegion {
     );
 }
 
-// The share of a disk that a chord cuts off, by half the angle that it is seen under from the centre.
+// The share of a disk that a chord cuts off, by half the angle that it is seen under from the centre. Of a small one the difference is
+// all error where a device's sine has few digits: Taylor's series there, within 2e-7 of itself.
 fn sptd_segment(angle: f32) -> f32 {
-    return (angle - sin(angle) * cos(angle)) / GGX_PI;
+    let whole = 2.0 * angle;
+    let square = whole * whole;
+    let series = whole * square / 6.0 * (1.0 - square / 20.0 * (1.0 - square / 42.0 * (1.0 - square / 72.0)));
+    return select(whole - sin(whole), series, whole < 1.0) / (2.0 * GGX_PI);
 }
 
 fn sptd_sphere(lobe: SptdLobe, axis: vec3f, sin2: f32) -> f32 {

@@ -100,13 +100,15 @@ fn tile_sight(corner: vec2u, tile: u32) -> TileSight {
         let ray = tile_ray(middle + tile_at_px(in_film));
         var depth_m: f32;
         let point = hit_surface_point(seen.x - 1u, ray, &depth_m);
-        let material = tile_material(seen.x - 1u) + 1u;
         if is_first {
             sight.plane = plane_of(point);
-            sight.material = material;
+        }
+        if METHOD_LIGHT_AT == LIGHT_AT_SCRATCHES {
+            let material = tile_material(seen.x - 1u) + 1u;
+            sight.material = select(sight.material, material, is_first);
+            sight.one_material = sight.one_material && material == sight.material;
         }
         is_first = false;
-        sight.one_material = sight.one_material && material == sight.material;
         if by_corners {
             by_corners = tile_is_flat(triangles, sight.plane);
             for (var c = 0u; c < 4u; c += 1u) {

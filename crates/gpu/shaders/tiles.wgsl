@@ -28,17 +28,16 @@ fn tiles(
         end = object.end_node;
     }
     // In loops by turns: what leaves hold is found, looked at, records of it asked for, and what is left of it written.
-    var segments: array<u32, FIND_SEGMENTS>;
     var pixels: array<vec2u, FIND_SEGMENTS>;
     var records: array<u32, FIND_SEGMENTS>;
     var shares: array<f32, FIND_SEGMENTS>;
     while at < end && found + FIND_SEGMENTS < TILE_LIST_MOST && chunk < frame.tile_chunks && gather_rounds < GATHER_MAX_ROUNDS {
-        let count = find_segments(sight.lower_m, sight.upper_m, end, FIND_SEGMENTS, &at, &segments);
+        let count = find_segments(sight.lower_m, sight.upper_m, end, FIND_SEGMENTS, &at, &found_segments);
         var kept = 0u;
         for (var i = 0u; i < count; i += 1u) {
             gather_rounds += 1u;
-            let near = tile_pixels_near(segments[i], corner, sight);
-            segments[kept] = segments[i];
+            let near = tile_pixels_near(found_segments[i], corner, sight);
+            found_segments[kept] = found_segments[i];
             pixels[kept] = near.pixels;
             shares[kept] = near.share;
             kept += u32(any(near.pixels != vec2u(0u)));
@@ -46,7 +45,7 @@ fn tiles(
         if METHOD_LIGHT_AT == LIGHT_AT_SCRATCHES {
             for (var i = 0u; i < kept; i += 1u) {
                 gather_rounds += 1u;
-                records[i] = select(RECORD_NONE, record_number(segments[i], shares[i]), sight.plane.holds);
+                records[i] = select(RECORD_NONE, record_number(found_segments[i], shares[i]), sight.plane.holds);
                 if records[i] != RECORD_NONE {
                     record_want(records[i], tile);
                 }
@@ -66,7 +65,7 @@ fn tiles(
             }
             if chunk < frame.tile_chunks {
                 let texel = tile_chunk_texel(chunk) + found % TILE_CHUNK;
-                tile_write_block(texel, i, kept, &segments, &pixels, &records);
+                tile_write_block(texel, i, kept, &found_segments, &pixels, &records);
                 found += TILE_BLOCK;
             }
         }
@@ -126,7 +125,7 @@ fn tile_write_block(
     at: u32,
     begin: u32,
     kept: u32,
-    segments: ptr<function, array<u32, FIND_SEGMENTS>>,
+    segments: ptr<private, array<u32, FIND_SEGMENTS>>,
     pixels: ptr<function, array<vec2u, FIND_SEGMENTS>>,
     records: ptr<function, array<u32, FIND_SEGMENTS>>,
 ) {
