@@ -28,6 +28,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
     }
     let scene = Scene::load(&file)?;
+    method.gather = scene.render.gather;
     let gpu = headless::open(&AdapterRequest::default())?;
     let prepared = Prepared::new(&scene);
     let mut renderer = gpu.block_on(Renderer::new(&gpu))?;

@@ -7,7 +7,23 @@ use hairline_scene::{
     Base, Camera, Environment, Light, Material, Mesh, Object, RenderSettings, Scene, Scratch,
     Segment,
 };
+use std::path::Path;
 use std::sync::Arc;
+
+/// The middle of the picture of one of the repository's scenes, in the pixels that it has where it is `of_px` wide.
+///
+/// # Panics
+/// Where the scene cannot be loaded.
+pub fn middle(name: &str, of_px: u32, size_px: [u32; 2]) -> Scene {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let path = root.join("scenes").join(name);
+    let mut scene = Scene::load(&path).unwrap_or_else(|error| panic!("{error}"));
+    let [width, height] = scene.render.size_px.map(f64::from);
+    let share = f64::from(size_px[1]) * width / (f64::from(of_px) * height);
+    scene.camera.fov_y_rad = 2.0 * (share * (0.5 * scene.camera.fov_y_rad).tan()).atan();
+    scene.render.size_px = size_px;
+    scene
+}
 
 /// A square in the x-y plane seen from above, its normal along +z, with nothing on it and no light.
 pub fn square(base: Base, half_side_m: f32, size_px: u32) -> Scene {

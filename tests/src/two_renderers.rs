@@ -12,9 +12,14 @@ use hairline_scene::Scene;
 const WIDTH_PX: u32 = 256;
 
 /// A scene at the tests' size, its proportions kept.
-pub fn at_test_size(mut scene: Scene) -> Scene {
+pub fn at_test_size(scene: Scene) -> Scene {
+    at_width(scene, WIDTH_PX)
+}
+
+/// A scene so many pixels wide, its proportions kept.
+pub fn at_width(mut scene: Scene, width_px: u32) -> Scene {
     let [width, height] = scene.render.size_px;
-    scene.render.size_px = [WIDTH_PX, (WIDTH_PX * height).div_ceil(width)];
+    scene.render.size_px = [width_px, (width_px * height).div_ceil(width)];
     scene
 }
 

@@ -133,8 +133,10 @@ impl<'a> On<'a> {
     }
 
     fn on_gpu(gpu: &Gpu, scene: &Scene, method: &Method) -> Result<Self, hairline_gpu::Error> {
-        let (scratches, tables) =
-            rayon::join(|| Arc::new(sorted(scene)), || ScratchTables::new(scene));
+        let (scratches, tables) = rayon::join(
+            || Arc::new(sorted(scene, method.lookup)),
+            || ScratchTables::new(scene),
+        );
         add_up(scene, &scratches, method);
         let ready = gpu.block_on(ReadyDriver::new(gpu, scene, &scratches, &tables, method))?;
         Ok(Self::Gpu(Box::new(ready)))
@@ -173,7 +175,7 @@ impl<'a> On<'a> {
 /// Trees and tables, and what only some methods look up: now, and not again for each picture.
 fn prepared<'a>(scene: &'a Scene, method: &Method) -> Box<Prepared<'a>> {
     let bar = Progress::start("sorting scratches");
-    let prepared = watched(&bar, |watch| Prepared::watched(scene, watch));
+    let prepared = watched(&bar, |watch| Prepared::watched(scene, method.lookup, watch));
     add_up(scene, prepared.scratches(), method);
     if method.lookup == Lookup::Triangles {
         prepared.triangle_lists();
@@ -181,9 +183,11 @@ fn prepared<'a>(scene: &'a Scene, method: &Method) -> Box<Prepared<'a>> {
     Box::new(prepared)
 }
 
-fn sorted(scene: &Scene) -> ScratchIndex {
+fn sorted(scene: &Scene, lookup: Lookup) -> ScratchIndex {
     let bar = Progress::start("sorting scratches");
-    watched(&bar, |watch| ScratchIndex::rebuild(scene, None, watch))
+    watched(&bar, |watch| {
+        ScratchIndex::rebuild(scene, lookup, None, watch)
+    })
 }
 
 /// Builds the grids of many scratches, if the method has a use for them.

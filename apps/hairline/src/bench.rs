@@ -1,5 +1,6 @@
 //! `hairline bench`: how long the default method and the published one take, and how far they are from the truth.
 
+mod by_lookup;
 mod counts;
 mod error;
 mod figures;

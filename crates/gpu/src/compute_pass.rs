@@ -1,5 +1,6 @@
 //! A compute pass over a scene, as all passes that shade begin it.
 
+use crate::pipelines::Pipeline;
 use crate::timing::Timing;
 use crate::upload::GpuScene;
 
@@ -8,7 +9,7 @@ pub(crate) fn begin<'a>(
     encoder: &'a mut wgpu::CommandEncoder,
     name: &'static str,
     timing: &Timing,
-    pipeline: &wgpu::ComputePipeline,
+    pipeline: &Pipeline,
     frame: &wgpu::BindGroup,
     scene: &GpuScene,
     group_3: &wgpu::BindGroup,
@@ -17,7 +18,7 @@ pub(crate) fn begin<'a>(
         label: Some(name),
         timestamp_writes: timing.compute(name),
     });
-    pass.set_pipeline(pipeline);
+    pass.set_pipeline(pipeline.get());
     let groups = [frame, &scene.buffers.group, &scene.textures.group, group_3];
     for (group, bound) in (0..).zip(groups) {
         pass.set_bind_group(group, bound, &[]);

@@ -7,6 +7,7 @@
 use std::sync::{Arc, Mutex, OnceLock};
 
 use crate::error::Error;
+use crate::passes::Compiled;
 use crate::storage_textures::STORAGE_TEXTURES;
 
 /// What kind of machine an adapter stands for.
@@ -76,6 +77,8 @@ pub struct Gpu {
     pub queue: wgpu::Queue,
     /// The adapter that it was opened on.
     pub adapter: Adapter,
+    /// The passes over scenes, which its renderers share.
+    pub(crate) compiled: Compiled,
     faults: Faults,
 }
 
@@ -120,7 +123,7 @@ pub async fn adapters() -> Vec<Adapter> {
     {
         adapters.extend(adapters_by(wgpu::Backends::GL).await);
     }
-    adapters.sort_by_key(|adapter| (adapter.kind, adapter.backend == "gl"));
+    adapters.sort_by_key(|adapter| (adapter.kind, adapter.is_opengl()));
     adapters
 }
 
@@ -201,6 +204,11 @@ impl Adapter {
 }
 
 impl Adapter {
+    /// Whether it is reached by OpenGL, which has less than the other interfaces.
+    pub fn is_opengl(&self) -> bool {
+        self.backend == "gl"
+    }
+
     fn usable(&self) -> Result<(), Error> {
         match &self.shortcoming {
             None => Ok(()),
@@ -306,6 +314,7 @@ impl Gpu {
             device,
             queue,
             adapter,
+            compiled: Compiled::default(),
             faults,
         }
     }
@@ -323,7 +332,7 @@ impl Gpu {
     /// The layers that a texture must have to be bound as an array of `count` of them. By way of OpenGL wgpu makes an array of what has
     /// more than one layer and nothing else; what is bound as an array and is none reads as zeros.
     pub(crate) fn array_layers(&self, count: u32) -> u32 {
-        let least = if self.adapter.backend == "gl" { 2 } else { 1 };
+        let least = if self.adapter.is_opengl() { 2 } else { 1 };
         count.max(least)
     }
 

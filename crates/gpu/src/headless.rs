@@ -107,7 +107,7 @@ pub fn skip(why: &str) {
 /// GL is left out: its context serves one thread at a time, and tests run on many.
 fn open_for_tests() -> Result<Gpu, Error> {
     match open(&AdapterRequest::default())? {
-        gpu if gpu.adapter.backend == "gl" => Err(Error::NoAdapter {
+        gpu if gpu.adapter.is_opengl() => Err(Error::NoAdapter {
             found: format!("only {}", gpu.adapter),
         }),
         gpu => Ok(gpu),

@@ -17,6 +17,8 @@ mod frame;
 pub mod headless;
 mod host;
 pub mod layout;
+mod passes;
+mod pipelines;
 mod published;
 pub mod readback;
 pub mod renderer;

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use hairline_image::{Display, Image};
 use hairline_index::ScratchIndex;
-use hairline_optics::method::{Lookup, Method};
+use hairline_optics::method::Method;
 use hairline_scene::{Scene, ScratchTables};
 use wgpu::BufferUsages;
 
@@ -16,12 +16,10 @@ use crate::canvas::Canvas;
 use crate::device::Gpu;
 use crate::display::{DisplayPass, Shown};
 use crate::error::Error;
-use crate::film::{Band, BandRoom, Film, RoomNeeds};
+use crate::film::{Band, BandRoom, Film};
 use crate::frame::frame;
 use crate::layout::Frame;
-use crate::shade::ShadePass;
-use crate::shade_bundles::BundlesPasses;
-use crate::tiles::TilesPasses;
+use crate::pipelines::compiled;
 use crate::timing::{PassTime, Timing};
 use crate::upload::{GpuScene, Source};
 use crate::variant::{Contents, ShadeVariant};
@@ -51,7 +49,6 @@ pub struct Renderer {
     gpu: Gpu,
     layouts: Layouts,
     visibility: VisibilityPass,
-    passes: HashMap<ShadeVariant, Arc<ScenePasses>>,
     displays: HashMap<wgpu::TextureFormat, DisplayPass>,
     shown: Option<Shown>,
     frame: wgpu::Buffer,
@@ -79,7 +76,6 @@ impl Renderer {
             gpu,
             layouts,
             visibility,
-            passes: HashMap::new(),
             displays: HashMap::new(),
             shown: None,
             frame,
@@ -114,8 +110,8 @@ impl Renderer {
         self.timing.read(&self.gpu).await
     }
 
-    /// Puts a scene on the device, with its index and its tables, to be rendered by `method`. The first scene of a kind has
-    /// its shading pass compiled.
+    /// Puts a scene on the device, with its index and its tables, to be rendered by `method`. The device's first scene of a
+    /// kind has its passes compiled.
     ///
     /// # Errors
     /// [`Error::TooLarge`] before memory is spent on it, [`Error::Refused`] if the driver cannot compile the pass,
@@ -138,8 +134,8 @@ impl Renderer {
 
     /// Brings what was uploaded up to date with a scene, its index and its tables: only what changed is written, as
     /// [`GpuScene::written`] tells. What is large is known by its [`Arc`] (meshes, textures, the environment's map, the
-    /// index), what is small is compared. The passes are compiled again only for a kind of scene or a method that this
-    /// renderer has not had.
+    /// index), what is small is compared. The passes are compiled again only for a kind of scene or a method that the
+    /// device has not had.
     ///
     /// After an error `uploaded` is what it was, and can be rendered still; the device holds both what was and what is
     /// to be until the call is done.
@@ -174,13 +170,7 @@ impl Renderer {
             has: Contents::of(source.scene, source.tables),
         };
         let (gpu, layouts) = (&self.gpu, &self.layouts);
-        let passes = match self.passes.entry(variant) {
-            Entry::Occupied(entry) => Arc::clone(entry.get()),
-            Entry::Vacant(entry) => {
-                let passes = compiled(gpu, || ScenePasses::new(gpu, layouts, &variant)).await?;
-                Arc::clone(entry.insert(Arc::new(passes)))
-            }
-        };
+        let passes = gpu.compiled.passes(gpu, layouts, &variant).await?;
         GpuScene::new(gpu, layouts, source, passes, last).await
     }
 
@@ -417,60 +407,4 @@ impl Renderer {
     pub(crate) fn layouts(&self) -> &Layouts {
         &self.layouts
     }
-}
-
-/// The passes that are compiled for a method and for what a scene has.
-pub(crate) struct ScenePasses {
-    /// Where the method wants tiles, and there are scratches to find.
-    tiles: Option<TilesPasses>,
-    /// Where the method gathers by grids.
-    bundles: Option<BundlesPasses>,
-    shade: ShadePass,
-}
-
-impl ScenePasses {
-    fn new(gpu: &Gpu, layouts: &Layouts, variant: &ShadeVariant) -> Self {
-        let method = &variant.method;
-        let wants_tiles = method.is_default_path() && method.lookup == Lookup::Tiles;
-        Self {
-            tiles: (wants_tiles && variant.has.scratches)
-                .then(|| TilesPasses::new(gpu, layouts, variant)),
-            bundles: (method.gather.has_grids() && variant.has.scratches)
-                .then(|| BundlesPasses::new(gpu, layouts, variant)),
-            shade: ShadePass::new(gpu, layouts, variant, wants_tiles && variant.has.scratches),
-        }
-    }
-
-    /// For what they need a place, with so many straight pieces of scratches.
-    pub fn needs(&self, segments: u32) -> RoomNeeds {
-        let has_records = self.tiles.as_ref().is_some_and(TilesPasses::has_records);
-        RoomNeeds {
-            tiles: self.tiles.is_some() || self.bundles.is_some(),
-            records: if has_records { segments } else { 0 },
-            walks: self.bundles.is_some(),
-        }
-    }
-}
-
-/// What `create` compiles, or why the driver or the shader's own rules refuse it.
-async fn compiled<T>(gpu: &Gpu, create: impl FnOnce() -> T) -> Result<T, Error> {
-    let library = gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
-    let driver = gpu.device.push_error_scope(wgpu::ErrorFilter::Internal);
-    let created = create();
-    let (driver, library) = (driver.pop(), library.pop());
-    let (driver, library) = (driver.await, library.await);
-    // A lost device refuses everything; that it is lost says more.
-    gpu.check()?;
-    if let Some(error) = driver {
-        return Err(Error::Refused {
-            adapter: gpu.adapter.name.clone(),
-            reason: error.to_string(),
-        });
-    }
-    if let Some(error) = library {
-        return Err(Error::Validation {
-            description: error.to_string(),
-        });
-    }
-    Ok(created)
 }

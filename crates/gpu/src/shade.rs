@@ -3,18 +3,17 @@
 //! Inputs: frame, scene, tables, visibility. Output: the film, added to. One invocation a pixel, 8 x 8 in a workgroup: a
 //! compute pass, since datacentre GPUs run fragment shaders on few of their processors.
 
-use crate::bindings::Layouts;
 use crate::compute_pass;
-use crate::device::Gpu;
 use crate::film::Band;
+use crate::pipelines::{Orders, Pipeline};
 use crate::shaders;
 use crate::tile_room::Queue;
 use crate::timing::Timing;
 use crate::upload::GpuScene;
-use crate::variant::{ShadeVariant, compute_pipeline, is_bounded};
+use crate::variant::{ShadeVariant, is_bounded};
 
 pub(crate) struct ShadePass {
-    pipeline: wgpu::ComputePipeline,
+    pipeline: Pipeline,
     /// Whether a dispatch may leave pixels unfinished.
     pub bounded: bool,
     queued: bool,
@@ -33,17 +32,14 @@ fn pass_of(variant: &ShadeVariant) -> &'static shaders::Module {
 
 impl ShadePass {
     /// For the tiles whose pixels walk if `queued`, else for all pixels.
-    pub fn new(gpu: &Gpu, layouts: &Layouts, variant: &ShadeVariant, queued: bool) -> Self {
-        let module = pass_of(variant);
+    pub fn new(orders: &mut Orders<'_>, queued: bool) -> Self {
+        let module = pass_of(orders.variant());
         Self {
-            bounded: is_bounded(gpu),
+            bounded: is_bounded(orders.gpu()),
             queued,
-            pipeline: compute_pipeline(
-                gpu,
-                layouts,
-                variant,
+            pipeline: orders.pipeline(
                 (module, "shade"),
-                &layouts.film,
+                &orders.layouts().film,
                 &[("SHADE_QUEUED", queued.into())],
             ),
         }

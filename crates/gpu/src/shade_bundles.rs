@@ -5,21 +5,20 @@
 
 use hairline_optics::method::Gather;
 
-use crate::bindings::Layouts;
 use crate::compute_pass;
-use crate::device::Gpu;
 use crate::film::Band;
+use crate::pipelines::{Orders, Pipeline};
 use crate::shaders;
 use crate::tile_room::{Queue, TILE_PX};
 use crate::timing::Timing;
 use crate::upload::GpuScene;
-use crate::variant::{Constant, ShadeVariant, compute_pipeline, is_bounded};
+use crate::variant::{Constant, is_bounded};
 
 pub(crate) struct BundlesPasses {
-    find: wgpu::ComputePipeline,
-    shade: wgpu::ComputePipeline,
+    find: Pipeline,
+    shade: Pipeline,
     /// Where the method adds up single scratches.
-    tally: Option<wgpu::ComputePipeline>,
+    tally: Option<Pipeline>,
     /// Whether a dispatch may leave pixels unfinished.
     pub bounded: bool,
 }
@@ -28,20 +27,19 @@ pub(crate) struct BundlesPasses {
 const SOFTWARE_LANES: u32 = 8;
 
 impl BundlesPasses {
-    pub fn new(gpu: &Gpu, layouts: &Layouts, variant: &ShadeVariant) -> Self {
-        let pipeline = |module: &'static shaders::Module, more: &[Constant]| {
-            let entry = (module, module.name);
-            compute_pipeline(gpu, layouts, variant, entry, &layouts.film, more)
+    pub fn new(orders: &mut Orders<'_>) -> Self {
+        let bounded = is_bounded(orders.gpu());
+        let adds_up = orders.variant().method.gather == Gather::Tally;
+        let mut pipeline = |module: &'static shaders::Module, more: &[Constant]| {
+            orders.pipeline((module, module.name), &orders.layouts().film, more)
         };
-        let bounded = is_bounded(gpu);
         let many = ("LIGHTS_MANY", 1.0);
         let lanes = ("BUNDLE_LANES", SOFTWARE_LANES.into());
         let of_driver: &[_] = if bounded { &[many, lanes] } else { &[many] };
         Self {
             find: pipeline(&shaders::BUNDLE_TILES, &[]),
             shade: pipeline(&shaders::SHADE_BUNDLES, of_driver),
-            tally: (variant.method.gather == Gather::Tally)
-                .then(|| pipeline(&shaders::BUNDLE_TALLY, of_driver)),
+            tally: adds_up.then(|| pipeline(&shaders::BUNDLE_TALLY, of_driver)),
             bounded,
         }
     }

@@ -37,7 +37,7 @@ pub(crate) const STORAGE_TEXTURES: u32 = 9;
 /// Whether the device is given storage textures. By way of OpenGL they cannot be arguments of functions.
 pub(crate) fn are_used(gpu: &Gpu) -> bool {
     is_bounded(gpu)
-        && gpu.adapter.backend != "gl"
+        && !gpu.adapter.is_opengl()
         && gpu.limits().max_storage_textures_per_shader_stage >= STORAGE_TEXTURES
 }
 

@@ -5,33 +5,31 @@
 
 use hairline_optics::method::LightAt;
 
-use crate::bindings::Layouts;
 use crate::compute_pass;
-use crate::device::Gpu;
 use crate::film::Band;
+use crate::pipelines::{Orders, Pipeline};
 use crate::shaders;
 use crate::tile_room::Queue;
 use crate::timing::Timing;
 use crate::upload::GpuScene;
 use crate::variant::{
-    SOFTWARE_MAX_RECORD_ROUNDS, SOFTWARE_MAX_TILE_ROUNDS, ShadeVariant, compute_pipeline,
-    is_bounded,
+    SOFTWARE_MAX_RECORD_ROUNDS, SOFTWARE_MAX_TILE_ROUNDS, ShadeVariant, is_bounded,
 };
 
 pub(crate) struct TilesPasses {
-    tiles: wgpu::ComputePipeline,
+    tiles: Pipeline,
     /// Where a scratch's light is found along it.
     records: Option<RecordPasses>,
-    shade: wgpu::ComputePipeline,
-    background: wgpu::ComputePipeline,
+    shade: Pipeline,
+    background: Pipeline,
 }
 
 /// What each part of a scratch sends: a place for it, what it is, and the tiles that take it from there.
 struct RecordPasses {
-    places: wgpu::ComputePipeline,
-    records: wgpu::ComputePipeline,
-    served: wgpu::ComputePipeline,
-    shade: wgpu::ComputePipeline,
+    places: Pipeline,
+    records: Pipeline,
+    served: Pipeline,
+    shade: Pipeline,
 }
 
 /// Invocations of a workgroup where each is on its own.
@@ -58,10 +56,12 @@ fn shade_of(variant: &ShadeVariant) -> &'static shaders::Module {
 }
 
 impl TilesPasses {
-    pub fn new(gpu: &Gpu, layouts: &Layouts, variant: &ShadeVariant) -> Self {
-        let pipeline = |module: &'static shaders::Module, entry_point, group_3| {
+    pub fn new(orders: &mut Orders<'_>) -> Self {
+        let (layouts, variant) = (orders.layouts(), orders.variant());
+        let bounded = is_bounded(orders.gpu());
+        let mut pipeline = |module: &'static shaders::Module, entry_point, group_3| {
             let mut more = Vec::new();
-            if is_bounded(gpu) {
+            if bounded {
                 let rounds = match entry_point {
                     "tiles" => Some(SOFTWARE_MAX_TILE_ROUNDS),
                     "scratch_records" => Some(SOFTWARE_MAX_RECORD_ROUNDS),
@@ -73,7 +73,7 @@ impl TilesPasses {
             if module.name == shaders::SHADE_TILE_RECORDS.name {
                 more.push(("BASE_CLEAR", true.into()));
             }
-            compute_pipeline(gpu, layouts, variant, (module, entry_point), group_3, &more)
+            orders.pipeline((module, entry_point), group_3, &more)
         };
         Self {
             tiles: pipeline(&shaders::TILES, "tiles", &layouts.tiles),

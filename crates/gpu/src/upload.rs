@@ -12,7 +12,7 @@ use crate::bindings::Layouts;
 use crate::device::Gpu;
 use crate::error::Error;
 use crate::film::RoomNeeds;
-use crate::renderer::ScenePasses;
+use crate::passes::ScenePasses;
 use crate::scene_buffers::{SceneBuffers, check_size};
 use crate::textures::{SceneTextures, TextureArray};
 use crate::transfer::{Transfer, Written};

@@ -7,7 +7,6 @@ use hairline_optics::method::{
 use hairline_optics::published::sine_integral::SineIntegral;
 use hairline_scene::{Light, Scene, ScratchTables};
 
-use crate::bindings::Layouts;
 use crate::device::{AdapterKind, Gpu};
 use crate::shaders;
 use crate::storage_textures;
@@ -21,7 +20,7 @@ pub(crate) struct ShadeVariant {
 }
 
 /// Which parts of the shader a scene needs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub(crate) struct Contents {
     pub scratches: bool,
     /// So many that hundreds may lie under one pixel.
@@ -154,7 +153,7 @@ pub(crate) fn is_bounded(gpu: &Gpu) -> bool {
 
 impl ShadeVariant {
     /// The constants that a shader declares, `more` of them before its own; others would be refused.
-    fn constants(&self, gpu: &Gpu, text: &str, more: &[Constant]) -> Vec<Constant> {
+    pub fn constants(&self, gpu: &Gpu, text: &str, more: &[Constant]) -> Vec<Constant> {
         let software = [
             ("GATHER_MAX_ROUNDS", SOFTWARE_MAX_ROUNDS),
             ("WALK_STRIDE", SOFTWARE_STRIDE.into()),
@@ -174,7 +173,7 @@ impl ShadeVariant {
     }
 
     /// A shader's text, as the device is given it.
-    fn text(&self, gpu: &Gpu, module: &'static shaders::Module) -> String {
+    pub fn text(&self, gpu: &Gpu, module: &'static shaders::Module) -> String {
         let mut text = shaders::compose(&[module]);
         if self.has.many_scratches && is_bounded(gpu) {
             // The lengths of a shader's arrays cannot be constants that a pipeline sets.
@@ -198,46 +197,6 @@ const LARGE_BATCH: &str = "const GATHER_SEGMENTS: u32 = 192u;";
 /// And how many a tile lists. Where lists are short, pixels with more than a small batch are soon found to be for walks.
 const SHORT_LIST: &str = "const TILE_LIST_MOST: u32 = 512u;";
 const LONG_LIST: &str = "const TILE_LIST_MOST: u32 = 16384u;";
-
-/// A pipeline over the frame, the scene, its textures and `group_3`, for a variant. `more` goes before the variant's own constants.
-pub(crate) fn compute_pipeline(
-    gpu: &Gpu,
-    layouts: &Layouts,
-    variant: &ShadeVariant,
-    (module, entry_point): (&'static shaders::Module, &str),
-    group_3: &wgpu::BindGroupLayout,
-    more: &[Constant],
-) -> wgpu::ComputePipeline {
-    let text = variant.text(gpu, module);
-    let constants = variant.constants(gpu, &text, more);
-    let label = Some(module.name);
-    let shader = gpu
-        .device
-        .create_shader_module(wgpu::ShaderModuleDescriptor {
-            label,
-            source: wgpu::ShaderSource::Wgsl(text.into()),
-        });
-    let groups = [&layouts.frame, &layouts.scene, &layouts.textures, group_3];
-    let layout = gpu
-        .device
-        .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label,
-            bind_group_layouts: &groups.map(Some),
-            immediate_size: 0,
-        });
-    gpu.device
-        .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-            label,
-            layout: Some(&layout),
-            module: &shader,
-            entry_point: Some(entry_point),
-            compilation_options: wgpu::PipelineCompilationOptions {
-                constants: &constants,
-                ..Default::default()
-            },
-            cache: None,
-        })
-}
 
 #[cfg(test)]
 mod tests {

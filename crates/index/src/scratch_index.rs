@@ -4,10 +4,11 @@
 
 use crate::bundles::BundleIndex;
 use crate::depth_spread::object_coherence;
-use crate::layer_runs::{LayerRun, groups};
+use crate::layer_runs::{LayerRun, groups, longest_m};
 use crate::segment_tree::{Plot, SegmentTree, Straight, Tree, plant};
 use crate::watch::Watch;
 use glam::Vec3;
+use hairline_optics::method::Lookup;
 use hairline_scene::{Object, Scene};
 use std::sync::{Arc, OnceLock};
 
@@ -42,6 +43,8 @@ pub struct ScratchIndex {
     pub tree: SegmentTree<IndexedSegment>,
     /// How alike the phase steps of each object's scratches are (docs/model.md, section 3).
     pub depth_coherence: Vec<f32>,
+    /// No longer piece is put together of others.
+    longest_m: f32,
     /// See [`Self::grids`].
     grids: OnceLock<Arc<BundleIndex>>,
 }
@@ -54,22 +57,28 @@ pub const REACH_STD: f32 = 3.5;
 pub const FACING_MIN_COS: f32 = 0.2;
 
 impl ScratchIndex {
-    /// Builds the trees, all cores at work; the same for any number of them.
+    /// Builds the trees for the default look-up, all cores at work; the same for any number of them.
     ///
     /// # Panics
     /// Beyond 268 million pieces; no loaded scene has as many on one object.
     pub fn build(scene: &Scene) -> Self {
-        Self::rebuild(scene, None, &Watch::default())
+        Self::rebuild(scene, Lookup::default(), None, &Watch::default())
             .unwrap_or_else(|| unreachable!("nobody cancels it"))
     }
 
-    /// The same while another watches, with the trees of an earlier scene for those layers that lie as they lay there. `None` if
-    /// it was cancelled.
+    /// The same while another watches, with pieces as long as suits the look-up, and with the trees of an earlier scene for those
+    /// layers that lie as they lay there, if they were for such a look-up. `None` if it was cancelled.
     ///
     /// # Panics
     /// As [`Self::build`].
-    pub fn rebuild(scene: &Scene, last: Option<(&Scene, &Self)>, watch: &Watch) -> Option<Self> {
-        let plots = plots(scene, last);
+    pub fn rebuild(
+        scene: &Scene,
+        lookup: Lookup,
+        last: Option<(&Scene, &Self)>,
+        watch: &Watch,
+    ) -> Option<Self> {
+        let last = last.filter(|(_, index)| index.suits(lookup));
+        let plots = plots(scene, lookup, last);
         let (tree, depth_coherence) = rayon::join(
             || plant(plots, last.map(|(_, index)| &index.tree), watch),
             || Self::depth_coherence(scene),
@@ -77,8 +86,14 @@ impl ScratchIndex {
         Some(Self {
             tree: tree?,
             depth_coherence,
+            longest_m: longest_m(lookup),
             grids: OnceLock::new(),
         })
+    }
+
+    /// Whether its pieces are as long as the look-up would have them. Others give the same pictures, later.
+    pub fn suits(&self, lookup: Lookup) -> bool {
+        self.longest_m == longest_m(lookup)
     }
 
     /// What the scratches of the scene that this was built of add up to; built when first asked for, and shared by clones made after.
@@ -114,6 +129,7 @@ impl ScratchIndex {
 /// For the layers on each object the trees that they have already, or what to grow them over.
 fn plots<'a>(
     scene: &'a Scene,
+    lookup: Lookup,
     last: Option<(&Scene, &ScratchIndex)>,
 ) -> Vec<Vec<Plot<'a, IndexedSegment>>> {
     let kept = last.map_or_else(Vec::new, |(scene, index)| index.groups(scene));
@@ -127,7 +143,9 @@ fn plots<'a>(
             None => Plot::New {
                 most: group.iter().map(LayerRun::piece_count).sum(),
                 fill: Box::new(move |pieces: &mut Vec<_>| {
-                    group.iter().for_each(|run| run.append_effective(pieces));
+                    group
+                        .iter()
+                        .for_each(|run| run.append_effective(lookup, pieces));
                 }),
             },
         }
@@ -138,12 +156,12 @@ fn plots<'a>(
         .collect()
 }
 
-/// The pieces of an object's scratches, free ends moved inwards along the scratch.
+/// The pieces of an object's scratches, free ends moved inwards along the scratch, as long as by the default look-up.
 pub(crate) fn effective_segments(scene: &Scene, object: &Object) -> Vec<IndexedSegment> {
     let runs: Vec<_> = LayerRun::of(scene, object).collect();
     let mut effective = Vec::with_capacity(runs.iter().map(LayerRun::piece_count).sum());
     for run in runs {
-        run.append_effective(&mut effective);
+        run.append_effective(Lookup::default(), &mut effective);
     }
     effective
 }

@@ -11,11 +11,11 @@ use crate::along;
 use crate::light_view::LightViews;
 use crate::scratches::{GatherCounts, Work};
 use crate::silhouettes::Silhouettes;
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 use hairline_image::Image;
 use hairline_index::bundles::Bundles;
 use hairline_index::{BundleIndex, Hit, ScratchIndex, TriangleIndex, TriangleLists, Watch};
-use hairline_optics::method::Method;
+use hairline_optics::method::{Lookup, Method};
 use hairline_scene::{Scene, ScratchTables};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -56,18 +56,20 @@ pub struct Prepared<'a> {
 }
 
 impl<'a> Prepared<'a> {
-    /// Builds the trees and the tables.
+    /// Builds the trees and the tables, for the default look-up.
     pub fn new(scene: &'a Scene) -> Self {
-        Self::watched(scene, &Watch::default()).unwrap_or_else(|| unreachable!("nobody cancels it"))
+        Self::watched(scene, Lookup::default(), &Watch::default())
+            .unwrap_or_else(|| unreachable!("nobody cancels it"))
     }
 
-    /// The same while another watches the tree over the scratches grow, which takes the most time. `None` if it was cancelled.
-    pub fn watched(scene: &'a Scene, watch: &Watch) -> Option<Self> {
+    /// The same for a look-up, while another watches the tree over the scratches grow, which takes the most time. `None` if it was
+    /// cancelled.
+    pub fn watched(scene: &'a Scene, lookup: Lookup, watch: &Watch) -> Option<Self> {
         let (triangles, (scratches, tables)) = rayon::join(
             || TriangleIndex::build(scene),
             || {
                 rayon::join(
-                    || ScratchIndex::rebuild(scene, None, watch),
+                    || ScratchIndex::rebuild(scene, lookup, None, watch),
                     || ScratchTables::new(scene),
                 )
             },
@@ -141,14 +143,6 @@ impl<'a> Prepared<'a> {
     pub(crate) fn bundles(&self) -> &Bundles {
         self.bundles
             .get_or_init(|| Bundles::new(self.scene, &self.scratches, &self.tables).into())
-    }
-
-    /// Unit normal of the triangle that was hit.
-    pub(crate) fn facet(&self, hit: &Hit) -> DVec3 {
-        let mesh = &self.scene.objects[hit.object as usize].mesh;
-        let corners = mesh.triangles[hit.triangle as usize];
-        let [a, b, c] = corners.map(|i| mesh.positions_m[i as usize].as_dvec3());
-        (b - a).cross(c - a).normalize_or_zero()
     }
 
     fn triangle_list(&self, hit: &Hit) -> &[u32] {
@@ -270,7 +264,10 @@ pub fn rows_together(method: Method) -> u32 {
 
 /// Renders `scene` at its own size. `progress` is told the share that is done, from any thread.
 pub fn render(scene: &Scene, options: &RenderOptions, progress: &(dyn Fn(f64) + Sync)) -> Image {
-    Prepared::new(scene).render(options, progress)
+    let prepared = Prepared::watched(scene, options.method.lookup, &Watch::default());
+    prepared
+        .unwrap_or_else(|| unreachable!("nobody cancels it"))
+        .render(options, progress)
 }
 
 #[cfg(test)]

@@ -316,8 +316,8 @@ mod tests {
     use hairline_optics::method::Method;
     use hairline_scene::Scene;
 
-    /// A dish of few triangles, whose shading normals are nowhere those of its triangles: a walk of the tree finds what a look at all
-    /// scratches finds.
+    /// A dish of three cones, whose shading normals are those of its triangles only at its flat bottom: a walk of the tree finds what
+    /// a look at all scratches finds.
     #[test]
     fn the_box_holds_what_has_a_share() {
         let text = "[camera]\nposition_m = [0.0, -0.20, 0.17]\ntarget_m = [0.045, 0.0, 0.003]\nup = [0.0, 0.0, 1.0]\nfov_y_deg = 9.0\n\

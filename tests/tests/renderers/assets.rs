@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use conformance::two_renderers::{at_test_size, compare, on_the_cpu, on_the_gpu};
+use conformance::two_renderers::{at_width, compare, on_the_cpu, on_the_gpu};
 use hairline_gpu::headless;
 use hairline_image::Layer;
 use hairline_scene::Scene;
@@ -73,7 +73,7 @@ fn a_monkey_with_fifty_thousand_scratches_in_a_studio() {
         Scene::from_toml(SCENE, "monkey.toml", &folder).unwrap_or_else(|error| panic!("{error}"));
     // Seeds at a boundary may leave nothing.
     assert!(scene.objects[0].scratches.len() > 49_900);
-    let scene = at_test_size(scene);
+    let scene = at_width(scene, 128);
     let cpu = on_the_cpu(&scene, 1);
     for layer in Layer::ALL {
         let values = cpu.layer(layer);

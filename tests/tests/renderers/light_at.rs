@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use conformance::two_renderers::at_width;
 use hairline_gpu::{Gpu, RenderOptions, Renderer, headless};
 use hairline_image::metrics::layer_difference;
 use hairline_image::{Image, Layer};
@@ -28,10 +29,8 @@ fn root() -> PathBuf {
 }
 
 fn scene(name: &str, width_px: u32) -> Scene {
-    let mut scene = Scene::load(root().join("scenes").join(name)).unwrap_or_else(|e| panic!("{e}"));
-    let [width, height] = scene.render.size_px;
-    scene.render.size_px = [width_px, (width_px * height).div_ceil(width)];
-    scene
+    let scene = Scene::load(root().join("scenes").join(name));
+    at_width(scene.unwrap_or_else(|e| panic!("{e}")), width_px)
 }
 
 /// A worn disk close by, under one lamp: what `hairline bench` measures, with fewer scratches.

@@ -1,5 +1,5 @@
 //! Whole pictures: the GPU against the CPU, and both against physics.
-//! In one program, so that one of them looks at CPU pictures while another waits for a driver.
+//! In one program, since each that is linked takes seconds.
 
 mod assets;
 mod clusters;

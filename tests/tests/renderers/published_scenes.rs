@@ -1,10 +1,8 @@
 //! The method of 2018 and mixtures of its parts with the default's: the GPU against the CPU. Each part replaces its counterpart
 //! alone, on either side.
 
-use std::path::Path;
-
-use conformance::Sequence;
 use conformance::two_renderers::compare;
+use conformance::{Sequence, middle};
 use hairline_gpu::{Renderer, headless};
 use hairline_image::metrics::layer_difference;
 use hairline_image::{Image, Layer, Picture};
@@ -31,18 +29,6 @@ const THEIRS: Method = Method::PUBLISHED;
 
 /// A difference between methods that two renderers of one method, 0.12 % apart at most, could not be taken for.
 const SEEN: f64 = 7e-3;
-
-/// The middle of a scene's picture 256 pixels wide.
-fn middle(name: &str, side_px: u32) -> Scene {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
-    let path = root.join("scenes").join(name);
-    let mut scene = Scene::load(&path).unwrap_or_else(|error| panic!("{error}"));
-    let [width, height] = scene.render.size_px.map(f64::from);
-    let share = f64::from(side_px) * width / (256.0 * height);
-    scene.camera.fov_y_rad = 2.0 * (share * (0.5 * scene.camera.fov_y_rad).tan()).atan();
-    scene.render.size_px = [side_px; 2];
-    scene
-}
 
 /// Both renderers with a scene at hand.
 struct Both<'a> {
@@ -117,7 +103,7 @@ fn difference(a: &Image, b: &Image) -> f64 {
 /// Pixels far wider than the coherence window.
 #[test]
 fn their_parts_among_ours() {
-    let scene = middle("plate.toml", 64);
+    let scene = middle("plate.toml", 256, [64; 2]);
     let Some(mut both) = Both::new("plate", &scene) else {
         return;
     };
@@ -169,7 +155,7 @@ fn their_parts_among_ours() {
 
 #[test]
 fn our_parts_among_theirs() {
-    let scene = middle("plate.toml", 64);
+    let scene = middle("plate.toml", 256, [64; 2]);
     let Some(mut both) = Both::new("plate", &scene) else {
         return;
     };
@@ -227,7 +213,7 @@ fn our_parts_among_theirs() {
 /// Pixels finer than the coherence window; what else there is to choose.
 #[test]
 fn wavelengths_masks_and_lists() {
-    let scene = middle("closeup.toml", 64);
+    let scene = middle("closeup.toml", 256, [64; 2]);
     let Some(mut both) = Both::new("closeup", &scene) else {
         return;
     };
@@ -276,7 +262,7 @@ fn wavelengths_masks_and_lists() {
 /// A star, which is cut into triangles, beside nine other lights.
 #[test]
 fn a_star_in_triangles() {
-    let scene = middle("lights.toml", 48);
+    let scene = middle("lights.toml", 256, [48; 2]);
     let Some(mut both) = Both::new("lights", &scene) else {
         return;
     };
@@ -298,7 +284,7 @@ fn under_a_map() {
     for texel in &mut map.rgb {
         *texel = [0.2, 0.6, 1.0].map(|c| c + random.next());
     }
-    let mut scene = middle("closeup.toml", 32);
+    let mut scene = middle("closeup.toml", 256, [32; 2]);
     scene.environment = Some(Environment::from_map(map, 0.4, 1.0, true));
     let Some(mut both) = Both::new("closeup under a map", &scene) else {
         return;

@@ -48,10 +48,10 @@ pub fn of_the_table(base: Stage, ours: &Method, tiles: bool) -> Result<Vec<Count
         (Row::Triangle, Lamps::Triangle),
     ] {
         let scene = Stage { lamps, ..base }.build()?;
-        let counted = Counted::new(&scene);
         // Ours by look-ups that it has only to be compared with say nothing new.
         let own = |way: &Way| way.whose == Whose::Published || way.method.lookup == ours.lookup;
         for way in ways(ours).iter().filter(|way| own(way)) {
+            let counted = Counted::new(&scene, way.method.lookup);
             counts.push(of_way(&counted, base.size_px, row, way, tiles));
         }
     }

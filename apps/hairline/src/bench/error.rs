@@ -15,6 +15,7 @@ use hairline_reference::closed_form::{Prepared, RenderOptions};
 use hairline_reference::monte_carlo::{Integrator, Settings};
 use hairline_scene::{Light, Scene};
 
+use super::by_lookup::ByLookup;
 use super::figures::CellError;
 use super::worker::{Ready, Worker};
 
@@ -55,7 +56,10 @@ pub fn errors(
     accuracy: &Accuracy,
 ) -> Vec<Option<CellError>> {
     // A device has its own.
-    let prepared = worker.adapter().is_none().then(|| Prepared::new(crop));
+    let prepared = worker.adapter().is_none().then(|| {
+        let ready = ready.iter().filter_map(|ready| ready.as_ref().ok());
+        ByLookup::new(crop, ready.map(|ready| ready.method.lookup))
+    });
     let images: Vec<Option<Image>> = ready
         .iter()
         .map(|ready| {

@@ -3,11 +3,11 @@
 
 use hairline_gpu::Error;
 use hairline_optics::method::Method;
-use hairline_reference::closed_form::Prepared;
 use hairline_scene::Scene;
 use std::sync::Arc;
 
 use super::Thoroughness;
+use super::by_lookup::ByLookup;
 use super::figures::{Off, Outcome, Spread};
 use super::stage::Stage;
 use super::timing::{Turn, in_turns};
@@ -29,7 +29,7 @@ pub fn measure(
     progress.restart("without scratches");
     let (none, one) = scenes(base)?;
     let scenes = [&none, &none, &one];
-    let prepared = scenes.map(Prepared::new);
+    let prepared = scenes.map(|scene| ByLookup::new(scene, [ours.lookup]));
     let mut ready: Vec<Result<Ready, Error>> = Vec::new();
     for (scene, prepared) in scenes.iter().zip(&prepared) {
         ready.push(worker.ready(scene, prepared, ours));

@@ -2,9 +2,9 @@
 
 use hairline_gpu::Error;
 use hairline_optics::method::{Gather, LightAt, Method, PixelFilter};
-use hairline_reference::closed_form::Prepared;
 
 use super::Thoroughness;
+use super::by_lookup::ByLookup;
 use super::figures::{Curve, Outcome, Point, Way, Whose};
 use super::stage::{Lamps, Stage, TALK_SCRATCHES};
 use super::timing::by_turns;
@@ -87,7 +87,7 @@ pub fn zoom(
     progress.restart("zoom");
     // The disk is laid and sorted once; before it the camera moves.
     let scene = worn.build()?;
-    let prepared = Prepared::new(&scene);
+    let prepared = ByLookup::new(&scene, ways.iter().map(|way| way.method.lookup));
     let ready = ways.map(|way| worker.ready(&scene, &prepared, &way.method));
     let mut points = Vec::new();
     for (i, &zoom) in zooms.iter().enumerate() {
@@ -223,7 +223,7 @@ fn curve(
     let count = stages.len();
     for (i, (x, stage)) in stages.into_iter().enumerate() {
         let scene = stage.build()?;
-        let prepared = Prepared::new(&scene);
+        let prepared = ByLookup::new(&scene, ways.iter().map(|way| way.method.lookup));
         let ready: Vec<Result<Ready, Error>> = ways
             .iter()
             .map(|way| worker.ready(&scene, &prepared, &way.method))

@@ -2,10 +2,10 @@
 
 use hairline_gpu::Error;
 use hairline_optics::method::{Lookup, Method, PixelFilter};
-use hairline_reference::closed_form::Prepared;
 use hairline_scene::Scene;
 
 use super::Thoroughness;
+use super::by_lookup::ByLookup;
 use super::error::{brightest, crop, errors, rim_of_reflection};
 use super::figures::{Cell, CellError, Columns, Outcome, Row, Way, Whose};
 use super::stage::{Lamps, Stage};
@@ -146,7 +146,7 @@ impl Group<'_> {
         ways: &[Way],
         thoroughness: &Thoroughness,
     ) -> Result<Vec<Cell>, Failure> {
-        let prepared = Prepared::new(self.scene);
+        let prepared = ByLookup::new(self.scene, ways.iter().map(|way| way.method.lookup));
         let ready: Vec<Result<Ready, Error>> = ways
             .iter()
             .map(|way| worker.ready(self.scene, &prepared, &way.method))

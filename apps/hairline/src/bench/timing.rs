@@ -10,9 +10,10 @@ use std::time::{Duration, Instant};
 use anyhow::anyhow;
 use hairline_gpu::Error;
 use hairline_optics::method::Method;
-use hairline_reference::closed_form::{Prepared, rows_together};
+use hairline_reference::closed_form::rows_together;
 use hairline_scene::Scene;
 
+use super::by_lookup::ByLookup;
 use super::figures::{Outcome, Spread, Timing};
 use super::worker::{Elapsed, Ready, Rows, Worker};
 use crate::failure::Failure;
@@ -29,14 +30,26 @@ pub struct Effort {
     pub most: usize,
 }
 
+impl Effort {
+    /// Whether the least that is measured would take too long where a strip takes so much.
+    fn is_exceeded_by(&self, strip: Duration) -> bool {
+        let least = strip * STRIPS_LEAST * self.least as u32;
+        least > LONG.max(self.cell.mul_f64(TOO_LONG))
+    }
+}
+
 /// Rows of a workgroup.
 const WORKGROUP_ROWS: u32 = 8;
 /// Rows of a strip at most.
 const STRIP_ROWS_MAX: u32 = 64;
 /// Strips at least: fewer would not know the picture.
 const STRIPS_LEAST: u32 = 5;
-/// A cell is refused whose strips would take so many times the effort.
+/// A cell is refused whose strips would take so many times the effort, and longer than [`LONG`].
 const TOO_LONG: f64 = 20.0;
+/// Nothing is refused that takes no longer.
+const LONG: Duration = Duration::from_secs(30);
+/// How often a strip is timed before its cell is refused: a machine that is busy with something else may stand still for seconds.
+const TRIES: usize = 4;
 
 /// Rows of a strip: one of workgroups for each thread. Software drivers deal workgroups out in runs, so that in a lower strip the
 /// threads at the picture's sides, where nothing is to be seen, would wait for those in its middle. And whole tiles of the CPU
@@ -55,7 +68,7 @@ fn tile_rows() -> u32 {
 /// One of those that take turns.
 pub struct Turn<'a> {
     pub scene: &'a Scene,
-    pub prepared: &'a Prepared<'a>,
+    pub prepared: &'a ByLookup<'a>,
     pub ready: &'a Result<Ready, Error>,
 }
 
@@ -70,7 +83,7 @@ pub struct Measured {
 pub fn by_turns(
     worker: &mut Worker,
     scene: &Scene,
-    prepared: &Prepared,
+    prepared: &ByLookup,
     ready: &[Result<Ready, Error>],
     effort: &Effort,
 ) -> Result<Vec<Outcome>, Failure> {
@@ -94,19 +107,18 @@ pub fn in_turns(
     let height = height.unwrap_or(1);
     let mut runs: Vec<Runs> = turns.iter().map(|_| Runs::default()).collect();
     let mut rows = Rows::Whole;
+    let room = effort.cell / 2;
     let has_strips = |turn: &Turn| turn.ready.as_ref().ok().is_none_or(Ready::has_strips);
     let has_strips = turns.iter().all(has_strips);
     for (turn, runs) in turns.iter().zip(&mut runs) {
         match turn.ready {
             Err(error) => runs.refused = Some(refusal(error)?),
-            Ok(ready) => match warm_up(worker, turn, ready) {
+            Ok(ready) => match warm_up(worker, turn, ready, effort) {
                 Err(error) => runs.refused = Some(refusal(&error)?),
                 Ok(strip) => {
                     // A dispatch for each strip costs a software driver something: as few as can be, or the whole picture.
-                    let room = effort.cell / 2;
                     let strips = (room.as_secs_f64() / strip.as_secs_f64().max(1e-9)) as u32;
-                    let least = strip * STRIPS_LEAST * effort.least as u32;
-                    if least > effort.cell.mul_f64(TOO_LONG) {
+                    if effort.is_exceeded_by(strip) {
                         runs.refused = Some(format!(
                             "too slow to measure here: {} rows took {:.1} s",
                             strip_rows(),
@@ -153,15 +165,31 @@ fn refusal(error: &Error) -> Result<String, Failure> {
     }
 }
 
-/// Has the driver compile, and finds out what a strip in the middle takes.
-fn warm_up(worker: &mut Worker, turn: &Turn, ready: &Ready) -> Result<Duration, Error> {
-    let strip = strips(turn.scene.render.size_px[1], 1);
-    worker.time(turn.scene, turn.prepared, ready, &strip)?;
-    if !ready.has_strips() {
-        // Some drivers compile a pass once it has something to do, which may be at the picture's edge.
-        worker.time(turn.scene, turn.prepared, ready, &Rows::Whole)?;
+/// Has the driver compile, and finds out what a strip in the middle takes. Some drivers compile a pass once it has something to do, which
+/// may be at the picture's edge: all of it is rendered where half the effort suffices, or where strips don't tell.
+fn warm_up(
+    worker: &mut Worker,
+    turn: &Turn,
+    ready: &Ready,
+    effort: &Effort,
+) -> Result<Duration, Error> {
+    let height = turn.scene.render.size_px[1];
+    let mut wall = |rows: &Rows| -> Result<Duration, Error> {
+        Ok(worker.time(turn.scene, turn.prepared, ready, rows)?.wall)
+    };
+    let strip = strips(height, 1);
+    wall(&strip)?;
+    let mut least = wall(&strip)?;
+    if !ready.has_strips() || least * height.div_ceil(strip_rows()) <= effort.cell / 2 {
+        wall(&Rows::Whole)?;
+        least = wall(&strip)?;
     }
-    Ok(worker.time(turn.scene, turn.prepared, ready, &strip)?.wall)
+    for _ in 1..TRIES {
+        if effort.is_exceeded_by(least) {
+            least = least.min(wall(&strip)?);
+        }
+    }
+    Ok(least)
 }
 
 /// The smaller of what was wanted so far and `count` strips.

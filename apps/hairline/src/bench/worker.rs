@@ -8,9 +8,10 @@ use anyhow::anyhow;
 use hairline_gpu::{Adapter, Canvas, Error, Gpu, GpuScene, PassTime, Renderer, headless};
 use hairline_image::Image;
 use hairline_optics::method::{LightAt, Lookup, Method};
-use hairline_reference::closed_form::{self, Prepared};
+use hairline_reference::closed_form;
 use hairline_scene::Scene;
 
+use super::by_lookup::ByLookup;
 use crate::cli::Backend;
 use crate::failure::Failure;
 
@@ -94,11 +95,12 @@ impl Worker {
     pub fn ready(
         &mut self,
         scene: &Scene,
-        prepared: &Prepared,
+        prepared: &ByLookup,
         method: &Method,
     ) -> Result<Ready, Error> {
         let uploaded = match self {
             Self::Gpu(worker) => {
+                let prepared = prepared.of(method.lookup);
                 let (index, tables) = (prepared.scratches(), prepared.tables());
                 let upload = worker.renderer.upload(scene, index, tables, method);
                 Some(worker.gpu.block_on(upload)?)
@@ -115,7 +117,7 @@ impl Worker {
     pub fn time(
         &mut self,
         scene: &Scene,
-        prepared: &Prepared,
+        prepared: &ByLookup,
         ready: &Ready,
         rows: &Rows,
     ) -> Result<Elapsed, Error> {
@@ -123,6 +125,7 @@ impl Worker {
             (Self::Gpu(worker), Some(uploaded)) => worker.time(scene, uploaded, rows),
             _ => {
                 let options = options(ready);
+                let prepared = prepared.of(ready.method.lookup);
                 let start = Instant::now();
                 match rows {
                     Rows::Whole => drop(prepared.render(&options, &|_| {})),
@@ -145,7 +148,7 @@ impl Worker {
     pub fn image(
         &mut self,
         scene: &Scene,
-        prepared: Option<&Prepared>,
+        prepared: Option<&ByLookup>,
         ready: &Ready,
     ) -> Result<Image, Error> {
         match (self, &ready.uploaded) {
@@ -157,7 +160,7 @@ impl Worker {
             _ => {
                 let options = options(ready);
                 Ok(match prepared {
-                    Some(prepared) => prepared.render(&options, &|_| {}),
+                    Some(prepared) => prepared.of(ready.method.lookup).render(&options, &|_| {}),
                     None => closed_form::render(scene, &options, &|_| {}),
                 })
             }

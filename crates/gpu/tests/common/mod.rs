@@ -4,7 +4,8 @@
 
 use std::sync::Arc;
 
-use hairline_gpu::{Canvas, Error, Gpu, GpuScene, Renderer};
+use hairline_gpu::headless::{self, test_gpu};
+use hairline_gpu::{AdapterRequest, Canvas, Error, Gpu, GpuScene, Renderer};
 use hairline_image::Image;
 use hairline_index::ScratchIndex;
 use hairline_optics::method::Method;
@@ -70,6 +71,16 @@ pub const BUILT_IN: &str = include_str!("../../../../apps/hairline/src/built_in_
 
 pub fn scene(text: &str) -> Scene {
     Scene::from_toml(text, "test", ".").unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// A device of its own with what a browser grants; none where tests have no adapter.
+pub fn default_limits() -> Option<Gpu> {
+    test_gpu()?;
+    let request = AdapterRequest {
+        default_limits: true,
+        ..Default::default()
+    };
+    Some(headless::open(&request).unwrap())
 }
 
 /// A scene with what is made of it, as an editor keeps it.

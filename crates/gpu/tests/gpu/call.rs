@@ -1,5 +1,6 @@
 //! The harness that calls WGSL functions: it must return what the function computes, and must be able to fail.
 
+use crate::common::default_limits;
 use hairline_gpu::call::{Call, Table, Texels};
 use hairline_gpu::headless::test_gpu;
 use hairline_gpu::shaders::Module;
@@ -104,14 +105,7 @@ fn a_snippet_that_does_not_compile_says_why() {
 
 #[test]
 fn a_destroyed_device_is_an_error() {
-    if test_gpu().is_none() {
-        return;
-    }
-    let gpu = headless::open(&AdapterRequest {
-        default_limits: true,
-        ..Default::default()
-    })
-    .unwrap();
+    let Some(gpu) = default_limits() else { return };
     gpu.device.destroy();
     let call = Call {
         modules: &[&CUBE],

@@ -4,9 +4,9 @@ use std::future::Future;
 use std::pin::pin;
 use std::task::{Context, Waker};
 
-use crate::common::{BUILT_IN, PLATES, Stage, scene};
-use hairline_gpu::headless::{self, test_gpu};
-use hairline_gpu::{AdapterRequest, Canvas, Error, Gpu, RenderOptions};
+use crate::common::{BUILT_IN, PLATES, Stage, default_limits, scene};
+use hairline_gpu::headless::test_gpu;
+use hairline_gpu::{Canvas, Error, Gpu, RenderOptions};
 use hairline_image::{Display, Image, ToneMap};
 
 const DISPLAY: Display = Display {
@@ -30,15 +30,6 @@ fn rendered(stage: &mut Stage, size_px: [u32; 2], samples: u32, submission_px: u
 
 fn image(canvas: &Canvas, gpu: &Gpu) -> Image {
     gpu.block_on(canvas.image()).unwrap()
-}
-
-fn default_limits() -> Option<Gpu> {
-    test_gpu()?;
-    let request = AdapterRequest {
-        default_limits: true,
-        ..Default::default()
-    };
-    Some(headless::open(&request).unwrap())
 }
 
 /// Pixels of the size that they have in a picture of 64 rows: else a few rows would each see all scratches.

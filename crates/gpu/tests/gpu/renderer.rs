@@ -1,5 +1,6 @@
 //! The way of a picture through the device: what is seen, sample after sample, band after band, and what goes wrong.
 
+use crate::common::default_limits;
 use glam::{DVec2, DVec3, Vec2, Vec3, Vec4};
 use hairline_gpu::headless::{self, test_gpu};
 use hairline_gpu::{AdapterRequest, Canvas, Error, Gpu, GpuScene, RenderOptions, Renderer};
@@ -420,14 +421,7 @@ fn the_environment_is_seen_where_it_is() {
 /// What a browser gives must do.
 #[test]
 fn default_limits_are_enough() {
-    if test_gpu().is_none() {
-        return;
-    }
-    let gpu = headless::open(&AdapterRequest {
-        default_limits: true,
-        ..Default::default()
-    })
-    .unwrap();
+    let Some(gpu) = default_limits() else { return };
     assert_eq!(gpu.limits().max_storage_buffers_per_shader_stage, 8);
     assert_eq!(gpu.limits().max_storage_buffer_binding_size, 128 << 20);
     let image = render(&gpu, &scene(PLATE), &RenderOptions::default()).unwrap();
@@ -437,14 +431,7 @@ fn default_limits_are_enough() {
 /// A million triangles of 144 bytes do not fit into 128 MiB; that is known before any memory is spent on them.
 #[test]
 fn a_scene_beyond_one_binding_is_refused_with_figures() {
-    if test_gpu().is_none() {
-        return;
-    }
-    let gpu = headless::open(&AdapterRequest {
-        default_limits: true,
-        ..Default::default()
-    })
-    .unwrap();
+    let Some(gpu) = default_limits() else { return };
     let mut scene = scene(PLATE);
     let (index, tables) = (
         Arc::new(ScratchIndex::build(&scene)),

@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use crate::common::{Made, PLATES, Stage, scene};
+use crate::common::{Made, PLATES, Stage, default_limits, scene};
 use glam::Vec3;
-use hairline_gpu::headless::{self, test_gpu};
-use hairline_gpu::{AdapterRequest, Error, GpuScene, Renderer};
+use hairline_gpu::headless::test_gpu;
+use hairline_gpu::{Error, GpuScene, Renderer};
 use hairline_image::{Image, Picture};
 use hairline_index::ScratchIndex;
 use hairline_optics::metal::Metal;
@@ -297,14 +297,7 @@ fn only_what_changed_is_written() {
 
 #[test]
 fn a_scene_that_does_not_fit_leaves_the_last_one() {
-    if test_gpu().is_none() {
-        return;
-    }
-    let request = AdapterRequest {
-        default_limits: true,
-        ..Default::default()
-    };
-    let gpu = headless::open(&request).unwrap();
+    let Some(gpu) = default_limits() else { return };
     let mut stage = Stage::new(&gpu, rich());
     let before = image(&mut stage);
     let kept = stage.made.clone();

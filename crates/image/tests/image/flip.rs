@@ -1,4 +1,5 @@
 //! FLIP on pictures whose answer is known.
+
 use hairline_image::metrics::{flip, magma};
 use hairline_image::{Display, Picture, ToneMap};
 

@@ -201,7 +201,7 @@ mod tests {
             let mut random = Pcg64Mcg::seed_from_u64(1);
             let (mut dark, mut told) = (0, 0);
             for _ in 0..2000 {
-                let facet = prepared.facet(&pixels[random.random_range(0..pixels.len())].hit);
+                let facet = pixels[random.random_range(0..pixels.len())].point.facet;
                 let turn = random.random_range(0.0..std::f64::consts::TAU);
                 let (x, y) = facet.any_orthonormal_pair();
                 let direction = x * turn.cos() + y * turn.sin();

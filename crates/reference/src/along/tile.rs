@@ -206,7 +206,7 @@ impl<'a> Tile<'a> {
             if !(single_share > 0.0) {
                 continue;
             }
-            let normal = way.prepared.facet(&seen.hit);
+            let normal = point.facet;
             let ray = self.picture.camera.camera_ray(self.middle_px(i));
             let steps_m = self
                 .picture

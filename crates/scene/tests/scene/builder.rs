@@ -1,11 +1,10 @@
 //! A builder that keeps what has not changed builds the same scenes as one that keeps nothing.
 
-use crate::common;
 use std::cell::{Cell, RefCell};
 use std::path::Path;
 use std::sync::Arc;
 
-use crate::common::{Glb, cube, temporary_dir};
+use crate::common::{self, Glb, cube, temporary_dir};
 use hairline_scene::description::*;
 use hairline_scene::{Loader, Scene, SceneBuilder, Stage};
 use rand::{RngExt, SeedableRng};

@@ -1,9 +1,8 @@
 //! glTF and GLB files: what they may hold, and what becomes of broken ones. The files are made here.
 
-use crate::common;
 use std::path::Path;
 
-use crate::common::{Glb, asset, cube, glb_of, scene_with, temporary_dir};
+use crate::common::{self, Glb, asset, cube, glb_of, scene_with, temporary_dir};
 use glam::DVec3;
 use hairline_scene::{Base, Error, Mesh, Scene};
 

@@ -1,7 +1,6 @@
 //! Files are looked at before a scene names them: what is wrong is said as clearly as when a scene is loaded.
 
-use crate::common;
-use crate::common::{Glb, cube, temporary_dir};
+use crate::common::{self, Glb, cube, temporary_dir};
 use hairline_image::{Display, Output, Picture};
 use hairline_scene::probe;
 

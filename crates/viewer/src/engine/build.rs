@@ -6,6 +6,7 @@ use std::time::Duration;
 
 use hairline_index::bundles::Bundles;
 use hairline_index::{ScratchIndex, TriangleIndex, Watch};
+use hairline_optics::method::Lookup;
 use hairline_optics::method::Method;
 use hairline_scene::description::Description;
 use hairline_scene::{Loader, Scene, SceneBuilder, ScratchTables};
@@ -138,7 +139,7 @@ impl Workshop {
                     cancelled,
                     ..Watch::default()
                 };
-                match ScratchIndex::rebuild(&scene, before, &watch) {
+                match ScratchIndex::rebuild(&scene, Lookup::default(), before, &watch) {
                     Some(scratches) => Arc::new(scratches),
                     None => return Ok(None),
                 }

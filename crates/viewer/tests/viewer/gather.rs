@@ -1,11 +1,10 @@
 //! Many scratches, each one or added up: chosen in the panel, kept in the scene, and what the window, the comparison's picture and
 //! the export then show.
 
-use crate::common;
 use std::path::Path;
 use std::sync::Arc;
 
-use crate::common::{description, viewer_of, wait_until};
+use crate::common::{self, description, viewer_of, wait_until};
 use egui::accesskit::Role;
 use egui::{Color32, Key, Modifiers};
 use egui_kittest::{Harness, kittest::Queryable};

@@ -1,9 +1,8 @@
 //! Every control of every panel: named, live, and undone in one step.
 
-use crate::common;
 use std::sync::Arc;
 
-use crate::common::{BUILT_IN, click_on, description, viewer, wait_built};
+use crate::common::{self, BUILT_IN, click_on, description, viewer, wait_built};
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};

@@ -5,7 +5,7 @@ use std::ops::Add;
 
 use glam::{DVec2, DVec3, Vec3};
 use hairline_index::scratch_index::REACH_STD;
-use hairline_index::{IndexedSegment, ScratchIndex, TriangleIndex, TriangleLists};
+use hairline_index::{IndexedSegment, ScratchIndex, TriangleIndex, TriangleLists, Watch};
 use hairline_optics::band::{
     BandFrame, BandLine, Cap, PolygonView, band_lines, band_move, band_reaches, band_stds,
     edge_roots, edge_winding, line_down, moved_band, polygon_facing, sphere_band_extent,
@@ -70,9 +70,10 @@ struct Sight {
 }
 
 impl<'a> Counted<'a> {
-    /// Of a scene of one object.
-    pub fn new(scene: &'a Scene) -> Self {
-        let scratches = ScratchIndex::build(scene);
+    /// Of a scene of one object, with pieces as suit the look-up.
+    pub fn new(scene: &'a Scene, lookup: Lookup) -> Self {
+        let scratches = ScratchIndex::rebuild(scene, lookup, None, &Watch::default())
+            .unwrap_or_else(|| unreachable!("nobody cancels it"));
         Self {
             scene,
             camera: scene.camera.frame(scene.render.size_px),

@@ -1,0 +1,236 @@
+//! Compute pipelines over a scene: passes ask for theirs one by one, and all are compiled at once, on all cores. A driver takes up to a
+//! second for one.
+
+use std::sync::{Arc, OnceLock};
+
+#[cfg(not(target_arch = "wasm32"))]
+use rayon::prelude::*;
+
+use crate::bindings::Layouts;
+use crate::device::Gpu;
+use crate::error::Error;
+use crate::shaders;
+use crate::variant::{Constant, ShadeVariant};
+
+/// A pipeline that is compiled with the others. Clones are the same.
+#[derive(Clone, Default)]
+pub(crate) struct Pipeline(Arc<OnceLock<wgpu::ComputePipeline>>);
+
+impl Pipeline {
+    /// # Panics
+    /// Before [`Orders::compile`] is done; nobody has a pass by then.
+    pub fn get(&self) -> &wgpu::ComputePipeline {
+        self.0.get().expect("passes are handed out compiled")
+    }
+}
+
+/// What the passes over a scene ask for.
+pub(crate) struct Orders<'a> {
+    gpu: &'a Gpu,
+    layouts: &'a Layouts,
+    variant: &'a ShadeVariant,
+    orders: Vec<Order<'a>>,
+}
+
+struct Order<'a> {
+    module: &'static shaders::Module,
+    entry_point: &'static str,
+    group_3: &'a wgpu::BindGroupLayout,
+    more: Vec<Constant>,
+    pipeline: Pipeline,
+}
+
+impl<'a> Orders<'a> {
+    pub fn new(gpu: &'a Gpu, layouts: &'a Layouts, variant: &'a ShadeVariant) -> Self {
+        Self {
+            gpu,
+            layouts,
+            variant,
+            orders: Vec::new(),
+        }
+    }
+
+    pub fn gpu(&self) -> &'a Gpu {
+        self.gpu
+    }
+
+    pub fn layouts(&self) -> &'a Layouts {
+        self.layouts
+    }
+
+    pub fn variant(&self) -> &'a ShadeVariant {
+        self.variant
+    }
+
+    /// Asks for a pipeline over the frame, the scene, its textures and `group_3`. `more` goes before the variant's own constants.
+    pub fn pipeline(
+        &mut self,
+        (module, entry_point): (&'static shaders::Module, &'static str),
+        group_3: &'a wgpu::BindGroupLayout,
+        more: &[Constant],
+    ) -> Pipeline {
+        let pipeline = Pipeline::default();
+        self.orders.push(Order {
+            module,
+            entry_point,
+            group_3,
+            more: more.to_vec(),
+            pipeline: pipeline.clone(),
+        });
+        pipeline
+    }
+
+    /// Compiles all.
+    ///
+    /// # Errors
+    /// As [`compiled`], the first that was asked for before others.
+    pub async fn compile(self) -> Result<(), Error> {
+        for verdict in self.verdicts() {
+            verdict.await?;
+        }
+        Ok(())
+    }
+
+    /// A browser has one thread, and compiles while it goes on. OpenGL has one context, and the graphics library panics where another
+    /// thread holds it for a second or so.
+    fn verdicts(&self) -> Vec<impl Future<Output = Result<(), Error>>> {
+        let compile = |order: &Order| {
+            let ears = Ears::open(self.gpu);
+            // Nobody else sets it.
+            order.pipeline.0.set(self.create(order)).ok();
+            ears.verdict()
+        };
+        #[cfg(not(target_arch = "wasm32"))]
+        if !self.gpu.adapter.is_opengl() {
+            return self.orders.par_iter().map(compile).collect();
+        }
+        self.orders.iter().map(compile).collect()
+    }
+
+    fn create(&self, order: &Order) -> wgpu::ComputePipeline {
+        let Self { gpu, layouts, .. } = self;
+        let text = self.variant.text(gpu, order.module);
+        let constants = self.variant.constants(gpu, &text, &order.more);
+        let label = Some(order.module.name);
+        let shader = gpu
+            .device
+            .create_shader_module(wgpu::ShaderModuleDescriptor {
+                label,
+                source: wgpu::ShaderSource::Wgsl(text.into()),
+            });
+        let groups = [
+            &layouts.frame,
+            &layouts.scene,
+            &layouts.textures,
+            order.group_3,
+        ];
+        let layout = gpu
+            .device
+            .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                label,
+                bind_group_layouts: &groups.map(Some),
+                immediate_size: 0,
+            });
+        gpu.device
+            .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label,
+                layout: Some(&layout),
+                module: &shader,
+                entry_point: Some(order.entry_point),
+                compilation_options: wgpu::PipelineCompilationOptions {
+                    constants: &constants,
+                    ..Default::default()
+                },
+                cache: None,
+            })
+    }
+}
+
+/// What `create` compiles, or why the driver or the shader's own rules refuse it.
+pub(crate) async fn compiled<T>(gpu: &Gpu, create: impl FnOnce() -> T) -> Result<T, Error> {
+    let ears = Ears::open(gpu);
+    let created = create();
+    ears.verdict().await?;
+    Ok(created)
+}
+
+/// Hears what is refused on this thread.
+struct Ears<'a> {
+    gpu: &'a Gpu,
+    library: wgpu::ErrorScopeGuard,
+    driver: wgpu::ErrorScopeGuard,
+}
+
+impl<'a> Ears<'a> {
+    fn open(gpu: &'a Gpu) -> Self {
+        Self {
+            gpu,
+            library: gpu.device.push_error_scope(wgpu::ErrorFilter::Validation),
+            driver: gpu.device.push_error_scope(wgpu::ErrorFilter::Internal),
+        }
+    }
+
+    /// Whether all that was created meanwhile may be used. What comes later is not heard, whenever this is awaited.
+    fn verdict(self) -> impl Future<Output = Result<(), Error>> {
+        let (driver, library) = (self.driver.pop(), self.library.pop());
+        let gpu = self.gpu;
+        async move {
+            let (driver, library) = (driver.await, library.await);
+            // A lost device refuses everything; that it is lost says more.
+            gpu.check()?;
+            if let Some(error) = driver {
+                return Err(Error::Refused {
+                    adapter: gpu.adapter.name.clone(),
+                    reason: error.to_string(),
+                });
+            }
+            if let Some(error) = library {
+                return Err(Error::Validation {
+                    description: error.to_string(),
+                });
+            }
+            Ok(())
+        }
+    }
+}
+
+#[cfg(all(test, not(target_arch = "wasm32")))]
+mod tests {
+    use super::*;
+    use crate::headless;
+    use crate::variant::Contents;
+    use hairline_optics::method::Method;
+
+    /// Whichever thread it was made on.
+    #[test]
+    fn one_bad_order_spoils_all() {
+        let Some(gpu) = headless::test_gpu() else {
+            return;
+        };
+        let layouts = Layouts::new(gpu);
+        let variant = ShadeVariant {
+            method: Method::default(),
+            has: Contents::default(),
+        };
+        let compile = |bad: Option<usize>| {
+            let mut orders = Orders::new(gpu, &layouts, &variant);
+            for i in 0..6 {
+                let entry_point = if bad == Some(i) {
+                    "nothing"
+                } else {
+                    "background"
+                };
+                orders.pipeline((&shaders::BACKGROUND, entry_point), &layouts.film, &[]);
+            }
+            gpu.block_on(orders.compile())
+        };
+        assert_eq!(compile(None), Ok(()));
+        for bad in 0..6 {
+            let refused = compile(Some(bad));
+            assert!(
+                matches!(&refused, Err(Error::Validation { description }) if description.contains("nothing")),
+                "{refused:?}"
+            );
+        }
+    }
+}
