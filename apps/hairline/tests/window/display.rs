@@ -16,8 +16,7 @@ use x11rb::protocol::xproto::{
 use x11rb::protocol::xtest::ConnectionExt as _;
 use x11rb::rust_connection::RustConnection;
 
-/// A program that has not answered by then hangs.
-const PATIENCE: Duration = Duration::from_secs(60);
+use crate::PATIENCE;
 
 pub struct Display {
     server: Child,

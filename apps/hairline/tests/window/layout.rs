@@ -1,7 +1,7 @@
 //! Where things are in the window: the same interface, run without one, tells.
 
 use std::path::Path;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use egui::accesskit::Role;
 use egui::{Pos2, Rect};
@@ -9,6 +9,8 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use hairline_viewer::engine::Backend;
 use hairline_viewer::{Options, Viewer};
+
+use crate::PATIENCE;
 
 pub struct Layout {
     picture: Rect,
@@ -35,10 +37,7 @@ impl Layout {
             });
         let start = Instant::now();
         while harness.state().engine().built().is_none() {
-            assert!(
-                start.elapsed() < Duration::from_secs(60),
-                "no scene was built"
-            );
+            assert!(start.elapsed() < PATIENCE, "no scene was built");
             harness.step();
         }
         harness.run_steps(3);

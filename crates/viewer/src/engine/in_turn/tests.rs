@@ -43,7 +43,7 @@ radiance = 300.0
 "#;
 
 /// A loaded machine is slow.
-const PATIENCE: Duration = Duration::from_secs(60);
+const PATIENCE: Duration = Duration::from_secs(600);
 
 fn description() -> Arc<Description> {
     Arc::new(Document::read(SCENE, Path::new("a plate")).unwrap())
