@@ -158,7 +158,7 @@ pub(crate) fn lights(scene: &Scene, origin_m: DVec3) -> Vec<[u32; 4]> {
             }
         }
     };
-    let lights: Vec<Light> = scene.lights.iter().map(light).collect();
+    let lights: Vec<Light> = scene.all_lights().map(light).collect();
     let mut texels = bytemuck::cast_slice(&lights).to_vec();
     texels.extend_from_slice(bytemuck::cast_slice(&vertices));
     texels
@@ -166,8 +166,8 @@ pub(crate) fn lights(scene: &Scene, origin_m: DVec3) -> Vec<[u32; 4]> {
 
 /// How many texels [`lights`] are.
 pub(crate) fn light_texels(scene: &Scene) -> usize {
-    let vertices: usize = scene.lights.iter().map(polygon_vertex_count).sum();
-    scene.lights.len() * LIGHT_TEXELS + vertices
+    let texels = |light| LIGHT_TEXELS + polygon_vertex_count(light);
+    scene.all_lights().map(texels).sum()
 }
 
 fn scratch_node(node: &hairline_index::ScratchNode, origin_m: DVec3) -> ScratchNode {

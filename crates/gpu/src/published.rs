@@ -112,7 +112,7 @@ fn light_triangles(scene: &Scene) -> Vec<[usize; 3]> {
             triangles
         }
     };
-    scene.lights.iter().flat_map(of_light).collect()
+    scene.all_lights().flat_map(of_light).collect()
 }
 
 /// Where each triangle's list begins and the last one ends, then the lists.

@@ -73,7 +73,7 @@ impl GpuScene {
         Ok(Self {
             buffers,
             textures,
-            light_count: source.scene.lights.len() as u32,
+            light_count: source.scene.all_lights().count() as u32,
             passes,
             written: transfer.end(),
             device: gpu.device.clone(),

@@ -43,7 +43,7 @@ const FEW_LIGHTS: usize = 4;
 
 impl Contents {
     pub fn of(scene: &Scene, tables: &ScratchTables) -> Self {
-        let has = |wanted: fn(&Light) -> bool| scene.lights.iter().any(wanted);
+        let has = |wanted: fn(&Light) -> bool| scene.all_lights().any(wanted);
         let pieces: usize = scene.objects.iter().map(|o| o.segments.len()).sum();
         Self {
             scratches: pieces > 0,
@@ -53,7 +53,7 @@ impl Contents {
             large_polygons: has(
                 |light| matches!(light, Light::Polygon { vertices_m, .. } if vertices_m.len() > 4),
             ),
-            many_lights: scene.lights.len() > FEW_LIGHTS,
+            many_lights: scene.all_lights().count() > FEW_LIGHTS,
             environment: scene.environment.is_some(),
             textures: !scene.textures.is_empty(),
             bodies: (scene.materials.iter().zip(&tables.materials)).any(|(material, optics)| {

@@ -41,7 +41,7 @@ impl LightView {
 
 /// All lights of a scene from a point. One for each thread, filled anew for every point without allocating.
 pub(crate) struct LightViews<'a> {
-    lights: &'a [Light],
+    lights: Vec<&'a Light>,
     /// Along which such points are found: it, too, is kept from pixel to pixel.
     pub rays: CameraBeam,
     pub views: Vec<LightView>,
@@ -60,7 +60,7 @@ pub(crate) struct LightViews<'a> {
 impl<'a> LightViews<'a> {
     pub fn new(scene: &'a Scene) -> Self {
         Self {
-            lights: &scene.lights,
+            lights: scene.all_lights().collect(),
             rays: CameraBeam::default(),
             views: Vec::new(),
             distances_m: Vec::new(),
@@ -79,7 +79,7 @@ impl<'a> LightViews<'a> {
         self.vertices.clear();
         self.directions.clear();
         self.edges.clear();
-        for (index, light) in self.lights.iter().enumerate() {
+        for (index, &light) in self.lights.iter().enumerate() {
             match light {
                 Light::Sphere {
                     center_m,

@@ -51,7 +51,7 @@ impl<'a> Published<'a> {
                 Spectrum::Table => Vec::new(),
                 Spectrum::Wavelengths { count, .. } => prepared.tables.published_spectra(count),
             },
-            triangles: prepared.scene.lights.iter().map(triangles).collect(),
+            triangles: prepared.scene.all_lights().map(triangles).collect(),
         })
     }
 

@@ -2,7 +2,7 @@
 //!
 //! Shading follows the split sum: a reflection off a rough surface is the map blurred by the surface's lobe
 //! ([`Environment::prefiltered`]) times the lobe's directional albedo; diffuse light is nine spherical harmonics
-//! ([`Environment::irradiance`]).
+//! ([`Environment::irradiance`]). Suns ([`Environment::load`]) are lights of their own.
 //!
 //! The map's top is at +Y, as in glTF, and its centre column at -Z, where a glTF camera looks by default; +X is to the
 //! right of it. [`Environment::with_up`] turns all of that to another axis.
@@ -13,11 +13,15 @@ use std::sync::Arc;
 use glam::{DMat3, DQuat, DVec3};
 use hairline_image::Picture;
 
+use crate::scene::Light;
+use suns::{Parted, Sun};
+
 mod file;
 mod irradiance;
 pub mod lookup;
 mod prefilter;
 mod resample;
+mod suns;
 
 pub use file::Error;
 pub(crate) use file::read;
@@ -38,10 +42,14 @@ pub struct Environment {
     intensity: f64,
     map_from_world: DMat3,
     visible: bool,
+    /// The suns as they shine on the scene.
+    suns: Vec<Light>,
 }
 
 #[derive(Debug)]
 struct Maps {
+    /// Not in the levels, nor in the harmonics; in the map's frame, in texel units.
+    suns: Vec<Sun>,
     background: Picture,
     levels: Vec<Picture>,
     irradiance_sh: [[f32; 3]; 9],
@@ -55,6 +63,9 @@ impl Environment {
     /// `rotation_rad` turns the map about the up axis, counter-clockwise seen from above; `intensity` multiplies its
     /// radiance; `visible` says whether the camera sees it.
     ///
+    /// What is small and bright in it, the disc of the sun above all, becomes a light: [`Environment::suns`]. The camera sees it
+    /// where it was.
+    ///
     /// Negative and NaN components count as 0, infinite ones as the largest finite value;
     /// [`Environment::repaired_texels`] counts them. Maps wider than 8192 pixels are halved until they are not.
     ///
@@ -67,35 +78,59 @@ impl Environment {
         visible: bool,
     ) -> Result<Self, Error> {
         let map = file::read(path)?;
-        Ok(Self::from_map(map, rotation_rad, intensity, visible))
+        Ok(Self::with_suns_parted(
+            map,
+            rotation_rad,
+            intensity,
+            visible,
+        ))
     }
 
-    /// From an equirectangular map in memory, rows from the top; see [`Environment::load`] for the rest.
+    /// From an equirectangular map in memory, rows from the top; see [`Environment::load`] for the rest. It stays whole: nothing of
+    /// it becomes a light of its own.
     ///
     /// # Panics
     /// If the map is empty.
-    pub fn from_map(mut map: Picture, rotation_rad: f64, intensity: f64, visible: bool) -> Self {
-        assert!(!map.rgb.is_empty(), "an empty environment map");
-        let repaired_texels = repair(&mut map);
-        while map.size_px[0] > MAP_WIDTH_MAX {
-            map = resample::resample(&map, map.size_px.map(|n| n / 2));
-        }
-        let texel_scale = fit_half(&mut map);
-        let levels = prefilter::prefilter(&map);
-        let irradiance_sh = irradiance::project(&levels[0]);
-        round_to_half(&mut map);
+    pub fn from_map(map: Picture, rotation_rad: f64, intensity: f64, visible: bool) -> Self {
+        let maps = Maps::new(map, |_| Parted::default());
+        Self::of_maps(maps, rotation_rad, intensity, visible)
+    }
+
+    /// The same, its suns parted from it as [`Environment::load`] does.
+    ///
+    /// # Panics
+    /// If the map is empty.
+    pub fn with_suns_parted(
+        map: Picture,
+        rotation_rad: f64,
+        intensity: f64,
+        visible: bool,
+    ) -> Self {
+        let maps = Maps::new(map, suns::part);
+        Self::of_maps(maps, rotation_rad, intensity, visible)
+    }
+
+    fn of_maps(maps: Maps, rotation_rad: f64, intensity: f64, visible: bool) -> Self {
         Self {
-            maps: Arc::new(Maps {
-                background: map,
-                levels,
-                irradiance_sh,
-                texel_scale,
-                repaired_texels,
-            }),
+            maps: Arc::new(maps),
             intensity,
             map_from_world: map_from_world(DVec3::Y, rotation_rad),
             visible,
+            suns: Vec::new(),
         }
+        .with_suns()
+    }
+
+    /// Brings the suns up to date with the map's turn and intensity.
+    fn with_suns(mut self) -> Self {
+        let per_texel = self.texel_radiance();
+        let light = |sun: &Sun| Light::Sphere {
+            center_m: self.map_from_world.transpose() * sun.direction * SUN_DISTANCE_M,
+            radius_m: SUN_DISTANCE_M * sun.radius_rad.sin(),
+            radiance: sun.radiance.map(|c| c * per_texel),
+        };
+        self.suns = self.maps.suns.iter().map(light).collect();
+        self
     }
 
     /// The same radiance from everywhere, visible. Exact if half floats hold the radiance, else within 0.05 %.
@@ -112,14 +147,14 @@ impl Environment {
     #[must_use]
     pub fn with_up(mut self, up: DVec3, rotation_rad: f64) -> Self {
         self.map_from_world = map_from_world(up, rotation_rad);
-        self
+        self.with_suns()
     }
 
     /// Sets the factor on the map's radiance.
     #[must_use]
     pub fn with_intensity(mut self, intensity: f64) -> Self {
         self.intensity = intensity;
-        self
+        self.with_suns()
     }
 
     /// Sets whether the camera sees it.
@@ -192,11 +227,46 @@ impl Environment {
         &self.maps.irradiance_sh
     }
 
+    /// The suns as spheres, so far away that they stand in one direction for all of a scene. They shine beside what is
+    /// [prefiltered](Environment::prefiltered) and the [irradiance](Environment::irradiance), which lack them; the
+    /// [radiance](Environment::radiance) has them.
+    pub fn suns(&self) -> &[Light] {
+        &self.suns
+    }
+
     /// How many texels of the file held a negative, infinite or NaN component.
     pub fn repaired_texels(&self) -> usize {
         self.maps.repaired_texels
     }
 }
+
+impl Maps {
+    /// Of a map whose suns `part` takes out.
+    fn new(mut map: Picture, part: impl Fn(&mut Picture) -> Parted) -> Self {
+        assert!(!map.rgb.is_empty(), "an empty environment map");
+        let repaired_texels = repair(&mut map);
+        while map.size_px[0] > MAP_WIDTH_MAX {
+            map = resample::resample(&map, map.size_px.map(|n| n / 2));
+        }
+        let texel_scale = fit_half(&mut map);
+        let parted = part(&mut map);
+        let levels = prefilter::prefilter(&map);
+        let irradiance_sh = irradiance::project(&levels[0]);
+        parted.put_back(&mut map);
+        round_to_half(&mut map);
+        Self {
+            suns: parted.suns,
+            background: map,
+            levels,
+            irradiance_sh,
+            texel_scale,
+            repaired_texels,
+        }
+    }
+}
+
+/// How far away suns are: a scene of some metres is a point beside it, and single precision tells directions to a ten millionth.
+const SUN_DISTANCE_M: f64 = 1e5;
 
 /// What every WebGPU device can hold in one texture.
 const MAP_WIDTH_MAX: u32 = 8192;

@@ -30,8 +30,16 @@ pub struct Scene {
     pub materials: Vec<Material>,
     /// Objects in world space.
     pub objects: Vec<Object>,
-    /// Area lights.
+    /// Area lights, those of the environment not among them: see [`Scene::all_lights`].
     pub lights: Vec<Light>,
+}
+
+impl Scene {
+    /// The area lights, then the environment's [suns](Environment::suns): what shines on surfaces beside the environment itself.
+    pub fn all_lights(&self) -> impl Iterator<Item = &Light> + Clone {
+        let suns = self.environment.iter().flat_map(Environment::suns);
+        self.lights.iter().chain(suns)
+    }
 }
 
 /// A pinhole camera.

@@ -1,29 +1,37 @@
 //! Scratches and base under a smooth sky: cells of the band and the split sum against every direction by chance.
 
 use crate::pictures::{LINEAR, closed, compared, sampled};
-use crate::scenes::{View, plate, scratch};
-use glam::DVec3;
+use crate::scenes::{self, View, plate, scratch};
+use glam::{DVec2, DVec3};
 use hairline_image::{Layer, Picture};
 use hairline_optics::metal::Metal;
 use hairline_scene::environment::lookup::environment_dir;
 use hairline_scene::{Base, Environment};
 
 /// Blue above, pale at the horizon, and brighter to one side: no edge and no sun.
-fn sky() -> Environment {
-    let [width, height] = [128, 64];
+fn sky([width, height]: [u32; 2]) -> Picture {
     let mut map = Picture::new([width, height]);
     for (i, texel) in map.rgb.iter_mut().enumerate() {
-        let (x, y) = (i as u32 % width, i as u32 / width);
-        let dir = environment_dir(glam::DVec2::new(
-            (f64::from(x) + 0.5) / f64::from(width),
-            (f64::from(y) + 0.5) / f64::from(height),
-        ));
+        let dir = direction([width, height], i as u32);
         let horizon = 1.0 - dir.y.abs();
         let side = 1.0 + 0.5 * dir.x - 0.3 * dir.z;
         let rgb = DVec3::new(0.25, 0.45, 0.9) + DVec3::new(0.7, 0.5, 0.2) * horizon;
         *texel = (side * rgb).as_vec3().to_array();
     }
-    Environment::from_map(map, 0.0, 1.0, false).with_up(DVec3::Z, 0.7)
+    map
+}
+
+/// Of a texel, in the map's frame.
+fn direction([width, height]: [u32; 2], i: u32) -> DVec3 {
+    environment_dir(DVec2::new(
+        (f64::from(i % width) + 0.5) / f64::from(width),
+        (f64::from(i / width) + 0.5) / f64::from(height),
+    ))
+}
+
+/// As it stands over the plate.
+fn over(environment: Environment) -> Environment {
+    environment.with_up(DVec3::Z, 0.7)
 }
 
 #[test]
@@ -36,7 +44,7 @@ fn a_smooth_sky() {
         };
         let mut scene = plate(base, view);
         scene.materials[0].roughness = 0.3;
-        scene.environment = Some(sky());
+        scene.environment = Some(over(Environment::from_map(sky([128, 64]), 0.0, 1.0, false)));
         scratch(&mut scene, view, 20);
         let (exact, reference) = (closed(&scene), sampled(&scene, LINEAR, 4));
         let name = format!("sky on {base:?} from {angle_rad} rad");
@@ -49,5 +57,48 @@ fn a_smooth_sky() {
         // The split sum takes the lobe for one around the mirror's direction, and its Fresnel reflectance for that of the
         // whole lobe.
         assert!(base.rms().0 < 0.04, "{base:?}");
+    }
+}
+
+/// A sun in that sky, 0.03 rad about a direction beside the mirror's: the whole map by chance against the sun as a light and the rest as cells
+/// and split sum.
+#[test]
+fn a_sun_in_the_sky() {
+    const SIZE_PX: [u32; 2] = [2048, 1024];
+    for (base, angle_rad) in [(Base::Mirror, 0.4), (Base::Metal(Metal::Aluminium), 0.9)] {
+        let view = View {
+            angle_rad,
+            pixel_um: 20.0,
+            size_px: 16,
+        };
+        let mut scene = plate(base, view);
+        scene.materials[0].roughness = 0.3;
+        scratch(&mut scene, view, 20);
+        let toward = scenes::off_the_mirror(angle_rad, 0.1, 0.02);
+        let map_from_world = over(Environment::uniform([1.0; 3])).map_from_world();
+        let mut map = sky(SIZE_PX);
+        for (i, texel) in map.rgb.iter_mut().enumerate() {
+            if direction(SIZE_PX, i as u32).angle_between(map_from_world * toward) < 0.03 {
+                *texel = [2000.0, 1600.0, 1200.0];
+            }
+        }
+        let whole = over(Environment::from_map(map.clone(), 0.0, 1.0, false));
+        let parted = over(Environment::with_suns_parted(map, 0.0, 1.0, false));
+        assert_eq!(parted.suns().len(), 1);
+        scene.environment = Some(whole);
+        let (stained, reference) = (closed(&scene), sampled(&scene, LINEAR, 32));
+        scene.environment = Some(parted);
+        let exact = closed(&scene);
+        let name = format!("sun on {base:?} from {angle_rad} rad");
+        let [scratches, base] =
+            [Layer::Scratches, Layer::Base].map(|layer| compared(&name, &exact, &reference, layer));
+        let [at_least, _] = scratches.beyond.relative_rms_within(2.0);
+        assert!(at_least < 0.01, "{scratches:?}");
+        assert!((scratches.mean_ratio - 1.0).abs() < 0.01 + 3.0 * scratches.mean_ratio_error);
+        assert!(base.rms().0 < 0.04, "{base:?}");
+        // Left in the map it is a stain, all the wider and brighter.
+        let name = format!("{name}, in the map");
+        let stain = compared(&name, &stained, &reference, Layer::Scratches);
+        assert!(stain.rms().0 > 0.5, "{stain:?}");
     }
 }

@@ -38,7 +38,7 @@ pub fn scratch(scene: &mut Scene, view: View, count: u32) {
 }
 
 /// The unit direction whose components on the plate differ by (x, y) from those of the mirrored view.
-fn off_the_mirror(angle_rad: f64, x: f64, y: f64) -> DVec3 {
+pub fn off_the_mirror(angle_rad: f64, x: f64, y: f64) -> DVec3 {
     let y = angle_rad.sin() + y;
     DVec3::new(x, y, (1.0 - x * x - y * y).sqrt())
 }

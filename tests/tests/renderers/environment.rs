@@ -2,7 +2,9 @@
 
 use conformance::Sequence;
 use conformance::two_renderers::{compare, on_the_cpu, on_the_gpu};
+use glam::{DVec2, DVec3};
 use hairline_image::Picture;
+use hairline_scene::environment::lookup::environment_dir;
 use hairline_scene::{Environment, Scene};
 
 const BALLS: &str = r#"
@@ -53,4 +55,30 @@ fn balls_mirror_a_map_alike() {
         return;
     };
     compare("balls", &scene, &gpu, &on_the_cpu(&scene, 1)).unwrap();
+}
+
+/// Scratched balls under a sky with a sun as small as the real one.
+#[test]
+fn balls_under_a_sun() {
+    let scratched = format!(
+        "{BALLS}\n[[scratches]]\nobject = \"large\"\npattern = \"random\"\ncount = 400\nseed = 3\n\
+         length_m = 0.01\nwidth_um = 3.0\ndepth_nm = 250.0\n"
+    );
+    let mut scene = Scene::from_toml(&scratched, "balls.toml", ".").unwrap();
+    scene.render.size_px = [128, 80];
+    let mut map = Picture::new([2048, 1024]);
+    let sun = DVec3::new(0.3, 0.6, 0.74).normalize();
+    for (i, texel) in map.rgb.iter_mut().enumerate() {
+        let at = DVec2::new((i % 2048) as f64 + 0.5, (i / 2048) as f64 + 0.5);
+        let direction = environment_dir(at / DVec2::new(2048.0, 1024.0));
+        let is_sun = direction.angle_between(sun) < 0.0047;
+        *texel = [0.2, 0.4, 0.8].map(|c| if is_sun { 3e4 } else { c });
+    }
+    let environment = Environment::with_suns_parted(map, 0.0, 1.0, true);
+    assert_eq!(environment.suns().len(), 1);
+    scene.environment = Some(environment);
+    let Some(gpu) = on_the_gpu(&scene, 1) else {
+        return;
+    };
+    compare("balls under a sun", &scene, &gpu, &on_the_cpu(&scene, 1)).unwrap();
 }

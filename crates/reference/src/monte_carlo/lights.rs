@@ -96,6 +96,7 @@ fn widened(low: f64, high: f64) -> (f64, f64) {
 }
 
 impl AreaLights {
+    /// The environment's suns are not among them: here they are found in its map.
     pub fn new(scene: &Scene) -> Self {
         Self::from_lights(&scene.lights)
     }

@@ -8,9 +8,9 @@ use std::time::Instant;
 use crate::common::asset;
 use glam::{DVec2, DVec3};
 use hairline_image::{Display, Output, Picture};
-use hairline_scene::Environment;
 use hairline_scene::environment::lookup::{environment_dir, environment_lod, environment_uv};
 use hairline_scene::environment::{Error, LEVEL_ROUGHNESS};
+use hairline_scene::{Environment, Light};
 
 /// A map whose texels hold a function of their direction.
 fn map_of(size_px: [u32; 2], radiance: impl Fn(DVec3) -> [f64; 3]) -> Picture {
@@ -290,6 +290,48 @@ fn bright_maps_keep_their_radiance() {
     }
 }
 
+/// The disc of a sun is a light, which turns and shines with its map; the camera sees the map whole, surfaces the rest of it.
+#[test]
+fn a_sun_is_a_light() {
+    let evening = |d: DVec3| [0.3 + 0.2 * d.y, 0.3, 0.5 + 0.1 * d.x];
+    let toward = DVec3::new(0.3, 0.5, -0.8).normalize();
+    let sunny = map_of([512, 256], |d| {
+        let is_sun = d.angle_between(toward) < 0.03;
+        evening(d).map(|c| if is_sun { c + 4000.0 } else { c })
+    });
+    let sky = Environment::from_map(map_of([512, 256], evening), 0.4, 1.5, true);
+    let whole = Environment::from_map(sunny.clone(), 0.4, 1.5, true);
+    let parted = Environment::with_suns_parted(sunny, 0.4, 1.5, true);
+    assert!(sky.suns().is_empty() && whole.suns().is_empty());
+    for d in directions(500) {
+        assert_eq!(parted.radiance(d), whole.radiance(d));
+        for roughness in [0.0, 0.2, 0.6] {
+            let [left, sky] = [&parted, &sky].map(|map| map.prefiltered(d, roughness));
+            assert!(relative(left, sky) < 0.02, "{left} {sky}");
+        }
+        assert!(relative(parted.irradiance(d), sky.irradiance(d)) < 1e-3);
+    }
+    let turned = parted.clone().with_up(DVec3::Z, 1.0).with_intensity(3.0);
+    for (environment, intensity) in [(&parted, 1.5), (&turned, 3.0)] {
+        let [
+            Light::Sphere {
+                center_m,
+                radius_m,
+                radiance,
+            },
+        ] = environment.suns()
+        else {
+            panic!("{:?}", environment.suns())
+        };
+        let expected = environment.map_from_world().transpose() * toward;
+        // Half a texel.
+        assert!(center_m.angle_between(expected) < 6e-3);
+        assert!((radius_m / center_m.length() / 0.03 - 1.0).abs() < 0.1);
+        let expected = DVec3::splat(4000.0 * intensity);
+        assert!(relative(DVec3::from(*radiance), expected) < 1e-3);
+    }
+}
+
 #[test]
 fn real_maps_load() {
     for name in ["studio.hdr", "workshop.hdr"] {
@@ -307,8 +349,25 @@ fn real_maps_load() {
             mean.min_element() > 0.01 && mean.max_element() < 100.0,
             "{mean}"
         );
+        let mut suns = DVec3::ZERO;
+        for sun in environment.suns() {
+            let Light::Sphere {
+                center_m,
+                radius_m,
+                radiance,
+            } = sun
+            else {
+                panic!("{sun:?}")
+            };
+            let (radius_rad, radiance) = (
+                (radius_m / center_m.length()).asin(),
+                DVec3::from(*radiance),
+            );
+            println!("  a sun of {radius_rad:.4} rad, {radiance:.0}");
+            suns += radiance * (0.5 * (1.0 - radius_rad.cos()));
+        }
         for (level, roughness) in environment.prefiltered_levels().iter().zip(LEVEL_ROUGHNESS) {
-            let error = relative(sphere_mean(level), mean);
+            let error = relative(sphere_mean(level) + suns, mean);
             println!(
                 "  roughness {roughness}: mean off by {:.3} %",
                 100.0 * error
@@ -316,6 +375,7 @@ fn real_maps_load() {
             assert!(error < 0.01);
         }
         // Below, the lobe is hardly wider than the file's texels: quadrature over them does not resolve it.
+        let environment = Environment::from_map(map.clone(), 0.0, 1.0, true);
         for roughness in &LEVEL_ROUGHNESS[2..] {
             let error = blur_error(&environment, map, *roughness, 40);
             println!(

@@ -3,6 +3,7 @@
 use egui::Ui;
 use hairline_editor::actions;
 use hairline_editor::ranges::Parameter;
+use hairline_scene::Light;
 
 use super::form::Form;
 use crate::app::Viewer;
@@ -19,6 +20,11 @@ pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer) {
         return;
     };
     ui.label(environment.file.display().to_string());
+    if let Some(text) = suns(viewer) {
+        ui.label(text).on_hover_text(
+            "What is small, round and bright in the map lights as a lamp of its own would, colours on scratches included",
+        );
+    }
     let mut form = Form::new(ui, "environment", viewer.diagonal_m(None));
     form.number(
         Parameter::EnvironmentRotation,
@@ -48,4 +54,27 @@ pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer) {
             viewer.tell(done);
         }
     });
+}
+
+/// What was parted from the map that the picture shows.
+fn suns(viewer: &Viewer) -> Option<String> {
+    let built = viewer.engine.built()?;
+    let suns = built.scene.environment.as_ref()?.suns();
+    let size = |sun: &Light| {
+        let (center_m, radius_m) = sun.bounding_sphere();
+        let across_rad = 2.0 * (radius_m / center_m.length()).asin();
+        format!("{:.2}°", across_rad.to_degrees())
+    };
+    match suns {
+        [] => None,
+        [sun] => Some(format!("One sun in it, {} across", size(sun))),
+        suns => {
+            let sizes: Vec<String> = suns.iter().map(size).collect();
+            Some(format!(
+                "{} suns in it, {} across",
+                suns.len(),
+                sizes.join(", ")
+            ))
+        }
+    }
 }

@@ -8,6 +8,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use hairline_editor::Selection;
 use hairline_editor::presets::{LayerPreset, MaterialPreset};
+use hairline_image::{Display, Output, Picture};
 use hairline_scene::Description;
 use hairline_scene::description::Amount;
 use hairline_scene::description::{Environment, Layer, Pattern};
@@ -167,6 +168,41 @@ fn the_environment() {
     common::wait_until(&mut harness, "the message goes", |viewer| {
         viewer.messages().is_empty()
     });
+}
+
+/// The panel tells what it took out of a map.
+#[test]
+fn a_sun_in_the_environment() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("sunny.exr");
+    let mut map = Picture {
+        size_px: [256, 128],
+        rgb: vec![[0.2, 0.4, 0.8]; 256 * 128],
+    };
+    // Two texels, of 1.4 degrees and less: together as large as a disc of 2.05.
+    map.rgb[40 * 256 + 100..][..2].fill([1e4; 3]);
+    let output = Output::check(&file).unwrap();
+    output.write_picture(&map, &Display::default()).unwrap();
+    let mut harness = viewer(BUILT_IN);
+    wait_built(&mut harness);
+    let lights = harness.state().document().description().lights.len();
+    edit(&mut harness, |d| {
+        d.environment = Some(Environment {
+            file,
+            rotation_deg: 0.0,
+            intensity: 1.0,
+            visible: true,
+        });
+    });
+    common::wait_until(&mut harness, "the map", |viewer| {
+        let built = viewer.engine().built();
+        built.is_some_and(|built| built.scene.environment.is_some())
+    });
+    select(&mut harness, Selection::Environment);
+    harness.get_by_label("One sun in it, 2.05° across");
+    // It is the map's: no light that could be moved.
+    assert_eq!(description(&harness).lights.len(), lights);
+    assert_eq!(every_number_is_live(&mut harness), 2);
 }
 
 #[test]

@@ -232,14 +232,14 @@ impl<'a> Counted<'a> {
                 {
                     tally.wavelengths += count as f64;
                 }
-                for light in &self.scene.lights {
+                for light in self.scene.all_lights() {
                     self.pair(sight, &view, light, method, tally);
                 }
             }
         }
         tally.kept += f64::from(kept);
         if kept > 0 {
-            tally.lights += self.scene.lights.len() as f64;
+            tally.lights += self.scene.all_lights().count() as f64;
         }
     }
 
