@@ -50,6 +50,8 @@ pub struct Viewer {
     built_in: &'static str,
     /// The description that the engine was given last, and when the notes about it were read.
     asked: Option<Arc<Description>>,
+    /// Of the document, when the engine was last asked for a scene.
+    asked_revision: u64,
     /// That the window was given.
     title: String,
     /// Of the device that draws the window.
@@ -91,6 +93,7 @@ impl Viewer {
             frame_when_built: false,
             built_in: options.built_in,
             asked: None,
+            asked_revision: 0,
             title: String::new(),
             loss: WindowLoss::default(),
             document,
@@ -218,12 +221,9 @@ impl Viewer {
     fn hear_engine(&mut self) {
         for event in self.engine.events() {
             match event {
+                // Of a scene that is another by now nobody wants to know: it may be right again.
                 Event::NotBuilt { revision, message } => {
-                    if self
-                        .engine
-                        .built()
-                        .is_none_or(|built| built.revision < revision)
-                    {
+                    if revision == self.asked_revision {
                         self.notices.error("scene", message);
                     }
                 }
@@ -246,8 +246,9 @@ impl Viewer {
         });
         if !is_asked {
             self.notices.clear("scene");
+            self.asked_revision = self.document.revision();
             self.engine.set_scene(
-                self.document.revision(),
+                self.asked_revision,
                 Arc::clone(description),
                 self.document.base_dir().to_owned(),
             );

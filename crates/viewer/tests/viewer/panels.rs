@@ -170,6 +170,33 @@ fn the_environment() {
     });
 }
 
+/// A scene that is put right before its builder has found out what is wrong with it: nothing is told of what was.
+#[test]
+fn errors_of_scenes_that_are_gone_are_not_told() {
+    let mut harness = viewer(common::SMALL);
+    wait_built(&mut harness);
+    for i in 0..100 {
+        for file in [Some(format!("there is none {i}.hdr")), None] {
+            let document = harness.state_mut().document_mut();
+            document.edit("by the test", |d| {
+                d.environment = file.map(|file| Environment {
+                    file: file.into(),
+                    rotation_deg: 0.0,
+                    intensity: 1.0,
+                    visible: true,
+                });
+            });
+            harness.step();
+        }
+        common::wait_until(&mut harness, "the scene without", |viewer| {
+            let built = viewer.engine().built();
+            built.is_some_and(|built| built.revision == viewer.document().revision())
+        });
+        harness.run_steps(2);
+        assert!(harness.state().messages().is_empty(), "{i}");
+    }
+}
+
 /// The panel tells what it took out of a map.
 #[test]
 fn a_sun_in_the_environment() {
