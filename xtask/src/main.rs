@@ -14,7 +14,7 @@ enum Command {
     Accuracy(accuracy::Accuracy),
     /// Fit the tables of the area-light lobes and write them to crates/optics/data.
     FitLobes(fit_lobes::FitLobes),
-    /// Make the models of scenes/ and write them to scenes/models.
+    /// Make the models and the sky of scenes/, and write them to scenes/models and scenes/maps.
     MakeModels(make_models::MakeModels),
     /// Render the pictures of the docs into docs/pictures.
     Pictures(pictures::Pictures),

@@ -1,8 +1,9 @@
-//! `cargo xtask make-models`: the models of our own that `scenes/` shows. Everything in them is computed here, by
+//! `cargo xtask make-models`: the models of our own that `scenes/` shows, and the sky over one of them. Everything in them is computed here, by
 //! functions that give the same bits on every platform.
 
 mod glb;
 mod handle_texture;
+mod sky;
 mod spline;
 mod spoon;
 
@@ -27,17 +28,24 @@ pub struct MakeModels {
 impl MakeModels {
     /// Makes and writes, or compares.
     pub fn run(self) -> Result<()> {
-        let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../scenes/models");
-        let path = folder.join("spoon.glb");
-        let bytes = spoons()?;
-        println!("spoon.glb: {} bytes", bytes.len());
-        if self.check {
-            let committed = std::fs::read(&path).with_context(|| format!("read {path:?}"))?;
-            ensure!(committed == bytes, "{path:?} is not what this code makes");
-            return Ok(());
+        let scenes = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../scenes");
+        for (name, bytes) in [
+            ("models/spoon.glb", spoons()?),
+            ("maps/evening.hdr", sky::evening()?),
+        ] {
+            println!("{name}: {} bytes", bytes.len());
+            let path = scenes.join(name);
+            if self.check {
+                let committed = std::fs::read(&path).with_context(|| format!("read {path:?}"))?;
+                ensure!(committed == bytes, "{path:?} is not what this code makes");
+                continue;
+            }
+            if let Some(folder) = path.parent() {
+                std::fs::create_dir_all(folder).with_context(|| format!("make {folder:?}"))?;
+            }
+            std::fs::write(&path, bytes).with_context(|| format!("write {path:?}"))?;
         }
-        std::fs::create_dir_all(&folder).with_context(|| format!("make {folder:?}"))?;
-        std::fs::write(&path, bytes).with_context(|| format!("write {path:?}"))
+        Ok(())
     }
 }
 
