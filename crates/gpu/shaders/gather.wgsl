@@ -17,6 +17,10 @@ struct GatherBatch {
     lit: array<u32, GATHER_SEGMENTS>,           // which of them a light reaches
 }
 
+// Whether pixels of tiles light batch after batch. Where few see more than one holds, a software driver has them walk: a loop about all
+// of it would cost every pixel a twentieth.
+override GATHER_BATCHES: bool = true;
+
 // Of the module and not of a function, as all arrays here: WGSL has variables cleared where they are declared. In a function that is called
 // under a condition a software driver does that element by element and lane by lane, as often as it comes there, and the code for it takes
 // as long to compile as the rest.

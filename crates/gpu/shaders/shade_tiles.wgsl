@@ -18,21 +18,36 @@ fn shade(
         alone = alone && view.single_share > 0.0 && film_wants_singles(here.pixel);
         sums = film_resume(here.pixel, 0u).sums;
     }
+    // A walk may be left where a device ends long loops; this is not, and begins no batch that it may not end.
+    let rounds = gather_rounds_a_segment();
+    let room = min(GATHER_SEGMENTS, GATHER_MAX_ROUNDS / rounds);
     var overflows = false;
-    // A walk may be left where a device ends long loops; this is not.
-    let room = min(GATHER_SEGMENTS, GATHER_MAX_ROUNDS / gather_rounds_a_segment());
+    var first = 0u;
     var chunk = here.list.y;
-    for (var first = 0u; first < count; first += TILE_CHUNK) {
-        let list = tile_chunk_texel(chunk);
-        chunk = tile_list_texel(list + TILE_CHUNK).x;
-        var near = select(vec2u(0u), tile_chunk_near(list, count - first, here.in_tile), alone);
-        let touching = bits_count(near);
-        overflows = overflows || gather_batch.count + touching > room;
-        let wanted = select(touching, 0u, overflows);
-        for (var i = 0u; i < wanted; i += 1u) {
+    loop {
+        gather_batch.count = 0u;
+        var is_full = false;
+        while first < count && !is_full {
+            let list = tile_chunk_texel(chunk);
+            var near = select(vec2u(0u), tile_chunk_near(list, count - first, here.in_tile), alone);
+            let touching = bits_count(near);
+            is_full = gather_batch.count + touching > room;
+            let wanted = select(touching, 0u, is_full);
+            for (var i = 0u; i < wanted; i += 1u) {
+                gather_rounds += 1u;
+                let segment = tile_list_texel(list + bits_take(&near)).x;
+                gather_weigh(point, view, segment, &gather_batch, &sums);
+            }
+            first += select(TILE_CHUNK, 0u, is_full);
+            chunk = select(tile_list_texel(list + TILE_CHUNK).x, chunk, is_full);
             gather_rounds += 1u;
-            let segment = tile_list_texel(list + bits_take(&near)).x;
-            gather_weigh(point, view, segment, &gather_batch, &sums);
+        }
+        let may_go_on = GATHER_BATCHES && gather_batch.count > 0u && gather_rounds + 2u * room * rounds <= GATHER_MAX_ROUNDS;
+        overflows = is_full && !may_go_on;
+        gather_batch.count = select(gather_batch.count, 0u, overflows);
+        sums.radiance += gather_light(point, view, &gather_batch);
+        if !GATHER_BATCHES || overflows || first >= count {
+            break;
         }
     }
     if !here.inside {
@@ -41,9 +56,6 @@ fn shade(
     if overflows {
         queue_move(workgroup.x);
         return;
-    }
-    if here.seen.x != 0u {
-        sums.radiance += gather_light(point, view, &gather_batch);
     }
     tile_pixel_add(here, point, depth_m, sums);
 }

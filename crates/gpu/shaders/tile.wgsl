@@ -14,7 +14,7 @@ const TILE_CHUNK: u32 = 64u;
 // is made of + 1; then the plane's normal, and how far it lies before the camera.
 const TILE_HEAD_TEXELS: u32 = 2u;
 // Longer lists are left to walks.
-const TILE_LIST_MOST: u32 = 512u;
+override TILE_LIST_MOST: u32 = 512u;
 
 // The first texel of a chunk.
 fn tile_chunk_texel(chunk: u32) -> u32 {

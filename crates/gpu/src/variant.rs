@@ -35,7 +35,7 @@ pub(crate) struct Contents {
     pub bodies: bool,
 }
 
-/// Up to so many straight pieces of scratches the few pixels that see more of them than a small batch holds walk.
+/// Up to so many straight pieces of scratches the few pixels that see more of them than a batch holds walk on a software driver.
 const FEW_PIECES: usize = 1 << 18;
 
 /// Up to so many lights a pixel looks at one after the other, with all scratches under it.
@@ -158,8 +158,12 @@ impl ShadeVariant {
             ("GATHER_MAX_ROUNDS", SOFTWARE_MAX_ROUNDS),
             ("WALK_STRIDE", SOFTWARE_STRIDE.into()),
             ("RECORD_LANES", SOFTWARE_LANES.into()),
+            ("GATHER_BATCHES", self.has.many_scratches.into()),
         ];
         let mut constants: Vec<Constant> = more.to_vec();
+        if self.lists_are_long(gpu) {
+            constants.push(("TILE_LIST_MOST", LONG_LIST));
+        }
         for (name, value) in constants_of(self)
             .into_iter()
             .chain(software.into_iter().filter(|_| is_bounded(gpu)))
@@ -172,13 +176,19 @@ impl ShadeVariant {
         constants
     }
 
+    /// Whether tiles list thousands of scratches. Where a software driver has pixels with more than a batch walk, short lists tell it soon;
+    /// and records of tiles so dense err more (1.5 % on scenes/drawn.toml), which is for scenes that would take minutes else.
+    fn lists_are_long(&self, gpu: &Gpu) -> bool {
+        let at_pixels = self.method.light_at != LightAt::Scratches;
+        self.has.many_scratches || at_pixels && !is_bounded(gpu)
+    }
+
     /// A shader's text, as the device is given it.
     pub fn text(&self, gpu: &Gpu, module: &'static shaders::Module) -> String {
         let mut text = shaders::compose(&[module]);
         if self.has.many_scratches && is_bounded(gpu) {
             // The lengths of a shader's arrays cannot be constants that a pipeline sets.
             text = text.replace(SMALL_BATCH, LARGE_BATCH);
-            text = text.replace(SHORT_LIST, LONG_LIST);
         }
         if storage_textures::are_used(gpu) {
             text = storage_textures::in_text(&text);
@@ -190,13 +200,13 @@ impl ShadeVariant {
 /// A constant that a pipeline sets.
 pub(crate) type Constant = (&'static str, f64);
 
+/// Entries of a tile's list, where it may be long.
+const LONG_LIST: f64 = 16_384.0;
+
 /// How many scratches under a pixel a shader takes at once. On a software driver a large batch costs pictures with few of them a twelfth
-/// (all of it is cleared for each pixel), and saves those with many the walks of pixels that see more.
+/// (all of it is cleared for each pixel), and saves those with many, where each further batch costs a sixth.
 const SMALL_BATCH: &str = "const GATHER_SEGMENTS: u32 = 64u;";
 const LARGE_BATCH: &str = "const GATHER_SEGMENTS: u32 = 192u;";
-/// And how many a tile lists. Where lists are short, pixels with more than a small batch are soon found to be for walks.
-const SHORT_LIST: &str = "const TILE_LIST_MOST: u32 = 512u;";
-const LONG_LIST: &str = "const TILE_LIST_MOST: u32 = 16384u;";
 
 #[cfg(test)]
 mod tests {
@@ -205,6 +215,5 @@ mod tests {
     #[test]
     fn the_batch_is_where_it_is_looked_for() {
         assert_eq!(shaders::GATHER.source.matches(SMALL_BATCH).count(), 1);
-        assert_eq!(shaders::TILE.source.matches(SHORT_LIST).count(), 1);
     }
 }

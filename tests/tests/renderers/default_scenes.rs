@@ -216,8 +216,8 @@ fn ways() -> [Method; 2] {
     })
 }
 
-/// A pixel sees 15 scratches at the lower edge and 450 at the upper one, a tile three times as many: below, lists are whole; in
-/// the middle pixels see more than a batch holds (64); above, tiles see more than a list holds (510).
+/// A pixel sees 15 scratches at the lower edge and 450 at the upper one, a tile three times as many: in the middle and above pixels see
+/// more than a batch holds (64), which walk on a software driver.
 #[test]
 fn more_scratches_than_a_tile_holds() {
     let scene = scratched([61, 53], 5000, |u| 2.0 * (0.5 + 0.5 * u).cbrt() - 1.0);

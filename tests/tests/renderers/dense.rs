@@ -1,4 +1,5 @@
-//! So many scratches that a tile of the GPU's picture lists more than five hundred and a pixel sees a hundred.
+//! So many scratches that a tile of the GPU's picture lists more than five hundred and a pixel sees a hundred, and so many that it lights them
+//! batch after batch.
 
 use hairline_gpu::headless;
 use hairline_image::Layer;
@@ -7,13 +8,13 @@ use hairline_optics::method::{LightAt, Method};
 use hairline_reference::closed_form;
 use hairline_scene::Scene;
 
-/// The middle of a disk, in pixels of 0.45 mm.
+/// The middle of a disk.
 const DENSE: &str = r#"
 [camera]
 position_m = [0.0, -0.1365, 0.236425]
 target_m = [0.0, 0.0, 0.0]
 up = [0.0, 0.0, 1.0]
-fov_y_deg = 8.0
+fov_y_deg = FOV
 
 [render]
 size_px = [120, 88]
@@ -50,12 +51,24 @@ const PIXELS_MOST: f64 = 1e-3;
 /// What lies between stations.
 const SCRATCHES_MOST: f64 = 6e-3;
 
+/// Pixels of 0.45 mm.
 #[test]
 fn lists_hold_them_all() {
+    is_the_cpus("8.0");
+}
+
+/// Pixels of 0.65 mm, which see some two hundred: more than a batch holds.
+#[test]
+fn batches_follow_one_another() {
+    is_the_cpus("11.5");
+}
+
+fn is_the_cpus(fov_y_deg: &str) {
     let Some(gpu) = headless::test_gpu() else {
         return;
     };
-    let scene = Scene::from_toml(DENSE, "dense", ".").unwrap_or_else(|e| panic!("{e}"));
+    let text = DENSE.replace("FOV", fov_y_deg);
+    let scene = Scene::from_toml(&text, "dense", ".").unwrap_or_else(|e| panic!("{e}"));
     let method = Method {
         light_at: LightAt::Pixels,
         ..Method::default()
