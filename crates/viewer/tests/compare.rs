@@ -5,6 +5,7 @@ mod common;
 use std::time::{Duration, Instant};
 
 use egui::Key;
+use egui::accesskit::Role;
 use egui_kittest::{Harness, kittest::Queryable};
 use hairline_image::{Image, Layer};
 use hairline_optics::method::Method;
@@ -138,6 +139,22 @@ fn closing_it_stops_the_thread() {
     );
     assert_eq!(harness.state().comparison(), None);
     assert!(harness.query_by_label("Close the comparison").is_none());
+}
+
+#[test]
+fn buttons_stay_where_they_are_when_figures_come() {
+    let mut harness = viewer(common::SMALL, 640.0);
+    common::key(&mut harness, Key::C);
+    let names = ["Reference", "Error map", "Close the comparison"];
+    let places = |harness: &Harness<'static, Viewer>| {
+        names.map(|name| harness.get_by_role_and_label(Role::Button, name).rect())
+    };
+    let before = places(&harness);
+    assert!(harness.query_by_label("relative rms").is_none());
+    sampled(&mut harness);
+    harness.step();
+    assert!(harness.query_by_label("relative rms").is_some());
+    assert_eq!(places(&harness), before);
 }
 
 #[test]

@@ -2,8 +2,8 @@
 
 use egui::accesskit::Action;
 use egui::{
-    Align2, Color32, ColorImage, CursorIcon, EventFilter, FontId, Grid, Id, Key, Rect, Role, Sense,
-    Shape, TextureHandle, TextureOptions, Ui, WidgetInfo, pos2, vec2,
+    Align, Align2, Color32, ColorImage, CursorIcon, EventFilter, FontId, Grid, Id, Key, Layout,
+    Rect, Role, Sense, Shape, TextureHandle, TextureOptions, Ui, WidgetInfo, pos2, vec2,
 };
 use hairline_image::metrics::magma;
 use hairline_image::{Display, ToneMap, png};
@@ -140,10 +140,13 @@ impl Compare {
             .show(ctx, |ui| {
                 egui::Frame::popup(ui.style()).show(ui, |ui| {
                     ui.set_width(WIDTH);
-                    ui.horizontal(|ui| {
+                    // Above all that comes and grows, so that it stays where the pointer went to.
+                    let closes = ui.horizontal(|ui| {
                         for side in [Side::Reference, Side::Errors] {
                             ui.selectable_value(&mut self.side, side, side.name());
                         }
+                        ui.with_layout(Layout::right_to_left(Align::Center), close)
+                            .inner
                     });
                     match (&self.refused, shown) {
                         (Some(refused), _) => drop(ui.label(refused)),
@@ -155,7 +158,7 @@ impl Compare {
                             });
                         }
                     }
-                    ui.button("Close the comparison").clicked()
+                    closes.inner
                 })
             })
             .inner
@@ -202,6 +205,12 @@ impl Compare {
             scale(ui, compared.range);
         }
     }
+}
+
+fn close(ui: &mut Ui) -> bool {
+    let button = ui.button("Close").on_hover_text("Close the comparison");
+    button.widget_info(|| WidgetInfo::labeled(Role::Button, true, "Close the comparison"));
+    button.clicked()
 }
 
 fn row(ui: &mut Ui, name: &str, figures: &LayerFigures) {

@@ -89,11 +89,18 @@ pub fn picture(harness: &Harness<'static, Viewer>) -> Rect {
     harness.get_by_label("Picture").rect()
 }
 
-/// Clicks on what has this label, as soon as it is there: what another thread tells of is seen a pass later.
+/// Clicks on what has this label, as soon as it is there and no longer moves: what another thread tells of is seen a pass
+/// later, and may push it to another place.
 pub fn click_on(harness: &mut Harness<'static, Viewer>, label: &str) {
     let start = Instant::now();
-    while harness.query_by_label(label).is_none() && start.elapsed() < PATIENCE {
+    let place =
+        |harness: &Harness<'static, Viewer>| harness.query_by_label(label).map(|it| it.rect());
+    loop {
+        let before = place(harness);
         harness.step();
+        if before.is_some() && place(harness) == before || start.elapsed() > PATIENCE {
+            break;
+        }
         std::thread::sleep(Duration::from_millis(2));
     }
     harness.get_by_label(label).click();
