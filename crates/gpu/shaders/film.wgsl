@@ -26,12 +26,27 @@ fn film_visible(pixel: vec2u) -> vec2u {
 // Adds a sample to its pixel and ends its walk.
 fn film_add(pixel: vec2u, value: FilmPixel) {
     let at = film_index(pixel);
-    film.pixels[at].base += value.base;
-    film.pixels[at].depth_m += value.depth_m;
-    film.pixels[at].scratches += value.scratches;
-    film.pixels[at].coverage += value.coverage;
-    film.pixels[at].density += value.density;
-    film.pixels[at].normal += value.normal;
+    var sum = value;
+    // The first sample finds nothing. A loop that goes round once or not at all: of a condition software drivers execute both sides.
+    for (var i = 0u; i < min(frame.sample, 1u); i += 1u) {
+        let before = film.pixels[at];
+        sum.base += before.base;
+        sum.depth_m += before.depth_m;
+        sum.scratches += before.scratches;
+        sum.coverage += before.coverage;
+        sum.density += before.density;
+        sum.normal += before.normal;
+    }
+    sum.samples = frame.sample + 1u;
+    sum.walk_at = 0u;
+    film.pixels[at] = sum;
+    film_check_loops();
+}
+
+// The same of a sample that sees no object.
+fn film_add_background(pixel: vec2u, base: vec3f) {
+    let at = film_index(pixel);
+    film.pixels[at].base += base;
     film.pixels[at].samples = frame.sample + 1u;
     film.pixels[at].walk_at = 0u;
     film_check_loops();

@@ -9,9 +9,8 @@ struct RecordThere {
     across: f32,
 }
 
-// At a place in the picture with its record_scale().
-fn record_there(number: u32, at_px: vec2f, scale: f32) -> RecordThere {
-    let texel = record_at(number);
+// At a place in the picture with its record_scale(). `texel` is the record's: record_at().
+fn record_there(texel: u32, at_px: vec2f, scale: f32) -> RecordThere {
     let record = record_from_texels(tile_list_texel(texel), tile_list_texel(texel + 1u));
     let apart_px = at_px - record.middle_px;
     let across = scale * dot(record.across, apart_px);
@@ -31,7 +30,7 @@ fn record_add(there: RecordThere, single_share: f32, sums: ptr<function, Scratch
     let near = across2 <= 0.5 * REACH_STD * REACH_STD;
     let half_line = select(0.0, there.record.half_line * exp(-min(across2, GAUSSIAN_TAIL)), near);
     let ends = (there.record.ends - there.along) * there.record.per_blur;
-    let segment = single_share * half_line * max(gaussian_erf(ends.y) - gaussian_erf(ends.x), 0.0);
+    let segment = single_share * half_line * max(gaussian_quick_erf(ends.y) - gaussian_quick_erf(ends.x), 0.0);
     (*sums).share += segment;
     (*sums).share_by_line += segment * 2.0 * half_line;
     (*sums).energy += segment * there.record.energy;

@@ -68,14 +68,14 @@ fn record_energy_word(energy: vec3f) -> u32 {
 
 fn record_energy(word: u32) -> vec3f {
     let steps = bitcast<vec3i>(vec3u(word << 23u, word << 14u, word << 5u)) >> vec3u(23u);
-    return vec3f(steps) * (bitcast<f32>((95u + (word >> 27u)) << 23u) / 0.996);
+    return vec3f(steps) * (bitcast<f32>((95u + (word >> 27u)) << 23u) * (1.0 / 0.996));
 }
 
 // From one station to the next: what it sends there, 16 bits for each number with an exponent in common, and the key of its plane,
 // which has 24 bits.
 fn record_station_texel(before: vec3f, after: vec3f, key: u32) -> vec4u {
     let sizes = max(abs(before), abs(after));
-    let exponent = clamp((bitcast<u32>(max(max(sizes.x, sizes.y), sizes.z)) >> 23u) + 1u, 2u, 252u);
+    let exponent = clamp((bitcast<u32>(max(max(sizes.x, sizes.y), sizes.z)) >> 23u) + 1u, 20u, 252u);
     let per = bitcast<f32>((254u - exponent) << 23u);
     let a = before * per;
     let b = after * per;
@@ -89,11 +89,11 @@ fn record_station_texel(before: vec3f, after: vec3f, key: u32) -> vec4u {
 
 // What is sent a share of the way from one station to the next.
 fn record_between(texel: vec4u, share: f32) -> vec3f {
-    let first = unpack2x16snorm(texel.x);
-    let second = unpack2x16snorm(texel.y);
-    let third = unpack2x16snorm(texel.z);
-    let sent = mix(vec3f(first, second.x), vec3f(second.y, third), share);
-    return sent * bitcast<f32>((texel.w & 0xffu) << 23u);
+    // As unpack2x16snorm() but for the clamps, which what is packed here has no need of.
+    let low = vec3f(bitcast<vec3i>(texel.xyz << vec3u(16u)) >> vec3u(16u));
+    let high = vec3f(bitcast<vec3i>(texel.xyz) >> vec3u(16u));
+    let sent = mix(vec3f(low.x, high.x, low.y), vec3f(high.y, low.z, high.z), share);
+    return sent * (bitcast<f32>((texel.w & 0xffu) << 23u) * (1.0 / 32767.0));
 }
 
 fn record_key(texel: vec4u) -> u32 {

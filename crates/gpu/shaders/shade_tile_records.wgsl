@@ -20,6 +20,7 @@ fn shade(
         sums = film_resume(here.pixel, 0u).sums;
     }
     let scale = record_scale(depth_m);
+    let records = record_at(0u);
     var chunk = here.list.y;
     for (var first = 0u; first < count; first += TILE_CHUNK) {
         let list = tile_chunk_texel(chunk);
@@ -29,7 +30,7 @@ fn shade(
         for (var i = 0u; i < adds; i += 1u) {
             gather_rounds += 1u;
             let entry = tile_list_texel(list + bits_take(&near));
-            record_add(record_there(entry.w, here.at_px, scale), single_share, &sums);
+            record_add(record_there(records + RECORD_TEXELS * entry.w, here.at_px, scale), single_share, &sums);
         }
     }
     if !here.inside {

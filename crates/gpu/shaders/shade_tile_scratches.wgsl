@@ -47,7 +47,7 @@ fn shade(
                     gather_rounds += 1u;
                     let bit = bits_take(&near);
                     let number = tile_list_texel(list + bit).w;
-                    let there = record_there(select(number, 0u, number == RECORD_NONE), here.at_px, scale);
+                    let there = record_there(record_at(select(number, 0u, number == RECORD_NONE)), here.at_px, scale);
                     if number != RECORD_NONE && record_serves(there, plane_key) {
                         record_add(there, view.single_share, &sums);
                     } else {

@@ -31,9 +31,13 @@ struct TileTriangles {
     object: u32,                // + 1, of the last of them; 0 if they see none
     one_object: bool,
     count: u32,
-    triangles: array<u32, TILE_TRIANGLES>,
+    triangles: array<vec4u, 2>, // in the order in which they are found, + 1
     are_few: bool,              // else they are not all told
     first_pixel: u32,           // that sees an object
+}
+
+fn tile_triangle(seen: TileTriangles, i: u32) -> u32 {
+    return seen.triangles[i / 4u][i % 4u] - 1u;
 }
 
 fn tile_holds(in_film: vec2u) -> bool {
@@ -54,15 +58,13 @@ fn tile_triangles(corner: vec2u) -> TileTriangles {
         seen.first_pixel = select(seen.first_pixel, i, seen.object == 0u);
         seen.one_object = seen.one_object && (seen.object == 0u || seen.object == ids.y + 1u);
         seen.object = ids.y + 1u;
-        var is_known = false;
-        for (var t = 0u; t < TILE_TRIANGLES; t += 1u) {
-            is_known = is_known || (t < seen.count && seen.triangles[t] == ids.x - 1u);
-        }
-        seen.are_few = seen.are_few && (is_known || seen.count < TILE_TRIANGLES);
-        if !is_known && seen.count < TILE_TRIANGLES {
-            seen.triangles[seen.count] = ids.x - 1u;
-            seen.count += 1u;
-        }
+        // All places at once: software drivers reach for each lane's place of an array by itself.
+        let is_known = any(seen.triangles[0] == vec4u(ids.x)) || any(seen.triangles[1] == vec4u(ids.x));
+        let place = select(seen.count, TILE_TRIANGLES, is_known);
+        seen.triangles[0] = select(seen.triangles[0], vec4u(ids.x), vec4u(0u, 1u, 2u, 3u) == vec4u(place));
+        seen.triangles[1] = select(seen.triangles[1], vec4u(ids.x), vec4u(4u, 5u, 6u, 7u) == vec4u(place));
+        seen.are_few = seen.are_few && (is_known || place < TILE_TRIANGLES);
+        seen.count += u32(place < TILE_TRIANGLES);
     }
     return seen;
 }
@@ -159,11 +161,11 @@ fn tile_sight_add_corner(sight: ptr<function, TileSight>, about: SurfacePoint, r
 
 // Whether all triangles lie in a plane that the first of them shows, and are of its material; with a normal map none is a plane.
 fn tile_is_flat(seen: TileTriangles, plane: TilePlane) -> bool {
-    let material = tile_material(seen.triangles[0]);
+    let material = tile_material(tile_triangle(seen, 0u));
     var is_flat = !hit_has_texture(material_at(material).normal_texture);
     for (var t = 0u; t < seen.count; t += 1u) {
         gather_rounds += 1u;
-        let triangle = seen.triangles[t];
+        let triangle = tile_triangle(seen, t);
         is_flat = is_flat && tile_material(triangle) == material && plane_holds_triangle(plane, triangle);
     }
     return is_flat;
