@@ -64,12 +64,19 @@ fn base_polygon(point: SurfacePoint, lobe: LtcLobe, light: Light) -> vec4f {
 }
 
 // Light from all around: reflected at the surface, and falling on the body.
-fn base_environment(point: SurfacePoint, albedo: vec3f) -> BaseRadiance {
-    let mirror = vec3f(-point.wo.xy, point.wo.z);
-    return BaseRadiance(
-        albedo * scene_prefiltered(world_from_surface(point, mirror), point.roughness),
-        scene_irradiance(point.normal) / 3.14159265,
-    );
+fn base_environment(point: SurfacePoint, lobe: LtcLobe, albedo: vec3f) -> BaseRadiance {
+    let reflecting = environment_lobe(lobe);
+    var reflected = vec3f(0.0);
+    var weights = 0.0;
+    for (var i = 0u; i < ENVIRONMENT_TAPS; i += 1u) {
+        let tap = environment_tap(reflecting, i);
+        let radiance = scene_prefiltered(world_from_surface(point, tap.direction), tap.roughness);
+        weights += tap.weight;
+        // A running mean, which of equal values is exact.
+        reflected += (radiance - reflected) * (tap.weight / weights);
+        gather_rounds += 1u;
+    }
+    return BaseRadiance(albedo * reflected, scene_irradiance(point.normal) / 3.14159265);
 }
 
 // Radiance of the base towards the viewer, before scratches take theirs.
@@ -96,7 +103,7 @@ fn base_radiance(point: SurfacePoint) -> BaseRadiance {
         gather_rounds += 1u;
     }
     if HAS_ENVIRONMENT {
-        let environment = base_environment(point, albedo);
+        let environment = base_environment(point, lobe, albedo);
         specular += environment.specular;
         diffuse += environment.diffuse;
     }

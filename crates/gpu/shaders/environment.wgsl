@@ -4,7 +4,8 @@
 const ENVIRONMENT_PI: f32 = 3.14159265358979;
 
 // The perceptual roughness of each level of the prefiltered map.
-const ENVIRONMENT_LEVEL_ROUGHNESS = array<f32, 7>(0.0, 0.06, 0.11, 0.2, 0.35, 0.6, 1.0);
+const ENVIRONMENT_LEVELS: i32 = 12;
+const ENVIRONMENT_LEVEL_ROUGHNESS = array<f32, 12>(0.0, 0.06, 0.081, 0.11, 0.148, 0.2, 0.265, 0.35, 0.458, 0.6, 0.775, 1.0);
 
 fn environment_uv(dir: vec3<f32>) -> vec2<f32> {
     // At the poles atan2(0, 0) may be anything.
@@ -23,28 +24,47 @@ fn environment_dir(uv: vec2<f32>) -> vec3<f32> {
     return vec3<f32>(sin(polar) * sin(longitude), cos(polar), -sin(polar) * cos(longitude));
 }
 
-fn environment_bilinear(map: texture_2d<f32>, level: i32, uv: vec2<f32>) -> vec3<f32> {
-    // Not textureDimensions(map, level): a software driver (llvmpipe) answers all 8 pixels that it runs in step with the first
-    // one's level.
-    let size = vec2<i32>(max(textureDimensions(map) >> vec2<u32>(u32(level)), vec2<u32>(1u)));
+// A map in a part of a texture: in a mip level, from a row on.
+struct EnvironmentPlace {
+    mip: i32,
+    row: i32,
+    size: vec2<i32>,
+}
+
+fn environment_bilinear(map: texture_2d<f32>, place: EnvironmentPlace, uv: vec2<f32>) -> vec3<f32> {
+    let size = place.size;
     let at = uv * vec2<f32>(size) - 0.5;
     let corner = floor(at);
     let t = at - corner;
     let x0 = (i32(corner.x) + size.x) % size.x;
     let x1 = (x0 + 1) % size.x;
-    let y0 = clamp(i32(corner.y), 0, size.y - 1);
-    let y1 = clamp(i32(corner.y) + 1, 0, size.y - 1);
-    let top_left = textureLoad(map, vec2<i32>(x0, y0), level).rgb;
-    let top_right = textureLoad(map, vec2<i32>(x1, y0), level).rgb;
-    let bottom_left = textureLoad(map, vec2<i32>(x0, y1), level).rgb;
-    let bottom_right = textureLoad(map, vec2<i32>(x1, y1), level).rgb;
+    let y0 = place.row + clamp(i32(corner.y), 0, size.y - 1);
+    let y1 = place.row + clamp(i32(corner.y) + 1, 0, size.y - 1);
+    let top_left = textureLoad(map, vec2<i32>(x0, y0), place.mip).rgb;
+    let top_right = textureLoad(map, vec2<i32>(x1, y0), place.mip).rgb;
+    let bottom_left = textureLoad(map, vec2<i32>(x0, y1), place.mip).rgb;
+    let bottom_right = textureLoad(map, vec2<i32>(x1, y1), place.mip).rgb;
     let top = top_left + (top_right - top_left) * t.x;
     let bottom = bottom_left + (bottom_right - bottom_left) * t.x;
     return top + (bottom - top) * t.y;
 }
 
+// A map that fills a texture.
+fn environment_whole(map: texture_2d<f32>) -> EnvironmentPlace {
+    return EnvironmentPlace(0, 0, vec2<i32>(textureDimensions(map)));
+}
+
+// Where a level lies: two of each size, one above the other, but for the first, which has a size of its own.
+fn environment_level_place(levels: texture_2d<f32>, level: i32) -> EnvironmentPlace {
+    let mip = (level + 1) / 2;
+    // Not textureDimensions(levels, mip): a software driver (llvmpipe) answers all 8 pixels that it runs in step with the first
+    // one's level.
+    let size = vec2<i32>(max((textureDimensions(levels) / vec2<u32>(1u, 2u)) >> vec2<u32>(u32(mip)), vec2<u32>(1u)));
+    return EnvironmentPlace(mip, select(0, size.y, level > 0 && level % 2 == 0), size);
+}
+
 fn environment_radiance(map: texture_2d<f32>, dir: vec3<f32>) -> vec3<f32> {
-    return environment_bilinear(map, 0, environment_uv(dir));
+    return environment_bilinear(map, environment_whole(map), environment_uv(dir));
 }
 
 fn environment_lod(roughness: f32) -> f32 {
@@ -52,7 +72,7 @@ fn environment_lod(roughness: f32) -> f32 {
     let alpha = r * r;
     var levels = ENVIRONMENT_LEVEL_ROUGHNESS;
     var lod = 0.0;
-    for (var i = 0; i < 6; i++) {
+    for (var i = 0; i < ENVIRONMENT_LEVELS - 1; i++) {
         let low = levels[i] * levels[i];
         let high = levels[i + 1] * levels[i + 1];
         lod += clamp((alpha - low) / (high - low), 0.0, 1.0);
@@ -66,14 +86,14 @@ fn environment_prefiltered(levels: texture_2d<f32>, dir: vec3<f32>, roughness: f
 
 fn environment_prefiltered_lod(levels: texture_2d<f32>, dir: vec3<f32>, lod: f32) -> vec3<f32> {
     let uv = environment_uv(dir);
-    let last = i32(textureNumLevels(levels)) - 1;
+    let last = max(2 * i32(textureNumLevels(levels)) - 3, 0);
     let clamped = clamp(lod, 0.0, f32(last));
     let level = floor(clamped);
-    let near = environment_bilinear(levels, i32(level), uv);
+    let near = environment_bilinear(levels, environment_level_place(levels, i32(level)), uv);
     if level == clamped {
         return near;
     }
-    let far = environment_bilinear(levels, i32(level) + 1, uv);
+    let far = environment_bilinear(levels, environment_level_place(levels, i32(level) + 1), uv);
     return near + (far - near) * (clamped - level);
 }
 

@@ -44,7 +44,7 @@ fn published_base(point: SurfacePoint) -> BaseRadiance {
         }
     }
     if HAS_ENVIRONMENT {
-        let environment = base_environment(point, albedo);
+        let environment = base_environment(point, lobe, albedo);
         specular += environment.specular;
         diffuse += environment.diffuse;
     }

@@ -57,6 +57,8 @@ modules! {
     LOBE_TABLE = "lobe_table" needs [];
     /// The GGX lobe over an area light, by transformed cosines.
     LTC = "ltc" needs [GGX, IRRADIANCE, LOBE_TABLE];
+    /// The GGX lobe over an environment, by round lobes in a row.
+    ENVIRONMENT_LOBE = "environment_lobe" needs [LTC];
     /// The GGX lobe over a sphere, by a pivot transform.
     SPTD = "sptd" needs [LTC];
     /// A shading point and its frame.
@@ -126,7 +128,7 @@ modules! {
     /// The scratches under a footprint and their light.
     GATHER = "gather" needs [FIND, GATHER_LIGHT, GATHER_LARGE_POLYGON, GATHER_MASK, LISTED, WALK];
     /// The base under lights and environment.
-    BASE = "base" needs [SCENE, LIGHTS, WALK, LTC];
+    BASE = "base" needs [SCENE, LIGHTS, WALK, LTC, ENVIRONMENT_LOBE];
     /// The method of 2018: a scratch under lights and environment.
     PUBLISHED_LIGHTS = "published_lights" needs [
         SCENE, SURFACE, LIGHTS, SEGMENTS, WALK, METHOD, BAND_ENVIRONMENT, SCRATCH_TABLE, PUBLISHED_SPECTRUM, PUBLISHED_SPHERE,

@@ -7,6 +7,7 @@ use hairline_image::Picture;
 use hairline_optics::lobe_table::{self, LOBE_TABLE_SIZE, LobeTable};
 use hairline_optics::metal::Metal;
 use hairline_optics::table::{self, ScratchTable};
+use hairline_scene::environment::LEVEL_HALVINGS;
 use hairline_scene::{Environment, Scene, ScratchTables, Texture};
 use half::f16;
 use rayon::prelude::*;
@@ -255,37 +256,50 @@ async fn environment_maps(
     let black = [Picture::new([1, 1])];
     let background = environment.map_or(&black[0], |e| e.background());
     let levels = environment.map_or(black.as_slice(), |e| e.prefiltered_levels());
-    Ok([
-        radiance_map(transfer, "environment", std::slice::from_ref(background)).await?,
-        radiance_map(transfer, "prefiltered environment", levels).await?,
-    ])
-}
-
-/// Level by level, each half the size of the one before. The texels are half floats already.
-async fn radiance_map(
-    transfer: &mut Transfer<'_>,
-    what: &'static str,
-    levels: &[Picture],
-) -> Result<wgpu::TextureView, Error> {
-    let (size, count) = (levels[0].size_px, levels.len() as u32);
+    let format = TextureFormat::Rgba16Float;
+    let what = "environment";
     let texture = transfer
-        .texture(what, size, 1, count, TextureFormat::Rgba16Float)
+        .texture(what, background.size_px, 1, 1, format)
         .await?;
-    for (level, map) in (0..).zip(levels) {
-        let half: Vec<[f16; 4]> = map
-            .rgb
-            .par_iter()
-            .with_min_len(1 << 14)
-            .map(|[r, g, b]| [*r, *g, *b, 1.0].map(f16::from_f32))
-            .collect();
+    write_radiance(transfer, what, &texture, Place::default(), background);
+    let background = texture.create_view(&Default::default());
+
+    // Levels of the same size one above the other. Twin: environment_level_place() in environment.wgsl.
+    let what = "prefiltered environment";
+    let [width, height] = levels[0].size_px;
+    let mips = LEVEL_HALVINGS[levels.len() - 1] as u32 + 1;
+    let texture = transfer
+        .texture(what, [width, 2 * height], 1, mips, format)
+        .await?;
+    for (i, map) in levels.iter().enumerate() {
+        let level = LEVEL_HALVINGS[i];
+        let is_second = i > 0 && LEVEL_HALVINGS[i - 1] == level;
         let place = Place {
-            level,
+            level: level as u32,
+            row: if is_second { map.size_px[1] } else { 0 },
             ..Place::default()
         };
-        let texels = bytemuck::cast_slice(&half);
-        transfer.write_texture(what, &texture, place, map.size_px, texels);
+        write_radiance(transfer, what, &texture, place, map);
     }
-    Ok(texture.create_view(&Default::default()))
+    Ok([background, texture.create_view(&Default::default())])
+}
+
+/// The texels are half floats already.
+fn write_radiance(
+    transfer: &mut Transfer<'_>,
+    what: &'static str,
+    texture: &wgpu::Texture,
+    place: Place,
+    map: &Picture,
+) {
+    let half: Vec<[f16; 4]> = map
+        .rgb
+        .par_iter()
+        .with_min_len(1 << 14)
+        .map(|[r, g, b]| [*r, *g, *b, 1.0].map(f16::from_f32))
+        .collect();
+    let texels = bytemuck::cast_slice(&half);
+    transfer.write_texture(what, texture, place, map.size_px, texels);
 }
 
 fn array_view(texture: &wgpu::Texture) -> wgpu::TextureView {

@@ -4,6 +4,7 @@ pub mod band;
 pub mod band_environment;
 pub mod coherent;
 pub mod diffraction;
+pub mod environment_lobe;
 pub mod footprint;
 pub mod fresnel;
 pub mod gaussian;

@@ -3,6 +3,7 @@
 use crate::light_view::{LightView, LightViews};
 use crate::surface::SurfacePoint;
 use glam::DVec3;
+use hairline_optics::environment_lobe::{ENVIRONMENT_TAPS, EnvironmentLobe, environment_lobe};
 use hairline_optics::ggx::ggx_area_reflectance;
 use hairline_optics::irradiance::{lambert_polygon, lambert_sphere};
 use hairline_optics::ltc::{LtcLobe, ltc_begin, ltc_edge, ltc_end, ltc_lobe};
@@ -83,13 +84,24 @@ pub(crate) fn base_radiance(
         diffuse += *radiance * form_factor;
     }
     if let Some(environment) = environment {
-        let mirror = DVec3::new(-point.wo.x, -point.wo.y, point.wo.z);
-        specular +=
-            albedo * environment.prefiltered(point.world_from_surface(mirror), point.roughness);
+        specular += albedo * reflected(environment, point, &environment_lobe(&lobe));
         diffuse += environment.irradiance(point.normal) / std::f64::consts::PI;
     }
     BaseRadiance {
         specular,
         diffuse: diffuse * body,
     }
+}
+
+/// The mean of an environment's radiance over a lobe.
+fn reflected(environment: &Environment, point: &SurfacePoint, lobe: &EnvironmentLobe) -> DVec3 {
+    let (mut sum, mut weights) = (DVec3::ZERO, 0.0);
+    for tap in (0..ENVIRONMENT_TAPS).map(|i| lobe.environment_tap(i)) {
+        let radiance =
+            environment.prefiltered(point.world_from_surface(tap.direction), tap.roughness);
+        weights += tap.weight;
+        // A running mean, which of equal values is exact.
+        sum += (radiance - sum) * (tap.weight / weights);
+    }
+    sum
 }

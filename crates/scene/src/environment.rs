@@ -25,7 +25,7 @@ mod suns;
 
 pub use file::Error;
 pub(crate) use file::read;
-pub use prefilter::LEVEL_ROUGHNESS;
+pub use prefilter::{LEVEL_HALVINGS, LEVEL_ROUGHNESS};
 
 use lookup::{
     environment_irradiance, environment_lod, environment_prefiltered_lod, environment_radiance,
@@ -216,7 +216,7 @@ impl Environment {
         &self.maps.background
     }
 
-    /// The prefiltered maps in texel units, one for each of [`LEVEL_ROUGHNESS`], each half the size of the one before.
+    /// The prefiltered maps in texel units, one for each of [`LEVEL_ROUGHNESS`], as large as [`LEVEL_HALVINGS`] says.
     pub fn prefiltered_levels(&self) -> &[Picture] {
         &self.maps.levels
     }

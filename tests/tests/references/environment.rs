@@ -6,7 +6,7 @@ use glam::{DVec2, DVec3};
 use hairline_image::{Layer, Picture};
 use hairline_optics::metal::Metal;
 use hairline_scene::environment::lookup::environment_dir;
-use hairline_scene::{Base, Environment};
+use hairline_scene::{Base, Environment, Scene};
 
 /// Blue above, pale at the horizon, and brighter to one side: no edge and no sun.
 fn sky([width, height]: [u32; 2]) -> Picture {
@@ -100,5 +100,44 @@ fn a_sun_in_the_sky() {
         let name = format!("{name}, in the map");
         let stain = compared(&name, &stained, &reference, Layer::Scratches);
         assert!(stain.rms().0 > 0.5, "{stain:?}");
+    }
+}
+
+/// A lamp of 0.1 rad, too large to be a sun, in a rough metal seen from aside: its reflection is drawn out, and its tails are dim but all there is.
+#[test]
+fn a_lamp_is_drawn_out() {
+    const SIZE_PX: [u32; 2] = [1024, 512];
+    // The last numbers: at most, by how much. One round look-up errs by 1, 4, 14, 24, 14 and 8 %.
+    let cases = [
+        (0.2, 0.1, 0.015),
+        (0.2, 0.4, 0.025),
+        (0.2, 0.8, 0.035),
+        (0.2, 1.1, 0.045),
+        (0.4, 0.8, 0.09),
+        (0.7, 0.8, 0.16),
+    ];
+    for (roughness, angle_rad, bound) in cases {
+        let (sin, cos) = f64::sin_cos(angle_rad);
+        let text = format!(
+            "[camera]\nposition_m = [0.0, {}, {cos}]\ntarget_m = [0.0, 0.0, 0.0]\nup = [0.0, 0.0, 1.0]\nfov_y_deg = 25.0\n\
+             [render]\nsize_px = [64, 48]\n\
+             [[material]]\nname = \"metal\"\nkind = \"metal\"\nmetal = \"aluminium\"\nroughness = {roughness}\n\
+             [[object]]\nname = \"disk\"\nshape = {{ disk = {{ radius_m = 50.0 }} }}\nmaterial = \"metal\"\n",
+            -sin
+        );
+        let mut scene = Scene::from_toml(&text, "lamp.toml", ".").unwrap();
+        let map_from_world = over(Environment::uniform([1.0; 3])).map_from_world();
+        let toward = map_from_world * DVec3::new(0.0, sin, cos);
+        let mut map = sky(SIZE_PX);
+        for (i, texel) in map.rgb.iter_mut().enumerate() {
+            if direction(SIZE_PX, i as u32).angle_between(toward) < 0.1 {
+                *texel = [300.0, 240.0, 180.0];
+            }
+        }
+        scene.environment = Some(over(Environment::from_map(map, 0.0, 1.0, false)));
+        let (exact, reference) = (closed(&scene), sampled(&scene, LINEAR, 8));
+        let name = format!("lamp on roughness {roughness} from {angle_rad} rad");
+        let base = compared(&name, &exact, &reference, Layer::Base);
+        assert!(base.rms().0 < bound, "{base:?}");
     }
 }

@@ -6,6 +6,7 @@ use crate::twin::{Sequence, Tolerance, Twin};
 use glam::{DVec3, Vec3};
 use hairline_gpu::call::{Call, Table, Texels};
 use hairline_gpu::{headless, shaders};
+use hairline_optics::environment_lobe::{ENVIRONMENT_TAPS, environment_lobe};
 use hairline_optics::fresnel::{
     FresnelRgb, dip_weight, fresnel_terms, half_vector_cos, schlick_weight,
 };
@@ -568,6 +569,73 @@ fn polygons() {
     let above: Vec<[f32; 17]> = rows.clear.into_iter().filter(is_above).collect();
     assert!(above.len() > 2000);
     twin.check(&above, 0);
+}
+
+/// A look-up of whatever viewer is somewhere, no wider than any lobe, and the first one counts.
+fn is_tap(i: usize, [x, y, z, roughness, weight]: [f64; 5]) -> bool {
+    let length = (x * x + y * y + z * z).sqrt();
+    (length - 1.0).abs() < 1e-4
+        && (0.0..=1.0).contains(&roughness)
+        && (0.0..=1.0).contains(&weight)
+        && (i > 0 || weight > 1e-3)
+}
+
+#[test]
+fn environments() {
+    let tables = tables();
+    let mut random = Sequence(12);
+    let mut rows = Vec::new();
+    for _ in 0..20_000 {
+        let [x, y, z] = viewer(&mut random);
+        let roughness = roughness(&mut random);
+        rows.extend((0..ENVIRONMENT_TAPS).map(|i| [x, y, z, roughness, i as f32]));
+    }
+    let mut twin = Twin {
+        name: "environment_tap",
+        modules: &[&shaders::ENVIRONMENT_LOBE],
+        snippet: "let lobe = ltc_lobe(vec3f(x[0], x[1], x[2]), x[3], table_0, table_1);
+            let tap = environment_tap(environment_lobe(lobe), u32(x[4]));
+            y[0] = tap.direction.x; y[1] = tap.direction.y; y[2] = tap.direction.z;
+            y[3] = tap.roughness; y[4] = tap.weight;",
+        tables: &tables,
+        expected: &|[x, y, z, roughness, i]: [f64; 5]| {
+            let lobe = environment_lobe(&ltc_lobe(v(x, y, z), roughness));
+            let tap = lobe.environment_tap(i as usize);
+            let d = tap.direction;
+            let values = [d.x, d.y, d.z, tap.roughness, tap.weight];
+            assert!(
+                is_tap(i as usize, values),
+                "{x} {y} {z} {roughness}: {tap:?}"
+            );
+            values
+        },
+        // Directions to a tenth of the narrowest lobe.
+        tolerance: Tolerance {
+            absolute: 2e-4,
+            relative: 1e-3,
+        },
+    };
+    let (smooth, rough): (Vec<_>, Vec<_>) = rows.iter().partition(|row| row[3] < 0.7);
+    twin.check(&smooth, 0);
+    // A lobe that is as good as round is drawn out by the root of a rounding.
+    twin.tolerance.absolute = 4e-3;
+    twin.check(&rough, 0);
+    // Nothing like a viewer.
+    let wild: Vec<[f32; 5]> = wild_rows(100_000)
+        .iter()
+        .zip(0..)
+        .map(|(row, i)| {
+            [
+                row[0],
+                row[1],
+                row[2],
+                row[3],
+                (i % ENVIRONMENT_TAPS) as f32,
+            ]
+        })
+        .collect();
+    twin.name = "environment_tap of anything";
+    twin.check(&wild, 0);
 }
 
 /// A viewer, a roughness, a light's direction and squared sine, three more vertices, two half-axes' tangents; many

@@ -6,11 +6,11 @@ use hairline_gpu::headless::test_gpu;
 use hairline_gpu::shaders;
 use hairline_image::Picture;
 use hairline_scene::Environment;
-use hairline_scene::environment::LEVEL_ROUGHNESS;
 use hairline_scene::environment::lookup::{
     environment_bilinear, environment_dir, environment_irradiance, environment_lod,
     environment_prefiltered, environment_radiance, environment_uv,
 };
+use hairline_scene::environment::{LEVEL_HALVINGS, LEVEL_ROUGHNESS};
 
 /// Unit directions all over the sphere, the poles, the seam and the axes among them.
 fn directions() -> Vec<[f32; 3]> {
@@ -121,7 +121,7 @@ fn radiance_and_interpolation() {
         .flat_map(|i| (0..=40).map(move |j| [i as f32 / 40.0, j as f32 / 40.0]))
         .collect();
     let call = Call {
-        snippet: "let c = environment_bilinear(table_0, 0, vec2f(x[0], x[1])); y[0] = c.x; y[1] = c.y; y[2] = c.z;",
+        snippet: "let c = environment_bilinear(table_0, environment_whole(table_0), vec2f(x[0], x[1])); y[0] = c.x; y[1] = c.y; y[2] = c.z;",
         ..call
     };
     let results: Vec<[f32; 3]> = gpu.block_on(call.run(gpu, &rows)).unwrap();
@@ -138,10 +138,13 @@ fn radiance_and_interpolation() {
 fn levels() {
     let Some(gpu) = test_gpu() else { return };
     let map = map();
+    // Nothing below the first level.
+    let [width, height] = map.size_px;
+    let texels = [padded(&map), vec![[0.0; 4]; (width * height) as usize]].concat();
     let tables = [Table {
-        size: map.size_px,
+        size: [width, 2 * height],
         layers: None,
-        texels: Texels::Floats(&padded(&map)),
+        texels: Texels::Floats(&texels),
     }];
     let mut roughness: Vec<f32> = (-10..=110).map(|i| i as f32 / 100.0).collect();
     roughness.extend(LEVEL_ROUGHNESS.map(|r| r as f32));
@@ -203,5 +206,32 @@ fn irradiance() {
             (double(&got) - want).abs().max_element() < 1e-5 * scale,
             "{row:?}: {got:?}, not {want}"
         );
+    }
+}
+
+/// Where the host puts them.
+#[test]
+fn places_of_levels() {
+    let Some(gpu) = test_gpu() else { return };
+    let tables = [Table {
+        size: [256, 256],
+        layers: None,
+        texels: Texels::Floats(&vec![[0.0; 4]; 256 * 256]),
+    }];
+    let call = Call {
+        modules: &[&shaders::ENVIRONMENT],
+        snippet: "let place = environment_level_place(table_0, i32(x[0]));
+            y[0] = f32(place.mip); y[1] = f32(place.row); y[2] = f32(place.size.x); y[3] = f32(place.size.y);",
+        tables: &tables,
+    };
+    let rows: Vec<[f32; 1]> = (0..LEVEL_HALVINGS.len()).map(|i| [i as f32]).collect();
+    let results: Vec<[f32; 4]> = gpu.block_on(call.run(gpu, &rows)).unwrap();
+    for (i, place) in results.into_iter().enumerate() {
+        let halvings = LEVEL_HALVINGS[i];
+        let height = 128 >> halvings;
+        let is_second = i > 0 && LEVEL_HALVINGS[i - 1] == halvings;
+        let row = if is_second { height } else { 0 };
+        let want = [halvings, row, 256 >> halvings, height].map(|n| n as f32);
+        assert_eq!(place, want, "{i}");
     }
 }

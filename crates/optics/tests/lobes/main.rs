@@ -2,4 +2,5 @@
 
 mod accuracy;
 mod cubature;
+mod environment;
 mod limits;

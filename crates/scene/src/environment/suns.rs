@@ -3,7 +3,6 @@
 //! A map blurred for rough surfaces, nine spherical harmonics and the cells of a scratch's band know nothing as narrow as the sun: it
 //! would be a stain of a tenth of a radian, without colours on scratches. As a light it is exact (docs/model.md, section 8).
 
-use std::collections::VecDeque;
 use std::f64::consts::TAU;
 
 use glam::{DVec2, DVec3};
@@ -30,8 +29,9 @@ const SUNS_MOST: usize = 4;
 const SPOTS_MOST: usize = 32;
 /// A sun's brightest texel over the mean of the map, at least.
 const BRIGHT: f64 = 20.0;
-/// What belongs to it is brighter than this share of its brightest texel: its glare in the camera as well.
-const RIM: f64 = 0.01;
+/// What belongs to it is brighter than this share of its brightest texel: its glare in the camera as well. If it is no sun with that, then
+/// perhaps without: what is about a lamp is a hundredth as bright, or a tenth.
+const RIMS: [f64; 2] = [0.01, 0.1];
 /// The largest sun: a scratch's band shows larger lamps well enough (docs/model.md, section 8), and a polished surface their outlines.
 const RADIUS_MOST_RAD: f64 = 0.06;
 /// The least share of its light that the disc of its size holds: 0.91 for a square, 0.7 for a rectangle of two.
@@ -66,12 +66,22 @@ pub(super) fn part(map: &mut Picture) -> Parted {
         let Some(peak) = brightness.brightest(map, &seen) else {
             break;
         };
-        let threshold = brightness.threshold(value(map.rgb[peak]));
-        let Some(spot) = Spot::around(map, peak, threshold, &mut seen) else {
-            continue;
-        };
-        let around = spot.around_it(map);
-        let Some(sun) = spot.sun(map, around, brightness.total) else {
+        let mut looked_at = Vec::new();
+        let found = RIMS.into_iter().find_map(|rim| {
+            let threshold = brightness.threshold(rim, value(map.rgb[peak]));
+            let spot = Spot::around(map, peak, threshold, &mut seen);
+            let around = spot.around_it(map);
+            let sun = spot.sun(map, around, brightness.total);
+            if sun.is_some() || looked_at.is_empty() {
+                looked_at.clone_from(&spot.texels);
+            }
+            Some((spot, around, sun?))
+        });
+        // Not again, as a part of another.
+        for i in looked_at {
+            seen[i] = true;
+        }
+        let Some((spot, around, sun)) = found else {
             continue;
         };
         parted.suns.push(sun);
@@ -126,47 +136,52 @@ impl Brightness {
     }
 
     /// Beyond which a texel belongs to the spot with this peak.
-    fn threshold(&self, peak: f64) -> f64 {
-        (RIM * peak).max(0.5 * BRIGHT * self.mean)
+    fn threshold(&self, rim: f64, peak: f64) -> f64 {
+        (rim * peak).max(0.5 * BRIGHT * self.mean)
     }
 }
 
 /// Texels that hang together and are bright.
 struct Spot {
     texels: Vec<usize>,
-    /// Those about it.
+    /// Those about it, if it is no larger than a sun may be.
     ring: Vec<usize>,
+    is_small: bool,
 }
 
 impl Spot {
-    /// Marks as seen all that is brighter than `threshold` and hangs together with `peak`. None if that is too large for a sun.
-    fn around(map: &Picture, peak: usize, threshold: f64, seen: &mut [bool]) -> Option<Self> {
+    /// All that is brighter than `threshold` and hangs together with `peak`, but for what was seen before.
+    fn around(map: &Picture, peak: usize, threshold: f64, seen: &mut [bool]) -> Self {
         let middle = direction(map, peak);
-        let mut is_small = true;
-        let (mut texels, mut ring) = (vec![], vec![]);
-        let mut next = VecDeque::from([peak]);
+        let mut spot = Self {
+            texels: vec![peak],
+            ring: vec![],
+            is_small: true,
+        };
         seen[peak] = true;
-        while let Some(i) = next.pop_front() {
+        let mut next = 0;
+        while let Some(&i) = spot.texels.get(next) {
+            next += 1;
             // The peak may lie at the rim.
-            is_small &= direction(map, i).angle_between(middle) < 2.0 * RADIUS_MOST_RAD;
-            if is_small {
-                texels.push(i);
-            }
+            spot.is_small &= direction(map, i).angle_between(middle) < 2.0 * RADIUS_MOST_RAD;
             for neighbour in neighbours(map, i) {
                 if seen[neighbour] {
                     continue;
                 }
                 if value(map.rgb[neighbour]) > threshold {
                     seen[neighbour] = true;
-                    next.push_back(neighbour);
-                } else if is_small {
-                    ring.push(neighbour);
+                    spot.texels.push(neighbour);
+                } else if spot.is_small {
+                    spot.ring.push(neighbour);
                 }
             }
         }
-        ring.sort_unstable();
-        ring.dedup();
-        is_small.then_some(Self { texels, ring })
+        for &i in &spot.texels {
+            seen[i] = false;
+        }
+        spot.ring.sort_unstable();
+        spot.ring.dedup();
+        spot
     }
 
     /// The mean radiance around it.
@@ -177,6 +192,9 @@ impl Spot {
 
     /// The disc that has its light beyond what is around it. None if it is no sun.
     fn sun(&self, map: &Picture, around: DVec3, total: f64) -> Option<Sun> {
+        if !self.is_small {
+            return None;
+        }
         let [width, height] = map.size_px;
         let solid_angle_of =
             |i: usize| row_solid_angle(i as u32 / width, height) / f64::from(width);

@@ -113,6 +113,37 @@ fn two_suns_and_the_glare_of_one() {
     assert!((left / all - 1.0).abs() < 1e-6, "{left} {all}");
 }
 
+/// A lamp in a reflector, which is too large for a sun: the lamp is one, the reflector stays.
+#[test]
+fn a_lamp_in_a_reflector() {
+    let toward = DVec3::new(-0.74, 0.66, 0.11).normalize();
+    let mut map = map_of(SIZE_PX, |d| {
+        let angle_rad = d.angle_between(toward);
+        let lamp = if angle_rad < 0.045 { 2800.0 } else { 0.0 };
+        let reflector = if angle_rad < 0.115 {
+            70.0 + 900.0 * angle_rad
+        } else {
+            0.0
+        };
+        sky(d) + lamp + reflector
+    });
+    let whole = map.rgb.clone();
+    let suns = part(&mut map).suns;
+    assert_eq!(suns.len(), 1, "{suns:?}");
+    assert!(suns[0].direction.angle_between(toward) < TEXEL_RAD);
+    assert!((suns[0].radius_rad / 0.045 - 1.0).abs() < 0.03, "{suns:?}");
+    assert!(
+        (suns[0].radiance[0] / 2800.0 - 1.0).abs() < 0.03,
+        "{suns:?}"
+    );
+    let is_left = |i: usize| map.rgb[i] == whole[i];
+    let brightest = (0..whole.len())
+        .filter(|&i| is_left(i))
+        .map(|i| whole[i][0])
+        .fold(0.0, f32::max);
+    assert!(brightest > 150.0, "the reflector stays: {brightest}");
+}
+
 /// A window is no disc, and stays what it is; a square is one nearly.
 #[test]
 fn windows_are_no_suns() {

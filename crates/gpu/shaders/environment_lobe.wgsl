@@ -1,0 +1,55 @@
+// The GGX lobe over an environment: a few round lobes in a row. Needs ltc. Twin: optics::environment_lobe, which explains it.
+
+const ENVIRONMENT_TAPS: u32 = 5u;
+const ENVIRONMENT_NARROW_MIN: f32 = 0.05;
+
+struct EnvironmentLobe {
+    x_axis: vec2f,
+    middle: vec2f,
+    alpha: f32,
+    narrow: f32,
+}
+
+struct EnvironmentTap {
+    direction: vec3f,
+    roughness: f32,
+    weight: f32,
+}
+
+fn environment_lobe(lobe: LtcLobe) -> EnvironmentLobe {
+    let roughness = sqrt(lobe.alpha);
+    let middle = normalize(mix(vec2f(lobe.wo.x, lobe.wo.z), lobe.peak, roughness));
+    let of_fit = clamp(lobe.width.y * lobe.peak.y / lobe.width.x, ENVIRONMENT_NARROW_MIN, 1.0);
+    let of_mirror = max(lobe.wo.z, ENVIRONMENT_NARROW_MIN);
+    let narrow = pow(of_mirror, 1.0 - roughness) * pow(of_fit, roughness);
+    return EnvironmentLobe(lobe.x_axis, middle, lobe.alpha, min(narrow, 1.0));
+}
+
+fn environment_tap(lobe: EnvironmentLobe, i: u32) -> EnvironmentTap {
+    let c = lobe.narrow;
+    let s2 = 1.0 - c * c;
+    // Of zero a power may be anything.
+    let s = sqrt(max(s2, 1e-12));
+    let inner = 1.1622 * pow(s, 1.5954);
+    var offset = 0.0;
+    var width = pow(c, 1.2278);
+    var weight = 0.2661;
+    if i > 2u {
+        offset = inner + 1.96 * pow(s, 1.0574);
+        width = pow(c, 0.8323) * (1.0 + 0.6915 * s2);
+        weight = 0.1271;
+    } else if i > 0u {
+        offset = inner;
+        width = pow(c, 0.2762) * (1.0 - 0.6074 * s2);
+        weight = 0.2399;
+    }
+    let slope = select(-0.5, 0.5, i % 2u == 0u) * offset * lobe.alpha;
+    let turn = vec2f(2.0 * slope, 1.0 - slope * slope) / (1.0 + slope * slope);
+    let sine = lobe.middle.x * turn.y + lobe.middle.y * turn.x;
+    let cosine = lobe.middle.y * turn.y - lobe.middle.x * turn.x;
+    return EnvironmentTap(
+        vec3f(-lobe.x_axis * sine, cosine),
+        min(sqrt(width * lobe.alpha), 1.0),
+        weight * ggx_g1(cosine, lobe.alpha),
+    );
+}

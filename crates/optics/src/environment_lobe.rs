@@ -1,0 +1,89 @@
+//! The GGX lobe over an environment: a few round lobes in a row, each a look-up in a map that round lobes have blurred (docs/model.md,
+//! section 8). Twin: `environment_lobe.wgsl`.
+//!
+//! Seen along the normal GGX reflects a round lobe; seen from aside the lobe is longer in the plane of view and normal than across it.
+//! One round look-up that is as wide as it is long, which is what most renderers do, puts a seventh of the light where it does not belong
+//! at 45 degrees, a quarter at 60; it shows as highlights that are not drawn out, in a veil.
+
+use crate::ggx::ggx_g1;
+use crate::ltc::LtcLobe;
+use glam::{DVec2, DVec3};
+
+/// Look-ups for a lobe.
+pub const ENVIRONMENT_TAPS: usize = 5;
+
+/// A round lobe: that of GGX seen along the normal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EnvironmentTap {
+    /// Unit vector to its middle, in the local frame.
+    pub direction: DVec3,
+    /// Perceptual.
+    pub roughness: f64,
+    /// Its share, but for a factor. The first one's is above zero.
+    pub weight: f64,
+}
+
+/// A lobe drawn out in the plane of view and normal.
+#[derive(Clone, Copy, Debug)]
+pub struct EnvironmentLobe {
+    /// The x axis of the viewer's frame in the local one.
+    x_axis: DVec2,
+    /// Sine and cosine of the angle of its middle from the normal, on the side away from the viewer.
+    middle: DVec2,
+    /// GGX alpha.
+    alpha: f64,
+    /// How wide it is across that plane, over its length.
+    narrow: f64,
+}
+
+/// Narrower lobes are as this one: a look-up would have to be narrower than a map's texels.
+const NARROW_MIN: f64 = 0.05;
+
+/// What of a lobe decides how it meets an environment.
+///
+/// A smooth lobe lies about the mirror direction and is narrow by the cosine of the view, a rough one is what [`LtcLobe`] was fitted to.
+pub fn environment_lobe(lobe: &LtcLobe) -> EnvironmentLobe {
+    let roughness = lobe.alpha.sqrt();
+    let middle = DVec2::new(lobe.wo.x, lobe.wo.z).lerp(lobe.peak, roughness);
+    let of_fit = (lobe.width.y * lobe.peak.y / lobe.width.x).clamp(NARROW_MIN, 1.0);
+    let of_mirror = lobe.wo.z.max(NARROW_MIN);
+    EnvironmentLobe {
+        x_axis: lobe.x_axis,
+        middle: middle.normalize_or(DVec2::Y),
+        alpha: lobe.alpha,
+        narrow: of_mirror.powf(1.0 - roughness) * of_fit.powf(roughness),
+    }
+}
+
+impl EnvironmentLobe {
+    /// Look-up `i`.
+    ///
+    /// Offsets, widths and shares were fitted to lobes of all proportions at once, each without turns of its own where the lobe is round:
+    /// there all five are one. In small angles of 2 alpha each, the lobe is 1 / (1 + x² + y² / narrow²)².
+    pub fn environment_tap(&self, i: usize) -> EnvironmentTap {
+        let c = self.narrow;
+        let s2 = 1.0 - c * c;
+        let s = s2.max(0.0).sqrt();
+        let inner = 1.1622 * s.powf(1.5954);
+        let (offset, width, weight) = match i {
+            0 => (0.0, c.powf(1.2278), 0.2661),
+            1 | 2 => (inner, c.powf(0.2762) * (1.0 - 0.6074 * s2), 0.2399),
+            _ => (
+                inner + 1.96 * s.powf(1.0574),
+                c.powf(0.8323) * (1.0 + 0.6915 * s2),
+                0.1271,
+            ),
+        };
+        let side = if i.is_multiple_of(2) { 0.5 } else { -0.5 };
+        // Half of the angle from the middle has this tangent: the slope of the microfacet that reflects there.
+        let slope = side * offset * self.alpha;
+        let turn = DVec2::new(2.0 * slope, 1.0 - slope * slope) / (1.0 + slope * slope);
+        let sin = self.middle.x * turn.y + self.middle.y * turn.x;
+        let cos = self.middle.y * turn.y - self.middle.x * turn.x;
+        EnvironmentTap {
+            direction: DVec3::new(-self.x_axis.x * sin, -self.x_axis.y * sin, cos),
+            roughness: (width * self.alpha).sqrt().min(1.0),
+            weight: weight * ggx_g1(cos, self.alpha),
+        }
+    }
+}
