@@ -1,7 +1,7 @@
 //! Light from all around: an equirectangular radiance map, prefiltered for rough reflection.
 //!
-//! Shading follows the split sum: a reflection off a rough surface is the map blurred by the surface's lobe
-//! ([`Environment::prefiltered`]) times the lobe's directional albedo; diffuse light is nine spherical harmonics
+//! Shading follows the split sum: a reflection off a rough surface is the map blurred by the surface's lobe, put together from round ones
+//! ([`Environment::prefiltered`], `hairline_optics::environment_lobe`), times the lobe's directional albedo; diffuse light is nine spherical harmonics
 //! ([`Environment::irradiance`]). Suns ([`Environment::load`]) are lights of their own.
 //!
 //! The map's top is at +Y, as in glTF, and its centre column at -Z, where a glTF camera looks by default; +X is to the
@@ -176,8 +176,8 @@ impl Environment {
             * self.texel_radiance()
     }
 
-    /// The radiance blurred by the lobe of a GGX surface of perceptual `roughness` around its mirror direction `dir`
-    /// (unit vector, world space).
+    /// The radiance blurred by the lobe that a GGX surface of perceptual `roughness` and normal `dir` (unit vector, world space) shows to
+    /// who looks along that.
     pub fn prefiltered(&self, dir: DVec3, roughness: f64) -> DVec3 {
         self.prefiltered_lod(dir, environment_lod(roughness))
     }
