@@ -3,9 +3,13 @@
 
 const ENVIRONMENT_PI: f32 = 3.14159265358979;
 
-// The perceptual roughness of each level of the prefiltered map.
-const ENVIRONMENT_LEVELS: i32 = 12;
-const ENVIRONMENT_LEVEL_ROUGHNESS = array<f32, 12>(0.0, 0.06, 0.081, 0.11, 0.148, 0.2, 0.265, 0.35, 0.458, 0.6, 0.775, 1.0);
+// GGX's alpha of each level of the prefiltered map: four, the next four and the last four, and after each of them the next.
+const ENVIRONMENT_ALPHA_A = vec4f(0.0, 0.0036, 0.006561, 0.0121);
+const ENVIRONMENT_ALPHA_B = vec4f(0.021904, 0.04, 0.070225, 0.1225);
+const ENVIRONMENT_ALPHA_C = vec4f(0.209764, 0.36, 0.600625, 1.0);
+const ENVIRONMENT_NEXT_A = vec4f(0.0036, 0.006561, 0.0121, 0.021904);
+const ENVIRONMENT_NEXT_B = vec4f(0.04, 0.070225, 0.1225, 0.209764);
+const ENVIRONMENT_NEXT_C = vec4f(0.36, 0.600625, 1.0, 9.0);
 
 fn environment_uv(dir: vec3<f32>) -> vec2<f32> {
     // At the poles atan2(0, 0) may be anything.
@@ -36,8 +40,10 @@ fn environment_bilinear(map: texture_2d<f32>, place: EnvironmentPlace, uv: vec2<
     let at = uv * vec2<f32>(size) - 0.5;
     let corner = floor(at);
     let t = at - corner;
-    let x0 = (i32(corner.x) + size.x) % size.x;
-    let x1 = (x0 + 1) % size.x;
+    // No remainders, which software drivers work out lane by lane: u is within 0 and 1.
+    let x = clamp(i32(corner.x), -1, size.x - 1);
+    let x0 = select(x, size.x - 1, x < 0);
+    let x1 = select(x + 1, 0, x + 1 >= size.x);
     let y0 = place.row + clamp(i32(corner.y), 0, size.y - 1);
     let y1 = place.row + clamp(i32(corner.y) + 1, 0, size.y - 1);
     let top_left = textureLoad(map, vec2<i32>(x0, y0), place.mip).rgb;
@@ -69,15 +75,12 @@ fn environment_radiance(map: texture_2d<f32>, dir: vec3<f32>) -> vec3<f32> {
 
 fn environment_lod(roughness: f32) -> f32 {
     let r = clamp(roughness, 0.0, 1.0);
-    let alpha = r * r;
-    var levels = ENVIRONMENT_LEVEL_ROUGHNESS;
-    var lod = 0.0;
-    for (var i = 0; i < ENVIRONMENT_LEVELS - 1; i++) {
-        let low = levels[i] * levels[i];
-        let high = levels[i + 1] * levels[i + 1];
-        lod += clamp((alpha - low) / (high - low), 0.0, 1.0);
-    }
-    return lod;
+    let alpha = vec4f(r * r);
+    // A level for each that is passed, and a part of one for the last. No loop: look-ups are many.
+    let a = clamp((alpha - ENVIRONMENT_ALPHA_A) / (ENVIRONMENT_NEXT_A - ENVIRONMENT_ALPHA_A), vec4f(0.0), vec4f(1.0));
+    let b = clamp((alpha - ENVIRONMENT_ALPHA_B) / (ENVIRONMENT_NEXT_B - ENVIRONMENT_ALPHA_B), vec4f(0.0), vec4f(1.0));
+    let c = clamp((alpha - ENVIRONMENT_ALPHA_C) / (ENVIRONMENT_NEXT_C - ENVIRONMENT_ALPHA_C), vec4f(0.0), vec4f(1.0));
+    return dot(a + b + c, vec4f(1.0));
 }
 
 fn environment_prefiltered(levels: texture_2d<f32>, dir: vec3<f32>, roughness: f32) -> vec3<f32> {

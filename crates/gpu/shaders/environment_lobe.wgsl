@@ -7,7 +7,8 @@ struct EnvironmentLobe {
     x_axis: vec2f,
     middle: vec2f,
     alpha: f32,
-    narrow: f32,
+    offsets: vec3f,             // of the look-up in the middle, the two beside it and the outer ones
+    widths: vec3f,
 }
 
 struct EnvironmentTap {
@@ -22,25 +23,27 @@ fn environment_lobe(lobe: LtcLobe) -> EnvironmentLobe {
     let of_fit = clamp(lobe.width.y * lobe.peak.y / lobe.width.x, ENVIRONMENT_NARROW_MIN, 1.0);
     let of_mirror = max(lobe.wo.z, ENVIRONMENT_NARROW_MIN);
     let narrow = pow(of_mirror, 1.0 - roughness) * pow(of_fit, roughness);
-    return EnvironmentLobe(lobe.x_axis, middle, lobe.alpha, min(narrow, 1.0));
-}
-
-fn environment_tap(lobe: EnvironmentLobe, i: u32) -> EnvironmentTap {
-    let c = lobe.narrow;
+    let c = min(narrow, 1.0);
     let s2 = 1.0 - c * c;
     // Of zero a power may be anything.
     let s = sqrt(max(s2, 1e-12));
     let inner = 1.1622 * pow(s, 1.5954);
-    var offset = 0.0;
-    var width = pow(c, 1.2278);
+    let offsets = vec3f(0.0, inner, inner + 1.96 * pow(s, 1.0574));
+    let widths = pow(vec3f(c), vec3f(1.2278, 0.2762, 0.8323)) * vec3f(1.0, 1.0 - 0.6074 * s2, 1.0 + 0.6915 * s2);
+    return EnvironmentLobe(lobe.x_axis, middle, lobe.alpha, offsets, widths);
+}
+
+fn environment_tap(lobe: EnvironmentLobe, i: u32) -> EnvironmentTap {
+    var offset = lobe.offsets.x;
+    var width = lobe.widths.x;
     var weight = 0.2661;
     if i > 2u {
-        offset = inner + 1.96 * pow(s, 1.0574);
-        width = pow(c, 0.8323) * (1.0 + 0.6915 * s2);
+        offset = lobe.offsets.z;
+        width = lobe.widths.z;
         weight = 0.1271;
     } else if i > 0u {
-        offset = inner;
-        width = pow(c, 0.2762) * (1.0 - 0.6074 * s2);
+        offset = lobe.offsets.y;
+        width = lobe.widths.y;
         weight = 0.2399;
     }
     let slope = select(-0.5, 0.5, i % 2u == 0u) * offset * lobe.alpha;

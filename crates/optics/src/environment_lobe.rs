@@ -32,48 +32,50 @@ pub struct EnvironmentLobe {
     middle: DVec2,
     /// GGX alpha.
     alpha: f64,
-    /// How wide it is across that plane, over its length.
-    narrow: f64,
+    /// Of the look-up in the middle, of the two beside it and of the outer two: how far off the middle, and how wide, in alphas.
+    offsets: [f64; 3],
+    widths: [f64; 3],
 }
 
 /// Narrower lobes are as this one: a look-up would have to be narrower than a map's texels.
 const NARROW_MIN: f64 = 0.05;
 
-/// What of a lobe decides how it meets an environment.
+/// The shares of these look-ups.
+const WEIGHTS: [f64; 3] = [0.2661, 0.2399, 0.1271];
+
+/// Where its look-ups lie, and how wide they are.
 ///
 /// A smooth lobe lies about the mirror direction and is narrow by the cosine of the view, a rough one is what [`LtcLobe`] was fitted to.
+/// Offsets, widths and shares were fitted to lobes of all proportions at once: in small angles of alpha each, a lobe is
+/// 1 / (1 + x² / 4 + y² / (2 narrow)²)². Where it is round all five are one.
 pub fn environment_lobe(lobe: &LtcLobe) -> EnvironmentLobe {
     let roughness = lobe.alpha.sqrt();
     let middle = DVec2::new(lobe.wo.x, lobe.wo.z).lerp(lobe.peak, roughness);
     let of_fit = (lobe.width.y * lobe.peak.y / lobe.width.x).clamp(NARROW_MIN, 1.0);
     let of_mirror = lobe.wo.z.max(NARROW_MIN);
+    // How wide it is across the plane of view and normal, over its length.
+    let c = (of_mirror.powf(1.0 - roughness) * of_fit.powf(roughness)).min(1.0);
+    let s2 = 1.0 - c * c;
+    let s = s2.sqrt();
+    let inner = 1.1622 * s.powf(1.5954);
     EnvironmentLobe {
         x_axis: lobe.x_axis,
         middle: middle.normalize_or(DVec2::Y),
         alpha: lobe.alpha,
-        narrow: of_mirror.powf(1.0 - roughness) * of_fit.powf(roughness),
+        offsets: [0.0, inner, inner + 1.96 * s.powf(1.0574)],
+        widths: [
+            c.powf(1.2278),
+            c.powf(0.2762) * (1.0 - 0.6074 * s2),
+            c.powf(0.8323) * (1.0 + 0.6915 * s2),
+        ],
     }
 }
 
 impl EnvironmentLobe {
-    /// Look-up `i`.
-    ///
-    /// Offsets, widths and shares were fitted to lobes of all proportions at once, each without turns of its own where the lobe is round:
-    /// there all five are one. In small angles of 2 alpha each, the lobe is 1 / (1 + x² + y² / narrow²)².
+    /// Look-up `i` of [`ENVIRONMENT_TAPS`].
     pub fn environment_tap(&self, i: usize) -> EnvironmentTap {
-        let c = self.narrow;
-        let s2 = 1.0 - c * c;
-        let s = s2.max(0.0).sqrt();
-        let inner = 1.1622 * s.powf(1.5954);
-        let (offset, width, weight) = match i {
-            0 => (0.0, c.powf(1.2278), 0.2661),
-            1 | 2 => (inner, c.powf(0.2762) * (1.0 - 0.6074 * s2), 0.2399),
-            _ => (
-                inner + 1.96 * s.powf(1.0574),
-                c.powf(0.8323) * (1.0 + 0.6915 * s2),
-                0.1271,
-            ),
-        };
+        let pair = i.div_ceil(2);
+        let (offset, width, weight) = (self.offsets[pair], self.widths[pair], WEIGHTS[pair]);
         let side = if i.is_multiple_of(2) { 0.5 } else { -0.5 };
         // Half of the angle from the middle has this tangent: the slope of the microfacet that reflects there.
         let slope = side * offset * self.alpha;
