@@ -7,5 +7,5 @@ fn background(@builtin(workgroup_id) workgroup: vec3u, @builtin(local_invocation
     if pixel.x >= frame.size_px.x || pixel.y >= frame.rows.y {
         return;
     }
-    film_add_background(pixel, scene_background(normalize(film_ray(pixel))));
+    film_add_background(pixel, shade_background(film_ray(pixel)).base);
 }

@@ -3,13 +3,10 @@
 
 const ENVIRONMENT_PI: f32 = 3.14159265358979;
 
-// GGX's alpha of each level of the prefiltered map: four, the next four and the last four, and after each of them the next.
+// GGX's alpha of each level of the prefiltered map, in order.
 const ENVIRONMENT_ALPHA_A = vec4f(0.0, 0.0036, 0.006561, 0.0121);
 const ENVIRONMENT_ALPHA_B = vec4f(0.021904, 0.04, 0.070225, 0.1225);
 const ENVIRONMENT_ALPHA_C = vec4f(0.209764, 0.36, 0.600625, 1.0);
-const ENVIRONMENT_NEXT_A = vec4f(0.0036, 0.006561, 0.0121, 0.021904);
-const ENVIRONMENT_NEXT_B = vec4f(0.04, 0.070225, 0.1225, 0.209764);
-const ENVIRONMENT_NEXT_C = vec4f(0.36, 0.600625, 1.0, 9.0);
 
 fn environment_uv(dir: vec3<f32>) -> vec2<f32> {
     // At the poles atan2(0, 0) may be anything.
@@ -75,12 +72,17 @@ fn environment_radiance(map: texture_2d<f32>, dir: vec3<f32>) -> vec3<f32> {
 
 fn environment_lod(roughness: f32) -> f32 {
     let r = clamp(roughness, 0.0, 1.0);
-    let alpha = vec4f(r * r);
-    // A level for each that is passed, and a part of one for the last. No loop: look-ups are many.
-    let a = clamp((alpha - ENVIRONMENT_ALPHA_A) / (ENVIRONMENT_NEXT_A - ENVIRONMENT_ALPHA_A), vec4f(0.0), vec4f(1.0));
-    let b = clamp((alpha - ENVIRONMENT_ALPHA_B) / (ENVIRONMENT_NEXT_B - ENVIRONMENT_ALPHA_B), vec4f(0.0), vec4f(1.0));
-    let c = clamp((alpha - ENVIRONMENT_ALPHA_C) / (ENVIRONMENT_NEXT_C - ENVIRONMENT_ALPHA_C), vec4f(0.0), vec4f(1.0));
-    return dot(a + b + c, vec4f(1.0));
+    let alpha = r * r;
+    // No loop: look-ups are many. There is none after the last.
+    let passed = environment_passed(alpha, ENVIRONMENT_ALPHA_A, ENVIRONMENT_ALPHA_B.x)
+        + environment_passed(alpha, ENVIRONMENT_ALPHA_B, ENVIRONMENT_ALPHA_C.x)
+        + environment_passed(alpha, ENVIRONMENT_ALPHA_C, 9.0);
+    return dot(passed, vec4f(1.0));
+}
+
+// A level for each of four that is passed, and a part of one for the last.
+fn environment_passed(alpha: f32, levels: vec4f, next: f32) -> vec4f {
+    return clamp((alpha - levels) / (vec4f(levels.yzw, next) - levels), vec4f(0.0), vec4f(1.0));
 }
 
 fn environment_prefiltered(levels: texture_2d<f32>, dir: vec3<f32>, roughness: f32) -> vec3<f32> {

@@ -2,12 +2,14 @@
 
 const ENVIRONMENT_TAPS: u32 = 5u;
 const ENVIRONMENT_NARROW_MIN: f32 = 0.05;
+// Of the look-up in the middle, of each beside it and of the outer ones.
+const ENVIRONMENT_WEIGHTS = vec3f(0.2661, 0.2399, 0.1271);
 
 struct EnvironmentLobe {
     x_axis: vec2f,
     middle: vec2f,
     alpha: f32,
-    offsets: vec3f,             // of the look-up in the middle, the two beside it and the outer ones
+    offsets: vec3f,             // in the order of the weights
     widths: vec3f,
 }
 
@@ -34,25 +36,15 @@ fn environment_lobe(lobe: LtcLobe) -> EnvironmentLobe {
 }
 
 fn environment_tap(lobe: EnvironmentLobe, i: u32) -> EnvironmentTap {
-    var offset = lobe.offsets.x;
-    var width = lobe.widths.x;
-    var weight = 0.2661;
-    if i > 2u {
-        offset = lobe.offsets.z;
-        width = lobe.widths.z;
-        weight = 0.1271;
-    } else if i > 0u {
-        offset = lobe.offsets.y;
-        width = lobe.widths.y;
-        weight = 0.2399;
-    }
-    let slope = select(-0.5, 0.5, i % 2u == 0u) * offset * lobe.alpha;
+    let pair = (i + 1u) / 2u;
+    var weights = ENVIRONMENT_WEIGHTS;
+    let slope = select(-0.5, 0.5, i % 2u == 0u) * lobe.offsets[pair] * lobe.alpha;
     let turn = vec2f(2.0 * slope, 1.0 - slope * slope) / (1.0 + slope * slope);
     let sine = lobe.middle.x * turn.y + lobe.middle.y * turn.x;
     let cosine = lobe.middle.y * turn.y - lobe.middle.x * turn.x;
     return EnvironmentTap(
         vec3f(-lobe.x_axis * sine, cosine),
-        min(sqrt(width * lobe.alpha), 1.0),
-        weight * ggx_g1(cosine, lobe.alpha),
+        min(sqrt(lobe.widths[pair] * lobe.alpha), 1.0),
+        weights[pair] * ggx_g1(cosine, lobe.alpha),
     );
 }

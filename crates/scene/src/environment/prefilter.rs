@@ -5,8 +5,8 @@
 //!
 //! A lobe falls with the fourth power of the angle for two orders of magnitude, and maps hold lamps a ten thousand times as bright as
 //! what is around them: far tails count. So a blur is a sum over all texels, near ones of a fine map, far ones of coarse maps, none of
-//! which is wider than a sixth of the angle that it lies off, or a third at the smooth levels. (Samples of the lobe, a few hundred for each texel, lose half of such a
-//! lamp's tail or find twice as much.)
+//! which is wider than a sixth of the angle that it lies off, or a third at the smooth levels. (Samples of the lobe, a few hundred for each
+//! texel, lose half of such a lamp's tail or find twice as much.)
 
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::ops::Range;
