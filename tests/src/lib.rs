@@ -17,7 +17,12 @@ use std::sync::Arc;
 pub fn middle(name: &str, of_px: u32, size_px: [u32; 2]) -> Scene {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let path = root.join("scenes").join(name);
-    let mut scene = Scene::load(&path).unwrap_or_else(|error| panic!("{error}"));
+    let scene = Scene::load(&path).unwrap_or_else(|error| panic!("{error}"));
+    middle_of(scene, of_px, size_px)
+}
+
+/// The middle of a scene's picture that would be `of_px` wide.
+pub fn middle_of(mut scene: Scene, of_px: u32, size_px: [u32; 2]) -> Scene {
     let [width, height] = scene.render.size_px.map(f64::from);
     let share = f64::from(size_px[1]) * width / (f64::from(of_px) * height);
     scene.camera.fov_y_rad = 2.0 * (share * (0.5 * scene.camera.fov_y_rad).tan()).atan();
@@ -64,8 +69,8 @@ pub fn square(base: Base, half_side_m: f32, size_px: u32) -> Scene {
             size_px: [size_px; 2],
             filter_std_px: 0.5,
             tone_map: Default::default(),
-            gather: Default::default(),
         },
+        notes: Vec::new(),
         environment: None,
         textures: Arc::default(),
         materials: vec![material],

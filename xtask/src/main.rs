@@ -4,6 +4,7 @@ mod accuracy;
 mod fit_lobes;
 mod make_models;
 mod pictures;
+mod shaders;
 
 use clap::Parser;
 
@@ -18,6 +19,8 @@ enum Command {
     MakeModels(make_models::MakeModels),
     /// Render the pictures of the docs into docs/pictures.
     Pictures(pictures::Pictures),
+    /// Write the shaders as JSON, for tests/tint.
+    Shaders(shaders::Shaders),
 }
 
 fn main() -> anyhow::Result<()> {
@@ -26,5 +29,6 @@ fn main() -> anyhow::Result<()> {
         Command::FitLobes(command) => command.run(),
         Command::MakeModels(command) => command.run(),
         Command::Pictures(command) => command.run(),
+        Command::Shaders(command) => command.run(),
     }
 }

@@ -1,22 +1,24 @@
-//! What renders: a GPU, the CPU renderer, or a graphics driver that computes on the CPU.
+//! What renders: a graphics adapter or the CPU renderer.
 
 mod fine;
+mod on_gpu;
 
+use std::convert::Infallible;
 use std::sync::Arc;
 
 use anyhow::anyhow;
 use hairline_gpu::{AdapterKind, AdapterRequest, Gpu, headless};
 use hairline_image::Image;
 use hairline_index::{ScratchIndex, Watch};
-use hairline_optics::method::{Gather, Lookup, Method};
+use hairline_optics::method::{Method, Structure};
 use hairline_reference::closed_form::{self, Prepared};
 use hairline_scene::{Scene, ScratchTables};
 
 use crate::cli::Backend;
 use crate::failure::Failure;
 use crate::progress::Progress;
-use crate::trial::{self, ReadyDriver, Winner};
 pub use fine::FINE_SAMPLES;
+use on_gpu::OnGpu;
 
 /// What is to be rendered, and how.
 #[derive(Clone, Copy, Debug)]
@@ -25,10 +27,8 @@ pub struct Task {
     pub method: Method,
     /// What the user wants to render.
     pub backend: Backend,
-    /// For each pixel.
+    /// For each pixel on an edge.
     pub samples: u32,
-    /// How many pictures, each of the same size from another camera.
-    pub pictures: u32,
 }
 
 /// A renderer that holds a scene with its trees and tables, for one picture or many.
@@ -40,12 +40,12 @@ pub struct Painter<'a> {
 
 enum On<'a> {
     Cpu(Box<Prepared<'a>>),
-    Gpu(Box<ReadyDriver>),
+    Gpu(Box<OnGpu>),
 }
 
 impl<'a> Painter<'a> {
     /// Builds what rendering looks up, chooses what renders, and says on stderr in one line on what and why. `Auto` takes a GPU
-    /// if there is one, else the CPU renderer or a software driver, by trial.
+    /// if there is one, else the CPU renderer.
     ///
     /// # Errors
     /// [`Failure::Work`] where the GPU that was asked for fails.
@@ -57,7 +57,7 @@ impl<'a> Painter<'a> {
                 announce_gpu(&gpu, "as asked");
                 On::on_gpu(&gpu, scene, &task.method).map_err(advise)?
             }
-            Backend::Auto => On::the_faster(scene, &task),
+            Backend::Auto => On::best(scene, &task.method),
         };
         Ok(Self { scene, task, on })
     }
@@ -75,15 +75,15 @@ impl<'a> Painter<'a> {
         let Task {
             method, samples, ..
         } = self.task;
-        let on_gpu = |ready: &mut ReadyDriver| ready.render(scene, samples, &|at| progress(at));
+        let rows = 0..scene.render.size_px[1];
+        let on_gpu = |on: &mut OnGpu| on.render_rows(scene, samples, rows, &|at| progress(at));
         self.paint(on_gpu, |prepared| {
             let options = closed_form::RenderOptions { samples, method };
             prepared.with_scene(scene).render(&options, progress)
         })
     }
 
-    /// The same with [`FINE_SAMPLES`] in every pixel and each scratch for itself: what the closed forms' averages over a pixel must
-    /// come near to.
+    /// The same with [`FINE_SAMPLES`] in every pixel: what the closed forms' averages over a pixel must come near to.
     ///
     /// # Errors
     /// As [`Self::render`].
@@ -92,21 +92,28 @@ impl<'a> Painter<'a> {
         scene: &Scene,
         progress: &(dyn Fn(f64) + Sync),
     ) -> Result<Image, Failure> {
-        let method = Method {
-            gather: Gather::Exact,
-            ..self.task.method
+        let options = closed_form::RenderOptions {
+            samples: 1,
+            method: self.task.method,
         };
-        let on_gpu = |ready: &mut ReadyDriver| {
-            ready.render_one_by_one(scene, FINE_SAMPLES, &|at| progress(at))
+        let on_gpu = |on: &mut OnGpu| {
+            let mut rows = |large: &Scene, rows, told: &(dyn Fn(f64) + Sync)| {
+                on.render_rows(large, 1, rows, &|at| told(at))
+            };
+            fine::render(scene, &mut rows, progress)
         };
         self.paint(on_gpu, |prepared| {
-            fine::render(prepared, scene, &method, progress)
+            let mut rows = |large: &Scene, rows, told: &(dyn Fn(f64) + Sync)| {
+                Ok::<_, Infallible>(prepared.with_scene(large).render_rows(&options, rows, told))
+            };
+            let Ok(image) = fine::render(scene, &mut rows, progress);
+            image
         })
     }
 
     fn paint(
         &mut self,
-        on_gpu: impl FnOnce(&mut ReadyDriver) -> Result<Image, hairline_gpu::Error>,
+        on_gpu: impl FnOnce(&mut OnGpu) -> Result<Image, hairline_gpu::Error>,
         on_cpu: impl FnOnce(&Prepared) -> Image,
     ) -> Result<Image, Failure> {
         if let On::Gpu(ready) = &mut self.on {
@@ -133,33 +140,19 @@ impl<'a> On<'a> {
     }
 
     fn on_gpu(gpu: &Gpu, scene: &Scene, method: &Method) -> Result<Self, hairline_gpu::Error> {
-        let (scratches, tables) = rayon::join(
-            || Arc::new(sorted(scene, method.lookup)),
-            || ScratchTables::new(scene),
-        );
-        add_up(scene, &scratches, method);
-        let ready = gpu.block_on(ReadyDriver::new(gpu, scene, &scratches, &tables, method))?;
-        Ok(Self::Gpu(Box::new(ready)))
+        let sort = || Arc::new(sorted(|watch| ScratchIndex::rebuild(scene, None, watch)));
+        let (scratches, tables) = rayon::join(sort, || ScratchTables::new(scene));
+        let on = OnGpu::new(gpu, scene, &scratches, &tables, method)?;
+        Ok(Self::Gpu(Box::new(on)))
     }
 
-    /// A GPU if there is one; else the CPU renderer or a software driver, by trial.
-    fn the_faster(scene: &'a Scene, task: &Task) -> Self {
-        let method = &task.method;
+    /// A GPU if there is one, else the CPU renderer.
+    fn best(scene: &'a Scene, method: &Method) -> Self {
         match open() {
             Err(error) => Self::on_cpu(scene, method, &error.to_string()),
             Ok(gpu) if gpu.adapter.kind == AdapterKind::Software => {
-                let prepared = prepared(scene, method);
-                let trial = trial::run(&gpu, scene, task, &prepared);
-                match trial.winner {
-                    Winner::Cpu => {
-                        announce_cpu(&trial.why);
-                        Self::Cpu(prepared)
-                    }
-                    Winner::Driver(ready) => {
-                        announce_gpu(&gpu, &trial.why);
-                        Self::Gpu(ready)
-                    }
-                }
+                let why = format!("no GPU; {} is a software driver", gpu.adapter.name);
+                Self::on_cpu(scene, method, &why)
             }
             Ok(gpu) => {
                 announce_gpu(&gpu, "a GPU is there");
@@ -174,37 +167,24 @@ impl<'a> On<'a> {
 
 /// Trees and tables, and what only some methods look up: now, and not again for each picture.
 fn prepared<'a>(scene: &'a Scene, method: &Method) -> Box<Prepared<'a>> {
-    let bar = Progress::start("sorting scratches");
-    let prepared = watched(&bar, |watch| Prepared::watched(scene, method.lookup, watch));
-    add_up(scene, prepared.scratches(), method);
-    if method.lookup == Lookup::Triangles {
+    let prepared = sorted(|watch| Prepared::watched(scene, watch));
+    if method
+        .published
+        .is_some_and(|it| it.structure == Structure::TriangleLists)
+    {
         prepared.triangle_lists();
     }
     Box::new(prepared)
 }
 
-fn sorted(scene: &Scene, lookup: Lookup) -> ScratchIndex {
+/// What `sort` builds, shown by a bar. Nobody ends it but by ending the process.
+fn sorted<T>(sort: impl FnOnce(&Watch) -> Option<T>) -> T {
     let bar = Progress::start("sorting scratches");
-    watched(&bar, |watch| {
-        ScratchIndex::rebuild(scene, lookup, None, watch)
-    })
-}
-
-/// Builds the grids of many scratches, if the method has a use for them.
-fn add_up(scene: &Scene, scratches: &ScratchIndex, method: &Method) {
-    if method.gather.has_grids() {
-        let bar = Progress::start("adding up scratches");
-        watched(&bar, |watch| scratches.grids_watched(scene, watch));
-    }
-}
-
-/// Work that a bar shows, and that nobody ends but by ending the process.
-fn watched<T>(bar: &Progress, work: impl FnOnce(&Watch) -> Option<T>) -> T {
     let watch = Watch {
         progress: &|share| bar.set(share),
         ..Watch::default()
     };
-    work(&watch).unwrap_or_else(|| unreachable!("nobody cancels it"))
+    sort(&watch).unwrap_or_else(|| unreachable!("nobody cancels it"))
 }
 
 /// The best adapter: GPUs come before software drivers.

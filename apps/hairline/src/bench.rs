@@ -1,14 +1,9 @@
 //! `hairline bench`: how long the default method and the published one take, and how far they are from the truth.
 
-mod by_lookup;
-mod counts;
+mod curves;
 mod error;
 mod figures;
 mod machine;
-mod off;
-mod plots;
-mod report;
-mod scaling;
 mod stage;
 mod table;
 mod talk;
@@ -16,17 +11,16 @@ mod text;
 mod timing;
 mod worker;
 
+use std::io::{self, Write};
 use std::path::Path;
 use std::time::Duration;
 
 use anyhow::anyhow;
 use hairline_image::output::{check_writable, write_atomically};
-use hairline_optics::method::Method;
 use hairline_scene::Object;
 
 use crate::cli::{self, Part};
 use crate::failure::Failure;
-use crate::method_flags::flags_of;
 use crate::progress::Progress;
 use crate::scene_file::{self, Overrides};
 use error::Accuracy;
@@ -43,12 +37,10 @@ const QUICK_SIZE_PX: [u32; 2] = [640, 360];
 struct Thoroughness {
     effort: Effort,
     accuracy: Accuracy,
-    quick: bool,
 }
 
 /// Measures, prints and writes.
 pub fn run(arguments: &cli::Bench) -> Result<(), Failure> {
-    let ours = ours(arguments)?;
     if let Some(path) = &arguments.write_scene {
         check_writable(path)?;
         let stage = stage(arguments, TALK_SIZE_PX);
@@ -61,30 +53,36 @@ pub fn run(arguments: &cli::Bench) -> Result<(), Failure> {
     }
     if arguments.scene.is_some() && arguments.part.iter().any(|part| *part != Part::Table) {
         return Err(Failure::Input(anyhow!(
-            "--part scratches, zoom, lights, resolution and off vary the bench's own scene; with a SCENE there is --part table alone"
+            "--part scratches, zoom, lights and pixels vary the bench's own scene; with a SCENE there is --part table alone"
         )));
     }
     // Before the work: nobody should wait for figures that then have no place to go.
     for path in [&arguments.json, &arguments.output].into_iter().flatten() {
         check_writable(path)?;
     }
-    if let Some(path) = &arguments.output {
-        report::check_name(path)?;
-    }
     let mut worker = Worker::open(arguments.backend)?;
     let machine = Machine::of(&worker);
     eprintln!("measuring on {}", machine.in_words());
-    let thoroughness = thoroughness(arguments);
-    let figures = measure(arguments, &ours, &mut worker, machine, &thoroughness)?;
-    text::print(&figures)?;
+    let figures = measure(arguments, &mut worker, machine)?;
+    let text = text::document(&figures);
+    print(&text)?;
     if let Some(path) = &arguments.json {
         let json = serde_json::to_vec_pretty(&figures).map_err(|e| Failure::Work(e.into()))?;
         write_atomically(path, &json)?;
     }
     if let Some(path) = &arguments.output {
-        report::write(path, &figures)?;
+        write_atomically(path, text.as_bytes())?;
     }
     Ok(())
+}
+
+/// To stdout.
+fn print(text: &str) -> Result<(), Failure> {
+    match io::stdout().lock().write_all(text.as_bytes()) {
+        // Somebody downstream has read enough.
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+        result => result.map_err(|error| Failure::Work(error.into())),
+    }
 }
 
 /// The bench's scene as it is asked for.
@@ -95,16 +93,6 @@ fn stage(arguments: &cli::Bench, size_px: [u32; 2]) -> Stage {
         scratches: arguments.scratches.unwrap_or(stage.scratches),
         ..stage
     }
-}
-
-/// What is held against the published method.
-fn ours(arguments: &cli::Bench) -> Result<Method, Failure> {
-    if arguments.method.footprint.is_some() || arguments.method.index.is_some() {
-        return Err(Failure::Input(anyhow!(
-            "--footprint and --index are what the bench's columns differ in; leave them out"
-        )));
-    }
-    arguments.method.method()
 }
 
 fn thoroughness(arguments: &cli::Bench) -> Thoroughness {
@@ -126,17 +114,15 @@ fn thoroughness(arguments: &cli::Bench) -> Thoroughness {
             crop_px: if quick { [48, 27] } else { [96, 54] },
             time: pick(8000, 300),
         },
-        quick,
     }
 }
 
 fn measure(
     arguments: &cli::Bench,
-    ours: &Method,
     worker: &mut Worker,
     machine: Machine,
-    thoroughness: &Thoroughness,
 ) -> Result<Figures, Failure> {
+    let thoroughness = thoroughness(arguments);
     let base = stage(
         arguments,
         if arguments.quick {
@@ -145,21 +131,18 @@ fn measure(
             TALK_SIZE_PX
         },
     );
-    let wanted = |part| arguments.part.is_empty() || arguments.part.contains(&part);
     let mut figures = Figures {
         hairline: env!("CARGO_PKG_VERSION"),
         machine,
-        ours: flags_of(ours),
         scene: "bench scene".to_owned(),
         size_px: base.size_px,
         scratches: base.scratches,
-        quick: thoroughness.quick,
+        quick: arguments.quick,
         talk: talk::SOURCE,
         table: Vec::new(),
-        scaling: Vec::new(),
-        counts: Vec::new(),
-        off: None,
+        curves: Vec::new(),
     };
+    let progress = Progress::start("measuring");
     if let Some(path) = &arguments.scene {
         let overrides = Overrides {
             size_px: arguments.size,
@@ -170,30 +153,29 @@ fn measure(
         figures.size_px = scene.render.size_px;
         let of = |object: &Object| object.scratches.len() as u32;
         figures.scratches = scene.objects.iter().map(of).sum();
-        let progress = Progress::start("measuring");
-        figures.table = table::of_scene(worker, &scene, ours, thoroughness, &progress)?;
+        figures.table = table::of_scene(worker, &scene, &thoroughness, &progress)?;
         return Ok(figures);
     }
-    let progress = Progress::start("measuring");
+    let wanted = |part| arguments.part.is_empty() || arguments.part.contains(&part);
     if wanted(Part::Table) {
         progress.restart("the table");
-        figures.table = table::of_the_talk(worker, base, ours, thoroughness, &progress)?;
-        figures.counts = counts::of_the_table(base, ours, worker.adapter().is_some())?;
+        figures.table = table::of_the_talk(worker, base, &thoroughness, &progress)?;
     }
-    for (part, measure) in [
-        (Part::Scratches, scaling::scratches as scaling::Measure),
-        (Part::Zoom, scaling::zoom),
-        (Part::Lights, scaling::lights),
-        (Part::Resolution, scaling::resolution),
+    for (part, stages) in [
+        (Part::Scratches, curves::scratches as curves::Stages),
+        (Part::Zoom, curves::zoom),
+        (Part::Lights, curves::lights),
+        (Part::Pixels, curves::pixels),
     ] {
         if wanted(part) {
-            let curve = measure(worker, base, ours, thoroughness, &progress)?;
-            figures.scaling.push(curve);
+            let curve = curves::measure(
+                worker,
+                stages(base, arguments.quick),
+                &thoroughness,
+                &progress,
+            )?;
+            figures.curves.push(curve);
         }
-    }
-    if wanted(Part::Off) {
-        let off = off::measure(worker, base, ours, thoroughness, &progress)?;
-        figures.off = Some(off);
     }
     Ok(figures)
 }

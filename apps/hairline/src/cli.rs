@@ -6,6 +6,7 @@ use std::time::Duration;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use hairline_image::{FPS_MAX, Layer, ToneMap};
+use hairline_viewer::DEFAULT_SAMPLES;
 
 use crate::compare::limits::{self, Limit};
 use crate::method_flags::{Mask, MethodFlags};
@@ -70,8 +71,8 @@ pub struct Render {
     /// Width and height in pixels, in place of the scene's.
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub size: Option<[u32; 2]>,
-    /// Samples for each pixel.
-    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u32).range(1..=1024))]
+    /// Samples for each pixel that has an edge or a crease in it; elsewhere one is enough.
+    #[arg(long, value_name = "N", default_value_t = DEFAULT_SAMPLES, value_parser = clap::value_parser!(u32).range(1..=1024))]
     pub samples: u32,
     /// Other scratches of the same kinds: added to the seed of each layer.
     #[arg(
@@ -222,7 +223,7 @@ pub struct Bench {
     /// Write the figures as JSON.
     #[arg(long, value_name = "FILE")]
     pub json: Option<PathBuf>,
-    /// Write a report: Markdown, with plots (.svg) beside it.
+    /// Write what is printed, Markdown tables, to a file.
     #[arg(short, long, value_name = "REPORT.md")]
     pub output: Option<PathBuf>,
     /// What renders. auto: a graphics adapter, be it a software driver, if there is one.
@@ -247,9 +248,6 @@ pub struct Bench {
     /// Write the bench's scene to a file and measure nothing.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["scene", "json", "output", "part"])]
     pub write_scene: Option<PathBuf>,
-    /// What is held against the published method.
-    #[command(flatten)]
-    pub method: MethodFlags,
 }
 
 /// A part of `hairline bench`.
@@ -259,14 +257,12 @@ pub enum Part {
     Table,
     /// From a thousand scratches to a million.
     Scratches,
-    /// A million scratches from a tenth of the zoom to eight times it, one by one and by grids.
+    /// A million scratches from a tenth of the zoom to eight times it.
     Zoom,
     /// From one light to 64.
     Lights,
     /// From half the size to twice it.
-    Resolution,
-    /// What a scene without scratches pays for them.
-    Off,
+    Pixels,
 }
 
 /// What waves do at a scratch.
@@ -291,7 +287,7 @@ pub enum Switch {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum Backend {
     #[default]
-    /// A GPU if there is one, else the CPU renderer; for long work a software graphics driver if it measures faster.
+    /// A GPU if there is one, else the CPU renderer.
     Auto,
     /// A graphics adapter, be it a GPU or a software driver.
     Gpu,

@@ -14,7 +14,6 @@ mod progress;
 mod reference;
 mod render;
 mod scene_file;
-mod trial;
 mod view;
 
 use std::process::ExitCode;

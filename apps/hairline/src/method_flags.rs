@@ -1,54 +1,33 @@
-//! The flags that choose a method, as a whole or part by part, and the way back from a method to its flags.
+//! The flags that choose a method, and the way back from a method to its flags.
 
 use anyhow::anyhow;
-use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 use hairline_optics::mask;
-use hairline_optics::method::{
-    self, Chords, Gather, LightAt, Lookup, Method, PixelFilter, SphereBase,
-};
+use hairline_optics::method::{Method, PublishedMethod, Structure};
 use hairline_optics::published::sine_integral::SineIntegral;
-use hairline_optics::published::spectrum::PUBLISHED_WAVELENGTHS;
 
+use crate::cli::Switch;
 use crate::failure::Failure;
 
-/// By which method scratches are computed. The finer flags replace one part each of what --method says.
+/// By which method scratches are computed.
 #[derive(Args, Clone, Debug, Default)]
 #[command(next_help_heading = "Method")]
 pub struct MethodFlags {
-    /// The whole method. The flags below replace one part of it each.
+    /// The whole method.
     #[arg(long, value_enum, default_value_t = Whole::Default)]
     pub method: Whole,
-    /// How the visible is integrated.
-    #[arg(long, value_enum)]
-    pub spectrum: Option<Spectrum>,
-    /// How many wavelengths, for si-fast and si-exact. [default: 8]
-    #[arg(long, value_name = "N", value_parser = wavelengths())]
-    pub wavelengths: Option<usize>,
-    /// How a light's chords on a scratch's band are found.
-    #[arg(long, value_enum)]
-    pub chords: Option<ChordsFlag>,
-    /// What of the band is evaluated.
-    #[arg(long, value_enum)]
-    pub band: Option<Band>,
-    /// How a pixel averages a scratch.
-    #[arg(long, value_enum)]
-    pub footprint: Option<Footprint>,
-    /// What scratches take from the base.
+    /// What scratches take from the base. [default: energy; density for the published method]
     #[arg(long, value_enum)]
     pub mask: Option<Mask>,
-    /// How the base reflects spheres.
-    #[arg(long, value_enum)]
-    pub sphere_base: Option<SphereBaseFlag>,
-    /// How the scratches under a pixel are found.
+    /// How the published method finds the scratches under a pixel. [default: bvh]
     #[arg(long, value_enum)]
     pub index: Option<Index>,
-    /// Whether many scratches under a pixel may be taken together. [default: what the scene says]
+    /// Whether the published method averages over a pixel. [default: on]
     #[arg(long, value_enum)]
-    pub gather: Option<GatherFlag>,
-    /// At which places a single scratch's light is worked out. [default: fastest]
+    pub anti_aliasing: Option<Switch>,
+    /// The published method's sine integral. [default: fast]
     #[arg(long, value_enum)]
-    pub light_at: Option<LightAtFlag>,
+    pub si: Option<Si>,
 }
 
 /// `--method`
@@ -59,46 +38,6 @@ pub enum Whole {
     Default,
     /// That of Velinov, Werner and Hullin (2018).
     Published,
-}
-
-/// `--spectrum`
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Spectrum {
-    /// Beforehand, into a table.
-    Table,
-    /// At a few wavelengths, by an approximated sine integral.
-    SiFast,
-    /// At a few wavelengths, by the exact sine integral.
-    SiExact,
-}
-
-/// `--chords`
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum ChordsFlag {
-    /// A signed sum over roots, each alone.
-    Roots,
-    /// Clip, project, intersect, cull and sort, as published.
-    Steps,
-}
-
-/// `--band`
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Band {
-    /// One to five lines, with a width for each channel, and oblique depths.
-    Lines,
-    /// The middle line, and depths along the normal.
-    Line,
-}
-
-/// `--footprint`
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Footprint {
-    /// The exact mean over a Gaussian.
-    Gaussian,
-    /// The published blend of two limits.
-    Published,
-    /// None: the point in the pixel's middle.
-    Off,
 }
 
 /// `--mask`
@@ -112,48 +51,22 @@ pub enum Mask {
     Density,
 }
 
-/// `--sphere-base`
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum SphereBaseFlag {
-    /// Linearly transformed cosines.
-    Ltc,
-    /// The spherical pivot transform of 2017.
-    Sptd,
-}
-
 /// `--index`
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Index {
-    /// The hierarchy, walked once for a tile of pixels.
-    Tiles,
-    /// The hierarchy, walked by each pixel.
+    /// The bounding volume hierarchy, traversed for each pixel.
     Bvh,
-    /// A list for each triangle. Needs --footprint off.
+    /// A list for each triangle. Needs --anti-aliasing off.
     Triangles,
 }
 
-/// `--gather`
+/// `--si`
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum GatherFlag {
-    /// Each for itself: the time grows with their number.
+pub enum Si {
+    /// Approximated, as published.
+    Fast,
+    /// Exact.
     Exact,
-    /// Where a pixel covers many, what they add up to, from grids that are fine against it.
-    Clusters,
-    /// The same, and where no grid is fine enough hundreds of scratches are added up one by one. Quicker than clusters on the CPU,
-    /// slower on a software driver.
-    Tally,
-}
-
-/// `--light-at`
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum LightAtFlag {
-    /// Along scratches on the CPU, for each pixel on graphics adapters.
-    Fastest,
-    /// For each pixel that it lies under.
-    Pixels,
-    /// Along it, as densely as its light changes, and interpolated for the pixels: on the CPU several times as fast where scratches
-    /// are dense.
-    Scratches,
 }
 
 impl MethodFlags {
@@ -163,122 +76,76 @@ impl MethodFlags {
     /// Where they contradict one another.
     pub fn method(&self) -> Result<Method, Failure> {
         let mut method = match self.method {
-            Whole::Default => Method::fastest(),
+            Whole::Default => Method::default(),
             Whole::Published => Method::PUBLISHED,
         };
-        if let Some(spectrum) = self.spectrum {
-            let count = match method.spectrum {
-                method::Spectrum::Wavelengths { count, .. } => count,
-                method::Spectrum::Table => PUBLISHED_WAVELENGTHS,
+        if let Some(mask) = self.mask {
+            method.mask = mask.into();
+        }
+        let Some(published) = &mut method.published else {
+            return match self.switches().first() {
+                None => Ok(method),
+                Some(flag) => Err(Failure::Input(anyhow!(
+                    "{flag} is a switch of the published method: add --method published"
+                ))),
             };
-            method.spectrum = match spectrum {
-                Spectrum::Table => method::Spectrum::Table,
-                Spectrum::SiFast => with_si(count, SineIntegral::Fast),
-                Spectrum::SiExact => with_si(count, SineIntegral::Exact),
-            };
+        };
+        if let Some(index) = self.index {
+            published.structure = index.into();
         }
-        if let Some(asked) = self.wavelengths {
-            match &mut method.spectrum {
-                method::Spectrum::Wavelengths { count, .. } => *count = asked,
-                method::Spectrum::Table => {
-                    return Err(Failure::Input(anyhow!(
-                        "--wavelengths {asked} is for --spectrum si-fast or si-exact: the table holds the whole spectrum"
-                    )));
-                }
-            }
+        if let Some(switch) = self.anti_aliasing {
+            published.anti_aliasing = switch == Switch::On;
         }
-        replace(&mut method.chords, self.chords.map(Into::into));
-        replace(&mut method.band, self.band.map(Into::into));
-        replace(&mut method.footprint, self.footprint.map(Into::into));
-        replace(&mut method.mask, self.mask.map(Into::into));
-        replace(&mut method.sphere_base, self.sphere_base.map(Into::into));
-        replace(&mut method.lookup, self.index.map(Into::into));
-        replace(&mut method.gather, self.gather.map(Into::into));
-        replace(&mut method.light_at, self.light_at.map(Into::into));
-        if method.gather.has_grids() && !method.is_default_path() {
+        if let Some(si) = self.si {
+            published.si = si.into();
+        }
+        if published.structure == Structure::TriangleLists && published.anti_aliasing {
             return Err(Failure::Input(anyhow!(
-                "--gather clusters and tally are of the default method: only --mask, --index and --footprint gaussian or off go with it"
-            )));
-        }
-        let has_tiles = method.lookup == Lookup::Tiles && method.is_default_path();
-        if self.light_at == Some(LightAtFlag::Scratches) && !has_tiles {
-            return Err(Failure::Input(anyhow!(
-                "--light-at scratches is of the default method with --index tiles: only --mask, --gather and --footprint gaussian or \
-                 off go with it"
-            )));
-        }
-        if method.lookup == Lookup::Triangles && method.footprint != PixelFilter::Off {
-            return Err(Failure::Input(anyhow!(
-                "--index triangles needs --footprint off: a triangle's list reaches as far as the coherence window, and a \
+                "--index triangles needs --anti-aliasing off: a triangle's list reaches as far as the coherence window, and a \
                  pixel's footprint may reach further"
             )));
         }
         Ok(method)
     }
 
-    /// What takes the place of a scene's own wish: what the flag says, and every scratch for itself where `method`, which these
-    /// flags asked for, knows nothing else.
-    pub fn gather_override(&self, method: &Method) -> Option<Gather> {
-        match self.gather {
-            Some(gather) => Some(gather.into()),
-            None => (!method.is_default_path()).then_some(Gather::Exact),
-        }
-    }
-
     /// The fewest flags that ask for `method`.
     fn of(method: &Method) -> Self {
-        let beside = [
-            (Whole::Default, Method::fastest()),
-            (Whole::Published, Method::PUBLISHED),
-        ]
-        .map(|(whole, base)| Self::differing(method, whole, &base));
-        let [default, published] = beside;
-        if published.given().len() < default.given().len() {
-            published
-        } else {
-            default
-        }
-    }
-
-    fn differing(method: &Method, whole: Whole, base: &Method) -> Self {
-        let count_of = |spectrum| match spectrum {
-            method::Spectrum::Wavelengths { count, .. } => count,
-            method::Spectrum::Table => PUBLISHED_WAVELENGTHS,
+        let (whole, base) = match method.published {
+            None => (Whole::Default, Method::default()),
+            Some(_) => (Whole::Published, Method::PUBLISHED),
         };
-        let count = count_of(method.spectrum);
+        let published = method.published.unwrap_or_default();
+        let usual = PublishedMethod::default();
+        let switch = match published.anti_aliasing {
+            true => Switch::On,
+            false => Switch::Off,
+        };
         Self {
             method: whole,
-            spectrum: (spectrum_flag(method.spectrum) != spectrum_flag(base.spectrum))
-                .then_some(spectrum_flag(method.spectrum)),
-            wavelengths: (count != count_of(base.spectrum)).then_some(count),
-            chords: (method.chords != base.chords).then_some(method.chords.into()),
-            band: (method.band != base.band).then_some(method.band.into()),
-            footprint: (method.footprint != base.footprint).then_some(method.footprint.into()),
             mask: (method.mask != base.mask).then_some(method.mask.into()),
-            sphere_base: (method.sphere_base != base.sphere_base)
-                .then_some(method.sphere_base.into()),
-            index: (method.lookup != base.lookup).then_some(method.lookup.into()),
-            gather: (method.gather != base.gather).then_some(method.gather.into()),
-            light_at: (method.light_at != base.light_at).then_some(method.light_at.into()),
+            index: (published.structure != usual.structure).then_some(published.structure.into()),
+            anti_aliasing: (published.anti_aliasing != usual.anti_aliasing).then_some(switch),
+            si: (published.si != usual.si).then_some(published.si.into()),
         }
     }
 
-    /// As they are written.
+    /// Those of the published method alone, as they are written.
+    fn switches(&self) -> Vec<String> {
+        let mut flags = Vec::new();
+        flags.extend(self.index.map(|v| written("index", v)));
+        flags.extend(self.anti_aliasing.map(|v| written("anti-aliasing", v)));
+        flags.extend(self.si.map(|v| written("si", v)));
+        flags
+    }
+
+    /// All of them, as they are written.
     fn given(&self) -> Vec<String> {
         let mut flags = Vec::new();
         if self.method != Whole::Default {
             flags.push(written("method", self.method));
         }
-        flags.extend(self.spectrum.map(|v| written("spectrum", v)));
-        flags.extend(self.wavelengths.map(|n| format!("--wavelengths {n}")));
-        flags.extend(self.chords.map(|v| written("chords", v)));
-        flags.extend(self.band.map(|v| written("band", v)));
-        flags.extend(self.footprint.map(|v| written("footprint", v)));
         flags.extend(self.mask.map(|v| written("mask", v)));
-        flags.extend(self.sphere_base.map(|v| written("sphere-base", v)));
-        flags.extend(self.index.map(|v| written("index", v)));
-        flags.extend(self.gather.map(|v| written("gather", v)));
-        flags.extend(self.light_at.map(|v| written("light-at", v)));
+        flags.extend(self.switches());
         flags
     }
 }
@@ -292,30 +159,6 @@ fn written(flag: &str, value: impl ValueEnum) -> String {
     let value = value.to_possible_value();
     let name = value.as_ref().map_or("", |v| v.get_name());
     format!("--{flag} {name}")
-}
-
-fn with_si(count: usize, si: SineIntegral) -> method::Spectrum {
-    method::Spectrum::Wavelengths { count, si }
-}
-
-fn spectrum_flag(spectrum: method::Spectrum) -> Spectrum {
-    match spectrum {
-        method::Spectrum::Table => Spectrum::Table,
-        method::Spectrum::Wavelengths { si, .. } => match si {
-            SineIntegral::Fast => Spectrum::SiFast,
-            SineIntegral::Exact => Spectrum::SiExact,
-        },
-    }
-}
-
-fn replace<T>(part: &mut T, by: Option<T>) {
-    if let Some(by) = by {
-        *part = by;
-    }
-}
-
-fn wavelengths() -> impl TypedValueParser<Value = usize> {
-    PossibleValuesParser::new(["3", "8", "16"]).try_map(|text| text.parse::<usize>())
 }
 
 /// A flag's values and the method's, both ways.
@@ -334,14 +177,9 @@ macro_rules! same {
     };
 }
 
-same!(ChordsFlag, Chords, Roots => Roots, Steps => Steps);
-same!(Band, method::Band, Lines => Lines, Line => MiddleLine);
-same!(Footprint, PixelFilter, Gaussian => Gaussian, Published => Published, Off => Off);
 same!(Mask, mask::Mask, Energy => Energy, Linear => Linear, Density => Density);
-same!(SphereBaseFlag, SphereBase, Ltc => Cosines, Sptd => Pivot);
-same!(Index, Lookup, Tiles => Tiles, Bvh => Bvh, Triangles => Triangles);
-same!(LightAtFlag, LightAt, Fastest => Fastest, Pixels => Pixels, Scratches => Scratches);
-same!(GatherFlag, Gather, Exact => Exact, Clusters => Clusters, Tally => Tally);
+same!(Index, Structure, Bvh => Bvh, Triangles => TriangleLists);
+same!(Si, SineIntegral, Fast => Fast, Exact => Exact);
 
 #[cfg(test)]
 mod tests {
@@ -365,115 +203,57 @@ mod tests {
 
     #[test]
     fn no_flag_is_the_default_and_published_is_published() {
-        assert_eq!(parsed(""), Ok(Method::fastest()));
+        assert_eq!(parsed(""), Ok(Method::default()));
         assert_eq!(parsed("--method published"), Ok(Method::PUBLISHED));
-        assert_eq!(flags_of(&Method::fastest()), "");
+        assert_eq!(flags_of(&Method::default()), "");
         assert_eq!(flags_of(&Method::PUBLISHED), "--method published");
-    }
-
-    #[test]
-    fn a_part_is_replaced_and_the_others_stay() {
-        let exact = Method {
-            spectrum: with_si(16, SineIntegral::Exact),
-            ..Method::fastest()
-        };
-        assert_eq!(parsed("--spectrum si-exact --wavelengths 16"), Ok(exact));
-        let point = Method {
-            footprint: PixelFilter::Off,
-            lookup: Lookup::Triangles,
-            ..Method::PUBLISHED
-        };
-        let flags = "--method published --footprint off --index triangles";
-        assert_eq!(parsed(flags), Ok(point));
-        assert_eq!(flags_of(&point), flags);
     }
 
     #[test]
     fn contradictions_are_refused_with_what_would_be_right() {
         for (flags, right) in [
-            ("--wavelengths 8", "si-fast or si-exact"),
+            ("--si exact", "add --method published"),
+            ("--index bvh", "add --method published"),
+            ("--anti-aliasing off", "add --method published"),
+            ("--method default --si fast", "--si fast is a switch"),
             (
-                "--method published --spectrum table --wavelengths 3",
-                "si-fast",
+                "--method published --index triangles",
+                "--anti-aliasing off",
             ),
-            ("--index triangles", "--footprint off"),
-            ("--method published --index triangles", "--footprint off"),
-            ("--wavelengths 5 --spectrum si-fast", "3, 8, 16"),
-            ("--gather clusters --method published", "default method"),
-            ("--gather clusters --footprint published", "gaussian or off"),
-            ("--gather few", "exact, clusters, tally"),
-            ("--light-at scratches --index bvh", "--index tiles"),
-            ("--light-at scratches --band line", "default method"),
+            ("--method published --index tiles", "bvh, triangles"),
+            ("--mask none", "energy, linear, density"),
         ] {
             let message = parsed(flags).unwrap_err();
             assert!(message.contains(right), "{flags}: {message}");
         }
     }
 
-    /// Every mixture of parts is said in flags that ask for it again.
+    /// Every method is said in flags that ask for it again.
     #[test]
     fn flags_lead_there_and_back() {
-        let mut count = 0;
-        for spectrum in [
-            method::Spectrum::Table,
-            with_si(3, SineIntegral::Fast),
-            with_si(8, SineIntegral::Fast),
-            with_si(16, SineIntegral::Exact),
-        ] {
-            for chords in [Chords::Roots, Chords::Steps] {
-                for band in [method::Band::Lines, method::Band::MiddleLine] {
-                    for footprint in [
-                        PixelFilter::Gaussian,
-                        PixelFilter::Published,
-                        PixelFilter::Off,
-                    ] {
-                        for mask in [mask::Mask::Energy, mask::Mask::Linear, mask::Mask::Density] {
-                            for sphere_base in [SphereBase::Cosines, SphereBase::Pivot] {
-                                for lookup in [Lookup::Tiles, Lookup::Bvh, Lookup::Triangles] {
-                                    let gathers = [Gather::Exact, Gather::Clusters, Gather::Tally];
-                                    let places =
-                                        [LightAt::Pixels, LightAt::Scratches, LightAt::Fastest];
-                                    for (gather, light_at) in
-                                        gathers.into_iter().flat_map(|g| places.map(|at| (g, at)))
-                                    {
-                                        let method = Method {
-                                            spectrum,
-                                            chords,
-                                            band,
-                                            footprint,
-                                            mask,
-                                            sphere_base,
-                                            lookup,
-                                            gather,
-                                            light_at,
-                                        };
-                                        let back = parsed(&flags_of(&method));
-                                        let has_list = footprint == PixelFilter::Off;
-                                        if lookup == Lookup::Triangles && !has_list
-                                            || gather.has_grids() && !method.is_default_path()
-                                            || light_at == LightAt::Scratches
-                                                && !(lookup == Lookup::Tiles
-                                                    && method.is_default_path())
-                                        {
-                                            assert!(back.is_err());
-                                        } else {
-                                            assert_eq!(back, Ok(method));
-                                            count += 1;
-                                        }
-                                    }
-                                }
-                            }
-                        }
-                    }
+        let structures = [Structure::Bvh, Structure::TriangleLists];
+        let sis = [SineIntegral::Fast, SineIntegral::Exact];
+        let mut published = vec![None];
+        for (structure, si) in structures.into_iter().flat_map(|s| sis.map(|si| (s, si))) {
+            for anti_aliasing in [true, false] {
+                published.push(Some(PublishedMethod {
+                    structure,
+                    anti_aliasing,
+                    si,
+                }));
+            }
+        }
+        for published in published {
+            for mask in [mask::Mask::Energy, mask::Mask::Linear, mask::Mask::Density] {
+                let method = Method { published, mask };
+                let back = parsed(&flags_of(&method));
+                let is_refused = published
+                    .is_some_and(|it| it.anti_aliasing && it.structure == Structure::TriangleLists);
+                match is_refused {
+                    true => assert!(back.is_err()),
+                    false => assert_eq!(back, Ok(method)),
                 }
             }
         }
-        // Light at pixels goes with all.
-        let exact = 4 * 2 * 2 * 3 * 2 * (3 + 2 + 2);
-        // The default path alone, with three masks.
-        let clusters = 2 * 3 * (3 + 2);
-        // The fastest with all of them, and along scratches with what goes by tiles.
-        let along = 2 * 3 * 3;
-        assert_eq!(count, 2 * (exact + clusters) + along);
     }
 }

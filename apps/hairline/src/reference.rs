@@ -9,7 +9,6 @@ use std::time::Duration;
 use anyhow::anyhow;
 use hairline_image::{Display, Format, Output};
 use hairline_optics::mask::Mask;
-use hairline_optics::method::Gather;
 use hairline_reference::monte_carlo::{BATCH_SAMPLES, Integrator, Model, Settings};
 
 use crate::cli;
@@ -45,7 +44,6 @@ pub fn run(arguments: &cli::Reference) -> Result<(), Failure> {
         exposure_ev: arguments.exposure,
         scratch_seed: arguments.seed,
         // It needs no grids, and no memory for them.
-        gather: Some(Gather::Exact),
     };
     let loaded = scene_file::load(scene_path, &overrides)?;
     let scene = &loaded.scene;

@@ -20,7 +20,7 @@ use motion::Motion;
 
 /// Loads, renders and writes.
 pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
-    let mut method = arguments.method.method()?;
+    let method = arguments.method.method()?;
     let motion = Motion::of(&arguments.sequence)?;
     // Before the work: nobody should wait for a picture that then has no place to go.
     let target = match &motion {
@@ -31,10 +31,8 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
         size_px: arguments.size,
         exposure_ev: arguments.exposure,
         scratch_seed: arguments.seed,
-        gather: arguments.method.gather_override(&method),
     };
     let loaded = scene_file::load(arguments.scene.as_deref(), &overrides)?;
-    method.gather = loaded.scene.render.gather;
     if let Some(motion) = &motion {
         motion.check(&loaded.description.camera)?;
     }
@@ -50,7 +48,6 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
         method,
         backend: arguments.backend,
         samples: arguments.samples,
-        pictures: motion.map_or(1, |motion| motion.frames),
     };
     let mut painter = Painter::open(scene, task)?;
     match target {
@@ -90,7 +87,7 @@ fn single(arguments: &cli::Render) -> Result<Output, Failure> {
 /// By which method a picture was made, where that was another than the default.
 fn notes(method: &Method) -> Notes {
     let mut notes = Notes::new();
-    if *method != Method::fastest() {
+    if *method != Method::default() {
         notes.insert("method".to_owned(), method_flags::flags_of(method));
     }
     notes

@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
-use hairline_optics::method::Gather;
 use hairline_scene::description::Description;
 use hairline_scene::{Loader, Scene, Stage};
 
@@ -22,8 +21,6 @@ pub struct Overrides {
     pub exposure_ev: Option<f64>,
     /// Added to the seed of each layer of scratches.
     pub scratch_seed: u64,
-    /// Whether many scratches may be taken together.
-    pub gather: Option<Gather>,
 }
 
 /// A scene with what it was made from.
@@ -45,9 +42,6 @@ pub fn load(path: Option<&Path>, overrides: &Overrides) -> Result<Loaded, Failur
     }
     if let Some(exposure_ev) = overrides.exposure_ev {
         description.camera.exposure_ev = exposure_ev;
-    }
-    if let Some(gather) = overrides.gather {
-        description.render.gather = gather;
     }
     for scratches in &mut description.scratches {
         if let Some(seed) = scratches.layer.seed_mut() {
@@ -71,6 +65,9 @@ pub fn load(path: Option<&Path>, overrides: &Overrides) -> Result<Loaded, Failur
         .build(&description, &source.folder)
         .map_err(|error| error.in_scene_file(&source.text, &source.name))?;
     drop(progress);
+    for note in &scene.notes {
+        eprintln!("note: {note}");
+    }
     if let Some(environment) = &scene.environment
         && environment.repaired_texels() > 0
     {

@@ -16,7 +16,7 @@ fn by_opengl(folder: &Path, arguments: &str) -> Command {
     command
 }
 
-/// Of a scene with one metal and no texture: arrays of one layer are the special case there. Both light scratches at pixels, as GPUs do.
+/// Of a scene with one metal and no texture: arrays of one layer are the special case there.
 #[test]
 fn a_picture_is_that_of_the_cpu() {
     // Under the lamp alone, whose shaders are compiled in half the time.
@@ -27,7 +27,7 @@ fn a_picture_is_that_of_the_cpu() {
         eprintln!("skipped: no driver renders by way of OpenGL");
         return;
     }
-    let render = "render scratched.toml --size 96x64 --samples 1 --light-at pixels";
+    let render = "render scratched.toml --size 96x64 --samples 1";
     by_opengl(folder.path(), &format!("{render} --backend gpu -o gl.exr"))
         .assert()
         .success();

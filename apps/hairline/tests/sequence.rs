@@ -141,33 +141,6 @@ fn a_camera_that_stands_still_is_steady_and_a_moving_one_as_its_reference() {
     assert!((0.8..1.2).contains(&ratio), "{ratio}");
 }
 
-/// Grids are held against all scratches one by one, never against themselves. The CPU renderer is told its method with each picture,
-/// but what a GPU gathers it was given with the scene.
-#[test]
-fn the_reference_of_many_scratches_takes_each_for_itself() {
-    if hairline_gpu::headless::test_gpu().is_none() {
-        return;
-    }
-    // From afar, by a lens that leaves it a few pixels, wider than the finest cells; on a mirror, which shows scratches alone.
-    let far = SCRATCHED
-        .replacen("[0.0, -0.22, 0.30]", "[0.0, -2.2, 3.0]", 1)
-        .replacen("[camera]", "[camera]\nfov_y_deg = 6.5", 1)
-        .replacen(
-            "kind = \"metal\"\nmetal = \"iron\"\nroughness = 0.3",
-            "kind = \"mirror\"",
-            1,
-        )
-        .replacen("count = 200", "count = 3000", 1);
-    let folder = folder_with("plate.toml", &far);
-    let [each, added_up] = ["exact", "clusters"].map(|gather| {
-        let flags =
-            format!("--backend gpu --frames 2 --turntable 4 --exposure 8 --gather {gather}");
-        figures(folder.path(), &flags)
-    });
-    assert_ne!(each[0], added_up[0], "grids are not in use");
-    assert_eq!(each[1], added_up[1]);
-}
-
 #[cfg(unix)]
 #[test]
 fn ctrl_c_leaves_whole_frames_and_no_animation() {

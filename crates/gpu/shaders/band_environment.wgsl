@@ -1,21 +1,16 @@
 // An environment along the band of a scratch, cut into cells. Twin: optics/src/band_environment.rs, which gives the reasons.
 
-const ENVIRONMENT_CELLS: u32 = 24u;
-const ENVIRONMENT_CELL_ALPHA: f32 = 0.1;
+const ENVIRONMENT_CELLS: u32 = 10u;
+const ENVIRONMENT_CELL_SCALE_UM: f32 = 0.3;
+const ENVIRONMENT_CELL_ALPHA: f32 = 0.08;
 
 struct EnvironmentCell {
     q_low: f32,
     q_high: f32,
+    // Its z is the cosine for the groove's depth.
     direction: vec3f,
+    // By the length of its chord.
     angle_rad: f32,
-}
-
-// The bound between cells i - 1 and i, in u.
-fn environment_cell_bound_um(i: u32) -> f32 {
-    let outward = f32(i) - f32(ENVIRONMENT_CELLS / 2u);
-    let far = abs(outward) / 9.0;
-    let far2 = far * far;
-    return 0.07 * outward * (1.0 + far2 * far2 * far2 * far);
 }
 
 // The point of the arc at q, across and up.
@@ -24,28 +19,23 @@ fn environment_arc_point(line: BandLine, q: f32) -> vec2f {
 }
 
 fn environment_cell(i: u32, line: BandLine, width_um: f32) -> EnvironmentCell {
-    let width = max(width_um, 1e-3);
+    let scale = ENVIRONMENT_CELL_SCALE_UM / max(width_um, 1e-3);
     let end = band_q_end(line);
     let start = band_q_start(line);
-    var q_low = end;
-    var q_high = start;
-    if i > 0u {
-        q_low = clamp(environment_cell_bound_um(i) / width, end, start);
-    }
-    if i < ENVIRONMENT_CELLS - 1u {
-        q_high = clamp(environment_cell_bound_um(i + 1u) / width, end, start);
-    }
-    let low = environment_arc_point(line, q_low);
-    let high = environment_arc_point(line, q_high);
-    let sum = low + high;
-    let length_sum = length(sum);
-    let middle = line.radius * select(vec2f(0.0, 1.0), sum / max(length_sum, 1e-30), length_sum > 0.0);
-    let half_chord = 0.5 * length(high - low);
-    let half_angle = asin(min(half_chord / max(line.radius, 1e-9), 1.0));
-    return EnvironmentCell(q_low, q_high, vec3f(line.along, middle), 2.0 * line.radius * half_angle);
+    // x at the cell's lower end, its middle and its upper end, then q.
+    let low = end / (abs(end) + scale);
+    let step = (start / (abs(start) + scale) - low) / f32(ENVIRONMENT_CELLS);
+    let x = low + step * (f32(i) + vec3f(0.0, 0.5, 1.0));
+    var q = clamp(scale * x / max(1.0 - abs(x), vec3f(1e-6)), vec3f(end), vec3f(start));
+    // Rounding must not leave out a part of the arc.
+    q.x = select(q.x, end, i == 0u);
+    q.z = select(q.z, start, i == ENVIRONMENT_CELLS - 1u);
+    let middle = environment_arc_point(line, q.y);
+    let chord = distance(environment_arc_point(line, q.x), environment_arc_point(line, q.z));
+    return EnvironmentCell(q.x, q.z, vec3f(line.along, middle), chord);
 }
 
 // The perceptual roughness of the mirror lobe that stands for the cell.
 fn environment_cell_roughness(cell: EnvironmentCell) -> f32 {
-    return min(sqrt(ENVIRONMENT_CELL_ALPHA * cell.angle_rad), 1.0);
+    return sqrt(ENVIRONMENT_CELL_ALPHA * cell.angle_rad);
 }

@@ -2,9 +2,6 @@
 
 // Needs, beside its modules: lights, lobe_ltc, lobe_albedo, and the environment.
 
-// Set where each light is known to be all above the surface's horizon, or all below it.
-override BASE_CLEAR: bool = false;
-
 struct BaseRadiance {
     specular: vec3f,            // reflected at the surface; scratches take from it
     diffuse: vec3f,             // from the body under it
@@ -19,9 +16,6 @@ fn base_sphere(point: SurfacePoint, lobe: LtcLobe, light: Light) -> vec4f {
     let cap = sphere_cap(center, light.radius_m);
     // A cap that holds every direction stands for a sphere around the point.
     let sin2 = select(cap.sin_radius * cap.sin_radius, 1.0, cap.cos_radius < 0.0);
-    if BASE_CLEAR {
-        return vec4f(ltc_sphere_above(lobe, cap.axis, sin2), lambert_sphere_above(cap.axis, sin2));
-    }
     return vec4f(ltc_sphere(lobe, cap.axis, sin2), base_lambert_sphere(cap.axis, sin2));
 }
 
@@ -43,19 +37,12 @@ fn base_polygon(point: SurfacePoint, lobe: LtcLobe, light: Light) -> vec4f {
     var highest_z = a.z;
     for (var i = 0u; i < light.vertex_count; i += 1u) {
         let b = light_vertex(point, light, i + 1u);
-        if BASE_CLEAR {
-            ltc_edge_above(&specular, lobe, a, b);
-        } else {
-            ltc_edge(&specular, lobe, a, b);
-        }
-        if HAS_BODIES && BASE_CLEAR {
-            lambert_edge_above(&diffuse, a, b);
-        } else if HAS_BODIES {
+        ltc_edge(&specular, lobe, a, b);
+        if HAS_BODIES {
             lambert_edge(&diffuse, a, b);
         }
         highest_z = max(highest_z, b.z);
         a = b;
-        gather_rounds += 1u;
     }
     if highest_z <= 0.0 {
         return vec4f(0.0);
@@ -74,7 +61,6 @@ fn base_environment(point: SurfacePoint, lobe: LtcLobe, albedo: vec3f) -> BaseRa
         weights += tap.weight;
         // A running mean, which of equal values is exact.
         reflected += (radiance - reflected) * (tap.weight / weights);
-        gather_rounds += 1u;
     }
     return BaseRadiance(albedo * reflected, scene_irradiance(point.normal) / 3.14159265);
 }
@@ -100,7 +86,6 @@ fn base_radiance(point: SurfacePoint) -> BaseRadiance {
         }
         specular += light.radiance * ggx_area_reflectance(share.xyz, fresnel, lobe.albedo.x);
         diffuse += light.radiance * share.w;
-        gather_rounds += 1u;
     }
     if HAS_ENVIRONMENT {
         let environment = base_environment(point, lobe, albedo);

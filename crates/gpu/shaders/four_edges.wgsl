@@ -1,5 +1,4 @@
-// Where the lines of a band cross an outline of four edges, or of three and one without length: band.wgsl's signed sum over
-// roots with what does not depend on the line found once. Twin: PolygonView of optics/src/band.rs, for any number of edges.
+// Where the lines of a band cross an outline of four edges, or of three and one without length: band.wgsl's signed sum over roots. Twin: PolygonView of optics/src/band.rs, for any number of edges.
 // All vectors are in the scratch's frame.
 
 struct BandEdge {
@@ -11,11 +10,13 @@ struct BandEdge {
     turns: f32,                 // 1 where the tangent component has a greatest value between the ends, -1 for a least one
 }
 
+// Unit directions to four corners, of which two may be the same. Edges are made where they are asked for: kept, they would take forty
+// registers.
 struct FourEdges {
-    e0: BandEdge,
-    e1: BandEdge,
-    e2: BandEdge,
-    e3: BandEdge,
+    a: vec3f,
+    b: vec3f,
+    c: vec3f,
+    d: vec3f,
 }
 
 fn band_edge(a: vec3f, b: vec3f) -> BandEdge {
@@ -26,10 +27,6 @@ fn band_edge(a: vec3f, b: vec3f) -> BandEdge {
     let at_b = m.y * b.z - m.z * b.y;
     let turns = select(select(0.0, -1.0, at_a < 0.0 && at_b > 0.0), 1.0, at_a > 0.0 && at_b < 0.0);
     return BandEdge(a, b.x, m, m2, m2 + m.x * m.x, turns);
-}
-
-fn four_edges(a: vec3f, b: vec3f, c: vec3f, d: vec3f, next: vec3f) -> FourEdges {
-    return FourEdges(band_edge(a, b), band_edge(b, c), band_edge(c, d), band_edge(d, next));
 }
 
 // Least and greatest tangent component along an edge.
@@ -51,26 +48,26 @@ fn band_edge_crossing(a: vec2f, b: vec2f) -> i32 {
 }
 
 fn four_edges_holds(edges: FourEdges, x: vec3f, y: vec3f) -> bool {
-    let a = vec2f(dot(edges.e0.a, x), dot(edges.e0.a, y));
-    let b = vec2f(dot(edges.e1.a, x), dot(edges.e1.a, y));
-    let c = vec2f(dot(edges.e2.a, x), dot(edges.e2.a, y));
-    let d = vec2f(dot(edges.e3.a, x), dot(edges.e3.a, y));
+    let a = vec2f(dot(edges.a, x), dot(edges.a, y));
+    let b = vec2f(dot(edges.b, x), dot(edges.b, y));
+    let c = vec2f(dot(edges.c, x), dot(edges.c, y));
+    let d = vec2f(dot(edges.d, x), dot(edges.d, y));
     return (band_edge_crossing(a, b) + band_edge_crossing(b, c) + band_edge_crossing(c, d) + band_edge_crossing(d, a)) != 0;
 }
 
 // Least and greatest tangent component of the outline and what is in it; nothing where it is below the horizon. `away` is
 // the polygon's normal on the side that faces away.
 fn four_edges_extent(edges: FourEdges, away: vec3f) -> vec2f {
-    let e0 = band_edge_extent(edges.e0);
-    let e1 = band_edge_extent(edges.e1);
-    let e2 = band_edge_extent(edges.e2);
-    let e3 = band_edge_extent(edges.e3);
+    let e0 = band_edge_extent(band_edge(edges.a, edges.b));
+    let e1 = band_edge_extent(band_edge(edges.b, edges.c));
+    let e2 = band_edge_extent(band_edge(edges.c, edges.d));
+    let e3 = band_edge_extent(band_edge(edges.d, edges.a));
     var extent = vec2f(min(min(e0.x, e1.x), min(e2.x, e3.x)), max(max(e0.y, e1.y), max(e2.y, e3.y)));
     // A light around the tangent's own direction reaches further than its outline.
     if four_edges_holds(edges, vec3f(0.0, 1.0, 0.0), vec3f(0.0, 0.0, 1.0)) {
         extent = select(vec2f(-1.0, extent.y), vec2f(extent.x, 1.0), away.x > 0.0);
     }
-    let highest = max(max(edges.e0.a.z, edges.e1.a.z), max(edges.e2.a.z, edges.e3.a.z));
+    let highest = max(max(edges.a.z, edges.b.z), max(edges.c.z, edges.d.z));
     return select(extent, vec2f(9.0, -9.0), highest <= 0.0);
 }
 
@@ -113,10 +110,10 @@ fn band_edge_crossings(edge: BandEdge, line: BandLine) -> EdgeCrossings {
 }
 
 fn four_edges_roots(edges: FourEdges, line: BandLine, away: vec3f) -> FourRoots {
-    let a = band_edge_crossings(edges.e0, line);
-    let b = band_edge_crossings(edges.e1, line);
-    let c = band_edge_crossings(edges.e2, line);
-    let d = band_edge_crossings(edges.e3, line);
+    let a = band_edge_crossings(band_edge(edges.a, edges.b), line);
+    let b = band_edge_crossings(band_edge(edges.b, edges.c), line);
+    let c = band_edge_crossings(band_edge(edges.c, edges.d), line);
+    let d = band_edge_crossings(band_edge(edges.d, edges.a), line);
     let rises = vec4<bool>(a.rises, b.rises, c.rises, d.rises);
     let falls = vec4<bool>(a.falls, b.falls, c.falls, d.falls);
     let rising = vec4f(a.rising, b.rising, c.rising, d.rising);

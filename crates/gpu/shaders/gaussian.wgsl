@@ -12,17 +12,6 @@ fn gaussian_erf(x: f32) -> f32 {
     return sign(x) * (1.0 - 1.0 / (p8 * p8));
 }
 
-// The same to 5 ten thousandths, without a division, for who adds up many. It is 1 from QUICK_ERF_END on, and odd: where one thing ends
-// and another begins, the two add up to all of it. Coefficients by least squares, reweighted until the largest error was least.
-const QUICK_ERF_END: f32 = 2.5;
-
-fn gaussian_quick_erf(x: f32) -> f32 {
-    let a = clamp(x, -QUICK_ERF_END, QUICK_ERF_END);
-    let b = a * a;
-    let p = 1.1260728 + b * (-0.364906905 + b * (0.0968722175 + b * (-0.0165653554 + b * (0.00159180504 - b * 0.000064393174))));
-    return a * p;
-}
-
 // Powers of e do not go below minus this: the square of what comes out is still a normal number, and processors take a hundred
 // times as long for those that are not.
 const GAUSSIAN_TAIL: f32 = 35.0;

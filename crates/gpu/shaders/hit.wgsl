@@ -42,8 +42,10 @@ fn hit_turn(point: ptr<function, SurfacePoint>, normal: vec3f, to_viewer: vec3f,
     (*point).axis_y = cross(normal, (*point).axis_x);
     let cos_view = dot(normal, to_viewer);
     (*point).wo = vec3f(sqrt(max(1.0 - cos_view * cos_view, 0.0)), 0.0, cos_view);
-    (*point).footprint_x_m = footprint_axis(ray, depth, normal, frame.per_px_x) * frame.footprint_std_px;
-    (*point).footprint_y_m = footprint_axis(ray, depth, normal, frame.per_px_y) * frame.footprint_std_px;
+    let x_um = footprint_axis(ray, depth, normal, frame.per_px_x) * (1e6 * frame.footprint_std_px);
+    let y_um = footprint_axis(ray, depth, normal, frame.per_px_y) * (1e6 * frame.footprint_std_px);
+    (*point).footprint_x_um = vec2f(dot(x_um, (*point).axis_x), dot(x_um, (*point).axis_y));
+    (*point).footprint_y_um = vec2f(dot(y_um, (*point).axis_x), dot(y_um, (*point).axis_y));
 }
 
 // What a point's surface is made of.
@@ -72,22 +74,6 @@ fn hit_textured(material: Material, uv: vec2f, filter_side: f32) -> Material {
         there.emission *= hit_texture(material.emission_texture, uv, filter_side).xyz;
     }
     return there;
-}
-
-// The surface that a ray of the camera sees on a plane without textures, whose normal is given and how far it lies before the camera.
-// `depth_m` is written beside it.
-fn hit_plane_point(plane: vec4f, material: u32, ray: vec3f, depth_m: ptr<function, f32>) -> SurfacePoint {
-    let to_viewer = -normalize(ray);
-    let towards = dot(plane.xyz, ray);
-    let depth = plane.w / select(towards, -1e-30, abs(towards) < 1e-30);
-    *depth_m = depth;
-    var point: SurfacePoint;
-    point.position_m = frame.camera_m + ray * depth;
-    point.distance_m = depth * length(ray);
-    point.facet = plane.xyz;
-    hit_turn(&point, surface_face_viewer(plane.xyz, to_viewer), to_viewer, ray, depth);
-    hit_paint(&point, material_at(material));
-    return point;
 }
 
 // The surface that a ray of the camera sees on a triangle. `depth_m` is written beside it.
@@ -131,7 +117,7 @@ fn hit_surface_point(triangle: u32, ray: vec3f, depth_m: ptr<function, f32>) -> 
         );
     }
     normal = surface_face_viewer(side * normal, to_viewer);
-    point.facet = side * surface_normalize_or(geometric, normal);
+    point.leaves = SURFACE_BENDS + 2.0 * distance(normal, side * surface_normalize_or(geometric, normal));
     hit_turn(&point, normal, to_viewer, ray, depth);
     hit_paint(&point, hit_textured(material, uv, filter_side));
     let turn_x = side * hit_normal_turn(a, b, c, geometric, interpolated, smooth_x);

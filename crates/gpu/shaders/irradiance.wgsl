@@ -52,13 +52,6 @@ fn irradiance_edge(state: ptr<function, PolygonIrradiance>, a: vec3f, b: vec3f, 
     (*state).risen = (*state).risen || a.z > 0.0;
 }
 
-// Where all of the polygon is above the horizon.
-fn irradiance_edge_above(state: ptr<function, PolygonIrradiance>, a: vec3f, b: vec3f, ab: vec3f) {
-    irradiance_follow(state, a, ab);
-    irradiance_add_arc(state, a, b, cross(a, ab));
-    (*state).risen = true;
-}
-
 // The solid that the outline spans with the origin.
 fn irradiance_follow(state: ptr<function, PolygonIrradiance>, a: vec3f, ab: vec3f) {
     if (!(*state).started) {
@@ -225,15 +218,6 @@ fn lambert_begin() -> PolygonIrradiance {
 
 fn lambert_edge(state: ptr<function, PolygonIrradiance>, a: vec3f, b: vec3f) {
     irradiance_edge(state, a, b, b - a);
-}
-
-fn lambert_edge_above(state: ptr<function, PolygonIrradiance>, a: vec3f, b: vec3f) {
-    irradiance_edge_above(state, a, b, b - a);
-}
-
-// Of a sphere above the horizon.
-fn lambert_sphere_above(axis: vec3f, sin2: f32) -> f32 {
-    return clamp(axis.z * sin2, 0.0, 1.0);
 }
 
 fn lambert_sphere(axis: vec3f, sin2: f32) -> f32 {

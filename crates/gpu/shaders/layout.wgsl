@@ -1,7 +1,7 @@
-// Every struct that the host fills. Twin: src/layout.rs; a test holds names, offsets and sizes equal.
-// Positions are in metres and relative to the origin that src/vertices.rs chooses, for the sake of their last digits.
+// Every struct that the host fills or reads. Twin: src/layout.rs; a test holds names, offsets and sizes equal.
+// Positions are in metres and relative to the origin that src/vertices.rs chooses, so that f32 keeps micrometres.
 
-// The view, and what else is the same for every pixel of one sample.
+// The view, and what else is the same for every pixel of one step of one strip.
 struct Frame {
     camera_m: vec3f,            // the pinhole
     forward: vec3f,             // unit direction of the view
@@ -11,16 +11,23 @@ struct Frame {
     per_px_y: vec3f,            // and by one pixel down
     footprint_std_px: f32,      // standard deviation of the Gaussian that shading filters with
     size_px: vec2u,             // of the picture
-    rows: vec2u,                // first row of the film and the one after its last
+    rows: vec2u,                // first row of the strip and the one after its last
     jitter_px: vec2f,           // where the sample lies from the pixel's centre, y down
     light_count: u32,
     environment_flags: u32,     // ENVIRONMENT_PRESENT, ENVIRONMENT_VISIBLE
     environment_from_world: mat3x3f,
     environment_sh: array<vec4f, 9>,    // irradiance; xyz are the channels
     environment_texel_radiance: f32,    // radiance of a texel (or coefficient) of value 1
-    sample: u32,                // counted from 0
-    tile_chunks: u32,           // of the lists of all tiles
-    record_segments: u32,       // straight pieces of scratches that may have records
+    step: u32,                  // 0: every pixel through its centre; later ones: samples of pixels on edges and creases
+    sample: u32,                // of those of the step, which one is looked at
+    samples: u32,               // and how many there are
+    film_row: u32,              // the picture's row that the film begins with
+    segment_count: u32,
+    list_std_px: f32,           // the largest footprint_std_px of all steps: tile lists serve them all
+    list_jitter_px: f32,        // how far samples lie from the pixel's centre
+    entry_count: u32,           // of all tile lists of the strip; known once they are counted
+    object_count: u32,
+    group_count: u32,           // of 64 samples that are shaded together; known once edges are counted
 }
 
 const ENVIRONMENT_PRESENT: u32 = 1u;
@@ -38,11 +45,14 @@ struct Vertex {
 
 const VERTEX_BITANGENT_FLIPPED: u32 = 0x80000000u;
 
-// The scratches of an object: a range of nodes.
+// The scratches of an object: a range of segments, and of the nodes over them.
 struct Object {
+    first_segment: u32,
+    end_segment: u32,
     first_node: u32,
     end_node: u32,
     depth_coherence: f32,
+    coherence_um: f32,          // the largest of its materials
 }
 
 struct Material {
@@ -61,6 +71,7 @@ struct Material {
     emission_texture: vec2u,
 }
 
+// Spheres come first, then polygons of at most four vertices, then others.
 struct Light {
     radiance: vec3f,
     kind: u32,                  // LIGHT_SPHERE or LIGHT_POLYGON
@@ -70,13 +81,12 @@ struct Light {
     two_sided: u32,
     first_vertex: u32,          // of those of all lights
     vertex_count: u32,
-    area_m2: f32,               // of a polygon
 }
 
 const LIGHT_SPHERE: u32 = 0u;
 const LIGHT_POLYGON: u32 = 1u;
 
-// Nodes in depth-first order: a walk goes on with the next one, or with `skip`. Twin: crates/index.
+// Nodes in depth-first order: a BVH traversal goes on with the next one, or with `skip`. Twin: crates/index.
 struct ScratchNode {
     min_m: vec3f,
     skip: u32,
@@ -84,12 +94,61 @@ struct ScratchNode {
     leaf: u32,                  // 0, or the count of segments in the upper 4 bits and the first one in the lower 28
 }
 
-// Packed; segment_at() unpacks.
+// Packed; segment_from() unpacks.
 struct ScratchSegment {
     start_m: vec3f,
     width_depth: u32,           // half floats: um, nm
     end_m: vec3f,
     normal_blur: u32,           // two bytes of an octahedral map, a half float in um
+}
+
+// The surface point that a pixel sees, as its scratches need it. The surface frame has z along the shading normal and the viewer
+// in the x-z plane.
+struct PixelPoint {
+    position_m: vec3f,
+    object: u32,                // + 1; 0: nothing to shade
+    normal: vec3f,              // shading normal on the viewer's side; without an object the unit direction of the ray
+    depth_m: f32,               // along the view axis
+    axis_x: vec3f,
+    coherence_um: f32,
+    footprint_um: vec4f,        // one standard deviation of the pixel's filter to the right (xy) and down (zw), in the surface frame
+    turns: vec4f,               // how the smooth normal turns over each of them, in the surface frame
+    cos_o: f32,                 // of the viewer to the normal
+    distance_m: f32,            // to the viewer
+    table_and_place: u32,       // layer of the scratch tables in 16 bits; the pixel's place in its tile
+    leaves: f32,                // how far the surface may be off the plane of shading for each length along it
+}
+
+// What its surface is made of, as the base needs it.
+struct PixelPaint {
+    f0: vec3f,
+    roughness: f32,
+    fresnel_a: vec3f,
+    triangle: u32,
+    diffuse: vec3f,
+    emission: vec3f,
+}
+
+// Radiance of the base to the viewer, before scratches take their part.
+struct BaseLight {
+    specular: vec3f,            // reflected at the surface: scratches take from it
+    body: vec3f,                // from under the surface, and emitted
+    fresnel: vec3f,             // reflectance of the surface towards the viewer
+}
+
+// Sums over the segments of one chunk of a tile's list, for one pixel. Twin: ScratchSums of mask.wgsl.
+struct ChunkSum {
+    radiance: vec3f,
+    share: f32,
+    energy: vec3f,
+    share_by_line: f32,
+}
+
+// The lights of one dispatch of shade_scratches.
+struct LightRange {
+    first: u32,
+    end: u32,
+    adds: u32,                  // 0: the first dispatch, which writes the sums of the mask as well
 }
 
 // Sums over the samples of a pixel: who reads them divides by their count.
@@ -101,28 +160,22 @@ struct FilmPixel {
     density: vec3f,
     samples: u32,               // samples that are complete
     normal: vec3f,
-    walk_at: u32,               // 0: not begun; else the node to go on with + 1
+    edge: u32,                  // 0; of a pixel with an edge or a crease its number among those of its tile, from 1
 }
 
-// The walk over the scratches of the sample in hand, where a dispatch may leave it unfinished for the next one.
-struct FilmWalk {
-    radiance: vec3f,
-    share: f32,
-    energy: vec3f,
-    share_by_line: f32,
-}
-
-// What the shading pass adds to.
 struct Film {
-    gave_up: atomic<u32>,       // pixels whose loops were cut short: the host discards the picture
-    unfinished: atomic<u32>,    // pixels whose walk goes on in the next dispatch
+    gave_up: atomic<u32>,       // invocations whose loops the device cut short: the host discards the picture
     pixels: array<FilmPixel>,
 }
 
-// Which tiles are shaded how: three counts for each queue of tile_queues.wgsl, then the queues.
-struct TileQueues {
-    counts: array<atomic<u32>, 18>,
-    tiles: array<atomic<u32>>,
+// Which digit of a tile's number a pass of the radix sort looks at.
+struct SortSettings {
+    shift: u32,
+    block_count: u32,
+}
+
+struct ScanSettings {
+    count: u32,
 }
 
 // How a film is shown.

@@ -84,16 +84,6 @@ fn ltc_edge(state: ptr<function, PolygonIrradiance>, lobe: LtcLobe, a: vec3f, b:
     );
 }
 
-// Of a polygon above the horizon.
-fn ltc_edge_above(state: ptr<function, PolygonIrradiance>, lobe: LtcLobe, a: vec3f, b: vec3f) {
-    irradiance_edge_above(
-        state,
-        ltc_to_cosine(lobe, lobe_rotate(lobe.x_axis, a)),
-        ltc_to_cosine(lobe, lobe_rotate(lobe.x_axis, b)),
-        ltc_to_cosine(lobe, lobe_rotate(lobe.x_axis, b - a)),
-    );
-}
-
 fn ltc_end(state: PolygonIrradiance, lobe: LtcLobe) -> vec3f {
     return ltc_integrals(lobe, irradiance_end(state));
 }
@@ -118,12 +108,6 @@ fn ltc_sphere(lobe: LtcLobe, axis: vec3f, sin2: f32) -> vec3f {
         vector = irradiance_cone(ltc_cone_axes(cone));
     }
     return ltc_integrals(lobe, vector);
-}
-
-// Of a sphere above the horizon.
-fn ltc_sphere_above(lobe: LtcLobe, axis: vec3f, sin2: f32) -> vec3f {
-    let cone = ltc_cone(lobe, lobe_rotate(lobe.x_axis, axis), clamp(sin2, 0.0, 1.0));
-    return ltc_integrals(lobe, select(vec3f(0.0), ltc_cone_whole(cone), sin2 > 0.0));
 }
 
 fn sphere_light(

@@ -1,12 +1,14 @@
-// The scratches under a pixel by the method of 2018, or by parts of it among the default's. Each pixel walks the hierarchy
-// by its skip pointers, or a list of its triangle. Twin: reference/src/published.rs.
+// The scratches under a pixel by the method of 2018: each pixel traverses the BVH by its skip pointers, or goes through a list of its
+// triangle. Twin: reference/src/published.rs.
 
 // Needs, beside its modules: scratch_nodes, scratch_segments, lights, triangle_lists.
 
+const REACH_STD: f32 = 3.5;
+const FACING_MIN_COS: f32 = 0.2;
+const LEAF_FIRST_BITS: u32 = 28u;
 // Sides of the box that has the variance of a Gaussian of standard deviation 1: the square root of 12.
 const PUBLISHED_BOX: f32 = 3.46410162;
-// Segments seen and not yet lit. Finding and lighting are loops of their own, so that no driver that executes both sides of
-// every branch lights a scratch at each node.
+// Segments seen and not yet lit. Finding and lighting are loops of their own, so that lanes that run in step do the same work.
 const PUBLISHED_BATCH: u32 = 16u;
 
 struct PublishedBatch {
@@ -17,68 +19,60 @@ struct PublishedBatch {
 
 var<private> published_batch: PublishedBatch;
 
-// The point as scratches are seen from it: without a footprint it is the point in the pixel's middle.
+// The point as scratches are seen from it: without anti-aliasing it is the point in the pixel's middle.
 fn published_seen(point: SurfacePoint) -> SurfacePoint {
     var seen = point;
-    if METHOD_FOOTPRINT == FOOTPRINT_OFF {
-        seen.footprint_x_m = vec3f(0.0);
-        seen.footprint_y_m = vec3f(0.0);
+    if !PUBLISHED_ANTI_ALIASING {
+        seen.footprint_x_um = vec2f(0.0);
+        seen.footprint_y_um = vec2f(0.0);
         seen.turn_x = vec2f(0.0);
         seen.turn_y = vec2f(0.0);
     }
     return seen;
 }
 
-// Where a walk is at its end. It counts nodes, or places in a triangle's list from the object's first node on.
-fn published_walk_end(object: Object, triangle: u32) -> u32 {
-    if METHOD_LOOKUP == LOOKUP_TRIANGLES {
+// Half the sides of the box around a point that holds every segment with a share there, world space.
+fn published_reach_m(point: SurfacePoint) -> vec3f {
+    let sigma_m = point.coherence_um * 1e-6;
+    let x = 1e-6 * (point.axis_x * point.footprint_x_um.x + point.axis_y * point.footprint_x_um.y);
+    let y = 1e-6 * (point.axis_x * point.footprint_y_um.x + point.axis_y * point.footprint_y_um.y);
+    let variance = x * x + y * y + 0.7 * sigma_m * sigma_m;
+    let aside = point.leaves * sqrt(variance.x + variance.y + variance.z);
+    return REACH_STD * (sqrt(variance) + abs(point.normal) * aside);
+}
+
+// All scratches of the object under the point's footprint.
+fn published_scratches(point: SurfacePoint, object: Object, triangle: u32) -> ScratchSums {
+    var sums = ScratchSums(0.0, 0.0, vec3f(0.0), vec3f(0.0));
+    published_batch.count = 0u;
+    if PUBLISHED_LISTS {
         let list = triangle_list(triangle);
-        return object.first_node + list.y - list.x;
-    }
-    return object.end_node;
-}
-
-// Walks on to the end or until the rounds are spent.
-fn published_scratches(point: SurfacePoint, object: Object, triangle: u32, end: u32, walk: ptr<function, ScratchWalk>) {
-    let reach_m = gather_reach_m(point);
-    // So that a batch cannot spend many more rounds than there are.
-    let cells = select(0u, ENVIRONMENT_CELLS, HAS_ENVIRONMENT);
-    let chords = frame.light_count * select(4u, 20u, METHOD_BAND == BAND_LINES);
-    let rounds = (chords + cells) * (2u * METHOD_WAVELENGTHS + 2u) + 1u;
-    let most = clamp(GATHER_MAX_ROUNDS / rounds, LEAF_SEGMENTS, PUBLISHED_BATCH);
-    while (*walk).at < end && gather_rounds < GATHER_MAX_ROUNDS {
-        gather_rounds += 1u;
-        var found = 0u;
-        if METHOD_LOOKUP == LOOKUP_TRIANGLES {
-            found = published_find_listed(object, triangle, end, most, walk, &found_segments);
-        } else {
-            var at = (*walk).at;
-            found = find_segments(point.position_m - reach_m, point.position_m + reach_m, end, most, &at, &found_segments);
-            (*walk).at = at;
+        for (var i = list.x; i < list.y; i += 1u) {
+            published_weigh(point, triangle_list_segment(i), &sums);
         }
-        published_weigh(point, found, &found_segments, &published_batch, walk);
-        published_light(point, &published_batch, walk);
+        published_light(point, &sums);
+        return sums;
     }
-}
-
-// The next segments of the triangle's list.
-fn published_find_listed(
-    object: Object,
-    triangle: u32,
-    end: u32,
-    most: u32,
-    walk: ptr<function, ScratchWalk>,
-    segments: ptr<private, array<u32, FIND_SEGMENTS>>,
-) -> u32 {
-    let at = (*walk).at;
-    let count = min(end - at, most);
-    let first = triangle_list(triangle).x + at - object.first_node;
-    for (var i = 0u; i < count; i += 1u) {
-        (*segments)[i] = triangle_list_segment(first + i);
-        gather_rounds += 1u;
+    let reach_m = published_reach_m(point);
+    let lower_m = point.position_m - reach_m;
+    let upper_m = point.position_m + reach_m;
+    var at = object.first_node;
+    while at < object.end_node {
+        let node = scratch_node(at);
+        // Lanes that a software driver has switched off read zeros, and would go round for ever.
+        if node.skip <= at {
+            break;
+        }
+        let touches = all(node.min_m <= upper_m) && all(node.max_m >= lower_m);
+        at = select(node.skip, at + 1u, touches);
+        let first = node.leaf & ((1u << LEAF_FIRST_BITS) - 1u);
+        let count = select(0u, node.leaf >> LEAF_FIRST_BITS, touches);
+        for (var i = first; i < first + count; i += 1u) {
+            published_weigh(point, i, &sums);
+        }
     }
-    (*walk).at = at + count;
-    return count;
+    published_light(point, &sums);
+    return sums;
 }
 
 // What a pixel sees of a segment.
@@ -104,11 +98,11 @@ fn published_weight(point: SurfacePoint, segment: Segment, view: PublishedView) 
         return PublishedWeight(ScratchShare(0.0, 0.0), 0.0);
     }
     let width_um = segment.width_um;
-    if METHOD_FOOTPRINT != FOOTPRINT_PUBLISHED {
+    if !PUBLISHED_ANTI_ALIASING {
         let share = scratch_share(width_um, offset_um, view.start.x, view.end.x, segment.blur_um, footprint, sigma);
         return PublishedWeight(share, 2.0 * share.segment);
     }
-    let pixel = PixelFootprint(PUBLISHED_BOX * axis_x.xy, PUBLISHED_BOX * axis_y.xy);
+    let pixel = PixelFootprint(PUBLISHED_BOX * axis_x, PUBLISHED_BOX * axis_y);
     let seen = published_share(width_um, offset_um, view.start.x, view.end.x, segment.blur_um, pixel, sigma);
     var line = 0.0;
     if METHOD_MASK == MASK_ENERGY {
@@ -117,57 +111,44 @@ fn published_weight(point: SurfacePoint, segment: Segment, view: PublishedView) 
     return PublishedWeight(ScratchShare(seen.share, line), seen.density);
 }
 
-// The share of each segment and what it takes from the base; keeps those that are seen.
-fn published_weigh(
-    point: SurfacePoint,
-    found: u32,
-    segments: ptr<private, array<u32, FIND_SEGMENTS>>,
-    batch: ptr<private, PublishedBatch>,
-    walk: ptr<function, ScratchWalk>,
-) {
-    var sums = (*walk).sums;
-    var kept = 0u;
-    for (var i = 0u; i < found; i += 1u) {
-        gather_rounds += 1u;
-        let index = (*segments)[i];
-        let segment = segment_at(index);
-        let weight = published_weight(point, segment, published_view(point, segment));
-        if weight.share.segment > 0.0 {
-            var taken = vec3f(weight.density / weight.share.segment);
-            if METHOD_MASK != MASK_DENSITY {
-                taken = published_total(point.table, published_mirror_depth_nm(point, segment.depth_nm));
-            }
-            mask_add(&sums, weight.share, taken, vec3f(0.0));
-            (*batch).segments[kept] = index;
-            (*batch).shares[kept] = weight.share.segment;
-            kept += 1u;
-        }
+// Adds the share of a segment and what it takes from the base; keeps it to be lit.
+fn published_weigh(point: SurfacePoint, index: u32, sums: ptr<function, ScratchSums>) {
+    let segment = segment_from(scratch_segment(index));
+    let weight = published_weight(point, segment, published_view(point, segment));
+    if !(weight.share.segment > 0.0) {
+        return;
     }
-    (*walk).sums = sums;
-    (*batch).count = kept;
+    var taken = vec3f(weight.density / weight.share.segment);
+    if METHOD_MASK != MASK_DENSITY {
+        taken = published_total(point.table, segment.depth_nm);
+    }
+    mask_add(sums, weight.share, taken, vec3f(0.0));
+    if published_batch.count == PUBLISHED_BATCH {
+        published_light(point, sums);
+    }
+    published_batch.segments[published_batch.count] = index;
+    published_batch.shares[published_batch.count] = weight.share.segment;
+    published_batch.count += 1u;
 }
 
-// Their light.
-fn published_light(point: SurfacePoint, batch: ptr<private, PublishedBatch>, walk: ptr<function, ScratchWalk>) {
-    for (var i = 0u; i < (*batch).count; i += 1u) {
-        gather_rounds += 1u;
-        let view = published_view(point, segment_at((*batch).segments[i]));
+// Lights the segments that wait.
+fn published_light(point: SurfacePoint, sums: ptr<function, ScratchSums>) {
+    for (var i = 0u; i < published_batch.count; i += 1u) {
+        let view = published_view(point, segment_from(scratch_segment(published_batch.segments[i])));
         var radiance = vec3f(0.0);
-        if HAS_SPHERES {
-            for (var l = published_next_light(0u, LIGHT_SPHERE); l < frame.light_count; l = published_next_light(l + 1u, LIGHT_SPHERE)) {
-                radiance += light_at(l).radiance * published_sphere(point, view, light_at(l));
-                gather_rounds += 1u;
+        for (var l = 0u; l < frame.light_count; l += 1u) {
+            let light = light_at(l);
+            if HAS_SPHERES && light.kind == LIGHT_SPHERE {
+                radiance += light.radiance * published_sphere(point, view, light);
             }
-        }
-        if HAS_POLYGONS {
-            for (var l = published_next_light(0u, LIGHT_POLYGON); l < frame.light_count; l = published_next_light(l + 1u, LIGHT_POLYGON)) {
-                radiance += light_at(l).radiance * published_polygon(point, view, light_at(l));
-                gather_rounds += 1u;
+            if HAS_POLYGONS && light.kind == LIGHT_POLYGON {
+                radiance += light.radiance * published_polygon(point, view, light);
             }
         }
         if HAS_ENVIRONMENT {
             radiance += published_environment(point, view);
         }
-        (*walk).sums.radiance += (*batch).shares[i] * radiance;
+        (*sums).radiance += published_batch.shares[i] * radiance;
     }
+    published_batch.count = 0u;
 }

@@ -16,7 +16,3 @@ fn push_segment(segments: ptr<function, BandSegments>, low: f32, high: f32) {
     (*segments).ends[2] = select((*segments).ends[2], ends, place == 2u);
     (*segments).count = place + 1u;
 }
-
-fn segment_ends(segments: BandSegments, i: u32) -> vec2f {
-    return select(select(segments.ends[0], segments.ends[1], i == 1u), segments.ends[2], i == 2u);
-}

@@ -26,6 +26,11 @@ fn published_chord_integral(q: f32, width_um: f32, wavelength_um: f32, fast: boo
     return sign(q) * (2.0 * si - 4.0 * s * s / x) / k_w;
 }
 
+fn published_chord(ends: vec2f, width_um: f32, wavelength_um: f32, fast: bool) -> f32 {
+    return published_chord_integral(ends.y, width_um, wavelength_um, fast)
+        - published_chord_integral(ends.x, width_um, wavelength_um, fast);
+}
+
 // What one wavelength adds to the channels per unit of the scratch's share, under a light of radiance 1, Fresnel left out.
 fn published_radiance(
     wavelength: PublishedWavelength,
@@ -35,11 +40,16 @@ fn published_radiance(
     fast: bool,
 ) -> vec3f {
     let lambda_um = wavelength.wavelength_um;
+    // No loop: software drivers end long ones, and this is the innermost.
     var chords = 0.0;
-    for (var i = 0u; i < segments.count; i += 1u) {
-        let ends = segment_ends(segments, i);
-        chords += published_chord_integral(ends.y, width_um, lambda_um, fast)
-            - published_chord_integral(ends.x, width_um, lambda_um, fast);
+    if segments.count > 0u {
+        chords += published_chord(segments.ends[0], width_um, lambda_um, fast);
+    }
+    if segments.count > 1u {
+        chords += published_chord(segments.ends[1], width_um, lambda_um, fast);
+    }
+    if segments.count > 2u {
+        chords += published_chord(segments.ends[2], width_um, lambda_um, fast);
     }
     // |D|^2 is the square of this.
     let step = 2.0 * sin(6.28318531e-3 * depth_nm / lambda_um);

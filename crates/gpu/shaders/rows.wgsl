@@ -1,5 +1,5 @@
-// Arrays that lie in textures, 16 bytes a texel, row after row. Software drivers read a texel several times as fast as four
-// words of a storage buffer, GPUs as fast; and textures may be larger than buffers. Twin: src/rows.rs writes them.
+// Arrays that lie in textures, 16 bytes a texel, row after row: a texture may hold four times as much as a storage buffer, and a
+// stage has eight storage buffers only. Twin: src/rows.rs writes them.
 
 // Texels to a row.
 const ROW_BITS: u32 = 12u;
@@ -59,7 +59,6 @@ fn light_at(i: u32) -> Light {
         c.w,
         d.x,
         d.y,
-        bitcast<f32>(d.z),
     );
 }
 

@@ -14,42 +14,17 @@ fn scratch_table_near(texel: vec4u, f: f32) -> vec3f {
     return bitcast<vec3f>(texel.xyz) + mantissas * (f * exp2(f32(texel.w >> 27u) - SCRATCH_TABLE_EXPONENT_BIAS));
 }
 
-// Where the table is looked up for |u| and a depth.
-struct ScratchTablePlace {
-    column: i32,
-    row: i32,
-    beside: vec2f,              // of column and row
-    at: vec2f,                  // columns and rows
-}
-
-fn scratch_table_place(u: f32, depth_nm: f32) -> ScratchTablePlace {
+// T(u, d), odd in u: by value and slope of the nearest column, linear in depth.
+fn scratch_table(table: texture_2d_array<u32>, layer: u32, u_um: f32, depth_nm: f32) -> vec3f {
+    let u = min(abs(u_um), 1e18);
     let x = u / (u + SCRATCH_TABLE_U_HALF_UM) * f32(SCRATCH_TABLE_COLUMNS - 1);
     let column = min(i32(x + 0.5), SCRATCH_TABLE_COLUMNS - 1);
     let y = clamp(depth_nm, 0.0, SCRATCH_TABLE_DEPTH_MAX_NM) * (f32(SCRATCH_TABLE_ROWS - 1) / SCRATCH_TABLE_DEPTH_MAX_NM);
     let row = min(i32(y), SCRATCH_TABLE_ROWS - 2);
-    return ScratchTablePlace(column, row, vec2f(x - f32(column), y - f32(row)), vec2f(x, y));
-}
-
-// T from there: by value and slope of the nearest column, linear in depth.
-fn scratch_table_from(table: texture_2d_array<u32>, layer: u32, place: ScratchTablePlace, beside: vec2f) -> vec3f {
-    let near = scratch_table_near(textureLoad(table, vec2i(place.column, place.row), layer, 0), beside.x);
-    let far = scratch_table_near(textureLoad(table, vec2i(place.column, place.row + 1), layer, 0), beside.x);
-    return near + (far - near) * beside.y;
-}
-
-// T(u, d), odd in u.
-fn scratch_table(table: texture_2d_array<u32>, layer: u32, u_um: f32, depth_nm: f32) -> vec3f {
-    let place = scratch_table_place(min(abs(u_um), 1e18), depth_nm);
-    let sum = scratch_table_from(table, layer, place, place.beside);
-    return select(sum, -sum, u_um < 0.0);
-}
-
-// T((1 + moved.x) u, (1 + moved.y) d) to first order in both.
-fn scratch_table_moved(table: texture_2d_array<u32>, layer: u32, u_um: f32, depth_nm: f32, moved: vec2f) -> vec3f {
-    let place = scratch_table_place(min(abs(u_um), 1e18), depth_nm);
-    // u dx/du and d dy/dd, in columns and rows.
-    let steps = place.at * vec2f(1.0 - place.at.x / f32(SCRATCH_TABLE_COLUMNS - 1), 1.0);
-    let sum = scratch_table_from(table, layer, place, place.beside + moved * steps);
+    let beside = x - f32(column);
+    let near = scratch_table_near(textureLoad(table, vec2i(column, row), layer, 0), beside);
+    let far = scratch_table_near(textureLoad(table, vec2i(column, row + 1), layer, 0), beside);
+    let sum = near + (far - near) * (y - f32(row));
     return select(sum, -sum, u_um < 0.0);
 }
 

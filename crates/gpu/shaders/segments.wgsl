@@ -1,4 +1,4 @@
-// The straight pieces of scratches, unpacked. Needs scratch_segments. Twin: src/upload.rs packs them.
+// The segments of scratches, unpacked. Twin: src/host.rs packs them.
 
 struct Segment {
     start_m: vec3f,
@@ -7,13 +7,11 @@ struct Segment {
     width_um: f32,
     depth_nm: f32,
     blur_um: f32,
-    width_depth: u32,           // both as they are stored
 }
 
 // To half floats and bytes: five parts in ten thousand of a width, a depth or a blur, a degree of a normal that is
 // only asked which side of a sheet it is on.
-fn segment_at(index: u32) -> Segment {
-    let packed = scratch_segment(index);
+fn segment_from(packed: ScratchSegment) -> Segment {
     let width_depth = unpack2x16float(packed.width_depth);
     let normal_blur = packed.normal_blur;
     let octahedral = unpack4x8snorm(normal_blur).xy;
@@ -24,7 +22,6 @@ fn segment_at(index: u32) -> Segment {
         width_depth.x,
         width_depth.y,
         unpack2x16float(normal_blur).y,
-        packed.width_depth,
     );
 }
 

@@ -1,52 +1,37 @@
-// Pass: from what is visible to radiance, by the method of 2018 or by parts of it; shade.wgsl is the default path's. Twin:
-// reference/src/closed_form.rs.
+// Pass: base and scratches of a sample by the method of 2018, in place of shade_base and shade_scratches. Twin:
+// reference/src/published.rs.
 
-// Radiance of the scratches and the share of the base that they take.
-fn published_masked(sums: ScratchSums, depth_coherence: f32) -> Masked {
-    if METHOD_MASK == MASK_ENERGY {
-        return mask_resolve(sums, depth_coherence);
-    }
-    if METHOD_MASK == MASK_DENSITY {
-        return Masked(sums.radiance, min(sums.energy, vec3f(1.0)));
-    }
-    return Masked(sums.radiance, sums.energy);
-}
+@group(3) @binding(0) var<storage, read> points: array<PixelPoint>;
+@group(3) @binding(1) var<storage, read> paints: array<PixelPaint>;
+@group(3) @binding(2) var<storage, read_write> base_light: array<BaseLight>;
+// One chunk for each group.
+@group(3) @binding(3) var<storage, read_write> chunk_sums: array<ChunkSum>;
+@group(3) @binding(4) var<storage, read_write> film: Film;
 
 @compute @workgroup_size(8, 8)
-fn shade(
+fn shade_published(
     @builtin(workgroup_id) workgroup: vec3u,
     @builtin(num_workgroups) workgroups: vec3u,
-    @builtin(local_invocation_id) local: vec3u,
+    @builtin(local_invocation_index) lane: u32,
 ) {
-    let pixel = film_pixel(workgroup.xy, workgroups.xy, local.xy);
-    if pixel.x >= frame.size_px.x || pixel.y >= frame.rows.y {
+    let group = workgroup.y * workgroups.x + workgroup.x;
+    if group >= frame.group_count || !group_has(group, lane) {
         return;
     }
-    // Complete since an earlier dispatch.
-    if film.pixels[film_index(pixel)].samples > frame.sample {
+    let at = group_point(group, lane);
+    let object = points[at].object;
+    if object == 0u {
         return;
     }
-    let ray = film_ray(pixel);
-    let seen = film_visible(pixel);
-    var value: FilmPixel;
-    if seen.x == 0u {
-        value = shade_background(ray);
-    } else {
-        var depth_m: f32;
-        let point = hit_surface_point(seen.x - 1u, ray, &depth_m);
-        let object = objects[seen.y];
-        var masked: Masked;
-        if HAS_SCRATCHES {
-            var walk = film_resume(pixel, object.first_node);
-            let end = published_walk_end(object, seen.x - 1u);
-            published_scratches(published_seen(point), object, seen.x - 1u, end, &walk);
-            if walk.at < end {
-                film_keep(pixel, walk);
-                return;
-            }
-            masked = published_masked(walk.sums, object.depth_coherence);
-        }
-        value = shade_surface(point, depth_m, masked, published_base(point));
+    let point = surface_point_from(points[at], paints[at]);
+    let light = published_base(point);
+    let fresnel = fresnel_eval(FresnelRgb(point.f0, point.fresnel_a), point.wo.z);
+    base_light[at] = BaseLight(light.specular, light.diffuse + point.emission, fresnel);
+    if HAS_SCRATCHES {
+        let sums = published_scratches(published_seen(point), objects[object - 1u], paints[at].triangle);
+        chunk_sums[GROUP * group + lane] = ChunkSum(sums.radiance, sums.share, sums.energy, sums.share_by_line);
     }
-    film_add(pixel, value);
+    if loops_were_cut() {
+        atomicAdd(&film.gave_up, 1u);
+    }
 }

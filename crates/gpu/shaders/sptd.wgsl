@@ -164,21 +164,6 @@ fn sptd_segment(angle: f32) -> f32 {
     return select(whole - sin(whole), series, whole < 1.0) / (2.0 * GGX_PI);
 }
 
-fn sptd_sphere(lobe: SptdLobe, axis: vec3f, sin2: f32) -> f32 {
-    if (sin2 >= 1.0) {
-        return lobe.albedo;
-    }
-    let lit = sptd_visible(lobe, axis, sin2);
-    let sphere = 4.0 * GGX_PI * sptd_horizon_share(lobe);
-    let share = min(lit.solid_angle / sphere, 1.0);
-    if (share <= 0.0) {
-        return 0.0;
-    }
-    let corrected = sphere * sptd_mean(lobe, lit);
-    let wide = min(2.0 * share, 1.0);
-    return min(share * mix(corrected, lobe.albedo, wide * (2.0 - wide)), lobe.albedo);
-}
-
 // The published method: nothing put back.
 fn sptd_sphere_published(lobe: SptdLobe, axis: vec3f, sin2: f32) -> f32 {
     if (sin2 >= 1.0) {
@@ -194,45 +179,4 @@ fn sptd_visible(lobe: SptdLobe, axis: vec3f, sin2: f32) -> SphericalRegion {
     let image = sptd_transform_cap(lobe, light);
     let hidden = sptd_cap_intersection(image, sptd_transform_cap(lobe, sptd_nadir()));
     return sptd_subtract(sptd_cap_region(image), hidden);
-}
-
-const SPTD_RING_SHARE: f32 = 0.75;
-const SPTD_RING_WEIGHT: f32 = 0.16666667;
-const SPTD_CENTRE_WEIGHT: f32 = 0.33333333;
-
-fn sptd_mean(lobe: SptdLobe, region: SphericalRegion) -> f32 {
-    let magnitude = length(region.vector);
-    let centre = select(vec3f(0.0, 0.0, 1.0), region.vector / max(magnitude, 1e-30), magnitude > 0.0);
-    let sides = irradiance_basis(centre);
-    let depth = SPTD_RING_SHARE * region.solid_angle / (2.0 * GGX_PI);
-    let height = 1.0 - depth;
-    let radius = sqrt(max(depth * (2.0 - depth), 0.0));
-    var sums = sptd_ring_point(lobe, centre, SPTD_CENTRE_WEIGHT);
-    sums += sptd_ring_point(lobe, height * centre + radius * sides.u, SPTD_RING_WEIGHT);
-    sums += sptd_ring_point(lobe, height * centre + radius * sides.v, SPTD_RING_WEIGHT);
-    sums += sptd_ring_point(lobe, height * centre - radius * sides.u, SPTD_RING_WEIGHT);
-    sums += sptd_ring_point(lobe, height * centre - radius * sides.v, SPTD_RING_WEIGHT);
-    return sums.x / max(sums.y, 1e-30);
-}
-
-// (GGX times the map's Jacobian, 1) times the weight; nothing below the horizon.
-fn sptd_ring_point(lobe: SptdLobe, w: vec3f, weight: f32) -> vec2f {
-    let d = -w - lobe.pivot;
-    let jacobian = lobe.gap / dot(d, d);
-    let wi = lobe.pivot - d * jacobian;
-    if (wi.z <= 0.0) {
-        return vec2f(0.0);
-    }
-    return vec2f(ggx_eval(wi, lobe.wo, lobe.alpha) * jacobian * jacobian, 1.0) * weight;
-}
-
-fn sptd_sphere_light(
-    wo: vec3f,
-    roughness: f32,
-    axis: vec3f,
-    sin2: f32,
-    sptd_table: texture_2d<f32>,
-    albedo_table: texture_2d<f32>,
-) -> f32 {
-    return sptd_sphere(sptd_lobe(wo, roughness, sptd_table, albedo_table), axis, sin2);
 }

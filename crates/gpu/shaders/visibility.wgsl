@@ -14,8 +14,8 @@ fn visibility_vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index
     let scale = frame.px_per_slope * frame.px_per_slope;
     let x = scale * dot(frame.per_px_x, relative) - frame.jitter_px.x * depth;
     let y = scale * dot(frame.per_px_y, relative) - frame.jitter_px.y * depth;
-    // The viewport is the film: these rows of the picture alone.
-    let half_size = 0.5 * vec2f(f32(frame.size_px.x), f32(frame.rows.y - frame.rows.x));
+    // The viewport is the strip, and a row above and below it.
+    let half_size = 0.5 * vec2f(f32(frame.size_px.x), f32(frame.rows.y - frame.rows.x + 2u));
     let middle = 0.5 * f32(frame.rows.x + frame.rows.y) - 0.5 * f32(frame.size_px.y);
     // Reversed depth without a far plane: near_m / depth keeps all its digits at any distance.
     let clip = vec4f(x / half_size.x, (middle * depth - y) / half_size.y, frame.near_m, depth);

@@ -1,22 +1,20 @@
-//! What the passes bind, group by group. Twin: `shaders/bindings.wgsl` and `shaders/film.wgsl`.
+//! What the passes bind, group by group. Twin: `shaders/bindings.wgsl`.
 //!
-//! Group 0 the frame, group 1 the scene's buffers, group 2 its tables and textures, group 3 visibility and film: five
-//! storage buffers in all, of the eight that every WebGPU device has.
+//! Group 0 the frame, group 1 the scene's arrays, group 2 its tables and textures; group 3 is each pass's own. Of the 16 sampled
+//! textures of a WebGPU stage 13 are taken, one more by passes that read visibility; of the 8 storage buffers 2.
 
-use wgpu::ShaderStages;
+use wgpu::{ShaderStages, TextureViewDimension};
 
 use crate::device::Gpu;
-use crate::storage_textures::{self, NUMBERS_FORMAT, TEXEL_FORMAT};
-use crate::tile_room::TILE_LISTS_FORMAT;
 
-/// Names of the scene's buffers in the order of their bindings.
+/// Names of the scene's arrays in the order of their bindings.
 pub const SCENE_BUFFERS: [&str; 6] = [
     "triangles",
     "objects",
     "materials",
     "lights",
-    "scratch tree",
     "scratch segments",
+    "scratch tree",
 ];
 
 /// From this one on they lie in textures.
@@ -27,9 +25,6 @@ pub(crate) struct Layouts {
     pub frame: wgpu::BindGroupLayout,
     pub scene: wgpu::BindGroupLayout,
     pub textures: wgpu::BindGroupLayout,
-    pub film: wgpu::BindGroupLayout,
-    /// Group 3 of the pass that makes the tiles' lists, instead.
-    pub tiles: wgpu::BindGroupLayout,
 }
 
 impl Layouts {
@@ -41,66 +36,29 @@ impl Layouts {
             .map(|i| match i {
                 0 => entry(i, both, storage(true)),
                 i if i < FIRST_ROWS => entry(i, compute, storage(true)),
-                i => entry(
-                    i,
-                    compute,
-                    storage_textures::binding(gpu, TEXEL_FORMAT, wgpu::TextureViewDimension::D2),
-                ),
+                i => entry(i, compute, integers()),
             })
             .collect();
-        let numbers =
-            storage_textures::binding(gpu, NUMBERS_FORMAT, wgpu::TextureViewDimension::D2);
+        let d2 = TextureViewDimension::D2;
         let textures = [
-            storage_textures::binding(gpu, TEXEL_FORMAT, wgpu::TextureViewDimension::D2Array),
-            numbers,
-            numbers,
-            numbers,
-            texture(wgpu::TextureViewDimension::D2, true),
-            texture(wgpu::TextureViewDimension::D2, true),
-            texture(wgpu::TextureViewDimension::D2Array, true),
-            texture(wgpu::TextureViewDimension::D2, false),
-            integers(),
+            texture(wgpu::TextureSampleType::Uint, TextureViewDimension::D2Array),
+            numbers(d2, false),
+            numbers(d2, false),
+            numbers(d2, false),
+            numbers(d2, true),
+            numbers(d2, true),
+            numbers(TextureViewDimension::D2Array, true),
+            numbers(d2, false),
             integers(),
         ];
         let textures: Vec<_> = (0..)
             .zip(textures)
             .map(|(i, ty)| entry(i, compute, ty))
             .collect();
-        let written = wgpu::BindingType::StorageTexture {
-            access: wgpu::StorageTextureAccess::WriteOnly,
-            format: TILE_LISTS_FORMAT,
-            view_dimension: wgpu::TextureViewDimension::D2,
-        };
-        let queues = entry(3, compute, storage(false));
-        let tiles = [
-            entry(0, compute, integers()),
-            entry(1, compute, written),
-            queues,
-        ];
         Self {
             frame: layout(gpu, "frame", &[entry(0, both, uniform())]),
             scene: layout(gpu, "scene", &scene),
             textures: layout(gpu, "textures", &textures),
-            film: layout(
-                gpu,
-                "film",
-                &[
-                    entry(0, compute, integers()),
-                    entry(1, compute, storage(false)),
-                    entry(
-                        2,
-                        compute,
-                        storage_textures::binding(
-                            gpu,
-                            TEXEL_FORMAT,
-                            wgpu::TextureViewDimension::D2,
-                        ),
-                    ),
-                    queues,
-                    entry(4, compute, storage(false)),
-                ],
-            ),
-            tiles: layout(gpu, "tiles", &tiles),
         }
     }
 }
@@ -146,20 +104,35 @@ pub(crate) fn storage(read_only: bool) -> wgpu::BindingType {
     }
 }
 
-fn texture(view_dimension: wgpu::TextureViewDimension, filterable: bool) -> wgpu::BindingType {
+/// A part of a buffer that each dispatch chooses.
+pub(crate) fn dynamic_uniform() -> wgpu::BindingType {
+    wgpu::BindingType::Buffer {
+        ty: wgpu::BufferBindingType::Uniform,
+        has_dynamic_offset: true,
+        min_binding_size: None,
+    }
+}
+
+fn texture(
+    sample_type: wgpu::TextureSampleType,
+    view_dimension: TextureViewDimension,
+) -> wgpu::BindingType {
     wgpu::BindingType::Texture {
-        sample_type: wgpu::TextureSampleType::Float { filterable },
+        sample_type,
         view_dimension,
         multisampled: false,
     }
 }
 
-fn integers() -> wgpu::BindingType {
-    wgpu::BindingType::Texture {
-        sample_type: wgpu::TextureSampleType::Uint,
-        view_dimension: wgpu::TextureViewDimension::D2,
-        multisampled: false,
-    }
+fn numbers(view_dimension: TextureViewDimension, filterable: bool) -> wgpu::BindingType {
+    texture(
+        wgpu::TextureSampleType::Float { filterable },
+        view_dimension,
+    )
+}
+
+pub(crate) fn integers() -> wgpu::BindingType {
+    texture(wgpu::TextureSampleType::Uint, TextureViewDimension::D2)
 }
 
 /// A bind group of `resources` in the order of their bindings.

@@ -1,16 +1,16 @@
-//! A picture of any size that comes together sample by sample, band by band, and can be shown or read at any moment: what a
-//! window paints on.
+//! A picture of any size that comes together step by step, band by band, and can be shown or read at any moment: what a window
+//! paints on.
 
 use std::ops::Range;
 
 use hairline_image::Image;
 
-use crate::bindings::Layouts;
 use crate::device::Gpu;
 use crate::error::Error;
-use crate::film::{Band, BandRoom, Film, RoomNeeds};
+use crate::film::Film;
 use crate::layout::FilmPixel;
 use crate::renderer::Renderer;
+use crate::strip::StripRoom;
 
 /// Bands of rows, each with a film of its own, so that no binding has to hold the whole picture and that work can stop after
 /// any band. It takes 64 bytes a pixel, and what the passes need for one band at a time.
@@ -21,14 +21,14 @@ pub struct Canvas {
     gpu: Gpu,
     size_px: [u32; 2],
     band_rows: u32,
-    room: BandRoom,
+    room: StripRoom,
     bands: Vec<CanvasBand>,
 }
 
 struct CanvasBand {
     film: Film,
     /// Complete ones; none while one is being added, which may end early.
-    samples: u32,
+    steps: u32,
 }
 
 impl Canvas {
@@ -42,10 +42,10 @@ impl Canvas {
         size_px: [u32; 2],
         submission_px: u32,
     ) -> Result<Self, Error> {
-        let (gpu, layouts) = (renderer.gpu(), renderer.layouts());
+        let gpu = renderer.gpu();
         let size_px = size_px.map(|n| n.max(1));
         let band_rows = Film::band_rows(gpu, size_px, submission_px);
-        let room = BandRoom::new(gpu, layouts, size_px[0], band_rows, RoomNeeds::default()).await?;
+        let room = StripRoom::new(gpu, renderer.scans(), size_px[0], band_rows).await?;
         let mut canvas = Self {
             gpu: gpu.clone(),
             size_px,
@@ -55,8 +55,8 @@ impl Canvas {
         };
         for band in 0..size_px[1].div_ceil(band_rows) as usize {
             let rows = canvas.rows(band).len() as u32;
-            let film = Film::new(gpu, layouts, &canvas.room, rows).await?;
-            canvas.bands.push(CanvasBand { film, samples: 0 });
+            let film = Film::new(gpu, size_px[0], rows).await?;
+            canvas.bands.push(CanvasBand { film, steps: 0 });
         }
         gpu.check()?;
         Ok(canvas)
@@ -78,10 +78,10 @@ impl Canvas {
         first..(first + self.band_rows).min(self.size_px[1])
     }
 
-    /// The complete samples of a band's pixels: the next one that it can take, beside 0. It is 0 again after an
+    /// The complete steps of a band's pixels: the next one that it can take, beside 0. It is 0 again after an
     /// [`Renderer::accumulate`] that failed or was dropped.
-    pub fn samples(&self, band: usize) -> u32 {
-        self.bands[band].samples
+    pub fn steps(&self, band: usize) -> u32 {
+        self.bands[band].steps
     }
 
     /// What the picture takes of the device's memory, bytes, without what the passes need for a band.
@@ -92,7 +92,7 @@ impl Canvas {
     /// All layers, each pixel's mean over the samples that it has; black where it has none. Waits for what was submitted.
     ///
     /// # Errors
-    /// [`Error::IterationBudget`] where the device ended loops too early; [`Error::OutOfMemory`], [`Error::Lost`].
+    /// [`Error::IterationBudget`] where the device cut loops short; [`Error::OutOfMemory`], [`Error::Lost`].
     pub async fn image(&self) -> Result<Image, Error> {
         let mut image = Image::new(self.size_px);
         for (i, band) in self.bands.iter().enumerate() {
@@ -101,43 +101,19 @@ impl Canvas {
         Ok(image)
     }
 
-    /// Makes room for what a scene's passes need, if there is none.
-    pub(crate) async fn make_room(
-        &mut self,
-        layouts: &Layouts,
-        needs: RoomNeeds,
-    ) -> Result<(), Error> {
-        if self.room.has(needs) {
-            return Ok(());
-        }
-        let (gpu, width) = (&self.gpu, self.size_px[0]);
-        self.room = BandRoom::new(gpu, layouts, width, self.band_rows, needs).await?;
-        for band in &mut self.bands {
-            band.film.move_to(gpu, layouts, &self.room);
-        }
-        Ok(())
-    }
-
-    /// Marks a band as being worked on.
-    pub(crate) fn begin(&mut self, band: usize, sample: u32) {
-        let samples = &mut self.bands[band].samples;
+    /// Marks a band as being worked on; hands out its film, and the room to work in.
+    pub(crate) fn begin(&mut self, band: usize, step: u32) -> (&Film, &mut StripRoom) {
+        let CanvasBand { film, steps } = &mut self.bands[band];
         assert!(
-            sample == 0 || sample == *samples,
-            "sample {sample} cannot follow {samples} samples of band {band}"
+            step == 0 || step == *steps,
+            "step {step} cannot follow {steps} steps of band {band}"
         );
-        *samples = 0;
+        *steps = 0;
+        (film, &mut self.room)
     }
 
-    pub(crate) fn finish(&mut self, band: usize, samples: u32) {
-        self.bands[band].samples = samples;
-    }
-
-    pub(crate) fn band(&self, band: usize) -> Band<'_> {
-        Band {
-            room: &self.room,
-            film: &self.bands[band].film,
-            rows: self.rows(band),
-        }
+    pub(crate) fn finish(&mut self, band: usize, steps: u32) {
+        self.bands[band].steps = steps;
     }
 
     /// All films from the top, each with its rows.

@@ -1,27 +1,109 @@
-//! A compute pass over a scene, as all passes that shade begin it.
+//! A compute pass over a scene: its pipeline, what it binds of its own, and how it is dispatched.
 
-use crate::pipelines::Pipeline;
+use wgpu::{BindingResource, ShaderStages};
+
+use crate::bindings::{bind, dynamic_uniform, entry, integers, layout, storage, uniform};
+use crate::device::Gpu;
+use crate::pipelines::{Orders, Pipeline};
+use crate::shaders::Module;
 use crate::timing::Timing;
 use crate::upload::GpuScene;
+use crate::variant::Constant;
 
-/// Begins the pass `name`, timed, with the pipeline and its four groups bound; what is left is to dispatch it.
-pub(crate) fn begin<'a>(
-    encoder: &'a mut wgpu::CommandEncoder,
+/// What a binding of group 3 is to the shader.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Use {
+    Reads,
+    Writes,
+    Uniform,
+    /// A part of a buffer that each dispatch chooses.
+    DynamicUniform,
+    /// A texture of integers.
+    Integers,
+}
+
+pub(crate) struct ComputePass {
+    /// For timing.
     name: &'static str,
-    timing: &Timing,
-    pipeline: &Pipeline,
-    frame: &wgpu::BindGroup,
-    scene: &GpuScene,
-    group_3: &wgpu::BindGroup,
-) -> wgpu::ComputePass<'a> {
-    let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
-        label: Some(name),
-        timestamp_writes: timing.compute(name),
-    });
-    pass.set_pipeline(pipeline.get());
-    let groups = [frame, &scene.buffers.group, &scene.textures.group, group_3];
-    for (group, bound) in (0..).zip(groups) {
-        pass.set_bind_group(group, bound, &[]);
+    pipeline: Pipeline,
+    group_3: wgpu::BindGroupLayout,
+}
+
+/// What all passes of a strip bind, and who notes their time.
+pub(crate) struct Recording<'a> {
+    pub encoder: &'a mut wgpu::CommandEncoder,
+    pub frame: &'a wgpu::BindGroup,
+    pub scene: &'a GpuScene,
+    pub timing: &'a Timing,
+}
+
+/// Workgroups that each WebGPU device takes in one dimension.
+const WORKGROUPS_MAX: u32 = 65_535;
+
+impl ComputePass {
+    /// Asks for the pipeline of an entry point. `uses` are its bindings of group 3, in order.
+    pub fn order(
+        orders: &mut Orders,
+        name: &'static str,
+        (module, entry_point): (&'static Module, &'static str),
+        uses: &[Use],
+        more: &[Constant],
+    ) -> Self {
+        let entries: Vec<_> = (0..)
+            .zip(uses)
+            .map(|(binding, used)| {
+                let kind = match used {
+                    Use::Reads => storage(true),
+                    Use::Writes => storage(false),
+                    Use::Uniform => uniform(),
+                    Use::DynamicUniform => dynamic_uniform(),
+                    Use::Integers => integers(),
+                };
+                entry(binding, ShaderStages::COMPUTE, kind)
+            })
+            .collect();
+        let group_3 = layout(orders.gpu(), name, &entries);
+        Self {
+            name,
+            pipeline: orders.pipeline((module, entry_point), &group_3, more),
+            group_3,
+        }
     }
-    pass
+
+    /// Binds group 3.
+    pub fn bind(&self, gpu: &Gpu, resources: &[BindingResource<'_>]) -> wgpu::BindGroup {
+        bind(gpu, self.name, &self.group_3, resources)
+    }
+
+    /// Records one dispatch. `offsets` chooses the parts of dynamic uniforms.
+    pub fn dispatch(
+        &self,
+        recording: &mut Recording,
+        group_3: &wgpu::BindGroup,
+        offsets: &[u32],
+        [x, y]: [u32; 2],
+    ) {
+        let Recording {
+            encoder,
+            frame,
+            scene,
+            timing,
+        } = recording;
+        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+            label: Some(self.name),
+            timestamp_writes: timing.compute(self.name),
+        });
+        pass.set_pipeline(self.pipeline.get());
+        pass.set_bind_group(0, *frame, &[]);
+        pass.set_bind_group(1, &scene.buffers.group, &[]);
+        pass.set_bind_group(2, &scene.textures.group, &[]);
+        pass.set_bind_group(3, group_3, offsets);
+        pass.dispatch_workgroups(x, y, 1);
+    }
+}
+
+/// The dispatch of so many workgroups in a row, in two dimensions where one is not enough: a few more than asked for then.
+pub(crate) fn in_a_row(workgroups: u32) -> [u32; 2] {
+    let y = workgroups.div_ceil(WORKGROUPS_MAX).max(1);
+    [workgroups.div_ceil(y), y]
 }

@@ -2,13 +2,12 @@
 //!
 //! Everything here is possible under WebGPU: the one optional feature that is asked for is the device's clock, which only
 //! measurements miss where it is absent, and no limit above WebGPU's defaults is needed, except by scenes that outgrow one
-//! buffer. Software drivers are asked for more storage textures; without them they are slower.
+//! buffer.
 
 use std::sync::{Arc, Mutex, OnceLock};
 
 use crate::error::Error;
 use crate::passes::Compiled;
-use crate::storage_textures::STORAGE_TEXTURES;
 
 /// What kind of machine an adapter stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -196,7 +195,7 @@ impl Adapter {
             required_limits: if default_limits {
                 wgpu::Limits::defaults()
             } else {
-                raised_limits(self.kind, &self.handle.limits())
+                raised_limits(&self.handle.limits())
             },
             ..Default::default()
         }
@@ -240,21 +239,12 @@ fn shortcoming(limits: &wgpu::Limits, downlevel: &wgpu::DownlevelCapabilities) -
     (!missing.is_empty()).then(|| missing.join("; "))
 }
 
-/// WebGPU's default limits, save those that a large scene outgrows, the sizes of one buffer, and what a software driver reads in place.
-fn raised_limits(kind: AdapterKind, allowed: &wgpu::Limits) -> wgpu::Limits {
-    let defaults = wgpu::Limits::defaults();
-    let storage_textures = allowed
-        .max_storage_textures_per_shader_stage
-        .min(STORAGE_TEXTURES);
+/// WebGPU's default limits, save those that a large scene outgrows: the sizes of one buffer.
+fn raised_limits(allowed: &wgpu::Limits) -> wgpu::Limits {
     wgpu::Limits {
         max_buffer_size: allowed.max_buffer_size,
         max_storage_buffer_binding_size: allowed.max_storage_buffer_binding_size,
-        max_storage_textures_per_shader_stage: if kind == AdapterKind::Software {
-            storage_textures
-        } else {
-            defaults.max_storage_textures_per_shader_stage
-        },
-        ..defaults
+        ..wgpu::Limits::defaults()
     }
 }
 

@@ -1,10 +1,11 @@
-//! The frame uniform: camera, jitter and environment of one picture sample.
+//! The frame uniform: camera, jitter and environment of one step of a strip.
 
-use glam::{DVec3, UVec2};
+use std::ops::Range;
+
+use glam::DVec3;
 use hairline_scene::camera::pixel_jitter;
 use hairline_scene::{Environment, Scene};
 
-use crate::film::Band;
 use crate::layout::{ENVIRONMENT_PRESENT, ENVIRONMENT_VISIBLE, Frame};
 use crate::upload::GpuScene;
 
@@ -12,17 +13,65 @@ use crate::upload::GpuScene;
 /// camera comes nearer to anything that it can show.
 const NEAR_M: f32 = 1e-5;
 
-/// The uniform for sample `sample` of `samples` of a band of a picture of `size_px`.
+/// What of a picture is shaded at a time.
+#[derive(Clone, Copy)]
+pub(crate) struct View<'a> {
+    pub scene: &'a Scene,
+    pub uploaded: &'a GpuScene,
+    pub size_px: [u32; 2],
+    /// 0: every pixel through its centre; later ones: samples of pixels on edges and creases.
+    pub step: u32,
+    /// Of pixels on edges.
+    pub samples: u32,
+}
+
+/// Samples of a pixel that one step shades: more would take more memory than pixels through their centres.
+pub(crate) const SAMPLES_AT_ONCE: u32 = 16;
+
+impl View<'_> {
+    /// The samples of its step.
+    pub fn step_samples(&self) -> Range<u32> {
+        match self.step {
+            0 => 0..1,
+            _ => {
+                let first = (self.step - 1) * SAMPLES_AT_ONCE;
+                first..(first + SAMPLES_AT_ONCE).min(self.samples)
+            }
+        }
+    }
+}
+
+/// What of a step is counted on the device.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Counted {
+    /// Of all tile lists.
+    pub entries: u32,
+    /// Of samples that are shaded together.
+    pub groups: u32,
+}
+
+/// The uniform for sample `sample` of a strip of `rows`, whose film begins with `film_row`.
 pub(crate) fn frame(
-    scene: &Scene,
-    uploaded: &GpuScene,
-    size_px: [u32; 2],
+    view: &View,
+    rows: &Range<u32>,
+    film_row: u32,
     sample: u32,
-    samples: u32,
-    band: &Band<'_>,
+    counted: Counted,
 ) -> Frame {
+    let View {
+        scene,
+        uploaded,
+        size_px,
+        step,
+        samples,
+    } = *view;
     let camera = scene.camera.frame(size_px);
     let environment = scene.environment.as_ref();
+    // Jittered samples share the pixel's filter; the one through the centre has all of it.
+    let (jitter, of) = match step {
+        0 => (glam::DVec2::ZERO, 1),
+        _ => (pixel_jitter(sample, samples), samples),
+    };
     Frame {
         camera_m: vec3(camera.position_m - uploaded.origin_m()),
         pad_0: 0.0,
@@ -31,20 +80,31 @@ pub(crate) fn frame(
         per_px_x: vec3(camera.per_px_x),
         px_per_slope: (1.0 / camera.per_px_x.length()) as f32,
         per_px_y: vec3(camera.per_px_y),
-        footprint_std_px: scene.render.footprint_std_px(samples) as f32,
+        footprint_std_px: scene.render.footprint_std_px(of) as f32,
         size_px,
-        rows: UVec2::new(band.rows.start, band.rows.end).to_array(),
-        jitter_px: pixel_jitter(sample, samples).as_vec2().to_array(),
+        rows: [rows.start, rows.end],
+        jitter_px: jitter.as_vec2().to_array(),
         light_count: uploaded.light_count,
         environment_flags: environment.map_or(0, environment_flags),
         environment_from_world: environment.map_or_else(Default::default, environment_from_world),
         environment_sh: environment.map_or_else(Default::default, environment_sh),
         environment_texel_radiance: environment.map_or(0.0, |e| e.texel_radiance() as f32),
-        sample,
-        tile_chunks: band.room.tiles.chunks(),
-        record_segments: band.room.tiles.record_segments(),
+        step,
+        sample: sample - view.step_samples().start,
+        samples: view.step_samples().len() as u32,
+        film_row,
+        segment_count: uploaded.buffers.segment_count(),
+        list_std_px: scene.render.footprint_std_px(1) as f32,
+        list_jitter_px: if samples > 1 { JITTER_MAX_PX } else { 0.0 },
+        entry_count: counted.entries,
+        object_count: scene.objects.len() as u32,
+        group_count: counted.groups,
+        pad_1: 0,
     }
 }
+
+/// Jittered samples lie within half a pixel of the centre to either side, by the diagonal.
+const JITTER_MAX_PX: f32 = 0.71;
 
 fn vec3(v: DVec3) -> [f32; 3] {
     v.as_vec3().to_array()

@@ -52,8 +52,18 @@ pub(crate) fn vertices(mesh: &Mesh, origin_m: DVec3) -> Vec<Vertex> {
 
 /// One for each object of the scene whose index this is.
 pub(crate) fn objects(index: &ScratchIndex) -> Vec<Object> {
-    let nodes = index.tree.objects.iter();
-    nodes.zip(&index.depth_coherence).map(object).collect()
+    let object = |(i, nodes): (usize, &Range<u32>)| {
+        let segments = index.segment_range(i);
+        Object {
+            first_segment: segments.start,
+            end_segment: segments.end,
+            first_node: nodes.start,
+            end_node: nodes.end,
+            depth_coherence: index.depth_coherence[i],
+            coherence_um: index.coherence_max_um()[i],
+        }
+    };
+    index.tree.objects.iter().enumerate().map(object).collect()
 }
 
 pub(crate) fn nodes(index: &ScratchIndex, origin_m: DVec3) -> Vec<ScratchNode> {
@@ -85,14 +95,6 @@ fn polygon_vertex_count(light: &hairline_scene::Light) -> usize {
     }
 }
 
-fn object((nodes, depth_coherence): (&Range<u32>, &f32)) -> Object {
-    Object {
-        first_node: nodes.start,
-        end_node: nodes.end,
-        depth_coherence: *depth_coherence,
-    }
-}
-
 fn material(scene: &Scene, tables: &ScratchTables, array: &TextureArray, index: usize) -> Material {
     let (material, optics) = (&scene.materials[index], &tables.materials[index]);
     let rgb = |color: [f64; 3]| color.map(|c| c as f32);
@@ -114,6 +116,38 @@ fn material(scene: &Scene, tables: &ScratchTables, array: &TextureArray, index: 
         normal_texture: array.packed(material.normal_texture.map(|(texture, _)| texture)),
         emission_texture: array.packed(material.emission_texture),
     }
+}
+
+/// Where the lights of each kind end: spheres, then polygons of at most four vertices, then others.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct LightKinds {
+    pub spheres: u32,
+    pub quads: u32,
+    pub all: u32,
+}
+
+fn kind_rank(light: &hairline_scene::Light) -> u32 {
+    match polygon_vertex_count(light) {
+        0 => 0,
+        1..=4 => 1,
+        _ => 2,
+    }
+}
+
+pub(crate) fn light_kinds(scene: &Scene) -> LightKinds {
+    let up_to = |rank| scene.all_lights().filter(|l| kind_rank(l) <= rank).count() as u32;
+    LightKinds {
+        spheres: up_to(0),
+        quads: up_to(1),
+        all: up_to(2),
+    }
+}
+
+/// All lights, kind after kind.
+pub(crate) fn sorted_lights(scene: &Scene) -> Vec<&hairline_scene::Light> {
+    let mut lights: Vec<_> = scene.all_lights().collect();
+    lights.sort_by_key(|light| kind_rank(light));
+    lights
 }
 
 /// All lights, and behind them the vertices of those that are polygons, as texels.
@@ -152,13 +186,12 @@ pub(crate) fn lights(scene: &Scene, origin_m: DVec3) -> Vec<[u32; 4]> {
                     two_sided: u32::from(*two_sided),
                     first_vertex,
                     vertex_count: vertices_m.len() as u32,
-                    area_m2: area_m2.length() as f32,
                     ..bounded
                 }
             }
         }
     };
-    let lights: Vec<Light> = scene.all_lights().map(light).collect();
+    let lights: Vec<Light> = sorted_lights(scene).into_iter().map(light).collect();
     let mut texels = bytemuck::cast_slice(&lights).to_vec();
     texels.extend_from_slice(bytemuck::cast_slice(&vertices));
     texels

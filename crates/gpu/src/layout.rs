@@ -14,8 +14,7 @@ pub const LIGHT_SPHERE: u32 = 0;
 /// [`Light::kind`].
 pub const LIGHT_POLYGON: u32 = 1;
 
-/// Where the pixels of a film begin in its buffer, bytes. Two counts come first: pixels that gave up, pixels that are
-/// unfinished.
+/// Where the pixels of a film begin in its buffer, bytes. A count comes first: invocations whose loops were cut short.
 pub const FILM_PIXELS_OFFSET: u64 = 16;
 
 macro_rules! shared {
@@ -62,9 +61,17 @@ shared! {
         environment_from_world: [[f32; 4]; 3],
         environment_sh: [[f32; 4]; 9],
         environment_texel_radiance: f32,
+        step: u32,
         sample: u32,
-        tile_chunks: u32,
-        record_segments: u32,
+        samples: u32,
+        film_row: u32,
+        segment_count: u32,
+        list_std_px: f32,
+        list_jitter_px: f32,
+        entry_count: u32,
+        object_count: u32,
+        group_count: u32,
+        pad_1: u32,
     }
     /// A corner of a triangle.
     Vertex {
@@ -77,9 +84,12 @@ shared! {
     }
     /// The scratches of an object.
     Object {
+        first_segment: u32,
+        end_segment: u32,
         first_node: u32,
         end_node: u32,
         depth_coherence: f32,
+        coherence_um: f32,
     }
     /// A material.
     Material {
@@ -108,8 +118,8 @@ shared! {
         two_sided: u32,
         first_vertex: u32,
         vertex_count: u32,
-        area_m2: f32,
-        pad: u32,
+        pad_0: u32,
+        pad_1: u32,
     }
     /// A node over the segments of an object.
     ScratchNode {
@@ -125,6 +135,54 @@ shared! {
         end_m: [f32; 3],
         normal_blur: u32,
     }
+    /// The surface point that a pixel sees.
+    PixelPoint {
+        position_m: [f32; 3],
+        object: u32,
+        normal: [f32; 3],
+        depth_m: f32,
+        axis_x: [f32; 3],
+        coherence_um: f32,
+        footprint_um: [f32; 4],
+        turns: [f32; 4],
+        cos_o: f32,
+        distance_m: f32,
+        table_and_place: u32,
+        leaves: f32,
+    }
+    /// What its surface is made of.
+    PixelPaint {
+        f0: [f32; 3],
+        roughness: f32,
+        fresnel_a: [f32; 3],
+        triangle: u32,
+        diffuse: [f32; 3],
+        pad_1: f32,
+        emission: [f32; 3],
+        pad_2: f32,
+    }
+    /// Radiance of the base.
+    BaseLight {
+        specular: [f32; 3],
+        pad_0: f32,
+        body: [f32; 3],
+        pad_1: f32,
+        fresnel: [f32; 3],
+        pad_2: f32,
+    }
+    /// Sums over the segments of a chunk, for one pixel.
+    ChunkSum {
+        radiance: [f32; 3],
+        share: f32,
+        energy: [f32; 3],
+        share_by_line: f32,
+    }
+    /// The lights of one dispatch; uniform.
+    LightRange {
+        first: u32,
+        end: u32,
+        adds: u32,
+    }
     /// Sums over the samples of a pixel.
     FilmPixel {
         base: [f32; 3],
@@ -134,14 +192,16 @@ shared! {
         density: [f32; 3],
         samples: u32,
         normal: [f32; 3],
-        walk_at: u32,
+        edge: u32,
     }
-    /// The walk of a pixel that a dispatch left unfinished.
-    FilmWalk {
-        radiance: [f32; 3],
-        share: f32,
-        energy: [f32; 3],
-        share_by_line: f32,
+    /// A pass of the radix sort; uniform.
+    SortSettings {
+        shift: u32,
+        block_count: u32,
+    }
+    /// A scan; uniform.
+    ScanSettings {
+        count: u32,
     }
     /// How a film is shown; uniform.
     DisplaySettings {
@@ -213,13 +273,13 @@ mod tests {
     #[test]
     fn a_drifted_struct_is_seen() {
         let module = reflect();
-        let right = [("first_node", 0), ("end_node", 4), ("depth_coherence", 8)];
-        assert_eq!(difference(&module, "Object", 12, &right), None);
-        assert!(difference(&module, "Object", 16, &right).is_some());
-        let renamed = [("root", 0), ("end_node", 4), ("depth_coherence", 8)];
-        assert!(difference(&module, "Object", 12, &renamed).is_some());
-        let swapped = [("end_node", 0), ("first_node", 4), ("depth_coherence", 8)];
-        assert!(difference(&module, "Object", 12, &swapped).is_some());
+        let right = [("first", 0), ("end", 4), ("adds", 8)];
+        assert_eq!(difference(&module, "LightRange", 12, &right), None);
+        assert!(difference(&module, "LightRange", 16, &right).is_some());
+        let renamed = [("start", 0), ("end", 4), ("adds", 8)];
+        assert!(difference(&module, "LightRange", 12, &renamed).is_some());
+        let swapped = [("end", 0), ("first", 4), ("adds", 8)];
+        assert!(difference(&module, "LightRange", 12, &swapped).is_some());
     }
 
     /// Every struct of the shader has its host twin, and array strides are the structs' sizes.
@@ -231,11 +291,9 @@ mod tests {
             let name = ty.name.as_deref().unwrap_or("");
             if let TypeInner::Struct { members, .. } = &ty.inner {
                 let known = host.iter().any(|(known, ..)| *known == name);
-                // Arrays without an end follow their heads.
+                // An array without an end follows its head.
                 if name == "Film" {
-                    assert_eq!(u64::from(members[2].offset), FILM_PIXELS_OFFSET);
-                } else if name == "TileQueues" {
-                    assert_eq!(u64::from(members[1].offset), crate::tile_room::COUNTS_BYTES);
+                    assert_eq!(u64::from(members[1].offset), FILM_PIXELS_OFFSET);
                 } else {
                     assert!(known, "{name} has no host twin");
                 }

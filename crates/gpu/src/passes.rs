@@ -3,54 +3,79 @@
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use hairline_optics::method::Lookup;
-
+use crate::bin::BinPasses;
 use crate::bindings::Layouts;
 use crate::device::Gpu;
+use crate::edges::EdgesPass;
 use crate::error::Error;
-use crate::film::RoomNeeds;
 use crate::pipelines::Orders;
-use crate::shade::ShadePass;
-use crate::shade_bundles::BundlesPasses;
-use crate::tiles::TilesPasses;
+use crate::project::ProjectPass;
+use crate::resolve::ResolvePass;
+use crate::shade_base::ShadeBasePass;
+use crate::shade_published::ShadePublishedPass;
+use crate::shade_scratches::ShadeScratchesPass;
+use crate::surface::SurfacePass;
 use crate::variant::ShadeVariant;
 
 /// The passes that are compiled for a method and for what a scene has.
 pub(crate) struct ScenePasses {
-    /// Where the method wants tiles, and there are scratches to find.
-    pub tiles: Option<TilesPasses>,
-    /// Where the method gathers by grids.
-    pub bundles: Option<BundlesPasses>,
-    pub shade: ShadePass,
+    pub edges: EdgesPass,
+    pub surface: SurfacePass,
+    pub shade: Shade,
+    pub resolve: ResolvePass,
+}
+
+/// How base and scratches are shaded.
+pub(crate) enum Shade {
+    /// By Hairline's own method.
+    Own {
+        base: ShadeBasePass,
+        /// None where the scene has none.
+        scratches: Option<Box<ScratchPasses>>,
+    },
+    /// By the method of 2018.
+    Published(ShadePublishedPass),
+}
+
+pub(crate) struct ScratchPasses {
+    pub project: ProjectPass,
+    pub bin: BinPasses,
+    pub shade: ShadeScratchesPass,
 }
 
 impl ScenePasses {
-    async fn new(gpu: &Gpu, layouts: &Layouts, variant: &ShadeVariant) -> Result<Self, Error> {
-        let method = &variant.method;
-        let has_tiles =
-            method.is_default_path() && method.lookup == Lookup::Tiles && variant.has.scratches;
-        let has_bundles = method.gather.has_grids() && variant.has.scratches;
-        let mut orders = Orders::new(gpu, layouts, variant);
-        // What takes the longest begins first.
-        let shade = ShadePass::new(&mut orders, has_tiles);
-        let tiles = has_tiles.then(|| TilesPasses::new(&mut orders));
-        let bundles = has_bundles.then(|| BundlesPasses::new(&mut orders));
-        orders.compile().await?;
-        Ok(Self {
-            tiles,
-            bundles,
-            shade,
-        })
+    /// Those of tile lists, if scratches are shaded by them.
+    pub fn scratches(&self) -> Option<&ScratchPasses> {
+        match &self.shade {
+            Shade::Own { scratches, .. } => scratches.as_deref(),
+            Shade::Published(_) => None,
+        }
     }
 
-    /// For what they need a place, with so many straight pieces of scratches.
-    pub fn needs(&self, segments: u32) -> RoomNeeds {
-        let has_records = self.tiles.as_ref().is_some_and(TilesPasses::has_records);
-        RoomNeeds {
-            tiles: self.tiles.is_some() || self.bundles.is_some(),
-            records: if has_records { segments } else { 0 },
-            walks: self.bundles.is_some(),
-        }
+    async fn new(gpu: &Gpu, layouts: &Layouts, variant: &ShadeVariant) -> Result<Self, Error> {
+        let mut orders = Orders::new(gpu, layouts, variant);
+        let shade = if variant.method.published.is_some() {
+            Shade::Published(ShadePublishedPass::new(&mut orders))
+        } else {
+            Shade::Own {
+                base: ShadeBasePass::new(&mut orders),
+                scratches: variant.has.scratches.then(|| {
+                    Box::new(ScratchPasses {
+                        project: ProjectPass::new(&mut orders),
+                        bin: BinPasses::new(&mut orders),
+                        shade: ShadeScratchesPass::new(&mut orders),
+                    })
+                }),
+            }
+        };
+        let passes = Self {
+            edges: EdgesPass::new(&mut orders),
+            surface: SurfacePass::new(&mut orders),
+            resolve: ResolvePass::new(&mut orders),
+            shade,
+        };
+        orders.compile().await?;
+        Ok(passes)
     }
 }
 
@@ -82,7 +107,8 @@ impl Compiled {
 
 #[cfg(all(test, not(target_arch = "wasm32")))]
 mod tests {
-    use hairline_optics::method::{Method, SphereBase};
+    use hairline_optics::mask::Mask;
+    use hairline_optics::method::Method;
 
     use super::*;
     use crate::headless;
@@ -105,7 +131,7 @@ mod tests {
         let first = passes(Method::default());
         assert!(Arc::ptr_eq(&first, &passes(Method::default())));
         let other = Method {
-            sphere_base: SphereBase::Pivot,
+            mask: Mask::Linear,
             ..Method::default()
         };
         assert!(!Arc::ptr_eq(&first, &passes(other)));

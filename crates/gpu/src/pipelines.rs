@@ -29,13 +29,13 @@ pub(crate) struct Orders<'a> {
     gpu: &'a Gpu,
     layouts: &'a Layouts,
     variant: &'a ShadeVariant,
-    orders: Vec<Order<'a>>,
+    orders: Vec<Order>,
 }
 
-struct Order<'a> {
+struct Order {
     module: &'static shaders::Module,
     entry_point: &'static str,
-    group_3: &'a wgpu::BindGroupLayout,
+    group_3: wgpu::BindGroupLayout,
     more: Vec<Constant>,
     pipeline: Pipeline,
 }
@@ -54,26 +54,22 @@ impl<'a> Orders<'a> {
         self.gpu
     }
 
-    pub fn layouts(&self) -> &'a Layouts {
-        self.layouts
-    }
-
     pub fn variant(&self) -> &'a ShadeVariant {
         self.variant
     }
 
-    /// Asks for a pipeline over the frame, the scene, its textures and `group_3`. `more` goes before the variant's own constants.
+    /// Asks for a pipeline over the frame, the scene, its textures and `group_3`, with `more` constants beside the variant's.
     pub fn pipeline(
         &mut self,
         (module, entry_point): (&'static shaders::Module, &'static str),
-        group_3: &'a wgpu::BindGroupLayout,
+        group_3: &wgpu::BindGroupLayout,
         more: &[Constant],
     ) -> Pipeline {
         let pipeline = Pipeline::default();
         self.orders.push(Order {
             module,
             entry_point,
-            group_3,
+            group_3: group_3.clone(),
             more: more.to_vec(),
             pipeline: pipeline.clone(),
         });
@@ -109,8 +105,9 @@ impl<'a> Orders<'a> {
 
     fn create(&self, order: &Order) -> wgpu::ComputePipeline {
         let Self { gpu, layouts, .. } = self;
-        let text = self.variant.text(gpu, order.module);
-        let constants = self.variant.constants(gpu, &text, &order.more);
+        let text = shaders::compose(&[order.module]);
+        let mut constants = self.variant.constants(&text);
+        constants.extend(&order.more);
         let label = Some(order.module.name);
         let shader = gpu
             .device
@@ -122,7 +119,7 @@ impl<'a> Orders<'a> {
             &layouts.frame,
             &layouts.scene,
             &layouts.textures,
-            order.group_3,
+            &order.group_3,
         ];
         let layout = gpu
             .device
@@ -197,11 +194,12 @@ impl<'a> Ears<'a> {
 #[cfg(all(test, not(target_arch = "wasm32")))]
 mod tests {
     use super::*;
+    use crate::compute_pass::{ComputePass, Use};
     use crate::headless;
     use crate::variant::Contents;
     use hairline_optics::method::Method;
 
-    /// Whichever thread it was made on.
+    /// A refused pipeline is reported, whichever thread it was compiled on.
     #[test]
     fn one_bad_order_spoils_all() {
         let Some(gpu) = headless::test_gpu() else {
@@ -215,12 +213,16 @@ mod tests {
         let compile = |bad: Option<usize>| {
             let mut orders = Orders::new(gpu, &layouts, &variant);
             for i in 0..6 {
-                let entry_point = if bad == Some(i) {
-                    "nothing"
-                } else {
-                    "background"
-                };
-                orders.pipeline((&shaders::BACKGROUND, entry_point), &layouts.film, &[]);
+                let entry_point = if bad == Some(i) { "nothing" } else { "project" };
+                let name = "project";
+                let uses = [Use::Writes];
+                ComputePass::order(
+                    &mut orders,
+                    name,
+                    (&shaders::PROJECT, entry_point),
+                    &uses,
+                    &[],
+                );
             }
             gpu.block_on(orders.compile())
         };

@@ -1,14 +1,15 @@
-//! What the method of 2018 and its parts look up: the wavelengths of each material, the triangles of each light, and the
-//! scratches of each triangle. Where a method has no use for a texture, a single texel takes its place, since no binding may
-//! be empty.
+//! What the method of 2018 looks up: the wavelengths of each material, the triangles of each light, and the scratches of each
+//! triangle. For Hairline's own method a single texel takes the place of each, since no binding may be empty.
 
 use hairline_index::TriangleLists;
-use hairline_optics::method::{Chords, Lookup, Spectrum};
+use hairline_optics::method::Structure;
 use hairline_optics::published::polygon::triangulate;
+use hairline_optics::published::spectrum::PUBLISHED_WAVELENGTHS;
 use hairline_scene::{Light, Scene};
 use wgpu::TextureFormat;
 
 use crate::error::Error;
+use crate::host::sorted_lights;
 use crate::rows::ROW_TEXELS;
 use crate::transfer::{Place, Transfer};
 use crate::upload::Source;
@@ -16,7 +17,7 @@ use crate::upload::Source;
 /// Columns beyond the wavelengths. Twin: published_lights.wgsl.
 const LIGHT_TRIANGLE_COLUMNS: usize = 64;
 
-/// The two textures, which only other methods than the default look at.
+/// The two textures.
 pub(crate) struct Published {
     pub wavelengths: wgpu::TextureView,
     pub triangle_lists: wgpu::TextureView,
@@ -30,8 +31,7 @@ impl Published {
         source: &Source<'_>,
         last: Option<&Self>,
     ) -> Result<Self, Error> {
-        let method = source.method;
-        let is_empty = method.is_default_path() && method.lookup != Lookup::Triangles;
+        let is_empty = source.method.published.is_none();
         if let Some(last) = last.filter(|last| is_empty && last.is_empty) {
             return Ok(Self {
                 wavelengths: last.wavelengths.clone(),
@@ -61,17 +61,12 @@ async fn wavelengths(
         ..
     } = source;
     let what = "wavelengths";
-    if method.is_default_path() {
+    if method.published.is_none() {
         return none(transfer, what, TextureFormat::Rgba32Float).await;
     }
-    let (count, spectra) = match method.spectrum {
-        Spectrum::Wavelengths { count, .. } => (count, tables.published_spectra(count)),
-        Spectrum::Table => (0, Vec::new()),
-    };
-    let triangles = match method.chords {
-        Chords::Steps => light_triangles(scene),
-        Chords::Roots => Vec::new(),
-    };
+    let count = PUBLISHED_WAVELENGTHS;
+    let spectra = tables.published_spectra(count);
+    let triangles = light_triangles(scene);
     let width = count + LIGHT_TRIANGLE_COLUMNS;
     let height = spectra
         .len()
@@ -112,7 +107,10 @@ fn light_triangles(scene: &Scene) -> Vec<[usize; 3]> {
             triangles
         }
     };
-    scene.all_lights().flat_map(of_light).collect()
+    sorted_lights(scene)
+        .into_iter()
+        .flat_map(of_light)
+        .collect()
 }
 
 /// Where each triangle's list begins and the last one ends, then the lists.
@@ -127,7 +125,7 @@ async fn triangle_lists(
         ..
     } = source;
     let what = "triangle lists";
-    if method.lookup != Lookup::Triangles {
+    if method.published.map(|m| m.structure) != Some(Structure::TriangleLists) {
         return none(transfer, what, TextureFormat::R32Uint).await;
     }
     let lists = TriangleLists::build(scene, index);

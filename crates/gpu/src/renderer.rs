@@ -1,4 +1,4 @@
-//! The way of a picture: visibility, shading, sample after sample on a film, then display or readback.
+//! The way of a picture: visibility, surface points, tile lists, scratches, base, film; then display or readback.
 
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
@@ -13,13 +13,19 @@ use wgpu::BufferUsages;
 
 use crate::bindings::{Layouts, bind};
 use crate::canvas::Canvas;
+use crate::compute_pass::Recording;
 use crate::device::Gpu;
 use crate::display::{DisplayPass, Shown};
 use crate::error::Error;
-use crate::film::{Band, BandRoom, Film};
-use crate::frame::frame;
-use crate::layout::Frame;
+use crate::film::Film;
+use crate::frame::{Counted, SAMPLES_AT_ONCE, View, frame};
+use crate::layout::{Frame, PixelPoint};
+use crate::passes::{ScratchPasses, Shade};
 use crate::pipelines::compiled;
+use crate::scan::ScanPasses;
+use crate::strip::{
+    GROUP, Lists, MadeLists, Samples, StripRoom, TILE_PX, chunks_most, strip_points, tile_count,
+};
 use crate::timing::{PassTime, Timing};
 use crate::upload::{GpuScene, Source};
 use crate::variant::{Contents, ShadeVariant};
@@ -28,7 +34,7 @@ use crate::visibility::VisibilityPass;
 /// How to render, beside what the scene says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RenderOptions {
-    /// Jittered samples a pixel; 1 looks through the centre.
+    /// Jittered samples of a pixel on an edge or a crease; all other pixels, and all of them for 1, take one through the centre.
     pub samples: u32,
     /// Pixels in one submission: few enough that no system takes the device for hung (Windows waits two seconds), many
     /// enough that it is busy.
@@ -39,8 +45,18 @@ impl Default for RenderOptions {
     fn default() -> Self {
         Self {
             samples: 1,
-            submission_px: 1 << 18,
+            submission_px: 1 << 19,
         }
+    }
+}
+
+/// The steps that a picture takes: one for all pixels, and, if there are several samples, one for each 16 of them on pixels with an edge
+/// or a crease.
+pub const fn steps(samples: u32) -> u32 {
+    if samples > 1 {
+        1 + samples.div_ceil(SAMPLES_AT_ONCE)
+    } else {
+        1
     }
 }
 
@@ -49,12 +65,13 @@ pub struct Renderer {
     gpu: Gpu,
     layouts: Layouts,
     visibility: VisibilityPass,
+    scans: ScanPasses,
     displays: HashMap<wgpu::TextureFormat, DisplayPass>,
     shown: Option<Shown>,
     frame: wgpu::Buffer,
     frame_group: wgpu::BindGroup,
     /// What [`Renderer::render`] works on.
-    band: Option<(BandRoom, Film)>,
+    band: Option<(StripRoom, Film)>,
     timing: Timing,
 }
 
@@ -67,6 +84,7 @@ impl Renderer {
         let gpu = gpu.clone();
         let layouts = Layouts::new(&gpu);
         let visibility = compiled(&gpu, || VisibilityPass::new(&gpu, &layouts)).await?;
+        let scans = compiled(&gpu, || ScanPasses::new(&gpu)).await?;
         let usage = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
         let frame = gpu
             .buffer("frame", size_of::<Frame>() as u64, usage)
@@ -76,6 +94,7 @@ impl Renderer {
             gpu,
             layouts,
             visibility,
+            scans,
             displays: HashMap::new(),
             shown: None,
             frame,
@@ -212,64 +231,60 @@ impl Renderer {
         for first in (0..height).step_by(band as usize) {
             let in_image = first..(first + band).min(height);
             let in_picture = rows.start + in_image.start..rows.start + in_image.end;
-            for sample in 0..samples {
-                let (room, film) = self.take_band(uploaded, width, band).await?;
-                let band = Band {
-                    room: &room,
-                    film: &film,
-                    rows: in_picture.clone(),
+            let (mut room, film) = self.take_band(width, band).await?;
+            for step in 0..steps(samples) {
+                let view = View {
+                    scene,
+                    uploaded,
+                    size_px: scene.render.size_px,
+                    step,
+                    samples,
                 };
-                let size_px = scene.render.size_px;
-                self.submit(scene, uploaded, size_px, sample, samples, &band)
+                self.shade(&view, &film, &mut room, in_picture.clone())
                     .await?;
                 self.gpu.finished().await?;
-                self.band = Some((room, film));
-                let done = f64::from(first)
-                    + f64::from(in_image.end - first) * f64::from(sample + 1) / f64::from(samples);
+                let in_band = f64::from(step + 1) / f64::from(steps(samples));
+                let done = f64::from(first) + f64::from(in_image.end - first) * in_band;
                 progress(done / f64::from(height));
             }
-            if let Some((_, film)) = &self.band {
-                film.read(&self.gpu, &mut image, &in_image).await?;
-            }
+            film.read(&self.gpu, &mut image, &in_image).await?;
+            self.band = Some((room, film));
         }
         Ok(image)
     }
 
-    /// Adds sample `sample` of `samples` to a band of the canvas: 0, which begins anew, or as many as
-    /// [`Canvas::samples`] says that it has. The picture has the canvas's size, whatever the scene says.
+    /// Adds step `step` of the [`steps`] for `samples` to a band of the canvas: 0, which begins anew and shades every pixel, or as many
+    /// as [`Canvas::steps`] says that it has, which refines edges. The picture has the canvas's size, whatever the scene says.
     ///
-    /// It submits the work and, save on software drivers, does not wait for it: [`Gpu::finished`] does. Dropped or failed,
+    /// It submits the work and waits only until the tile lists are counted; [`Gpu::finished`] waits for all. Dropped or failed,
     /// it leaves the band to be begun anew.
     ///
     /// # Errors
-    /// [`Error::IterationBudget`] where a software driver ended loops too early (elsewhere reading says so);
-    /// [`Error::OutOfMemory`], [`Error::Lost`].
+    /// [`Error::TooLarge`], [`Error::OutOfMemory`], [`Error::Lost`]. Reading tells of [`Error::IterationBudget`].
     ///
     /// # Panics
-    /// If the band does not exist, or `sample` does not follow what it has.
+    /// If the band does not exist, or `step` does not follow what it has.
     pub async fn accumulate(
         &mut self,
         scene: &Scene,
         uploaded: &GpuScene,
         canvas: &mut Canvas,
         band: usize,
-        sample: u32,
+        step: u32,
         samples: u32,
     ) -> Result<(), Error> {
-        canvas.make_room(&self.layouts, uploaded.needs()).await?;
-        canvas.begin(band, sample);
-        let size_px = canvas.size_px();
-        self.submit(
+        let (size_px, rows) = (canvas.size_px(), canvas.rows(band));
+        let view = View {
             scene,
             uploaded,
             size_px,
-            sample,
+            step,
             samples,
-            &canvas.band(band),
-        )
-        .await?;
+        };
+        let (film, room) = canvas.begin(band, step);
+        self.shade(&view, film, room, rows).await?;
         self.gpu.check()?;
-        canvas.finish(band, sample + 1);
+        canvas.finish(band, step + 1);
         Ok(())
     }
 
@@ -316,95 +331,250 @@ impl Renderer {
         Ok(pixels)
     }
 
-    /// One sample of a band.
-    async fn submit(
+    /// One step of the rows of a film, in as many strips as the tile lists need.
+    async fn shade(
         &self,
-        scene: &Scene,
-        uploaded: &GpuScene,
-        size_px: [u32; 2],
-        sample: u32,
-        samples: u32,
-        band: &Band<'_>,
+        view: &View<'_>,
+        film: &Film,
+        room: &mut StripRoom,
+        rows: Range<u32>,
     ) -> Result<(), Error> {
-        let uniform = frame(scene, uploaded, size_px, sample, samples, band);
-        self.gpu
-            .queue
-            .write_buffer(&self.frame, 0, bytemuck::bytes_of(&uniform));
-        let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
-        if sample == 0 {
-            band.film.clear(&mut encoder);
-        } else {
-            band.film.clear_unfinished(&mut encoder);
-        }
-        let (frame, timing) = (&self.frame_group, &self.timing);
-        if uploaded.needs().tiles {
-            band.room.tiles.clear(&self.gpu, &mut encoder);
-        }
-        self.visibility
-            .record(&mut encoder, frame, uploaded, band, timing);
-        if let Some(bundles) = &uploaded.passes.bundles {
-            bundles.find(&mut encoder, frame, uploaded, band, timing);
-            bundles.record(&mut encoder, frame, uploaded, band, timing);
-            if bundles.bounded {
-                // The passes that follow go on where it ends, once.
-                self.gpu.queue.submit([encoder.finish()]);
-                while band.film.unfinished(&self.gpu).await? > 0 {
-                    let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
-                    band.film.clear_unfinished(&mut encoder);
-                    bundles.record(&mut encoder, frame, uploaded, band, timing);
-                    self.gpu.queue.submit([encoder.finish()]);
-                }
-                encoder = self.gpu.device.create_command_encoder(&Default::default());
-            }
-            bundles.tally(&mut encoder, frame, uploaded, band, timing);
-        }
-        if let Some(tiles) = &uploaded.passes.tiles {
-            tiles.record(&mut encoder, frame, uploaded, band, timing);
-        }
-        let shade = &uploaded.passes.shade;
-        shade.record(&mut encoder, frame, uploaded, band, timing);
-        self.gpu.queue.submit([encoder.finish()]);
-        if shade.bounded {
-            self.finish_walks(uploaded, band).await?;
+        let film_row = rows.start;
+        let mut strips = vec![rows];
+        while let Some(strip) = strips.pop() {
+            let halves = self.shade_strip(view, film, film_row, room, &strip).await?;
+            strips.extend(halves.into_iter().flatten());
         }
         Ok(())
     }
 
-    /// Dispatches again until every pixel's walk over the scratches is at its end.
-    async fn finish_walks(&self, uploaded: &GpuScene, band: &Band<'_>) -> Result<(), Error> {
-        while band.film.unfinished(&self.gpu).await? > 0 {
-            let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
-            band.film.clear_unfinished(&mut encoder);
-            let (frame, timing) = (&self.frame_group, &self.timing);
-            let shade = &uploaded.passes.shade;
-            shade.record(&mut encoder, frame, uploaded, band, timing);
-            self.gpu.queue.submit([encoder.finish()]);
+    /// One step of a strip; or, if the lists of its tiles do not fit on the device, the two halves to shade in its place, the lower
+    /// one first.
+    async fn shade_strip(
+        &self,
+        view: &View<'_>,
+        film: &Film,
+        film_row: u32,
+        room: &mut StripRoom,
+        strip: &Range<u32>,
+    ) -> Result<Option<[Range<u32>; 2]>, Error> {
+        let (gpu, scans, passes) = (&self.gpu, &self.scans, &view.uploaded.passes);
+        let rows = strip.len() as u32;
+        let tiles = tile_count(room.width_px, rows);
+        if let Some(scratches) = passes.scratches() {
+            // Those of the first step serve the others.
+            let made = room.lists.made.as_ref();
+            let kept = view.step > 0 && made.is_some_and(|made| made.rows == *strip);
+            if !kept
+                && !self
+                    .make_lists(view, scratches, film_row, room, strip)
+                    .await?
+            {
+                return self.halves(strip).map(Some);
+            }
         }
-        Ok(())
+        let lists = room.lists.made.as_ref();
+        let (entries, sorted) = lists.map_or((0, 0), |made| (made.entries, made.sorted));
+        let mut counted = Counted {
+            entries,
+            groups: tiles,
+        };
+        let mut points = strip_points(room.width_px, rows);
+        if view.step > 0 {
+            counted.groups = self.count_groups(view, film, film_row, room, strip).await?;
+            points = u64::from(counted.groups) * u64::from(GROUP);
+        }
+        let groups = counted.groups;
+        if groups == 0 {
+            return Ok(None);
+        }
+        let mut chunks = match passes.scratches() {
+            None => groups,
+            Some(_) => chunks_most(tiles, entries),
+        };
+        if !Samples::fit(gpu, points, chunks) {
+            return self.halves(strip).map(Some);
+        }
+        room.samples.make_room(gpu, scans, points, groups).await?;
+        if let Some(scratches) = passes.scratches() {
+            self.write_frame(view, strip, film_row, view.step_samples().start, counted);
+            let mut encoder = gpu.device.create_command_encoder(&Default::default());
+            let mut recording = self.recording(&mut encoder, view);
+            scratches
+                .shade
+                .record_chunks(gpu, &mut recording, scans, room, groups);
+            gpu.queue.submit([encoder.finish()]);
+            if view.step > 0 {
+                chunks = self.read_u32(&room.samples.chunk_starts, groups).await?;
+            }
+            if !Samples::fit(gpu, points, chunks) {
+                return self.halves(strip).map(Some);
+            }
+        } else {
+            room.samples.one_chunk_a_group(gpu, groups);
+        }
+        room.samples.make_room_for_chunks(gpu, chunks).await?;
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        if view.step == 0 && strip.start == film_row {
+            film.clear(&mut encoder);
+        }
+        // Not every place of a group has a sample.
+        let bytes = points * size_of::<PixelPoint>() as u64;
+        encoder.clear_buffer(&room.samples.points, 0, Some(bytes));
+        gpu.queue.submit([encoder.finish()]);
+        for sample in view.step_samples() {
+            self.write_frame(view, strip, film_row, sample, counted);
+            let mut encoder = gpu.device.create_command_encoder(&Default::default());
+            let (frame, timing) = (&self.frame_group, &self.timing);
+            self.visibility
+                .record(&mut encoder, frame, view.uploaded, room, rows, timing);
+            let mut recording = self.recording(&mut encoder, view);
+            passes.surface.record(gpu, &mut recording, room, film, rows);
+            gpu.queue.submit([encoder.finish()]);
+        }
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        let recording = &mut self.recording(&mut encoder, view);
+        match &passes.shade {
+            Shade::Own { base, scratches } => {
+                base.record(gpu, recording, room, film, groups);
+                if let Some(scratches) = scratches {
+                    scratches.shade.record(gpu, recording, room, sorted, chunks);
+                }
+            }
+            Shade::Published(published) => published.record(gpu, recording, room, film, groups),
+        }
+        passes.resolve.record(gpu, recording, room, film, rows);
+        gpu.queue.submit([encoder.finish()]);
+        Ok(None)
+    }
+
+    /// How many groups the samples of a strip's edges make.
+    async fn count_groups(
+        &self,
+        view: &View<'_>,
+        film: &Film,
+        film_row: u32,
+        room: &mut StripRoom,
+        strip: &Range<u32>,
+    ) -> Result<u32, Error> {
+        let gpu = &self.gpu;
+        let tiles = tile_count(room.width_px, strip.len() as u32);
+        let first = view.step_samples().start;
+        self.write_frame(view, strip, film_row, first, Counted::default());
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        let mut recording = self.recording(&mut encoder, view);
+        let edges = &view.uploaded.passes.edges;
+        edges.record(gpu, &mut recording, &self.scans, room, film, tiles);
+        gpu.queue.submit([encoder.finish()]);
+        self.read_u32(&room.group_starts, tiles).await
+    }
+
+    async fn read_u32(&self, buffer: &wgpu::Buffer, index: u32) -> Result<u32, Error> {
+        let at = 4 * u64::from(index);
+        let bytes = self.gpu.read(buffer, at..at + 4).await?;
+        Ok(bytemuck::pod_read_unaligned(&bytes))
+    }
+
+    /// Makes the tile lists of a strip; false if they do not fit on the device.
+    async fn make_lists(
+        &self,
+        view: &View<'_>,
+        passes: &ScratchPasses,
+        film_row: u32,
+        room: &mut StripRoom,
+        strip: &Range<u32>,
+    ) -> Result<bool, Error> {
+        let (gpu, scans) = (&self.gpu, &self.scans);
+        let tiles = tile_count(room.width_px, strip.len() as u32);
+        let segments = view.uploaded.buffers.segment_count();
+        room.lists.made = None;
+        let lists = &mut room.lists;
+        lists.make_room_for_segments(gpu, scans, segments).await?;
+        let sample = view.step_samples().start;
+        self.write_frame(view, strip, film_row, sample, Counted::default());
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        let mut recording = self.recording(&mut encoder, view);
+        passes
+            .project
+            .record(gpu, &mut recording, scans, lists, segments);
+        gpu.queue.submit([encoder.finish()]);
+        // The sum of all lies behind them.
+        let entries = self.read_u32(&lists.entry_starts, segments).await?;
+        if entries > Lists::entries_most(gpu) {
+            return Ok(false);
+        }
+        lists.make_room(gpu, scans, entries).await?;
+        let groups = 0;
+        self.write_frame(view, strip, film_row, sample, Counted { entries, groups });
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        let mut recording = self.recording(&mut encoder, view);
+        let counts = [segments, entries];
+        let sorted = passes
+            .bin
+            .record(gpu, &mut recording, scans, room, tiles, counts);
+        let sorted = sorted.await?;
+        gpu.queue.submit([encoder.finish()]);
+        room.lists.made = Some(MadeLists {
+            rows: strip.clone(),
+            entries,
+            sorted,
+        });
+        Ok(true)
+    }
+
+    /// The halves of a strip, of whole tiles.
+    fn halves(&self, strip: &Range<u32>) -> Result<[Range<u32>; 2], Error> {
+        let upper = (strip.len() as u32 / 2).next_multiple_of(TILE_PX);
+        let middle = strip.start + upper;
+        if middle >= strip.end {
+            let what = "tile lists of a row of tiles";
+            let allowed = u64::from(Lists::entries_most(&self.gpu));
+            return Err(self.gpu.too_large(what, allowed + 1, allowed, "entries"));
+        }
+        Ok([middle..strip.end, strip.start..middle])
+    }
+
+    fn write_frame(
+        &self,
+        view: &View,
+        strip: &Range<u32>,
+        film_row: u32,
+        sample: u32,
+        counted: Counted,
+    ) {
+        let uniform = frame(view, strip, film_row, sample, counted);
+        let queue = &self.gpu.queue;
+        queue.write_buffer(&self.frame, 0, bytemuck::bytes_of(&uniform));
+    }
+
+    fn recording<'a>(
+        &'a self,
+        encoder: &'a mut wgpu::CommandEncoder,
+        view: &View<'a>,
+    ) -> Recording<'a> {
+        Recording {
+            encoder,
+            frame: &self.frame_group,
+            scene: view.uploaded,
+            timing: &self.timing,
+        }
     }
 
     /// A film for `rows` rows of `width_px` pixels and the room to work on it: those at hand if they fit.
-    async fn take_band(
-        &mut self,
-        uploaded: &GpuScene,
-        width_px: u32,
-        rows: u32,
-    ) -> Result<(BandRoom, Film), Error> {
-        let needs = uploaded.needs();
-        let fits =
-            |room: &BandRoom| room.width_px == width_px && room.rows == rows && room.needs == needs;
+    async fn take_band(&mut self, width_px: u32, rows: u32) -> Result<(StripRoom, Film), Error> {
         if let Some((room, film)) = self.band.take()
-            && fits(&room)
+            && room.width_px == width_px
+            && room.rows == rows
         {
             return Ok((room, film));
         }
-        let (gpu, layouts) = (&self.gpu, &self.layouts);
-        let room = BandRoom::new(gpu, layouts, width_px, rows, needs).await?;
-        let film = Film::new(gpu, layouts, &room, rows).await?;
+        let gpu = &self.gpu;
+        let room = StripRoom::new(gpu, &self.scans, width_px, rows).await?;
+        let film = Film::new(gpu, width_px, rows).await?;
         Ok((room, film))
     }
 
-    pub(crate) fn layouts(&self) -> &Layouts {
-        &self.layouts
+    pub(crate) fn scans(&self) -> &ScanPasses {
+        &self.scans
     }
 }

@@ -25,12 +25,14 @@ pub(crate) struct SceneBuffers {
     materials: Small<Material, wgpu::TextureView>,
     lights: Small<[u32; 4], wgpu::TextureView>,
     index: Arc<ScratchIndex>,
-    nodes: wgpu::TextureView,
     segments: wgpu::TextureView,
+    /// Whether the tree is there, or a texel in its place.
+    has_nodes: bool,
+    nodes: wgpu::TextureView,
 }
 
 impl SceneBuffers {
-    /// Straight pieces of scratches.
+    /// Segments of scratches.
     pub fn segment_count(&self) -> u32 {
         self.index.tree.segments.len() as u32
     }
@@ -49,7 +51,7 @@ impl SceneBuffers {
             tables,
             ..
         } = *source;
-        let [triangles, objects, materials, lights, nodes, segments] = SCENE_BUFFERS;
+        let [triangles, objects, materials, lights, segments, nodes] = SCENE_BUFFERS;
         let last_vertices = last.map(|last| &last.vertices);
         let vertices = Vertices::upload(transfer, triangles, scene, last_vertices).await?;
         let origin_m = vertices.origin_m;
@@ -71,17 +73,23 @@ impl SceneBuffers {
             async |elements| rows::upload(transfer, lights, elements).await,
         );
         let lights = lights.await?;
-        let same_index =
-            |last: &&Self| Arc::ptr_eq(&last.index, index) && last.vertices.origin_m == origin_m;
-        let [nodes, segments] = match last.filter(same_index) {
-            Some(last) => [last.nodes.clone(), last.segments.clone()],
-            None => [
-                rows::upload(transfer, nodes, &host::nodes(index, origin_m)).await?,
-                rows::upload(transfer, segments, &host::segments(index, origin_m)).await?,
-            ],
+        // Hairline's own method does not traverse the tree.
+        let has_nodes = source.method.published.is_some();
+        let last_scratches = last
+            .filter(|last| Arc::ptr_eq(&last.index, index) && last.vertices.origin_m == origin_m);
+        let segments = match last_scratches {
+            Some(last) => last.segments.clone(),
+            None => rows::upload(transfer, segments, &host::segments(index, origin_m)).await?,
+        };
+        let nodes = match last_scratches.filter(|last| last.has_nodes == has_nodes) {
+            Some(last) => last.nodes.clone(),
+            None if has_nodes => {
+                rows::upload(transfer, nodes, &host::nodes(index, origin_m)).await?
+            }
+            None => rows::upload(transfer, nodes, &[] as &[ScratchNode]).await?,
         };
         let buffers = [&vertices.buffer, &objects.there];
-        let rows = [&materials.there, &lights.there, &nodes, &segments];
+        let rows = [&materials.there, &lights.there, &segments, &nodes];
         let resources: Vec<_> = buffers
             .into_iter()
             .map(wgpu::Buffer::as_entire_binding)
@@ -94,8 +102,9 @@ impl SceneBuffers {
             materials,
             lights,
             index: Arc::clone(index),
-            nodes,
             segments,
+            has_nodes,
+            nodes,
         })
     }
 }
@@ -137,7 +146,12 @@ async fn storage_buffer<T: Pod>(
 
 /// Refuses what no binding of the device can hold, before memory is spent on it.
 pub(crate) fn check_size(gpu: &Gpu, source: &Source<'_>) -> Result<(), Error> {
-    let Source { scene, index, .. } = source;
+    let Source {
+        scene,
+        index,
+        method,
+        ..
+    } = source;
     let triangles: usize = scene
         .objects
         .iter()
@@ -150,8 +164,11 @@ pub(crate) fn check_size(gpu: &Gpu, source: &Source<'_>) -> Result<(), Error> {
     let rows = [
         (scene.materials.len(), size_of::<Material>()),
         (host::light_texels(scene), size_of::<[u32; 4]>()),
-        (index.tree.nodes.len(), size_of::<ScratchNode>()),
         (index.tree.segments.len(), size_of::<ScratchSegment>()),
+        (
+            method.published.map_or(0, |_| index.tree.nodes.len()),
+            size_of::<ScratchNode>(),
+        ),
     ];
     let limits = gpu.limits();
     let buffer_max = limits

@@ -62,7 +62,7 @@ modules! {
     /// The GGX lobe over a sphere, by a pivot transform.
     SPTD = "sptd" needs [LTC];
     /// A shading point and its frame.
-    SURFACE = "surface" needs [];
+    SURFACE_POINT = "surface_point" needs [];
     /// Light from all around: look-ups in the maps.
     ENVIRONMENT = "environment" needs [];
     /// From linear radiance to the display.
@@ -79,113 +79,76 @@ modules! {
     PUBLISHED_POLYGON = "published_polygon" needs [PUBLISHED_SEGMENTS];
     /// The method of 2018: the pixel's footprint.
     PUBLISHED_FOOTPRINT = "published_footprint" needs [GAUSSIAN];
+    /// What one scratch sends to the viewer: the module for other engines.
+    SCRATCH_LIGHT = "scratch_light" needs [FOUR_EDGES, BAND_ENVIRONMENT, SCRATCH_TABLE, MASK, ENVIRONMENT];
     /// The structs that the host fills, and no binding.
     LAYOUT = "layout" needs [];
-    /// Where the scene is bound: group 0 the frame, group 1 the scene's buffers, group 2 its tables and textures.
+    /// Where the scene is bound: group 0 the frame, group 1 the scene's arrays, group 2 its tables and textures.
     BINDINGS = "bindings" needs [LAYOUT];
     /// Arrays that lie in textures.
     ROWS = "rows" needs [BINDINGS];
-    /// Look-ups in what the scene binds.
-    SCENE = "scene" needs [ROWS, CONTENTS, ENVIRONMENT, TONE_MAP];
     /// What a scene has: pipelines are compiled for it.
     CONTENTS = "contents" needs [];
-    /// By which method scratches are computed: pipelines are compiled for it.
+    /// The switches of the method of 2018 and the mask: pipelines are compiled for them.
     METHOD = "method" needs [];
-    /// A walk over scratches that may be left and gone on with.
-    WALK = "walk" needs [MASK];
-    /// The straight pieces of scratches, unpacked.
-    SEGMENTS = "segments" needs [ROWS];
+    /// Look-ups in what the scene binds.
+    SCENE = "scene" needs [ROWS, CONTENTS, ENVIRONMENT, TONE_MAP];
+    /// The segments of scratches, unpacked.
+    SEGMENTS = "segments" needs [LAYOUT];
     /// The scratches of each triangle.
     TRIANGLE_LISTS = "triangle_lists" needs [ROWS];
-    /// Segments in a box.
-    FIND = "find" needs [ROWS, WALK];
-    /// What the shading pass adds to: group 3.
-    FILM = "film" needs [BINDINGS, WALK];
-    /// Tiles of the picture.
-    TILE = "tile" needs [BINDINGS, METHOD];
-    /// Which pixels of a tile a line comes near to.
-    TILE_NEAR = "tile_near" needs [];
-    /// The list of a triangle's scratches, as a walk goes through it.
-    LISTED = "listed" needs [WALK, TRIANGLE_LISTS];
+    /// Where pixels lie in the arrays of a strip and in the film.
+    FILM = "film" needs [BINDINGS];
+    /// Surface points as they lie in memory.
+    PIXEL_POINT = "pixel_point" needs [LAYOUT, SURFACE_POINT];
     /// Area lights from a surface point.
-    LIGHTS = "lights" needs [ROWS, SURFACE, BAND];
+    LIGHTS = "lights" needs [ROWS, SURFACE_POINT, BAND];
     /// From a triangle to the surface point.
-    HIT = "hit" needs [SCENE, SURFACE, CAMERA, GGX];
-    /// A pixel as the scratches under it see it.
-    GATHER_PIXEL = "gather_pixel" needs [SURFACE, BAND, METHOD];
-    /// What one scratch sends to the viewer of one light.
-    GATHER_LIGHT = "gather_light" needs [SCENE, GATHER_PIXEL, FOUR_EDGES, LIGHTS, SEGMENTS, WALK, BAND_ENVIRONMENT, SCRATCH_TABLE];
-    /// What many scratches add up to: grids over the surfaces.
-    BUNDLES = "bundles" needs [ROWS, WALK, SURFACE];
-    /// A footprint on the grids of many scratches.
-    BUNDLE_FOOTPRINT = "bundle_footprint" needs [BUNDLES, GATHER_PIXEL];
-    /// How much scratch lies in which direction, and the light of that.
-    BUNDLE_LIGHT = "bundle_light" needs [BUNDLES, GATHER_LIGHT, GATHER_LARGE_POLYGON, FILM, TILE_QUEUES];
-    /// What scratches take from the base, by the method's mask.
-    GATHER_MASK = "gather_mask" needs [MASK, METHOD];
-    /// The same of a polygon with many vertices.
-    GATHER_LARGE_POLYGON = "gather_large_polygon" needs [GATHER_LIGHT];
-    /// The scratches under a footprint and their light.
-    GATHER = "gather" needs [FIND, GATHER_LIGHT, GATHER_LARGE_POLYGON, GATHER_MASK, LISTED, WALK];
+    HIT = "hit" needs [SCENE, SURFACE_POINT, CAMERA, GGX];
+    /// A segment in the picture, and the tiles that it comes near to.
+    PROJECTED = "projected" needs [ROWS, SEGMENTS, FILM];
+    /// Which pixels see a segment.
+    NEARNESS = "nearness" needs [PROJECTED, PIXEL_POINT, SCRATCH_LIGHT];
+    /// What one scratch sends to the viewer of a polygon with many vertices.
+    OUTLINE_LIGHT = "outline_light" needs [ROWS, SCRATCH_LIGHT];
     /// The base under lights and environment.
-    BASE = "base" needs [SCENE, LIGHTS, WALK, LTC, ENVIRONMENT_LOBE];
+    BASE = "base" needs [SCENE, LIGHTS, LTC, ENVIRONMENT_LOBE];
     /// The method of 2018: a scratch under lights and environment.
     PUBLISHED_LIGHTS = "published_lights" needs [
-        SCENE, SURFACE, LIGHTS, SEGMENTS, WALK, METHOD, BAND_ENVIRONMENT, SCRATCH_TABLE, PUBLISHED_SPECTRUM, PUBLISHED_SPHERE,
-        PUBLISHED_POLYGON
+        SCENE, LIGHTS, SEGMENTS, METHOD, BAND_ENVIRONMENT, PUBLISHED_SPECTRUM, PUBLISHED_SPHERE, PUBLISHED_POLYGON
     ];
     /// The method of 2018: the scratches under a pixel.
-    PUBLISHED_GATHER = "published_gather" needs [FIND, GATHER_PIXEL, PUBLISHED_LIGHTS, PUBLISHED_FOOTPRINT, TRIANGLE_LISTS, CONTENTS];
+    PUBLISHED_GATHER = "published_gather" needs [PUBLISHED_LIGHTS, PUBLISHED_FOOTPRINT, TRIANGLE_LISTS, MASK];
     /// The method of 2018: the base.
-    PUBLISHED_BASE = "published_base" needs [BASE, PUBLISHED_LIGHTS, SPTD];
+    PUBLISHED_BASE = "published_base" needs [BASE, SPTD];
     /// Pass: triangle and object of each pixel.
     VISIBILITY = "visibility" needs [BINDINGS];
-    /// Which tiles are shaded how.
-    TILE_QUEUES = "tile_queues" needs [TILE];
-    /// A straight piece of a scratch in the picture.
-    SEGMENT_SEEN = "segment_seen" needs [BINDINGS];
-    /// What a pixel is on the film.
-    SHADE_POINT = "shade_point" needs [BASE, FILM];
-    /// Pass: from what is visible to radiance, pixel by pixel.
-    SHADE = "shade" needs [HIT, GATHER, BUNDLE_FOOTPRINT, SHADE_POINT, TILE_QUEUES];
-    /// Pass: from what is visible to radiance, in tiles that have a list of scratches.
-    SHADE_TILES = "shade_tiles" needs [GATHER, BUNDLE_FOOTPRINT, TILE_QUEUES, TILE_PIXEL];
-    /// What pixels read of their tile's list: group 3.
-    TILE_LIST = "tile_list" needs [ROWS, TILE, TILE_NEAR];
-    /// A pixel of a tile that has a list.
-    TILE_PIXEL = "tile_pixel" needs [HIT, TILE_LIST, GATHER_MASK, SHADE_POINT];
-    /// The plane that a tile's pixels see.
-    TILE_PLANE = "tile_plane" needs [BINDINGS, SURFACE];
-    /// What pixels need to know of a part of a scratch.
-    SCRATCH_RECORD = "scratch_record" needs [];
-    /// Where records of parts of scratches lie, and which are wanted.
-    RECORD_QUEUE = "record_queue" needs [TILE_QUEUES, SCRATCH_RECORD];
-    /// Pass: a place for the records of each straight piece.
-    RECORD_PLACES = "record_places" needs [SEGMENTS, ROWS, WALK, RECORD_QUEUE, SEGMENT_SEEN];
-    /// Pass: the records of parts of scratches.
-    SCRATCH_RECORDS = "scratch_records" needs [GATHER, CAMERA, TILE_PLANE, RECORD_QUEUE, SEGMENT_SEEN];
-    /// Pass: which tiles have records that serve them.
-    SERVED_TILES = "served_tiles" needs [WALK, RECORD_QUEUE, TILE_LIST];
-    /// What a scratch adds to a pixel, from a record.
-    RECORD_ADD = "record_add" needs [GATHER_PIXEL, GAUSSIAN, MASK, RECORD_QUEUE, TILE_LIST];
-    /// Pass: from what is visible to radiance, in tiles whose scratches all have records.
-    SHADE_TILE_RECORDS = "shade_tile_records" needs [BUNDLE_FOOTPRINT, RECORD_ADD, TILE_PIXEL];
-    /// Pass: from what is visible to radiance, in tiles of which some scratches have records.
-    SHADE_TILE_SCRATCHES = "shade_tile_scratches" needs [GATHER, BUNDLE_FOOTPRINT, RECORD_ADD, TILE_PIXEL];
-    /// Pass: which tiles have pixels whose footprints cover many scratches.
-    BUNDLE_TILES = "bundle_tiles" needs [HIT, BUNDLE_FOOTPRINT, TILE_QUEUES, SHADE_POINT];
-    /// Pass: what many scratches under a pixel add up to.
-    SHADE_BUNDLES = "shade_bundles" needs [HIT, BUNDLE_FOOTPRINT, BUNDLE_LIGHT, TILE_QUEUES, SHADE_POINT];
-    /// Pass: what many single scratches under a pixel add up to.
-    BUNDLE_TALLY = "bundle_tally" needs [HIT, BUNDLE_FOOTPRINT, BUNDLE_LIGHT, GATHER, TILE_QUEUES, SHADE_POINT];
-    /// Pass: tiles that show no object.
-    BACKGROUND = "background" needs [SHADE_POINT, TILE_QUEUES];
-    /// What a tile's pixels see: group 3.
-    TILE_SIGHT = "tile_sight" needs [HIT, BUNDLE_FOOTPRINT, TILE_PLANE, TILE_QUEUES];
-    /// Pass: the scratches that each tile of pixels may see.
-    TILES = "tiles" needs [FIND, LIGHTS, TILE_SIGHT, RECORD_QUEUE, TILE_NEAR, SEGMENT_SEEN];
-    /// Pass: from what is visible to radiance by the method of 2018.
-    SHADE_PUBLISHED = "shade_published" needs [HIT, PUBLISHED_GATHER, PUBLISHED_BASE, SHADE_POINT];
+    /// Pass: from the triangle that a pixel sees to its surface point.
+    SURFACE = "surface" needs [HIT, FILM, PIXEL_POINT];
+    /// Pass: the pixels of each tile that have an edge or a crease.
+    EDGES = "edges" needs [FILM];
+    /// Pass: from segments to the picture.
+    PROJECT = "project" needs [PROJECTED];
+    /// Passes: exclusive prefix sums.
+    SCAN = "scan" needs [LAYOUT];
+    /// Pass: the entries of tile lists.
+    BIN = "bin" needs [PROJECTED];
+    /// Passes: entries in the order of their tiles.
+    SORT = "sort" needs [BINDINGS];
+    /// Pass: where each tile's list begins.
+    TILE_LISTS = "tile_lists" needs [FILM];
+    /// Which tile a group of samples belongs to.
+    GROUPS = "groups" needs [FILM];
+    /// Pass: into how many chunks each group's list is cut.
+    GROUP_CHUNKS = "group_chunks" needs [GROUPS];
+    /// Pass: the light and the mask of scratches.
+    SHADE_SCRATCHES = "shade_scratches" needs [NEARNESS, GROUPS, METHOD, OUTLINE_LIGHT];
+    /// Pass: the radiance of the base.
+    SHADE_BASE = "shade_base" needs [BASE, FILM, PIXEL_POINT];
+    /// Pass: base and scratches by the method of 2018.
+    SHADE_PUBLISHED = "shade_published" needs [PUBLISHED_GATHER, PUBLISHED_BASE, FILM, PIXEL_POINT];
+    /// Pass: what a pixel adds to the film.
+    RESOLVE = "resolve" needs [SCENE, FILM, METHOD, MASK];
     /// Pass: the film on a display.
     DISPLAY = "display" needs [LAYOUT, TONE_MAP];
 }

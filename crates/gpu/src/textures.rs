@@ -2,11 +2,10 @@
 
 use std::sync::Arc;
 
-use glam::DVec3;
 use hairline_image::Picture;
 use hairline_optics::lobe_table::{self, LOBE_TABLE_SIZE, LobeTable};
 use hairline_optics::metal::Metal;
-use hairline_optics::table::{self, ScratchTable};
+use hairline_optics::table;
 use hairline_scene::environment::LEVEL_HALVINGS;
 use hairline_scene::{Environment, Scene, ScratchTables, Texture};
 use half::f16;
@@ -14,10 +13,8 @@ use rayon::prelude::*;
 use wgpu::{TextureFormat, TextureViewDimension};
 
 use crate::bindings::{Layouts, bind};
-use crate::bundles::UploadedBundles;
 use crate::error::Error;
 use crate::published::Published;
-use crate::storage_textures::NUMBERS_FORMAT;
 use crate::transfer::{Place, Transfer};
 use crate::upload::Source;
 
@@ -128,7 +125,6 @@ pub(crate) struct SceneTextures {
     textures: Arc<Vec<Texture>>,
     array: wgpu::TextureView,
     published: Published,
-    bundles: UploadedBundles,
 }
 
 impl SceneTextures {
@@ -138,17 +134,13 @@ impl SceneTextures {
         layouts: &Layouts,
         source: &Source<'_>,
         array: &TextureArray,
-        origin_m: DVec3,
         last: Option<&Self>,
     ) -> Result<Self, Error> {
         let Source { scene, tables, .. } = *source;
-        let last_bundles = last.map(|last| &last.bundles);
-        let bundles = UploadedBundles::upload(transfer, source, origin_m, last_bundles).await?;
-        let same_tables =
-            |last: &&Self| last.metals == tables.metals && last.bundles.same_as(&bundles);
+        let same_tables = |last: &&Self| last.metals == tables.metals;
         let scratch_tables = match last.filter(same_tables) {
             Some(last) => last.scratch_tables.clone(),
-            None => scratch_tables(transfer, tables, bundles.tables()).await?,
+            None => scratch_tables(transfer, tables).await?,
         };
         let lobes = match last {
             Some(last) => last.lobes.clone(),
@@ -182,7 +174,6 @@ impl SceneTextures {
             &array,
             &published.wavelengths,
             &published.triangle_lists,
-            &bundles.rows,
         ]
         .map(wgpu::BindingResource::TextureView);
         Ok(Self {
@@ -195,7 +186,6 @@ impl SceneTextures {
             textures: Arc::clone(&scene.textures),
             array,
             published,
-            bundles,
         })
     }
 }
@@ -211,11 +201,10 @@ fn same_map(a: Option<&Environment>, b: Option<&Environment>) -> bool {
 async fn scratch_tables(
     transfer: &mut Transfer<'_>,
     tables: &ScratchTables,
-    of_bundles: &[ScratchTable],
 ) -> Result<wgpu::TextureView, Error> {
     let what = "scratch tables";
     let size = [table::COLUMNS as u32, table::ROWS as u32];
-    let count = tables.tables.len() + of_bundles.len();
+    let count = tables.tables.len();
     let allowed = transfer.gpu.limits().max_texture_array_layers;
     if count > allowed as usize {
         let (count, allowed) = (count as u64, allowed.into());
@@ -225,7 +214,7 @@ async fn scratch_tables(
     let texture = transfer
         .texture(what, size, layers, 1, TextureFormat::Rgba32Uint)
         .await?;
-    for (layer, table) in (0..).zip(tables.tables.iter().chain(of_bundles)) {
+    for (layer, table) in (0..).zip(&tables.tables) {
         let place = Place {
             layer,
             ..Place::default()
@@ -242,7 +231,9 @@ async fn lobe(
     table: &LobeTable,
 ) -> Result<wgpu::TextureView, Error> {
     let size = [LOBE_TABLE_SIZE as u32; 2];
-    let texture = transfer.texture(what, size, 1, 1, NUMBERS_FORMAT).await?;
+    let texture = transfer
+        .texture(what, size, 1, 1, TextureFormat::Rgba32Float)
+        .await?;
     let texels = bytemuck::cast_slice(table.texels());
     transfer.write_texture(what, &texture, Place::default(), size, texels);
     Ok(texture.create_view(&Default::default()))

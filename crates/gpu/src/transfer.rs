@@ -4,7 +4,6 @@ use wgpu::{TextureFormat, TextureUsages};
 
 use crate::device::Gpu;
 use crate::error::Error;
-use crate::storage_textures::{self, NUMBERS_FORMAT, TEXEL_FORMAT};
 
 /// What an upload wrote of one of a scene's arrays or textures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -80,13 +79,7 @@ impl<'a> Transfer<'a> {
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,
             format,
-            usage: if [TEXEL_FORMAT, NUMBERS_FORMAT].contains(&format)
-                && storage_textures::are_used(self.gpu)
-            {
-                usage | TextureUsages::STORAGE_BINDING
-            } else {
-                usage
-            },
+            usage,
             view_formats: &[],
         };
         self.gpu.texture(what, &descriptor).await

@@ -11,9 +11,10 @@ use hairline_scene::{Scene, ScratchTables};
 use crate::bindings::Layouts;
 use crate::device::Gpu;
 use crate::error::Error;
-use crate::film::RoomNeeds;
+use crate::host::light_kinds;
 use crate::passes::ScenePasses;
 use crate::scene_buffers::{SceneBuffers, check_size};
+use crate::shade_scratches::LightRanges;
 use crate::textures::{SceneTextures, TextureArray};
 use crate::transfer::{Transfer, Written};
 
@@ -22,6 +23,7 @@ pub struct GpuScene {
     pub(crate) buffers: SceneBuffers,
     pub(crate) textures: SceneTextures,
     pub(crate) light_count: u32,
+    pub(crate) light_ranges: LightRanges,
     pub(crate) passes: Arc<ScenePasses>,
     written: Vec<Written>,
     device: wgpu::Device,
@@ -59,30 +61,21 @@ impl GpuScene {
         let mut transfer = Transfer::new(gpu);
         let buffers =
             SceneBuffers::upload(&mut transfer, layouts, source, &array, last_buffers).await?;
-        let origin_m = buffers.vertices.origin_m;
-        let textures = SceneTextures::upload(
-            &mut transfer,
-            layouts,
-            source,
-            &array,
-            origin_m,
-            last_textures,
-        )
-        .await?;
+        let textures =
+            SceneTextures::upload(&mut transfer, layouts, source, &array, last_textures).await?;
+        let has_environment = source.scene.environment.is_some();
+        let kinds = light_kinds(source.scene);
+        let light_ranges = LightRanges::upload(gpu, kinds, has_environment).await?;
         gpu.check()?;
         Ok(Self {
             buffers,
             textures,
-            light_count: source.scene.all_lights().count() as u32,
+            light_count: kinds.all,
+            light_ranges,
             passes,
             written: transfer.end(),
             device: gpu.device.clone(),
         })
-    }
-
-    /// For what its passes need a place.
-    pub(crate) fn needs(&self) -> RoomNeeds {
-        self.passes.needs(self.buffers.segment_count())
     }
 
     /// What the last upload or update wrote, beside what it copied on the device; nothing about what stayed as it was.

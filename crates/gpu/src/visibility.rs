@@ -1,12 +1,12 @@
 //! Pass: the triangle and the object that each pixel sees.
 //!
-//! Inputs: frame, vertices. Outputs: the film's visibility and depth. One draw for each object, without an index buffer:
+//! Inputs: frame, vertices. Outputs: the strip's visibility and depth. One draw for each object, without an index buffer:
 //! the shader divides the vertex's number by three, which works on every device.
 
 use crate::bindings::Layouts;
 use crate::device::Gpu;
-use crate::film::{Band, DEPTH_FORMAT, VISIBILITY_FORMAT};
 use crate::shaders;
+use crate::strip::{DEPTH_FORMAT, StripRoom, VISIBILITY_FORMAT};
 use crate::timing::Timing;
 use crate::upload::GpuScene;
 
@@ -69,13 +69,14 @@ impl VisibilityPass {
         encoder: &mut wgpu::CommandEncoder,
         frame: &wgpu::BindGroup,
         scene: &GpuScene,
-        band: &Band<'_>,
+        room: &StripRoom,
+        rows: u32,
         timing: &Timing,
     ) {
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("visibility"),
             color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                view: &band.room.visibility,
+                view: &room.visibility,
                 depth_slice: None,
                 resolve_target: None,
                 ops: wgpu::Operations {
@@ -84,7 +85,7 @@ impl VisibilityPass {
                 },
             })],
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-                view: &band.room.depth,
+                view: &room.depth,
                 depth_ops: Some(wgpu::Operations {
                     load: wgpu::LoadOp::Clear(0.0),
                     store: wgpu::StoreOp::Discard,
@@ -97,8 +98,9 @@ impl VisibilityPass {
         pass.set_viewport(
             0.0,
             0.0,
-            band.room.width_px as f32,
-            band.rows.len() as f32,
+            room.width_px as f32,
+            // A row more above and below.
+            (rows + 2) as f32,
             0.0,
             1.0,
         );

@@ -83,14 +83,16 @@ fn passes_take_time_and_not_more_than_has_gone_by() {
         return skip("the device has no clock");
     }
     let mut least = Duration::MAX;
-    for samples in [1, 1, 1, 16] {
+    for pictures in [1, 1, 1, 8] {
         let start = Instant::now();
-        render(&mut renderer, &scene, &uploaded, samples);
+        for _ in 0..pictures {
+            render(&mut renderer, &scene, &uploaded, 1);
+        }
         let wall = start.elapsed();
         let times = times(&mut renderer).unwrap();
         let names: Vec<&str> = times.iter().map(|pass| pass.name).collect();
         assert!(
-            names.contains(&"visibility") && names.contains(&"shade"),
+            names.contains(&"visibility") && names.contains(&"scratches"),
             "{names:?}"
         );
         for pass in &times {
@@ -98,11 +100,11 @@ fn passes_take_time_and_not_more_than_has_gone_by() {
         }
         // Passes run one after the other, so that their sum is bounded too.
         assert!(sum(&times) < wall, "{times:?} within {wall:?}");
-        if samples == 1 {
+        if pictures == 1 {
             // The least: others may be at work on the machine.
             least = least.min(sum(&times));
         } else {
-            // Sixteen samples are sixteen runs, and summed; far less is asked for.
+            // Runs of eight pictures are summed; far less is asked for.
             assert!(sum(&times) > 2 * least, "{times:?} after {least:?}");
         }
     }

@@ -1,13 +1,13 @@
 //! How laying scratches and building what finds them grows with their number: time, cores at work, and memory.
 //!
 //! `cargo bench -p hairline-index --bench growth` prints a table; numbers behind `--` are other counts than 10,000, 100,000 and
-//! 1,000,000, and `no-grids` leaves the grids out. No statistics crate: each step takes seconds, and what is asked is how it grows.
+//! 1,000,000. No statistics crate: each step takes seconds, and what is asked is how it grows.
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
-use hairline_index::{BundleIndex, ScratchIndex};
+use hairline_index::ScratchIndex;
 use hairline_scene::{Loader, Scene};
 
 /// The system's allocator, which knows how much is taken.
@@ -86,18 +86,18 @@ fn cpu_time() -> Duration {
     Duration::from_millis(10 * ticks)
 }
 
-const STEPS: [&str; 3] = ["laid", "tree", "grids"];
+const STEPS: [&str; 2] = ["laid", "tree"];
 /// The shortest of so many counts: what else the machine does makes it longer only.
 const RUNS: usize = 3;
 
 struct Row {
     count: u64,
     segments: usize,
-    /// As they are in [`STEPS`], the grids' or not.
+    /// As they are in [`STEPS`].
     steps: Vec<Step>,
 }
 
-fn measure(count: u64, grids: bool) -> Row {
+fn measure(count: u64) -> Row {
     let text = format!(
         "[camera]\nposition_m = [0.0, -0.3, 0.3]\ntarget_m = [0.0, 0.0, 0.0]\nup = [0.0, 0.0, 1.0]\n\
          [[material]]\nname = \"m\"\nkind = \"mirror\"\n\
@@ -116,10 +116,7 @@ fn measure(count: u64, grids: bool) -> Row {
     });
     let (tree, built) = step(|| ScratchIndex::build(&scene));
     let segments = tree.tree.segments.len();
-    let mut steps = vec![lay, built];
-    if grids {
-        steps.push(step(|| BundleIndex::build(&scene)).1);
-    }
+    let steps = vec![lay, built];
     Row {
         count,
         segments,
@@ -132,14 +129,13 @@ fn main() {
     if std::env::args().any(|argument| argument == "--test") {
         return;
     }
-    let grids = !std::env::args().any(|argument| argument == "no-grids");
     let asked: Vec<u64> = std::env::args().filter_map(|a| a.parse().ok()).collect();
     let counts = match asked.as_slice() {
         [] => vec![10_000, 100_000, 1_000_000],
         _ => asked,
     };
     // Threads and tables that the first one would pay for.
-    measure(1000, grids);
+    measure(1000);
     println!(
         "scratches of 10 mm on a disk of 16 cm, {} threads, the shortest of {RUNS} runs; bytes for each scratch; growth as a power \
          of the number, and that of n log n\n",
@@ -149,9 +145,9 @@ fn main() {
     println!("|---:|---:|---|---:|---:|---:|---:|---:|---:|");
     let mut last: Option<Row> = None;
     for count in counts {
-        let mut row = measure(count, grids);
+        let mut row = measure(count);
         for _ in 1..RUNS {
-            for (least, step) in row.steps.iter_mut().zip(measure(count, grids).steps) {
+            for (least, step) in row.steps.iter_mut().zip(measure(count).steps) {
                 if step.wall < least.wall {
                     *least = step;
                 }

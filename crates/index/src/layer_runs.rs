@@ -2,7 +2,6 @@
 //! scene of an editor.
 
 use hairline_optics::footprint;
-use hairline_optics::method::Lookup;
 use hairline_scene::{Object, Scene, Scratch, Segment};
 use rayon::prelude::*;
 
@@ -14,23 +13,17 @@ const STRAIGHT_RAD: f32 = 2e-4;
 /// Normals of both, which tell sides of a sheet apart, agree to this cosine.
 const SAME_SIDE_COS: f32 = 0.9999;
 
-/// No longer piece is made of others: boxes about long slanting ones hold little but air. A tile projects each piece once and gains 10 %
-/// between 2 and 4 mm (a software driver, the bench's disk). A pixel that walks for itself looks at all pieces whose boxes it is in:
-/// with 1 mm it takes 0.73 of its time with 4, with less no less. A triangle has each in its list once, however long.
-pub(crate) fn longest_m(lookup: Lookup) -> f32 {
-    match lookup {
-        Lookup::Tiles | Lookup::Triangles => 4e-3,
-        Lookup::Bvh => 1e-3,
-    }
-}
+/// Pieces are put together up to this length. A renderer projects each piece once for the whole picture, so longer pieces are fewer
+/// projections; but the box of a long slanting piece in the BVH is mostly empty.
+const LONGEST_M: f32 = 4e-3;
 
 /// Whether a piece that follows another is its straight continuation: scratches are cut at the edges of triangles, which on flat
 /// surfaces are nothing to see.
-fn goes_on(last: &IndexedSegment, next: &IndexedSegment, longest_m: f32) -> bool {
+fn goes_on(last: &IndexedSegment, next: &IndexedSegment) -> bool {
     let (a, b) = (last.end_m - last.start_m, next.end_m - next.start_m);
     let whole = next.end_m - last.start_m;
     last.end_m == next.start_m
-        && whole.length_squared() <= longest_m * longest_m
+        && whole.length_squared() <= LONGEST_M * LONGEST_M
         && last.normal.dot(next.normal) >= SAME_SIDE_COS
         && a.dot(b) > 0.0
         && a.cross(b).length_squared()
@@ -119,15 +112,14 @@ impl<'a> LayerRun<'a> {
     }
 
     /// Appends the pieces with their free ends moved inwards, in the order of the scratches whatever the number of threads. Straight
-    /// ones are put together as suits the look-up.
-    pub fn append_effective(&self, lookup: Lookup, effective: &mut Vec<IndexedSegment>) {
-        let longest_m = longest_m(lookup);
+    /// ones are put together.
+    pub fn append_effective(&self, effective: &mut Vec<IndexedSegment>) {
         for batch in self.scratches.chunks(BATCH) {
             let tasks = batch.par_chunks(TASK).map(|scratches| {
                 let pieces = scratches.iter().map(|s| s.segments.len()).sum();
                 let mut effective = Vec::with_capacity(pieces);
                 for scratch in scratches {
-                    self.append_scratch(scratch, longest_m, &mut effective);
+                    self.append_scratch(scratch, &mut effective);
                 }
                 effective
             });
@@ -137,12 +129,7 @@ impl<'a> LayerRun<'a> {
         }
     }
 
-    fn append_scratch(
-        &self,
-        scratch: &Scratch,
-        longest_m: f32,
-        effective: &mut Vec<IndexedSegment>,
-    ) {
+    fn append_scratch(&self, scratch: &Scratch, effective: &mut Vec<IndexedSegment>) {
         let pieces = self.pieces(scratch);
         let Some(coherence_um) = self.coherence_um(scratch) else {
             return;
@@ -171,7 +158,7 @@ impl<'a> LayerRun<'a> {
                     blur_um: ends.blur_um as f32,
                 };
                 match effective[first..].last_mut() {
-                    Some(last) if goes_on(last, &next, longest_m) => last.end_m = next.end_m,
+                    Some(last) if goes_on(last, &next) => last.end_m = next.end_m,
                     _ => effective.push(next),
                 }
             }

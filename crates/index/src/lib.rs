@@ -1,7 +1,6 @@
 //! Finding what lies where: scratches under a footprint, triangles along a ray. Trees are built by obvhs; the walk over
 //! scratches is stackless, the same on the CPU and in a shader.
 
-pub mod bundles;
 mod depth_spread;
 pub mod groove_index;
 mod layer_runs;
@@ -12,7 +11,6 @@ pub mod triangle_index;
 pub mod triangle_lists;
 pub mod watch;
 
-pub use bundles::{Bundle, BundleIndex, BundleLevel};
 pub use groove_index::Groove;
 pub use scratch_index::{IndexedSegment, ScratchIndex};
 pub use segment_tree::{ScratchNode, SegmentTree};

@@ -2,15 +2,13 @@
 //! docs/model.md section 6 says of the whole scratch; where pieces are joined nothing moves, and pieces that an end's shift
 //! swallows are gone.
 
-use crate::bundles::BundleIndex;
 use crate::depth_spread::object_coherence;
-use crate::layer_runs::{LayerRun, groups, longest_m};
+use crate::layer_runs::{LayerRun, groups};
 use crate::segment_tree::{Plot, SegmentTree, Straight, Tree, plant};
 use crate::watch::Watch;
 use glam::Vec3;
-use hairline_optics::method::Lookup;
 use hairline_scene::{Object, Scene};
-use std::sync::{Arc, OnceLock};
+use std::ops::Range;
 
 /// A straight piece of a scratch, its free ends moved inwards.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,10 +41,8 @@ pub struct ScratchIndex {
     pub tree: SegmentTree<IndexedSegment>,
     /// How alike the phase steps of each object's scratches are (docs/model.md, section 3).
     pub depth_coherence: Vec<f32>,
-    /// No longer piece is put together of others.
-    longest_m: f32,
-    /// See [`Self::grids`].
-    grids: OnceLock<Arc<BundleIndex>>,
+    /// For each object the largest coherence length of its materials.
+    coherence_max_um: Vec<f32>,
 }
 
 /// A footprint cannot be told apart from its Gaussian's tail beyond this many standard deviations (5e-4 of it is left).
@@ -57,28 +53,22 @@ pub const REACH_STD: f32 = 3.5;
 pub const FACING_MIN_COS: f32 = 0.2;
 
 impl ScratchIndex {
-    /// Builds the trees for the default look-up, all cores at work; the same for any number of them.
+    /// Builds the trees, all cores at work; the same for any number of them.
     ///
     /// # Panics
     /// Beyond 268 million pieces; no loaded scene has as many on one object.
     pub fn build(scene: &Scene) -> Self {
-        Self::rebuild(scene, Lookup::default(), None, &Watch::default())
+        Self::rebuild(scene, None, &Watch::default())
             .unwrap_or_else(|| unreachable!("nobody cancels it"))
     }
 
-    /// The same while another watches, with pieces as long as suits the look-up, and with the trees of an earlier scene for those
-    /// layers that lie as they lay there, if they were for such a look-up. `None` if it was cancelled.
+    /// The same while another watches, and with the trees of an earlier scene for those layers that lie as they lay there. `None` if
+    /// it was cancelled.
     ///
     /// # Panics
     /// As [`Self::build`].
-    pub fn rebuild(
-        scene: &Scene,
-        lookup: Lookup,
-        last: Option<(&Scene, &Self)>,
-        watch: &Watch,
-    ) -> Option<Self> {
-        let last = last.filter(|(_, index)| index.suits(lookup));
-        let plots = plots(scene, lookup, last);
+    pub fn rebuild(scene: &Scene, last: Option<(&Scene, &Self)>, watch: &Watch) -> Option<Self> {
+        let plots = plots(scene, last);
         let (tree, depth_coherence) = rayon::join(
             || plant(plots, last.map(|(_, index)| &index.tree), watch),
             || Self::depth_coherence(scene),
@@ -86,30 +76,22 @@ impl ScratchIndex {
         Some(Self {
             tree: tree?,
             depth_coherence,
-            longest_m: longest_m(lookup),
-            grids: OnceLock::new(),
+            coherence_max_um: scene
+                .objects
+                .iter()
+                .map(|object| coherence_max_um(scene, object))
+                .collect(),
         })
     }
 
-    /// Whether its pieces are as long as the look-up would have them. Others give the same pictures, later.
-    pub fn suits(&self, lookup: Lookup) -> bool {
-        self.longest_m == longest_m(lookup)
+    /// The segments of an object in [`SegmentTree::segments`].
+    pub fn segment_range(&self, object: usize) -> Range<u32> {
+        self.tree.segment_range(object)
     }
 
-    /// What the scratches of the scene that this was built of add up to; built when first asked for, and shared by clones made after.
-    pub fn grids(&self, scene: &Scene) -> Arc<BundleIndex> {
-        let build = || BundleIndex::build(scene).into();
-        Arc::clone(self.grids.get_or_init(build))
-    }
-
-    /// Builds what [`Self::grids`] returns while another watches. `None` if it was cancelled.
-    pub fn grids_watched(&self, scene: &Scene, watch: &Watch) -> Option<Arc<BundleIndex>> {
-        if self.grids.get().is_none() {
-            let grids = BundleIndex::watched(scene, watch)?;
-            // Another may have been quicker.
-            self.grids.set(grids.into()).ok();
-        }
-        self.grids.get().cloned()
+    /// For each object the largest coherence length of its materials: no point of it sees further along a surface.
+    pub fn coherence_max_um(&self) -> &[f32] {
+        &self.coherence_max_um
     }
 
     /// How alike the phase steps of each object's scratches are, without the trees.
@@ -129,7 +111,6 @@ impl ScratchIndex {
 /// For the layers on each object the trees that they have already, or what to grow them over.
 fn plots<'a>(
     scene: &'a Scene,
-    lookup: Lookup,
     last: Option<(&Scene, &ScratchIndex)>,
 ) -> Vec<Vec<Plot<'a, IndexedSegment>>> {
     let kept = last.map_or_else(Vec::new, |(scene, index)| index.groups(scene));
@@ -143,9 +124,7 @@ fn plots<'a>(
             None => Plot::New {
                 most: group.iter().map(LayerRun::piece_count).sum(),
                 fill: Box::new(move |pieces: &mut Vec<_>| {
-                    group
-                        .iter()
-                        .for_each(|run| run.append_effective(lookup, pieces));
+                    group.iter().for_each(|run| run.append_effective(pieces));
                 }),
             },
         }
@@ -156,12 +135,28 @@ fn plots<'a>(
         .collect()
 }
 
-/// The pieces of an object's scratches, free ends moved inwards along the scratch, as long as by the default look-up.
-pub(crate) fn effective_segments(scene: &Scene, object: &Object) -> Vec<IndexedSegment> {
+/// The largest coherence length of the materials that an object's triangles refer to.
+fn coherence_max_um(scene: &Scene, object: &Object) -> f32 {
+    let mut is_used = vec![false; scene.materials.len()];
+    for &material in &object.mesh.triangle_materials {
+        is_used[material as usize] = true;
+    }
+    let used = scene
+        .materials
+        .iter()
+        .zip(is_used)
+        .filter(|(_, used)| *used);
+    used.map(|(material, _)| material.coherence_um as f32)
+        .fold(0.0, f32::max)
+}
+
+/// The pieces of an object's scratches, free ends moved inwards along the scratch.
+#[cfg(test)]
+fn effective_segments(scene: &Scene, object: &Object) -> Vec<IndexedSegment> {
     let runs: Vec<_> = LayerRun::of(scene, object).collect();
     let mut effective = Vec::with_capacity(runs.iter().map(LayerRun::piece_count).sum());
     for run in runs {
-        run.append_effective(Lookup::default(), &mut effective);
+        run.append_effective(&mut effective);
     }
     effective
 }

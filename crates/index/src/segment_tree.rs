@@ -90,6 +90,15 @@ impl<S: Straight> SegmentTree<S> {
             .unwrap_or_else(|| unreachable!("nobody cancels it"))
     }
 
+    /// The segments of an object, which stand side by side; empty for an object without scratches.
+    pub fn segment_range(&self, object: usize) -> Range<u32> {
+        match self.trees[object].as_slice() {
+            [first, .., last] => first.segments.start..last.segments.end,
+            [only] => only.segments.clone(),
+            [] => 0..0,
+        }
+    }
+
     /// Calls `visit` for every segment of an object whose node touches the box around a point.
     #[inline]
     pub fn gather(&self, object: usize, center_m: Vec3, reach_m: Vec3, mut visit: impl FnMut(&S)) {

@@ -48,11 +48,13 @@ impl BandLine {
     }
 
     /// q at phi = 0.
+    #[inline]
     pub fn q_start(self) -> f64 {
         self.offset + self.radius
     }
 
     /// q at phi = pi.
+    #[inline]
     pub fn q_end(self) -> f64 {
         self.offset - self.radius
     }
@@ -366,6 +368,7 @@ impl BandFrame {
     }
 
     /// The inverse of [`Self::band_from_surface`].
+    #[inline]
     pub fn surface_from_band(self, v: DVec3) -> DVec3 {
         let t = self.tangent;
         DVec3::new(v.x * t.x - v.y * t.y, v.x * t.y + v.y * t.x, v.z)

@@ -1,79 +1,94 @@
 //! An environment along the band of a scratch: a 1-D integral, cut into cells (docs/model.md, section 8).
 //!
 //! Within a cell the environment is taken as one blurred value and the scratch's response as the exact difference of its
-//! antiderivative, so the cells' responses sum to the whole whatever the environment. Cells are narrow where the response
-//! is: at u = W q near zero. Where even those are wider than a light, the map's own lobes blur it: across the band too, where
-//! the scratch would not. So the blur is kept narrower than the cell; narrower still, and a small light would show once a cell.
+//! antiderivative, so the cells' responses sum to the whole whatever the environment. Cells are even in x = q / (|q| + h), as
+//! [`crate::band::chord_cos`] weighs directions: with the density h / (|q| + h)^2 in the place of the response's, all cells have the
+//! same share of it, and the middle of a cell in x is where its light comes from. Where a cell is wider than a light, the map's own
+//! lobes blur it: across the band too, where the scratch would not. So the blur is kept narrower than the cell; narrower still, and a
+//! small light would show once a cell.
+//!
+//! Ten cells against a dense integral, relative rms of twelve scratches together (24 cells that were even in q and wider outwards, in
+//! brackets): a studio 2.0 % (1.1), a workshop with small bright lamps 5.4 % (8.3), an evening sky 0.5 % (0.6), a window with sharp
+//! edges 4.1 % (3.8).
 
-use crate::band::{BandLine, chord_cos};
-use glam::{DVec2, DVec3};
+use crate::band::BandLine;
+use glam::DVec3;
 
-/// Cells along the band. Those beyond the arc's ends, many on narrow scratches, are empty.
-pub const ENVIRONMENT_CELLS: usize = 24;
+/// Cells along the band.
+pub const ENVIRONMENT_CELLS: usize = 10;
 
-/// Alpha of the lobe that blurs a cell over the angle that it spans. Against quadrature 0.06 to 0.12 do equally well for lights
-/// of 0.1 rad, less for wider ones, more for narrower.
-const CELL_ALPHA: f64 = 0.1;
+/// Scale of x as u = W q. Larger ones take more of the cells to the lobes beside the main one.
+const CELL_SCALE_UM: f64 = 0.3;
+
+/// Alpha of the lobe that blurs a cell over the chord that it spans.
+const CELL_ALPHA: f64 = 0.08;
 
 /// One cell.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EnvironmentCell {
     /// Lower end in q.
     pub q_low: f64,
     /// Upper end in q.
     pub q_high: f64,
-    /// A unit direction in its middle, in the frame of the scratch.
+    /// The unit direction that stands for it, in the frame of the scratch. Its z is the cosine for the groove's depth.
     pub direction: DVec3,
-    /// The angle that it spans along the band, as an arc on the unit sphere.
+    /// The angle that it spans along the band, as the length of its chord on the unit sphere.
     pub angle_rad: f64,
 }
 
 impl EnvironmentCell {
     /// The perceptual roughness of the mirror lobe that stands for the cell.
+    #[inline]
     pub fn environment_cell_roughness(&self) -> f64 {
-        (CELL_ALPHA * self.angle_rad).sqrt().min(1.0)
+        (CELL_ALPHA * self.angle_rad).sqrt()
     }
 }
 
-/// The bound between cells i - 1 and i in u, um: even over the main lobe, whose first zero lies at one wavelength, then growing
-/// with the lobes' decay.
-fn environment_cell_bound_um(i: usize) -> f64 {
-    let outward = i as f64 - (ENVIRONMENT_CELLS / 2) as f64;
-    let far = outward.abs() / 9.0;
-    let far2 = far * far;
-    0.07 * outward * (1.0 + far2 * far2 * far2 * far)
+/// The cells of a line, from the arc's end to its start in q. Loops over plain numbers, which compilers turn into vector instructions.
+#[inline(always)]
+pub fn environment_cells(line: BandLine, width_um: f64) -> [EnvironmentCell; ENVIRONMENT_CELLS] {
+    const POINTS: usize = 2 * ENVIRONMENT_CELLS + 1;
+    // A scratch of no width has no lobe; what counts is that nothing is divided by zero.
+    let scale = CELL_SCALE_UM / width_um.max(1e-3);
+    let (end, start) = (line.q_end(), line.q_start());
+    let low = end / (end.abs() + scale);
+    let high = start / (start.abs() + scale);
+    let step = (high - low) / (POINTS - 1) as f64;
+    // The bounds of cells and, between them, their middles.
+    let mut q = [0.0; POINTS];
+    let mut cos = [0.0; POINTS];
+    for (i, q) in q.iter_mut().enumerate() {
+        let x = low + step * i as f64;
+        let far = scale * x / (1.0 - x.abs()).max(1e-9);
+        *q = far.max(end).min(start);
+    }
+    // Rounding must not leave out a part of the arc.
+    q[0] = end;
+    q[POINTS - 1] = start;
+    for i in 0..POINTS {
+        cos[i] = line.cos_at(q[i]);
+    }
+    std::array::from_fn(|i| {
+        let (low, middle, high) = (2 * i, 2 * i + 1, 2 * i + 2);
+        let (dq, dcos) = (q[high] - q[low], cos[high] - cos[low]);
+        EnvironmentCell {
+            q_low: q[low],
+            q_high: q[high],
+            direction: DVec3::new(line.along, q[middle] - line.offset, cos[middle]),
+            angle_rad: (dq * dq + dcos * dcos).sqrt(),
+        }
+    })
 }
 
 /// Cell `i` of a line. Cells follow one another in q from the arc's end to its start.
 pub fn environment_cell(i: usize, line: BandLine, width_um: f64) -> EnvironmentCell {
-    // A scratch of no width has no lobe: every bound but zero lies beyond the arc.
-    let width = width_um.max(1e-3);
-    let (end, start) = (line.q_end(), line.q_start());
-    let bound = |i: usize| (environment_cell_bound_um(i) / width).clamp(end, start);
-    let q_low = if i == 0 { end } else { bound(i) };
-    let q_high = if i == ENVIRONMENT_CELLS - 1 {
-        start
-    } else {
-        bound(i + 1)
-    };
-    // The points of the arc at both ends, across and up; their sum points to the middle.
-    let at = |q: f64| DVec2::new(q - line.offset, line.cos_at(q));
-    let (low, high) = (at(q_low), at(q_high));
-    let middle = line.radius * (low + high).normalize_or(DVec2::Y);
-    let half_chord = 0.5 * (high - low).length();
-    let half_angle = (half_chord / line.radius.max(1e-9)).min(1.0).asin();
-    EnvironmentCell {
-        q_low,
-        q_high,
-        direction: DVec3::new(line.along, middle.x, middle.y),
-        angle_rad: 2.0 * line.radius * half_angle,
-    }
+    environment_cells(line, width_um)[i]
 }
 
 /// The light of an environment off a scratch of width `width_um` along a line of its band, cell by cell. `antiderivative` is
 /// the scratch's response over q, from any fixed q on, at a cosine of the light's direction to the normal; `blurred` the
-/// environment towards a direction (in the frame of the
-/// scratch), blurred by the mirror lobe of a perceptual roughness.
+/// environment towards a direction (in the frame of the scratch), blurred by the mirror lobe of a perceptual roughness.
+#[inline(always)]
 pub fn environment_band(
     line: BandLine,
     width_um: f64,
@@ -81,11 +96,9 @@ pub fn environment_band(
     blurred: impl Fn(DVec3, f64) -> DVec3,
 ) -> DVec3 {
     let mut sum = DVec3::ZERO;
-    for i in 0..ENVIRONMENT_CELLS {
-        let cell = environment_cell(i, line, width_um);
+    for cell in environment_cells(line, width_um) {
         if cell.q_high > cell.q_low {
-            let cos_i = chord_cos(line, cell.q_low, cell.q_high, width_um);
-            let at = |q: f64| DVec3::from(antiderivative(q, cos_i));
+            let at = |q: f64| DVec3::from(antiderivative(q, cell.direction.z));
             let blur = cell.environment_cell_roughness();
             sum += (at(cell.q_high) - at(cell.q_low)) * blurred(cell.direction, blur);
         }
@@ -114,9 +127,7 @@ mod tests {
                     assert!(
                         (cell.direction.length() - 1.0).abs() < 1e-9 && cell.direction.z >= 0.0
                     );
-                    assert!(
-                        cell.angle_rad.is_finite() && cell.angle_rad <= std::f64::consts::PI + 1e-9
-                    );
+                    assert!((0.0..=2.0 + 1e-9).contains(&cell.angle_rad));
                     at = cell.q_high;
                 }
                 assert_eq!(at, line.q_start());

@@ -18,6 +18,5 @@ pub mod method;
 pub mod published;
 pub mod scratch;
 pub mod spectrum;
-pub mod spread_table;
 pub mod sptd;
 pub mod table;

@@ -101,18 +101,6 @@ impl ScratchTable {
         Self::from_texels(texels)
     }
 
-    /// A table from T and its slope in each column, row by row.
-    pub(crate) fn from_values(values: impl Iterator<Item = ([f64; 3], [f64; 3])>) -> Self {
-        Self::from_texels(
-            values
-                .map(|(value, slopes)| {
-                    let [r, g, b] = value.map(|t| (t as f32).to_bits());
-                    [r, g, b, pack_slopes(slopes)]
-                })
-                .collect(),
-        )
-    }
-
     fn from_texels(texels: Vec<[u32; 4]>) -> Self {
         let last = texels.iter().skip(COLUMNS - 1).step_by(COLUMNS);
         let twice = |bits: u32| 2.0 * f32::from_bits(bits);
@@ -132,13 +120,7 @@ impl ScratchTable {
     pub fn at_depth(&self, depth_nm: f64) -> TableRow<'_> {
         let (row, share) = row_at(depth_nm);
         let (near, far) = self.texels[row * COLUMNS..][..2 * COLUMNS].split_at(COLUMNS);
-        TableRow {
-            near,
-            far,
-            share,
-            depth_rows: row as f64 + share,
-            wider: 0.0,
-        }
+        TableRow { near, far, share }
     }
 
     /// T(infinity, d) - T(-infinity, d): the mean of |D|^2 in each channel, which the mask of section 3 needs.
@@ -164,81 +146,17 @@ pub struct TableRow<'a> {
     far: &'a [[u32; 4]],
     /// Of `far`.
     share: f64,
-    /// The depth, in rows.
-    depth_rows: f64,
-    /// Share by which u grows, to first order.
-    wider: f64,
-}
-
-/// The mean of T at several depths, as values and slopes of all columns.
-pub(crate) struct TableSums(Vec<[f64; 6]>);
-
-impl TableSums {
-    /// `depths_nm` are at least one.
-    pub fn over(table: &ScratchTable, depths_nm: impl Iterator<Item = f64>) -> Self {
-        let mut weights: Vec<(usize, f64)> = depths_nm
-            .flat_map(|depth_nm| {
-                let (row, share) = row_at(depth_nm);
-                [(row, 1.0 - share), (row + 1, share)]
-            })
-            .collect();
-        let total: f64 = weights.iter().map(|(_, weight)| weight).sum();
-        // Neighbouring depths have rows in common.
-        weights.sort_unstable_by_key(|(row, _)| *row);
-        weights.dedup_by(|next, last| {
-            let same = next.0 == last.0;
-            last.1 += if same { next.1 } else { 0.0 };
-            same
-        });
-        let mut sums = vec![[0.0; 6]; COLUMNS];
-        for (row, weight) in weights {
-            let weight = weight / total;
-            let texels = &table.texels[row * COLUMNS..][..COLUMNS];
-            for (sum, texel) in sums.iter_mut().zip(texels) {
-                let slopes = unpack_slopes(texel[3]);
-                for c in 0..3 {
-                    sum[c] += weight * f64::from(f32::from_bits(texel[c]));
-                    sum[3 + c] += weight * slopes[c];
-                }
-            }
-        }
-        Self(sums)
-    }
-
-    /// T(u) for u of 0 or more.
-    #[inline]
-    pub fn at(&self, u_um: f64) -> [f64; 3] {
-        let u = u_um.min(1e300);
-        let x = u / (u + U_HALF_UM) * (COLUMNS - 1) as f64;
-        let column = (x + 0.5) as usize;
-        let f = x - column as f64;
-        let [r, g, b, slopes @ ..] = self.0[column];
-        [r + f * slopes[0], g + f * slopes[1], b + f * slopes[2]]
-    }
 }
 
 impl TableRow<'_> {
-    /// T_c((1 + wider) u, (1 + deeper) d) to first order in both: a sum of several is that of one with their mean
-    /// (equation 24d). Costs no further look-up.
-    #[inline]
-    pub fn moved(self, wider: f64, deeper: f64) -> Self {
-        Self {
-            share: self.share + deeper * self.depth_rows,
-            wider,
-            ..self
-        }
-    }
-
     /// T_c(u, d). Odd in u.
     #[inline]
     pub fn at(&self, u_um: f64) -> [f64; 3] {
         // Infinite u is in the last column too.
         let u = u_um.abs().min(1e300);
-        let even = u / (u + U_HALF_UM);
-        let x = even * (COLUMNS - 1) as f64;
+        let x = u / (u + U_HALF_UM) * (COLUMNS - 1) as f64;
         let column = (x + 0.5) as usize;
-        // u dx/du = x (1 - even).
-        let f = x - column as f64 + self.wider * x * (1.0 - even);
+        let f = x - column as f64;
         let (near, far) = (self.near[column], self.far[column]);
         let (near_slopes, far_slopes) = (unpack_slopes(near[3]), unpack_slopes(far[3]));
         let sign = 1f64.copysign(u_um);
@@ -251,7 +169,7 @@ impl TableRow<'_> {
 }
 
 /// u at a column or between two; infinite at the last one.
-pub(crate) fn column_u_um(column: f64) -> f64 {
+fn column_u_um(column: f64) -> f64 {
     let x = column / (COLUMNS - 1) as f64;
     U_HALF_UM * x / (1.0 - x)
 }

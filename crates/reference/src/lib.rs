@@ -1,16 +1,19 @@
-//! Rendering on the CPU in f64: the readable twin of the shader, and the renderer where no driver exists.
+//! Rendering on the CPU in f64: the readable twin of the shaders, and the renderer where no driver exists.
+//!
+//! A picture goes through the stages of the GPU, of the same names: `visibility`, `surface`, `project`, `bin`, `shade_scratches`,
+//! `shade_base`, `resolve`.
 
-mod along;
-mod base;
-mod bundles;
+mod bin;
 mod camera_beam;
 pub mod closed_form;
 mod light_view;
 pub mod monte_carlo;
+mod project;
 mod published;
-mod scratches;
-mod segment_view;
+mod resolve;
+mod shade_base;
+mod shade_scratches;
 mod silhouettes;
 mod surface;
-
-pub use scratches::GatherCounts;
+mod tile;
+mod visibility;

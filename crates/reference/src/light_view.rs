@@ -1,11 +1,8 @@
 //! The lights as seen from a point, in the frame of its surface.
 
-use crate::camera_beam::CameraBeam;
 use crate::surface::SurfacePoint;
 use glam::{DVec2, DVec3};
-use hairline_optics::band::{
-    Cap, Outline, OutlineEdge, PolygonView, band_moves, polygon_facing, sphere_cap,
-};
+use hairline_optics::band::{Cap, Outline, OutlineEdge, band_moves, polygon_facing, sphere_cap};
 use hairline_scene::{Light, Scene};
 use std::ops::Range;
 
@@ -42,9 +39,9 @@ impl LightView {
 /// All lights of a scene from a point. One for each thread, filled anew for every point without allocating.
 pub(crate) struct LightViews<'a> {
     lights: Vec<&'a Light>,
-    /// Along which such points are found: it, too, is kept from pixel to pixel.
-    pub rays: CameraBeam,
     pub views: Vec<LightView>,
+    /// For each light of the scene its place in `views`; `u32::MAX` if it is left out.
+    places: Vec<u32>,
     /// From the point to the middle of each, held at its radius or above.
     pub distances_m: Vec<f64>,
     /// For scratches, see [`LightViews::ready_for_scratches`]: how xi moves towards each over one standard deviation of the pixel's filter, to the right and down: `band_moves`.
@@ -61,8 +58,8 @@ impl<'a> LightViews<'a> {
     pub fn new(scene: &'a Scene) -> Self {
         Self {
             lights: scene.all_lights().collect(),
-            rays: CameraBeam::default(),
             views: Vec::new(),
+            places: Vec::new(),
             distances_m: Vec::new(),
             moves: Vec::new(),
             vertices: Vec::new(),
@@ -74,12 +71,15 @@ impl<'a> LightViews<'a> {
     /// Looks at the lights from a point. Lights wholly under its horizon or turned away are left out.
     pub fn look_from(&mut self, point: &SurfacePoint) {
         self.views.clear();
+        self.places.clear();
         self.distances_m.clear();
         self.moves.clear();
         self.vertices.clear();
         self.directions.clear();
         self.edges.clear();
         for (index, &light) in self.lights.iter().enumerate() {
+            self.places.push(u32::MAX);
+            let place = self.views.len() as u32;
             match light {
                 Light::Sphere {
                     center_m,
@@ -94,6 +94,7 @@ impl<'a> LightViews<'a> {
                             cap,
                             radiance: DVec3::from(*radiance),
                         });
+                        self.places[index] = place;
                     }
                 }
                 Light::Polygon {
@@ -130,9 +131,22 @@ impl<'a> LightViews<'a> {
                         bound,
                         radiance: DVec3::from(*radiance),
                     });
+                    self.places[index] = place;
                 }
             }
         }
+    }
+
+    /// Lights of the scene.
+    pub fn light_count(&self) -> usize {
+        self.lights.len()
+    }
+
+    /// The place in `views` of a light of the scene; none if it is left out.
+    #[inline]
+    pub fn view_of(&self, light: u32) -> Option<usize> {
+        let place = self.places[light as usize];
+        (place != u32::MAX).then_some(place as usize)
     }
 
     /// Finds what all scratches at the point share; only once there are any.
@@ -167,15 +181,6 @@ impl<'a> LightViews<'a> {
             away,
             facing,
             sets,
-        }
-    }
-
-    /// A polygon for the band's integrals.
-    pub fn polygon(&self, vertices: &Range<usize>, away: DVec3, facing: f64) -> PolygonView<'_> {
-        PolygonView {
-            directions: &self.directions[vertices.clone()],
-            away,
-            facing,
         }
     }
 }

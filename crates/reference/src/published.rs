@@ -1,87 +1,88 @@
-//! The method of 2018, and any mixture of its parts with the default's (docs/model.md, section 9): what
-//! [`crate::scratches`] and [`crate::base`] do for the default path.
+//! The method of 2018 (docs/model.md, section 9): what [`crate::scratches`] and [`crate::base`] do for Hairline's own.
 //!
-//! The way of a scratch is the same: what the pixel sees of it (`segment`), the light on it (`lights`), its spectrum
-//! (`response`), and what the base pays.
+//! The way of a scratch is the same: what the pixel sees of it (`segment`), the light on it (`lights`), and what the base pays.
 
 mod lights;
-mod response;
 mod segment;
 
 use crate::closed_form::Prepared;
 use crate::light_view::LightViews;
-use crate::published::response::Response;
 use crate::published::segment::SegmentView;
-use crate::scratches::each_segment;
 use crate::surface::SurfacePoint;
 use glam::DVec3;
-use hairline_optics::ltc::{LtcLobe, ltc_sphere};
+use hairline_index::scratch_index::REACH_STD;
+use hairline_index::{Hit, IndexedSegment};
+use hairline_optics::ltc::LtcLobe;
 use hairline_optics::mask::{Mask, Masked, ScratchSums};
-use hairline_optics::method::{Band, Chords, Method, Spectrum, SphereBase};
+use hairline_optics::method::{PublishedMethod, Structure};
 use hairline_optics::published::polygon::triangulate;
-use hairline_optics::published::spectrum::PublishedSpectrum;
-use hairline_optics::scratch::oblique_depth_nm;
+use hairline_optics::published::spectrum::{PUBLISHED_WAVELENGTHS, PublishedSpectrum};
 use hairline_optics::sptd::{sptd_lobe, sptd_sphere_published};
 use hairline_scene::Light;
 
-/// A scene made ready for a method that the default path has not.
+/// A scene made ready for the published method.
 pub(crate) struct Published<'a> {
     prepared: &'a Prepared<'a>,
-    method: Method,
-    /// One for each scratch table; none where tables are used.
+    method: PublishedMethod,
+    mask: Mask,
+    /// One for each scratch table.
     spectra: Vec<PublishedSpectrum>,
-    /// Of each light of the scene, as corners into its vertices; none for spheres, and none where roots are used.
+    /// Of each light of the scene, as corners into its vertices; none for spheres.
     triangles: Vec<Vec<[usize; 3]>>,
 }
 
 impl<'a> Published<'a> {
-    /// None for what the default path computes.
-    pub fn new(prepared: &'a Prepared, method: Method) -> Option<Self> {
-        if method.is_default_path() {
-            return None;
+    pub fn new(prepared: &'a Prepared, method: PublishedMethod, mask: Mask) -> Self {
+        if method.structure == Structure::TriangleLists {
+            // Built now, on one thread: a thread that builds them in parallel while others wait for them may take up one of
+            // their pixels meanwhile, and wait for itself.
+            prepared.triangle_lists();
         }
-        let triangles = |light: &Light| match (method.chords, light) {
-            (Chords::Steps, Light::Polygon { vertices_m, .. }) => triangulate(vertices_m),
-            _ => Vec::new(),
+        let triangles = |light: &Light| match light {
+            Light::Polygon { vertices_m, .. } => triangulate(vertices_m),
+            Light::Sphere { .. } => Vec::new(),
         };
-        Some(Self {
+        Self {
             prepared,
             method,
-            spectra: match method.spectrum {
-                Spectrum::Table => Vec::new(),
-                Spectrum::Wavelengths { count, .. } => prepared.tables.published_spectra(count),
-            },
+            mask,
+            spectra: prepared.tables.published_spectra(PUBLISHED_WAVELENGTHS),
             triangles: prepared.scene.all_lights().map(triangles).collect(),
-        })
+        }
     }
 
-    /// Radiance of all scratches under the point's footprint, and what they take from the base. `list` is that of the
-    /// point's triangle, where the tree is not to be walked.
-    pub fn scratches(
-        &self,
-        point: &SurfacePoint,
-        object: usize,
-        list: Option<&[u32]>,
-        views: &LightViews,
-    ) -> Masked {
+    /// Radiance of all scratches under the point's footprint, and what they take from the base.
+    pub fn scratches(&self, point: &SurfacePoint, hit: &Hit, views: &LightViews) -> Masked {
+        // Without anti-aliasing a pixel is the point in its middle.
+        let alone = (!self.method.anti_aliasing).then(|| point.without_footprint());
+        let point = alone.as_ref().unwrap_or(point);
         let (mut sums, mut density) = (ScratchSums::default(), 0.0);
-        let response = self.response(point.table);
-        each_segment(self.prepared, point, object, list, |segment| {
-            let Some(view) = SegmentView::new(point, segment, self.method.footprint) else {
+        let spectrum = &self.spectra[point.table];
+        let object = hit.object as usize;
+        let visit = |segment: &IndexedSegment| {
+            let Some(view) = SegmentView::new(point, segment, self.method.anti_aliasing) else {
                 return;
-            };
-            let taken_depth_nm = match self.method.band {
-                Band::Lines => oblique_depth_nm(view.depth_nm, point.wo.z, point.wo.z),
-                Band::MiddleLine => view.depth_nm,
             };
             sums.add(
                 view.share,
-                response.total(taken_depth_nm),
-                self.radiance(&view, response, views, point).to_array(),
+                spectrum.total(view.depth_nm),
+                self.radiance(&view, spectrum, views, point).to_array(),
             );
             density += view.density;
-        });
-        match self.method.mask {
+        };
+        match self.method.structure {
+            Structure::Bvh => {
+                let reach_m = gather_reach_m(point).as_vec3();
+                let tree = &self.prepared.scratches.tree;
+                tree.gather(object, point.position_m.as_vec3(), reach_m, visit);
+            }
+            Structure::TriangleLists => {
+                let segments = &self.prepared.scratches.tree.segments;
+                let list = self.prepared.triangle_list(hit);
+                list.iter().map(|&i| &segments[i as usize]).for_each(visit);
+            }
+        }
+        match self.mask {
             // Twice the share but for the published footprint, which has a density of its own.
             Mask::Density => Masked {
                 scratches: sums.radiance,
@@ -91,31 +92,35 @@ impl<'a> Published<'a> {
         }
     }
 
-    fn response(&self, table: usize) -> Response<'_> {
-        match self.method.spectrum {
-            Spectrum::Table => Response::Table(&self.prepared.tables.tables[table]),
-            Spectrum::Wavelengths { si, .. } => Response::Wavelengths(&self.spectra[table], si),
-        }
-    }
-
-    /// The lobe's integrals over a sphere, for [`crate::base::base_radiance`].
+    /// The lobe's integrals over a sphere by the pivot transform, for [`crate::base::base_radiance`].
     pub fn base_sphere(
         &self,
         point: &SurfacePoint,
     ) -> impl Fn(&LtcLobe, DVec3, f64) -> [f64; 3] + use<> {
-        let pivot = match self.method.sphere_base {
-            SphereBase::Cosines => None,
-            SphereBase::Pivot => Some(sptd_lobe(point.wo, point.roughness)),
-        };
-        move |lobe, axis, sin2| match &pivot {
-            None => ltc_sphere(lobe, axis, sin2),
+        let pivot = sptd_lobe(point.wo, point.roughness);
+        move |lobe, axis, sin2| {
             // The published fit knows F = 1 alone; Fresnel is that of the whole lobe.
-            Some(pivot) => {
-                let share = sptd_sphere_published(pivot, axis, sin2) / lobe.albedo[0].max(1e-30);
-                lobe.albedo.map(|e| e * share)
-            }
+            let share = sptd_sphere_published(&pivot, axis, sin2) / lobe.albedo[0].max(1e-30);
+            lobe.albedo.map(|e| e * share)
         }
     }
+}
+
+/// How far a surface may be off the plane of a footprint for each length along it.
+const BENDS: f64 = 0.125;
+
+/// Half the sides of the box around a point that holds every segment with a share there, world space.
+fn gather_reach_m(point: &SurfacePoint) -> DVec3 {
+    let sigma_m = point.coherence_um * 1e-6;
+    // Variances of position along the world's axes; 0.7 sigma^2 covers the window across and the ends' blur along.
+    let [ax, ay] = point.footprint_axes_m;
+    let variance = ax * ax + ay * ay + DVec3::splat(0.7 * sigma_m * sigma_m);
+    let on_plane = variance.map(f64::sqrt);
+    // The footprint lies in the plane that shading sees. Scratches lie on triangles: this one leaves it by as much as its normal is
+    // another one, its neighbours by about as much again; and where a surface bends elsewhere under a footprint, by a share of its size.
+    let leaves = BENDS + 2.0 * point.normal.distance(point.facet);
+    let aside = leaves * variance.element_sum().sqrt();
+    (on_plane + point.normal.abs() * aside) * REACH_STD as f64
 }
 
 #[cfg(test)]

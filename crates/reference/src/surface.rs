@@ -1,4 +1,4 @@
-//! The surface under a pixel: position, frame, footprint, material with its textures.
+//! Stage 2, surface: what lies under a sample: position, frame, footprint, material with its textures. Twin: surface.wgsl.
 
 use glam::{DVec2, DVec3};
 use hairline_index::Hit;

@@ -157,14 +157,9 @@ impl<'a> Work<'a> {
     fn scratches(&mut self, surfaces: &[Arc<KeptSurface>], scene: &mut Scene) -> Result<(), Error> {
         let mut coats = self.coats(surfaces)?;
         let is_due = |coat: &Coat| coat.is_shown && coat.laid.is_none();
-        let gather = self.description.render.gather;
         let used = coats.iter().filter(|coat| coat.is_shown);
         let used = used.filter_map(|coat| coat.laid.as_deref());
-        if gather.has_grids() && !self.old.gather.has_grids() {
-            let segments = used.clone().map(|kept| kept.laid.segments.len()).sum();
-            scratches::check_grids(gather, segments, self.loader.memory_budget_bytes as f64)?;
-        }
-        let used_bytes = used.map(|kept| kept.laid.bytes(gather)).sum();
+        let used_bytes = used.map(|kept| kept.laid.bytes()).sum();
         let tables: Vec<_> = coats
             .iter()
             .enumerate()
@@ -179,7 +174,7 @@ impl<'a> Work<'a> {
             .collect();
         // Before they are read.
         let stamps: Vec<_> = tables.iter().map(|t| self.stamp(t.layer)).collect();
-        let laid = scratches::lay(self.loader, &tables, self.base_dir, gather, used_bytes)?;
+        let laid = scratches::lay(self.loader, &tables, self.base_dir, used_bytes)?;
         drop(tables);
         let due = coats.iter_mut().filter(|coat| is_due(coat));
         for ((coat, laid), file) in due.zip(laid).zip(stamps) {
@@ -205,7 +200,6 @@ impl<'a> Work<'a> {
         }
         let laid = coats.into_iter().filter_map(|coat| coat.laid);
         self.new.layers = laid.collect();
-        self.new.gather = gather;
         Ok(())
     }
 

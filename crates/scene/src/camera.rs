@@ -193,7 +193,6 @@ mod tests {
             size_px: [1, 1],
             filter_std_px: 0.5,
             tone_map: Default::default(),
-            gather: Default::default(),
         };
         assert_eq!(settings.footprint_std_px(1), 0.5);
         assert!((settings.footprint_std_px(16).powi(2) + 1.0 / 12.0 - 0.25).abs() < 1e-12);

@@ -18,7 +18,6 @@ use std::path::{Path, PathBuf};
 
 use hairline_image::ToneMap;
 use hairline_optics::metal::Metal;
-use hairline_optics::method::Gather;
 use serde::{Serialize, Serializer};
 
 use crate::error::Error;
@@ -50,6 +49,9 @@ pub struct Description {
     /// `[[light]]`.
     #[serde(rename = "light", skip_serializing_if = "Vec::is_empty")]
     pub lights: Vec<Light>,
+    /// What the author should know about the file, a line each. Not part of it.
+    #[serde(skip)]
+    pub notes: Vec<String>,
 }
 
 /// `[camera]`
@@ -77,9 +79,6 @@ pub struct Render {
     /// `"neutral"` (default), `"agx"`, `"aces"` or `"none"`.
     #[serde(serialize_with = "serialize_named")]
     pub tone_map: ToneMap,
-    /// Whether many scratches under a pixel may be taken together: `"exact"` (default), `"clusters"`, `"tally"`.
-    #[serde(serialize_with = "serialize_named", skip_serializing_if = "is_exact")]
-    pub gather: Gather,
 }
 
 impl Default for Render {
@@ -88,7 +87,6 @@ impl Default for Render {
             size_px: [1280, 720],
             filter_std_px: 0.5,
             tone_map: ToneMap::Neutral,
-            gather: Gather::Exact,
         }
     }
 }
@@ -279,7 +277,12 @@ impl Description {
     /// [`Scene::build`](crate::Scene::build).
     pub fn from_toml(text: &str, name: &Path) -> Result<Self, Error> {
         let root = locate::parse(text, name)?;
-        read::description(&root).map_err(|error| error.in_scene_file(text, name))
+        let description = read::description(&root);
+        let mut description = description.map_err(|error| error.in_scene_file(text, name))?;
+        description.notes = read::keys_without_effect(&root)
+            .map(|(key, why)| note(text, name, key, why))
+            .collect();
+        Ok(description)
     }
 
     /// The scene file that loads to this description: a `[table]` or `[[table]]` for each part, and one line for each key.
@@ -305,6 +308,12 @@ impl Description {
     }
 }
 
+/// A note about a key of the file: `file:line: key: why`, as errors are written.
+fn note(text: &str, name: &Path, key: &str, why: &str) -> String {
+    let line = locate::line_of_key(text, key).map_or_else(String::new, |line| format!(":{line}"));
+    format!("{}{line}: {key}: {why}", name.display())
+}
+
 /// Values that a scene file calls by name.
 trait Named: Copy + PartialEq + 'static {
     const NAMES: &'static [(&'static str, Self)];
@@ -316,14 +325,6 @@ impl Named for ToneMap {
         ("agx", ToneMap::Agx),
         ("aces", ToneMap::Aces),
         ("none", ToneMap::None),
-    ];
-}
-
-impl Named for Gather {
-    const NAMES: &'static [(&'static str, Self)] = &[
-        ("exact", Gather::Exact),
-        ("clusters", Gather::Clusters),
-        ("tally", Gather::Tally),
     ];
 }
 
@@ -344,10 +345,6 @@ impl Named for Metal {
 
 fn is_false(value: &bool) -> bool {
     !value
-}
-
-fn is_exact(value: &Gather) -> bool {
-    *value == Gather::Exact
 }
 
 fn serialize_named<T: Named, S: Serializer>(value: &T, serializer: S) -> Result<S::Ok, S::Error> {

@@ -28,7 +28,8 @@ pub(crate) use file::read;
 pub use prefilter::{LEVEL_HALVINGS, LEVEL_ROUGHNESS};
 
 use lookup::{
-    environment_irradiance, environment_lod, environment_prefiltered_lod, environment_radiance,
+    environment_irradiance, environment_lod, environment_prefiltered_all,
+    environment_prefiltered_lod, environment_radiance,
 };
 
 /// An environment map and what is made from it. Clones share the texels.
@@ -182,6 +183,18 @@ impl Environment {
         self.prefiltered_lod(dir, environment_lod(roughness))
     }
 
+    /// The same for several directions at once.
+    #[inline(always)]
+    pub fn prefiltered_all<const N: usize>(
+        &self,
+        dirs: [DVec3; N],
+        roughness: [f64; N],
+    ) -> [DVec3; N] {
+        let dirs = dirs.map(|dir| self.map_from_world * dir);
+        let radiance = environment_prefiltered_all(&self.maps.levels, dirs, roughness);
+        radiance.map(|radiance| radiance * self.texel_radiance())
+    }
+
     /// [`Environment::prefiltered`] by level: `lod` 0 is the sharp map, each further level belongs to
     /// [`LEVEL_ROUGHNESS`]; between levels, a blend.
     pub fn prefiltered_lod(&self, dir: DVec3, lod: f64) -> DVec3 {
@@ -202,6 +215,7 @@ impl Environment {
 
     /// The radiance of a texel (or coefficient) of value 1: the intensity, times the power of two that brought a very
     /// bright map into half floats.
+    #[inline]
     pub fn texel_radiance(&self) -> f64 {
         self.intensity * self.maps.texel_scale
     }

@@ -26,4 +26,3 @@ pub use load::{Loader, Progress, Stage};
 pub use material_optics::{MaterialOptics, ScratchTables};
 pub use polygon::vector_area_m2;
 pub use scene::*;
-pub use scratches::GRID_SEGMENT_BYTES;

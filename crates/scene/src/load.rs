@@ -147,13 +147,13 @@ pub(crate) fn without_surfaces(description: &Description) -> Scene {
             size_px: description.render.size_px,
             filter_std_px: description.render.filter_std_px,
             tone_map: description.render.tone_map,
-            gather: description.render.gather,
         },
         environment: None,
         textures: Arc::default(),
         materials: description.materials.iter().map(material).collect(),
         objects: Vec::new(),
         lights: lights.map(light).collect(),
+        notes: description.notes.clone(),
     }
 }
 

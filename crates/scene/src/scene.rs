@@ -32,6 +32,8 @@ pub struct Scene {
     pub objects: Vec<Object>,
     /// Area lights, those of the environment not among them: see [`Scene::all_lights`].
     pub lights: Vec<Light>,
+    /// What the author should know about the scene file, a line each, such as a key that has no effect any more.
+    pub notes: Vec<String>,
 }
 
 impl Scene {
@@ -66,9 +68,6 @@ pub struct RenderSettings {
     pub filter_std_px: f64,
     /// The curve from linear radiance to the display.
     pub tone_map: hairline_image::ToneMap,
-    /// Whether many scratches under a pixel may be taken together (docs/model.md, section 7). The author's wish: a renderer
-    /// computes by the method that it is given.
-    pub gather: hairline_optics::method::Gather,
 }
 
 /// What a surface is made of.

@@ -21,7 +21,6 @@ mod walk;
 
 use std::path::Path;
 
-use hairline_optics::method::Gather;
 use rayon::prelude::*;
 
 use crate::description::{Amount, Distribution, Layer, Stroke};
@@ -32,9 +31,7 @@ use crate::scene::{Scratch, Segment};
 use erase::Eraser;
 pub(crate) use ground::Ground;
 use listed::Listed;
-pub use memory::GRID_SEGMENT_BYTES;
-pub(crate) use memory::check_grids;
-use memory::{Demand, segment_bytes};
+use memory::{Demand, SEGMENT_BYTES};
 use painted::Painted;
 use strewn::Strewn;
 use walk::{Course, Walker};
@@ -76,9 +73,9 @@ pub(crate) struct Laid {
 
 impl Laid {
     /// What it takes, here and in what renderers make of it.
-    pub(crate) fn bytes(&self, gather: Gather) -> f64 {
+    pub(crate) fn bytes(&self) -> f64 {
         (self.scratches.len() * size_of::<Scratch>()) as f64
-            + self.segments.len() as f64 * segment_bytes(gather)
+            + (self.segments.len() as u64 * SEGMENT_BYTES) as f64
     }
 
     fn push(&mut self, groove: &Groove, course: Course, segments: std::ops::Range<usize>) {
@@ -132,12 +129,11 @@ struct Plan<'a> {
     count: u64,
 }
 
-/// Lays all layers, each for itself. Refuses before laying what would not fit into memory beside `used_bytes`, gathered so.
+/// Lays all layers, each for itself. Refuses before laying what would not fit into memory beside `used_bytes`.
 pub(crate) fn lay(
     loader: &Loader,
     tables: &[Table],
     base_dir: &Path,
-    gather: Gather,
     mut used_bytes: f64,
 ) -> Result<Vec<Laid>, Error> {
     let mut plans = Vec::new();
@@ -147,7 +143,7 @@ pub(crate) fn lay(
     for plan in &plans {
         loader.go_on()?;
         let free_bytes = (loader.memory_budget_bytes as f64 - used_bytes).max(0.0);
-        used_bytes += plan.check_memory(gather, free_bytes)?;
+        used_bytes += plan.check_memory(free_bytes)?;
     }
 
     let total = plans.iter().map(|plan| plan.count).sum();
@@ -256,7 +252,7 @@ impl<'a> Plan<'a> {
     }
 
     /// Refuses a layer that would not fit; returns what it takes.
-    fn check_memory(&self, gather: Gather, free_bytes: f64) -> Result<f64, Error> {
+    fn check_memory(&self, free_bytes: f64) -> Result<f64, Error> {
         // Few at first, lest scratches of a million segments fill the memory themselves.
         let mut pilots = 0;
         let mut pilot = Laid::default();
@@ -268,7 +264,6 @@ impl<'a> Plan<'a> {
         let demand = Demand {
             count: self.count,
             segments_each: pilot.segments.len() as f64 / pilots.max(1) as f64,
-            gather,
         };
         demand.check(free_bytes, || {
             let key = match self.table.layer {

@@ -98,6 +98,7 @@ impl Viewer {
             loss: WindowLoss::default(),
             document,
         };
+        viewer.tell_notes();
         viewer.files.start(&mut viewer.dialogs);
         if let Some(path) = viewer.document.path() {
             viewer.files.remember(path);
@@ -263,8 +264,19 @@ impl Viewer {
         self.asked = None;
         self.toolbox.tool = Tool::Select;
         self.notices.clear("open");
+        self.tell_notes();
         if let Some(path) = self.document.path() {
             self.files.remember(path);
+        }
+    }
+
+    /// What the author of the scene file should know about it.
+    fn tell_notes(&mut self) {
+        let notes = &self.document.description().notes;
+        if !notes.is_empty() {
+            let text = notes.join("\n");
+            eprintln!("note: {text}");
+            self.notices.note("notes", text);
         }
     }
 
@@ -301,10 +313,9 @@ fn built_in(text: &str) -> Result<Document, hairline_scene::Error> {
 }
 
 /// Whether only the view, the exposure or the way of showing differs, which the painter is told without a new scene. The
-/// camera's up is left to the builder: it turns the environment; and so is how scratches are gathered, which may take grids.
+/// camera's up is left to the builder: it turns the environment.
 fn makes_same_scene(a: &Description, b: &Description) -> bool {
     a.camera.up == b.camera.up
-        && a.render.gather == b.render.gather
         && a.environment == b.environment
         && a.materials == b.materials
         && a.objects == b.objects

@@ -36,6 +36,10 @@ pub use request::View;
 use in_turn::InTurn;
 use request::Shared;
 
+/// Samples of a pixel with an edge or a crease in it, in a finished picture: of the window, of an export, of `hairline render`, by every
+/// renderer.
+pub const DEFAULT_SAMPLES: u32 = 16;
+
 /// What paints.
 #[derive(Clone)]
 pub enum Backend {

@@ -8,8 +8,6 @@ mod app;
 mod command;
 mod compare;
 mod dialogs;
-#[cfg(not(target_arch = "wasm32"))]
-mod drawing;
 pub mod engine;
 mod export;
 mod files;
@@ -27,6 +25,7 @@ pub mod window;
 
 pub use app::{Options, Viewer};
 pub use compare::{Figures, LayerFigures};
+pub use engine::DEFAULT_SAMPLES;
 #[cfg(not(target_arch = "wasm32"))]
 pub use window::open;
 

@@ -7,7 +7,6 @@ use egui::ViewportBuilder;
 use hairline_gpu::{Adapter, AdapterKind, AdapterRequest, Gpu, headless};
 
 use crate::app::{Options, Viewer};
-use crate::drawing::Drawing;
 use crate::engine::Backend;
 use crate::loss::WindowLoss;
 use crate::priority;
@@ -82,13 +81,6 @@ pub fn open_as(
             let state = context.wgpu_render_state.clone();
             let backend = backend(state.as_ref(), renderer)?;
             watch(state.as_ref(), &backend, &watched);
-            // Its shader writes what is encoded for the display already.
-            if let Some(state) = &state
-                && Adapter::new(state.adapter.clone()).kind == AdapterKind::Software
-                && !state.target_format.is_srgb()
-            {
-                context.egui_ctx.add_plugin(Drawing::new(state));
-            }
             let options = Options { backend, ..options };
             let mut viewer = Viewer::new(&context.egui_ctx, state, options)?;
             viewer.watch(watched);

@@ -59,7 +59,7 @@ fn rendered(text: &str, size_px: [u32; 2]) -> Image {
     scene.render.size_px = size_px;
     let options = RenderOptions {
         samples: 16,
-        method: Method::fastest(),
+        method: Method::default(),
     };
     closed_form::render(&scene, &options, &|_| {})
 }

@@ -78,7 +78,7 @@ fn rendered(text: &str, turned_deg: f64) -> (Image, Display) {
         .unwrap();
     let options = RenderOptions {
         samples: SAMPLES,
-        method: Method::fastest(),
+        method: Method::default(),
     };
     let display = Display {
         exposure_ev: scene.camera.exposure_ev,

@@ -1,14 +1,12 @@
-//! The method of 2018 on the CPU: equal to Monte Carlo where its approximations are exact, and each of its parts alone as near
-//! to the default's as that part is.
+//! The method of 2018 on the CPU: near Monte Carlo where its approximations are exact, and each of its switches alone.
 
 use crate::pictures::{Compared, LINEAR, compared, sampled};
 use crate::scenes::{View, panel, plate, scratch, sphere};
-use conformance::furnace;
 use glam::DVec3;
 use hairline_image::{Image, Layer, Layers};
 use hairline_optics::mask::Mask;
 use hairline_optics::metal::Metal;
-use hairline_optics::method::{Band, Chords, Lookup, Method, PixelFilter, Spectrum, SphereBase};
+use hairline_optics::method::{Method, PublishedMethod, Structure};
 use hairline_optics::published::sine_integral::SineIntegral;
 use hairline_reference::closed_form::{self, RenderOptions};
 use hairline_scene::{Base, Light, Scene};
@@ -19,18 +17,14 @@ fn by(scene: &Scene, method: Method) -> Image {
     closed_form::render(scene, &options, &|_| {})
 }
 
-const EXACT_16: Spectrum = Spectrum::Wavelengths {
-    count: 16,
-    si: SineIntegral::Exact,
-};
-
-/// The talk's parts without what it approximates for speed alone, and without its mask.
+/// The talk's switches without what it approximates for speed alone, and without its mask.
 const EXACT: Method = Method {
-    spectrum: EXACT_16,
-    footprint: PixelFilter::Off,
+    published: Some(PublishedMethod {
+        structure: Structure::TriangleLists,
+        anti_aliasing: false,
+        si: SineIntegral::Exact,
+    }),
     mask: Mask::Linear,
-    lookup: Lookup::Triangles,
-    ..Method::PUBLISHED
 };
 
 /// Where the middle line may stand for the band and no phase is oblique: from near the normal, under lights of 0.2 rad about
@@ -48,8 +42,10 @@ fn exact_scene(light: impl Fn(View) -> Light) -> Scene {
     scene
 }
 
-/// One percent: 16 wavelengths err by 0.9 % at worst, a middle line under such lights by 0.3 to 1.1 %.
-const WHERE_EXACT: f64 = 0.01;
+/// Of a middle line and eight wavelengths: 1.1 % here.
+const WHERE_EXACT: f64 = 0.015;
+/// Of the base.
+const BASE: f64 = 0.01;
 
 fn at_least(found: &Compared) -> f64 {
     found.beyond.relative_rms_within(2.0)[0]
@@ -65,9 +61,9 @@ fn equals_monte_carlo_where_the_talk_is_exact() {
         let [scratches, base] = [Layer::Scratches, Layer::Base]
             .map(|layer| compared(name, &by(&scene, EXACT), &reference, layer));
         assert!(at_least(&scratches) < WHERE_EXACT, "{name}: {scratches:?}");
-        assert!((scratches.mean_ratio - 1.0).abs() < 5e-3, "{scratches:?}");
+        assert!((scratches.mean_ratio - 1.0).abs() < 8e-3, "{scratches:?}");
         // Nearly all of the narrow lobe is within the light, where no fit matters.
-        assert!(at_least(&base) < WHERE_EXACT, "{name}: {base:?}");
+        assert!(at_least(&base) < BASE, "{name}: {base:?}");
 
         // The comparison sees a groove that is wider by a tenth, and that half of a panel's chord is gone.
         let mut wrong = scene.clone();
@@ -79,11 +75,14 @@ fn equals_monte_carlo_where_the_talk_is_exact() {
             }
         }
         let found = compared("wrong", &by(&wrong, EXACT), &reference, Layer::Scratches);
-        assert!(at_least(&found) > 10.0 * WHERE_EXACT, "{name}: {found:?}");
+        assert!(at_least(&found) > 0.1, "{name}: {found:?}");
 
-        // With what the talk takes for speed, 8 wavelengths and a sine integral that is 0.003 off, 3.5 % at worst.
+        // The approximated sine integral is 0.003 off, 3.5 % at worst.
         let fast = Method {
-            spectrum: Method::PUBLISHED.spectrum,
+            published: EXACT.published.map(|switches| PublishedMethod {
+                si: SineIntegral::Fast,
+                ..switches
+            }),
             ..EXACT
         };
         let found = compared("fast", &by(&scene, fast), &reference, Layer::Scratches);
@@ -135,180 +134,97 @@ fn aslant() -> Scene {
     scene
 }
 
-/// Each part in the place of the default's: how far that takes the layers at most where the part is right, and at least
-/// where it is an approximation.
+/// How far each switch takes the scratches: at most where pixels see one point from near the normal, at least and at most aslant.
 #[test]
-fn each_part_alone() {
-    let own = Method::default();
-    let off = Method {
-        footprint: PixelFilter::Off,
-        ..own
+fn each_switch_alone() {
+    let usual = PublishedMethod::default();
+    let point = PublishedMethod {
+        anti_aliasing: false,
+        ..usual
     };
     let exact = exact_scene(|view| sphere(view, 0.03, -0.02, 0.2));
     let aslant = aslant();
-    let mut sky = exact.clone();
-    sky.lights.clear();
-    sky.environment = furnace();
-    // Method, what it is held against, most on the exact scenes, least and most aslant.
-    let (steps, bvh) = (Chords::Steps, Lookup::Bvh);
-    let wavelengths = |count, si| Spectrum::Wavelengths { count, si };
-    for (what, method, to, right, approximate) in [
-        // 4e-7 for single triangles.
-        (
-            "steps",
-            Method {
-                chords: steps,
-                ..own
-            },
-            own,
-            1e-6,
-            [0.0, 1e-6],
-        ),
-        ("bvh", Method { lookup: bvh, ..own }, own, 0.0, [0.0, 0.0]),
+    let by = |scene: &Scene, switches| {
+        let method = Method {
+            published: Some(switches),
+            ..Method::PUBLISHED
+        };
+        by(scene, method)
+    };
+    for (what, switches, to, right, approximate) in [
         // Lists leave out less than 2.4e-4 of a scratch, far beyond its end.
         (
             "triangles",
-            Method {
-                lookup: Lookup::Triangles,
-                ..off
+            PublishedMethod {
+                structure: Structure::TriangleLists,
+                ..point
             },
-            off,
+            point,
             1e-4,
             [0.0, 1e-4],
         ),
         (
-            "si-exact, 16",
-            Method {
-                spectrum: EXACT_16,
-                ..own
+            "exact sine integral",
+            PublishedMethod {
+                si: SineIntegral::Exact,
+                ..usual
             },
-            own,
+            usual,
             0.02,
             [1e-4, 0.02],
         ),
-        (
-            "si-fast, 16",
-            Method {
-                spectrum: wavelengths(16, SineIntegral::Fast),
-                ..own
-            },
-            own,
-            0.02,
-            [1e-4, 0.02],
-        ),
-        (
-            "si-exact, 3",
-            Method {
-                spectrum: wavelengths(3, SineIntegral::Exact),
-                ..own
-            },
-            own,
-            0.5,
-            [0.05, 0.5],
-        ),
-        // Aslant it is the phase of normal incidence that errs, and a light of the band's size.
-        (
-            "middle line",
-            Method {
-                band: Band::MiddleLine,
-                ..own
-            },
-            own,
-            0.02,
-            [0.1, 1.0],
-        ),
-        ("no footprint", off, own, 1e-3, [0.05, 0.5]),
-        // 21 to 38 % for pixels of 20 to 40 um, and this box is of 35.
-        (
-            "published footprint",
-            Method {
-                footprint: PixelFilter::Published,
-                ..own
-            },
-            own,
-            1e-3,
-            [0.1, 0.4],
-        ),
-        (
-            "density",
-            Method {
-                mask: Mask::Density,
-                ..own
-            },
-            own,
-            0.2,
-            [0.01, 0.2],
-        ),
-        (
-            "pivot",
-            Method {
-                sphere_base: SphereBase::Pivot,
-                ..own
-            },
-            own,
-            // Rounding: the default path prepares outlines and tables that its guest does without.
-            1e-5,
-            [0.0, 1e-5],
-        ),
+        ("no footprint", point, usual, 2e-3, [0.05, 0.5]),
     ] {
-        let far = |scene: &Scene, layer| distance(&by(scene, method), &by(scene, to), layer);
-        let distances = [&exact, &sky, &aslant].map(|scene| far(scene, Layer::Scratches));
-        println!("{what}: relative rms {distances:.6?} of the scratches");
-        let [exact, sky, aslant] = distances;
-        assert!(exact <= right && sky <= right, "{what}");
+        let far = |scene| distance(&by(scene, switches), &by(scene, to), Layer::Scratches);
+        let [exact, aslant] = [far(&exact), far(&aslant)];
+        println!("{what}: relative rms {exact:.6} and {aslant:.6} of the scratches");
+        assert!(exact <= right, "{what}");
         assert!(
             (approximate[0]..=approximate[1]).contains(&aslant),
             "{what}"
         );
     }
-    // What the base alone tells. The pivot's lobe is off by 4.6 % in the mean, and by more at the foot of the highlight.
-    let base = |method| distance(&by(&aslant, method), &by(&aslant, own), Layer::Base);
-    let pivot = base(Method {
-        sphere_base: SphereBase::Pivot,
-        ..own
-    });
-    let density = base(Method {
-        mask: Mask::Density,
-        ..own
-    });
-    println!("base: pivot {pivot:.1e}, density {density:.1e}");
-    assert!((0.02..0.3).contains(&pivot) && (0.02..0.3).contains(&density));
+    // What the base alone tells: the pivot's lobe is off by 4.6 % in the mean, and by more at the foot of the highlight, beside what the
+    // density takes.
+    let published = self::by(&aslant, Method::PUBLISHED);
+    let own = self::by(&aslant, Method::default());
+    let base = distance(&published, &own, Layer::Base);
+    println!("base: {base:.1e}");
+    assert!((0.02..0.5).contains(&base));
 }
 
 /// The talk's mask takes the share that lies within the pixel, whatever the scratches' depth, and never more than all.
 #[test]
 fn the_published_mask_is_the_density() {
     let mut scene = aslant();
-    let by_mask = |scene: &Scene, footprint| {
-        let method = Method {
-            footprint,
-            mask: Mask::Density,
-            ..Method::default()
-        };
-        by(scene, method).density
+    let published = |anti_aliasing| {
+        Some(PublishedMethod {
+            anti_aliasing,
+            ..PublishedMethod::default()
+        })
     };
-    for footprint in [
-        PixelFilter::Published,
-        PixelFilter::Gaussian,
-        PixelFilter::Off,
-    ] {
-        let taken = by_mask(&scene, footprint);
+    let taken = |scene: &Scene, published| {
+        let mask = Mask::Density;
+        by(scene, Method { published, mask }).density
+    };
+    for method in [published(true), published(false), None] {
+        let taken = taken(&scene, method);
         assert!(
             taken
                 .iter()
                 .all(|rgb| rgb[0] == rgb[1] && rgb[1] == rgb[2] && (0.0..=1.0).contains(&rgb[0]))
         );
         let mean = taken.iter().map(|rgb| f64::from(rgb[0])).sum::<f64>() / taken.len() as f64;
-        println!("{footprint:?}: {mean:.4} of the base");
+        println!("{method:?}: {mean:.4} of the base");
     }
-    let before = by_mask(&scene, PixelFilter::Published);
+    let before = taken(&scene, published(true));
     for scratch in Arc::make_mut(&mut scene.objects[0].scratches).iter_mut() {
         scratch.depth_nm *= 0.3;
     }
-    assert_eq!(by_mask(&scene, PixelFilter::Published), before);
+    assert_eq!(taken(&scene, published(true)), before);
     for scratch in Arc::make_mut(&mut scene.objects[0].scratches).iter_mut() {
         scratch.width_um *= 100.0;
     }
-    let taken = by_mask(&scene, PixelFilter::Published);
+    let taken = taken(&scene, published(true));
     assert!(taken.iter().all(|rgb| rgb[0] <= 1.0) && taken.iter().any(|rgb| rgb[0] == 1.0));
 }

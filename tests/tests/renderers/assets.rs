@@ -2,10 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use conformance::two_renderers::{at_width, compare, on_the_cpu, on_the_gpu};
+use conformance::middle_of;
+use conformance::two_renderers::{compare, on_the_cpu, on_the_gpu};
 use hairline_gpu::headless;
 use hairline_image::Layer;
 use hairline_scene::Scene;
+use hairline_viewer::DEFAULT_SAMPLES;
 
 /// A monkey's head of steel, 13 cm wide, in a studio with a lamp and a panel.
 const SCENE: &str = r#"
@@ -73,8 +75,8 @@ fn a_monkey_with_fifty_thousand_scratches_in_a_studio() {
         Scene::from_toml(SCENE, "monkey.toml", &folder).unwrap_or_else(|error| panic!("{error}"));
     // Seeds at a boundary may leave nothing.
     assert!(scene.objects[0].scratches.len() > 49_900);
-    let scene = at_width(scene, 128);
-    let cpu = on_the_cpu(&scene, 1);
+    let scene = middle_of(scene, 480, [160, 120]);
+    let cpu = on_the_cpu(&scene, DEFAULT_SAMPLES);
     for layer in Layer::ALL {
         let values = cpu.layer(layer);
         assert!(
@@ -100,7 +102,7 @@ fn a_monkey_with_fifty_thousand_scratches_in_a_studio() {
         .count();
     assert!(coloured > head.len() / 100, "{coloured} of {}", head.len());
 
-    let Some(gpu) = on_the_gpu(&scene, 1) else {
+    let Some(gpu) = on_the_gpu(&scene, DEFAULT_SAMPLES) else {
         return;
     };
     compare("monkey", &scene, &gpu, &cpu).unwrap();

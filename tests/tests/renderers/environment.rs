@@ -6,6 +6,7 @@ use glam::{DVec2, DVec3};
 use hairline_image::Picture;
 use hairline_scene::environment::lookup::environment_dir;
 use hairline_scene::{Environment, Scene};
+use hairline_viewer::DEFAULT_SAMPLES;
 
 const BALLS: &str = r#"
 [camera]
@@ -51,10 +52,10 @@ fn starry_sky() -> Picture {
 fn balls_mirror_a_map_alike() {
     let mut scene = Scene::from_toml(BALLS, "balls.toml", ".").unwrap();
     scene.environment = Some(Environment::from_map(starry_sky(), 0.4, 1.0, true));
-    let Some(gpu) = on_the_gpu(&scene, 1) else {
+    let Some(gpu) = on_the_gpu(&scene, DEFAULT_SAMPLES) else {
         return;
     };
-    compare("balls", &scene, &gpu, &on_the_cpu(&scene, 1)).unwrap();
+    compare("balls", &scene, &gpu, &on_the_cpu(&scene, DEFAULT_SAMPLES)).unwrap();
 }
 
 /// Scratched balls under a sky with a sun as small as the real one.
@@ -77,8 +78,14 @@ fn balls_under_a_sun() {
     let environment = Environment::with_suns_parted(map, 0.0, 1.0, true);
     assert_eq!(environment.suns().len(), 1);
     scene.environment = Some(environment);
-    let Some(gpu) = on_the_gpu(&scene, 1) else {
+    let Some(gpu) = on_the_gpu(&scene, DEFAULT_SAMPLES) else {
         return;
     };
-    compare("balls under a sun", &scene, &gpu, &on_the_cpu(&scene, 1)).unwrap();
+    compare(
+        "balls under a sun",
+        &scene,
+        &gpu,
+        &on_the_cpu(&scene, DEFAULT_SAMPLES),
+    )
+    .unwrap();
 }

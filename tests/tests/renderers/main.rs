@@ -2,12 +2,10 @@
 //! In one program, since each that is linked takes seconds.
 
 mod assets;
-mod clusters;
-mod default_scenes;
 mod dense;
 mod environment;
 mod environment_band;
-mod light_at;
 mod physics;
 mod published_scenes;
 mod scenes;
+mod tiles;

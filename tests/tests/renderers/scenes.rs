@@ -1,15 +1,30 @@
-//! Every scene in `scenes/`: the GPU against the CPU's closed form, layer by layer.
+//! Every scene in `scenes/` and the built-in one, as `hairline render` shows the middle of their pictures without flags: the GPU against
+//! the CPU, layer by layer.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
-use conformance::two_renderers::{at_test_size, compare, on_the_cpu, on_the_gpu};
+use conformance::middle_of;
+use conformance::two_renderers::{compare, on_the_cpu, on_the_gpu};
 use hairline_scene::Scene;
+use hairline_viewer::DEFAULT_SAMPLES;
+
+/// Of the whole picture, and of its middle: whole pictures so small would see all scratches in each tile.
+const WIDTH_PX: u32 = 1280;
+const MIDDLE_PX: [u32; 2] = [120, 88];
+/// Scenes that are rendered twice.
+const TWICE: [&str; 2] = ["lights", "spoon"];
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))
         .parent()
         .unwrap()
         .to_owned()
+}
+
+fn load(path: &Path) -> Scene {
+    let scene = Scene::load(path).unwrap_or_else(|error| panic!("{error}"));
+    middle_of(scene, WIDTH_PX, MIDDLE_PX)
 }
 
 #[test]
@@ -23,13 +38,36 @@ fn gpu_and_cpu_show_the_same() {
     paths.sort();
     let mut failures = Vec::new();
     for path in paths {
-        let scene = Scene::load(&path).unwrap_or_else(|error| panic!("{error}"));
-        let scene = at_test_size(scene);
-        let Some(gpu) = on_the_gpu(&scene, 1) else {
+        let scene = load(&path);
+        let start = std::time::Instant::now();
+        let name = path.file_stem().unwrap().to_string_lossy();
+        let Some(gpu) = on_the_gpu(&scene, DEFAULT_SAMPLES) else {
             return;
         };
-        let name = path.file_stem().unwrap().to_string_lossy();
-        failures.extend(compare(&name, &scene, &gpu, &on_the_cpu(&scene, 1)).err());
+        println!("{name}: {:.1} s", start.elapsed().as_secs_f64());
+        let cpu = on_the_cpu(&scene, DEFAULT_SAMPLES);
+        failures.extend(compare(&name, &scene, &gpu, &cpu).err());
+        // Sums are added up in the same order each time.
+        if TWICE.contains(&&*name) && on_the_gpu(&scene, DEFAULT_SAMPLES) != Some(gpu) {
+            failures.push(format!("{name}: two runs differ"));
+        }
     }
     assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
+
+/// What the comparison would let pass is less than one scratch of ten that is a tenth wider.
+#[test]
+fn a_wrong_scratch_is_seen() {
+    let scene = load(&root().join("scenes/plate.toml"));
+    let Some(gpu) = on_the_gpu(&scene, DEFAULT_SAMPLES) else {
+        return;
+    };
+    let mut wrong = scene.clone();
+    let scratches = Arc::make_mut(&mut wrong.objects[0].scratches);
+    for scratch in scratches.iter_mut().step_by(10) {
+        scratch.width_um *= 1.1;
+    }
+    let cpu = on_the_cpu(&wrong, DEFAULT_SAMPLES);
+    let seen = compare("wrong", &scene, &gpu, &cpu).unwrap_err();
+    assert!(seen.contains("scratches"), "{seen}");
 }

@@ -79,7 +79,7 @@ fn in_the_shader() {
             let masked = mask_resolve(sums, x[23]);
             // Repeated directions, opposite ones, and one that a point in a vertex has: none.
             let c = select(a, vec3f(0.0), x[23] < 0.6);
-            let edges = four_edges(a, b, select(c, -b, x[23] > 0.9), c, a);
+            let edges = FourEdges(a, b, select(c, -b, x[23] > 0.9), c);
             var four = four_edges_roots(edges, line, b);
             let outline = four_edges_extent(edges, a);
             y[3] = outline.x + outline.y + four.range.x + four.range.y + four.rising.x + four.rising.y + four.rising.z + four.rising.w

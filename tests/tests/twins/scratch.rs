@@ -72,28 +72,6 @@ fn footprint_shares() {
 }
 
 #[test]
-fn quick_error_function() {
-    let mut rows = vec![[2.5], [-2.5], [9.0], [1e30], [-1e30], [0.0], [-0.0]];
-    rows.extend((-3000..=3000).map(|i| [i as f32 * 1e-3]));
-    Twin {
-        name: "gaussian_quick_erf",
-        modules: &[&shaders::GAUSSIAN],
-        // Ends of two that meet add up to nothing, to the last bit.
-        snippet: "y[0] = gaussian_quick_erf(x[0]);
-            y[1] = gaussian_quick_erf(x[0]) + gaussian_quick_erf(-x[0]);
-            y[2] = f32(abs(x[0]) >= QUICK_ERF_END && abs(abs(gaussian_quick_erf(x[0])) - 1.0) > 1e-6);",
-        tables: &[],
-        expected: &|[x]: [f64; 1]| [erf(x), 0.0, 0.0],
-        // The largest error that was found with these coefficients.
-        tolerance: Tolerance {
-            absolute: 4.4e-4,
-            relative: 0.0,
-        },
-    }
-    .check(&rows, 0);
-}
-
-#[test]
 fn band_widths() {
     Twin {
         name: "band_std",

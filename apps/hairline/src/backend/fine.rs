@@ -1,9 +1,9 @@
-//! A picture with many samples in every pixel. The CPU renderer takes several at edges only, since the closed forms average over
-//! the rest of a pixel; here they average over a sample's share of it.
+//! A picture with many samples in every pixel. The renderers take several at edges only, since the closed forms average over the
+//! rest of a pixel; here they average over a sample's share of it.
+
+use std::ops::Range;
 
 use hairline_image::Image;
-use hairline_optics::method::Method;
-use hairline_reference::closed_form::{Prepared, RenderOptions};
 use hairline_scene::Scene;
 
 /// Samples along each side of a pixel.
@@ -13,30 +13,28 @@ pub const FINE_SAMPLES: u32 = SIDE * SIDE;
 /// Rows of the picture that are rendered together: enough for all threads, and little memory.
 const BAND_ROWS: u32 = 8;
 
-/// Renders with [`FINE_SAMPLES`] in every pixel: a picture so many times larger, whose pixels are the samples.
-pub fn render(
-    prepared: &Prepared,
+/// Some rows of a scene's picture, one sample a pixel.
+pub type RenderRows<'a, E> =
+    dyn FnMut(&Scene, Range<u32>, &(dyn Fn(f64) + Sync)) -> Result<Image, E> + 'a;
+
+/// Renders with [`FINE_SAMPLES`] in every pixel: by a picture so many times larger, whose pixels are the samples.
+pub fn render<E>(
     scene: &Scene,
-    method: &Method,
+    render_rows: &mut RenderRows<E>,
     progress: &(dyn Fn(f64) + Sync),
-) -> Image {
+) -> Result<Image, E> {
     let [width, height] = scene.render.size_px;
     let mut large = scene.clone();
     large.render.size_px = [SIDE * width, SIDE * height];
     large.render.filter_std_px = f64::from(SIDE) * scene.render.footprint_std_px(FINE_SAMPLES);
-    let prepared = prepared.with_scene(&large);
-    let options = RenderOptions {
-        samples: 1,
-        method: *method,
-    };
     let mut image = Image::new([width, height]);
     for first in (0..height).step_by(BAND_ROWS as usize) {
         let rows = first..(first + BAND_ROWS).min(height);
-        let samples =
-            prepared.render_rows(&options, SIDE * rows.start..SIDE * rows.end, &|share| {
-                let done = f64::from(rows.start) + share * f64::from(rows.end - rows.start);
-                progress(done / f64::from(height));
-            });
+        let told = |share: f64| {
+            let done = f64::from(rows.start) + share * f64::from(rows.end - rows.start);
+            progress(done / f64::from(height));
+        };
+        let samples = render_rows(&large, SIDE * rows.start..SIDE * rows.end, &told)?;
         let mut at = image.index(0, rows.start);
         for y in 0..rows.end - rows.start {
             for x in 0..width {
@@ -45,7 +43,7 @@ pub fn render(
             }
         }
     }
-    image
+    Ok(image)
 }
 
 fn average(samples: &Image, [x, y]: [u32; 2], image: &mut Image, at: usize) {

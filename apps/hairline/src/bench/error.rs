@@ -15,7 +15,6 @@ use hairline_reference::closed_form::{Prepared, RenderOptions};
 use hairline_reference::monte_carlo::{Integrator, Settings};
 use hairline_scene::{Light, Scene};
 
-use super::by_lookup::ByLookup;
 use super::figures::CellError;
 use super::worker::{Ready, Worker};
 
@@ -25,6 +24,13 @@ pub struct Accuracy {
     pub crop_px: [u32; 2],
     /// Of sampling one reference.
     pub time: Duration,
+}
+
+impl Accuracy {
+    /// A part of the picture, and not all of it.
+    pub fn crop_of(&self, scene: &Scene) -> [u32; 2] {
+        [0, 1].map(|i| self.crop_px[i].min(scene.render.size_px[i].div_ceil(2)))
+    }
 }
 
 /// Pixels as small as points, in pixels.
@@ -56,10 +62,7 @@ pub fn errors(
     accuracy: &Accuracy,
 ) -> Vec<Option<CellError>> {
     // A device has its own.
-    let prepared = worker.adapter().is_none().then(|| {
-        let ready = ready.iter().filter_map(|ready| ready.as_ref().ok());
-        ByLookup::new(crop, ready.map(|ready| ready.method.lookup))
-    });
+    let prepared = worker.adapter().is_none().then(|| Prepared::new(crop));
     let images: Vec<Option<Image>> = ready
         .iter()
         .map(|ready| {

@@ -1,19 +1,17 @@
-//! What was measured, as it goes into the JSON file. Table, report and plots are made of this alone.
+//! What was measured, as it goes into the JSON file. The document is made of this alone.
 
-use hairline_optics::method::{Lookup, Method, PixelFilter};
+use hairline_optics::method::{Method, PublishedMethod, Structure};
+use hairline_optics::published::sine_integral::SineIntegral;
+use hairline_reference::closed_form;
 use serde::Serialize;
 
-use super::counts::Counts;
 use super::machine::Machine;
-use crate::method_flags::flags_of;
 
 /// All of a benchmark.
 #[derive(Serialize)]
 pub struct Figures {
     pub hairline: &'static str,
     pub machine: Machine,
-    /// The flags of what is held against the published method; empty for the default.
-    pub ours: String,
     /// What was measured: the scene file's name, or "bench scene".
     pub scene: String,
     pub size_px: [u32; 2],
@@ -22,37 +20,7 @@ pub struct Figures {
     /// Where `talk_ms` is from.
     pub talk: &'static str,
     pub table: Vec<Cell>,
-    pub scaling: Vec<Curve>,
-    pub counts: Vec<Counts>,
-    /// None where it was not asked for.
-    pub off: Option<Off>,
-}
-
-/// The disk without scratches, and with one that cannot be seen.
-#[derive(Serialize)]
-pub struct Off {
-    pub none: Outcome,
-    /// The same once more.
-    pub again: Outcome,
-    pub one: Outcome,
-    /// Turn by turn; None where one of them was refused.
-    pub again_over_none: Option<Spread>,
-    pub one_over_none: Option<Spread>,
-}
-
-impl Off {
-    /// Each with its name and its time over that without scratches.
-    pub fn lines(&self) -> [(&'static str, &Outcome, Option<Spread>); 3] {
-        [
-            ("without scratches", &self.none, None),
-            (
-                "without scratches, again",
-                &self.again,
-                self.again_over_none,
-            ),
-            ("with one of no depth", &self.one, self.one_over_none),
-        ]
-    }
+    pub curves: Vec<Curve>,
 }
 
 /// A row of the table.
@@ -70,92 +38,84 @@ pub enum Row {
 impl Row {
     /// The rows of the talk.
     pub const TALK: [Self; 3] = [Self::Intersection, Self::Sphere, Self::Triangle];
+    pub const ALL: [Self; 4] = [
+        Self::Intersection,
+        Self::Sphere,
+        Self::Triangle,
+        Self::Scene,
+    ];
 
     pub fn name(self) -> &'static str {
         match self {
-            Self::Intersection => "intersection only",
-            Self::Sphere => "sphere",
-            Self::Triangle => "triangle",
-            Self::Scene => "scene",
+            Self::Intersection => "Intersection only",
+            Self::Sphere => "Sphere",
+            Self::Triangle => "Triangle",
+            Self::Scene => "Scene",
         }
     }
 }
 
-/// Three columns of the talk's table.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Columns {
-    /// Without anti-aliasing, by the hierarchy.
-    PointBvh,
-    /// Without anti-aliasing, by lists for each triangle.
-    PointTriangles,
-    /// With anti-aliasing, by the hierarchy.
-    Filtered,
-}
-
-impl Columns {
-    pub const ALL: [Self; 3] = [Self::PointBvh, Self::PointTriangles, Self::Filtered];
-
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::PointBvh => "AA off, BVH",
-            Self::PointTriangles => "AA off, per triangle",
-            Self::Filtered => "AA on, BVH",
-        }
-    }
-
-    pub fn antialiasing(self) -> bool {
-        self == Self::Filtered
-    }
-
-    pub fn published_lookup(self) -> Lookup {
-        match self {
-            Self::PointTriangles => Lookup::Triangles,
-            Self::PointBvh | Self::Filtered => Lookup::Bvh,
-        }
-    }
-}
-
-/// Whose method.
+/// A method with its switches: the talk's columns, the talk's exact sine integral, and ours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Whose {
-    Published,
+#[serde(rename_all = "kebab-case")]
+pub enum Way {
+    /// Published, without anti-aliasing, by the hierarchy.
+    PointBvh,
+    /// Published, without anti-aliasing, by lists for each triangle.
+    PointLists,
+    /// Published, with anti-aliasing, by the hierarchy.
+    Filtered,
+    /// The same with the exact sine integral.
+    FilteredExact,
     Ours,
-    /// Ours, with each scratch's light worked out at each pixel.
-    AtPixels,
-    /// Ours, with grids for what many scratches add up to.
-    Grids,
-}
-
-impl Whose {
-    /// In tables.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Published => "published",
-            Self::Ours => "ours",
-            Self::AtPixels => "ours at pixels",
-            Self::Grids => "grids",
-        }
-    }
-}
-
-/// One method's way through one cell of the table.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Way {
-    pub whose: Whose,
-    pub method: Method,
 }
 
 impl Way {
-    pub fn antialiasing(&self) -> bool {
-        self.method.footprint != PixelFilter::Off
+    pub const ALL: [Self; 5] = [
+        Self::PointBvh,
+        Self::PointLists,
+        Self::Filtered,
+        Self::FilteredExact,
+        Self::Ours,
+    ];
+
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::PointBvh => "published, AA off, BVH",
+            Self::PointLists => "published, AA off, per triangle",
+            Self::Filtered => "published, AA on, BVH",
+            Self::FilteredExact => "published, AA on, BVH, exact Si",
+            Self::Ours => "ours",
+        }
     }
 
-    pub fn lookup(&self) -> &'static str {
-        match self.method.lookup {
-            Lookup::Tiles => "tiles",
-            Lookup::Bvh => "bvh",
-            Lookup::Triangles => "triangles",
+    /// Ours always has it.
+    pub fn antialiasing(self) -> bool {
+        !matches!(self, Self::PointBvh | Self::PointLists)
+    }
+
+    pub fn method(self) -> Method {
+        let usual = PublishedMethod::default();
+        let published = |switches| Method {
+            published: Some(switches),
+            ..Method::PUBLISHED
+        };
+        let point = PublishedMethod {
+            anti_aliasing: false,
+            ..usual
+        };
+        match self {
+            Self::PointBvh => published(point),
+            Self::PointLists => published(PublishedMethod {
+                structure: Structure::TriangleLists,
+                ..point
+            }),
+            Self::Filtered => Method::PUBLISHED,
+            Self::FilteredExact => published(PublishedMethod {
+                si: SineIntegral::Exact,
+                ..usual
+            }),
+            Self::Ours => Method::default(),
         }
     }
 }
@@ -165,34 +125,15 @@ impl Way {
 pub struct Cell {
     pub row: Row,
     pub zoom: f64,
-    pub antialiasing: bool,
-    /// "tiles", "bvh" or "triangles".
-    pub lookup: &'static str,
-    pub method: Whose,
-    /// That `hairline render` would be given.
-    pub flags: String,
+    pub way: Way,
     #[serde(flatten)]
     pub outcome: Outcome,
-    /// None where nothing is lit, and where it was not asked for.
+    /// None where nothing is lit.
     pub error: Option<CellError>,
     /// What the talk gives for the published method.
     pub talk_ms: Option<f64>,
-}
-
-impl Cell {
-    pub fn new(row: Row, zoom: f64, way: &Way, outcome: Outcome, talk_ms: Option<f64>) -> Self {
-        Self {
-            row,
-            zoom,
-            antialiasing: way.antialiasing(),
-            lookup: way.lookup(),
-            method: way.whose,
-            flags: flags_of(&way.method),
-            outcome,
-            error: None,
-            talk_ms,
-        }
-    }
+    /// What was done for the picture; of our method alone.
+    pub counts: Option<Counts>,
 }
 
 /// A time, or why there is none.
@@ -273,10 +214,10 @@ pub struct CellError {
     pub samples: u32,
 }
 
-/// A series of measurements along one quantity, for both methods.
+/// A series of measurements along one quantity.
 #[derive(Serialize)]
 pub struct Curve {
-    /// "scratches", "zoom", "lights" or "resolution".
+    /// "scratches", "zoom", "lights" or "pixels".
     pub along: &'static str,
     pub points: Vec<Point>,
 }
@@ -286,10 +227,49 @@ pub struct Curve {
 pub struct Point {
     /// Scratches, zoom, lights, or pixels.
     pub x: f64,
-    pub method: Whose,
-    pub antialiasing: bool,
+    pub way: Way,
     #[serde(flatten)]
     pub outcome: Outcome,
+    /// What was done for the picture; of our method alone.
+    pub counts: Option<Counts>,
+}
+
+/// What the stages of a picture did, as the CPU renderer counts it.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Counts {
+    /// Segments that were projected to the picture.
+    pub segments: u64,
+    /// Entries of tile lists.
+    pub entries: u64,
+    /// (pixel, segment) tests.
+    pub tests: u64,
+    /// Of those, with a share of the pixel.
+    pub pairs: u64,
+    /// (pair, light) that were asked for.
+    pub asked: u64,
+    /// Of those, lit.
+    pub lit: u64,
+}
+
+impl From<closed_form::Counts> for Counts {
+    fn from(counts: closed_form::Counts) -> Self {
+        let closed_form::Counts {
+            segments,
+            entries,
+            tests,
+            pairs,
+            asked,
+            lit,
+        } = counts;
+        Self {
+            segments,
+            entries,
+            tests,
+            pairs,
+            asked,
+            lit,
+        }
+    }
 }
 
 #[cfg(test)]

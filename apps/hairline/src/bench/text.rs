@@ -1,216 +1,254 @@
-//! The figures in words: the blocks of the table, which terminal and document share, and the terminal's output.
+//! The figures as a document of Markdown tables, which a terminal shows as well.
 
-use std::io::{self, Write};
+use std::fmt::Write as _;
 
-use comfy_table::{CellAlignment, ContentArrangement, LineStyle, Table, TableStyle};
-
-use super::figures::{
-    Cell, CellError, Columns, Curve, Figures, Off, Outcome, Point, Row, Spread, Whose,
-};
-use crate::failure::Failure;
-
-/// A row of the talk's table as a table of its own: zooms across, methods down.
-pub struct Block {
-    pub row: Row,
-    pub zooms: Vec<f64>,
-    pub lines: Vec<Line>,
-}
-
-/// A label and a text for each zoom.
-pub struct Line {
-    pub label: String,
-    pub texts: Vec<String>,
-    /// Whether it says the most: set in bold.
-    pub strong: bool,
-}
+use super::figures::{Cell, Counts, Curve, Figures, Outcome, Row, Way};
+use super::stage::TALK_SCRATCHES;
 
 /// What stands where nothing was measured.
-pub const NOTHING: &str = "–";
+const NOTHING: &str = "–";
 /// Behind times that were scaled.
-pub const SCALED: &str = "*";
+const SCALED: &str = "*";
 
-impl Figures {
-    /// The cell of a method in a column; ours by its own look-up.
-    pub fn cell(&self, row: Row, zoom: f64, whose: Whose, columns: Columns) -> Option<&Cell> {
-        let lookup = match whose {
-            Whose::Published => lookup_name(columns),
-            Whose::Ours | Whose::AtPixels | Whose::Grids => self.own_lookup()?,
-        };
-        self.cell_by(row, zoom, whose, columns.antialiasing(), lookup)
-    }
+/// All of it.
+pub fn document(figures: &Figures) -> String {
+    let mut text = String::new();
+    // A string takes everything.
+    let _ = head(&mut text, figures)
+        .and_then(|()| table(&mut text, figures))
+        .and_then(|()| counts(&mut text, figures))
+        .and_then(|()| curves(&mut text, figures))
+        .and_then(|()| refusals(&mut text, figures));
+    text
+}
 
-    fn cell_by(
-        &self,
-        row: Row,
-        zoom: f64,
-        whose: Whose,
-        antialiasing: bool,
-        lookup: &str,
-    ) -> Option<&Cell> {
-        self.table.iter().find(|cell| {
-            cell.row == row
-                && cell.zoom == zoom
-                && cell.method == whose
-                && cell.antialiasing == antialiasing
-                && cell.lookup == lookup
-        })
-    }
-
-    /// Our look-up where no column asks for another: that with anti-aliasing.
-    fn own_lookup(&self) -> Option<&'static str> {
-        let mut ours = self.table.iter().filter(|c| c.method == Whose::Ours);
-        ours.find(|c| c.antialiasing).map(|c| c.lookup)
-    }
-
-    /// Time of the published method over ours.
-    pub fn speedup(&self, row: Row, zoom: f64, columns: Columns) -> Option<f64> {
-        let ms = |whose| Some(self.cell(row, zoom, whose, columns)?.outcome.ms()?.median);
-        Some(ms(Whose::Published)? / ms(Whose::Ours)?)
-    }
-
-    /// Error of the published method over ours.
-    pub fn error_ratio(&self, row: Row, zoom: f64, columns: Columns) -> Option<f64> {
-        let error = |whose| self.cell(row, zoom, whose, columns)?.error.as_ref();
-        let (published, ours) = (error(Whose::Published)?, error(Whose::Ours)?);
-        // Of an error that is lost in the noise no more is known than that.
-        let least = ours.relative_rms.max(ours.standard_error);
-        (least > 0.0).then(|| published.relative_rms / least)
-    }
-
-    /// The table's rows, block by block.
-    pub fn blocks(&self) -> Vec<Block> {
-        let rows = [Row::Intersection, Row::Sphere, Row::Triangle, Row::Scene];
-        rows.into_iter()
-            .filter(|row| self.table.iter().any(|cell| cell.row == *row))
-            .map(|row| self.block(row))
-            .collect()
-    }
-
-    fn block(&self, row: Row) -> Block {
-        let mut zooms: Vec<f64> = Vec::new();
-        for cell in self.table.iter().filter(|cell| cell.row == row) {
-            if !zooms.contains(&cell.zoom) {
-                zooms.push(cell.zoom);
-            }
+fn head(text: &mut String, figures: &Figures) -> std::fmt::Result {
+    let machine = &figures.machine;
+    let [width, height] = figures.size_px;
+    writeln!(
+        text,
+        "Hairline {}, `hairline bench`{}, on {}. The {}, {width} x {height}, {} scratches{}. Milliseconds a picture, one sample a pixel, medians, {}; \
+         methods take turns. {SCALED}: measured on some rows, spread evenly, and scaled to all.",
+        figures.hairline,
+        if figures.quick { " --quick" } else { "" },
+        machine.in_words(),
+        figures.scene,
+        figures.scratches,
+        if figures.scene == "bench scene" {
+            format!(
+                ", about {} within the coherence window of each point",
+                digits(3.0 * f64::from(figures.scratches) / f64::from(TALK_SCRATCHES))
+            )
+        } else {
+            String::new()
+        },
+        if machine.device_clock {
+            "by the device's own clock around its passes"
+        } else {
+            "from the call to the end of the wait"
         }
-        let mut block = Block {
-            row,
-            zooms,
-            lines: Vec::new(),
-        };
-        let lit = self.table.iter().any(|c| c.row == row && c.error.is_some());
-        let own = self.own_lookup().unwrap_or_default();
-        for columns in Columns::ALL {
-            let name = columns.name();
-            let published = |zoom| self.cell(row, zoom, Whose::Published, columns);
-            let ours = |zoom| self.cell(row, zoom, Whose::Ours, columns);
-            block.push(format!("published, {name}"), |zoom| time(published(zoom)));
-            if row != Row::Scene {
-                block.push("the talk, GTX 970M".to_owned(), |zoom| {
-                    published(zoom)?.talk_ms.map(|ms| format!("{ms:.1}"))
-                });
-            }
-            let lookup = lookup_name(columns);
-            if !columns.antialiasing() && lookup != own {
-                let same = |zoom| self.cell_by(row, zoom, Whose::Ours, false, lookup);
-                block.push(format!("ours, {name}"), |zoom| time(same(zoom)));
-            }
-            let aa = if columns.antialiasing() { "on" } else { "off" };
-            block.push(format!("ours, AA {aa}, {own}"), |zoom| time(ours(zoom)));
-            block.push_strong("published over ours, time".to_owned(), |zoom| {
-                self.speedup(row, zoom, columns).map(|r| format!("{r:.1}"))
-            });
-            if !lit {
-                continue;
-            }
-            for (whose, of) in [("published", &published as Of), ("ours", &ours)] {
-                block.push(format!("error of the scratches, {whose}"), |zoom| {
-                    let error = error(of, zoom)?;
-                    Some(format!(
-                        "{} ± {} %",
-                        digits(100.0 * error.relative_rms),
-                        digits(100.0 * error.standard_error)
-                    ))
-                });
-                block.push(format!("mean over the reference's, {whose}"), |zoom| {
-                    Some(format!("{:.3}", error(of, zoom)?.mean_ratio))
-                });
-            }
-            block.push("published over ours, error".to_owned(), |zoom| {
-                self.error_ratio(row, zoom, columns).map(digits)
-            });
-        }
-        block
-    }
-}
-
-impl Block {
-    fn push(&mut self, label: String, text: impl Fn(f64) -> Option<String>) {
-        let texts = self.zooms.iter().map(|zoom| text(*zoom));
-        let texts: Vec<String> = texts
-            .map(|text| text.unwrap_or_else(|| NOTHING.to_owned()))
-            .collect();
-        self.lines.push(Line {
-            label,
-            texts,
-            strong: false,
-        });
-    }
-
-    fn push_strong(&mut self, label: String, text: impl Fn(f64) -> Option<String>) {
-        self.push(label, text);
-        if let Some(line) = self.lines.last_mut() {
-            line.strong = true;
-        }
-    }
-}
-
-/// The cell of a zoom.
-type Of<'a, 'b> = &'b dyn Fn(f64) -> Option<&'a Cell>;
-
-fn error<'a>(of: Of<'a, '_>, zoom: f64) -> Option<&'a CellError> {
-    of(zoom)?.error.as_ref()
-}
-
-fn lookup_name(columns: Columns) -> &'static str {
-    match columns {
-        Columns::PointTriangles => "triangles",
-        Columns::PointBvh | Columns::Filtered => "bvh",
-    }
-}
-
-fn time(cell: Option<&Cell>) -> Option<String> {
-    Some(time_of(&cell?.outcome))
-}
-
-fn time_of(outcome: &Outcome) -> String {
-    let mark = if outcome.scaled() { SCALED } else { "" };
-    outcome.ms().map_or_else(
-        || "refused".to_owned(),
-        |ms| format!("{}{mark}", spread(ms, digits)),
     )
 }
 
-fn spread(Spread { median, quartiles }: Spread, digits: impl Fn(f64) -> String) -> String {
-    let [low, high] = quartiles.map(&digits);
-    format!("{} ({low} to {high})", digits(median))
+fn table(text: &mut String, figures: &Figures) -> std::fmt::Result {
+    for row in Row::ALL {
+        let cells: Vec<&Cell> = figures.table.iter().filter(|c| c.row == row).collect();
+        if cells.is_empty() {
+            continue;
+        }
+        let cell = |way: Way, zoom: f64| {
+            let mut cells = cells.iter();
+            cells.find(|c| c.way == way && c.zoom == zoom)
+        };
+        let mut zooms: Vec<f64> = cells.iter().map(|c| c.zoom).collect();
+        zooms.dedup_by(|a, b| a == b);
+        zooms.truncate(cells.len() / Way::ALL.len());
+        let is_lit = cells.iter().any(|c| c.error.is_some());
+        let ms = |way, zoom| Some(cell(way, zoom)?.outcome.ms()?.median);
+        let time = |way, zoom| cell(way, zoom).map(|c| time(&c.outcome));
+        let ratio = |way, zoom| Some(digits(ms(way, zoom)? / ms(Way::Ours, zoom)?));
+        let error = |way, zoom| {
+            let error = cell(way, zoom)?.error.as_ref()?;
+            let [rms, noise] =
+                [error.relative_rms, error.standard_error].map(|e| digits(100.0 * e));
+            Some(format!("{rms} ± {noise} %"))
+        };
+        let talk = |way, zoom| Some(digits(cell(way, zoom)?.talk_ms?));
+
+        let mut header = vec![row.name().to_owned()];
+        let columns: &[&str] = match is_lit {
+            true => &["ms", "over ours", "error"],
+            false => &["ms", "over ours"],
+        };
+        header.extend(
+            columns
+                .iter()
+                .flat_map(|name| zooms.iter().map(move |zoom| format!("{name}, {zoom}x"))),
+        );
+        let mut lines = Vec::new();
+        for way in Way::ALL {
+            let of = |figure: &dyn Fn(Way, f64) -> Option<String>| -> Vec<String> {
+                let texts = zooms.iter().map(|zoom| figure(way, *zoom));
+                texts
+                    .map(|text| text.unwrap_or_else(|| NOTHING.to_owned()))
+                    .collect()
+            };
+            let mut line = vec![way.name().to_owned()];
+            line.extend(of(&time));
+            line.extend(of(&ratio));
+            if is_lit {
+                line.extend(of(&error));
+            }
+            lines.push(line);
+            if zooms.iter().any(|zoom| talk(way, *zoom).is_some()) {
+                let mut line = vec!["the talk, GTX 970M".to_owned()];
+                line.extend(of(&talk));
+                line.resize(header.len(), String::new());
+                lines.push(line);
+            }
+        }
+        writeln!(text)?;
+        markdown(text, &header, &lines)?;
+    }
+    if figures.table.iter().any(|cell| cell.error.is_some()) {
+        writeln!(
+            text,
+            "\nError: that of the scratch layer on a crop about the rim of the lamp's reflection, root mean square difference from the \
+             separable Monte Carlo beyond its noise, over the reference's root mean square. Without anti-aliasing the truth is \
+             that of the pixel's middle point, with it the mean over the pixel's Gaussian; ours always has it. The talk's times ({}) are of \
+             another scene on another machine: their ratios can be compared, not their sizes.",
+            figures.talk
+        )?;
+    }
+    Ok(())
 }
 
-pub const OFF_HEADER: [&str; 3] = ["", "ms", "over without"];
+/// What our method did in each cell.
+fn counts(text: &mut String, figures: &Figures) -> std::fmt::Result {
+    let lines: Vec<Vec<String>> = figures
+        .table
+        .iter()
+        .filter_map(|cell| {
+            let Counts {
+                segments,
+                entries,
+                tests,
+                pairs,
+                asked,
+                lit,
+            } = cell.counts?;
+            let mut line = vec![format!("{}, {}x", cell.row.name(), cell.zoom)];
+            line.extend([segments, entries, tests, pairs, asked, lit].map(|n| n.to_string()));
+            Some(line)
+        })
+        .collect();
+    if lines.is_empty() {
+        return Ok(());
+    }
+    writeln!(text)?;
+    let header = [
+        "ours, a picture",
+        "segments projected",
+        "entries of tile lists",
+        "(pixel, segment) tests",
+        "pairs",
+        "(pair, light) asked",
+        "lit",
+    ];
+    markdown(text, &header.map(str::to_owned), &lines)
+}
 
-pub fn off_lines(off: &Off) -> [Vec<String>; 3] {
-    off.lines().map(|(name, outcome, ratio)| {
-        let ratio = ratio.map(|ratio| spread(ratio, |v| format!("{v:.3}")));
-        vec![
-            name.to_owned(),
-            time_of(outcome),
-            ratio.unwrap_or_else(|| NOTHING.to_owned()),
-        ]
-    })
+fn curves(text: &mut String, figures: &Figures) -> std::fmt::Result {
+    for curve in &figures.curves {
+        let about = match curve.along {
+            "scratches" => {
+                "Under a sphere, at 1x, 2.4 mm long: 100,000 lie as densely as the table's 10,000."
+            }
+            "zoom" => {
+                "Scratches of 2.4 mm under a sphere, a million unless --scratches says otherwise. The disk fills a hundredth of the picture at \
+                 0.1x and all of it from 2x on."
+            }
+            "lights" => {
+                "Spheres and triangles by turns, over a radian about the mirror direction, at 1x."
+            }
+            _ => "Under a sphere, at 1x and the same field of view: more pixels are smaller ones.",
+        };
+        writeln!(text, "\n{about}\n")?;
+        let (header, lines) = lines(curve);
+        markdown(text, &header, &lines)?;
+    }
+    Ok(())
+}
+
+fn lines(curve: &Curve) -> (Vec<String>, Vec<Vec<String>>) {
+    let there = |way: &Way| curve.points.iter().any(|point| point.way == *way);
+    let ways: Vec<Way> = Way::ALL.into_iter().filter(there).collect();
+    let mut header = vec![curve.along.to_owned()];
+    header.extend(ways.iter().map(|way| format!("{}, ms", way.name())));
+    let is_compared = ways.contains(&Way::Filtered);
+    header.extend(is_compared.then(|| "published over ours".to_owned()));
+    header.push("pairs".to_owned());
+    header.push("ns a pair".to_owned());
+    let mut xs: Vec<f64> = curve.points.iter().map(|point| point.x).collect();
+    xs.dedup();
+    let lines = xs.into_iter().map(|x| {
+        let at = |way: Way| {
+            let mut points = curve.points.iter();
+            points.find(|point| point.x == x && point.way == way)
+        };
+        let ms = |way| Some(at(way)?.outcome.ms()?.median);
+        let ours = || Some((ms(Way::Ours)?, at(Way::Ours)?.counts?.pairs));
+        let or_nothing = |text: Option<String>| text.unwrap_or_else(|| NOTHING.to_owned());
+        let mut line = vec![format!("{x}")];
+        line.extend(
+            ways.iter()
+                .map(|way| or_nothing(at(*way).map(|p| time(&p.outcome)))),
+        );
+        if is_compared {
+            let ratio = ms(Way::Filtered).zip(ms(Way::Ours));
+            line.push(or_nothing(ratio.map(|(a, b)| digits(a / b))));
+        }
+        line.push(or_nothing(ours().map(|(_, pairs)| pairs.to_string())));
+        line.push(or_nothing(
+            ours().map(|(ms, pairs)| digits(1e6 * ms / pairs as f64)),
+        ));
+        line
+    });
+    let lines = lines.collect();
+    (header, lines)
+}
+
+/// Why there are no times, each reason once.
+fn refusals(text: &mut String, figures: &Figures) -> std::fmt::Result {
+    let cells = figures.table.iter().map(|cell| {
+        let what = format!("{}, {}x", cell.row.name(), cell.zoom);
+        (what, cell.way, &cell.outcome)
+    });
+    let points = figures.curves.iter().flat_map(|curve| {
+        let what = |x: f64| format!("{x} {}", curve.along);
+        curve
+            .points
+            .iter()
+            .map(move |p| (what(p.x), p.way, &p.outcome))
+    });
+    for (what, way, outcome) in cells.chain(points) {
+        if let Outcome::Refused(reason) = outcome {
+            writeln!(text, "\nRefused: {what}, {}: {reason}", way.name())?;
+        }
+    }
+    Ok(())
+}
+
+fn time(outcome: &Outcome) -> String {
+    let mark = if outcome.scaled() { SCALED } else { "" };
+    outcome.ms().map_or_else(
+        || "refused".to_owned(),
+        |ms| format!("{}{mark}", digits(ms.median)),
+    )
 }
 
 /// Three digits.
-pub fn digits(value: f64) -> String {
+fn digits(value: f64) -> String {
     if !value.is_finite() {
         return NOTHING.to_owned();
     }
@@ -221,197 +259,33 @@ pub fn digits(value: f64) -> String {
     format!("{value:.decimals$}")
 }
 
-/// Prints to stdout.
-pub fn print(figures: &Figures) -> Result<(), Failure> {
-    match write(&mut io::stdout().lock(), figures) {
-        // Somebody downstream has read enough.
-        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
-        result => result.map_err(|error| Failure::Work(error.into())),
-    }
-}
-
-fn write(out: &mut impl Write, figures: &Figures) -> io::Result<()> {
-    writeln!(out, "{}", figures.machine.in_words())?;
-    let clock = if figures.machine.device_clock {
-        "by the device's clock"
-    } else {
-        "from the call to the end of the wait"
+/// A table, its columns as wide as they must be: the first on the left, the others on the right.
+fn markdown(text: &mut String, header: &[String], lines: &[Vec<String>]) -> std::fmt::Result {
+    let all = || std::iter::once(header).chain(lines.iter().map(Vec::as_slice));
+    let width = |i: usize| {
+        let widths = all().map(|line| line[i].chars().count());
+        widths.max().unwrap_or(0).max(4)
     };
-    for block in figures.blocks() {
-        let [width, height] = figures.size_px;
-        let name = block.row.name();
-        writeln!(
-            out,
-            "\n{name}, {width} x {height}, ms {clock}, median (quartiles)"
-        )?;
-        let mut header = vec![String::new()];
-        header.extend(block.zooms.iter().map(|zoom| format!("{zoom}x")));
-        let mut table = table(header);
-        for line in block.lines {
-            let texts = std::iter::once(line.label).chain(line.texts);
-            table.add_row(texts);
+    let widths: Vec<usize> = (0..header.len()).map(width).collect();
+    for (n, line) in all().enumerate() {
+        for (i, (cell, &width)) in line.iter().zip(&widths).enumerate() {
+            match i {
+                0 => write!(text, "| {cell:<width$} |")?,
+                _ => write!(text, " {cell:>width$} |")?,
+            }
         }
-        align(&mut table);
-        writeln!(out, "{table}")?;
-    }
-    for curve in &figures.scaling {
-        writeln!(out, "\n{}, ms {clock}", curve.along)?;
-        let mut table = table(curve_header(curve));
-        for line in curve_lines(curve) {
-            table.add_row(line);
+        writeln!(text)?;
+        if n == 0 {
+            for (i, &width) in widths.iter().enumerate() {
+                match i {
+                    0 => write!(text, "|{}|", "-".repeat(width + 2))?,
+                    _ => write!(text, "{}:|", "-".repeat(width + 1))?,
+                }
+            }
+            writeln!(text)?;
         }
-        align(&mut table);
-        writeln!(out, "{table}")?;
-    }
-    if let Some(off) = &figures.off {
-        writeln!(out, "\nwithout scratches, ms {clock}")?;
-        let mut table = table(OFF_HEADER.map(str::to_owned).to_vec());
-        for line in off_lines(off) {
-            table.add_row(line);
-        }
-        align(&mut table);
-        writeln!(out, "{table}")?;
-    }
-    let outcomes = || {
-        let cells = figures.table.iter().map(|cell| &cell.outcome);
-        let points = figures.scaling.iter().flat_map(|curve| &curve.points);
-        let off = figures.off.iter().flat_map(|off| off.lines());
-        cells
-            .chain(points.map(|point| &point.outcome))
-            .chain(off.map(|(_, outcome, _)| outcome))
-    };
-    if outcomes().any(Outcome::scaled) {
-        writeln!(
-            out,
-            "\n{SCALED} measured on some rows, spread evenly, and scaled to all"
-        )?;
-    }
-    for reason in refusals(figures) {
-        writeln!(out, "refused: {reason}")?;
     }
     Ok(())
-}
-
-/// Why cells were refused, each reason once.
-pub fn refusals(figures: &Figures) -> Vec<String> {
-    let mut reasons: Vec<String> = Vec::new();
-    let mut add = |whose: Whose, what: String, outcome: &Outcome| {
-        if let Outcome::Refused(reason) = outcome {
-            reasons.push(format!("{}, {what}: {reason}", whose.name()));
-        }
-    };
-    for cell in &figures.table {
-        let aa = if cell.antialiasing { "on" } else { "off" };
-        let what = format!(
-            "{}, {}x, AA {aa}, {}",
-            cell.row.name(),
-            cell.zoom,
-            cell.lookup
-        );
-        add(cell.method, what, &cell.outcome);
-    }
-    for curve in &figures.scaling {
-        for point in &curve.points {
-            add(
-                point.method,
-                format!("{} {}", point.x, curve.along),
-                &point.outcome,
-            );
-        }
-    }
-    for (name, outcome, _) in figures.off.iter().flat_map(Off::lines) {
-        add(Whose::Ours, name.to_owned(), outcome);
-    }
-    reasons
-}
-
-/// The series of a curve, in the order of its columns.
-pub fn series(curve: &Curve) -> Vec<(Whose, bool)> {
-    let mut series = Vec::new();
-    for point in &curve.points {
-        let one = (point.method, point.antialiasing);
-        if !series.contains(&one) {
-            series.push(one);
-        }
-    }
-    series
-}
-
-/// "published, AA on"
-pub fn series_name((whose, antialiasing): (Whose, bool)) -> String {
-    let aa = if antialiasing { "on" } else { "off" };
-    format!("{}, AA {aa}", whose.name())
-}
-
-pub fn curve_header(curve: &Curve) -> Vec<String> {
-    let x = match curve.along {
-        "resolution" => "pixels",
-        along => along,
-    };
-    let mut header = vec![x.to_owned()];
-    header.extend(series(curve).into_iter().map(series_name));
-    header.extend(ratios(curve).map(|(a, b)| format!("{} over {}, AA on", a.name(), b.name())));
-    header
-}
-
-/// What is held against what.
-fn ratios(curve: &Curve) -> impl Iterator<Item = (Whose, Whose)> {
-    let there = series(curve);
-    let pairs = [
-        (Whose::Published, Whose::Ours),
-        (Whose::AtPixels, Whose::Ours),
-        (Whose::Ours, Whose::Grids),
-    ];
-    pairs
-        .into_iter()
-        .filter(move |(a, b)| there.contains(&(*a, true)) && there.contains(&(*b, true)))
-}
-
-pub fn curve_lines(curve: &Curve) -> Vec<Vec<String>> {
-    let mut xs: Vec<f64> = Vec::new();
-    for point in &curve.points {
-        if !xs.contains(&point.x) {
-            xs.push(point.x);
-        }
-    }
-    xs.into_iter()
-        .map(|x| {
-            let at = |one: (Whose, bool)| -> Option<&Point> {
-                let mut points = curve.points.iter();
-                points.find(|p| p.x == x && (p.method, p.antialiasing) == one)
-            };
-            let ms = |one| Some(at(one)?.outcome.ms()?.median);
-            let mut line = vec![format!("{x}")];
-            for one in series(curve) {
-                let mark = at(one).is_some_and(|p| p.outcome.scaled());
-                line.push(match ms(one) {
-                    Some(ms) => format!("{}{}", digits(ms), if mark { SCALED } else { "" }),
-                    None => "refused".to_owned(),
-                });
-            }
-            line.extend(ratios(curve).map(|(a, b)| {
-                let ratio = ms((a, true)).zip(ms((b, true)));
-                ratio.map_or_else(|| NOTHING.to_owned(), |(a, b)| format!("{:.1}", a / b))
-            }));
-            line
-        })
-        .collect()
-}
-
-fn table(header: Vec<String>) -> Table {
-    let rule = LineStyle::none().fill('\u{2500}').junction('\u{2500}');
-    let mut table = Table::new();
-    table
-        .load_style(TableStyle::new().header_separator(rule))
-        .set_content_arrangement(ContentArrangement::Disabled)
-        .set_header(header);
-    table
-}
-
-fn align(table: &mut Table) {
-    for column in table.column_iter_mut().skip(1) {
-        column.set_cell_alignment(CellAlignment::Right);
-    }
 }
 
 #[cfg(test)]
@@ -431,5 +305,17 @@ mod tests {
         ] {
             assert_eq!(digits(value), text);
         }
+    }
+
+    #[test]
+    fn a_table_is_markdown() {
+        let mut text = String::new();
+        let words = |line: [&str; 2]| line.map(str::to_owned).to_vec();
+        let lines = [words(["ours", "1.5"])];
+        markdown(&mut text, &words(["method", "ms"]), &lines).unwrap();
+        assert_eq!(
+            text,
+            "| method |   ms |\n|--------|-----:|\n| ours   |  1.5 |\n"
+        );
     }
 }

@@ -9,11 +9,9 @@ use std::time::{Duration, Instant};
 
 use anyhow::anyhow;
 use hairline_gpu::Error;
-use hairline_optics::method::Method;
-use hairline_reference::closed_form::rows_together;
+use hairline_reference::closed_form::{Prepared, TILE_PX};
 use hairline_scene::Scene;
 
-use super::by_lookup::ByLookup;
 use super::figures::{Outcome, Spread, Timing};
 use super::worker::{Elapsed, Ready, Rows, Worker};
 use crate::failure::Failure;
@@ -38,8 +36,6 @@ impl Effort {
     }
 }
 
-/// Rows of a workgroup.
-const WORKGROUP_ROWS: u32 = 8;
 /// Rows of a strip at most.
 const STRIP_ROWS_MAX: u32 = 64;
 /// Strips at least: fewer would not know the picture.
@@ -51,84 +47,49 @@ const LONG: Duration = Duration::from_secs(30);
 /// How often a strip is timed before its cell is refused: a machine that is busy with something else may stand still for seconds.
 const TRIES: usize = 4;
 
-/// Rows of a strip: one of workgroups for each thread. Software drivers deal workgroups out in runs, so that in a lower strip the
-/// threads at the picture's sides, where nothing is to be seen, would wait for those in its middle. And whole tiles of the CPU
-/// renderer's.
+/// Rows of a strip: a row of tiles for each thread. Software drivers deal workgroups out in runs, so that in a lower strip the
+/// threads at the picture's sides, where nothing is to be seen, would wait for those in its middle.
 fn strip_rows() -> u32 {
-    (WORKGROUP_ROWS * rayon::current_num_threads() as u32)
-        .next_multiple_of(tile_rows())
-        .min(STRIP_ROWS_MAX)
-}
-
-/// Rows of the CPU renderer's tiles.
-fn tile_rows() -> u32 {
-    rows_together(Method::fastest())
-}
-
-/// One of those that take turns.
-pub struct Turn<'a> {
-    pub scene: &'a Scene,
-    pub prepared: &'a ByLookup<'a>,
-    pub ready: &'a Result<Ready, Error>,
-}
-
-/// What came of it.
-pub struct Measured {
-    pub outcome: Outcome,
-    /// Of each turn, by the clock of [`Outcome::ms`], of the rows that were rendered; empty where it was refused.
-    pub ms: Vec<f64>,
+    (TILE_PX * rayon::current_num_threads() as u32).min(STRIP_ROWS_MAX)
 }
 
 /// Times the same picture by several methods.
 pub fn by_turns(
     worker: &mut Worker,
     scene: &Scene,
-    prepared: &ByLookup,
+    prepared: &Prepared,
     ready: &[Result<Ready, Error>],
     effort: &Effort,
 ) -> Result<Vec<Outcome>, Failure> {
-    let turn = |ready| Turn {
-        scene,
-        prepared,
-        ready,
-    };
-    let turns: Vec<Turn> = ready.iter().map(turn).collect();
-    let measured = in_turns(worker, &turns, effort)?;
-    Ok(measured.into_iter().map(|one| one.outcome).collect())
-}
-
-/// Times several pictures of one height.
-pub fn in_turns(
-    worker: &mut Worker,
-    turns: &[Turn],
-    effort: &Effort,
-) -> Result<Vec<Measured>, Failure> {
-    let height = turns.iter().map(|turn| turn.scene.render.size_px[1]).max();
-    let height = height.unwrap_or(1);
-    let mut runs: Vec<Runs> = turns.iter().map(|_| Runs::default()).collect();
+    let height = scene.render.size_px[1];
+    let mut runs: Vec<Runs> = ready.iter().map(|_| Runs::default()).collect();
     let mut rows = Rows::Whole;
-    let room = effort.cell / 2;
-    let has_strips = |turn: &Turn| turn.ready.as_ref().ok().is_none_or(Ready::has_strips);
-    let has_strips = turns.iter().all(has_strips);
-    for (turn, runs) in turns.iter().zip(&mut runs) {
-        match turn.ready {
-            Err(error) => runs.refused = Some(refusal(error)?),
-            Ok(ready) => match warm_up(worker, turn, ready, effort) {
-                Err(error) => runs.refused = Some(refusal(&error)?),
-                Ok(strip) => {
-                    // A dispatch for each strip costs a software driver something: as few as can be, or the whole picture.
-                    let strips = (room.as_secs_f64() / strip.as_secs_f64().max(1e-9)) as u32;
-                    if effort.is_exceeded_by(strip) {
-                        runs.refused = Some(format!(
-                            "too slow to measure here: {} rows took {:.1} s",
-                            strip_rows(),
-                            strip.as_secs_f64()
-                        ));
-                    } else if has_strips && strips < height.div_ceil(strip_rows()) {
-                        rows = fewer(&rows, height, strips.max(STRIPS_LEAST));
-                    }
-                }
+    let mut time = |ready: &Ready, rows: &Rows| worker.time(scene, prepared, ready, rows);
+    for (ready, runs) in ready.iter().zip(&mut runs) {
+        let strip = match ready {
+            Err(error) => Err(refusal(error)?),
+            Ok(ready) => match warm_up(&mut |rows| Ok(time(ready, rows)?.wall), height, effort) {
+                Err(error) => Err(refusal(&error)?),
+                Ok(strip) => Ok(strip),
             },
+        };
+        match strip {
+            Err(refusal) => runs.refused = Some(refusal),
+            Ok(strip) if effort.is_exceeded_by(strip) => {
+                runs.refused = Some(format!(
+                    "too slow to measure here: {} rows took {:.1} s",
+                    strip_rows(),
+                    strip.as_secs_f64()
+                ));
+            }
+            Ok(strip) => {
+                // A dispatch for each strip costs a software driver something: as few as can be, or the whole picture.
+                let room_s = effort.cell.as_secs_f64() / 2.0;
+                let strips = (room_s / strip.as_secs_f64().max(1e-9)) as u32;
+                if strips < height.div_ceil(strip_rows()) {
+                    rows = fewer(&rows, height, strips.max(STRIPS_LEAST));
+                }
+            }
         }
     }
     let start = Instant::now();
@@ -138,9 +99,9 @@ pub fn in_turns(
         if repetition >= effort.least && start.elapsed() > end {
             break;
         }
-        for (turn, runs) in turns.iter().zip(&mut runs) {
-            if let (Ok(ready), None) = (turn.ready, &runs.refused) {
-                match worker.time(turn.scene, turn.prepared, ready, &rows) {
+        for (ready, runs) in ready.iter().zip(&mut runs) {
+            if let (Ok(ready), None) = (ready, &runs.refused) {
+                match time(ready, &rows) {
                     Ok(elapsed) => runs.push(&elapsed),
                     Err(error) => runs.refused = Some(refusal(&error)?),
                 }
@@ -148,11 +109,7 @@ pub fn in_turns(
         }
     }
     let of_rows = (rows_of(&rows, height), height);
-    let measured = |runs: Runs| Measured {
-        ms: runs.ms().to_vec(),
-        outcome: runs.outcome(of_rows),
-    };
-    Ok(runs.into_iter().map(measured).collect())
+    Ok(runs.into_iter().map(|runs| runs.outcome(of_rows)).collect())
 }
 
 /// Why a cell has no time, where a device is too small for it; other errors are no measurement.
@@ -166,21 +123,16 @@ fn refusal(error: &Error) -> Result<String, Failure> {
 }
 
 /// Has the driver compile, and finds out what a strip in the middle takes. Some drivers compile a pass once it has something to do, which
-/// may be at the picture's edge: all of it is rendered where half the effort suffices, or where strips don't tell.
+/// may be at the picture's edge: all of it is rendered where half the effort suffices.
 fn warm_up(
-    worker: &mut Worker,
-    turn: &Turn,
-    ready: &Ready,
+    wall: &mut impl FnMut(&Rows) -> Result<Duration, Error>,
+    height: u32,
     effort: &Effort,
 ) -> Result<Duration, Error> {
-    let height = turn.scene.render.size_px[1];
-    let mut wall = |rows: &Rows| -> Result<Duration, Error> {
-        Ok(worker.time(turn.scene, turn.prepared, ready, rows)?.wall)
-    };
     let strip = strips(height, 1);
     wall(&strip)?;
     let mut least = wall(&strip)?;
-    if !ready.has_strips() || least * height.div_ceil(strip_rows()) <= effort.cell / 2 {
+    if least * height.div_ceil(strip_rows()) <= effort.cell / 2 {
         wall(&Rows::Whole)?;
         least = wall(&strip)?;
     }
@@ -212,13 +164,8 @@ fn strips_of(strip_rows: u32, height: u32, count: u32) -> Rows {
     let strip = |i: u32| -> Range<u32> {
         let middle = f64::from(height) * (f64::from(i) + 0.5) / f64::from(count);
         let first = middle as u32 - (strip_rows / 2).min(middle as u32);
-        // At a tile's edge if strips are made of tiles.
-        let first = first
-            - if strip_rows.is_multiple_of(tile_rows()) {
-                first % tile_rows()
-            } else {
-                0
-            };
+        // At a tile's edge.
+        let first = first - first % TILE_PX;
         first..(first + strip_rows).min(height)
     };
     Rows::Strips((0..count).map(strip).collect())
@@ -250,15 +197,6 @@ impl Runs {
                 let times = self.passes.entry(pass.name).or_default();
                 times.push(milliseconds(pass.time));
             }
-        }
-    }
-
-    /// By the device's own clock where it has one.
-    fn ms(&self) -> &[f64] {
-        match &self.refused {
-            Some(_) => &[],
-            None if self.device.len() == self.wall.len() => &self.device,
-            None => &self.wall,
         }
     }
 

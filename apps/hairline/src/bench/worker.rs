@@ -7,11 +7,11 @@ use std::time::{Duration, Instant};
 use anyhow::anyhow;
 use hairline_gpu::{Adapter, Canvas, Error, Gpu, GpuScene, PassTime, Renderer, headless};
 use hairline_image::Image;
-use hairline_optics::method::{LightAt, Lookup, Method};
-use hairline_reference::closed_form;
+use hairline_optics::method::Method;
+use hairline_reference::closed_form::{self, Prepared};
 use hairline_scene::Scene;
 
-use super::by_lookup::ByLookup;
+use super::figures::{Counts, Way};
 use crate::cli::Backend;
 use crate::failure::Failure;
 
@@ -36,14 +36,16 @@ pub struct Ready {
     uploaded: Option<GpuScene>,
 }
 
-impl Ready {
-    /// Whether some rows of a picture tell what all take. A device that finds the light of scratches along them does so anew for each
-    /// strip, of those that reach beyond it too.
-    pub fn has_strips(&self) -> bool {
-        let finds_whole_scratches =
-            self.method.light_at == LightAt::Scratches && self.method.lookup == Lookup::Tiles;
-        self.uploaded.is_none() || !finds_whole_scratches
-    }
+/// What `way` does for a picture, on the CPU; none for the published method.
+pub fn counted(scene: &Scene, prepared: &Prepared, way: Way) -> Option<Counts> {
+    let options = closed_form::RenderOptions {
+        samples: 1,
+        method: way.method(),
+    };
+    (way == Way::Ours).then(|| {
+        let rows = 0..scene.render.size_px[1];
+        prepared.render_counted(&options, rows, &|_| {}).1.into()
+    })
 }
 
 /// Which rows of a picture.
@@ -95,12 +97,11 @@ impl Worker {
     pub fn ready(
         &mut self,
         scene: &Scene,
-        prepared: &ByLookup,
+        prepared: &Prepared,
         method: &Method,
     ) -> Result<Ready, Error> {
         let uploaded = match self {
             Self::Gpu(worker) => {
-                let prepared = prepared.of(method.lookup);
                 let (index, tables) = (prepared.scratches(), prepared.tables());
                 let upload = worker.renderer.upload(scene, index, tables, method);
                 Some(worker.gpu.block_on(upload)?)
@@ -117,7 +118,7 @@ impl Worker {
     pub fn time(
         &mut self,
         scene: &Scene,
-        prepared: &ByLookup,
+        prepared: &Prepared,
         ready: &Ready,
         rows: &Rows,
     ) -> Result<Elapsed, Error> {
@@ -125,7 +126,6 @@ impl Worker {
             (Self::Gpu(worker), Some(uploaded)) => worker.time(scene, uploaded, rows),
             _ => {
                 let options = options(ready);
-                let prepared = prepared.of(ready.method.lookup);
                 let start = Instant::now();
                 match rows {
                     Rows::Whole => drop(prepared.render(&options, &|_| {})),
@@ -148,7 +148,7 @@ impl Worker {
     pub fn image(
         &mut self,
         scene: &Scene,
-        prepared: Option<&ByLookup>,
+        prepared: Option<&Prepared>,
         ready: &Ready,
     ) -> Result<Image, Error> {
         match (self, &ready.uploaded) {
@@ -160,7 +160,7 @@ impl Worker {
             _ => {
                 let options = options(ready);
                 Ok(match prepared {
-                    Some(prepared) => prepared.of(ready.method.lookup).render(&options, &|_| {}),
+                    Some(prepared) => prepared.render(&options, &|_| {}),
                     None => closed_form::render(scene, &options, &|_| {}),
                 })
             }

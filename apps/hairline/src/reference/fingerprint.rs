@@ -21,8 +21,6 @@ pub fn fingerprint(description: &Description, folder: &Path) -> Result<String> {
     described.camera.exposure_ev = 0.0;
     described.render.tone_map = hairline_image::ToneMap::default();
     described.render.size_px = [0, 0];
-    // A reference takes every scratch for itself.
-    described.render.gather = hairline_optics::method::Gather::Exact;
     let by_content = |file: &mut PathBuf, digest: fn(&Path) -> Result<String>| -> Result<()> {
         *file = digest(&folder.join(&*file))?.into();
         Ok(())

@@ -97,10 +97,7 @@ impl Made {
         Self {
             index: Arc::new(ScratchIndex::build(&scene)),
             tables: Arc::new(ScratchTables::new(&scene)),
-            method: Method {
-                gather: scene.render.gather,
-                ..Method::default()
-            },
+            method: Method::default(),
             scene,
         }
     }
@@ -165,12 +162,12 @@ impl Stage {
         self.gpu.block_on(canvas).unwrap()
     }
 
-    /// Adds one sample to one band.
+    /// Adds one step to one band.
     pub fn accumulate(
         &mut self,
         canvas: &mut Canvas,
         band: usize,
-        sample: u32,
+        step: u32,
         samples: u32,
     ) -> Result<(), Error> {
         let Self {
@@ -180,14 +177,14 @@ impl Stage {
             uploaded,
         } = self;
         let (scene, uploaded) = (&made.scene, &*uploaded);
-        gpu.block_on(renderer.accumulate(scene, uploaded, canvas, band, sample, samples))
+        gpu.block_on(renderer.accumulate(scene, uploaded, canvas, band, step, samples))
     }
 
-    /// Adds samples up to `end` of `samples` to all bands.
+    /// Adds steps up to `end` of those for `samples` to all bands.
     pub fn paint(&mut self, canvas: &mut Canvas, end: u32, samples: u32) {
         for band in 0..canvas.bands() {
-            for sample in canvas.samples(band)..end {
-                self.accumulate(canvas, band, sample, samples).unwrap();
+            for step in canvas.steps(band)..end {
+                self.accumulate(canvas, band, step, samples).unwrap();
             }
         }
     }

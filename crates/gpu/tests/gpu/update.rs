@@ -10,7 +10,7 @@ use hairline_gpu::{Error, GpuScene, Renderer};
 use hairline_image::{Image, Picture};
 use hairline_index::ScratchIndex;
 use hairline_optics::metal::Metal;
-use hairline_optics::method::{Gather, Lookup, Method};
+use hairline_optics::method::{Method, PublishedMethod, Structure};
 use hairline_scene::{Base, Environment, Light, Scene, ScratchTables, Texture};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_pcg::Pcg32;
@@ -188,50 +188,6 @@ fn after_any_edits_the_picture_is_a_fresh_ones() {
     }
 }
 
-/// Scratches that are added up have spectra of their own, which go with the metal and with who has it.
-#[test]
-fn added_up_scratches_follow_their_metal() {
-    let Some(gpu) = test_gpu() else { return };
-    let metal = |name: &str, metal: &str| {
-        format!(
-            "[[material]]\nname = \"{name}\"\nkind = \"metal\"\nmetal = \"{metal}\"\nroughness = 0.1\n"
-        )
-    };
-    let text = format!(
-        "[camera]\nposition_m = [0.0, -2.0, 2.0]\ntarget_m = [0.0, 0.0, 0.0]\nup = [0.0, 0.0, 1.0]\nfov_y_deg = 2.0\n\
-         [render]\nsize_px = [8, 8]\ngather = \"clusters\"\n{}{}\
-         [[object]]\nname = \"disk\"\nmaterial = \"a\"\nshape = {{ disk = {{ radius_m = 0.05 }} }}\n\
-         [[object]]\nname = \"other\"\nmaterial = \"b\"\ntranslation_m = [0.0, 0.0, -9.0]\nshape = {{ disk = {{ radius_m = 0.05 }} }}\n\
-         [[scratches]]\nobject = \"disk\"\npattern = \"random\"\ncount = 3000\nlength_m = 0.02\nwidth_um = 3.0\n\
-         depth_nm = {{ mean = 200.0, spread = 0.1 }}\n\
-         [[light]]\nkind = \"sphere\"\ncenter_m = [0.0, 1.2, 1.0]\nradius_m = 0.2\nradiance = 20.0\n",
-        metal("a", "steel"),
-        metal("b", "gold"),
-    );
-    let mut stage = Stage::new(gpu, scene(&text));
-    let added_up = image(&mut stage);
-    stage.made.method = Method::default();
-    update(&mut stage).unwrap();
-    assert!(image(&mut stage) != added_up, "scratch by scratch");
-    stage.made.method.gather = Gather::Clusters;
-    for what in ["the disk's material is another", "so are both metals"] {
-        let stale = image(&mut stage);
-        if what.starts_with("the disk") {
-            let mesh = Arc::make_mut(&mut stage.made.scene.objects[0].mesh);
-            mesh.triangle_materials.fill(1);
-        } else {
-            for material in &mut stage.made.scene.materials {
-                material.base = Base::Metal(Metal::Copper);
-            }
-        }
-        stage.made.tables = Arc::new(ScratchTables::new(&stage.made.scene));
-        update(&mut stage).unwrap();
-        let (found, expected) = (image(&mut stage), fresh(&mut stage));
-        assert!(found == expected, "{what}");
-        assert!(stale != expected, "{what}: shows nothing");
-    }
-}
-
 #[test]
 fn only_what_changed_is_written() {
     let Some(gpu) = test_gpu() else { return };
@@ -243,10 +199,7 @@ fn only_what_changed_is_written() {
     assert!(all.len() > 10, "{all:?}");
     let triangles =
         |scene: &Scene, object: usize| 144 * scene.objects[object].mesh.triangles.len() as u64;
-    let tree = [
-        ("scratch segments", all["scratch segments"]),
-        ("scratch tree", all["scratch tree"]),
-    ];
+    let tree = [("scratch segments", all["scratch segments"])];
     let plate = ("triangles", triangles(&stage.made.scene, 0));
     let with_tree = |rest: &[(&'static str, u64)]| {
         let all = rest.iter().chain(&tree);
@@ -277,10 +230,14 @@ fn only_what_changed_is_written() {
     // Pieces are straight to rounding, and so it may be others that go straight on: then objects have other nodes.
     let names = found.keys().copied().filter(|name| *name != "objects");
     let names: Vec<_> = names.collect();
-    assert_eq!(names, ["scratch segments", "scratch tree", "triangles"]);
-    // Another method looks up something else.
+    assert_eq!(names, ["scratch segments", "triangles"]);
+    // The published method looks up something else.
     let published = Method {
-        lookup: Lookup::Triangles,
+        published: Some(PublishedMethod {
+            structure: Structure::TriangleLists,
+            anti_aliasing: false,
+            ..Default::default()
+        }),
         ..Method::default()
     };
     let Stage {
@@ -292,7 +249,7 @@ fn only_what_changed_is_written() {
     gpu.block_on(renderer.update(uploaded, &made.scene, &made.index, &made.tables, &published))
         .unwrap();
     let names: Vec<_> = written(uploaded).keys().copied().collect();
-    assert_eq!(names, ["triangle lists"]);
+    assert_eq!(names, ["scratch tree", "triangle lists", "wavelengths"]);
 }
 
 #[test]

@@ -39,7 +39,7 @@ fn with_width(mut description: Description, layer: usize, width_um: f64) -> Desc
 
 /// How many trees are grown anew.
 fn grown(scene: &Scene, last: (&Scene, &ScratchIndex)) -> usize {
-    let plots = plots(scene, Lookup::default(), Some(last));
+    let plots = plots(scene, Some(last));
     let plots = plots.iter().flatten();
     plots
         .filter(|plot| matches!(plot, Plot::New { .. }))
@@ -85,12 +85,7 @@ fn only_the_layer_that_changed_is_grown_and_all_is_as_if_built_anew() {
     ] {
         let next = built(&mut builder, &description);
         assert_eq!(grown(&next, (&scene, &index)), expected);
-        let rebuilt = ScratchIndex::rebuild(
-            &next,
-            Lookup::Tiles,
-            Some((&scene, &index)),
-            &Watch::default(),
-        );
+        let rebuilt = ScratchIndex::rebuild(&next, Some((&scene, &index)), &Watch::default());
         index = rebuilt.unwrap();
         assert_same(&index, &ScratchIndex::build(&next));
         scene = next;
@@ -164,7 +159,7 @@ fn the_work_is_told_and_can_be_given_up() {
             progress: &|share| told.lock().unwrap().push(share),
             cancelled: &|| asked.fetch_add(1, Ordering::Relaxed) >= patience,
         };
-        ScratchIndex::rebuild(&scene, Lookup::Tiles, None, &watch)
+        ScratchIndex::rebuild(&scene, None, &watch)
     };
     assert!(run(usize::MAX).is_some());
     let told = told.lock().unwrap().clone();
@@ -178,29 +173,24 @@ fn the_work_is_told_and_can_be_given_up() {
     }
 }
 
-/// A walk for each pixel wants shorter pieces than a tile; trees over the others are not taken for it.
+/// The segments of an object stand side by side, in the order of the objects.
 #[test]
-fn pieces_are_as_long_as_suits_the_lookup() {
+fn the_range_of_an_object_holds_its_segments() {
     let scene = built(&mut SceneBuilder::new(), &description());
-    let tiles = ScratchIndex::build(&scene);
-    let by = |lookup, last| {
-        let last = Some((&scene, last));
-        ScratchIndex::rebuild(&scene, lookup, last, &Watch::default()).unwrap()
-    };
-    let walk = by(Lookup::Bvh, &tiles);
-    assert_same(&by(Lookup::Triangles, &walk), &tiles);
-    assert!(tiles.suits(Lookup::Triangles) && walk.suits(Lookup::Bvh));
-    assert!(!tiles.suits(Lookup::Bvh) && !walk.suits(Lookup::Tiles));
-    let lengths_m = |index: &ScratchIndex| -> Vec<f64> {
-        let pieces = index.tree.segments.iter();
-        let ends = pieces.map(|s| s.start_m.as_dvec3().distance(s.end_m.as_dvec3()));
-        ends.collect()
-    };
-    let (long, short) = (lengths_m(&tiles), lengths_m(&walk));
-    assert!(short.len() > long.len());
-    // What is longer is as the scene has it.
-    let whole_m = |lengths: &[f64]| lengths.iter().sum::<f64>();
-    assert!((whole_m(&long) / whole_m(&short) - 1.0).abs() < 1e-5);
+    let index = ScratchIndex::build(&scene);
+    let mut end = 0;
+    for object in 0..2 {
+        let range = index.segment_range(object);
+        assert_eq!(range.start, end);
+        end = range.end;
+        let all = effective_segments(&scene, &scene.objects[object]);
+        assert_eq!(range.len(), all.len());
+        let own = &index.tree.segments[range.start as usize..range.end as usize];
+        assert!(own.iter().step_by(97).all(|s| all.contains(s)));
+    }
+    assert_eq!(end as usize, index.tree.segments.len());
+    let coherence_um = scene.materials[0].coherence_um as f32;
+    assert_eq!(index.coherence_max_um(), [coherence_um; 2]);
 }
 
 /// What is cut at the edges of triangles that lie in one plane is whole again, up to the length of a piece; where the surface bends

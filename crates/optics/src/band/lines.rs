@@ -122,13 +122,6 @@ impl BandPlace {
     /// How the band moves towards a light.
     #[inline]
     pub fn moved(&self, moves: [f64; 2]) -> BandMotion {
-        self.moved_along(moves, 1.0, 0.0)
-    }
-
-    /// The same for a part of the scratch: of the variance along it the share `seen_along` is left, and the part lies `ahead` of
-    /// where the pixel sees the whole, in the same units as xi_t.
-    #[inline]
-    pub fn moved_along(&self, moves: [f64; 2], seen_along: f64, ahead: f64) -> BandMotion {
         let slope = moves[0] * self.slopes[0] + moves[1] * self.slopes[1];
         // The variance that is left, as a sum of squares: a difference would cancel where the footprint is wide.
         let left = [
@@ -136,9 +129,8 @@ impl BandPlace {
             moves[1] - slope * self.across_um[1],
         ];
         BandMotion {
-            shift: (slope * self.offset_um + ahead).clamp(-BAND_STD_MAX, BAND_STD_MAX),
-            variance: seen_along * (left[0] * left[0] + left[1] * left[1])
-                + slope * slope * self.window_um2,
+            shift: (slope * self.offset_um).clamp(-BAND_STD_MAX, BAND_STD_MAX),
+            variance: left[0] * left[0] + left[1] * left[1] + slope * slope * self.window_um2,
         }
     }
 }

@@ -39,8 +39,9 @@ impl OutlineEdge {
 
     /// The edges of a polygon, from direction to direction and back to the first one.
     pub fn around(directions: &[DVec3]) -> impl Iterator<Item = Self> {
-        let ends = directions.iter().cycle().skip(1);
-        directions.iter().zip(ends).map(|(a, b)| Self::new(*a, *b))
+        // Of known length, so that a vector is extended by them at once.
+        let end = |i: usize| directions[if i + 1 < directions.len() { i + 1 } else { 0 }];
+        (0..directions.len()).map(move |i| Self::new(directions[i], end(i)))
     }
 }
 

@@ -1,12 +1,11 @@
-//! What a pixel sees of a segment, by any of the footprints.
+//! What a pixel sees of a segment, with anti-aliasing or without.
 
 use crate::surface::SurfacePoint;
 use glam::{DVec2, DVec3};
 use hairline_index::IndexedSegment;
 use hairline_index::scratch_index::{FACING_MIN_COS, REACH_STD};
-use hairline_optics::band::{BandFrame, MovedBand, band_move, band_stds, moved_band};
+use hairline_optics::band::BandFrame;
 use hairline_optics::footprint::{Footprint, ScratchShare, scratch_share};
-use hairline_optics::method::PixelFilter;
 use hairline_optics::published::footprint::{PixelFootprint, published_share};
 
 /// A segment as seen from a point.
@@ -19,11 +18,6 @@ pub(super) struct SegmentView {
     pub density: f64,
     pub width_um: f64,
     pub depth_nm: f64,
-    offset_um: f64,
-    /// One standard deviation of the pixel's filter to the right and down.
-    axes_um: [DVec3; 2],
-    /// The footprint's variance across the scratch, and the coherence window's with it.
-    variance_um2: f64,
 }
 
 /// Far enough from any pixel to stand for endless, and near enough for sums of it to keep their digits.
@@ -34,7 +28,7 @@ impl SegmentView {
     pub fn new(
         point: &SurfacePoint,
         segment: &IndexedSegment,
-        filter: PixelFilter,
+        anti_aliasing: bool,
     ) -> Option<Self> {
         if segment.normal.as_dvec3().dot(point.normal) < FACING_MIN_COS as f64 {
             return None;
@@ -59,35 +53,32 @@ impl SegmentView {
             return None;
         }
         let (width_um, blur_um) = (segment.width_um as f64, segment.blur_um as f64);
-        let (share, density) = match filter {
-            PixelFilter::Gaussian | PixelFilter::Off => {
-                let footprint = Footprint {
-                    across_um2,
-                    along_um2: ax.x * ax.x + ay.x * ay.x,
-                    cross_um2: ax.x * ax.y + ay.x * ay.y,
-                };
-                let share = scratch_share(
-                    width_um, offset_um, start.x, end.x, blur_um, footprint, sigma,
-                );
-                (share, 2.0 * share.segment)
-            }
-            PixelFilter::Published => {
-                // The box that has the Gaussian's variance.
-                let side = |axis: DVec3| 12f64.sqrt() * axis.truncate();
-                let pixel = PixelFootprint {
-                    right_um: side(ax),
-                    down_um: side(ay),
-                };
-                let seen = |start_um: f64, end_um: f64| {
-                    published_share(width_um, offset_um, start_um, end_um, blur_um, pixel, sigma)
-                };
-                let segment = seen(start.x, end.x);
-                let share = ScratchShare {
-                    segment: segment.share,
-                    line: seen(-ENDLESS_UM, ENDLESS_UM).share,
-                };
-                (share, segment.density)
-            }
+        let (share, density) = if anti_aliasing {
+            // The box that has the Gaussian's variance.
+            let side = |axis: DVec3| 12f64.sqrt() * axis.truncate();
+            let pixel = PixelFootprint {
+                right_um: side(ax),
+                down_um: side(ay),
+            };
+            let seen = |start_um: f64, end_um: f64| {
+                published_share(width_um, offset_um, start_um, end_um, blur_um, pixel, sigma)
+            };
+            let segment = seen(start.x, end.x);
+            let share = ScratchShare {
+                segment: segment.share,
+                line: seen(-ENDLESS_UM, ENDLESS_UM).share,
+            };
+            (share, segment.density)
+        } else {
+            let footprint = Footprint {
+                across_um2,
+                along_um2: ax.x * ax.x + ay.x * ay.x,
+                cross_um2: ax.x * ax.y + ay.x * ay.y,
+            };
+            let share = scratch_share(
+                width_um, offset_um, start.x, end.x, blur_um, footprint, sigma,
+            );
+            (share, 2.0 * share.segment)
         };
         (share.segment > 0.0).then(|| Self {
             frame,
@@ -96,21 +87,6 @@ impl SegmentView {
             density,
             width_um,
             depth_nm: segment.depth_nm as f64,
-            offset_um,
-            axes_um,
-            variance_um2,
         })
-    }
-
-    /// The band as the pixel sees it towards a light in a direction of the scratch's frame.
-    pub fn band(&self, point: &SurfacePoint, wi: DVec3, distance_m: f64) -> MovedBand {
-        let (per_o, per_i) = (1e-6 / point.distance_m, 1e-6 / distance_m);
-        let moves = std::array::from_fn(|j| {
-            let turn_t = point.normal_turns[j].truncate().dot(self.frame.tangent);
-            band_move(turn_t, self.axes_um[j], self.wo, per_o, wi, per_i)
-        });
-        let across_um = self.axes_um.map(|axis| axis.y);
-        let stds = band_stds(point.coherence_um);
-        moved_band(stds, moves, across_um, self.offset_um, self.variance_um2)
     }
 }

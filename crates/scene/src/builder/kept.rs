@@ -5,7 +5,6 @@ use std::sync::{Arc, OnceLock};
 use std::time::SystemTime;
 
 use glam::DMat4;
-use hairline_optics::method::Gather;
 
 use crate::description::{self, Layer, Stroke, Surface};
 use crate::error::Error;
@@ -23,8 +22,6 @@ pub(super) struct Kept {
     pub map: Option<(Stamp, Environment)>,
     pub layers: Vec<Arc<KeptLayer>>,
     pub objects: Vec<Together>,
-    /// How scratches are gathered: whether there are grids of them already.
-    pub gather: Gather,
 }
 
 /// What is known of a file without reading it; equal stamps, equal contents. What cannot be told is `None`.

@@ -33,7 +33,21 @@ pub(super) fn description(root: &DeTable) -> Result<Description, Error> {
         objects: table.or("object", Vec::new())?,
         scratches: table.or("scratches", Vec::new())?,
         lights: table.or("light", Vec::new())?,
+        notes: Vec::new(),
     })
+}
+
+/// Keys of earlier versions that are there, and why they have no effect.
+pub(super) fn keys_without_effect(
+    root: &DeTable,
+) -> impl Iterator<Item = (&'static str, &'static str)> {
+    let render = root.get("render").map(|value| value.get_ref());
+    let gather = match render {
+        Some(DeValue::Table(render)) => render.get("gather"),
+        _ => None,
+    };
+    let why = "this key has no effect any more; every scratch counts for itself";
+    gather.map(|_| ("render.gather", why)).into_iter()
 }
 
 impl Read for Camera {
@@ -55,17 +69,14 @@ impl Read for Camera {
 
 impl Read for Render {
     fn read(value: &Value, key: &str) -> Result<Self, Error> {
-        let table = Table::read(
-            value,
-            key,
-            &["size_px", "filter_std_px", "tone_map", "gather"],
-        )?;
+        // `gather` was a key of earlier versions: see `keys_without_effect`.
+        let keys = ["size_px", "filter_std_px", "tone_map", "gather"];
+        let table = Table::read(value, key, &keys)?;
         let default = Self::default();
         Ok(Self {
             size_px: table.or("size_px", default.size_px)?,
             filter_std_px: table.or("filter_std_px", default.filter_std_px)?,
             tone_map: table.or("tone_map", default.tone_map)?,
-            gather: table.or("gather", default.gather)?,
         })
     }
 }

@@ -9,7 +9,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, Vec3A};
 use hairline_image::Picture;
 
 use super::LEVEL_ROUGHNESS;
@@ -25,6 +25,35 @@ pub fn environment_uv(dir: DVec3) -> DVec2 {
     // The arcus cosine as an arcus tangent, which keeps its digits near the poles in single precision too.
     let polar = dir.x.hypot(dir.z).atan2(dir.y);
     DVec2::new(0.5 + longitude / TAU, polar / PI)
+}
+
+/// `f64::atan2` within 3e-8, in a third of its time: a scratch under an environment asks for it some twenty times. M. Abramowitz and
+/// I. Stegun, *Handbook of Mathematical Functions* (1964), 4.4.49.
+#[inline(always)]
+fn arctangent(y: f64, x: f64) -> f64 {
+    let (low, high) = (x.abs().min(y.abs()), x.abs().max(y.abs()));
+    // At the origin it is 0.
+    let t = low / high.max(f64::MIN_POSITIVE);
+    let s = t * t;
+    let series = [
+        -0.016_165_736_7,
+        0.042_909_613_8,
+        -0.075_289_640_0,
+        0.106_562_639_3,
+        -0.142_088_994_4,
+        0.199_935_508_5,
+        -0.333_331_452_8,
+        1.0,
+    ];
+    let series = series.iter().fold(0.002_866_225_7, |sum, a| sum * s + a);
+    let within_45 = t * series;
+    let within_90 = if y.abs() > x.abs() {
+        0.5 * PI - within_45
+    } else {
+        within_45
+    };
+    let angle = if x < 0.0 { PI - within_90 } else { within_90 };
+    angle.copysign(y)
 }
 
 /// The inverse of [`environment_uv`].
@@ -63,15 +92,27 @@ pub fn environment_radiance(map: &Picture, dir: DVec3) -> DVec3 {
 
 /// The level of a perceptual roughness: between levels in proportion to GGX's alpha, to which the width of the lobe is
 /// proportional.
+#[inline(always)]
 pub fn environment_lod(roughness: f64) -> f64 {
     let alpha = roughness.clamp(0.0, 1.0).powi(2);
     let mut lod = 0.0;
-    for pair in LEVEL_ROUGHNESS.windows(2) {
-        let (low, high) = (pair[0].powi(2), pair[1].powi(2));
-        lod += ((alpha - low) / (high - low)).clamp(0.0, 1.0);
+    for (low, per_step) in LEVEL_STEPS {
+        lod += ((alpha - low) * per_step).clamp(0.0, 1.0);
     }
     lod
 }
+
+/// Alpha of each level but the last, and the reciprocal of the step to the next.
+const LEVEL_STEPS: [(f64, f64); LEVEL_ROUGHNESS.len() - 1] = {
+    let mut steps = [(0.0, 0.0); LEVEL_ROUGHNESS.len() - 1];
+    let mut i = 0;
+    while i < steps.len() {
+        let (low, high) = (LEVEL_ROUGHNESS[i], LEVEL_ROUGHNESS[i + 1]);
+        steps[i] = (low * low, 1.0 / (high * high - low * low));
+        i += 1;
+    }
+    steps
+};
 
 /// The radiance blurred by the lobe of a GGX surface of perceptual `roughness` around its mirror direction `dir`.
 pub fn environment_prefiltered(levels: &[Picture], dir: DVec3, roughness: f64) -> DVec3 {
@@ -89,6 +130,54 @@ pub fn environment_prefiltered_lod(levels: &[Picture], dir: DVec3, lod: f64) -> 
     }
     let far = environment_bilinear(&levels[level as usize + 1], uv);
     near + (far - near) * (clamped - level)
+}
+
+/// [`environment_prefiltered`] for several directions at once: what is arithmetic alone is done for all in one loop, which
+/// compilers turn into vector instructions.
+#[inline(always)]
+pub fn environment_prefiltered_all<const N: usize>(
+    levels: &[Picture],
+    dirs: [DVec3; N],
+    roughness: [f64; N],
+) -> [DVec3; N] {
+    let (mut u, mut v, mut lod) = ([0.0; N], [0.0; N], [0.0; N]);
+    for i in 0..N {
+        let dir = dirs[i];
+        let from_axis = (dir.x * dir.x + dir.z * dir.z).sqrt();
+        u[i] = 0.5 + arctangent(dir.x, -dir.z) * (1.0 / TAU);
+        v[i] = arctangent(from_axis, dir.y) * (1.0 / PI);
+    }
+    for i in 0..N {
+        lod[i] = environment_lod(roughness[i]);
+    }
+    std::array::from_fn(|i| {
+        let lod = lod[i].min((levels.len() - 1) as f64);
+        let level = lod as usize;
+        let near = bilinear(&levels[level], u[i], v[i]);
+        let far = bilinear(&levels[(level + 1).min(levels.len() - 1)], u[i], v[i]);
+        (near + (far - near) * (lod - level as f64) as f32).as_dvec3()
+    })
+}
+
+/// [`environment_bilinear`] in single precision.
+#[inline(always)]
+fn bilinear(map: &Picture, u: f64, v: f64) -> Vec3A {
+    let [width, height] = map.size_px.map(|n| n as i32);
+    let (at_x, at_y) = (u * f64::from(width) - 0.5, v * f64::from(height) - 0.5);
+    // The floor of a number from -1 on, without a call.
+    let floor = |v: f64| (v + 1.0) as i32 - 1;
+    let (x, y) = (floor(at_x), floor(at_y));
+    let (tx, ty) = ((at_x - f64::from(x)) as f32, (at_y - f64::from(y)) as f32);
+    let x0 = if x < 0 { width - 1 } else { x.min(width - 1) };
+    let x1 = if x0 + 1 < width { x0 + 1 } else { 0 };
+    let row = |y: i32| {
+        let first = y.clamp(0, height - 1) * width;
+        let texel = |x: i32| Vec3A::from(map.rgb[(first + x) as usize]);
+        let (a, b) = (texel(x0), texel(x1));
+        a + (b - a) * tx
+    };
+    let (top, bottom) = (row(y), row(y + 1));
+    top + (bottom - top) * ty
 }
 
 /// The irradiance on a surface with unit `normal`, from nine coefficients of the polynomials
@@ -116,4 +205,41 @@ pub fn environment_sh_basis(n: DVec3) -> [f64; 9] {
         n.x * n.z,
         n.x * n.x - n.y * n.y,
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn many_look_ups_at_once_are_the_single_ones() {
+        let level = |size_px: [u32; 2]| Picture {
+            size_px,
+            rgb: (0..size_px[0] * size_px[1])
+                .map(|i| [(i * 7919 % 97) as f32, (i % 13) as f32, 1.0])
+                .collect(),
+        };
+        let levels: Vec<Picture> = (0..LEVEL_ROUGHNESS.len())
+            .map(|i| level([64 >> (i / 3), 32 >> (i / 3)]))
+            .collect();
+        let mut dirs = [DVec3::Y; 100];
+        for (i, dir) in dirs.iter_mut().enumerate().skip(1) {
+            let turn = i as f64;
+            *dir = DVec3::new(turn.sin(), (1.7 * turn).sin(), turn.cos()).normalize();
+        }
+        dirs[1] = DVec3::NEG_Y;
+        dirs[2] = DVec3::Z;
+        dirs[3] = DVec3::NEG_X;
+        let roughness = std::array::from_fn(|i| i as f64 / 99.0);
+        let all = environment_prefiltered_all(&levels, dirs, roughness);
+        for i in 2..100 {
+            let one = environment_prefiltered(&levels, dirs[i], roughness[i]);
+            assert!(
+                (all[i] - one).abs().max_element() < 1e-3,
+                "{i}: {} {one}",
+                all[i]
+            );
+        }
+        assert!(all[0].is_finite() && all[1].is_finite());
+    }
 }

@@ -120,10 +120,6 @@ fn wrong_types() {
             "plate.toml:12: render.tone_map: found the text \"filmic\"; must be one of `neutral`, `agx`, `aces` and `none`",
         ),
         (
-            "[render]\ngather = \"few\"",
-            "plate.toml:12: render.gather: found the text \"few\"; must be one of `exact`, `clusters` and `tally`",
-        ),
-        (
             "[[material]]\nname = \"m\"\nkind = \"metal\"\nmetal = \"aluminum\"",
             "plate.toml:14: material[1].metal: found the text \"aluminum\"; did you mean `aluminium`?",
         ),
@@ -407,41 +403,6 @@ fn more_scratches_than_memory() {
         message.starts_with("plate.toml:18: scratches[0].density_per_m2: found "),
         "{message}"
     );
-}
-
-#[test]
-fn more_grids_than_memory() {
-    let text = scene_with(&format!(
-        "{}[[scratches]]\nobject = \"it\"\npattern = \"random\"\ncount = 20_000\nlength_m = 0.001\n",
-        disk()
-    ));
-    let clustered = format!("{text}[render]\ngather = \"clusters\"");
-    let within = |budget_mib: u64, text: &str| {
-        let loader = Loader {
-            memory_budget_bytes: budget_mib << 20,
-            ..Default::default()
-        };
-        let loaded = loader.from_toml(text, "plate.toml", "");
-        loaded.err().map(|error| error.to_string())
-    };
-    // Some 5 MB for themselves, and 10 more for their grids.
-    assert_eq!(within(8, &text), None);
-    let message = within(8, &clustered).unwrap();
-    assert!(
-        message.starts_with(
-            "plate.toml:18: scratches[0].count: found 20000 scratches, which would take about 0.01 GiB of memory in \
-             2.2e4 segments, grids of many scratches included; there are 0.01 GiB for them; ask for at most about "
-        ),
-        "{message}"
-    );
-    assert!(
-        message.ends_with(", or for shorter ones, or for gather = \"exact\", with which they fit"),
-        "{message}"
-    );
-    assert_eq!(within(20, &clustered), None);
-    // What does not fit either way is not promised to.
-    let message = within(2, &clustered).unwrap();
-    assert!(message.ends_with(", or for shorter ones"), "{message}");
 }
 
 #[test]

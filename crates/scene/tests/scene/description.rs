@@ -5,7 +5,6 @@ use std::path::Path;
 use crate::common::{asset, scene_with, temporary_dir};
 use hairline_image::ToneMap;
 use hairline_optics::metal::Metal;
-use hairline_optics::method::Gather;
 use hairline_scene::description::*;
 use hairline_scene::{Base, Light as SceneLight, Scene, description};
 
@@ -182,7 +181,6 @@ fn everything() -> Description {
             size_px: [1, 16_384],
             filter_std_px: 0.7,
             tone_map: ToneMap::Agx,
-            gather: Gather::Clusters,
         },
         environment: Some(Environment {
             file: "a.exr".into(),
@@ -234,6 +232,7 @@ fn everything() -> Description {
                 color: [0.1, 0.2, 0.3],
             },
         ],
+        notes: Vec::new(),
     }
 }
 
@@ -406,4 +405,25 @@ fn long_work_reports_its_progress() {
     assert!(scratches.windows(2).all(|pair| pair[0].done < pair[1].done));
     assert!(scratches.iter().all(|p| p.total == 100_000));
     assert_eq!(scratches.last().unwrap().done, 100_000);
+}
+
+/// `gather` was a key of earlier versions: files that have it load, and say that it has no effect.
+#[test]
+fn a_key_without_effect_is_noted() {
+    let text = "[camera]\nposition_m = [0.0, -0.3, 0.3]\ntarget_m = [0.0, 0.0, 0.0]\nup = [0.0, 0.0, 1.0]\n\
+                [[material]]\nname = \"m\"\nkind = \"mirror\"\n\
+                [[object]]\nname = \"o\"\nmaterial = \"m\"\nshape = { disk = { radius_m = 0.08 } }\n";
+    let without = Scene::from_toml(text, "old.toml", "").unwrap();
+    assert!(without.notes.is_empty());
+    let text = format!("{text}[render]\nsize_px = [64, 32]\ngather = \"clusters\"\n");
+    let scene = Scene::from_toml(&text, "old.toml", "").unwrap();
+    assert_eq!(
+        scene.notes,
+        [
+            "old.toml:14: render.gather: this key has no effect any more; every scratch counts for itself"
+        ]
+    );
+    // What is saved has it no more.
+    let description = Description::from_toml(&text, Path::new("old.toml")).unwrap();
+    assert!(!description.to_toml().unwrap().contains("gather"));
 }

@@ -1,13 +1,10 @@
 //! A description made ready to be painted.
 
 use std::path::Path;
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 use std::time::Duration;
 
-use hairline_index::bundles::Bundles;
 use hairline_index::{ScratchIndex, TriangleIndex, Watch};
-use hairline_optics::method::Lookup;
-use hairline_optics::method::Method;
 use hairline_scene::description::Description;
 use hairline_scene::{Loader, Scene, SceneBuilder, ScratchTables};
 use web_time::Instant;
@@ -30,8 +27,6 @@ pub struct Built {
     pub tables: Arc<ScratchTables>,
     /// How long each stage took.
     pub stages: BuildStages,
-    /// What many scratches add up to; see [`Self::bundles`].
-    bundles: Arc<OnceLock<Arc<Bundles>>>,
 }
 
 /// How long a scene waited and took.
@@ -45,35 +40,9 @@ pub struct BuildStages {
     pub index: Duration,
     /// Spectral tables.
     pub tables: Duration,
-    /// Grids of many scratches, and their spectra where the CPU needs them.
-    pub grids: Duration,
 }
 
 impl Built {
-    /// By which method it is painted, compared and exported.
-    pub fn method(&self) -> Method {
-        Method {
-            gather: self.scene.render.gather,
-            ..Method::fastest()
-        }
-    }
-
-    /// What many scratches add up to, for the CPU renderer; none where the scene wants every scratch for itself. Built when first
-    /// asked for, by the builder or by a thread that is of no pool: one that is might take up a picture meanwhile that waits for it.
-    pub fn bundles(&self) -> Option<Arc<Bundles>> {
-        let build = || Bundles::new(&self.scene, &self.scratches, &self.tables).into();
-        let is_wanted = self.scene.render.gather.has_grids();
-        is_wanted.then(|| Arc::clone(self.bundles.get_or_init(build)))
-    }
-
-    /// Builds what [`Self::bundles`] returns, and notes how long it takes.
-    pub(super) fn make_bundles(&mut self) {
-        let start = Instant::now();
-        if self.bundles().is_some() {
-            self.stages.grids += start.elapsed();
-        }
-    }
-
     /// How many scratches and straight pieces it has.
     pub fn scratch_counts(&self) -> (usize, usize) {
         self.scene
@@ -100,7 +69,6 @@ struct Kept {
     triangles: Arc<TriangleIndex>,
     scratches: Arc<ScratchIndex>,
     tables: Arc<ScratchTables>,
-    bundles: Arc<OnceLock<Arc<Bundles>>>,
 }
 
 impl Workshop {
@@ -139,7 +107,7 @@ impl Workshop {
                     cancelled,
                     ..Watch::default()
                 };
-                match ScratchIndex::rebuild(&scene, Lookup::default(), before, &watch) {
+                match ScratchIndex::rebuild(&scene, before, &watch) {
                     Some(scratches) => Arc::new(scratches),
                     None => return Ok(None),
                 }
@@ -150,32 +118,11 @@ impl Workshop {
             Some(last) if has_same_optics(&last.scene, &scene) => Arc::clone(&last.tables),
             _ => Arc::new(ScratchTables::new(&scene)),
         };
-        let tables_done = Instant::now();
-        // Nobody keeps grids that nobody wants. What uploads to a GPU finds them with the scratches.
-        let is_clustered = scene.render.gather.has_grids();
-        let watch = Watch {
-            cancelled,
-            ..Watch::default()
-        };
-        if is_clustered && scratches.grids_watched(&scene, &watch).is_none() {
-            return Ok(None);
-        }
-        let bundles = match last {
-            Some(last)
-                if is_clustered
-                    && Arc::ptr_eq(&last.scratches, &scratches)
-                    && Arc::ptr_eq(&last.tables, &tables) =>
-            {
-                Arc::clone(&last.bundles)
-            }
-            _ => Arc::default(),
-        };
         self.last = Some(Kept {
             scene: scene.clone(),
             triangles: Arc::clone(&triangles),
             scratches: Arc::clone(&scratches),
             tables: Arc::clone(&tables),
-            bundles: Arc::clone(&bundles),
         });
         Ok(Some(Built {
             revision,
@@ -189,10 +136,8 @@ impl Workshop {
                 waited: start - asked,
                 scene: scene_done - start,
                 index: index_done - scene_done,
-                tables: tables_done - index_done,
-                grids: tables_done.elapsed(),
+                tables: index_done.elapsed(),
             },
-            bundles,
         }))
     }
 }

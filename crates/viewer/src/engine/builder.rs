@@ -2,7 +2,7 @@
 
 use super::build::Workshop;
 use super::request::{Shared, WantedScene};
-use super::{Backend, Event, pool};
+use super::{Event, pool};
 
 #[cfg(not(target_arch = "wasm32"))]
 pub(super) fn run(shared: &Shared) {
@@ -15,20 +15,14 @@ pub(super) fn run(shared: &Shared) {
 /// Builds one, and hands it over or tells why there is none.
 pub(super) fn build(shared: &Shared, workshop: &mut Workshop, wanted: WantedScene) {
     let cancelled = || shared.is_stopped();
-    // A GPU renderer builds what it uploads.
-    let has_cpu = matches!(shared.backend(), Backend::Cpu);
     let built = pool::Crew::Builder.install(|| {
-        let mut built = workshop.build(
+        workshop.build(
             &cancelled,
             wanted.revision,
             wanted.asked,
             wanted.description,
             &wanted.base_dir,
-        );
-        if has_cpu && let Ok(Some(built)) = &mut built {
-            built.make_bundles();
-        }
-        built
+        )
     });
     match built {
         Ok(Some(built)) => shared.put_built(built),

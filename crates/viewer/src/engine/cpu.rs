@@ -6,15 +6,16 @@ use std::time::Duration;
 
 use egui::ColorImage;
 use hairline_image::{Image, png};
-use hairline_reference::closed_form::{Prepared, RenderOptions, rows_together};
+use hairline_optics::method::Method;
+use hairline_reference::closed_form::{Prepared, RenderOptions, TILE_PX};
 use hairline_scene::Scene;
 use web_time::Instant;
 
-use super::Built;
 use super::frame::Picture;
 use super::painter::{Easel, Shown, Step};
 use super::pool;
 use super::request::Order;
+use super::{Built, DEFAULT_SAMPLES};
 
 /// How much is painted between two looks at whether something newer is wanted.
 #[derive(Clone, Copy)]
@@ -30,14 +31,14 @@ struct BandSize {
 /// Many rows, so that no thread waits long for another.
 const OF_A_THREAD: BandSize = BandSize {
     first_px: 1 << 16,
-    fewest_rows: 8,
+    fewest_rows: TILE_PX,
     times: [Duration::from_millis(40), Duration::from_millis(120)],
 };
 
 /// The interface waits meanwhile.
 const IN_TURN: BandSize = BandSize {
     first_px: 1 << 10,
-    fewest_rows: 1,
+    fewest_rows: TILE_PX,
     times: [Duration::from_millis(4), Duration::from_millis(12)],
 };
 
@@ -106,8 +107,6 @@ impl Easel for CpuEasel {
         };
         let scene = scene_seen(order, step);
         let samples = step.samples;
-        // On a thread of no pool.
-        order.built.bundles();
         let is_done = pool::Crew::Painter
             .install(|| bands.go_on(&order.built, &scene, samples, &|_| !interrupted()));
         if !is_done {
@@ -129,8 +128,7 @@ impl Easel for CpuEasel {
     }
 
     fn best_samples(&self) -> u32 {
-        // Of pixels on edges only.
-        16
+        DEFAULT_SAMPLES
     }
 }
 
@@ -155,8 +153,7 @@ fn scene_seen(order: &Order, step: &Step) -> Scene {
 }
 
 /// Renders `scene`, which is that of `built` from elsewhere, in bands of `band_px` pixels at first, then of as many as are
-/// soon done. `go_on` is told before each which share of the picture is done; when it says no, there is no picture. Not for a thread of
-/// a pool: see [`Built::bundles`].
+/// soon done. `go_on` is told before each which share of the picture is done; when it says no, there is no picture.
 pub(crate) fn render(
     built: &Built,
     scene: &Scene,
@@ -201,33 +198,23 @@ impl Bands {
         samples: u32,
         go_on: &dyn Fn(f64) -> bool,
     ) -> bool {
-        let mut prepared = Prepared::from_parts(
+        let prepared = Prepared::from_parts(
             scene,
             Arc::clone(&built.triangles),
             Arc::clone(&built.scratches),
             Arc::clone(&built.tables),
         );
-        if let Some(bundles) = built.bundles() {
-            prepared = prepared.with_bundles(bundles);
-        }
         let options = RenderOptions {
             samples,
-            method: built.method(),
+            method: Method::default(),
         };
         let [width, height] = scene.render.size_px;
-        // A row is the least that a thread takes, or a tile of rows that are done together.
-        let together = rows_together(options.method);
-        let fewest = if together > 1 {
-            together
-        } else {
-            pool::threads() as u32
-        };
         while self.next_row < height {
             if !go_on(f64::from(self.next_row) / f64::from(height)) {
                 return false;
             }
             let start = Instant::now();
-            let many = self.rows.next_multiple_of(together);
+            let many = self.rows.next_multiple_of(TILE_PX);
             let rows = self.next_row..(self.next_row + many).min(height);
             let pixels = rows.start as usize * width as usize..rows.end as usize * width as usize;
             self.next_row = rows.end;
@@ -235,7 +222,7 @@ impl Bands {
             put_rows(&mut self.image, pixels, &part);
             let time = start.elapsed();
             if time > self.size.times[1] {
-                self.rows = (self.rows / 2).max(fewest);
+                self.rows = (self.rows / 2).max(TILE_PX);
             } else if time < self.size.times[0] {
                 self.rows *= 2;
             }

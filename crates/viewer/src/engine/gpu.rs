@@ -1,4 +1,4 @@
-//! Painting by the GPU renderer, a sample of a band at a time.
+//! Painting by the GPU renderer, a step of a band at a time.
 
 use std::sync::{Arc, Weak};
 use std::time::Duration;
@@ -8,21 +8,20 @@ use hairline_gpu::canvas::Canvas;
 use hairline_gpu::{
     AdapterKind, AdapterRequest, Error, Gpu, GpuScene, PassTime, Renderer, headless,
 };
+use hairline_optics::method::Method;
 use hairline_scene::Scene;
 use web_time::Instant;
 
-use super::Built;
 use super::frame::Picture;
 use super::painter::{Easel, Shown, Step};
 use super::request::Order;
+use super::{Built, DEFAULT_SAMPLES};
 
 /// Pixels of one submission on a software driver, between two looks at whether something newer is wanted.
 const SOFTWARE_BAND_PX: u32 = 1 << 16;
 /// On a GPU: well below what any system takes for hung.
 const HARDWARE_BAND_PX: u32 = 1 << 21;
-/// Samples of a finished picture.
-const BEST_SAMPLES: u32 = 32;
-/// Fewer of them are no better than the one sample through the pixels' centres that came before.
+/// Samples on edges; fewer of them are no better than the one sample through the pixels' centres that came before.
 const FEWEST_SHOWN: u32 = 4;
 /// Between two pictures of one that becomes finer.
 const REFRESH: Duration = Duration::from_millis(100);
@@ -115,7 +114,7 @@ impl Easel for GpuEasel {
             tables,
             ..
         } = &*order.built;
-        let method = order.built.method();
+        let method = Method::default();
         match &mut self.uploaded {
             Some((last, uploaded)) => {
                 gpu.block_on(
@@ -154,7 +153,8 @@ impl Easel for GpuEasel {
         let scene = scene_seen(order, step);
         self.step = Some(*step);
         let mut last_shown = Instant::now();
-        for sample in 0..step.samples {
+        let steps = hairline_gpu::steps(step.samples);
+        for part in 0..steps {
             for band in 0..canvas.bands() {
                 if interrupted() {
                     self.canvas = Some(canvas);
@@ -166,16 +166,17 @@ impl Easel for GpuEasel {
                 let renderer = &mut self.renderer;
                 gpu.block_on(async {
                     renderer
-                        .accumulate(&scene, uploaded, &mut canvas, band, sample, step.samples)
+                        .accumulate(&scene, uploaded, &mut canvas, band, part, step.samples)
                         .await?;
                     gpu.finished().await
                 })?;
             }
-            let done = sample + 1;
-            let is_last = done == step.samples;
-            if is_last || done >= FEWEST_SHOWN && last_shown.elapsed() > REFRESH {
+            // The first step shades every pixel once, each later one is a sample of the pixels on edges.
+            let samples = part.max(1);
+            let is_last = part + 1 == steps;
+            if is_last || samples >= FEWEST_SHOWN && last_shown.elapsed() > REFRESH {
                 self.canvas = Some(canvas);
-                if let Some(shown) = self.shown(order, done)? {
+                if let Some(shown) = self.shown(order, samples)? {
                     show(shown);
                 }
                 last_shown = Instant::now();
@@ -195,7 +196,7 @@ impl Easel for GpuEasel {
     }
 
     fn best_samples(&self) -> u32 {
-        BEST_SAMPLES
+        DEFAULT_SAMPLES
     }
 }
 

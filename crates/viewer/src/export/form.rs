@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use egui::{DragValue, Grid, Id, Modal, Response, RichText, TextEdit, Ui, Widget};
 
 use super::work::{Motion, numbered};
+use crate::engine::DEFAULT_SAMPLES;
 
 /// Width and height; more is more than a file format or a machine is likely to hold.
 const SIDE_PX: std::ops::RangeInclusive<u32> = 1..=16_384;
@@ -41,7 +42,7 @@ impl Form {
         Self {
             is_turntable,
             size_px,
-            samples: 16,
+            samples: DEFAULT_SAMPLES,
             frames: 120,
             degrees: 360.0,
             path: path.display().to_string(),
@@ -101,7 +102,7 @@ impl Form {
                 self.size_rows(ui, window_px, scene_px);
                 let samples = DragValue::new(&mut self.samples).range(1..=4096);
                 row(ui, "Samples", samples).on_hover_text(
-                    "Samples of a pixel: of every pixel on a GPU, of those on edges on the CPU",
+                    "Samples of a pixel that has an edge or a crease in it; elsewhere one is enough",
                 );
                 if self.is_turntable {
                     row(ui, "Pictures", DragValue::new(&mut self.frames).range(1..=9999));

@@ -7,6 +7,10 @@ use hairline_editor::navigate;
 #[cfg(not(target_arch = "wasm32"))]
 use hairline_gpu::{AdapterKind, Gpu, GpuScene, RenderOptions, Renderer};
 use hairline_image::{Display, Image, Output};
+#[cfg(not(target_arch = "wasm32"))]
+use hairline_optics::method::Method;
+#[cfg(not(target_arch = "wasm32"))]
+use hairline_reference::closed_form::TILE_PX;
 use hairline_scene::{Description, Scene};
 
 use crate::engine::{Backend, Built, Wake, cpu};
@@ -205,7 +209,7 @@ impl Painter {
         } = built;
         gpu.block_on(async {
             let mut renderer = Renderer::new(gpu).await?;
-            let method = built.method();
+            let method = Method::default();
             let uploaded = renderer.upload(scene, scratches, tables, &method).await?;
             Ok(Self::Gpu {
                 renderer: Box::new(renderer),
@@ -240,7 +244,8 @@ impl Painter {
                 };
                 let gpu = renderer.gpu().clone();
                 let [width, height] = scene.render.size_px;
-                let band = (*band_px / width).max(1);
+                // Whole rows of tiles.
+                let band = (*band_px / width).max(1).next_multiple_of(TILE_PX);
                 let mut image = Image::new(scene.render.size_px);
                 for first in (0..height).step_by(band as usize) {
                     if !go_on(f64::from(first) / f64::from(height)) {

@@ -67,7 +67,6 @@ fn latency_text(latency: &Latency) -> String {
         ("scratches laid", build.scene),
         ("trees", build.index),
         ("tables", build.tables),
-        ("grids", build.grids),
         ("upload", latency.upload),
         ("first picture", latency.paint),
         ("in all", latency.total),

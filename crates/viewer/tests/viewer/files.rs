@@ -197,3 +197,16 @@ fn models_and_maps_are_added() {
     });
     assert!(harness.state().messages().is_empty());
 }
+
+#[test]
+fn a_key_without_effect_is_told_of() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("old.toml");
+    let text = format!("render.gather = \"tally\"\n{SMALL}");
+    std::fs::write(&path, text).unwrap();
+    let mut harness = viewer(SMALL);
+    wait_built(&mut harness);
+    drop_file(&mut harness, &path);
+    let messages = harness.state().messages().join("\n");
+    assert!(messages.contains("render.gather"), "{messages:?}");
+}

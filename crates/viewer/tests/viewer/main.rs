@@ -6,7 +6,6 @@ mod common;
 
 mod commands;
 mod files;
-mod gather;
 mod gizmos;
 mod panels;
 mod picking;

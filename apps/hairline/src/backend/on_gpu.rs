@@ -1,0 +1,55 @@
+//! Rendering on a graphics adapter: the renderer, and the scene that it holds.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use hairline_gpu::{Error, Gpu, GpuScene, RenderOptions, Renderer};
+use hairline_image::Image;
+use hairline_index::ScratchIndex;
+use hairline_optics::method::Method;
+use hairline_scene::{Scene, ScratchTables};
+
+/// A renderer with its shaders compiled and the scene uploaded.
+pub struct OnGpu {
+    renderer: Renderer,
+    uploaded: GpuScene,
+}
+
+impl OnGpu {
+    /// Compiles and uploads.
+    pub fn new(
+        gpu: &Gpu,
+        scene: &Scene,
+        scratches: &Arc<ScratchIndex>,
+        tables: &ScratchTables,
+        method: &Method,
+    ) -> Result<Self, Error> {
+        gpu.block_on(async {
+            let mut renderer = Renderer::new(gpu).await?;
+            let uploaded = renderer.upload(scene, scratches, tables, method).await?;
+            Ok(Self { renderer, uploaded })
+        })
+    }
+
+    /// The device.
+    pub fn gpu(&self) -> &Gpu {
+        self.renderer.gpu()
+    }
+
+    /// Blocks until some rows of the picture are there. `scene` has the scratches and materials of the one that was uploaded.
+    pub fn render_rows(
+        &mut self,
+        scene: &Scene,
+        samples: u32,
+        rows: Range<u32>,
+        progress: &dyn Fn(f64),
+    ) -> Result<Image, Error> {
+        let gpu = self.renderer.gpu().clone();
+        let options = RenderOptions {
+            samples,
+            ..Default::default()
+        };
+        let Self { renderer, uploaded } = self;
+        gpu.block_on(renderer.render_rows(scene, uploaded, &options, rows, progress))
+    }
+}

@@ -1,0 +1,25 @@
+// Pass: the entries of tile lists, segment after segment: the tile and the segment. sort.wgsl brings them in the order of tiles.
+// Twin: reference/src/bin.rs.
+
+@group(3) @binding(0) var<storage, read> entry_starts: array<u32>;
+@group(3) @binding(1) var<storage, read_write> entries: array<vec2u>;
+
+@compute @workgroup_size(256)
+fn bin(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let index = 256u * (workgroup.y * workgroups.x + workgroup.x) + lane;
+    if index >= frame.segment_count {
+        return;
+    }
+    var at = entry_starts[index];
+    if at == entry_starts[index + 1u] {
+        return;
+    }
+    let line = project_segment(index);
+    for (var row = line.first_row; row < line.end_row; row += 1u) {
+        let columns = projected_columns(line, row);
+        for (var column = columns.x; column < columns.y; column += 1u) {
+            entries[at] = vec2u(row * strip_tiles().x + column, index);
+            at += 1u;
+        }
+    }
+}

@@ -1,0 +1,25 @@
+// Which tile a group belongs to, and how the tile's list is cut into chunks.
+
+// For each tile its first group, in later steps; one more than tiles.
+@group(3) @binding(0) var<storage, read> group_starts: array<u32>;
+
+// Segments of a list that one workgroup of shade_scratches takes. Small enough that no software driver ends its loops. Twin: src/strip.rs.
+const CHUNK_SEGMENTS: u32 = 512u;
+
+fn group_tile(group: u32) -> u32 {
+    if frame.step == 0u {
+        return group;
+    }
+    let tiles = strip_tiles();
+    var low = 0u;
+    var high = tiles.x * tiles.y;
+    while high - low > 1u {
+        let middle = (low + high) / 2u;
+        if group_starts[middle] <= group {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
+}

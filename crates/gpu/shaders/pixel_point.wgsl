@@ -1,0 +1,57 @@
+// Surface points as they lie in memory between passes.
+
+fn pixel_point_pack(point: SurfacePoint, object: u32, depth_m: f32, place: u32) -> PixelPoint {
+    return PixelPoint(
+        point.position_m,
+        object + 1u,
+        point.normal,
+        depth_m,
+        point.axis_x,
+        point.coherence_um,
+        vec4f(point.footprint_x_um, point.footprint_y_um),
+        vec4f(point.turn_x, point.turn_y),
+        point.wo.z,
+        point.distance_m,
+        point.table | (place << 16u),
+        point.leaves,
+    );
+}
+
+fn pixel_paint_pack(point: SurfacePoint, triangle: u32) -> PixelPaint {
+    return PixelPaint(point.f0, point.roughness, point.fresnel_a, triangle, point.diffuse, point.emission);
+}
+
+fn pixel_table(pixel: PixelPoint) -> u32 {
+    return pixel.table_and_place & 0xffffu;
+}
+
+fn pixel_place(pixel: PixelPoint) -> u32 {
+    return pixel.table_and_place >> 16u;
+}
+
+fn pixel_wo(cos_o: f32) -> vec3f {
+    return vec3f(sqrt(max(1.0 - cos_o * cos_o, 0.0)), 0.0, cos_o);
+}
+
+fn surface_point_from(pixel: PixelPoint, paint: PixelPaint) -> SurfacePoint {
+    return SurfacePoint(
+        pixel.position_m,
+        pixel.axis_x,
+        cross(pixel.normal, pixel.axis_x),
+        pixel.normal,
+        pixel_wo(pixel.cos_o),
+        pixel.distance_m,
+        pixel.footprint_um.xy,
+        pixel.footprint_um.zw,
+        pixel.turns.xy,
+        pixel.turns.zw,
+        pixel.leaves,
+        paint.f0,
+        paint.fresnel_a,
+        paint.diffuse,
+        paint.roughness,
+        paint.emission,
+        pixel.coherence_um,
+        pixel_table(pixel),
+    );
+}

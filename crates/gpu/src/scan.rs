@@ -1,0 +1,139 @@
+//! Passes: exclusive prefix sums of an array, in place. Twin: shaders/scan.wgsl.
+
+use wgpu::{BufferUsages, ShaderStages};
+
+use crate::bindings::{bind, entry, layout, storage, uniform};
+use crate::device::Gpu;
+use crate::error::Error;
+use crate::layout::ScanSettings;
+use crate::shaders;
+use crate::timing::Timing;
+
+/// Elements of a block. Twin: scan.wgsl.
+const BLOCK: u32 = 256 * 8;
+
+/// The two pipelines, which serve every array.
+pub(crate) struct ScanPasses {
+    layout: wgpu::BindGroupLayout,
+    blocks: wgpu::ComputePipeline,
+    add: wgpu::ComputePipeline,
+}
+
+/// The scan of one array.
+pub(crate) struct Scan {
+    /// The array first, then the sums of blocks, then those of blocks of these.
+    levels: Vec<Level>,
+}
+
+struct Level {
+    settings: wgpu::Buffer,
+    group: wgpu::BindGroup,
+    count: u32,
+}
+
+impl ScanPasses {
+    pub fn new(gpu: &Gpu) -> Self {
+        let compute = ShaderStages::COMPUTE;
+        let entries = [
+            entry(0, compute, uniform()),
+            entry(1, compute, storage(false)),
+            entry(2, compute, storage(false)),
+        ];
+        let group_layout = layout(gpu, "scan", &entries);
+        let module = gpu
+            .device
+            .create_shader_module(wgpu::ShaderModuleDescriptor {
+                label: Some("scan"),
+                source: wgpu::ShaderSource::Wgsl(shaders::compose(&[&shaders::SCAN]).into()),
+            });
+        let pipeline_layout = gpu
+            .device
+            .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                label: Some("scan"),
+                bind_group_layouts: &[Some(&group_layout)],
+                immediate_size: 0,
+            });
+        let pipeline = |entry_point| {
+            gpu.device
+                .create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                    label: Some(entry_point),
+                    layout: Some(&pipeline_layout),
+                    module: &module,
+                    entry_point: Some(entry_point),
+                    compilation_options: Default::default(),
+                    cache: None,
+                })
+        };
+        Self {
+            blocks: pipeline("scan_blocks"),
+            add: pipeline("scan_add"),
+            layout: group_layout,
+        }
+    }
+
+    /// A scan of `values`, an array of `u32` with room for `capacity` of them.
+    pub async fn of(&self, gpu: &Gpu, values: &wgpu::Buffer, capacity: u32) -> Result<Scan, Error> {
+        let mut levels = Vec::new();
+        let mut values = values.clone();
+        let mut count = capacity;
+        loop {
+            let blocks = count.div_ceil(BLOCK).max(1);
+            let totals = gpu
+                .buffer("sums", 4 * u64::from(blocks), BufferUsages::STORAGE)
+                .await?;
+            let usage = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
+            let settings = gpu
+                .buffer("scan settings", size_of::<ScanSettings>() as u64, usage)
+                .await?;
+            let resources = [
+                settings.as_entire_binding(),
+                values.as_entire_binding(),
+                totals.as_entire_binding(),
+            ];
+            let group = bind(gpu, "scan", &self.layout, &resources);
+            levels.push(Level {
+                settings,
+                group,
+                count: 0,
+            });
+            if blocks == 1 {
+                return Ok(Scan { levels });
+            }
+            (values, count) = (totals, blocks);
+        }
+    }
+
+    /// Records the scan of as many elements as [`Scan::set_count`] said.
+    pub fn record(&self, encoder: &mut wgpu::CommandEncoder, scan: &Scan, timing: &Timing) {
+        let mut dispatch = |pipeline: &wgpu::ComputePipeline, level: &Level| {
+            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+                label: Some("scan"),
+                timestamp_writes: timing.compute("scan"),
+            });
+            pass.set_pipeline(pipeline);
+            pass.set_bind_group(0, &level.group, &[]);
+            pass.dispatch_workgroups(level.count.div_ceil(BLOCK).max(1), 1, 1);
+        };
+        for level in &scan.levels {
+            dispatch(&self.blocks, level);
+        }
+        let with_blocks = scan.levels.split_last().map_or(&[][..], |(_, below)| below);
+        for level in with_blocks.iter().rev() {
+            dispatch(&self.add, level);
+        }
+    }
+}
+
+impl Scan {
+    /// How many elements the next recordings take, at most as many as there is room for.
+    pub fn set_count(&mut self, gpu: &Gpu, count: u32) {
+        let mut count = count;
+        for level in &mut self.levels {
+            level.count = count;
+            let settings = ScanSettings { count };
+            gpu.queue
+                .write_buffer(&level.settings, 0, bytemuck::bytes_of(&settings));
+            count = count.div_ceil(BLOCK).max(1);
+        }
+    }
+}

@@ -1,0 +1,83 @@
+//! Passes: a stable radix sort of the entries of tile lists by their tile.
+//!
+//! Inputs: entries. Outputs: entries in the order of tiles, and within a tile in the order of segments. One invocation an entry.
+
+use wgpu::BufferUsages;
+
+use crate::compute_pass::{ComputePass, Recording, Use, in_a_row};
+use crate::device::Gpu;
+use crate::error::Error;
+use crate::layout::SortSettings;
+use crate::pipelines::Orders;
+use crate::scan::ScanPasses;
+use crate::shaders;
+use crate::strip::{Lists, whole};
+
+/// Values of a digit. Twin: sort.wgsl.
+pub(crate) const DIGITS: u32 = 256;
+const DIGIT_BITS: u32 = 8;
+/// Entries of a block. Twin: sort.wgsl.
+const BLOCK: u32 = 256 * 8;
+
+/// Blocks of so many entries.
+pub(crate) fn blocks(entries: u32) -> u32 {
+    entries.div_ceil(BLOCK).max(1)
+}
+
+pub(crate) struct SortPasses {
+    count: ComputePass,
+    scatter: ComputePass,
+}
+
+impl SortPasses {
+    pub fn new(orders: &mut Orders) -> Self {
+        let uses = [Use::Uniform, Use::Reads, Use::Writes, Use::Writes];
+        let mut pass = |entry_point| {
+            ComputePass::order(orders, "sort", (&shaders::SORT, entry_point), &uses, &[])
+        };
+        Self {
+            count: pass("sort_count"),
+            scatter: pass("sort_scatter"),
+        }
+    }
+
+    /// Sorts the entries of so many tiles; says which of the two buffers they are in then.
+    pub async fn record(
+        &self,
+        gpu: &Gpu,
+        recording: &mut Recording<'_>,
+        scans: &ScanPasses,
+        lists: &Lists,
+        tiles: u32,
+        entries: u32,
+    ) -> Result<usize, Error> {
+        let bits = u32::BITS - tiles.saturating_sub(1).leading_zeros();
+        let digits = bits.div_ceil(DIGIT_BITS);
+        let workgroups = in_a_row(blocks(entries));
+        for digit in 0..digits {
+            let usage = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
+            let settings = gpu
+                .buffer("sort", size_of::<SortSettings>() as u64, usage)
+                .await?;
+            let value = SortSettings {
+                shift: DIGIT_BITS * digit,
+                block_count: blocks(entries),
+            };
+            gpu.queue
+                .write_buffer(&settings, 0, bytemuck::bytes_of(&value));
+            let from = digit as usize % 2;
+            let resources = [
+                whole(&settings),
+                whole(&lists.entries[from]),
+                whole(&lists.digit_starts),
+                whole(&lists.entries[1 - from]),
+            ];
+            let group = self.count.bind(gpu, &resources);
+            self.count.dispatch(recording, &group, &[], workgroups);
+            scans.record(recording.encoder, &lists.digit_scan, recording.timing);
+            let group = self.scatter.bind(gpu, &resources);
+            self.scatter.dispatch(recording, &group, &[], workgroups);
+        }
+        Ok(digits as usize % 2)
+    }
+}

@@ -1,0 +1,343 @@
+//! The arrays that passes leave for one another while they shade a strip: some rows of a picture.
+
+use std::ops::Range;
+
+use wgpu::{BindingResource, BufferUsages, TextureFormat, TextureUsages};
+
+use crate::device::Gpu;
+use crate::error::Error;
+use crate::layout::{BaseLight, ChunkSum, PixelPaint, PixelPoint};
+use crate::scan::{Scan, ScanPasses};
+
+/// Pixels to a side of a tile. Twin: film.wgsl.
+pub(crate) const TILE_PX: u32 = 8;
+/// Segments of a tile's list that one workgroup takes. Twin: groups.wgsl.
+const CHUNK_SEGMENTS: u32 = 512;
+/// Triangle + 1 and object.
+pub(crate) const VISIBILITY_FORMAT: TextureFormat = TextureFormat::Rg32Uint;
+/// Depth of the visibility pass.
+pub(crate) const DEPTH_FORMAT: TextureFormat = TextureFormat::Depth32Float;
+/// Bytes of a sample.
+const POINT_BYTES: u64 = size_of::<PixelPoint>() as u64;
+const PAINT_BYTES: u64 = size_of::<PixelPaint>() as u64;
+const BASE_BYTES: u64 = size_of::<BaseLight>() as u64;
+/// Samples that are shaded together. Twin: film.wgsl.
+pub(crate) const GROUP: u32 = 64;
+/// Bytes of the sums of a chunk.
+const CHUNK_BYTES: u64 = GROUP as u64 * size_of::<ChunkSum>() as u64;
+/// Bytes of an entry of a tile list: tile and segment.
+const ENTRY_BYTES: u64 = 8;
+
+/// What lies over the pixels and the tiles of a strip.
+pub(crate) struct StripRoom {
+    pub width_px: u32,
+    pub rows: u32,
+    /// With a row more above and below, so that edges are found at the strip's border.
+    pub visibility: wgpu::TextureView,
+    pub depth: wgpu::TextureView,
+    /// Where each tile's list begins among the entries; one more than tiles.
+    pub list_starts: wgpu::Buffer,
+    /// And where the groups of its samples begin, in later steps.
+    pub group_starts: wgpu::Buffer,
+    pub group_scan: Scan,
+    pub samples: Samples,
+    pub lists: Lists,
+}
+
+/// The arrays over samples, and over groups of 64 of them. They grow to the size that is needed.
+pub(crate) struct Samples {
+    pub points: wgpu::Buffer,
+    pub paints: wgpu::Buffer,
+    pub base_light: wgpu::Buffer,
+    points_max: u64,
+    /// Where the chunks of each group begin; one more than groups.
+    pub chunk_starts: wgpu::Buffer,
+    pub chunk_scan: Scan,
+    groups_max: u32,
+    pub chunk_sums: wgpu::Buffer,
+    chunks_max: u32,
+}
+
+/// The lists of a strip's tiles. They grow to exactly the size that is needed.
+pub(crate) struct Lists {
+    /// Where the entries of each segment begin; one more than segments.
+    pub entry_starts: wgpu::Buffer,
+    pub entry_scan: Scan,
+    segments: u32,
+    /// Entries by turns: sorted from one into the other.
+    pub entries: [wgpu::Buffer; 2],
+    entries_max: u32,
+    pub digit_starts: wgpu::Buffer,
+    pub digit_scan: Scan,
+    /// None before lists were made, and while they are.
+    pub made: Option<MadeLists>,
+}
+
+/// What the lists were made for.
+pub(crate) struct MadeLists {
+    pub rows: Range<u32>,
+    pub entries: u32,
+    /// Which of the two buffers holds them.
+    pub sorted: usize,
+}
+
+/// The rows that a strip of a picture `width_px` wide may have on the device: whole tiles.
+pub(crate) fn strip_rows_max(gpu: &Gpu, width_px: u32) -> u32 {
+    let limits = gpu.limits();
+    let bytes = largest_array(gpu);
+    let row_bytes = u64::from(width_px.max(1)) * POINT_BYTES;
+    let by_pixels = (bytes / row_bytes) as u32;
+    // A list for each tile must fit, whether there is anything in it or not.
+    let tiles_across = u64::from(width_px.div_ceil(TILE_PX).max(1));
+    let by_tiles = (bytes / (2 * CHUNK_BYTES * tiles_across)) as u32 * TILE_PX;
+    let rows = by_pixels
+        .min(by_tiles)
+        .min(limits.max_texture_dimension_2d)
+        .saturating_sub(2);
+    // Whole tiles.
+    (rows / TILE_PX * TILE_PX).max(TILE_PX)
+}
+
+fn largest_array(gpu: &Gpu) -> u64 {
+    let limits = gpu.limits();
+    limits
+        .max_storage_buffer_binding_size
+        .min(limits.max_buffer_size)
+}
+
+/// Tiles of a strip.
+pub(crate) fn tile_count(width_px: u32, rows: u32) -> u32 {
+    width_px.div_ceil(TILE_PX) * rows.div_ceil(TILE_PX)
+}
+
+/// As many chunks as there may be in so many tiles with so many entries.
+pub(crate) fn chunks_most(tiles: u32, entries: u32) -> u32 {
+    tiles.min(entries) + entries / CHUNK_SEGMENTS
+}
+
+/// The points of a strip, with the rows beside it.
+pub(crate) fn strip_points(width_px: u32, rows: u32) -> u64 {
+    u64::from(width_px) * u64::from(rows + 2)
+}
+
+impl StripRoom {
+    /// Room for strips of up to `rows` rows of `width_px` pixels.
+    pub async fn new(
+        gpu: &Gpu,
+        scans: &ScanPasses,
+        width_px: u32,
+        rows: u32,
+    ) -> Result<Self, Error> {
+        let size = [width_px, rows + 2];
+        let starts = tile_count(width_px, rows) + 1;
+        let bytes = 4 * u64::from(starts);
+        let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC;
+        let group_starts = gpu.buffer("groups of tiles", bytes, usage).await?;
+        Ok(Self {
+            width_px,
+            rows,
+            visibility: target(gpu, "picture", size, VISIBILITY_FORMAT, true).await?,
+            depth: target(gpu, "picture", size, DEPTH_FORMAT, false).await?,
+            list_starts: gpu.buffer("tile lists", bytes, usage).await?,
+            group_scan: scans.of(gpu, &group_starts, starts).await?,
+            group_starts,
+            samples: Samples::new(gpu, scans).await?,
+            lists: Lists::new(gpu, scans).await?,
+        })
+    }
+}
+
+const POINTS_USAGE: BufferUsages = BufferUsages::STORAGE.union(BufferUsages::COPY_DST);
+const STARTS_USAGE: BufferUsages = POINTS_USAGE.union(BufferUsages::COPY_SRC);
+
+impl Samples {
+    async fn new(gpu: &Gpu, scans: &ScanPasses) -> Result<Self, Error> {
+        let storage = BufferUsages::STORAGE;
+        let chunk_starts = gpu.buffer("chunks of groups", 8, STARTS_USAGE).await?;
+        Ok(Self {
+            points: gpu
+                .buffer("surface points", POINT_BYTES, POINTS_USAGE)
+                .await?,
+            paints: gpu
+                .buffer("materials of samples", PAINT_BYTES, storage)
+                .await?,
+            base_light: gpu.buffer("base of samples", BASE_BYTES, storage).await?,
+            points_max: 1,
+            chunk_scan: scans.of(gpu, &chunk_starts, 2).await?,
+            chunk_starts,
+            groups_max: 1,
+            chunk_sums: gpu.buffer("sums of chunks", CHUNK_BYTES, storage).await?,
+            chunks_max: 1,
+        })
+    }
+
+    /// Whether the device can hold so many points, and sums of so many chunks.
+    pub fn fit(gpu: &Gpu, points: u64, chunks: u32) -> bool {
+        let bytes = largest_array(gpu);
+        points * POINT_BYTES <= bytes && u64::from(chunks) * CHUNK_BYTES <= bytes
+    }
+
+    /// Makes room for so many points in so many groups.
+    pub async fn make_room(
+        &mut self,
+        gpu: &Gpu,
+        scans: &ScanPasses,
+        points: u64,
+        groups: u32,
+    ) -> Result<(), Error> {
+        let storage = BufferUsages::STORAGE;
+        if self.points_max < points {
+            // The old ones are given back first. An error on the way leaves none.
+            self.points_max = 0;
+            for buffer in [&self.points, &self.paints, &self.base_light] {
+                buffer.destroy();
+            }
+            let array = async |what, bytes, usage| gpu.buffer(what, points * bytes, usage).await;
+            self.points = array("surface points", POINT_BYTES, POINTS_USAGE).await?;
+            self.paints = array("materials of samples", PAINT_BYTES, storage).await?;
+            self.base_light = array("base of samples", BASE_BYTES, storage).await?;
+            self.points_max = points;
+        }
+        if self.groups_max < groups {
+            self.groups_max = 0;
+            let bytes = 4 * (u64::from(groups) + 1);
+            self.chunk_starts = gpu.buffer("chunks of groups", bytes, STARTS_USAGE).await?;
+            self.chunk_scan = scans.of(gpu, &self.chunk_starts, groups + 1).await?;
+            self.groups_max = groups;
+        }
+        Ok(())
+    }
+
+    /// Makes room for the sums of so many chunks.
+    pub async fn make_room_for_chunks(&mut self, gpu: &Gpu, chunks: u32) -> Result<(), Error> {
+        if self.chunks_max < chunks {
+            self.chunks_max = 0;
+            self.chunk_sums.destroy();
+            let bytes = CHUNK_BYTES * u64::from(chunks);
+            self.chunk_sums = gpu
+                .buffer("sums of chunks", bytes, BufferUsages::STORAGE)
+                .await?;
+            self.chunks_max = chunks;
+        }
+        Ok(())
+    }
+
+    /// One chunk for each group: for passes that do without lists.
+    pub fn one_chunk_a_group(&self, gpu: &Gpu, groups: u32) {
+        let starts: Vec<u32> = (0..=groups).collect();
+        gpu.queue
+            .write_buffer(&self.chunk_starts, 0, bytemuck::cast_slice(&starts));
+    }
+}
+
+impl Lists {
+    async fn new(gpu: &Gpu, scans: &ScanPasses) -> Result<Self, Error> {
+        let least = BufferUsages::STORAGE;
+        let readable = least | BufferUsages::COPY_SRC;
+        let entry_starts = gpu.buffer("entries of segments", 4, readable).await?;
+        let digit_starts = gpu.buffer("digits of entries", 4, least).await?;
+        Ok(Self {
+            entry_scan: scans.of(gpu, &entry_starts, 1).await?,
+            entry_starts,
+            segments: 0,
+            entries: [
+                gpu.buffer("tile lists", ENTRY_BYTES, least).await?,
+                gpu.buffer("tile lists", ENTRY_BYTES, least).await?,
+            ],
+            entries_max: 1,
+            digit_scan: scans.of(gpu, &digit_starts, 1).await?,
+            digit_starts,
+            made: None,
+        })
+    }
+
+    /// Makes room for the entries of so many segments to be counted.
+    pub async fn make_room_for_segments(
+        &mut self,
+        gpu: &Gpu,
+        scans: &ScanPasses,
+        segments: u32,
+    ) -> Result<(), Error> {
+        if self.segments < segments {
+            let bytes = 4 * (u64::from(segments) + 1);
+            let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC;
+            self.entry_starts = gpu.buffer("entries of segments", bytes, usage).await?;
+            self.entry_scan = scans.of(gpu, &self.entry_starts, segments + 1).await?;
+            self.segments = segments;
+        }
+        self.entry_scan.set_count(gpu, segments + 1);
+        Ok(())
+    }
+
+    /// The most entries that the device can hold.
+    pub fn entries_most(gpu: &Gpu) -> u32 {
+        u32::try_from(largest_array(gpu) / ENTRY_BYTES).unwrap_or(u32::MAX)
+    }
+
+    /// Makes room for so many entries.
+    pub async fn make_room(
+        &mut self,
+        gpu: &Gpu,
+        scans: &ScanPasses,
+        entries: u32,
+    ) -> Result<(), Error> {
+        let storage = BufferUsages::STORAGE;
+        if self.entries_max < entries {
+            let bytes = ENTRY_BYTES * u64::from(entries);
+            // The old ones are given back first. An error on the way leaves none.
+            self.entries_max = 0;
+            for buffer in &self.entries {
+                buffer.destroy();
+            }
+            self.entries = [
+                gpu.buffer("tile lists", bytes, storage).await?,
+                gpu.buffer("tile lists", bytes, storage).await?,
+            ];
+            let digits = crate::sort::DIGITS * crate::sort::blocks(entries);
+            let bytes = 4 * u64::from(digits);
+            self.digit_starts = gpu.buffer("digits of entries", bytes, storage).await?;
+            self.digit_scan = scans.of(gpu, &self.digit_starts, digits).await?;
+            self.entries_max = entries;
+        }
+        let digits = crate::sort::DIGITS * crate::sort::blocks(entries);
+        self.digit_scan.set_count(gpu, digits);
+        Ok(())
+    }
+}
+
+/// A buffer as a pass binds it.
+pub(crate) fn whole(buffer: &wgpu::Buffer) -> BindingResource<'_> {
+    buffer.as_entire_binding()
+}
+
+async fn target(
+    gpu: &Gpu,
+    what: &str,
+    [width, height]: [u32; 2],
+    format: TextureFormat,
+    read: bool,
+) -> Result<wgpu::TextureView, Error> {
+    let usage = TextureUsages::RENDER_ATTACHMENT;
+    let descriptor = wgpu::TextureDescriptor {
+        label: Some(what),
+        size: wgpu::Extent3d {
+            width,
+            height,
+            depth_or_array_layers: 1,
+        },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage: if read {
+            usage | TextureUsages::TEXTURE_BINDING
+        } else {
+            usage
+        },
+        view_formats: &[],
+    };
+    Ok(gpu
+        .texture(what, &descriptor)
+        .await?
+        .create_view(&Default::default()))
+}

@@ -1,0 +1,80 @@
+//! Stage 1, visibility: what the ray through the centre of each pixel meets. Twin: the raster pass of the GPU.
+
+use crate::camera_beam::CameraBeam;
+use glam::DVec2;
+use hairline_index::{Hit, TriangleIndex};
+use hairline_scene::CameraFrame;
+use rayon::prelude::*;
+use std::ops::Range;
+
+/// What the pixels of some rows see, and those of the row beyond at either end, which tell edges.
+pub(crate) struct Visibility {
+    /// Row by row; [`NOTHING`] for the background.
+    hits: Vec<Hit>,
+    /// Reciprocals of the depths along the view axis; 0 for the background.
+    per_depths_m: Vec<f64>,
+    /// The row that `hits` begins with, and the row behind the last one.
+    rows: Range<usize>,
+    width: usize,
+}
+
+/// Stands for a ray that meets nothing: as large as a hit, where an `Option` would be larger by a quarter.
+const NOTHING: Hit = Hit {
+    object: u32::MAX,
+    triangle: 0,
+    distance_m: f64::INFINITY,
+    barycentric: [0.0; 2],
+};
+
+/// The middle of a pixel.
+pub(crate) fn center(x: usize, y: usize) -> DVec2 {
+    DVec2::new(x as f64 + 0.5, y as f64 + 0.5)
+}
+
+impl Visibility {
+    pub fn new(
+        triangles: &TriangleIndex,
+        camera: &CameraFrame,
+        size_px: [u32; 2],
+        rows: &Range<u32>,
+    ) -> Self {
+        let [width, height] = size_px.map(|n| n as usize);
+        let first = (rows.start as usize).saturating_sub(1);
+        let end = (rows.end as usize + 1).min(height);
+        let mut hits = vec![NOTHING; (end - first) * width];
+        let mut per_depths_m = vec![0.0; hits.len()];
+        let pixels = hits.par_iter_mut().zip(&mut per_depths_m).enumerate();
+        pixels.for_each_init(CameraBeam::default, |rays, (i, (seen, per_depth_m))| {
+            let pixel = center(i % width, first + i / width);
+            let ray = camera.camera_ray(pixel);
+            if let Some(hit) = rays.intersect(triangles, camera, pixel, ray.normalize()) {
+                *seen = hit;
+                *per_depth_m = ray.length() / hit.distance_m;
+            }
+        });
+        Self {
+            hits,
+            per_depths_m,
+            rows: first..end,
+            width,
+        }
+    }
+
+    /// Beyond the picture's border, that of the nearest pixel.
+    fn index(&self, x: usize, y: usize) -> usize {
+        let y = y.clamp(self.rows.start, self.rows.end - 1) - self.rows.start;
+        y * self.width + x.min(self.width - 1)
+    }
+
+    /// What a pixel's centre sees.
+    pub fn hit(&self, x: usize, y: usize) -> Option<&Hit> {
+        let hit = &self.hits[self.index(x, y)];
+        (hit.object != NOTHING.object).then_some(hit)
+    }
+
+    /// The object that a pixel's centre sees, and the reciprocal of the depth there; (`u32::MAX`, 0) for the background.
+    pub fn object_and_per_depth(&self, x: usize, y: usize) -> (u32, f64) {
+        let i = self.index(x, y);
+        (self.hits[i].object, self.per_depths_m[i])
+    }
+}

@@ -1,0 +1,73 @@
+//! `cargo xtask shaders FILE`: every shader module and every compute pass as one JSON file, for a compiler that is not naga
+//! (`tests/tint`).
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+use anyhow::Context;
+use hairline_gpu::{pipeline_variants, shaders};
+use serde::Serialize;
+
+/// The command's arguments.
+#[derive(clap::Args)]
+pub struct Shaders {
+    /// Where the JSON goes.
+    file: PathBuf,
+}
+
+#[derive(Serialize)]
+struct Texts {
+    /// Each with what it needs.
+    modules: Vec<Module>,
+    passes: Vec<Pass>,
+}
+
+#[derive(Serialize)]
+struct Module {
+    name: &'static str,
+    text: String,
+}
+
+/// An entry point and what its overrides are set to.
+#[derive(Serialize)]
+struct Pass {
+    name: String,
+    text: String,
+    entry: String,
+    constants: BTreeMap<&'static str, f64>,
+}
+
+impl Shaders {
+    /// Writes the file.
+    pub fn run(&self) -> anyhow::Result<()> {
+        let (mut modules, mut passes) = (Vec::new(), Vec::new());
+        for module in shaders::ALL {
+            let text = shaders::compose(&[module]);
+            for entry in entries(module.source) {
+                passes.extend(
+                    pipeline_variants(&text)
+                        .into_iter()
+                        .map(|(variant, constants)| Pass {
+                            name: format!("{}, {variant}", module.name),
+                            text: text.clone(),
+                            entry: entry.clone(),
+                            constants: constants.into_iter().collect(),
+                        }),
+                );
+            }
+            let name = module.name;
+            modules.push(Module { name, text });
+        }
+        let json = serde_json::to_vec(&Texts { modules, passes })?;
+        let file = self.file.display();
+        std::fs::write(&self.file, json).with_context(|| format!("{file} cannot be written"))
+    }
+}
+
+/// The compute entry points of a file: the functions that follow `@compute`.
+fn entries(source: &str) -> impl Iterator<Item = String> {
+    source.split("@compute").skip(1).filter_map(|after| {
+        let (_, name) = after.split_once("fn ")?;
+        Some(name.split('(').next()?.trim().to_owned())
+    })
+}
