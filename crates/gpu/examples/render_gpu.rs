@@ -28,7 +28,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         _ => Method::default(),
     };
     let options = RenderOptions {
-        samples: argument(2).map_or(Ok(16), str::parse)?,
+        samples: argument(2).map_or(Ok(8), str::parse)?,
         ..Default::default()
     };
     let gpu = headless::open(&AdapterRequest::default())?;

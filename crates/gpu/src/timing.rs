@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use wgpu::BufferUsages;
 
-use crate::device::Gpu;
+use crate::device::{AdapterKind, Gpu};
 use crate::error::Error;
 
 /// A pass with the time that all its runs took since [`Renderer::pass_times`](crate::Renderer::pass_times) was called last.
@@ -40,13 +40,12 @@ struct Runs {
 }
 
 impl Timing {
-    /// Begins; stays off where the device has no timestamps.
+    /// Begins; stays off where the device has no timestamps, and on software drivers: llvmpipe notes when it last rasterised, and
+    /// leaves compute passes out.
     pub async fn on(gpu: &Gpu) -> Result<Self, Error> {
-        if !gpu
-            .device
-            .features()
-            .contains(wgpu::Features::TIMESTAMP_QUERY)
-        {
+        let features = gpu.device.features();
+        let is_software = gpu.adapter.kind == AdapterKind::Software;
+        if is_software || !features.contains(wgpu::Features::TIMESTAMP_QUERY) {
             return Ok(Self(None));
         }
         let count = 2 * RUNS_MAX as u32;

@@ -22,7 +22,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         scene.render.size_px = [width, (width * h).div_ceil(w)];
     }
     let options = RenderOptions {
-        samples: argument(2).map_or(Ok(16), str::parse)?,
+        samples: argument(2).map_or(Ok(8), str::parse)?,
         method: Method::default(),
     };
     let prepared = Prepared::new(&scene);

@@ -38,7 +38,7 @@ use request::Shared;
 
 /// Samples of a pixel with an edge or a crease in it, in a finished picture: of the window, of an export, of `hairline render`, by every
 /// renderer.
-pub const DEFAULT_SAMPLES: u32 = 16;
+pub const DEFAULT_SAMPLES: u32 = 8;
 
 /// What paints.
 #[derive(Clone)]
