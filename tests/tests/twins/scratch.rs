@@ -8,7 +8,6 @@ use hairline_optics::mask::ScratchSums;
 use hairline_optics::metal::Metal;
 use hairline_optics::scratch::{band_std, oblique_depth_nm};
 use hairline_optics::table::{COLUMNS, ROWS, ScratchTable};
-use spec_math::cephes64::erf;
 use std::sync::LazyLock;
 
 static GOLD: LazyLock<ScratchTable> =
