@@ -31,7 +31,7 @@ const MODEST: &str = concat!(
 );
 
 /// What the dialog begins with.
-const SAMPLES: u32 = 16;
+const SAMPLES: u32 = hairline_viewer::DEFAULT_SAMPLES;
 
 fn viewer(scene: &'static str) -> Harness<'static, Viewer> {
     let mut harness = common::viewer(scene);
