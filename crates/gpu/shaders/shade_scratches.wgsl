@@ -315,7 +315,7 @@ fn shade_scratches(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgro
                 if METHOD_MASK != MASK_DENSITY {
                     energy = scratch_energy(scratch_tables, pair.point, pair.seen);
                 }
-                var is_seen = share.segment > 0.0 && is_there(pixel, index, segment);
+                let is_seen = share.segment > 0.0 && is_there(pixel, index, segment);
                 if is_seen {
                     reaching = lights_reaching(pair);
                     item = owner | ((entry - chunk.first_entry) << 9u);
