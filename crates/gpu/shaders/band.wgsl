@@ -57,14 +57,8 @@ fn band_stds(coherence_um: f32) -> vec4f {
     return band_std(coherence_um, 1.0) * BAND_MEAN_NM;
 }
 
-// How xi_t moves over one standard deviation of the pixel's filter.
-fn band_move(turn_t: f32, axis: vec3f, wo: vec3f, per_distance_o: f32, wi: vec3f, per_distance_i: f32) -> f32 {
-    let by_wo = (wo.x * dot(axis, wo) - axis.x) * per_distance_o;
-    let by_wi = (wi.x * dot(axis, wi) - axis.x) * per_distance_i;
-    return by_wo + by_wi - turn_t * max(wo.z + wi.z, 0.0);
-}
-
-// The same for every scratch there: what it is, is the part of this along its tangent. Vectors of the surface's frame.
+// How xi_t moves over one standard deviation of the pixel's filter: for each scratch there the part of this along its tangent. Vectors of
+// the surface's frame.
 fn band_moves(turn: vec2f, axis: vec3f, wo: vec3f, per_distance_o: f32, wi: vec3f, per_distance_i: f32) -> vec2f {
     let by_wo = (wo.xy * dot(axis, wo) - axis.xy) * per_distance_o;
     let by_wi = (wi.xy * dot(axis, wi) - axis.xy) * per_distance_i;
@@ -237,91 +231,102 @@ fn chord_cos(line: BandLine, low: f32, high: f32, width_um: f32) -> f32 {
     return 0.5 * (band_cos_at(line, q.x) + band_cos_at(line, q.y));
 }
 
-// The great circle of an edge: the part of b - a across a, the cosine of its angle, the square of its sine.
-struct EdgeCircle {
-    across: vec3f,
-    cos_edge: f32,
-    sin2: f32,
+// 1 if a flat light's corners are seen counter-clockwise, -1 if clockwise, 0 if it shines to the other side.
+fn polygon_facing(normal: vec3f, corner_m: vec3f, two_sided: bool) -> f32 {
+    let distance = dot(normal, corner_m);
+    return select(select(0.0, -1.0, distance > 0.0 && two_sided), 1.0, distance < 0.0);
 }
 
-fn edge_circle(a: vec3f, b: vec3f) -> EdgeCircle {
-    let chord = b - a;
-    let across = chord - a * dot(a, chord);
-    return EdgeCircle(across, dot(a, b), dot(across, across));
+// An edge of a polygonal light.
+struct BandEdge {
+    a: vec3f,                   // unit directions to its ends
+    b_x: f32,
+    m: vec3f,                   // normal of its plane: the cross product of a and b
+    m2: f32,                    // its square without the tangent component
+    length2: f32,               // its square; 0 for no edge
+    turns: f32,                 // 1 where the tangent component has a greatest value between the ends, -1 for a least one
 }
 
-// Whether the tangent component has its greatest value (`turn` 1) or its least (-1) between the ends.
-fn edge_turns(edge: EdgeCircle, a: vec3f, turn: f32) -> bool {
-    return turn * edge.across.x > 0.0 && turn * (edge.across.x * edge.cos_edge - a.x * edge.sin2) < 0.0;
+fn band_edge(a: vec3f, b: vec3f) -> BandEdge {
+    let m = cross(a, b - a);
+    let m2 = m.y * m.y + m.z * m.z;
+    // How the tangent component changes at either end.
+    let at_a = m.y * a.z - m.z * a.y;
+    let at_b = m.y * b.z - m.z * b.y;
+    let turns = select(select(0.0, -1.0, at_a < 0.0 && at_b > 0.0), 1.0, at_a > 0.0 && at_b < 0.0);
+    return BandEdge(a, b.x, m, m2, m2 + m.x * m.x, turns);
 }
 
-// Roots of one polygon edge on a line; a flag is 1 where there is one.
-struct EdgeRoots {
+// Least and greatest tangent component along an edge.
+fn band_edge_extent(edge: BandEdge) -> vec2f {
+    let extreme = min(sqrt(edge.m2 / max(edge.length2, 1e-30)), 1.0);
+    return vec2f(
+        select(min(edge.a.x, edge.b_x), -extreme, edge.turns < 0.0),
+        select(max(edge.a.x, edge.b_x), extreme, edge.turns > 0.0),
+    );
+}
+
+// How often an edge crosses the half plane of positive x that ends at a direction, against the clock; x and y span the plane
+// across it. Over an outline the sum is 0 unless it goes around.
+fn band_edge_crossing(a: vec2f, b: vec2f) -> i32 {
+    let side = a.x * b.y - b.x * a.y;
+    let up = a.y < 0.0 && b.y >= 0.0 && side > 0.0;
+    let down = a.y >= 0.0 && b.y < 0.0 && side < 0.0;
+    return i32(up) - i32(down);
+}
+
+// Where a line crosses an edge, and in which sense.
+struct EdgeCrossings {
     rising: f32,
     falling: f32,
     rises: bool,
     falls: bool,
 }
 
-fn band_edge_q(line: BandLine, a: vec3f, e2: vec3f, h2: f32, cos_psi: f32, sin_psi: f32) -> f32 {
-    let w = (a * cos_psi + e2 * sin_psi) / h2;
-    return band_q(line, w.y, w.z);
-}
-
-// The roots of the edge from direction `a` to direction `b` (unit vectors), for a polygon seen counter-clockwise.
-fn edge_roots(line: BandLine, a: vec3f, b: vec3f) -> EdgeRoots {
-    let beyond_a = a.x >= line.along;
-    let beyond_b = b.x >= line.along;
-    let edge = edge_circle(a, b);
-    var rises = beyond_b && !beyond_a;
-    var falls = beyond_a && !beyond_b;
-    if beyond_a == beyond_b {
-        // Both ends on one side: two roots if the edge turns back between them, on the other side of the line; else none.
-        rises = edge_turns(edge, a, select(1.0, -1.0, beyond_a));
-        falls = rises;
-    }
-    if !(rises || falls) || edge.sin2 < 1e-18 {
-        return EdgeRoots(0.0, 0.0, false, false);
-    }
-    let e2 = edge.across * inverseSqrt(edge.sin2);
-    let t1 = a.x;
-    let t2 = e2.x;
-    let h2 = t1 * t1 + t2 * t2;
-    let s2 = h2 - line.along * line.along;
-    if rises && falls && s2 <= 0.0 {
-        return EdgeRoots(0.0, 0.0, false, false);
-    }
+fn band_edge_crossings(edge: BandEdge, line: BandLine) -> EdgeCrossings {
+    let beyond_a = edge.a.x >= line.along;
+    let beyond_b = edge.b_x >= line.along;
+    let s2 = edge.m2 - line.along * line.along * edge.length2;
+    // Both ends on one side: two roots if the edge turns back between them, on the other side of the line; else none.
+    let twice = beyond_a == beyond_b && edge.turns == select(1.0, -1.0, beyond_a) && s2 > 0.0;
     let s = sqrt(max(s2, 0.0));
-    let h2_safe = max(h2, 1e-24);
-    return EdgeRoots(
-        band_edge_q(line, a, e2, h2_safe, line.along * t1 + s * t2, line.along * t2 - s * t1),
-        band_edge_q(line, a, e2, h2_safe, line.along * t1 - s * t2, line.along * t2 + s * t1),
-        rises,
-        falls,
+    let scale = 1.0 / max(edge.m2, 1e-30);
+    let y = vec2f(-line.along * edge.m.x * edge.m.y) + vec2f(-s, s) * edge.m.z;
+    let z = vec2f(-line.along * edge.m.x * edge.m.z) + vec2f(s, -s) * edge.m.y;
+    // Of no length, but with the line between its rounded ends.
+    let point = edge.length2 < 1e-18;
+    return EdgeCrossings(
+        band_q(line, select(y.x * scale, edge.a.y, point), select(z.x * scale, edge.a.z, point)),
+        band_q(line, select(y.y * scale, edge.a.y, point), select(z.y * scale, edge.a.z, point)),
+        twice || (beyond_b && !beyond_a),
+        twice || (beyond_a && !beyond_b),
     );
 }
 
-// Least and greatest tangent component along the edge.
-fn edge_band_extent(a: vec3f, b: vec3f) -> vec2f {
-    let edge = edge_circle(a, b);
-    let extreme = min(sqrt(a.x * a.x + edge.across.x * edge.across.x / max(edge.sin2, 1e-18)), 1.0);
+// The extent of an outline and what is in it, from that of its edges and how often they wind about the tangent. `away` is the polygon's
+// normal on the side that faces away.
+fn whole_extent(edges: vec2f, winding: i32, highest: f32, away: vec3f) -> vec2f {
+    // A light around the tangent's own direction reaches further than its outline.
+    let around = select(vec2f(-1.0, edges.y), vec2f(edges.x, 1.0), away.x > 0.0);
+    return select(select(edges, around, winding != 0), vec2f(9.0, -9.0), highest <= 0.0);
+}
+
+// A range of q widened to the roots of an edge.
+fn edge_range(range: vec2f, edge: EdgeCrossings) -> vec2f {
     return vec2f(
-        select(min(a.x, b.x), -extreme, edge_turns(edge, a, -1.0)),
-        select(max(a.x, b.x), extreme, edge_turns(edge, a, 1.0)),
+        min(range.x, min(select(range.x, edge.rising, edge.rises), select(range.x, edge.falling, edge.falls))),
+        max(range.y, max(select(range.y, edge.rising, edge.rises), select(range.y, edge.falling, edge.falls))),
     );
 }
 
-// The angle by which the edge turns about a unit direction.
-fn edge_winding(about: vec3f, a: vec3f, b: vec3f) -> f32 {
-    let sin_angle = dot(about, cross(a, b));
-    let cos_angle = dot(a, b) - dot(a, about) * dot(b, about);
-    if sin_angle == 0.0 && cos_angle == 0.0 {
-        return 0.0;
-    }
-    return atan2(sin_angle, cos_angle);
+// How often an edge winds about the direction straight down on the line.
+fn line_winding(line: BandLine, a: vec3f, b: vec3f) -> i32 {
+    let up = vec2f(line.radius, line.along);
+    return band_edge_crossing(vec2f(dot(a.xz, up), a.y), vec2f(dot(b.xz, up), b.y));
 }
 
-// The direction straight down on the line.
-fn line_down(line: BandLine) -> vec3f {
-    return vec3f(line.along, 0.0, -line.radius);
+// Whether a light holds the direction straight down, which its edges wind about. The opposite one winds as well: only a polygon in front
+// of the ray counts.
+fn line_in_light(line: BandLine, winding: i32, away: vec3f) -> bool {
+    return line.along * away.x - line.radius * away.z > 0.0 && winding != 0;
 }

@@ -7,7 +7,8 @@ struct BaseRadiance {
     diffuse: vec3f,             // from the body under it
 }
 
-// The lobe's integrals and the diffuse form factor of a light.
+// Of a light: its vector irradiance in the lobe's cosine space, which ltc_integrals() makes the lobe's integrals of, and its diffuse form
+// factor.
 fn base_sphere(point: SurfacePoint, lobe: LtcLobe, light: Light) -> vec4f {
     let center = surface_from_world(point, light.center_m - point.position_m);
     if center.z <= -light.radius_m {
@@ -16,7 +17,7 @@ fn base_sphere(point: SurfacePoint, lobe: LtcLobe, light: Light) -> vec4f {
     let cap = sphere_cap(center, light.radius_m);
     // A cap that holds every direction stands for a sphere around the point.
     let sin2 = select(cap.sin_radius * cap.sin_radius, 1.0, cap.cos_radius < 0.0);
-    return vec4f(ltc_sphere(lobe, cap.axis, sin2), base_lambert_sphere(cap.axis, sin2));
+    return vec4f(ltc_sphere_vector(lobe, cap.axis, sin2), base_lambert_sphere(cap.axis, sin2));
 }
 
 fn base_lambert_sphere(axis: vec3f, sin2: f32) -> f32 {
@@ -47,7 +48,7 @@ fn base_polygon(point: SurfacePoint, lobe: LtcLobe, light: Light) -> vec4f {
     if highest_z <= 0.0 {
         return vec4f(0.0);
     }
-    return vec4f(ltc_end(specular, lobe), lambert_end(diffuse));
+    return vec4f(irradiance_end(specular), lambert_end(diffuse));
 }
 
 // Light from all around: reflected at the surface, and falling on the body.
@@ -84,7 +85,8 @@ fn base_radiance(point: SurfacePoint) -> BaseRadiance {
         if HAS_POLYGONS && light.kind == LIGHT_POLYGON {
             share = base_polygon(point, lobe, light);
         }
-        specular += light.radiance * ggx_area_reflectance(share.xyz, fresnel, lobe.albedo.x);
+        let integrals = ltc_integrals(lobe, share.xyz);
+        specular += light.radiance * ggx_area_reflectance(integrals, fresnel, lobe.albedo.x);
         diffuse += light.radiance * share.w;
     }
     if HAS_ENVIRONMENT {

@@ -19,12 +19,6 @@ fn environment_uv(dir: vec3<f32>) -> vec2<f32> {
     return vec2<f32>(0.5 + longitude / (2.0 * ENVIRONMENT_PI), polar / ENVIRONMENT_PI);
 }
 
-fn environment_dir(uv: vec2<f32>) -> vec3<f32> {
-    let longitude = (uv.x - 0.5) * 2.0 * ENVIRONMENT_PI;
-    let polar = uv.y * ENVIRONMENT_PI;
-    return vec3<f32>(sin(polar) * sin(longitude), cos(polar), -sin(polar) * cos(longitude));
-}
-
 // A map in a part of a texture: in a mip level, from a row on.
 struct EnvironmentPlace {
     mip: i32,

@@ -1,74 +1,36 @@
-// Where the lines of a band cross an outline of four edges, or of three and one without length: band.wgsl's signed sum over roots. Twin: PolygonView of optics/src/band.rs, for any number of edges.
-// All vectors are in the scratch's frame.
+// Where the lines of a band cross an outline of three or four edges. All vectors are in the scratch's frame. Twin: PolygonView of
+// optics/src/band.rs, for any number of edges.
 
-struct BandEdge {
-    a: vec3f,                   // unit directions to its ends
-    b_x: f32,
-    m: vec3f,                   // normal of its plane: the cross product of a and b
-    m2: f32,                    // its square without the tangent component
-    length2: f32,               // its square; 0 for no edge
-    turns: f32,                 // 1 where the tangent component has a greatest value between the ends, -1 for a least one
-}
-
-// Unit directions to four corners, of which two may be the same. Edges are made where they are asked for: kept, they would take forty
-// registers.
+// Unit directions to three or four corners. Edges are made where they are asked for: kept, they would take forty registers. Loops over
+// them are never unrolled, for their number is not known to a compiler: four copies took one of them minutes.
 struct FourEdges {
     a: vec3f,
     b: vec3f,
     c: vec3f,
-    d: vec3f,
+    d: vec3f,                   // `a` where there are three
+    count: u32,
 }
 
-fn band_edge(a: vec3f, b: vec3f) -> BandEdge {
-    let m = cross(a, b - a);
-    let m2 = m.y * m.y + m.z * m.z;
-    // How the tangent component changes at either end.
-    let at_a = m.y * a.z - m.z * a.y;
-    let at_b = m.y * b.z - m.z * b.y;
-    let turns = select(select(0.0, -1.0, at_a < 0.0 && at_b > 0.0), 1.0, at_a > 0.0 && at_b < 0.0);
-    return BandEdge(a, b.x, m, m2, m2 + m.x * m.x, turns);
-}
-
-// Least and greatest tangent component along an edge.
-fn band_edge_extent(edge: BandEdge) -> vec2f {
-    let extreme = min(sqrt(edge.m2 / max(edge.length2, 1e-30)), 1.0);
-    return vec2f(
-        select(min(edge.a.x, edge.b_x), -extreme, edge.turns < 0.0),
-        select(max(edge.a.x, edge.b_x), extreme, edge.turns > 0.0),
-    );
-}
-
-// How often an edge crosses the half plane of positive x that ends at a direction, against the clock; x and y span the plane
-// across it. Over an outline the sum is 0 unless it goes around.
-fn band_edge_crossing(a: vec2f, b: vec2f) -> i32 {
-    let side = a.x * b.y - b.x * a.y;
-    let up = a.y < 0.0 && b.y >= 0.0 && side > 0.0;
-    let down = a.y >= 0.0 && b.y < 0.0 && side < 0.0;
-    return i32(up) - i32(down);
-}
-
-fn four_edges_holds(edges: FourEdges, x: vec3f, y: vec3f) -> bool {
-    let a = vec2f(dot(edges.a, x), dot(edges.a, y));
-    let b = vec2f(dot(edges.b, x), dot(edges.b, y));
-    let c = vec2f(dot(edges.c, x), dot(edges.c, y));
-    let d = vec2f(dot(edges.d, x), dot(edges.d, y));
-    return (band_edge_crossing(a, b) + band_edge_crossing(b, c) + band_edge_crossing(c, d) + band_edge_crossing(d, a)) != 0;
+// The corners beginning with the next one.
+fn four_edges_turned(edges: FourEdges) -> FourEdges {
+    return FourEdges(edges.b, edges.c, edges.d, edges.a, edges.count);
 }
 
 // Least and greatest tangent component of the outline and what is in it; nothing where it is below the horizon. `away` is
 // the polygon's normal on the side that faces away.
-fn four_edges_extent(edges: FourEdges, away: vec3f) -> vec2f {
-    let e0 = band_edge_extent(band_edge(edges.a, edges.b));
-    let e1 = band_edge_extent(band_edge(edges.b, edges.c));
-    let e2 = band_edge_extent(band_edge(edges.c, edges.d));
-    let e3 = band_edge_extent(band_edge(edges.d, edges.a));
-    var extent = vec2f(min(min(e0.x, e1.x), min(e2.x, e3.x)), max(max(e0.y, e1.y), max(e2.y, e3.y)));
-    // A light around the tangent's own direction reaches further than its outline.
-    if four_edges_holds(edges, vec3f(0.0, 1.0, 0.0), vec3f(0.0, 0.0, 1.0)) {
-        extent = select(vec2f(-1.0, extent.y), vec2f(extent.x, 1.0), away.x > 0.0);
+fn four_edges_extent(corners: FourEdges, away: vec3f) -> vec2f {
+    var edges = corners;
+    var extent = vec2f(9.0, -9.0);
+    var winding = 0;
+    var highest = -1.0;
+    for (var i = 0u; i < corners.count; i += 1u) {
+        let edge = band_edge_extent(band_edge(edges.a, edges.b));
+        extent = vec2f(min(extent.x, edge.x), max(extent.y, edge.y));
+        winding += band_edge_crossing(edges.a.yz, edges.b.yz);
+        highest = max(highest, edges.a.z);
+        edges = four_edges_turned(edges);
     }
-    let highest = max(max(edges.a.z, edges.b.z), max(edges.c.z, edges.d.z));
-    return select(extent, vec2f(9.0, -9.0), highest <= 0.0);
+    return whole_extent(extent, winding, highest, away);
 }
 
 // Where a line crosses each edge, and in which sense: 1 and 0 stand for yes and no.
@@ -82,66 +44,28 @@ struct FourRoots {
     wraps: bool,                // the polygon holds the direction straight down
 }
 
-struct EdgeCrossings {
-    rising: f32,
-    falling: f32,
-    rises: bool,
-    falls: bool,
-}
-
-fn band_edge_crossings(edge: BandEdge, line: BandLine) -> EdgeCrossings {
-    let beyond_a = edge.a.x >= line.along;
-    let beyond_b = edge.b_x >= line.along;
-    let s2 = edge.m2 - line.along * line.along * edge.length2;
-    // Both ends on one side: two roots if the edge turns back between them, on the other side of the line; else none.
-    let twice = beyond_a == beyond_b && edge.turns == select(1.0, -1.0, beyond_a) && s2 > 0.0;
-    let s = sqrt(max(s2, 0.0));
-    let scale = 1.0 / max(edge.m2, 1e-30);
-    let y = vec2f(-line.along * edge.m.x * edge.m.y) + vec2f(-s, s) * edge.m.z;
-    let z = vec2f(-line.along * edge.m.x * edge.m.z) + vec2f(s, -s) * edge.m.y;
-    // Of no length, but with the line between its rounded ends.
-    let point = edge.length2 < 1e-18;
-    return EdgeCrossings(
-        band_q(line, select(y.x * scale, edge.a.y, point), select(z.x * scale, edge.a.z, point)),
-        band_q(line, select(y.y * scale, edge.a.y, point), select(z.y * scale, edge.a.z, point)),
-        twice || (beyond_b && !beyond_a),
-        twice || (beyond_a && !beyond_b),
-    );
-}
-
-fn four_edges_roots(edges: FourEdges, line: BandLine, away: vec3f) -> FourRoots {
-    let a = band_edge_crossings(band_edge(edges.a, edges.b), line);
-    let b = band_edge_crossings(band_edge(edges.b, edges.c), line);
-    let c = band_edge_crossings(band_edge(edges.c, edges.d), line);
-    let d = band_edge_crossings(band_edge(edges.d, edges.a), line);
-    let rises = vec4<bool>(a.rises, b.rises, c.rises, d.rises);
-    let falls = vec4<bool>(a.falls, b.falls, c.falls, d.falls);
-    let rising = vec4f(a.rising, b.rising, c.rising, d.rising);
-    let falling = vec4f(a.falling, b.falling, c.falling, d.falling);
-    let rise_bits = bits_of(rises);
-    let fall_bits = bits_of(falls);
+fn four_edges_roots(corners: FourEdges, line: BandLine, away: vec3f) -> FourRoots {
     let arc = vec2f(band_q_end(line), band_q_start(line));
-    let low = min(select(vec4f(arc.y), rising, rises), select(vec4f(arc.y), falling, falls));
-    let high = max(select(vec4f(arc.x), rising, rises), select(vec4f(arc.x), falling, falls));
-    let range = vec2f(min(min(low.x, low.y), min(low.z, low.w)), max(max(high.x, high.y), max(high.z, high.w)));
-    // The opposite direction winds as well; only a polygon in front of the ray counts.
-    let down = line_down(line);
-    let wraps = dot(down, away) > 0.0
-        && four_edges_holds(edges, vec3f(line.radius, 0.0, line.along), vec3f(0.0, 1.0, 0.0));
-    return FourRoots(
-        rising,
-        falling,
-        rise_bits,
-        fall_bits,
-        max(countOneBits(rise_bits), countOneBits(fall_bits)),
-        select(arc, range, (rise_bits | fall_bits) != 0u),
-        wraps,
-    );
-}
-
-fn bits_of(flags: vec4<bool>) -> u32 {
-    let bits = select(vec4u(0u), vec4u(1u, 2u, 4u, 8u), flags);
-    return bits.x | bits.y | bits.z | bits.w;
+    var edges = corners;
+    var roots = FourRoots(vec4f(0.0), vec4f(0.0), 0u, 0u, 0u, arc.yx, false);
+    var winding = 0;
+    for (var i = 0u; i < corners.count; i += 1u) {
+        let edge = band_edge_crossings(band_edge(edges.a, edges.b), line);
+        // The newest last, so that no place depends on the edge.
+        roots.rising = vec4f(roots.rising.yzw, edge.rising);
+        roots.falling = vec4f(roots.falling.yzw, edge.falling);
+        roots.rises = (roots.rises >> 1u) | select(0u, 8u, edge.rises);
+        roots.falls = (roots.falls >> 1u) | select(0u, 8u, edge.falls);
+        roots.range = edge_range(roots.range, edge);
+        winding += line_winding(line, edges.a, edges.b);
+        edges = four_edges_turned(edges);
+    }
+    roots.count = max(countOneBits(roots.rises), countOneBits(roots.falls));
+    if (roots.rises | roots.falls) == 0u {
+        roots.range = arc;
+    }
+    roots.wraps = line_in_light(line, winding, away);
+    return roots;
 }
 
 // The next root of each sense, taken off.

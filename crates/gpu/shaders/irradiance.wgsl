@@ -33,20 +33,23 @@ fn irradiance_edge(state: ptr<function, PolygonIrradiance>, a: vec3f, b: vec3f, 
     }
 
     let normal = cross(a, ab);
-    if (a.z >= 0.0 && b.z >= 0.0) {
-        irradiance_add_arc(state, a, b, normal);
-    } else if (a.z <= 0.0 && b.z <= 0.0) {
-        irradiance_add_shadow(state, a.xy, b.xy, abs(turn), left);
-    } else {
-        let t = a.z / (a.z - b.z);
-        let crossing = vec3f(a.xy + t * ab.xy, 0.0);
-        if (a.z > 0.0) {
-            irradiance_add_arc(state, a, crossing, t * normal);
-            irradiance_add_shadow(state, crossing.xy, b.xy, (1.0 - t) * abs(turn), left);
-        } else {
-            irradiance_add_shadow(state, a.xy, crossing.xy, t * abs(turn), left);
-            irradiance_add_arc(state, crossing, b, (1.0 - t) * normal);
-        }
+    // The part from the horizon on lies above it, the rest casts a shadow; or the edge is all of either.
+    let is_cut = (a.z > 0.0 && b.z < 0.0) || (a.z < 0.0 && b.z > 0.0);
+    let t = a.z / select(1.0, a.z - b.z, is_cut);
+    let crossing = vec3f(a.xy + t * ab.xy, 0.0);
+    let of_a = select(1.0, t, is_cut);
+    let of_b = select(1.0, 1.0 - t, is_cut);
+    if (is_cut || (a.z >= 0.0 && b.z >= 0.0)) {
+        irradiance_add_arc(state, select(a, crossing, a.z < 0.0), select(b, crossing, b.z < 0.0), select(of_a, of_b, a.z < 0.0) * normal);
+    }
+    if (a.z < 0.0 || b.z < 0.0) {
+        irradiance_add_shadow(
+            state,
+            select(a.xy, crossing.xy, a.z > 0.0),
+            select(b.xy, crossing.xy, b.z > 0.0),
+            select(of_a, of_b, a.z > 0.0) * abs(turn),
+            left,
+        );
     }
     (*state).cut = (*state).cut || a.z < 0.0;
     (*state).risen = (*state).risen || a.z > 0.0;

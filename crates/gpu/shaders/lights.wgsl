@@ -1,9 +1,7 @@
 // Area lights as seen from a surface point. Needs lights. Twin: reference/src/light_view.rs.
 
-// 1 if a polygon's vertices are seen counter-clockwise, -1 if clockwise, 0 if it shines to the other side.
 fn light_facing(point: SurfacePoint, light: Light) -> f32 {
-    let distance = dot(light.normal, light_corner_m(light.first_vertex) - point.position_m);
-    return select(select(0.0, -1.0, distance > 0.0 && light.two_sided != 0u), 1.0, distance < 0.0);
+    return polygon_facing(light.normal, light_corner_m(light.first_vertex) - point.position_m, light.two_sided != 0u);
 }
 
 // Vertex `i` of a polygon relative to the point, in the surface's frame; vertices repeat.

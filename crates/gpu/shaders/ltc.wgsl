@@ -89,8 +89,14 @@ fn ltc_end(state: PolygonIrradiance, lobe: LtcLobe) -> vec3f {
 }
 
 fn ltc_sphere(lobe: LtcLobe, axis: vec3f, sin2: f32) -> vec3f {
+    return ltc_integrals(lobe, ltc_sphere_vector(lobe, axis, sin2));
+}
+
+// The vector irradiance of a sphere in the cosine's space.
+fn ltc_sphere_vector(lobe: LtcLobe, axis: vec3f, sin2: f32) -> vec3f {
+    // All directions are lit: the integrals are the albedos.
     if (sin2 >= 1.0) {
-        return lobe.albedo;
+        return vec3f(0.0, 0.0, GGX_PI);
     }
     if (sin2 <= 0.0) {
         return vec3f(0.0);
@@ -101,24 +107,10 @@ fn ltc_sphere(lobe: LtcLobe, axis: vec3f, sin2: f32) -> vec3f {
         return vec3f(0.0);
     }
     let cone = ltc_cone(lobe, lobe_rotate(lobe.x_axis, axis), sin2);
-    var vector: vec3f;
     if (whole) {
-        vector = ltc_cone_whole(cone);
-    } else {
-        vector = irradiance_cone(ltc_cone_axes(cone));
+        return ltc_cone_whole(cone);
     }
-    return ltc_integrals(lobe, vector);
-}
-
-fn sphere_light(
-    wo: vec3f,
-    roughness: f32,
-    axis: vec3f,
-    sin2: f32,
-    ltc_table: texture_2d<f32>,
-    albedo_table: texture_2d<f32>,
-) -> vec3f {
-    return ltc_sphere(ltc_lobe(wo, roughness, ltc_table, albedo_table), axis, sin2);
+    return irradiance_cone(ltc_cone_axes(cone));
 }
 
 // What is within the rim c + u cos t + v sin t in the cosine's space; in the frame of u, v and n, c is `centre`.

@@ -11,74 +11,49 @@ struct OutlineView {
     tangent: vec2f,
 }
 
-// The unit direction to vertex `i` in the frame of the scratch; vertices repeat.
+// The unit direction to vertex `i` in the frame of the scratch.
 fn outline_direction(view: OutlineView, i: u32) -> vec3f {
-    let index = view.first_vertex + select(i, i - view.vertex_count, i >= view.vertex_count);
-    let v = light_corner_m(index) - view.point_m;
+    let v = light_corner_m(view.first_vertex + i) - view.point_m;
     let local = vec3f(dot(v, view.axis_x), dot(v, cross(view.normal, view.axis_x)), dot(v, view.normal));
     return band_from_surface(view.tangent, surface_direction(local));
 }
 
-// What of the outline does not depend on the line.
-struct OutlineExtent {
-    lowest: f32,                // of the tangent component
-    highest: f32,
-    may_wrap: bool,             // whether straight down may lie in the light
-}
-
-fn outline_extent(view: OutlineView, away: vec3f) -> OutlineExtent {
+// Least and greatest tangent component of the outline and what is in it; nothing where it is below the horizon.
+fn outline_extent(view: OutlineView, away: vec3f) -> vec2f {
     var extent = vec2f(9.0, -9.0);
-    var corner_min = vec3f(1.0);
-    var corner_max = vec3f(-1.0);
-    var turn = 0.0;
-    var a = outline_direction(view, 0u);
-    for (var i = 1u; i <= view.vertex_count; i += 1u) {
+    var highest = -1.0;
+    var winding = 0;
+    var a = outline_direction(view, view.vertex_count - 1u);
+    for (var i = 0u; i < view.vertex_count; i += 1u) {
         let b = outline_direction(view, i);
-        let edge = edge_band_extent(a, b);
+        let edge = band_edge_extent(band_edge(a, b));
         extent = vec2f(min(extent.x, edge.x), max(extent.y, edge.y));
-        corner_min = min(corner_min, a);
-        corner_max = max(corner_max, a);
-        turn += edge_winding(vec3f(1.0, 0.0, 0.0), a, b);
+        winding += band_edge_crossing(a.yz, b.yz);
+        highest = max(highest, b.z);
         a = b;
     }
-    // A light around the tangent's own direction reaches further than its outline.
-    if abs(turn) > 3.14159265 {
-        extent = select(vec2f(-1.0, extent.y), vec2f(extent.x, 1.0), away.x > 0.0);
-    }
-    // Below the horizon there is nothing to see.
-    if corner_max.z <= 0.0 {
-        extent = vec2f(9.0, -9.0);
-    }
-    // A light that holds straight down has corners below the horizon and on both sides of the scratch.
-    return OutlineExtent(extent.x, extent.y, corner_min.z < 0.0 && corner_min.y < 0.0 && corner_max.y > 0.0);
+    return whole_extent(extent, winding, highest, away);
 }
 
-// The range of roots on a line, and how often the outline winds about straight down.
+// The range of roots on a line, and whether the polygon holds straight down.
 struct OutlineRange {
-    low: f32,
-    high: f32,
+    q: vec2f,
     wraps: bool,
 }
 
-fn outline_range(view: OutlineView, line: BandLine, away: vec3f, may_wrap: bool) -> OutlineRange {
+fn outline_range(view: OutlineView, line: BandLine, away: vec3f) -> OutlineRange {
     let arc = vec2f(band_q_end(line), band_q_start(line));
-    let down = line_down(line);
     var range = arc.yx;
-    var winding = 0.0;
-    var a = outline_direction(view, 0u);
-    for (var i = 1u; i <= view.vertex_count; i += 1u) {
+    var winding = 0;
+    var a = outline_direction(view, view.vertex_count - 1u);
+    for (var i = 0u; i < view.vertex_count; i += 1u) {
         let b = outline_direction(view, i);
-        let roots = edge_roots(line, a, b);
-        range.x = min(range.x, min(select(arc.y, roots.rising, roots.rises), select(arc.y, roots.falling, roots.falls)));
-        range.y = max(range.y, max(select(arc.x, roots.rising, roots.rises), select(arc.x, roots.falling, roots.falls)));
-        if may_wrap {
-            winding += edge_winding(down, a, b);
-        }
+        range = edge_range(range, band_edge_crossings(band_edge(a, b), line));
+        winding += line_winding(line, a, b);
         a = b;
     }
-    // No root leaves the range empty: then the whole arc tells. The opposite direction winds as well: only a polygon in front counts.
-    range = select(range, arc, range.x > range.y);
-    return OutlineRange(range.x, range.y, dot(down, away) > 0.0 && abs(winding) > 3.14159265);
+    // No root leaves the range empty: then the whole arc tells.
+    return OutlineRange(select(range, arc, range.x > range.y), line_in_light(line, winding, away));
 }
 
 // By a polygon of radiance 1.
@@ -86,19 +61,19 @@ fn scratch_outline(tables: texture_2d_array<u32>, point: LitPoint, seen: SeenScr
     let band = scratch_band(point, seen, sphere_cap(center_m, radius_m).axis, max(length(center_m), radius_m));
     let wo = band_from_surface(seen.tangent, point.wo) + vec3f(band.shift, 0.0, 0.0);
     let extent = outline_extent(view, away);
-    let lines = band_lines(wo.x, wo.x + extent.lowest, wo.x + extent.highest, band.stds);
+    let lines = band_lines(wo.x, wo.x + extent.x, wo.x + extent.y, band.stds);
     var sum = vec3f(0.0);
     var weights = vec3f(0.0);
     for (var l = 0u; l < lines.count; l += 1u) {
         let weight_and_xi = band_line(lines, l);
         let line = band_line_at(wo, weight_and_xi.w);
-        let range = outline_range(view, line, away, extent.may_wrap);
-        let cos_i = chord_cos(line, range.low, range.high, seen.width_um);
+        let range = outline_range(view, line, away);
+        let cos_i = chord_cos(line, range.q.x, range.q.y, seen.width_um);
         var integral = vec3f(0.0);
-        var a = outline_direction(view, 0u);
-        for (var i = 1u; i <= view.vertex_count; i += 1u) {
+        var a = outline_direction(view, view.vertex_count - 1u);
+        for (var i = 0u; i < view.vertex_count; i += 1u) {
             let b = outline_direction(view, i);
-            let roots = edge_roots(line, a, b);
+            let roots = band_edge_crossings(band_edge(a, b), line);
             // Where there is no root of one sense, both ends are the middle, which counts for nothing.
             integral += scratch_chord(tables, point, seen, select(0.0, roots.rising, roots.rises), select(0.0, roots.falling, roots.falls), cos_i);
             a = b;

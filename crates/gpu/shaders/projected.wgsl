@@ -1,4 +1,4 @@
-// A segment in the picture, and the tiles of the strip that its line comes near to. Twin: reference/src/project.rs.
+// A segment in the picture, and the tiles and pixels of the strip that its line comes near to. Twin: reference/src/project.rs.
 
 // A footprint cannot be told apart from its Gaussian's tail beyond this many standard deviations.
 const REACH_STD: f32 = 3.5;
@@ -99,4 +99,31 @@ fn projected_columns(line: ProjectedSegment, row: u32) -> vec2u {
     let first = max(ceil((low + 0.5 - f32(TILE_PX)) / f32(TILE_PX)), 0.0);
     let end = min(floor((high - 0.5) / f32(TILE_PX)) + 1.0, f32(strip_tiles().x));
     return vec2u(u32(first), u32(max(end, first)));
+}
+
+// The pixels of a tile that a line comes near to: a byte for each row, the first four rows in x; the lowest bit is the pixel at the left.
+// `corner_px` is the tile's upper left corner in the strip.
+fn pixels_near(line: ProjectedSegment, corner_px: vec2f) -> vec2u {
+    let start = line.start_px - corner_px;
+    let end = line.end_px - corner_px;
+    let along = end - start;
+    let length_px = length(along);
+    let normal = select(vec2f(1.0, 0.0), vec2f(-along.y, along.x) / max(length_px, 1e-6), length_px > 1e-6);
+    // Nearly level lines run through whole rows.
+    let per_normal = select(-1.0, 1.0, normal.x >= 0.0) / max(abs(normal.x), 1e-4);
+    let half_width = line.reach_px * abs(per_normal);
+    let lowest = min(start, end) - line.reach_px;
+    let highest = max(start, end) + line.reach_px;
+    var near: array<vec4u, 2>;
+    for (var h = 0u; h < 2u; h += 1u) {
+        let y = f32(4u * h) + vec4f(0.5, 1.5, 2.5, 3.5);
+        let middle = start.x + normal.y * (start.y - y) * per_normal;
+        let low = max(middle - half_width, vec4f(lowest.x)) - 0.5;
+        let high = min(middle + half_width, vec4f(highest.x)) - 0.5;
+        let first = vec4u(clamp(ceil(low), vec4f(0.0), vec4f(8.0)));
+        let last = vec4u(clamp(floor(high) + 1.0, vec4f(0.0), vec4f(8.0)));
+        let touches = (last > first) & (y >= vec4f(lowest.y)) & (y <= vec4f(highest.y));
+        near[h] = select(vec4u(0u), (vec4u(1u) << last) - (vec4u(1u) << first), touches) << vec4u(0u, 8u, 16u, 24u);
+    }
+    return vec2u(near[0].x | near[0].y | near[0].z | near[0].w, near[1].x | near[1].y | near[1].z | near[1].w);
 }

@@ -32,6 +32,7 @@ fn published_base(point: SurfacePoint) -> BaseRadiance {
         }
         if HAS_POLYGONS && light.kind == LIGHT_POLYGON {
             share = base_polygon(point, lobe, light);
+            share = vec4f(ltc_integrals(lobe, share.xyz), share.w);
         }
         specular += light.radiance * ggx_area_reflectance(share.xyz, fresnel, lobe.albedo.x);
         diffuse += light.radiance * share.w;

@@ -111,22 +111,23 @@ fn scratch_sphere(tables: texture_2d_array<u32>, point: LitPoint, seen: SeenScra
     return band_integral(lines, sum, weights);
 }
 
-// A flat light of four corners, counter-clockwise as seen from the side that `normal` points to; a triangle repeats its first corner.
+// A flat light of three or four corners, counter-clockwise as seen from the side that `normal` points to.
 struct QuadLight {
     a_m: vec3f,
     b_m: vec3f,
     c_m: vec3f,
-    d_m: vec3f,
+    d_m: vec3f,                 // the first one again where there are three
+    corner_count: u32,
     normal: vec3f,              // unit, on the side that shines
     center_m: vec3f,            // of a sphere that holds it
     radius_m: f32,
     two_sided: bool,
 }
 
-// By a flat light of radiance 1.
+// By a flat light of radiance 1. It is cheaper to ask scratch_meets() first.
 fn scratch_quad(tables: texture_2d_array<u32>, point: LitPoint, seen: SeenScratch, light: QuadLight) -> vec3f {
-    let facing = scratch_facing(light.normal, light.a_m, light.two_sided);
-    if facing == 0.0 || !scratch_meets(point, seen, light.center_m, light.radius_m) {
+    let facing = polygon_facing(light.normal, light.a_m, light.two_sided);
+    if facing == 0.0 {
         return vec3f(0.0);
     }
     let distance_m = max(length(light.center_m), light.radius_m);
@@ -138,6 +139,7 @@ fn scratch_quad(tables: texture_2d_array<u32>, point: LitPoint, seen: SeenScratc
         band_from_surface(seen.tangent, surface_direction(light.b_m)),
         band_from_surface(seen.tangent, surface_direction(light.c_m)),
         band_from_surface(seen.tangent, surface_direction(light.d_m)),
+        light.corner_count,
     );
     let extent = four_edges_extent(outline, away);
     let lines = band_lines(wo.x, wo.x + extent.x, wo.x + extent.y, band.stds);
@@ -159,12 +161,6 @@ fn scratch_quad(tables: texture_2d_array<u32>, point: LitPoint, seen: SeenScratc
         weights += weight_and_xi.xyz;
     }
     return band_integral(lines, sum, weights);
-}
-
-// 1 if a flat light's corners are seen counter-clockwise, -1 if clockwise, 0 if it shines to the other side.
-fn scratch_facing(normal: vec3f, corner_m: vec3f, two_sided: bool) -> f32 {
-    let distance = dot(normal, corner_m);
-    return select(select(0.0, -1.0, distance > 0.0 && two_sided), 1.0, distance < 0.0);
 }
 
 // The unit direction to a point, or nothing where there is none.

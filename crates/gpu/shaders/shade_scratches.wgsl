@@ -1,13 +1,13 @@
 // Pass: the light and the mask of scratches. A workgroup takes a group of samples and a chunk of its tile's list, a batch of segments at
 // a time, in four stages, so that lanes which run in step do the same work. "Pixel" stands for a sample of a pixel here.
-// 1. Each lane asks which pixels its segment's line comes near to; each pixel marks those of these segments that it may see.
+// 1. Each lane fetches a segment; each pixel marks those that it may see, of those whose lines come near to it.
 // 2. The marks are pairs of a pixel and a segment. Each lane takes a pair, whichever pixel it is of: its share, and which lights reach it.
 // 3. Pairs that a light reaches wait in a queue. Each lane takes one and lights it: most pairs are dark to most lights.
 // 4. Each pixel adds up what is its own, in the order of the list.
 // Twin: reference/src/shade_scratches.rs.
 
 @group(3) @binding(1) var<storage, read> points: array<PixelPoint>;
-@group(3) @binding(2) var<storage, read> entries: array<vec2u>;
+@group(3) @binding(2) var<storage, read> entries: array<vec4u>;
 @group(3) @binding(3) var<storage, read> list_starts: array<u32>;
 @group(3) @binding(4) var<storage, read> chunk_starts: array<u32>;
 @group(3) @binding(5) var<storage, read_write> chunk_sums: array<ChunkSum>;
@@ -41,12 +41,11 @@ var<workgroup> pair_ends: array<u32, LANES>;
 // What each lane has, four lanes to an element, and the sum of all.
 var<workgroup> lane_counts: array<vec4u, LANES / 4u>;
 var<workgroup> lanes_total: u32;
-// What each pair adds to the mask: energy and share; share by line.
-var<workgroup> pair_masks: array<vec4f, LANES>;
-var<workgroup> pair_lines: array<f32, LANES>;
+// What each pair adds: its energy, or its radiance; share, and share by line.
+var<workgroup> results: array<vec3f, LANES>;
+var<workgroup> shares: array<vec2f, LANES>;
 // The pixel in 6 bits, the light in 3, the place of the segment in the chunk.
 var<workgroup> queue: array<u32, QUEUE>;
-var<workgroup> lit_radiance: array<vec4f, LANES>;
 var<workgroup> is_shaded: atomic<u32>;
 var<workgroup> any_is_shaded: u32;
 
@@ -188,6 +187,7 @@ fn light_pair(pair: Pair, light_index: u32) -> vec3f {
             (light_corner_m(light.first_vertex + 1u) - pair.position_m) * pair.surface,
             (light_corner_m(light.first_vertex + 2u) - pair.position_m) * pair.surface,
             (light_corner_m(last) - pair.position_m) * pair.surface,
+            light.vertex_count,
             normal,
             center_m,
             light.radius_m,
@@ -195,7 +195,7 @@ fn light_pair(pair: Pair, light_index: u32) -> vec3f {
         );
         return light.radiance * scratch_quad(scratch_tables, point, seen, quad);
     }
-    let facing = scratch_facing(normal, a, light.two_sided != 0u);
+    let facing = polygon_facing(normal, a, light.two_sided != 0u);
     if facing == 0.0 {
         return vec3f(0.0);
     }
@@ -224,7 +224,6 @@ fn before_lane(lane: u32, own: u32) -> u32 {
 // Where a chunk lies.
 struct Chunk {
     group: u32,
-    corner_px: vec2f,           // of the tile, from the strip's upper left corner
     first_entry: u32,
     end_entry: u32,
 }
@@ -232,11 +231,9 @@ struct Chunk {
 fn chunk_at(chunk: u32) -> Chunk {
     let group = chunk_group(chunk);
     let tile = group_tile(group);
-    let across = strip_tiles().x;
     let first = list_starts[tile] + (chunk - chunk_starts[group]) * CHUNK_SEGMENTS;
     return Chunk(
         group,
-        vec2f(TILE_PX * vec2u(tile % across, tile / across)),
         first,
         min(first + CHUNK_SEGMENTS, list_starts[tile + 1u]),
     );
@@ -270,9 +267,9 @@ fn shade_scratches(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgro
     for (var first = chunk.first_entry; first < chunk.end_entry; first += LANES) {
         let count = min(LANES, chunk.end_entry - first);
         if lane < count {
-            let index = entries[first + lane].y;
-            near_pixels[lane] = pixels_near(project_segment(index), chunk.corner_px);
-            let segment = segment_from(scratch_segment(index));
+            let entry = entries[first + lane];
+            near_pixels[lane] = entry.zw;
+            let segment = segment_from(scratch_segment(entry.y));
             let start = segment.start_m - frame.camera_m;
             let end = segment.end_m - frame.camera_m;
             ends[lane] = Ends(array(start.x, start.y, start.z), array(end.x, end.y, end.z), segment.blur_um);
@@ -296,63 +293,70 @@ fn shade_scratches(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgro
         pair_ends[lane] = end;
         let total = workgroupUniformLoad(&lanes_total);
         let is_last = first + LANES >= chunk.end_entry;
-        // Goes round once more than there are pairs at the end, to light what is left.
-        for (var begin = 0u; begin < total || (is_last && lit < queued); begin += LANES) {
-            let k = begin + lane;
+        // Pairs of the batch that have been asked for. A round asks for as many as there are lanes, or lights as many as wait.
+        var asked = 0u;
+        loop {
+            let waiting = min(queued - lit, LANES);
+            let lights_now = waiting == LANES || (asked >= total && is_last && waiting > 0u);
+            if asked >= total && !lights_now {
+                break;
+            }
+            let has_pair = lane < select(total - min(asked, total), waiting, lights_now);
             var reaching = 0u;
             var item = 0u;
-            if k < total {
-                let owner = pair_pixel(k);
-                let before = select(0u, pair_ends[max(owner, 1u) - 1u], owner > 0u);
-                let entry = first + nth_bit(marks[owner], k - before);
-                let index = entries[entry].y;
-                let pixel = points[group_point(chunk.group, owner)];
+            if has_pair {
+                if lights_now {
+                    item = queue[(lit + lane) % QUEUE];
+                } else {
+                    let k = asked + lane;
+                    let owner = pair_pixel(k);
+                    let before = select(0u, pair_ends[max(owner, 1u) - 1u], owner > 0u);
+                    item = owner | ((first - chunk.first_entry + nth_bit(marks[owner], k - before)) << 9u);
+                }
+                let index = entries[chunk.first_entry + (item >> 9u)].y;
+                let pixel = points[group_point(chunk.group, item & 63u)];
                 let segment = segment_from(scratch_segment(index));
                 let pair = pair_of(pixel, segment);
                 let share = pair.seen.share;
-                // The colourless density of Velinov et al. (2018) is twice the share.
-                var energy = vec3f(2.0);
-                if METHOD_MASK != MASK_DENSITY {
-                    energy = scratch_energy(scratch_tables, pair.point, pair.seen);
+                if lights_now {
+                    results[lane] = share.segment * light_pair(pair, range.first + ((item >> 6u) & 7u));
+                } else {
+                    // The colourless density of Velinov et al. (2018) is twice the share.
+                    var energy = vec3f(2.0);
+                    if METHOD_MASK != MASK_DENSITY {
+                        energy = scratch_energy(scratch_tables, pair.point, pair.seen);
+                    }
+                    let is_seen = share.segment > 0.0 && is_there(pixel, index, segment);
+                    if is_seen {
+                        reaching = lights_reaching(pair);
+                    }
+                    results[lane] = select(vec3f(0.0), share.segment * energy, is_seen);
+                    shares[lane] = select(vec2f(0.0), share.segment * vec2f(1.0, share.line), is_seen);
                 }
-                let is_seen = share.segment > 0.0 && is_there(pixel, index, segment);
-                if is_seen {
-                    reaching = lights_reaching(pair);
-                    item = owner | ((entry - chunk.first_entry) << 9u);
-                }
-                pair_masks[lane] = select(vec4f(0.0), share.segment * vec4f(energy, 1.0), is_seen);
-                pair_lines[lane] = select(0.0, share.segment * share.line, is_seen);
             }
-            var at = queued + before_lane(lane, countOneBits(reaching));
-            while reaching != 0u {
-                queue[at % QUEUE] = item | (firstTrailingBit(reaching) << 6u);
-                reaching &= reaching - 1u;
-                at += 1u;
-            }
-            queued += workgroupUniformLoad(&lanes_total);
-            for (var j = max(end - own, begin); j < min(end, begin + LANES); j += 1u) {
-                sum.share += pair_masks[j - begin].w;
-                sum.energy += pair_masks[j - begin].xyz;
-                sum.share_by_line += pair_lines[j - begin];
-            }
-            let is_end = is_last && begin + LANES >= total;
-            while queued - lit >= LANES || (is_end && lit < queued) {
-                let waiting = min(queued - lit, LANES);
-                if lane < waiting {
-                    let next = queue[(lit + lane) % QUEUE];
-                    let segment = segment_from(scratch_segment(entries[chunk.first_entry + (next >> 9u)].y));
-                    let pair = pair_of(points[group_point(chunk.group, next & 63u)], segment);
-                    let radiance = pair.seen.share.segment * light_pair(pair, range.first + ((next >> 6u) & 7u));
-                    lit_radiance[lane] = vec4f(radiance, bitcast<f32>(next & 63u));
-                }
+            if lights_now {
                 workgroupBarrier();
                 for (var j = 0u; j < waiting; j += 1u) {
-                    let one = lit_radiance[j];
-                    sum.radiance += select(vec3f(0.0), one.xyz, bitcast<u32>(one.w) == lane);
+                    sum.radiance += select(vec3f(0.0), results[j], (queue[(lit + j) % QUEUE] & 63u) == lane);
                 }
                 lit += waiting;
-                workgroupBarrier();
+            } else {
+                var at = queued + before_lane(lane, countOneBits(reaching));
+                while reaching != 0u {
+                    queue[at % QUEUE] = item | (firstTrailingBit(reaching) << 6u);
+                    reaching &= reaching - 1u;
+                    at += 1u;
+                }
+                queued += workgroupUniformLoad(&lanes_total);
+                for (var j = max(end - own, asked); j < min(end, asked + LANES); j += 1u) {
+                    sum.energy += results[j - asked];
+                    sum.share += shares[j - asked].x;
+                    sum.share_by_line += shares[j - asked].y;
+                }
+                asked += LANES;
             }
+            // The next round writes where this one reads.
+            workgroupBarrier();
         }
     }
     let at = LANES * chunk_index + lane;

@@ -9,16 +9,16 @@ const SORT_DIGITS: u32 = 256u;
 const SORT_WORDS: u32 = 8u;
 
 @group(3) @binding(0) var<uniform> settings: SortSettings;
-@group(3) @binding(1) var<storage, read> entries: array<vec2u>;
+@group(3) @binding(1) var<storage, read> entries: array<vec4u>;
 // How often each digit occurs in each block, digit after digit; then how many entries come before those.
 @group(3) @binding(2) var<storage, read_write> digit_starts: array<u32>;
-@group(3) @binding(3) var<storage, read_write> sorted: array<vec2u>;
+@group(3) @binding(3) var<storage, read_write> sorted: array<vec4u>;
 
 var<workgroup> sort_counts: array<atomic<u32>, SORT_DIGITS>;
 var<workgroup> sort_masks: array<atomic<u32>, SORT_DIGITS * SORT_WORDS>;
 var<workgroup> sort_next: array<u32, SORT_DIGITS>;
 
-fn sort_digit(entry: vec2u) -> u32 {
+fn sort_digit(entry: vec4u) -> u32 {
     return (entry.x >> settings.shift) & (SORT_DIGITS - 1u);
 }
 
@@ -55,7 +55,7 @@ fn sort_scatter(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups
         workgroupBarrier();
         let i = (block * SORT_ROUNDS + round) * SORT_LANES + lane;
         let is_there = is_mine && i < frame.entry_count;
-        var entry: vec2u;
+        var entry: vec4u;
         var digit = 0u;
         if is_there {
             entry = entries[i];

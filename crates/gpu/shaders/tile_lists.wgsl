@@ -1,6 +1,6 @@
 // Pass: where the list of each tile begins among the sorted entries. One invocation a tile.
 
-@group(3) @binding(0) var<storage, read> entries: array<vec2u>;
+@group(3) @binding(0) var<storage, read> entries: array<vec4u>;
 // One more than tiles.
 @group(3) @binding(1) var<storage, read_write> list_starts: array<u32>;
 

@@ -49,17 +49,15 @@ impl BinPasses {
     ) -> Result<usize, Error> {
         let lists = &room.lists;
         let resources = [whole(&lists.entry_starts), whole(&lists.entries[0])];
-        let group = self.bin.bind(gpu, &resources);
         let workgroups = in_a_row(segments.div_ceil(WORKGROUP));
-        self.bin.dispatch(recording, &group, &[], workgroups);
+        self.bin.run(gpu, recording, &resources, workgroups);
         let sorted = self
             .sort
             .record(gpu, recording, scans, lists, tiles, entries);
         let sorted = sorted.await?;
         let resources = [whole(&lists.entries[sorted]), whole(&room.list_starts)];
-        let group = self.tile_lists.bind(gpu, &resources);
         let workgroups = [(tiles + 1).div_ceil(TILES_WORKGROUP), 1];
-        self.tile_lists.dispatch(recording, &group, &[], workgroups);
+        self.tile_lists.run(gpu, recording, &resources, workgroups);
         Ok(sorted)
     }
 }

@@ -75,6 +75,18 @@ impl ComputePass {
         bind(gpu, self.name, &self.group_3, resources)
     }
 
+    /// Binds `resources` to group 3 and records one dispatch.
+    pub fn run(
+        &self,
+        gpu: &Gpu,
+        recording: &mut Recording,
+        resources: &[BindingResource<'_>],
+        workgroups: [u32; 2],
+    ) {
+        let group = self.bind(gpu, resources);
+        self.dispatch(recording, &group, &[], workgroups);
+    }
+
     /// Records one dispatch. `offsets` chooses the parts of dynamic uniforms.
     pub fn dispatch(
         &self,

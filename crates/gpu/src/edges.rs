@@ -29,8 +29,7 @@ impl EdgesPass {
         tiles: u32,
     ) {
         let resources = [whole(&film.buffer), whole(&room.group_starts)];
-        let group = self.0.bind(gpu, &resources);
-        self.0.dispatch(recording, &group, &[], in_a_row(tiles));
+        self.0.run(gpu, recording, &resources, in_a_row(tiles));
         room.group_scan.set_count(gpu, tiles + 1);
         scans.record(recording.encoder, &room.group_scan, recording.timing);
     }

@@ -34,9 +34,9 @@ impl ProjectPass {
         lists: &Lists,
         segments: u32,
     ) {
-        let group = self.0.bind(gpu, &[whole(&lists.entry_starts)]);
         let workgroups = in_a_row((segments + 1).div_ceil(WORKGROUP));
-        self.0.dispatch(recording, &group, &[], workgroups);
+        self.0
+            .run(gpu, recording, &[whole(&lists.entry_starts)], workgroups);
         scans.record(recording.encoder, &lists.entry_scan, recording.timing);
     }
 }

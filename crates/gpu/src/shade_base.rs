@@ -32,7 +32,6 @@ impl ShadeBasePass {
             whole(&room.samples.base_light),
             whole(&film.buffer),
         ];
-        let group = self.0.bind(gpu, &resources);
-        self.0.dispatch(recording, &group, &[], in_a_row(groups));
+        self.0.run(gpu, recording, &resources, in_a_row(groups));
     }
 }

@@ -40,7 +40,6 @@ impl ShadePublishedPass {
             whole(&room.samples.chunk_sums),
             whole(&film.buffer),
         ];
-        let group = self.0.bind(gpu, &resources);
-        self.0.dispatch(recording, &group, &[], in_a_row(groups));
+        self.0.run(gpu, recording, &resources, in_a_row(groups));
     }
 }

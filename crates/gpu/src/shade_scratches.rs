@@ -93,9 +93,8 @@ impl ShadeScratchesPass {
             whole(&room.list_starts),
             whole(&room.samples.chunk_starts),
         ];
-        let group = self.chunks.bind(gpu, &resources);
         let workgroups = in_a_row((groups + 1).div_ceil(CHUNKS_WORKGROUP));
-        self.chunks.dispatch(recording, &group, &[], workgroups);
+        self.chunks.run(gpu, recording, &resources, workgroups);
         room.samples.chunk_scan.set_count(gpu, groups + 1);
         scans.record(
             recording.encoder,

@@ -105,10 +105,10 @@ modules! {
     LIGHTS = "lights" needs [ROWS, SURFACE_POINT, BAND];
     /// From a triangle to the surface point.
     HIT = "hit" needs [SCENE, SURFACE_POINT, CAMERA, GGX];
-    /// A segment in the picture, and the tiles that it comes near to.
+    /// A segment in the picture, and the tiles and pixels that it comes near to.
     PROJECTED = "projected" needs [ROWS, SEGMENTS, FILM];
     /// Which pixels see a segment.
-    NEARNESS = "nearness" needs [PROJECTED, PIXEL_POINT, SCRATCH_LIGHT];
+    NEARNESS = "nearness" needs [SEGMENTS, PIXEL_POINT, SCRATCH_LIGHT, BINDINGS];
     /// What one scratch sends to the viewer of a polygon with many vertices.
     OUTLINE_LIGHT = "outline_light" needs [ROWS, SCRATCH_LIGHT];
     /// The base under lights and environment.

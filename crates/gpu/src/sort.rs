@@ -72,11 +72,9 @@ impl SortPasses {
                 whole(&lists.digit_starts),
                 whole(&lists.entries[1 - from]),
             ];
-            let group = self.count.bind(gpu, &resources);
-            self.count.dispatch(recording, &group, &[], workgroups);
+            self.count.run(gpu, recording, &resources, workgroups);
             scans.record(recording.encoder, &lists.digit_scan, recording.timing);
-            let group = self.scatter.bind(gpu, &resources);
-            self.scatter.dispatch(recording, &group, &[], workgroups);
+            self.scatter.run(gpu, recording, &resources, workgroups);
         }
         Ok(digits as usize % 2)
     }

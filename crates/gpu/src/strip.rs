@@ -25,8 +25,8 @@ const BASE_BYTES: u64 = size_of::<BaseLight>() as u64;
 pub(crate) const GROUP: u32 = 64;
 /// Bytes of the sums of a chunk.
 const CHUNK_BYTES: u64 = GROUP as u64 * size_of::<ChunkSum>() as u64;
-/// Bytes of an entry of a tile list: tile and segment.
-const ENTRY_BYTES: u64 = 8;
+/// Bytes of an entry of a tile list: tile, segment, and a bit for each pixel of the tile.
+const ENTRY_BYTES: u64 = 16;
 
 /// What lies over the pixels and the tiles of a strip.
 pub(crate) struct StripRoom {

@@ -41,8 +41,7 @@ impl SurfacePass {
             whole(&room.group_starts),
             whole(&film.buffer),
         ];
-        let group = self.0.bind(gpu, &resources);
         let size = [room.width_px, rows + 2].map(|n| n.div_ceil(TILE_PX));
-        self.0.dispatch(recording, &group, &[], size);
+        self.0.run(gpu, recording, &resources, size);
     }
 }

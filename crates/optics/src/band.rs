@@ -17,7 +17,7 @@ mod outline;
 
 pub use lines::{
     BAND_REACH_STD, BAND_STD_MAX, BandLines, BandMotion, BandPlace, BandStds, MovedBand,
-    band_is_whole, band_lines, band_move, band_moves, band_reaches, band_stds, moved_band,
+    band_is_whole, band_lines, band_moves, band_reaches, band_stds, moved_band,
 };
 pub use outline::{Outline, OutlineEdge, OutlineRoots};
 

@@ -127,74 +127,6 @@ fn spheres() {
 }
 
 #[test]
-fn polygons() {
-    let mut random = Sequence(3);
-    let mut rows = Vec::new();
-    for _ in 0..20_000 {
-        let wo = random.direction(0.0);
-        let center = random.direction(-0.5);
-        let size = 10f32.powf(random.between(-2.5, 0.5));
-        // A triangle about a centre, in the plane across it: always seen from the front.
-        let n = glam::Vec3::from(center);
-        let (u, w) = n.any_orthonormal_pair();
-        let turn = random.between(0.0, std::f32::consts::TAU);
-        let corner = |k: f32| n + size * (u * (turn + 2.1 * k).cos() + w * (turn + 2.1 * k).sin());
-        let (a, b, c) = (corner(0.0), corner(1.0), corner(2.0));
-        rows.push([
-            wo[0], wo[1], wo[2], a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z,
-        ]);
-    }
-    Twin {
-        name: "polygon roots and windings",
-        modules: &[&shaders::BAND],
-        snippet: "let wo = vec3f(x[0], x[1], x[2]);
-            var corners = array<vec3f, 3>(normalize(vec3f(x[3], x[4], x[5])), normalize(vec3f(x[6], x[7], x[8])), normalize(vec3f(x[9], x[10], x[11])));
-            let line = band_line_at(wo, 0.0);
-            var winding = 0.0;
-            var low = 9.0;
-            var high = -9.0;
-            for (var i = 0; i < 3; i += 1) {
-                let a = corners[i];
-                let b = corners[(i + 1) % 3];
-                let roots = edge_roots(line, a, b);
-                y[0] += select(0.0, roots.rising, roots.rises) - select(0.0, roots.falling, roots.falls);
-                winding += edge_winding(line_down(line), a, b);
-                let extent = edge_band_extent(a, b);
-                low = min(low, extent.x);
-                high = max(high, extent.y);
-            }
-            let away = vec3f(x[3], x[4], x[5]) + vec3f(x[6], x[7], x[8]) + vec3f(x[9], x[10], x[11]);
-            if abs(winding) > 3.14159265 && dot(line_down(line), away) > 0.0 {
-                // Counter-clockwise about the outward direction is clockwise for the eye at the origin.
-                y[0] -= band_q_start(line) - band_q_end(line);
-            }
-            y[1] = low; y[2] = high;",
-        tables: &[],
-        expected: &|x: [f64; 12]| {
-            let wo = v(x[0], x[1], x[2]);
-            let vertices = [v(x[3], x[4], x[5]), v(x[6], x[7], x[8]), v(x[9], x[10], x[11])];
-            let directions = vertices.map(|p| p.normalize());
-            let frame = BandFrame { tangent: DVec2::X };
-            let (away, facing) = polygon_facing(vertices.iter().copied(), true);
-            let view = PolygonView { directions: &directions, away, facing };
-            // The outline's: what a polygon around the tangent adds is a test of the band's own.
-            let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-            for i in 0..3 {
-                let (l, h) = edge_band_extent(directions[i], directions[(i + 1) % 3]);
-                (low, high) = (low.min(l), high.max(h));
-            }
-            // The shader's sum is for a polygon seen counter-clockwise.
-            let sum = view.integral(frame, BandLine::new(wo, 0.0), |q| [q])[0];
-            [sum * facing, low, high]
-        },
-        tolerance: Tolerance { absolute: 1e-3, relative: 1e-3 },
-    }
-    // A vertex within rounding of the line falls on either side of it; the chord between is short unless the edge runs along
-    // the line.
-    .check(&rows, rows.len() / 2000);
-}
-
-#[test]
 fn band_widths() {
     Twin {
         name: "band_stds",
@@ -273,13 +205,13 @@ fn moving_bands() {
         rows.push([std, x, y, along, across, offset, wi[0], wi[1], wi[2]]);
     }
     Twin {
-        name: "band_move and moved_band",
+        name: "band_moves and moved_band",
         modules: &[&shaders::BAND],
         snippet: "let wi = vec3f(x[6], x[7], x[8]);
             let wo = vec3f(0.6, 0.0, 0.8);
             let moves = vec2f(
-                band_move(x[1], vec3f(x[3], x[4], 0.0), wo, 2e-6, wi, 1e-5),
-                band_move(x[2], vec3f(-x[4], x[3], 0.0), wo, 2e-6, wi, 1e-5),
+                band_moves(vec2f(x[1], 0.0), vec3f(x[3], x[4], 0.0), wo, 2e-6, wi, 1e-5).x,
+                band_moves(vec2f(x[2], 0.0), vec3f(-x[4], x[3], 0.0), wo, 2e-6, wi, 1e-5).x,
             );
             let across = vec2f(x[4], x[3]);
             let band = moved_band(x[0] * vec4f(1.1, 1.0, 0.8, 1.05), moves, across, x[5], dot(across, across) + 200.0);
@@ -289,8 +221,8 @@ fn moving_bands() {
             let (wi, wo) = (v(wx, wy, wz), v(0.6, 0.0, 0.8));
             let stds = BandStds { mean: 1.05 * std, channels: [1.1, 1.0, 0.8].map(|c| c * std) };
             let moves = [
-                band_move(turn_x, v(along, across, 0.0), wo, 2e-6, wi, 1e-5),
-                band_move(turn_y, v(-across, along, 0.0), wo, 2e-6, wi, 1e-5),
+                band_moves(DVec2::new(turn_x, 0.0), v(along, across, 0.0), wo, 2e-6, wi, 1e-5).x,
+                band_moves(DVec2::new(turn_y, 0.0), v(-across, along, 0.0), wo, 2e-6, wi, 1e-5).x,
             ];
             let variance = along * along + across * across + 200.0;
             let band = moved_band(stds, moves, [across, along], offset, variance);
@@ -341,7 +273,7 @@ fn bands_of_all_scratches_move_at_once() {
             let frame = BandFrame { tangent: DVec2::new(x[11], x[12]) };
             let turned = |at: usize| frame.band_from_surface(v(x[at], x[at + 1], x[at + 2]));
             let turn_t = frame.tangent.dot(DVec2::new(x[0], x[1]));
-            let moved = band_move(turn_t, turned(2), turned(5), 2e-6, turned(8), 1e-5);
+            let moved = band_moves(DVec2::new(turn_t, 0.0), turned(2), turned(5), 2e-6, turned(8), 1e-5).x;
             let cap = Cap { axis: v(x[8], x[9], x[10]), sin_radius: 0.6, cos_radius: 0.8 }.turned(frame);
             [moved, cap.axis.x, cap.axis.y, cap.axis.z, cap.sin_radius, cap.cos_radius]
         },

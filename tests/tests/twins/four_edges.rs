@@ -125,8 +125,9 @@ fn expected(x: [f64; INPUTS]) -> [f64; 5] {
 static MODULES: &[&shaders::Module] = &[&shaders::FOUR_EDGES];
 const SNIPPET: &str = "let line = band_line_at(vec3f(x[0], x[1], x[2]), x[3]);
     let a = vec3f(x[4], x[5], x[6]);
+    let d = vec3f(x[13], x[14], x[15]);
     let away = vec3f(x[16], x[17], x[18]);
-    let edges = FourEdges(a, vec3f(x[7], x[8], x[9]), vec3f(x[10], x[11], x[12]), vec3f(x[13], x[14], x[15]));
+    let edges = FourEdges(a, vec3f(x[7], x[8], x[9]), vec3f(x[10], x[11], x[12]), d, select(4u, 3u, all(d == a)));
     var roots = four_edges_roots(edges, line, away);
     let range = roots.range;
     for (var i = 0u; i < roots.count + u32(roots.wraps); i += 1u) {

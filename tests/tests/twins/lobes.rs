@@ -411,10 +411,10 @@ fn sphere_row(x: [f64; 9]) -> (DVec3, f64, DVec3, f64, f64) {
 fn spheres() {
     let tables = tables();
     let mut twin = Twin {
-        name: "sphere_light and lambert_sphere",
+        name: "ltc_sphere and lambert_sphere",
         modules: &[&shaders::LTC],
         snippet: "let axis = vec3f(x[4], x[5], x[6]);
-            let i = sphere_light(vec3f(x[0], x[1], x[2]), x[3], axis, x[7], table_0, table_1) / x[8];
+            let i = ltc_sphere(ltc_lobe(vec3f(x[0], x[1], x[2]), x[3], table_0, table_1), axis, x[7]) / x[8];
             y[0] = i.x; y[1] = i.y; y[2] = i.z;
             y[3] = lambert_sphere(axis, x[7]) / max(x[7], 1e-12);",
         tables: &tables,

@@ -63,9 +63,9 @@ fn in_the_shader() {
             let cap = Cap(a, x[12], sqrt(1.0 - x[12] * x[12]));
             let line = band_line_at(wo, x[13]);
             let chord = sphere_chord(line, cap);
-            let roots = edge_roots(line, a, b);
-            let extent = edge_band_extent(a, b) + sphere_band_extent(wo, cap);
-            let moves = vec2f(band_move(x[16], a, wo, x[14], b, x[15]), band_move(x[17], b, wo, x[14], a, x[15]));
+            let roots = band_edge_crossings(band_edge(a, b), line);
+            let extent = band_edge_extent(band_edge(a, b)) + sphere_band_extent(wo, cap);
+            let moves = vec2f(band_moves(vec2f(x[16]), a, wo, x[14], b, x[15]).x, band_moves(vec2f(x[17]), b, wo, x[14], a, x[15]).y);
             let moved = moved_band(band_stds(20.0), moves, vec2f(x[14], x[16]), x[17], x[14] * x[14] + x[16] * x[16] + 200.0);
             let lines = band_lines(wo.x + moved.shift, extent.x, extent.y, moved.stds);
             let node = band_line(lines, 0u);
@@ -79,7 +79,7 @@ fn in_the_shader() {
             let masked = mask_resolve(sums, x[23]);
             // Repeated directions, opposite ones, and one that a point in a vertex has: none.
             let c = select(a, vec3f(0.0), x[23] < 0.6);
-            let edges = FourEdges(a, b, select(c, -b, x[23] > 0.9), c);
+            let edges = FourEdges(a, b, select(c, -b, x[23] > 0.9), c, 4u);
             var four = four_edges_roots(edges, line, b);
             let outline = four_edges_extent(edges, a);
             y[3] = outline.x + outline.y + four.range.x + four.range.y + four.rising.x + four.rising.y + four.rising.z + four.rising.w
@@ -89,7 +89,7 @@ fn in_the_shader() {
                 y[3] += ends.x + ends.y;
             }
             y[0] = masked.scratches.x + masked.taken.y;
-            y[1] = select(0.0, node.x + node.z + node.w + band.x + band.z, lines.count > 0u) + edge_winding(line_down(line), a, b);
+            y[1] = select(0.0, node.x + node.z + node.w + band.x + band.z, lines.count > 0u) + f32(line_winding(line, a, b));
             let range = chord_range(chord, line);
             y[2] = chord_cos(line, range.x, range.y, x[14]) + chord_cos(line, x[16], x[17], x[14]) + cell.q_low + cell.q_high + cell.direction.y + cell.direction.z + environment_cell_roughness(cell);",
         tables: &tables,

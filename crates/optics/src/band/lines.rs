@@ -42,24 +42,10 @@ impl BandStds {
 /// Beyond this a pixel sees light from all around, and the small-angle picture of a turning normal is void.
 pub const BAND_STD_MAX: f64 = 0.3;
 
-/// How xi_t = (wi + wo).t moves over one standard deviation of the pixel's filter, to the right or down. `turn_t` is the turn of
-/// the normal along t: t turns with it, towards or away from the normal. `axis` is the step on the surface, in the frame of the
-/// scratch: both directions turn against it. A light at infinity has no distance to divide by: `per_distance_i` is 1/distance,
-/// per unit of the axis, like `per_distance_o`.
-pub fn band_move(
-    turn_t: f64,
-    axis: DVec3,
-    wo: DVec3,
-    per_distance_o: f64,
-    wi: DVec3,
-    per_distance_i: f64,
-) -> f64 {
-    let turned = |w: DVec3| w.x * axis.dot(w) - axis.x;
-    turned(wo) * per_distance_o + turned(wi) * per_distance_i - turn_t * (wo.z + wi.z).max(0.0)
-}
-
-/// [`band_move`] for every scratch of a surface at once: what it is, is the part of this along the scratch's tangent. Vectors
-/// are in the surface's frame, `turn` is the whole turn of the normal.
+/// How xi_t = (wi + wo).t moves over one standard deviation of the pixel's filter, to the right or down: for each scratch of the surface
+/// the part of this along its tangent t. `turn` is how the normal turns, and t with it. `axis` is the step on the surface: both
+/// directions turn against it. Vectors are in the surface's frame, or in any frame with its normal for z. A light at infinity has no
+/// distance to divide by: `per_distance_i` is 1/distance, per unit of the axis, like `per_distance_o`.
 pub fn band_moves(
     turn: DVec2,
     axis: DVec3,
@@ -81,7 +67,7 @@ pub struct MovedBand {
     pub stds: BandStds,
 }
 
-/// The band of a scratch that a pixel sees at a distance of `offset_um` across it. `moves` is [`band_move`] along the pixel's two
+/// The band of a scratch that a pixel sees at a distance of `offset_um` across it. `moves` is [`band_moves`] along the pixel's two
 /// axes, `across_um` the axes' components across the scratch; `variance_um2` is the footprint's variance across plus the
 /// window's. Of two normal variables one is known: the part that sees the scratch lies about `offset_um` off.
 pub fn moved_band(

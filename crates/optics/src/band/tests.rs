@@ -540,14 +540,8 @@ fn directions_move_as_vectors_do() {
     let xi = |step: DVec3, t: DVec3| ((eye - step).normalize() + (lamp - step).normalize()).dot(t);
     let exact = xi(axis, tangent) - xi(DVec3::ZERO, DVec3::X);
     let (wo, wi) = (eye.normalize(), lamp.normalize());
-    let value = band_move(
-        turn_t,
-        axis,
-        wo,
-        1.0 / eye.length(),
-        wi,
-        1.0 / lamp.length(),
-    );
+    let turn = DVec2::new(turn_t, 0.0);
+    let value = band_moves(turn, axis, wo, 1.0 / eye.length(), wi, 1.0 / lamp.length()).x;
     // First order in steps of 1e-4.
     assert!((value / exact - 1.0).abs() < 1e-3, "{value} {exact}");
 }
