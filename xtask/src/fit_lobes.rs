@@ -86,7 +86,7 @@ fn fit_node(row: usize, column: usize) -> Node {
     let (roughness, cos_o) = lobe_table_node(row, column);
     let cos_o = cos_o.max(LOBE_MIN_COS);
     let alpha = ggx_alpha(roughness);
-    let [e0, e1, e2] = ggx_albedo(cos_o, alpha, ALBEDO_STEPS);
+    let e0 = ggx_albedo(cos_o, alpha, ALBEDO_STEPS);
     // The lean is stored over sin(theta), which leaves it undetermined at the normal: fit that node 4 degrees off.
     let target = Target::new(cos_o.min(0.9975), alpha);
     let (ltc, ltc_error) = fit_ltc(&target);
@@ -94,7 +94,7 @@ fn fit_node(row: usize, column: usize) -> Node {
     Node {
         roughness,
         cos_o,
-        albedo: [e0 as f32, e1 as f32, e2 as f32, 0.0],
+        albedo: [e0 as f32, 0.0, 0.0, 0.0],
         ltc: [ltc.width_x as f32, ltc.width_y as f32, ltc.lean as f32, 0.0],
         ltc_error,
         sptd: [sptd.width as f32, sptd.lean as f32, 0.0, 0.0],
@@ -121,7 +121,7 @@ impl Target {
         Self {
             wo,
             alpha,
-            albedo: ggx_albedo(cos_o, alpha, 128)[0],
+            albedo: ggx_albedo(cos_o, alpha, 128),
             samples,
         }
     }
@@ -149,7 +149,7 @@ fn fit_ltc(target: &Target) -> (LtcShape, f64) {
         lean: p[2],
     };
     let error = |p: &[f64; 3]| {
-        let lobe = LtcLobe::new(target.wo, target.alpha, shape(p), [target.albedo, 0.0, 0.0]);
+        let lobe = LtcLobe::new(target.wo, target.alpha, shape(p), target.albedo);
         let outside = lean_outside(p[2], target);
         outside
             + target.error(

@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod fit_lobes;
+mod fuzz;
 mod make_models;
 mod pictures;
 mod shaders;
@@ -15,6 +16,8 @@ enum Command {
     Accuracy(accuracy::Accuracy),
     /// Fit the tables of the area-light lobes and write them to crates/optics/data.
     FitLobes(fit_lobes::FitLobes),
+    /// Run mutated inputs through the command line: no panic, no hang, no flood of memory.
+    Fuzz(fuzz::Fuzz),
     /// Make the models and the sky of scenes/, and write them to scenes/models and scenes/maps.
     MakeModels(make_models::MakeModels),
     /// Render the pictures of the docs into docs/pictures.
@@ -27,6 +30,7 @@ fn main() -> anyhow::Result<()> {
     match Command::parse() {
         Command::Accuracy(command) => command.run(),
         Command::FitLobes(command) => command.run(),
+        Command::Fuzz(command) => command.run(),
         Command::MakeModels(command) => command.run(),
         Command::Pictures(command) => command.run(),
         Command::Shaders(command) => command.run(),

@@ -15,6 +15,7 @@ use hairline_reference::closed_form::{self, Prepared};
 use hairline_scene::{Scene, ScratchTables};
 
 use crate::cli::Backend;
+use crate::console::tell;
 use crate::failure::Failure;
 use crate::progress::Progress;
 pub use fine::FINE_SAMPLES;
@@ -201,14 +202,16 @@ fn announce_cpu(why: &str) {
         1 => String::from("1 thread"),
         threads => format!("{threads} threads"),
     };
-    eprintln!("rendering on the CPU, {threads}: {why}");
+    tell(format_args!("rendering on the CPU, {threads}: {why}"));
 }
 
 fn announce_gpu(gpu: &Gpu, why: &str) {
-    eprintln!("rendering on {}: {why}", gpu.adapter);
+    tell(format_args!("rendering on {}: {why}", gpu.adapter));
 }
 
 fn warn_of(gpu: &Gpu, error: &hairline_gpu::Error) {
     let name = &gpu.adapter.name;
-    eprintln!("warning: {name} failed ({error}); the CPU renders instead");
+    tell(format_args!(
+        "warning: {name} failed ({error}); the CPU renders instead"
+    ));
 }

@@ -11,8 +11,7 @@ mod text;
 mod timing;
 mod worker;
 
-use std::io::{self, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use anyhow::anyhow;
@@ -20,6 +19,7 @@ use hairline_image::output::{check_writable, write_atomically};
 use hairline_scene::Object;
 
 use crate::cli::{self, Part};
+use crate::console::{print, tell};
 use crate::failure::Failure;
 use crate::progress::Progress;
 use crate::scene_file::{self, Overrides};
@@ -62,7 +62,7 @@ pub fn run(arguments: &cli::Bench) -> Result<(), Failure> {
     }
     let mut worker = Worker::open(arguments.backend)?;
     let machine = Machine::of(&worker);
-    eprintln!("measuring on {}", machine.in_words());
+    tell(format_args!("measuring on {}", machine.in_words()));
     let figures = measure(arguments, &mut worker, machine)?;
     let text = text::document(&figures);
     print(&text)?;
@@ -74,15 +74,6 @@ pub fn run(arguments: &cli::Bench) -> Result<(), Failure> {
         write_atomically(path, text.as_bytes())?;
     }
     Ok(())
-}
-
-/// To stdout.
-fn print(text: &str) -> Result<(), Failure> {
-    match io::stdout().lock().write_all(text.as_bytes()) {
-        // Somebody downstream has read enough.
-        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
-        result => result.map_err(|error| Failure::Work(error.into())),
-    }
 }
 
 /// The bench's scene as it is asked for.
@@ -148,7 +139,13 @@ fn measure(
             size_px: arguments.size,
             ..Overrides::default()
         };
-        let scene = scene_file::load(Some(path.as_path()), &overrides)?.scene;
+        let outputs = [&arguments.json, &arguments.output];
+        let outputs: Vec<&Path> = outputs
+            .into_iter()
+            .flatten()
+            .map(PathBuf::as_path)
+            .collect();
+        let scene = scene_file::load(Some(path.as_path()), &overrides, &outputs)?.scene;
         figures.scene = file_name(path);
         figures.size_px = scene.render.size_px;
         let of = |object: &Object| object.scratches.len() as u32;

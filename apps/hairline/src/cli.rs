@@ -6,7 +6,7 @@ use std::time::Duration;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use hairline_image::{FPS_MAX, Layer, ToneMap};
-use hairline_viewer::DEFAULT_SAMPLES;
+use hairline_scene::DEFAULT_SAMPLES;
 
 use crate::compare::limits::{self, Limit};
 use crate::method_flags::{Mask, MethodFlags};
@@ -36,14 +36,35 @@ pub enum Command {
     Reference(Reference),
     /// Measure how long the default method and the published one take, and how far they are from the truth.
     Bench(Bench),
-    /// Show the version, the graphics adapters and what they can do, and the backends available.
-    Info,
+    /// Show the version, the graphics adapters and what they can do, and the backends available; or what is in a scene.
+    Info(Info),
+    /// Print what a shell needs to complete this command line.
+    Completions(Completions),
+    /// Print the manual page (roff): `hairline man | man -l -`.
+    Man,
+}
+
+/// `hairline info`
+#[derive(Args, Debug)]
+pub struct Info {
+    /// A scene file (TOML) or a model (.glb, .gltf); - reads a scene from stdin. Without it: what there is on this machine.
+    pub scene: Option<PathBuf>,
+    /// Print the scene as JSON.
+    #[arg(long, requires = "scene")]
+    pub json: bool,
+}
+
+/// `hairline completions`
+#[derive(Args, Debug)]
+pub struct Completions {
+    /// The shell.
+    pub shell: clap_complete::Shell,
 }
 
 /// `hairline view`
 #[derive(Args, Debug, Default)]
 pub struct View {
-    /// The scene file (TOML). Without it: the built-in scene.
+    /// The scene file (TOML), or a model (.glb, .gltf), which is shown in a lit scene. Without it: the built-in scene.
     pub scene: Option<PathBuf>,
     /// What renders. auto: the window's GPU, or the CPU renderer where the window is drawn by a software driver.
     #[arg(long, value_enum, default_value_t = Backend::Auto)]
@@ -59,7 +80,8 @@ pub struct View {
 /// `hairline render`
 #[derive(Args, Debug)]
 pub struct Render {
-    /// The scene file (TOML). Without it: the built-in scene.
+    /// The scene file (TOML), or a model (.glb, .gltf), which is shown in a lit scene; - reads a scene from stdin. Without it: the
+    /// built-in scene.
     pub scene: Option<PathBuf>,
     /// The picture: .png (tone-mapped, sRGB) or .exr (linear, 32-bit float, layers). Without it: the scene's name with .png,
     /// or hairline.png, in the current folder.
@@ -85,6 +107,16 @@ pub struct Render {
     /// Exposure in stops, in place of the scene's: radiances are multiplied by 2^EV before the tone map of a .png.
     #[arg(long, value_name = "EV", allow_negative_numbers = true, value_parser = parse_exposure)]
     pub exposure: Option<f64>,
+    /// The curve from radiance to a .png, in place of the scene's.
+    #[arg(long, value_name = "CURVE", value_parser = tone_maps())]
+    pub tone_map: Option<ToneMap>,
+    /// Put the highlight here: move a light so that its mirror image lies at this pixel of the picture, counted from the upper left
+    /// corner. The first light that is not hidden, or the one of this name.
+    #[arg(long, value_name = "X,Y[,LIGHT]", value_parser = parse_highlight)]
+    pub highlight: Option<Highlight>,
+    /// Render again whenever the scene or one of its files changes, until Ctrl-C.
+    #[arg(long, conflicts_with_all = ["frames", "turntable", "zoom", "animation", "stability"])]
+    pub watch: bool,
     /// Many pictures in place of one.
     #[command(flatten)]
     pub sequence: SequenceFlags,
@@ -161,7 +193,7 @@ const COMPARE_EXIT_CODES: &str = "Exit codes: 0 done; 1 a figure is beyond its l
 #[derive(Args, Debug)]
 #[command(after_help = REFERENCE_HELP)]
 pub struct Reference {
-    /// The scene file (TOML).
+    /// The scene file (TOML), or a model (.glb, .gltf), which is shown in a lit scene; - reads a scene from stdin.
     pub scene: PathBuf,
     /// The picture: .exr (linear, layers, variance; can be gone on with) or .png (tone-mapped, sRGB). Without it: the scene's
     /// name with -reference.exr, in the current folder.
@@ -293,6 +325,33 @@ pub enum Backend {
     Gpu,
     /// The CPU renderer: needs no driver.
     Cpu,
+}
+
+/// Where a highlight is wanted.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Highlight {
+    /// The pixel, from the upper left corner.
+    pub pixel: [f64; 2],
+    /// The name of the light; none: the first.
+    pub light: Option<String>,
+}
+
+fn parse_highlight(text: &str) -> Result<Highlight, String> {
+    let mut parts = text.splitn(3, ',');
+    let mut pixel = || {
+        let number = parts.next()?.trim().parse::<f64>().ok();
+        number.filter(|it| (0.0..=f64::from(SIDE_MAX_PX)).contains(it))
+    };
+    match (pixel(), pixel()) {
+        (Some(x), Some(y)) => Ok(Highlight {
+            pixel: [x, y],
+            light: parts.next().map(str::to_owned),
+        }),
+        _ => Err(
+            "write a pixel X,Y, as in 640,360, and the name of a light behind it if need be"
+                .to_owned(),
+        ),
+    }
 }
 
 /// As scene files allow.

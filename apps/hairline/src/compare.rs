@@ -9,11 +9,14 @@ use std::path::{Path, PathBuf};
 use anyhow::anyhow;
 use hairline_image::metrics::{self, Comparison, Problem};
 use hairline_image::{Display, Layers};
+use hairline_scene::inputs::Input;
 
 use self::limits::Finding;
 use crate::cli;
+use crate::console::{print, tell};
 use crate::failure::Failure;
 use crate::progress::Progress;
+use crate::scene_file::refuse_inputs;
 
 /// One of the two pictures.
 struct Side {
@@ -39,6 +42,18 @@ impl Side {
 pub fn run(arguments: &cli::Compare) -> Result<(), Failure> {
     // Before the work, as for a render.
     let output = arguments.output.as_deref().map(check_output).transpose()?;
+    if let Some(output) = output {
+        for (what, input) in [
+            ("the picture", &arguments.a),
+            ("the reference", &arguments.b),
+        ] {
+            let input = Input {
+                what: what.to_owned(),
+                path: input.clone(),
+            };
+            refuse_inputs(&[output], None, &[input])?;
+        }
+    }
     let progress = Progress::start("reading");
     let a = Side::read(&arguments.a, &arguments.layers)?;
     let b = Side::read(&arguments.b, &arguments.layers)?;
@@ -51,13 +66,16 @@ pub fn run(arguments: &cli::Compare) -> Result<(), Failure> {
     drop(progress);
     refuse_the_incomparable(&a, &b, &comparison)?;
     for problem in &comparison.problems {
-        eprintln!("warning: {problem}");
+        tell(format_args!("warning: {problem}"));
     }
 
     if arguments.json {
-        println!("{:#}", table::json(&a, &b, &display, &comparison));
+        print(&format!(
+            "{:#}\n",
+            table::json(&a, &b, &display, &comparison)
+        ))?;
     } else {
-        print!("{}", table::text(&a, &b, &comparison));
+        print(&table::text(&a, &b, &comparison))?;
     }
     if let Some(path) = output {
         let page = report::page(&a, &b, &display, &comparison)?;

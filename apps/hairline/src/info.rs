@@ -1,21 +1,26 @@
-//! `hairline info`: what there is on this machine.
+//! `hairline info`: what there is on this machine, or in a scene.
 
-use std::io::{self, Write};
+mod scene;
+
+use std::fmt::{self, Write};
 
 use hairline_gpu::headless;
 
+use crate::cli;
+use crate::console::print;
 use crate::failure::Failure;
 
 /// Prints to stdout.
-pub fn run() -> Result<(), Failure> {
-    match print(&mut io::stdout().lock()) {
-        // Somebody downstream has read enough.
-        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
-        result => result.map_err(|error| Failure::Work(error.into())),
+pub fn run(arguments: &cli::Info) -> Result<(), Failure> {
+    if let Some(path) = &arguments.scene {
+        return scene::run(path, arguments.json);
     }
+    let mut text = String::new();
+    machine(&mut text).map_err(|error| Failure::Work(error.into()))?;
+    print(&text)
 }
 
-fn print(out: &mut impl Write) -> io::Result<()> {
+fn machine(out: &mut String) -> fmt::Result {
     let adapters = headless::adapters();
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     writeln!(out, "hairline {}", env!("CARGO_PKG_VERSION"))?;

@@ -6,21 +6,26 @@ mod backend;
 mod bench;
 mod cli;
 mod compare;
+mod console;
 mod failure;
+mod highlight;
 mod info;
 mod interrupt;
+mod manual;
 mod method_flags;
 mod progress;
 mod reference;
 mod render;
 mod scene_file;
 mod view;
+mod watch;
 
 use std::process::ExitCode;
 
 use clap::Parser;
 
 fn main() -> ExitCode {
+    console::tell_of_panics();
     quiet_the_search_for_wayland();
     let cli = cli::Cli::parse();
     let result = match &cli.command {
@@ -28,14 +33,16 @@ fn main() -> ExitCode {
         Some(cli::Command::Compare(arguments)) => compare::run(arguments),
         Some(cli::Command::Reference(arguments)) => reference::run(arguments),
         Some(cli::Command::Bench(arguments)) => bench::run(arguments),
-        Some(cli::Command::Info) => info::run(),
+        Some(cli::Command::Info(arguments)) => info::run(arguments),
+        Some(cli::Command::Completions(arguments)) => manual::completions(arguments.shell),
+        Some(cli::Command::Man) => manual::page(),
         Some(cli::Command::View(arguments)) => view::run(arguments),
         None => view::run(&cli::View::default()),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
-            eprintln!("error: {failure}");
+            console::tell(format_args!("error: {failure}"));
             failure.exit_code()
         }
     }

@@ -4,6 +4,8 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
+use crate::console::tell;
+
 /// A bar on stderr, gone when dropped.
 pub struct Progress {
     bar: ProgressBar,
@@ -43,7 +45,8 @@ impl Progress {
 
     /// A line on stderr, in a pipe as well.
     pub fn warn(&self, warning: &str) {
-        self.bar.suspend(|| eprintln!("warning: {warning}"));
+        self.bar
+            .suspend(|| tell(format_args!("warning: {warning}")));
     }
 
     /// Begins another part of the work.

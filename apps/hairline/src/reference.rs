@@ -12,6 +12,7 @@ use hairline_optics::mask::Mask;
 use hairline_reference::monte_carlo::{BATCH_SAMPLES, Integrator, Model, Settings};
 
 use crate::cli;
+use crate::console::tell;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::scene_file::{self, Overrides};
@@ -43,9 +44,9 @@ pub fn run(arguments: &cli::Reference) -> Result<(), Failure> {
         size_px: arguments.size,
         exposure_ev: arguments.exposure,
         scratch_seed: arguments.seed,
-        // It needs no grids, and no memory for them.
+        ..Overrides::default()
     };
-    let loaded = scene_file::load(scene_path, &overrides)?;
+    let loaded = scene_file::load(scene_path, &overrides, &[output.path()])?;
     let scene = &loaded.scene;
     let fingerprint =
         fingerprint::fingerprint(&loaded.description, &loaded.folder).map_err(Failure::Work)?;
@@ -60,10 +61,10 @@ pub fn run(arguments: &cli::Reference) -> Result<(), Failure> {
     if let Some(count) = count
         && count.least >= limits.samples
     {
-        eprintln!(
+        tell(format_args!(
             "{name} has {} samples for each pixel already: nothing to do",
             count.least
-        );
+        ));
         return Ok(());
     }
     let from = match (count, exists) {
@@ -78,11 +79,12 @@ pub fn run(arguments: &cli::Reference) -> Result<(), Failure> {
     // From here on there is something to lose.
     let interrupt = Interrupt::listen()
         .map_err(|error| Failure::Work(anyhow!("cannot listen for Ctrl-C: {error}")))?;
-    eprintln!("{}: {from}", announcement(arguments, &settings, &limits));
+    tell(format_args!(
+        "{}: {from}",
+        announcement(arguments, &settings, &limits)
+    ));
     if output.format() == Format::Png {
-        eprintln!(
-            "warning: a .png keeps neither the variance nor what --resume needs; an .exr does"
-        );
+        tell("warning: a .png keeps neither the variance nor what --resume needs; an .exr does");
     }
 
     let display = Display {
@@ -117,7 +119,10 @@ pub fn run(arguments: &cli::Reference) -> Result<(), Failure> {
     } else {
         ""
     };
-    eprintln!("{reason}: {name} has {}{black}{go_on}", listed(count));
+    tell(format_args!(
+        "{reason}: {name} has {}{black}{go_on}",
+        listed(count)
+    ));
     Ok(())
 }
 

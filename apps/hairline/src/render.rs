@@ -5,6 +5,8 @@ mod motion;
 mod sequence;
 mod steadiness;
 
+use std::path::Path;
+
 use anyhow::anyhow;
 use hairline_image::exr_file::Notes;
 use hairline_image::{Animation, Display, Image, Output};
@@ -14,12 +16,20 @@ use crate::backend::{Painter, Task};
 use crate::failure::Failure;
 use crate::progress::Progress;
 use crate::scene_file::{self, Overrides};
-use crate::{cli, method_flags};
+use crate::{cli, method_flags, watch};
 use goals::Goals;
 use motion::Motion;
 
-/// Loads, renders and writes.
+/// Loads, renders and writes, once or whenever the scene changes.
 pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
+    match arguments.watch {
+        true => watch::run(arguments),
+        false => once(arguments),
+    }
+}
+
+/// Loads, renders and writes.
+pub fn once(arguments: &cli::Render) -> Result<(), Failure> {
     let method = arguments.method.method()?;
     let motion = Motion::of(&arguments.sequence)?;
     // Before the work: nobody should wait for a picture that then has no place to go.
@@ -31,8 +41,10 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
         size_px: arguments.size,
         exposure_ev: arguments.exposure,
         scratch_seed: arguments.seed,
+        tone_map: arguments.tone_map,
+        highlight: arguments.highlight.as_ref(),
     };
-    let loaded = scene_file::load(arguments.scene.as_deref(), &overrides)?;
+    let loaded = scene_file::load(arguments.scene.as_deref(), &overrides, &target.paths())?;
     if let Some(motion) = &motion {
         motion.check(&loaded.description.camera)?;
     }
@@ -68,6 +80,18 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
 enum Target<'a> {
     One(Output),
     Many(&'a Motion, Goals),
+}
+
+impl Target<'_> {
+    fn paths(&self) -> Vec<&Path> {
+        match self {
+            Self::One(output) => vec![output.path()],
+            Self::Many(_, goals) => {
+                let pictures = goals.pictures.iter().map(Output::path);
+                pictures.chain(goals.animation.as_deref()).collect()
+            }
+        }
+    }
 }
 
 fn single(arguments: &cli::Render) -> Result<Output, Failure> {

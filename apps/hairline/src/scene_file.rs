@@ -3,10 +3,17 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
+use hairline_image::ToneMap;
 use hairline_scene::description::Description;
-use hairline_scene::{Loader, Scene, Stage};
+use hairline_scene::inputs::{Input, is_same_file};
+use hairline_scene::memory::{self, Estimate};
+use hairline_scene::{Loader, Scene, SceneBuilder, Stage, reading};
 
+use crate::cli::Highlight;
+
+use crate::console::tell;
 use crate::failure::Failure;
+use crate::highlight;
 use crate::progress::Progress;
 
 /// The scene that is there without a file.
@@ -14,13 +21,17 @@ pub const BUILT_IN: &str = include_str!("built_in_scene.toml");
 
 /// What flags put in the place of what the scene file says.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Overrides {
+pub struct Overrides<'a> {
     /// Width and height.
     pub size_px: Option<[u32; 2]>,
     /// In stops.
     pub exposure_ev: Option<f64>,
     /// Added to the seed of each layer of scratches.
     pub scratch_seed: u64,
+    /// The curve to the display.
+    pub tone_map: Option<ToneMap>,
+    /// Where a light's mirror image is to lie.
+    pub highlight: Option<&'a Highlight>,
 }
 
 /// A scene with what it was made from.
@@ -33,15 +44,25 @@ pub struct Loaded {
     pub folder: PathBuf,
 }
 
-/// Reads a scene file, or the built-in scene where there is none.
-pub fn load(path: Option<&Path>, overrides: &Overrides) -> Result<Loaded, Failure> {
-    let source = Source::read(path)?;
-    let mut description = Description::from_toml(&source.text, &source.name)?;
+/// Reads a scene file, or the built-in scene where there is none. `outputs` are the files that will be written: none of them may be
+/// one that the scene is made from.
+pub fn load(
+    path: Option<&Path>,
+    overrides: &Overrides<'_>,
+    outputs: &[&Path],
+) -> Result<Loaded, Failure> {
+    let mut source = Source::read(path)?;
+    let mut description = source.description()?;
+    let inputs = description.inputs(&source.folder);
+    refuse_inputs(outputs, path, &inputs)?;
     if let Some(size_px) = overrides.size_px {
         description.render.size_px = size_px;
     }
     if let Some(exposure_ev) = overrides.exposure_ev {
         description.camera.exposure_ev = exposure_ev;
+    }
+    if let Some(tone_map) = overrides.tone_map {
+        description.render.tone_map = tone_map;
     }
     for scratches in &mut description.scratches {
         if let Some(seed) = scratches.layer.seed_mut() {
@@ -49,6 +70,10 @@ pub fn load(path: Option<&Path>, overrides: &Overrides) -> Result<Loaded, Failur
         }
     }
 
+    // The scene is checked for its own memory where it is built.
+    let mut picture = Estimate::default();
+    picture.add_picture(description.render.size_px);
+    picture.check(memory::budget_bytes() as f64)?;
     let progress = Progress::start("reading the scene");
     let loader = Loader {
         progress: &|at| {
@@ -61,21 +86,28 @@ pub fn load(path: Option<&Path>, overrides: &Overrides) -> Result<Loaded, Failur
         },
         ..Loader::default()
     };
-    let scene = loader
-        .build(&description, &source.folder)
-        .map_err(|error| error.in_scene_file(&source.text, &source.name))?;
+    let wrong = |error: hairline_scene::Error| error.in_scene_file(&source.text, &source.name);
+    let mut builder = SceneBuilder::new();
+    let built = builder.build(&loader, &description, &source.folder);
+    let mut scene = built.map_err(wrong)?;
+    if let Some(wanted) = overrides.highlight {
+        highlight::place(wanted, &mut description, &scene)?;
+        // Nothing but the lights is made again.
+        let built = builder.build(&loader, &description, &source.folder);
+        scene = built.map_err(wrong)?;
+    }
     drop(progress);
     for note in &scene.notes {
-        eprintln!("note: {note}");
+        tell(format_args!("note: {note}"));
     }
     if let Some(environment) = &scene.environment
         && environment.repaired_texels() > 0
     {
-        eprintln!(
+        tell(format_args!(
             "warning: {} texels of the environment map held a negative or non-finite value; they count as black, or as \
              bright as can be if infinite",
             environment.repaired_texels()
-        );
+        ));
     }
     Ok(Loaded {
         scene,
@@ -84,9 +116,31 @@ pub fn load(path: Option<&Path>, overrides: &Overrides) -> Result<Loaded, Failur
     })
 }
 
+/// Refuses to write over a file that is to be read.
+pub fn refuse_inputs(
+    outputs: &[&Path],
+    scene: Option<&Path>,
+    inputs: &[Input],
+) -> Result<(), Failure> {
+    let scene = scene.map(|path| ("the scene file", path));
+    let inputs = inputs
+        .iter()
+        .map(|input| (input.what.as_str(), input.path.as_path()));
+    for (what, input) in scene.into_iter().chain(inputs) {
+        if let Some(output) = outputs.iter().find(|output| is_same_file(output, input)) {
+            let (output, input) = (output.display(), input.display());
+            return Err(Failure::Input(anyhow!(
+                "{output}: it is {what} ({input}), which would be overwritten; give the output another name"
+            )));
+        }
+    }
+    Ok(())
+}
+
 /// The scene's name with another ending, in the current folder: where a picture goes that no flag has named.
 pub fn picture_path(scene: Option<&Path>, ending: &str) -> PathBuf {
-    let stem = scene.and_then(Path::file_stem);
+    let stem = scene.filter(|path| *path != Path::new("-"));
+    let stem = stem.and_then(Path::file_stem);
     // Not with_extension: a name may hold dots of its own.
     let mut name = stem.unwrap_or("hairline".as_ref()).to_owned();
     name.push(ending);
@@ -98,6 +152,8 @@ struct Source {
     text: String,
     name: PathBuf,
     folder: PathBuf,
+    /// The scene around a model.
+    model: Option<Description>,
 }
 
 impl Source {
@@ -107,18 +163,60 @@ impl Source {
                 text: BUILT_IN.to_owned(),
                 name: "built-in scene".into(),
                 folder: PathBuf::new(),
+                model: None,
             });
         };
-        let text = std::fs::read_to_string(path).map_err(|error| {
-            let path = path.display();
-            Failure::Input(anyhow!(
-                "{path}: cannot be read ({error}); give the path of a scene file (TOML)"
-            ))
-        })?;
+        if path == Path::new("-") {
+            let name = PathBuf::from("stdin");
+            let text = reading::scene_text_of(std::io::stdin().lock());
+            return Ok(Self {
+                text: text.map_err(|error| error.at(&name, None))?,
+                name,
+                folder: PathBuf::new(),
+                model: None,
+            });
+        }
+        refuse_other_files(path)?;
+        let model = Description::is_model(path).then(|| Description::for_model(path));
+        let model = model.transpose()?;
         Ok(Self {
-            text,
+            // What an error's line is counted in; a model has none.
+            text: match model {
+                Some(_) => String::new(),
+                None => reading::scene_text(path)?,
+            },
             name: path.to_owned(),
             folder: path.parent().unwrap_or(Path::new("")).to_owned(),
+            model,
         })
     }
+
+    fn description(&mut self) -> Result<Description, Failure> {
+        match self.model.take() {
+            Some(model) => Ok(model),
+            None => Ok(Description::from_toml(&self.text, &self.name)?),
+        }
+    }
+}
+
+/// Says of pictures and lists what they are good for; what has another name is read.
+pub fn refuse_other_files(path: &Path) -> Result<(), Failure> {
+    let ending = path
+        .extension()
+        .unwrap_or_default()
+        .to_string_lossy()
+        .to_lowercase();
+    let what = match ending.as_str() {
+        "hdr" | "exr" => "an environment map; name it in a scene as `file` of [environment]",
+        "png" | "jpg" | "jpeg" | "webp" | "apng" | "tif" | "tiff" => "a picture",
+        "csv" => "a list of scratches; name it in a scene as `file` of a [[scratches]]",
+        "obj" | "fbx" | "stl" | "ply" | "blend" | "usd" | "usdz" => {
+            "a model of another format; export it as .glb"
+        }
+        _ => return Ok(()),
+    };
+    Err(Failure::Input(anyhow!(
+        "{}: it is {what}; give a scene (.toml) or a model (.glb, .gltf)",
+        path.display()
+    )))
 }

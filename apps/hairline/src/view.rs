@@ -1,14 +1,33 @@
 //! `hairline view`: the window.
 
+mod window;
+
+use std::path::Path;
+
+use anyhow::anyhow;
+use hairline_scene::{Description, probe};
 use hairline_viewer::engine::Backend;
 use hairline_viewer::window::{Error, Renderer};
 use hairline_viewer::{Options, open};
 
+use crate::console::tell;
 use crate::failure::Failure;
 use crate::{cli, scene_file};
 
 /// Opens the viewer and returns when its window is closed.
 pub fn run(arguments: &cli::View) -> Result<(), Failure> {
+    if let Some(path) = &arguments.scene {
+        if path == Path::new("-") {
+            return Err(Failure::Input(anyhow!(
+                "the viewer needs a file, which it can save to; give the path of a scene (.toml) or a model (.glb, .gltf)"
+            )));
+        }
+        scene_file::refuse_other_files(path)?;
+        // The window opens all the same, and shows it too.
+        if let Err(error) = check(path) {
+            tell(format_args!("error: {error}"));
+        }
+    }
     let renderer = match arguments.backend {
         cli::Backend::Auto => Renderer::Auto,
         cli::Backend::Gpu => Renderer::Gpu,
@@ -22,11 +41,18 @@ pub fn run(arguments: &cli::View) -> Result<(), Failure> {
         state_dir: state_dir.or_else(hairline_viewer::state_dir),
         native_dialogs: !arguments.plain_dialogs,
     };
-    open(options, renderer).map_err(|error| match error {
-        Error::NoWindow(_) => Failure::Work(anyhow::anyhow!(
-            "{error}; `hairline render` needs no window, and `hairline --help` tells the rest"
-        )),
-        Error::Lost(_) => Failure::Work(anyhow::anyhow!("{error}")),
+    let opened = window::in_one_sentence(|| open(options, renderer))?;
+    opened.map_err(|error| match error {
+        Error::NoWindow(reason) => window::failure(&reason),
+        Error::Lost(_) => Failure::Work(anyhow!("{error}")),
         Error::Scene(error) => error.into(),
     })
+}
+
+/// What is wrong with a scene, or with a model to be shown in one.
+fn check(path: &Path) -> Result<(), hairline_scene::Error> {
+    match Description::is_model(path) {
+        true => probe::mesh(path).map(drop),
+        false => probe::scene(path).map(drop),
+    }
 }

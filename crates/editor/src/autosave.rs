@@ -178,11 +178,9 @@ impl Pending {
         })?;
         let description = Description::from_toml(&text, &self.file)?;
         let base_dir = header(&text, FOLDER).map_or_else(PathBuf::new, PathBuf::from);
-        Ok(Document::recovered(
-            description,
-            self.path.clone(),
-            base_dir,
-        ))
+        let mut document = Document::recovered(description, self.path.clone(), base_dir);
+        document.adopt_text(self.written);
+        Ok(document)
     }
 
     /// Removes it for good.

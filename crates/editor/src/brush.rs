@@ -20,6 +20,11 @@ const STRAYING: f64 = 1.0 / 20.0;
 /// Coordinates are rounded by no more than this part of the radius.
 const ROUNDING: f64 = 1.0 / 500.0;
 
+/// The radius as a part of the view's height: some 15 points of a usual window.
+const SHARE_OF_VIEW: f64 = 0.025;
+/// and at most this part of the object's diagonal.
+const MOST_OF_OBJECT: f64 = 0.06;
+
 /// What the brush does.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BrushSettings {
@@ -36,13 +41,16 @@ pub struct BrushSettings {
 }
 
 impl BrushSettings {
-    /// For an object whose bounding box has this diagonal: as wide as a finger is on a pan, sixty scratches on each width: a
-    /// stroke that is seen at once.
-    pub fn for_object(diagonal_m: f64) -> Self {
-        let radius_m = (0.03 * diagonal_m).clamp(limits::SMALLEST_M, limits::LARGEST_M);
+    /// For an object whose bounding box has this diagonal, at a depth where the view is so high: large enough to be seen in the
+    /// view, and small on the object. Enough scratches for a stroke that is seen at once.
+    pub fn for_view(view_height_m: f64, diagonal_m: f64) -> Self {
+        let on_screen_m = SHARE_OF_VIEW * view_height_m;
+        let radius_m = on_screen_m
+            .min(MOST_OF_OBJECT * diagonal_m)
+            .clamp(limits::SMALLEST_M, limits::LARGEST_M);
         Self {
-            radius_m,
-            density_per_m: 30.0 / radius_m,
+            radius_m: two_digits(radius_m),
+            density_per_m: two_digits(90.0 / radius_m),
             width: 1.0,
             depth: 1.0,
             erase: false,
@@ -156,7 +164,8 @@ impl Recorder {
 
 /// Adds a stroke to the scene.
 ///
-/// Paint goes to the selected layer if that is drawn, else to the first drawn layer on the selected object that is shown, else to a new one. An
+/// Paint goes to the selected layer if that is drawn, else to the first drawn layer on the selected object that is shown, else to a new one; the
+/// layer is shown then. An
 /// eraser works on the selected layer, or on all that are shown of a selected object.
 ///
 /// # Errors
@@ -194,6 +203,10 @@ pub fn apply_stroke(
             };
             if let Selection::Layer(i) = place {
                 description.scratches[i].strokes.push(stroke);
+                // What is drawn is to be seen.
+                let has_solo = description.scratches.iter().any(|layer| layer.solo);
+                description.scratches[i].hidden = false;
+                description.scratches[i].solo |= has_solo;
             }
             return Ok(place);
         }
@@ -244,6 +257,11 @@ fn distance_to_segment(p: DVec3, a: DVec3, b: DVec3) -> f64 {
     // 0 / 0 for a segment without length.
     let t = if t.is_finite() { t } else { 0.0 };
     p.distance(a + along * t)
+}
+
+/// A number that reads well.
+fn two_digits(x: f64) -> f64 {
+    rounded(x, decimal_step(0.1 * x))
 }
 
 /// The largest power of ten that is no larger, as its exponent, down to what metres need.

@@ -12,7 +12,7 @@ use hairline_scene::Description;
 use crate::history::{DragKey, History, State};
 use crate::{ActionError, Selection};
 
-pub use file::SaveError;
+pub use file::{OnDisk, SaveError};
 
 /// A scene file in the making, with undo.
 #[derive(Clone, Debug)]
@@ -28,6 +28,8 @@ pub struct Document {
     revision: u64,
     /// The file's text as it was opened or saved last; none where there is no file.
     text: Option<Arc<str>>,
+    /// Another text of the file that was seen, and may be written over.
+    passed_over: Option<Arc<str>>,
 }
 
 /// A drag that goes on.
@@ -58,6 +60,7 @@ impl Document {
             base_dir: base_dir.into(),
             revision: next_revision(),
             text: None,
+            passed_over: None,
         }
     }
 

@@ -7,17 +7,22 @@
 
 pub mod actions;
 pub mod autosave;
+pub mod bookmarks;
 pub mod brush;
 pub mod document;
 pub mod folders;
 mod history;
+pub mod maps;
 pub mod navigate;
 mod paths;
 pub mod place_light;
 pub mod presets;
+pub mod quantity;
 pub mod ranges;
 pub mod recent;
 pub mod selection;
+pub mod subject;
+pub mod wear;
 
 pub use actions::ActionError;
 pub use document::Document;

@@ -15,8 +15,8 @@ const TURN_PER_HEIGHT_RAD: f64 = std::f64::consts::PI;
 const STEP_FACTOR: f64 = 0.88;
 /// The target is never nearer than this, nor farther than that.
 const DISTANCES_M: std::ops::RangeInclusive<f64> = 10.0 * limits::SMALLEST_M..=limits::LARGEST_M;
-/// How much of the view, on its tighter side, a framed box fills.
-const FRAMED_SHARE: f64 = 0.9;
+/// How much of the view, on its tighter side, a framed box fills: a margin of 6 % stays on each side.
+const FRAMED_SHARE: f64 = 0.88;
 
 /// Turns the camera about its target by a drag: the surface follows the pointer. Goes no further than above and below the
 /// target.
@@ -107,6 +107,18 @@ pub fn frame_box(camera: &mut Camera, low_m: DVec3, high_m: DVec3, aspect: f64) 
     let position = middle + axes.right * c.x + axes.up * c.y + axes.forward * cz;
     camera.position_m = position.into();
     camera.target_m = (position - axes.forward * cz).into();
+}
+
+/// The height of the view at the depth of a point, in metres.
+pub fn view_height_m(camera: &Camera, point_m: DVec3) -> f64 {
+    let axes = Axes::of(camera);
+    let depth_m = (point_m - DVec3::from(camera.position_m)).dot(axes.forward);
+    let depth_m = if depth_m > 0.0 {
+        depth_m
+    } else {
+        axes.distance_m
+    };
+    2.0 * half_fov_tan(camera) * depth_m
 }
 
 /// The eight corners of a box.

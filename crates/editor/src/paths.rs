@@ -23,6 +23,23 @@ pub(crate) fn each_path(description: &mut Description, change: &mut dyn FnMut(&m
     }
 }
 
+/// The same, to be read.
+pub(crate) fn named(description: &Description) -> impl Iterator<Item = &Path> {
+    let map = description.environment.as_ref().map(|e| e.file.as_path());
+    let meshes = description
+        .objects
+        .iter()
+        .map(|object| match &object.surface {
+            Surface::Mesh(file) => Some(file.as_path()),
+            Surface::Shape(_) => None,
+        });
+    let lists = description.scratches.iter().map(|s| match &s.layer {
+        Layer::Listed(listed) => Some(listed.file.as_path()),
+        Layer::Laid(_) | Layer::Brushed(_) => None,
+    });
+    map.into_iter().chain(meshes.chain(lists).flatten())
+}
+
 /// `path` as a scene file in `base_dir` would write it. Both are absolute and `base_dir` has no `..` and no symbolic links;
 /// those in `path` stay. Absolute where the two have no root in common.
 pub(crate) fn relative_to(path: &Path, base_dir: &Path) -> PathBuf {

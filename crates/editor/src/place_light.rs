@@ -117,7 +117,7 @@ pub fn move_vertex(light: &mut Light, index: usize, to_m: DVec3) -> Result<(), A
     reshape(light, |vertices| {
         let n = vertices.len();
         if index >= n {
-            return Err(ActionError::Missing("vertex"));
+            return Err(ActionError::Missing("corner"));
         }
         let to = match (n > 3, vector_area_m2(vertices).try_normalize()) {
             (true, Some(normal)) => {
@@ -139,7 +139,7 @@ pub fn move_vertex(light: &mut Light, index: usize, to_m: DVec3) -> Result<(), A
 /// [`ActionError`]; then the polygon is as it was.
 pub fn insert_vertex(light: &mut Light, edge: usize) -> Result<(), ActionError> {
     reshape(light, |vertices| {
-        let a = *vertices.get(edge).ok_or(ActionError::Missing("vertex"))?;
+        let a = *vertices.get(edge).ok_or(ActionError::Missing("corner"))?;
         let b = vertices[(edge + 1) % vertices.len()];
         vertices.insert(edge + 1, 0.5 * (a + b));
         Ok(())
@@ -153,7 +153,7 @@ pub fn insert_vertex(light: &mut Light, edge: usize) -> Result<(), ActionError> 
 pub fn delete_vertex(light: &mut Light, index: usize) -> Result<(), ActionError> {
     reshape(light, |vertices| {
         if index >= vertices.len() {
-            return Err(ActionError::Missing("vertex"));
+            return Err(ActionError::Missing("corner"));
         }
         vertices.remove(index);
         Ok(())
@@ -170,7 +170,7 @@ fn reshape(
         two_sided,
     } = &light.kind
     else {
-        return Err(ActionError::Missing("vertex"));
+        return Err(ActionError::Missing("corner"));
     };
     let mut vertices = points(vertices_m);
     change(&mut vertices)?;

@@ -174,7 +174,8 @@ impl LayerPreset {
 /// The layer that a brush of this radius begins.
 pub fn drawn_layer(object: impl Into<String>, radius_m: f64) -> Scratches {
     let layer = Layer::Brushed(Brushed {
-        jitter_deg: 4.0,
+        // Some of them are lit, wherever the stroke runs.
+        jitter_deg: 15.0,
         seed: 1,
         length_m: Distribution {
             mean: (1.5 * radius_m).clamp(1e-4, 10.0),
@@ -197,7 +198,7 @@ pub fn drawn_layer(object: impl Into<String>, radius_m: f64) -> Scratches {
 
 /// The number of scratches that cover a share of an object: its area is taken to be half its diagonal's square, between a
 /// disk's 0.4 and a sphere's 1. Two digits, and no more than stay quick to edit.
-fn count(cover: f64, length_m: f64, width_um: f64, diagonal_m: f64) -> u64 {
+pub(crate) fn count(cover: f64, length_m: f64, width_um: f64, diagonal_m: f64) -> u64 {
     const MOST: f64 = 100_000.0;
     let count = cover * 0.5 * diagonal_m * diagonal_m / (length_m * width_um * 1e-6);
     let count = count.clamp(1.0, MOST);
@@ -206,7 +207,7 @@ fn count(cover: f64, length_m: f64, width_um: f64, diagonal_m: f64) -> u64 {
 }
 
 /// A size that presets can be fitted to.
-fn fitting(size_m: f64) -> f64 {
+pub(crate) fn fitting(size_m: f64) -> f64 {
     match size_m.is_finite() {
         true => size_m.clamp(0.01, 100.0),
         false => 0.2,

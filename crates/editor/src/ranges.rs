@@ -9,6 +9,8 @@ use std::ops::RangeInclusive;
 
 use hairline_scene::description::limits;
 
+use crate::quantity::Unit;
+
 /// A number, or the numbers of a vector or a colour, that a panel edits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Parameter {
@@ -117,10 +119,10 @@ pub struct Range {
     pub hard: RangeInclusive<f64>,
     /// Whether equal ways of the slider are equal factors.
     pub logarithmic: bool,
-    /// The unit as it is shown behind the number, with the space that belongs there; empty for none.
-    pub suffix: &'static str,
-    /// Digits behind the point.
-    pub decimals: usize,
+    /// What the number counts in.
+    pub unit: Unit,
+    /// Whether it has no digits behind the point.
+    pub is_whole: bool,
     /// What it does to the look.
     pub tooltip: &'static str,
 }
@@ -240,8 +242,8 @@ impl Parameter {
             slider: clipped(&slider, &hard),
             hard,
             logarithmic: self.is_logarithmic(),
-            suffix: self.suffix(),
-            decimals: self.decimals(d),
+            unit: self.unit(),
+            is_whole: self.is_whole(),
             tooltip: text.tooltip,
         }
     }
@@ -267,7 +269,7 @@ impl Parameter {
         )
     }
 
-    fn suffix(self) -> &'static str {
+    fn unit(self) -> Unit {
         use Parameter as P;
         match self {
             P::CameraPosition
@@ -282,38 +284,21 @@ impl Parameter {
             | P::BrushRadius
             | P::LightCenter
             | P::LightRadius
-            | P::LightVertex => " m",
-            P::FieldOfView | P::EnvironmentRotation | P::Rotation | P::Jitter => "°",
-            P::Exposure => " EV",
-            P::PictureSize | P::Filter => " px",
-            P::Coherence | P::Width => " µm",
-            P::Depth => " nm",
-            P::Density => " /m²",
-            P::Curvature | P::CurvatureSpread | P::BrushDensity => " /m",
-            _ => "",
+            | P::LightVertex => Unit::Metre,
+            P::FieldOfView | P::EnvironmentRotation | P::Rotation | P::Jitter => Unit::Degree,
+            P::Exposure => Unit::Exposure,
+            P::PictureSize | P::Filter => Unit::Pixel,
+            P::Coherence | P::Width => Unit::Micrometre,
+            P::Depth => Unit::Nanometre,
+            P::Density => Unit::PerSquareMetre,
+            P::Curvature | P::CurvatureSpread | P::BrushDensity => Unit::PerMetre,
+            _ => Unit::None,
         }
     }
 
-    /// Enough for a thousandth of the slider.
-    fn decimals(self, diagonal_m: f64) -> usize {
-        let places = |step: f64| (-step.log10()).ceil().clamp(0.0, 6.0) as usize;
-        match self.suffix() {
-            " m" => places(1e-4 * diagonal_m),
-            " px" if self == Self::PictureSize => 0,
-            " nm" | " /m²" => 0,
-            " /m" => places(0.02 / diagonal_m),
-            "°" => 1,
-            " µm" if self == Self::Coherence => 1,
-            _ if matches!(self, Self::LatheSegments | Self::Count | Self::Seed) => 0,
-            _ if matches!(
-                self,
-                Self::Roughness | Self::CameraUp | Self::Axis | Self::Direction
-            ) =>
-            {
-                3
-            }
-            _ => 2,
-        }
+    fn is_whole(self) -> bool {
+        use Parameter as P;
+        matches!(self, P::PictureSize | P::LatheSegments | P::Count | P::Seed)
     }
 }
 
@@ -340,11 +325,6 @@ mod tests {
                 assert!(from < to, "{parameter:?} at {d}: {range:?}");
                 assert!(range.hard.contains(&from) && range.hard.contains(&to));
                 assert!(!range.logarithmic || from > 0.0, "{parameter:?}");
-                // A step of the last digit is no more than a tenth of the slider.
-                assert!(
-                    10_f64.powi(-(range.decimals as i32)) <= 0.1 * (to - from),
-                    "{parameter:?} at {d}"
-                );
             }
         }
     }

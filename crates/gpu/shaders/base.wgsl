@@ -1,15 +1,14 @@
 // The base under lights and environment: a GGX lobe over a diffuse body. Twin: reference/src/base.rs.
 
-// Needs, beside its modules: lights, lobe_ltc, lobe_albedo, and the environment.
+// Needs, beside its modules: lights, lobe_ltc, lobe_albedo, fresnel_curves, and the environment.
 
 struct BaseRadiance {
     specular: vec3f,            // reflected at the surface; scratches take from it
     diffuse: vec3f,             // from the body under it
 }
 
-// Of a light: its vector irradiance in the lobe's cosine space, which ltc_integrals() makes the lobe's integrals of, and its diffuse form
-// factor.
-fn base_sphere(point: SurfacePoint, lobe: LtcLobe, light: Light) -> vec4f {
+// What the lobe reflects and the diffuse form factor of a light.
+fn base_sphere(point: SurfacePoint, lobe: LtcLobe, reflecting: LobeFresnel, light: Light) -> vec4f {
     let center = surface_from_world(point, light.center_m - point.position_m);
     if center.z <= -light.radius_m {
         return vec4f(0.0);
@@ -17,7 +16,7 @@ fn base_sphere(point: SurfacePoint, lobe: LtcLobe, light: Light) -> vec4f {
     let cap = sphere_cap(center, light.radius_m);
     // A cap that holds every direction stands for a sphere around the point.
     let sin2 = select(cap.sin_radius * cap.sin_radius, 1.0, cap.cos_radius < 0.0);
-    return vec4f(ltc_sphere_vector(lobe, cap.axis, sin2), base_lambert_sphere(cap.axis, sin2));
+    return vec4f(ltc_sphere(lobe, reflecting, fresnel_curves, cap.axis, sin2), base_lambert_sphere(cap.axis, sin2));
 }
 
 fn base_lambert_sphere(axis: vec3f, sin2: f32) -> f32 {
@@ -28,7 +27,7 @@ fn base_lambert_sphere(axis: vec3f, sin2: f32) -> f32 {
     return form_factor;
 }
 
-fn base_polygon(point: SurfacePoint, lobe: LtcLobe, light: Light) -> vec4f {
+fn base_polygon(point: SurfacePoint, lobe: LtcLobe, reflecting: LobeFresnel, light: Light) -> vec4f {
     if light_facing(point, light) == 0.0 {
         return vec4f(0.0);
     }
@@ -48,29 +47,46 @@ fn base_polygon(point: SurfacePoint, lobe: LtcLobe, light: Light) -> vec4f {
     if highest_z <= 0.0 {
         return vec4f(0.0);
     }
-    return vec4f(irradiance_end(specular), lambert_end(diffuse));
+    return vec4f(ltc_end(specular, lobe, reflecting, fresnel_curves), lambert_end(diffuse));
 }
 
-// Light from all around: reflected at the surface, and falling on the body.
-fn base_environment(point: SurfacePoint, lobe: LtcLobe, albedo: vec3f) -> BaseRadiance {
-    let reflecting = environment_lobe(lobe);
+// What the lobe reflects of light from all around, single scattering, and what falls on the body.
+fn base_environment(point: SurfacePoint, lobe: LtcLobe, reflecting: LobeFresnel) -> BaseRadiance {
+    let looked_up = environment_lobe(lobe);
+    var all = base_environment_mean(point, looked_up, 1.0);
+    if lobe.excess > 0.0 {
+        // Alpha times the root of 2.
+        let wide = base_environment_mean(point, looked_up, 1.18920712);
+        all = max(all + (all - wide) * lobe.excess, vec3f(0.0));
+    }
+    var grazing = all;
+    let tap = environment_grazing_tap(looked_up);
+    if tap.weight > 0.0 {
+        let there = scene_prefiltered(world_from_surface(point, tap.direction), tap.roughness);
+        grazing += (there - all) * tap.weight;
+    }
+    let normal = reflecting.fresnel.f0 * lobe.albedo;
+    return BaseRadiance(normal * all + (reflecting.albedo - normal) * grazing, scene_irradiance(point.normal) / 3.14159265);
+}
+
+fn base_environment_mean(point: SurfacePoint, lobe: EnvironmentLobe, widening: f32) -> vec3f {
     var reflected = vec3f(0.0);
     var weights = 0.0;
     for (var i = 0u; i < ENVIRONMENT_TAPS; i += 1u) {
-        let tap = environment_tap(reflecting, i);
-        let radiance = scene_prefiltered(world_from_surface(point, tap.direction), tap.roughness);
+        let tap = environment_tap(lobe, i);
+        let radiance = scene_prefiltered(world_from_surface(point, tap.direction), min(tap.roughness * widening, 1.0));
         weights += tap.weight;
         // A running mean, which of equal values is exact.
         reflected += (radiance - reflected) * (tap.weight / weights);
     }
-    return BaseRadiance(albedo * reflected, scene_irradiance(point.normal) / 3.14159265);
+    return reflected;
 }
 
 // Radiance of the base towards the viewer, before scratches take theirs.
 fn base_radiance(point: SurfacePoint) -> BaseRadiance {
-    let lobe = ltc_lobe(point.wo, point.roughness, lobe_ltc, lobe_albedo);
-    let fresnel = FresnelRgb(point.f0, point.fresnel_a);
-    let albedo = ggx_area_reflectance(lobe.albedo, fresnel, lobe.albedo.x);
+    let lobe = ltc_filtered_lobe(point.wo, point.lobe, lobe_ltc, lobe_albedo);
+    let reflecting = lobe_fresnel(FresnelRgb(point.f0, point.curve), point.wo, point.lobe.roughness, fresnel_curves);
+    let albedo = ggx_area_reflectance(reflecting.albedo, point.f0, lobe.albedo);
     // What the surface does not reflect reaches the body.
     let body = point.diffuse * max(1.0 - albedo, vec3f(0.0));
 
@@ -80,18 +96,17 @@ fn base_radiance(point: SurfacePoint) -> BaseRadiance {
         let light = light_at(i);
         var share: vec4f;
         if HAS_SPHERES && light.kind == LIGHT_SPHERE {
-            share = base_sphere(point, lobe, light);
+            share = base_sphere(point, lobe, reflecting, light);
         }
         if HAS_POLYGONS && light.kind == LIGHT_POLYGON {
-            share = base_polygon(point, lobe, light);
+            share = base_polygon(point, lobe, reflecting, light);
         }
-        let integrals = ltc_integrals(lobe, share.xyz);
-        specular += light.radiance * ggx_area_reflectance(integrals, fresnel, lobe.albedo.x);
+        specular += light.radiance * ggx_area_reflectance(share.xyz, point.f0, lobe.albedo);
         diffuse += light.radiance * share.w;
     }
     if HAS_ENVIRONMENT {
-        let environment = base_environment(point, lobe, albedo);
-        specular += environment.specular;
+        let environment = base_environment(point, lobe, reflecting);
+        specular += ggx_area_reflectance(environment.specular, point.f0, lobe.albedo);
         diffuse += environment.diffuse;
     }
     return BaseRadiance(specular, diffuse * body);

@@ -21,3 +21,5 @@
 // Wavelengths in x, materials in y; and for each triangle its scratches. One texel for Hairline's own method.
 @group(2) @binding(7) var published_wavelengths: texture_2d<f32>;
 @group(2) @binding(8) var triangle_lists: texture_2d<u32>;
+// Curves of reflectance over the angle; fresnel.wgsl says how they lie.
+@group(2) @binding(9) var fresnel_curves: texture_2d<f32>;

@@ -96,17 +96,8 @@ fn environment_prefiltered_lod(levels: texture_2d<f32>, dir: vec3<f32>, lod: f32
     return near + (far - near) * (clamped - level);
 }
 
-// The coefficients are in xyz.
-fn environment_irradiance(sh: array<vec4<f32>, 9>, normal: vec3<f32>) -> vec3<f32> {
-    let n = normal;
-    let sum = sh[0].xyz
-        + sh[1].xyz * n.y
-        + sh[2].xyz * n.z
-        + sh[3].xyz * n.x
-        + sh[4].xyz * (n.x * n.y)
-        + sh[5].xyz * (n.y * n.z)
-        + sh[6].xyz * (3.0 * n.z * n.z - 1.0)
-        + sh[7].xyz * (n.x * n.z)
-        + sh[8].xyz * (n.x * n.x - n.y * n.y);
-    return max(sum, vec3<f32>(0.0));
+// The irradiance over pi, from the map that the cosine has blurred; it lies below the first level.
+fn environment_mean_by_cosine(levels: texture_2d<f32>, normal: vec3<f32>) -> vec3<f32> {
+    let place = EnvironmentPlace(0, i32(textureDimensions(levels).y) / 2, vec2<i32>(64, 32));
+    return environment_bilinear(levels, place, environment_uv(normal));
 }

@@ -48,3 +48,12 @@ fn environment_tap(lobe: EnvironmentLobe, i: u32) -> EnvironmentTap {
         weights[pair] * ggx_g1(cosine, lobe.alpha),
     );
 }
+
+// Where a rough lobe has what it reflects more than at normal incidence; the weight is its share of that.
+fn environment_grazing_tap(lobe: EnvironmentLobe) -> EnvironmentTap {
+    let roughness = sqrt(lobe.alpha);
+    let share = clamp((roughness - 0.1) / 0.4, 0.0, 1.0);
+    let cosine = mix(lobe.middle.y, 0.33, share);
+    let sine = sqrt(max(1.0 - cosine * cosine, 0.0));
+    return EnvironmentTap(vec3f(-lobe.x_axis * sine, cosine), mix(roughness, 0.42, share), share);
+}

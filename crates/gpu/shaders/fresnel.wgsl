@@ -1,26 +1,14 @@
-// Fresnel reflectance in three channels: F(c) = f0 + (1 - f0)(1 - c)^5 - a c (1 - c)^6.
+// Fresnel reflectance in three channels: F(c) = t(c) + s(c) f0, from a curve over the angle.
 // Twin: optics::fresnel.
+
+// A texture of curves: of each one its nodes in equal steps of sqrt(c), t in xyz and s in w, in a row; below, the directional
+// albedo of GGX for t and s, four rows of the grid of lobe_table.wgsl in one of the texture.
+const FRESNEL_NODES: u32 = 128u;
+const FRESNEL_CURVE_ROWS: u32 = 9u;
 
 struct FresnelRgb {
     f0: vec3f,
-    a: vec3f,
-}
-
-fn fresnel_schlick_weight(cos_theta: f32) -> f32 {
-    let m = clamp(1.0 - cos_theta, 0.0, 1.0);
-    let m2 = m * m;
-    return m2 * m2 * m;
-}
-
-fn fresnel_dip_weight(cos_theta: f32) -> f32 {
-    let c = clamp(cos_theta, 0.0, 1.0);
-    let m2 = (1.0 - c) * (1.0 - c);
-    return c * m2 * m2 * m2;
-}
-
-// The functions that reflectances are linear in.
-fn fresnel_terms(cos_theta: f32) -> vec3f {
-    return vec3f(1.0, fresnel_schlick_weight(cos_theta), fresnel_dip_weight(cos_theta));
+    curve: u32,
 }
 
 // Of either of two unit directions.
@@ -28,12 +16,18 @@ fn half_vector_cos(wi: vec3f, wo: vec3f) -> f32 {
     return 0.5 * length(wi + wo);
 }
 
-fn fresnel_eval(fresnel: FresnelRgb, cos_theta: f32) -> vec3f {
-    return fresnel.f0 + (1.0 - fresnel.f0) * fresnel_schlick_weight(cos_theta)
-        - fresnel.a * fresnel_dip_weight(cos_theta);
+// t and s.
+fn fresnel_lookup(curves: texture_2d<f32>, curve: u32, cos_theta: f32) -> vec4f {
+    let at = sqrt(clamp(cos_theta, 0.0, 1.0)) * f32(FRESNEL_NODES - 1u);
+    let i = min(floor(at), f32(FRESNEL_NODES - 2u));
+    let node = vec2i(i32(i), i32(curve * FRESNEL_CURVE_ROWS));
+    return mix(textureLoad(curves, node, 0), textureLoad(curves, node + vec2i(1, 0), 0), at - i);
 }
 
-// Directional albedo of a rough surface; e = (E0, E1, E2). Or of one light, from its integrals.
-fn fresnel_albedo(fresnel: FresnelRgb, e: vec3f) -> vec3f {
-    return fresnel.f0 * (e.x - e.y) + e.y - fresnel.a * e.z;
+fn fresnel_of_parts(fresnel: FresnelRgb, parts: vec4f) -> vec3f {
+    return parts.xyz + parts.w * fresnel.f0;
+}
+
+fn fresnel_eval(curves: texture_2d<f32>, fresnel: FresnelRgb, cos_theta: f32) -> vec3f {
+    return fresnel_of_parts(fresnel, fresnel_lookup(curves, fresnel.curve, cos_theta));
 }

@@ -1,4 +1,4 @@
-// The isotropic GGX lobe with F = 1, cosine inside. Local frame, z = normal. Needs fresnel.
+// The isotropic GGX lobe with F = 1, cosine inside. Local frame, z = normal.
 // Twin: optics::ggx, where the papers are named.
 
 const GGX_PI: f32 = 3.14159265358979;
@@ -9,10 +9,24 @@ fn ggx_alpha(roughness: f32) -> f32 {
     return max(r * r, GGX_MIN_ALPHA);
 }
 
-// The perceptual roughness of a curved surface under a pixel; `turn2` is the sum of the squared turns of the normal.
-fn ggx_curved_roughness(roughness: f32, turn2: f32) -> f32 {
+// A lobe that a pixel's normals widen.
+struct FilteredLobe {
+    roughness: f32,             // perceptual, of the widened core
+    excess: f32,                // by how much its far tails are too bright
+}
+
+// `turn2` is the sum of the squared turns of the normal.
+fn ggx_filtered(roughness: f32, turn2: f32) -> FilteredLobe {
     let alpha = ggx_alpha(roughness);
-    return sqrt(sqrt(min(alpha * alpha + min(turn2, 0.12), 1.0)));
+    return FilteredLobe(sqrt(sqrt(min(alpha * alpha + min(turn2, 0.12), 1.0))), 0.0);
+}
+
+fn ggx_filtered_d(h: vec3f, alpha: f32, excess: f32) -> f32 {
+    var d = ggx_d(h, alpha);
+    if (excess > 0.0) {
+        d = (1.0 + excess) * d - excess * ggx_d(h, alpha * 1.41421356);
+    }
+    return d;
 }
 
 // `h` of any length: 1 - cos^2 would cancel near the mirror.
@@ -55,12 +69,12 @@ fn ggx_multiple_scattering(f0: f32, e0: f32) -> f32 {
     return 1.0 + f0 * (1.0 / clamp(e0, 1e-3, 1.0) - 1.0);
 }
 
-// Radiance per unit of light radiance from the lobe's integrals over a light (or over the hemisphere: the albedos).
-fn ggx_area_reflectance(integrals: vec3f, fresnel: FresnelRgb, e0: f32) -> vec3f {
+// What a rough surface reflects from its single scattering, over a light or over the hemisphere: multiple scattering added.
+fn ggx_area_reflectance(single: vec3f, f0: vec3f, e0: f32) -> vec3f {
     let gain = vec3f(
-        ggx_multiple_scattering(fresnel.f0.x, e0),
-        ggx_multiple_scattering(fresnel.f0.y, e0),
-        ggx_multiple_scattering(fresnel.f0.z, e0),
+        ggx_multiple_scattering(f0.x, e0),
+        ggx_multiple_scattering(f0.y, e0),
+        ggx_multiple_scattering(f0.z, e0),
     );
-    return fresnel_albedo(fresnel, integrals) * gain;
+    return single * gain;
 }

@@ -16,8 +16,7 @@ struct Frame {
     light_count: u32,
     environment_flags: u32,     // ENVIRONMENT_PRESENT, ENVIRONMENT_VISIBLE
     environment_from_world: mat3x3f,
-    environment_sh: array<vec4f, 9>,    // irradiance; xyz are the channels
-    environment_texel_radiance: f32,    // radiance of a texel (or coefficient) of value 1
+    environment_texel_radiance: f32,    // radiance of a texel of value 1
     step: u32,                  // 0: every pixel through its centre; later ones: samples of pixels on edges and creases
     sample: u32,                // of those of the step, which one is looked at
     samples: u32,               // and how many there are
@@ -58,13 +57,13 @@ struct Object {
 struct Material {
     base_color: vec3f,
     metallic: f32,
-    fresnel_a: vec3f,
-    roughness: f32,
     emission: vec3f,
+    roughness: f32,
     coherence_um: f32,
     dielectric_f0: f32,
     normal_scale: f32,
     table: u32,                 // layer of the scratch tables
+    curve: u32,                 // of fresnel_curves
     base_color_texture: vec2u,  // packed, see scene_texture(); zero: none
     metallic_roughness_texture: vec2u,
     normal_texture: vec2u,
@@ -122,11 +121,11 @@ struct PixelPoint {
 // What its surface is made of, as the base needs it.
 struct PixelPaint {
     f0: vec3f,
-    roughness: f32,
-    fresnel_a: vec3f,
-    triangle: u32,
+    lobe: u32,                  // roughness and excess in 16 bits each
     diffuse: vec3f,
+    triangle: u32,
     emission: vec3f,
+    curve: u32,                 // of fresnel_curves
 }
 
 // Radiance of the base to the viewer, before scratches take their part.

@@ -1,5 +1,5 @@
-// The GGX lobe (cosine inside) over a polygon or a sphere, by linearly transformed cosines: its integrals for F = 1, (1 - c)^5
-// and c (1 - c)^6. Needs fresnel, ggx, irradiance, lobe_table. Twin: optics::ltc, which explains the method and names the papers.
+// The GGX lobe (cosine inside) times Fresnel's reflectance over a polygon or a sphere, by linearly transformed cosines.
+// Needs ggx, irradiance, lobe_fresnel. Twin: optics::ltc, which explains the method and names the papers.
 //
 // Polygons are streamed: ltc_begin, ltc_edge for each edge in order, ltc_end.
 
@@ -9,7 +9,8 @@ struct LtcLobe {
     x_axis: vec2f,
     peak: vec2f,
     width: vec2f,
-    albedo: vec3f,
+    albedo: f32,
+    excess: f32,                // by how much its tails are too bright; 0 is GGX
 }
 
 fn ltc_lobe(wo: vec3f, roughness: f32, ltc_table: texture_2d<f32>, albedo_table: texture_2d<f32>) -> LtcLobe {
@@ -27,7 +28,15 @@ fn ltc_lobe(wo: vec3f, roughness: f32, ltc_table: texture_2d<f32>, albedo_table:
         vec2f(max(peak_sin, 0.0), peak_cos),
         2.0 * alpha * shape.xy,
         lobe_albedo_lookup(albedo_table, roughness, cos_o),
+        0.0,
     );
+}
+
+// ltc_lobe of a surface that a pixel's normals widen.
+fn ltc_filtered_lobe(wo: vec3f, filtered: FilteredLobe, ltc_table: texture_2d<f32>, albedo_table: texture_2d<f32>) -> LtcLobe {
+    var lobe = ltc_lobe(wo, filtered.roughness, ltc_table, albedo_table);
+    lobe.excess = filtered.excess;
+    return lobe;
 }
 
 // Of an angle within 90 degrees. Taylor's series, 4e-6 at 90 degrees: the built-in sine may be off by 5e-4 anywhere, an
@@ -84,19 +93,13 @@ fn ltc_edge(state: ptr<function, PolygonIrradiance>, lobe: LtcLobe, a: vec3f, b:
     );
 }
 
-fn ltc_end(state: PolygonIrradiance, lobe: LtcLobe) -> vec3f {
-    return ltc_integrals(lobe, irradiance_end(state));
+fn ltc_end(state: PolygonIrradiance, lobe: LtcLobe, reflecting: LobeFresnel, curves: texture_2d<f32>) -> vec3f {
+    return ltc_reflected(lobe, reflecting, curves, irradiance_end(state));
 }
 
-fn ltc_sphere(lobe: LtcLobe, axis: vec3f, sin2: f32) -> vec3f {
-    return ltc_integrals(lobe, ltc_sphere_vector(lobe, axis, sin2));
-}
-
-// The vector irradiance of a sphere in the cosine's space.
-fn ltc_sphere_vector(lobe: LtcLobe, axis: vec3f, sin2: f32) -> vec3f {
-    // All directions are lit: the integrals are the albedos.
+fn ltc_sphere(lobe: LtcLobe, reflecting: LobeFresnel, curves: texture_2d<f32>, axis: vec3f, sin2: f32) -> vec3f {
     if (sin2 >= 1.0) {
-        return vec3f(0.0, 0.0, GGX_PI);
+        return reflecting.albedo;
     }
     if (sin2 <= 0.0) {
         return vec3f(0.0);
@@ -107,10 +110,13 @@ fn ltc_sphere_vector(lobe: LtcLobe, axis: vec3f, sin2: f32) -> vec3f {
         return vec3f(0.0);
     }
     let cone = ltc_cone(lobe, lobe_rotate(lobe.x_axis, axis), sin2);
+    var vector: vec3f;
     if (whole) {
-        return ltc_cone_whole(cone);
+        vector = ltc_cone_whole(cone);
+    } else {
+        vector = irradiance_cone(ltc_cone_axes(cone));
     }
-    return irradiance_cone(ltc_cone_axes(cone));
+    return ltc_reflected(lobe, reflecting, curves, vector);
 }
 
 // What is within the rim c + u cos t + v sin t in the cosine's space; in the frame of u, v and n, c is `centre`.
@@ -226,7 +232,7 @@ const LTC_RING_RADIUS: f32 = 0.8660254;
 const LTC_RING_WEIGHT: f32 = 0.16666667;
 const LTC_CENTRE_WEIGHT: f32 = 0.33333333;
 
-fn ltc_integrals(lobe: LtcLobe, vector: vec3f) -> vec3f {
+fn ltc_reflected(lobe: LtcLobe, reflecting: LobeFresnel, curves: texture_2d<f32>, vector: vec3f) -> vec3f {
     let share = clamp(vector.z / GGX_PI, 0.0, 1.0);
     if (share <= 0.0) {
         return vec3f(0.0);
@@ -238,32 +244,44 @@ fn ltc_integrals(lobe: LtcLobe, vector: vec3f) -> vec3f {
     let radius = LTC_RING_RADIUS * sqrt(sin2);
     let height = sqrt(max(1.0 - radius * radius, 0.0));
 
-    // GGX and its Fresnel terms, and the cosine.
-    var sums = vec4f(ltc_exact_over_jacobian(lobe, centre), centre.z) * LTC_CENTRE_WEIGHT;
-    sums += ltc_ring_point(lobe, height * centre + radius * sides.u);
-    sums += ltc_ring_point(lobe, height * centre + radius * sides.v);
-    sums += ltc_ring_point(lobe, height * centre - radius * sides.u);
-    sums += ltc_ring_point(lobe, height * centre - radius * sides.v);
-    let corrected = GGX_PI * sums.x / max(sums.w, 1e-30);
-    let fade = sin2 * sin2;
-    let integral = min(share * mix(corrected, lobe.albedo.x, fade), lobe.albedo.x);
-    let terms = mix(sums.yz / max(sums.x, 1e-30), lobe.albedo.yz / lobe.albedo.x, fade * fade);
-    return integral * vec3f(1.0, terms);
-}
-
-fn ltc_ring_point(lobe: LtcLobe, w: vec3f) -> vec4f {
-    if (w.z <= 0.0) {
-        return vec4f(0.0);
+    var sums = LtcMeans(vec4f(0.0), 0.0, 0.0);
+    ltc_add(&sums, lobe, reflecting.fresnel.curve, curves, centre, LTC_CENTRE_WEIGHT);
+    // Opposite points of the ring.
+    for (var i = 0; i < 2; i += 1) {
+        let side = radius * select(sides.v, sides.u, i == 0);
+        ltc_add(&sums, lobe, reflecting.fresnel.curve, curves, height * centre + side, LTC_RING_WEIGHT);
+        ltc_add(&sums, lobe, reflecting.fresnel.curve, curves, height * centre - side, LTC_RING_WEIGHT);
     }
-    return vec4f(ltc_exact_over_jacobian(lobe, w), w.z) * LTC_RING_WEIGHT;
+    let corrected = GGX_PI * sums.exact / max(sums.cosine, 1e-30);
+    let fade = pow(max(sin2, 1e-6), 2.0 - 0.5 * lobe.excess);
+    let integral = min(share * mix(corrected, lobe.albedo, fade), lobe.albedo);
+    let mean = fresnel_of_parts(reflecting.fresnel, sums.parts / max(sums.exact, 1e-30));
+    return integral * mix(mean, reflecting.albedo / lobe.albedo, fade * fade);
 }
 
-fn ltc_exact_over_jacobian(lobe: LtcLobe, w: vec3f) -> vec3f {
+// Sums over directions: GGX times the parts of a reflectance, GGX, the cosine.
+struct LtcMeans {
+    parts: vec4f,
+    exact: f32,
+    cosine: f32,
+}
+
+fn ltc_add(sums: ptr<function, LtcMeans>, lobe: LtcLobe, curve: u32, curves: texture_2d<f32>, w: vec3f, weight: f32) {
+    if (w.z <= 0.0) {
+        return;
+    }
     let direction = ltc_undo_cosine(lobe, w);
     let per_l = 1.0 / max(length(direction), 1e-15);
     // c^4 / l^3 in an order that stays within range for a peak on the horizon.
     let c2_over_l = lobe.peak.y * lobe.peak.y * per_l;
     let jacobian = lobe.width.x * lobe.width.y * c2_over_l * c2_over_l * per_l;
     let wi = direction * per_l;
-    return ggx_eval(wi, lobe.wo, lobe.alpha) * jacobian * fresnel_terms(half_vector_cos(wi, lobe.wo));
+    if (wi.z <= 0.0) {
+        return;
+    }
+    let d = ggx_filtered_d(wi + lobe.wo, lobe.alpha, lobe.excess);
+    let exact = weight * d * ggx_visibility(wi.z, lobe.wo.z, lobe.alpha) * wi.z * jacobian;
+    (*sums).parts += exact * fresnel_lookup(curves, curve, half_vector_cos(wi, lobe.wo));
+    (*sums).exact += exact;
+    (*sums).cosine += weight * w.z;
 }

@@ -21,15 +21,15 @@ fn material_at(i: u32) -> Material {
         bitcast<f32>(a.w),
         bitcast<vec3f>(b.xyz),
         bitcast<f32>(b.w),
-        bitcast<vec3f>(c.xyz),
-        bitcast<f32>(c.w),
-        bitcast<f32>(d.x),
-        bitcast<f32>(d.y),
-        d.z,
+        bitcast<f32>(c.x),
+        bitcast<f32>(c.y),
+        bitcast<f32>(c.z),
+        c.w,
+        d.x,
+        d.zw,
         e.xy,
         e.zw,
         f.xy,
-        f.zw,
     );
 }
 

@@ -36,7 +36,7 @@ fn sptd_lobe(wo: vec3f, roughness: f32, sptd_table: texture_2d<f32>, albedo_tabl
         (1.0 - rest) * vec3f(-x, 0.0, z),
         rest * (2.0 - rest),
         frame.x_axis,
-        lobe_albedo_lookup(albedo_table, roughness, cos_o).x,
+        lobe_albedo_lookup(albedo_table, roughness, cos_o),
     );
 }
 

@@ -1,4 +1,4 @@
-// The surface under a pixel: position, frame, footprint, material. Twin: reference/src/surface.rs.
+// The surface under a pixel: position, frame, footprint, material. Needs ggx. Twin: reference/src/surface.rs.
 
 const MIN_VIEW_COS: f32 = 0.01;
 
@@ -16,9 +16,9 @@ struct SurfacePoint {
     turn_y: vec2f,
     leaves: f32,                // how far the surface may be off the plane of shading for each length along it
     f0: vec3f,
-    fresnel_a: vec3f,
+    curve: u32,                 // of the reflectance over the angle
     diffuse: vec3f,
-    roughness: f32,
+    lobe: FilteredLobe,         // of the surface between the scratches, as the pixel sees it
     emission: vec3f,
     coherence_um: f32,
     table: u32,

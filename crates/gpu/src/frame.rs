@@ -87,7 +87,6 @@ pub(crate) fn frame(
         light_count: uploaded.light_count,
         environment_flags: environment.map_or(0, environment_flags),
         environment_from_world: environment.map_or_else(Default::default, environment_from_world),
-        environment_sh: environment.map_or_else(Default::default, environment_sh),
         environment_texel_radiance: environment.map_or(0.0, |e| e.texel_radiance() as f32),
         step,
         sample: sample - view.step_samples().start,
@@ -125,8 +124,4 @@ fn environment_from_world(environment: &Environment) -> [[f32; 4]; 3] {
         .map_from_world()
         .to_cols_array_2d()
         .map(|[x, y, z]| [x as f32, y as f32, z as f32, 0.0])
-}
-
-fn environment_sh(environment: &Environment) -> [[f32; 4]; 9] {
-    environment.irradiance_sh().map(|[r, g, b]| [r, g, b, 0.0])
 }

@@ -101,7 +101,6 @@ fn material(scene: &Scene, tables: &ScratchTables, array: &TextureArray, index: 
     Material {
         base_color: rgb(optics.base_color),
         metallic: optics.metallic as f32,
-        fresnel_a: rgb(optics.fresnel_a),
         roughness: material.roughness as f32,
         emission: rgb(material.emission),
         coherence_um: material.coherence_um as f32,
@@ -110,11 +109,14 @@ fn material(scene: &Scene, tables: &ScratchTables, array: &TextureArray, index: 
             .normal_texture
             .map_or(1.0, |(_, scale)| scale as f32),
         table: optics.table,
+        curve: optics.curve,
         pad_0: 0,
         base_color_texture: array.packed(material.base_color_texture),
         metallic_roughness_texture: array.packed(material.metallic_roughness_texture),
         normal_texture: array.packed(material.normal_texture.map(|(texture, _)| texture)),
         emission_texture: array.packed(material.emission_texture),
+        pad_1: 0,
+        pad_2: 0,
     }
 }
 

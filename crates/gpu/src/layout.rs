@@ -59,7 +59,6 @@ shared! {
         light_count: u32,
         environment_flags: u32,
         environment_from_world: [[f32; 4]; 3],
-        environment_sh: [[f32; 4]; 9],
         environment_texel_radiance: f32,
         step: u32,
         sample: u32,
@@ -95,18 +94,20 @@ shared! {
     Material {
         base_color: [f32; 3],
         metallic: f32,
-        fresnel_a: [f32; 3],
-        roughness: f32,
         emission: [f32; 3],
+        roughness: f32,
         coherence_um: f32,
         dielectric_f0: f32,
         normal_scale: f32,
         table: u32,
+        curve: u32,
         pad_0: u32,
         base_color_texture: [u32; 2],
         metallic_roughness_texture: [u32; 2],
         normal_texture: [u32; 2],
         emission_texture: [u32; 2],
+        pad_1: u32,
+        pad_2: u32,
     }
     /// A light.
     Light {
@@ -153,13 +154,11 @@ shared! {
     /// What its surface is made of.
     PixelPaint {
         f0: [f32; 3],
-        roughness: f32,
-        fresnel_a: [f32; 3],
-        triangle: u32,
+        lobe: u32,
         diffuse: [f32; 3],
-        pad_1: f32,
+        triangle: u32,
         emission: [f32; 3],
-        pad_2: f32,
+        curve: u32,
     }
     /// Radiance of the base.
     BaseLight {

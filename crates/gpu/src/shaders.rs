@@ -50,19 +50,21 @@ modules! {
     /// Fresnel reflectance in three channels.
     FRESNEL = "fresnel" needs [];
     /// The GGX lobe.
-    GGX = "ggx" needs [FRESNEL];
+    GGX = "ggx" needs [];
     /// Irradiance from polygons and elliptic cones.
     IRRADIANCE = "irradiance" needs [];
     /// Fitted tables over roughness and angle.
     LOBE_TABLE = "lobe_table" needs [];
+    /// What lobes reflect.
+    LOBE_FRESNEL = "lobe_fresnel" needs [FRESNEL, LOBE_TABLE];
     /// The GGX lobe over an area light, by transformed cosines.
-    LTC = "ltc" needs [GGX, IRRADIANCE, LOBE_TABLE];
+    LTC = "ltc" needs [GGX, IRRADIANCE, LOBE_FRESNEL];
     /// The GGX lobe over an environment, by round lobes in a row.
     ENVIRONMENT_LOBE = "environment_lobe" needs [LTC];
     /// The GGX lobe over a sphere, by a pivot transform.
     SPTD = "sptd" needs [LTC];
     /// A shading point and its frame.
-    SURFACE_POINT = "surface_point" needs [];
+    SURFACE_POINT = "surface_point" needs [GGX];
     /// Light from all around: look-ups in the maps.
     ENVIRONMENT = "environment" needs [];
     /// From linear radiance to the display.

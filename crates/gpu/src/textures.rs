@@ -3,11 +3,12 @@
 use std::sync::Arc;
 
 use hairline_image::Picture;
+use hairline_optics::fresnel::FRESNEL_NODES;
 use hairline_optics::lobe_table::{self, LOBE_TABLE_SIZE, LobeTable};
 use hairline_optics::metal::Metal;
 use hairline_optics::table;
 use hairline_scene::environment::LEVEL_HALVINGS;
-use hairline_scene::{Environment, Scene, ScratchTables, Texture};
+use hairline_scene::{Environment, Reflector, Scene, ScratchTables, Texture};
 use half::f16;
 use rayon::prelude::*;
 use wgpu::{TextureFormat, TextureViewDimension};
@@ -119,6 +120,9 @@ pub(crate) struct SceneTextures {
     /// Each has one table.
     metals: Vec<Option<Metal>>,
     scratch_tables: wgpu::TextureView,
+    /// What the curves of reflectance are of.
+    reflectors: Vec<Reflector>,
+    curves: wgpu::TextureView,
     lobes: [wgpu::TextureView; 3],
     environment: Option<Environment>,
     maps: [wgpu::TextureView; 2],
@@ -141,6 +145,11 @@ impl SceneTextures {
         let scratch_tables = match last.filter(same_tables) {
             Some(last) => last.scratch_tables.clone(),
             None => scratch_tables(transfer, tables).await?,
+        };
+        let same_curves = |last: &&Self| last.reflectors == tables.reflectors;
+        let curves = match last.filter(same_curves) {
+            Some(last) => last.curves.clone(),
+            None => fresnel_curves(transfer, tables).await?,
         };
         let lobes = match last {
             Some(last) => last.lobes.clone(),
@@ -174,12 +183,15 @@ impl SceneTextures {
             &array,
             &published.wavelengths,
             &published.triangle_lists,
+            &curves,
         ]
         .map(wgpu::BindingResource::TextureView);
         Ok(Self {
             group: bind(transfer.gpu, "textures", &layouts.textures, &resources),
             metals: tables.metals.clone(),
             scratch_tables,
+            reflectors: tables.reflectors.clone(),
+            curves,
             lobes,
             environment: scene.environment.clone(),
             maps,
@@ -223,6 +235,34 @@ async fn scratch_tables(
         transfer.write_texture(what, &texture, place, size, texels);
     }
     Ok(array_view(&texture))
+}
+
+/// Rows of a curve: its nodes, and four rows of its albedo table in each further one. Twin: fresnel.wgsl, lobe_fresnel.wgsl.
+const CURVE_ROWS: usize = 1 + LOBE_TABLE_SIZE * LOBE_TABLE_SIZE / FRESNEL_NODES;
+
+async fn fresnel_curves(
+    transfer: &mut Transfer<'_>,
+    tables: &ScratchTables,
+) -> Result<wgpu::TextureView, Error> {
+    let what = "curves of reflectance";
+    let rows = tables.curves.len() * CURVE_ROWS;
+    let allowed = transfer.gpu.limits().max_texture_dimension_2d;
+    if rows > allowed as usize {
+        let (rows, allowed) = (rows as u64, allowed.into());
+        return Err(transfer.gpu.too_large(what, rows, allowed, "rows"));
+    }
+    let size = [FRESNEL_NODES as u32, rows as u32];
+    let texture = transfer
+        .texture(what, size, 1, 1, TextureFormat::Rgba32Float)
+        .await?;
+    let texels: Vec<[f32; 4]> = tables
+        .curves
+        .iter()
+        .flat_map(|curve| [curve.nodes(), curve.albedo_table().texels()].concat())
+        .collect();
+    let texels = bytemuck::cast_slice(&texels);
+    transfer.write_texture(what, &texture, Place::default(), size, texels);
+    Ok(texture.create_view(&Default::default()))
 }
 
 async fn lobe(
@@ -271,6 +311,20 @@ async fn environment_maps(
             ..Place::default()
         };
         write_radiance(transfer, what, &texture, place, map);
+    }
+    // Below the first level, which has no other beside it. Twin: environment_mean_by_cosine() in environment.wgsl.
+    if let Some(environment) = environment {
+        let place = Place {
+            row: height,
+            ..Place::default()
+        };
+        write_radiance(
+            transfer,
+            what,
+            &texture,
+            place,
+            environment.irradiance_map(),
+        );
     }
     Ok([background, texture.create_view(&Default::default())])
 }

@@ -56,10 +56,18 @@ pub(crate) fn variance_channel_names(layer: crate::Layer) -> Option<[&'static st
     }
 }
 
-/// Encodes all layers of a render with its noise and notes. The file reads back bit for bit, NaN payloads aside.
-pub(crate) fn encode_image(image: &Image, notes: &Notes) -> std::result::Result<Vec<u8>, String> {
+/// Encodes all layers of a render with its noise and notes. The file reads back bit for bit, NaN payloads aside. With `alpha`, one
+/// value a pixel, the beauty has a channel A, and its colours are taken to be multiplied by it, as OpenEXR wants them.
+pub(crate) fn encode_image(
+    image: &Image,
+    alpha: Option<&[f32]>,
+    notes: &Notes,
+) -> std::result::Result<Vec<u8>, String> {
     use crate::Layer as L;
-    let mut channels = Vec::with_capacity(29);
+    let mut channels = Vec::with_capacity(30);
+    if let Some(alpha) = alpha {
+        channels.push(AnyChannel::new("A", FlatSamples::F32(alpha.to_vec())));
+    }
     for layer in [L::Beauty, L::Base, L::Scratches, L::Density, L::Normal] {
         push_channels(&mut channels, channel_names(layer), &image.layer(layer));
     }
@@ -102,6 +110,27 @@ pub(crate) fn encode_picture(picture: &Picture) -> std::result::Result<Vec<u8>, 
 /// [`Error::CannotRead`], and [`Error::Unusable`] where a layer is missing, or a part of what says how sure it is.
 pub fn read_image(path: &Path) -> std::result::Result<Image, Error> {
     Ok(read_image_with_notes(path)?.0)
+}
+
+/// The width and height of the first part of a file, of which only the head is read.
+///
+/// # Errors
+/// [`Error::CannotRead`], [`Error::Unusable`].
+pub fn size_px(path: &Path) -> std::result::Result<[u32; 2], Error> {
+    let file = File::open(path).map_err(|e| Error::cannot_read(path, &e))?;
+    let unusable = |reason: String| Error::Unusable {
+        path: path.to_owned(),
+        reason,
+    };
+    let meta = exr::meta::MetaData::read_from_buffered(BufReader::new(file), false);
+    let meta = meta.map_err(|e| match e {
+        exr::error::Error::Io(e) => Error::cannot_read(path, &e),
+        e => unusable(format!("not an EXR file that can be read: {e}")),
+    })?;
+    let sizes = meta.headers.iter().map(|header| header.layer_size);
+    let largest = sizes.max_by_key(|size| size.area());
+    let size = largest.ok_or_else(|| unusable("it has no parts".to_owned()))?;
+    Ok([size.0 as u32, size.1 as u32])
 }
 
 /// Reads a render with the notes that [`crate::Output::write_image_with_notes`] wrote; the notes are empty in files

@@ -10,6 +10,7 @@ mod layers;
 pub mod metrics;
 pub mod output;
 pub mod png;
+mod temporary;
 pub mod tone_map;
 
 pub use animation::{Animation, FPS_MAX};

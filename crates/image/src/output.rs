@@ -5,9 +5,8 @@ use std::fs::{self, File, OpenOptions};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use tempfile::NamedTempFile;
-
 use crate::exr_file::{self, Notes};
+use crate::temporary;
 use crate::{Display, Error, Image, Picture, png};
 
 /// A picture format that can be written.
@@ -88,7 +87,34 @@ impl Output {
     ) -> Result<(), Error> {
         let encoded = match self.format {
             Format::Png => png::encode(&image.beauty(), display),
-            Format::Exr => exr_file::encode_image(image, notes),
+            Format::Exr => exr_file::encode_image(image, None, notes),
+        };
+        self.write_encoded(encoded)
+    }
+
+    /// Writes a render before a transparent background: `alpha` is the share of each pixel that surfaces cover. The render has
+    /// nothing behind them, so its colours are multiplied by the shares already. EXR keeps them so; PNG, which wants them
+    /// divided, has them divided before the tone curve.
+    ///
+    /// # Errors
+    /// [`Error::CannotWrite`], also where there are not as many shares as pixels.
+    pub fn write_image_with_alpha(
+        &self,
+        image: &Image,
+        alpha: &[f32],
+        display: &Display,
+    ) -> Result<(), Error> {
+        let encoded = if alpha.len() != image.pixel_count() {
+            Err(format!(
+                "{} values of alpha for {} pixels",
+                alpha.len(),
+                image.pixel_count()
+            ))
+        } else {
+            match self.format {
+                Format::Png => png::encode_with_alpha(&image.beauty(), alpha, display),
+                Format::Exr => exr_file::encode_image(image, Some(alpha), &Notes::new()),
+            }
         };
         self.write_encoded(encoded)
     }
@@ -121,7 +147,7 @@ impl Output {
 /// [`Error::CannotWrite`].
 pub fn check_writable(path: &Path) -> Result<(), Error> {
     let target = resolve(path)?;
-    drop(temporary_beside(path, &target)?);
+    drop(temporary::beside(path, &target)?);
     Ok(())
 }
 
@@ -132,7 +158,7 @@ pub fn check_writable(path: &Path) -> Result<(), Error> {
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), Error> {
     let fail = |e: &std::io::Error| Error::cannot_write(path, e);
     let target = resolve(path)?;
-    let mut temporary = temporary_beside(path, &target)?;
+    let mut temporary = temporary::beside(path, &target)?;
     temporary.write_all(bytes).map_err(|e| fail(&e))?;
     // Without this a power cut after the rename could leave an empty file under the final name.
     temporary.as_file().sync_data().map_err(|e| fail(&e))?;
@@ -161,33 +187,22 @@ fn resolve(path: &Path) -> Result<PathBuf, Error> {
                 .and_then(|_: File| fs::canonicalize(path))
                 .map_err(|e| Error::cannot_write(path, &e))
         }
-        Err(e) if e.kind() == std::io::ErrorKind::NotFound => Ok(path.to_owned()),
+        Err(e) if e.kind() == std::io::ErrorKind::NotFound => Ok(end_of_links(path)),
         Err(e) => Err(Error::cannot_write(path, &e)),
     }
 }
 
-/// A temporary file in the folder of `target`, so that the rename stays within one file system. It removes itself
-/// unless it is persisted.
-fn temporary_beside(path: &Path, target: &Path) -> Result<NamedTempFile, Error> {
-    let folder = match target.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent,
-        _ => Path::new("."),
-    };
-    if !folder.is_dir() {
-        return Err(Error::CannotWrite {
-            path: path.to_owned(),
-            reason: format!("there is no folder {}", folder.display()),
-        });
+/// Where symbolic links lead that end at nothing yet.
+fn end_of_links(path: &Path) -> PathBuf {
+    // As many as Linux follows.
+    const MOST_LINKS: usize = 40;
+    let mut end = path.to_owned();
+    for _ in 0..MOST_LINKS {
+        let Ok(next) = fs::read_link(&end) else { break };
+        end = match end.parent() {
+            Some(folder) => folder.join(next),
+            None => next,
+        };
     }
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".hairline-").suffix(".tmp");
-    #[cfg(unix)]
-    {
-        // As any new file: the umask takes its share. The default would be private to the user.
-        use std::os::unix::fs::PermissionsExt;
-        builder.permissions(fs::Permissions::from_mode(0o666));
-    }
-    builder
-        .tempfile_in(folder)
-        .map_err(|e| Error::cannot_write(path, &e))
+    end
 }

@@ -24,6 +24,43 @@ pub(crate) fn encode(picture: &Picture, display: &Display) -> Result<Vec<u8>, St
     Ok(png)
 }
 
+/// Tone-maps and encodes a picture whose colours are multiplied by `alpha`; in the file they are not.
+pub(crate) fn encode_with_alpha(
+    picture: &Picture,
+    alpha: &[f32],
+    display: &Display,
+) -> Result<Vec<u8>, String> {
+    let straight = |(rgb, &share): (&[f32; 3], &f32)| match share > 0.0 {
+        true => rgb.map(|c| c / share),
+        false => [0.0; 3],
+    };
+    let straight = Picture {
+        size_px: picture.size_px,
+        rgb: picture.rgb.iter().zip(alpha).map(straight).collect(),
+    };
+    let codes = quantize(&straight, display);
+    let bytes: Vec<u8> = codes
+        .chunks_exact(3)
+        .zip(alpha)
+        .flat_map(|(rgb, &share)| {
+            let code = (share.clamp(0.0, 1.0) * 255.0).round() as u8;
+            // What is not seen has no colour, dithered or not.
+            let rgb = if code == 0 { &[0; 3] } else { rgb };
+            [rgb[0], rgb[1], rgb[2], code]
+        })
+        .collect();
+    let mut png = Vec::new();
+    PngEncoder::new_with_quality(&mut png, CompressionType::Default, FilterType::Adaptive)
+        .write_image(
+            &bytes,
+            picture.size_px[0],
+            picture.size_px[1],
+            ExtendedColorType::Rgba8,
+        )
+        .map_err(|e| e.to_string())?;
+    Ok(png)
+}
+
 /// The 8-bit sRGB codes of a picture, three bytes a pixel.
 pub fn quantize(picture: &Picture, display: &Display) -> Vec<u8> {
     let width = picture.size_px[0].max(1) as usize;
@@ -62,4 +99,26 @@ pub fn read_picture(path: &Path) -> Result<Picture, Error> {
             .map(|p| p.0.map(|code| linear_from_srgb(f32::from(code) / 65535.0)))
             .collect(),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ToneMap;
+
+    #[test]
+    fn alpha_divides_the_colours_and_nothing_is_black() {
+        let picture = Picture {
+            size_px: [3, 1],
+            rgb: vec![[1.0, 0.0, 1.0], [0.25, 0.0, 0.25], [0.0; 3]],
+        };
+        let display = Display {
+            exposure_ev: 0.0,
+            tone_map: ToneMap::None,
+        };
+        let bytes = encode_with_alpha(&picture, &[1.0, 0.25, 0.0], &display).unwrap();
+        let decoded = image::load_from_memory(&bytes).unwrap().into_rgba8();
+        let pixels: Vec<[u8; 4]> = decoded.pixels().map(|pixel| pixel.0).collect();
+        assert_eq!(pixels, [[255, 0, 255, 255], [255, 0, 255, 64], [0; 4]]);
+    }
 }

@@ -81,6 +81,15 @@ impl<'a> LayerRun<'a> {
         })
     }
 
+    /// Some scratches of an object.
+    pub fn new(scene: &'a Scene, object: &'a Object, scratches: &'a [Scratch]) -> Self {
+        Self {
+            scene,
+            object,
+            scratches,
+        }
+    }
+
     /// How many straight pieces it has.
     pub fn piece_count(&self) -> usize {
         self.scratches.iter().map(|s| s.segments.len()).sum()

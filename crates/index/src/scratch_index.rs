@@ -7,7 +7,7 @@ use crate::layer_runs::{LayerRun, groups};
 use crate::segment_tree::{Plot, SegmentTree, Straight, Tree, plant};
 use crate::watch::Watch;
 use glam::Vec3;
-use hairline_scene::{Object, Scene};
+use hairline_scene::{Object, Scene, Scratch};
 use std::ops::Range;
 
 /// A straight piece of a scratch, its free ends moved inwards.
@@ -97,6 +97,15 @@ impl ScratchIndex {
     /// How alike the phase steps of each object's scratches are, without the trees.
     pub fn depth_coherence(scene: &Scene) -> Vec<f32> {
         scene.objects.iter().map(object_coherence).collect()
+    }
+
+    /// The pieces of some scratches of an object, their free ends moved inwards, one scratch after the other: what a tree would be
+    /// grown over. For pictures that show a few of all scratches.
+    pub fn pieces(scene: &Scene, object: &Object, scratches: &[Scratch]) -> Vec<IndexedSegment> {
+        let run = LayerRun::new(scene, object, scratches);
+        let mut pieces = Vec::with_capacity(run.piece_count());
+        run.append_effective(&mut pieces);
+        pieces
     }
 
     /// The layers of the scene that this was built of, with their trees.

@@ -9,6 +9,7 @@ use hairline_optics::band::{
     sphere_chord,
 };
 use hairline_optics::footprint::{Footprint, scratch_share};
+use hairline_optics::fresnel::FresnelRgb;
 use hairline_optics::ltc::polygon_light;
 use hairline_optics::metal::Metal;
 use hairline_optics::published::footprint::{PixelFootprint, published_share};
@@ -155,7 +156,7 @@ fn chords(c: &mut Criterion) {
         c,
         "base: ltc polygon_light, triangle",
         &triangles,
-        |(wo, v)| polygon_light(*wo, 0.2, v)[0],
+        |(wo, v)| polygon_light(*wo, 0.2, FresnelRgb::schlick([0.9; 3]), v)[0],
     );
 }
 

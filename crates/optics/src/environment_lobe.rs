@@ -71,7 +71,28 @@ pub fn environment_lobe(lobe: &LtcLobe) -> EnvironmentLobe {
     }
 }
 
+/// From this roughness on light that facets reflect at grazing angles alone is looked up for itself, wholly from the second on.
+const GRAZING_ROUGHNESS: [f64; 2] = [0.1, 0.5];
+/// Cosine and roughness of that look-up: (1 - c)^5 over rough lobes has its middle 0.3 to 0.36 above the horizon, whatever the viewer's angle, and
+/// half of it within 0.2 of that.
+const GRAZING_COS: f64 = 0.33;
+const GRAZING_LOOKUP_ROUGHNESS: f64 = 0.42;
+
 impl EnvironmentLobe {
+    /// Where a rough lobe has what it reflects more than at normal incidence. The weight is its share of that; the other look-ups have the rest.
+    pub fn grazing_tap(&self) -> EnvironmentTap {
+        let roughness = self.alpha.sqrt();
+        let [from, to] = GRAZING_ROUGHNESS;
+        let share = ((roughness - from) / (to - from)).clamp(0.0, 1.0);
+        let cos = self.middle.y + (GRAZING_COS - self.middle.y) * share;
+        let sin = (1.0 - cos * cos).max(0.0).sqrt();
+        EnvironmentTap {
+            direction: DVec3::new(-self.x_axis.x * sin, -self.x_axis.y * sin, cos),
+            roughness: roughness + (GRAZING_LOOKUP_ROUGHNESS - roughness) * share,
+            weight: share,
+        }
+    }
+
     /// Look-up `i` of [`ENVIRONMENT_TAPS`].
     pub fn environment_tap(&self, i: usize) -> EnvironmentTap {
         let pair = i.div_ceil(2);

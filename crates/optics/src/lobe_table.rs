@@ -6,7 +6,8 @@
 
 use std::sync::LazyLock;
 
-use crate::ggx::unit_clamp;
+use crate::fresnel::FRESNEL_NODES;
+use crate::ggx::{ggx_alpha, ggx_quadrature, unit_clamp};
 
 /// Nodes along each axis.
 pub const LOBE_TABLE_SIZE: usize = 32;
@@ -88,7 +89,7 @@ pub fn lobe_table_node(row: usize, column: usize) -> (f64, f64) {
     (row as f64 / last, s * s)
 }
 
-/// Directional albedos (E0, E1, E2) of GGX, see [`crate::ggx::ggx_albedo`].
+/// Directional albedo E0 of GGX, see [`crate::ggx::ggx_albedo`].
 pub fn albedo_table() -> &'static LobeTable {
     static TABLE: LazyLock<LobeTable> =
         LazyLock::new(|| LobeTable::from_bytes(include_bytes!("../data/lobe_albedo.bin")));
@@ -109,8 +110,68 @@ pub fn sptd_table() -> &'static LobeTable {
     &TABLE
 }
 
-/// Directional albedos [E0, E1, E2] by table.
-pub fn albedo_lookup(roughness: f64, cos_o: f64) -> [f64; 3] {
-    let [e0, e1, e2, _] = albedo_table().lookup(roughness, cos_o);
-    [e0, e1, e2]
+/// Directional albedo E0 by table.
+pub fn albedo_lookup(roughness: f64, cos_o: f64) -> f64 {
+    albedo_table().lookup(roughness, cos_o)[0]
+}
+
+/// Points along each axis of the quadrature behind [`mean_over_lobes`].
+const MEAN_STEPS: usize = 32;
+
+/// For each node of the grid, what share of the lobe lies at each node of a [`crate::fresnel::FresnelCurve`].
+static SHARES: LazyLock<Vec<[f32; FRESNEL_NODES]>> = LazyLock::new(|| {
+    let last = (FRESNEL_NODES - 1) as f64;
+    let node = |i: usize| {
+        let (roughness, cos_o) = lobe_table_node(i / LOBE_TABLE_SIZE, i % LOBE_TABLE_SIZE);
+        let mut shares = [0.0_f64; FRESNEL_NODES];
+        let visit = |cos_h: f64, weight: f64| {
+            let at = unit_clamp(cos_h).sqrt() * last;
+            let i = (at as usize).min(FRESNEL_NODES - 2);
+            let high = at - i as f64;
+            shares[i] += weight * (1.0 - high);
+            shares[i + 1] += weight * high;
+        };
+        ggx_quadrature(
+            cos_o.max(LOBE_MIN_COS),
+            ggx_alpha(roughness),
+            MEAN_STEPS,
+            visit,
+        );
+        let sum: f64 = shares.iter().sum();
+        shares.map(|share| (share / sum) as f32)
+    };
+    (0..LOBE_TABLE_SIZE * LOBE_TABLE_SIZE).map(node).collect()
+});
+
+/// The integrals of GGX times functions that are linear between the nodes of a [`crate::fresnel::FresnelCurve`].
+pub(crate) fn mean_over_lobes(nodes: &[[f32; 4]]) -> LobeTable {
+    let albedo = albedo_table().texels();
+    let means = SHARES.iter().zip(albedo).map(|(shares, [e0, ..])| {
+        let mut mean = [0.0; 4];
+        for (share, value) in shares.iter().zip(nodes) {
+            for k in 0..4 {
+                mean[k] += share * value[k];
+            }
+        }
+        mean.map(|m| m * e0)
+    });
+    LobeTable::new(means.collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fresnel::fresnel_node_cos;
+
+    #[test]
+    fn shares_lie_where_cosines_are() {
+        // Of a mirror all at the viewer's own.
+        for column in [4, 12, 31] {
+            let (_, cos_o) = lobe_table_node(0, column);
+            let mean: f64 = (0..FRESNEL_NODES)
+                .map(|i| f64::from(SHARES[column][i]) * fresnel_node_cos(i))
+                .sum();
+            assert!((mean - cos_o).abs() < 2e-3, "{mean} {cos_o}");
+        }
+    }
 }

@@ -18,7 +18,8 @@ use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3, Vec3Swizzles};
 
-use crate::ggx::{ggx_alpha, projected_roughness};
+use crate::fresnel::FresnelRgb;
+use crate::ggx::{FilteredLobe, ggx_alpha, projected_roughness};
 use crate::irradiance::{
     EllipticCone, PolygonIrradiance, irradiance_basis, irradiance_begin, irradiance_cone,
     irradiance_edge, irradiance_end,
@@ -52,8 +53,10 @@ pub struct LtcLobe {
     pub peak: DVec2,
     /// 2 alpha times the widths of [`LtcShape`].
     pub width: DVec2,
-    /// Directional albedos E0, E1, E2.
-    pub albedo: [f64; 3],
+    /// Directional albedo E0.
+    pub albedo: f64,
+    /// By how much its tails are too bright: [`FilteredLobe::excess`](crate::ggx::FilteredLobe). GGX itself is compared without.
+    pub excess: f64,
 }
 
 /// The lobe for a viewer `wo` in the local frame (z = normal; any unit vector: below the horizon it counts as grazing) and a
@@ -73,9 +76,17 @@ pub fn ltc_lobe(wo: DVec3, roughness: f64) -> LtcLobe {
     )
 }
 
+/// [`ltc_lobe`] of a surface that a pixel's normals widen.
+pub fn ltc_filtered_lobe(wo: DVec3, filtered: FilteredLobe) -> LtcLobe {
+    LtcLobe {
+        excess: filtered.excess,
+        ..ltc_lobe(wo, filtered.roughness)
+    }
+}
+
 impl LtcLobe {
     /// As [`ltc_lobe`], from parameters instead of the table: what the fit varies.
-    pub fn new(wo: DVec3, alpha: f64, shape: LtcShape, albedo: [f64; 3]) -> Self {
+    pub fn new(wo: DVec3, alpha: f64, shape: LtcShape, albedo: f64) -> Self {
         let (x_axis, sin_cos) = viewer_frame(wo);
         let lean = alpha * shape.lean * sin_cos.x;
         let peak = DVec2::new(
@@ -89,6 +100,7 @@ impl LtcLobe {
             peak: DVec2::new(peak.x.max(0.0), peak.y),
             width: 2.0 * alpha * DVec2::new(shape.width_x, shape.width_y),
             albedo,
+            excess: 0.0,
         }
     }
 
@@ -133,12 +145,31 @@ impl LtcLobe {
         let w = self.to_cosine(self.rotate(wi));
         let l2 = w.length_squared();
         let determinant = self.peak.y * self.peak.y / (self.width.x * self.width.y);
-        self.albedo[0] * determinant * w.z / (PI * l2 * l2)
+        self.albedo * determinant * w.z / (PI * l2 * l2)
     }
 
     /// A direction in the viewer's frame distributed as the density, from a cosine-distributed one: for the fit.
     pub fn sample(&self, cosine_distributed: DVec3) -> DVec3 {
         self.undo_cosine(cosine_distributed).normalize_or(DVec3::Z)
+    }
+}
+
+/// What the lobe's facets reflect.
+#[derive(Clone, Copy, Debug)]
+pub struct LobeFresnel<'a> {
+    /// Of a facet.
+    pub fresnel: FresnelRgb<'a>,
+    /// Of the whole lobe: directional albedo, single scattering.
+    pub albedo: [f64; 3],
+}
+
+impl<'a> LobeFresnel<'a> {
+    /// For the lobe of [`ltc_lobe`].
+    pub fn new(fresnel: FresnelRgb<'a>, wo: DVec3, roughness: f64) -> Self {
+        Self {
+            fresnel,
+            albedo: fresnel.albedo(roughness, wo.z.max(LOBE_MIN_COS)),
+        }
     }
 }
 
@@ -169,36 +200,45 @@ pub fn ltc_edge(state: &mut PolygonIrradiance, lobe: &LtcLobe, a: DVec3, b: DVec
     );
 }
 
-/// The integrals of the lobe over the polygon, either orientation: [I0, I1, I2] as in [`polygon_light`].
-pub fn ltc_end(state: &PolygonIrradiance, lobe: &LtcLobe) -> [f64; 3] {
-    ltc_integrals(lobe, irradiance_end(state))
+/// What the lobe reflects of the polygon, either orientation: as [`polygon_light`].
+pub fn ltc_end(state: &PolygonIrradiance, lobe: &LtcLobe, of: &LobeFresnel) -> [f64; 3] {
+    ltc_reflected(lobe, of, irradiance_end(state))
 }
 
-/// The integrals [I0, I1, I2] of the GGX lobe (the cosine inside) for F = 1, (1 - c)^5 and c (1 - c)^6 over a simple polygon,
-/// convex or not, cut by the horizon; c is the cosine at the half vector. [`FresnelRgb::albedo`] makes reflectances of them.
-/// `wo` and the vertices (relative to the point) are in the local frame.
-///
-/// [`FresnelRgb::albedo`]: crate::fresnel::FresnelRgb::albedo
-pub fn polygon_light(wo: DVec3, roughness: f64, vertices: &[DVec3]) -> [f64; 3] {
+/// The integral of the GGX lobe (the cosine inside) times Fresnel's reflectance at the half vector over a simple polygon,
+/// convex or not, cut by the horizon; single scattering. `wo` and the vertices (relative to the point) are in the local frame.
+pub fn polygon_light(
+    wo: DVec3,
+    roughness: f64,
+    fresnel: FresnelRgb,
+    vertices: &[DVec3],
+) -> [f64; 3] {
     let lobe = ltc_lobe(wo, roughness);
     let mut state = ltc_begin();
     for (i, &a) in vertices.iter().enumerate() {
         ltc_edge(&mut state, &lobe, a, vertices[(i + 1) % vertices.len()]);
     }
-    ltc_end(&state, &lobe)
+    ltc_end(&state, &lobe, &LobeFresnel::new(fresnel, wo, roughness))
 }
 
-/// The integrals [I0, I1, I2] of [`polygon_light`] over a sphere, cut by the horizon. `axis` is the unit direction
+/// The integral of [`polygon_light`] over a sphere, cut by the horizon. `axis` is the unit direction
 /// to its centre in the local frame, `sin2` the squared sine of its angular radius: radius^2 / distance^2. From inside (sin2 >= 1)
 /// everything is lit.
-pub fn sphere_light(wo: DVec3, roughness: f64, axis: DVec3, sin2: f64) -> [f64; 3] {
-    ltc_sphere(&ltc_lobe(wo, roughness), axis, sin2)
+pub fn sphere_light(
+    wo: DVec3,
+    roughness: f64,
+    fresnel: FresnelRgb,
+    axis: DVec3,
+    sin2: f64,
+) -> [f64; 3] {
+    let of = LobeFresnel::new(fresnel, wo, roughness);
+    ltc_sphere(&ltc_lobe(wo, roughness), &of, axis, sin2)
 }
 
 /// [`sphere_light`] for a lobe at hand.
-pub fn ltc_sphere(lobe: &LtcLobe, axis: DVec3, sin2: f64) -> [f64; 3] {
+pub fn ltc_sphere(lobe: &LtcLobe, of: &LobeFresnel, axis: DVec3, sin2: f64) -> [f64; 3] {
     if sin2 >= 1.0 {
-        return lobe.albedo;
+        return of.albedo;
     }
     if sin2 <= 0.0 {
         return [0.0; 3];
@@ -213,7 +253,7 @@ pub fn ltc_sphere(lobe: &LtcLobe, axis: DVec3, sin2: f64) -> [f64; 3] {
     } else {
         irradiance_cone(&ltc_cone_axes(&cone))
     };
-    ltc_integrals(lobe, vector)
+    ltc_reflected(lobe, of, vector)
 }
 
 /// A cone of directions in the cosine's space: what is within the rim c + u cos t + v sin t. In the frame of u, v (perpendicular)
@@ -383,12 +423,12 @@ const RING_RADIUS: f64 = 0.866_025_403_784_438_6;
 const RING_WEIGHT: f64 = 1.0 / 6.0;
 const CENTRE_WEIGHT: f64 = 1.0 / 3.0;
 
-/// The lobe's integrals from the light's vector irradiance in the cosine's space: E0 times the share of the cosine, times
-/// the mean of GGX over the fit; then that, times the means of the Fresnel terms over GGX.
+/// What the lobe reflects, from the light's vector irradiance in the cosine's space: E0 times the share of the cosine, times
+/// the mean of GGX over the fit; then that, times the mean of Fresnel's reflectance over GGX.
 ///
 /// The means are taken over the circular cap that has the same irradiance. They fade as the light comes to fill the hemisphere,
-/// where the integrals are E0, E1, E2 exactly.
-fn ltc_integrals(lobe: &LtcLobe, vector: DVec3) -> [f64; 3] {
+/// where the albedos are exact.
+fn ltc_reflected(lobe: &LtcLobe, of: &LobeFresnel, vector: DVec3) -> [f64; 3] {
     let share = (vector.z / PI).clamp(0.0, 1.0);
     let length = vector.length();
     if share <= 0.0 {
@@ -399,33 +439,45 @@ fn ltc_integrals(lobe: &LtcLobe, vector: DVec3) -> [f64; 3] {
     let (u, v) = irradiance_basis(centre);
     let radius = RING_RADIUS * sin2.sqrt();
     let height = (1.0 - radius * radius).max(0.0).sqrt();
-    let [centre_terms] = ltc_exact_over_jacobian(lobe, [centre]);
-    let mut exact = CENTRE_WEIGHT * centre_terms;
-    let mut cosine = CENTRE_WEIGHT * centre.z;
     let (up, u, v) = (height * centre, radius * u, radius * v);
-    let ring = [up + u, up + v, up - u, up - v];
-    for (w, terms) in ring.iter().zip(ltc_exact_over_jacobian(lobe, ring)) {
-        if w.z > 0.0 {
-            exact += RING_WEIGHT * terms;
-            cosine += RING_WEIGHT * w.z;
+    let points = [centre, up + u, up + v, up - u, up - v];
+    let mut weights = [RING_WEIGHT; 5];
+    weights[0] = CENTRE_WEIGHT;
+    let (values, cosines) = ltc_exact_over_jacobian(lobe, points);
+    let (mut exact, mut cosine, mut parts) = (0.0, 0.0, [0.0; 4]);
+    for i in 0..points.len() {
+        if points[i].z <= 0.0 {
+            continue;
+        }
+        let value = weights[i] * values[i];
+        exact += value;
+        cosine += weights[i] * points[i].z;
+        let at = of.fresnel.curve.lookup(cosines[i]);
+        for k in 0..4 {
+            parts[k] += value * at[k];
         }
     }
-    let corrected = PI * exact.x / cosine.max(1e-30);
-    let fade = sin2 * sin2;
-    let [e0, e1, e2] = lobe.albedo;
+    let corrected = PI * exact / cosine.max(1e-30);
+    // A widened lobe changes more between the points.
+    let fade = sin2.powf(2.0 - 0.5 * lobe.excess);
+    let e0 = lobe.albedo;
     // A part returns no more than the whole.
     let integral = (share * (corrected + fade * (e0 - corrected))).min(e0);
-    // A mean of the terms over some directions or other: whatever it is made of, a reflectance stays within its range.
-    let terms = exact.yz() / exact.x.max(1e-30);
-    let terms = terms.lerp(DVec2::new(e1, e2) / e0, fade * fade);
-    [integral, integral * terms.x, integral * terms.y]
+    // A mean over some directions or other: whatever it is made of, a reflectance stays within its range.
+    let mean = of
+        .fresnel
+        .of_parts(parts.map(|part| part / exact.max(1e-30)));
+    std::array::from_fn(|ch| {
+        let whole = of.albedo[ch] / e0;
+        integral * (mean[ch] + fade * fade * (whole - mean[ch]))
+    })
 }
 
-/// GGX and its Fresnel terms at the directions that each `w` stands for, times the solid angle there per solid angle at w.
+/// GGX at the directions that each `w` stands for, times the solid angle there per solid angle at w; and the cosine at the half vector.
 ///
-/// [`ggx_eval`] written out, the viewer's part taken once and with as few divisions as there can be, step by step for all of them:
-/// compilers then do several at a time.
-fn ltc_exact_over_jacobian<const N: usize>(lobe: &LtcLobe, w: [DVec3; N]) -> [DVec3; N] {
+/// [`ggx_eval`](crate::ggx::ggx_eval) written out, the viewer's part taken once and with as few divisions as there can be, step by step for all of
+/// them: compilers then do several at a time.
+fn ltc_exact_over_jacobian<const N: usize>(lobe: &LtcLobe, w: [DVec3; N]) -> ([f64; N], [f64; N]) {
     let (wo, alpha2) = (lobe.wo, lobe.alpha * lobe.alpha);
     let rough_o = projected_roughness(wo.z, lobe.alpha);
     let c2 = lobe.peak.y * lobe.peak.y;
@@ -433,7 +485,7 @@ fn ltc_exact_over_jacobian<const N: usize>(lobe: &LtcLobe, w: [DVec3; N]) -> [DV
     let direction = w.map(|w| lobe.undo_cosine(w));
     let [x, y, z]: [[f64; N]; 3] =
         std::array::from_fn(|axis| std::array::from_fn(|i| direction[i][axis]));
-    let mut terms = [[0.0; N]; 3];
+    let (mut values, mut cosines) = ([0.0; N], [0.0; N]);
     for i in 0..N {
         let l2 = (x[i] * x[i] + y[i] * y[i] + z[i] * z[i]).max(1e-30);
         let per_l = 1.0 / l2.sqrt();
@@ -443,18 +495,15 @@ fn ltc_exact_over_jacobian<const N: usize>(lobe: &LtcLobe, w: [DVec3; N]) -> [DV
         let (tangential, normal) = (hx * hx + hy * hy, hz * hz);
         let length2 = tangential + normal;
         let q = (tangential + alpha2 * normal).max(1e-30);
+        let q_wide = (tangential + 2.0 * alpha2 * normal).max(1e-30);
+        let d = (1.0 + lobe.excess) / (q * q) - 2.0 * lobe.excess / (q_wide * q_wide);
         let rough_i = (alpha2 + (1.0 - alpha2) * cos_i * cos_i).sqrt();
         let sum = (wo.z * rough_i + cos_i * rough_o).max(1e-30);
-        let value = scale * per_l * per_l * per_l * cos_i * (length2 * length2) / (q * q * sum);
-        let value = if cos_i > 0.0 { value } else { 0.0 };
-        let c = (0.5 * length2.sqrt()).min(1.0);
-        let m2 = (1.0 - c) * (1.0 - c);
-        let m4 = m2 * m2;
-        terms[0][i] = value;
-        terms[1][i] = value * m4 * (1.0 - c);
-        terms[2][i] = value * m4 * m2 * c;
+        let value = scale * per_l * per_l * per_l * cos_i * (length2 * length2) * d / sum;
+        values[i] = if cos_i > 0.0 { value } else { 0.0 };
+        cosines[i] = (0.5 * length2.sqrt()).min(1.0);
     }
-    std::array::from_fn(|i| DVec3::new(terms[0][i], terms[1][i], terms[2][i]))
+    (values, cosines)
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Metals by their measured complex refractive index (data/metals.csv names the paper of each).
 
-use crate::fresnel::{self, FresnelRgb};
+use crate::fresnel::{self, FresnelCurve};
 use crate::spectrum;
 use std::sync::LazyLock;
 
@@ -66,9 +66,9 @@ impl Metal {
         spectrum::rgb_from_reflectance(|nm| self.reflectance(cos_theta, nm))
     }
 
-    /// The three-channel Fresnel reflectance that shading carries.
-    pub fn fresnel_rgb(self) -> FresnelRgb {
-        FresnelRgb::fit(|cos_theta| self.reflectance_rgb(cos_theta))
+    /// [`Metal::reflectance_rgb`] over the angle.
+    pub fn fresnel_curve(self) -> FresnelCurve {
+        FresnelCurve::new(|cos_theta| self.reflectance_rgb(cos_theta))
     }
 }
 

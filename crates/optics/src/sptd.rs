@@ -68,7 +68,7 @@ pub fn sptd_lobe(wo: DVec3, roughness: f64) -> SptdLobe {
         wo,
         ggx_alpha(roughness),
         SptdShape { width, lean },
-        albedo_lookup(roughness, cos_o)[0],
+        albedo_lookup(roughness, cos_o),
     )
 }
 

@@ -4,12 +4,13 @@
 //! surface under its pixels to the film.
 
 use crate::bin::TileLists;
+use crate::draft::Draft;
 use crate::project::project;
 use crate::published::Published;
 use crate::tile::{By, Picture};
 use crate::visibility::Visibility;
 use hairline_image::Image;
-use hairline_index::{Hit, ScratchIndex, TriangleIndex, TriangleLists, Watch};
+use hairline_index::{Hit, IndexedSegment, ScratchIndex, TriangleIndex, TriangleLists, Watch};
 use hairline_optics::method::Method;
 use hairline_scene::{Scene, ScratchTables};
 use std::ops::Range;
@@ -40,6 +41,8 @@ pub struct Prepared<'a> {
     pub(crate) triangles: Arc<TriangleIndex>,
     pub(crate) scratches: Arc<ScratchIndex>,
     pub(crate) tables: Arc<ScratchTables>,
+    /// Stands for the scratches in a picture that need not be exact.
+    pub(crate) draft: Option<Arc<Draft>>,
     /// For methods that look scratches up by triangle.
     lists: OnceLock<TriangleLists>,
     /// Of each object, counted over the whole scene.
@@ -79,6 +82,7 @@ impl<'a> Prepared<'a> {
             triangles,
             scratches,
             tables,
+            draft: None,
             lists: OnceLock::new(),
             first_triangles: scene
                 .objects
@@ -99,9 +103,16 @@ impl<'a> Prepared<'a> {
             triangles: self.triangles.clone(),
             scratches: self.scratches.clone(),
             tables: self.tables.clone(),
+            draft: self.draft.clone(),
             lists: self.lists.clone(),
             first_triangles: self.first_triangles.clone(),
         }
+    }
+
+    /// The same with a few of the scratches, each of which stands for many. For Hairline's own method; that of 2018 takes all.
+    pub fn with_draft(mut self, draft: Arc<Draft>) -> Self {
+        self.draft = Some(draft);
+        self
     }
 
     /// The tree over the scratches.
@@ -135,6 +146,14 @@ impl<'a> Prepared<'a> {
         &self.tables
     }
 
+    /// The pieces that `project` lists, and how many of each there are; 1 where it says nothing.
+    pub(crate) fn segments(&self) -> (&[IndexedSegment], &[f32]) {
+        match &self.draft {
+            Some(draft) => (&draft.segments, &draft.weights),
+            None => (&self.scratches.tree.segments, &[]),
+        }
+    }
+
     /// Renders the picture. `progress` is told the share that is done, from any thread.
     pub fn render(&self, options: &RenderOptions, progress: &(dyn Fn(f64) + Sync)) -> Image {
         self.render_rows(options, 0..self.scene.render.size_px[1], progress)
@@ -158,18 +177,34 @@ impl<'a> Prepared<'a> {
         rows: Range<u32>,
         progress: &(dyn Fn(f64) + Sync),
     ) -> (Image, Counts) {
-        let (picture, mut counts) = self.picture(options, rows);
-        let width = self.scene.render.size_px[0];
-        let mut image = Image::new([width, picture.rows.len() as u32]);
-        counts = counts + picture.render(&mut image, progress);
-        (image, counts)
+        self.render_unless(&|| false, options, rows, progress)
+            .unwrap_or_else(|| unreachable!("nobody cancels it"))
     }
 
-    /// The stages before the tiles.
+    /// The same, unless `cancelled` says so, which is asked from any thread, before each tile: then there is nothing.
+    pub fn render_unless(
+        &self,
+        cancelled: &(dyn Fn() -> bool + Sync),
+        options: &RenderOptions,
+        rows: Range<u32>,
+        progress: &(dyn Fn(f64) + Sync),
+    ) -> Option<(Image, Counts)> {
+        let (picture, mut counts) = self.picture(options, rows, cancelled);
+        if cancelled() {
+            return None;
+        }
+        let width = self.scene.render.size_px[0];
+        let mut image = Image::new([width, picture.rows.len() as u32]);
+        counts = counts + picture.render(&mut image, progress, cancelled)?;
+        Some((image, counts))
+    }
+
+    /// The stages before the tiles. Of no use if they were cancelled.
     pub(crate) fn picture(
         &self,
         options: &RenderOptions,
         rows: Range<u32>,
+        cancelled: &(dyn Fn() -> bool + Sync),
     ) -> (Picture<'_>, Counts) {
         let scene = self.scene;
         let size_px = scene.render.size_px;
@@ -177,7 +212,7 @@ impl<'a> Prepared<'a> {
         let mut counts = Counts::default();
         let by = match options.method.published {
             None => {
-                let projection = project(self, &camera, &rows, options.samples);
+                let projection = project(self, &camera, &rows, options.samples, cancelled);
                 counts.segments = projection.looked_at;
                 let lists = TileLists::new(projection.segments, size_px[0], &rows);
                 counts.entries = lists.len() as u64;

@@ -6,10 +6,12 @@
 mod bin;
 mod camera_beam;
 pub mod closed_form;
+pub mod draft;
 mod light_view;
 pub mod monte_carlo;
 mod project;
 mod published;
+pub mod read_pixel;
 mod resolve;
 mod shade_base;
 mod shade_scratches;

@@ -16,6 +16,7 @@ mod interval;
 mod lights;
 mod path;
 mod random;
+pub(crate) mod reflectance;
 mod separable;
 #[cfg(test)]
 mod statistics;
@@ -25,6 +26,7 @@ use crate::monte_carlo::environment::EnvironmentSampler;
 use crate::monte_carlo::lights::AreaLights;
 use crate::monte_carlo::path::Light;
 use crate::monte_carlo::random::{Purpose, Random};
+use crate::monte_carlo::reflectance::Reflectance;
 use crate::monte_carlo::wavelengths::Wavelengths;
 use glam::{DVec2, DVec3};
 use hairline_image::{Image, Noise};
@@ -104,6 +106,8 @@ pub struct Integrator<'a> {
     grooves: Arc<SegmentTree<Groove>>,
     depth_coherence: Vec<f32>,
     tables: Arc<ScratchTables>,
+    /// One for each material.
+    reflectances: Vec<Reflectance>,
     lights: AreaLights,
     environment: Option<EnvironmentSampler>,
     camera: CameraFrame,
@@ -132,6 +136,7 @@ impl<'a> Integrator<'a> {
             grooves,
             depth_coherence: ScratchIndex::depth_coherence(scene),
             tables,
+            reflectances: scene.materials.par_iter().map(Reflectance::new).collect(),
             lights: AreaLights::new(scene),
             environment: scene.environment.as_ref().map(EnvironmentSampler::new),
             camera: scene.camera.frame(scene.render.size_px),

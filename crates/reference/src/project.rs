@@ -67,22 +67,28 @@ pub(crate) struct Rows {
 /// Segments of one task.
 const TASK: usize = 4096;
 
-/// Projects the segments of all objects to some rows of the picture, all cores at work; the same for any number of them.
+/// Projects the segments of all objects to some rows of the picture, all cores at work; the same for any number of them. Fewer if it was
+/// cancelled.
 pub(crate) fn project(
     prepared: &Prepared,
     camera: &CameraFrame,
     rows: &Range<u32>,
     samples: u32,
+    cancelled: &(dyn Fn() -> bool + Sync),
 ) -> Projection {
     let to = Rows::new(prepared, camera, rows, samples);
     let index = &prepared.scratches;
+    let (segments, _) = prepared.segments();
     let mut projection = Projection {
         segments: Vec::new(),
         looked_at: 0,
     };
     for (object, &coherence_um) in index.coherence_max_um().iter().enumerate() {
         let coherence_m = f64::from(coherence_um) * 1e-6;
-        let ranges = to.in_sight(prepared, object, margin_m(coherence_m));
+        let ranges = match &prepared.draft {
+            Some(draft) => vec![draft.objects[object].clone()],
+            None => to.in_sight(prepared, object, margin_m(coherence_m)),
+        };
         projection.looked_at += ranges.iter().map(|r| r.len() as u64).sum::<u64>();
         let tasks: Vec<Range<usize>> = ranges
             .into_iter()
@@ -94,7 +100,10 @@ pub(crate) fn project(
         let parts: Vec<Vec<Projected>> = tasks
             .into_par_iter()
             .map(|range| {
-                let segments = range.clone().zip(&index.tree.segments[range]);
+                if cancelled() {
+                    return Vec::new();
+                }
+                let segments = range.clone().zip(&segments[range]);
                 segments
                     .filter_map(|(i, segment)| {
                         let projected = to.project(segment, coherence_m)?;

@@ -12,7 +12,7 @@ use crate::surface::SurfacePoint;
 use glam::DVec3;
 use hairline_index::scratch_index::REACH_STD;
 use hairline_index::{Hit, IndexedSegment};
-use hairline_optics::ltc::LtcLobe;
+use hairline_optics::ltc::{LobeFresnel, LtcLobe};
 use hairline_optics::mask::{Mask, Masked, ScratchSums};
 use hairline_optics::method::{PublishedMethod, Structure};
 use hairline_optics::published::polygon::triangulate;
@@ -92,16 +92,16 @@ impl<'a> Published<'a> {
         }
     }
 
-    /// The lobe's integrals over a sphere by the pivot transform, for [`crate::base::base_radiance`].
+    /// What the lobe reflects of a sphere, by the pivot transform, for [`crate::base::base_radiance`].
     pub fn base_sphere(
         &self,
         point: &SurfacePoint,
-    ) -> impl Fn(&LtcLobe, DVec3, f64) -> [f64; 3] + use<> {
-        let pivot = sptd_lobe(point.wo, point.roughness);
-        move |lobe, axis, sin2| {
+    ) -> impl Fn(&LtcLobe, &LobeFresnel, DVec3, f64) -> [f64; 3] + use<> {
+        let pivot = sptd_lobe(point.wo, point.lobe.roughness);
+        move |lobe, of, axis, sin2| {
             // The published fit knows F = 1 alone; Fresnel is that of the whole lobe.
-            let share = sptd_sphere_published(&pivot, axis, sin2) / lobe.albedo[0].max(1e-30);
-            lobe.albedo.map(|e| e * share)
+            let share = sptd_sphere_published(&pivot, axis, sin2) / lobe.albedo.max(1e-30);
+            of.albedo.map(|e| e * share)
         }
     }
 }

@@ -4,11 +4,12 @@
 use crate::light_view::{LightView, LightViews};
 use crate::surface::SurfacePoint;
 use glam::DVec3;
-use hairline_optics::environment_lobe::{ENVIRONMENT_TAPS, EnvironmentLobe, environment_lobe};
+use hairline_optics::environment_lobe::{ENVIRONMENT_TAPS, environment_lobe};
 use hairline_optics::ggx::ggx_area_reflectance;
 use hairline_optics::irradiance::{lambert_polygon, lambert_sphere};
-use hairline_optics::ltc::{LtcLobe, ltc_begin, ltc_edge, ltc_end, ltc_lobe};
+use hairline_optics::ltc::{LobeFresnel, LtcLobe, ltc_begin, ltc_edge, ltc_end, ltc_filtered_lobe};
 use hairline_scene::Environment;
+use std::f64::consts::SQRT_2;
 
 /// Light by way of the base.
 pub(crate) struct BaseRadiance {
@@ -18,23 +19,19 @@ pub(crate) struct BaseRadiance {
     pub diffuse: DVec3,
 }
 
-/// Radiance of the base towards the viewer, before scratches take theirs. `sphere` is the lobe's integrals over a sphere:
+/// Radiance of the base towards the viewer, before scratches take theirs. `sphere` is what the lobe reflects of a sphere:
 /// [`hairline_optics::ltc::ltc_sphere`].
 pub(crate) fn base_radiance(
     environment: Option<&Environment>,
     point: &SurfacePoint,
     views: &LightViews,
-    sphere: impl Fn(&LtcLobe, DVec3, f64) -> [f64; 3],
+    sphere: impl Fn(&LtcLobe, &LobeFresnel, DVec3, f64) -> [f64; 3],
 ) -> BaseRadiance {
-    let lobe = ltc_lobe(point.wo, point.roughness);
-    let reflectance = |integrals| {
-        DVec3::from(ggx_area_reflectance(
-            integrals,
-            &point.fresnel,
-            lobe.albedo[0],
-        ))
-    };
-    let albedo = reflectance(lobe.albedo);
+    let lobe = ltc_filtered_lobe(point.wo, point.lobe);
+    let of = LobeFresnel::new(point.fresnel, point.wo, point.lobe.roughness);
+    let reflectance =
+        |single| DVec3::from(ggx_area_reflectance(single, point.fresnel.f0, lobe.albedo));
+    let albedo = reflectance(of.albedo);
     // What the surface does not reflect reaches the body.
     let body = point.diffuse * (DVec3::ONE - albedo).max(DVec3::ZERO);
 
@@ -42,7 +39,7 @@ pub(crate) fn base_radiance(
     let has_body = body != DVec3::ZERO;
     let (mut specular, mut diffuse) = (DVec3::ZERO, DVec3::ZERO);
     for light in &views.views {
-        let (integrals, form_factor, radiance) = match light {
+        let (single, form_factor, radiance) = match light {
             LightView::Sphere { cap, radiance } => {
                 // A cap that holds every direction stands for a sphere around the point.
                 let sin2 = if cap.cos_radius < 0.0 {
@@ -51,7 +48,7 @@ pub(crate) fn base_radiance(
                     cap.sin_radius * cap.sin_radius
                 };
                 (
-                    sphere(&lobe, cap.axis, sin2),
+                    sphere(&lobe, &of, cap.axis, sin2),
                     if has_body {
                         lambert_sphere(cap.axis, sin2)
                     } else {
@@ -78,14 +75,14 @@ pub(crate) fn base_radiance(
                 } else {
                     0.0
                 };
-                (ltc_end(&state, &lobe), form_factor, radiance)
+                (ltc_end(&state, &lobe, &of), form_factor, radiance)
             }
         };
-        specular += *radiance * reflectance(integrals);
+        specular += *radiance * reflectance(single);
         diffuse += *radiance * form_factor;
     }
     if let Some(environment) = environment {
-        specular += albedo * reflected(environment, point, &environment_lobe(&lobe));
+        specular += reflectance(reflected(environment, point, &lobe, &of).to_array());
         diffuse += environment.irradiance(point.normal) / std::f64::consts::PI;
     }
     BaseRadiance {
@@ -94,15 +91,42 @@ pub(crate) fn base_radiance(
     }
 }
 
-/// The mean of an environment's radiance over a lobe.
-fn reflected(environment: &Environment, point: &SurfacePoint, lobe: &EnvironmentLobe) -> DVec3 {
-    let (mut sum, mut weights) = (DVec3::ZERO, 0.0);
-    for tap in (0..ENVIRONMENT_TAPS).map(|i| lobe.environment_tap(i)) {
-        let radiance =
-            environment.prefiltered(point.world_from_surface(tap.direction), tap.roughness);
-        weights += tap.weight;
-        // A running mean, which of equal values is exact.
-        sum += (radiance - sum) * (tap.weight / weights);
+/// What a lobe reflects of an environment, single scattering.
+///
+/// What facets reflect at normal incidence is the whole lobe's; what they reflect beyond that comes from where rough lobes graze.
+fn reflected(
+    environment: &Environment,
+    point: &SurfacePoint,
+    lobe: &LtcLobe,
+    of: &LobeFresnel,
+) -> DVec3 {
+    let looked_up = environment_lobe(lobe);
+    let taps: [_; ENVIRONMENT_TAPS] = std::array::from_fn(|i| looked_up.environment_tap(i));
+    let directions = taps.map(|tap| point.world_from_surface(tap.direction));
+    let mean = |widening: f64| {
+        let roughness = taps.map(|tap| (tap.roughness * widening).min(1.0));
+        let radiance = environment.prefiltered_all(directions, roughness);
+        let (mut sum, mut weights) = (DVec3::ZERO, 0.0);
+        for (tap, radiance) in taps.iter().zip(radiance) {
+            weights += tap.weight;
+            // A running mean, which of equal values is exact.
+            sum += (radiance - sum) * (tap.weight / weights);
+        }
+        sum
+    };
+    let mut all = mean(1.0);
+    if lobe.excess > 0.0 {
+        // Alpha times the root of 2.
+        let wide = mean(SQRT_2.sqrt());
+        all = (all + (all - wide) * lobe.excess).max(DVec3::ZERO);
     }
-    sum
+    let mut grazing = all;
+    let tap = looked_up.grazing_tap();
+    if tap.weight > 0.0 {
+        let direction = point.world_from_surface(tap.direction);
+        let [there] = environment.prefiltered_all([direction], [tap.roughness]);
+        grazing += (there - all) * tap.weight;
+    }
+    let normal = DVec3::from(of.fresnel.f0) * lobe.albedo;
+    normal * all + (DVec3::from(of.albedo) - normal) * grazing
 }

@@ -28,7 +28,7 @@ pub(crate) const BATCH: usize = GROUPS * LANES;
 
 /// A point of a surface with scratches, in the picture.
 pub(crate) struct ScratchPoint<'a> {
-    pub point: &'a SurfacePoint,
+    pub point: &'a SurfacePoint<'a>,
     pub object: u32,
     pub at_px: DVec2,
     /// The lights from there, ready for scratches.
@@ -101,7 +101,7 @@ impl ScratchShader {
         }
         self.bounds.gather(points, &self.frames);
         let arch = self.arch;
-        let segments = &prepared.scratches.tree.segments;
+        let (segments, weights) = prepared.segments();
         let mut shading = Shading {
             prepared,
             points,
@@ -114,7 +114,9 @@ impl ScratchShader {
             #[inline(always)]
             || {
                 for projected in list {
-                    shading.add(&segments[projected.segment as usize], projected);
+                    let at = projected.segment as usize;
+                    let weight = weights.get(at).map_or(1.0, |&weight| f64::from(weight));
+                    shading.add(&segments[at], projected, weight);
                 }
             },
         );
@@ -132,7 +134,7 @@ struct Shading<'a, 's> {
 
 impl Shading<'_, '_> {
     #[inline(always)]
-    fn add(&mut self, segment: &IndexedSegment, projected: &Projected) {
+    fn add(&mut self, segment: &IndexedSegment, projected: &Projected, weight: f64) {
         let line = Line::new(projected);
         let mut is_new = true;
         for i in 0..self.shader.groups.len() {
@@ -148,19 +150,21 @@ impl Shading<'_, '_> {
                 self.shader.bounds.find(segment, &mut self.shader.lit);
                 is_new = false;
             }
-            self.light(segment, i * LANES, &seen);
+            self.light(segment, i * LANES, &seen, weight);
         }
     }
 
-    /// Adds the light of a segment to those points of a group that see it.
+    /// Adds the light of a segment, times `weight`, to those points of a group that see it.
     #[inline(always)]
-    fn light(&mut self, segment: &IndexedSegment, first: usize, seen: &Seen) {
+    fn light(&mut self, segment: &IndexedSegment, first: usize, seen: &Seen, weight: f64) {
         let environment = self.prepared.scene.environment.as_ref();
         let (width_um, depth_nm) = (f64::from(segment.width_um), f64::from(segment.depth_nm));
         for lane in 0..LANES {
-            let Some(share) = seen.share(lane, width_um) else {
+            let Some(mut share) = seen.share(lane, width_um) else {
                 continue;
             };
+            // As many scratches, each of which is as long a line.
+            share.segment *= weight;
             self.counts.pairs += 1;
             let point = &self.points[first + lane];
             let frame = &self.shader.frames[first + lane];

@@ -3,12 +3,12 @@
 use glam::{DVec2, DVec3};
 use hairline_index::Hit;
 use hairline_optics::fresnel::FresnelRgb;
-use hairline_optics::ggx::ggx_curved_roughness;
+use hairline_optics::ggx::{FilteredLobe, ggx_filtered};
 use hairline_scene::{Mesh, Scene, ScratchTables, Texture};
 
 /// A shading point. Its local frame has z along the shading normal and the viewer in the x-z plane.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct SurfacePoint {
+pub(crate) struct SurfacePoint<'a> {
     /// World space.
     pub position_m: DVec3,
     /// Axes of the local frame in world space; `normal` is the shading normal on the viewer's side.
@@ -25,10 +25,11 @@ pub(crate) struct SurfacePoint {
     pub footprint_axes_m: [DVec3; 2],
     /// How the smooth normal, on the viewer's side, turns over each of them, in the local frame.
     pub normal_turns: [DVec3; 2],
-    pub fresnel: FresnelRgb,
+    pub fresnel: FresnelRgb<'a>,
     /// Albedo of the diffuse body.
     pub diffuse: DVec3,
-    pub roughness: f64,
+    /// Of the surface between the scratches, as the pixel sees it.
+    pub lobe: FilteredLobe,
     pub emission: DVec3,
     /// Index into the scene's materials.
     pub material: usize,
@@ -37,7 +38,7 @@ pub(crate) struct SurfacePoint {
     pub table: usize,
 }
 
-impl SurfacePoint {
+impl SurfacePoint<'_> {
     pub fn surface_from_world(&self, v: DVec3) -> DVec3 {
         DVec3::new(v.dot(self.axis_x), v.dot(self.axis_y), v.dot(self.normal))
     }
@@ -62,14 +63,14 @@ pub(crate) const MIN_VIEW_COS: f64 = 0.01;
 
 /// The surface at a hit, seen from the unit direction `to_viewer`. `footprint` gives, for a plane of a given unit normal
 /// through the hit, how the hit moves by one standard deviation of the pixel's filter to the right and down, metres.
-pub(crate) fn surface_point(
+pub(crate) fn surface_point<'a>(
     scene: &Scene,
-    tables: &ScratchTables,
+    tables: &'a ScratchTables,
     position_m: DVec3,
     to_viewer: DVec3,
     footprint: impl Fn(DVec3) -> [DVec3; 2],
     hit: &Hit,
-) -> SurfacePoint {
+) -> SurfacePoint<'a> {
     let mesh = &scene.objects[hit.object as usize].mesh;
     let triangle = mesh.triangles[hit.triangle as usize];
     let [u, v] = hit.barycentric;
@@ -92,17 +93,20 @@ pub(crate) fn surface_point(
     let material = &scene.materials[material_index];
     let optics = &tables.materials[material_index];
     let axes = footprint(side * smooth);
-    let texture = |index: Option<usize>| {
+    let looked_up = |index: Option<usize>, sample: Sampler| {
         index.map(|i| {
             let uv = triangle_uv(mesh, triangle, weights);
             let texel_scale = texture_footprint(mesh, triangle, &corners, axes);
-            sample_texture(&scene.textures[i], uv, texel_scale)
+            sample_texture(&scene.textures[i], uv, texel_scale, sample)
         })
     };
+    let texture = |index: Option<usize>| looked_up(index, sample_level);
 
     let mut normal = smooth;
+    // What the normals of a map spread beyond the one that is looked up, in both directions.
+    let mut spread2 = 0.0;
     if let Some((index, scale)) = material.normal_texture
-        && let Some(texel) = texture(Some(index))
+        && let Some(texel) = looked_up(Some(index), sample_normals)
     {
         let tangents = triangle.map(|i| mesh.tangents[i as usize].as_dvec4());
         let tangent = interpolate(weights, tangents.map(|t| t.truncate()));
@@ -112,6 +116,10 @@ pub(crate) fn surface_point(
         let n = texel.truncate() * 2.0 - DVec3::ONE;
         normal = (tangent * (n.x * scale) + bitangent * (n.y * scale) + smooth * n.z)
             .normalize_or(smooth);
+        // A point has one normal.
+        if axes != [DVec3::ZERO; 2] {
+            spread2 = 2.0 * (texel.w * scale).powi(2);
+        }
     }
     let smooth = side * smooth;
     let normal = face_viewer(side * normal, to_viewer);
@@ -141,7 +149,7 @@ pub(crate) fn surface_point(
         axes.map(|axis| normal_turn(&corners, &normals, geometric, interpolated, axis))
     };
     let turn2 = normal_turns[0].length_squared() + normal_turns[1].length_squared();
-    let roughness = ggx_curved_roughness(roughness, turn2);
+    let lobe = ggx_filtered(roughness, turn2 + spread2);
     let f0 = DVec3::splat(optics.dielectric_f0).lerp(base_color, metallic);
     let cos = normal.dot(to_viewer);
     SurfacePoint {
@@ -161,10 +169,10 @@ pub(crate) fn surface_point(
             .map(|turn| side * DVec3::new(turn.dot(axis_x), turn.dot(axis_y), 0.0)),
         fresnel: FresnelRgb {
             f0: f0.to_array(),
-            a: optics.fresnel_a,
+            curve: &tables.curves[optics.curve as usize],
         },
         diffuse: base_color * (1.0 - metallic),
-        roughness,
+        lobe,
         emission: emission * DVec3::from(material.emission),
         material: material_index,
         coherence_um: material.coherence_um,
@@ -229,7 +237,7 @@ fn texture_footprint(
 }
 
 /// Trilinear look-up, repeating, in linear values. `footprint` is the side of the filter in texture space.
-fn sample_texture(texture: &Texture, uv: DVec2, footprint: f64) -> glam::DVec4 {
+fn sample_texture(texture: &Texture, uv: DVec2, footprint: f64, sample: Sampler) -> glam::DVec4 {
     let texels = footprint * (texture.size_px[0] as f64 * texture.size_px[1] as f64).sqrt();
     // A Gaussian of one texel's width is what bilinear look-up amounts to: level 0 serves down to there.
     let last = (texture.levels.len() - 1) as f64;
@@ -239,15 +247,44 @@ fn sample_texture(texture: &Texture, uv: DVec2, footprint: f64) -> glam::DVec4 {
         0.0
     };
     let (low, share) = (lod.floor(), lod.fract());
-    let near = sample_level(texture, low as usize, uv);
+    let near = sample(texture, low as usize, uv);
     if share == 0.0 {
         near
     } else {
-        near.lerp(sample_level(texture, low as usize + 1, uv), share)
+        near.lerp(sample(texture, low as usize + 1, uv), share)
     }
 }
 
+/// Bilinear look-up in a level.
+type Sampler = fn(&Texture, usize, DVec2) -> glam::DVec4;
+
 fn sample_level(texture: &Texture, level: usize, uv: DVec2) -> glam::DVec4 {
+    let (texels, [x, y]) = four_texels(texture, level, uv);
+    texels[0]
+        .lerp(texels[1], x)
+        .lerp(texels[2].lerp(texels[3], x), y)
+}
+
+/// Of a normal map, where w is how far slopes spread: beyond the texels' own also between them, where the pixel sees more of them than one. At the first level
+/// of a point without a footprint nothing spreads.
+fn sample_normals(texture: &Texture, level: usize, uv: DVec2) -> glam::DVec4 {
+    let (texels, [x, y]) = four_texels(texture, level, uv);
+    let weights = [(1.0 - x) * (1.0 - y), x * (1.0 - y), (1.0 - x) * y, x * y];
+    let (mut mean, mut square) = (glam::DVec4::ZERO, 0.0);
+    for (texel, weight) in texels.iter().zip(weights) {
+        let tangential = texel.truncate().truncate() * 2.0 - 1.0;
+        mean += *texel * weight;
+        square += tangential.length_squared() * weight;
+    }
+    let tangential = mean.truncate().truncate() * 2.0 - 1.0;
+    let between = (square - tangential.length_squared()).max(0.0);
+    let up = (mean.z * 2.0 - 1.0).max(0.1);
+    mean.w = (mean.w * mean.w + 0.5 * between / (up * up)).sqrt();
+    mean
+}
+
+/// The texels about a place, row by row, and how far it is from the first.
+fn four_texels(texture: &Texture, level: usize, uv: DVec2) -> ([glam::DVec4; 4], [f64; 2]) {
     let [width, height] = texture.size_px.map(|n| (n >> level).max(1) as i64);
     let at = uv * DVec2::new(width as f64, height as f64) - 0.5;
     let corner = at.floor();
@@ -260,9 +297,8 @@ fn sample_level(texture: &Texture, level: usize, uv: DVec2) -> glam::DVec4 {
             texture.srgb,
         )
     };
-    texel(0, 0)
-        .lerp(texel(1, 0), t.x)
-        .lerp(texel(0, 1).lerp(texel(1, 1), t.x), t.y)
+    let texels = [texel(0, 0), texel(1, 0), texel(0, 1), texel(1, 1)];
+    (texels, t.to_array())
 }
 
 fn decode(texel: [u8; 4], srgb: bool) -> glam::DVec4 {

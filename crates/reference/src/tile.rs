@@ -21,7 +21,7 @@ use hairline_scene::camera::pixel_jitter;
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 /// Pixels to a side.
 const SIDE: usize = TILE_PX as usize;
@@ -45,11 +45,11 @@ pub(crate) enum By<'a> {
 }
 
 /// One sample of a pixel.
-struct Point {
+struct Point<'a> {
     /// Of the tile.
     pixel: usize,
     at_px: DVec2,
-    seen: Seen,
+    seen: Seen<'a>,
 }
 
 /// What the ray of a sample meets.
@@ -57,12 +57,12 @@ struct Point {
     clippy::large_enum_variant,
     reason = "there are few at a time, and most are surfaces"
 )]
-pub(crate) enum Seen {
+pub(crate) enum Seen<'a> {
     /// Nothing: radiance of the environment.
     Background(DVec3),
     Surface {
         hit: Hit,
-        point: SurfacePoint,
+        point: SurfacePoint<'a>,
         /// Along the view axis.
         depth_m: f64,
     },
@@ -72,7 +72,7 @@ pub(crate) enum Seen {
 pub(crate) struct Tile<'a> {
     picture: &'a Picture<'a>,
     rays: CameraBeam,
-    batch: Vec<Point>,
+    batch: Vec<Point<'a>>,
     /// The lights from each point of the batch.
     views: Vec<LightViews<'a>>,
     sums: Vec<ScratchSums>,
@@ -103,7 +103,6 @@ impl<'a> Tile<'a> {
         self.pixels = [Pixel::default(); SIDE * SIDE];
         let (x0, y0) = (column * SIDE, row * SIDE);
         let width = picture.camera.size_px.x as usize;
-        let samples = picture.options.samples.max(1);
         // Blocks of four by two pixels: a segment then misses more of the groups of points than it would of rows.
         for i in 0..SIDE * SIDE {
             let (block, within) = (i / 8, i % 8);
@@ -113,22 +112,39 @@ impl<'a> Tile<'a> {
             if x >= width || !picture.rows.contains(&y) {
                 continue;
             }
-            if samples == 1 || is_smooth(&picture.visibility, &picture.camera, x, y) {
-                let hit = picture.visibility.hit(x, y).copied();
-                self.add(column, row, pixel, center(x, y), 1, hit);
-            } else {
-                for sample in 0..samples {
-                    let at_px = center(x, y) + pixel_jitter(sample, samples);
-                    let camera = &picture.camera;
-                    let direction = camera.camera_ray(at_px).normalize();
-                    let triangles = &picture.prepared.triangles;
-                    let hit = self.rays.intersect(triangles, camera, at_px, direction);
-                    self.add(column, row, pixel, at_px, samples, hit);
-                }
-            }
+            self.add_pixel(column, row, pixel, [x, y]);
         }
         self.shade(column, row);
         self.pixels.map(|pixel| pixel.resolve())
+    }
+
+    /// Renders one pixel of the picture's rows.
+    pub fn render_pixel(&mut self, x: usize, y: usize) -> Sample {
+        self.pixels = [Pixel::default(); SIDE * SIDE];
+        let pixel = y % SIDE * SIDE + x % SIDE;
+        let (column, row) = (x / SIDE, y / SIDE);
+        self.add_pixel(column, row, pixel, [x, y]);
+        self.shade(column, row);
+        self.pixels[pixel].resolve()
+    }
+
+    /// Adds all samples of a pixel: one through its centre, or several where it has an edge.
+    fn add_pixel(&mut self, column: usize, row: usize, pixel: usize, [x, y]: [usize; 2]) {
+        let picture = self.picture;
+        let samples = picture.options.samples.max(1);
+        if samples == 1 || is_smooth(&picture.visibility, &picture.camera, x, y) {
+            let hit = picture.visibility.hit(x, y).copied();
+            self.add(column, row, pixel, center(x, y), 1, hit);
+            return;
+        }
+        for sample in 0..samples {
+            let at_px = center(x, y) + pixel_jitter(sample, samples);
+            let camera = &picture.camera;
+            let direction = camera.camera_ray(at_px).normalize();
+            let triangles = &picture.prepared.triangles;
+            let hit = self.rays.intersect(triangles, camera, at_px, direction);
+            self.add(column, row, pixel, at_px, samples, hit);
+        }
     }
 
     /// Adds one of `samples` samples of a pixel, given what its ray meets.
@@ -220,8 +236,13 @@ impl<'a> Tile<'a> {
 }
 
 impl<'a> Picture<'a> {
-    /// Fills the layers of an image that is as high as there are rows.
-    pub fn render(&'a self, image: &mut Image, progress: &(dyn Fn(f64) + Sync)) -> Counts {
+    /// Fills the layers of an image that is as high as there are rows. None if it was cancelled.
+    pub fn render(
+        &'a self,
+        image: &mut Image,
+        progress: &(dyn Fn(f64) + Sync),
+        cancelled: &(dyn Fn() -> bool + Sync),
+    ) -> Option<Counts> {
         let width = image.size_px[0] as usize;
         let tile_rows: Vec<usize> =
             (self.rows.start / SIDE..self.rows.end.div_ceil(SIDE)).collect();
@@ -237,6 +258,7 @@ impl<'a> Picture<'a> {
             .map(|(row, height)| (row, layers.split_off_first(height * width)))
             .collect();
         let (done, all) = (AtomicUsize::new(0), parts.len());
+        let is_cancelled = AtomicBool::new(false);
         // What a tile needs is dear to allocate, and threads take other tiles than they began with.
         let rooms: Mutex<Vec<Tile>> = Mutex::default();
         parts.into_par_iter().for_each(|(row, mut layers)| {
@@ -244,6 +266,10 @@ impl<'a> Picture<'a> {
             let tiles: Vec<_> = (0..width.div_ceil(SIDE))
                 .into_par_iter()
                 .map(|column| {
+                    if is_cancelled.load(Ordering::Relaxed) || cancelled() {
+                        is_cancelled.store(true, Ordering::Relaxed);
+                        return [Sample::default(); SIDE * SIDE];
+                    }
                     let mut tile = take(&rooms).unwrap_or_else(|| Tile::new(self));
                     let samples = tile.render(column, row);
                     put_back(&rooms, tile);
@@ -257,13 +283,16 @@ impl<'a> Picture<'a> {
             let done = done.fetch_add(1, Ordering::Relaxed) + 1;
             progress(done as f64 / all as f64);
         });
+        if is_cancelled.into_inner() {
+            return None;
+        }
         let rooms = rooms.into_inner().unwrap_or_default();
         let counts = rooms.iter().map(|tile| tile.counts);
-        counts.fold(Counts::default(), |a, b| a + b)
+        Some(counts.fold(Counts::default(), |a, b| a + b))
     }
 
     /// The surface under one of `samples` samples of a pixel.
-    pub(crate) fn surface(&self, at_px: DVec2, samples: u32, hit: Option<Hit>) -> Seen {
+    pub(crate) fn surface(&self, at_px: DVec2, samples: u32, hit: Option<Hit>) -> Seen<'_> {
         let Prepared { scene, tables, .. } = self.prepared;
         let ray = self.camera.camera_ray(at_px);
         let direction = ray.normalize();

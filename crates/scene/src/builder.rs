@@ -2,6 +2,7 @@
 
 mod kept;
 
+use std::collections::HashMap;
 use std::fmt;
 use std::path::Path;
 use std::sync::Arc;
@@ -10,6 +11,7 @@ use crate::description::references::find;
 use crate::description::{self, Description, Layer};
 use crate::error::Error;
 use crate::load::{self, Loader, Stage};
+use crate::memory::{self, Estimate};
 use crate::scene::{Object, Scene};
 use crate::scratches;
 use kept::{Kept, KeptLayer, KeptSurface, Stamp, SurfaceKey};
@@ -21,8 +23,8 @@ use kept::{Kept, KeptLayer, KeptSurface, Stamp, SurfaceKey};
 /// * scratches, layer by layer, by all that the layer's table says but its name. Hidden layers stay at hand.
 ///
 /// Files are known by their path, their length and the time of their last change. A scene that was built so equals one that
-/// was built from nothing.
-#[derive(Default)]
+/// was built from nothing. A clone shares what is kept, and costs next to nothing.
+#[derive(Clone, Default)]
 pub struct SceneBuilder {
     kept: Kept,
 }
@@ -58,6 +60,7 @@ impl SceneBuilder {
             base_dir,
             old: &self.kept,
             new: Kept::default(),
+            estimate: Estimate::default(),
         };
         let scene = work.scene()?;
         self.kept = work.new;
@@ -73,6 +76,8 @@ struct Work<'a> {
     old: &'a Kept,
     /// What the next build will find.
     new: Kept,
+    /// What is to be built, but for textures and scratches.
+    estimate: Estimate,
 }
 
 /// A `[[scratches]]` table and where it goes.
@@ -88,6 +93,7 @@ struct Coat<'a> {
 
 impl<'a> Work<'a> {
     fn scene(&mut self) -> Result<Scene, Error> {
+        self.estimate = self.check_memory()?;
         let mut scene = load::without_surfaces(self.description);
         let surfaces = self.surfaces(&mut scene)?;
         self.loader.go_on()?;
@@ -97,6 +103,29 @@ impl<'a> Work<'a> {
         Ok(scene)
     }
 
+    /// Refuses what would not fit into memory, before it is built.
+    fn check_memory(&self) -> Result<Estimate, Error> {
+        let mut estimate = Estimate::default();
+        estimate.add_lights(self.description);
+        let up = load::vertical_axis(self.description.camera.up.into());
+        for (i, object) in self.description.objects.iter().enumerate() {
+            let key = SurfaceKey::new(object, self.base_dir, up);
+            if self.old.surface(&key).is_none() {
+                estimate.add_object(self.description, i, self.base_dir);
+            }
+        }
+        if let Some(described) = &self.description.environment
+            && self
+                .old
+                .map(&Stamp::of(&self.base_dir.join(&described.file)))
+                .is_none()
+        {
+            estimate.add_environment(self.description, self.base_dir);
+        }
+        estimate.check(self.loader.memory_budget_bytes as f64)?;
+        Ok(estimate)
+    }
+
     /// The objects' surfaces, which are added to the scene with the materials and textures that they bring.
     fn surfaces(&mut self, scene: &mut Scene) -> Result<Vec<Arc<KeptSurface>>, Error> {
         let objects = &self.description.objects;
@@ -104,16 +133,23 @@ impl<'a> Work<'a> {
         let mut surfaces = Vec::new();
         let mut textures = Vec::new();
         let mut texture_count = 0;
+        let up = load::vertical_axis(scene.camera.up);
+        let mut free_bytes = self.loader.memory_budget_bytes as f64 - self.estimate.bytes();
         for (i, object) in objects.iter().enumerate() {
             self.loader.go_on()?;
             self.loader.report(Stage::Meshes, i as u64, total);
             let key = format!("object[{i}]");
             let material = load::object_material(object, &key, &self.description.materials)?;
-            let surface_key = SurfaceKey::new(object, self.base_dir);
+            let surface_key = SurfaceKey::new(object, self.base_dir, up);
             let first_material = material.unwrap_or(scene.materials.len() as u32);
             let surface = match self.old.surface(&surface_key) {
                 Some(kept) => kept,
-                None => Arc::new(KeptSurface::read(surface_key, object, &key)?),
+                None => {
+                    let read = KeptSurface::read(surface_key, object, &key, free_bytes)?;
+                    let sizes = read.textures.iter().map(|texture| texture.size_px);
+                    free_bytes -= sizes.map(memory::texture_bytes).sum::<f64>();
+                    Arc::new(read)
+                }
             };
             let surface = surface.with_materials_from(first_material);
             let own = surface.materials.iter().cloned();
@@ -159,7 +195,7 @@ impl<'a> Work<'a> {
         let is_due = |coat: &Coat| coat.is_shown && coat.laid.is_none();
         let used = coats.iter().filter(|coat| coat.is_shown);
         let used = used.filter_map(|coat| coat.laid.as_deref());
-        let used_bytes = used.map(|kept| kept.laid.bytes()).sum();
+        let used_bytes = used.map(|kept| kept.laid.bytes()).sum::<f64>() + self.estimate.bytes();
         let tables: Vec<_> = coats
             .iter()
             .enumerate()
@@ -208,15 +244,20 @@ impl<'a> Work<'a> {
         let tables = &self.description.scratches;
         let solo = tables.iter().any(|table| table.solo);
         let mut coats: Vec<Coat> = Vec::new();
+        let mut numbers: HashMap<(usize, u64), u64> = HashMap::new();
         for (i, table) in tables.iter().enumerate() {
             let names = self.description.objects.iter().map(|o| o.name.as_str());
             let key = format!("scratches[{i}].object");
             let object = find(&table.object, names, &key, "object")?;
             let seed = table.layer.seed();
-            let alike = |other: &&Coat| {
-                seed.is_some() && other.object == object && other.table.layer.seed() == seed
+            let number = match seed {
+                Some(seed) => {
+                    let next = numbers.entry((object, seed)).or_insert(0);
+                    *next += 1;
+                    *next - 1
+                }
+                None => 0,
             };
-            let number = coats.iter().filter(alike).count() as u64;
             let is_shown = !table.hidden && (table.solo || !solo);
             let ground = surfaces[object].ground_if_made();
             let laid = ground.and_then(|ground| {

@@ -17,10 +17,12 @@ mod table;
 use std::path::{Path, PathBuf};
 
 use hairline_image::ToneMap;
+use hairline_optics::ggx::GGX_MIN_ALPHA;
 use hairline_optics::metal::Metal;
 use serde::{Serialize, Serializer};
 
 use crate::error::Error;
+use crate::text::printable;
 
 pub use scratches::{
     Amount, Around, Brush, Brushed, DEFAULT_DEPTH_NM, DEFAULT_LENGTH_M, DEFAULT_SEED,
@@ -162,6 +164,14 @@ pub struct Object {
     /// `shape` or `mesh`.
     #[serde(flatten)]
     pub surface: Surface,
+    /// Which axis of a mesh's file points up; it is turned to the axis of the world nearest to the camera's up. Default: `"y"`, as
+    /// glTF has it. Shapes have no such key, and stand on z.
+    #[serde(skip_serializing_if = "is_default", serialize_with = "serialize_named")]
+    pub up: Up,
+    /// The largest extent of a mesh along its axes before `scale`; it is scaled to that. Default: as large as its file says. Shapes
+    /// have no such key.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fit_m: Option<f64>,
     /// Name of a material. Required for a shape; a mesh that leaves it out keeps the materials of its file.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,
@@ -172,6 +182,26 @@ pub struct Object {
     /// Factors along the object's own axes, or one number for all. None may be 0; negative ones mirror. Default: 1.
     #[serde(serialize_with = "serialize_scale")]
     pub scale: [f64; 3],
+}
+
+/// `up` of an object with a mesh.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Up {
+    /// `"y"`
+    #[default]
+    Y,
+    /// `"z"`
+    Z,
+}
+
+impl Up {
+    /// The axis in the file's frame.
+    pub(crate) fn axis(self) -> glam::DVec3 {
+        match self {
+            Self::Y => glam::DVec3::Y,
+            Self::Z => glam::DVec3::Z,
+        }
+    }
 }
 
 /// Where an object's triangles come from.
@@ -276,11 +306,14 @@ impl Description {
     /// Only the form is checked here: keys, types, units. Ranges and references are checked by
     /// [`Scene::build`](crate::Scene::build).
     pub fn from_toml(text: &str, name: &Path) -> Result<Self, Error> {
+        crate::memory::check_text(text.len()).map_err(|error| error.at(name, None))?;
         let root = locate::parse(text, name)?;
         let description = read::description(&root);
         let mut description = description.map_err(|error| error.in_scene_file(text, name))?;
-        description.notes = read::keys_without_effect(&root)
-            .map(|(key, why)| note(text, name, key, why))
+        let without_effect = read::keys_without_effect(&root);
+        let notes = without_effect.map(|(key, why)| note(text, name, key, why));
+        description.notes = notes
+            .chain(description.smoother_than_can_be(text, name))
             .collect();
         Ok(description)
     }
@@ -308,10 +341,31 @@ impl Description {
     }
 }
 
+impl Description {
+    /// Notes about materials that look rougher than they say.
+    fn smoother_than_can_be(&self, text: &str, name: &Path) -> Vec<String> {
+        let least = GGX_MIN_ALPHA.sqrt();
+        let is_smoother = |(_, material): &(usize, &Material)| {
+            (0.0..least).contains(&material.roughness) && material.kind != MaterialKind::Mirror
+        };
+        let materials = self.materials.iter().enumerate().filter(is_smoother);
+        // One is enough to be warned, and a scene may have thousands.
+        let first = materials.take(1).map(|(i, material)| {
+            let key = format!("material[{i}].roughness");
+            let why = format!(
+                "{} looks as {least:.3} does, which is the smoothest; only `kind = \"mirror\"` is smoother",
+                material.roughness
+            );
+            note(text, name, &key, &why)
+        });
+        first.collect()
+    }
+}
+
 /// A note about a key of the file: `file:line: key: why`, as errors are written.
 fn note(text: &str, name: &Path, key: &str, why: &str) -> String {
     let line = locate::line_of_key(text, key).map_or_else(String::new, |line| format!(":{line}"));
-    format!("{}{line}: {key}: {why}", name.display())
+    format!("{}{line}: {key}: {why}", printable(&name.to_string_lossy()))
 }
 
 /// Values that a scene file calls by name.
@@ -341,6 +395,14 @@ impl Named for Metal {
         ("titanium", Metal::Titanium),
         ("nickel", Metal::Nickel),
     ];
+}
+
+impl Named for Up {
+    const NAMES: &'static [(&'static str, Self)] = &[("y", Up::Y), ("z", Up::Z)];
+}
+
+fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
 }
 
 fn is_false(value: &bool) -> bool {

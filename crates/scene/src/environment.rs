@@ -1,7 +1,7 @@
 //! Light from all around: an equirectangular radiance map, prefiltered for rough reflection.
 //!
 //! Shading follows the split sum: a reflection off a rough surface is the map blurred by the surface's lobe, put together from round ones
-//! ([`Environment::prefiltered`], `hairline_optics::environment_lobe`), times the lobe's directional albedo; diffuse light is nine spherical harmonics
+//! ([`Environment::prefiltered`], `hairline_optics::environment_lobe`), times the lobe's directional albedo; diffuse light is the map blurred by the cosine
 //! ([`Environment::irradiance`]). Suns ([`Environment::load`]) are lights of their own.
 //!
 //! The map's top is at +Y, as in glTF, and its centre column at -Z, where a glTF camera looks by default; +X is to the
@@ -24,7 +24,8 @@ mod resample;
 mod suns;
 
 pub use file::Error;
-pub(crate) use file::read;
+pub(crate) use file::{read, size_px};
+pub use irradiance::IRRADIANCE_SIZE_PX;
 pub use prefilter::{LEVEL_HALVINGS, LEVEL_ROUGHNESS};
 
 use lookup::{
@@ -49,11 +50,11 @@ pub struct Environment {
 
 #[derive(Debug)]
 struct Maps {
-    /// Not in the levels, nor in the harmonics; in the map's frame, in texel units.
+    /// Not in the levels, nor in the irradiance; in the map's frame, in texel units.
     suns: Vec<Sun>,
     background: Picture,
     levels: Vec<Picture>,
-    irradiance_sh: [[f32; 3]; 9],
+    irradiance: Picture,
     texel_scale: f64,
     repaired_texels: usize,
 }
@@ -204,7 +205,7 @@ impl Environment {
 
     /// The irradiance on a surface with unit `normal` in world space: the integral of radiance times cosine.
     pub fn irradiance(&self, normal: DVec3) -> DVec3 {
-        environment_irradiance(&self.maps.irradiance_sh, self.map_from_world * normal)
+        environment_irradiance(&self.maps.irradiance, self.map_from_world * normal)
             * self.texel_radiance()
     }
 
@@ -213,7 +214,7 @@ impl Environment {
         self.visible
     }
 
-    /// The radiance of a texel (or coefficient) of value 1: the intensity, times the power of two that brought a very
+    /// The radiance of a texel of value 1: the intensity, times the power of two that brought a very
     /// bright map into half floats.
     #[inline]
     pub fn texel_radiance(&self) -> f64 {
@@ -235,10 +236,9 @@ impl Environment {
         &self.maps.levels
     }
 
-    /// The coefficients of [`Environment::irradiance`] in texel units and the map's frame, in the order of
-    /// [`lookup::environment_irradiance`].
-    pub fn irradiance_sh(&self) -> &[[f32; 3]; 9] {
-        &self.maps.irradiance_sh
+    /// The map blurred by the cosine, in texel units: [`Environment::irradiance`] over pi.
+    pub fn irradiance_map(&self) -> &Picture {
+        &self.maps.irradiance
     }
 
     /// The suns as spheres, so far away that they stand in one direction for all of a scene. They shine beside what is
@@ -265,14 +265,14 @@ impl Maps {
         let texel_scale = fit_half(&mut map);
         let parted = part(&mut map);
         let levels = prefilter::prefilter(&map);
-        let irradiance_sh = irradiance::project(&levels[0]);
+        let irradiance = irradiance::blur(&levels[0]);
         parted.put_back(&mut map);
         round_to_half(&mut map);
         Self {
             suns: parted.suns,
             background: map,
             levels,
-            irradiance_sh,
+            irradiance,
             texel_scale,
             repaired_texels,
         }

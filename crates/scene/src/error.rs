@@ -4,6 +4,7 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 
 use crate::description::locate;
+use crate::text::{printable, said};
 
 /// What was found in a scene, where, and what would be right there.
 ///
@@ -25,13 +26,14 @@ struct Place {
 }
 
 impl Error {
-    /// `key` is the way to the value, such as `light[1].radius_m`; `found` and `right` are halves of a sentence.
+    /// `key` is the way to the value, such as `light[1].radius_m`; `found` and `right` are halves of a sentence. Control
+    /// characters in them are escaped, and what is very long is cut: parts of them come from files.
     pub fn new(key: impl Into<String>, found: impl Into<String>, right: impl Into<String>) -> Self {
         Self {
             place: None,
-            key: key.into(),
-            found: found.into(),
-            right: right.into(),
+            key: said(&key.into()),
+            found: said(&found.into()),
+            right: said(&right.into()),
             is_cancelled: false,
         }
     }
@@ -96,7 +98,7 @@ impl Error {
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some(place) = &self.place {
-            write!(f, "{}:", place.file.display())?;
+            write!(f, "{}:", printable(&place.file.to_string_lossy()))?;
             if let Some(line) = place.line {
                 write!(f, "{line}:")?;
             }

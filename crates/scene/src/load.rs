@@ -12,6 +12,7 @@ use crate::description::{self, Description, LightKind, MaterialKind, MetalColor}
 use crate::error::Error;
 use crate::scene::{Base, Camera, Light, Material, RenderSettings, Scene};
 use crate::surface::world_from_object;
+use crate::{memory, reading};
 
 /// How far long work has come.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,8 +39,7 @@ pub enum Stage {
 /// Loads scenes within limits.
 #[derive(Clone, Copy)]
 pub struct Loader<'a> {
-    /// Scenes whose scratches would take more memory, here and in what renderers make of them, are refused before they
-    /// are laid.
+    /// Scenes that would take more memory, here and in what renderers make of them, are refused before they are built.
     pub memory_budget_bytes: u64,
     /// Is told how far long work has come, from the calling thread.
     pub progress: &'a dyn Fn(Progress),
@@ -49,26 +49,14 @@ pub struct Loader<'a> {
 }
 
 impl Default for Loader<'_> {
-    /// Silent, and with three quarters of the memory that is free; where that is not known, with 8 GiB.
+    /// Silent, and with [`memory::budget_bytes`].
     fn default() -> Self {
-        const UNKNOWN_BUDGET_BYTES: u64 = 8 << 30;
-        let free = free_memory_bytes().map(|bytes| bytes / 4 * 3);
         Self {
-            memory_budget_bytes: free.unwrap_or(UNKNOWN_BUDGET_BYTES),
+            memory_budget_bytes: memory::budget_bytes(),
             progress: &|_| {},
             cancelled: &|| false,
         }
     }
-}
-
-/// What the system can still give out; known on Linux only.
-fn free_memory_bytes() -> Option<u64> {
-    let table = std::fs::read_to_string("/proc/meminfo").ok()?;
-    let line = table
-        .lines()
-        .find(|line| line.starts_with("MemAvailable:"))?;
-    let kib: u64 = line.split_ascii_whitespace().nth(1)?.parse().ok()?;
-    Some(kib * 1024)
 }
 
 impl Scene {
@@ -96,10 +84,7 @@ impl Loader<'_> {
     /// See [`Scene::load`].
     pub fn load(&self, path: impl AsRef<Path>) -> Result<Scene, Error> {
         let path = path.as_ref();
-        let text = std::fs::read_to_string(path).map_err(|error| {
-            let found = format!("cannot be read ({error})");
-            Error::new("", found, "give the path of a scene file (TOML)").at(path, None)
-        })?;
+        let text = reading::scene_text(path)?;
         self.from_toml(&text, path, path.parent().unwrap_or(Path::new("")))
     }
 
@@ -214,7 +199,7 @@ fn light(light: &description::Light) -> Light {
 
 /// The axis of the world nearest to the camera's up: the direction of the environment's top. A camera that is rolled a little
 /// leaves the world upright.
-fn vertical_axis(up: DVec3) -> DVec3 {
+pub(crate) fn vertical_axis(up: DVec3) -> DVec3 {
     let axis = DVec3::AXES[up.abs().max_position()];
     axis * axis.dot(up).signum()
 }

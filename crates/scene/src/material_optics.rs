@@ -1,7 +1,7 @@
 //! What the materials of a scene mean to the physics: coefficients and tables that every renderer reads alike.
 
 use crate::scene::{Base, Material, Scene};
-use hairline_optics::fresnel::FresnelRgb;
+use hairline_optics::fresnel::FresnelCurve;
 use hairline_optics::metal::Metal;
 use hairline_optics::published::spectrum::PublishedSpectrum;
 use hairline_optics::table::ScratchTable;
@@ -16,10 +16,40 @@ pub struct MaterialOptics {
     pub metallic: f64,
     /// Reflectance of the dielectric part at normal incidence.
     pub dielectric_f0: f64,
-    /// The `a` of [`FresnelRgb`].
-    pub fresnel_a: [f64; 3],
+    /// Which of [`ScratchTables::curves`] its reflectance follows.
+    pub curve: u32,
     /// Which of [`ScratchTables::tables`] its scratches use.
     pub table: u32,
+}
+
+/// What a curve of reflectance over the angle is of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Reflector {
+    /// Schlick's approximation, which serves every colour.
+    Schlick,
+    /// A metal's measured refractive index.
+    Metal(Metal),
+    /// A dielectric's refractive index.
+    Dielectric(f64),
+}
+
+impl Reflector {
+    /// Of a material.
+    pub fn new(base: &Base) -> Self {
+        match *base {
+            Base::Metal(metal) => Self::Metal(metal),
+            Base::Dielectric { ior, .. } => Self::Dielectric(ior),
+            _ => Self::Schlick,
+        }
+    }
+
+    fn curve(self) -> FresnelCurve {
+        match self {
+            Self::Schlick => FresnelCurve::schlick().clone(),
+            Self::Metal(metal) => metal.fresnel_curve(),
+            Self::Dielectric(ior) => FresnelCurve::dielectric(ior),
+        }
+    }
 }
 
 /// The scratch tables that a scene needs, one for each reflectance spectrum.
@@ -28,6 +58,10 @@ pub struct ScratchTables {
     pub tables: Vec<ScratchTable>,
     /// The metal of each table; none for white's.
     pub metals: Vec<Option<Metal>>,
+    /// Distinct curves of reflectance over the angle.
+    pub curves: Vec<FresnelCurve>,
+    /// What each curve is of.
+    pub reflectors: Vec<Reflector>,
     /// One for each material of the scene.
     pub materials: Vec<MaterialOptics>,
 }
@@ -37,6 +71,7 @@ impl ScratchTables {
     pub fn new(scene: &Scene) -> Self {
         // Colours given in RGB have no spectrum: their scratches use white's table and take the colour at the end.
         let mut metals: Vec<Option<Metal>> = Vec::new();
+        let mut reflectors: Vec<Reflector> = Vec::new();
         let materials = scene
             .materials
             .iter()
@@ -49,7 +84,13 @@ impl ScratchTables {
                     metals.push(metal);
                     metals.len() - 1
                 });
-                material_optics(material, table as u32)
+                let reflector = Reflector::new(&material.base);
+                let curve = reflectors.iter().position(|r| *r == reflector);
+                let curve = curve.unwrap_or_else(|| {
+                    reflectors.push(reflector);
+                    reflectors.len() - 1
+                });
+                material_optics(material, table as u32, curve as u32)
             })
             .collect();
         let tables = metals
@@ -59,6 +100,8 @@ impl ScratchTables {
         Self {
             tables,
             metals,
+            curves: reflectors.iter().map(|r| r.curve()).collect(),
+            reflectors,
             materials,
         }
     }
@@ -77,40 +120,29 @@ fn reflectance(metal: Option<Metal>, wavelength_nm: f64) -> f64 {
     metal.map_or(1.0, |m| m.reflectance(1.0, wavelength_nm))
 }
 
-fn material_optics(material: &Material, table: u32) -> MaterialOptics {
-    let metal = |base_color, fresnel_a| MaterialOptics {
+fn material_optics(material: &Material, table: u32, curve: u32) -> MaterialOptics {
+    let metal = |base_color| MaterialOptics {
         base_color,
         metallic: 1.0,
         dielectric_f0: 0.04,
-        fresnel_a,
+        curve,
         table,
     };
     match material.base {
-        Base::Mirror => metal([1.0; 3], [0.0; 3]),
-        Base::Metal(m) => {
-            let FresnelRgb { f0, a } = m.fresnel_rgb();
-            metal(f0, a)
-        }
-        Base::ColoredMetal { base_color } => metal(base_color, [0.0; 3]),
-        Base::Dielectric { ior, base_color } => {
-            let dielectric_f0 = ((ior - 1.0) / (ior + 1.0)).powi(2);
-            MaterialOptics {
-                base_color,
-                metallic: 0.0,
-                dielectric_f0,
-                fresnel_a: [0.0; 3],
-                table,
-            }
-        }
+        Base::Mirror => metal([1.0; 3]),
+        Base::Metal(m) => metal(m.reflectance_rgb(1.0)),
+        Base::ColoredMetal { base_color } => metal(base_color),
+        Base::Dielectric { ior, base_color } => MaterialOptics {
+            metallic: 0.0,
+            dielectric_f0: ((ior - 1.0) / (ior + 1.0)).powi(2),
+            ..metal(base_color)
+        },
         Base::MetallicRoughness {
             base_color,
             metallic,
         } => MaterialOptics {
-            base_color,
             metallic,
-            dielectric_f0: 0.04,
-            fresnel_a: [0.0; 3],
-            table,
+            ..metal(base_color)
         },
     }
 }

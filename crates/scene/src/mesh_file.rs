@@ -5,26 +5,42 @@
 //! morph targets (the rest pose is shown), vertex colours, alpha, texture transforms; points and lines are skipped.
 
 mod accessor;
+mod head;
 mod material;
+mod placing;
 mod primitive;
+mod root;
 mod source;
 mod tangents;
 
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 use glam::{DMat4, DQuat, DVec3};
 use gltf::Gltf;
 
+use crate::reading::{self, Kind};
 use crate::scene::{Material, Mesh, Texture};
+use crate::text::shown;
+pub(crate) use head::{counts, names};
 use material::Materials;
+pub(crate) use placing::Placing;
 use source::Buffers;
 
+/// What a file must be.
+const RIGHT: &str = "must be a whole glTF 2.0 file, text (.gltf) or binary (.glb)";
 /// Nodes may lie this deep within each other; more is taken for a mistake.
 const DEEPEST: usize = 256;
 /// Instances of meshes that one file may place; each is baked.
 const MOST_TRIANGLES: usize = 1 << 28;
-/// Required extensions that need nothing done: the accessors read every component type.
-const EXTENSIONS: [&str; 1] = ["KHR_mesh_quantization"];
+/// Of the free memory, what one file may take.
+const FILE_SHARE: f64 = 1.0 / 4.0;
+/// Extensions that are read. Quantization needs nothing done: the accessors read every component type.
+const EXTENSIONS: [&str; 3] = [
+    "KHR_mesh_quantization",
+    "KHR_materials_emissive_strength",
+    "EXT_texture_webp",
+];
 
 /// What is wrong with a file, and what would be right.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -49,6 +65,8 @@ pub(crate) struct Stock<'a> {
     pub textures: &'a mut Vec<Texture>,
     /// The files that it refers to and that were read.
     pub files: &'a mut Vec<PathBuf>,
+    /// What textures may still take of the memory.
+    pub free_bytes: f64,
     /// Whether textures get their mip chains, which take longer than the rest.
     pub with_mips: bool,
 }
@@ -58,9 +76,10 @@ pub(crate) fn read(
     path: &Path,
     material: Option<u32>,
     world_from_object: &DMat4,
+    placing: &Placing,
     stock: Stock,
 ) -> Result<Mesh, Flaw> {
-    let bytes = std::fs::read(path).map_err(|error| {
+    let bytes = reading::read(path, Kind::File, FILE_SHARE).map_err(|error| {
         Flaw::new(
             format!("it cannot be read ({error})"),
             "give the path of a .gltf or .glb file, relative to the scene file",
@@ -74,9 +93,14 @@ pub(crate) fn read(
         None => Materials::own(base_dir, &buffers, stock),
     };
     let mut mesh = Mesh::default();
-    for (node, world_from_node) in placed_meshes(&gltf.document, *world_from_object)? {
+    let mut without_surface = 0;
+    let object_from_file = placing.object_from_file(&gltf.document, &buffers)?;
+    for (node, world_from_node) in
+        placed_meshes(&gltf.document, *world_from_object * object_from_file)?
+    {
         for primitive in node.mesh().into_iter().flat_map(|mesh| mesh.primitives()) {
             let Some(surface) = primitive::read(&primitive, &buffers)? else {
+                without_surface += 1;
                 continue;
             };
             let so_far = mesh.triangles.len().max(mesh.positions_m.len());
@@ -91,6 +115,13 @@ pub(crate) fn read(
             surface.bake(&world_from_node, material, &mut mesh);
         }
     }
+    if mesh.triangles.is_empty() && without_surface > 0 {
+        let found = "it has points and lines, and no triangles";
+        return Err(Flaw::new(
+            found,
+            "must have a surface: triangles that span an area",
+        ));
+    }
     if mesh.positions_m.iter().any(|p| !p.is_finite()) {
         return Err(Flaw::new(
             "it has vertices beyond the range of single precision",
@@ -101,7 +132,7 @@ pub(crate) fn read(
 }
 
 fn parse(bytes: &[u8]) -> Result<Gltf, Flaw> {
-    let right = "must be a whole glTF 2.0 file, text (.gltf) or binary (.glb)";
+    let right = RIGHT;
     if bytes.is_empty() {
         return Err(Flaw::new("it is empty", right));
     }
@@ -120,17 +151,24 @@ fn parse(bytes: &[u8]) -> Result<Gltf, Flaw> {
     } else if !bytes.trim_ascii_start().starts_with(b"{") {
         return Err(Flaw::new("it is neither binary nor text glTF", right));
     }
-    let invalid = |error| Flaw::new(format!("it is no valid glTF ({error})"), right);
-    let Gltf { document, blob } = Gltf::from_slice_without_validation(bytes).map_err(invalid)?;
-    let mut json = document.into_json();
+    let (text, blob) = parts(bytes)?;
+    let mut json = root::read(&text)?;
     json.extensions_required
         .retain(|name| !EXTENSIONS.contains(&name.as_str()));
     if let Some(name) = json.extensions_required.first() {
         return Err(Flaw::new(
-            format!("it requires the extension {name}, which is not supported"),
-            "export it again without that",
+            format!(
+                "it requires the extension {}, which is not supported",
+                shown(name)
+            ),
+            match name.as_str() {
+                "KHR_texture_basisu" => "export it again with PNG, JPEG or WebP images",
+                _ => "export it again without that",
+            },
         ));
     }
+    root::leave_out_what_is_ignored(&mut json);
+    root::find_images(&mut json)?;
     // What the crate's own validation takes for granted.
     let accessors = json.accessors.len();
     let mut primitives = json.meshes.iter().flat_map(|mesh| &mesh.primitives);
@@ -146,8 +184,27 @@ fn parse(bytes: &[u8]) -> Result<Gltf, Flaw> {
         let found = "an image has neither a `uri` nor a `bufferView` with its `mimeType`";
         return Err(Flaw::new(found, right));
     }
-    let document = gltf::Document::from_json(json).map_err(invalid)?;
+    let document = gltf::Document::from_json(json)
+        .map_err(|error| Flaw::new(format!("it is no valid glTF ({error})"), right))?;
     Ok(Gltf { document, blob })
+}
+
+/// The text of a file, and its binary chunk.
+type Parts<'a> = (Cow<'a, [u8]>, Option<Vec<u8>>);
+
+/// Takes a file apart.
+fn parts(bytes: &[u8]) -> Result<Parts<'_>, Flaw> {
+    if !bytes.starts_with(b"glTF") {
+        return Ok((Cow::Borrowed(bytes), None));
+    }
+    if bytes.get(4..8) == Some(&[1, 0, 0, 0]) {
+        return Err(root::wrong_version("1.0"));
+    }
+    let glb = gltf::binary::Glb::from_slice(bytes).map_err(|error| {
+        let found = format!("it is no valid binary glTF ({error})");
+        Flaw::new(found, RIGHT)
+    })?;
+    Ok((glb.json, glb.bin.map(Cow::into_owned)))
 }
 
 /// The nodes of the file's scene that have a mesh, with their transforms.
@@ -181,7 +238,16 @@ fn placed_meshes(
         .collect();
     while let Some((node, world_from_parent, depth)) = stack.pop() {
         // Nodes form trees, so meeting one twice is a mistake, and might go on for ever.
-        if std::mem::replace(&mut seen[node.index()], true) || depth > DEEPEST {
+        if depth > DEEPEST {
+            return Err(Flaw::new(
+                format!(
+                    "its node {} lies more than {DEEPEST} nodes deep",
+                    node.index()
+                ),
+                "export it again with fewer levels",
+            ));
+        }
+        if std::mem::replace(&mut seen[node.index()], true) {
             return Err(Flaw::new(
                 format!(
                     "its node {} is its own ancestor or has two parents",

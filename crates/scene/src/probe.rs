@@ -7,7 +7,9 @@ use glam::{DMat4, Vec3};
 use crate::description::Description;
 use crate::environment;
 use crate::error::Error;
-use crate::mesh_file::{self, Stock};
+use crate::mesh_file::{self, Placing, Stock};
+use crate::scene::{Base, Material, Texture};
+use crate::{memory, reading};
 
 /// What a mesh file holds.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,6 +20,31 @@ pub struct MeshSummary {
     pub bounds_m: (Vec3, Vec3),
     /// Names of the materials that the triangles use.
     pub materials: Vec<String>,
+    /// The share of the triangles that are of metal.
+    pub metal_share: f64,
+}
+
+impl MeshSummary {
+    /// The largest extent along an axis of the file.
+    pub fn extent_m(&self) -> f64 {
+        let (least, most) = self.bounds_m;
+        f64::from((most - least).max_element())
+    }
+
+    /// A size that suits a scene of `scene_extent_m` (see [`scene_extent_m`]) where the file's own does not: `fit_m` for the object.
+    /// `None` where the model is neither much larger than the scene nor much smaller.
+    pub fn fit_m(&self, scene_extent_m: f64) -> Option<f64> {
+        // A model of a tenth of the scene is a coin beside a pan; one of twice the scene hides it.
+        let fits = 0.1 * scene_extent_m..=2.0 * scene_extent_m;
+        (!fits.contains(&self.extent_m()) && scene_extent_m > 0.0).then_some(scene_extent_m)
+    }
+}
+
+/// The size of what a scene shows: the distance of its camera times twice the tangent of half its field of view, cut to a half.
+pub fn scene_extent_m(description: &Description) -> f64 {
+    let camera = &description.camera;
+    let [position, target] = [camera.position_m, camera.target_m].map(glam::DVec3::from);
+    position.distance(target) * (0.5 * camera.fov_y_deg.to_radians()).tan()
 }
 
 /// What an environment file holds.
@@ -38,18 +65,42 @@ pub fn mesh(path: &Path) -> Result<MeshSummary, Error> {
         textures: &mut textures,
         files: &mut Vec::new(),
         with_mips: false,
+        free_bytes: memory::budget_bytes() as f64,
     };
-    let mesh = mesh_file::read(path, None, &DMat4::IDENTITY, stock)
+    let mesh = mesh_file::read(path, None, &DMat4::IDENTITY, &Placing::NONE, stock)
         .map_err(|flaw| Error::new("", flaw.found, flaw.right).at(path, None))?;
     if mesh.triangles.is_empty() {
         let right = "must have triangles that span an area";
         return Err(Error::new("", "it has no surface", right).at(path, None));
     }
+    let is_metal: Vec<bool> = materials.iter().map(|it| is_metal(it, &textures)).collect();
+    let metals = mesh
+        .triangle_materials
+        .iter()
+        .filter(|i| is_metal[**i as usize]);
     Ok(MeshSummary {
+        metal_share: metals.count() as f64 / mesh.triangles.len() as f64,
         triangles: mesh.triangles.len(),
         bounds_m: mesh.bounds_m(),
         materials: materials.into_iter().map(|m| m.name).collect(),
     })
+}
+
+/// Whether a material of a file is a metal for the most part.
+fn is_metal(material: &Material, textures: &[Texture]) -> bool {
+    let Base::MetallicRoughness { metallic, .. } = material.base else {
+        return false;
+    };
+    let Some(texture) = material.metallic_roughness_texture else {
+        return metallic >= 0.5;
+    };
+    // Blue, of some thousand texels.
+    let texels = &textures[texture].levels[0];
+    let some = texels.iter().step_by(1 + texels.len() / 4096);
+    let (sum, count) = some.fold((0.0, 0.0), |(sum, count), texel| {
+        (sum + f64::from(texel[2]) / 255.0, count + 1.0)
+    });
+    metallic * sum >= 0.5 * count
 }
 
 /// Reads an .hdr or .exr file as an environment would, down to its last pixel.
@@ -75,14 +126,7 @@ pub fn environment(path: &Path) -> Result<EnvironmentSummary, Error> {
 /// # Errors
 /// What is wrong with the scene, with its line.
 pub fn scene(path: &Path) -> Result<Description, Error> {
-    let bytes = std::fs::read(path).map_err(|error| {
-        let found = format!("cannot be read ({error})");
-        Error::new("", found, "give the path of a scene file (TOML)").at(path, None)
-    })?;
-    let text = String::from_utf8(bytes).map_err(|_| {
-        let right = "must be a scene file (TOML)";
-        Error::new("", "it is no text", right).at(path, None)
-    })?;
+    let text = reading::scene_text(path)?;
     let description = Description::from_toml(&text, path)?;
     description
         .check()

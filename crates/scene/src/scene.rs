@@ -11,6 +11,10 @@ use std::sync::Arc;
 
 use crate::environment::Environment;
 
+/// Samples of a pixel with an edge or a crease in it, in a finished picture: of the window, of an export, of `hairline render`, by every
+/// renderer.
+pub const DEFAULT_SAMPLES: u32 = 8;
+
 /// Everything that a picture depends on.
 ///
 /// What is large lies behind an [`Arc`], so a clone costs microseconds: an editor clones a scene, changes what is small (a

@@ -74,8 +74,7 @@ pub(crate) struct Laid {
 impl Laid {
     /// What it takes, here and in what renderers make of it.
     pub(crate) fn bytes(&self) -> f64 {
-        (self.scratches.len() * size_of::<Scratch>()) as f64
-            + (self.segments.len() as u64 * SEGMENT_BYTES) as f64
+        bytes(self.scratches.len(), self.segments.len())
     }
 
     fn push(&mut self, groove: &Groove, course: Course, segments: std::ops::Range<usize>) {
@@ -89,6 +88,11 @@ impl Laid {
             });
         }
     }
+}
+
+/// What laid scratches take, here and in what renderers make of them.
+pub(crate) fn bytes(scratches: usize, segments: usize) -> f64 {
+    (scratches * size_of::<Scratch>()) as f64 + (segments as u64 * SEGMENT_BYTES) as f64
 }
 
 /// What is known of a scratch besides its segments.
@@ -138,7 +142,8 @@ pub(crate) fn lay(
 ) -> Result<Vec<Laid>, Error> {
     let mut plans = Vec::new();
     for table in tables {
-        plans.push(Plan::new(table, base_dir)?);
+        loader.go_on()?;
+        plans.push(Plan::new(loader, table, base_dir)?);
     }
     for plan in &plans {
         loader.go_on()?;
@@ -215,8 +220,9 @@ fn check_segments(segments: usize, key: &str) -> Result<(), Error> {
 }
 
 impl<'a> Plan<'a> {
-    fn new(table: &'a Table<'a>, base_dir: &Path) -> Result<Self, Error> {
+    fn new(loader: &Loader, table: &'a Table<'a>, base_dir: &Path) -> Result<Self, Error> {
         let ground = table.ground;
+        painted::check(table.strokes, &table.key, ground)?;
         let (laying, count): (Box<dyn Laying>, u64) = match table.layer {
             Layer::Laid(laid) => {
                 let count = match laid.amount {
@@ -238,7 +244,7 @@ impl<'a> Plan<'a> {
             Layer::Listed(listed) => {
                 let path = base_dir.join(&listed.file);
                 let rows = listed::read(&path, &table.key)?;
-                let listed = Listed::new(rows, &path, ground)?;
+                let listed = Listed::new(loader, rows, &path, ground)?;
                 let count = listed.count();
                 (Box::new(listed), count)
             }
@@ -246,7 +252,7 @@ impl<'a> Plan<'a> {
         Ok(Self {
             table,
             laying,
-            eraser: Eraser::new(table.strokes, ground),
+            eraser: Eraser::new(loader, table.strokes, ground)?,
             count,
         })
     }

@@ -27,6 +27,25 @@ pub(crate) fn surface(shape: &Shape) -> Surface {
     }
 }
 
+/// How many triangles and vertices a shape has at most.
+pub(crate) fn size(shape: &Shape) -> [f64; 2] {
+    let facets = f64::from(FACETS);
+    match shape {
+        Shape::Plane { .. } => [2.0, 4.0],
+        Shape::Disk { .. } => [facets, facets],
+        Shape::Sphere { .. } => [facets * facets, facets * (facets + 1.0)],
+        Shape::Lathe {
+            profile_m,
+            segments,
+            ..
+        } => {
+            let pieces = profile_m.len().saturating_sub(1) as f64;
+            let around = f64::from(*segments);
+            [2.0 * pieces * around, 2.0 * pieces * (around + 1.0)]
+        }
+    }
+}
+
 fn plane([x_m, y_m]: [f64; 2]) -> Surface {
     let corner = |x: f64, y: f64| flat_vertex(DVec3::new(x * x_m, y * y_m, 0.0), 1.0, x, y);
     Surface {

@@ -5,17 +5,51 @@ use std::io::Cursor;
 use image::{ImageReader, Limits};
 use rayon::prelude::*;
 
+use crate::memory::{self, in_words};
 use crate::scene::Texture;
 
 const LARGEST_PX: u32 = 16_384;
 
-/// Decodes a PNG, JPEG or WebP file and builds its mip chain; without it, there is the first level alone. `srgb` says whether
-/// its colours are sRGB encoded.
+/// What the channels of an image are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum Channels {
+    /// Colours, sRGB encoded.
+    Color,
+    /// Numbers.
+    Linear,
+    /// A normal map. In the place of alpha is how far the slopes under a texel spread about that of its normal: their standard deviation in
+    /// one direction, the mean of both, 1 at most. A texel of the first level is one normal: 0.
+    Normals,
+}
+
+/// Why an image is no texture.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum Unusable {
+    #[error("{0}")]
+    Broken(#[from] image::ImageError),
+    #[error(transparent)]
+    Unreadable(#[from] std::io::Error),
+    #[error("{}x{} pixels would take about {} of memory, and {} are free", .size_px[0], .size_px[1],
+        in_words(memory::texture_bytes(*.size_px)), in_words(.free_bytes.max(0.0)))]
+    TooLarge { size_px: [u32; 2], free_bytes: f64 },
+}
+
+/// Decodes a PNG, JPEG or WebP file and builds its mip chain; without it, there is the first level alone. It may take
+/// `free_bytes`.
 pub(crate) fn decode(
     bytes: &[u8],
-    srgb: bool,
+    channels: Channels,
     with_mips: bool,
-) -> Result<Texture, image::ImageError> {
+    free_bytes: f64,
+) -> Result<Texture, Unusable> {
+    let guessed = ImageReader::new(Cursor::new(bytes)).with_guessed_format()?;
+    let size_px: [u32; 2] = guessed.into_dimensions()?.into();
+    if memory::texture_bytes(size_px) > free_bytes {
+        return Err(Unusable::TooLarge {
+            size_px,
+            free_bytes,
+        });
+    }
     let mut reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format()?;
     let mut limits = Limits::default();
     limits.max_image_width = Some(LARGEST_PX);
@@ -23,19 +57,24 @@ pub(crate) fn decode(
     reader.limits(limits);
     let image = reader.decode()?.into_rgba8();
     let size_px = [image.width(), image.height()];
-    let texels = image.pixels().map(|pixel| pixel.0).collect();
+    let mut texels: Vec<[u8; 4]> = image.pixels().map(|pixel| pixel.0).collect();
+    if channels == Channels::Normals {
+        texels.iter_mut().for_each(|texel| texel[3] = 0);
+    }
     Ok(match with_mips {
-        true => self::with_mips(size_px, texels, srgb),
+        true => self::with_mips(size_px, texels, channels),
         false => Texture {
             size_px,
             levels: vec![texels],
-            srgb,
+            srgb: channels == Channels::Color,
         },
     })
 }
 
 /// A texture from its texels, row by row from the top.
-pub(crate) fn with_mips(size_px: [u32; 2], texels: Vec<[u8; 4]>, srgb: bool) -> Texture {
+pub(crate) fn with_mips(size_px: [u32; 2], texels: Vec<[u8; 4]>, channels: Channels) -> Texture {
+    let srgb = channels == Channels::Color;
+    let normals = channels == Channels::Normals;
     let to_linear: Vec<f32> = (0..=255u8)
         .map(|code| match srgb {
             true => srgb_to_linear(f32::from(code) / 255.0),
@@ -44,12 +83,22 @@ pub(crate) fn with_mips(size_px: [u32; 2], texels: Vec<[u8; 4]>, srgb: bool) -> 
         .collect();
     let linear = |texel: &[u8; 4]| {
         let [r, g, b, a] = *texel;
-        let color = [r, g, b].map(|code| to_linear[usize::from(code)]);
-        [color[0], color[1], color[2], f32::from(a) / 255.0]
+        let [r, g, b] = [r, g, b].map(|code| to_linear[usize::from(code)]);
+        let a = if normals {
+            slope2([r, g, b])
+        } else {
+            f32::from(a) / 255.0
+        };
+        [r, g, b, a]
     };
     let encoded = |texel: &[f32; 4]| {
         let [r, g, b, a] = *texel;
         let code = |x: f32| (x.clamp(0.0, 1.0) * 255.0).round() as u8;
+        let a = if normals {
+            (0.5 * (a - slope2([r, g, b]))).max(0.0).sqrt()
+        } else {
+            a
+        };
         let [r, g, b] = [r, g, b].map(|x| code(if srgb { linear_to_srgb(x) } else { x }));
         [r, g, b, code(a)]
     };
@@ -68,6 +117,13 @@ pub(crate) fn with_mips(size_px: [u32; 2], texels: Vec<[u8; 4]>, srgb: bool) -> 
         levels,
         srgb,
     }
+}
+
+/// The squared slope of the surface where a normal map has this texel.
+fn slope2([x, y, z]: [f32; 3]) -> f32 {
+    let [x, y, z] = [x, y, z].map(|c| 2.0 * c - 1.0);
+    // Normals are steeper nowhere than what an 8-bit map is good for.
+    (x * x + y * y) / z.max(0.1).powi(2)
 }
 
 /// The mean over the area that each of the fewer texels covers.
@@ -128,11 +184,27 @@ mod tests {
     #[test]
     fn srgb_is_averaged_in_linear_light() {
         let checkers = vec![[0, 0, 0, 255], [255, 255, 255, 255]];
-        let srgb = with_mips([2, 1], checkers.clone(), true);
+        let srgb = with_mips([2, 1], checkers.clone(), Channels::Color);
         // Half the light is code 188, not 128.
         assert_eq!(srgb.levels[1], [[188, 188, 188, 255]]);
-        let linear = with_mips([2, 1], checkers, false);
+        let linear = with_mips([2, 1], checkers, Channels::Linear);
         assert_eq!(linear.levels[1], [[128, 128, 128, 255]]);
+    }
+
+    #[test]
+    fn coarse_normals_remember_how_they_spread() {
+        // Slopes of 0.5 to either side: none in the mean, a spread of 0.5 in one direction.
+        let code = |x: f32| ((0.5 * x + 0.5) * 255.0).round() as u8;
+        let z = 1.0 / 1.25_f32.sqrt();
+        let normal = |x: f32| [code(x * 0.5 * z), 128, code(z), 0];
+        let texture = with_mips([2, 1], vec![normal(1.0), normal(-1.0)], Channels::Normals);
+        let [x, _, _, spread] = texture.levels[1][0];
+        assert!((127..=128).contains(&x));
+        let expected = 0.5 / 2.0_f32.sqrt() * 255.0;
+        assert!((f32::from(spread) - expected).abs() < 3.0, "{spread}");
+        // A slope alone spreads nothing.
+        let even = with_mips([2, 1], vec![normal(1.0); 2], Channels::Normals);
+        assert!(even.levels[1][0][3] < 3);
     }
 
     #[test]
@@ -142,7 +214,7 @@ mod tests {
         let texels: Vec<_> = (0..size[0] * size[1])
             .map(|i| [(i * 37 % 256) as u8, (i * 91 % 256) as u8, 7, 255])
             .collect();
-        let texture = with_mips(size, texels, false);
+        let texture = with_mips(size, texels, Channels::Linear);
         let sizes: Vec<_> = texture.levels.iter().map(Vec::len).collect();
         assert_eq!(sizes, [78, 18, 3, 1]);
         let mean = |level: &Vec<[u8; 4]>, channel: usize| {

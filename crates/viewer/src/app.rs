@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use eframe::egui_wgpu::RenderState;
+use hairline_editor::bookmarks::Bookmarks;
 use hairline_editor::{Document, Selection};
 use hairline_scene::Description;
 use web_time::Instant;
@@ -14,9 +15,15 @@ use crate::dialogs::Dialogs;
 use crate::engine::{Backend, Engine, Event};
 use crate::export::Export;
 use crate::files::Files;
+use crate::free_view::FreeView;
+use crate::gallery::Gallery;
 use crate::loss::WindowLoss;
 use crate::notices::Notices;
+use crate::overlays::Overlays;
 use crate::panels;
+use crate::reading::ReadingState;
+use crate::seen::makes_same_scene;
+use crate::snapshots::Snapshots;
 use crate::tools::{Tool, Toolbox};
 use crate::viewport::Viewport;
 
@@ -45,8 +52,20 @@ pub struct Viewer {
     pub(crate) files: Files,
     pub(crate) export: Export,
     pub(crate) compare: Compare,
+    pub(crate) reading: ReadingState,
+    pub(crate) free_view: FreeView,
+    pub(crate) overlays: Overlays,
+    pub(crate) gallery: Gallery,
+    /// Where the viewer may keep files of its own.
+    pub(crate) state_dir: Option<PathBuf>,
+    pub(crate) bookmarks: Bookmarks,
+    pub(crate) snapshots: Snapshots,
     /// The camera is to show all of the next scene that is built.
     pub(crate) frame_when_built: bool,
+    pub(crate) hides_list: bool,
+    pub(crate) hides_inspector: bool,
+    /// A text had the keyboard at the end of the last pass.
+    was_typing: bool,
     built_in: &'static str,
     /// The description that the engine was given last, and when the notes about it were read.
     asked: Option<Arc<Description>>,
@@ -70,7 +89,7 @@ impl Viewer {
     ) -> Result<Self, hairline_scene::Error> {
         crate::style::set(ctx);
         let mut notices = Notices::default();
-        let opened = options.scene.as_ref().map(Document::open);
+        let opened = options.scene.as_deref().map(open);
         let document = match opened {
             Some(Ok(document)) => document,
             other => {
@@ -80,6 +99,10 @@ impl Viewer {
                 built_in(options.built_in)?
             }
         };
+        let state_dir = options.state_dir.clone();
+        let store = state_dir.as_ref();
+        let mut bookmarks = Bookmarks::new(store.map(|folder| folder.join("views.toml")));
+        bookmarks.open(document.path());
         let wake = ctx.clone();
         let mut viewer = Self {
             engine: Engine::start(options.backend, Arc::new(move || wake.request_repaint())),
@@ -87,10 +110,20 @@ impl Viewer {
             toolbox: Toolbox::default(),
             notices,
             dialogs: Dialogs::default(),
-            files: Files::new(options.state_dir, options.native_dialogs),
+            files: Files::new(options.state_dir, options.native_dialogs, ctx.clone()),
             export: Export::default(),
             compare: Compare::default(),
+            reading: ReadingState::default(),
+            free_view: FreeView::default(),
+            overlays: Overlays::default(),
+            gallery: Gallery::default(),
+            state_dir,
+            bookmarks,
+            snapshots: Snapshots::default(),
             frame_when_built: false,
+            hides_list: false,
+            hides_inspector: false,
+            was_typing: false,
             built_in: options.built_in,
             asked: None,
             asked_revision: 0,
@@ -121,6 +154,21 @@ impl Viewer {
         &self.engine
     }
 
+    /// What the engine was asked for last, for tests.
+    pub fn view(&self) -> Option<crate::engine::View> {
+        self.viewport.view
+    }
+
+    /// How many small pictures of presets there are, and whether more are being rendered, for tests.
+    pub fn small_pictures(&self) -> (usize, bool) {
+        (self.gallery.count(), self.gallery.is_working())
+    }
+
+    /// What the probe reads, for tests.
+    pub fn probed(&self) -> Option<crate::reading::Reading> {
+        self.reading.probe.reading()
+    }
+
     /// The messages in the window, for tests.
     pub fn messages(&self) -> Vec<&str> {
         self.notices.texts()
@@ -134,6 +182,7 @@ impl Viewer {
             return;
         }
         self.hear_engine();
+        self.turn_view(&ctx);
         for path in dropped_files(&ctx) {
             self.take_file(&ctx, &path);
         }
@@ -141,17 +190,31 @@ impl Viewer {
         while let Some(outcome) = self.files.chosen() {
             self.take_choice(&ctx, outcome);
         }
+        self.hear_of_files(&ctx);
+        let has_popup = egui::Popup::is_any_open(&ctx);
+        self.viewport.shield(&ctx, has_popup);
         if !self.dialogs.is_modal() && !self.export.is_asking() {
             crate::viewport::cancel_on_escape(&ctx, self);
-            for command in Command::pressed(&ctx) {
+            // It closes what is open and ends what is typed, and egui has taken the keyboard from a text by now.
+            let escape_is_taken = has_popup || self.was_typing;
+            for command in Command::pressed(&ctx, escape_is_taken) {
                 self.run(&ctx, command);
             }
         }
         let mut wished = None;
         panels::menu::show(ui, self, &mut wished);
         panels::status::show(ui, self);
-        panels::outliner::show(ui, self, &mut wished);
-        panels::inspector::show(ui, self);
+        if !self.hides_list {
+            panels::outliner::show(ui, self, &mut wished);
+        }
+        if !self.hides_inspector {
+            panels::inspector::show(ui, self);
+        }
+        match panels::number::told(&ctx) {
+            Some(Ok(())) => self.notices.clear("number"),
+            Some(Err(why)) => self.notices.error("number", why),
+            None => {}
+        }
         let area = crate::viewport::show(ui, self);
         self.notices.show(&ctx, area);
         self.show_export(&ctx, area);
@@ -169,6 +232,7 @@ impl Viewer {
                 .error("autosave", format!("No autosave: {failed}"));
         }
         self.watch_close(&ctx);
+        self.was_typing = ctx.text_edit_focused();
         let title = format!(
             "{}{} · Hairline",
             self.document.title(),
@@ -242,10 +306,13 @@ impl Viewer {
     /// Hands the description to the engine if more than the view has changed.
     fn ask_engine(&mut self) {
         let description = self.document.description();
-        let is_asked = self.asked.as_ref().is_some_and(|asked| {
-            Arc::ptr_eq(asked, description) || makes_same_scene(asked, description)
-        });
-        if !is_asked {
+        let is_latest = |asked: &Arc<_>| Arc::ptr_eq(asked, description);
+        if self.asked.as_ref().is_some_and(is_latest) {
+            return;
+        }
+        self.files.watch(&self.document);
+        let is_seen_alike = |asked: &Arc<_>| makes_same_scene(asked, description);
+        if !self.asked.as_ref().is_some_and(is_seen_alike) {
             self.notices.clear("scene");
             self.asked_revision = self.document.revision();
             self.engine.set_scene(
@@ -261,8 +328,11 @@ impl Viewer {
     pub(crate) fn replace_document(&mut self, document: Document) {
         self.files.reopen();
         self.document = document;
+        self.free_view.end();
+        self.bookmarks.open(self.document.path());
         self.asked = None;
         self.toolbox.tool = Tool::Select;
+        self.snapshots = Snapshots::default();
         self.notices.clear("open");
         self.tell_notes();
         if let Some(path) = self.document.path() {
@@ -270,8 +340,13 @@ impl Viewer {
         }
     }
 
+    /// Has the scene built anew, though its description has not changed: a file that it names has.
+    pub(crate) fn forget_what_was_asked(&mut self) {
+        self.asked = None;
+    }
+
     /// What the author of the scene file should know about it.
-    fn tell_notes(&mut self) {
+    pub(crate) fn tell_notes(&mut self) {
         let notes = &self.document.description().notes;
         if !notes.is_empty() {
             let text = notes.join("\n");
@@ -307,20 +382,20 @@ impl eframe::App for Viewer {
     }
 }
 
+/// A scene file, or a model in a scene of its own.
+pub(crate) fn open(path: &Path) -> Result<Document, hairline_scene::Error> {
+    match Description::is_model(path) {
+        true => {
+            let folder = path.parent().unwrap_or(Path::new(""));
+            Ok(Document::untitled(Description::for_model(path)?, folder))
+        }
+        false => Document::open(path),
+    }
+}
+
 fn built_in(text: &str) -> Result<Document, hairline_scene::Error> {
     let description = Document::read(text, Path::new("built-in scene"))?;
     Ok(Document::untitled(description, PathBuf::new()))
-}
-
-/// Whether only the view, the exposure or the way of showing differs, which the painter is told without a new scene. The
-/// camera's up is left to the builder: it turns the environment.
-fn makes_same_scene(a: &Description, b: &Description) -> bool {
-    a.camera.up == b.camera.up
-        && a.environment == b.environment
-        && a.materials == b.materials
-        && a.objects == b.objects
-        && a.scratches == b.scratches
-        && a.lights == b.lights
 }
 
 fn dropped_files(ctx: &egui::Context) -> Vec<PathBuf> {

@@ -1,11 +1,15 @@
 //! Everything that a menu, a button or a key can ask for: one table, which the menus, the toolbar and the help read.
 
+mod fit;
 mod run;
 
 use egui::{Key, KeyboardShortcut, Modifiers};
 use hairline_editor::navigate::Viewpoint;
 
+use crate::free_view::ViewCommand;
+use crate::overlays::Overlay;
 use crate::platform::{HAS_FILES, HAS_THREADS};
+use crate::reading::{ReadCommand, Shows};
 use crate::tools::Tool;
 
 /// A wish of the artist.
@@ -15,11 +19,15 @@ pub(crate) enum Command {
     Open,
     Save,
     SaveAs,
+    Reload,
+    Revert,
     AddModel,
     SetEnvironment,
     Screenshot,
     Turntable,
     Compare,
+    TakeSnapshot,
+    FlipSnapshot,
     Quit,
     Undo,
     Redo,
@@ -31,12 +39,19 @@ pub(crate) enum Command {
     ToggleSolo,
     FrameAll,
     FrameSelection,
+    FullScreen,
+    ToggleList,
+    ToggleInspector,
     Look(Viewpoint),
     Pick(Tool),
     BrushSmaller,
     BrushLarger,
     Deselect,
     Help,
+    Read(ReadCommand),
+    View(ViewCommand),
+    Overlay(Overlay),
+    Overlays,
 }
 
 /// Where a command is found.
@@ -45,18 +60,27 @@ pub(crate) enum Group {
     File,
     Edit,
     View,
+    Inspect,
     Tools,
     Help,
 }
 
 impl Group {
-    pub const ALL: [Self; 5] = [Self::File, Self::Edit, Self::View, Self::Tools, Self::Help];
+    pub const ALL: [Self; 6] = [
+        Self::File,
+        Self::Edit,
+        Self::View,
+        Self::Inspect,
+        Self::Tools,
+        Self::Help,
+    ];
 
     pub fn name(self) -> &'static str {
         match self {
             Self::File => "File",
             Self::Edit => "Edit",
             Self::View => "View",
+            Self::Inspect => "Inspect",
             Self::Tools => "Tools",
             Self::Help => "Help",
         }
@@ -97,20 +121,22 @@ const COMMAND_SHIFT: Modifiers = Modifiers {
 };
 const PLAIN: Modifiers = Modifiers::NONE;
 
-/// In the order of the menus. Of two shortcuts where one's modifiers include the other's, the larger comes first.
+/// In the order of the menus.
 #[rustfmt::skip]
 const TABLE: &[Entry] = &[
     entry(Command::New, Group::File, "New from the built-in scene", Some((COMMAND, Key::N))),
     entry(Command::Open, Group::File, "Open…", Some((COMMAND, Key::O))),
-    entry(Command::SaveAs, Group::File, "Save as…", Some((COMMAND_SHIFT, Key::S))),
     entry(Command::Save, Group::File, "Save", Some((COMMAND, Key::S))),
+    entry(Command::SaveAs, Group::File, "Save as…", Some((COMMAND_SHIFT, Key::S))),
+    entry(Command::Reload, Group::File, "Reload from the file", Some((COMMAND, Key::R))),
+    entry(Command::Revert, Group::File, "Revert to what was saved", None),
     entry(Command::AddModel, Group::File, "Add a model (glTF)…", Some((COMMAND, Key::I))),
     entry(Command::SetEnvironment, Group::File, "Set the environment (HDR, EXR)…", None),
     entry(Command::Screenshot, Group::File, "Save a picture…", Some((COMMAND, Key::P))),
     entry(Command::Turntable, Group::File, "Export a turntable…", None),
     entry(Command::Quit, Group::File, "Quit", Some((COMMAND, Key::Q))),
-    entry(Command::Redo, Group::Edit, "Redo", Some((COMMAND_SHIFT, Key::Z))),
     entry(Command::Undo, Group::Edit, "Undo", Some((COMMAND, Key::Z))),
+    entry(Command::Redo, Group::Edit, "Redo", Some((COMMAND_SHIFT, Key::Z))),
     entry(Command::Duplicate, Group::Edit, "Duplicate", Some((COMMAND, Key::D))),
     entry(Command::Delete, Group::Edit, "Delete", Some((PLAIN, Key::Delete))),
     entry(Command::MoveUp, Group::Edit, "Move up", Some((Modifiers::ALT, Key::ArrowUp))),
@@ -127,7 +153,38 @@ const TABLE: &[Entry] = &[
     entry(Command::Look(Viewpoint::Top), Group::View, "From above", Some((PLAIN, Key::Num5))),
     entry(Command::Look(Viewpoint::Bottom), Group::View, "From below", Some((PLAIN, Key::Num6))),
     entry(Command::Look(Viewpoint::ThreeQuarter), Group::View, "Three quarters", Some((PLAIN, Key::Num7))),
+    entry(Command::View(ViewCommand::LookThroughCamera), Group::View, "Look through the camera", Some((PLAIN, Key::Num0))),
+    entry(Command::View(ViewCommand::SetCameraToView), Group::View, "Set the camera to the view", Some((PLAIN, Key::K))),
+    entry(Command::View(ViewCommand::MoveCamera), Group::View, "Move the camera with the view", None),
+    entry(Command::View(ViewCommand::Bookmark), Group::View, "Keep this view", Some((COMMAND, Key::B))),
+    entry(Command::View(ViewCommand::NextBookmark), Group::View, "Next kept view", Some((PLAIN, Key::PageDown))),
+    entry(Command::View(ViewCommand::Turntable), Group::View, "Turntable", Some((PLAIN, Key::T))),
+    entry(Command::Overlays, Group::View, "All overlays", Some((PLAIN, Key::O))),
+    entry(Command::Overlay(Overlay::Directions), Group::View, "Directions of scratches", None),
+    entry(Command::Overlay(Overlay::AllDirections), Group::View, "Directions of all layers", None),
+    entry(Command::Overlay(Overlay::Brush), Group::View, "Outline of the brush", None),
+    entry(Command::Overlay(Overlay::Lights), Group::View, "Outlines of lights", None),
+    entry(Command::Overlay(Overlay::Handles), Group::View, "Handles of the selection", None),
+    entry(Command::Overlay(Overlay::Names), Group::View, "Names", None),
+    entry(Command::ToggleList, Group::View, "List at the left", Some((PLAIN, Key::F9))),
+    entry(Command::ToggleInspector, Group::View, "Panel at the right", Some((PLAIN, Key::F10))),
+    entry(Command::FullScreen, Group::View, "Full screen", Some((PLAIN, Key::F11))),
     entry(Command::Compare, Group::View, "Compare with the reference", Some((PLAIN, Key::C))),
+    entry(Command::TakeSnapshot, Group::View, "Take a snapshot", Some((PLAIN, Key::S))),
+    entry(Command::FlipSnapshot, Group::View, "Flip to the snapshot and back", Some((PLAIN, Key::J))),
+    entry(Command::Read(ReadCommand::Probe), Group::Inspect, "Probe a pixel", Some((PLAIN, Key::I))),
+    entry(Command::Read(ReadCommand::Histogram), Group::Inspect, "Histogram", Some((PLAIN, Key::G))),
+    entry(Command::Read(ReadCommand::FalseColor), Group::Inspect, "False colour, or the picture", Some((PLAIN, Key::X))),
+    entry(Command::Read(ReadCommand::NextView), Group::Inspect, "Next layer view", Some((PLAIN, Key::N))),
+    entry(Command::Read(ReadCommand::Show(Shows::Beauty)), Group::Inspect, "Show the picture", None),
+    entry(Command::Read(ReadCommand::Show(Shows::Base)), Group::Inspect, "Show the base", None),
+    entry(Command::Read(ReadCommand::Show(Shows::Scratches)), Group::Inspect, "Show the scratches", None),
+    entry(Command::Read(ReadCommand::Show(Shows::Density)), Group::Inspect, "Show the density of scratches", None),
+    entry(Command::Read(ReadCommand::Show(Shows::Normal)), Group::Inspect, "Show normals", None),
+    entry(Command::Read(ReadCommand::Show(Shows::Depth)), Group::Inspect, "Show depths", None),
+    entry(Command::Read(ReadCommand::ResetExposure), Group::Inspect, "As bright as the camera says", Some((Modifiers::SHIFT, Key::Comma))),
+    entry(Command::Read(ReadCommand::Brighter), Group::Inspect, "Brighter in the window", Some((PLAIN, Key::Period))),
+    entry(Command::Read(ReadCommand::Darker), Group::Inspect, "Darker in the window", Some((PLAIN, Key::Comma))),
     entry(Command::Pick(Tool::Select), Group::Tools, "Select", Some((PLAIN, Key::V))),
     entry(Command::Pick(Tool::Brush), Group::Tools, "Brush", Some((PLAIN, Key::B))),
     entry(Command::Pick(Tool::Eraser), Group::Tools, "Eraser", Some((PLAIN, Key::E))),
@@ -135,6 +192,31 @@ const TABLE: &[Entry] = &[
     entry(Command::BrushSmaller, Group::Tools, "Smaller brush", Some((PLAIN, Key::OpenBracket))),
     entry(Command::BrushLarger, Group::Tools, "Larger brush", Some((PLAIN, Key::CloseBracket))),
     entry(Command::Help, Group::Help, "Keys and mouse", Some((PLAIN, Key::F1))),
+];
+
+/// Further keys, which other programs have taught.
+const ALSO: &[(Command, KeyboardShortcut)] = &[
+    (Command::Redo, KeyboardShortcut::new(COMMAND, Key::Y)),
+    (
+        Command::Delete,
+        KeyboardShortcut::new(PLAIN, Key::Backspace),
+    ),
+];
+
+/// Those before which a menu draws a line.
+const SECTIONS: &[Command] = &[
+    Command::Save,
+    Command::AddModel,
+    Command::Screenshot,
+    Command::Quit,
+    Command::Duplicate,
+    Command::MoveUp,
+    Command::ToggleSolo,
+    Command::Deselect,
+    Command::Look(Viewpoint::Front),
+    Command::ToggleList,
+    Command::Compare,
+    Command::BrushSmaller,
 ];
 
 /// The commands that are here, in the order of the menus.
@@ -153,12 +235,14 @@ impl Command {
             Self::Open
             | Self::Save
             | Self::SaveAs
+            | Self::Reload
+            | Self::Revert
             | Self::AddModel
             | Self::SetEnvironment
             | Self::Screenshot
             | Self::Turntable
             | Self::Quit => HAS_FILES,
-            Self::Compare => HAS_THREADS,
+            Self::Compare | Self::Read(ReadCommand::Probe) => HAS_THREADS,
             _ => true,
         }
     }
@@ -172,19 +256,81 @@ impl Command {
         self.entry()?.shortcut
     }
 
-    /// The commands whose keys were pressed. None while a text is being edited, but for those with the command key.
-    pub fn pressed(ctx: &egui::Context) -> Vec<Self> {
-        let is_typing = ctx.text_edit_focused();
-        let wanted = |entry: &&Entry| {
-            let shortcut = entry.shortcut?;
-            if is_typing && !shortcut.modifiers.command {
-                return None;
-            }
-            ctx.input_mut(|input| input.consume_shortcut(&shortcut))
-                .then_some(entry.command)
-        };
-        entries().filter_map(|entry| wanted(&entry)).collect()
+    /// Whether a menu draws a line before it.
+    pub fn begins_section(self) -> bool {
+        SECTIONS.contains(&self)
     }
+
+    /// The commands whose keys were pressed. None while a text is being edited, but for those with the command key; and not
+    /// Escape where it `is_taken` by what is open.
+    pub fn pressed(ctx: &egui::Context, escape_is_taken: bool) -> Vec<Self> {
+        let is_typing = ctx.text_edit_focused();
+        let own = entries().filter_map(|entry| Some((entry.command, entry.shortcut?)));
+        let also = ALSO
+            .iter()
+            .copied()
+            .filter(|(command, _)| command.is_here());
+        let mut keys: Vec<_> = own.chain(also).collect();
+        // Of two shortcuts where one's modifiers include the other's, the larger comes first.
+        let modifiers = |keys: &Modifiers| {
+            [keys.command, keys.shift, keys.alt]
+                .into_iter()
+                .filter(|held| *held)
+                .count()
+        };
+        keys.sort_by_key(|(_, key)| std::cmp::Reverse(modifiers(&key.modifiers)));
+        let wanted = |(command, key): (Self, KeyboardShortcut)| {
+            let is_taken = is_typing && !key.modifiers.command
+                || escape_is_taken && key.logical_key == Key::Escape;
+            let is_pressed = !is_taken && ctx.input_mut(|input| input.consume_shortcut(&key));
+            is_pressed.then_some(command)
+        };
+        keys.into_iter().filter_map(wanted).collect()
+    }
+}
+
+/// The keys of a command besides its first.
+pub(crate) fn further_keys(command: Command) -> impl Iterator<Item = KeyboardShortcut> {
+    let also = ALSO.iter().filter(move |(other, _)| *other == command);
+    also.map(|(_, key)| *key)
+}
+
+/// A shortcut as it stands on the keyboard.
+pub(crate) fn key_text(shortcut: &KeyboardShortcut) -> String {
+    let is_mac = cfg!(target_os = "macos");
+    let names = match is_mac {
+        true => egui::ModifierNames::SYMBOLS,
+        false => egui::ModifierNames::NAMES,
+    };
+    let mut text = names.format(&shortcut.modifiers, is_mac);
+    if !text.is_empty() && !is_mac {
+        text.push('+');
+    }
+    text.push_str(match shortcut.logical_key {
+        Key::Escape => "Esc",
+        Key::Delete => "Del",
+        Key::Backspace => "Back",
+        Key::PageUp => "PgUp",
+        Key::PageDown => "PgDn",
+        Key::ArrowUp => "Up",
+        Key::ArrowDown => "Down",
+        Key::ArrowLeft => "Left",
+        Key::ArrowRight => "Right",
+        Key::OpenBracket => "[",
+        Key::CloseBracket => "]",
+        Key::Comma => ",",
+        Key::Period => ".",
+        Key::Minus => "-",
+        Key::Plus => "+",
+        Key::Equals => "=",
+        Key::Slash => "/",
+        Key::Backslash => "\\",
+        Key::Semicolon => ";",
+        Key::Quote => "'",
+        Key::Backtick => "`",
+        other => other.name(),
+    });
+    text
 }
 
 #[cfg(test)]
@@ -205,5 +351,39 @@ mod tests {
                 assert_ne!(a.command, b.command);
             }
         }
+        for (_, also) in ALSO {
+            assert!(TABLE.iter().all(|entry| entry.shortcut != Some(*also)));
+        }
+    }
+
+    /// As they are printed on a keyboard, without names such as "OpenBracket".
+    #[test]
+    fn keys_read_as_on_the_keyboard() {
+        let text = |command: Command| key_text(&command.shortcut().unwrap());
+        assert_eq!(text(Command::BrushSmaller), "[");
+        assert_eq!(text(Command::Look(Viewpoint::Front)), "1");
+        assert_eq!(text(Command::Deselect), "Esc");
+        if !cfg!(target_os = "macos") {
+            assert_eq!(text(Command::Redo), "Ctrl+Shift+Z");
+            assert_eq!(text(Command::MoveUp), "Alt+Up");
+        }
+        for key in TABLE.iter().filter_map(|entry| entry.shortcut) {
+            let text = key_text(&key);
+            let last = text.rsplit('+').next().unwrap();
+            assert!(last.len() <= 5, "{text}");
+        }
+    }
+
+    /// As every other program has them.
+    #[test]
+    fn the_usual_order() {
+        let at = |command: Command| TABLE.iter().position(|e| e.command == command).unwrap();
+        assert!(at(Command::Save) < at(Command::SaveAs));
+        assert!(at(Command::Undo) < at(Command::Redo));
+        assert!(
+            TABLE
+                .iter()
+                .all(|e| e.command != Command::Quit || e.group == Group::File)
+        );
     }
 }

@@ -3,6 +3,7 @@
 //! Left of a divider is the picture as ever; right of it the reference, or where the two differ. A change of the view or of
 //! the scene begins anew, once it is over.
 
+pub(crate) mod divider;
 mod figures;
 mod overlay;
 mod work;
@@ -26,6 +27,8 @@ const STILL_S: f64 = 0.3;
 pub(crate) struct Compare {
     open: bool,
     side: Side,
+    /// Whether as many pixels are sampled as the window shows.
+    full_size: bool,
     /// From 0, left, to 1.
     divider: f32,
     /// What was wanted in the last pass, and since when.
@@ -64,6 +67,7 @@ impl Default for Compare {
         Self {
             open: false,
             side: Side::Reference,
+            full_size: false,
             divider: 0.5,
             wanted: None,
             sampling: None,
@@ -180,15 +184,17 @@ pub(crate) fn show(ui: &mut egui::Ui, viewer: &mut Viewer, area: &Area) {
     let Some(built) = viewer.engine.built() else {
         return;
     };
+    let camera = viewer.camera();
     let description = viewer.document.description();
     let wanted = Wanted {
         built,
-        camera: crate::viewport::camera(&description.camera),
+        camera: crate::viewport::camera(&camera),
         shown_px: area.frame_px(),
         filter_std_px: description.render.filter_std_px,
+        full_size: viewer.compare.full_size,
     };
     let display = Display {
-        exposure_ev: description.camera.exposure_ev,
+        exposure_ev: camera.exposure_ev + viewer.reading.exposure_ev,
         tone_map: description.render.tone_map,
     };
     let ctx = ui.ctx().clone();

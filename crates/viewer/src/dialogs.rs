@@ -1,5 +1,10 @@
 //! Questions in the window, one at a time, and the help.
 
+mod ask;
+mod on_disk;
+mod recovery;
+mod thumbnails;
+
 use std::path::PathBuf;
 
 use egui::{Grid, Id, Modal, Ui};
@@ -7,7 +12,10 @@ use hairline_editor::autosave::Pending;
 
 use crate::app::Viewer;
 use crate::command::{self, Group};
-use crate::files::Purpose;
+use crate::files::{Purpose, from_home};
+use ask::{Loses, ask};
+pub(crate) use on_disk::is_same;
+use recovery::Recovery;
 
 /// What was asked for while there were unsaved changes.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,9 +30,17 @@ enum Question {
     /// Unsaved changes stand in the way of a wish.
     Unsaved(Wish),
     /// Autosaves of earlier runs that did not end as they should.
-    Recover(Vec<Pending>),
+    Recover(Recovery),
     /// The path of a file, where the system has no dialog for it.
     Path(Purpose, String),
+    /// Another program has written the scene file, and there are unsaved changes here.
+    Changed,
+    /// The scene file is to be loaded again, and there are unsaved changes here.
+    Reload,
+    /// Another program has written the scene file that is to be saved.
+    SaveOver,
+    /// The file that the scene is to be saved as is there already.
+    Replace(PathBuf),
 }
 
 /// Which questions are open.
@@ -50,12 +66,22 @@ impl Dialogs {
 
     pub fn offer_recovery(&mut self, pending: Vec<Pending>) {
         if !pending.is_empty() {
-            self.question = Some(Question::Recover(pending));
+            self.question = Some(Question::Recover(Recovery::new(pending)));
         }
     }
 
     pub fn ask_for_path(&mut self, purpose: Purpose, proposal: String) {
         self.question = Some(Question::Path(purpose, proposal));
+    }
+
+    /// Another program has written the file that is to be saved.
+    pub fn ask_to_save_over(&mut self) {
+        self.question = Some(Question::SaveOver);
+    }
+
+    /// The file that is to be written is there already.
+    pub fn ask_to_replace(&mut self, path: PathBuf) {
+        self.question = Some(Question::Replace(path));
     }
 
     pub fn show_help(&mut self) {
@@ -74,47 +100,35 @@ impl Viewer {
         match self.dialogs.question.take() {
             None => {}
             Some(Question::Unsaved(wish)) => self.unsaved(ctx, wish),
-            Some(Question::Recover(pending)) => self.recovery(ctx, pending),
+            Some(Question::Recover(recovery)) => self.recovery(ctx, recovery),
             Some(Question::Path(purpose, text)) => self.path(ctx, purpose, text),
+            Some(Question::Changed) => self.changed_on_disk(ctx),
+            Some(Question::Reload) => self.load_again(ctx),
+            Some(Question::SaveOver) => self.save_over(ctx),
+            Some(Question::Replace(path)) => self.replace(ctx, path),
         }
     }
 
     fn unsaved(&mut self, ctx: &egui::Context, wish: Wish) {
-        enum Answer {
-            Save,
-            Discard,
-            Stay,
-        }
-        let modal = Modal::new(Id::unique("unsaved")).show(ctx, |ui| {
-            ui.set_width(380.0);
-            ui.heading("Save the changes?");
-            ui.label(format!(
-                "\"{}\" has changes that are not saved.",
-                self.document.title()
-            ));
-            ui.add_space(8.0);
-            ui.horizontal(|ui| {
-                if ui.button("Save the changes").clicked() {
-                    Some(Answer::Save)
-                } else if ui.button("Discard the changes").clicked() {
-                    Some(Answer::Discard)
-                } else if ui.button("Cancel").clicked() {
-                    Some(Answer::Stay)
-                } else {
-                    None
-                }
-            })
-            .inner
-        });
-        let should_close = modal.should_close();
-        match modal.inner {
-            Some(Answer::Save) => {
+        let text = format!(
+            "\"{}\" has changes that are not saved.",
+            self.document.title()
+        );
+        let answers = ["Save the changes", "Discard the changes", "Cancel"];
+        match ask(
+            ctx,
+            "unsaved",
+            "Save the changes?",
+            &text,
+            &answers,
+            Loses::Nothing,
+        ) {
+            Some(0) => {
                 self.dialogs.after_save = Some(wish);
                 self.save(ctx);
             }
-            Some(Answer::Discard) => self.fulfil(ctx, wish),
-            Some(Answer::Stay) => {}
-            None if should_close => {}
+            Some(1) => self.fulfil(ctx, wish),
+            Some(_) => {}
             None => self.dialogs.question = Some(Question::Unsaved(wish)),
         }
     }
@@ -126,11 +140,12 @@ impl Viewer {
             let label = ui.label("Path");
             let edit = egui::TextEdit::singleline(&mut text).desired_width(f32::INFINITY);
             let response = ui.add(edit).labelled_by(label.id);
-            if ctx.memory(|memory| memory.focused().is_none()) {
-                response.request_focus();
-            }
             let entered =
                 response.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
+            // Asked for before it is read, the focus would not count as lost.
+            if !entered && ctx.memory(|memory| memory.focused().is_none()) {
+                response.request_focus();
+            }
             ui.add_space(8.0);
             ui.horizontal(|ui| {
                 let ok = ui.button("OK").clicked() || entered;
@@ -142,97 +157,59 @@ impl Viewer {
         let should_close = modal.should_close();
         match modal.inner {
             (true, _) if !text.trim().is_empty() => {
-                self.take_path(ctx, purpose, std::path::Path::new(text.trim()));
+                self.take_typed_path(ctx, purpose, &from_home(text.trim()));
             }
             (_, true) => self.dialogs.after_save = None,
             _ if should_close => self.dialogs.after_save = None,
             _ => self.dialogs.question = Some(Question::Path(purpose, text)),
         }
     }
-
-    fn recovery(&mut self, ctx: &egui::Context, mut pending: Vec<Pending>) {
-        enum Answer {
-            Recover(usize),
-            Discard(usize),
-            Later,
-        }
-        let modal = Modal::new(Id::unique("recover")).show(ctx, |ui| {
-            ui.set_width(460.0);
-            ui.heading("Unsaved work was found");
-            ui.label("An earlier run ended before it was saved:");
-            let mut answer = None;
-            for (i, entry) in pending.iter().enumerate() {
-                ui.horizontal(|ui| {
-                    let name = entry
-                        .path
-                        .as_ref()
-                        .map_or("untitled".into(), |path| path.display().to_string());
-                    ui.label(name);
-                    if ui.button("Recover").clicked() {
-                        answer = Some(Answer::Recover(i));
-                    }
-                    if ui.button("Throw away").clicked() {
-                        answer = Some(Answer::Discard(i));
-                    }
-                });
-            }
-            ui.add_space(8.0);
-            if ui.button("Ask again later").clicked() {
-                answer = Some(Answer::Later);
-            }
-            answer
-        });
-        let should_close = modal.should_close();
-        match modal.inner {
-            Some(Answer::Recover(i)) => self.recover(pending.remove(i)),
-            Some(Answer::Discard(i)) => {
-                pending.remove(i).discard();
-                self.dialogs.offer_recovery(pending);
-            }
-            Some(Answer::Later) => {}
-            None if should_close => {}
-            None => self.dialogs.question = Some(Question::Recover(pending)),
-        }
-    }
 }
 
 /// All keys and what the mouse does; true when it is to be closed.
 fn help(ui: &mut Ui) -> bool {
-    const MOUSE: [(&str, &str); 8] = [
+    const MOUSE: [(&str, &str); 9] = [
         ("Drag", "turns the view"),
         ("Shift and drag, or the middle button", "moves the view"),
-        ("Right button and drag", "turns the view with any tool"),
-        ("Alt and drag", "turns the view with any tool"),
-        ("Wheel or pinch", "comes nearer to what is under the mouse"),
+        (
+            "Alt and drag, or the right button",
+            "turns the view with any tool",
+        ),
+        (
+            "Wheel forward, or fingers apart",
+            "comes nearer to what is under the mouse",
+        ),
+        ("Wheel back, or fingers together", "goes away from it"),
         ("Click", "selects"),
+        ("Right click", "shows what can be done with it"),
         ("Double click", "looks at the point"),
         (
             "Drop a file",
             "opens a scene, adds a model, sets the environment",
         ),
     ];
-    ui.set_width(720.0);
+    ui.set_width(860.0);
     ui.heading("Keys and mouse");
+    // A row for each line, with what is around it: so that all of it fits a small screen, and scrolls on a smaller one.
+    let height = ui.ctx().content_rect().height() - 130.0;
     egui::ScrollArea::vertical()
-        .max_height(480.0)
+        .max_height(height.max(120.0))
+        .min_scrolled_height(height.max(120.0))
         .show(ui, |ui| {
-            ui.columns(2, |columns| {
-                let (left, right) = columns.split_at_mut(1);
-                for group in Group::ALL {
-                    let ui = match group {
-                        Group::File | Group::Edit => &mut left[0],
-                        Group::View | Group::Tools | Group::Help => &mut right[0],
-                    };
-                    keys(ui, group);
+            ui.spacing_mut().item_spacing.y = 2.0;
+            ui.columns(3, |columns| {
+                for group in [Group::File, Group::Edit, Group::Inspect] {
+                    keys(&mut columns[0], group);
                 }
-                let ui = &mut left[0];
+                keys(&mut columns[1], Group::View);
+                for group in [Group::Tools, Group::Help] {
+                    keys(&mut columns[2], group);
+                }
+                let ui = &mut columns[2];
                 ui.strong("Mouse in the picture");
-                Grid::new("mouse").num_columns(1).show(ui, |ui| {
-                    for (what, does) in MOUSE {
-                        ui.label(format!("{what}: {does}"));
-                        ui.end_row();
-                    }
-                });
+                for (what, does) in MOUSE {
+                    ui.label(format!("{what}: {does}"));
+                }
             });
         });
     ui.add_space(8.0);
@@ -244,7 +221,10 @@ fn keys(ui: &mut Ui, group: Group) {
     Grid::new(group.name()).num_columns(2).show(ui, |ui| {
         for entry in command::entries().filter(|entry| entry.group == group) {
             if let Some(shortcut) = &entry.shortcut {
-                ui.monospace(ui.ctx().format_shortcut(shortcut));
+                let also = command::further_keys(entry.command);
+                let keys = std::iter::once(*shortcut).chain(also);
+                let texts: Vec<String> = keys.map(|key| command::key_text(&key)).collect();
+                ui.monospace(texts.join(", "));
                 ui.label(entry.label);
                 ui.end_row();
             }

@@ -10,14 +10,17 @@
 mod build;
 mod builder;
 pub(crate) mod cpu;
+mod drafts;
 mod frame;
 #[cfg(not(target_arch = "wasm32"))]
 mod gpu;
 mod in_turn;
 mod pace;
 mod painter;
+mod partial;
 mod pool;
 mod request;
+mod sketch;
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -35,10 +38,6 @@ pub use request::View;
 
 use in_turn::InTurn;
 use request::Shared;
-
-/// Samples of a pixel with an edge or a crease in it, in a finished picture: of the window, of an export, of `hairline render`, by every
-/// renderer.
-pub const DEFAULT_SAMPLES: u32 = 8;
 
 /// What paints.
 #[derive(Clone)]
@@ -106,15 +105,14 @@ impl Engine {
     /// Starts with nothing to paint.
     #[cfg(not(target_arch = "wasm32"))]
     pub fn start(backend: Backend, wake: Wake) -> Self {
+        // From this thread, whose priority theirs is: those that build and refine lower their own.
+        pool::start();
         let shared = Arc::new(Shared::new(backend, wake));
         let spawn = |name: &str, work: fn(&Shared)| {
             let shared = Arc::clone(&shared);
             std::thread::Builder::new()
                 .name(name.to_owned())
-                .spawn(move || {
-                    crate::priority::lower();
-                    work(&shared)
-                })
+                .spawn(move || work(&shared))
         };
         // A system that cannot start two threads cannot open a window either.
         let threads = [
@@ -160,6 +158,11 @@ impl Engine {
     /// Wants the picture from here.
     pub fn set_view(&self, view: View) {
         self.shared.want_view(view);
+    }
+
+    /// The view that is wanted.
+    pub fn view(&self) -> Option<View> {
+        self.shared.view()
     }
 
     /// The newest picture.

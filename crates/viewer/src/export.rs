@@ -122,7 +122,7 @@ impl Viewer {
         } else {
             Purpose::Screenshot
         };
-        let answer = form.show(ctx, window_px, scene_px);
+        let answer = form.show(ctx, window_px, scene_px, self.free_view.is_free());
         match answer {
             None => self.export.form = Some(form),
             Some(Answer::ChooseFile) => {
@@ -136,10 +136,18 @@ impl Viewer {
 
     /// Refuses at once what could not be written in the end.
     fn begin_export(&mut self, mut form: Form) {
+        let mut description = Arc::clone(self.document.description());
+        if form.is_as_seen {
+            let camera = self.camera();
+            if camera != description.camera {
+                Arc::make_mut(&mut description).camera = camera;
+            }
+        }
         let wish = Wish {
-            description: Arc::clone(self.document.description()),
+            description,
             size_px: form.size_px,
             samples: form.samples,
+            is_transparent: form.is_transparent,
             motion: form.motion(),
             path: form.path(),
             backend: self.engine.backend(),

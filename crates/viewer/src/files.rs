@@ -3,6 +3,8 @@
 //! A dialog of the system waits in a thread of its own. Where the system has none, a line in the window asks for the path.
 //! A browser has no paths: none of the commands that would come here is in its menus.
 
+mod watch;
+
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::time::Duration;
@@ -10,10 +12,11 @@ use std::time::Duration;
 use hairline_editor::Document;
 use hairline_editor::autosave::{self, Autosave, Pending};
 use hairline_editor::recent::Recent;
-use hairline_scene::probe;
+use hairline_scene::probe::{self, MeshSummary};
 use web_time::Instant;
 
 use crate::dialogs::Dialogs;
+use watch::Watch;
 
 /// What a path is wanted for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,7 +46,8 @@ impl Purpose {
     #[cfg(not(target_arch = "wasm32"))]
     fn filter(self) -> (&'static str, &'static [&'static str]) {
         match self {
-            Self::Open | Self::SaveAs => ("Hairline scenes", &["toml"]),
+            Self::Open => ("Hairline scenes and models", &["toml", "glb", "gltf"]),
+            Self::SaveAs => ("Hairline scenes", &["toml"]),
             Self::AddModel => ("glTF models", &["glb", "gltf"]),
             Self::Environment => ("Environment maps", &["hdr", "exr"]),
             Self::Screenshot | Self::Turntable => ("Pictures", &["png", "exr"]),
@@ -76,7 +80,11 @@ pub(crate) enum Choice {
     /// The system has no dialogs: ask in the window.
     NoDialogs(Purpose),
     /// A model or a map that can be read, or why it cannot.
-    Probed(Purpose, PathBuf, Result<(), hairline_scene::Error>),
+    Probed(
+        Purpose,
+        PathBuf,
+        Result<Option<MeshSummary>, hairline_scene::Error>,
+    ),
 }
 
 /// Faster than any hand: the dialog did not open.
@@ -91,6 +99,10 @@ pub(crate) struct Files {
     autosaves: Option<PathBuf>,
     autosave: Option<Autosave>,
     started: Instant,
+    /// The scene file and what it names.
+    watch: Watch,
+    /// The scene file was written by another program, and nothing has come of that yet.
+    pub scene_changed: bool,
 }
 
 struct Waiting {
@@ -101,7 +113,7 @@ struct Waiting {
 
 impl Files {
     /// Without a folder nothing is kept.
-    pub fn new(state_dir: Option<PathBuf>, native: bool) -> Self {
+    pub fn new(state_dir: Option<PathBuf>, native: bool, wake: egui::Context) -> Self {
         let recent = match &state_dir {
             Some(folder) => Recent::load(folder.join("recent.toml")),
             None => Recent::default(),
@@ -114,7 +126,21 @@ impl Files {
             autosaves: state_dir.map(|folder| folder.join("autosave")),
             autosave: None,
             started: Instant::now(),
+            watch: Watch::start(move || wake.request_repaint()),
+            scene_changed: false,
         }
+    }
+
+    /// Watches the document's files.
+    pub fn watch(&mut self, document: &Document) {
+        let own = document.path().map(Path::to_owned);
+        self.watch
+            .set(own.into_iter().chain(document.files()).collect());
+    }
+
+    /// A file that another program has written, once for each time.
+    pub fn changed(&mut self) -> Option<PathBuf> {
+        self.watch.changed()
     }
 
     /// Offers what earlier runs left, and begins to keep what this one does.
@@ -153,8 +179,8 @@ impl Files {
         self.probes.push(answer);
         let work = move || {
             let probed = match purpose {
-                Purpose::Environment => probe::environment(&path).map(drop),
-                _ => probe::mesh(&path).map(drop),
+                Purpose::Environment => probe::environment(&path).map(|_| None),
+                _ => probe::mesh(&path).map(Some),
             };
             let _ = sender.send(Choice::Probed(purpose, path, probed));
             wake.request_repaint();
@@ -229,6 +255,7 @@ impl Files {
     /// Another document begins.
     pub fn reopen(&mut self) {
         self.close();
+        self.scene_changed = false;
         self.autosave = self
             .autosaves
             .as_ref()
@@ -265,4 +292,13 @@ fn ask_system(
     };
     // If no thread starts, the sender goes, and the window asks itself.
     let _ = std::thread::Builder::new().spawn(work);
+}
+
+/// A path as it is typed: `~` is the user's own folder.
+pub(crate) fn from_home(typed: &str) -> PathBuf {
+    let path = Path::new(typed);
+    match (path.strip_prefix("~"), std::env::home_dir()) {
+        (Ok(rest), Some(home)) => home.join(rest),
+        _ => path.to_owned(),
+    }
 }

@@ -54,6 +54,12 @@ impl Job {
         self.stop.ask();
     }
 
+    /// Asks it to stop, and leaves it to end when it can: nobody waits for that.
+    pub fn leave(mut self) {
+        self.stop.ask();
+        self.thread = None;
+    }
+
     /// Whether the work has ended, be it by a panic.
     pub fn is_over(&self) -> bool {
         self.thread.as_ref().is_none_or(JoinHandle::is_finished)

@@ -5,18 +5,25 @@
 //! for. [`window`] opens it on a screen; tests drive [`Viewer`] without one.
 
 mod app;
+mod badges;
 mod command;
 mod compare;
 mod dialogs;
 pub mod engine;
 mod export;
 mod files;
+mod free_view;
+mod gallery;
 mod jobs;
 mod loss;
 mod notices;
+mod overlays;
 mod panels;
 mod platform;
 mod priority;
+pub mod reading;
+mod seen;
+mod snapshots;
 mod style;
 mod tools;
 mod viewport;
@@ -25,7 +32,6 @@ pub mod window;
 
 pub use app::{Options, Viewer};
 pub use compare::{Figures, LayerFigures};
-pub use engine::DEFAULT_SAMPLES;
 #[cfg(not(target_arch = "wasm32"))]
 pub use window::open;
 

@@ -1,6 +1,6 @@
 //! Messages in the window: what went wrong, and what was done. An error stays until it is dismissed.
 
-use egui::{Align2, Color32, RichText};
+use egui::{Align2, RichText};
 
 /// How a line reads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,8 +30,14 @@ const NOTE_SECONDS: f64 = 5.0;
 const MOST: usize = 4;
 
 impl Notices {
+    /// It is printed on the terminal too.
     pub fn error(&mut self, topic: &'static str, text: impl Into<String>) {
-        self.push(Kind::Error, topic, text.into());
+        let text = text.into();
+        let is_known = |notice: &Notice| notice.topic == topic && notice.text == text;
+        if !self.list.iter().any(is_known) {
+            eprintln!("error: {}", printable(&text));
+        }
+        self.push(Kind::Error, topic, text);
     }
 
     pub fn note(&mut self, topic: &'static str, text: impl Into<String>) {
@@ -96,7 +102,7 @@ impl Notices {
                     egui::Frame::popup(ui.style()).show(ui, |ui| {
                         ui.horizontal(|ui| {
                             let color = match notice.kind {
-                                Kind::Error => Color32::from_rgb(255, 140, 120),
+                                Kind::Error => crate::style::ERROR,
                                 Kind::Note => ui.visuals().text_color(),
                             };
                             if notice.kind == Kind::Error && ui.small_button("Dismiss").clicked() {
@@ -112,5 +118,28 @@ impl Notices {
         if let Some(i) = dismissed {
             self.list.remove(i);
         }
+    }
+}
+
+/// Without what a terminal would obey: a text may hold what stands in a file.
+fn printable(text: &str) -> String {
+    let mut out = String::new();
+    for c in text.chars() {
+        match c {
+            '\n' => out.push(c),
+            c if c.is_control() => out.extend(c.escape_default()),
+            c => out.push(c),
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::printable;
+
+    #[test]
+    fn a_terminal_gets_nothing_to_obey() {
+        assert_eq!(printable("a\u{1b}[31mb\nc µ"), "a\\u{1b}[31mb\nc µ");
     }
 }

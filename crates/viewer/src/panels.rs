@@ -12,4 +12,5 @@ mod environment;
 mod layer;
 mod light;
 mod material;
+pub(crate) mod number;
 mod object;

@@ -6,7 +6,7 @@ use thread_priority::{ThreadPriority, ThreadPriorityValue, set_current_thread_pr
 /// Of 0 to 99: the interface, and a software driver that draws it, come first. Not so low that a busy machine would let what
 /// is painted or exported starve.
 #[cfg(not(target_arch = "wasm32"))]
-const PRIORITY: u8 = 30;
+const PRIORITY: u8 = 40;
 
 /// Lets the interface's threads go before this one, and before those that it starts, where the system hands the priority on. A browser has one
 /// thread, whose turns `engine::in_turn` keeps short.

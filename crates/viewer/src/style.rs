@@ -1,6 +1,9 @@
 //! How the interface looks.
 
-use egui::{Color32, ThemePreference, Visuals};
+use egui::{Color32, RectAlign, Response, ThemePreference, Tooltip, Visuals};
+
+/// Text of what went wrong.
+pub(crate) const ERROR: Color32 = Color32::from_rgb(255, 140, 120);
 
 /// Dark and without hue, so that the eye judges the picture's colours and not the frame's.
 pub(crate) fn set(ctx: &egui::Context) {
@@ -12,9 +15,86 @@ pub(crate) fn set(ctx: &egui::Context) {
     visuals.selection.bg_fill = Color32::from_gray(78);
     visuals.selection.stroke.color = Color32::from_gray(240);
     visuals.hyperlink_color = Color32::from_gray(210);
+    // All text can be read: 4.5 : 1 at least against what it stands on, faint text too.
+    visuals.widgets.noninteractive.fg_stroke.color = Color32::from_gray(190);
+    visuals.widgets.inactive.fg_stroke.color = Color32::from_gray(205);
+    visuals.weak_text_color = Some(Color32::from_gray(150));
+    visuals.error_fg_color = ERROR;
     ctx.set_visuals_of(egui::Theme::Dark, visuals);
     ctx.all_styles_mut(|style| {
         style.spacing.item_spacing = egui::vec2(6.0, 4.0);
         style.interaction.tooltip_delay = 0.3;
     });
+}
+
+/// A tooltip of an entry of a menu: beside it, where it covers no other entry.
+pub(crate) fn beside(response: Response, text: &str) -> Response {
+    let mut tooltip = Tooltip::for_enabled(&response);
+    tooltip.popup = tooltip
+        .popup
+        .align(RectAlign::RIGHT_START)
+        .align_alternatives(&[RectAlign::LEFT_START]);
+    tooltip.show(|ui| ui.label(text));
+    response
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of sRGB, by WCAG 2.
+    fn luminance(color: Color32) -> f64 {
+        let linear = |c: u8| {
+            let c = f64::from(c) / 255.0;
+            if c <= 0.04045 {
+                c / 12.92
+            } else {
+                ((c + 0.055) / 1.055).powf(2.4)
+            }
+        };
+        0.2126 * linear(color.r()) + 0.7152 * linear(color.g()) + 0.0722 * linear(color.b())
+    }
+
+    fn contrast(text: Color32, ground: Color32) -> f64 {
+        let (a, b) = (luminance(text) + 0.05, luminance(ground) + 0.05);
+        a.max(b) / a.min(b)
+    }
+
+    #[test]
+    fn all_text_can_be_read() {
+        let ctx = egui::Context::default();
+        set(&ctx);
+        let visuals = ctx.style_of(egui::Theme::Dark).visuals.clone();
+        let widgets = &visuals.widgets;
+        let grounds = [
+            visuals.panel_fill,
+            visuals.window_fill,
+            visuals.extreme_bg_color,
+        ];
+        for ground in grounds {
+            for text in [
+                visuals.text_color(),
+                visuals.strong_text_color(),
+                visuals.weak_text_color(),
+                visuals.hyperlink_color,
+                visuals.error_fg_color,
+                visuals.warn_fg_color,
+            ] {
+                let contrast = contrast(text, ground);
+                assert!(contrast >= 4.5, "{text:?} on {ground:?}: {contrast}");
+            }
+        }
+        for widget in [
+            &widgets.noninteractive,
+            &widgets.inactive,
+            &widgets.hovered,
+            &widgets.active,
+            &widgets.open,
+        ] {
+            let contrast = contrast(widget.text_color(), widget.weak_bg_fill);
+            assert!(contrast >= 4.5, "{widget:?}: {contrast}");
+        }
+        let selected = contrast(visuals.selection.stroke.color, visuals.selection.bg_fill);
+        assert!(selected >= 4.5, "{selected}");
+    }
 }

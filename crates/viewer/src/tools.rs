@@ -35,8 +35,10 @@ impl Tool {
 /// The tools and how they are set.
 pub(crate) struct Toolbox {
     pub tool: Tool,
-    /// None until an object tells how large a brush should be.
+    /// As it was set by hand; none until then.
     pub brush: Option<BrushSettings>,
+    /// As it fits what it was over last.
+    pub fitted: Option<BrushSettings>,
 }
 
 impl Default for Toolbox {
@@ -44,6 +46,7 @@ impl Default for Toolbox {
         Self {
             tool: Tool::Select,
             brush: None,
+            fitted: None,
         }
     }
 }

@@ -1,9 +1,9 @@
 //! The picture, and what the mouse does in it.
 
-mod canvas;
+pub(crate) mod canvas;
 mod gizmo;
-mod ink;
-mod lens;
+pub(crate) mod ink;
+pub(crate) mod lens;
 mod line_field;
 mod pick;
 mod strokes;
@@ -12,13 +12,15 @@ use std::time::Duration;
 
 use eframe::egui_wgpu::RenderState;
 use egui::{PointerButton, Rect, Response, Role, Sense, WidgetInfo};
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 use hairline_editor::{DragKey, Selection, navigate, place_light};
 use hairline_image::Display;
 
 use crate::app::Viewer;
 use crate::engine::View;
+use crate::overlays::Overlay;
 use crate::panels::busy::Busy;
+use crate::reading;
 use crate::tools::Tool;
 
 use canvas::CanvasTexture;
@@ -32,13 +34,17 @@ pub(crate) struct Viewport {
     canvas: CanvasTexture,
     stroke: StrokeTool,
     gizmo: Gizmo,
-    line_field: LineField,
+    line_fields: Vec<LineField>,
     /// The largest time of the interface's own passes of late, for the status line.
     interface_time: Duration,
     /// Width over height.
     aspect: f64,
+    /// That the engine was given last.
+    pub view: Option<View>,
     /// When the wheel was last turned, seconds: its turns in a row are one step.
     wheeled: f64,
+    /// The button went down to close a popup, and does nothing else until it goes down again.
+    is_shielded: bool,
 }
 
 /// A pause of the wheel that ends the step.
@@ -50,10 +56,12 @@ impl Viewport {
             canvas: CanvasTexture::new(render_state),
             stroke: StrokeTool::default(),
             gizmo: Gizmo::default(),
-            line_field: LineField::default(),
+            line_fields: Vec::new(),
             interface_time: Duration::ZERO,
             aspect: 16.0 / 9.0,
+            view: None,
             wheeled: f64::NEG_INFINITY,
+            is_shielded: false,
         }
     }
 
@@ -67,8 +75,35 @@ impl Viewport {
         self.interface_time
     }
 
+    /// Whether the picture is one of another view.
+    pub fn is_stale(&self) -> bool {
+        self.canvas.is_stale()
+    }
+
+    /// The newest picture as a texture.
+    pub fn picture(
+        &mut self,
+        ctx: &egui::Context,
+        frame: &crate::engine::Frame,
+    ) -> Option<egui::TextureId> {
+        self.canvas.texture(ctx, frame)
+    }
+
+    /// Room for another picture on the same device.
+    pub fn new_canvas(&self) -> CanvasTexture {
+        CanvasTexture::new(self.canvas.render_state().cloned())
+    }
+
     pub fn aspect(&self) -> f64 {
         self.aspect
+    }
+
+    /// A press beside a menu or another popup closes that, and neither selects nor draws. To be asked in each pass, before what is
+    /// open is shown.
+    pub fn shield(&mut self, ctx: &egui::Context, has_popup: bool) {
+        if ctx.input(|input| input.pointer.any_pressed()) {
+            self.is_shielded = has_popup;
+        }
     }
 
     pub fn is_wheeling(&self, ctx: &egui::Context) -> bool {
@@ -164,16 +199,28 @@ pub(crate) fn show(ui: &mut egui::Ui, viewer: &mut Viewer) -> Rect {
         let picture_px = viewer.document.description().render.size_px;
         let area = Area::new(rect, picture_px, ui.pixels_per_point());
         viewer.viewport.aspect = f64::from(picture_px[0]) / f64::from(picture_px[1].max(1));
-        viewer.engine.set_view(view(viewer, &area));
+        let wanted = view(viewer, &area);
+        viewer.viewport.view = Some(wanted);
+        viewer.engine.set_view(wanted);
         if let Some(frame) = viewer.engine.latest() {
-            viewer.viewport.canvas.paint(ui, &area, &frame);
+            viewer.viewport.canvas.paint(ui, &area, &frame, &wanted);
             area.paint_frame(ui);
             crate::compare::show(ui, viewer, &area);
+            crate::snapshots::show(ui, viewer, &area, &wanted);
         } else {
             ui.put(rect, Busy::size(32.0));
         }
+        // What lies over the picture is not where the pointer is.
+        if viewer.snapshots.cover() {
+            if response.dragged() || response.clicked() {
+                viewer.snapshots.show_current();
+            }
+            return rect;
+        }
         interact(ui, viewer, &area, &response);
         overlays(ui, viewer, &area);
+        reading::show(ui, viewer, rect, response.hover_pos());
+        crate::badges::show(ui, viewer, rect);
         rect
     });
     shown.inner
@@ -195,17 +242,22 @@ pub(crate) fn camera(camera: &hairline_scene::description::Camera) -> hairline_s
 fn overlays(ui: &mut egui::Ui, viewer: &mut Viewer, area: &Area) {
     let tool = viewer.toolbox.tool;
     line_field::show(ui, viewer, area);
-    if matches!(tool, Tool::Select | Tool::PlaceLight) {
+    if matches!(tool, Tool::Select | Tool::PlaceLight) && viewer.overlays.has(Overlay::Lights) {
+        let lens = Lens::new(&viewer.camera(), area);
         let description = viewer.document.description();
         let selected = match viewer.selection() {
             Selection::Light(i) => Some(i),
             _ => None,
         };
-        let lens = Lens::new(&description.camera, area);
         let painter = ui.painter().with_clip_rect(area.rect);
         gizmo::show_lights(&painter, &lens, description, selected);
     }
-    gizmo::show(ui, viewer, area);
+    if viewer.overlays.has(Overlay::Handles) {
+        gizmo::show(ui, viewer, area);
+    } else {
+        viewer.viewport.gizmo = Gizmo::default();
+    }
+    crate::overlays::show_names(ui, viewer, area);
 }
 
 /// Escape takes back what a handle or the brush is doing. To be asked before the commands: else it means to select nothing.
@@ -218,22 +270,26 @@ pub(crate) fn cancel_on_escape(ctx: &egui::Context, viewer: &mut Viewer) {
     if is_held {
         viewer.document.cancel_drag();
     }
-    if is_held | viewer.viewport.stroke.cancel() {
+    if is_held | viewer.viewport.stroke.cancel()
+        || viewer.free_view.stop()
+        || viewer.reading.probe.release()
+    {
         ctx.input_mut(|input| input.consume_key(egui::Modifiers::NONE, egui::Key::Escape));
     }
 }
 
 fn view(viewer: &Viewer, area: &Area) -> View {
     let description = viewer.document.description();
-    let camera = &description.camera;
+    let camera = viewer.camera();
     View {
-        camera: area.camera(camera),
+        camera: area.camera(&camera),
         size_px: area.size_px(),
         display: Display {
-            exposure_ev: camera.exposure_ev,
+            exposure_ev: camera.exposure_ev + viewer.reading.exposure_ev,
             tone_map: description.render.tone_map,
         },
         filter_std_px: description.render.filter_std_px,
+        reading: viewer.reading.wanted(area.frame_px()),
     }
 }
 
@@ -251,20 +307,55 @@ fn interact(ui: &mut egui::Ui, viewer: &mut Viewer, area: &Area, response: &Resp
         || response.dragged_by(PointerButton::Secondary);
     let pans = response.dragged_by(PointerButton::Middle)
         || response.dragged_by(PointerButton::Primary) && shift && !is_brush;
-    strokes::interact(ui, viewer, area, response, is_brush && !alt);
+    let is_shielded = viewer.viewport.is_shielded;
+    if is_shielded && response.is_pointer_button_down_on() {
+        egui::Popup::close_all(ui.ctx());
+    }
+    strokes::interact(ui, viewer, area, response, is_brush && !alt && !is_shielded);
     if pans && moved != DVec2::ZERO {
         let key = DragKey::of("pan");
-        viewer
-            .document
-            .drag("Pan", key, |d| navigate::pan(&mut d.camera, moved, size));
+        viewer.move_view("Pan", Some(key), |camera| {
+            navigate::pan(camera, moved, size)
+        });
     } else if orbits && moved != DVec2::ZERO {
         let key = DragKey::of("orbit");
-        viewer.document.drag("Orbit", key, |d| {
-            navigate::orbit(&mut d.camera, moved, size)
+        viewer.move_view("Orbit", Some(key), |camera| {
+            navigate::orbit(camera, moved, size)
         });
     }
     wheel(ui, viewer, area, response);
-    click(viewer, area, response);
+    if !is_shielded {
+        click(viewer, area, response);
+        context_menu(viewer, area, response);
+    }
+}
+
+/// A click of the right button selects what is there, and shows what can be done with it.
+fn context_menu(viewer: &mut Viewer, area: &Area, response: &Response) {
+    if viewer.toolbox.tool != Tool::Select {
+        return;
+    }
+    if response.secondary_clicked()
+        && let Some(pos) = response.interact_pointer_pos()
+    {
+        let picked = picked(viewer, area, pos);
+        viewer.document.select(picked);
+    }
+    if viewer.selection() != Selection::None {
+        response.context_menu(|ui| crate::panels::menu::on_selection(ui, viewer));
+    }
+}
+
+/// What a click at a place selects.
+fn picked(viewer: &Viewer, area: &Area, pos: egui::Pos2) -> Selection {
+    let description = viewer.document.description();
+    let lens = Lens::new(&viewer.camera(), area);
+    let hit = pick::surface(viewer, area, pos);
+    match (gizmo::light_at(description, &lens, pos), hit) {
+        (Some(light), _) => Selection::Light(light),
+        (None, Some(hit)) => Selection::Object(hit.object),
+        (None, None) => Selection::None,
+    }
 }
 
 /// A notch of a wheel is this many points in egui.
@@ -278,18 +369,18 @@ fn wheel(ui: &egui::Ui, viewer: &mut Viewer, area: &Area, response: &Response) {
         let points = f64::from(input.smooth_scroll_delta().y);
         (points, f64::from(input.zoom_delta()), input.time)
     });
-    let steps = -scrolled / POINTS_A_NOTCH - 4.0 * zoomed.ln();
+    // Forward, and fingers apart, come nearer, as in every other program.
+    let steps = scrolled / POINTS_A_NOTCH + 4.0 * zoomed.ln();
     if steps == 0.0 {
         return;
     }
     viewer.viewport.wheeled = now;
     let under = pick::surface(viewer, area, pos).map(|hit| hit.point_m);
-    viewer
-        .document
-        .drag("Zoom", DragKey::of("zoom"), |d| match under {
-            Some(point_m) => navigate::zoom_to(&mut d.camera, point_m, steps),
-            None => navigate::dolly(&mut d.camera, steps),
-        });
+    let key = DragKey::of("zoom");
+    viewer.move_view("Zoom", Some(key), |camera| match under {
+        Some(point_m) => navigate::zoom_to(camera, point_m, steps),
+        None => navigate::dolly(camera, steps),
+    });
 }
 
 fn click(viewer: &mut Viewer, area: &Area, response: &Response) {
@@ -303,26 +394,22 @@ fn click(viewer: &mut Viewer, area: &Area, response: &Response) {
     let hit = pick::surface(viewer, area, pos);
     if response.double_clicked() {
         if let Some(hit) = hit {
-            viewer.document.edit("Look at a point", |d| {
-                navigate::center_on(&mut d.camera, hit.point_m)
+            viewer.move_view("Look at a point", None, |camera| {
+                navigate::center_on(camera, hit.point_m)
             });
         }
+    } else if response.clicked() && viewer.reading.probe.click(area.rect, pos) {
+        // The pixel is kept, and nothing selected.
     } else if response.clicked() {
         match viewer.toolbox.tool {
             Tool::Select => {
-                let description = viewer.document.description();
-                let lens = Lens::new(&description.camera, area);
-                let picked = match (gizmo::light_at(description, &lens, pos), hit) {
-                    (Some(light), _) => Selection::Light(light),
-                    (None, Some(hit)) => Selection::Object(hit.object),
-                    (None, None) => Selection::None,
-                };
+                let picked = picked(viewer, area, pos);
                 viewer.document.select(picked);
             }
             Tool::PlaceLight => match (viewer.selection(), hit) {
                 (Selection::Light(i), Some(hit)) => {
+                    let eye_m = viewer.eye_m();
                     viewer.document.edit("Place light", |d| {
-                        let eye_m = DVec3::from(d.camera.position_m);
                         if let Some(light) = d.lights.get_mut(i) {
                             place_light::place_highlight(light, eye_m, hit.point_m, hit.normal);
                         }

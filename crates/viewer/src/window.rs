@@ -1,5 +1,7 @@
 //! The window on a screen: which device draws it and what paints in it.
 
+mod ready;
+
 use std::sync::Arc;
 
 use eframe::egui_wgpu::{RenderState, WgpuSetup, WgpuSetupCreateNew};
@@ -39,6 +41,15 @@ pub enum Error {
     Scene(#[from] hairline_scene::Error),
 }
 
+/// With a title and a panel beside it, it fits a screen of 1440 x 900.
+const SIZE: [f32; 2] = [1360.0, 800.0];
+
+/// What lists of windows show.
+fn icon() -> egui::IconData {
+    let png = include_bytes!("../assets/hairline.png");
+    eframe::icon_data::from_png_bytes(png).unwrap_or_default()
+}
+
 /// Opens the window and returns when it is closed. `backend` of the options is replaced by what `renderer` asks for.
 ///
 /// # Errors
@@ -56,11 +67,15 @@ pub fn open_as(
     renderer: Renderer,
     app: impl FnOnce(Viewer) -> Box<dyn eframe::App>,
 ) -> Result<(), Error> {
+    if let Some(missing) = ready::missing() {
+        return Err(Error::NoWindow(missing));
+    }
     let mut native = eframe::NativeOptions {
         viewport: ViewportBuilder::default()
             .with_title("Hairline")
             .with_app_id("hairline")
-            .with_inner_size([1440.0, 900.0])
+            .with_inner_size(SIZE)
+            .with_icon(icon())
             .with_min_inner_size([720.0, 480.0])
             .with_drag_and_drop(true),
         // The picture is dithered when it is made; for grey panels it would cost a software driver much for nothing.
@@ -87,7 +102,7 @@ pub fn open_as(
             Ok(app(viewer))
         }),
     )
-    .map_err(|error| Error::NoWindow(error.to_string()))?;
+    .map_err(|error| Error::NoWindow(ready::sentence(&error.to_string())))?;
     match loss.reason() {
         Some(reason) => Err(Error::Lost(reason.to_owned())),
         None => Ok(()),
@@ -149,4 +164,31 @@ fn open_beside() -> Result<Gpu, hairline_gpu::Error> {
         opening.join()
     });
     opened.unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_icon_is_a_picture_and_the_window_fits_a_small_screen() {
+        let icon = icon();
+        assert_eq!([icon.width, icon.height], [128, 128]);
+        // Its corners are seen through, its middle is not.
+        assert_eq!((icon.rgba[3], icon.rgba[4 * (64 * 128 + 64) + 3]), (0, 255));
+        // A title and a panel of 40 points each.
+        const { assert!(SIZE[0] <= 1440.0 - 20.0 && SIZE[1] <= 900.0 - 80.0) };
+    }
+
+    #[test]
+    fn the_desktop_file_names_the_window_and_the_command() {
+        let text = include_str!("../assets/hairline.desktop");
+        for line in [
+            "Exec=hairline view %f",
+            "Icon=hairline",
+            "StartupWMClass=hairline",
+        ] {
+            assert!(text.lines().any(|l| l == line), "{line}");
+        }
+    }
 }

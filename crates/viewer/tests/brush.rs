@@ -149,3 +149,139 @@ fn a_thousand_places_of_the_pointer_are_taken_up_at_once() {
     assert!(took.as_secs() < 5, "{took:?}");
     println!("a pass with 1000 places of the pointer: {took:?}");
 }
+
+/// Half of the brush's width on the screen, in parts of the picture's height.
+fn share_of_view(harness: &Harness<'static, Viewer>, stroke: &Stroke) -> f64 {
+    let camera = &common::description(harness).camera;
+    let point_m = stroke.points_m[0].into();
+    stroke.radius_m / hairline_editor::navigate::view_height_m(camera, point_m)
+}
+
+#[test]
+fn the_first_brush_fits_the_object_and_the_view_and_not_the_table() {
+    let mut harness = with_brush(common::BUILT_IN);
+    let from = middle(&harness) + vec2(-60.0, 30.0);
+    common::drag(&mut harness, from, from + vec2(120.0, 10.0), 6);
+    let [far] = &strokes(&harness)[..] else {
+        panic!("one stroke")
+    };
+    // On a pan of 20 cm under a table of 2 m.
+    assert!(
+        (0.5e-3..10e-3).contains(&far.radius_m),
+        "{} m",
+        far.radius_m
+    );
+    let share = share_of_view(&harness, far);
+    assert!((0.01..0.06).contains(&share), "{share}");
+    // Nearer, it is as large on the screen.
+    let document = harness.state_mut().document_mut();
+    document.edit("nearer", |d| {
+        hairline_editor::navigate::dolly(&mut d.camera, 8.0)
+    });
+    harness.run_steps(3);
+    common::drag(&mut harness, from, from + vec2(120.0, 10.0), 6);
+    let near = strokes(&harness)[1].clone();
+    assert!(near.radius_m < 0.6 * far.radius_m);
+    assert!((share_of_view(&harness, &near) / share - 1.0).abs() < 0.2);
+    // What was set by hand stays.
+    common::key(&mut harness, egui::Key::CloseBracket);
+    common::drag(&mut harness, from, from + vec2(120.0, 10.0), 6);
+    let larger = strokes(&harness)[2].radius_m;
+    assert!(larger > 1.1 * near.radius_m && larger < 1.5 * near.radius_m);
+}
+
+#[test]
+fn a_stroke_beside_a_layer_that_is_solo_is_seen() {
+    let mut harness = with_brush(common::SMALL);
+    let document = harness.state_mut().document_mut();
+    document.edit("solo", |d| d.scratches[0].solo = true);
+    harness.run_steps(2);
+    let from = middle(&harness) + vec2(-60.0, 60.0);
+    common::drag(&mut harness, from, from + vec2(120.0, 10.0), 6);
+    let description = common::description(&harness);
+    let drawn = description
+        .scratches
+        .iter()
+        .position(|l| !l.strokes.is_empty())
+        .unwrap();
+    assert!(hairline_editor::actions::layers::is_shown(
+        &description,
+        drawn
+    ));
+}
+
+#[test]
+fn a_drag_of_the_eraser_is_one_step() {
+    let mut harness = with_brush(BALL);
+    let at = middle(&harness);
+    common::drag(&mut harness, at + vec2(-40.0, 0.0), at + vec2(40.0, 0.0), 6);
+    let before = common::description(&harness);
+    common::key(&mut harness, egui::Key::E);
+    let far = common::picture(&harness).right_center() - vec2(8.0, 0.0);
+    common::press(&mut harness, at + vec2(-20.0, -40.0));
+    common::move_to(&mut harness, at + vec2(-20.0, -40.0), far, 6);
+    common::move_to(&mut harness, far, at + vec2(-20.0, 40.0), 6);
+    common::release(&mut harness, at + vec2(-20.0, 40.0));
+    assert!(strokes(&harness).len() > 1);
+    common::undo(&mut harness);
+    assert_eq!(common::description(&harness), before);
+}
+
+/// Bright enough to be seen where it runs, whatever its direction: pictures before and after differ there.
+#[test]
+fn the_first_stroke_is_seen_at_once() {
+    let options = hairline_viewer::Options {
+        scene: None,
+        built_in: common::BUILT_IN,
+        backend: hairline_viewer::engine::Backend::Cpu,
+        state_dir: None,
+        native_dialogs: false,
+    };
+    // A small picture, without the panels.
+    let mut harness = common::viewer_of(options, [300.0, 220.0]);
+    common::key(&mut harness, egui::Key::F9);
+    common::key(&mut harness, egui::Key::F10);
+    common::wait_built(&mut harness);
+    common::key(&mut harness, egui::Key::B);
+    let before = full_size(&mut harness);
+    let at = middle(&harness);
+    common::drag(
+        &mut harness,
+        at + vec2(-30.0, 10.0),
+        at + vec2(30.0, 10.0),
+        6,
+    );
+    common::drag(
+        &mut harness,
+        at + vec2(40.0, -15.0),
+        at + vec2(46.0, 20.0),
+        6,
+    );
+    let after = full_size(&mut harness);
+    let differs = |(a, b): (&egui::Color32, &egui::Color32)| {
+        std::iter::zip(a.to_array(), b.to_array()).any(|(a, b)| a.abs_diff(b) > 12)
+    };
+    let seen = std::iter::zip(&before.pixels, &after.pixels)
+        .filter(|p| differs(*p))
+        .count();
+    // Two strokes of 60 and 35 by 8 points, or so; a third of them.
+    assert!(seen > 250, "{seen} pixels differ");
+}
+
+/// The first picture in its full size with every stroke that was drawn; samples of edges may come later.
+fn full_size(harness: &mut Harness<'static, Viewer>) -> std::sync::Arc<egui::ColorImage> {
+    common::wait_until(harness, "a picture in full size", |viewer| {
+        let engine = viewer.engine();
+        let revision = viewer.document().revision();
+        !engine.is_building()
+            && engine.latest().is_some_and(|frame| {
+                let is_full = frame.painted.size_px == frame.view.size_px;
+                is_full && frame.built.revision == revision
+            })
+    });
+    let frame = harness.state().engine().latest().unwrap();
+    match &frame.picture {
+        hairline_viewer::engine::Picture::Pixels(image) => image.clone(),
+        hairline_viewer::engine::Picture::Texture(_) => panic!("the CPU paints pixels"),
+    }
+}

@@ -31,7 +31,7 @@ const MODEST: &str = concat!(
 );
 
 /// What the dialog begins with.
-const SAMPLES: u32 = hairline_viewer::DEFAULT_SAMPLES;
+const SAMPLES: u32 = hairline_scene::DEFAULT_SAMPLES;
 
 fn viewer(scene: &'static str) -> Harness<'static, Viewer> {
     let mut harness = common::viewer(scene);
@@ -279,4 +279,43 @@ fn the_scene_may_change_meanwhile() {
     wait_exported(&mut harness);
     let last = exr_file::read_image(&folder.path().join("t-0008.exr")).unwrap();
     assert_eq!(last, rendered(TINY, 7.0 * 45.0).0);
+}
+
+/// Alpha is the share of each pixel that the disk covers, and the free view is what is exported.
+#[test]
+fn a_transparent_picture_has_alpha_and_is_taken_from_where_the_window_looks() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut harness = viewer(TINY);
+    common::key(&mut harness, egui::Key::Num5);
+    let camera = harness.state().camera();
+    assert_ne!(camera, common::description(&harness).camera);
+    for (name, is_exr) in [("a.exr", true), ("a.png", false)] {
+        let path = folder.path().join(name);
+        harness.key_press_modifiers(Modifiers::COMMAND, Key::P);
+        harness.run_steps(3);
+        type_path(&mut harness, &path);
+        if is_exr {
+            common::click_on(&mut harness, "Transparent background");
+        }
+        common::click_on(&mut harness, "Save the picture");
+        wait_exported(&mut harness);
+        let bytes = std::fs::read(&path).unwrap();
+        if is_exr {
+            // The channel A of floats in the header.
+            assert!(bytes.windows(6).any(|window| window == b"A\0\x02\0\0\0"));
+            let mut description = Description::from_toml(TINY, Path::new("test")).unwrap();
+            description.camera = camera.clone();
+            let scene = Loader::default()
+                .build(&description, Path::new(""))
+                .unwrap();
+            let options = RenderOptions {
+                samples: SAMPLES,
+                method: Method::default(),
+            };
+            let image = closed_form::render(&scene, &options, &|_| {});
+            assert_eq!(exr_file::read_image(&path).unwrap(), image);
+        } else {
+            assert_eq!(bytes[25], 6, "red, green, blue and alpha");
+        }
+    }
 }

@@ -6,8 +6,7 @@ use conformance::middle_of;
 use conformance::two_renderers::{compare, on_the_cpu, on_the_gpu};
 use hairline_gpu::headless;
 use hairline_image::Layer;
-use hairline_scene::Scene;
-use hairline_viewer::DEFAULT_SAMPLES;
+use hairline_scene::{DEFAULT_SAMPLES, Scene};
 
 /// A monkey's head of steel, 13 cm wide, in a studio with a lamp and a panel.
 const SCENE: &str = r#"

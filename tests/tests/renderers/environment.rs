@@ -5,8 +5,7 @@ use conformance::two_renderers::{compare, on_the_cpu, on_the_gpu};
 use glam::{DVec2, DVec3};
 use hairline_image::Picture;
 use hairline_scene::environment::lookup::environment_dir;
-use hairline_scene::{Environment, Scene};
-use hairline_viewer::DEFAULT_SAMPLES;
+use hairline_scene::{DEFAULT_SAMPLES, Environment, Scene};
 
 const BALLS: &str = r#"
 [camera]

@@ -6,8 +6,7 @@ use std::sync::Arc;
 
 use conformance::middle_of;
 use conformance::two_renderers::{compare, on_the_cpu, on_the_gpu};
-use hairline_scene::Scene;
-use hairline_viewer::DEFAULT_SAMPLES;
+use hairline_scene::{DEFAULT_SAMPLES, Scene};
 
 /// Of the whole picture, and of its middle: whole pictures so small would see all scratches in each tile.
 const WIDTH_PX: u32 = 1280;

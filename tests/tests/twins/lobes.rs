@@ -1,32 +1,62 @@
 //! The base's lobes, and their integrals over lights.
 
 use std::f64::consts::PI;
+use std::sync::LazyLock;
 
 use crate::twin::{Sequence, Tolerance, Twin};
 use glam::{DVec3, Vec3};
 use hairline_gpu::call::{Call, Table, Texels};
 use hairline_gpu::{headless, shaders};
 use hairline_optics::environment_lobe::{ENVIRONMENT_TAPS, environment_lobe};
-use hairline_optics::fresnel::{
-    FresnelRgb, dip_weight, fresnel_terms, half_vector_cos, schlick_weight,
-};
+use hairline_optics::fresnel::{FRESNEL_NODES, FresnelCurve, FresnelRgb, half_vector_cos};
 use hairline_optics::ggx::*;
 use hairline_optics::irradiance::*;
 use hairline_optics::lobe_table::*;
 use hairline_optics::ltc::*;
+use hairline_optics::metal::Metal;
 use hairline_optics::sptd::*;
 
 fn v(x: f64, y: f64, z: f64) -> DVec3 {
     DVec3::new(x, y, z)
 }
 
-/// `table_0` to `table_2` of the snippets.
-fn tables() -> [Table<'static>; 3] {
-    [ltc_table(), albedo_table(), sptd_table()].map(|table| Table {
+/// `table_0` to `table_3` of the snippets.
+fn tables() -> [Table<'static>; 4] {
+    let lobes = [ltc_table(), albedo_table(), sptd_table()].map(|table| Table {
         size: [LOBE_TABLE_SIZE as u32; 2],
         layers: None,
         texels: Texels::Floats(table.texels()),
-    })
+    });
+    static TEXELS: LazyLock<Vec<[f32; 4]>> = LazyLock::new(|| {
+        let curves = CURVES.iter();
+        curves
+            .flat_map(|curve| [curve.nodes(), curve.albedo_table().texels()].concat())
+            .collect()
+    });
+    let curves = Table {
+        size: [FRESNEL_NODES as u32, (TEXELS.len() / FRESNEL_NODES) as u32],
+        layers: None,
+        texels: Texels::Floats(&TEXELS),
+    };
+    let [ltc, albedo, sptd] = lobes;
+    [ltc, albedo, sptd, curves]
+}
+
+/// Schlick's, and gold's.
+static CURVES: LazyLock<[FresnelCurve; 2]> =
+    LazyLock::new(|| [FresnelCurve::schlick().clone(), Metal::Gold.fresnel_curve()]);
+
+/// As dielectrics, half metals and perfect mirrors.
+fn schlick() -> FresnelRgb<'static> {
+    fresnel_of([0.04, 0.5, 1.0], 0)
+}
+
+/// The reflectance of a curve that snippets number.
+fn fresnel_of(f0: [f64; 3], curve: usize) -> FresnelRgb<'static> {
+    FresnelRgb {
+        f0,
+        curve: &CURVES[curve],
+    }
 }
 
 /// Roughness: the ends of the scale, a mirror, and anything between.
@@ -64,63 +94,37 @@ fn towards_light(random: &mut Sequence, wo: [f32; 3], roughness: f32) -> Vec3 {
 fn fresnel() {
     let mut random = Sequence(1);
     let mut rows = Vec::new();
-    for c in [
-        -1.0,
-        0.0,
-        -0.0,
-        1e-30,
-        1e-6,
-        1.0 / 7.0,
-        0.5,
-        1.0 - 6e-8,
-        1.0,
-        2.0,
-    ] {
-        rows.push([c, 0.04, 0.0, 0.9, 0.8, 0.1]);
+    for c in [-1.0, 0.0, -0.0, 1e-30, 1e-6, 0.5, 1.0 - 6e-8, 1.0, 2.0] {
+        for curve in [0.0, 1.0] {
+            rows.push([c, 0.04, curve, 0.5]);
+        }
     }
-    for _ in 0..2000 {
-        let a = random.between(-1.0, 2.0);
+    for _ in 0..4000 {
         rows.push([
+            random.next() * random.next(),
             random.next(),
-            random.next(),
-            a,
-            random.next(),
-            random.next(),
+            random.next().round(),
             random.next(),
         ]);
     }
+    let tables = tables();
     Twin {
         name: "fresnel",
-        modules: &[&shaders::FRESNEL],
-        snippet: "let f = FresnelRgb(vec3f(x[1], 0.5, 1.0), vec3f(x[2], 0.0, -x[2]));
-            let r = fresnel_eval(f, x[0]);
-            let e = fresnel_albedo(f, vec3f(x[3], x[3] * x[4], x[3] * x[5]));
+        modules: &[&shaders::LOBE_FRESNEL],
+        snippet: "let f = FresnelRgb(vec3f(x[1], 0.5, 1.0), u32(x[2]));
+            let r = fresnel_eval(table_3, f, x[0]);
+            let e = lobe_fresnel(f, vec3f(0.0, 0.0, x[0]), x[3], table_3).albedo;
             y[0] = r.x; y[1] = r.y; y[2] = r.z;
-            y[3] = e.x; y[4] = e.y; y[5] = e.z;
-            y[6] = fresnel_schlick_weight(x[0]);
-            y[7] = fresnel_dip_weight(x[0]);",
-        tables: &[],
-        expected: &|[c, f0, a, e0, e1, e2]: [f64; 6]| {
-            let f = FresnelRgb {
-                f0: [f0, 0.5, 1.0],
-                a: [a, 0.0, -a],
-            };
-            let r = f.eval(c);
-            let e = f.albedo([e0, e0 * e1, e0 * e2]);
-            [
-                r[0],
-                r[1],
-                r[2],
-                e[0],
-                e[1],
-                e[2],
-                schlick_weight(c),
-                dip_weight(c),
-            ]
+            y[3] = e.x; y[4] = e.y; y[5] = e.z;",
+        tables: &tables,
+        expected: &|[c, f0, curve, roughness]: [f64; 4]| {
+            let f = fresnel_of([f0, 0.5, 1.0], curve as usize);
+            let [r, e] = [f.eval(c), f.albedo(roughness, c.max(LOBE_MIN_COS))];
+            [r[0], r[1], r[2], e[0], e[1], e[2]]
         },
-        // Sums of a few terms of up to 2, each rounded at 6e-8.
+        // Positions are rounded at 8e-6 of a node (127 is the largest); a node's step is at most about 0.1.
         tolerance: Tolerance {
-            absolute: 1e-6,
+            absolute: 4e-6,
             relative: 0.0,
         },
     }
@@ -150,13 +154,12 @@ fn ggx() {
     rows.push([0.0, 0.0, 1.0, 2.0, 1e-20, 0.0, 1.0, 1.0]);
     Twin {
         name: "ggx",
-        modules: &[&shaders::GGX],
+        modules: &[&shaders::GGX, &shaders::FRESNEL],
         // The peak of D, 1 / (pi alpha^2), is divided out: what is left is compared on one scale.
         snippet: "let wo = vec3f(x[0], x[1], x[2]);
             let wi = vec3f(x[4], x[5], x[6]);
             let alpha = ggx_alpha(x[3]);
-            let f = FresnelRgb(vec3f(x[7], 0.5, 1.0), vec3f(0.3));
-            let r = ggx_area_reflectance(0.7 * vec3f(1.0, 0.1 * x[7], 0.02), f, 0.1 + 0.9 * x[7]);
+            let r = ggx_area_reflectance(0.7 * vec3f(1.0, 0.1 * x[7], 0.02), vec3f(x[7], 0.5, 1.0), 0.1 + 0.9 * x[7]);
             y[0] = alpha;
             y[1] = ggx_d(wo + wi, alpha) * alpha * alpha;
             y[2] = ggx_g1(wi.z, alpha);
@@ -164,19 +167,17 @@ fn ggx() {
             y[4] = ggx_eval(wi, wo, alpha) * alpha * alpha * alpha;
             y[5] = ggx_multiple_scattering(x[7], x[3]) * max(x[3], 1e-3);
             y[6] = r.x; y[7] = r.y; y[8] = r.z;
-            y[9] = ggx_curved_roughness(x[3], x[7] * x[7] * x[7]);
-            let terms = fresnel_terms(half_vector_cos(wi, wo));
-            y[10] = terms.x; y[11] = terms.y; y[12] = terms.z;",
+            let filtered = ggx_filtered(x[3], x[7] * x[7] * x[7]);
+            y[9] = filtered.roughness; y[10] = filtered.excess;
+            y[11] = ggx_filtered_d(wo + wi, alpha, x[7]) * alpha * alpha;
+            y[12] = half_vector_cos(wi, wo);",
         tables: &[],
         expected: &|[ox, oy, oz, roughness, ix, iy, iz, f0]: [f64; 8]| {
             let (wo, wi) = (v(ox, oy, oz), v(ix, iy, iz));
             let alpha = ggx_alpha(roughness);
-            let f = FresnelRgb {
-                f0: [f0, 0.5, 1.0],
-                a: [0.3; 3],
-            };
-            let r = ggx_area_reflectance([0.7, 0.07 * f0, 0.014], &f, 0.1 + 0.9 * f0);
-            let terms = fresnel_terms(half_vector_cos(wi, wo));
+            let filtered = ggx_filtered(roughness, f0 * f0 * f0);
+            let f0s = [f0, 0.5, 1.0];
+            let r = ggx_area_reflectance([0.7, 0.07 * f0, 0.014], f0s, 0.1 + 0.9 * f0);
             [
                 alpha,
                 ggx_d(wo + wi, alpha) * alpha * alpha,
@@ -187,10 +188,10 @@ fn ggx() {
                 r[0],
                 r[1],
                 r[2],
-                ggx_curved_roughness(roughness, f0 * f0 * f0),
-                terms[0],
-                terms[1],
-                terms[2],
+                filtered.roughness,
+                filtered.excess,
+                ggx_filtered_d(wo + wi, alpha, f0) * alpha * alpha,
+                half_vector_cos(wi, wo),
             ]
         },
         // The half vector's tangential part is rounded at 6e-8, which is 3e-5 of the narrowest lobe's width; D goes with its
@@ -229,16 +230,19 @@ fn tables_of_lobes() {
         snippet: "let l = lobe_table_lookup(table_0, x[0], x[1]);
             let e = lobe_albedo_lookup(table_1, x[0], x[1]);
             let p = lobe_table_lookup(table_2, x[0], x[1]);
-            y[0] = l.x; y[1] = l.y; y[2] = l.z; y[3] = e.x; y[4] = e.y; y[5] = e.z; y[6] = p.x; y[7] = p.y;",
+            y[0] = l.x; y[1] = l.y; y[2] = l.z; y[3] = e; y[4] = p.x; y[5] = p.y;",
         tables: &tables,
         expected: &|[roughness, cos_o]: [f64; 2]| {
             let l = ltc_table().lookup(roughness, cos_o);
             let e = albedo_lookup(roughness, cos_o);
             let p = sptd_table().lookup(roughness, cos_o);
-            [l[0], l[1], l[2], e[0], e[1], e[2], p[0], p[1]]
+            [l[0], l[1], l[2], e, p[0], p[1]]
         },
         // Positions are rounded at 2e-6 of a node (31 is the largest); a node's step is at most about 1.
-        tolerance: Tolerance { absolute: 5e-6, relative: 1e-6 },
+        tolerance: Tolerance {
+            absolute: 5e-6,
+            relative: 1e-6,
+        },
     }
     .check(&rows, 0);
 }
@@ -396,7 +400,7 @@ fn sphere_rows(count: usize) -> Rows<9> {
         row[7] = sin2;
         let x = row.map(f64::from);
         let mirror = v(-x[0], -x[1], x[2].max(LOBE_MIN_COS)).normalize();
-        let brightest = sphere_light(v(x[0], x[1], x[2]), x[3], mirror, x[7])[0];
+        let brightest = sphere_light(v(x[0], x[1], x[2]), x[3], schlick(), mirror, x[7])[2];
         row[8] = brightest.max(1e-12) as f32;
         rows.push(row, axis.z, sin2.sqrt());
     }
@@ -411,16 +415,19 @@ fn sphere_row(x: [f64; 9]) -> (DVec3, f64, DVec3, f64, f64) {
 fn spheres() {
     let tables = tables();
     let mut twin = Twin {
-        name: "ltc_sphere and lambert_sphere",
+        name: "sphere_light and lambert_sphere",
         modules: &[&shaders::LTC],
         snippet: "let axis = vec3f(x[4], x[5], x[6]);
-            let i = ltc_sphere(ltc_lobe(vec3f(x[0], x[1], x[2]), x[3], table_0, table_1), axis, x[7]) / x[8];
+            let lobe = ltc_lobe(vec3f(x[0], x[1], x[2]), x[3], table_0, table_1);
+            let reflecting = lobe_fresnel(FresnelRgb(vec3f(0.04, 0.5, 1.0), 0u), vec3f(x[0], x[1], x[2]), x[3], table_3);
+            let i = ltc_sphere(lobe, reflecting, table_3, axis, x[7]) / x[8];
             y[0] = i.x; y[1] = i.y; y[2] = i.z;
             y[3] = lambert_sphere(axis, x[7]) / max(x[7], 1e-12);",
         tables: &tables,
         expected: &|row| {
             let (wo, roughness, axis, sin2, brightest) = sphere_row(row);
-            let [i0, i1, i2] = sphere_light(wo, roughness, axis, sin2).map(|i| i / brightest);
+            let [i0, i1, i2] =
+                sphere_light(wo, roughness, schlick(), axis, sin2).map(|i| i / brightest);
             [
                 i0,
                 i1,
@@ -496,7 +503,7 @@ fn polygon_rows(count: usize) -> Rows<17> {
         let solid_angle = 0.5 * diagonals.length() / middle.length_squared();
         let mirror = v(-wo.x, -wo.y, wo.z.max(LOBE_MIN_COS)).normalize();
         let sin2 = (solid_angle / PI).min(1.0 - 1e-9);
-        row[16] = sphere_light(wo, roughness, mirror, sin2)[0].max(1e-12) as f32;
+        row[16] = sphere_light(wo, roughness, schlick(), mirror, sin2)[2].max(1e-12) as f32;
         // The longest half diagonal, seen on, is sqrt(5) times `size`.
         let narrow = size * thin;
         rows.push(row, centre.z - 2.3 * size, narrow);
@@ -525,13 +532,15 @@ fn polygons() {
                 ltc_edge(&ltc, lobe, a, b);
                 lambert_edge(&lambert, a, b);
             }
-            let i = ltc_end(ltc, lobe) / x[16];
+            let reflecting = lobe_fresnel(FresnelRgb(vec3f(0.04, 0.5, 1.0), 0u), vec3f(x[0], x[1], x[2]), x[3], table_3);
+            let i = ltc_end(ltc, lobe, reflecting, table_3) / x[16];
             y[0] = i.x; y[1] = i.y; y[2] = i.z;
             y[3] = lambert_end(lambert);",
         tables: &tables,
         expected: &|row| {
             let (wo, roughness, corners, brightest) = polygon_row(row);
-            let [i0, i1, i2] = polygon_light(wo, roughness, &corners).map(|i| i / brightest);
+            let [i0, i1, i2] =
+                polygon_light(wo, roughness, schlick(), &corners).map(|i| i / brightest);
             [i0, i1, i2, lambert_polygon(&corners)]
         },
         tolerance: CLEAR,
@@ -652,8 +661,9 @@ fn never_nan_in_the_shader() {
             let axis = corners[0];
             let sides = irradiance_basis(axis);
             let cone = EllipticCone(axis, min(x[17], x[18]), sides.u, max(x[17], x[18]), sides.v);
-            let of_polygon = ltc_end(ltc, lobe);
-            let of_sphere = ltc_sphere(lobe, axis, x[7]);
+            let reflecting = lobe_fresnel(FresnelRgb(vec3f(0.04, 0.5, 1.0), 0u), vec3f(x[0], x[1], x[2]), x[3], table_3);
+            let of_polygon = ltc_end(ltc, lobe, reflecting, table_3);
+            let of_sphere = ltc_sphere(lobe, reflecting, table_3, axis, x[7]);
             y[0] = of_polygon.x;
             y[1] = lambert_end(lambert);
             y[2] = of_sphere.x;
@@ -689,8 +699,9 @@ fn never_nan_in_the_optics() {
             t2: x[17].max(x[18]),
         };
         let (lobe, pivot) = (ltc_lobe(wo, x[3]), sptd_lobe(wo, x[3]));
-        let of_polygon = polygon_light(wo, x[3], &corners);
-        let of_sphere = ltc_sphere(&lobe, axis, x[7]);
+        let of_polygon = polygon_light(wo, x[3], schlick(), &corners);
+        let reflecting = LobeFresnel::new(schlick(), wo, x[3]);
+        let of_sphere = ltc_sphere(&lobe, &reflecting, axis, x[7]);
         let results = [
             of_polygon[0],
             of_polygon[1],

@@ -13,6 +13,8 @@ use super::interference::Errors;
 use super::sweeps::{SweepFigures, SweepPoint};
 
 const TEMPLATE: &str = include_str!("accuracy.md.jinja");
+/// What `tests/peers/peer.py` wrote: it needs Python and Mitsuba, and is not run here.
+const PEERS: &str = include_str!("../../../tests/peers/results.md");
 
 /// What the text says in words, and so must be decided by the figures.
 #[derive(Serialize)]
@@ -67,6 +69,7 @@ pub fn document(figures: &Figures) -> Result<String> {
         .lstrip_blocks(true)
         .build();
     environment.set_syntax(syntax.context("the template's syntax")?);
+    environment.add_global("peers", PEERS.trim_end());
     environment.add_filter("percent", |f: Value| with_error(&f, 100.0, 2.0));
     environment.add_filter("ratio", |f: Value| with_error(&f, 1.0, 4.0));
     environment.add_filter("number", |v: f64| v.to_string());

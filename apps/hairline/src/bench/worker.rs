@@ -13,6 +13,7 @@ use hairline_scene::Scene;
 
 use super::figures::{Counts, Way};
 use crate::cli::Backend;
+use crate::console::tell;
 use crate::failure::Failure;
 
 /// A renderer.
@@ -74,7 +75,7 @@ impl Worker {
                 "{error}; --backend cpu needs no driver"
             ))),
             (Err(error), _) => {
-                eprintln!("measuring the CPU renderer: {error}");
+                tell(format_args!("measuring the CPU renderer: {error}"));
                 Ok(Self::Cpu)
             }
         }

@@ -7,6 +7,7 @@ use super::goals::Goals;
 use super::motion::Motion;
 use super::steadiness::Steadiness;
 use crate::backend::{FINE_SAMPLES, Painter};
+use crate::console::print;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::progress::Progress;
@@ -81,7 +82,7 @@ pub fn run(
                 "interrupted; all frames are whole, and how steady they are is not known"
             )));
         }
-        println!("{}", steadiness.in_words(FINE_SAMPLES));
+        print(&format!("{}\n", steadiness.in_words(FINE_SAMPLES)))?;
     }
     Ok(())
 }

@@ -182,6 +182,23 @@ impl Display {
         self.rest();
     }
 
+    /// Presses the left button and leaves it held. Unlike the others, this and the next two wait for nothing.
+    pub fn press(&self, at: Pos2) {
+        self.hurry_to(at);
+        self.send(xproto::BUTTON_PRESS_EVENT, 1);
+    }
+
+    /// Moves as a hand does, which does not wait for the program either.
+    pub fn hurry_to(&self, to: Pos2) {
+        *self.at.borrow_mut() = to;
+        self.send(xproto::MOTION_NOTIFY_EVENT, 0);
+    }
+
+    /// Lets the left button go.
+    pub fn release(&self) {
+        self.send(xproto::BUTTON_RELEASE_EVENT, 1);
+    }
+
     /// With the left button held, some steps between each two places.
     pub fn drag(&self, way: &[Pos2]) {
         self.move_to(way[0]);

@@ -5,6 +5,7 @@
 //! `HAIRLINE_SCREENSHOTS=FOLDER` it leaves what it saw in that folder.
 
 mod display;
+mod drag;
 mod layout;
 
 use std::path::{Path, PathBuf};
@@ -167,20 +168,26 @@ fn width_um(description: &Description) -> f64 {
     }
 }
 
+/// None where there can be none and need not be.
+fn display() -> Option<Display> {
+    let display = Display::start([1280, 800]);
+    if display.is_none() {
+        assert!(
+            std::env::var_os("HAIRLINE_REQUIRE_GPU").is_none_or(|value| value != "1"),
+            "HAIRLINE_REQUIRE_GPU is set, but Xvfb cannot be started"
+        );
+        skip("Xvfb cannot be started");
+    }
+    display
+}
+
 #[test]
 fn an_artist_opens_turns_changes_draws_undoes_saves_and_comes_back() {
     // eframe draws by the same drivers.
     if test_gpu().is_none() {
         return;
     }
-    let Some(display) = Display::start([1280, 800]) else {
-        assert!(
-            std::env::var_os("HAIRLINE_REQUIRE_GPU").is_none_or(|value| value != "1"),
-            "HAIRLINE_REQUIRE_GPU is set, but Xvfb cannot be started"
-        );
-        skip("Xvfb cannot be started");
-        return;
-    };
+    let Some(display) = display() else { return };
     let folder = tempfile::tempdir().unwrap();
     let scene = folder.path().join("plate.toml");
     std::fs::write(&scene, SCENE).unwrap();
@@ -191,13 +198,14 @@ fn an_artist_opens_turns_changes_draws_undoes_saves_and_comes_back() {
     assert!(first.brightest() > 100, "the picture is dark");
     keep(&display.screen(), "opened");
 
-    // The picture turns under the mouse.
+    // The picture turns under the mouse; a key brings the scene's camera along.
     let middle = layout.picture().center();
     display.drag(&[
         middle,
         middle + egui::vec2(60.0, 10.0),
         middle + egui::vec2(120.0, 20.0),
     ]);
+    display.keys(&["k"]);
     window.is_modified();
     let turned = window.save();
     assert_ne!(turned.camera.position_m, before.camera.position_m);

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use hairline_scene::Description;
-use hairline_scene::description::{Material, Object, Scratches, Shape, Surface};
+use hairline_scene::description::{Material, Object, Scratches, Shape, Surface, Up};
 
 use super::{ActionError, list, materials};
 use crate::{Selection, paths, presets};
@@ -50,6 +50,8 @@ fn add(
         name: name.to_owned(),
         surface,
         material,
+        up: Up::default(),
+        fit_m: None,
         translation_m: [0.0; 3],
         rotation_deg: [0.0; 3],
         scale: [1.0; 3],

@@ -1,10 +1,11 @@
 //! Scene files: opened, and saved whole or not at all.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::time::SystemTime;
 
 use hairline_image::output::write_atomically;
-use hairline_scene::{Description, Error};
+use hairline_scene::{Description, Error, reading};
 
 use super::{Document, layout, next_revision};
 use crate::paths;
@@ -15,12 +16,26 @@ pub enum SaveError {
     /// It has no file yet; ask for one.
     #[error("the scene has no file yet; choose a name for it")]
     NoPath,
+    /// Its file is not what it was when it was opened or saved here; see [`Document::save_over`].
+    #[error("{} has changed on disk since it was opened or saved here", .0.display())]
+    ChangedOnDisk(PathBuf),
     /// It holds what a scene file cannot, such as a path that is not Unicode.
     #[error("the scene cannot be written as a scene file: {0}")]
     Form(String),
     /// The file cannot be written.
     #[error(transparent)]
     File(#[from] hairline_image::Error),
+}
+
+/// What became of a document's file since it was opened or saved here.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OnDisk {
+    /// Its text is the same.
+    Same,
+    /// Its text is another.
+    Changed,
+    /// There is no such file, or it cannot be read; or the document has none.
+    Gone,
 }
 
 impl Document {
@@ -30,10 +45,7 @@ impl Document {
     /// What is wrong in the file, with its line.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
-        let text = std::fs::read_to_string(path).map_err(|error| {
-            let found = format!("cannot be read ({error})");
-            Error::new("", found, "give the path of a scene file (TOML)").at(path, None)
-        })?;
+        let text = reading::scene_text(path)?;
         let description = Self::read(&text, path)?;
         Ok(Self {
             path: Some(path.to_owned()),
@@ -55,11 +67,84 @@ impl Document {
         Ok(description)
     }
 
+    /// What became of its file. Reads the file: what a clock says of it may be wrong.
+    pub fn on_disk(&self) -> OnDisk {
+        let text = self.path.as_ref().map(std::fs::read_to_string);
+        match text {
+            Some(Ok(text)) if self.text.as_deref() == Some(&text) => OnDisk::Same,
+            Some(Ok(text)) if self.passed_over.as_deref() == Some(&text) => OnDisk::Same,
+            Some(Ok(_)) => OnDisk::Changed,
+            Some(Err(_)) | None => OnDisk::Gone,
+        }
+    }
+
+    /// The document goes on, and the file's text of now may be written over: somebody has chosen between the two.
+    pub fn pass_over_disk(&mut self) {
+        let text = self.path.as_ref().map(std::fs::read_to_string);
+        self.passed_over = text.and_then(Result::ok).map(Into::into);
+    }
+
+    /// Takes the scene from its file again, as one step, which undo takes back.
+    ///
+    /// # Errors
+    /// What is wrong in the file, with its line; then nothing has changed.
+    pub fn reload(&mut self) -> Result<(), Error> {
+        let Some(path) = self.path.clone() else {
+            return Ok(());
+        };
+        let text = reading::scene_text(&path)?;
+        let description = Self::read(&text, &path)?;
+        self.edit("Reload", |d| *d = description);
+        self.text = Some(text.into());
+        self.was_saved();
+        Ok(())
+    }
+
+    /// Whether [`Self::revert`] would change something.
+    pub fn can_revert(&self) -> bool {
+        self.is_modified && self.saved.is_some()
+    }
+
+    /// Goes back to what was opened or saved last, as one step, which undo takes back.
+    pub fn revert(&mut self) {
+        if let Some(saved) = self.saved.clone() {
+            self.edit("Revert", |d| d.clone_from(&saved));
+        }
+    }
+
+    /// Files that the scene names, in full as far as the document knows.
+    pub fn files(&self) -> Vec<PathBuf> {
+        let named = paths::named(&self.state.description);
+        named.map(|path| self.base_dir.join(path)).collect()
+    }
+
+    /// Takes the file's text as the one that the document began with, unless it was written after `since`.
+    pub(crate) fn adopt_text(&mut self, since: Option<SystemTime>) {
+        let Some(path) = &self.path else { return };
+        let written = std::fs::metadata(path).and_then(|data| data.modified());
+        if let (Ok(written), Some(since)) = (written, since)
+            && written <= since
+        {
+            self.text = reading::scene_text(path).ok().map(Into::into);
+        }
+    }
+
     /// Writes the scene to its file. Comments and layout of what was not edited stay as they are.
     ///
     /// # Errors
     /// [`SaveError`]; then the file is as it was.
     pub fn save(&mut self) -> Result<(), SaveError> {
+        match (&self.path, self.on_disk()) {
+            (Some(path), OnDisk::Changed) => Err(SaveError::ChangedOnDisk(path.clone())),
+            _ => self.save_over(),
+        }
+    }
+
+    /// The same, whatever the file holds by now.
+    ///
+    /// # Errors
+    /// [`SaveError`] but [`SaveError::ChangedOnDisk`]; then the file is as it was.
+    pub fn save_over(&mut self) -> Result<(), SaveError> {
         let path = self.path.clone().ok_or(SaveError::NoPath)?;
         self.text = Some(self.write(&path)?);
         self.was_saved();
@@ -103,8 +188,21 @@ impl Document {
 
     fn was_saved(&mut self) {
         self.end_drag();
+        self.passed_over = None;
         self.saved = Some(self.state.description.clone());
         self.is_modified = false;
+    }
+
+    /// A description whose relative paths are those of a scene in `base_dir`, as this document writes it.
+    pub fn brought_here(&self, description: &Description, base_dir: &Path) -> Description {
+        let mut description = description.clone();
+        if base_dir != self.base_dir {
+            let (from, to) = (paths::absolute(base_dir), paths::absolute(&self.base_dir));
+            paths::each_path(&mut description, &mut |path| {
+                *path = paths::rebase(path, &from, &to);
+            });
+        }
+        description
     }
 
     fn rebase(&mut self, from: &Path, to: &Path) {

@@ -180,7 +180,7 @@ pub(super) fn of(parameter: Parameter) -> Text {
             "Small lights give pure rainbows and hard-edged glints; large ones overlap the colours to white around the highlight. At the same radiance a larger one also lights more.",
         ),
         P::LightVertex => (
-            "Vertex",
+            "Corner",
             "A corner of the light. Its outline is mirrored in the surface, and scratches draw it out; long, thin shapes keep colours pure across their short side.",
         ),
         P::Radiance => (

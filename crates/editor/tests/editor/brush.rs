@@ -201,12 +201,14 @@ fn paint_finds_its_layer() {
         assert_eq!(paint(&mut description, selection), Ok(Selection::Layer(1)));
     }
     assert_eq!(description.scratches[1].strokes.len(), 4);
-    // But not where it is hidden, unless it is selected itself.
+    // But not where it is hidden, unless it is selected itself: then it is shown, as what is drawn is to be seen.
     description.scratches[1].hidden = true;
     assert_eq!(
         paint(&mut description, Selection::Layer(1)),
         Ok(Selection::Layer(1))
     );
+    assert!(!description.scratches[1].hidden);
+    description.scratches[1].hidden = true;
     assert_eq!(
         paint(&mut description, Selection::Object(0)),
         Ok(Selection::Layer(2))

@@ -6,5 +6,8 @@ mod autosave;
 mod brush;
 mod document;
 mod navigate;
+mod on_disk;
 mod place_light;
+mod quantity;
+mod subject;
 mod undo;

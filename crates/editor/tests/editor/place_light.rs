@@ -210,7 +210,7 @@ fn vertices_come_and_go() {
     ));
     assert_eq!(light, triangle);
     for refused in [insert_vertex(&mut light, 3), delete_vertex(&mut light, 3)] {
-        assert_eq!(refused, Err(ActionError::Missing("vertex")));
+        assert_eq!(refused, Err(ActionError::Missing("corner")));
     }
 }
 

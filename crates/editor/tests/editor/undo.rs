@@ -127,7 +127,7 @@ fn perform(document: &mut Document, (deed, i, by): Deed) {
         24 => {
             let settings = BrushSettings {
                 erase: by < -0.3,
-                ..BrushSettings::for_object(0.2)
+                ..BrushSettings::for_view(0.2, 0.2)
             };
             let mut recorder = Recorder::new(settings, DMat4::IDENTITY);
             for k in 0..20 {

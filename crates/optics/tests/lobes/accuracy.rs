@@ -5,8 +5,10 @@
 //!
 //! With a Fresnel reflectance the exact value is the integral of GGX times that reflectance at the half vector.
 
+use std::sync::LazyLock;
+
 use glam::DVec3;
-use hairline_optics::fresnel::{FresnelRgb, fresnel_terms};
+use hairline_optics::fresnel::{FresnelCurve, FresnelRgb, dielectric};
 use hairline_optics::ggx::{ggx_alpha, ggx_eval};
 use hairline_optics::lobe_table::albedo_lookup;
 use hairline_optics::ltc::{polygon_light, sphere_light};
@@ -93,38 +95,49 @@ impl Surface {
     }
 }
 
-/// GGX with each of the terms that reflectances are linear in.
-fn ggx_terms(wo: DVec3, alpha: f64) -> impl Fn(DVec3) -> DVec3 {
-    move |wi| {
-        let cos_h = wo.dot((wi + wo).normalize());
-        ggx_eval(wi, wo, alpha) * DVec3::from(fresnel_terms(cos_h))
-    }
-}
+/// Reflectances: a dielectric, whose lobe's average is far from what it shows of most lights; gold's blue, which rises; chromium's red, with a
+/// deep dip.
+const REFLECTANCES: [&str; 3] = ["glass", "gold, blue", "chromium, red"];
 
-/// Reflectances in one channel: a dielectric, whose lobe's average is far from what it shows of most lights; gold's blue, which
-/// rises; chromium, with the deepest dip.
-fn reflectances() -> [(&'static str, FresnelRgb); 3] {
-    let channel = |metal: Metal, ch: usize| {
-        let fresnel = metal.fresnel_rgb();
-        FresnelRgb {
-            f0: [fresnel.f0[ch]; 3],
-            a: [fresnel.a[ch]; 3],
-        }
-    };
+fn reflectances(cos_h: f64) -> [f64; 3] {
     [
-        ("F0 = 0.04", FresnelRgb::schlick([0.04; 3])),
-        ("gold, blue", channel(Metal::Gold, 2)),
-        ("chromium", channel(Metal::Chromium, 0)),
+        dielectric(cos_h, 1.5),
+        Metal::Gold.reflectance_rgb(cos_h)[2],
+        Metal::Chromium.reflectance_rgb(cos_h)[0],
     ]
 }
 
+/// All three at once, each a channel.
+fn fresnel() -> FresnelRgb<'static> {
+    static CURVE: LazyLock<FresnelCurve> = LazyLock::new(|| FresnelCurve::new(reflectances));
+    FresnelRgb {
+        f0: [0.0; 3],
+        curve: &CURVE,
+    }
+}
+
+/// The spectral sums take long: a table so fine that its error does not count.
+fn fine_reflectances(cos_h: f64) -> DVec3 {
+    const STEPS: usize = 4000;
+    static FINE: LazyLock<Vec<DVec3>> = LazyLock::new(|| {
+        let node = |i: usize| DVec3::from(reflectances((i as f64 / STEPS as f64).powi(2)));
+        (0..=STEPS).map(node).collect()
+    });
+    let at = cos_h.clamp(0.0, 1.0).sqrt() * STEPS as f64;
+    let i = (at as usize).min(STEPS - 1);
+    FINE[i].lerp(FINE[i + 1], at - i as f64)
+}
+
+/// GGX with each reflectance.
+fn ggx_reflected(wo: DVec3, alpha: f64) -> impl Fn(DVec3) -> DVec3 {
+    move |wi| ggx_eval(wi, wo, alpha) * fine_reflectances(wo.dot((wi + wo).normalize()))
+}
+
 /// For each reflectance: the integral's own, and that for F = 1 times the ratio of albedos, which is what many renderers do.
-fn reflected(surface: &Surface, integrals: [f64; 3]) -> [[f64; 2]; 3] {
-    let e = albedo_lookup(surface.roughness, surface.wo.z);
-    reflectances().map(|(_, fresnel)| {
-        let ratio = fresnel.albedo(e)[0] / e[0];
-        [fresnel.albedo(integrals)[0], integrals[0] * ratio]
-    })
+fn reflected(surface: &Surface, plain: f64, reflected: [f64; 3]) -> [[f64; 2]; 3] {
+    let e0 = albedo_lookup(surface.roughness, surface.wo.z);
+    let albedo = fresnel().albedo(surface.roughness, surface.wo.z);
+    std::array::from_fn(|k| [reflected[k], plain * albedo[k] / e0])
 }
 
 struct Sample {
@@ -233,16 +246,15 @@ fn measure<const N: usize>(
 }
 
 /// What [`measure`] compares for a light: each reflectance's two approximations.
-fn compared(surface: &Surface, approximate: [f64; 3], exact: DVec3) -> [(f64, f64); 6] {
-    let exact = reflectances().map(|(_, fresnel)| fresnel.albedo(exact.into())[0]);
-    let approximate = reflected(surface, approximate);
+fn compared(surface: &Surface, plain: f64, approximate: [f64; 3], exact: DVec3) -> [(f64, f64); 6] {
+    let approximate = reflected(surface, plain, approximate);
     std::array::from_fn(|k| (approximate[k / 2][k % 2], exact[k / 2]))
 }
 
-/// Prints and checks errors with Fresnel: (reflectance's own, ratio of albedos) for each of [`reflectances`]. The ratio is the
+/// Prints and checks errors with Fresnel: (reflectance's own, ratio of albedos) for each of [`REFLECTANCES`]. The ratio is the
 /// wrong input: the bounds must not hold for it where reflectance changes much over the lobe.
 fn judge_reflectances(name: &str, samples: &[Vec<Sample>; 6]) {
-    for (k, (material, _)) in reflectances().into_iter().enumerate() {
+    for (k, material) in REFLECTANCES.into_iter().enumerate() {
         let own = summarise(&format!("{name}, {material}"), &samples[2 * k]);
         let ratio = summarise(
             &format!("{name}, {material}, ratio of albedos"),
@@ -270,18 +282,21 @@ fn spheres_match_ggx() {
                 axis: centre,
                 radius_rad,
             };
-            let exact = integrate(light, surface.peak(), &ggx_terms(wo, alpha));
+            let white = FresnelRgb::schlick([1.0; 3]);
+            let exact = integrate(light, surface.peak(), &|wi| ggx_eval(wi, wo, alpha));
+            let exact_reflected = integrate(light, surface.peak(), &ggx_reflected(wo, alpha));
             let lobe = sptd_lobe(wo, surface.roughness);
-            let integrals = sphere_light(wo, surface.roughness, centre, sin2);
+            let default = sphere_light(wo, surface.roughness, white, centre, sin2)[0];
+            let of_fresnel = sphere_light(wo, surface.roughness, fresnel(), centre, sin2);
             let plain = [
-                integrals[0],
+                default,
                 sptd_sphere(&lobe, centre, sin2),
                 sptd_sphere_published(&lobe, centre, sin2),
             ];
-            let reflected = compared(surface, integrals, exact);
+            let reflected = compared(surface, default, of_fresnel, exact_reflected);
             std::array::from_fn(|k| {
                 if k < 3 {
-                    (plain[k], exact.x)
+                    (plain[k], exact)
                 } else {
                     reflected[k - 3]
                 }
@@ -352,11 +367,15 @@ fn polygons(tilts: impl Fn(usize) -> &'static [f64]) {
                         .iter()
                         .map(|&(u, v)| 2.0 * (centre + radius_rad.tan() * (u * x + v * y)))
                         .collect();
-                    let exact =
-                        integrate_polygon(&vertices, surface.peak(), &ggx_terms(wo, alpha)).abs();
-                    let integrals = polygon_light(wo, surface.roughness, &vertices);
-                    let [a, b, c, d, e, f] = compared(surface, integrals, exact);
-                    [(integrals[0], exact.x), a, b, c, d, e, f]
+                    let white = FresnelRgb::schlick([1.0; 3]);
+                    let peak = surface.peak();
+                    let plain_exact =
+                        integrate_polygon(&vertices, peak, &|wi| ggx_eval(wi, wo, alpha)).abs();
+                    let exact = integrate_polygon(&vertices, peak, &ggx_reflected(wo, alpha)).abs();
+                    let plain = polygon_light(wo, surface.roughness, white, &vertices)[0];
+                    let of_fresnel = polygon_light(wo, surface.roughness, fresnel(), &vertices);
+                    let [a, b, c, d, e, f] = compared(surface, plain, of_fresnel, exact);
+                    [(plain, plain_exact), a, b, c, d, e, f]
                 },
                 name,
             );

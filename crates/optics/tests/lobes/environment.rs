@@ -5,6 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use glam::DVec3;
 use hairline_optics::environment_lobe::{ENVIRONMENT_TAPS, environment_lobe};
+use hairline_optics::fresnel::FresnelRgb;
 use hairline_optics::ggx::{ggx_alpha, ggx_eval};
 use hairline_optics::ltc::{ltc_lobe, sphere_light};
 
@@ -46,7 +47,7 @@ fn whole_round_lobe(alpha: f64) -> f64 {
 /// The integral of |look-ups - GGX| over GGX's own, for look-ups (middle, alpha, share).
 fn misplaced(wo: DVec3, roughness: f64, looked_up: &[(DVec3, f64, f64)]) -> f64 {
     let alpha = ggx_alpha(roughness);
-    let albedo = ltc_lobe(wo, roughness).albedo[0];
+    let albedo = ltc_lobe(wo, roughness).albedo;
     let mirror = DVec3::new(-wo.x, 0.0, wo.z);
     let shares: f64 = looked_up.iter().map(|(_, _, share)| share).sum();
     let lobes: Vec<_> = looked_up
@@ -122,7 +123,13 @@ fn spheres_are_right_in_the_tails() {
                     if to_lamp.z < 0.35 {
                         continue;
                     }
-                    let got = sphere_light(wo, roughness, to_lamp, RADIUS_RAD.sin().powi(2))[0];
+                    let got = sphere_light(
+                        wo,
+                        roughness,
+                        FresnelRgb::schlick([1.0; 3]),
+                        to_lamp,
+                        RADIUS_RAD.sin().powi(2),
+                    )[0];
                     let (x, y) = to_lamp.any_orthonormal_pair();
                     let place = |i: u32| (f64::from(i) + 0.5) / 30.0 - 1.0;
                     let places = (0..60).flat_map(|i| (0..60).map(move |j| (place(i), place(j))));

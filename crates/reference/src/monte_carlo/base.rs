@@ -1,39 +1,52 @@
 //! The base of docs/model.md, section 8, as a BRDF to evaluate and to sample: GGX (25) with its Fresnel (26) and the factor for
 //! multiple scattering of (27), over the diffuse body of (29).
 //!
-//! No fit to GGX enters. The directional albedos do, as they are part of the model: they say how much of the light multiple
-//! scattering gives back and how much reaches the body.
+//! Nothing fitted or tabulated for the closed form enters: reflectances are those of [`Reflectance`].
 
 use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3};
-use hairline_optics::fresnel::FresnelRgb;
-use hairline_optics::ggx::{ggx_alpha, ggx_eval, ggx_multiple_scattering, ggx_pdf, ggx_sample};
-use hairline_optics::lobe_table::{LOBE_MIN_COS, albedo_lookup};
+use hairline_optics::ggx::{ggx_alpha, ggx_eval, ggx_pdf, ggx_sample};
 
+use crate::monte_carlo::reflectance::Reflectance;
 use crate::surface::SurfacePoint;
 
 /// The base at a point for its viewer. Directions are unit vectors in the point's local frame.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct BaseLobes {
+#[derive(Clone, Copy)]
+pub(crate) struct BaseLobes<'a> {
     wo: DVec3,
     alpha: f64,
-    fresnel: FresnelRgb,
-    /// The bracket of (27).
-    compensation: DVec3,
+    reflectance: &'a Reflectance,
+    f0: DVec3,
+    /// What multiple scattering adds to a white surface's light: the bracket of (27) less one, over F0.
+    gain: f64,
     /// What reaches the body, times its albedo.
     body: DVec3,
     /// How often the specular lobe is sampled.
     specular_share: f64,
 }
 
-impl BaseLobes {
-    pub fn new(point: &SurfacePoint) -> Self {
-        Self::from_parts(point.wo, point.fresnel, point.diffuse, point.roughness)
+impl<'a> BaseLobes<'a> {
+    pub fn new(point: &SurfacePoint, reflectance: &'a Reflectance) -> Self {
+        let f0 = DVec3::from(point.fresnel.f0);
+        Self::from_parts(
+            point.wo,
+            reflectance,
+            f0,
+            point.diffuse,
+            point.lobe.roughness,
+        )
     }
 
-    fn from_parts(wo: DVec3, fresnel: FresnelRgb, diffuse: DVec3, roughness: f64) -> Self {
-        let (albedo, compensation) = specular_albedo(wo, &fresnel, roughness);
+    fn from_parts(
+        wo: DVec3,
+        reflectance: &'a Reflectance,
+        f0: DVec3,
+        diffuse: DVec3,
+        roughness: f64,
+    ) -> Self {
+        let of_lobe = reflectance.albedo(roughness, wo.z);
+        let albedo = of_lobe.reflected(f0);
         let body = diffuse * (DVec3::ONE - albedo).max(DVec3::ZERO);
         let (specular, below) = (albedo.element_sum().max(0.0), body.element_sum());
         // A faint lobe still needs samples: a narrow one is found by nothing else.
@@ -45,8 +58,9 @@ impl BaseLobes {
         Self {
             wo,
             alpha: ggx_alpha(roughness),
-            fresnel,
-            compensation,
+            reflectance,
+            f0,
+            gain: of_lobe.gain(),
             body,
             specular_share,
         }
@@ -58,9 +72,9 @@ impl BaseLobes {
             return (DVec3::ZERO, DVec3::ZERO);
         }
         let h = (wi + self.wo).normalize_or(DVec3::Z);
-        let fresnel = DVec3::from(self.fresnel.eval(wi.dot(h)));
+        let facet = self.reflectance.eval(wi.dot(h), self.f0);
         (
-            fresnel * self.compensation * ggx_eval(wi, self.wo, self.alpha),
+            (facet.once + facet.twice * self.gain) * ggx_eval(wi, self.wo, self.alpha),
             self.body * (wi.z / PI),
         )
     }
@@ -85,13 +99,6 @@ impl BaseLobes {
         let specular = ggx_pdf(wi, self.wo, self.alpha);
         specular * self.specular_share + wi.z / PI * (1.0 - self.specular_share)
     }
-}
-
-/// Directional albedo of the specular lobe, which is (27) without the lights, and its bracket.
-fn specular_albedo(wo: DVec3, fresnel: &FresnelRgb, roughness: f64) -> (DVec3, DVec3) {
-    let e = albedo_lookup(roughness, wo.z.max(LOBE_MIN_COS));
-    let compensation = DVec3::from(fresnel.f0).map(|f0| ggx_multiple_scattering(f0, e[0]));
-    (DVec3::from(fresnel.albedo(e)) * compensation, compensation)
 }
 
 /// A direction in proportion to its cosine.

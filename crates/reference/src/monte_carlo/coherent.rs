@@ -17,13 +17,13 @@ use std::f64::consts::PI;
 
 /// The field at a point.
 pub(super) struct Field<'a> {
-    pub point: &'a SurfacePoint,
+    pub point: &'a SurfacePoint<'a>,
     pub grooves: &'a [GrooveView],
     field: GrooveField,
     /// Whether the base is one mirror: else its phases are random, and it does not interfere.
     pub smooth: bool,
     wavelengths: &'a Wavelengths,
-    fresnel: &'a SpectralFresnel,
+    fresnel: &'a SpectralFresnel<'a>,
     /// 1 - <r>: the part of the base's peak that grooves take from its amplitude, at each wavelength.
     taken: Spectrum<Complex64>,
 }
@@ -39,11 +39,11 @@ pub(super) struct FieldResponse {
 
 impl<'a> Field<'a> {
     pub fn new(
-        point: &'a SurfacePoint,
+        point: &'a SurfacePoint<'a>,
         grooves: &'a [GrooveView],
         smooth: bool,
         wavelengths: &'a Wavelengths,
-        fresnel: &'a SpectralFresnel,
+        fresnel: &'a SpectralFresnel<'a>,
     ) -> Self {
         Self {
             point,

@@ -39,8 +39,8 @@ const ENVIRONMENT_DRAWS: u32 = 4;
 
 /// A place on a path, with what it does to light.
 struct Vertex<'a> {
-    point: &'a SurfacePoint,
-    lobes: BaseLobes,
+    point: &'a SurfacePoint<'a>,
+    lobes: BaseLobes<'a>,
     /// What is left of the base's specular reflection; 0 where the field stands in for it.
     specular_kept: DVec3,
     response: Response<'a>,
@@ -116,7 +116,8 @@ impl Integrator<'_> {
         let views = grooves::gather(&self.grooves, object, &point, reach_sigma);
         let material = &self.scene.materials[point.material];
         let optics = &self.tables.materials[point.material];
-        let fresnel = SpectralFresnel::new(&material.base, optics, &point);
+        let reflectance = &self.reflectances[point.material];
+        let fresnel = SpectralFresnel::new(&material.base, optics, &point, reflectance);
         let weights = fresnel.separable(wavelengths);
 
         let (response, taken, specular_kept) = match self.settings.model {
@@ -130,7 +131,7 @@ impl Integrator<'_> {
                 )
             }
             Model::Full => {
-                let smooth = ggx_alpha(point.roughness) <= GGX_MIN_ALPHA;
+                let smooth = ggx_alpha(point.lobe.roughness) <= GGX_MIN_ALPHA;
                 let field = Field::new(&point, &views, smooth, wavelengths, &fresnel);
                 let taken = field.taken();
                 let lobe = if smooth {
@@ -142,7 +143,7 @@ impl Integrator<'_> {
             }
         };
         let vertex = Vertex {
-            lobes: BaseLobes::new(&point),
+            lobes: BaseLobes::new(&point, reflectance),
             specular_kept,
             response,
             depth,

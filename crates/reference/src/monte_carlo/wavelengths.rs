@@ -1,8 +1,8 @@
 //! The wavelengths of one sample, spread evenly over the visible, and what a material makes of them.
 
+use super::reflectance::Reflectance;
 use crate::surface::SurfacePoint;
 use glam::DVec3;
-use hairline_optics::fresnel::FresnelRgb;
 use hairline_optics::metal::Metal;
 use hairline_optics::spectrum;
 use hairline_scene::{Base, MaterialOptics};
@@ -38,17 +38,23 @@ impl Wavelengths {
 pub(super) const WIDEST_NM: f64 = LAST_NM;
 
 /// Reflection off the floor of a groove and off the smooth base.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct SpectralFresnel {
+#[derive(Clone, Copy)]
+pub(super) struct SpectralFresnel<'a> {
     metal: Option<Metal>,
     /// The metal's colour before textures; 1 without a metal.
     metal_f0: DVec3,
-    fresnel: FresnelRgb,
+    reflectance: &'a Reflectance,
+    f0: DVec3,
     cos_o: f64,
 }
 
-impl SpectralFresnel {
-    pub fn new(base: &Base, optics: &MaterialOptics, point: &SurfacePoint) -> Self {
+impl<'a> SpectralFresnel<'a> {
+    pub fn new(
+        base: &Base,
+        optics: &MaterialOptics,
+        point: &SurfacePoint,
+        reflectance: &'a Reflectance,
+    ) -> Self {
         let (metal, metal_f0) = match base {
             Base::Metal(metal) => (Some(*metal), DVec3::from(optics.base_color)),
             _ => (None, DVec3::ONE),
@@ -56,15 +62,20 @@ impl SpectralFresnel {
         Self {
             metal,
             metal_f0,
-            fresnel: point.fresnel,
+            reflectance,
+            f0: DVec3::from(point.fresnel.f0),
             cos_o: point.wo.z,
         }
+    }
+
+    fn at(&self, cos_theta: f64) -> DVec3 {
+        self.reflectance.eval(cos_theta, self.f0).once
     }
 
     /// Weights with the model's reflectance, (7) and (17): the spectrum's shape at normal incidence, the colour by the
     /// viewer's angle.
     pub fn separable(&self, wavelengths: &Wavelengths) -> Spectrum<DVec3> {
-        let fresnel = DVec3::from(self.fresnel.eval(self.cos_o));
+        let fresnel = self.at(self.cos_o);
         self.shape(wavelengths).map(|weight| weight * fresnel)
     }
 
@@ -85,7 +96,7 @@ impl SpectralFresnel {
         let cos_o = self.cos_o;
         match self.metal {
             Some(metal) => {
-                let tint = DVec3::from(self.fresnel.f0) / self.metal_f0;
+                let tint = self.f0 / self.metal_f0;
                 std::array::from_fn(|j| {
                     let nm = wavelengths.nm[j];
                     let r = metal.reflectance(cos_i, nm) * metal.reflectance(cos_o, nm);
@@ -93,8 +104,7 @@ impl SpectralFresnel {
                 })
             }
             None => {
-                let fresnel = &self.fresnel;
-                let both = DVec3::from(fresnel.eval(cos_i)) * DVec3::from(fresnel.eval(cos_o));
+                let both = self.at(cos_i) * self.at(cos_o);
                 let mean = both.max(DVec3::ZERO).map(f64::sqrt);
                 wavelengths.weight.map(|weight| weight * mean)
             }

@@ -41,7 +41,7 @@ struct Needed {
 fn needed_margin(scene: &Scene, step: usize) -> Needed {
     let prepared = Prepared::new(scene);
     let [width, height] = scene.render.size_px;
-    let (picture, _) = prepared.picture(&RenderOptions::default(), 0..height);
+    let (picture, _) = prepared.picture(&RenderOptions::default(), 0..height, &|| false);
     let rows = Rows::new(&prepared, &picture.camera, &(0..height), 1);
     let mut needed = Needed::default();
     let pixels = (0..height as usize)
@@ -136,7 +136,7 @@ fn margins_of_scenes() {
 fn lanes_see_the_closed_forms_share() {
     let scene = scene(DISH);
     let prepared = Prepared::new(&scene);
-    let (picture, _) = prepared.picture(&RenderOptions::default(), 0..32);
+    let (picture, _) = prepared.picture(&RenderOptions::default(), 0..32, &|| false);
     let hit = picture.visibility.hit(24, 16).copied();
     let SeenPoint::Surface { point, .. } = picture.surface(center(24, 16), 1, hit) else {
         panic!("the dish is in the middle");

@@ -4,17 +4,18 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 use std::time::SystemTime;
 
-use glam::DMat4;
+use glam::{DMat4, DVec3};
 
 use crate::description::{self, Layer, Stroke, Surface};
 use crate::error::Error;
-use crate::mesh_file::{self, Stock};
+use crate::mesh_file::{self, Placing, Stock};
 use crate::scene::{Material, Mesh, Scratch, Segment, Texture};
 use crate::scratches::{self, Ground, Laid};
+use crate::text::shown;
 use crate::{Environment, shape};
 
 /// What the last build left.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(super) struct Kept {
     pub surfaces: Vec<Arc<KeptSurface>>,
     pub textures: Textures,
@@ -56,19 +57,29 @@ pub(super) struct SurfaceKey {
     world_from_object: DMat4,
     /// The file, if it is one.
     file: Option<Stamp>,
+    placing: Placing,
 }
 
 impl SurfaceKey {
-    pub(super) fn new(object: &description::Object, base_dir: &Path) -> Self {
-        let file = match &object.surface {
-            Surface::Shape(_) => None,
-            Surface::Mesh(file) => Some(Stamp::of(&base_dir.join(file))),
+    /// `world_up` is the axis that points up.
+    pub(super) fn new(object: &description::Object, base_dir: &Path, world_up: DVec3) -> Self {
+        let (file, placing) = match &object.surface {
+            Surface::Shape(_) => (None, Placing::NONE),
+            Surface::Mesh(file) => {
+                let placing = Placing {
+                    up: object.up,
+                    world_up,
+                    fit_m: object.fit_m,
+                };
+                (Some(Stamp::of(&base_dir.join(file))), placing)
+            }
         };
         Self {
             surface: object.surface.clone(),
             owns_materials: object.material.is_none(),
             world_from_object: object.world_from_object(),
             file,
+            placing,
         }
     }
 }
@@ -89,11 +100,12 @@ pub(super) struct KeptSurface {
 }
 
 impl KeptSurface {
-    /// `key` is the way to the object in the scene file.
+    /// `key` is the way to the object in the scene file; its textures may take `free_bytes`.
     pub(super) fn read(
         surface_key: SurfaceKey,
         object: &description::Object,
         key: &str,
+        free_bytes: f64,
     ) -> Result<Self, Error> {
         let (mut materials, mut textures) = (Vec::new(), Vec::new());
         let mut files = Vec::new();
@@ -104,11 +116,14 @@ impl KeptSurface {
                     materials: &mut materials,
                     textures: &mut textures,
                     files: &mut files,
+                    free_bytes,
                     with_mips: true,
                 };
                 let material = (!surface_key.owns_materials).then_some(0);
-                mesh_file::read(&stamp.path, material, transform, stock).map_err(|flaw| {
-                    let found = format!("\"{}\": {}", file.display(), flaw.found);
+                let placing = &surface_key.placing;
+                let read = mesh_file::read(&stamp.path, material, transform, placing, stock);
+                read.map_err(|flaw| {
+                    let found = format!("\"{}\": {}", shown(&file.to_string_lossy()), flaw.found);
                     Error::new(format!("{key}.mesh"), found, flaw.right)
                 })?
             }
@@ -122,7 +137,7 @@ impl KeptSurface {
         if mesh.triangles.is_empty() {
             let found = format!(
                 "found no surface: every triangle of \"{}\" has zero area",
-                object.name
+                shown(&object.name)
             );
             let right = "must have triangles that span an area";
             return Err(Error::new(key, found, right));

@@ -7,6 +7,8 @@ use super::{
 };
 use crate::error::Error;
 use crate::polygon;
+use crate::text::shown;
+use std::collections::HashSet;
 use std::ops::RangeInclusive;
 
 type Check = Result<(), Error>;
@@ -54,17 +56,16 @@ fn each<T>(key: &str, items: &[T], check: impl Fn(&T, &str) -> Check) -> Check {
 }
 
 fn unique<'n>(key: &str, names: impl Iterator<Item = &'n str>) -> Check {
-    let mut seen: Vec<&str> = Vec::new();
+    let mut seen = HashSet::new();
     for (i, name) in names.enumerate() {
         let way = format!("{key}[{i}].name");
         if name.is_empty() {
             return Err(Error::new(way, "found an empty name", "must not be empty"));
         }
-        if seen.contains(&name) {
-            let found = format!("found a second {key} called \"{name}\"");
+        if !seen.insert(name) {
+            let found = format!("found a second {key} called \"{}\"", shown(name));
             return Err(Error::new(way, found, "names must differ"));
         }
-        seen.push(name);
     }
     Ok(())
 }
@@ -163,6 +164,9 @@ fn object(object: &Object, key: &str) -> Check {
                 "its size must be between 1e-6 and 1e6",
             ));
         }
+    }
+    if let Some(fit_m) = object.fit_m {
+        size(&format!("{key}.fit_m"), fit_m)?;
     }
     match (&object.surface, &object.material) {
         (Surface::Shape(shape), Some(_)) => self::shape(shape, &format!("{key}.shape")),

@@ -6,7 +6,7 @@ use super::table::{Read, Table, Value, number, wrong_type};
 use super::{
     Amount, Around, Brush, Brushed, Camera, Description, Distribution, Environment, Laid, Layer,
     Light, LightKind, Listed, Material, MaterialKind, MetalColor, Object, Pattern, Render,
-    Scratches, Shape, Stroke, Surface,
+    Scratches, Shape, Stroke, Surface, Up,
 };
 use crate::error::Error;
 
@@ -146,6 +146,8 @@ impl Read for Object {
                 "shape",
                 "mesh",
                 "material",
+                "up",
+                "fit_m",
                 "translation_m",
                 "rotation_deg",
                 "scale",
@@ -156,11 +158,24 @@ impl Read for Object {
             "shape" => Surface::Shape(table.required("shape")?),
             _ => Surface::Mesh(table.required("mesh")?),
         };
+        if let Surface::Shape(_) = surface
+            && let Some(extra) = ["up", "fit_m"]
+                .into_iter()
+                .find(|it| table.get(it).is_some())
+        {
+            return Err(Error::new(
+                table.way(extra),
+                "a shape has no such key",
+                "it belongs to an object with a `mesh`",
+            ));
+        }
         let ScaleFactors(scale) = table.or("scale", ScaleFactors([1.0; 3]))?;
         Ok(Self {
             name,
             surface,
             material: table.optional("material")?,
+            up: table.or("up", Up::default())?,
+            fit_m: table.optional("fit_m")?,
             translation_m: table.or("translation_m", [0.0; 3])?,
             rotation_deg: table.or("rotation_deg", [0.0; 3])?,
             scale,

@@ -3,6 +3,7 @@
 use super::Description;
 use super::hint::nearest;
 use crate::error::Error;
+use crate::text::shown;
 
 impl Description {
     /// Refuses names of materials and objects that the scene does not have.
@@ -38,10 +39,11 @@ pub(crate) fn find<'n>(
         .position(|other| other == name)
         .ok_or_else(|| {
             let right = match (nearest(name, names.clone()), names.count()) {
-                (Some(near), _) => format!("did you mean \"{near}\"?"),
+                (Some(near), _) => format!("did you mean \"{}\"?", shown(near)),
                 (None, 0) => format!("there is no `[[{table}]]` in the scene; add one"),
                 (None, _) => format!("must be the name of a `[[{table}]]`"),
             };
-            Error::new(key, format!("found no {table} called \"{name}\""), right)
+            let found = format!("found no {table} called \"{}\"", shown(name));
+            Error::new(key, found, right)
         })
 }

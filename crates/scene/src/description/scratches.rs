@@ -62,6 +62,22 @@ impl Layer {
         }
     }
 
+    /// What `pattern` says.
+    pub fn pattern_name(&self) -> &'static str {
+        match self {
+            Self::Laid(laid) => match laid.pattern {
+                Pattern::Random { .. } => "random",
+                Pattern::Parallel { .. } => "parallel",
+                Pattern::Circular(_) => "circular",
+                Pattern::Radial(_) => "radial",
+                Pattern::Spun { .. } => "spun",
+                Pattern::Swirl { .. } => "swirl",
+            },
+            Self::Brushed(_) => "drawn",
+            Self::Listed(_) => "file",
+        }
+    }
+
     /// See [`Layer::seed`].
     pub fn seed_mut(&mut self) -> Option<&mut u64> {
         match self {

@@ -7,6 +7,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::{Named, hint};
 use crate::error::Error;
+use crate::text::shown;
 
 pub(super) type Value<'a> = Spanned<DeValue<'a>>;
 
@@ -38,7 +39,7 @@ impl<'a> Table<'a> {
             let name = name.get_ref().as_ref();
             if !known.contains(&name) {
                 let right = hint::instead_of_key(name, number(value.get_ref()), known);
-                return Err(Error::new(table.way(name), "unknown key", right));
+                return Err(Error::new(table.way(&shown(name)), "unknown key", right));
             }
         }
         Ok(table)
@@ -293,20 +294,12 @@ pub(super) fn wrong_type(value: &Value, key: &str, right: &str) -> Error {
 
 fn describe(value: &Value) -> String {
     match value.get_ref() {
-        DeValue::String(text) => format!("found the text \"{}\"", shortened(text)),
+        DeValue::String(text) => format!("found the text \"{}\"", shown(text)),
         DeValue::Integer(i) => format!("found the whole number {i}"),
         DeValue::Float(f) => format!("found the number {f}"),
         DeValue::Boolean(boolean) => format!("found `{boolean}`"),
         DeValue::Datetime(date) => format!("found the date {date}"),
         DeValue::Array(array) => format!("found an array of {}", array.len()),
         DeValue::Table(_) => "found a table".to_owned(),
-    }
-}
-
-fn shortened(text: &str) -> String {
-    const LONGEST: usize = 40;
-    match text.char_indices().nth(LONGEST) {
-        Some((end, _)) => format!("{}..", &text[..end]),
-        None => text.to_owned(),
     }
 }

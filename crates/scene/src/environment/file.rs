@@ -1,12 +1,14 @@
 //! Environment maps from files.
 
 use std::fs::File;
-use std::io::{self, BufReader};
+use std::io::{self, BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 
 use hairline_image::{Picture, exr_file};
 use image::codecs::hdr::HdrDecoder;
 use image::{ImageDecoder, ImageError};
+
+use crate::reading::check_regular;
 
 /// An environment map that cannot be used. The message names the file and the reason.
 #[derive(Debug, thiserror::Error)]
@@ -61,12 +63,36 @@ pub enum Error {
 /// 16k maps are the largest in circulation; 1.6 GB while being read.
 const WIDTH_MAX: u32 = 16384;
 
+/// The width and height of a map, of which only the head is read.
+pub(crate) fn size_px(path: &Path) -> Result<[u32; 2], Error> {
+    check_regular(path).map_err(|e| cannot_read(path, &e))?;
+    let size_px = match ending(path).as_deref() {
+        Some("hdr") => {
+            let file = File::open(path).map_err(|e| cannot_read(path, &e))?;
+            let decoder = HdrDecoder::new(BufReader::new(file));
+            decoder
+                .map_err(|e| from_radiance(path, e))?
+                .dimensions()
+                .into()
+        }
+        _ => exr_file::size_px(path).map_err(|e| from_exr(path, e))?,
+    };
+    check_size(path, size_px)?;
+    Ok(size_px)
+}
+
+/// In lower case.
+fn ending(path: &Path) -> Option<String> {
+    Some(path.extension()?.to_str()?.to_ascii_lowercase())
+}
+
 /// Reads an equirectangular map.
 pub(crate) fn read(path: &Path) -> Result<Picture, Error> {
-    let ending = path.extension().map(|e| e.to_ascii_lowercase());
-    match ending.as_ref().and_then(|e| e.to_str()) {
+    check_regular(path).map_err(|e| cannot_read(path, &e))?;
+    match ending(path).as_deref() {
         Some("hdr") => read_radiance(path),
         Some("exr") => {
+            size_px(path)?;
             let picture = exr_file::read_picture(path).map_err(|e| from_exr(path, e))?;
             check_size(path, picture.size_px)?;
             Ok(picture)
@@ -108,7 +134,8 @@ fn from_exr(path: &Path, error: hairline_image::Error) -> Error {
 /// Reads a Radiance picture. Its EXPOSURE, if it has one, is undone: it says by what the radiances were multiplied.
 fn read_radiance(path: &Path) -> Result<Picture, Error> {
     let file = File::open(path).map_err(|e| cannot_read(path, &e))?;
-    let decoder = HdrDecoder::new(BufReader::new(file)).map_err(|e| from_radiance(path, e))?;
+    let reader = as_radiance(BufReader::new(file)).map_err(|e| cannot_read(path, &e))?;
+    let decoder = HdrDecoder::new(reader).map_err(|e| from_radiance(path, e))?;
     let size_px: [u32; 2] = decoder.dimensions().into();
     check_size(path, size_px)?;
     let exposure = decoder.metadata().exposure.unwrap_or(1.0);
@@ -132,6 +159,17 @@ fn read_radiance(path: &Path) -> Result<Picture, Error> {
         })
         .collect();
     Ok(Picture { size_px, rgb })
+}
+
+/// The same picture begins with `#?RGBE` where other programs wrote it; the decoder knows `#?RADIANCE` alone.
+fn as_radiance(mut file: BufReader<File>) -> io::Result<impl BufRead> {
+    const OTHER: &[u8] = b"#?RGBE";
+    let is_other = file.fill_buf()?.starts_with(OTHER);
+    let begin: &[u8] = if is_other { b"#?RADIANCE" } else { b"" };
+    if is_other {
+        file.consume(OTHER.len());
+    }
+    Ok(begin.chain(file))
 }
 
 fn from_radiance(path: &Path, error: ImageError) -> Error {

@@ -1,62 +1,68 @@
-//! The irradiance from a map as nine spherical harmonics.
-//!
-//! Ravi Ramamoorthi and Pat Hanrahan, "An Efficient Representation for Irradiance Environment Maps", 2001.
+//! The irradiance from a map: the map blurred by the cosine.
 
-use std::f64::consts::PI;
-
-use glam::DVec2;
+use glam::{DVec2, Vec3A};
 use hairline_image::Picture;
 use rayon::prelude::*;
 
-use super::lookup::{environment_dir, environment_sh_basis};
-use super::resample::row_solid_angle;
+use super::lookup::environment_dir;
+use super::resample::{resample, row_solid_angle};
 
-/// Coefficients for [`super::lookup::environment_irradiance`].
-pub(super) fn project(map: &Picture) -> [[f32; 3]; 9] {
-    let [width, height] = map.size_px;
-    let rows: Vec<[[f64; 3]; 9]> = (0..height)
-        .into_par_iter()
-        .map(|y| row_moments(map, y))
+/// Width and height of `blur`'s map: linear between texels a cosine is within 0.2 %.
+pub const IRRADIANCE_SIZE_PX: [u32; 2] = [64, 32];
+
+/// What is looked at: texels of 1.4 degrees.
+const SOURCE_SIZE_PX: [u32; 2] = [256, 128];
+
+/// For each normal the mean of radiance over the hemisphere, weighted by the cosine: irradiance over pi.
+pub(super) fn blur(map: &Picture) -> Picture {
+    let [width, height] = IRRADIANCE_SIZE_PX;
+    if map.rgb.iter().all(|texel| *texel == map.rgb[0]) {
+        let rgb = vec![map.rgb[0]; (width * height) as usize];
+        return Picture {
+            size_px: IRRADIANCE_SIZE_PX,
+            rgb,
+        };
+    }
+    let source = resample(map, SOURCE_SIZE_PX);
+    let texels: Vec<(Vec3A, Vec3A)> = (0..SOURCE_SIZE_PX[1])
+        .flat_map(|y| {
+            let solid_angle = row_solid_angle(y, SOURCE_SIZE_PX[1]) as f32;
+            let source = &source;
+            (0..SOURCE_SIZE_PX[0]).map(move |x| {
+                let direction = middle(x, y, SOURCE_SIZE_PX);
+                (direction * solid_angle, Vec3A::from(source.pixel(x, y)))
+            })
+        })
         .collect();
-    let mut moments = [[0.0; 3]; 9];
-    for (y, row) in (0..height).zip(rows) {
-        let solid_angle = row_solid_angle(y, height) / f64::from(width);
-        for (moment, sum) in moments.iter_mut().zip(row) {
-            for c in 0..3 {
-                moment[c] += sum[c] * solid_angle;
-            }
-        }
-    }
-    let factors = factors();
-    std::array::from_fn(|i| moments[i].map(|m| (m * factors[i]) as f32))
+    let rgb = (0..height)
+        .into_par_iter()
+        .flat_map_iter(|y| {
+            let texels = &texels;
+            (0..width).map(move |x| {
+                let normal = middle(x, y, IRRADIANCE_SIZE_PX);
+                let (mut sum, mut weights) = (Vec3A::ZERO, 0.0);
+                for (direction, radiance) in texels {
+                    let weight = normal.dot(*direction).max(0.0);
+                    sum += *radiance * weight;
+                    weights += weight;
+                }
+                (sum / weights).to_array()
+            })
+        })
+        .collect();
+    let mut map = Picture {
+        size_px: IRRADIANCE_SIZE_PX,
+        rgb,
+    };
+    super::round_to_half(&mut map);
+    map
 }
 
-/// The sums of a row's texels times each polynomial.
-fn row_moments(map: &Picture, y: u32) -> [[f64; 3]; 9] {
-    let [width, height] = map.size_px.map(f64::from);
-    let mut sums = [[0.0; 3]; 9];
-    for x in 0..map.size_px[0] {
-        let at = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
-        let basis = environment_sh_basis(environment_dir(at / DVec2::new(width, height)));
-        let texel = map.pixel(x, y);
-        for (sum, basis) in sums.iter_mut().zip(basis) {
-            for c in 0..3 {
-                sum[c] += f64::from(texel[c]) * basis;
-            }
-        }
-    }
-    sums
-}
-
-/// Square of each polynomial's norm, times the cosine's eigenvalue for its degree: pi, 2 pi / 3, pi / 4.
-fn factors() -> [f64; 9] {
-    let degree_0 = 1.0 / (4.0 * PI) * PI;
-    let degree_1 = 3.0 / (4.0 * PI) * (2.0 * PI / 3.0);
-    let degree_2 = |norm_squared: f64| norm_squared * (PI / 4.0);
-    let mixed = degree_2(15.0 / (4.0 * PI));
-    let axial = degree_2(5.0 / (16.0 * PI));
-    let difference = degree_2(15.0 / (16.0 * PI));
-    [
-        degree_0, degree_1, degree_1, degree_1, mixed, mixed, axial, mixed, difference,
-    ]
+/// The direction of a texel's middle.
+fn middle(x: u32, y: u32, size_px: [u32; 2]) -> Vec3A {
+    let at = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
+    let [width, height] = size_px.map(f64::from);
+    environment_dir(at / DVec2::new(width, height))
+        .as_vec3()
+        .into()
 }

@@ -1,8 +1,7 @@
 //! Look-ups in an environment's maps, in the map's own frame and texel units.
 //! Twin: `crates/gpu/shaders/environment.wgsl`, the same names and arguments.
 //!
-//! Brian Karis, "Real Shading in Unreal Engine 4", 2013 (the split sum); Ravi Ramamoorthi and Pat Hanrahan, "An Efficient
-//! Representation for Irradiance Environment Maps", 2001.
+//! Brian Karis, "Real Shading in Unreal Engine 4", 2013 (the split sum).
 //!
 //! Filtering is by hand, and not by a sampler, so that every device and the CPU blend alike: maps repeat across u and
 //! end at v = 0 and 1.
@@ -180,31 +179,9 @@ fn bilinear(map: &Picture, u: f64, v: f64) -> Vec3A {
     top + (bottom - top) * ty
 }
 
-/// The irradiance on a surface with unit `normal`, from nine coefficients of the polynomials
-/// 1, y, z, x, xy, yz, 3z^2 - 1, xz, x^2 - y^2, their norms and the cosine's convolution included.
-pub fn environment_irradiance(sh: &[[f32; 3]; 9], normal: DVec3) -> DVec3 {
-    let basis = environment_sh_basis(normal);
-    let mut sum = DVec3::ZERO;
-    for (coefficient, basis) in sh.iter().zip(basis) {
-        sum += DVec3::from(coefficient.map(f64::from)) * basis;
-    }
-    // Nine terms ring below zero opposite to a very bright light.
-    sum.max(DVec3::ZERO)
-}
-
-/// The real spherical harmonics up to degree two without their norms.
-pub fn environment_sh_basis(n: DVec3) -> [f64; 9] {
-    [
-        1.0,
-        n.y,
-        n.z,
-        n.x,
-        n.x * n.y,
-        n.y * n.z,
-        3.0 * n.z * n.z - 1.0,
-        n.x * n.z,
-        n.x * n.x - n.y * n.y,
-    ]
+/// The irradiance on a surface with unit `normal`, from the map that the cosine has blurred.
+pub fn environment_irradiance(map: &Picture, normal: DVec3) -> DVec3 {
+    environment_bilinear(map, environment_uv(normal)) * PI
 }
 
 #[cfg(test)]

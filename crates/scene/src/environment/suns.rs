@@ -1,6 +1,6 @@
 //! Suns: what is small and bright in a map, which lights a surface as a disc of its own.
 //!
-//! A map blurred for rough surfaces, nine spherical harmonics and the cells of a scratch's band know nothing as narrow as the sun: it
+//! A map blurred for rough surfaces, a map blurred by the cosine and the cells of a scratch's band know nothing as narrow as the sun: it
 //! would be a stain of a tenth of a radian, without colours on scratches. As a light it is exact (docs/model.md, section 8).
 
 use std::f64::consts::TAU;

@@ -8,8 +8,9 @@ use gltf::Primitive;
 use super::source::{Buffers, resource};
 use super::{Flaw, Stock};
 use crate::description::DEFAULT_COHERENCE_UM;
+use crate::memory;
 use crate::scene::{Base, Material, Texture};
-use crate::texture;
+use crate::texture::{self, Channels};
 
 /// What the primitives' materials become.
 pub(super) enum Materials<'a> {
@@ -26,7 +27,7 @@ pub(super) struct Own<'a> {
     /// From the file's materials, `None` for its default one, to the scene's.
     indices: HashMap<Option<usize>, u32>,
     /// From the file's images, as sRGB or linear data, to the scene's textures.
-    textures: HashMap<(usize, bool), usize>,
+    textures: HashMap<(usize, Channels), usize>,
 }
 
 impl<'a> Materials<'a> {
@@ -88,42 +89,60 @@ impl Own<'_> {
             emission: material
                 .emissive_factor()
                 .map(|x| f64::from(x).max(0.0) * strength),
-            base_color_texture: self
-                .texture(pbr.base_color_texture().map(|t| t.texture()), true)?,
-            metallic_roughness_texture: self
-                .texture(pbr.metallic_roughness_texture().map(|t| t.texture()), false)?,
+            base_color_texture: self.texture(
+                pbr.base_color_texture().map(|t| t.texture()),
+                Channels::Color,
+            )?,
+            metallic_roughness_texture: self.texture(
+                pbr.metallic_roughness_texture().map(|t| t.texture()),
+                Channels::Linear,
+            )?,
             normal_texture: self
-                .texture(normal_texture.as_ref().map(|t| t.texture()), false)?
+                .texture(
+                    normal_texture.as_ref().map(|t| t.texture()),
+                    Channels::Normals,
+                )?
                 .zip(normal_texture.map(|t| f64::from(t.scale()))),
-            emission_texture: self
-                .texture(material.emissive_texture().map(|t| t.texture()), true)?,
+            emission_texture: self.texture(
+                material.emissive_texture().map(|t| t.texture()),
+                Channels::Color,
+            )?,
         })
     }
 
     fn texture(
         &mut self,
         texture: Option<gltf::Texture>,
-        srgb: bool,
+        channels: Channels,
     ) -> Result<Option<usize>, Flaw> {
         let Some(image) = texture.map(|texture| texture.source()) else {
             return Ok(None);
         };
-        let key = (image.index(), srgb);
+        let key = (image.index(), channels);
         if let Some(&index) = self.textures.get(&key) {
             return Ok(Some(index));
         }
         let index = self.stock.textures.len();
-        let texture = self.read_image(&image, srgb)?;
+        let texture = self.read_image(&image, channels)?;
+        self.stock.free_bytes -= memory::texture_bytes(texture.size_px);
         self.stock.textures.push(texture);
         self.textures.insert(key, index);
         Ok(Some(index))
     }
 
-    fn read_image(&mut self, image: &gltf::Image, srgb: bool) -> Result<Texture, Flaw> {
+    fn read_image(&mut self, image: &gltf::Image, channels: Channels) -> Result<Texture, Flaw> {
         let what = format!("image {}", image.index());
         let with_mips = self.stock.with_mips;
+        let free_bytes = self.stock.free_bytes;
         let decode = |bytes: &[u8]| {
-            texture::decode(bytes, srgb, with_mips).map_err(|error| {
+            if bytes.starts_with(b"\xabKTX ") {
+                let found = format!("its {what} is a KTX image");
+                return Err(Flaw::new(
+                    found,
+                    "export it again with PNG, JPEG or WebP images",
+                ));
+            }
+            texture::decode(bytes, channels, with_mips, free_bytes).map_err(|error| {
                 Flaw::new(
                     format!("its {what} cannot be decoded ({error})"),
                     "must be a PNG, JPEG or WebP image",

@@ -5,6 +5,8 @@ use std::path::{Path, PathBuf};
 use gltf::Gltf;
 
 use super::Flaw;
+use crate::reading::{self, Kind};
+use crate::text::shown;
 
 /// The file's buffers, each at least as long as the file says.
 pub(super) struct Buffers(Vec<Vec<u8>>);
@@ -73,13 +75,20 @@ pub(super) fn resource(
                 )
             });
     }
-    let right = "must be a file beside it, by a relative path";
-    if uri.contains("://") {
-        return Err(Flaw::new(format!("its {what} is at \"{uri}\""), right));
+    let right = "must be a file, by a path relative to the glTF file";
+    let name = percent_decoded(uri);
+    // As a path of Windows begins, wherever this runs.
+    let has_drive = name.get(1..3).is_some_and(|it| it == ":\\" || it == ":/");
+    if uri.contains("://") || uri.starts_with("file:") || name.starts_with(['/', '\\']) || has_drive
+    {
+        return Err(Flaw::new(
+            format!("its {what} is at \"{}\"", shown(uri)),
+            right,
+        ));
     }
-    let path = base_dir.join(percent_decoded(uri));
+    let path = base_dir.join(name);
     files.push(path.clone());
-    std::fs::read(&path).map_err(|error| {
+    reading::read(&path, Kind::File, super::FILE_SHARE).map_err(|error| {
         let found = format!(
             "its {what}, \"{}\", cannot be read ({error})",
             path.display()
@@ -89,7 +98,7 @@ pub(super) fn resource(
 }
 
 /// `%20` and the like, RFC 3986, section 2.1. What is no escape stays.
-fn percent_decoded(uri: &str) -> String {
+pub(super) fn percent_decoded(uri: &str) -> String {
     let bytes = uri.as_bytes();
     let mut decoded = Vec::with_capacity(bytes.len());
     let mut i = 0;

@@ -84,6 +84,19 @@ impl Closest {
         (best.0, best.1.sqrt())
     }
 
+    /// The same within a distance: what is far from the mesh is found to be so in no time.
+    pub(super) fn find_within(&self, point_m: DVec3, most_m: f64) -> Option<(Spot, f64)> {
+        let nowhere = Spot {
+            triangle: 0,
+            point_m,
+        };
+        // A little more, for what rounds.
+        let most = most_m * most_m * (1.0 + 1e-9);
+        let mut best = (nowhere, most);
+        self.visit(0, 0, self.triangles.len(), point_m, &mut best);
+        (best.1 < most).then(|| (best.0, best.1.sqrt()))
+    }
+
     /// `best` holds a squared distance.
     fn visit(&self, node: usize, first: usize, end: usize, point: DVec3, best: &mut (Spot, f64)) {
         if self.nodes[node].distance_squared(point) >= best.1 {
@@ -153,6 +166,9 @@ mod tests {
             let (spot, distance_m) = tree.find(point);
             assert_eq!(distance_m, all.fold(f64::INFINITY, f64::min));
             assert_eq!(distance_m, spot.point_m.distance(point));
+            let within = tree.find_within(point, distance_m);
+            assert_eq!(within.map(|(spot, _)| spot.triangle), Some(spot.triangle));
+            assert!(tree.find_within(point, 0.999 * distance_m).is_none());
         }
     }
 }

@@ -9,13 +9,19 @@ use obvhs::BvhBuildParams;
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::builder::build_bvh2;
+use rayon::prelude::*;
 
 use super::facet::Facet;
 use super::ground::Ground;
 use super::painted::world_points_m;
 use super::walk::{Course, Walker};
 use crate::description::{Brush, Stroke};
+use crate::error::Error;
+use crate::load::Loader;
 use crate::scene::Segment;
+
+/// So many points are looked up between two questions whether to give up.
+const TOGETHER: usize = 1024;
 
 /// All erasing strokes of a layer.
 pub(super) struct Eraser {
@@ -35,7 +41,14 @@ struct Capsule {
 
 impl Eraser {
     /// `None` where no stroke erases.
-    pub(super) fn new(strokes: &[Stroke], ground: &Ground) -> Option<Self> {
+    ///
+    /// # Errors
+    /// The caller gave up.
+    pub(super) fn new(
+        loader: &Loader,
+        strokes: &[Stroke],
+        ground: &Ground,
+    ) -> Result<Option<Self>, Error> {
         let mut capsules = Vec::new();
         for (i, stroke) in strokes.iter().enumerate() {
             if stroke.brush != Brush::Erase {
@@ -45,13 +58,15 @@ impl Eraser {
             if let [only] = points_m[..] {
                 points_m.push(only);
             }
-            let normals: Vec<_> = points_m
-                .iter()
-                .map(|p| {
-                    let (spot, _) = ground.closest().find(*p);
-                    Facet::new(&ground.mesh, spot.triangle).normal
-                })
-                .collect();
+            let normal = |p: &DVec3| {
+                let (spot, _) = ground.closest().find(*p);
+                Facet::new(&ground.mesh, spot.triangle).normal
+            };
+            let mut normals = Vec::with_capacity(points_m.len());
+            for some in points_m.chunks(TOGETHER) {
+                loader.go_on()?;
+                normals.par_extend(some.par_iter().map(normal));
+            }
             for (ends_m, normals) in points_m.windows(2).zip(normals.windows(2)) {
                 capsules.push(Capsule {
                     ends_m: [ends_m[0], ends_m[1]],
@@ -61,11 +76,11 @@ impl Eraser {
                 });
             }
         }
-        (!capsules.is_empty()).then(|| {
+        Ok((!capsules.is_empty()).then(|| {
             let params = BvhBuildParams::medium_build();
             let tree = build_bvh2(&capsules, params, &mut std::time::Duration::default());
             Self { capsules, tree }
-        })
+        }))
     }
 
     /// What is left of a scratch that `strokes_before` strokes came before, in runs of joined segments; `None` where it is

@@ -7,7 +7,10 @@ use super::guide::Guide;
 use super::walk::{Course, Walker};
 use super::{Groove, Laying};
 use crate::error::Error;
+use crate::load::Loader;
+use crate::reading::{self, Kind};
 use crate::scene::Segment;
+use crate::text::shown;
 
 const COLUMNS: [&str; 8] = [
     "x0_m", "y0_m", "z0_m", "x1_m", "y1_m", "z1_m", "width_um", "depth_nm",
@@ -29,7 +32,8 @@ pub(super) struct Row {
 
 /// Reads all rows. `key` is the way to the layer's table in the scene file.
 pub(super) fn read(path: &Path, key: &str) -> Result<Vec<Row>, Error> {
-    let text = std::fs::read(path).map_err(|error| {
+    // The rows take about as much as the text, twice.
+    let text = reading::read(path, Kind::File, 1.0 / 6.0).map_err(|error| {
         Error::new(
             format!("{key}.file"),
             format!("\"{}\" cannot be read ({error})", path.display()),
@@ -58,7 +62,7 @@ fn parse(text: &str, path: &Path) -> Result<Vec<Row>, Error> {
     };
     let header: Vec<_> = header.split(',').map(str::trim).collect();
     if header != COLUMNS {
-        let found = format!("found `{}`", header.join(","));
+        let found = format!("found `{}`", shown(&header.join(",")));
         return Err(Error::new("", found, header_is()).at(path, Some(first)));
     }
     lines
@@ -80,7 +84,8 @@ fn parse_row(line: usize, row: &str) -> Result<Row, Error> {
             .ok()
             .filter(|value: &f64| value.is_finite())
             .ok_or_else(|| {
-                Error::new(COLUMNS[i], format!("found \"{cell}\""), "must be a number")
+                let found = format!("found \"{}\"", shown(cell));
+                Error::new(COLUMNS[i], found, "must be a number")
             })?;
     }
     let [x0, y0, z0, x1, y1, z1, width_um, depth_nm] = values;
@@ -109,12 +114,22 @@ pub(super) struct Listed<'a> {
 
 impl<'a> Listed<'a> {
     /// Refuses rows that do not lie on the surface.
-    pub(super) fn new(rows: Vec<Row>, path: &Path, ground: &'a Ground) -> Result<Self, Error> {
+    pub(super) fn new(
+        loader: &Loader,
+        rows: Vec<Row>,
+        path: &Path,
+        ground: &'a Ground,
+    ) -> Result<Self, Error> {
+        const TOGETHER: usize = 1024;
         let tolerance_m = OFF_SURFACE * ground.diagonal_m;
-        for row in &rows {
+        for (i, row) in rows.iter().enumerate() {
+            if i % TOGETHER == 0 {
+                loader.go_on()?;
+            }
             for (end, prefix) in row.ends_m.iter().zip(["x0_m", "x1_m"]) {
-                let (_, distance_m) = ground.closest().find(ground.point_in_world_m(*end));
-                if distance_m > tolerance_m {
+                let point_m = ground.point_in_world_m(*end);
+                if ground.closest().find_within(point_m, tolerance_m).is_none() {
+                    let (_, distance_m) = ground.closest().find(point_m);
                     let found =
                         format!("found a point {distance_m:.3e} m off the object's surface");
                     let right = format!(

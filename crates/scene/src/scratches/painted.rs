@@ -14,6 +14,7 @@ use super::random::Stream;
 use super::walk::{Course, Spot, Walker};
 use super::{Groove, Laying, scratch_depth_nm, scratch_width_um};
 use crate::description::{Brush, Brushed, Stroke};
+use crate::error::Error;
 use crate::scene::Segment;
 
 /// The surface may lie this far from the brush, as a multiple of its radius.
@@ -91,12 +92,13 @@ impl<'a> Painted<'a> {
 
     /// The nearest place on the side of the surface that the brush is on; `None` where it hangs over the rim.
     fn land(&self, touch: &Touch, radius_m: f64) -> Option<Spot> {
-        let (spot, distance_m) = self.ground.closest().find(touch.point_m);
+        let most_m = REACH * radius_m;
+        let (spot, distance_m) = self.ground.closest().find_within(touch.point_m, most_m)?;
         let facet = Facet::new(&self.ground.mesh, spot.triangle);
         let off = touch.point_m - spot.point_m;
         let is_beside =
             off.length() > BESIDE_M && facet.in_plane(off).length() > BESIDE_SINE * off.length();
-        let is_near = distance_m <= REACH * radius_m && facet.normal.dot(touch.normal) >= 0.0;
+        let is_near = distance_m <= most_m && facet.normal.dot(touch.normal) >= 0.0;
         (is_near && !is_beside).then_some(spot)
     }
 }
@@ -112,7 +114,8 @@ impl Laying for Painted<'_> {
         let [length, width, depth, jitter] = std::array::from_fn(|_| stream.normal());
 
         let touch = path.touch(self.ground, nth, along, across);
-        if let Some(seed) = self.land(&touch, path.radius_m) {
+        let seed = touch.and_then(|touch| Some((self.land(&touch, path.radius_m)?, touch)));
+        if let Some((seed, touch)) = seed {
             let facet = Facet::new(&self.ground.mesh, seed.triangle);
             let direction = touch
                 .along
@@ -172,14 +175,16 @@ impl Path {
         })
     }
 
-    /// Where scratch `nth` of the stroke is made; the last two are uniform draws.
-    fn touch(&self, ground: &Ground, nth: u64, along: f64, across: f64) -> Touch {
+    /// Where scratch `nth` of the stroke is made; the last two are uniform draws. `None` where the brush is out of reach.
+    fn touch(&self, ground: &Ground, nth: u64, along: f64, across: f64) -> Option<Touch> {
+        // What the brush touches lies within its radius of its middle.
+        let most_m = (REACH + 1.0) * self.radius_m;
         let normal_at = |point_m| {
-            let (spot, _) = ground.closest().find(point_m);
-            Facet::new(&ground.mesh, spot.triangle).normal
+            let (spot, _) = ground.closest().find_within(point_m, most_m)?;
+            Some(Facet::new(&ground.mesh, spot.triangle).normal)
         };
         if self.points_m.len() == 1 {
-            return self.dab(normal_at(self.points_m[0]), along, across);
+            return Some(self.dab(normal_at(self.points_m[0])?, along, across));
         }
         // The last share may reach beyond the end, since the count is rounded.
         let length_m = self.lengths_m[self.lengths_m.len() - 1];
@@ -194,16 +199,16 @@ impl Path {
         let step_m = self.lengths_m[next] - self.lengths_m[next - 1];
         let middle_m = from.lerp(to, (way_m - self.lengths_m[next - 1]) / step_m);
         let tangent = (to - from) / step_m;
-        let normal = normal_at(middle_m);
+        let normal = normal_at(middle_m)?;
         let sideways = normal
             .cross(tangent)
             .try_normalize()
             .unwrap_or_else(|| tangent.any_orthonormal_vector());
-        Touch {
+        Some(Touch {
             point_m: middle_m + sideways * (self.radius_m * (2.0 * across - 1.0)),
             normal,
             along: Some(tangent),
-        }
+        })
     }
 
     /// Anywhere in a circle, each area alike.
@@ -216,6 +221,30 @@ impl Path {
             along: None,
         }
     }
+}
+
+/// Refuses strokes with points far from the surface, which belong to another object or to another unit. A stroke may go over the
+/// rim, and an object may shrink under it: as far as the object is large.
+pub(super) fn check(strokes: &[Stroke], key: &str, ground: &Ground) -> Result<(), Error> {
+    let (least, most) = ground.mesh.bounds_m();
+    let (least, most) = (least.as_dvec3(), most.as_dvec3());
+    for (i, stroke) in strokes.iter().enumerate() {
+        let most_m = ground.diagonal_m.max(REACH * stroke.radius_m);
+        for (j, point) in stroke.points_m.iter().enumerate() {
+            let point_m = ground.point_in_world_m(*point);
+            let off_m = point_m.distance(point_m.clamp(least, most));
+            if off_m > most_m {
+                return Err(Error::new(
+                    format!("{key}.strokes[{i}].points_m[{j}]"),
+                    format!("found a point {off_m:.3e} m off the object"),
+                    format!(
+                        "must be at most {most_m:.3e} m off, in metres of the object's own frame"
+                    ),
+                ));
+            }
+        }
+    }
+    Ok(())
 }
 
 /// A stroke's points in world space, without repetitions.

@@ -52,8 +52,8 @@ pub fn asset(name: &str) -> Option<PathBuf> {
 #[derive(Clone, Default)]
 pub struct Glb {
     pub bin: Vec<u8>,
-    views: Vec<String>,
-    accessors: Vec<String>,
+    pub views: Vec<String>,
+    pub accessors: Vec<String>,
     /// Members of the top object besides those made here, each with its own comma before it.
     pub more: String,
 }

@@ -202,6 +202,11 @@ fn everything() -> Description {
             .enumerate()
             .map(|(i, surface)| Object {
                 name: format!("object {i}"),
+                up: match surface {
+                    Surface::Mesh(_) => Up::Z,
+                    Surface::Shape(_) => Up::Y,
+                },
+                fit_m: matches!(surface, Surface::Mesh(_)).then_some(0.2),
                 surface,
                 material: (i % 2 == 0).then(|| "material 0".to_owned()),
                 translation_m: [0.0, 1.0, 2.0],

@@ -9,8 +9,13 @@ use hairline_scene::{Base, Error, Mesh, Scene};
 /// Loads a scene whose only object is a mesh file, with more keys for its table.
 fn load(path: &Path, more: &str) -> Result<Scene, Error> {
     let file = path.file_name().unwrap().to_str().unwrap();
+    // As the file has its axes, unless it is said otherwise.
+    let up = match more.contains("up = ") {
+        true => "",
+        false => "up = \"z\"\n",
+    };
     let text = scene_with(&format!(
-        "[[object]]\nname = \"it\"\nmesh = \"{file}\"\n{more}"
+        "[[object]]\nname = \"it\"\nmesh = \"{file}\"\n{up}{more}"
     ));
     Scene::from_toml(&text, "test.toml", path.parent().unwrap())
 }
@@ -364,7 +369,7 @@ fn broken_files_end_in_a_message() {
                 r#"{"byteLength":168"#,
                 r#"{"uri":"https://example.org/a","byteLength":168"#,
             ),
-            "its buffer 0 is at \"https://example.org/a\"; must be a file beside it, by a relative path",
+            "its buffer 0 is at \"https://example.org/a\"; must be a file, by a path relative to the glTF file",
         ),
     ];
     for (bytes, expected) in cases {
@@ -431,7 +436,7 @@ fn meshes_without_area_are_refused_and_degenerate_triangles_dropped() {
         &cube_glb(r#","mode":0"#, r#"{"mesh":0}"#, &mut Glb::default()),
         "",
     );
-    assert!(message(empty.unwrap_err()).contains("found no surface"));
+    assert!(message(empty.unwrap_err()).contains("points and lines, and no triangles"));
     // Flattened along z, the four sides vanish, top and bottom stay.
     let sheet = load_bytes(
         &cube_glb("", r#"{"mesh":0,"scale":[1,1,0]}"#, &mut Glb::default()),
@@ -488,4 +493,99 @@ fn the_monkey_wears_scratches_under_the_studio() {
     assert!(scene.environment.is_some());
     // Some seeds lie at a boundary and leave nothing.
     assert!(object.scratches.len() > 49_900);
+}
+
+/// The box around the only object.
+fn bounds(scene: &Scene) -> [DVec3; 2] {
+    let (least, most) = scene.objects[0].mesh.bounds_m();
+    [least, most].map(|p| p.as_dvec3())
+}
+
+#[test]
+fn files_stand_upright_and_fit() {
+    // 1 wide, 2 high, 3 deep in the file.
+    let bytes = cube_glb("", r#"{"mesh":0,"scale":[1,2,3]}"#, &mut Glb::default());
+    let of = |more: &str| {
+        let [least, most] = bounds(&load_bytes(&bytes, more).unwrap());
+        most - least
+    };
+    let own = of("");
+    assert_eq!(own / own.x, DVec3::new(1.0, 2.0, 3.0));
+    let upright = of("up = \"y\"");
+    assert_eq!(upright / upright.x, DVec3::new(1.0, 3.0, 2.0));
+    // As the rotation did that scenes had to have.
+    assert_eq!(upright, of("rotation_deg = [90, 0, 0]"));
+    let fitted = of("up = \"y\"\nfit_m = 0.3");
+    assert!(
+        (fitted - DVec3::new(0.1, 0.3, 0.2)).length() < 1e-7,
+        "{fitted}"
+    );
+    let scaled = of("up = \"y\"\nfit_m = 0.3\nscale = 2");
+    assert!((scaled - 2.0 * fitted).length() < 1e-6, "{scaled}");
+}
+
+#[test]
+fn a_shape_has_no_axes_of_a_file() {
+    for key in ["up = \"y\"", "fit_m = 1"] {
+        let text = scene_with(&format!(
+            "{}{key}\n",
+            common::object("{ disk = { radius_m = 1 } }")
+        ));
+        let error = Scene::from_toml(&text, "test.toml", "").unwrap_err();
+        assert_eq!(error.right(), "it belongs to an object with a `mesh`");
+    }
+}
+
+/// What other programs write, said by its name.
+#[test]
+fn what_cannot_be_read_is_named() {
+    let asset = r#""asset":{"version":"2.0"}"#;
+    let chain: Vec<_> = (0..400)
+        .map(|i| format!(r#"{{"children":[{}]}}"#, i + 1))
+        .collect();
+    let cases = [
+        (
+            r#"{"asset":{"version":"1.0"},"meshes":{"a":{}}}"#.to_owned(),
+            "it is a file of glTF 1.0",
+        ),
+        (
+            format!(
+                r#"{{{asset},"textures":[{{"extensions":{{"KHR_texture_basisu":{{"source":0}}}}}}],"images":[{{"uri":"a.ktx2"}}]}}"#
+            ),
+            "its texture 0 has a KTX2 image alone",
+        ),
+        (
+            format!(
+                r#"{{{asset},"scenes":[{{"nodes":[0]}}],"nodes":[{},{{}}]}}"#,
+                chain.join(",")
+            ),
+            "its node 257 lies more than 256 nodes deep",
+        ),
+        (
+            format!(r#"{{{asset},"nodes":[{{"children":[0]}}],"scenes":[{{"nodes":[0]}}]}}"#),
+            "its node 0 is its own ancestor or has two parents",
+        ),
+        (
+            format!(r#"{{{asset},"buffers":[{{"uri":"/etc/hostname","byteLength":1}}]}}"#),
+            "its buffer 0 is at \"/etc/hostname\"; must be a file, by a path relative to the glTF file",
+        ),
+    ];
+    for (text, expected) in cases {
+        let error = load_bytes(text.as_bytes(), "").unwrap_err().to_string();
+        assert!(error.contains(expected), "{error}");
+    }
+    let mut binary = plain_cube();
+    binary[4] = 1;
+    let error = load_bytes(&binary, "").unwrap_err().to_string();
+    assert!(error.contains("glTF 1.0"), "{error}");
+}
+
+/// Animations are not read, so one of an extension is no mistake.
+#[test]
+fn what_is_ignored_cannot_be_wrong() {
+    let mut glb = Glb {
+        more: r#","animations":[{"channels":[{"sampler":0,"target":{"path":"pointer","extensions":{"KHR_animation_pointer":{"pointer":"/x"}}}}],"samplers":[]}],"cameras":[{"type":"fisheye"}]"#.to_owned(),
+        ..Glb::default()
+    };
+    load_bytes(&cube_glb("", r#"{"mesh":0}"#, &mut glb), "").unwrap();
 }

@@ -3,15 +3,18 @@
 use std::path::{Path, PathBuf};
 
 use egui::ViewportCommand;
-use glam::DVec3;
 use hairline_editor::actions::{layers, lights, materials, objects};
 use hairline_editor::autosave::Pending;
-use hairline_editor::{ActionError, Document, Selection, actions, navigate};
+use hairline_editor::document::SaveError;
+use hairline_editor::{ActionError, Selection, actions, navigate};
+use hairline_scene::probe::{self, MeshSummary};
 
 use super::Command;
 use crate::app::Viewer;
 use crate::dialogs::Wish;
+use crate::dialogs::is_same;
 use crate::files::{Choice, Purpose};
+use crate::tools::Tool;
 
 /// What a press of a bracket does to the brush.
 const BRUSH_STEP: f64 = 1.25;
@@ -36,8 +39,23 @@ impl Viewer {
             Command::ToggleHidden => {
                 matches!(selection, Selection::Layer(_) | Selection::Light(_))
             }
+            Command::FlipSnapshot => !self.snapshots.is_empty(),
             Command::ToggleSolo => matches!(selection, Selection::Layer(_)),
+            Command::Deselect => selection != Selection::None || self.toolbox.tool != Tool::Select,
+            Command::Reload => self.document.path().is_some(),
+            Command::Revert => self.document.can_revert(),
             _ => true,
+        }
+    }
+
+    /// Whether a switch is on; none for what is no switch.
+    pub(crate) fn is_on(&self, command: Command) -> Option<bool> {
+        match command {
+            Command::Read(command) => self.reads(command),
+            Command::View(command) => self.views(command),
+            Command::Overlay(overlay) => Some(self.overlays.is_on(overlay)),
+            Command::Overlays => Some(!self.overlays.are_hidden()),
+            _ => None,
         }
     }
 
@@ -51,11 +69,15 @@ impl Viewer {
             Command::Open => self.ask_path(ctx, Purpose::Open),
             Command::Save => self.save(ctx),
             Command::SaveAs => self.ask_path(ctx, Purpose::SaveAs),
+            Command::Reload => self.wish_reload(),
+            Command::Revert => self.revert(),
             Command::AddModel => self.ask_path(ctx, Purpose::AddModel),
             Command::SetEnvironment => self.ask_path(ctx, Purpose::Environment),
             Command::Screenshot => self.ask_export(Purpose::Screenshot),
             Command::Turntable => self.ask_export(Purpose::Turntable),
             Command::Compare => self.compare.toggle(),
+            Command::TakeSnapshot => self.take_snapshot(),
+            Command::FlipSnapshot => self.snapshots.flip(),
             Command::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
             Command::Undo => {
                 if let Some(label) = self.document.undo() {
@@ -75,17 +97,28 @@ impl Viewer {
             | Command::ToggleSolo => self.on_selection(command),
             Command::FrameAll => self.frame(None),
             Command::FrameSelection => self.frame_selection(),
-            Command::Look(viewpoint) => self.document.edit(command.label(), |d| {
-                navigate::look_from(&mut d.camera, viewpoint)
+            Command::ToggleList => self.hides_list = !self.hides_list,
+            Command::ToggleInspector => self.hides_inspector = !self.hides_inspector,
+            Command::FullScreen => {
+                let is_full = ctx.input(|input| input.viewport().fullscreen.unwrap_or(false));
+                ctx.send_viewport_cmd(ViewportCommand::Fullscreen(!is_full));
+            }
+            Command::Look(viewpoint) => self.move_view(command.label(), None, |camera| {
+                navigate::look_from(camera, viewpoint)
             }),
             Command::Pick(tool) => self.toolbox.tool = tool,
             Command::BrushSmaller => self.scale_brush(1.0 / BRUSH_STEP),
             Command::BrushLarger => self.scale_brush(BRUSH_STEP),
-            Command::Deselect => {
-                self.toolbox.tool = Default::default();
-                self.document.select(Selection::None);
+            // One thing at a time: the tool first.
+            Command::Deselect if self.toolbox.tool != Tool::Select => {
+                self.toolbox.tool = Tool::Select;
             }
+            Command::Deselect => self.document.select(Selection::None),
             Command::Help => self.dialogs.show_help(),
+            Command::Read(command) => self.read(command),
+            Command::View(command) => self.change_view(command),
+            Command::Overlay(overlay) => self.overlays.toggle(overlay),
+            Command::Overlays => self.overlays.toggle_all(),
         }
     }
 
@@ -128,58 +161,6 @@ impl Viewer {
         self.tell(done);
     }
 
-    fn scale_brush(&mut self, factor: f64) {
-        if let Some(brush) = &mut self.toolbox.brush {
-            brush.radius_m = (brush.radius_m * factor).clamp(1e-5, 10.0);
-        }
-    }
-
-    pub(crate) fn frame_selection(&mut self) {
-        self.frame(Some(self.selection()));
-    }
-
-    /// Brings a part, or all, into the picture.
-    fn frame(&mut self, part: Option<Selection>) {
-        let object = part.and_then(|part| part.object(self.document.description()));
-        let (low_m, high_m) = match part {
-            Some(Selection::Light(i)) => {
-                let lights = &self.document.description().lights;
-                let Some(light) = lights.get(i) else { return };
-                let center = hairline_editor::place_light::center(light);
-                let reach = DVec3::splat(0.25 * self.diagonal_m(None));
-                (center - reach, center + reach)
-            }
-            _ => self.bounds_m(object),
-        };
-        let aspect = self.viewport.aspect();
-        self.document.edit("Frame", |d| {
-            navigate::frame_box(&mut d.camera, low_m, high_m, aspect);
-        });
-    }
-
-    /// The box around an object, or around all, in metres: as it was built last.
-    pub(crate) fn bounds_m(&self, object: Option<usize>) -> (DVec3, DVec3) {
-        let unknown = (DVec3::splat(-0.1), DVec3::splat(0.1));
-        let Some(built) = self.engine.built() else {
-            return unknown;
-        };
-        let objects = &built.scene.objects;
-        let boxes = match object.and_then(|i| objects.get(i)) {
-            Some(one) => vec![one.mesh.bounds_m()],
-            None => objects.iter().map(|o| o.mesh.bounds_m()).collect(),
-        };
-        let merged = boxes
-            .into_iter()
-            .reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
-        merged.map_or(unknown, |(low, high)| (low.as_dvec3(), high.as_dvec3()))
-    }
-
-    /// The diagonal of that box.
-    pub(crate) fn diagonal_m(&self, object: Option<usize>) -> f64 {
-        let (low_m, high_m) = self.bounds_m(object);
-        low_m.distance(high_m)
-    }
-
     /// Does what would lose unsaved changes, or asks first.
     pub(crate) fn wish(&mut self, ctx: &egui::Context, wish: Wish) {
         if self.document.is_modified() {
@@ -195,7 +176,7 @@ impl Viewer {
                 Ok(document) => self.replace_document(document),
                 Err(error) => self.notices.error("open", error.to_string()),
             },
-            Wish::Open(path) => match Document::open(&path) {
+            Wish::Open(path) => match crate::app::open(&path) {
                 Ok(document) => self.replace_document(document),
                 Err(error) => self.notices.error("open", error.to_string()),
             },
@@ -213,25 +194,43 @@ impl Viewer {
             return;
         }
         let done = self.document.save();
-        self.saved(ctx, done.map_err(|error| error.to_string()));
+        self.saved(ctx, done);
     }
 
-    fn save_as(&mut self, ctx: &egui::Context, path: &Path) {
-        let path = match path.extension() {
-            Some(_) => path.to_owned(),
-            None => path.with_extension("toml"),
+    /// Writes the scene to another file, or asks first where that is there. A dialog of the system `has_asked` about it, if the
+    /// name is the one that was chosen in it.
+    fn save_as(&mut self, ctx: &egui::Context, chosen: &Path, has_asked: bool) {
+        let path = match chosen.extension() {
+            Some(_) => chosen.to_owned(),
+            None => chosen.with_extension("toml"),
         };
-        let done = self.document.save_as(&path);
-        self.saved(ctx, done.map_err(|error| error.to_string()));
+        if self.document.path().is_some_and(|own| is_same(own, &path)) {
+            self.save(ctx);
+        } else if path.exists() && !(has_asked && path == chosen) {
+            self.dialogs.ask_to_replace(path);
+        } else {
+            self.write_as(ctx, &path);
+        }
     }
 
-    fn saved(&mut self, ctx: &egui::Context, done: Result<(), String>) {
+    pub(crate) fn write_as(&mut self, ctx: &egui::Context, path: &Path) {
+        let done = self.document.save_as(path);
+        self.saved(ctx, done);
+    }
+
+    pub(crate) fn saved(&mut self, ctx: &egui::Context, done: Result<(), SaveError>) {
         let after = self.dialogs.after_save.take();
         match done {
-            Err(error) => self.notices.error("save", error),
+            Err(SaveError::ChangedOnDisk(_)) => {
+                self.dialogs.after_save = after;
+                self.dialogs.ask_to_save_over();
+            }
+            Err(error) => self.notices.error("save", error.to_string()),
             Ok(()) => {
                 self.notices.clear("save");
+                self.files.watch(&self.document);
                 if let Some(path) = self.document.path() {
+                    self.bookmarks.saved_as(path);
                     self.files.remember(path);
                     self.notices
                         .note("saved", format!("Saved {}", path.display()));
@@ -265,10 +264,18 @@ impl Viewer {
     pub(crate) fn take_path(&mut self, ctx: &egui::Context, purpose: Purpose, path: &Path) {
         match purpose {
             Purpose::Open => self.wish(ctx, Wish::Open(path.to_owned())),
-            Purpose::SaveAs => self.save_as(ctx, path),
+            Purpose::SaveAs => self.save_as(ctx, path, true),
             Purpose::AddModel => self.probe(ctx, Purpose::AddModel, path),
             Purpose::Environment => self.probe(ctx, Purpose::Environment, path),
             Purpose::Screenshot | Purpose::Turntable => self.export_to(purpose, path),
+        }
+    }
+
+    /// The same of a path that was typed: nobody has asked about a file that is there.
+    pub(crate) fn take_typed_path(&mut self, ctx: &egui::Context, purpose: Purpose, path: &Path) {
+        match purpose {
+            Purpose::SaveAs => self.save_as(ctx, path, false),
+            _ => self.take_path(ctx, purpose, path),
         }
     }
 
@@ -299,12 +306,15 @@ impl Viewer {
         &mut self,
         purpose: Purpose,
         path: &Path,
-        probed: Result<(), hairline_scene::Error>,
+        probed: Result<Option<MeshSummary>, hairline_scene::Error>,
     ) {
-        if let Err(error) = probed {
-            self.notices.error("file", error.to_string());
-            return;
-        }
+        let summary = match probed {
+            Ok(summary) => summary,
+            Err(error) => {
+                self.notices.error("file", error.to_string());
+                return;
+            }
+        };
         self.notices.clear("file");
         let base_dir = self.document.base_dir().to_owned();
         let done = if purpose == Purpose::Environment {
@@ -313,8 +323,22 @@ impl Viewer {
             })
         } else {
             self.frame_when_built = true;
+            let extent_m = probe::scene_extent_m(self.document.description());
+            let fit_m = summary.as_ref().and_then(|it| it.fit_m(extent_m));
+            if let (Some(summary), Some(fit_m)) = (&summary, fit_m) {
+                let text = format!(
+                    "The model is {:.3} m large in its file; it was fitted to {fit_m:.3} m (undo, or change `fit_m` in the scene \
+                     file, to keep its own size)",
+                    summary.extent_m()
+                );
+                self.notices.note("fitted", text);
+            }
             self.document.apply("Add a model", |d, _| {
-                Ok(objects::add_mesh(d, path, &base_dir))
+                let selection = objects::add_mesh(d, path, &base_dir);
+                if let Some(added) = d.objects.last_mut() {
+                    added.fit_m = fit_m;
+                }
+                Ok(selection)
             })
         };
         self.tell(done);

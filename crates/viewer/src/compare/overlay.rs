@@ -1,26 +1,20 @@
 //! What a comparison draws over the picture: the right side, the divider, the figures and the scale of the errors.
 
-use egui::accesskit::Action;
 use egui::{
-    Align, Align2, Color32, ColorImage, CursorIcon, EventFilter, FontId, Grid, Id, Key, Layout,
-    Rect, Role, Sense, Shape, TextureHandle, TextureOptions, Ui, WidgetInfo, pos2, vec2,
+    Align, Align2, Color32, ColorImage, FontId, Grid, Id, Layout, Rect, Role, Sense, Shape,
+    TextureHandle, TextureOptions, Ui, WidgetInfo, pos2, vec2,
 };
 use hairline_image::metrics::magma;
 use hairline_image::{Display, ToneMap, png};
 
 use crate::panels::busy::Busy;
 
+use super::divider;
 use super::figures::LayerFigures;
 use super::work::{Compared, Shown};
 use super::{Compare, Side};
 
-/// A hand finds it.
-const GRIP: f32 = 12.0;
-/// It never leaves the picture.
-const DIVIDER: std::ops::RangeInclusive<f32> = 0.02..=0.98;
-/// A press of an arrow.
-const DIVIDER_STEP: f32 = 0.02;
-const WIDTH: f32 = 236.0;
+const WIDTH: f32 = 316.0;
 
 /// The right side as something that egui can draw, until it changes.
 #[derive(Default)]
@@ -81,53 +75,14 @@ impl Compare {
                 ui.set_clip_rect(right.intersect(ui.clip_rect()));
                 self.texture.paint(ui, frame, shown, self.side, display);
             });
-            names(ui, frame, x, self.side);
+            divider::names(ui, frame, x, ["Picture", self.side.name()]);
         }
-        self.grip(ui, frame, x);
-    }
-
-    /// The line between the sides, to drag or to move by arrows.
-    fn grip(&mut self, ui: &mut Ui, frame: Rect, x: f32) {
-        let strip = Rect::from_center_size(pos2(x, frame.center().y), vec2(GRIP, frame.height()));
-        let id = ui.scope_id().with("divider");
-        let response = ui
-            .interact(strip, id, Sense::drag())
-            .on_hover_cursor(CursorIcon::ResizeHorizontal);
-        if let Some(pos) = response.interact_pointer_pos()
-            && response.dragged()
-        {
-            self.divider = (pos.x - frame.left()) / frame.width().max(1.0);
-        }
-        let has_focus = response.has_focus();
-        if has_focus {
-            let filter = EventFilter {
-                horizontal_arrows: true,
-                ..Default::default()
-            };
-            ui.memory_mut(|memory| memory.set_focus_lock_filter(id, filter));
-        }
-        let steps = ui.input(|input| {
-            let by = |key, action| {
-                let presses = if has_focus { input.num_presses(key) } else { 0 };
-                (presses + input.num_accesskit_action_requests(id, action)) as f32
-            };
-            by(Key::ArrowRight, Action::Increment) - by(Key::ArrowLeft, Action::Decrement)
-        });
-        self.divider += steps * DIVIDER_STEP;
-        self.divider = self.divider.clamp(*DIVIDER.start(), *DIVIDER.end());
-        let value = f64::from(self.divider);
-        response.widget_info(|| {
-            WidgetInfo::slider(true, value, "Divider between picture and reference")
-        });
-        ui.ctx().accesskit_node_builder(id, |node| {
-            node.add_action(Action::Increment);
-            node.add_action(Action::Decrement);
-        });
-        let is_held = response.hovered() || response.dragged() || has_focus;
-        let color = Color32::from_gray(if is_held { 255 } else { 190 });
-        let painter = ui.painter();
-        painter.vline(x, frame.y_range(), (1.5, color));
-        painter.circle_filled(pos2(x, frame.center().y), 5.0, color);
+        divider::show(
+            ui,
+            frame,
+            &mut self.divider,
+            "Divider between picture and reference",
+        );
     }
 
     /// Figures, and what is shown; true where it is to be closed.
@@ -145,6 +100,9 @@ impl Compare {
                         for side in [Side::Reference, Side::Errors] {
                             ui.selectable_value(&mut self.side, side, side.name());
                         }
+                        ui.checkbox(&mut self.full_size, "Full size").on_hover_text(
+                            "Samples as many pixels as the window shows, which takes longer",
+                        );
                         ui.with_layout(Layout::right_to_left(Align::Center), close)
                             .inner
                     });
@@ -225,23 +183,6 @@ fn percent(share: f64) -> String {
         p if !p.is_finite() => "–".into(),
         p if p < 10.0 => format!("{p:.2} %"),
         p => format!("{p:.0} %"),
-    }
-}
-
-/// Which side is which, beside the divider.
-fn names(ui: &Ui, frame: Rect, x: f32, side: Side) {
-    let y = frame.bottom() - 10.0;
-    let sides = [
-        (Align2::RIGHT_BOTTOM, x - 10.0, "Picture"),
-        (Align2::LEFT_BOTTOM, x + 10.0, side.name()),
-    ];
-    for (align, x, name) in sides {
-        let painter = ui.painter();
-        let font = FontId::proportional(13.0);
-        let galley = painter.layout_no_wrap(name.into(), font, Color32::from_gray(230));
-        let rect = align.anchor_size(pos2(x, y), galley.size());
-        painter.rect_filled(rect.expand(3.0), 3.0, Color32::from_black_alpha(150));
-        painter.galley(rect.min, galley, Color32::WHITE);
     }
 }
 

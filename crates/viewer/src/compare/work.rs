@@ -24,6 +24,8 @@ pub(super) struct Wanted {
     /// Of the picture in the window: the comparison is no larger, and has its shape.
     pub shown_px: [u32; 2],
     pub filter_std_px: f64,
+    /// Whether the comparison is as large as the picture, however long that takes.
+    pub full_size: bool,
 }
 
 impl Wanted {
@@ -32,6 +34,7 @@ impl Wanted {
             && self.camera == other.camera
             && self.shown_px == other.shown_px
             && self.filter_std_px == other.filter_std_px
+            && self.full_size == other.full_size
     }
 
     /// The scene in the shape of the window, of at most so many pixels.
@@ -171,7 +174,10 @@ pub(super) fn run(wanted: &Wanted, stop: &Stop, report: &Report, kept: &Mutex<Ke
         samples: f64::from(BATCH_SAMPLES),
         compared: None,
     });
-    let most_px = (ROUND.as_secs_f64() / seconds_per_px.max(1e-9)).clamp(LEAST_PX, MOST_PX);
+    let most_px = match wanted.full_size {
+        true => f64::INFINITY,
+        false => (ROUND.as_secs_f64() / seconds_per_px.max(1e-9)).clamp(LEAST_PX, MOST_PX),
+    };
     let scene = wanted.scene(most_px);
     refine(wanted, &scene, &parts, &coarse, stop, report);
 }

@@ -9,6 +9,8 @@ use hairline_scene::description::Description;
 use hairline_scene::{Loader, Scene, SceneBuilder, ScratchTables};
 use web_time::Instant;
 
+use super::sketch::Sketch;
+
 /// A scene with all that painting and picking look up.
 pub struct Built {
     /// Of the description.
@@ -25,6 +27,10 @@ pub struct Built {
     pub scratches: Arc<ScratchIndex>,
     /// What the materials mean to the physics.
     pub tables: Arc<ScratchTables>,
+    /// How many pieces of scratches are looked at for a picture.
+    pub segments: usize,
+    /// What its scratches stand for, if these are but a few.
+    pub(crate) sketch: Option<Sketch>,
     /// How long each stage took.
     pub stages: BuildStages,
 }
@@ -43,6 +49,11 @@ pub struct BuildStages {
 }
 
 impl Built {
+    /// Whether it has but a few of the scratches, which stand for all of them.
+    pub fn is_sketch(&self) -> bool {
+        self.sketch.is_some()
+    }
+
     /// How many scratches and straight pieces it has.
     pub fn scratch_counts(&self) -> (usize, usize) {
         self.scene
@@ -62,9 +73,12 @@ impl Built {
 pub(super) struct Workshop {
     scenes: SceneBuilder,
     last: Option<Kept>,
+    /// For sketches, until a whole scene is built.
+    sketches: Option<SceneBuilder>,
 }
 
 struct Kept {
+    description: Arc<Description>,
     scene: Scene,
     triangles: Arc<TriangleIndex>,
     scratches: Arc<ScratchIndex>,
@@ -72,6 +86,66 @@ struct Kept {
 }
 
 impl Workshop {
+    /// Whether a whole scene was ever built.
+    pub fn has_built(&self) -> bool {
+        self.last.is_some()
+    }
+
+    /// Builds a sketch of a scene whose scratches are to be laid anew, in a small part of the time; none where all of it is soon
+    /// built, or cannot be.
+    pub fn sketch(
+        &mut self,
+        revision: u64,
+        asked: Instant,
+        description: &Arc<Description>,
+        base_dir: &Path,
+    ) -> Option<Built> {
+        let start = Instant::now();
+        let last = self.last.as_ref();
+        if last.is_some_and(|last| {
+            last.description.scratches == description.scratches
+                && last.description.objects == description.objects
+        }) {
+            return None;
+        }
+        let (few, sketch) = Sketch::of(description)?;
+        let scenes = self.sketches.get_or_insert_with(|| self.scenes.clone());
+        // What is wrong with it is told of the whole scene.
+        let scene = scenes.build(&Loader::default(), &few, base_dir).ok()?;
+        if self.last.is_none() {
+            // Surfaces and maps are read once.
+            self.scenes = scenes.clone();
+        }
+        let scene_done = Instant::now();
+        let triangles = match last {
+            Some(last) if has_same_meshes(&last.scene, &scene) => Arc::clone(&last.triangles),
+            _ => Arc::new(TriangleIndex::build(&scene)),
+        };
+        let scratches = Arc::new(ScratchIndex::build(&scene));
+        let index_done = Instant::now();
+        let tables = match last {
+            Some(last) if has_same_optics(&last.scene, &scene) => Arc::clone(&last.tables),
+            _ => Arc::new(ScratchTables::new(&scene)),
+        };
+        Some(Built {
+            revision,
+            asked,
+            description: Arc::clone(description),
+            segments: (scratches.tree.segments.len() as f64 * sketch.thin()) as usize,
+            sketch: Some(sketch),
+            scene,
+            triangles,
+            scratches,
+            tables,
+            stages: BuildStages {
+                waited: start - asked,
+                scene: scene_done - start,
+                index: index_done - scene_done,
+                tables: index_done.elapsed(),
+            },
+        })
+    }
+
     /// Gives up where `cancelled` says so, which is asked from any thread: then there is none.
     ///
     /// # Errors
@@ -118,7 +192,9 @@ impl Workshop {
             Some(last) if has_same_optics(&last.scene, &scene) => Arc::clone(&last.tables),
             _ => Arc::new(ScratchTables::new(&scene)),
         };
+        self.sketches = None;
         self.last = Some(Kept {
+            description: Arc::clone(&description),
             scene: scene.clone(),
             triangles: Arc::clone(&triangles),
             scratches: Arc::clone(&scratches),
@@ -128,6 +204,8 @@ impl Workshop {
             revision,
             asked,
             description,
+            segments: scratches.tree.segments.len(),
+            sketch: None,
             scene,
             triangles,
             scratches,

@@ -1,11 +1,13 @@
 //! The building of scenes, by a thread of its own where there are threads.
 
 use super::build::Workshop;
+use super::painter::STILL;
 use super::request::{Shared, WantedScene};
-use super::{Event, pool};
+use super::{Backend, Event, pool};
 
 #[cfg(not(target_arch = "wasm32"))]
 pub(super) fn run(shared: &Shared) {
+    crate::priority::lower();
     let mut workshop = Workshop::default();
     while let Some(wanted) = shared.next_scene() {
         build(shared, &mut workshop, wanted);
@@ -14,7 +16,17 @@ pub(super) fn run(shared: &Shared) {
 
 /// Builds one, and hands it over or tells why there is none.
 pub(super) fn build(shared: &Shared, workshop: &mut Workshop, wanted: WantedScene) {
-    let cancelled = || shared.is_stopped();
+    let has_sketch = matches!(shared.backend(), Backend::Cpu)
+        && pool::Crew::Sketcher.install(|| sketch(shared, workshop, &wanted));
+    // Where there is a sketch to be seen, the whole of what is outdated already need not be built.
+    let cancelled = || shared.is_stopped() || has_sketch && shared.wants_scene();
+    if has_sketch && workshop.has_built() {
+        // A moment to see whether the hand goes on.
+        shared.wait_for_scene(STILL);
+    }
+    if cancelled() {
+        return;
+    }
     let built = pool::Crew::Builder.install(|| {
         workshop.build(
             &cancelled,
@@ -27,9 +39,27 @@ pub(super) fn build(shared: &Shared, workshop: &mut Workshop, wanted: WantedScen
     match built {
         Ok(Some(built)) => shared.put_built(built),
         Ok(None) => {}
-        Err(error) => shared.put_event(Event::NotBuilt {
-            revision: wanted.revision,
-            message: error.to_string(),
-        }),
+        Err(error) => {
+            shared.drop_sketch();
+            shared.put_event(Event::NotBuilt {
+                revision: wanted.revision,
+                message: error.to_string(),
+            });
+        }
     }
+}
+
+/// Hands a sketch over, if one is of use.
+fn sketch(shared: &Shared, workshop: &mut Workshop, wanted: &WantedScene) -> bool {
+    let sketch = workshop.sketch(
+        wanted.revision,
+        wanted.asked,
+        &wanted.description,
+        &wanted.base_dir,
+    );
+    let is_there = sketch.is_some();
+    if let Some(sketch) = sketch {
+        shared.put_sketch(sketch);
+    }
+    is_there
 }

@@ -4,18 +4,21 @@ use std::ops::Range;
 use std::sync::Arc;
 use std::time::Duration;
 
-use egui::ColorImage;
-use hairline_image::{Image, png};
+use hairline_image::Image;
 use hairline_optics::method::Method;
 use hairline_reference::closed_form::{Prepared, RenderOptions, TILE_PX};
-use hairline_scene::Scene;
+use hairline_scene::{DEFAULT_SAMPLES, Scene};
 use web_time::Instant;
 
+use super::Built;
+use super::drafts::Drafts;
 use super::frame::Picture;
+use super::pace::{self, Kind};
 use super::painter::{Easel, Shown, Step};
-use super::pool;
+use super::partial::Backdrop;
+use super::pool::Crew;
 use super::request::Order;
-use super::{Built, DEFAULT_SAMPLES};
+use crate::reading::{Findings, Shows};
 
 /// How much is painted between two looks at whether something newer is wanted.
 #[derive(Clone, Copy)]
@@ -26,13 +29,16 @@ struct BandSize {
     fewest_rows: u32,
     /// Bands that take less become larger, bands that take more become smaller.
     times: [Duration; 2],
+    /// Whether a band ends at once, without a result, where something newer is wanted; else it is worked to its end.
+    breaks_off: bool,
 }
 
 /// Many rows, so that no thread waits long for another.
 const OF_A_THREAD: BandSize = BandSize {
-    first_px: 1 << 16,
+    first_px: 1 << 15,
     fewest_rows: TILE_PX,
-    times: [Duration::from_millis(40), Duration::from_millis(120)],
+    times: [Duration::from_millis(60), Duration::from_millis(200)],
+    breaks_off: true,
 };
 
 /// The interface waits meanwhile.
@@ -40,14 +46,28 @@ const IN_TURN: BandSize = BandSize {
     first_px: 1 << 10,
     fewest_rows: TILE_PX,
     times: [Duration::from_millis(4), Duration::from_millis(12)],
+    breaks_off: false,
 };
+
+/// A picture that is finished in part is shown as often.
+const REFRESH: Duration = Duration::from_millis(600);
 
 /// Keeps the last picture, so that another exposure costs next to nothing, and one that was interrupted, to go on with it.
 pub(super) struct CpuEasel {
     scene: Option<std::sync::Weak<super::Built>>,
-    last: Option<(Image, Step)>,
+    last: Option<Last>,
     begun: Option<Begun>,
+    drafts: Drafts,
     band_size: BandSize,
+    /// Whether a picture is shown before it is finished, which takes time of its own.
+    shows_parts: bool,
+}
+
+/// The last picture that was done.
+struct Last {
+    image: Image,
+    step: Step,
+    order: Order,
 }
 
 /// A picture that is not done yet.
@@ -74,7 +94,9 @@ impl CpuEasel {
             scene: None,
             last: None,
             begun: None,
+            drafts: Drafts::default(),
             band_size,
+            shows_parts: band_size.breaks_off,
         }
     }
 }
@@ -105,10 +127,52 @@ impl Easel for CpuEasel {
             Some(begun) => begun.bands,
             None => Bands::new(step.size_px, self.band_size),
         };
+        let is_coarse = step.samples == 1;
+        let crew = if is_coarse {
+            Crew::Sketcher
+        } else {
+            Crew::Painter
+        };
         let scene = scene_seen(order, step);
-        let samples = step.samples;
-        let is_done = pool::Crew::Painter
-            .install(|| bands.go_on(&order.built, &scene, samples, &|_| !interrupted()));
+        let mut prepared = prepared(&order.built, &scene);
+        if step.thin > 1 || order.built.sketch.is_some() {
+            let draft = crew.install(|| self.drafts.of(&order.built, step.thin));
+            prepared = prepared.with_draft(draft);
+        }
+        // What the rows that are left look like meanwhile.
+        let before = (self.last.as_ref())
+            .filter(|last| !is_coarse && self.shows_parts && last.order.has_same_pixels(order))
+            .filter(|_| order.view.reading.shows == Shows::Beauty);
+        let mut backdrop = None;
+        let mut shown_last = Instant::now();
+        let is_done = loop {
+            if interrupted() {
+                break false;
+            }
+            let go_on = crew.install(|| bands.next(&prepared, step.samples, interrupted));
+            match go_on {
+                Some(true) => break true,
+                Some(false) => {}
+                None => break false,
+            }
+            if let Some(last) = before
+                && shown_last.elapsed() > REFRESH
+            {
+                let backdrop = backdrop.get_or_insert_with(|| {
+                    Backdrop::new(&last.image, step.size_px, &order.view.display)
+                });
+                let picture = backdrop.under(&bands.image, bands.next_row);
+                show(Shown {
+                    picture,
+                    size_px: step.size_px,
+                    samples: step.samples,
+                    done: bands.done(),
+                    passes: Vec::new(),
+                    findings: Findings::default(),
+                });
+                shown_last = Instant::now();
+            }
+        };
         if !is_done {
             self.begun = Some(Begun {
                 order: order.clone(),
@@ -118,28 +182,37 @@ impl Easel for CpuEasel {
             return Ok(false);
         }
         show(shown(order, &bands.image, step));
-        self.last = Some((bands.image, *step));
+        self.last = Some(Last {
+            image: bands.image,
+            step: *step,
+            order: order.clone(),
+        });
         Ok(true)
     }
 
     fn show_again(&mut self, order: &Order) -> Result<Option<Shown>, hairline_gpu::Error> {
         let last = self.last.as_ref();
-        Ok(last.map(|(image, step)| shown(order, image, step)))
+        Ok(last.map(|last| shown(order, &last.image, &last.step)))
     }
 
     fn best_samples(&self) -> u32 {
         DEFAULT_SAMPLES
     }
+
+    fn kind(&self) -> &'static Kind {
+        &pace::THINNED
+    }
 }
 
 fn shown(order: &Order, image: &Image, step: &Step) -> Shown {
-    let pixels = png::quantize(&image.beauty(), &order.view.display);
-    let size = step.size_px.map(|side| side as usize);
+    let (pixels, findings) = crate::reading::develop(image, &order.view);
     Shown {
-        picture: Picture::Pixels(Arc::new(ColorImage::from_rgb(size, &pixels))),
+        picture: Picture::Pixels(Arc::new(pixels)),
         size_px: step.size_px,
         samples: step.samples,
+        done: 1.0,
         passes: Vec::new(),
+        findings,
     }
 }
 
@@ -150,6 +223,16 @@ fn scene_seen(order: &Order, step: &Step) -> Scene {
     scene.render.size_px = step.size_px;
     scene.render.filter_std_px = step.filter_std_px(&order.view);
     scene
+}
+
+/// A scene that is that of `built` from elsewhere, ready to be rendered.
+fn prepared<'s>(built: &Built, scene: &'s Scene) -> Prepared<'s> {
+    Prepared::from_parts(
+        scene,
+        Arc::clone(&built.triangles),
+        Arc::clone(&built.scratches),
+        Arc::clone(&built.tables),
+    )
 }
 
 /// Renders `scene`, which is that of `built` from elsewhere, in bands of `band_px` pixels at first, then of as many as are
@@ -166,9 +249,15 @@ pub(crate) fn render(
         ..OF_A_THREAD
     };
     let mut bands = Bands::new(scene.render.size_px, band_size);
-    bands
-        .go_on(built, scene, samples, go_on)
-        .then_some(bands.image)
+    let prepared = prepared(built, scene);
+    loop {
+        if !go_on(bands.done()) {
+            return None;
+        }
+        if bands.next(&prepared, samples, &|| false)? {
+            return Some(bands.image);
+        }
+    }
 }
 
 /// A picture from its first row to its last, with pauses.
@@ -189,45 +278,40 @@ impl Bands {
         }
     }
 
-    /// Renders rows for as long as `go_on` says so; true if all are there. `built` and `scene` are as in [`render`], and each
+    /// The share that is there.
+    fn done(&self) -> f64 {
+        f64::from(self.next_row) / f64::from(self.image.size_px[1].max(1))
+    }
+
+    /// Renders some rows; true if all are there, none if it was broken off: then they are to be rendered again. `prepared` is each
     /// time the same.
-    fn go_on(
+    fn next(
         &mut self,
-        built: &Built,
-        scene: &Scene,
+        prepared: &Prepared,
         samples: u32,
-        go_on: &dyn Fn(f64) -> bool,
-    ) -> bool {
-        let prepared = Prepared::from_parts(
-            scene,
-            Arc::clone(&built.triangles),
-            Arc::clone(&built.scratches),
-            Arc::clone(&built.tables),
-        );
+        interrupted: &(dyn Fn() -> bool + Sync),
+    ) -> Option<bool> {
         let options = RenderOptions {
             samples,
             method: Method::default(),
         };
-        let [width, height] = scene.render.size_px;
-        while self.next_row < height {
-            if !go_on(f64::from(self.next_row) / f64::from(height)) {
-                return false;
-            }
-            let start = Instant::now();
-            let many = self.rows.next_multiple_of(TILE_PX);
-            let rows = self.next_row..(self.next_row + many).min(height);
-            let pixels = rows.start as usize * width as usize..rows.end as usize * width as usize;
-            self.next_row = rows.end;
-            let part = prepared.render_rows(&options, rows, &|_| {});
-            put_rows(&mut self.image, pixels, &part);
-            let time = start.elapsed();
-            if time > self.size.times[1] {
-                self.rows = (self.rows / 2).max(TILE_PX);
-            } else if time < self.size.times[0] {
-                self.rows *= 2;
-            }
+        let [width, height] = self.image.size_px;
+        let start = Instant::now();
+        let many = self.rows.next_multiple_of(TILE_PX);
+        let rows = self.next_row..(self.next_row + many).min(height);
+        let pixels = rows.start as usize * width as usize..rows.end as usize * width as usize;
+        let end = rows.end;
+        let cancelled = || self.size.breaks_off && interrupted();
+        let (part, _) = prepared.render_unless(&cancelled, &options, rows, &|_| {})?;
+        put_rows(&mut self.image, pixels, &part);
+        self.next_row = end;
+        let time = start.elapsed();
+        if time > self.size.times[1] {
+            self.rows = (self.rows / 2).max(TILE_PX);
+        } else if time < self.size.times[0] {
+            self.rows *= 2;
         }
-        true
+        Some(end == height)
     }
 }
 

@@ -19,6 +19,8 @@ pub struct Frame {
     pub picture: Picture,
     /// How it was painted.
     pub painted: Painted,
+    /// What was found out about it, as far as the view asked for it.
+    pub findings: crate::reading::Findings,
 }
 
 /// Pixels, encoded for the display.
@@ -37,6 +39,8 @@ pub struct Painted {
     pub size_px: [u32; 2],
     /// Samples that are in it, for pixels on edges at least.
     pub samples: u32,
+    /// The share that is there; the rest is of a coarser picture.
+    pub done: f64,
     /// Whether nothing finer will come.
     pub is_final: bool,
     /// What it took, from the order to the picture.

@@ -9,13 +9,15 @@ use hairline_gpu::{
     AdapterKind, AdapterRequest, Error, Gpu, GpuScene, PassTime, Renderer, headless,
 };
 use hairline_optics::method::Method;
-use hairline_scene::Scene;
+use hairline_scene::{DEFAULT_SAMPLES, Scene};
 use web_time::Instant;
 
+use super::Built;
 use super::frame::Picture;
+use super::pace::{self, Kind};
 use super::painter::{Easel, Shown, Step};
 use super::request::Order;
-use super::{Built, DEFAULT_SAMPLES};
+use crate::reading::Findings;
 
 /// Pixels of one submission on a software driver, between two looks at whether something newer is wanted.
 const SOFTWARE_BAND_PX: u32 = 1 << 16;
@@ -66,7 +68,13 @@ impl GpuEasel {
         let size_px = canvas.size_px();
         let display = &order.view.display;
         let gpu = self.renderer.gpu().clone();
+        let mut findings = Findings::default();
         let picture = gpu.block_on(async {
+            if order.view.reading.needs_layers() {
+                let (pixels, found) = crate::reading::develop(&canvas.image().await?, &order.view);
+                findings = found;
+                return Ok(Picture::Pixels(Arc::new(pixels)));
+            }
             if self.is_shared {
                 let view = target(&gpu, size_px).await?;
                 self.renderer
@@ -85,7 +93,9 @@ impl GpuEasel {
             picture,
             size_px,
             samples,
+            done: 1.0,
             passes,
+            findings,
         }))
     }
 
@@ -197,6 +207,10 @@ impl Easel for GpuEasel {
 
     fn best_samples(&self) -> u32 {
         DEFAULT_SAMPLES
+    }
+
+    fn kind(&self) -> &'static Kind {
+        &pace::WHOLE
     }
 }
 

@@ -7,6 +7,7 @@ use web_time::Instant;
 use super::build::Workshop;
 use super::builder;
 use super::cpu::CpuEasel;
+use super::pace;
 use super::painter::{Progress, STILL};
 use super::request::Shared;
 
@@ -40,7 +41,9 @@ impl InTurn {
             return Some(Duration::ZERO);
         }
         let order = shared.order()?;
-        let progress = self.progress.get_or_insert_with(|| Progress::new(shared));
+        let progress = self
+            .progress
+            .get_or_insert_with(|| Progress::new(shared, &pace::THINNED));
         let now = Instant::now();
         if !progress.is_at(&order) {
             self.moved = Some(now);

@@ -2,50 +2,164 @@
 
 use std::time::Duration;
 
-/// What a picture in motion may take: twenty a second.
-const TARGET: Duration = Duration::from_millis(50);
-/// Steps of the resolution on each side; small ones, so that a change is not noticed, and few, so that it is rare.
-const SCALES: [f64; 7] = [1.0, 0.75, 0.55, 0.4, 0.28, 0.2, 0.14];
+/// How coarse a picture is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Level {
+    /// Of the full size, on each side.
+    pub scale: f64,
+    /// One scratch of so many is drawn, and stands for all of them.
+    pub thin: u32,
+}
+
+const fn level(scale: f64, thin: u32) -> Level {
+    Level { scale, thin }
+}
+
+/// For a renderer that draws all scratches: small steps, so that a change is not noticed, and few, so that it is rare.
+#[cfg_attr(
+    target_arch = "wasm32",
+    expect(dead_code, reason = "a browser has no GPU easel")
+)]
+pub(super) const WHOLE: Kind = Kind {
+    levels: &[
+        level(1.0, 1),
+        level(0.75, 1),
+        level(0.55, 1),
+        level(0.4, 1),
+        level(0.28, 1),
+        level(0.2, 1),
+        level(0.14, 1),
+    ],
+    target: Duration::from_millis(50),
+    first_seconds_per_px: 1.5e-6,
+    segment_px: 0.0,
+};
+
+/// For a renderer that can draw a few scratches for all of them: what a coarse picture takes is its scratches and not its pixels.
+pub(super) const THINNED: Kind = Kind {
+    levels: &[
+        level(1.0, 1),
+        level(0.75, 1),
+        level(0.55, 1),
+        level(0.4, 2),
+        level(0.28, 4),
+        level(0.2, 4),
+        level(0.14, 4),
+        level(0.14, 8),
+        level(0.1, 8),
+        level(0.1, 16),
+        level(0.08, 32),
+    ],
+    // Ten a second, with what the interface takes between them.
+    target: Duration::from_millis(70),
+    first_seconds_per_px: 1e-5,
+    segment_px: 0.03,
+};
+
+/// What a renderer can do about time.
+#[derive(Debug, PartialEq)]
+pub(super) struct Kind {
+    /// From the finest to the coarsest.
+    levels: &'static [Level],
+    /// What a picture in motion may take.
+    target: Duration,
+    /// Before anything is known: a small picture soon beats a large one late.
+    first_seconds_per_px: f64,
+    /// What a piece of a scratch costs wherever it lies, in pixels.
+    segment_px: f64,
+}
+
+impl Kind {
+    /// Whether scratches are left out.
+    pub fn thins(&self) -> bool {
+        self.levels.iter().any(|level| level.thin > 1)
+    }
+}
+
 /// A finer step is taken only if it would leave this share of the time free, so that the picture does not go to and fro.
 const SLACK: f64 = 0.7;
 
 /// Knows from the last pictures what a pixel costs.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct Pace {
+    kind: &'static Kind,
     seconds_per_px: Option<f64>,
-    scale: usize,
+    at: usize,
 }
 
 impl Pace {
-    /// A picture of one sample took this long.
-    pub fn took(&mut self, size_px: [u32; 2], time: Duration) {
-        let pixels = size_px.iter().map(|&side| f64::from(side)).product::<f64>();
-        let now = time.as_secs_f64() / pixels.max(1.0);
+    pub fn new(kind: &'static Kind) -> Self {
+        Self {
+            kind,
+            seconds_per_px: None,
+            at: 0,
+        }
+    }
+
+    /// A picture of one sample took this long, of a scene with so many pieces of scratches.
+    pub fn took(&mut self, size_px: [u32; 2], thin: u32, segments: usize, time: Duration) {
+        let now = time.as_secs_f64() / self.work_px(size_px, thin, segments).max(1.0);
         // The newest counts as much as all before it: a view from nearer costs something else at once.
         let mean = self.seconds_per_px.map_or(now, |mean| 0.5 * (mean + now));
         self.seconds_per_px = Some(mean);
     }
 
-    /// The size of a picture in motion, of `full_px`.
-    pub fn moving_size_px(&mut self, full_px: [u32; 2]) -> [u32; 2] {
-        // Nothing is known yet: a small picture soon beats a large one late.
-        let seconds_per_px = self.seconds_per_px.unwrap_or(1.5e-6);
-        let full = full_px.iter().map(|&side| f64::from(side)).product::<f64>();
-        let share = |step: usize| {
-            let seconds = seconds_per_px * full * SCALES[step] * SCALES[step];
-            seconds / TARGET.as_secs_f64()
+    /// A picture was given up after this long.
+    pub fn gave_up(&mut self, size_px: [u32; 2], thin: u32, segments: usize, time: Duration) {
+        let least = time.as_secs_f64() / self.work_px(size_px, thin, segments).max(1.0);
+        // Nobody knows how far it was: the next is to come for certain.
+        self.seconds_per_px = Some(3.0 * least.max(self.seconds_per_px.unwrap_or(0.0)));
+    }
+
+    /// Whether nothing coarser than the last level is left.
+    pub fn is_at_coarsest(&self) -> bool {
+        self.at + 1 == self.kind.levels.len()
+    }
+
+    /// What a picture of one sample, `full_px` large, is expected to take.
+    pub fn expects(&self, full_px: [u32; 2], segments: usize) -> Duration {
+        let seconds_per_px = self
+            .seconds_per_px
+            .unwrap_or(self.kind.first_seconds_per_px);
+        let seconds = seconds_per_px * self.work_px(full_px, 1, segments);
+        Duration::from_secs_f64(seconds.min(1e6))
+    }
+
+    /// What a picture in motion is to be, of `full_px`. One that `begins` a movement is coarser.
+    pub fn moving(&mut self, full_px: [u32; 2], segments: usize, begins: bool) -> ([u32; 2], u32) {
+        let levels = self.kind.levels;
+        let seconds_per_px = self
+            .seconds_per_px
+            .unwrap_or(self.kind.first_seconds_per_px);
+        let share = |at: usize| {
+            let Level { scale, thin } = levels[at];
+            let work_px = self.work_px(scaled(full_px, scale), thin, segments);
+            seconds_per_px * work_px / self.kind.target.as_secs_f64()
         };
-        while self.scale + 1 < SCALES.len() && share(self.scale) > 1.0 {
-            self.scale += 1;
+        let mut at = self.at;
+        while at + 1 < levels.len() && share(at) > 1.0 {
+            at += 1;
         }
-        while self.scale > 0 && share(self.scale - 1) < SLACK {
-            self.scale -= 1;
+        while at > 0 && share(at - 1) < SLACK {
+            at -= 1;
         }
-        scaled(full_px, SCALES[self.scale])
+        self.at = at;
+        if begins && self.kind.thins() && at > 0 {
+            at = (at + 1).min(levels.len() - 1);
+        }
+        (scaled(full_px, levels[at].scale), levels[at].thin)
+    }
+
+    /// In pixels with all their scratches.
+    fn work_px(&self, size_px: [u32; 2], thin: u32, segments: usize) -> f64 {
+        let pixels = size_px.iter().map(|&side| f64::from(side)).product::<f64>();
+        // A pixel of a thinned picture sees fewer scratches, of those that are left more.
+        let seen = f64::from(thin).powf(-0.4);
+        pixels * seen + self.kind.segment_px * segments as f64 / f64::from(thin)
     }
 }
 
-/// Half of it on each side, or the size itself if that would be finer than `finest`.
+/// So large on each side, and at least a pixel.
 pub(super) fn scaled(full_px: [u32; 2], scale: f64) -> [u32; 2] {
     full_px.map(|side| ((f64::from(side) * scale).round() as u32).max(1))
 }
@@ -56,30 +170,45 @@ mod tests {
 
     const FULL_PX: [u32; 2] = [1280, 720];
 
-    fn after(pictures: usize, seconds_per_px: f64) -> [u32; 2] {
-        let mut pace = Pace::default();
-        let mut size_px = pace.moving_size_px(FULL_PX);
+    fn after(kind: &'static Kind, pictures: usize, seconds_per_px: f64) -> ([u32; 2], u32) {
+        let segments = 100_000;
+        let mut pace = Pace::new(kind);
+        let (mut size_px, mut thin) = pace.moving(FULL_PX, segments, false);
         for _ in 0..pictures {
-            let pixels = f64::from(size_px[0] * size_px[1]);
-            pace.took(size_px, Duration::from_secs_f64(seconds_per_px * pixels));
-            size_px = pace.moving_size_px(FULL_PX);
+            let time = seconds_per_px * pace.work_px(size_px, thin, segments);
+            pace.took(size_px, thin, segments, Duration::from_secs_f64(time));
+            (size_px, thin) = pace.moving(FULL_PX, segments, false);
         }
-        size_px
+        (size_px, thin)
     }
 
     #[test]
     fn a_fast_machine_keeps_the_full_size_and_a_slow_one_keeps_the_time() {
-        assert_eq!(after(10, 1e-8), FULL_PX);
-        let slow = after(10, 2e-6);
+        assert_eq!(after(&WHOLE, 10, 1e-8), (FULL_PX, 1));
+        assert_eq!(after(&THINNED, 10, 1e-8), (FULL_PX, 1));
+        let (slow, _) = after(&WHOLE, 10, 2e-6);
         let seconds = 2e-6 * f64::from(slow[0] * slow[1]);
         assert!(seconds < 0.05 && slow[0] > 100, "{slow:?} takes {seconds}");
+        let (slow, thin) = after(&THINNED, 10, 1e-5);
+        assert!(thin > 1 && slow[0] > 100, "{slow:?}, a scratch of {thin}");
     }
 
     #[test]
     fn a_steady_cost_settles_on_one_size() {
-        for cost in [3e-8, 6e-8, 1e-7, 3e-7, 1e-6] {
-            assert_eq!(after(6, cost), after(7, cost), "{cost}");
+        for kind in [&WHOLE, &THINNED] {
+            for cost in [3e-8, 6e-8, 1e-7, 3e-7, 1e-6, 1e-5] {
+                assert_eq!(after(kind, 6, cost), after(kind, 7, cost), "{cost}");
+            }
         }
+    }
+
+    #[test]
+    fn what_was_given_up_is_made_coarser() {
+        let mut pace = Pace::new(&THINNED);
+        let (first_px, first_thin) = pace.moving(FULL_PX, 100_000, false);
+        pace.gave_up(first_px, first_thin, 100_000, Duration::from_millis(200));
+        let (then_px, _) = pace.moving(FULL_PX, 100_000, false);
+        assert!(then_px[0] < first_px[0], "{first_px:?}, then {then_px:?}");
     }
 
     #[test]

@@ -10,7 +10,7 @@ use super::cpu::CpuEasel;
 use super::frame::{Frame, Latency, Painted, Picture};
 #[cfg(not(target_arch = "wasm32"))]
 use super::gpu::GpuEasel;
-use super::pace::{Pace, scaled};
+use super::pace::{Kind, Pace, scaled};
 use super::request::{Order, Shared};
 #[cfg(not(target_arch = "wasm32"))]
 use super::{Backend, Event};
@@ -21,20 +21,33 @@ pub(super) const STILL: Duration = Duration::from_millis(150);
 #[cfg(not(target_arch = "wasm32"))]
 const REOPENINGS: u32 = 2;
 
+/// Between the small filter of the full picture, 1, and that of the coarse one, 0: chosen by eye.
+const THINNED_FILTER: f64 = 0.8;
+/// Of the picture between the coarse one and the finished one, and of a further one where the finished one takes for long.
+const BETWEEN: (f64, u32) = (0.4, 4);
+const BETWEEN_LONG: (f64, u32) = (1.0, 8);
+const LONG: Duration = Duration::from_secs(2);
+/// A first picture that takes longer is given up for a coarser one.
+const FIRST_AT_MOST: Duration = Duration::from_millis(160);
+
 /// One picture on the way to the final one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Step {
     pub size_px: [u32; 2],
     /// Samples of the finished picture; 1 looks through the pixels' centres.
     pub samples: u32,
+    /// One scratch of so many stands for all of them.
+    pub thin: u32,
 }
 
 impl Step {
     /// The pixel's filter. A coarse picture looks through the small filter of the full one: through its own, each of its few
     /// pixels would see as many more scratches as it is larger, and a coarse picture would take as long as a fine one. It
-    /// sparkles instead, for as long as something moves.
+    /// sparkles instead, for as long as something moves. Where scratches are left out, there is time for more of the pixel.
     pub fn filter_std_px(&self, view: &View) -> f64 {
-        view.filter_std_px * f64::from(self.size_px[0]) / f64::from(view.size_px[0].max(1))
+        let scale = f64::from(self.size_px[0]) / f64::from(view.size_px[0].max(1));
+        let power = if self.thin > 1 { THINNED_FILTER } else { 1.0 };
+        view.filter_std_px * scale.powf(power)
     }
 }
 
@@ -55,6 +68,8 @@ pub(super) trait Easel {
     fn show_again(&mut self, order: &Order) -> Result<Option<Shown>, hairline_gpu::Error>;
     /// Samples of a pixel, where edges are as smooth as they get.
     fn best_samples(&self) -> u32;
+    /// What it can do about time.
+    fn kind(&self) -> &'static Kind;
 }
 
 /// What an easel has to show.
@@ -62,7 +77,10 @@ pub(super) struct Shown {
     pub picture: Picture,
     pub size_px: [u32; 2],
     pub samples: u32,
+    /// The share that is there, where the rest is of the picture before it.
+    pub done: f64,
     pub passes: Vec<hairline_gpu::PassTime>,
+    pub findings: crate::reading::Findings,
 }
 
 #[cfg(not(target_arch = "wasm32"))]
@@ -103,7 +121,7 @@ pub(super) fn run(shared: &Shared) {
 /// Paints until it is time to end.
 #[cfg(not(target_arch = "wasm32"))]
 fn work(shared: &Shared, easel: &mut dyn Easel) -> Result<(), hairline_gpu::Error> {
-    let mut progress = Progress::new(shared);
+    let mut progress = Progress::new(shared, easel.kind());
     loop {
         // A moment to see whether the movement goes on; then finer and finer.
         let patience = progress.has_more().then_some(STILL);
@@ -121,14 +139,17 @@ pub(super) struct Progress {
     done: Option<Order>,
     /// The finer ones that are left.
     steps: Vec<Step>,
+    /// How many there were at first.
+    steps_first: usize,
 }
 
 impl Progress {
-    pub fn new(shared: &Shared) -> Self {
+    pub fn new(shared: &Shared, kind: &'static Kind) -> Self {
         Self {
-            studio: Studio::new(shared),
+            studio: Studio::new(shared, kind),
             done: None,
             steps: Vec::new(),
+            steps_first: 0,
         }
     }
 
@@ -139,9 +160,9 @@ impl Progress {
 
     /// Whether `order` is what is being painted already, exposure and all.
     pub fn is_at(&self, order: &Order) -> bool {
-        self.done.as_ref().is_some_and(|done| {
-            done.has_same_pixels(order) && done.view.display == order.view.display
-        })
+        self.done
+            .as_ref()
+            .is_some_and(|done| done.has_same_pixels(order) && done.view.is_shown_as(&order.view))
     }
 
     /// Paints the first picture of an order that is new; else the finer ones until something newer is wanted or it is `until`.
@@ -155,7 +176,7 @@ impl Progress {
         let studio = &mut self.studio;
         match &self.done {
             Some(last) if last.has_same_pixels(&order) => {
-                if last.view.display != order.view.display
+                if !last.view.is_shown_as(&order.view)
                     && let Some(shown) = easel.show_again(&order)?
                 {
                     let is_final = self.steps.is_empty();
@@ -174,7 +195,10 @@ impl Progress {
                 }
             }
             _ => {
-                self.steps = studio.first(shared, easel, &order)?;
+                // What begins to move is answered at once; what moves already is as fine as it can be in time.
+                let begins = self.done.is_none() || self.steps.len() < self.steps_first;
+                self.steps = studio.first(shared, easel, &order, begins)?;
+                self.steps_first = self.steps.len();
                 self.done = Some(order);
             }
         }
@@ -200,9 +224,9 @@ struct Studio {
 }
 
 impl Studio {
-    fn new(shared: &Shared) -> Self {
+    fn new(shared: &Shared, kind: &'static Kind) -> Self {
         Self {
-            pace: Pace::default(),
+            pace: Pace::new(kind),
             number: shared.frame().map_or(0, |frame| frame.number),
             spent: Duration::ZERO,
             latency_told: None,
@@ -215,35 +239,37 @@ impl Studio {
         shared: &Shared,
         easel: &mut dyn Easel,
         order: &Order,
+        begins: bool,
     ) -> Result<Vec<Step>, hairline_gpu::Error> {
         let full_px = order.view.size_px;
-        let coarse = Step {
-            size_px: self.pace.moving_size_px(full_px),
-            samples: 1,
-        };
-        let half = scaled(full_px, 0.5);
-        let mut steps = Vec::new();
-        if coarse.size_px[0] < half[0] {
-            steps.push(Step {
-                size_px: half,
-                samples: 1,
-            });
-        }
-        if coarse.size_px != full_px {
-            steps.push(Step {
-                size_px: full_px,
-                samples: 1,
-            });
-        }
-        steps.push(Step {
-            size_px: full_px,
-            samples: easel.best_samples(),
-        });
+        let segments = order.built.segments;
         self.spent = Duration::ZERO;
-        if !self.paint(shared, easel, order, &coarse, Turn::First, None)? {
-            steps.clear();
+        loop {
+            let (size_px, thin) = self.pace.moving(full_px, segments, begins);
+            let coarse = Step {
+                size_px,
+                samples: 1,
+                thin,
+            };
+            let start = Instant::now();
+            if self.paint(shared, easel, order, &coarse, Turn::First, None)? {
+                // A sketch is not refined: what it is a sketch of is on the way.
+                return Ok(match order.built.sketch {
+                    Some(_) => Vec::new(),
+                    None => steps(
+                        easel,
+                        full_px,
+                        &coarse,
+                        self.pace.expects(full_px, segments),
+                    ),
+                });
+            }
+            if shared.is_stopped() || !easel.kind().thins() {
+                return Ok(Vec::new());
+            }
+            self.pace.gave_up(size_px, thin, segments, start.elapsed());
+            self.spent = Duration::ZERO;
         }
-        Ok(steps)
     }
 
     /// Paints a step; false if something newer is wanted or it is `until`.
@@ -259,27 +285,36 @@ impl Studio {
         let start = Instant::now();
         let is_new = easel.take(order)?;
         let uploaded = start.elapsed();
-        // The first picture of a movement comes to its end, whatever is wanted meanwhile: else a steady hand would see none.
-        let may_stop = turn != Turn::First;
-        let interrupted = || {
-            shared.is_stopped()
-                || until.is_some_and(|until| Instant::now() >= until)
-                || (may_stop || start.elapsed() > 4 * STILL)
-                    && shared
-                        .order()
-                        .is_none_or(|newest| !newest.has_same_pixels(order))
+        let is_outdated = || {
+            shared
+                .order()
+                .is_none_or(|newest| !newest.has_same_pixels(order))
         };
-        let mut shown_now: Option<Shown> = None;
+        // The first picture of a movement comes to its end, whatever is wanted meanwhile: else a steady hand would see none. One that
+        // takes too long is made coarser, where that can be.
+        let may_be_coarser = easel.kind().thins() && !self.pace.is_at_coarsest();
+        let gives_way = || match turn {
+            Turn::First if may_be_coarser => start.elapsed() > FIRST_AT_MOST,
+            Turn::First => false,
+            Turn::Between | Turn::Last => is_outdated(),
+        };
+        let interrupted = || {
+            shared.is_stopped() || until.is_some_and(|until| Instant::now() >= until) || gives_way()
+        };
+        let mut last: Option<Shown> = None;
         let finished = easel.paint(order, step, &interrupted, &mut |shown| {
-            if let Some(earlier) = shown_now.replace(shown) {
+            if shown.done < 1.0 {
+                self.put(shared, order, shown, false, start.elapsed(), None);
+            } else if let Some(earlier) = last.replace(shown) {
                 self.put(shared, order, earlier, false, start.elapsed(), None);
             }
         })?;
         let time = self.spent + (start.elapsed() - uploaded);
         self.spent = if finished { Duration::ZERO } else { time };
-        if let Some(shown) = shown_now {
+        if let Some(shown) = last {
             if step.samples == 1 {
-                self.pace.took(step.size_px, time);
+                let segments = order.built.segments;
+                self.pace.took(step.size_px, step.thin, segments, time);
             }
             let latency = (is_new || self.latency_told != Some(order.built.revision)).then(|| {
                 self.latency_told = Some(order.built.revision);
@@ -316,9 +351,11 @@ impl Studio {
             built: std::sync::Arc::clone(&order.built),
             view: order.view,
             picture: shown.picture,
+            findings: shown.findings,
             painted: Painted {
                 size_px: shown.size_px,
                 samples: shown.samples,
+                done: shown.done,
                 is_final,
                 time,
                 passes: shown.passes,
@@ -326,4 +363,37 @@ impl Studio {
             },
         });
     }
+}
+
+/// The finer pictures after a coarse one, where a whole one `takes` so long.
+fn steps(easel: &dyn Easel, full_px: [u32; 2], coarse: &Step, takes: Duration) -> Vec<Step> {
+    let mut steps = Vec::new();
+    let mut add = |size_px: [u32; 2], samples, thin| {
+        steps.push(Step {
+            size_px,
+            samples,
+            thin,
+        });
+    };
+    if easel.kind().thins() {
+        let (scale, thin) = BETWEEN;
+        let between = scaled(full_px, scale);
+        if coarse.size_px[0] < between[0] {
+            add(between, 1, thin);
+        }
+        if takes > LONG {
+            let (scale, thin) = BETWEEN_LONG;
+            add(scaled(full_px, scale), 1, thin);
+        }
+    } else {
+        let half = scaled(full_px, 0.5);
+        if coarse.size_px[0] < half[0] {
+            add(half, 1, 1);
+        }
+        if coarse.size_px != full_px {
+            add(full_px, 1, 1);
+        }
+    }
+    add(full_px, easel.best_samples(), 1);
+    steps
 }

@@ -1,4 +1,4 @@
-//! The threads that compute: all cores but one, and after the interface.
+//! The threads that compute: after the interface, but for coarse pictures, which a hand waits for.
 
 use std::sync::OnceLock;
 
@@ -6,11 +6,16 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use crate::priority;
 
-/// Whose threads. Two pools: a thread that waits takes up other work of its own pool, and a painter that took up the building
+/// Whose threads. A pool each: a thread that waits takes up other work of its own pool, and a painter that took up the building
 /// of a scene would show nothing until that is done.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Crew {
+    /// Builds scenes.
     Builder,
+    /// Paints coarse pictures. As important as the interface, which on a busy machine would leave nothing for what its user waits
+    /// for.
+    Sketcher,
+    /// Paints fine pictures, which give way.
     Painter,
 }
 
@@ -18,18 +23,22 @@ impl Crew {
     /// None where the system starts no threads: then the caller computes.
     fn pool(self) -> Option<&'static ThreadPool> {
         static BUILDER: OnceLock<Option<ThreadPool>> = OnceLock::new();
+        static SKETCHER: OnceLock<Option<ThreadPool>> = OnceLock::new();
         static PAINTER: OnceLock<Option<ThreadPool>> = OnceLock::new();
-        let (pool, name) = match self {
-            Self::Builder => (&BUILDER, "builder"),
-            Self::Painter => (&PAINTER, "painter"),
+        let (pool, name, gives_way) = match self {
+            Self::Builder => (&BUILDER, "builder", true),
+            Self::Sketcher => (&SKETCHER, "sketcher", false),
+            Self::Painter => (&PAINTER, "painter", true),
         };
-        // A core is left to the interface, which a software driver may be drawing.
-        let cores = std::thread::available_parallelism().map_or(1, |n| n.get());
         let start = || {
             ThreadPoolBuilder::new()
-                .num_threads((cores - 1).max(1))
+                .num_threads(cores())
                 .thread_name(move |i| format!("{name} {i}"))
-                .start_handler(|_| priority::lower())
+                .start_handler(move |_| {
+                    if gives_way {
+                        priority::lower();
+                    }
+                })
                 .build()
                 .ok()
         };
@@ -43,6 +52,18 @@ impl Crew {
             None => work(),
         }
     }
+}
+
+/// Starts all threads: they have the priority of the one that does.
+#[cfg(not(target_arch = "wasm32"))]
+pub(super) fn start() {
+    for crew in [Crew::Builder, Crew::Sketcher, Crew::Painter] {
+        crew.pool();
+    }
+}
+
+fn cores() -> usize {
+    std::thread::available_parallelism().map_or(1, |n| n.get())
 }
 
 /// How many there are.

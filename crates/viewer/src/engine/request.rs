@@ -3,7 +3,6 @@
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
-#[cfg(not(target_arch = "wasm32"))]
 use std::time::Duration;
 
 use hairline_image::Display;
@@ -24,6 +23,8 @@ pub struct View {
     pub display: Display,
     /// Standard deviation of the pixel's Gaussian filter.
     pub filter_std_px: f64,
+    /// What is shown of the picture and found out about it: a change of it paints nothing anew either.
+    pub reading: crate::reading::Wanted,
 }
 
 impl View {
@@ -32,6 +33,11 @@ impl View {
         self.camera == other.camera
             && self.size_px == other.size_px
             && self.filter_std_px == other.filter_std_px
+    }
+
+    /// Whether the same pixels are shown in the same way.
+    pub fn is_shown_as(&self, other: &Self) -> bool {
+        self.display == other.display && self.reading == other.reading
     }
 }
 
@@ -48,9 +54,17 @@ struct State {
     wanted_scene: Option<WantedScene>,
     is_building: bool,
     built: Option<Arc<Built>>,
+    /// Of a newer description than that of `built`.
+    sketch: Option<Arc<Built>>,
     view: Option<View>,
     frame: Option<Arc<Frame>>,
     events: Vec<Event>,
+}
+
+impl State {
+    fn to_be_painted(&self) -> Option<&Arc<Built>> {
+        self.sketch.as_ref().or(self.built.as_ref())
+    }
 }
 
 pub(super) struct Shared {
@@ -111,6 +125,10 @@ impl Shared {
         }
     }
 
+    pub fn view(&self) -> Option<View> {
+        self.lock().view
+    }
+
     /// The scene that is to be built next, if there is one.
     pub fn take_scene(&self) -> Option<WantedScene> {
         self.lock().wanted_scene.take()
@@ -136,8 +154,47 @@ impl Shared {
         }
     }
 
+    /// Whether a newer scene than the one in hand is wanted.
+    pub fn wants_scene(&self) -> bool {
+        self.lock().wanted_scene.is_some()
+    }
+
+    /// Blocks until a newer scene is wanted, it is time to end, or `patience` is over. Not at all where there are no threads.
+    pub fn wait_for_scene(&self, patience: Duration) {
+        if cfg!(target_arch = "wasm32") {
+            return;
+        }
+        let deadline = Instant::now() + patience;
+        let mut state = self.lock();
+        while state.wanted_scene.is_none() && !self.is_stopped() {
+            let left = deadline.saturating_duration_since(Instant::now());
+            if left.is_zero() {
+                return;
+            }
+            state = self
+                .news
+                .wait_timeout(state, left)
+                .unwrap_or_else(PoisonError::into_inner)
+                .0;
+        }
+    }
+
+    /// Something to paint until all of the scene is there; nobody else is shown it.
+    pub fn put_sketch(&self, sketch: Built) {
+        self.lock().sketch = Some(Arc::new(sketch));
+        self.news.notify_all();
+    }
+
+    /// What it is a sketch of cannot be built: the last good scene stays.
+    pub fn drop_sketch(&self) {
+        self.lock().sketch = None;
+    }
+
     pub fn put_built(&self, built: Built) {
-        self.lock().built = Some(Arc::new(built));
+        let mut state = self.lock();
+        state.sketch = None;
+        state.built = Some(Arc::new(built));
+        drop(state);
         self.news.notify_all();
         (self.wake)();
     }
@@ -146,7 +203,7 @@ impl Shared {
     pub fn order(&self) -> Option<Order> {
         let state = self.lock();
         Some(Order {
-            built: Arc::clone(state.built.as_ref()?),
+            built: Arc::clone(state.to_be_painted()?),
             view: state.view?,
         })
     }
@@ -160,13 +217,13 @@ impl Shared {
             if self.is_stopped() {
                 return None;
             }
-            if let (Some(built), Some(view)) = (&state.built, state.view) {
+            if let (Some(built), Some(view)) = (state.to_be_painted(), state.view) {
                 let order = Order {
                     built: Arc::clone(built),
                     view,
                 };
                 let is_new = done.is_none_or(|done| {
-                    !done.has_same_pixels(&order) || done.view.display != view.display
+                    !done.has_same_pixels(&order) || !done.view.is_shown_as(&view)
                 });
                 let is_late = deadline.is_some_and(|deadline| Instant::now() >= deadline);
                 if is_new || is_late {

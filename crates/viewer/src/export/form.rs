@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use egui::{DragValue, Grid, Id, Modal, Response, RichText, TextEdit, Ui, Widget};
+use hairline_scene::DEFAULT_SAMPLES;
 
 use super::work::{Motion, numbered};
-use crate::engine::DEFAULT_SAMPLES;
 
 /// Width and height; more is more than a file format or a machine is likely to hold.
 const SIDE_PX: std::ops::RangeInclusive<u32> = 1..=16_384;
@@ -19,6 +19,10 @@ pub(super) struct Form {
     pub is_turntable: bool,
     pub size_px: [u32; 2],
     pub samples: u32,
+    /// From where the window looks; else from the scene's camera.
+    pub is_as_seen: bool,
+    /// Whether what is no surface is transparent.
+    pub is_transparent: bool,
     pub frames: u32,
     pub degrees: f64,
     /// The path, as it is typed.
@@ -43,6 +47,8 @@ impl Form {
             is_turntable,
             size_px,
             samples: DEFAULT_SAMPLES,
+            is_as_seen: true,
+            is_transparent: false,
             frames: 120,
             degrees: 360.0,
             path: path.display().to_string(),
@@ -64,7 +70,7 @@ impl Form {
 
     /// The path that is typed; a PNG where no ending is.
     pub fn path(&self) -> PathBuf {
-        let path = PathBuf::from(self.path.trim());
+        let path = crate::files::from_home(self.path.trim());
         match path.extension() {
             None if path.file_name().is_some() => path.with_extension("png"),
             _ => path,
@@ -82,12 +88,14 @@ impl Form {
         }
     }
 
-    /// Shows it. `window_px` is the size of the picture in the window, `scene_px` that of the scene.
+    /// Shows it. `window_px` is the size of the picture in the window, `scene_px` that of the scene; `is_view_free` if the
+    /// window looks from elsewhere than the scene's camera.
     pub fn show(
         &mut self,
         ctx: &egui::Context,
         window_px: [u32; 2],
         scene_px: [u32; 2],
+        is_view_free: bool,
     ) -> Option<Answer> {
         let modal = Modal::new(Id::unique("export")).show(ctx, |ui| {
             ui.set_width(500.0);
@@ -104,6 +112,21 @@ impl Form {
                 row(ui, "Samples", samples).on_hover_text(
                     "Samples of a pixel that has an edge or a crease in it; elsewhere one is enough",
                 );
+                if is_view_free {
+                    ui.label("Seen from");
+                    ui.horizontal(|ui| {
+                        ui.selectable_value(&mut self.is_as_seen, true, "Where the window looks from");
+                        ui.selectable_value(&mut self.is_as_seen, false, "The scene's camera");
+                    });
+                    ui.end_row();
+                }
+                ui.label("");
+                ui.checkbox(&mut self.is_transparent, "Transparent background")
+                    .on_hover_text(
+                        "PNG and EXR get an alpha channel: the share of each pixel that objects cover. The environment lights \
+                         them and is not seen",
+                    );
+                ui.end_row();
                 if self.is_turntable {
                     row(ui, "Pictures", DragValue::new(&mut self.frames).range(1..=9999));
                     let degrees = DragValue::new(&mut self.degrees)
@@ -196,7 +219,9 @@ impl Form {
         let ending = first.extension().unwrap_or_default().to_string_lossy();
         let format = match ending.to_lowercase().as_str() {
             "png" => "PNG: as the window shows it.",
-            "exr" => "EXR: linear radiance, all layers.",
+            "exr" => {
+                "EXR: linear radiance, with the layers base, scratches, density, depth and normal."
+            }
             _ => "End the name in .png or .exr.",
         };
         let names = first.file_name().unwrap_or_default().to_string_lossy();

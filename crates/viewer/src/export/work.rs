@@ -9,6 +9,7 @@ use hairline_gpu::{AdapterKind, Gpu, GpuScene, RenderOptions, Renderer};
 use hairline_image::{Display, Image, Output};
 #[cfg(not(target_arch = "wasm32"))]
 use hairline_optics::method::Method;
+use hairline_reference::closed_form::Prepared;
 #[cfg(not(target_arch = "wasm32"))]
 use hairline_reference::closed_form::TILE_PX;
 use hairline_scene::{Description, Scene};
@@ -32,6 +33,8 @@ pub(super) struct Wish {
     pub description: Arc<Description>,
     pub size_px: [u32; 2],
     pub samples: u32,
+    /// Whether what is no surface is transparent; the environment is not seen then.
+    pub is_transparent: bool,
     pub motion: Motion,
     /// As it was asked for; a turntable's pictures have numbers in their names.
     pub path: PathBuf,
@@ -64,6 +67,10 @@ impl Wish {
         scene.camera = crate::viewport::camera(&camera);
         scene.render.size_px = self.size_px;
         scene.render.filter_std_px = self.description.render.filter_std_px;
+        if self.is_transparent {
+            let environment = scene.environment.take();
+            scene.environment = environment.map(|map| map.with_visible(false));
+        }
         scene
     }
 
@@ -158,15 +165,31 @@ fn frames(wish: &Wish, built: &Built, stop: &Stop, report: &Report) -> Result<bo
         if stop.is_asked() {
             return Ok(false);
         }
-        output
-            .write_image(&image, &wish.display())
-            .map_err(|error| error.to_string())?;
+        let written = match wish.is_transparent {
+            false => output.write_image(&image, &wish.display()),
+            true => {
+                let alpha = coverage(built, &scene, wish.samples);
+                output.write_image_with_alpha(&image, &alpha, &wish.display())
+            }
+        };
+        written.map_err(|error| error.to_string())?;
         report.tell(|state| {
             state.written += 1;
             state.share = 0.0;
         });
     }
     Ok(true)
+}
+
+/// The share of each pixel that surfaces cover, of the samples that both renderers take.
+fn coverage(built: &Built, scene: &Scene, samples: u32) -> Vec<f32> {
+    let prepared = Prepared::from_parts(
+        scene,
+        Arc::clone(&built.triangles),
+        Arc::clone(&built.scratches),
+        Arc::clone(&built.tables),
+    );
+    prepared.coverage(samples, 0..scene.render.size_px[1])
 }
 
 /// Pixels of the first band on the CPU.

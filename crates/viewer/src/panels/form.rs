@@ -5,10 +5,13 @@
 
 use std::hash::Hash;
 
-use egui::{Align, DragValue, Layout, Response, Slider, SliderClamping, TextEdit, Ui};
+use egui::{Align, Layout, Response, Slider, SliderClamping, TextEdit, Ui};
 use hairline_editor::DragKey;
+use hairline_editor::quantity::Shown;
 use hairline_editor::ranges::{Parameter, Range};
 use hairline_scene::description::Distribution;
+
+use super::number::NumberBox;
 
 /// Width of the labels' column, points.
 const LABEL_WIDTH: f32 = 92.0;
@@ -121,13 +124,14 @@ impl<'a> Form<'a> {
     }
 
     fn boxes_labelled(&mut self, label: &str, range: &Range, names: &[&str], values: &mut [f64]) {
+        let shown = range.unit.shown_together(values);
         self.row(label, range.tooltip, |ui, _| {
             let width = share(ui, names.len());
             names
                 .iter()
                 .zip(values)
                 .fold(false, |changed, (name, value)| {
-                    small_box(ui, width, label, name, range, value) || changed
+                    small_box(ui, width, label, name, (range, shown), value) || changed
                 })
         });
     }
@@ -195,7 +199,8 @@ impl<'a> Form<'a> {
                 return false;
             }
             ui.data_mut(|data| data.remove_temp::<String>(id));
-            let changed = response.lost_focus() && typed != *value;
+            let is_given_up = ui.input(|input| input.key_pressed(egui::Key::Escape));
+            let changed = response.lost_focus() && typed != *value && !is_given_up;
             if changed {
                 *value = typed;
             }
@@ -217,12 +222,42 @@ impl<'a> Form<'a> {
         let label = format!("Point {}", i + 1);
         self.row(&label, range.tooltip, |ui, _| {
             let width = share(ui, 2);
+            let shown = range.unit.shown_together(&[*radius_m, *height_m]);
             let parts = [("r", &range, radius_m), ("z", &heights, height_m)];
             parts
                 .into_iter()
                 .fold(false, |changed, (name, range, value)| {
-                    small_box(ui, width, &label, name, range, value) || changed
+                    small_box(ui, width, &label, name, (range, shown), value) || changed
                 })
+        });
+    }
+
+    /// A number that stands for a draw of lots, with a die that throws another.
+    pub fn seed(&mut self, value: &mut u64) {
+        let range = Parameter::Seed.range(self.diagonal_m);
+        self.row(range.label, range.tooltip, |ui, label| {
+            let mut number = *value as f64;
+            let typed = NumberBox {
+                label: range.label,
+                prefix: "",
+                range: &range,
+                shown: range.unit.shown(number),
+                width: VALUE_WIDTH,
+            }
+            .show(ui, &mut number)
+            .labelled_by(label.id);
+            if typed.changed() {
+                *value = number.max(0.0).round() as u64;
+            }
+            let die = ui
+                .button("🎲")
+                .on_hover_text("Another seed: the same kind of scratches in other places");
+            ui.ctx()
+                .accesskit_node_builder(die.id, |node| node.set_label("Another seed"));
+            if die.clicked() {
+                *value = another_seed(*value);
+            }
+            typed.changed() || die.clicked()
         });
     }
 
@@ -239,13 +274,15 @@ impl<'a> Form<'a> {
 
 fn slider_and_box(ui: &mut Ui, label: &Response, range: &Range, value: &mut f64) -> bool {
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-        let typed = ui
-            .add_sized(
-                [VALUE_WIDTH, 20.0],
-                number_box(range, value).suffix(range.suffix),
-            )
-            .labelled_by(label.id)
-            .on_hover_text(range.tooltip);
+        let typed = NumberBox {
+            label: range.label,
+            prefix: "",
+            range,
+            shown: range.unit.shown(*value),
+            width: VALUE_WIDTH,
+        }
+        .show(ui, value)
+        .labelled_by(label.id);
         ui.spacing_mut().slider_width = (ui.available_width() - 8.0).max(24.0);
         let mut on_slider = *value;
         let slider = Slider::new(&mut on_slider, range.slider.clone())
@@ -270,42 +307,41 @@ fn share(ui: &Ui, n: usize) -> f32 {
     ((ui.available_width() - gaps) / n as f32).max(40.0)
 }
 
-/// One of several numbers in a row, without its unit, for which there is no room: the tooltip tells it.
+/// One of several numbers in a row, which are shown alike.
 fn small_box(
     ui: &mut Ui,
     width: f32,
     label: &str,
     name: &str,
-    range: &Range,
+    (range, shown): (&Range, Shown),
     value: &mut f64,
 ) -> bool {
-    let drag = number_box(range, value).prefix(format!("{name} "));
-    let response = ui.add_sized([width, 20.0], drag);
-    ui.ctx().accesskit_node_builder(response.id, |node| {
-        node.set_label(format!("{label} {name}"));
-    });
-    response.on_hover_text(in_unit(range)).changed()
+    let prefix = format!("{name} ");
+    let label = format!("{label} {name}");
+    let response = ui
+        .scope(|ui| {
+            // Three numbers with their units are as much as a row holds.
+            ui.spacing_mut().button_padding.x = 1.0;
+            let number = NumberBox {
+                label: &label,
+                prefix: &prefix,
+                range,
+                shown,
+                width,
+            };
+            number.show(ui, value)
+        })
+        .inner;
+    ui.ctx()
+        .accesskit_node_builder(response.id, |node| node.set_label(label));
+    response.changed()
 }
 
-/// The tooltip with the unit.
-fn in_unit(range: &Range) -> String {
-    match range.suffix.trim() {
-        "" => range.tooltip.to_owned(),
-        unit => format!("{} (in {unit})", range.tooltip),
-    }
-}
-
-/// A number to drag or type. Typing counts when it is done: half a number is no wish.
-fn number_box<'v>(range: &Range, value: &'v mut f64) -> DragValue<'v> {
-    let way = range.slider.end() - range.slider.start();
-    let speed = if range.logarithmic {
-        (value.abs() * 0.01).max(way * 1e-6)
-    } else {
-        way / 400.0
-    };
-    DragValue::new(value)
-        .range(range.hard.clone())
-        .speed(speed)
-        .max_decimals(range.decimals)
-        .update_while_editing(false)
+/// A throw of four digits, which comes back to no earlier one for long.
+fn another_seed(seed: u64) -> u64 {
+    let mixed = seed
+        .wrapping_add(0x9e37_79b9)
+        .wrapping_mul(0x5851_f42d_4c95_7f2d);
+    let thrown = (mixed >> 33) % 9000 + 1000;
+    if thrown == seed { thrown + 1 } else { thrown }
 }

@@ -2,7 +2,6 @@
 
 use egui::Ui;
 use hairline_editor::Selection;
-use hairline_editor::actions::layers;
 use hairline_editor::presets::LayerPreset;
 use hairline_editor::ranges::Parameter;
 use hairline_scene::description::{Amount, Around, Distribution, Laid, Layer, Pattern, Scratches};
@@ -10,6 +9,7 @@ use hairline_scene::description::{Amount, Around, Distribution, Laid, Layer, Pat
 use super::form::Form;
 use crate::app::Viewer;
 use crate::command::Command;
+use crate::style::beside;
 use crate::tools::Tool;
 
 pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer, index: usize) {
@@ -59,7 +59,7 @@ pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer, index: usize) {
                 &mut brushed.length_m,
             );
             form.number(Parameter::Jitter, &mut brushed.jitter_deg);
-            form.whole(Parameter::Seed, &mut brushed.seed);
+            form.seed(&mut brushed.seed);
         }
         Layer::Listed(listed) => form.custom("File", "", |ui, _| {
             ui.add(egui::Label::new(listed.file.display().to_string()).truncate());
@@ -95,7 +95,7 @@ fn laid_rows(form: &mut Form, laid: &mut Laid) {
         Parameter::LengthSpread,
         &mut laid.length_m,
     );
-    form.section("Course");
+    form.section("Direction and bend");
     match &mut laid.pattern {
         Pattern::Random { curvature_per_m } | Pattern::Swirl { curvature_per_m } => {
             curvature(form, curvature_per_m);
@@ -116,7 +116,7 @@ fn laid_rows(form: &mut Form, laid: &mut Laid) {
             curvature(form, curvature_per_m);
         }
     }
-    form.whole(Parameter::Seed, &mut laid.seed);
+    form.seed(&mut laid.seed);
 }
 
 fn curvature(form: &mut Form, value: &mut Distribution) {
@@ -133,9 +133,12 @@ fn axis(form: &mut Form, around: &mut Around) {
 fn amount(form: &mut Form, amount: &mut Amount) {
     let mut is_density = matches!(amount, Amount::DensityPerM2(_));
     form.choice(
-        "Amount by",
-        "A number of scratches in all, or on each square metre",
-        [(false, "count".to_owned()), (true, "density".to_owned())],
+        "How many",
+        "A number of scratches in all, whatever the size of the object, or a number on each square metre",
+        [
+            (false, "in all".to_owned()),
+            (true, "per area".to_owned()),
+        ],
         &mut is_density,
     );
     match (is_density, *amount) {
@@ -184,13 +187,9 @@ fn strokes(ui: &mut Ui, viewer: &mut Viewer, index: usize, layer: &Scratches) {
 fn buttons(ui: &mut Ui, viewer: &mut Viewer, index: usize, layer: &Scratches, diagonal_m: f64) {
     ui.add_space(8.0);
     ui.horizontal_wrapped(|ui| {
-        ui.menu_button("Make it…", |ui| {
+        ui.menu_button("Replace by a preset…", |ui| {
             for preset in LayerPreset::ALL {
-                if ui
-                    .button(preset.name())
-                    .on_hover_text(preset.tooltip())
-                    .clicked()
-                {
+                if beside(ui.button(preset.name()), preset.tooltip()).clicked() {
                     let made = preset.layer(layer.object.clone(), diagonal_m);
                     viewer.document.edit("Layer preset", |d| {
                         let kept = &mut d.scratches[index];
@@ -207,15 +206,6 @@ fn buttons(ui: &mut Ui, viewer: &mut Viewer, index: usize, layer: &Scratches, di
                 }
             }
         });
-        let others = ui
-            .button("Other scratches")
-            .on_hover_text("The same kind of scratches in other places: another seed");
-        if others.clicked() {
-            let done = viewer
-                .document
-                .apply("Other scratches", |d, _| layers::reseed(d, index));
-            viewer.tell(done);
-        }
         for command in [
             Command::Duplicate,
             Command::MoveUp,

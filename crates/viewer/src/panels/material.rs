@@ -8,8 +8,10 @@ use hairline_optics::metal::Metal;
 use hairline_scene::description::{MaterialKind, MetalColor};
 
 use super::form::Form;
+use super::outliner::material_cards;
 use crate::app::Viewer;
 use crate::command::Command;
+use crate::gallery::metal_swatches;
 
 /// The kinds by name, each as it begins.
 #[derive(Clone, Copy, PartialEq)]
@@ -82,6 +84,8 @@ pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer, index: usize) {
                 _ => None,
             });
             form.choice("Metal", "By its measured n and k", metals, metal);
+            let hint = "Their reflectance at normal incidence in daylight, D65";
+            form.custom("", hint, |ui, _| metal_swatches(ui, metal));
         }
         MaterialKind::Metal(MetalColor::Color(base_color)) => {
             form.color(Parameter::BaseColor, base_color);
@@ -116,21 +120,15 @@ pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer, index: usize) {
     }
     ui.add_space(8.0);
     ui.horizontal_wrapped(|ui| {
-        ui.menu_button("Make it…", |ui| {
-            for preset in MaterialPreset::all() {
-                if ui
-                    .button(preset.name())
-                    .on_hover_text(preset.tooltip())
-                    .clicked()
-                {
-                    viewer.document.edit("Material preset", |d| {
-                        let name = d.materials[index].name.clone();
-                        d.materials[index] = hairline_scene::description::Material {
-                            name,
-                            ..preset.material()
-                        };
-                    });
-                }
+        ui.menu_button("Replace by a preset…", |ui| {
+            if let Some(preset) = material_cards(ui, viewer) {
+                viewer.document.edit("Material preset", |d| {
+                    let name = d.materials[index].name.clone();
+                    d.materials[index] = hairline_scene::description::Material {
+                        name,
+                        ..preset.material()
+                    };
+                });
             }
         });
         if ui.button(Command::Duplicate.label()).clicked() {

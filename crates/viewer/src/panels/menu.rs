@@ -1,13 +1,11 @@
 //! The menus, the tools and how the brush is set.
 
 use egui::{Button, MenuBar, Panel, Ui};
-use hairline_editor::brush::BrushSettings;
 use hairline_editor::ranges::Parameter;
 
 use super::form::Form;
 use crate::app::Viewer;
 use crate::command::{self, Command, Group};
-use crate::platform::HAS_FILES;
 use crate::tools::Tool;
 
 pub(crate) fn show(ui: &mut Ui, viewer: &mut Viewer, wished: &mut Option<Command>) {
@@ -35,6 +33,12 @@ pub(crate) fn show(ui: &mut Ui, viewer: &mut Viewer, wished: &mut Option<Command
                     *wished = Some(command);
                 }
             }
+            ui.separator();
+            let button = Button::new("Snapshot");
+            let text = "Keeps this look, with its picture, to compare with and to come back to";
+            if ui.add(button).on_hover_text(hint(Command::TakeSnapshot, text)).clicked() {
+                *wished = Some(Command::TakeSnapshot);
+            }
             if !Command::Compare.is_here() {
                 return;
             }
@@ -55,33 +59,72 @@ pub(crate) fn show(ui: &mut Ui, viewer: &mut Viewer, wished: &mut Option<Command
 }
 
 fn menu(ui: &mut Ui, viewer: &mut Viewer, group: Group, wished: &mut Option<Command>) {
-    for entry in command::entries().filter(|entry| entry.group == group) {
-        let mut button = Button::new(entry.label);
-        if let Some(shortcut) = &entry.shortcut {
-            button = button.shortcut_text(ui.ctx().format_shortcut(shortcut));
+    for (i, entry) in command::entries()
+        .filter(|entry| entry.group == group)
+        .enumerate()
+    {
+        if i > 0 && entry.command.begins_section() {
+            ui.separator();
         }
-        if ui.add_enabled(viewer.can(entry.command), button).clicked() {
+        if item(ui, viewer, entry.command) {
             *wished = Some(entry.command);
         }
+        if entry.command == Command::Open {
+            recent(ui, viewer);
+        }
     }
-    if group == Group::File && HAS_FILES {
+}
+
+/// The files that were opened or saved last.
+fn recent(ui: &mut Ui, viewer: &mut Viewer) {
+    let files = viewer.files.recent();
+    ui.add_enabled_ui(!files.is_empty(), |ui| {
         ui.menu_button("Recent", |ui| {
-            for path in viewer.files.recent() {
+            for path in files {
                 if ui.button(path.display().to_string()).clicked() {
                     viewer.take_file(&ui.ctx().clone(), &path);
                 }
             }
         });
+    });
+}
+
+/// A command with its key; whether it was chosen.
+fn item(ui: &mut Ui, viewer: &Viewer, command: Command) -> bool {
+    let mut button = Button::selectable(viewer.is_on(command).unwrap_or(false), command.label());
+    if let Some(shortcut) = command.shortcut() {
+        button = button.shortcut_text(command::key_text(&shortcut));
+    }
+    ui.add_enabled(viewer.can(command), button).clicked()
+}
+
+/// What can be done with what is selected: the menu of the right button.
+pub(crate) fn on_selection(ui: &mut Ui, viewer: &mut Viewer) {
+    if let Some(object) = viewer.selected_object() {
+        ui.menu_button("Add scratches", |ui| {
+            super::object::add_layer(ui, viewer, object)
+        });
+        ui.separator();
+    }
+    for command in [
+        Command::FrameSelection,
+        Command::ToggleHidden,
+        Command::ToggleSolo,
+        Command::Duplicate,
+        Command::MoveUp,
+        Command::MoveDown,
+        Command::Delete,
+    ] {
+        if viewer.can(command) && item(ui, viewer, command) {
+            viewer.run(&ui.ctx().clone(), command);
+        }
     }
 }
 
 /// What it does, and its key.
 fn hint(command: Command, text: &str) -> String {
     match command.shortcut() {
-        Some(shortcut) => {
-            let key = shortcut.format(&egui::ModifierNames::NAMES, cfg!(target_os = "macos"));
-            format!("{text} ({key})")
-        }
+        Some(shortcut) => format!("{text} ({})", command::key_text(&shortcut)),
         None => text.to_owned(),
     }
 }
@@ -91,12 +134,8 @@ pub(super) fn brush_settings(ui: &mut Ui, viewer: &mut Viewer) {
     if !matches!(viewer.toolbox.tool, Tool::Brush | Tool::Eraser) {
         return;
     }
-    let object = viewer.selection().object(viewer.document.description());
-    let diagonal_m = viewer.diagonal_m(object);
-    let brush = viewer
-        .toolbox
-        .brush
-        .get_or_insert_with(|| BrushSettings::for_object(diagonal_m));
+    let diagonal_m = viewer.diagonal_m(viewer.selected_object());
+    let mut brush = viewer.brush();
     ui.add_space(12.0);
     ui.separator();
     ui.heading(Command::Pick(viewer.toolbox.tool).label());
@@ -108,5 +147,7 @@ pub(super) fn brush_settings(ui: &mut Ui, viewer: &mut Viewer) {
         form.number(Parameter::BrushDepth, &mut brush.depth);
     }
     // Settings of a tool are no part of the scene.
-    drop(form.change());
+    if form.change().is_some() {
+        viewer.toolbox.brush = Some(brush);
+    }
 }

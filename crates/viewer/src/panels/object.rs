@@ -5,11 +5,13 @@ use hairline_editor::Selection;
 use hairline_editor::actions::{layers, objects};
 use hairline_editor::presets::LayerPreset;
 use hairline_editor::ranges::Parameter;
+use hairline_editor::wear::{self, Wear};
 use hairline_scene::description::{Shape, Surface};
 
 use super::form::Form;
 use crate::app::Viewer;
 use crate::command::Command;
+use crate::gallery::{SIDE, Thumb, card, cards};
 
 pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer, index: usize) {
     let description = viewer.document.description().clone();
@@ -18,6 +20,7 @@ pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer, index: usize) {
     };
     let diagonal_m = viewer.diagonal_m(Some(index));
     ui.heading("Object");
+    wear_row(ui, viewer, index);
     let mut form = Form::new(ui, ("object", index), diagonal_m);
     let mut name = object.name.clone();
     form.text("Name", "What layers of scratches call it", &mut name);
@@ -78,19 +81,63 @@ pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer, index: usize) {
 
 /// The presets as a menu.
 pub(super) fn add_layer(ui: &mut Ui, viewer: &mut Viewer, object: usize) {
-    for preset in LayerPreset::ALL {
-        if ui
-            .button(preset.name())
-            .on_hover_text(preset.tooltip())
+    let choices = LayerPreset::ALL.map(|preset| {
+        (
+            preset,
+            Thumb::Layer(preset),
+            preset.name(),
+            preset.tooltip(),
+        )
+    });
+    if let Some(preset) = cards(ui, &mut viewer.gallery, "layers", choices) {
+        let diagonal_m = viewer.diagonal_m(Some(object));
+        let done = viewer.document.apply("Add scratches", |d, _| {
+            let name = d.objects[object].name.clone();
+            layers::add(d, preset.layer(name, diagonal_m))
+        });
+        viewer.tell(done);
+    }
+}
+
+/// How worn the object is: one choice over its layers of wear.
+fn wear_row(ui: &mut Ui, viewer: &mut Viewer, object: usize) {
+    let diagonal_m = viewer.diagonal_m(Some(object));
+    let description = viewer.document.description();
+    let Some(name) = description.objects.get(object).map(|o| o.name.clone()) else {
+        return;
+    };
+    let is = wear::wear_of(description, &name, diagonal_m);
+    ui.label("Wear");
+    let mut chosen = None;
+    // The panel keeps its width.
+    let side = (ui.available_width() / Wear::ALL.len() as f32 - 9.0).clamp(32.0, SIDE);
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 0.0;
+        for grade in Wear::ALL {
+            let (thumb, is_it) = ((Thumb::Wear(grade), side), is == Some(grade));
+            if card(
+                ui,
+                &mut viewer.gallery,
+                thumb,
+                grade.name(),
+                grade.tooltip(),
+                is_it,
+            )
             .clicked()
-        {
-            let diagonal_m = viewer.diagonal_m(Some(object));
-            let done = viewer.document.apply("Add scratches", |d, _| {
-                let name = d.objects[object].name.clone();
-                layers::add(d, preset.layer(name, diagonal_m))
-            });
-            viewer.tell(done);
+            {
+                chosen = Some(grade);
+            }
         }
+    });
+    if is.is_none() {
+        ui.weak("Its layers of wear were changed by hand: a grade replaces them.");
+    }
+    ui.add_space(6.0);
+    if let Some(grade) = chosen.filter(|grade| is != Some(*grade)) {
+        let done = viewer
+            .document
+            .apply("Wear", |d, _| wear::set_wear(d, object, diagonal_m, grade));
+        viewer.tell(done);
     }
 }
 

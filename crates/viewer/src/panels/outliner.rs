@@ -9,6 +9,7 @@ use hairline_scene::Description;
 use super::object::add_layer;
 use crate::app::Viewer;
 use crate::command::Command;
+use crate::gallery::{Thumb, cards};
 
 pub(crate) fn show(ui: &mut Ui, viewer: &mut Viewer, wished: &mut Option<Command>) {
     Panel::left("outliner")
@@ -136,6 +137,12 @@ fn line(ui: &mut Ui, viewer: &mut Viewer, selection: Selection, name: &str, is_s
     if response.double_clicked() {
         viewer.run(&ui.ctx().clone(), Command::FrameSelection);
     }
+    if response.secondary_clicked() {
+        viewer.document.select(selection);
+    }
+    if !matches!(selection, Selection::Camera | Selection::Environment) {
+        response.context_menu(|ui| super::menu::on_selection(ui, viewer));
+    }
 }
 
 /// Lights often have no name: their place tells them apart.
@@ -158,46 +165,54 @@ fn section(ui: &mut Ui, title: &str, add: impl FnOnce(&mut Ui)) {
 }
 
 fn add_shape(ui: &mut Ui, viewer: &mut Viewer) {
-    let diagonal_m = viewer.diagonal_m(None);
-    for preset in ShapePreset::ALL {
-        if ui.button(preset.name()).clicked() {
-            let done = viewer.document.apply("Add an object", |d, _| {
-                objects::add_shape(d, preset.shape(diagonal_m), None)
-            });
-            viewer.tell(done);
-        }
+    let choices = ShapePreset::ALL.map(|preset| (preset, Thumb::Shape(preset), preset.name(), ""));
+    if let Some(preset) = cards(ui, &mut viewer.gallery, "shapes", choices) {
+        let diagonal_m = viewer.diagonal_m(None);
+        let done = viewer.document.apply("Add an object", |d, _| {
+            objects::add_shape(d, preset.shape(diagonal_m), None)
+        });
+        viewer.tell(done);
     }
 }
 
 fn add_light(ui: &mut Ui, viewer: &mut Viewer) {
-    for preset in LightPreset::ALL {
-        if ui
-            .button(preset.name())
-            .on_hover_text(preset.tooltip())
-            .clicked()
-        {
-            let diagonal_m = viewer.diagonal_m(None);
-            let done = viewer.document.apply("Add a light", |d, _| {
-                let camera = &d.camera;
-                let light = preset.light(camera.target_m.into(), camera.up.into(), diagonal_m);
-                Ok(lights::add(d, light))
-            });
-            viewer.tell(done);
-        }
+    let choices = LightPreset::ALL.map(|preset| {
+        (
+            preset,
+            Thumb::Light(preset),
+            preset.name(),
+            preset.tooltip(),
+        )
+    });
+    if let Some(preset) = cards(ui, &mut viewer.gallery, "lights", choices) {
+        let diagonal_m = viewer.diagonal_m(None);
+        let done = viewer.document.apply("Add a light", |d, _| {
+            let camera = &d.camera;
+            let light = preset.light(camera.target_m.into(), camera.up.into(), diagonal_m);
+            Ok(lights::add(d, light))
+        });
+        viewer.tell(done);
     }
 }
 
 fn add_material(ui: &mut Ui, viewer: &mut Viewer) {
-    for preset in MaterialPreset::all() {
-        if ui
-            .button(preset.name())
-            .on_hover_text(preset.tooltip())
-            .clicked()
-        {
-            let done = viewer.document.apply("Add a material", |d, _| {
-                Ok(materials::add(d, preset.material()))
-            });
-            viewer.tell(done);
-        }
+    if let Some(preset) = material_cards(ui, viewer) {
+        let done = viewer.document.apply("Add a material", |d, _| {
+            Ok(materials::add(d, preset.material()))
+        });
+        viewer.tell(done);
     }
+}
+
+/// All materials to begin with.
+pub(super) fn material_cards(ui: &mut Ui, viewer: &mut Viewer) -> Option<MaterialPreset> {
+    let choices = MaterialPreset::all().map(|preset| {
+        (
+            preset,
+            Thumb::Material(preset),
+            preset.name(),
+            preset.tooltip(),
+        )
+    });
+    cards(ui, &mut viewer.gallery, "materials", choices)
 }

@@ -13,8 +13,11 @@ pub(crate) fn show(ui: &mut Ui, viewer: &mut Viewer) {
         ui.horizontal_centered(|ui| {
             ui.spacing_mut().item_spacing.x = 14.0;
             match viewer.engine.latest() {
-                Some(frame) => picture(ui, &frame),
-                None => drop(ui.label("making the first picture")),
+                Some(frame) => picture(ui, &frame, viewer.viewport.is_stale()),
+                None if viewer.engine.built().is_some() => {
+                    drop(ui.label("rendering the first picture"));
+                }
+                None => drop(ui.label("building the scene")),
             }
             if let Some(built) = viewer.engine.built() {
                 let (scratches, segments) = built.scratch_counts();
@@ -36,7 +39,7 @@ pub(crate) fn show(ui: &mut Ui, viewer: &mut Viewer) {
     });
 }
 
-fn picture(ui: &mut Ui, frame: &Frame) {
+fn picture(ui: &mut Ui, frame: &Frame, is_stale: bool) {
     let painted = &frame.painted;
     let [width, height] = painted.size_px;
     let text = format!("{width} × {height}, {}", milliseconds(painted.time));
@@ -48,14 +51,23 @@ fn picture(ui: &mut Ui, frame: &Frame) {
         details += &latency_text(latency);
     }
     ui.label(text).on_hover_text(details);
-    ui.label(match (painted.is_final, painted.samples) {
-        (true, _) => "finished".to_owned(),
-        (false, 1) => "refining".to_owned(),
-        (false, samples) => format!("refining, {samples} samples"),
-    });
+    ui.label(activity(frame, is_stale));
     if !painted.passes.is_empty() {
         let device: Duration = painted.passes.iter().map(|pass| pass.time).sum();
         ui.label(format!("device {}", milliseconds(device)));
+    }
+}
+
+/// What is being done about the picture.
+fn activity(frame: &Frame, is_stale: bool) -> String {
+    let painted = &frame.painted;
+    match (painted.is_final, painted.samples) {
+        _ if is_stale => "rendering the new view".to_owned(),
+        (true, _) => "finished".to_owned(),
+        _ if frame.built.is_sketch() => "a sketch of the scratches".to_owned(),
+        _ if painted.done < 1.0 => format!("finishing, {:.0} %", 100.0 * painted.done),
+        (false, 1) => "refining".to_owned(),
+        (false, samples) => format!("refining, {samples} samples"),
     }
 }
 

@@ -63,7 +63,7 @@ const REACH: f32 = 14.0;
 pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer, area: &Area) {
     let selection = viewer.selection();
     let description = Arc::clone(viewer.document.description());
-    let lens = Lens::new(&description.camera, area);
+    let lens = Lens::new(&viewer.camera(), area);
     let body = Body::of(&description, selection).filter(|_| viewer.toolbox.tool == Tool::Select);
     let Some(body) = body else {
         viewer.viewport.gizmo = Gizmo::default();
@@ -175,7 +175,7 @@ fn drag(ui: &Ui, viewer: &mut Viewer, area: &Area, handle: Handle, name: &str, p
     if grab.handle != handle || grab.revision != viewer.document.revision() {
         return false;
     }
-    let lens = Lens::new(&grab.start.camera, area);
+    let lens = Lens::new(&viewer.camera(), area);
     let start = Arc::clone(&grab.start);
     let selection = grab.selection;
     let Some(body) = Body::of(&start, selection) else {

@@ -1,44 +1,66 @@
-//! Lines that are seen on bright and on dark pictures: each has a thin dark rim.
+//! Lines and words that are seen on bright and on dark pictures: each has a dark halo.
 
-use egui::{Color32, Painter, Pos2, Shape, Stroke};
+use egui::{Align2, Color32, FontId, Painter, Pos2, Shape, Stroke, vec2};
 
-/// How much wider the rim is than the line, points.
-const RIM: f32 = 1.5;
+/// How much wider the halo is than the line, points.
+const HALO: f32 = 2.5;
 
-/// What lies under a line of this colour.
-fn rim(color: Color32) -> Color32 {
-    Color32::from_black_alpha((f32::from(color.a()) * 0.6) as u8)
+/// What lies under a line of this colour: dark enough that a light line is seen on white.
+fn halo(color: Color32) -> Color32 {
+    Color32::from_black_alpha((f32::from(color.a()) * 0.8) as u8)
 }
 
 /// A line through points.
-pub(super) fn line(painter: &Painter, points: Vec<Pos2>, width: f32, color: Color32) {
+pub(crate) fn line(painter: &Painter, points: Vec<Pos2>, width: f32, color: Color32) {
     painter.add(Shape::line(
         points.clone(),
-        Stroke::new(width + RIM, rim(color)),
+        Stroke::new(width + HALO, halo(color)),
     ));
     painter.add(Shape::line(points, Stroke::new(width, color)));
 }
 
 /// A straight line.
-pub(super) fn segment(painter: &Painter, ends: [Pos2; 2], width: f32, color: Color32) {
-    painter.line_segment(ends, Stroke::new(width + RIM, rim(color)));
+pub(crate) fn segment(painter: &Painter, ends: [Pos2; 2], width: f32, color: Color32) {
+    // The halo goes around the ends too.
+    let along = (ends[1] - ends[0]).normalized() * (0.4 * HALO);
+    let longer = [ends[0] - along, ends[1] + along];
+    painter.line_segment(longer, Stroke::new(width + HALO, halo(color)));
     painter.line_segment(ends, Stroke::new(width, color));
 }
 
 /// A filled circle.
-pub(super) fn dot(painter: &Painter, center: Pos2, radius: f32, color: Color32) {
-    painter.circle_filled(center, radius + 0.5 * RIM, rim(color));
+pub(crate) fn dot(painter: &Painter, center: Pos2, radius: f32, color: Color32) {
+    painter.circle_filled(center, radius + 0.5 * HALO, halo(color));
     painter.circle_filled(center, radius, color);
 }
 
 /// A circle.
-pub(super) fn circle(painter: &Painter, center: Pos2, radius: f32, width: f32, color: Color32) {
-    painter.circle_stroke(center, radius, Stroke::new(width + RIM, rim(color)));
+pub(crate) fn circle(painter: &Painter, center: Pos2, radius: f32, width: f32, color: Color32) {
+    painter.circle_stroke(center, radius, Stroke::new(width + HALO, halo(color)));
     painter.circle_stroke(center, radius, Stroke::new(width, color));
 }
 
 /// A filled shape without hollows.
-pub(super) fn blot(painter: &Painter, corners: Vec<Pos2>, color: Color32) {
-    let edge = Stroke::new(RIM, rim(color));
+pub(crate) fn blot(painter: &Painter, corners: Vec<Pos2>, color: Color32) {
+    let edge = Stroke::new(0.6 * HALO, halo(color));
     painter.add(Shape::convex_polygon(corners, color, edge));
+}
+
+/// Words in one line.
+pub(crate) fn words(
+    painter: &Painter,
+    at: Pos2,
+    align: Align2,
+    words: &str,
+    font: FontId,
+    color: Color32,
+) {
+    let galley = painter.layout_no_wrap(words.to_owned(), font, color);
+    let rect = align.anchor_size(at, galley.size());
+    painter.rect_filled(
+        rect.expand2(vec2(5.0, 1.0)),
+        3.0,
+        Color32::from_black_alpha(150),
+    );
+    painter.galley(rect.min, galley, color);
 }

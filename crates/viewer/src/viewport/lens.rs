@@ -9,7 +9,7 @@ use super::Area;
 
 /// A camera that looks out of an area of the screen.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Lens {
+pub(crate) struct Lens {
     frame: CameraFrame,
     /// Of the area, in points.
     corner: Pos2,

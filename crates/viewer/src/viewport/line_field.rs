@@ -1,4 +1,4 @@
-//! Short strokes on the surface along the scratches of the selected layer: which way they run, and so where their light goes.
+//! Short strokes on the surface along the scratches of a layer: which way they run, and so where their light goes.
 //!
 //! They are scratches that are there, some hundred of them, spread evenly over what is seen of their object. While the view
 //! moves the same ones stay and are projected anew; when it rests, others are found.
@@ -9,18 +9,22 @@ use std::time::Duration;
 use egui::{Color32, Pos2, Ui};
 use glam::{DVec3, Vec3};
 use hairline_editor::Selection;
+use hairline_editor::actions::layers;
 use hairline_scene::scene::{Scratch, Segment};
 use web_time::Instant;
 
 use crate::app::Viewer;
 use crate::engine::Built;
+use crate::overlays::Overlay;
 use crate::tools::Tool;
 
 use super::lens::Lens;
 use super::{Area, ink};
 
 /// Length of a stroke that lies across the view, points.
-const LENGTH: f64 = 14.0;
+const LENGTH: f64 = 15.0;
+/// Its width, points.
+const WIDTH: f32 = 1.75;
 /// The view is laid out in squares of this side, each with one stroke.
 const CELL: f32 = 27.0;
 /// No more strokes than this.
@@ -29,7 +33,7 @@ const MOST: usize = 400;
 const MOST_TRIES: usize = 60_000;
 /// So many between looks at the clock.
 const BATCH: usize = 64;
-/// What a pass of the interface may spend.
+/// What a pass of the interface may spend on all fields.
 const BUDGET: Duration = Duration::from_micros(1500);
 /// A view that has not changed for so long is at rest, seconds.
 const REST_S: f64 = 0.12;
@@ -39,6 +43,8 @@ const LEAST_FACING: f64 = 0.12;
 /// The strokes, and what they were made for.
 #[derive(Default)]
 pub(super) struct LineField {
+    /// What a pass of the interface may spend on it.
+    budget: Duration,
     layer: Option<Layer>,
     lens: Option<Lens>,
     /// When the view changed last.
@@ -74,31 +80,67 @@ struct Mark {
     along: DVec3,
 }
 
-/// Shows the field while a layer is selected and a tool is in hand that works with it.
-pub(super) fn show(ui: &Ui, viewer: &mut Viewer, area: &Area) {
+/// Colours of layers that are not selected, in turn.
+const COLORS: [Color32; 5] = [
+    Color32::from_rgb(150, 214, 255),
+    Color32::from_rgb(190, 240, 150),
+    Color32::from_rgb(255, 178, 140),
+    Color32::from_rgb(222, 178, 255),
+    Color32::from_rgb(250, 236, 120),
+];
+const SELECTED: Color32 = Color32::from_rgb(255, 246, 220);
+
+/// The layers whose directions are wanted: the selected one, or all that are shown.
+fn wanted(viewer: &Viewer) -> Vec<usize> {
     let is_wanted = matches!(
         viewer.toolbox.tool,
         Tool::Select | Tool::Brush | Tool::Eraser
     );
-    let (Selection::Layer(index), true, Some(built)) =
-        (viewer.selection(), is_wanted, viewer.engine.built())
-    else {
-        viewer.viewport.line_field = LineField::default();
+    let description = viewer.document.description();
+    let selected = match viewer.selection() {
+        Selection::Layer(index) => Some(index),
+        _ => None,
+    };
+    if viewer.overlays.has(Overlay::AllDirections) {
+        let shown = (0..description.scratches.len()).filter(|i| layers::is_shown(description, *i));
+        return shown.collect();
+    }
+    let is_wanted = is_wanted && viewer.overlays.has(Overlay::Directions);
+    selected.into_iter().filter(|_| is_wanted).collect()
+}
+
+/// Shows the fields: that of the selected layer while a tool is in hand that works with it, and those of all layers if they are
+/// wanted.
+pub(super) fn show(ui: &Ui, viewer: &mut Viewer, area: &Area) {
+    let wanted = wanted(viewer);
+    let built = viewer.engine.built().filter(|_| !wanted.is_empty());
+    let Some(built) = built else {
+        viewer.viewport.line_fields.clear();
         return;
     };
-    let description = viewer.document.description();
-    let object = viewer.selection().object(description);
-    let lens = Lens::new(&description.camera, area);
+    let description = Arc::clone(viewer.document.description());
+    let lens = Lens::new(&viewer.camera(), area);
     let now_s = ui.input(|input| input.time);
-    let field = &mut viewer.viewport.line_field;
-    let is_settled = field.update(&built, index as u32, object, lens, area, now_s);
-    if !is_settled {
-        ui.ctx().request_repaint();
-    }
+    let selection = viewer.selection();
     let painter = ui.painter().with_clip_rect(area.rect);
-    let color = Color32::from_rgba_unmultiplied(255, 244, 214, 165);
-    for line in &field.lines {
-        ink::segment(&painter, *line, 1.0, color);
+    let budget = BUDGET / wanted.len() as u32;
+    let fields = &mut viewer.viewport.line_fields;
+    fields.resize_with(wanted.len(), LineField::default);
+    for (field, index) in fields.iter_mut().zip(wanted) {
+        let layer = Selection::Layer(index);
+        field.budget = budget;
+        let object = layer.object(&description);
+        let is_settled = field.update(&built, index as u32, object, lens.clone(), area, now_s);
+        if !is_settled {
+            ui.ctx().request_repaint();
+        }
+        let color = match layer == selection {
+            true => SELECTED,
+            false => COLORS[index % COLORS.len()],
+        };
+        for line in &field.lines {
+            ink::segment(&painter, *line, WIDTH, color.gamma_multiply(0.92));
+        }
     }
 }
 
@@ -131,7 +173,7 @@ impl LineField {
             let is_first = self.lens.replace(lens.clone()).is_none();
             self.moved_s = if is_first { f64::NEG_INFINITY } else { now_s };
             self.search = None;
-            self.lines = lines(&self.marks, built, &lens, start);
+            self.lines = lines(&self.marks, built, &lens, start, self.budget);
         }
         let Some(layer) = &self.layer else {
             return true;
@@ -149,7 +191,7 @@ impl LineField {
             built,
             &lens,
             area,
-            start,
+            (start, self.budget),
             &mut self.marks,
             &mut self.lines,
         )
@@ -157,8 +199,14 @@ impl LineField {
 }
 
 /// Those of the marks that are seen. What the time does not suffice for comes back when the view rests.
-fn lines(marks: &[Mark], built: &Built, lens: &Lens, start: Instant) -> Vec<[Pos2; 2]> {
-    let batches = marks.chunks(BATCH).take_while(|_| start.elapsed() < BUDGET);
+fn lines(
+    marks: &[Mark],
+    built: &Built,
+    lens: &Lens,
+    start: Instant,
+    budget: Duration,
+) -> Vec<[Pos2; 2]> {
+    let batches = marks.chunks(BATCH).take_while(|_| start.elapsed() < budget);
     let seen = batches.flatten().filter(|mark| mark.is_seen(built, lens));
     seen.filter_map(|mark| mark.line(lens)).collect()
 }
@@ -258,12 +306,12 @@ impl Search {
         built: &Built,
         lens: &Lens,
         area: &Area,
-        start: Instant,
+        (start, budget): (Instant, Duration),
         marks: &mut Vec<Mark>,
         lines: &mut Vec<[Pos2; 2]>,
     ) -> bool {
         while self.tried < MOST_TRIES && marks.len() < MOST && layer.count > 0 {
-            if self.tried.is_multiple_of(BATCH) && start.elapsed() >= BUDGET {
+            if self.tried.is_multiple_of(BATCH) && start.elapsed() >= budget {
                 self.tried += 1;
                 return false;
             }

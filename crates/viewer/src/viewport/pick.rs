@@ -22,7 +22,7 @@ pub(super) struct Picked {
 /// The nearest surface under `pos`, of the newest scene that was built.
 pub(super) fn surface(viewer: &Viewer, area: &Area, pos: Pos2) -> Option<Picked> {
     let built = viewer.engine.built()?;
-    let lens = Lens::new(&viewer.document.description().camera, area);
+    let lens = Lens::new(&viewer.camera(), area);
     along(&built, &lens, pos)
 }
 

@@ -1,6 +1,8 @@
 //! The brush and the eraser.
 
-use egui::{Color32, Painter, PointerButton, Pos2, Response, Shape, Stroke, Ui};
+mod show;
+
+use egui::{PointerButton, Pos2, Response, Ui};
 use glam::{DMat4, DVec3};
 use hairline_editor::Selection;
 use hairline_editor::brush::{BrushSettings, Recorder, apply_stroke};
@@ -8,11 +10,13 @@ use hairline_scene::description;
 
 use crate::app::Viewer;
 use crate::engine::Built;
+use crate::overlays::Overlay;
 use crate::tools::Tool;
 
+use super::Area;
 use super::lens::Lens;
 use super::pick::{self, Picked};
-use super::{Area, ink};
+use show::{Drawn, color, show_drawn, show_ring, show_ways, stroke_count};
 
 /// Rays between two places of the pointer lie so far apart, points.
 const SPACING: f32 = 3.0;
@@ -29,6 +33,8 @@ pub(super) struct StrokeTool {
     before: Option<Pos2>,
     /// Escape was pressed; nothing is drawn until the button is up.
     is_cancelled: bool,
+    /// What was drawn last, until a picture shows it.
+    drawn: Option<Drawn>,
 }
 
 /// All of one drag. It stays on the object that it began on, and is one step.
@@ -148,7 +154,7 @@ pub(super) fn interact(
     if let Some(built) = viewer.engine.built()
         && is_in_hand
     {
-        let lens = Lens::new(&viewer.document.description().camera, area);
+        let lens = Lens::new(&viewer.camera(), area);
         let painter = ui.painter().with_clip_rect(area.rect);
         let tool = &viewer.viewport.stroke;
         if (is_held || tool.going_on.is_some() || tool.before.is_some()) && !tool.is_cancelled {
@@ -161,13 +167,20 @@ pub(super) fn interact(
         }
         let pos = response.interact_pointer_pos().or(response.hover_pos());
         let pos = pos.filter(|pos| area.rect.contains(*pos));
+        let pos = pos.filter(|_| viewer.overlays.has(Overlay::Brush));
         if let Some(hit) = pos.and_then(|pos| pick::along(&built, &lens, pos)) {
-            let radius_m = settings(viewer, hit.object).radius_m;
+            let going_on = viewer.viewport.stroke.going_on.as_ref();
+            // What was begun keeps its width.
+            let radius_m = match going_on.map(|going| going.settings.radius_m) {
+                Some(radius_m) => radius_m,
+                None => settings(viewer, &hit).radius_m,
+            };
             let color = color(viewer.toolbox.tool);
             show_ring(&painter, &lens, &hit, radius_m, color);
         }
         show_ways(&painter, viewer, &lens);
     }
+    show_drawn(ui, viewer, area);
     if !is_held {
         viewer.viewport.stroke.is_cancelled = false;
         viewer.viewport.stroke.before = None;
@@ -224,7 +237,7 @@ fn begin(viewer: &mut Viewer, world: World, pos: Pos2) -> Option<Going> {
     let world_from_object = pick::world_from_object(viewer, hit.object)?;
     let settings = BrushSettings {
         erase: viewer.toolbox.tool == Tool::Eraser,
-        ..settings(viewer, hit.object)
+        ..settings(viewer, &hit)
     };
     let mut going = Going {
         object: hit.object,
@@ -238,16 +251,11 @@ fn begin(viewer: &mut Viewer, world: World, pos: Pos2) -> Option<Going> {
     Some(going)
 }
 
-/// How the brush is set; as large as fits the object, before anyone has set it.
-fn settings(viewer: &mut Viewer, object: usize) -> BrushSettings {
-    let diagonal_m = viewer.engine.built().and_then(|built| {
-        let (low, high) = built.scene.objects.get(object)?.mesh.bounds_m();
-        Some(f64::from((high - low).length()))
-    });
-    *viewer
-        .toolbox
-        .brush
-        .get_or_insert_with(|| BrushSettings::for_object(diagonal_m.unwrap_or(0.1)))
+/// How the brush is set; before anyone has set it, as large as fits the object and the view.
+fn settings(viewer: &mut Viewer, hit: &Picked) -> BrushSettings {
+    let fitted = viewer.fitting_brush(Some(hit.object), hit.point_m);
+    viewer.toolbox.fitted = Some(fitted);
+    viewer.brush()
 }
 
 /// All strokes of the drag as one step.
@@ -260,6 +268,7 @@ fn finish(viewer: &mut Viewer, mut going: Going) {
         true => "Erase",
         false => "Brush stroke",
     };
+    let ways_m = going.done.iter().map(|(_, way_m)| way_m.clone()).collect();
     let done = viewer.document.apply(label, |description, selection| {
         // The strokes go where they were drawn, whatever was selected.
         let mut selection = match selection.object(description) {
@@ -271,52 +280,15 @@ fn finish(viewer: &mut Viewer, mut going: Going) {
         }
         Ok(selection)
     });
-    if let Err(error) = done {
-        viewer.notices.error("stroke", error.to_string());
-    }
-}
-
-fn color(tool: Tool) -> Color32 {
-    match tool {
-        Tool::Eraser => Color32::from_rgb(255, 150, 130),
-        _ => Color32::from_rgb(255, 230, 150),
-    }
-}
-
-/// The brush's edge on the surface.
-fn show_ring(painter: &Painter, lens: &Lens, hit: &Picked, radius_m: f64, color: Color32) {
-    let (across, along) = hit.normal.any_orthonormal_pair();
-    let points = (0..=48).filter_map(|i| {
-        let (sin, cos) = (f64::from(i) / 48.0 * std::f64::consts::TAU).sin_cos();
-        lens.project(hit.point_m + (across * cos + along * sin) * radius_m)
-    });
-    ink::line(painter, points.collect(), 1.5, color);
-}
-
-/// The strokes so far.
-fn show_ways(painter: &Painter, viewer: &Viewer, lens: &Lens) {
-    let Some(going) = &viewer.viewport.stroke.going_on else {
-        return;
-    };
-    let [r, g, b, _] = color(viewer.toolbox.tool).to_array();
-    let color = Color32::from_rgba_unmultiplied(r, g, b, 160);
-    let open = going.open.iter().map(|(recorder, _)| recorder.way_m());
-    for way_m in going
-        .done
-        .iter()
-        .map(|(_, way_m)| way_m.as_slice())
-        .chain(open)
-    {
-        let mut points: Vec<Pos2> = Vec::new();
-        for pos in way_m.iter().filter_map(|point_m| lens.project(*point_m)) {
-            // Nobody sees more of a line than a bend every other point.
-            if points.last().is_none_or(|last| last.distance(pos) >= 2.0) {
-                points.push(pos);
-            }
+    match done {
+        Ok(()) => {
+            viewer.viewport.stroke.drawn = Some(Drawn {
+                ways_m,
+                revision: viewer.document.revision(),
+                strokes: stroke_count(viewer.document.description()),
+                tool: viewer.toolbox.tool,
+            });
         }
-        if let [only] = points[..] {
-            painter.circle_filled(only, 1.5, color);
-        }
-        painter.add(Shape::line(points, Stroke::new(3.0, color)));
+        Err(error) => viewer.notices.error("stroke", error.to_string()),
     }
 }

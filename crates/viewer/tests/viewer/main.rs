@@ -6,7 +6,13 @@ mod common;
 
 mod commands;
 mod files;
+mod gallery;
 mod gizmos;
+mod habits;
+mod numbers;
+mod on_disk;
 mod panels;
 mod picking;
+mod reading;
 mod rest;
+mod views;

@@ -85,10 +85,12 @@ fn the_camera_and_the_picture() {
     assert_eq!(every_number_is_live(&mut harness), 2 + 9 + 1 + 2);
     let before = description(&harness);
     click_on(&mut harness, "Top");
+    // The view is another one, and the camera stands where it stood.
     assert_ne!(
-        description(&harness).camera.position_m,
+        harness.state().camera().position_m,
         before.camera.position_m
     );
+    assert_eq!(*description(&harness), *before);
 }
 
 #[test]
@@ -257,7 +259,7 @@ fn choices_and_switches_of_a_layer() {
         panic!("{:?}", radial.scratches[1]);
     };
     assert!(matches!(laid.pattern, Pattern::Radial(_)));
-    choose(&mut harness, "Amount by", "density");
+    choose(&mut harness, "How many", "per area");
     let dense = description(&harness);
     let Layer::Laid(laid) = &dense.scratches[1].layer else {
         panic!("{:?}", dense.scratches[1]);

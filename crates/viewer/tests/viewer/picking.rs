@@ -36,7 +36,7 @@ fn a_double_click_where_the_disks_centre_is_seen_looks_at_its_centre() {
     let seen = seen.expect("the disk is in view");
     let at = frame.min + vec2(seen.x as f32, seen.y as f32);
     common::double_click_at(&mut harness, at);
-    let target_m = DVec3::from(common::description(&harness).camera.target_m);
+    let target_m = DVec3::from(harness.state().camera().target_m);
     // Half a pixel is 0.3 mm there; a hundredth of one is what rounding to the screen's single precision leaves.
     assert!(target_m.length() < 1e-5, "{target_m} instead of the origin");
 }

@@ -51,6 +51,7 @@ fn description() -> Arc<Description> {
 
 fn view() -> View {
     View {
+        reading: Default::default(),
         camera: Camera {
             position_m: DVec3::new(0.0, -0.21, 0.18),
             target_m: DVec3::ZERO,

@@ -137,6 +137,8 @@ mod tests {
             name: "disk".into(),
             surface: Surface::Shape(Shape::Disk { radius_m: 0.1 }),
             material: None,
+            up: Default::default(),
+            fit_m: None,
             translation_m: [0.0; 3],
             rotation_deg,
             scale: [1.0; 3],

@@ -30,7 +30,7 @@ pub(in crate::viewport) fn show(
         }
         let (width, color) = match selected == Some(i) {
             true => (1.75, Color32::from_rgba_unmultiplied(255, 224, 160, 230)),
-            false => (1.0, Color32::from_rgba_unmultiplied(255, 236, 200, 105)),
+            false => (1.25, Color32::from_rgba_unmultiplied(255, 236, 200, 190)),
         };
         for piece in outline(light, lens) {
             ink::segment(painter, piece, width, color);

@@ -1,0 +1,59 @@
+//! `--highlight`: a light moved to where its mirror image lies at a pixel.
+
+use anyhow::anyhow;
+use glam::{DVec2, DVec3};
+use hairline_editor::place_light::place_highlight;
+use hairline_index::TriangleIndex;
+use hairline_scene::Scene;
+use hairline_scene::description::Description;
+use hairline_scene::text::shown;
+
+use crate::cli::Highlight;
+use crate::failure::Failure;
+
+/// Moves the light in the description; `scene` is what it was built to.
+pub fn place(
+    wanted: &Highlight,
+    description: &mut Description,
+    scene: &Scene,
+) -> Result<(), Failure> {
+    let refuse = |why: String| Err(Failure::Input(anyhow!("--highlight: {why}")));
+    let [x, y] = wanted.pixel;
+    let [width, height] = scene.render.size_px;
+    if x >= f64::from(width) || y >= f64::from(height) {
+        return refuse(format!(
+            "the pixel {x},{y} lies outside of the picture of {width}x{height}"
+        ));
+    }
+    let mut lights = description.lights.iter_mut().filter(|light| !light.hidden);
+    let light = match &wanted.light {
+        None => lights.next(),
+        Some(name) => lights.find(|light| light.name.as_ref() == Some(name)),
+    };
+    let Some(light) = light else {
+        return refuse(match &wanted.light {
+            None => "the scene has no `[[light]]` that could be moved".to_owned(),
+            Some(name) => format!(
+                "the scene has no light called \"{}\" that is not hidden",
+                shown(name)
+            ),
+        });
+    };
+    let frame = scene.camera.frame(scene.render.size_px);
+    let ray = frame.camera_ray(DVec2::new(x, y) + 0.5).normalize();
+    let Some(hit) = TriangleIndex::build(scene).intersect(frame.position_m, ray) else {
+        return refuse(format!("there is no surface at the pixel {x},{y}"));
+    };
+    let mesh = &scene.objects[hit.object as usize].mesh;
+    let corners = mesh.triangles[hit.triangle as usize];
+    let [b, c] = hit.barycentric;
+    let shares = [1.0 - b - c, b, c];
+    let normal: DVec3 = corners
+        .iter()
+        .zip(shares)
+        .map(|(corner, share)| share * mesh.normals[*corner as usize].as_dvec3())
+        .sum();
+    let point_m = frame.position_m + ray * hit.distance_m;
+    place_highlight(light, frame.position_m, point_m, normal);
+    Ok(())
+}

@@ -1,0 +1,298 @@
+//! `hairline info SCENE`: what a scene is made of.
+
+use std::fmt::{self, Write};
+use std::path::Path;
+
+use glam::DVec3;
+use hairline_scene::Light;
+use hairline_scene::memory::{Estimate, available_bytes, in_words};
+use hairline_scene::text::shown;
+use serde::Serialize;
+
+use crate::console::print;
+use crate::failure::Failure;
+use crate::scene_file::{self, Loaded, Overrides};
+
+/// All of a scene that is worth to be known, in the units of its file.
+#[derive(Serialize)]
+struct Contents {
+    size_px: [u32; 2],
+    objects: Vec<Object>,
+    layers: Vec<Layer>,
+    lights: Vec<Lamp>,
+    environment: Option<Environment>,
+    textures: usize,
+    memory: Memory,
+}
+
+#[derive(Serialize)]
+struct Object {
+    name: String,
+    least_m: [f64; 3],
+    most_m: [f64; 3],
+    triangles: usize,
+    scratches: usize,
+    segments: usize,
+}
+
+#[derive(Serialize)]
+struct Layer {
+    name: Option<String>,
+    object: String,
+    pattern: String,
+    scratches: usize,
+    segments: usize,
+    hidden: bool,
+}
+
+#[derive(Serialize)]
+struct Lamp {
+    name: Option<String>,
+    kind: &'static str,
+    center_m: [f64; 3],
+    radiance: [f64; 3],
+    hidden: bool,
+}
+
+#[derive(Serialize)]
+struct Environment {
+    size_px: [u32; 2],
+    /// Lamps that were found in it, which light as lights do.
+    lamps: Vec<Sun>,
+}
+
+#[derive(Serialize)]
+struct Sun {
+    /// Unit, in the world.
+    direction: [f64; 3],
+    /// Above the horizon.
+    elevation_deg: f64,
+    radius_deg: f64,
+    radiance: [f64; 3],
+}
+
+#[derive(Serialize)]
+struct Memory {
+    /// For scene and picture, scratches included.
+    estimate_bytes: f64,
+    available_bytes: Option<u64>,
+}
+
+/// Loads the scene and prints what it holds.
+pub fn run(path: &Path, json: bool) -> Result<(), Failure> {
+    let loaded = scene_file::load(Some(path), &Overrides::default(), &[])?;
+    let contents = contents(&loaded);
+    if json {
+        let json = serde_json::to_string_pretty(&contents);
+        let json = json.map_err(|error| Failure::Work(error.into()))?;
+        return print(&format!("{json}\n"));
+    }
+    let mut text = String::new();
+    write(&contents, &mut text).map_err(|error| Failure::Work(error.into()))?;
+    print(&text)
+}
+
+fn contents(loaded: &Loaded) -> Contents {
+    let Loaded {
+        scene, description, ..
+    } = loaded;
+    let objects = scene.objects.iter().map(|object| {
+        let (least, most) = object.mesh.bounds_m();
+        Object {
+            name: object.name.clone(),
+            least_m: least.as_dvec3().into(),
+            most_m: most.as_dvec3().into(),
+            triangles: object.mesh.triangles.len(),
+            scratches: object.scratches.len(),
+            segments: object.segments.len(),
+        }
+    });
+    let layers = (0..).zip(&description.scratches).map(|(i, table)| {
+        let object = scene
+            .objects
+            .iter()
+            .find(|object| object.name == table.object);
+        let all = object.map_or(&[][..], |object| &object.scratches);
+        let own = all.iter().filter(|scratch| scratch.layer == i);
+        let (scratches, segments) = own.fold((0, 0), |(scratches, segments), scratch| {
+            (scratches + 1, segments + scratch.segments.len())
+        });
+        Layer {
+            name: table.name.clone(),
+            object: table.object.clone(),
+            pattern: table.layer.pattern_name().to_owned(),
+            scratches,
+            segments,
+            hidden: table.hidden,
+        }
+    });
+    let lights = description.lights.iter().map(|light| {
+        let kind = match light.kind {
+            hairline_scene::description::LightKind::Sphere { .. } => "sphere",
+            hairline_scene::description::LightKind::Polygon { .. } => "polygon",
+        };
+        Lamp {
+            name: light.name.clone(),
+            kind,
+            center_m: hairline_editor::place_light::center(light).into(),
+            radiance: light.color.map(|channel| channel * light.radiance),
+            hidden: light.hidden,
+        }
+    });
+    let up = scene.camera.up;
+    let environment = scene.environment.as_ref().map(|environment| Environment {
+        size_px: environment.background().size_px,
+        lamps: environment
+            .suns()
+            .iter()
+            .filter_map(|sun| self::sun(sun, up))
+            .collect(),
+    });
+    let segments: usize = scene
+        .objects
+        .iter()
+        .map(|object| object.segments.len())
+        .sum();
+    let scratches: usize = scene
+        .objects
+        .iter()
+        .map(|object| object.scratches.len())
+        .sum();
+    let laid = hairline_scene::memory::scratches_bytes(scratches, segments);
+    Contents {
+        size_px: scene.render.size_px,
+        objects: objects.collect(),
+        layers: layers.collect(),
+        lights: lights.collect(),
+        environment,
+        textures: scene.textures.len(),
+        memory: Memory {
+            estimate_bytes: Estimate::of(description, &loaded.folder).bytes()
+                + laid
+                + hairline_scene::memory::textures_bytes(scene),
+            available_bytes: available_bytes(),
+        },
+    }
+}
+
+/// A lamp of an environment: a sphere so far away that it stands in one direction.
+fn sun(sun: &Light, up: DVec3) -> Option<Sun> {
+    let Light::Sphere {
+        center_m,
+        radius_m,
+        radiance,
+    } = sun
+    else {
+        return None;
+    };
+    let direction = center_m.normalize();
+    // The environment's top is the axis nearest to the camera's up.
+    let axis = DVec3::AXES[up.abs().max_position()];
+    let top = axis * axis.dot(up).signum();
+    Some(Sun {
+        direction: direction.into(),
+        elevation_deg: direction.dot(top).asin().to_degrees(),
+        radius_deg: (radius_m / center_m.length()).asin().to_degrees(),
+        radiance: *radiance,
+    })
+}
+
+fn write(contents: &Contents, out: &mut String) -> fmt::Result {
+    let [width, height] = contents.size_px;
+    writeln!(out, "picture: {width} x {height} pixels")?;
+    writeln!(out, "objects: {}", contents.objects.len())?;
+    for object in &contents.objects {
+        let size = [0, 1, 2].map(|axis| object.most_m[axis] - object.least_m[axis]);
+        writeln!(
+            out,
+            "  \"{}\": {}, from {} to {}; {} triangles, {} scratches in {} segments",
+            shown(&object.name),
+            size.map(length).join(" x "),
+            point(object.least_m),
+            point(object.most_m),
+            object.triangles,
+            object.scratches,
+            object.segments
+        )?;
+    }
+    writeln!(out, "layers of scratches: {}", contents.layers.len())?;
+    for (i, layer) in contents.layers.iter().enumerate() {
+        writeln!(
+            out,
+            "  {}{} on \"{}\": {} scratches in {} segments{}",
+            layer.pattern,
+            named(&layer.name),
+            shown(&layer.object),
+            layer.scratches,
+            layer.segments,
+            if layer.hidden { ", hidden" } else { "" }
+        )?;
+        if i == MOST_LINES {
+            writeln!(out, "  ..")?;
+            break;
+        }
+    }
+    writeln!(out, "lights: {}", contents.lights.len())?;
+    for (i, lamp) in contents.lights.iter().enumerate() {
+        writeln!(
+            out,
+            "  {}{} at {}, radiance {}{}",
+            lamp.kind,
+            named(&lamp.name),
+            point(lamp.center_m),
+            lamp.radiance.map(|it| format!("{it:.3}")).join(", "),
+            if lamp.hidden { ", hidden" } else { "" }
+        )?;
+        if i == MOST_LINES {
+            writeln!(out, "  ..")?;
+            break;
+        }
+    }
+    match &contents.environment {
+        None => writeln!(out, "environment: none")?,
+        Some(environment) => {
+            let [width, height] = environment.size_px;
+            let lamps = environment.lamps.len();
+            writeln!(
+                out,
+                "environment: {width} x {height} pixels; lamps found in it: {lamps}"
+            )?;
+            for sun in &environment.lamps {
+                writeln!(
+                    out,
+                    "  towards {}, {:.1} degrees above the horizon, radius {:.2} degrees, radiance {}",
+                    sun.direction.map(|it| format!("{it:.3}")).join(", "),
+                    sun.elevation_deg,
+                    sun.radius_deg,
+                    sun.radiance.map(|it| format!("{it:.1}")).join(", ")
+                )?;
+            }
+        }
+    }
+    writeln!(out, "textures: {}", contents.textures)?;
+    let free = contents.memory.available_bytes;
+    let free = free.map_or("unknown".to_owned(), |bytes| in_words(bytes as f64));
+    let needed = in_words(contents.memory.estimate_bytes);
+    writeln!(out, "memory: about {needed} to render it; {free} available")
+}
+
+/// Of layers and lights; JSON has all.
+const MOST_LINES: usize = 200;
+
+fn named(name: &Option<String>) -> String {
+    name.as_ref()
+        .map_or_else(String::new, |name| format!(" \"{}\"", shown(name)))
+}
+
+fn point(point_m: [f64; 3]) -> String {
+    format!("({}) m", point_m.map(|it| format!("{it:.4}")).join(", "))
+}
+
+/// In the unit that reads best.
+fn length(length_m: f64) -> String {
+    match length_m {
+        1.0.. => format!("{length_m:.3} m"),
+        0.001.. => format!("{:.1} mm", length_m * 1e3),
+        _ => format!("{:.1} um", length_m * 1e6),
+    }
+}

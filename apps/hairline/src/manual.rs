@@ -1,0 +1,43 @@
+//! `hairline completions` and `hairline man`: made from the flags themselves.
+
+use clap::CommandFactory;
+use clap_complete::Shell;
+use clap_mangen::Man;
+use clap_mangen::roff::Roff;
+
+use crate::cli::Cli;
+use crate::console::print;
+use crate::failure::Failure;
+
+/// Prints what a shell needs to complete the command line.
+pub fn completions(shell: Shell) -> Result<(), Failure> {
+    let mut script = Vec::new();
+    clap_complete::generate(shell, &mut Cli::command(), "hairline", &mut script);
+    print(&String::from_utf8_lossy(&script))
+}
+
+/// Prints one page about all commands.
+pub fn page() -> Result<(), Failure> {
+    let failed = |error: std::io::Error| Failure::Work(error.into());
+    let mut command = Cli::command();
+    // So that each command's synopsis has the whole name.
+    command.build();
+    let mut page = Vec::new();
+    Man::new(command.clone())
+        .render(&mut page)
+        .map_err(failed)?;
+    for part in command
+        .get_subcommands()
+        .filter(|part| part.get_name() != "help")
+    {
+        let name = format!("hairline {}", part.get_name());
+        let mut roff = Roff::new();
+        roff.control("SH", [name.to_uppercase().as_str()]);
+        roff.to_writer(&mut page).map_err(failed)?;
+        let man = Man::new(part.clone());
+        man.render_description_section(&mut page).map_err(failed)?;
+        man.render_synopsis_section(&mut page).map_err(failed)?;
+        man.render_options_section(&mut page).map_err(failed)?;
+    }
+    print(&String::from_utf8_lossy(&page))
+}

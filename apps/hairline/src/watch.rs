@@ -1,0 +1,73 @@
+//! `hairline render --watch`: renders again when a file of the scene has changed.
+
+use std::path::{Path, PathBuf};
+use std::time::{Duration, SystemTime};
+
+use anyhow::anyhow;
+use hairline_scene::Description;
+
+use crate::cli;
+use crate::console::tell;
+use crate::failure::Failure;
+use crate::interrupt::Interrupt;
+use crate::render;
+
+/// How often the files are looked at. An editor that saves in several steps is done in this time.
+const EVERY: Duration = Duration::from_millis(200);
+
+/// Renders, and again on every change, until Ctrl-C. What is wrong with a scene is told, and its next change waited for.
+pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
+    let Some(scene) = arguments
+        .scene
+        .as_deref()
+        .filter(|path| *path != Path::new("-"))
+    else {
+        return Err(Failure::Input(anyhow!(
+            "--watch needs the path of a scene: there is no file that could change"
+        )));
+    };
+    let interrupt = Interrupt::listen()
+        .map_err(|error| Failure::Work(anyhow!("cannot listen for Ctrl-C: {error}")))?;
+    while !interrupt.is_asked() {
+        // Before it is read: a change meanwhile is seen.
+        let before = Stamps::of(scene);
+        match render::once(arguments) {
+            Ok(()) => tell("waiting for a change of the scene; Ctrl-C ends it"),
+            Err(failure) => tell(format_args!(
+                "error: {failure}\nwaiting for a change of the scene; Ctrl-C ends it"
+            )),
+        }
+        while !interrupt.is_asked() && Stamps::of(scene) == before {
+            std::thread::sleep(EVERY);
+        }
+        // What is being written is let be until it stays the same.
+        let mut last = Stamps::of(scene);
+        while !interrupt.is_asked() {
+            std::thread::sleep(EVERY);
+            let now = Stamps::of(scene);
+            if std::mem::replace(&mut last, now.clone()) == now {
+                break;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// What is known of the scene's files without reading them all.
+#[derive(Clone, PartialEq)]
+struct Stamps(Vec<(PathBuf, Option<(SystemTime, u64)>)>);
+
+impl Stamps {
+    fn of(scene: &Path) -> Self {
+        let folder = scene.parent().unwrap_or(Path::new(""));
+        let text = hairline_scene::reading::scene_text(scene).ok();
+        let description = text.and_then(|text| Description::from_toml(&text, scene).ok());
+        let inputs = description.map(|it| it.inputs(folder)).unwrap_or_default();
+        let paths = std::iter::once(scene.to_owned()).chain(inputs.into_iter().map(|it| it.path));
+        let stamp = |path: &Path| {
+            let metadata = path.metadata().ok()?;
+            Some((metadata.modified().ok()?, metadata.len()))
+        };
+        Self(paths.map(|path| (path.clone(), stamp(&path))).collect())
+    }
+}

@@ -1,0 +1,159 @@
+//! How many pictures come while a hand drags, and how soon the first: counted on the screen, with an event every 50 ms that waits for
+//! nothing.
+//!
+//! `cargo test --release -p hairline --test window drag -- --nocapture` prints the figures.
+
+use std::time::{Duration, Instant};
+
+use egui::{Pos2, vec2};
+use hairline_gpu::headless::test_gpu;
+
+use crate::display::{Display, Picture};
+use crate::layout::Layout;
+use crate::{PATIENCE, Window, keep};
+
+const BUILT_IN: &str = include_str!("../../src/built_in_scene.toml");
+const PLATE: &str = include_str!("../../../../scenes/plate.toml");
+
+/// Between two events of the mouse.
+const EVENT: Duration = Duration::from_millis(50);
+/// Of the drag.
+const DURATION: Duration = Duration::from_secs(3);
+/// A picture from elsewhere changes more of the area than handles that move over it do.
+const TURNED: f64 = 0.02;
+/// Other scratches, seen from the same place.
+const EDITED: f64 = 0.001;
+
+/// What was seen.
+#[derive(Debug)]
+struct Seen {
+    pictures: usize,
+    first: Option<Duration>,
+    longest_pause: Duration,
+    /// From the end of the drag to the last change of the picture.
+    settled: Duration,
+}
+
+impl Seen {
+    fn a_second(&self) -> f64 {
+        self.pictures as f64 / DURATION.as_secs_f64()
+    }
+
+    fn print(&self, what: &str) {
+        println!(
+            "{what}: {:.1} pictures a second, the first after {:.0} ms, the longest pause {:.0} ms, the last change {:.1} s after the end",
+            self.a_second(),
+            1e3 * self.first.map_or(f64::NAN, |first| first.as_secs_f64()),
+            1e3 * self.longest_pause.as_secs_f64(),
+            self.settled.as_secs_f64(),
+        );
+    }
+}
+
+/// The picture's area, where changes are looked for.
+struct Watch<'d> {
+    display: &'d Display,
+    area: egui::Rect,
+    last: Picture,
+}
+
+impl<'d> Watch<'d> {
+    fn new(display: &'d Display, layout: &Layout) -> Self {
+        let area = layout.picture().shrink(4.0);
+        Self {
+            display,
+            area,
+            last: display.screenshot(area),
+        }
+    }
+
+    fn has_changed(&mut self, least: f64) -> bool {
+        let now = self.display.screenshot(self.area);
+        let has = now.differing(&self.last) as f64 > least * now.pixels() as f64;
+        if has {
+            self.last = now;
+        }
+        has
+    }
+
+    /// Until nothing has changed for a while; returns when it last did.
+    fn settle(&mut self, quiet: Duration) -> Instant {
+        let (start, mut last) = (Instant::now(), Instant::now());
+        while last.elapsed() < quiet {
+            if self.has_changed(0.0) {
+                last = Instant::now();
+            }
+            assert!(start.elapsed() < PATIENCE, "the picture never settles");
+            std::thread::sleep(Duration::from_millis(50));
+        }
+        last
+    }
+}
+
+/// Drags to and fro from a point by as much, and watches for changes of such a share of the picture at least.
+fn drag(watch: &mut Watch, from: Pos2, reach: egui::Vec2, least: f64) -> Seen {
+    let display = watch.display;
+    display.press(from);
+    // A press alone shows nothing but may change the interface.
+    std::thread::sleep(Duration::from_millis(100));
+    watch.has_changed(0.0);
+    let start = Instant::now();
+    let (mut events, mut last) = (0, start);
+    let mut seen = Seen {
+        pictures: 0,
+        first: None,
+        longest_pause: Duration::ZERO,
+        settled: Duration::ZERO,
+    };
+    while start.elapsed() < DURATION {
+        if start.elapsed() >= EVENT * events {
+            events += 1;
+            let along = (events as f32 * EVENT.as_secs_f32() * 1.6).sin();
+            display.hurry_to(from + reach * along);
+        }
+        if watch.has_changed(least) {
+            seen.pictures += 1;
+            seen.first = seen.first.or(Some(start.elapsed()));
+            seen.longest_pause = seen.longest_pause.max(last.elapsed());
+            last = Instant::now();
+        }
+        std::thread::sleep(Duration::from_millis(4));
+    }
+    seen.longest_pause = seen.longest_pause.max(last.elapsed());
+    keep(&display.screen(), "dragging");
+    display.release();
+    let released = Instant::now();
+    seen.settled = watch.settle(Duration::from_secs(4)) - released;
+    keep(&display.screen(), "dragged");
+    seen
+}
+
+#[test]
+fn pictures_come_while_a_hand_drags() {
+    if test_gpu().is_none() {
+        return;
+    }
+    let Some(display) = crate::display() else {
+        return;
+    };
+    for (name, text) in [("built-in scene", BUILT_IN), ("plate", PLATE)] {
+        let folder = tempfile::tempdir().unwrap();
+        let scene = folder.path().join("plate.toml");
+        std::fs::write(&scene, text).unwrap();
+        let layout = Layout::of(&scene);
+        let window = Window::open(&display, folder.path(), &scene);
+        let mut watch = Watch::new(&display, &layout);
+        watch.settle(Duration::from_secs(4));
+        let middle = layout.picture().center();
+        let turned = drag(&mut watch, middle, vec2(120.0, 40.0), TURNED);
+        turned.print(&format!("{name}, the view turns"));
+        display.click(layout.layer());
+        watch.settle(Duration::from_secs(1));
+        let widened = drag(&mut watch, layout.width(), vec2(40.0, 0.0), EDITED);
+        widened.print(&format!("{name}, the width of a layer"));
+        drop(window);
+        // A busy machine draws fewer; where each event gives the picture in progress up, none comes.
+        assert!(turned.pictures >= 2, "{turned:?}");
+        assert!(widened.pictures >= 1, "{widened:?}");
+    }
+}

@@ -1,0 +1,266 @@
+//! Numbers as artists type and read them: with units, as sums and products, with a decimal comma.
+//!
+//! The parser is our own: crates for expressions know no units, so that `4 um + 1 mm` or `30 /cm²` would need a second parser
+//! around theirs.
+
+mod parser;
+
+use std::fmt;
+
+/// What a number of the scene counts in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Unit {
+    /// Nothing: a factor, a share, a number of things.
+    None,
+    /// Metres, shown in whatever of nm, µm, mm and m reads best.
+    Metre,
+    /// Micrometres.
+    Micrometre,
+    /// Nanometres.
+    Nanometre,
+    /// Degrees.
+    Degree,
+    /// One over metres.
+    PerMetre,
+    /// One over square metres.
+    PerSquareMetre,
+    /// Steps of exposure.
+    Exposure,
+    /// Pixels.
+    Pixel,
+}
+
+/// How often each kind of unit is a factor.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+struct Dimension {
+    length: i8,
+    angle: i8,
+    exposure: i8,
+    pixel: i8,
+}
+
+impl Dimension {
+    const NONE: Self = Self {
+        length: 0,
+        angle: 0,
+        exposure: 0,
+        pixel: 0,
+    };
+
+    /// Of a product, or with -1 of a quotient.
+    fn times(self, other: Self, sign: i8) -> Self {
+        let sum = |a: i8, b: i8| a.saturating_add(b.saturating_mul(sign));
+        Self {
+            length: sum(self.length, other.length),
+            angle: sum(self.angle, other.angle),
+            exposure: sum(self.exposure, other.exposure),
+            pixel: sum(self.pixel, other.pixel),
+        }
+    }
+
+    fn power(self, n: i8) -> Self {
+        Self::NONE.times(self, n)
+    }
+
+    /// What a message calls it.
+    fn name(self) -> &'static str {
+        match (self.length, self.angle, self.exposure, self.pixel) {
+            (0, 0, 0, 0) => "a number without a unit",
+            (1, 0, 0, 0) => "a length",
+            (2, 0, 0, 0) => "an area",
+            (-1, 0, 0, 0) => "a number for each length",
+            (-2, 0, 0, 0) => "a number for each area",
+            (0, 1, 0, 0) => "an angle",
+            (0, 0, 1, 0) => "an exposure",
+            (0, 0, 0, 1) => "a number of pixels",
+            _ => "a product of units",
+        }
+    }
+}
+
+impl Unit {
+    fn dimension(self) -> Dimension {
+        let none = Dimension::NONE;
+        match self {
+            Self::None => none,
+            Self::Metre | Self::Micrometre | Self::Nanometre => Dimension { length: 1, ..none },
+            Self::PerMetre => Dimension { length: -1, ..none },
+            Self::PerSquareMetre => Dimension { length: -2, ..none },
+            Self::Degree => Dimension { angle: 1, ..none },
+            Self::Exposure => Dimension {
+                exposure: 1,
+                ..none
+            },
+            Self::Pixel => Dimension { pixel: 1, ..none },
+        }
+    }
+
+    /// One of it, in metres, degrees, steps and pixels.
+    fn size(self) -> f64 {
+        match self {
+            Self::Micrometre => 1e-6,
+            Self::Nanometre => 1e-9,
+            _ => 1.0,
+        }
+    }
+
+    /// Words for a message: what may be typed.
+    fn examples(self) -> &'static str {
+        match self {
+            Self::None => "it has no unit",
+            Self::Metre | Self::Micrometre | Self::Nanometre => {
+                "give it in nm, um, mm, cm, m or in"
+            }
+            Self::Degree => "give it in deg or rad",
+            Self::PerMetre => "give it in /m, /cm or /mm",
+            Self::PerSquareMetre => "give it in /m², /cm² or /mm²",
+            Self::Exposure => "give it in EV",
+            Self::Pixel => "give it in px",
+        }
+    }
+
+    /// How numbers of this unit are shown where the largest of them has this magnitude.
+    pub fn shown(self, magnitude: f64) -> Shown {
+        let (factor, symbol) = match self {
+            Self::None => (1.0, ""),
+            Self::Metre => {
+                // 1e-9: what is a hair below a border by rounding belongs above it.
+                let size = magnitude.abs() * (1.0 + 1e-9);
+                match size {
+                    _ if size >= 1.0 => (1.0, " m"),
+                    _ if size >= 1e-4 || size == 0.0 => (1e-3, " mm"),
+                    _ if size >= 1e-7 => (1e-6, " µm"),
+                    _ => (1e-9, " nm"),
+                }
+            }
+            Self::Micrometre => (1.0, " µm"),
+            Self::Nanometre => (1.0, " nm"),
+            Self::Degree => (1.0, "°"),
+            Self::PerMetre => (1.0, " /m"),
+            Self::PerSquareMetre => (1.0, " /m²"),
+            Self::Exposure => (1.0, " EV"),
+            Self::Pixel => (1.0, " px"),
+        };
+        Shown {
+            factor,
+            symbol,
+            decimals: None,
+        }
+    }
+
+    /// How numbers side by side are shown: in one unit, to three digits of the largest, for which there is room.
+    pub fn shown_together(self, values: &[f64]) -> Shown {
+        let largest = values.iter().fold(0.0, |m: f64, value| m.max(value.abs()));
+        let shown = self.shown(largest);
+        let magnitude = (largest / shown.factor).log10().floor();
+        let is_usual = (-3.0..9.0).contains(&magnitude);
+        Shown {
+            decimals: (self != Self::None && is_usual).then(|| (2.0 - magnitude).max(0.0) as usize),
+            ..shown
+        }
+    }
+}
+
+/// The unit in which a number is shown, and in which one without a unit is typed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shown {
+    /// One of it, in the parameter's own unit.
+    factor: f64,
+    /// With the space that belongs before it.
+    symbol: &'static str,
+    /// Digits behind the point; none: to four digits in all.
+    decimals: Option<usize>,
+}
+
+impl Shown {
+    /// What stands behind the number, with the space that belongs there.
+    pub fn symbol(&self) -> &'static str {
+        self.symbol
+    }
+
+    /// A number of the parameter's own unit.
+    pub fn text(&self, value: f64) -> String {
+        let number = value / self.factor;
+        let digits = match self.decimals {
+            Some(decimals) => trimmed(format!("{number:.decimals$}")),
+            None => digits(number),
+        };
+        format!("{digits}{}", self.symbol)
+    }
+}
+
+/// To four significant digits, all that stand before the point, and no zeros at the end.
+fn digits(value: f64) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    let magnitude = value.abs().log10().floor();
+    if !(-7.0..15.0).contains(&magnitude) {
+        return format!("{value:e}");
+    }
+    let decimals = (3.0 - magnitude).max(0.0) as usize;
+    trimmed(format!("{value:.decimals$}"))
+}
+
+/// Without zeros at the end, and without the sign of a zero.
+fn trimmed(text: String) -> String {
+    let text = match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.'),
+        false => &text,
+    };
+    if text == "-0" {
+        "0".to_owned()
+    } else {
+        text.to_owned()
+    }
+}
+
+/// Reads what was typed for a number of this unit, such as `4 um`, `7/2` or `6,5`; the result is in the parameter's own unit.
+///
+/// # Errors
+/// Why it means no such number.
+pub fn parse(typed: &str, unit: Unit, shown: Shown) -> Result<f64, QuantityError> {
+    let fail = |reason: String| QuantityError {
+        typed: typed.trim().to_owned(),
+        reason,
+    };
+    let amount = parser::amount(typed).map_err(fail)?;
+    let value = if amount.dimension == unit.dimension() {
+        match unit.dimension() == Dimension::NONE {
+            true => amount.value * shown.factor,
+            false => amount.value / unit.size(),
+        }
+    } else if amount.dimension == Dimension::NONE {
+        amount.value * shown.factor
+    } else {
+        return Err(fail(format!(
+            "is {}; {}",
+            amount.dimension.name(),
+            unit.examples()
+        )));
+    };
+    match value.is_finite() {
+        true => Ok(value),
+        false => Err(fail("is no finite number".to_owned())),
+    }
+}
+
+/// Why what was typed is no number; it reads as a sentence.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct QuantityError {
+    typed: String,
+    reason: String,
+}
+
+impl fmt::Display for QuantityError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        // What was pasted may be long.
+        let mut typed: String = self.typed.chars().take(40).collect();
+        if typed.len() < self.typed.len() {
+            typed.push('…');
+        }
+        write!(f, "\"{}\" {}", typed.escape_debug(), self.reason)
+    }
+}
+
+impl std::error::Error for QuantityError {}

@@ -1,0 +1,46 @@
+//! What a scene is about: what a view of all of it shows.
+
+use glam::DVec3;
+use hairline_scene::Description;
+
+use crate::actions::objects;
+
+/// An object that is this flat, its thinnest side over its longest,
+const FLAT: f64 = 0.03;
+/// and so many times as large as all that is left, is what the rest stands on.
+const WIDE: f64 = 2.0;
+
+/// The objects that are not the ground that others stand on, nor a room around them and the camera. What has scratches always
+/// counts. `boxes_m` are the objects' bounding boxes, in their order; where nothing is left, all count.
+pub fn objects(description: &Description, boxes_m: &[(DVec3, DVec3)]) -> Vec<usize> {
+    let eye_m = DVec3::from(description.camera.position_m);
+    let mut subject: Vec<usize> = (0..boxes_m.len()).collect();
+    // The largest first: of two tables one upon the other, both go.
+    let mut by_size = subject.clone();
+    by_size.sort_by(|&a, &b| size_m(&boxes_m[b]).total_cmp(&size_m(&boxes_m[a])));
+    for i in by_size {
+        if !objects::layers(description, i).is_empty() {
+            continue;
+        }
+        let others = subject.iter().filter(|&&other| other != i);
+        let rest = others
+            .map(|&other| boxes_m[other])
+            .reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
+        let Some(rest) = rest else { continue };
+        let (low_m, high_m) = boxes_m[i];
+        let sides = high_m - low_m;
+        let is_flat = sides.min_element() <= FLAT * sides.max_element();
+        let is_ground = is_flat && size_m(&boxes_m[i]) > WIDE * size_m(&rest);
+        let is_room = [eye_m, rest.0, rest.1]
+            .iter()
+            .all(|point| point.cmpge(low_m).all() && point.cmple(high_m).all());
+        if is_ground || is_room {
+            subject.retain(|&other| other != i);
+        }
+    }
+    subject
+}
+
+fn size_m((low_m, high_m): &(DVec3, DVec3)) -> f64 {
+    low_m.distance(*high_m)
+}

@@ -1,0 +1,73 @@
+//! A few of the scratches for all of them: pictures in motion, which must come soon and need not be exact.
+//!
+//! Of each layer some scratches are taken, whole and evenly from all of it, and each counts for as many as there are of them for each
+//! that is taken. A picture of them is right in the mean: brightness and fans are those of the full picture, with more noise. It is
+//! the same few each time, so a picture in motion does not flicker.
+
+use hairline_index::{IndexedSegment, ScratchIndex};
+use hairline_scene::Scene;
+use std::ops::Range;
+
+/// A layer keeps at least so many scratches: those of a hand are few, and each of them is looked for.
+const FEWEST: usize = 48;
+
+/// What a draft needs to know of a layer.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DraftLayer {
+    /// How many scratches each of those in the scene stands for already.
+    pub weight: f64,
+    /// Whether any of its scratches are as good as others: then the first ones are taken, which an editor has first. Else they are
+    /// taken evenly from all of it.
+    pub is_random: bool,
+}
+
+/// Some scratches of each layer of a scene, with what they count for.
+#[derive(Clone, Debug, Default)]
+pub struct Draft {
+    /// Object by object.
+    pub(crate) segments: Vec<IndexedSegment>,
+    /// How many pieces each of them stands for.
+    pub(crate) weights: Vec<f32>,
+    /// The segments of each object.
+    pub(crate) objects: Vec<Range<usize>>,
+}
+
+impl Draft {
+    /// One scratch of `step` of each layer, or all of them where they are few. `layer` tells of a layer by its number.
+    pub fn new(scene: &Scene, step: usize, layer: &dyn Fn(u32) -> DraftLayer) -> Self {
+        let mut draft = Self::default();
+        for object in &scene.objects {
+            let first = draft.segments.len();
+            for scratches in object.scratches.chunk_by(|a, b| a.layer == b.layer) {
+                let all = scratches.len();
+                let DraftLayer { weight, is_random } = layer(scratches[0].layer);
+                let kept = (all / step.max(1)).max(FEWEST).min(all);
+                let pieces = if is_random || kept == all {
+                    ScratchIndex::pieces(scene, object, &scratches[..kept])
+                } else {
+                    let chosen = (0..kept).map(|i| scratches[i * all / kept].clone());
+                    ScratchIndex::pieces(scene, object, &chosen.collect::<Vec<_>>())
+                };
+                let weight = weight * all as f64 / kept as f64;
+                let end = draft.segments.len() + pieces.len();
+                draft.weights.resize(end, weight as f32);
+                draft.segments.extend(pieces);
+            }
+            draft.objects.push(first..draft.segments.len());
+        }
+        draft
+    }
+
+    /// How many pieces it has.
+    pub fn len(&self) -> usize {
+        self.segments.len()
+    }
+
+    /// Whether there are no scratches.
+    pub fn is_empty(&self) -> bool {
+        self.segments.is_empty()
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,189 @@
+//! What facets reflect, and what lobes made of them do: by the equations and by quadrature. The curves and tables of the closed form take no part.
+
+use glam::DVec3;
+use hairline_optics::fresnel::{dielectric, schlick_weight};
+use hairline_optics::ggx::{ggx_alpha, ggx_mean};
+use hairline_optics::metal::Metal;
+use hairline_optics::spectrum::rgb_from_reflectance;
+use hairline_scene::{Material, Reflector};
+
+/// The reflectance of a material.
+pub(crate) struct Reflectance {
+    reflector: Reflector,
+    /// Of a metal, in equal steps of the square root of the cosine.
+    metal: Vec<[DVec3; 2]>,
+    /// One for each roughness, rising.
+    albedos: Vec<Albedos>,
+}
+
+/// Directional albedos at one roughness, in equal steps of the square root of the viewer's cosine.
+struct Albedos {
+    roughness: f64,
+    nodes: Vec<Albedo>,
+}
+
+/// E0, and the means of [`FacetParts`] over the lobe times E0.
+#[derive(Clone, Copy)]
+pub(crate) struct Albedo {
+    pub e0: f64,
+    parts: FacetParts,
+}
+
+/// A reflectance is t + s F0.
+#[derive(Clone, Copy)]
+struct FacetParts {
+    t: f64,
+    s: f64,
+}
+
+/// A facet's reflectance in linear Rec.709, and that times the reflectance at normal incidence, wavelength by wavelength: light that is
+/// scattered once more takes the surface's colour once more.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct FacetReflectance {
+    pub once: DVec3,
+    pub twice: DVec3,
+}
+
+/// Nodes of a metal's curve: the error of linear interpolation is below 1e-6.
+const METAL_NODES: usize = 2049;
+/// Nodes of albedos, and points along each axis of their quadrature.
+const ALBEDO_NODES: usize = 97;
+const ALBEDO_STEPS: usize = 64;
+/// Steps of roughness where a texture gives it.
+const ROUGHNESS_STEPS: usize = 32;
+
+impl Reflectance {
+    pub fn new(material: &Material) -> Self {
+        let reflector = Reflector::new(&material.base);
+        match material.metallic_roughness_texture {
+            None => Self::at(reflector, &[material.roughness]),
+            Some(_) => {
+                let step = |i: usize| i as f64 / ROUGHNESS_STEPS as f64;
+                let all: Vec<f64> = (0..=ROUGHNESS_STEPS).map(step).collect();
+                Self::at(reflector, &all)
+            }
+        }
+    }
+
+    /// For these roughnesses, which rise.
+    pub fn at(reflector: Reflector, roughness: &[f64]) -> Self {
+        let metal = match reflector {
+            Reflector::Metal(metal) => curve(metal),
+            _ => Vec::new(),
+        };
+        let mut reflectance = Self {
+            reflector,
+            metal,
+            albedos: Vec::new(),
+        };
+        reflectance.albedos = roughness.iter().map(|r| reflectance.albedos(*r)).collect();
+        reflectance
+    }
+
+    fn albedos(&self, roughness: f64) -> Albedos {
+        let alpha = ggx_alpha(roughness);
+        let node = |i: usize| {
+            let root = i as f64 / (ALBEDO_NODES - 1) as f64;
+            let [e0, t, s] = ggx_mean(root * root, alpha, ALBEDO_STEPS, |cos_h| {
+                let FacetParts { t, s } = self.parts(cos_h);
+                [1.0, t, s]
+            });
+            Albedo {
+                e0,
+                parts: FacetParts { t, s },
+            }
+        };
+        Albedos {
+            roughness,
+            nodes: (0..ALBEDO_NODES).map(node).collect(),
+        }
+    }
+
+    /// Metals have no body: nothing asks for their albedo, and what is here is white's.
+    fn parts(&self, cos_theta: f64) -> FacetParts {
+        match self.reflector {
+            Reflector::Dielectric(ior) => FacetParts {
+                t: dielectric(cos_theta, ior),
+                s: 0.0,
+            },
+            Reflector::Schlick => {
+                let t = schlick_weight(cos_theta);
+                FacetParts { t, s: 1.0 - t }
+            }
+            Reflector::Metal(_) => FacetParts { t: 1.0, s: 0.0 },
+        }
+    }
+
+    /// Of a facet; `f0` is the colour at normal incidence.
+    pub fn eval(&self, cos_theta: f64, f0: DVec3) -> FacetReflectance {
+        if self.metal.is_empty() {
+            let FacetParts { t, s } = self.parts(cos_theta);
+            let once = f0 * s + t;
+            return FacetReflectance {
+                once,
+                twice: once * f0,
+            };
+        }
+        let at = cos_theta.clamp(0.0, 1.0).sqrt() * (METAL_NODES - 1) as f64;
+        let i = (at as usize).min(METAL_NODES - 2);
+        let [once, twice] =
+            [0, 1].map(|k| self.metal[i][k].lerp(self.metal[i + 1][k], at - i as f64));
+        FacetReflectance { once, twice }
+    }
+
+    /// Of the lobe for a viewer.
+    pub fn albedo(&self, roughness: f64, cos_o: f64) -> Albedo {
+        let above = self.albedos.partition_point(|a| a.roughness < roughness);
+        let high = &self.albedos[above.min(self.albedos.len() - 1)];
+        let low = &self.albedos[above.max(1) - 1];
+        let span = high.roughness - low.roughness;
+        let share = if span > 0.0 {
+            ((roughness - low.roughness) / span).clamp(0.0, 1.0)
+        } else {
+            0.0
+        };
+        low.lookup(cos_o).lerp(high.lookup(cos_o), share)
+    }
+}
+
+fn curve(metal: Metal) -> Vec<[DVec3; 2]> {
+    let node = |i: usize| {
+        let root = i as f64 / (METAL_NODES - 1) as f64;
+        let at = |nm: f64| metal.reflectance(root * root, nm);
+        let once = rgb_from_reflectance(at);
+        let twice = rgb_from_reflectance(|nm| at(nm) * metal.reflectance(1.0, nm));
+        [once, twice].map(DVec3::from)
+    };
+    (0..METAL_NODES).map(node).collect()
+}
+
+impl Albedos {
+    fn lookup(&self, cos_o: f64) -> Albedo {
+        let at = cos_o.clamp(0.0, 1.0).sqrt() * (ALBEDO_NODES - 1) as f64;
+        let i = (at as usize).min(ALBEDO_NODES - 2);
+        self.nodes[i].lerp(self.nodes[i + 1], at - i as f64)
+    }
+}
+
+impl Albedo {
+    fn lerp(self, other: Self, share: f64) -> Self {
+        let mix = |a: f64, b: f64| a + (b - a) * share;
+        Self {
+            e0: mix(self.e0, other.e0),
+            parts: FacetParts {
+                t: mix(self.parts.t, other.parts.t),
+                s: mix(self.parts.s, other.parts.s),
+            },
+        }
+    }
+
+    /// What multiple scattering adds to single scattering where F = 1.
+    pub fn gain(self) -> f64 {
+        1.0 / self.e0.clamp(1e-3, 1.0) - 1.0
+    }
+
+    /// Of a surface with a body: what it reflects without the body, multiple scattering inside.
+    pub fn reflected(self, f0: DVec3) -> DVec3 {
+        (f0 * self.parts.s + self.parts.t) * (DVec3::ONE + f0 * self.gain())
+    }
+}

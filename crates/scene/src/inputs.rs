@@ -1,0 +1,71 @@
+//! The files that a scene is made from, so that nobody writes over one of them.
+
+use std::path::{Path, PathBuf};
+
+use crate::description::{Description, Layer, Surface};
+use crate::mesh_file;
+use crate::text::shown;
+
+/// A file that a scene is made from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Input {
+    /// What the scene takes it for: `its environment`, `the mesh of object "pan"`.
+    pub what: String,
+    /// Where it is.
+    pub path: PathBuf,
+}
+
+impl Description {
+    /// All files that the scene names, and those that its models name in turn. Files are looked for in `base_dir`; a model that
+    /// cannot be read names none.
+    pub fn inputs(&self, base_dir: &Path) -> Vec<Input> {
+        let mut inputs = Vec::new();
+        let mut add = |what: String, path: PathBuf| inputs.push(Input { what, path });
+        if let Some(environment) = &self.environment {
+            add(
+                "its environment".to_owned(),
+                base_dir.join(&environment.file),
+            );
+        }
+        for object in &self.objects {
+            if let Surface::Mesh(file) = &object.surface {
+                let path = base_dir.join(file);
+                let name = shown(&object.name);
+                for (what, file) in mesh_file::names(&path) {
+                    add(format!("{what} of the mesh of object \"{name}\""), file);
+                }
+                add(format!("the mesh of object \"{name}\""), path);
+            }
+        }
+        for (i, scratches) in self.scratches.iter().enumerate() {
+            if let Layer::Listed(listed) = &scratches.layer {
+                add(
+                    format!("the list of scratches[{i}]"),
+                    base_dir.join(&listed.file),
+                );
+            }
+        }
+        inputs
+    }
+}
+
+/// Whether two paths lead to one file, by whatever names and links. False where one of them leads nowhere.
+pub fn is_same_file(a: &Path, b: &Path) -> bool {
+    let (Ok(a_end), Ok(b_end)) = (a.canonicalize(), b.canonicalize()) else {
+        return false;
+    };
+    a_end == b_end || has_same_place(&a_end, &b_end)
+}
+
+/// Two names of one file on disk.
+#[cfg(unix)]
+fn has_same_place(a: &Path, b: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    let place = |path: &Path| path.metadata().map(|m| (m.dev(), m.ino())).ok();
+    place(a).is_some() && place(a) == place(b)
+}
+
+#[cfg(not(unix))]
+fn has_same_place(_: &Path, _: &Path) -> bool {
+    false
+}

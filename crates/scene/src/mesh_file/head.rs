@@ -1,0 +1,109 @@
+//! What the text of a glTF file says of its size and its files, before anything of them is read.
+
+use std::fs::File;
+use std::io::{BufReader, Read};
+use std::path::{Path, PathBuf};
+
+use gltf::json::mesh::Mode;
+use gltf::json::validation::Checked::Valid;
+use gltf::json::{Index, Root, mesh::Primitive, mesh::Semantic};
+
+use super::source::percent_decoded;
+use crate::reading::check_regular;
+
+/// A longer text than this is no description of a model.
+const LONGEST_TEXT: u64 = 1 << 30;
+/// What the text takes while it is read, for each byte.
+const TEXT_BYTES: f64 = 8.0;
+
+/// What a file places, and what it takes to read it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Counts {
+    pub triangles: f64,
+    pub vertices: f64,
+    /// Of its text and its buffers.
+    pub bytes: f64,
+}
+
+/// What a glTF file places; `None` where it cannot be read.
+pub(crate) fn counts(path: &Path) -> Option<Counts> {
+    let (root, text_bytes) = head(path)?;
+    let mut counts = Counts {
+        bytes: text_bytes * TEXT_BYTES,
+        ..Counts::default()
+    };
+    for buffer in &root.buffers {
+        // A binary chunk is there twice while it is read.
+        counts.bytes += 2.0 * buffer.byte_length.0 as f64;
+    }
+    let meshes = root
+        .nodes
+        .iter()
+        .filter_map(|node| root.meshes.get(node.mesh?.value()));
+    for primitive in meshes.flat_map(|mesh| &mesh.primitives) {
+        counts.add(&root, primitive);
+    }
+    Some(counts)
+}
+
+impl Counts {
+    fn add(&mut self, root: &Root, primitive: &Primitive) {
+        let count = |index: Index<gltf::json::Accessor>| {
+            let accessor = root.accessors.get(index.value());
+            accessor.map_or(0.0, |accessor| accessor.count.0 as f64)
+        };
+        let attribute = |semantic| primitive.attributes.get(&Valid(semantic)).copied();
+        let vertices = attribute(Semantic::Positions).map_or(0.0, count);
+        let corners = primitive.indices.map_or(vertices, count);
+        let triangles = match primitive.mode {
+            Valid(Mode::Triangles) => corners / 3.0,
+            Valid(Mode::TriangleStrip | Mode::TriangleFan) => corners,
+            _ => 0.0,
+        };
+        self.triangles += triangles.floor();
+        self.vertices += match attribute(Semantic::Normals) {
+            Some(_) => vertices,
+            // Each triangle has its own then.
+            None => 3.0 * triangles,
+        };
+    }
+}
+
+/// The files that a glTF file names, each with what it is to it; none where it cannot be read.
+pub(crate) fn names(path: &Path) -> Vec<(String, PathBuf)> {
+    let Some((root, _)) = head(path) else {
+        return Vec::new();
+    };
+    let base_dir = path.parent().unwrap_or(Path::new(""));
+    let named = |what: &'static str, i: usize, uri: &Option<String>| {
+        let uri = uri.as_deref().filter(|uri| !uri.starts_with("data:"))?;
+        Some((format!("{what} {i}"), base_dir.join(percent_decoded(uri))))
+    };
+    let buffers = (0..)
+        .zip(&root.buffers)
+        .filter_map(|(i, it)| named("buffer", i, &it.uri));
+    let images = (0..)
+        .zip(&root.images)
+        .filter_map(|(i, it)| named("image", i, &it.uri));
+    buffers.chain(images).collect()
+}
+
+/// The text of a .gltf file, or the first chunk of a .glb file, with its length.
+fn head(path: &Path) -> Option<(Root, f64)> {
+    check_regular(path).ok()?;
+    let mut file = BufReader::new(File::open(path).ok()?);
+    let mut start = [0; 20];
+    file.read_exact(&mut start).ok()?;
+    let mut text = Vec::new();
+    if start.starts_with(b"glTF") {
+        let length = u32::from_le_bytes([start[12], start[13], start[14], start[15]]);
+        file.take(u64::from(length).min(LONGEST_TEXT))
+            .read_to_end(&mut text)
+            .ok()?;
+    } else {
+        text.extend(start);
+        file.take(LONGEST_TEXT).read_to_end(&mut text).ok()?;
+    }
+    let root = gltf::json::deserialize::from_slice(&text).ok()?;
+    Some((root, text.len() as f64))
+}

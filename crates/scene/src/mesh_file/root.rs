@@ -1,0 +1,102 @@
+//! The text of a glTF file made ready for the crate that validates it: what is ignored anyway cannot make a file unusable, and what
+//! makes it unusable is said by its name.
+
+use gltf::json::deserialize::{from_slice, from_value};
+use gltf::json::{Index, Root, Value};
+
+use super::{Flaw, RIGHT};
+use crate::text::shown;
+
+/// Reads the text of a file.
+pub(super) fn read(text: &[u8]) -> Result<Root, Flaw> {
+    let invalid = |error: &dyn std::fmt::Display| {
+        Flaw::new(
+            format!("it is no valid glTF ({})", shown(&error.to_string())),
+            RIGHT,
+        )
+    };
+    let error = match from_slice::<Root>(text) {
+        Ok(root) => {
+            check_version(&root.asset.version)?;
+            return Ok(root);
+        }
+        Err(error) => error,
+    };
+    let mut value: Value = from_slice(text).map_err(|error| invalid(&error))?;
+    let version = value
+        .get("asset")
+        .and_then(|asset| asset.get("version")?.as_str());
+    check_version(version.unwrap_or("1.0"))?;
+    // Animations of extensions have another form, and none is read.
+    let Some(members) = value
+        .as_object_mut()
+        .filter(|it| it.contains_key("animations"))
+    else {
+        return Err(invalid(&error));
+    };
+    members.remove("animations");
+    from_value(value).map_err(|error| invalid(&error))
+}
+
+/// All of 2 are made so that a reader of 2.0 can read them.
+fn check_version(version: &str) -> Result<(), Flaw> {
+    match version.split('.').next() {
+        Some("2") => Ok(()),
+        _ => Err(wrong_version(version)),
+    }
+}
+
+pub(super) fn wrong_version(version: &str) -> Flaw {
+    Flaw::new(
+        format!("it is a file of glTF {}", shown(version)),
+        "must be glTF 2.0: export it again, or convert it (glTF-Pipeline does)",
+    )
+}
+
+/// Animations, skins and cameras.
+pub(super) fn leave_out_what_is_ignored(root: &mut Root) {
+    root.animations.clear();
+    root.skins.clear();
+    root.cameras.clear();
+    for node in &mut root.nodes {
+        node.skin = None;
+        node.camera = None;
+    }
+}
+
+/// Gives each texture its image, which may be named by an extension for WebP.
+pub(super) fn find_images(root: &mut Root) -> Result<(), Flaw> {
+    let images = root.images.len();
+    for (i, texture) in root.textures.iter_mut().enumerate() {
+        let others = texture
+            .extensions
+            .as_ref()
+            .map(|extensions| &extensions.others);
+        let named = |extension: &str| {
+            let source = others?.get(extension)?.get("source")?.as_u64()?;
+            u32::try_from(source)
+                .ok()
+                .filter(|source| (*source as usize) < images)
+        };
+        if texture.source.value() < images {
+            continue;
+        }
+        match (named("EXT_texture_webp"), named("KHR_texture_basisu")) {
+            (Some(source), _) => texture.source = Index::new(source),
+            (None, Some(_)) => {
+                return Err(Flaw::new(
+                    format!("its texture {i} has a KTX2 image alone (KHR_texture_basisu)"),
+                    "export it again with PNG, JPEG or WebP images",
+                ));
+            }
+            (None, None) => {
+                let found = format!("its texture {i} has no image that is there");
+                return Err(Flaw::new(
+                    found,
+                    "must have a `source` below the number of images",
+                ));
+            }
+        }
+    }
+    Ok(())
+}

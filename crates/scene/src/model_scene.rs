@@ -1,0 +1,217 @@
+//! A scene around a model that comes without one: soft panels, a small bright lamp, light wear on metal, a camera that frames it.
+
+use std::path::{Path, PathBuf};
+
+use glam::DVec3;
+
+use crate::description::{
+    Amount, Camera, Description, Distribution, Laid, Layer, Light, LightKind, Object, Pattern,
+    Render, Scratches, Surface, Up,
+};
+use crate::error::Error;
+use crate::probe;
+use crate::text::shown;
+
+/// Sizes at which scratches can be seen; other models are shown [`SHOWN_M`] large.
+const SIZES_M: std::ops::RangeInclusive<f64> = 0.02..=1.0;
+const SHOWN_M: f64 = 0.2;
+/// The share of the picture that the model fills.
+const FILLED: f64 = 0.95;
+const FOV_Y_DEG: f64 = 28.0;
+/// From the model to the camera: from above, a little from the left.
+const VIEW: DVec3 = DVec3::new(-0.42, -1.0, 0.5);
+
+impl Description {
+    /// Whether a file is a model by its name: .glb or .gltf.
+    pub fn is_model(path: &Path) -> bool {
+        let ending = path.extension().unwrap_or_default();
+        ending.eq_ignore_ascii_case("glb") || ending.eq_ignore_ascii_case("gltf")
+    }
+
+    /// A scene that shows a model, z up. Its files are relative to the model's folder.
+    ///
+    /// # Errors
+    /// What is wrong with the file.
+    pub fn for_model(path: &Path) -> Result<Self, Error> {
+        let summary = probe::mesh(path)?;
+        let name = path.file_name().map_or_else(|| path.into(), PathBuf::from);
+        let mut notes = Vec::new();
+        let (mut factor, mut fit_m) = (1.0, None);
+        let extent_m = summary.extent_m();
+        if !SIZES_M.contains(&extent_m) {
+            (factor, fit_m) = (SHOWN_M / extent_m, Some(SHOWN_M));
+            notes.push(format!(
+                "{} is {} large; it is shown {SHOWN_M} m large (`fit_m`), so that its scratches are seen",
+                shown(&name.to_string_lossy()),
+                metres(extent_m)
+            ));
+        }
+        // From y up to z up.
+        let (least, most) = summary.bounds_m;
+        let [a, b] =
+            [least, most].map(|p| factor * DVec3::new(p.x.into(), (-p.z).into(), p.y.into()));
+        let bounds = Bounds {
+            least: a.min(b),
+            most: a.max(b),
+        };
+        let render = Render::default();
+        let stem = path
+            .file_stem()
+            .map(|stem| stem.to_string_lossy().into_owned());
+        let object = stem
+            .filter(|stem| !stem.is_empty())
+            .unwrap_or_else(|| "model".to_owned());
+        Ok(Self {
+            camera: bounds.camera(render.size_px),
+            render,
+            environment: None,
+            materials: Vec::new(),
+            scratches: match summary.metal_share > 0.5 {
+                true => vec![wear(&object, bounds.extent_m())],
+                false => Vec::new(),
+            },
+            objects: vec![Object {
+                name: object,
+                surface: Surface::Mesh(name),
+                up: Up::Y,
+                fit_m,
+                material: None,
+                translation_m: [0.0; 3],
+                rotation_deg: [0.0; 3],
+                scale: [1.0; 3],
+            }],
+            lights: bounds.lights(),
+            notes,
+        })
+    }
+}
+
+fn metres(length_m: f64) -> String {
+    match length_m {
+        0.01..1000.0 => format!("{length_m:.3} m"),
+        _ => format!("{length_m:.1e} m"),
+    }
+}
+
+/// What a drawer does.
+fn wear(object: &str, extent_m: f64) -> Scratches {
+    let spread = |mean, spread| Distribution { mean, spread };
+    Scratches {
+        object: object.to_owned(),
+        name: Some("light wear".to_owned()),
+        hidden: false,
+        solo: false,
+        layer: Layer::Laid(Laid {
+            pattern: Pattern::Random {
+                curvature_per_m: spread(0.0, 1.0 / extent_m),
+            },
+            amount: Amount::Count(6000),
+            seed: 1,
+            length_m: spread(0.1 * extent_m, 0.5),
+            width_um: spread(4.2, 0.12),
+            depth_nm: spread(138.0, 0.1),
+        }),
+        strokes: Vec::new(),
+    }
+}
+
+/// Where the model lies.
+#[derive(Clone, Copy, Debug)]
+struct Bounds {
+    least: DVec3,
+    most: DVec3,
+}
+
+impl Bounds {
+    fn middle_m(&self) -> DVec3 {
+        0.5 * (self.least + self.most)
+    }
+
+    fn extent_m(&self) -> f64 {
+        (self.most - self.least).max_element()
+    }
+
+    /// Half of the diagonal.
+    fn radius_m(&self) -> f64 {
+        0.5 * self.least.distance(self.most)
+    }
+
+    /// From [`VIEW`], as near as lets all corners be seen.
+    fn camera(&self, [width, height]: [u32; 2]) -> Camera {
+        let middle = self.middle_m();
+        let back = VIEW.normalize();
+        let right = (-back).cross(DVec3::Z).normalize();
+        let up = right.cross(-back);
+        let tan_y = FILLED * (0.5 * FOV_Y_DEG.to_radians()).tan();
+        let tan_x = tan_y * f64::from(width) / f64::from(height);
+        let corner = |i: u32| {
+            let pick = |bit: u32| if i & bit == 0 { self.least } else { self.most };
+            DVec3::new(pick(1).x, pick(2).y, pick(4).z) - middle
+        };
+        let needed_m = (0..8).map(corner).map(|corner| {
+            let sideways = (corner.dot(right).abs() / tan_x).max(corner.dot(up).abs() / tan_y);
+            sideways + corner.dot(back)
+        });
+        let distance_m = needed_m.fold(0.0, f64::max);
+        Camera {
+            position_m: (middle + distance_m * back).into(),
+            target_m: middle.into(),
+            up: [0.0, 0.0, 1.0],
+            fov_y_deg: FOV_Y_DEG,
+            exposure_ev: 0.0,
+        }
+    }
+
+    /// A studio: what metal mirrors, and a lamp small enough for colours.
+    fn lights(&self) -> Vec<Light> {
+        let panel = |name: &str, towards: [f64; 3], size: [f64; 2], radiance: f64| Light {
+            name: Some(name.to_owned()),
+            radiance,
+            ..Light::new(self.panel(DVec3::from(towards), size))
+        };
+        let lamp_m = self.middle_m() + 3.4 * self.radius_m() * DVec3::new(0.35, 0.55, 1.0);
+        let lamp = Light {
+            name: Some("lamp".to_owned()),
+            radiance: 1400.0,
+            color: [1.0, 0.95, 0.88],
+            ..Light::new(LightKind::Sphere {
+                center_m: lamp_m.into(),
+                radius_m: 0.05 * self.radius_m(),
+            })
+        };
+        vec![
+            lamp,
+            panel("key", [-2.6, -2.0, 3.2], [2.6, 2.6], 0.9),
+            panel("fill", [3.8, -0.8, 1.2], [1.6, 3.2], 0.35),
+            panel("rim", [0.6, 3.6, 2.4], [4.0, 0.8], 1.6),
+            panel("ceiling", [0.0, 0.0, 6.0], [14.0, 14.0], 0.09),
+            // Behind the camera: what faces it would mirror nothing.
+            panel("front", [0.0, -5.5, 0.0], [12.0, 9.0], 0.15),
+            panel("floor", [0.0, 0.0, -4.0], [16.0, 16.0], 0.03),
+        ]
+    }
+
+    /// A rectangle that faces the model; place and size in units of its radius.
+    fn panel(&self, towards: DVec3, [width, height]: [f64; 2]) -> LightKind {
+        let radius_m = self.radius_m();
+        let normal = -towards.normalize();
+        let across = match DVec3::Z.cross(normal).try_normalize() {
+            Some(across) => across,
+            None => DVec3::X,
+        };
+        let along = normal.cross(across);
+        let corner = |x: f64, y: f64| -> [f64; 3] {
+            let offset = towards + across * (0.5 * width * x) + along * (0.5 * height * y);
+            (self.middle_m() + radius_m * offset).into()
+        };
+        LightKind::Polygon {
+            vertices_m: vec![
+                corner(-1.0, -1.0),
+                corner(1.0, -1.0),
+                corner(1.0, 1.0),
+                corner(-1.0, 1.0),
+            ],
+            two_sided: false,
+        }
+    }
+}

@@ -1,0 +1,106 @@
+//! What fits the objects and the view: the camera that shows them, and the brush.
+
+use glam::DVec3;
+use hairline_editor::actions::materials;
+use hairline_editor::brush::BrushSettings;
+use hairline_editor::{Selection, navigate};
+
+use crate::app::Viewer;
+
+impl Viewer {
+    pub(super) fn scale_brush(&mut self, factor: f64) {
+        let mut brush = self.brush();
+        brush.radius_m = (brush.radius_m * factor).clamp(1e-5, 10.0);
+        self.toolbox.brush = Some(brush);
+    }
+
+    /// The brush as it was set by hand; before that, as it fits what it was over last, or the selected object in the middle of
+    /// the view.
+    pub(crate) fn brush(&self) -> BrushSettings {
+        let fitted = || {
+            let camera = self.camera();
+            self.fitting_brush(self.selected_object(), camera.target_m.into())
+        };
+        self.toolbox
+            .brush
+            .or(self.toolbox.fitted)
+            .unwrap_or_else(fitted)
+    }
+
+    pub(crate) fn selected_object(&self) -> Option<usize> {
+        self.selection().object(self.document.description())
+    }
+
+    /// The brush for a place on an object, as it is seen in the view.
+    pub(crate) fn fitting_brush(&self, object: Option<usize>, point_m: DVec3) -> BrushSettings {
+        let height_m = navigate::view_height_m(&self.camera(), point_m);
+        BrushSettings::for_view(height_m, self.diagonal_m(object))
+    }
+
+    pub(crate) fn frame_selection(&mut self) {
+        self.frame(Some(self.selection()));
+    }
+
+    /// Brings a part, or all, into the picture.
+    pub(super) fn frame(&mut self, part: Option<Selection>) {
+        let description = self.document.description();
+        let (low_m, high_m) = match part {
+            Some(Selection::Light(i)) => {
+                let Some(light) = description.lights.get(i) else {
+                    return;
+                };
+                let center = hairline_editor::place_light::center(light);
+                let reach = DVec3::splat(0.25 * self.diagonal_m(None));
+                (center - reach, center + reach)
+            }
+            Some(Selection::Material(i)) => {
+                let users = materials::users(description, i);
+                self.bounds_of(|object| users.contains(&object))
+                    .unwrap_or_else(|| self.bounds_m(None))
+            }
+            _ => self.bounds_m(part.and_then(|part| part.object(description))),
+        };
+        let aspect = self.viewport.aspect();
+        self.move_view("Frame", None, |camera| {
+            navigate::frame_box(camera, low_m, high_m, aspect);
+        });
+    }
+
+    /// The box around an object, or around all that the scene is about, in metres: as it was built last.
+    pub(crate) fn bounds_m(&self, object: Option<usize>) -> (DVec3, DVec3) {
+        let unknown = (DVec3::splat(-0.1), DVec3::splat(0.1));
+        let own = object.and_then(|object| self.bounds_of(|i| i == object));
+        own.or_else(|| {
+            let boxes = self.boxes_m();
+            let subject = hairline_editor::subject::objects(self.document.description(), &boxes);
+            self.bounds_of(|i| subject.contains(&i))
+        })
+        .unwrap_or(unknown)
+    }
+
+    /// The box around some objects.
+    fn bounds_of(&self, is_one: impl Fn(usize) -> bool) -> Option<(DVec3, DVec3)> {
+        let boxes = self.boxes_m().into_iter().enumerate();
+        boxes
+            .filter_map(|(i, one)| is_one(i).then_some(one))
+            .reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
+    }
+
+    /// Of each object.
+    fn boxes_m(&self) -> Vec<(DVec3, DVec3)> {
+        let Some(built) = self.engine.built() else {
+            return Vec::new();
+        };
+        let objects = built.scene.objects.iter();
+        objects
+            .map(|object| object.mesh.bounds_m())
+            .map(|(low, high)| (low.as_dvec3(), high.as_dvec3()))
+            .collect()
+    }
+
+    /// The diagonal of that box.
+    pub(crate) fn diagonal_m(&self, object: Option<usize>) -> f64 {
+        let (low_m, high_m) = self.bounds_m(object);
+        low_m.distance(high_m)
+    }
+}

@@ -1,0 +1,74 @@
+//! A scene with a few of its scratches, which is laid while a hand is on a slider, before the whole of it.
+
+use hairline_scene::Description;
+use hairline_scene::description::{Amount, Layer};
+
+/// A sketch has about so many scratches of those that are strewn.
+const SCRATCHES: u64 = 700;
+/// A layer keeps at least so many.
+const FEWEST: u64 = 48;
+/// At most so few.
+const THIN_MOST: u64 = 64;
+
+/// What the scratches of a sketch stand for.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Sketch {
+    thin: f64,
+    /// Layer by layer.
+    weights: Vec<f64>,
+}
+
+impl Sketch {
+    /// Of a whole scene the description of a sketch; none where that would save little.
+    pub fn of(description: &Description) -> Option<(Description, Self)> {
+        let counts = description
+            .scratches
+            .iter()
+            .map(|table| match &table.layer {
+                Layer::Laid(laid) if !table.hidden => match laid.amount {
+                    Amount::Count(count) => count,
+                    // Of an area that only the builder knows: some thousands.
+                    Amount::DensityPerM2(_) => 4 * SCRATCHES,
+                },
+                _ => 0,
+            });
+        let thin = (counts.sum::<u64>() / SCRATCHES).min(THIN_MOST);
+        if thin < 2 {
+            return None;
+        }
+        let mut few = description.clone();
+        let weights = few
+            .scratches
+            .iter_mut()
+            .map(|table| match &mut table.layer {
+                Layer::Laid(laid) => match &mut laid.amount {
+                    Amount::Count(count) => {
+                        let all = *count;
+                        *count = (all / thin).max(FEWEST).min(all);
+                        all as f64 / (*count).max(1) as f64
+                    }
+                    Amount::DensityPerM2(density) => {
+                        *density /= thin as f64;
+                        thin as f64
+                    }
+                },
+                _ => 1.0,
+            });
+        let weights = weights.collect();
+        let sketch = Self {
+            thin: thin as f64,
+            weights,
+        };
+        Some((few, sketch))
+    }
+
+    /// One scratch of so many is there, of most layers.
+    pub fn thin(&self) -> f64 {
+        self.thin
+    }
+
+    /// How many scratches one of a layer stands for.
+    pub fn weight(&self, layer: usize) -> f64 {
+        self.weights.get(layer).copied().unwrap_or(1.0)
+    }
+}

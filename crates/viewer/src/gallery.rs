@@ -1,0 +1,132 @@
+//! Small pictures of what can be chosen: presets, materials, lights, shapes, environments, grades of wear.
+//!
+//! Each is rendered once by the CPU renderer, in the background and only when a menu that shows it is open; until then its place
+//! is empty.
+
+mod cards;
+mod scenes;
+
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
+
+use egui::{ColorImage, TextureHandle, TextureId, TextureOptions};
+use hairline_editor::maps::BuiltInMap;
+use hairline_editor::presets::{LayerPreset, LightPreset, MaterialPreset, ShapePreset};
+use hairline_editor::wear::Wear;
+
+pub(crate) use cards::{SIDE, card, cards, metal_swatches};
+
+/// Width and height of a picture.
+const SIDE_PX: u32 = 96;
+
+/// What a picture shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum Thumb {
+    Layer(LayerPreset),
+    Material(MaterialPreset),
+    Light(LightPreset),
+    Shape(ShapePreset),
+    Map(BuiltInMap),
+    Wear(Wear),
+}
+
+/// What the thread and the window share.
+#[derive(Default)]
+struct Desk {
+    /// Those that are still to be rendered, each with the pass of the interface that showed its place last.
+    wanted: Vec<(u64, Thumb)>,
+    /// Those that are rendered and not yet textures; none where it failed.
+    done: Vec<(Thumb, Option<ColorImage>)>,
+    is_working: bool,
+}
+
+/// The pictures that there are.
+#[derive(Default)]
+pub(crate) struct Gallery {
+    desk: Arc<Mutex<Desk>>,
+    /// None while a picture is not there yet, or where it failed.
+    pictures: HashMap<Thumb, Option<TextureHandle>>,
+}
+
+fn lock(desk: &Mutex<Desk>) -> MutexGuard<'_, Desk> {
+    desk.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+impl Gallery {
+    /// The picture, if it is there; else it is asked for.
+    pub fn texture(&mut self, ctx: &egui::Context, thumb: Thumb) -> Option<TextureId> {
+        self.take(ctx);
+        let pass = ctx.cumulative_pass_nr();
+        let mut desk = lock(&self.desk);
+        if let Some(picture) = self.pictures.get(&thumb) {
+            if picture.is_none()
+                && let Some(wanted) = desk.wanted.iter_mut().find(|wanted| wanted.1 == thumb)
+            {
+                wanted.0 = pass;
+            }
+            return picture.as_ref().map(TextureHandle::id);
+        }
+        self.pictures.insert(thumb, None);
+        desk.wanted.push((pass, thumb));
+        if !desk.is_working {
+            let (desk_of_thread, wake) = (Arc::downgrade(&self.desk), ctx.clone());
+            let thread = std::thread::Builder::new().name("gallery".to_owned());
+            // Nobody waits for its end: a window that closes leaves it alone. Without a thread there are no pictures; the menus
+            // are there all the same.
+            desk.is_working = thread.spawn(move || work(&desk_of_thread, &wake)).is_ok();
+        }
+        None
+    }
+
+    /// Whether pictures are being rendered, for tests.
+    pub fn is_working(&self) -> bool {
+        lock(&self.desk).is_working
+    }
+
+    /// How many pictures there are, for tests.
+    pub fn count(&self) -> usize {
+        self.pictures.values().flatten().count()
+    }
+
+    fn take(&mut self, ctx: &egui::Context) {
+        let done = std::mem::take(&mut lock(&self.desk).done);
+        for (thumb, image) in done {
+            let texture = image
+                .map(|image| ctx.load_texture(format!("{thumb:?}"), image, TextureOptions::LINEAR));
+            self.pictures.insert(thumb, texture);
+        }
+    }
+}
+
+/// Renders what is wanted until nothing is, or nobody is there for it: on one thread, since a menu can wait and the picture in the
+/// window cannot.
+fn work(desk: &Weak<Mutex<Desk>>, wake: &egui::Context) {
+    crate::priority::lower();
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(1)
+        .start_handler(|_| crate::priority::lower())
+        .build();
+    let mut studio = scenes::Studio::default();
+    while let Some(thumb) = desk.upgrade().and_then(|desk| next(&desk)) {
+        let image = match &pool {
+            Ok(pool) => pool.install(|| studio.picture(thumb, SIDE_PX)),
+            Err(_) => None,
+        };
+        let Some(desk) = desk.upgrade() else { return };
+        lock(&desk).done.push((thumb, image));
+        wake.request_repaint();
+    }
+}
+
+/// What is to be rendered next: of those that were seen last the first that was asked for. None ends the work.
+fn next(desk: &Mutex<Desk>) -> Option<Thumb> {
+    let mut desk = lock(desk);
+    let newest = desk.wanted.iter().map(|(pass, _)| *pass).max();
+    let place = desk
+        .wanted
+        .iter()
+        .position(|(pass, _)| Some(*pass) == newest);
+    let thumb = place.map(|place| desk.wanted.remove(place).1);
+    desk.is_working = thumb.is_some();
+    thumb
+}

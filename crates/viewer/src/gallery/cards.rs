@@ -1,0 +1,172 @@
+//! Choices with their pictures.
+
+use egui::{
+    Align2, Color32, FontId, Grid, Id, Rect, Response, Role, Sense, Ui, WidgetInfo, pos2, vec2,
+};
+use hairline_editor::presets::MaterialPreset;
+use hairline_image::tone_map::srgb_from_linear;
+use hairline_optics::metal::Metal;
+
+use super::{Gallery, Thumb};
+
+/// Side of a picture in a menu, points.
+pub(crate) const SIDE: f32 = 76.0;
+/// Cards in a row.
+const COLUMNS: usize = 4;
+
+/// A menu of cards; returns what was clicked.
+pub(crate) fn cards<T: Copy>(
+    ui: &mut Ui,
+    gallery: &mut Gallery,
+    id: &str,
+    choices: impl IntoIterator<Item = (T, Thumb, &'static str, &'static str)>,
+) -> Option<T> {
+    let mut chosen = None;
+    Grid::new(Id::unique(("cards", id)))
+        .spacing(vec2(4.0, 4.0))
+        .show(ui, |ui| {
+            for (i, (choice, thumb, name, hint)) in choices.into_iter().enumerate() {
+                if i > 0 && i % COLUMNS == 0 {
+                    ui.end_row();
+                }
+                if card(ui, gallery, (thumb, SIDE), name, hint, false).clicked() {
+                    chosen = Some(choice);
+                }
+            }
+        });
+    chosen
+}
+
+/// A picture, `side` points wide, with a name below it, to be clicked.
+pub(crate) fn card(
+    ui: &mut Ui,
+    gallery: &mut Gallery,
+    (thumb, side): (Thumb, f32),
+    name: &'static str,
+    hint: &str,
+    is_selected: bool,
+) -> Response {
+    let size = vec2(side + 8.0, side + 24.0);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+    response.widget_info(|| WidgetInfo::selected(Role::Button, true, is_selected, name));
+    let texture = gallery.texture(ui.ctx(), thumb);
+    if ui.is_rect_visible(rect) {
+        let visuals = ui.style().interact_selectable(&response, is_selected);
+        if is_selected || response.hovered() || response.has_focus() {
+            ui.painter().rect(
+                rect,
+                4.0,
+                visuals.weak_bg_fill,
+                visuals.bg_stroke,
+                egui::StrokeKind::Inside,
+            );
+        }
+        let picture = Rect::from_min_size(rect.min + vec2(4.0, 4.0), vec2(side, side));
+        match texture {
+            Some(texture) => {
+                let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+                ui.painter().image(texture, picture, whole, Color32::WHITE);
+            }
+            None => {
+                ui.painter()
+                    .rect_filled(picture, 3.0, Color32::from_gray(30));
+            }
+        }
+        if let Thumb::Material(MaterialPreset::Metal(metal)) = thumb {
+            let at = picture.right_bottom() - vec2(10.0, 10.0);
+            ui.painter()
+                .circle_filled(at, 8.0, Color32::from_black_alpha(160));
+            ui.painter().circle_filled(at, 6.5, color(metal));
+        }
+        let middle = pos2(rect.center().x, picture.max.y + 10.0);
+        let font = FontId::proportional(fitting(ui, name, side));
+        ui.painter().text(
+            middle,
+            Align2::CENTER_CENTER,
+            name,
+            font,
+            visuals.text_color(),
+        );
+    }
+    match hint {
+        "" => response,
+        hint => response.on_hover_text(hint),
+    }
+}
+
+/// The size of letters in which a name fits below its picture.
+fn fitting(ui: &Ui, name: &str, side: f32) -> f32 {
+    const SIZE: f32 = 12.0;
+    let galley =
+        ui.painter()
+            .layout_no_wrap(name.to_owned(), FontId::proportional(SIZE), Color32::WHITE);
+    (SIZE * (side + 6.0) / galley.size().x).min(SIZE)
+}
+
+/// A metal's colour: its reflectance at normal incidence under D65, as a display shows it.
+fn color(metal: Metal) -> Color32 {
+    let [r, g, b] = metal
+        .reflectance_rgb(1.0)
+        .map(|c| (255.0 * srgb_from_linear(c.clamp(0.0, 1.0) as f32)).round() as u8);
+    Color32::from_rgb(r, g, b)
+}
+
+/// The metals by their colours; says whether another one was chosen.
+pub(crate) fn metal_swatches(ui: &mut Ui, chosen: &mut Metal) -> bool {
+    let before = *chosen;
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing = vec2(3.0, 3.0);
+        for preset in MaterialPreset::all() {
+            let MaterialPreset::Metal(metal) = preset else {
+                continue;
+            };
+            let (rect, response) = ui.allocate_exact_size(vec2(18.0, 18.0), Sense::click());
+            let name = format!("Make it {}", preset.name().to_lowercase());
+            response.widget_info(|| {
+                WidgetInfo::selected(Role::Button, true, metal == *chosen, name.as_str())
+            });
+            let ring = match (metal == *chosen, response.hovered() || response.has_focus()) {
+                (true, _) => Color32::WHITE,
+                (false, true) => Color32::from_gray(170),
+                (false, false) => Color32::TRANSPARENT,
+            };
+            ui.painter().circle_filled(rect.center(), 9.0, ring);
+            ui.painter()
+                .circle_filled(rect.center(), 7.6, Color32::from_gray(20));
+            ui.painter().circle_filled(rect.center(), 7.0, color(metal));
+            if response.on_hover_text(preset.name()).clicked() {
+                *chosen = metal;
+            }
+        }
+    });
+    *chosen != before
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn metals_have_their_colours() {
+        let [gold, copper, silver, steel] = [
+            Metal::Gold,
+            Metal::Copper,
+            Metal::Silver,
+            Metal::StainlessSteel,
+        ]
+        .map(color);
+        assert!(gold.r() > gold.g() && gold.g() > gold.b() + 40, "{gold:?}");
+        assert!(
+            copper.r() > copper.g() + 20 && copper.g() > copper.b(),
+            "{copper:?}"
+        );
+        assert!(
+            silver.r() > 240 && silver.r() - silver.b() < 25,
+            "{silver:?}"
+        );
+        assert!(
+            steel.r() < 220 && steel.r().abs_diff(steel.b()) < 25,
+            "{steel:?}"
+        );
+    }
+}

@@ -1,0 +1,274 @@
+//! The scenes of the small pictures.
+
+use std::path::Path;
+
+use egui::ColorImage;
+use glam::DVec3;
+use hairline_editor::maps::BuiltInMap;
+use hairline_editor::place_light::place_highlight;
+use hairline_editor::presets::LayerPreset;
+use hairline_image::{Picture, png};
+use hairline_reference::closed_form::{self, RenderOptions};
+use hairline_scene::description::{Light, Material, MaterialKind, Object, Scratches, Surface};
+use hairline_scene::{Description, Environment, Loader};
+
+use super::Thumb;
+
+/// A shallow dome of steel, seen from above at a slant under a lamp, whose reflection lies a little behind its middle.
+const DOME: &str = r#"
+[camera]
+position_m = [0.0, -0.058, 0.068]
+target_m = [0.0, 0.0015, 0.0]
+up = [0.0, 0.0, 1.0]
+fov_y_deg = 20.5
+exposure_ev = 2.0
+[[material]]
+name = "m"
+kind = "metal"
+metal = "steel"
+roughness = 0.08
+[[object]]
+name = "o"
+shape = { lathe = { profile_m = [
+    [0.0, 0.0008], [0.006, 0.0007], [0.012, 0.0002], [0.0165, -0.0004], [0.0175, -0.0009], [0.018, -0.002],
+], segments = 96 } }
+material = "m"
+[[light]]
+kind = "sphere"
+center_m = [-0.004, 0.075, 0.088]
+radius_m = 0.0022
+radiance = 260.0
+color = [1.0, 0.95, 0.88]
+[[light]]
+kind = "polygon"
+vertices_m = [[-0.5, -0.5, 0.2], [-0.5, 0.5, 0.3], [0.5, 0.5, 0.3], [0.5, -0.5, 0.2]]
+radiance = 0.045
+color = [0.85, 0.93, 1.0]
+"#;
+
+/// A ball.
+const BALL: &str = r#"
+[camera]
+position_m = [0.0, -0.1, 0.03]
+target_m = [0.0, 0.0, 0.0]
+up = [0.0, 0.0, 1.0]
+fov_y_deg = 23.5
+[[material]]
+name = "m"
+kind = "metal"
+metal = "chromium"
+roughness = 0.04
+[[object]]
+name = "o"
+shape = { sphere = { radius_m = 0.02 } }
+material = "m"
+"#;
+
+/// Diagonal of the dome's box.
+const DOME_DIAGONAL_M: f64 = 0.051;
+
+/// Renders small pictures, and keeps what several of them need.
+#[derive(Default)]
+pub(super) struct Studio {
+    map: Option<Environment>,
+}
+
+impl Studio {
+    /// None where the scene cannot be made, which a test excludes.
+    pub fn picture(&mut self, thumb: Thumb, side_px: u32) -> Option<ColorImage> {
+        let (description, map) = match thumb {
+            Thumb::Layer(preset) => {
+                let mut dome = dome(&layer(preset));
+                if matches!(preset, LayerPreset::PolishedWatch | LayerPreset::SpunDisk) {
+                    // What runs to the middle lights up between it and a lamp beside it.
+                    dome.lights[0] = mirrored(dome.lights[0].clone(), &dome, BESIDE_M);
+                }
+                (dome, None)
+            }
+            Thumb::Wear(wear) => (dome(&wear.layers("o", 0.7 * DOME_DIAGONAL_M)), None),
+            Thumb::Material(preset) => (ball(&preset.material()), Some(BuiltInMap::Studio)),
+            Thumb::Map(map) => (read(BALL), Some(map)),
+            Thumb::Shape(preset) => {
+                let mut shape = read(BALL);
+                shape.objects[0].surface = Surface::Shape(preset.shape(0.043));
+                shape.materials[0] = clay();
+                shape.objects[0].material = Some(shape.materials[0].name.clone());
+                shape.camera.position_m = [0.02, -0.088, 0.058];
+                (shape, Some(BuiltInMap::Studio))
+            }
+            Thumb::Light(preset) => {
+                let mut lit = dome(&[LayerPreset::RandomWear.layer("o", DOME_DIAGONAL_M)]);
+                let light = preset.light(DVec3::ZERO, DVec3::Z, DOME_DIAGONAL_M);
+                lit.lights = vec![mirrored(light, &lit, MIDDLE_M)];
+                lit.camera.exposure_ev = 1.0;
+                (lit, None)
+            }
+        };
+        let mut description = description;
+        description.render.size_px = [side_px; 2];
+        let mut scene = Loader::default().build(&description, Path::new("")).ok()?;
+        if matches!(thumb, Thumb::Shape(_) | Thumb::Material(_)) {
+            description.camera.exposure_ev = 0.5;
+        }
+        if let Some(map) = map {
+            let is_seen = matches!(thumb, Thumb::Map(_));
+            scene.environment = Some(self.environment(map).with_visible(is_seen));
+        }
+        let options = RenderOptions {
+            samples: 2,
+            ..RenderOptions::default()
+        };
+        let image = closed_form::render(&scene, &options, &|_| {});
+        let display = hairline_image::Display {
+            exposure_ev: description.camera.exposure_ev,
+            tone_map: description.render.tone_map,
+        };
+        // The ground of menus, where there is nothing.
+        let mut beauty = image.beauty();
+        if !matches!(thumb, Thumb::Map(_)) {
+            let nothing = image.depth_m.iter().map(|depth_m| *depth_m == 0.0);
+            for (rgb, is_nothing) in beauty.rgb.iter_mut().zip(nothing) {
+                if is_nothing {
+                    *rgb = GROUND;
+                }
+            }
+        }
+        let size = [side_px as usize; 2];
+        let codes = png::quantize(&beauty, &display);
+        Some(ColorImage::from_rgb(size, &codes))
+    }
+
+    fn environment(&mut self, map: BuiltInMap) -> Environment {
+        let make = |map: BuiltInMap| {
+            let picture: Picture = map.picture([64, 32]);
+            // The window is before the ball, where it is seen in it.
+            let rotation_rad = if map == BuiltInMap::Window { 2.5 } else { 0.0 };
+            Environment::from_map(picture, rotation_rad, 1.0, false).with_up(DVec3::Z, rotation_rad)
+        };
+        match map {
+            // That of all materials and shapes.
+            BuiltInMap::Studio => self.map.get_or_insert_with(|| make(map)).clone(),
+            other => make(other),
+        }
+    }
+}
+
+const GROUND: [f32; 3] = [0.012; 3];
+
+/// Grey and dull: it shows nothing but the shape.
+fn clay() -> Material {
+    Material {
+        name: "clay".to_owned(),
+        kind: MaterialKind::Dielectric {
+            ior: 1.3,
+            base_color: [0.42, 0.41, 0.4],
+        },
+        roughness: 0.6,
+        coherence_um: 20.0,
+    }
+}
+
+/// The texts are part of the program.
+fn read(text: &str) -> Description {
+    Description::from_toml(text, Path::new("small picture"))
+        .unwrap_or_else(|error| unreachable!("{error}"))
+}
+
+fn layer(preset: LayerPreset) -> Vec<Scratches> {
+    vec![preset.layer("o", DOME_DIAGONAL_M)]
+}
+
+fn dome(layers: &[Scratches]) -> Description {
+    let mut description = read(DOME);
+    description.scratches = layers.to_vec();
+    description
+}
+
+fn ball(material: &Material) -> Description {
+    let mut description = read(BALL);
+    let name = material.name.clone();
+    description.objects = vec![Object {
+        material: Some(name),
+        ..description.objects[0].clone()
+    }];
+    description.materials = vec![material.clone()];
+    description
+}
+
+const MIDDLE_M: DVec3 = DVec3::new(0.0, 0.002, 0.0008);
+const BESIDE_M: DVec3 = DVec3::new(-0.0125, 0.005, 0.0);
+
+/// The light where the camera sees its reflection at a point of the dome.
+fn mirrored(mut light: Light, description: &Description, point_m: DVec3) -> Light {
+    let eye_m = DVec3::from(description.camera.position_m);
+    place_highlight(&mut light, eye_m, point_m, DVec3::Z);
+    light
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use hairline_editor::presets::{LightPreset, MaterialPreset, ShapePreset};
+    use hairline_editor::wear::Wear;
+
+    #[test]
+    fn each_has_a_picture_of_its_own() {
+        let layers = LayerPreset::ALL.map(Thumb::Layer).into_iter();
+        let mut all: Vec<Thumb> = layers
+            .chain(MaterialPreset::all().map(Thumb::Material))
+            .chain(LightPreset::ALL.map(Thumb::Light))
+            .chain(ShapePreset::ALL.map(Thumb::Shape))
+            .chain(BuiltInMap::ALL.map(Thumb::Map))
+            .chain(Wear::ALL.map(Thumb::Wear))
+            .collect();
+        let mut studio = Studio::default();
+        let side_px = match std::env::var_os("HAIRLINE_GALLERY") {
+            Some(_) => 96,
+            None => {
+                // Those that cost most are like others.
+                all.retain(|thumb| !matches!(thumb, Thumb::Wear(Wear::Worn | Wear::Old)));
+                16
+            }
+        };
+        let pictures: Vec<(Thumb, ColorImage)> = all
+            .iter()
+            .map(|thumb| {
+                let picture = studio.picture(*thumb, side_px);
+                (*thumb, picture.expect("a picture"))
+            })
+            .collect();
+        if let Some(folder) = std::env::var_os("HAIRLINE_GALLERY") {
+            write_sheet(&pictures, Path::new(&folder));
+        }
+        for (i, (thumb, a)) in pictures.iter().enumerate() {
+            let mean =
+                a.pixels.iter().map(|p| u32::from(p.g())).sum::<u32>() / a.pixels.len() as u32;
+            assert!((6..235).contains(&mean), "{thumb:?}: {mean}");
+            for (other, b) in &pictures[..i] {
+                assert!(a.pixels != b.pixels, "{thumb:?} {other:?}");
+            }
+        }
+    }
+
+    /// All of them on one sheet, to be looked at.
+    fn write_sheet(pictures: &[(Thumb, ColorImage)], folder: &Path) {
+        const COLUMNS: usize = 9;
+        let side = pictures[0].1.size[0];
+        let rows = pictures.len().div_ceil(COLUMNS);
+        let mut sheet = Picture::new([(COLUMNS * side) as u32, (rows * side) as u32]);
+        for (i, (_, picture)) in pictures.iter().enumerate() {
+            let (x0, y0) = (i % COLUMNS * side, i / COLUMNS * side);
+            for (j, pixel) in picture.pixels.iter().enumerate() {
+                let at = (y0 + j / side) * COLUMNS * side + x0 + j % side;
+                let code = |c: u8| hairline_image::tone_map::linear_from_srgb(f32::from(c) / 255.0);
+                sheet.rgb[at] = [pixel.r(), pixel.g(), pixel.b()].map(code);
+            }
+        }
+        let output = hairline_image::Output::check(&folder.join("gallery.png")).unwrap();
+        let display = hairline_image::Display {
+            exposure_ev: 0.0,
+            tone_map: hairline_image::ToneMap::None,
+        };
+        output.write_picture(&sheet, &display).unwrap();
+    }
+}

@@ -1,0 +1,156 @@
+//! A box for a number: to drag in, or to type in with a unit or as a sum. What cannot be read is told, and changes nothing.
+
+use std::cell::RefCell;
+
+use egui::{Context, DragValue, Id, Key, Response, Stroke, StrokeKind, Ui};
+use hairline_editor::quantity::{Shown, parse};
+use hairline_editor::ranges::Range;
+
+/// How one number is shown.
+pub(super) struct NumberBox<'a> {
+    pub label: &'a str,
+    /// Before the number, in one of several boxes.
+    pub prefix: &'a str,
+    pub range: &'a Range,
+    pub shown: Shown,
+    pub width: f32,
+}
+
+/// What became of what was typed.
+#[derive(Clone, Debug, Default)]
+enum Typed {
+    #[default]
+    Taken,
+    /// Taken, but not as it was typed.
+    Cut(String),
+    Refused(String),
+}
+
+impl NumberBox<'_> {
+    pub fn show(&self, ui: &mut Ui, value: &mut f64) -> Response {
+        let range = self.range;
+        let before = *value;
+        let text = self.shown.text(before);
+        let typed = RefCell::new(None);
+        let is_given_up = is_given_up(ui);
+        let read = |words: &str| {
+            // Left as it was: the digits that are not shown stay.
+            if words.trim() == text || is_given_up {
+                return Some(before);
+            }
+            let (outcome, number) = self.read(words);
+            typed.replace(Some(outcome));
+            number
+        };
+        let way = range.slider.end() - range.slider.start();
+        let speed = if range.logarithmic {
+            (before.abs() * 0.01).max(way * 1e-6)
+        } else {
+            way / 400.0
+        };
+        let mut drag = DragValue::new(value)
+            .range(range.hard.clone())
+            .speed(speed)
+            .prefix(self.prefix)
+            .custom_formatter(|number, _| self.shown.text(number))
+            .custom_parser(read)
+            // Typing counts when it is done: half a number is no wish.
+            .update_while_editing(false);
+        if range.is_whole {
+            drag = drag.max_decimals(0);
+        }
+        let response = ui.add_sized([self.width, 20.0], drag);
+        remember(ui, &response, typed.into_inner());
+        self.remark(ui, response)
+    }
+
+    /// What was typed, as a number that the scene allows.
+    fn read(&self, words: &str) -> (Typed, Option<f64>) {
+        let hard = &self.range.hard;
+        let number = match parse(words, self.range.unit, self.shown) {
+            Ok(number) if self.range.is_whole => number.round(),
+            Ok(number) => number,
+            Err(error) => {
+                let why = format!("{}: {error}.", self.label);
+                return (Typed::Refused(why), None);
+            }
+        };
+        let beyond = |end: f64, most: &str| {
+            let end = self.range.unit.shown(end).text(end);
+            Typed::Cut(format!(
+                "{}: {end} is the {most} that the scene allows.",
+                self.label
+            ))
+        };
+        let typed = match number {
+            _ if number > *hard.end() => beyond(*hard.end(), "most"),
+            // Zero is refused where the least is the smallest number that there is.
+            _ if number < *hard.start() && *hard.start() == f64::MIN_POSITIVE => {
+                let why = format!("{}: must be more than 0.", self.label);
+                return (Typed::Refused(why), None);
+            }
+            _ if number < *hard.start() => beyond(*hard.start(), "least"),
+            _ => Typed::Taken,
+        };
+        (typed, Some(number))
+    }
+
+    /// A red rim and the reason while what was typed last was refused; else the tooltip.
+    fn remark(&self, ui: &Ui, response: Response) -> Response {
+        let id = refused_id(&response);
+        let why = ui.data(|data| data.get_temp::<String>(id));
+        match why {
+            Some(_) if response.changed() => ui.data_mut(|data| data.remove::<String>(id)),
+            Some(why) => {
+                let rim = Stroke::new(1.5, ui.visuals().error_fg_color);
+                ui.painter()
+                    .rect_stroke(response.rect, 3.0, rim, StrokeKind::Inside);
+                return response.on_hover_text(why);
+            }
+            None => {}
+        }
+        response.on_hover_text(self.range.tooltip)
+    }
+}
+
+/// Whether Escape was pressed a moment ago. egui takes up what was typed before it, a pass later.
+fn is_given_up(ui: &Ui) -> bool {
+    let id = Id::unique("when Escape was pressed");
+    let pass = ui.ctx().cumulative_pass_nr();
+    if ui.input(|input| input.key_pressed(Key::Escape)) {
+        ui.data_mut(|data| data.insert_temp(id, pass));
+    }
+    let pressed = ui.data(|data| data.get_temp::<u64>(id));
+    pressed.is_some_and(|pressed| pass <= pressed + 2)
+}
+
+fn refused_id(response: &Response) -> Id {
+    response.id.with("refused")
+}
+
+/// Where messages wait for the notices.
+fn told_id() -> Id {
+    Id::unique("what was typed for a number")
+}
+
+fn remember(ui: &Ui, response: &Response, typed: Option<Typed>) {
+    let Some(typed) = typed else { return };
+    ui.data_mut(|data| {
+        match &typed {
+            Typed::Refused(why) => {
+                data.insert_temp(refused_id(response), why.clone());
+            }
+            Typed::Taken | Typed::Cut(_) => data.remove::<String>(refused_id(response)),
+        }
+        data.insert_temp(told_id(), typed);
+    });
+}
+
+/// What is to be told of a number that was typed: a message, or that all is well again.
+pub(crate) fn told(ctx: &Context) -> Option<Result<(), String>> {
+    let typed = ctx.data_mut(|data| data.remove_temp::<Typed>(told_id()))?;
+    Some(match typed {
+        Typed::Taken => Ok(()),
+        Typed::Cut(why) | Typed::Refused(why) => Err(why),
+    })
+}

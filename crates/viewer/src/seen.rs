@@ -1,0 +1,92 @@
+//! What of a description is seen: the rest may change without a new scene.
+
+use hairline_scene::Description;
+use hairline_scene::description::{Light, Material, Object, Scratches};
+
+/// Whether only what does not need a new scene differs: the view, the exposure and the way of showing, of which the painter is
+/// told; names, and materials that no object has. The camera's up is left to the builder: it turns the environment.
+pub(crate) fn makes_same_scene(a: &Description, b: &Description) -> bool {
+    a.camera.up == b.camera.up
+        && a.environment == b.environment
+        && alike(&a.objects, &b.objects, |x, y| {
+            is_same_object((a, x), (b, y))
+        })
+        && alike(&a.scratches, &b.scratches, |x, y| {
+            is_same_layer((a, x), (b, y))
+        })
+        && alike(&a.lights, &b.lights, is_same_light)
+}
+
+fn alike<T>(a: &[T], b: &[T], is_same: impl Fn(&T, &T) -> bool) -> bool {
+    a.len() == b.len() && std::iter::zip(a, b).all(|(x, y)| is_same(x, y))
+}
+
+fn is_same_object((a, x): (&Description, &Object), (b, y): (&Description, &Object)) -> bool {
+    let Object {
+        name: _,
+        surface,
+        material: material_name,
+        translation_m,
+        rotation_deg,
+        scale,
+        up,
+        fit_m,
+    } = x;
+    let is_same_material = match (material(a, x), material(b, y)) {
+        (Some(x), Some(y)) => is_same_but_for_name(x, y),
+        // A mesh with the materials of its file; or a name without a material, which the builder tells of.
+        (None, None) => *material_name == y.material,
+        _ => false,
+    };
+    is_same_material
+        && *surface == y.surface
+        && *translation_m == y.translation_m
+        && *rotation_deg == y.rotation_deg
+        && *scale == y.scale
+        && *up == y.up
+        && *fit_m == y.fit_m
+}
+
+fn material<'d>(description: &'d Description, object: &Object) -> Option<&'d Material> {
+    let name = object.material.as_ref()?;
+    description.materials.iter().find(|m| m.name == *name)
+}
+
+fn is_same_but_for_name(x: &Material, y: &Material) -> bool {
+    let Material {
+        name: _,
+        kind,
+        roughness,
+        coherence_um,
+    } = x;
+    *kind == y.kind && *roughness == y.roughness && *coherence_um == y.coherence_um
+}
+
+fn is_same_layer((a, x): (&Description, &Scratches), (b, y): (&Description, &Scratches)) -> bool {
+    let Scratches {
+        object: _,
+        name: _,
+        hidden,
+        solo,
+        layer,
+        strokes,
+    } = x;
+    let place =
+        |d: &Description, layer: &Scratches| d.objects.iter().position(|o| o.name == layer.object);
+    place(a, x) == place(b, y)
+        && *hidden == y.hidden
+        && *solo == y.solo
+        && *layer == y.layer
+        && *strokes == y.strokes
+}
+
+fn is_same_light(x: &Light, y: &Light) -> bool {
+    let Light {
+        name: _,
+        hidden,
+        kind,
+        radiance,
+        color,
+    } = x;
+    *hidden == y.hidden && *kind == y.kind && *radiance == y.radiance && *color == y.color
+}

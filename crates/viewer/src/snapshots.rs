@@ -1,0 +1,196 @@
+//! Snapshots of the look: the whole description with its picture, to flip to, to lay beside the current look and to come back to.
+//!
+//! They are kept in memory for as long as the scene is open, and are no part of its file.
+
+mod overlay;
+mod strip;
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use hairline_scene::Description;
+
+use crate::app::Viewer;
+use crate::engine::{Frame, View};
+use crate::seen::makes_same_scene;
+use crate::viewport::Area;
+use crate::viewport::canvas::CanvasTexture;
+
+/// A picture of a window takes some megabytes.
+const MOST: usize = 24;
+
+/// All of them, and which is being looked at.
+pub(crate) struct Snapshots {
+    list: Vec<Snapshot>,
+    /// Counts those that were ever taken: names stay unique.
+    taken: usize,
+    /// Index of the one that was chosen last.
+    chosen: Option<usize>,
+    /// Whether it is shown, in its way.
+    is_shown: bool,
+    way: Way,
+    /// From 0, left, to 1.
+    divider: f32,
+}
+
+impl Default for Snapshots {
+    fn default() -> Self {
+        Self {
+            list: Vec::new(),
+            taken: 0,
+            chosen: None,
+            is_shown: false,
+            way: Way::Flip,
+            divider: 0.5,
+        }
+    }
+}
+
+/// How a snapshot is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Way {
+    Flip,
+    SideBySide,
+    Slider,
+}
+
+impl Way {
+    const ALL: [Self; 3] = [Self::Flip, Self::SideBySide, Self::Slider];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Flip => "Flip",
+            Self::SideBySide => "Side by side",
+            Self::Slider => "Slider",
+        }
+    }
+}
+
+/// One look.
+struct Snapshot {
+    name: String,
+    description: Arc<Description>,
+    /// Of the scene when it was taken.
+    base_dir: PathBuf,
+    view: View,
+    /// None until the first picture of it is there.
+    frame: Option<Arc<Frame>>,
+    canvas: CanvasTexture,
+}
+
+impl Snapshot {
+    /// Takes a picture if it is of this look and better than the one that is there.
+    fn see(&mut self, frame: &Arc<Frame>) {
+        let is_finished = |frame: &Frame| frame.painted.is_final;
+        if self.frame.as_deref().is_some_and(is_finished) {
+            return;
+        }
+        let is_of_this = frame.view == self.view
+            && makes_same_scene(&frame.built.description, &self.description);
+        if is_of_this {
+            self.frame = Some(Arc::clone(frame));
+        }
+    }
+}
+
+impl Snapshots {
+    pub fn is_empty(&self) -> bool {
+        self.list.is_empty()
+    }
+
+    /// Shows the one that was chosen last, or the current look again.
+    pub fn flip(&mut self) {
+        self.chosen = self.chosen.or(self.list.len().checked_sub(1));
+        self.is_shown = !self.is_shown && self.chosen.is_some();
+    }
+
+    /// Shows the current look.
+    pub fn show_current(&mut self) {
+        self.is_shown = false;
+    }
+
+    /// Whether what is shown is not where the picture would be.
+    pub fn cover(&self) -> bool {
+        self.is_shown && self.way != Way::Slider
+    }
+
+    fn shown(&mut self) -> Option<&mut Snapshot> {
+        let chosen = self.chosen.filter(|_| self.is_shown)?;
+        self.list.get_mut(chosen)
+    }
+
+    fn choose(&mut self, index: usize) {
+        self.is_shown = self.chosen != Some(index) || !self.is_shown;
+        self.chosen = Some(index);
+    }
+
+    fn delete(&mut self, index: usize) {
+        self.list.remove(index);
+        self.is_shown &= self.chosen != Some(index);
+        self.chosen = match self.chosen {
+            Some(chosen) if chosen > index => Some(chosen - 1),
+            Some(chosen) if chosen == index => None,
+            other => other,
+        };
+    }
+}
+
+impl Viewer {
+    /// Keeps the current look. Its picture is the newest one of it, until a finished one is there.
+    pub(crate) fn take_snapshot(&mut self) {
+        if self.snapshots.list.len() == MOST {
+            let text = format!("{MOST} snapshots are kept at most: delete one first.");
+            self.notices.error("snapshot", text);
+            return;
+        }
+        let Some(view) = self.engine.view() else {
+            return;
+        };
+        self.notices.clear("snapshot");
+        let snapshots = &mut self.snapshots;
+        snapshots.taken += 1;
+        snapshots.list.push(Snapshot {
+            name: format!("Look {}", snapshots.taken),
+            description: Arc::clone(self.document.description()),
+            base_dir: self.document.base_dir().to_owned(),
+            view,
+            frame: None,
+            canvas: self.viewport.new_canvas(),
+        });
+        snapshots.chosen = Some(snapshots.list.len() - 1);
+        snapshots.is_shown = false;
+    }
+
+    /// Makes a look the current one again, as one step of undo.
+    fn restore_snapshot(&mut self, index: usize) {
+        let Some(snapshot) = self.snapshots.list.get(index) else {
+            return;
+        };
+        let restored = self
+            .document
+            .brought_here(&snapshot.description, &snapshot.base_dir);
+        let label = format!("Restore {}", snapshot.name);
+        self.document
+            .edit(&label, |description| *description = restored);
+        self.snapshots.chosen = Some(index);
+        self.snapshots.is_shown = false;
+    }
+}
+
+/// Shows the strip, and the snapshot that is chosen, over the picture, whose view is `view`.
+pub(crate) fn show(ui: &mut egui::Ui, viewer: &mut Viewer, area: &Area, view: &View) {
+    if viewer.snapshots.is_empty() {
+        return;
+    }
+    if let Some(frame) = viewer.engine.latest() {
+        for snapshot in &mut viewer.snapshots.list {
+            snapshot.see(&frame);
+        }
+    }
+    overlay::show(ui, viewer, area, view);
+    match strip::show(ui, &mut viewer.snapshots, area) {
+        Some(strip::Wish::Restore(index)) => viewer.restore_snapshot(index),
+        Some(strip::Wish::Delete(index)) => viewer.snapshots.delete(index),
+        None => {}
+    }
+}

@@ -1,0 +1,85 @@
+//! A snapshot in the place of the picture, beside it, or right of a divider.
+
+use egui::{Align2, Color32, FontId, Rect, TextureId, Ui, pos2, vec2};
+
+use crate::app::Viewer;
+use crate::compare::divider;
+use crate::engine::View;
+use crate::viewport::Area;
+
+use super::Way;
+
+/// Between two pictures, points.
+const GAP: f32 = 2.0;
+
+pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer, area: &Area, view: &View) {
+    let way = viewer.snapshots.way;
+    let Some(snapshot) = viewer.snapshots.shown() else {
+        return;
+    };
+    let name = snapshot.name.clone();
+    let size_px = snapshot.view.size_px;
+    let kept = snapshot.frame.clone();
+    let texture = kept.and_then(|frame| snapshot.canvas.texture(ui.ctx(), &frame));
+    let rect = area.rect;
+    match way {
+        Way::Flip => {
+            ui.painter().rect_filled(rect, 0.0, Color32::BLACK);
+            picture(ui, fitting(rect, size_px), texture);
+            caption(ui, rect, &name);
+        }
+        Way::SideBySide => {
+            ui.painter().rect_filled(rect, 0.0, Color32::BLACK);
+            let middle = rect.center().x;
+            let mut left = rect;
+            left.max.x = middle - GAP;
+            let mut right = rect;
+            right.min.x = middle + GAP;
+            let now = viewer.engine.latest();
+            let now = now.and_then(|frame| viewer.viewport.picture(ui.ctx(), &frame));
+            picture(ui, fitting(left, view.size_px), now);
+            picture(ui, fitting(right, size_px), texture);
+            caption(ui, left, "Now");
+            caption(ui, right, &name);
+        }
+        Way::Slider => {
+            let share = &mut viewer.snapshots.divider;
+            let x = rect.left() + *share * rect.width();
+            let right = Rect::from_min_max(pos2(x, rect.top()), rect.max);
+            ui.scope(|ui| {
+                ui.set_clip_rect(right.intersect(ui.clip_rect()));
+                picture(ui, fitting(rect, size_px), texture);
+            });
+            divider::names(ui, rect.with_max_y(rect.max.y - 20.0), x, ["Now", &name]);
+            divider::show(ui, rect, share, "Divider between now and the snapshot");
+        }
+    }
+}
+
+/// As large as it can be within `rect`, in the picture's shape.
+fn fitting(rect: Rect, size_px: [u32; 2]) -> Rect {
+    let [width, height] = size_px.map(|side| side.max(1) as f32);
+    let scale = (rect.width() / width).min(rect.height() / height);
+    Rect::from_center_size(rect.center(), scale * vec2(width, height))
+}
+
+fn picture(ui: &Ui, rect: Rect, texture: Option<TextureId>) {
+    let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+    match texture {
+        Some(texture) => {
+            let painter = ui.painter();
+            painter.image(texture, rect, whole, Color32::WHITE);
+        }
+        None => caption(ui, rect, "No picture was there yet when this was taken"),
+    }
+}
+
+fn caption(ui: &Ui, rect: Rect, text: &str) {
+    let painter = ui.painter();
+    let font = FontId::proportional(14.0);
+    let galley = painter.layout_no_wrap(text.into(), font, Color32::WHITE);
+    let at = rect.center_top() + vec2(0.0, 12.0);
+    let rect = Align2::CENTER_TOP.anchor_size(at, galley.size());
+    painter.rect_filled(rect.expand(5.0), 4.0, Color32::from_black_alpha(170));
+    painter.galley(rect.min, galley, Color32::WHITE);
+}

@@ -1,0 +1,124 @@
+//! The thumbnails at the lower edge of the picture, and what can be done with one.
+
+use egui::{
+    Align2, Button, Color32, CornerRadius, Id, Rect, Role, ScrollArea, Sense, Stroke, StrokeKind,
+    Ui, Vec2, WidgetInfo, pos2, vec2,
+};
+
+use crate::viewport::Area;
+
+use super::{Snapshot, Snapshots, Way};
+
+/// Height of a thumbnail, points; as wide as its picture needs, within bounds.
+const HEIGHT: f32 = 72.0;
+const WIDTHS: std::ops::RangeInclusive<f32> = 48.0..=150.0;
+const NAME_HEIGHT: f32 = 18.0;
+
+/// What is to be done with the snapshot of an index.
+pub(super) enum Wish {
+    Restore(usize),
+    Delete(usize),
+}
+
+pub(super) fn show(ui: &mut Ui, snapshots: &mut Snapshots, area: &Area) -> Option<Wish> {
+    let corner = area.rect.left_bottom() + vec2(12.0, -12.0);
+    egui::Area::new(Id::unique("snapshots"))
+        .pivot(Align2::LEFT_BOTTOM)
+        .fixed_pos(corner)
+        .show(ui.ctx(), |ui| {
+            egui::Frame::popup(ui.style()).show(ui, |ui| {
+                ui.set_max_width(area.rect.width() - 40.0);
+                let wish = tools(ui, snapshots);
+                ScrollArea::horizontal().show(ui, |ui| {
+                    ui.horizontal(|ui| {
+                        let mut clicked = None;
+                        for index in 0..snapshots.list.len() {
+                            let is_shown = snapshots.is_shown && snapshots.chosen == Some(index);
+                            let is_chosen = snapshots.chosen == Some(index);
+                            let snapshot = &mut snapshots.list[index];
+                            if thumbnail(ui, snapshot, is_chosen, is_shown) {
+                                clicked = Some(index);
+                            }
+                        }
+                        if let Some(index) = clicked {
+                            snapshots.choose(index);
+                        }
+                    });
+                });
+                wish
+            })
+        })
+        .inner
+        .inner
+}
+
+/// How the chosen one is shown, and what can be done with it.
+fn tools(ui: &mut Ui, snapshots: &mut Snapshots) -> Option<Wish> {
+    let mut wish = None;
+    ui.horizontal(|ui| {
+        for way in Way::ALL {
+            let is_on = snapshots.is_shown && snapshots.way == way;
+            let button = ui.add_enabled(
+                snapshots.chosen.is_some(),
+                Button::selectable(is_on, way.name()),
+            );
+            if button.clicked() {
+                snapshots.is_shown = !is_on;
+                snapshots.way = way;
+            }
+        }
+        let Some(chosen) = snapshots.chosen else {
+            return;
+        };
+        ui.separator();
+        let restore = ui.button("Restore");
+        if restore
+            .on_hover_text("Makes this look the current one; undo comes back from it")
+            .clicked()
+        {
+            wish = Some(Wish::Restore(chosen));
+        }
+        let delete = ui.button("Delete");
+        delete.widget_info(|| WidgetInfo::labeled(Role::Button, true, "Delete the snapshot"));
+        if delete.clicked() {
+            wish = Some(Wish::Delete(chosen));
+        }
+    });
+    wish
+}
+
+/// True if it was clicked.
+fn thumbnail(ui: &mut Ui, snapshot: &mut Snapshot, is_chosen: bool, is_shown: bool) -> bool {
+    let [width, height] = snapshot.view.size_px.map(|side| side.max(1) as f32);
+    let wide = (HEIGHT * width / height).clamp(*WIDTHS.start(), *WIDTHS.end());
+    let size = Vec2::new(wide, HEIGHT + NAME_HEIGHT);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+    let name = snapshot.name.clone();
+    response.widget_info(|| WidgetInfo::selected(Role::Button, true, is_shown, &name));
+    let image = Rect::from_min_size(rect.min, vec2(wide, HEIGHT));
+    let visuals = ui.visuals();
+    let (text, selected) = (visuals.text_color(), visuals.selection.stroke.color);
+    let painter = ui.painter();
+    painter.rect_filled(image, 2.0, Color32::BLACK);
+    let frame = snapshot.frame.clone();
+    if let Some(frame) = frame
+        && let Some(texture) = snapshot.canvas.texture(ui.ctx(), &frame)
+    {
+        // The middle of a picture that is wider than a thumbnail may be.
+        let share = (wide / (HEIGHT * width / height)).min(1.0);
+        let part = Rect::from_min_max(pos2(0.5 - 0.5 * share, 0.0), pos2(0.5 + 0.5 * share, 1.0));
+        painter.image(texture, image, part, Color32::WHITE);
+    }
+    let line = match (is_shown, is_chosen || response.hovered()) {
+        (true, _) => Stroke::new(3.0, selected),
+        (false, true) => Stroke::new(1.5, selected),
+        (false, false) => Stroke::new(1.0, Color32::from_gray(90)),
+    };
+    painter.rect_stroke(image, CornerRadius::same(2), line, StrokeKind::Inside);
+    let at = pos2(rect.center().x, rect.bottom());
+    let font = egui::FontId::proportional(13.0);
+    painter.text(at, Align2::CENTER_BOTTOM, &snapshot.name, font, text);
+    response
+        .on_hover_text("Click to see it, and again to see the current look")
+        .clicked()
+}

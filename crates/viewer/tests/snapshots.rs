@@ -1,0 +1,85 @@
+//! Snapshots of the look: taken, seen in three ways, restored as one step of undo, deleted.
+
+mod common;
+
+use egui::Key;
+use egui::accesskit::{Role, Toggled};
+use egui_kittest::{Harness, kittest::NodeT, kittest::Queryable};
+use hairline_viewer::Viewer;
+
+fn opened() -> Harness<'static, Viewer> {
+    let mut harness = common::viewer(common::SMALL);
+    common::wait_built(&mut harness);
+    finish(&mut harness);
+    harness
+}
+
+fn finish(harness: &mut Harness<'static, Viewer>) {
+    common::wait_until(harness, "a finished picture", |viewer| {
+        let frame = viewer.engine().latest();
+        frame.is_some_and(|frame| {
+            frame.painted.is_final && Some(frame.view) == viewer.engine().view()
+        })
+    });
+}
+
+fn click(harness: &mut Harness<'static, Viewer>, label: &str) {
+    harness.get_by_label(label).click();
+    harness.run_steps(3);
+}
+
+fn is_shown(harness: &Harness<'static, Viewer>, name: &str) -> bool {
+    let node = harness.get_by_role_and_label(Role::Button, name);
+    node.accesskit_node().toggled() == Some(Toggled::True)
+}
+
+fn turn(harness: &mut Harness<'static, Viewer>) {
+    let document = harness.state_mut().document_mut();
+    document.edit("Turn", |d| d.camera.position_m[0] += 0.05);
+    document.edit("Brighten", |d| d.camera.exposure_ev += 1.0);
+    harness.run_steps(2);
+    finish(harness);
+}
+
+#[test]
+fn a_snapshot_is_flipped_to_and_restored_as_one_step() {
+    let mut harness = opened();
+    let before = harness.state().document().description().clone();
+    common::key(&mut harness, Key::S);
+    harness.run_steps(2);
+    assert!(!is_shown(&harness, "Look 1"));
+    turn(&mut harness);
+    let turned = harness.state().document().description().clone();
+    common::key(&mut harness, Key::J);
+    harness.run_steps(2);
+    assert!(is_shown(&harness, "Look 1"));
+    // The current look stays what it is.
+    assert_eq!(*harness.state().document().description(), turned);
+    click(&mut harness, "Look 1");
+    assert!(!is_shown(&harness, "Look 1"));
+    click(&mut harness, "Restore");
+    assert_eq!(*harness.state().document().description(), before);
+    let document = harness.state_mut().document_mut();
+    assert_eq!(document.undo().as_deref(), Some("Restore Look 1"));
+    assert_eq!(*harness.state().document().description(), turned);
+}
+
+#[test]
+fn looks_are_compared_side_by_side_and_under_a_slider_and_deleted() {
+    let mut harness = opened();
+    click(&mut harness, "Snapshot");
+    turn(&mut harness);
+    common::key(&mut harness, Key::S);
+    harness.run_steps(2);
+    click(&mut harness, "Look 1");
+    click(&mut harness, "Side by side");
+    assert!(is_shown(&harness, "Look 1"));
+    click(&mut harness, "Slider");
+    let divider = "Divider between now and the snapshot";
+    assert!(harness.query_by_label(divider).is_some());
+    click(&mut harness, "Slider");
+    assert!(harness.query_by_label(divider).is_none());
+    click(&mut harness, "Delete the snapshot");
+    assert!(harness.query_by_label("Look 1").is_none());
+    assert!(harness.query_by_label("Look 2").is_some());
+}

@@ -1,0 +1,109 @@
+//! Presets with their pictures, grades of wear, and maps in the box.
+
+use crate::common::{
+    self, SMALL, click_on, description, viewer, viewer_with, wait_built, wait_until,
+};
+use egui::accesskit::{Role, Toggled};
+use egui_kittest::Harness;
+use egui_kittest::kittest::{NodeT, Queryable};
+use hairline_editor::Selection;
+use hairline_editor::wear::Wear;
+use hairline_optics::metal::Metal;
+use hairline_scene::description::{MaterialKind, MetalColor};
+use hairline_viewer::engine::Backend;
+use hairline_viewer::{Options, Viewer};
+
+fn select(harness: &mut Harness<'static, Viewer>, selection: Selection) {
+    harness.state_mut().document_mut().select(selection);
+    harness.run_steps(3);
+}
+
+/// Whether the card of a grade is the chosen one.
+fn is_chosen(harness: &Harness<'static, Viewer>, name: &str) -> bool {
+    let card = harness.get_by_role_and_label(Role::Button, name);
+    card.accesskit_node().toggled() == Some(Toggled::True)
+}
+
+#[test]
+fn wear_is_one_choice_over_the_layers_of_an_object() {
+    let mut harness = viewer(SMALL);
+    wait_built(&mut harness);
+    let before = description(&harness);
+    select(&mut harness, Selection::Object(0));
+    assert!(is_chosen(&harness, "New"));
+    click_on(&mut harness, "Worn");
+    let worn = description(&harness);
+    let layers = Wear::Worn.layers("disk", 1.0).len();
+    assert_eq!(worn.scratches.len(), before.scratches.len() + layers);
+    assert!(is_chosen(&harness, "Worn") && !is_chosen(&harness, "New"));
+    assert_eq!(harness.state().document().undo_label(), Some("Wear"));
+    wait_built(&mut harness);
+    // The size of the object is as it was, and so is the grade.
+    assert!(is_chosen(&harness, "Worn"));
+    click_on(&mut harness, "New");
+    assert_eq!(*description(&harness), *before);
+    common::undo(&mut harness);
+    assert_eq!(*description(&harness), *worn);
+}
+
+#[test]
+fn pictures_of_presets_come_in_the_background_and_are_chosen_by_name() {
+    let mut harness = viewer(SMALL);
+    wait_built(&mut harness);
+    assert_eq!(harness.state().small_pictures(), (0, false));
+    click_on(&mut harness, "Add to objects");
+    wait_until(&mut harness, "four pictures", |viewer| {
+        viewer.small_pictures() == (4, false)
+    });
+    let objects = description(&harness).objects.len();
+    click_on(&mut harness, "Sphere");
+    assert_eq!(description(&harness).objects.len(), objects + 1);
+}
+
+#[test]
+fn metals_are_chosen_by_their_swatches() {
+    let mut harness = viewer(SMALL);
+    wait_built(&mut harness);
+    select(&mut harness, Selection::Material(0));
+    click_on(&mut harness, "Make it gold");
+    let kind = &description(&harness).materials[0].kind;
+    let gold = MaterialKind::Metal(MetalColor::Measured(Metal::Gold));
+    assert_eq!(*kind, gold);
+    common::undo(&mut harness);
+    assert_ne!(description(&harness).materials[0].kind, gold);
+}
+
+#[test]
+fn a_map_in_the_box_is_written_beside_the_scene() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = folder.path().join("scene.toml");
+    std::fs::write(&scene, SMALL).unwrap();
+    let mut harness = viewer_with(Options {
+        scene: Some(scene.clone()),
+        built_in: SMALL,
+        backend: Backend::Cpu,
+        state_dir: None,
+        native_dialogs: false,
+    });
+    wait_built(&mut harness);
+    select(&mut harness, Selection::Environment);
+    click_on(&mut harness, "Overcast sky");
+    let environment = description(&harness).environment.clone().unwrap();
+    let file = std::path::Path::new("maps/hairline-overcast.exr");
+    assert_eq!(environment.file, file);
+    assert!(folder.path().join(file).is_file());
+    hairline_image::exr_file::read_picture(&folder.path().join(file)).unwrap();
+    assert!(harness.state().messages().is_empty());
+    // A scene without a file and a viewer without a folder have no place for it.
+    let mut harness = viewer(SMALL);
+    select(&mut harness, Selection::Environment);
+    click_on(&mut harness, "Studio");
+    assert_eq!(description(&harness).environment, None);
+    assert!(
+        harness
+            .state()
+            .messages()
+            .concat()
+            .contains("Save the scene first")
+    );
+}

@@ -1,0 +1,134 @@
+//! Boxes for numbers, as somebody types in them.
+
+use crate::common::{SMALL, description, viewer, wait_built};
+use egui::Key;
+use egui::accesskit::Role;
+use egui_kittest::Harness;
+use egui_kittest::kittest::{NodeT, Queryable};
+use hairline_editor::Selection;
+use hairline_scene::description::{Layer, LightKind};
+use hairline_viewer::Viewer;
+
+/// Types into the box of this name, in the place of what is there.
+fn type_into(harness: &mut Harness<'static, Viewer>, name: &str, text: &str) {
+    harness
+        .get_by_role_and_label(Role::SpinButton, name)
+        .focus();
+    harness.run_steps(2);
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, Key::A);
+    harness.event(egui::Event::Text(text.to_owned()));
+    harness.run_steps(2);
+    harness.key_press(Key::Enter);
+    harness.run_steps(3);
+}
+
+fn shown(harness: &Harness<'static, Viewer>, name: &str) -> String {
+    let node = harness.get_by_role_and_label(Role::SpinButton, name);
+    node.accesskit_node().value().unwrap_or_default()
+}
+
+fn width_um(harness: &Harness<'static, Viewer>) -> f64 {
+    match &description(harness).scratches[0].layer {
+        Layer::Laid(laid) => laid.width_um.mean,
+        other => panic!("{other:?}"),
+    }
+}
+
+fn with_layer() -> Harness<'static, Viewer> {
+    let mut harness = viewer(SMALL);
+    wait_built(&mut harness);
+    harness
+        .state_mut()
+        .document_mut()
+        .select(Selection::Layer(0));
+    harness.run_steps(3);
+    harness
+}
+
+#[test]
+fn units_and_sums_are_read() {
+    let mut harness = with_layer();
+    for (typed, wanted) in [
+        ("0.004 mm", 4.0),
+        ("6,5", 6.5),
+        ("7/2", 3.5),
+        ("4500 nm", 4.5),
+        ("2 um + 500 nm", 2.5),
+    ] {
+        type_into(&mut harness, "Width", typed);
+        let got = width_um(&harness);
+        assert!((got - wanted).abs() < 1e-9, "{typed:?} became {got}");
+        assert!(harness.state().messages().is_empty());
+    }
+}
+
+#[test]
+fn what_cannot_be_read_is_told_and_changes_nothing() {
+    let mut harness = with_layer();
+    let before = description(&harness);
+    for typed in ["4 zz", "30°", "-", "1,000", "(2"] {
+        type_into(&mut harness, "Width", typed);
+        assert_eq!(*description(&harness), *before, "{typed:?}");
+        let told = harness.state().messages().join(" ");
+        assert!(told.contains("Width"), "{typed:?}: {told:?}");
+    }
+    // The next good one takes the message away.
+    type_into(&mut harness, "Width", "4");
+    assert_eq!(width_um(&harness), 4.0);
+    assert!(harness.state().messages().is_empty());
+    // What the scene does not allow is said, too.
+    type_into(&mut harness, "Width", "1 m");
+    let told = harness.state().messages().join(" ");
+    assert!(told.contains("the most"), "{told:?}");
+    // Given up.
+    let before = description(&harness);
+    harness
+        .get_by_role_and_label(Role::SpinButton, "Width")
+        .focus();
+    harness.run_steps(2);
+    harness.event(egui::Event::Text("3".to_owned()));
+    harness.step();
+    harness.key_press(Key::Escape);
+    harness.run_steps(4);
+    assert_eq!(*description(&harness), *before);
+    assert_eq!(harness.state().document().selection(), Selection::Layer(0));
+}
+
+#[test]
+fn lengths_and_vectors_have_units_that_read_well() {
+    let mut harness = with_layer();
+    assert_eq!(shown(&harness, "Length"), "50 mm");
+    assert_eq!(shown(&harness, "Width"), "5 µm");
+    harness
+        .state_mut()
+        .document_mut()
+        .select(Selection::Light(0));
+    harness.run_steps(3);
+    assert!(shown(&harness, "Position x").contains("-60 mm"));
+    assert!(shown(&harness, "Position z").contains("100 mm"));
+    type_into(&mut harness, "Position z", "0.12 m");
+    type_into(&mut harness, "Radius", "8");
+    let LightKind::Sphere { center_m, radius_m } = description(&harness).lights[0].kind.clone()
+    else {
+        panic!()
+    };
+    assert!((center_m[2] - 0.12).abs() < 1e-12);
+    // Without a unit it counts in what the box shows, which is millimetres.
+    assert!((radius_m - 0.008).abs() < 1e-12);
+    // To go through a box changes nothing, though it does not show all digits.
+    let document = harness.state_mut().document_mut();
+    document.edit("by the test", |d| {
+        if let LightKind::Sphere { radius_m, .. } = &mut d.lights[0].kind {
+            *radius_m = 0.008_123_456_7;
+        }
+    });
+    harness.run_steps(2);
+    let before = description(&harness);
+    harness
+        .get_by_role_and_label(Role::SpinButton, "Radius")
+        .focus();
+    harness.run_steps(2);
+    harness.key_press(Key::Enter);
+    harness.run_steps(3);
+    assert_eq!(*description(&harness), *before);
+}

@@ -1,0 +1,182 @@
+//! Files that another program writes while they are open here.
+
+use std::path::Path;
+
+use crate::common::{SMALL, click_on, description, viewer_with, wait_built, wait_until};
+use egui::{Key, Modifiers};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use hairline_viewer::engine::Backend;
+use hairline_viewer::{Options, Viewer};
+
+fn open(path: &Path) -> Harness<'static, Viewer> {
+    let mut harness = viewer_with(Options {
+        scene: Some(path.to_owned()),
+        built_in: SMALL,
+        backend: Backend::Cpu,
+        state_dir: None,
+        native_dialogs: false,
+    });
+    wait_built(&mut harness);
+    // The files' first look.
+    std::thread::sleep(std::time::Duration::from_millis(300));
+    harness
+}
+
+/// As many editors do: another file takes the name.
+fn replace(path: &Path, text: &str) {
+    let other = path.with_extension("new");
+    std::fs::write(&other, text).unwrap();
+    std::fs::rename(&other, path).unwrap();
+}
+
+fn fov_y_deg(viewer: &Viewer) -> f64 {
+    viewer.document().description().camera.fov_y_deg
+}
+
+fn expose(harness: &mut Harness<'static, Viewer>) {
+    let document = harness.state_mut().document_mut();
+    document.edit("Exposure", |d| d.camera.exposure_ev += 1.0);
+    harness.run_steps(2);
+}
+
+fn save(harness: &mut Harness<'static, Viewer>) {
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::S);
+    harness.run_steps(3);
+}
+
+fn wait_for(harness: &mut Harness<'static, Viewer>, label: &'static str) {
+    let start = std::time::Instant::now();
+    while harness.query_by_label(label).is_none() {
+        assert!(start.elapsed().as_secs() < 600, "no {label:?}");
+        std::thread::sleep(std::time::Duration::from_millis(5));
+        harness.step();
+    }
+}
+
+#[test]
+fn a_scene_that_another_program_wrote_is_loaded_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.toml");
+    std::fs::write(&path, SMALL).unwrap();
+    let mut harness = open(&path);
+    replace(
+        &path,
+        &SMALL.replace("fov_y_deg = 30.0", "fov_y_deg = 21.0"),
+    );
+    wait_until(&mut harness, "the other scene", |v| fov_y_deg(v) == 21.0);
+    assert!(!harness.state().document().is_modified());
+    assert!(harness.state().messages().join(" ").contains("a.toml"));
+    // What is wrong in it is told, and the scene stays.
+    replace(&path, &SMALL.replace("fov_y_deg = 30.0", "fow_y_deg = 1.0"));
+    wait_until(&mut harness, "a message", |viewer| {
+        viewer
+            .messages()
+            .iter()
+            .any(|text| text.contains("fow_y_deg"))
+    });
+    assert_eq!(fov_y_deg(harness.state()), 21.0);
+    // And put right.
+    replace(&path, SMALL);
+    wait_until(&mut harness, "the first scene", |v| fov_y_deg(v) == 30.0);
+    assert!(!harness.state().messages().join(" ").contains("fow_y_deg"));
+}
+
+#[test]
+fn unsaved_changes_are_asked_about_and_kept_or_given_to_undo() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.toml");
+    std::fs::write(&path, SMALL).unwrap();
+    let mut harness = open(&path);
+    expose(&mut harness);
+    let mine = description(&harness);
+    let theirs = SMALL.replace("fov_y_deg = 30.0", "fov_y_deg = 21.0");
+    replace(&path, &theirs);
+    wait_for(&mut harness, "Keep the changes here");
+    assert_eq!(*description(&harness), *mine);
+    click_on(&mut harness, "Keep the changes here");
+    // Chosen is chosen.
+    save(&mut harness);
+    assert!(!harness.state().document().is_modified());
+    assert!(
+        std::fs::read_to_string(&path)
+            .unwrap()
+            .contains("fov_y_deg = 30.0")
+    );
+
+    expose(&mut harness);
+    let mine = description(&harness);
+    replace(&path, &theirs);
+    wait_for(&mut harness, "Load the file");
+    click_on(&mut harness, "Load the file");
+    assert_eq!(fov_y_deg(harness.state()), 21.0);
+    crate::common::undo(&mut harness);
+    assert_eq!(*description(&harness), *mine);
+}
+
+/// Also before the watch has seen it: the text itself is compared.
+#[test]
+fn saving_over_what_another_program_wrote_asks_first() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.toml");
+    std::fs::write(&path, SMALL).unwrap();
+    let mut harness = open(&path);
+    expose(&mut harness);
+    let theirs = SMALL.replace("fov_y_deg = 30.0", "fov_y_deg = 21.0");
+    std::fs::write(&path, &theirs).unwrap();
+    save(&mut harness);
+    assert_eq!(
+        std::fs::read_to_string(&path).unwrap(),
+        theirs,
+        "overwritten"
+    );
+    harness.key_press(Key::Enter);
+    harness.run_steps(3);
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), theirs, "by a key");
+    click_on(&mut harness, "Replace the file");
+    assert!(!harness.state().document().is_modified());
+    assert!(
+        std::fs::read_to_string(&path)
+            .unwrap()
+            .contains("fov_y_deg = 30.0")
+    );
+}
+
+#[test]
+fn reload_and_revert_are_in_the_menu() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.toml");
+    std::fs::write(&path, SMALL).unwrap();
+    let mut harness = open(&path);
+    let saved = description(&harness);
+    expose(&mut harness);
+    click_on(&mut harness, "File");
+    click_on(&mut harness, "Revert to what was saved");
+    assert_eq!(*description(&harness), *saved);
+    assert!(!harness.state().document().is_modified());
+    expose(&mut harness);
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::R);
+    harness.run_steps(3);
+    click_on(&mut harness, "Load the file");
+    assert_eq!(*description(&harness), *saved);
+}
+
+/// A model or a map: the scene is built anew from it.
+#[test]
+fn what_the_scene_names_is_read_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.toml");
+    let csv = folder.path().join("list.csv");
+    let head = "x0_m,y0_m,z0_m,x1_m,y1_m,z1_m,width_um,depth_nm\n";
+    let row = "0,0,0,0.02,0,0,3,200\n";
+    std::fs::write(&csv, format!("{head}{row}")).unwrap();
+    let listed = "\n[[scratches]]\nobject = \"disk\"\npattern = \"file\"\nfile = \"list.csv\"\n";
+    std::fs::write(&path, format!("{SMALL}{listed}")).unwrap();
+    let mut harness = open(&path);
+    let count = |viewer: &Viewer| viewer.engine().built().map_or(0, |b| b.scratch_counts().0);
+    let before = count(harness.state());
+    assert!(before > 0, "{:?}", harness.state().messages());
+    replace(&csv, &format!("{head}{row}0,0.01,0,0.02,0.01,0,3,200\n"));
+    wait_until(&mut harness, "another scratch", |v| count(v) == before + 1);
+    assert!(!harness.state().document().is_modified());
+}

@@ -1,0 +1,158 @@
+//! `cargo xtask fuzz N`: mutated inputs of all kinds go through the command line, each in a process of its own with limits of time and
+//! memory. A case depends on the seed and its number alone.
+
+mod found;
+mod judge;
+mod mutate;
+mod originals;
+
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use anyhow::{Context, Result, bail};
+use clap::{Args, ValueEnum};
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64;
+use rayon::prelude::*;
+
+/// Looks for inputs that make `hairline` panic, hang, take too much memory or leave parts of files.
+#[derive(Args)]
+pub struct Fuzz {
+    /// How many mutated inputs, besides those of earlier findings.
+    cases: u64,
+    /// Other mutations.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// The first case: to run one again, `fuzz 1 --seed S --from CASE`.
+    #[arg(long, default_value_t = 0)]
+    from: u64,
+    /// Inputs of this kind only.
+    #[arg(long, value_enum)]
+    kind: Option<Kind>,
+    /// Seconds of processor time that a case may take.
+    #[arg(long, default_value_t = 20)]
+    seconds: u64,
+    /// Memory that a case may have, in MiB.
+    #[arg(long, default_value_t = 2048)]
+    mebibytes: u64,
+    /// The program. Without it the one beside this one: `cargo build --release -p hairline` makes it.
+    #[arg(long)]
+    program: Option<PathBuf>,
+    /// Where failing inputs are kept.
+    #[arg(long, default_value = "target/fuzz")]
+    keep: PathBuf,
+}
+
+/// A kind of input.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Kind {
+    /// Scene files.
+    Toml,
+    /// Lists of scratches.
+    Csv,
+    /// Binary glTF.
+    Glb,
+    /// glTF as text.
+    Gltf,
+    /// Radiance maps.
+    Hdr,
+    /// OpenEXR maps.
+    Exr,
+    /// Textures.
+    Png,
+}
+
+/// One input: files in a folder, of which `scene.toml` is rendered.
+pub struct Case {
+    /// What failures call it.
+    pub name: String,
+    /// Names and contents.
+    pub files: Vec<(String, Vec<u8>)>,
+}
+
+impl Fuzz {
+    pub fn run(self) -> Result<()> {
+        let program = self.program()?;
+        let limits = judge::Limits {
+            seconds: self.seconds,
+            mebibytes: self.mebibytes,
+        };
+        let originals = originals::all()?;
+        let kinds: Vec<Kind> = match self.kind {
+            Some(kind) => vec![kind],
+            None => Kind::value_variants().to_vec(),
+        };
+        let case = |number: u64| {
+            let mut random =
+                Pcg64::seed_from_u64(self.seed ^ number.wrapping_mul(0x9e37_79b9_7f4a_7c15));
+            let kind = kinds[random.random_range(0..kinds.len())];
+            let mut case = originals.case(kind, &mut random);
+            case.name = format!("seed-{}-case-{number}", self.seed);
+            case
+        };
+        let failures = AtomicUsize::new(0);
+        let check = |case: Case| -> Result<()> {
+            let folder = tempfile::tempdir().context("make a folder")?;
+            let finding = judge::judge(&program, &case, folder.path(), &limits)?;
+            if let Some(finding) = finding {
+                failures.fetch_add(1, Ordering::Relaxed);
+                let kept = self.keep(&case)?;
+                println!("{}: {finding}; kept in {}", case.name, kept.display());
+            }
+            Ok(())
+        };
+        for case in originals::sound_cases(&originals) {
+            let folder = tempfile::tempdir().context("make a folder")?;
+            let finding = judge::judge(&program, &case, folder.path(), &limits)?;
+            if finding.is_some() || !folder.path().join("out.png").exists() {
+                bail!(
+                    "{} does not render: {}",
+                    case.name,
+                    finding.unwrap_or_default()
+                );
+            }
+        }
+        if self.kind.is_none() {
+            found::all().into_par_iter().try_for_each(check)?;
+        }
+        let numbers = self.from..self.from + self.cases;
+        numbers.into_par_iter().map(case).try_for_each(check)?;
+        let failures = failures.into_inner();
+        println!("{} cases, {failures} failures", self.cases);
+        match failures {
+            0 => Ok(()),
+            _ => bail!("{failures} inputs failed"),
+        }
+    }
+
+    fn program(&self) -> Result<PathBuf> {
+        let beside = || -> Result<PathBuf> {
+            let own = std::env::current_exe().context("find this program")?;
+            Ok(own.with_file_name(format!("hairline{}", std::env::consts::EXE_SUFFIX)))
+        };
+        let program = self.program.clone().map_or_else(beside, Ok)?;
+        if !program.is_file() {
+            bail!(
+                "there is no {}; make it by `cargo build --release -p hairline`",
+                program.display()
+            );
+        }
+        Ok(std::path::absolute(program)?)
+    }
+
+    fn keep(&self, case: &Case) -> Result<PathBuf> {
+        let folder = self.keep.join(&case.name);
+        write(case, &folder)?;
+        Ok(folder)
+    }
+}
+
+/// Writes a case's files.
+fn write(case: &Case, folder: &Path) -> Result<()> {
+    std::fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
+    for (name, bytes) in &case.files {
+        let path = folder.join(name);
+        std::fs::write(&path, bytes).with_context(|| path.display().to_string())?;
+    }
+    Ok(())
+}
