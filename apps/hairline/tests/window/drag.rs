@@ -1,7 +1,8 @@
 //! How many pictures come while a hand drags, and how soon the first: counted on the screen, with an event every 50 ms that waits for
 //! nothing.
 //!
-//! `cargo test --release -p hairline --test window drag -- --nocapture` prints the figures.
+//! `HAIRLINE_SCREENSHOTS=FOLDER cargo test --release -p hairline --test window drag -- --nocapture` prints the figures of both scenes; without
+//! the folder, those of the plate.
 
 use std::time::{Duration, Instant};
 
@@ -136,7 +137,14 @@ fn pictures_come_while_a_hand_drags() {
     let Some(display) = crate::display() else {
         return;
     };
-    for (name, text) in [("built-in scene", BUILT_IN), ("plate", PLATE)] {
+    // The heavier scene alone would take another minute of every test run.
+    let scenes = [("plate", PLATE), ("built-in scene", BUILT_IN)];
+    let count = if std::env::var_os("HAIRLINE_SCREENSHOTS").is_some() {
+        2
+    } else {
+        1
+    };
+    for (name, text) in scenes.into_iter().take(count) {
         let folder = tempfile::tempdir().unwrap();
         let scene = folder.path().join("plate.toml");
         std::fs::write(&scene, text).unwrap();
