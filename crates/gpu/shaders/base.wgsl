@@ -53,11 +53,14 @@ fn base_polygon(point: SurfacePoint, lobe: LtcLobe, reflecting: LobeFresnel, lig
 // What the lobe reflects of light from all around, single scattering, and what falls on the body.
 fn base_environment(point: SurfacePoint, lobe: LtcLobe, reflecting: LobeFresnel) -> BaseRadiance {
     let looked_up = environment_lobe(lobe);
-    var all = base_environment_mean(point, looked_up, 1.0);
-    if lobe.excess > 0.0 {
-        // Alpha times the root of 2.
-        let wide = base_environment_mean(point, looked_up, 1.18920712);
-        all = max(all + (all - wide) * lobe.excess, vec3f(0.0));
+    var all = vec3f(0.0);
+    var weights = 0.0;
+    for (var i = 0u; i < ENVIRONMENT_TAPS; i += 1u) {
+        let tap = environment_tap(looked_up, i);
+        let radiance = scene_prefiltered(world_from_surface(point, tap.direction), tap.roughness);
+        weights += tap.weight;
+        // A running mean, which of equal values is exact.
+        all += (radiance - all) * (tap.weight / weights);
     }
     var grazing = all;
     let tap = environment_grazing_tap(looked_up);
@@ -69,23 +72,10 @@ fn base_environment(point: SurfacePoint, lobe: LtcLobe, reflecting: LobeFresnel)
     return BaseRadiance(normal * all + (reflecting.albedo - normal) * grazing, scene_irradiance(point.normal) / 3.14159265);
 }
 
-fn base_environment_mean(point: SurfacePoint, lobe: EnvironmentLobe, widening: f32) -> vec3f {
-    var reflected = vec3f(0.0);
-    var weights = 0.0;
-    for (var i = 0u; i < ENVIRONMENT_TAPS; i += 1u) {
-        let tap = environment_tap(lobe, i);
-        let radiance = scene_prefiltered(world_from_surface(point, tap.direction), min(tap.roughness * widening, 1.0));
-        weights += tap.weight;
-        // A running mean, which of equal values is exact.
-        reflected += (radiance - reflected) * (tap.weight / weights);
-    }
-    return reflected;
-}
-
 // Radiance of the base towards the viewer, before scratches take theirs.
 fn base_radiance(point: SurfacePoint) -> BaseRadiance {
-    let lobe = ltc_filtered_lobe(point.wo, point.lobe, lobe_ltc, lobe_albedo);
-    let reflecting = lobe_fresnel(FresnelRgb(point.f0, point.curve), point.wo, point.lobe.roughness, fresnel_curves);
+    let lobe = ltc_lobe(point.wo, point.roughness, lobe_ltc, lobe_albedo);
+    let reflecting = lobe_fresnel(FresnelRgb(point.f0, point.curve), point.wo, point.roughness, fresnel_curves);
     let albedo = ggx_area_reflectance(reflecting.albedo, point.f0, lobe.albedo);
     // What the surface does not reflect reaches the body.
     let body = point.diffuse * max(1.0 - albedo, vec3f(0.0));

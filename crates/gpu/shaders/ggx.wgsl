@@ -9,24 +9,10 @@ fn ggx_alpha(roughness: f32) -> f32 {
     return max(r * r, GGX_MIN_ALPHA);
 }
 
-// A lobe that a pixel's normals widen.
-struct FilteredLobe {
-    roughness: f32,             // perceptual, of the widened core
-    excess: f32,                // by how much its far tails are too bright
-}
-
-// `turn2` is the sum of the squared turns of the normal.
-fn ggx_filtered(roughness: f32, turn2: f32) -> FilteredLobe {
+// Of a surface whose normal turns under a pixel; `turn2` is the sum of its squared turns.
+fn ggx_filtered_roughness(roughness: f32, turn2: f32) -> f32 {
     let alpha = ggx_alpha(roughness);
-    return FilteredLobe(sqrt(sqrt(min(alpha * alpha + min(turn2, 0.12), 1.0))), 0.0);
-}
-
-fn ggx_filtered_d(h: vec3f, alpha: f32, excess: f32) -> f32 {
-    var d = ggx_d(h, alpha);
-    if (excess > 0.0) {
-        d = (1.0 + excess) * d - excess * ggx_d(h, alpha * 1.41421356);
-    }
-    return d;
+    return sqrt(sqrt(min(alpha * alpha + min(turn2, 0.12), 1.0)));
 }
 
 // `h` of any length: 1 - cos^2 would cancel near the mirror.

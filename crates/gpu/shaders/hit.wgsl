@@ -52,7 +52,7 @@ fn hit_turn(point: ptr<function, SurfacePoint>, normal: vec3f, to_viewer: vec3f,
 fn hit_paint(point: ptr<function, SurfacePoint>, material: Material) {
     (*point).emission = material.emission;
     // Without the normals that the pixel sees.
-    (*point).lobe = FilteredLobe(material.roughness, 0.0);
+    (*point).roughness = material.roughness;
     (*point).f0 = mix(vec3f(material.dielectric_f0), material.base_color, material.metallic);
     (*point).curve = material.curve;
     (*point).diffuse = material.base_color * (1.0 - material.metallic);
@@ -131,6 +131,6 @@ fn hit_surface_point(triangle: u32, ray: vec3f, depth_m: ptr<function, f32>) -> 
     let turn_y = side * hit_normal_turn(a, b, c, geometric, interpolated, smooth_y);
     point.turn_x = vec2f(dot(turn_x, point.axis_x), dot(turn_x, point.axis_y));
     point.turn_y = vec2f(dot(turn_y, point.axis_x), dot(turn_y, point.axis_y));
-    point.lobe = ggx_filtered(point.lobe.roughness, dot(turn_x, turn_x) + dot(turn_y, turn_y) + spread2);
+    point.roughness = ggx_filtered_roughness(point.roughness, dot(turn_x, turn_x) + dot(turn_y, turn_y) + spread2);
     return point;
 }

@@ -121,7 +121,7 @@ struct PixelPoint {
 // What its surface is made of, as the base needs it.
 struct PixelPaint {
     f0: vec3f,
-    lobe: u32,                  // roughness and excess in 16 bits each
+    roughness: f32,
     diffuse: vec3f,
     triangle: u32,
     emission: vec3f,

@@ -10,7 +10,6 @@ struct LtcLobe {
     peak: vec2f,
     width: vec2f,
     albedo: f32,
-    excess: f32,                // by how much its tails are too bright; 0 is GGX
 }
 
 fn ltc_lobe(wo: vec3f, roughness: f32, ltc_table: texture_2d<f32>, albedo_table: texture_2d<f32>) -> LtcLobe {
@@ -28,15 +27,7 @@ fn ltc_lobe(wo: vec3f, roughness: f32, ltc_table: texture_2d<f32>, albedo_table:
         vec2f(max(peak_sin, 0.0), peak_cos),
         2.0 * alpha * shape.xy,
         lobe_albedo_lookup(albedo_table, roughness, cos_o),
-        0.0,
     );
-}
-
-// ltc_lobe of a surface that a pixel's normals widen.
-fn ltc_filtered_lobe(wo: vec3f, filtered: FilteredLobe, ltc_table: texture_2d<f32>, albedo_table: texture_2d<f32>) -> LtcLobe {
-    var lobe = ltc_lobe(wo, filtered.roughness, ltc_table, albedo_table);
-    lobe.excess = filtered.excess;
-    return lobe;
 }
 
 // Of an angle within 90 degrees. Taylor's series, 4e-6 at 90 degrees: the built-in sine may be off by 5e-4 anywhere, an
@@ -253,7 +244,7 @@ fn ltc_reflected(lobe: LtcLobe, reflecting: LobeFresnel, curves: texture_2d<f32>
         ltc_add(&sums, lobe, reflecting.fresnel.curve, curves, height * centre - side, LTC_RING_WEIGHT);
     }
     let corrected = GGX_PI * sums.exact / max(sums.cosine, 1e-30);
-    let fade = pow(max(sin2, 1e-6), 2.0 - 0.5 * lobe.excess);
+    let fade = sin2 * sin2;
     let integral = min(share * mix(corrected, lobe.albedo, fade), lobe.albedo);
     let mean = fresnel_of_parts(reflecting.fresnel, sums.parts / max(sums.exact, 1e-30));
     return integral * mix(mean, reflecting.albedo / lobe.albedo, fade * fade);
@@ -276,11 +267,7 @@ fn ltc_add(sums: ptr<function, LtcMeans>, lobe: LtcLobe, curve: u32, curves: tex
     let c2_over_l = lobe.peak.y * lobe.peak.y * per_l;
     let jacobian = lobe.width.x * lobe.width.y * c2_over_l * c2_over_l * per_l;
     let wi = direction * per_l;
-    if (wi.z <= 0.0) {
-        return;
-    }
-    let d = ggx_filtered_d(wi + lobe.wo, lobe.alpha, lobe.excess);
-    let exact = weight * d * ggx_visibility(wi.z, lobe.wo.z, lobe.alpha) * wi.z * jacobian;
+    let exact = weight * ggx_eval(wi, lobe.wo, lobe.alpha) * jacobian;
     (*sums).parts += exact * fresnel_lookup(curves, curve, half_vector_cos(wi, lobe.wo));
     (*sums).exact += exact;
     (*sums).cosine += weight * w.z;

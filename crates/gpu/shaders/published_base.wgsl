@@ -17,11 +17,11 @@ fn published_base_sphere(point: SurfacePoint, lobe: LtcLobe, reflecting: LobeFre
 
 // Radiance of the base towards the viewer, before scratches take theirs.
 fn published_base(point: SurfacePoint) -> BaseRadiance {
-    let lobe = ltc_filtered_lobe(point.wo, point.lobe, lobe_ltc, lobe_albedo);
-    let reflecting = lobe_fresnel(FresnelRgb(point.f0, point.curve), point.wo, point.lobe.roughness, fresnel_curves);
+    let lobe = ltc_lobe(point.wo, point.roughness, lobe_ltc, lobe_albedo);
+    let reflecting = lobe_fresnel(FresnelRgb(point.f0, point.curve), point.wo, point.roughness, fresnel_curves);
     let albedo = ggx_area_reflectance(reflecting.albedo, point.f0, lobe.albedo);
     let body = point.diffuse * max(1.0 - albedo, vec3f(0.0));
-    let pivot = sptd_lobe(point.wo, point.lobe.roughness, lobe_sptd, lobe_albedo);
+    let pivot = sptd_lobe(point.wo, point.roughness, lobe_sptd, lobe_albedo);
     var specular = vec3f(0.0);
     var diffuse = vec3f(0.0);
     for (var l = 0u; l < frame.light_count; l += 1u) {

@@ -18,7 +18,7 @@ struct SurfacePoint {
     f0: vec3f,
     curve: u32,                 // of the reflectance over the angle
     diffuse: vec3f,
-    lobe: FilteredLobe,         // of the surface between the scratches, as the pixel sees it
+    roughness: f32,             // perceptual, of the surface between the scratches, as the pixel sees it
     emission: vec3f,
     coherence_um: f32,
     table: u32,

@@ -154,7 +154,7 @@ shared! {
     /// What its surface is made of.
     PixelPaint {
         f0: [f32; 3],
-        lobe: u32,
+        roughness: f32,
         diffuse: [f32; 3],
         triangle: u32,
         emission: [f32; 3],

@@ -10,7 +10,7 @@
 //! cosine of `wi`. Fresnel is the caller's: it multiplies the lobe, or comes in by the lobe's integrals with each of its
 //! terms (area lights).
 
-use std::f64::consts::{PI, SQRT_2};
+use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3};
 
@@ -60,39 +60,15 @@ pub(crate) fn projected_roughness(cos_theta: f64, alpha: f64) -> f64 {
     (a2 + (1.0 - a2) * cos_theta * cos_theta).sqrt()
 }
 
-/// A lobe that a pixel's normals widen.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FilteredLobe {
-    /// Perceptual, of the widened core.
-    pub roughness: f64,
-    /// By how much its far tails are too bright: see [`ggx_filtered_d`].
-    pub excess: f64,
-}
-
-/// The lobe of a curved or bumpy surface under a pixel, so that its highlight neither flickers nor breaks into dots. `turn2` is the sum of the
+/// The perceptual roughness of a curved or bumpy surface under a pixel, so that its highlight neither flickers nor breaks into dots:
+/// Y. Tokuyoshi and A. S. Kaplanyan, "Improved geometric specular antialiasing" (2019), isotropic. `turn2` is the sum of the
 /// squared turns of the normal over one standard deviation of the pixel's filter in both directions.
-///
-/// Y. Tokuyoshi and A. S. Kaplanyan, "Improved geometric specular antialiasing" (2019), isotropic. One wider GGX lifts the far tails. A difference
-/// of two, by an `excess` of 1 - alpha^2 / wider^2, keeps them and halves the error that is seen, but makes the rim of the built-in pan 11 % too
-/// bright under the five points of [`crate::ltc`], where this is 1 % off: so the excess is 0.
-pub fn ggx_filtered(roughness: f64, turn2: f64) -> FilteredLobe {
-    let alpha2 = ggx_alpha(roughness).powi(2);
+pub fn ggx_filtered_roughness(roughness: f64, turn2: f64) -> f64 {
+    let alpha = ggx_alpha(roughness);
     // alpha^2 is twice the slope's variance in each direction. An isotropic lobe takes the mean of both directions; the
     // paper takes the larger, which doubles the width of highlights on rims. The bound, as there, keeps edges from dulling.
-    let wide2 = (alpha2 + turn2.min(0.12)).min(1.0);
-    FilteredLobe {
-        roughness: wide2.sqrt().sqrt(),
-        excess: 0.0,
-    }
-}
-
-/// The distribution of normals of a [`FilteredLobe`]: (1 + excess) times that of its alpha less excess times that of alpha times the root of 2. Nowhere
-/// negative.
-pub fn ggx_filtered_d(h: DVec3, alpha: f64, excess: f64) -> f64 {
-    if excess <= 0.0 {
-        return ggx_d(h, alpha);
-    }
-    (1.0 + excess) * ggx_d(h, alpha) - excess * ggx_d(h, alpha * SQRT_2)
+    let alpha2 = alpha * alpha + turn2.min(0.12);
+    alpha2.min(1.0).sqrt().sqrt()
 }
 
 /// The lobe: D G2 / (4 cos_o), the cosine of `wi` inside. Zero where either direction is at or below the horizon.

@@ -19,7 +19,7 @@ use std::f64::consts::PI;
 use glam::{DVec2, DVec3, Vec3Swizzles};
 
 use crate::fresnel::FresnelRgb;
-use crate::ggx::{FilteredLobe, ggx_alpha, projected_roughness};
+use crate::ggx::{ggx_alpha, projected_roughness};
 use crate::irradiance::{
     EllipticCone, PolygonIrradiance, irradiance_basis, irradiance_begin, irradiance_cone,
     irradiance_edge, irradiance_end,
@@ -55,8 +55,6 @@ pub struct LtcLobe {
     pub width: DVec2,
     /// Directional albedo E0.
     pub albedo: f64,
-    /// By how much its tails are too bright: [`FilteredLobe::excess`](crate::ggx::FilteredLobe). GGX itself is compared without.
-    pub excess: f64,
 }
 
 /// The lobe for a viewer `wo` in the local frame (z = normal; any unit vector: below the horizon it counts as grazing) and a
@@ -76,14 +74,6 @@ pub fn ltc_lobe(wo: DVec3, roughness: f64) -> LtcLobe {
     )
 }
 
-/// [`ltc_lobe`] of a surface that a pixel's normals widen.
-pub fn ltc_filtered_lobe(wo: DVec3, filtered: FilteredLobe) -> LtcLobe {
-    LtcLobe {
-        excess: filtered.excess,
-        ..ltc_lobe(wo, filtered.roughness)
-    }
-}
-
 impl LtcLobe {
     /// As [`ltc_lobe`], from parameters instead of the table: what the fit varies.
     pub fn new(wo: DVec3, alpha: f64, shape: LtcShape, albedo: f64) -> Self {
@@ -100,7 +90,6 @@ impl LtcLobe {
             peak: DVec2::new(peak.x.max(0.0), peak.y),
             width: 2.0 * alpha * DVec2::new(shape.width_x, shape.width_y),
             albedo,
-            excess: 0.0,
         }
     }
 
@@ -458,8 +447,7 @@ fn ltc_reflected(lobe: &LtcLobe, of: &LobeFresnel, vector: DVec3) -> [f64; 3] {
         }
     }
     let corrected = PI * exact / cosine.max(1e-30);
-    // A widened lobe changes more between the points.
-    let fade = sin2.powf(2.0 - 0.5 * lobe.excess);
+    let fade = sin2 * sin2;
     let e0 = lobe.albedo;
     // A part returns no more than the whole.
     let integral = (share * (corrected + fade * (e0 - corrected))).min(e0);
@@ -495,11 +483,9 @@ fn ltc_exact_over_jacobian<const N: usize>(lobe: &LtcLobe, w: [DVec3; N]) -> ([f
         let (tangential, normal) = (hx * hx + hy * hy, hz * hz);
         let length2 = tangential + normal;
         let q = (tangential + alpha2 * normal).max(1e-30);
-        let q_wide = (tangential + 2.0 * alpha2 * normal).max(1e-30);
-        let d = (1.0 + lobe.excess) / (q * q) - 2.0 * lobe.excess / (q_wide * q_wide);
         let rough_i = (alpha2 + (1.0 - alpha2) * cos_i * cos_i).sqrt();
         let sum = (wo.z * rough_i + cos_i * rough_o).max(1e-30);
-        let value = scale * per_l * per_l * per_l * cos_i * (length2 * length2) * d / sum;
+        let value = scale * per_l * per_l * per_l * cos_i * (length2 * length2) / (q * q * sum);
         values[i] = if cos_i > 0.0 { value } else { 0.0 };
         cosines[i] = (0.5 * length2.sqrt()).min(1.0);
     }

@@ -97,7 +97,7 @@ impl<'a> Published<'a> {
         &self,
         point: &SurfacePoint,
     ) -> impl Fn(&LtcLobe, &LobeFresnel, DVec3, f64) -> [f64; 3] + use<> {
-        let pivot = sptd_lobe(point.wo, point.lobe.roughness);
+        let pivot = sptd_lobe(point.wo, point.roughness);
         move |lobe, of, axis, sin2| {
             // The published fit knows F = 1 alone; Fresnel is that of the whole lobe.
             let share = sptd_sphere_published(&pivot, axis, sin2) / lobe.albedo.max(1e-30);

@@ -7,9 +7,8 @@ use glam::DVec3;
 use hairline_optics::environment_lobe::{ENVIRONMENT_TAPS, environment_lobe};
 use hairline_optics::ggx::ggx_area_reflectance;
 use hairline_optics::irradiance::{lambert_polygon, lambert_sphere};
-use hairline_optics::ltc::{LobeFresnel, LtcLobe, ltc_begin, ltc_edge, ltc_end, ltc_filtered_lobe};
+use hairline_optics::ltc::{LobeFresnel, LtcLobe, ltc_begin, ltc_edge, ltc_end, ltc_lobe};
 use hairline_scene::Environment;
-use std::f64::consts::SQRT_2;
 
 /// Light by way of the base.
 pub(crate) struct BaseRadiance {
@@ -27,8 +26,8 @@ pub(crate) fn base_radiance(
     views: &LightViews,
     sphere: impl Fn(&LtcLobe, &LobeFresnel, DVec3, f64) -> [f64; 3],
 ) -> BaseRadiance {
-    let lobe = ltc_filtered_lobe(point.wo, point.lobe);
-    let of = LobeFresnel::new(point.fresnel, point.wo, point.lobe.roughness);
+    let lobe = ltc_lobe(point.wo, point.roughness);
+    let of = LobeFresnel::new(point.fresnel, point.wo, point.roughness);
     let reflectance =
         |single| DVec3::from(ggx_area_reflectance(single, point.fresnel.f0, lobe.albedo));
     let albedo = reflectance(of.albedo);
@@ -103,22 +102,12 @@ fn reflected(
     let looked_up = environment_lobe(lobe);
     let taps: [_; ENVIRONMENT_TAPS] = std::array::from_fn(|i| looked_up.environment_tap(i));
     let directions = taps.map(|tap| point.world_from_surface(tap.direction));
-    let mean = |widening: f64| {
-        let roughness = taps.map(|tap| (tap.roughness * widening).min(1.0));
-        let radiance = environment.prefiltered_all(directions, roughness);
-        let (mut sum, mut weights) = (DVec3::ZERO, 0.0);
-        for (tap, radiance) in taps.iter().zip(radiance) {
-            weights += tap.weight;
-            // A running mean, which of equal values is exact.
-            sum += (radiance - sum) * (tap.weight / weights);
-        }
-        sum
-    };
-    let mut all = mean(1.0);
-    if lobe.excess > 0.0 {
-        // Alpha times the root of 2.
-        let wide = mean(SQRT_2.sqrt());
-        all = (all + (all - wide) * lobe.excess).max(DVec3::ZERO);
+    let radiance = environment.prefiltered_all(directions, taps.map(|tap| tap.roughness));
+    let (mut all, mut weights) = (DVec3::ZERO, 0.0);
+    for (tap, radiance) in taps.iter().zip(radiance) {
+        weights += tap.weight;
+        // A running mean, which of equal values is exact.
+        all += (radiance - all) * (tap.weight / weights);
     }
     let mut grazing = all;
     let tap = looked_up.grazing_tap();

@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 use hairline_index::Hit;
 use hairline_optics::fresnel::FresnelRgb;
-use hairline_optics::ggx::{FilteredLobe, ggx_filtered};
+use hairline_optics::ggx::ggx_filtered_roughness;
 use hairline_scene::{Mesh, Scene, ScratchTables, Texture};
 
 /// A shading point. Its local frame has z along the shading normal and the viewer in the x-z plane.
@@ -29,7 +29,7 @@ pub(crate) struct SurfacePoint<'a> {
     /// Albedo of the diffuse body.
     pub diffuse: DVec3,
     /// Of the surface between the scratches, as the pixel sees it.
-    pub lobe: FilteredLobe,
+    pub roughness: f64,
     pub emission: DVec3,
     /// Index into the scene's materials.
     pub material: usize,
@@ -149,7 +149,7 @@ pub(crate) fn surface_point<'a>(
         axes.map(|axis| normal_turn(&corners, &normals, geometric, interpolated, axis))
     };
     let turn2 = normal_turns[0].length_squared() + normal_turns[1].length_squared();
-    let lobe = ggx_filtered(roughness, turn2 + spread2);
+    let roughness = ggx_filtered_roughness(roughness, turn2 + spread2);
     let f0 = DVec3::splat(optics.dielectric_f0).lerp(base_color, metallic);
     let cos = normal.dot(to_viewer);
     SurfacePoint {
@@ -172,7 +172,7 @@ pub(crate) fn surface_point<'a>(
             curve: &tables.curves[optics.curve as usize],
         },
         diffuse: base_color * (1.0 - metallic),
-        lobe,
+        roughness,
         emission: emission * DVec3::from(material.emission),
         material: material_index,
         coherence_um: material.coherence_um,

@@ -29,13 +29,7 @@ pub(crate) struct BaseLobes<'a> {
 impl<'a> BaseLobes<'a> {
     pub fn new(point: &SurfacePoint, reflectance: &'a Reflectance) -> Self {
         let f0 = DVec3::from(point.fresnel.f0);
-        Self::from_parts(
-            point.wo,
-            reflectance,
-            f0,
-            point.diffuse,
-            point.lobe.roughness,
-        )
+        Self::from_parts(point.wo, reflectance, f0, point.diffuse, point.roughness)
     }
 
     fn from_parts(

@@ -131,7 +131,7 @@ impl Integrator<'_> {
                 )
             }
             Model::Full => {
-                let smooth = ggx_alpha(point.lobe.roughness) <= GGX_MIN_ALPHA;
+                let smooth = ggx_alpha(point.roughness) <= GGX_MIN_ALPHA;
                 let field = Field::new(&point, &views, smooth, wavelengths, &fresnel);
                 let taken = field.taken();
                 let lobe = if smooth {
