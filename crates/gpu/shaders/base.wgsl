@@ -74,30 +74,42 @@ fn base_environment(point: SurfacePoint, lobe: LtcLobe, reflecting: LobeFresnel)
 
 // Radiance of the base towards the viewer, before scratches take theirs.
 fn base_radiance(point: SurfacePoint) -> BaseRadiance {
-    let lobe = ltc_lobe(point.wo, point.roughness, lobe_ltc, lobe_albedo);
+    let sharp = ltc_lobe(point.wo, point.roughness, lobe_ltc, lobe_albedo);
+    let filtered = filtered_lobe(sharp.alpha, surface_slope_variance(point), point.wo.z);
     let reflecting = lobe_fresnel(FresnelRgb(point.f0, point.curve), point.wo, point.roughness, fresnel_curves);
-    let albedo = ggx_area_reflectance(reflecting.albedo, point.f0, lobe.albedo);
+    let albedo = ggx_area_reflectance(reflecting.albedo, point.f0, sharp.albedo);
     // What the surface does not reflect reaches the body.
     let body = point.diffuse * max(1.0 - albedo, vec3f(0.0));
 
     var specular = vec3f(0.0);
     var diffuse = vec3f(0.0);
-    for (var i = 0u; i < frame.light_count; i += 1u) {
-        let light = light_at(i);
-        var share: vec4f;
-        if HAS_SPHERES && light.kind == LIGHT_SPHERE {
-            share = base_sphere(point, lobe, reflecting, light);
+    for (var p = 0u; p < 2u; p += 1u) {
+        let part = filtered_lobe_part(sharp, filtered, p);
+        if part.weight == 0.0 {
+            break;
         }
-        if HAS_POLYGONS && light.kind == LIGHT_POLYGON {
-            share = base_polygon(point, lobe, reflecting, light);
+        var single = vec3f(0.0);
+        diffuse = vec3f(0.0);
+        for (var i = 0u; i < frame.light_count; i += 1u) {
+            let light = light_at(i);
+            var share: vec4f;
+            if HAS_SPHERES && light.kind == LIGHT_SPHERE {
+                share = base_sphere(point, part.lobe, reflecting, light);
+            }
+            if HAS_POLYGONS && light.kind == LIGHT_POLYGON {
+                share = base_polygon(point, part.lobe, reflecting, light);
+            }
+            single += light.radiance * share.xyz;
+            diffuse += light.radiance * share.w;
         }
-        specular += light.radiance * ggx_area_reflectance(share.xyz, point.f0, lobe.albedo);
-        diffuse += light.radiance * share.w;
+        if HAS_ENVIRONMENT {
+            let environment = base_environment(point, part.lobe, reflecting);
+            single += environment.specular;
+            diffuse += environment.diffuse;
+        }
+        specular += part.weight * single;
     }
-    if HAS_ENVIRONMENT {
-        let environment = base_environment(point, lobe, reflecting);
-        specular += ggx_area_reflectance(environment.specular, point.f0, lobe.albedo);
-        diffuse += environment.diffuse;
-    }
+    // The fit may make the second part a little larger than the first.
+    specular = ggx_area_reflectance(max(specular, vec3f(0.0)), point.f0, sharp.albedo);
     return BaseRadiance(specular, diffuse * body);
 }

@@ -9,12 +9,6 @@ fn ggx_alpha(roughness: f32) -> f32 {
     return max(r * r, GGX_MIN_ALPHA);
 }
 
-// Of a surface whose normal turns under a pixel; `turn2` is the sum of its squared turns.
-fn ggx_filtered_roughness(roughness: f32, turn2: f32) -> f32 {
-    let alpha = ggx_alpha(roughness);
-    return sqrt(sqrt(min(alpha * alpha + min(turn2, 0.12), 1.0)));
-}
-
 // `h` of any length: 1 - cos^2 would cancel near the mirror.
 fn ggx_d(h: vec3f, alpha: f32) -> f32 {
     let a2 = alpha * alpha;
@@ -49,6 +43,17 @@ fn ggx_eval(wi: vec3f, wo: vec3f, alpha: f32) -> f32 {
         return 0.0;
     }
     return ggx_d(wi + wo, alpha) * ggx_visibility(wi.z, wo.z, alpha) * wi.z;
+}
+
+// Normals of alphas `alphas` in the plane of `wo` and normal and across it, wo.y = 0; masking of `alpha`.
+fn ggx_elliptic_eval(wi: vec3f, wo: vec3f, alpha: f32, alphas: vec2f) -> f32 {
+    if (wi.z <= 0.0 || wo.z <= 0.0) {
+        return 0.0;
+    }
+    let h2 = (wi + wo) * (wi + wo);
+    let q = max(h2.x / (alphas.x * alphas.x) + h2.y / (alphas.y * alphas.y) + h2.z, 1e-30);
+    let ratio = (h2.x + h2.y + h2.z) / q;
+    return ratio * ratio / (GGX_PI * alphas.x * alphas.y) * ggx_visibility(wi.z, wo.z, alpha) * wi.z;
 }
 
 fn ggx_multiple_scattering(f0: f32, e0: f32) -> f32 {

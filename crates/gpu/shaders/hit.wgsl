@@ -51,7 +51,6 @@ fn hit_turn(point: ptr<function, SurfacePoint>, normal: vec3f, to_viewer: vec3f,
 // What a point's surface is made of.
 fn hit_paint(point: ptr<function, SurfacePoint>, material: Material) {
     (*point).emission = material.emission;
-    // Without the normals that the pixel sees.
     (*point).roughness = material.roughness;
     (*point).f0 = mix(vec3f(material.dielectric_f0), material.base_color, material.metallic);
     (*point).curve = material.curve;
@@ -105,12 +104,11 @@ fn hit_surface_point(triangle: u32, ray: vec3f, depth_m: ptr<function, f32>) -> 
     let filter_side = hit_texture_footprint(a, b, c, geometric, smooth_x, smooth_y);
 
     var normal = smooth_normal;
-    // What the normals of a map spread beyond the one that is looked up, in both directions.
-    var spread2 = 0.0;
+    point.slope_std = 0.0;
     if hit_has_texture(material.normal_texture) {
         let map = material.normal_texture;
         let lod = surface_texture_lod(filter_side, scene_texture_size(map), scene_texture_levels(map));
-        let looked_up = scene_normals(map, uv, lod);
+        let looked_up = scene_normals(map, uv, lod, filter_side);
         let texel = looked_up.xyz * 2.0 - 1.0;
         var tangent = a.tangent * weights.x + b.tangent * weights.y + c.tangent * weights.z;
         tangent = surface_normalize_or(tangent - smooth_normal * dot(smooth_normal, tangent), surface_any_across(smooth_normal));
@@ -121,7 +119,7 @@ fn hit_surface_point(triangle: u32, ray: vec3f, depth_m: ptr<function, f32>) -> 
             tangent * (texel.x * scale) + bitangent * (texel.y * scale) + smooth_normal * texel.z,
             smooth_normal,
         );
-        spread2 = 2.0 * looked_up.w * looked_up.w * scale * scale;
+        point.slope_std = looked_up.w * scale;
     }
     normal = surface_face_viewer(side * normal, to_viewer);
     point.leaves = SURFACE_BENDS + 2.0 * distance(normal, side * surface_normalize_or(geometric, normal));
@@ -131,6 +129,5 @@ fn hit_surface_point(triangle: u32, ray: vec3f, depth_m: ptr<function, f32>) -> 
     let turn_y = side * hit_normal_turn(a, b, c, geometric, interpolated, smooth_y);
     point.turn_x = vec2f(dot(turn_x, point.axis_x), dot(turn_x, point.axis_y));
     point.turn_y = vec2f(dot(turn_y, point.axis_x), dot(turn_y, point.axis_y));
-    point.roughness = ggx_filtered_roughness(point.roughness, dot(turn_x, turn_x) + dot(turn_y, turn_y) + spread2);
     return point;
 }

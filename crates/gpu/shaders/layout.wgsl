@@ -121,7 +121,7 @@ struct PixelPoint {
 // What its surface is made of, as the base needs it.
 struct PixelPaint {
     f0: vec3f,
-    roughness: f32,
+    lobe: u32,                  // roughness and spread of slopes, in 16 bits each
     diffuse: vec3f,
     triangle: u32,
     emission: vec3f,

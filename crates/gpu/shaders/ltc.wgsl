@@ -5,7 +5,9 @@
 
 struct LtcLobe {
     wo: vec3f,
-    alpha: f32,
+    alpha: f32,                 // of the surface
+    alphas: vec2f,              // of the normals that the pixel sees, in the plane of view and normal and across it
+    turned: f32,                // the share of the normals' spread that is the pixel's
     x_axis: vec2f,
     peak: vec2f,
     width: vec2f,
@@ -23,11 +25,22 @@ fn ltc_lobe(wo: vec3f, roughness: f32, ltc_table: texture_2d<f32>, albedo_table:
     return LtcLobe(
         vec3f(frame.sin_cos.x, 0.0, frame.sin_cos.y),
         alpha,
+        vec2f(alpha),
+        0.0,
         frame.x_axis,
         vec2f(max(peak_sin, 0.0), peak_cos),
         2.0 * alpha * shape.xy,
         lobe_albedo_lookup(albedo_table, roughness, cos_o),
     );
+}
+
+// The same with other normals.
+fn ltc_widened(lobe: LtcLobe, alphas: vec2f, turned: f32) -> LtcLobe {
+    var widened = lobe;
+    widened.alphas = alphas;
+    widened.turned = turned;
+    widened.width = lobe.width * (alphas / lobe.alpha);
+    return widened;
 }
 
 // Of an angle within 90 degrees. Taylor's series, 4e-6 at 90 degrees: the built-in sine may be off by 5e-4 anywhere, an
@@ -267,8 +280,10 @@ fn ltc_add(sums: ptr<function, LtcMeans>, lobe: LtcLobe, curve: u32, curves: tex
     let c2_over_l = lobe.peak.y * lobe.peak.y * per_l;
     let jacobian = lobe.width.x * lobe.width.y * c2_over_l * c2_over_l * per_l;
     let wi = direction * per_l;
-    let exact = weight * ggx_eval(wi, lobe.wo, lobe.alpha) * jacobian;
-    (*sums).parts += exact * fresnel_lookup(curves, curve, half_vector_cos(wi, lobe.wo));
+    let cos_h = half_vector_cos(wi, lobe.wo);
+    let shown = 1.0 + lobe.turned * (lobe.wo.z / max(cos_h, 1e-15) - 1.0);
+    let exact = weight * shown * ggx_elliptic_eval(wi, lobe.wo, lobe.alpha, lobe.alphas) * jacobian;
+    (*sums).parts += exact * fresnel_lookup(curves, curve, cos_h);
     (*sums).exact += exact;
     (*sums).cosine += weight * w.z;
 }

@@ -18,7 +18,7 @@ fn pixel_point_pack(point: SurfacePoint, object: u32, depth_m: f32, place: u32) 
 }
 
 fn pixel_paint_pack(point: SurfacePoint, triangle: u32) -> PixelPaint {
-    return PixelPaint(point.f0, point.roughness, point.diffuse, triangle, point.emission, point.curve);
+    return PixelPaint(point.f0, pack2x16unorm(vec2f(point.roughness, point.slope_std)), point.diffuse, triangle, point.emission, point.curve);
 }
 
 fn pixel_table(pixel: PixelPoint) -> u32 {
@@ -34,6 +34,7 @@ fn pixel_wo(cos_o: f32) -> vec3f {
 }
 
 fn surface_point_from(pixel: PixelPoint, paint: PixelPaint) -> SurfacePoint {
+    let lobe = unpack2x16unorm(paint.lobe);
     return SurfacePoint(
         pixel.position_m,
         pixel.axis_x,
@@ -49,7 +50,8 @@ fn surface_point_from(pixel: PixelPoint, paint: PixelPaint) -> SurfacePoint {
         paint.f0,
         paint.curve,
         paint.diffuse,
-        paint.roughness,
+        lobe.x,
+        lobe.y,
         paint.emission,
         pixel.coherence_um,
         pixel_table(pixel),

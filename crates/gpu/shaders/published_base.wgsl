@@ -17,29 +17,42 @@ fn published_base_sphere(point: SurfacePoint, lobe: LtcLobe, reflecting: LobeFre
 
 // Radiance of the base towards the viewer, before scratches take theirs.
 fn published_base(point: SurfacePoint) -> BaseRadiance {
-    let lobe = ltc_lobe(point.wo, point.roughness, lobe_ltc, lobe_albedo);
+    let sharp = ltc_lobe(point.wo, point.roughness, lobe_ltc, lobe_albedo);
+    let filtered = filtered_lobe(sharp.alpha, surface_slope_variance(point), point.wo.z);
     let reflecting = lobe_fresnel(FresnelRgb(point.f0, point.curve), point.wo, point.roughness, fresnel_curves);
-    let albedo = ggx_area_reflectance(reflecting.albedo, point.f0, lobe.albedo);
+    let albedo = ggx_area_reflectance(reflecting.albedo, point.f0, sharp.albedo);
     let body = point.diffuse * max(1.0 - albedo, vec3f(0.0));
-    let pivot = sptd_lobe(point.wo, point.roughness, lobe_sptd, lobe_albedo);
     var specular = vec3f(0.0);
     var diffuse = vec3f(0.0);
-    for (var l = 0u; l < frame.light_count; l += 1u) {
-        let light = light_at(l);
-        var share: vec4f;
-        if HAS_SPHERES && light.kind == LIGHT_SPHERE {
-            share = published_base_sphere(point, lobe, reflecting, pivot, light);
+    for (var p = 0u; p < 2u; p += 1u) {
+        let part = filtered_lobe_part(sharp, filtered, p);
+        if part.weight == 0.0 {
+            break;
         }
-        if HAS_POLYGONS && light.kind == LIGHT_POLYGON {
-            share = base_polygon(point, lobe, reflecting, light);
+        // The pivot transform knows round lobes alone.
+        let alphas = part.lobe.alphas;
+        let pivot = sptd_lobe(point.wo, min(sqrt(sqrt(alphas.x * alphas.y)), 1.0), lobe_sptd, lobe_albedo);
+        var single = vec3f(0.0);
+        diffuse = vec3f(0.0);
+        for (var l = 0u; l < frame.light_count; l += 1u) {
+            let light = light_at(l);
+            var share: vec4f;
+            if HAS_SPHERES && light.kind == LIGHT_SPHERE {
+                share = published_base_sphere(point, part.lobe, reflecting, pivot, light);
+            }
+            if HAS_POLYGONS && light.kind == LIGHT_POLYGON {
+                share = base_polygon(point, part.lobe, reflecting, light);
+            }
+            single += light.radiance * share.xyz;
+            diffuse += light.radiance * share.w;
         }
-        specular += light.radiance * ggx_area_reflectance(share.xyz, point.f0, lobe.albedo);
-        diffuse += light.radiance * share.w;
+        if HAS_ENVIRONMENT {
+            let environment = base_environment(point, part.lobe, reflecting);
+            single += environment.specular;
+            diffuse += environment.diffuse;
+        }
+        specular += part.weight * single;
     }
-    if HAS_ENVIRONMENT {
-        let environment = base_environment(point, lobe, reflecting);
-        specular += ggx_area_reflectance(environment.specular, point.f0, lobe.albedo);
-        diffuse += environment.diffuse;
-    }
+    specular = ggx_area_reflectance(max(specular, vec3f(0.0)), point.f0, sharp.albedo);
     return BaseRadiance(specular, diffuse * body);
 }

@@ -45,59 +45,60 @@ fn scene_texture(texture: vec2u, uv: vec2f, lod: f32) -> vec4f {
     return mix(near, scene_texture_level(texture, u32(level) + 1u, uv), lod - level);
 }
 
-// By hand and not by a sampler, so that sizes of all kinds share an array and every device blends alike.
 fn scene_texture_level(texture: vec2u, level: u32, uv: vec2f) -> vec4f {
+    return scene_blend(scene_four_texels(texture, level, uv));
+}
+
+// The texels about a place, and where it lies between them.
+struct FourTexels {
+    top_left: vec4f,
+    top_right: vec4f,
+    low_left: vec4f,
+    low_right: vec4f,
+    t: vec2f,
+}
+
+// By hand and not by a sampler, so that sizes of all kinds share an array and every device blends alike.
+fn scene_four_texels(texture: vec2u, level: u32, uv: vec2f) -> FourTexels {
     let size = vec2i(max(scene_texture_size(texture) >> vec2u(level), vec2u(1u)));
     let at = (uv - floor(uv)) * vec2f(size) - 0.5;
     let corner = floor(at);
-    let t = at - corner;
     let low = (vec2i(corner) + size) % size;
     let high = (low + 1) % size;
-    let top = mix(
+    return FourTexels(
         scene_texel(texture, level, low),
         scene_texel(texture, level, vec2i(high.x, low.y)),
-        t.x,
-    );
-    let bottom = mix(
         scene_texel(texture, level, vec2i(low.x, high.y)),
         scene_texel(texture, level, high),
-        t.x,
+        at - corner,
     );
-    return mix(top, bottom, t.y);
 }
 
-// Of a normal map, where w is how far slopes spread: beyond the texels' own also between them.
-fn scene_normals(texture: vec2u, uv: vec2f, lod: f32) -> vec4f {
+fn scene_blend(texels: FourTexels) -> vec4f {
+    return mix(mix(texels.top_left, texels.top_right, texels.t.x), mix(texels.low_left, texels.low_right, texels.t.x), texels.t.y);
+}
+
+// Of a normal map, where w is how far slopes spread: beyond the texels' own also over what the pixel sees of the map.
+fn scene_normals(texture: vec2u, uv: vec2f, lod: f32, filter_side: f32) -> vec4f {
     let level = floor(lod);
-    let near = scene_normals_level(texture, u32(level), uv);
+    let near = scene_normals_level(texture, u32(level), uv, filter_side);
     if level == lod {
         return near;
     }
-    return mix(near, scene_normals_level(texture, u32(level) + 1u, uv), lod - level);
+    return mix(near, scene_normals_level(texture, u32(level) + 1u, uv, filter_side), lod - level);
 }
 
-fn scene_normals_level(texture: vec2u, level: u32, uv: vec2f) -> vec4f {
-    let size = vec2i(max(scene_texture_size(texture) >> vec2u(level), vec2u(1u)));
-    let at = (uv - floor(uv)) * vec2f(size) - 0.5;
-    let corner = floor(at);
-    let t = at - corner;
-    let low = (vec2i(corner) + size) % size;
-    let high = (low + 1) % size;
-    var mean = vec4f(0.0);
-    var square = 0.0;
-    for (var i = 0; i < 4; i += 1) {
-        let right = (i & 1) != 0;
-        let below = (i & 2) != 0;
-        let texel = scene_texel(texture, level, vec2i(select(low.x, high.x, right), select(low.y, high.y, below)));
-        let weight = select(1.0 - t.x, t.x, right) * select(1.0 - t.y, t.y, below);
-        let tangential = texel.xy * 2.0 - 1.0;
-        mean += texel * weight;
-        square += dot(tangential, tangential) * weight;
-    }
-    let tangential = mean.xy * 2.0 - 1.0;
-    let between = max(square - dot(tangential, tangential), 0.0);
+fn scene_normals_level(texture: vec2u, level: u32, uv: vec2f, filter_side: f32) -> vec4f {
+    let texels = scene_four_texels(texture, level, uv);
+    let mean = scene_blend(texels);
+    let right = 2.0 * mix(texels.top_right.xy - texels.top_left.xy, texels.low_right.xy - texels.low_left.xy, texels.t.y);
+    let down = 2.0 * mix(texels.low_left.xy - texels.top_left.xy, texels.low_right.xy - texels.top_right.xy, texels.t.x);
+    let size = scene_texture_size(texture);
+    // Variance of the filter in texels, less that of a texel of a level that has averaged others.
+    let variance = filter_side * filter_side * f32(size.x) * f32(size.y) / f32(1u << (2u * level));
+    let seen = max(variance - select(0.0, 1.0 / 12.0, level > 0u), 0.0);
     let up = max(mean.z * 2.0 - 1.0, 0.1);
-    return vec4f(mean.xyz, sqrt(mean.w * mean.w + 0.5 * between / (up * up)));
+    return vec4f(mean.xyz, sqrt(mean.w * mean.w + 0.5 * seen * (dot(right, right) + dot(down, down)) / (up * up)));
 }
 
 fn scene_texel(texture: vec2u, level: u32, at: vec2i) -> vec4f {

@@ -1,4 +1,4 @@
-// The surface under a pixel: position, frame, footprint, material. Needs ggx. Twin: reference/src/surface.rs.
+// The surface under a pixel: position, frame, footprint, material. Twin: reference/src/surface.rs.
 
 const MIN_VIEW_COS: f32 = 0.01;
 
@@ -18,7 +18,8 @@ struct SurfacePoint {
     f0: vec3f,
     curve: u32,                 // of the reflectance over the angle
     diffuse: vec3f,
-    roughness: f32,             // perceptual, of the surface between the scratches, as the pixel sees it
+    roughness: f32,             // perceptual, of the surface between the scratches
+    slope_std: f32,             // how far a normal map's slopes spread about the one that is looked up, in each direction
     emission: vec3f,
     coherence_um: f32,
     table: u32,
@@ -33,6 +34,11 @@ fn surface_from_world(point: SurfacePoint, v: vec3f) -> vec3f {
 
 fn world_from_surface(point: SurfacePoint, v: vec3f) -> vec3f {
     return point.axis_x * v.x + point.axis_y * v.y + point.normal * v.z;
+}
+
+// Variance of the slopes that a pixel sees, in the plane of view and normal and across it.
+fn surface_slope_variance(point: SurfacePoint) -> vec2f {
+    return point.turn_x * point.turn_x + point.turn_y * point.turn_y + point.slope_std * point.slope_std;
 }
 
 // v of unit length, or `otherwise` where v has none.

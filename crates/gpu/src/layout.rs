@@ -154,7 +154,7 @@ shared! {
     /// What its surface is made of.
     PixelPaint {
         f0: [f32; 3],
-        roughness: f32,
+        lobe: u32,
         diffuse: [f32; 3],
         triangle: u32,
         emission: [f32; 3],

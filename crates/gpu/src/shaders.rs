@@ -59,12 +59,14 @@ modules! {
     LOBE_FRESNEL = "lobe_fresnel" needs [FRESNEL, LOBE_TABLE];
     /// The GGX lobe over an area light, by transformed cosines.
     LTC = "ltc" needs [GGX, IRRADIANCE, LOBE_FRESNEL];
+    /// The lobe of a pixel whose normals differ.
+    FILTERED_LOBE = "filtered_lobe" needs [LTC];
     /// The GGX lobe over an environment, by round lobes in a row.
     ENVIRONMENT_LOBE = "environment_lobe" needs [LTC];
     /// The GGX lobe over a sphere, by a pivot transform.
     SPTD = "sptd" needs [LTC];
     /// A shading point and its frame.
-    SURFACE_POINT = "surface_point" needs [GGX];
+    SURFACE_POINT = "surface_point" needs [];
     /// Light from all around: look-ups in the maps.
     ENVIRONMENT = "environment" needs [];
     /// From linear radiance to the display.
@@ -106,7 +108,7 @@ modules! {
     /// Area lights from a surface point.
     LIGHTS = "lights" needs [ROWS, SURFACE_POINT, BAND];
     /// From a triangle to the surface point.
-    HIT = "hit" needs [SCENE, SURFACE_POINT, CAMERA, GGX];
+    HIT = "hit" needs [SCENE, SURFACE_POINT, CAMERA];
     /// A segment in the picture, and the tiles and pixels that it comes near to.
     PROJECTED = "projected" needs [ROWS, SEGMENTS, FILM];
     /// Which pixels see a segment.
@@ -114,7 +116,7 @@ modules! {
     /// What one scratch sends to the viewer of a polygon with many vertices.
     OUTLINE_LIGHT = "outline_light" needs [ROWS, SCRATCH_LIGHT];
     /// The base under lights and environment.
-    BASE = "base" needs [SCENE, LIGHTS, LTC, ENVIRONMENT_LOBE];
+    BASE = "base" needs [SCENE, LIGHTS, FILTERED_LOBE, ENVIRONMENT_LOBE];
     /// The method of 2018: a scratch under lights and environment.
     PUBLISHED_LIGHTS = "published_lights" needs [
         SCENE, LIGHTS, SEGMENTS, METHOD, BAND_ENVIRONMENT, PUBLISHED_SPECTRUM, PUBLISHED_SPHERE, PUBLISHED_POLYGON

@@ -30,7 +30,9 @@ pub struct EnvironmentLobe {
     x_axis: DVec2,
     /// Sine and cosine of the angle of its middle from the normal, on the side away from the viewer.
     middle: DVec2,
-    /// GGX alpha.
+    /// GGX alpha of the surface.
+    sharp: f64,
+    /// That of its normals in the plane of view and normal.
     alpha: f64,
     /// Of the look-up in the middle, of the two beside it and of the outer two: how far off the middle, and how wide, in alphas.
     offsets: [f64; 3],
@@ -51,17 +53,20 @@ const WEIGHTS: [f64; 3] = [0.2661, 0.2399, 0.1271];
 pub fn environment_lobe(lobe: &LtcLobe) -> EnvironmentLobe {
     let roughness = lobe.alpha.sqrt();
     let middle = DVec2::new(lobe.wo.x, lobe.wo.z).lerp(lobe.peak, roughness);
-    let of_fit = (lobe.width.y * lobe.peak.y / lobe.width.x).clamp(NARROW_MIN, 1.0);
+    let of_normals = lobe.alphas.y / lobe.alphas.x;
+    let of_fit = (lobe.width.y * lobe.peak.y / (lobe.width.x * of_normals)).clamp(NARROW_MIN, 1.0);
     let of_mirror = lobe.wo.z.max(NARROW_MIN);
-    // How wide it is across the plane of view and normal, over its length.
-    let c = (of_mirror.powf(1.0 - roughness) * of_fit.powf(roughness)).min(1.0);
+    // How wide it is across the plane of view and normal, over its length. A lobe that is wider than long is taken for a round one.
+    let proportion = of_mirror.powf(1.0 - roughness) * of_fit.powf(roughness) * of_normals;
+    let c = proportion.clamp(NARROW_MIN, 1.0);
     let s2 = 1.0 - c * c;
     let s = s2.sqrt();
     let inner = 1.1622 * s.powf(1.5954);
     EnvironmentLobe {
         x_axis: lobe.x_axis,
         middle: middle.normalize_or(DVec2::Y),
-        alpha: lobe.alpha,
+        sharp: lobe.alpha,
+        alpha: lobe.alphas.x * proportion.max(1.0).sqrt(),
         offsets: [0.0, inner, inner + 1.96 * s.powf(1.0574)],
         widths: [
             c.powf(1.2278),
@@ -81,9 +86,9 @@ const GRAZING_LOOKUP_ROUGHNESS: f64 = 0.42;
 impl EnvironmentLobe {
     /// Where a rough lobe has what it reflects more than at normal incidence. The weight is its share of that; the other look-ups have the rest.
     pub fn grazing_tap(&self) -> EnvironmentTap {
-        let roughness = self.alpha.sqrt();
+        let roughness = self.alpha.sqrt().min(1.0);
         let [from, to] = GRAZING_ROUGHNESS;
-        let share = ((roughness - from) / (to - from)).clamp(0.0, 1.0);
+        let share = ((self.sharp.sqrt() - from) / (to - from)).clamp(0.0, 1.0);
         let cos = self.middle.y + (GRAZING_COS - self.middle.y) * share;
         let sin = (1.0 - cos * cos).max(0.0).sqrt();
         EnvironmentTap {
@@ -106,7 +111,7 @@ impl EnvironmentLobe {
         EnvironmentTap {
             direction: DVec3::new(-self.x_axis.x * sin, -self.x_axis.y * sin, cos),
             roughness: (width * self.alpha).sqrt().min(1.0),
-            weight: weight * ggx_g1(cos, self.alpha),
+            weight: weight * ggx_g1(cos, self.sharp),
         }
     }
 }

@@ -60,17 +60,6 @@ pub(crate) fn projected_roughness(cos_theta: f64, alpha: f64) -> f64 {
     (a2 + (1.0 - a2) * cos_theta * cos_theta).sqrt()
 }
 
-/// The perceptual roughness of a curved or bumpy surface under a pixel, so that its highlight neither flickers nor breaks into dots:
-/// Y. Tokuyoshi and A. S. Kaplanyan, "Improved geometric specular antialiasing" (2019), isotropic. `turn2` is the sum of the
-/// squared turns of the normal over one standard deviation of the pixel's filter in both directions.
-pub fn ggx_filtered_roughness(roughness: f64, turn2: f64) -> f64 {
-    let alpha = ggx_alpha(roughness);
-    // alpha^2 is twice the slope's variance in each direction. An isotropic lobe takes the mean of both directions; the
-    // paper takes the larger, which doubles the width of highlights on rims. The bound, as there, keeps edges from dulling.
-    let alpha2 = alpha * alpha + turn2.min(0.12);
-    alpha2.min(1.0).sqrt().sqrt()
-}
-
 /// The lobe: D G2 / (4 cos_o), the cosine of `wi` inside. Zero where either direction is at or below the horizon.
 pub fn ggx_eval(wi: DVec3, wo: DVec3, alpha: f64) -> f64 {
     if wi.z <= 0.0 || wo.z <= 0.0 {

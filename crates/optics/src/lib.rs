@@ -5,6 +5,7 @@ pub mod band_environment;
 pub mod coherent;
 pub mod diffraction;
 pub mod environment_lobe;
+pub mod filtered_lobe;
 pub mod footprint;
 pub mod fresnel;
 pub mod gaussian;

@@ -47,8 +47,12 @@ pub struct LtcLobe {
     pub wo: DVec3,
     /// The x axis of that frame in the local one.
     pub x_axis: DVec2,
-    /// GGX alpha.
+    /// GGX alpha of the surface: what masks and shadows.
     pub alpha: f64,
+    /// GGX alpha of the normals in the plane of view and normal, and across it: more where a pixel's normals differ.
+    pub alphas: DVec2,
+    /// The share of the normals' spread that is the pixel's: its normals count by what the picture shows of them, and not as facets do.
+    pub turned: f64,
     /// Sine and cosine of the peak's angle from the normal; the peak is on the side away from the viewer.
     pub peak: DVec2,
     /// 2 alpha times the widths of [`LtcShape`].
@@ -87,9 +91,21 @@ impl LtcLobe {
             wo: DVec3::new(sin_cos.x, 0.0, sin_cos.y),
             x_axis,
             alpha,
+            alphas: DVec2::splat(alpha),
+            turned: 0.0,
             peak: DVec2::new(peak.x.max(0.0), peak.y),
             width: 2.0 * alpha * DVec2::new(shape.width_x, shape.width_y),
             albedo,
+        }
+    }
+
+    /// The same with other normals.
+    pub fn widened(&self, alphas: DVec2, turned: f64) -> Self {
+        Self {
+            alphas,
+            turned,
+            width: self.width * alphas / self.alpha,
+            ..*self
         }
     }
 
@@ -461,7 +477,7 @@ fn ltc_reflected(lobe: &LtcLobe, of: &LobeFresnel, vector: DVec3) -> [f64; 3] {
     })
 }
 
-/// GGX at the directions that each `w` stands for, times the solid angle there per solid angle at w; and the cosine at the half vector.
+/// GGX of the lobe's normals at the directions that each `w` stands for, times the solid angle there per solid angle at w; and the cosine at the half vector.
 ///
 /// [`ggx_eval`](crate::ggx::ggx_eval) written out, the viewer's part taken once and with as few divisions as there can be, step by step for all of
 /// them: compilers then do several at a time.
@@ -469,7 +485,8 @@ fn ltc_exact_over_jacobian<const N: usize>(lobe: &LtcLobe, w: [DVec3; N]) -> ([f
     let (wo, alpha2) = (lobe.wo, lobe.alpha * lobe.alpha);
     let rough_o = projected_roughness(wo.z, lobe.alpha);
     let c2 = lobe.peak.y * lobe.peak.y;
-    let scale = lobe.width.x * lobe.width.y * c2 * c2 * 0.5 * alpha2 / PI;
+    let per_alpha2 = (lobe.alphas * lobe.alphas).recip();
+    let scale = lobe.width.x * lobe.width.y * c2 * c2 * 0.5 / (PI * lobe.alphas.x * lobe.alphas.y);
     let direction = w.map(|w| lobe.undo_cosine(w));
     let [x, y, z]: [[f64; N]; 3] =
         std::array::from_fn(|axis| std::array::from_fn(|i| direction[i][axis]));
@@ -480,14 +497,17 @@ fn ltc_exact_over_jacobian<const N: usize>(lobe: &LtcLobe, w: [DVec3; N]) -> ([f
         let cos_i = z[i] * per_l;
         // The half vector, of any length.
         let (hx, hy, hz) = (x[i] * per_l + wo.x, y[i] * per_l + wo.y, cos_i + wo.z);
-        let (tangential, normal) = (hx * hx + hy * hy, hz * hz);
-        let length2 = tangential + normal;
-        let q = (tangential + alpha2 * normal).max(1e-30);
+        let (x2, y2, normal) = (hx * hx, hy * hy, hz * hz);
+        let length2 = x2 + y2 + normal;
+        let q = (x2 * per_alpha2.x + y2 * per_alpha2.y + normal).max(1e-30);
+        let cos_h = (0.5 * length2.sqrt()).min(1.0);
+        let shown = 1.0 + lobe.turned * (wo.z / cos_h.max(1e-15) - 1.0);
         let rough_i = (alpha2 + (1.0 - alpha2) * cos_i * cos_i).sqrt();
         let sum = (wo.z * rough_i + cos_i * rough_o).max(1e-30);
-        let value = scale * per_l * per_l * per_l * cos_i * (length2 * length2) / (q * q * sum);
+        let value =
+            scale * per_l * per_l * per_l * cos_i * (length2 * length2) * shown / (q * q * sum);
         values[i] = if cos_i > 0.0 { value } else { 0.0 };
-        cosines[i] = (0.5 * length2.sqrt()).min(1.0);
+        cosines[i] = cos_h;
     }
     (values, cosines)
 }

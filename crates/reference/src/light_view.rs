@@ -27,6 +27,12 @@ pub(crate) enum LightView {
 }
 
 impl LightView {
+    pub fn radiance(&self) -> DVec3 {
+        match self {
+            Self::Sphere { radiance, .. } | Self::Polygon { radiance, .. } => *radiance,
+        }
+    }
+
     /// A cap of directions that holds it.
     pub fn bound(&self) -> &Cap {
         match self {

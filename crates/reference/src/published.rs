@@ -97,8 +97,11 @@ impl<'a> Published<'a> {
         &self,
         point: &SurfacePoint,
     ) -> impl Fn(&LtcLobe, &LobeFresnel, DVec3, f64) -> [f64; 3] + use<> {
-        let pivot = sptd_lobe(point.wo, point.roughness);
+        let wo = point.wo;
         move |lobe, of, axis, sin2| {
+            // The pivot transform knows round lobes alone.
+            let roughness = (lobe.alphas.x * lobe.alphas.y).powf(0.25).min(1.0);
+            let pivot = sptd_lobe(wo, roughness);
             // The published fit knows F = 1 alone; Fresnel is that of the whole lobe.
             let share = sptd_sphere_published(&pivot, axis, sin2) / lobe.albedo.max(1e-30);
             of.albedo.map(|e| e * share)

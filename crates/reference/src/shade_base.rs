@@ -4,7 +4,9 @@
 use crate::light_view::{LightView, LightViews};
 use crate::surface::SurfacePoint;
 use glam::DVec3;
+use hairline_optics::band::Cap;
 use hairline_optics::environment_lobe::{ENVIRONMENT_TAPS, environment_lobe};
+use hairline_optics::filtered_lobe::filtered_lobe;
 use hairline_optics::ggx::ggx_area_reflectance;
 use hairline_optics::irradiance::{lambert_polygon, lambert_sphere};
 use hairline_optics::ltc::{LobeFresnel, LtcLobe, ltc_begin, ltc_edge, ltc_end, ltc_lobe};
@@ -26,68 +28,90 @@ pub(crate) fn base_radiance(
     views: &LightViews,
     sphere: impl Fn(&LtcLobe, &LobeFresnel, DVec3, f64) -> [f64; 3],
 ) -> BaseRadiance {
-    let lobe = ltc_lobe(point.wo, point.roughness);
+    let sharp = ltc_lobe(point.wo, point.roughness);
+    let filtered = filtered_lobe(sharp.alpha, point.slope_variance(), point.wo.z);
     let of = LobeFresnel::new(point.fresnel, point.wo, point.roughness);
     let reflectance =
-        |single| DVec3::from(ggx_area_reflectance(single, point.fresnel.f0, lobe.albedo));
-    let albedo = reflectance(of.albedo);
-    // What the surface does not reflect reaches the body.
-    let body = point.diffuse * (DVec3::ONE - albedo).max(DVec3::ZERO);
-
-    // Metals have no body to light.
-    let has_body = body != DVec3::ZERO;
-    let (mut specular, mut diffuse) = (DVec3::ZERO, DVec3::ZERO);
-    for light in &views.views {
-        let (single, form_factor, radiance) = match light {
-            LightView::Sphere { cap, radiance } => {
-                // A cap that holds every direction stands for a sphere around the point.
-                let sin2 = if cap.cos_radius < 0.0 {
-                    1.0
-                } else {
-                    cap.sin_radius * cap.sin_radius
-                };
-                (
-                    sphere(&lobe, &of, cap.axis, sin2),
-                    if has_body {
-                        lambert_sphere(cap.axis, sin2)
-                    } else {
-                        0.0
-                    },
-                    radiance,
-                )
-            }
-            LightView::Polygon {
-                vertices, radiance, ..
-            } => {
-                let vertices = &views.vertices[vertices.clone()];
-                let mut state = ltc_begin();
-                for (i, a) in vertices.iter().enumerate() {
-                    ltc_edge(
-                        &mut state,
-                        &lobe,
-                        *a,
-                        vertices[if i + 1 < vertices.len() { i + 1 } else { 0 }],
-                    );
-                }
-                let form_factor = if has_body {
-                    lambert_polygon(vertices)
-                } else {
-                    0.0
-                };
-                (ltc_end(&state, &lobe, &of), form_factor, radiance)
-            }
-        };
-        specular += *radiance * reflectance(single);
-        diffuse += *radiance * form_factor;
-    }
-    if let Some(environment) = environment {
-        specular += reflectance(reflected(environment, point, &lobe, &of).to_array());
-        diffuse += environment.irradiance(point.normal) / std::f64::consts::PI;
+        |single| DVec3::from(ggx_area_reflectance(single, point.fresnel.f0, sharp.albedo));
+    let mut specular = DVec3::ZERO;
+    for (weight, lobe) in filtered.parts(&sharp) {
+        if weight == 0.0 {
+            break;
+        }
+        let mut single = DVec3::ZERO;
+        for light in &views.views {
+            single +=
+                light.radiance() * DVec3::from(reflected_light(light, views, &lobe, &of, &sphere));
+        }
+        if let Some(environment) = environment {
+            single += reflected(environment, point, &lobe, &of);
+        }
+        specular += weight * single;
     }
     BaseRadiance {
-        specular,
-        diffuse: diffuse * body,
+        // The fit may make the second part a little larger than the first.
+        specular: reflectance(specular.max(DVec3::ZERO).to_array()),
+        diffuse: diffuse(environment, point, views, reflectance(of.albedo)),
     }
+}
+
+/// What a lobe reflects of a light, single scattering, over its radiance.
+fn reflected_light(
+    light: &LightView,
+    views: &LightViews,
+    lobe: &LtcLobe,
+    of: &LobeFresnel,
+    sphere: impl Fn(&LtcLobe, &LobeFresnel, DVec3, f64) -> [f64; 3],
+) -> [f64; 3] {
+    match light {
+        LightView::Sphere { cap, .. } => sphere(lobe, of, cap.axis, sphere_sin2(cap)),
+        LightView::Polygon { vertices, .. } => {
+            let vertices = &views.vertices[vertices.clone()];
+            let mut state = ltc_begin();
+            for (i, a) in vertices.iter().enumerate() {
+                let next = if i + 1 < vertices.len() { i + 1 } else { 0 };
+                ltc_edge(&mut state, lobe, *a, vertices[next]);
+            }
+            ltc_end(&state, lobe, of)
+        }
+    }
+}
+
+/// A cap that holds every direction stands for a sphere around the point.
+fn sphere_sin2(cap: &Cap) -> f64 {
+    if cap.cos_radius < 0.0 {
+        1.0
+    } else {
+        cap.sin_radius * cap.sin_radius
+    }
+}
+
+/// What the body sends, over which the surface has the directional albedo `albedo`.
+fn diffuse(
+    environment: Option<&Environment>,
+    point: &SurfacePoint,
+    views: &LightViews,
+    albedo: DVec3,
+) -> DVec3 {
+    // What the surface does not reflect reaches the body.
+    let body = point.diffuse * (DVec3::ONE - albedo).max(DVec3::ZERO);
+    // Metals have no body to light.
+    if body == DVec3::ZERO {
+        return DVec3::ZERO;
+    }
+    let lights = views.views.iter().map(|light| {
+        let form_factor = match light {
+            LightView::Sphere { cap, .. } => lambert_sphere(cap.axis, sphere_sin2(cap)),
+            LightView::Polygon { vertices, .. } => {
+                lambert_polygon(&views.vertices[vertices.clone()])
+            }
+        };
+        light.radiance() * form_factor
+    });
+    let around = environment.map_or(DVec3::ZERO, |environment| {
+        environment.irradiance(point.normal) / std::f64::consts::PI
+    });
+    body * (lights.sum::<DVec3>() + around)
 }
 
 /// What a lobe reflects of an environment, single scattering.

@@ -3,7 +3,6 @@
 use glam::{DVec2, DVec3};
 use hairline_index::Hit;
 use hairline_optics::fresnel::FresnelRgb;
-use hairline_optics::ggx::ggx_filtered_roughness;
 use hairline_scene::{Mesh, Scene, ScratchTables, Texture};
 
 /// A shading point. Its local frame has z along the shading normal and the viewer in the x-z plane.
@@ -28,8 +27,10 @@ pub(crate) struct SurfacePoint<'a> {
     pub fresnel: FresnelRgb<'a>,
     /// Albedo of the diffuse body.
     pub diffuse: DVec3,
-    /// Of the surface between the scratches, as the pixel sees it.
+    /// Of the surface between the scratches.
     pub roughness: f64,
+    /// How far a normal map's slopes spread about the one that is looked up, in each direction.
+    pub slope_std: f64,
     pub emission: DVec3,
     /// Index into the scene's materials.
     pub material: usize,
@@ -45,6 +46,12 @@ impl SurfacePoint<'_> {
 
     pub fn world_from_surface(&self, v: DVec3) -> DVec3 {
         self.axis_x * v.x + self.axis_y * v.y + self.normal * v.z
+    }
+
+    /// Variance of the slopes that a pixel sees, in the plane of view and normal and across it.
+    pub fn slope_variance(&self) -> DVec2 {
+        let [x, y] = self.normal_turns.map(|turn| turn.truncate());
+        x * x + y * y + self.slope_std * self.slope_std
     }
 
     /// The point alone, for scratches that are not averaged over the pixel.
@@ -103,8 +110,7 @@ pub(crate) fn surface_point<'a>(
     let texture = |index: Option<usize>| looked_up(index, sample_level);
 
     let mut normal = smooth;
-    // What the normals of a map spread beyond the one that is looked up, in both directions.
-    let mut spread2 = 0.0;
+    let mut slope_std = 0.0;
     if let Some((index, scale)) = material.normal_texture
         && let Some(texel) = looked_up(Some(index), sample_normals)
     {
@@ -118,7 +124,7 @@ pub(crate) fn surface_point<'a>(
             .normalize_or(smooth);
         // A point has one normal.
         if axes != [DVec3::ZERO; 2] {
-            spread2 = 2.0 * (texel.w * scale).powi(2);
+            slope_std = texel.w * scale;
         }
     }
     let smooth = side * smooth;
@@ -148,8 +154,6 @@ pub(crate) fn surface_point<'a>(
     } else {
         axes.map(|axis| normal_turn(&corners, &normals, geometric, interpolated, axis))
     };
-    let turn2 = normal_turns[0].length_squared() + normal_turns[1].length_squared();
-    let roughness = ggx_filtered_roughness(roughness, turn2 + spread2);
     let f0 = DVec3::splat(optics.dielectric_f0).lerp(base_color, metallic);
     let cos = normal.dot(to_viewer);
     SurfacePoint {
@@ -173,6 +177,7 @@ pub(crate) fn surface_point<'a>(
         },
         diffuse: base_color * (1.0 - metallic),
         roughness,
+        slope_std,
         emission: emission * DVec3::from(material.emission),
         material: material_index,
         coherence_um: material.coherence_um,
@@ -247,40 +252,41 @@ fn sample_texture(texture: &Texture, uv: DVec2, footprint: f64, sample: Sampler)
         0.0
     };
     let (low, share) = (lod.floor(), lod.fract());
-    let near = sample(texture, low as usize, uv);
+    let near = sample(texture, low as usize, uv, texels);
     if share == 0.0 {
         near
     } else {
-        near.lerp(sample(texture, low as usize + 1, uv), share)
+        near.lerp(sample(texture, low as usize + 1, uv, texels), share)
     }
 }
 
-/// Bilinear look-up in a level.
-type Sampler = fn(&Texture, usize, DVec2) -> glam::DVec4;
+/// Bilinear look-up in a level, by a filter of so many texels of the first.
+type Sampler = fn(&Texture, usize, DVec2, f64) -> glam::DVec4;
 
-fn sample_level(texture: &Texture, level: usize, uv: DVec2) -> glam::DVec4 {
-    let (texels, [x, y]) = four_texels(texture, level, uv);
+fn sample_level(texture: &Texture, level: usize, uv: DVec2, _: f64) -> glam::DVec4 {
+    let (texels, t) = four_texels(texture, level, uv);
+    blend(texels, t)
+}
+
+/// Of a normal map, where w is how far slopes spread: beyond the texels' own also over what the pixel sees of the map.
+fn sample_normals(texture: &Texture, level: usize, uv: DVec2, texels_std: f64) -> glam::DVec4 {
+    let (texels, t) = four_texels(texture, level, uv);
+    let mut mean = blend(texels, t);
+    let right = (texels[1] - texels[0]).lerp(texels[3] - texels[2], t[1]);
+    let down = (texels[2] - texels[0]).lerp(texels[3] - texels[1], t[0]);
+    let steps2 = [right, down].map(|step| 4.0 * step.truncate().truncate().length_squared());
+    // Variance of the filter in texels, less that of a texel of a level that has averaged others.
+    let variance = texels_std * texels_std / 4f64.powi(level as i32);
+    let seen = (variance - if level > 0 { 1.0 / 12.0 } else { 0.0 }).max(0.0);
+    let up = (mean.z * 2.0 - 1.0).max(0.1);
+    mean.w = (mean.w * mean.w + 0.5 * seen * (steps2[0] + steps2[1]) / (up * up)).sqrt();
+    mean
+}
+
+fn blend(texels: [glam::DVec4; 4], [x, y]: [f64; 2]) -> glam::DVec4 {
     texels[0]
         .lerp(texels[1], x)
         .lerp(texels[2].lerp(texels[3], x), y)
-}
-
-/// Of a normal map, where w is how far slopes spread: beyond the texels' own also between them, where the pixel sees more of them than one. At the first level
-/// of a point without a footprint nothing spreads.
-fn sample_normals(texture: &Texture, level: usize, uv: DVec2) -> glam::DVec4 {
-    let (texels, [x, y]) = four_texels(texture, level, uv);
-    let weights = [(1.0 - x) * (1.0 - y), x * (1.0 - y), (1.0 - x) * y, x * y];
-    let (mut mean, mut square) = (glam::DVec4::ZERO, 0.0);
-    for (texel, weight) in texels.iter().zip(weights) {
-        let tangential = texel.truncate().truncate() * 2.0 - 1.0;
-        mean += *texel * weight;
-        square += tangential.length_squared() * weight;
-    }
-    let tangential = mean.truncate().truncate() * 2.0 - 1.0;
-    let between = (square - tangential.length_squared()).max(0.0);
-    let up = (mean.z * 2.0 - 1.0).max(0.1);
-    mean.w = (mean.w * mean.w + 0.5 * between / (up * up)).sqrt();
-    mean
 }
 
 /// The texels about a place, row by row, and how far it is from the first.

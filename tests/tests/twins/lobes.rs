@@ -4,10 +4,11 @@ use std::f64::consts::PI;
 use std::sync::LazyLock;
 
 use crate::twin::{Sequence, Tolerance, Twin};
-use glam::{DVec3, Vec3};
+use glam::{DVec2, DVec3, Vec3};
 use hairline_gpu::call::{Call, Table, Texels};
 use hairline_gpu::{headless, shaders};
 use hairline_optics::environment_lobe::{ENVIRONMENT_TAPS, environment_lobe};
+use hairline_optics::filtered_lobe::filtered_lobe;
 use hairline_optics::fresnel::{FRESNEL_NODES, FresnelCurve, FresnelRgb, half_vector_cos};
 use hairline_optics::ggx::*;
 use hairline_optics::irradiance::*;
@@ -167,8 +168,7 @@ fn ggx() {
             y[4] = ggx_eval(wi, wo, alpha) * alpha * alpha * alpha;
             y[5] = ggx_multiple_scattering(x[7], x[3]) * max(x[3], 1e-3);
             y[6] = r.x; y[7] = r.y; y[8] = r.z;
-            y[9] = ggx_filtered_roughness(x[3], x[7] * x[7] * x[7]);
-            y[10] = half_vector_cos(wi, wo);",
+            y[9] = half_vector_cos(wi, wo);",
         tables: &[],
         expected: &|[ox, oy, oz, roughness, ix, iy, iz, f0]: [f64; 8]| {
             let (wo, wi) = (v(ox, oy, oz), v(ix, iy, iz));
@@ -185,7 +185,6 @@ fn ggx() {
                 r[0],
                 r[1],
                 r[2],
-                ggx_filtered_roughness(roughness, f0 * f0 * f0),
                 half_vector_cos(wi, wo),
             ]
         },
@@ -429,6 +428,48 @@ fn spheres() {
                 i2,
                 lambert_sphere(axis, sin2) / sin2.max(1e-12),
             ]
+        },
+        tolerance: CLEAR,
+    };
+    let rows = sphere_rows(20_000);
+    twin.check(&rows.clear, 0);
+    twin.tolerance = HORIZON;
+    twin.check(&rows.horizon, rows.horizon.len() / 1000);
+}
+
+/// Slope variances of all sizes, from a direction.
+fn slope_variance(axis: DVec3) -> DVec2 {
+    0.08 * axis.truncate().powf(4.0)
+}
+
+#[test]
+fn filtered_lobes() {
+    let tables = tables();
+    let mut twin = Twin {
+        name: "filtered_lobe and its parts under a sphere",
+        modules: &[&shaders::FILTERED_LOBE, &shaders::ENVIRONMENT_LOBE],
+        snippet: "let axis = vec3f(x[4], x[5], x[6]);
+            let wo = vec3f(x[0], x[1], x[2]);
+            let sharp = ltc_lobe(wo, x[3], table_0, table_1);
+            let reflecting = lobe_fresnel(FresnelRgb(vec3f(0.04, 0.5, 1.0), 0u), wo, x[3], table_3);
+            let filtered = filtered_lobe(sharp.alpha, 0.08 * axis.xy * axis.xy * axis.xy * axis.xy, wo.z);
+            for (var p = 0u; p < 2u; p += 1u) {
+                let part = filtered_lobe_part(sharp, filtered, p);
+                y[p] = ltc_sphere(part.lobe, reflecting, table_3, axis, x[7]).y / x[8];
+                y[2u + p] = part.weight;
+                y[4u + p] = part.lobe.alphas[p];
+                y[6u + p] = environment_tap(environment_lobe(part.lobe), 2u).roughness;
+            }",
+        tables: &tables,
+        expected: &|row| {
+            let (wo, roughness, axis, sin2, brightest) = sphere_row(row);
+            let sharp = ltc_lobe(wo, roughness);
+            let of = LobeFresnel::new(schlick(), wo, roughness);
+            let filtered = filtered_lobe(sharp.alpha, slope_variance(axis), wo.z);
+            let [(w0, first), (w1, second)] = filtered.parts(&sharp);
+            let [i0, i1] = [first, second].map(|lobe| ltc_sphere(&lobe, &of, axis, sin2)[1] / brightest);
+            let [t0, t1] = [first, second].map(|lobe| environment_lobe(&lobe).environment_tap(2).roughness);
+            [i0, i1, w0, w1, first.alphas.x, second.alphas.y, t0, t1]
         },
         tolerance: CLEAR,
     };

@@ -3,4 +3,5 @@
 mod accuracy;
 mod cubature;
 mod environment;
+mod filtered;
 mod limits;

@@ -1,0 +1,119 @@
+//! The lobe of a pixel whose normals differ, against the mean of the sharp lobe over the normals.
+
+use std::f64::consts::{PI, TAU};
+
+use glam::DVec2;
+use hairline_optics::filtered_lobe::filtered_lobe;
+use hairline_optics::ggx::ggx_alpha;
+use hairline_optics::ltc::{LobeFresnel, ltc_lobe, ltc_sphere};
+
+/// The density of slopes of GGX.
+fn ggx_slopes(slope: DVec2, alphas: DVec2) -> f64 {
+    let q = 1.0 + (slope / alphas).length_squared();
+    1.0 / (PI * alphas.x * alphas.y * q * q)
+}
+
+/// Mean of f over a disk of directions and radii of equal shares, `radius` being the inverse of the share within.
+fn mean_over(radius: impl Fn(f64) -> f64, f: impl Fn(DVec2) -> f64) -> f64 {
+    const RADII: usize = 400;
+    const ANGLES: usize = 64;
+    let mut sum = 0.0;
+    for i in 0..RADII {
+        let r = radius((i as f64 + 0.5) / RADII as f64);
+        for k in 0..ANGLES {
+            sum += f(r * DVec2::from_angle((k as f64 + 0.5) / ANGLES as f64 * TAU));
+        }
+    }
+    sum / (RADII * ANGLES) as f64
+}
+
+/// GGX slopes of alpha 1 over normals of variance `t`, at a slope `m`: the narrower of the two is what is averaged over.
+fn blurred(m: f64, t: f64) -> f64 {
+    let at = DVec2::new(m, 0.0);
+    if t < 1.0 {
+        mean_over(
+            |share| (-2.0 * t * (1.0 - share).ln()).sqrt(),
+            |s| ggx_slopes(at - s, DVec2::ONE),
+        )
+    } else {
+        mean_over(
+            |share| (share / (1.0 - share)).sqrt(),
+            |s| (-(at - s).length_squared() / (2.0 * t)).exp() / (TAU * t),
+        )
+    }
+}
+
+#[test]
+fn pixels_blur_the_core_and_not_the_tails() {
+    for (t, most, most_of_one) in [
+        (0.1, 0.03, 0.07),
+        (1.0, 0.12, 0.22),
+        (10.0, 0.20, 0.34),
+        (100.0, 0.22, 0.39),
+    ] {
+        // Small angles, so that slopes are as if on a plane.
+        let alpha = 0.002;
+        let filtered = filtered_lobe(alpha, DVec2::splat(t * alpha * alpha), 1.0);
+        let narrow = filtered.alphas / alpha;
+        let ours = |m: f64| {
+            let [first, second] =
+                [1.0, 2f64.sqrt()].map(|k| ggx_slopes(DVec2::new(m, 0.0), k * narrow));
+            (1.0 + filtered.excess) * first - filtered.excess * second
+        };
+        let one = |m: f64| ggx_slopes(DVec2::new(m, 0.0), DVec2::splat((1.0 + 2.0 * t).sqrt()));
+        let width = (1.0 + 2.0 * t).sqrt();
+        let (mut error, mut error_of_one) = (0.0, 0.0);
+        let step = 0.05 * width;
+        for i in 0..120 {
+            let m = (f64::from(i) + 0.5) * step;
+            let exact = blurred(m, t);
+            error += (ours(m) - exact).abs() * TAU * m * step;
+            error_of_one += (one(m) - exact).abs() * TAU * m * step;
+        }
+        let tail = ours(1000.0 * width) / ggx_slopes(DVec2::new(1000.0 * width, 0.0), DVec2::ONE);
+        println!(
+            "variance {t} alpha^2: {error:.3} misplaced, {error_of_one:.3} by one GGX; far tail {tail:.3}"
+        );
+        assert!(error < most && error_of_one > 1.5 * error, "{t}: {error}");
+        assert!(error_of_one < most_of_one, "{t}: {error_of_one}");
+        assert!((tail - 1.0).abs() < 0.02, "{t}: {tail}");
+    }
+}
+
+#[test]
+fn curved_surfaces_keep_their_energy() {
+    let white = hairline_optics::fresnel::FresnelRgb {
+        f0: [1.0; 3],
+        curve: hairline_optics::fresnel::FresnelCurve::schlick(),
+    };
+    for roughness in [0.02, 0.1, 0.3, 0.6, 1.0] {
+        for angle_deg in [0.0f64, 40.0, 80.0] {
+            for variance in [
+                DVec2::new(1e-5, 1e-3),
+                DVec2::splat(0.01),
+                DVec2::new(0.1, 0.02),
+            ] {
+                let (sin, cos) = angle_deg.to_radians().sin_cos();
+                let wo = glam::DVec3::new(sin, 0.0, cos);
+                let sharp = ltc_lobe(wo, roughness);
+                let of = LobeFresnel::new(white, wo, roughness);
+                let filtered = filtered_lobe(ggx_alpha(roughness), variance, cos);
+                // A sphere around the point, and one that leaves a hundredth of a degree at the horizon.
+                for sin2 in [1.0, 0.999_999_97] {
+                    let reflected: f64 = filtered
+                        .parts(&sharp)
+                        .iter()
+                        .map(|(weight, lobe)| {
+                            weight * ltc_sphere(lobe, &of, glam::DVec3::Z, sin2)[0]
+                        })
+                        .sum();
+                    let error = reflected / of.albedo[0] - 1.0;
+                    assert!(
+                        error.abs() < 0.01,
+                        "{roughness} {angle_deg} {variance}: {error}"
+                    );
+                }
+            }
+        }
+    }
+}
