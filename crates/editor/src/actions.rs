@@ -13,7 +13,7 @@ mod list;
 use std::path::Path;
 
 use hairline_scene::Description;
-use hairline_scene::description::Environment;
+use hairline_scene::description::{Environment, Map};
 
 use crate::{Selection, paths};
 
@@ -78,22 +78,25 @@ pub fn unique_name<'n>(name: &str, taken: impl Iterator<Item = &'n str> + Clone)
 
 /// Lights the scene by another map, or by none. How an earlier one was turned and scaled is kept.
 ///
-/// `file` is written relative to `base_dir`, the document's.
+/// A map's file is written relative to `base_dir`, the document's.
 pub fn set_environment(
     description: &mut Description,
-    file: Option<&Path>,
+    map: Option<Map>,
     base_dir: &Path,
 ) -> Selection {
-    let Some(file) = file else {
+    let Some(map) = map else {
         description.environment = None;
         return Selection::Environment;
     };
-    let file = paths::written(file, base_dir);
+    let map = match map {
+        Map::File(file) => Map::File(paths::written(&file, base_dir)),
+        Map::BuiltIn(_) => map,
+    };
     match &mut description.environment {
-        Some(environment) => environment.file = file,
+        Some(environment) => environment.map = map,
         none => {
             *none = Some(Environment {
-                file,
+                map,
                 rotation_deg: 0.0,
                 intensity: 1.0,
                 visible: true,

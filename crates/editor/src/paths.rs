@@ -4,12 +4,14 @@ use std::collections::VecDeque;
 use std::path::{Component, Path, PathBuf};
 
 use hairline_scene::Description;
-use hairline_scene::description::{Layer, Surface};
+use hairline_scene::description::{Layer, Map, Surface};
 
 /// Every path that a description names.
 pub(crate) fn each_path(description: &mut Description, change: &mut dyn FnMut(&mut PathBuf)) {
-    if let Some(environment) = &mut description.environment {
-        change(&mut environment.file);
+    if let Some(environment) = &mut description.environment
+        && let Map::File(file) = &mut environment.map
+    {
+        change(file);
     }
     for object in &mut description.objects {
         if let Surface::Mesh(file) = &mut object.surface {
@@ -25,7 +27,7 @@ pub(crate) fn each_path(description: &mut Description, change: &mut dyn FnMut(&m
 
 /// The same, to be read.
 pub(crate) fn named(description: &Description) -> impl Iterator<Item = &Path> {
-    let map = description.environment.as_ref().map(|e| e.file.as_path());
+    let map = description.environment.as_ref().and_then(|e| e.map.file());
     let meshes = description
         .objects
         .iter()

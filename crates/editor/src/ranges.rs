@@ -52,6 +52,8 @@ pub enum Parameter {
     PlaneSize,
     /// `radius_m` of a disk or a sphere.
     ShapeRadius,
+    /// `fit_m` of a model.
+    FitSize,
     /// `segments` of a lathe.
     LatheSegments,
     /// The radius of a point of a lathe's profile.
@@ -132,7 +134,7 @@ pub const DEFAULT_DIAGONAL_M: f64 = 0.3;
 
 impl Parameter {
     /// Every parameter.
-    pub const ALL: [Self; 46] = [
+    pub const ALL: [Self; 47] = [
         Self::CameraPosition,
         Self::CameraTarget,
         Self::CameraUp,
@@ -152,6 +154,7 @@ impl Parameter {
         Self::Scale,
         Self::PlaneSize,
         Self::ShapeRadius,
+        Self::FitSize,
         Self::LatheSegments,
         Self::ProfileRadius,
         Self::ProfileHeight,
@@ -210,7 +213,7 @@ impl Parameter {
             P::Translation => (-2.0 * d..=2.0 * d, limits::COORDINATE_M),
             // Smaller than 1e-6 neither way; 0 lies between and is refused.
             P::Scale => (0.01..=10.0, -*limits::SCALE.end()..=*limits::SCALE.end()),
-            P::PlaneSize | P::ShapeRadius => (0.05 * d..=5.0 * d, limits::SIZE_M),
+            P::PlaneSize | P::ShapeRadius | P::FitSize => (0.05 * d..=5.0 * d, limits::SIZE_M),
             P::LatheSegments => (16.0..=512.0, limits::LATHE_SEGMENTS),
             P::ProfileRadius => (0.0..=d, limits::PROFILE_RADIUS_M),
             P::ProfileHeight => (-d..=d, limits::COORDINATE_M),
@@ -257,6 +260,7 @@ impl Parameter {
                 | P::Scale
                 | P::PlaneSize
                 | P::ShapeRadius
+                | P::FitSize
                 | P::Count
                 | P::Density
                 | P::Length
@@ -277,6 +281,7 @@ impl Parameter {
             | P::Translation
             | P::PlaneSize
             | P::ShapeRadius
+            | P::FitSize
             | P::ProfileRadius
             | P::ProfileHeight
             | P::Length

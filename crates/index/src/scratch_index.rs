@@ -76,12 +76,23 @@ impl ScratchIndex {
         Some(Self {
             tree: tree?,
             depth_coherence,
-            coherence_max_um: scene
-                .objects
-                .iter()
-                .map(|object| coherence_max_um(scene, object))
-                .collect(),
+            coherence_max_um: coherences_max_um(scene),
         })
+    }
+
+    /// All but the trees, for pictures of a draft, which looks nothing up there.
+    pub fn without_trees(scene: &Scene) -> Self {
+        let objects = scene.objects.len();
+        Self {
+            tree: SegmentTree {
+                nodes: Vec::new(),
+                segments: Vec::new(),
+                objects: vec![0..0; objects],
+                trees: vec![Vec::new(); objects],
+            },
+            depth_coherence: Self::depth_coherence(scene),
+            coherence_max_um: coherences_max_um(scene),
+        }
     }
 
     /// The segments of an object in [`SegmentTree::segments`].
@@ -141,6 +152,13 @@ fn plots<'a>(
     let objects = scene.objects.iter();
     objects
         .map(|object| groups(scene, object).into_iter().map(plot).collect())
+        .collect()
+}
+
+fn coherences_max_um(scene: &Scene) -> Vec<f32> {
+    let objects = scene.objects.iter();
+    objects
+        .map(|object| coherence_max_um(scene, object))
         .collect()
 }
 

@@ -133,7 +133,11 @@ impl<'a> Prepared<'a> {
 
     /// Whether the object has any scratches.
     pub(crate) fn is_scratched(&self, hit: &Hit) -> bool {
-        !self.scratches.tree.objects[hit.object as usize].is_empty()
+        let object = hit.object as usize;
+        match &self.draft {
+            Some(draft) => !draft.objects[object].is_empty(),
+            None => !self.scratches.tree.objects[object].is_empty(),
+        }
     }
 
     /// How alike the phase steps of an object's scratches are.
@@ -199,6 +203,24 @@ impl<'a> Prepared<'a> {
         Some((image, counts))
     }
 
+    /// Renders anew those pixels of some rows that have an edge or a crease. `image` has these rows, of one sample a pixel, and becomes
+    /// what [`Self::render_rows`] makes of more. None if it was cancelled, as by [`Self::render_unless`].
+    pub fn refine_edges_unless(
+        &self,
+        cancelled: &(dyn Fn() -> bool + Sync),
+        options: &RenderOptions,
+        rows: Range<u32>,
+        mut image: Image,
+    ) -> Option<Image> {
+        let (mut picture, _) = self.picture(options, rows, cancelled);
+        if cancelled() {
+            return None;
+        }
+        picture.only_edges = true;
+        picture.render(&mut image, &|_| {}, cancelled)?;
+        Some(image)
+    }
+
     /// The stages before the tiles. Of no use if they were cancelled.
     pub(crate) fn picture(
         &self,
@@ -225,6 +247,7 @@ impl<'a> Prepared<'a> {
             camera,
             options: *options,
             rows: rows.start as usize..rows.end as usize,
+            only_edges: false,
             visibility: Visibility::new(&self.triangles, &camera, size_px, &rows),
             by,
         };

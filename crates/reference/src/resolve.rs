@@ -65,15 +65,18 @@ impl Pixel {
         self.covered += u32::from(sample.depth_m > 0.0);
     }
 
-    /// The mean, with a unit normal. Depths are the mean of those samples that see a surface.
-    pub fn resolve(&self) -> Sample {
-        let per_sample = 1.0 / f64::from(self.samples.max(1));
-        Sample {
+    /// The mean, with a unit normal; none without a sample. Depths are the mean of those samples that see a surface.
+    pub fn resolve(&self) -> Option<Sample> {
+        if self.samples == 0 {
+            return None;
+        }
+        let per_sample = 1.0 / f64::from(self.samples);
+        Some(Sample {
             base: self.sum.base * per_sample,
             scratches: self.sum.scratches * per_sample,
             density: self.sum.density * per_sample,
             normal: self.sum.normal.normalize_or_zero(),
             depth_m: self.sum.depth_m / f64::from(self.covered.max(1)),
-        }
+        })
     }
 }

@@ -32,6 +32,8 @@ pub(crate) struct Picture<'a> {
     pub camera: CameraFrame,
     pub options: RenderOptions,
     pub rows: Range<usize>,
+    /// Pixels that one sample is enough for are left as they are.
+    pub only_edges: bool,
     pub visibility: Visibility,
     pub by: By<'a>,
 }
@@ -97,8 +99,8 @@ impl<'a> Tile<'a> {
         }
     }
 
-    /// Renders the part of a tile that lies within the picture's rows; other pixels stay black. Row by row.
-    pub fn render(&mut self, column: usize, row: usize) -> [Sample; SIDE * SIDE] {
+    /// Renders the part of a tile that lies within the picture's rows; there is nothing of other pixels. Row by row.
+    pub fn render(&mut self, column: usize, row: usize) -> [Option<Sample>; SIDE * SIDE] {
         let picture = self.picture;
         self.pixels = [Pixel::default(); SIDE * SIDE];
         let (x0, y0) = (column * SIDE, row * SIDE);
@@ -125,7 +127,7 @@ impl<'a> Tile<'a> {
         let (column, row) = (x / SIDE, y / SIDE);
         self.add_pixel(column, row, pixel, [x, y]);
         self.shade(column, row);
-        self.pixels[pixel].resolve()
+        self.pixels[pixel].resolve().unwrap_or_default()
     }
 
     /// Adds all samples of a pixel: one through its centre, or several where it has an edge.
@@ -133,6 +135,9 @@ impl<'a> Tile<'a> {
         let picture = self.picture;
         let samples = picture.options.samples.max(1);
         if samples == 1 || is_smooth(&picture.visibility, &picture.camera, x, y) {
+            if picture.only_edges {
+                return;
+            }
             let hit = picture.visibility.hit(x, y).copied();
             self.add(column, row, pixel, center(x, y), 1, hit);
             return;
@@ -268,7 +273,7 @@ impl<'a> Picture<'a> {
                 .map(|column| {
                     if is_cancelled.load(Ordering::Relaxed) || cancelled() {
                         is_cancelled.store(true, Ordering::Relaxed);
-                        return [Sample::default(); SIDE * SIDE];
+                        return [None; SIDE * SIDE];
                     }
                     let mut tile = take(&rooms).unwrap_or_else(|| Tile::new(self));
                     let samples = tile.render(column, row);
@@ -278,7 +283,9 @@ impl<'a> Picture<'a> {
                 .collect();
             for i in 0..layers.depth_m.len() {
                 let (x, y) = (i % width, first + i / width);
-                layers.set(i, &tiles[x / SIDE][y * SIDE + x % SIDE]);
+                if let Some(sample) = &tiles[x / SIDE][y * SIDE + x % SIDE] {
+                    layers.set(i, sample);
+                }
             }
             let done = done.fetch_add(1, Ordering::Relaxed) + 1;
             progress(done as f64 / all as f64);

@@ -14,7 +14,7 @@ use crate::load::{self, Loader, Stage};
 use crate::memory::{self, Estimate};
 use crate::scene::{Object, Scene};
 use crate::scratches;
-use kept::{Kept, KeptLayer, KeptSurface, Stamp, SurfaceKey};
+use kept::{Kept, KeptLayer, KeptSurface, MapKey, Stamp, SurfaceKey};
 
 /// Builds scenes one after the other. What of a scene is as it was in the one before is not made again, but shared with it:
 ///
@@ -117,7 +117,7 @@ impl<'a> Work<'a> {
         if let Some(described) = &self.description.environment
             && self
                 .old
-                .map(&Stamp::of(&self.base_dir.join(&described.file)))
+                .map(&MapKey::new(&described.map, self.base_dir))
                 .is_none()
         {
             estimate.add_environment(self.description, self.base_dir);
@@ -179,13 +179,12 @@ impl<'a> Work<'a> {
             return Ok(None);
         };
         self.loader.report(Stage::Environment, 0, 1);
-        let path = self.base_dir.join(&described.file);
-        let stamp = Stamp::of(&path);
-        let map = match self.old.map(&stamp) {
+        let key = MapKey::new(&described.map, self.base_dir);
+        let map = match self.old.map(&key) {
             Some(map) => map,
-            None => load::environment_map(&path)?,
+            None => load::environment_map(&described.map, self.base_dir)?,
         };
-        self.new.map = Some((stamp, map.clone()));
+        self.new.map = Some((key, map.clone()));
         self.loader.report(Stage::Environment, 1, 1);
         Ok(Some(load::environment(described, map, scene.camera.up)))
     }

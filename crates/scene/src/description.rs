@@ -21,6 +21,7 @@ use hairline_optics::ggx::GGX_MIN_ALPHA;
 use hairline_optics::metal::Metal;
 use serde::{Serialize, Serializer};
 
+use crate::environment::BuiltInMap;
 use crate::error::Error;
 use crate::text::printable;
 
@@ -96,14 +97,36 @@ impl Default for Render {
 /// `[environment]`
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Environment {
-    /// An equirectangular `.hdr` or `.exr`, relative to the scene file. Required.
-    pub file: PathBuf,
+    /// The map. Required.
+    #[serde(flatten)]
+    pub map: Map,
     /// Turns the picture about the world's up axis. Default: 0.
     pub rotation_deg: f64,
     /// Factor on its radiance. Default: 1.
     pub intensity: f64,
     /// Whether the camera sees it behind the objects. Default: true.
     pub visible: bool,
+}
+
+/// The map of an `[environment]`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub enum Map {
+    /// `file`: an equirectangular `.hdr` or `.exr`, relative to the scene file.
+    #[serde(rename = "file")]
+    File(PathBuf),
+    /// `builtin`: one in the box, `"studio"`, `"window"` or `"overcast"`.
+    #[serde(rename = "builtin")]
+    BuiltIn(BuiltInMap),
+}
+
+impl Map {
+    /// The map's file, if it has one, as the scene names it.
+    pub fn file(&self) -> Option<&Path> {
+        match self {
+            Self::File(file) => Some(file),
+            Self::BuiltIn(_) => None,
+        }
+    }
 }
 
 /// `[[material]]`
@@ -394,6 +417,14 @@ impl Named for Metal {
         ("chromium", Metal::Chromium),
         ("titanium", Metal::Titanium),
         ("nickel", Metal::Nickel),
+    ];
+}
+
+impl Named for BuiltInMap {
+    const NAMES: &'static [(&'static str, Self)] = &[
+        ("studio", BuiltInMap::Studio),
+        ("window", BuiltInMap::Window),
+        ("overcast", BuiltInMap::Overcast),
     ];
 }
 

@@ -16,6 +16,7 @@ use hairline_image::Picture;
 use crate::scene::Light;
 use suns::{Parted, Sun};
 
+mod built_in;
 mod file;
 mod irradiance;
 pub mod lookup;
@@ -23,6 +24,8 @@ mod prefilter;
 mod resample;
 mod suns;
 
+pub use built_in::BuiltInMap;
+pub(crate) use built_in::SIZE_PX as BUILT_IN_SIZE_PX;
 pub use file::Error;
 pub(crate) use file::{read, size_px};
 pub use irradiance::IRRADIANCE_SIZE_PX;

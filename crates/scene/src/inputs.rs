@@ -15,17 +15,20 @@ pub struct Input {
     pub path: PathBuf,
 }
 
+/// The files that a model names in turn: buffers and textures. None where it cannot be read.
+pub fn of_model(path: &Path) -> Vec<PathBuf> {
+    let names = mesh_file::names(path);
+    names.into_iter().map(|(_, file)| file).collect()
+}
+
 impl Description {
     /// All files that the scene names, and those that its models name in turn. Files are looked for in `base_dir`; a model that
     /// cannot be read names none.
     pub fn inputs(&self, base_dir: &Path) -> Vec<Input> {
         let mut inputs = Vec::new();
         let mut add = |what: String, path: PathBuf| inputs.push(Input { what, path });
-        if let Some(environment) = &self.environment {
-            add(
-                "its environment".to_owned(),
-                base_dir.join(&environment.file),
-            );
+        if let Some(file) = self.environment.as_ref().and_then(|it| it.map.file()) {
+            add("its environment".to_owned(), base_dir.join(file));
         }
         for object in &self.objects {
             if let Surface::Mesh(file) = &object.surface {

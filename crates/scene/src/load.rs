@@ -12,7 +12,7 @@ use crate::description::{self, Description, LightKind, MaterialKind, MetalColor}
 use crate::error::Error;
 use crate::scene::{Base, Camera, Light, Material, RenderSettings, Scene};
 use crate::surface::world_from_object;
-use crate::{memory, reading};
+use crate::{environment, memory, reading};
 
 /// How far long work has come.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -204,9 +204,19 @@ pub(crate) fn vertical_axis(up: DVec3) -> DVec3 {
     axis * axis.dot(up).signum()
 }
 
-/// A map as its file has it: not turned, intensity 1.
-pub(crate) fn environment_map(path: &Path) -> Result<Environment, Error> {
-    Environment::load(path, 0.0, 1.0, true).map_err(|error| {
+/// A map as it is without the scene: not turned, intensity 1.
+pub(crate) fn environment_map(
+    map: &description::Map,
+    base_dir: &Path,
+) -> Result<Environment, Error> {
+    let file = match map {
+        description::Map::File(file) => base_dir.join(file),
+        description::Map::BuiltIn(map) => {
+            let picture = map.picture(environment::BUILT_IN_SIZE_PX);
+            return Ok(Environment::with_suns_parted(picture, 0.0, 1.0, true));
+        }
+    };
+    Environment::load(&file, 0.0, 1.0, true).map_err(|error| {
         Error::new(
             "environment.file",
             error.to_string(),

@@ -7,7 +7,7 @@ mod available;
 
 use std::path::Path;
 
-use crate::description::{Description, LightKind, Object, Shape, Surface};
+use crate::description::{Description, LightKind, Map, Object, Shape, Surface};
 use crate::environment;
 use crate::error::Error;
 use crate::mesh_file;
@@ -24,7 +24,7 @@ const GROUND_BYTES: f64 = 100.0;
 /// An object without its triangles.
 const OBJECT_BYTES: f64 = 4096.0;
 /// A light, and a vertex of a polygon.
-const LIGHT_BYTES: f64 = 2048.0;
+const LIGHT_BYTES: f64 = 7168.0;
 const OUTLINE_BYTES: f64 = 512.0;
 /// A pixel of an environment map with its blurred levels.
 const MAP_PIXEL_BYTES: f64 = 32.0;
@@ -130,11 +130,15 @@ impl Estimate {
             return;
         };
         // What is wrong with it is told where it is read.
-        let Ok([width, height]) = environment::size_px(&base_dir.join(&described.file)) else {
+        let (key, size_px) = match &described.map {
+            Map::File(file) => ("file", environment::size_px(&base_dir.join(file))),
+            Map::BuiltIn(_) => ("builtin", Ok(environment::BUILT_IN_SIZE_PX)),
+        };
+        let Ok([width, height]) = size_px else {
             return;
         };
         self.parts.push(Part {
-            key: "environment.file".to_owned(),
+            key: format!("environment.{key}"),
             what: format!("a map of {width} x {height} pixels"),
             bytes: f64::from(width) * f64::from(height) * MAP_PIXEL_BYTES,
             remedy: "take a smaller map",

@@ -1,13 +1,14 @@
-//! A scene around a model that comes without one: soft panels, a small bright lamp, light wear on metal, a camera that frames it.
+//! A scene around a model that comes without one: the studio in the box, a small bright lamp, light wear on metal, a camera that frames it.
 
 use std::path::{Path, PathBuf};
 
 use glam::DVec3;
 
 use crate::description::{
-    Amount, Camera, Description, Distribution, Laid, Layer, Light, LightKind, Object, Pattern,
-    Render, Scratches, Surface, Up,
+    Amount, Camera, Description, Distribution, Environment, Laid, Layer, Light, LightKind, Map,
+    Object, Pattern, Render, Scratches, Surface, Up,
 };
+use crate::environment::BuiltInMap;
 use crate::error::Error;
 use crate::probe;
 use crate::text::shown;
@@ -18,6 +19,9 @@ const SHOWN_M: f64 = 0.2;
 /// The share of the picture that the model fills.
 const FILLED: f64 = 0.95;
 const FOV_Y_DEG: f64 = 28.0;
+/// Its brightest box behind the camera, to the side.
+const STUDIO_ROTATION_DEG: f64 = 220.0;
+const STUDIO_INTENSITY: f64 = 0.75;
 /// From the model to the camera: from above, a little from the left.
 const VIEW: DVec3 = DVec3::new(-0.42, -1.0, 0.5);
 
@@ -64,7 +68,12 @@ impl Description {
         Ok(Self {
             camera: bounds.camera(render.size_px),
             render,
-            environment: None,
+            environment: Some(Environment {
+                map: Map::BuiltIn(BuiltInMap::Studio),
+                rotation_deg: STUDIO_ROTATION_DEG,
+                intensity: STUDIO_INTENSITY,
+                visible: true,
+            }),
             materials: Vec::new(),
             scratches: match summary.metal_share > 0.5 {
                 true => vec![wear(&object, bounds.extent_m())],
@@ -80,7 +89,7 @@ impl Description {
                 rotation_deg: [0.0; 3],
                 scale: [1.0; 3],
             }],
-            lights: bounds.lights(),
+            lights: vec![bounds.lamp()],
             notes,
         })
     }
@@ -162,56 +171,17 @@ impl Bounds {
         }
     }
 
-    /// A studio: what metal mirrors, and a lamp small enough for colours.
-    fn lights(&self) -> Vec<Light> {
-        let panel = |name: &str, towards: [f64; 3], size: [f64; 2], radiance: f64| Light {
-            name: Some(name.to_owned()),
-            radiance,
-            ..Light::new(self.panel(DVec3::from(towards), size))
-        };
-        let lamp_m = self.middle_m() + 3.4 * self.radius_m() * DVec3::new(0.35, 0.55, 1.0);
-        let lamp = Light {
+    /// Small enough for colours.
+    fn lamp(&self) -> Light {
+        let center_m = self.middle_m() + 3.4 * self.radius_m() * DVec3::new(0.35, 0.55, 1.0);
+        Light {
             name: Some("lamp".to_owned()),
             radiance: 1400.0,
             color: [1.0, 0.95, 0.88],
             ..Light::new(LightKind::Sphere {
-                center_m: lamp_m.into(),
+                center_m: center_m.into(),
                 radius_m: 0.05 * self.radius_m(),
             })
-        };
-        vec![
-            lamp,
-            panel("key", [-2.6, -2.0, 3.2], [2.6, 2.6], 0.9),
-            panel("fill", [3.8, -0.8, 1.2], [1.6, 3.2], 0.35),
-            panel("rim", [0.6, 3.6, 2.4], [4.0, 0.8], 1.6),
-            panel("ceiling", [0.0, 0.0, 6.0], [14.0, 14.0], 0.09),
-            // Behind the camera: what faces it would mirror nothing.
-            panel("front", [0.0, -5.5, 0.0], [12.0, 9.0], 0.15),
-            panel("floor", [0.0, 0.0, -4.0], [16.0, 16.0], 0.03),
-        ]
-    }
-
-    /// A rectangle that faces the model; place and size in units of its radius.
-    fn panel(&self, towards: DVec3, [width, height]: [f64; 2]) -> LightKind {
-        let radius_m = self.radius_m();
-        let normal = -towards.normalize();
-        let across = match DVec3::Z.cross(normal).try_normalize() {
-            Some(across) => across,
-            None => DVec3::X,
-        };
-        let along = normal.cross(across);
-        let corner = |x: f64, y: f64| -> [f64; 3] {
-            let offset = towards + across * (0.5 * width * x) + along * (0.5 * height * y);
-            (self.middle_m() + radius_m * offset).into()
-        };
-        LightKind::Polygon {
-            vertices_m: vec![
-                corner(-1.0, -1.0),
-                corner(1.0, -1.0),
-                corner(1.0, 1.0),
-                corner(-1.0, 1.0),
-            ],
-            two_sided: false,
         }
     }
 }

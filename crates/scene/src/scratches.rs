@@ -25,7 +25,7 @@ use rayon::prelude::*;
 
 use crate::description::{Amount, Distribution, Layer, Stroke};
 use crate::error::Error;
-use crate::load::{Loader, Progress, Stage};
+use crate::load::{Loader, Stage};
 use crate::scene::{Scratch, Segment};
 
 use erase::Eraser;
@@ -47,9 +47,13 @@ const MOST_SEGMENTS: usize = 1 << 28;
 const PILOTS: u64 = 1024;
 /// Segments that are enough to know.
 const PILOT_SEGMENTS: usize = 1 << 20;
-/// Scratches of one task, and of the tasks between two reports of progress: some hundredths of a second.
-const CHUNK: u64 = 256;
-const BATCH: u64 = 32 * CHUNK;
+/// Scratches of one task.
+const CHUNK: u64 = 32;
+/// Scratches between two looks at whether to give up: so few at first, twice as many after a batch of fewer segments than that, which
+/// are some hundredths of a second.
+const BATCH_FIRST: u64 = 8 * CHUNK;
+const BATCH_MOST: u64 = 256 * CHUNK;
+const BATCH_SEGMENTS: usize = 1 << 14;
 /// So many scratches or segments are worth another thread to copy them.
 const COPY: usize = 1 << 14;
 
@@ -131,6 +135,8 @@ struct Plan<'a> {
     laying: Box<dyn Laying + 'a>,
     eraser: Option<Eraser>,
     count: u64,
+    /// The first scratches, and how many: they told how much memory all of them take.
+    pilot: (Laid, u64),
 }
 
 /// Lays all layers, each for itself. Refuses before laying what would not fit into memory beside `used_bytes`.
@@ -145,32 +151,35 @@ pub(crate) fn lay(
         loader.go_on()?;
         plans.push(Plan::new(loader, table, base_dir)?);
     }
-    for plan in &plans {
+    for plan in &mut plans {
         loader.go_on()?;
         let free_bytes = (loader.memory_budget_bytes as f64 - used_bytes).max(0.0);
-        used_bytes += plan.check_memory(free_bytes)?;
+        used_bytes += plan.check_memory(loader, free_bytes)?;
     }
 
     let total = plans.iter().map(|plan| plan.count).sum();
     let mut done = 0;
     let mut all = Vec::new();
-    for plan in &plans {
-        let mut laid = Laid::default();
+    for plan in &mut plans {
+        let (mut laid, mut first) = std::mem::take(&mut plan.pilot);
+        done += first;
+        loader.report(Stage::Scratches, done, total);
+        let mut batch = BATCH_FIRST;
         // One batch is put with the others while the next one is laid.
         let mut parts = Vec::new();
-        for first in (0..plan.count).step_by(BATCH as usize) {
+        while first < plan.count {
             loader.go_on()?;
-            let end = plan.count.min(first + BATCH);
+            let end = plan.count.min(first + batch);
             let last = std::mem::take(&mut parts);
             let (next, taken) = rayon::join(|| plan.lay(first..end), || plan.take(last, &mut laid));
             taken?;
             parts = next;
             done += end - first;
-            (loader.progress)(Progress {
-                stage: Stage::Scratches,
-                done,
-                total,
-            });
+            first = end;
+            if parts.iter().map(|part| part.segments.len()).sum::<usize>() < BATCH_SEGMENTS {
+                batch = (2 * batch).min(BATCH_MOST);
+            }
+            loader.report(Stage::Scratches, done, total);
         }
         plan.take(parts, &mut laid)?;
         all.push(laid);
@@ -254,23 +263,25 @@ impl<'a> Plan<'a> {
             laying,
             eraser: Eraser::new(loader, table.strokes, ground)?,
             count,
+            pilot: Default::default(),
         })
     }
 
     /// Refuses a layer that would not fit; returns what it takes.
-    fn check_memory(&self, free_bytes: f64) -> Result<f64, Error> {
+    fn check_memory(&mut self, loader: &Loader, free_bytes: f64) -> Result<f64, Error> {
         // Few at first, lest scratches of a million segments fill the memory themselves.
-        let mut pilots = 0;
-        let mut pilot = Laid::default();
+        let (mut pilot, mut pilots) = (Laid::default(), 0);
         while pilots < PILOTS.min(self.count) && pilot.segments.len() < PILOT_SEGMENTS {
-            pilots = self.count.min(4 * pilots.max(1));
-            pilot = Laid::default();
-            self.take(self.lay(0..pilots), &mut pilot)?;
+            loader.go_on()?;
+            let more = self.count.min(2 * pilots.max(2));
+            self.take(self.lay(pilots..more), &mut pilot)?;
+            pilots = more;
         }
         let demand = Demand {
             count: self.count,
             segments_each: pilot.segments.len() as f64 / pilots.max(1) as f64,
         };
+        self.pilot = (pilot, pilots);
         demand.check(free_bytes, || {
             let key = match self.table.layer {
                 Layer::Listed(_) => "file",

@@ -56,8 +56,6 @@ pub struct Viewer {
     pub(crate) free_view: FreeView,
     pub(crate) overlays: Overlays,
     pub(crate) gallery: Gallery,
-    /// Where the viewer may keep files of its own.
-    pub(crate) state_dir: Option<PathBuf>,
     pub(crate) bookmarks: Bookmarks,
     pub(crate) snapshots: Snapshots,
     /// The camera is to show all of the next scene that is built.
@@ -75,6 +73,8 @@ pub struct Viewer {
     title: String,
     /// Of the device that draws the window.
     loss: WindowLoss,
+    /// The next frames are to wait for no refresh of the screen.
+    frees_frames: bool,
 }
 
 impl Viewer {
@@ -99,8 +99,7 @@ impl Viewer {
                 built_in(options.built_in)?
             }
         };
-        let state_dir = options.state_dir.clone();
-        let store = state_dir.as_ref();
+        let store = options.state_dir.as_ref();
         let mut bookmarks = Bookmarks::new(store.map(|folder| folder.join("views.toml")));
         bookmarks.open(document.path());
         let wake = ctx.clone();
@@ -117,7 +116,6 @@ impl Viewer {
             free_view: FreeView::default(),
             overlays: Overlays::default(),
             gallery: Gallery::default(),
-            state_dir,
             bookmarks,
             snapshots: Snapshots::default(),
             frame_when_built: false,
@@ -129,6 +127,7 @@ impl Viewer {
             asked_revision: 0,
             title: String::new(),
             loss: WindowLoss::default(),
+            frees_frames: false,
             document,
         };
         viewer.tell_notes();
@@ -255,6 +254,12 @@ impl Viewer {
         self.loss = loss;
     }
 
+    /// Has frames wait for no refresh of the screen, for which a software driver stands still.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub(crate) fn show_frames_at_once(&mut self) {
+        self.frees_frames = true;
+    }
+
     /// What is not saved is kept, and offered at the next start: nothing can be asked any more.
     fn leave_lost_window(&mut self, ctx: &egui::Context) {
         if let Some(failed) = self.files.autosave_now(&self.document) {
@@ -367,8 +372,16 @@ impl Viewer {
 }
 
 impl eframe::App for Viewer {
-    fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
+    fn ui(&mut self, ui: &mut egui::Ui, frame: &mut eframe::Frame) {
         let start = Instant::now();
+        if std::mem::take(&mut self.frees_frames)
+            && let Some(config) = frame.wgpu_surface_config()
+        {
+            frame.set_wgpu_surface_config(eframe::SurfaceConfig {
+                present_mode: wgpu::PresentMode::AutoNoVsync,
+                ..config
+            });
+        }
         self.show(ui);
         self.viewport.note_interface_time(start.elapsed());
     }

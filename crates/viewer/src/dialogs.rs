@@ -1,6 +1,7 @@
 //! Questions in the window, one at a time, and the help.
 
 mod ask;
+mod fit;
 mod on_disk;
 mod recovery;
 mod thumbnails;
@@ -14,6 +15,7 @@ use crate::app::Viewer;
 use crate::command::{self, Group};
 use crate::files::{Purpose, from_home};
 use ask::{Loses, ask};
+use fit::Misfit;
 pub(crate) use on_disk::is_same;
 use recovery::Recovery;
 
@@ -41,6 +43,8 @@ enum Question {
     SaveOver,
     /// The file that the scene is to be saved as is there already.
     Replace(PathBuf),
+    /// A model that is to be added is much larger or smaller than what the scene shows.
+    Fit(Misfit),
 }
 
 /// Which questions are open.
@@ -84,6 +88,15 @@ impl Dialogs {
         self.question = Some(Question::Replace(path));
     }
 
+    /// A model is `extent_m` large in its file, and `fit_m` would suit the scene.
+    pub fn ask_to_fit(&mut self, path: PathBuf, extent_m: f64, fit_m: f64) {
+        self.question = Some(Question::Fit(Misfit {
+            path,
+            extent_m,
+            fit_m,
+        }));
+    }
+
     pub fn show_help(&mut self) {
         self.help = true;
     }
@@ -106,6 +119,7 @@ impl Viewer {
             Some(Question::Reload) => self.load_again(ctx),
             Some(Question::SaveOver) => self.save_over(ctx),
             Some(Question::Replace(path)) => self.replace(ctx, path),
+            Some(Question::Fit(misfit)) => self.fit(ctx, misfit),
         }
     }
 

@@ -16,7 +16,7 @@ use hairline_scene::probe::{self, MeshSummary};
 use web_time::Instant;
 
 use crate::dialogs::Dialogs;
-use watch::Watch;
+use watch::{Change, Watch};
 
 /// What a path is wanted for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -139,7 +139,7 @@ impl Files {
     }
 
     /// A file that another program has written, once for each time.
-    pub fn changed(&mut self) -> Option<PathBuf> {
+    pub fn changed(&mut self) -> Option<Change> {
         self.watch.changed()
     }
 

@@ -10,9 +10,9 @@ use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 
 use egui::{ColorImage, TextureHandle, TextureId, TextureOptions};
-use hairline_editor::maps::BuiltInMap;
 use hairline_editor::presets::{LayerPreset, LightPreset, MaterialPreset, ShapePreset};
 use hairline_editor::wear::Wear;
+use hairline_scene::environment::BuiltInMap;
 
 pub(crate) use cards::{SIDE, card, cards, metal_swatches};
 

@@ -94,11 +94,15 @@ pub fn open_as(
         native,
         Box::new(move |context| {
             let state = context.wgpu_render_state.clone();
+            let is_software = is_software(state.as_ref());
             let backend = backend(state.as_ref(), renderer)?;
             watch(state.as_ref(), &backend, &watched);
             let options = Options { backend, ..options };
             let mut viewer = Viewer::new(&context.egui_ctx, state, options)?;
             viewer.watch(watched);
+            if is_software {
+                viewer.show_frames_at_once();
+            }
             Ok(app(viewer))
         }),
     )
@@ -107,6 +111,10 @@ pub fn open_as(
         Some(reason) => Err(Error::Lost(reason.to_owned())),
         None => Ok(()),
     }
+}
+
+fn is_software(state: Option<&RenderState>) -> bool {
+    state.is_some_and(|state| Adapter::new(state.adapter.clone()).kind == AdapterKind::Software)
 }
 
 /// Has `loss` told when the window's device is lost.
@@ -130,9 +138,8 @@ fn backend(
 ) -> Result<Backend, hairline_gpu::Error> {
     let shared = || -> Option<Gpu> {
         let state = state?;
-        let kind = Adapter::new(state.adapter.clone()).kind;
         // A software driver does one thing after the other: a picture on the window's device would hold the window up.
-        if kind == AdapterKind::Software {
+        if is_software(Some(state)) {
             return None;
         }
         Gpu::from_window(

@@ -1,7 +1,7 @@
 //! What the picture says of its own noise: variances that hold, and fall as they should.
 
-use crate::pictures::{LINEAR, sampled};
-use crate::scenes::{View, plate, scratch, sphere};
+use super::pictures::{LINEAR, sampled};
+use super::scenes::{View, plate, scratch, sphere};
 use hairline_image::{Image, Layer};
 use hairline_reference::monte_carlo::Settings;
 use hairline_scene::{Base, Scene};

@@ -1,7 +1,7 @@
 //! The closed form against the Monte Carlo integral of the model that it stands for.
 
-use crate::pictures::{Compared, LINEAR, closed, compared, sampled};
-use crate::scenes::{View, panel, plate, scratch, sphere};
+use super::pictures::{Compared, LINEAR, closed, compared, sampled};
+use super::scenes::{View, panel, plate, scratch, sphere};
 use glam::DVec2;
 use hairline_image::Layer;
 use hairline_optics::metal::Metal;

@@ -1,7 +1,7 @@
 //! Scratches and base under a smooth sky: cells of the band and the split sum against every direction by chance.
 
-use crate::pictures::{LINEAR, closed, compared, sampled};
-use crate::scenes::{self, View, plate, scratch};
+use super::pictures::{LINEAR, closed, compared, sampled};
+use super::scenes::{self, View, plate, scratch};
 use glam::{DVec2, DVec3};
 use hairline_image::{Layer, Picture};
 use hairline_optics::metal::Metal;

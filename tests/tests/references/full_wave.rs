@@ -1,7 +1,7 @@
 //! The full-wave model against the separable one: alike where waves are alone, fringes where two meet, alike in the mean of many.
 
-use crate::pictures::{LINEAR, compared, mean, sampled};
-use crate::scenes::{View, plate, scratch, sphere};
+use super::pictures::{LINEAR, compared, mean, sampled};
+use super::scenes::{View, plate, scratch, sphere};
 use conformance::lay;
 use glam::Vec3;
 use hairline_image::Layer;

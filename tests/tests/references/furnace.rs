@@ -1,7 +1,7 @@
 //! Energy: in a white environment a mirror sends back what falls on it, with scratches and without.
 
-use crate::pictures::{mean, sampled};
-use crate::scenes::{View, plate, scratch};
+use super::pictures::{mean, sampled};
+use super::scenes::{View, plate, scratch};
 use conformance::furnace;
 use hairline_image::Image;
 use hairline_optics::mask::Mask;

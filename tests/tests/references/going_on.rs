@@ -1,7 +1,7 @@
 //! A picture that was stopped and goes on is the picture that was not stopped, bit for bit.
 
-use crate::pictures::{LINEAR, sampled};
-use crate::scenes::{View, plate, scratch, sphere};
+use super::pictures::{LINEAR, sampled};
+use super::scenes::{View, plate, scratch, sphere};
 use conformance::furnace;
 use hairline_image::{Display, Image, Notes, Output, exr_file};
 use hairline_reference::monte_carlo::{BATCH_SAMPLES, Integrator, Model, Settings};

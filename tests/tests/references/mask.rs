@@ -1,7 +1,7 @@
 //! Which mask is nearer to what the whole field leaves of a highlight.
 
-use crate::pictures::{mean, sampled};
-use crate::scenes::{View, plate, scratch_alike, sphere};
+use super::pictures::{mean, sampled};
+use super::scenes::{View, plate, scratch_alike, sphere};
 use hairline_optics::mask::Mask;
 use hairline_reference::monte_carlo::{Model, Settings};
 use hairline_scene::{Base, Scene};

@@ -1,7 +1,7 @@
 //! A scratched plate seen in a mirror, and what many mirrors make of a white sky.
 
-use crate::pictures::{LINEAR, compared, mean, picked, sampled};
-use crate::scenes::{HALF_SIDE_M, View, add_quad, plate, scratch, sphere};
+use super::pictures::{LINEAR, compared, mean, picked, sampled};
+use super::scenes::{HALF_SIDE_M, View, add_quad, plate, scratch, sphere};
 use conformance::furnace;
 use glam::{DVec3, Vec3};
 use hairline_image::metrics::Verdict;

@@ -1,7 +1,7 @@
 //! The method of 2018 on the CPU: near Monte Carlo where its approximations are exact, and each of its switches alone.
 
-use crate::pictures::{Compared, LINEAR, compared, sampled};
-use crate::scenes::{View, panel, plate, scratch, sphere};
+use super::pictures::{Compared, LINEAR, compared, sampled};
+use super::scenes::{View, panel, plate, scratch, sphere};
 use glam::DVec3;
 use hairline_image::{Image, Layer, Layers};
 use hairline_optics::mask::Mask;

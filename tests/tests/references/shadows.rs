@@ -1,7 +1,7 @@
 //! A light behind an object.
 
-use crate::pictures::{LINEAR, mean, picked, sampled};
-use crate::scenes::{View, add_quad, plate, scratch, sphere};
+use super::pictures::{LINEAR, mean, picked, sampled};
+use super::scenes::{View, add_quad, plate, scratch, sphere};
 use glam::{DVec3, Vec3};
 use hairline_image::Image;
 use hairline_reference::monte_carlo::{Model, Settings};

@@ -1,6 +1,6 @@
 //! Lights on the band of a scratch.
 
-use crate::twin::{Sequence, Tolerance, Twin};
+use super::twin::{Sequence, Tolerance, Twin};
 use glam::{DVec2, DVec3};
 use hairline_gpu::shaders;
 use hairline_optics::band::*;

@@ -1,6 +1,6 @@
 //! Polygons of three and four vertices on the band of a scratch: edges made ready once and all roots of a line at once.
 
-use crate::twin::{Sequence, Tolerance, Twin};
+use super::twin::{Sequence, Tolerance, Twin};
 use glam::{DVec2, DVec3, Vec2, Vec3};
 use hairline_gpu::shaders;
 use hairline_optics::band::*;

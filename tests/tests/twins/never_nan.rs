@@ -1,6 +1,6 @@
 //! A million random configurations, many of them degenerate on purpose: whatever the input, numbers come out.
 
-use crate::twin::Sequence;
+use super::twin::Sequence;
 use glam::{DVec2, DVec3};
 use hairline_gpu::call::{Call, Table, Texels};
 use hairline_gpu::{headless, shaders};

@@ -1,6 +1,6 @@
 //! The method of 2018: lights, spectrum and footprint.
 
-use crate::twin::{Sequence, Tolerance, Twin};
+use super::twin::{Sequence, Tolerance, Twin};
 use glam::{DVec2, DVec3};
 use hairline_gpu::call::Call;
 use hairline_gpu::{headless, shaders};

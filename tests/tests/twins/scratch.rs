@@ -1,6 +1,6 @@
 //! One scratch: footprint, table, mask.
 
-use crate::twin::{Sequence, Tolerance, Twin};
+use super::twin::{Sequence, Tolerance, Twin};
 use hairline_gpu::call::{Table, Texels};
 use hairline_gpu::shaders;
 use hairline_optics::footprint::{Footprint, ScratchShare, scratch_share};

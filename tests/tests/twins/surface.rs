@@ -1,6 +1,6 @@
 //! A pixel's footprint, and the frame of the surface under it.
 
-use crate::twin::{Sequence, Tolerance, Twin};
+use super::twin::{Sequence, Tolerance, Twin};
 use glam::{DVec2, DVec3};
 use hairline_gpu::shaders;
 use hairline_scene::camera::{CameraFrame, MIN_FOOTPRINT_COS};

@@ -14,6 +14,9 @@ const PATIENCE: u64 = 10;
 /// A message of one line is no longer than this.
 const LONGEST_MESSAGE: usize = 4096;
 
+/// The program itself, and what its estimate of a scene may leave out, in MiB.
+const UNCOUNTED_MEBIBYTES: u64 = 192;
+
 /// What a case may take.
 pub struct Limits {
     pub seconds: u64,
@@ -39,7 +42,9 @@ pub fn judge(
         .spawn()
         .context("start hairline")?;
     let start = Instant::now();
+    let mut most_mebibytes = 0;
     let status = loop {
+        most_mebibytes = most_mebibytes.max(resident_mebibytes(child.id()));
         if let Some(status) = child.try_wait()? {
             break status;
         }
@@ -51,7 +56,39 @@ pub fn judge(
         std::thread::sleep(Duration::from_millis(2));
     };
     let text = String::from_utf8_lossy(&std::fs::read(&message)?).into_owned();
-    Ok(finding(status, &text, folder))
+    if let Some(finding) = finding(status, &text, folder) {
+        return Ok(Some(finding));
+    }
+    if status.success() && most_mebibytes > UNCOUNTED_MEBIBYTES {
+        let estimate = estimated_mebibytes(program, folder, limits)?;
+        if most_mebibytes > estimate + UNCOUNTED_MEBIBYTES {
+            return Ok(Some(format!(
+                "took {most_mebibytes} MiB, where {estimate} MiB were estimated"
+            )));
+        }
+    }
+    Ok(None)
+}
+
+/// The most memory that a process has had at once, where the system tells.
+fn resident_mebibytes(process: u32) -> u64 {
+    let status = std::fs::read_to_string(format!("/proc/{process}/status")).unwrap_or_default();
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+    let kibibytes = line.and_then(|line| line.trim().strip_suffix("kB")?.trim().parse().ok());
+    kibibytes.unwrap_or(0_u64) / 1024
+}
+
+/// What `hairline info` says that the scene takes.
+fn estimated_mebibytes(program: &Path, folder: &Path, limits: &Limits) -> Result<u64> {
+    let output = limited(program, limits)
+        .args(["info", "--json", "scene.toml"])
+        .current_dir(folder)
+        .output()
+        .context("start hairline")?;
+    let contents: serde_json::Value =
+        serde_json::from_slice(&output.stdout).context("read what hairline info says")?;
+    let bytes = contents["memory"]["estimate_bytes"].as_f64();
+    Ok((bytes.context("no estimate_bytes")? / f64::from(1 << 20)) as u64)
 }
 
 /// The program with limits of its processor time and memory, where there is a shell that sets them.

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
-use hairline_scene::description::{Description, Layer, Surface};
+use hairline_scene::description::{Description, Layer, Map, Surface};
 use percent_encoding::percent_decode_str;
 
 /// Hexadecimal digits of a fingerprint: 128 bits, beyond any accident.
@@ -25,8 +25,10 @@ pub fn fingerprint(description: &Description, folder: &Path) -> Result<String> {
         *file = digest(&folder.join(&*file))?.into();
         Ok(())
     };
-    if let Some(environment) = &mut described.environment {
-        by_content(&mut environment.file, digest_of_file)?;
+    if let Some(environment) = &mut described.environment
+        && let Map::File(file) = &mut environment.map
+    {
+        by_content(file, digest_of_file)?;
     }
     for object in &mut described.objects {
         if let Surface::Mesh(file) = &mut object.surface {

@@ -1,19 +1,18 @@
 //! An X display without a screen: its server, mouse, keyboard and what is on it.
 
 use std::cell::RefCell;
-use std::io::{BufRead, BufReader};
+use std::io::{BufRead, BufReader, IoSlice};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
 use egui::{Pos2, Rect};
-use x11rb::connection::Connection;
+use x11rb::connection::{Connection, RequestConnection};
 use x11rb::protocol::Event;
 use x11rb::protocol::xproto::{
     self, Atom, AtomEnum, ChangeWindowAttributesAux, ClientMessageEvent, ConnectionExt as _,
     EventMask, ImageFormat, InputFocus, Window,
 };
-use x11rb::protocol::xtest::ConnectionExt as _;
 use x11rb::rust_connection::RustConnection;
 
 use crate::PATIENCE;
@@ -23,6 +22,8 @@ pub struct Display {
     name: String,
     connection: RustConnection,
     root: Window,
+    /// The opcode of its extension for input by programs.
+    xtest: u8,
     size_px: [u16; 2],
     /// Keysyms of each keycode from the first.
     keys: (u8, u8, Vec<u32>),
@@ -58,6 +59,8 @@ impl Display {
         let (first, last) = (setup.min_keycode, setup.max_keycode);
         let mapping = connection.get_keyboard_mapping(first, last - first + 1);
         let mapping = mapping.unwrap().reply().unwrap();
+        let xtest = connection.query_extension(b"XTEST").unwrap();
+        let xtest = xtest.reply().unwrap().major_opcode;
         // Answers to pings come to who watches the root.
         let watching = ChangeWindowAttributesAux::new().event_mask(EventMask::SUBSTRUCTURE_NOTIFY);
         connection
@@ -67,6 +70,7 @@ impl Display {
             server,
             name,
             root,
+            xtest,
             size_px,
             keys: (first, mapping.keysyms_per_keycode, mapping.keysyms),
             connection,
@@ -162,8 +166,21 @@ impl Display {
     fn send(&self, kind: u8, detail: u8) {
         let at = *self.at.borrow();
         let (x, y) = (at.x.round() as i16, at.y.round() as i16);
+        // XTEST's FakeInput, by hand: x11rb's own is a feature that the program has not, for which all of the window would be compiled
+        // twice. Its length is in words; after the time (now) and the root come 8 bytes of padding.
+        const FAKE_INPUT: u8 = 2;
+        const WORDS: u16 = 9;
+        let mut request = vec![self.xtest, FAKE_INPUT];
+        request.extend(WORDS.to_ne_bytes());
+        request.extend([kind, detail, 0, 0]);
+        request.extend(x11rb::CURRENT_TIME.to_ne_bytes());
+        request.extend(self.root.to_ne_bytes());
+        request.extend([0; 8]);
+        request.extend(x.to_ne_bytes());
+        request.extend(y.to_ne_bytes());
+        request.resize(4 * usize::from(WORDS), 0);
         self.connection
-            .xtest_fake_input(kind, detail, x11rb::CURRENT_TIME, self.root, x, y, 0)
+            .send_request_without_reply(&[IoSlice::new(&request)], Vec::new())
             .unwrap();
         self.connection.flush().unwrap();
     }

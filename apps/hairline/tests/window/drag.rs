@@ -68,6 +68,11 @@ impl<'d> Watch<'d> {
         }
     }
 
+    /// Whether there is a picture, in place of none.
+    fn is_lit(&self) -> bool {
+        self.display.screenshot(self.area).brightest() > 100
+    }
+
     fn has_changed(&mut self, least: f64) -> bool {
         let now = self.display.screenshot(self.area);
         let has = now.differing(&self.last) as f64 > least * now.pixels() as f64;
@@ -91,8 +96,9 @@ impl<'d> Watch<'d> {
     }
 }
 
-/// Drags to and fro from a point by as much, and watches for changes of such a share of the picture at least.
-fn drag(watch: &mut Watch, from: Pos2, reach: egui::Vec2, least: f64) -> Seen {
+/// Drags to and fro from a point by as much, and watches for changes of such a share of the picture at least; afterwards until nothing
+/// has changed for so long.
+fn drag(watch: &mut Watch, from: Pos2, reach: egui::Vec2, least: f64, quiet: Duration) -> Seen {
     let display = watch.display;
     display.press(from);
     // A press alone shows nothing but may change the interface.
@@ -124,7 +130,7 @@ fn drag(watch: &mut Watch, from: Pos2, reach: egui::Vec2, least: f64) -> Seen {
     keep(&display.screen(), "dragging");
     display.release();
     let released = Instant::now();
-    seen.settled = watch.settle(Duration::from_secs(4)) - released;
+    seen.settled = watch.settle(quiet).saturating_duration_since(released);
     keep(&display.screen(), "dragged");
     seen
 }
@@ -137,12 +143,12 @@ fn pictures_come_while_a_hand_drags() {
     let Some(display) = crate::display() else {
         return;
     };
-    // The heavier scene alone would take another minute of every test run.
+    // The heavier scene alone would take another minute of every test run, and so would all refinements.
     let scenes = [("plate", PLATE), ("built-in scene", BUILT_IN)];
-    let count = if std::env::var_os("HAIRLINE_SCREENSHOTS").is_some() {
-        2
+    let (count, quiet) = if std::env::var_os("HAIRLINE_SCREENSHOTS").is_some() {
+        (2, Duration::from_secs(4))
     } else {
-        1
+        (1, Duration::ZERO)
     };
     for (name, text) in scenes.into_iter().take(count) {
         let folder = tempfile::tempdir().unwrap();
@@ -151,13 +157,14 @@ fn pictures_come_while_a_hand_drags() {
         let layout = Layout::of(&scene);
         let window = Window::open(&display, folder.path(), &scene);
         let mut watch = Watch::new(&display, &layout);
-        watch.settle(Duration::from_secs(4));
+        window.wait_for("a picture", || watch.is_lit());
+        watch.settle(quiet);
         let middle = layout.picture().center();
-        let turned = drag(&mut watch, middle, vec2(120.0, 40.0), TURNED);
+        let turned = drag(&mut watch, middle, vec2(120.0, 40.0), TURNED, quiet);
         turned.print(&format!("{name}, the view turns"));
         display.click(layout.layer());
         watch.settle(Duration::from_secs(1));
-        let widened = drag(&mut watch, layout.width(), vec2(40.0, 0.0), EDITED);
+        let widened = drag(&mut watch, layout.width(), vec2(40.0, 0.0), EDITED, quiet);
         widened.print(&format!("{name}, the width of a layer"));
         drop(window);
         // A busy machine draws fewer; where each event gives the picture in progress up, none comes.

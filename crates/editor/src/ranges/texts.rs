@@ -83,6 +83,10 @@ pub(super) fn of(parameter: Parameter) -> Text {
             "Radius",
             "Half its width. With a count, the same scratches spread over more surface; with a density, there are more of them.",
         ),
+        P::FitSize => (
+            "Fitted size",
+            "The largest extent of the model, whatever it is in its file.",
+        ),
         P::LatheSegments => (
             "Segments",
             "Facets around the axis. More: a rounder outline and smoother highlights, and a little more work.",

@@ -7,7 +7,8 @@ use hairline_editor::actions::{self, layers, lights, materials, objects};
 use hairline_editor::presets::*;
 use hairline_editor::{ActionError, Selection};
 use hairline_scene::Description;
-use hairline_scene::description::{Light, LightKind, Surface};
+use hairline_scene::description::{Light, LightKind, Map, Surface};
+use hairline_scene::environment::BuiltInMap;
 
 fn scene() -> Description {
     let mut text = "[camera]\nposition_m = [0, 0, 1]\ntarget_m = [0, 0, 0]\n".to_owned();
@@ -273,13 +274,24 @@ fn objects_come_with_material_and_go_with_their_layers() {
         Surface::Mesh("../models/c.glb".into())
     );
     assert_eq!(description.objects[1].material, None);
-    actions::set_environment(&mut description, Some(Path::new("/a/maps/x.hdr")), folder);
+    actions::set_environment(
+        &mut description,
+        Some(Map::File("/a/maps/x.hdr".into())),
+        folder,
+    );
     description.environment.as_mut().unwrap().rotation_deg = 30.0;
-    actions::set_environment(&mut description, Some(Path::new("y.exr")), folder);
+    actions::set_environment(&mut description, Some(Map::File("y.exr".into())), folder);
     let environment = description.environment.as_ref().unwrap();
     assert_eq!(
-        (environment.file.as_path(), environment.rotation_deg),
-        (Path::new("y.exr"), 30.0)
+        (&environment.map, environment.rotation_deg),
+        (&Map::File("y.exr".into()), 30.0)
+    );
+    let studio = Map::BuiltIn(BuiltInMap::Studio);
+    actions::set_environment(&mut description, Some(studio.clone()), folder);
+    let environment = description.environment.as_ref().unwrap();
+    assert_eq!(
+        (&environment.map, environment.rotation_deg),
+        (&studio, 30.0)
     );
     actions::set_environment(&mut description, None, folder);
     assert_eq!(description.environment, None);

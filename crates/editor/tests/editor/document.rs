@@ -172,7 +172,16 @@ fn a_refused_action_changes_nothing() {
 }
 
 fn paths(description: &Description) -> Vec<PathBuf> {
-    let mut paths = vec![description.environment.as_ref().unwrap().file.clone()];
+    let mut paths = vec![
+        description
+            .environment
+            .as_ref()
+            .unwrap()
+            .map
+            .file()
+            .unwrap()
+            .to_owned(),
+    ];
     for object in &description.objects {
         if let Surface::Mesh(file) = &object.surface {
             paths.push(file.clone());

@@ -9,7 +9,7 @@ use hairline_editor::brush::{BrushSettings, Recorder, apply_stroke};
 use hairline_editor::presets::{LayerPreset, LightPreset, MaterialPreset, ShapePreset};
 use hairline_editor::{Document, DragKey, Selection, navigate, place_light};
 use hairline_scene::Description;
-use hairline_scene::description::Layer;
+use hairline_scene::description::{Layer, Map};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed, TestRunner};
 
@@ -92,7 +92,7 @@ fn perform(document: &mut Document, (deed, i, by): Deed) {
         17 => apply(&|d, _| objects::duplicate(d, i)),
         18 => apply(&|d, _| objects::rename(d, i, if by < 0.0 { "plate" } else { "pan" })),
         19 => apply(&|d, _| {
-            let file = (by > -0.5).then_some(Path::new("studio.hdr"));
+            let file = (by > -0.5).then(|| Map::File("studio.hdr".into()));
             Ok(actions::set_environment(d, file, Path::new("")))
         }),
         20 => {

@@ -1,4 +1,4 @@
-//! The GPU renderer, but for what is held against a clock or loses a device.
+//! The GPU renderer.
 //! In one program, since each that is linked takes seconds.
 
 #[path = "../common/mod.rs"]
@@ -7,7 +7,9 @@ mod common;
 mod call;
 mod canvas;
 mod environment;
+mod lost;
 mod renderer;
+mod timing;
 mod tone_map;
 mod update;
 mod upload_time;

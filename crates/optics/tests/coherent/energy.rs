@@ -1,6 +1,6 @@
 //! Where the energy goes: a mirror with random grooves, over the hemisphere and beyond it.
 
-use crate::{Groove, pieces, random_grooves};
+use super::{Groove, pieces, random_grooves};
 use glam::DVec2;
 use hairline_optics::coherent::{CoherentResponse, GrooveField, coherent_response, groove_overlap};
 use rayon::prelude::*;

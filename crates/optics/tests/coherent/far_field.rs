@@ -1,10 +1,9 @@
 //! The independent witness: the surface as a grid of complex reflectances, its far field by FFT.
 
-use crate::Groove;
+use super::Groove;
 use glam::DVec2;
+use num_complex::Complex64;
 use rayon::prelude::*;
-use rustfft::FftPlanner;
-use rustfft::num_complex::Complex64;
 use std::f64::consts::PI;
 
 /// Each cell that an edge passes through is averaged over this many points in either direction.
@@ -66,6 +65,46 @@ fn reflectance(rectangles: &[Rectangle], at: DVec2, crossing: Crossing) -> Compl
     }
 }
 
+/// The discrete Fourier transform of a power of two of values.
+struct Fourier {
+    /// exp(-2 pi i k / length) for the first half of them.
+    roots: Vec<Complex64>,
+}
+
+impl Fourier {
+    fn new(length: usize) -> Self {
+        assert!(length.is_power_of_two() && length > 1, "{length}");
+        let root = |k| Complex64::from_polar(1.0, -2.0 * PI * k as f64 / length as f64);
+        Self {
+            roots: (0..length / 2).map(root).collect(),
+        }
+    }
+
+    /// In place, forward, by Cooley and Tukey.
+    fn transform(&self, values: &mut [Complex64]) {
+        let length = values.len();
+        assert_eq!(length, 2 * self.roots.len());
+        for i in 0..length {
+            let mirrored = i.reverse_bits() >> (usize::BITS - length.trailing_zeros());
+            if i < mirrored {
+                values.swap(i, mirrored);
+            }
+        }
+        let mut half = 1;
+        while half < length {
+            for block in values.chunks_exact_mut(2 * half) {
+                let (even, odd) = block.split_at_mut(half);
+                let roots = self.roots.iter().step_by(length / (2 * half));
+                for ((a, b), root) in even.iter_mut().zip(odd).zip(roots) {
+                    let turned = *b * root;
+                    (*a, *b) = (*a + turned, *a - turned);
+                }
+            }
+            half *= 2;
+        }
+    }
+}
+
 /// 1/lambda times the Fourier integral of window times reflectance, at every sample of the FFT with |xi| <= 1. Cells
 /// hold averages; the transfer function of averaging, a sinc in each direction, is divided out again.
 pub fn far_field(
@@ -112,7 +151,7 @@ pub fn far_field(
     };
 
     // Rows first, then the few columns that propagate.
-    let fft = FftPlanner::new().plan_fft_forward(cells);
+    let fourier = Fourier::new(cells);
     let size_um = cells as f64 * step_um;
     let reach = (size_um / wavelength_um) as i64;
     let orders: Vec<i64> = (-reach..=reach).collect();
@@ -121,7 +160,7 @@ pub fn far_field(
         .into_par_iter()
         .map(|y| {
             let mut row: Vec<Complex64> = (0..cells).map(|x| cell(x, y)).collect();
-            fft.process(&mut row);
+            fourier.transform(&mut row);
             orders.iter().map(|&m| row[bin(m)]).collect()
         })
         .collect();
@@ -137,7 +176,7 @@ pub fn far_field(
         .enumerate()
         .flat_map_iter(|(column, &mx)| {
             let mut values: Vec<Complex64> = rows.iter().map(|row| row[column]).collect();
-            fft.process(&mut values);
+            fourier.transform(&mut values);
             let sample = |&my: &i64| {
                 let xi = wavelength_um / size_um * DVec2::new(mx as f64, my as f64);
                 let value = values[bin(my)] * scale / (transfer(mx) * transfer(my));

@@ -1,6 +1,6 @@
 //! All wavelengths at once, by series, against the exact functions one by one; what is hidden against plain slices.
 
-use crate::{pieces, random_grooves};
+use super::{pieces, random_grooves};
 use glam::DVec2;
 use hairline_optics::coherent::{
     CoherentResponse, GrooveField, GroovePiece, base_amplitude, phase_step, scratch_amplitude,

@@ -1,7 +1,7 @@
 //! The closed form against the FFT of a rasterised surface.
 
-use crate::far_field::{Crossing, Grid, far_field};
-use crate::{Groove, pieces, random_grooves};
+use super::far_field::{Crossing, Grid, far_field};
+use super::{Groove, pieces, random_grooves};
 use glam::DVec2;
 use hairline_optics::coherent::{
     GrooveField, GroovePiece, base_amplitude, groove_amplitude, groove_overlap, phase_step,

@@ -1,6 +1,6 @@
 //! Limits, additivity, quadrature, awkward inputs.
 
-use crate::{pieces, random_grooves};
+use super::{pieces, random_grooves};
 use glam::DVec2;
 use hairline_optics::coherent::{
     CoherentResponse, GrooveField, GroovePiece, base_amplitude, coherent_response,

@@ -16,7 +16,7 @@ use hairline_optics::metal::Metal;
 use hairline_optics::sptd::{sptd_lobe, sptd_sphere, sptd_sphere_published};
 use rayon::prelude::*;
 
-use crate::cubature::{Cap, Peak, integrate, integrate_polygon};
+use super::cubature::{Cap, Peak, integrate, integrate_polygon};
 
 const ROUGHNESS: [f64; 9] = [0.0, 0.05, 0.1, 0.2, 0.3, 0.45, 0.6, 0.8, 1.0];
 // Only the ends of these axes are nodes of the tables.

@@ -16,7 +16,7 @@ use hairline_optics::sptd::{
     sptd_transform_cap,
 };
 
-use crate::cubature::{Cap, Peak, integrate, integrate_polygon};
+use super::cubature::{Cap, Peak, integrate, integrate_polygon};
 
 const FLAT: Peak = Peak {
     direction: DVec3::Z,

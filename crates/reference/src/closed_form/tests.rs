@@ -1,6 +1,7 @@
 //! Pictures at the limits: parts, threads, sizes, numbers.
 
 use super::*;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// A scene of a camera, a shape, a layer of scratches and lights, as scene files have them.
 fn scene(camera: &str, size_px: [u32; 2], shape: &str, scratches: &str, lights: &str) -> Scene {
@@ -166,5 +167,45 @@ fn five_hundred_lights_are_the_sum_of_a_hundred_at_a_time() {
     assert!(sum(&all) > 0.0);
     for (a, b) in all.iter().flatten().zip(parts.iter().flatten()) {
         assert!((a - b).abs() <= 1e-5 * b.abs() + 1e-9, "{a} {b}");
+    }
+}
+
+#[test]
+fn edges_that_are_refined_later_make_the_same_picture() {
+    let scene = disk([60, 40]);
+    let prepared = Prepared::new(&scene);
+    let whole = prepared.render(&options(5), &|_| {});
+    let once = prepared.render(&options(1), &|_| {});
+    assert_ne!(once.base, whole.base);
+    let rows = 0..40;
+    let refined = prepared.refine_edges_unless(&|| false, &options(5), rows, once);
+    let refined = refined.expect("nobody cancels it");
+    assert_eq!(refined.base, whole.base);
+    assert_eq!(refined.scratches, whole.scratches);
+    assert_eq!(refined.density, whole.density);
+    assert_eq!(refined.depth_m, whole.depth_m);
+    assert_eq!(refined.normal, whole.normal);
+}
+
+#[test]
+fn a_picture_is_given_up_after_the_tiles_in_hand() {
+    let scene = disk([160, 120]);
+    let prepared = Prepared::new(&scene);
+    let (tiles, threads) = (20 * 15, rayon::current_num_threads());
+    // Gives up at a question; returns how many there were after it.
+    let asked_after = |at: usize| {
+        let asked = AtomicUsize::new(0);
+        let cancelled = || asked.fetch_add(1, Ordering::Relaxed) >= at;
+        let picture = prepared.render_unless(&cancelled, &options(8), 0..120, &|_| {});
+        let all = asked.into_inner();
+        (picture.is_some(), all.saturating_sub(at))
+    };
+    let (is_there, _) = asked_after(usize::MAX);
+    assert!(is_there);
+    for at in [0, 1, 20, tiles / 2, tiles - 1] {
+        let (is_there, after) = asked_after(at);
+        assert!(!is_there, "{at}");
+        // Each thread once; the first question is that of the picture, and one more is whether there is one.
+        assert!(after <= threads + 2, "{at}: {after} further tiles");
     }
 }

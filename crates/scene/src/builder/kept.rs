@@ -6,7 +6,8 @@ use std::time::SystemTime;
 
 use glam::{DMat4, DVec3};
 
-use crate::description::{self, Layer, Stroke, Surface};
+use crate::description::{self, Layer, Map, Stroke, Surface};
+use crate::environment::BuiltInMap;
 use crate::error::Error;
 use crate::mesh_file::{self, Placing, Stock};
 use crate::scene::{Material, Mesh, Scratch, Segment, Texture};
@@ -20,7 +21,7 @@ pub(super) struct Kept {
     pub surfaces: Vec<Arc<KeptSurface>>,
     pub textures: Textures,
     /// The map with no rotation, intensity 1.
-    pub map: Option<(Stamp, Environment)>,
+    pub map: Option<(MapKey, Environment)>,
     pub layers: Vec<Arc<KeptLayer>>,
     pub objects: Vec<Together>,
 }
@@ -45,6 +46,22 @@ impl Stamp {
 
     fn is_current(&self) -> bool {
         *self == Self::of(&self.path)
+    }
+}
+
+/// Where a map comes from.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum MapKey {
+    File(Stamp),
+    BuiltIn(BuiltInMap),
+}
+
+impl MapKey {
+    pub(super) fn new(map: &Map, base_dir: &Path) -> Self {
+        match map {
+            Map::File(file) => Self::File(Stamp::of(&base_dir.join(file))),
+            Map::BuiltIn(map) => Self::BuiltIn(*map),
+        }
     }
 }
 
@@ -223,8 +240,8 @@ impl Kept {
         self.surfaces.iter().find(alike).cloned()
     }
 
-    pub(super) fn map(&self, stamp: &Stamp) -> Option<Environment> {
-        let (_, map) = self.map.as_ref().filter(|(kept, _)| kept == stamp)?;
+    pub(super) fn map(&self, key: &MapKey) -> Option<Environment> {
+        let (_, map) = self.map.as_ref().filter(|(kept, _)| kept == key)?;
         Some(map.clone())
     }
 

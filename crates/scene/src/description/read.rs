@@ -5,7 +5,7 @@ use toml::de::{DeTable, DeValue};
 use super::table::{Read, Table, Value, number, wrong_type};
 use super::{
     Amount, Around, Brush, Brushed, Camera, Description, Distribution, Environment, Laid, Layer,
-    Light, LightKind, Listed, Material, MaterialKind, MetalColor, Object, Pattern, Render,
+    Light, LightKind, Listed, Map, Material, MaterialKind, MetalColor, Object, Pattern, Render,
     Scratches, Shape, Stroke, Surface, Up,
 };
 use crate::error::Error;
@@ -86,10 +86,13 @@ impl Read for Environment {
         let table = Table::read(
             value,
             key,
-            &["file", "rotation_deg", "intensity", "visible"],
+            &["file", "builtin", "rotation_deg", "intensity", "visible"],
         )?;
         Ok(Self {
-            file: table.required("file")?,
+            map: match table.either("file", "builtin")? {
+                "file" => Map::File(table.required("file")?),
+                _ => Map::BuiltIn(table.required("builtin")?),
+            },
             rotation_deg: table.or("rotation_deg", 0.0)?,
             intensity: table.or("intensity", 1.0)?,
             visible: table.or("visible", true)?,

@@ -158,7 +158,7 @@ fn wrong_types() {
 fn missing_keys_and_broken_grammar() {
     check(&[(
         "[environment]\nintensity = 1.0",
-        "plate.toml:11: environment: `file` is missing; `environment` needs it",
+        "plate.toml:11: environment: found neither `file` nor `builtin`; must have exactly one of them",
     )]);
     let of = |text: &str| {
         Scene::from_toml(text, "a.toml", "")
@@ -361,6 +361,32 @@ fn files_that_are_not_there() {
     assert!(
         map.starts_with("plate.toml:16: environment.file: "),
         "{map}"
+    );
+}
+
+#[test]
+fn maps_in_the_box() {
+    let environment = |rest: &str| message(&format!("{}[environment]\n{rest}", disk()));
+    assert_eq!(environment("builtin = \"window\""), "it loads");
+    assert_eq!(
+        environment("builtin = \"studo\""),
+        "plate.toml:16: environment.builtin: found the text \"studo\"; did you mean `studio`?"
+    );
+    assert_eq!(
+        environment("builtin = \"sunset\""),
+        "plate.toml:16: environment.builtin: found the text \"sunset\"; must be one of `studio`, `window` and `overcast`"
+    );
+    assert_eq!(
+        environment("builtin = \"studio\"\nfile = \"a.hdr\""),
+        "plate.toml:15: environment: found both `file` and `builtin`; must have exactly one of them"
+    );
+    assert_eq!(
+        environment("intensity = 2"),
+        "plate.toml:15: environment: found neither `file` nor `builtin`; must have exactly one of them"
+    );
+    assert_eq!(
+        environment("built_in = \"studio\""),
+        "plate.toml:16: environment.built_in: unknown key; did you mean `builtin`?"
     );
 }
 

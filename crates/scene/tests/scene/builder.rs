@@ -382,6 +382,36 @@ fn a_build_that_fails_or_is_cancelled_changes_nothing() {
     assert!(cancelled >= 9, "{cancelled}");
 }
 
+#[test]
+fn a_large_layer_is_given_up_after_a_few_of_its_scratches() {
+    let dir = temporary_dir();
+    let mut it = files_and_scene(dir.path());
+    let Layer::Laid(laid) = &mut it.scratches[0].layer else {
+        panic!("no strewn layer");
+    };
+    laid.amount = Amount::Count(50_000);
+    // As soon as it is told that more are laid than those that tell of the memory.
+    let (laid, asked) = (Cell::new(0), Cell::new(0));
+    let loader = Loader {
+        progress: &|progress| {
+            if progress.stage == Stage::Scratches {
+                laid.set(progress.done);
+            }
+        },
+        cancelled: &|| {
+            asked.set(asked.get() + 1);
+            laid.get() > 1024
+        },
+        ..Loader::default()
+    };
+    let error = SceneBuilder::new()
+        .build(&loader, &it, dir.path())
+        .unwrap_err();
+    assert!(error.is_cancelled(), "{error}");
+    assert!(laid.get() <= 2048, "{} were laid", laid.get());
+    assert!(asked.get() > 10, "asked {} times", asked.get());
+}
+
 /// What a viewer does at the display's rate while a light is dragged. 10,000 clones of a copied scene would take minutes.
 #[test]
 fn clones_are_cheap() {

@@ -183,7 +183,7 @@ fn everything() -> Description {
             tone_map: ToneMap::Agx,
         },
         environment: Some(Environment {
-            file: "a.exr".into(),
+            map: Map::File("a.exr".into()),
             rotation_deg: -720.5,
             intensity: 0.0,
             visible: false,

@@ -7,6 +7,7 @@ use hairline_editor::actions::{layers, lights, materials, objects};
 use hairline_editor::autosave::Pending;
 use hairline_editor::document::SaveError;
 use hairline_editor::{ActionError, Selection, actions, navigate};
+use hairline_scene::description::Map;
 use hairline_scene::probe::{self, MeshSummary};
 
 use super::Command;
@@ -319,28 +320,35 @@ impl Viewer {
         let base_dir = self.document.base_dir().to_owned();
         let done = if purpose == Purpose::Environment {
             self.document.apply("Set the environment", |d, _| {
-                Ok(actions::set_environment(d, Some(path), &base_dir))
+                let map = Map::File(path.to_owned());
+                Ok(actions::set_environment(d, Some(map), &base_dir))
             })
         } else {
-            self.frame_when_built = true;
             let extent_m = probe::scene_extent_m(self.document.description());
-            let fit_m = summary.as_ref().and_then(|it| it.fit_m(extent_m));
-            if let (Some(summary), Some(fit_m)) = (&summary, fit_m) {
-                let text = format!(
-                    "The model is {:.3} m large in its file; it was fitted to {fit_m:.3} m (undo, or change `fit_m` in the scene \
-                     file, to keep its own size)",
-                    summary.extent_m()
-                );
-                self.notices.note("fitted", text);
+            if let Some(summary) = summary
+                && let Some(fit_m) = summary.fit_m(extent_m)
+            {
+                self.dialogs
+                    .ask_to_fit(path.to_owned(), summary.extent_m(), fit_m);
+                return;
             }
-            self.document.apply("Add a model", |d, _| {
-                let selection = objects::add_mesh(d, path, &base_dir);
-                if let Some(added) = d.objects.last_mut() {
-                    added.fit_m = fit_m;
-                }
-                Ok(selection)
-            })
+            self.add_model(path, None);
+            return;
         };
+        self.tell(done);
+    }
+
+    /// Adds a model as large as in its file, or fitted to a size.
+    pub(crate) fn add_model(&mut self, path: &Path, fit_m: Option<f64>) {
+        self.frame_when_built = true;
+        let base_dir = self.document.base_dir().to_owned();
+        let done = self.document.apply("Add a model", |d, _| {
+            let selection = objects::add_mesh(d, path, &base_dir);
+            if let Some(added) = d.objects.last_mut() {
+                added.fit_m = fit_m;
+            }
+            Ok(selection)
+        });
         self.tell(done);
     }
 

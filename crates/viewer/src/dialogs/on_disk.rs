@@ -12,13 +12,17 @@ use crate::files::Purpose;
 impl Viewer {
     /// Takes in what other programs have written: the scene file, or what it names.
     pub(crate) fn hear_of_files(&mut self, ctx: &egui::Context) {
-        while let Some(path) = self.files.changed() {
-            if self.document.path().is_some_and(|own| is_same(own, &path)) {
+        while let Some(change) = self.files.changed() {
+            if self
+                .document
+                .path()
+                .is_some_and(|own| is_same(own, &change.of))
+            {
                 self.files.scene_changed = true;
-            } else if self.document.files().contains(&path) {
+            } else if self.document.files().contains(&change.of) {
                 // The scene is built anew: its builder reads what has changed.
                 self.forget_what_was_asked();
-                let text = format!("{} has changed and was loaded again.", name(&path));
+                let text = format!("{} has changed and was loaded again.", name(&change.path));
                 self.notices.note("reloaded", text);
             }
         }

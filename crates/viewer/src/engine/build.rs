@@ -23,7 +23,7 @@ pub struct Built {
     pub scene: Scene,
     /// Triangles along a ray.
     pub triangles: Arc<TriangleIndex>,
-    /// The scratches.
+    /// The scratches; a sketch has no trees of them.
     pub scratches: Arc<ScratchIndex>,
     /// What the materials mean to the physics.
     pub tables: Arc<ScratchTables>,
@@ -121,7 +121,8 @@ impl Workshop {
             Some(last) if has_same_meshes(&last.scene, &scene) => Arc::clone(&last.triangles),
             _ => Arc::new(TriangleIndex::build(&scene)),
         };
-        let scratches = Arc::new(ScratchIndex::build(&scene));
+        let scratches = Arc::new(ScratchIndex::without_trees(&scene));
+        let segments: usize = scene.objects.iter().map(|o| o.segments.len()).sum();
         let index_done = Instant::now();
         let tables = match last {
             Some(last) if has_same_optics(&last.scene, &scene) => Arc::clone(&last.tables),
@@ -131,7 +132,7 @@ impl Workshop {
             revision,
             asked,
             description: Arc::clone(description),
-            segments: (scratches.tree.segments.len() as f64 * sketch.thin()) as usize,
+            segments: (segments as f64 * sketch.thin()) as usize,
             sketch: Some(sketch),
             scene,
             triangles,

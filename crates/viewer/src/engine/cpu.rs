@@ -123,11 +123,16 @@ impl Easel for CpuEasel {
             .begun
             .take()
             .filter(|begun| begun.step == *step && begun.order.has_same_pixels(order));
-        let mut bands = match begun {
-            Some(begun) => begun.bands,
-            None => Bands::new(step.size_px, self.band_size),
+        let is_coarse = step.samples == 1 && !step.is_whole(&order.view);
+        let is_of_order = |last: &&Last| last.order.has_same_pixels(order);
+        let before = self.last.as_ref().filter(is_of_order);
+        let mut bands = match (begun, before) {
+            (Some(begun), _) => begun.bands,
+            (None, Some(last)) if !is_coarse && last.step.is_whole(&order.view) => {
+                Bands::edges_of(last.image.clone(), self.band_size)
+            }
+            (None, _) => Bands::new(step.size_px, self.band_size),
         };
-        let is_coarse = step.samples == 1;
         let crew = if is_coarse {
             Crew::Sketcher
         } else {
@@ -140,8 +145,8 @@ impl Easel for CpuEasel {
             prepared = prepared.with_draft(draft);
         }
         // What the rows that are left look like meanwhile.
-        let before = (self.last.as_ref())
-            .filter(|last| !is_coarse && self.shows_parts && last.order.has_same_pixels(order))
+        let before = before
+            .filter(|_| !is_coarse && self.shows_parts && !bands.only_edges)
             .filter(|_| order.view.reading.shows == Shows::Beauty);
         let mut backdrop = None;
         let mut shown_last = Instant::now();
@@ -166,6 +171,7 @@ impl Easel for CpuEasel {
                     picture,
                     size_px: step.size_px,
                     samples: step.samples,
+                    thin: step.thin,
                     done: bands.done(),
                     passes: Vec::new(),
                     findings: Findings::default(),
@@ -210,6 +216,7 @@ fn shown(order: &Order, image: &Image, step: &Step) -> Shown {
         picture: Picture::Pixels(Arc::new(pixels)),
         size_px: step.size_px,
         samples: step.samples,
+        thin: step.thin,
         done: 1.0,
         passes: Vec::new(),
         findings,
@@ -266,6 +273,8 @@ struct Bands {
     next_row: u32,
     rows: u32,
     size: BandSize,
+    /// The picture is there, but for further samples of pixels on edges.
+    only_edges: bool,
 }
 
 impl Bands {
@@ -275,6 +284,17 @@ impl Bands {
             next_row: 0,
             rows: (size.first_px / size_px[0].max(1)).max(size.fewest_rows),
             size,
+            only_edges: false,
+        }
+    }
+
+    /// Of a picture of one sample a pixel.
+    fn edges_of(image: Image, size: BandSize) -> Self {
+        let bands = Self::new(image.size_px, size);
+        Self {
+            image,
+            only_edges: true,
+            ..bands
         }
     }
 
@@ -302,7 +322,13 @@ impl Bands {
         let pixels = rows.start as usize * width as usize..rows.end as usize * width as usize;
         let end = rows.end;
         let cancelled = || self.size.breaks_off && interrupted();
-        let (part, _) = prepared.render_unless(&cancelled, &options, rows, &|_| {})?;
+        let part = if self.only_edges {
+            let before = rows_of(&self.image, pixels.clone());
+            prepared.refine_edges_unless(&cancelled, &options, rows, before)?
+        } else {
+            let (part, _) = prepared.render_unless(&cancelled, &options, rows, &|_| {})?;
+            part
+        };
         put_rows(&mut self.image, pixels, &part);
         self.next_row = end;
         let time = start.elapsed();
@@ -313,6 +339,19 @@ impl Bands {
         }
         Some(end == height)
     }
+}
+
+/// Some rows of a picture, given by their pixels.
+fn rows_of(image: &Image, pixels: Range<usize>) -> Image {
+    let width = image.size_px[0];
+    let mut part = Image::new([width, (pixels.len() / width as usize) as u32]);
+    part.base.copy_from_slice(&image.base[pixels.clone()]);
+    part.scratches
+        .copy_from_slice(&image.scratches[pixels.clone()]);
+    part.density.copy_from_slice(&image.density[pixels.clone()]);
+    part.depth_m.copy_from_slice(&image.depth_m[pixels.clone()]);
+    part.normal.copy_from_slice(&image.normal[pixels]);
+    part
 }
 
 /// Puts a part of the picture in its place.

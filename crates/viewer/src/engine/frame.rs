@@ -39,6 +39,8 @@ pub struct Painted {
     pub size_px: [u32; 2],
     /// Samples that are in it, for pixels on edges at least.
     pub samples: u32,
+    /// One scratch of so many is in it and stands for all of them.
+    pub thin: u32,
     /// The share that is there; the rest is of a coarser picture.
     pub done: f64,
     /// Whether nothing finer will come.

@@ -93,6 +93,7 @@ impl GpuEasel {
             picture,
             size_px,
             samples,
+            thin: 1,
             done: 1.0,
             passes,
             findings,

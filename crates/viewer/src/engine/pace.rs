@@ -84,6 +84,8 @@ const SLACK: f64 = 0.7;
 pub(super) struct Pace {
     kind: &'static Kind,
     seconds_per_px: Option<f64>,
+    /// Of the last picture alone.
+    newest: Option<f64>,
     at: usize,
 }
 
@@ -92,6 +94,7 @@ impl Pace {
         Self {
             kind,
             seconds_per_px: None,
+            newest: None,
             at: 0,
         }
     }
@@ -102,6 +105,7 @@ impl Pace {
         // The newest counts as much as all before it: a view from nearer costs something else at once.
         let mean = self.seconds_per_px.map_or(now, |mean| 0.5 * (mean + now));
         self.seconds_per_px = Some(mean);
+        self.newest = Some(now);
     }
 
     /// A picture was given up after this long.
@@ -116,11 +120,9 @@ impl Pace {
         self.at + 1 == self.kind.levels.len()
     }
 
-    /// What a picture of one sample, `full_px` large, is expected to take.
+    /// What a picture of one sample, `full_px` large, is expected to take by the last one, which is the most like it.
     pub fn expects(&self, full_px: [u32; 2], segments: usize) -> Duration {
-        let seconds_per_px = self
-            .seconds_per_px
-            .unwrap_or(self.kind.first_seconds_per_px);
+        let seconds_per_px = self.newest.unwrap_or(self.kind.first_seconds_per_px);
         let seconds = seconds_per_px * self.work_px(full_px, 1, segments);
         Duration::from_secs_f64(seconds.min(1e6))
     }

@@ -23,10 +23,10 @@ const REOPENINGS: u32 = 2;
 
 /// Between the small filter of the full picture, 1, and that of the coarse one, 0: chosen by eye.
 const THINNED_FILTER: f64 = 0.8;
-/// Of the picture between the coarse one and the finished one, and of a further one where the finished one takes for long.
+/// Of the picture between the coarse one and the whole one, and of a further one where the whole one takes for long.
 const BETWEEN: (f64, u32) = (0.4, 4);
 const BETWEEN_LONG: (f64, u32) = (1.0, 8);
-const LONG: Duration = Duration::from_secs(2);
+const LONG: Duration = Duration::from_secs(3);
 /// A first picture that takes longer is given up for a coarser one.
 const FIRST_AT_MOST: Duration = Duration::from_millis(160);
 
@@ -41,6 +41,16 @@ pub(super) struct Step {
 }
 
 impl Step {
+    /// Whether it has all pixels, but a few scratches that stand for all.
+    fn is_stopgap(&self, view: &View) -> bool {
+        self.size_px == view.size_px && self.thin > 1
+    }
+
+    /// Whether it has all pixels and all scratches.
+    pub fn is_whole(&self, view: &View) -> bool {
+        self.size_px == view.size_px && self.thin == 1
+    }
+
     /// The pixel's filter. A coarse picture looks through the small filter of the full one: through its own, each of its few
     /// pixels would see as many more scratches as it is larger, and a coarse picture would take as long as a fine one. It
     /// sparkles instead, for as long as something moves. Where scratches are left out, there is time for more of the pixel.
@@ -77,6 +87,7 @@ pub(super) struct Shown {
     pub picture: Picture,
     pub size_px: [u32; 2],
     pub samples: u32,
+    pub thin: u32,
     /// The share that is there, where the rest is of the picture before it.
     pub done: f64,
     pub passes: Vec<hairline_gpu::PassTime>,
@@ -184,6 +195,11 @@ impl Progress {
                 }
                 self.done = Some(order.clone());
                 while let Some(&step) = self.steps.first() {
+                    // By now it is known what a pixel takes.
+                    if step.is_stopgap(&order.view) && studio.expects(&order) < LONG {
+                        self.steps.remove(0);
+                        continue;
+                    }
                     let turn = match self.steps.len() {
                         1 => Turn::Last,
                         _ => Turn::Between,
@@ -256,12 +272,7 @@ impl Studio {
                 // A sketch is not refined: what it is a sketch of is on the way.
                 return Ok(match order.built.sketch {
                     Some(_) => Vec::new(),
-                    None => steps(
-                        easel,
-                        full_px,
-                        &coarse,
-                        self.pace.expects(full_px, segments),
-                    ),
+                    None => steps(easel, full_px, &coarse),
                 });
             }
             if shared.is_stopped() || !easel.kind().thins() {
@@ -270,6 +281,11 @@ impl Studio {
             self.pace.gave_up(size_px, thin, segments, start.elapsed());
             self.spent = Duration::ZERO;
         }
+    }
+
+    /// What a whole picture will take.
+    fn expects(&self, order: &Order) -> Duration {
+        self.pace.expects(order.view.size_px, order.built.segments)
     }
 
     /// Paints a step; false if something newer is wanted or it is `until`.
@@ -312,7 +328,10 @@ impl Studio {
         let time = self.spent + (start.elapsed() - uploaded);
         self.spent = if finished { Duration::ZERO } else { time };
         if let Some(shown) = last {
-            if step.samples == 1 {
+            // One that gives way to the interface tells little of what a coarse one takes.
+            let gave_way =
+                turn != Turn::First && easel.kind().thins() && step.is_whole(&order.view);
+            if step.samples == 1 && !gave_way {
                 let segments = order.built.segments;
                 self.pace.took(step.size_px, step.thin, segments, time);
             }
@@ -355,6 +374,7 @@ impl Studio {
             painted: Painted {
                 size_px: shown.size_px,
                 samples: shown.samples,
+                thin: shown.thin,
                 done: shown.done,
                 is_final,
                 time,
@@ -365,8 +385,8 @@ impl Studio {
     }
 }
 
-/// The finer pictures after a coarse one, where a whole one `takes` so long.
-fn steps(easel: &dyn Easel, full_px: [u32; 2], coarse: &Step, takes: Duration) -> Vec<Step> {
+/// The finer pictures after a coarse one.
+fn steps(easel: &dyn Easel, full_px: [u32; 2], coarse: &Step) -> Vec<Step> {
     let mut steps = Vec::new();
     let mut add = |size_px: [u32; 2], samples, thin| {
         steps.push(Step {
@@ -381,9 +401,13 @@ fn steps(easel: &dyn Easel, full_px: [u32; 2], coarse: &Step, takes: Duration) -
         if coarse.size_px[0] < between[0] {
             add(between, 1, thin);
         }
-        if takes > LONG {
+        if coarse.size_px != full_px {
             let (scale, thin) = BETWEEN_LONG;
             add(scaled(full_px, scale), 1, thin);
+        }
+        // Then edges alone become smoother.
+        if coarse.size_px != full_px || coarse.thin > 1 {
+            add(full_px, 1, 1);
         }
     } else {
         let half = scaled(full_px, 0.5);

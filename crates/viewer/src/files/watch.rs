@@ -7,13 +7,23 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::time::{Duration, SystemTime};
 
+use hairline_scene::{Description, inputs};
+
 /// Between two looks. A change counts once a file has stood still for one.
 const PAUSE: Duration = Duration::from_millis(500);
+
+/// A file that another program has written.
+#[derive(Debug, PartialEq)]
+pub(crate) struct Change {
+    pub path: PathBuf,
+    /// The watched file that it belongs to: the file itself, or the model that names it.
+    pub of: PathBuf,
+}
 
 /// Looks at files from a thread of its own, which ends with it.
 pub(crate) struct Watch {
     files: Sender<Vec<PathBuf>>,
-    changed: Receiver<PathBuf>,
+    changed: Receiver<Change>,
     watched: Vec<PathBuf>,
 }
 
@@ -33,7 +43,8 @@ impl Watch {
         }
     }
 
-    /// Watches these from now on. Those that were watched before go on.
+    /// Watches these from now on, and the buffers and textures that models among them name. Those that were watched before
+    /// go on.
     pub fn set(&mut self, files: Vec<PathBuf>) {
         if files != self.watched {
             self.watched.clone_from(&files);
@@ -43,7 +54,7 @@ impl Watch {
     }
 
     /// A file that has changed, once for each change.
-    pub fn changed(&self) -> Option<PathBuf> {
+    pub fn changed(&self) -> Option<Change> {
         self.changed.try_recv().ok()
     }
 }
@@ -75,47 +86,80 @@ impl Stamp {
 
 struct Watched {
     path: PathBuf,
+    /// The file that was asked for.
+    of: PathBuf,
     /// As it was told last, or was when it was first looked at.
     told: Option<Stamp>,
     /// As it was at the last look.
     last: Option<Stamp>,
 }
 
-fn look(wanted: &Receiver<Vec<PathBuf>>, tell: &Sender<PathBuf>, wake: impl Fn()) {
+impl Watched {
+    fn new(path: PathBuf, of: PathBuf) -> Self {
+        let stamp = Stamp::of(&path);
+        Self {
+            path,
+            of,
+            told: stamp,
+            last: stamp,
+        }
+    }
+}
+
+fn look(wanted: &Receiver<Vec<PathBuf>>, tell: &Sender<Change>, wake: impl Fn()) {
+    let mut files = Vec::new();
     let mut watched: Vec<Watched> = Vec::new();
     loop {
         match wanted.recv_timeout(PAUSE) {
             Ok(paths) => {
-                let mut before = std::mem::take(&mut watched);
-                watched.extend(paths.into_iter().map(|path| {
-                    let known = before.iter().position(|one| one.path == path);
-                    known.map_or_else(
-                        || {
-                            let stamp = Stamp::of(&path);
-                            Watched {
-                                path,
-                                told: stamp,
-                                last: stamp,
-                            }
-                        },
-                        |i| before.swap_remove(i),
-                    )
-                }));
+                files = paths;
+                watched = all_of(&files, watched);
                 continue;
             }
             Err(RecvTimeoutError::Timeout) => {}
             Err(RecvTimeoutError::Disconnected) => return,
         }
+        let mut names_may_differ = false;
         for one in &mut watched {
             let now = Stamp::of(&one.path);
             if now.is_some() && now == one.last && now != one.told {
                 one.told = now;
-                if tell.send(one.path.clone()).is_err() {
+                names_may_differ |= Description::is_model(&one.path);
+                let change = Change {
+                    path: one.path.clone(),
+                    of: one.of.clone(),
+                };
+                if tell.send(change).is_err() {
                     return;
                 }
                 wake();
             }
             one.last = now;
         }
+        if names_may_differ {
+            watched = all_of(&files, watched);
+        }
     }
+}
+
+/// The files and those that they name in turn. What is known of them from before stays.
+fn all_of(files: &[PathBuf], mut before: Vec<Watched>) -> Vec<Watched> {
+    let named = |file: &PathBuf| match Description::is_model(file) {
+        true => inputs::of_model(file),
+        false => Vec::new(),
+    };
+    let all = files.iter().flat_map(|file| {
+        let others = named(file).into_iter();
+        std::iter::once(file.clone())
+            .chain(others)
+            .map(|path| (path, file.clone()))
+    });
+    let mut known = |(path, of): (PathBuf, PathBuf)| {
+        let is_it = |one: &Watched| one.path == path && one.of == of;
+        match before.iter().position(is_it) {
+            Some(i) => before.swap_remove(i),
+            None => Watched::new(path, of),
+        }
+    };
+    all.map(&mut known).collect()
 }

@@ -4,12 +4,12 @@ use std::path::Path;
 
 use egui::ColorImage;
 use glam::DVec3;
-use hairline_editor::maps::BuiltInMap;
 use hairline_editor::place_light::place_highlight;
 use hairline_editor::presets::LayerPreset;
 use hairline_image::{Picture, png};
 use hairline_reference::closed_form::{self, RenderOptions};
 use hairline_scene::description::{Light, Material, MaterialKind, Object, Scratches, Surface};
+use hairline_scene::environment::BuiltInMap;
 use hairline_scene::{Description, Environment, Loader};
 
 use super::Thumb;

@@ -2,9 +2,11 @@
 
 use egui::Ui;
 use hairline_editor::actions;
-use hairline_editor::maps::BuiltInMap;
+use hairline_editor::maps;
 use hairline_editor::ranges::Parameter;
 use hairline_scene::Light;
+use hairline_scene::description::Map;
+use hairline_scene::environment::BuiltInMap;
 
 use super::form::Form;
 use crate::app::Viewer;
@@ -22,7 +24,10 @@ pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer) {
         built_in_maps(ui, viewer);
         return;
     };
-    ui.label(environment.file.display().to_string());
+    ui.label(match &environment.map {
+        Map::File(file) => file.display().to_string(),
+        Map::BuiltIn(map) => format!("{}, in the box", maps::name(*map)),
+    });
     if let Some(text) = suns(viewer) {
         ui.label(text).on_hover_text(
             "What is small, round and bright in the map lights as a lamp of its own would, colours on scratches included",
@@ -60,40 +65,24 @@ pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer) {
     built_in_maps(ui, viewer);
 }
 
-/// Maps in the box: the chosen one is written beside the scene, where every version finds it.
+/// Maps that need no file.
 fn built_in_maps(ui: &mut Ui, viewer: &mut Viewer) {
-    if !Command::SetEnvironment.is_here() {
-        return;
-    }
     ui.add_space(8.0);
     ui.strong("Maps in the box");
-    let choices = BuiltInMap::ALL.map(|map| (map, Thumb::Map(map), map.name(), map.tooltip()));
+    let choices =
+        BuiltInMap::ALL.map(|map| (map, Thumb::Map(map), maps::name(map), maps::tooltip(map)));
     let Some(map) = cards(ui, &mut viewer.gallery, "maps", choices) else {
         return;
     };
-    // A scene without a file yet has no folder: then the map is kept with the viewer's own files.
-    let folder = match viewer.document.path() {
-        Some(_) => Some(viewer.document.base_dir().to_owned()),
-        None => viewer.state_dir.clone(),
-    };
-    let Some(folder) = folder else {
-        viewer.notices.error(
-            "file",
-            "Save the scene first: the map is written beside it.",
-        );
-        return;
-    };
-    match map.write(&folder.join("maps")) {
-        Err(error) => viewer.notices.error("file", error.to_string()),
-        Ok(path) => {
-            viewer.notices.clear("file");
-            let base_dir = viewer.document.base_dir().to_owned();
-            let done = viewer.document.apply("Set the environment", |d, _| {
-                Ok(actions::set_environment(d, Some(&path), &base_dir))
-            });
-            viewer.tell(done);
-        }
-    }
+    let base_dir = viewer.document.base_dir().to_owned();
+    let done = viewer.document.apply("Set the environment", |d, _| {
+        Ok(actions::set_environment(
+            d,
+            Some(Map::BuiltIn(map)),
+            &base_dir,
+        ))
+    });
+    viewer.tell(done);
 }
 
 /// What was parted from the map that the picture shows.

@@ -6,7 +6,7 @@ use hairline_editor::actions::{layers, objects};
 use hairline_editor::presets::LayerPreset;
 use hairline_editor::ranges::Parameter;
 use hairline_editor::wear::{self, Wear};
-use hairline_scene::description::{Shape, Surface};
+use hairline_scene::description::{Shape, Surface, Up};
 
 use super::form::Form;
 use crate::app::Viewer;
@@ -46,6 +46,14 @@ pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer, index: usize) {
                 ui.add(egui::Label::new(file.display().to_string()).truncate());
                 false
             });
+            let axes = [(Up::Y, "y, as in glTF"), (Up::Z, "z, as in CAD")];
+            form.choice(
+                "Up",
+                "Which axis of the model's file points up",
+                axes.map(|(up, name)| (up, name.to_owned())),
+                &mut object.up,
+            );
+            fit_rows(&mut form, &mut object.fit_m);
         }
         Surface::Shape(shape) => shape_rows(&mut form, shape),
     }
@@ -152,6 +160,22 @@ fn scale(form: &mut Form, scale: &mut [f64; 3]) {
         }
     } else {
         form.vector(Parameter::Scale, scale);
+    }
+}
+
+/// As large as in its file, or fitted to a size: at first to about the one that it has.
+fn fit_rows(form: &mut Form, fit_m: &mut Option<f64>) {
+    let mut is_fitted = fit_m.is_some();
+    form.toggle(
+        "Fit",
+        "Whether the model is made as large as is said here; else it is as large as in its file",
+        &mut is_fitted,
+    );
+    match fit_m {
+        Some(_) if !is_fitted => *fit_m = None,
+        Some(size_m) => form.number(Parameter::FitSize, size_m),
+        None if is_fitted => *fit_m = Some(form.diagonal_m),
+        None => {}
     }
 }
 

@@ -3,8 +3,10 @@
 use egui::{Panel, RichText, ScrollArea, Ui};
 use hairline_editor::Selection;
 use hairline_editor::actions::{layers, lights, materials, objects};
+use hairline_editor::maps;
 use hairline_editor::presets::{LightPreset, MaterialPreset, ShapePreset};
 use hairline_scene::Description;
+use hairline_scene::description::Map;
 
 use super::object::add_layer;
 use crate::app::Viewer;
@@ -26,10 +28,11 @@ pub(crate) fn show(ui: &mut Ui, viewer: &mut Viewer, wished: &mut Option<Command
 fn rows(ui: &mut Ui, viewer: &mut Viewer, wished: &mut Option<Command>) {
     let description = viewer.document.description().clone();
     line(ui, viewer, Selection::Camera, "Camera", true);
-    let map = description.environment.as_ref();
-    let map = map
-        .and_then(|e| e.file.file_name())
-        .map_or("none".into(), |f| f.to_string_lossy());
+    let map = match description.environment.as_ref().map(|e| &e.map) {
+        None => "none".into(),
+        Some(Map::BuiltIn(map)) => maps::name(*map).into(),
+        Some(Map::File(file)) => file.file_name().unwrap_or_default().to_string_lossy(),
+    };
     line(
         ui,
         viewer,

@@ -66,6 +66,8 @@ fn activity(frame: &Frame, is_stale: bool) -> String {
         (true, _) => "finished".to_owned(),
         _ if frame.built.is_sketch() => "a sketch of the scratches".to_owned(),
         _ if painted.done < 1.0 => format!("finishing, {:.0} %", 100.0 * painted.done),
+        (false, 1) if painted.thin > 1 => format!("refining, one scratch of {}", painted.thin),
+        (false, 1) if painted.size_px == frame.view.size_px => "smoothing edges".to_owned(),
         (false, 1) => "refining".to_owned(),
         (false, samples) => format!("refining, {samples} samples"),
     }

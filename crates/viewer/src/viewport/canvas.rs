@@ -136,3 +136,96 @@ impl Drop for CanvasTexture {
         self.hold(Held::Nothing);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::Engine;
+    use egui::{Context, FullOutput, RawInput, Shape};
+    use std::sync::Arc;
+
+    const SCENE: &str = r#"
+[camera]
+position_m = [0.0, -0.2, 0.2]
+target_m = [0.0, 0.0, 0.0]
+
+[[material]]
+name = "steel"
+kind = "metal"
+metal = "steel"
+
+[[object]]
+name = "plate"
+shape = { disk = { radius_m = 0.08 } }
+material = "steel"
+"#;
+
+    fn frame() -> Arc<Frame> {
+        let description = hairline_editor::Document::read(SCENE, "a plate".as_ref()).unwrap();
+        let camera = super::super::camera(&description.camera);
+        let mut engine = Engine::start_in_turn(Arc::new(|| {}));
+        engine.set_scene(1, Arc::new(description), Default::default());
+        engine.set_view(View {
+            camera,
+            size_px: [40, 30],
+            display: hairline_image::Display {
+                exposure_ev: 0.0,
+                tone_map: Default::default(),
+            },
+            filter_std_px: 0.5,
+            reading: Default::default(),
+        });
+        loop {
+            engine.work();
+            if let Some(frame) = engine.latest() {
+                return frame;
+            }
+        }
+    }
+
+    /// Whether the picture is dimmed, and whether a text says why.
+    fn signs(output: &FullOutput) -> (bool, bool) {
+        let shapes = output.shapes.iter().map(|clipped| &clipped.shape);
+        let is_dimmed = |shape: &Shape| match shape {
+            Shape::Mesh(mesh) => mesh.vertices.iter().all(|vertex| vertex.color == STALE),
+            Shape::Rect(rect) => rect.brush.is_some() && rect.fill == STALE,
+            _ => false,
+        };
+        let tells = |shape: &Shape| match shape {
+            Shape::Text(text) => text.galley.text().contains("Earlier view"),
+            _ => false,
+        };
+        (shapes.clone().any(is_dimmed), shapes.clone().any(tells))
+    }
+
+    #[test]
+    fn a_picture_from_elsewhere_is_dimmed_and_named_until_the_new_one_is_there() {
+        let frame = frame();
+        let here = frame.view;
+        let mut there = here;
+        there.camera.position_m.x += 0.1;
+        let (context, mut canvas) = (Context::default(), CanvasTexture::new(None));
+        let mut signs_at = |time_s: f64, wanted: &View| {
+            let input = RawInput {
+                time: Some(time_s),
+                ..RawInput::default()
+            };
+            let output = context.run_ui(input, |ui| {
+                let area = Area::new(ui.max_rect(), [40, 30], 1.0);
+                canvas.paint(ui, &area, &frame, wanted);
+            });
+            let (is_dimmed, tells) = signs(&output);
+            assert_eq!(canvas.is_stale(), tells);
+            (is_dimmed, tells)
+        };
+        assert_eq!(signs_at(0.0, &here), (false, false));
+        // While something moves the next one is there before this matters.
+        assert_eq!(signs_at(10.0, &there), (false, false));
+        assert_eq!(signs_at(10.0 + 0.9 * STALE_S, &there), (false, false));
+        assert_eq!(signs_at(10.0 + 1.1 * STALE_S, &there), (true, true));
+        assert_eq!(signs_at(60.0, &there), (true, true));
+        assert_eq!(signs_at(60.1, &here), (false, false));
+        // The next movement has its own time.
+        assert_eq!(signs_at(60.2, &there), (false, false));
+    }
+}

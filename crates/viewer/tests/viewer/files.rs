@@ -4,6 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use crate::common::{SMALL, click_on, description, viewer, viewer_with, wait_built, wait_until};
+use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use hairline_viewer::engine::Backend;
@@ -182,6 +183,11 @@ fn models_and_maps_are_added() {
     let mut harness = viewer(SMALL);
     wait_built(&mut harness);
     drop_file(&mut harness, &model);
+    // Two metres, in a scene of centimetres.
+    while harness.query_by_label_contains("Fit it to").is_none() {
+        harness.step();
+    }
+    harness.get_by_label_contains("Fit it to").click();
     wait_until(&mut harness, "the model", |viewer| {
         viewer.document().description().objects.len() == 2
     });
@@ -209,4 +215,107 @@ fn a_key_without_effect_is_told_of() {
     drop_file(&mut harness, &path);
     let messages = harness.state().messages().join("\n");
     assert!(messages.contains("render.gather"), "{messages:?}");
+}
+
+/// A triangle `size_m` large as a model of one file.
+fn triangle(folder: &Path, size_m: f64) -> std::path::PathBuf {
+    let corner = |x: f32, z: f32| [x, 0.0, z].map(f32::to_le_bytes).concat();
+    let size = size_m as f32;
+    let buffer = [corner(0.0, 0.0), corner(size, 0.0), corner(0.0, size)].concat();
+    std::fs::write(folder.join("it.bin"), buffer).unwrap();
+    let model = format!(
+        r#"{{
+            "asset": {{"version": "2.0"}}, "nodes": [{{"mesh": 0}}],
+            "meshes": [{{"primitives": [{{"attributes": {{"POSITION": 0}}}}]}}],
+            "buffers": [{{"uri": "it.bin", "byteLength": 36}}],
+            "bufferViews": [{{"buffer": 0, "byteLength": 36}}],
+            "accessors": [{{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+                "min": [0, 0, 0], "max": [{size_m}, 0, {size_m}]}}]
+        }}"#
+    );
+    let path = folder.join("it.gltf");
+    std::fs::write(&path, model).unwrap();
+    path
+}
+
+/// The size that an added model has, after a button of the question was clicked.
+fn added(answer: &str, size_m: f64) -> Option<Option<f64>> {
+    let folder = tempfile::tempdir().unwrap();
+    let model = triangle(folder.path(), size_m);
+    let mut harness = viewer(SMALL);
+    wait_built(&mut harness);
+    let before = description(&harness).objects.len();
+    drop_file(&mut harness, &model);
+    let start = std::time::Instant::now();
+    while !answer.is_empty() && harness.query_by_label_contains(answer).is_none() {
+        assert!(start.elapsed().as_secs() < 600, "no {answer:?}");
+        harness.step();
+    }
+    // Nothing is added before it is answered.
+    assert!(answer.is_empty() || description(&harness).objects.len() == before);
+    if answer.is_empty() {
+        wait_until(&mut harness, "the model", |viewer| {
+            viewer.document().description().objects.len() > before
+        });
+        assert!(
+            harness
+                .query_by_label("Fit the model to the scene?")
+                .is_none()
+        );
+    } else {
+        harness.get_by_label_contains(answer).click();
+        harness.run_steps(3);
+    }
+    let description = description(&harness);
+    let fit_m = (description.objects.len() > before)
+        .then(|| description.objects.last().and_then(|it| it.fit_m));
+    if fit_m.is_some() {
+        crate::common::undo(&mut harness);
+        assert_eq!(
+            harness.state().document().description().objects.len(),
+            before
+        );
+    }
+    fit_m
+}
+
+#[test]
+fn a_model_out_of_proportion_is_fitted_if_the_user_likes() {
+    let fitted = added("Fit it to", 40.0).unwrap().unwrap();
+    assert!((0.001..10.0).contains(&fitted), "{fitted}");
+    assert_eq!(added("Keep its own size", 40.0), Some(None));
+    assert_eq!(added("Cancel", 40.0), None);
+    // One that suits the scene is not asked about.
+    assert_eq!(added("", fitted), Some(None));
+}
+
+#[test]
+fn a_models_axis_and_size_are_in_its_panel() {
+    let folder = tempfile::tempdir().unwrap();
+    let model = triangle(folder.path(), 0.05);
+    let mut harness = viewer(SMALL);
+    wait_built(&mut harness);
+    drop_file(&mut harness, &model);
+    wait_until(&mut harness, "the model", |viewer| {
+        viewer.document().description().objects.len() == 2
+    });
+    let object = |harness: &_| description(harness).objects[1].clone();
+    harness
+        .state_mut()
+        .document_mut()
+        .select(hairline_editor::Selection::Object(1));
+    wait_built(&mut harness);
+    harness.run_steps(3);
+    let click = |harness: &mut Harness<'static, Viewer>, role, name| {
+        harness.get_by_role_and_label(role, name).click();
+        harness.run_steps(3);
+    };
+    click(&mut harness, Role::CheckBox, "Fit");
+    assert!(object(&harness).fit_m.is_some());
+    harness.get_by_role_and_label(Role::SpinButton, "Fitted size");
+    click(&mut harness, Role::CheckBox, "Fit");
+    assert_eq!(object(&harness).fit_m, None);
+    click(&mut harness, Role::ComboBox, "Up");
+    click_on(&mut harness, "z, as in CAD");
+    assert_eq!(object(&harness).up, hairline_scene::description::Up::Z);
 }

@@ -4,12 +4,14 @@ use crate::common::{
     self, SMALL, click_on, description, viewer, viewer_with, wait_built, wait_until,
 };
 use egui::accesskit::{Role, Toggled};
+use egui::{Key, Modifiers};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use hairline_editor::Selection;
 use hairline_editor::wear::Wear;
 use hairline_optics::metal::Metal;
-use hairline_scene::description::{MaterialKind, MetalColor};
+use hairline_scene::description::{Map, MaterialKind, MetalColor};
+use hairline_scene::environment::BuiltInMap;
 use hairline_viewer::engine::Backend;
 use hairline_viewer::{Options, Viewer};
 
@@ -73,37 +75,39 @@ fn metals_are_chosen_by_their_swatches() {
     assert_ne!(description(&harness).materials[0].kind, gold);
 }
 
+/// By its name alone: no file is written, whether the scene has one or not.
 #[test]
-fn a_map_in_the_box_is_written_beside_the_scene() {
+fn a_map_in_the_box_is_named_in_the_scene() {
     let folder = tempfile::tempdir().unwrap();
     let scene = folder.path().join("scene.toml");
     std::fs::write(&scene, SMALL).unwrap();
-    let mut harness = viewer_with(Options {
-        scene: Some(scene.clone()),
-        built_in: SMALL,
-        backend: Backend::Cpu,
-        state_dir: None,
-        native_dialogs: false,
-    });
-    wait_built(&mut harness);
-    select(&mut harness, Selection::Environment);
-    click_on(&mut harness, "Overcast sky");
-    let environment = description(&harness).environment.clone().unwrap();
-    let file = std::path::Path::new("maps/hairline-overcast.exr");
-    assert_eq!(environment.file, file);
-    assert!(folder.path().join(file).is_file());
-    hairline_image::exr_file::read_picture(&folder.path().join(file)).unwrap();
-    assert!(harness.state().messages().is_empty());
-    // A scene without a file and a viewer without a folder have no place for it.
-    let mut harness = viewer(SMALL);
-    select(&mut harness, Selection::Environment);
-    click_on(&mut harness, "Studio");
-    assert_eq!(description(&harness).environment, None);
-    assert!(
-        harness
-            .state()
-            .messages()
-            .concat()
-            .contains("Save the scene first")
-    );
+    for file in [Some(scene.clone()), None] {
+        let mut harness = viewer_with(Options {
+            scene: file.clone(),
+            built_in: SMALL,
+            backend: Backend::Cpu,
+            state_dir: None,
+            native_dialogs: false,
+        });
+        wait_built(&mut harness);
+        select(&mut harness, Selection::Environment);
+        click_on(&mut harness, "Overcast sky");
+        let environment = description(&harness).environment.clone().unwrap();
+        assert_eq!(environment.map, Map::BuiltIn(BuiltInMap::Overcast));
+        harness.get_by_label("Overcast sky, in the box");
+        common::wait_until(&mut harness, "the map", |viewer| {
+            let built = viewer.engine().built();
+            built.is_some_and(|built| built.scene.environment.is_some())
+        });
+        assert!(harness.state().messages().is_empty());
+        if file.is_some() {
+            harness.key_press_modifiers(Modifiers::COMMAND, Key::S);
+            harness.run_steps(3);
+        }
+    }
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+    let saved = std::fs::read_to_string(&scene).unwrap();
+    let read = hairline_scene::Description::from_toml(&saved, &scene).unwrap();
+    let environment = read.environment.unwrap();
+    assert_eq!(environment.map, Map::BuiltIn(BuiltInMap::Overcast));
 }

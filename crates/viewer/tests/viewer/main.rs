@@ -1,18 +1,25 @@
-//! The viewer without a window, but for what is held against a clock or loses a device.
+//! The viewer without a window.
 //! In one program, since each that is linked takes seconds.
 
 #[path = "../common/mod.rs"]
 mod common;
 
+mod brush;
 mod commands;
+mod compare;
+mod directions;
+mod export;
 mod files;
 mod gallery;
+mod gives_way;
 mod gizmos;
 mod habits;
+mod lost;
 mod numbers;
 mod on_disk;
 mod panels;
 mod picking;
 mod reading;
 mod rest;
+mod snapshots;
 mod views;

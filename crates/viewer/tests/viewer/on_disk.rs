@@ -180,3 +180,45 @@ fn what_the_scene_names_is_read_again() {
     wait_until(&mut harness, "another scratch", |v| count(v) == before + 1);
     assert!(!harness.state().document().is_modified());
 }
+
+/// A buffer beside a model: neither the scene nor the model names anything else than before.
+#[test]
+fn what_a_model_names_is_read_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.toml");
+    let buffer = folder.path().join("it.bin");
+    let corner = |far: f32| {
+        let points = [[0.0, 0.0, 0.0], [far, 0.0, 0.0], [0.0, 0.0, far]];
+        let values = points.as_flattened().iter();
+        values.flat_map(|c| c.to_le_bytes()).collect::<Vec<u8>>()
+    };
+    std::fs::write(&buffer, corner(0.01)).unwrap();
+    let model = r#"{
+        "asset": {"version": "2.0"}, "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "buffers": [{"uri": "it.bin", "byteLength": 36}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+            "min": [0, 0, 0], "max": [1, 1, 1]}]
+    }"#;
+    std::fs::write(folder.path().join("it.gltf"), model).unwrap();
+    let object = "\n[[object]]\nname = \"it\"\nmesh = \"it.gltf\"\n";
+    std::fs::write(&path, format!("{SMALL}{object}")).unwrap();
+    let mut harness = open(&path);
+    let extent_m = |viewer: &Viewer| {
+        let built = viewer.engine().built()?;
+        let points = &built.scene.objects.get(1)?.mesh.positions_m;
+        Some(points.iter().fold(0.0_f32, |most, p| most.max(p.x)))
+    };
+    assert_eq!(
+        extent_m(harness.state()),
+        Some(0.01),
+        "{:?}",
+        harness.state().messages()
+    );
+    std::fs::write(&buffer, corner(0.02)).unwrap();
+    wait_until(&mut harness, "another triangle", |v| {
+        extent_m(v) == Some(0.02)
+    });
+    assert!(harness.state().messages().join(" ").contains("it.bin"));
+}

@@ -11,7 +11,7 @@ use hairline_editor::presets::{LayerPreset, MaterialPreset};
 use hairline_image::{Display, Output, Picture};
 use hairline_scene::Description;
 use hairline_scene::description::Amount;
-use hairline_scene::description::{Environment, Layer, Pattern};
+use hairline_scene::description::{Environment, Layer, Map, Pattern};
 use hairline_viewer::Viewer;
 
 /// What the panel on the right holds of a kind.
@@ -148,7 +148,7 @@ fn the_environment() {
     wait_built(&mut harness);
     edit(&mut harness, |d| {
         d.environment = Some(Environment {
-            file: "there is none.hdr".into(),
+            map: Map::File("there is none.hdr".into()),
             rotation_deg: 10.0,
             intensity: 1.0,
             visible: true,
@@ -182,7 +182,7 @@ fn errors_of_scenes_that_are_gone_are_not_told() {
             let document = harness.state_mut().document_mut();
             document.edit("by the test", |d| {
                 d.environment = file.map(|file| Environment {
-                    file: file.into(),
+                    map: Map::File(file.into()),
                     rotation_deg: 0.0,
                     intensity: 1.0,
                     visible: true,
@@ -217,7 +217,7 @@ fn a_sun_in_the_environment() {
     let lights = harness.state().document().description().lights.len();
     edit(&mut harness, |d| {
         d.environment = Some(Environment {
-            file,
+            map: Map::File(file),
             rotation_deg: 0.0,
             intensity: 1.0,
             visible: true,

@@ -1,6 +1,6 @@
 //! The reference beside the picture: it agrees with it, follows it, and ends when it is closed.
 
-mod common;
+use crate::common;
 
 use std::time::{Duration, Instant};
 
@@ -16,6 +16,10 @@ use hairline_viewer::{Figures, LayerFigures, Options, Viewer};
 
 /// A window in which the panels leave little room for the picture, so that samples are soon there.
 fn viewer(scene: &'static str, width: f32) -> Harness<'static, Viewer> {
+    sized_viewer(scene, [width, 400.0])
+}
+
+fn sized_viewer(scene: &'static str, size: [f32; 2]) -> Harness<'static, Viewer> {
     let options = Options {
         scene: None,
         built_in: scene,
@@ -24,7 +28,7 @@ fn viewer(scene: &'static str, width: f32) -> Harness<'static, Viewer> {
         native_dialogs: false,
     };
     let mut harness = Harness::builder()
-        .with_size([width, 400.0])
+        .with_size(size)
         .build_eframe(|cc| Viewer::new(&cc.egui_ctx, None, options).unwrap());
     common::wait_built(&mut harness);
     common::wait_until(&mut harness, "a picture", |viewer| {

@@ -1,6 +1,6 @@
 //! Pictures and turntables to files: whole or not at all, whatever happens meanwhile.
 
-mod common;
+use crate::common;
 
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -21,12 +21,12 @@ use hairline_viewer::{Options, Viewer};
 
 /// Pictures that are soon done.
 const TINY: &str = concat!(
-    include_str!("common/small_scene.toml"),
+    include_str!("../common/small_scene.toml"),
     "\n[render]\nsize_px = [48, 32]\n"
 );
 /// Pictures that take a moment.
 const MODEST: &str = concat!(
-    include_str!("common/small_scene.toml"),
+    include_str!("../common/small_scene.toml"),
     "\n[render]\nsize_px = [160, 100]\n"
 );
 

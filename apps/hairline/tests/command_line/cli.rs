@@ -1,11 +1,9 @@
 //! The command line from outside: exit codes, messages, and files that are whole or not there.
 
-mod common;
-
 use std::fs;
 use std::path::Path;
 
-use common::{command, folder_with, hairline, names_in, stderr_of, stdout_of};
+use crate::common::{command, folder_with, hairline, names_in, stderr_of, stdout_of};
 use hairline_image::{exr_file, png};
 
 /// A disk under a lamp, without scratches.
@@ -297,7 +295,7 @@ fn the_documented_scene_renders() {
         return;
     }
     let folder = tempfile::tempdir().unwrap();
-    let scene = include_str!("../../../crates/scene/tests/example.toml");
+    let scene = include_str!("../../../../crates/scene/tests/example.toml");
     fs::write(folder.path().join("scene.toml"), scene).unwrap();
     fs::copy(map, folder.path().join("studio.hdr")).unwrap();
     hairline(folder.path(), "render scene.toml -o a.png").success();

@@ -1,11 +1,9 @@
 //! `hairline reference` from outside: what it says, what it leaves behind, and that stopping costs nothing.
 
-mod common;
-
 use std::fs;
 use std::path::Path;
 
-use common::{SCRATCHED, folder_with, hairline, names_in, stderr_of};
+use crate::common::{SCRATCHED, folder_with, hairline, names_in, stderr_of};
 use hairline_image::{Image, Notes, exr_file, png};
 
 fn folder_with_scene() -> tempfile::TempDir {

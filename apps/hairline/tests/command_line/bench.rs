@@ -1,11 +1,9 @@
 //! `hairline bench` on pictures of a few pixels: that all is measured and written, not what comes out.
 
-mod common;
-
 use std::fs;
 use std::path::Path;
 
-use common::{hairline, stderr_of, stdout_of};
+use crate::common::{hairline, stderr_of, stdout_of};
 use hairline_gpu::headless::test_gpu;
 use serde_json::Value;
 

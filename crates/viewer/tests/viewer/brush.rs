@@ -1,6 +1,6 @@
 //! Strokes drawn with the mouse.
 
-mod common;
+use crate::common;
 
 use egui::{Pos2, vec2};
 use egui_kittest::Harness;

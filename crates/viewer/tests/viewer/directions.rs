@@ -1,6 +1,6 @@
 //! The strokes that show which way the scratches of a selected layer run.
 
-mod common;
+use crate::common;
 
 use std::time::{Duration, Instant};
 

@@ -1,15 +1,13 @@
 //! `hairline compare` from outside: figures that are known beforehand, limits, refusals, and a report that is whole.
 
-mod common;
-
 use std::fs;
 use std::io::Read as _;
 use std::path::Path;
 
+use crate::common::{hairline, stderr_of, stdout_of};
 use assert_cmd::assert::Assert;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD as BASE64;
-use common::{hairline, stderr_of, stdout_of};
 use hairline_image::{Display, Image, Noise, Output, Picture};
 use half::f16;
 use html5gum::emitters::default::DefaultEmitter;

@@ -1,10 +1,8 @@
 //! Sequences from outside: what is written, what is refused, and that stopping leaves whole files only.
 
-mod common;
-
 use std::path::Path;
 
-use common::{SCRATCHED, folder_with, hairline, names_in, stderr_of, stdout_of};
+use crate::common::{SCRATCHED, folder_with, hairline, names_in, stderr_of, stdout_of};
 use hairline_image::{exr_file, png};
 
 fn folder_with_scene() -> tempfile::TempDir {

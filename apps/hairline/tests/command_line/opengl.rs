@@ -1,11 +1,9 @@
 //! Pictures by way of OpenGL, where there is no newer interface. Each is a process of its own: a context serves one thread.
 
-mod common;
-
 use std::path::Path;
 
+use crate::common::{SCRATCHED, command, folder_with, hairline};
 use assert_cmd::Command;
-use common::{SCRATCHED, command, folder_with, hairline};
 use hairline_image::metrics::layer_difference;
 use hairline_image::{Layer, exr_file};
 

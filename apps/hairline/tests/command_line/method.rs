@@ -1,8 +1,6 @@
 //! The flags that choose a method: what is refused, and what the picture remembers.
 
-mod common;
-
-use common::{SCRATCHED, folder_with, hairline, stderr_of};
+use crate::common::{SCRATCHED, folder_with, hairline, stderr_of};
 use hairline_image::exr_file;
 
 fn folder_with_scene() -> tempfile::TempDir {

@@ -1,6 +1,6 @@
 //! Snapshots of the look: taken, seen in three ways, restored as one step of undo, deleted.
 
-mod common;
+use crate::common;
 
 use egui::Key;
 use egui::accesskit::{Role, Toggled};

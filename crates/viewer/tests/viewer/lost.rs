@@ -1,8 +1,6 @@
 //! A device that is lost in the middle of the work: it is opened anew and the picture goes on, and the window says so.
 
-mod common;
-
-use common::{SMALL, viewer_with, wait_built, wait_until};
+use crate::common::{SMALL, viewer_with, wait_built, wait_until};
 use hairline_gpu::AdapterRequest;
 use hairline_gpu::headless::{self, test_gpu};
 use hairline_viewer::Options;

@@ -1,14 +1,12 @@
 //! What a day at the command line asks of it: inputs stay, closed streams are no failure, bad inputs take no time and no memory, models
 //! open, and what the flags say is done.
 
-mod common;
-
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use common::{command, folder_with, hairline, names_in, stderr_of, stdout_of};
+use crate::common::{command, folder_with, hairline, names_in, stderr_of, stdout_of};
 use hairline_image::{Display, Output, Picture, exr_file};
 
 /// A disk under a lamp, without scratches, and what is given.

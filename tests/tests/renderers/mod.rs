@@ -1,5 +1,4 @@
 //! Whole pictures: the GPU against the CPU, and both against physics.
-//! In one program, since each that is linked takes seconds.
 
 mod assets;
 mod dense;

@@ -1,12 +1,10 @@
 //! A device that goes away is an error wherever it happens, and the next one works.
 
-mod common;
-
 use std::future::Future;
 use std::pin::pin;
 use std::task::{Context, Waker};
 
-use common::{Made, PLATES, Stage, scene};
+use crate::common::{Made, PLATES, Stage, scene};
 use hairline_gpu::headless::{self, test_gpu};
 use hairline_gpu::{Canvas, Error, Gpu, Renderer};
 use hairline_image::{Display, ToneMap};

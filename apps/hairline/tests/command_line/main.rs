@@ -1,0 +1,14 @@
+//! The program by its command line.
+//! In one program, since each that is linked takes seconds.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod bench;
+mod cli;
+mod commands;
+mod compare;
+mod method;
+mod opengl;
+mod reference;
+mod sequence;

@@ -1,0 +1,94 @@
+//! Where the picture is on the screen, and the camera that sees all of it.
+
+use egui::Rect;
+use glam::DVec2;
+use hairline_scene::{Camera, description};
+
+/// The picture's area on the screen, in points.
+#[derive(Clone, Copy)]
+pub(crate) struct Area {
+    /// All of it.
+    pub rect: Rect,
+    /// The part that the scene's own picture shows: as large as fits, in the middle. What is seen around it is not in the
+    /// picture that is rendered or exported.
+    pub frame: Rect,
+    pub pixels_per_point: f32,
+}
+
+impl Area {
+    pub fn new(rect: Rect, picture_px: [u32; 2], pixels_per_point: f32) -> Self {
+        let [width, height] = picture_px.map(|side| side.max(1) as f32);
+        let fitting = (rect.width() / width).min(rect.height() / height);
+        let size = egui::vec2(width, height) * fitting;
+        Self {
+            rect,
+            frame: Rect::from_center_size(rect.center(), size),
+            pixels_per_point,
+        }
+    }
+
+    /// In physical pixels.
+    pub fn size_px(&self) -> [u32; 2] {
+        let size = self.rect.size() * self.pixels_per_point;
+        [size.x, size.y].map(|side| (side.round() as u32).clamp(1, 8192))
+    }
+
+    /// The same of the frame.
+    pub fn frame_px(&self) -> [u32; 2] {
+        let size = self.frame.size() * self.pixels_per_point;
+        [size.x, size.y].map(|side| (side.round() as u32).clamp(1, 8192))
+    }
+
+    /// Width and height of the frame in points, which navigation and projection count in: they need ratios only.
+    pub fn size(&self) -> DVec2 {
+        DVec2::new(self.frame.width().into(), self.frame.height().into())
+    }
+
+    /// The vertical field of view of all of the area, where the frame has `fov_y_rad`.
+    fn fov_y_rad(&self, fov_y_rad: f64) -> f64 {
+        let taller = f64::from(self.rect.height() / self.frame.height().max(1.0));
+        2.0 * ((0.5 * fov_y_rad).tan() * taller).atan()
+    }
+
+    /// The camera that sees all of the area.
+    pub fn camera(&self, camera: &description::Camera) -> Camera {
+        let camera = self::camera(camera);
+        Camera {
+            fov_y_rad: self.fov_y_rad(camera.fov_y_rad),
+            ..camera
+        }
+    }
+
+    /// Dims what the picture does not have.
+    pub fn paint_frame(&self, ui: &egui::Ui) {
+        let dim = egui::Color32::from_black_alpha(110);
+        let (all, frame) = (self.rect, self.frame);
+        let around = [
+            Rect::from_min_max(all.min, egui::pos2(all.max.x, frame.min.y)),
+            Rect::from_min_max(egui::pos2(all.min.x, frame.max.y), all.max),
+            Rect::from_min_max(
+                egui::pos2(all.min.x, frame.min.y),
+                egui::pos2(frame.min.x, frame.max.y),
+            ),
+            Rect::from_min_max(
+                egui::pos2(frame.max.x, frame.min.y),
+                egui::pos2(all.max.x, frame.max.y),
+            ),
+        ];
+        for rect in around.into_iter().filter(Rect::is_positive) {
+            ui.painter().rect_filled(rect, 0.0, dim);
+        }
+    }
+}
+
+/// The scene's own camera, that of its frame.
+pub(crate) fn camera(camera: &description::Camera) -> Camera {
+    Camera {
+        position_m: camera.position_m.into(),
+        target_m: camera.target_m.into(),
+        up: camera.up.into(),
+        fov_y_rad: camera.fov_y_deg.to_radians(),
+        // Shown by a `Display`, so that a change of it paints nothing anew.
+        exposure_ev: 0.0,
+    }
+}

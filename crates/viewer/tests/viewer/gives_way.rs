@@ -1,0 +1,45 @@
+//! What is being painted gives way to what is wanted next.
+
+use std::time::{Duration, Instant};
+
+use crate::common::{BUILT_IN, viewer, wait_until};
+use egui::Key;
+use egui_kittest::Harness;
+use hairline_editor::Selection;
+use hairline_viewer::Viewer;
+
+/// A tenth of a second on a machine at rest; where tests run side by side, far less than the fine picture would still take.
+const SOON: Duration = Duration::from_secs(10);
+
+fn shows_what_is_wanted(viewer: &Viewer) -> bool {
+    let frame = viewer.engine().latest();
+    frame.is_some_and(|frame| {
+        let wanted = viewer.view();
+        wanted.is_some_and(|wanted| frame.view.has_same_pixels(&wanted))
+    })
+}
+
+/// Presses a key and waits for the picture that it asks for; returns how long that took.
+fn press(harness: &mut Harness<'static, Viewer>, key: Key) -> Duration {
+    let before = harness.state().view();
+    harness.key_press(key);
+    let start = Instant::now();
+    wait_until(harness, "another view", |viewer| viewer.view() != before);
+    wait_until(harness, "its first picture", shows_what_is_wanted);
+    start.elapsed()
+}
+
+#[test]
+fn all_is_framed_and_then_the_pan_while_the_built_in_scene_is_refined() {
+    let mut harness = viewer(BUILT_IN);
+    wait_until(&mut harness, "the finest picture has begun", |viewer| {
+        let frame = viewer.engine().latest();
+        // The one before it is there.
+        frame.is_some_and(|frame| 3 * frame.painted.size_px[0] > frame.view.size_px[0])
+    });
+    let pan = Selection::Object(0);
+    harness.state_mut().document_mut().select(pan);
+    let took = [press(&mut harness, Key::A), press(&mut harness, Key::F)];
+    println!("A and F were answered after {took:?}");
+    assert!(took.iter().all(|took| *took < SOON), "{took:?}");
+}
