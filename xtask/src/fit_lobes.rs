@@ -1,8 +1,10 @@
-//! `cargo xtask fit-lobes`: fits the transformed cosine and the pivot lobe to GGX over the grid of
-//! `optics::lobe_table`, integrates the albedos, and writes the three tables.
+//! `cargo xtask fit-lobes`: fits the transformed cosine, the pivot lobe and the look-ups of environments to GGX over the grid of
+//! `optics::lobe_table`, integrates the albedos, and writes the tables.
 //!
 //! Each node is fitted alone, from fixed starts, on fixed sample points: the outcome does not depend on threads or
 //! order. Nelder and Mead, "A simplex method for function minimization" (1965), minimises.
+
+mod environment;
 
 use std::f64::consts::PI;
 use std::path::PathBuf;
@@ -12,7 +14,8 @@ use anyhow::{Context, Result, ensure};
 use glam::{DVec2, DVec3};
 use hairline_optics::ggx::{ggx_albedo, ggx_alpha, ggx_eval, ggx_pdf, ggx_sample};
 use hairline_optics::lobe_table::{
-    LOBE_MIN_COS, LOBE_TABLE_SIZE, LobeTable, albedo_table, lobe_table_node, ltc_table, sptd_table,
+    LOBE_MIN_COS, LOBE_TABLE_SIZE, LobeTable, albedo_table, environment_table, lobe_table_node,
+    ltc_table, sptd_table,
 };
 use hairline_optics::ltc::{LtcLobe, LtcShape};
 use hairline_optics::sptd::{SptdLobe, SptdShape};
@@ -54,6 +57,9 @@ impl FitLobes {
             ("lobe_ltc.bin", table(|n| n.ltc), ltc_table()),
             ("lobe_sptd.bin", table(|n| n.sptd), sptd_table()),
         ];
+        let taps = environment::fit();
+        environment::report(&taps);
+        let looked_up = environment::tables(&taps);
         let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../crates/optics/data");
         for (name, fitted, committed) in &tables {
             let change = largest_difference(fitted, committed);
@@ -66,6 +72,20 @@ impl FitLobes {
                 std::fs::write(&path, fitted.to_bytes())
                     .with_context(|| format!("cannot write {}", path.display()))?;
             }
+        }
+        for (i, fitted) in looked_up.iter().enumerate() {
+            let change = largest_difference(fitted, environment_table(i));
+            println!("lobe_environment.bin, look-up {i}: largest change {change:.2e}");
+            ensure!(
+                !self.check || change < 1e-4,
+                "lobe_environment.bin is not what the fit gives"
+            );
+        }
+        if !self.check {
+            let path = folder.join("lobe_environment.bin");
+            let bytes: Vec<u8> = looked_up.iter().flat_map(LobeTable::to_bytes).collect();
+            std::fs::write(&path, bytes)
+                .with_context(|| format!("cannot write {}", path.display()))?;
         }
         Ok(())
     }

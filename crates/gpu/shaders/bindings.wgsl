@@ -13,7 +13,8 @@
 
 @group(2) @binding(0) var scratch_tables: texture_2d_array<u32>;
 @group(2) @binding(1) var lobe_albedo: texture_2d<f32>;
-@group(2) @binding(2) var lobe_ltc: texture_2d<f32>;
+// The transformed cosine, and the look-ups of environments under it.
+@group(2) @binding(2) var lobe_shapes: texture_2d<f32>;
 @group(2) @binding(3) var lobe_sptd: texture_2d<f32>;
 @group(2) @binding(4) var environment_background: texture_2d<f32>;
 @group(2) @binding(5) var environment_levels: texture_2d<f32>;

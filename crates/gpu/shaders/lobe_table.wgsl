@@ -1,5 +1,5 @@
 // Look-ups in the fitted tables: rgba32float, x = sqrt(viewer's cosine), y = roughness, both from 0 to 1 across the nodes.
-// albedo: E0. ltc: width_x, width_y, lean. sptd: width, lean.
+// albedo: E0. shapes: width_x, width_y, lean of the transformed cosine; in the tables under it what environment_lobe looks up. sptd: width, lean.
 // Twin: optics::lobe_table.
 
 const LOBE_MIN_COS: f32 = 1e-3;
@@ -18,8 +18,13 @@ fn lobe_table_at(size: f32, roughness: f32, cos_o: f32) -> LobeTablePlace {
 }
 
 fn lobe_table_lookup(table: texture_2d<f32>, roughness: f32, cos_o: f32) -> vec4f {
+    return lobe_table_lookup_below(table, 0, roughness, cos_o);
+}
+
+// In a table that lies below others, `first_row` rows down.
+fn lobe_table_lookup_below(table: texture_2d<f32>, first_row: i32, roughness: f32, cos_o: f32) -> vec4f {
     let at = lobe_table_at(LOBE_TABLE_SIZE, roughness, cos_o);
-    let i = vec2i(at.corner);
+    let i = vec2i(at.corner) + vec2i(0, first_row);
     let low = mix(textureLoad(table, i, 0), textureLoad(table, i + vec2i(1, 0), 0), at.share.x);
     let high = mix(
         textureLoad(table, i + vec2i(0, 1), 0),

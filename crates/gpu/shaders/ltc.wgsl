@@ -102,8 +102,13 @@ fn ltc_end(state: PolygonIrradiance, lobe: LtcLobe, reflecting: LobeFresnel, cur
 }
 
 fn ltc_sphere(lobe: LtcLobe, reflecting: LobeFresnel, curves: texture_2d<f32>, axis: vec3f, sin2: f32) -> vec3f {
+    return ltc_reflected(lobe, reflecting, curves, ltc_sphere_vector(lobe, axis, sin2));
+}
+
+// The vector irradiance of a sphere in the cosine's space.
+fn ltc_sphere_vector(lobe: LtcLobe, axis: vec3f, sin2: f32) -> vec3f {
     if (sin2 >= 1.0) {
-        return reflecting.albedo;
+        return vec3f(0.0, 0.0, GGX_PI);
     }
     if (sin2 <= 0.0) {
         return vec3f(0.0);
@@ -120,7 +125,7 @@ fn ltc_sphere(lobe: LtcLobe, reflecting: LobeFresnel, curves: texture_2d<f32>, a
     } else {
         vector = irradiance_cone(ltc_cone_axes(cone));
     }
-    return ltc_reflected(lobe, reflecting, curves, vector);
+    return vector;
 }
 
 // What is within the rim c + u cos t + v sin t in the cosine's space; in the frame of u, v and n, c is `centre`.
@@ -233,34 +238,36 @@ fn ltc_rotate_pair(u: vec3f, v: vec3f) -> LtcPair {
 }
 
 const LTC_RING_RADIUS: f32 = 0.8660254;
-const LTC_RING_WEIGHT: f32 = 0.16666667;
-const LTC_CENTRE_WEIGHT: f32 = 0.33333333;
+const LTC_RING_LIFT: f32 = 0.12;
+const LTC_RING_MAX: f32 = 0.97;
+const LTC_REST_FROM: f32 = 0.3;
 
 fn ltc_reflected(lobe: LtcLobe, reflecting: LobeFresnel, curves: texture_2d<f32>, vector: vec3f) -> vec3f {
     let share = clamp(vector.z / GGX_PI, 0.0, 1.0);
     if (share <= 0.0) {
         return vec3f(0.0);
     }
-    let magnitude = length(vector);
-    let centre = vector * (1.0 / max(magnitude, 1e-30));
-    let sin2 = min(magnitude / GGX_PI, 1.0);
-    let sides = irradiance_basis(centre);
-    let radius = LTC_RING_RADIUS * sqrt(sin2);
-    let height = sqrt(max(1.0 - radius * radius, 0.0));
-
-    var sums = LtcMeans(vec4f(0.0), 0.0, 0.0);
-    ltc_add(&sums, lobe, reflecting.fresnel.curve, curves, centre, LTC_CENTRE_WEIGHT);
-    // Opposite points of the ring.
-    for (var i = 0; i < 2; i += 1) {
-        let side = radius * select(sides.v, sides.u, i == 0);
-        ltc_add(&sums, lobe, reflecting.fresnel.curve, curves, height * centre + side, LTC_RING_WEIGHT);
-        ltc_add(&sums, lobe, reflecting.fresnel.curve, curves, height * centre - side, LTC_RING_WEIGHT);
+    let x = max((share - LTC_REST_FROM) / (1.0 - LTC_REST_FROM), 0.0);
+    let by_rest = x * x * (3.0 - 2.0 * x);
+    let sin2 = min(length(vector) / GGX_PI, 1.0);
+    let fade = pow(sin2, 2.0 + 12.0 * lobe.wo.z * lobe.wo.z);
+    var integral = 0.0;
+    var parts = vec4f(0.0);
+    // The light, then the rest of the hemisphere: one copy of the code.
+    for (var round = 0; round < select(1, 2, by_rest > 0.0); round += 1) {
+        let of_light = round == 0;
+        let means = ltc_means(lobe, reflecting.fresnel.curve, curves, select(vec3f(-vector.xy, GGX_PI - vector.z), vector, of_light));
+        let mean = GGX_PI * means.exact / max(means.cosine, 1e-30);
+        if (of_light) {
+            integral = min(share * mix(mean, lobe.albedo, fade), lobe.albedo);
+            parts = means.parts / max(means.exact, 1e-30);
+        } else {
+            integral = mix(integral, lobe.albedo - min((1.0 - share) * mean, lobe.albedo), by_rest);
+        }
     }
-    let corrected = GGX_PI * sums.exact / max(sums.cosine, 1e-30);
-    let fade = sin2 * sin2;
-    let integral = min(share * mix(corrected, lobe.albedo, fade), lobe.albedo);
-    let mean = fresnel_of_parts(reflecting.fresnel, sums.parts / max(sums.exact, 1e-30));
-    return integral * mix(mean, reflecting.albedo / lobe.albedo, fade * fade);
+    let mean = fresnel_of_parts(reflecting.fresnel, parts);
+    let sin4 = sin2 * sin2;
+    return integral * mix(mean, reflecting.albedo / lobe.albedo, sin4 * sin4);
 }
 
 // Sums over directions: GGX times the parts of a reflectance, GGX, the cosine.
@@ -268,6 +275,27 @@ struct LtcMeans {
     parts: vec4f,
     exact: f32,
     cosine: f32,
+}
+
+fn ltc_means(lobe: LtcLobe, curve: u32, curves: texture_2d<f32>, vector: vec3f) -> LtcMeans {
+    let magnitude = max(length(vector), 1e-30);
+    let centre = vector * (1.0 / magnitude);
+    let sides = irradiance_basis(centre);
+    let radius2 = LTC_RING_RADIUS * LTC_RING_RADIUS * min(magnitude / GGX_PI, 1.0);
+    let down = max(min(sqrt(radius2), (1.0 - LTC_RING_LIFT * lobe.wo.z) * centre.z), 1e-15);
+    let along = min(radius2 / down, LTC_RING_MAX);
+
+    var sums = LtcMeans(vec4f(0.0), 0.0, 0.0);
+    // The centre, and opposite points of the ring.
+    for (var i = 0; i < 5; i += 1) {
+        let level = (i & 1) == 0;
+        var radius = select(down, along, level);
+        radius = select(radius, 0.0, i == 0);
+        let side = select(radius, -radius, i > 2) * select(sides.u, sides.v, level);
+        let w = sqrt(1.0 - radius * radius) * centre + side;
+        ltc_add(&sums, lobe, curve, curves, w, select(1.0 / 6.0, 1.0 / 3.0, i == 0));
+    }
+    return sums;
 }
 
 fn ltc_add(sums: ptr<function, LtcMeans>, lobe: LtcLobe, curve: u32, curves: texture_2d<f32>, w: vec3f, weight: f32) {

@@ -1,7 +1,7 @@
 // The base under lights and environment, spheres by the pivot transform of 2017. Twin: reference/src/published.rs; base.wgsl
 // explains what is the same there.
 
-// Needs, beside its modules: lights, lobe_ltc, lobe_sptd, lobe_albedo, fresnel_curves, and the environment.
+// Needs, beside its modules: lights, lobe_shapes, lobe_sptd, lobe_albedo, fresnel_curves, and the environment.
 
 // The lobe's integrals and the diffuse form factor of a light.
 fn published_base_sphere(point: SurfacePoint, lobe: LtcLobe, reflecting: LobeFresnel, pivot: SptdLobe, light: Light) -> vec4f {
@@ -17,7 +17,7 @@ fn published_base_sphere(point: SurfacePoint, lobe: LtcLobe, reflecting: LobeFre
 
 // Radiance of the base towards the viewer, before scratches take theirs.
 fn published_base(point: SurfacePoint) -> BaseRadiance {
-    let sharp = ltc_lobe(point.wo, point.roughness, lobe_ltc, lobe_albedo);
+    let sharp = ltc_lobe(point.wo, point.roughness, lobe_shapes, lobe_albedo);
     let filtered = filtered_lobe(sharp.alpha, surface_slope_variance(point), point.wo.z);
     let reflecting = lobe_fresnel(FresnelRgb(point.f0, point.curve), point.wo, point.roughness, fresnel_curves);
     let albedo = ggx_area_reflectance(reflecting.albedo, point.f0, sharp.albedo);
@@ -41,7 +41,8 @@ fn published_base(point: SurfacePoint) -> BaseRadiance {
                 share = published_base_sphere(point, part.lobe, reflecting, pivot, light);
             }
             if HAS_POLYGONS && light.kind == LIGHT_POLYGON {
-                share = base_polygon(point, part.lobe, reflecting, light);
+                let seen = base_polygon(point, part.lobe, light);
+                share = vec4f(ltc_reflected(part.lobe, reflecting, fresnel_curves, seen.vector), seen.form_factor);
             }
             single += light.radiance * share.xyz;
             diffuse += light.radiance * share.w;

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use hairline_image::Picture;
 use hairline_optics::fresnel::FRESNEL_NODES;
-use hairline_optics::lobe_table::{self, LOBE_TABLE_SIZE, LobeTable};
+use hairline_optics::lobe_table::{self, LOBE_TABLE_SIZE};
 use hairline_optics::metal::Metal;
 use hairline_optics::table;
 use hairline_scene::environment::LEVEL_HALVINGS;
@@ -154,9 +154,19 @@ impl SceneTextures {
         let lobes = match last {
             Some(last) => last.lobes.clone(),
             None => [
-                lobe(transfer, "albedo table", lobe_table::albedo_table()).await?,
-                lobe(transfer, "polygon lobe table", lobe_table::ltc_table()).await?,
-                lobe(transfer, "sphere lobe table", lobe_table::sptd_table()).await?,
+                lobe(
+                    transfer,
+                    "albedo table",
+                    lobe_table::albedo_table().texels(),
+                )
+                .await?,
+                lobe(transfer, "lobe shapes", lobe_table::shape_texels()).await?,
+                lobe(
+                    transfer,
+                    "sphere lobe table",
+                    lobe_table::sptd_table().texels(),
+                )
+                .await?,
             ],
         };
         let environment = scene.environment.as_ref();
@@ -265,16 +275,17 @@ async fn fresnel_curves(
     Ok(texture.create_view(&Default::default()))
 }
 
+/// Tables of lobes, one under the other.
 async fn lobe(
     transfer: &mut Transfer<'_>,
     what: &'static str,
-    table: &LobeTable,
+    texels: &[[f32; 4]],
 ) -> Result<wgpu::TextureView, Error> {
-    let size = [LOBE_TABLE_SIZE as u32; 2];
+    let size = [LOBE_TABLE_SIZE, texels.len() / LOBE_TABLE_SIZE].map(|n| n as u32);
     let texture = transfer
         .texture(what, size, 1, 1, TextureFormat::Rgba32Float)
         .await?;
-    let texels = bytemuck::cast_slice(table.texels());
+    let texels = bytemuck::cast_slice(texels);
     transfer.write_texture(what, &texture, Place::default(), size, texels);
     Ok(texture.create_view(&Default::default()))
 }

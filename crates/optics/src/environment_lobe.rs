@@ -1,11 +1,12 @@
 //! The GGX lobe over an environment: a few round lobes in a row, each a look-up in a map that round lobes have blurred (docs/model.md,
 //! section 8). Twin: `environment_lobe.wgsl`.
 //!
-//! Seen along the normal GGX reflects a round lobe; seen from aside the lobe is longer in the plane of view and normal than across it.
-//! One round look-up that is as wide as it is long, which is what most renderers do, puts a seventh of the light where it does not belong
-//! at 45 degrees, a quarter at 60; it shows as highlights that are not drawn out, in a veil.
+//! Seen along the normal GGX reflects a round lobe; seen from aside the lobe is longer in the plane of view and normal than across it, and a
+//! rough one is cut by the horizon. One round look-up puts a seventh of the light where it does not belong at 45 degrees, a quarter at 60; it
+//! shows as highlights that are not drawn out, in a veil. Places, widths and shares are fitted to GGX and tabulated (`cargo xtask fit-lobes`).
 
 use crate::ggx::ggx_g1;
+use crate::lobe_table::{environment_middle_table, environment_table};
 use crate::ltc::LtcLobe;
 use glam::{DVec2, DVec3};
 
@@ -19,99 +20,73 @@ pub struct EnvironmentTap {
     pub direction: DVec3,
     /// Perceptual.
     pub roughness: f64,
-    /// Its share, but for a factor. The first one's is above zero.
+    /// Its share of the lobe, but for a factor. The first one's is above zero.
     pub weight: f64,
+    /// Its share of the lobe times (1 - cos)^5 at the half vector, but for a factor: what facets reflect beyond normal incidence. The first one's is
+    /// above zero.
+    pub grazing_weight: f64,
 }
 
-/// A lobe drawn out in the plane of view and normal.
+/// A lobe of which look-ups can be asked.
 #[derive(Clone, Copy, Debug)]
 pub struct EnvironmentLobe {
     /// The x axis of the viewer's frame in the local one.
     x_axis: DVec2,
-    /// Sine and cosine of the angle of its middle from the normal, on the side away from the viewer.
-    middle: DVec2,
+    /// Sine and cosine of the mirror direction's angle from the normal, on the side away from the viewer.
+    mirror: DVec2,
     /// GGX alpha of the surface.
     sharp: f64,
-    /// That of its normals in the plane of view and normal.
-    alpha: f64,
-    /// Of the look-up in the middle, of the two beside it and of the outer two: how far off the middle, and how wide, in alphas.
-    offsets: [f64; 3],
-    widths: [f64; 3],
+    /// That of the pixel's normals in the plane of view and normal, and across it.
+    alphas: DVec2,
+    /// The mean slope of the look-ups on the surface, over its alpha: about that the pixel's normals spread them.
+    middle: f64,
 }
 
-/// Narrower lobes are as this one: a look-up would have to be narrower than a map's texels.
-const NARROW_MIN: f64 = 0.05;
-
-/// The shares of these look-ups.
-const WEIGHTS: [f64; 3] = [0.2661, 0.2399, 0.1271];
-
-/// Where its look-ups lie, and how wide they are.
-///
-/// A smooth lobe lies about the mirror direction and is narrow by the cosine of the view, a rough one is what [`LtcLobe`] was fitted to.
-/// Offsets, widths and shares were fitted to lobes of all proportions at once: in small angles of alpha each, a lobe is
-/// 1 / (1 + x² / 4 + y² / (2 narrow)²)². Where it is round all five are one.
+/// The lobe of a viewer and of a pixel's normals.
 pub fn environment_lobe(lobe: &LtcLobe) -> EnvironmentLobe {
-    let roughness = lobe.alpha.sqrt();
-    let middle = DVec2::new(lobe.wo.x, lobe.wo.z).lerp(lobe.peak, roughness);
-    let of_normals = lobe.alphas.y / lobe.alphas.x;
-    let of_fit = (lobe.width.y * lobe.peak.y / (lobe.width.x * of_normals)).clamp(NARROW_MIN, 1.0);
-    let of_mirror = lobe.wo.z.max(NARROW_MIN);
-    // How wide it is across the plane of view and normal, over its length. A lobe that is wider than long is taken for a round one.
-    let proportion = of_mirror.powf(1.0 - roughness) * of_fit.powf(roughness) * of_normals;
-    let c = proportion.clamp(NARROW_MIN, 1.0);
-    let s2 = 1.0 - c * c;
-    let s = s2.sqrt();
-    let inner = 1.1622 * s.powf(1.5954);
+    let [middle, ..] = environment_middle_table().lookup(lobe.alpha.sqrt(), lobe.wo.z);
     EnvironmentLobe {
         x_axis: lobe.x_axis,
-        middle: middle.normalize_or(DVec2::Y),
+        mirror: DVec2::new(lobe.wo.x, lobe.wo.z),
         sharp: lobe.alpha,
-        alpha: lobe.alphas.x * proportion.max(1.0).sqrt(),
-        offsets: [0.0, inner, inner + 1.96 * s.powf(1.0574)],
-        widths: [
-            c.powf(1.2278),
-            c.powf(0.2762) * (1.0 - 0.6074 * s2),
-            c.powf(0.8323) * (1.0 + 0.6915 * s2),
-        ],
+        alphas: lobe.alphas,
+        middle,
     }
 }
 
-/// From this roughness on light that facets reflect at grazing angles alone is looked up for itself, wholly from the second on.
-const GRAZING_ROUGHNESS: [f64; 2] = [0.1, 0.5];
-/// Cosine and roughness of that look-up: (1 - c)^5 over rough lobes has its middle 0.3 to 0.36 above the horizon, whatever the viewer's angle, and
-/// half of it within 0.2 of that.
-const GRAZING_COS: f64 = 0.33;
-const GRAZING_LOOKUP_ROUGHNESS: f64 = 0.42;
+/// Masking is taken no lower: what is below the horizon counts next to nothing.
+const MASKING_MIN_COS: f64 = 1e-5;
+/// No look-up counts more than so many times what it does on a surface of equal normals.
+const SHOWN_MAX: f64 = 4.0;
 
 impl EnvironmentLobe {
-    /// Where a rough lobe has what it reflects more than at normal incidence. The weight is its share of that; the other look-ups have the rest.
-    pub fn grazing_tap(&self) -> EnvironmentTap {
-        let roughness = self.alpha.sqrt().min(1.0);
-        let [from, to] = GRAZING_ROUGHNESS;
-        let share = ((self.sharp.sqrt() - from) / (to - from)).clamp(0.0, 1.0);
-        let cos = self.middle.y + (GRAZING_COS - self.middle.y) * share;
-        let sin = (1.0 - cos * cos).max(0.0).sqrt();
-        EnvironmentTap {
-            direction: DVec3::new(-self.x_axis.x * sin, -self.x_axis.y * sin, cos),
-            roughness: roughness + (GRAZING_LOOKUP_ROUGHNESS - roughness) * share,
-            weight: share,
-        }
-    }
-
     /// Look-up `i` of [`ENVIRONMENT_TAPS`].
     pub fn environment_tap(&self, i: usize) -> EnvironmentTap {
-        let pair = i.div_ceil(2);
-        let (offset, width, weight) = (self.offsets[pair], self.widths[pair], WEIGHTS[pair]);
-        let side = if i.is_multiple_of(2) { 0.5 } else { -0.5 };
-        // Half of the angle from the middle has this tangent: the slope of the microfacet that reflects there.
-        let slope = side * offset * self.alpha;
-        let turn = DVec2::new(2.0 * slope, 1.0 - slope * slope) / (1.0 + slope * slope);
-        let sin = self.middle.x * turn.y + self.middle.y * turn.x;
-        let cos = self.middle.y * turn.y - self.middle.x * turn.x;
+        let [slope, width, weight, grazing_weight] =
+            environment_table(i).lookup(self.sharp.sqrt(), self.mirror.y);
+        let from_middle = (slope - self.middle) * self.alphas.x;
+        let (sin, cos) = turned(self.mirror, self.middle * self.sharp + from_middle);
+        let (_, equal_cos) = turned(self.mirror, slope * self.sharp);
+        // Where the pixel's normals spread it the surface hides more of it, or less.
+        let masking = |cos: f64| ggx_g1(cos.max(MASKING_MIN_COS), self.sharp);
+        let shown = (masking(cos) / masking(equal_cos)).min(SHOWN_MAX);
         EnvironmentTap {
             direction: DVec3::new(-self.x_axis.x * sin, -self.x_axis.y * sin, cos),
-            roughness: (width * self.alpha).sqrt().min(1.0),
-            weight: weight * ggx_g1(cos, self.sharp),
+            roughness: (width * (self.alphas.x * self.alphas.y).sqrt())
+                .sqrt()
+                .min(1.0),
+            weight: weight * shown,
+            grazing_weight: grazing_weight * shown,
         }
     }
+}
+
+/// Sine and cosine of the direction that a microfacet of that slope reflects to, where one without reflects to `mirror`: the tangent of half of the
+/// angle between both is the slope.
+fn turned(mirror: DVec2, slope: f64) -> (f64, f64) {
+    let turn = DVec2::new(2.0 * slope, 1.0 - slope * slope) / (1.0 + slope * slope);
+    (
+        mirror.x * turn.y + mirror.y * turn.x,
+        mirror.y * turn.y - mirror.x * turn.x,
+    )
 }

@@ -6,6 +6,7 @@
 
 use std::sync::LazyLock;
 
+use crate::environment_lobe::ENVIRONMENT_TAPS;
 use crate::fresnel::FRESNEL_NODES;
 use crate::ggx::{ggx_alpha, ggx_quadrature, unit_clamp};
 
@@ -108,6 +109,47 @@ pub fn sptd_table() -> &'static LobeTable {
     static TABLE: LazyLock<LobeTable> =
         LazyLock::new(|| LobeTable::from_bytes(include_bytes!("../data/lobe_sptd.bin")));
     &TABLE
+}
+
+/// Look-up `i` of an environment: (slope from the mirror direction over alpha, alpha over that of the surface, share, share of the lobe times
+/// (1 - cos)^5), see [`crate::environment_lobe`].
+pub fn environment_table(i: usize) -> &'static LobeTable {
+    static TABLES: LazyLock<[LobeTable; ENVIRONMENT_TAPS]> = LazyLock::new(|| {
+        let bytes = include_bytes!("../data/lobe_environment.bin");
+        let (tables, _) = bytes.as_chunks::<{ 16 * LOBE_TABLE_SIZE * LOBE_TABLE_SIZE }>();
+        std::array::from_fn(|i| LobeTable::from_bytes(&tables[i]))
+    });
+    &TABLES[i]
+}
+
+/// The mean slope of the look-ups of an environment by their shares, over alpha, in the first channel.
+pub fn environment_middle_table() -> &'static LobeTable {
+    static TABLE: LazyLock<LobeTable> = LazyLock::new(|| {
+        let middle = |node: usize| {
+            let taps = (0..ENVIRONMENT_TAPS).map(|i| environment_table(i).texels()[node]);
+            let (sum, shares) = taps.fold((0.0, 0.0), |(sum, shares), [slope, _, share, _]| {
+                (sum + slope * share, shares + share)
+            });
+            [sum / shares, 0.0, 0.0, 0.0]
+        };
+        LobeTable::new((0..LOBE_TABLE_SIZE * LOBE_TABLE_SIZE).map(middle).collect())
+    });
+    &TABLE
+}
+
+/// The nodes of [`ltc_table`], and under them those of each [`environment_table`] and of [`environment_middle_table`]: one texture,
+/// [`LOBE_TABLE_SIZE`] wide.
+pub fn shape_texels() -> &'static [[f32; 4]] {
+    static TEXELS: LazyLock<Vec<[f32; 4]>> = LazyLock::new(|| {
+        let looked_up = (0..ENVIRONMENT_TAPS).map(environment_table);
+        std::iter::once(ltc_table())
+            .chain(looked_up)
+            .chain([environment_middle_table()])
+            .flat_map(|table| table.texels())
+            .copied()
+            .collect()
+    });
+    &TEXELS
 }
 
 /// Directional albedo E0 by table.

@@ -427,25 +427,61 @@ fn ltc_rotate_pair(u: DVec3, v: DVec3) -> (DVec3, DVec3) {
 const RING_RADIUS: f64 = 0.866_025_403_784_438_6;
 const RING_WEIGHT: f64 = 1.0 / 6.0;
 const CENTRE_WEIGHT: f64 = 1.0 / 3.0;
+/// How far the ring may go down from its centre, over the centre's height above the horizon: 1 less this times the viewer's cosine. GGX rises
+/// steeply near the horizon, the more the flatter the view.
+const RING_LIFT: f64 = 0.12;
+/// The longest half-axis of the ring.
+const RING_MAX: f64 = 0.97;
+/// The share of the cosine from which on the rest of the hemisphere counts, more and more up to the whole.
+const REST_FROM: f64 = 0.3;
 
 /// What the lobe reflects, from the light's vector irradiance in the cosine's space: E0 times the share of the cosine, times
-/// the mean of GGX over the fit; then that, times the mean of Fresnel's reflectance over GGX.
+/// the mean of GGX over the fit ([`ltc_means`]); then that, times the mean of Fresnel's reflectance over GGX.
 ///
-/// The means are taken over the circular cap that has the same irradiance. They fade as the light comes to fill the hemisphere,
-/// where the albedos are exact.
+/// What is missing in E0 is the same integral over the part of the hemisphere that the light leaves free. Of a light and the rest the smaller is
+/// the better known, so with a growing share the result goes over from the one to the other. The means fade as the light comes to fill the
+/// hemisphere, where the albedos are exact. The numbers here are chosen by the measured errors of docs/lobes.md.
 fn ltc_reflected(lobe: &LtcLobe, of: &LobeFresnel, vector: DVec3) -> [f64; 3] {
     let share = (vector.z / PI).clamp(0.0, 1.0);
-    let length = vector.length();
     if share <= 0.0 {
         return [0.0; 3];
     }
+    let sin2 = (vector.length() / PI).min(1.0);
+    let e0 = lobe.albedo;
+    let (light, parts) = ltc_means(lobe, of, vector);
+    let fade = sin2.powf(2.0 + 12.0 * lobe.wo.z * lobe.wo.z);
+    // A part returns no more than the whole.
+    let mut integral = (share * (light + fade * (e0 - light))).min(e0);
+    let x = ((share - REST_FROM) / (1.0 - REST_FROM)).max(0.0);
+    let by_rest = x * x * (3.0 - 2.0 * x);
+    if by_rest > 0.0 {
+        let (rest, _) = ltc_means(lobe, of, PI * DVec3::Z - vector);
+        let missing = ((1.0 - share) * rest).min(e0);
+        integral += by_rest * (e0 - missing - integral);
+    }
+    // A mean over some directions or other: whatever it is made of, a reflectance stays within its range.
+    let mean = of.fresnel.of_parts(parts);
+    let fade = (sin2 * sin2) * (sin2 * sin2);
+    std::array::from_fn(|ch| integral * (mean[ch] + fade * (of.albedo[ch] / e0 - mean[ch])))
+}
+
+/// The mean of GGX over the fit, times E0; and the means of the parts of a reflectance over GGX. From the vector irradiance of what they are
+/// taken over: at five directions of the circular cap that has the same irradiance. Where that would go below the horizon its ring is
+/// flattened to an ellipse of the same area above it.
+fn ltc_means(lobe: &LtcLobe, of: &LobeFresnel, vector: DVec3) -> (f64, [f64; 4]) {
+    let length = vector.length().max(1e-30);
     let centre = vector / length;
-    let sin2 = (length / PI).min(1.0);
     let (u, v) = irradiance_basis(centre);
-    let radius = RING_RADIUS * sin2.sqrt();
-    let height = (1.0 - radius * radius).max(0.0).sqrt();
-    let (up, u, v) = (height * centre, radius * u, radius * v);
-    let points = [centre, up + u, up + v, up - u, up - v];
+    let radius2 = RING_RADIUS * RING_RADIUS * (length / PI).min(1.0);
+    let depth = (1.0 - RING_LIFT * lobe.wo.z) * centre.z;
+    let down = radius2.sqrt().min(depth).max(1e-15);
+    let along = (radius2 / down).min(RING_MAX);
+    let (at_u, at_v) = (
+        (1.0 - down * down).sqrt() * centre,
+        (1.0 - along * along).sqrt() * centre,
+    );
+    let (u, v) = (down * u, along * v);
+    let points = [centre, at_u + u, at_v + v, at_u - u, at_v - v];
     let mut weights = [RING_WEIGHT; 5];
     weights[0] = CENTRE_WEIGHT;
     let (values, cosines) = ltc_exact_over_jacobian(lobe, points);
@@ -462,19 +498,10 @@ fn ltc_reflected(lobe: &LtcLobe, of: &LobeFresnel, vector: DVec3) -> [f64; 3] {
             parts[k] += value * at[k];
         }
     }
-    let corrected = PI * exact / cosine.max(1e-30);
-    let fade = sin2 * sin2;
-    let e0 = lobe.albedo;
-    // A part returns no more than the whole.
-    let integral = (share * (corrected + fade * (e0 - corrected))).min(e0);
-    // A mean over some directions or other: whatever it is made of, a reflectance stays within its range.
-    let mean = of
-        .fresnel
-        .of_parts(parts.map(|part| part / exact.max(1e-30)));
-    std::array::from_fn(|ch| {
-        let whole = of.albedo[ch] / e0;
-        integral * (mean[ch] + fade * fade * (whole - mean[ch]))
-    })
+    (
+        PI * exact / cosine.max(1e-30),
+        parts.map(|part| part / exact.max(1e-30)),
+    )
 }
 
 /// GGX of the lobe's normals at the directions that each `w` stands for, times the solid angle there per solid angle at w; and the cosine at the half vector.

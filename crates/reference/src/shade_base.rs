@@ -116,7 +116,7 @@ fn diffuse(
 
 /// What a lobe reflects of an environment, single scattering.
 ///
-/// What facets reflect at normal incidence is the whole lobe's; what they reflect beyond that comes from where rough lobes graze.
+/// What facets reflect at normal incidence is the whole lobe's; what they reflect beyond that comes more from where the lobe grazes.
 fn reflected(
     environment: &Environment,
     point: &SurfacePoint,
@@ -127,18 +127,14 @@ fn reflected(
     let taps: [_; ENVIRONMENT_TAPS] = std::array::from_fn(|i| looked_up.environment_tap(i));
     let directions = taps.map(|tap| point.world_from_surface(tap.direction));
     let radiance = environment.prefiltered_all(directions, taps.map(|tap| tap.roughness));
-    let (mut all, mut weights) = (DVec3::ZERO, 0.0);
+    let (mut all, mut grazing) = (DVec3::ZERO, DVec3::ZERO);
+    let (mut weights, mut grazing_weights) = (0.0, 0.0);
     for (tap, radiance) in taps.iter().zip(radiance) {
         weights += tap.weight;
-        // A running mean, which of equal values is exact.
+        grazing_weights += tap.grazing_weight;
+        // Running means, which of equal values are exact.
         all += (radiance - all) * (tap.weight / weights);
-    }
-    let mut grazing = all;
-    let tap = looked_up.grazing_tap();
-    if tap.weight > 0.0 {
-        let direction = point.world_from_surface(tap.direction);
-        let [there] = environment.prefiltered_all([direction], [tap.roughness]);
-        grazing += (there - all) * tap.weight;
+        grazing += (radiance - grazing) * (tap.grazing_weight / grazing_weights);
     }
     let normal = DVec3::from(of.fresnel.f0) * lobe.albedo;
     normal * all + (DVec3::from(of.albedo) - normal) * grazing

@@ -23,10 +23,15 @@ fn v(x: f64, y: f64, z: f64) -> DVec3 {
 
 /// `table_0` to `table_3` of the snippets.
 fn tables() -> [Table<'static>; 4] {
-    let lobes = [ltc_table(), albedo_table(), sptd_table()].map(|table| Table {
-        size: [LOBE_TABLE_SIZE as u32; 2],
+    let lobes = [
+        shape_texels(),
+        albedo_table().texels(),
+        sptd_table().texels(),
+    ]
+    .map(|texels| Table {
+        size: [LOBE_TABLE_SIZE, texels.len() / LOBE_TABLE_SIZE].map(|n| n as u32),
         layers: None,
-        texels: Texels::Floats(table.texels()),
+        texels: Texels::Floats(texels),
     });
     static TEXELS: LazyLock<Vec<[f32; 4]>> = LazyLock::new(|| {
         let curves = CURVES.iter();
@@ -458,7 +463,7 @@ fn filtered_lobes() {
                 y[p] = ltc_sphere(part.lobe, reflecting, table_3, axis, x[7]).y / x[8];
                 y[2u + p] = part.weight;
                 y[4u + p] = part.lobe.alphas[p];
-                y[6u + p] = environment_tap(environment_lobe(part.lobe), 2u).roughness;
+                y[6u + p] = environment_tap(environment_lobe(part.lobe, table_0), table_0, 2u).roughness;
             }",
         tables: &tables,
         expected: &|row| {
@@ -588,12 +593,13 @@ fn polygons() {
 }
 
 /// A look-up of whatever viewer is somewhere, no wider than any lobe, and the first one counts.
-fn is_tap(i: usize, [x, y, z, roughness, weight]: [f64; 5]) -> bool {
+fn is_tap(i: usize, [x, y, z, roughness, weight, grazing_weight]: [f64; 6]) -> bool {
     let length = (x * x + y * y + z * z).sqrt();
     (length - 1.0).abs() < 1e-4
         && (0.0..=1.0).contains(&roughness)
-        && (0.0..=1.0).contains(&weight)
-        && (i > 0 || weight > 1e-3)
+        && [weight, grazing_weight]
+            .into_iter()
+            .all(|w| (0.0..=1.0).contains(&w) && (i > 0 || w > 1e-3))
 }
 
 #[test]
@@ -610,15 +616,15 @@ fn environments() {
         name: "environment_tap",
         modules: &[&shaders::ENVIRONMENT_LOBE],
         snippet: "let lobe = ltc_lobe(vec3f(x[0], x[1], x[2]), x[3], table_0, table_1);
-            let tap = environment_tap(environment_lobe(lobe), u32(x[4]));
+            let tap = environment_tap(environment_lobe(lobe, table_0), table_0, u32(x[4]));
             y[0] = tap.direction.x; y[1] = tap.direction.y; y[2] = tap.direction.z;
-            y[3] = tap.roughness; y[4] = tap.weight;",
+            y[3] = tap.roughness; y[4] = tap.weight; y[5] = tap.grazing_weight;",
         tables: &tables,
         expected: &|[x, y, z, roughness, i]: [f64; 5]| {
             let lobe = environment_lobe(&ltc_lobe(v(x, y, z), roughness));
             let tap = lobe.environment_tap(i as usize);
             let d = tap.direction;
-            let values = [d.x, d.y, d.z, tap.roughness, tap.weight];
+            let values = [d.x, d.y, d.z, tap.roughness, tap.weight, tap.grazing_weight];
             assert!(
                 is_tap(i as usize, values),
                 "{x} {y} {z} {roughness}: {tap:?}"

@@ -4,4 +4,5 @@ mod accuracy;
 mod cubature;
 mod environment;
 mod filtered;
+mod horizon;
 mod limits;
