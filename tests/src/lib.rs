@@ -4,8 +4,8 @@ pub mod two_renderers;
 
 use glam::{DVec3, Vec2, Vec3, Vec4};
 use hairline_scene::{
-    Base, Camera, Environment, Light, Material, Mesh, Object, RenderSettings, Scene, Scratch,
-    Segment,
+    Base, Camera, Environment, Light, Material, Mesh, Object, Profile, RenderSettings, Scene,
+    Scratch, Segment,
 };
 use std::path::Path;
 use std::sync::Arc;
@@ -118,8 +118,7 @@ pub fn lay(
         triangle: 0,
     }));
     Arc::make_mut(&mut object.scratches).push(Scratch {
-        width_um,
-        depth_nm,
+        profile: Profile { width_um, depth_nm },
         layer: 0,
         closed: false,
         segments: first..first + pieces,

@@ -1,11 +1,11 @@
 //! Both renderers' pictures of a scene, and how much they differ.
 
 use glam::DVec2;
+use hairline_cpu::closed_form;
 use hairline_gpu::headless;
 use hairline_image::metrics::{away_from_silhouettes, layer_difference};
 use hairline_image::{Image, Layer};
 use hairline_index::TriangleIndex;
-use hairline_reference::closed_form;
 use hairline_scene::Scene;
 
 /// A scene so many pixels wide, its proportions kept.

@@ -1,11 +1,14 @@
 //! What is not cargo's own. `cargo xtask COMMAND`; each command is one file.
 
 mod accuracy;
+mod dist;
 mod fit_lobes;
 mod fuzz;
 mod make_models;
 mod pictures;
+mod rooms;
 mod shaders;
+mod touches;
 
 use clap::Parser;
 
@@ -14,6 +17,8 @@ use clap::Parser;
 enum Command {
     /// Measure closed form, separable model and full one against each other, and write docs/accuracy.md.
     Accuracy(accuracy::Accuracy),
+    /// Make an archive of the program with scenes, docs and licences, for Linux.
+    Dist(dist::Dist),
     /// Fit the tables of the area-light lobes and write them to crates/optics/data.
     FitLobes(fit_lobes::FitLobes),
     /// Run mutated inputs through the command line: no panic, no hang, no flood of memory.
@@ -22,17 +27,24 @@ enum Command {
     MakeModels(make_models::MakeModels),
     /// Render the pictures of the docs into docs/pictures.
     Pictures(pictures::Pictures),
+    /// Find modules that import each other in a circle; there must be none.
+    Rooms(rooms::Rooms),
     /// Write the shaders as JSON, for tests/tint.
     Shaders(shaders::Shaders),
+    /// Count the files that a new groove parameter and a new light shape would touch.
+    Touches(touches::Touches),
 }
 
 fn main() -> anyhow::Result<()> {
     match Command::parse() {
         Command::Accuracy(command) => command.run(),
+        Command::Dist(command) => command.run(),
         Command::FitLobes(command) => command.run(),
         Command::Fuzz(command) => command.run(),
         Command::MakeModels(command) => command.run(),
         Command::Pictures(command) => command.run(),
+        Command::Rooms(command) => command.run(),
         Command::Shaders(command) => command.run(),
+        Command::Touches(command) => command.run(),
     }
 }

@@ -7,11 +7,11 @@ use std::convert::Infallible;
 use std::sync::Arc;
 
 use anyhow::anyhow;
+use hairline_cpu::closed_form::{self, Prepared};
 use hairline_gpu::{AdapterKind, AdapterRequest, Gpu, headless};
 use hairline_image::Image;
+use hairline_index::method::{Method, Structure};
 use hairline_index::{ScratchIndex, Watch};
-use hairline_optics::method::{Method, Structure};
-use hairline_reference::closed_form::{self, Prepared};
 use hairline_scene::{Scene, ScratchTables};
 
 use crate::cli::Backend;

@@ -2,8 +2,8 @@
 
 use anyhow::anyhow;
 use clap::{Args, ValueEnum};
+use hairline_index::method::{Method, PublishedMethod, Structure};
 use hairline_optics::mask;
-use hairline_optics::method::{Method, PublishedMethod, Structure};
 use hairline_optics::published::sine_integral::SineIntegral;
 
 use crate::cli::Switch;

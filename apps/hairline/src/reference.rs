@@ -9,7 +9,7 @@ use std::time::Duration;
 use anyhow::anyhow;
 use hairline_image::{Display, Format, Output};
 use hairline_optics::mask::Mask;
-use hairline_reference::monte_carlo::{BATCH_SAMPLES, Integrator, Model, Settings};
+use hairline_reference::{BATCH_SAMPLES, Integrator, Model, Settings};
 
 use crate::cli;
 use crate::console::tell;

@@ -10,7 +10,7 @@ use std::path::Path;
 use anyhow::anyhow;
 use hairline_image::exr_file::Notes;
 use hairline_image::{Animation, Display, Image, Output};
-use hairline_optics::method::Method;
+use hairline_index::method::Method;
 
 use crate::backend::{Painter, Task};
 use crate::failure::Failure;

@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 use anyhow::anyhow;
 use hairline_image::ToneMap;
 use hairline_scene::description::Description;
+use hairline_scene::estimate::Estimate;
 use hairline_scene::inputs::{Input, is_same_file};
-use hairline_scene::memory::{self, Estimate};
+use hairline_scene::memory;
 use hairline_scene::{Loader, Scene, SceneBuilder, Stage, reading};
 
 use crate::cli::Highlight;

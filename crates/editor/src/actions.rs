@@ -61,7 +61,7 @@ fn listed(names: &[String]) -> String {
 
 /// `name`, or `name 2`, `name 3`, the first that is not taken. A number at the end counts on: "steel 2" goes on to
 /// "steel 3".
-pub fn unique_name<'n>(name: &str, taken: impl Iterator<Item = &'n str> + Clone) -> String {
+pub(crate) fn unique_name<'n>(name: &str, taken: impl Iterator<Item = &'n str> + Clone) -> String {
     let is_free = |name: &str| !taken.clone().any(|other| other == name);
     if is_free(name) && !name.is_empty() {
         return name.to_owned();

@@ -78,14 +78,6 @@ impl Bookmarks {
         name
     }
 
-    /// Gives one another name.
-    pub fn rename(&mut self, index: usize, name: &str) {
-        if let Some(bookmark) = self.list.get_mut(index) {
-            bookmark.name = name.to_owned();
-            self.write();
-        }
-    }
-
     /// Forgets one.
     pub fn remove(&mut self, index: usize) {
         if index < self.list.len() {
@@ -201,7 +193,6 @@ mod tests {
         bookmarks.open(Some(&a));
         assert_eq!(bookmarks.add(camera(0.1)), "View 1");
         assert_eq!(bookmarks.add(camera(0.2)), "View 2");
-        bookmarks.rename(0, "rim, \"close\"");
         let of_a = bookmarks.list().to_vec();
         bookmarks.open(Some(&b));
         assert!(bookmarks.list().is_empty());

@@ -66,7 +66,7 @@ impl Document {
 
     /// A scene that no file holds as it is, though it belongs to one at `path`, if it has one: what an autosave kept. It
     /// counts as modified until it is saved.
-    pub fn recovered(
+    pub(crate) fn recovered(
         description: Description,
         path: Option<PathBuf>,
         base_dir: impl Into<PathBuf>,

@@ -6,7 +6,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::Arc;
 
 use hairline_scene::Description;
-use hairline_scene::description::{LightKind, Stroke};
+use hairline_scene::description::Stroke;
 
 use crate::Selection;
 
@@ -67,7 +67,7 @@ pub(crate) struct History {
 
 impl History {
     #[cfg(test)]
-    pub fn with_bounds(bounds: Bounds) -> Self {
+    pub(crate) fn with_bounds(bounds: Bounds) -> Self {
         Self {
             bounds,
             ..Self::default()
@@ -92,7 +92,7 @@ impl History {
     }
 
     /// What the newest step leaves selected.
-    pub fn set_newest_selection(&mut self, selection: Selection) {
+    pub(crate) fn set_newest_selection(&mut self, selection: Selection) {
         if let Some(step) = self.undo.back_mut() {
             step.selection_here = selection;
         }
@@ -123,7 +123,10 @@ impl History {
     }
 
     /// Changes every kept description alike. Steps that share one share the changed one.
-    pub fn rewrite(&mut self, change: &mut dyn FnMut(&Arc<Description>) -> Arc<Description>) {
+    pub(crate) fn rewrite(
+        &mut self,
+        change: &mut dyn FnMut(&Arc<Description>) -> Arc<Description>,
+    ) {
         for step in self.undo.iter_mut().chain(&mut self.redo) {
             step.other.description = change(&step.other.description);
         }
@@ -168,10 +171,10 @@ fn estimated_bytes(description: &Description) -> usize {
         .iter()
         .flat_map(|layer| &layer.strokes);
     let stroke_bytes = strokes.map(|s| size_of::<Stroke>() + size_of_val(&s.points_m[..]));
-    let lights = description.lights.iter().map(|light| match &light.kind {
-        LightKind::Polygon { vertices_m, .. } => size_of_val(&vertices_m[..]),
-        LightKind::Sphere { .. } => 0,
-    });
+    let lights = description
+        .lights
+        .iter()
+        .map(|light| size_of_val(light.kind.vertices_m()));
     TABLE_BYTES * (1 + tables) + stroke_bytes.sum::<usize>() + lights.sum::<usize>()
 }
 

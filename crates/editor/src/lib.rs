@@ -1,6 +1,23 @@
 //! What an artist does to a scene, without any user interface: a document with undo, the actions on it, what the controls
 //! of a panel need to know, and the tools that move cameras and lights or draw scratches.
 //!
+//! ```
+//! use hairline_editor::Document;
+//!
+//! let text = r#"
+//! camera = { position_m = [0.0, -0.2, 0.3], target_m = [0.0, 0.0, 0.0], up = [0.0, 0.0, 1.0] }
+//! material = [{ name = "steel", kind = "metal", metal = "steel" }]
+//! object = [{ name = "plate", shape = { disk = { radius_m = 0.08 } }, material = "steel" }]
+//! "#;
+//! let description = Document::read(text, "new.toml".as_ref())?;
+//! let mut document = Document::untitled(description, ".");
+//! document.edit("Exposure", |scene| scene.camera.exposure_ev = 1.0);
+//! assert!(document.is_modified());
+//! document.undo();
+//! assert_eq!(document.description().camera.exposure_ev, 0.0);
+//! # Ok::<(), hairline_scene::Error>(())
+//! ```
+//!
 //! The document is a [`Description`](hairline_scene::Description), the scene file itself, so what is edited is what is
 //! saved. Nothing here draws, waits or starts a thread; only opening and saving of a [`Document`], [`autosave`] and
 //! [`recent`] touch files.

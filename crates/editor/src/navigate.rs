@@ -4,6 +4,7 @@
 
 use glam::{DQuat, DVec2, DVec3};
 use hairline_scene::CameraFrame;
+use hairline_scene::camera::framing;
 use hairline_scene::description::Camera;
 use hairline_scene::description::limits;
 
@@ -15,7 +16,7 @@ const TURN_PER_HEIGHT_RAD: f64 = std::f64::consts::PI;
 const STEP_FACTOR: f64 = 0.88;
 /// The target is never nearer than this, nor farther than that.
 const DISTANCES_M: std::ops::RangeInclusive<f64> = 10.0 * limits::SMALLEST_M..=limits::LARGEST_M;
-/// How much of the view, on its tighter side, a framed box fills: a margin of 6 % stays on each side.
+/// How much of the view, on its tighter side, what is framed fills: a margin of 6 % stays on each side.
 const FRAMED_SHARE: f64 = 0.88;
 
 /// Turns the camera about its target by a drag: the surface follows the pointer. Goes no further than above and below the
@@ -71,42 +72,28 @@ pub fn center_on(camera: &mut Camera, point_m: DVec3) {
     shift(camera, point_m - DVec3::from(camera.target_m));
 }
 
-/// Moves the camera so that a box fills the view, without turning it. The target comes to the depth of the box's middle.
+/// Moves the camera so that some points fill the view, without turning it. The target comes to the depth of their middle.
 ///
-/// `aspect` is the view's width over its height. A box without extent is only centred; the bounds
-/// of nothing change nothing.
-pub fn frame_box(camera: &mut Camera, low_m: DVec3, high_m: DVec3, aspect: f64) {
-    let middle = 0.5 * (low_m + high_m);
-    let is_box = low_m.is_finite() && high_m.is_finite() && low_m.cmple(high_m).all();
-    if !is_box {
+/// `aspect` is the view's width over its height. Points without extent are only centred; none change nothing.
+pub fn frame_points(camera: &mut Camera, points_m: &[DVec3], aspect: f64) {
+    let low = points_m.iter().copied().fold(DVec3::INFINITY, DVec3::min);
+    let high = points_m
+        .iter()
+        .copied()
+        .fold(DVec3::NEG_INFINITY, DVec3::max);
+    if !(low.is_finite() && high.is_finite()) {
         return;
     }
-    if low_m.distance(high_m) < limits::SMALLEST_M {
-        center_on(camera, middle);
+    if low.distance(high) < limits::SMALLEST_M {
+        center_on(camera, 0.5 * (low + high));
         return;
     }
     let axes = Axes::of(camera);
     let tan_y = half_fov_tan(camera) * FRAMED_SHARE;
     let tan = DVec2::new(tan_y * aspect.max(1e-3), tan_y);
-    // A corner at (x, z), right of and in front of the middle, is in view from (cx, cz) if |x - cx| <= (z - cz) tan: so
-    // cz <= (min(x + z tan) - max(x - z tan)) / (2 tan) suffices for some cx, and the middle of those cx is the best. Likewise
-    // upwards.
-    let (mut nearest, mut least, mut most) = (f64::INFINITY, DVec2::INFINITY, DVec2::NEG_INFINITY);
-    for corner in corners(low_m, high_m) {
-        let corner = corner - middle;
-        let flat = DVec2::new(corner.dot(axes.right), corner.dot(axes.up));
-        let depth = corner.dot(axes.forward);
-        least = least.min(flat + depth * tan);
-        most = most.max(flat - depth * tan);
-        nearest = nearest.min(depth);
-    }
-    let cz = ((least - most) / (2.0 * tan)).min_element();
-    // Of a box seen along a face without extent nothing holds the camera back from entering it.
-    let cz = cz.min(nearest - *DISTANCES_M.start());
-    let c = 0.5 * (least + most);
-    let position = middle + axes.right * c.x + axes.up * c.y + axes.forward * cz;
-    camera.position_m = position.into();
-    camera.target_m = (position - axes.forward * cz).into();
+    let view = framing(points_m, [axes.right, axes.up, axes.forward], tan);
+    camera.position_m = view.position_m.into();
+    camera.target_m = view.target_m.into();
 }
 
 /// The height of the view at the depth of a point, in metres.

@@ -93,22 +93,18 @@ impl LayerPreset {
         };
         let drawn = |mean, spread| Distribution { mean, spread };
         // Patterns, the share of the surface that scratches cover, and their lengths, widths and depths.
-        let (pattern, cover, length_m, width_um, depth_nm) = match self {
+        let (pattern, cover, sizes) = match self {
             Self::RandomWear => (
                 Pattern::Random {
                     curvature_per_m: drawn(0.0, 1.8 / d),
                 },
                 0.014,
-                drawn(0.13 * d, 0.6),
-                drawn(4.0, 0.12),
-                drawn(195.0, 0.12),
+                [drawn(0.13 * d, 0.6), drawn(4.0, 0.12), drawn(195.0, 0.12)],
             ),
             Self::TurnedPan => (
                 Pattern::Circular(around(3.0)),
                 0.05,
-                drawn(0.4 * d, 0.6),
-                drawn(5.0, 0.1),
-                drawn(180.0, 0.12),
+                [drawn(0.4 * d, 0.6), drawn(5.0, 0.1), drawn(180.0, 0.12)],
             ),
             Self::BrushedSteel => (
                 Pattern::Parallel {
@@ -116,16 +112,12 @@ impl LayerPreset {
                     jitter_deg: 1.5,
                 },
                 0.05,
-                drawn(0.25 * d, 0.6),
-                drawn(3.0, 0.12),
-                drawn(165.0, 0.12),
+                [drawn(0.25 * d, 0.6), drawn(3.0, 0.12), drawn(165.0, 0.12)],
             ),
             Self::PolishedWatch => (
                 Pattern::Radial(around(1.5)),
                 0.05,
-                drawn(0.2 * d, 0.4),
-                drawn(3.0, 0.1),
-                drawn(150.0, 0.1),
+                [drawn(0.2 * d, 0.4), drawn(3.0, 0.1), drawn(150.0, 0.1)],
             ),
             Self::SpunDisk => (
                 Pattern::Spun {
@@ -133,37 +125,26 @@ impl LayerPreset {
                     curvature_per_m: drawn(4.0 / d, 0.2 / d),
                 },
                 0.05,
-                drawn(0.3 * d, 0.4),
-                drawn(4.0, 0.1),
-                drawn(185.0, 0.1),
+                [drawn(0.3 * d, 0.4), drawn(4.0, 0.1), drawn(185.0, 0.1)],
             ),
             Self::WornCutlery => (
                 Pattern::Random {
                     curvature_per_m: drawn(0.0, 5.0 / d),
                 },
                 0.02,
-                drawn(0.08 * d, 0.9),
-                drawn(3.5, 0.2),
-                drawn(210.0, 0.15),
+                [drawn(0.08 * d, 0.9), drawn(3.5, 0.2), drawn(210.0, 0.15)],
             ),
             Self::FingernailSwirls => (
                 Pattern::Swirl {
                     curvature_per_m: drawn(25.0 / d, 9.0 / d),
                 },
                 0.01,
-                drawn(0.04 * d, 0.5),
-                drawn(3.0, 0.15),
-                drawn(160.0, 0.12),
+                [drawn(0.04 * d, 0.5), drawn(3.0, 0.15), drawn(160.0, 0.12)],
             ),
         };
-        let layer = Layer::Laid(Laid {
-            pattern,
-            amount: Amount::Count(count(cover, length_m.mean, width_um.mean, d)),
-            seed: 1,
-            length_m,
-            width_um,
-            depth_nm,
-        });
+        let [length_m, width_um, _] = sizes;
+        let count = count(cover, length_m.mean, width_um.mean, d);
+        let layer = Layer::Laid(Laid::new(pattern, Amount::Count(count), sizes));
         Scratches {
             name: Some(self.name().to_lowercase()),
             ..Scratches::new(object, layer)
@@ -173,23 +154,11 @@ impl LayerPreset {
 
 /// The layer that a brush of this radius begins.
 pub fn drawn_layer(object: impl Into<String>, radius_m: f64) -> Scratches {
-    let layer = Layer::Brushed(Brushed {
-        // Some of them are lit, wherever the stroke runs.
-        jitter_deg: 15.0,
-        seed: 1,
-        length_m: Distribution {
-            mean: (1.5 * radius_m).clamp(1e-4, 10.0),
-            spread: 0.5,
-        },
-        width_um: Distribution {
-            mean: 4.0,
-            spread: 0.12,
-        },
-        depth_nm: Distribution {
-            mean: 195.0,
-            spread: 0.12,
-        },
-    });
+    let drawn = |mean, spread| Distribution { mean, spread };
+    let length_m = (1.5 * radius_m).clamp(1e-4, 10.0);
+    let sizes = [drawn(length_m, 0.5), drawn(4.0, 0.12), drawn(195.0, 0.12)];
+    // Some of them are lit, wherever the stroke runs.
+    let layer = Layer::Brushed(Brushed::new(15.0, sizes));
     Scratches {
         name: Some("drawn".to_owned()),
         ..Scratches::new(object, layer)
@@ -304,7 +273,7 @@ impl MaterialPreset {
 }
 
 /// The material of shapes in a scene that has none.
-pub fn plain_steel() -> Material {
+pub(crate) fn plain_steel() -> Material {
     MaterialPreset::Metal(Metal::StainlessSteel).material()
 }
 
@@ -378,22 +347,16 @@ impl LightPreset {
         let rectangle = |width: f64, height: f64| {
             let [x, y] = [side, up.cross(side)].map(|axis| axis * (0.5 * d));
             let corner = |a: f64, b: f64| (center + x * (a * width) + y * (b * height)).into();
-            LightKind::Polygon {
-                vertices_m: vec![
-                    corner(-1.0, -1.0),
-                    corner(-1.0, 1.0),
-                    corner(1.0, 1.0),
-                    corner(1.0, -1.0),
-                ],
-                two_sided: false,
-            }
+            LightKind::polygon(vec![
+                corner(-1.0, -1.0),
+                corner(-1.0, 1.0),
+                corner(1.0, 1.0),
+                corner(1.0, -1.0),
+            ])
         };
         let (kind, radiance, color) = match self {
             Self::SmallLamp => (
-                LightKind::Sphere {
-                    center_m: center.into(),
-                    radius_m: 0.015 * d,
-                },
+                LightKind::sphere(center.into(), 0.015 * d),
                 200.0,
                 [1.0, 0.95, 0.88],
             ),

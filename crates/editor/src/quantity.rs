@@ -173,11 +173,6 @@ pub struct Shown {
 }
 
 impl Shown {
-    /// What stands behind the number, with the space that belongs there.
-    pub fn symbol(&self) -> &'static str {
-        self.symbol
-    }
-
     /// A number of the parameter's own unit.
     pub fn text(&self, value: f64) -> String {
         let number = value / self.factor;

@@ -130,11 +130,12 @@ pub struct Range {
 }
 
 /// The diagonal of an object that is not known yet: a pan's.
-pub const DEFAULT_DIAGONAL_M: f64 = 0.3;
+pub(crate) const DEFAULT_DIAGONAL_M: f64 = 0.3;
 
 impl Parameter {
     /// Every parameter.
-    pub const ALL: [Self; 47] = [
+    #[cfg(test)]
+    pub(crate) const ALL: [Self; 47] = [
         Self::CameraPosition,
         Self::CameraTarget,
         Self::CameraUp,

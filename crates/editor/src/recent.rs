@@ -4,8 +4,6 @@ use std::path::{Path, PathBuf};
 
 use hairline_image::output::write_atomically;
 
-use crate::folders;
-
 /// So many are kept.
 const MOST: usize = 12;
 
@@ -17,14 +15,6 @@ pub struct Recent {
 }
 
 impl Recent {
-    /// The user's list.
-    pub fn of_user() -> Self {
-        match folders::config_dir() {
-            Some(folder) => Self::load(folder.join("recent.toml")),
-            None => Self::default(),
-        }
-    }
-
     /// The list that is stored in a file, or an empty one that will be.
     pub fn load(store: impl Into<PathBuf>) -> Self {
         let store = store.into();

@@ -38,7 +38,7 @@ impl Selection {
 
     /// Itself if the description has it, else the last of its kind, else nothing.
     #[must_use]
-    pub fn held_by(self, description: &Description) -> Self {
+    pub(crate) fn held_by(self, description: &Description) -> Self {
         let last = |n: usize, make: fn(usize) -> Self| n.checked_sub(1).map_or(Self::None, make);
         match self {
             held if held.is_in(description) => held,

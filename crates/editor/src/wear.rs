@@ -65,48 +65,38 @@ impl Kind {
     fn layer(self, wear: Wear, object: &str, diagonal_m: f64) -> Option<Scratches> {
         let d = diagonal_m;
         let drawn = |mean, spread| Distribution { mean, spread };
-        let (pattern, length_m, width_um, depth_nm) = match self {
+        let (pattern, sizes) = match self {
             Self::Hairlines => (
                 Pattern::Random {
                     curvature_per_m: drawn(0.0, 1.5 / d),
                 },
-                drawn(0.1 * d, 0.7),
-                drawn(2.2, 0.15),
-                drawn(130.0, 0.15),
+                [drawn(0.1 * d, 0.7), drawn(2.2, 0.15), drawn(130.0, 0.15)],
             ),
             Self::Swirls => (
                 Pattern::Swirl {
                     curvature_per_m: drawn(16.0 / d, 6.0 / d),
                 },
-                drawn(0.05 * d, 0.5),
-                drawn(3.0, 0.15),
-                drawn(160.0, 0.12),
+                [drawn(0.05 * d, 0.5), drawn(3.0, 0.15), drawn(160.0, 0.12)],
             ),
             Self::Marks => (
                 Pattern::Random {
                     curvature_per_m: drawn(0.0, 5.0 / d),
                 },
-                drawn(0.07 * d, 0.9),
-                drawn(4.5, 0.2),
-                drawn(210.0, 0.15),
+                [drawn(0.07 * d, 0.9), drawn(4.5, 0.2), drawn(210.0, 0.15)],
             ),
             Self::Gouges => (
                 Pattern::Random {
                     curvature_per_m: drawn(0.0, 2.5 / d),
                 },
-                drawn(0.16 * d, 0.6),
-                drawn(9.0, 0.3),
-                drawn(330.0, 0.25),
+                [drawn(0.16 * d, 0.6), drawn(9.0, 0.3), drawn(330.0, 0.25)],
             ),
         };
         let cover = self.cover(wear);
+        let [length_m, width_um, _] = sizes;
+        let count = count(cover, length_m.mean, width_um.mean, d);
         let layer = Layer::Laid(Laid {
-            pattern,
-            amount: Amount::Count(count(cover, length_m.mean, width_um.mean, d)),
             seed: 0x57 + self as u64,
-            length_m,
-            width_um,
-            depth_nm,
+            ..Laid::new(pattern, Amount::Count(count), sizes)
         });
         (cover > 0.0).then(|| Scratches {
             name: Some(self.name().to_owned()),
@@ -148,7 +138,7 @@ impl Wear {
 }
 
 /// Whether a layer is one of wear, by its name.
-pub fn is_wear(layer: &Scratches) -> bool {
+pub(crate) fn is_wear(layer: &Scratches) -> bool {
     let name = layer.name.as_deref();
     Kind::ALL.iter().any(|kind| name == Some(kind.name()))
 }

@@ -1,4 +1,4 @@
-//! What the passes bind, group by group. Twin: `shaders/bindings.wgsl`.
+//! What the passes bind, group by group. Twin: `shaders/scene/bindings.wgsl`.
 //!
 //! Group 0 the frame, group 1 the scene's arrays, group 2 its tables and textures; group 3 is each pass's own. Of the 16 sampled
 //! textures of a WebGPU stage 14 are taken, one more by passes that read visibility; of the 8 storage buffers 2.

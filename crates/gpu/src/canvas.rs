@@ -9,13 +9,14 @@ use crate::device::Gpu;
 use crate::error::Error;
 use crate::film::Film;
 use crate::layout::FilmPixel;
-use crate::renderer::Renderer;
+use crate::scan::ScanPasses;
 use crate::strip::StripRoom;
 
 /// Bands of rows, each with a film of its own, so that no binding has to hold the whole picture and that work can stop after
 /// any band. It takes 64 bytes a pixel, and what the passes need for one band at a time.
 ///
-/// [`Renderer::accumulate`] adds to it, [`Renderer::show`] and [`Renderer::read_shown`] display it, [`Canvas::image`] reads
+/// [`Renderer::accumulate`](crate::Renderer::accumulate) adds to it, [`Renderer::show`](crate::Renderer::show) and
+/// [`Renderer::read_shown`](crate::Renderer::read_shown) display it, [`Canvas::image`] reads
 /// it. Its pixels are means over the samples that they have, so bands may be ahead of one another.
 pub struct Canvas {
     gpu: Gpu,
@@ -32,20 +33,15 @@ struct CanvasBand {
 }
 
 impl Canvas {
-    /// An empty canvas, at least one pixel wide and high, in bands of at most `submission_px` pixels, of whole rows and at
-    /// least one: few where a change of the view is to interrupt what a slow device does, many where it is fast.
-    ///
-    /// # Errors
-    /// [`Error::TooLarge`] if it is wider than the device's textures; [`Error::OutOfMemory`], [`Error::Lost`].
-    pub async fn new(
-        renderer: &Renderer,
+    pub(crate) async fn new(
+        gpu: &Gpu,
+        scans: &ScanPasses,
         size_px: [u32; 2],
         submission_px: u32,
     ) -> Result<Self, Error> {
-        let gpu = renderer.gpu();
         let size_px = size_px.map(|n| n.max(1));
         let band_rows = Film::band_rows(gpu, size_px, submission_px);
-        let room = StripRoom::new(gpu, renderer.scans(), size_px[0], band_rows).await?;
+        let room = StripRoom::new(gpu, scans, size_px[0], band_rows).await?;
         let mut canvas = Self {
             gpu: gpu.clone(),
             size_px,
@@ -79,7 +75,7 @@ impl Canvas {
     }
 
     /// The complete steps of a band's pixels: the next one that it can take, beside 0. It is 0 again after an
-    /// [`Renderer::accumulate`] that failed or was dropped.
+    /// [`Renderer::accumulate`](crate::Renderer::accumulate) that failed or was dropped.
     pub fn steps(&self, band: usize) -> u32 {
         self.bands[band].steps
     }

@@ -5,9 +5,9 @@ use wgpu::{BindingResource, ShaderStages};
 use crate::bindings::{bind, dynamic_uniform, entry, integers, layout, storage, uniform};
 use crate::device::Gpu;
 use crate::pipelines::{Orders, Pipeline};
+use crate::scene_data::SceneData;
 use crate::shaders::Module;
 use crate::timing::Timing;
-use crate::upload::GpuScene;
 use crate::variant::Constant;
 
 /// What a binding of group 3 is to the shader.
@@ -33,7 +33,7 @@ pub(crate) struct ComputePass {
 pub(crate) struct Recording<'a> {
     pub encoder: &'a mut wgpu::CommandEncoder,
     pub frame: &'a wgpu::BindGroup,
-    pub scene: &'a GpuScene,
+    pub scene: &'a SceneData,
     pub timing: &'a Timing,
 }
 
@@ -68,6 +68,12 @@ impl ComputePass {
             pipeline: orders.pipeline((module, entry_point), &group_3, more),
             group_3,
         }
+    }
+
+    /// What it was compiled to.
+    #[cfg(all(test, not(target_arch = "wasm32")))]
+    pub fn pipeline(&self) -> &wgpu::ComputePipeline {
+        self.pipeline.get()
     }
 
     /// Binds group 3.

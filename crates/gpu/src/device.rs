@@ -7,7 +7,7 @@
 use std::sync::{Arc, Mutex, OnceLock};
 
 use crate::error::Error;
-use crate::passes::Compiled;
+use crate::pipeline_cache::PipelineCache;
 
 /// What kind of machine an adapter stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -76,8 +76,8 @@ pub struct Gpu {
     pub queue: wgpu::Queue,
     /// The adapter that it was opened on.
     pub adapter: Adapter,
-    /// The passes over scenes, which its renderers share.
-    pub(crate) compiled: Compiled,
+    /// What was compiled on it, which its renderers share.
+    pub(crate) pipelines: PipelineCache,
     faults: Faults,
 }
 
@@ -304,7 +304,7 @@ impl Gpu {
             device,
             queue,
             adapter,
-            compiled: Compiled::default(),
+            pipelines: PipelineCache::default(),
             faults,
         }
     }

@@ -72,8 +72,9 @@ pub(crate) fn frame(
         0 => (glam::DVec2::ZERO, 1),
         _ => (pixel_jitter(sample, samples), samples),
     };
+    let data = &uploaded.data;
     Frame {
-        camera_m: vec3(camera.position_m - uploaded.origin_m()),
+        camera_m: vec3(camera.position_m - data.origin_m()),
         pad_0: 0.0,
         forward: vec3(camera.forward),
         near_m: NEAR_M,
@@ -84,7 +85,7 @@ pub(crate) fn frame(
         size_px,
         rows: [rows.start, rows.end],
         jitter_px: jitter.as_vec2().to_array(),
-        light_count: uploaded.light_count,
+        light_count: data.light_count,
         environment_flags: environment.map_or(0, environment_flags),
         environment_from_world: environment.map_or_else(Default::default, environment_from_world),
         environment_texel_radiance: environment.map_or(0.0, |e| e.texel_radiance() as f32),
@@ -92,7 +93,7 @@ pub(crate) fn frame(
         sample: sample - view.step_samples().start,
         samples: view.step_samples().len() as u32,
         film_row,
-        segment_count: uploaded.buffers.segment_count(),
+        segment_count: data.buffers.segment_count(),
         list_std_px: scene.render.footprint_std_px(1) as f32,
         list_jitter_px: if samples > 1 { JITTER_MAX_PX } else { 0.0 },
         entry_count: counted.entries,

@@ -9,7 +9,7 @@ use std::task::{Context, Poll, Waker};
 
 use hairline_image::Image;
 use hairline_index::ScratchIndex;
-use hairline_optics::method::Method;
+use hairline_index::method::Method;
 use hairline_scene::{Scene, ScratchTables};
 
 use crate::device::{AdapterRequest, Gpu};

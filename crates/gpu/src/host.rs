@@ -1,23 +1,20 @@
 //! From a scene's own units to the structs that host and shader share.
 
-use bytemuck::Zeroable;
 use glam::{DVec3, Vec3};
 use hairline_index::{IndexedSegment, ScratchIndex};
-use hairline_scene::{Mesh, Scene, ScratchTables, vector_area_m2};
+use hairline_scene::{Mesh, Scene, ScratchTables};
 use half::f16;
 use rayon::prelude::*;
 use std::ops::Range;
 
-use crate::layout::{LIGHT_POLYGON, LIGHT_SPHERE, VERTEX_BITANGENT_FLIPPED};
-use crate::layout::{Light, Material, Object, ScratchNode, ScratchSegment, Vertex};
-use crate::textures::TextureArray;
+use crate::layout::VERTEX_BITANGENT_FLIPPED;
+use crate::layout::{Material, Object, ScratchNode, ScratchSegment, Vertex};
+use crate::texture_array::TextureArray;
 
 /// Elements that a thread takes at a time: fewer are not worth another thread.
 const CHUNK: usize = 4096;
-/// Of a light.
-const LIGHT_TEXELS: usize = size_of::<Light>() / 16;
-
-fn relative(position_m: DVec3, origin_m: DVec3) -> [f32; 3] {
+/// A place as it is uploaded.
+pub(crate) fn relative(position_m: DVec3, origin_m: DVec3) -> [f32; 3] {
     (position_m - origin_m).as_vec3().to_array()
 }
 
@@ -88,13 +85,6 @@ pub(crate) fn materials(
         .collect()
 }
 
-fn polygon_vertex_count(light: &hairline_scene::Light) -> usize {
-    match light {
-        hairline_scene::Light::Polygon { vertices_m, .. } => vertices_m.len(),
-        hairline_scene::Light::Sphere { .. } => 0,
-    }
-}
-
 fn material(scene: &Scene, tables: &ScratchTables, array: &TextureArray, index: usize) -> Material {
     let (material, optics) = (&scene.materials[index], &tables.materials[index]);
     let rgb = |color: [f64; 3]| color.map(|c| c as f32);
@@ -120,91 +110,6 @@ fn material(scene: &Scene, tables: &ScratchTables, array: &TextureArray, index: 
     }
 }
 
-/// Where the lights of each kind end: spheres, then polygons of at most four vertices, then others.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct LightKinds {
-    pub spheres: u32,
-    pub quads: u32,
-    pub all: u32,
-}
-
-fn kind_rank(light: &hairline_scene::Light) -> u32 {
-    match polygon_vertex_count(light) {
-        0 => 0,
-        1..=4 => 1,
-        _ => 2,
-    }
-}
-
-pub(crate) fn light_kinds(scene: &Scene) -> LightKinds {
-    let up_to = |rank| scene.all_lights().filter(|l| kind_rank(l) <= rank).count() as u32;
-    LightKinds {
-        spheres: up_to(0),
-        quads: up_to(1),
-        all: up_to(2),
-    }
-}
-
-/// All lights, kind after kind.
-pub(crate) fn sorted_lights(scene: &Scene) -> Vec<&hairline_scene::Light> {
-    let mut lights: Vec<_> = scene.all_lights().collect();
-    lights.sort_by_key(|light| kind_rank(light));
-    lights
-}
-
-/// All lights, and behind them the vertices of those that are polygons, as texels.
-pub(crate) fn lights(scene: &Scene, origin_m: DVec3) -> Vec<[u32; 4]> {
-    let mut next_vertex = 0;
-    let mut vertices: Vec<[f32; 4]> = Vec::new();
-    let light = |light: &hairline_scene::Light| {
-        let (center_m, radius_m) = light.bounding_sphere();
-        let bounded = Light {
-            center_m: relative(center_m, origin_m),
-            radius_m: radius_m as f32,
-            ..Light::zeroed()
-        };
-        match light {
-            hairline_scene::Light::Sphere { radiance, .. } => Light {
-                radiance: radiance.map(|c| c as f32),
-                kind: LIGHT_SPHERE,
-                ..bounded
-            },
-            hairline_scene::Light::Polygon {
-                vertices_m,
-                radiance,
-                two_sided,
-            } => {
-                let area_m2 = vector_area_m2(vertices_m);
-                let first_vertex = next_vertex;
-                next_vertex += vertices_m.len() as u32;
-                vertices.extend(vertices_m.iter().map(|vertex| {
-                    let [x, y, z] = relative(*vertex, origin_m);
-                    [x, y, z, 0.0]
-                }));
-                Light {
-                    radiance: radiance.map(|c| c as f32),
-                    kind: LIGHT_POLYGON,
-                    normal: area_m2.normalize_or_zero().as_vec3().to_array(),
-                    two_sided: u32::from(*two_sided),
-                    first_vertex,
-                    vertex_count: vertices_m.len() as u32,
-                    ..bounded
-                }
-            }
-        }
-    };
-    let lights: Vec<Light> = sorted_lights(scene).into_iter().map(light).collect();
-    let mut texels = bytemuck::cast_slice(&lights).to_vec();
-    texels.extend_from_slice(bytemuck::cast_slice(&vertices));
-    texels
-}
-
-/// How many texels [`lights`] are.
-pub(crate) fn light_texels(scene: &Scene) -> usize {
-    let texels = |light| LIGHT_TEXELS + polygon_vertex_count(light);
-    scene.all_lights().map(texels).sum()
-}
-
 fn scratch_node(node: &hairline_index::ScratchNode, origin_m: DVec3) -> ScratchNode {
     ScratchNode {
         min_m: relative(node.min_m.as_dvec3(), origin_m),
@@ -217,7 +122,8 @@ fn scratch_node(node: &hairline_index::ScratchNode, origin_m: DVec3) -> ScratchN
 fn scratch_segment(segment: &IndexedSegment, origin_m: DVec3) -> ScratchSegment {
     ScratchSegment {
         start_m: relative(segment.start_m.as_dvec3(), origin_m),
-        width_depth: half_bits(segment.width_um) | half_bits(segment.depth_nm) << 16,
+        width_depth: half_bits(segment.profile.width_um)
+            | half_bits(segment.profile.depth_nm) << 16,
         end_m: relative(segment.end_m.as_dvec3(), origin_m),
         normal_blur: octahedral(segment.normal) | half_bits(segment.blur_um) << 16,
     }

@@ -1,4 +1,4 @@
-//! Every struct that host and shader share, once. Twin: `shaders/layout.wgsl`, which documents the members; the test
+//! Every struct that host and shader share, once. Twin: `shaders/scene/layout.wgsl`, which documents the members; the test
 //! below holds names, offsets and sizes equal by naga's reflection of the text.
 
 use bytemuck::{Pod, Zeroable};
@@ -9,10 +9,6 @@ pub const ENVIRONMENT_PRESENT: u32 = 1;
 pub const ENVIRONMENT_VISIBLE: u32 = 2;
 /// The highest bit of [`Vertex::material`]: the bitangent is minus the cross product of normal and tangent.
 pub const VERTEX_BITANGENT_FLIPPED: u32 = 0x8000_0000;
-/// [`Light::kind`].
-pub const LIGHT_SPHERE: u32 = 0;
-/// [`Light::kind`].
-pub const LIGHT_POLYGON: u32 = 1;
 
 /// Where the pixels of a film begin in its buffer, bytes. A count comes first: invocations whose loops were cut short.
 pub const FILM_PIXELS_OFFSET: u64 = 16;

@@ -1,5 +1,17 @@
 //! Rendering on the GPU by wgpu, and the shader modules.
 //!
+//! ```no_run
+//! use hairline_gpu::{AdapterRequest, RenderOptions, headless};
+//! use hairline_scene::Scene;
+//!
+//! let scene = Scene::load("scenes/plate.toml")?;
+//! let gpu = headless::open(&AdapterRequest::default())?;
+//! let options = RenderOptions::default();
+//! let image = headless::render(&gpu, &scene, &Default::default(), &options, &|_| {})?;
+//! println!("{:?} by {}", image.size_px, gpu.adapter);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
 //! Nothing in this crate blocks, so that window, browser and command line can share it; [`headless`] is the one module
 //! for programs that want to wait.
 
@@ -18,7 +30,10 @@ mod frame;
 pub mod headless;
 mod host;
 pub mod layout;
+mod light_ranges;
+mod lights;
 mod passes;
+mod pipeline_cache;
 mod pipelines;
 mod project;
 mod published;
@@ -28,13 +43,17 @@ mod resolve;
 mod rows;
 mod scan;
 mod scene_buffers;
+mod scene_data;
 mod shade_base;
 mod shade_published;
 mod shade_scratches;
 pub mod shaders;
 mod sort;
+mod source;
 mod strip;
+mod strip_shader;
 mod surface;
+mod texture_array;
 mod textures;
 pub mod timing;
 mod transfer;

@@ -2,17 +2,17 @@
 //! triangle. For Hairline's own method a single texel takes the place of each, since no binding may be empty.
 
 use hairline_index::TriangleLists;
-use hairline_optics::method::Structure;
+use hairline_index::method::Structure;
 use hairline_optics::published::polygon::triangulate;
 use hairline_optics::published::spectrum::PUBLISHED_WAVELENGTHS;
 use hairline_scene::{Light, Scene};
 use wgpu::TextureFormat;
 
 use crate::error::Error;
-use crate::host::sorted_lights;
+use crate::lights;
 use crate::rows::ROW_TEXELS;
+use crate::source::Source;
 use crate::transfer::{Place, Transfer};
-use crate::upload::Source;
 
 /// Columns beyond the wavelengths. Twin: published_lights.wgsl.
 const LIGHT_TRIANGLE_COLUMNS: usize = 64;
@@ -107,7 +107,7 @@ fn light_triangles(scene: &Scene) -> Vec<[usize; 3]> {
             triangles
         }
     };
-    sorted_lights(scene)
+    lights::sorted(scene)
         .into_iter()
         .flat_map(of_light)
         .collect()

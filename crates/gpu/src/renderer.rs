@@ -7,29 +7,21 @@ use std::sync::Arc;
 
 use hairline_image::{Display, Image};
 use hairline_index::ScratchIndex;
-use hairline_optics::method::Method;
+use hairline_index::method::Method;
 use hairline_scene::{Scene, ScratchTables};
-use wgpu::BufferUsages;
 
-use crate::bindings::{Layouts, bind};
+use crate::bindings::Layouts;
 use crate::canvas::Canvas;
-use crate::compute_pass::Recording;
 use crate::device::Gpu;
 use crate::display::{DisplayPass, Shown};
 use crate::error::Error;
 use crate::film::Film;
-use crate::frame::{Counted, SAMPLES_AT_ONCE, View, frame};
-use crate::layout::{Frame, PixelPoint};
-use crate::passes::{ScratchPasses, Shade};
-use crate::pipelines::compiled;
-use crate::scan::ScanPasses;
-use crate::strip::{
-    GROUP, Lists, MadeLists, Samples, StripRoom, TILE_PX, chunks_most, strip_points, tile_count,
-};
+use crate::frame::{SAMPLES_AT_ONCE, View};
+use crate::source::Source;
+use crate::strip::StripRoom;
+use crate::strip_shader::StripShader;
 use crate::timing::{PassTime, Timing};
-use crate::upload::{GpuScene, Source};
-use crate::variant::{Contents, ShadeVariant};
-use crate::visibility::VisibilityPass;
+use crate::upload::GpuScene;
 
 /// How to render, beside what the scene says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,15 +56,11 @@ pub const fn steps(samples: u32) -> u32 {
 pub struct Renderer {
     gpu: Gpu,
     layouts: Layouts,
-    visibility: VisibilityPass,
-    scans: ScanPasses,
+    strips: StripShader,
     displays: HashMap<wgpu::TextureFormat, DisplayPass>,
     shown: Option<Shown>,
-    frame: wgpu::Buffer,
-    frame_group: wgpu::BindGroup,
     /// What [`Renderer::render`] works on.
     band: Option<(StripRoom, Film)>,
-    timing: Timing,
 }
 
 impl Renderer {
@@ -83,24 +71,14 @@ impl Renderer {
     pub async fn new(gpu: &Gpu) -> Result<Self, Error> {
         let gpu = gpu.clone();
         let layouts = Layouts::new(&gpu);
-        let visibility = compiled(&gpu, || VisibilityPass::new(&gpu, &layouts)).await?;
-        let scans = compiled(&gpu, || ScanPasses::new(&gpu)).await?;
-        let usage = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
-        let frame = gpu
-            .buffer("frame", size_of::<Frame>() as u64, usage)
-            .await?;
-        let frame_group = bind(&gpu, "frame", &layouts.frame, &[frame.as_entire_binding()]);
+        let strips = StripShader::new(&gpu, &layouts).await?;
         Ok(Self {
             gpu,
             layouts,
-            visibility,
-            scans,
+            strips,
             displays: HashMap::new(),
             shown: None,
-            frame,
-            frame_group,
             band: None,
-            timing: Timing::default(),
         })
     }
 
@@ -114,10 +92,10 @@ impl Renderer {
     /// # Errors
     /// [`Error::OutOfMemory`], [`Error::Lost`].
     pub async fn time_passes(&mut self) -> Result<bool, Error> {
-        if !self.timing.is_on() {
-            self.timing = Timing::on(&self.gpu).await?;
+        if !self.strips.timing.is_on() {
+            self.strips.timing = Timing::on(&self.gpu).await?;
         }
-        Ok(self.timing.is_on())
+        Ok(self.strips.timing.is_on())
     }
 
     /// What each pass took since [`Self::time_passes`] or the last call, summed over its runs, once they are done. None
@@ -126,7 +104,7 @@ impl Renderer {
     /// # Errors
     /// [`Error::OutOfMemory`], [`Error::Lost`].
     pub async fn pass_times(&mut self) -> Result<Option<Vec<PassTime>>, Error> {
-        self.timing.read(&self.gpu).await
+        self.strips.timing.read(&self.gpu).await
     }
 
     /// Puts a scene on the device, with its index and its tables, to be rendered by `method`. The device's first scene of a
@@ -184,13 +162,7 @@ impl Renderer {
         last: Option<&GpuScene>,
         source: &Source<'_>,
     ) -> Result<GpuScene, Error> {
-        let variant = ShadeVariant {
-            method: *source.method,
-            has: Contents::of(source.scene, source.tables),
-        };
-        let (gpu, layouts) = (&self.gpu, &self.layouts);
-        let passes = gpu.compiled.passes(gpu, layouts, &variant).await?;
-        GpuScene::new(gpu, layouts, source, passes, last).await
+        GpuScene::new(&self.gpu, &self.layouts, source, last).await
     }
 
     /// Renders `scene`, which was uploaded as `uploaded`, by its own camera and at its own size; `progress` is told the
@@ -240,7 +212,8 @@ impl Renderer {
                     step,
                     samples,
                 };
-                self.shade(&view, &film, &mut room, in_picture.clone())
+                self.strips
+                    .shade(&view, &film, &mut room, in_picture.clone())
                     .await?;
                 self.gpu.finished().await?;
                 let in_band = f64::from(step + 1) / f64::from(steps(samples));
@@ -251,6 +224,15 @@ impl Renderer {
             self.band = Some((room, film));
         }
         Ok(image)
+    }
+
+    /// An empty canvas, at least one pixel wide and high, in bands of at most `submission_px` pixels, of whole rows and at
+    /// least one: few where a change of the view is to interrupt what a slow device does, many where it is fast.
+    ///
+    /// # Errors
+    /// [`Error::TooLarge`] if it is wider than the device's textures; [`Error::OutOfMemory`], [`Error::Lost`].
+    pub async fn canvas(&self, size_px: [u32; 2], submission_px: u32) -> Result<Canvas, Error> {
+        Canvas::new(&self.gpu, &self.strips.scans, size_px, submission_px).await
     }
 
     /// Adds step `step` of the [`steps`] for `samples` to a band of the canvas: 0, which begins anew and shades every pixel, or as many
@@ -282,7 +264,7 @@ impl Renderer {
             samples,
         };
         let (film, room) = canvas.begin(band, step);
-        self.shade(&view, film, room, rows).await?;
+        self.strips.shade(&view, film, room, rows).await?;
         self.gpu.check()?;
         canvas.finish(band, step + 1);
         Ok(())
@@ -331,235 +313,6 @@ impl Renderer {
         Ok(pixels)
     }
 
-    /// One step of the rows of a film, in as many strips as the tile lists need.
-    async fn shade(
-        &self,
-        view: &View<'_>,
-        film: &Film,
-        room: &mut StripRoom,
-        rows: Range<u32>,
-    ) -> Result<(), Error> {
-        let film_row = rows.start;
-        let mut strips = vec![rows];
-        while let Some(strip) = strips.pop() {
-            let halves = self.shade_strip(view, film, film_row, room, &strip).await?;
-            strips.extend(halves.into_iter().flatten());
-        }
-        Ok(())
-    }
-
-    /// One step of a strip; or, if the lists of its tiles do not fit on the device, the two halves to shade in its place, the lower
-    /// one first.
-    async fn shade_strip(
-        &self,
-        view: &View<'_>,
-        film: &Film,
-        film_row: u32,
-        room: &mut StripRoom,
-        strip: &Range<u32>,
-    ) -> Result<Option<[Range<u32>; 2]>, Error> {
-        let (gpu, scans, passes) = (&self.gpu, &self.scans, &view.uploaded.passes);
-        let rows = strip.len() as u32;
-        let tiles = tile_count(room.width_px, rows);
-        if let Some(scratches) = passes.scratches() {
-            // Those of the first step serve the others.
-            let made = room.lists.made.as_ref();
-            let kept = view.step > 0 && made.is_some_and(|made| made.rows == *strip);
-            if !kept
-                && !self
-                    .make_lists(view, scratches, film_row, room, strip)
-                    .await?
-            {
-                return self.halves(strip).map(Some);
-            }
-        }
-        let lists = room.lists.made.as_ref();
-        let (entries, sorted) = lists.map_or((0, 0), |made| (made.entries, made.sorted));
-        let mut counted = Counted {
-            entries,
-            groups: tiles,
-        };
-        let mut points = strip_points(room.width_px, rows);
-        if view.step > 0 {
-            counted.groups = self.count_groups(view, film, film_row, room, strip).await?;
-            points = u64::from(counted.groups) * u64::from(GROUP);
-        }
-        let groups = counted.groups;
-        if groups == 0 {
-            return Ok(None);
-        }
-        let mut chunks = match passes.scratches() {
-            None => groups,
-            Some(_) => chunks_most(tiles, entries),
-        };
-        if !Samples::fit(gpu, points, chunks) {
-            return self.halves(strip).map(Some);
-        }
-        room.samples.make_room(gpu, scans, points, groups).await?;
-        if let Some(scratches) = passes.scratches() {
-            self.write_frame(view, strip, film_row, view.step_samples().start, counted);
-            let mut encoder = gpu.device.create_command_encoder(&Default::default());
-            let mut recording = self.recording(&mut encoder, view);
-            scratches
-                .shade
-                .record_chunks(gpu, &mut recording, scans, room, groups);
-            gpu.queue.submit([encoder.finish()]);
-            if view.step > 0 {
-                chunks = self.read_u32(&room.samples.chunk_starts, groups).await?;
-            }
-            if !Samples::fit(gpu, points, chunks) {
-                return self.halves(strip).map(Some);
-            }
-        } else {
-            room.samples.one_chunk_a_group(gpu, groups);
-        }
-        room.samples.make_room_for_chunks(gpu, chunks).await?;
-        let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        if view.step == 0 && strip.start == film_row {
-            film.clear(&mut encoder);
-        }
-        // Not every place of a group has a sample.
-        let bytes = points * size_of::<PixelPoint>() as u64;
-        encoder.clear_buffer(&room.samples.points, 0, Some(bytes));
-        gpu.queue.submit([encoder.finish()]);
-        for sample in view.step_samples() {
-            self.write_frame(view, strip, film_row, sample, counted);
-            let mut encoder = gpu.device.create_command_encoder(&Default::default());
-            let (frame, timing) = (&self.frame_group, &self.timing);
-            self.visibility
-                .record(&mut encoder, frame, view.uploaded, room, rows, timing);
-            let mut recording = self.recording(&mut encoder, view);
-            passes.surface.record(gpu, &mut recording, room, film, rows);
-            gpu.queue.submit([encoder.finish()]);
-        }
-        let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        let recording = &mut self.recording(&mut encoder, view);
-        match &passes.shade {
-            Shade::Own { base, scratches } => {
-                base.record(gpu, recording, room, film, groups);
-                if let Some(scratches) = scratches {
-                    scratches.shade.record(gpu, recording, room, sorted, chunks);
-                }
-            }
-            Shade::Published(published) => published.record(gpu, recording, room, film, groups),
-        }
-        passes.resolve.record(gpu, recording, room, film, rows);
-        gpu.queue.submit([encoder.finish()]);
-        Ok(None)
-    }
-
-    /// How many groups the samples of a strip's edges make.
-    async fn count_groups(
-        &self,
-        view: &View<'_>,
-        film: &Film,
-        film_row: u32,
-        room: &mut StripRoom,
-        strip: &Range<u32>,
-    ) -> Result<u32, Error> {
-        let gpu = &self.gpu;
-        let tiles = tile_count(room.width_px, strip.len() as u32);
-        let first = view.step_samples().start;
-        self.write_frame(view, strip, film_row, first, Counted::default());
-        let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        let mut recording = self.recording(&mut encoder, view);
-        let edges = &view.uploaded.passes.edges;
-        edges.record(gpu, &mut recording, &self.scans, room, film, tiles);
-        gpu.queue.submit([encoder.finish()]);
-        self.read_u32(&room.group_starts, tiles).await
-    }
-
-    async fn read_u32(&self, buffer: &wgpu::Buffer, index: u32) -> Result<u32, Error> {
-        let at = 4 * u64::from(index);
-        let bytes = self.gpu.read(buffer, at..at + 4).await?;
-        Ok(bytemuck::pod_read_unaligned(&bytes))
-    }
-
-    /// Makes the tile lists of a strip; false if they do not fit on the device.
-    async fn make_lists(
-        &self,
-        view: &View<'_>,
-        passes: &ScratchPasses,
-        film_row: u32,
-        room: &mut StripRoom,
-        strip: &Range<u32>,
-    ) -> Result<bool, Error> {
-        let (gpu, scans) = (&self.gpu, &self.scans);
-        let tiles = tile_count(room.width_px, strip.len() as u32);
-        let segments = view.uploaded.buffers.segment_count();
-        room.lists.made = None;
-        let lists = &mut room.lists;
-        lists.make_room_for_segments(gpu, scans, segments).await?;
-        let sample = view.step_samples().start;
-        self.write_frame(view, strip, film_row, sample, Counted::default());
-        let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        let mut recording = self.recording(&mut encoder, view);
-        passes
-            .project
-            .record(gpu, &mut recording, scans, lists, segments);
-        gpu.queue.submit([encoder.finish()]);
-        // The sum of all lies behind them.
-        let entries = self.read_u32(&lists.entry_starts, segments).await?;
-        if entries > Lists::entries_most(gpu) {
-            return Ok(false);
-        }
-        lists.make_room(gpu, scans, entries).await?;
-        let groups = 0;
-        self.write_frame(view, strip, film_row, sample, Counted { entries, groups });
-        let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        let mut recording = self.recording(&mut encoder, view);
-        let counts = [segments, entries];
-        let sorted = passes
-            .bin
-            .record(gpu, &mut recording, scans, room, tiles, counts);
-        let sorted = sorted.await?;
-        gpu.queue.submit([encoder.finish()]);
-        room.lists.made = Some(MadeLists {
-            rows: strip.clone(),
-            entries,
-            sorted,
-        });
-        Ok(true)
-    }
-
-    /// The halves of a strip, of whole tiles.
-    fn halves(&self, strip: &Range<u32>) -> Result<[Range<u32>; 2], Error> {
-        let upper = (strip.len() as u32 / 2).next_multiple_of(TILE_PX);
-        let middle = strip.start + upper;
-        if middle >= strip.end {
-            let what = "tile lists of a row of tiles";
-            let allowed = u64::from(Lists::entries_most(&self.gpu));
-            return Err(self.gpu.too_large(what, allowed + 1, allowed, "entries"));
-        }
-        Ok([middle..strip.end, strip.start..middle])
-    }
-
-    fn write_frame(
-        &self,
-        view: &View,
-        strip: &Range<u32>,
-        film_row: u32,
-        sample: u32,
-        counted: Counted,
-    ) {
-        let uniform = frame(view, strip, film_row, sample, counted);
-        let queue = &self.gpu.queue;
-        queue.write_buffer(&self.frame, 0, bytemuck::bytes_of(&uniform));
-    }
-
-    fn recording<'a>(
-        &'a self,
-        encoder: &'a mut wgpu::CommandEncoder,
-        view: &View<'a>,
-    ) -> Recording<'a> {
-        Recording {
-            encoder,
-            frame: &self.frame_group,
-            scene: view.uploaded,
-            timing: &self.timing,
-        }
-    }
-
     /// A film for `rows` rows of `width_px` pixels and the room to work on it: those at hand if they fit.
     async fn take_band(&mut self, width_px: u32, rows: u32) -> Result<(StripRoom, Film), Error> {
         if let Some((room, film)) = self.band.take()
@@ -569,12 +322,8 @@ impl Renderer {
             return Ok((room, film));
         }
         let gpu = &self.gpu;
-        let room = StripRoom::new(gpu, &self.scans, width_px, rows).await?;
+        let room = StripRoom::new(gpu, &self.strips.scans, width_px, rows).await?;
         let film = Film::new(gpu, width_px, rows).await?;
         Ok((room, film))
-    }
-
-    pub(crate) fn scans(&self) -> &ScanPasses {
-        &self.scans
     }
 }

@@ -25,6 +25,12 @@ impl ResolvePass {
         Self(ComputePass::order(orders, "resolve", module, &uses, &[]))
     }
 
+    /// What it was compiled to.
+    #[cfg(all(test, not(target_arch = "wasm32")))]
+    pub fn pipeline(&self) -> &wgpu::ComputePipeline {
+        self.0.pipeline()
+    }
+
     pub fn record(
         &self,
         gpu: &Gpu,

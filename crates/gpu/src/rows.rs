@@ -1,4 +1,4 @@
-//! Arrays that lie in textures, 16 bytes a texel, row after row. Twin: `shaders/rows.wgsl`.
+//! Arrays that lie in textures, 16 bytes a texel, row after row. Twin: `shaders/scene/rows.wgsl`.
 
 use wgpu::TextureFormat;
 

@@ -1,4 +1,4 @@
-//! Passes: exclusive prefix sums of an array, in place. Twin: shaders/scan.wgsl.
+//! Passes: exclusive prefix sums of an array, in place. Twin: scan.wgsl.
 
 use wgpu::{BufferUsages, ShaderStages};
 

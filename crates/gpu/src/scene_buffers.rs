@@ -11,10 +11,11 @@ use crate::device::Gpu;
 use crate::error::Error;
 use crate::host;
 use crate::layout::{Material, Object, ScratchNode, ScratchSegment, Vertex};
+use crate::lights;
 use crate::rows;
-use crate::textures::TextureArray;
+use crate::source::Source;
+use crate::texture_array::TextureArray;
 use crate::transfer::Transfer;
-use crate::upload::Source;
 use crate::vertices::Vertices;
 
 /// What is bound, and what it was made from.
@@ -51,7 +52,7 @@ impl SceneBuffers {
             tables,
             ..
         } = *source;
-        let [triangles, objects, materials, lights, segments, nodes] = SCENE_BUFFERS;
+        let [triangles, objects, materials, light_rows, segments, nodes] = SCENE_BUFFERS;
         let last_vertices = last.map(|last| &last.vertices);
         let vertices = Vertices::upload(transfer, triangles, scene, last_vertices).await?;
         let origin_m = vertices.origin_m;
@@ -69,8 +70,8 @@ impl SceneBuffers {
         let materials = materials.await?;
         let lights = Small::keep(
             last.map(|last| &last.lights),
-            host::lights(scene, origin_m),
-            async |elements| rows::upload(transfer, lights, elements).await,
+            lights::packed(scene, origin_m),
+            async |elements| rows::upload(transfer, light_rows, elements).await,
         );
         let lights = lights.await?;
         // Hairline's own method does not traverse the tree.
@@ -163,7 +164,7 @@ pub(crate) fn check_size(gpu: &Gpu, source: &Source<'_>) -> Result<(), Error> {
     ];
     let rows = [
         (scene.materials.len(), size_of::<Material>()),
-        (host::light_texels(scene), size_of::<[u32; 4]>()),
+        (lights::texels(scene), size_of::<[u32; 4]>()),
         (index.tree.segments.len(), size_of::<ScratchSegment>()),
         (
             method.published.map_or(0, |_| index.tree.nodes.len()),

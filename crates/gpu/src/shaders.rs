@@ -1,13 +1,15 @@
 //! The shader modules, and how they are joined.
 //!
-//! A physics module has no binding and no entry point: its data comes by arguments, so that another engine can lift it.
-//! Modules are joined by plain concatenation, what a module needs before it, each once; their module-level names are
-//! therefore unique over all modules.
+//! Modules lie in four folders. `physics` has no binding and no entry point: its data comes by arguments, so that another engine can
+//! lift it. `scene` reads what is bound. `passes` has the entry points. `published` is the method of 2018, all of it.
+//!
+//! Modules are joined by concatenation, what a module needs before it, each once; their module-level names are therefore unique
+//! over all modules.
 
 /// One file of WGSL and the modules that it calls.
 #[derive(Debug)]
 pub struct Module {
-    /// File stem.
+    /// The file below `shaders/`, without its ending.
     pub name: &'static str,
     /// The text.
     pub source: &'static str,
@@ -32,129 +34,129 @@ macro_rules! modules {
 
 modules! {
     /// The normal distribution in single precision.
-    GAUSSIAN = "gaussian" needs [];
+    GAUSSIAN = "physics/gaussian" needs [];
     /// The footprint on a surface.
-    CAMERA = "camera" needs [];
+    CAMERA = "physics/camera" needs [];
     /// One scratch under a footprint.
-    SCRATCH = "scratch" needs [GAUSSIAN];
+    SCRATCH = "physics/scratch" needs [GAUSSIAN];
     /// The spectrum of a scratch.
-    SCRATCH_TABLE = "scratch_table" needs [];
+    SCRATCH_TABLE = "physics/scratch_table" needs [];
     /// Where an area light meets the band of a scratch.
-    BAND = "band" needs [SCRATCH];
+    BAND = "physics/band" needs [SCRATCH];
     /// Where the lines of a band cross an outline of four edges.
-    FOUR_EDGES = "four_edges" needs [BAND];
+    FOUR_EDGES = "physics/four_edges" needs [BAND];
     /// An environment along the band of a scratch.
-    BAND_ENVIRONMENT = "band_environment" needs [BAND];
+    BAND_ENVIRONMENT = "physics/band_environment" needs [BAND];
     /// The energy that scratches take.
-    MASK = "mask" needs [SCRATCH];
+    MASK = "physics/mask" needs [SCRATCH];
     /// Fresnel reflectance in three channels.
-    FRESNEL = "fresnel" needs [];
+    FRESNEL = "physics/fresnel" needs [];
     /// The GGX lobe.
-    GGX = "ggx" needs [];
+    GGX = "physics/ggx" needs [];
     /// Irradiance from polygons and elliptic cones.
-    IRRADIANCE = "irradiance" needs [];
+    IRRADIANCE = "physics/irradiance" needs [];
     /// Fitted tables over roughness and angle.
-    LOBE_TABLE = "lobe_table" needs [];
+    LOBE_TABLE = "physics/lobe_table" needs [];
     /// What lobes reflect.
-    LOBE_FRESNEL = "lobe_fresnel" needs [FRESNEL, LOBE_TABLE];
+    LOBE_FRESNEL = "physics/lobe_fresnel" needs [FRESNEL, LOBE_TABLE];
     /// The GGX lobe over an area light, by transformed cosines.
-    LTC = "ltc" needs [GGX, IRRADIANCE, LOBE_FRESNEL];
+    LTC = "physics/ltc" needs [GGX, IRRADIANCE, LOBE_FRESNEL];
     /// The lobe of a pixel whose normals differ.
-    FILTERED_LOBE = "filtered_lobe" needs [LTC];
+    FILTERED_LOBE = "physics/filtered_lobe" needs [LTC];
     /// The GGX lobe over an environment, by round lobes in a row.
-    ENVIRONMENT_LOBE = "environment_lobe" needs [LTC];
+    ENVIRONMENT_LOBE = "physics/environment_lobe" needs [LTC];
     /// The GGX lobe over a sphere, by a pivot transform.
-    SPTD = "sptd" needs [LTC];
+    SPTD = "physics/sptd" needs [LTC];
     /// A shading point and its frame.
-    SURFACE_POINT = "surface_point" needs [];
+    SURFACE_POINT = "physics/surface_point" needs [];
     /// Light from all around: look-ups in the maps.
-    ENVIRONMENT = "environment" needs [];
+    ENVIRONMENT = "physics/environment" needs [];
     /// From linear radiance to the display.
-    TONE_MAP = "tone_map" needs [];
+    TONE_MAP = "physics/tone_map" needs [];
     /// The method of 2018: segments of the band's middle line.
-    PUBLISHED_SEGMENTS = "published_segments" needs [];
+    PUBLISHED_SEGMENTS = "published/published_segments" needs [];
     /// The method of 2018: the sine integral, exact and approximated.
-    PUBLISHED_SINE_INTEGRAL = "published_sine_integral" needs [];
+    PUBLISHED_SINE_INTEGRAL = "published/published_sine_integral" needs [];
     /// The method of 2018: a scratch's light by wavelength.
-    PUBLISHED_SPECTRUM = "published_spectrum" needs [PUBLISHED_SEGMENTS, PUBLISHED_SINE_INTEGRAL];
+    PUBLISHED_SPECTRUM = "published/published_spectrum" needs [PUBLISHED_SEGMENTS, PUBLISHED_SINE_INTEGRAL];
     /// The method of 2018: spherical lights.
-    PUBLISHED_SPHERE = "published_sphere" needs [BAND, PUBLISHED_SEGMENTS];
+    PUBLISHED_SPHERE = "published/published_sphere" needs [BAND, PUBLISHED_SEGMENTS];
     /// The method of 2018: triangular lights.
-    PUBLISHED_POLYGON = "published_polygon" needs [PUBLISHED_SEGMENTS];
+    PUBLISHED_POLYGON = "published/published_polygon" needs [PUBLISHED_SEGMENTS];
     /// The method of 2018: the pixel's footprint.
-    PUBLISHED_FOOTPRINT = "published_footprint" needs [GAUSSIAN];
+    PUBLISHED_FOOTPRINT = "published/published_footprint" needs [GAUSSIAN];
     /// What one scratch sends to the viewer: the module for other engines.
-    SCRATCH_LIGHT = "scratch_light" needs [FOUR_EDGES, BAND_ENVIRONMENT, SCRATCH_TABLE, MASK, ENVIRONMENT];
+    SCRATCH_LIGHT = "physics/scratch_light" needs [FOUR_EDGES, BAND_ENVIRONMENT, SCRATCH_TABLE, MASK, ENVIRONMENT];
     /// The structs that the host fills, and no binding.
-    LAYOUT = "layout" needs [];
+    LAYOUT = "scene/layout" needs [];
     /// Where the scene is bound: group 0 the frame, group 1 the scene's arrays, group 2 its tables and textures.
-    BINDINGS = "bindings" needs [LAYOUT];
+    BINDINGS = "scene/bindings" needs [LAYOUT];
     /// Arrays that lie in textures.
-    ROWS = "rows" needs [BINDINGS];
+    ROWS = "scene/rows" needs [BINDINGS];
     /// What a scene has: pipelines are compiled for it.
-    CONTENTS = "contents" needs [];
+    CONTENTS = "scene/contents" needs [];
     /// The switches of the method of 2018 and the mask: pipelines are compiled for them.
-    METHOD = "method" needs [];
+    METHOD = "scene/method" needs [];
     /// Look-ups in what the scene binds.
-    SCENE = "scene" needs [ROWS, CONTENTS, ENVIRONMENT, TONE_MAP];
+    SCENE = "scene/scene" needs [ROWS, CONTENTS, ENVIRONMENT, TONE_MAP];
     /// The segments of scratches, unpacked.
-    SEGMENTS = "segments" needs [LAYOUT];
+    SEGMENTS = "scene/segments" needs [LAYOUT, SCRATCH];
     /// The scratches of each triangle.
-    TRIANGLE_LISTS = "triangle_lists" needs [ROWS];
+    TRIANGLE_LISTS = "published/triangle_lists" needs [ROWS];
     /// Where pixels lie in the arrays of a strip and in the film.
-    FILM = "film" needs [BINDINGS];
+    FILM = "scene/film" needs [BINDINGS];
     /// Surface points as they lie in memory.
-    PIXEL_POINT = "pixel_point" needs [LAYOUT, SURFACE_POINT];
+    PIXEL_POINT = "scene/pixel_point" needs [LAYOUT, SURFACE_POINT];
     /// Area lights from a surface point.
-    LIGHTS = "lights" needs [ROWS, SURFACE_POINT, BAND];
+    LIGHTS = "scene/lights" needs [ROWS, SURFACE_POINT, BAND];
     /// From a triangle to the surface point.
-    HIT = "hit" needs [SCENE, SURFACE_POINT, CAMERA];
+    HIT = "scene/hit" needs [SCENE, SURFACE_POINT, CAMERA];
     /// A segment in the picture, and the tiles and pixels that it comes near to.
-    PROJECTED = "projected" needs [ROWS, SEGMENTS, FILM];
+    PROJECTED = "scene/projected" needs [ROWS, SEGMENTS, FILM];
     /// Which pixels see a segment.
-    NEARNESS = "nearness" needs [SEGMENTS, PIXEL_POINT, SCRATCH_LIGHT, BINDINGS];
+    NEARNESS = "scene/nearness" needs [SEGMENTS, PIXEL_POINT, SCRATCH_LIGHT, BINDINGS];
     /// What one scratch sends to the viewer of a polygon with many vertices.
-    OUTLINE_LIGHT = "outline_light" needs [ROWS, SCRATCH_LIGHT];
+    OUTLINE_LIGHT = "scene/outline_light" needs [ROWS, SCRATCH_LIGHT];
     /// The base under lights and environment.
-    BASE = "base" needs [SCENE, LIGHTS, FILTERED_LOBE, ENVIRONMENT_LOBE];
+    BASE = "scene/base" needs [SCENE, LIGHTS, FILTERED_LOBE, ENVIRONMENT_LOBE];
     /// The method of 2018: a scratch under lights and environment.
-    PUBLISHED_LIGHTS = "published_lights" needs [
+    PUBLISHED_LIGHTS = "published/published_lights" needs [
         SCENE, LIGHTS, SEGMENTS, METHOD, BAND_ENVIRONMENT, PUBLISHED_SPECTRUM, PUBLISHED_SPHERE, PUBLISHED_POLYGON
     ];
     /// The method of 2018: the scratches under a pixel.
-    PUBLISHED_GATHER = "published_gather" needs [PUBLISHED_LIGHTS, PUBLISHED_FOOTPRINT, TRIANGLE_LISTS, MASK];
+    PUBLISHED_GATHER = "published/published_gather" needs [PUBLISHED_LIGHTS, PUBLISHED_FOOTPRINT, TRIANGLE_LISTS, MASK];
     /// The method of 2018: the base.
-    PUBLISHED_BASE = "published_base" needs [BASE, SPTD];
+    PUBLISHED_BASE = "published/published_base" needs [BASE, SPTD];
     /// Pass: triangle and object of each pixel.
-    VISIBILITY = "visibility" needs [BINDINGS];
+    VISIBILITY = "passes/visibility" needs [BINDINGS];
     /// Pass: from the triangle that a pixel sees to its surface point.
-    SURFACE = "surface" needs [HIT, FILM, PIXEL_POINT];
+    SURFACE = "passes/surface" needs [HIT, FILM, PIXEL_POINT];
     /// Pass: the pixels of each tile that have an edge or a crease.
-    EDGES = "edges" needs [FILM];
+    EDGES = "passes/edges" needs [FILM];
     /// Pass: from segments to the picture.
-    PROJECT = "project" needs [PROJECTED];
+    PROJECT = "passes/project" needs [PROJECTED];
     /// Passes: exclusive prefix sums.
-    SCAN = "scan" needs [LAYOUT];
+    SCAN = "passes/scan" needs [LAYOUT];
     /// Pass: the entries of tile lists.
-    BIN = "bin" needs [PROJECTED];
+    BIN = "passes/bin" needs [PROJECTED];
     /// Passes: entries in the order of their tiles.
-    SORT = "sort" needs [BINDINGS];
+    SORT = "passes/sort" needs [BINDINGS];
     /// Pass: where each tile's list begins.
-    TILE_LISTS = "tile_lists" needs [FILM];
+    TILE_LISTS = "passes/tile_lists" needs [FILM];
     /// Which tile a group of samples belongs to.
-    GROUPS = "groups" needs [FILM];
+    GROUPS = "scene/groups" needs [FILM];
     /// Pass: into how many chunks each group's list is cut.
-    GROUP_CHUNKS = "group_chunks" needs [GROUPS];
+    GROUP_CHUNKS = "passes/group_chunks" needs [GROUPS];
     /// Pass: the light and the mask of scratches.
-    SHADE_SCRATCHES = "shade_scratches" needs [NEARNESS, GROUPS, METHOD, OUTLINE_LIGHT];
+    SHADE_SCRATCHES = "passes/shade_scratches" needs [NEARNESS, GROUPS, METHOD, OUTLINE_LIGHT];
     /// Pass: the radiance of the base.
-    SHADE_BASE = "shade_base" needs [BASE, FILM, PIXEL_POINT];
+    SHADE_BASE = "passes/shade_base" needs [BASE, FILM, PIXEL_POINT];
     /// Pass: base and scratches by the method of 2018.
-    SHADE_PUBLISHED = "shade_published" needs [PUBLISHED_GATHER, PUBLISHED_BASE, FILM, PIXEL_POINT];
+    SHADE_PUBLISHED = "published/shade_published" needs [PUBLISHED_GATHER, PUBLISHED_BASE, FILM, PIXEL_POINT];
     /// Pass: what a pixel adds to the film.
-    RESOLVE = "resolve" needs [SCENE, FILM, METHOD, MASK];
+    RESOLVE = "passes/resolve" needs [SCENE, FILM, METHOD, MASK];
     /// Pass: the film on a display.
-    DISPLAY = "display" needs [LAYOUT, TONE_MAP];
+    DISPLAY = "passes/display" needs [LAYOUT, TONE_MAP];
 }
 
 /// The text of `modules` and of everything that they need.
@@ -206,10 +208,31 @@ mod tests {
         }
     }
 
+    /// What other engines lift binds nothing and needs nothing that does.
+    #[test]
+    fn physics_binds_nothing() {
+        let is_physics = |module: &Module| module.name.starts_with("physics/");
+        for module in ALL.iter().filter(|module| is_physics(module)) {
+            assert!(!module.source.contains("@group"), "{}", module.name);
+            let other = module.needs.iter().find(|need| !is_physics(need));
+            assert!(other.is_none(), "{} needs {other:?}", module.name);
+        }
+    }
+
+    /// No module but one of the method of 2018 needs another one of it.
+    #[test]
+    fn the_published_method_is_a_guest() {
+        let is_published = |module: &Module| module.name.starts_with("published/");
+        for module in ALL.iter().filter(|module| !is_published(module)) {
+            let guest = module.needs.iter().find(|need| is_published(need));
+            assert!(guest.is_none(), "{} needs {guest:?}", module.name);
+        }
+    }
+
     #[test]
     fn a_module_is_joined_once_and_after_its_needs() {
         let text = compose(&[&BINDINGS, &LAYOUT]);
-        assert_eq!(text.matches("// ---- layout.wgsl").count(), 1);
-        assert!(text.find("// ---- layout.wgsl") < text.find("// ---- bindings.wgsl"));
+        assert_eq!(text.matches("// ---- scene/layout.wgsl").count(), 1);
+        assert!(text.find("// ---- scene/layout.wgsl") < text.find("// ---- scene/bindings.wgsl"));
     }
 }

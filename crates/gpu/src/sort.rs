@@ -11,18 +11,9 @@ use crate::layout::SortSettings;
 use crate::pipelines::Orders;
 use crate::scan::ScanPasses;
 use crate::shaders;
-use crate::strip::{Lists, whole};
+use crate::strip::{DIGITS, Lists, sort_blocks, whole};
 
-/// Values of a digit. Twin: sort.wgsl.
-pub(crate) const DIGITS: u32 = 256;
-const DIGIT_BITS: u32 = 8;
-/// Entries of a block. Twin: sort.wgsl.
-const BLOCK: u32 = 256 * 8;
-
-/// Blocks of so many entries.
-pub(crate) fn blocks(entries: u32) -> u32 {
-    entries.div_ceil(BLOCK).max(1)
-}
+const DIGIT_BITS: u32 = DIGITS.ilog2();
 
 pub(crate) struct SortPasses {
     count: ComputePass,
@@ -53,7 +44,7 @@ impl SortPasses {
     ) -> Result<usize, Error> {
         let bits = u32::BITS - tiles.saturating_sub(1).leading_zeros();
         let digits = bits.div_ceil(DIGIT_BITS);
-        let workgroups = in_a_row(blocks(entries));
+        let workgroups = in_a_row(sort_blocks(entries));
         for digit in 0..digits {
             let usage = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
             let settings = gpu
@@ -61,7 +52,7 @@ impl SortPasses {
                 .await?;
             let value = SortSettings {
                 shift: DIGIT_BITS * digit,
-                block_count: blocks(entries),
+                block_count: sort_blocks(entries),
             };
             gpu.queue
                 .write_buffer(&settings, 0, bytemuck::bytes_of(&value));

@@ -27,6 +27,10 @@ pub(crate) const GROUP: u32 = 64;
 const CHUNK_BYTES: u64 = GROUP as u64 * size_of::<ChunkSum>() as u64;
 /// Bytes of an entry of a tile list: tile, segment, and a bit for each pixel of the tile.
 const ENTRY_BYTES: u64 = 16;
+/// Values of a digit by which entries are sorted. Twin: sort.wgsl.
+pub(crate) const DIGITS: u32 = 256;
+/// Entries of a block that is sorted. Twin: sort.wgsl.
+const SORT_BLOCK: u32 = 256 * 8;
 
 /// What lies over the pixels and the tiles of a strip.
 pub(crate) struct StripRoom {
@@ -113,6 +117,11 @@ pub(crate) fn tile_count(width_px: u32, rows: u32) -> u32 {
 /// As many chunks as there may be in so many tiles with so many entries.
 pub(crate) fn chunks_most(tiles: u32, entries: u32) -> u32 {
     tiles.min(entries) + entries / CHUNK_SEGMENTS
+}
+
+/// Blocks of so many entries that are sorted.
+pub(crate) fn sort_blocks(entries: u32) -> u32 {
+    entries.div_ceil(SORT_BLOCK).max(1)
 }
 
 /// The points of a strip, with the rows beside it.
@@ -293,13 +302,13 @@ impl Lists {
                 gpu.buffer("tile lists", bytes, storage).await?,
                 gpu.buffer("tile lists", bytes, storage).await?,
             ];
-            let digits = crate::sort::DIGITS * crate::sort::blocks(entries);
+            let digits = DIGITS * sort_blocks(entries);
             let bytes = 4 * u64::from(digits);
             self.digit_starts = gpu.buffer("digits of entries", bytes, storage).await?;
             self.digit_scan = scans.of(gpu, &self.digit_starts, digits).await?;
             self.entries_max = entries;
         }
-        let digits = crate::sort::DIGITS * crate::sort::blocks(entries);
+        let digits = DIGITS * sort_blocks(entries);
         self.digit_scan.set_count(gpu, digits);
         Ok(())
     }

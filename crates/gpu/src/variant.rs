@@ -1,9 +1,11 @@
 //! What shaders are compiled for: a method and what a scene has.
 
+use hairline_index::method::{Method, PublishedMethod, Structure};
 use hairline_optics::mask::Mask;
-use hairline_optics::method::{Method, PublishedMethod, Structure};
 use hairline_optics::published::sine_integral::SineIntegral;
-use hairline_scene::{Light, Scene, ScratchTables};
+use hairline_scene::{Scene, ScratchTables};
+
+use crate::lights::{Kind, Kinds};
 
 /// What a pipeline is specialised for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -17,12 +19,7 @@ pub(crate) struct ShadeVariant {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub(crate) struct Contents {
     pub scratches: bool,
-    pub spheres: bool,
-    /// Polygons of at most four vertices.
-    pub quads: bool,
-    /// Polygons of more.
-    pub outlines: bool,
-    pub environment: bool,
+    pub lights: Kinds,
     pub textures: bool,
     /// Materials that are not metal through and through.
     pub bodies: bool,
@@ -30,17 +27,9 @@ pub(crate) struct Contents {
 
 impl Contents {
     pub fn of(scene: &Scene, tables: &ScratchTables) -> Self {
-        let has = |wanted: fn(&Light) -> bool| scene.all_lights().any(wanted);
         Self {
             scratches: scene.objects.iter().any(|o| !o.segments.is_empty()),
-            spheres: has(|light| matches!(light, Light::Sphere { .. })),
-            quads: has(
-                |light| matches!(light, Light::Polygon { vertices_m, .. } if vertices_m.len() <= 4),
-            ),
-            outlines: has(
-                |light| matches!(light, Light::Polygon { vertices_m, .. } if vertices_m.len() > 4),
-            ),
-            environment: scene.environment.is_some(),
+            lights: Kinds::of(scene),
             textures: !scene.textures.is_empty(),
             bodies: (scene.materials.iter().zip(&tables.materials)).any(|(material, optics)| {
                 optics.metallic < 1.0 || material.metallic_roughness_texture.is_some()
@@ -57,10 +46,7 @@ pub(crate) type Constant = (&'static str, f64);
 pub fn pipeline_variants(text: &str) -> Vec<(String, Vec<(&'static str, f64)>)> {
     let everything = Contents {
         scratches: true,
-        spheres: true,
-        quads: true,
-        outlines: true,
-        environment: true,
+        lights: Kinds::ALL,
         textures: true,
         bodies: true,
     };
@@ -85,7 +71,7 @@ pub fn pipeline_variants(text: &str) -> Vec<(String, Vec<(&'static str, f64)>)> 
         for (scene, has) in [("everything", everything), ("nothing", Contents::default())] {
             let constants = ShadeVariant { method, has }.constants(text);
             let kinds = if text.contains("override SCRATCH_LIGHTS:") {
-                0..4
+                0..Kind::ALL.len()
             } else {
                 0..1
             };
@@ -93,7 +79,7 @@ pub fn pipeline_variants(text: &str) -> Vec<(String, Vec<(&'static str, f64)>)> 
                 let mut constants = constants.clone();
                 let mut name = format!("{name}, {scene}");
                 if kinds.len() > 1 {
-                    constants.push(("SCRATCH_LIGHTS", f64::from(kind)));
+                    constants.push(("SCRATCH_LIGHTS", kind as f64));
                     name += &format!(", lights of kind {kind}");
                 }
                 if variants.iter().all(|(_, known)| *known != constants) {
@@ -117,9 +103,6 @@ impl ShadeVariant {
         let published = method.published.unwrap_or_default();
         let mut constants = vec![
             ("HAS_SCRATCHES", has.scratches.into()),
-            ("HAS_SPHERES", has.spheres.into()),
-            ("HAS_POLYGONS", (has.quads || has.outlines).into()),
-            ("HAS_ENVIRONMENT", has.environment.into()),
             ("HAS_TEXTURES", has.textures.into()),
             ("HAS_BODIES", has.bodies.into()),
             ("METHOD_MASK", mask.into()),
@@ -133,6 +116,7 @@ impl ShadeVariant {
                 (published.si == SineIntegral::Fast).into(),
             ),
         ];
+        constants.extend(has.lights.constants());
         constants.retain(|(name, _)| text.contains(&format!("override {name}:")));
         constants
     }

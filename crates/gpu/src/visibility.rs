@@ -4,11 +4,10 @@
 //! the shader divides the vertex's number by three, which works on every device.
 
 use crate::bindings::Layouts;
+use crate::compute_pass::Recording;
 use crate::device::Gpu;
 use crate::shaders;
 use crate::strip::{DEPTH_FORMAT, StripRoom, VISIBILITY_FORMAT};
-use crate::timing::Timing;
-use crate::upload::GpuScene;
 
 pub(crate) struct VisibilityPass(wgpu::RenderPipeline);
 
@@ -64,15 +63,13 @@ impl VisibilityPass {
         )
     }
 
-    pub fn record(
-        &self,
-        encoder: &mut wgpu::CommandEncoder,
-        frame: &wgpu::BindGroup,
-        scene: &GpuScene,
-        room: &StripRoom,
-        rows: u32,
-        timing: &Timing,
-    ) {
+    pub fn record(&self, recording: &mut Recording, room: &StripRoom, rows: u32) {
+        let Recording {
+            encoder,
+            frame,
+            scene,
+            timing,
+        } = recording;
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("visibility"),
             color_attachments: &[Some(wgpu::RenderPassColorAttachment {
@@ -105,7 +102,7 @@ impl VisibilityPass {
             1.0,
         );
         pass.set_pipeline(&self.0);
-        pass.set_bind_group(0, frame, &[]);
+        pass.set_bind_group(0, *frame, &[]);
         pass.set_bind_group(1, &scene.buffers.group, &[]);
         for (object, triangles) in (0..).zip(scene.triangles()) {
             pass.draw(3 * triangles.start..3 * triangles.end, object..object + 1);

@@ -1,6 +1,15 @@
 //! Linear images with the layers of a render, EXR and PNG files, tone mapping, and metrics to compare images by.
 //!
 //! Colours are linear Rec.709 in `f32` until [`png`] encodes them for a display; rows run from the top.
+//!
+//! ```
+//! use hairline_image::{Display, Picture, png};
+//!
+//! let mut picture = Picture::new([2, 1]);
+//! picture.rgb[1] = [1000.0; 3];
+//! // Black stays black; what is too bright for the display is white.
+//! assert_eq!(png::quantize(&picture, &Display::default()), [0, 0, 0, 255, 255, 255]);
+//! ```
 
 mod animation;
 mod error;

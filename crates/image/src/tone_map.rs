@@ -1,4 +1,4 @@
-//! From linear radiance to the display. Twin: `crates/gpu/shaders/tone_map.wgsl`.
+//! From linear radiance to the display. Twin: `crates/gpu/shaders/physics/tone_map.wgsl`.
 //!
 //! * Khronos Group, "Khronos PBR Neutral Tone Mapper", specification, 2024.
 //! * Troy Sobotka, "AgX", 2022 (its parametric curve), with the Rec.709 matrices published by Benjamin Wrensch,
@@ -130,7 +130,7 @@ pub fn tone_neutral(rgb: [f32; 3]) -> [f32; 3] {
 }
 
 /// AgX, default look: inset of the primaries, logarithm, sigmoid, and the inset undone.
-pub fn tone_agx(rgb: [f32; 3]) -> [f32; 3] {
+pub(crate) fn tone_agx(rgb: [f32; 3]) -> [f32; 3] {
     // Ten stops below middle grey (0.18) and six and a half above.
     const STOPS_MIN: f32 = -12.473_931;
     const STOPS_MAX: f32 = 4.026_069;
@@ -156,7 +156,7 @@ pub fn tone_agx_curve(x: f32) -> f32 {
 }
 
 /// One side of the sigmoid, from the pivot outwards: 0 at `x` = 0 with the slope given, `height` at `x` = `width`.
-pub fn tone_agx_branch(x: f32, width: f32, height: f32, slope: f32, power: f32) -> f32 {
+pub(crate) fn tone_agx_branch(x: f32, width: f32, height: f32, slope: f32, power: f32) -> f32 {
     // s t / (1 + t^p)^(1/p) = height at t = slope width / s, solved for the scale s.
     let t_end = ((slope * width / height).powf(power) - 1.0).powf(1.0 / power);
     let scale = slope * width / t_end;
@@ -179,7 +179,7 @@ const AGX_OUTSET: [[f32; 3]; 3] = [
 ];
 
 /// ACES in Hill's fit.
-pub fn tone_aces(rgb: [f32; 3]) -> [f32; 3] {
+pub(crate) fn tone_aces(rgb: [f32; 3]) -> [f32; 3] {
     let fitted = tone_transform(&ACES_FROM_REC709, rgb).map(|c| {
         let c = c.max(0.0);
         (c * (c + 0.024_578_6) - 0.000_090_537) / (c * (0.983_729 * c + 0.432_951) + 0.238_081)

@@ -10,18 +10,14 @@ const BINS: usize = 1 << 14;
 
 /// By area: a scratch counts by its width times its length.
 pub(crate) fn object_coherence(object: &Object) -> f32 {
-    let deepest = object.scratches.iter().map(|s| s.depth_nm);
+    let deepest = object.scratches.iter().map(|s| s.profile.depth_nm);
     let deepest = deepest.fold(0.0_f32, f32::max);
-    let area = |s: &Scratch| {
-        let pieces = &object.segments[s.segments.start as usize..s.segments.end as usize];
-        let length: f32 = pieces.iter().map(|p| p.start_m.distance(p.end_m)).sum();
-        (s.width_um * length) as f64
-    };
+    let area = |s: &Scratch| f64::from(object.covered_um_m(s));
     let areas: Vec<f64> = object.scratches.par_iter().map(area).collect();
     // Weights, and weights times depths.
     let mut bins = vec![[0.0_f64; 2]; BINS];
     for (scratch, area) in object.scratches.iter().zip(areas) {
-        let depth_nm = scratch.depth_nm.max(0.0);
+        let depth_nm = scratch.profile.depth_nm.max(0.0);
         let bin = (depth_nm / deepest.max(f32::MIN_POSITIVE) * BINS as f32) as usize;
         let [weight, moment] = &mut bins[bin.min(BINS - 1)];
         *weight += area;
@@ -53,7 +49,10 @@ mod tests {
         let one_by_one = object.scratches.iter().map(|s| {
             let pieces = &object.segments[s.segments.start as usize..s.segments.end as usize];
             let length: f32 = pieces.iter().map(|p| p.start_m.distance(p.end_m)).sum();
-            (s.depth_nm as f64, (s.width_um * length) as f64)
+            (
+                s.profile.depth_nm as f64,
+                (s.profile.width_um * length) as f64,
+            )
         });
         let right = depth_coherence(one_by_one.clone());
         assert!((object_coherence(object) as f64 - right).abs() < 1e-5);

@@ -3,7 +3,7 @@
 
 use crate::segment_tree::{SegmentTree, Straight};
 use glam::Vec3;
-use hairline_scene::{Object, Scene};
+use hairline_scene::{Object, Profile, Scene};
 
 /// A straight piece of a scratch.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,10 +14,8 @@ pub struct Groove {
     pub end_m: Vec3,
     /// The surface's unit normal.
     pub normal: Vec3,
-    /// Width of the groove.
-    pub width_um: f32,
-    /// Depth of the groove.
-    pub depth_nm: f32,
+    /// What the scratch's groove is.
+    pub profile: Profile,
     /// Length of the scratch before `start_m`; infinite for a closed ring.
     pub before_um: f32,
     /// Length of the scratch after `end_m`; infinite for a closed ring.
@@ -56,8 +54,7 @@ fn grooves(object: &Object) -> Vec<Groove> {
                     start_m: piece.start_m,
                     end_m: piece.end_m,
                     normal: piece.normal,
-                    width_um: scratch.width_um,
-                    depth_nm: scratch.depth_nm,
+                    profile: scratch.profile,
                     before_um: before,
                     after_um: after,
                 });
@@ -87,8 +84,10 @@ mod tests {
             name: "o".into(),
             mesh: Arc::default(),
             scratches: Arc::new(vec![Scratch {
-                width_um: 2.0,
-                depth_nm: 100.0,
+                profile: Profile {
+                    width_um: 2.0,
+                    depth_nm: 100.0,
+                },
                 layer: 0,
                 closed,
                 segments: 0..4,

@@ -5,7 +5,7 @@ use hairline_optics::footprint;
 use hairline_scene::{Object, Scene, Scratch, Segment};
 use rayon::prelude::*;
 
-use crate::scratch_index::IndexedSegment;
+use crate::indexed_segment::IndexedSegment;
 
 /// Pieces that turn by less are one: a tenth of what the narrowest bands are wide, and a micrometre off in the middle of a
 /// centimetre.
@@ -91,7 +91,7 @@ impl<'a> LayerRun<'a> {
     }
 
     /// How many straight pieces it has.
-    pub fn piece_count(&self) -> usize {
+    pub(crate) fn piece_count(&self) -> usize {
         self.scratches.iter().map(|s| s.segments.len()).sum()
     }
 
@@ -108,9 +108,9 @@ impl<'a> LayerRun<'a> {
 
     /// Whether the same pieces come of both, in the same order. Wherever their layers stand, and whatever else their objects
     /// have.
-    pub fn is_like(&self, other: &LayerRun) -> bool {
+    pub(crate) fn is_like(&self, other: &LayerRun) -> bool {
         let alike = |(a, b): (&Scratch, &Scratch)| {
-            (a.width_um, a.depth_nm, a.closed) == (b.width_um, b.depth_nm, b.closed)
+            (a.profile, a.closed) == (b.profile, b.closed)
                 && self.pieces(a) == other.pieces(b)
                 && self.coherence_um(a) == other.coherence_um(b)
         };
@@ -122,7 +122,7 @@ impl<'a> LayerRun<'a> {
 
     /// Appends the pieces with their free ends moved inwards, in the order of the scratches whatever the number of threads. Straight
     /// ones are put together.
-    pub fn append_effective(&self, effective: &mut Vec<IndexedSegment>) {
+    pub(crate) fn append_effective(&self, effective: &mut Vec<IndexedSegment>) {
         for batch in self.scratches.chunks(BATCH) {
             let tasks = batch.par_chunks(TASK).map(|scratches| {
                 let pieces = scratches.iter().map(|s| s.segments.len()).sum();
@@ -162,8 +162,7 @@ impl<'a> LayerRun<'a> {
                     start_m: piece.start_m.lerp(piece.end_m, start as f32),
                     end_m: piece.start_m.lerp(piece.end_m, end as f32),
                     normal: piece.normal,
-                    width_um: scratch.width_um,
-                    depth_nm: scratch.depth_nm,
+                    profile: scratch.profile,
                     blur_um: ends.blur_um as f32,
                 };
                 match effective[first..].last_mut() {

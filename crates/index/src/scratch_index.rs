@@ -3,35 +3,12 @@
 //! swallows are gone.
 
 use crate::depth_spread::object_coherence;
+use crate::indexed_segment::IndexedSegment;
 use crate::layer_runs::{LayerRun, groups};
-use crate::segment_tree::{Plot, SegmentTree, Straight, Tree, plant};
+use crate::segment_tree::{Plot, SegmentTree, Tree, plant};
 use crate::watch::Watch;
-use glam::Vec3;
 use hairline_scene::{Object, Scene, Scratch};
 use std::ops::Range;
-
-/// A straight piece of a scratch, its free ends moved inwards.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct IndexedSegment {
-    /// World space, metres.
-    pub start_m: Vec3,
-    /// World space, metres.
-    pub end_m: Vec3,
-    /// The surface's unit normal.
-    pub normal: Vec3,
-    /// Width of the groove.
-    pub width_um: f32,
-    /// Depth of the groove.
-    pub depth_nm: f32,
-    /// Standard deviation that smooths the ends; one for the whole scratch, so that joined ends cancel.
-    pub blur_um: f32,
-}
-
-impl Straight for IndexedSegment {
-    fn ends_m(&self) -> [Vec3; 2] {
-        [self.start_m, self.end_m]
-    }
-}
 
 /// The scratches of a scene under footprints. Each large layer on an object has a tree of its own, so that those that an edit
 /// leaves alone are grown once.

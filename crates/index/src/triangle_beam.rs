@@ -162,18 +162,21 @@ impl Default for TriangleBeam {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use hairline_fixtures::SceneFile;
     use hairline_scene::Scene;
 
     /// A bowl seen from the side, so that rays meet up to two sheets, over a floor of large triangles; with so many segments.
     fn scene(segments: usize) -> Scene {
-        let text = format!(
-            "[camera]\nposition_m = [0.1, -0.3, 0.12]\ntarget_m = [0.0, 0.0, 0.0]\nup = [0.0, 0.0, 1.0]\nfov_y_deg = 40.0\n\
-             [render]\nsize_px = [96, 64]\n[[material]]\nname = \"m\"\nkind = \"mirror\"\n\
-             [[object]]\nname = \"bowl\"\nmaterial = \"m\"\nshape = {{ lathe = {{ segments = {segments}, profile_m = [[0.0, 0.0], [0.03, 0.01], \
-             [0.05, 0.04], [0.055, 0.08]] }} }}\n\
-             [[object]]\nname = \"floor\"\nmaterial = \"m\"\nshape = {{ plane = {{ size_m = [0.2, 0.2] }} }}\n"
+        let bowl = format!(
+            "lathe = {{ segments = {segments}, profile_m = [[0.0, 0.0], [0.03, 0.01], [0.05, 0.04], [0.055, 0.08]] }}"
         );
-        Scene::from_toml(&text, "test", ".").unwrap_or_else(|error| panic!("{error}"))
+        SceneFile::seen_from([0.1, -0.3, 0.12])
+            .fov_y_deg(40.0)
+            .size_px([96, 64])
+            .mirror("m")
+            .object("bowl", "m", &bowl)
+            .object("floor", "m", "plane = { size_m = [0.2, 0.2] }")
+            .scene()
     }
 
     #[test]

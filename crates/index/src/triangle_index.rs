@@ -2,10 +2,12 @@
 
 use glam::{DVec3, Vec3A};
 use hairline_scene::Scene;
+use obvhs::BvhBuildParams;
+use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
-use obvhs::bvh2::builder::build_bvh2_from_tris;
 use obvhs::ray::{Ray, RayHit};
-use obvhs::{BvhBuildParams, triangle::Triangle};
+
+use crate::tree;
 
 /// Where a ray meets a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,19 +39,11 @@ impl TriangleIndex {
                 triangles.push((o as u32, t as u32, corners));
             }
         }
-        let single: Vec<Triangle> = triangles
+        let boxes: Vec<Aabb> = triangles
             .iter()
-            .map(|(_, _, [a, b, c])| Triangle {
-                v0: a.as_vec3a(),
-                v1: b.as_vec3a(),
-                v2: c.as_vec3a(),
-            })
+            .map(|(_, _, corners)| Aabb::from_points(&corners.map(|corner| corner.as_vec3a())))
             .collect();
-        let tree = build_bvh2_from_tris(
-            &single,
-            BvhBuildParams::medium_build(),
-            &mut std::time::Duration::default(),
-        );
+        let tree = tree::build(&boxes, &BvhBuildParams::medium_build());
         let triangles = tree
             .primitive_indices
             .iter()

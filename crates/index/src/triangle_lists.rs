@@ -4,7 +4,8 @@
 //!
 //! A footprint reaches further than the window, so lists serve points without one only.
 
-use crate::scratch_index::{IndexedSegment, REACH_STD, ScratchIndex};
+use crate::indexed_segment::IndexedSegment;
+use crate::scratch_index::{REACH_STD, ScratchIndex};
 use glam::{DVec2, DVec3, Vec3};
 use hairline_scene::{Mesh, Object, Scene};
 use rayon::prelude::*;

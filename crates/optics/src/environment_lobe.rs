@@ -10,8 +10,7 @@ use crate::lobe_table::{environment_middle_table, environment_table};
 use crate::ltc::LtcLobe;
 use glam::{DVec2, DVec3};
 
-/// Look-ups for a lobe.
-pub const ENVIRONMENT_TAPS: usize = 5;
+pub use crate::lobe_table::ENVIRONMENT_TAPS;
 
 /// A round lobe: that of GGX seen along the normal.
 #[derive(Clone, Copy, Debug, PartialEq)]

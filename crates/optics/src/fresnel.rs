@@ -13,6 +13,8 @@ use glam::DVec3;
 use crate::ggx::unit_clamp;
 use crate::lobe_table::{self, LobeTable};
 
+pub use crate::lobe_table::FRESNEL_NODES;
+
 /// Unpolarised Fresnel reflectance of a conductor of refractive index n + i k (k >= 0), seen from vacuum.
 pub fn conductor(cos_theta: f64, n: f64, k: f64) -> f64 {
     let c = cos_theta.clamp(0.0, 1.0);
@@ -70,9 +72,6 @@ pub fn schlick_weight(cos_theta: f64) -> f64 {
 pub fn half_vector_cos(wi: DVec3, wo: DVec3) -> f64 {
     0.5 * (wi + wo).length()
 }
-
-/// Nodes of a curve.
-pub const FRESNEL_NODES: usize = 128;
 
 /// How reflectance goes with the angle, in linear Rec.709: F(c) = t(c) + s(c) F0, with t in three channels and s in all alike. A measured surface has
 /// its whole reflectance in t, and s = 0. Schlick's curve, t = (1 - c)^5 and s = 1 - t, serves every F0.

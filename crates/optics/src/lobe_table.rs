@@ -6,12 +6,16 @@
 
 use std::sync::LazyLock;
 
-use crate::environment_lobe::ENVIRONMENT_TAPS;
-use crate::fresnel::FRESNEL_NODES;
 use crate::ggx::{ggx_alpha, ggx_quadrature, unit_clamp};
 
 /// Nodes along each axis.
 pub const LOBE_TABLE_SIZE: usize = 32;
+
+/// Nodes of a [`crate::fresnel::FresnelCurve`].
+pub const FRESNEL_NODES: usize = 128;
+
+/// Look-ups of an environment for a lobe: [`crate::environment_lobe`].
+pub const ENVIRONMENT_TAPS: usize = 5;
 
 /// The smallest viewer cosine that lobes are made for. A viewer at or below the horizon (it happens with interpolated
 /// normals) gets the lobe of this one.

@@ -7,11 +7,13 @@ use std::fmt;
 use std::path::Path;
 use std::sync::Arc;
 
+use crate::convert;
 use crate::description::references::find;
 use crate::description::{self, Description, Layer};
 use crate::error::Error;
-use crate::load::{self, Loader, Stage};
-use crate::memory::{self, Estimate};
+use crate::estimate::Estimate;
+use crate::loader::{Loader, Stage};
+use crate::memory;
 use crate::scene::{Object, Scene};
 use crate::scratches;
 use kept::{Kept, KeptLayer, KeptSurface, MapKey, Stamp, SurfaceKey};
@@ -94,7 +96,7 @@ struct Coat<'a> {
 impl<'a> Work<'a> {
     fn scene(&mut self) -> Result<Scene, Error> {
         self.estimate = self.check_memory()?;
-        let mut scene = load::without_surfaces(self.description);
+        let mut scene = convert::without_surfaces(self.description);
         let surfaces = self.surfaces(&mut scene)?;
         self.loader.go_on()?;
         scene.environment = self.environment(&scene)?;
@@ -107,7 +109,7 @@ impl<'a> Work<'a> {
     fn check_memory(&self) -> Result<Estimate, Error> {
         let mut estimate = Estimate::default();
         estimate.add_lights(self.description);
-        let up = load::vertical_axis(self.description.camera.up.into());
+        let up = convert::vertical_axis(self.description.camera.up.into());
         for (i, object) in self.description.objects.iter().enumerate() {
             let key = SurfaceKey::new(object, self.base_dir, up);
             if self.old.surface(&key).is_none() {
@@ -133,13 +135,13 @@ impl<'a> Work<'a> {
         let mut surfaces = Vec::new();
         let mut textures = Vec::new();
         let mut texture_count = 0;
-        let up = load::vertical_axis(scene.camera.up);
+        let up = convert::vertical_axis(scene.camera.up);
         let mut free_bytes = self.loader.memory_budget_bytes as f64 - self.estimate.bytes();
         for (i, object) in objects.iter().enumerate() {
             self.loader.go_on()?;
             self.loader.report(Stage::Meshes, i as u64, total);
             let key = format!("object[{i}]");
-            let material = load::object_material(object, &key, &self.description.materials)?;
+            let material = convert::object_material(object, &key, &self.description.materials)?;
             let surface_key = SurfaceKey::new(object, self.base_dir, up);
             let first_material = material.unwrap_or(scene.materials.len() as u32);
             let surface = match self.old.surface(&surface_key) {
@@ -155,7 +157,7 @@ impl<'a> Work<'a> {
             let own = surface.materials.iter().cloned();
             scene
                 .materials
-                .extend(own.map(|own| load::with_textures_from(own, texture_count)));
+                .extend(own.map(|own| convert::with_textures_from(own, texture_count)));
             texture_count += surface.textures.len();
             if !surface.textures.is_empty() {
                 textures.push(surface.textures.clone());
@@ -182,11 +184,11 @@ impl<'a> Work<'a> {
         let key = MapKey::new(&described.map, self.base_dir);
         let map = match self.old.map(&key) {
             Some(map) => map,
-            None => load::environment_map(&described.map, self.base_dir)?,
+            None => convert::environment_map(&described.map, self.base_dir)?,
         };
         self.new.map = Some((key, map.clone()));
         self.loader.report(Stage::Environment, 1, 1);
-        Ok(Some(load::environment(described, map, scene.camera.up)))
+        Ok(Some(convert::environment(described, map, scene.camera.up)))
     }
 
     fn scratches(&mut self, surfaces: &[Arc<KeptSurface>], scene: &mut Scene) -> Result<(), Error> {

@@ -1,5 +1,6 @@
 //! From a pixel to a ray and to the footprint that it leaves on a surface.
 
+use crate::description::limits;
 use crate::scene::{Camera, RenderSettings};
 use glam::{DVec2, DVec3};
 
@@ -51,6 +52,47 @@ impl Camera {
             fov_y_rad: 2.0 * (0.5 * f64::from(crop_px[1]) * frame.per_px_y.length()).atan(),
             ..*self
         }
+    }
+}
+
+/// Where a camera stands and looks at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Framing {
+    /// The pinhole.
+    pub position_m: DVec3,
+    /// In the middle of the picture, as deep as the middle of the points.
+    pub target_m: DVec3,
+}
+
+/// The place as near to some points as lets all of them be seen, by a camera whose axes are `right`, `up` and `forward`, and half
+/// of whose field of view has these tangents, sideways and upwards.
+pub fn framing(points_m: &[DVec3], [right, up, forward]: [DVec3; 3], tan: DVec2) -> Framing {
+    let low = points_m.iter().copied().fold(DVec3::INFINITY, DVec3::min);
+    let high = points_m
+        .iter()
+        .copied()
+        .fold(DVec3::NEG_INFINITY, DVec3::max);
+    let middle = 0.5 * (low + high);
+    // A point at (x, z), right of and in front of the middle, is in view from (cx, cz) if |x - cx| <= (z - cz) tan: so
+    // cz <= (min(x + z tan) - max(x - z tan)) / (2 tan) suffices for some cx, and the middle of those cx is the best. Likewise
+    // upwards.
+    let (mut nearest, mut least, mut most) = (f64::INFINITY, DVec2::INFINITY, DVec2::NEG_INFINITY);
+    for point in points_m {
+        let point = *point - middle;
+        let flat = DVec2::new(point.dot(right), point.dot(up));
+        let depth = point.dot(forward);
+        least = least.min(flat + depth * tan);
+        most = most.max(flat - depth * tan);
+        nearest = nearest.min(depth);
+    }
+    let cz = ((least - most) / (2.0 * tan)).min_element();
+    // Nothing else holds the camera back from entering what is flat and seen along itself.
+    let cz = cz.min(nearest - 10.0 * limits::SMALLEST_M);
+    let c = 0.5 * (least + most);
+    let position_m = middle + right * c.x + up * c.y + forward * cz;
+    Framing {
+        position_m,
+        target_m: position_m - forward * cz,
     }
 }
 
@@ -127,6 +169,8 @@ mod tests {
         let ray = frame.camera_ray(DVec2::new(320.0, 240.0));
         assert!((ray - frame.forward).length() < 1e-12);
         assert!(frame.camera_ray(DVec2::new(320.0, 0.0)).z > ray.z);
+        // Seen from -y, x runs to the right.
+        assert!(frame.camera_ray(DVec2::new(640.0, 240.0)).x > ray.x);
         let (top, bottom) = (
             frame.camera_ray(DVec2::new(320.0, 0.0)),
             frame.camera_ray(DVec2::new(320.0, 480.0)),

@@ -7,27 +7,30 @@
 
 mod check;
 pub(crate) mod hint;
+mod lights;
 pub mod limits;
-pub(crate) mod locate;
+mod parse;
+mod ranges;
 mod read;
 pub(crate) mod references;
 mod scratches;
+mod sizes;
 mod table;
+mod values;
 
 use std::path::{Path, PathBuf};
 
 use hairline_image::ToneMap;
-use hairline_optics::ggx::GGX_MIN_ALPHA;
 use hairline_optics::metal::Metal;
-use serde::{Serialize, Serializer};
+use serde::Serialize;
 
 use crate::environment::BuiltInMap;
-use crate::error::Error;
-use crate::text::printable;
+use values::{Named, is_default, serialize_named, serialize_scale};
 
+pub use lights::{Light, LightKind};
+pub(crate) use scratches::DEFAULT_SEED;
 pub use scratches::{
-    Amount, Around, Brush, Brushed, DEFAULT_DEPTH_NM, DEFAULT_LENGTH_M, DEFAULT_SEED,
-    DEFAULT_WIDTH_UM, Distribution, Laid, Layer, Listed, Pattern, Scratches, Stroke,
+    Amount, Around, Brush, Brushed, Distribution, Laid, Layer, Listed, Pattern, Scratches, Stroke,
 };
 
 /// A whole scene file.
@@ -269,189 +272,9 @@ pub enum Shape {
     },
 }
 
-/// `[[light]]`
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Light {
-    /// Free text, for lists that people read. Default: none.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub name: Option<String>,
-    /// Lights nothing, as if it were not there. Default: false.
-    #[serde(skip_serializing_if = "is_false")]
-    pub hidden: bool,
-    /// `kind` and the keys that belong to it.
-    #[serde(flatten)]
-    pub kind: LightKind,
-    /// W sr^-1 m^-2 in effect; not negative. Default: 1.
-    pub radiance: f64,
-    /// Factor on the radiance, linear Rec.709, not negative; `[1, 1, 1]` has the spectrum of D65. Default: `[1, 1, 1]`.
-    pub color: [f64; 3],
-}
-
-/// `kind` of a `[[light]]`
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[serde(tag = "kind", rename_all = "lowercase")]
-pub enum LightKind {
-    /// `"sphere"`
-    Sphere {
-        /// Required.
-        center_m: [f64; 3],
-        /// Required.
-        radius_m: f64,
-    },
-    /// `"polygon"`: planar, simple, convex or not; shines to the side that sees its vertices counter-clockwise.
-    Polygon {
-        /// At least three. Required.
-        vertices_m: Vec<[f64; 3]>,
-        /// Whether the other side shines too. Default: false.
-        two_sided: bool,
-    },
-}
-
-impl Light {
-    /// A white light of radiance 1, without a name, not hidden.
-    pub fn new(kind: LightKind) -> Self {
-        Self {
-            name: None,
-            hidden: false,
-            kind,
-            radiance: 1.0,
-            color: [1.0; 3],
-        }
-    }
-}
-
 /// sigma of materials that do not say it, those of glTF files among them.
 pub(crate) const DEFAULT_COHERENCE_UM: f64 = 20.0;
 
-impl Description {
-    /// Reads a scene file's text. `name` is what errors call the file.
-    ///
-    /// Only the form is checked here: keys, types, units. Ranges and references are checked by
-    /// [`Scene::build`](crate::Scene::build).
-    pub fn from_toml(text: &str, name: &Path) -> Result<Self, Error> {
-        crate::memory::check_text(text.len()).map_err(|error| error.at(name, None))?;
-        let root = locate::parse(text, name)?;
-        let description = read::description(&root);
-        let mut description = description.map_err(|error| error.in_scene_file(text, name))?;
-        let without_effect = read::keys_without_effect(&root);
-        let notes = without_effect.map(|(key, why)| note(text, name, key, why));
-        description.notes = notes
-            .chain(description.smoother_than_can_be(text, name))
-            .collect();
-        Ok(description)
-    }
-
-    /// The scene file that loads to this description: a `[table]` or `[[table]]` for each part, and one line for each key.
-    ///
-    /// # Errors
-    /// Numbers above 2^63 - 1, which TOML does not have.
-    pub fn to_toml(&self) -> Result<String, toml::ser::Error> {
-        let mut text = String::new();
-        for (name, value) in toml::Table::try_from(self)? {
-            let (header, parts) = match value {
-                toml::Value::Array(parts) => (format!("[[{name}]]"), parts),
-                part => (format!("[{name}]"), vec![part]),
-            };
-            for part in parts {
-                text += &format!("{header}\n");
-                for (key, value) in part.as_table().into_iter().flatten() {
-                    text += &format!("{key} = {value}\n");
-                }
-                text.push('\n');
-            }
-        }
-        Ok(text)
-    }
-}
-
-impl Description {
-    /// Notes about materials that look rougher than they say.
-    fn smoother_than_can_be(&self, text: &str, name: &Path) -> Vec<String> {
-        let least = GGX_MIN_ALPHA.sqrt();
-        let is_smoother = |(_, material): &(usize, &Material)| {
-            (0.0..least).contains(&material.roughness) && material.kind != MaterialKind::Mirror
-        };
-        let materials = self.materials.iter().enumerate().filter(is_smoother);
-        // One is enough to be warned, and a scene may have thousands.
-        let first = materials.take(1).map(|(i, material)| {
-            let key = format!("material[{i}].roughness");
-            let why = format!(
-                "{} looks as {least:.3} does, which is the smoothest; only `kind = \"mirror\"` is smoother",
-                material.roughness
-            );
-            note(text, name, &key, &why)
-        });
-        first.collect()
-    }
-}
-
-/// A note about a key of the file: `file:line: key: why`, as errors are written.
-fn note(text: &str, name: &Path, key: &str, why: &str) -> String {
-    let line = locate::line_of_key(text, key).map_or_else(String::new, |line| format!(":{line}"));
-    format!("{}{line}: {key}: {why}", printable(&name.to_string_lossy()))
-}
-
-/// Values that a scene file calls by name.
-trait Named: Copy + PartialEq + 'static {
-    const NAMES: &'static [(&'static str, Self)];
-}
-
-impl Named for ToneMap {
-    const NAMES: &'static [(&'static str, Self)] = &[
-        ("neutral", ToneMap::Neutral),
-        ("agx", ToneMap::Agx),
-        ("aces", ToneMap::Aces),
-        ("none", ToneMap::None),
-    ];
-}
-
-impl Named for Metal {
-    const NAMES: &'static [(&'static str, Self)] = &[
-        ("iron", Metal::Iron),
-        ("steel", Metal::StainlessSteel),
-        ("aluminium", Metal::Aluminium),
-        ("copper", Metal::Copper),
-        ("gold", Metal::Gold),
-        ("silver", Metal::Silver),
-        ("brass", Metal::Brass),
-        ("chromium", Metal::Chromium),
-        ("titanium", Metal::Titanium),
-        ("nickel", Metal::Nickel),
-    ];
-}
-
-impl Named for BuiltInMap {
-    const NAMES: &'static [(&'static str, Self)] = &[
-        ("studio", BuiltInMap::Studio),
-        ("window", BuiltInMap::Window),
-        ("overcast", BuiltInMap::Overcast),
-    ];
-}
-
 impl Named for Up {
     const NAMES: &'static [(&'static str, Self)] = &[("y", Up::Y), ("z", Up::Z)];
-}
-
-fn is_default<T: Default + PartialEq>(value: &T) -> bool {
-    *value == T::default()
-}
-
-fn is_false(value: &bool) -> bool {
-    !value
-}
-
-fn serialize_named<T: Named, S: Serializer>(value: &T, serializer: S) -> Result<S::Ok, S::Error> {
-    let (name, _) = T::NAMES
-        .iter()
-        .find(|(_, named)| named == value)
-        .ok_or_else(|| serde::ser::Error::custom("a value that scene files have no name for"))?;
-    serializer.serialize_str(name)
-}
-
-fn serialize_scale<S: Serializer>(scale: &[f64; 3], serializer: S) -> Result<S::Ok, S::Error> {
-    if scale[0] == scale[1] && scale[1] == scale[2] {
-        scale[0].serialize(serializer)
-    } else {
-        scale.serialize(serializer)
-    }
 }

@@ -13,11 +13,13 @@ use std::sync::Arc;
 use glam::{DMat3, DQuat, DVec3};
 use hairline_image::Picture;
 
-use crate::scene::Light;
+use crate::light::Light;
+use half_texels::{fit_half, round_to_half};
 use suns::{Parted, Sun};
 
 mod built_in;
 mod file;
+mod half_texels;
 mod irradiance;
 pub mod lookup;
 mod prefilter;
@@ -28,7 +30,6 @@ pub use built_in::BuiltInMap;
 pub(crate) use built_in::SIZE_PX as BUILT_IN_SIZE_PX;
 pub use file::Error;
 pub(crate) use file::{read, size_px};
-pub use irradiance::IRRADIANCE_SIZE_PX;
 pub use prefilter::{LEVEL_HALVINGS, LEVEL_ROUGHNESS};
 
 use lookup::{
@@ -288,12 +289,6 @@ const SUN_DISTANCE_M: f64 = 1e5;
 /// What every WebGPU device can hold in one texture.
 const MAP_WIDTH_MAX: u32 = 8192;
 
-/// The largest half float.
-const HALF_MAX: f32 = 65504.0;
-
-/// The largest power of two by which maps are divided: dark parts of a brighter map would lose their bits.
-const TEXEL_SCALE_MAX: f32 = 1024.0;
-
 fn map_from_world(up: DVec3, rotation_rad: f64) -> DMat3 {
     let up = up.normalize();
     let world_from_map =
@@ -316,24 +311,4 @@ fn repair(map: &mut Picture) -> usize {
         *texel = whole;
     }
     repaired
-}
-
-/// Divides the map by the power of two that brings it below the largest half float, and cuts what stays above.
-fn fit_half(map: &mut Picture) -> f64 {
-    let brightest = map.rgb.iter().flatten().fold(0.0_f32, |a, &b| a.max(b));
-    let mut scale = 1.0;
-    while brightest / scale > HALF_MAX && scale < TEXEL_SCALE_MAX {
-        scale *= 2.0;
-    }
-    for c in map.rgb.iter_mut().flatten() {
-        *c = (*c / scale).min(HALF_MAX);
-    }
-    f64::from(scale)
-}
-
-/// Rounds to what a half-float texture holds.
-fn round_to_half(map: &mut Picture) {
-    for c in map.rgb.iter_mut().flatten() {
-        *c = half::f16::from_f32(c.min(HALF_MAX)).to_f32();
-    }
 }

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-use crate::description::locate;
+use crate::key_line::line_of_key;
 use crate::text::{printable, said};
 
 /// What was found in a scene, where, and what would be right there.
@@ -65,7 +65,7 @@ impl Error {
     /// Errors of [`Scene::from_toml`](crate::Scene::from_toml) have it already.
     #[must_use]
     pub fn in_scene_file(self, text: &str, name: &Path) -> Self {
-        let line = locate::line_of_key(text, &self.key);
+        let line = line_of_key(text, &self.key);
         self.at(name, line)
     }
 

@@ -1,13 +1,35 @@
 //! From a scene file to one validated [`Scene`] in canonical units: the only home of defaults, unit conversion and
 //! errors that speak to a user.
+//!
+//! ```
+//! use hairline_scene::Scene;
+//!
+//! let text = r#"
+//! camera = { position_m = [0.0, -0.2, 0.3], target_m = [0.0, 0.0, 0.0] }
+//! material = [{ name = "steel", kind = "metal", metal = "steel" }]
+//! object = [{ name = "plate", shape = { disk = { radius_m = 0.08 } }, material = "steel" }]
+//! scratches = [{ object = "plate", pattern = "random", count = 100 }]
+//! "#;
+//! let scene = Scene::from_toml(text, "plate.toml", ".")?;
+//! assert_eq!(scene.objects[0].scratches.len(), 100);
+//!
+//! let error = Scene::from_toml(&text.replace("radius_m", "radius"), "plate.toml", ".").unwrap_err();
+//! assert_eq!(error.line(), Some(4));
+//! # Ok::<(), hairline_scene::Error>(())
+//! ```
 
 mod builder;
 pub mod camera;
+mod convert;
 pub mod description;
 pub mod environment;
 mod error;
+pub mod estimate;
 pub mod inputs;
+mod key_line;
+mod light;
 mod load;
+mod loader;
 pub mod material_optics;
 pub mod memory;
 mod mesh_file;
@@ -27,7 +49,7 @@ pub use camera::CameraFrame;
 pub use description::Description;
 pub use environment::Environment;
 pub use error::Error;
-pub use load::{Loader, Progress, Stage};
+pub use loader::{Loader, Progress, Stage};
 pub use material_optics::{MaterialOptics, Reflector, ScratchTables};
 pub use polygon::vector_area_m2;
 pub use scene::*;

@@ -5,71 +5,44 @@
 //! morph targets (the rest pose is shown), vertex colours, alpha, texture transforms; points and lines are skipped.
 
 mod accessor;
+mod flaw;
 mod head;
 mod material;
+mod nodes;
 mod placing;
 mod primitive;
 mod root;
 mod source;
+mod stock;
 mod tangents;
 
 use std::borrow::Cow;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use glam::{DMat4, DQuat, DVec3};
+use glam::DMat4;
 use gltf::Gltf;
 
 use crate::reading::{self, Kind};
-use crate::scene::{Material, Mesh, Texture};
+use crate::scene::Mesh;
 use crate::text::shown;
+pub(crate) use flaw::Flaw;
+use flaw::RIGHT;
 pub(crate) use head::{counts, names};
 use material::Materials;
+use nodes::placed_meshes;
 pub(crate) use placing::Placing;
 use source::Buffers;
+use stock::FILE_SHARE;
+pub(crate) use stock::Stock;
 
-/// What a file must be.
-const RIGHT: &str = "must be a whole glTF 2.0 file, text (.gltf) or binary (.glb)";
-/// Nodes may lie this deep within each other; more is taken for a mistake.
-const DEEPEST: usize = 256;
 /// Instances of meshes that one file may place; each is baked.
 const MOST_TRIANGLES: usize = 1 << 28;
-/// Of the free memory, what one file may take.
-const FILE_SHARE: f64 = 1.0 / 4.0;
 /// Extensions that are read. Quantization needs nothing done: the accessors read every component type.
 const EXTENSIONS: [&str; 3] = [
     "KHR_mesh_quantization",
     "KHR_materials_emissive_strength",
     "EXT_texture_webp",
 ];
-
-/// What is wrong with a file, and what would be right.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{found}")]
-pub(crate) struct Flaw {
-    pub found: String,
-    pub right: String,
-}
-
-impl Flaw {
-    fn new(found: impl Into<String>, right: impl Into<String>) -> Self {
-        Self {
-            found: found.into(),
-            right: right.into(),
-        }
-    }
-}
-
-/// Where a file's own materials go.
-pub(crate) struct Stock<'a> {
-    pub materials: &'a mut Vec<Material>,
-    pub textures: &'a mut Vec<Texture>,
-    /// The files that it refers to and that were read.
-    pub files: &'a mut Vec<PathBuf>,
-    /// What textures may still take of the memory.
-    pub free_bytes: f64,
-    /// Whether textures get their mip chains, which take longer than the rest.
-    pub with_mips: bool,
-}
 
 /// Reads a file's triangles into world space. Without `material`, an index into the stock, the file's own are added there.
 pub(crate) fn read(
@@ -205,89 +178,4 @@ fn parts(bytes: &[u8]) -> Result<Parts<'_>, Flaw> {
         Flaw::new(found, RIGHT)
     })?;
     Ok((glb.json, glb.bin.map(Cow::into_owned)))
-}
-
-/// The nodes of the file's scene that have a mesh, with their transforms.
-fn placed_meshes(
-    document: &gltf::Document,
-    world_from_object: DMat4,
-) -> Result<Vec<(gltf::Node<'_>, DMat4)>, Flaw> {
-    let scene = document
-        .default_scene()
-        .or_else(|| document.scenes().next());
-    let roots: Vec<_> = match scene {
-        Some(scene) => scene.nodes().collect(),
-        // A file without a scene is a library; then all that is nobody's child is shown.
-        None => {
-            let mut is_child = vec![false; document.nodes().len()];
-            for child in document.nodes().flat_map(|node| node.children()) {
-                is_child[child.index()] = true;
-            }
-            document
-                .nodes()
-                .filter(|node| !is_child[node.index()])
-                .collect()
-        }
-    };
-    let mut placed = Vec::new();
-    let mut seen = vec![false; document.nodes().len()];
-    let mut stack: Vec<_> = roots
-        .into_iter()
-        .rev()
-        .map(|root| (root, world_from_object, 0))
-        .collect();
-    while let Some((node, world_from_parent, depth)) = stack.pop() {
-        // Nodes form trees, so meeting one twice is a mistake, and might go on for ever.
-        if depth > DEEPEST {
-            return Err(Flaw::new(
-                format!(
-                    "its node {} lies more than {DEEPEST} nodes deep",
-                    node.index()
-                ),
-                "export it again with fewer levels",
-            ));
-        }
-        if std::mem::replace(&mut seen[node.index()], true) {
-            return Err(Flaw::new(
-                format!(
-                    "its node {} is its own ancestor or has two parents",
-                    node.index()
-                ),
-                "nodes must form trees",
-            ));
-        }
-        let world_from_node = world_from_parent * parent_from_node(&node);
-        for child in node.children().collect::<Vec<_>>().into_iter().rev() {
-            stack.push((child, world_from_node, depth + 1));
-        }
-        if node.mesh().is_some() {
-            placed.push((node, world_from_node));
-        }
-    }
-    Ok(placed)
-}
-
-fn parent_from_node(node: &gltf::Node) -> DMat4 {
-    match node.transform() {
-        gltf::scene::Transform::Matrix { matrix } => {
-            DMat4::from_cols_array_2d(&matrix.map(|column| column.map(f64::from)))
-        }
-        gltf::scene::Transform::Decomposed {
-            translation,
-            rotation,
-            scale,
-        } => {
-            let rotation = DQuat::from_array(rotation.map(f64::from));
-            // Exporters round, and a zero quaternion has no direction.
-            let rotation = match rotation.length() > 1e-6 {
-                true => rotation.normalize(),
-                false => DQuat::IDENTITY,
-            };
-            DMat4::from_scale_rotation_translation(
-                DVec3::from_array(scale.map(f64::from)),
-                rotation,
-                DVec3::from_array(translation.map(f64::from)),
-            )
-        }
-    }
 }

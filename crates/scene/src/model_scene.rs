@@ -2,8 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
+use crate::camera::framing;
 use crate::description::{
     Amount, Camera, Description, Distribution, Environment, Laid, Layer, Light, LightKind, Map,
     Object, Pattern, Render, Scratches, Surface, Up,
@@ -52,12 +53,18 @@ impl Description {
         }
         // From y up to z up.
         let (least, most) = summary.bounds_m;
-        let [a, b] =
-            [least, most].map(|p| factor * DVec3::new(p.x.into(), (-p.z).into(), p.y.into()));
+        let upright = |p: glam::Vec3| factor * DVec3::new(p.x.into(), (-p.z).into(), p.y.into());
+        let [a, b] = [least, most].map(upright);
         let bounds = Bounds {
             least: a.min(b),
             most: a.max(b),
         };
+        let points_m: Vec<_> = summary
+            .extreme_points_m
+            .iter()
+            .copied()
+            .map(upright)
+            .collect();
         let render = Render::default();
         let stem = path
             .file_stem()
@@ -66,7 +73,7 @@ impl Description {
             .filter(|stem| !stem.is_empty())
             .unwrap_or_else(|| "model".to_owned());
         Ok(Self {
-            camera: bounds.camera(render.size_px),
+            camera: camera(&points_m, render.size_px),
             render,
             environment: Some(Environment {
                 map: Map::BuiltIn(BuiltInMap::Studio),
@@ -110,17 +117,34 @@ fn wear(object: &str, extent_m: f64) -> Scratches {
         name: Some("light wear".to_owned()),
         hidden: false,
         solo: false,
-        layer: Layer::Laid(Laid {
-            pattern: Pattern::Random {
+        layer: Layer::Laid(Laid::new(
+            Pattern::Random {
                 curvature_per_m: spread(0.0, 1.0 / extent_m),
             },
-            amount: Amount::Count(6000),
-            seed: 1,
-            length_m: spread(0.1 * extent_m, 0.5),
-            width_um: spread(4.2, 0.12),
-            depth_nm: spread(138.0, 0.1),
-        }),
+            Amount::Count(6000),
+            [
+                spread(0.1 * extent_m, 0.5),
+                spread(4.2, 0.12),
+                spread(138.0, 0.1),
+            ],
+        )),
         strokes: Vec::new(),
+    }
+}
+
+/// From [`VIEW`], as near as lets all points be seen.
+fn camera(points_m: &[DVec3], [width, height]: [u32; 2]) -> Camera {
+    let forward = -VIEW.normalize();
+    let right = forward.cross(DVec3::Z).normalize();
+    let tan_y = FILLED * (0.5 * FOV_Y_DEG.to_radians()).tan();
+    let tan = DVec2::new(tan_y * f64::from(width) / f64::from(height), tan_y);
+    let view = framing(points_m, [right, right.cross(forward), forward], tan);
+    Camera {
+        position_m: view.position_m.into(),
+        target_m: view.target_m.into(),
+        up: [0.0, 0.0, 1.0],
+        fov_y_deg: FOV_Y_DEG,
+        exposure_ev: 0.0,
     }
 }
 
@@ -143,32 +167,6 @@ impl Bounds {
     /// Half of the diagonal.
     fn radius_m(&self) -> f64 {
         0.5 * self.least.distance(self.most)
-    }
-
-    /// From [`VIEW`], as near as lets all corners be seen.
-    fn camera(&self, [width, height]: [u32; 2]) -> Camera {
-        let middle = self.middle_m();
-        let back = VIEW.normalize();
-        let right = (-back).cross(DVec3::Z).normalize();
-        let up = right.cross(-back);
-        let tan_y = FILLED * (0.5 * FOV_Y_DEG.to_radians()).tan();
-        let tan_x = tan_y * f64::from(width) / f64::from(height);
-        let corner = |i: u32| {
-            let pick = |bit: u32| if i & bit == 0 { self.least } else { self.most };
-            DVec3::new(pick(1).x, pick(2).y, pick(4).z) - middle
-        };
-        let needed_m = (0..8).map(corner).map(|corner| {
-            let sideways = (corner.dot(right).abs() / tan_x).max(corner.dot(up).abs() / tan_y);
-            sideways + corner.dot(back)
-        });
-        let distance_m = needed_m.fold(0.0, f64::max);
-        Camera {
-            position_m: (middle + distance_m * back).into(),
-            target_m: middle.into(),
-            up: [0.0, 0.0, 1.0],
-            fov_y_deg: FOV_Y_DEG,
-            exposure_ev: 0.0,
-        }
     }
 
     /// Small enough for colours.

@@ -18,6 +18,8 @@ pub struct MeshSummary {
     pub triangles: usize,
     /// The least and the greatest coordinates, in the file's own frame.
     pub bounds_m: (Vec3, Vec3),
+    /// Points of its surface that stand farthest out, see [`Mesh::extreme_points_m`](crate::scene::Mesh::extreme_points_m).
+    pub extreme_points_m: Vec<Vec3>,
     /// Names of the materials that the triangles use.
     pub materials: Vec<String>,
     /// The share of the triangles that are of metal.
@@ -82,6 +84,7 @@ pub fn mesh(path: &Path) -> Result<MeshSummary, Error> {
         metal_share: metals.count() as f64 / mesh.triangles.len() as f64,
         triangles: mesh.triangles.len(),
         bounds_m: mesh.bounds_m(),
+        extreme_points_m: mesh.extreme_points_m(),
         materials: materials.into_iter().map(|m| m.name).collect(),
     })
 }

@@ -11,6 +11,8 @@ use std::sync::Arc;
 
 use crate::environment::Environment;
 
+pub use crate::light::Light;
+
 /// Samples of a pixel with an edge or a crease in it, in a finished picture: of the window, of an export, of `hairline render`, by every
 /// renderer.
 pub const DEFAULT_SAMPLES: u32 = 8;
@@ -150,6 +152,15 @@ pub struct Object {
 }
 
 impl Object {
+    /// The area of a scratch: its width in micrometres times its length in metres.
+    pub fn covered_um_m(&self, scratch: &Scratch) -> f32 {
+        let own = scratch.segments.start as usize..scratch.segments.end as usize;
+        let lengths = self.segments[own]
+            .iter()
+            .map(|p| p.start_m.distance(p.end_m));
+        scratch.profile.width_um * lengths.sum::<f32>()
+    }
+
     /// Whether two objects share their surface, unchanged.
     pub fn same_mesh(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.mesh, &other.mesh)
@@ -179,14 +190,21 @@ pub struct Mesh {
     pub triangle_materials: Vec<u32>,
 }
 
+/// The cross section of a groove: a rectangle. It travels whole, from the layer that draws it to what shades it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Profile {
+    /// Width of the opening.
+    pub width_um: f32,
+    /// Depth of the floor.
+    pub depth_nm: f32,
+}
+
 /// One scratch: one groove, one wave. Where two of its segments meet, the end is joined; its own two ends are free,
 /// unless it is closed to a ring.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scratch {
-    /// Width of the rectangular groove.
-    pub width_um: f32,
-    /// Depth of the rectangular groove.
-    pub depth_nm: f32,
+    /// What its groove is.
+    pub profile: Profile,
     /// Which `[[scratches]]` table of the scene file laid it, counted from 0.
     pub layer: u32,
     /// Whether the last segment's end is joined to the first one's start.
@@ -206,51 +224,4 @@ pub struct Segment {
     pub normal: Vec3,
     /// The triangle in [`Mesh::triangles`] that it lies on.
     pub triangle: u32,
-}
-
-/// An area light. `radiance` is linear Rec.709, W sr^-1 m^-2 in effect: (1, 1, 1) has the spectrum of D65.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Light {
-    /// A sphere.
-    Sphere {
-        /// World space.
-        center_m: DVec3,
-        /// Radius, positive.
-        radius_m: f64,
-        /// Emitted radiance.
-        radiance: [f64; 3],
-    },
-    /// A planar polygon, simple, convex or not; it shines to the side that sees the vertices counter-clockwise.
-    Polygon {
-        /// World space, at least three.
-        vertices_m: Vec<DVec3>,
-        /// Emitted radiance.
-        radiance: [f64; 3],
-        /// Whether the other side shines too.
-        two_sided: bool,
-    },
-}
-
-impl Light {
-    /// Centre and radius of a sphere around the light, for culling; not the smallest one.
-    pub fn bounding_sphere(&self) -> (DVec3, f64) {
-        match self {
-            Light::Sphere {
-                center_m, radius_m, ..
-            } => (*center_m, *radius_m),
-            Light::Polygon { vertices_m, .. } => {
-                let (low, high) = vertices_m
-                    .iter()
-                    .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), v| {
-                        (low.min(*v), high.max(*v))
-                    });
-                let center = 0.5 * (low + high);
-                let radius = vertices_m
-                    .iter()
-                    .map(|v| v.distance(center))
-                    .fold(0.0, f64::max);
-                (center, radius)
-            }
-        }
-    }
 }

@@ -10,6 +10,7 @@ mod erase;
 mod facet;
 mod ground;
 mod guide;
+mod laying;
 mod listed;
 mod memory;
 mod neighbours;
@@ -23,26 +24,20 @@ use std::path::Path;
 
 use rayon::prelude::*;
 
-use crate::description::{Amount, Distribution, Layer, Stroke};
+use crate::description::{Amount, Layer, Stroke};
 use crate::error::Error;
-use crate::load::{Loader, Stage};
+use crate::loader::{Loader, Stage};
 use crate::scene::{Scratch, Segment};
 
 use erase::Eraser;
 pub(crate) use ground::Ground;
+use laying::{Groove, Laying, MOST_SEGMENTS};
 use listed::Listed;
 use memory::{Demand, SEGMENT_BYTES};
 use painted::Painted;
 use strewn::Strewn;
 use walk::{Course, Walker};
 
-/// Widths are kept within the spectral table's range, and below the coherence windows that scenes ask for.
-const WIDTHS_UM: (f64, f64) = (0.05, 100.0);
-/// Depths are kept within the spectral table's range.
-const DEPTHS_NM: (f64, f64) = (0.0, 2000.0);
-
-/// The renderers' trees number the segments by 28 bits.
-const MOST_SEGMENTS: usize = 1 << 28;
 /// How many scratches are laid first to learn how many segments one has.
 const PILOTS: u64 = 1024;
 /// Segments that are enough to know.
@@ -84,8 +79,7 @@ impl Laid {
     fn push(&mut self, groove: &Groove, course: Course, segments: std::ops::Range<usize>) {
         if !segments.is_empty() {
             self.scratches.push(Scratch {
-                width_um: groove.width_um,
-                depth_nm: groove.depth_nm,
+                profile: groove.profile,
                 layer: 0,
                 closed: course == Course::Closed,
                 segments: segments.start as u32..segments.end as u32,
@@ -97,36 +91,6 @@ impl Laid {
 /// What laid scratches take, here and in what renderers make of them.
 pub(crate) fn bytes(scratches: usize, segments: usize) -> f64 {
     (scratches * size_of::<Scratch>()) as f64 + (segments as u64 * SEGMENT_BYTES) as f64
-}
-
-/// What is known of a scratch besides its segments.
-struct Groove {
-    width_um: f32,
-    depth_nm: f32,
-    course: Course,
-}
-
-/// A layer that can lay its scratches one by one, in any order.
-trait Laying: Sync {
-    /// Appends the segments of one scratch.
-    fn lay(&self, walker: &Walker, index: u64, segments: &mut Vec<Segment>) -> Groove;
-
-    /// How many of the layer's strokes came before a scratch, its own included.
-    fn strokes_before(&self, _index: u64) -> usize {
-        0
-    }
-}
-
-/// A width that lies `normal` standard deviations from the mean, times a factor.
-fn scratch_width_um(drawn: &Distribution, normal: f64, factor: f64) -> f32 {
-    let (least, most) = WIDTHS_UM;
-    (drawn.log_normal_at(normal) * factor).clamp(least, most) as f32
-}
-
-/// A depth that lies `normal` standard deviations from the mean, times a factor.
-fn scratch_depth_nm(drawn: &Distribution, normal: f64, factor: f64) -> f32 {
-    let (least, most) = DEPTHS_NM;
-    (drawn.log_normal_at(normal) * factor).clamp(least, most) as f32
 }
 
 /// A layer that is ready to be laid.

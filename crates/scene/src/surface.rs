@@ -140,6 +140,36 @@ impl Mesh {
         self.triangles[triangle].map(|v| self.positions_m[v as usize].as_dvec3())
     }
 
+    /// The vertices that stand farthest out, one for each of some directions: what frames them frames the mesh, to a few hundredths
+    /// of its size.
+    pub fn extreme_points_m(&self) -> Vec<Vec3> {
+        const DIRECTIONS: usize = 128;
+        // Spread evenly over the sphere, by the golden angle.
+        let direction = |i: usize| {
+            let z = 1.0 - (2 * i + 1) as f32 / DIRECTIONS as f32;
+            let (sine, cosine) = (2.399_963_2 * i as f32).sin_cos();
+            let r = (1.0 - z * z).sqrt();
+            Vec3::new(r * cosine, r * sine, z)
+        };
+        let directions: [Vec3; DIRECTIONS] = std::array::from_fn(direction);
+        let mut farthest = [(f32::NEG_INFINITY, Vec3::ZERO); DIRECTIONS];
+        let mut is_used = vec![false; self.positions_m.len()];
+        for v in self.triangles.iter().flatten() {
+            is_used[*v as usize] = true;
+        }
+        let used = self.positions_m.iter().zip(is_used);
+        for (point, _) in used.filter(|(_, is_used)| *is_used) {
+            for (direction, (distance, best)) in directions.iter().zip(&mut farthest) {
+                let reach = direction.dot(*point);
+                if reach > *distance {
+                    (*distance, *best) = (reach, *point);
+                }
+            }
+        }
+        let found = farthest.iter().filter(|(distance, _)| distance.is_finite());
+        found.map(|(_, point)| *point).collect()
+    }
+
     /// The least box around the vertices that triangles use, as its two extreme corners, metres.
     pub fn bounds_m(&self) -> (Vec3, Vec3) {
         let used = self.triangles.iter().flatten();

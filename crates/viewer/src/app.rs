@@ -12,7 +12,7 @@ use web_time::Instant;
 use crate::command::Command;
 use crate::compare::Compare;
 use crate::dialogs::Dialogs;
-use crate::engine::{Backend, Engine, Event};
+use crate::engine::{Backend, Engine, Event, Frame};
 use crate::export::Export;
 use crate::files::Files;
 use crate::free_view::FreeView;
@@ -73,8 +73,9 @@ pub struct Viewer {
     title: String,
     /// Of the device that draws the window.
     loss: WindowLoss,
-    /// The next frames are to wait for no refresh of the screen.
-    frees_frames: bool,
+    /// Where a software driver draws.
+    #[cfg(not(target_arch = "wasm32"))]
+    software: Option<crate::window::SoftwareWindow>,
 }
 
 impl Viewer {
@@ -127,7 +128,8 @@ impl Viewer {
             asked_revision: 0,
             title: String::new(),
             loss: WindowLoss::default(),
-            frees_frames: false,
+            #[cfg(not(target_arch = "wasm32"))]
+            software: None,
             document,
         };
         viewer.tell_notes();
@@ -254,10 +256,21 @@ impl Viewer {
         self.loss = loss;
     }
 
-    /// Has frames wait for no refresh of the screen, for which a software driver stands still.
+    /// Tells that a software driver draws the window.
     #[cfg(not(target_arch = "wasm32"))]
-    pub(crate) fn show_frames_at_once(&mut self) {
-        self.frees_frames = true;
+    pub(crate) fn set_software(&mut self, software: crate::window::SoftwareWindow) {
+        self.software = Some(software);
+    }
+
+    /// The picture to be drawn in place of `frame`, the newest one when the pass began: a window that a software driver draws waits
+    /// a moment for that of the view that is wanted now.
+    pub(crate) fn picture_to_draw(&mut self, frame: Option<Arc<Frame>>) -> Option<Arc<Frame>> {
+        #[cfg(not(target_arch = "wasm32"))]
+        if let (Some(software), Some(view)) = (&mut self.software, self.viewport.view) {
+            software.wait_for_picture(&self.engine, view, self.asked_revision);
+            return self.engine.latest();
+        }
+        frame
     }
 
     /// What is not saved is kept, and offered at the next start: nothing can be asked any more.
@@ -309,7 +322,7 @@ impl Viewer {
     }
 
     /// Hands the description to the engine if more than the view has changed.
-    fn ask_engine(&mut self) {
+    pub(crate) fn ask_engine(&mut self) {
         let description = self.document.description();
         let is_latest = |asked: &Arc<_>| Arc::ptr_eq(asked, description);
         if self.asked.as_ref().is_some_and(is_latest) {
@@ -372,18 +385,18 @@ impl Viewer {
 }
 
 impl eframe::App for Viewer {
-    fn ui(&mut self, ui: &mut egui::Ui, frame: &mut eframe::Frame) {
+    fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
         let start = Instant::now();
-        if std::mem::take(&mut self.frees_frames)
-            && let Some(config) = frame.wgpu_surface_config()
-        {
-            frame.set_wgpu_surface_config(eframe::SurfaceConfig {
-                present_mode: wgpu::PresentMode::AutoNoVsync,
-                ..config
-            });
+        #[cfg(not(target_arch = "wasm32"))]
+        if let Some(software) = &mut self.software {
+            software.free(_frame);
         }
         self.show(ui);
         self.viewport.note_interface_time(start.elapsed());
+    }
+
+    fn clear_color(&self, _visuals: &egui::Visuals) -> [f32; 4] {
+        crate::style::GROUND.to_normalized_gamma_f32()
     }
 
     fn on_exit(&mut self) {

@@ -7,10 +7,12 @@
 //!
 //! Where there are no threads, in a browser, both work in turn with the interface: [`Engine::work`] does a slice.
 
+pub(crate) mod bands;
 mod build;
 mod builder;
-pub(crate) mod cpu;
+mod cpu;
 mod drafts;
+mod easel;
 mod frame;
 #[cfg(not(target_arch = "wasm32"))]
 mod gpu;
@@ -21,6 +23,8 @@ mod partial;
 mod pool;
 mod request;
 mod sketch;
+mod steps;
+mod studio;
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -163,6 +167,13 @@ impl Engine {
     /// The view that is wanted.
     pub fn view(&self) -> Option<View> {
         self.shared.view()
+    }
+
+    /// Blocks until there is a picture of the view that is wanted and of the scene of this revision, something went wrong, or
+    /// `patience` is over. That picture wakes nobody. For an interface that can draw nothing else meanwhile.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub(crate) fn wait_for_picture(&self, revision: u64, patience: Duration) {
+        self.shared.wait_for_frame(revision, patience);
     }
 
     /// The newest picture.

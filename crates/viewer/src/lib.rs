@@ -1,5 +1,18 @@
 //! The viewer: edit scratches, light and material live.
 //!
+//! ```no_run
+//! use hairline_viewer::{Options, engine::Backend, window::Renderer};
+//!
+//! let options = Options {
+//!     scene: Some("scenes/plate.toml".into()),
+//!     built_in: "[camera]\nposition_m = [0, 0, 1]\ntarget_m = [0, 0, 0]",
+//!     backend: Backend::Cpu,
+//!     state_dir: hairline_viewer::state_dir(),
+//!     native_dialogs: true,
+//! };
+//! hairline_viewer::open(options, Renderer::default()).unwrap();
+//! ```
+//!
 //! What it edits is a [`Document`](hairline_editor::Document); what paints it is an [`engine::Engine`]. Widgets read the
 //! document and hand changes to it; the engine is given the document's newest description and the view, and never waited
 //! for. [`window`] opens it on a screen; tests drive [`Viewer`] without one.

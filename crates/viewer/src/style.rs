@@ -5,11 +5,14 @@ use egui::{Color32, RectAlign, Response, ThemePreference, Tooltip, Visuals};
 /// Text of what went wrong.
 pub(crate) const ERROR: Color32 = Color32::from_rgb(255, 140, 120);
 
+/// Of panels.
+pub(crate) const GROUND: Color32 = Color32::from_gray(30);
+
 /// Dark and without hue, so that the eye judges the picture's colours and not the frame's.
 pub(crate) fn set(ctx: &egui::Context) {
     ctx.set_theme(ThemePreference::Dark);
     let mut visuals = Visuals::dark();
-    visuals.panel_fill = Color32::from_gray(30);
+    visuals.panel_fill = GROUND;
     visuals.window_fill = Color32::from_gray(34);
     visuals.extreme_bg_color = Color32::from_gray(16);
     visuals.selection.bg_fill = Color32::from_gray(78);

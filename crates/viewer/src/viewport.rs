@@ -13,7 +13,7 @@ mod strokes;
 use std::time::Duration;
 
 use eframe::egui_wgpu::RenderState;
-use egui::{Rect, Role, Sense, WidgetInfo};
+use egui::{Rect, Response, Role, Sense, Shape, WidgetInfo};
 use hairline_editor::Selection;
 use hairline_image::Display;
 
@@ -124,31 +124,44 @@ pub(crate) fn show(ui: &mut egui::Ui, viewer: &mut Viewer) -> Rect {
         let picture_px = viewer.document.description().render.size_px;
         let area = Area::new(rect, picture_px, ui.pixels_per_point());
         viewer.viewport.aspect = f64::from(picture_px[0]) / f64::from(picture_px[1].max(1));
+        // Under all that follows: what the mouse does is in it.
+        let place = ui.painter().add(Shape::Noop);
+        let frame = viewer.engine.latest();
+        over(ui, viewer, &area, &response);
+        viewer.ask_engine();
         let wanted = view(viewer, &area);
         viewer.viewport.view = Some(wanted);
         viewer.engine.set_view(wanted);
-        if let Some(frame) = viewer.engine.latest() {
-            viewer.viewport.canvas.paint(ui, &area, &frame, &wanted);
-            area.paint_frame(ui);
-            crate::compare::show(ui, viewer, &area);
-            crate::snapshots::show(ui, viewer, &area, &wanted);
+        if let Some(frame) = viewer.picture_to_draw(frame) {
+            let canvas = &mut viewer.viewport.canvas;
+            canvas.paint(ui, place, &area, &frame, &wanted);
         } else {
             ui.put(rect, Busy::size(32.0));
         }
-        // What lies over the picture is not where the pointer is.
-        if viewer.snapshots.cover() {
-            if response.dragged() || response.clicked() {
-                viewer.snapshots.show_current();
-            }
-            return rect;
-        }
-        mouse::interact(ui, viewer, &area, &response);
-        overlays(ui, viewer, &area);
-        reading::show(ui, viewer, rect, response.hover_pos());
-        crate::badges::show(ui, viewer, rect);
         rect
     });
     shown.inner
+}
+
+/// All that lies over the picture and is done in it.
+fn over(ui: &mut egui::Ui, viewer: &mut Viewer, area: &Area, response: &Response) {
+    if viewer.engine.latest().is_some() {
+        area.paint_frame(ui);
+        crate::compare::show(ui, viewer, area);
+        let seen = view(viewer, area);
+        crate::snapshots::show(ui, viewer, area, &seen);
+    }
+    // What lies over the picture is not where the pointer is.
+    if viewer.snapshots.cover() {
+        if response.dragged() || response.clicked() {
+            viewer.snapshots.show_current();
+        }
+        return;
+    }
+    mouse::interact(ui, viewer, area, response);
+    overlays(ui, viewer, area);
+    reading::show(ui, viewer, response.rect, response.hover_pos());
+    crate::badges::show(ui, viewer, response.rect);
 }
 
 /// What is drawn over the picture and can be dragged there.

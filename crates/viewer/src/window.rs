@@ -1,6 +1,7 @@
 //! The window on a screen: which device draws it and what paints in it.
 
 mod ready;
+mod software;
 
 use std::sync::Arc;
 
@@ -12,6 +13,8 @@ use crate::app::{Options, Viewer};
 use crate::engine::Backend;
 use crate::loss::WindowLoss;
 use crate::priority;
+
+pub(crate) use software::SoftwareWindow;
 
 /// What is to paint.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -101,7 +104,7 @@ pub fn open_as(
             let mut viewer = Viewer::new(&context.egui_ctx, state, options)?;
             viewer.watch(watched);
             if is_software {
-                viewer.show_frames_at_once();
+                viewer.set_software(SoftwareWindow::new(&context.egui_ctx));
             }
             Ok(app(viewer))
         }),

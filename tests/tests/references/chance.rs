@@ -3,7 +3,7 @@
 use super::pictures::{LINEAR, sampled};
 use super::scenes::{View, plate, scratch, sphere};
 use hairline_image::{Image, Layer};
-use hairline_reference::monte_carlo::Settings;
+use hairline_reference::Settings;
 use hairline_scene::{Base, Scene};
 
 const VIEW: View = View {

@@ -3,6 +3,7 @@
 use super::pictures::{Compared, LINEAR, closed, compared, sampled};
 use super::scenes::{View, panel, plate, scratch, sphere};
 use glam::DVec2;
+use hairline_fixtures::scenes::scratched_ball;
 use hairline_image::Layer;
 use hairline_optics::metal::Metal;
 use hairline_scene::{Base, Scene};
@@ -81,8 +82,8 @@ fn a_wrong_groove_is_seen() {
     ] {
         let mut other = scene.clone();
         for scratch in Arc::make_mut(&mut other.objects[0].scratches).iter_mut() {
-            scratch.width_um *= wider;
-            scratch.depth_nm *= deeper;
+            scratch.profile.width_um *= wider;
+            scratch.profile.depth_nm *= deeper;
         }
         let found = compared(name, &closed(&other), &reference, Layer::Scratches);
         assert_eq!(agrees(&found, SCRATCHES), right, "{name}: {found:?}");
@@ -136,13 +137,11 @@ fn crops_of_the_scenes() {
 /// Curved: the normal turns under the pixel.
 #[test]
 fn a_ball() {
-    let text = "[camera]\nposition_m = [0.0, -0.3, 0.2]\ntarget_m = [0.012, -0.034, 0.034]\nup = [0.0, 0.0, 1.0]\n\
-         fov_y_deg = 0.15\n[render]\nsize_px = [16, 16]\n[[material]]\nname = \"m\"\nkind = \"mirror\"\n\
-         roughness = 0.2\n[[object]]\nname = \"ball\"\nmaterial = \"m\"\nshape = { sphere = { radius_m = 0.05 } }\n\
-         [[scratches]]\nobject = \"ball\"\npattern = \"random\"\ncount = 6000\nseed = 1\n\
-         length_m = 0.02\nwidth_um = 3.0\ndepth_nm = 140.0\n\
-         [[light]]\nkind = \"sphere\"\ncenter_m = [0.1, -0.3, 0.4]\nradius_m = 0.04\nradiance = 100.0\n";
-    let scene = Scene::from_toml(text, "ball", ".").unwrap_or_else(|error| panic!("{error}"));
+    let scene = scratched_ball(0.04)
+        .toward([0.012, -0.034, 0.034])
+        .fov_y_deg(0.15)
+        .size_px([16, 16])
+        .scene();
     let (exact, reference) = (closed(&scene), sampled(&scene, LINEAR, 8));
     let [scratches, base] =
         [Layer::Scratches, Layer::Base].map(|layer| compared("ball", &exact, &reference, layer));

@@ -3,10 +3,11 @@
 use super::pictures::{LINEAR, closed, compared, sampled};
 use super::scenes::{self, View, plate, scratch};
 use glam::{DVec2, DVec3};
+use hairline_fixtures::SceneFile;
 use hairline_image::{Layer, Picture};
 use hairline_optics::metal::Metal;
 use hairline_scene::environment::lookup::environment_dir;
-use hairline_scene::{Base, Environment, Scene};
+use hairline_scene::{Base, Environment};
 
 /// Blue above, pale at the horizon, and brighter to one side: no edge and no sun.
 fn sky([width, height]: [u32; 2]) -> Picture {
@@ -118,14 +119,13 @@ fn a_lamp_is_drawn_out() {
     ];
     for (roughness, angle_rad, bound) in cases {
         let (sin, cos) = f64::sin_cos(angle_rad);
-        let text = format!(
-            "[camera]\nposition_m = [0.0, {}, {cos}]\ntarget_m = [0.0, 0.0, 0.0]\nup = [0.0, 0.0, 1.0]\nfov_y_deg = 25.0\n\
-             [render]\nsize_px = [64, 48]\n\
-             [[material]]\nname = \"metal\"\nkind = \"metal\"\nmetal = \"aluminium\"\nroughness = {roughness}\n\
-             [[object]]\nname = \"disk\"\nshape = {{ disk = {{ radius_m = 50.0 }} }}\nmaterial = \"metal\"\n",
-            -sin
-        );
-        let mut scene = Scene::from_toml(&text, "lamp.toml", ".").unwrap();
+        let mut scene = SceneFile::seen_from([0.0, -sin, cos])
+            .fov_y_deg(25.0)
+            .size_px([64, 48])
+            .metal("metal", "aluminium")
+            .with(&format!("roughness = {roughness}"))
+            .object("disk", "metal", "disk = { radius_m = 50.0 }")
+            .scene();
         let map_from_world = over(Environment::uniform([1.0; 3])).map_from_world();
         let toward = map_from_world * DVec3::new(0.0, sin, cos);
         let mut map = sky(SIZE_PX);

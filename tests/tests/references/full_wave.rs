@@ -9,7 +9,7 @@ use hairline_image::metrics::Verdict;
 use hairline_optics::diffraction::sinc;
 use hairline_optics::scratch::phase_step_energy;
 use hairline_optics::spectrum;
-use hairline_reference::monte_carlo::{Model, Settings};
+use hairline_reference::{Model, Settings};
 use hairline_scene::{Base, Scene};
 use std::f64::consts::PI;
 

@@ -5,7 +5,7 @@ use super::scenes::{View, plate, scratch};
 use conformance::furnace;
 use hairline_image::Image;
 use hairline_optics::mask::Mask;
-use hairline_reference::monte_carlo::{Model, Settings};
+use hairline_reference::{Model, Settings};
 use hairline_scene::{Base, Scene};
 
 fn view(angle_rad: f64) -> View {

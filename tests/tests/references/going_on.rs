@@ -4,7 +4,7 @@ use super::pictures::{LINEAR, sampled};
 use super::scenes::{View, plate, scratch, sphere};
 use conformance::furnace;
 use hairline_image::{Display, Image, Notes, Output, exr_file};
-use hairline_reference::monte_carlo::{BATCH_SAMPLES, Integrator, Model, Settings};
+use hairline_reference::{BATCH_SAMPLES, Integrator, Model, Settings};
 use hairline_scene::{Base, Scene};
 use std::ops::ControlFlow;
 

@@ -3,7 +3,7 @@
 use super::pictures::{mean, sampled};
 use super::scenes::{View, plate, scratch_alike, sphere};
 use hairline_optics::mask::Mask;
-use hairline_reference::monte_carlo::{Model, Settings};
+use hairline_reference::{Model, Settings};
 use hairline_scene::{Base, Scene};
 
 const VIEW: View = View {

@@ -7,7 +7,7 @@ use glam::{DVec3, Vec3};
 use hairline_image::metrics::Verdict;
 use hairline_image::{Image, Layer};
 use hairline_optics::metal::Metal;
-use hairline_reference::monte_carlo::{Model, Settings};
+use hairline_reference::{Model, Settings};
 use hairline_scene::{Base, Scene};
 
 const ACROSS: DVec3 = DVec3::new(1.0, -1.0, 1.0);

@@ -1,17 +1,17 @@
 //! Pictures of a scene by each method, and how far apart they are once the noise is taken off.
 
+use hairline_cpu::closed_form::{self, RenderOptions};
 use hairline_image::metrics::{BeyondNoise, ZTest};
 use hairline_image::{Image, Layer, Layers, Noise};
+use hairline_index::method::Method;
 use hairline_optics::mask::Mask;
-use hairline_optics::method::Method;
-use hairline_reference::closed_form::{self, RenderOptions};
-use hairline_reference::monte_carlo::{Integrator, Settings};
+use hairline_reference::{Integrator, Settings};
 use hairline_scene::Scene;
 use std::ops::ControlFlow;
 
 /// The mask that is linear in the shares: what it makes of a pixel's mean share is the mean of what it makes of the points.
 pub const LINEAR: Settings = Settings {
-    model: hairline_reference::monte_carlo::Model::Separable,
+    model: hairline_reference::Model::Separable,
     mask: Mask::Linear,
     bounces: 0,
     shadows: false,
@@ -22,7 +22,7 @@ pub const LINEAR: Settings = Settings {
 pub fn sampled(scene: &Scene, settings: Settings, batches: u32) -> Image {
     let integrator = Integrator::new(scene, settings);
     let mut image = integrator.start();
-    let samples = batches * hairline_reference::monte_carlo::BATCH_SAMPLES;
+    let samples = batches * hairline_reference::BATCH_SAMPLES;
     let _ = integrator.run(&mut image, samples, &|_| ControlFlow::Continue(()));
     image
 }

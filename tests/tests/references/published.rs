@@ -3,12 +3,12 @@
 use super::pictures::{Compared, LINEAR, compared, sampled};
 use super::scenes::{View, panel, plate, scratch, sphere};
 use glam::DVec3;
+use hairline_cpu::closed_form::{self, RenderOptions};
 use hairline_image::{Image, Layer, Layers};
+use hairline_index::method::{Method, PublishedMethod, Structure};
 use hairline_optics::mask::Mask;
 use hairline_optics::metal::Metal;
-use hairline_optics::method::{Method, PublishedMethod, Structure};
 use hairline_optics::published::sine_integral::SineIntegral;
-use hairline_reference::closed_form::{self, RenderOptions};
 use hairline_scene::{Base, Light, Scene};
 use std::sync::Arc;
 
@@ -71,7 +71,7 @@ fn equals_monte_carlo_where_the_talk_is_exact() {
             vertices_m.pop();
         } else {
             for scratch in Arc::make_mut(&mut wrong.objects[0].scratches).iter_mut() {
-                scratch.width_um *= 1.1;
+                scratch.profile.width_um *= 1.1;
             }
         }
         let found = compared("wrong", &by(&wrong, EXACT), &reference, Layer::Scratches);
@@ -219,11 +219,11 @@ fn the_published_mask_is_the_density() {
     }
     let before = taken(&scene, published(true));
     for scratch in Arc::make_mut(&mut scene.objects[0].scratches).iter_mut() {
-        scratch.depth_nm *= 0.3;
+        scratch.profile.depth_nm *= 0.3;
     }
     assert_eq!(taken(&scene, published(true)), before);
     for scratch in Arc::make_mut(&mut scene.objects[0].scratches).iter_mut() {
-        scratch.width_um *= 100.0;
+        scratch.profile.width_um *= 100.0;
     }
     let taken = taken(&scene, published(true));
     assert!(taken.iter().all(|rgb| rgb[0] <= 1.0) && taken.iter().any(|rgb| rgb[0] == 1.0));

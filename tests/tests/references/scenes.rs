@@ -74,8 +74,8 @@ pub fn panel(view: View, x: f64, y: f64, half_rad: [f64; 2]) -> Light {
 pub fn scratch_alike(scene: &mut Scene, view: View, count: u32, width_um: f32, depth_nm: f32) {
     scratch(scene, view, count);
     for scratch in Arc::make_mut(&mut scene.objects[0].scratches).iter_mut() {
-        scratch.width_um = width_um;
-        scratch.depth_nm = depth_nm;
+        scratch.profile.width_um = width_um;
+        scratch.profile.depth_nm = depth_nm;
     }
 }
 

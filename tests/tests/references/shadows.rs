@@ -4,7 +4,7 @@ use super::pictures::{LINEAR, mean, picked, sampled};
 use super::scenes::{View, add_quad, plate, scratch, sphere};
 use glam::{DVec3, Vec3};
 use hairline_image::Image;
-use hairline_reference::monte_carlo::{Model, Settings};
+use hairline_reference::{Model, Settings};
 use hairline_scene::{Base, Scene};
 
 const VIEW: View = View {

@@ -4,56 +4,36 @@ use std::path::{Path, PathBuf};
 
 use conformance::middle_of;
 use conformance::two_renderers::{compare, on_the_cpu, on_the_gpu};
+use hairline_fixtures::SceneFile;
 use hairline_gpu::headless;
 use hairline_image::Layer;
 use hairline_scene::{DEFAULT_SAMPLES, Scene};
 
 /// A monkey's head of steel, 13 cm wide, in a studio with a lamp and a panel.
-const SCENE: &str = r#"
-[camera]
-position_m = [0.05, 0.03, 0.30]
-target_m = [0.0, -0.002, 0.0]
-fov_y_deg = 24.0
-
-[render]
-size_px = [900, 900]
-
-[environment]
-file = "studio.hdr"
-intensity = 0.1
-
-[[material]]
-name = "steel"
-kind = "metal"
-metal = "steel"
-roughness = 0.1
-
-[[object]]
-name = "monkey"
-mesh = "suzi.glb"
-material = "steel"
-scale = 0.05
-
-[[scratches]]
-object = "monkey"
-pattern = "random"
-count = 50000
-length_m = { mean = 0.008, spread = 0.4 }
-width_um = { mean = 3.0, spread = 0.3 }
-depth_nm = { mean = 180.0, spread = 0.15 }
-
-[[light]]
-kind = "sphere"
-center_m = [0.1, 0.2, 0.25]
-radius_m = 0.02
-radiance = 300.0
-
-[[light]]
-kind = "polygon"
-vertices_m = [[-0.2, 0.15, 0.1], [-0.2, -0.05, 0.1], [-0.2, -0.05, 0.25], [-0.2, 0.15, 0.25]]
-radiance = 15.0
-two_sided = true
-"#;
+fn monkey() -> SceneFile {
+    const PANEL_M: [[f64; 3]; 4] = [
+        [-0.2, 0.15, 0.1],
+        [-0.2, -0.05, 0.1],
+        [-0.2, -0.05, 0.25],
+        [-0.2, 0.15, 0.25],
+    ];
+    SceneFile::seen_from([0.05, 0.03, 0.30])
+        .toward([0.0, -0.002, 0.0])
+        .up([0.0, 1.0, 0.0])
+        .fov_y_deg(24.0)
+        .size_px([900, 900])
+        .part("[environment]\nfile = \"studio.hdr\"\nintensity = 0.1")
+        .metal("steel", "steel")
+        .with("roughness = 0.1")
+        .part("[[object]]\nname = \"monkey\"\nmesh = \"suzi.glb\"")
+        .with("material = \"steel\"\nscale = 0.05")
+        .random("monkey", 50_000)
+        .with("length_m = { mean = 0.008, spread = 0.4 }\nwidth_um = { mean = 3.0, spread = 0.3 }")
+        .with("depth_nm = { mean = 180.0, spread = 0.15 }")
+        .sphere([0.1, 0.2, 0.25], 0.02, 300.0)
+        .polygon(&PANEL_M, 15.0)
+        .with("two_sided = true")
+}
 
 /// The folder of these files, relative to the workspace; none, and a line on stderr, without them.
 fn assets() -> Option<PathBuf> {
@@ -70,8 +50,8 @@ fn assets() -> Option<PathBuf> {
 #[test]
 fn a_monkey_with_fifty_thousand_scratches_in_a_studio() {
     let Some(folder) = assets() else { return };
-    let scene =
-        Scene::from_toml(SCENE, "monkey.toml", &folder).unwrap_or_else(|error| panic!("{error}"));
+    let scene = Scene::from_toml(&monkey().to_string(), "monkey.toml", &folder)
+        .unwrap_or_else(|error| panic!("{error}"));
     // Seeds at a boundary may leave nothing.
     assert!(scene.objects[0].scratches.len() > 49_900);
     let scene = middle_of(scene, 480, [160, 120]);

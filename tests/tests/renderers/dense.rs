@@ -1,5 +1,6 @@
 //! More than any fixed length of a list or side of a picture: right by the CPU's picture, or refused in words.
 
+use hairline_fixtures::{BALL, SceneFile};
 use std::sync::Arc;
 
 use conformance::two_renderers::{compare_pixels, on_the_cpu};
@@ -13,46 +14,17 @@ const SAMPLES: u32 = 4;
 
 /// A disk of steel under a sphere, seen from so far away.
 fn disk(size_px: [u32; 2], distance_m: f64, count: u32) -> Scene {
-    let text = format!(
-        r#"
-        [camera]
-        position_m = [0.0, {}, {}]
-        target_m = [0.0, 0.0, 0.0]
-        up = [0.0, 0.0, 1.0]
-        fov_y_deg = 20.0
-
-        [render]
-        size_px = {size_px:?}
-
-        [[material]]
-        name = "steel"
-        kind = "metal"
-        metal = "iron"
-        roughness = 0.1
-
-        [[object]]
-        name = "disk"
-        shape = {{ disk = {{ radius_m = 0.05 }} }}
-        material = "steel"
-
-        [[scratches]]
-        object = "disk"
-        pattern = "random"
-        count = {count}
-        length_m = 0.00236
-        width_um = 3.0
-        depth_nm = 220.0
-
-        [[light]]
-        kind = "sphere"
-        center_m = [0.0, 0.2, 0.34641]
-        radius_m = 0.04
-        radiance = 40.0
-        "#,
-        -0.5 * distance_m,
-        0.866 * distance_m
-    );
-    Scene::from_toml(&text, "disk", ".").unwrap_or_else(|error| panic!("{error}"))
+    let radius = "disk = { radius_m = 0.05 }";
+    SceneFile::seen_from([0.0, -0.5 * distance_m, 0.866 * distance_m])
+        .fov_y_deg(20.0)
+        .size_px(size_px)
+        .metal("steel", "iron")
+        .with("roughness = 0.1")
+        .object("disk", "steel", radius)
+        .random("disk", count)
+        .with("length_m = 0.00236\nwidth_um = 3.0\ndepth_nm = 220.0")
+        .sphere([0.0, 0.2, 0.34641], 0.04, 40.0)
+        .scene()
 }
 
 /// Fails where the GPU's picture is neither the CPU's nor refused.
@@ -152,42 +124,17 @@ fn a_segment_across_the_picture() {
 
 #[test]
 fn a_camera_inside_the_object() {
-    let text = r#"
-        [camera]
-        position_m = [0.0, 0.0, 0.01]
-        target_m = [0.03, 0.01, 0.0]
-        up = [0.0, 0.0, 1.0]
-        fov_y_deg = 60.0
-
-        [render]
-        size_px = [64, 40]
-
-        [[material]]
-        name = "steel"
-        kind = "metal"
-        metal = "iron"
-        roughness = 0.3
-
-        [[object]]
-        name = "ball"
-        shape = { sphere = { radius_m = 0.05 } }
-        material = "steel"
-
-        [[scratches]]
-        object = "ball"
-        pattern = "random"
-        count = 2000
-        length_m = 0.005
-        width_um = 3.0
-        depth_nm = 220.0
-
-        [[light]]
-        kind = "sphere"
-        center_m = [-0.02, 0.0, 0.02]
-        radius_m = 0.005
-        radiance = 40.0
-    "#;
-    let scene = Scene::from_toml(text, "inside", ".").unwrap_or_else(|error| panic!("{error}"));
+    let scene = SceneFile::seen_from([0.0, 0.0, 0.01])
+        .toward([0.03, 0.01, 0.0])
+        .fov_y_deg(60.0)
+        .size_px([64, 40])
+        .metal("steel", "iron")
+        .with("roughness = 0.3")
+        .object("ball", "steel", BALL)
+        .random("ball", 2000)
+        .with("length_m = 0.005\nwidth_um = 3.0\ndepth_nm = 220.0")
+        .sphere([-0.02, 0.0, 0.02], 0.005, 40.0)
+        .scene();
     check("from inside", &scene);
     // The same with the surface turned to the camera.
     let mut inward = scene;

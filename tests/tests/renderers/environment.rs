@@ -3,38 +3,22 @@
 use conformance::Sequence;
 use conformance::two_renderers::{compare, on_the_cpu, on_the_gpu};
 use glam::{DVec2, DVec3};
+use hairline_fixtures::SceneFile;
 use hairline_image::Picture;
 use hairline_scene::environment::lookup::environment_dir;
-use hairline_scene::{DEFAULT_SAMPLES, Environment, Scene};
+use hairline_scene::{DEFAULT_SAMPLES, Environment};
 
-const BALLS: &str = r#"
-[camera]
-position_m = [0.0, -0.05, 0.3]
-target_m = [0.0, 0.0, 0.0]
-up = [0.0, 1.0, 0.0]
-fov_y_deg = 24.0
-
-[render]
-size_px = [256, 160]
-
-[[material]]
-name = "gold"
-kind = "metal"
-metal = "gold"
-roughness = 0.08
-
-[[object]]
-name = "large"
-shape = { sphere = { radius_m = 0.04 } }
-material = "gold"
-translation_m = [-0.025, 0.0, 0.0]
-
-[[object]]
-name = "small"
-shape = { sphere = { radius_m = 0.01 } }
-material = "gold"
-translation_m = [0.05, 0.01, 0.0]
-"#;
+fn balls() -> SceneFile {
+    SceneFile::seen_from([0.0, -0.05, 0.3])
+        .up([0.0, 1.0, 0.0])
+        .fov_y_deg(24.0)
+        .metal("gold", "gold")
+        .with("roughness = 0.08")
+        .object("large", "gold", "sphere = { radius_m = 0.04 }")
+        .with("translation_m = [-0.025, 0.0, 0.0]")
+        .object("small", "gold", "sphere = { radius_m = 0.01 }")
+        .with("translation_m = [0.05, 0.01, 0.0]")
+}
 
 /// Dark, with a bright texel here and there.
 fn starry_sky() -> Picture {
@@ -49,7 +33,7 @@ fn starry_sky() -> Picture {
 
 #[test]
 fn balls_mirror_a_map_alike() {
-    let mut scene = Scene::from_toml(BALLS, "balls.toml", ".").unwrap();
+    let mut scene = balls().size_px([256, 160]).scene();
     scene.environment = Some(Environment::from_map(starry_sky(), 0.4, 1.0, true));
     let Some(gpu) = on_the_gpu(&scene, DEFAULT_SAMPLES) else {
         return;
@@ -60,12 +44,11 @@ fn balls_mirror_a_map_alike() {
 /// Scratched balls under a sky with a sun as small as the real one.
 #[test]
 fn balls_under_a_sun() {
-    let scratched = format!(
-        "{BALLS}\n[[scratches]]\nobject = \"large\"\npattern = \"random\"\ncount = 400\nseed = 3\n\
-         length_m = 0.01\nwidth_um = 3.0\ndepth_nm = 250.0\n"
-    );
-    let mut scene = Scene::from_toml(&scratched, "balls.toml", ".").unwrap();
-    scene.render.size_px = [128, 80];
+    let mut scene = balls()
+        .size_px([128, 80])
+        .random("large", 400)
+        .with("seed = 3\nlength_m = 0.01\nwidth_um = 3.0\ndepth_nm = 250.0")
+        .scene();
     let mut map = Picture::new([2048, 1024]);
     let sun = DVec3::new(0.3, 0.6, 0.74).normalize();
     for (i, texel) in map.rgb.iter_mut().enumerate() {

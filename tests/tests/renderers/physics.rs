@@ -2,9 +2,10 @@
 
 use conformance::{furnace, lay, lay_random, sphere_light, square};
 use glam::{DVec3, Vec3};
+use hairline_cpu::closed_form::{RenderOptions, render};
+use hairline_fixtures::scenes::scratched_ball;
 use hairline_image::Image;
 use hairline_optics::metal::Metal;
-use hairline_reference::closed_form::{RenderOptions, render};
 use hairline_scene::{Base, Scene};
 
 fn picture(scene: &Scene) -> Image {
@@ -170,15 +171,10 @@ fn no_light_from_nothing() {
 #[test]
 fn a_small_picture_of_a_sphere_is_the_mean_of_a_large_one() {
     let scene = |size_px: u32| {
-        let text = format!(
-            "[camera]\nposition_m = [0.0, -0.3, 0.2]\ntarget_m = [0.0, 0.0, 0.0]\nup = [0.0, 0.0, 1.0]\nfov_y_deg = 8.0\n\
-             [render]\nsize_px = [{size_px}, {size_px}]\n[[material]]\nname = \"m\"\nkind = \"mirror\"\nroughness = 0.05\n\
-             [[object]]\nname = \"ball\"\nmaterial = \"m\"\nshape = {{ sphere = {{ radius_m = 0.05 }} }}\n\
-             [[scratches]]\nobject = \"ball\"\npattern = \"random\"\ncount = 6000\nseed = 1\n\
-             length_m = 0.02\nwidth_um = 3.0\ndepth_nm = 140.0\n\
-             [[light]]\nkind = \"sphere\"\ncenter_m = [0.1, -0.3, 0.4]\nradius_m = 0.02\nradiance = 100.0\n"
-        );
-        Scene::from_toml(&text, "ball", ".").unwrap_or_else(|error| panic!("{error}"))
+        scratched_ball(0.02)
+            .fov_y_deg(8.0)
+            .size_px([size_px; 2])
+            .scene()
     };
     let (small_px, scale) = (24, 16);
     let (small, large) = (picture(&scene(small_px)), picture(&scene(small_px * scale)));

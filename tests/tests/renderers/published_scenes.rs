@@ -2,13 +2,14 @@
 
 use conformance::two_renderers::compare;
 use conformance::{Sequence, middle};
+use hairline_cpu::closed_form::{self, Prepared};
+use hairline_fixtures::SceneFile;
 use hairline_gpu::{Renderer, headless};
 use hairline_image::metrics::layer_difference;
 use hairline_image::{Image, Layer, Picture};
+use hairline_index::method::{Method, PublishedMethod, Structure};
 use hairline_optics::mask::Mask;
-use hairline_optics::method::{Method, PublishedMethod, Structure};
 use hairline_optics::published::sine_integral::SineIntegral;
-use hairline_reference::closed_form::{self, Prepared};
 use hairline_scene::{Environment, Scene};
 
 /// A difference between methods that two renderers of one method, 0.12 % apart at most, could not be taken for.
@@ -104,48 +105,21 @@ fn each_switch() {
 
 /// A disk of some thousand triangles, as a model has; the lists of two large ones are too long for a software driver.
 fn fine_disk() -> Scene {
-    let radii: Vec<String> = (0..=32)
-        .map(|i| format!("[{:.4}, 0.0]", 0.001 * f64::from(i)))
-        .collect();
-    let text = format!(
-        r#"
-        [camera]
-        position_m = [0.0, -0.05, 0.1]
-        target_m = [0.0, 0.0, 0.0]
-        up = [0.0, 0.0, 1.0]
-        fov_y_deg = 20.0
-
-        [render]
-        size_px = [48, 48]
-
-        [[material]]
-        name = "steel"
-        kind = "metal"
-        metal = "iron"
-        roughness = 0.1
-
-        [[object]]
-        name = "disk"
-        shape = {{ lathe = {{ segments = 64, profile_m = [{}] }} }}
-        material = "steel"
-
-        [[scratches]]
-        object = "disk"
-        pattern = "random"
-        count = 1000
-        length_m = 0.02
-        width_um = 3.0
-        depth_nm = 220.0
-
-        [[light]]
-        kind = "sphere"
-        center_m = [0.0, 0.2, 0.4]
-        radius_m = 0.04
-        radiance = 40.0
-        "#,
-        radii.join(", ")
-    );
-    Scene::from_toml(&text, "disk", ".").unwrap_or_else(|error| panic!("{error}"))
+    let radii: Vec<[f64; 2]> = (0..=32).map(|i| [0.001 * f64::from(i), 0.0]).collect();
+    SceneFile::seen_from([0.0, -0.05, 0.1])
+        .fov_y_deg(20.0)
+        .size_px([48, 48])
+        .metal("steel", "iron")
+        .with("roughness = 0.1")
+        .object(
+            "disk",
+            "steel",
+            &format!("lathe = {{ segments = 64, profile_m = {radii:?} }}"),
+        )
+        .random("disk", 1000)
+        .with("length_m = 0.02\nwidth_um = 3.0\ndepth_nm = 220.0")
+        .sphere([0.0, 0.2, 0.4], 0.04, 40.0)
+        .scene()
 }
 
 #[test]

@@ -26,32 +26,47 @@ fn load(path: &Path) -> Scene {
     middle_of(scene, WIDTH_PX, MIDDLE_PX)
 }
 
-#[test]
-fn gpu_and_cpu_show_the_same() {
-    let mut paths: Vec<PathBuf> = std::fs::read_dir(root().join("scenes"))
-        .unwrap()
-        .map(|entry| entry.unwrap().path())
-        .filter(|path| path.extension().is_some_and(|e| e == "toml"))
-        .chain([root().join("apps/hairline/src/built_in_scene.toml")])
-        .collect();
-    paths.sort();
-    let mut failures = Vec::new();
-    for path in paths {
-        let scene = load(&path);
-        let start = std::time::Instant::now();
-        let name = path.file_stem().unwrap().to_string_lossy();
-        let Some(gpu) = on_the_gpu(&scene, DEFAULT_SAMPLES) else {
-            return;
-        };
-        println!("{name}: {:.1} s", start.elapsed().as_secs_f64());
-        let cpu = on_the_cpu(&scene, DEFAULT_SAMPLES);
-        failures.extend(compare(&name, &scene, &gpu, &cpu).err());
-        // Sums are added up in the same order each time.
-        if TWICE.contains(&&*name) && on_the_gpu(&scene, DEFAULT_SAMPLES) != Some(gpu) {
-            failures.push(format!("{name}: two runs differ"));
-        }
+fn gpu_and_cpu_show_the_same(name: &str) {
+    let path = match name {
+        "built_in_scene" => root().join("apps/hairline/src/built_in_scene.toml"),
+        _ => root().join("scenes").join(name).with_extension("toml"),
+    };
+    let scene = load(&path);
+    let Some(gpu) = on_the_gpu(&scene, DEFAULT_SAMPLES) else {
+        return;
+    };
+    let cpu = on_the_cpu(&scene, DEFAULT_SAMPLES);
+    compare(name, &scene, &gpu, &cpu).unwrap_or_else(|error| panic!("{error}"));
+    // Sums are added up in the same order each time.
+    if TWICE.contains(&name) {
+        let again = on_the_gpu(&scene, DEFAULT_SAMPLES);
+        assert!(again == Some(gpu), "{name}: two runs differ");
     }
-    assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
+
+/// A test for each scene.
+macro_rules! scenes {
+    ($($name:ident)*) => {
+        const ALL: &[&str] = &[$(stringify!($name)),*];
+        $(
+            #[test]
+            fn $name() {
+                gpu_and_cpu_show_the_same(stringify!($name));
+            }
+        )*
+    };
+}
+
+scenes! { brushed built_in_scene closeup drawn lights mirror pan plate spoon sunlit }
+
+#[test]
+fn no_scene_is_left_out() {
+    let files = std::fs::read_dir(root().join("scenes")).unwrap();
+    for path in files.map(|entry| entry.unwrap().path()) {
+        let name = path.file_stem().unwrap().to_string_lossy();
+        let is_scene = path.extension().is_some_and(|ending| ending == "toml");
+        assert!(!is_scene || ALL.contains(&&*name), "{name}");
+    }
 }
 
 /// What the comparison would let pass is less than one scratch of ten that is a tenth wider.
@@ -64,7 +79,7 @@ fn a_wrong_scratch_is_seen() {
     let mut wrong = scene.clone();
     let scratches = Arc::make_mut(&mut wrong.objects[0].scratches);
     for scratch in scratches.iter_mut().step_by(10) {
-        scratch.width_um *= 1.1;
+        scratch.profile.width_um *= 1.1;
     }
     let cpu = on_the_cpu(&wrong, DEFAULT_SAMPLES);
     let seen = compare("wrong", &scene, &gpu, &cpu).unwrap_err();

@@ -6,12 +6,12 @@ use std::sync::Arc;
 use conformance::two_renderers::{compare, on_the_cpu, on_the_gpu};
 use conformance::{Sequence, lay, middle, sphere_light, square};
 use glam::{DVec3, Vec3};
+use hairline_cpu::closed_form;
 use hairline_gpu::{RenderOptions, Renderer, headless};
 use hairline_image::{Image, Layer};
 use hairline_index::ScratchIndex;
+use hairline_index::method::Method;
 use hairline_optics::mask::Mask;
-use hairline_optics::method::Method;
-use hairline_reference::closed_form;
 use hairline_scene::{Base, Light, Scene, ScratchTables};
 
 /// On edges.

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use anyhow::{Context, Result};
 use hairline_image::{Image, Layer};
-use hairline_reference::monte_carlo::{BATCH_SAMPLES, Integrator, Model, Settings};
+use hairline_reference::{BATCH_SAMPLES, Integrator, Model, Settings};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use serde::{Deserialize, Serialize};
 

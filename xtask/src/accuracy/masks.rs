@@ -7,7 +7,7 @@
 use anyhow::Result;
 use hairline_image::{Image, Layer};
 use hairline_optics::mask::Mask;
-use hairline_reference::monte_carlo::{Model, Settings};
+use hairline_reference::{Model, Settings};
 use serde::{Deserialize, Serialize};
 
 use super::figure::Figure;

@@ -8,25 +8,24 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::{Context, Result};
+use hairline_cpu::closed_form::{self, RenderOptions};
 use hairline_image::{Display, Image, Layer, Output, exr_file};
+use hairline_index::method::Method;
 use hairline_optics::mask::Mask;
-use hairline_optics::method::Method;
-use hairline_reference::closed_form::{self, RenderOptions};
-use hairline_reference::monte_carlo::{Integrator, Settings};
+use hairline_reference::{Integrator, Settings};
 use hairline_scene::Scene;
 
 use super::compared::uncertainty;
 
 /// What a reference depends on beside the scene and the settings.
-const SOURCES: [&str; 8] = [
+const SOURCES: [&str; 7] = [
     "crates/optics/data",
     "crates/optics/src",
     "crates/scene/src",
     "crates/index/src",
     "crates/image/src/film.rs",
-    "crates/reference/src/monte_carlo",
-    "crates/reference/src/monte_carlo.rs",
-    "crates/reference/src/surface.rs",
+    "crates/reference/src",
+    "crates/cpu/src/surface.rs",
 ];
 
 /// How many samples a reference gets: twice as many each time, until the goal or the end is reached.

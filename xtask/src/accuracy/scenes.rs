@@ -6,7 +6,7 @@ use anyhow::{Context, Result, anyhow};
 use glam::DVec2;
 use hairline_image::{Display, Image, Layer};
 use hairline_optics::mask::Mask;
-use hairline_reference::monte_carlo::{Model, Settings};
+use hairline_reference::{Model, Settings};
 use hairline_scene::Scene;
 use serde::{Deserialize, Serialize};
 

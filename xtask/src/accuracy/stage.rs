@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use anyhow::{Result, anyhow};
 use glam::{DVec2, DVec3, Vec3};
-use hairline_scene::{Environment, Light, Scene, Scratch, Segment};
+use hairline_scene::{Environment, Light, Profile, Scene, Scratch, Segment};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
@@ -160,8 +160,10 @@ impl Stage {
                 triangle: 0,
             });
             Arc::make_mut(&mut object.scratches).push(Scratch {
-                width_um: self.width_um as f32,
-                depth_nm: self.depth_nm as f32,
+                profile: Profile {
+                    width_um: self.width_um as f32,
+                    depth_nm: self.depth_nm as f32,
+                },
                 layer: 0,
                 closed: false,
                 segments: first..first + 1,

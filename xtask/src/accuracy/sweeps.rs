@@ -3,7 +3,7 @@
 use anyhow::{Context, Result};
 use hairline_image::{Display, Layer};
 use hairline_optics::mask::Mask;
-use hairline_reference::monte_carlo::{Model, Settings};
+use hairline_reference::{Model, Settings};
 use hairline_scene::Scene;
 use serde::{Deserialize, Serialize};
 

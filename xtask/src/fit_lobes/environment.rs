@@ -195,14 +195,9 @@ impl Target {
                 let weighed = point.weight * point.per_density * values[i];
                 plain[i] += weighed * point.plain;
                 grazing[i] += weighed * point.grazing;
-                for j in 0..=i {
+                for j in 0..N {
                     products[i][j] += weighed * values[j];
                 }
-            }
-        }
-        for i in 0..N {
-            for j in i + 1..N {
-                products[i][j] = products[j][i];
             }
         }
         let (plain, plain2) = shares(&products, &plain, self.plain2);

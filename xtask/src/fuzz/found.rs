@@ -41,7 +41,15 @@ pub fn all() -> Vec<Case> {
             ),
         ),
     ];
+    // 4.6 s, of which all but 0.2 in the triangle tree: boxes that coincide merged a pair a round.
+    let disks: String = (0..500)
+        .map(|i| format!("[[object]]\nname = \"disk {i}\"\nshape.disk.radius_m = 0.08\nmaterial = \"steel\"\n"))
+        .collect();
+    cases.push(scene("coincident-disks", &disks));
+    // 6 s, of which all but one in the tree of scratches, growing with the square of their number.
+    let same = "-0.04,0.01,0,0.05,0.02,0,4.2,130\n".repeat(40_000);
     let cells = [
+        ("coincident-scratches", format!("{header}{same}")),
         ("long-cell", format!("{header}{}\n", "9".repeat(5_000_000))),
         (
             "long-cells",

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use hairline_gpu::{Error, Gpu, GpuScene, RenderOptions, Renderer};
 use hairline_image::Image;
 use hairline_index::ScratchIndex;
-use hairline_optics::method::Method;
+use hairline_index::method::Method;
 use hairline_scene::{Scene, ScratchTables};
 
 /// A renderer with its shaders compiled and the scene uploaded.

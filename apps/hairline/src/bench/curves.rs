@@ -1,7 +1,7 @@
 //! One quantity at a time: the published method with anti-aliasing and ours.
 
+use hairline_cpu::closed_form::Prepared;
 use hairline_gpu::Error;
-use hairline_reference::closed_form::Prepared;
 
 use super::Thoroughness;
 use super::figures::{Curve, Point, Way};

@@ -8,11 +8,11 @@ use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
 use glam::DVec2;
+use hairline_cpu::closed_form::{Prepared, RenderOptions};
 use hairline_gpu::Error;
 use hairline_image::metrics::{BeyondNoise, Estimate, away_from_silhouettes};
 use hairline_image::{Image, Layer, Layers};
-use hairline_reference::closed_form::{Prepared, RenderOptions};
-use hairline_reference::monte_carlo::{Integrator, Settings};
+use hairline_reference::{Integrator, Settings};
 use hairline_scene::{Light, Scene};
 
 use super::figures::CellError;
@@ -152,7 +152,7 @@ pub fn rim_of_reflection(scene: &Scene) -> DVec2 {
     let radius_m = match lamp {
         Light::Sphere { radius_m, .. } => *radius_m,
         // The circle within it, about.
-        Light::Polygon { .. } => 0.5 * bound_m,
+        _ => 0.5 * bound_m,
     };
     let frame = scene.camera.frame(scene.render.size_px);
     let inside = |x: f64| {

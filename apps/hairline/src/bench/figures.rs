@@ -1,8 +1,8 @@
 //! What was measured, as it goes into the JSON file. The document is made of this alone.
 
-use hairline_optics::method::{Method, PublishedMethod, Structure};
+use hairline_cpu::closed_form;
+use hairline_index::method::{Method, PublishedMethod, Structure};
 use hairline_optics::published::sine_integral::SineIntegral;
-use hairline_reference::closed_form;
 use serde::Serialize;
 
 use super::machine::Machine;

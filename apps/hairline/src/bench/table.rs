@@ -1,7 +1,7 @@
 //! The talk's table, for the published method and for ours, cell by cell.
 
+use hairline_cpu::closed_form::Prepared;
 use hairline_gpu::Error;
-use hairline_reference::closed_form::Prepared;
 use hairline_scene::Scene;
 
 use super::Thoroughness;

@@ -8,8 +8,8 @@ use std::ops::Range;
 use std::time::{Duration, Instant};
 
 use anyhow::anyhow;
+use hairline_cpu::closed_form::{Prepared, TILE_PX};
 use hairline_gpu::Error;
-use hairline_reference::closed_form::{Prepared, TILE_PX};
 use hairline_scene::Scene;
 
 use super::figures::{Outcome, Spread, Timing};

@@ -5,10 +5,10 @@ use std::ops::Range;
 use std::time::{Duration, Instant};
 
 use anyhow::anyhow;
+use hairline_cpu::closed_form::{self, Prepared};
 use hairline_gpu::{Adapter, Canvas, Error, Gpu, GpuScene, PassTime, Renderer, headless};
 use hairline_image::Image;
-use hairline_optics::method::Method;
-use hairline_reference::closed_form::{self, Prepared};
+use hairline_index::method::Method;
 use hairline_scene::Scene;
 
 use super::figures::{Counts, Way};
@@ -200,7 +200,7 @@ impl GpuWorker {
             let size_px = scene.render.size_px;
             let canvas = match canvas {
                 Some(canvas) if canvas.size_px() == size_px => canvas,
-                _ => canvas.insert(Canvas::new(renderer, size_px, u32::MAX).await?),
+                _ => canvas.insert(renderer.canvas(size_px, u32::MAX).await?),
             };
             // Forgets what pictures took that nobody asked about.
             renderer.pass_times().await?;

@@ -5,7 +5,8 @@ use std::path::Path;
 
 use glam::DVec3;
 use hairline_scene::Light;
-use hairline_scene::memory::{Estimate, available_bytes, in_words};
+use hairline_scene::estimate::{Estimate, scratches_bytes, textures_bytes};
+use hairline_scene::memory::{available_bytes, in_words};
 use hairline_scene::text::shown;
 use serde::Serialize;
 
@@ -126,18 +127,12 @@ fn contents(loaded: &Loaded) -> Contents {
             hidden: table.hidden,
         }
     });
-    let lights = description.lights.iter().map(|light| {
-        let kind = match light.kind {
-            hairline_scene::description::LightKind::Sphere { .. } => "sphere",
-            hairline_scene::description::LightKind::Polygon { .. } => "polygon",
-        };
-        Lamp {
-            name: light.name.clone(),
-            kind,
-            center_m: hairline_editor::place_light::center(light).into(),
-            radiance: light.color.map(|channel| channel * light.radiance),
-            hidden: light.hidden,
-        }
+    let lights = description.lights.iter().map(|light| Lamp {
+        name: light.name.clone(),
+        kind: light.kind.name(),
+        center_m: hairline_editor::place_light::center(light).into(),
+        radiance: light.color.map(|channel| channel * light.radiance),
+        hidden: light.hidden,
     });
     let up = scene.camera.up;
     let environment = scene.environment.as_ref().map(|environment| Environment {
@@ -158,7 +153,7 @@ fn contents(loaded: &Loaded) -> Contents {
         .iter()
         .map(|object| object.scratches.len())
         .sum();
-    let laid = hairline_scene::memory::scratches_bytes(scratches, segments);
+    let laid = scratches_bytes(scratches, segments);
     Contents {
         size_px: scene.render.size_px,
         objects: objects.collect(),
@@ -169,7 +164,7 @@ fn contents(loaded: &Loaded) -> Contents {
         memory: Memory {
             estimate_bytes: Estimate::of(description, &loaded.folder).bytes()
                 + laid
-                + hairline_scene::memory::textures_bytes(scene),
+                + textures_bytes(scene),
             available_bytes: available_bytes(),
         },
     }

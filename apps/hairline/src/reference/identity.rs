@@ -5,7 +5,7 @@ use std::path::Path;
 use anyhow::anyhow;
 use hairline_image::{Image, Notes, exr_file};
 use hairline_optics::mask::Mask;
-use hairline_reference::monte_carlo::{BATCH_SAMPLES, Model, REVISION, Settings};
+use hairline_reference::{BATCH_SAMPLES, Model, REVISION, Settings};
 
 use crate::failure::Failure;
 

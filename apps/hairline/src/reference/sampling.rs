@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
 use hairline_image::Image;
-use hairline_reference::monte_carlo::Integrator;
+use hairline_reference::Integrator;
 
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
@@ -120,7 +120,8 @@ impl Count {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use hairline_reference::monte_carlo::{BATCH_SAMPLES, Settings};
+    use hairline_fixtures::scenes::scratched_plate;
+    use hairline_reference::{BATCH_SAMPLES, Settings};
     use hairline_scene::Scene;
     use std::cell::Cell;
 
@@ -128,8 +129,7 @@ mod tests {
 
     /// A scratched disk under a lamp.
     fn scene() -> Scene {
-        let text = include_str!("../../tests/scratched.toml");
-        Scene::from_toml(text, "scratched.toml", "").unwrap()
+        scratched_plate().scene()
     }
 
     /// Saves whenever it may.

@@ -4,39 +4,16 @@ use std::fs;
 use std::path::Path;
 
 use crate::common::{command, folder_with, hairline, names_in, stderr_of, stdout_of};
+use hairline_fixtures::scenes::lit_plate;
 use hairline_image::{exr_file, png};
+use std::sync::LazyLock;
 
 /// A disk under a lamp, without scratches.
-const SCENE: &str = r#"
-[camera]
-position_m = [0.0, -0.22, 0.30]
-target_m = [0.0, 0.0, 0.0]
-up = [0.0, 0.0, 1.0]
-exposure_ev = 1.0
-
-[render]
-size_px = [64, 36]
-
-[[material]]
-name = "steel"
-kind = "metal"
-metal = "iron"
-roughness = 0.3
-
-[[object]]
-name = "plate"
-shape = { disk = { radius_m = 0.08 } }
-material = "steel"
-
-[[light]]
-kind = "sphere"
-center_m = [0.06, 0.10, 0.25]
-radius_m = 0.02
-radiance = 40.0
-"#;
+static SCENE: LazyLock<String> =
+    LazyLock::new(|| lit_plate().exposure_ev(1.0).size_px([64, 36]).to_string());
 
 fn folder_with_scene() -> tempfile::TempDir {
-    folder_with("plate.v2.toml", SCENE)
+    folder_with("plate.v2.toml", &SCENE)
 }
 
 #[test]

@@ -7,39 +7,17 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use crate::common::{command, folder_with, hairline, names_in, stderr_of, stdout_of};
+use hairline_fixtures::scenes::bare_plate;
 use hairline_image::{Display, Output, Picture, exr_file};
 
-/// A disk under a lamp, without scratches, and what is given.
+/// A plate under a lamp with a name, without scratches, and what is given.
 fn scene(more: &str) -> String {
-    format!(
-        r#"[camera]
-position_m = [0.0, -0.22, 0.30]
-target_m = [0.0, 0.0, 0.0]
-up = [0.0, 0.0, 1.0]
-
-[render]
-size_px = [48, 27]
-
-[[material]]
-name = "steel"
-kind = "metal"
-metal = "iron"
-roughness = 0.2
-
-[[object]]
-name = "plate"
-shape = {{ disk = {{ radius_m = 0.08 }} }}
-material = "steel"
-
-[[light]]
-name = "lamp"
-kind = "sphere"
-center_m = [0.06, 0.10, 0.25]
-radius_m = 0.01
-radiance = 40.0
-
-{more}"#
-    )
+    bare_plate()
+        .size_px([48, 27])
+        .sphere([0.06, 0.10, 0.25], 0.01, 40.0)
+        .with("name = \"lamp\"")
+        .part(more)
+        .to_string()
 }
 
 const CSV: &str =

@@ -4,7 +4,7 @@ use crate::common::{SCRATCHED, folder_with, hairline, stderr_of};
 use hairline_image::exr_file;
 
 fn folder_with_scene() -> tempfile::TempDir {
-    folder_with("scratched.toml", SCRATCHED)
+    folder_with("scratched.toml", &SCRATCHED)
 }
 
 #[test]

@@ -7,7 +7,7 @@ use crate::common::{SCRATCHED, folder_with, hairline, names_in, stderr_of};
 use hairline_image::{Image, Notes, exr_file, png};
 
 fn folder_with_scene() -> tempfile::TempDir {
-    folder_with("plate.v2.toml", SCRATCHED)
+    folder_with("plate.v2.toml", &SCRATCHED)
 }
 
 fn read(folder: &Path, name: &str) -> (Image, Notes) {
@@ -176,7 +176,7 @@ fn samples_of_another_picture_are_refused() {
     }
     // Comments and exposure are not the scene's light.
     let same =
-        format!("# The same.\n{SCRATCHED}").replace("[render]", "exposure_ev = 1.0\n[render]");
+        format!("# The same.\n{}", *SCRATCHED).replace("[render]", "exposure_ev = 1.0\n[render]");
     fs::write(path.join("same.toml"), same).unwrap();
     hairline(path, "reference same.toml --spp 128 -o a.exr --resume").success();
 }

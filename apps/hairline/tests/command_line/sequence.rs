@@ -6,7 +6,7 @@ use crate::common::{SCRATCHED, folder_with, hairline, names_in, stderr_of, stdou
 use hairline_image::{exr_file, png};
 
 fn folder_with_scene() -> tempfile::TempDir {
-    folder_with("plate.toml", SCRATCHED)
+    folder_with("plate.toml", &SCRATCHED)
 }
 
 /// All but the scene.

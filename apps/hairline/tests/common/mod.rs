@@ -4,12 +4,14 @@
 
 use std::fs;
 use std::path::Path;
+use std::sync::LazyLock;
 
 use assert_cmd::Command;
 use assert_cmd::assert::Assert;
+use hairline_fixtures::scenes::scratched_plate;
 
-/// A disk under a lamp, with scratches, 24 x 16 pixels.
-pub const SCRATCHED: &str = include_str!("../scratched.toml");
+/// A plate under a lamp and a panel, with scratches, 24 x 16 pixels: small, and with all that a reference samples.
+pub static SCRATCHED: LazyLock<String> = LazyLock::new(|| scratched_plate().to_string());
 
 /// A new folder with one scene in it.
 pub fn folder_with(name: &str, scene: &str) -> tempfile::TempDir {

@@ -7,6 +7,7 @@
 mod display;
 mod drag;
 mod layout;
+mod pictures;
 
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command};
@@ -67,6 +68,10 @@ struct Window<'d> {
 
 impl<'d> Window<'d> {
     fn open(display: &'d Display, folder: &Path, scene: &Path) -> Self {
+        Self::open_titled(display, folder, scene, "plate.toml · Hairline")
+    }
+
+    fn open_titled(display: &'d Display, folder: &Path, scene: &Path, title: &str) -> Self {
         let program = Command::new(env!("CARGO_BIN_EXE_hairline"))
             .args(["view", "--backend", "cpu", "--plain-dialogs", "--state-dir"])
             .arg(folder.join("state"))
@@ -83,7 +88,7 @@ impl<'d> Window<'d> {
             display,
             folder: folder.to_owned(),
         };
-        window.wait_for_title("plate.toml · Hairline");
+        window.wait_for_title(title);
         window.display.focus();
         window
     }

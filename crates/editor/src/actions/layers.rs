@@ -165,7 +165,7 @@ pub fn move_to(
 }
 
 /// The least seed above every other: it stays new when layers come and go in between.
-pub fn free_seed(description: &Description) -> u64 {
+pub(crate) fn free_seed(description: &Description) -> u64 {
     let seeds = description
         .scratches
         .iter()

@@ -1,7 +1,7 @@
 //! Lights.
 
 use hairline_scene::Description;
-use hairline_scene::description::{Light, LightKind};
+use hairline_scene::description::Light;
 
 use super::{ActionError, list};
 use crate::Selection;
@@ -47,11 +47,8 @@ pub fn toggle_hidden(
 
 /// What a list calls a light: its name, else its kind.
 pub fn title(light: &Light) -> &str {
-    match (&light.name, &light.kind) {
-        (Some(name), _) => name,
-        (None, LightKind::Sphere { .. }) => "sphere light",
-        (None, LightKind::Polygon { .. }) => "polygon light",
-    }
+    let kind = light.kind.title();
+    light.name.as_deref().unwrap_or(kind)
 }
 
 /// Removes a light.

@@ -6,29 +6,26 @@ use glam::DVec3;
 use hairline_editor::actions::{self, layers, lights, materials, objects};
 use hairline_editor::presets::*;
 use hairline_editor::{ActionError, Selection};
+use hairline_fixtures::SceneFile;
 use hairline_scene::Description;
 use hairline_scene::description::{Light, LightKind, Map, Surface};
 use hairline_scene::environment::BuiltInMap;
 
 fn scene() -> Description {
-    let mut text = "[camera]\nposition_m = [0, 0, 1]\ntarget_m = [0, 0, 0]\n".to_owned();
+    let mut file = SceneFile::seen_from([0.0, 0.0, 1.0]);
     for name in ["steel", "gold", "unused"] {
-        text += &format!("[[material]]\nname = \"{name}\"\nkind = \"mirror\"\n");
+        file = file.mirror(name);
     }
     for (name, material) in [("a", "steel"), ("b", "gold"), ("c", "gold")] {
-        text += &format!(
-            "[[object]]\nname = \"{name}\"\nshape = {{ disk = {{ radius_m = 1 }} }}\nmaterial = \"{material}\"\n"
-        );
+        file = file.object(name, material, "disk = { radius_m = 1 }");
     }
     for (i, object) in ["a", "b", "a", "c", "a"].iter().enumerate() {
-        text += &format!(
-            "[[scratches]]\nobject = \"{object}\"\npattern = \"random\"\ncount = 1\nseed = {i}\n"
-        );
+        file = file.random(object, 1).with(&format!("seed = {i}"));
     }
-    for i in 0..3 {
-        text += &format!("[[light]]\nkind = \"sphere\"\ncenter_m = [{i}, 0, 1]\nradius_m = 0.1\n");
+    for x_m in [0.0, 1.0, 2.0] {
+        file = file.sphere([x_m, 0.0, 1.0], 0.1, 1.0);
     }
-    Description::from_toml(&text, Path::new("test")).unwrap()
+    file.description()
 }
 
 /// What is selected, by something that survives its moving.

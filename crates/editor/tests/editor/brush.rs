@@ -1,14 +1,13 @@
 //! The brush: even spacing, the object's frame, small strokes that follow the pointer, and the layer that they go to.
 
-use std::path::Path;
-
+use crate::seeded;
 use glam::{DMat4, DVec3, dvec3};
 use hairline_editor::brush::{BrushSettings, Recorder, apply_stroke};
 use hairline_editor::{ActionError, Selection};
+use hairline_fixtures::SceneFile;
 use hairline_scene::Description;
 use hairline_scene::description::{Brush, Layer, Object, Stroke};
 use proptest::prelude::*;
-use proptest::test_runner::RngSeed;
 
 const RADIUS_M: f64 = 0.01;
 
@@ -23,35 +22,16 @@ fn settings(erase: bool) -> BrushSettings {
 }
 
 fn scene() -> Description {
-    let text = r#"
-[camera]
-position_m = [0, 0, 1]
-target_m = [0, 0, 0]
-[[material]]
-name = "m"
-kind = "mirror"
-[[object]]
-name = "a"
-shape = { disk = { radius_m = 0.1 } }
-material = "m"
-translation_m = [0.1, 0.2, 0.3]
-rotation_deg = [10, 20, 30]
-scale = [2, 1, 0.5]
-[[object]]
-name = "b"
-shape = { disk = { radius_m = 0.1 } }
-material = "m"
-[[scratches]]
-object = "a"
-pattern = "random"
-count = 10
-[[scratches]]
-object = "b"
-pattern = "random"
-count = 10
-hidden = true
-"#;
-    Description::from_toml(text, Path::new("test")).unwrap()
+    let disk = "disk = { radius_m = 0.1 }";
+    SceneFile::seen_from([0.0, 0.0, 1.0])
+        .mirror("m")
+        .object("a", "m", disk)
+        .with("translation_m = [0.1, 0.2, 0.3]\nrotation_deg = [10, 20, 30]\nscale = [2, 1, 0.5]")
+        .object("b", "m", disk)
+        .random("a", 10)
+        .random("b", 10)
+        .with("hidden = true")
+        .description()
 }
 
 fn object() -> Object {
@@ -67,16 +47,6 @@ fn distance_to_way(point: DVec3, way: &[DVec3]) -> f64 {
     };
     let pieces = way.windows(2).map(|p| to_piece(p[0], p[1]));
     pieces.fold(point.distance(way[0]), f64::min)
-}
-
-/// The same cases on every run.
-fn seeded(cases: u32) -> ProptestConfig {
-    ProptestConfig {
-        cases,
-        rng_seed: RngSeed::Fixed(5),
-        failure_persistence: None,
-        ..ProptestConfig::default()
-    }
 }
 
 proptest! {

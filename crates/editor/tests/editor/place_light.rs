@@ -1,11 +1,11 @@
 //! Lights moved by hand stay what they are; highlights come to be where they were asked for.
 
+use crate::seeded;
 use glam::{DVec3, dvec3};
 use hairline_editor::ActionError;
 use hairline_editor::place_light::*;
 use hairline_scene::description::{Light, LightKind};
 use proptest::prelude::*;
-use proptest::test_runner::RngSeed;
 
 fn point(range: f64) -> impl Strategy<Value = DVec3> {
     (-range..range, -range..range, -range..range).prop_map(|(x, y, z)| dvec3(x, y, z))
@@ -66,16 +66,6 @@ fn distances(light: &Light) -> Vec<f64> {
 fn same(a: &[f64], b: &[f64]) -> bool {
     // Coordinates of up to 5 m, each rounded a few times.
     a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12)
-}
-
-/// The same cases on every run.
-fn seeded(cases: u32) -> ProptestConfig {
-    ProptestConfig {
-        cases,
-        rng_seed: RngSeed::Fixed(5),
-        failure_persistence: None,
-        ..ProptestConfig::default()
-    }
 }
 
 proptest! {

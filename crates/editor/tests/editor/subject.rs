@@ -2,23 +2,15 @@
 
 use glam::DVec3;
 use hairline_editor::subject::objects;
+use hairline_fixtures::{BALL, SceneFile};
 use hairline_scene::Description;
 
 fn scene() -> Description {
-    let head = "[camera]\nposition_m = [0, -1, 1]\ntarget_m = [0, 0, 0]\n\n[[material]]\nname = \"m\"\nkind = \"mirror\"\n";
-    let object = |name: &str| {
-        format!(
-            "\n[[object]]\nname = \"{name}\"\nshape = {{ sphere = {{ radius_m = 1.0 }} }}\nmaterial = \"m\"\n"
-        )
-    };
-    let layer = "\n[[scratches]]\nobject = \"pan\"\npattern = \"random\"\ncount = 10\n";
-    let text = format!(
-        "{head}{}{}{}{layer}",
-        object("pan"),
-        object("lid"),
-        object("table")
-    );
-    Description::from_toml(&text, "test".as_ref()).unwrap()
+    let mut file = SceneFile::seen_from([0.0, -1.0, 1.0]).mirror("m");
+    for name in ["pan", "lid", "table"] {
+        file = file.object(name, "m", BALL);
+    }
+    file.random("pan", 10).description()
 }
 
 fn around(middle: [f64; 3], half: [f64; 3]) -> (DVec3, DVec3) {

@@ -1,5 +1,6 @@
 //! Whatever was done: undo leads back to where it began, redo to where it ended, and every state on the way saves and loads.
 
+use crate::seeded;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -8,35 +9,19 @@ use hairline_editor::actions::{self, layers, lights, materials, objects};
 use hairline_editor::brush::{BrushSettings, Recorder, apply_stroke};
 use hairline_editor::presets::{LayerPreset, LightPreset, MaterialPreset, ShapePreset};
 use hairline_editor::{Document, DragKey, Selection, navigate, place_light};
+use hairline_fixtures::SceneFile;
 use hairline_scene::Description;
 use hairline_scene::description::{Layer, Map};
 use proptest::prelude::*;
-use proptest::test_runner::{Config, RngSeed, TestRunner};
+use proptest::test_runner::TestRunner;
 
 fn scene() -> Description {
-    let text = r#"
-[camera]
-position_m = [0, -1, 1]
-target_m = [0, 0, 0]
-up = [0, 0, 1]
-[[material]]
-name = "steel"
-kind = "metal"
-metal = "steel"
-[[object]]
-name = "plate"
-shape = { disk = { radius_m = 0.1 } }
-material = "steel"
-[[scratches]]
-object = "plate"
-pattern = "circular"
-count = 100
-[[light]]
-kind = "sphere"
-center_m = [0, 0.5, 0.5]
-radius_m = 0.02
-"#;
-    Description::from_toml(text, Path::new("test")).unwrap()
+    SceneFile::seen_from([0.0, -1.0, 1.0])
+        .metal("steel", "steel")
+        .object("plate", "steel", "disk = { radius_m = 0.1 }")
+        .laid("plate", "circular", 100)
+        .sphere([0.0, 0.5, 0.5], 0.02, 1.0)
+        .description()
 }
 
 /// One thing that an artist does: which, on what, by how much.
@@ -219,13 +204,7 @@ fn check(
     undo: impl Fn(&mut Document) -> bool,
     redo: impl Fn(&mut Document) -> bool,
 ) -> Result<(), String> {
-    let mut runner = TestRunner::new(Config {
-        cases: 300,
-        // The same cases on every run.
-        rng_seed: RngSeed::Fixed(5),
-        failure_persistence: None,
-        ..Config::default()
-    });
+    let mut runner = TestRunner::new(seeded(300));
     runner
         .run(&deeds(), |deeds| {
             round_trip(&deeds, &undo, &redo).map_err(TestCaseError::fail)

@@ -4,67 +4,39 @@
 
 use std::sync::Arc;
 
+use hairline_fixtures::{DISK, SceneFile};
 use hairline_gpu::headless::{self, test_gpu};
 use hairline_gpu::{AdapterRequest, Canvas, Error, Gpu, GpuScene, Renderer};
 use hairline_image::Image;
 use hairline_index::ScratchIndex;
-use hairline_optics::method::Method;
+use hairline_index::method::Method;
 use hairline_scene::{Scene, ScratchTables};
 
 /// The rim of a plate with scratches on a table, under a lamp and a tube; so near that no pixel sees many scratches.
-pub const PLATES: &str = r#"
-[camera]
-position_m = [0.0, -0.22, 0.30]
-target_m = [0.0, -0.075, 0.0]
-up = [0.0, 0.0, 1.0]
-fov_y_deg = 6.0
+pub fn plates() -> SceneFile {
+    SceneFile::seen_from([0.0, -0.22, 0.30])
+        .toward([0.0, -0.075, 0.0])
+        .fov_y_deg(6.0)
+        .size_px([97, 64])
+        .metal("steel", "steel")
+        .with("roughness = 0.2")
+        .part("[[material]]\nname = \"wood\"\nkind = \"dielectric\"")
+        .with("base_color = [0.4, 0.3, 0.2]\nroughness = 0.6")
+        .object("plate", "steel", DISK)
+        .object("table", "wood", "plane = { size_m = [0.5, 0.5] }")
+        .with("translation_m = [0.0, 0.0, -0.01]")
+        .random("plate", 1000)
+        .with("seed = 3\nlength_m = 0.03\nwidth_um = 3.0\ndepth_nm = 200.0")
+        .sphere([0.02, 0.3, 0.3], 0.02, 40.0)
+        .polygon(&TUBE_M, 3.0)
+}
 
-[render]
-size_px = [97, 64]
-
-[[material]]
-name = "steel"
-kind = "metal"
-metal = "steel"
-roughness = 0.2
-
-[[material]]
-name = "wood"
-kind = "dielectric"
-base_color = [0.4, 0.3, 0.2]
-roughness = 0.6
-
-[[object]]
-name = "plate"
-shape = { disk = { radius_m = 0.08 } }
-material = "steel"
-
-[[object]]
-name = "table"
-shape = { plane = { size_m = [0.5, 0.5] } }
-material = "wood"
-translation_m = [0.0, 0.0, -0.01]
-
-[[scratches]]
-object = "plate"
-pattern = "random"
-count = 1000
-seed = 3
-length_m = 0.03
-width_um = 3.0
-depth_nm = 200.0
-
-[[light]]
-kind = "sphere"
-center_m = [0.02, 0.3, 0.3]
-radius_m = 0.02
-radiance = 40.0
-
-[[light]]
-kind = "polygon"
-vertices_m = [[-0.2, 0.3, 0.2], [0.2, 0.3, 0.2], [0.2, 0.25, 0.3], [-0.2, 0.25, 0.3]]
-radiance = 3.0
-"#;
+const TUBE_M: [[f64; 3]; 4] = [
+    [-0.2, 0.3, 0.2],
+    [0.2, 0.3, 0.2],
+    [0.2, 0.25, 0.3],
+    [-0.2, 0.25, 0.3],
+];
 
 /// What `hairline render` shows without a scene.
 pub const BUILT_IN: &str = include_str!("../../../../apps/hairline/src/built_in_scene.toml");
@@ -158,7 +130,7 @@ impl Stage {
     }
 
     pub fn canvas(&self, size_px: [u32; 2], submission_px: u32) -> Canvas {
-        let canvas = Canvas::new(&self.renderer, size_px, submission_px);
+        let canvas = self.renderer.canvas(size_px, submission_px);
         self.gpu.block_on(canvas).unwrap()
     }
 

@@ -4,7 +4,7 @@ use std::future::Future;
 use std::pin::pin;
 use std::task::{Context, Waker};
 
-use crate::common::{BUILT_IN, PLATES, Stage, default_limits, scene};
+use crate::common::{BUILT_IN, Stage, default_limits, plates, scene};
 use hairline_gpu::headless::test_gpu;
 use hairline_gpu::{Canvas, Error, Gpu, RenderOptions, steps};
 use hairline_image::{Display, Image, ToneMap};
@@ -40,7 +40,7 @@ fn look_through(stage: &mut Stage, rows: u32) {
 #[test]
 fn a_canvas_of_any_size_becomes_the_rendered_picture() {
     let Some(gpu) = test_gpu() else { return };
-    let mut stage = Stage::new(gpu, scene(PLATES));
+    let mut stage = Stage::new(gpu, plates().scene());
     for (size_px, submission_px, bands) in [
         ([97, 64], 7 * 97 + 5, 8),
         ([64, 96], 1 << 18, 1),
@@ -69,7 +69,7 @@ fn mean(image: &Image, rows: std::ops::Range<u32>) -> f64 {
 #[test]
 fn bands_with_fewer_samples_are_exposed_alike() {
     let Some(gpu) = test_gpu() else { return };
-    let mut stage = Stage::new(gpu, scene(PLATES));
+    let mut stage = Stage::new(gpu, plates().scene());
     let mut canvas = stage.canvas([97, 64], 16 * 97);
     stage.paint(&mut canvas, 1, 32);
     for band in [1, 3] {
@@ -102,7 +102,7 @@ fn bands_with_fewer_samples_are_exposed_alike() {
 #[test]
 fn an_interrupted_view_leaves_nothing_behind() {
     let Some(gpu) = test_gpu() else { return };
-    let mut stage = Stage::new(gpu, scene(PLATES));
+    let mut stage = Stage::new(gpu, plates().scene());
     let mut canvas = stage.canvas([97, 64], 16 * 97);
     let view = stage.made.scene.camera;
     stage.made.scene.camera.position_m.x += 0.05;
@@ -137,7 +137,7 @@ fn a_step_that_does_not_follow_is_a_mistake() {
     let Some(gpu) = test_gpu() else {
         panic!("cannot follow what there is not");
     };
-    let mut stage = Stage::new(gpu, scene(PLATES));
+    let mut stage = Stage::new(gpu, plates().scene());
     let mut canvas = stage.canvas([8, 8], 64);
     stage.accumulate(&mut canvas, 0, 0, 4).unwrap();
     let _ = stage.accumulate(&mut canvas, 0, 2, 4);
@@ -184,8 +184,8 @@ fn default_limits_are_enough_for_a_wide_canvas() {
 #[test]
 fn a_4k_canvas_is_there_or_refused_by_its_memory() {
     let Some(gpu) = default_limits() else { return };
-    let stage = Stage::new(&gpu, scene(PLATES));
-    match gpu.block_on(Canvas::new(&stage.renderer, [3840, 2160], u32::MAX)) {
+    let stage = Stage::new(&gpu, plates().scene());
+    match gpu.block_on(stage.renderer.canvas([3840, 2160], u32::MAX)) {
         Ok(canvas) => {
             assert_eq!(canvas.bytes(), 3840 * 2160 * 64);
             // 128 MiB hold the surface points of 364 rows, two of them beside the band.

@@ -4,9 +4,9 @@ use std::future::Future;
 use std::pin::pin;
 use std::task::{Context, Waker};
 
-use crate::common::{Made, PLATES, Stage, scene};
+use crate::common::{Made, Stage, plates};
 use hairline_gpu::headless::{self, test_gpu};
-use hairline_gpu::{Canvas, Error, Gpu, Renderer};
+use hairline_gpu::{Error, Gpu, Renderer};
 use hairline_image::{Display, ToneMap};
 
 const DISPLAY: Display = Display {
@@ -36,7 +36,7 @@ fn destroyed_within<T>(gpu: &Gpu, future: impl Future<Output = T>) -> Option<T> 
 fn a_lost_device_is_an_error_everywhere() {
     for step in 0..4 {
         let Some(gpu) = open() else { return };
-        let mut stage = Stage::new(&gpu, scene(PLATES));
+        let mut stage = Stage::new(&gpu, plates().scene());
         let mut canvas = stage.canvas([97, 64], 16 * 97);
         stage.paint(&mut canvas, 1, 2);
         // A new tree, so that there is something to upload.
@@ -66,7 +66,7 @@ fn a_lost_device_is_an_error_everywhere() {
         assert!(is_lost(gpu.block_on(canvas.image())), "after step {step}");
         let next = edited.update(renderer, uploaded);
         assert!(is_lost(gpu.block_on(next)), "after step {step}");
-        let next = Canvas::new(renderer, [64, 64], 64);
+        let next = renderer.canvas([64, 64], 64);
         assert!(is_lost(gpu.block_on(next)), "after step {step}");
     }
 }
@@ -75,7 +75,7 @@ fn a_lost_device_is_an_error_everywhere() {
 #[test]
 fn another_device_takes_over() {
     let Some(gpu) = open() else { return };
-    let mut stage = Stage::new(&gpu, scene(PLATES));
+    let mut stage = Stage::new(&gpu, plates().scene());
     let picture = stage.made.render(&mut stage.renderer, &stage.uploaded);
     let expected = gpu.block_on(picture).unwrap();
     gpu.device.destroy();
@@ -114,7 +114,7 @@ fn a_windows_device_is_shared() {
         })
     };
     let gpu = open(false).unwrap();
-    let mut stage = Stage::new(&gpu, scene(PLATES));
+    let mut stage = Stage::new(&gpu, plates().scene());
     let picture = stage.made.render(&mut stage.renderer, &stage.uploaded);
     assert!(
         gpu.block_on(picture)

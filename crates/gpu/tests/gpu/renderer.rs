@@ -2,38 +2,25 @@
 
 use crate::common::default_limits;
 use glam::{DVec2, DVec3, Vec2, Vec3, Vec4};
+use hairline_fixtures::{DISK, SceneFile};
 use hairline_gpu::headless::{self, test_gpu};
-use hairline_gpu::{AdapterRequest, Canvas, Error, Gpu, GpuScene, RenderOptions, Renderer};
+use hairline_gpu::{AdapterRequest, Error, Gpu, GpuScene, RenderOptions, Renderer};
 use hairline_image::tone_map::{display_code, dither_offset, linear_from_srgb};
 use hairline_image::{Display, Image, Picture, ToneMap};
 use hairline_index::ScratchIndex;
 use hairline_scene::{Environment, Mesh, Scene, ScratchTables, Texture};
 use std::sync::Arc;
 
-const PLATE: &str = r#"
-[camera]
-position_m = [0.05, -0.22, 0.30]
-target_m = [0.01, 0.0, 0.0]
-up = [0.0, 0.0, 1.0]
-fov_y_deg = 28.0
-
-[render]
-size_px = [97, 64]
-
-[[material]]
-name = "steel"
-kind = "mirror"
-roughness = 0.1
-
-[[object]]
-name = "plate"
-shape = { disk = { radius_m = 0.08 } }
-material = "steel"
-rotation_deg = [10.0, 20.0, 0.0]
-"#;
-
-fn scene(text: &str) -> Scene {
-    Scene::from_toml(text, "test", ".").unwrap_or_else(|error| panic!("{error}"))
+/// A tilted mirror.
+fn plate() -> SceneFile {
+    SceneFile::seen_from([0.05, -0.22, 0.30])
+        .toward([0.01, 0.0, 0.0])
+        .fov_y_deg(28.0)
+        .size_px([97, 64])
+        .mirror("steel")
+        .with("roughness = 0.1")
+        .object("plate", "steel", DISK)
+        .with("rotation_deg = [10.0, 20.0, 0.0]")
 }
 
 fn upload(renderer: &mut Renderer, scene: &Scene) -> Result<GpuScene, Error> {
@@ -63,7 +50,7 @@ fn plate_hit(scene: &Scene, pixel: DVec2) -> (f64, f64) {
 #[test]
 fn a_disk_is_seen_where_it_is() {
     let Some(gpu) = test_gpu() else { return };
-    let scene = scene(PLATE);
+    let scene = plate().scene();
     let image = render(gpu, &scene, &RenderOptions::default()).unwrap();
     let mesh = &scene.objects[0].mesh;
     let normal = mesh.normals[0];
@@ -97,7 +84,7 @@ fn a_disk_is_seen_where_it_is() {
 #[test]
 fn bands_join_to_the_same_picture() {
     let Some(gpu) = test_gpu() else { return };
-    let scene = scene(PLATE);
+    let scene = plate().scene();
     for samples in [1, 3] {
         let whole = render(
             gpu,
@@ -135,7 +122,7 @@ fn bands_join_to_the_same_picture() {
 #[test]
 fn some_rows_are_the_pictures() {
     let Some(gpu) = test_gpu() else { return };
-    let scene = scene(PLATE);
+    let scene = plate().scene();
     let (index, tables) = (
         Arc::new(ScratchIndex::build(&scene)),
         ScratchTables::new(&scene),
@@ -176,7 +163,7 @@ fn some_rows_are_the_pictures() {
 #[test]
 fn samples_smooth_the_rim() {
     let Some(gpu) = test_gpu() else { return };
-    let mut scene = scene(PLATE);
+    let mut scene = plate().scene();
     scene.materials[0].emission = [1.0; 3];
     let levels = |samples| {
         let image = render(
@@ -204,31 +191,16 @@ fn samples_smooth_the_rim() {
 fn near_objects_hide_far_ones_down_to_a_tenth_of_a_millimetre() {
     let Some(gpu) = test_gpu() else { return };
     for gap_m in [0.02, 1e-4] {
-        let scene = scene(&format!(
-            r#"
-[camera]
-position_m = [0.0, 0.0, 0.1]
-target_m = [0.0, 0.0, 0.0]
-up = [0.0, 1.0, 0.0]
-fov_y_deg = 40.0
-[render]
-size_px = [32, 32]
-[[material]]
-name = "m"
-kind = "mirror"
-[[object]]
-name = "near"
-shape = {{ disk = {{ radius_m = {radius} }} }}
-material = "m"
-translation_m = [0.0, 0.0, {z}]
-[[object]]
-name = "far"
-shape = {{ disk = {{ radius_m = 0.2 }} }}
-material = "m"
-"#,
-            radius = 0.1 * gap_m,
-            z = 0.1 - gap_m,
-        ));
+        let near = format!("disk = {{ radius_m = {} }}", 0.1 * gap_m);
+        let scene = SceneFile::seen_from([0.0, 0.0, 0.1])
+            .up([0.0, 1.0, 0.0])
+            .fov_y_deg(40.0)
+            .size_px([32, 32])
+            .mirror("m")
+            .object("near", "m", &near)
+            .with(&format!("translation_m = [0.0, 0.0, {}]", 0.1 - gap_m))
+            .object("far", "m", "disk = { radius_m = 0.2 }")
+            .scene();
         let image = render(gpu, &scene, &RenderOptions::default()).unwrap();
         let center = image.depth_m[image.index(16, 16)] as f64;
         let corner = image.depth_m[image.index(0, 0)] as f64;
@@ -241,7 +213,7 @@ material = "m"
 #[test]
 fn a_plane_under_the_camera_reaches_the_horizon() {
     let Some(gpu) = test_gpu() else { return };
-    let mut scene = scene(PLATE);
+    let mut scene = plate().scene();
     for position in &mut Arc::make_mut(&mut scene.objects[0].mesh).positions_m {
         // The plate, flat and a kilometre wide.
         *position = Vec3::new(position.x, position.y, 0.0) * 1e4;
@@ -262,7 +234,7 @@ fn a_plane_under_the_camera_reaches_the_horizon() {
 #[test]
 fn the_display_shows_what_a_png_would() {
     let Some(gpu) = test_gpu() else { return };
-    let scene = scene(PLATE);
+    let scene = plate().scene();
     let size = scene.render.size_px;
     let mut renderer = gpu.block_on(Renderer::new(gpu)).unwrap();
     let uploaded = upload(&mut renderer, &scene).unwrap();
@@ -270,9 +242,7 @@ fn the_display_shows_what_a_png_would() {
         .block_on(renderer.render(&scene, &uploaded, &RenderOptions::default(), &|_| {}))
         .unwrap();
     // Bands of 10 rows, the last of 4.
-    let mut canvas = gpu
-        .block_on(Canvas::new(&renderer, size, 10 * size[0]))
-        .unwrap();
+    let mut canvas = gpu.block_on(renderer.canvas(size, 10 * size[0])).unwrap();
     for band in 0..canvas.bands() {
         gpu.block_on(renderer.accumulate(&scene, &uploaded, &mut canvas, band, 0, 1))
             .unwrap();
@@ -308,7 +278,7 @@ fn the_display_shows_what_a_png_would() {
 #[test]
 fn textures_keep_their_texels() {
     let Some(gpu) = test_gpu() else { return };
-    let mut scene = scene(PLATE);
+    let mut scene = plate().scene();
     scene.camera.position_m = DVec3::new(0.0, 0.0, 1.0);
     scene.camera.target_m = DVec3::ZERO;
     scene.camera.up = DVec3::Y;
@@ -383,7 +353,7 @@ fn textures_keep_their_texels() {
 #[test]
 fn the_environment_is_seen_where_it_is() {
     let Some(gpu) = test_gpu() else { return };
-    let mut scene = scene(PLATE);
+    let mut scene = plate().scene();
     scene.objects.clear();
     let map = Picture {
         size_px: [32, 16],
@@ -424,7 +394,7 @@ fn default_limits_are_enough() {
     let Some(gpu) = default_limits() else { return };
     assert_eq!(gpu.limits().max_storage_buffers_per_shader_stage, 8);
     assert_eq!(gpu.limits().max_storage_buffer_binding_size, 128 << 20);
-    let image = render(&gpu, &scene(PLATE), &RenderOptions::default()).unwrap();
+    let image = render(&gpu, &plate().scene(), &RenderOptions::default()).unwrap();
     assert!(image.depth_m[image.index(48, 32)] > 0.0);
 }
 
@@ -432,7 +402,7 @@ fn default_limits_are_enough() {
 #[test]
 fn a_scene_beyond_one_binding_is_refused_with_figures() {
     let Some(gpu) = default_limits() else { return };
-    let mut scene = scene(PLATE);
+    let mut scene = plate().scene();
     let (index, tables) = (
         Arc::new(ScratchIndex::build(&scene)),
         ScratchTables::new(&scene),
@@ -458,7 +428,7 @@ fn a_scene_beyond_one_binding_is_refused_with_figures() {
 #[test]
 fn a_picture_that_is_too_wide_is_refused() {
     let Some(gpu) = test_gpu() else { return };
-    let mut scene = scene(PLATE);
+    let mut scene = plate().scene();
     scene.render.size_px = [gpu.limits().max_texture_dimension_2d + 1, 2];
     let error = render(gpu, &scene, &RenderOptions::default()).unwrap_err();
     assert!(matches!(error, Error::TooLarge { .. }), "{error}");
@@ -470,7 +440,7 @@ fn a_device_lost_between_two_pictures_is_an_error() {
         return;
     }
     let gpu = headless::open(&AdapterRequest::default()).unwrap();
-    let scene = scene(PLATE);
+    let scene = plate().scene();
     let mut renderer = gpu.block_on(Renderer::new(&gpu)).unwrap();
     let uploaded = upload(&mut renderer, &scene).unwrap();
     let options = RenderOptions::default();
@@ -499,7 +469,7 @@ fn a_device_lost_in_the_middle_is_an_error() {
     };
     let error = headless::render(
         &gpu,
-        &scene(PLATE),
+        &plate().scene(),
         &Default::default(),
         &options,
         &|share| {

@@ -3,43 +3,21 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use hairline_fixtures::{DISK, SceneFile};
 use hairline_gpu::headless::{skip, test_gpu};
 use hairline_gpu::{GpuScene, PassTime, RenderOptions, Renderer};
 use hairline_index::ScratchIndex;
 use hairline_scene::{Scene, ScratchTables};
 
-const SCRATCHED: &str = r#"
-[camera]
-position_m = [0.0, -0.22, 0.30]
-target_m = [0.0, 0.0, 0.0]
-up = [0.0, 0.0, 1.0]
-
-[render]
-size_px = [96, 64]
-
-[[material]]
-name = "steel"
-kind = "mirror"
-
-[[object]]
-name = "plate"
-shape = { disk = { radius_m = 0.08 } }
-material = "steel"
-
-[[scratches]]
-object = "plate"
-pattern = "random"
-count = 1000
-length_m = 0.02
-width_um = 2.0
-depth_nm = 200.0
-
-[[light]]
-kind = "sphere"
-center_m = [0.0, 0.3, 0.3]
-radius_m = 0.05
-radiance = 9.0
-"#;
+fn scratched() -> SceneFile {
+    SceneFile::seen_from([0.0, -0.22, 0.30])
+        .size_px([96, 64])
+        .mirror("steel")
+        .object("plate", "steel", DISK)
+        .random("plate", 1000)
+        .with("length_m = 0.02\nwidth_um = 2.0\ndepth_nm = 200.0")
+        .sphere([0.0, 0.3, 0.3], 0.05, 9.0)
+}
 
 fn upload(renderer: &mut Renderer, scene: &Scene) -> GpuScene {
     let index = Arc::new(ScratchIndex::build(scene));
@@ -71,7 +49,7 @@ fn sum(times: &[PassTime]) -> Duration {
 #[test]
 fn passes_take_time_and_not_more_than_has_gone_by() {
     let Some(gpu) = test_gpu() else { return };
-    let scene = Scene::from_toml(SCRATCHED, "test", ".").unwrap_or_else(|error| panic!("{error}"));
+    let scene = scratched().scene();
     let mut renderer = gpu.block_on(Renderer::new(gpu)).unwrap();
     let uploaded = upload(&mut renderer, &scene);
 

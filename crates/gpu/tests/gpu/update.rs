@@ -3,21 +3,21 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use crate::common::{Made, PLATES, Stage, default_limits, scene};
+use crate::common::{Made, Stage, default_limits, plates};
 use glam::Vec3;
 use hairline_gpu::headless::test_gpu;
 use hairline_gpu::{Error, GpuScene, Renderer};
 use hairline_image::{Image, Picture};
 use hairline_index::ScratchIndex;
+use hairline_index::method::{Method, PublishedMethod, Structure};
 use hairline_optics::metal::Metal;
-use hairline_optics::method::{Method, PublishedMethod, Structure};
 use hairline_scene::{Base, Environment, Light, Scene, ScratchTables, Texture};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_pcg::Pcg32;
 
 /// With one of everything that shaders are compiled for, so that no edit but the last kind compiles.
 fn rich() -> Scene {
-    let mut scene = scene(PLATES);
+    let mut scene = plates().scene();
     scene.render.size_px = [48, 32];
     scene.environment = Some(map(0.3));
     scene.textures = Arc::new(vec![texture(90)]);
@@ -106,7 +106,7 @@ fn edit(made: &mut Made, kind: u32, random: &mut impl Rng) {
         8 => {
             // Thinner.
             for scratch in Arc::make_mut(&mut scene.objects[0].scratches) {
-                scratch.width_um *= 0.9;
+                scratch.profile.width_um *= 0.9;
             }
             trees_change = true;
         }

@@ -1,4 +1,6 @@
 use super::*;
+use glam::Vec3;
+use hairline_fixtures::{BALL, DISK, SceneFile};
 use hairline_scene::description::{Description, Layer};
 use hairline_scene::{Loader, SceneBuilder};
 use std::path::Path;
@@ -7,22 +9,24 @@ use std::sync::{Arc, Mutex};
 
 /// Two objects. On the first a large layer and two small ones, which share a tree; on the second another small one.
 fn description() -> Description {
-    let layer = |object: &str, count: u32, seed: u32, width_um: f64| {
-        format!(
-            "[[scratches]]\nobject = \"{object}\"\npattern = \"random\"\ncount = {count}\nseed = {seed}\n\
-             length_m = {{ mean = 0.01, spread = 0.5 }}\nwidth_um = {{ mean = {width_um}, spread = 0.3 }}\n\
-             depth_nm = 200.0\ncurvature_per_m = {{ mean = 0.0, spread = 4.0 }}\n"
-        )
+    let file = SceneFile::seen_from([0.0, -0.3, 0.3])
+        .mirror("m")
+        .object("a", "m", DISK)
+        .object("b", "m", BALL);
+    let layer = |file: SceneFile, object: &str, count: u32, seed: u32, width_um: f64| {
+        file.random(object, count).with(&format!(
+            "seed = {seed}\nlength_m = {{ mean = 0.01, spread = 0.5 }}\nwidth_um = {{ mean = {width_um}, spread = 0.3 }}\n\
+             depth_nm = 200.0\ncurvature_per_m = {{ mean = 0.0, spread = 4.0 }}"
+        ))
     };
-    let text = "[camera]\nposition_m = [0.0, -0.3, 0.3]\ntarget_m = [0.0, 0.0, 0.0]\nup = [0.0, 0.0, 1.0]\n\
-                [[material]]\nname = \"m\"\nkind = \"mirror\"\n\
-                [[object]]\nname = \"a\"\nmaterial = \"m\"\nshape = { disk = { radius_m = 0.08 } }\n\
-                [[object]]\nname = \"b\"\nmaterial = \"m\"\nshape = { sphere = { radius_m = 0.05 } }\n"
-        .to_owned();
-    let large = layer("a", 20_000, 1, 2.0);
-    let small = [("b", 2), ("a", 3), ("a", 4)].map(|(object, seed)| layer(object, 300, seed, 3.0));
-    let text = text + &large + &small.concat();
-    Description::from_toml(&text, Path::new("test")).unwrap_or_else(|error| panic!("{error}"))
+    let file = layer(file, "a", 20_000, 1, 2.0);
+    let small = [("b", 2), ("a", 3), ("a", 4)];
+    small
+        .into_iter()
+        .fold(file, |file, (object, seed)| {
+            layer(file, object, 300, seed, 3.0)
+        })
+        .description()
 }
 
 fn built(builder: &mut SceneBuilder, description: &Description) -> Scene {
@@ -102,7 +106,11 @@ fn what_pieces_depend_on_is_seen_to_change() {
         (|scene| scene.materials[0].coherence_um *= 2.0, 3),
         (|scene| scene.materials[0].roughness += 0.1, 0),
         (
-            |scene| Arc::make_mut(&mut scene.objects[0].scratches)[0].depth_nm += 1.0,
+            |scene| {
+                Arc::make_mut(&mut scene.objects[0].scratches)[0]
+                    .profile
+                    .depth_nm += 1.0
+            },
             1,
         ),
         (
@@ -198,13 +206,12 @@ fn the_range_of_an_object_holds_its_segments() {
 #[test]
 fn straight_pieces_are_one_and_bent_ones_are_not() {
     let of = |shape: &str| {
-        let text = format!(
-            "[camera]\nposition_m = [0.0, -0.3, 0.3]\ntarget_m = [0.0, 0.0, 0.0]\nup = [0.0, 0.0, 1.0]\n\
-             [[material]]\nname = \"m\"\nkind = \"mirror\"\n[[object]]\nname = \"a\"\nmaterial = \"m\"\nshape = {{ {shape} }}\n\
-             [[scratches]]\nobject = \"a\"\npattern = \"random\"\ncount = 500\nseed = 1\nlength_m = 0.01\n\
-             width_um = 3.0\ndepth_nm = 200.0\n"
-        );
-        Scene::from_toml(&text, "test", ".").unwrap_or_else(|error| panic!("{error}"))
+        SceneFile::seen_from([0.0, -0.3, 0.3])
+            .mirror("m")
+            .object("a", "m", shape)
+            .random("a", 500)
+            .with("seed = 1\nlength_m = 0.01\nwidth_um = 3.0\ndepth_nm = 200.0")
+            .scene()
     };
     // Rings of 1 mm: a scratch of 10 mm is cut a dozen times.
     let rings: Vec<String> = (0..=40)

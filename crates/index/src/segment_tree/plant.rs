@@ -6,7 +6,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
-use super::{LEAF_FIRST_BITS, ScratchNode, SegmentTree, Straight, Tree, grow};
+use super::grow;
+use super::node::{LEAF_FIRST_BITS, Piece, SegmentTree, Straight, Tree};
 use crate::watch::Watch;
 
 /// Appends segments.
@@ -18,15 +19,6 @@ pub(crate) enum Plot<'a, S> {
     New { most: usize, fill: Fill<'a, S> },
     /// It was grown before.
     Kept(Tree),
-}
-
-/// Nodes in a row, with what their numbers have to become.
-pub(super) struct Piece<'a> {
-    pub nodes: Cow<'a, [ScratchNode]>,
-    /// The number of its first node.
-    pub first_node: u32,
-    /// How far its segments move, wrapped around.
-    pub segments_by: u32,
 }
 
 /// Of all the work, what filling in the segments takes.

@@ -1,5 +1,6 @@
 use super::*;
 use crate::scratch_index::FACING_MIN_COS;
+use hairline_fixtures::SceneFile;
 use hairline_optics::footprint::{Footprint, scratch_share};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -24,24 +25,22 @@ const SHAPES: [(&str, u32, f64); 5] = [
 ];
 
 fn scene(shapes: &[(&str, u32, f64)]) -> Scene {
-    let objects: String = shapes
-        .iter()
-        .enumerate()
-        .map(|(i, (shape, count, length_m))| {
-            format!(
-                "[[object]]\nname = \"o{i}\"\nmaterial = \"m{}\"\nshape = {{ {shape} }}\n\
-                 [[scratches]]\nobject = \"o{i}\"\npattern = \"random\"\ncount = {count}\nseed = {i}\nlength_m = {length_m}\n\
-                 width_um = 2.0\ndepth_nm = 200.0\ncurvature_per_m = {{ mean = 0.0, spread = 40.0 }}\n",
-                i % 2
-            )
-        })
-        .collect();
-    let text = format!(
-        "[camera]\nposition_m = [0.0, -0.3, 0.3]\ntarget_m = [0.0, 0.0, 0.0]\nup = [0.0, 0.0, 1.0]\n\
-         [[material]]\nname = \"m0\"\nkind = \"mirror\"\n[[material]]\nname = \"m1\"\nkind = \"mirror\"\ncoherence_um = 35.0\n\
-         {objects}"
-    );
-    Scene::from_toml(&text, "test", ".").unwrap_or_else(|error| panic!("{error}"))
+    let mut file = SceneFile::seen_from([0.0, -0.3, 0.3])
+        .mirror("m0")
+        .mirror("m1")
+        .with("coherence_um = 35.0");
+    for (i, (shape, count, length_m)) in shapes.iter().enumerate() {
+        let (object, material) = (format!("o{i}"), format!("m{}", i % 2));
+        let more = format!(
+            "seed = {i}\nlength_m = {length_m}\nwidth_um = 2.0\ndepth_nm = 200.0\n\
+             curvature_per_m = {{ mean = 0.0, spread = 40.0 }}"
+        );
+        file = file
+            .object(&object, &material, shape)
+            .random(&object, *count)
+            .with(&more);
+    }
+    file.scene()
 }
 
 /// What a point sees of a segment, as renderers do it without a footprint: its share over that of an endless scratch

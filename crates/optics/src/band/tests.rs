@@ -40,6 +40,10 @@ fn quadrature(
 ) -> f64 {
     let std_xi = band_std(SIGMA_UM, NM);
     let mut sum = 0.0;
+    // Midpoints in phi; bisection would be a chord finder, so plain indicator sampling it is.
+    let arc: Vec<(f64, f64)> = (0..steps)
+        .map(|j| (PI * (j as f64 + 0.5) / steps as f64).sin_cos())
+        .collect();
     let line_count = if single_line { 1 } else { lines };
     for i in 0..line_count {
         let z = if single_line {
@@ -57,14 +61,12 @@ fn quadrature(
             continue;
         }
         let r = (1.0 - w_t * w_t).sqrt();
-        // Midpoints in phi; bisection would be a chord finder, so plain indicator sampling it is.
-        for j in 0..steps {
-            let phi = PI * (j as f64 + 0.5) / steps as f64;
-            let w = DVec3::new(w_t, r * phi.cos(), r * phi.sin());
+        for &(sin_phi, cos_phi) in &arc {
+            let w = DVec3::new(w_t, r * cos_phi, r * sin_phi);
             if covers(w) {
                 let x = 2.0 * PI / (NM * 1e-3) * width_um * (wo.y + w.y) / 2.0;
                 let sinc = if x == 0.0 { 1.0 } else { x.sin() / x };
-                sum += weight * sinc * sinc * r * phi.sin() * PI / steps as f64;
+                sum += weight * sinc * sinc * r * sin_phi * PI / steps as f64;
             }
         }
     }

@@ -7,7 +7,7 @@
 
 use std::sync::LazyLock;
 
-use glam::DVec3;
+use glam::{DVec3, DVec4};
 use hairline_optics::fresnel::{FresnelCurve, FresnelRgb, dielectric};
 use hairline_optics::ggx::{ggx_alpha, ggx_eval};
 use hairline_optics::lobe_table::albedo_lookup;
@@ -128,9 +128,10 @@ fn fine_reflectances(cos_h: f64) -> DVec3 {
     FINE[i].lerp(FINE[i + 1], at - i as f64)
 }
 
-/// GGX with each reflectance.
-fn ggx_reflected(wo: DVec3, alpha: f64) -> impl Fn(DVec3) -> DVec3 {
-    move |wi| ggx_eval(wi, wo, alpha) * fine_reflectances(wo.dot((wi + wo).normalize()))
+/// GGX with each reflectance, and GGX itself behind them: one cubature for all.
+fn plain_and_reflected(wo: DVec3, alpha: f64) -> impl Fn(DVec3) -> DVec4 {
+    let reflectance = move |wi: DVec3| fine_reflectances(wo.dot((wi + wo).normalize()));
+    move |wi| ggx_eval(wi, wo, alpha) * reflectance(wi).extend(1.0)
 }
 
 /// For each reflectance: the integral's own, and that for F = 1 times the ratio of albedos, which is what many renderers do.
@@ -283,8 +284,8 @@ fn spheres_match_ggx() {
                 radius_rad,
             };
             let white = FresnelRgb::schlick([1.0; 3]);
-            let exact = integrate(light, surface.peak(), &|wi| ggx_eval(wi, wo, alpha));
-            let exact_reflected = integrate(light, surface.peak(), &ggx_reflected(wo, alpha));
+            let both = integrate(light, surface.peak(), &plain_and_reflected(wo, alpha));
+            let (exact_reflected, exact) = (both.truncate(), both.w);
             let lobe = sptd_lobe(wo, surface.roughness);
             let default = sphere_light(wo, surface.roughness, white, centre, sin2)[0];
             let of_fresnel = sphere_light(wo, surface.roughness, fresnel(), centre, sin2);
@@ -369,9 +370,8 @@ fn polygons(tilts: impl Fn(usize) -> &'static [f64]) {
                         .collect();
                     let white = FresnelRgb::schlick([1.0; 3]);
                     let peak = surface.peak();
-                    let plain_exact =
-                        integrate_polygon(&vertices, peak, &|wi| ggx_eval(wi, wo, alpha)).abs();
-                    let exact = integrate_polygon(&vertices, peak, &ggx_reflected(wo, alpha)).abs();
+                    let both = integrate_polygon(&vertices, peak, &plain_and_reflected(wo, alpha));
+                    let (exact, plain_exact) = (both.abs().truncate(), both.w.abs());
                     let plain = polygon_light(wo, surface.roughness, white, &vertices)[0];
                     let of_fresnel = polygon_light(wo, surface.roughness, fresnel(), &vertices);
                     let [a, b, c, d, e, f] = compared(surface, plain, of_fresnel, exact);

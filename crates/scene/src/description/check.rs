@@ -1,17 +1,17 @@
 //! Ranges: what a number may be, whoever wrote it.
 
 use super::limits;
+use super::ranges::{
+    Check, components, direction, finite, found, not_negative, point, size, spread, within,
+};
+use super::sizes;
 use super::{
-    Amount, Around, Brush, Camera, Description, Distribution, Laid, Layer, Light, LightKind,
-    Material, MaterialKind, MetalColor, Object, Pattern, Render, Scratches, Shape, Stroke, Surface,
+    Amount, Around, Brush, Camera, Description, Distribution, Laid, Layer, Light, Material,
+    MaterialKind, MetalColor, Object, Pattern, Render, Scratches, Shape, Stroke, Surface,
 };
 use crate::error::Error;
-use crate::polygon;
 use crate::text::shown;
 use std::collections::HashSet;
-use std::ops::RangeInclusive;
-
-type Check = Result<(), Error>;
 
 impl Description {
     /// Refuses values out of range. References between tables are checked where they are resolved.
@@ -34,17 +34,7 @@ impl Description {
         each("object", &self.objects, object)?;
         unique("object", self.objects.iter().map(|o| o.name.as_str()))?;
         each("scratches", &self.scratches, scratches)?;
-        each("light", &self.lights, light)
-    }
-}
-
-impl Light {
-    /// Refuses values out of range, and polygons that are not planar and simple. Keys begin with `light`.
-    ///
-    /// # Errors
-    /// What is wrong.
-    pub fn check(&self) -> Result<(), Error> {
-        light(self, "light")
+        each("light", &self.lights, Light::check_at)
     }
 }
 
@@ -212,8 +202,7 @@ fn scratches(scratches: &Scratches, key: &str) -> Check {
     match &scratches.layer {
         Layer::Laid(laid) => self::laid(laid, key)?,
         Layer::Brushed(brushed) => {
-            let sizes = [brushed.length_m, brushed.width_um, brushed.depth_nm];
-            drawn(brushed.seed, sizes, key)?;
+            drawn(brushed.seed, brushed.sizes(), key)?;
             jitter(brushed.jitter_deg, key)?;
         }
         Layer::Listed(_) => {}
@@ -267,24 +256,7 @@ fn drawn(seed: u64, sizes: [Distribution; 3], key: &str) -> Check {
             "must be below 2^63",
         ));
     }
-    for ((name, means), drawn) in [
-        ("length_m", limits::SCRATCH_LENGTH_M),
-        ("width_um", limits::SCRATCH_WIDTH_UM),
-        ("depth_nm", limits::SCRATCH_DEPTH_NM),
-    ]
-    .into_iter()
-    .zip(sizes)
-    {
-        let way = format!("{key}.{name}");
-        spread(&way, drawn, limits::LOG_NORMAL_SPREAD)?;
-        let mean = match drawn.spread == 0.0 {
-            true => way,
-            false => format!("{way}.mean"),
-        };
-        positive(&mean, drawn.mean)?;
-        within(&mean, drawn.mean, means)?;
-    }
-    Ok(())
+    sizes::check(sizes, key)
 }
 
 fn jitter(jitter_deg: f64, key: &str) -> Check {
@@ -295,11 +267,7 @@ fn laid(laid: &Laid, key: &str) -> Check {
     if let Amount::DensityPerM2(density) = laid.amount {
         not_negative(&format!("{key}.density_per_m2"), density)?;
     }
-    drawn(
-        laid.seed,
-        [laid.length_m, laid.width_um, laid.depth_nm],
-        key,
-    )?;
+    drawn(laid.seed, laid.sizes(), key)?;
     let jitter = |jitter_deg| jitter(jitter_deg, key);
     let around = |around: &Around| {
         direction(&format!("{key}.axis"), around.axis)?;
@@ -339,114 +307,5 @@ fn laid(laid: &Laid, key: &str) -> Check {
             }
             Ok(())
         }
-    }
-}
-
-fn light(light: &Light, key: &str) -> Check {
-    not_negative(&format!("{key}.radiance"), light.radiance)?;
-    components(&format!("{key}.color"), light.color, 0.0..=f64::MAX)?;
-    match &light.kind {
-        LightKind::Sphere { center_m, radius_m } => {
-            point(&format!("{key}.center_m"), *center_m)?;
-            size(&format!("{key}.radius_m"), *radius_m)
-        }
-        LightKind::Polygon { vertices_m, .. } => {
-            let key = format!("{key}.vertices_m");
-            for (i, vertex) in vertices_m.iter().enumerate() {
-                point(&format!("{key}[{i}]"), *vertex)?;
-            }
-            let vertices: Vec<_> = vertices_m.iter().map(|v| (*v).into()).collect();
-            polygon::check(&vertices)
-                .map_err(|flaw| Error::new(key, flaw.to_string(), flaw.remedy()))
-        }
-    }
-}
-
-fn found(value: f64) -> String {
-    format!("found {}", written(value))
-}
-
-/// A number without rows of zeros.
-fn written(value: f64) -> String {
-    match value == 0.0 || !value.is_finite() || (1e-3..1e7).contains(&value.abs()) {
-        true => format!("{value}"),
-        false => format!("{value:e}"),
-    }
-}
-
-fn finite(key: &str, value: f64) -> Check {
-    match value.is_finite() {
-        true => Ok(()),
-        false => Err(Error::new(key, found(value), "must be finite")),
-    }
-}
-
-fn positive(key: &str, value: f64) -> Check {
-    finite(key, value)?;
-    match value > 0.0 {
-        true => Ok(()),
-        false => Err(Error::new(key, found(value), "must be greater than 0")),
-    }
-}
-
-fn not_negative(key: &str, value: f64) -> Check {
-    finite(key, value)?;
-    match value >= 0.0 {
-        true => Ok(()),
-        false => Err(Error::new(key, found(value), "must be 0 or greater")),
-    }
-}
-
-fn within(key: &str, value: f64, range: RangeInclusive<f64>) -> Check {
-    finite(key, value)?;
-    let (least, most) = (*range.start(), *range.end());
-    match range.contains(&value) {
-        true => Ok(()),
-        false => Err(Error::new(
-            key,
-            found(value),
-            format!("must be from {} to {}", written(least), written(most)),
-        )),
-    }
-}
-
-fn size(key: &str, value: f64) -> Check {
-    positive(key, value)?;
-    within(key, value, limits::SIZE_M)
-}
-
-fn spread(key: &str, drawn: Distribution, spreads: RangeInclusive<f64>) -> Check {
-    match drawn.spread == 0.0 {
-        true => finite(key, drawn.mean),
-        false => {
-            finite(&format!("{key}.mean"), drawn.mean)?;
-            within(&format!("{key}.spread"), drawn.spread, spreads)
-        }
-    }
-}
-
-fn components(key: &str, values: [f64; 3], range: RangeInclusive<f64>) -> Check {
-    values.iter().enumerate().try_for_each(|(i, &value)| {
-        let key = format!("{key}[{i}]");
-        match *range.end() == f64::MAX {
-            true => not_negative(&key, value),
-            false => within(&key, value, range.clone()),
-        }
-    })
-}
-
-fn point(key: &str, point: [f64; 3]) -> Check {
-    components(key, point, limits::COORDINATE_M)
-}
-
-fn direction(key: &str, direction: [f64; 3]) -> Check {
-    components(key, direction, limits::DIRECTION)?;
-    match glam::DVec3::from_array(direction).length() > 1e-6 {
-        true => Ok(()),
-        false => Err(Error::new(
-            key,
-            "found no direction: all three numbers are 0",
-            "must point somewhere",
-        )),
     }
 }

@@ -2,11 +2,12 @@
 
 use toml::de::{DeTable, DeValue};
 
+use super::sizes;
 use super::table::{Read, Table, Value, number, wrong_type};
 use super::{
     Amount, Around, Brush, Brushed, Camera, Description, Distribution, Environment, Laid, Layer,
-    Light, LightKind, Listed, Map, Material, MaterialKind, MetalColor, Object, Pattern, Render,
-    Scratches, Shape, Stroke, Surface, Up,
+    Listed, Map, Material, MaterialKind, MetalColor, Object, Pattern, Render, Scratches, Shape,
+    Stroke, Surface, Up,
 };
 use crate::error::Error;
 
@@ -237,9 +238,8 @@ impl Read for Shape {
 impl Read for Scratches {
     fn read(value: &Value, key: &str) -> Result<Self, Error> {
         const AROUND: [&str; 3] = ["axis", "center_m", "jitter_deg"];
-        const SIZES: [&str; 4] = ["seed", "length_m", "width_um", "depth_nm"];
         const AMOUNTS: [&str; 2] = ["count", "density_per_m2"];
-        let with = |own: &[&'static str]| [&AMOUNTS[..], &SIZES[..], own].concat();
+        let with = |own: &[&'static str]| [&AMOUNTS[..], &["seed"], &sizes::KEYS, own].concat();
         let (pattern, table) = Table::read_kind(
             value,
             key,
@@ -252,7 +252,10 @@ impl Read for Scratches {
                 ("radial", &with(&AROUND)),
                 ("spun", &with(&[&AROUND[..], &["curvature_per_m"]].concat())),
                 ("swirl", &with(&["curvature_per_m"])),
-                ("drawn", &[&SIZES[..], &["jitter_deg"]].concat()),
+                (
+                    "drawn",
+                    &[&sizes::KEYS[..], &["seed", "jitter_deg"]].concat(),
+                ),
                 ("file", &["file"]),
             ],
         )?;
@@ -274,9 +277,7 @@ fn layer(pattern: &str, table: &Table) -> Result<Layer, Error> {
         return Ok(Layer::Listed(Listed { file }));
     }
     let seed = table.or("seed", super::DEFAULT_SEED)?;
-    let length_m = table.or("length_m", super::DEFAULT_LENGTH_M)?;
-    let width_um = table.or("width_um", super::DEFAULT_WIDTH_UM)?;
-    let depth_nm = table.or("depth_nm", super::DEFAULT_DEPTH_NM)?;
+    let sizes = sizes::read(table)?;
     let around = || -> Result<Around, Error> {
         let default = Around::default();
         Ok(Around {
@@ -305,11 +306,8 @@ fn layer(pattern: &str, table: &Table) -> Result<Layer, Error> {
         },
         _ => {
             return Ok(Layer::Brushed(Brushed {
-                jitter_deg: table.or("jitter_deg", 0.0)?,
                 seed,
-                length_m,
-                width_um,
-                depth_nm,
+                ..Brushed::new(table.or("jitter_deg", 0.0)?, sizes)
             }));
         }
     };
@@ -318,12 +316,8 @@ fn layer(pattern: &str, table: &Table) -> Result<Layer, Error> {
         _ => Amount::DensityPerM2(table.required("density_per_m2")?),
     };
     Ok(Layer::Laid(Laid {
-        pattern,
-        amount,
         seed,
-        length_m,
-        width_um,
-        depth_nm,
+        ..Laid::new(pattern, amount, sizes)
     }))
 }
 
@@ -383,37 +377,5 @@ impl Read for Distribution {
                 )),
             },
         }
-    }
-}
-
-impl Read for Light {
-    fn read(value: &Value, key: &str) -> Result<Self, Error> {
-        let (kind, table) = Table::read_kind(
-            value,
-            key,
-            "kind",
-            &["kind", "name", "hidden", "radiance", "color"],
-            &[
-                ("sphere", &["center_m", "radius_m"]),
-                ("polygon", &["vertices_m", "two_sided"]),
-            ],
-        )?;
-        let kind = match kind {
-            "sphere" => LightKind::Sphere {
-                center_m: table.required("center_m")?,
-                radius_m: table.required("radius_m")?,
-            },
-            _ => LightKind::Polygon {
-                vertices_m: table.required("vertices_m")?,
-                two_sided: table.or("two_sided", false)?,
-            },
-        };
-        Ok(Self {
-            name: table.optional("name")?,
-            hidden: table.or("hidden", false)?,
-            kind,
-            radiance: table.or("radiance", 1.0)?,
-            color: table.or("color", [1.0; 3])?,
-        })
     }
 }

@@ -13,10 +13,10 @@ pub struct Scratches {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
     /// Laid nowhere. Other layers' scratches stay as they are. Default: false.
-    #[serde(skip_serializing_if = "super::is_false")]
+    #[serde(skip_serializing_if = "super::values::is_false")]
     pub hidden: bool,
     /// Where any layer of the scene is solo, only solo ones that are not hidden are laid. Default: false.
-    #[serde(skip_serializing_if = "super::is_false")]
+    #[serde(skip_serializing_if = "super::values::is_false")]
     pub solo: bool,
     /// How they are laid.
     #[serde(flatten)]
@@ -285,19 +285,19 @@ pub struct Distribution {
 }
 
 /// What layers that draw random numbers start from, where they do not say it.
-pub const DEFAULT_SEED: u64 = 1;
+pub(crate) const DEFAULT_SEED: u64 = 1;
 /// Lengths where a layer does not say them.
-pub const DEFAULT_LENGTH_M: Distribution = Distribution {
+pub(crate) const DEFAULT_LENGTH_M: Distribution = Distribution {
     mean: 0.02,
     spread: 0.5,
 };
 /// Widths where a layer does not say them.
-pub const DEFAULT_WIDTH_UM: Distribution = Distribution {
+pub(crate) const DEFAULT_WIDTH_UM: Distribution = Distribution {
     mean: 1.5,
     spread: 0.3,
 };
 /// Depths where a layer does not say them.
-pub const DEFAULT_DEPTH_NM: Distribution = Distribution {
+pub(crate) const DEFAULT_DEPTH_NM: Distribution = Distribution {
     mean: 200.0,
     spread: 0.2,
 };
@@ -312,5 +312,44 @@ impl Serialize for Distribution {
         table.serialize_field("mean", &self.mean)?;
         table.serialize_field("spread", &self.spread)?;
         table.end()
+    }
+}
+
+impl Laid {
+    /// A layer of the default seed; `sizes` are of length, width and depth.
+    pub fn new(pattern: Pattern, amount: Amount, sizes: [Distribution; 3]) -> Self {
+        let [length_m, width_um, depth_nm] = sizes;
+        Self {
+            pattern,
+            amount,
+            seed: DEFAULT_SEED,
+            length_m,
+            width_um,
+            depth_nm,
+        }
+    }
+
+    /// Of length, width and depth.
+    pub fn sizes(&self) -> [Distribution; 3] {
+        [self.length_m, self.width_um, self.depth_nm]
+    }
+}
+
+impl Brushed {
+    /// A layer of the default seed; `sizes` are of length, width and depth.
+    pub fn new(jitter_deg: f64, sizes: [Distribution; 3]) -> Self {
+        let [length_m, width_um, depth_nm] = sizes;
+        Self {
+            jitter_deg,
+            length_m,
+            width_um,
+            depth_nm,
+            ..Self::default()
+        }
+    }
+
+    /// Of length, width and depth.
+    pub fn sizes(&self) -> [Distribution; 3] {
+        [self.length_m, self.width_um, self.depth_nm]
     }
 }

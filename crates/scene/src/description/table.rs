@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::{Named, hint};
+use super::hint;
+use super::values::Named;
 use crate::error::Error;
 use crate::text::shown;
 

@@ -4,11 +4,12 @@ use glam::{DVec2, Vec3A};
 use hairline_image::Picture;
 use rayon::prelude::*;
 
+use super::half_texels::round_to_half;
 use super::lookup::environment_dir;
 use super::resample::{resample, row_solid_angle};
 
 /// Width and height of `blur`'s map: linear between texels a cosine is within 0.2 %.
-pub const IRRADIANCE_SIZE_PX: [u32; 2] = [64, 32];
+pub(crate) const IRRADIANCE_SIZE_PX: [u32; 2] = [64, 32];
 
 /// What is looked at: texels of 1.4 degrees.
 const SOURCE_SIZE_PX: [u32; 2] = [256, 128];
@@ -54,7 +55,7 @@ pub(super) fn blur(map: &Picture) -> Picture {
         size_px: IRRADIANCE_SIZE_PX,
         rgb,
     };
-    super::round_to_half(&mut map);
+    round_to_half(&mut map);
     map
 }
 

@@ -1,5 +1,5 @@
 //! Look-ups in an environment's maps, in the map's own frame and texel units.
-//! Twin: `crates/gpu/shaders/environment.wgsl`, the same names and arguments.
+//! Twin: `crates/gpu/shaders/physics/environment.wgsl`, the same names and arguments.
 //!
 //! Brian Karis, "Real Shading in Unreal Engine 4", 2013 (the split sum).
 //!
@@ -119,7 +119,7 @@ pub fn environment_prefiltered(levels: &[Picture], dir: DVec3, roughness: f64) -
 }
 
 /// [`environment_prefiltered`] by level.
-pub fn environment_prefiltered_lod(levels: &[Picture], dir: DVec3, lod: f64) -> DVec3 {
+pub(crate) fn environment_prefiltered_lod(levels: &[Picture], dir: DVec3, lod: f64) -> DVec3 {
     let uv = environment_uv(dir);
     let clamped = lod.clamp(0.0, (levels.len() - 1) as f64);
     let level = clamped.floor();
@@ -134,7 +134,7 @@ pub fn environment_prefiltered_lod(levels: &[Picture], dir: DVec3, lod: f64) -> 
 /// [`environment_prefiltered`] for several directions at once: what is arithmetic alone is done for all in one loop, which
 /// compilers turn into vector instructions.
 #[inline(always)]
-pub fn environment_prefiltered_all<const N: usize>(
+pub(crate) fn environment_prefiltered_all<const N: usize>(
     levels: &[Picture],
     dirs: [DVec3; N],
     roughness: [f64; N],

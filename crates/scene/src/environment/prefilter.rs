@@ -16,8 +16,8 @@ use hairline_image::Picture;
 use hairline_optics::ggx::ggx_g1;
 use rayon::prelude::*;
 
+use super::half_texels::round_to_half;
 use super::resample::{resample, row_solid_angle};
-use super::round_to_half;
 
 /// The perceptual roughness of each level. A lobe between two levels is a blend of theirs, so that these are close together: one is
 /// less than twice as wide as the one before.

@@ -50,7 +50,7 @@ pub(super) struct Parted {
 
 impl Parted {
     /// Puts it back. (A copy of the map would be half a gigabyte.)
-    pub fn put_back(&self, map: &mut Picture) {
+    pub(crate) fn put_back(&self, map: &mut Picture) {
         for &(i, texel) in &self.texels {
             map.rgb[i] = texel;
         }

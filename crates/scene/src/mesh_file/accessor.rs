@@ -3,7 +3,7 @@
 use gltf::Accessor;
 use gltf::accessor::DataType;
 
-use super::Flaw;
+use super::flaw::Flaw;
 use super::source::Buffers;
 
 /// Accessors without a buffer are all zero and cost the file nothing; this bounds what they cost here.

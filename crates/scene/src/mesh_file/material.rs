@@ -5,8 +5,9 @@ use std::path::Path;
 
 use gltf::Primitive;
 
+use super::flaw::Flaw;
 use super::source::{Buffers, resource};
-use super::{Flaw, Stock};
+use super::stock::Stock;
 use crate::description::DEFAULT_COHERENCE_UM;
 use crate::memory;
 use crate::scene::{Base, Material, Texture};

@@ -3,8 +3,10 @@
 use glam::{DMat3, DMat4, DVec3};
 use gltf::{Document, Semantic};
 
+use super::accessor;
+use super::flaw::Flaw;
+use super::nodes::placed_meshes;
 use super::source::Buffers;
-use super::{Flaw, accessor, placed_meshes};
 use crate::description::Up;
 
 /// The keys `up` and `fit_m` of an object.
@@ -20,7 +22,7 @@ pub(crate) struct Placing {
 
 impl Placing {
     /// As the file is.
-    pub const NONE: Self = Self {
+    pub(crate) const NONE: Self = Self {
         up: Up::Z,
         world_up: DVec3::Z,
         fit_m: None,

@@ -4,8 +4,9 @@ use glam::{DVec3, Vec2};
 use gltf::mesh::Mode;
 use gltf::{Primitive, Semantic};
 
+use super::flaw::Flaw;
 use super::source::Buffers;
-use super::{Flaw, accessor, material, tangents};
+use super::{accessor, material, tangents};
 use crate::surface::{Surface, Vertex};
 
 /// Reads a primitive; `None` for points and lines, which have no surface.

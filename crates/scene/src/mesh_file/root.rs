@@ -4,7 +4,7 @@
 use gltf::json::deserialize::{from_slice, from_value};
 use gltf::json::{Index, Root, Value};
 
-use super::{Flaw, RIGHT};
+use super::flaw::{Flaw, RIGHT};
 use crate::text::shown;
 
 /// Reads the text of a file.

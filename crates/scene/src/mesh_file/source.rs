@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use gltf::Gltf;
 
-use super::Flaw;
+use super::flaw::Flaw;
+use super::stock::FILE_SHARE;
 use crate::reading::{self, Kind};
 use crate::text::shown;
 
@@ -88,7 +89,7 @@ pub(super) fn resource(
     }
     let path = base_dir.join(name);
     files.push(path.clone());
-    reading::read(&path, Kind::File, super::FILE_SHARE).map_err(|error| {
+    reading::read(&path, Kind::File, FILE_SHARE).map_err(|error| {
         let found = format!(
             "its {what}, \"{}\", cannot be read ({error})",
             path.display()

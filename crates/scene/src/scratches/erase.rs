@@ -17,7 +17,7 @@ use super::painted::world_points_m;
 use super::walk::{Course, Walker};
 use crate::description::{Brush, Stroke};
 use crate::error::Error;
-use crate::load::Loader;
+use crate::loader::Loader;
 use crate::scene::Segment;
 
 /// So many points are looked up between two questions whether to give up.

@@ -9,10 +9,18 @@ use std::f64::consts::FRAC_PI_2;
 use glam::DVec3;
 
 use super::facet::Facet;
-use super::walk::chord_length_m;
 
 /// Nearer than this to its axis, or to its end, a field has no direction.
 const NO_DIRECTION_M: f64 = 1e-8;
+
+/// The longest chord for an arc: it turns by half a degree, or is as long as two coherence widths of 20 um (the model sees
+/// nothing finer) if that turns by less than 5 degrees.
+pub(super) fn chord_length_m(curvature_per_m: f64) -> f64 {
+    const HALF_DEGREE_RAD: f64 = std::f64::consts::PI / 360.0;
+    const COHERENT_M: f64 = 40e-6;
+    let curvature = curvature_per_m.abs();
+    (HALF_DEGREE_RAD / curvature).max(COHERENT_M.min(10.0 * HALF_DEGREE_RAD / curvature))
+}
 
 /// What one scratch follows.
 #[derive(Clone, Copy, Debug)]

@@ -4,12 +4,12 @@ use std::path::Path;
 
 use super::ground::Ground;
 use super::guide::Guide;
+use super::laying::{DEPTHS_NM, Groove, Laying, WIDTHS_UM};
 use super::walk::{Course, Walker};
-use super::{Groove, Laying};
 use crate::error::Error;
-use crate::load::Loader;
+use crate::loader::Loader;
 use crate::reading::{self, Kind};
-use crate::scene::Segment;
+use crate::scene::{Profile, Segment};
 use crate::text::shown;
 
 const COLUMNS: [&str; 8] = [
@@ -26,8 +26,7 @@ pub(super) struct Row {
     /// Counted from 1.
     line: usize,
     ends_m: [[f64; 3]; 2],
-    width_um: f64,
-    depth_nm: f64,
+    profile: Profile,
 }
 
 /// Reads all rows. `key` is the way to the layer's table in the scene file.
@@ -90,8 +89,8 @@ fn parse_row(line: usize, row: &str) -> Result<Row, Error> {
     }
     let [x0, y0, z0, x1, y1, z1, width_um, depth_nm] = values;
     for (name, value, (least, most)) in [
-        ("width_um", width_um, super::WIDTHS_UM),
-        ("depth_nm", depth_nm, super::DEPTHS_NM),
+        ("width_um", width_um, WIDTHS_UM),
+        ("depth_nm", depth_nm, DEPTHS_NM),
     ] {
         if !(least..=most).contains(&value) {
             let right = format!("must be from {least} to {most}");
@@ -101,8 +100,10 @@ fn parse_row(line: usize, row: &str) -> Result<Row, Error> {
     Ok(Row {
         line,
         ends_m: [[x0, y0, z0], [x1, y1, z1]],
-        width_um,
-        depth_nm,
+        profile: Profile {
+            width_um: width_um as f32,
+            depth_nm: depth_nm as f32,
+        },
     })
 }
 
@@ -159,8 +160,7 @@ impl Laying for Listed<'_> {
         let length_m = LONGEST_WAY * start.point_m.distance(end.point_m);
         walker.lay_from(start, &guide, length_m, segments);
         Groove {
-            width_um: row.width_um as f32,
-            depth_nm: row.depth_nm as f32,
+            profile: row.profile,
             course: Course::Open,
         }
     }

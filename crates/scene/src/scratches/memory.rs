@@ -1,6 +1,6 @@
 //! What scratches take of the memory, here and in what renderers make of them; an estimate on the safe side.
 
-use super::MOST_SEGMENTS;
+use super::laying::MOST_SEGMENTS;
 use crate::error::Error;
 use crate::scene::{Scratch, Segment};
 

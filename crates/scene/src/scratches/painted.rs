@@ -10,9 +10,9 @@ use glam::DVec3;
 use super::facet::Facet;
 use super::ground::Ground;
 use super::guide::Guide;
+use super::laying::{Groove, Laying, scratch_profile};
 use super::random::Stream;
 use super::walk::{Course, Spot, Walker};
-use super::{Groove, Laying, scratch_depth_nm, scratch_width_um};
 use crate::description::{Brush, Brushed, Stroke};
 use crate::error::Error;
 use crate::scene::Segment;
@@ -130,8 +130,7 @@ impl Laying for Painted<'_> {
             walker.lay(seed, &guide, length_m, segments);
         }
         Groove {
-            width_um: scratch_width_um(&self.layer.width_um, width, path.width),
-            depth_nm: scratch_depth_nm(&self.layer.depth_nm, depth, path.depth),
+            profile: scratch_profile(self.layer.sizes(), [width, depth], [path.width, path.depth]),
             course: Course::Open,
         }
     }

@@ -5,10 +5,10 @@ use std::f64::consts::TAU;
 use super::facet::Facet;
 use super::ground::Ground;
 use super::guide::{Bearing, Guide};
+use super::laying::{Groove, Laying, scratch_profile};
 use super::random::Stream;
 use super::swirl::Lattice;
 use super::walk::{Spot, Walker};
-use super::{Groove, Laying, scratch_depth_nm, scratch_width_um};
 use crate::description::{Around, Laid, Pattern};
 use crate::scene::Segment;
 
@@ -32,8 +32,7 @@ impl Laying for Strewn<'_> {
         let length_m = self.ground.scratch_length_m(&laid.length_m, length);
         let guide = self.guide(seed, seed_angle_rad, curvature, jitter);
         Groove {
-            width_um: scratch_width_um(&laid.width_um, width, 1.0),
-            depth_nm: scratch_depth_nm(&laid.depth_nm, depth, 1.0),
+            profile: scratch_profile(laid.sizes(), [width, depth], [1.0; 2]),
             course: walker.lay(seed, &guide, length_m, segments),
         }
     }

@@ -4,7 +4,7 @@
 use glam::{DVec3, Vec3};
 
 use super::facet::{Arc, Facet};
-use super::guide::{Aim, Guide};
+use super::guide::{Aim, Guide, chord_length_m};
 use super::neighbours::Neighbours;
 use crate::scene::{Mesh, Segment};
 
@@ -14,15 +14,6 @@ const MOST_STEPS: usize = 1 << 20;
 const MOST_IDLE_STEPS: usize = 128;
 /// A field that turns by more than 60 degrees at once has no direction there: a pole, or a ridge with both sides facing it.
 const TURN_BACK_COS: f64 = 0.5;
-
-/// The longest chord for an arc: it turns by half a degree, or is as long as two coherence widths of 20 um (the model sees
-/// nothing finer) if that turns by less than 5 degrees.
-pub(super) fn chord_length_m(curvature_per_m: f64) -> f64 {
-    const HALF_DEGREE_RAD: f64 = std::f64::consts::PI / 360.0;
-    const COHERENT_M: f64 = 40e-6;
-    let curvature = curvature_per_m.abs();
-    (HALF_DEGREE_RAD / curvature).max(COHERENT_M.min(10.0 * HALF_DEGREE_RAD / curvature))
-}
 
 /// A place on the surface.
 #[derive(Clone, Copy, Debug)]

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use crate::common::{self, Glb, asset, cube, glb_of, scene_with, temporary_dir};
-use glam::DVec3;
-use hairline_scene::{Base, Error, Mesh, Scene};
+use glam::{DVec2, DVec3, Vec3};
+use hairline_scene::{Base, Description, Error, Mesh, Scene};
 
 /// Loads a scene whose only object is a mesh file, with more keys for its table.
 fn load(path: &Path, more: &str) -> Result<Scene, Error> {
@@ -522,6 +522,31 @@ fn files_stand_upright_and_fit() {
     );
     let scaled = of("up = \"y\"\nfit_m = 0.3\nscale = 2");
     assert!((scaled - 2.0 * fitted).length() < 1e-6, "{scaled}");
+}
+
+/// A slanted bar fills a part of its bounding box alone, and was seen in less than half of the picture.
+#[test]
+fn a_slanted_model_fills_its_picture() {
+    let node = r#"{"mesh":0,"rotation":[0.2014,0.1007,0.3826,0.8961],"scale":[0.03,0.5,0.02]}"#;
+    let bytes = cube_glb("", node, &mut Glb::default());
+    let dir = temporary_dir();
+    let path = dir.path().join("bar.glb");
+    std::fs::write(&path, bytes).unwrap();
+    let description = Description::for_model(&path).unwrap();
+    let scene = Scene::build(&description, dir.path()).unwrap();
+    let frame = scene.camera.frame(scene.render.size_px);
+    let seen = |point: &Vec3| {
+        let way = point.as_dvec3() - frame.position_m;
+        let across = |step: DVec3| way.dot(step) / step.length_squared();
+        let at = DVec2::new(across(frame.per_px_x), across(frame.per_px_y));
+        at / way.dot(frame.forward) / frame.size_px + DVec2::splat(0.5)
+    };
+    let points = scene.objects[0].mesh.positions_m.iter().map(seen);
+    let (least, most) = points.fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(a, b), p| {
+        (a.min(p), b.max(p))
+    });
+    let margin = least.min(DVec2::ONE - most).min_element();
+    assert!((0.0..0.06).contains(&margin), "{least} to {most}");
 }
 
 #[test]

@@ -37,8 +37,8 @@ fn rows_become_scratches_in_the_objects_own_frame() {
                 &object.segments[scratch.segments.start as usize..scratch.segments.end as usize];
             let length: f32 = segments.iter().map(|s| s.start_m.distance(s.end_m)).sum();
             (
-                scratch.width_um,
-                scratch.depth_nm,
+                scratch.profile.width_um,
+                scratch.profile.depth_nm,
                 length,
                 segments.to_vec(),
             )

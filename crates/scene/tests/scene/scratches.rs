@@ -87,8 +87,8 @@ fn check_invariants(object: &Object, what: &str) {
             "{what}: no scratch without a segment"
         );
         next = scratch.segments.end;
-        assert!((0.05..=100.0).contains(&scratch.width_um), "{what}");
-        assert!((0.0..=2000.0).contains(&scratch.depth_nm), "{what}");
+        assert!((0.05..=100.0).contains(&scratch.profile.width_um), "{what}");
+        assert!((0.0..=2000.0).contains(&scratch.profile.depth_nm), "{what}");
         let segments = segments(object, scratch);
         for segment in segments {
             // Pieces below half a micrometre are left to their neighbours; all coordinates are below 0.16.
@@ -457,8 +457,8 @@ fn the_same_seed_gives_the_same_scratches_everywhere() {
     for shape in [DISK, SPHERE, CUP] {
         let object = laid(shape, "rotation_deg = [10.0, 20.0, 30.0]", &all_patterns());
         for scratch in object.scratches.iter() {
-            add(scratch.width_um.to_bits());
-            add(scratch.depth_nm.to_bits());
+            add(scratch.profile.width_um.to_bits());
+            add(scratch.profile.depth_nm.to_bits());
             add(scratch.segments.end);
         }
         for segment in object.segments.iter() {

@@ -133,7 +133,10 @@ fn a_stroke_lays_its_scratches_along_itself() {
         let along_y = way.y.abs() > 0.999 * way.length();
         assert!(along_x || along_y);
         on_first += usize::from(along_x);
-        assert_eq!((scratch.width_um, scratch.depth_nm), (2.0, 100.0));
+        assert_eq!(
+            (scratch.profile.width_um, scratch.profile.depth_nm),
+            (2.0, 100.0)
+        );
     }
     assert!(farthest < 0.004 + 1e-8, "{farthest}");
     assert_eq!(on_first, 800, "as many as its length has");
@@ -160,7 +163,10 @@ fn dabs_factors_and_jitter() {
     let mut turns = DVec2::ZERO;
     let mut inner = 0;
     for scratch in &it.scratches[..1000] {
-        assert_eq!((scratch.width_um, scratch.depth_nm), (6.0, 50.0));
+        assert_eq!(
+            (scratch.profile.width_um, scratch.profile.depth_nm),
+            (6.0, 50.0)
+        );
         let off = middle_m(&it, scratch).distance(center);
         assert!(off < 0.01 + 1e-8);
         inner += usize::from(off < 0.005);
@@ -374,7 +380,7 @@ fn strokes_do_not_change_those_before_them() {
 /// The scratches of one layer, whatever its place in the list.
 fn of_layer(object: &Object, layer: u32) -> Vec<(f32, Vec<Segment>)> {
     let own = object.scratches.iter().filter(|s| s.layer == layer);
-    own.map(|s| (s.width_um, segments(object, s).to_vec()))
+    own.map(|s| (s.profile.width_um, segments(object, s).to_vec()))
         .collect()
 }
 

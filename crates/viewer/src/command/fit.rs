@@ -7,6 +7,9 @@ use hairline_editor::{Selection, navigate};
 
 use crate::app::Viewer;
 
+/// Where things are taken to be before the scene is built.
+const UNKNOWN_M: (DVec3, DVec3) = (DVec3::splat(-0.1), DVec3::splat(0.1));
+
 impl Viewer {
     pub(super) fn scale_brush(&mut self, factor: f64) {
         let mut brush = self.brush();
@@ -44,38 +47,57 @@ impl Viewer {
     /// Brings a part, or all, into the picture.
     pub(super) fn frame(&mut self, part: Option<Selection>) {
         let description = self.document.description();
-        let (low_m, high_m) = match part {
+        let points_m = match part {
             Some(Selection::Light(i)) => {
                 let Some(light) = description.lights.get(i) else {
                     return;
                 };
                 let center = hairline_editor::place_light::center(light);
                 let reach = DVec3::splat(0.25 * self.diagonal_m(None));
-                (center - reach, center + reach)
+                navigate::corners(center - reach, center + reach).to_vec()
             }
-            Some(Selection::Material(i)) => {
-                let users = materials::users(description, i);
-                self.bounds_of(|object| users.contains(&object))
-                    .unwrap_or_else(|| self.bounds_m(None))
+            Some(Selection::Material(i)) => self.points_of(&materials::users(description, i)),
+            _ => {
+                let object = part.and_then(|part| part.object(description));
+                self.points_of(object.as_slice())
             }
-            _ => self.bounds_m(part.and_then(|part| part.object(description))),
         };
         let aspect = self.viewport.aspect();
         self.move_view("Frame", None, |camera| {
-            navigate::frame_box(camera, low_m, high_m, aspect);
+            navigate::frame_points(camera, &points_m, aspect);
         });
+    }
+
+    /// What stands farthest out of some objects; of all that the scene is about where they have nothing. As it was built last.
+    fn points_of(&self, objects: &[usize]) -> Vec<DVec3> {
+        let Some(built) = self.engine.built() else {
+            return navigate::corners(UNKNOWN_M.0, UNKNOWN_M.1).to_vec();
+        };
+        let of = |objects: &[usize]| -> Vec<DVec3> {
+            let objects = objects.iter().filter_map(|i| built.scene.objects.get(*i));
+            let points = objects.flat_map(|object| object.mesh.extreme_points_m());
+            points.map(|point| point.as_dvec3()).collect()
+        };
+        let own = of(objects);
+        match own.is_empty() {
+            true => of(&self.subject()),
+            false => own,
+        }
+    }
+
+    /// The objects that the scene is about.
+    fn subject(&self) -> Vec<usize> {
+        hairline_editor::subject::objects(self.document.description(), &self.boxes_m())
     }
 
     /// The box around an object, or around all that the scene is about, in metres: as it was built last.
     pub(crate) fn bounds_m(&self, object: Option<usize>) -> (DVec3, DVec3) {
-        let unknown = (DVec3::splat(-0.1), DVec3::splat(0.1));
         let own = object.and_then(|object| self.bounds_of(|i| i == object));
         own.or_else(|| {
-            let boxes = self.boxes_m();
-            let subject = hairline_editor::subject::objects(self.document.description(), &boxes);
+            let subject = self.subject();
             self.bounds_of(|i| subject.contains(&i))
         })
-        .unwrap_or(unknown)
+        .unwrap_or(UNKNOWN_M)
     }
 
     /// The box around some objects.

@@ -8,12 +8,12 @@ use egui::{Color32, ColorImage};
 use hairline_image::metrics::{ErrorMap, error_map};
 use hairline_image::{Display, Image, Layer, Picture, ToneMap, png};
 use hairline_index::{Groove, ScratchIndex, SegmentTree, groove_index};
-use hairline_reference::monte_carlo::{BATCH_SAMPLES, Integrator, Parts, Settings};
+use hairline_reference::{BATCH_SAMPLES, Integrator, Parts, Settings};
 use hairline_scene::{Camera, Scene};
 use web_time::Instant;
 
 use super::figures::Figures;
-use crate::engine::{Built, Wake, cpu};
+use crate::engine::{Built, Wake, bands};
 use crate::jobs::Stop;
 
 /// What is to be compared.
@@ -191,7 +191,7 @@ fn refine(
     report: &Report,
 ) {
     let go_on = |_| !stop.is_asked();
-    let picture = cpu::render(&wanted.built, scene, PICTURE_SAMPLES, BAND_PX, &go_on);
+    let picture = bands::render(&wanted.built, scene, PICTURE_SAMPLES, BAND_PX, &go_on);
     let Some(picture) = picture else {
         return;
     };

@@ -3,11 +3,11 @@
 use std::sync::mpsc::{Receiver, channel};
 
 use egui::{ColorImage, Context, TextureHandle, TextureOptions};
+use hairline_cpu::closed_form::{Prepared, RenderOptions};
 use hairline_editor::Document;
 use hairline_editor::autosave::Pending;
 use hairline_image::{Display, png};
 use hairline_index::Watch;
-use hairline_reference::closed_form::{Prepared, RenderOptions};
 use hairline_scene::{Loader, SceneBuilder};
 
 use crate::jobs::{Job, Stop};

@@ -1,53 +1,22 @@
-//! Painting by the CPU renderer, some rows at a time.
+//! Painting by the CPU renderer.
 
-use std::ops::Range;
 use std::sync::Arc;
 use std::time::Duration;
 
 use hairline_image::Image;
-use hairline_optics::method::Method;
-use hairline_reference::closed_form::{Prepared, RenderOptions, TILE_PX};
 use hairline_scene::{DEFAULT_SAMPLES, Scene};
 use web_time::Instant;
 
-use super::Built;
+use super::bands::{BandSize, Bands, IN_TURN, OF_A_THREAD, prepared};
 use super::drafts::Drafts;
+use super::easel::{Easel, Shown};
 use super::frame::Picture;
 use super::pace::{self, Kind};
-use super::painter::{Easel, Shown, Step};
 use super::partial::Backdrop;
 use super::pool::Crew;
 use super::request::Order;
+use super::steps::Step;
 use crate::reading::{Findings, Shows};
-
-/// How much is painted between two looks at whether something newer is wanted.
-#[derive(Clone, Copy)]
-struct BandSize {
-    /// The first, pixels.
-    first_px: u32,
-    /// Of which there are at least so many, rows.
-    fewest_rows: u32,
-    /// Bands that take less become larger, bands that take more become smaller.
-    times: [Duration; 2],
-    /// Whether a band ends at once, without a result, where something newer is wanted; else it is worked to its end.
-    breaks_off: bool,
-}
-
-/// Many rows, so that no thread waits long for another.
-const OF_A_THREAD: BandSize = BandSize {
-    first_px: 1 << 15,
-    fewest_rows: TILE_PX,
-    times: [Duration::from_millis(60), Duration::from_millis(200)],
-    breaks_off: true,
-};
-
-/// The interface waits meanwhile.
-const IN_TURN: BandSize = BandSize {
-    first_px: 1 << 10,
-    fewest_rows: TILE_PX,
-    times: [Duration::from_millis(4), Duration::from_millis(12)],
-    breaks_off: false,
-};
 
 /// A picture that is finished in part is shown as often.
 const REFRESH: Duration = Duration::from_millis(600);
@@ -230,135 +199,4 @@ fn scene_seen(order: &Order, step: &Step) -> Scene {
     scene.render.size_px = step.size_px;
     scene.render.filter_std_px = step.filter_std_px(&order.view);
     scene
-}
-
-/// A scene that is that of `built` from elsewhere, ready to be rendered.
-fn prepared<'s>(built: &Built, scene: &'s Scene) -> Prepared<'s> {
-    Prepared::from_parts(
-        scene,
-        Arc::clone(&built.triangles),
-        Arc::clone(&built.scratches),
-        Arc::clone(&built.tables),
-    )
-}
-
-/// Renders `scene`, which is that of `built` from elsewhere, in bands of `band_px` pixels at first, then of as many as are
-/// soon done. `go_on` is told before each which share of the picture is done; when it says no, there is no picture.
-pub(crate) fn render(
-    built: &Built,
-    scene: &Scene,
-    samples: u32,
-    band_px: u32,
-    go_on: &dyn Fn(f64) -> bool,
-) -> Option<Image> {
-    let band_size = BandSize {
-        first_px: band_px,
-        ..OF_A_THREAD
-    };
-    let mut bands = Bands::new(scene.render.size_px, band_size);
-    let prepared = prepared(built, scene);
-    loop {
-        if !go_on(bands.done()) {
-            return None;
-        }
-        if bands.next(&prepared, samples, &|| false)? {
-            return Some(bands.image);
-        }
-    }
-}
-
-/// A picture from its first row to its last, with pauses.
-struct Bands {
-    image: Image,
-    next_row: u32,
-    rows: u32,
-    size: BandSize,
-    /// The picture is there, but for further samples of pixels on edges.
-    only_edges: bool,
-}
-
-impl Bands {
-    fn new(size_px: [u32; 2], size: BandSize) -> Self {
-        Self {
-            image: Image::new(size_px),
-            next_row: 0,
-            rows: (size.first_px / size_px[0].max(1)).max(size.fewest_rows),
-            size,
-            only_edges: false,
-        }
-    }
-
-    /// Of a picture of one sample a pixel.
-    fn edges_of(image: Image, size: BandSize) -> Self {
-        let bands = Self::new(image.size_px, size);
-        Self {
-            image,
-            only_edges: true,
-            ..bands
-        }
-    }
-
-    /// The share that is there.
-    fn done(&self) -> f64 {
-        f64::from(self.next_row) / f64::from(self.image.size_px[1].max(1))
-    }
-
-    /// Renders some rows; true if all are there, none if it was broken off: then they are to be rendered again. `prepared` is each
-    /// time the same.
-    fn next(
-        &mut self,
-        prepared: &Prepared,
-        samples: u32,
-        interrupted: &(dyn Fn() -> bool + Sync),
-    ) -> Option<bool> {
-        let options = RenderOptions {
-            samples,
-            method: Method::default(),
-        };
-        let [width, height] = self.image.size_px;
-        let start = Instant::now();
-        let many = self.rows.next_multiple_of(TILE_PX);
-        let rows = self.next_row..(self.next_row + many).min(height);
-        let pixels = rows.start as usize * width as usize..rows.end as usize * width as usize;
-        let end = rows.end;
-        let cancelled = || self.size.breaks_off && interrupted();
-        let part = if self.only_edges {
-            let before = rows_of(&self.image, pixels.clone());
-            prepared.refine_edges_unless(&cancelled, &options, rows, before)?
-        } else {
-            let (part, _) = prepared.render_unless(&cancelled, &options, rows, &|_| {})?;
-            part
-        };
-        put_rows(&mut self.image, pixels, &part);
-        self.next_row = end;
-        let time = start.elapsed();
-        if time > self.size.times[1] {
-            self.rows = (self.rows / 2).max(TILE_PX);
-        } else if time < self.size.times[0] {
-            self.rows *= 2;
-        }
-        Some(end == height)
-    }
-}
-
-/// Some rows of a picture, given by their pixels.
-fn rows_of(image: &Image, pixels: Range<usize>) -> Image {
-    let width = image.size_px[0];
-    let mut part = Image::new([width, (pixels.len() / width as usize) as u32]);
-    part.base.copy_from_slice(&image.base[pixels.clone()]);
-    part.scratches
-        .copy_from_slice(&image.scratches[pixels.clone()]);
-    part.density.copy_from_slice(&image.density[pixels.clone()]);
-    part.depth_m.copy_from_slice(&image.depth_m[pixels.clone()]);
-    part.normal.copy_from_slice(&image.normal[pixels]);
-    part
-}
-
-/// Puts a part of the picture in its place.
-pub(crate) fn put_rows(image: &mut Image, pixels: Range<usize>, part: &Image) {
-    image.base[pixels.clone()].copy_from_slice(&part.base);
-    image.scratches[pixels.clone()].copy_from_slice(&part.scratches);
-    image.density[pixels.clone()].copy_from_slice(&part.density);
-    image.depth_m[pixels.clone()].copy_from_slice(&part.depth_m);
-    image.normal[pixels].copy_from_slice(&part.normal);
 }

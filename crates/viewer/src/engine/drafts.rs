@@ -2,8 +2,8 @@
 
 use std::sync::{Arc, Weak};
 
+use hairline_cpu::draft::{Draft, DraftLayer};
 use hairline_index::ScratchIndex;
-use hairline_reference::draft::{Draft, DraftLayer};
 use hairline_scene::description::Layer;
 
 use super::Built;

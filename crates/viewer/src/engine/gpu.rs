@@ -8,15 +8,16 @@ use hairline_gpu::canvas::Canvas;
 use hairline_gpu::{
     AdapterKind, AdapterRequest, Error, Gpu, GpuScene, PassTime, Renderer, headless,
 };
-use hairline_optics::method::Method;
+use hairline_index::method::Method;
 use hairline_scene::{DEFAULT_SAMPLES, Scene};
 use web_time::Instant;
 
 use super::Built;
+use super::easel::{Easel, Shown};
 use super::frame::Picture;
 use super::pace::{self, Kind};
-use super::painter::{Easel, Shown, Step};
 use super::request::Order;
+use super::steps::Step;
 use crate::reading::Findings;
 
 /// Pixels of one submission on a software driver, between two looks at whether something newer is wanted.
@@ -159,7 +160,7 @@ impl Easel for GpuEasel {
         };
         let mut canvas = match self.canvas.take() {
             Some(canvas) if canvas.size_px() == step.size_px => canvas,
-            _ => gpu.block_on(Canvas::new(&self.renderer, step.size_px, band_px))?,
+            _ => gpu.block_on(self.renderer.canvas(step.size_px, band_px))?,
         };
         let scene = scene_seen(order, step);
         self.step = Some(*step);

@@ -50,8 +50,8 @@ pub(super) const THINNED: Kind = Kind {
         level(0.1, 16),
         level(0.08, 32),
     ],
-    // Ten a second, with what the interface takes between them.
-    target: Duration::from_millis(70),
+    // Ten a second, with the 40 ms that a software driver takes for the window between them.
+    target: Duration::from_millis(50),
     first_seconds_per_px: 1e-5,
     segment_px: 0.03,
 };
@@ -84,8 +84,6 @@ const SLACK: f64 = 0.7;
 pub(super) struct Pace {
     kind: &'static Kind,
     seconds_per_px: Option<f64>,
-    /// Of the last picture alone.
-    newest: Option<f64>,
     at: usize,
 }
 
@@ -94,7 +92,6 @@ impl Pace {
         Self {
             kind,
             seconds_per_px: None,
-            newest: None,
             at: 0,
         }
     }
@@ -105,7 +102,6 @@ impl Pace {
         // The newest counts as much as all before it: a view from nearer costs something else at once.
         let mean = self.seconds_per_px.map_or(now, |mean| 0.5 * (mean + now));
         self.seconds_per_px = Some(mean);
-        self.newest = Some(now);
     }
 
     /// A picture was given up after this long.
@@ -118,13 +114,6 @@ impl Pace {
     /// Whether nothing coarser than the last level is left.
     pub fn is_at_coarsest(&self) -> bool {
         self.at + 1 == self.kind.levels.len()
-    }
-
-    /// What a picture of one sample, `full_px` large, is expected to take by the last one, which is the most like it.
-    pub fn expects(&self, full_px: [u32; 2], segments: usize) -> Duration {
-        let seconds_per_px = self.newest.unwrap_or(self.kind.first_seconds_per_px);
-        let seconds = seconds_per_px * self.work_px(full_px, 1, segments);
-        Duration::from_secs_f64(seconds.min(1e6))
     }
 
     /// What a picture in motion is to be, of `full_px`. One that `begins` a movement is coarser.

@@ -59,11 +59,23 @@ struct State {
     view: Option<View>,
     frame: Option<Arc<Frame>>,
     events: Vec<Event>,
+    /// The interface waits for a frame.
+    is_awaited: bool,
 }
 
 impl State {
     fn to_be_painted(&self) -> Option<&Arc<Built>> {
         self.sketch.as_ref().or(self.built.as_ref())
+    }
+
+    /// Whether the newest picture is one of the view that is wanted and of the scene of this revision.
+    #[cfg(not(target_arch = "wasm32"))]
+    fn has_frame_of(&self, revision: u64) -> bool {
+        self.frame.as_ref().is_some_and(|frame| {
+            let wanted = self.view.as_ref();
+            frame.built.revision == revision
+                && wanted.is_none_or(|view| frame.view.has_same_pixels(view))
+        })
     }
 }
 
@@ -247,13 +259,48 @@ impl Shared {
     }
 
     pub fn put_frame(&self, frame: Frame) {
-        self.lock().frame = Some(Arc::new(frame));
-        (self.wake)();
+        let mut state = self.lock();
+        state.frame = Some(Arc::new(frame));
+        let is_awaited = state.is_awaited;
+        drop(state);
+        self.tell(is_awaited);
     }
 
     pub fn put_event(&self, event: Event) {
-        self.lock().events.push(event);
-        (self.wake)();
+        let mut state = self.lock();
+        state.events.push(event);
+        let is_awaited = state.is_awaited;
+        drop(state);
+        self.tell(is_awaited);
+    }
+
+    /// An interface that waits needs no further pass to see what is there.
+    fn tell(&self, is_awaited: bool) {
+        if is_awaited {
+            self.news.notify_all();
+        } else {
+            (self.wake)();
+        }
+    }
+
+    /// Blocks until there is a frame of the wanted view and of this revision, an event, or until `patience` is over.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub fn wait_for_frame(&self, revision: u64, patience: Duration) {
+        let deadline = Instant::now() + patience;
+        let mut state = self.lock();
+        state.is_awaited = true;
+        while !state.has_frame_of(revision) && state.events.is_empty() {
+            let left = deadline.saturating_duration_since(Instant::now());
+            if left.is_zero() {
+                break;
+            }
+            state = self
+                .news
+                .wait_timeout(state, left)
+                .unwrap_or_else(PoisonError::into_inner)
+                .0;
+        }
+        state.is_awaited = false;
     }
 
     pub fn frame(&self) -> Option<Arc<Frame>> {

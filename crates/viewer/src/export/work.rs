@@ -3,18 +3,18 @@
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use hairline_cpu::closed_form::Prepared;
+#[cfg(not(target_arch = "wasm32"))]
+use hairline_cpu::closed_form::TILE_PX;
 use hairline_editor::navigate;
 #[cfg(not(target_arch = "wasm32"))]
 use hairline_gpu::{AdapterKind, Gpu, GpuScene, RenderOptions, Renderer};
 use hairline_image::{Display, Image, Output};
 #[cfg(not(target_arch = "wasm32"))]
-use hairline_optics::method::Method;
-use hairline_reference::closed_form::Prepared;
-#[cfg(not(target_arch = "wasm32"))]
-use hairline_reference::closed_form::TILE_PX;
+use hairline_index::method::Method;
 use hairline_scene::{Description, Scene};
 
-use crate::engine::{Backend, Built, Wake, cpu};
+use crate::engine::{Backend, Built, Wake, bands};
 use crate::jobs::Stop;
 
 /// How many pictures, and how the camera moves between them.
@@ -254,7 +254,7 @@ impl Painter {
         go_on: &dyn Fn(f64) -> bool,
     ) -> Result<Option<Image>, hairline_gpu::Error> {
         match self {
-            Self::Cpu => Ok(cpu::render(built, scene, samples, CPU_BAND_PX, go_on)),
+            Self::Cpu => Ok(bands::render(built, scene, samples, CPU_BAND_PX, go_on)),
             #[cfg(not(target_arch = "wasm32"))]
             Self::Gpu {
                 renderer,
@@ -279,7 +279,7 @@ impl Painter {
                         first as usize * width as usize..rows.end as usize * width as usize;
                     let part = renderer.render_rows(scene, uploaded, &options, rows, &|_| {});
                     let part = gpu.block_on(part)?;
-                    cpu::put_rows(&mut image, pixels, &part);
+                    bands::put_rows(&mut image, pixels, &part);
                 }
                 Ok(Some(image))
             }

@@ -4,10 +4,10 @@ use std::path::Path;
 
 use egui::ColorImage;
 use glam::DVec3;
+use hairline_cpu::closed_form::{self, RenderOptions};
 use hairline_editor::place_light::place_highlight;
 use hairline_editor::presets::LayerPreset;
 use hairline_image::{Picture, png};
-use hairline_reference::closed_form::{self, RenderOptions};
 use hairline_scene::description::{Light, Material, MaterialKind, Object, Scratches, Surface};
 use hairline_scene::environment::BuiltInMap;
 use hairline_scene::{Description, Environment, Loader};

@@ -14,7 +14,7 @@ use hairline_scene::description::Distribution;
 use super::number::NumberBox;
 
 /// Width of the labels' column, points.
-const LABEL_WIDTH: f32 = 92.0;
+const LABEL_WIDTH: f32 = 110.0;
 /// Width of a number's box.
 const VALUE_WIDTH: f32 = 78.0;
 

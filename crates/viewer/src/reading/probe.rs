@@ -4,11 +4,11 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use egui::{Pos2, Rect};
 use glam::{DVec2, DVec3};
+use hairline_cpu::closed_form::{Prepared, RenderOptions};
 use hairline_editor::actions::layers;
 use hairline_image::Display;
 use hairline_index::Hit;
 use hairline_index::scratch_index::{FACING_MIN_COS, REACH_STD};
-use hairline_reference::closed_form::{Prepared, RenderOptions};
 use hairline_scene::{CameraFrame, DEFAULT_SAMPLES, Scene};
 
 use super::false_color;

@@ -326,7 +326,11 @@ fn rows(ui: &mut Ui, reading: &Reading, view: &View) {
                         ui.painter().rect_filled(rect, 2.0, swatch);
                     }
                     // The window keeps its width, whatever things are called.
-                    ui.add(Label::new(value).truncate());
+                    let label = Label::new(value);
+                    match name {
+                        "Layers" => ui.vertical(|ui| ui.add(label.wrap())).inner,
+                        _ => ui.add(label.truncate()),
+                    };
                 });
                 ui.end_row();
             }

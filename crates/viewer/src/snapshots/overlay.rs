@@ -49,6 +49,8 @@ pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer, area: &Area, view: &View) {
             ui.scope(|ui| {
                 ui.set_clip_rect(right.intersect(ui.clip_rect()));
                 picture(ui, fitting(rect, size_px), texture);
+                // As on the left, or the two differ where the looks do not.
+                area.paint_frame(ui);
             });
             divider::names(ui, rect.with_max_y(rect.max.y - 20.0), x, ["Now", &name]);
             divider::show(ui, rect, share, "Divider between now and the snapshot");

@@ -1,7 +1,8 @@
 //! The newest picture as something that egui can draw.
 
 use eframe::egui_wgpu::RenderState;
-use egui::{Color32, Rect, TextureHandle, TextureId, TextureOptions, pos2};
+use egui::layers::ShapeIdx;
+use egui::{Color32, Rect, Shape, TextureHandle, TextureId, TextureOptions, pos2};
 
 use crate::engine::{Frame, Picture, View};
 
@@ -40,9 +41,16 @@ impl CanvasTexture {
         }
     }
 
-    /// Fills the area. While a coarser picture of another shape is all there is, it is stretched; one from elsewhere that stays for
+    /// Fills the area, at its place among what is drawn. While a coarser picture of another shape is all there is, it is stretched; one from elsewhere that stays for
     /// long is dimmed.
-    pub fn paint(&mut self, ui: &egui::Ui, area: &Area, frame: &Frame, wanted: &View) {
+    pub fn paint(
+        &mut self,
+        ui: &egui::Ui,
+        place: ShapeIdx,
+        area: &Area,
+        frame: &Frame,
+        wanted: &View,
+    ) {
         let Some(id) = self.texture(ui.ctx(), frame) else {
             return;
         };
@@ -59,7 +67,7 @@ impl CanvasTexture {
         self.is_stale = is_stale && age_s >= STALE_S;
         let tint = if self.is_stale { STALE } else { Color32::WHITE };
         let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-        ui.painter().image(id, area.rect, whole, tint);
+        let mut shapes = vec![Shape::image(id, area.rect, whole, tint)];
         if self.is_stale {
             let at = area.rect.center_top() + egui::vec2(0.0, 12.0);
             let font = egui::FontId::proportional(14.0);
@@ -68,10 +76,11 @@ impl CanvasTexture {
                 .painter()
                 .layout_no_wrap(text.into(), font, Color32::WHITE);
             let rect = egui::Align2::CENTER_TOP.anchor_size(at, galley.size());
-            let painter = ui.painter();
-            painter.rect_filled(rect.expand(5.0), 4.0, Color32::from_black_alpha(190));
-            painter.galley(rect.min, galley, Color32::WHITE);
+            let ground = Color32::from_black_alpha(190);
+            shapes.push(Shape::rect_filled(rect.expand(5.0), 4.0, ground));
+            shapes.push(Shape::galley(rect.min, galley, Color32::WHITE));
         }
+        ui.painter().set(place, Shape::Vec(shapes));
     }
 
     /// Whether what was drawn last is a picture of another view, and has been for long enough to be noticed.
@@ -141,27 +150,12 @@ impl Drop for CanvasTexture {
 mod tests {
     use super::*;
     use crate::engine::Engine;
-    use egui::{Context, FullOutput, RawInput, Shape};
+    use egui::{Context, FullOutput, RawInput};
+    use hairline_fixtures::scenes::bare_plate;
     use std::sync::Arc;
 
-    const SCENE: &str = r#"
-[camera]
-position_m = [0.0, -0.2, 0.2]
-target_m = [0.0, 0.0, 0.0]
-
-[[material]]
-name = "steel"
-kind = "metal"
-metal = "steel"
-
-[[object]]
-name = "plate"
-shape = { disk = { radius_m = 0.08 } }
-material = "steel"
-"#;
-
     fn frame() -> Arc<Frame> {
-        let description = hairline_editor::Document::read(SCENE, "a plate".as_ref()).unwrap();
+        let description = bare_plate().description();
         let camera = super::super::camera(&description.camera);
         let mut engine = Engine::start_in_turn(Arc::new(|| {}));
         engine.set_scene(1, Arc::new(description), Default::default());
@@ -185,7 +179,13 @@ material = "steel"
 
     /// Whether the picture is dimmed, and whether a text says why.
     fn signs(output: &FullOutput) -> (bool, bool) {
-        let shapes = output.shapes.iter().map(|clipped| &clipped.shape);
+        let shapes = output
+            .shapes
+            .iter()
+            .flat_map(|clipped| match &clipped.shape {
+                Shape::Vec(shapes) => shapes.iter().collect(),
+                shape => vec![shape],
+            });
         let is_dimmed = |shape: &Shape| match shape {
             Shape::Mesh(mesh) => mesh.vertices.iter().all(|vertex| vertex.color == STALE),
             Shape::Rect(rect) => rect.brush.is_some() && rect.fill == STALE,
@@ -212,7 +212,8 @@ material = "steel"
             };
             let output = context.run_ui(input, |ui| {
                 let area = Area::new(ui.max_rect(), [40, 30], 1.0);
-                canvas.paint(ui, &area, &frame, wanted);
+                let place = ui.painter().add(Shape::Noop);
+                canvas.paint(ui, place, &area, &frame, wanted);
             });
             let (is_dimmed, tells) = signs(&output);
             assert_eq!(canvas.is_stale(), tells);

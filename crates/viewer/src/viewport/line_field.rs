@@ -92,10 +92,8 @@ const SELECTED: Color32 = Color32::from_rgb(255, 246, 220);
 
 /// The layers whose directions are wanted: the selected one, or all that are shown.
 fn wanted(viewer: &Viewer) -> Vec<usize> {
-    let is_wanted = matches!(
-        viewer.toolbox.tool,
-        Tool::Select | Tool::Brush | Tool::Eraser
-    );
+    // Under the brush they would cover what it lays.
+    let is_wanted = matches!(viewer.toolbox.tool, Tool::Select | Tool::Eraser);
     let description = viewer.document.description();
     let selected = match viewer.selection() {
         Selection::Layer(index) => Some(index),

@@ -2,37 +2,24 @@
 
 use crate::common;
 
+use std::sync::LazyLock;
+
 use egui::{Pos2, vec2};
 use egui_kittest::Harness;
 use glam::DVec3;
+use hairline_fixtures::{BALL, SceneFile};
 use hairline_scene::description::{Brush, Stroke};
 use hairline_viewer::Viewer;
 
 /// A ball, whose surface bends away between two places of the pointer.
-const BALL: &str = r#"
-[camera]
-position_m = [0.0, -0.5, 0.0]
-target_m = [0.0, 0.0, 0.0]
-up = [0.0, 0.0, 1.0]
-fov_y_deg = 30.0
-
-[[material]]
-name = "steel"
-kind = "metal"
-metal = "steel"
-roughness = 0.2
-
-[[object]]
-name = "ball"
-shape = { sphere = { radius_m = 0.05 } }
-material = "steel"
-
-[[light]]
-kind = "sphere"
-center_m = [0.1, -0.3, 0.3]
-radius_m = 0.02
-radiance = 10.0
-"#;
+static STEEL_BALL: LazyLock<String> = LazyLock::new(|| {
+    SceneFile::seen_from([0.0, -0.5, 0.0])
+        .metal("steel", "steel")
+        .with("roughness = 0.2")
+        .object("ball", "steel", BALL)
+        .sphere([0.1, -0.3, 0.3], 0.02, 10.0)
+        .to_string()
+});
 
 const BALL_RADIUS_M: f64 = 0.05;
 
@@ -69,7 +56,7 @@ fn a_drag_is_one_stroke_and_one_undo_takes_it_away() {
 
 #[test]
 fn a_fast_drag_stays_on_a_bent_surface() {
-    let mut harness = with_brush(BALL);
+    let mut harness = with_brush(&STEEL_BALL);
     let from = middle(&harness) + vec2(-90.0, 0.0);
     // Over the ball from beside it in one move.
     common::drag(&mut harness, from, from + vec2(180.0, 0.0), 1);
@@ -91,7 +78,7 @@ fn a_fast_drag_stays_on_a_bent_surface() {
 
 #[test]
 fn leaving_the_object_ends_a_stroke_but_not_the_step() {
-    let mut harness = with_brush(BALL);
+    let mut harness = with_brush(&STEEL_BALL);
     let before = common::description(&harness);
     let at = middle(&harness);
     let far = common::picture(&harness).right_center() - vec2(8.0, 0.0);
@@ -129,7 +116,7 @@ fn escape_forgets_a_stroke() {
 
 #[test]
 fn a_thousand_places_of_the_pointer_are_taken_up_at_once() {
-    let mut harness = with_brush(BALL);
+    let mut harness = with_brush(&STEEL_BALL);
     let at = middle(&harness);
     common::press(&mut harness, at);
     let start = std::time::Instant::now();
@@ -212,7 +199,7 @@ fn a_stroke_beside_a_layer_that_is_solo_is_seen() {
 
 #[test]
 fn a_drag_of_the_eraser_is_one_step() {
-    let mut harness = with_brush(BALL);
+    let mut harness = with_brush(&STEEL_BALL);
     let at = middle(&harness);
     common::drag(&mut harness, at + vec2(-40.0, 0.0), at + vec2(40.0, 0.0), 6);
     let before = common::description(&harness);

@@ -2,41 +2,26 @@
 
 use crate::common;
 
+use std::sync::LazyLock;
 use std::time::{Duration, Instant};
 
 use egui::{Color32, Pos2, Shape, vec2};
 use egui_kittest::Harness;
+use hairline_fixtures::SceneFile;
 use hairline_viewer::Viewer;
 
 /// A turned disk from above: its scratches are circles about the picture's middle.
-const FROM_ABOVE: &str = r#"
-[camera]
-position_m = [0.0, 0.0, 0.5]
-target_m = [0.0, 0.0, 0.0]
-up = [0.0, 1.0, 0.0]
-fov_y_deg = 30.0
-
-[[material]]
-name = "steel"
-kind = "metal"
-metal = "steel"
-roughness = 0.2
-
-[[object]]
-name = "disk"
-shape = { disk = { radius_m = 0.1 } }
-material = "steel"
-
-[[scratches]]
-name = "turned"
-object = "disk"
-pattern = "circular"
-count = 3000
-seed = 1
-length_m = { mean = 0.05, spread = 0.3 }
-width_um = { mean = 5.0, spread = 0.1 }
-depth_nm = { mean = 180.0, spread = 0.1 }
-"#;
+static FROM_ABOVE: LazyLock<String> = LazyLock::new(|| {
+    SceneFile::seen_from([0.0, 0.0, 0.5])
+        .up([0.0, 1.0, 0.0])
+        .metal("steel", "steel")
+        .with("roughness = 0.2")
+        .object("disk", "steel", "disk = { radius_m = 0.1 }")
+        .laid("disk", "circular", 3000)
+        .with("name = \"turned\"\nseed = 1\nlength_m = { mean = 0.05, spread = 0.3 }")
+        .with("width_um = { mean = 5.0, spread = 0.1 }\ndepth_nm = { mean = 180.0, spread = 0.1 }")
+        .to_string()
+});
 
 /// The straight lines over the picture that are neither dark nor opaque.
 fn lines(harness: &Harness<'static, Viewer>) -> Vec<[Pos2; 2]> {
@@ -55,7 +40,7 @@ fn lines(harness: &Harness<'static, Viewer>) -> Vec<[Pos2; 2]> {
 
 #[test]
 fn strokes_run_as_the_scratches_do_and_go_with_the_selection() {
-    let mut harness = common::viewer(FROM_ABOVE);
+    let mut harness = common::viewer(&FROM_ABOVE);
     common::wait_built(&mut harness);
     assert_eq!(lines(&harness).len(), 0);
     common::click_on(&mut harness, "turned");

@@ -1,52 +1,27 @@
 //! Without threads the same pictures come, and no slice of a finer one holds the interface up.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
 use glam::DVec3;
-use hairline_editor::Document;
+use hairline_fixtures::scenes::oblique_plate;
 use hairline_image::{Display, ToneMap};
 use hairline_scene::{Camera, Description};
 use web_time::Instant;
 
 use super::super::{Backend, Engine, Frame, Picture, View};
 
-const SCENE: &str = r#"
-[camera]
-position_m = [0.0, -0.21, 0.18]
-target_m = [0.0, 0.0, 0.0]
-up = [0.0, 0.0, 1.0]
-fov_y_deg = 40.0
-
-[[material]]
-name = "steel"
-kind = "metal"
-metal = "steel"
-
-[[object]]
-name = "plate"
-shape = { disk = { radius_m = 0.08 } }
-material = "steel"
-
-[[scratches]]
-object = "plate"
-pattern = "random"
-count = 300
-width_um = { mean = 4.0, spread = 0.1 }
-
-[[light]]
-kind = "sphere"
-center_m = [-0.065, 0.20, 0.24]
-radius_m = 0.01
-radiance = 300.0
-"#;
-
 /// A loaded machine is slow.
 const PATIENCE: Duration = Duration::from_secs(600);
 
 fn description() -> Arc<Description> {
-    Arc::new(Document::read(SCENE, Path::new("a plate")).unwrap())
+    Arc::new(
+        oblique_plate(300, 0.01)
+            .with("width_um = { mean = 4.0, spread = 0.1 }")
+            .fov_y_deg(40.0)
+            .description(),
+    )
 }
 
 fn view() -> View {

@@ -3,7 +3,7 @@
 use glam::{DMat3, DVec3, EulerRot};
 use hairline_editor::{Selection, place_light};
 use hairline_scene::Description;
-use hairline_scene::description::{Light, LightKind, Object};
+use hairline_scene::description::{Light, Object};
 
 use super::motion::Motion;
 
@@ -43,10 +43,7 @@ impl Body {
     }
 
     fn of_light(light: &Light) -> Self {
-        let corners_m: Vec<DVec3> = match &light.kind {
-            LightKind::Sphere { .. } => Vec::new(),
-            LightKind::Polygon { vertices_m, .. } => vertices_m.iter().map(|&v| v.into()).collect(),
-        };
+        let corners_m = light.kind.corners_m();
         Self {
             noun: "light",
             center_m: place_light::center(light),

@@ -69,7 +69,7 @@ fn outline(light: &Light, lens: &Lens) -> Vec<[Pos2; 2]> {
             let smallest_m = lens.m_per_point(DVec3::from(*center_m)) * f64::from(SMALLEST);
             circle(lens, (*center_m).into(), radius_m.max(smallest_m))
         }
-        LightKind::Polygon { vertices_m, .. } => vertices_m.iter().map(|&v| v.into()).collect(),
+        kind => kind.corners_m(),
     };
     let next = points_m.iter().cycle().skip(1);
     let edges = points_m.iter().zip(next);

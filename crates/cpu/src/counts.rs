@@ -1,0 +1,33 @@
+//! How much work a picture is.
+
+/// How much work the scratches of a picture are, counted where it is done.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counts {
+    /// Segments that were projected.
+    pub segments: u64,
+    /// Entries of tile lists.
+    pub entries: u64,
+    /// Tests of a segment at a pixel.
+    pub tests: u64,
+    /// Pairs of a pixel and a segment with a share.
+    pub pairs: u64,
+    /// Lights of a pair that were asked whether they reach it.
+    pub asked: u64,
+    /// Of these, the lights that do: integrals over a light.
+    pub lit: u64,
+}
+
+impl std::ops::Add for Counts {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self {
+            segments: self.segments + other.segments,
+            entries: self.entries + other.entries,
+            tests: self.tests + other.tests,
+            pairs: self.pairs + other.pairs,
+            asked: self.asked + other.asked,
+            lit: self.lit + other.lit,
+        }
+    }
+}

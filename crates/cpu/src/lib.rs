@@ -1,0 +1,41 @@
+//! Rendering on the CPU in f64: the readable twin of the shaders, and the renderer where no driver exists.
+//!
+//! A picture goes through the stages of the GPU, of the same names: `visibility`, `surface`, `project`, `bin`, `shade_scratches`,
+//! `shade_base`, `resolve`.
+//!
+//! ```
+//! use hairline_cpu::closed_form::{Prepared, RenderOptions};
+//! use hairline_scene::Scene;
+//!
+//! let text = r#"
+//! camera = { position_m = [0.0, -0.2, 0.3], target_m = [0.0, 0.0, 0.0], up = [0.0, 0.0, 1.0] }
+//! render = { size_px = [48, 32] }
+//! material = [{ name = "steel", kind = "metal", metal = "steel" }]
+//! object = [{ name = "plate", shape = { disk = { radius_m = 0.08 } }, material = "steel" }]
+//! scratches = [{ object = "plate", pattern = "random", count = 100 }]
+//! light = [{ kind = "sphere", center_m = [0.0, 0.2, 0.3], radius_m = 0.05, radiance = 9.0 }]
+//! "#;
+//! let scene = Scene::from_toml(text, "plate.toml", ".")?;
+//! let image = Prepared::new(&scene).render(&RenderOptions::default(), &|_| {});
+//! assert!(image.scratches.iter().any(|rgb| rgb[1] > 0.0));
+//! # Ok::<(), hairline_scene::Error>(())
+//! ```
+
+mod bin;
+mod camera_beam;
+pub mod closed_form;
+mod counts;
+pub mod draft;
+mod light_view;
+mod options;
+mod prepared;
+mod project;
+mod published;
+pub mod read_pixel;
+mod resolve;
+mod shade_base;
+mod shade_scratches;
+mod silhouettes;
+pub mod surface;
+mod tile;
+mod visibility;

@@ -1,0 +1,22 @@
+//! What a renderer is asked.
+
+use hairline_index::method::Method;
+
+/// How to render, beside what the scene says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RenderOptions {
+    /// Jittered samples of a pixel on an edge or a crease; all other pixels, and all of them for 1, take one through the
+    /// centre.
+    pub samples: u32,
+    /// By which method scratches are computed.
+    pub method: Method,
+}
+
+impl Default for RenderOptions {
+    fn default() -> Self {
+        Self {
+            samples: 1,
+            method: Method::default(),
+        }
+    }
+}

@@ -1,0 +1,130 @@
+//! A scene with what the stages look up: trees and tables. It knows no stage.
+
+use crate::draft::Draft;
+use hairline_index::{Hit, IndexedSegment, ScratchIndex, TriangleIndex, TriangleLists, Watch};
+use hairline_scene::{Scene, ScratchTables};
+use std::sync::{Arc, OnceLock};
+
+/// A scene with everything that rendering looks up.
+pub struct Prepared<'a> {
+    pub(crate) scene: &'a Scene,
+    pub(crate) triangles: Arc<TriangleIndex>,
+    pub(crate) scratches: Arc<ScratchIndex>,
+    pub(crate) tables: Arc<ScratchTables>,
+    /// Stands for the scratches in a picture that need not be exact.
+    pub(crate) draft: Option<Arc<Draft>>,
+    /// For methods that look scratches up by triangle.
+    lists: OnceLock<TriangleLists>,
+    /// Of each object, counted over the whole scene.
+    first_triangles: Vec<usize>,
+}
+
+impl<'a> Prepared<'a> {
+    /// Builds the trees and the tables.
+    pub fn new(scene: &'a Scene) -> Self {
+        Self::watched(scene, &Watch::default()).unwrap_or_else(|| unreachable!("nobody cancels it"))
+    }
+
+    /// The same while another watches the tree over the scratches grow, which takes the most time. `None` if it was cancelled.
+    pub fn watched(scene: &'a Scene, watch: &Watch) -> Option<Self> {
+        let (triangles, (scratches, tables)) = rayon::join(
+            || TriangleIndex::build(scene),
+            || {
+                rayon::join(
+                    || ScratchIndex::rebuild(scene, None, watch),
+                    || ScratchTables::new(scene),
+                )
+            },
+        );
+        let prepared = Self::from_parts(scene, triangles.into(), scratches?.into(), tables.into());
+        Some(prepared)
+    }
+
+    /// Takes trees and tables that were built before, of `scene` or of one with the same surfaces, scratches and materials.
+    pub fn from_parts(
+        scene: &'a Scene,
+        triangles: Arc<TriangleIndex>,
+        scratches: Arc<ScratchIndex>,
+        tables: Arc<ScratchTables>,
+    ) -> Self {
+        Self {
+            scene,
+            triangles,
+            scratches,
+            tables,
+            draft: None,
+            lists: OnceLock::new(),
+            first_triangles: scene
+                .objects
+                .iter()
+                .scan(0, |next, object| {
+                    let first = *next;
+                    *next += object.mesh.triangles.len();
+                    Some(first)
+                })
+                .collect(),
+        }
+    }
+
+    /// The same for a scene that differs in what none of this looks at: camera, lights, environment, settings.
+    pub fn with_scene<'b>(&self, scene: &'b Scene) -> Prepared<'b> {
+        Prepared {
+            scene,
+            triangles: self.triangles.clone(),
+            scratches: self.scratches.clone(),
+            tables: self.tables.clone(),
+            draft: self.draft.clone(),
+            lists: self.lists.clone(),
+            first_triangles: self.first_triangles.clone(),
+        }
+    }
+
+    /// The same with a few of the scratches, each of which stands for many. For Hairline's own method; that of 2018 takes all.
+    pub fn with_draft(mut self, draft: Arc<Draft>) -> Self {
+        self.draft = Some(draft);
+        self
+    }
+
+    /// The tree over the scratches.
+    pub fn scratches(&self) -> &Arc<ScratchIndex> {
+        &self.scratches
+    }
+
+    /// The scratches that each triangle's points may see without a footprint; built when first asked for.
+    pub fn triangle_lists(&self) -> &TriangleLists {
+        self.lists
+            .get_or_init(|| TriangleLists::build(self.scene, &self.scratches))
+    }
+
+    pub(crate) fn triangle_list(&self, hit: &Hit) -> &[u32] {
+        let first = self.first_triangles[hit.object as usize];
+        self.triangle_lists().of(first + hit.triangle as usize)
+    }
+
+    /// Whether the object has any scratches.
+    pub(crate) fn is_scratched(&self, hit: &Hit) -> bool {
+        let object = hit.object as usize;
+        match &self.draft {
+            Some(draft) => !draft.objects[object].is_empty(),
+            None => !self.scratches.tree.objects[object].is_empty(),
+        }
+    }
+
+    /// How alike the phase steps of an object's scratches are.
+    pub(crate) fn depth_coherence(&self, object: u32) -> f64 {
+        self.scratches.depth_coherence[object as usize].into()
+    }
+
+    /// The tables of the scratches' profiles.
+    pub fn tables(&self) -> &ScratchTables {
+        &self.tables
+    }
+
+    /// The pieces that `project` lists, and how many of each there are; 1 where it says nothing.
+    pub(crate) fn segments(&self) -> (&[IndexedSegment], &[f32]) {
+        match &self.draft {
+            Some(draft) => (&draft.segments, &draft.weights),
+            None => (&self.scratches.tree.segments, &[]),
+        }
+    }
+}

@@ -1,0 +1,130 @@
+//! The method of 2018 (docs/model.md, section 9): what [`crate::scratches`] and [`crate::base`] do for Hairline's own.
+//!
+//! The way of a scratch is the same: what the pixel sees of it (`segment`), the light on it (`lights`), and what the base pays.
+
+mod lights;
+mod segment;
+
+use crate::light_view::LightViews;
+use crate::prepared::Prepared;
+use crate::published::segment::SegmentView;
+use crate::surface::SurfacePoint;
+use glam::DVec3;
+use hairline_index::method::{PublishedMethod, Structure};
+use hairline_index::scratch_index::REACH_STD;
+use hairline_index::{Hit, IndexedSegment};
+use hairline_optics::ltc::{LobeFresnel, LtcLobe};
+use hairline_optics::mask::{Mask, Masked, ScratchSums};
+use hairline_optics::published::polygon::triangulate;
+use hairline_optics::published::spectrum::{PUBLISHED_WAVELENGTHS, PublishedSpectrum};
+use hairline_optics::sptd::{sptd_lobe, sptd_sphere_published};
+use hairline_scene::Light;
+
+/// A scene made ready for the published method.
+pub(crate) struct Published<'a> {
+    prepared: &'a Prepared<'a>,
+    method: PublishedMethod,
+    mask: Mask,
+    /// One for each scratch table.
+    spectra: Vec<PublishedSpectrum>,
+    /// Of each light of the scene, as corners into its vertices; none for spheres.
+    triangles: Vec<Vec<[usize; 3]>>,
+}
+
+impl<'a> Published<'a> {
+    pub fn new(prepared: &'a Prepared, method: PublishedMethod, mask: Mask) -> Self {
+        if method.structure == Structure::TriangleLists {
+            // Built now, on one thread: a thread that builds them in parallel while others wait for them may take up one of
+            // their pixels meanwhile, and wait for itself.
+            prepared.triangle_lists();
+        }
+        let triangles = |light: &Light| match light {
+            Light::Polygon { vertices_m, .. } => triangulate(vertices_m),
+            Light::Sphere { .. } => Vec::new(),
+        };
+        Self {
+            prepared,
+            method,
+            mask,
+            spectra: prepared.tables.published_spectra(PUBLISHED_WAVELENGTHS),
+            triangles: prepared.scene.all_lights().map(triangles).collect(),
+        }
+    }
+
+    /// Radiance of all scratches under the point's footprint, and what they take from the base.
+    pub fn scratches(&self, point: &SurfacePoint, hit: &Hit, views: &LightViews) -> Masked {
+        // Without anti-aliasing a pixel is the point in its middle.
+        let alone = (!self.method.anti_aliasing).then(|| point.without_footprint());
+        let point = alone.as_ref().unwrap_or(point);
+        let (mut sums, mut density) = (ScratchSums::default(), 0.0);
+        let spectrum = &self.spectra[point.table];
+        let object = hit.object as usize;
+        let visit = |segment: &IndexedSegment| {
+            let Some(view) = SegmentView::new(point, segment, self.method.anti_aliasing) else {
+                return;
+            };
+            sums.add(
+                view.share,
+                spectrum.total(view.profile.depth_nm.into()),
+                self.radiance(&view, spectrum, views, point).to_array(),
+            );
+            density += view.density;
+        };
+        match self.method.structure {
+            Structure::Bvh => {
+                let reach_m = gather_reach_m(point).as_vec3();
+                let tree = &self.prepared.scratches.tree;
+                tree.gather(object, point.position_m.as_vec3(), reach_m, visit);
+            }
+            Structure::TriangleLists => {
+                let segments = &self.prepared.scratches.tree.segments;
+                let list = self.prepared.triangle_list(hit);
+                list.iter().map(|&i| &segments[i as usize]).for_each(visit);
+            }
+        }
+        match self.mask {
+            // Twice the share but for the published footprint, which has a density of its own.
+            Mask::Density => Masked {
+                scratches: sums.radiance,
+                taken: [density.min(1.0); 3],
+            },
+            mask => sums.resolve(mask, self.prepared.scratches.depth_coherence[object] as f64),
+        }
+    }
+
+    /// What the lobe reflects of a sphere, by the pivot transform, for [`crate::base::base_radiance`].
+    pub fn base_sphere(
+        &self,
+        point: &SurfacePoint,
+    ) -> impl Fn(&LtcLobe, &LobeFresnel, DVec3, f64) -> [f64; 3] + use<> {
+        let wo = point.wo;
+        move |lobe, of, axis, sin2| {
+            // The pivot transform knows round lobes alone.
+            let roughness = (lobe.alphas.x * lobe.alphas.y).powf(0.25).min(1.0);
+            let pivot = sptd_lobe(wo, roughness);
+            // The published fit knows F = 1 alone; Fresnel is that of the whole lobe.
+            let share = sptd_sphere_published(&pivot, axis, sin2) / lobe.albedo.max(1e-30);
+            of.albedo.map(|e| e * share)
+        }
+    }
+}
+
+/// How far a surface may be off the plane of a footprint for each length along it.
+const BENDS: f64 = 0.125;
+
+/// Half the sides of the box around a point that holds every segment with a share there, world space.
+fn gather_reach_m(point: &SurfacePoint) -> DVec3 {
+    let sigma_m = point.coherence_um * 1e-6;
+    // Variances of position along the world's axes; 0.7 sigma^2 covers the window across and the ends' blur along.
+    let [ax, ay] = point.footprint_axes_m;
+    let variance = ax * ax + ay * ay + DVec3::splat(0.7 * sigma_m * sigma_m);
+    let on_plane = variance.map(f64::sqrt);
+    // The footprint lies in the plane that shading sees. Scratches lie on triangles: this one leaves it by as much as its normal is
+    // another one, its neighbours by about as much again; and where a surface bends elsewhere under a footprint, by a share of its size.
+    let leaves = BENDS + 2.0 * point.normal.distance(point.facet);
+    let aside = leaves * variance.element_sum().sqrt();
+    (on_plane + point.normal.abs() * aside) * REACH_STD as f64
+}
+
+#[cfg(test)]
+mod tests;

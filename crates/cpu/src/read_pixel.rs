@@ -1,0 +1,127 @@
+//! One pixel by itself, with what is under it; and which share of each pixel a surface covers.
+
+use crate::camera_beam::CameraBeam;
+use crate::counts::Counts;
+use crate::options::RenderOptions;
+use crate::prepared::Prepared;
+use crate::silhouettes::is_smooth;
+use crate::tile::Tile;
+use crate::visibility::{Visibility, center};
+use hairline_image::Image;
+use hairline_index::Hit;
+use hairline_scene::camera::pixel_jitter;
+use rayon::prelude::*;
+use std::ops::Range;
+
+/// A pixel of a picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PixelReading {
+    /// Its layers: an image of one pixel, equal to that pixel of the whole picture.
+    pub image: Image,
+    /// What the ray through its centre meets.
+    pub hit: Option<Hit>,
+    /// Segments of scratches with a share in it; the mean over its samples where it has an edge.
+    pub segments: f64,
+    /// Samples that it took: 1 where there is no edge.
+    pub samples: u32,
+}
+
+impl Prepared<'_> {
+    /// Renders one pixel, in column `x` and row `y` from the top; none outside of the picture. It costs what lists of one row
+    /// of tiles cost, some milliseconds.
+    pub fn read_pixel(&self, options: &RenderOptions, [x, y]: [u32; 2]) -> Option<PixelReading> {
+        let [width, height] = self.scene.render.size_px;
+        if x >= width || y >= height {
+            return None;
+        }
+        let (picture, _) = self.picture(options, y..y + 1, &|| false);
+        let [column, row] = [x as usize, y as usize];
+        let samples = match options.samples.max(1) {
+            1 => 1,
+            _ if is_smooth(&picture.visibility, &picture.camera, column, row) => 1,
+            many => many,
+        };
+        let mut tile = Tile::new(&picture);
+        let sample = tile.render_pixel(column, row);
+        let Counts { pairs, .. } = tile.counts;
+        Some(PixelReading {
+            image: Image {
+                size_px: [1, 1],
+                base: vec![sample.base.as_vec3().to_array()],
+                scratches: vec![sample.scratches.as_vec3().to_array()],
+                density: vec![sample.density.as_vec3().to_array()],
+                depth_m: vec![sample.depth_m as f32],
+                normal: vec![sample.normal.as_vec3().to_array()],
+                noise: None,
+            },
+            hit: picture.visibility.hit(column, row).copied(),
+            segments: pairs as f64 / f64::from(samples),
+            samples,
+        })
+    }
+
+    /// The share of each pixel of some rows that surfaces cover, from 0 to 1, of the samples that a picture of `samples` takes.
+    pub fn coverage(&self, samples: u32, rows: Range<u32>) -> Vec<f32> {
+        let size_px = self.scene.render.size_px;
+        let camera = self.scene.camera.frame(size_px);
+        let visibility = Visibility::new(&self.triangles, &camera, size_px, &rows);
+        let (width, samples) = (size_px[0] as usize, samples.max(1));
+        let mut shares = vec![0.0; rows.len() * width];
+        let pixels = shares.par_iter_mut().enumerate();
+        pixels.for_each_init(CameraBeam::default, |rays, (i, share)| {
+            let (x, y) = (i % width, rows.start as usize + i / width);
+            if samples == 1 || is_smooth(&visibility, &camera, x, y) {
+                *share = f32::from(u8::from(visibility.hit(x, y).is_some()));
+                return;
+            }
+            let covered = (0..samples).filter(|&sample| {
+                let at_px = center(x, y) + pixel_jitter(sample, samples);
+                let direction = camera.camera_ray(at_px).normalize();
+                rays.intersect(&self.triangles, &camera, at_px, direction)
+                    .is_some()
+            });
+            *share = covered.count() as f32 / samples as f32;
+        });
+        shares
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use hairline_fixtures::SceneFile;
+
+    #[test]
+    fn a_pixel_is_that_of_the_picture_and_coverage_ends_where_the_disk_does() {
+        let scene = SceneFile::seen_from([0.0, -0.5, 0.3])
+            .fov_y_deg(30.0)
+            .size_px([40, 24])
+            .metal("steel", "steel")
+            .object("disk", "steel", "disk = { radius_m = 0.1 }")
+            .random("disk", 400)
+            .with("seed = 1\nlength_m = { mean = 0.05, spread = 0.3 }")
+            .with("width_um = { mean = 5.0, spread = 0.1 }\ndepth_nm = { mean = 180.0, spread = 0.1 }")
+            .sphere([0.0, 0.3, 0.2], 0.02, 50.0)
+            .scene();
+        let prepared = Prepared::new(&scene);
+        let options = RenderOptions {
+            samples: 8,
+            ..RenderOptions::default()
+        };
+        let picture = prepared.render(&options, &|_| {});
+        let coverage = prepared.coverage(8, 0..24);
+        let (mut edges, mut scratched) = (0, 0);
+        for i in (0..40 * 24).step_by(7) {
+            let at = [i as u32 % 40, i as u32 / 40];
+            let reading = prepared.read_pixel(&options, at).unwrap();
+            assert_eq!(reading.image.base[0], picture.base[i], "{at:?}");
+            assert_eq!(reading.image.scratches[0], picture.scratches[i], "{at:?}");
+            assert_eq!(reading.image.depth_m[0], picture.depth_m[i], "{at:?}");
+            assert_eq!(coverage[i] > 0.0, picture.depth_m[i] > 0.0, "{at:?}");
+            edges += u32::from(coverage[i] > 0.0 && coverage[i] < 1.0);
+            scratched += u32::from(reading.segments > 0.0);
+        }
+        assert!(edges > 3 && scratched > 3, "{edges} {scratched}");
+        assert!(prepared.read_pixel(&options, [40, 0]).is_none());
+    }
+}

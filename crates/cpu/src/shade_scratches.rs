@@ -1,0 +1,170 @@
+//! Stage 5, shade scratches: the scratches under the points of a tile and the light that they send to the viewer (docs/model.md,
+//! sections 4 to 6). Twin: shade_scratches.wgsl.
+//!
+//! Segment by segment of the tile's list: eight points at once are tested whether they see it, then each that does asks those lights
+//! which can reach the segment from any point of the tile.
+
+mod lanes;
+mod light_bounds;
+mod point;
+mod scratch_light;
+
+use crate::counts::Counts;
+use crate::prepared::Prepared;
+use crate::project::Projected;
+use hairline_index::IndexedSegment;
+use hairline_optics::band::{BandPlace, OutlineRoots};
+use hairline_optics::mask::ScratchSums;
+use lanes::{GROUPS, Group, LANES, Line, Seen};
+use light_bounds::LightBounds;
+use point::Frame;
+use pulp::Arch;
+use scratch_light::{ScratchLight, scratch_energy};
+
+pub(crate) use point::ScratchPoint;
+
+/// Points that are shaded together.
+pub(crate) const BATCH: usize = GROUPS * LANES;
+
+/// Shades batches of points. One for each thread: what it holds is filled anew for each batch.
+pub(crate) struct ScratchShader {
+    arch: Arch,
+    frames: Vec<Frame>,
+    groups: Vec<Group>,
+    bounds: LightBounds,
+    /// Lights that can reach the segment in hand.
+    lit: Vec<u32>,
+    roots: [OutlineRoots; 2],
+}
+
+impl ScratchShader {
+    pub fn new() -> Self {
+        Self {
+            arch: Arch::new(),
+            frames: Vec::with_capacity(BATCH),
+            groups: Vec::with_capacity(GROUPS),
+            bounds: LightBounds::default(),
+            lit: Vec::new(),
+            roots: Default::default(),
+        }
+    }
+
+    /// Adds up what the points see of the segments of a list, in its order.
+    pub fn shade<'l>(
+        &mut self,
+        prepared: &Prepared,
+        points: &[ScratchPoint],
+        list: impl Iterator<Item = &'l Projected>,
+        sums: &mut [ScratchSums],
+        counts: &mut Counts,
+    ) {
+        self.frames.clear();
+        self.frames
+            .extend(points.iter().map(|p| Frame::new(p.point)));
+        self.groups.clear();
+        for (points, frames) in points.chunks(LANES).zip(self.frames.chunks(LANES)) {
+            self.groups.push(Group::new(points, frames));
+        }
+        self.bounds.gather(points, &self.frames);
+        let arch = self.arch;
+        let (segments, weights) = prepared.segments();
+        let mut shading = Shading {
+            prepared,
+            points,
+            shader: self,
+            sums,
+            counts,
+        };
+        // Compiled for the vectors of this processor, with all that is inlined.
+        arch.dispatch(
+            #[inline(always)]
+            || {
+                for projected in list {
+                    let at = projected.segment as usize;
+                    let weight = weights.get(at).map_or(1.0, |&weight| f64::from(weight));
+                    shading.add(&segments[at], projected, weight);
+                }
+            },
+        );
+    }
+}
+
+/// A batch that is being shaded.
+struct Shading<'a, 's> {
+    prepared: &'a Prepared<'a>,
+    points: &'a [ScratchPoint<'a>],
+    shader: &'s mut ScratchShader,
+    sums: &'s mut [ScratchSums],
+    counts: &'s mut Counts,
+}
+
+impl Shading<'_, '_> {
+    #[inline(always)]
+    fn add(&mut self, segment: &IndexedSegment, projected: &Projected, weight: f64) {
+        let line = Line::new(projected);
+        let mut is_new = true;
+        for i in 0..self.shader.groups.len() {
+            let group = &self.shader.groups[i];
+            if !group.is_near(&line) {
+                continue;
+            }
+            self.counts.tests += LANES as u64;
+            let Some(seen) = group.see(segment, projected.object) else {
+                continue;
+            };
+            if is_new {
+                self.shader.bounds.find(segment, &mut self.shader.lit);
+                is_new = false;
+            }
+            self.light(segment, i * LANES, &seen, weight);
+        }
+    }
+
+    /// Adds the light of a segment, times `weight`, to those points of a group that see it.
+    #[inline(always)]
+    fn light(&mut self, segment: &IndexedSegment, first: usize, seen: &Seen, weight: f64) {
+        let environment = self.prepared.scene.environment.as_ref();
+        let width_um = f64::from(segment.profile.width_um);
+        for lane in 0..LANES {
+            let Some(mut share) = seen.share(lane, width_um) else {
+                continue;
+            };
+            // As many scratches, each of which is as long a line.
+            share.segment *= weight;
+            self.counts.pairs += 1;
+            let point = &self.points[first + lane];
+            let frame = &self.shader.frames[first + lane];
+            let table = &self.prepared.tables.tables[point.point.table];
+            let mut radiance = glam::DVec3::ZERO;
+            if !self.shader.lit.is_empty() || environment.is_some() {
+                let tangent = seen.tangent(lane);
+                let place = BandPlace::new(
+                    frame.steps_um.map(|step| tangent.perp_dot(step)),
+                    seen.offset_um[lane],
+                    seen.variance_um2[lane],
+                );
+                let light = ScratchLight::new(point.point.wo, tangent, table, segment.profile);
+                for &index in &self.shader.lit {
+                    if let Some(view) = point.views.view_of(index) {
+                        self.counts.asked += 1;
+                        let roots = &mut self.shader.roots;
+                        if let Some(sent) =
+                            light.light(&frame.stds, place, point.views, view, roots)
+                        {
+                            self.counts.lit += 1;
+                            radiance += sent;
+                        }
+                    }
+                }
+                if let Some(environment) = environment {
+                    radiance += light.environment(point.point, environment);
+                }
+            }
+            let energy = scratch_energy(segment.profile, table, point.point.wo.z);
+            self.sums[point.index].add(share, energy, radiance.to_array());
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

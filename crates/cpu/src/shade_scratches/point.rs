@@ -1,0 +1,59 @@
+//! A point that is shaded, and what a scratch is to it.
+
+use crate::light_view::LightViews;
+use crate::surface::SurfacePoint;
+use glam::DVec2;
+use hairline_optics::band::{BandStds, band_stds};
+use hairline_optics::footprint::ScratchShare;
+
+/// A point of a surface with scratches, in the picture.
+pub(crate) struct ScratchPoint<'a> {
+    pub point: &'a SurfacePoint<'a>,
+    pub object: u32,
+    pub at_px: DVec2,
+    /// The lights from there, ready for scratches.
+    pub views: &'a LightViews<'a>,
+    /// Index into the sums.
+    pub index: usize,
+}
+
+/// What of a point is the same for all scratches.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Frame {
+    /// How the point moves by one standard deviation of the pixel's filter to the right and down, in the surface's frame.
+    pub steps_um: [DVec2; 2],
+    /// The coherence window's variance.
+    pub window_um2: f64,
+    /// Of the band that a pixel without perspective sees.
+    pub stds: BandStds,
+}
+
+impl Frame {
+    pub fn new(point: &SurfacePoint) -> Self {
+        Self {
+            steps_um: point
+                .footprint_axes_m
+                .map(|step| (point.surface_from_world(step) * 1e6).truncate()),
+            window_um2: 0.5 * point.coherence_um * point.coherence_um,
+            stds: band_stds(point.coherence_um),
+        }
+    }
+}
+
+/// The share of a segment from what its place under a footprint amounts to: [`hairline_optics::footprint::scratch_share`].
+#[inline]
+pub(super) fn share(
+    width_um: f64,
+    far2: f64,
+    variance_um2: f64,
+    [low, high]: [f64; 2],
+) -> ScratchShare {
+    use hairline_optics::gaussian::gaussian;
+    let line = width_um
+        * (-0.5 * far2).exp()
+        * (1.0 / (variance_um2 * (2.0 * std::f64::consts::PI))).sqrt();
+    ScratchShare {
+        segment: line * gaussian().between(low, high),
+        line,
+    }
+}

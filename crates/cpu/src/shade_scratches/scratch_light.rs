@@ -1,0 +1,182 @@
+//! A scratch as seen from a point, and the light that it sends to the viewer (docs/model.md, sections 5 and 6). Twin:
+//! scratch_light.wgsl.
+
+use crate::light_view::{LightView, LightViews};
+use crate::surface::SurfacePoint;
+use glam::{DVec2, DVec3};
+use hairline_optics::band::{
+    BandFrame, BandLine, BandMotion, BandPlace, BandStds, Cap, Outline, OutlineRoots,
+    band_is_whole, band_lines, chord_cos, sphere_band_extent, sphere_chord,
+};
+use hairline_optics::band_environment::environment_cells;
+use hairline_optics::scratch::oblique_depth_nm;
+use hairline_optics::table::{ScratchTable, TableRow};
+use hairline_scene::{Environment, Profile};
+
+/// The energy that a scratch takes of the mirror's direction, where both cosines are the viewer's. Twin: `scratch_energy`.
+pub(super) fn scratch_energy(profile: Profile, table: &ScratchTable, cos_o: f64) -> [f64; 3] {
+    table.scratch_table_total(oblique_depth_nm(profile.depth_nm.into(), cos_o, cos_o))
+}
+
+/// A scratch from a point.
+pub(super) struct ScratchLight<'a> {
+    frame: BandFrame,
+    /// `wo` in the frame of the scratch.
+    wo: DVec3,
+    table: &'a ScratchTable,
+    profile: Profile,
+}
+
+impl<'a> ScratchLight<'a> {
+    /// `wo` and `tangent` in the surface's frame.
+    pub fn new(wo: DVec3, tangent: DVec2, table: &'a ScratchTable, profile: Profile) -> Self {
+        let frame = BandFrame { tangent };
+        Self {
+            frame,
+            wo: frame.band_from_surface(wo),
+            table,
+            profile,
+        }
+    }
+
+    fn width_um(&self) -> f64 {
+        self.profile.width_um.into()
+    }
+
+    /// T over u for light with a cosine to the normal.
+    fn row(&self, cos_i: f64) -> TableRow<'a> {
+        let depth_nm = oblique_depth_nm(self.profile.depth_nm.into(), cos_i, self.wo.z);
+        self.table.at_depth(depth_nm)
+    }
+
+    /// Radiance by way of one light, Fresnel left out; none if it doesn't reach the scratch. `place` is where the scratch lies
+    /// under the footprint.
+    pub fn light(
+        &self,
+        stds: &BandStds,
+        place: BandPlace,
+        views: &LightViews,
+        view: usize,
+        roots: &mut [OutlineRoots; 2],
+    ) -> Option<DVec3> {
+        let light = &views.views[view];
+        let tangent = self.frame.tangent;
+        let motion = place.moved(views.moves[view].map(|m| m.dot(tangent)));
+        let bound = light.bound();
+        let along = tangent.dot(bound.axis.truncate());
+        if !self.may_meet(stds, along, bound, motion) {
+            return None;
+        }
+        match light {
+            LightView::Sphere { cap, radiance } => {
+                Some(*radiance * self.sphere(stds, *cap, motion)?)
+            }
+            LightView::Polygon {
+                vertices,
+                away,
+                facing,
+                sets,
+                radiance,
+                ..
+            } => {
+                let outline = views.outline(vertices, *away, *facing, *sets);
+                Some(*radiance * self.polygon(stds, outline, motion, roots)?)
+            }
+        }
+    }
+
+    /// Whether the band can meet a cap whose axis has the component `along` on the tangent.
+    fn may_meet(&self, stds: &BandStds, along: f64, cap: &Cap, motion: BandMotion) -> bool {
+        let middle = self.wo.x + motion.shift + along * cap.cos_radius;
+        // Around the pole of the tangent a cap reaches further.
+        along.abs() >= cap.cos_radius
+            || motion.reaches(middle - cap.sin_radius, middle + cap.sin_radius, stds.mean)
+    }
+
+    /// The antiderivative over q of what the groove sends for light from a part of a line.
+    fn spectrum(&self, line: BandLine, (low, high): (f64, f64)) -> impl Fn(f64) -> [f64; 3] + 'a {
+        let width_um = self.width_um();
+        let row = self.row(chord_cos(line, low, high, width_um));
+        move |q| row.at(width_um * q)
+    }
+
+    /// By a sphere of radiance 1.
+    fn sphere(&self, stds: &BandStds, cap: Cap, motion: BandMotion) -> Option<DVec3> {
+        let cap = cap.turned(self.frame);
+        let wo = self.wo + motion.shift * DVec3::X;
+        let (lowest, highest) = sphere_band_extent(wo, cap);
+        if !motion.reaches(lowest, highest, stds.mean) {
+            return None;
+        }
+        let lines = band_lines(wo.x, lowest, highest, motion.band(*stds).stds);
+        Some(lines.integral(wo, |line| {
+            let chord = sphere_chord(line, cap);
+            chord.integral(line, self.spectrum(line, chord.range(line)))
+        }))
+    }
+
+    /// By a polygon of radiance 1.
+    fn polygon(
+        &self,
+        stds: &BandStds,
+        outline: Outline,
+        motion: BandMotion,
+        [middle_roots, roots]: &mut [OutlineRoots; 2],
+    ) -> Option<DVec3> {
+        let wo = self.wo + motion.shift * DVec3::X;
+        // Large lights cover the whole band, and their corners tell so.
+        let (low, high) = outline.corner_extent(self.frame);
+        let std = motion.widened(stds.mean);
+        if band_is_whole(wo.x, wo.x + low, wo.x + high, std) {
+            let line = BandLine::new(wo, 0.0);
+            let spectrum = self.outline_spectrum(outline, line, roots);
+            return Some(roots.integral(spectrum).into());
+        }
+        let (lowest, highest) = outline.band_extent(self.frame, wo.x);
+        if !motion.reaches(lowest, highest, stds.mean) {
+            return None;
+        }
+        let lines = band_lines(wo.x, lowest, highest, motion.band(*stds).stds);
+        // One cosine for all lines, that of the middle one.
+        let middle = lines.middle_line(wo);
+        let spectrum = self.outline_spectrum(outline, middle, middle_roots);
+        Some(lines.integral(wo, |line| {
+            if line == middle {
+                middle_roots.integral(&spectrum)
+            } else {
+                outline.roots(self.frame, line, roots);
+                roots.integral(&spectrum)
+            }
+        }))
+    }
+
+    /// The roots of a polygon on a line, and the antiderivative for light from there.
+    fn outline_spectrum(
+        &self,
+        outline: Outline,
+        line: BandLine,
+        roots: &mut OutlineRoots,
+    ) -> impl Fn(f64) -> [f64; 3] + 'a {
+        outline.roots(self.frame, line, roots);
+        self.spectrum(line, roots.range)
+    }
+
+    /// By the environment, along the band's middle line, cell by cell.
+    #[inline(always)]
+    pub fn environment(&self, point: &SurfacePoint, environment: &Environment) -> DVec3 {
+        let cells = environment_cells(BandLine::new(self.wo, 0.0), self.width_um());
+        let towards = cells.map(|cell| {
+            let direction = self.frame.surface_from_band(cell.direction);
+            point.world_from_surface(direction)
+        });
+        let roughness = cells.map(|cell| cell.environment_cell_roughness());
+        let blurred = environment.prefiltered_all(towards, roughness);
+        let mut sum = DVec3::ZERO;
+        for (cell, blurred) in cells.iter().zip(blurred) {
+            let row = self.row(cell.direction.z);
+            let at = |q: f64| DVec3::from(row.at(self.width_um() * q));
+            sum += (at(cell.q_high) - at(cell.q_low)) * blurred;
+        }
+        sum
+    }
+}

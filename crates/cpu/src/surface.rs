@@ -1,0 +1,332 @@
+//! Stage 2, surface: what lies under a sample: position, frame, footprint, material with its textures. Twin: surface.wgsl.
+
+use glam::{DVec2, DVec3};
+use hairline_index::Hit;
+use hairline_optics::fresnel::FresnelRgb;
+use hairline_scene::{Mesh, Scene, ScratchTables, Texture};
+
+/// A shading point. Its local frame has z along the shading normal and the viewer in the x-z plane.
+#[derive(Clone, Copy, Debug)]
+pub struct SurfacePoint<'a> {
+    /// World space.
+    pub position_m: DVec3,
+    /// Axes of the local frame in world space; `normal` is on the viewer's side.
+    pub axis_x: DVec3,
+    /// Completes the frame.
+    pub axis_y: DVec3,
+    /// Shading normal.
+    pub normal: DVec3,
+    /// Unit normal of the triangle, on the viewer's side.
+    pub facet: DVec3,
+    /// Unit direction to the viewer in the local frame.
+    pub wo: DVec3,
+    /// Distance to the viewer.
+    pub distance_m: f64,
+    /// How the point moves by one standard deviation of the pixel's filter to the right and down, world space.
+    pub footprint_axes_m: [DVec3; 2],
+    /// How the smooth normal, on the viewer's side, turns over each of them, in the local frame.
+    pub normal_turns: [DVec3; 2],
+    /// Specular reflectance.
+    pub fresnel: FresnelRgb<'a>,
+    /// Albedo of the diffuse body.
+    pub diffuse: DVec3,
+    /// Of the surface between the scratches.
+    pub roughness: f64,
+    /// How far a normal map's slopes spread about the one that is looked up, in each direction.
+    pub slope_std: f64,
+    /// Emitted radiance.
+    pub emission: DVec3,
+    /// Index into the scene's materials.
+    pub material: usize,
+    /// Standard deviation of the coherence window.
+    pub coherence_um: f64,
+    /// Which scratch table.
+    pub table: usize,
+}
+
+impl SurfacePoint<'_> {
+    /// A direction in the local frame.
+    pub fn surface_from_world(&self, v: DVec3) -> DVec3 {
+        DVec3::new(v.dot(self.axis_x), v.dot(self.axis_y), v.dot(self.normal))
+    }
+
+    /// A direction in world space.
+    pub fn world_from_surface(&self, v: DVec3) -> DVec3 {
+        self.axis_x * v.x + self.axis_y * v.y + self.normal * v.z
+    }
+
+    /// Variance of the slopes that a pixel sees, in the plane of view and normal and across it.
+    pub fn slope_variance(&self) -> DVec2 {
+        let [x, y] = self.normal_turns.map(|turn| turn.truncate());
+        x * x + y * y + self.slope_std * self.slope_std
+    }
+
+    /// The point alone, for scratches that are not averaged over the pixel.
+    pub fn without_footprint(self) -> Self {
+        Self {
+            footprint_axes_m: [DVec3::ZERO; 2],
+            normal_turns: [DVec3::ZERO; 2],
+            ..self
+        }
+    }
+}
+
+/// The least cosine between the viewer and a shading normal; interpolated and mapped normals that turn further away are
+/// bent back.
+pub(crate) const MIN_VIEW_COS: f64 = 0.01;
+
+/// The surface at a hit, seen from the unit direction `to_viewer`. `footprint` gives, for a plane of a given unit normal
+/// through the hit, how the hit moves by one standard deviation of the pixel's filter to the right and down, metres.
+pub fn surface_point<'a>(
+    scene: &Scene,
+    tables: &'a ScratchTables,
+    position_m: DVec3,
+    to_viewer: DVec3,
+    footprint: impl Fn(DVec3) -> [DVec3; 2],
+    hit: &Hit,
+) -> SurfacePoint<'a> {
+    let mesh = &scene.objects[hit.object as usize].mesh;
+    let triangle = mesh.triangles[hit.triangle as usize];
+    let [u, v] = hit.barycentric;
+    let weights = [1.0 - u - v, u, v];
+    let corners = triangle.map(|i| mesh.positions_m[i as usize].as_dvec3());
+    let geometric = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+    // Either side of a sheet is a surface of its own.
+    let side = if geometric.dot(to_viewer) < 0.0 {
+        -1.0
+    } else {
+        1.0
+    };
+    let normals = triangle.map(|i| mesh.normals[i as usize].as_dvec3());
+    let interpolated = interpolate(weights, normals);
+    let smooth = interpolated
+        .try_normalize()
+        .unwrap_or_else(|| geometric.normalize());
+
+    let material_index = mesh.triangle_materials[hit.triangle as usize] as usize;
+    let material = &scene.materials[material_index];
+    let optics = &tables.materials[material_index];
+    let axes = footprint(side * smooth);
+    let looked_up = |index: Option<usize>, sample: Sampler| {
+        index.map(|i| {
+            let uv = triangle_uv(mesh, triangle, weights);
+            let texel_scale = texture_footprint(mesh, triangle, &corners, axes);
+            sample_texture(&scene.textures[i], uv, texel_scale, sample)
+        })
+    };
+    let texture = |index: Option<usize>| looked_up(index, sample_level);
+
+    let mut normal = smooth;
+    let mut slope_std = 0.0;
+    if let Some((index, scale)) = material.normal_texture
+        && let Some(texel) = looked_up(Some(index), sample_normals)
+    {
+        let tangents = triangle.map(|i| mesh.tangents[i as usize].as_dvec4());
+        let tangent = interpolate(weights, tangents.map(|t| t.truncate()));
+        let tangent =
+            (tangent - smooth * smooth.dot(tangent)).normalize_or(smooth.any_orthonormal_vector());
+        let bitangent = smooth.cross(tangent) * tangents[0].w;
+        let n = texel.truncate() * 2.0 - DVec3::ONE;
+        normal = (tangent * (n.x * scale) + bitangent * (n.y * scale) + smooth * n.z)
+            .normalize_or(smooth);
+        // A point has one normal.
+        if axes != [DVec3::ZERO; 2] {
+            slope_std = texel.w * scale;
+        }
+    }
+    let smooth = side * smooth;
+    let normal = face_viewer(side * normal, to_viewer);
+    // The viewer in the x-z plane; any x will do where they look along the normal.
+    let tangential = to_viewer - normal * normal.dot(to_viewer);
+    let axis_x = tangential
+        .try_normalize()
+        .unwrap_or_else(|| normal.any_orthonormal_vector());
+    let axis_y = normal.cross(axis_x);
+
+    let mut base_color = DVec3::from(optics.base_color);
+    let mut metallic = optics.metallic;
+    let mut roughness = material.roughness;
+    if let Some(texel) = texture(material.base_color_texture) {
+        base_color *= texel.truncate();
+    }
+    if let Some(texel) = texture(material.metallic_roughness_texture) {
+        roughness *= texel.y;
+        metallic *= texel.z;
+    }
+    let emission = texture(material.emission_texture).map_or(DVec3::ONE, |t| t.truncate());
+    // Most triangles of what is flat have one normal.
+    let is_flat = normals[0] == normals[1] && normals[0] == normals[2];
+    let normal_turns = if is_flat {
+        [DVec3::ZERO; 2]
+    } else {
+        axes.map(|axis| normal_turn(&corners, &normals, geometric, interpolated, axis))
+    };
+    let f0 = DVec3::splat(optics.dielectric_f0).lerp(base_color, metallic);
+    let cos = normal.dot(to_viewer);
+    SurfacePoint {
+        position_m,
+        axis_x,
+        axis_y,
+        normal,
+        facet: side * geometric.normalize_or(normal),
+        wo: DVec3::new((1.0 - cos * cos).max(0.0).sqrt(), 0.0, cos),
+        distance_m: hit.distance_m,
+        footprint_axes_m: if normal == smooth {
+            axes
+        } else {
+            footprint(normal)
+        },
+        normal_turns: normal_turns
+            .map(|turn| side * DVec3::new(turn.dot(axis_x), turn.dot(axis_y), 0.0)),
+        fresnel: FresnelRgb {
+            f0: f0.to_array(),
+            curve: &tables.curves[optics.curve as usize],
+        },
+        diffuse: base_color * (1.0 - metallic),
+        roughness,
+        slope_std,
+        emission: emission * DVec3::from(material.emission),
+        material: material_index,
+        coherence_um: material.coherence_um,
+        table: optics.table as usize,
+    }
+}
+
+/// How the interpolated normal of a triangle turns along a step on its plane. `geometric` is the cross product of the first
+/// two edges, `interpolated` the normal before it was made a unit vector.
+fn normal_turn(
+    corners: &[DVec3; 3],
+    normals: &[DVec3; 3],
+    geometric: DVec3,
+    interpolated: DVec3,
+    step: DVec3,
+) -> DVec3 {
+    let (e1, e2) = (corners[1] - corners[0], corners[2] - corners[0]);
+    let area2 = geometric.length_squared();
+    // Barycentric coordinates of the step.
+    let u = step.cross(e2).dot(geometric) / area2;
+    let v = e1.cross(step).dot(geometric) / area2;
+    let change = (normals[1] - normals[0]) * u + (normals[2] - normals[0]) * v;
+    let length2 = interpolated.length_squared();
+    if length2 < 1e-12 {
+        return DVec3::ZERO;
+    }
+    (change - interpolated * (change.dot(interpolated) / length2)) / length2.sqrt()
+}
+
+/// Bends a normal that the viewer cannot see until its cosine is [`MIN_VIEW_COS`].
+fn face_viewer(normal: DVec3, to_viewer: DVec3) -> DVec3 {
+    let cos = normal.dot(to_viewer);
+    if cos >= MIN_VIEW_COS {
+        return normal;
+    }
+    let tangential = (normal - to_viewer * cos).normalize_or(to_viewer.any_orthonormal_vector());
+    to_viewer * MIN_VIEW_COS + tangential * (1.0 - MIN_VIEW_COS * MIN_VIEW_COS).sqrt()
+}
+
+fn interpolate(weights: [f64; 3], corners: [DVec3; 3]) -> DVec3 {
+    corners[0] * weights[0] + corners[1] * weights[1] + corners[2] * weights[2]
+}
+
+fn triangle_uv(mesh: &Mesh, triangle: [u32; 3], weights: [f64; 3]) -> DVec2 {
+    let [a, b, c] = triangle.map(|i| mesh.uvs[i as usize].as_dvec2());
+    a * weights[0] + b * weights[1] + c * weights[2]
+}
+
+/// Area of the footprint in texture space (u times v), one standard deviation wide, as the side of a square.
+fn texture_footprint(
+    mesh: &Mesh,
+    triangle: [u32; 3],
+    corners: &[DVec3; 3],
+    axes: [DVec3; 2],
+) -> f64 {
+    let [a, b, c] = triangle.map(|i| mesh.uvs[i as usize].as_dvec2());
+    let uv_area = (b - a).perp_dot(c - a).abs();
+    let area = (corners[1] - corners[0])
+        .cross(corners[2] - corners[0])
+        .length();
+    (uv_area / area * axes[0].cross(axes[1]).length()).sqrt()
+}
+
+/// Trilinear look-up, repeating, in linear values. `footprint` is the side of the filter in texture space.
+fn sample_texture(texture: &Texture, uv: DVec2, footprint: f64, sample: Sampler) -> glam::DVec4 {
+    let texels = footprint * (texture.size_px[0] as f64 * texture.size_px[1] as f64).sqrt();
+    // A Gaussian of one texel's width is what bilinear look-up amounts to: level 0 serves down to there.
+    let last = (texture.levels.len() - 1) as f64;
+    let lod = if texels > 0.0 {
+        (2.0 * texels).log2().clamp(0.0, last)
+    } else {
+        0.0
+    };
+    let (low, share) = (lod.floor(), lod.fract());
+    let near = sample(texture, low as usize, uv, texels);
+    if share == 0.0 {
+        near
+    } else {
+        near.lerp(sample(texture, low as usize + 1, uv, texels), share)
+    }
+}
+
+/// Bilinear look-up in a level, by a filter of so many texels of the first.
+type Sampler = fn(&Texture, usize, DVec2, f64) -> glam::DVec4;
+
+fn sample_level(texture: &Texture, level: usize, uv: DVec2, _: f64) -> glam::DVec4 {
+    let (texels, t) = four_texels(texture, level, uv);
+    blend(texels, t)
+}
+
+/// Of a normal map, where w is how far slopes spread: beyond the texels' own also over what the pixel sees of the map.
+fn sample_normals(texture: &Texture, level: usize, uv: DVec2, texels_std: f64) -> glam::DVec4 {
+    let (texels, t) = four_texels(texture, level, uv);
+    let mut mean = blend(texels, t);
+    let right = (texels[1] - texels[0]).lerp(texels[3] - texels[2], t[1]);
+    let down = (texels[2] - texels[0]).lerp(texels[3] - texels[1], t[0]);
+    let steps2 = [right, down].map(|step| 4.0 * step.truncate().truncate().length_squared());
+    // Variance of the filter in texels, less that of a texel of a level that has averaged others.
+    let variance = texels_std * texels_std / 4f64.powi(level as i32);
+    let seen = (variance - if level > 0 { 1.0 / 12.0 } else { 0.0 }).max(0.0);
+    let up = (mean.z * 2.0 - 1.0).max(0.1);
+    mean.w = (mean.w * mean.w + 0.5 * seen * (steps2[0] + steps2[1]) / (up * up)).sqrt();
+    mean
+}
+
+fn blend(texels: [glam::DVec4; 4], [x, y]: [f64; 2]) -> glam::DVec4 {
+    texels[0]
+        .lerp(texels[1], x)
+        .lerp(texels[2].lerp(texels[3], x), y)
+}
+
+/// The texels about a place, row by row, and how far it is from the first.
+fn four_texels(texture: &Texture, level: usize, uv: DVec2) -> ([glam::DVec4; 4], [f64; 2]) {
+    let [width, height] = texture.size_px.map(|n| (n >> level).max(1) as i64);
+    let at = uv * DVec2::new(width as f64, height as f64) - 0.5;
+    let corner = at.floor();
+    let t = at - corner;
+    let texel = |dx: i64, dy: i64| {
+        let x = (corner.x as i64 + dx).rem_euclid(width);
+        let y = (corner.y as i64 + dy).rem_euclid(height);
+        decode(
+            texture.levels[level][(y * width + x) as usize],
+            texture.srgb,
+        )
+    };
+    let texels = [texel(0, 0), texel(1, 0), texel(0, 1), texel(1, 1)];
+    (texels, t.to_array())
+}
+
+fn decode(texel: [u8; 4], srgb: bool) -> glam::DVec4 {
+    let linear = texel.map(|c| c as f64 / 255.0);
+    let color = |c: f64| {
+        if srgb {
+            hairline_image::tone_map::linear_from_srgb(c as f32) as f64
+        } else {
+            c
+        }
+    };
+    glam::DVec4::new(
+        color(linear[0]),
+        color(linear[1]),
+        color(linear[2]),
+        linear[3],
+    )
+}

@@ -1,0 +1,383 @@
+//! A tile of the picture: the stages from the surface to the film, for batches of its points.
+
+use crate::bin::{TILE_PX, TileLists};
+use crate::camera_beam::CameraBeam;
+use crate::counts::Counts;
+use crate::light_view::LightViews;
+use crate::options::RenderOptions;
+use crate::prepared::Prepared;
+use crate::published::Published;
+use crate::resolve::{Pixel, Sample};
+use crate::shade_base::base_radiance;
+use crate::shade_scratches::{BATCH, ScratchPoint, ScratchShader};
+use crate::silhouettes::is_smooth;
+use crate::surface::{SurfacePoint, surface_point};
+use crate::visibility::{Visibility, center};
+use glam::{DVec2, DVec3};
+use hairline_image::Image;
+use hairline_index::Hit;
+use hairline_optics::ltc::ltc_sphere;
+use hairline_optics::mask::ScratchSums;
+use hairline_scene::CameraFrame;
+use hairline_scene::camera::pixel_jitter;
+use rayon::prelude::*;
+use std::ops::Range;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+
+/// Pixels to a side.
+const SIDE: usize = TILE_PX as usize;
+
+/// A picture that is being rendered: what all of its tiles share.
+pub(crate) struct Picture<'a> {
+    pub prepared: &'a Prepared<'a>,
+    pub camera: CameraFrame,
+    pub options: RenderOptions,
+    pub rows: Range<usize>,
+    /// Pixels that one sample is enough for are left as they are.
+    pub only_edges: bool,
+    pub visibility: Visibility,
+    pub by: By<'a>,
+}
+
+/// By which method.
+pub(crate) enum By<'a> {
+    /// Hairline's own.
+    Tiles(TileLists),
+    /// That of 2018, a pixel for itself.
+    Published(Published<'a>),
+}
+
+/// One sample of a pixel.
+struct Point<'a> {
+    /// Of the tile.
+    pixel: usize,
+    at_px: DVec2,
+    seen: Seen<'a>,
+}
+
+/// What the ray of a sample meets.
+#[expect(
+    clippy::large_enum_variant,
+    reason = "there are few at a time, and most are surfaces"
+)]
+pub(crate) enum Seen<'a> {
+    /// Nothing: radiance of the environment.
+    Background(DVec3),
+    Surface {
+        hit: Hit,
+        point: SurfacePoint<'a>,
+        /// Along the view axis.
+        depth_m: f64,
+    },
+}
+
+/// The room that a thread needs for a tile, filled anew for each.
+pub(crate) struct Tile<'a> {
+    picture: &'a Picture<'a>,
+    rays: CameraBeam,
+    batch: Vec<Point<'a>>,
+    /// The lights from each point of the batch.
+    views: Vec<LightViews<'a>>,
+    sums: Vec<ScratchSums>,
+    shader: ScratchShader,
+    pixels: [Pixel; SIDE * SIDE],
+    pub counts: Counts,
+}
+
+impl<'a> Tile<'a> {
+    pub fn new(picture: &'a Picture<'a>) -> Self {
+        Self {
+            picture,
+            rays: CameraBeam::default(),
+            batch: Vec::with_capacity(BATCH),
+            views: (0..BATCH)
+                .map(|_| LightViews::new(picture.prepared.scene))
+                .collect(),
+            sums: vec![ScratchSums::default(); BATCH],
+            shader: ScratchShader::new(),
+            pixels: [Pixel::default(); SIDE * SIDE],
+            counts: Counts::default(),
+        }
+    }
+
+    /// Renders the part of a tile that lies within the picture's rows; there is nothing of other pixels. Row by row.
+    pub fn render(&mut self, column: usize, row: usize) -> [Option<Sample>; SIDE * SIDE] {
+        let picture = self.picture;
+        self.pixels = [Pixel::default(); SIDE * SIDE];
+        let (x0, y0) = (column * SIDE, row * SIDE);
+        let width = picture.camera.size_px.x as usize;
+        // Blocks of four by two pixels: a segment then misses more of the groups of points than it would of rows.
+        for i in 0..SIDE * SIDE {
+            let (block, within) = (i / 8, i % 8);
+            let (x, y) = (block % 2 * 4 + within % 4, block / 2 * 2 + within / 4);
+            let pixel = y * SIDE + x;
+            let (x, y) = (x0 + x, y0 + y);
+            if x >= width || !picture.rows.contains(&y) {
+                continue;
+            }
+            self.add_pixel(column, row, pixel, [x, y]);
+        }
+        self.shade(column, row);
+        self.pixels.map(|pixel| pixel.resolve())
+    }
+
+    /// Renders one pixel of the picture's rows.
+    pub fn render_pixel(&mut self, x: usize, y: usize) -> Sample {
+        self.pixels = [Pixel::default(); SIDE * SIDE];
+        let pixel = y % SIDE * SIDE + x % SIDE;
+        let (column, row) = (x / SIDE, y / SIDE);
+        self.add_pixel(column, row, pixel, [x, y]);
+        self.shade(column, row);
+        self.pixels[pixel].resolve().unwrap_or_default()
+    }
+
+    /// Adds all samples of a pixel: one through its centre, or several where it has an edge.
+    fn add_pixel(&mut self, column: usize, row: usize, pixel: usize, [x, y]: [usize; 2]) {
+        let picture = self.picture;
+        let samples = picture.options.samples.max(1);
+        if samples == 1 || is_smooth(&picture.visibility, &picture.camera, x, y) {
+            if picture.only_edges {
+                return;
+            }
+            let hit = picture.visibility.hit(x, y).copied();
+            self.add(column, row, pixel, center(x, y), 1, hit);
+            return;
+        }
+        for sample in 0..samples {
+            let at_px = center(x, y) + pixel_jitter(sample, samples);
+            let camera = &picture.camera;
+            let direction = camera.camera_ray(at_px).normalize();
+            let triangles = &picture.prepared.triangles;
+            let hit = self.rays.intersect(triangles, camera, at_px, direction);
+            self.add(column, row, pixel, at_px, samples, hit);
+        }
+    }
+
+    /// Adds one of `samples` samples of a pixel, given what its ray meets.
+    fn add(
+        &mut self,
+        column: usize,
+        row: usize,
+        pixel: usize,
+        at_px: DVec2,
+        samples: u32,
+        hit: Option<Hit>,
+    ) {
+        if self.batch.len() == BATCH {
+            self.shade(column, row);
+        }
+        let seen = self.picture.surface(at_px, samples, hit);
+        self.batch.push(Point { pixel, at_px, seen });
+    }
+
+    /// Shades the batch, and empties it.
+    fn shade(&mut self, column: usize, row: usize) {
+        let prepared = self.picture.prepared;
+        let is_tiled = matches!(self.picture.by, By::Tiles(_));
+        for (point, views) in self.batch.iter().zip(&mut self.views) {
+            if let Seen::Surface { point, hit, .. } = &point.seen {
+                views.look_from(point);
+                if is_tiled && prepared.is_scratched(hit) {
+                    views.ready_for_scratches(point);
+                }
+            }
+        }
+        self.sums.fill(ScratchSums::default());
+        if let By::Tiles(lists) = &self.picture.by {
+            let points: Vec<ScratchPoint> = self
+                .batch
+                .iter()
+                .zip(&self.views)
+                .enumerate()
+                .filter_map(|(index, (point, views))| match &point.seen {
+                    Seen::Surface { point: at, hit, .. } if prepared.is_scratched(hit) => {
+                        Some(ScratchPoint {
+                            point: at,
+                            object: hit.object,
+                            at_px: point.at_px,
+                            views,
+                            index,
+                        })
+                    }
+                    _ => None,
+                })
+                .collect();
+            if !points.is_empty() {
+                self.shader.shade(
+                    prepared,
+                    &points,
+                    lists.tile(column, row),
+                    &mut self.sums,
+                    &mut self.counts,
+                );
+            }
+        }
+        let environment = prepared.scene.environment.as_ref();
+        let mask = self.picture.options.method.mask;
+        for ((point, views), sums) in self.batch.iter().zip(&self.views).zip(&self.sums) {
+            let sample = match &point.seen {
+                Seen::Background(radiance) => Sample::background(*radiance),
+                Seen::Surface {
+                    hit,
+                    point,
+                    depth_m,
+                } => {
+                    let (masked, light) = match &self.picture.by {
+                        By::Tiles(_) => (
+                            sums.resolve(mask, prepared.depth_coherence(hit.object)),
+                            base_radiance(environment, point, views, ltc_sphere),
+                        ),
+                        By::Published(published) => (
+                            published.scratches(point, hit, views),
+                            base_radiance(environment, point, views, published.base_sphere(point)),
+                        ),
+                    };
+                    Sample::surface(point, &masked, &light, *depth_m)
+                }
+            };
+            self.pixels[point.pixel].add(&sample);
+        }
+        self.batch.clear();
+    }
+}
+
+impl<'a> Picture<'a> {
+    /// Fills the layers of an image that is as high as there are rows. None if it was cancelled.
+    pub fn render(
+        &'a self,
+        image: &mut Image,
+        progress: &(dyn Fn(f64) + Sync),
+        cancelled: &(dyn Fn() -> bool + Sync),
+    ) -> Option<Counts> {
+        let width = image.size_px[0] as usize;
+        let tile_rows: Vec<usize> =
+            (self.rows.start / SIDE..self.rows.end.div_ceil(SIDE)).collect();
+        // Rows of the image that lie in each row of tiles.
+        let heights: Vec<usize> = tile_rows
+            .iter()
+            .map(|row| self.rows.end.min((row + 1) * SIDE) - self.rows.start.max(row * SIDE))
+            .collect();
+        let mut layers = Layers::of(image);
+        let parts: Vec<(usize, Layers)> = tile_rows
+            .into_iter()
+            .zip(heights)
+            .map(|(row, height)| (row, layers.split_off_first(height * width)))
+            .collect();
+        let (done, all) = (AtomicUsize::new(0), parts.len());
+        let is_cancelled = AtomicBool::new(false);
+        // What a tile needs is dear to allocate, and threads take other tiles than they began with.
+        let rooms: Mutex<Vec<Tile>> = Mutex::default();
+        parts.into_par_iter().for_each(|(row, mut layers)| {
+            let first = self.rows.start.max(row * SIDE) - row * SIDE;
+            let tiles: Vec<_> = (0..width.div_ceil(SIDE))
+                .into_par_iter()
+                .map(|column| {
+                    if is_cancelled.load(Ordering::Relaxed) || cancelled() {
+                        is_cancelled.store(true, Ordering::Relaxed);
+                        return [None; SIDE * SIDE];
+                    }
+                    let mut tile = take(&rooms).unwrap_or_else(|| Tile::new(self));
+                    let samples = tile.render(column, row);
+                    put_back(&rooms, tile);
+                    samples
+                })
+                .collect();
+            for i in 0..layers.depth_m.len() {
+                let (x, y) = (i % width, first + i / width);
+                if let Some(sample) = &tiles[x / SIDE][y * SIDE + x % SIDE] {
+                    layers.set(i, sample);
+                }
+            }
+            let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+            progress(done as f64 / all as f64);
+        });
+        if is_cancelled.into_inner() {
+            return None;
+        }
+        let rooms = rooms.into_inner().unwrap_or_default();
+        let counts = rooms.iter().map(|tile| tile.counts);
+        Some(counts.fold(Counts::default(), |a, b| a + b))
+    }
+
+    /// The surface under one of `samples` samples of a pixel.
+    pub(crate) fn surface(&self, at_px: DVec2, samples: u32, hit: Option<Hit>) -> Seen<'_> {
+        let Prepared { scene, tables, .. } = self.prepared;
+        let ray = self.camera.camera_ray(at_px);
+        let direction = ray.normalize();
+        let Some(hit) = hit else {
+            return Seen::Background(match &scene.environment {
+                Some(environment) if environment.visible() => environment.radiance(direction),
+                _ => DVec3::ZERO,
+            });
+        };
+        let std_px = scene.render.footprint_std_px(samples);
+        let depth_m = hit.distance_m / ray.length();
+        let footprint = |normal| {
+            let axes = self.camera.footprint_axes(ray, depth_m, normal);
+            axes.map(|axis| axis * std_px)
+        };
+        let position_m = self.camera.position_m + ray * depth_m;
+        let point = surface_point(scene, tables, position_m, -direction, footprint, &hit);
+        Seen::Surface {
+            hit,
+            point,
+            depth_m,
+        }
+    }
+}
+
+fn take<T>(rooms: &Mutex<Vec<T>>) -> Option<T> {
+    rooms.lock().ok()?.pop()
+}
+
+fn put_back<T>(rooms: &Mutex<Vec<T>>, room: T) {
+    if let Ok(mut rooms) = rooms.lock() {
+        rooms.push(room);
+    }
+}
+
+/// Some rows of an image's layers.
+struct Layers<'i> {
+    base: &'i mut [[f32; 3]],
+    scratches: &'i mut [[f32; 3]],
+    density: &'i mut [[f32; 3]],
+    depth_m: &'i mut [f32],
+    normal: &'i mut [[f32; 3]],
+}
+
+impl<'i> Layers<'i> {
+    fn of(image: &'i mut Image) -> Self {
+        Self {
+            base: &mut image.base,
+            scratches: &mut image.scratches,
+            density: &mut image.density,
+            depth_m: &mut image.depth_m,
+            normal: &mut image.normal,
+        }
+    }
+
+    /// Takes the first pixels away from it.
+    fn split_off_first(&mut self, pixels: usize) -> Self {
+        fn split<'i, T>(layer: &mut &'i mut [T], pixels: usize) -> &'i mut [T] {
+            let (first, rest) = std::mem::take(layer).split_at_mut(pixels);
+            *layer = rest;
+            first
+        }
+        Self {
+            base: split(&mut self.base, pixels),
+            scratches: split(&mut self.scratches, pixels),
+            density: split(&mut self.density, pixels),
+            depth_m: split(&mut self.depth_m, pixels),
+            normal: split(&mut self.normal, pixels),
+        }
+    }
+
+    fn set(&mut self, pixel: usize, sample: &Sample) {
+        self.base[pixel] = sample.base.as_vec3().to_array();
+        self.scratches[pixel] = sample.scratches.as_vec3().to_array();
+        self.density[pixel] = sample.density.as_vec3().to_array();
+        self.depth_m[pixel] = sample.depth_m as f32;
+        self.normal[pixel] = sample.normal.as_vec3().to_array();
+    }
+}

@@ -1,0 +1,131 @@
+// Pass: base and scratches of a pixel, weakened by one another, on the film. One invocation a pixel. The first step takes every pixel, and
+// marks those that have an edge or a crease; the second one replaces these by their samples, and later ones add more. Twin: cpu/src/resolve.rs.
+
+@group(3) @binding(0) var<storage, read> points: array<PixelPoint>;
+@group(3) @binding(1) var<storage, read> base_light: array<BaseLight>;
+@group(3) @binding(2) var<storage, read> group_starts: array<u32>;
+@group(3) @binding(3) var<storage, read> chunk_starts: array<u32>;
+@group(3) @binding(4) var<storage, read> chunk_sums: array<ChunkSum>;
+@group(3) @binding(5) var<storage, read_write> film: Film;
+
+// The reciprocal of depth is linear over the picture of a plane, so its second difference tells a crease or a step. In units of a
+// pixel's width on the surface: a fold of about 10 degrees. Twin: cpu/src/silhouettes.rs.
+const CREASE_PX: f32 = 0.2;
+
+// The object that a pixel sees, and the reciprocal of its depth; zeros for the background. Beyond the picture its border repeats.
+struct Neighbour {
+    object: u32,
+    per_depth: f32,
+}
+
+fn neighbour(pixel: vec2u, step: vec2i) -> Neighbour {
+    let at = clamp(vec2i(pixel) + step, vec2i(0), vec2i(frame.size_px) - 1);
+    let point = strip_index(vec2u(at));
+    let object = points[point].object;
+    return Neighbour(object, select(0.0, 1.0 / points[point].depth_m, object != 0u));
+}
+
+// Whether one sample through the centre is not enough.
+fn pixel_is_edge(pixel: vec2u) -> bool {
+    let middle = neighbour(pixel, vec2i(0));
+    let bend_max = CREASE_PX * middle.per_depth / frame.px_per_slope;
+    var is_edge = false;
+    for (var i = 0; i < 4; i += 1) {
+        // To the right, down, and along both diagonals.
+        let step = vec2i(i32(i != 1), i32(i != 0) * select(1, -1, i == 3));
+        let before = neighbour(pixel, -step);
+        let after = neighbour(pixel, step);
+        let bend = abs(before.per_depth + after.per_depth - 2.0 * middle.per_depth);
+        is_edge = is_edge || before.object != middle.object || after.object != middle.object || bend > bend_max;
+    }
+    return is_edge;
+}
+
+// The sums of a sample over all chunks of its group, in the order of the list.
+fn sample_sums(group: u32, lane: u32) -> ScratchSums {
+    var sums = ScratchSums(0.0, 0.0, vec3f(0.0), vec3f(0.0));
+    for (var chunk = chunk_starts[group]; chunk < chunk_starts[group + 1u]; chunk += 1u) {
+        let sum = chunk_sums[GROUP * chunk + lane];
+        if sum.share < 0.0 {
+            atomicAdd(&film.gave_up, 1u);
+        }
+        sums.share += sum.share;
+        sums.share_by_line += sum.share_by_line;
+        sums.radiance += sum.radiance;
+        sums.energy += sum.energy;
+    }
+    return sums;
+}
+
+fn masked(sums: ScratchSums, depth_coherence: f32) -> Masked {
+    if METHOD_MASK == MASK_LINEAR {
+        return Masked(sums.radiance, sums.energy);
+    }
+    if METHOD_MASK == MASK_DENSITY {
+        return Masked(sums.radiance, min(sums.energy, vec3f(1.0)));
+    }
+    return mask_resolve(sums, depth_coherence);
+}
+
+// What lane `lane` of a group adds to its pixel.
+fn sample_value(group: u32, lane: u32, at: u32) -> FilmPixel {
+    let point = points[at];
+    var value: FilmPixel;
+    if point.object == 0u {
+        value.base = scene_background(point.normal);
+        return value;
+    }
+    var scratches = Masked(vec3f(0.0), vec3f(0.0));
+    if HAS_SCRATCHES {
+        scratches = masked(sample_sums(group, lane), objects[point.object - 1u].depth_coherence);
+    }
+    // A groove interrupts the reflecting surface; what shines from under it passes.
+    let light = base_light[at];
+    value.base = light.body + light.specular * (1.0 - scratches.taken);
+    value.scratches = scratches.scratches * light.fresnel;
+    value.density = scratches.taken;
+    value.normal = point.normal;
+    value.depth_m = point.depth_m;
+    value.coverage = 1.0;
+    return value;
+}
+
+@compute @workgroup_size(8, 8)
+fn resolve(@builtin(global_invocation_id) id: vec3u) {
+    let pixel = id.xy + vec2u(0u, frame.rows.x);
+    if pixel.x >= frame.size_px.x || pixel.y >= frame.rows.y {
+        return;
+    }
+    let at = film_index(pixel);
+    let tile = pixel_tile(pixel);
+    if frame.step == 0u {
+        var value = sample_value(tile.x, tile.y, strip_index(pixel));
+        value.samples = 1u;
+        value.edge = u32(pixel_is_edge(pixel));
+        film.pixels[at] = value;
+        return;
+    }
+    let edge = film.pixels[at].edge;
+    if edge == 0u {
+        return;
+    }
+    var sum: FilmPixel;
+    if frame.step > 1u {
+        sum = film.pixels[at];
+    }
+    for (var i = 0u; i < frame.samples; i += 1u) {
+        let sample = (edge - 1u) * frame.samples + i;
+        let group = group_starts[tile.x] + sample / GROUP;
+        let lane = sample % GROUP;
+        let value = sample_value(group, lane, GROUP * group + lane);
+        sum.base += value.base;
+        sum.scratches += value.scratches;
+        sum.density += value.density;
+        sum.normal += value.normal;
+        sum.depth_m += value.depth_m;
+        sum.coverage += value.coverage;
+    }
+    sum.samples = select(0u, sum.samples, frame.step > 1u) + frame.samples;
+    sum.edge = edge;
+    film.pixels[at] = sum;
+}

@@ -1,0 +1,371 @@
+// Pass: the light and the mask of scratches. A workgroup takes a group of samples and a chunk of its tile's list, a batch of segments at
+// a time, in four stages, so that lanes which run in step do the same work. "Pixel" stands for a sample of a pixel here.
+// 1. Each lane fetches a segment; each pixel marks those that it may see, of those whose lines come near to it.
+// 2. The marks are pairs of a pixel and a segment. Each lane takes a pair, whichever pixel it is of: its share, and which lights reach it.
+// 3. Pairs that a light reaches wait in a queue. Each lane takes one and lights it: most pairs are dark to most lights.
+// 4. Each pixel adds up what is its own, in the order of the list.
+// Twin: cpu/src/shade_scratches.rs.
+
+@group(3) @binding(1) var<storage, read> points: array<PixelPoint>;
+@group(3) @binding(2) var<storage, read> entries: array<vec4u>;
+@group(3) @binding(3) var<storage, read> list_starts: array<u32>;
+@group(3) @binding(4) var<storage, read> chunk_starts: array<u32>;
+@group(3) @binding(5) var<storage, read_write> chunk_sums: array<ChunkSum>;
+@group(3) @binding(6) var<uniform> range: LightRange;
+
+// Which kind of light the pass is compiled for.
+override SCRATCH_LIGHTS: u32 = 0u;
+const SCRATCH_LIGHTS_SPHERES: u32 = 0u;
+const SCRATCH_LIGHTS_QUADS: u32 = 1u;
+const SCRATCH_LIGHTS_OUTLINES: u32 = 2u;
+const SCRATCH_LIGHTS_ENVIRONMENT: u32 = 3u;
+
+const LANES: u32 = 64u;
+// A segment shows at a point only if their normals agree at least this well.
+const FACING_MIN_COS: f32 = 0.2;
+
+// Pairs that lights reach and that are not lit yet: fewer than 64 are left over, and a round adds up to 7 lights for each lane.
+const QUEUE: u32 = 512u;
+// Twin: src/shade_scratches.rs.
+const LIGHTS_AT_ONCE: u32 = 7u;
+const_assert LANES * (LIGHTS_AT_ONCE + 1u) <= QUEUE;
+
+// Of each segment of the batch.
+var<workgroup> ends: array<Ends, LANES>;
+// For each segment of the batch the pixels near to it, the upper half of the tile and the lower one.
+var<workgroup> near_pixels: array<vec2u, LANES>;
+// For each pixel the segments near to it.
+var<workgroup> marks: array<vec2u, LANES>;
+// Inclusive prefix sums of the numbers of marks.
+var<workgroup> pair_ends: array<u32, LANES>;
+// What each lane has, four lanes to an element, and the sum of all.
+var<workgroup> lane_counts: array<vec4u, LANES / 4u>;
+var<workgroup> lanes_total: u32;
+// What each pair adds: its energy, or its radiance; share, and share by line.
+var<workgroup> results: array<vec3f, LANES>;
+var<workgroup> shares: array<vec2f, LANES>;
+// The pixel in 6 bits, the light in 3, the place of the segment in the chunk.
+var<workgroup> queue: array<u32, QUEUE>;
+var<workgroup> is_shaded: atomic<u32>;
+var<workgroup> any_is_shaded: u32;
+
+// The group that a chunk belongs to.
+fn chunk_group(chunk: u32) -> u32 {
+    var low = 0u;
+    var high = frame.group_count;
+    while high - low > 1u {
+        let middle = (low + high) / 2u;
+        if chunk_starts[middle] <= chunk {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
+}
+
+// The place of the k-th set bit.
+fn nth_bit(mark: vec2u, k: u32) -> u32 {
+    let low = countOneBits(mark.x);
+    var word = select(mark.x, mark.y, k >= low);
+    var left = select(k, k - low, k >= low);
+    var at = 0u;
+    for (var half = 16u; half > 0u; half /= 2u) {
+        let here = countOneBits(word & ((1u << half) - 1u));
+        if left >= here {
+            left -= here;
+            at += half;
+            word >>= half;
+        }
+    }
+    return at + select(0u, 32u, k >= low);
+}
+
+// The pixel that pair k belongs to.
+fn pair_pixel(k: u32) -> u32 {
+    var low = 0u;
+    var high = LANES - 1u;
+    for (var i = 0u; i < 6u; i += 1u) {
+        let middle = (low + high) / 2u;
+        if pair_ends[middle] > k {
+            high = middle;
+        } else {
+            low = min(middle + 1u, LANES - 1u);
+        }
+    }
+    return low;
+}
+
+// Of the marked segments of a batch those that a pixel may see.
+fn marks_seen(at: u32, marked: vec2u) -> vec2u {
+    let here = nearness(points[at]);
+    var seen = vec2u(0u);
+    for (var word = 0u; word < 2u; word += 1u) {
+        var left = marked[word];
+        while left != 0u {
+            let bit = firstTrailingBit(left);
+            left &= left - 1u;
+            seen[word] |= u32(is_near(here, ends[32u * word + bit])) << bit;
+        }
+    }
+    return seen;
+}
+
+// A pixel and a segment.
+struct Pair {
+    point: LitPoint,
+    seen: SeenScratch,          // without a share where the pixel does not see the segment
+    position_m: vec3f,
+    surface: mat3x3f,           // the surface's axes in world space
+}
+
+fn pair_of(pixel: PixelPoint, segment: Segment) -> Pair {
+    let axis_y = cross(pixel.normal, pixel.axis_x);
+    let a = (segment.start_m - pixel.position_m) * 1e6;
+    let b = (segment.end_m - pixel.position_m) * 1e6;
+    let point = LitPoint(
+        pixel_wo(pixel.cos_o),
+        pixel.distance_m,
+        pixel.footprint_um.xy,
+        pixel.footprint_um.zw,
+        pixel.turns.xy,
+        pixel.turns.zw,
+        pixel.coherence_um,
+        pixel_table(pixel),
+    );
+    let seen = scratch_seen(
+        point,
+        vec2f(dot(a, pixel.axis_x), dot(a, axis_y)),
+        vec2f(dot(b, pixel.axis_x), dot(b, axis_y)),
+        segment.profile,
+        segment.blur_um,
+    );
+    return Pair(point, seen, pixel.position_m, mat3x3f(pixel.axis_x, axis_y, pixel.normal));
+}
+
+// Whether a segment lies on the pixel's object, and on the side that it sees.
+fn is_there(pixel: PixelPoint, index: u32, segment: Segment) -> bool {
+    let object = objects[pixel.object - 1u];
+    return index >= object.first_segment && index < object.end_segment && dot(segment.normal, pixel.normal) >= FACING_MIN_COS;
+}
+
+// Which lights of the dispatch may reach a pair, a bit for each.
+fn lights_reaching(pair: Pair) -> u32 {
+    if SCRATCH_LIGHTS == SCRATCH_LIGHTS_ENVIRONMENT {
+        return 1u;
+    }
+    var reaching = 0u;
+    for (var l = range.first; l < range.end; l += 1u) {
+        let around = light_around(l);
+        let center_m = (around.xyz - pair.position_m) * pair.surface;
+        reaching |= u32(scratch_meets(pair.point, pair.seen, center_m, around.w)) << (l - range.first);
+    }
+    return reaching;
+}
+
+// The light of a pair, Fresnel left out.
+fn light_pair(pair: Pair, light_index: u32) -> vec3f {
+    let point = pair.point;
+    let seen = pair.seen;
+    if SCRATCH_LIGHTS == SCRATCH_LIGHTS_ENVIRONMENT {
+        let map_from_surface = frame.environment_from_world * pair.surface;
+        let radiance = scratch_environment(scratch_tables, point, seen, environment_levels, map_from_surface);
+        return frame.environment_texel_radiance * radiance;
+    }
+    let light = light_at(light_index);
+    let center_m = (light.center_m - pair.position_m) * pair.surface;
+    if SCRATCH_LIGHTS == SCRATCH_LIGHTS_SPHERES {
+        return light.radiance * scratch_sphere(scratch_tables, point, seen, center_m, light.radius_m);
+    }
+    let normal = light.normal * pair.surface;
+    let a = (light_corner_m(light.first_vertex) - pair.position_m) * pair.surface;
+    if SCRATCH_LIGHTS == SCRATCH_LIGHTS_QUADS {
+        let last = select(light.first_vertex + 3u, light.first_vertex, light.vertex_count == 3u);
+        let quad = QuadLight(
+            a,
+            (light_corner_m(light.first_vertex + 1u) - pair.position_m) * pair.surface,
+            (light_corner_m(light.first_vertex + 2u) - pair.position_m) * pair.surface,
+            (light_corner_m(last) - pair.position_m) * pair.surface,
+            light.vertex_count,
+            normal,
+            center_m,
+            light.radius_m,
+            light.two_sided != 0u,
+        );
+        return light.radiance * scratch_quad(scratch_tables, point, seen, quad);
+    }
+    let facing = polygon_facing(normal, a, light.two_sided != 0u);
+    if facing == 0.0 {
+        return vec3f(0.0);
+    }
+    let view = OutlineView(light.first_vertex, light.vertex_count, pair.position_m, pair.surface[0], pair.surface[2], seen.tangent);
+    let away = band_from_surface(seen.tangent, -facing * normal);
+    return light.radiance * scratch_outline(scratch_tables, point, seen, view, facing, away, center_m, light.radius_m);
+}
+
+// What the lanes before have, given what each has. Called in uniform control flow. With two barriers in place of twelve: each lane
+// adds up all before it. lanes_total is the sum of all then.
+fn before_lane(lane: u32, own: u32) -> u32 {
+    lane_counts[lane / 4u][lane % 4u] = own;
+    workgroupBarrier();
+    // The last element counts in part.
+    var before = select(vec4u(0u), lane_counts[lane / 4u], vec4u(0u, 1u, 2u, 3u) < vec4u(lane % 4u));
+    for (var i = 0u; i < lane / 4u; i += 1u) {
+        before += lane_counts[i];
+    }
+    let sum = before.x + before.y + before.z + before.w;
+    if lane == LANES - 1u {
+        lanes_total = sum + own;
+    }
+    return sum;
+}
+
+// Where a chunk lies.
+struct Chunk {
+    group: u32,
+    first_entry: u32,
+    end_entry: u32,
+}
+
+fn chunk_at(chunk: u32) -> Chunk {
+    let group = chunk_group(chunk);
+    let tile = group_tile(group);
+    let first = list_starts[tile] + (chunk - chunk_starts[group]) * CHUNK_SEGMENTS;
+    return Chunk(
+        group,
+        first,
+        min(first + CHUNK_SEGMENTS, list_starts[tile + 1u]),
+    );
+}
+
+@compute @workgroup_size(8, 8)
+fn shade_scratches(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let chunk_index = workgroup.y * workgroups.x + workgroup.x;
+    if chunk_index >= chunk_starts[frame.group_count] {
+        return;
+    }
+    let chunk = chunk_at(chunk_index);
+    let own_point = group_point(chunk.group, lane);
+    let has_surface = group_has(chunk.group, lane) && points[own_point].object != 0u;
+    let place = pixel_place(points[own_point]);
+    if has_surface {
+        atomicStore(&is_shaded, 1u);
+    }
+    workgroupBarrier();
+    if lane == 0u {
+        any_is_shaded = atomicLoad(&is_shaded);
+    }
+    // Nobody reads the sums of a tile that shows nothing.
+    if workgroupUniformLoad(&any_is_shaded) == 0u {
+        return;
+    }
+    var sum = ChunkSum(vec3f(0.0), 0.0, vec3f(0.0), 0.0);
+    // Pairs that were queued, and those that have been lit.
+    var queued = 0u;
+    var lit = 0u;
+    for (var first = chunk.first_entry; first < chunk.end_entry; first += LANES) {
+        let count = min(LANES, chunk.end_entry - first);
+        if lane < count {
+            let entry = entries[first + lane];
+            near_pixels[lane] = entry.zw;
+            let segment = segment_from(scratch_segment(entry.y));
+            let start = segment.start_m - frame.camera_m;
+            let end = segment.end_m - frame.camera_m;
+            ends[lane] = Ends(array(start.x, start.y, start.z), array(end.x, end.y, end.z), segment.blur_um);
+        }
+        workgroupBarrier();
+        var mark = vec2u(0u);
+        if has_surface {
+            let half = place / 32u;
+            let bit = place % 32u;
+            for (var i = 0u; i < min(count, 32u); i += 1u) {
+                mark.x |= ((near_pixels[i][half] >> bit) & 1u) << i;
+            }
+            for (var i = 32u; i < count; i += 1u) {
+                mark.y |= ((near_pixels[i][half] >> bit) & 1u) << (i - 32u);
+            }
+            mark = marks_seen(own_point, mark);
+        }
+        marks[lane] = mark;
+        let own = countOneBits(mark.x) + countOneBits(mark.y);
+        let end = before_lane(lane, own) + own;
+        pair_ends[lane] = end;
+        let total = workgroupUniformLoad(&lanes_total);
+        let is_last = first + LANES >= chunk.end_entry;
+        // Pairs of the batch that have been asked for. A round asks for as many as there are lanes, or lights as many as wait.
+        var asked = 0u;
+        loop {
+            let waiting = min(queued - lit, LANES);
+            let lights_now = waiting == LANES || (asked >= total && is_last && waiting > 0u);
+            if asked >= total && !lights_now {
+                break;
+            }
+            let has_pair = lane < select(total - min(asked, total), waiting, lights_now);
+            var reaching = 0u;
+            var item = 0u;
+            if has_pair {
+                if lights_now {
+                    item = queue[(lit + lane) % QUEUE];
+                } else {
+                    let k = asked + lane;
+                    let owner = pair_pixel(k);
+                    let before = select(0u, pair_ends[max(owner, 1u) - 1u], owner > 0u);
+                    item = owner | ((first - chunk.first_entry + nth_bit(marks[owner], k - before)) << 9u);
+                }
+                let index = entries[chunk.first_entry + (item >> 9u)].y;
+                let pixel = points[group_point(chunk.group, item & 63u)];
+                let segment = segment_from(scratch_segment(index));
+                let pair = pair_of(pixel, segment);
+                let share = pair.seen.share;
+                if lights_now {
+                    results[lane] = share.segment * light_pair(pair, range.first + ((item >> 6u) & 7u));
+                } else {
+                    // The colourless density of Velinov et al. (2018) is twice the share.
+                    var energy = vec3f(2.0);
+                    if METHOD_MASK != MASK_DENSITY {
+                        energy = scratch_energy(scratch_tables, pair.point, pair.seen);
+                    }
+                    let is_seen = share.segment > 0.0 && is_there(pixel, index, segment);
+                    if is_seen {
+                        reaching = lights_reaching(pair);
+                    }
+                    results[lane] = select(vec3f(0.0), share.segment * energy, is_seen);
+                    shares[lane] = select(vec2f(0.0), share.segment * vec2f(1.0, share.line), is_seen);
+                }
+            }
+            if lights_now {
+                workgroupBarrier();
+                for (var j = 0u; j < waiting; j += 1u) {
+                    sum.radiance += select(vec3f(0.0), results[j], (queue[(lit + j) % QUEUE] & 63u) == lane);
+                }
+                lit += waiting;
+            } else {
+                var at = queued + before_lane(lane, countOneBits(reaching));
+                while reaching != 0u {
+                    queue[at % QUEUE] = item | (firstTrailingBit(reaching) << 6u);
+                    reaching &= reaching - 1u;
+                    at += 1u;
+                }
+                queued += workgroupUniformLoad(&lanes_total);
+                for (var j = max(end - own, asked); j < min(end, asked + LANES); j += 1u) {
+                    sum.energy += results[j - asked];
+                    sum.share += shares[j - asked].x;
+                    sum.share_by_line += shares[j - asked].y;
+                }
+                asked += LANES;
+            }
+            // The next round writes where this one reads.
+            workgroupBarrier();
+        }
+    }
+    let at = LANES * chunk_index + lane;
+    if range.adds == 0u {
+        chunk_sums[at] = sum;
+    } else {
+        chunk_sums[at].radiance += sum.radiance;
+    }
+    // No share is negative: resolve.wgsl tells the host.
+    if loops_were_cut() {
+        chunk_sums[at].share = -1.0;
+    }
+}

@@ -1,0 +1,51 @@
+// One scratch under a Gaussian coherence window and a Gaussian footprint. Twins: optics/src/scratch.rs, footprint.rs.
+
+// The cross section of a groove: a rectangle. Twin: Profile in scene/src/scene.rs.
+struct Profile {
+    width_um: f32,
+    depth_nm: f32,
+}
+
+// Standard deviation, in direction cosines along the scratch, of the band that it lights.
+fn band_std(coherence_um: f32, wavelength_nm: f32) -> f32 {
+    return wavelength_nm * 1e-3 / (8.88576588 * coherence_um);
+}
+
+// The depth whose phase step along the normal equals that of oblique light.
+fn oblique_depth_nm(depth_nm: f32, cos_i: f32, cos_o: f32) -> f32 {
+    return 0.5 * depth_nm * (cos_i + cos_o);
+}
+
+// Covariance of a footprint in a scratch's own axes, um^2.
+struct Footprint {
+    across_um2: f32,
+    along_um2: f32,
+    cross_um2: f32,
+}
+
+// The share of the footprint-averaged coherence window that a segment covers, and that its endless line would.
+struct ScratchShare {
+    segment: f32,
+    line: f32,
+}
+
+// `offset_um` is the distance from the footprint's centre to its line along n; `start_um` and `end_um` are its ends along t.
+fn scratch_share(
+    width_um: f32,
+    offset_um: f32,
+    start_um: f32,
+    end_um: f32,
+    blur_um: f32,
+    footprint: Footprint,
+    coherence_um: f32,
+) -> ScratchShare {
+    let variance = footprint.across_um2 + 0.5 * coherence_um * coherence_um;
+    let across = exp(-min(0.5 * offset_um * offset_um / variance, GAUSSIAN_TAIL)) * inverseSqrt(6.28318531 * variance);
+    // Where the footprint is slanted, the part of it that lies on the scratch is displaced along it.
+    let slant = footprint.cross_um2 / variance;
+    let shift = offset_um * slant;
+    let along_variance = footprint.along_um2 - footprint.cross_um2 * slant + blur_um * blur_um;
+    let z = max(sqrt(2.0 * max(along_variance, 0.0)), 1e-6);
+    let line = width_um * across;
+    return ScratchShare(line * 0.5 * gaussian_erf_difference((start_um - shift) / z, (end_um - shift) / z), line);
+}

@@ -1,0 +1,190 @@
+// What one scratch sends to the viewer: the module for other engines, which Hairline's own pass calls as well. No binding, no entry
+// point. Twins: cpu/src/shade_scratches/scratch_light.rs; equations: docs/model.md, sections 4 to 6.
+//
+// Frame: the surface's, z along the shading normal, any x. Positions are relative to the point and in metres unless named otherwise.
+// A caller asks scratch_seen() for each scratch near to the pixel, and where its share is not 0 one of the functions below for each
+// light; radiance of the light and Fresnel of the surface are factors that it brings itself. mask_add() and mask_resolve() of
+// mask.wgsl then say how scratches and base weaken one another.
+
+// The surface point under a pixel.
+struct LitPoint {
+    wo: vec3f,                  // unit direction to the viewer
+    distance_m: f32,            // to the viewer
+    footprint_x_um: vec2f,      // how the point moves by one standard deviation of the pixel's filter to the right
+    footprint_y_um: vec2f,      // and down
+    turn_x: vec2f,              // how the normal turns over each of them; 0 on a plane
+    turn_y: vec2f,
+    coherence_um: f32,
+    table: u32,                 // layer of the scratch tables
+}
+
+// A straight segment as seen from the point.
+struct SeenScratch {
+    share: ScratchShare,        // share.segment is 0 out of the footprint's reach
+    tangent: vec2f,
+    offset_um: f32,             // of its line, across the tangent
+    across_um: vec2f,           // footprint_x_um and footprint_y_um across it
+    variance_um2: f32,          // of footprint and coherence window across it
+    profile: Profile,
+}
+
+// A segment between two points of the surface's plane. `blur_um` smooths its ends, see scratch_share().
+fn scratch_seen(point: LitPoint, start_um: vec2f, end_um: vec2f, profile: Profile, blur_um: f32) -> SeenScratch {
+    let chord = end_um - start_um;
+    let length2 = dot(chord, chord);
+    let t = chord * inverseSqrt(max(length2, 1e-30));
+    let n = vec2f(-t.y, t.x);
+    let across = vec2f(dot(point.footprint_x_um, n), dot(point.footprint_y_um, n));
+    let along = vec2f(dot(point.footprint_x_um, t), dot(point.footprint_y_um, t));
+    let variance = dot(across, across) + 0.5 * point.coherence_um * point.coherence_um;
+    let offset = 0.5 * dot(n, start_um + end_um);
+    var share = ScratchShare(0.0, 0.0);
+    if length2 > 0.0 && offset * offset <= SCRATCH_REACH_STD * SCRATCH_REACH_STD * variance {
+        let footprint = Footprint(dot(across, across), dot(along, along), dot(across, along));
+        share = scratch_share(profile.width_um, offset, dot(t, start_um), dot(t, end_um), blur_um, footprint, point.coherence_um);
+    }
+    return SeenScratch(share, t, offset, across, variance, profile);
+}
+
+// A footprint cannot be told apart from its Gaussian's tail beyond this many standard deviations.
+const SCRATCH_REACH_STD: f32 = 3.5;
+
+// The energy that it takes from the base, per unit of its share. In the mirror's direction both cosines are the viewer's.
+fn scratch_energy(tables: texture_2d_array<u32>, point: LitPoint, seen: SeenScratch) -> vec3f {
+    return scratch_table_total(tables, point.table, oblique_depth_nm(seen.profile.depth_nm, point.wo.z, point.wo.z));
+}
+
+// The band of a scratch as the pixel sees it towards a light at a distance along `axis`.
+fn scratch_band(point: LitPoint, seen: SeenScratch, axis: vec3f, light_m: f32) -> MovedBand {
+    let per_o = 1e-6 / point.distance_m;
+    let per_i = 1e-6 / light_m;
+    let x = band_moves(point.turn_x, vec3f(point.footprint_x_um, 0.0), point.wo, per_o, axis, per_i);
+    let y = band_moves(point.turn_y, vec3f(point.footprint_y_um, 0.0), point.wo, per_o, axis, per_i);
+    let moves = vec2f(dot(x, seen.tangent), dot(y, seen.tangent));
+    return moved_band(band_stds(point.coherence_um), moves, seen.across_um, seen.offset_um, seen.variance_um2);
+}
+
+// The light between two q, for light whose directions have the cosine cos_i to the normal.
+fn scratch_chord(tables: texture_2d_array<u32>, point: LitPoint, seen: SeenScratch, high: f32, low: f32, cos_i: f32) -> vec3f {
+    let depth_nm = oblique_depth_nm(seen.profile.depth_nm, cos_i, point.wo.z);
+    return scratch_table(tables, point.table, seen.profile.width_um * high, depth_nm)
+        - scratch_table(tables, point.table, seen.profile.width_um * low, depth_nm);
+}
+
+// Whether any light within a sphere can reach the scratch.
+fn scratch_meets(point: LitPoint, seen: SeenScratch, center_m: vec3f, radius_m: f32) -> bool {
+    let cap = sphere_cap(center_m, radius_m);
+    let band = scratch_band(point, seen, cap.axis, max(length(center_m), radius_m));
+    let wo = band_from_surface(seen.tangent, point.wo) + vec3f(band.shift, 0.0, 0.0);
+    let extent = sphere_band_extent(wo, cap_turned(seen.tangent, cap));
+    return center_m.z > -radius_m && band_reaches(extent.x, extent.y, band.stds);
+}
+
+// By a sphere of radiance 1.
+fn scratch_sphere(tables: texture_2d_array<u32>, point: LitPoint, seen: SeenScratch, center_m: vec3f, radius_m: f32) -> vec3f {
+    if center_m.z <= -radius_m {
+        return vec3f(0.0);
+    }
+    let light = sphere_cap(center_m, radius_m);
+    let band = scratch_band(point, seen, light.axis, max(length(center_m), radius_m));
+    let wo = band_from_surface(seen.tangent, point.wo) + vec3f(band.shift, 0.0, 0.0);
+    let cap = cap_turned(seen.tangent, light);
+    let extent = sphere_band_extent(wo, cap);
+    let lines = band_lines(wo.x, extent.x, extent.y, band.stds);
+    var sum = vec3f(0.0);
+    var weights = vec3f(0.0);
+    for (var i = 0u; i < lines.count; i += 1u) {
+        let weight_and_xi = band_line(lines, i);
+        let line = band_line_at(wo, weight_and_xi.w);
+        let chord = sphere_chord(line, cap);
+        let range = chord_range(chord, line);
+        let cos_i = chord_cos(line, range.x, range.y, seen.profile.width_um);
+        var integral = scratch_chord(tables, point, seen, chord.enter, chord.leave, cos_i);
+        // The whole arc once more where the light holds the direction straight down.
+        if chord.wraps > 0.0 {
+            integral += scratch_chord(tables, point, seen, band_q_start(line), band_q_end(line), cos_i);
+        }
+        sum += weight_and_xi.xyz * integral;
+        weights += weight_and_xi.xyz;
+    }
+    return band_integral(lines, sum, weights);
+}
+
+// A flat light of three or four corners, counter-clockwise as seen from the side that `normal` points to.
+struct QuadLight {
+    a_m: vec3f,
+    b_m: vec3f,
+    c_m: vec3f,
+    d_m: vec3f,                 // the first one again where there are three
+    corner_count: u32,
+    normal: vec3f,              // unit, on the side that shines
+    center_m: vec3f,            // of a sphere that holds it
+    radius_m: f32,
+    two_sided: bool,
+}
+
+// By a flat light of radiance 1. It is cheaper to ask scratch_meets() first.
+fn scratch_quad(tables: texture_2d_array<u32>, point: LitPoint, seen: SeenScratch, light: QuadLight) -> vec3f {
+    let facing = polygon_facing(light.normal, light.a_m, light.two_sided);
+    if facing == 0.0 {
+        return vec3f(0.0);
+    }
+    let distance_m = max(length(light.center_m), light.radius_m);
+    let band = scratch_band(point, seen, sphere_cap(light.center_m, light.radius_m).axis, distance_m);
+    let wo = band_from_surface(seen.tangent, point.wo) + vec3f(band.shift, 0.0, 0.0);
+    let away = band_from_surface(seen.tangent, -facing * light.normal);
+    let outline = FourEdges(
+        band_from_surface(seen.tangent, surface_direction(light.a_m)),
+        band_from_surface(seen.tangent, surface_direction(light.b_m)),
+        band_from_surface(seen.tangent, surface_direction(light.c_m)),
+        band_from_surface(seen.tangent, surface_direction(light.d_m)),
+        light.corner_count,
+    );
+    let extent = four_edges_extent(outline, away);
+    let lines = band_lines(wo.x, wo.x + extent.x, wo.x + extent.y, band.stds);
+    var sum = vec3f(0.0);
+    var weights = vec3f(0.0);
+    for (var l = 0u; l < lines.count; l += 1u) {
+        let weight_and_xi = band_line(lines, l);
+        let line = band_line_at(wo, weight_and_xi.w);
+        var roots = four_edges_roots(outline, line, away);
+        let cos_i = chord_cos(line, roots.range.x, roots.range.y, seen.profile.width_um);
+        var integral = vec3f(0.0);
+        // As many roots enter the outline as leave it. The whole arc counts once more where the light holds straight down.
+        for (var i = 0u; i < roots.count + u32(roots.wraps); i += 1u) {
+            var ends = next_roots(&roots);
+            ends = select(ends, facing * vec2f(band_q_start(line), band_q_end(line)), i == roots.count);
+            integral += scratch_chord(tables, point, seen, ends.x, ends.y, cos_i);
+        }
+        sum += weight_and_xi.xyz * (facing * integral);
+        weights += weight_and_xi.xyz;
+    }
+    return band_integral(lines, sum, weights);
+}
+
+// The unit direction to a point, or nothing where there is none.
+fn surface_direction(v: vec3f) -> vec3f {
+    let length2 = dot(v, v);
+    return select(vec3f(0.0), v * inverseSqrt(max(length2, 1e-37)), length2 > 1e-30);
+}
+
+// By an environment of prefiltered levels, along the band's middle line, cell by cell. `map_from_surface` turns directions into the map's frame.
+fn scratch_environment(
+    tables: texture_2d_array<u32>,
+    point: LitPoint,
+    seen: SeenScratch,
+    levels: texture_2d<f32>,
+    map_from_surface: mat3x3f,
+) -> vec3f {
+    let line = band_line_at(band_from_surface(seen.tangent, point.wo), 0.0);
+    var sum = vec3f(0.0);
+    for (var i = 0u; i < ENVIRONMENT_CELLS; i += 1u) {
+        let cell = environment_cell(i, line, seen.profile.width_um);
+        if cell.q_high > cell.q_low {
+            let response = scratch_chord(tables, point, seen, cell.q_high, cell.q_low, cell.direction.z);
+            let direction = map_from_surface * surface_from_band(seen.tangent, cell.direction);
+            sum += response * environment_prefiltered(levels, direction, environment_cell_roughness(cell));
+        }
+    }
+    return sum;
+}

@@ -1,0 +1,59 @@
+// The base under lights and environment, spheres by the pivot transform of 2017. Twin: cpu/src/published.rs; base.wgsl
+// explains what is the same there.
+
+// Needs, beside its modules: lights, lobe_shapes, lobe_sptd, lobe_albedo, fresnel_curves, and the environment.
+
+// The lobe's integrals and the diffuse form factor of a light.
+fn published_base_sphere(point: SurfacePoint, lobe: LtcLobe, reflecting: LobeFresnel, pivot: SptdLobe, light: Light) -> vec4f {
+    if dot(light.center_m - point.position_m, point.normal) <= -light.radius_m {
+        return vec4f(0.0);
+    }
+    let cap = light_cap(point, light);
+    let sin2 = select(cap.sin_radius * cap.sin_radius, 1.0, cap.cos_radius < 0.0);
+    // The published fit knows F = 1 alone; Fresnel is that of the whole lobe.
+    let specular = reflecting.albedo * (sptd_sphere_published(pivot, cap.axis, sin2) / max(lobe.albedo, 1e-30));
+    return vec4f(specular, base_lambert_sphere(cap.axis, sin2));
+}
+
+// Radiance of the base towards the viewer, before scratches take theirs.
+fn published_base(point: SurfacePoint) -> BaseRadiance {
+    let sharp = ltc_lobe(point.wo, point.roughness, lobe_shapes, lobe_albedo);
+    let filtered = filtered_lobe(sharp.alpha, surface_slope_variance(point), point.wo.z);
+    let reflecting = lobe_fresnel(FresnelRgb(point.f0, point.curve), point.wo, point.roughness, fresnel_curves);
+    let albedo = ggx_area_reflectance(reflecting.albedo, point.f0, sharp.albedo);
+    let body = point.diffuse * max(1.0 - albedo, vec3f(0.0));
+    var specular = vec3f(0.0);
+    var diffuse = vec3f(0.0);
+    for (var p = 0u; p < 2u; p += 1u) {
+        let part = filtered_lobe_part(sharp, filtered, p);
+        if part.weight == 0.0 {
+            break;
+        }
+        // The pivot transform knows round lobes alone.
+        let alphas = part.lobe.alphas;
+        let pivot = sptd_lobe(point.wo, min(sqrt(sqrt(alphas.x * alphas.y)), 1.0), lobe_sptd, lobe_albedo);
+        var single = vec3f(0.0);
+        diffuse = vec3f(0.0);
+        for (var l = 0u; l < frame.light_count; l += 1u) {
+            let light = light_at(l);
+            var share: vec4f;
+            if HAS_SPHERES && light.kind == LIGHT_SPHERE {
+                share = published_base_sphere(point, part.lobe, reflecting, pivot, light);
+            }
+            if HAS_POLYGONS && light.kind == LIGHT_POLYGON {
+                let seen = base_polygon(point, part.lobe, light);
+                share = vec4f(ltc_reflected(part.lobe, reflecting, fresnel_curves, seen.vector), seen.form_factor);
+            }
+            single += light.radiance * share.xyz;
+            diffuse += light.radiance * share.w;
+        }
+        if HAS_ENVIRONMENT {
+            let environment = base_environment(point, part.lobe, reflecting);
+            single += environment.specular;
+            diffuse += environment.diffuse;
+        }
+        specular += part.weight * single;
+    }
+    specular = ggx_area_reflectance(max(specular, vec3f(0.0)), point.f0, sharp.albedo);
+    return BaseRadiance(specular, diffuse * body);
+}

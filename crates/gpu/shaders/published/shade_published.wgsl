@@ -1,0 +1,37 @@
+// Pass: base and scratches of a sample by the method of 2018, in place of shade_base and shade_scratches. Twin:
+// cpu/src/published.rs.
+
+@group(3) @binding(0) var<storage, read> points: array<PixelPoint>;
+@group(3) @binding(1) var<storage, read> paints: array<PixelPaint>;
+@group(3) @binding(2) var<storage, read_write> base_light: array<BaseLight>;
+// One chunk for each group.
+@group(3) @binding(3) var<storage, read_write> chunk_sums: array<ChunkSum>;
+@group(3) @binding(4) var<storage, read_write> film: Film;
+
+@compute @workgroup_size(8, 8)
+fn shade_published(
+    @builtin(workgroup_id) workgroup: vec3u,
+    @builtin(num_workgroups) workgroups: vec3u,
+    @builtin(local_invocation_index) lane: u32,
+) {
+    let group = workgroup.y * workgroups.x + workgroup.x;
+    if group >= frame.group_count || !group_has(group, lane) {
+        return;
+    }
+    let at = group_point(group, lane);
+    let object = points[at].object;
+    if object == 0u {
+        return;
+    }
+    let point = surface_point_from(points[at], paints[at]);
+    let light = published_base(point);
+    let fresnel = fresnel_eval(fresnel_curves, FresnelRgb(point.f0, point.curve), point.wo.z);
+    base_light[at] = BaseLight(light.specular, light.diffuse + point.emission, fresnel);
+    if HAS_SCRATCHES {
+        let sums = published_scratches(published_seen(point), objects[object - 1u], paints[at].triangle);
+        chunk_sums[GROUP * group + lane] = ChunkSum(sums.radiance, sums.share, sums.energy, sums.share_by_line);
+    }
+    if loops_were_cut() {
+        atomicAdd(&film.gave_up, 1u);
+    }
+}

@@ -1,0 +1,133 @@
+// From a triangle that a pixel sees to the surface point: interpolation, normal map, textures. Twin: cpu/src/surface.rs.
+
+// Area of the footprint in texture space, as the side of a square.
+fn hit_texture_footprint(a: Vertex, b: Vertex, c: Vertex, geometric: vec3f, axis_x: vec3f, axis_y: vec3f) -> f32 {
+    let uv_b = vec2f(b.u - a.u, b.v - a.v);
+    let uv_c = vec2f(c.u - a.u, c.v - a.v);
+    let uv_area = abs(uv_b.x * uv_c.y - uv_b.y * uv_c.x);
+    return sqrt(uv_area / max(length(geometric), 1e-30) * length(cross(axis_x, axis_y)));
+}
+
+fn hit_has_texture(texture: vec2u) -> bool {
+    return HAS_TEXTURES && scene_has_texture(texture);
+}
+
+fn hit_texture(texture: vec2u, uv: vec2f, footprint: f32) -> vec4f {
+    let lod = surface_texture_lod(footprint, scene_texture_size(texture), scene_texture_levels(texture));
+    return scene_texture(texture, uv, lod);
+}
+
+// How the interpolated normal of a triangle turns along a step on its plane; `interpolated` is not yet a unit vector.
+fn hit_normal_turn(a: Vertex, b: Vertex, c: Vertex, geometric: vec3f, interpolated: vec3f, step: vec3f) -> vec3f {
+    let e1 = b.position_m - a.position_m;
+    let e2 = c.position_m - a.position_m;
+    let length2 = dot(interpolated, interpolated);
+    // Unit geometric normal over twice the area, each factor by itself within the range of single precision.
+    let twice_area = max(length(geometric), 1e-30);
+    let unit = geometric / twice_area;
+    let u = dot(cross(step, e2), unit) / twice_area;
+    let v = dot(cross(e1, step), unit) / twice_area;
+    let change = (b.normal - a.normal) * u + (c.normal - a.normal) * v;
+    if length2 < 1e-12 {
+        return vec3f(0.0);
+    }
+    return (change - interpolated * (dot(change, interpolated) / length2)) * inverseSqrt(length2);
+}
+
+// How a point's surface is turned to the viewer, and the footprint there.
+fn hit_turn(point: ptr<function, SurfacePoint>, normal: vec3f, to_viewer: vec3f, ray: vec3f, depth: f32) {
+    (*point).normal = normal;
+    // The viewer in the x-z plane; any x will do where they look along the normal.
+    (*point).axis_x = surface_normalize_or(to_viewer - normal * dot(normal, to_viewer), surface_any_across(normal));
+    (*point).axis_y = cross(normal, (*point).axis_x);
+    let cos_view = dot(normal, to_viewer);
+    (*point).wo = vec3f(sqrt(max(1.0 - cos_view * cos_view, 0.0)), 0.0, cos_view);
+    let x_um = footprint_axis(ray, depth, normal, frame.per_px_x) * (1e6 * frame.footprint_std_px);
+    let y_um = footprint_axis(ray, depth, normal, frame.per_px_y) * (1e6 * frame.footprint_std_px);
+    (*point).footprint_x_um = vec2f(dot(x_um, (*point).axis_x), dot(x_um, (*point).axis_y));
+    (*point).footprint_y_um = vec2f(dot(y_um, (*point).axis_x), dot(y_um, (*point).axis_y));
+}
+
+// What a point's surface is made of.
+fn hit_paint(point: ptr<function, SurfacePoint>, material: Material) {
+    (*point).emission = material.emission;
+    (*point).roughness = material.roughness;
+    (*point).f0 = mix(vec3f(material.dielectric_f0), material.base_color, material.metallic);
+    (*point).curve = material.curve;
+    (*point).diffuse = material.base_color * (1.0 - material.metallic);
+    (*point).coherence_um = material.coherence_um;
+    (*point).table = material.table;
+}
+
+// What a material is at a place of its textures.
+fn hit_textured(material: Material, uv: vec2f, filter_side: f32) -> Material {
+    var there = material;
+    if hit_has_texture(material.base_color_texture) {
+        there.base_color *= hit_texture(material.base_color_texture, uv, filter_side).xyz;
+    }
+    if hit_has_texture(material.metallic_roughness_texture) {
+        let texel = hit_texture(material.metallic_roughness_texture, uv, filter_side);
+        there.roughness *= texel.y;
+        there.metallic *= texel.z;
+    }
+    if hit_has_texture(material.emission_texture) {
+        there.emission *= hit_texture(material.emission_texture, uv, filter_side).xyz;
+    }
+    return there;
+}
+
+// The surface that a ray of the camera sees on a triangle. `depth_m` is written beside it.
+fn hit_surface_point(triangle: u32, ray: vec3f, depth_m: ptr<function, f32>) -> SurfacePoint {
+    let a = vertices[3u * triangle];
+    let b = vertices[3u * triangle + 1u];
+    let c = vertices[3u * triangle + 2u];
+    let geometric = cross(b.position_m - a.position_m, c.position_m - a.position_m);
+    let to_viewer = -normalize(ray);
+    // Either side of a sheet is a surface of its own.
+    let side = select(1.0, -1.0, dot(geometric, to_viewer) < 0.0);
+    let bary = surface_barycentric(frame.camera_m, ray, a.position_m, b.position_m, c.position_m);
+    let weights = vec3f(1.0 - bary.x - bary.y, bary);
+    let interpolated = a.normal * weights.x + b.normal * weights.y + c.normal * weights.z;
+    let smooth_normal = surface_normalize_or(interpolated, normalize(geometric));
+
+    var point: SurfacePoint;
+    point.position_m = a.position_m + (b.position_m - a.position_m) * bary.x + (c.position_m - a.position_m) * bary.y;
+    let depth = dot(point.position_m - frame.camera_m, frame.forward);
+    point.distance_m = depth * length(ray);
+    *depth_m = depth;
+
+    let material = material_at(a.material & ~VERTEX_BITANGENT_FLIPPED);
+    let uv = vec2f(a.u, a.v) * weights.x + vec2f(b.u, b.v) * weights.y + vec2f(c.u, c.v) * weights.z;
+    let std_px = frame.footprint_std_px;
+    let smooth_x = footprint_axis(ray, depth, side * smooth_normal, frame.per_px_x) * std_px;
+    let smooth_y = footprint_axis(ray, depth, side * smooth_normal, frame.per_px_y) * std_px;
+    let filter_side = hit_texture_footprint(a, b, c, geometric, smooth_x, smooth_y);
+
+    var normal = smooth_normal;
+    point.slope_std = 0.0;
+    if hit_has_texture(material.normal_texture) {
+        let map = material.normal_texture;
+        let lod = surface_texture_lod(filter_side, scene_texture_size(map), scene_texture_levels(map));
+        let looked_up = scene_normals(map, uv, lod, filter_side);
+        let texel = looked_up.xyz * 2.0 - 1.0;
+        var tangent = a.tangent * weights.x + b.tangent * weights.y + c.tangent * weights.z;
+        tangent = surface_normalize_or(tangent - smooth_normal * dot(smooth_normal, tangent), surface_any_across(smooth_normal));
+        let flip = select(1.0, -1.0, (a.material & VERTEX_BITANGENT_FLIPPED) != 0u);
+        let bitangent = cross(smooth_normal, tangent) * flip;
+        let scale = material.normal_scale;
+        normal = surface_normalize_or(
+            tangent * (texel.x * scale) + bitangent * (texel.y * scale) + smooth_normal * texel.z,
+            smooth_normal,
+        );
+        point.slope_std = looked_up.w * scale;
+    }
+    normal = surface_face_viewer(side * normal, to_viewer);
+    point.leaves = SURFACE_BENDS + 2.0 * distance(normal, side * surface_normalize_or(geometric, normal));
+    hit_turn(&point, normal, to_viewer, ray, depth);
+    hit_paint(&point, hit_textured(material, uv, filter_side));
+    let turn_x = side * hit_normal_turn(a, b, c, geometric, interpolated, smooth_x);
+    let turn_y = side * hit_normal_turn(a, b, c, geometric, interpolated, smooth_y);
+    point.turn_x = vec2f(dot(turn_x, point.axis_x), dot(turn_x, point.axis_y));
+    point.turn_y = vec2f(dot(turn_y, point.axis_x), dot(turn_y, point.axis_y));
+    return point;
+}

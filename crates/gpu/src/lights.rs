@@ -1,0 +1,154 @@
+//! The kinds of lights on the device: what tells them apart, and how each is packed.
+
+use std::ops::Range;
+
+use bytemuck::Zeroable;
+use glam::DVec3;
+use hairline_scene::{Light, Scene, vector_area_m2};
+
+use crate::host::relative;
+use crate::layout;
+
+/// [`layout::Light::kind`]. Twin: layout.wgsl.
+const LIGHT_SPHERE: u32 = 0;
+const LIGHT_POLYGON: u32 = 1;
+
+/// What lights scratches in a pass of its own. Twin: SCRATCH_LIGHTS of shade_scratches.wgsl.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Kind {
+    Spheres,
+    /// Polygons of at most four vertices.
+    Quads,
+    /// Polygons of more.
+    Outlines,
+    Environment,
+}
+
+impl Kind {
+    pub const ALL: [Self; 4] = [
+        Self::Spheres,
+        Self::Quads,
+        Self::Outlines,
+        Self::Environment,
+    ];
+
+    fn of(light: &Light) -> Self {
+        match light {
+            Light::Sphere { .. } => Self::Spheres,
+            Light::Polygon { vertices_m, .. } if vertices_m.len() <= 4 => Self::Quads,
+            Light::Polygon { .. } => Self::Outlines,
+        }
+    }
+}
+
+/// The kinds that a scene has.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub(crate) struct Kinds([bool; Kind::ALL.len()]);
+
+impl Kinds {
+    pub const ALL: Self = Self([true; Kind::ALL.len()]);
+
+    pub fn of(scene: &Scene) -> Self {
+        let mut kinds = Self::default();
+        for light in scene.all_lights() {
+            kinds.0[Kind::of(light) as usize] = true;
+        }
+        kinds.0[Kind::Environment as usize] = scene.environment.is_some();
+        kinds
+    }
+
+    pub fn has(self, kind: Kind) -> bool {
+        self.0[kind as usize]
+    }
+
+    /// Those with a pass over scratches: spheres where there are none, for the mask.
+    pub fn over_scratches(self) -> impl Iterator<Item = Kind> {
+        let none = self == Self::default();
+        let wanted = move |kind: &Kind| self.has(*kind) || none && *kind == Kind::Spheres;
+        Kind::ALL.into_iter().filter(wanted)
+    }
+
+    /// What shaders call them. Twin: contents.wgsl.
+    pub fn constants(self) -> [(&'static str, f64); 3] {
+        let polygons = self.has(Kind::Quads) || self.has(Kind::Outlines);
+        [
+            ("HAS_SPHERES", self.has(Kind::Spheres).into()),
+            ("HAS_POLYGONS", polygons.into()),
+            ("HAS_ENVIRONMENT", self.has(Kind::Environment).into()),
+        ]
+    }
+}
+
+/// All area lights, kind after kind.
+pub(crate) fn sorted(scene: &Scene) -> Vec<&Light> {
+    let mut lights: Vec<_> = scene.all_lights().collect();
+    lights.sort_by_key(|light| Kind::of(light));
+    lights
+}
+
+/// Where the lights of each kind that the scene has lie among the sorted ones; the environment lies nowhere.
+pub(crate) fn ranges(scene: &Scene) -> Vec<(Kind, Range<u32>)> {
+    let lights = sorted(scene);
+    let end = |kind| lights.partition_point(|light| Kind::of(light) <= kind) as u32;
+    let start = |kind| lights.partition_point(|light| Kind::of(light) < kind) as u32;
+    let range = |kind| match kind {
+        Kind::Environment => (kind, 0..0),
+        _ => (kind, start(kind)..end(kind)),
+    };
+    Kinds::of(scene).over_scratches().map(range).collect()
+}
+
+/// Texels of a light without its vertices.
+const LIGHT_TEXELS: usize = size_of::<layout::Light>() / 16;
+
+fn vertices_m(light: &Light) -> &[DVec3] {
+    match light {
+        Light::Polygon { vertices_m, .. } => vertices_m,
+        Light::Sphere { .. } => &[],
+    }
+}
+
+/// All area lights, and behind them the vertices of those that have some, as texels.
+pub(crate) fn packed(scene: &Scene, origin_m: DVec3) -> Vec<[u32; 4]> {
+    let mut vertices: Vec<[f32; 4]> = Vec::new();
+    let pack = |light: &Light| {
+        let (center_m, radius_m) = light.bounding_sphere();
+        let own = vertices_m(light);
+        let first_vertex = vertices.len() as u32;
+        vertices.extend(own.iter().map(|vertex| {
+            let [x, y, z] = relative(*vertex, origin_m);
+            [x, y, z, 0.0]
+        }));
+        let bounded = layout::Light {
+            radiance: light.radiance().map(|c| c as f32),
+            center_m: relative(center_m, origin_m),
+            radius_m: radius_m as f32,
+            first_vertex,
+            vertex_count: own.len() as u32,
+            ..layout::Light::zeroed()
+        };
+        match light {
+            Light::Sphere { .. } => layout::Light {
+                kind: LIGHT_SPHERE,
+                first_vertex: 0,
+                ..bounded
+            },
+            Light::Polygon { two_sided, .. } => layout::Light {
+                kind: LIGHT_POLYGON,
+                normal: (vector_area_m2(own).normalize_or_zero().as_vec3()).to_array(),
+                two_sided: u32::from(*two_sided),
+                ..bounded
+            },
+        }
+    };
+    let lights: Vec<layout::Light> = sorted(scene).into_iter().map(pack).collect();
+    let mut texels = bytemuck::cast_slice(&lights).to_vec();
+    texels.extend_from_slice(bytemuck::cast_slice(&vertices));
+    texels
+}
+
+/// How many texels [`packed`] makes.
+pub(crate) fn texels(scene: &Scene) -> usize {
+    let texels = |light| LIGHT_TEXELS + vertices_m(light).len();
+    scene.all_lights().map(texels).sum()
+}

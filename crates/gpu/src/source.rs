@@ -1,0 +1,16 @@
+//! A scene with what was made of it: what is to lie on the device.
+
+use std::sync::Arc;
+
+use hairline_index::ScratchIndex;
+use hairline_index::method::Method;
+use hairline_scene::{Scene, ScratchTables};
+
+/// A scene, its index, its tables, and the method that they are to be rendered by.
+#[derive(Clone, Copy)]
+pub(crate) struct Source<'a> {
+    pub scene: &'a Scene,
+    pub index: &'a Arc<ScratchIndex>,
+    pub tables: &'a ScratchTables,
+    pub method: &'a Method,
+}

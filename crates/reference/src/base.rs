@@ -1,0 +1,106 @@
+//! The base of docs/model.md, section 8, as a BRDF to evaluate and to sample: GGX (25) with its Fresnel (26) and the factor for
+//! multiple scattering of (27), over the diffuse body of (29).
+//!
+//! Nothing fitted or tabulated for the closed form enters: reflectances are those of [`Reflectance`].
+
+use std::f64::consts::PI;
+
+use glam::{DVec2, DVec3};
+use hairline_optics::ggx::{ggx_alpha, ggx_eval, ggx_pdf, ggx_sample};
+
+use crate::reflectance::Reflectance;
+use hairline_cpu::surface::SurfacePoint;
+
+/// The base at a point for its viewer. Directions are unit vectors in the point's local frame.
+#[derive(Clone, Copy)]
+pub(crate) struct BaseLobes<'a> {
+    wo: DVec3,
+    alpha: f64,
+    reflectance: &'a Reflectance,
+    f0: DVec3,
+    /// What multiple scattering adds to a white surface's light: the bracket of (27) less one, over F0.
+    gain: f64,
+    /// What reaches the body, times its albedo.
+    body: DVec3,
+    /// How often the specular lobe is sampled.
+    specular_share: f64,
+}
+
+impl<'a> BaseLobes<'a> {
+    pub fn new(point: &SurfacePoint, reflectance: &'a Reflectance) -> Self {
+        let f0 = DVec3::from(point.fresnel.f0);
+        Self::from_parts(point.wo, reflectance, f0, point.diffuse, point.roughness)
+    }
+
+    fn from_parts(
+        wo: DVec3,
+        reflectance: &'a Reflectance,
+        f0: DVec3,
+        diffuse: DVec3,
+        roughness: f64,
+    ) -> Self {
+        let of_lobe = reflectance.albedo(roughness, wo.z);
+        let albedo = of_lobe.reflected(f0);
+        let body = diffuse * (DVec3::ONE - albedo).max(DVec3::ZERO);
+        let (specular, below) = (albedo.element_sum().max(0.0), body.element_sum());
+        // A faint lobe still needs samples: a narrow one is found by nothing else.
+        let specular_share = if below > 0.0 {
+            (specular / (specular + below)).clamp(0.1, 0.9)
+        } else {
+            1.0
+        };
+        Self {
+            wo,
+            alpha: ggx_alpha(roughness),
+            reflectance,
+            f0,
+            gain: of_lobe.gain(),
+            body,
+            specular_share,
+        }
+    }
+
+    /// BRDF times the cosine of `wi`: (specular, diffuse). Zero at and below the horizon.
+    pub fn eval(&self, wi: DVec3) -> (DVec3, DVec3) {
+        if wi.z <= 0.0 {
+            return (DVec3::ZERO, DVec3::ZERO);
+        }
+        let h = (wi + self.wo).normalize_or(DVec3::Z);
+        let facet = self.reflectance.eval(wi.dot(h), self.f0);
+        (
+            (facet.once + facet.twice * self.gain) * ggx_eval(wi, self.wo, self.alpha),
+            self.body * (wi.z / PI),
+        )
+    }
+
+    /// A direction above the horizon; `pick` and `u` are in [0, 1). None where the specular lobe was picked and its direction
+    /// lies below: such a sample counts as zero.
+    pub fn sample(&self, pick: f64, u: DVec2) -> Option<DVec3> {
+        let wi = if pick < self.specular_share {
+            ggx_sample(self.wo, self.alpha, u)
+        } else {
+            cosine_sample(u)
+        };
+        (wi.z > 0.0).then_some(wi)
+    }
+
+    /// The density of [`BaseLobes::sample`], per steradian. Over the upper hemisphere it integrates to how often a sample is
+    /// not None.
+    pub fn pdf(&self, wi: DVec3) -> f64 {
+        if wi.z <= 0.0 {
+            return 0.0;
+        }
+        let specular = ggx_pdf(wi, self.wo, self.alpha);
+        specular * self.specular_share + wi.z / PI * (1.0 - self.specular_share)
+    }
+}
+
+/// A direction in proportion to its cosine.
+fn cosine_sample(u: DVec2) -> DVec3 {
+    let (sin_phi, cos_phi) = (2.0 * PI * u.x).sin_cos();
+    let r = u.y.sqrt();
+    DVec3::new(r * cos_phi, r * sin_phi, (1.0 - u.y).sqrt())
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,278 @@
+//! Light by way of the whole field in the coherence window, |B - S|^2 with every phase (docs/model.md, (1) and section 9).
+//!
+//! Directions are drawn by a mixture: the base's peak, each groove's band, and whatever else is lit, so that no direction that
+//! the field sends light to is left out, and the estimate divides by the mixture's density.
+
+use super::grooves::GrooveView;
+use super::interval::{CutCauchy, CutNormal};
+use super::separable::direction_from_cosines;
+use super::wavelengths::{SpectralFresnel, Spectrum, WAVELENGTHS, WIDEST_NM, Wavelengths};
+use glam::{DVec2, DVec3};
+use hairline_cpu::surface::SurfacePoint;
+use hairline_optics::band::BandFrame;
+use hairline_optics::coherent::{GrooveField, base_amplitude, groove_overlap, phase_step};
+use hairline_optics::scratch::band_std;
+use num_complex::Complex64;
+use std::f64::consts::PI;
+
+/// The field at a point.
+pub(super) struct Field<'a> {
+    pub point: &'a SurfacePoint<'a>,
+    pub grooves: &'a [GrooveView],
+    field: GrooveField,
+    /// Whether the base is one mirror: else its phases are random, and it does not interfere.
+    pub smooth: bool,
+    wavelengths: &'a Wavelengths,
+    fresnel: &'a SpectralFresnel<'a>,
+    /// 1 - <r>: the part of the base's peak that grooves take from its amplitude, at each wavelength.
+    taken: Spectrum<Complex64>,
+}
+
+/// The BRDF times the light's cosine, per d xi, by layer. With r what the base's amplitude keeps and S' = S - (1 - r) B, which
+/// is S without what it has of the base's own peak, B - S = r B - S'; and r B and S' share no energy over all directions.
+pub(super) struct FieldResponse {
+    /// |r B|^2 - 2 Re(r B S'*); zero for a rough base, whose lobe stands for it.
+    pub base: DVec3,
+    /// |S'|^2.
+    pub scratches: DVec3,
+}
+
+impl<'a> Field<'a> {
+    pub fn new(
+        point: &'a SurfacePoint<'a>,
+        grooves: &'a [GrooveView],
+        smooth: bool,
+        wavelengths: &'a Wavelengths,
+        fresnel: &'a SpectralFresnel<'a>,
+    ) -> Self {
+        Self {
+            point,
+            grooves,
+            field: GrooveField::new(
+                grooves.iter().map(|g| g.piece).collect(),
+                point.coherence_um,
+            ),
+            smooth,
+            wavelengths,
+            fresnel,
+            taken: taken_amplitude(point, grooves, wavelengths),
+        }
+    }
+
+    /// What grooves take from the energy of the base's reflection: 1 - |r|^2.
+    pub fn taken(&self) -> DVec3 {
+        let shape = self.fresnel.shape(self.wavelengths);
+        (0..WAVELENGTHS)
+            .map(|j| shape[j] * (1.0 - (1.0 - self.taken[j]).norm_sqr()))
+            .sum()
+    }
+
+    /// Whether there is anything to evaluate.
+    pub fn is_empty(&self) -> bool {
+        !self.smooth && self.grooves.is_empty()
+    }
+
+    /// For a direction of the surface's frame.
+    pub fn eval(&self, wi: DVec3) -> FieldResponse {
+        let wo = self.point.wo;
+        let xi = wi.truncate() + wo.truncate();
+        let weights = self.fresnel.coherent(self.wavelengths, wi.z);
+        let mut sum = FieldResponse {
+            base: DVec3::ZERO,
+            scratches: DVec3::ZERO,
+        };
+        let mut amplitudes = [Complex64::ZERO; WAVELENGTHS];
+        let nm = &self.wavelengths.nm;
+        self.field.amplitudes(xi, wi.z + wo.z, nm, &mut amplitudes);
+        let sigma_um = self.point.coherence_um;
+        let per_area = 1.0 / (PI * sigma_um * sigma_um);
+        for j in 0..WAVELENGTHS {
+            let base = base_amplitude(xi, sigma_um, nm[j]);
+            let scratches = amplitudes[j] - self.taken[j] * base;
+            sum.scratches += weights[j] * (per_area * scratches.norm_sqr());
+            if self.smooth {
+                let kept = (1.0 - self.taken[j]) * base;
+                let cross = (kept * scratches.conj()).re;
+                sum.base += weights[j] * (per_area * (kept.norm_sqr() - 2.0 * cross));
+            }
+        }
+        sum
+    }
+
+    /// Directions whose components along axes of the surface's frame lie within what `extent` tells.
+    pub fn directions(&self, extent: impl Fn(DVec2) -> (f64, f64)) -> FieldDirections {
+        let wo = self.point.wo;
+        let std = band_std(self.point.coherence_um, WIDEST_NM);
+        let mut components = Vec::with_capacity(self.grooves.len() + 1);
+        if self.smooth {
+            let (x, y) = (extent(DVec2::X), extent(DVec2::Y));
+            let x = CutNormal::new(std, wo.x + x.0, wo.x + x.1);
+            let y = CutNormal::new(std, wo.y + y.0, wo.y + y.1);
+            if let (Some(x), Some(y)) = (x, y) {
+                components.push((PEAK_WEIGHT, Component::Peak { x, y }));
+            }
+        }
+        let all: f64 = self.grooves.iter().map(|g| g.share.segment).sum();
+        for groove in self.grooves {
+            let share = groove.share.segment / all.max(1e-30);
+            if share > NEGLIGIBLE_SHARE
+                && let Some(band) = Band::new(groove, std, &extent)
+            {
+                components.push((share, Component::Band(band)));
+            }
+        }
+        let total: f64 = components.iter().map(|c| c.0).sum();
+        let drawn = if components.is_empty() {
+            0.0
+        } else {
+            1.0 - ELSEWHERE
+        };
+        for component in &mut components {
+            component.0 *= drawn / total;
+        }
+        FieldDirections {
+            wo: wo.truncate(),
+            components,
+            elsewhere: 1.0 - drawn,
+        }
+    }
+}
+
+/// The sum of D times the share of each groove, in the mirror's direction. Grooves that cross share floor: of random ones
+/// that would cover x, 1 - exp(-x) is covered.
+fn taken_amplitude(
+    point: &SurfacePoint,
+    grooves: &[GrooveView],
+    wavelengths: &Wavelengths,
+) -> Spectrum<Complex64> {
+    let shares = grooves
+        .iter()
+        .map(|g| groove_overlap(&g.piece, point.coherence_um));
+    let all: f64 = shares.clone().sum();
+    let apart = if all > 0.0 {
+        -(-all).exp_m1() / all
+    } else {
+        1.0
+    };
+    let mut taken = [Complex64::ZERO; WAVELENGTHS];
+    for (groove, share) in grooves.iter().zip(shares) {
+        for (taken, nm) in taken.iter_mut().zip(wavelengths.nm) {
+            *taken += apart * share * phase_step(groove.piece.depth_nm, 2.0 * point.wo.z, nm);
+        }
+    }
+    taken
+}
+
+/// The peak's weight in the mixture, where all grooves together have 1.
+const PEAK_WEIGHT: f64 = 1.0;
+/// Grooves with less than this part of all share get no directions of their own.
+const NEGLIGIBLE_SHARE: f64 = 1e-3;
+/// The part of the directions that the caller draws in its own way, over all that is lit. The ends of grooves scatter off
+/// their bands too.
+const ELSEWHERE: f64 = 0.15;
+/// The part of a band's directions that are spread as the light of an end is, by 1/xi_t^2.
+const BAND_TAIL: f64 = 0.25;
+
+/// A mixture of directions; densities are per d xi.
+pub(super) struct FieldDirections {
+    wo: DVec2,
+    components: Vec<(f64, Component)>,
+    /// The probability that the caller is to draw.
+    pub elsewhere: f64,
+}
+
+enum Component {
+    Peak { x: CutNormal, y: CutNormal },
+    Band(Band),
+}
+
+struct Band {
+    frame: BandFrame,
+    core: Option<CutNormal>,
+    tail: CutCauchy,
+    across: CutCauchy,
+}
+
+impl Band {
+    fn new(groove: &GrooveView, std: f64, extent: impl Fn(DVec2) -> (f64, f64)) -> Option<Self> {
+        let tangent = groove.frame.tangent;
+        let (along, across) = (extent(tangent), extent(tangent.perp()));
+        let (low, high) = (groove.wo.x + along.0, groove.wo.x + along.1);
+        // Half the first lobe of sinc^2 at green is 0.25 um of u = W q.
+        let scale = 0.2 / groove.piece.width_um;
+        Some(Self {
+            frame: groove.frame,
+            core: CutNormal::new(std, low, high),
+            tail: CutCauchy::new(2.0 * std, low, high)?,
+            across: CutCauchy::new(scale, groove.wo.y + across.0, groove.wo.y + across.1)?,
+        })
+    }
+
+    fn tail_part(&self) -> f64 {
+        if self.core.is_some() { BAND_TAIL } else { 1.0 }
+    }
+
+    fn sample(&self, pick: f64, u: f64, v: f64) -> DVec2 {
+        let along = match &self.core {
+            Some(core) if pick >= BAND_TAIL => core.sample(u),
+            _ => self.tail.sample(u),
+        };
+        let xi = DVec3::new(along, self.across.sample(v), 0.0);
+        self.frame.surface_from_band(xi).truncate()
+    }
+
+    fn pdf(&self, xi: DVec2) -> f64 {
+        let xi = self.frame.band_from_surface(xi.extend(0.0));
+        let tail = self.tail_part();
+        let core = self.core.as_ref().map_or(0.0, |core| core.pdf(xi.x));
+        (tail * self.tail.pdf(xi.x) + (1.0 - tail) * core) * self.across.pdf(xi.y)
+    }
+}
+
+/// What [`FieldDirections::sample`] drew.
+pub(super) enum Drawn {
+    /// A direction of the surface's frame; None if it lies below the horizon.
+    Direction(Option<DVec3>),
+    /// The caller is to draw; the number is left over from the choice, even in [0, 1).
+    Elsewhere(f64),
+}
+
+impl FieldDirections {
+    pub fn sample(&self, pick: f64, u: f64, v: f64) -> Drawn {
+        let mut left = pick;
+        for (weight, component) in &self.components {
+            if left < *weight {
+                let pick = left / weight;
+                let xi = match component {
+                    Component::Peak { x, y } => DVec2::new(x.sample(u), y.sample(v)),
+                    Component::Band(band) => band.sample(pick, u, v),
+                };
+                let wi = xi - self.wo;
+                return Drawn::Direction(direction_from_cosines(wi.x, wi.y));
+            }
+            left -= weight;
+        }
+        if self.elsewhere > 0.0 {
+            Drawn::Elsewhere((left / self.elsewhere).clamp(0.0, 1.0))
+        } else {
+            Drawn::Direction(None)
+        }
+    }
+
+    /// Density of a direction, where the caller's own has the density `elsewhere_pdf`, both per d xi.
+    pub fn pdf(&self, wi: DVec3, elsewhere_pdf: f64) -> f64 {
+        let xi = wi.truncate() + self.wo;
+        let own: f64 = self
+            .components
+            .iter()
+            .map(|(weight, component)| {
+                weight
+                    * match component {
+                        Component::Peak { x, y } => x.pdf(xi.x) * y.pdf(xi.y),
+                        Component::Band(band) => band.pdf(xi),
+                    }
+            })
+            .sum();
+        own + self.elsewhere * elsewhere_pdf
+    }
+}

@@ -1,0 +1,137 @@
+//! The grooves in the coherence window around a point.
+
+use glam::{DVec2, DVec3, Vec3};
+use hairline_cpu::surface::SurfacePoint;
+use hairline_index::scratch_index::FACING_MIN_COS;
+use hairline_index::{Groove, SegmentTree};
+use hairline_optics::band::BandFrame;
+use hairline_optics::coherent::GroovePiece;
+use hairline_optics::footprint::ScratchShare;
+use spec_math::cephes64::erf;
+use std::f64::consts::{PI, SQRT_2};
+
+/// How far grooves matter, in units of sigma. The window's energy falls as exp(-p^2/sigma^2): 7e-7 of it lies beyond 3.5.
+pub(super) const REACH_OF_ENERGY: f64 = 3.5;
+/// The window's amplitude, by which interference goes, has fallen to 4e-6 here.
+pub(super) const REACH_OF_AMPLITUDE: f64 = 5.0;
+
+/// A piece of a groove from a point.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct GrooveView {
+    pub frame: BandFrame,
+    /// `wo` in the groove's frame.
+    pub wo: DVec3,
+    pub piece: GroovePiece,
+    /// (6) at the point.
+    pub share: ScratchShare,
+}
+
+impl GrooveView {
+    /// None where the piece lies on another side of the surface, or too far to matter.
+    pub fn new(point: &SurfacePoint, groove: &Groove, reach_sigma: f64) -> Option<Self> {
+        if groove.normal.as_dvec3().dot(point.normal) < FACING_MIN_COS as f64 {
+            return None;
+        }
+        let from_point = |p: Vec3| point.surface_from_world(p.as_dvec3() - point.position_m) * 1e6;
+        let (start, end) = (from_point(groove.start_m), from_point(groove.end_m));
+        let along = DVec2::new(end.x - start.x, end.y - start.y);
+        let length_um = along.length();
+        if !(length_um > 0.0) {
+            return None;
+        }
+        let frame = BandFrame {
+            tangent: along / length_um,
+        };
+        let (start, end) = (frame.band_from_surface(start), frame.band_from_surface(end));
+        let sigma_um = point.coherence_um;
+        let piece = GroovePiece {
+            tangent: frame.tangent,
+            offset_um: 0.5 * (start.y + end.y),
+            start_um: start.x,
+            end_um: end.x,
+            width_um: groove.profile.width_um as f64,
+            depth_nm: groove.profile.depth_nm as f64,
+        };
+        // Where along the groove the window ends.
+        let nearest_um = 0.0_f64.clamp(piece.start_um, piece.end_um);
+        let reach_um = reach_sigma * sigma_um + 0.5 * piece.width_um;
+        if piece.offset_um.abs() > reach_um || nearest_um.abs() > reach_um {
+            return None;
+        }
+        let whole = [
+            piece.start_um - groove.before_um as f64,
+            piece.end_um + groove.after_um as f64,
+        ];
+        Some(Self {
+            frame,
+            wo: frame.band_from_surface(point.wo),
+            piece,
+            share: point_share(&piece, whole, sigma_um),
+        })
+    }
+}
+
+/// (6) with (4) at a point, for a piece of a scratch that reaches from `whole_um[0]` to `whole_um[1]` along its line.
+///
+/// E of the whole scratch is the sum over its pieces, and E^2 the sum of products: a piece's part is its own E times the
+/// whole one's. So the shares of the pieces of one scratch add up to the scratch's, and no joint shows.
+fn point_share(piece: &GroovePiece, whole_um: [f64; 2], sigma_um: f64) -> ScratchShare {
+    let e = |from_um: f64, to_um: f64| {
+        let unit = 1.0 / (SQRT_2 * sigma_um);
+        0.5 * (erf(to_um * unit) - erf(from_um * unit))
+    };
+    let p = piece.offset_um / sigma_um;
+    let line = piece.width_um / (PI.sqrt() * sigma_um) * (-p * p).exp();
+    let own = e(piece.start_um, piece.end_um);
+    let all = e(whole_um[0], whole_um[1]);
+    ScratchShare {
+        segment: line * own * all,
+        line,
+    }
+}
+
+/// All grooves of an object in the window around a point.
+pub(super) fn gather(
+    tree: &SegmentTree<Groove>,
+    object: usize,
+    point: &SurfacePoint,
+    reach_sigma: f64,
+) -> Vec<GrooveView> {
+    let mut views = Vec::new();
+    let reach_m = (reach_sigma * point.coherence_um * 1e-6) as f32;
+    tree.gather(
+        object,
+        point.position_m.as_vec3(),
+        Vec3::splat(reach_m),
+        |groove| views.extend(GrooveView::new(point, groove, reach_sigma)),
+    );
+    views
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use hairline_optics::scratch::{window_overlap_um2, window_share};
+
+    #[test]
+    fn the_pieces_of_a_scratch_share_what_the_whole_has() {
+        let sigma = 20.0;
+        let piece = |start_um, end_um| GroovePiece {
+            tangent: DVec2::X,
+            offset_um: 9.0,
+            start_um,
+            end_um,
+            width_um: 2.0,
+            depth_nm: 100.0,
+        };
+        let whole = [-31.0, 17.0];
+        let cuts = [-31.0, -12.0, -3.0, 8.0, 17.0];
+        let sum: f64 = cuts
+            .windows(2)
+            .map(|c| point_share(&piece(c[0], c[1]), whole, sigma).segment)
+            .sum();
+        let overlap = window_overlap_um2(9.0, whole[0], whole[1], sigma);
+        let right = window_share(2.0, overlap, sigma);
+        assert!((sum / right - 1.0).abs() < 1e-12, "{sum} {right}");
+    }
+}

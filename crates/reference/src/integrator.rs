@@ -1,0 +1,108 @@
+//! A scene made ready to be integrated, and how.
+
+use crate::environment::EnvironmentSampler;
+use crate::lights::AreaLights;
+use crate::reflectance::Reflectance;
+use hairline_index::{Groove, ScratchIndex, SegmentTree, TriangleIndex, groove_index};
+use hairline_optics::mask::Mask;
+use hairline_scene::{CameraFrame, Scene, ScratchTables};
+use rayon::prelude::*;
+use std::sync::Arc;
+
+/// What waves do at a scratch.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Model {
+    /// Equations (4) to (9) of docs/model.md at a point: the model of the closed forms, integrated by chance.
+    #[default]
+    Separable,
+    /// |B - S|^2 with all phases, equation (1): interference between scratches and with the base, the path of oblique light.
+    Full,
+}
+
+/// How to integrate.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Settings {
+    /// What waves do at a scratch.
+    pub model: Model,
+    /// How the base pays for what scratches scatter; [`Model::Full`] knows by itself.
+    pub mask: Mask,
+    /// How many more surfaces a path may meet after the first. 0: direct light, as the closed form.
+    pub bounces: u32,
+    /// Whether objects hide the lights and the environment from one another. The closed form has no shadows.
+    pub shadows: bool,
+    /// Other samples.
+    pub seed: u64,
+}
+
+/// What is looked up of a scene's surfaces, scratches and materials. A clone is the same one.
+#[derive(Clone)]
+pub struct Parts {
+    /// Triangles along a ray.
+    pub triangles: Arc<TriangleIndex>,
+    /// The scratches as they lie.
+    pub grooves: Arc<SegmentTree<Groove>>,
+    /// What the materials mean to the physics.
+    pub tables: Arc<ScratchTables>,
+}
+
+impl Parts {
+    /// Builds the trees and the tables.
+    pub fn new(scene: &Scene) -> Self {
+        let (triangles, (grooves, tables)) = rayon::join(
+            || TriangleIndex::build(scene),
+            || rayon::join(|| groove_index::build(scene), || ScratchTables::new(scene)),
+        );
+        Self {
+            triangles: triangles.into(),
+            grooves: grooves.into(),
+            tables: tables.into(),
+        }
+    }
+}
+
+/// A scene made ready.
+pub struct Integrator<'a> {
+    pub(super) scene: &'a Scene,
+    pub(super) settings: Settings,
+    pub(super) triangles: Arc<TriangleIndex>,
+    pub(super) grooves: Arc<SegmentTree<Groove>>,
+    pub(super) depth_coherence: Vec<f32>,
+    pub(super) tables: Arc<ScratchTables>,
+    /// One for each material.
+    pub(super) reflectances: Vec<Reflectance>,
+    pub(super) lights: AreaLights,
+    pub(super) environment: Option<EnvironmentSampler>,
+    pub(super) camera: CameraFrame,
+    /// How far the scene reaches from the origin: what rounding goes by.
+    pub(super) extent_m: f64,
+}
+
+impl<'a> Integrator<'a> {
+    /// Builds the trees and the tables.
+    pub fn new(scene: &'a Scene, settings: Settings) -> Self {
+        Self::from_parts(scene, settings, Parts::new(scene))
+    }
+
+    /// Takes trees and tables that were built before, of `scene` or of one with the same surfaces, scratches and materials.
+    pub fn from_parts(scene: &'a Scene, settings: Settings, parts: Parts) -> Self {
+        let Parts {
+            triangles,
+            grooves,
+            tables,
+        } = parts;
+        let positions = scene.objects.iter().flat_map(|o| &o.mesh.positions_m);
+        Self {
+            scene,
+            settings,
+            triangles,
+            grooves,
+            depth_coherence: ScratchIndex::depth_coherence(scene),
+            tables,
+            reflectances: scene.materials.par_iter().map(Reflectance::new).collect(),
+            lights: AreaLights::new(scene),
+            environment: scene.environment.as_ref().map(EnvironmentSampler::new),
+            camera: scene.camera.frame(scene.render.size_px),
+            extent_m: positions.map(|p| p.length() as f64).fold(0.0, f64::max),
+        }
+    }
+}

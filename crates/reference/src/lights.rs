@@ -1,0 +1,150 @@
+//! The area lights of a scene as directions to sample: densities are per solid angle, points and directions in world space.
+//!
+//! A direction is drawn uniformly among those in which the light is seen. That leaves the cosine and the BRDF to the integrand,
+//! which multiple importance sampling with the BRDF's own directions takes care of, and it makes the density a constant for each
+//! point and light: sampling and evaluating it cannot disagree.
+
+use glam::{DVec2, DVec3};
+use hairline_scene::{Light, Scene};
+
+mod cone;
+mod polygon;
+mod sphere;
+#[cfg(test)]
+mod tests;
+
+#[cfg(test)]
+use cone::Cone;
+use polygon::PolygonLight;
+use sphere::SphereLight;
+
+/// The lights of a scene, made ready once.
+#[derive(Clone, Debug)]
+pub(crate) struct AreaLights {
+    lights: Vec<AreaLight>,
+}
+
+#[derive(Clone, Debug)]
+struct AreaLight {
+    shape: Shape,
+    radiance: DVec3,
+}
+
+#[derive(Clone, Debug)]
+enum Shape {
+    Sphere(SphereLight),
+    Polygon(PolygonLight),
+}
+
+/// A direction towards a light.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LightSample {
+    /// Unit vector.
+    pub direction: DVec3,
+    /// To the point of the light that is seen there.
+    pub distance_m: f64,
+    /// Density of the direction, per steradian.
+    pub pdf: f64,
+    pub radiance: DVec3,
+}
+
+/// What a ray sees of a light.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LightHit {
+    pub distance_m: f64,
+    pub radiance: DVec3,
+}
+
+impl AreaLights {
+    /// The environment's suns are not among them: here they are found in its map.
+    pub fn new(scene: &Scene) -> Self {
+        Self::from_lights(&scene.lights)
+    }
+
+    fn from_lights(lights: &[Light]) -> Self {
+        let lights = lights
+            .iter()
+            .map(|light| match light {
+                Light::Sphere {
+                    center_m,
+                    radius_m,
+                    radiance,
+                } => AreaLight {
+                    shape: Shape::Sphere(SphereLight::new(*center_m, *radius_m)),
+                    radiance: DVec3::from(*radiance),
+                },
+                Light::Polygon {
+                    vertices_m,
+                    radiance,
+                    two_sided,
+                } => AreaLight {
+                    shape: Shape::Polygon(PolygonLight::new(vertices_m, *two_sided)),
+                    radiance: DVec3::from(*radiance),
+                },
+            })
+            .collect();
+        Self { lights }
+    }
+
+    pub fn len(&self) -> usize {
+        self.lights.len()
+    }
+
+    /// A direction towards light `i`, uniform over the solid angle in which the point `from` sees it. `u` is in [0, 1)^2.
+    /// None where the light shows its dark side or its edge.
+    pub fn sample(&self, i: usize, from: DVec3, u: DVec2) -> Option<LightSample> {
+        let light = &self.lights[i];
+        let (direction, distance_m, pdf) = match &light.shape {
+            Shape::Sphere(sphere) => sphere.sample(from, u),
+            Shape::Polygon(polygon) => polygon.sample(from, u),
+        }?;
+        Some(LightSample {
+            direction,
+            distance_m,
+            pdf,
+            radiance: light.radiance,
+        })
+    }
+
+    /// What a ray (unit `direction`) sees of light `i`: its first point on the light. None if it misses, or meets a dark side.
+    /// From inside a sphere every ray hits.
+    pub fn hit(&self, i: usize, from: DVec3, direction: DVec3) -> Option<LightHit> {
+        let light = &self.lights[i];
+        let distance_m = match &light.shape {
+            Shape::Sphere(sphere) => sphere.hit(from, direction),
+            Shape::Polygon(polygon) => polygon.hit(from, direction),
+        }?;
+        Some(LightHit {
+            distance_m,
+            radiance: light.radiance,
+        })
+    }
+
+    /// The density of [`AreaLights::sample`] at a direction that hits light `i`, per steradian; the same for all of them.
+    /// 0 where nothing can be sampled.
+    pub fn pdf(&self, i: usize, from: DVec3, _direction: DVec3) -> f64 {
+        match &self.lights[i].shape {
+            Shape::Sphere(sphere) => sphere.pdf(from),
+            Shape::Polygon(polygon) => polygon.pdf(from),
+        }
+    }
+
+    /// A cone that holds every direction from a point to light `i`: what the tests draw even directions from. To tell which
+    /// directions a light can reach, [`AreaLights::extent`] is tighter.
+    #[cfg(test)]
+    pub fn bound(&self, i: usize, from: DVec3) -> Cone {
+        match &self.lights[i].shape {
+            Shape::Sphere(sphere) => sphere.bound(from),
+            Shape::Polygon(polygon) => polygon.bound(from),
+        }
+    }
+
+    /// Bounds on the component along a unit `axis` of the unit directions from a point to light `i`. For polygons they are
+    /// tighter than those of [`AreaLights::bound`].
+    pub fn extent(&self, i: usize, from: DVec3, axis: DVec3) -> (f64, f64) {
+        match &self.lights[i].shape {
+            Shape::Sphere(sphere) => sphere.bound(from).extent(axis),
+            Shape::Polygon(polygon) => polygon.extent(from, axis),
+        }
+    }
+}

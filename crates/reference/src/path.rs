@@ -1,0 +1,514 @@
+//! One path: from the camera to a surface, to the lights, and on to further surfaces.
+
+use super::base::BaseLobes;
+use super::coherent::{Drawn, Field, FieldDirections, FieldResponse};
+use super::grooves::{self, GrooveView, REACH_OF_AMPLITUDE, REACH_OF_ENERGY};
+use super::integrator::{Integrator, Model};
+use super::random::{Purpose, Random};
+use super::separable::{Lobe, direction_from_cosines, world_axes};
+use super::wavelengths::{SpectralFresnel, Spectrum, Wavelengths};
+
+use glam::{DVec2, DVec3};
+use hairline_cpu::surface::{SurfacePoint, surface_point};
+use hairline_index::Hit;
+use hairline_optics::ggx::{GGX_MIN_ALPHA, ggx_alpha};
+use hairline_optics::mask::ScratchSums;
+use std::f64::consts::PI;
+
+/// What a sample adds to the film.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Light {
+    /// Light whose last reflection is by the base, or that the surface emits, or that passed it.
+    pub base: DVec3,
+    /// Light whose last reflection is by scratches.
+    pub scratches: DVec3,
+    /// What scratches take from the base at the first surface.
+    pub density: DVec3,
+}
+
+impl Light {
+    pub fn total(&self) -> DVec3 {
+        self.base + self.scratches
+    }
+}
+
+/// Draws to a light for the field at one vertex and for each groove, and to the environment for either. The integrands are
+/// narrow: more draws a sample cost less than more samples.
+const FIELD_DRAWS: u32 = 2;
+const GROOVE_DRAWS: u32 = 2;
+const ENVIRONMENT_DRAWS: u32 = 4;
+
+/// A place on a path, with what it does to light.
+struct Vertex<'a> {
+    point: &'a SurfacePoint<'a>,
+    lobes: BaseLobes<'a>,
+    /// What is left of the base's specular reflection; 0 where the field stands in for it.
+    specular_kept: DVec3,
+    response: Response<'a>,
+    /// How many surfaces the path met before.
+    depth: u32,
+    random: Random,
+}
+
+/// What scratches do, by the model.
+enum Response<'a> {
+    Separable { lobes: Vec<Lobe<'a>>, kept: f64 },
+    Full(Box<Field<'a>>),
+}
+
+impl Vertex<'_> {
+    /// The base's BRDF times the cosine for a direction of the surface's frame.
+    fn base(&self, wi: DVec3) -> DVec3 {
+        let (specular, diffuse) = self.lobes.eval(wi);
+        specular * self.specular_kept + diffuse
+    }
+
+    fn world(&self, direction: DVec3) -> DVec3 {
+        self.point.world_from_surface(direction)
+    }
+}
+
+impl Integrator<'_> {
+    /// Radiance along a ray. `wavelengths` are the path's.
+    pub(super) fn arrive(
+        &self,
+        origin_m: DVec3,
+        direction: DVec3,
+        wavelengths: &Wavelengths,
+        random: Random,
+    ) -> Light {
+        match self.triangles.intersect(origin_m, direction) {
+            Some(hit) => self.leave(origin_m, direction, &hit, wavelengths, 0, random),
+            None => Light {
+                base: match &self.scene.environment {
+                    Some(environment) if environment.visible() => environment.radiance(direction),
+                    _ => DVec3::ZERO,
+                },
+                ..Light::default()
+            },
+        }
+    }
+
+    /// Radiance that leaves a surface against the ray that hit it.
+    fn leave(
+        &self,
+        origin_m: DVec3,
+        direction: DVec3,
+        hit: &Hit,
+        wavelengths: &Wavelengths,
+        depth: u32,
+        random: Random,
+    ) -> Light {
+        let position_m = origin_m + direction * hit.distance_m;
+        let at_a_point = |_| [DVec3::ZERO; 2];
+        let point = surface_point(
+            self.scene,
+            &self.tables,
+            position_m,
+            -direction,
+            at_a_point,
+            hit,
+        );
+        let object = hit.object as usize;
+        let reach_sigma = match self.settings.model {
+            Model::Separable => REACH_OF_ENERGY,
+            Model::Full => REACH_OF_AMPLITUDE,
+        };
+        let views = grooves::gather(&self.grooves, object, &point, reach_sigma);
+        let material = &self.scene.materials[point.material];
+        let optics = &self.tables.materials[point.material];
+        let reflectance = &self.reflectances[point.material];
+        let fresnel = SpectralFresnel::new(&material.base, optics, &point, reflectance);
+        let weights = fresnel.separable(wavelengths);
+
+        let (response, taken, specular_kept) = match self.settings.model {
+            Model::Separable => {
+                let (kept, taken) = self.mask(object, &point, &views);
+                let lobes = lobes(&views, wavelengths, &weights, point.coherence_um);
+                (
+                    Response::Separable { lobes, kept },
+                    taken,
+                    DVec3::ONE - taken,
+                )
+            }
+            Model::Full => {
+                let smooth = ggx_alpha(point.roughness) <= GGX_MIN_ALPHA;
+                let field = Field::new(&point, &views, smooth, wavelengths, &fresnel);
+                let taken = field.taken();
+                let lobe = if smooth {
+                    DVec3::ZERO
+                } else {
+                    DVec3::ONE - taken
+                };
+                (Response::Full(Box::new(field)), taken, lobe)
+            }
+        };
+        let vertex = Vertex {
+            lobes: BaseLobes::new(&point, reflectance),
+            specular_kept,
+            response,
+            depth,
+            random,
+            point: &point,
+        };
+        let mut light = Light {
+            base: point.emission,
+            scratches: DVec3::ZERO,
+            density: taken,
+        };
+        light.base += self.by_base(&vertex, wavelengths);
+        match &vertex.response {
+            Response::Separable { lobes, kept } => {
+                light.scratches += *kept * self.by_grooves(&vertex, lobes, wavelengths);
+            }
+            Response::Full(field) if !field.is_empty() => {
+                let by_field = self.by_field(&vertex, field, wavelengths);
+                light.base += by_field.base;
+                light.scratches += by_field.scratches;
+            }
+            Response::Full(_) => {}
+        }
+        light
+    }
+
+    /// What scratches keep of their light beside one another, and what they take from the base.
+    fn mask(&self, object: usize, point: &SurfacePoint, views: &[GrooveView]) -> (f64, DVec3) {
+        let table = &self.tables.tables[point.table];
+        let mut sums = ScratchSums::default();
+        for view in views {
+            // In the mirror's direction both cosines are the viewer's.
+            let total = table.scratch_table_total(view.piece.depth_nm * point.wo.z);
+            sums.add(view.share, total, [1.0; 3]);
+        }
+        let coherence = self.depth_coherence[object] as f64;
+        let masked = sums.resolve(self.settings.mask, coherence);
+        let taken = DVec3::from(masked.taken);
+        let kept = if sums.share > 0.0 {
+            masked.scratches[0] / sums.share
+        } else {
+            1.0
+        };
+        (kept, taken)
+    }
+
+    /// Light by way of the base: multiple importance sampling of lights and lobes (E. Veach, 1997).
+    fn by_base(&self, vertex: &Vertex, wavelengths: &Wavelengths) -> DVec3 {
+        let point = vertex.point;
+        let mut sum = DVec3::ZERO;
+        let [pick, u, v, _] = vertex.random.four(Purpose::BaseLobe);
+        let drawn = vertex
+            .lobes
+            .sample(pick, DVec2::new(u, v))
+            .filter(|wi| wi.z > 0.0)
+            .map(|wi| (vertex.world(wi), vertex.base(wi), vertex.lobes.pdf(wi)))
+            .filter(|(_, _, pdf)| *pdf > 0.0);
+        for i in 0..self.lights.len() {
+            let [u, v, ..] = vertex.random.four(Purpose::Light(i as u32));
+            if let Some(to) = self.lights.sample(i, point.position_m, DVec2::new(u, v))
+                && !self.is_hidden(point, to.direction, to.distance_m)
+            {
+                let wi = point.surface_from_world(to.direction);
+                if wi.z > 0.0 {
+                    let pdf = to.pdf + vertex.lobes.pdf(wi);
+                    sum += to.radiance * vertex.base(wi) / pdf;
+                }
+            }
+            if let Some((direction, value, pdf)) = drawn
+                && let Some(hit) = self.lights.hit(i, point.position_m, direction)
+                && !self.is_hidden(point, direction, hit.distance_m)
+            {
+                let pdf = pdf + self.lights.pdf(i, point.position_m, direction);
+                sum += hit.radiance * value / pdf;
+            }
+        }
+        // What the drawn direction meets: the next surface, or the environment.
+        let next = drawn.and_then(|(direction, ..)| self.next_surface(vertex, direction));
+        if let (Some(environment), Some(sampler)) = (&self.scene.environment, &self.environment) {
+            let [u, v, ..] = vertex.random.four(Purpose::Environment);
+            let (direction, sampler_pdf) = sampler.sample(DVec2::new(u, v));
+            let wi = point.surface_from_world(direction);
+            if wi.z > 0.0 && sampler_pdf > 0.0 && self.next_surface(vertex, direction).is_none() {
+                let pdf = sampler_pdf + vertex.lobes.pdf(wi);
+                sum += environment.radiance(direction) * vertex.base(wi) / pdf;
+            }
+            if let Some((direction, value, pdf)) = drawn
+                && next.is_none()
+            {
+                sum += environment.radiance(direction) * value / (pdf + sampler.pdf(direction));
+            }
+        }
+        if let (Some((direction, value, pdf)), Some(hit)) = (drawn, next) {
+            sum += value / pdf * self.beyond(vertex, direction, &hit, wavelengths);
+        }
+        sum
+    }
+
+    /// Light by way of the grooves, each for itself, before they weaken one another.
+    fn by_grooves(&self, vertex: &Vertex, lobes: &[Lobe], wavelengths: &Wavelengths) -> DVec3 {
+        let mut sum = DVec3::ZERO;
+        for (g, lobe) in lobes.iter().enumerate() {
+            let axes = world_axes(lobe.groove, vertex.point);
+            for light in 0..self.lights.len() {
+                let [along, across] =
+                    axes.map(|axis| self.lights.extent(light, vertex.point.position_m, axis));
+                let Some(directions) = lobe.directions(along, across) else {
+                    continue;
+                };
+                let draws = f64::from(GROOVE_DRAWS);
+                for draw in 0..GROOVE_DRAWS {
+                    let [u, v, ..] = vertex.random.four(Purpose::GrooveLight {
+                        groove: g as u32,
+                        light: light as u32,
+                        draw,
+                    });
+                    let u = (f64::from(draw) + u) / draws;
+                    let Some(drawn) = directions.sample(u, v) else {
+                        continue;
+                    };
+                    let direction = vertex.world(lobe.groove.frame.surface_from_band(drawn.wi));
+                    if let Some(hit) = self.lights.hit(light, vertex.point.position_m, direction)
+                        && !self.is_hidden(vertex.point, direction, hit.distance_m)
+                    {
+                        let value = lobe.eval(&drawn) / (draws * drawn.pdf);
+                        sum += hit.radiance * value;
+                    }
+                }
+            }
+            let Some(environment) = &self.scene.environment else {
+                continue;
+            };
+            let Some(directions) = lobe.directions((-1.0, 1.0), (-1.0, 1.0)) else {
+                continue;
+            };
+            for draw in 0..ENVIRONMENT_DRAWS {
+                let purpose = Purpose::GrooveEnvironment {
+                    groove: g as u32,
+                    draw,
+                };
+                let [u, v, ..] = vertex.random.four(purpose);
+                let v = (f64::from(draw) + v) / f64::from(ENVIRONMENT_DRAWS);
+                if let Some(drawn) = directions.sample(u, v) {
+                    let direction = vertex.world(lobe.groove.frame.surface_from_band(drawn.wi));
+                    if self.next_surface(vertex, direction).is_none() {
+                        let value = lobe.eval(&drawn) / drawn.pdf;
+                        sum +=
+                            environment.radiance(direction) * value / f64::from(ENVIRONMENT_DRAWS);
+                    }
+                }
+            }
+        }
+        if vertex.depth < self.settings.bounces {
+            sum += self.bounce_off_a_groove(vertex, lobes, wavelengths);
+        }
+        sum
+    }
+
+    /// Light from further surfaces by way of one groove, drawn by its share.
+    fn bounce_off_a_groove(
+        &self,
+        vertex: &Vertex,
+        lobes: &[Lobe],
+        wavelengths: &Wavelengths,
+    ) -> DVec3 {
+        let all: f64 = lobes.iter().map(|l| l.groove.share.segment).sum();
+        let [pick, u, v, _] = vertex.random.four(Purpose::Bounce);
+        let mut left = pick * all;
+        for lobe in lobes {
+            let share = lobe.groove.share.segment;
+            if left >= share {
+                left -= share;
+                continue;
+            }
+            let drawn = lobe
+                .directions((-1.0, 1.0), (-1.0, 1.0))
+                .and_then(|directions| directions.sample(u, v));
+            let Some(drawn) = drawn else {
+                break;
+            };
+            let direction = vertex.world(lobe.groove.frame.surface_from_band(drawn.wi));
+            let Some(hit) = self.next_surface(vertex, direction) else {
+                break;
+            };
+            let value = lobe.eval(&drawn) / (drawn.pdf * share / all);
+            return value * self.beyond(vertex, direction, &hit, wavelengths);
+        }
+        DVec3::ZERO
+    }
+
+    /// Light by way of the whole field.
+    fn by_field(&self, vertex: &Vertex, field: &Field, wavelengths: &Wavelengths) -> FieldResponse {
+        let point = vertex.point;
+        let mut sum = FieldResponse {
+            base: DVec3::ZERO,
+            scratches: DVec3::ZERO,
+        };
+        let mut add = |light: DVec3, response: FieldResponse, pdf: f64| {
+            sum.base += light * response.base / pdf;
+            sum.scratches += light * response.scratches / pdf;
+        };
+        let draws = f64::from(FIELD_DRAWS);
+        for light in 0..self.lights.len() {
+            let from = point.position_m;
+            let directions = field.directions(|axis| {
+                let axis = point.world_from_surface(axis.extend(0.0));
+                self.lights.extent(light, from, axis)
+            });
+            for draw in 0..FIELD_DRAWS {
+                let [pick, u, v, _] = vertex.random.four(Purpose::FieldLight {
+                    light: light as u32,
+                    draw,
+                });
+                let wi = match directions.sample((f64::from(draw) + pick) / draws, u, v) {
+                    Drawn::Direction(wi) => wi,
+                    Drawn::Elsewhere(_) => self
+                        .lights
+                        .sample(light, from, DVec2::new(u, v))
+                        .map(|to| point.surface_from_world(to.direction)),
+                };
+                let Some(wi) = wi.filter(|wi| wi.z > MIN_COS) else {
+                    continue;
+                };
+                let direction = vertex.world(wi);
+                if let Some(hit) = self.lights.hit(light, from, direction)
+                    && !self.is_hidden(point, direction, hit.distance_m)
+                {
+                    let elsewhere = self.lights.pdf(light, from, direction) / wi.z;
+                    let pdf = draws * directions.pdf(wi, elsewhere);
+                    add(hit.radiance, field.eval(wi), pdf);
+                }
+            }
+        }
+        let bounces = vertex.depth < self.settings.bounces;
+        if self.scene.environment.is_some() || bounces {
+            let directions = field.directions(|_| (-1.0, 1.0));
+            let draws = f64::from(ENVIRONMENT_DRAWS);
+            // One of the draws goes on, or paths would multiply. Each has its own part of the mixture: any of them may be it.
+            let [goes_on, ..] = vertex.random.four(Purpose::Bounce);
+            let goes_on = (goes_on * draws) as u32;
+            for draw in 0..ENVIRONMENT_DRAWS {
+                let [pick, u, v, _] = vertex.random.four(Purpose::FieldEnvironment { draw });
+                let pick = (f64::from(draw) + pick) / draws;
+                let Some(wi) = self.draw_all_around(point, &directions, pick, u, v) else {
+                    continue;
+                };
+                let direction = vertex.world(wi);
+                let pdf = draws * directions.pdf(wi, self.all_around_pdf(direction, wi));
+                match (
+                    self.next_surface(vertex, direction),
+                    &self.scene.environment,
+                ) {
+                    (Some(hit), _) if bounces && draw == goes_on => {
+                        let beyond = draws * self.beyond(vertex, direction, &hit, wavelengths);
+                        add(beyond, field.eval(wi), pdf);
+                    }
+                    (None, Some(environment)) => {
+                        add(environment.radiance(direction), field.eval(wi), pdf);
+                    }
+                    _ => {}
+                }
+            }
+        }
+        sum
+    }
+
+    /// A direction of the surface's frame by the field, or where the field may send light off its peaks: by the
+    /// environment, or evenly over d xi.
+    fn draw_all_around(
+        &self,
+        point: &SurfacePoint,
+        directions: &FieldDirections,
+        pick: f64,
+        u: f64,
+        v: f64,
+    ) -> Option<DVec3> {
+        let wi = match directions.sample(pick, u, v) {
+            Drawn::Direction(wi) => wi,
+            Drawn::Elsewhere(pick) => match &self.environment {
+                Some(sampler) if pick < 0.5 => {
+                    Some(point.surface_from_world(sampler.sample(DVec2::new(u, v)).0))
+                }
+                _ => {
+                    let (sin, cos) = (2.0 * PI * v).sin_cos();
+                    direction_from_cosines(u.sqrt() * cos, u.sqrt() * sin)
+                }
+            },
+        };
+        wi.filter(|wi| wi.z > MIN_COS)
+    }
+
+    /// Density, per d xi, of what [`Self::draw_all_around`] draws elsewhere.
+    fn all_around_pdf(&self, direction: DVec3, wi: DVec3) -> f64 {
+        match &self.environment {
+            Some(sampler) => 0.5 * sampler.pdf(direction) / wi.z + 0.5 / PI,
+            None => 1.0 / PI,
+        }
+    }
+
+    /// Light from the surface that a path meets next.
+    fn beyond(
+        &self,
+        vertex: &Vertex,
+        direction: DVec3,
+        hit: &Hit,
+        wavelengths: &Wavelengths,
+    ) -> DVec3 {
+        if vertex.depth >= self.settings.bounces {
+            return DVec3::ZERO;
+        }
+        let origin_m = self.off_the_surface(vertex.point, direction);
+        let random = vertex.random.next_vertex();
+        self.leave(
+            origin_m,
+            direction,
+            hit,
+            wavelengths,
+            vertex.depth + 1,
+            random,
+        )
+        .total()
+    }
+
+    /// The surface that hides the environment in a direction: with shadows any, else one that the path goes on from, whose
+    /// light stands in for what it hides.
+    fn next_surface(&self, vertex: &Vertex, direction: DVec3) -> Option<Hit> {
+        if !self.settings.shadows && vertex.depth >= self.settings.bounces {
+            return None;
+        }
+        let origin_m = self.off_the_surface(vertex.point, direction);
+        self.triangles.intersect(origin_m, direction)
+    }
+
+    /// Whether an object hides a light at some distance.
+    fn is_hidden(&self, point: &SurfacePoint, direction: DVec3, distance_m: f64) -> bool {
+        if !self.settings.shadows {
+            return false;
+        }
+        let origin_m = self.off_the_surface(point, direction);
+        self.triangles
+            .intersect(origin_m, direction)
+            .is_some_and(|hit| hit.distance_m < distance_m)
+    }
+
+    /// Where a ray starts that must not meet the surface that it leaves.
+    fn off_the_surface(&self, point: &SurfacePoint, direction: DVec3) -> DVec3 {
+        // Vertices are singles: this is some ten steps of theirs.
+        let step_m = 1e-6 * (self.extent_m + point.position_m.length());
+        point.position_m + step_m * (direction + point.normal)
+    }
+}
+
+/// Below, d xi = cos d omega loses its meaning as a measure of directions.
+const MIN_COS: f64 = 1e-6;
+
+fn lobes<'a>(
+    views: &'a [GrooveView],
+    wavelengths: &Wavelengths,
+    weights: &Spectrum<DVec3>,
+    coherence_um: f64,
+) -> Vec<Lobe<'a>> {
+    views
+        .iter()
+        .filter(|view| view.share.segment > 0.0)
+        .map(|view| Lobe::new(view, wavelengths, weights, coherence_um))
+        .collect()
+}

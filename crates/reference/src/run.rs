@@ -1,0 +1,208 @@
+//! Pixels, batch by batch.
+
+use crate::integrator::Integrator;
+use crate::path::Light;
+use crate::random::{BATCH_SAMPLES, Purpose, Random};
+use crate::wavelengths::Wavelengths;
+use glam::{DVec2, DVec3};
+use hairline_cpu::surface::surface_point;
+use hairline_image::{Image, Noise};
+use rayon::prelude::*;
+use spec_math::cephes64::ndtri;
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::time::{Duration, Instant};
+
+/// Counts the changes that make samples worth something else: pictures of different revisions must not be added up. Raise it with
+/// every change to the model, to what is drawn, or to the order of random numbers.
+pub const REVISION: u32 = 2;
+
+impl Integrator<'_> {
+    /// An image without samples, to hand to [`Integrator::run`]: depth and normal alone, those of each pixel's middle.
+    pub fn start(&self) -> Image {
+        let mut image = Image::new(self.scene.render.size_px);
+        image.noise = Some(Noise::new(image.size_px, BATCH_SAMPLES));
+        let width = image.size_px[0] as usize;
+        let layers = (&mut image.depth_m, &mut image.normal);
+        layers
+            .into_par_iter()
+            .enumerate()
+            .for_each(|(i, (depth_m, normal))| {
+                let middle = DVec2::new((i % width) as f64 + 0.5, (i / width) as f64 + 0.5);
+                let ray = self.camera.camera_ray(middle);
+                let direction = ray.normalize();
+                if let Some(hit) = self.triangles.intersect(self.camera.position_m, direction) {
+                    let position_m = self.camera.position_m + direction * hit.distance_m;
+                    let no_footprint = |_| [DVec3::ZERO; 2];
+                    let (scene, tables) = (self.scene, &self.tables);
+                    let point =
+                        surface_point(scene, tables, position_m, -direction, no_footprint, &hit);
+                    *depth_m = (hit.distance_m / ray.length()) as f32;
+                    *normal = point.normal.as_vec3().to_array();
+                }
+            });
+        image
+    }
+
+    /// Adds batches to the pixels of `image` until each has at least `samples`, all cores at work. `image` is from
+    /// [`Integrator::start`] or an earlier run with the same scene and settings.
+    ///
+    /// `observe` is told the share that is done, from any thread, many times a second; when it answers
+    /// [`ControlFlow::Break`], the batches in progress are finished and `run` returns Break. `image` is then a valid
+    /// picture: some pixels may have more batches than others, and none at all where the first round was cut short.
+    ///
+    /// # Panics
+    /// If `image` has another size than the scene, or no noise, or batches of another size.
+    pub fn run(
+        &self,
+        image: &mut Image,
+        samples: u32,
+        observe: &(dyn Fn(f64) -> ControlFlow<()> + Sync),
+    ) -> ControlFlow<()> {
+        assert_eq!(
+            image.size_px, self.scene.render.size_px,
+            "an image of another size"
+        );
+        let noise = image.noise.as_ref().expect("an image with noise");
+        assert_eq!(noise.batch, BATCH_SAMPLES, "batches of another size");
+        let target = samples.div_ceil(BATCH_SAMPLES);
+        let batches = |samples: u32| u64::from((samples / BATCH_SAMPLES).min(target));
+        let total = u64::from(target) * image.pixel_count() as u64;
+        let done = AtomicU64::new(noise.samples.iter().map(|n| batches(*n)).sum());
+        let fewest = noise.samples.iter().map(|n| n / BATCH_SAMPLES).min();
+        let stop = AtomicBool::new(false);
+        let report = |more: u64| {
+            let done = done.fetch_add(more, Ordering::Relaxed) + more;
+            if observe(done as f64 / total.max(1) as f64).is_break() {
+                stop.store(true, Ordering::Relaxed);
+            }
+        };
+        // In rounds over the whole picture, so that a run that is stopped is noisy everywhere rather than done in a part.
+        // Each round ends in idle cores: rounds grow until that is a small part of them.
+        let mut round = Round {
+            up_to: fewest.unwrap_or(target),
+            batches: 1,
+        };
+        while round.up_to < target && !stop.load(Ordering::Relaxed) {
+            round.up_to = (round.up_to + round.batches).min(target);
+            let start = Instant::now();
+            self.run_round(image, round.up_to, &report, &stop);
+            if start.elapsed() < ROUND_LEAST {
+                round.batches *= 2;
+            }
+        }
+        if stop.load(Ordering::Relaxed) {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    }
+
+    /// Brings every pixel to `up_to` batches.
+    fn run_round(
+        &self,
+        image: &mut Image,
+        up_to: u32,
+        report: &(dyn Fn(u64) + Sync),
+        stop: &AtomicBool,
+    ) {
+        let width = image.size_px[0] as usize;
+        let noise = image.noise.as_mut().expect("checked by the caller");
+        let chunks = (
+            image.base.par_chunks_mut(CHUNK_PX),
+            image.scratches.par_chunks_mut(CHUNK_PX),
+            image.density.par_chunks_mut(CHUNK_PX),
+            noise.samples.par_chunks_mut(CHUNK_PX),
+            noise.beauty.par_chunks_mut(CHUNK_PX),
+            noise.base.par_chunks_mut(CHUNK_PX),
+            noise.scratches.par_chunks_mut(CHUNK_PX),
+            noise.density.par_chunks_mut(CHUNK_PX),
+        );
+        chunks
+            .into_par_iter()
+            .enumerate()
+            .for_each(|(chunk, pixels)| {
+                let (base, scratches, density, samples, v_beauty, v_base, v_scratches, v_density) =
+                    pixels;
+                for i in 0..base.len() {
+                    let pixel = chunk * CHUNK_PX + i;
+                    let place =
+                        DVec2::new((pixel % width) as f64 + 0.5, (pixel / width) as f64 + 0.5);
+                    while samples[i] / BATCH_SAMPLES < up_to && !stop.load(Ordering::Relaxed) {
+                        let batch = samples[i] / BATCH_SAMPLES;
+                        let light = self.batch(pixel as u64, place, batch);
+                        let mut beauty = sum(base[i], scratches[i]);
+                        add_batch(&mut beauty, &mut v_beauty[i], light.total(), batch);
+                        add_batch(&mut base[i], &mut v_base[i], light.base, batch);
+                        add_batch(
+                            &mut scratches[i],
+                            &mut v_scratches[i],
+                            light.scratches,
+                            batch,
+                        );
+                        add_batch(&mut density[i], &mut v_density[i], light.density, batch);
+                        samples[i] = (batch + 1) * BATCH_SAMPLES;
+                        report(1);
+                    }
+                }
+            });
+    }
+
+    /// The mean of a batch of samples.
+    fn batch(&self, pixel: u64, middle: DVec2, batch: u32) -> Light {
+        let mut light = Light::default();
+        for sample in 0..BATCH_SAMPLES {
+            let random = Random::new(self.settings.seed, pixel, batch, sample);
+            let [x, y, w, _] = random.four(Purpose::Camera);
+            let std = self.scene.render.filter_std_px;
+            let place = middle + std * DVec2::new(ndtri(x), ndtri(y));
+            let direction = self.camera.camera_ray(place).normalize();
+            let wavelengths = Wavelengths::new(w);
+            let one = self.arrive(self.camera.position_m, direction, &wavelengths, random);
+            light.base += one.base;
+            light.scratches += one.scratches;
+            light.density += one.density;
+        }
+        let share = 1.0 / f64::from(BATCH_SAMPLES);
+        Light {
+            base: share * light.base,
+            scratches: share * light.scratches,
+            density: share * light.density,
+        }
+    }
+}
+
+/// How far a run has come, and by how much it goes on.
+struct Round {
+    up_to: u32,
+    batches: u32,
+}
+
+/// Pixels that a thread takes at a time.
+const CHUNK_PX: usize = 16;
+
+/// Rounds shorter than this are made longer.
+const ROUND_LEAST: Duration = Duration::from_secs(1);
+
+fn sum(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
+    std::array::from_fn(|c| a[c] + b[c])
+}
+
+/// Takes a batch's mean into a pixel's mean and into the variance of that mean, `batches` of which came before (B. P. Welford,
+/// *Note on a Method for Calculating Corrected Sums of Squares and Products*, 1962). Both are rounded to what the file
+/// holds after every batch, so that a picture read back goes on as the one in memory.
+fn add_batch(mean: &mut [f32; 3], variance: &mut [f32; 3], batch: DVec3, batches: u32) {
+    let n = f64::from(batches);
+    for c in 0..3 {
+        let before = f64::from(mean[c]);
+        let after = before + (batch[c] - before) / (n + 1.0);
+        let squares =
+            f64::from(variance[c]) * n * (n - 1.0) + (batch[c] - before) * (batch[c] - after);
+        mean[c] = after as f32;
+        variance[c] = if batches > 0 {
+            (squares / (n * (n + 1.0))) as f32
+        } else {
+            0.0
+        };
+    }
+}

@@ -1,0 +1,129 @@
+//! The wavelengths of one sample, spread evenly over the visible, and what a material makes of them.
+
+use super::reflectance::Reflectance;
+use glam::DVec3;
+use hairline_cpu::surface::SurfacePoint;
+use hairline_optics::metal::Metal;
+use hairline_optics::spectrum;
+use hairline_scene::{Base, MaterialOptics};
+
+/// Wavelengths in a sample: all of them see the same directions, which costs little and keeps colour noise low.
+pub(super) const WAVELENGTHS: usize = 8;
+
+const FIRST_NM: f64 = 380.0;
+const LAST_NM: f64 = 780.0;
+
+/// One number for each wavelength of a sample.
+pub(super) type Spectrum<T> = [T; WAVELENGTHS];
+
+/// The wavelengths of a sample.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Wavelengths {
+    pub nm: Spectrum<f64>,
+    /// Weight in linear Rec.709 over the probability of the wavelength: sums over the sample are estimates of integrals.
+    pub weight: Spectrum<DVec3>,
+}
+
+impl Wavelengths {
+    /// One in each eighth of the visible; `u` in [0, 1) moves them all.
+    pub fn new(u: f64) -> Self {
+        let step = (LAST_NM - FIRST_NM) / WAVELENGTHS as f64;
+        let nm = std::array::from_fn(|j| FIRST_NM + step * (j as f64 + u));
+        let weight = nm.map(|nm| step * DVec3::from(spectrum::weight_per_nm(nm)));
+        Self { nm, weight }
+    }
+}
+
+/// The widest band, that of the longest wavelength, as its wavelength: what directions are drawn by.
+pub(super) const WIDEST_NM: f64 = LAST_NM;
+
+/// Reflection off the floor of a groove and off the smooth base.
+#[derive(Clone, Copy)]
+pub(super) struct SpectralFresnel<'a> {
+    metal: Option<Metal>,
+    /// The metal's colour before textures; 1 without a metal.
+    metal_f0: DVec3,
+    reflectance: &'a Reflectance,
+    f0: DVec3,
+    cos_o: f64,
+}
+
+impl<'a> SpectralFresnel<'a> {
+    pub fn new(
+        base: &Base,
+        optics: &MaterialOptics,
+        point: &SurfacePoint,
+        reflectance: &'a Reflectance,
+    ) -> Self {
+        let (metal, metal_f0) = match base {
+            Base::Metal(metal) => (Some(*metal), DVec3::from(optics.base_color)),
+            _ => (None, DVec3::ONE),
+        };
+        Self {
+            metal,
+            metal_f0,
+            reflectance,
+            f0: DVec3::from(point.fresnel.f0),
+            cos_o: point.wo.z,
+        }
+    }
+
+    fn at(&self, cos_theta: f64) -> DVec3 {
+        self.reflectance.eval(cos_theta, self.f0).once
+    }
+
+    /// Weights with the model's reflectance, (7) and (17): the spectrum's shape at normal incidence, the colour by the
+    /// viewer's angle.
+    pub fn separable(&self, wavelengths: &Wavelengths) -> Spectrum<DVec3> {
+        let fresnel = self.at(self.cos_o);
+        self.shape(wavelengths).map(|weight| weight * fresnel)
+    }
+
+    /// Weights with the shape of the reflectance's spectrum alone: they add up to white.
+    pub fn shape(&self, wavelengths: &Wavelengths) -> Spectrum<DVec3> {
+        std::array::from_fn(|j| match self.metal {
+            Some(metal) => {
+                let reflectance = metal.reflectance(1.0, wavelengths.nm[j]);
+                wavelengths.weight[j] * reflectance / self.metal_f0
+            }
+            None => wavelengths.weight[j],
+        })
+    }
+
+    /// Weights with the reflectance by both angles: the geometric mean of those at the light's and at the viewer's cosine. It is
+    /// reciprocal, and equal to Fresnel's in the mirror's direction.
+    pub fn coherent(&self, wavelengths: &Wavelengths, cos_i: f64) -> Spectrum<DVec3> {
+        let cos_o = self.cos_o;
+        match self.metal {
+            Some(metal) => {
+                let tint = self.f0 / self.metal_f0;
+                std::array::from_fn(|j| {
+                    let nm = wavelengths.nm[j];
+                    let r = metal.reflectance(cos_i, nm) * metal.reflectance(cos_o, nm);
+                    wavelengths.weight[j] * tint * r.sqrt()
+                })
+            }
+            None => {
+                let both = self.at(cos_i) * self.at(cos_o);
+                let mean = both.max(DVec3::ZERO).map(f64::sqrt);
+                wavelengths.weight.map(|weight| weight * mean)
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn samples_add_up_to_white() {
+        let count = 1000;
+        let sum: DVec3 = (0..count)
+            .map(|i| Wavelengths::new((i as f64 + 0.5) / count as f64))
+            .map(|w| w.weight.iter().sum::<DVec3>())
+            .sum();
+        // As the weights themselves do: spectrum.rs, `weights_as_a_density_integrate_to_one`.
+        assert!((sum / count as f64 - DVec3::ONE).abs().max_element() < 3e-4);
+    }
+}

@@ -1,0 +1,143 @@
+//! From what is described to what it is in a [`Scene`]: units and references.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use glam::{DMat4, DVec3};
+
+use crate::Environment;
+use crate::description::references::find;
+use crate::description::{self, Description, MaterialKind, MetalColor};
+use crate::environment;
+use crate::error::Error;
+use crate::scene::{Base, Camera, Material, RenderSettings, Scene};
+use crate::surface::world_from_object;
+
+/// All that takes no time: camera, settings, materials, lights.
+pub(crate) fn without_surfaces(description: &Description) -> Scene {
+    let lights = description.lights.iter().filter(|light| !light.hidden);
+    Scene {
+        camera: camera(&description.camera),
+        render: RenderSettings {
+            size_px: description.render.size_px,
+            filter_std_px: description.render.filter_std_px,
+            tone_map: description.render.tone_map,
+        },
+        environment: None,
+        textures: Arc::default(),
+        materials: description.materials.iter().map(material).collect(),
+        objects: Vec::new(),
+        lights: lights.map(description::Light::in_scene).collect(),
+        notes: description.notes.clone(),
+    }
+}
+
+fn camera(camera: &description::Camera) -> Camera {
+    Camera {
+        position_m: camera.position_m.into(),
+        target_m: camera.target_m.into(),
+        up: camera.up.into(),
+        fov_y_rad: camera.fov_y_deg.to_radians(),
+        exposure_ev: camera.exposure_ev,
+    }
+}
+
+fn material(material: &description::Material) -> Material {
+    Material {
+        name: material.name.clone(),
+        base: match material.kind {
+            MaterialKind::Metal(MetalColor::Measured(metal)) => Base::Metal(metal),
+            MaterialKind::Metal(MetalColor::Color(base_color)) => Base::ColoredMetal { base_color },
+            MaterialKind::Dielectric { ior, base_color } => Base::Dielectric { ior, base_color },
+            MaterialKind::MetallicRoughness {
+                base_color,
+                metallic,
+            } => Base::MetallicRoughness {
+                base_color,
+                metallic,
+            },
+            MaterialKind::Mirror => Base::Mirror,
+        },
+        roughness: material.roughness,
+        coherence_um: material.coherence_um,
+        emission: [0.0; 3],
+        base_color_texture: None,
+        metallic_roughness_texture: None,
+        normal_texture: None,
+        emission_texture: None,
+    }
+}
+
+/// The axis of the world nearest to the camera's up: the direction of the environment's top. A camera that is rolled a little
+/// leaves the world upright.
+pub(crate) fn vertical_axis(up: DVec3) -> DVec3 {
+    let axis = DVec3::AXES[up.abs().max_position()];
+    axis * axis.dot(up).signum()
+}
+
+/// A map as it is without the scene: not turned, intensity 1.
+pub(crate) fn environment_map(
+    map: &description::Map,
+    base_dir: &Path,
+) -> Result<Environment, Error> {
+    let file = match map {
+        description::Map::File(file) => base_dir.join(file),
+        description::Map::BuiltIn(map) => {
+            let picture = map.picture(environment::BUILT_IN_SIZE_PX);
+            return Ok(Environment::with_suns_parted(picture, 0.0, 1.0, true));
+        }
+    };
+    Environment::load(&file, 0.0, 1.0, true).map_err(|error| {
+        Error::new(
+            "environment.file",
+            error.to_string(),
+            "must be an equirectangular .hdr or .exr, relative to the scene file",
+        )
+    })
+}
+
+/// The map as it is described, for a camera with `up`.
+pub(crate) fn environment(
+    described: &description::Environment,
+    map: Environment,
+    up: DVec3,
+) -> Environment {
+    map.with_up(vertical_axis(up), described.rotation_deg.to_radians())
+        .with_intensity(described.intensity)
+        .with_visible(described.visible)
+}
+
+impl description::Object {
+    /// Where its `scale`, `rotation_deg` and `translation_m` put it.
+    pub fn world_from_object(&self) -> DMat4 {
+        world_from_object(self.translation_m, self.rotation_deg, self.scale)
+    }
+}
+
+/// The number of the material that all of an object is of; `None` where its file brings its own.
+pub(crate) fn object_material(
+    object: &description::Object,
+    key: &str,
+    materials: &[description::Material],
+) -> Result<Option<u32>, Error> {
+    let Some(name) = &object.material else {
+        return Ok(None);
+    };
+    let names = materials.iter().map(|m| m.name.as_str());
+    let index = find(name, names, &format!("{key}.material"), "material")?;
+    Ok(Some(index as u32))
+}
+
+/// The material with its textures numbered from `first` on instead of 0.
+pub(crate) fn with_textures_from(material: Material, first: usize) -> Material {
+    let shifted = |texture: Option<usize>| texture.map(|texture| texture + first);
+    Material {
+        base_color_texture: shifted(material.base_color_texture),
+        metallic_roughness_texture: shifted(material.metallic_roughness_texture),
+        normal_texture: material
+            .normal_texture
+            .map(|(texture, scale)| (texture + first, scale)),
+        emission_texture: shifted(material.emission_texture),
+        ..material
+    }
+}

@@ -1,0 +1,89 @@
+//! From a scene file's text to a [`Description`] and back.
+
+use std::path::Path;
+
+use hairline_optics::ggx::GGX_MIN_ALPHA;
+use toml::de::DeTable;
+
+use super::read;
+use super::{Description, Material, MaterialKind};
+use crate::error::Error;
+use crate::key_line::{line_of, line_of_key};
+use crate::memory;
+use crate::text::printable;
+
+impl Description {
+    /// Reads a scene file's text. `name` is what errors call the file.
+    ///
+    /// Only the form is checked here: keys, types, units. Ranges and references are checked by
+    /// [`Scene::build`](crate::Scene::build).
+    pub fn from_toml(text: &str, name: &Path) -> Result<Self, Error> {
+        memory::check_text(text.len()).map_err(|error| error.at(name, None))?;
+        let root = parse(text, name)?;
+        let description = read::description(&root);
+        let mut description = description.map_err(|error| error.in_scene_file(text, name))?;
+        let without_effect = read::keys_without_effect(&root);
+        let notes = without_effect.map(|(key, why)| note(text, name, key, why));
+        description.notes = notes
+            .chain(description.smoother_than_can_be(text, name))
+            .collect();
+        Ok(description)
+    }
+
+    /// The scene file that loads to this description: a `[table]` or `[[table]]` for each part, and one line for each key.
+    ///
+    /// # Errors
+    /// Numbers above 2^63 - 1, which TOML does not have.
+    pub fn to_toml(&self) -> Result<String, toml::ser::Error> {
+        let mut text = String::new();
+        for (name, value) in toml::Table::try_from(self)? {
+            let (header, parts) = match value {
+                toml::Value::Array(parts) => (format!("[[{name}]]"), parts),
+                part => (format!("[{name}]"), vec![part]),
+            };
+            for part in parts {
+                text += &format!("{header}\n");
+                for (key, value) in part.as_table().into_iter().flatten() {
+                    text += &format!("{key} = {value}\n");
+                }
+                text.push('\n');
+            }
+        }
+        Ok(text)
+    }
+
+    /// Notes about materials that look rougher than they say.
+    fn smoother_than_can_be(&self, text: &str, name: &Path) -> Vec<String> {
+        let least = GGX_MIN_ALPHA.sqrt();
+        let is_smoother = |(_, material): &(usize, &Material)| {
+            (0.0..least).contains(&material.roughness) && material.kind != MaterialKind::Mirror
+        };
+        let materials = self.materials.iter().enumerate().filter(is_smoother);
+        // One is enough to be warned, and a scene may have thousands.
+        let first = materials.take(1).map(|(i, material)| {
+            let key = format!("material[{i}].roughness");
+            let why = format!(
+                "{} looks as {least:.3} does, which is the smoothest; only `kind = \"mirror\"` is smoother",
+                material.roughness
+            );
+            note(text, name, &key, &why)
+        });
+        first.collect()
+    }
+}
+
+/// A note about a key of the file: `file:line: key: why`, as errors are written.
+fn note(text: &str, name: &Path, key: &str, why: &str) -> String {
+    let line = line_of_key(text, key).map_or_else(String::new, |line| format!(":{line}"));
+    format!("{}{line}: {key}: {why}", printable(&name.to_string_lossy()))
+}
+
+/// Parses TOML; a mistake in the grammar gets its line.
+fn parse<'a>(text: &'a str, name: &Path) -> Result<DeTable<'a>, Error> {
+    let root = DeTable::parse(text).map_err(|error| {
+        let line = error.span().map(|span| line_of(text, span.start));
+        let found = error.message().replace('\n', " ");
+        Error::new("", found, "must be valid TOML (https://toml.io)").at(name, line)
+    })?;
+    Ok(root.into_inner())
+}

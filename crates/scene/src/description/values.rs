@@ -1,0 +1,76 @@
+//! How values are written: by name, or left out.
+
+use hairline_image::ToneMap;
+use hairline_optics::metal::Metal;
+use serde::{Serialize, Serializer};
+
+use crate::environment::BuiltInMap;
+
+/// Values that a scene file calls by name.
+pub(super) trait Named: Copy + PartialEq + 'static {
+    /// Each with its name.
+    const NAMES: &'static [(&'static str, Self)];
+}
+
+impl Named for ToneMap {
+    const NAMES: &'static [(&'static str, Self)] = &[
+        ("neutral", ToneMap::Neutral),
+        ("agx", ToneMap::Agx),
+        ("aces", ToneMap::Aces),
+        ("none", ToneMap::None),
+    ];
+}
+
+impl Named for Metal {
+    const NAMES: &'static [(&'static str, Self)] = &[
+        ("iron", Metal::Iron),
+        ("steel", Metal::StainlessSteel),
+        ("aluminium", Metal::Aluminium),
+        ("copper", Metal::Copper),
+        ("gold", Metal::Gold),
+        ("silver", Metal::Silver),
+        ("brass", Metal::Brass),
+        ("chromium", Metal::Chromium),
+        ("titanium", Metal::Titanium),
+        ("nickel", Metal::Nickel),
+    ];
+}
+
+impl Named for BuiltInMap {
+    const NAMES: &'static [(&'static str, Self)] = &[
+        ("studio", BuiltInMap::Studio),
+        ("window", BuiltInMap::Window),
+        ("overcast", BuiltInMap::Overcast),
+    ];
+}
+
+/// Writes the name.
+pub(super) fn serialize_named<T: Named, S: Serializer>(
+    value: &T,
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
+    let (name, _) = T::NAMES
+        .iter()
+        .find(|(_, named)| named == value)
+        .ok_or_else(|| serde::ser::Error::custom("a value that scene files have no name for"))?;
+    serializer.serialize_str(name)
+}
+
+pub(super) fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
+}
+
+pub(super) fn is_false(value: &bool) -> bool {
+    !value
+}
+
+pub(super) fn serialize_scale<S: Serializer>(
+    scale: &[f64; 3],
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
+    if scale[0] == scale[1] && scale[1] == scale[2] {
+        scale[0].serialize(serializer)
+    } else {
+        scale.serialize(serializer)
+    }
+}

@@ -1,0 +1,287 @@
+//! What a scene takes of the memory, estimated before it is built: here and in what renderers make of it, on the safe side.
+//!
+//! The factors were measured as the largest resident size of whole renders on the CPU. Scratches, whose number depends on the
+//! built surfaces, are estimated where they are laid.
+
+use std::path::Path;
+
+use crate::description::{Description, Map, Object, Shape, Surface};
+use crate::environment;
+use crate::error::Error;
+use crate::memory::{in_words, texture_bytes};
+use crate::mesh_file;
+
+/// A triangle and a vertex: the mesh, its trees, its copy on the device.
+const TRIANGLE_BYTES: f64 = 300.0;
+const VERTEX_BYTES: f64 = 200.0;
+/// A triangle that scratches are laid on, besides.
+const GROUND_BYTES: f64 = 100.0;
+/// An object without its triangles.
+const OBJECT_BYTES: f64 = 4096.0;
+/// A light, and a vertex of a polygon.
+const LIGHT_BYTES: f64 = 7168.0;
+const OUTLINE_BYTES: f64 = 512.0;
+/// A pixel of an environment map with its blurred levels.
+const MAP_PIXEL_BYTES: f64 = 32.0;
+/// A pixel of the picture with all its layers.
+const PICTURE_PIXEL_BYTES: f64 = 110.0;
+
+/// Something that takes memory.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Part {
+    /// The way to what asks for it in the scene file.
+    pub key: String,
+    /// What it is, with its number: `32768 triangles`.
+    pub what: String,
+    /// What it takes.
+    pub bytes: f64,
+    /// What to do about it.
+    remedy: &'static str,
+}
+
+/// What a scene takes without its scratches.
+#[derive(Clone, Debug, Default)]
+pub struct Estimate {
+    parts: Vec<Part>,
+}
+
+impl Estimate {
+    /// Of a whole scene and its picture, without its scratches. Of files only the heads are read; what cannot be read counts nothing.
+    pub fn of(description: &Description, base_dir: &Path) -> Self {
+        let mut estimate = Self::default();
+        estimate.add_lights(description);
+        for i in 0..description.objects.len() {
+            estimate.add_object(description, i, base_dir);
+        }
+        estimate.add_environment(description, base_dir);
+        estimate.add_picture(description.render.size_px);
+        estimate
+    }
+
+    /// Its parts, in the order of the scene.
+    pub fn parts(&self) -> &[Part] {
+        &self.parts
+    }
+
+    /// Of all together.
+    pub fn bytes(&self) -> f64 {
+        self.parts.iter().map(|part| part.bytes).sum()
+    }
+
+    pub(crate) fn add_lights(&mut self, description: &Description) {
+        let lights = description.lights.len();
+        let vertices: usize = description
+            .lights
+            .iter()
+            .map(|light| light.kind.vertices_m().len())
+            .sum();
+        if lights > 0 {
+            self.parts.push(Part {
+                key: "light".to_owned(),
+                what: counted(lights as f64, "light"),
+                bytes: lights as f64 * LIGHT_BYTES + vertices as f64 * OUTLINE_BYTES,
+                remedy: "take fewer lights",
+            });
+        }
+    }
+
+    pub(crate) fn add_object(&mut self, description: &Description, i: usize, base_dir: &Path) {
+        let object = &description.objects[i];
+        let is_ground = description
+            .scratches
+            .iter()
+            .any(|s| s.object == object.name);
+        let Size {
+            triangles,
+            vertices,
+            file_bytes,
+        } = Size::of(object, base_dir);
+        let (key, remedy) = match &object.surface {
+            Surface::Mesh(_) => ("mesh", "take a model of fewer triangles"),
+            Surface::Shape(Shape::Lathe { .. }) => {
+                ("shape.lathe", "take fewer points or fewer `segments`")
+            }
+            Surface::Shape(_) => ("shape", "take fewer objects"),
+        };
+        let ground = if is_ground { GROUND_BYTES } else { 0.0 };
+        self.parts.push(Part {
+            key: format!("object[{i}].{key}"),
+            what: counted(triangles, "triangle"),
+            bytes: OBJECT_BYTES
+                + triangles * (TRIANGLE_BYTES + ground)
+                + vertices * VERTEX_BYTES
+                + file_bytes,
+            remedy,
+        });
+    }
+
+    pub(crate) fn add_environment(&mut self, description: &Description, base_dir: &Path) {
+        let Some(described) = &description.environment else {
+            return;
+        };
+        // What is wrong with it is told where it is read.
+        let (key, size_px) = match &described.map {
+            Map::File(file) => ("file", environment::size_px(&base_dir.join(file))),
+            Map::BuiltIn(_) => ("builtin", Ok(environment::BUILT_IN_SIZE_PX)),
+        };
+        let Ok([width, height]) = size_px else {
+            return;
+        };
+        self.parts.push(Part {
+            key: format!("environment.{key}"),
+            what: format!("a map of {width} x {height} pixels"),
+            bytes: f64::from(width) * f64::from(height) * MAP_PIXEL_BYTES,
+            remedy: "take a smaller map",
+        });
+    }
+
+    /// The picture that is to be rendered, which may have another size than the scene file says.
+    pub fn add_picture(&mut self, [width, height]: [u32; 2]) {
+        self.parts.push(Part {
+            key: "render.size_px".to_owned(),
+            what: format!("a picture of {width} x {height} pixels"),
+            bytes: f64::from(width) * f64::from(height) * PICTURE_PIXEL_BYTES,
+            remedy: "take a smaller picture",
+        });
+    }
+
+    /// Refuses what does not fit.
+    ///
+    /// # Errors
+    /// The largest part, and what all parts take.
+    pub fn check(&self, free_bytes: f64) -> Result<(), Error> {
+        let bytes = self.bytes();
+        let largest = self.parts.iter().max_by(|a, b| a.bytes.total_cmp(&b.bytes));
+        let Some(largest) = largest.filter(|_| bytes > free_bytes) else {
+            return Ok(());
+        };
+        let right = format!(
+            "{} are free for it; {}",
+            in_words(free_bytes),
+            largest.remedy
+        );
+        // Many small things are nobody's fault alone.
+        if largest.bytes < bytes / 2.0 {
+            let found = format!(
+                "found {} parts, which would take about {} of memory together",
+                self.parts.len(),
+                in_words(bytes)
+            );
+            return Err(Error::new(table_of(&largest.key), found, right));
+        }
+        let found = format!(
+            "found {}, which would take about {} of memory",
+            largest.what,
+            in_words(largest.bytes)
+        );
+        Err(Error::new(&largest.key, found, right))
+    }
+}
+
+/// What laid scratches take.
+pub fn scratches_bytes(scratches: usize, segments: usize) -> f64 {
+    crate::scratches::bytes(scratches, segments)
+}
+
+/// What the textures of a scene take.
+pub fn textures_bytes(scene: &crate::Scene) -> f64 {
+    scene
+        .textures
+        .iter()
+        .map(|texture| texture_bytes(texture.size_px))
+        .sum()
+}
+
+fn counted(number: f64, what: &str) -> String {
+    match number == 1.0 {
+        true => format!("1 {what}"),
+        false => format!("{number} {what}s"),
+    }
+}
+
+/// `object` of `object[3].shape`.
+fn table_of(key: &str) -> &str {
+    key.split(['[', '.']).next().unwrap_or(key)
+}
+
+/// Numbers of an object before it is made.
+#[derive(Clone, Copy, Debug, Default)]
+struct Size {
+    triangles: f64,
+    vertices: f64,
+    /// What is held of files while the object is read.
+    file_bytes: f64,
+}
+
+impl Size {
+    fn of(object: &Object, base_dir: &Path) -> Self {
+        match &object.surface {
+            Surface::Shape(shape) => {
+                let [triangles, vertices] = crate::shape::size(shape);
+                Self {
+                    triangles,
+                    vertices,
+                    file_bytes: 0.0,
+                }
+            }
+            Surface::Mesh(file) => {
+                let counts = mesh_file::counts(&base_dir.join(file)).unwrap_or_default();
+                Self {
+                    triangles: counts.triangles,
+                    vertices: counts.vertices,
+                    file_bytes: counts.bytes,
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn described(objects: &str) -> Description {
+        let text = format!(
+            "[camera]\nposition_m = [0, 0, 1]\ntarget_m = [0, 0, 0]\n[render]\nsize_px = [8, 8]\n{objects}"
+        );
+        Description::from_toml(&text, Path::new("a.toml")).unwrap()
+    }
+
+    fn lathe(points: usize, segments: u32) -> String {
+        let points: Vec<_> = (0..points)
+            .map(|i| format!("[0.1, {}]", i as f64 * 1e-4))
+            .collect();
+        format!(
+            "[[object]]\nname = \"a\"\nmaterial = \"m\"\nshape.lathe = {{ profile_m = [{}], segments = {segments} }}\n",
+            points.join(",")
+        )
+    }
+
+    #[test]
+    fn what_is_large_is_named() {
+        // 60 kB of text, 22 million triangles.
+        let estimate = Estimate::of(&described(&lathe(2700, 4096)), Path::new(""));
+        let error = estimate.check(4e9).unwrap_err();
+        assert_eq!(error.key(), "object[0].shape.lathe");
+        assert!(error.found().contains("22110208 triangles"), "{error}");
+        assert!(error.found().contains("10.30 GiB"), "{error}");
+        assert!(error.right().contains("3.73 GiB are free"), "{error}");
+        estimate.check(2e10).unwrap();
+    }
+
+    #[test]
+    fn what_is_much_is_named_together() {
+        let disks =
+            "[[object]]\nname = \"a\"\nmaterial = \"m\"\nshape.disk.radius_m = 1\n".repeat(100);
+        let estimate = Estimate::of(&described(&disks), Path::new(""));
+        let error = estimate.check(1e6).unwrap_err();
+        assert_eq!(error.key(), "object");
+        assert!(error.found().contains("101 parts"), "{error}");
+    }
+
+    #[test]
+    fn a_scene_of_few_triangles_is_small() {
+        let estimate = Estimate::of(&described(&lathe(10, 64)), Path::new(""));
+        assert!(estimate.bytes() < 2e6, "{}", estimate.bytes());
+    }
+}

@@ -1,0 +1,63 @@
+//! The limits and the listener of a load.
+
+use crate::error::Error;
+use crate::memory;
+
+/// How far long work has come.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Progress {
+    /// What is being done.
+    pub stage: Stage,
+    /// Units of it that are done, of `total`.
+    pub done: u64,
+    /// All of its units: objects for [`Stage::Meshes`], scratches for [`Stage::Scratches`].
+    pub total: u64,
+}
+
+/// What takes its time in loading a scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    /// Reading and building the objects' surfaces.
+    Meshes,
+    /// Reading and prefiltering the environment.
+    Environment,
+    /// Laying scratches on the surfaces.
+    Scratches,
+}
+
+/// Loads scenes within limits.
+#[derive(Clone, Copy)]
+pub struct Loader<'a> {
+    /// Scenes that would take more memory, here and in what renderers make of them, are refused before they are built.
+    pub memory_budget_bytes: u64,
+    /// Is told how far long work has come, from the calling thread.
+    pub progress: &'a dyn Fn(Progress),
+    /// Is asked now and then, from the calling thread, whether to give up. Then the work ends with an error for which
+    /// [`Error::is_cancelled`] holds.
+    pub cancelled: &'a dyn Fn() -> bool,
+}
+
+impl Default for Loader<'_> {
+    /// Silent, and with [`memory::budget_bytes`].
+    fn default() -> Self {
+        Self {
+            memory_budget_bytes: memory::budget_bytes(),
+            progress: &|_| {},
+            cancelled: &|| false,
+        }
+    }
+}
+
+impl Loader<'_> {
+    /// An error if the caller gave up.
+    pub(crate) fn go_on(&self) -> Result<(), Error> {
+        match (self.cancelled)() {
+            true => Err(Error::cancelled()),
+            false => Ok(()),
+        }
+    }
+
+    pub(crate) fn report(&self, stage: Stage, done: u64, total: u64) {
+        (self.progress)(Progress { stage, done, total });
+    }
+}

@@ -1,0 +1,21 @@
+//! What is wrong with a file.
+
+/// What a file must be.
+pub(super) const RIGHT: &str = "must be a whole glTF 2.0 file, text (.gltf) or binary (.glb)";
+
+/// What is wrong with a file, and what would be right.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{found}")]
+pub(crate) struct Flaw {
+    pub found: String,
+    pub right: String,
+}
+
+impl Flaw {
+    pub fn new(found: impl Into<String>, right: impl Into<String>) -> Self {
+        Self {
+            found: found.into(),
+            right: right.into(),
+        }
+    }
+}

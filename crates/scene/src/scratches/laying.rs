@@ -1,0 +1,45 @@
+//! What every kind of layer gives of a scratch.
+
+use super::walk::{Course, Walker};
+use crate::description::Distribution;
+use crate::scene::{Profile, Segment};
+
+/// Widths are kept within the spectral table's range, and below the coherence windows that scenes ask for.
+pub(super) const WIDTHS_UM: (f64, f64) = (0.05, 100.0);
+/// Depths are kept within the spectral table's range.
+pub(super) const DEPTHS_NM: (f64, f64) = (0.0, 2000.0);
+
+/// The renderers' trees number the segments by 28 bits.
+pub(super) const MOST_SEGMENTS: usize = 1 << 28;
+
+/// What is known of a scratch besides its segments.
+pub(super) struct Groove {
+    pub profile: Profile,
+    pub course: Course,
+}
+
+/// A layer that can lay its scratches one by one, in any order.
+pub(super) trait Laying: Sync {
+    /// Appends the segments of one scratch.
+    fn lay(&self, walker: &Walker, index: u64, segments: &mut Vec<Segment>) -> Groove;
+
+    /// How many of the layer's strokes came before a scratch, its own included.
+    fn strokes_before(&self, _index: u64) -> usize {
+        0
+    }
+}
+
+/// A profile whose sizes lie `normals` standard deviations from their means, times factors.
+pub(super) fn scratch_profile(
+    [_, width_um, depth_nm]: [Distribution; 3],
+    normals: [f64; 2],
+    [width, depth]: [f64; 2],
+) -> Profile {
+    let drawn = |size: Distribution, normal: f64, factor: f64, (least, most): (f64, f64)| {
+        (size.log_normal_at(normal) * factor).clamp(least, most) as f32
+    };
+    Profile {
+        width_um: drawn(width_um, normals[0], width, WIDTHS_UM),
+        depth_nm: drawn(depth_nm, normals[1], depth, DEPTHS_NM),
+    }
+}

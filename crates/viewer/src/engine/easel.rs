@@ -1,0 +1,39 @@
+//! What a renderer does for the painter.
+
+use super::frame::Picture;
+use super::pace::Kind;
+use super::request::Order;
+use super::steps::Step;
+
+/// What a painter can do in one step.
+pub(super) trait Easel {
+    /// Takes the scene of `order`, if it is another one than before. True if it was.
+    fn take(&mut self, order: &Order) -> Result<bool, hairline_gpu::Error>;
+    /// Paints a step; `show` is called whenever there is something better to be seen than before. False if `interrupted`
+    /// said so before the step was done.
+    fn paint(
+        &mut self,
+        order: &Order,
+        step: &Step,
+        interrupted: &(dyn Fn() -> bool + Sync),
+        show: &mut dyn FnMut(Shown),
+    ) -> Result<bool, hairline_gpu::Error>;
+    /// The last picture by another exposure or tone curve.
+    fn show_again(&mut self, order: &Order) -> Result<Option<Shown>, hairline_gpu::Error>;
+    /// Samples of a pixel, where edges are as smooth as they get.
+    fn best_samples(&self) -> u32;
+    /// What it can do about time.
+    fn kind(&self) -> &'static Kind;
+}
+
+/// What an easel has to show.
+pub(super) struct Shown {
+    pub picture: Picture,
+    pub size_px: [u32; 2],
+    pub samples: u32,
+    pub thin: u32,
+    /// The share that is there, where the rest is of the picture before it.
+    pub done: f64,
+    pub passes: Vec<hairline_gpu::PassTime>,
+    pub findings: crate::reading::Findings,
+}

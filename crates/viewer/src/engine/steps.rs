@@ -1,0 +1,69 @@
+//! The pictures on the way from a coarse one to the final one.
+
+use super::View;
+use super::easel::Easel;
+use super::pace::scaled;
+
+/// Between the small filter of the full picture, 1, and that of the coarse one, 0: chosen by eye.
+const THINNED_FILTER: f64 = 0.8;
+/// Of the picture between the coarse one and the whole one: its scale, and one scratch of so many.
+const BETWEEN: (f64, u32) = (0.4, 4);
+
+/// One picture on the way to the final one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Step {
+    pub size_px: [u32; 2],
+    /// Samples of the finished picture; 1 looks through the pixels' centres.
+    pub samples: u32,
+    /// One scratch of so many stands for all of them.
+    pub thin: u32,
+}
+
+impl Step {
+    /// Whether it has all pixels and all scratches.
+    pub fn is_whole(&self, view: &View) -> bool {
+        self.size_px == view.size_px && self.thin == 1
+    }
+
+    /// The pixel's filter. A coarse picture looks through the small filter of the full one: through its own, each of its few
+    /// pixels would see as many more scratches as it is larger, and a coarse picture would take as long as a fine one. It
+    /// sparkles instead, for as long as something moves. Where scratches are left out, there is time for more of the pixel.
+    pub fn filter_std_px(&self, view: &View) -> f64 {
+        let scale = f64::from(self.size_px[0]) / f64::from(view.size_px[0].max(1));
+        let power = if self.thin > 1 { THINNED_FILTER } else { 1.0 };
+        view.filter_std_px * scale.powf(power)
+    }
+}
+
+/// The finer pictures after a coarse one.
+pub(super) fn steps(easel: &dyn Easel, full_px: [u32; 2], coarse: &Step) -> Vec<Step> {
+    let mut steps = Vec::new();
+    let mut add = |size_px: [u32; 2], samples, thin| {
+        steps.push(Step {
+            size_px,
+            samples,
+            thin,
+        });
+    };
+    if easel.kind().thins() {
+        let (scale, thin) = BETWEEN;
+        let between = scaled(full_px, scale);
+        if coarse.size_px[0] < between[0] {
+            add(between, 1, thin);
+        }
+        // Then edges alone become smoother.
+        if coarse.size_px != full_px || coarse.thin > 1 {
+            add(full_px, 1, 1);
+        }
+    } else {
+        let half = scaled(full_px, 0.5);
+        if coarse.size_px[0] < half[0] {
+            add(half, 1, 1);
+        }
+        if coarse.size_px != full_px {
+            add(full_px, 1, 1);
+        }
+    }
+    add(full_px, easel.best_samples(), 1);
+    steps
+}

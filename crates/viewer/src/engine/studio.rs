@@ -1,0 +1,173 @@
+//! One picture after the other: painted in time, and handed over.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use web_time::Instant;
+
+use super::easel::{Easel, Shown};
+use super::frame::{Frame, Latency, Painted};
+use super::pace::{Kind, Pace};
+use super::request::{Order, Shared};
+use super::steps::{Step, steps};
+
+/// A first picture that takes longer is given up for a coarser one.
+const FIRST_AT_MOST: Duration = Duration::from_millis(160);
+
+/// The place of a step among those of an order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Turn {
+    First,
+    Between,
+    Last,
+}
+
+pub(super) struct Studio {
+    pace: Pace,
+    number: u64,
+    /// What the step that is not done yet has taken.
+    spent: Duration,
+    /// The revision whose latency was told.
+    latency_told: Option<u64>,
+}
+
+impl Studio {
+    pub fn new(shared: &Shared, kind: &'static Kind) -> Self {
+        Self {
+            pace: Pace::new(kind),
+            number: shared.frame().map_or(0, |frame| frame.number),
+            spent: Duration::ZERO,
+            latency_told: None,
+        }
+    }
+
+    /// The first picture of an order, as coarse as it must be; returns the steps that are left.
+    pub fn first(
+        &mut self,
+        shared: &Shared,
+        easel: &mut dyn Easel,
+        order: &Order,
+        begins: bool,
+    ) -> Result<Vec<Step>, hairline_gpu::Error> {
+        let full_px = order.view.size_px;
+        let segments = order.built.segments;
+        self.spent = Duration::ZERO;
+        loop {
+            let (size_px, thin) = self.pace.moving(full_px, segments, begins);
+            let coarse = Step {
+                size_px,
+                samples: 1,
+                thin,
+            };
+            let start = Instant::now();
+            if self.paint(shared, easel, order, &coarse, Turn::First, None)? {
+                // A sketch is not refined: what it is a sketch of is on the way.
+                return Ok(match order.built.sketch {
+                    Some(_) => Vec::new(),
+                    None => steps(easel, full_px, &coarse),
+                });
+            }
+            if shared.is_stopped() || !easel.kind().thins() {
+                return Ok(Vec::new());
+            }
+            self.pace.gave_up(size_px, thin, segments, start.elapsed());
+            self.spent = Duration::ZERO;
+        }
+    }
+
+    /// Paints a step; false if something newer is wanted or it is `until`.
+    pub fn paint(
+        &mut self,
+        shared: &Shared,
+        easel: &mut dyn Easel,
+        order: &Order,
+        step: &Step,
+        turn: Turn,
+        until: Option<Instant>,
+    ) -> Result<bool, hairline_gpu::Error> {
+        let start = Instant::now();
+        let is_new = easel.take(order)?;
+        let uploaded = start.elapsed();
+        let is_outdated = || {
+            shared
+                .order()
+                .is_none_or(|newest| !newest.has_same_pixels(order))
+        };
+        // The first picture of a movement comes to its end, whatever is wanted meanwhile: else a steady hand would see none. One that
+        // takes too long is made coarser, where that can be.
+        let may_be_coarser = easel.kind().thins() && !self.pace.is_at_coarsest();
+        let gives_way = || match turn {
+            Turn::First if may_be_coarser => start.elapsed() > FIRST_AT_MOST,
+            Turn::First => false,
+            Turn::Between | Turn::Last => is_outdated(),
+        };
+        let interrupted = || {
+            shared.is_stopped() || until.is_some_and(|until| Instant::now() >= until) || gives_way()
+        };
+        let mut last: Option<Shown> = None;
+        let finished = easel.paint(order, step, &interrupted, &mut |shown| {
+            if shown.done < 1.0 {
+                self.put(shared, order, shown, false, start.elapsed(), None);
+            } else if let Some(earlier) = last.replace(shown) {
+                self.put(shared, order, earlier, false, start.elapsed(), None);
+            }
+        })?;
+        let time = self.spent + (start.elapsed() - uploaded);
+        self.spent = if finished { Duration::ZERO } else { time };
+        if let Some(shown) = last {
+            // One that gives way to the interface tells little of what a coarse one takes.
+            let gave_way =
+                turn != Turn::First && easel.kind().thins() && step.is_whole(&order.view);
+            if step.samples == 1 && !gave_way {
+                let segments = order.built.segments;
+                self.pace.took(step.size_px, step.thin, segments, time);
+            }
+            let latency = (is_new || self.latency_told != Some(order.built.revision)).then(|| {
+                self.latency_told = Some(order.built.revision);
+                Latency {
+                    revision: order.built.revision,
+                    build: order.built.stages,
+                    upload: uploaded,
+                    paint: time,
+                    total: order.built.asked.elapsed(),
+                }
+            });
+            let is_final = turn == Turn::Last && finished;
+            self.put(shared, order, shown, is_final, time, latency);
+        }
+        Ok(finished)
+    }
+
+    pub fn put(
+        &mut self,
+        shared: &Shared,
+        order: &Order,
+        shown: Shown,
+        is_final: bool,
+        time: Duration,
+        latency: Option<Latency>,
+    ) {
+        self.number += 1;
+        let latency = latency.or_else(|| {
+            let last = shared.frame()?;
+            last.painted.latency
+        });
+        shared.put_frame(Frame {
+            number: self.number,
+            built: Arc::clone(&order.built),
+            view: order.view,
+            picture: shown.picture,
+            findings: shown.findings,
+            painted: Painted {
+                size_px: shown.size_px,
+                samples: shown.samples,
+                thin: shown.thin,
+                done: shown.done,
+                is_final,
+                time,
+                passes: shown.passes,
+                latency,
+            },
+        });
+    }
+}
