@@ -7,7 +7,7 @@ use hairline_image::Image;
 use hairline_scene::{DEFAULT_SAMPLES, Scene};
 use web_time::Instant;
 
-use super::bands::{BandSize, Bands, IN_TURN, OF_A_THREAD, prepared};
+use super::bands::{BandSize, Bands, IN_TURN, prepared};
 use super::drafts::Drafts;
 use super::easel::{Easel, Shown};
 use super::frame::Picture;
@@ -50,7 +50,7 @@ impl CpuEasel {
     /// For a thread that paints.
     #[cfg(not(target_arch = "wasm32"))]
     pub fn of_a_thread() -> Self {
-        Self::new(OF_A_THREAD)
+        Self::new(super::bands::OF_A_THREAD)
     }
 
     /// For an interface that waits meanwhile.
