@@ -8,8 +8,10 @@ Mitsuba gives shapes and rays, lights and how they are sampled, visible normals,
 written here is the integrator (direct light alone, no shadows: the light transport of `hairline render`), height-correlated Smith
 shadowing, and the factor for multiple scattering and the diffuse body of docs/model.md, section 8, with albedos by quadrature. Metals
 are computed at each wavelength from the n and k of crates/optics/data/metals.csv and become colours last.
-Needs LLVM's shared library (Debian: libllvm14). Scenes: `tests/peers/scenes` and arguments, TOML files with spheres, planes, disks, .glb meshes
-with explicit tangents, sphere and polygon lamps, a map. `ASSETS/` in a path is the folder $HAIRLINE_ASSETS.
+Needs LLVM's shared library (Debian: libllvm14). Scenes: `tests/peers/scenes` and arguments, TOML files with spheres, planes, disks, smooth
+lathes, .glb meshes, sphere and polygon lamps, a map. `ASSETS/` in a path is the folder $HAIRLINE_ASSETS. Of a mesh with a material of the scene
+all nodes are shown; of one with its own, the first primitive, with explicit tangents where there is a normal map. Scenes whose files are not
+there are left out: `make_bumpy.py` writes them.
 """
 
 import argparse, json, os, struct, subprocess, sys, tempfile, tomllib
@@ -22,6 +24,8 @@ mi.set_variant("llvm_ad_rgb")
 import drjit as dr  # noqa: E402
 from drjit.llvm import TensorXf  # noqa: E402
 
+# From the axes of a file whose top is +Y to those of a scene whose top is +Z.
+Y_UP = np.array([[1, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 0], [0, 0, 0, 1.0]])
 ROOT = Path(__file__).resolve().parents[2]
 HERE = Path(__file__).resolve().parent
 PI = np.pi
@@ -156,6 +160,7 @@ def transform(entry):
 
 
 def read_glb(path):
+    """The file's JSON, and its accessors as arrays."""
     data = open(path, "rb").read()
     length = struct.unpack("<I", data[12:16])[0]
     gltf, binary = json.loads(data[20:20 + length]), data[28 + length:]
@@ -166,10 +171,12 @@ def read_glb(path):
         width = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}[a["type"]]
         begin = view.get("byteOffset", 0) + a.get("byteOffset", 0)
         return np.frombuffer(binary, kind, a["count"] * width, begin).reshape(-1, width)
-    primitive = gltf["meshes"][0]["primitives"][0]
-    arrays = {k: accessor(v) for k, v in primitive["attributes"].items()}
+    return gltf, binary, accessor
+
+
+def own_material(gltf, binary):
+    material = gltf["materials"][gltf["meshes"][0]["primitives"][0]["material"]]
     image = None
-    material = gltf["materials"][primitive["material"]]
     if "normalTexture" in material:
         source = gltf["textures"][material["normalTexture"]["index"]]["source"]
         view = gltf["bufferViews"][gltf["images"][source]["bufferView"]]
@@ -178,26 +185,74 @@ def read_glb(path):
             f.write(png); f.flush()
             image = np.array(mi.Bitmap(f.name))[..., :3] / 255.0  # numbers, not colours: not linearised
     pbr = material.get("pbrMetallicRoughness", {})
-    return arrays, accessor(primitive["indices"]).ravel(), image, {
-        "kind": "metallic-roughness", "base_color": pbr.get("baseColorFactor", [1, 1, 1, 1])[:3],
-        "roughness": pbr.get("roughnessFactor", 1.0)}
+    return image, {"kind": "metallic-roughness", "base_color": pbr.get("baseColorFactor", [1, 1, 1, 1])[:3],
+                   "roughness": pbr.get("roughnessFactor", 1.0)}
 
 
-def shape(entry, folder):
+def placed_primitives(gltf, node=None, above=np.eye(4)):
+    """Every primitive of the scene, with the matrix that places it."""
+    if node is None:
+        return [p for n in gltf["scenes"][0]["nodes"] for p in placed_primitives(gltf, n)]
+    node = gltf["nodes"][node]
+    x, y, z, w = node.get("rotation", [0, 0, 0, 1])
+    turn = np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+                     [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+                     [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
+    here = np.eye(4)
+    here[:3, :3], here[:3, 3] = turn * node.get("scale", [1, 1, 1]), node.get("translation", [0, 0, 0])
+    here = above @ here
+    own = [(p, here) for p in gltf["meshes"][node["mesh"]]["primitives"]] if "mesh" in node else []
+    return own + [p for n in node.get("children", []) for p in placed_primitives(gltf, n, here)]
+
+
+def mesh(matrix, positions, normals, indices, uvs=None, tangents=None):
+    made = mi.Mesh("mesh", len(positions), len(indices) // 3, has_vertex_normals=True, has_vertex_texcoords=uvs is not None)
+    p = mi.traverse(made)
+    turned = normals @ np.linalg.inv(matrix[:3, :3])
+    p["vertex_positions"] = mi.Float((positions @ matrix[:3, :3].T + matrix[:3, 3]).ravel())
+    p["vertex_normals"] = mi.Float((turned / np.linalg.norm(turned, axis=1, keepdims=True)).ravel())
+    if uvs is not None:
+        p["vertex_texcoords"] = mi.Float(uvs.ravel())
+    p["faces"] = mi.UInt32(np.ascontiguousarray(indices, np.uint32))
+    if tangents is not None:
+        made.add_attribute("vertex_tangent", 3, (tangents[:, :3] @ matrix[:3, :3].T).astype(np.float32).ravel())
+        made.add_attribute("vertex_flip", 1, tangents[:, 3].astype(np.float32))
+    p.update()
+    return made
+
+
+def lathe(size):
+    """Smooth: at each point the mean of the normals of its two pieces."""
+    points, around = np.array(size["profile_m"], float), size["segments"]
+    pieces = np.diff(points, axis=0)
+    faces = np.stack([-pieces[:, 1], pieces[:, 0]], -1) / np.linalg.norm(pieces, axis=1, keepdims=True)
+    mirror = lambda i: [faces[i] * ([-1, 1] if points[i, 0] == 0 else [1, 1])]
+    normals = np.concatenate([mirror(0), faces]) + np.concatenate([faces, mirror(-1)])
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    angle = np.arange(around + 1) * 2 * PI / around
+    turn = lambda p: np.stack([np.outer(p[:, 0], np.cos(angle)), np.outer(p[:, 0], np.sin(angle)), np.outer(p[:, 1], np.ones(around + 1))], -1)
+    i = (np.arange(len(points) - 1)[:, None] * (around + 1) + np.arange(around)).ravel()
+    quads = np.stack([i, i + around + 1, i + around + 2, i, i + around + 2, i + 1], -1).ravel()
+    return turn(points).reshape(-1, 3), turn(normals).reshape(-1, 3), quads
+
+
+def shapes(entry, folder):
+    """Each with the material and the normal map that its file has."""
     to_world = transform(entry)
+    matrix = np.array(to_world.matrix, float).reshape(4, 4)
     if "mesh" in entry:
-        arrays, indices, image, material = read_glb(folder / entry["mesh"])
-        mesh = mi.Mesh("mesh", len(arrays["POSITION"]), len(indices) // 3, has_vertex_normals=True, has_vertex_texcoords=True)
-        p = mi.traverse(mesh)
-        matrix = np.array(to_world.matrix)
-        p["vertex_positions"] = mi.Float((arrays["POSITION"] @ matrix[:3, :3].T + matrix[:3, 3]).ravel())
-        p["vertex_normals"] = mi.Float((arrays["NORMAL"] @ matrix[:3, :3].T).ravel())
-        p["vertex_texcoords"] = mi.Float(arrays["TEXCOORD_0"].ravel())
-        p["faces"] = mi.UInt32(indices)
-        if image is not None:
-            mesh.add_attribute("vertex_tangent", 3, (arrays["TANGENT"][:, :3] @ matrix[:3, :3].T).astype(np.float32).ravel())
-        p.update()
-        return mesh, material, image, arrays["TANGENT"][0, 3] if image is not None else 1.0
+        gltf, binary, accessor = read_glb(folder / entry["mesh"])
+        if entry.get("up", "y") == "y":
+            matrix = matrix @ Y_UP
+        if "material" in entry:
+            arrays = [({k: accessor(v) for k, v in p["attributes"].items()}, accessor(p["indices"]).ravel(), matrix @ placed)
+                      for p, placed in placed_primitives(gltf)]
+            return [(mesh(m, a["POSITION"], a["NORMAL"], i), None, None) for a, i, m in arrays]
+        image, material = own_material(gltf, binary)
+        primitive = gltf["meshes"][0]["primitives"][0]
+        a = {k: accessor(v) for k, v in primitive["attributes"].items()}
+        return [(mesh(matrix, a["POSITION"], a["NORMAL"], accessor(primitive["indices"]).ravel(), a["TEXCOORD_0"], a.get("TANGENT")),
+                 material, image)]
     (kind, size), = entry["shape"].items()
     s = mi.ScalarTransform4f().scale
     if kind == "sphere":
@@ -207,9 +262,11 @@ def shape(entry, folder):
         made = {"type": "rectangle", "to_world": to_world @ s([x / 2, y / 2, 1])}
     elif kind == "disk":
         made = {"type": "disk", "to_world": to_world @ s(size["radius_m"])}
+    elif kind == "lathe":
+        return [(mesh(matrix, *lathe(size)), None, None)]
     else:
         sys.exit(f"a shape that the peer does not know: {kind}")
-    return mi.load_dict(made), None, None, 1.0
+    return [(mi.load_dict(made), None, None)]
 
 
 def lamps(scene, folder):
@@ -246,6 +303,12 @@ def assets(text):
     return text.replace("ASSETS", os.environ.get("HAIRLINE_ASSETS", str(ROOT.parent / "shared/assets")))
 
 
+def missing_file(path):
+    scene = tomllib.loads(assets(path.read_text()))
+    files = [e["mesh"] for e in scene["object"] if "mesh" in e] + [scene[k]["file"] for k in ("environment",) if k in scene]
+    return next((f for f in files if not (path.parent / f).exists()), None)
+
+
 def vector(v):
     return mi.Vector3f(*map(float, v))
 
@@ -257,12 +320,14 @@ def peer(path, size, samples, seed):
     light = lamps(scene, folder)
     objects = []
     for entry in scene["object"]:
-        made, material, image, flip = shape(entry, folder)
-        material = Material(materials[entry["material"]] if "material" in entry else material)
-        texture = None
-        if image is not None:
-            texture = mi.Texture2f(TensorXf(image.astype(np.float32)), wrap_mode=dr.WrapMode.Repeat)
-        objects.append((mi.load_dict({"type": "scene", "shape": made}), material, texture, float(flip)))
+        # The first has the material of all.
+        all_of_it = shapes(entry, folder)
+        material = Material(materials[entry["material"]] if "material" in entry else all_of_it[0][1])
+        for made, _, image in all_of_it:
+            texture = None
+            if image is not None:
+                texture = mi.Texture2f(TensorXf(image.astype(np.float32)), wrap_mode=dr.WrapMode.Repeat)
+            objects.append((mi.load_dict({"type": "scene", "shape": made}), material, texture))
     camera = scene["camera"]
     width, height = size
     forward = np.subtract(camera["target_m"], camera["position_m"]); forward /= np.linalg.norm(forward)
@@ -283,7 +348,7 @@ def peer(path, size, samples, seed):
         d = dr.normalize(vector(forward) + vector(right) * (x * float(per_px)) - vector(up) * (y * float(per_px)))
         ray = mi.Ray3f(mi.Point3f(*map(float, camera["position_m"])), d)
         result, nearest = mi.Color3f(0), mi.Float(dr.inf)
-        for target, material, texture, flip in objects:
+        for target, material, texture in objects:
             si = target.ray_intersect(ray)
             seen = si.is_valid() & (si.t < nearest)
             nearest = dr.select(seen, si.t, nearest)
@@ -291,6 +356,7 @@ def peer(path, size, samples, seed):
             if texture is not None:
                 t = si.shape.eval_attribute_3("vertex_tangent", si)
                 t = dr.normalize(mi.Vector3f(t) - n_ * dr.dot(n_, mi.Vector3f(t)))
+                flip = si.shape.eval_attribute_1("vertex_flip", si)
                 m = texture.eval(mi.Point2f(si.uv))
                 m = mi.Vector3f(m[0], m[1], m[2]) * 2 - 1
                 n_ = mi.Normal3f(dr.normalize(t * m.x + dr.cross(mi.Vector3f(n_), t) * flip * m.y + mi.Vector3f(n_) * m.z))
@@ -338,22 +404,34 @@ def ours(path, size, command, folder):
     names = [f.name for f in bitmap.struct_()]
     pixels = np.array(bitmap)
     index = [next(i for i, n in enumerate(names) if n in (f"base.{c}", )) for c in "RGB"]
-    return pixels[..., index].astype(float)
+    depth = pixels[..., names.index("depth.Z")].astype(float)
+    return pixels[..., index].astype(float), away_from_outlines(depth)
 
 
-def figures(a, halves):
+def away_from_outlines(depth):
+    """Pixels that see, with all within two pixels, one surface: at outlines the two filters see other edges."""
+    inside = depth > 0
+    for step in range(2):
+        near = np.stack([np.roll(depth if step == 0 else inside, (y, x), (0, 1)) for y in (-1, 0, 1) for x in (-1, 0, 1)])
+        inside = (near.min(0) > 0.97 * near.max(0)) & (near.min(0) > 0) if step == 0 else near.all(0)
+    inside[:2], inside[-2:], inside[:, :2], inside[:, -2:] = False, False, False, False
+    return inside
+
+
+def figures(a, inside, halves):
     b = halves.mean(0)
     noise2 = ((halves[0] - halves[1]) ** 2 / 4).mean()
     seen = b.sum(-1) > 0
     mean = a[seen].mean() / b[seen].mean()
     channels = a[seen].mean(0) / b[seen].mean(0)
-    rms = np.sqrt(max(((a - b) ** 2).mean() - noise2, 0) / (b**2).mean())
-    inner = seen.copy()
-    ga, gb = a.sum(-1)[inner], b.sum(-1)[inner]
+    def rms(where):
+        noise2 = ((halves[0] - halves[1])[where] ** 2 / 4).mean()
+        return np.sqrt(max(((a - b)[where] ** 2).mean() - noise2, 0) / (b[where] ** 2).mean())
+    ga, gb = a.sum(-1)[seen], b.sum(-1)[seen]
     order = np.argsort(gb)
     dark = order[: max(len(order) // 10, 1)]
     ratio = ga / np.maximum(gb, 1e-9)
-    return {"mean": mean, "channels": channels, "rms": rms, "noise": np.sqrt(noise2 / (b**2).mean()),
+    return {"mean": mean, "channels": channels, "rms": rms(...), "inside": rms(inside), "noise": np.sqrt(noise2 / (b**2).mean()),
             "dark": ga[dark].sum() / gb[dark].sum(), "p1": np.percentile(ratio, 1), "p99": np.percentile(ratio, 99)}
 
 
@@ -369,12 +447,17 @@ def main():
     parser.add_argument("-o", "--output", type=Path, help="a file for the table")
     ARGS = parser.parse_args()
     paths = ARGS.scenes or sorted((HERE / "scenes").glob("*.toml"))
-    lines = ["| scene | mean | red, green, blue | rms | darkest tenth | 1 %, 99 % of pixels' ratios |", "|---|---:|---:|---:|---:|---:|"]
+    lines = ["| scene | mean | red, green, blue | rms | away from outlines | darkest tenth | 1 %, 99 % of pixels' ratios |",
+             "|---|---:|---:|---:|---:|---:|---:|"]
     print("\n".join(lines), flush=True)
     with tempfile.TemporaryDirectory() as temporary:
         cache = ARGS.keep or Path(temporary)
         cache.mkdir(exist_ok=True)
         for path in paths:
+            missing = missing_file(path)
+            if missing:
+                print(f"{path.stem}: left out, since {missing} is not there", file=sys.stderr)
+                continue
             size = (ARGS.size, ARGS.size)
             kept = cache / f"{path.stem}-{ARGS.size}-{ARGS.samples}.npy"
             if kept.exists():
@@ -382,10 +465,10 @@ def main():
             else:
                 halves = peer(path, size, ARGS.samples, 1)
                 np.save(kept, halves)
-            mine = ours(path, size, ARGS.hairline, cache)
+            mine, inside = ours(path, size, ARGS.hairline, cache)
             np.save(cache / f"{path.stem}-ours.npy", mine)
-            f = figures(mine, halves)
-            line = (f"| {path.stem} | {f['mean']:.3f} | {', '.join(f'{c:.3f}' for c in f['channels'])} | {100 * f['rms']:.1f} %"
+            f = figures(mine, inside, halves)
+            line = (f"| {path.stem} | {f['mean']:.3f} | {', '.join(f'{c:.3f}' for c in f['channels'])} | {100 * f['rms']:.1f} % | {100 * f['inside']:.1f} %"
                     f" | {f['dark']:.2f} | {f['p1']:.2f}, {f['p99']:.2f} |")
             lines.append(line)
             print(line + f"  (noise {100 * f['noise']:.1f} %)", flush=True)
