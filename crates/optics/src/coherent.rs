@@ -41,6 +41,24 @@ pub struct GroovePiece {
     pub depth_nm: f64,
 }
 
+impl GroovePiece {
+    /// Where it begins and ends along n = N x t, from the point.
+    pub fn across_um(&self) -> [f64; 2] {
+        let half = 0.5 * self.width_um;
+        [self.offset_um - half, self.offset_um + half]
+    }
+
+    /// [`phase_step`] at its floor.
+    pub fn phase_step(&self, cos_sum: f64, wavelength_nm: f64) -> Complex64 {
+        phase_step(self.depth_nm, cos_sum, wavelength_nm)
+    }
+
+    /// Whether the cross sections are equal.
+    pub(crate) fn has_profile_of(&self, other: &Self) -> bool {
+        self.width_um == other.width_um && self.depth_nm == other.depth_nm
+    }
+}
+
 /// f = |B - S|^2 / (pi sigma^2), per unit of xi's area, in the three parts that it has. Its integral over xi is 1 for
 /// a mirror; as d(xi) = cos(theta_i) d(omega_i), f is a BRDF with the cosine inside.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -88,8 +106,7 @@ pub fn groove_amplitude(
 ) -> Complex64 {
     let wavelength_um = wavelength_nm * 1e-3;
     let k = 2.0 * PI / wavelength_um;
-    let half = 0.5 * piece.width_um;
-    let (near, far) = (piece.offset_um - half, piece.offset_um + half);
+    let [near, far] = piece.across_um();
     // Along first: off its band a groove without an end in sight is 0 there, at the cost of one exponential.
     let along = window_fourier(
         piece.start_um,
@@ -128,7 +145,7 @@ pub fn scratch_amplitude<'a>(
             if amplitude == Complex64::ZERO {
                 amplitude
             } else {
-                phase_step(piece.depth_nm, cos_sum, wavelength_nm) * amplitude
+                piece.phase_step(cos_sum, wavelength_nm) * amplitude
             }
         })
         .sum()
@@ -155,8 +172,7 @@ pub fn coherent_response<'a>(
 /// The share of the window's energy exp(-|x|^2/sigma^2) that lies on the piece, (34). Grooves lower the mean reflection
 /// coefficient about the point from 1 to 1 - sum of D times this share.
 pub fn groove_overlap(piece: &GroovePiece, coherence_um: f64) -> f64 {
-    let half = 0.5 * piece.width_um;
-    let (near, far) = (piece.offset_um - half, piece.offset_um + half);
+    let [near, far] = piece.across_um();
     window::energy_share(near, far, coherence_um)
         * window::energy_share(piece.start_um, piece.end_um, coherence_um)
 }

@@ -10,7 +10,7 @@ use super::wavelengths::{SpectralFresnel, Spectrum, WAVELENGTHS, WIDEST_NM, Wave
 use glam::{DVec2, DVec3};
 use hairline_cpu::surface::SurfacePoint;
 use hairline_optics::band::BandFrame;
-use hairline_optics::coherent::{GrooveField, base_amplitude, groove_overlap, phase_step};
+use hairline_optics::coherent::{GrooveField, base_amplitude, groove_overlap};
 use hairline_optics::scratch::band_std;
 use num_complex::Complex64;
 use std::f64::consts::PI;
@@ -157,7 +157,7 @@ fn taken_amplitude(
     let mut taken = [Complex64::ZERO; WAVELENGTHS];
     for (groove, share) in grooves.iter().zip(shares) {
         for (taken, nm) in taken.iter_mut().zip(wavelengths.nm) {
-            *taken += apart * share * phase_step(groove.piece.depth_nm, 2.0 * point.wo.z, nm);
+            *taken += apart * share * groove.piece.phase_step(2.0 * point.wo.z, nm);
         }
     }
     taken

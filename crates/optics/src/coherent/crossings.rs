@@ -81,10 +81,10 @@ fn hidden_cells(pieces: &[GroovePiece], index: usize, coherence_um: f64) -> Vec<
 /// The half-planes that a groove is the common part of.
 fn sides(piece: &GroovePiece) -> [HalfPlane; 4] {
     let (tangent, normal) = (piece.tangent, piece.tangent.perp());
-    let half = 0.5 * piece.width_um;
+    let [near, far] = piece.across_um();
     [
-        (normal, piece.offset_um + half),
-        (-normal, half - piece.offset_um),
+        (normal, far),
+        (-normal, -near),
         (tangent, piece.end_um),
         (-tangent, -piece.start_um),
     ]
@@ -93,10 +93,10 @@ fn sides(piece: &GroovePiece) -> [HalfPlane; 4] {
 
 /// A groove within `frame_um` of the middle along its axes.
 fn rectangle(piece: &GroovePiece, frame_um: f64) -> Polygon {
-    let half = 0.5 * piece.width_um;
     let clamp = |low: f64, high: f64| [low.max(-frame_um), high.min(frame_um)];
     let [start, end] = clamp(piece.start_um, piece.end_um);
-    let [near, far] = clamp(piece.offset_um - half, piece.offset_um + half);
+    let [near, far] = piece.across_um();
+    let [near, far] = clamp(near, far);
     if !(start < end && near < far) {
         return Polygon::new(Vec::new());
     }
@@ -123,7 +123,7 @@ fn are_joined(a: &GroovePiece, b: &GroovePiece) -> bool {
             .into_iter()
             .any(|(q, other_outward)| p.distance(q) < near && outward.dot(other_outward) < 0.0)
     };
-    a.width_um == b.width_um && a.depth_nm == b.depth_nm && ends(a).into_iter().any(goes_on)
+    a.has_profile_of(b) && ends(a).into_iter().any(goes_on)
 }
 
 /// False where two middle lines stay apart within reach: most pairs.

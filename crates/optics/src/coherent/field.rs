@@ -75,7 +75,7 @@ impl GrooveField {
             .iter()
             .map(|piece| {
                 let amplitude = groove_amplitude(piece, xi, self.coherence_um, wavelength_nm);
-                phase_step(piece.depth_nm, cos_sum, wavelength_nm) * amplitude
+                piece.phase_step(cos_sum, wavelength_nm) * amplitude
             })
             .sum();
         let hidden: Complex64 = self
@@ -186,18 +186,19 @@ impl GrooveField {
 
     /// The mean of the reflection coefficient, weighted by the window's energy: 1 - sum of D times share, (34).
     pub fn mean_reflection(&self, cos_sum: f64, wavelength_nm: f64) -> Complex64 {
-        let step = |depth_nm: f64| phase_step(depth_nm, cos_sum, wavelength_nm);
         let taken: Complex64 = self
             .pieces
             .iter()
-            .map(|piece| step(piece.depth_nm) * groove_overlap(piece, self.coherence_um))
+            .map(|piece| {
+                piece.phase_step(cos_sum, wavelength_nm) * groove_overlap(piece, self.coherence_um)
+            })
             .sum();
         // The window's square is a window itself.
         let hidden: Complex64 = hidden_parts(&self.pieces, self.coherence_um / SQRT_2)
             .iter()
             .map(|floor| {
                 let share = sum_of_cells(&floor.cells, Lanes([0.0]), DVec2::ZERO);
-                step(floor.depth_nm) * share.re.0[0]
+                phase_step(floor.depth_nm, cos_sum, wavelength_nm) * share.re.0[0]
             })
             .sum();
         1.0 - taken + hidden
@@ -234,8 +235,7 @@ fn sum_of_cells<const N: usize>(cells: &[Cell], k_per_um: Lanes<N>, xi: DVec2) -
 impl Strip {
     /// None where the window does not reach.
     fn new(piece: &GroovePiece, coherence_um: f64) -> Option<Self> {
-        let half = 0.5 * piece.width_um;
-        let (near, far) = (piece.offset_um - half, piece.offset_um + half);
+        let [near, far] = piece.across_um();
         let across = Span::cover(near, far, coherence_um);
         let share: f64 = across.iter().map(Span::share).sum();
         if !(share > TOLERANCE) {
