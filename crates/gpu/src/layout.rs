@@ -1,5 +1,7 @@
 //! Every struct that host and shader share, once. Twin: `shaders/scene/layout.wgsl`, which documents the members; the test
 //! below holds names, offsets and sizes equal by naga's reflection of the text.
+//!
+//! Not encase: it writes structs member by member, where arrays of millions of these are copied as they lie in memory.
 
 use bytemuck::{Pod, Zeroable};
 

@@ -1,4 +1,7 @@
 //! How long each pass takes on the device, by its own clock. Off until somebody asks, and then two timestamps a pass.
+//!
+//! Not wgpu-profiler: it gives the tree of scopes of one frame and adds query sets as it needs them, where callers want sums by pass
+//! over any number of submissions, or none past a bound.
 
 use std::sync::{Mutex, MutexGuard};
 use std::time::Duration;

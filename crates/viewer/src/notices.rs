@@ -1,4 +1,7 @@
 //! Messages in the window: what went wrong, and what was done. An error stays until it is dismissed.
+//!
+//! Not egui-notify: it paints its messages without widgets, so that neither a screen reader nor the keyboard finds them, and cannot
+//! replace one message by the next of its topic.
 
 use egui::{Align2, RichText};
 

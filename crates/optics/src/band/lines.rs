@@ -249,7 +249,7 @@ pub fn band_is_whole(wo_t: f64, lowest: f64, highest: f64, std: f64) -> bool {
         && !is_steep(wo_t, std)
 }
 
-/// Gauss-Legendre nodes on [0, 1] and weights, for 1, 3 and 5 points.
+/// Gauss-Legendre nodes on [0, 1] and weights, for 1, 3 and 5 points: the constants of the twin in WGSL, not a library's.
 const NODES: [[(f64, f64); 5]; 3] = [
     [(0.5, 1.0), (0.0, 0.0), (0.0, 0.0), (0.0, 0.0), (0.0, 0.0)],
     [

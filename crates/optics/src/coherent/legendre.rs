@@ -10,7 +10,7 @@ pub(super) const MOST_TERMS: usize = 16;
 /// The most nodes of a rule.
 pub(super) const MOST_NODES: usize = 64;
 
-/// Gauss's rule, exact for polynomials of degree 2 n - 1.
+/// Gauss's rule, exact for polynomials of degree 2 n - 1. Not from gauss-quad, which brings nalgebra for twenty lines.
 pub(super) struct Rule {
     pub nodes: Vec<Node>,
 }

@@ -1,4 +1,7 @@
 //! The point of a mesh that is nearest to a given one: a tree of boxes over the triangles, split at the median.
+//!
+//! obvhs has queries for rays, boxes and points, none for what is nearest. parry has one, but keeps a mesh of its own besides ours,
+//! and brings another version of glam and thirty crates.
 
 use std::sync::Arc;
 

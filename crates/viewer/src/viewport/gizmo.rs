@@ -1,4 +1,6 @@
 //! Handles in the picture that move, turn and reshape the selected light or object.
+//!
+//! Not transform-gizmo-egui: its handles have no names for screen readers, and none of them moves the corner of a polygon.
 
 mod body;
 mod handles;
