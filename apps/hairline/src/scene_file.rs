@@ -4,10 +4,10 @@ use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
 use hairline_image::ToneMap;
+use hairline_memory::budget_bytes;
 use hairline_scene::description::Description;
 use hairline_scene::estimate::Estimate;
 use hairline_scene::inputs::{Input, is_same_file};
-use hairline_scene::memory;
 use hairline_scene::{Loader, Scene, SceneBuilder, Stage, reading};
 
 use crate::cli::Highlight;
@@ -74,7 +74,7 @@ pub fn load(
     // The scene is checked for its own memory where it is built.
     let mut picture = Estimate::default();
     picture.add_picture(description.render.size_px);
-    picture.check(memory::budget_bytes() as f64)?;
+    picture.check(budget_bytes() as f64)?;
     let progress = Progress::start("reading the scene");
     let loader = Loader {
         progress: &|at| {

@@ -13,9 +13,9 @@ use crate::description::{self, Description, Layer};
 use crate::error::Error;
 use crate::estimate::Estimate;
 use crate::loader::{Loader, Stage};
-use crate::memory;
 use crate::scene::{Object, Scene};
 use crate::scratches;
+use crate::texture::texture_bytes;
 use kept::{Kept, KeptLayer, KeptSurface, MapKey, Stamp, SurfaceKey};
 
 /// Builds scenes one after the other. What of a scene is as it was in the one before is not made again, but shared with it:
@@ -149,7 +149,7 @@ impl<'a> Work<'a> {
                 None => {
                     let read = KeptSurface::read(surface_key, object, &key, free_bytes)?;
                     let sizes = read.textures.iter().map(|texture| texture.size_px);
-                    free_bytes -= sizes.map(memory::texture_bytes).sum::<f64>();
+                    free_bytes -= sizes.map(texture_bytes).sum::<f64>();
                     Arc::new(read)
                 }
             };

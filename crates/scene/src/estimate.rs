@@ -1,30 +1,15 @@
-//! What a scene takes of the memory, estimated before it is built: here and in what renderers make of it, on the safe side.
-//!
-//! The factors were measured as the largest resident size of whole renders on the CPU. Scratches, whose number depends on the
-//! built surfaces, are estimated where they are laid.
+//! What a scene takes of the memory, by the costs of [`hairline_memory`], counted before it is built. Scratches, whose number
+//! depends on the built surfaces, are counted where they are laid.
 
 use std::path::Path;
+
+use hairline_memory::{costs, in_words};
 
 use crate::description::{Description, Map, Object, Shape, Surface};
 use crate::environment;
 use crate::error::Error;
-use crate::memory::{in_words, texture_bytes};
 use crate::mesh_file;
-
-/// A triangle and a vertex: the mesh, its trees, its copy on the device.
-const TRIANGLE_BYTES: f64 = 300.0;
-const VERTEX_BYTES: f64 = 200.0;
-/// A triangle that scratches are laid on, besides.
-const GROUND_BYTES: f64 = 100.0;
-/// An object without its triangles.
-const OBJECT_BYTES: f64 = 4096.0;
-/// A light, and a vertex of a polygon.
-const LIGHT_BYTES: f64 = 7168.0;
-const OUTLINE_BYTES: f64 = 512.0;
-/// A pixel of an environment map with its blurred levels.
-const MAP_PIXEL_BYTES: f64 = 32.0;
-/// A pixel of the picture with all its layers.
-const PICTURE_PIXEL_BYTES: f64 = 110.0;
+use crate::texture::texture_bytes;
 
 /// Something that takes memory.
 #[derive(Clone, Debug, PartialEq)]
@@ -79,7 +64,7 @@ impl Estimate {
             self.parts.push(Part {
                 key: "light".to_owned(),
                 what: counted(lights as f64, "light"),
-                bytes: lights as f64 * LIGHT_BYTES + vertices as f64 * OUTLINE_BYTES,
+                bytes: lights as f64 * costs::LIGHT + vertices as f64 * costs::LIGHT_VERTEX,
                 remedy: "take fewer lights",
             });
         }
@@ -103,13 +88,17 @@ impl Estimate {
             }
             Surface::Shape(_) => ("shape", "take fewer objects"),
         };
-        let ground = if is_ground { GROUND_BYTES } else { 0.0 };
+        let ground = if is_ground {
+            costs::GROUND_TRIANGLE
+        } else {
+            0.0
+        };
         self.parts.push(Part {
             key: format!("object[{i}].{key}"),
             what: counted(triangles, "triangle"),
-            bytes: OBJECT_BYTES
-                + triangles * (TRIANGLE_BYTES + ground)
-                + vertices * VERTEX_BYTES
+            bytes: costs::OBJECT
+                + triangles * (costs::TRIANGLE + ground)
+                + vertices * costs::VERTEX
                 + file_bytes,
             remedy,
         });
@@ -130,7 +119,7 @@ impl Estimate {
         self.parts.push(Part {
             key: format!("environment.{key}"),
             what: format!("a map of {width} x {height} pixels"),
-            bytes: f64::from(width) * f64::from(height) * MAP_PIXEL_BYTES,
+            bytes: f64::from(width) * f64::from(height) * costs::MAP_PIXEL,
             remedy: "take a smaller map",
         });
     }
@@ -140,7 +129,7 @@ impl Estimate {
         self.parts.push(Part {
             key: "render.size_px".to_owned(),
             what: format!("a picture of {width} x {height} pixels"),
-            bytes: f64::from(width) * f64::from(height) * PICTURE_PIXEL_BYTES,
+            bytes: f64::from(width) * f64::from(height) * costs::PICTURE_PIXEL,
             remedy: "take a smaller picture",
         });
     }

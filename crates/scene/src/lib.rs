@@ -31,7 +31,6 @@ mod light;
 mod load;
 mod loader;
 pub mod material_optics;
-pub mod memory;
 mod mesh_file;
 mod model_scene;
 mod polygon;

@@ -1,7 +1,8 @@
 //! The limits and the listener of a load.
 
+use hairline_memory::budget_bytes;
+
 use crate::error::Error;
-use crate::memory;
 
 /// How far long work has come.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,10 +39,10 @@ pub struct Loader<'a> {
 }
 
 impl Default for Loader<'_> {
-    /// Silent, and with [`memory::budget_bytes`].
+    /// Silent, and with [`budget_bytes`].
     fn default() -> Self {
         Self {
-            memory_budget_bytes: memory::budget_bytes(),
+            memory_budget_bytes: budget_bytes(),
             progress: &|_| {},
             cancelled: &|| false,
         }

@@ -3,13 +3,14 @@
 use std::path::Path;
 
 use glam::{DMat4, Vec3};
+use hairline_memory::budget_bytes;
 
 use crate::description::Description;
 use crate::environment;
 use crate::error::Error;
 use crate::mesh_file::{self, Placing, Stock};
+use crate::reading;
 use crate::scene::{Base, Material, Texture};
-use crate::{memory, reading};
 
 /// What a mesh file holds.
 #[derive(Clone, Debug, PartialEq)]
@@ -67,7 +68,7 @@ pub fn mesh(path: &Path) -> Result<MeshSummary, Error> {
         textures: &mut textures,
         files: &mut Vec::new(),
         with_mips: false,
-        free_bytes: memory::budget_bytes() as f64,
+        free_bytes: budget_bytes() as f64,
     };
     let mesh = mesh_file::read(path, None, &DMat4::IDENTITY, &Placing::NONE, stock)
         .map_err(|flaw| Error::new("", flaw.found, flaw.right).at(path, None))?;

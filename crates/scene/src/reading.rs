@@ -4,8 +4,9 @@ use std::fs::{File, Metadata};
 use std::io::{self, Read};
 use std::path::Path;
 
+use hairline_memory::{budget_bytes, in_words};
+
 use crate::error::Error;
-use crate::memory::{self, in_words};
 
 /// What is taken for a regular file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,7 +22,7 @@ pub(crate) enum Kind {
 /// # Errors
 /// Why it cannot be read, in words.
 pub(crate) fn read(path: &Path, kind: Kind, share: f64) -> Result<Vec<u8>, String> {
-    let most = (memory::budget_bytes() as f64 * share) as u64;
+    let most = (budget_bytes() as f64 * share) as u64;
     read_at_most(path, kind, most)
 }
 
@@ -82,6 +83,8 @@ fn is_pipe(_: &Metadata) -> bool {
 
 /// The largest share of the free memory that a scene's text may take.
 const TEXT_SHARE: f64 = 1.0 / 64.0;
+/// A byte of a scene file while it is read.
+const TEXT_BYTES: f64 = 64.0;
 
 /// Reads the text of a scene file: a regular file or a pipe, UTF-8, small enough to be read.
 ///
@@ -100,13 +103,34 @@ pub fn scene_text(path: &Path) -> Result<String, Error> {
 /// # Errors
 /// Why it cannot be read.
 pub fn scene_text_of(stream: impl Read) -> Result<String, Error> {
-    let most = (memory::budget_bytes() as f64 * TEXT_SHARE) as u64;
+    let most = (budget_bytes() as f64 * TEXT_SHARE) as u64;
     let mut bytes = Vec::new();
     let read = stream.take(most + 1).read_to_end(&mut bytes);
     let right = "must be the text of a scene (TOML)";
     read.map_err(|error| Error::new("", format!("cannot be read ({error})"), right))?;
-    memory::check_text(bytes.len())?;
+    check_text(bytes.len())?;
     text_of(bytes)
+}
+
+/// Refuses the text of a scene file that would not fit into memory while it is read.
+///
+/// # Errors
+/// What it would take.
+pub(crate) fn check_text(length: usize) -> Result<(), Error> {
+    let bytes = length as f64 * TEXT_BYTES;
+    let free_bytes = budget_bytes() as f64;
+    match bytes <= free_bytes {
+        true => Ok(()),
+        false => Err(Error::new(
+            "",
+            format!(
+                "a text of {} would take about {} of memory to read",
+                in_words(length as f64),
+                in_words(bytes)
+            ),
+            format!("{} are free for it", in_words(free_bytes)),
+        )),
+    }
 }
 
 fn text_of(bytes: Vec<u8>) -> Result<String, Error> {

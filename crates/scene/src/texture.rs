@@ -2,10 +2,10 @@
 
 use std::io::Cursor;
 
+use hairline_memory::{costs, in_words};
 use image::{ImageReader, Limits};
 use rayon::prelude::*;
 
-use crate::memory::{self, in_words};
 use crate::scene::Texture;
 
 const LARGEST_PX: u32 = 16_384;
@@ -30,8 +30,13 @@ pub(crate) enum Unusable {
     #[error(transparent)]
     Unreadable(#[from] std::io::Error),
     #[error("{}x{} pixels would take about {} of memory, and {} are free", .size_px[0], .size_px[1],
-        in_words(memory::texture_bytes(*.size_px)), in_words(.free_bytes.max(0.0)))]
+        in_words(texture_bytes(*.size_px)), in_words(.free_bytes.max(0.0)))]
     TooLarge { size_px: [u32; 2], free_bytes: f64 },
+}
+
+/// What a texture takes of the memory.
+pub(crate) fn texture_bytes([width, height]: [u32; 2]) -> f64 {
+    f64::from(width) * f64::from(height) * costs::TEXEL
 }
 
 /// Decodes a PNG, JPEG or WebP file and builds its mip chain; without it, there is the first level alone. It may take
@@ -44,7 +49,7 @@ pub(crate) fn decode(
 ) -> Result<Texture, Unusable> {
     let guessed = ImageReader::new(Cursor::new(bytes)).with_guessed_format()?;
     let size_px: [u32; 2] = guessed.into_dimensions()?.into();
-    if memory::texture_bytes(size_px) > free_bytes {
+    if texture_bytes(size_px) > free_bytes {
         return Err(Unusable::TooLarge {
             size_px,
             free_bytes,

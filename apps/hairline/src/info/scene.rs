@@ -4,9 +4,9 @@ use std::fmt::{self, Write};
 use std::path::Path;
 
 use glam::DVec3;
+use hairline_memory::{available_bytes, in_words};
 use hairline_scene::Light;
 use hairline_scene::estimate::{Estimate, scratches_bytes, textures_bytes};
-use hairline_scene::memory::{available_bytes, in_words};
 use hairline_scene::text::shown;
 use serde::Serialize;
 

@@ -9,7 +9,7 @@ use super::read;
 use super::{Description, Material, MaterialKind};
 use crate::error::Error;
 use crate::key_line::{line_of, line_of_key};
-use crate::memory;
+use crate::reading::check_text;
 use crate::text::printable;
 
 impl Description {
@@ -18,7 +18,7 @@ impl Description {
     /// Only the form is checked here: keys, types, units. Ranges and references are checked by
     /// [`Scene::build`](crate::Scene::build).
     pub fn from_toml(text: &str, name: &Path) -> Result<Self, Error> {
-        memory::check_text(text.len()).map_err(|error| error.at(name, None))?;
+        check_text(text.len()).map_err(|error| error.at(name, None))?;
         let root = parse(text, name)?;
         let description = read::description(&root);
         let mut description = description.map_err(|error| error.in_scene_file(text, name))?;

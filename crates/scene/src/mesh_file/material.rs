@@ -9,9 +9,8 @@ use super::flaw::Flaw;
 use super::source::{Buffers, resource};
 use super::stock::Stock;
 use crate::description::DEFAULT_COHERENCE_UM;
-use crate::memory;
 use crate::scene::{Base, Material, Texture};
-use crate::texture::{self, Channels};
+use crate::texture::{self, Channels, texture_bytes};
 
 /// What the primitives' materials become.
 pub(super) enum Materials<'a> {
@@ -125,7 +124,7 @@ impl Own<'_> {
         }
         let index = self.stock.textures.len();
         let texture = self.read_image(&image, channels)?;
-        self.stock.free_bytes -= memory::texture_bytes(texture.size_px);
+        self.stock.free_bytes -= texture_bytes(texture.size_px);
         self.stock.textures.push(texture);
         self.textures.insert(key, index);
         Ok(Some(index))

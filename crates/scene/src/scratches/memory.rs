@@ -1,15 +1,13 @@
 //! What scratches take of the memory, here and in what renderers make of them; an estimate on the safe side.
 
+use hairline_memory::{costs, in_words};
+
 use super::laying::MOST_SEGMENTS;
 use crate::error::Error;
 use crate::scene::{Scratch, Segment};
 
-/// What renderers keep for a segment besides the scene: its effective form and its share of a tree, in main memory and once
-/// more on the GPU.
-const RENDERED_BYTES: u64 = 160;
-
 /// What a segment takes.
-pub(super) const SEGMENT_BYTES: u64 = size_of::<Segment>() as u64 + RENDERED_BYTES;
+pub(super) const SEGMENT_BYTES: u64 = size_of::<Segment>() as u64 + costs::SEGMENT_RENDERED;
 
 /// A layer that is to be laid.
 pub(super) struct Demand {
@@ -37,16 +35,12 @@ impl Demand {
             format!(
                 "found {} scratches, which would take about {} of memory in {segments:.1e} segments",
                 self.count,
-                gibibytes(bytes)
+                in_words(bytes)
             ),
             format!(
                 "there are {} for them; ask for at most about {fitting:.1e}, or for shorter ones",
-                gibibytes(free_bytes)
+                in_words(free_bytes)
             ),
         ))
     }
-}
-
-fn gibibytes(bytes: f64) -> String {
-    format!("{:.2} GiB", bytes / (1u64 << 30) as f64)
 }

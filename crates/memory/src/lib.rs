@@ -1,0 +1,31 @@
+//! How much memory the process may have, and what the whole program keeps of each thing in a scene ([`costs`]).
+//!
+//! ```
+//! use hairline_memory::{budget_bytes, costs, in_words};
+//!
+//! let picture = 1920.0 * 1080.0 * costs::PICTURE_PIXEL;
+//! assert_eq!(in_words(picture), "217.5 MiB");
+//! assert!(picture < budget_bytes() as f64);
+//! ```
+
+mod available;
+pub mod costs;
+
+pub use available::available_bytes;
+
+/// Three quarters of what the process may still have; where that is not known, 8 GiB.
+pub fn budget_bytes() -> u64 {
+    const UNKNOWN_BUDGET_BYTES: u64 = 8 << 30;
+    available_bytes().map_or(UNKNOWN_BUDGET_BYTES, |bytes| bytes / 4 * 3)
+}
+
+/// `12.3 GiB`, `4.0 MiB`.
+pub fn in_words(bytes: f64) -> String {
+    const KIB: f64 = 1024.0;
+    match bytes {
+        ..1024.0 => format!("{bytes:.0} bytes"),
+        _ if bytes < KIB * KIB => format!("{:.1} KiB", bytes / KIB),
+        _ if bytes < KIB * KIB * KIB => format!("{:.1} MiB", bytes / KIB / KIB),
+        _ => format!("{:.2} GiB", bytes / KIB / KIB / KIB),
+    }
+}
