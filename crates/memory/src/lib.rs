@@ -19,13 +19,15 @@ pub fn budget_bytes() -> u64 {
     available_bytes().map_or(UNKNOWN_BUDGET_BYTES, |bytes| bytes / 4 * 3)
 }
 
-/// `12.3 GiB`, `4.0 MiB`.
+/// `12.30 GiB`, `4.0 MiB`.
 pub fn in_words(bytes: f64) -> String {
     const KIB: f64 = 1024.0;
+    // What rounds to 1024 of a unit is 1 of the next.
+    const MOST: f64 = 1023.95;
     match bytes {
         ..1024.0 => format!("{bytes:.0} bytes"),
-        _ if bytes < KIB * KIB => format!("{:.1} KiB", bytes / KIB),
-        _ if bytes < KIB * KIB * KIB => format!("{:.1} MiB", bytes / KIB / KIB),
+        _ if bytes < MOST * KIB => format!("{:.1} KiB", bytes / KIB),
+        _ if bytes < MOST * KIB * KIB => format!("{:.1} MiB", bytes / KIB / KIB),
         _ => format!("{:.2} GiB", bytes / KIB / KIB / KIB),
     }
 }
