@@ -217,7 +217,7 @@ impl Viewer {
             None => {}
         }
         let area = crate::viewport::show(ui, self);
-        self.notices.show(&ctx, area);
+        self.notices.show(&ctx, area, self.engine.is_building());
         self.show_export(&ctx, area);
         if let Some(command) = wished {
             self.run(&ctx, command);

@@ -15,7 +15,7 @@ pub(crate) enum Kind {
 struct Notice {
     kind: Kind,
     text: String,
-    /// When it was first shown, seconds.
+    /// When it was first shown, or last while a scene was being built, seconds.
     since: Option<f64>,
     /// Replaced by the next of the same topic.
     topic: &'static str,
@@ -73,11 +73,13 @@ impl Notices {
             .collect()
     }
 
-    /// Above the lower edge of `area`.
-    pub fn show(&mut self, ctx: &egui::Context, area: egui::Rect) {
+    /// Above the lower edge of `area`. While a scene is being built no note grows older: it may tell of what is seen only then.
+    pub fn show(&mut self, ctx: &egui::Context, area: egui::Rect, is_building: bool) {
         let now = ctx.input(|input| input.time);
         for notice in &mut self.list {
-            notice.since.get_or_insert(now);
+            if is_building || notice.since.is_none() {
+                notice.since = Some(now);
+            }
         }
         self.list.retain(|notice| {
             notice.kind == Kind::Error

@@ -202,7 +202,22 @@ fn what_a_model_names_is_read_again() {
             "min": [0, 0, 0], "max": [1, 1, 1]}]
     }"#;
     std::fs::write(folder.path().join("it.gltf"), model).unwrap();
-    let object = "\n[[object]]\nname = \"it\"\nmesh = \"it.gltf\"\n";
+    // So many scratches on it that a note's time would be over before all are laid: passes are a quarter of a second each.
+    let object = r#"
+[[object]]
+name = "it"
+mesh = "it.gltf"
+
+[[scratches]]
+name = "dense"
+object = "it"
+pattern = "random"
+count = 100000
+seed = 2
+length_m = 0.001
+width_um = 3.0
+depth_nm = 200.0
+"#;
     std::fs::write(&path, format!("{SMALL}{object}")).unwrap();
     let mut harness = open(&path);
     let extent_m = |viewer: &Viewer| {
