@@ -311,3 +311,38 @@ fn an_interrupted_render_leaves_no_file() {
     assert_eq!(signal, Some(15), "{status}");
     assert_eq!(names_in(folder.path()), before);
 }
+
+/// A process that dies while it writes cannot remove its temporary file: the next one that writes there does. The limit on the size of
+/// files kills it at the right moment, as surely as `kill -9` would at some other.
+#[cfg(unix)]
+#[test]
+fn what_a_killed_render_left_is_removed_by_the_next() {
+    let folder = folder_with_scene();
+    let before = names_in(folder.path());
+    let hairline = env!("CARGO_BIN_EXE_hairline");
+    let status = std::process::Command::new("sh")
+        .current_dir(folder.path())
+        .args([
+            "-c",
+            "ulimit -c 0; ulimit -f 1; exec \"$@\"",
+            "sh",
+            hairline,
+        ])
+        .args(["render", "plate.v2.toml", "-o", "a.exr", "--backend", "cpu"])
+        .stderr(std::process::Stdio::null())
+        .status()
+        .unwrap();
+    let signal = std::os::unix::process::ExitStatusExt::signal(&status);
+    assert!(signal.is_some(), "{status}");
+    let left = names_in(folder.path());
+    let is_left = |name: &&String| name.starts_with(".hairline-") && name.ends_with(".tmp");
+    assert_eq!(left.len(), before.len() + 1, "{left:?}");
+    assert_eq!(left.iter().filter(is_left).count(), 1, "{left:?}");
+
+    command(folder.path(), "render plate.v2.toml -o b.png --backend cpu")
+        .assert()
+        .success();
+    let mut expected = [before, vec!["b.png".to_owned()]].concat();
+    expected.sort();
+    assert_eq!(names_in(folder.path()), expected);
+}

@@ -432,3 +432,21 @@ fn a_key_without_effect_is_noted() {
     let description = Description::from_toml(&text, Path::new("old.toml")).unwrap();
     assert!(!description.to_toml().unwrap().contains("gather"));
 }
+
+#[test]
+fn a_roughness_that_makes_no_difference_is_noted() {
+    let scene = |roughness: f64| {
+        let text = scene_with(&format!(
+            "[[material]]\nname = \"smooth\"\nkind = \"metal\"\nmetal = \"silver\"\nroughness = {roughness}\n"
+        ));
+        let description = Description::from_toml(&text, Path::new("a.toml")).unwrap();
+        description.notes.join("\n")
+    };
+    assert_eq!(scene(0.05), "");
+    let note = scene(0.03);
+    assert!(note.starts_with("a.toml:"), "{note}");
+    assert!(
+        note.contains(".roughness: 0.03 looks as 0.045 does, which is the smoothest"),
+        "{note}"
+    );
+}

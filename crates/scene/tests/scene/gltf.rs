@@ -253,6 +253,36 @@ fn buffers_may_lie_beside_or_in_a_data_uri() {
     }
 }
 
+/// Images are found from the glTF file, above its folder too; a path that only this machine has is refused.
+#[test]
+fn images_are_named_from_the_file() {
+    let dir = temporary_dir();
+    let folder = dir.path().join("models");
+    std::fs::create_dir(&folder).unwrap();
+    let picture = dir.path().join("above.png");
+    std::fs::write(&picture, png([3, 2], [9, 9, 9, 255])).unwrap();
+    let load_with = |uri: &str| {
+        let mut glb = Glb::default();
+        glb.more = format!(
+            r#","images":[{{"uri":"{uri}"}}],"textures":[{{"source":0}}],
+            "materials":[{{"pbrMetallicRoughness":{{"baseColorTexture":{{"index":0}}}}}}]"#
+        );
+        let bytes = cube_glb(r#","material":0"#, r#"{"mesh":0}"#, &mut glb);
+        std::fs::write(folder.join("it.glb"), bytes).unwrap();
+        load(&folder.join("it.glb"), "")
+    };
+    let scene = load_with("../above.png").unwrap();
+    assert_eq!(scene.textures[0].size_px, [3, 2]);
+    let absolute = picture.to_str().unwrap();
+    for uri in [absolute, &format!("file://{absolute}"), "C:/above.png"] {
+        let error = load_with(uri).unwrap_err().to_string();
+        let expected = format!(
+            "its image 0 is at \"{uri}\"; must be a file, by a path relative to the glTF file"
+        );
+        assert!(error.contains(&expected), "{error}");
+    }
+}
+
 #[test]
 fn sparse_and_quantized_accessors_are_read() {
     // Positions of zeros, three of which are replaced; normalised bytes as texture coordinates.
