@@ -1,6 +1,6 @@
 //! How the interface looks.
 
-use egui::{Color32, RectAlign, Response, ThemePreference, Tooltip, Visuals};
+use egui::{Color32, Rect, RectAlign, Response, ThemePreference, Tooltip, Visuals};
 
 /// Text of what went wrong.
 pub(crate) const ERROR: Color32 = Color32::from_rgb(255, 140, 120);
@@ -30,15 +30,16 @@ pub(crate) fn set(ctx: &egui::Context) {
     });
 }
 
-/// A tooltip of an entry of a menu: beside it, where it covers no other entry.
-pub(crate) fn beside(response: Response, text: &str) -> Response {
-    let mut tooltip = Tooltip::for_enabled(&response);
+/// A tooltip of one of several choices in `menu`: beside all of them, where it covers none.
+pub(crate) fn beside(response: &Response, menu: Rect, text: &str) {
+    let row = Rect::from_x_y_ranges(menu.x_range(), response.rect.y_range());
+    let mut tooltip = Tooltip::for_enabled(response);
     tooltip.popup = tooltip
         .popup
+        .anchor(row)
         .align(RectAlign::RIGHT_START)
         .align_alternatives(&[RectAlign::LEFT_START]);
     tooltip.show(|ui| ui.label(text));
-    response
 }
 
 #[cfg(test)]

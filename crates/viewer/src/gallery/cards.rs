@@ -8,6 +8,7 @@ use hairline_image::tone_map::srgb_from_linear;
 use hairline_optics::metal::Metal;
 
 use super::{Gallery, Thumb};
+use crate::style::beside;
 
 /// Side of a picture in a menu, points.
 pub(crate) const SIDE: f32 = 76.0;
@@ -22,18 +23,26 @@ pub(crate) fn cards<T: Copy>(
     choices: impl IntoIterator<Item = (T, Thumb, &'static str, &'static str)>,
 ) -> Option<T> {
     let mut chosen = None;
-    Grid::new(Id::unique(("cards", id)))
+    let mut shown = Vec::new();
+    let grid = Grid::new(Id::unique(("cards", id)))
         .spacing(vec2(4.0, 4.0))
         .show(ui, |ui| {
             for (i, (choice, thumb, name, hint)) in choices.into_iter().enumerate() {
                 if i > 0 && i % COLUMNS == 0 {
                     ui.end_row();
                 }
-                if card(ui, gallery, (thumb, SIDE), name, hint, false).clicked() {
+                let card = card(ui, gallery, (thumb, SIDE), name, false);
+                if card.clicked() {
                     chosen = Some(choice);
+                }
+                if !hint.is_empty() {
+                    shown.push((card, hint));
                 }
             }
         });
+    for (card, hint) in shown {
+        beside(&card, grid.response.rect, hint);
+    }
     chosen
 }
 
@@ -43,7 +52,6 @@ pub(crate) fn card(
     gallery: &mut Gallery,
     (thumb, side): (Thumb, f32),
     name: &'static str,
-    hint: &str,
     is_selected: bool,
 ) -> Response {
     let size = vec2(side + 8.0, side + 24.0);
@@ -88,10 +96,7 @@ pub(crate) fn card(
             visuals.text_color(),
         );
     }
-    match hint {
-        "" => response,
-        hint => response.on_hover_text(hint),
-    }
+    response
 }
 
 /// The size of letters in which a name fits below its picture.

@@ -189,7 +189,9 @@ fn buttons(ui: &mut Ui, viewer: &mut Viewer, index: usize, layer: &Scratches, di
     ui.horizontal_wrapped(|ui| {
         ui.menu_button("Replace by a preset…", |ui| {
             for preset in LayerPreset::ALL {
-                if beside(ui.button(preset.name()), preset.tooltip()).clicked() {
+                let entry = ui.button(preset.name());
+                beside(&entry, entry.rect, preset.tooltip());
+                if entry.clicked() {
                     let made = preset.layer(layer.object.clone(), diagonal_m);
                     viewer.document.edit("Layer preset", |d| {
                         let kept = &mut d.scratches[index];

@@ -123,16 +123,8 @@ fn wear_row(ui: &mut Ui, viewer: &mut Viewer, object: usize) {
         ui.spacing_mut().item_spacing.x = 0.0;
         for grade in Wear::ALL {
             let (thumb, is_it) = ((Thumb::Wear(grade), side), is == Some(grade));
-            if card(
-                ui,
-                &mut viewer.gallery,
-                thumb,
-                grade.name(),
-                grade.tooltip(),
-                is_it,
-            )
-            .clicked()
-            {
+            let card = card(ui, &mut viewer.gallery, thumb, grade.name(), is_it);
+            if card.on_hover_text(grade.tooltip()).clicked() {
                 chosen = Some(grade);
             }
         }

@@ -22,4 +22,5 @@ mod picking;
 mod reading;
 mod rest;
 mod snapshots;
+mod tooltips;
 mod views;
