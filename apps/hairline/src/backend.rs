@@ -30,6 +30,8 @@ pub struct Task {
     pub backend: Backend,
     /// For each pixel on an edge.
     pub samples: u32,
+    /// Whether objects hide lights from one another. The CPU renderer alone has shadows.
+    pub shadows: bool,
 }
 
 /// A renderer that holds a scene with its trees and tables, for one picture or many.
@@ -49,9 +51,12 @@ impl<'a> Painter<'a> {
     /// if there is one, else the CPU renderer.
     ///
     /// # Errors
-    /// [`Failure::Work`] where the GPU that was asked for fails.
+    /// [`Failure::Work`] where the GPU that was asked for fails. The task must not ask a GPU for shadows.
     pub fn open(scene: &'a Scene, task: Task) -> Result<Self, Failure> {
         let on = match task.backend {
+            Backend::Auto if task.shadows => {
+                On::on_cpu(scene, &task.method, "it alone has shadows")
+            }
             Backend::Cpu => On::on_cpu(scene, &task.method, "as asked"),
             Backend::Gpu => {
                 let gpu = open().map_err(advise)?;
@@ -74,12 +79,19 @@ impl<'a> Painter<'a> {
         progress: &(dyn Fn(f64) + Sync),
     ) -> Result<Image, Failure> {
         let Task {
-            method, samples, ..
+            method,
+            samples,
+            shadows,
+            ..
         } = self.task;
         let rows = 0..scene.render.size_px[1];
         let on_gpu = |on: &mut OnGpu| on.render_rows(scene, samples, rows, &|at| progress(at));
         self.paint(on_gpu, |prepared| {
-            let options = closed_form::RenderOptions { samples, method };
+            let options = closed_form::RenderOptions {
+                samples,
+                shadows,
+                method,
+            };
             prepared.with_scene(scene).render(&options, progress)
         })
     }
@@ -95,6 +107,7 @@ impl<'a> Painter<'a> {
     ) -> Result<Image, Failure> {
         let options = closed_form::RenderOptions {
             samples: 1,
+            shadows: self.task.shadows,
             method: self.task.method,
         };
         let on_gpu = |on: &mut OnGpu| {

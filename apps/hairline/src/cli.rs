@@ -96,6 +96,9 @@ pub struct Render {
     /// Samples for each pixel that has an edge or a crease in it; elsewhere one is enough.
     #[arg(long, value_name = "N", default_value_t = DEFAULT_SAMPLES, value_parser = clap::value_parser!(u32).range(1..=1024))]
     pub samples: u32,
+    /// Whether objects hide lights and the environment from one another: as many rays to each light as there are samples, on the CPU.
+    #[arg(long, value_enum, default_value_t = Switch::Off)]
+    pub shadows: Switch,
     /// Other scratches of the same kinds: added to the seed of each layer.
     #[arg(
         long,
@@ -214,7 +217,7 @@ pub struct Reference {
     /// Surfaces that light may meet on its way besides the one that is seen. 0: direct light, as the closed forms.
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=64))]
     pub bounces: u32,
-    /// Whether objects hide lights from one another. The closed forms have no shadows.
+    /// Whether objects hide lights from one another.
     #[arg(long, value_enum, default_value_t = Switch::Off)]
     pub shadows: Switch,
     /// What scratches take from the base, for the separable model. [default: energy]

@@ -13,6 +13,7 @@ use hairline_image::{Animation, Display, Image, Output};
 use hairline_index::method::Method;
 
 use crate::backend::{Painter, Task};
+use crate::cli::{Backend, Switch};
 use crate::failure::Failure;
 use crate::progress::Progress;
 use crate::scene_file::{self, Overrides};
@@ -31,6 +32,7 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
 /// Loads, renders and writes.
 pub fn once(arguments: &cli::Render) -> Result<(), Failure> {
     let method = arguments.method.method()?;
+    let shadows = shadows(arguments, &method)?;
     let motion = Motion::of(&arguments.sequence)?;
     // Before the work: nobody should wait for a picture that then has no place to go.
     let target = match &motion {
@@ -54,12 +56,13 @@ pub fn once(arguments: &cli::Render) -> Result<(), Failure> {
         tone_map: scene.render.tone_map,
     };
     let write = |output: &Output, image: &Image| -> Result<(), Failure> {
-        Ok(output.write_image_with_notes(image, &display, &notes(&method))?)
+        Ok(output.write_image_with_notes(image, &display, &notes(&method, shadows))?)
     };
     let task = Task {
         method,
         backend: arguments.backend,
         samples: arguments.samples,
+        shadows,
     };
     let mut painter = Painter::open(scene, task)?;
     match target {
@@ -108,9 +111,30 @@ fn single(arguments: &cli::Render) -> Result<Output, Failure> {
     Ok(Output::check(&path)?)
 }
 
-/// By which method a picture was made, where that was another than the default.
-fn notes(method: &Method) -> Notes {
+/// Whether there are shadows.
+fn shadows(arguments: &cli::Render, method: &Method) -> Result<bool, Failure> {
+    if arguments.shadows == Switch::Off {
+        return Ok(false);
+    }
+    if method.published.is_some() {
+        return Err(Failure::Input(anyhow!(
+            "--shadows on: the published method has no shadows; leave out --method published"
+        )));
+    }
+    if arguments.backend == Backend::Gpu {
+        return Err(Failure::Input(anyhow!(
+            "--shadows on: the GPU renderer has no shadows yet; leave out --backend gpu"
+        )));
+    }
+    Ok(true)
+}
+
+/// What of how a picture was made is not the default.
+fn notes(method: &Method, shadows: bool) -> Notes {
     let mut notes = Notes::new();
+    if shadows {
+        notes.insert("shadows".to_owned(), "on".to_owned());
+    }
     if *method != Method::default() {
         notes.insert("method".to_owned(), method_flags::flags_of(method));
     }

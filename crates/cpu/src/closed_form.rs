@@ -6,6 +6,7 @@
 use crate::bin::TileLists;
 use crate::project::project;
 use crate::published::Published;
+use crate::shadows::Shadows;
 use crate::tile::{By, Picture};
 use crate::visibility::Visibility;
 use hairline_image::Image;
@@ -109,6 +110,7 @@ impl Prepared<'_> {
             rows: rows.start as usize..rows.end as usize,
             only_edges: false,
             visibility: Visibility::new(&self.triangles, &camera, size_px, &rows),
+            shadows: (options.shadows && matches!(by, By::Tiles(_))).then(|| Shadows::new(self)),
             by,
         };
         (picture, counts)

@@ -48,6 +48,8 @@ pub(crate) struct LightViews<'a> {
     pub views: Vec<LightView>,
     /// For each light of the scene its place in `views`; `u32::MAX` if it is left out.
     places: Vec<u32>,
+    /// For each of `views` its index into the scene's lights.
+    in_scene: Vec<usize>,
     /// From the point to the middle of each, held at its radius or above.
     pub distances_m: Vec<f64>,
     /// For scratches, see [`LightViews::ready_for_scratches`]: how xi moves towards each over one standard deviation of the pixel's filter, to the right and down: `band_moves`.
@@ -66,6 +68,7 @@ impl<'a> LightViews<'a> {
             lights: scene.all_lights().collect(),
             views: Vec::new(),
             places: Vec::new(),
+            in_scene: Vec::new(),
             distances_m: Vec::new(),
             moves: Vec::new(),
             vertices: Vec::new(),
@@ -78,6 +81,7 @@ impl<'a> LightViews<'a> {
     pub fn look_from(&mut self, point: &SurfacePoint) {
         self.views.clear();
         self.places.clear();
+        self.in_scene.clear();
         self.distances_m.clear();
         self.moves.clear();
         self.vertices.clear();
@@ -101,6 +105,7 @@ impl<'a> LightViews<'a> {
                             radiance: DVec3::from(*radiance),
                         });
                         self.places[index] = place;
+                        self.in_scene.push(index);
                     }
                 }
                 Light::Polygon {
@@ -138,6 +143,7 @@ impl<'a> LightViews<'a> {
                         radiance: DVec3::from(*radiance),
                     });
                     self.places[index] = place;
+                    self.in_scene.push(index);
                 }
             }
         }
@@ -153,6 +159,11 @@ impl<'a> LightViews<'a> {
     pub fn view_of(&self, light: u32) -> Option<usize> {
         let place = self.places[light as usize];
         (place != u32::MAX).then_some(place as usize)
+    }
+
+    /// The scene's light of a place in `views`; none beyond the last.
+    pub fn light_of(&self, view: usize) -> Option<usize> {
+        self.in_scene.get(view).copied()
     }
 
     /// Finds what all scratches at the point share; only once there are any.

@@ -8,6 +8,8 @@ pub struct RenderOptions {
     /// Jittered samples of a pixel on an edge or a crease; all other pixels, and all of them for 1, take one through the
     /// centre.
     pub samples: u32,
+    /// Whether objects hide lights and the environment from one another. `samples` rays go to each light; the method of 2018 has none.
+    pub shadows: bool,
     /// By which method scratches are computed.
     pub method: Method,
 }
@@ -16,6 +18,7 @@ impl Default for RenderOptions {
     fn default() -> Self {
         Self {
             samples: 1,
+            shadows: false,
             method: Method::default(),
         }
     }

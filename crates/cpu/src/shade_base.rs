@@ -11,8 +11,11 @@ use hairline_optics::ggx::ggx_area_reflectance;
 use hairline_optics::irradiance::{lambert_polygon, lambert_sphere};
 use hairline_optics::ltc::{LobeFresnel, LtcLobe, ltc_begin, ltc_edge, ltc_end, ltc_lobe};
 use hairline_scene::Environment;
+use std::f64::consts::PI;
+use std::ops::Add;
 
 /// Light by way of the base.
+#[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct BaseRadiance {
     /// Reflected at the surface; scratches take from it.
     pub specular: DVec3,
@@ -20,38 +23,115 @@ pub(crate) struct BaseRadiance {
     pub diffuse: DVec3,
 }
 
-/// Radiance of the base towards the viewer, before scratches take theirs. `sphere` is what the lobe reflects of a sphere:
-/// [`hairline_optics::ltc::ltc_sphere`].
-pub(crate) fn base_radiance(
-    environment: Option<&Environment>,
-    point: &SurfacePoint,
-    views: &LightViews,
-    sphere: impl Fn(&LtcLobe, &LobeFresnel, DVec3, f64) -> [f64; 3],
-) -> BaseRadiance {
-    let sharp = ltc_lobe(point.wo, point.roughness);
-    let filtered = filtered_lobe(sharp.alpha, point.slope_variance(), point.wo.z);
-    let of = LobeFresnel::new(point.fresnel, point.wo, point.roughness);
-    let reflectance =
-        |single| DVec3::from(ggx_area_reflectance(single, point.fresnel.f0, sharp.albedo));
-    let mut specular = DVec3::ZERO;
-    for (weight, lobe) in filtered.parts(&sharp) {
-        if weight == 0.0 {
-            break;
+impl BaseRadiance {
+    /// By channel.
+    pub fn times(self, factor: DVec3) -> Self {
+        Self {
+            specular: self.specular * factor,
+            diffuse: self.diffuse * factor,
         }
-        let mut single = DVec3::ZERO;
-        for light in &views.views {
-            single +=
-                light.radiance() * DVec3::from(reflected_light(light, views, &lobe, &of, &sphere));
-        }
-        if let Some(environment) = environment {
-            single += reflected(environment, point, &lobe, &of);
-        }
-        specular += weight * single;
     }
-    BaseRadiance {
+}
+
+impl Add for BaseRadiance {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self {
+            specular: self.specular + other.specular,
+            diffuse: self.diffuse + other.diffuse,
+        }
+    }
+}
+
+/// The base at a point, ready for any light.
+pub(crate) struct Base<'p, 'a> {
+    point: &'p SurfacePoint<'a>,
+    /// Weights and lobes whose sum is the lobe of the pixel.
+    parts: [(f64, LtcLobe); 2],
+    of: LobeFresnel<'a>,
+    /// What the lobe reflects with F = 1.
+    lobe_albedo: f64,
+    /// What the surface reflects of light from all around.
+    pub albedo: DVec3,
+    /// What leaves the body of the light that falls on the surface.
+    pub body: DVec3,
+}
+
+impl<'p, 'a> Base<'p, 'a> {
+    pub fn new(point: &'p SurfacePoint<'a>) -> Self {
+        let sharp = ltc_lobe(point.wo, point.roughness);
+        let filtered = filtered_lobe(sharp.alpha, point.slope_variance(), point.wo.z);
+        let of = LobeFresnel::new(point.fresnel, point.wo, point.roughness);
+        let albedo = ggx_area_reflectance(of.albedo, point.fresnel.f0, sharp.albedo).into();
+        Self {
+            point,
+            parts: filtered.parts(&sharp),
+            of,
+            lobe_albedo: sharp.albedo,
+            albedo,
+            // What the surface does not reflect reaches the body.
+            body: point.diffuse * (DVec3::ONE - albedo).max(DVec3::ZERO),
+        }
+    }
+
+    /// Radiance towards the viewer, before scratches take theirs, of all lights and the environment. For `sphere` see
+    /// [`Self::by_light`].
+    pub fn radiance(
+        &self,
+        environment: Option<&Environment>,
+        views: &LightViews,
+        sphere: impl Fn(&LtcLobe, &LobeFresnel, DVec3, f64) -> [f64; 3],
+    ) -> BaseRadiance {
+        let lights = views.views.iter();
+        let by_lights = lights.map(|light| self.by_light(light, views, &sphere));
+        let around = environment.map(|environment| self.by_environment(environment));
+        by_lights
+            .chain(around)
+            .fold(BaseRadiance::default(), Add::add)
+    }
+
+    /// The part of one light. `sphere` is what the lobe reflects of a sphere: [`hairline_optics::ltc::ltc_sphere`].
+    pub fn by_light(
+        &self,
+        light: &LightView,
+        views: &LightViews,
+        sphere: impl Fn(&LtcLobe, &LobeFresnel, DVec3, f64) -> [f64; 3],
+    ) -> BaseRadiance {
+        let specular = self
+            .specular(|lobe| DVec3::from(reflected_light(light, views, lobe, &self.of, &sphere)));
+        let radiance = light.radiance();
+        BaseRadiance {
+            specular: radiance * specular,
+            diffuse: self.diffuse(|| radiance * form_factor(light, views)),
+        }
+    }
+
+    /// The part of the environment without its suns.
+    pub fn by_environment(&self, environment: &Environment) -> BaseRadiance {
+        let Self { point, of, .. } = self;
+        BaseRadiance {
+            specular: self.specular(|lobe| reflected(environment, point, lobe, of)),
+            diffuse: self.diffuse(|| environment.irradiance(point.normal) / PI),
+        }
+    }
+
+    /// What the parts of the lobe reflect, given what one does, single scattering.
+    fn specular(&self, single: impl Fn(&LtcLobe) -> DVec3) -> DVec3 {
+        let parts = self.parts.iter().filter(|(weight, _)| *weight != 0.0);
+        let single: DVec3 = parts.map(|(weight, lobe)| *weight * single(lobe)).sum();
         // The fit may make the second part a little larger than the first.
-        specular: reflectance(specular.max(DVec3::ZERO).to_array()),
-        diffuse: diffuse(environment, point, views, reflectance(of.albedo)),
+        let single = single.max(DVec3::ZERO).to_array();
+        ggx_area_reflectance(single, self.point.fresnel.f0, self.lobe_albedo).into()
+    }
+
+    /// What the body sends under an irradiance over pi.
+    fn diffuse(&self, irradiance: impl Fn() -> DVec3) -> DVec3 {
+        // Metals have no body to light.
+        if self.body == DVec3::ZERO {
+            return DVec3::ZERO;
+        }
+        self.body * irradiance()
     }
 }
 
@@ -86,32 +166,12 @@ fn sphere_sin2(cap: &Cap) -> f64 {
     }
 }
 
-/// What the body sends, over which the surface has the directional albedo `albedo`.
-fn diffuse(
-    environment: Option<&Environment>,
-    point: &SurfacePoint,
-    views: &LightViews,
-    albedo: DVec3,
-) -> DVec3 {
-    // What the surface does not reflect reaches the body.
-    let body = point.diffuse * (DVec3::ONE - albedo).max(DVec3::ZERO);
-    // Metals have no body to light.
-    if body == DVec3::ZERO {
-        return DVec3::ZERO;
+/// The irradiance of a light over pi and its radiance.
+fn form_factor(light: &LightView, views: &LightViews) -> f64 {
+    match light {
+        LightView::Sphere { cap, .. } => lambert_sphere(cap.axis, sphere_sin2(cap)),
+        LightView::Polygon { vertices, .. } => lambert_polygon(&views.vertices[vertices.clone()]),
     }
-    let lights = views.views.iter().map(|light| {
-        let form_factor = match light {
-            LightView::Sphere { cap, .. } => lambert_sphere(cap.axis, sphere_sin2(cap)),
-            LightView::Polygon { vertices, .. } => {
-                lambert_polygon(&views.vertices[vertices.clone()])
-            }
-        };
-        light.radiance() * form_factor
-    });
-    let around = environment.map_or(DVec3::ZERO, |environment| {
-        environment.irradiance(point.normal) / std::f64::consts::PI
-    });
-    body * (lights.sum::<DVec3>() + around)
 }
 
 /// What a lobe reflects of an environment, single scattering.

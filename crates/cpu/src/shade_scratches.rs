@@ -6,22 +6,25 @@
 
 mod lanes;
 mod light_bounds;
+mod picks;
 mod point;
 mod scratch_light;
 
 use crate::counts::Counts;
 use crate::prepared::Prepared;
 use crate::project::Projected;
+use glam::DVec3;
 use hairline_index::IndexedSegment;
-use hairline_optics::band::{BandPlace, OutlineRoots};
+use hairline_optics::band::{Along, BandPlace, OutlineRoots};
 use hairline_optics::mask::ScratchSums;
 use lanes::{GROUPS, Group, LANES, Line, Seen};
 use light_bounds::LightBounds;
-use point::Frame;
 use pulp::Arch;
-use scratch_light::{ScratchLight, scratch_energy};
+use scratch_light::scratch_energy;
 
-pub(crate) use point::ScratchPoint;
+pub(crate) use picks::{Pick, Picks, SourcePicks};
+pub(crate) use point::{Frame, ScratchPoint};
+pub(crate) use scratch_light::{DrawnLight, ScratchLight};
 
 /// Points that are shaded together.
 pub(crate) const BATCH: usize = GROUPS * LANES;
@@ -49,13 +52,14 @@ impl ScratchShader {
         }
     }
 
-    /// Adds up what the points see of the segments of a list, in its order.
+    /// Adds up what the points see of the segments of a list, in its order. `picks` are those of all points that may be shaded, or none.
     pub fn shade<'l>(
         &mut self,
         prepared: &Prepared,
         points: &[ScratchPoint],
         list: impl Iterator<Item = &'l Projected>,
         sums: &mut [ScratchSums],
+        picks: Option<&mut [Picks]>,
         counts: &mut Counts,
     ) {
         self.frames.clear();
@@ -73,6 +77,7 @@ impl ScratchShader {
             points,
             shader: self,
             sums,
+            picks,
             counts,
         };
         // Compiled for the vectors of this processor, with all that is inlined.
@@ -95,6 +100,7 @@ struct Shading<'a, 's> {
     points: &'a [ScratchPoint<'a>],
     shader: &'s mut ScratchShader,
     sums: &'s mut [ScratchSums],
+    picks: Option<&'s mut [Picks]>,
     counts: &'s mut Counts,
 }
 
@@ -135,7 +141,7 @@ impl Shading<'_, '_> {
             let point = &self.points[first + lane];
             let frame = &self.shader.frames[first + lane];
             let table = &self.prepared.tables.tables[point.point.table];
-            let mut radiance = glam::DVec3::ZERO;
+            let mut radiance = DVec3::ZERO;
             if !self.shader.lit.is_empty() || environment.is_some() {
                 let tangent = seen.tangent(lane);
                 let place = BandPlace::new(
@@ -144,6 +150,24 @@ impl Shading<'_, '_> {
                     seen.variance_um2[lane],
                 );
                 let light = ScratchLight::new(point.point.wo, tangent, table, segment.profile);
+                let mut picks = self.picks.as_mut().map(|picks| &mut picks[point.index]);
+                let mut add = |source: usize, sent: DVec3| {
+                    radiance += sent;
+                    if let Some(picks) = &mut picks {
+                        let pick = |radiance| Pick {
+                            tangent,
+                            place,
+                            along: Along {
+                                steps_um: frame.steps_um.map(|step| tangent.dot(step)),
+                                blur_um: segment.blur_um.into(),
+                                ends: seen.ends(lane),
+                            },
+                            profile: segment.profile,
+                            radiance,
+                        };
+                        picks.add(source, share.segment * sent, pick);
+                    }
+                };
                 for &index in &self.shader.lit {
                     if let Some(view) = point.views.view_of(index) {
                         self.counts.asked += 1;
@@ -152,12 +176,13 @@ impl Shading<'_, '_> {
                             light.light(&frame.stds, place, point.views, view, roots)
                         {
                             self.counts.lit += 1;
-                            radiance += sent;
+                            add(view, sent);
                         }
                     }
                 }
                 if let Some(environment) = environment {
-                    radiance += light.environment(point.point, environment);
+                    let sent = light.environment(point.point, environment);
+                    add(point.views.views.len(), sent);
                 }
             }
             let energy = scratch_energy(segment.profile, table, point.point.wo.z);

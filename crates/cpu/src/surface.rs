@@ -10,6 +10,9 @@ use hairline_scene::{Mesh, Scene, ScratchTables, Texture};
 pub struct SurfacePoint<'a> {
     /// World space.
     pub position_m: DVec3,
+    /// Where rays to lights start: on the smooth surface that the normals describe, at the point or above it. From the flat triangle
+    /// its neighbours would hide lights that the shading normal shows (J. Hanika, "Hacking the shadow terminator", 2021).
+    pub raised_m: DVec3,
     /// Axes of the local frame in world space; `normal` is on the viewer's side.
     pub axis_x: DVec3,
     /// Completes the frame.
@@ -165,6 +168,7 @@ pub fn surface_point<'a>(
     let cos = normal.dot(to_viewer);
     SurfacePoint {
         position_m,
+        raised_m: raised(position_m, hit, mesh, side),
         axis_x,
         axis_y,
         normal,
@@ -190,6 +194,37 @@ pub fn surface_point<'a>(
         coherence_um: material.coherence_um,
         table: optics.table as usize,
     }
+}
+
+/// [`SurfacePoint::raised_m`] of a hit on the side that `to_viewer` points to.
+pub(crate) fn raised_m(scene: &Scene, position_m: DVec3, to_viewer: DVec3, hit: &Hit) -> DVec3 {
+    let mesh = &scene.objects[hit.object as usize].mesh;
+    let corners =
+        mesh.triangles[hit.triangle as usize].map(|i| mesh.positions_m[i as usize].as_dvec3());
+    let geometric = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+    let side = if geometric.dot(to_viewer) < 0.0 {
+        -1.0
+    } else {
+        1.0
+    };
+    raised(position_m, hit, mesh, side)
+}
+
+fn raised(position_m: DVec3, hit: &Hit, mesh: &Mesh, side: f64) -> DVec3 {
+    let [u, v] = hit.barycentric;
+    let weights = [1.0 - u - v, u, v];
+    let triangle = mesh.triangles[hit.triangle as usize];
+    let normals = triangle.map(|i| mesh.normals[i as usize]);
+    if normals[0] == normals[1] && normals[0] == normals[2] {
+        return position_m;
+    }
+    let rises = (0..3).map(|i| {
+        let corner_m = mesh.positions_m[triangle[i] as usize].as_dvec3();
+        let normal = side * normals[i].as_dvec3();
+        let below_m = (position_m - corner_m).dot(normal).min(0.0);
+        normal * (-weights[i] * below_m)
+    });
+    position_m + rises.sum::<DVec3>()
 }
 
 /// How the interpolated normal of a triangle turns along a step on its plane. `geometric` is the cross product of the first

@@ -8,8 +8,9 @@ use crate::options::RenderOptions;
 use crate::prepared::Prepared;
 use crate::published::Published;
 use crate::resolve::{Pixel, Sample};
-use crate::shade_base::base_radiance;
-use crate::shade_scratches::{BATCH, ScratchPoint, ScratchShader};
+use crate::shade_base::Base;
+use crate::shade_scratches::{BATCH, Picks, ScratchPoint, ScratchShader};
+use crate::shadows::{ShadowPoint, Shadowed, Shadows};
 use crate::silhouettes::is_smooth;
 use crate::surface::{SurfacePoint, surface_point};
 use crate::visibility::{Visibility, center};
@@ -38,6 +39,8 @@ pub(crate) struct Picture<'a> {
     pub only_edges: bool,
     pub visibility: Visibility,
     pub by: By<'a>,
+    /// Where there are shadows.
+    pub shadows: Option<Shadows<'a>>,
 }
 
 /// By which method.
@@ -53,7 +56,22 @@ struct Point<'a> {
     /// Of the tile.
     pixel: usize,
     at_px: DVec2,
+    /// Of its filter.
+    std_px: f64,
+    /// Rays to each light.
+    rounds: u32,
     seen: Seen<'a>,
+}
+
+impl Point<'_> {
+    /// For random numbers: another one for each sample of each pixel.
+    fn seed(&self) -> u32 {
+        let mixed = |a: u32, b: f64| {
+            let a = (a ^ (b as f32).to_bits()).wrapping_mul(0x85eb_ca6b);
+            a ^ (a >> 15)
+        };
+        mixed(mixed(1, self.at_px.x), self.at_px.y).wrapping_mul(0xc2b2_ae35)
+    }
 }
 
 /// What the ray of a sample meets.
@@ -80,6 +98,8 @@ pub(crate) struct Tile<'a> {
     /// The lights from each point of the batch.
     views: Vec<LightViews<'a>>,
     sums: Vec<ScratchSums>,
+    /// Where there are shadows.
+    picks: Option<Vec<Picks>>,
     shader: ScratchShader,
     pixels: [Pixel; SIDE * SIDE],
     pub counts: Counts,
@@ -95,6 +115,10 @@ impl<'a> Tile<'a> {
                 .map(|_| LightViews::new(picture.prepared.scene))
                 .collect(),
             sums: vec![ScratchSums::default(); BATCH],
+            picks: picture
+                .shadows
+                .as_ref()
+                .map(|_| (0..BATCH).map(|_| Picks::new()).collect()),
             shader: ScratchShader::new(),
             pixels: [Pixel::default(); SIDE * SIDE],
             counts: Counts::default(),
@@ -168,7 +192,19 @@ impl<'a> Tile<'a> {
             self.shade(column, row);
         }
         let seen = self.picture.surface(at_px, samples, hit);
-        self.batch.push(Point { pixel, at_px, seen });
+        // A pixel without an edge has one sample. Two rays at least: one half of them guesses for the other.
+        let rounds = match (self.picture.options.samples, samples) {
+            (0 | 1, _) => 1,
+            (all, 1) => all,
+            _ => 2,
+        };
+        self.batch.push(Point {
+            pixel,
+            at_px,
+            std_px: self.picture.prepared.scene.render.footprint_std_px(samples),
+            rounds,
+            seen,
+        });
     }
 
     /// Shades the batch, and empties it.
@@ -184,6 +220,11 @@ impl<'a> Tile<'a> {
             }
         }
         self.sums.fill(ScratchSums::default());
+        if let Some(picks) = &mut self.picks {
+            for ((point, views), picks) in self.batch.iter().zip(&self.views).zip(picks) {
+                picks.clear(views.views.len() + 1, point.rounds, u64::from(point.seed()));
+            }
+        }
         if let By::Tiles(lists) = &self.picture.by {
             let points: Vec<ScratchPoint> = self
                 .batch
@@ -209,31 +250,58 @@ impl<'a> Tile<'a> {
                     &points,
                     lists.tile(column, row),
                     &mut self.sums,
+                    self.picks.as_deref_mut(),
                     &mut self.counts,
                 );
             }
         }
         let environment = prepared.scene.environment.as_ref();
         let mask = self.picture.options.method.mask;
-        for ((point, views), sums) in self.batch.iter().zip(&self.views).zip(&self.sums) {
+        let samples = self.batch.iter().zip(&self.views).zip(&self.sums);
+        for (i, ((point, views), sums)) in samples.enumerate() {
             let sample = match &point.seen {
                 Seen::Background(radiance) => Sample::background(*radiance),
                 Seen::Surface {
                     hit,
-                    point,
+                    point: at,
                     depth_m,
                 } => {
-                    let (masked, light) = match &self.picture.by {
-                        By::Tiles(_) => (
-                            sums.resolve(mask, prepared.depth_coherence(hit.object)),
-                            base_radiance(environment, point, views, ltc_sphere),
-                        ),
-                        By::Published(published) => (
-                            published.scratches(point, hit, views),
-                            base_radiance(environment, point, views, published.base_sphere(point)),
+                    let (masked, light) = match (&self.picture.by, &self.picture.shadows) {
+                        (By::Tiles(_), shadows) => {
+                            let mut masked =
+                                sums.resolve(mask, prepared.depth_coherence(hit.object));
+                            let light = match shadows {
+                                None => Base::new(at).radiance(environment, views, ltc_sphere),
+                                Some(shadows) => {
+                                    let is_scratched = prepared.is_scratched(hit);
+                                    let picks = self.picks.as_ref().map(|picks| &picks[i]);
+                                    let Shadowed { base, scratches } = shadows.shadowed(
+                                        &ShadowPoint {
+                                            point: at,
+                                            object: hit.object,
+                                            camera: &self.picture.camera,
+                                            at_px: point.at_px,
+                                            std_px: point.std_px,
+                                            views,
+                                            rounds: point.rounds,
+                                            seed: point.seed(),
+                                        },
+                                        picks.filter(|_| is_scratched),
+                                    );
+                                    for c in 0..3 {
+                                        masked.scratches[c] *= scratches[c];
+                                    }
+                                    base
+                                }
+                            };
+                            (masked, light)
+                        }
+                        (By::Published(published), _) => (
+                            published.scratches(at, hit, views),
+                            Base::new(at).radiance(environment, views, published.base_sphere(at)),
                         ),
                     };
-                    Sample::surface(point, &masked, &light, *depth_m)
+                    Sample::surface(at, &masked, &light, *depth_m)
                 }
             };
             self.pixels[point.pixel].add(&sample);

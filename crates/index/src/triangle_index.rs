@@ -89,6 +89,23 @@ impl TriangleIndex {
         });
         hit
     }
+
+    /// Whether a ray from `origin` along the unit `direction` meets a triangle, either side of it, nearer than `distance_m`.
+    pub fn is_hidden(&self, origin: DVec3, direction: DVec3, distance_m: f64) -> bool {
+        if self.triangles.is_empty() {
+            return false;
+        }
+        let (from, along) = (origin.as_vec3a(), non_zero(direction.as_vec3a()));
+        let ray = Ray::new(from, along, 0.0, distance_m as f32);
+        let is_free = self.tree.ray_traverse_miss(ray, |_, id| {
+            let (_, _, corners) = &self.triangles[id];
+            match intersect_triangle(origin, direction, corners) {
+                Some((at_m, _)) if at_m < distance_m => 0.0,
+                _ => f32::INFINITY,
+            }
+        });
+        !is_free
+    }
 }
 
 /// Slab tests divide by the direction.

@@ -12,11 +12,13 @@
 //!
 //! All vectors are in the scratch's frame: x along the tangent t, y across it along n, z along the surface normal N.
 
+mod drawn;
 mod lines;
 mod outline;
 
+pub use drawn::DrawnChord;
 pub use lines::{
-    BAND_REACH_STD, BAND_STD_MAX, BandLines, BandMotion, BandPlace, BandStds, MovedBand,
+    Along, BAND_REACH_STD, BAND_STD_MAX, BandLines, BandMotion, BandPlace, BandStds, MovedBand,
     band_is_whole, band_lines, band_moves, band_reaches, band_stds, moved_band,
 };
 pub use outline::{Outline, OutlineEdge, OutlineRoots};
@@ -57,6 +59,12 @@ impl BandLine {
     #[inline]
     pub fn q_end(self) -> f64 {
         self.offset - self.radius
+    }
+
+    /// The direction above the horizon at `q`.
+    #[inline]
+    pub fn direction_at(self, q: f64) -> DVec3 {
+        DVec3::new(self.along, q - self.offset, self.cos_at(q))
     }
 
     /// Cosine to the normal of the direction above the horizon at `q`.
@@ -117,6 +125,15 @@ impl Chord {
         } else {
             (self.leave, self.enter)
         }
+    }
+
+    /// The sign with which the antiderivative counts at each root, and q; those of the whole arc where the light covers the direction straight down.
+    pub fn signed(&self, line: BandLine) -> impl Iterator<Item = (f64, f64)> {
+        let arc = [(1.0, line.q_start()), (-1.0, line.q_end())];
+        let wraps = arc.into_iter().take(if self.wraps { 2 } else { 0 });
+        [(1.0, self.enter), (-1.0, self.leave)]
+            .into_iter()
+            .chain(wraps)
     }
 
     /// The light integral, given the antiderivative over q.

@@ -1,8 +1,8 @@
 //! A scene made ready to be integrated, and how.
 
-use crate::environment::EnvironmentSampler;
-use crate::lights::AreaLights;
 use crate::reflectance::Reflectance;
+use hairline_cpu::sampling::environment::EnvironmentSampler;
+use hairline_cpu::sampling::lights::AreaLights;
 use hairline_index::{Groove, ScratchIndex, SegmentTree, TriangleIndex, groove_index};
 use hairline_optics::mask::Mask;
 use hairline_scene::{CameraFrame, Scene, ScratchTables};

@@ -31,18 +31,14 @@
 
 mod base;
 mod coherent;
-mod environment;
 mod grooves;
 mod integrator;
 mod interval;
-mod lights;
 mod path;
 mod random;
 mod reflectance;
 mod run;
 mod separable;
-#[cfg(test)]
-mod statistics;
 mod wavelengths;
 
 pub use integrator::{Integrator, Model, Parts, Settings};

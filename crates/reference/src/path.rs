@@ -484,16 +484,14 @@ impl Integrator<'_> {
             return false;
         }
         let origin_m = self.off_the_surface(point, direction);
-        self.triangles
-            .intersect(origin_m, direction)
-            .is_some_and(|hit| hit.distance_m < distance_m)
+        self.triangles.is_hidden(origin_m, direction, distance_m)
     }
 
     /// Where a ray starts that must not meet the surface that it leaves.
     fn off_the_surface(&self, point: &SurfacePoint, direction: DVec3) -> DVec3 {
         // Vertices are singles: this is some ten steps of theirs.
         let step_m = 1e-6 * (self.extent_m + point.position_m.length());
-        point.position_m + step_m * (direction + point.normal)
+        point.raised_m + step_m * (direction + point.normal)
     }
 }
 

@@ -10,7 +10,7 @@ use hairline_scene::environment::lookup::environment_dir;
 use hairline_scene::{Base, Environment};
 
 /// Blue above, pale at the horizon, and brighter to one side: no edge and no sun.
-fn sky([width, height]: [u32; 2]) -> Picture {
+pub fn sky([width, height]: [u32; 2]) -> Picture {
     let mut map = Picture::new([width, height]);
     for (i, texel) in map.rgb.iter_mut().enumerate() {
         let dir = direction([width, height], i as u32);
@@ -31,7 +31,7 @@ fn direction([width, height]: [u32; 2], i: u32) -> DVec3 {
 }
 
 /// As it stands over the plate.
-fn over(environment: Environment) -> Environment {
+pub fn over(environment: Environment) -> Environment {
     environment.with_up(DVec3::Z, 0.7)
 }
 

@@ -12,4 +12,5 @@ mod mirrored;
 mod pictures;
 mod published;
 mod scenes;
+mod shadowed;
 mod shadows;

@@ -35,6 +35,7 @@ pub fn closed(scene: &Scene) -> Image {
             mask: Mask::Linear,
             ..Method::default()
         },
+        ..RenderOptions::default()
     };
     closed_form::render(scene, &options, &|_| {})
 }

@@ -13,7 +13,11 @@ use hairline_scene::{Base, Light, Scene};
 use std::sync::Arc;
 
 fn by(scene: &Scene, method: Method) -> Image {
-    let options = RenderOptions { samples: 1, method };
+    let options = RenderOptions {
+        samples: 1,
+        method,
+        ..RenderOptions::default()
+    };
     closed_form::render(scene, &options, &|_| {})
 }
 

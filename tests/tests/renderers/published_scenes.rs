@@ -62,7 +62,11 @@ impl<'a> Both<'a> {
             renderer.render(scene, &uploaded, &options, &|_| {}).await
         });
         let picture = picture.unwrap_or_else(|error: hairline_gpu::Error| panic!("{error}"));
-        let options = closed_form::RenderOptions { samples: 1, method };
+        let options = closed_form::RenderOptions {
+            samples: 1,
+            method,
+            shadows: false,
+        };
         let cpu = prepared.render(&options, &|_| {});
         let what = format!("{name}, {switches:?}, {mask:?}");
         compare(&what, scene, &picture, &cpu).unwrap_or_else(|error| panic!("{error}"));

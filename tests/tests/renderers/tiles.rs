@@ -121,7 +121,11 @@ fn masks_for_comparison() {
             mask,
             ..Method::default()
         };
-        let options = closed_form::RenderOptions { samples: 1, method };
+        let options = closed_form::RenderOptions {
+            samples: 1,
+            method,
+            shadows: false,
+        };
         let cpu = closed_form::render(&scene, &options, &|_| {});
         let image = headless::render(gpu, &scene, &method, &RenderOptions::default(), &|_| {});
         let image = image.unwrap_or_else(|error| panic!("{error}"));

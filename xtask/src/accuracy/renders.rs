@@ -126,7 +126,15 @@ pub fn closed_form(scene: &Scene, samples: u32, mask: Mask) -> Image {
         mask,
         ..Method::default()
     };
-    closed_form::render(scene, &RenderOptions { samples, method }, &|_| {})
+    closed_form::render(
+        scene,
+        &RenderOptions {
+            samples,
+            method,
+            ..RenderOptions::default()
+        },
+        &|_| {},
+    )
 }
 
 /// Text that is digested as it is written.

@@ -42,6 +42,7 @@ pub fn counted(scene: &Scene, prepared: &Prepared, way: Way) -> Option<Counts> {
     let options = closed_form::RenderOptions {
         samples: 1,
         method: way.method(),
+        ..Default::default()
     };
     (way == Way::Ours).then(|| {
         let rows = 0..scene.render.size_px[1];
@@ -173,6 +174,7 @@ fn options(ready: &Ready) -> closed_form::RenderOptions {
     closed_form::RenderOptions {
         samples: 1,
         method: ready.method,
+        ..Default::default()
     }
 }
 

@@ -12,3 +12,4 @@ mod method;
 mod opengl;
 mod reference;
 mod sequence;
+mod shadows;

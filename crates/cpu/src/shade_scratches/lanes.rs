@@ -223,14 +223,23 @@ impl Seen {
         DVec2::new(self.tangent[0][lane], self.tangent[1][lane])
     }
 
+    /// The ends of the segment, in standard deviations of what lies along it.
+    pub fn ends(&self, lane: usize) -> [f64; 2] {
+        [self.low[lane], self.high[lane]]
+    }
+
     /// The share that a point sees; none if it doesn't.
     #[inline(always)]
     pub fn share(&self, lane: usize, width_um: f64) -> Option<ScratchShare> {
         if self.sees[lane] == 0 {
             return None;
         }
-        let ends = [self.low[lane], self.high[lane]];
-        let share = share(width_um, self.far2[lane], self.variance_um2[lane], ends);
+        let share = share(
+            width_um,
+            self.far2[lane],
+            self.variance_um2[lane],
+            self.ends(lane),
+        );
         (share.segment > 0.0).then_some(share)
     }
 }

@@ -19,7 +19,7 @@ pub(crate) struct ScratchPoint<'a> {
 
 /// What of a point is the same for all scratches.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Frame {
+pub(crate) struct Frame {
     /// How the point moves by one standard deviation of the pixel's filter to the right and down, in the surface's frame.
     pub steps_um: [DVec2; 2],
     /// The coherence window's variance.

@@ -2,10 +2,11 @@
 //! scratch_light.wgsl.
 
 use crate::light_view::{LightView, LightViews};
+use crate::shadows::luminance;
 use crate::surface::SurfacePoint;
 use glam::{DVec2, DVec3};
 use hairline_optics::band::{
-    BandFrame, BandLine, BandMotion, BandPlace, BandStds, Cap, Outline, OutlineRoots,
+    BandFrame, BandLine, BandMotion, BandPlace, BandStds, Cap, DrawnChord, Outline, OutlineRoots,
     band_is_whole, band_lines, chord_cos, sphere_band_extent, sphere_chord,
 };
 use hairline_optics::band_environment::environment_cells;
@@ -18,8 +19,80 @@ pub(super) fn scratch_energy(profile: Profile, table: &ScratchTable, cos_o: f64)
     table.scratch_table_total(oblique_depth_nm(profile.depth_nm.into(), cos_o, cos_o))
 }
 
+/// A direction of a source by way of a scratch.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct DrawnLight {
+    /// In the surface's frame.
+    pub direction: DVec3,
+    /// What comes from there over what comes from a mean direction, given that directions are drawn by luminance.
+    pub color: DVec3,
+}
+
+/// One of many lines, drawn by what comes along them, and a place on it.
+struct Offers {
+    chord: DrawnChord,
+    /// What comes along all of them.
+    total: DVec3,
+    /// In [0, 1): what is left of the number that picks.
+    left: f64,
+    taken: Option<(BandLine, f64, DVec3)>,
+}
+
+impl Offers {
+    fn new(pick_u: f64) -> Self {
+        Self {
+            chord: DrawnChord::default(),
+            total: DVec3::ZERO,
+            left: pick_u,
+            taken: None,
+        }
+    }
+
+    /// Offers the part of a line between roots. `spectrum` is the antiderivative of what comes from there.
+    fn offer(
+        &mut self,
+        line: BandLine,
+        roots: impl Iterator<Item = (f64, f64)>,
+        spectrum: impl Fn(f64) -> [f64; 3],
+        chord_u: f64,
+    ) {
+        let of_luminance = |q: f64| luminance(spectrum(q).into());
+        self.chord.find(roots, of_luminance);
+        let before = luminance(self.total);
+        for (low, high) in self.chord.intervals() {
+            self.total += DVec3::from(spectrum(high)) - DVec3::from(spectrum(low));
+        }
+        let all = luminance(self.total);
+        if !(all > before) {
+            return;
+        }
+        let share = 1.0 - before / all;
+        if self.left >= share {
+            self.left = (self.left - share) / (1.0 - share);
+            return;
+        }
+        self.left /= share;
+        self.taken = self.chord.draw(of_luminance, chord_u).map(|(low, high)| {
+            let sent = DVec3::from(spectrum(high)) - DVec3::from(spectrum(low));
+            (line, 0.5 * (low + high), sent)
+        });
+    }
+
+    fn taken(self, frame: BandFrame) -> Option<DrawnLight> {
+        let (line, q, sent) = self.taken?;
+        let mean = self.total / luminance(self.total);
+        let here = sent / luminance(sent);
+        // Channels that get nothing have no colour to differ in.
+        let color = DVec3::select(mean.cmpgt(DVec3::ZERO), here / mean, DVec3::ONE);
+        Some(DrawnLight {
+            direction: frame.surface_from_band(line.direction_at(q)),
+            color: if color.is_finite() { color } else { DVec3::ONE },
+        })
+    }
+}
+
 /// A scratch from a point.
-pub(super) struct ScratchLight<'a> {
+pub(crate) struct ScratchLight<'a> {
     frame: BandFrame,
     /// `wo` in the frame of the scratch.
     wo: DVec3,
@@ -148,6 +221,77 @@ impl<'a> ScratchLight<'a> {
                 roots.integral(&spectrum)
             }
         }))
+    }
+
+    /// A direction from which a light reaches the viewer by way of the scratch: drawn in proportion to the luminance of what comes from there,
+    /// by three numbers in [0, 1). None where nothing comes. Other arguments as for [`Self::light`].
+    pub fn draw_light(
+        &self,
+        stds: &BandStds,
+        place: BandPlace,
+        views: &LightViews,
+        view: usize,
+        [line_u, pick_u, chord_u]: [f64; 3],
+    ) -> Option<DrawnLight> {
+        let light = &views.views[view];
+        let tangent = self.frame.tangent;
+        let motion = place.moved(views.moves[view].map(|m| m.dot(tangent)));
+        let wo = self.wo + motion.shift * DVec3::X;
+        let stds = motion.band(*stds).stds;
+        let mut roots = OutlineRoots::default();
+        let mut offers = Offers::new(pick_u);
+        // One line of each part of the band, and of these one by what comes along it.
+        match light {
+            LightView::Sphere { cap, .. } => {
+                let cap = cap.turned(self.frame);
+                let (lowest, highest) = sphere_band_extent(wo, cap);
+                let lines = band_lines(wo.x, lowest, highest, stds);
+                for i in 0..lines.count {
+                    let line = lines.drawn_line(wo, i, line_u);
+                    let on_line = sphere_chord(line, cap);
+                    let spectrum = self.spectrum(line, on_line.range(line));
+                    offers.offer(line, on_line.signed(line), spectrum, chord_u);
+                }
+            }
+            LightView::Polygon {
+                vertices,
+                away,
+                facing,
+                sets,
+                ..
+            } => {
+                let outline = views.outline(vertices, *away, *facing, *sets);
+                let (lowest, highest) = outline.band_extent(self.frame, wo.x);
+                let lines = band_lines(wo.x, lowest, highest, stds);
+                for i in 0..lines.count {
+                    let line = lines.drawn_line(wo, i, line_u);
+                    outline.roots(self.frame, line, &mut roots);
+                    let spectrum = self.spectrum(line, roots.range);
+                    offers.offer(line, roots.signed().iter().copied(), spectrum, chord_u);
+                }
+            }
+        }
+        offers.taken(self.frame)
+    }
+
+    /// The same by way of the environment; two numbers in [0, 1).
+    pub fn draw_environment(
+        &self,
+        point: &SurfacePoint,
+        environment: &Environment,
+        [pick_u, cell_u]: [f64; 2],
+    ) -> Option<DrawnLight> {
+        let line = BandLine::new(self.wo, 0.0);
+        let mut offers = Offers::new(pick_u);
+        for cell in environment_cells(line, self.width_um()) {
+            let towards = point.world_from_surface(self.frame.surface_from_band(cell.direction));
+            let blurred = environment.prefiltered(towards, cell.environment_cell_roughness());
+            let row = self.row(cell.direction.z);
+            let spectrum = |q: f64| (blurred * DVec3::from(row.at(self.width_um() * q))).into();
+            let ends = [(-1.0, cell.q_low), (1.0, cell.q_high)];
+            offers.offer(line, ends.into_iter(), spectrum, cell_u);
+        }
+        offers.taken(self.frame)
     }
 
     /// The roots of a polygon on a line, and the antiderivative for light from there.

@@ -92,6 +92,17 @@ pub struct BandPlace {
     window_um2: f64,
 }
 
+/// Where a scratch begins and ends under a pixel.
+#[derive(Clone, Copy, Debug)]
+pub struct Along {
+    /// The components along the scratch of one standard deviation of the pixel's filter to the right and down.
+    pub steps_um: [f64; 2],
+    /// By how much the scratch is blurred along itself.
+    pub blur_um: f64,
+    /// In standard deviations of what lies along it.
+    pub ends: [f64; 2],
+}
+
 impl BandPlace {
     /// See [`moved_band`].
     pub fn new(across_um: [f64; 2], offset_um: f64, variance_um2: f64) -> Self {
@@ -103,6 +114,30 @@ impl BandPlace {
             offset_um,
             window_um2: (variance_um2 - across2).max(0.0),
         }
+    }
+
+    /// Draws the place under the pixel, in standard deviations of its filter to the right and down, of a part that sees the scratch: from three
+    /// standard normal numbers and one in (0, 1). Of what is normal over the pixel, the distance across the scratch is known, and what is
+    /// along it lies between its ends.
+    pub fn drawn(&self, [right, down, window]: [f64; 3], along: &Along, u: f64) -> [f64; 2] {
+        let dot = |a: [f64; 2], b: [f64; 2]| a[0] * b[0] + a[1] * b[1];
+        let missing_um =
+            self.offset_um - dot(self.across_um, [right, down]) - window * self.window_um2.sqrt();
+        let right = right + self.slopes[0] * missing_um;
+        let down = down + self.slopes[1] * missing_um;
+        // Given the distance across: how what is along varies with both axes, its mean and its variance.
+        let cross_um2 = dot(along.steps_um, self.across_um);
+        let left: [f64; 2] =
+            std::array::from_fn(|i| along.steps_um[i] - self.slopes[i] * cross_um2);
+        let mean_um = self.offset_um * dot(along.steps_um, self.slopes);
+        let free_um2 =
+            dot(along.steps_um, along.steps_um) - cross_um2 * dot(along.steps_um, self.slopes);
+        let variance_um2 = (free_um2 + along.blur_um * along.blur_um).max(1e-12);
+        let [low, high] = along.ends.map(|end| gaussian().cdf(end));
+        let within = (low + (high - low) * u).clamp(1e-9, 1.0 - 1e-9);
+        let wanted_um = mean_um + gaussian().quantile(within) * variance_um2.sqrt();
+        let missing = (wanted_um - dot(along.steps_um, [right, down])) / variance_um2;
+        [right + left[0] * missing, down + left[1] * missing]
     }
 
     /// How the band moves towards a light.
@@ -291,6 +326,12 @@ impl BandLines {
     fn quantile(&self, node: f64) -> f64 {
         // It is cut where single precision loses it; the band's reach ends before.
         gaussian().quantile((self.share_below + self.share * node).clamp(1e-6, 1.0 - 1e-6))
+    }
+
+    /// A line of part `i` of the lit band, which is cut into [`Self::count`] parts of one share: where the share `u` of the part lies below.
+    pub fn drawn_line(&self, wo: DVec3, i: usize, u: f64) -> BandLine {
+        let node = (i as f64 + u) / self.count as f64;
+        BandLine::new(wo, self.stds.mean * self.quantile(node))
     }
 
     /// The line that stands for the band alone, or the middle one of several.

@@ -69,6 +69,11 @@ pub struct OutlineRoots {
 }
 
 impl OutlineRoots {
+    /// The sign with which the antiderivative counts at each root, and q.
+    pub fn signed(&self) -> &[(f64, f64)] {
+        &self.roots
+    }
+
     /// The light integral on the line, given the antiderivative over q.
     #[inline]
     pub fn integral(&self, antiderivative: impl Fn(f64) -> [f64; 3]) -> [f64; 3] {

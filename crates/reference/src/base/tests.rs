@@ -7,7 +7,7 @@ use hairline_scene::Reflector;
 
 use super::BaseLobes;
 use crate::reflectance::Reflectance;
-use crate::statistics::{Draw, chi_square, jittered};
+use hairline_fixtures::statistics::{Draw, chi_square, jittered};
 
 const ALPHAS: [f64; 6] = [0.002, 0.01, 0.05, 0.2, 0.5, 1.0];
 const COSINES: [f64; 5] = [0.02, 0.1, 0.4, 0.8, 1.0];

@@ -262,11 +262,13 @@ fn images_are_named_from_the_file() {
     let picture = dir.path().join("above.png");
     std::fs::write(&picture, png([3, 2], [9, 9, 9, 255])).unwrap();
     let load_with = |uri: &str| {
-        let mut glb = Glb::default();
-        glb.more = format!(
-            r#","images":[{{"uri":"{uri}"}}],"textures":[{{"source":0}}],
-            "materials":[{{"pbrMetallicRoughness":{{"baseColorTexture":{{"index":0}}}}}}]"#
-        );
+        let mut glb = Glb {
+            more: format!(
+                r#","images":[{{"uri":"{uri}"}}],"textures":[{{"source":0}}],
+                "materials":[{{"pbrMetallicRoughness":{{"baseColorTexture":{{"index":0}}}}}}]"#
+            ),
+            ..Glb::default()
+        };
         let bytes = cube_glb(r#","material":0"#, r#"{"mesh":0}"#, &mut glb);
         std::fs::write(folder.join("it.glb"), bytes).unwrap();
         load(&folder.join("it.glb"), "")

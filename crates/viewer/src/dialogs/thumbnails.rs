@@ -87,11 +87,7 @@ fn picture(document: &Document, stop: &Stop) -> Option<ColorImage> {
         cancelled: &cancelled,
         ..Watch::default()
     };
-    let options = RenderOptions {
-        samples: 1,
-        method: Default::default(),
-    };
-    let image = Prepared::watched(&scene, &watch)?.render(&options, &|_| {});
+    let image = Prepared::watched(&scene, &watch)?.render(&RenderOptions::default(), &|_| {});
     let display = Display {
         exposure_ev: description.camera.exposure_ev,
         tone_map: description.render.tone_map,

@@ -6,7 +6,6 @@ use std::time::Duration;
 
 use hairline_cpu::closed_form::{Prepared, RenderOptions, TILE_PX};
 use hairline_image::Image;
-use hairline_index::method::Method;
 use hairline_scene::Scene;
 use web_time::Instant;
 
@@ -122,7 +121,7 @@ impl Bands {
     ) -> Option<bool> {
         let options = RenderOptions {
             samples,
-            method: Method::default(),
+            ..RenderOptions::default()
         };
         let [width, height] = self.image.size_px;
         let start = Instant::now();

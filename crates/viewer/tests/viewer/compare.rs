@@ -9,7 +9,6 @@ use egui::accesskit::Role;
 use egui_kittest::{Harness, kittest::Queryable};
 use hairline_cpu::closed_form::{self, RenderOptions};
 use hairline_image::{Image, Layer};
-use hairline_index::method::Method;
 use hairline_scene::Scene;
 use hairline_viewer::engine::Backend;
 use hairline_viewer::{Figures, LayerFigures, Options, Viewer};
@@ -63,7 +62,7 @@ fn rendered(text: &str, size_px: [u32; 2]) -> Image {
     scene.render.size_px = size_px;
     let options = RenderOptions {
         samples: 16,
-        method: Method::default(),
+        ..RenderOptions::default()
     };
     closed_form::render(&scene, &options, &|_| {})
 }

@@ -78,7 +78,7 @@ fn rendered(text: &str, turned_deg: f64) -> (Image, Display) {
         .unwrap();
     let options = RenderOptions {
         samples: SAMPLES,
-        method: Method::default(),
+        ..RenderOptions::default()
     };
     let display = Display {
         exposure_ev: scene.camera.exposure_ev,
@@ -310,7 +310,7 @@ fn a_transparent_picture_has_alpha_and_is_taken_from_where_the_window_looks() {
                 .unwrap();
             let options = RenderOptions {
                 samples: SAMPLES,
-                method: Method::default(),
+                ..RenderOptions::default()
             };
             let image = closed_form::render(&scene, &options, &|_| {});
             assert_eq!(exr_file::read_image(&path).unwrap(), image);

@@ -168,6 +168,16 @@ impl PolygonLight {
         self.cross(from, direction, self.lit_height_m(from))
     }
 
+    /// The distance at which a ray passes through the plane; infinite where it does not.
+    pub fn plane_m(&self, from: DVec3, direction: DVec3) -> f64 {
+        let distance_m = self.height_m(from) / -direction.dot(self.normal);
+        if distance_m > 0.0 {
+            distance_m
+        } else {
+            f64::INFINITY
+        }
+    }
+
     /// The distance at which a ray passes through the polygon, from either side.
     fn cross(&self, from: DVec3, direction: DVec3, height_m: f64) -> Option<f64> {
         let distance_m = height_m / -direction.dot(self.normal);

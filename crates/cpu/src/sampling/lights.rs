@@ -20,7 +20,7 @@ use sphere::SphereLight;
 
 /// The lights of a scene, made ready once.
 #[derive(Clone, Debug)]
-pub(crate) struct AreaLights {
+pub struct AreaLights {
     lights: Vec<AreaLight>,
 }
 
@@ -38,32 +38,37 @@ enum Shape {
 
 /// A direction towards a light.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct LightSample {
+pub struct LightSample {
     /// Unit vector.
     pub direction: DVec3,
     /// To the point of the light that is seen there.
     pub distance_m: f64,
     /// Density of the direction, per steradian.
     pub pdf: f64,
+    /// Linear Rec.709.
     pub radiance: DVec3,
 }
 
 /// What a ray sees of a light.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct LightHit {
+pub struct LightHit {
+    /// To its first point on the light.
     pub distance_m: f64,
+    /// Linear Rec.709.
     pub radiance: DVec3,
 }
 
 impl AreaLights {
-    /// The environment's suns are not among them: here they are found in its map.
+    /// The lights of a scene. The environment's suns are not among them: [`EnvironmentSampler`](super::environment::EnvironmentSampler)
+    /// finds them in its map.
     pub fn new(scene: &Scene) -> Self {
         Self::from_lights(&scene.lights)
     }
 
-    fn from_lights(lights: &[Light]) -> Self {
+    /// Any lights, in this order.
+    pub fn from_lights<'l>(lights: impl IntoIterator<Item = &'l Light>) -> Self {
         let lights = lights
-            .iter()
+            .into_iter()
             .map(|light| match light {
                 Light::Sphere {
                     center_m,
@@ -86,8 +91,14 @@ impl AreaLights {
         Self { lights }
     }
 
+    /// How many lights there are.
     pub fn len(&self) -> usize {
         self.lights.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
     }
 
     /// A direction towards light `i`, uniform over the solid angle in which the point `from` sees it. `u` is in [0, 1)^2.
@@ -120,6 +131,14 @@ impl AreaLights {
         })
     }
 
+    /// The distance along a unit `direction` at which a ray that goes to light `i` arrives: also where it passes beside the light by little.
+    pub fn reach_m(&self, i: usize, from: DVec3, direction: DVec3) -> f64 {
+        match &self.lights[i].shape {
+            Shape::Sphere(sphere) => sphere.distance_m(from, direction).1,
+            Shape::Polygon(polygon) => polygon.plane_m(from, direction),
+        }
+    }
+
     /// The density of [`AreaLights::sample`] at a direction that hits light `i`, per steradian; the same for all of them.
     /// 0 where nothing can be sampled.
     pub fn pdf(&self, i: usize, from: DVec3, _direction: DVec3) -> f64 {
@@ -132,7 +151,7 @@ impl AreaLights {
     /// A cone that holds every direction from a point to light `i`: what the tests draw even directions from. To tell which
     /// directions a light can reach, [`AreaLights::extent`] is tighter.
     #[cfg(test)]
-    pub fn bound(&self, i: usize, from: DVec3) -> Cone {
+    pub(crate) fn bound(&self, i: usize, from: DVec3) -> Cone {
         match &self.lights[i].shape {
             Shape::Sphere(sphere) => sphere.bound(from),
             Shape::Polygon(polygon) => polygon.bound(from),

@@ -17,7 +17,7 @@ use rayon::prelude::*;
 const BLOCK: usize = 16;
 
 /// What a map is sampled by.
-pub(crate) struct EnvironmentSampler {
+pub struct EnvironmentSampler {
     /// Shares its texels with the scene's.
     environment: Environment,
     width: usize,
@@ -34,6 +34,7 @@ pub(crate) struct EnvironmentSampler {
 type Corners = [[f64; 2]; 2];
 
 impl EnvironmentSampler {
+    /// Makes the table.
     pub fn new(environment: &Environment) -> Self {
         let [width, height] = environment.background().size_px.map(|n| n as usize);
         let mut cos_rows = vec![1.0];

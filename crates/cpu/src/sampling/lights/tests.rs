@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 use hairline_scene::Light;
 
 use super::AreaLights;
-use crate::statistics::{Draw, chi_square_of_two, jittered};
+use hairline_fixtures::statistics::{Draw, chi_square_of_two, jittered};
 
 fn sphere(center_m: [f64; 3], radius_m: f64) -> Light {
     Light::Sphere {

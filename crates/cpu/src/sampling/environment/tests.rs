@@ -7,7 +7,7 @@ use hairline_scene::Environment;
 use hairline_scene::environment::lookup::{environment_dir, environment_uv};
 
 use super::EnvironmentSampler;
-use crate::statistics::{Draw, chi_square, jittered};
+use hairline_fixtures::statistics::{Draw, chi_square, jittered};
 
 fn map(size_px: [u32; 2], texel: impl Fn(u32, u32) -> [f32; 3]) -> Environment {
     let texels = (0..size_px[1]).flat_map(|y| (0..size_px[0]).map(move |x| (x, y)));

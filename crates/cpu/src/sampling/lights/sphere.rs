@@ -56,7 +56,7 @@ impl SphereLight {
     }
 
     /// Whether a ray meets the sphere, and where it does first, or where it passes nearest.
-    fn distance_m(&self, from: DVec3, direction: DVec3) -> (bool, f64) {
+    pub fn distance_m(&self, from: DVec3, direction: DVec3) -> (bool, f64) {
         let to_center = self.center_m - from;
         let along = to_center.dot(direction);
         // The cross product, and not the difference of squares, which cancels for far spheres.

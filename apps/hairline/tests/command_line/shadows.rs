@@ -1,0 +1,72 @@
+//! `render --shadows on`: what is refused, and that it reaches the picture.
+
+use crate::common::{folder_with, hairline, stderr_of};
+use hairline_image::exr_file;
+
+/// A disk under a lamp, and a smaller disk between them.
+const SCREENED: &str = r#"
+[camera]
+position_m = [0.0, -0.3, 0.3]
+target_m = [0.0, 0.0, 0.0]
+up = [0.0, 0.0, 1.0]
+fov_y_deg = 20.0
+
+[render]
+size_px = [32, 24]
+
+[[material]]
+name = "steel"
+kind = "metal"
+metal = "steel"
+roughness = 0.4
+
+[[object]]
+name = "table"
+material = "steel"
+shape = { disk = { radius_m = 0.1 } }
+
+[[object]]
+name = "screen"
+material = "steel"
+shape = { disk = { radius_m = 0.02 } }
+translation_m = [0.0, 0.1, 0.1]
+
+[[light]]
+kind = "sphere"
+center_m = [0.0, 0.3, 0.3]
+radius_m = 0.01
+radiance = 50.0
+"#;
+
+#[test]
+fn what_has_no_shadows_refuses_them() {
+    let folder = folder_with("screened.toml", SCREENED);
+    for (flags, message) in [
+        ("--method published", "the published method has no shadows"),
+        ("--backend gpu", "the GPU renderer has no shadows yet"),
+    ] {
+        let arguments = format!("render screened.toml -o out.exr --shadows on {flags}");
+        let text = stderr_of(&hairline(folder.path(), &arguments).code(2));
+        assert!(text.contains(message), "{flags}: {text}");
+        assert!(!folder.path().join("out.exr").exists(), "{flags}");
+    }
+}
+
+#[test]
+fn shadows_darken_the_middle_and_are_noted() {
+    let folder = folder_with("screened.toml", SCREENED);
+    let file = folder.path().join("out.exr");
+    let mut middle = Vec::new();
+    for (switch, note) in [("off", None), ("on", Some("on"))] {
+        let arguments = format!("render screened.toml -o out.exr --shadows {switch}");
+        let arguments = match switch {
+            "off" => format!("{arguments} --backend cpu"),
+            _ => arguments,
+        };
+        hairline(folder.path(), &arguments).success();
+        let (image, notes) = exr_file::read_image_with_notes(&file).unwrap();
+        assert_eq!(notes.get("shadows").map(String::as_str), note);
+        middle.push(image.base[image.index(16, 12)][1]);
+    }
+    assert!(middle[0] > 0.0 && middle[1] < 0.1 * middle[0], "{middle:?}");
+}

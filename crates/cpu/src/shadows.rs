@@ -1,0 +1,478 @@
+//! Shadows: how much of each light a sample sees. The closed forms say what arrives where nothing hides a light; a few rays say which part of
+//! that arrives (docs/model.md, section 11).
+//!
+//! For each source F is its closed form, and rays k have weights w_k whose mean is F in expectation: the integrand in the ray's direction over
+//! the direction's density. With V_k = 1 where nothing hides the source, and c any guess of the share that is seen,
+//!
+//! F c + mean of w_k (V_k - c)
+//!
+//! is right in the mean. The guess of one half of the rays is the ratio of sums, sum w V / sum w, of the other half. Where all rays see the
+//! source, or none does, there is no noise at all: the result is F, or 0.
+
+use crate::light_view::LightViews;
+use crate::prepared::Prepared;
+use crate::sampling::environment::EnvironmentSampler;
+use crate::sampling::lights::{AreaLights, LightHit};
+use crate::shade_base::{Base, BaseRadiance};
+use crate::shade_scratches::{DrawnLight, Frame, Pick, Picks, ScratchLight, SourcePicks};
+use crate::surface::{SurfacePoint, raised_m};
+use glam::{DVec2, DVec3};
+use hairline_optics::fresnel::{FresnelRgb, half_vector_cos};
+use hairline_optics::gaussian::gaussian;
+use hairline_optics::ggx::{ggx_alpha, ggx_eval, ggx_pdf, ggx_sample};
+use hairline_optics::ltc::ltc_sphere;
+use hairline_scene::CameraFrame;
+use std::f64::consts::PI;
+
+/// Rec.709 luminance.
+#[inline]
+pub(crate) fn luminance(rgb: DVec3) -> f64 {
+    rgb.dot(DVec3::new(0.2126, 0.7152, 0.0722))
+}
+
+/// What rays to the lights of a scene need.
+pub(crate) struct Shadows<'a> {
+    prepared: &'a Prepared<'a>,
+    /// In the order of [`hairline_scene::Scene::all_lights`].
+    lights: AreaLights,
+    environment: Option<EnvironmentSampler>,
+    /// How far the scene reaches from the origin: what rounding goes by.
+    extent_m: f64,
+}
+
+/// What is seen of what a sample sends.
+pub(crate) struct Shadowed {
+    pub base: BaseRadiance,
+    /// The share of the scratches' light that is left, in each channel.
+    pub scratches: DVec3,
+}
+
+/// A sample that rays start from.
+pub(crate) struct ShadowPoint<'p, 'a> {
+    pub point: &'p SurfacePoint<'a>,
+    pub object: u32,
+    pub camera: &'p CameraFrame,
+    pub at_px: DVec2,
+    /// Of the pixel's filter.
+    pub std_px: f64,
+    pub views: &'p LightViews<'a>,
+    /// Rays for each source; for a sharp edge of a shadow their number is that of the picture's samples.
+    pub rounds: u32,
+    pub seed: u32,
+}
+
+/// What the random numbers of a ray are for. Each has four.
+#[derive(Clone, Copy)]
+enum Purpose {
+    /// Where under the pixel rays of the base start (2).
+    Origin,
+    /// A direction by the lobes of the base (2) and the choice between them (1).
+    Lobe,
+    /// A direction to a light (2).
+    Light(u32),
+    /// A direction in the environment (2).
+    Environment,
+    /// A direction by way of a scratch (3).
+    Scratch(u32),
+    /// Where on the scratch it starts (3).
+    ScratchOrigin(u32),
+}
+
+impl Purpose {
+    fn set(self) -> u32 {
+        match self {
+            Self::Origin => 0,
+            Self::Lobe => 1,
+            Self::Environment => 2,
+            Self::Light(i) => 3 + 3 * i,
+            Self::Scratch(i) => 4 + 3 * i,
+            Self::ScratchOrigin(i) => 5 + 3 * i,
+        }
+    }
+}
+
+impl<'a> Shadows<'a> {
+    pub fn new(prepared: &'a Prepared<'a>) -> Self {
+        let scene = prepared.scene;
+        let positions = scene.objects.iter().flat_map(|o| &o.mesh.positions_m);
+        Self {
+            prepared,
+            lights: AreaLights::from_lights(scene.all_lights()),
+            environment: scene.environment.as_ref().map(EnvironmentSampler::new),
+            extent_m: positions.map(|p| f64::from(p.length())).fold(0.0, f64::max),
+        }
+    }
+
+    /// What is left of the light of a sample. `picks` are those of its scratches, if it has any.
+    pub fn shadowed(&self, at: &ShadowPoint, picks: Option<&Picks>) -> Shadowed {
+        Shadowed {
+            base: self.base(at),
+            scratches: picks.map_or(DVec3::ONE, |picks| self.scratches(at, picks)),
+        }
+    }
+
+    fn base(&self, at: &ShadowPoint) -> BaseRadiance {
+        let base = Base::new(at.point);
+        let environment = self.prepared.scene.environment.as_ref();
+        let lights = at.views.views.iter();
+        let mut sources: Vec<BaseSource> = lights
+            .map(|light| base.by_light(light, at.views, ltc_sphere))
+            .chain(environment.map(|environment| base.by_environment(environment)))
+            .map(BaseSource::new)
+            .collect();
+        let lobes = Lobes::new(&base, at.point);
+        for round in 0..at.rounds {
+            self.add_round(at, &lobes, round, &mut sources);
+        }
+        let of_sources = sources.iter().map(BaseSource::resolve);
+        of_sources.fold(BaseRadiance::default(), |sum, part| sum + part)
+    }
+
+    /// One ray by the lobes, which any source may be met by, and one to each source: multiple importance sampling (E. Veach, 1997).
+    fn add_round(&self, at: &ShadowPoint, lobes: &Lobes, round: u32, sources: &mut [BaseSource]) {
+        let point = at.point;
+        let [u, v, ..] = at.random(Purpose::Origin, round);
+        let on_surface_m = self.under_the_pixel(at, normals(u, v));
+        let [u, v, pick, _] = at.random(Purpose::Lobe, round);
+        let drawn = lobes.sample(pick, DVec2::new(u, v)).map(|wi| {
+            let direction = point.world_from_surface(wi);
+            let origin_m = self.off_the_surface(point, on_surface_m, direction);
+            // Which sources it meets is known only below.
+            let nearest = self.prepared.triangles.intersect(origin_m, direction);
+            let free_m = nearest.map_or(f64::INFINITY, |hit| hit.distance_m);
+            (wi, direction, free_m)
+        });
+        let from = point.position_m;
+        for (i, source) in sources.iter_mut().enumerate() {
+            if !source.is_lit() {
+                continue;
+            }
+            let Some(light) = at.views.light_of(i) else {
+                // The environment is the last one.
+                self.add_environment(at, lobes, round, on_surface_m, drawn, source);
+                continue;
+            };
+            let [u, v, ..] = at.random(Purpose::Light(light as u32), round);
+            if let Some(to) = self.lights.sample(light, from, DVec2::new(u, v)) {
+                let wi = point.surface_from_world(to.direction);
+                let weight = to.radiance / (to.pdf + lobes.pdf(wi));
+                if wi.z > 0.0 {
+                    let is_seen = self.sees(point, on_surface_m, to.direction, to.distance_m);
+                    source.add(round, lobes.eval(wi).times(weight), is_seen);
+                }
+            }
+            if let Some((wi, direction, free_m)) = drawn
+                && let Some(LightHit {
+                    distance_m,
+                    radiance,
+                }) = self.lights.hit(light, from, direction)
+            {
+                let pdf = lobes.pdf(wi) + self.lights.pdf(light, from, direction);
+                source.add(
+                    round,
+                    lobes.eval(wi).times(radiance / pdf),
+                    free_m >= distance_m,
+                );
+            }
+        }
+    }
+
+    fn add_environment(
+        &self,
+        at: &ShadowPoint,
+        lobes: &Lobes,
+        round: u32,
+        on_surface_m: DVec3,
+        drawn: Option<(DVec3, DVec3, f64)>,
+        source: &mut BaseSource,
+    ) {
+        let point = at.point;
+        let (Some(environment), Some(sampler)) =
+            (&self.prepared.scene.environment, &self.environment)
+        else {
+            return;
+        };
+        // Without its suns, which are lights.
+        let radiance = |direction| environment.prefiltered_lod(direction, 0.0);
+        let [u, v, ..] = at.random(Purpose::Environment, round);
+        let (direction, pdf) = sampler.sample(DVec2::new(u, v));
+        let wi = point.surface_from_world(direction);
+        if wi.z > 0.0 {
+            let weight = radiance(direction) / (pdf + lobes.pdf(wi));
+            let is_seen = self.sees(point, on_surface_m, direction, f64::INFINITY);
+            source.add(round, lobes.eval(wi).times(weight), is_seen);
+        }
+        if let Some((wi, direction, free_m)) = drawn {
+            let weight = radiance(direction) / (lobes.pdf(wi) + sampler.pdf(direction));
+            source.add(round, lobes.eval(wi).times(weight), free_m == f64::INFINITY);
+        }
+    }
+
+    /// The share of the scratches' light that is left.
+    fn scratches(&self, at: &ShadowPoint, picks: &Picks) -> DVec3 {
+        let (mut all, mut left) = (DVec3::ZERO, DVec3::ZERO);
+        let frame = Frame::new(at.point);
+        for (i, source) in picks.sources.iter().enumerate() {
+            all += source.radiance;
+            left += self.source_by_scratches(at, &frame, i, source);
+        }
+        // Channels may be zero, or below zero where colours are out of gamut.
+        DVec3::from_array(std::array::from_fn(|c| {
+            if all[c] == left[c] || all[c] == 0.0 {
+                1.0
+            } else {
+                left[c] / all[c]
+            }
+        }))
+    }
+
+    fn source_by_scratches(
+        &self,
+        at: &ShadowPoint,
+        frame: &Frame,
+        i: usize,
+        source: &SourcePicks,
+    ) -> DVec3 {
+        let point = at.point;
+        let table = &self.prepared.tables.tables[point.table];
+        let light = at.views.light_of(i);
+        let mut halves = Halves::default();
+        for (round, pick) in source.picks().enumerate() {
+            let Pick {
+                tangent,
+                place,
+                along,
+                profile,
+                radiance,
+            } = *pick;
+            let round = round as u32;
+            let by = ScratchLight::new(point.wo, tangent, table, profile);
+            let set = i as u32;
+            let [u, v, w, _] = at.random(Purpose::Scratch(set), round);
+            let drawn = match light {
+                Some(_) => by.draw_light(&frame.stds, place, at.views, i, [u, v, w]),
+                None => {
+                    let environment = self.prepared.scene.environment.as_ref();
+                    environment.and_then(|around| by.draw_environment(point, around, [u, v]))
+                }
+            };
+            let Some(DrawnLight { direction, color }) = drawn else {
+                continue;
+            };
+            let [u, v, w, x] = at.random(Purpose::ScratchOrigin(set), round);
+            let [right, down] = normals(u, v);
+            let stds = place.drawn([right, down, gaussian().quantile(w)], &along, x);
+            let on_surface_m = self.under_the_pixel(at, stds);
+            let direction = point.world_from_surface(direction);
+            let distance_m = light.map_or(f64::INFINITY, |light| {
+                self.lights.reach_m(light, on_surface_m, direction)
+            });
+            let weight = radiance * color * (source.luminance / luminance(radiance));
+            halves.add(
+                round,
+                weight,
+                self.sees(point, on_surface_m, direction, distance_m),
+            );
+        }
+        halves.resolve(source.radiance)
+    }
+
+    /// Whether nothing hides what lies at a distance.
+    fn sees(
+        &self,
+        point: &SurfacePoint,
+        on_surface_m: DVec3,
+        direction: DVec3,
+        distance_m: f64,
+    ) -> bool {
+        let origin_m = self.off_the_surface(point, on_surface_m, direction);
+        let triangles = &self.prepared.triangles;
+        !triangles.is_hidden(origin_m, direction, distance_m)
+    }
+
+    /// The point of the surface so many standard deviations of the pixel's filter to the right and down.
+    ///
+    /// On the triangles themselves: a step along the plane of the normal would end below them where they are hollow.
+    fn under_the_pixel(&self, at: &ShadowPoint, stds: [f64; 2]) -> DVec3 {
+        let ray = at
+            .camera
+            .camera_ray(at.at_px + DVec2::from(stds) * at.std_px);
+        let (from_m, direction) = (at.camera.position_m, ray.normalize());
+        match self.prepared.triangles.intersect(from_m, direction) {
+            Some(hit) if hit.object == at.object => {
+                let position_m = from_m + direction * hit.distance_m;
+                raised_m(self.prepared.scene, position_m, -direction, &hit)
+            }
+            _ => at.point.raised_m,
+        }
+    }
+
+    /// Where a ray starts that must not meet the surface that it leaves.
+    fn off_the_surface(
+        &self,
+        point: &SurfacePoint,
+        on_surface_m: DVec3,
+        direction: DVec3,
+    ) -> DVec3 {
+        // Vertices are singles: this is some ten steps of theirs.
+        let step_m = 1e-6 * (self.extent_m + on_surface_m.length());
+        on_surface_m + step_m * (direction + point.normal)
+    }
+}
+
+impl ShadowPoint<'_, '_> {
+    /// Four numbers in (0, 1), even over the rounds.
+    fn random(&self, purpose: Purpose, round: u32) -> [f64; 4] {
+        let seed = self.seed ^ purpose.set().wrapping_mul(0x9e37_79b9);
+        let numbers = sobol_burley::sample_4d(round, 0, seed);
+        numbers.map(|u| f64::from(u) + 0.5 / f64::from(1 << 24))
+    }
+}
+
+/// Beyond this a Gaussian is cut off: rays from farther would start beyond what the pixel shows.
+const REACH_STD: f64 = 3.0;
+
+/// Two independent standard normal numbers from two even ones.
+fn normals(u: f64, v: f64) -> [f64; 2] {
+    let radius = (-2.0 * (1.0 - u).ln()).sqrt().min(REACH_STD);
+    let (sin, cos) = (2.0 * PI * v).sin_cos();
+    [radius * cos, radius * sin]
+}
+
+/// The lobes of the base, simple enough to be drawn from. They only shape shadows: the closed form says how much light there is.
+struct Lobes<'a> {
+    wo: DVec3,
+    alpha: f64,
+    fresnel: FresnelRgb<'a>,
+    body: DVec3,
+    /// How often the specular one is drawn from.
+    specular_share: f64,
+}
+
+impl<'a> Lobes<'a> {
+    fn new(base: &Base, point: &SurfacePoint<'a>) -> Self {
+        let alpha = ggx_alpha(point.roughness);
+        let (specular, below) = (luminance(base.albedo), luminance(base.body));
+        Self {
+            wo: point.wo,
+            // The pixel's normals widen the lobe.
+            alpha: (alpha * alpha + 2.0 * point.slope_variance().element_sum())
+                .sqrt()
+                .min(1.0),
+            fresnel: point.fresnel,
+            body: base.body,
+            specular_share: if below > 0.0 {
+                (specular / (specular + below)).clamp(0.1, 0.9)
+            } else {
+                1.0
+            },
+        }
+    }
+
+    fn sample(&self, pick: f64, u: DVec2) -> Option<DVec3> {
+        let wi = if pick < self.specular_share {
+            ggx_sample(self.wo, self.alpha, u)
+        } else {
+            let (sin, cos) = (2.0 * PI * u.x).sin_cos();
+            let r = u.y.sqrt();
+            DVec3::new(r * cos, r * sin, (1.0 - u.y).sqrt())
+        };
+        (wi.z > 0.0).then_some(wi)
+    }
+
+    fn pdf(&self, wi: DVec3) -> f64 {
+        let body = wi.z.max(0.0) / PI;
+        let specular = ggx_pdf(wi, self.wo, self.alpha);
+        specular * self.specular_share + body * (1.0 - self.specular_share)
+    }
+
+    /// The BRDF times the cosine.
+    fn eval(&self, wi: DVec3) -> BaseRadiance {
+        let facet = self.fresnel.eval(half_vector_cos(wi, self.wo));
+        BaseRadiance {
+            specular: DVec3::from(facet) * ggx_eval(wi, self.wo, self.alpha),
+            diffuse: self.body * (wi.z.max(0.0) / PI),
+        }
+    }
+}
+
+/// A source of the base's light.
+struct BaseSource {
+    /// Where nothing hides it.
+    open: BaseRadiance,
+    specular: Halves,
+    diffuse: Halves,
+}
+
+impl BaseSource {
+    fn new(open: BaseRadiance) -> Self {
+        Self {
+            open,
+            specular: Halves::default(),
+            diffuse: Halves::default(),
+        }
+    }
+
+    fn is_lit(&self) -> bool {
+        self.open.specular != DVec3::ZERO || self.open.diffuse != DVec3::ZERO
+    }
+
+    fn add(&mut self, round: u32, weight: BaseRadiance, is_seen: bool) {
+        self.specular.add(round, weight.specular, is_seen);
+        self.diffuse.add(round, weight.diffuse, is_seen);
+    }
+
+    fn resolve(&self) -> BaseRadiance {
+        BaseRadiance {
+            specular: self.specular.resolve(self.open.specular),
+            diffuse: self.diffuse.resolve(self.open.diffuse),
+        }
+    }
+}
+
+/// The rays of a source in two halves: those of even rounds and those of odd ones.
+#[derive(Clone, Copy, Debug, Default)]
+struct Halves([Half; 2]);
+
+#[derive(Clone, Copy, Debug, Default)]
+struct Half {
+    rounds: u32,
+    weight: DVec3,
+    /// Of the rays that see the source.
+    seen: DVec3,
+}
+
+impl Half {
+    /// A guess of the share that is seen; 1 without a ray.
+    fn share(&self) -> f64 {
+        let (seen, all) = (luminance(self.seen), luminance(self.weight));
+        if all > 0.0 { seen / all } else { 1.0 }
+    }
+
+    /// What this half says of the source, given a guess.
+    fn shadowed(&self, open: DVec3, guess: f64) -> DVec3 {
+        let per_round = 1.0 / f64::from(self.rounds.max(1));
+        open * guess + (self.seen - guess * self.weight) * per_round
+    }
+}
+
+impl Halves {
+    fn add(&mut self, round: u32, weight: DVec3, is_seen: bool) {
+        let half = &mut self.0[(round % 2) as usize];
+        half.rounds = half.rounds.max(round / 2 + 1);
+        half.weight += weight;
+        if is_seen {
+            half.seen += weight;
+        }
+    }
+
+    /// What is left of the light of a source that sends `open` where nothing hides it.
+    fn resolve(&self, open: DVec3) -> DVec3 {
+        let [even, odd] = &self.0;
+        if odd.rounds == 0 {
+            // One ray cannot guess for another: it speaks for all colours.
+            return open * even.share();
+        }
+        0.5 * (even.shadowed(open, odd.share()) + odd.shadowed(open, even.share()))
+    }
+}

@@ -1,0 +1,357 @@
+//! Closed forms with shadow rays against the path tracer with shadows.
+
+use super::environment::{over, sky};
+use super::pictures::{LINEAR, compared, sampled};
+use super::scenes::{View, add_quad, off_the_mirror, panel, plate, scratch, sphere};
+use glam::{DVec3, Vec3};
+use hairline_cpu::closed_form::{self, RenderOptions};
+use hairline_image::{Image, Layer};
+use hairline_index::method::Method;
+use hairline_optics::gaussian::gaussian;
+use hairline_optics::irradiance::lambert_polygon;
+use hairline_optics::mask::Mask;
+use hairline_optics::metal::Metal;
+use hairline_reference::Settings;
+use hairline_scene::{Base, Environment, Light, Scene};
+use std::sync::Arc;
+
+const VIEW: View = View {
+    angle_rad: 0.7,
+    pixel_um: 30.0,
+    size_px: 16,
+};
+const WHITE: Base = Base::Dielectric {
+    ior: 1.5,
+    base_color: [0.9, 0.7, 0.5],
+};
+const SHADOWS: Settings = Settings {
+    shadows: true,
+    ..LINEAR
+};
+
+/// By the closed form, with rays for shadows or without.
+fn closed(scene: &Scene, samples: u32, shadows: bool) -> Image {
+    let options = RenderOptions {
+        samples,
+        shadows,
+        method: Method {
+            mask: Mask::Linear,
+            ..Method::default()
+        },
+    };
+    closed_form::render(scene, &options, &|_| {})
+}
+
+fn scratched(base: Base) -> Scene {
+    let mut scene = plate(base, VIEW);
+    scene.materials[0].roughness = 0.3;
+    scratch(&mut scene, VIEW, 40);
+    scene
+}
+
+/// A rectangle across the way to a light, as far as `reach_m` from the plate's middle and from `low_m` to `high_m` from the way.
+fn cover(scene: &mut Scene, towards: DVec3, reach_m: f64, low_m: [f64; 2], high_m: [f64; 2]) {
+    let right = towards.cross(DVec3::Y).normalize();
+    let up = right.cross(towards);
+    let corner = |x: f64, y: f64| -> Vec3 { (towards * reach_m + right * x + up * y).as_vec3() };
+    let corners = [
+        corner(low_m[0], low_m[1]),
+        corner(high_m[0], low_m[1]),
+        corner(high_m[0], high_m[1]),
+        corner(low_m[0], high_m[1]),
+    ];
+    add_quad(scene, Base::Mirror, 0.5, corners);
+}
+
+/// Scenes in which something is hidden, and their names.
+fn scenes() -> Vec<(&'static str, Scene)> {
+    let lamp = |x: f64, y: f64| off_the_mirror(VIEW.angle_rad, x, y);
+    let mut edge = scratched(Base::Mirror);
+    edge.lights = vec![sphere(VIEW, 0.12, -0.05, 0.08)];
+    cover(
+        &mut edge,
+        lamp(0.12, -0.05),
+        3e-3,
+        [0.0, -2e-3],
+        [2e-3, 2e-3],
+    );
+
+    let mut slit = scratched(Base::Metal(Metal::Gold));
+    slit.lights = vec![panel(VIEW, -0.1, 0.12, [0.06, 0.05])];
+    cover(
+        &mut slit,
+        lamp(-0.1, 0.1),
+        2e-3,
+        [6e-5, -2e-3],
+        [2e-3, 2e-3],
+    );
+    cover(
+        &mut slit,
+        lamp(-0.1, 0.1),
+        2e-3,
+        [-2e-3, -2e-3],
+        [-6e-5, 2e-3],
+    );
+
+    let mut lamps = scratched(WHITE);
+    lamps.lights = vec![
+        sphere(VIEW, 0.12, -0.05, 0.05),
+        panel(VIEW, -0.1, 0.12, [0.06, 0.05]),
+        sphere(VIEW, 0.0, -0.16, 0.08),
+    ];
+    cover(
+        &mut lamps,
+        lamp(0.0, -0.16),
+        2e-3,
+        [-1e-4, -1e-3],
+        [1e-4, 1e-3],
+    );
+    cover(
+        &mut lamps,
+        lamp(0.12, -0.05),
+        4e-3,
+        [-1e-3, 1e-4],
+        [1e-3, 1e-3],
+    );
+
+    // Two thin sheets a micrometre apart.
+    let mut sheets = scratched(Base::Metal(Metal::Aluminium));
+    sheets.lights = vec![sphere(VIEW, 0.1, 0.1, 0.06), sphere(VIEW, -0.15, 0.0, 0.06)];
+    for reach_m in [1e-3, 1.001e-3] {
+        cover(
+            &mut sheets,
+            lamp(0.1, 0.1),
+            reach_m,
+            [-1e-3, 0.0],
+            [1e-3, 1e-3],
+        );
+    }
+
+    // A wall that stands on the plate just beyond the picture.
+    let mut wall = scratched(WHITE);
+    wall.lights = vec![panel(VIEW, 0.0, 0.05, [0.12, 0.12])];
+    let corners = [
+        [1e-3, 4.5e-4, 0.0],
+        [-1e-3, 4.5e-4, 0.0],
+        [-1e-3, 4.5e-4, 6e-4],
+        [1e-3, 4.5e-4, 6e-4],
+    ];
+    add_quad(&mut wall, Base::Mirror, 0.5, corners.map(Vec3::from_array));
+
+    let mut under_sky = wall.clone();
+    under_sky.lights.clear();
+    let map = Environment::from_map(sky([128, 64]), 0.0, 1.0, false);
+    under_sky.environment = Some(over(map));
+
+    vec![
+        ("half a lamp", edge),
+        ("a slit", slit),
+        ("three lamps", lamps),
+        ("two sheets", sheets),
+        ("a wall", wall),
+        ("a wall under the sky", under_sky),
+    ]
+}
+
+fn luminance(image: &Image, layer: Layer) -> Vec<f64> {
+    let values = match layer {
+        Layer::Base => &image.base,
+        _ => &image.scratches,
+    };
+    values
+        .iter()
+        .map(|p| p.iter().map(|c| f64::from(*c)).sum())
+        .collect()
+}
+
+/// Many rays come to what the path tracer finds, as near as the closed forms come without shadows.
+#[test]
+fn many_rays_come_to_the_path_tracers_shadows() {
+    for (name, scene) in scenes() {
+        let (exact, reference) = (closed(&scene, 1024, true), sampled(&scene, SHADOWS, 6));
+        let (open, open_reference) = (closed(&scene, 1, false), sampled(&scene, LINEAR, 4));
+        for (layer, limit) in [(Layer::Scratches, 0.03), (Layer::Base, 0.02)] {
+            let found = compared(name, &exact, &reference, layer);
+            let name = format!("{name} without shadows");
+            let [at_least, _] = found.beyond.relative_rms_within(2.0);
+            assert!(at_least < limit, "{name}: {found:?}");
+            let all = compared(&name, &open, &open_reference, layer);
+            let off = (found.mean_ratio / all.mean_ratio - 1.0).abs();
+            let error = found.mean_ratio_error + all.mean_ratio_error;
+            assert!(off < 5e-3 + 3.0 * error, "{name}: {found:?} {all:?}");
+            let wrong = compared(&name, &open, &reference, layer);
+            assert!((wrong.mean_ratio - 1.0).abs() > 0.05, "{name}: {wrong:?}");
+        }
+    }
+}
+
+/// Few rays are right in the mean, and the error falls by half for four times as many.
+#[test]
+fn few_rays_are_right_in_the_mean() {
+    for (name, scene) in scenes() {
+        let truth = closed(&scene, 512, true);
+        for layer in [Layer::Scratches, Layer::Base] {
+            let truth = luminance(&truth, layer);
+            let mean = truth.iter().sum::<f64>() / truth.len() as f64;
+            let mut last = f64::INFINITY;
+            for samples in [2, 8, 32] {
+                let image = luminance(&closed(&scene, samples, true), layer);
+                let errors: Vec<f64> = image.iter().zip(&truth).map(|(a, b)| a - b).collect();
+                let count = errors.len() as f64;
+                let bias = errors.iter().sum::<f64>() / count;
+                let rms = (errors.iter().map(|e| e * e).sum::<f64>() / count).sqrt();
+                let z = bias / (rms / count.sqrt());
+                println!(
+                    "{name}, {}, {samples} rays: rms {:.2} % of the mean, mean {:+.3} %, z {z:+.2}",
+                    layer.name(),
+                    100.0 * rms / mean,
+                    100.0 * bias / mean
+                );
+                assert!(z.abs() < 4.0, "{name}");
+                assert!(rms < 0.7 * last, "{name}");
+                last = rms;
+            }
+        }
+    }
+}
+
+/// Where nothing is in the way, rays change no bit.
+#[test]
+fn nothing_in_the_way_changes_nothing() {
+    for (name, mut scene) in scenes() {
+        scene.objects.truncate(1);
+        assert!(
+            closed(&scene, 4, true) == closed(&scene, 4, false),
+            "{name}"
+        );
+    }
+}
+
+/// The penumbra of a rectangle on a matt plate: of the part of the light that lies beside the screen, the exact irradiance.
+#[test]
+fn a_penumbra_is_that_of_the_part_that_is_seen() {
+    let matt = Base::Dielectric {
+        ior: 1.0001,
+        base_color: [0.8; 3],
+    };
+    let mut scene = plate(matt, VIEW);
+    let light = panel(VIEW, 0.0, 0.0, [0.08, 0.05]);
+    let towards = off_the_mirror(VIEW.angle_rad, 0.0, 0.0);
+    let Light::Polygon { vertices_m, .. } = &light else {
+        unreachable!()
+    };
+    let vertices_m = vertices_m.clone();
+    scene.lights = vec![light];
+    let open = closed(&scene, 1, false);
+    cover(&mut scene, towards, 2e-3, [0.0, -2e-3], [2e-3, 2e-3]);
+    let image = closed(&scene, 4096, true);
+    let edge_m = towards * 2e-3;
+    let right = towards.cross(DVec3::Y).normalize();
+    // Exactly, at a point of the plate.
+    let share_at = |at_m: f64| {
+        let point_m = DVec3::X * at_m;
+        // What is right of the plane through the point and the edge is hidden.
+        let reach = (edge_m - point_m).dot(right) / (edge_m - point_m).dot(towards);
+        let of = |m: DVec3| (m - point_m).dot(right) - reach * (m - point_m).dot(towards);
+        let irradiance = |vertices: &[DVec3]| {
+            let seen: Vec<DVec3> = vertices.iter().map(|v| *v - point_m).collect();
+            if seen.len() < 3 {
+                0.0
+            } else {
+                lambert_polygon(&seen).abs()
+            }
+        };
+        irradiance(&clipped(&vertices_m, of)) / irradiance(&vertices_m)
+    };
+    let pixel_m = VIEW.pixel_um * 1e-6;
+    let std_m = scene.render.footprint_std_px(1) * pixel_m;
+    for x in 0..VIEW.size_px {
+        let middle_m = (f64::from(x) + 0.5 - 0.5 * f64::from(VIEW.size_px)) * pixel_m;
+        // Over the pixel.
+        let places = (0..32).map(|i| gaussian().quantile((f64::from(i) + 0.5) / 32.0));
+        let shares = places.map(|std| share_at(middle_m + std * std_m));
+        let expected = shares.sum::<f64>() / 32.0;
+        let column = |image: &Image| -> f64 {
+            let rows = 0..VIEW.size_px;
+            rows.map(|y| f64::from(image.base[image.index(x, y)][1]))
+                .sum()
+        };
+        let found = column(&image) / column(&open);
+        println!(
+            "{:.0} um: {found:.4}, exactly {expected:.4}",
+            middle_m * 1e6
+        );
+        assert!((found - expected).abs() < 5e-3, "{found} {expected}");
+    }
+}
+
+/// The part of a polygon where a linear function is not positive.
+fn clipped(vertices: &[DVec3], of: impl Fn(DVec3) -> f64) -> Vec<DVec3> {
+    let mut part = Vec::new();
+    for (i, &a) in vertices.iter().enumerate() {
+        let b = vertices[(i + 1) % vertices.len()];
+        let (at_a, at_b) = (of(a), of(b));
+        if at_a <= 0.0 {
+            part.push(a);
+        }
+        if (at_a <= 0.0) != (at_b <= 0.0) {
+            part.push(a + (b - a) * (at_a / (at_a - at_b)));
+        }
+    }
+    part
+}
+
+/// Spheres of few and of many triangles: nothing hides the side that the light shines on.
+#[test]
+fn spheres_do_not_shade_themselves() {
+    for (slices, stacks) in [(4, 3), (64, 33)] {
+        let mut scene = plate(WHITE, VIEW);
+        scene.materials[0].roughness = 0.4;
+        scene.lights = vec![sphere(VIEW, 0.3, -0.6, 0.05)];
+        set_ball(&mut scene, slices, stacks, 2e-4);
+        let (open, image) = (closed(&scene, 16, false), closed(&scene, 16, true));
+        let towards = off_the_mirror(VIEW.angle_rad, 0.3, -0.6);
+        let mut lit = 0;
+        for i in 0..open.base.len() {
+            let normal = DVec3::from(open.normal[i].map(f64::from));
+            if normal.dot(towards) > 0.3 && open.depth_m[i].is_finite() {
+                lit += 1;
+                let (with, without) = (f64::from(image.base[i][1]), f64::from(open.base[i][1]));
+                assert!(
+                    (with - without).abs() <= 1e-3 * without,
+                    "{slices}: {i} {with} {without}"
+                );
+            }
+        }
+        assert!(lit > 20, "{slices}: {lit}");
+    }
+}
+
+/// Puts a ball of `2 * slices * (stacks - 1)` triangles in place of the plate.
+fn set_ball(scene: &mut Scene, slices: u32, stacks: u32, radius_m: f32) {
+    let mesh = Arc::make_mut(&mut scene.objects[0].mesh);
+    let angle = |i: u32, count: u32, whole: f32| whole * i as f32 / count as f32;
+    mesh.normals = (0..=stacks)
+        .flat_map(|i| (0..=slices).map(move |j| (i, j)))
+        .map(|(i, j)| {
+            let (sin, cos) = angle(i, stacks, std::f32::consts::PI).sin_cos();
+            let (y, x) = angle(j, slices, std::f32::consts::TAU).sin_cos();
+            Vec3::new(sin * x, sin * y, cos)
+        })
+        .collect();
+    mesh.positions_m = mesh.normals.iter().map(|n| *n * radius_m).collect();
+    mesh.uvs = vec![glam::Vec2::ZERO; mesh.normals.len()];
+    mesh.tangents = vec![Vec3::X.extend(1.0); mesh.normals.len()];
+    let row = slices + 1;
+    let cells = (0..stacks).flat_map(|i| (0..slices).map(move |j| i * row + j));
+    mesh.triangles = cells
+        .flat_map(|a| [[a, a + row, a + row + 1], [a, a + row + 1, a + 1]])
+        // Those of the poles' cells have no area.
+        .filter(|t| {
+            let [a, b, c] = t.map(|i| mesh.positions_m[i as usize]);
+            (b - a).cross(c - a).length() > 1e-6 * radius_m * radius_m
+        })
+        .collect();
+    mesh.triangle_materials = vec![0; mesh.triangles.len()];
+    assert_eq!(mesh.triangles.len() as u32, 2 * slices * (stacks - 1));
+}
