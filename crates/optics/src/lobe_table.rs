@@ -127,7 +127,7 @@ pub fn environment_table(i: usize) -> &'static LobeTable {
 }
 
 /// The mean slope of the look-ups of an environment by their shares, over alpha, in the first channel.
-pub fn environment_middle_table() -> &'static LobeTable {
+pub(crate) fn environment_middle_table() -> &'static LobeTable {
     static TABLE: LazyLock<LobeTable> = LazyLock::new(|| {
         let middle = |node: usize| {
             let taps = (0..ENVIRONMENT_TAPS).map(|i| environment_table(i).texels()[node]);

@@ -174,7 +174,7 @@ pub struct BandLines {
 }
 
 /// Whether a light of the given extent in xi_t meets the band at all.
-pub fn band_reaches(lowest: f64, highest: f64, stds: BandStds) -> bool {
+pub(crate) fn band_reaches(lowest: f64, highest: f64, stds: BandStds) -> bool {
     let reach = BAND_REACH_STD * stds.mean;
     lowest < reach && highest > -reach && highest > lowest
 }
