@@ -34,7 +34,7 @@ pub(crate) struct EnvironmentSampler {
 type Corners = [[f64; 2]; 2];
 
 impl EnvironmentSampler {
-    pub fn new(environment: &Environment) -> Self {
+    pub(crate) fn new(environment: &Environment) -> Self {
         let [width, height] = environment.background().size_px.map(|n| n as usize);
         let mut cos_rows = vec![1.0];
         cos_rows.extend((0..height).map(|y| (PI * (y as f64 + 0.5) / height as f64).cos()));
@@ -110,7 +110,7 @@ impl EnvironmentSampler {
 
     /// A unit direction in world space and its density per steradian, which is positive. `u` is in [0, 1)^2. A black map is
     /// sampled evenly.
-    pub fn sample(&self, u: DVec2) -> (DVec3, f64) {
+    pub(crate) fn sample(&self, u: DVec2) -> (DVec3, f64) {
         if !(self.total() > 0.0) {
             return (self.world_from_map(u.x, 1.0 - 2.0 * u.y), 1.0 / (4.0 * PI));
         }
@@ -144,7 +144,7 @@ impl EnvironmentSampler {
     }
 
     /// The density of [`EnvironmentSampler::sample`] at a unit direction in world space, per steradian.
-    pub fn pdf(&self, direction: DVec3) -> f64 {
+    pub(crate) fn pdf(&self, direction: DVec3) -> f64 {
         if !(self.total() > 0.0) {
             return 1.0 / (4.0 * PI);
         }

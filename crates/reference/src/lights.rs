@@ -57,7 +57,7 @@ pub(crate) struct LightHit {
 
 impl AreaLights {
     /// The environment's suns are not among them: here they are found in its map.
-    pub fn new(scene: &Scene) -> Self {
+    pub(crate) fn new(scene: &Scene) -> Self {
         Self::from_lights(&scene.lights)
     }
 
@@ -86,13 +86,13 @@ impl AreaLights {
         Self { lights }
     }
 
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.lights.len()
     }
 
     /// A direction towards light `i`, uniform over the solid angle in which the point `from` sees it. `u` is in [0, 1)^2.
     /// None where the light shows its dark side or its edge.
-    pub fn sample(&self, i: usize, from: DVec3, u: DVec2) -> Option<LightSample> {
+    pub(crate) fn sample(&self, i: usize, from: DVec3, u: DVec2) -> Option<LightSample> {
         let light = &self.lights[i];
         let (direction, distance_m, pdf) = match &light.shape {
             Shape::Sphere(sphere) => sphere.sample(from, u),
@@ -108,7 +108,7 @@ impl AreaLights {
 
     /// What a ray (unit `direction`) sees of light `i`: its first point on the light. None if it misses, or meets a dark side.
     /// From inside a sphere every ray hits.
-    pub fn hit(&self, i: usize, from: DVec3, direction: DVec3) -> Option<LightHit> {
+    pub(crate) fn hit(&self, i: usize, from: DVec3, direction: DVec3) -> Option<LightHit> {
         let light = &self.lights[i];
         let distance_m = match &light.shape {
             Shape::Sphere(sphere) => sphere.hit(from, direction),
@@ -122,7 +122,7 @@ impl AreaLights {
 
     /// The density of [`AreaLights::sample`] at a direction that hits light `i`, per steradian; the same for all of them.
     /// 0 where nothing can be sampled.
-    pub fn pdf(&self, i: usize, from: DVec3, _direction: DVec3) -> f64 {
+    pub(crate) fn pdf(&self, i: usize, from: DVec3, _direction: DVec3) -> f64 {
         match &self.lights[i].shape {
             Shape::Sphere(sphere) => sphere.pdf(from),
             Shape::Polygon(polygon) => polygon.pdf(from),
@@ -132,7 +132,7 @@ impl AreaLights {
     /// A cone that holds every direction from a point to light `i`: what the tests draw even directions from. To tell which
     /// directions a light can reach, [`AreaLights::extent`] is tighter.
     #[cfg(test)]
-    pub fn bound(&self, i: usize, from: DVec3) -> Cone {
+    pub(crate) fn bound(&self, i: usize, from: DVec3) -> Cone {
         match &self.lights[i].shape {
             Shape::Sphere(sphere) => sphere.bound(from),
             Shape::Polygon(polygon) => polygon.bound(from),
@@ -141,7 +141,7 @@ impl AreaLights {
 
     /// Bounds on the component along a unit `axis` of the unit directions from a point to light `i`. For polygons they are
     /// tighter than those of [`AreaLights::bound`].
-    pub fn extent(&self, i: usize, from: DVec3, axis: DVec3) -> (f64, f64) {
+    pub(crate) fn extent(&self, i: usize, from: DVec3, axis: DVec3) -> (f64, f64) {
         match &self.lights[i].shape {
             Shape::Sphere(sphere) => sphere.bound(from).extent(axis),
             Shape::Polygon(polygon) => polygon.extent(from, axis),

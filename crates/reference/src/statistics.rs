@@ -8,21 +8,21 @@ use rand_pcg::Pcg64;
 pub(crate) struct Draw(Pcg64);
 
 impl Draw {
-    pub fn new(seed: u64) -> Self {
+    pub(crate) fn new(seed: u64) -> Self {
         Self(Pcg64::seed_from_u64(seed))
     }
 
     /// In [0, 1).
-    pub fn one(&mut self) -> f64 {
+    pub(crate) fn one(&mut self) -> f64 {
         self.0.random()
     }
 
-    pub fn two(&mut self) -> DVec2 {
+    pub(crate) fn two(&mut self) -> DVec2 {
         DVec2::new(self.one(), self.one())
     }
 
     /// An even unit vector.
-    pub fn direction(&mut self) -> DVec3 {
+    pub(crate) fn direction(&mut self) -> DVec3 {
         let (z, phi) = (
             2.0 * self.one() - 1.0,
             2.0 * std::f64::consts::PI * self.one(),

@@ -16,14 +16,14 @@ pub(super) const BOUND_SLACK: f64 = 1e-12;
 
 impl Cone {
     /// Every direction.
-    pub const WHOLE: Self = Self {
+    pub(crate) const WHOLE: Self = Self {
         axis: DVec3::Z,
         cos: -1.0,
         sin: 0.0,
     };
 
     /// The least and the greatest component along a unit `axis` of the directions in the cone.
-    pub fn extent(&self, axis: DVec3) -> (f64, f64) {
+    pub(crate) fn extent(&self, axis: DVec3) -> (f64, f64) {
         // The axes' angle; its sine by the cross product, which keeps its digits where the axes nearly agree.
         let cos = self.axis.dot(axis);
         let sin = self.axis.cross(axis).length();

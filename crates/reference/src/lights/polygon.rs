@@ -48,7 +48,7 @@ struct SphericalTriangle {
 }
 
 impl PolygonLight {
-    pub fn new(vertices_m: &[DVec3], two_sided: bool) -> Self {
+    pub(crate) fn new(vertices_m: &[DVec3], two_sided: bool) -> Self {
         let origin_m = vertices_m.iter().sum::<DVec3>() / vertices_m.len() as f64;
         let next = vertices_m.iter().cycle().skip(1);
         let area: DVec3 = vertices_m
@@ -138,7 +138,7 @@ impl PolygonLight {
     }
 
     /// (direction, distance, density)
-    pub fn sample(&self, from: DVec3, u: DVec2) -> Option<(DVec3, f64, f64)> {
+    pub(crate) fn sample(&self, from: DVec3, u: DVec2) -> Option<(DVec3, f64, f64)> {
         let height_m = self.lit_height_m(from);
         if height_m == 0.0 {
             return None;
@@ -164,7 +164,7 @@ impl PolygonLight {
         (distance_m > 0.0 && distance_m.is_finite()).then_some((direction, distance_m, 1.0 / whole))
     }
 
-    pub fn hit(&self, from: DVec3, direction: DVec3) -> Option<f64> {
+    pub(crate) fn hit(&self, from: DVec3, direction: DVec3) -> Option<f64> {
         self.cross(from, direction, self.lit_height_m(from))
     }
 
@@ -194,7 +194,7 @@ impl PolygonLight {
         inside
     }
 
-    pub fn pdf(&self, from: DVec3) -> f64 {
+    pub(crate) fn pdf(&self, from: DVec3) -> f64 {
         let height_m = self.lit_height_m(from);
         if height_m == 0.0 {
             return 0.0;
@@ -204,7 +204,7 @@ impl PolygonLight {
     }
 
     #[cfg(test)]
-    pub fn bound(&self, from: DVec3) -> Cone {
+    pub(crate) fn bound(&self, from: DVec3) -> Cone {
         let directions = || {
             self.vertices_m
                 .iter()
@@ -239,7 +239,7 @@ impl PolygonLight {
         }
     }
 
-    pub fn extent(&self, from: DVec3, axis: DVec3) -> (f64, f64) {
+    pub(crate) fn extent(&self, from: DVec3, axis: DVec3) -> (f64, f64) {
         let height_m = self.height_m(from);
         // Within the outline the component has extremes at the axis and opposite to it only.
         let (mut low, mut high) = (1.0_f64, -1.0_f64);

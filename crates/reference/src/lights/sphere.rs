@@ -13,7 +13,7 @@ pub(super) struct SphereLight {
 }
 
 impl SphereLight {
-    pub fn new(center_m: DVec3, radius_m: f64) -> Self {
+    pub(crate) fn new(center_m: DVec3, radius_m: f64) -> Self {
         Self { center_m, radius_m }
     }
 
@@ -29,7 +29,7 @@ impl SphereLight {
     }
 
     /// (direction, distance, density)
-    pub fn sample(&self, from: DVec3, u: DVec2) -> Option<(DVec3, f64, f64)> {
+    pub(crate) fn sample(&self, from: DVec3, u: DVec2) -> Option<(DVec3, f64, f64)> {
         // The sphere of all directions is the cone whose half angle is pi.
         let versine = self.versine(from);
         let range = versine.unwrap_or(2.0);
@@ -50,7 +50,7 @@ impl SphereLight {
         ))
     }
 
-    pub fn hit(&self, from: DVec3, direction: DVec3) -> Option<f64> {
+    pub(crate) fn hit(&self, from: DVec3, direction: DVec3) -> Option<f64> {
         let (meets, distance_m) = self.distance_m(from, direction);
         meets.then_some(distance_m)
     }
@@ -72,11 +72,11 @@ impl SphereLight {
         (half_chord2 >= 0.0 && along > 0.0, first)
     }
 
-    pub fn pdf(&self, from: DVec3) -> f64 {
+    pub(crate) fn pdf(&self, from: DVec3) -> f64 {
         1.0 / (2.0 * PI * self.versine(from).unwrap_or(2.0))
     }
 
-    pub fn bound(&self, from: DVec3) -> Cone {
+    pub(crate) fn bound(&self, from: DVec3) -> Cone {
         match self.versine(from) {
             Some(versine) => Cone {
                 axis: (self.center_m - from).normalize(),
