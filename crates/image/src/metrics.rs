@@ -20,12 +20,11 @@ pub use compare::{Comparison, LayerComparison, Problem, Side, compare};
 pub use difference::{Difference, layer_difference};
 pub use error_map::{ErrorMap, error_map, magma};
 pub use estimate::Estimate;
-pub(crate) use flip::Flip;
+pub use flip::Flip;
 #[cfg(feature = "flip")]
 pub use flip::flip;
 pub use noise::BeyondNoise;
-pub(crate) use psnr::Psnr;
-pub use psnr::{psnr_displayed, psnr_of_values};
+pub use psnr::{Psnr, psnr_displayed, psnr_of_values};
 pub use relative::relative_mse;
 pub use silhouettes::away_from_silhouettes;
 pub use stability::Stability;

@@ -141,7 +141,7 @@ pub(crate) fn environment_middle_table() -> &'static LobeTable {
     &TABLE
 }
 
-/// The nodes of [`ltc_table`], and under them those of each [`environment_table`] and of [`environment_middle_table`]: one texture,
+/// The nodes of [`ltc_table`], and under them those of each [`environment_table`] and of `environment_middle_table`: one texture,
 /// [`LOBE_TABLE_SIZE`] wide.
 pub fn shape_texels() -> &'static [[f32; 4]] {
     static TEXELS: LazyLock<Vec<[f32; 4]>> = LazyLock::new(|| {

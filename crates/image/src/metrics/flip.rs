@@ -21,7 +21,7 @@ pub struct Flip {
     pub map: Picture,
 }
 
-/// FLIP of two linear pictures as a display shows them, at [`PIXELS_PER_DEGREE`]. The mask (true where a pixel counts)
+/// FLIP of two linear pictures as a display shows them, at 67 pixels a degree. The mask (true where a pixel counts)
 /// limits the figures, not the map: neighbours are seen all the same. `None` if no pixel counts.
 ///
 /// # Panics

@@ -94,7 +94,7 @@ impl BeyondNoise {
         over(self.rms(), self.reference_rms)
     }
 
-    /// [`Self::rms_within`], relative.
+    /// The same interval around [`Self::relative_rms`].
     pub fn relative_rms_within(&self, sigmas: f64) -> [f64; 2] {
         self.rms_within(sigmas)
             .map(|rms| over(rms, self.reference_rms))

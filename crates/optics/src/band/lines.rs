@@ -146,7 +146,7 @@ impl BandMotion {
         (std * std + self.variance).sqrt().min(BAND_STD_MAX)
     }
 
-    /// [`band_reaches`] without a root: whether a light with xi_t from `lowest` to `highest`, the shift included, meets a band
+    /// `band_reaches` without a root: whether a light with xi_t from `lowest` to `highest`, the shift included, meets a band
     /// that was `std` wide.
     #[inline]
     pub fn reaches(self, lowest: f64, highest: f64, std: f64) -> bool {

@@ -13,7 +13,7 @@ pub struct BandSegments {
 }
 
 impl BandSegments {
-    /// Adds a segment. More than [`SEGMENTS_MAX`] are a mistake of the caller's.
+    /// Adds a segment. More than three are a mistake of the caller's.
     pub fn push_segment(&mut self, low: f64, high: f64) {
         self.ends[self.count] = [low, high];
         self.count += 1;
