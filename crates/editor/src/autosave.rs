@@ -45,8 +45,7 @@ pub enum Tick {
 }
 
 impl Autosave {
-    /// Makes ready to write into a folder, which is made if it is not there;
-    /// [`folders::autosave_dir`](crate::folders::autosave_dir) is the usual one.
+    /// Makes ready to write into a folder, which is made if it is not there.
     ///
     /// # Errors
     /// [`hairline_image::Error::CannotWrite`].

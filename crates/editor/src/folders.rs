@@ -7,11 +7,6 @@ pub fn config_dir() -> Option<PathBuf> {
     strategy::config_dir()
 }
 
-/// Where autosaves are kept: it outlives a restart, and is not a place that systems clean up.
-pub fn autosave_dir() -> Option<PathBuf> {
-    strategy::data_dir().map(|folder| folder.join("autosave"))
-}
-
 #[cfg(not(target_arch = "wasm32"))]
 mod strategy {
     use std::path::PathBuf;
@@ -19,12 +14,8 @@ mod strategy {
     use etcetera::AppStrategy;
     use etcetera::app_strategy::{AppStrategyArgs, choose_native_strategy};
 
-    pub fn config_dir() -> Option<PathBuf> {
+    pub(crate) fn config_dir() -> Option<PathBuf> {
         choose_native_strategy(name()).ok().map(|s| s.config_dir())
-    }
-
-    pub fn data_dir() -> Option<PathBuf> {
-        choose_native_strategy(name()).ok().map(|s| s.data_dir())
     }
 
     fn name() -> AppStrategyArgs {
@@ -40,11 +31,7 @@ mod strategy {
 mod strategy {
     use std::path::PathBuf;
 
-    pub fn config_dir() -> Option<PathBuf> {
-        None
-    }
-
-    pub fn data_dir() -> Option<PathBuf> {
+    pub(crate) fn config_dir() -> Option<PathBuf> {
         None
     }
 }

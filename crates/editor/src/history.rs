@@ -75,7 +75,7 @@ impl History {
     }
 
     /// Adds a step from `before` to what is now; what was undone is forgotten.
-    pub fn push(&mut self, label: &str, before: State, selection_now: Selection) {
+    pub(crate) fn push(&mut self, label: &str, before: State, selection_now: Selection) {
         self.redo.clear();
         self.undo.push_back(Step {
             label: label.to_owned(),
@@ -87,7 +87,7 @@ impl History {
     }
 
     /// Takes the newest step out, for a drag that came back to where it began.
-    pub fn pop(&mut self) {
+    pub(crate) fn pop(&mut self) {
         self.undo.pop_back();
     }
 
@@ -99,7 +99,7 @@ impl History {
     }
 
     /// From `now` one step back: the state there and the step's label.
-    pub fn undo(&mut self, now: State) -> Option<(State, String)> {
+    pub(crate) fn undo(&mut self, now: State) -> Option<(State, String)> {
         let step = self.undo.pop_back()?;
         let (label, state, back) = turn(step, now);
         self.redo.push(back);
@@ -107,18 +107,18 @@ impl History {
     }
 
     /// From `now` one step forward again.
-    pub fn redo(&mut self, now: State) -> Option<(State, String)> {
+    pub(crate) fn redo(&mut self, now: State) -> Option<(State, String)> {
         let step = self.redo.pop()?;
         let (label, state, back) = turn(step, now);
         self.undo.push_back(back);
         Some((state, label))
     }
 
-    pub fn undo_label(&self) -> Option<&str> {
+    pub(crate) fn undo_label(&self) -> Option<&str> {
         self.undo.back().map(|step| step.label.as_str())
     }
 
-    pub fn redo_label(&self) -> Option<&str> {
+    pub(crate) fn redo_label(&self) -> Option<&str> {
         self.redo.last().map(|step| step.label.as_str())
     }
 

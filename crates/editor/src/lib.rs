@@ -22,6 +22,8 @@
 //! saved. Nothing here draws, waits or starts a thread; only opening and saving of a [`Document`], [`autosave`] and
 //! [`recent`] touch files.
 
+#![warn(unreachable_pub)]
+
 pub mod actions;
 pub mod autosave;
 pub mod bookmarks;

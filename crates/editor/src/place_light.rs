@@ -87,7 +87,7 @@ pub fn place_highlight(light: &mut Light, eye_m: DVec3, point_m: DVec3, normal: 
 }
 
 /// Turns a polygon about its middle, by the shortest way, until it faces a point. A sphere stays as it is.
-pub fn face(light: &mut Light, point_m: DVec3) {
+pub(crate) fn face(light: &mut Light, point_m: DVec3) {
     let Some(normal) = facing(light) else {
         return;
     };

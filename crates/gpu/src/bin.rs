@@ -23,7 +23,7 @@ pub(crate) struct BinPasses {
 }
 
 impl BinPasses {
-    pub fn new(orders: &mut Orders) -> Self {
+    pub(crate) fn new(orders: &mut Orders) -> Self {
         let module = (&shaders::BIN, "bin");
         let bin = ComputePass::order(orders, "bin", module, &[Use::Reads, Use::Writes], &[]);
         let sort = SortPasses::new(orders);
@@ -38,7 +38,7 @@ impl BinPasses {
     }
 
     /// Says which of the two buffers holds the lists.
-    pub async fn record(
+    pub(crate) async fn record(
         &self,
         gpu: &Gpu,
         recording: &mut Recording<'_>,

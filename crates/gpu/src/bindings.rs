@@ -8,7 +8,7 @@ use wgpu::{ShaderStages, TextureViewDimension};
 use crate::device::Gpu;
 
 /// Names of the scene's arrays in the order of their bindings.
-pub const SCENE_BUFFERS: [&str; 6] = [
+pub(crate) const SCENE_BUFFERS: [&str; 6] = [
     "triangles",
     "objects",
     "materials",
@@ -28,7 +28,7 @@ pub(crate) struct Layouts {
 }
 
 impl Layouts {
-    pub fn new(gpu: &Gpu) -> Self {
+    pub(crate) fn new(gpu: &Gpu) -> Self {
         let both = ShaderStages::VERTEX | ShaderStages::COMPUTE;
         let compute = ShaderStages::COMPUTE;
         let scene: Vec<_> = (0..SCENE_BUFFERS.len() as u32)

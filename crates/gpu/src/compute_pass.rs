@@ -42,7 +42,7 @@ const WORKGROUPS_MAX: u32 = 65_535;
 
 impl ComputePass {
     /// Asks for the pipeline of an entry point. `uses` are its bindings of group 3, in order.
-    pub fn order(
+    pub(crate) fn order(
         orders: &mut Orders,
         name: &'static str,
         (module, entry_point): (&'static Module, &'static str),
@@ -72,17 +72,17 @@ impl ComputePass {
 
     /// What it was compiled to.
     #[cfg(all(test, not(target_arch = "wasm32")))]
-    pub fn pipeline(&self) -> &wgpu::ComputePipeline {
+    pub(crate) fn pipeline(&self) -> &wgpu::ComputePipeline {
         self.pipeline.get()
     }
 
     /// Binds group 3.
-    pub fn bind(&self, gpu: &Gpu, resources: &[BindingResource<'_>]) -> wgpu::BindGroup {
+    pub(crate) fn bind(&self, gpu: &Gpu, resources: &[BindingResource<'_>]) -> wgpu::BindGroup {
         bind(gpu, self.name, &self.group_3, resources)
     }
 
     /// Binds `resources` to group 3 and records one dispatch.
-    pub fn run(
+    pub(crate) fn run(
         &self,
         gpu: &Gpu,
         recording: &mut Recording,
@@ -94,7 +94,7 @@ impl ComputePass {
     }
 
     /// Records one dispatch. `offsets` chooses the parts of dynamic uniforms.
-    pub fn dispatch(
+    pub(crate) fn dispatch(
         &self,
         recording: &mut Recording,
         group_3: &wgpu::BindGroup,

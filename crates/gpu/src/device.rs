@@ -114,7 +114,7 @@ impl std::fmt::Display for Adapter {
 ///
 /// GL is asked only where nothing newer reaches a GPU: the same card is nearly always there by a newer interface too, with
 /// less overhead. The environment variable `WGPU_BACKEND` narrows the choice ("vulkan", "gl", ...).
-pub async fn adapters() -> Vec<Adapter> {
+pub(crate) async fn adapters() -> Vec<Adapter> {
     let mut adapters = adapters_by(!wgpu::Backends::GL).await;
     if adapters
         .iter()
@@ -204,7 +204,7 @@ impl Adapter {
 
 impl Adapter {
     /// Whether it is reached by OpenGL, which has less than the other interfaces.
-    pub fn is_opengl(&self) -> bool {
+    pub(crate) fn is_opengl(&self) -> bool {
         self.backend == "gl"
     }
 
@@ -334,7 +334,7 @@ impl Gpu {
     }
 
     /// A buffer of `size` bytes, or why there can be none. `what` names it in messages, and is its label.
-    pub async fn buffer(
+    pub(crate) async fn buffer(
         &self,
         what: &str,
         size: u64,

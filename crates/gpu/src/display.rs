@@ -20,7 +20,7 @@ pub(crate) struct DisplayPass {
 }
 
 impl DisplayPass {
-    pub async fn new(gpu: &Gpu, format: wgpu::TextureFormat) -> Result<Self, Error> {
+    pub(crate) async fn new(gpu: &Gpu, format: wgpu::TextureFormat) -> Result<Self, Error> {
         let entries = [
             entry(0, ShaderStages::FRAGMENT, uniform()),
             entry(1, ShaderStages::FRAGMENT, storage(true)),
@@ -77,7 +77,7 @@ impl DisplayPass {
         })
     }
 
-    pub fn record(
+    pub(crate) fn record(
         &self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
@@ -125,9 +125,9 @@ pub(crate) struct Shown {
 }
 
 impl Shown {
-    pub const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+    pub(crate) const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
-    pub async fn new(gpu: &Gpu, size_px: [u32; 2]) -> Result<Self, Error> {
+    pub(crate) async fn new(gpu: &Gpu, size_px: [u32; 2]) -> Result<Self, Error> {
         let descriptor = wgpu::TextureDescriptor {
             label: Some("shown picture"),
             size: wgpu::Extent3d {

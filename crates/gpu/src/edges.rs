@@ -13,13 +13,13 @@ use crate::strip::{StripRoom, whole};
 pub(crate) struct EdgesPass(ComputePass);
 
 impl EdgesPass {
-    pub fn new(orders: &mut Orders) -> Self {
+    pub(crate) fn new(orders: &mut Orders) -> Self {
         let module = (&shaders::EDGES, "edges");
         let uses = [Use::Writes, Use::Writes];
         Self(ComputePass::order(orders, "edges", module, &uses, &[]))
     }
 
-    pub fn record(
+    pub(crate) fn record(
         &self,
         gpu: &Gpu,
         recording: &mut Recording,

@@ -18,7 +18,7 @@ pub(crate) struct Film {
 impl Film {
     /// The rows of each band of a picture of `size_px`, of which about `submission_px` pixels are to be done at a time: whole tiles,
     /// and no more than the device can hold.
-    pub fn band_rows(gpu: &Gpu, [width, height]: [u32; 2], submission_px: u32) -> u32 {
+    pub(crate) fn band_rows(gpu: &Gpu, [width, height]: [u32; 2], submission_px: u32) -> u32 {
         (submission_px / width.max(1))
             .max(1)
             .next_multiple_of(TILE_PX)
@@ -28,7 +28,7 @@ impl Film {
     }
 
     /// A film of `rows` rows of `width_px` pixels.
-    pub async fn new(gpu: &Gpu, width_px: u32, rows: u32) -> Result<Self, Error> {
+    pub(crate) async fn new(gpu: &Gpu, width_px: u32, rows: u32) -> Result<Self, Error> {
         let bytes = FILM_PIXELS_OFFSET
             + u64::from(width_px) * u64::from(rows) * size_of::<FilmPixel>() as u64;
         let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC | BufferUsages::COPY_DST;
@@ -38,7 +38,7 @@ impl Film {
     }
 
     /// Forgets that loops were cut short.
-    pub fn clear(&self, encoder: &mut wgpu::CommandEncoder) {
+    pub(crate) fn clear(&self, encoder: &mut wgpu::CommandEncoder) {
         encoder.clear_buffer(&self.buffer, 0, Some(FILM_PIXELS_OFFSET));
     }
 
@@ -46,7 +46,12 @@ impl Film {
     ///
     /// # Errors
     /// [`Error::IterationBudget`] if the device cut loops short.
-    pub async fn read(&self, gpu: &Gpu, image: &mut Image, rows: &Range<u32>) -> Result<(), Error> {
+    pub(crate) async fn read(
+        &self,
+        gpu: &Gpu,
+        image: &mut Image,
+        rows: &Range<u32>,
+    ) -> Result<(), Error> {
         let width = image.size_px[0] as usize;
         let count = rows.len() * width;
         let end = FILM_PIXELS_OFFSET + (count * size_of::<FilmPixel>()) as u64;

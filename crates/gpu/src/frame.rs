@@ -30,7 +30,7 @@ pub(crate) const SAMPLES_AT_ONCE: u32 = 16;
 
 impl View<'_> {
     /// The samples of its step.
-    pub fn step_samples(&self) -> Range<u32> {
+    pub(crate) fn step_samples(&self) -> Range<u32> {
         match self.step {
             0 => 0..1,
             _ => {

@@ -6,14 +6,14 @@
 use bytemuck::{Pod, Zeroable};
 
 /// [`Frame::environment_flags`]: there is an environment.
-pub const ENVIRONMENT_PRESENT: u32 = 1;
+pub(crate) const ENVIRONMENT_PRESENT: u32 = 1;
 /// [`Frame::environment_flags`]: the camera sees it.
-pub const ENVIRONMENT_VISIBLE: u32 = 2;
+pub(crate) const ENVIRONMENT_VISIBLE: u32 = 2;
 /// The highest bit of [`Vertex::material`]: the bitangent is minus the cross product of normal and tangent.
-pub const VERTEX_BITANGENT_FLIPPED: u32 = 0x8000_0000;
+pub(crate) const VERTEX_BITANGENT_FLIPPED: u32 = 0x8000_0000;
 
 /// Where the pixels of a film begin in its buffer, bytes. A count comes first: invocations whose loops were cut short.
-pub const FILM_PIXELS_OFFSET: u64 = 16;
+pub(crate) const FILM_PIXELS_OFFSET: u64 = 16;
 
 macro_rules! shared {
     ($($(#[$doc:meta])* $name:ident { $($member:ident: $type:ty,)* })*) => {
@@ -22,7 +22,7 @@ macro_rules! shared {
             #[repr(C)]
             #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
             #[allow(missing_docs, reason = "documented in layout.wgsl")]
-            pub struct $name {
+            pub(crate) struct $name {
                 $(pub $member: $type,)*
             }
         )*

@@ -15,6 +15,8 @@
 //! Nothing in this crate blocks, so that window, browser and command line can share it; [`headless`] is the one module
 //! for programs that want to wait.
 
+#![warn(unreachable_pub)]
+
 mod bin;
 mod bindings;
 pub mod call;
@@ -29,7 +31,7 @@ mod frame;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod headless;
 mod host;
-pub mod layout;
+pub(crate) mod layout;
 mod light_ranges;
 mod lights;
 mod passes;
@@ -37,7 +39,7 @@ mod pipeline_cache;
 mod pipelines;
 mod project;
 mod published;
-pub mod readback;
+pub(crate) mod readback;
 pub mod renderer;
 mod resolve;
 mod rows;

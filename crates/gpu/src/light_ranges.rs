@@ -21,7 +21,7 @@ pub(crate) struct LightRanges {
 }
 
 impl LightRanges {
-    pub async fn upload(gpu: &Gpu, scene: &Scene) -> Result<Self, Error> {
+    pub(crate) async fn upload(gpu: &Gpu, scene: &Scene) -> Result<Self, Error> {
         let mut dispatches = Vec::new();
         for (kind, lights) in lights::ranges(scene) {
             // One at least: for the environment, which is no light of the list, and for the mask.

@@ -25,7 +25,7 @@ pub(crate) enum Kind {
 }
 
 impl Kind {
-    pub const ALL: [Self; 4] = [
+    pub(crate) const ALL: [Self; 4] = [
         Self::Spheres,
         Self::Quads,
         Self::Outlines,
@@ -46,9 +46,9 @@ impl Kind {
 pub(crate) struct Kinds([bool; Kind::ALL.len()]);
 
 impl Kinds {
-    pub const ALL: Self = Self([true; Kind::ALL.len()]);
+    pub(crate) const ALL: Self = Self([true; Kind::ALL.len()]);
 
-    pub fn of(scene: &Scene) -> Self {
+    pub(crate) fn of(scene: &Scene) -> Self {
         let mut kinds = Self::default();
         for light in scene.all_lights() {
             kinds.0[Kind::of(light) as usize] = true;
@@ -57,19 +57,19 @@ impl Kinds {
         kinds
     }
 
-    pub fn has(self, kind: Kind) -> bool {
+    pub(crate) fn has(self, kind: Kind) -> bool {
         self.0[kind as usize]
     }
 
     /// Those with a pass over scratches: spheres where there are none, for the mask.
-    pub fn over_scratches(self) -> impl Iterator<Item = Kind> {
+    pub(crate) fn over_scratches(self) -> impl Iterator<Item = Kind> {
         let none = self == Self::default();
         let wanted = move |kind: &Kind| self.has(*kind) || none && *kind == Kind::Spheres;
         Kind::ALL.into_iter().filter(wanted)
     }
 
     /// What shaders call them. Twin: contents.wgsl.
-    pub fn constants(self) -> [(&'static str, f64); 3] {
+    pub(crate) fn constants(self) -> [(&'static str, f64); 3] {
         let polygons = self.has(Kind::Quads) || self.has(Kind::Outlines);
         [
             ("HAS_SPHERES", self.has(Kind::Spheres).into()),

@@ -42,7 +42,7 @@ pub(crate) struct ScratchPasses {
 
 impl ScenePasses {
     /// Those of tile lists, if scratches are shaded by them.
-    pub fn scratches(&self) -> Option<&ScratchPasses> {
+    pub(crate) fn scratches(&self) -> Option<&ScratchPasses> {
         match &self.shade {
             Shade::Own { scratches, .. } => scratches.as_deref(),
             Shade::Published(_) => None,
@@ -50,7 +50,11 @@ impl ScenePasses {
     }
 
     /// Compiles what the device has not had.
-    pub async fn new(gpu: &Gpu, layouts: &Layouts, variant: &ShadeVariant) -> Result<Self, Error> {
+    pub(crate) async fn new(
+        gpu: &Gpu,
+        layouts: &Layouts,
+        variant: &ShadeVariant,
+    ) -> Result<Self, Error> {
         let mut orders = Orders::new(gpu, layouts, variant);
         let shade = if variant.method.published.is_some() {
             Shade::Published(ShadePublishedPass::new(&mut orders))

@@ -9,12 +9,12 @@ pub(crate) struct PipelineCache(Arc<Mutex<HashMap<String, wgpu::ComputePipeline>
 
 impl PipelineCache {
     /// The pipeline with this key, if it was kept.
-    pub fn get(&self, key: &str) -> Option<wgpu::ComputePipeline> {
+    pub(crate) fn get(&self, key: &str) -> Option<wgpu::ComputePipeline> {
         self.kept(|all| all.get(key).cloned())
     }
 
     /// Keeps a pipeline that was compiled without an error.
-    pub fn keep(&self, key: String, pipeline: &wgpu::ComputePipeline) {
+    pub(crate) fn keep(&self, key: String, pipeline: &wgpu::ComputePipeline) {
         self.kept(|all| all.insert(key, pipeline.clone()));
     }
 

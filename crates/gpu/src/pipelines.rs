@@ -19,7 +19,7 @@ pub(crate) struct Pipeline(Arc<OnceLock<wgpu::ComputePipeline>>);
 impl Pipeline {
     /// # Panics
     /// Before [`Orders::compile`] is done; nobody has a pass by then.
-    pub fn get(&self) -> &wgpu::ComputePipeline {
+    pub(crate) fn get(&self) -> &wgpu::ComputePipeline {
         self.0.get().expect("passes are handed out compiled")
     }
 }
@@ -43,7 +43,7 @@ struct Order {
 }
 
 impl<'a> Orders<'a> {
-    pub fn new(gpu: &'a Gpu, layouts: &'a Layouts, variant: &'a ShadeVariant) -> Self {
+    pub(crate) fn new(gpu: &'a Gpu, layouts: &'a Layouts, variant: &'a ShadeVariant) -> Self {
         Self {
             gpu,
             layouts,
@@ -52,16 +52,16 @@ impl<'a> Orders<'a> {
         }
     }
 
-    pub fn gpu(&self) -> &'a Gpu {
+    pub(crate) fn gpu(&self) -> &'a Gpu {
         self.gpu
     }
 
-    pub fn variant(&self) -> &'a ShadeVariant {
+    pub(crate) fn variant(&self) -> &'a ShadeVariant {
         self.variant
     }
 
     /// Asks for a pipeline over the frame, the scene, its textures and `group_3`, with `more` constants beside the variant's.
-    pub fn pipeline(
+    pub(crate) fn pipeline(
         &mut self,
         (module, entry_point): (&'static shaders::Module, &'static str),
         group_3: &wgpu::BindGroupLayout,
@@ -84,7 +84,7 @@ impl<'a> Orders<'a> {
     ///
     /// # Errors
     /// As [`compiled`], the first that was asked for before others.
-    pub async fn compile(mut self) -> Result<(), Error> {
+    pub(crate) async fn compile(mut self) -> Result<(), Error> {
         let gpu = self.gpu;
         self.orders.retain(|order| {
             let kept = gpu.pipelines.get(&order.key);

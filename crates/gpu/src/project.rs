@@ -15,7 +15,7 @@ pub(crate) const WORKGROUP: u32 = 256;
 pub(crate) struct ProjectPass(ComputePass);
 
 impl ProjectPass {
-    pub fn new(orders: &mut Orders) -> Self {
+    pub(crate) fn new(orders: &mut Orders) -> Self {
         let module = (&shaders::PROJECT, "project");
         Self(ComputePass::order(
             orders,
@@ -26,7 +26,7 @@ impl ProjectPass {
         ))
     }
 
-    pub fn record(
+    pub(crate) fn record(
         &self,
         gpu: &Gpu,
         recording: &mut Recording,

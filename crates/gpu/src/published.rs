@@ -26,7 +26,7 @@ pub(crate) struct Published {
 
 impl Published {
     /// `last`, where there was nothing to look up and is nothing now; else all of it anew.
-    pub async fn upload(
+    pub(crate) async fn upload(
         transfer: &mut Transfer<'_>,
         source: &Source<'_>,
         last: Option<&Self>,

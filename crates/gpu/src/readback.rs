@@ -80,7 +80,7 @@ impl Gpu {
 
     /// The texels of a texture of one layer, level 0, four bytes each, row by row. It must have the usage `COPY_SRC`.
     /// Submits a copy.
-    pub async fn read_texture(&self, texture: &wgpu::Texture) -> Result<Vec<u8>, Error> {
+    pub(crate) async fn read_texture(&self, texture: &wgpu::Texture) -> Result<Vec<u8>, Error> {
         let extent = texture.size();
         let row_bytes = 4 * extent.width;
         // Rows of a copy begin at multiples of 256 bytes.

@@ -12,7 +12,7 @@ use crate::strip::{StripRoom, TILE_PX, whole};
 pub(crate) struct ResolvePass(ComputePass);
 
 impl ResolvePass {
-    pub fn new(orders: &mut Orders) -> Self {
+    pub(crate) fn new(orders: &mut Orders) -> Self {
         let uses = [
             Use::Reads,
             Use::Reads,
@@ -27,11 +27,11 @@ impl ResolvePass {
 
     /// What it was compiled to.
     #[cfg(all(test, not(target_arch = "wasm32")))]
-    pub fn pipeline(&self) -> &wgpu::ComputePipeline {
+    pub(crate) fn pipeline(&self) -> &wgpu::ComputePipeline {
         self.0.pipeline()
     }
 
-    pub fn record(
+    pub(crate) fn record(
         &self,
         gpu: &Gpu,
         recording: &mut Recording,

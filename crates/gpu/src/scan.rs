@@ -32,7 +32,7 @@ struct Level {
 }
 
 impl ScanPasses {
-    pub fn new(gpu: &Gpu) -> Self {
+    pub(crate) fn new(gpu: &Gpu) -> Self {
         let compute = ShaderStages::COMPUTE;
         let entries = [
             entry(0, compute, uniform()),
@@ -72,7 +72,12 @@ impl ScanPasses {
     }
 
     /// A scan of `values`, an array of `u32` with room for `capacity` of them.
-    pub async fn of(&self, gpu: &Gpu, values: &wgpu::Buffer, capacity: u32) -> Result<Scan, Error> {
+    pub(crate) async fn of(
+        &self,
+        gpu: &Gpu,
+        values: &wgpu::Buffer,
+        capacity: u32,
+    ) -> Result<Scan, Error> {
         let mut levels = Vec::new();
         let mut values = values.clone();
         let mut count = capacity;
@@ -104,7 +109,7 @@ impl ScanPasses {
     }
 
     /// Records the scan of as many elements as [`Scan::set_count`] said.
-    pub fn record(&self, encoder: &mut wgpu::CommandEncoder, scan: &Scan, timing: &Timing) {
+    pub(crate) fn record(&self, encoder: &mut wgpu::CommandEncoder, scan: &Scan, timing: &Timing) {
         let mut dispatch = |pipeline: &wgpu::ComputePipeline, level: &Level| {
             let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
                 label: Some("scan"),
@@ -126,7 +131,7 @@ impl ScanPasses {
 
 impl Scan {
     /// How many elements the next recordings take, at most as many as there is room for.
-    pub fn set_count(&mut self, gpu: &Gpu, count: u32) {
+    pub(crate) fn set_count(&mut self, gpu: &Gpu, count: u32) {
         let mut count = count;
         for level in &mut self.levels {
             level.count = count;

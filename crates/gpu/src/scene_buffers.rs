@@ -34,12 +34,12 @@ pub(crate) struct SceneBuffers {
 
 impl SceneBuffers {
     /// Segments of scratches.
-    pub fn segment_count(&self) -> u32 {
+    pub(crate) fn segment_count(&self) -> u32 {
         self.index.tree.segments.len() as u32
     }
 
     /// Writes what `last` does not have.
-    pub async fn upload(
+    pub(crate) async fn upload(
         transfer: &mut Transfer<'_>,
         layouts: &Layouts,
         source: &Source<'_>,

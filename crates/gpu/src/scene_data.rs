@@ -29,7 +29,7 @@ impl SceneData {
     ///
     /// # Errors
     /// [`Error::TooLarge`] before anything is allocated, [`Error::OutOfMemory`].
-    pub async fn new(
+    pub(crate) async fn new(
         gpu: &Gpu,
         layouts: &Layouts,
         source: &Source<'_>,
@@ -61,12 +61,12 @@ impl SceneData {
     }
 
     /// What uploaded positions are relative to, world space.
-    pub fn origin_m(&self) -> DVec3 {
+    pub(crate) fn origin_m(&self) -> DVec3 {
         self.buffers.vertices.origin_m
     }
 
     /// Triangles of each object, counted over the whole scene.
-    pub fn triangles(&self) -> impl Iterator<Item = &Range<u32>> {
+    pub(crate) fn triangles(&self) -> impl Iterator<Item = &Range<u32>> {
         self.buffers.vertices.triangles()
     }
 }

@@ -12,13 +12,13 @@ use crate::strip::{StripRoom, whole};
 pub(crate) struct ShadeBasePass(ComputePass);
 
 impl ShadeBasePass {
-    pub fn new(orders: &mut Orders) -> Self {
+    pub(crate) fn new(orders: &mut Orders) -> Self {
         let uses = [Use::Reads, Use::Reads, Use::Writes, Use::Writes];
         let module = (&shaders::SHADE_BASE, "shade_base");
         Self(ComputePass::order(orders, "base", module, &uses, &[]))
     }
 
-    pub fn record(
+    pub(crate) fn record(
         &self,
         gpu: &Gpu,
         recording: &mut Recording,

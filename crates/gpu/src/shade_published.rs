@@ -13,7 +13,7 @@ use crate::strip::{StripRoom, whole};
 pub(crate) struct ShadePublishedPass(ComputePass);
 
 impl ShadePublishedPass {
-    pub fn new(orders: &mut Orders) -> Self {
+    pub(crate) fn new(orders: &mut Orders) -> Self {
         let uses = [
             Use::Reads,
             Use::Reads,
@@ -25,7 +25,7 @@ impl ShadePublishedPass {
         Self(ComputePass::order(orders, "published", module, &uses, &[]))
     }
 
-    pub fn record(
+    pub(crate) fn record(
         &self,
         gpu: &Gpu,
         recording: &mut Recording,

@@ -25,7 +25,7 @@ pub(crate) struct ShadeScratchesPass {
 const CHUNKS_WORKGROUP: u32 = 64;
 
 impl ShadeScratchesPass {
-    pub fn new(orders: &mut Orders) -> Self {
+    pub(crate) fn new(orders: &mut Orders) -> Self {
         let has = orders.variant().has;
         let uses = [
             Use::Reads,
@@ -52,7 +52,7 @@ impl ShadeScratchesPass {
     }
 
     /// Where the chunks of each group begin.
-    pub fn record_chunks(
+    pub(crate) fn record_chunks(
         &self,
         gpu: &Gpu,
         recording: &mut Recording,
@@ -76,7 +76,7 @@ impl ShadeScratchesPass {
     }
 
     /// The sums of at most so many chunks.
-    pub fn record(
+    pub(crate) fn record(
         &self,
         gpu: &Gpu,
         recording: &mut Recording,

@@ -21,7 +21,7 @@ pub(crate) struct SortPasses {
 }
 
 impl SortPasses {
-    pub fn new(orders: &mut Orders) -> Self {
+    pub(crate) fn new(orders: &mut Orders) -> Self {
         let uses = [Use::Uniform, Use::Reads, Use::Writes, Use::Writes];
         let mut pass = |entry_point| {
             ComputePass::order(orders, "sort", (&shaders::SORT, entry_point), &uses, &[])
@@ -33,7 +33,7 @@ impl SortPasses {
     }
 
     /// Sorts the entries of so many tiles; says which of the two buffers they are in then.
-    pub async fn record(
+    pub(crate) async fn record(
         &self,
         gpu: &Gpu,
         recording: &mut Recording<'_>,

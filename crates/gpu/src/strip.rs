@@ -131,7 +131,7 @@ pub(crate) fn strip_points(width_px: u32, rows: u32) -> u64 {
 
 impl StripRoom {
     /// Room for strips of up to `rows` rows of `width_px` pixels.
-    pub async fn new(
+    pub(crate) async fn new(
         gpu: &Gpu,
         scans: &ScanPasses,
         width_px: u32,
@@ -181,13 +181,13 @@ impl Samples {
     }
 
     /// Whether the device can hold so many points, and sums of so many chunks.
-    pub fn fit(gpu: &Gpu, points: u64, chunks: u32) -> bool {
+    pub(crate) fn fit(gpu: &Gpu, points: u64, chunks: u32) -> bool {
         let bytes = largest_array(gpu);
         points * POINT_BYTES <= bytes && u64::from(chunks) * CHUNK_BYTES <= bytes
     }
 
     /// Makes room for so many points in so many groups.
-    pub async fn make_room(
+    pub(crate) async fn make_room(
         &mut self,
         gpu: &Gpu,
         scans: &ScanPasses,
@@ -218,7 +218,11 @@ impl Samples {
     }
 
     /// Makes room for the sums of so many chunks.
-    pub async fn make_room_for_chunks(&mut self, gpu: &Gpu, chunks: u32) -> Result<(), Error> {
+    pub(crate) async fn make_room_for_chunks(
+        &mut self,
+        gpu: &Gpu,
+        chunks: u32,
+    ) -> Result<(), Error> {
         if self.chunks_max < chunks {
             self.chunks_max = 0;
             self.chunk_sums.destroy();
@@ -232,7 +236,7 @@ impl Samples {
     }
 
     /// One chunk for each group: for passes that do without lists.
-    pub fn one_chunk_a_group(&self, gpu: &Gpu, groups: u32) {
+    pub(crate) fn one_chunk_a_group(&self, gpu: &Gpu, groups: u32) {
         let starts: Vec<u32> = (0..=groups).collect();
         gpu.queue
             .write_buffer(&self.chunk_starts, 0, bytemuck::cast_slice(&starts));
@@ -261,7 +265,7 @@ impl Lists {
     }
 
     /// Makes room for the entries of so many segments to be counted.
-    pub async fn make_room_for_segments(
+    pub(crate) async fn make_room_for_segments(
         &mut self,
         gpu: &Gpu,
         scans: &ScanPasses,
@@ -279,12 +283,12 @@ impl Lists {
     }
 
     /// The most entries that the device can hold.
-    pub fn entries_most(gpu: &Gpu) -> u32 {
+    pub(crate) fn entries_most(gpu: &Gpu) -> u32 {
         u32::try_from(largest_array(gpu) / ENTRY_BYTES).unwrap_or(u32::MAX)
     }
 
     /// Makes room for so many entries.
-    pub async fn make_room(
+    pub(crate) async fn make_room(
         &mut self,
         gpu: &Gpu,
         scans: &ScanPasses,

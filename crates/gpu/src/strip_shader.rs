@@ -31,7 +31,7 @@ pub(crate) struct StripShader {
 }
 
 impl StripShader {
-    pub async fn new(gpu: &Gpu, layouts: &Layouts) -> Result<Self, Error> {
+    pub(crate) async fn new(gpu: &Gpu, layouts: &Layouts) -> Result<Self, Error> {
         let visibility = compiled(gpu, || VisibilityPass::new(gpu, layouts)).await?;
         let scans = compiled(gpu, || ScanPasses::new(gpu)).await?;
         let usage = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
@@ -49,7 +49,7 @@ impl StripShader {
     }
 
     /// One step of the rows of a film, in as many strips as the tile lists need.
-    pub async fn shade(
+    pub(crate) async fn shade(
         &self,
         view: &View<'_>,
         film: &Film,

@@ -14,7 +14,7 @@ use crate::strip::{StripRoom, TILE_PX, whole};
 pub(crate) struct SurfacePass(ComputePass);
 
 impl SurfacePass {
-    pub fn new(orders: &mut Orders) -> Self {
+    pub(crate) fn new(orders: &mut Orders) -> Self {
         let uses = [
             Use::Integers,
             Use::Writes,
@@ -26,7 +26,7 @@ impl SurfacePass {
         Self(ComputePass::order(orders, "surface", module, &uses, &[]))
     }
 
-    pub fn record(
+    pub(crate) fn record(
         &self,
         gpu: &Gpu,
         recording: &mut Recording,

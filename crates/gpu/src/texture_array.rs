@@ -22,7 +22,7 @@ const ARRAY_MAX_BYTES: u64 = 1 << 30;
 const TEXTURE_MAX_PX: u32 = 8192;
 
 impl TextureArray {
-    pub fn new(scene: &Scene) -> Self {
+    pub(crate) fn new(scene: &Scene) -> Self {
         let mut side_px = TEXTURE_MAX_PX;
         loop {
             let array = Self::within(&scene.textures, side_px);
@@ -65,11 +65,11 @@ impl TextureArray {
     }
 
     /// How the shader knows a texture; zeros stand for none.
-    pub fn packed(&self, texture: Option<usize>) -> [u32; 2] {
+    pub(crate) fn packed(&self, texture: Option<usize>) -> [u32; 2] {
         texture.map_or([0; 2], |i| self.packed[i])
     }
 
-    pub async fn upload(
+    pub(crate) async fn upload(
         &self,
         transfer: &mut Transfer<'_>,
         textures: &[Texture],

@@ -39,7 +39,7 @@ pub(crate) struct SceneTextures {
 
 impl SceneTextures {
     /// Writes what `last` does not have.
-    pub async fn upload(
+    pub(crate) async fn upload(
         transfer: &mut Transfer<'_>,
         layouts: &Layouts,
         source: &Source<'_>,

@@ -45,7 +45,7 @@ struct Runs {
 impl Timing {
     /// Begins; stays off where the device has no timestamps, and on software drivers: llvmpipe notes when it last rasterised, and
     /// leaves compute passes out.
-    pub async fn on(gpu: &Gpu) -> Result<Self, Error> {
+    pub(crate) async fn on(gpu: &Gpu) -> Result<Self, Error> {
         let features = gpu.device.features();
         let is_software = gpu.adapter.kind == AdapterKind::Software;
         if is_software || !features.contains(wgpu::Features::TIMESTAMP_QUERY) {
@@ -67,12 +67,15 @@ impl Timing {
     }
 
     /// Whether passes are timed.
-    pub fn is_on(&self) -> bool {
+    pub(crate) fn is_on(&self) -> bool {
         self.0.is_some()
     }
 
     /// For the descriptor of a compute pass.
-    pub fn compute(&self, name: &'static str) -> Option<wgpu::ComputePassTimestampWrites<'_>> {
+    pub(crate) fn compute(
+        &self,
+        name: &'static str,
+    ) -> Option<wgpu::ComputePassTimestampWrites<'_>> {
         let (queries, first) = self.0.as_ref()?.next(name)?;
         Some(wgpu::ComputePassTimestampWrites {
             query_set: queries,
@@ -82,7 +85,7 @@ impl Timing {
     }
 
     /// For the descriptor of a render pass.
-    pub fn render(&self, name: &'static str) -> Option<wgpu::RenderPassTimestampWrites<'_>> {
+    pub(crate) fn render(&self, name: &'static str) -> Option<wgpu::RenderPassTimestampWrites<'_>> {
         let (queries, first) = self.0.as_ref()?.next(name)?;
         Some(wgpu::RenderPassTimestampWrites {
             query_set: queries,
@@ -93,7 +96,7 @@ impl Timing {
 
     /// What was submitted since the last call, summed by pass in the order of their first runs, once it is done. None where
     /// nothing is timed, and after more runs than there is room for.
-    pub async fn read(&self, gpu: &Gpu) -> Result<Option<Vec<PassTime>>, Error> {
+    pub(crate) async fn read(&self, gpu: &Gpu) -> Result<Option<Vec<PassTime>>, Error> {
         let Some(clock) = &self.0 else {
             return Ok(None);
         };

@@ -29,13 +29,13 @@ pub(crate) struct Place {
 }
 
 impl<'a> Transfer<'a> {
-    pub fn new(gpu: &'a Gpu) -> Self {
+    pub(crate) fn new(gpu: &'a Gpu) -> Self {
         let written = Vec::new();
         Self { gpu, written }
     }
 
     /// What was written.
-    pub fn end(self) -> Vec<Written> {
+    pub(crate) fn end(self) -> Vec<Written> {
         self.written
     }
 
@@ -47,7 +47,7 @@ impl<'a> Transfer<'a> {
         }
     }
 
-    pub fn write_buffer(
+    pub(crate) fn write_buffer(
         &mut self,
         what: &'static str,
         buffer: &wgpu::Buffer,
@@ -59,7 +59,7 @@ impl<'a> Transfer<'a> {
     }
 
     /// A texture that is written once.
-    pub async fn texture(
+    pub(crate) async fn texture(
         &self,
         what: &str,
         [width, height]: [u32; 2],
@@ -85,7 +85,7 @@ impl<'a> Transfer<'a> {
         self.gpu.texture(what, &descriptor).await
     }
 
-    pub fn write_texture(
+    pub(crate) fn write_texture(
         &mut self,
         what: &'static str,
         texture: &wgpu::Texture,

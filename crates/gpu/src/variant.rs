@@ -26,7 +26,7 @@ pub(crate) struct Contents {
 }
 
 impl Contents {
-    pub fn of(scene: &Scene, tables: &ScratchTables) -> Self {
+    pub(crate) fn of(scene: &Scene, tables: &ScratchTables) -> Self {
         Self {
             scratches: scene.objects.iter().any(|o| !o.segments.is_empty()),
             lights: Kinds::of(scene),
@@ -93,7 +93,7 @@ pub fn pipeline_variants(text: &str) -> Vec<(String, Vec<(&'static str, f64)>)> 
 
 impl ShadeVariant {
     /// The constants that a shader declares, by the names of contents.wgsl and method.wgsl; others would be refused.
-    pub fn constants(&self, text: &str) -> Vec<Constant> {
+    pub(crate) fn constants(&self, text: &str) -> Vec<Constant> {
         let Self { method, has } = self;
         let mask = match method.mask {
             Mask::Energy => 0,

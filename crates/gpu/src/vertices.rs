@@ -36,7 +36,7 @@ const TRIANGLE_BYTES: u64 = 3 * size_of::<Vertex>() as u64;
 
 impl Vertices {
     /// Writes the meshes that `last` does not have; those that it has are copied on the device.
-    pub async fn upload(
+    pub(crate) async fn upload(
         transfer: &mut Transfer<'_>,
         what: &'static str,
         scene: &Scene,
@@ -95,7 +95,7 @@ impl Vertices {
     }
 
     /// Triangles of each object, counted over the whole scene.
-    pub fn triangles(&self) -> impl Iterator<Item = &Range<u32>> {
+    pub(crate) fn triangles(&self) -> impl Iterator<Item = &Range<u32>> {
         self.meshes.iter().map(|placed| &placed.triangles)
     }
 }

@@ -12,7 +12,7 @@ use crate::strip::{DEPTH_FORMAT, StripRoom, VISIBILITY_FORMAT};
 pub(crate) struct VisibilityPass(wgpu::RenderPipeline);
 
 impl VisibilityPass {
-    pub fn new(gpu: &Gpu, layouts: &Layouts) -> Self {
+    pub(crate) fn new(gpu: &Gpu, layouts: &Layouts) -> Self {
         let module = gpu
             .device
             .create_shader_module(wgpu::ShaderModuleDescriptor {
@@ -63,7 +63,7 @@ impl VisibilityPass {
         )
     }
 
-    pub fn record(&self, recording: &mut Recording, room: &StripRoom, rows: u32) {
+    pub(crate) fn record(&self, recording: &mut Recording, room: &StripRoom, rows: u32) {
         let Recording {
             encoder,
             frame,

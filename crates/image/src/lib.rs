@@ -11,6 +11,8 @@
 //! assert_eq!(png::quantize(&picture, &Display::default()), [0, 0, 0, 255, 255, 255]);
 //! ```
 
+#![warn(unreachable_pub)]
+
 mod animation;
 mod error;
 pub mod exr_file;

@@ -20,12 +20,12 @@ pub use compare::{Comparison, LayerComparison, Problem, Side, compare};
 pub use difference::{Difference, layer_difference};
 pub use error_map::{ErrorMap, error_map, magma};
 pub use estimate::Estimate;
+pub use flip::Flip;
 #[cfg(feature = "flip")]
 pub use flip::flip;
-pub use flip::{Flip, PIXELS_PER_DEGREE};
 pub use noise::BeyondNoise;
 pub use psnr::{Psnr, psnr_displayed, psnr_of_values};
 pub use relative::relative_mse;
 pub use silhouettes::away_from_silhouettes;
-pub use stability::{Move, Stability};
+pub use stability::Stability;
 pub use z_test::{Verdict, ZTest};

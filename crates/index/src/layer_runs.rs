@@ -72,7 +72,7 @@ pub(crate) fn groups<'a>(scene: &'a Scene, object: &'a Object) -> Vec<Vec<LayerR
 
 impl<'a> LayerRun<'a> {
     /// All of an object, in their order; one for each layer, since a builder lays them layer by layer.
-    pub fn of(scene: &'a Scene, object: &'a Object) -> impl Iterator<Item = Self> {
+    pub(crate) fn of(scene: &'a Scene, object: &'a Object) -> impl Iterator<Item = Self> {
         let runs = object.scratches.chunk_by(|a, b| a.layer == b.layer);
         runs.map(move |scratches| Self {
             scene,
@@ -82,7 +82,7 @@ impl<'a> LayerRun<'a> {
     }
 
     /// Some scratches of an object.
-    pub fn new(scene: &'a Scene, object: &'a Object, scratches: &'a [Scratch]) -> Self {
+    pub(crate) fn new(scene: &'a Scene, object: &'a Object, scratches: &'a [Scratch]) -> Self {
         Self {
             scene,
             object,

@@ -21,6 +21,8 @@
 //! # Ok::<(), hairline_scene::Error>(())
 //! ```
 
+#![warn(unreachable_pub)]
+
 mod depth_spread;
 pub mod groove_index;
 mod indexed_segment;
@@ -30,7 +32,7 @@ pub mod scratch_index;
 pub mod segment_tree;
 mod tree;
 pub mod triangle_beam;
-pub mod triangle_index;
+pub(crate) mod triangle_index;
 pub mod triangle_lists;
 pub mod watch;
 

@@ -10,8 +10,8 @@ use crate::watch::Watch;
 use glam::Vec3;
 use std::ops::Range;
 
-pub(crate) use node::Tree;
-pub use node::{LEAF_FIRST_BITS, ScratchNode, SegmentTree, Straight};
+pub use node::{ScratchNode, SegmentTree};
+pub(crate) use node::{Straight, Tree};
 pub(crate) use plant::{Plot, plant};
 
 impl<S: Straight> SegmentTree<S> {
@@ -31,7 +31,7 @@ impl<S: Straight> SegmentTree<S> {
     }
 
     /// The segments of an object, which stand side by side; empty for an object without scratches.
-    pub fn segment_range(&self, object: usize) -> Range<u32> {
+    pub(crate) fn segment_range(&self, object: usize) -> Range<u32> {
         match self.trees[object].as_slice() {
             [first, .., last] => first.segments.start..last.segments.end,
             [only] => only.segments.clone(),
@@ -49,7 +49,7 @@ impl<S: Straight> SegmentTree<S> {
 
     /// Calls `visit` with the indices of every leaf of an object that touches the box from `lower` to `upper`.
     #[inline]
-    pub fn walk(
+    pub(crate) fn walk(
         &self,
         object: usize,
         lower: Vec3,

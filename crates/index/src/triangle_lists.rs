@@ -78,11 +78,6 @@ impl TriangleLists {
     pub fn of(&self, triangle: usize) -> &[u32] {
         &self.segments[self.starts[triangle] as usize..self.starts[triangle + 1] as usize]
     }
-
-    /// Bytes in memory.
-    pub fn bytes(&self) -> usize {
-        4 * (self.starts.len() + self.segments.len())
-    }
 }
 
 /// A triangle in its own plane, micrometres from its first corner, and how far its points see.

@@ -8,6 +8,8 @@
 //! assert!(picture < budget_bytes() as f64);
 //! ```
 
+#![warn(unreachable_pub)]
+
 mod available;
 pub mod costs;
 

@@ -19,7 +19,7 @@ mod outline;
 pub use drawn::DrawnChord;
 pub use lines::{
     Along, BAND_REACH_STD, BAND_STD_MAX, BandLines, BandMotion, BandPlace, BandStds, MovedBand,
-    band_is_whole, band_lines, band_moves, band_reaches, band_stds, moved_band,
+    band_is_whole, band_lines, band_moves, band_stds, moved_band,
 };
 pub use outline::{Outline, OutlineEdge, OutlineRoots};
 
@@ -69,7 +69,7 @@ impl BandLine {
 
     /// Cosine to the normal of the direction above the horizon at `q`.
     #[inline]
-    pub fn cos_at(self, q: f64) -> f64 {
+    pub(crate) fn cos_at(self, q: f64) -> f64 {
         let across = q - self.offset;
         ((self.radius - across) * (self.radius + across))
             .max(0.0)
@@ -265,7 +265,7 @@ pub fn sphere_chord(line: BandLine, cap: Cap) -> Chord {
 
 /// Roots of one polygon edge on a line. Edges are independent; their roots may be summed in any order.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct EdgeRoots {
+pub(crate) struct EdgeRoots {
     /// q where the edge, walked from a to b, crosses the line towards +t; phi enters the polygon there.
     pub rising: Option<f64>,
     /// q where it crosses towards -t; phi leaves the polygon there.
@@ -275,7 +275,7 @@ pub struct EdgeRoots {
 /// The roots of the edge from direction `a` to direction `b` (unit vectors) on a line. Whether a vertex lies beyond the
 /// line is decided from that vertex alone, so that the edges that share it agree and every closed polygon has as many
 /// rising roots as falling ones. For a polygon seen counter-clockwise; clockwise ones take the opposite sign.
-pub fn edge_roots(line: BandLine, a: DVec3, b: DVec3) -> EdgeRoots {
+pub(crate) fn edge_roots(line: BandLine, a: DVec3, b: DVec3) -> EdgeRoots {
     let mut roots = EdgeRoots {
         rising: None,
         falling: None,
@@ -340,7 +340,7 @@ impl EdgeCircle {
 }
 
 /// Least and greatest tangent component along the edge from `a` to `b` (unit vectors): at its ends, or where it turns.
-pub fn edge_band_extent(a: DVec3, b: DVec3) -> (f64, f64) {
+pub(crate) fn edge_band_extent(a: DVec3, b: DVec3) -> (f64, f64) {
     let edge = EdgeCircle::new(a, b);
     let (mut lowest, mut highest) = (a.x.min(b.x), a.x.max(b.x));
     let extreme = || {
@@ -358,14 +358,14 @@ pub fn edge_band_extent(a: DVec3, b: DVec3) -> (f64, f64) {
 
 /// The angle by which the edge from `a` to `b` (unit vectors) turns about the unit direction `about`. Summed over a
 /// polygon's edges: 2 pi or -2 pi if the polygon encloses that direction or its opposite, else 0.
-pub fn edge_winding(about: DVec3, a: DVec3, b: DVec3) -> f64 {
+pub(crate) fn edge_winding(about: DVec3, a: DVec3, b: DVec3) -> f64 {
     let sin = about.dot(a.cross(b));
     let cos = a.dot(b) - a.dot(about) * b.dot(about);
     sin.atan2(cos)
 }
 
 /// The direction straight down on the line.
-pub fn line_down(line: BandLine) -> DVec3 {
+pub(crate) fn line_down(line: BandLine) -> DVec3 {
     DVec3::new(line.along, 0.0, -line.radius)
 }
 

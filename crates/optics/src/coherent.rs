@@ -43,7 +43,7 @@ pub struct GroovePiece {
 
 impl GroovePiece {
     /// Where it begins and ends along n = N x t, from the point.
-    pub fn across_um(&self) -> [f64; 2] {
+    pub(crate) fn across_um(&self) -> [f64; 2] {
         let half = 0.5 * self.width_um;
         [self.offset_um - half, self.offset_um + half]
     }

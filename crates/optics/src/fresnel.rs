@@ -16,7 +16,7 @@ use crate::lobe_table::{self, LobeTable};
 pub use crate::lobe_table::FRESNEL_NODES;
 
 /// Unpolarised Fresnel reflectance of a conductor of refractive index n + i k (k >= 0), seen from vacuum.
-pub fn conductor(cos_theta: f64, n: f64, k: f64) -> f64 {
+pub(crate) fn conductor(cos_theta: f64, n: f64, k: f64) -> f64 {
     let c = cos_theta.clamp(0.0, 1.0);
     let c2 = c * c;
     let s2 = 1.0 - c2;
@@ -56,12 +56,7 @@ pub fn dielectric(cos_theta: f64, eta: f64) -> f64 {
     0.5 * (r_parallel * r_parallel + r_perpendicular * r_perpendicular)
 }
 
-/// Schlick's approximation, f0 + (1 - f0)(1 - cos)^5.
-pub fn schlick(cos_theta: f64, f0: f64) -> f64 {
-    f0 + (1.0 - f0) * schlick_weight(cos_theta)
-}
-
-/// (1 - cos)^5, by which Schlick's reflectance rises.
+/// (1 - cos)^5, by which Schlick's approximation f0 + (1 - f0)(1 - cos)^5 rises.
 pub fn schlick_weight(cos_theta: f64) -> f64 {
     let m = (1.0 - cos_theta).clamp(0.0, 1.0);
     let m2 = m * m;
@@ -115,7 +110,7 @@ impl FresnelCurve {
     }
 
     /// t in three channels, and s.
-    pub fn lookup(&self, cos_theta: f64) -> [f64; 4] {
+    pub(crate) fn lookup(&self, cos_theta: f64) -> [f64; 4] {
         let at = unit_clamp(cos_theta).sqrt() * (FRESNEL_NODES - 1) as f64;
         // Not negative: to cut off is to round down.
         let i = (at as usize).min(FRESNEL_NODES - 2);
@@ -136,7 +131,7 @@ impl FresnelCurve {
 }
 
 /// The cosine at a node of a [`FresnelCurve`].
-pub fn fresnel_node_cos(i: usize) -> f64 {
+pub(crate) fn fresnel_node_cos(i: usize) -> f64 {
     let root = i as f64 / (FRESNEL_NODES - 1) as f64;
     root * root
 }
@@ -165,7 +160,7 @@ impl FresnelRgb<'_> {
     }
 
     /// t + s F0, from the curve's parts or from means of them.
-    pub fn of_parts(&self, parts: [f64; 4]) -> [f64; 3] {
+    pub(crate) fn of_parts(&self, parts: [f64; 4]) -> [f64; 3] {
         std::array::from_fn(|ch| parts[ch] + parts[3] * self.f0[ch])
     }
 
@@ -239,7 +234,9 @@ mod tests {
             assert!(error < 0.0012, "{ior}: {error}");
         }
         let grey = FresnelRgb::schlick([0.04; 3]);
-        assert!((grey.eval(0.3)[0] - schlick(0.3, 0.04)).abs() < 1e-4);
+        // f0 + (1 - f0)(1 - cos)^5
+        let expected = 0.04 + 0.96 * schlick_weight(0.3);
+        assert!((grey.eval(0.3)[0] - expected).abs() < 1e-4);
     }
 
     #[test]

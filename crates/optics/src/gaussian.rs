@@ -58,7 +58,7 @@ impl Gaussian {
     /// The share of a standard normal distribution below `x`: within 1.5e-9, differences within 3e-5 of themselves up to five
     /// standard deviations.
     #[inline]
-    pub fn cdf(&self, x: f64) -> f64 {
+    pub(crate) fn cdf(&self, x: f64) -> f64 {
         let at = x.abs().min(CDF_REACH) * CDF_NODES;
         let node = (at as usize).min(CDF_COUNT - 2);
         let tail = hermite(self.tail[node], self.tail[node + 1], at - node as f64);
@@ -73,7 +73,7 @@ impl Gaussian {
 
     /// The place below which a share lies, for shares within [1e-6, 1 - 1e-6]: within 1e-7.
     #[inline]
-    pub fn quantile(&self, share: f64) -> f64 {
+    pub(crate) fn quantile(&self, share: f64) -> f64 {
         let tail = share.min(1.0 - share).clamp(SHARE_MIN, 0.5);
         let node = ((tail.to_bits() - SHARE_MIN.to_bits()) >> REST_BITS) as usize;
         let node = node.min(QUANTILE_COUNT - 2);

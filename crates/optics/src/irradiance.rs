@@ -40,13 +40,13 @@ pub struct PolygonIrradiance {
 }
 
 /// Starts a polygon.
-pub fn irradiance_begin() -> PolygonIrradiance {
+pub(crate) fn irradiance_begin() -> PolygonIrradiance {
     PolygonIrradiance::default()
 }
 
 /// Adds the edge from `a` to `b`; `ab` is b - a, passed apart because it can be known more precisely than its ends.
 /// Edges must follow one another and close.
-pub fn irradiance_edge(state: &mut PolygonIrradiance, a: DVec3, b: DVec3, ab: DVec3) {
+pub(crate) fn irradiance_edge(state: &mut PolygonIrradiance, a: DVec3, b: DVec3, ab: DVec3) {
     if !state.started {
         state.started = true;
         state.first = a;
@@ -96,7 +96,7 @@ pub fn irradiance_edge(state: &mut PolygonIrradiance, a: DVec3, b: DVec3, ab: DV
 
 /// The integral of the unit direction over the part of the polygon above the horizon, for either orientation.
 /// Zero for a polygon that is below the horizon, is seen edge-on or has no area.
-pub fn irradiance_end(state: &PolygonIrradiance) -> DVec3 {
+pub(crate) fn irradiance_end(state: &PolygonIrradiance) -> DVec3 {
     if state.volume == 0.0 || !state.risen {
         return DVec3::ZERO;
     }
@@ -251,17 +251,17 @@ pub fn irradiance_cone(cone: &EllipticCone) -> DVec3 {
 }
 
 /// Starts a polygon on a diffuse surface; see [`lambert_end`].
-pub fn lambert_begin() -> PolygonIrradiance {
+pub(crate) fn lambert_begin() -> PolygonIrradiance {
     irradiance_begin()
 }
 
 /// Adds the edge from `a` to `b`, positions relative to the point, in the local frame. Edges follow one another and close.
-pub fn lambert_edge(state: &mut PolygonIrradiance, a: DVec3, b: DVec3) {
+pub(crate) fn lambert_edge(state: &mut PolygonIrradiance, a: DVec3, b: DVec3) {
     irradiance_edge(state, a, b, b - a);
 }
 
 /// Form factor of the polygon, in [0, 1]: radiosity over radiance times pi.
-pub fn lambert_end(state: &PolygonIrradiance) -> f64 {
+pub(crate) fn lambert_end(state: &PolygonIrradiance) -> f64 {
     // A sliver in the horizon may come out a rounding below it.
     (irradiance_end(state).z / PI).clamp(0.0, 1.0)
 }

@@ -18,6 +18,8 @@
 //! assert!(luminance > 0.0);
 //! ```
 
+#![warn(unreachable_pub)]
+
 pub mod band;
 pub mod band_environment;
 pub mod coherent;

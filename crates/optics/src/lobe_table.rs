@@ -127,7 +127,7 @@ pub fn environment_table(i: usize) -> &'static LobeTable {
 }
 
 /// The mean slope of the look-ups of an environment by their shares, over alpha, in the first channel.
-pub fn environment_middle_table() -> &'static LobeTable {
+pub(crate) fn environment_middle_table() -> &'static LobeTable {
     static TABLE: LazyLock<LobeTable> = LazyLock::new(|| {
         let middle = |node: usize| {
             let taps = (0..ENVIRONMENT_TAPS).map(|i| environment_table(i).texels()[node]);
@@ -141,7 +141,7 @@ pub fn environment_middle_table() -> &'static LobeTable {
     &TABLE
 }
 
-/// The nodes of [`ltc_table`], and under them those of each [`environment_table`] and of [`environment_middle_table`]: one texture,
+/// The nodes of [`ltc_table`], and under them those of each [`environment_table`] and of `environment_middle_table`: one texture,
 /// [`LOBE_TABLE_SIZE`] wide.
 pub fn shape_texels() -> &'static [[f32; 4]] {
     static TEXELS: LazyLock<Vec<[f32; 4]>> = LazyLock::new(|| {

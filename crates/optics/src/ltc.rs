@@ -100,7 +100,7 @@ impl LtcLobe {
     }
 
     /// The same with other normals.
-    pub fn widened(&self, alphas: DVec2, turned: f64) -> Self {
+    pub(crate) fn widened(&self, alphas: DVec2, turned: f64) -> Self {
         Self {
             alphas,
             turned,
@@ -119,7 +119,7 @@ impl LtcLobe {
     }
 
     /// From the viewer's frame into the cosine's space; linear, keeps z.
-    pub fn to_cosine(&self, w: DVec3) -> DVec3 {
+    pub(crate) fn to_cosine(self, w: DVec3) -> DVec3 {
         self.cosine_by(self.width.recip(), w)
     }
 

@@ -8,15 +8,15 @@
 use std::sync::LazyLock;
 
 /// Spacing of the tabulated wavelengths.
-pub const WAVELENGTH_STEP_NM: f64 = 5.0;
+pub(crate) const WAVELENGTH_STEP_NM: f64 = 5.0;
 /// Shortest tabulated wavelength.
-pub const WAVELENGTH_MIN_NM: f64 = 380.0;
+pub(crate) const WAVELENGTH_MIN_NM: f64 = 380.0;
 /// Number of tabulated wavelengths: 380 to 780 nm.
-pub const WAVELENGTH_COUNT: usize = 81;
+pub(crate) const WAVELENGTH_COUNT: usize = 81;
 /// The wavelength that stands for the visible where one must: near the eye's greatest sensitivity under D65.
-pub const WAVELENGTH_MEAN_NM: f64 = 555.0;
+pub(crate) const WAVELENGTH_MEAN_NM: f64 = 555.0;
 /// Mean wavelength of each colour channel by its weights. Red's negative lobe lies at short wavelengths and pushes it out.
-pub const CHANNEL_MEAN_NM: [f64; 3] = [642.5, 543.0, 440.8];
+pub(crate) const CHANNEL_MEAN_NM: [f64; 3] = [642.5, 543.0, 440.8];
 
 /// Linear Rec.709 (D65 white) from CIE XYZ; ITU-R BT.709-6, inverted from its primaries.
 const REC709_FROM_XYZ: [[f64; 3]; 3] = [
@@ -84,7 +84,7 @@ pub fn rgb_from_reflectance(reflectance: impl Fn(f64) -> f64) -> [f64; 3] {
 }
 
 /// As [`rgb_from_reflectance`] for a function that computes something of its own for each channel.
-pub fn rgb_from_spectral_rgb(value: impl Fn(f64) -> [f64; 3]) -> [f64; 3] {
+pub(crate) fn rgb_from_spectral_rgb(value: impl Fn(f64) -> [f64; 3]) -> [f64; 3] {
     samples().iter().fold([0.0; 3], |sum, s| {
         let v = value(s.wavelength_nm);
         std::array::from_fn(|c| sum[c] + s.weight[c] * v[c])

@@ -14,10 +14,10 @@ pub const COLUMNS: usize = 1024;
 /// Rows, over depth.
 pub const ROWS: usize = 512;
 /// Largest depth: the last row. Deeper scratches are held there; their colours have washed out to straw long before.
-pub const DEPTH_MAX_NM: f64 = 2000.0;
+pub(crate) const DEPTH_MAX_NM: f64 = 2000.0;
 /// The u of the middle column. Columns are even in u/(u + U_HALF_UM), so that the last one lies at infinity: fine where
 /// the colours are (one fringe spans about 0.5 um of u), coarse where they have blurred into the tail.
-pub const U_HALF_UM: f64 = 2.0;
+pub(crate) const U_HALF_UM: f64 = 2.0;
 
 /// T and its slope at every (u, d), 16 bytes each.
 #[derive(Clone, Debug)]

@@ -1,5 +1,7 @@
 //! Plots as small SVG files that can be read on a light page and on a dark one: no background, grey axes.
 
+#![warn(unreachable_pub)]
+
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
 use plotters::prelude::*;
 

@@ -27,7 +27,7 @@ pub(crate) struct BaseLobes<'a> {
 }
 
 impl<'a> BaseLobes<'a> {
-    pub fn new(point: &SurfacePoint, reflectance: &'a Reflectance) -> Self {
+    pub(crate) fn new(point: &SurfacePoint, reflectance: &'a Reflectance) -> Self {
         let f0 = DVec3::from(point.fresnel.f0);
         Self::from_parts(point.wo, reflectance, f0, point.diffuse, point.roughness)
     }
@@ -61,7 +61,7 @@ impl<'a> BaseLobes<'a> {
     }
 
     /// BRDF times the cosine of `wi`: (specular, diffuse). Zero at and below the horizon.
-    pub fn eval(&self, wi: DVec3) -> (DVec3, DVec3) {
+    pub(crate) fn eval(&self, wi: DVec3) -> (DVec3, DVec3) {
         if wi.z <= 0.0 {
             return (DVec3::ZERO, DVec3::ZERO);
         }
@@ -75,7 +75,7 @@ impl<'a> BaseLobes<'a> {
 
     /// A direction above the horizon; `pick` and `u` are in [0, 1). None where the specular lobe was picked and its direction
     /// lies below: such a sample counts as zero.
-    pub fn sample(&self, pick: f64, u: DVec2) -> Option<DVec3> {
+    pub(crate) fn sample(&self, pick: f64, u: DVec2) -> Option<DVec3> {
         let wi = if pick < self.specular_share {
             ggx_sample(self.wo, self.alpha, u)
         } else {
@@ -86,7 +86,7 @@ impl<'a> BaseLobes<'a> {
 
     /// The density of [`BaseLobes::sample`], per steradian. Over the upper hemisphere it integrates to how often a sample is
     /// not None.
-    pub fn pdf(&self, wi: DVec3) -> f64 {
+    pub(crate) fn pdf(&self, wi: DVec3) -> f64 {
         if wi.z <= 0.0 {
             return 0.0;
         }

@@ -38,7 +38,7 @@ pub(super) struct FieldResponse {
 }
 
 impl<'a> Field<'a> {
-    pub fn new(
+    pub(crate) fn new(
         point: &'a SurfacePoint<'a>,
         grooves: &'a [GrooveView],
         smooth: bool,
@@ -60,7 +60,7 @@ impl<'a> Field<'a> {
     }
 
     /// What grooves take from the energy of the base's reflection: 1 - |r|^2.
-    pub fn taken(&self) -> DVec3 {
+    pub(crate) fn taken(&self) -> DVec3 {
         let shape = self.fresnel.shape(self.wavelengths);
         (0..WAVELENGTHS)
             .map(|j| shape[j] * (1.0 - (1.0 - self.taken[j]).norm_sqr()))
@@ -68,12 +68,12 @@ impl<'a> Field<'a> {
     }
 
     /// Whether there is anything to evaluate.
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         !self.smooth && self.grooves.is_empty()
     }
 
     /// For a direction of the surface's frame.
-    pub fn eval(&self, wi: DVec3) -> FieldResponse {
+    pub(crate) fn eval(&self, wi: DVec3) -> FieldResponse {
         let wo = self.point.wo;
         let xi = wi.truncate() + wo.truncate();
         let weights = self.fresnel.coherent(self.wavelengths, wi.z);
@@ -100,7 +100,7 @@ impl<'a> Field<'a> {
     }
 
     /// Directions whose components along axes of the surface's frame lie within what `extent` tells.
-    pub fn directions(&self, extent: impl Fn(DVec2) -> (f64, f64)) -> FieldDirections {
+    pub(crate) fn directions(&self, extent: impl Fn(DVec2) -> (f64, f64)) -> FieldDirections {
         let wo = self.point.wo;
         let std = band_std(self.point.coherence_um, WIDEST_NM);
         let mut components = Vec::with_capacity(self.grooves.len() + 1);
@@ -238,7 +238,7 @@ pub(super) enum Drawn {
 }
 
 impl FieldDirections {
-    pub fn sample(&self, pick: f64, u: f64, v: f64) -> Drawn {
+    pub(crate) fn sample(&self, pick: f64, u: f64, v: f64) -> Drawn {
         let mut left = pick;
         for (weight, component) in &self.components {
             if left < *weight {
@@ -260,7 +260,7 @@ impl FieldDirections {
     }
 
     /// Density of a direction, where the caller's own has the density `elsewhere_pdf`, both per d xi.
-    pub fn pdf(&self, wi: DVec3, elsewhere_pdf: f64) -> f64 {
+    pub(crate) fn pdf(&self, wi: DVec3, elsewhere_pdf: f64) -> f64 {
         let xi = wi.truncate() + self.wo;
         let own: f64 = self
             .components

@@ -28,7 +28,7 @@ pub(super) struct GrooveView {
 
 impl GrooveView {
     /// None where the piece lies on another side of the surface, or too far to matter.
-    pub fn new(point: &SurfacePoint, groove: &Groove, reach_sigma: f64) -> Option<Self> {
+    pub(crate) fn new(point: &SurfacePoint, groove: &Groove, reach_sigma: f64) -> Option<Self> {
         if groove.normal.as_dvec3().dot(point.normal) < FACING_MIN_COS as f64 {
             return None;
         }

@@ -18,7 +18,7 @@ pub(super) struct CutNormal {
 
 impl CutNormal {
     /// None if the interval is empty or holds less than 1e-12 of the distribution.
-    pub fn new(std: f64, low: f64, high: f64) -> Option<Self> {
+    pub(crate) fn new(std: f64, low: f64, high: f64) -> Option<Self> {
         let mirrored = low > 0.0;
         let (a, b) = if mirrored { (-high, -low) } else { (low, high) };
         let below = ndtr(a / std);
@@ -33,13 +33,13 @@ impl CutNormal {
         })
     }
 
-    pub fn sample(&self, u: f64) -> f64 {
+    pub(crate) fn sample(&self, u: f64) -> f64 {
         let x = self.std * ndtri(self.below + u * self.share);
         // Rounding of the quantile must not leave the interval.
         (if self.mirrored { -x } else { x }).clamp(self.low, self.high)
     }
 
-    pub fn pdf(&self, x: f64) -> f64 {
+    pub(crate) fn pdf(&self, x: f64) -> f64 {
         if x < self.low || x > self.high {
             return 0.0;
         }
@@ -65,7 +65,7 @@ pub(super) struct CutCauchy {
 
 impl CutCauchy {
     /// None if the interval is empty.
-    pub fn new(scale: f64, low: f64, high: f64) -> Option<Self> {
+    pub(crate) fn new(scale: f64, low: f64, high: f64) -> Option<Self> {
         let first_rad = (low / scale).atan();
         let span_rad = (high / scale).atan() - first_rad;
         (span_rad > 0.0).then_some(Self {
@@ -77,11 +77,11 @@ impl CutCauchy {
         })
     }
 
-    pub fn sample(&self, u: f64) -> f64 {
+    pub(crate) fn sample(&self, u: f64) -> f64 {
         (self.scale * (self.first_rad + u * self.span_rad).tan()).clamp(self.low, self.high)
     }
 
-    pub fn pdf(&self, x: f64) -> f64 {
+    pub(crate) fn pdf(&self, x: f64) -> f64 {
         if x < self.low || x > self.high {
             return 0.0;
         }

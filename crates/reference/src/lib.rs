@@ -29,6 +29,8 @@
 //! # Ok::<(), hairline_scene::Error>(())
 //! ```
 
+#![warn(unreachable_pub)]
+
 mod base;
 mod coherent;
 mod grooves;

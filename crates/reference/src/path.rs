@@ -27,7 +27,7 @@ pub(super) struct Light {
 }
 
 impl Light {
-    pub fn total(&self) -> DVec3 {
+    pub(crate) fn total(&self) -> DVec3 {
         self.base + self.scratches
     }
 }

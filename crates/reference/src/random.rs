@@ -57,7 +57,7 @@ pub(super) struct Random {
 
 impl Random {
     /// Sample `sample` of batch `batch` of a pixel.
-    pub fn new(seed: u64, pixel: u64, batch: u32, sample: u32) -> Self {
+    pub(crate) fn new(seed: u64, pixel: u64, batch: u32, sample: u32) -> Self {
         debug_assert!(sample < BATCH_SAMPLES);
         let stream = mix(mix(mix(seed) ^ pixel) ^ u64::from(batch));
         Self {
@@ -68,7 +68,7 @@ impl Random {
     }
 
     /// The numbers of the path's next vertex.
-    pub fn next_vertex(self) -> Self {
+    pub(crate) fn next_vertex(self) -> Self {
         Self {
             vertex: self.vertex + 1,
             ..self
@@ -76,7 +76,7 @@ impl Random {
     }
 
     /// Four numbers in (0, 1).
-    pub fn four(&self, purpose: Purpose) -> [f64; 4] {
+    pub(crate) fn four(&self, purpose: Purpose) -> [f64; 4] {
         let [a, b, c] = purpose.key();
         let key = mix(self.stream ^ (u64::from(self.vertex) << 32 | u64::from(a)));
         let key = mix(key ^ (u64::from(b) << 32 | u64::from(c)));

@@ -53,7 +53,7 @@ const ALBEDO_STEPS: usize = 64;
 const ROUGHNESS_STEPS: usize = 32;
 
 impl Reflectance {
-    pub fn new(material: &Material) -> Self {
+    pub(crate) fn new(material: &Material) -> Self {
         let reflector = Reflector::new(&material.base);
         match material.metallic_roughness_texture {
             None => Self::at(reflector, &[material.roughness]),
@@ -66,7 +66,7 @@ impl Reflectance {
     }
 
     /// For these roughnesses, which rise.
-    pub fn at(reflector: Reflector, roughness: &[f64]) -> Self {
+    pub(crate) fn at(reflector: Reflector, roughness: &[f64]) -> Self {
         let metal = match reflector {
             Reflector::Metal(metal) => curve(metal),
             _ => Vec::new(),
@@ -115,7 +115,7 @@ impl Reflectance {
     }
 
     /// Of a facet; `f0` is the colour at normal incidence.
-    pub fn eval(&self, cos_theta: f64, f0: DVec3) -> FacetReflectance {
+    pub(crate) fn eval(&self, cos_theta: f64, f0: DVec3) -> FacetReflectance {
         if self.metal.is_empty() {
             let FacetParts { t, s } = self.parts(cos_theta);
             let once = f0 * s + t;
@@ -132,7 +132,7 @@ impl Reflectance {
     }
 
     /// Of the lobe for a viewer.
-    pub fn albedo(&self, roughness: f64, cos_o: f64) -> Albedo {
+    pub(crate) fn albedo(&self, roughness: f64, cos_o: f64) -> Albedo {
         let above = self.albedos.partition_point(|a| a.roughness < roughness);
         let high = &self.albedos[above.min(self.albedos.len() - 1)];
         let low = &self.albedos[above.max(1) - 1];
@@ -178,12 +178,12 @@ impl Albedo {
     }
 
     /// What multiple scattering adds to single scattering where F = 1.
-    pub fn gain(self) -> f64 {
+    pub(crate) fn gain(self) -> f64 {
         1.0 / self.e0.clamp(1e-3, 1.0) - 1.0
     }
 
     /// Of a surface with a body: what it reflects without the body, multiple scattering inside.
-    pub fn reflected(self, f0: DVec3) -> DVec3 {
+    pub(crate) fn reflected(self, f0: DVec3) -> DVec3 {
         (f0 * self.parts.s + self.parts.t) * (DVec3::ONE + f0 * self.gain())
     }
 }

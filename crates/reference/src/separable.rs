@@ -25,7 +25,7 @@ pub(super) struct Lobe<'a> {
 
 impl<'a> Lobe<'a> {
     /// `weight` holds the material's reflectance; `coherence_um` is sigma.
-    pub fn new(
+    pub(crate) fn new(
         groove: &'a GrooveView,
         wavelengths: &Wavelengths,
         weight: &Spectrum<DVec3>,
@@ -47,7 +47,7 @@ impl<'a> Lobe<'a> {
     }
 
     /// The BRDF times the light's cosine, per d xi, for a direction that [`LobeDirections`] drew.
-    pub fn eval(&self, to: &LobeDirection) -> DVec3 {
+    pub(crate) fn eval(&self, to: &LobeDirection) -> DVec3 {
         // The path into the groove and out is longer the steeper both are.
         let depth_nm = self.groove.piece.depth_nm * 0.5 * (to.wi.z + self.groove.wo.z);
         (0..self.strength.len())
@@ -62,7 +62,11 @@ impl<'a> Lobe<'a> {
 
     /// A way to draw directions whose components along and across the groove lie in intervals. None where the band does not
     /// reach them.
-    pub fn directions(&self, along: (f64, f64), across: (f64, f64)) -> Option<LobeDirections> {
+    pub(crate) fn directions(
+        &self,
+        along: (f64, f64),
+        across: (f64, f64),
+    ) -> Option<LobeDirections> {
         let wo = self.groove.wo;
         let scale = DRAWN_HALF_WIDTH_UM / self.groove.piece.width_um;
         Some(LobeDirections {
@@ -92,7 +96,7 @@ pub(super) struct LobeDirection {
 
 impl LobeDirections {
     /// None where no direction above the horizon has these components.
-    pub fn sample(&self, u: f64, v: f64) -> Option<LobeDirection> {
+    pub(crate) fn sample(&self, u: f64, v: f64) -> Option<LobeDirection> {
         let (xi_t, q) = (self.xi_t.sample(u), self.q.sample(v));
         let wi = direction_from_cosines(xi_t - self.wo.x, q - self.wo.y)?;
         Some(LobeDirection {

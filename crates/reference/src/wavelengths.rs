@@ -26,7 +26,7 @@ pub(super) struct Wavelengths {
 
 impl Wavelengths {
     /// One in each eighth of the visible; `u` in [0, 1) moves them all.
-    pub fn new(u: f64) -> Self {
+    pub(crate) fn new(u: f64) -> Self {
         let step = (LAST_NM - FIRST_NM) / WAVELENGTHS as f64;
         let nm = std::array::from_fn(|j| FIRST_NM + step * (j as f64 + u));
         let weight = nm.map(|nm| step * DVec3::from(spectrum::weight_per_nm(nm)));
@@ -49,7 +49,7 @@ pub(super) struct SpectralFresnel<'a> {
 }
 
 impl<'a> SpectralFresnel<'a> {
-    pub fn new(
+    pub(crate) fn new(
         base: &Base,
         optics: &MaterialOptics,
         point: &SurfacePoint,
@@ -74,13 +74,13 @@ impl<'a> SpectralFresnel<'a> {
 
     /// Weights with the model's reflectance, (7) and (17): the spectrum's shape at normal incidence, the colour by the
     /// viewer's angle.
-    pub fn separable(&self, wavelengths: &Wavelengths) -> Spectrum<DVec3> {
+    pub(crate) fn separable(&self, wavelengths: &Wavelengths) -> Spectrum<DVec3> {
         let fresnel = self.at(self.cos_o);
         self.shape(wavelengths).map(|weight| weight * fresnel)
     }
 
     /// Weights with the shape of the reflectance's spectrum alone: they add up to white.
-    pub fn shape(&self, wavelengths: &Wavelengths) -> Spectrum<DVec3> {
+    pub(crate) fn shape(&self, wavelengths: &Wavelengths) -> Spectrum<DVec3> {
         std::array::from_fn(|j| match self.metal {
             Some(metal) => {
                 let reflectance = metal.reflectance(1.0, wavelengths.nm[j]);
@@ -92,7 +92,7 @@ impl<'a> SpectralFresnel<'a> {
 
     /// Weights with the reflectance by both angles: the geometric mean of those at the light's and at the viewer's cosine. It is
     /// reciprocal, and equal to Fresnel's in the mirror's direction.
-    pub fn coherent(&self, wavelengths: &Wavelengths, cos_i: f64) -> Spectrum<DVec3> {
+    pub(crate) fn coherent(&self, wavelengths: &Wavelengths, cos_i: f64) -> Spectrum<DVec3> {
         let cos_o = self.cos_o;
         match self.metal {
             Some(metal) => {

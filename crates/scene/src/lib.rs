@@ -18,6 +18,8 @@
 //! # Ok::<(), hairline_scene::Error>(())
 //! ```
 
+#![warn(unreachable_pub)]
+
 mod builder;
 pub mod camera;
 mod convert;

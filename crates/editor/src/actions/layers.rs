@@ -2,7 +2,7 @@
 
 use hairline_scene::Description;
 use hairline_scene::description::limits::LARGEST_SEED;
-use hairline_scene::description::{Layer, Object, Pattern, Scratches};
+use hairline_scene::description::{Layer, Pattern, Scratches};
 
 use super::{ActionError, list};
 use crate::Selection;
@@ -147,21 +147,6 @@ pub fn title(layer: &Scratches) -> &str {
             Pattern::Swirl { .. } => "swirls",
         },
     }
-}
-
-/// Puts a layer on another object.
-///
-/// # Errors
-/// [`ActionError::Missing`].
-pub fn move_to(
-    description: &mut Description,
-    index: usize,
-    object: usize,
-) -> Result<Selection, ActionError> {
-    list::get::<Scratches>(description, index)?;
-    let name = list::get::<Object>(description, object)?.name.clone();
-    description.scratches[index].object = name;
-    Ok(Selection::Layer(index))
 }
 
 /// The least seed above every other: it stays new when layers come and go in between.

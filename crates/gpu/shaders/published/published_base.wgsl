@@ -17,43 +17,31 @@ fn published_base_sphere(point: SurfacePoint, lobe: LtcLobe, reflecting: LobeFre
 
 // Radiance of the base towards the viewer, before scratches take theirs.
 fn published_base(point: SurfacePoint) -> BaseRadiance {
-    let sharp = ltc_lobe(point.wo, point.roughness, lobe_shapes, lobe_albedo);
-    let filtered = filtered_lobe(sharp.alpha, surface_slope_variance(point), point.wo.z);
-    let reflecting = lobe_fresnel(FresnelRgb(point.f0, point.curve), point.wo, point.roughness, fresnel_curves);
-    let albedo = ggx_area_reflectance(reflecting.albedo, point.f0, sharp.albedo);
-    let body = point.diffuse * max(1.0 - albedo, vec3f(0.0));
-    var specular = vec3f(0.0);
-    var diffuse = vec3f(0.0);
+    let surface = base_surface(point);
+    var sum: BaseRadiance;
     for (var p = 0u; p < 2u; p += 1u) {
-        let part = filtered_lobe_part(sharp, filtered, p);
+        let part = filtered_lobe_part(surface.sharp, surface.filtered, p);
         if part.weight == 0.0 {
             break;
         }
         // The pivot transform knows round lobes alone.
         let alphas = part.lobe.alphas;
         let pivot = sptd_lobe(point.wo, min(sqrt(sqrt(alphas.x * alphas.y)), 1.0), lobe_sptd, lobe_albedo);
-        var single = vec3f(0.0);
-        diffuse = vec3f(0.0);
+        var light = base_surroundings(point, part.lobe, surface.reflecting);
         for (var l = 0u; l < frame.light_count; l += 1u) {
-            let light = light_at(l);
+            let source = light_at(l);
             var share: vec4f;
-            if HAS_SPHERES && light.kind == LIGHT_SPHERE {
-                share = published_base_sphere(point, part.lobe, reflecting, pivot, light);
+            if HAS_SPHERES && source.kind == LIGHT_SPHERE {
+                share = published_base_sphere(point, part.lobe, surface.reflecting, pivot, source);
             }
-            if HAS_POLYGONS && light.kind == LIGHT_POLYGON {
-                let seen = base_polygon(point, part.lobe, light);
-                share = vec4f(ltc_reflected(part.lobe, reflecting, fresnel_curves, seen.vector), seen.form_factor);
+            if HAS_POLYGONS && source.kind == LIGHT_POLYGON {
+                let seen = base_polygon(point, part.lobe, source);
+                share = vec4f(ltc_reflected(part.lobe, surface.reflecting, fresnel_curves, seen.vector), seen.form_factor);
             }
-            single += light.radiance * share.xyz;
-            diffuse += light.radiance * share.w;
+            light.specular += source.radiance * share.xyz;
+            light.diffuse += source.radiance * share.w;
         }
-        if HAS_ENVIRONMENT {
-            let environment = base_environment(point, part.lobe, reflecting);
-            single += environment.specular;
-            diffuse += environment.diffuse;
-        }
-        specular += part.weight * single;
+        sum = BaseRadiance(sum.specular + part.weight * light.specular, light.diffuse);
     }
-    specular = ggx_area_reflectance(max(specular, vec3f(0.0)), point.f0, sharp.albedo);
-    return BaseRadiance(specular, diffuse * body);
+    return base_of(point, surface, sum);
 }

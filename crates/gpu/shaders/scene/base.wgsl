@@ -75,44 +75,62 @@ fn base_environment(point: SurfacePoint, lobe: LtcLobe, reflecting: LobeFresnel)
     return BaseRadiance(normal * all + (reflecting.albedo - normal) * grazing, scene_irradiance(point.normal) / 3.14159265);
 }
 
-// Radiance of the base towards the viewer, before scratches take theirs.
-fn base_radiance(point: SurfacePoint) -> BaseRadiance {
+// The same, of any scene.
+fn base_surroundings(point: SurfacePoint, lobe: LtcLobe, reflecting: LobeFresnel) -> BaseRadiance {
+    var light: BaseRadiance;
+    if HAS_ENVIRONMENT {
+        light = base_environment(point, lobe, reflecting);
+    }
+    return light;
+}
+
+// The lobe of a point, and what the body under it gets.
+struct BaseSurface {
+    sharp: LtcLobe,
+    filtered: FilteredLobe,
+    reflecting: LobeFresnel,
+    body: vec3f,
+}
+
+fn base_surface(point: SurfacePoint) -> BaseSurface {
     let sharp = ltc_lobe(point.wo, point.roughness, lobe_shapes, lobe_albedo);
     let filtered = filtered_lobe(sharp.alpha, surface_slope_variance(point), point.wo.z);
     let reflecting = lobe_fresnel(FresnelRgb(point.f0, point.curve), point.wo, point.roughness, fresnel_curves);
     let albedo = ggx_area_reflectance(reflecting.albedo, point.f0, sharp.albedo);
     // What the surface does not reflect reaches the body.
-    let body = point.diffuse * max(1.0 - albedo, vec3f(0.0));
+    return BaseSurface(sharp, filtered, reflecting, point.diffuse * max(1.0 - albedo, vec3f(0.0)));
+}
 
-    var specular = vec3f(0.0);
-    var diffuse = vec3f(0.0);
+// From what lights and environment send: single scattering of the lobe, and what falls on the body.
+fn base_of(point: SurfacePoint, surface: BaseSurface, light: BaseRadiance) -> BaseRadiance {
+    // The fit may make the second part a little larger than the first.
+    let specular = ggx_area_reflectance(max(light.specular, vec3f(0.0)), point.f0, surface.sharp.albedo);
+    return BaseRadiance(specular, light.diffuse * surface.body);
+}
+
+// Radiance of the base towards the viewer, before scratches take theirs.
+fn base_radiance(point: SurfacePoint) -> BaseRadiance {
+    let surface = base_surface(point);
+    var sum: BaseRadiance;
     for (var p = 0u; p < 2u; p += 1u) {
-        let part = filtered_lobe_part(sharp, filtered, p);
+        let part = filtered_lobe_part(surface.sharp, surface.filtered, p);
         if part.weight == 0.0 {
             break;
         }
-        var single = vec3f(0.0);
-        diffuse = vec3f(0.0);
-        for (var i = 0u; i < frame.light_count; i += 1u) {
-            let light = light_at(i);
+        var light = base_surroundings(point, part.lobe, surface.reflecting);
+        for (var l = 0u; l < frame.light_count; l += 1u) {
+            let source = light_at(l);
             var seen: LightOnBase;
-            if HAS_SPHERES && light.kind == LIGHT_SPHERE {
-                seen = base_sphere(point, part.lobe, light);
+            if HAS_SPHERES && source.kind == LIGHT_SPHERE {
+                seen = base_sphere(point, part.lobe, source);
             }
-            if HAS_POLYGONS && light.kind == LIGHT_POLYGON {
-                seen = base_polygon(point, part.lobe, light);
+            if HAS_POLYGONS && source.kind == LIGHT_POLYGON {
+                seen = base_polygon(point, part.lobe, source);
             }
-            single += light.radiance * ltc_reflected(part.lobe, reflecting, fresnel_curves, seen.vector);
-            diffuse += light.radiance * seen.form_factor;
+            light.specular += source.radiance * ltc_reflected(part.lobe, surface.reflecting, fresnel_curves, seen.vector);
+            light.diffuse += source.radiance * seen.form_factor;
         }
-        if HAS_ENVIRONMENT {
-            let environment = base_environment(point, part.lobe, reflecting);
-            single += environment.specular;
-            diffuse += environment.diffuse;
-        }
-        specular += part.weight * single;
+        sum = BaseRadiance(sum.specular + part.weight * light.specular, light.diffuse);
     }
-    // The fit may make the second part a little larger than the first.
-    specular = ggx_area_reflectance(max(specular, vec3f(0.0)), point.f0, sharp.albedo);
-    return BaseRadiance(specular, diffuse * body);
+    return base_of(point, surface, sum);
 }

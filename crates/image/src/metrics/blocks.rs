@@ -82,7 +82,7 @@ pub(super) struct Single {
 }
 
 impl Single {
-    pub fn of(blocks: &Blocks) -> Self {
+    pub(crate) fn of(blocks: &Blocks) -> Self {
         let mut sums = Self::default();
         for member in blocks.iter().flatten().flatten() {
             match &member.residual {
@@ -173,7 +173,7 @@ pub(super) struct Pooled {
 }
 
 impl Pooled {
-    pub fn of(blocks: &Blocks) -> Self {
+    pub(crate) fn of(blocks: &Blocks) -> Self {
         let mut count = 0;
         let mut max_z = 0.0_f64;
         // By the block: its channels are not independent.
@@ -216,7 +216,7 @@ pub(super) struct Weighed {
 }
 
 impl Weighed {
-    pub fn of(blocks: &Blocks) -> Self {
+    pub(crate) fn of(blocks: &Blocks) -> Self {
         let floor = variance_floor(blocks);
         let mut of_channels = [Sums::default(); 3];
         // Weighed squares and variances of each block, and what the spread of the squares is at least.

@@ -8,7 +8,7 @@ use crate::Display;
 use crate::Picture;
 
 /// The authors' default: a 0.7 m wide display of 3840 pixels, seen from 0.7 m.
-pub const PIXELS_PER_DEGREE: f32 = 67.0;
+pub(crate) const PIXELS_PER_DEGREE: f32 = 67.0;
 
 /// The perceived difference of two displayed pictures, 0 where none is seen to 1 for black against white.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,7 +21,7 @@ pub struct Flip {
     pub map: Picture,
 }
 
-/// FLIP of two linear pictures as a display shows them, at [`PIXELS_PER_DEGREE`]. The mask (true where a pixel counts)
+/// FLIP of two linear pictures as a display shows them, at 67 pixels a degree. The mask (true where a pixel counts)
 /// limits the figures, not the map: neighbours are seen all the same. `None` if no pixel counts.
 ///
 /// # Panics

@@ -81,7 +81,7 @@ impl BeyondNoise {
 
     /// The ends of the interval around [`Self::rms`] that lie `sigmas` standard errors apart from it on either side: 2
     /// for 95 %. Taken of the mean square, whose error is near normal where that of the root is not.
-    pub fn rms_within(&self, sigmas: f64) -> [f64; 2] {
+    pub(crate) fn rms_within(&self, sigmas: f64) -> [f64; 2] {
         [-sigmas, sigmas].map(|s| {
             (self.mean_square + s * self.mean_square_error)
                 .max(0.0)
@@ -94,7 +94,7 @@ impl BeyondNoise {
         over(self.rms(), self.reference_rms)
     }
 
-    /// [`Self::rms_within`], relative.
+    /// The same interval around [`Self::relative_rms`].
     pub fn relative_rms_within(&self, sigmas: f64) -> [f64; 2] {
         self.rms_within(sigmas)
             .map(|rms| over(rms, self.reference_rms))

@@ -18,7 +18,7 @@ const EDGE: f64 = 0.05;
 
 /// Where a point of a surface, seen at a pixel (from the upper left corner, pixel centres at half-integers) and a depth in
 /// metres in one frame, lies in another, and how deep; none behind the camera.
-pub type Move<'a> = &'a (dyn Fn([f64; 2], f64) -> Option<([f64; 2], f64)> + Sync);
+pub(crate) type Move<'a> = &'a (dyn Fn([f64; 2], f64) -> Option<([f64; 2], f64)> + Sync);
 
 /// The figure of a sequence, frame by frame.
 #[derive(Clone, Debug, Default, PartialEq)]

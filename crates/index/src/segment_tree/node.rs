@@ -18,7 +18,7 @@ pub struct ScratchNode {
 }
 
 /// Bits of [`ScratchNode::leaf`] that hold the first segment.
-pub const LEAF_FIRST_BITS: u32 = 28;
+pub(crate) const LEAF_FIRST_BITS: u32 = 28;
 
 impl ScratchNode {
     /// The segments of a leaf; empty for an inner node.

@@ -181,7 +181,7 @@ impl BandMotion {
         (std * std + self.variance).sqrt().min(BAND_STD_MAX)
     }
 
-    /// [`band_reaches`] without a root: whether a light with xi_t from `lowest` to `highest`, the shift included, meets a band
+    /// `band_reaches` without a root: whether a light with xi_t from `lowest` to `highest`, the shift included, meets a band
     /// that was `std` wide.
     #[inline]
     pub fn reaches(self, lowest: f64, highest: f64, std: f64) -> bool {
@@ -209,7 +209,7 @@ pub struct BandLines {
 }
 
 /// Whether a light of the given extent in xi_t meets the band at all.
-pub fn band_reaches(lowest: f64, highest: f64, stds: BandStds) -> bool {
+pub(crate) fn band_reaches(lowest: f64, highest: f64, stds: BandStds) -> bool {
     let reach = BAND_REACH_STD * stds.mean;
     lowest < reach && highest > -reach && highest > lowest
 }

@@ -137,7 +137,7 @@ impl Outline<'_> {
         (wo_t + lowest, wo_t + highest)
     }
 
-    /// Where a line crosses the outline: [`super::edge_roots`] of all edges.
+    /// Where a line crosses the outline: the roots of all edges.
     pub fn roots(&self, frame: BandFrame, line: BandLine, found: &mut OutlineRoots) {
         let t = frame.tangent;
         found.roots.clear();

@@ -29,7 +29,7 @@ pub(super) struct Span {
 
 impl Span {
     /// The parts of an interval that the window reaches.
-    pub fn cover(low_um: f64, high_um: f64, coherence_um: f64) -> Vec<Self> {
+    pub(crate) fn cover(low_um: f64, high_um: f64, coherence_um: f64) -> Vec<Self> {
         let reach = REACH * coherence_um;
         let (low, high) = (low_um.max(-reach), high_um.min(reach));
         if !(low < high) {
@@ -73,13 +73,13 @@ impl Span {
     }
 
     /// The window's integral over the part, relative to the whole one.
-    pub fn share(&self) -> f64 {
+    pub(crate) fn share(&self) -> f64 {
         self.series[0]
     }
 
     /// As [`super::window_fourier`].
     #[inline(always)]
-    pub fn fourier<const N: usize>(&self, kappa_per_um: Lanes<N>) -> Complexes<N> {
+    pub(crate) fn fourier<const N: usize>(&self, kappa_per_um: Lanes<N>) -> Complexes<N> {
         let mut bessel = [Lanes::ZERO; MOST_TERMS];
         spherical_bessel(kappa_per_um * self.half_um, self.terms, &mut bessel);
         Complexes::turned_back(kappa_per_um * self.middle_um)
@@ -123,7 +123,7 @@ pub(super) struct Trapezoid {
 
 impl Trapezoid {
     /// Its parts that the window reaches, to be added or, for a `sign` of -1, taken off.
-    pub fn cells(&self, sign: f64, coherence_um: f64, cells: &mut Vec<Cell>) {
+    pub(crate) fn cells(&self, sign: f64, coherence_um: f64, cells: &mut Vec<Cell>) {
         let [[a, b], [c, d]] = self.edges;
         let count = |p: f64, q: f64| (p.max(q) / (LONGEST * coherence_um)).ceil().max(1.0);
         let along = count(a.distance(b), c.distance(d));
@@ -223,7 +223,7 @@ impl Cell {
 
     /// The window's Fourier integral over the part, relative to the window's whole integral.
     #[inline(always)]
-    pub fn fourier<const N: usize>(&self, k_per_um: Lanes<N>, xi: DVec2) -> Complexes<N> {
+    pub(crate) fn fourier<const N: usize>(&self, k_per_um: Lanes<N>, xi: DVec2) -> Complexes<N> {
         let along = k_per_um * xi.dot(self.along);
         let across = k_per_um * xi.dot(self.across);
         let part = if self.taper == 0.0 {

@@ -35,7 +35,7 @@ struct End {
 }
 
 impl Ends {
-    pub fn new(low_um: f64, high_um: f64, coherence_um: f64) -> Self {
+    pub(crate) fn new(low_um: f64, high_um: f64, coherence_um: f64) -> Self {
         let end = |place_um: f64, side: f64, sign: f64| {
             let x = place_um.abs() * FRAC_1_SQRT_2 / coherence_um;
             let amplitude = 0.5 * sign * (-x * x).exp();
@@ -62,7 +62,7 @@ impl Ends {
 
     /// The Fourier integral relative to the window's, or None where nothing in it is above [`TOLERANCE`] over `weight`.
     #[inline(always)]
-    pub fn fourier<const N: usize>(
+    pub(crate) fn fourier<const N: usize>(
         &self,
         kappa_per_um: Lanes<N>,
         weight: f64,

@@ -49,38 +49,38 @@ pub(super) struct Complexes<const N: usize> {
 }
 
 impl<const N: usize> Lanes<N> {
-    pub const ZERO: Self = Self([0.0; N]);
+    pub(crate) const ZERO: Self = Self([0.0; N]);
 
     #[inline(always)]
-    pub fn splat(x: f64) -> Self {
+    pub(crate) fn splat(x: f64) -> Self {
         Self([x; N])
     }
 
     #[inline(always)]
-    pub fn map(self, f: impl Fn(f64) -> f64) -> Self {
+    pub(crate) fn map(self, f: impl Fn(f64) -> f64) -> Self {
         Self(from_fn(|i| f(self.0[i])))
     }
 
     #[inline(always)]
-    pub fn recip(self) -> Self {
+    pub(crate) fn recip(self) -> Self {
         self.map(|x| 1.0 / x)
     }
 
     #[inline(always)]
-    pub fn largest_abs(self) -> f64 {
+    pub(crate) fn largest_abs(self) -> f64 {
         self.0
             .iter()
             .fold(0.0, |m, x| if x.abs() > m { x.abs() } else { m })
     }
 
     #[inline(always)]
-    pub fn smallest_abs(self) -> f64 {
+    pub(crate) fn smallest_abs(self) -> f64 {
         let least = |m: f64, x: &f64| if x.abs() < m { x.abs() } else { m };
         self.0.iter().fold(f64::INFINITY, least)
     }
 
     #[inline(always)]
-    pub fn sin_cos(self) -> (Self, Self) {
+    pub(crate) fn sin_cos(self) -> (Self, Self) {
         if !(self.largest_abs() < LARGEST_RAD) {
             return (self.map(f64::sin), self.map(f64::cos));
         }
@@ -117,20 +117,20 @@ fn polynomial<const N: usize>(coefficients: &[f64], x: Lanes<N>) -> Lanes<N> {
 }
 
 impl<const N: usize> Complexes<N> {
-    pub const ZERO: Self = Self {
+    pub(crate) const ZERO: Self = Self {
         re: Lanes::ZERO,
         im: Lanes::ZERO,
     };
 
     /// exp(-i x).
     #[inline(always)]
-    pub fn turned_back(x: Lanes<N>) -> Self {
+    pub(crate) fn turned_back(x: Lanes<N>) -> Self {
         let (sin, cos) = x.sin_cos();
         Self { re: cos, im: -sin }
     }
 
     #[inline(always)]
-    pub fn recip(self) -> Self {
+    pub(crate) fn recip(self) -> Self {
         let scale = (self.re * self.re + self.im * self.im).recip();
         Self {
             re: self.re * scale,

@@ -30,11 +30,11 @@ impl HalfPlane {
 }
 
 impl Polygon {
-    pub fn new(corners: Vec<DVec2>) -> Self {
+    pub(crate) fn new(corners: Vec<DVec2>) -> Self {
         Self { corners }
     }
 
-    pub fn area(&self) -> f64 {
+    pub(crate) fn area(&self) -> f64 {
         let Some(&first) = self.corners.first() else {
             return 0.0;
         };
@@ -43,7 +43,7 @@ impl Polygon {
     }
 
     /// What lies in the half-plane.
-    pub fn cut(&self, half_plane: &HalfPlane) -> Self {
+    pub(crate) fn cut(&self, half_plane: &HalfPlane) -> Self {
         let mut corners = Vec::with_capacity(self.corners.len() + 1);
         for (i, &to) in self.corners.iter().enumerate() {
             let from = self.corners[(i + self.corners.len() - 1) % self.corners.len()];
@@ -62,7 +62,7 @@ impl Polygon {
     }
 
     /// What lies in all of them.
-    pub fn within(&self, half_planes: &[HalfPlane]) -> Self {
+    pub(crate) fn within(&self, half_planes: &[HalfPlane]) -> Self {
         let mut rest = self.clone();
         for half_plane in half_planes {
             if rest.corners.is_empty() {
@@ -74,7 +74,7 @@ impl Polygon {
     }
 
     /// What lies outside all that the half-planes share, in convex parts.
-    pub fn without(&self, half_planes: &[HalfPlane], least_area: f64) -> Vec<Self> {
+    pub(crate) fn without(&self, half_planes: &[HalfPlane], least_area: f64) -> Vec<Self> {
         let mut rest = self.clone();
         let mut outside = Vec::new();
         for half_plane in half_planes {
@@ -88,7 +88,7 @@ impl Polygon {
     }
 
     /// Tiles it: one parallelogram, if it is one, else slices along its longest edge from corner to corner.
-    pub fn trapezoids(&self, tolerance_um: f64) -> Vec<Trapezoid> {
+    pub(crate) fn trapezoids(&self, tolerance_um: f64) -> Vec<Trapezoid> {
         if let [a, b, c, d] = self.corners[..]
             && (a + c).distance(b + d) < tolerance_um
         {

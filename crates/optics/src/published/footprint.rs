@@ -25,7 +25,7 @@ pub struct PixelFootprint {
 
 impl PixelFootprint {
     /// A_phi.
-    pub fn area_um2(&self) -> f64 {
+    pub(crate) fn area_um2(&self) -> f64 {
         self.right_um.perp_dot(self.down_um).abs()
     }
 }
@@ -41,7 +41,7 @@ pub struct PublishedShare {
 
 /// The length of a segment within the pixel. `offset_um` is where the segment's line lies across, `start_um` and `end_um`
 /// its ends along, from the pixel's centre.
-pub fn contained_length_um(
+pub(crate) fn contained_length_um(
     offset_um: f64,
     start_um: f64,
     end_um: f64,

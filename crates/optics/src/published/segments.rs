@@ -1,7 +1,7 @@
 //! What a light covers of the band's middle line, as segments of q: the talk's "assemble line segments".
 
 /// A triangle can cut three segments out of the line, a sphere two.
-pub const SEGMENTS_MAX: usize = 3;
+pub(crate) const SEGMENTS_MAX: usize = 3;
 
 /// Segments of q = xi_n, each from its low to its high end.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -13,7 +13,7 @@ pub struct BandSegments {
 }
 
 impl BandSegments {
-    /// Adds a segment. More than [`SEGMENTS_MAX`] are a mistake of the caller's.
+    /// Adds a segment. More than three are a mistake of the caller's.
     pub fn push_segment(&mut self, low: f64, high: f64) {
         self.ends[self.count] = [low, high];
         self.count += 1;

@@ -23,7 +23,7 @@ pub enum SineIntegral {
 
 impl SineIntegral {
     /// Si(x).
-    pub fn eval(self, x: f64) -> f64 {
+    pub(crate) fn eval(self, x: f64) -> f64 {
         match self {
             Self::Exact => diffraction::sine_integral(x),
             Self::Fast => sine_integral_fast(x),

@@ -330,7 +330,7 @@ impl Laid {
     }
 
     /// Of length, width and depth.
-    pub fn sizes(&self) -> [Distribution; 3] {
+    pub(crate) fn sizes(&self) -> [Distribution; 3] {
         [self.length_m, self.width_um, self.depth_nm]
     }
 }
@@ -349,7 +349,7 @@ impl Brushed {
     }
 
     /// Of length, width and depth.
-    pub fn sizes(&self) -> [Distribution; 3] {
+    pub(crate) fn sizes(&self) -> [Distribution; 3] {
         [self.length_m, self.width_um, self.depth_nm]
     }
 }

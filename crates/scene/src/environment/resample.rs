@@ -19,7 +19,7 @@ pub(super) struct WeightedMean {
 }
 
 impl WeightedMean {
-    pub fn add(&mut self, value: [f32; 3], weight: f32) {
+    pub(crate) fn add(&mut self, value: [f32; 3], weight: f32) {
         self.weight += weight;
         let share = weight / self.weight;
         for (mean, value) in self.mean.iter_mut().zip(value) {

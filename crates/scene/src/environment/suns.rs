@@ -14,7 +14,7 @@ use super::resample::row_solid_angle;
 
 /// A disc of even radiance, infinitely far away.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sun {
+pub(crate) struct Sun {
     /// Unit vector to its middle.
     pub direction: DVec3,
     /// As it is seen, from its middle to its rim.

@@ -12,7 +12,7 @@ pub(crate) struct Flaw {
 }
 
 impl Flaw {
-    pub fn new(found: impl Into<String>, right: impl Into<String>) -> Self {
+    pub(crate) fn new(found: impl Into<String>, right: impl Into<String>) -> Self {
         Self {
             found: found.into(),
             right: right.into(),

@@ -22,7 +22,7 @@ impl Demand {
     ///
     /// # Errors
     /// At `key`: more than `free_bytes`, or more segments than renderers can number.
-    pub fn check(&self, free_bytes: f64, key: impl Fn() -> String) -> Result<f64, Error> {
+    pub(crate) fn check(&self, free_bytes: f64, key: impl Fn() -> String) -> Result<f64, Error> {
         let each_bytes = size_of::<Scratch>() as f64 + self.segments_each * SEGMENT_BYTES as f64;
         let bytes = each_bytes * self.count as f64;
         let segments = self.segments_each * self.count as f64;
