@@ -13,14 +13,14 @@ mod strokes;
 use std::time::Duration;
 
 use eframe::egui_wgpu::RenderState;
-use egui::{Rect, Response, Role, Sense, Shape, WidgetInfo};
+use egui::{Label, Rect, Response, RichText, Role, Sense, Shape, WidgetInfo};
 use hairline_editor::Selection;
 use hairline_image::Display;
 
 use crate::app::Viewer;
 use crate::engine::View;
 use crate::overlays::Overlay;
-use crate::panels::busy::Busy;
+use crate::panels::{busy::Busy, status};
 use crate::reading;
 use crate::tools::Tool;
 
@@ -137,6 +137,10 @@ pub(crate) fn show(ui: &mut egui::Ui, viewer: &mut Viewer) -> Rect {
             canvas.paint(ui, place, &area, &frame, &wanted);
         } else {
             ui.put(rect, Busy::size(32.0));
+            let words = RichText::new(status::before_the_first(viewer)).size(14.0);
+            // Words that could be selected would take the mouse from what lies under them.
+            let label = Label::new(words).selectable(false);
+            ui.put(rect.translate(egui::vec2(0.0, 32.0)), label);
         }
         rect
     });

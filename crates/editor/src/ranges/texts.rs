@@ -168,11 +168,11 @@ pub(super) fn of(parameter: Parameter) -> Text {
             "Scratches for each metre of a stroke. Few: single marks. Many: a worn track.",
         ),
         P::BrushWidth => (
-            "Brush width",
+            "Width factor",
             "Factor on the widths of the layer for this stroke. Above 1: bolder, with denser rainbows. Below 1: finer, with wider ones.",
         ),
         P::BrushDepth => (
-            "Brush depth",
+            "Depth factor",
             "Factor on the depths of the layer for this stroke. It shifts the tint of the stroke against the rest.",
         ),
         P::LightCenter => (

@@ -14,10 +14,7 @@ pub(crate) fn show(ui: &mut Ui, viewer: &mut Viewer) {
             ui.spacing_mut().item_spacing.x = 14.0;
             match viewer.engine.latest() {
                 Some(frame) => picture(ui, &frame, viewer.viewport.is_stale()),
-                None if viewer.engine.built().is_some() => {
-                    drop(ui.label("rendering the first picture"));
-                }
-                None => drop(ui.label("building the scene")),
+                None => drop(ui.label(before_the_first(viewer))),
             }
             if let Some(built) = viewer.engine.built() {
                 let (scratches, segments) = built.scratch_counts();
@@ -37,6 +34,14 @@ pub(crate) fn show(ui: &mut Ui, viewer: &mut Viewer) {
             });
         });
     });
+}
+
+/// What is being done while there is no picture yet.
+pub(crate) fn before_the_first(viewer: &Viewer) -> &'static str {
+    match viewer.engine.built() {
+        Some(_) => "rendering the first picture",
+        None => "building the scene",
+    }
 }
 
 fn picture(ui: &mut Ui, frame: &Frame, is_stale: bool) {

@@ -318,19 +318,24 @@ fn rows(ui: &mut Ui, reading: &Reading, view: &View) {
                 if !hint.is_empty() {
                     label.on_hover_text(hint);
                 }
+                // The window keeps its width, whatever things are called.
+                let width = 200.0;
+                if name == "Layers" {
+                    ui.vertical(|ui| {
+                        ui.set_width(width);
+                        ui.add(Label::new(value).wrap());
+                    });
+                    ui.end_row();
+                    continue;
+                }
                 ui.horizontal(|ui| {
-                    ui.set_width(200.0);
+                    ui.set_width(width);
                     if name == "sRGB" {
                         let (rect, _) =
                             ui.allocate_exact_size(vec2(14.0, 14.0), egui::Sense::hover());
                         ui.painter().rect_filled(rect, 2.0, swatch);
                     }
-                    // The window keeps its width, whatever things are called.
-                    let label = Label::new(value);
-                    match name {
-                        "Layers" => ui.vertical(|ui| ui.add(label.wrap())).inner,
-                        _ => ui.add(label.truncate()),
-                    };
+                    ui.add(Label::new(value).truncate());
                 });
                 ui.end_row();
             }

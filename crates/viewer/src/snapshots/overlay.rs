@@ -26,6 +26,8 @@ pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer, area: &Area, view: &View) {
         Way::Flip => {
             ui.painter().rect_filled(rect, 0.0, Color32::BLACK);
             picture(ui, fitting(rect, size_px), texture);
+            // As the current look, or the two differ where the looks do not.
+            area.paint_frame(ui);
             caption(ui, rect, &name);
         }
         Way::SideBySide => {
@@ -49,7 +51,7 @@ pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer, area: &Area, view: &View) {
             ui.scope(|ui| {
                 ui.set_clip_rect(right.intersect(ui.clip_rect()));
                 picture(ui, fitting(rect, size_px), texture);
-                // As on the left, or the two differ where the looks do not.
+                // As on the left.
                 area.paint_frame(ui);
             });
             divider::names(ui, rect.with_max_y(rect.max.y - 20.0), x, ["Now", &name]);

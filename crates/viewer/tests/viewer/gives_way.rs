@@ -2,9 +2,9 @@
 
 use std::time::{Duration, Instant};
 
-use crate::common::{BUILT_IN, viewer, wait_until};
+use crate::common::{BUILT_IN, picture, viewer, wait_until};
 use egui::Key;
-use egui_kittest::Harness;
+use egui_kittest::{Harness, kittest::Queryable};
 use hairline_editor::Selection;
 use hairline_viewer::Viewer;
 
@@ -42,4 +42,19 @@ fn all_is_framed_and_then_the_pan_while_the_built_in_scene_is_refined() {
     let took = [press(&mut harness, Key::A), press(&mut harness, Key::F)];
     println!("A and F were answered after {took:?}");
     assert!(took.iter().all(|took| *took < SOON), "{took:?}");
+}
+
+/// In the middle of the window, where it is looked for, and in the line at the bottom.
+#[test]
+fn before_the_first_picture_the_window_says_what_it_does() {
+    let harness = viewer(BUILT_IN);
+    let middle = picture(&harness).center();
+    let said = ["building the scene", "rendering the first picture"];
+    let said = said.map(|words| harness.query_all_by_label(words).collect::<Vec<_>>());
+    let said = said.concat();
+    assert_eq!(said.len(), 2);
+    assert!(
+        said.iter()
+            .any(|words| words.rect().center().distance(middle) < 60.0)
+    );
 }

@@ -81,6 +81,12 @@ fn the_probe_reads_the_pixel_that_the_picture_shows() {
         scratched += u32::from(under.layers == ["turned"]);
     }
     assert!(scratched > 0);
+    // Each row is as high as its words.
+    let below = |above: &str, below: &str| {
+        let top = |label: &str| harness.get_by_label(label).rect().top();
+        top(below) - top(above)
+    };
+    assert!(below("Layers", "Segments") >= below("Object", "Material") - 0.5);
     // Beside the disk there is nothing.
     let corner = common::picture(&harness).left_bottom() + vec2(20.0, -20.0);
     assert_eq!(read(&mut harness, corner).under, None);

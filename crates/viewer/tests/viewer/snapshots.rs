@@ -2,8 +2,8 @@
 
 use crate::common;
 
-use egui::Key;
 use egui::accesskit::{Role, Toggled};
+use egui::{Color32, Key, Shape, TextureId};
 use egui_kittest::{Harness, kittest::NodeT, kittest::Queryable};
 use hairline_viewer::Viewer;
 
@@ -62,6 +62,37 @@ fn a_snapshot_is_flipped_to_and_restored_as_one_step() {
     let document = harness.state_mut().document_mut();
     assert_eq!(document.undo().as_deref(), Some("Restore Look 1"));
     assert_eq!(*harness.state().document().description(), turned);
+}
+
+/// What is around the scene's own picture is dimmed, as in the current look.
+#[test]
+fn a_snapshot_that_is_flipped_to_has_the_frame_of_the_picture() {
+    let mut harness = opened();
+    let dims = |harness: &Harness<'static, Viewer>| {
+        let shapes = harness.output().shapes.iter().map(|clipped| &clipped.shape);
+        let middle = common::picture(harness).center();
+        let is_picture = |shape: &Shape| match shape {
+            Shape::Mesh(mesh) => mesh.texture_id != TextureId::default(),
+            Shape::Rect(rect) => rect.brush.is_some(),
+            _ => false,
+        } && shape.visual_bounding_rect().contains(middle);
+        // What lies over the last picture there.
+        let mut count = 0;
+        for shape in shapes {
+            match shape {
+                shape if is_picture(shape) => count = 0,
+                Shape::Rect(rect) if rect.fill == Color32::from_black_alpha(110) => count += 1,
+                _ => {}
+            }
+        }
+        count
+    };
+    let now = dims(&harness);
+    assert!(now > 0);
+    click(&mut harness, "Snapshot");
+    click(&mut harness, "Look 1");
+    assert!(is_shown(&harness, "Look 1"));
+    assert_eq!(dims(&harness), now);
 }
 
 #[test]
