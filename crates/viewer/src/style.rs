@@ -5,6 +5,9 @@ use egui::{Color32, Rect, RectAlign, Response, ThemePreference, Tooltip, Visuals
 /// Text of what went wrong.
 pub(crate) const ERROR: Color32 = Color32::from_rgb(255, 140, 120);
 
+/// Under words on a picture: light ones are read on white.
+pub(crate) const UNDER_WORDS: Color32 = Color32::from_black_alpha(180);
+
 /// Of panels.
 pub(crate) const GROUND: Color32 = Color32::from_gray(30);
 
@@ -15,7 +18,7 @@ pub(crate) fn set(ctx: &egui::Context) {
     visuals.panel_fill = GROUND;
     visuals.window_fill = Color32::from_gray(34);
     visuals.extreme_bg_color = Color32::from_gray(16);
-    visuals.selection.bg_fill = Color32::from_gray(78);
+    visuals.selection.bg_fill = Color32::from_gray(70);
     visuals.selection.stroke.color = Color32::from_gray(240);
     visuals.hyperlink_color = Color32::from_gray(210);
     // All text can be read: 4.5 : 1 at least against what it stands on, faint text too.
@@ -23,6 +26,8 @@ pub(crate) fn set(ctx: &egui::Context) {
     visuals.widgets.inactive.fg_stroke.color = Color32::from_gray(205);
     visuals.weak_text_color = Some(Color32::from_gray(150));
     visuals.error_fg_color = ERROR;
+    // What cannot be chosen now is read as well.
+    visuals.disabled_alpha = 0.65;
     ctx.set_visuals_of(egui::Theme::Dark, visuals);
     ctx.all_styles_mut(|style| {
         style.spacing.item_spacing = egui::vec2(6.0, 4.0);

@@ -65,7 +65,7 @@ pub(crate) fn names(ui: &Ui, frame: Rect, x: f32, [left, right]: [&str; 2]) {
         let font = FontId::proportional(13.0);
         let galley = painter.layout_no_wrap(name.into(), font, Color32::from_gray(230));
         let rect = align.anchor_size(pos2(x, y), galley.size());
-        painter.rect_filled(rect.expand(3.0), 3.0, Color32::from_black_alpha(150));
+        painter.rect_filled(rect.expand(3.0), 3.0, crate::style::UNDER_WORDS);
         painter.galley(rect.min, galley, Color32::WHITE);
     }
 }

@@ -1,6 +1,6 @@
 //! The menus, the tools and how the brush is set.
 
-use egui::{Button, MenuBar, Panel, Ui};
+use egui::{Button, MenuBar, Panel, RichText, Ui};
 use hairline_editor::ranges::Parameter;
 
 use super::form::Form;
@@ -91,9 +91,15 @@ fn recent(ui: &mut Ui, viewer: &mut Viewer) {
 
 /// A command with its key; whether it was chosen.
 fn item(ui: &mut Ui, viewer: &Viewer, command: Command) -> bool {
-    let mut button = Button::selectable(viewer.is_on(command).unwrap_or(false), command.label());
+    let is_on = viewer.is_on(command).unwrap_or(false);
+    let mut button = Button::selectable(is_on, command.label());
     if let Some(shortcut) = command.shortcut() {
-        button = button.shortcut_text(command::key_text(&shortcut));
+        let visuals = ui.visuals();
+        let color = match is_on {
+            true => visuals.text_color(),
+            false => visuals.weak_text_color(),
+        };
+        button = button.shortcut_text(RichText::new(command::key_text(&shortcut)).color(color));
     }
     ui.add_enabled(viewer.can(command), button).clicked()
 }

@@ -165,7 +165,7 @@ fn scale(ui: &Ui, area: Rect, shows: Shows, findings: &Findings) {
     painter.rect_filled(
         bar.expand2(vec2(38.0, 14.0)).translate(vec2(-20.0, 0.0)),
         4.0,
-        Color32::from_black_alpha(190),
+        crate::style::UNDER_WORDS,
     );
     let step = bar.height() / colors.len() as f32;
     for (i, color) in colors.iter().enumerate() {

@@ -84,6 +84,6 @@ fn caption(ui: &Ui, rect: Rect, text: &str) {
     let galley = painter.layout_no_wrap(text.into(), font, Color32::WHITE);
     let at = rect.center_top() + vec2(0.0, 12.0);
     let rect = Align2::CENTER_TOP.anchor_size(at, galley.size());
-    painter.rect_filled(rect.expand(5.0), 4.0, Color32::from_black_alpha(170));
+    painter.rect_filled(rect.expand(5.0), 4.0, crate::style::UNDER_WORDS);
     painter.galley(rect.min, galley, Color32::WHITE);
 }

@@ -76,7 +76,7 @@ impl CanvasTexture {
                 .painter()
                 .layout_no_wrap(text.into(), font, Color32::WHITE);
             let rect = egui::Align2::CENTER_TOP.anchor_size(at, galley.size());
-            let ground = Color32::from_black_alpha(190);
+            let ground = crate::style::UNDER_WORDS;
             shapes.push(Shape::rect_filled(rect.expand(5.0), 4.0, ground));
             shapes.push(Shape::galley(rect.min, galley, Color32::WHITE));
         }

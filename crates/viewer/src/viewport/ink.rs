@@ -2,6 +2,8 @@
 
 use egui::{Align2, Color32, FontId, Painter, Pos2, Shape, Stroke, vec2};
 
+use crate::style::UNDER_WORDS;
+
 /// How much wider the halo is than the line, points.
 const HALO: f32 = 2.5;
 
@@ -57,10 +59,6 @@ pub(crate) fn words(
 ) {
     let galley = painter.layout_no_wrap(words.to_owned(), font, color);
     let rect = align.anchor_size(at, galley.size());
-    painter.rect_filled(
-        rect.expand2(vec2(5.0, 1.0)),
-        3.0,
-        Color32::from_black_alpha(150),
-    );
+    painter.rect_filled(rect.expand2(vec2(5.0, 1.0)), 3.0, UNDER_WORDS);
     painter.galley(rect.min, galley, color);
 }

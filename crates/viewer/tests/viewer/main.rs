@@ -7,6 +7,7 @@ mod common;
 mod brush;
 mod commands;
 mod compare;
+mod contrast;
 mod directions;
 mod export;
 mod files;

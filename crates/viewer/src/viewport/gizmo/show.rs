@@ -98,11 +98,7 @@ fn boxed(painter: &Painter, at: Pos2, align: Align2, words: &str, color: Color32
     // Not over the picture's edge.
     let shift = (inside.min - rect.min).max(Vec2::ZERO) + (inside.max - rect.max).min(Vec2::ZERO);
     let rect = rect.translate(shift);
-    painter.rect_filled(
-        rect.expand2(vec2(5.0, 2.0)),
-        3.0,
-        Color32::from_black_alpha(170),
-    );
+    painter.rect_filled(rect.expand2(vec2(5.0, 2.0)), 3.0, crate::style::UNDER_WORDS);
     painter.galley(rect.min, galley, color);
 }
 
