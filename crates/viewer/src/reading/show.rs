@@ -321,7 +321,7 @@ fn rows(ui: &mut Ui, reading: &Reading, view: &View) {
                 // The window keeps its width, whatever things are called.
                 let width = 200.0;
                 if name == "Layers" {
-                    ui.vertical(|ui| {
+                    ui.horizontal_wrapped(|ui| {
                         ui.set_width(width);
                         ui.add(Label::new(value).wrap());
                     });

@@ -1,7 +1,7 @@
 //! Reading the picture: the probe, the histogram, false colour, layers and the exposure of the window.
 
 use crate::common::{self, SMALL, click_at, viewer, wait_built, wait_until};
-use egui::{Key, Modifiers, Pos2, vec2};
+use egui::{Key, Modifiers, Pos2, Rect, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use hairline_gpu::headless::test_gpu;
@@ -81,12 +81,15 @@ fn the_probe_reads_the_pixel_that_the_picture_shows() {
         scratched += u32::from(under.layers == ["turned"]);
     }
     assert!(scratched > 0);
-    // Each row is as high as its words.
-    let below = |above: &str, below: &str| {
-        let top = |label: &str| harness.get_by_label(label).rect().top();
-        top(below) - top(above)
-    };
-    assert!(below("Layers", "Segments") >= below("Object", "Material") - 0.5);
+    // What a row tells stands beside its name.
+    harness.run_steps(2);
+    let row = harness.get_by_label("Layers").rect();
+    let beside = |rect: &Rect| rect.left() > row.right() && row.y_range().contains(rect.center().y);
+    let told = harness.query_all_by_label("turned");
+    let mut told = told.map(|words| words.rect()).collect::<Vec<_>>();
+    told.retain(beside);
+    let told = told[0];
+    assert!((told.center().y - row.center().y).abs() < 1.0, "{told:?}");
     // Beside the disk there is nothing.
     let corner = common::picture(&harness).left_bottom() + vec2(20.0, -20.0);
     assert_eq!(read(&mut harness, corner).under, None);
