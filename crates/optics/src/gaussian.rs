@@ -73,7 +73,7 @@ impl Gaussian {
 
     /// The place below which a share lies, for shares within [1e-6, 1 - 1e-6]: within 1e-7.
     #[inline]
-    pub(crate) fn quantile(&self, share: f64) -> f64 {
+    pub fn quantile(&self, share: f64) -> f64 {
         let tail = share.min(1.0 - share).clamp(SHARE_MIN, 0.5);
         let node = ((tail.to_bits() - SHARE_MIN.to_bits()) >> REST_BITS) as usize;
         let node = node.min(QUANTILE_COUNT - 2);
