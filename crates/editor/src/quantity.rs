@@ -28,6 +28,8 @@ pub enum Unit {
     Exposure,
     /// Pixels.
     Pixel,
+    /// Kelvins.
+    Kelvin,
 }
 
 /// How often each kind of unit is a factor.
@@ -37,6 +39,7 @@ struct Dimension {
     angle: i8,
     exposure: i8,
     pixel: i8,
+    temperature: i8,
 }
 
 impl Dimension {
@@ -45,6 +48,7 @@ impl Dimension {
         angle: 0,
         exposure: 0,
         pixel: 0,
+        temperature: 0,
     };
 
     /// Of a product, or with -1 of a quotient.
@@ -55,6 +59,7 @@ impl Dimension {
             angle: sum(self.angle, other.angle),
             exposure: sum(self.exposure, other.exposure),
             pixel: sum(self.pixel, other.pixel),
+            temperature: sum(self.temperature, other.temperature),
         }
     }
 
@@ -64,15 +69,23 @@ impl Dimension {
 
     /// What a message calls it.
     fn name(self) -> &'static str {
-        match (self.length, self.angle, self.exposure, self.pixel) {
-            (0, 0, 0, 0) => "a number without a unit",
-            (1, 0, 0, 0) => "a length",
-            (2, 0, 0, 0) => "an area",
-            (-1, 0, 0, 0) => "a number for each length",
-            (-2, 0, 0, 0) => "a number for each area",
-            (0, 1, 0, 0) => "an angle",
-            (0, 0, 1, 0) => "an exposure",
-            (0, 0, 0, 1) => "a number of pixels",
+        let Self {
+            length,
+            angle,
+            exposure,
+            pixel,
+            temperature,
+        } = self;
+        match [length, angle, exposure, pixel, temperature] {
+            [0, 0, 0, 0, 0] => "a number without a unit",
+            [1, 0, 0, 0, 0] => "a length",
+            [2, 0, 0, 0, 0] => "an area",
+            [-1, 0, 0, 0, 0] => "a number for each length",
+            [-2, 0, 0, 0, 0] => "a number for each area",
+            [0, 1, 0, 0, 0] => "an angle",
+            [0, 0, 1, 0, 0] => "an exposure",
+            [0, 0, 0, 1, 0] => "a number of pixels",
+            [0, 0, 0, 0, 1] => "a temperature",
             _ => "a product of units",
         }
     }
@@ -92,10 +105,14 @@ impl Unit {
                 ..none
             },
             Self::Pixel => Dimension { pixel: 1, ..none },
+            Self::Kelvin => Dimension {
+                temperature: 1,
+                ..none
+            },
         }
     }
 
-    /// One of it, in metres, degrees, steps and pixels.
+    /// One of it, in metres, degrees, steps, pixels and kelvins.
     fn size(self) -> f64 {
         match self {
             Self::Micrometre => 1e-6,
@@ -116,6 +133,7 @@ impl Unit {
             Self::PerSquareMetre => "give it in /m², /cm² or /mm²",
             Self::Exposure => "give it in EV",
             Self::Pixel => "give it in px",
+            Self::Kelvin => "give it in K",
         }
     }
 
@@ -140,6 +158,7 @@ impl Unit {
             Self::PerSquareMetre => (1.0, " /m²"),
             Self::Exposure => (1.0, " EV"),
             Self::Pixel => (1.0, " px"),
+            Self::Kelvin => (1.0, " K"),
         };
         Shown {
             factor,

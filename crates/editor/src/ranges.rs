@@ -106,6 +106,10 @@ pub enum Parameter {
     LightVertex,
     /// `light.radiance`
     Radiance,
+    /// `light.exposure_ev`
+    LightExposure,
+    /// `light.temperature_k`
+    LightTemperature,
     /// `light.color`
     LightColor,
 }
@@ -135,7 +139,7 @@ pub(crate) const DEFAULT_DIAGONAL_M: f64 = 0.3;
 impl Parameter {
     /// Every parameter.
     #[cfg(test)]
-    pub(crate) const ALL: [Self; 47] = [
+    pub(crate) const ALL: [Self; 49] = [
         Self::CameraPosition,
         Self::CameraTarget,
         Self::CameraUp,
@@ -182,6 +186,8 @@ impl Parameter {
         Self::LightRadius,
         Self::LightVertex,
         Self::Radiance,
+        Self::LightExposure,
+        Self::LightTemperature,
         Self::LightColor,
     ];
 
@@ -237,6 +243,8 @@ impl Parameter {
             P::LightCenter | P::LightVertex => (-5.0 * d..=5.0 * d, limits::COORDINATE_M),
             P::LightRadius => (2e-3 * d..=d, limits::SIZE_M),
             P::Radiance => (0.01..=1000.0, NOT_NEGATIVE),
+            P::LightExposure => (-8.0..=8.0, limits::EXPOSURE_EV),
+            P::LightTemperature => (1800.0..=10_000.0, limits::TEMPERATURE_K),
             P::LightColor => (0.0..=1.0, NOT_NEGATIVE),
         };
         let text = texts::of(self);
@@ -292,7 +300,8 @@ impl Parameter {
             | P::LightRadius
             | P::LightVertex => Unit::Metre,
             P::FieldOfView | P::EnvironmentRotation | P::Rotation | P::Jitter => Unit::Degree,
-            P::Exposure => Unit::Exposure,
+            P::Exposure | P::LightExposure => Unit::Exposure,
+            P::LightTemperature => Unit::Kelvin,
             P::PictureSize | P::Filter => Unit::Pixel,
             P::Coherence | P::Width => Unit::Micrometre,
             P::Depth => Unit::Nanometre,

@@ -44,6 +44,8 @@ pub struct SpectralSample {
     pub wavelength_nm: f64,
     /// Weight in linear Rec.709 red, green and blue.
     pub weight: [f64; 3],
+    /// Power of D65 there, up to a factor.
+    daylight: f64,
 }
 
 static SAMPLES: LazyLock<Vec<SpectralSample>> = LazyLock::new(|| {
@@ -61,6 +63,7 @@ static SAMPLES: LazyLock<Vec<SpectralSample>> = LazyLock::new(|| {
             SpectralSample {
                 wavelength_nm,
                 weight: REC709_FROM_XYZ.map(|m| d65 * (m[0] * x + m[1] * y + m[2] * z)),
+                daylight: d65,
             }
         })
         .collect();
@@ -91,6 +94,23 @@ pub(crate) fn rgb_from_spectral_rgb(value: impl Fn(f64) -> [f64; 3]) -> [f64; 3]
     })
 }
 
+/// The colour of a black body in linear Rec.709, of luminance 1. D65 is white, so 6500 K is nearly. A channel is 0 where the colour lies
+/// outside the gamut: blue below about 1900 K.
+///
+/// Planck's law with CODATA's second radiation constant.
+pub fn black_body_rgb(temperature_k: f64) -> [f64; 3] {
+    const SECOND_RADIATION_NM_K: f64 = 1.438_776_877e7;
+    let rgb = samples().iter().fold([0.0; 3], |sum, s| {
+        let x = SECOND_RADIATION_NM_K / (s.wavelength_nm * temperature_k);
+        // Over that of the wavelength in the middle, which keeps low temperatures from vanishing.
+        let middle = SECOND_RADIATION_NM_K / (WAVELENGTH_MEAN_NM * temperature_k);
+        let power = (WAVELENGTH_MEAN_NM / s.wavelength_nm).powi(5) * (middle.exp_m1() / x.exp_m1());
+        std::array::from_fn(|c| sum[c] + s.weight[c] * power / s.daylight)
+    });
+    let luminance = 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
+    rgb.map(|c: f64| (c / luminance).max(0.0))
+}
+
 /// The weights at any wavelength, as a density per nm: what a Monte Carlo estimate over wavelength divides by its pdf.
 /// Zero outside 380 to 780 nm.
 pub fn weight_per_nm(wavelength_nm: f64) -> [f64; 3] {
@@ -113,6 +133,30 @@ mod tests {
     fn a_perfect_mirror_is_white() {
         for c in rgb_from_reflectance(|_| 1.0) {
             assert!((c - 1.0).abs() < 1e-12);
+        }
+    }
+
+    /// CIE 15: illuminant A is a black body of 2856 K (2855.5 K by today's constant) at x = 0.44758, y = 0.40745. D65 is a little greener than one
+    /// of 6504 K, at x = 0.3135, y = 0.3237.
+    #[test]
+    fn black_bodies_have_their_chromaticity() {
+        const XYZ_FROM_REC709: [[f64; 3]; 3] = [
+            [0.4124564, 0.3575761, 0.1804375],
+            [0.2126729, 0.7151522, 0.0721750],
+            [0.0193339, 0.1191920, 0.9503041],
+        ];
+        for (temperature_k, x, y) in [(2855.5, 0.44758, 0.40745), (6504.0, 0.3135, 0.3237)] {
+            let rgb = black_body_rgb(temperature_k);
+            let xyz = XYZ_FROM_REC709.map(|m| m[0] * rgb[0] + m[1] * rgb[1] + m[2] * rgb[2]);
+            let sum: f64 = xyz.iter().sum();
+            let (found_x, found_y) = (xyz[0] / sum, xyz[1] / sum);
+            assert!((found_x - x).abs() < 1e-3, "{temperature_k}: {found_x}");
+            assert!((found_y - y).abs() < 1e-3, "{temperature_k}: {found_y}");
+            assert!((xyz[1] - 1.0).abs() < 1e-3);
+        }
+        for temperature_k in [1000.0, 40_000.0] {
+            let rgb = black_body_rgb(temperature_k);
+            assert!(rgb.iter().all(|c| c.is_finite() && *c >= 0.0), "{rgb:?}");
         }
     }
 

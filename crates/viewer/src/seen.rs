@@ -86,7 +86,14 @@ fn is_same_light(x: &Light, y: &Light) -> bool {
         hidden,
         kind,
         radiance,
+        exposure_ev,
+        temperature_k,
         color,
     } = x;
-    *hidden == y.hidden && *kind == y.kind && *radiance == y.radiance && *color == y.color
+    *hidden == y.hidden
+        && *kind == y.kind
+        && *radiance == y.radiance
+        && *exposure_ev == y.exposure_ev
+        && *temperature_k == y.temperature_k
+        && *color == y.color
 }

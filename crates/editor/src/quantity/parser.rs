@@ -4,7 +4,7 @@
 
 use super::Dimension;
 
-/// A number with its dimension, in metres, degrees, steps and pixels.
+/// A number with its dimension, in metres, degrees, steps, pixels and kelvins.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Amount {
     pub value: f64,
@@ -305,10 +305,17 @@ fn unit(word: &str, n: i8) -> Result<Amount, String> {
             },
         ),
         "px" => (1.0, Dimension { pixel: 1, ..none }),
+        "k" => (
+            1.0,
+            Dimension {
+                temperature: 1,
+                ..none
+            },
+        ),
         "%" => (0.01, none),
         _ => {
             return Err(format!(
-                "has \"{}\", which is no unit known here (nm, um, mm, cm, m, in, deg, rad, EV, px, %)",
+                "has \"{}\", which is no unit known here (nm, um, mm, cm, m, in, deg, rad, EV, px, K, %)",
                 word.chars().take(20).collect::<String>()
             ));
         }

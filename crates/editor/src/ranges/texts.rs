@@ -191,6 +191,14 @@ pub(super) fn of(parameter: Parameter) -> Text {
             "Radiance",
             "Brightness of the light as it is seen. 40 to 200 for small lamps in dim surroundings lets the highlight clip and its scratches glow.",
         ),
+        P::LightExposure => (
+            "Stops",
+            "Each stop doubles the radiance: for balancing lights against one another.",
+        ),
+        P::LightTemperature => (
+            "Temperature",
+            "Colour of a glowing body: 2700 K for a warm bulb, 5600 K for a flash, 6500 K for daylight. Brightness stays.",
+        ),
         P::LightColor => (
             "Colour",
             "Tint of the light. Scratches split what is in it: white light shows every colour, a warm one fewer blues.",

@@ -53,6 +53,7 @@ fn units_sums_and_commas() {
     is(per("45°", Unit::Degree), 45.0);
     is(per("30 deg", Unit::Degree), 30.0);
     is(per("-1.5 EV", Unit::Exposure), -1.5);
+    is(per("3200 K", Unit::Kelvin), 3200.0);
     is(per("50 %", Unit::None), 0.5);
     is(per("640 px", Unit::Pixel), 640.0);
 }

@@ -1,11 +1,13 @@
 //! Lights as an author writes them: all that is particular to a kind but its look in a window.
 
 use glam::DVec3;
+use hairline_optics::spectrum::black_body_rgb;
 use serde::Serialize;
 
-use super::ranges::{Check, components, not_negative, point, size};
+use super::limits::{EXPOSURE_EV, TEMPERATURE_K};
+use super::ranges::{Check, components, not_negative, point, size, within};
 use super::table::{Read, Table, Value};
-use super::values::is_false;
+use super::values::{is_false, is_zero};
 use crate::error::Error;
 use crate::polygon;
 use crate::scene;
@@ -24,6 +26,13 @@ pub struct Light {
     pub kind: LightKind,
     /// W sr^-1 m^-2 in effect; not negative. Default: 1.
     pub radiance: f64,
+    /// Stops: the radiance is multiplied by 2^`exposure_ev`. Default: 0.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub exposure_ev: f64,
+    /// The light is a black body of this temperature, K, of the luminance that it would have without. `color` is a filter before it. Default:
+    /// none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub temperature_k: Option<f64>,
     /// Factor on the radiance, linear Rec.709, not negative; `[1, 1, 1]` has the spectrum of D65. Default: `[1, 1, 1]`.
     pub color: [f64; 3],
 }
@@ -56,6 +65,8 @@ impl Light {
             hidden: false,
             kind,
             radiance: 1.0,
+            exposure_ev: 0.0,
+            temperature_k: None,
             color: [1.0; 3],
         }
     }
@@ -73,6 +84,14 @@ impl Light {
     pub(super) fn check_at(&self, key: &str) -> Check {
         not_negative(&format!("{key}.radiance"), self.radiance)?;
         components(&format!("{key}.color"), self.color, 0.0..=f64::MAX)?;
+        within(&format!("{key}.exposure_ev"), self.exposure_ev, EXPOSURE_EV)?;
+        if let Some(temperature_k) = self.temperature_k {
+            within(
+                &format!("{key}.temperature_k"),
+                temperature_k,
+                TEMPERATURE_K,
+            )?;
+        }
         match &self.kind {
             LightKind::Sphere { center_m, radius_m } => {
                 point(&format!("{key}.center_m"), *center_m)?;
@@ -91,7 +110,9 @@ impl Light {
 
     /// What it is in a scene.
     pub(crate) fn in_scene(&self) -> scene::Light {
-        let radiance = self.color.map(|channel| channel * self.radiance);
+        let tint = self.temperature_k.map_or([1.0; 3], black_body_rgb);
+        let radiance = self.radiance * self.exposure_ev.exp2();
+        let radiance = std::array::from_fn(|c| self.color[c] * tint[c] * radiance);
         match &self.kind {
             LightKind::Sphere { center_m, radius_m } => scene::Light::Sphere {
                 center_m: (*center_m).into(),
@@ -157,7 +178,15 @@ impl Read for Light {
             value,
             key,
             "kind",
-            &["kind", "name", "hidden", "radiance", "color"],
+            &[
+                "kind",
+                "name",
+                "hidden",
+                "radiance",
+                "exposure_ev",
+                "temperature_k",
+                "color",
+            ],
             &[
                 ("sphere", &["center_m", "radius_m"]),
                 ("polygon", &["vertices_m", "two_sided"]),
@@ -178,6 +207,8 @@ impl Read for Light {
             hidden: table.or("hidden", false)?,
             kind,
             radiance: table.or("radiance", 1.0)?,
+            exposure_ev: table.or("exposure_ev", 0.0)?,
+            temperature_k: table.optional("temperature_k")?,
             color: table.or("color", [1.0; 3])?,
         })
     }

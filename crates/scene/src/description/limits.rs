@@ -18,7 +18,9 @@ pub const SIZE_M: RangeInclusive<f64> = SMALLEST_M..=LARGEST_M;
 
 /// `camera.fov_y_deg`
 pub const FOV_Y_DEG: RangeInclusive<f64> = 0.001..=179.0;
-/// `camera.exposure_ev`
+/// `light.temperature_k`
+pub const TEMPERATURE_K: RangeInclusive<f64> = 1000.0..=40_000.0;
+/// `camera.exposure_ev`, `light.exposure_ev`
 pub const EXPOSURE_EV: RangeInclusive<f64> = -64.0..=64.0;
 /// `render.size_px`, either way.
 pub const PICTURE_PX: RangeInclusive<f64> = 1.0..=16_384.0;

@@ -60,6 +60,10 @@ pub(super) fn is_default<T: Default + PartialEq>(value: &T) -> bool {
     *value == T::default()
 }
 
+pub(super) fn is_zero(value: &f64) -> bool {
+    *value == 0.0
+}
+
 pub(super) fn is_false(value: &bool) -> bool {
     !value
 }

@@ -224,6 +224,8 @@ fn everything() -> Description {
                     radius_m: 0.5,
                 },
                 radiance: 0.0,
+                exposure_ev: 0.0,
+                temperature_k: None,
                 color: [1.0; 3],
             },
             Light {
@@ -234,6 +236,8 @@ fn everything() -> Description {
                     two_sided: true,
                 },
                 radiance: 1e30,
+                exposure_ev: -2.5,
+                temperature_k: Some(3200.0),
                 color: [0.1, 0.2, 0.3],
             },
         ],

@@ -11,6 +11,9 @@ use crate::app::Viewer;
 use crate::command::Command;
 use crate::tools::Tool;
 
+/// Changes the colour of a white light little.
+const DAYLIGHT_K: f64 = 6500.0;
+
 pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer, index: usize) {
     let Some(mut light) = viewer.document.description().lights.get(index).cloned() else {
         return;
@@ -22,6 +25,21 @@ pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer, index: usize) {
     light.name = (!name.is_empty()).then_some(name);
     form.toggle("Hidden", "A hidden light gives no light", &mut light.hidden);
     form.number(Parameter::Radiance, &mut light.radiance);
+    form.number(Parameter::LightExposure, &mut light.exposure_ev);
+    let mut glows = light.temperature_k.is_some();
+    form.toggle(
+        "Colour by temperature",
+        "The colour of a glowing body; the colour below is a filter before it",
+        &mut glows,
+    );
+    if glows {
+        form.number(
+            Parameter::LightTemperature,
+            light.temperature_k.get_or_insert(DAYLIGHT_K),
+        );
+    } else {
+        light.temperature_k = None;
+    }
     form.color(Parameter::LightColor, &mut light.color);
     match &mut light.kind {
         LightKind::Sphere { center_m, radius_m } => {
