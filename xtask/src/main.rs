@@ -5,6 +5,7 @@ mod dist;
 mod fit_lobes;
 mod fuzz;
 mod make_models;
+mod paths;
 mod pictures;
 mod rooms;
 mod shaders;
@@ -25,6 +26,8 @@ enum Command {
     Fuzz(fuzz::Fuzz),
     /// Make the models and the sky of scenes/, and write them to scenes/models and scenes/maps.
     MakeModels(make_models::MakeModels),
+    /// Find paths in documents and shaders that name no file.
+    Paths,
     /// Render the pictures of the docs into docs/pictures.
     Pictures(pictures::Pictures),
     /// Find modules that import each other in a circle; there must be none.
@@ -42,6 +45,7 @@ fn main() -> anyhow::Result<()> {
         Command::FitLobes(command) => command.run(),
         Command::Fuzz(command) => command.run(),
         Command::MakeModels(command) => command.run(),
+        Command::Paths => paths::run(),
         Command::Pictures(command) => command.run(),
         Command::Rooms(command) => command.run(),
         Command::Shaders(command) => command.run(),

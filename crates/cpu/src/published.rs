@@ -1,4 +1,4 @@
-//! The method of 2018 (docs/model.md, section 9): what [`crate::scratches`] and [`crate::base`] do for Hairline's own.
+//! The method of 2018 (docs/model.md, section 9): what [`crate::shade_scratches`] and [`crate::shade_base`] do for Hairline's own.
 //!
 //! The way of a scratch is the same: what the pixel sees of it (`segment`), the light on it (`lights`), and what the base pays.
 
@@ -92,7 +92,7 @@ impl<'a> Published<'a> {
         }
     }
 
-    /// What the lobe reflects of a sphere, by the pivot transform, for [`crate::base::base_radiance`].
+    /// What the lobe reflects of a sphere, by the pivot transform, for [`crate::shade_base::Base::radiance`].
     pub fn base_sphere(
         &self,
         point: &SurfacePoint,

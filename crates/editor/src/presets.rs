@@ -13,7 +13,7 @@ use hairline_scene::description::{
 
 use crate::place_light;
 
-/// A kind of wear to begin a layer with.
+/// A layer of scratches to begin with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum LayerPreset {
     /// Scratches in every direction.

@@ -7,14 +7,14 @@
 use glam::{DVec2, DVec3};
 use hairline_scene::{Light, Scene};
 
-mod cone;
+mod bound;
 mod polygon;
 mod sphere;
 #[cfg(test)]
 mod tests;
 
 #[cfg(test)]
-use cone::Cone;
+use bound::Cone;
 use polygon::PolygonLight;
 use sphere::SphereLight;
 

@@ -26,7 +26,7 @@ const FACING_MIN_COS: f32 = 0.2;
 
 // Pairs that lights reach and that are not lit yet: fewer than 64 are left over, and a round adds up to 7 lights for each lane.
 const QUEUE: u32 = 512u;
-// Twin: src/shade_scratches.rs.
+// Twin: gpu/src/light_ranges.rs.
 const LIGHTS_AT_ONCE: u32 = 7u;
 const_assert LANES * (LIGHTS_AT_ONCE + 1u) <= QUEUE;
 

@@ -1,4 +1,4 @@
-// The switches of the method of 2018. Pipelines are compiled for them. Twin: optics/src/method.rs; src/variant.rs sets the numbers.
+// The switches of the method of 2018. Pipelines are compiled for them. Twin: index/src/method.rs; src/variant.rs sets the numbers.
 
 // Whether scratches are looked up in a list of each triangle, in place of the BVH.
 override PUBLISHED_LISTS: bool = false;

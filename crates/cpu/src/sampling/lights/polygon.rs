@@ -7,9 +7,9 @@
 
 use glam::{DVec2, DVec3};
 
-use super::cone::widened;
+use super::bound::widened;
 #[cfg(test)]
-use super::cone::{BOUND_SLACK, Cone};
+use super::bound::{BOUND_SLACK, Cone};
 
 /// Points this near the plane, relative to the polygon and the way to it, see its edge: nothing. What is lost is as small.
 const EDGE_ON: f64 = 1e-10;

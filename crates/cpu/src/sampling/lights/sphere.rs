@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3};
 
-use super::cone::{BOUND_SLACK, Cone};
+use super::bound::{BOUND_SLACK, Cone};
 
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SphereLight {
