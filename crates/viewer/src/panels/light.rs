@@ -28,7 +28,7 @@ pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer, index: usize) {
     form.number(Parameter::LightExposure, &mut light.exposure_ev);
     let mut glows = light.temperature_k.is_some();
     form.toggle(
-        "Colour by temperature",
+        "Black body",
         "The colour of a glowing body; the colour below is a filter before it",
         &mut glows,
     );
