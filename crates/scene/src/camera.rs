@@ -88,7 +88,18 @@ pub fn framing(points_m: &[DVec3], [right, up, forward]: [DVec3; 3], tan: DVec2)
     let cz = ((least - most) / (2.0 * tan)).min_element();
     // Nothing else holds the camera back from entering what is flat and seen along itself.
     let cz = cz.min(nearest - 10.0 * limits::SMALLEST_M);
-    let c = 0.5 * (least + most);
+    let mut c = 0.5 * (least + most);
+    // Along the axis that has room to spare, as much of it on either side: steps too short to overshoot.
+    for _ in 0..16 {
+        let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+        for point in points_m {
+            let point = *point - middle;
+            let flat = DVec2::new(point.dot(right), point.dot(up));
+            let seen = (flat - c) / (point.dot(forward) - cz);
+            (low, high) = (low.min(seen), high.max(seen));
+        }
+        c += 0.5 * (nearest - cz) * (low + high);
+    }
     let position_m = middle + right * c.x + up * c.y + forward * cz;
     Framing {
         position_m,

@@ -579,6 +579,8 @@ fn a_slanted_model_fills_its_picture() {
     });
     let margin = least.min(DVec2::ONE - most).min_element();
     assert!((0.0..0.06).contains(&margin), "{least} to {most}");
+    let middle = 0.5 * (least + most) - DVec2::splat(0.5);
+    assert!(middle.length() < 0.03, "{least} to {most}");
 }
 
 #[test]
