@@ -1,9 +1,10 @@
 //! How many pictures come while a hand drags, and how soon the first: counted on the screen, with an event every 50 ms that waits for
 //! nothing.
 //!
-//! `HAIRLINE_SCREENSHOTS=FOLDER cargo test --release -p hairline --test window drag -- --nocapture` prints the figures of both scenes; without
+//! `HAIRLINE_SCREENSHOTS=FOLDER cargo test --release --workspace --test window drag -- --nocapture` prints the figures of both scenes; without
 //! the folder, those of the plate.
 
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 use egui::{Pos2, vec2};
@@ -15,6 +16,10 @@ use crate::{PATIENCE, Window, keep};
 
 const BUILT_IN: &str = include_str!("../../src/built_in_scene.toml");
 const PLATE: &str = include_str!("../../../../scenes/plate.toml");
+
+/// Where its handles lie in the picture, but not in the middle, where changes are looked for.
+const LAMP_IN_PLATE_M: [f64; 3] = [-0.07, 0.07, 0.04];
+const LAMP_IN_BUILT_IN_M: [f64; 3] = [-0.1, 0.1, 0.055];
 
 /// Between two events of the mouse.
 const EVENT: Duration = Duration::from_millis(50);
@@ -67,6 +72,14 @@ impl<'d> Watch<'d> {
             area,
             last: display.screenshot(area),
         }
+    }
+
+    /// Once there is a picture that stands still for so long.
+    fn first(display: &'d Display, layout: &Layout, window: &Window, quiet: Duration) -> Self {
+        let mut watch = Self::new(display, layout);
+        window.wait_for("a picture", || watch.is_lit());
+        watch.settle(quiet);
+        watch
     }
 
     /// Whether there is a picture, in place of none.
@@ -145,21 +158,19 @@ fn pictures_come_while_a_hand_drags() {
         return;
     };
     // The heavier scene alone would take another minute of every test run, and so would all refinements.
-    let scenes = [("plate", PLATE), ("built-in scene", BUILT_IN)];
+    let scenes = [
+        ("plate", PLATE, LAMP_IN_PLATE_M),
+        ("built-in scene", BUILT_IN, LAMP_IN_BUILT_IN_M),
+    ];
     let (count, quiet) = if std::env::var_os("HAIRLINE_SCREENSHOTS").is_some() {
         (2, Duration::from_secs(4))
     } else {
         (1, Duration::ZERO)
     };
-    for (name, text) in scenes.into_iter().take(count) {
+    for (name, text, lamp_m) in scenes.into_iter().take(count) {
         let folder = tempfile::tempdir().unwrap();
-        let scene = folder.path().join("plate.toml");
-        std::fs::write(&scene, text).unwrap();
-        let layout = Layout::of(&scene);
-        let window = Window::open(&display, folder.path(), &scene);
-        let mut watch = Watch::new(&display, &layout);
-        window.wait_for("a picture", || watch.is_lit());
-        watch.settle(quiet);
+        let (layout, window) = open(&display, folder.path(), text);
+        let mut watch = Watch::first(&display, &layout, &window, quiet);
         let middle = layout.picture().center();
         let turned = drag(&mut watch, middle, vec2(120.0, 40.0), TURNED, quiet);
         turned.print(&format!("{name}, the view turns"));
@@ -168,8 +179,28 @@ fn pictures_come_while_a_hand_drags() {
         let widened = drag(&mut watch, layout.width(), vec2(40.0, 0.0), EDITED, quiet);
         widened.print(&format!("{name}, the width of a layer"));
         drop(window);
+
+        let lamp = format!(
+            "\n[[light]]\nname = \"lamp\"\nkind = \"sphere\"\ncenter_m = {lamp_m:?}\nradius_m = 0.004\nradiance = 200.0\n"
+        );
+        let (layout, window) = open(&display, folder.path(), &(text.to_owned() + &lamp));
+        let mut watch = Watch::first(&display, &layout, &window, quiet);
+        let lamp = layout.lamp().expect("the lamp's handles in the picture");
+        assert!(!watch.area.expand(60.0).contains(lamp.handle), "{lamp:?}");
+        display.click(lamp.line);
+        watch.settle(Duration::from_secs(1));
+        let moved = drag(&mut watch, lamp.handle, vec2(30.0, 20.0), EDITED, quiet);
+        moved.print(&format!("{name}, a handle moves a lamp"));
+        drop(window);
         // A busy machine draws fewer; where each event gives the picture in progress up, none comes.
         assert!(turned.pictures >= 2, "{turned:?}");
         assert!(widened.pictures >= 1, "{widened:?}");
+        assert!(moved.pictures >= 1, "{moved:?}");
     }
+}
+
+fn open<'d>(display: &'d Display, folder: &Path, text: &str) -> (Layout, Window<'d>) {
+    let scene = folder.join("plate.toml");
+    std::fs::write(&scene, text).unwrap();
+    (Layout::of(&scene), Window::open(display, folder, &scene))
 }

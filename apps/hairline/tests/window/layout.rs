@@ -16,6 +16,16 @@ pub struct Layout {
     picture: Rect,
     layer: Pos2,
     width: Pos2,
+    lamp: Option<Lamp>,
+}
+
+/// A light of that name.
+#[derive(Clone, Copy, Debug)]
+pub struct Lamp {
+    /// Its line in the outliner.
+    pub line: Pos2,
+    /// What moves it across the view, once it is selected.
+    pub handle: Pos2,
 }
 
 impl Layout {
@@ -41,6 +51,16 @@ impl Layout {
             harness.step();
         }
         harness.run_steps(3);
+        let lamp = harness.query_by_label("lamp").map(|it| it.rect().center());
+        let lamp = lamp.map(|line| {
+            harness.get_by_label("lamp").click();
+            harness.run_steps(3);
+            let handle = harness.get_by_label("Move light across the view");
+            Lamp {
+                line,
+                handle: handle.rect().center(),
+            }
+        });
         let layer = harness.get_by_label("random scratches").rect().center();
         harness.get_by_label("random scratches").click();
         harness.run_steps(3);
@@ -60,6 +80,7 @@ impl Layout {
             picture,
             layer,
             width,
+            lamp,
         }
     }
 
@@ -75,5 +96,10 @@ impl Layout {
     /// The box of the layer's width, once the layer is selected.
     pub fn width(&self) -> Pos2 {
         self.width
+    }
+
+    /// The light called "lamp", where there is one.
+    pub fn lamp(&self) -> Option<Lamp> {
+        self.lamp
     }
 }

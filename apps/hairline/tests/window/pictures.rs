@@ -1,6 +1,6 @@
 //! Pictures of the window for the docs, and of what an artist does first.
 //!
-//! `HAIRLINE_SCREENSHOTS=$PWD/docs/pictures cargo test --release -p hairline --test window pictures -- --ignored` makes them all. They show
+//! `HAIRLINE_SCREENSHOTS=$PWD/docs/pictures cargo test --release --workspace --test window pictures -- --ignored` makes them all. They show
 //! what is there, whether or not it is finished by [`LONGEST`]: look at the status line.
 
 use std::path::Path;
