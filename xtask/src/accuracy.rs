@@ -7,6 +7,7 @@
 mod compared;
 mod cost;
 mod figure;
+mod figures;
 mod interference;
 mod masks;
 mod plots;
@@ -20,6 +21,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
+use figures::Figures;
 use hairline_image::output::write_atomically;
 use renders::Renders;
 use serde::Serialize;
@@ -52,16 +54,6 @@ enum Part {
     Cost,
     /// Nothing: the document is written anew.
     Text,
-}
-
-/// All figures. A part is None if it was never measured.
-#[derive(Serialize)]
-pub(crate) struct Figures {
-    scenes: Option<Vec<scenes::SceneFigures>>,
-    sweeps: Option<Vec<sweeps::SweepFigures>>,
-    masks: Option<masks::MaskFigures>,
-    interference: Option<interference::Interference>,
-    cost: Option<cost::Cost>,
 }
 
 impl Accuracy {

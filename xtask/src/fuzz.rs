@@ -1,15 +1,17 @@
 //! `cargo xtask fuzz N`: mutated inputs of all kinds go through the command line, each in a process of its own with limits of time and
 //! memory. A case depends on the seed and its number alone.
 
+mod case;
 mod found;
 mod judge;
 mod mutate;
 mod originals;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use anyhow::{Context, Result, bail};
+use case::{Case, Kind};
 use clap::{Args, ValueEnum};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
@@ -41,33 +43,6 @@ pub struct Fuzz {
     /// Where failing inputs are kept.
     #[arg(long, default_value = "target/fuzz")]
     keep: PathBuf,
-}
-
-/// A kind of input.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Kind {
-    /// Scene files.
-    Toml,
-    /// Lists of scratches.
-    Csv,
-    /// Binary glTF.
-    Glb,
-    /// glTF as text.
-    Gltf,
-    /// Radiance maps.
-    Hdr,
-    /// OpenEXR maps.
-    Exr,
-    /// Textures.
-    Png,
-}
-
-/// One input: files in a folder, of which `scene.toml` is rendered.
-pub struct Case {
-    /// What failures call it.
-    pub name: String,
-    /// Names and contents.
-    pub files: Vec<(String, Vec<u8>)>,
 }
 
 impl Fuzz {
@@ -142,17 +117,7 @@ impl Fuzz {
 
     fn keep(&self, case: &Case) -> Result<PathBuf> {
         let folder = self.keep.join(&case.name);
-        write(case, &folder)?;
+        case.write(&folder)?;
         Ok(folder)
     }
-}
-
-/// Writes a case's files.
-fn write(case: &Case, folder: &Path) -> Result<()> {
-    std::fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
-    for (name, bytes) in &case.files {
-        let path = folder.join(name);
-        std::fs::write(&path, bytes).with_context(|| path.display().to_string())?;
-    }
-    Ok(())
 }

@@ -8,14 +8,20 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, ensure};
 
-const CRATES: [&str; 7] = [
-    "gpu",
-    "image",
-    "index",
-    "optics",
-    "plot",
-    "reference",
-    "scene",
+/// Those that must have none: all but the viewer and the command line.
+const CRATES: [&str; 12] = [
+    "crates/cpu",
+    "crates/editor",
+    "crates/fixtures",
+    "crates/gpu",
+    "crates/image",
+    "crates/index",
+    "crates/memory",
+    "crates/optics",
+    "crates/plot",
+    "crates/reference",
+    "crates/scene",
+    "xtask",
 ];
 
 /// The command's arguments.
@@ -71,9 +77,9 @@ impl Rooms {
     }
 }
 
-/// Those that must have none. Others are looked at when they are named.
+/// Others are looked at when they are named.
 fn crates() -> Vec<PathBuf> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates");
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     CRATES.map(|name| root.join(name)).into()
 }
 

@@ -3,9 +3,12 @@
 //! The parser is our own: crates for expressions know no units, so that `4 um + 1 mm` or `30 /cm²` would need a second parser
 //! around theirs.
 
+mod dimension;
 mod parser;
 
 use std::fmt;
+
+use dimension::Dimension;
 
 /// What a number of the scene counts in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -30,65 +33,6 @@ pub enum Unit {
     Pixel,
     /// Kelvins.
     Kelvin,
-}
-
-/// How often each kind of unit is a factor.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-struct Dimension {
-    length: i8,
-    angle: i8,
-    exposure: i8,
-    pixel: i8,
-    temperature: i8,
-}
-
-impl Dimension {
-    const NONE: Self = Self {
-        length: 0,
-        angle: 0,
-        exposure: 0,
-        pixel: 0,
-        temperature: 0,
-    };
-
-    /// Of a product, or with -1 of a quotient.
-    fn times(self, other: Self, sign: i8) -> Self {
-        let sum = |a: i8, b: i8| a.saturating_add(b.saturating_mul(sign));
-        Self {
-            length: sum(self.length, other.length),
-            angle: sum(self.angle, other.angle),
-            exposure: sum(self.exposure, other.exposure),
-            pixel: sum(self.pixel, other.pixel),
-            temperature: sum(self.temperature, other.temperature),
-        }
-    }
-
-    fn power(self, n: i8) -> Self {
-        Self::NONE.times(self, n)
-    }
-
-    /// What a message calls it.
-    fn name(self) -> &'static str {
-        let Self {
-            length,
-            angle,
-            exposure,
-            pixel,
-            temperature,
-        } = self;
-        match [length, angle, exposure, pixel, temperature] {
-            [0, 0, 0, 0, 0] => "a number without a unit",
-            [1, 0, 0, 0, 0] => "a length",
-            [2, 0, 0, 0, 0] => "an area",
-            [-1, 0, 0, 0, 0] => "a number for each length",
-            [-2, 0, 0, 0, 0] => "a number for each area",
-            [0, 1, 0, 0, 0] => "an angle",
-            [0, 0, 1, 0, 0] => "an exposure",
-            [0, 0, 0, 1, 0] => "a number of pixels",
-            [0, 0, 0, 0, 1] => "a temperature",
-            _ => "a product of units",
-        }
-    }
 }
 
 impl Unit {

@@ -3,6 +3,7 @@
 //!
 //! Hard limits are the scene's own, from [`limits`]; sliders end where looks do, and typing goes on to the hard ones.
 
+mod parameter;
 mod texts;
 
 use std::ops::RangeInclusive;
@@ -11,108 +12,7 @@ use hairline_scene::description::limits;
 
 use crate::quantity::Unit;
 
-/// A number, or the numbers of a vector or a colour, that a panel edits.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Parameter {
-    /// `camera.position_m`
-    CameraPosition,
-    /// `camera.target_m`
-    CameraTarget,
-    /// `camera.up`
-    CameraUp,
-    /// `camera.fov_y_deg`
-    FieldOfView,
-    /// `camera.exposure_ev`
-    Exposure,
-    /// `render.size_px`
-    PictureSize,
-    /// `render.filter_std_px`
-    Filter,
-    /// `environment.rotation_deg`
-    EnvironmentRotation,
-    /// `environment.intensity`
-    EnvironmentIntensity,
-    /// `material.roughness`
-    Roughness,
-    /// `material.coherence_um`
-    Coherence,
-    /// `material.ior`
-    Ior,
-    /// `material.base_color`
-    BaseColor,
-    /// `material.metallic`
-    Metallic,
-    /// `object.translation_m`
-    Translation,
-    /// `object.rotation_deg`
-    Rotation,
-    /// `object.scale`
-    Scale,
-    /// `size_m` of a plane.
-    PlaneSize,
-    /// `radius_m` of a disk or a sphere.
-    ShapeRadius,
-    /// `fit_m` of a model.
-    FitSize,
-    /// `segments` of a lathe.
-    LatheSegments,
-    /// The radius of a point of a lathe's profile.
-    ProfileRadius,
-    /// The height of a point of a lathe's profile.
-    ProfileHeight,
-    /// `scratches.count`
-    Count,
-    /// `scratches.density_per_m2`
-    Density,
-    /// `scratches.seed`
-    Seed,
-    /// Mean of `scratches.length_m`
-    Length,
-    /// Spread of `scratches.length_m`
-    LengthSpread,
-    /// Mean of `scratches.width_um`
-    Width,
-    /// Spread of `scratches.width_um`
-    WidthSpread,
-    /// Mean of `scratches.depth_nm`
-    Depth,
-    /// Spread of `scratches.depth_nm`
-    DepthSpread,
-    /// Mean of `scratches.curvature_per_m`
-    Curvature,
-    /// Spread of `scratches.curvature_per_m`
-    CurvatureSpread,
-    /// `scratches.jitter_deg`
-    Jitter,
-    /// `scratches.axis`
-    Axis,
-    /// `scratches.center_m`
-    AxisCenter,
-    /// `scratches.direction`
-    Direction,
-    /// `radius_m` of a stroke.
-    BrushRadius,
-    /// `density_per_m` of a stroke.
-    BrushDensity,
-    /// `width` of a stroke.
-    BrushWidth,
-    /// `depth` of a stroke.
-    BrushDepth,
-    /// `light.center_m`
-    LightCenter,
-    /// `light.radius_m`
-    LightRadius,
-    /// A point of `light.vertices_m`
-    LightVertex,
-    /// `light.radiance`
-    Radiance,
-    /// `light.exposure_ev`
-    LightExposure,
-    /// `light.temperature_k`
-    LightTemperature,
-    /// `light.color`
-    LightColor,
-}
+pub use parameter::Parameter;
 
 /// What a control needs to know.
 #[derive(Clone, Debug, PartialEq)]

@@ -6,10 +6,10 @@ use anyhow::{Context, Result};
 use hairline_image::output::write_atomically;
 use hairline_plot::{Axis, Series};
 
-use super::Figures;
 use super::compared::{Compared, LayerFigures};
 use super::cost::Cost;
 use super::figure::Figure;
+use super::figures::Figures;
 use super::interference::{Errors, Interference};
 use super::masks::{MaskErrors, MaskFigures, Rms};
 use super::sweeps::{SweepFigures, SweepPoint};

@@ -6,9 +6,9 @@ use minijinja::value::Serde;
 use minijinja::{Environment, UndefinedBehavior, Value, context};
 use serde::Serialize;
 
-use super::Figures;
 use super::compared::{Compared, LayerFigures};
 use super::figure::Figure;
+use super::figures::Figures;
 use super::interference::Errors;
 use super::sweeps::{SweepFigures, SweepPoint};
 

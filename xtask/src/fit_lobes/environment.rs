@@ -9,7 +9,7 @@ use hairline_optics::fresnel::schlick_weight;
 use hairline_optics::ggx::{ggx_alpha, ggx_eval, ggx_g1, ggx_pdf, ggx_sample};
 use hairline_optics::lobe_table::{LOBE_MIN_COS, LOBE_TABLE_SIZE, LobeTable, lobe_table_node};
 
-use super::{grid, nelder_mead, uniform_direction};
+use super::search::{grid, nelder_mead, uniform_direction};
 
 const N: usize = ENVIRONMENT_TAPS;
 /// Slopes from the mirror direction over alpha, then logarithms of alphas over that of the surface.

@@ -1,6 +1,6 @@
 //! Inputs that once failed. They run first, every time.
 
-use super::Case;
+use super::case::Case;
 use super::originals::scene_with;
 
 /// All of them.

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result};
 
-use super::Case;
+use super::case::Case;
 
 /// On a machine with much else to do, a case may take so many times its processor time.
 const PATIENCE: u64 = 10;
@@ -30,7 +30,7 @@ pub fn judge(
     folder: &Path,
     limits: &Limits,
 ) -> Result<Option<String>> {
-    super::write(case, folder)?;
+    case.write(folder)?;
     let message = folder.join("stderr");
     let mut child = limited(program, limits)
         .args(["render", "scene.toml", "-o", "out.png", "--backend", "cpu"])

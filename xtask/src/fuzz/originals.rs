@@ -5,7 +5,8 @@ use hairline_image::{Display, Output, Picture};
 use rand::RngExt;
 use rand_pcg::Pcg64;
 
-use super::{Case, Kind, mutate};
+use super::case::{Case, Kind};
+use super::mutate;
 
 const HEAD: &str = r#"[camera]
 position_m = [0.0, -0.22, 0.30]

@@ -2,7 +2,7 @@
 //! `factor := ("+" | "-") factor | number | "pi" | "(" sum ")"`. A unit counts like a factor, so that `1/4 mm` is a quarter of
 //! a millimetre.
 
-use super::Dimension;
+use super::dimension::Dimension;
 
 /// A number with its dimension, in metres, degrees, steps, pixels and kelvins.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,6 +1,6 @@
 //! What each parameter is called and what it does to the look. Written for those who judge pictures; true to docs/model.md.
 
-use super::Parameter;
+use super::parameter::Parameter;
 
 pub(super) struct Text {
     pub label: &'static str,
