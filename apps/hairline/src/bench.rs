@@ -1,5 +1,6 @@
 //! `hairline bench`: how long the default method and the published one take, and how far they are from the truth.
 
+mod counts;
 mod curves;
 mod error;
 mod figures;
@@ -8,11 +9,12 @@ mod stage;
 mod table;
 mod talk;
 mod text;
+mod thoroughness;
 mod timing;
+mod way;
 mod worker;
 
 use std::path::{Path, PathBuf};
-use std::time::Duration;
 
 use anyhow::anyhow;
 use hairline_image::output::{check_writable, write_atomically};
@@ -23,21 +25,14 @@ use crate::console::{print, tell};
 use crate::failure::Failure;
 use crate::progress::Progress;
 use crate::scene_file::{self, Overrides};
-use error::Accuracy;
 use figures::Figures;
 use machine::Machine;
 use stage::{Stage, TALK_SIZE_PX};
-use timing::Effort;
+use thoroughness::Thoroughness;
 use worker::Worker;
 
 /// A quarter of the talk's pixels.
 const QUICK_SIZE_PX: [u32; 2] = [640, 360];
-
-/// How thoroughly to measure.
-struct Thoroughness {
-    effort: Effort,
-    accuracy: Accuracy,
-}
 
 /// Measures, prints and writes.
 pub fn run(arguments: &cli::Bench) -> Result<(), Failure> {
@@ -86,34 +81,12 @@ fn stage(arguments: &cli::Bench, size_px: [u32; 2]) -> Stage {
     }
 }
 
-fn thoroughness(arguments: &cli::Bench) -> Thoroughness {
-    let quick = arguments.quick;
-    let pick =
-        |thorough: u64, quickly: u64| Duration::from_millis(if quick { quickly } else { thorough });
-    let (least, most) = match arguments.repetitions {
-        Some(count) => (count as usize, count as usize),
-        None if quick => (2, 5),
-        None => (3, 25),
-    };
-    Thoroughness {
-        effort: Effort {
-            cell: pick(8000, 250),
-            least,
-            most,
-        },
-        accuracy: Accuracy {
-            crop_px: if quick { [48, 27] } else { [96, 54] },
-            time: pick(8000, 300),
-        },
-    }
-}
-
 fn measure(
     arguments: &cli::Bench,
     worker: &mut Worker,
     machine: Machine,
 ) -> Result<Figures, Failure> {
-    let thoroughness = thoroughness(arguments);
+    let thoroughness = Thoroughness::of(arguments);
     let base = stage(
         arguments,
         if arguments.quick {

@@ -9,7 +9,10 @@ use hairline_image::{FPS_MAX, Layer, ToneMap};
 use hairline_scene::DEFAULT_SAMPLES;
 
 use crate::compare::limits::{self, Limit};
+use crate::highlight;
 use crate::method_flags::{Mask, MethodFlags};
+use crate::size_limit::SIDE_MAX_PX;
+use crate::switch::Switch;
 
 /// Renders the coloured, hair-thin scratches of worn surfaces. Without a command: opens the viewer on the built-in scene.
 #[derive(Debug, Parser)]
@@ -115,8 +118,8 @@ pub struct Render {
     pub tone_map: Option<ToneMap>,
     /// Put the highlight here: move a light so that its mirror image lies at this pixel of the picture, counted from the upper left
     /// corner. The first light that is not hidden, or the one of this name.
-    #[arg(long, value_name = "X,Y[,LIGHT]", value_parser = parse_highlight)]
-    pub highlight: Option<Highlight>,
+    #[arg(long, value_name = "X,Y[,LIGHT]", value_parser = highlight::parse)]
+    pub highlight: Option<highlight::Highlight>,
     /// Render again whenever the scene or one of its files changes, until Ctrl-C.
     #[arg(long, conflicts_with_all = ["frames", "turntable", "zoom", "animation", "stability"])]
     pub watch: bool,
@@ -309,15 +312,6 @@ pub enum Model {
     Full,
 }
 
-/// On or off.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Switch {
-    /// Yes.
-    On,
-    /// No.
-    Off,
-}
-
 /// What renders.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum Backend {
@@ -329,36 +323,6 @@ pub enum Backend {
     /// The CPU renderer: needs no driver.
     Cpu,
 }
-
-/// Where a highlight is wanted.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Highlight {
-    /// The pixel, from the upper left corner.
-    pub pixel: [f64; 2],
-    /// The name of the light; none: the first.
-    pub light: Option<String>,
-}
-
-fn parse_highlight(text: &str) -> Result<Highlight, String> {
-    let mut parts = text.splitn(3, ',');
-    let mut pixel = || {
-        let number = parts.next()?.trim().parse::<f64>().ok();
-        number.filter(|it| (0.0..=f64::from(SIDE_MAX_PX)).contains(it))
-    };
-    match (pixel(), pixel()) {
-        (Some(x), Some(y)) => Ok(Highlight {
-            pixel: [x, y],
-            light: parts.next().map(str::to_owned),
-        }),
-        _ => Err(
-            "write a pixel X,Y, as in 640,360, and the name of a light behind it if need be"
-                .to_owned(),
-        ),
-    }
-}
-
-/// As scene files allow.
-const SIDE_MAX_PX: u32 = 16384;
 
 fn parse_size(text: &str) -> Result<[u32; 2], String> {
     let side = |text: &str| {

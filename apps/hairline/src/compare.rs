@@ -1,10 +1,12 @@
 //! `hairline compare`: how far a picture is from a reference, in figures and in a report to look at.
 
+mod figure;
 pub mod limits;
 mod report;
+mod side;
 mod table;
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use anyhow::anyhow;
 use hairline_image::metrics::{self, Comparison, Problem};
@@ -17,26 +19,7 @@ use crate::console::{print, tell};
 use crate::failure::Failure;
 use crate::progress::Progress;
 use crate::scene_file::refuse_inputs;
-
-/// One of the two pictures.
-struct Side {
-    path: PathBuf,
-    layers: Layers,
-}
-
-impl Side {
-    fn read(path: &Path, only: &[hairline_image::Layer]) -> Result<Self, Failure> {
-        // A picture to look at is part of the command line, as a scene is.
-        let mut layers = Layers::read(path).map_err(|error| Failure::Input(error.into()))?;
-        if !only.is_empty() {
-            layers.held.retain(|held| only.contains(&held.layer));
-        }
-        Ok(Self {
-            path: path.to_owned(),
-            layers,
-        })
-    }
-}
+use side::Side;
 
 /// Reads, compares, prints, writes the report, and holds the figures to the limits.
 pub fn run(arguments: &cli::Compare) -> Result<(), Failure> {
@@ -165,22 +148,4 @@ fn hold_to_limits(arguments: &cli::Compare, comparison: &Comparison) -> Result<(
         return Ok(());
     }
     Err(Failure::Work(anyhow!(broken.join("; "))))
-}
-
-/// A figure with three or four digits that mean something.
-fn figure(value: f64) -> String {
-    let size = value.abs();
-    if !value.is_finite() {
-        return if value.is_nan() { "NaN" } else { "infinite" }.to_owned();
-    }
-    if size == 0.0 {
-        return "0".to_owned();
-    }
-    match size {
-        1e5.. | ..1e-3 => format!("{value:.2e}"),
-        _ => {
-            let decimals = (3 - size.log10().floor() as i32).clamp(0, 6) as usize;
-            format!("{value:.decimals$}")
-        }
-    }
 }

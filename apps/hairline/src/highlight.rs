@@ -8,8 +8,36 @@ use hairline_scene::Scene;
 use hairline_scene::description::Description;
 use hairline_scene::text::shown;
 
-use crate::cli::Highlight;
 use crate::failure::Failure;
+use crate::size_limit::SIDE_MAX_PX;
+
+/// Where a highlight is wanted.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Highlight {
+    /// The pixel, from the upper left corner.
+    pub pixel: [f64; 2],
+    /// The name of the light; none: the first.
+    pub light: Option<String>,
+}
+
+/// From `X,Y` or `X,Y,LIGHT`.
+pub fn parse(text: &str) -> Result<Highlight, String> {
+    let mut parts = text.splitn(3, ',');
+    let mut pixel = || {
+        let number = parts.next()?.trim().parse::<f64>().ok();
+        number.filter(|it| (0.0..=f64::from(SIDE_MAX_PX)).contains(it))
+    };
+    match (pixel(), pixel()) {
+        (Some(x), Some(y)) => Ok(Highlight {
+            pixel: [x, y],
+            light: parts.next().map(str::to_owned),
+        }),
+        _ => Err(
+            "write a pixel X,Y, as in 640,360, and the name of a light behind it if need be"
+                .to_owned(),
+        ),
+    }
+}
 
 /// Moves the light in the description; `scene` is what it was built to.
 pub fn place(

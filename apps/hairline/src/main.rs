@@ -17,6 +17,8 @@ mod progress;
 mod reference;
 mod render;
 mod scene_file;
+mod size_limit;
+mod switch;
 mod view;
 mod watch;
 
@@ -29,6 +31,7 @@ fn main() -> ExitCode {
     quiet_the_search_for_wayland();
     let cli = cli::Cli::parse();
     let result = match &cli.command {
+        Some(cli::Command::Render(arguments)) if arguments.watch => watch::run(arguments),
         Some(cli::Command::Render(arguments)) => render::run(arguments),
         Some(cli::Command::Compare(arguments)) => compare::run(arguments),
         Some(cli::Command::Reference(arguments)) => reference::run(arguments),

@@ -16,6 +16,7 @@ use crate::console::tell;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::scene_file::{self, Overrides};
+use crate::switch::Switch;
 use sampling::{Count, End, Limits};
 
 /// Samples for each pixel if neither they nor a time are asked for.
@@ -140,7 +141,7 @@ fn settings(arguments: &cli::Reference) -> Result<Settings, Failure> {
         model,
         mask: arguments.mask.map_or(Mask::Energy, Into::into),
         bounces: arguments.bounces,
-        shadows: arguments.shadows == cli::Switch::On,
+        shadows: arguments.shadows == Switch::On,
         seed: arguments.sample_seed,
     })
 }

@@ -17,20 +17,12 @@ use crate::cli::{Backend, Switch};
 use crate::failure::Failure;
 use crate::progress::Progress;
 use crate::scene_file::{self, Overrides};
-use crate::{cli, method_flags, watch};
+use crate::{cli, method_flags};
 use goals::Goals;
 use motion::Motion;
 
-/// Loads, renders and writes, once or whenever the scene changes.
-pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
-    match arguments.watch {
-        true => watch::run(arguments),
-        false => once(arguments),
-    }
-}
-
 /// Loads, renders and writes.
-pub fn once(arguments: &cli::Render) -> Result<(), Failure> {
+pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
     let method = arguments.method.method()?;
     let shadows = shadows(arguments, &method)?;
     let motion = Motion::of(&arguments.sequence)?;

@@ -10,11 +10,9 @@ use hairline_scene::estimate::Estimate;
 use hairline_scene::inputs::{Input, is_same_file};
 use hairline_scene::{Loader, Scene, SceneBuilder, Stage, reading};
 
-use crate::cli::Highlight;
-
 use crate::console::tell;
 use crate::failure::Failure;
-use crate::highlight;
+use crate::highlight::{self, Highlight};
 use crate::progress::Progress;
 
 /// The scene that is there without a file.

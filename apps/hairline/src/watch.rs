@@ -31,7 +31,7 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
     while !interrupt.is_asked() {
         // Before it is read: a change meanwhile is seen.
         let before = Stamps::of(scene);
-        match render::once(arguments) {
+        match render::run(arguments) {
             Ok(()) => tell("waiting for a change of the scene; Ctrl-C ends it"),
             Err(failure) => tell(format_args!(
                 "error: {failure}\nwaiting for a change of the scene; Ctrl-C ends it"

@@ -3,10 +3,11 @@
 use hairline_cpu::closed_form::Prepared;
 use hairline_gpu::Error;
 
-use super::Thoroughness;
-use super::figures::{Curve, Point, Way};
+use super::figures::{Curve, Point};
 use super::stage::{Lamps, Stage, TALK_SCRATCHES};
+use super::thoroughness::Thoroughness;
 use super::timing::by_turns;
+use super::way::Way;
 use super::worker::{Ready, Worker, counted};
 use crate::failure::Failure;
 use crate::progress::Progress;

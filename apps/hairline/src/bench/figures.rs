@@ -1,11 +1,10 @@
 //! What was measured, as it goes into the JSON file. The document is made of this alone.
 
-use hairline_cpu::closed_form;
-use hairline_index::method::{Method, PublishedMethod, Structure};
-use hairline_optics::published::sine_integral::SineIntegral;
 use serde::Serialize;
 
+use super::counts::Counts;
 use super::machine::Machine;
+use super::way::Way;
 
 /// All of a benchmark.
 #[derive(Serialize)]
@@ -51,71 +50,6 @@ impl Row {
             Self::Sphere => "Sphere",
             Self::Triangle => "Triangle",
             Self::Scene => "Scene",
-        }
-    }
-}
-
-/// A method with its switches: the talk's columns, the talk's exact sine integral, and ours.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Way {
-    /// Published, without anti-aliasing, by the hierarchy.
-    PointBvh,
-    /// Published, without anti-aliasing, by lists for each triangle.
-    PointLists,
-    /// Published, with anti-aliasing, by the hierarchy.
-    Filtered,
-    /// The same with the exact sine integral.
-    FilteredExact,
-    Ours,
-}
-
-impl Way {
-    pub const ALL: [Self; 5] = [
-        Self::PointBvh,
-        Self::PointLists,
-        Self::Filtered,
-        Self::FilteredExact,
-        Self::Ours,
-    ];
-
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::PointBvh => "published, AA off, BVH",
-            Self::PointLists => "published, AA off, per triangle",
-            Self::Filtered => "published, AA on, BVH",
-            Self::FilteredExact => "published, AA on, BVH, exact Si",
-            Self::Ours => "ours",
-        }
-    }
-
-    /// Ours always has it.
-    pub fn antialiasing(self) -> bool {
-        !matches!(self, Self::PointBvh | Self::PointLists)
-    }
-
-    pub fn method(self) -> Method {
-        let usual = PublishedMethod::default();
-        let published = |switches| Method {
-            published: Some(switches),
-            ..Method::PUBLISHED
-        };
-        let point = PublishedMethod {
-            anti_aliasing: false,
-            ..usual
-        };
-        match self {
-            Self::PointBvh => published(point),
-            Self::PointLists => published(PublishedMethod {
-                structure: Structure::TriangleLists,
-                ..point
-            }),
-            Self::Filtered => Method::PUBLISHED,
-            Self::FilteredExact => published(PublishedMethod {
-                si: SineIntegral::Exact,
-                ..usual
-            }),
-            Self::Ours => Method::default(),
         }
     }
 }
@@ -232,44 +166,6 @@ pub struct Point {
     pub outcome: Outcome,
     /// What was done for the picture; of our method alone.
     pub counts: Option<Counts>,
-}
-
-/// What the stages of a picture did, as the CPU renderer counts it.
-#[derive(Clone, Copy, Debug, Serialize)]
-pub struct Counts {
-    /// Segments that were projected to the picture.
-    pub segments: u64,
-    /// Entries of tile lists.
-    pub entries: u64,
-    /// (pixel, segment) tests.
-    pub tests: u64,
-    /// Of those, with a share of the pixel.
-    pub pairs: u64,
-    /// (pair, light) that were asked for.
-    pub asked: u64,
-    /// Of those, lit.
-    pub lit: u64,
-}
-
-impl From<closed_form::Counts> for Counts {
-    fn from(counts: closed_form::Counts) -> Self {
-        let closed_form::Counts {
-            segments,
-            entries,
-            tests,
-            pairs,
-            asked,
-            lit,
-        } = counts;
-        Self {
-            segments,
-            entries,
-            tests,
-            pairs,
-            asked,
-            lit,
-        }
-    }
 }
 
 #[cfg(test)]

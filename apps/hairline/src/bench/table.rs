@@ -4,12 +4,13 @@ use hairline_cpu::closed_form::Prepared;
 use hairline_gpu::Error;
 use hairline_scene::Scene;
 
-use super::Thoroughness;
 use super::error::{brightest, crop, errors, rim_of_reflection};
-use super::figures::{Cell, Row, Way};
+use super::figures::{Cell, Row};
 use super::stage::{Lamps, Stage};
 use super::talk::{ZOOMS, talk_ms};
+use super::thoroughness::Thoroughness;
 use super::timing::by_turns;
+use super::way::Way;
 use super::worker::{Ready, Worker, counted};
 use crate::failure::Failure;
 use crate::progress::Progress;

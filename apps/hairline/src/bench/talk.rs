@@ -1,7 +1,8 @@
 //! The table of the talk (Z. Velinov, S. Werner, M. Hullin, *Real-Time Rendering of Wave-Optical Effects on Scratched Surfaces*,
 //! Eurographics 2018, slide "Data Structure (Benchmark)"): milliseconds on an NVIDIA GTX 970M.
 
-use super::figures::{Row, Way};
+use super::figures::Row;
+use super::way::Way;
 
 /// Whose figures they are.
 pub const SOURCE: &str = "Velinov, Werner, Hullin, Eurographics 2018, slide \"Data Structure (Benchmark)\", NVIDIA GTX 970M";

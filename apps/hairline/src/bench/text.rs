@@ -2,8 +2,10 @@
 
 use std::fmt::Write as _;
 
-use super::figures::{Cell, Counts, Curve, Figures, Outcome, Row, Way};
+use super::counts::Counts;
+use super::figures::{Cell, Curve, Figures, Outcome, Row};
 use super::stage::TALK_SCRATCHES;
+use super::way::Way;
 
 /// What stands where nothing was measured.
 const NOTHING: &str = "–";

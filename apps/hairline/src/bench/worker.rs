@@ -11,7 +11,8 @@ use hairline_image::Image;
 use hairline_index::method::Method;
 use hairline_scene::Scene;
 
-use super::figures::{Counts, Way};
+use super::counts::Counts;
+use super::way::Way;
 use crate::cli::Backend;
 use crate::console::tell;
 use crate::failure::Failure;

@@ -3,7 +3,7 @@
 use hairline_image::Layer;
 use hairline_image::metrics::{LayerComparison, Verdict};
 
-use super::figure;
+use super::figure::figure;
 
 /// A figure of one layer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -14,9 +14,10 @@ use serde_json::json;
 
 use self::pictures::Kind;
 use self::values::ToneTable;
+use super::figure::figure;
 use super::limits::Metric;
+use super::side::Side;
 use super::table::{self, Column};
-use super::{Side, figure};
 use crate::failure::Failure;
 
 const STYLE: &str = include_str!("report/report.css");

@@ -7,8 +7,9 @@ use hairline_image::metrics::{Comparison, LayerComparison, Problem, Verdict, ZTe
 use hairline_image::{Display, Layer};
 use serde_json::{Map, Value, json};
 
+use super::figure::figure;
 use super::limits::Metric;
-use super::{Side, figure};
+use super::side::Side;
 
 /// A column of the table: a heading, the figure, and what it means to someone who meets it first.
 pub struct Column {

@@ -1,0 +1,42 @@
+//! How much work a picture is.
+
+use hairline_cpu::closed_form;
+use serde::Serialize;
+
+/// What the stages of a picture did, as the CPU renderer counts it.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Counts {
+    /// Segments that were projected to the picture.
+    pub segments: u64,
+    /// Entries of tile lists.
+    pub entries: u64,
+    /// (pixel, segment) tests.
+    pub tests: u64,
+    /// Of those, with a share of the pixel.
+    pub pairs: u64,
+    /// (pair, light) that were asked for.
+    pub asked: u64,
+    /// Of those, lit.
+    pub lit: u64,
+}
+
+impl From<closed_form::Counts> for Counts {
+    fn from(counts: closed_form::Counts) -> Self {
+        let closed_form::Counts {
+            segments,
+            entries,
+            tests,
+            pairs,
+            asked,
+            lit,
+        } = counts;
+        Self {
+            segments,
+            entries,
+            tests,
+            pairs,
+            asked,
+            lit,
+        }
+    }
+}
