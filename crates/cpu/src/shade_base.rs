@@ -61,7 +61,7 @@ pub(crate) struct Base<'p, 'a> {
 impl<'p, 'a> Base<'p, 'a> {
     pub fn new(point: &'p SurfacePoint<'a>) -> Self {
         let sharp = ltc_lobe(point.wo, point.roughness);
-        let filtered = filtered_lobe(sharp.alpha, point.slope_variance(), point.wo.z);
+        let filtered = filtered_lobe(sharp.alpha, point.slope_spread(), point.wo.z);
         let of = LobeFresnel::new(point.fresnel, point.wo, point.roughness);
         let albedo = ggx_area_reflectance(of.albedo, point.fresnel.f0, sharp.albedo).into();
         Self {

@@ -356,7 +356,7 @@ impl<'a> Lobes<'a> {
         Self {
             wo: point.wo,
             // The pixel's normals widen the lobe.
-            alpha: (alpha * alpha + 2.0 * point.slope_variance().element_sum())
+            alpha: (alpha * alpha + 2.0 * point.slope_spread().variance.element_sum())
                 .sqrt()
                 .min(1.0),
             fresnel: point.fresnel,

@@ -2,6 +2,7 @@
 
 use glam::{DVec2, DVec3};
 use hairline_index::Hit;
+use hairline_optics::filtered_lobe::SlopeSpread;
 use hairline_optics::fresnel::FresnelRgb;
 use hairline_scene::{Mesh, Scene, ScratchTables, Texture};
 
@@ -58,10 +59,13 @@ impl SurfacePoint<'_> {
         self.axis_x * v.x + self.axis_y * v.y + self.normal * v.z
     }
 
-    /// Variance of the slopes that a pixel sees, in the plane of view and normal and across it.
-    pub fn slope_variance(&self) -> DVec2 {
+    /// How the slopes spread that a pixel sees.
+    pub fn slope_spread(&self) -> SlopeSpread {
         let [x, y] = self.normal_turns.map(|turn| turn.truncate());
-        x * x + y * y + self.slope_std * self.slope_std
+        SlopeSpread {
+            variance: x * x + y * y + self.slope_std * self.slope_std,
+            covariance: x.x * x.y + y.x * y.y,
+        }
     }
 
     /// The point alone, for scratches that are not averaged over the pixel.

@@ -35,24 +35,61 @@ pub struct EnvironmentLobe {
     mirror: DVec2,
     /// GGX alpha of the surface.
     sharp: f64,
-    /// That of the pixel's normals in the plane of view and normal, and across it.
-    alphas: DVec2,
-    /// The mean slope of the look-ups on the surface, over its alpha: about that the pixel's normals spread them.
+    /// The mean slope of the look-ups on the surface: about that the pixel's normals spread them.
     middle: f64,
+    /// The longer axis of the lobe as an alpha: in the plane of view and normal, away from the viewer, and across it.
+    axis: DVec2,
+    /// The cosine at which a surface of equal normals reflects a lobe of that shape.
+    cosine: f64,
+    /// Alpha for widths of one.
+    width: f64,
+    /// The mean slope of the look-ups of that, over its alpha.
+    axis_middle: f64,
 }
 
 /// The lobe of a viewer and of a pixel's normals.
+///
+/// The spread of these draws it out too, any way. It is looked up as that of a surface of equal normals that is as long for its width.
 pub fn environment_lobe(lobe: &LtcLobe) -> EnvironmentLobe {
-    let [middle, ..] = environment_middle_table().lookup(lobe.alpha.sqrt(), lobe.wo.z);
+    let middle = |cosine: f64| {
+        let [middle, ..] = environment_middle_table().lookup(lobe.alpha.sqrt(), cosine);
+        middle
+    };
+    // A step of the normal across the plane turns the mirror direction by the cosine of one in it.
+    let x = lobe.alphas.x;
+    let y = lobe.alphas.y * lobe.wo.z * DVec2::new(-lobe.shear, 1.0);
+    let (xx, yy, xy) = (x * x, y.length_squared(), x * y.x);
+    let (mean, half) = (0.5 * (xx + yy), 0.5 * (xx - yy));
+    let apart = half.hypot(xy);
+    let long2 = mean + apart;
+    // A round lobe has no axis.
+    let axis = if apart <= ROUND * mean {
+        DVec2::X
+    } else if half > 0.0 {
+        DVec2::new(half + apart, xy).normalize()
+    } else {
+        let sign = if xy < 0.0 { -1.0 } else { 1.0 };
+        DVec2::new(xy.abs(), (apart - half) * sign).normalize()
+    };
+    let axis = axis * long2.sqrt();
+    let aspect = x * y.y / long2;
+    let cosine = aspect.max(lobe.wo.z.min(MIN_COSINE_OVER_ALPHA * lobe.alpha));
     EnvironmentLobe {
         x_axis: lobe.x_axis,
         mirror: DVec2::new(lobe.wo.x, lobe.wo.z),
         sharp: lobe.alpha,
-        alphas: lobe.alphas,
-        middle,
+        middle: middle(lobe.wo.z) * lobe.alpha,
+        axis,
+        width: (long2 * aspect / cosine).sqrt(),
+        cosine,
+        axis_middle: middle(cosine),
     }
 }
 
+/// Lobes that are longer than those of lower cosines are not looked up as these: there the horizon cuts them.
+const MIN_COSINE_OVER_ALPHA: f64 = 20.0;
+/// Relative difference of squared axes below which a lobe is round.
+const ROUND: f64 = 1e-4;
 /// Masking is taken no lower: what is below the horizon counts next to nothing.
 const MASKING_MIN_COS: f64 = 1e-5;
 /// No look-up counts more than so many times what it does on a surface of equal normals.
@@ -62,18 +99,28 @@ impl EnvironmentLobe {
     /// Look-up `i` of [`ENVIRONMENT_TAPS`].
     pub fn environment_tap(&self, i: usize) -> EnvironmentTap {
         let [slope, width, weight, grazing_weight] =
-            environment_table(i).lookup(self.sharp.sqrt(), self.mirror.y);
-        let from_middle = (slope - self.middle) * self.alphas.x;
-        let (sin, cos) = turned(self.mirror, self.middle * self.sharp + from_middle);
-        let (_, equal_cos) = turned(self.mirror, slope * self.sharp);
+            environment_table(i).lookup(self.sharp.sqrt(), self.cosine);
+        let from_middle = slope - self.axis_middle;
+        let along = self.axis * from_middle;
+        let (sin, cos) = turned(self.mirror, self.middle + along.x);
+        let length = self.axis.length();
+        let (_, equal_cos) = turned(
+            self.mirror,
+            self.middle + from_middle * self.sharp * self.axis.x / length,
+        );
+        // Out of the plane, by the same rule.
+        let across = DVec2::new(2.0 * along.y, 1.0 - along.y * along.y) / (1.0 + along.y * along.y);
+        let (sin, cos) = (sin * across.y, cos * across.y);
         // Where the pixel's normals spread it the surface hides more of it, or less.
         let masking = |cos: f64| ggx_g1(cos.max(MASKING_MIN_COS), self.sharp);
         let shown = (masking(cos) / masking(equal_cos)).min(SHOWN_MAX);
         EnvironmentTap {
-            direction: DVec3::new(-self.x_axis.x * sin, -self.x_axis.y * sin, cos),
-            roughness: (width * (self.alphas.x * self.alphas.y).sqrt())
-                .sqrt()
-                .min(1.0),
+            direction: DVec3::new(
+                -self.x_axis.x * sin - self.x_axis.y * across.x,
+                -self.x_axis.y * sin + self.x_axis.x * across.x,
+                cos,
+            ),
+            roughness: (width * self.width).sqrt().min(1.0),
             weight: weight * shown,
             grazing_weight: grazing_weight * shown,
         }

@@ -17,33 +17,59 @@ const MAX_VARIANCE_OVER_COS2: f64 = 0.1;
 /// Below this excess the wider lobe is left out.
 const MIN_EXCESS: f64 = 0.02;
 
+/// How slopes spread about their mean, in the plane of view and normal (x) and across it (y).
+#[derive(Clone, Copy, Debug, Default)]
+pub struct SlopeSpread {
+    /// Variances.
+    pub variance: DVec2,
+    /// Covariance.
+    pub covariance: f64,
+}
+
 /// A lobe as the difference of two.
 #[derive(Clone, Copy, Debug)]
 pub struct FilteredLobe {
-    /// GGX alpha of the first in the plane of view and normal, and across it. The second is wider by the root of 2.
+    /// [`LtcLobe::alphas`] of the first. The second is wider by the root of 2.
     pub alphas: DVec2,
+    /// [`LtcLobe::shear`] of both.
+    pub shear: f64,
     /// The second's weight. The first has 1 and this.
     pub excess: f64,
 }
 
-/// The lobe of GGX alpha `alpha` over normals whose slopes have a `variance` in the plane of view and normal, and across it; the mean normal is seen
-/// at the cosine `cos_o`.
+/// The lobe of GGX alpha `alpha` over normals whose slopes spread; the mean normal is seen at the cosine `cos_o`.
 ///
 /// Far from its core a GGX distribution goes with alpha squared: the excess gives the difference the tails of the sharp lobe. The width was
 /// fitted to GGX convolved with a Gaussian: the misplaced share is 2 to 11 % up to a variance of alpha squared and 20 % of a mirror, where
 /// one GGX has 6 to 37 % (test `pixels_blur_the_core_and_not_the_tails`).
-pub fn filtered_lobe(alpha: f64, variance: DVec2, cos_o: f64) -> FilteredLobe {
-    let most = MAX_VARIANCE.min(MAX_VARIANCE_OVER_COS2 * cos_o * cos_o);
-    let variance = variance.min(DVec2::new(most, MAX_VARIANCE));
+pub fn filtered_lobe(alpha: f64, spread: SlopeSpread, cos_o: f64) -> FilteredLobe {
+    let most = DVec2::new(
+        MAX_VARIANCE.min(MAX_VARIANCE_OVER_COS2 * cos_o * cos_o),
+        MAX_VARIANCE,
+    );
+    let variance = spread.variance.min(most);
+    // Correlated as before.
+    let kept = variance / spread.variance.max(DVec2::splat(1e-30));
+    let covariance = spread.covariance * (kept.x * kept.y).sqrt();
+    // By the axes of the spread.
+    let (mean, half) = (
+        0.5 * (variance.x + variance.y),
+        0.5 * (variance.x - variance.y),
+    );
+    let apart = half.hypot(covariance);
     let sharp2 = alpha * alpha;
-    let wide2 = variance.map(|variance| {
+    let wide2 = DVec2::new(mean + apart, (mean - apart).max(0.0)).map(|variance| {
         let widening = 2.6 + 2.5 / (1.0 + 1.5 * variance.sqrt() / alpha);
         (sharp2 + widening * variance).min(1.0)
     });
+    let turn = 0.5 * (wide2.x - wide2.y) * DVec2::new(half, covariance) / apart.max(1e-30);
+    let alpha_x = (0.5 * (wide2.x + wide2.y) + turn.x).sqrt();
+    let alpha_y = (wide2.x * wide2.y).sqrt() / alpha_x;
     // The tails of an elliptic lobe, in the mean over all directions about it.
     let excess = 1.0 - 2.0 * sharp2 / (wide2.x + wide2.y);
     FilteredLobe {
-        alphas: wide2.map(f64::sqrt),
+        alphas: DVec2::new(alpha_x, alpha_y),
+        shear: turn.y / (alpha_x * alpha_y),
         excess: if excess < MIN_EXCESS { 0.0 } else { excess },
     }
 }
@@ -51,10 +77,7 @@ pub fn filtered_lobe(alpha: f64, variance: DVec2, cos_o: f64) -> FilteredLobe {
 impl FilteredLobe {
     /// The two lobes and their weights, from the sharp lobe. The second weight is zero where one is enough.
     pub fn parts(&self, sharp: &LtcLobe) -> [(f64, LtcLobe); 2] {
-        let wide = self.alphas * SQRT_2;
-        [
-            (1.0 + self.excess, sharp.widened(self.alphas, self.excess)),
-            (-self.excess, sharp.widened(wide, self.excess)),
-        ]
+        let lobe = |width: f64| sharp.widened(width * self.alphas, self.shear, self.excess);
+        [(1.0 + self.excess, lobe(1.0)), (-self.excess, lobe(SQRT_2))]
     }
 }

@@ -40,7 +40,7 @@ pub struct LtcShape {
 /// The lobe seen from one direction on one surface, F = 1: what every light on that point shares.
 ///
 /// In the frame whose x is towards the viewer a direction w maps to
-/// (cos_peak (cos_peak x + sin_peak z) / (2 alpha width_x), y / (2 alpha width_y), z).
+/// (u, y / (2 alpha width_y) - shear u, z) with u = cos_peak (cos_peak x + sin_peak z) / (2 alpha width_x).
 #[derive(Clone, Copy, Debug)]
 pub struct LtcLobe {
     /// Viewer in its own frame: y = 0, x >= 0.
@@ -49,8 +49,10 @@ pub struct LtcLobe {
     pub x_axis: DVec2,
     /// GGX alpha of the surface: what masks and shadows.
     pub alpha: f64,
-    /// GGX alpha of the normals in the plane of view and normal, and across it: more where a pixel's normals differ.
+    /// Of the normals, more where a pixel's differ: GGX alpha in the plane of view and normal, and across it for normals of one place in that plane.
     pub alphas: DVec2,
+    /// How far the middle of the latter moves, over the second alpha, while the place in the plane moves by the first.
+    pub shear: f64,
     /// The share of the normals' spread that is the pixel's: its normals count by what the picture shows of them, and not as facets do.
     pub turned: f64,
     /// Sine and cosine of the peak's angle from the normal; the peak is on the side away from the viewer.
@@ -92,6 +94,7 @@ impl LtcLobe {
             x_axis,
             alpha,
             alphas: DVec2::splat(alpha),
+            shear: 0.0,
             turned: 0.0,
             peak: DVec2::new(peak.x.max(0.0), peak.y),
             width: 2.0 * alpha * DVec2::new(shape.width_x, shape.width_y),
@@ -100,9 +103,10 @@ impl LtcLobe {
     }
 
     /// The same with other normals.
-    pub(crate) fn widened(&self, alphas: DVec2, turned: f64) -> Self {
+    pub(crate) fn widened(&self, alphas: DVec2, shear: f64, turned: f64) -> Self {
         Self {
             alphas,
+            shear,
             turned,
             width: self.width * alphas / self.alpha,
             ..*self
@@ -125,11 +129,8 @@ impl LtcLobe {
 
     /// The same with the reciprocal widths at hand.
     fn cosine_by(&self, per_width: DVec2, w: DVec3) -> DVec3 {
-        DVec3::new(
-            self.peak.y * (self.peak.y * w.x + self.peak.x * w.z) * per_width.x,
-            w.y * per_width.y,
-            w.z,
-        )
+        let x = self.peak.y * (self.peak.y * w.x + self.peak.x * w.z) * per_width.x;
+        DVec3::new(x, w.y * per_width.y - self.shear * x, w.z)
     }
 
     /// The inverse of [`LtcLobe::to_cosine`], times cos_peak^2, which keeps it finite for a peak on the horizon.
@@ -137,7 +138,7 @@ impl LtcLobe {
         let (s, c) = (self.peak.x, self.peak.y);
         DVec3::new(
             self.width.x * w.x - s * c * w.z,
-            c * c * self.width.y * w.y,
+            c * c * self.width.y * (w.y + self.shear * w.x),
             c * c * w.z,
         )
     }
@@ -512,7 +513,7 @@ fn ltc_exact_over_jacobian<const N: usize>(lobe: &LtcLobe, w: [DVec3; N]) -> ([f
     let (wo, alpha2) = (lobe.wo, lobe.alpha * lobe.alpha);
     let rough_o = projected_roughness(wo.z, lobe.alpha);
     let c2 = lobe.peak.y * lobe.peak.y;
-    let per_alpha2 = (lobe.alphas * lobe.alphas).recip();
+    let per_alpha = lobe.alphas.recip();
     let scale = lobe.width.x * lobe.width.y * c2 * c2 * 0.5 / (PI * lobe.alphas.x * lobe.alphas.y);
     let direction = w.map(|w| lobe.undo_cosine(w));
     let [x, y, z]: [[f64; N]; 3] =
@@ -524,9 +525,10 @@ fn ltc_exact_over_jacobian<const N: usize>(lobe: &LtcLobe, w: [DVec3; N]) -> ([f
         let cos_i = z[i] * per_l;
         // The half vector, of any length.
         let (hx, hy, hz) = (x[i] * per_l + wo.x, y[i] * per_l + wo.y, cos_i + wo.z);
-        let (x2, y2, normal) = (hx * hx, hy * hy, hz * hz);
-        let length2 = x2 + y2 + normal;
-        let q = (x2 * per_alpha2.x + y2 * per_alpha2.y + normal).max(1e-30);
+        let (u, normal) = (hx * per_alpha.x, hz * hz);
+        let v = hy * per_alpha.y - lobe.shear * u;
+        let length2 = hx * hx + hy * hy + normal;
+        let q = (u * u + v * v + normal).max(1e-30);
         let cos_h = (0.5 * length2.sqrt()).min(1.0);
         let shown = 1.0 + lobe.turned * (wo.z / cos_h.max(1e-15) - 1.0);
         let rough_i = (alpha2 + (1.0 - alpha2) * cos_i * cos_i).sqrt();

@@ -8,7 +8,7 @@ use glam::{DVec2, DVec3, Vec3};
 use hairline_gpu::call::{Call, Table, Texels};
 use hairline_gpu::{headless, shaders};
 use hairline_optics::environment_lobe::{ENVIRONMENT_TAPS, environment_lobe};
-use hairline_optics::filtered_lobe::filtered_lobe;
+use hairline_optics::filtered_lobe::{SlopeSpread, filtered_lobe};
 use hairline_optics::fresnel::{FRESNEL_NODES, FresnelCurve, FresnelRgb, half_vector_cos};
 use hairline_optics::ggx::*;
 use hairline_optics::irradiance::*;
@@ -442,9 +442,13 @@ fn spheres() {
     twin.check(&rows.horizon, rows.horizon.len() / 1000);
 }
 
-/// Slope variances of all sizes, from a direction.
-fn slope_variance(axis: DVec3) -> DVec2 {
-    0.08 * axis.truncate().powf(4.0)
+/// Spreads of slopes of all sizes and shapes, from a direction.
+fn slope_spread(axis: DVec3) -> SlopeSpread {
+    let variance = 0.08 * axis.truncate().powf(4.0);
+    SlopeSpread {
+        variance,
+        covariance: axis.z * (variance.x * variance.y).sqrt(),
+    }
 }
 
 #[test]
@@ -457,24 +461,45 @@ fn filtered_lobes() {
             let wo = vec3f(x[0], x[1], x[2]);
             let sharp = ltc_lobe(wo, x[3], table_0, table_1);
             let reflecting = lobe_fresnel(FresnelRgb(vec3f(0.04, 0.5, 1.0), 0u), wo, x[3], table_3);
-            let filtered = filtered_lobe(sharp.alpha, 0.08 * axis.xy * axis.xy * axis.xy * axis.xy, wo.z);
+            let variance = 0.08 * axis.xy * axis.xy * axis.xy * axis.xy;
+            let spread = vec3f(variance, axis.z * sqrt(variance.x * variance.y));
+            let filtered = filtered_lobe(sharp.alpha, spread, wo.z);
             for (var p = 0u; p < 2u; p += 1u) {
                 let part = filtered_lobe_part(sharp, filtered, p);
                 y[p] = ltc_sphere(part.lobe, reflecting, table_3, axis, x[7]).y / x[8];
                 y[2u + p] = part.weight;
                 y[4u + p] = part.lobe.alphas[p];
-                y[6u + p] = environment_tap(environment_lobe(part.lobe, table_0), table_0, 2u).roughness;
+                let tap = environment_tap(environment_lobe(part.lobe, table_0), table_0, 2u);
+                y[6u + p] = tap.roughness;
+                y[8u + p] = tap.direction.y;
+                y[10u + p] = tap.weight;
             }",
         tables: &tables,
         expected: &|row| {
             let (wo, roughness, axis, sin2, brightest) = sphere_row(row);
             let sharp = ltc_lobe(wo, roughness);
             let of = LobeFresnel::new(schlick(), wo, roughness);
-            let filtered = filtered_lobe(sharp.alpha, slope_variance(axis), wo.z);
+            let filtered = filtered_lobe(sharp.alpha, slope_spread(axis), wo.z);
             let [(w0, first), (w1, second)] = filtered.parts(&sharp);
-            let [i0, i1] = [first, second].map(|lobe| ltc_sphere(&lobe, &of, axis, sin2)[1] / brightest);
-            let [t0, t1] = [first, second].map(|lobe| environment_lobe(&lobe).environment_tap(2).roughness);
-            [i0, i1, w0, w1, first.alphas.x, second.alphas.y, t0, t1]
+            let [i0, i1] =
+                [first, second].map(|lobe| ltc_sphere(&lobe, &of, axis, sin2)[1] / brightest);
+            let [t0, t1] = [first, second].map(|lobe| environment_lobe(&lobe).environment_tap(2));
+            let alphas = [first.alphas.x, second.alphas.y];
+            let directions = [t0.direction.y, t1.direction.y];
+            [
+                i0,
+                i1,
+                w0,
+                w1,
+                alphas[0],
+                alphas[1],
+                t0.roughness,
+                t1.roughness,
+                directions[0],
+                directions[1],
+                t0.weight,
+                t1.weight,
+            ]
         },
         tolerance: CLEAR,
     };

@@ -1,6 +1,8 @@
 // The GGX lobe over an environment: a few round lobes in a row. Needs ltc. Twin: optics::environment_lobe, which explains it.
 
 const ENVIRONMENT_TAPS: u32 = 5u;
+const ENVIRONMENT_MIN_COSINE_OVER_ALPHA: f32 = 20.0;
+const ENVIRONMENT_ROUND: f32 = 1e-4;
 const ENVIRONMENT_MASKING_MIN_COS: f32 = 1e-5;
 const ENVIRONMENT_SHOWN_MAX: f32 = 4.0;
 
@@ -8,8 +10,11 @@ struct EnvironmentLobe {
     x_axis: vec2f,
     mirror: vec2f,              // sine and cosine from the normal
     sharp: f32,                 // GGX alpha of the surface
-    alphas: vec2f,              // of the pixel's normals in the plane of view and normal, and across it
-    middle: f32,                // mean slope of the look-ups over alpha
+    middle: f32,                // mean slope of the look-ups on the surface
+    axis: vec2f,                // the longer axis of the lobe as an alpha: in the plane of view and normal, and across it
+    width: f32,                 // alpha for widths of one
+    cosine: f32,                // at which a surface of equal normals reflects a lobe of that shape
+    axis_middle: f32,           // mean slope of the look-ups of that over its alpha
 }
 
 struct EnvironmentTap {
@@ -21,8 +26,25 @@ struct EnvironmentTap {
 
 fn environment_lobe(lobe: LtcLobe, shapes: texture_2d<f32>) -> EnvironmentLobe {
     let mirror = vec2f(lobe.wo.x, lobe.wo.z);
-    let middle = environment_shape(shapes, lobe.alpha, mirror.y, ENVIRONMENT_TAPS).x;
-    return EnvironmentLobe(lobe.x_axis, mirror, lobe.alpha, lobe.alphas, middle);
+    let middle = environment_shape(shapes, lobe.alpha, mirror.y, ENVIRONMENT_TAPS).x * lobe.alpha;
+    // A step of the normal across the plane turns the mirror direction by the cosine of one in it.
+    let x = lobe.alphas.x;
+    let y = lobe.alphas.y * mirror.y * vec2f(-lobe.shear, 1.0);
+    let xx = x * x;
+    let yy = dot(y, y);
+    let xy = x * y.x;
+    let mean = 0.5 * (xx + yy);
+    let half = 0.5 * (xx - yy);
+    let apart = length(vec2f(half, xy));
+    let long2 = mean + apart;
+    let sign_xy = select(1.0, -1.0, xy < 0.0);
+    let along = select(vec2f(abs(xy), (apart - half) * sign_xy), vec2f(half + apart, xy), half > 0.0);
+    // A round lobe has no axis.
+    let axis = select(along / max(length(along), 1e-30), vec2f(1.0, 0.0), apart <= ENVIRONMENT_ROUND * mean) * sqrt(long2);
+    let aspect = x * y.y / long2;
+    let cosine = max(aspect, min(mirror.y, ENVIRONMENT_MIN_COSINE_OVER_ALPHA * lobe.alpha));
+    let axis_middle = environment_shape(shapes, lobe.alpha, cosine, ENVIRONMENT_TAPS).x;
+    return EnvironmentLobe(lobe.x_axis, mirror, lobe.alpha, middle, axis, sqrt(long2 * aspect / cosine), cosine, axis_middle);
 }
 
 // Of a look-up; the mean slope lies behind the last.
@@ -31,14 +53,19 @@ fn environment_shape(shapes: texture_2d<f32>, alpha: f32, cos_o: f32, i: u32) ->
 }
 
 fn environment_tap(lobe: EnvironmentLobe, shapes: texture_2d<f32>, i: u32) -> EnvironmentTap {
-    let shape = environment_shape(shapes, lobe.sharp, lobe.mirror.y, i);
-    let to = environment_turned(lobe.mirror, lobe.middle * lobe.sharp + (shape.x - lobe.middle) * lobe.alphas.x);
-    let equal = environment_turned(lobe.mirror, shape.x * lobe.sharp);
+    let shape = environment_shape(shapes, lobe.sharp, lobe.cosine, i);
+    let from_middle = shape.x - lobe.axis_middle;
+    let slopes = lobe.axis * from_middle;
+    let in_plane = environment_turned(lobe.mirror, lobe.middle + slopes.x);
+    let equal = environment_turned(lobe.mirror, lobe.middle + from_middle * lobe.sharp * lobe.axis.x / length(lobe.axis));
+    // Out of the plane, by the same rule.
+    let across = vec2f(2.0 * slopes.y, 1.0 - slopes.y * slopes.y) / (1.0 + slopes.y * slopes.y);
+    let to = in_plane * across.y;
     let masking = environment_masking(to.y, lobe.sharp) / environment_masking(equal.y, lobe.sharp);
     let shown = min(masking, ENVIRONMENT_SHOWN_MAX);
     return EnvironmentTap(
-        vec3f(-lobe.x_axis * to.x, to.y),
-        min(sqrt(shape.y * sqrt(lobe.alphas.x * lobe.alphas.y)), 1.0),
+        vec3f(-lobe.x_axis * to.x + vec2f(-lobe.x_axis.y, lobe.x_axis.x) * across.x, to.y),
+        min(sqrt(shape.y * lobe.width), 1.0),
         shape.z * shown,
         shape.w * shown,
     );

@@ -1,17 +1,30 @@
 // The lobe of a pixel whose normals differ, as the difference of two. Needs ltc. Twin: optics::filtered_lobe, which explains it.
 
 struct FilteredLobe {
-    alphas: vec2f,              // of the first
+    alphas: vec2f,              // as the first's of LtcLobe
+    shear: f32,                 // of both
     excess: f32,                // the weight of the second; the first has 1 and this
 }
 
-fn filtered_lobe(alpha: f32, variance: vec2f, cos_o: f32) -> FilteredLobe {
-    let within = min(variance, vec2f(min(0.06, 0.1 * cos_o * cos_o), 0.06));
+// `spread`: variances of the slopes in the plane of view and normal (x) and across it (y), and their covariance.
+fn filtered_lobe(alpha: f32, spread: vec3f, cos_o: f32) -> FilteredLobe {
+    let variance = min(spread.xy, vec2f(min(0.06, 0.1 * cos_o * cos_o), 0.06));
+    // Correlated as before.
+    let kept = sqrt(variance / max(spread.xy, vec2f(1e-30)));
+    let covariance = spread.z * (kept.x * kept.y);
+    // By the axes of the spread.
+    let mean = 0.5 * (variance.x + variance.y);
+    let half = 0.5 * (variance.x - variance.y);
+    let apart = length(vec2f(half, covariance));
     let sharp2 = alpha * alpha;
-    let widening = 2.6 + 2.5 / (1.0 + 1.5 * sqrt(within) / alpha);
-    let wide2 = min(sharp2 + widening * within, vec2f(1.0));
+    let along = vec2f(mean + apart, max(mean - apart, 0.0));
+    let widening = 2.6 + 2.5 / (1.0 + 1.5 * sqrt(along) / alpha);
+    let wide2 = min(sharp2 + widening * along, vec2f(1.0));
+    let turn = vec2f(half, covariance) * (0.5 * (wide2.x - wide2.y) / max(apart, 1e-30));
+    let alpha_x = sqrt(0.5 * (wide2.x + wide2.y) + turn.x);
+    let alpha_y = sqrt(wide2.x * wide2.y) / alpha_x;
     let excess = 1.0 - 2.0 * sharp2 / (wide2.x + wide2.y);
-    return FilteredLobe(sqrt(wide2), select(excess, 0.0, excess < 0.02));
+    return FilteredLobe(vec2f(alpha_x, alpha_y), turn.y / (alpha_x * alpha_y), select(excess, 0.0, excess < 0.02));
 }
 
 // One of the two lobes, and its weight.
@@ -23,5 +36,5 @@ struct FilteredLobePart {
 fn filtered_lobe_part(sharp: LtcLobe, filtered: FilteredLobe, i: u32) -> FilteredLobePart {
     let first = i == 0u;
     let alphas = filtered.alphas * select(1.41421356, 1.0, first);
-    return FilteredLobePart(ltc_widened(sharp, alphas, filtered.excess), select(-filtered.excess, 1.0 + filtered.excess, first));
+    return FilteredLobePart(ltc_widened(sharp, alphas, filtered.shear, filtered.excess), select(-filtered.excess, 1.0 + filtered.excess, first));
 }

@@ -45,14 +45,15 @@ fn ggx_eval(wi: vec3f, wo: vec3f, alpha: f32) -> f32 {
     return ggx_d(wi + wo, alpha) * ggx_visibility(wi.z, wo.z, alpha) * wi.z;
 }
 
-// Normals of alphas `alphas` in the plane of `wo` and normal and across it, wo.y = 0; masking of `alpha`.
-fn ggx_elliptic_eval(wi: vec3f, wo: vec3f, alpha: f32, alphas: vec2f) -> f32 {
+// Normals of `alphas` and `shear` as of LtcLobe, wo.y = 0; masking of `alpha`.
+fn ggx_elliptic_eval(wi: vec3f, wo: vec3f, alpha: f32, alphas: vec2f, shear: f32) -> f32 {
     if (wi.z <= 0.0 || wo.z <= 0.0) {
         return 0.0;
     }
-    let h2 = (wi + wo) * (wi + wo);
-    let q = max(h2.x / (alphas.x * alphas.x) + h2.y / (alphas.y * alphas.y) + h2.z, 1e-30);
-    let ratio = (h2.x + h2.y + h2.z) / q;
+    let h = wi + wo;
+    let u = h.x / alphas.x;
+    let v = h.y / alphas.y - shear * u;
+    let ratio = dot(h, h) / max(u * u + v * v + h.z * h.z, 1e-30);
     return ratio * ratio / (GGX_PI * alphas.x * alphas.y) * ggx_visibility(wi.z, wo.z, alpha) * wi.z;
 }
 

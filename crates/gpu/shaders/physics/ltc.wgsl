@@ -6,7 +6,8 @@
 struct LtcLobe {
     wo: vec3f,
     alpha: f32,                 // of the surface
-    alphas: vec2f,              // of the normals that the pixel sees, in the plane of view and normal and across it
+    alphas: vec2f,              // of the normals that the pixel sees, in the plane of view and normal and, at one place there, across it
+    shear: f32,                 // how the middle of the latter moves with the place, each over its alpha
     turned: f32,                // the share of the normals' spread that is the pixel's
     x_axis: vec2f,
     peak: vec2f,
@@ -27,6 +28,7 @@ fn ltc_lobe(wo: vec3f, roughness: f32, ltc_table: texture_2d<f32>, albedo_table:
         alpha,
         vec2f(alpha),
         0.0,
+        0.0,
         frame.x_axis,
         vec2f(max(peak_sin, 0.0), peak_cos),
         2.0 * alpha * shape.xy,
@@ -35,9 +37,10 @@ fn ltc_lobe(wo: vec3f, roughness: f32, ltc_table: texture_2d<f32>, albedo_table:
 }
 
 // The same with other normals.
-fn ltc_widened(lobe: LtcLobe, alphas: vec2f, turned: f32) -> LtcLobe {
+fn ltc_widened(lobe: LtcLobe, alphas: vec2f, shear: f32, turned: f32) -> LtcLobe {
     var widened = lobe;
     widened.alphas = alphas;
+    widened.shear = shear;
     widened.turned = turned;
     widened.width = lobe.width * (alphas / lobe.alpha);
     return widened;
@@ -69,18 +72,15 @@ fn lobe_rotate(x_axis: vec2f, w: vec3f) -> vec3f {
 fn ltc_to_cosine(lobe: LtcLobe, w: vec3f) -> vec3f {
     // One division for all that go there.
     let per_width = 1.0 / lobe.width;
-    return vec3f(
-        lobe.peak.y * (lobe.peak.y * w.x + lobe.peak.x * w.z) * per_width.x,
-        w.y * per_width.y,
-        w.z,
-    );
+    let x = lobe.peak.y * (lobe.peak.y * w.x + lobe.peak.x * w.z) * per_width.x;
+    return vec3f(x, w.y * per_width.y - lobe.shear * x, w.z);
 }
 
 // The inverse, times cos_peak^2.
 fn ltc_undo_cosine(lobe: LtcLobe, w: vec3f) -> vec3f {
     let s = lobe.peak.x;
     let c = lobe.peak.y;
-    return vec3f(lobe.width.x * w.x - s * c * w.z, c * c * lobe.width.y * w.y, c * c * w.z);
+    return vec3f(lobe.width.x * w.x - s * c * w.z, c * c * lobe.width.y * (w.y + lobe.shear * w.x), c * c * w.z);
 }
 
 fn ltc_begin() -> PolygonIrradiance {
@@ -310,7 +310,7 @@ fn ltc_add(sums: ptr<function, LtcMeans>, lobe: LtcLobe, curve: u32, curves: tex
     let wi = direction * per_l;
     let cos_h = half_vector_cos(wi, lobe.wo);
     let shown = 1.0 + lobe.turned * (lobe.wo.z / max(cos_h, 1e-15) - 1.0);
-    let exact = weight * shown * ggx_elliptic_eval(wi, lobe.wo, lobe.alpha, lobe.alphas) * jacobian;
+    let exact = weight * shown * ggx_elliptic_eval(wi, lobe.wo, lobe.alpha, lobe.alphas, lobe.shear) * jacobian;
     (*sums).parts += exact * fresnel_lookup(curves, curve, cos_h);
     (*sums).exact += exact;
     (*sums).cosine += weight * w.z;

@@ -36,9 +36,10 @@ fn world_from_surface(point: SurfacePoint, v: vec3f) -> vec3f {
     return point.axis_x * v.x + point.axis_y * v.y + point.normal * v.z;
 }
 
-// Variance of the slopes that a pixel sees, in the plane of view and normal and across it.
-fn surface_slope_variance(point: SurfacePoint) -> vec2f {
-    return point.turn_x * point.turn_x + point.turn_y * point.turn_y + point.slope_std * point.slope_std;
+// Variances of the slopes that a pixel sees in the plane of view and normal, and across it; their covariance.
+fn surface_slope_spread(point: SurfacePoint) -> vec3f {
+    let variance = point.turn_x * point.turn_x + point.turn_y * point.turn_y + point.slope_std * point.slope_std;
+    return vec3f(variance, point.turn_x.x * point.turn_x.y + point.turn_y.x * point.turn_y.y);
 }
 
 // v of unit length, or `otherwise` where v has none.

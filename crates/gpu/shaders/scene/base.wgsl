@@ -94,7 +94,7 @@ struct BaseSurface {
 
 fn base_surface(point: SurfacePoint) -> BaseSurface {
     let sharp = ltc_lobe(point.wo, point.roughness, lobe_shapes, lobe_albedo);
-    let filtered = filtered_lobe(sharp.alpha, surface_slope_variance(point), point.wo.z);
+    let filtered = filtered_lobe(sharp.alpha, surface_slope_spread(point), point.wo.z);
     let reflecting = lobe_fresnel(FresnelRgb(point.f0, point.curve), point.wo, point.roughness, fresnel_curves);
     let albedo = ggx_area_reflectance(reflecting.albedo, point.f0, sharp.albedo);
     // What the surface does not reflect reaches the body.

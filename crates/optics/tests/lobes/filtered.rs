@@ -3,7 +3,8 @@
 use std::f64::consts::{PI, TAU};
 
 use glam::DVec2;
-use hairline_optics::filtered_lobe::filtered_lobe;
+use hairline_optics::environment_lobe::{ENVIRONMENT_TAPS, environment_lobe};
+use hairline_optics::filtered_lobe::{SlopeSpread, filtered_lobe};
 use hairline_optics::ggx::ggx_alpha;
 use hairline_optics::ltc::{LobeFresnel, ltc_lobe, ltc_sphere};
 
@@ -11,6 +12,23 @@ use hairline_optics::ltc::{LobeFresnel, ltc_lobe, ltc_sphere};
 fn ggx_slopes(slope: DVec2, alphas: DVec2) -> f64 {
     let q = 1.0 + (slope / alphas).length_squared();
     1.0 / (PI * alphas.x * alphas.y * q * q)
+}
+
+/// Slopes that spread in the plane of view and normal and across it.
+fn even(variance: DVec2) -> SlopeSpread {
+    SlopeSpread {
+        variance,
+        covariance: 0.0,
+    }
+}
+
+/// Slopes that spread at an angle to the plane of view and normal alone.
+fn one_way(variance: f64, angle: f64) -> SlopeSpread {
+    let axis = DVec2::from_angle(angle);
+    SlopeSpread {
+        variance: variance * axis * axis,
+        covariance: variance * axis.x * axis.y,
+    }
 }
 
 /// Mean of f over a disk of directions and radii of equal shares, `radius` being the inverse of the share within.
@@ -53,7 +71,7 @@ fn pixels_blur_the_core_and_not_the_tails() {
     ] {
         // Small angles, so that slopes are as if on a plane.
         let alpha = 0.002;
-        let filtered = filtered_lobe(alpha, DVec2::splat(t * alpha * alpha), 1.0);
+        let filtered = filtered_lobe(alpha, even(DVec2::splat(t * alpha * alpha)), 1.0);
         let narrow = filtered.alphas / alpha;
         let ours = |m: f64| {
             let [first, second] =
@@ -88,16 +106,17 @@ fn curved_surfaces_keep_their_energy() {
     };
     for roughness in [0.02, 0.1, 0.3, 0.6, 1.0] {
         for angle_deg in [0.0f64, 40.0, 80.0] {
-            for variance in [
-                DVec2::new(1e-5, 1e-3),
-                DVec2::splat(0.01),
-                DVec2::new(0.1, 0.02),
+            for spread in [
+                even(DVec2::new(1e-5, 1e-3)),
+                even(DVec2::splat(0.01)),
+                even(DVec2::new(0.1, 0.02)),
+                one_way(0.01, 0.8),
             ] {
                 let (sin, cos) = angle_deg.to_radians().sin_cos();
                 let wo = glam::DVec3::new(sin, 0.0, cos);
                 let sharp = ltc_lobe(wo, roughness);
                 let of = LobeFresnel::new(white, wo, roughness);
-                let filtered = filtered_lobe(ggx_alpha(roughness), variance, cos);
+                let filtered = filtered_lobe(ggx_alpha(roughness), spread, cos);
                 // A sphere around the point, and one that leaves a hundredth of a degree at the horizon.
                 for sin2 in [1.0, 0.999_999_97] {
                     let reflected: f64 = filtered
@@ -110,10 +129,82 @@ fn curved_surfaces_keep_their_energy() {
                     let error = reflected / of.albedo[0] - 1.0;
                     assert!(
                         error.abs() < 0.01,
-                        "{roughness} {angle_deg} {variance}: {error}"
+                        "{roughness} {angle_deg} {spread:?}: {error}"
                     );
                 }
             }
+        }
+    }
+}
+
+/// GGX slopes of alpha 1 over normals of variance `t` along x alone.
+fn blurred_along_x(m: DVec2, t: f64) -> f64 {
+    const STEPS: usize = 2000;
+    let reach = 5.0 * t.sqrt();
+    let step = 2.0 * reach / STEPS as f64;
+    (0..STEPS)
+        .map(|i| (i as f64 + 0.5) * step - reach)
+        .map(|s| {
+            let weight = (-s * s / (2.0 * t)).exp() / (TAU * t).sqrt();
+            weight * step * ggx_slopes(m - DVec2::new(s, 0.0), DVec2::ONE)
+        })
+        .sum()
+}
+
+#[test]
+fn pixels_blur_the_way_that_they_bend() {
+    let alpha = 0.002;
+    for (t, most) in [(1.0, 0.24), (10.0, 0.34), (100.0, 0.35)] {
+        for angle in [0.0, 0.6, 1.2, 2.2] {
+            let axis = DVec2::from_angle(angle);
+            let filtered = filtered_lobe(alpha, one_way(t * alpha * alpha, angle), 1.0);
+            let narrow = filtered.alphas / alpha;
+            // At m, x being the way of the spread.
+            let ours = |m: DVec2| {
+                let m = axis.rotate(m);
+                let m = DVec2::new(m.x, m.y - filtered.shear * narrow.y * m.x / narrow.x);
+                let [first, second] = [1.0, 2f64.sqrt()].map(|k| ggx_slopes(m, k * narrow));
+                (1.0 + filtered.excess) * first - filtered.excess * second
+            };
+            let width = DVec2::new((1.0 + 2.0 * t).sqrt(), 1.0);
+            let step = 0.1 * width;
+            let mut error = 0.0;
+            for i in 0..80 {
+                for k in 0..80 {
+                    let m = (DVec2::new(f64::from(i), f64::from(k)) - 39.5) * step;
+                    error += (ours(m) - blurred_along_x(m, t)).abs() * step.x * step.y;
+                }
+            }
+            println!("variance {t} alpha^2 along {angle}: {error:.3} misplaced");
+            assert!(error < most, "{t} {angle}: {error}");
+        }
+    }
+}
+
+#[test]
+fn look_ups_lie_along_the_spread() {
+    let roughness = 0.06;
+    for angle_deg in [0.0f64, 40.0, 60.0] {
+        let (sin, cos) = angle_deg.to_radians().sin_cos();
+        let sharp = ltc_lobe(glam::DVec3::new(sin, 0.0, cos), roughness);
+        for angle in [0.4, 1.5, 2.5] {
+            let filtered = filtered_lobe(sharp.alpha, one_way(0.002, angle), cos);
+            let [(_, lobe), _] = filtered.parts(&sharp);
+            let looked_up = environment_lobe(&lobe);
+            // Slopes of half vectors over their mean: in the plane, towards the viewer, and across it.
+            let slopes: Vec<DVec2> = (0..ENVIRONMENT_TAPS)
+                .map(|i| looked_up.environment_tap(i).direction)
+                .map(|wi| wi + lobe.wo)
+                .map(|h| DVec2::new(h.x, h.y) / h.z)
+                .collect();
+            let longest = slopes[1..]
+                .iter()
+                .map(|slope| *slope - slopes[0])
+                .max_by(|a, b| a.length().total_cmp(&b.length()))
+                .unwrap_or_default();
+            let across = longest.perp_dot(DVec2::from_angle(angle)) / longest.length();
+            assert!(across.abs() < 0.15, "{angle_deg} {angle}: {slopes:?}");
+            assert!(longest.length() > 0.05, "{angle_deg} {angle}: {slopes:?}");
         }
     }
 }
