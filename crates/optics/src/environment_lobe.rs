@@ -101,24 +101,23 @@ impl EnvironmentLobe {
         let [slope, width, weight, grazing_weight] =
             environment_table(i).lookup(self.sharp.sqrt(), self.cosine);
         let from_middle = slope - self.axis_middle;
-        let along = self.axis * from_middle;
-        let (sin, cos) = turned(self.mirror, self.middle + along.x);
-        let length = self.axis.length();
+        let slopes = self.axis * from_middle;
+        // The half vector of these slopes; one across the plane counts less by the cosine.
+        let half = DVec3::new(-(self.middle + slopes.x), slopes.y / self.mirror.y, 1.0).normalize();
+        let wo = DVec3::new(self.mirror.x, 0.0, self.mirror.y);
+        let direction = 2.0 * wo.dot(half) * half - wo;
         let (_, equal_cos) = turned(
             self.mirror,
-            self.middle + from_middle * self.sharp * self.axis.x / length,
+            self.middle + from_middle * self.sharp * self.axis.x / self.axis.length(),
         );
-        // Out of the plane, by the same rule.
-        let across = DVec2::new(2.0 * along.y, 1.0 - along.y * along.y) / (1.0 + along.y * along.y);
-        let (sin, cos) = (sin * across.y, cos * across.y);
         // Where the pixel's normals spread it the surface hides more of it, or less.
         let masking = |cos: f64| ggx_g1(cos.max(MASKING_MIN_COS), self.sharp);
-        let shown = (masking(cos) / masking(equal_cos)).min(SHOWN_MAX);
+        let shown = (masking(direction.z) / masking(equal_cos)).min(SHOWN_MAX);
         EnvironmentTap {
             direction: DVec3::new(
-                -self.x_axis.x * sin - self.x_axis.y * across.x,
-                -self.x_axis.y * sin + self.x_axis.x * across.x,
-                cos,
+                self.x_axis.x * direction.x - self.x_axis.y * direction.y,
+                self.x_axis.y * direction.x + self.x_axis.x * direction.y,
+                direction.z,
             ),
             roughness: (width * self.width).sqrt().min(1.0),
             weight: weight * shown,

@@ -14,6 +14,8 @@ use crate::ltc::LtcLobe;
 const MAX_VARIANCE: f64 = 0.06;
 /// The same in the plane of view and normal, over the squared cosine of the view: normals that the viewer sees do not turn away from them.
 const MAX_VARIANCE_OVER_COS2: f64 = 0.1;
+/// The square of an arc's distance from its chord, over the squared alpha, at which it counts as bent by half.
+const BEND2: f64 = 0.25;
 /// Below this excess the wider lobe is left out.
 const MIN_EXCESS: f64 = 0.02;
 
@@ -33,6 +35,8 @@ pub struct FilteredLobe {
     pub alphas: DVec2,
     /// [`LtcLobe::shear`] of both.
     pub shear: f64,
+    /// [`LtcLobe::bent`] of both.
+    pub bent: f64,
     /// The second's weight. The first has 1 and this.
     pub excess: f64,
 }
@@ -67,9 +71,14 @@ pub fn filtered_lobe(alpha: f64, spread: SlopeSpread, cos_o: f64) -> FilteredLob
     let alpha_y = (wide2.x * wide2.y).sqrt() / alpha_x;
     // The tails of an elliptic lobe, in the mean over all directions about it.
     let excess = 1.0 - 2.0 * sharp2 / (wide2.x + wide2.y);
+    let cos2 = cos_o * cos_o;
+    // How far the arc that such normals reflect to lies off its chord, in slopes.
+    let bend = DVec2::new(cos2 * variance.y, covariance);
+    let bend2 = (1.0 - cos2).max(0.0) / (cos2 * sharp2).max(1e-12) * bend.length_squared();
     FilteredLobe {
         alphas: DVec2::new(alpha_x, alpha_y),
         shear: turn.y / (alpha_x * alpha_y),
+        bent: bend2 / (bend2 + BEND2),
         excess: if excess < MIN_EXCESS { 0.0 } else { excess },
     }
 }
@@ -77,7 +86,8 @@ pub fn filtered_lobe(alpha: f64, spread: SlopeSpread, cos_o: f64) -> FilteredLob
 impl FilteredLobe {
     /// The two lobes and their weights, from the sharp lobe. The second weight is zero where one is enough.
     pub fn parts(&self, sharp: &LtcLobe) -> [(f64, LtcLobe); 2] {
-        let lobe = |width: f64| sharp.widened(width * self.alphas, self.shear, self.excess);
+        let lobe =
+            |width: f64| sharp.widened(width * self.alphas, self.shear, self.bent, self.excess);
         [(1.0 + self.excess, lobe(1.0)), (-self.excess, lobe(SQRT_2))]
     }
 }

@@ -53,6 +53,9 @@ pub struct LtcLobe {
     pub alphas: DVec2,
     /// How far the middle of the latter moves, over the second alpha, while the place in the plane moves by the first.
     pub shear: f64,
+    /// How far, from 0 to 1, the lobe's core is too bent for the correction. Normals that spread across the plane of view and normal reflect
+    /// to an arc; the fit draws its chord, and where the two are further apart than they are wide the correction would find next to nothing.
+    pub bent: f64,
     /// The share of the normals' spread that is the pixel's: its normals count by what the picture shows of them, and not as facets do.
     pub turned: f64,
     /// Sine and cosine of the peak's angle from the normal; the peak is on the side away from the viewer.
@@ -95,6 +98,7 @@ impl LtcLobe {
             alpha,
             alphas: DVec2::splat(alpha),
             shear: 0.0,
+            bent: 0.0,
             turned: 0.0,
             peak: DVec2::new(peak.x.max(0.0), peak.y),
             width: 2.0 * alpha * DVec2::new(shape.width_x, shape.width_y),
@@ -103,10 +107,11 @@ impl LtcLobe {
     }
 
     /// The same with other normals.
-    pub(crate) fn widened(&self, alphas: DVec2, shear: f64, turned: f64) -> Self {
+    pub(crate) fn widened(&self, alphas: DVec2, shear: f64, bent: f64, turned: f64) -> Self {
         Self {
             alphas,
             shear,
+            bent,
             turned,
             width: self.width * alphas / self.alpha,
             ..*self
@@ -499,8 +504,11 @@ fn ltc_means(lobe: &LtcLobe, of: &LobeFresnel, vector: DVec3) -> (f64, [f64; 4])
             parts[k] += value * at[k];
         }
     }
+    let mean = PI * exact / cosine.max(1e-30);
+    // Far from the core it holds.
+    let by_fit = lobe.bent * centre.z * centre.z;
     (
-        PI * exact / cosine.max(1e-30),
+        mean + by_fit * (lobe.albedo - mean),
         parts.map(|part| part / exact.max(1e-30)),
     )
 }

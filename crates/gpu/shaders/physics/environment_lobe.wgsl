@@ -56,15 +56,15 @@ fn environment_tap(lobe: EnvironmentLobe, shapes: texture_2d<f32>, i: u32) -> En
     let shape = environment_shape(shapes, lobe.sharp, lobe.cosine, i);
     let from_middle = shape.x - lobe.axis_middle;
     let slopes = lobe.axis * from_middle;
-    let in_plane = environment_turned(lobe.mirror, lobe.middle + slopes.x);
+    // The half vector of these slopes; one across the plane counts less by the cosine.
+    let half = normalize(vec3f(-(lobe.middle + slopes.x), slopes.y / lobe.mirror.y, 1.0));
+    let wo = vec3f(lobe.mirror.x, 0.0, lobe.mirror.y);
+    let to = 2.0 * dot(wo, half) * half - wo;
     let equal = environment_turned(lobe.mirror, lobe.middle + from_middle * lobe.sharp * lobe.axis.x / length(lobe.axis));
-    // Out of the plane, by the same rule.
-    let across = vec2f(2.0 * slopes.y, 1.0 - slopes.y * slopes.y) / (1.0 + slopes.y * slopes.y);
-    let to = in_plane * across.y;
-    let masking = environment_masking(to.y, lobe.sharp) / environment_masking(equal.y, lobe.sharp);
+    let masking = environment_masking(to.z, lobe.sharp) / environment_masking(equal.y, lobe.sharp);
     let shown = min(masking, ENVIRONMENT_SHOWN_MAX);
     return EnvironmentTap(
-        vec3f(-lobe.x_axis * to.x + vec2f(-lobe.x_axis.y, lobe.x_axis.x) * across.x, to.y),
+        vec3f(lobe.x_axis * to.x + vec2f(-lobe.x_axis.y, lobe.x_axis.x) * to.y, to.z),
         min(sqrt(shape.y * lobe.width), 1.0),
         shape.z * shown,
         shape.w * shown,

@@ -3,6 +3,7 @@
 struct FilteredLobe {
     alphas: vec2f,              // as the first's of LtcLobe
     shear: f32,                 // of both
+    bent: f32,                  // of both
     excess: f32,                // the weight of the second; the first has 1 and this
 }
 
@@ -24,7 +25,11 @@ fn filtered_lobe(alpha: f32, spread: vec3f, cos_o: f32) -> FilteredLobe {
     let alpha_x = sqrt(0.5 * (wide2.x + wide2.y) + turn.x);
     let alpha_y = sqrt(wide2.x * wide2.y) / alpha_x;
     let excess = 1.0 - 2.0 * sharp2 / (wide2.x + wide2.y);
-    return FilteredLobe(vec2f(alpha_x, alpha_y), turn.y / (alpha_x * alpha_y), select(excess, 0.0, excess < 0.02));
+    let cos2 = cos_o * cos_o;
+    // How far the arc that such normals reflect to lies off its chord, in slopes.
+    let bend = vec2f(cos2 * variance.y, covariance);
+    let bend2 = max(1.0 - cos2, 0.0) / max(cos2 * sharp2, 1e-12) * dot(bend, bend);
+    return FilteredLobe(vec2f(alpha_x, alpha_y), turn.y / (alpha_x * alpha_y), bend2 / (bend2 + 0.25), select(excess, 0.0, excess < 0.02));
 }
 
 // One of the two lobes, and its weight.
@@ -36,5 +41,5 @@ struct FilteredLobePart {
 fn filtered_lobe_part(sharp: LtcLobe, filtered: FilteredLobe, i: u32) -> FilteredLobePart {
     let first = i == 0u;
     let alphas = filtered.alphas * select(1.41421356, 1.0, first);
-    return FilteredLobePart(ltc_widened(sharp, alphas, filtered.shear, filtered.excess), select(-filtered.excess, 1.0 + filtered.excess, first));
+    return FilteredLobePart(ltc_widened(sharp, alphas, filtered.shear, filtered.bent, filtered.excess), select(-filtered.excess, 1.0 + filtered.excess, first));
 }

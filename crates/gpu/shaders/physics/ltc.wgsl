@@ -8,6 +8,7 @@ struct LtcLobe {
     alpha: f32,                 // of the surface
     alphas: vec2f,              // of the normals that the pixel sees, in the plane of view and normal and, at one place there, across it
     shear: f32,                 // how the middle of the latter moves with the place, each over its alpha
+    bent: f32,                  // how far the core is too bent for the correction, from 0 to 1
     turned: f32,                // the share of the normals' spread that is the pixel's
     x_axis: vec2f,
     peak: vec2f,
@@ -29,6 +30,7 @@ fn ltc_lobe(wo: vec3f, roughness: f32, ltc_table: texture_2d<f32>, albedo_table:
         vec2f(alpha),
         0.0,
         0.0,
+        0.0,
         frame.x_axis,
         vec2f(max(peak_sin, 0.0), peak_cos),
         2.0 * alpha * shape.xy,
@@ -37,10 +39,11 @@ fn ltc_lobe(wo: vec3f, roughness: f32, ltc_table: texture_2d<f32>, albedo_table:
 }
 
 // The same with other normals.
-fn ltc_widened(lobe: LtcLobe, alphas: vec2f, shear: f32, turned: f32) -> LtcLobe {
+fn ltc_widened(lobe: LtcLobe, alphas: vec2f, shear: f32, bent: f32, turned: f32) -> LtcLobe {
     var widened = lobe;
     widened.alphas = alphas;
     widened.shear = shear;
+    widened.bent = bent;
     widened.turned = turned;
     widened.width = lobe.width * (alphas / lobe.alpha);
     return widened;
@@ -256,8 +259,11 @@ fn ltc_reflected(lobe: LtcLobe, reflecting: LobeFresnel, curves: texture_2d<f32>
     // The light, then the rest of the hemisphere: one copy of the code.
     for (var round = 0; round < select(1, 2, by_rest > 0.0); round += 1) {
         let of_light = round == 0;
-        let means = ltc_means(lobe, reflecting.fresnel.curve, curves, select(vec3f(-vector.xy, GGX_PI - vector.z), vector, of_light));
-        let mean = GGX_PI * means.exact / max(means.cosine, 1e-30);
+        let over = select(vec3f(-vector.xy, GGX_PI - vector.z), vector, of_light);
+        let means = ltc_means(lobe, reflecting.fresnel.curve, curves, over);
+        // Far from the core the correction holds.
+        let core = over.z / max(length(over), 1e-30);
+        let mean = mix(GGX_PI * means.exact / max(means.cosine, 1e-30), lobe.albedo, lobe.bent * core * core);
         if (of_light) {
             integral = min(share * mix(mean, lobe.albedo, fade), lobe.albedo);
             parts = means.parts / max(means.exact, 1e-30);

@@ -2,11 +2,13 @@
 
 use std::f64::consts::{PI, TAU};
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 use hairline_optics::environment_lobe::{ENVIRONMENT_TAPS, environment_lobe};
 use hairline_optics::filtered_lobe::{SlopeSpread, filtered_lobe};
 use hairline_optics::ggx::ggx_alpha;
-use hairline_optics::ltc::{LobeFresnel, ltc_lobe, ltc_sphere};
+use hairline_optics::ltc::{
+    LobeFresnel, LtcLobe, ltc_begin, ltc_edge, ltc_end, ltc_lobe, ltc_sphere,
+};
 
 /// The density of slopes of GGX.
 fn ggx_slopes(slope: DVec2, alphas: DVec2) -> f64 {
@@ -113,7 +115,7 @@ fn curved_surfaces_keep_their_energy() {
                 one_way(0.01, 0.8),
             ] {
                 let (sin, cos) = angle_deg.to_radians().sin_cos();
-                let wo = glam::DVec3::new(sin, 0.0, cos);
+                let wo = DVec3::new(sin, 0.0, cos);
                 let sharp = ltc_lobe(wo, roughness);
                 let of = LobeFresnel::new(white, wo, roughness);
                 let filtered = filtered_lobe(ggx_alpha(roughness), spread, cos);
@@ -122,9 +124,7 @@ fn curved_surfaces_keep_their_energy() {
                     let reflected: f64 = filtered
                         .parts(&sharp)
                         .iter()
-                        .map(|(weight, lobe)| {
-                            weight * ltc_sphere(lobe, &of, glam::DVec3::Z, sin2)[0]
-                        })
+                        .map(|(weight, lobe)| weight * ltc_sphere(lobe, &of, DVec3::Z, sin2)[0])
                         .sum();
                     let error = reflected / of.albedo[0] - 1.0;
                     assert!(
@@ -186,7 +186,7 @@ fn look_ups_lie_along_the_spread() {
     let roughness = 0.06;
     for angle_deg in [0.0f64, 40.0, 60.0] {
         let (sin, cos) = angle_deg.to_radians().sin_cos();
-        let sharp = ltc_lobe(glam::DVec3::new(sin, 0.0, cos), roughness);
+        let sharp = ltc_lobe(DVec3::new(sin, 0.0, cos), roughness);
         for angle in [0.4, 1.5, 2.5] {
             let filtered = filtered_lobe(sharp.alpha, one_way(0.002, angle), cos);
             let [(_, lobe), _] = filtered.parts(&sharp);
@@ -205,6 +205,47 @@ fn look_ups_lie_along_the_spread() {
             let across = longest.perp_dot(DVec2::from_angle(angle)) / longest.length();
             assert!(across.abs() < 0.15, "{angle_deg} {angle}: {slopes:?}");
             assert!(longest.length() > 0.05, "{angle_deg} {angle}: {slopes:?}");
+        }
+    }
+}
+
+#[test]
+fn tubes_keep_their_light() {
+    let white = hairline_optics::fresnel::FresnelRgb {
+        f0: [1.0; 3],
+        curve: hairline_optics::fresnel::FresnelCurve::schlick(),
+    };
+    for (variance, most_off) in [(1e-4, 0.02), (1e-3, 0.2), (1e-2, 0.4)] {
+        for (angle_deg, angle) in [(20.0f64, 1.57), (50.0, 1.57), (50.0, 0.8), (70.0, 0.8)] {
+            let (sin, cos) = angle_deg.to_radians().sin_cos();
+            let wo = DVec3::new(sin, 0.0, cos);
+            let sharp = ltc_lobe(wo, 0.06);
+            let of = LobeFresnel::new(white, wo, 0.06);
+            let filtered = filtered_lobe(sharp.alpha, one_way(variance, angle), cos);
+            // Light from a tube across the plane of view and normal, summed over its places.
+            let sum = |parts: &[(f64, LtcLobe)]| -> f64 {
+                let at = |x: f64, y: f64| {
+                    DVec3::new(-sin, 0.0, cos) + x * DVec3::new(cos, 0.0, sin) + y * DVec3::Y
+                };
+                let tube = |x: f64| {
+                    [(-0.01, -1.0), (0.01, -1.0), (0.01, 1.0), (-0.01, 1.0)]
+                        .map(|(dx, y)| at(x + dx, y))
+                };
+                let reflected = |lobe: &LtcLobe, vertices: [DVec3; 4]| {
+                    let mut state = ltc_begin();
+                    for k in 0..4 {
+                        ltc_edge(&mut state, lobe, vertices[k], vertices[(k + 1) % 4]);
+                    }
+                    ltc_end(&state, lobe, &of)[0]
+                };
+                (-200..=200)
+                    .map(|i| tube(f64::from(i) * 0.01))
+                    .flat_map(|tube| parts.iter().map(move |(w, l)| w * reflected(l, tube)))
+                    .sum()
+            };
+            let kept = sum(&filtered.parts(&sharp)) / sum(&[(1.0, sharp)]);
+            println!("{angle_deg} degrees, variance {variance} at {angle}: {kept:.3}");
+            assert!((kept - 1.0).abs() < most_off, "{angle_deg} {angle}: {kept}");
         }
     }
 }
