@@ -4,6 +4,7 @@ mod assets;
 mod dense;
 mod environment;
 mod environment_band;
+mod furnaces;
 mod physics;
 mod published_scenes;
 mod scenes;

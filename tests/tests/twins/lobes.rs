@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 use std::sync::LazyLock;
 
 use super::twin::{Sequence, Tolerance, Twin};
-use glam::{DVec2, DVec3, Vec3};
+use glam::{DVec3, Vec3};
 use hairline_gpu::call::{Call, Table, Texels};
 use hairline_gpu::{headless, shaders};
 use hairline_optics::environment_lobe::{ENVIRONMENT_TAPS, environment_lobe};

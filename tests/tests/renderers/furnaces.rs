@@ -1,0 +1,136 @@
+//! Light of radiance one from everywhere on surfaces whose normals differ under a pixel: no more comes back than the albedo that the surface has
+//! under each of its normals.
+
+use conformance::{Sequence, furnace, square};
+use glam::Vec3;
+use hairline_cpu::closed_form::{RenderOptions, render};
+use hairline_fixtures::SceneFile;
+use hairline_optics::metal::Metal;
+use hairline_scene::{Base, Scene, Texture};
+use std::sync::Arc;
+
+const WHITE: [f64; 3] = [1.0; 3];
+
+/// What reflects everything, and what does not.
+fn bases() -> [(Base, bool); 6] {
+    let gltf = |metallic| Base::MetallicRoughness {
+        base_color: WHITE,
+        metallic,
+    };
+    [
+        (Base::Mirror, true),
+        (Base::ColoredMetal { base_color: WHITE }, true),
+        (
+            Base::Dielectric {
+                ior: 1.5,
+                base_color: WHITE,
+            },
+            true,
+        ),
+        (gltf(0.0), true),
+        (gltf(0.5), false),
+        (Base::Metal(Metal::Silver), false),
+    ]
+}
+
+/// The base layer, pixels of the background left out.
+fn base(scene: &Scene) -> Vec<Option<[f32; 3]>> {
+    let options = RenderOptions {
+        samples: 1,
+        ..RenderOptions::default()
+    };
+    let image = render(scene, &options, &|_| {});
+    let seen = image.depth_m.iter().map(|depth| *depth > 0.0);
+    seen.zip(image.base)
+        .map(|(seen, radiance)| seen.then_some(radiance))
+        .collect()
+}
+
+/// `scene` with each base and roughness in a furnace, against the same where a pixel sees one normal.
+fn check(name: &str, mut scene: Scene) {
+    scene.environment = furnace();
+    scene.lights.clear();
+    let mut worst = [0.0_f32; 2];
+    for (kind, returns_all) in bases() {
+        for roughness in [0.02, 0.1, 0.3, 0.6, 1.0] {
+            let mut materials = scene.materials.clone();
+            materials[0].base = kind;
+            materials[0].roughness = roughness;
+            scene.materials = materials;
+            scene.render.filter_std_px = 0.5;
+            let wide = base(&scene);
+            scene.render.filter_std_px = 1e-4;
+            let narrow = base(&scene);
+            assert!(wide.iter().flatten().count() > 500);
+            for (wide, narrow) in wide.iter().zip(&narrow) {
+                let (Some(wide), Some(narrow)) = (wide, narrow) else {
+                    continue;
+                };
+                for c in 0..3 {
+                    let albedo = if returns_all { 1.0 } else { narrow[c] };
+                    let off = wide[c] / albedo - 1.0;
+                    worst[usize::from(returns_all)] =
+                        worst[usize::from(returns_all)].max(off.abs());
+                    assert!(wide[c] < 1.01, "{name} {kind:?} {roughness}: {}", wide[c]);
+                    // A smaller filter sees other normals of a map.
+                    let has_albedo = returns_all || scene.textures.is_empty();
+                    assert!(
+                        !has_albedo || off.abs() < 0.01,
+                        "{name} {kind:?} {roughness}: {off}"
+                    );
+                }
+            }
+        }
+    }
+    println!(
+        "{name}: {:.4} off where all comes back, {:.4} elsewhere",
+        worst[1], worst[0]
+    );
+}
+
+#[test]
+fn balls_in_a_furnace() {
+    let ball = SceneFile::seen_from([0.0, -0.5, 0.2])
+        .mirror("m")
+        .object("ball", "m", "sphere = { radius_m = 0.05 }")
+        .fov_y_deg(14.0)
+        .size_px([40, 40]);
+    check("ball", ball.scene());
+}
+
+#[test]
+fn sheets_that_bend_one_way_in_a_furnace() {
+    let mut scene = square(Base::Mirror, 0.01, 32);
+    let object = &mut scene.objects[0];
+    let mesh = Arc::make_mut(&mut object.mesh);
+    // Along a diagonal.
+    for (normal, position) in mesh.normals.iter_mut().zip(&mesh.positions_m) {
+        let tilt = 40.0 * (position.x + 0.5 * position.y);
+        *normal = Vec3::new(tilt, 0.5 * tilt, 1.0).normalize();
+    }
+    check("bent sheet", scene);
+}
+
+#[test]
+fn normal_maps_in_a_furnace() {
+    let mut scene = square(Base::Mirror, 0.01, 32);
+    let mesh = Arc::make_mut(&mut scene.objects[0].mesh);
+    for (uv, position) in mesh.uvs.iter_mut().zip(&mesh.positions_m) {
+        *uv = (position.truncate() / 0.02) + 0.5;
+    }
+    let mut random = Sequence(7);
+    let mut texel = || {
+        let xy = [0; 2].map(|_: u8| random.between(88.0, 168.0) as u8);
+        // How far the slopes spread stands in the last.
+        [xy[0], xy[1], 245, random.between(0.0, 120.0) as u8]
+    };
+    let levels =
+        [64usize, 32, 16, 8, 4, 2, 1].map(|side| (0..side * side).map(|_| texel()).collect());
+    scene.textures = Arc::new(vec![Texture {
+        size_px: [64; 2],
+        levels: levels.into(),
+        srgb: false,
+    }]);
+    scene.materials[0].normal_texture = Some((0, 1.0));
+    check("normal map", scene);
+}
