@@ -13,10 +13,11 @@ use hairline_image::{Animation, Display, Image, Output};
 use hairline_index::method::Method;
 
 use crate::backend::{Painter, Task};
-use crate::cli::{Backend, Switch};
+use crate::cli::Backend;
 use crate::failure::Failure;
 use crate::progress::Progress;
 use crate::scene_file::{self, Overrides};
+use crate::switch::Switch;
 use crate::{cli, method_flags};
 use goals::Goals;
 use motion::Motion;

@@ -398,8 +398,7 @@ fn more_scratches_than_memory() {
         disk()
     ));
     let loader = Loader {
-        // A GiB, and what the rest of the scene takes.
-        memory_budget_bytes: (1 << 30) + (1 << 20),
+        memory_budget_bytes: 1 << 30,
         ..Default::default()
     };
     let started = std::time::Instant::now();
