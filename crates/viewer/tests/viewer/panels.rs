@@ -134,12 +134,12 @@ fn a_material_of_every_kind_and_lights() {
         select(&mut harness, Selection::Material(0));
         assert!(every_number_is_live(&mut harness) >= 2, "{}", preset.name());
     }
-    // A sphere: radiance, centre, radius.
+    // A sphere: radiance, stops, centre, radius.
     select(&mut harness, Selection::Light(0));
-    assert_eq!(every_number_is_live(&mut harness), 1 + 3 + 1);
-    // A polygon's corners move in its plane: along some axes not at all. Its radiance is a number like others.
+    assert_eq!(every_number_is_live(&mut harness), 2 + 3 + 1);
+    // A polygon's corners move in its plane: along some axes not at all. Its radiance and stops are numbers like others.
     select(&mut harness, Selection::Light(1));
-    assert_eq!(controls(&harness, Role::SpinButton).len(), 1 + 4 * 3);
+    assert_eq!(controls(&harness, Role::SpinButton).len(), 2 + 4 * 3);
 }
 
 #[test]
