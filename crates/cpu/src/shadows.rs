@@ -13,6 +13,7 @@ use crate::light_view::LightViews;
 use crate::prepared::Prepared;
 use crate::sampling::environment::EnvironmentSampler;
 use crate::sampling::lights::{AreaLights, LightHit};
+use crate::sampling::luminance;
 use crate::shade_base::{Base, BaseRadiance};
 use crate::shade_scratches::{DrawnLight, Frame, Pick, Picks, ScratchLight, SourcePicks};
 use crate::surface::{SurfacePoint, raised_m};
@@ -23,12 +24,6 @@ use hairline_optics::ggx::{ggx_alpha, ggx_eval, ggx_pdf, ggx_sample};
 use hairline_optics::ltc::ltc_sphere;
 use hairline_scene::CameraFrame;
 use std::f64::consts::PI;
-
-/// Rec.709 luminance.
-#[inline]
-pub(crate) fn luminance(rgb: DVec3) -> f64 {
-    rgb.dot(DVec3::new(0.2126, 0.7152, 0.0722))
-}
 
 /// What rays to the lights of a scene need.
 pub(crate) struct Shadows<'a> {

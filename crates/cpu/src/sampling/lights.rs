@@ -159,7 +159,7 @@ impl AreaLights {
     }
 
     /// Bounds on the component along a unit `axis` of the unit directions from a point to light `i`. For polygons they are
-    /// tighter than those of [`AreaLights::bound`].
+    /// tighter than those of a cone about them.
     pub fn extent(&self, i: usize, from: DVec3, axis: DVec3) -> (f64, f64) {
         match &self.lights[i].shape {
             Shape::Sphere(sphere) => sphere.bound(from).extent(axis),

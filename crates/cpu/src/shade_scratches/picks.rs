@@ -1,7 +1,7 @@
 //! Scratches that stand for all: for each light a few, each drawn with the probability of its part of the light that the scratches of a point
 //! send. Shadow rays start from them.
 
-use crate::shadows::luminance;
+use crate::sampling::luminance;
 use glam::{DVec2, DVec3};
 use hairline_optics::band::{Along, BandPlace};
 use hairline_scene::Profile;

@@ -2,7 +2,7 @@
 //! scratch_light.wgsl.
 
 use crate::light_view::{LightView, LightViews};
-use crate::shadows::luminance;
+use crate::sampling::luminance;
 use crate::surface::SurfacePoint;
 use glam::{DVec2, DVec3};
 use hairline_optics::band::{

@@ -8,7 +8,8 @@ use crate::Display;
 use crate::Picture;
 
 /// The authors' default: a 0.7 m wide display of 3840 pixels, seen from 0.7 m.
-pub(crate) const PIXELS_PER_DEGREE: f32 = 67.0;
+#[cfg(feature = "flip")]
+const PIXELS_PER_DEGREE: f32 = 67.0;
 
 /// The perceived difference of two displayed pictures, 0 where none is seen to 1 for black against white.
 #[derive(Clone, Debug, PartialEq)]
