@@ -138,6 +138,12 @@ impl LtcLobe {
         DVec3::new(x, w.y * per_width.y - self.shear * x, w.z)
     }
 
+    /// The transpose of [`LtcLobe::to_cosine`].
+    fn cosine_transposed(&self, w: DVec3) -> DVec3 {
+        let x = self.peak.y * (w.x - self.shear * w.y) / self.width.x;
+        DVec3::new(self.peak.y * x, w.y / self.width.y, w.z + self.peak.x * x)
+    }
+
     /// The inverse of [`LtcLobe::to_cosine`], times cos_peak^2, which keeps it finite for a peak on the horizon.
     fn undo_cosine(&self, w: DVec3) -> DVec3 {
         let (s, c) = (self.peak.x, self.peak.y);
@@ -436,8 +442,10 @@ const CENTRE_WEIGHT: f64 = 1.0 / 3.0;
 /// How far the ring may go down from its centre, over the centre's height above the horizon: 1 less this times the viewer's cosine. GGX rises
 /// steeply near the horizon, the more the flatter the view.
 const RING_LIFT: f64 = 0.12;
-/// The longest half-axis of the ring.
+/// The longest radius of the ring.
 const RING_MAX: f64 = 0.97;
+/// The squared sine of a light's radius at which half of a bent lobe is left as it was fitted.
+const FIT_FROM: f64 = 0.005;
 /// The share of the cosine from which on the rest of the hemisphere counts, more and more up to the whole.
 const REST_FROM: f64 = 0.3;
 
@@ -472,21 +480,16 @@ fn ltc_reflected(lobe: &LtcLobe, of: &LobeFresnel, vector: DVec3) -> [f64; 3] {
 }
 
 /// The mean of GGX over the fit, times E0; and the means of the parts of a reflectance over GGX. From the vector irradiance of what they are
-/// taken over: at five directions of the circular cap that has the same irradiance. Where that would go below the horizon its ring is
-/// flattened to an ellipse of the same area above it.
+/// taken over: at five directions of a cap that has the same irradiance ([`ltc_ring`]).
 fn ltc_means(lobe: &LtcLobe, of: &LobeFresnel, vector: DVec3) -> (f64, [f64; 4]) {
     let length = vector.length().max(1e-30);
     let centre = vector / length;
-    let (u, v) = irradiance_basis(centre);
-    let radius2 = RING_RADIUS * RING_RADIUS * (length / PI).min(1.0);
-    let depth = (1.0 - RING_LIFT * lobe.wo.z) * centre.z;
-    let down = radius2.sqrt().min(depth).max(1e-15);
-    let along = (radius2 / down).min(RING_MAX);
+    let sin2 = (length / PI).min(1.0);
+    let [u, v] = ltc_ring(lobe, centre, RING_RADIUS * RING_RADIUS * sin2);
     let (at_u, at_v) = (
-        (1.0 - down * down).sqrt() * centre,
-        (1.0 - along * along).sqrt() * centre,
+        (1.0 - u.length_squared()).sqrt() * centre,
+        (1.0 - v.length_squared()).sqrt() * centre,
     );
-    let (u, v) = (down * u, along * v);
     let points = [centre, at_u + u, at_v + v, at_u - u, at_v - v];
     let mut weights = [RING_WEIGHT; 5];
     weights[0] = CENTRE_WEIGHT;
@@ -505,12 +508,34 @@ fn ltc_means(lobe: &LtcLobe, of: &LobeFresnel, vector: DVec3) -> (f64, [f64; 4])
         }
     }
     let mean = PI * exact / cosine.max(1e-30);
-    // Far from the core it holds.
-    let by_fit = lobe.bent * centre.z * centre.z;
+    // Five directions find a small light on an arc and miss parts of a large one.
+    let by_fit = lobe.bent * sin2 / (sin2 + FIT_FROM);
     (
         mean + by_fit * (lobe.albedo - mean),
         parts.map(|part| part / exact.max(1e-30)),
     )
+}
+
+/// Two radii of the ring about `centre`, conjugate to each other, with a product of the ellipse's half-axes of `radius2`. A light that is
+/// round for the point is as long in the cosine's space as the lobe is narrow; the lobe of a surface does well with a circle. Where
+/// the ring would go below the horizon it is flattened to an ellipse of the same area above it.
+fn ltc_ring(lobe: &LtcLobe, centre: DVec3, radius2: f64) -> [DVec3; 2] {
+    let (u, v) = irradiance_basis(centre);
+    let (to_u, to_v) = (lobe.cosine_transposed(u), lobe.cosine_transposed(v));
+    let (uu, uv, vv) = (to_u.length_squared(), to_u.dot(to_v), to_v.length_squared());
+    let stretched = lobe.turned / (uu * vv - uv * uv).max(1e-30).sqrt();
+    let round = 1.0 - lobe.turned;
+    let (uu, uv, vv) = (
+        round + stretched * uu,
+        stretched * uv,
+        round + stretched * vv,
+    );
+    let per_area = 1.0 / (uu * vv - uv * uv).max(1e-30).sqrt();
+    let depth = (1.0 - RING_LIFT * lobe.wo.z) * centre.z;
+    let down = (radius2 * uu * per_area).sqrt().min(depth).max(1e-15);
+    let along = radius2 / down;
+    let ends_early = |radius: DVec3| radius * (RING_MAX / radius.length().max(RING_MAX));
+    [ends_early(down * (u + uv / uu * v)), ends_early(along * v)]
 }
 
 /// GGX of the lobe's normals at the directions that each `w` stands for, times the solid angle there per solid angle at w; and the cosine at the half vector.

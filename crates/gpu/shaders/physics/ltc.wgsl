@@ -79,6 +79,11 @@ fn ltc_to_cosine(lobe: LtcLobe, w: vec3f) -> vec3f {
     return vec3f(x, w.y * per_width.y - lobe.shear * x, w.z);
 }
 
+fn ltc_cosine_transposed(lobe: LtcLobe, w: vec3f) -> vec3f {
+    let x = lobe.peak.y * (w.x - lobe.shear * w.y) / lobe.width.x;
+    return vec3f(lobe.peak.y * x, w.y / lobe.width.y, w.z + lobe.peak.x * x);
+}
+
 // The inverse, times cos_peak^2.
 fn ltc_undo_cosine(lobe: LtcLobe, w: vec3f) -> vec3f {
     let s = lobe.peak.x;
@@ -243,6 +248,7 @@ fn ltc_rotate_pair(u: vec3f, v: vec3f) -> LtcPair {
 const LTC_RING_RADIUS: f32 = 0.8660254;
 const LTC_RING_LIFT: f32 = 0.12;
 const LTC_RING_MAX: f32 = 0.97;
+const LTC_FIT_FROM: f32 = 0.005;
 const LTC_REST_FROM: f32 = 0.3;
 
 fn ltc_reflected(lobe: LtcLobe, reflecting: LobeFresnel, curves: texture_2d<f32>, vector: vec3f) -> vec3f {
@@ -261,9 +267,9 @@ fn ltc_reflected(lobe: LtcLobe, reflecting: LobeFresnel, curves: texture_2d<f32>
         let of_light = round == 0;
         let over = select(vec3f(-vector.xy, GGX_PI - vector.z), vector, of_light);
         let means = ltc_means(lobe, reflecting.fresnel.curve, curves, over);
-        // Far from the core the correction holds.
-        let core = over.z / max(length(over), 1e-30);
-        let mean = mix(GGX_PI * means.exact / max(means.cosine, 1e-30), lobe.albedo, lobe.bent * core * core);
+        let means_sin2 = min(length(over) / GGX_PI, 1.0);
+        let by_fit = lobe.bent * means_sin2 / (means_sin2 + LTC_FIT_FROM);
+        let mean = mix(GGX_PI * means.exact / max(means.cosine, 1e-30), lobe.albedo, by_fit);
         if (of_light) {
             integral = min(share * mix(mean, lobe.albedo, fade), lobe.albedo);
             parts = means.parts / max(means.exact, 1e-30);
@@ -286,22 +292,34 @@ struct LtcMeans {
 fn ltc_means(lobe: LtcLobe, curve: u32, curves: texture_2d<f32>, vector: vec3f) -> LtcMeans {
     let magnitude = max(length(vector), 1e-30);
     let centre = vector * (1.0 / magnitude);
-    let sides = irradiance_basis(centre);
-    let radius2 = LTC_RING_RADIUS * LTC_RING_RADIUS * min(magnitude / GGX_PI, 1.0);
-    let down = max(min(sqrt(radius2), (1.0 - LTC_RING_LIFT * lobe.wo.z) * centre.z), 1e-15);
-    let along = min(radius2 / down, LTC_RING_MAX);
+    let ring = ltc_ring(lobe, centre, LTC_RING_RADIUS * LTC_RING_RADIUS * min(magnitude / GGX_PI, 1.0));
 
     var sums = LtcMeans(vec4f(0.0), 0.0, 0.0);
     // The centre, and opposite points of the ring.
     for (var i = 0; i < 5; i += 1) {
-        let level = (i & 1) == 0;
-        var radius = select(down, along, level);
-        radius = select(radius, 0.0, i == 0);
-        let side = select(radius, -radius, i > 2) * select(sides.u, sides.v, level);
-        let w = sqrt(1.0 - radius * radius) * centre + side;
+        let radius = select(select(ring.a, ring.b, (i & 1) == 0), vec3f(0.0), i == 0);
+        let w = sqrt(1.0 - dot(radius, radius)) * centre + select(radius, -radius, i > 2);
         ltc_add(&sums, lobe, curve, curves, w, select(1.0 / 6.0, 1.0 / 3.0, i == 0));
     }
     return sums;
+}
+
+// Two conjugate radii of the ring about the centre.
+fn ltc_ring(lobe: LtcLobe, centre: vec3f, radius2: f32) -> LtcPair {
+    let sides = irradiance_basis(centre);
+    let to_u = ltc_cosine_transposed(lobe, sides.u);
+    let to_v = ltc_cosine_transposed(lobe, sides.v);
+    let across = cross(to_u, to_v);
+    let stretched = lobe.turned / sqrt(max(dot(across, across), 1e-30));
+    let round = 1.0 - lobe.turned;
+    let uu = round + stretched * dot(to_u, to_u);
+    let uv = stretched * dot(to_u, to_v);
+    let vv = round + stretched * dot(to_v, to_v);
+    let per_area = 1.0 / sqrt(max(uu * vv - uv * uv, 1e-30));
+    let down = max(min(sqrt(radius2 * uu * per_area), (1.0 - LTC_RING_LIFT * lobe.wo.z) * centre.z), 1e-15);
+    let a = down * (sides.u + uv / uu * sides.v);
+    let b = radius2 / down * sides.v;
+    return LtcPair(a * (LTC_RING_MAX / max(length(a), LTC_RING_MAX)), b * (LTC_RING_MAX / max(length(b), LTC_RING_MAX)));
 }
 
 fn ltc_add(sums: ptr<function, LtcMeans>, lobe: LtcLobe, curve: u32, curves: texture_2d<f32>, w: vec3f, weight: f32) {
