@@ -445,7 +445,7 @@ const RING_LIFT: f64 = 0.12;
 /// The longest radius of the ring.
 const RING_MAX: f64 = 0.97;
 /// The squared sine of a light's radius at which half of a bent lobe is left as it was fitted.
-const FIT_FROM: f64 = 0.005;
+const FIT_FROM: f64 = 0.0003;
 /// The share of the cosine from which on the rest of the hemisphere counts, more and more up to the whole.
 const REST_FROM: f64 = 0.3;
 

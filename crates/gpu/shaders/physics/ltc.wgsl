@@ -248,7 +248,7 @@ fn ltc_rotate_pair(u: vec3f, v: vec3f) -> LtcPair {
 const LTC_RING_RADIUS: f32 = 0.8660254;
 const LTC_RING_LIFT: f32 = 0.12;
 const LTC_RING_MAX: f32 = 0.97;
-const LTC_FIT_FROM: f32 = 0.005;
+const LTC_FIT_FROM: f32 = 0.0003;
 const LTC_REST_FROM: f32 = 0.3;
 
 fn ltc_reflected(lobe: LtcLobe, reflecting: LobeFresnel, curves: texture_2d<f32>, vector: vec3f) -> vec3f {
