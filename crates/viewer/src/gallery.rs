@@ -5,30 +5,18 @@
 
 mod cards;
 mod scenes;
+mod thumb;
 
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 
 use egui::{ColorImage, TextureHandle, TextureId, TextureOptions};
-use hairline_editor::presets::{LayerPreset, LightPreset, MaterialPreset, ShapePreset};
-use hairline_editor::wear::Wear;
-use hairline_scene::environment::BuiltInMap;
 
 pub(crate) use cards::{SIDE, card, cards, metal_swatches};
+pub(crate) use thumb::Thumb;
 
 /// Width and height of a picture.
 const SIDE_PX: u32 = 96;
-
-/// What a picture shows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(crate) enum Thumb {
-    Layer(LayerPreset),
-    Material(MaterialPreset),
-    Light(LightPreset),
-    Shape(ShapePreset),
-    Map(BuiltInMap),
-    Wear(Wear),
-}
 
 /// What the thread and the window share.
 #[derive(Default)]

@@ -12,7 +12,7 @@ use hairline_scene::description::{Light, Material, MaterialKind, Object, Scratch
 use hairline_scene::environment::BuiltInMap;
 use hairline_scene::{Description, Environment, Loader};
 
-use super::Thumb;
+use super::thumb::Thumb;
 
 /// A shallow dome of steel, seen from above at a slant under a lamp, whose reflection lies a little behind its middle.
 const DOME: &str = r#"

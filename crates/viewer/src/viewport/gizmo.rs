@@ -3,6 +3,7 @@
 //! Not transform-gizmo-egui: its handles have no names for screen readers, and none of them moves the corner of a polygon.
 
 mod body;
+mod change;
 mod handles;
 mod lights;
 mod motion;
@@ -187,7 +188,7 @@ fn drag(ui: &Ui, viewer: &mut Viewer, area: &Area, handle: Handle, name: &str, p
     if let Some(motion) = motion {
         let key = DragKey::of(("gizmo", selection, handle));
         viewer.document.drag(name, key, |description| {
-            body::change(description, &start, selection, &motion);
+            change::change(description, &start, selection, &motion);
         });
     }
     let revision = viewer.document.revision();
