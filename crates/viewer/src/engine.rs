@@ -7,12 +7,14 @@
 //!
 //! Where there are no threads, in a browser, both work in turn with the interface: [`Engine::work`] does a slice.
 
+mod backend;
 pub(crate) mod bands;
 mod build;
 mod builder;
 mod cpu;
 mod drafts;
 mod easel;
+mod event;
 mod frame;
 #[cfg(not(target_arch = "wasm32"))]
 mod gpu;
@@ -25,6 +27,7 @@ mod request;
 mod sketch;
 mod steps;
 mod studio;
+mod view;
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -32,66 +35,16 @@ use std::sync::Arc;
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-#[cfg(not(target_arch = "wasm32"))]
-use hairline_gpu::Gpu;
 use hairline_scene::description::Description;
 
+pub use backend::Backend;
 pub use build::{BuildStages, Built};
+pub use event::{Event, Wake};
 pub use frame::{Frame, Latency, Painted, Picture};
-pub use request::View;
+pub use view::View;
 
 use in_turn::InTurn;
 use request::Shared;
-
-/// What paints.
-#[derive(Clone)]
-pub enum Backend {
-    /// The CPU renderer, on threads of low priority.
-    Cpu,
-    /// A device of its own, whose pictures are copied to the window's: what a window on another adapter needs. Not in a
-    /// browser: the painter waits for it, which a page must not.
-    #[cfg(not(target_arch = "wasm32"))]
-    Gpu(Gpu),
-    /// The window's own device: its pictures are shown where they are. Not in a browser, for the same reason.
-    #[cfg(not(target_arch = "wasm32"))]
-    Shared(Gpu),
-}
-
-impl Backend {
-    /// What the status line calls it.
-    pub fn label(&self) -> String {
-        match self {
-            Self::Cpu => match pool::threads() {
-                1 => String::from("CPU, 1 thread"),
-                threads => format!("CPU, {threads} threads"),
-            },
-            #[cfg(not(target_arch = "wasm32"))]
-            Self::Gpu(gpu) | Self::Shared(gpu) => gpu.adapter.to_string(),
-        }
-    }
-}
-
-/// What went wrong or is worth a line, in the order of its coming.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Event {
-    /// The description of this revision makes no scene; the last good one stays in the picture.
-    NotBuilt {
-        /// Of the description.
-        revision: u64,
-        /// Names the key, what was found and what would be right.
-        message: String,
-    },
-    /// The device was lost or refused the scene; the CPU paints from now on.
-    FellBack {
-        /// What the device said.
-        message: String,
-    },
-    /// A device that was lost is back.
-    Recovered,
-}
-
-/// How the interface is told that something new is there.
-pub type Wake = Arc<dyn Fn() + Send + Sync>;
 
 /// The two threads, or what does their work in turn. Dropping it stops them, at once or after the pixels that they are at.
 pub struct Engine {

@@ -16,7 +16,7 @@ use super::partial::Backdrop;
 use super::pool::Crew;
 use super::request::Order;
 use super::steps::Step;
-use crate::reading::{Findings, Shows};
+use crate::reading::{Findings, Shows, develop};
 
 /// A picture that is finished in part is shown as often.
 const REFRESH: Duration = Duration::from_millis(600);
@@ -180,7 +180,8 @@ impl Easel for CpuEasel {
 }
 
 fn shown(order: &Order, image: &Image, step: &Step) -> Shown {
-    let (pixels, findings) = crate::reading::develop(image, &order.view);
+    let view = &order.view;
+    let (pixels, findings) = develop(image, view.size_px, &view.display, &view.reading);
     Shown {
         picture: Picture::Pixels(Arc::new(pixels)),
         size_px: step.size_px,

@@ -18,7 +18,7 @@ use super::frame::Picture;
 use super::pace::{self, Kind};
 use super::request::Order;
 use super::steps::Step;
-use crate::reading::Findings;
+use crate::reading::{Findings, develop};
 
 /// Pixels of one submission on a software driver, between two looks at whether something newer is wanted.
 const SOFTWARE_BAND_PX: u32 = 1 << 16;
@@ -72,7 +72,9 @@ impl GpuEasel {
         let mut findings = Findings::default();
         let picture = gpu.block_on(async {
             if order.view.reading.needs_layers() {
-                let (pixels, found) = crate::reading::develop(&canvas.image().await?, &order.view);
+                let image = canvas.image().await?;
+                let wanted = &order.view.reading;
+                let (pixels, found) = develop(&image, order.view.size_px, display, wanted);
                 findings = found;
                 return Ok(Picture::Pixels(Arc::new(pixels)));
             }

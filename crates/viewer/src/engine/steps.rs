@@ -1,8 +1,7 @@
 //! The pictures on the way from a coarse one to the final one.
 
 use super::View;
-use super::easel::Easel;
-use super::pace::scaled;
+use super::pace::{Kind, scaled};
 
 /// Between the small filter of the full picture, 1, and that of the coarse one, 0: chosen by eye.
 const THINNED_FILTER: f64 = 0.8;
@@ -35,8 +34,8 @@ impl Step {
     }
 }
 
-/// The finer pictures after a coarse one.
-pub(super) fn steps(easel: &dyn Easel, full_px: [u32; 2], coarse: &Step) -> Vec<Step> {
+/// The finer pictures after a coarse one, the last with `best_samples`.
+pub(super) fn steps(kind: &Kind, best_samples: u32, full_px: [u32; 2], coarse: &Step) -> Vec<Step> {
     let mut steps = Vec::new();
     let mut add = |size_px: [u32; 2], samples, thin| {
         steps.push(Step {
@@ -45,7 +44,7 @@ pub(super) fn steps(easel: &dyn Easel, full_px: [u32; 2], coarse: &Step) -> Vec<
             thin,
         });
     };
-    if easel.kind().thins() {
+    if kind.thins() {
         let (scale, thin) = BETWEEN;
         let between = scaled(full_px, scale);
         if coarse.size_px[0] < between[0] {
@@ -64,6 +63,6 @@ pub(super) fn steps(easel: &dyn Easel, full_px: [u32; 2], coarse: &Step) -> Vec<
             add(full_px, 1, 1);
         }
     }
-    add(full_px, easel.best_samples(), 1);
+    add(full_px, best_samples, 1);
     steps
 }

@@ -64,7 +64,7 @@ impl Studio {
                 // A sketch is not refined: what it is a sketch of is on the way.
                 return Ok(match order.built.sketch {
                     Some(_) => Vec::new(),
-                    None => steps(easel, full_px, &coarse),
+                    None => steps(easel.kind(), easel.best_samples(), full_px, &coarse),
                 });
             }
             if shared.is_stopped() || !easel.kind().thins() {

@@ -1,0 +1,34 @@
+//! What paints.
+
+#[cfg(not(target_arch = "wasm32"))]
+use hairline_gpu::Gpu;
+
+use super::pool;
+
+/// What paints.
+#[derive(Clone)]
+pub enum Backend {
+    /// The CPU renderer, on threads of low priority.
+    Cpu,
+    /// A device of its own, whose pictures are copied to the window's: what a window on another adapter needs. Not in a
+    /// browser: the painter waits for it, which a page must not.
+    #[cfg(not(target_arch = "wasm32"))]
+    Gpu(Gpu),
+    /// The window's own device: its pictures are shown where they are. Not in a browser, for the same reason.
+    #[cfg(not(target_arch = "wasm32"))]
+    Shared(Gpu),
+}
+
+impl Backend {
+    /// What the status line calls it.
+    pub fn label(&self) -> String {
+        match self {
+            Self::Cpu => match pool::threads() {
+                1 => String::from("CPU, 1 thread"),
+                threads => format!("CPU, {threads} threads"),
+            },
+            #[cfg(not(target_arch = "wasm32"))]
+            Self::Gpu(gpu) | Self::Shared(gpu) => gpu.adapter.to_string(),
+        }
+    }
+}

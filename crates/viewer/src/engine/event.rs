@@ -1,0 +1,25 @@
+//! What the engine tells the interface.
+
+use std::sync::Arc;
+
+/// What went wrong or is worth a line, in the order of its coming.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Event {
+    /// The description of this revision makes no scene; the last good one stays in the picture.
+    NotBuilt {
+        /// Of the description.
+        revision: u64,
+        /// Names the key, what was found and what would be right.
+        message: String,
+    },
+    /// The device was lost or refused the scene; the CPU paints from now on.
+    FellBack {
+        /// What the device said.
+        message: String,
+    },
+    /// A device that was lost is back.
+    Recovered,
+}
+
+/// How the interface is told that something new is there.
+pub type Wake = Arc<dyn Fn() + Send + Sync>;

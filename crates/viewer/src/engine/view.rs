@@ -1,0 +1,33 @@
+//! From where the scene is seen, and how.
+
+use hairline_image::Display;
+use hairline_scene::scene::Camera;
+
+/// Where the picture is taken from, and how it is shown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct View {
+    /// The camera; its exposure is that of `display`.
+    pub camera: Camera,
+    /// Physical pixels.
+    pub size_px: [u32; 2],
+    /// Exposure and tone curve: a change of them paints nothing anew.
+    pub display: Display,
+    /// Standard deviation of the pixel's Gaussian filter.
+    pub filter_std_px: f64,
+    /// What is shown of the picture and found out about it: a change of it paints nothing anew either.
+    pub reading: crate::reading::Wanted,
+}
+
+impl View {
+    /// Whether the same pixels see the same points.
+    pub fn has_same_pixels(&self, other: &Self) -> bool {
+        self.camera == other.camera
+            && self.size_px == other.size_px
+            && self.filter_std_px == other.filter_std_px
+    }
+
+    /// Whether the same pixels are shown in the same way.
+    pub fn is_shown_as(&self, other: &Self) -> bool {
+        self.display == other.display && self.reading == other.reading
+    }
+}
