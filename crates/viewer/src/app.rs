@@ -1,18 +1,25 @@
-//! The viewer's state, and a pass over it: commands, engine, panels, picture.
+//! The viewer's state, and a pass over it: commands, engine, panels, picture. It alone knows all of them.
+
+mod documents;
+mod on_disk;
+mod paths;
+mod picture;
+mod run;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use eframe::egui_wgpu::RenderState;
+use hairline_editor::Document;
 use hairline_editor::bookmarks::Bookmarks;
-use hairline_editor::{Document, Selection};
 use hairline_scene::Description;
+use hairline_scene::description::Camera;
 use web_time::Instant;
 
 use crate::command::Command;
-use crate::compare::Compare;
+use crate::compare::{Compare, Figures};
 use crate::dialogs::Dialogs;
-use crate::engine::{Backend, Engine, Event, Frame};
+use crate::engine::{Backend, Engine};
 use crate::export::Export;
 use crate::files::Files;
 use crate::free_view::FreeView;
@@ -22,10 +29,10 @@ use crate::notices::Notices;
 use crate::overlays::Overlays;
 use crate::panels;
 use crate::reading::ReadingState;
-use crate::seen::makes_same_scene;
 use crate::snapshots::Snapshots;
-use crate::tools::{Tool, Toolbox};
+use crate::tools::Toolbox;
 use crate::viewport::Viewport;
+use crate::workspace::Workspace;
 
 /// What the viewer starts with.
 pub struct Options {
@@ -43,25 +50,16 @@ pub struct Options {
 
 /// The whole window.
 pub struct Viewer {
-    pub(crate) document: Document,
-    pub(crate) engine: Engine,
-    pub(crate) viewport: Viewport,
-    pub(crate) toolbox: Toolbox,
-    pub(crate) notices: Notices,
-    pub(crate) dialogs: Dialogs,
-    pub(crate) files: Files,
-    pub(crate) export: Export,
-    pub(crate) compare: Compare,
-    pub(crate) reading: ReadingState,
-    pub(crate) free_view: FreeView,
-    pub(crate) overlays: Overlays,
-    pub(crate) gallery: Gallery,
-    pub(crate) bookmarks: Bookmarks,
-    pub(crate) snapshots: Snapshots,
+    work: Workspace,
+    viewport: Viewport,
+    dialogs: Dialogs,
+    files: Files,
+    export: Export,
+    compare: Compare,
     /// The camera is to show all of the next scene that is built.
-    pub(crate) frame_when_built: bool,
-    pub(crate) hides_list: bool,
-    pub(crate) hides_inspector: bool,
+    frame_when_built: bool,
+    hides_list: bool,
+    hides_inspector: bool,
     /// A text had the keyboard at the end of the last pass.
     was_typing: bool,
     built_in: &'static str,
@@ -104,21 +102,26 @@ impl Viewer {
         let mut bookmarks = Bookmarks::new(store.map(|folder| folder.join("views.toml")));
         bookmarks.open(document.path());
         let wake = ctx.clone();
-        let mut viewer = Self {
+        let work = Workspace {
+            document,
             engine: Engine::start(options.backend, Arc::new(move || wake.request_repaint())),
-            viewport: Viewport::new(render_state),
-            toolbox: Toolbox::default(),
             notices,
-            dialogs: Dialogs::default(),
-            files: Files::new(options.state_dir, options.native_dialogs, ctx.clone()),
-            export: Export::default(),
-            compare: Compare::default(),
+            toolbox: Toolbox::default(),
             reading: ReadingState::default(),
             free_view: FreeView::default(),
             overlays: Overlays::default(),
             gallery: Gallery::default(),
             bookmarks,
             snapshots: Snapshots::default(),
+            wished: Vec::new(),
+        };
+        let mut viewer = Self {
+            work,
+            viewport: Viewport::new(render_state),
+            dialogs: Dialogs::default(),
+            files: Files::new(options.state_dir, options.native_dialogs, ctx.clone()),
+            export: Export::default(),
+            compare: Compare::default(),
             frame_when_built: false,
             hides_list: false,
             hides_inspector: false,
@@ -130,11 +133,10 @@ impl Viewer {
             loss: WindowLoss::default(),
             #[cfg(not(target_arch = "wasm32"))]
             software: None,
-            document,
         };
         viewer.tell_notes();
-        viewer.files.start(&mut viewer.dialogs);
-        if let Some(path) = viewer.document.path() {
+        viewer.dialogs.offer_recovery(viewer.files.start());
+        if let Some(path) = viewer.work.document.path() {
             viewer.files.remember(path);
         }
         Ok(viewer)
@@ -142,17 +144,22 @@ impl Viewer {
 
     /// The scene being edited, for tests.
     pub fn document(&self) -> &Document {
-        &self.document
+        &self.work.document
     }
 
     /// To edit it by other hands than the widgets': tests and benches.
     pub fn document_mut(&mut self) -> &mut Document {
-        &mut self.document
+        &mut self.work.document
+    }
+
+    /// The camera that the window looks through: the scene's, or that of a free view; for tests.
+    pub fn camera(&self) -> Camera {
+        self.work.camera()
     }
 
     /// What paints, for tests.
     pub fn engine(&self) -> &Engine {
-        &self.engine
+        &self.work.engine
     }
 
     /// What the engine was asked for last, for tests.
@@ -162,17 +169,32 @@ impl Viewer {
 
     /// How many small pictures of presets there are, and whether more are being rendered, for tests.
     pub fn small_pictures(&self) -> (usize, bool) {
-        (self.gallery.count(), self.gallery.is_working())
+        (self.work.gallery.count(), self.work.gallery.is_working())
     }
 
     /// What the probe reads, for tests.
     pub fn probed(&self) -> Option<crate::reading::Reading> {
-        self.reading.probe.reading()
+        self.work.reading.probe.reading()
+    }
+
+    /// The figures of the comparison that is open, for tests.
+    pub fn comparison(&self) -> Option<Figures> {
+        self.compare.figures()
+    }
+
+    /// Whether a thread samples a reference, for tests.
+    pub fn is_sampling(&self) -> bool {
+        self.compare.is_sampling()
+    }
+
+    /// Whether pictures are being exported, for tests.
+    pub fn is_exporting(&self) -> bool {
+        self.export.is_busy()
     }
 
     /// The messages in the window, for tests.
     pub fn messages(&self) -> Vec<&str> {
-        self.notices.texts()
+        self.work.notices.texts()
     }
 
     /// One pass of the interface.
@@ -183,7 +205,7 @@ impl Viewer {
             return;
         }
         self.hear_engine();
-        self.turn_view(&ctx);
+        self.work.turn_view(&ctx);
         for path in dropped_files(&ctx) {
             self.take_file(&ctx, &path);
         }
@@ -195,49 +217,59 @@ impl Viewer {
         let has_popup = egui::Popup::is_any_open(&ctx);
         self.viewport.shield(&ctx, has_popup);
         if !self.dialogs.is_modal() && !self.export.is_asking() {
-            crate::viewport::cancel_on_escape(&ctx, self);
+            self.viewport.cancel_on_escape(&ctx, &mut self.work);
             // It closes what is open and ends what is typed, and egui has taken the keyboard from a text by now.
             let escape_is_taken = has_popup || self.was_typing;
             for command in Command::pressed(&ctx, escape_is_taken) {
                 self.run(&ctx, command);
             }
         }
-        let mut wished = None;
-        panels::menu::show(ui, self, &mut wished);
-        panels::status::show(ui, self);
+        let is_comparing = self.compare.is_open();
+        let recent = panels::menu::show(ui, &mut self.work, &self.files, is_comparing);
+        panels::status::show(ui, &self.work.engine, &self.viewport);
         if !self.hides_list {
-            panels::outliner::show(ui, self, &mut wished);
+            panels::outliner::show(ui, &mut self.work);
         }
         if !self.hides_inspector {
-            panels::inspector::show(ui, self);
+            panels::inspector::show(ui, &mut self.work);
+        }
+        if let Some(path) = recent {
+            self.take_file(&ctx, &path);
         }
         match panels::number::told(&ctx) {
-            Some(Ok(())) => self.notices.clear("number"),
-            Some(Err(why)) => self.notices.error("number", why),
+            Some(Ok(())) => self.work.notices.clear("number"),
+            Some(Err(why)) => self.work.notices.error("number", why),
             None => {}
         }
-        let area = crate::viewport::show(ui, self);
-        self.notices.show(&ctx, area, self.engine.is_building());
-        self.show_export(&ctx, area);
-        if let Some(command) = wished {
+        let area = self.show_picture(ui);
+        let is_building = self.work.engine.is_building();
+        self.work.notices.show(&ctx, area, is_building);
+        if !self.dialogs.is_modal()
+            && let Some(purpose) = self.export.show_form(&ctx, &mut self.work)
+        {
+            self.ask_path(&ctx, purpose);
+        }
+        self.export.show(&ctx, &mut self.work, area);
+        for command in std::mem::take(&mut self.work.wished) {
             self.run(&ctx, command);
         }
         self.show_dialogs(&ctx);
         self.end_drag_where_nothing_is_held(&ctx);
         self.ask_engine();
-        if let Some(pause) = self.engine.work() {
+        if let Some(pause) = self.work.engine.work() {
             ctx.request_repaint_after(pause);
         }
-        if let Some(failed) = self.files.autosave(&self.document) {
-            self.notices
+        if let Some(failed) = self.files.autosave(&self.work.document) {
+            self.work
+                .notices
                 .error("autosave", format!("No autosave: {failed}"));
         }
         self.watch_close(&ctx);
         self.was_typing = ctx.text_edit_focused();
         let title = format!(
             "{}{} · Hairline",
-            self.document.title(),
-            if self.document.is_modified() {
+            self.work.document.title(),
+            if self.work.document.is_modified() {
                 " •"
             } else {
                 ""
@@ -262,20 +294,9 @@ impl Viewer {
         self.software = Some(software);
     }
 
-    /// The picture to be drawn in place of `frame`, the newest one when the pass began: a window that a software driver draws waits
-    /// a moment for that of the view that is wanted now.
-    pub(crate) fn picture_to_draw(&mut self, frame: Option<Arc<Frame>>) -> Option<Arc<Frame>> {
-        #[cfg(not(target_arch = "wasm32"))]
-        if let (Some(software), Some(view)) = (&mut self.software, self.viewport.view) {
-            software.wait_for_picture(&self.engine, view, self.asked_revision);
-            return self.engine.latest();
-        }
-        frame
-    }
-
     /// What is not saved is kept, and offered at the next start: nothing can be asked any more.
     fn leave_lost_window(&mut self, ctx: &egui::Context) {
-        if let Some(failed) = self.files.autosave_now(&self.document) {
+        if let Some(failed) = self.files.autosave_now(&self.work.document) {
             eprintln!("warning: no autosave: {failed}");
         }
         ctx.send_viewport_cmd(egui::ViewportCommand::Close);
@@ -284,103 +305,8 @@ impl Viewer {
     /// A drag of a widget is over when no button is held: what comes next is a step of its own.
     fn end_drag_where_nothing_is_held(&mut self, ctx: &egui::Context) {
         if !ctx.input(|input| input.pointer.any_down()) && !self.viewport.is_wheeling(ctx) {
-            self.document.end_drag();
+            self.work.document.end_drag();
         }
-    }
-
-    /// A model that was added may be far larger or smaller than what was there.
-    fn frame_what_was_added(&mut self) {
-        let objects = &self.document.description().objects;
-        let is_built = self
-            .engine
-            .built()
-            .is_some_and(|built| built.description.objects == *objects);
-        if self.frame_when_built && is_built {
-            self.frame_when_built = false;
-            self.frame_selection();
-        }
-    }
-
-    fn hear_engine(&mut self) {
-        for event in self.engine.events() {
-            match event {
-                // Of a scene that is another by now nobody wants to know: it may be right again.
-                Event::NotBuilt { revision, message } => {
-                    if revision == self.asked_revision {
-                        self.notices.error("scene", message);
-                    }
-                }
-                Event::FellBack { message } => {
-                    let text = format!("{message}. The CPU renders from now on.");
-                    self.notices.error("device", text);
-                }
-                Event::Recovered => self
-                    .notices
-                    .note("device", "The graphics device was lost, and is back."),
-            }
-        }
-    }
-
-    /// Hands the description to the engine if more than the view has changed.
-    pub(crate) fn ask_engine(&mut self) {
-        let description = self.document.description();
-        let is_latest = |asked: &Arc<_>| Arc::ptr_eq(asked, description);
-        if self.asked.as_ref().is_some_and(is_latest) {
-            return;
-        }
-        self.files.watch(&self.document);
-        let is_seen_alike = |asked: &Arc<_>| makes_same_scene(asked, description);
-        if !self.asked.as_ref().is_some_and(is_seen_alike) {
-            self.notices.clear("scene");
-            self.asked_revision = self.document.revision();
-            self.engine.set_scene(
-                self.asked_revision,
-                Arc::clone(description),
-                self.document.base_dir().to_owned(),
-            );
-        }
-        self.asked = Some(Arc::clone(description));
-    }
-
-    /// Puts another document in the place of this one.
-    pub(crate) fn replace_document(&mut self, document: Document) {
-        self.files.reopen();
-        self.document = document;
-        self.free_view.end();
-        self.bookmarks.open(self.document.path());
-        self.asked = None;
-        self.toolbox.tool = Tool::Select;
-        self.snapshots = Snapshots::default();
-        self.notices.clear("open");
-        self.tell_notes();
-        if let Some(path) = self.document.path() {
-            self.files.remember(path);
-        }
-    }
-
-    /// Has the scene built anew, though its description has not changed: a file that it names has.
-    pub(crate) fn forget_what_was_asked(&mut self) {
-        self.asked = None;
-    }
-
-    /// What the author of the scene file should know about it.
-    pub(crate) fn tell_notes(&mut self) {
-        let notes = &self.document.description().notes;
-        if !notes.is_empty() {
-            let text = notes.join("\n");
-            eprintln!("note: {text}");
-            self.notices.note("notes", text);
-        }
-    }
-
-    /// The built-in scene as a new document.
-    pub(crate) fn built_in(&self) -> Result<Document, hairline_scene::Error> {
-        built_in(self.built_in)
-    }
-
-    /// What is selected.
-    pub(crate) fn selection(&self) -> Selection {
-        self.document.selection()
     }
 }
 
@@ -409,7 +335,7 @@ impl eframe::App for Viewer {
 }
 
 /// A scene file, or a model in a scene of its own.
-pub(crate) fn open(path: &Path) -> Result<Document, hairline_scene::Error> {
+fn open(path: &Path) -> Result<Document, hairline_scene::Error> {
     match Description::is_model(path) {
         true => {
             let folder = path.parent().unwrap_or(Path::new(""));

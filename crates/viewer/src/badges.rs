@@ -2,40 +2,38 @@
 
 use egui::{Align2, Area, Frame, Id, Order, Rect, Ui, vec2};
 
-use crate::app::Viewer;
 use crate::command::Command;
 use crate::free_view::ViewCommand;
 use crate::reading::{ReadCommand, Shows};
+use crate::workspace::Workspace;
 
 /// Shows them. `area` is the picture's.
-pub(crate) fn show(ui: &mut Ui, viewer: &mut Viewer, area: Rect) {
-    let shows = viewer.reading.shows;
-    let exposure_ev = viewer.reading.exposure_ev;
-    let is_free = viewer.free_view.is_free();
+pub(crate) fn show(ui: &mut Ui, work: &mut Workspace, area: Rect) {
+    let shows = work.reading.shows;
+    let exposure_ev = work.reading.exposure_ev;
+    let is_free = work.free_view.is_free();
     if shows == Shows::Beauty && exposure_ev == 0.0 && !is_free {
         return;
     }
-    let ctx = ui.ctx().clone();
-    let mut wished = None;
     Area::new(Id::unique("badges"))
         .pivot(Align2::LEFT_TOP)
         .fixed_pos(area.min + vec2(10.0, 10.0))
         .order(Order::Middle)
         .constrain_to(area)
-        .show(&ctx, |ui| {
+        .show(&ui.ctx().clone(), |ui| {
             ui.horizontal(|ui| {
                 if shows != Shows::Beauty {
                     badge(ui, |ui| {
                         ui.strong(shows.name()).on_hover_text(shows.hint());
                         let back = Command::Read(ReadCommand::Show(Shows::Beauty));
                         if ui.small_button("Back to the picture").clicked() {
-                            wished = Some(back);
+                            work.wished.push(back);
                         }
                     });
                 }
                 if is_free {
                     badge(ui, |ui| {
-                        let name = match viewer.free_view.turns() {
+                        let name = match work.free_view.turns {
                             true => "Turntable",
                             false => "Free view",
                         };
@@ -46,7 +44,7 @@ pub(crate) fn show(ui: &mut Ui, viewer: &mut Viewer, area: Rect) {
                             ("Set camera to view", ViewCommand::SetCameraToView),
                         ] {
                             if ui.small_button(words).clicked() {
-                                wished = Some(Command::View(command));
+                                work.wished.push(Command::View(command));
                             }
                         }
                     });
@@ -58,15 +56,12 @@ pub(crate) fn show(ui: &mut Ui, viewer: &mut Viewer, area: Rect) {
                                 "In this window only: the scene and its exports are as they were",
                             );
                         if ui.small_button("Reset").clicked() {
-                            wished = Some(Command::Read(ReadCommand::ResetExposure));
+                            work.wished.push(Command::Read(ReadCommand::ResetExposure));
                         }
                     });
                 }
             });
         });
-    if let Some(command) = wished {
-        viewer.run(&ctx, command);
-    }
 }
 
 fn badge(ui: &mut Ui, content: impl FnOnce(&mut Ui)) {

@@ -1,8 +1,5 @@
 //! Everything that a menu, a button or a key can ask for: one table, which the menus, the toolbar and the help read.
 
-mod fit;
-mod run;
-
 use egui::{Key, KeyboardShortcut, Modifiers};
 use hairline_editor::navigate::Viewpoint;
 

@@ -6,6 +6,7 @@
 pub(crate) mod divider;
 mod figures;
 mod overlay;
+mod side;
 mod work;
 
 use std::sync::{Arc, Mutex};
@@ -13,11 +14,11 @@ use std::time::Duration;
 
 use hairline_image::Display;
 
-use crate::app::Viewer;
 use crate::jobs::Job;
 use crate::viewport::Area;
+use crate::workspace::Workspace;
 pub use figures::{Figures, LayerFigures};
-use overlay::SideTexture;
+use side::{Side, SideTexture};
 use work::{Kept, Report, Shown, Wanted};
 
 /// What stands still for so many seconds is sampled.
@@ -39,22 +40,6 @@ pub(crate) struct Compare {
     kept: Arc<Mutex<Kept>>,
     refused: Option<String>,
     texture: SideTexture,
-}
-
-/// What is right of the divider.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Side {
-    Reference,
-    Errors,
-}
-
-impl Side {
-    fn name(self) -> &'static str {
-        match self {
-            Self::Reference => "Reference",
-            Self::Errors => "Error map",
-        }
-    }
 }
 
 struct Sampling {
@@ -158,50 +143,47 @@ impl Compare {
         let sampling = self.sampling.as_ref();
         sampling.is_some_and(|sampling| sampling.job.is_over()) && !enough()
     }
-}
 
-impl Viewer {
-    /// The figures of the comparison that is open, for tests.
-    pub fn comparison(&self) -> Option<Figures> {
-        let shown = self.compare.shown()?;
+    /// The figures of what is shown.
+    pub fn figures(&self) -> Option<Figures> {
+        let shown = self.shown()?;
         Some(shown.compared.as_ref()?.figures.clone())
     }
 
-    /// Whether a thread samples a reference, for tests.
+    /// Whether a thread samples a reference.
     pub fn is_sampling(&self) -> bool {
-        let compare = &self.compare;
-        let jobs = compare.sampling.iter().map(|sampling| &sampling.job);
-        jobs.chain(&compare.ending).any(|job| !job.is_over())
+        let jobs = self.sampling.iter().map(|sampling| &sampling.job);
+        jobs.chain(&self.ending).any(|job| !job.is_over())
     }
-}
 
-/// Shows the comparison over the picture, if it is open.
-pub(crate) fn show(ui: &mut egui::Ui, viewer: &mut Viewer, area: &Area) {
-    viewer.compare.ending.retain(|job| !job.is_over());
-    if !viewer.compare.is_open() {
-        return;
-    }
-    let Some(built) = viewer.engine.built() else {
-        return;
-    };
-    let camera = viewer.camera();
-    let description = viewer.document.description();
-    let wanted = Wanted {
-        built,
-        camera: crate::viewport::camera(&camera),
-        shown_px: area.frame_px(),
-        filter_std_px: description.render.filter_std_px,
-        full_size: viewer.compare.full_size,
-    };
-    let display = Display {
-        exposure_ev: camera.exposure_ev + viewer.reading.exposure_ev,
-        tone_map: description.render.tone_map,
-    };
-    let ctx = ui.ctx().clone();
-    let now = ui.input(|input| input.time);
-    viewer.compare.follow(&ctx, wanted, now);
-    viewer.compare.draw(ui, area.frame, &display);
-    if viewer.compare.panel(&ctx, area.rect) {
-        viewer.compare.close();
+    /// Shows the comparison over the picture, if it is open.
+    pub fn show(&mut self, ui: &mut egui::Ui, work: &Workspace, area: &Area) {
+        self.ending.retain(|job| !job.is_over());
+        if !self.open {
+            return;
+        }
+        let Some(built) = work.engine.built() else {
+            return;
+        };
+        let camera = work.camera();
+        let description = work.document.description();
+        let wanted = Wanted {
+            built,
+            camera: crate::viewport::camera(&camera),
+            shown_px: area.frame_px(),
+            filter_std_px: description.render.filter_std_px,
+            full_size: self.full_size,
+        };
+        let display = Display {
+            exposure_ev: camera.exposure_ev + work.reading.exposure_ev,
+            tone_map: description.render.tone_map,
+        };
+        let ctx = ui.ctx().clone();
+        let now = ui.input(|input| input.time);
+        self.follow(&ctx, wanted, now);
+        self.draw(ui, area.frame, &display);
+        if self.panel(&ctx, area.rect) {
+            self.close();
+        }
     }
 }

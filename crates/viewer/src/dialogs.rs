@@ -6,17 +6,15 @@ mod on_disk;
 mod recovery;
 mod thumbnails;
 
+use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use egui::{Grid, Id, Modal, Ui};
 use hairline_editor::autosave::Pending;
 
-use crate::app::Viewer;
 use crate::command::{self, Group};
 use crate::files::{Purpose, from_home};
 use ask::{Loses, ask};
-use fit::Misfit;
-pub(crate) use on_disk::is_same;
 use recovery::Recovery;
 
 /// What was asked for while there were unsaved changes.
@@ -25,6 +23,23 @@ pub(crate) enum Wish {
     New,
     Open(PathBuf),
     Quit,
+}
+
+/// What is to be done after an answer.
+pub(crate) enum Answer {
+    Save,
+    SaveOver,
+    SaveAs,
+    Replace(PathBuf),
+    Fulfil(Wish),
+    /// A path was typed.
+    Path(Purpose, PathBuf),
+    Reload,
+    /// What another program has written is passed over.
+    PassOver,
+    /// As large as in its file, or fitted to a size.
+    AddModel(PathBuf, Option<f64>),
+    Recover(Pending),
 }
 
 /// What is being asked.
@@ -44,7 +59,13 @@ enum Question {
     /// The file that the scene is to be saved as is there already.
     Replace(PathBuf),
     /// A model that is to be added is much larger or smaller than what the scene shows.
-    Fit(Misfit),
+    Fit {
+        path: PathBuf,
+        /// Its size in its file.
+        extent_m: f64,
+        /// A size that suits the scene.
+        fit_m: f64,
+    },
 }
 
 /// Which questions are open.
@@ -78,6 +99,15 @@ impl Dialogs {
         self.question = Some(Question::Path(purpose, proposal));
     }
 
+    /// Another program has written the scene file.
+    pub fn ask_about_change(&mut self) {
+        self.question = Some(Question::Changed);
+    }
+
+    pub fn ask_to_reload(&mut self) {
+        self.question = Some(Question::Reload);
+    }
+
     /// Another program has written the file that is to be saved.
     pub fn ask_to_save_over(&mut self) {
         self.question = Some(Question::SaveOver);
@@ -90,44 +120,49 @@ impl Dialogs {
 
     /// A model is `extent_m` large in its file, and `fit_m` would suit the scene.
     pub fn ask_to_fit(&mut self, path: PathBuf, extent_m: f64, fit_m: f64) {
-        self.question = Some(Question::Fit(Misfit {
+        self.question = Some(Question::Fit {
             path,
             extent_m,
             fit_m,
-        }));
+        });
     }
 
     pub fn show_help(&mut self) {
         self.help = true;
     }
-}
 
-impl Viewer {
-    pub(crate) fn show_dialogs(&mut self, ctx: &egui::Context) {
-        if self.dialogs.help {
+    /// Shows the help and the question that is open; `title` is the document's. Returns an answer, once there is one.
+    pub fn show(&mut self, ctx: &egui::Context, title: &str) -> Option<Answer> {
+        if self.help {
             let modal = Modal::new(Id::unique("help")).show(ctx, help);
             if modal.should_close() || modal.inner {
-                self.dialogs.help = false;
+                self.help = false;
             }
         }
-        match self.dialogs.question.take() {
-            None => {}
-            Some(Question::Unsaved(wish)) => self.unsaved(ctx, wish),
-            Some(Question::Recover(recovery)) => self.recovery(ctx, recovery),
-            Some(Question::Path(purpose, text)) => self.path(ctx, purpose, text),
-            Some(Question::Changed) => self.changed_on_disk(ctx),
-            Some(Question::Reload) => self.load_again(ctx),
-            Some(Question::SaveOver) => self.save_over(ctx),
-            Some(Question::Replace(path)) => self.replace(ctx, path),
-            Some(Question::Fit(misfit)) => self.fit(ctx, misfit),
+        match self.question.take()? {
+            Question::Unsaved(wish) => self.unsaved(ctx, title, wish),
+            Question::Recover(mut recovery) => match recovery.show(ctx) {
+                ControlFlow::Break(recovered) => recovered.map(Answer::Recover),
+                ControlFlow::Continue(()) => {
+                    self.question = Some(Question::Recover(recovery));
+                    None
+                }
+            },
+            Question::Path(purpose, text) => self.path(ctx, purpose, text),
+            Question::Changed => self.changed_on_disk(ctx, title),
+            Question::Reload => self.load_again(ctx, title),
+            Question::SaveOver => self.save_over(ctx, title),
+            Question::Replace(path) => self.replace(ctx, path),
+            Question::Fit {
+                path,
+                extent_m,
+                fit_m,
+            } => self.fit(ctx, path, extent_m, fit_m),
         }
     }
 
-    fn unsaved(&mut self, ctx: &egui::Context, wish: Wish) {
-        let text = format!(
-            "\"{}\" has changes that are not saved.",
-            self.document.title()
-        );
+    fn unsaved(&mut self, ctx: &egui::Context, title: &str, wish: Wish) -> Option<Answer> {
+        let text = format!("\"{title}\" has changes that are not saved.");
         let answers = ["Save the changes", "Discard the changes", "Cancel"];
         match ask(
             ctx,
@@ -138,16 +173,17 @@ impl Viewer {
             Loses::Nothing,
         ) {
             Some(0) => {
-                self.dialogs.after_save = Some(wish);
-                self.save(ctx);
+                self.after_save = Some(wish);
+                return Some(Answer::Save);
             }
-            Some(1) => self.fulfil(ctx, wish),
+            Some(1) => return Some(Answer::Fulfil(wish)),
             Some(_) => {}
-            None => self.dialogs.question = Some(Question::Unsaved(wish)),
+            None => self.question = Some(Question::Unsaved(wish)),
         }
+        None
     }
 
-    fn path(&mut self, ctx: &egui::Context, purpose: Purpose, mut text: String) {
+    fn path(&mut self, ctx: &egui::Context, purpose: Purpose, mut text: String) -> Option<Answer> {
         let modal = Modal::new(Id::unique("path")).show(ctx, |ui| {
             ui.set_width(460.0);
             ui.heading(purpose.title());
@@ -171,12 +207,13 @@ impl Viewer {
         let should_close = modal.should_close();
         match modal.inner {
             (true, _) if !text.trim().is_empty() => {
-                self.take_typed_path(ctx, purpose, &from_home(text.trim()));
+                return Some(Answer::Path(purpose, from_home(text.trim())));
             }
-            (_, true) => self.dialogs.after_save = None,
-            _ if should_close => self.dialogs.after_save = None,
-            _ => self.dialogs.question = Some(Question::Path(purpose, text)),
+            (_, true) => self.after_save = None,
+            _ if should_close => self.after_save = None,
+            _ => self.question = Some(Question::Path(purpose, text)),
         }
+        None
     }
 }
 

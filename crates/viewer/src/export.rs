@@ -14,9 +14,10 @@ use egui::{Align2, Id, ProgressBar, Rect};
 use hairline_image::Output;
 use web_time::Instant;
 
-use crate::app::Viewer;
 use crate::files::Purpose;
 use crate::jobs::Job;
+use crate::notices::Notices;
+use crate::workspace::Workspace;
 use form::{Answer, Form};
 use work::{End, Report, Wish};
 
@@ -52,93 +53,82 @@ impl Export {
         self.earlier[kind] = Some(form);
     }
 
-    fn is_busy(&self) -> bool {
+    pub fn is_busy(&self) -> bool {
         self.running.is_some() || self.waiting.is_some()
-    }
-}
-
-impl Viewer {
-    /// Whether pictures are being exported, for tests.
-    pub fn is_exporting(&self) -> bool {
-        self.export.is_busy()
     }
 
     /// Asks how large, how fine and where to.
-    pub(crate) fn ask_export(&mut self, purpose: Purpose) {
-        if self.export.is_busy() {
-            self.notices.error(
+    pub fn ask(&mut self, work: &mut Workspace, purpose: Purpose) {
+        if self.is_busy() {
+            work.notices.error(
                 "export",
                 "One export at a time: the one before is not complete yet.",
             );
             return;
         }
         let is_turntable = purpose == Purpose::Turntable;
-        let form = self.export.earlier[usize::from(is_turntable)]
+        let form = self.earlier[usize::from(is_turntable)]
             .clone()
             .unwrap_or_else(|| {
-                let folder = std::path::absolute(self.document.base_dir());
+                let folder = std::path::absolute(work.document.base_dir());
                 let folder = folder
                     .or_else(|_| std::env::current_dir())
                     .unwrap_or_default();
-                let path = folder.join(purpose.proposal(&self.document));
-                let size_px = self.document.description().render.size_px;
+                let path = folder.join(purpose.proposal(&work.document));
+                let size_px = work.document.description().render.size_px;
                 Form::new(is_turntable, size_px, &path)
             });
-        self.export.form = Some(form);
+        self.form = Some(form);
     }
 
     /// Takes the path that was chosen in a dialog.
-    pub(crate) fn export_to(&mut self, purpose: Purpose, path: &Path) {
-        if self.export.form.is_none() {
-            self.ask_export(purpose);
+    pub fn take_path(&mut self, work: &mut Workspace, purpose: Purpose, path: &Path) {
+        if self.form.is_none() {
+            self.ask(work, purpose);
         }
-        if let Some(form) = &mut self.export.form {
+        if let Some(form) = &mut self.form {
             form.path = path.display().to_string();
             form.refused = None;
         }
     }
 
-    /// The question, the progress and the end of an export. `area` is the picture's.
-    pub(crate) fn show_export(&mut self, ctx: &egui::Context, area: Rect) {
-        if !self.dialogs.is_modal() {
-            self.show_form(ctx);
-        }
-        self.start_export(ctx);
-        self.end_export();
+    /// Begins what has waited for its scene, tells what has ended, and shows the progress. `area` is the picture's.
+    pub fn show(&mut self, ctx: &egui::Context, work: &mut Workspace, area: Rect) {
+        self.start(ctx, work);
+        self.end(&mut work.notices);
         self.show_progress(ctx, area);
     }
 
-    fn show_form(&mut self, ctx: &egui::Context) {
-        let Some(mut form) = self.export.form.take() else {
-            return;
-        };
-        let scene_px = self.document.description().render.size_px;
-        let window_px = self
+    /// The question, if it is open. What a file is wanted for, if one is to be chosen.
+    pub fn show_form(&mut self, ctx: &egui::Context, work: &mut Workspace) -> Option<Purpose> {
+        let mut form = self.form.take()?;
+        let scene_px = work.document.description().render.size_px;
+        let window_px = work
             .engine
             .latest()
             .map_or(scene_px, |frame| fitting(scene_px, frame.view.size_px));
-        let purpose = if form.is_turntable {
-            Purpose::Turntable
-        } else {
-            Purpose::Screenshot
-        };
-        let answer = form.show(ctx, window_px, scene_px, self.free_view.is_free());
+        let answer = form.show(ctx, window_px, scene_px, work.free_view.is_free());
         match answer {
-            None => self.export.form = Some(form),
+            None => self.form = Some(form),
             Some(Answer::ChooseFile) => {
-                self.export.form = Some(form);
-                self.ask_path(ctx, purpose);
+                let purpose = match form.is_turntable {
+                    true => Purpose::Turntable,
+                    false => Purpose::Screenshot,
+                };
+                self.form = Some(form);
+                return Some(purpose);
             }
-            Some(Answer::Close) => self.export.remember(form),
-            Some(Answer::Start) => self.begin_export(form),
+            Some(Answer::Close) => self.remember(form),
+            Some(Answer::Start) => self.begin(work, form),
         }
+        None
     }
 
     /// Refuses at once what could not be written in the end.
-    fn begin_export(&mut self, mut form: Form) {
-        let mut description = Arc::clone(self.document.description());
+    fn begin(&mut self, work: &mut Workspace, mut form: Form) {
+        let mut description = Arc::clone(work.document.description());
         if form.is_as_seen {
-            let camera = self.camera();
+            let camera = work.camera();
             if camera != description.camera {
                 Arc::make_mut(&mut description).camera = camera;
             }
@@ -150,29 +140,29 @@ impl Viewer {
             is_transparent: form.is_transparent,
             motion: form.motion(),
             path: form.path(),
-            backend: self.engine.backend(),
+            backend: work.engine.backend(),
         };
         match Output::check(&wish.frame_path(0)) {
             Err(error) => {
                 let message = error.to_string();
-                self.notices.error("export", message.clone());
+                work.notices.error("export", message.clone());
                 form.refused = Some(message);
-                self.export.form = Some(form);
+                self.form = Some(form);
             }
             Ok(_) => {
-                self.notices.clear("export");
+                work.notices.clear("export");
                 form.refused = None;
-                self.export.remember(form);
-                self.export.waiting = Some(wish);
+                self.remember(form);
+                self.waiting = Some(wish);
             }
         }
     }
 
-    fn start_export(&mut self, ctx: &egui::Context) {
-        if self.export.running.is_some() || self.engine.is_building() {
+    fn start(&mut self, ctx: &egui::Context, work: &mut Workspace) {
+        if self.running.is_some() || work.engine.is_building() {
             return;
         }
-        let (Some(built), Some(wish)) = (self.engine.built(), self.export.waiting.take()) else {
+        let (Some(built), Some(wish)) = (work.engine.built(), self.waiting.take()) else {
             return;
         };
         let wake = ctx.clone();
@@ -182,9 +172,9 @@ impl Viewer {
             work::run(&wished, &built, stop, &told)
         });
         match job {
-            Err(error) => self.notices.error("export", error.to_string()),
+            Err(error) => work.notices.error("export", error.to_string()),
             Ok(job) => {
-                self.export.running = Some(Running {
+                self.running = Some(Running {
                     job,
                     wish,
                     report,
@@ -195,8 +185,8 @@ impl Viewer {
         }
     }
 
-    fn end_export(&mut self) {
-        let Some(running) = self.export.running.take_if(|running| running.job.is_over()) else {
+    fn end(&mut self, notices: &mut Notices) {
+        let Some(running) = self.running.take_if(|running| running.job.is_over()) else {
             return;
         };
         let state = running.report.state();
@@ -214,9 +204,9 @@ impl Viewer {
         };
         match state.end {
             Some(End::Complete) if written <= 1 => {
-                self.notices.note("export", format!("Saved {}", name(0)));
+                notices.note("export", format!("Saved {}", name(0)));
             }
-            Some(End::Complete) => self.notices.note(
+            Some(End::Complete) => notices.note(
                 "export",
                 format!(
                     "Saved {written} pictures, {} to {}",
@@ -224,20 +214,18 @@ impl Viewer {
                     name(written - 1)
                 ),
             ),
-            Some(End::Cancelled) => self
-                .notices
-                .note("export", format!("The export was cancelled. {kept}")),
-            Some(End::Failed(message)) => {
-                self.notices.error("export", format!("{message}. {kept}"));
+            Some(End::Cancelled) => {
+                notices.note("export", format!("The export was cancelled. {kept}"))
             }
-            None => self
-                .notices
-                .error("export", format!("The export failed. {kept}")),
+            Some(End::Failed(message)) => {
+                notices.error("export", format!("{message}. {kept}"));
+            }
+            None => notices.error("export", format!("The export failed. {kept}")),
         }
     }
 
     fn show_progress(&mut self, ctx: &egui::Context, area: Rect) {
-        if !self.export.is_busy() {
+        if !self.is_busy() {
             return;
         }
         let corner = area.right_bottom() - egui::vec2(12.0, 12.0);
@@ -249,7 +237,7 @@ impl Viewer {
                 egui::Frame::popup(ui.style())
                     .show(ui, |ui| {
                         ui.set_width(260.0);
-                        match &self.export.running {
+                        match &self.running {
                             None => drop(ui.label("Waiting for the scene")),
                             Some(running) => running.show(ui),
                         }
@@ -258,8 +246,8 @@ impl Viewer {
                     .inner
             });
         if cancel.inner {
-            self.export.waiting = None;
-            if let Some(running) = &mut self.export.running {
+            self.waiting = None;
+            if let Some(running) = &mut self.running {
                 running.is_cancelled = true;
                 running.job.stop();
             }

@@ -15,7 +15,6 @@ use hairline_editor::recent::Recent;
 use hairline_scene::probe::{self, MeshSummary};
 use web_time::Instant;
 
-use crate::dialogs::Dialogs;
 use watch::{Change, Watch};
 
 /// What a path is wanted for.
@@ -143,14 +142,15 @@ impl Files {
         self.watch.changed()
     }
 
-    /// Offers what earlier runs left, and begins to keep what this one does.
-    pub fn start(&mut self, dialogs: &mut Dialogs) {
+    /// Begins to keep what this run does; returns what earlier ones left.
+    pub fn start(&mut self) -> Vec<Pending> {
         let Some(folder) = &self.autosaves else {
-            return;
+            return Vec::new();
         };
-        dialogs.offer_recovery(autosave::pending(folder));
+        let left = autosave::pending(folder);
         // Without a place to write the work goes on; nothing better could be done.
         self.autosave = Autosave::new(folder).ok();
+        left
     }
 
     /// Asks for a path; the answer comes by [`Self::chosen`].
@@ -301,4 +301,9 @@ pub(crate) fn from_home(typed: &str) -> PathBuf {
         (Ok(rest), Some(home)) => home.join(rest),
         _ => path.to_owned(),
     }
+}
+
+/// Whether two names lead to one file, as far as that can be told.
+pub(crate) fn is_same(a: &Path, b: &Path) -> bool {
+    a == b || matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
 }

@@ -42,6 +42,7 @@ mod tools;
 mod viewport;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod window;
+mod workspace;
 
 pub use app::{Options, Viewer};
 pub use compare::{Figures, LayerFigures};

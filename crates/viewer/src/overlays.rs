@@ -1,15 +1,5 @@
 //! What is drawn over the picture, kind by kind.
 
-use egui::{Align2, Color32, FontId, Painter, Ui};
-use glam::DVec3;
-use hairline_editor::actions::lights;
-use hairline_editor::place_light;
-
-use crate::app::Viewer;
-use crate::viewport::Area;
-use crate::viewport::ink;
-use crate::viewport::lens::Lens;
-
 /// A kind of lines or words over the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Overlay {
@@ -85,52 +75,6 @@ impl Overlays {
     pub fn toggle_all(&mut self) {
         self.are_hidden = !self.are_hidden;
     }
-}
-
-/// Writes names where their objects and lights are.
-pub(crate) fn show_names(ui: &Ui, viewer: &Viewer, area: &Area) {
-    if !viewer.overlays.has(Overlay::Names) {
-        return;
-    }
-    let lens = Lens::new(&viewer.camera(), area);
-    let painter = ui.painter().with_clip_rect(area.rect);
-    let description = viewer.document.description();
-    for (i, object) in description.objects.iter().enumerate() {
-        let (low_m, high_m) = viewer.bounds_m(Some(i));
-        name(
-            &painter,
-            &lens,
-            0.5 * (low_m + high_m),
-            &object.name,
-            Color32::WHITE,
-        );
-    }
-    for (i, light) in description.lights.iter().enumerate() {
-        if light.hidden {
-            continue;
-        }
-        let title = match &light.name {
-            Some(name) => name.clone(),
-            None => format!("{} {}", lights::title(light), i + 1),
-        };
-        let color = Color32::from_rgb(255, 228, 165);
-        name(&painter, &lens, place_light::center(light), &title, color);
-    }
-}
-
-fn name(painter: &Painter, lens: &Lens, point_m: DVec3, words: &str, color: Color32) {
-    let Some(pos) = lens.project(point_m) else {
-        return;
-    };
-    let at = pos + egui::vec2(0.0, 9.0);
-    ink::words(
-        painter,
-        at,
-        Align2::CENTER_TOP,
-        words,
-        FontId::proportional(13.0),
-        color,
-    );
 }
 
 #[cfg(test)]

@@ -8,10 +8,11 @@ mod strip;
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use hairline_editor::Document;
 use hairline_scene::Description;
 
-use crate::app::Viewer;
 use crate::engine::{Frame, View};
+use crate::notices::Notices;
 use crate::seen::makes_same_scene;
 use crate::viewport::Area;
 use crate::viewport::canvas::CanvasTexture;
@@ -133,64 +134,72 @@ impl Snapshots {
             other => other,
         };
     }
-}
 
-impl Viewer {
-    /// Keeps the current look. Its picture is the newest one of it, until a finished one is there.
-    pub(crate) fn take_snapshot(&mut self) {
-        if self.snapshots.list.len() == MOST {
+    /// Keeps the current look, to be drawn by `canvas`. Its picture is the newest one of it, until a finished one is there.
+    pub fn take(
+        &mut self,
+        document: &Document,
+        view: View,
+        canvas: CanvasTexture,
+        notices: &mut Notices,
+    ) {
+        if self.list.len() == MOST {
             let text = format!("{MOST} snapshots are kept at most: delete one first.");
-            self.notices.error("snapshot", text);
+            notices.error("snapshot", text);
             return;
         }
-        let Some(view) = self.engine.view() else {
-            return;
-        };
-        self.notices.clear("snapshot");
-        let snapshots = &mut self.snapshots;
-        snapshots.taken += 1;
-        snapshots.list.push(Snapshot {
-            name: format!("Look {}", snapshots.taken),
-            description: Arc::clone(self.document.description()),
-            base_dir: self.document.base_dir().to_owned(),
+        notices.clear("snapshot");
+        self.taken += 1;
+        self.list.push(Snapshot {
+            name: format!("Look {}", self.taken),
+            description: Arc::clone(document.description()),
+            base_dir: document.base_dir().to_owned(),
             view,
             frame: None,
-            canvas: self.viewport.new_canvas(),
+            canvas,
         });
-        snapshots.chosen = Some(snapshots.list.len() - 1);
-        snapshots.is_shown = false;
+        self.chosen = Some(self.list.len() - 1);
+        self.is_shown = false;
     }
 
     /// Makes a look the current one again, as one step of undo.
-    fn restore_snapshot(&mut self, index: usize) {
-        let Some(snapshot) = self.snapshots.list.get(index) else {
+    fn restore(&mut self, index: usize, document: &mut Document) {
+        let Some(snapshot) = self.list.get(index) else {
             return;
         };
-        let restored = self
-            .document
-            .brought_here(&snapshot.description, &snapshot.base_dir);
+        let restored = document.brought_here(&snapshot.description, &snapshot.base_dir);
         let label = format!("Restore {}", snapshot.name);
-        self.document
-            .edit(&label, |description| *description = restored);
-        self.snapshots.chosen = Some(index);
-        self.snapshots.is_shown = false;
+        document.edit(&label, |description| *description = restored);
+        self.chosen = Some(index);
+        self.is_shown = false;
+    }
+
+    /// Shows the strip, and the snapshot that is chosen, over the picture: that of `now` on `canvas`, whose view is `view`.
+    pub fn show(
+        &mut self,
+        ui: &mut egui::Ui,
+        document: &mut Document,
+        area: &Area,
+        view: &View,
+        (now, canvas): (&Arc<Frame>, &mut CanvasTexture),
+    ) {
+        if self.is_empty() {
+            return;
+        }
+        for snapshot in &mut self.list {
+            snapshot.see(now);
+        }
+        self.draw(ui, area, view, (now, canvas));
+        match self.strip(ui, area) {
+            Some(Wish::Restore(index)) => self.restore(index, document),
+            Some(Wish::Delete(index)) => self.delete(index),
+            None => {}
+        }
     }
 }
 
-/// Shows the strip, and the snapshot that is chosen, over the picture, whose view is `view`.
-pub(crate) fn show(ui: &mut egui::Ui, viewer: &mut Viewer, area: &Area, view: &View) {
-    if viewer.snapshots.is_empty() {
-        return;
-    }
-    if let Some(frame) = viewer.engine.latest() {
-        for snapshot in &mut viewer.snapshots.list {
-            snapshot.see(&frame);
-        }
-    }
-    overlay::show(ui, viewer, area, view);
-    match strip::show(ui, &mut viewer.snapshots, area) {
-        Some(strip::Wish::Restore(index)) => viewer.restore_snapshot(index),
-        Some(strip::Wish::Delete(index)) => viewer.snapshots.delete(index),
-        None => {}
-    }
+/// What is to be done with the snapshot of an index.
+enum Wish {
+    Restore(usize),
+    Delete(usize),
 }

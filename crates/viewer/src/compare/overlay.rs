@@ -1,68 +1,21 @@
 //! What a comparison draws over the picture: the right side, the divider, the figures and the scale of the errors.
 
 use egui::{
-    Align, Align2, Color32, ColorImage, FontId, Grid, Id, Layout, Rect, Role, Sense, Shape,
-    TextureHandle, TextureOptions, Ui, WidgetInfo, pos2, vec2,
+    Align, Align2, Color32, FontId, Grid, Id, Layout, Rect, Role, Sense, Shape, Ui, WidgetInfo,
+    pos2, vec2,
 };
 use hairline_image::metrics::magma;
-use hairline_image::{Display, ToneMap, png};
+use hairline_image::{Display, ToneMap};
 
 use crate::panels::busy::Busy;
 
+use super::Compare;
 use super::divider;
 use super::figures::LayerFigures;
+use super::side::Side;
 use super::work::{Compared, Shown};
-use super::{Compare, Side};
 
 const WIDTH: f32 = 316.0;
-
-/// The right side as something that egui can draw, until it changes.
-#[derive(Default)]
-pub(super) struct SideTexture {
-    texture: Option<TextureHandle>,
-    held: Option<(u64, Side, Option<Display>)>,
-}
-
-impl SideTexture {
-    /// Another reference begins: numbers count from the start.
-    pub fn forget(&mut self) {
-        self.held = None;
-    }
-
-    fn paint(&mut self, ui: &Ui, rect: Rect, shown: &Shown, side: Side, display: &Display) {
-        let key = (
-            shown.number,
-            side,
-            (side == Side::Reference).then_some(*display),
-        );
-        if self.held != Some(key) {
-            let image = match side {
-                Side::Reference => {
-                    let size = shown.reference.size_px.map(|side| side as usize);
-                    let codes = png::quantize(&shown.reference, display);
-                    ColorImage::from_rgb(size, &codes).into()
-                }
-                Side::Errors => match &shown.compared {
-                    Some(compared) => std::sync::Arc::clone(&compared.errors),
-                    None => return,
-                },
-            };
-            let options = TextureOptions::LINEAR;
-            match &mut self.texture {
-                Some(texture) => texture.set(image, options),
-                None => {
-                    self.texture = Some(ui.ctx().load_texture("reference", image, options));
-                }
-            }
-            self.held = Some(key);
-        }
-        if let Some(texture) = &self.texture {
-            let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-            ui.painter()
-                .image(texture.id(), rect, whole, Color32::WHITE);
-        }
-    }
-}
 
 impl Compare {
     /// Over the picture, whose frame is `frame`.

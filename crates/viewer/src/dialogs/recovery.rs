@@ -1,13 +1,12 @@
 //! What an earlier run left, when it ended by accident.
 
+use std::ops::ControlFlow;
 use std::time::SystemTime;
 
 use egui::{Context, Id, Modal, Ui};
 use hairline_editor::autosave::Pending;
 
-use super::Question;
 use super::thumbnails::Thumbnails;
-use crate::app::Viewer;
 use crate::panels::busy::Busy;
 
 /// What was left, as it is shown.
@@ -76,10 +75,9 @@ impl Recovery {
         });
         answer
     }
-}
 
-impl Viewer {
-    pub(super) fn recovery(&mut self, ctx: &Context, mut recovery: Recovery) {
+    /// Asks; ends with what is to be recovered, if anything is.
+    pub fn show(&mut self, ctx: &Context) -> ControlFlow<Option<Pending>> {
         let modal = Modal::new(Id::unique("recover")).show(ctx, |ui| {
             ui.set_width(520.0);
             ui.heading("Unsaved work was found");
@@ -90,8 +88,8 @@ impl Viewer {
             egui::ScrollArea::vertical()
                 .max_height(height.max(120.0))
                 .show(ui, |ui| {
-                    for i in 0..recovery.pending.len() {
-                        answer = recovery.row(ui, i).or(answer.take());
+                    for i in 0..self.pending.len() {
+                        answer = self.row(ui, i).or(answer.take());
                     }
                 });
             ui.add_space(8.0);
@@ -102,23 +100,21 @@ impl Viewer {
         });
         let should_close = modal.should_close();
         match modal.inner {
-            Some(Answer::Recover(i)) => {
-                let pending = recovery.pending.remove(i);
-                self.recover(pending);
-                return;
-            }
+            Some(Answer::Recover(i)) => return ControlFlow::Break(Some(self.pending.remove(i))),
             Some(Answer::Discard(i)) => {
-                recovery.pending.remove(i).discard();
-                self.dialogs.offer_recovery(recovery.pending);
-                return;
+                self.pending.remove(i).discard();
+                *self = Self::new(std::mem::take(&mut self.pending));
+                if self.pending.is_empty() {
+                    return ControlFlow::Break(None);
+                }
             }
-            Some(Answer::Later) => return,
-            Some(Answer::AskToDiscard(i)) => recovery.going = Some(i),
-            Some(Answer::Keep) => recovery.going = None,
-            None if should_close => return,
+            Some(Answer::Later) => return ControlFlow::Break(None),
+            Some(Answer::AskToDiscard(i)) => self.going = Some(i),
+            Some(Answer::Keep) => self.going = None,
+            None if should_close => return ControlFlow::Break(None),
             None => {}
         }
-        self.dialogs.question = Some(Question::Recover(recovery));
+        ControlFlow::Continue(())
     }
 }
 

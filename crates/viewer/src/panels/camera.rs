@@ -6,15 +6,15 @@ use hairline_editor::ranges::Parameter;
 use hairline_image::ToneMap;
 
 use super::form::Form;
-use crate::app::Viewer;
 use crate::command::Command;
 use crate::free_view::ViewCommand;
+use crate::workspace::Workspace;
 
-pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer) {
+pub(super) fn show(ui: &mut Ui, work: &mut Workspace) {
     ui.heading("Camera");
-    let description = viewer.document.description();
+    let description = work.document.description();
     let mut camera = description.camera.clone();
-    let mut form = Form::new(ui, "camera", viewer.diagonal_m(None));
+    let mut form = Form::new(ui, "camera", work.diagonal_m(None));
     form.number(Parameter::Exposure, &mut camera.exposure_ev);
     form.number(Parameter::FieldOfView, &mut camera.fov_y_deg);
     form.vector(Parameter::CameraPosition, &mut camera.position_m);
@@ -22,11 +22,10 @@ pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer) {
     form.vector(Parameter::CameraUp, &mut camera.up);
     if let Some(change) = form.change() {
         // What is changed here is to be seen; the exposure is everywhere.
-        if camera.exposure_ev == viewer.document.description().camera.exposure_ev {
-            viewer.free_view.end();
+        if camera.exposure_ev == work.document.description().camera.exposure_ev {
+            work.free_view.end();
         }
-        viewer
-            .document
+        work.document
             .drag(&change.label, change.key, |d| d.camera = camera);
     }
     ui.add_space(8.0);
@@ -34,22 +33,21 @@ pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer) {
     ui.horizontal_wrapped(|ui| {
         for viewpoint in Viewpoint::ALL {
             if ui.button(viewpoint.name()).clicked() {
-                viewer.move_view(viewpoint.name(), None, |camera| {
+                work.move_view(viewpoint.name(), None, |camera| {
                     navigate::look_from(camera, viewpoint);
                 });
             }
         }
     });
-    show_views(ui, viewer);
-    show_render(ui, viewer);
+    show_views(ui, work);
+    show_render(ui, work);
 }
 
 /// The free view, and the views that are kept.
-fn show_views(ui: &mut Ui, viewer: &mut Viewer) {
-    let mut wished = None;
+fn show_views(ui: &mut Ui, work: &mut Workspace) {
     ui.add_space(8.0);
     ui.strong("View of the window");
-    ui.label(match viewer.free_view.is_free() {
+    ui.label(match work.free_view.is_free() {
         true => "The window has a view of its own: the camera stands where these numbers say.",
         false => "The window looks through the camera.",
     });
@@ -57,24 +55,24 @@ fn show_views(ui: &mut Ui, viewer: &mut Viewer) {
         for command in [ViewCommand::LookThroughCamera, ViewCommand::SetCameraToView] {
             let command = Command::View(command);
             let button = Button::new(command.label());
-            if ui.add_enabled(viewer.free_view.is_free(), button).clicked() {
-                wished = Some(command);
+            if ui.add_enabled(work.free_view.is_free(), button).clicked() {
+                work.wished.push(command);
             }
         }
     });
     let follows = Command::View(ViewCommand::MoveCamera);
-    let mut is_on = viewer.is_on(follows) == Some(true);
+    let mut is_on = work.is_on(follows) == Some(true);
     if ui
         .checkbox(&mut is_on, follows.label())
         .on_hover_text("Turning, moving and framing the view then changes the scene, as steps that can be undone")
         .changed()
     {
-        wished = Some(follows);
+        work.wished.push(follows);
     }
     ui.add_space(8.0);
     ui.strong("Kept views");
     let (mut go, mut remove) = (None, None);
-    for (i, bookmark) in viewer.bookmarks.list().iter().enumerate() {
+    for (i, bookmark) in work.bookmarks.list().iter().enumerate() {
         ui.horizontal(|ui| {
             if ui.button(&bookmark.name).clicked() {
                 go = Some(i);
@@ -90,30 +88,27 @@ fn show_views(ui: &mut Ui, viewer: &mut Viewer) {
     }
     for command in [ViewCommand::Bookmark, ViewCommand::Turntable] {
         let command = Command::View(command);
-        let is_on = viewer.is_on(command) == Some(true);
+        let is_on = work.is_on(command) == Some(true);
         if ui
             .add(Button::selectable(is_on, command.label()).frame_when_inactive(true))
             .clicked()
         {
-            wished = Some(command);
+            work.wished.push(command);
         }
     }
     if let Some(index) = go {
-        viewer.go_to_bookmark(index);
+        work.go_to_bookmark(index);
     }
     if let Some(index) = remove {
-        viewer.bookmarks.remove(index);
-    }
-    if let Some(command) = wished {
-        viewer.run(&ui.ctx().clone(), command);
+        work.bookmarks.remove(index);
     }
 }
 
-pub(super) fn show_render(ui: &mut Ui, viewer: &mut Viewer) {
+pub(super) fn show_render(ui: &mut Ui, work: &mut Workspace) {
     ui.add_space(8.0);
     ui.heading("Rendered picture");
-    let mut render = viewer.document.description().render.clone();
-    let mut form = Form::new(ui, "render", viewer.diagonal_m(None));
+    let mut render = work.document.description().render.clone();
+    let mut form = Form::new(ui, "render", work.diagonal_m(None));
     let curves = ToneMap::ALL.map(|curve| (curve, curve.name().to_owned()));
     form.choice(
         "Tone map",
@@ -126,8 +121,7 @@ pub(super) fn show_render(ui: &mut Ui, viewer: &mut Viewer) {
     form.boxes(Parameter::PictureSize, &["w", "h"], &mut size);
     if let Some(change) = form.change() {
         render.size_px = size.map(|side| side.round() as u32);
-        viewer
-            .document
+        work.document
             .drag(&change.label, change.key, |d| d.render = render);
     }
 }

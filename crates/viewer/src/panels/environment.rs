@@ -9,31 +9,31 @@ use hairline_scene::description::Map;
 use hairline_scene::environment::BuiltInMap;
 
 use super::form::Form;
-use crate::app::Viewer;
 use crate::command::Command;
 use crate::gallery::{Thumb, cards};
+use crate::workspace::Workspace;
 
-pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer) {
+pub(super) fn show(ui: &mut Ui, work: &mut Workspace) {
     ui.heading("Environment");
     let is_choosable = Command::SetEnvironment.is_here();
-    let Some(mut environment) = viewer.document.description().environment.clone() else {
+    let Some(mut environment) = work.document.description().environment.clone() else {
         ui.label("No map: the lights alone light the scene, and the background is black.");
         if is_choosable && ui.button(Command::SetEnvironment.label()).clicked() {
-            viewer.run(&ui.ctx().clone(), Command::SetEnvironment);
+            work.wished.push(Command::SetEnvironment);
         }
-        built_in_maps(ui, viewer);
+        built_in_maps(ui, work);
         return;
     };
     ui.label(match &environment.map {
         Map::File(file) => file.display().to_string(),
         Map::BuiltIn(map) => format!("{}, in the box", maps::name(*map)),
     });
-    if let Some(text) = suns(viewer) {
+    if let Some(text) = suns(work) {
         ui.label(text).on_hover_text(
             "What is small, round and bright in the map lights as a lamp of its own would, colours on scratches included",
         );
     }
-    let mut form = Form::new(ui, "environment", viewer.diagonal_m(None));
+    let mut form = Form::new(ui, "environment", work.diagonal_m(None));
     form.number(
         Parameter::EnvironmentRotation,
         &mut environment.rotation_deg,
@@ -45,49 +45,47 @@ pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer) {
         &mut environment.visible,
     );
     if let Some(change) = form.change() {
-        viewer.document.drag(&change.label, change.key, |d| {
+        work.document.drag(&change.label, change.key, |d| {
             d.environment = Some(environment);
         });
     }
     ui.add_space(8.0);
     ui.horizontal(|ui| {
         if is_choosable && ui.button("Another map…").clicked() {
-            viewer.run(&ui.ctx().clone(), Command::SetEnvironment);
+            work.wished.push(Command::SetEnvironment);
         }
         if ui.button("Remove the map").clicked() {
-            let base_dir = viewer.document.base_dir().to_owned();
-            let done = viewer.document.apply("Remove the environment", |d, _| {
+            let base_dir = work.document.base_dir().to_owned();
+            work.apply("Remove the environment", |d, _| {
                 Ok(actions::set_environment(d, None, &base_dir))
             });
-            viewer.tell(done);
         }
     });
-    built_in_maps(ui, viewer);
+    built_in_maps(ui, work);
 }
 
 /// Maps that need no file.
-fn built_in_maps(ui: &mut Ui, viewer: &mut Viewer) {
+fn built_in_maps(ui: &mut Ui, work: &mut Workspace) {
     ui.add_space(8.0);
     ui.strong("Maps in the box");
     let choices =
         BuiltInMap::ALL.map(|map| (map, Thumb::Map(map), maps::name(map), maps::tooltip(map)));
-    let Some(map) = cards(ui, &mut viewer.gallery, "maps", choices) else {
+    let Some(map) = cards(ui, &mut work.gallery, "maps", choices) else {
         return;
     };
-    let base_dir = viewer.document.base_dir().to_owned();
-    let done = viewer.document.apply("Set the environment", |d, _| {
+    let base_dir = work.document.base_dir().to_owned();
+    work.apply("Set the environment", |d, _| {
         Ok(actions::set_environment(
             d,
             Some(Map::BuiltIn(map)),
             &base_dir,
         ))
     });
-    viewer.tell(done);
 }
 
 /// What was parted from the map that the picture shows.
-fn suns(viewer: &Viewer) -> Option<String> {
-    let built = viewer.engine.built()?;
+fn suns(work: &Workspace) -> Option<String> {
+    let built = work.engine.built()?;
     let suns = built.scene.environment.as_ref()?.suns();
     let size = |sun: &Light| {
         let (center_m, radius_m) = sun.bounding_sphere();

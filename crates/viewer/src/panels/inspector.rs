@@ -4,9 +4,9 @@ use egui::{Panel, ScrollArea, Ui};
 use hairline_editor::Selection;
 
 use super::{camera, environment, layer, light, material, object};
-use crate::app::Viewer;
+use crate::workspace::Workspace;
 
-pub(crate) fn show(ui: &mut Ui, viewer: &mut Viewer) {
+pub(crate) fn show(ui: &mut Ui, work: &mut Workspace) {
     Panel::right("inspector")
         .default_size(340.0)
         .size_range(300.0..=480.0)
@@ -15,24 +15,24 @@ pub(crate) fn show(ui: &mut Ui, viewer: &mut Viewer) {
                 ui.add_space(4.0);
                 // Whatever is selected, the panel keeps its width: else the picture would jump.
                 ui.set_width(ui.available_width());
-                match viewer.selection() {
-                    Selection::None => overview(ui, viewer),
-                    Selection::Camera => camera::show(ui, viewer),
-                    Selection::Render => camera::show_render(ui, viewer),
-                    Selection::Environment => environment::show(ui, viewer),
-                    Selection::Object(i) => object::show(ui, viewer, i),
-                    Selection::Material(i) => material::show(ui, viewer, i),
-                    Selection::Layer(i) => layer::show(ui, viewer, i),
-                    Selection::Light(i) => light::show(ui, viewer, i),
+                match work.selection() {
+                    Selection::None => overview(ui, work),
+                    Selection::Camera => camera::show(ui, work),
+                    Selection::Render => camera::show_render(ui, work),
+                    Selection::Environment => environment::show(ui, work),
+                    Selection::Object(i) => object::show(ui, work, i),
+                    Selection::Material(i) => material::show(ui, work, i),
+                    Selection::Layer(i) => layer::show(ui, work, i),
+                    Selection::Light(i) => light::show(ui, work, i),
                 }
-                super::menu::brush_settings(ui, viewer);
+                super::menu::brush_settings(ui, work);
             });
         });
 }
 
 /// What there is to select, for someone who has selected nothing.
-fn overview(ui: &mut Ui, viewer: &Viewer) {
-    let description = viewer.document.description();
+fn overview(ui: &mut Ui, work: &Workspace) {
+    let description = work.document.description();
     ui.heading("Scene");
     let counts = [
         count(description.objects.len(), "object", "objects"),

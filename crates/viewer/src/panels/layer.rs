@@ -7,18 +7,18 @@ use hairline_editor::ranges::Parameter;
 use hairline_scene::description::{Amount, Around, Distribution, Laid, Layer, Pattern, Scratches};
 
 use super::form::Form;
-use crate::app::Viewer;
 use crate::command::Command;
 use crate::style::beside;
 use crate::tools::Tool;
+use crate::workspace::Workspace;
 
-pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer, index: usize) {
-    let description = viewer.document.description().clone();
+pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
+    let description = work.document.description().clone();
     let Some(mut layer) = description.scratches.get(index).cloned() else {
         return;
     };
     let object = Selection::Layer(index).object(&description);
-    let diagonal_m = viewer.diagonal_m(object);
+    let diagonal_m = work.diagonal_m(object);
     ui.heading("Scratches");
     let mut form = Form::new(ui, ("layer", index), diagonal_m);
     let mut name = layer.name.clone().unwrap_or_default();
@@ -67,12 +67,12 @@ pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer, index: usize) {
         }),
     }
     if let Some(change) = form.change() {
-        viewer.document.drag(&change.label, change.key, |d| {
+        work.document.drag(&change.label, change.key, |d| {
             d.scratches[index] = layer.clone();
         });
     }
-    strokes(ui, viewer, index, &layer);
-    buttons(ui, viewer, index, &layer, diagonal_m);
+    strokes(ui, work, index, &layer);
+    buttons(ui, work, index, &layer, diagonal_m);
 }
 
 fn laid_rows(form: &mut Form, laid: &mut Laid) {
@@ -153,7 +153,7 @@ fn amount(form: &mut Form, amount: &mut Amount) {
 }
 
 /// The strokes of a brush and an eraser.
-fn strokes(ui: &mut Ui, viewer: &mut Viewer, index: usize, layer: &Scratches) {
+fn strokes(ui: &mut Ui, work: &mut Workspace, index: usize, layer: &Scratches) {
     ui.add_space(8.0);
     ui.strong("Strokes");
     ui.horizontal_wrapped(|ui| {
@@ -169,7 +169,7 @@ fn strokes(ui: &mut Ui, viewer: &mut Viewer, index: usize, layer: &Scratches) {
                 .on_hover_text(tool.hint())
                 .clicked()
             {
-                viewer.toolbox.tool = tool;
+                work.toolbox.tool = tool;
             }
         }
         let last = ui.add_enabled(
@@ -177,14 +177,14 @@ fn strokes(ui: &mut Ui, viewer: &mut Viewer, index: usize, layer: &Scratches) {
             egui::Button::new("Remove the last"),
         );
         if last.clicked() {
-            viewer.document.edit("Remove a stroke", |d| {
+            work.document.edit("Remove a stroke", |d| {
                 drop(d.scratches[index].strokes.pop())
             });
         }
     });
 }
 
-fn buttons(ui: &mut Ui, viewer: &mut Viewer, index: usize, layer: &Scratches, diagonal_m: f64) {
+fn buttons(ui: &mut Ui, work: &mut Workspace, index: usize, layer: &Scratches, diagonal_m: f64) {
     ui.add_space(8.0);
     ui.horizontal_wrapped(|ui| {
         ui.menu_button("Replace by a preset…", |ui| {
@@ -193,7 +193,7 @@ fn buttons(ui: &mut Ui, viewer: &mut Viewer, index: usize, layer: &Scratches, di
                 beside(&entry, entry.rect, preset.tooltip());
                 if entry.clicked() {
                     let made = preset.layer(layer.object.clone(), diagonal_m);
-                    viewer.document.edit("Layer preset", |d| {
+                    work.document.edit("Layer preset", |d| {
                         let kept = &mut d.scratches[index];
                         let seed = kept.layer.seed();
                         kept.layer = made.layer;
@@ -215,7 +215,7 @@ fn buttons(ui: &mut Ui, viewer: &mut Viewer, index: usize, layer: &Scratches, di
             Command::Delete,
         ] {
             if ui.button(command.label()).clicked() {
-                viewer.run(&ui.ctx().clone(), command);
+                work.wished.push(command);
             }
         }
     });

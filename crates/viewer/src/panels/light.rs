@@ -7,19 +7,19 @@ use hairline_editor::{Selection, place_light};
 use hairline_scene::description::LightKind;
 
 use super::form::Form;
-use crate::app::Viewer;
 use crate::command::Command;
 use crate::tools::Tool;
+use crate::workspace::Workspace;
 
 /// Changes the colour of a white light little.
 const DAYLIGHT_K: f64 = 6500.0;
 
-pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer, index: usize) {
-    let Some(mut light) = viewer.document.description().lights.get(index).cloned() else {
+pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
+    let Some(mut light) = work.document.description().lights.get(index).cloned() else {
         return;
     };
     ui.heading("Light");
-    let mut form = Form::new(ui, ("light", index), viewer.diagonal_m(None));
+    let mut form = Form::new(ui, ("light", index), work.diagonal_m(None));
     let mut name = light.name.clone().unwrap_or_default();
     form.text("Name", "What the outliner calls it", &mut name);
     light.name = (!name.is_empty()).then_some(name);
@@ -51,12 +51,12 @@ pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer, index: usize) {
         }
     }
     if let Some(change) = form.change() {
-        viewer.document.drag(&change.label, change.key, |d| {
+        work.document.drag(&change.label, change.key, |d| {
             d.lights[index] = light.clone();
         });
     }
     if let LightKind::Polygon { vertices_m, .. } = &light.kind {
-        vertices(ui, viewer, index, vertices_m);
+        vertices(ui, work, index, vertices_m);
     }
     ui.add_space(8.0);
     ui.horizontal_wrapped(|ui| {
@@ -64,22 +64,19 @@ pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer, index: usize) {
             .button("Place by its highlight")
             .on_hover_text(Tool::PlaceLight.hint());
         if place.clicked() {
-            viewer.toolbox.tool = Tool::PlaceLight;
+            work.toolbox.tool = Tool::PlaceLight;
         }
         if ui.button(Command::Duplicate.label()).clicked() {
-            let done = viewer
-                .document
-                .apply("Duplicate light", |d, _| lights::duplicate(d, index));
-            viewer.tell(done);
+            work.apply("Duplicate light", |d, _| lights::duplicate(d, index));
         }
         if ui.button(Command::Delete.label()).clicked() {
-            viewer.run(&ui.ctx().clone(), Command::Delete);
+            work.wished.push(Command::Delete);
         }
     });
 }
 
 /// The corners of a polygon: they stay in its plane.
-fn vertices(ui: &mut Ui, viewer: &mut Viewer, index: usize, vertices_m: &[[f64; 3]]) {
+fn vertices(ui: &mut Ui, work: &mut Workspace, index: usize, vertices_m: &[[f64; 3]]) {
     let mut moved = None;
     let mut inserted = None;
     let mut deleted = None;
@@ -88,7 +85,7 @@ fn vertices(ui: &mut Ui, viewer: &mut Viewer, index: usize, vertices_m: &[[f64; 
     for (i, vertex_m) in vertices_m.iter().enumerate() {
         ui.horizontal(|ui| {
             let mut position_m = *vertex_m;
-            let mut form = Form::new(ui, ("corner", index, i), viewer.diagonal_m(None));
+            let mut form = Form::new(ui, ("corner", index, i), work.diagonal_m(None));
             form.corner(i, &mut position_m);
             if let Some(change) = form.change() {
                 moved = Some((i, position_m, change));
@@ -114,25 +111,23 @@ fn vertices(ui: &mut Ui, viewer: &mut Viewer, index: usize, vertices_m: &[[f64; 
     }
     if let Some((i, to_m, change)) = moved {
         let mut failed = None;
-        viewer.document.drag(&change.label, change.key, |d| {
+        work.document.drag(&change.label, change.key, |d| {
             failed = place_light::move_vertex(&mut d.lights[index], i, to_m.into()).err();
         });
         if let Some(error) = failed {
-            viewer.notices.error("light", error.to_string());
+            work.notices.error("light", error.to_string());
         }
     }
     if let Some(i) = inserted {
-        let done = viewer.document.apply("Split an edge", |d, _| {
+        work.apply("Split an edge", |d, _| {
             place_light::insert_vertex(&mut d.lights[index], i)?;
             Ok(Selection::Light(index))
         });
-        viewer.tell(done);
     }
     if let Some(i) = deleted {
-        let done = viewer.document.apply("Remove a corner", |d, _| {
+        work.apply("Remove a corner", |d, _| {
             place_light::delete_vertex(&mut d.lights[index], i)?;
             Ok(Selection::Light(index))
         });
-        viewer.tell(done);
     }
 }

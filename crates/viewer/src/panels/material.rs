@@ -9,9 +9,9 @@ use hairline_scene::description::{MaterialKind, MetalColor};
 
 use super::form::Form;
 use super::outliner::material_cards;
-use crate::app::Viewer;
 use crate::command::Command;
 use crate::gallery::metal_swatches;
+use crate::workspace::Workspace;
 
 /// The kinds by name, each as it begins.
 #[derive(Clone, Copy, PartialEq)]
@@ -59,12 +59,12 @@ impl Kind {
     }
 }
 
-pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer, index: usize) {
-    let Some(mut material) = viewer.document.description().materials.get(index).cloned() else {
+pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
+    let Some(mut material) = work.document.description().materials.get(index).cloned() else {
         return;
     };
     ui.heading("Material");
-    let mut form = Form::new(ui, ("material", index), viewer.diagonal_m(None));
+    let mut form = Form::new(ui, ("material", index), work.diagonal_m(None));
     let mut name = material.name.clone();
     form.text("Name", "What objects call it", &mut name);
     let mut kind = Kind::of(&material.kind);
@@ -108,12 +108,9 @@ pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer, index: usize) {
     if let Some(change) = form.change() {
         if name != material.name {
             // Objects call it by its name.
-            let done = viewer
-                .document
-                .apply("Rename material", |d, _| materials::rename(d, index, &name));
-            viewer.tell(done);
+            work.apply("Rename material", |d, _| materials::rename(d, index, &name));
         } else {
-            viewer.document.drag(&change.label, change.key, |d| {
+            work.document.drag(&change.label, change.key, |d| {
                 d.materials[index] = material;
             });
         }
@@ -121,8 +118,8 @@ pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer, index: usize) {
     ui.add_space(8.0);
     ui.horizontal_wrapped(|ui| {
         ui.menu_button("Replace by a preset…", |ui| {
-            if let Some(preset) = material_cards(ui, viewer) {
-                viewer.document.edit("Material preset", |d| {
+            if let Some(preset) = material_cards(ui, work) {
+                work.document.edit("Material preset", |d| {
                     let name = d.materials[index].name.clone();
                     d.materials[index] = hairline_scene::description::Material {
                         name,
@@ -132,10 +129,10 @@ pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer, index: usize) {
             }
         });
         if ui.button(Command::Duplicate.label()).clicked() {
-            viewer.run(&ui.ctx().clone(), Command::Duplicate);
+            work.wished.push(Command::Duplicate);
         }
         if ui.button(Command::Delete.label()).clicked() {
-            viewer.run(&ui.ctx().clone(), Command::Delete);
+            work.wished.push(Command::Delete);
         }
     });
 }

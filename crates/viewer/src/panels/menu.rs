@@ -1,49 +1,61 @@
 //! The menus, the tools and how the brush is set.
 
+use std::path::PathBuf;
+
 use egui::{Button, MenuBar, Panel, RichText, Ui};
 use hairline_editor::ranges::Parameter;
 
 use super::form::Form;
-use crate::app::Viewer;
 use crate::command::{self, Command, Group};
+use crate::files::Files;
 use crate::tools::Tool;
+use crate::workspace::Workspace;
 
-pub(crate) fn show(ui: &mut Ui, viewer: &mut Viewer, wished: &mut Option<Command>) {
+/// A file of the list of recent ones, if it was chosen.
+pub(crate) fn show(
+    ui: &mut Ui,
+    work: &mut Workspace,
+    files: &Files,
+    is_comparing: bool,
+) -> Option<PathBuf> {
+    let mut chosen = None;
     Panel::top("menu").show(ui, |ui| {
         MenuBar::new().ui(ui, |ui| {
             for group in Group::ALL {
-                ui.menu_button(group.name(), |ui| menu(ui, viewer, group, wished));
+                ui.menu_button(group.name(), |ui| {
+                    chosen = menu(ui, work, group, files).or(chosen.take());
+                });
             }
             ui.separator();
             for tool in Tool::ALL {
                 let command = Command::Pick(tool);
-                let button = Button::selectable(viewer.toolbox.tool == tool, command.label());
+                let button = Button::selectable(work.toolbox.tool == tool, command.label());
                 if ui.add(button).on_hover_text(hint(command, tool.hint())).clicked() {
-                    *wished = Some(command);
+                    work.wished.push(command);
                 }
             }
             ui.separator();
-            let undo = viewer.document.undo_label().map(str::to_owned);
-            let redo = viewer.document.redo_label().map(str::to_owned);
+            let undo = work.document.undo_label().map(str::to_owned);
+            let redo = work.document.redo_label().map(str::to_owned);
             for (command, what) in [(Command::Undo, undo), (Command::Redo, redo)] {
                 let button = Button::new(command.label());
                 let response = ui.add_enabled(what.is_some(), button);
                 let text = hint(command, what.as_deref().unwrap_or("nothing"));
                 if response.on_hover_text(text).clicked() {
-                    *wished = Some(command);
+                    work.wished.push(command);
                 }
             }
             ui.separator();
             let button = Button::new("Snapshot");
             let text = "Keeps this look, with its picture, to compare with and to come back to";
             if ui.add(button).on_hover_text(hint(Command::TakeSnapshot, text)).clicked() {
-                *wished = Some(Command::TakeSnapshot);
+                work.wished.push(Command::TakeSnapshot);
             }
             if !Command::Compare.is_here() {
                 return;
             }
             ui.separator();
-            let button = Button::selectable(viewer.compare.is_open(), "Compare");
+            let button = Button::selectable(is_comparing, "Compare");
             if ui
                 .add(button)
                 .on_hover_text(hint(
@@ -52,13 +64,15 @@ pub(crate) fn show(ui: &mut Ui, viewer: &mut Viewer, wished: &mut Option<Command
                 ))
                 .clicked()
             {
-                *wished = Some(Command::Compare);
+                work.wished.push(Command::Compare);
             }
         });
     });
+    chosen
 }
 
-fn menu(ui: &mut Ui, viewer: &mut Viewer, group: Group, wished: &mut Option<Command>) {
+fn menu(ui: &mut Ui, work: &mut Workspace, group: Group, files: &Files) -> Option<PathBuf> {
+    let mut chosen = None;
     for (i, entry) in command::entries()
         .filter(|entry| entry.group == group)
         .enumerate()
@@ -66,32 +80,35 @@ fn menu(ui: &mut Ui, viewer: &mut Viewer, group: Group, wished: &mut Option<Comm
         if i > 0 && entry.command.begins_section() {
             ui.separator();
         }
-        if item(ui, viewer, entry.command) {
-            *wished = Some(entry.command);
+        if item(ui, work, entry.command) {
+            work.wished.push(entry.command);
         }
         if entry.command == Command::Open {
-            recent(ui, viewer);
+            chosen = recent(ui, files);
         }
     }
+    chosen
 }
 
 /// The files that were opened or saved last.
-fn recent(ui: &mut Ui, viewer: &mut Viewer) {
-    let files = viewer.files.recent();
+fn recent(ui: &mut Ui, files: &Files) -> Option<PathBuf> {
+    let mut chosen = None;
+    let files = files.recent();
     ui.add_enabled_ui(!files.is_empty(), |ui| {
         ui.menu_button("Recent", |ui| {
             for path in files {
                 if ui.button(path.display().to_string()).clicked() {
-                    viewer.take_file(&ui.ctx().clone(), &path);
+                    chosen = Some(path);
                 }
             }
         });
     });
+    chosen
 }
 
 /// A command with its key; whether it was chosen.
-fn item(ui: &mut Ui, viewer: &Viewer, command: Command) -> bool {
-    let is_on = viewer.is_on(command).unwrap_or(false);
+fn item(ui: &mut Ui, work: &Workspace, command: Command) -> bool {
+    let is_on = work.is_on(command).unwrap_or(false);
     let mut button = Button::selectable(is_on, command.label());
     if let Some(shortcut) = command.shortcut() {
         let visuals = ui.visuals();
@@ -101,14 +118,14 @@ fn item(ui: &mut Ui, viewer: &Viewer, command: Command) -> bool {
         };
         button = button.shortcut_text(RichText::new(command::key_text(&shortcut)).color(color));
     }
-    ui.add_enabled(viewer.can(command), button).clicked()
+    ui.add_enabled(work.can(command), button).clicked()
 }
 
 /// What can be done with what is selected: the menu of the right button.
-pub(crate) fn on_selection(ui: &mut Ui, viewer: &mut Viewer) {
-    if let Some(object) = viewer.selected_object() {
+pub(crate) fn on_selection(ui: &mut Ui, work: &mut Workspace) {
+    if let Some(object) = work.selected_object() {
         ui.menu_button("Add scratches", |ui| {
-            super::object::add_layer(ui, viewer, object)
+            super::object::add_layer(ui, work, object)
         });
         ui.separator();
     }
@@ -121,8 +138,8 @@ pub(crate) fn on_selection(ui: &mut Ui, viewer: &mut Viewer) {
         Command::MoveDown,
         Command::Delete,
     ] {
-        if viewer.can(command) && item(ui, viewer, command) {
-            viewer.run(&ui.ctx().clone(), command);
+        if work.can(command) && item(ui, work, command) {
+            work.wished.push(command);
         }
     }
 }
@@ -136,24 +153,24 @@ fn hint(command: Command, text: &str) -> String {
 }
 
 /// The brush's own panel, while it is at hand.
-pub(super) fn brush_settings(ui: &mut Ui, viewer: &mut Viewer) {
-    if !matches!(viewer.toolbox.tool, Tool::Brush | Tool::Eraser) {
+pub(super) fn brush_settings(ui: &mut Ui, work: &mut Workspace) {
+    if !matches!(work.toolbox.tool, Tool::Brush | Tool::Eraser) {
         return;
     }
-    let diagonal_m = viewer.diagonal_m(viewer.selected_object());
-    let mut brush = viewer.brush();
+    let diagonal_m = work.diagonal_m(work.selected_object());
+    let mut brush = work.brush();
     ui.add_space(12.0);
     ui.separator();
-    ui.heading(Command::Pick(viewer.toolbox.tool).label());
+    ui.heading(Command::Pick(work.toolbox.tool).label());
     let mut form = Form::new(ui, "brush", diagonal_m);
     form.number(Parameter::BrushRadius, &mut brush.radius_m);
-    if viewer.toolbox.tool == Tool::Brush {
+    if work.toolbox.tool == Tool::Brush {
         form.number(Parameter::BrushDensity, &mut brush.density_per_m);
         form.number(Parameter::BrushWidth, &mut brush.width);
         form.number(Parameter::BrushDepth, &mut brush.depth);
     }
     // Settings of a tool are no part of the scene.
     if form.change().is_some() {
-        viewer.toolbox.brush = Some(brush);
+        work.toolbox.brush = Some(brush);
     }
 }

@@ -9,18 +9,18 @@ use hairline_editor::wear::{self, Wear};
 use hairline_scene::description::{Shape, Surface, Up};
 
 use super::form::Form;
-use crate::app::Viewer;
 use crate::command::Command;
 use crate::gallery::{SIDE, Thumb, card, cards};
+use crate::workspace::Workspace;
 
-pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer, index: usize) {
-    let description = viewer.document.description().clone();
+pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
+    let description = work.document.description().clone();
     let Some(mut object) = description.objects.get(index).cloned() else {
         return;
     };
-    let diagonal_m = viewer.diagonal_m(Some(index));
+    let diagonal_m = work.diagonal_m(Some(index));
     ui.heading("Object");
-    wear_row(ui, viewer, index);
+    wear_row(ui, work, index);
     let mut form = Form::new(ui, ("object", index), diagonal_m);
     let mut name = object.name.clone();
     form.text("Name", "What layers of scratches call it", &mut name);
@@ -59,12 +59,9 @@ pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer, index: usize) {
     }
     if let Some(change) = form.change() {
         if name != object.name {
-            let done = viewer
-                .document
-                .apply("Rename object", |d, _| objects::rename(d, index, &name));
-            viewer.tell(done);
+            work.apply("Rename object", |d, _| objects::rename(d, index, &name));
         } else {
-            viewer.document.drag(&change.label, change.key, |d| {
+            work.document.drag(&change.label, change.key, |d| {
                 d.objects[index] = object.clone()
             });
         }
@@ -73,22 +70,22 @@ pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer, index: usize) {
     ui.strong("Scratches");
     for i in objects::layers(&description, index) {
         if ui.link(layers::title(&description.scratches[i])).clicked() {
-            viewer.document.select(Selection::Layer(i));
+            work.document.select(Selection::Layer(i));
         }
     }
-    ui.menu_button("Add scratches…", |ui| add_layer(ui, viewer, index));
+    ui.menu_button("Add scratches…", |ui| add_layer(ui, work, index));
     ui.add_space(8.0);
     ui.horizontal(|ui| {
         for command in [Command::FrameSelection, Command::Duplicate, Command::Delete] {
             if ui.button(command.label()).clicked() {
-                viewer.run(&ui.ctx().clone(), command);
+                work.wished.push(command);
             }
         }
     });
 }
 
 /// The presets as a menu.
-pub(super) fn add_layer(ui: &mut Ui, viewer: &mut Viewer, object: usize) {
+pub(super) fn add_layer(ui: &mut Ui, work: &mut Workspace, object: usize) {
     let choices = LayerPreset::ALL.map(|preset| {
         (
             preset,
@@ -97,20 +94,19 @@ pub(super) fn add_layer(ui: &mut Ui, viewer: &mut Viewer, object: usize) {
             preset.tooltip(),
         )
     });
-    if let Some(preset) = cards(ui, &mut viewer.gallery, "layers", choices) {
-        let diagonal_m = viewer.diagonal_m(Some(object));
-        let done = viewer.document.apply("Add scratches", |d, _| {
+    if let Some(preset) = cards(ui, &mut work.gallery, "layers", choices) {
+        let diagonal_m = work.diagonal_m(Some(object));
+        work.apply("Add scratches", |d, _| {
             let name = d.objects[object].name.clone();
             layers::add(d, preset.layer(name, diagonal_m))
         });
-        viewer.tell(done);
     }
 }
 
 /// How worn the object is: one choice over its layers of wear.
-fn wear_row(ui: &mut Ui, viewer: &mut Viewer, object: usize) {
-    let diagonal_m = viewer.diagonal_m(Some(object));
-    let description = viewer.document.description();
+fn wear_row(ui: &mut Ui, work: &mut Workspace, object: usize) {
+    let diagonal_m = work.diagonal_m(Some(object));
+    let description = work.document.description();
     let Some(name) = description.objects.get(object).map(|o| o.name.clone()) else {
         return;
     };
@@ -123,7 +119,7 @@ fn wear_row(ui: &mut Ui, viewer: &mut Viewer, object: usize) {
         ui.spacing_mut().item_spacing.x = 0.0;
         for grade in Wear::ALL {
             let (thumb, is_it) = ((Thumb::Wear(grade), side), is == Some(grade));
-            let card = card(ui, &mut viewer.gallery, thumb, grade.name(), is_it);
+            let card = card(ui, &mut work.gallery, thumb, grade.name(), is_it);
             if card.on_hover_text(grade.tooltip()).clicked() {
                 chosen = Some(grade);
             }
@@ -134,10 +130,7 @@ fn wear_row(ui: &mut Ui, viewer: &mut Viewer, object: usize) {
     }
     ui.add_space(6.0);
     if let Some(grade) = chosen.filter(|grade| is != Some(*grade)) {
-        let done = viewer
-            .document
-            .apply("Wear", |d, _| wear::set_wear(d, object, diagonal_m, grade));
-        viewer.tell(done);
+        work.apply("Wear", |d, _| wear::set_wear(d, object, diagonal_m, grade));
     }
 }
 

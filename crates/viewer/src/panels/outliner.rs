@@ -9,25 +9,25 @@ use hairline_scene::Description;
 use hairline_scene::description::Map;
 
 use super::object::add_layer;
-use crate::app::Viewer;
 use crate::command::Command;
 use crate::gallery::{Thumb, cards};
+use crate::workspace::Workspace;
 
-pub(crate) fn show(ui: &mut Ui, viewer: &mut Viewer, wished: &mut Option<Command>) {
+pub(crate) fn show(ui: &mut Ui, work: &mut Workspace) {
     Panel::left("outliner")
         .default_size(230.0)
         .size_range(160.0..=400.0)
         .show(ui, |ui| {
             ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                 ui.add_space(4.0);
-                rows(ui, viewer, wished);
+                rows(ui, work);
             });
         });
 }
 
-fn rows(ui: &mut Ui, viewer: &mut Viewer, wished: &mut Option<Command>) {
-    let description = viewer.document.description().clone();
-    line(ui, viewer, Selection::Camera, "Camera", true);
+fn rows(ui: &mut Ui, work: &mut Workspace) {
+    let description = work.document.description().clone();
+    line(ui, work, Selection::Camera, "Camera", true);
     let map = match description.environment.as_ref().map(|e| &e.map) {
         None => "none".into(),
         Some(Map::BuiltIn(map)) => maps::name(*map).into(),
@@ -35,7 +35,7 @@ fn rows(ui: &mut Ui, viewer: &mut Viewer, wished: &mut Option<Command>) {
     };
     line(
         ui,
-        viewer,
+        work,
         Selection::Environment,
         &format!("Environment: {map}"),
         true,
@@ -43,23 +43,23 @@ fn rows(ui: &mut Ui, viewer: &mut Viewer, wished: &mut Option<Command>) {
 
     section(ui, "Objects", |ui| {
         if Command::AddModel.is_here() && ui.button(Command::AddModel.label()).clicked() {
-            *wished = Some(Command::AddModel);
+            work.wished.push(Command::AddModel);
         }
-        add_shape(ui, viewer);
+        add_shape(ui, work);
     });
     for (i, object) in description.objects.iter().enumerate() {
-        line(ui, viewer, Selection::Object(i), &object.name, true);
+        line(ui, work, Selection::Object(i), &object.name, true);
         ui.indent(("layers", i), |ui| {
             for layer in objects::layers(&description, i) {
-                layer_line(ui, viewer, &description, layer);
+                layer_line(ui, work, &description, layer);
             }
-            let add = ui.menu_button("+ scratches", |ui| add_layer(ui, viewer, i));
+            let add = ui.menu_button("+ scratches", |ui| add_layer(ui, work, i));
             add.response
                 .on_hover_text(format!("Lay a layer of scratches on {}", object.name));
         });
     }
 
-    section(ui, "Lights", |ui| add_light(ui, viewer));
+    section(ui, "Lights", |ui| add_light(ui, work));
     for (i, light) in description.lights.iter().enumerate() {
         ui.horizontal(|ui| {
             let name = numbered(lights::title(light), &description, i);
@@ -69,22 +69,19 @@ fn rows(ui: &mut Ui, viewer: &mut Viewer, wished: &mut Option<Command>) {
                 .on_hover_text("Whether it shines");
             name_node(ui, &eye, &format!("Show light {}", i + 1));
             if eye.changed() {
-                let done = viewer
-                    .document
-                    .apply("Hide or show a light", |d, _| lights::toggle_hidden(d, i));
-                viewer.tell(done);
+                work.apply("Hide or show a light", |d, _| lights::toggle_hidden(d, i));
             }
-            line(ui, viewer, Selection::Light(i), &name, shown);
+            line(ui, work, Selection::Light(i), &name, shown);
         });
     }
 
-    section(ui, "Materials", |ui| add_material(ui, viewer));
+    section(ui, "Materials", |ui| add_material(ui, work));
     for (i, material) in description.materials.iter().enumerate() {
-        line(ui, viewer, Selection::Material(i), &material.name, true);
+        line(ui, work, Selection::Material(i), &material.name, true);
     }
 }
 
-fn layer_line(ui: &mut Ui, viewer: &mut Viewer, description: &Description, i: usize) {
+fn layer_line(ui: &mut Ui, work: &mut Workspace, description: &Description, i: usize) {
     let layer = &description.scratches[i];
     ui.horizontal(|ui| {
         let mut shown = !layer.hidden;
@@ -93,25 +90,19 @@ fn layer_line(ui: &mut Ui, viewer: &mut Viewer, description: &Description, i: us
             .on_hover_text("Hide or show the layer");
         name_node(ui, &eye, &format!("Show layer {}", i + 1));
         if eye.changed() {
-            let done = viewer
-                .document
-                .apply("Hide or show a layer", |d, _| layers::toggle_hidden(d, i));
-            viewer.tell(done);
+            work.apply("Hide or show a layer", |d, _| layers::toggle_hidden(d, i));
         }
         let solo = ui
             .selectable_label(layer.solo, "S")
             .on_hover_text("Solo: if a layer is solo, only solo layers are seen");
         name_node(ui, &solo, &format!("Solo layer {}", i + 1));
         if solo.clicked() {
-            let done = viewer
-                .document
-                .apply("Solo", |d, _| layers::toggle_solo(d, i));
-            viewer.tell(done);
+            work.apply("Solo", |d, _| layers::toggle_solo(d, i));
         }
         let is_shown = layers::is_shown(description, i);
         line(
             ui,
-            viewer,
+            work,
             Selection::Layer(i),
             layers::title(layer),
             is_shown,
@@ -126,25 +117,25 @@ fn name_node(ui: &Ui, response: &egui::Response, name: &str) {
 }
 
 /// A line that selects; faint where the part is not seen.
-fn line(ui: &mut Ui, viewer: &mut Viewer, selection: Selection, name: &str, is_shown: bool) {
+fn line(ui: &mut Ui, work: &mut Workspace, selection: Selection, name: &str, is_shown: bool) {
     let text = if is_shown {
         RichText::new(name)
     } else {
         RichText::new(name).weak()
     };
-    let is_selected = viewer.selection() == selection;
+    let is_selected = work.selection() == selection;
     let response = ui.add(egui::Button::selectable(is_selected, text).truncate());
     if response.clicked() {
-        viewer.document.select(selection);
+        work.document.select(selection);
     }
     if response.double_clicked() {
-        viewer.run(&ui.ctx().clone(), Command::FrameSelection);
+        work.wished.push(Command::FrameSelection);
     }
     if response.secondary_clicked() {
-        viewer.document.select(selection);
+        work.document.select(selection);
     }
     if !matches!(selection, Selection::Camera | Selection::Environment) {
-        response.context_menu(|ui| super::menu::on_selection(ui, viewer));
+        response.context_menu(|ui| super::menu::on_selection(ui, work));
     }
 }
 
@@ -167,18 +158,17 @@ fn section(ui: &mut Ui, title: &str, add: impl FnOnce(&mut Ui)) {
     });
 }
 
-fn add_shape(ui: &mut Ui, viewer: &mut Viewer) {
+fn add_shape(ui: &mut Ui, work: &mut Workspace) {
     let choices = ShapePreset::ALL.map(|preset| (preset, Thumb::Shape(preset), preset.name(), ""));
-    if let Some(preset) = cards(ui, &mut viewer.gallery, "shapes", choices) {
-        let diagonal_m = viewer.diagonal_m(None);
-        let done = viewer.document.apply("Add an object", |d, _| {
+    if let Some(preset) = cards(ui, &mut work.gallery, "shapes", choices) {
+        let diagonal_m = work.diagonal_m(None);
+        work.apply("Add an object", |d, _| {
             objects::add_shape(d, preset.shape(diagonal_m), None)
         });
-        viewer.tell(done);
     }
 }
 
-fn add_light(ui: &mut Ui, viewer: &mut Viewer) {
+fn add_light(ui: &mut Ui, work: &mut Workspace) {
     let choices = LightPreset::ALL.map(|preset| {
         (
             preset,
@@ -187,28 +177,26 @@ fn add_light(ui: &mut Ui, viewer: &mut Viewer) {
             preset.tooltip(),
         )
     });
-    if let Some(preset) = cards(ui, &mut viewer.gallery, "lights", choices) {
-        let diagonal_m = viewer.diagonal_m(None);
-        let done = viewer.document.apply("Add a light", |d, _| {
+    if let Some(preset) = cards(ui, &mut work.gallery, "lights", choices) {
+        let diagonal_m = work.diagonal_m(None);
+        work.apply("Add a light", |d, _| {
             let camera = &d.camera;
             let light = preset.light(camera.target_m.into(), camera.up.into(), diagonal_m);
             Ok(lights::add(d, light))
         });
-        viewer.tell(done);
     }
 }
 
-fn add_material(ui: &mut Ui, viewer: &mut Viewer) {
-    if let Some(preset) = material_cards(ui, viewer) {
-        let done = viewer.document.apply("Add a material", |d, _| {
+fn add_material(ui: &mut Ui, work: &mut Workspace) {
+    if let Some(preset) = material_cards(ui, work) {
+        work.apply("Add a material", |d, _| {
             Ok(materials::add(d, preset.material()))
         });
-        viewer.tell(done);
     }
 }
 
 /// All materials to begin with.
-pub(super) fn material_cards(ui: &mut Ui, viewer: &mut Viewer) -> Option<MaterialPreset> {
+pub(super) fn material_cards(ui: &mut Ui, work: &mut Workspace) -> Option<MaterialPreset> {
     let choices = MaterialPreset::all().map(|preset| {
         (
             preset,
@@ -217,5 +205,5 @@ pub(super) fn material_cards(ui: &mut Ui, viewer: &mut Viewer) -> Option<Materia
             preset.tooltip(),
         )
     });
-    cards(ui, &mut viewer.gallery, "materials", choices)
+    cards(ui, &mut work.gallery, "materials", choices)
 }

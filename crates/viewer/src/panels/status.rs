@@ -4,32 +4,32 @@ use std::time::Duration;
 
 use egui::{Panel, RichText, Ui};
 
-use crate::app::Viewer;
-use crate::engine::{Frame, Latency};
-use crate::panels::busy::Busy;
+use super::busy::Busy;
+use crate::engine::{Engine, Frame, Latency};
+use crate::viewport::Viewport;
 
-pub(crate) fn show(ui: &mut Ui, viewer: &mut Viewer) {
+pub(crate) fn show(ui: &mut Ui, engine: &Engine, viewport: &Viewport) {
     Panel::bottom("status").exact_size(26.0).show(ui, |ui| {
         ui.horizontal_centered(|ui| {
             ui.spacing_mut().item_spacing.x = 14.0;
-            match viewer.engine.latest() {
-                Some(frame) => picture(ui, &frame, viewer.viewport.is_stale()),
-                None => drop(ui.label(before_the_first(viewer))),
+            match engine.latest() {
+                Some(frame) => picture(ui, &frame, viewport.canvas.is_stale()),
+                None => drop(ui.label(before_the_first(engine))),
             }
-            if let Some(built) = viewer.engine.built() {
+            if let Some(built) = engine.built() {
                 let (scratches, segments) = built.scratch_counts();
                 ui.label(format!("{} scratches", grouped(scratches)))
                     .on_hover_text(format!("in {} straight pieces", grouped(segments)));
             }
-            if viewer.engine.is_building() {
+            if engine.is_building() {
                 ui.add(Busy::new());
                 ui.label("laying scratches");
             }
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                let time = viewer.viewport.interface_time();
+                let time = viewport.interface_time();
                 ui.label(RichText::new(format!("interface {}", milliseconds(time))).weak())
                     .on_hover_text("The longest pass of the interface itself of late");
-                ui.label(viewer.engine.backend().label())
+                ui.label(engine.backend().label())
                     .on_hover_text("What renders the picture");
             });
         });
@@ -37,8 +37,8 @@ pub(crate) fn show(ui: &mut Ui, viewer: &mut Viewer) {
 }
 
 /// What is being done while there is no picture yet.
-pub(crate) fn before_the_first(viewer: &Viewer) -> &'static str {
-    match viewer.engine.built() {
+pub(crate) fn before_the_first(engine: &Engine) -> &'static str {
+    match engine.built() {
         Some(_) => "rendering the first picture",
         None => "building the scene",
     }

@@ -6,17 +6,23 @@ use egui::{
 use hairline_image::Display;
 
 use super::{Findings, Histogram, Reading, Shows, false_color, histogram};
-use crate::app::Viewer;
 use crate::engine::View;
 use crate::viewport::ink;
+use crate::workspace::Workspace;
 
-/// Shows what is switched on. `area` is the picture's.
-pub(crate) fn show(ui: &mut Ui, viewer: &mut Viewer, area: Rect, pointer: Option<Pos2>) {
-    let Some(frame) = viewer.engine.latest() else {
+/// Shows what is switched on. `area` is the picture's; `view` is the newest one, of which there may be no picture yet.
+pub(crate) fn show(
+    ui: &mut Ui,
+    work: &mut Workspace,
+    view: Option<View>,
+    area: Rect,
+    pointer: Option<Pos2>,
+) {
+    let Some(frame) = work.engine.latest() else {
         return;
     };
     let ctx = ui.ctx().clone();
-    if viewer.reading.has_histogram {
+    if work.reading.has_histogram {
         let mut is_open = true;
         window(
             "Histogram",
@@ -28,10 +34,10 @@ pub(crate) fn show(ui: &mut Ui, viewer: &mut Viewer, area: Rect, pointer: Option
             Some(histogram) => show_histogram(ui, histogram),
             None => drop(ui.label("counting")),
         });
-        viewer.reading.has_histogram = is_open;
+        work.reading.has_histogram = is_open;
     }
-    scale(ui, area, viewer.reading.shows, &frame.findings);
-    show_probe(ui, viewer, area, pointer);
+    scale(ui, area, work.reading.shows, &frame.findings);
+    show_probe(ui, work, &view.unwrap_or(frame.view), area, pointer);
 }
 
 /// A small window whose corner begins at a place, and grows from there.
@@ -188,26 +194,24 @@ fn scale(ui: &Ui, area: Rect, shows: Shows, findings: &Findings) {
     }
 }
 
-fn show_probe(ui: &mut Ui, viewer: &mut Viewer, area: Rect, pointer: Option<Pos2>) {
-    if !viewer.reading.probe.is_on() {
+fn show_probe(ui: &mut Ui, work: &mut Workspace, view: &View, area: Rect, pointer: Option<Pos2>) {
+    if !work.reading.probe.is_on() {
         return;
     }
-    let (Some(built), Some(frame)) = (viewer.engine.built(), viewer.engine.latest()) else {
+    let Some(built) = work.engine.built() else {
         return;
     };
     let ctx = ui.ctx().clone();
-    // The view as it is now, not that of the frame, which may be an older one.
-    let view = viewer.viewport.view.unwrap_or(frame.view);
-    let kept = viewer.reading.probe.kept_at(area);
+    let kept = work.reading.probe.kept_at(area);
     if let Some(pos) = kept.or(pointer) {
-        viewer.reading.probe.follow(&ctx, &built, &view, area, pos);
+        work.reading.probe.follow(&ctx, &built, view, area, pos);
     }
     if let Some(pos) = kept {
         mark(&ui.painter().with_clip_rect(area), pos);
     } else if pointer.is_some() {
         ui.set_cursor_icon(egui::CursorIcon::Crosshair);
     }
-    let reading = viewer.reading.probe.reading();
+    let reading = work.reading.probe.reading();
     let mut is_open = true;
     let mut is_released = false;
     window(
@@ -219,7 +223,7 @@ fn show_probe(ui: &mut Ui, viewer: &mut Viewer, area: Rect, pointer: Option<Pos2
     .show(&ctx, |ui| {
         ui.set_width(286.0);
         match &reading {
-            Some(reading) => rows(ui, reading, &view),
+            Some(reading) => rows(ui, reading, view),
             None => drop(ui.label("Point at the picture.")),
         }
         ui.add_space(4.0);
@@ -232,15 +236,15 @@ fn show_probe(ui: &mut Ui, viewer: &mut Viewer, area: Rect, pointer: Option<Pos2
             if let Some(reading) = &reading
                 && ui.button("Copy").clicked()
             {
-                ui.ctx().copy_text(text(reading, &view));
+                ui.ctx().copy_text(text(reading, view));
             }
         });
     });
     if is_released {
-        viewer.reading.probe.release();
+        work.reading.probe.release();
     }
     if !is_open {
-        viewer.reading.probe.toggle();
+        work.reading.probe.toggle();
     }
 }
 

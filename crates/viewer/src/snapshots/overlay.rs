@@ -2,60 +2,68 @@
 
 use egui::{Align2, Color32, FontId, Rect, TextureId, Ui, pos2, vec2};
 
-use crate::app::Viewer;
 use crate::compare::divider;
-use crate::engine::View;
+use crate::engine::{Frame, View};
 use crate::viewport::Area;
+use crate::viewport::canvas::CanvasTexture;
 
-use super::Way;
+use super::{Snapshots, Way};
 
 /// Between two pictures, points.
 const GAP: f32 = 2.0;
 
-pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer, area: &Area, view: &View) {
-    let way = viewer.snapshots.way;
-    let Some(snapshot) = viewer.snapshots.shown() else {
-        return;
-    };
-    let name = snapshot.name.clone();
-    let size_px = snapshot.view.size_px;
-    let kept = snapshot.frame.clone();
-    let texture = kept.and_then(|frame| snapshot.canvas.texture(ui.ctx(), &frame));
-    let rect = area.rect;
-    match way {
-        Way::Flip => {
-            ui.painter().rect_filled(rect, 0.0, Color32::BLACK);
-            picture(ui, fitting(rect, size_px), texture);
-            // As the current look, or the two differ where the looks do not.
-            area.paint_frame(ui);
-            caption(ui, rect, &name);
-        }
-        Way::SideBySide => {
-            ui.painter().rect_filled(rect, 0.0, Color32::BLACK);
-            let middle = rect.center().x;
-            let mut left = rect;
-            left.max.x = middle - GAP;
-            let mut right = rect;
-            right.min.x = middle + GAP;
-            let now = viewer.engine.latest();
-            let now = now.and_then(|frame| viewer.viewport.picture(ui.ctx(), &frame));
-            picture(ui, fitting(left, view.size_px), now);
-            picture(ui, fitting(right, size_px), texture);
-            caption(ui, left, "Now");
-            caption(ui, right, &name);
-        }
-        Way::Slider => {
-            let share = &mut viewer.snapshots.divider;
-            let x = rect.left() + *share * rect.width();
-            let right = Rect::from_min_max(pos2(x, rect.top()), rect.max);
-            ui.scope(|ui| {
-                ui.set_clip_rect(right.intersect(ui.clip_rect()));
+impl Snapshots {
+    /// Draws the one that is shown; `now` on `canvas` is the current look.
+    pub(super) fn draw(
+        &mut self,
+        ui: &mut Ui,
+        area: &Area,
+        view: &View,
+        (now, canvas): (&Frame, &mut CanvasTexture),
+    ) {
+        let way = self.way;
+        let Some(snapshot) = self.shown() else {
+            return;
+        };
+        let name = snapshot.name.clone();
+        let size_px = snapshot.view.size_px;
+        let kept = snapshot.frame.clone();
+        let texture = kept.and_then(|frame| snapshot.canvas.texture(ui.ctx(), &frame));
+        let rect = area.rect;
+        match way {
+            Way::Flip => {
+                ui.painter().rect_filled(rect, 0.0, Color32::BLACK);
                 picture(ui, fitting(rect, size_px), texture);
-                // As on the left.
+                // As the current look, or the two differ where the looks do not.
                 area.paint_frame(ui);
-            });
-            divider::names(ui, rect.with_max_y(rect.max.y - 20.0), x, ["Now", &name]);
-            divider::show(ui, rect, share, "Divider between now and the snapshot");
+                caption(ui, rect, &name);
+            }
+            Way::SideBySide => {
+                ui.painter().rect_filled(rect, 0.0, Color32::BLACK);
+                let middle = rect.center().x;
+                let mut left = rect;
+                left.max.x = middle - GAP;
+                let mut right = rect;
+                right.min.x = middle + GAP;
+                let now = canvas.texture(ui.ctx(), now);
+                picture(ui, fitting(left, view.size_px), now);
+                picture(ui, fitting(right, size_px), texture);
+                caption(ui, left, "Now");
+                caption(ui, right, &name);
+            }
+            Way::Slider => {
+                let share = &mut self.divider;
+                let x = rect.left() + *share * rect.width();
+                let right = Rect::from_min_max(pos2(x, rect.top()), rect.max);
+                ui.scope(|ui| {
+                    ui.set_clip_rect(right.intersect(ui.clip_rect()));
+                    picture(ui, fitting(rect, size_px), texture);
+                    // As on the left.
+                    area.paint_frame(ui);
+                });
+                divider::names(ui, rect.with_max_y(rect.max.y - 20.0), x, ["Now", &name]);
+                divider::show(ui, rect, share, "Divider between now and the snapshot");
+            }
         }
     }
 }

@@ -7,84 +7,79 @@ use egui::{
 
 use crate::viewport::Area;
 
-use super::{Snapshot, Snapshots, Way};
+use super::{Snapshot, Snapshots, Way, Wish};
 
 /// Height of a thumbnail, points; as wide as its picture needs, within bounds.
 const HEIGHT: f32 = 72.0;
 const WIDTHS: std::ops::RangeInclusive<f32> = 48.0..=150.0;
 const NAME_HEIGHT: f32 = 18.0;
 
-/// What is to be done with the snapshot of an index.
-pub(super) enum Wish {
-    Restore(usize),
-    Delete(usize),
-}
-
-pub(super) fn show(ui: &mut Ui, snapshots: &mut Snapshots, area: &Area) -> Option<Wish> {
-    let corner = area.rect.left_bottom() + vec2(12.0, -12.0);
-    egui::Area::new(Id::unique("snapshots"))
-        .pivot(Align2::LEFT_BOTTOM)
-        .fixed_pos(corner)
-        .show(ui.ctx(), |ui| {
-            egui::Frame::popup(ui.style()).show(ui, |ui| {
-                ui.set_max_width(area.rect.width() - 40.0);
-                let wish = tools(ui, snapshots);
-                ScrollArea::horizontal().show(ui, |ui| {
-                    ui.horizontal(|ui| {
-                        let mut clicked = None;
-                        for index in 0..snapshots.list.len() {
-                            let is_shown = snapshots.is_shown && snapshots.chosen == Some(index);
-                            let is_chosen = snapshots.chosen == Some(index);
-                            let snapshot = &mut snapshots.list[index];
-                            if thumbnail(ui, snapshot, is_chosen, is_shown) {
-                                clicked = Some(index);
+impl Snapshots {
+    /// Shows it; what was asked for.
+    pub(super) fn strip(&mut self, ui: &mut Ui, area: &Area) -> Option<Wish> {
+        let corner = area.rect.left_bottom() + vec2(12.0, -12.0);
+        egui::Area::new(Id::unique("snapshots"))
+            .pivot(Align2::LEFT_BOTTOM)
+            .fixed_pos(corner)
+            .show(ui.ctx(), |ui| {
+                egui::Frame::popup(ui.style()).show(ui, |ui| {
+                    ui.set_max_width(area.rect.width() - 40.0);
+                    let wish = self.tools(ui);
+                    ScrollArea::horizontal().show(ui, |ui| {
+                        ui.horizontal(|ui| {
+                            let mut clicked = None;
+                            for index in 0..self.list.len() {
+                                let is_shown = self.is_shown && self.chosen == Some(index);
+                                let is_chosen = self.chosen == Some(index);
+                                let snapshot = &mut self.list[index];
+                                if thumbnail(ui, snapshot, is_chosen, is_shown) {
+                                    clicked = Some(index);
+                                }
                             }
-                        }
-                        if let Some(index) = clicked {
-                            snapshots.choose(index);
-                        }
+                            if let Some(index) = clicked {
+                                self.choose(index);
+                            }
+                        });
                     });
-                });
-                wish
+                    wish
+                })
             })
-        })
-        .inner
-        .inner
-}
+            .inner
+            .inner
+    }
 
-/// How the chosen one is shown, and what can be done with it.
-fn tools(ui: &mut Ui, snapshots: &mut Snapshots) -> Option<Wish> {
-    let mut wish = None;
-    ui.horizontal(|ui| {
-        for way in Way::ALL {
-            let is_on = snapshots.is_shown && snapshots.way == way;
-            let button = ui.add_enabled(
-                snapshots.chosen.is_some(),
-                Button::selectable(is_on, way.name()),
-            );
-            if button.clicked() {
-                snapshots.is_shown = !is_on;
-                snapshots.way = way;
+    /// How the chosen one is shown, and what can be done with it.
+    fn tools(&mut self, ui: &mut Ui) -> Option<Wish> {
+        let mut wish = None;
+        ui.horizontal(|ui| {
+            for way in Way::ALL {
+                let is_on = self.is_shown && self.way == way;
+                let button =
+                    ui.add_enabled(self.chosen.is_some(), Button::selectable(is_on, way.name()));
+                if button.clicked() {
+                    self.is_shown = !is_on;
+                    self.way = way;
+                }
             }
-        }
-        let Some(chosen) = snapshots.chosen else {
-            return;
-        };
-        ui.separator();
-        let restore = ui.button("Restore");
-        if restore
-            .on_hover_text("Makes this look the current one; undo comes back from it")
-            .clicked()
-        {
-            wish = Some(Wish::Restore(chosen));
-        }
-        let delete = ui.button("Delete");
-        delete.widget_info(|| WidgetInfo::labeled(Role::Button, true, "Delete the snapshot"));
-        if delete.clicked() {
-            wish = Some(Wish::Delete(chosen));
-        }
-    });
-    wish
+            let Some(chosen) = self.chosen else {
+                return;
+            };
+            ui.separator();
+            let restore = ui.button("Restore");
+            if restore
+                .on_hover_text("Makes this look the current one; undo comes back from it")
+                .clicked()
+            {
+                wish = Some(Wish::Restore(chosen));
+            }
+            let delete = ui.button("Delete");
+            delete.widget_info(|| WidgetInfo::labeled(Role::Button, true, "Delete the snapshot"));
+            if delete.clicked() {
+                wish = Some(Wish::Delete(chosen));
+            }
+        });
+        wish
+    }
 }
 
 /// Draws a part of a texture `times` as small: the mean of several taps, since one of four texels would leave out the others.

@@ -15,8 +15,8 @@ use egui::{Color32, CursorIcon, PointerButton, Pos2, Rect, Role, Sense, Ui, Vec2
 use hairline_editor::{DragKey, Selection};
 use hairline_scene::Description;
 
-use crate::app::Viewer;
 use crate::tools::Tool;
+use crate::workspace::Workspace;
 
 use super::Area;
 use super::lens::Lens;
@@ -26,6 +26,9 @@ use handles::{Handle, Placed};
 use motion::{Aim, Motion};
 
 pub(super) use lights::{at as light_at, show as show_lights};
+
+/// Size of a handle's rectangle for the mouse, points.
+const REACH: f32 = 14.0;
 
 /// What is held or hovered.
 #[derive(Default)]
@@ -57,93 +60,140 @@ impl Gizmo {
     pub fn cancel(&mut self) -> bool {
         self.grab.take().is_some()
     }
-}
 
-/// Size of a handle's rectangle for the mouse, points.
-const REACH: f32 = 14.0;
-
-/// Shows the handles of what is selected, and does what is done to them.
-pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer, area: &Area) {
-    let selection = viewer.selection();
-    let description = Arc::clone(viewer.document.description());
-    let lens = Lens::new(&viewer.camera(), area);
-    let body = Body::of(&description, selection).filter(|_| viewer.toolbox.tool == Tool::Select);
-    let Some(body) = body else {
-        viewer.viewport.gizmo = Gizmo::default();
-        return;
-    };
-    let painter = ui.painter().with_clip_rect(area.rect);
-    let Some(mut placed) = handles::place(&body, &lens).filter(|p| is_in_picture(p, area)) else {
-        show::off_screen(&painter, &lens, &body, area);
-        viewer.viewport.gizmo = Gizmo::default();
-        return;
-    };
-    let held = viewer.viewport.gizmo.grab.as_ref().map(|grab| grab.handle);
-    let pointer = ui.input(|input| input.pointer.latest_pos());
-    let over = pointer.filter(|_| ui.rect_contains_pointer(area.rect));
-    let near = held.or_else(|| over.and_then(|pos| handles::under(&placed, pos)));
-    // What is met last lies on top.
-    placed.sort_by_key(|placed| Some(placed.handle) == near);
-    let mut hovered = None;
-    let mut is_held = false;
-    for Placed { handle, knob, .. } in &placed {
-        let is_near = Some(*handle) == near;
-        // The mouse meets a line wherever it is; those who see no line find its knob.
-        let (middle, size) = match pointer.filter(|_| is_near) {
-            Some(pos) => (pos, REACH),
-            None => (*knob, 0.7 * REACH),
+    /// Shows the handles of what is selected, and does what is done to them.
+    pub fn show(&mut self, ui: &mut Ui, work: &mut Workspace, area: &Area) {
+        let selection = work.selection();
+        let description = Arc::clone(work.document.description());
+        let lens = Lens::new(&work.camera(), area);
+        let body = Body::of(&description, selection).filter(|_| work.toolbox.tool == Tool::Select);
+        let Some(body) = body else {
+            *self = Self::default();
+            return;
         };
-        let rect = Rect::from_center_size(middle, Vec2::splat(size));
-        let id = ui.scope_id().with(("gizmo", selection, *handle));
-        let response = ui.interact(rect, id, Sense::DRAG);
-        let name = handle.name(&body);
-        response.widget_info(|| WidgetInfo::labeled(Role::Button, true, name.as_str()));
-        ui.ctx()
-            .accesskit_node_builder(response.id, |node| node.set_label(name.as_str()));
-        if response.hovered() || is_near {
-            hovered = Some(*handle);
+        let painter = ui.painter().with_clip_rect(area.rect);
+        let Some(mut placed) = handles::place(&body, &lens).filter(|p| is_in_picture(p, area))
+        else {
+            show::off_screen(&painter, &lens, &body, area);
+            *self = Self::default();
+            return;
+        };
+        let held = self.grab.as_ref().map(|grab| grab.handle);
+        let pointer = ui.input(|input| input.pointer.latest_pos());
+        let over = pointer.filter(|_| ui.rect_contains_pointer(area.rect));
+        let near = held.or_else(|| over.and_then(|pos| handles::under(&placed, pos)));
+        // What is met last lies on top.
+        placed.sort_by_key(|placed| Some(placed.handle) == near);
+        let mut hovered = None;
+        let mut is_held = false;
+        for Placed { handle, knob, .. } in &placed {
+            let is_near = Some(*handle) == near;
+            // The mouse meets a line wherever it is; those who see no line find its knob.
+            let (middle, size) = match pointer.filter(|_| is_near) {
+                Some(pos) => (pos, REACH),
+                None => (*knob, 0.7 * REACH),
+            };
+            let rect = Rect::from_center_size(middle, Vec2::splat(size));
+            let id = ui.scope_id().with(("gizmo", selection, *handle));
+            let response = ui.interact(rect, id, Sense::DRAG);
+            let name = handle.name(&body);
+            response.widget_info(|| WidgetInfo::labeled(Role::Button, true, name.as_str()));
+            ui.ctx()
+                .accesskit_node_builder(response.id, |node| node.set_label(name.as_str()));
+            if response.hovered() || is_near {
+                hovered = Some(*handle);
+            }
+            if response.drag_started_by(PointerButton::Primary) {
+                let origin = ui.input(|input| input.pointer.press_origin());
+                let pos = origin.unwrap_or(middle);
+                let lens = lens.clone();
+                self.grab(work, *handle, selection, Aim { lens, pos });
+            }
+            if response.dragged_by(PointerButton::Primary)
+                && let Some(pos) = response.interact_pointer_pos()
+            {
+                is_held |= self.drag(ui, work, area, *handle, &name, pos);
+            }
         }
-        if response.drag_started_by(PointerButton::Primary) {
-            let origin = ui.input(|input| input.pointer.press_origin());
-            let pos = origin.unwrap_or(middle);
-            let lens = lens.clone();
-            grab(viewer, *handle, selection, Aim { lens, pos });
+        if !is_held {
+            self.grab = None;
         }
-        if response.dragged_by(PointerButton::Primary)
-            && let Some(pos) = response.interact_pointer_pos()
+        let held = self.grab.as_ref().map(|grab| grab.handle);
+        self.hovered = held.or(hovered);
+        let active = self.hovered;
+        if let Some(handle) = active {
+            ui.set_cursor_icon(match (handle, held.is_some()) {
+                (Handle::Size, _) => CursorIcon::ResizeNeSw,
+                (_, true) => CursorIcon::Grabbing,
+                (_, false) => CursorIcon::Grab,
+            });
+        }
+        // The body as the drag has left it: one pass later is one pass too late.
+        let description = work.document.description();
+        if let Some(body) = Body::of(description, selection)
+            && let Some(mut placed) = handles::place(&body, &lens)
         {
-            is_held |= drag(ui, viewer, area, *handle, &name, pos);
+            let size = placed.iter_mut().find(|placed| Some(placed.handle) == held);
+            if let (Some(size), Some(pos), Some(Handle::Size)) = (size, pointer, held) {
+                size.knob = pos;
+            }
+            show::handles(&painter, &placed, active, held);
+        }
+        if let (Some(grab), Some(pos)) = (&self.grab, pointer)
+            && let Some(words) = grab.motion.and_then(|motion| motion.words(grab.handle))
+        {
+            show::words(&painter, pos, &words, Color32::WHITE);
         }
     }
-    let gizmo = &mut viewer.viewport.gizmo;
-    if !is_held {
-        gizmo.grab = None;
-    }
-    let held = gizmo.grab.as_ref().map(|grab| grab.handle);
-    gizmo.hovered = held.or(hovered);
-    let active = gizmo.hovered;
-    if let Some(handle) = active {
-        ui.set_cursor_icon(match (handle, held.is_some()) {
-            (Handle::Size, _) => CursorIcon::ResizeNeSw,
-            (_, true) => CursorIcon::Grabbing,
-            (_, false) => CursorIcon::Grab,
+
+    fn grab(&mut self, work: &mut Workspace, handle: Handle, selection: Selection, pressed: Aim) {
+        // An own step, even if the same handle was let go just now.
+        work.document.end_drag();
+        self.grab = Some(Grab {
+            handle,
+            selection,
+            start: Arc::clone(work.document.description()),
+            pressed,
+            motion: None,
+            revision: work.document.revision(),
         });
     }
-    // The body as the drag has left it: one pass later is one pass too late.
-    let description = viewer.document.description();
-    if let Some(body) = Body::of(description, selection)
-        && let Some(mut placed) = handles::place(&body, &lens)
-    {
-        let size = placed.iter_mut().find(|placed| Some(placed.handle) == held);
-        if let (Some(size), Some(pos), Some(Handle::Size)) = (size, pointer, held) {
-            size.knob = pos;
+
+    /// Whether the handle is still held.
+    fn drag(
+        &mut self,
+        ui: &Ui,
+        work: &mut Workspace,
+        area: &Area,
+        handle: Handle,
+        name: &str,
+        pos: Pos2,
+    ) -> bool {
+        let Some(grab) = &self.grab else {
+            return false;
+        };
+        if grab.handle != handle || grab.revision != work.document.revision() {
+            return false;
         }
-        show::handles(&painter, &placed, active, held);
-    }
-    if let (Some(grab), Some(pos)) = (&viewer.viewport.gizmo.grab, pointer)
-        && let Some(words) = grab.motion.and_then(|motion| motion.words(grab.handle))
-    {
-        show::words(&painter, pos, &words, Color32::WHITE);
+        let lens = Lens::new(&work.camera(), area);
+        let start = Arc::clone(&grab.start);
+        let selection = grab.selection;
+        let Some(body) = Body::of(&start, selection) else {
+            return false;
+        };
+        let motion = motion::of(&body, handle, &grab.pressed, &Aim { lens, pos }, snaps(ui));
+        if let Some(motion) = motion {
+            let key = DragKey::of(("gizmo", selection, handle));
+            work.document.drag(name, key, |description| {
+                change::change(description, &start, selection, &motion);
+            });
+        }
+        let revision = work.document.revision();
+        if let Some(grab) = &mut self.grab {
+            grab.revision = revision;
+            grab.motion = motion.or(grab.motion);
+        }
+        true
     }
 }
 
@@ -152,49 +202,7 @@ fn is_in_picture(placed: &[Placed], area: &Area) -> bool {
     placed.iter().any(|placed| area.rect.contains(placed.knob))
 }
 
-fn grab(viewer: &mut Viewer, handle: Handle, selection: Selection, pressed: Aim) {
-    // An own step, even if the same handle was let go just now.
-    viewer.document.end_drag();
-    viewer.viewport.gizmo.grab = Some(Grab {
-        handle,
-        selection,
-        start: Arc::clone(viewer.document.description()),
-        pressed,
-        motion: None,
-        revision: viewer.document.revision(),
-    });
-}
-
 /// The command key turns in steps.
 fn snaps(ui: &Ui) -> bool {
     ui.input(|input| input.modifiers.command)
-}
-
-/// Whether the handle is still held.
-fn drag(ui: &Ui, viewer: &mut Viewer, area: &Area, handle: Handle, name: &str, pos: Pos2) -> bool {
-    let Some(grab) = &viewer.viewport.gizmo.grab else {
-        return false;
-    };
-    if grab.handle != handle || grab.revision != viewer.document.revision() {
-        return false;
-    }
-    let lens = Lens::new(&viewer.camera(), area);
-    let start = Arc::clone(&grab.start);
-    let selection = grab.selection;
-    let Some(body) = Body::of(&start, selection) else {
-        return false;
-    };
-    let motion = motion::of(&body, handle, &grab.pressed, &Aim { lens, pos }, snaps(ui));
-    if let Some(motion) = motion {
-        let key = DragKey::of(("gizmo", selection, handle));
-        viewer.document.drag(name, key, |description| {
-            change::change(description, &start, selection, &motion);
-        });
-    }
-    let revision = viewer.document.revision();
-    if let Some(grab) = &mut viewer.viewport.gizmo.grab {
-        grab.revision = revision;
-        grab.motion = motion.or(grab.motion);
-    }
-    true
 }

@@ -13,10 +13,10 @@ use hairline_editor::actions::layers;
 use hairline_scene::scene::{Scratch, Segment};
 use web_time::Instant;
 
-use crate::app::Viewer;
 use crate::engine::Built;
 use crate::overlays::Overlay;
 use crate::tools::Tool;
+use crate::workspace::Workspace;
 
 use super::lens::Lens;
 use super::{Area, ink};
@@ -91,38 +91,37 @@ const COLORS: [Color32; 5] = [
 const SELECTED: Color32 = Color32::from_rgb(255, 246, 220);
 
 /// The layers whose directions are wanted: the selected one, or all that are shown.
-fn wanted(viewer: &Viewer) -> Vec<usize> {
+fn wanted(work: &Workspace) -> Vec<usize> {
     // Under the brush they would cover what it lays.
-    let is_wanted = matches!(viewer.toolbox.tool, Tool::Select | Tool::Eraser);
-    let description = viewer.document.description();
-    let selected = match viewer.selection() {
+    let is_wanted = matches!(work.toolbox.tool, Tool::Select | Tool::Eraser);
+    let description = work.document.description();
+    let selected = match work.selection() {
         Selection::Layer(index) => Some(index),
         _ => None,
     };
-    if viewer.overlays.has(Overlay::AllDirections) {
+    if work.overlays.has(Overlay::AllDirections) {
         let shown = (0..description.scratches.len()).filter(|i| layers::is_shown(description, *i));
         return shown.collect();
     }
-    let is_wanted = is_wanted && viewer.overlays.has(Overlay::Directions);
+    let is_wanted = is_wanted && work.overlays.has(Overlay::Directions);
     selected.into_iter().filter(|_| is_wanted).collect()
 }
 
 /// Shows the fields: that of the selected layer while a tool is in hand that works with it, and those of all layers if they are
 /// wanted.
-pub(super) fn show(ui: &Ui, viewer: &mut Viewer, area: &Area) {
-    let wanted = wanted(viewer);
-    let built = viewer.engine.built().filter(|_| !wanted.is_empty());
+pub(super) fn show(ui: &Ui, fields: &mut Vec<LineField>, work: &Workspace, area: &Area) {
+    let wanted = wanted(work);
+    let built = work.engine.built().filter(|_| !wanted.is_empty());
     let Some(built) = built else {
-        viewer.viewport.line_fields.clear();
+        fields.clear();
         return;
     };
-    let description = Arc::clone(viewer.document.description());
-    let lens = Lens::new(&viewer.camera(), area);
+    let description = Arc::clone(work.document.description());
+    let lens = Lens::new(&work.camera(), area);
     let now_s = ui.input(|input| input.time);
-    let selection = viewer.selection();
+    let selection = work.selection();
     let painter = ui.painter().with_clip_rect(area.rect);
     let budget = BUDGET / wanted.len() as u32;
-    let fields = &mut viewer.viewport.line_fields;
     fields.resize_with(wanted.len(), LineField::default);
     for (field, index) in fields.iter_mut().zip(wanted) {
         let layer = Selection::Layer(index);

@@ -4,141 +4,150 @@ use egui::{PointerButton, Response};
 use glam::DVec2;
 use hairline_editor::{DragKey, Selection, navigate, place_light};
 
-use crate::app::Viewer;
 use crate::tools::Tool;
+use crate::workspace::Workspace;
 
 use super::lens::Lens;
-use super::{Area, gizmo, pick, strokes};
-
-/// What the mouse does in the picture.
-pub(super) fn interact(ui: &mut egui::Ui, viewer: &mut Viewer, area: &Area, response: &Response) {
-    let tool = viewer.toolbox.tool;
-    let shift = ui.input(|input| input.modifiers.shift);
-    let is_brush = matches!(tool, Tool::Brush | Tool::Eraser);
-    let alt = ui.input(|input| input.modifiers.alt);
-    let size = area.size();
-    let delta = response.drag_delta();
-    let moved = DVec2::new(delta.x.into(), delta.y.into());
-
-    // Alt orbits with any tool, as in every other program.
-    let orbits = response.dragged_by(PointerButton::Primary) && !shift && (!is_brush || alt)
-        || response.dragged_by(PointerButton::Secondary);
-    let pans = response.dragged_by(PointerButton::Middle)
-        || response.dragged_by(PointerButton::Primary) && shift && !is_brush;
-    let is_shielded = viewer.viewport.is_shielded;
-    if is_shielded && response.is_pointer_button_down_on() {
-        egui::Popup::close_all(ui.ctx());
-    }
-    strokes::interact(ui, viewer, area, response, is_brush && !alt && !is_shielded);
-    if pans && moved != DVec2::ZERO {
-        let key = DragKey::of("pan");
-        viewer.move_view("Pan", Some(key), |camera| {
-            navigate::pan(camera, moved, size)
-        });
-    } else if orbits && moved != DVec2::ZERO {
-        let key = DragKey::of("orbit");
-        viewer.move_view("Orbit", Some(key), |camera| {
-            navigate::orbit(camera, moved, size)
-        });
-    }
-    wheel(ui, viewer, area, response);
-    if !is_shielded {
-        click(viewer, area, response);
-        context_menu(viewer, area, response);
-    }
-}
-
-/// A click of the right button selects what is there, and shows what can be done with it.
-fn context_menu(viewer: &mut Viewer, area: &Area, response: &Response) {
-    if viewer.toolbox.tool != Tool::Select {
-        return;
-    }
-    if response.secondary_clicked()
-        && let Some(pos) = response.interact_pointer_pos()
-    {
-        let picked = picked(viewer, area, pos);
-        viewer.document.select(picked);
-    }
-    if viewer.selection() != Selection::None {
-        response.context_menu(|ui| crate::panels::menu::on_selection(ui, viewer));
-    }
-}
-
-/// What a click at a place selects.
-fn picked(viewer: &Viewer, area: &Area, pos: egui::Pos2) -> Selection {
-    let description = viewer.document.description();
-    let lens = Lens::new(&viewer.camera(), area);
-    let hit = pick::surface(viewer, area, pos);
-    match (gizmo::light_at(description, &lens, pos), hit) {
-        (Some(light), _) => Selection::Light(light),
-        (None, Some(hit)) => Selection::Object(hit.object),
-        (None, None) => Selection::None,
-    }
-}
+use super::{Area, Viewport, gizmo, pick};
 
 /// A notch of a wheel is this many points in egui.
 const POINTS_A_NOTCH: f64 = 50.0;
 
-fn wheel(ui: &egui::Ui, viewer: &mut Viewer, area: &Area, response: &Response) {
-    let Some(pos) = response.hover_pos() else {
-        return;
-    };
-    let (scrolled, zoomed, now) = ui.input(|input| {
-        let points = f64::from(input.smooth_scroll_delta().y);
-        (points, f64::from(input.zoom_delta()), input.time)
-    });
-    // Forward, and fingers apart, come nearer, as in every other program.
-    let steps = scrolled / POINTS_A_NOTCH + 4.0 * zoomed.ln();
-    if steps == 0.0 {
-        return;
-    }
-    viewer.viewport.wheeled = now;
-    let under = pick::surface(viewer, area, pos).map(|hit| hit.point_m);
-    let key = DragKey::of("zoom");
-    viewer.move_view("Zoom", Some(key), |camera| match under {
-        Some(point_m) => navigate::zoom_to(camera, point_m, steps),
-        None => navigate::dolly(camera, steps),
-    });
-}
+impl Viewport {
+    /// What the mouse does in the picture.
+    pub fn interact(
+        &mut self,
+        ui: &mut egui::Ui,
+        work: &mut Workspace,
+        area: &Area,
+        response: &Response,
+    ) {
+        let tool = work.toolbox.tool;
+        let shift = ui.input(|input| input.modifiers.shift);
+        let is_brush = matches!(tool, Tool::Brush | Tool::Eraser);
+        let alt = ui.input(|input| input.modifiers.alt);
+        let size = area.size();
+        let delta = response.drag_delta();
+        let moved = DVec2::new(delta.x.into(), delta.y.into());
 
-fn click(viewer: &mut Viewer, area: &Area, response: &Response) {
-    let Some(pos) = response.interact_pointer_pos() else {
-        return;
-    };
-    // A press on a handle that moved nothing.
-    if viewer.viewport.gizmo.has_pointer() {
-        return;
-    }
-    let hit = pick::surface(viewer, area, pos);
-    if response.double_clicked() {
-        if let Some(hit) = hit {
-            viewer.move_view("Look at a point", None, |camera| {
-                navigate::center_on(camera, hit.point_m)
+        // Alt orbits with any tool, as in every other program.
+        let orbits = response.dragged_by(PointerButton::Primary) && !shift && (!is_brush || alt)
+            || response.dragged_by(PointerButton::Secondary);
+        let pans = response.dragged_by(PointerButton::Middle)
+            || response.dragged_by(PointerButton::Primary) && shift && !is_brush;
+        let is_shielded = self.is_shielded;
+        if is_shielded && response.is_pointer_button_down_on() {
+            egui::Popup::close_all(ui.ctx());
+        }
+        let is_in_hand = is_brush && !alt && !is_shielded;
+        self.stroke.interact(ui, work, area, response, is_in_hand);
+        if pans && moved != DVec2::ZERO {
+            let key = DragKey::of("pan");
+            work.move_view("Pan", Some(key), |camera| {
+                navigate::pan(camera, moved, size)
+            });
+        } else if orbits && moved != DVec2::ZERO {
+            let key = DragKey::of("orbit");
+            work.move_view("Orbit", Some(key), |camera| {
+                navigate::orbit(camera, moved, size)
             });
         }
-    } else if response.clicked() && viewer.reading.probe.click(area.rect, pos) {
-        // The pixel is kept, and nothing selected.
-    } else if response.clicked() {
-        match viewer.toolbox.tool {
-            Tool::Select => {
-                let picked = picked(viewer, area, pos);
-                viewer.document.select(picked);
+        self.wheel(ui, work, area, response);
+        if !is_shielded {
+            self.click(work, area, response);
+            context_menu(work, area, response);
+        }
+    }
+
+    fn wheel(&mut self, ui: &egui::Ui, work: &mut Workspace, area: &Area, response: &Response) {
+        let Some(pos) = response.hover_pos() else {
+            return;
+        };
+        let (scrolled, zoomed, now) = ui.input(|input| {
+            let points = f64::from(input.smooth_scroll_delta().y);
+            (points, f64::from(input.zoom_delta()), input.time)
+        });
+        // Forward, and fingers apart, come nearer, as in every other program.
+        let steps = scrolled / POINTS_A_NOTCH + 4.0 * zoomed.ln();
+        if steps == 0.0 {
+            return;
+        }
+        self.wheeled = now;
+        let under = pick::surface(work, area, pos).map(|hit| hit.point_m);
+        let key = DragKey::of("zoom");
+        work.move_view("Zoom", Some(key), |camera| match under {
+            Some(point_m) => navigate::zoom_to(camera, point_m, steps),
+            None => navigate::dolly(camera, steps),
+        });
+    }
+
+    fn click(&self, work: &mut Workspace, area: &Area, response: &Response) {
+        let Some(pos) = response.interact_pointer_pos() else {
+            return;
+        };
+        // A press on a handle that moved nothing.
+        if self.gizmo.has_pointer() {
+            return;
+        }
+        let hit = pick::surface(work, area, pos);
+        if response.double_clicked() {
+            if let Some(hit) = hit {
+                work.move_view("Look at a point", None, |camera| {
+                    navigate::center_on(camera, hit.point_m)
+                });
             }
-            Tool::PlaceLight => match (viewer.selection(), hit) {
+        } else if response.clicked() && work.reading.probe.click(area.rect, pos) {
+            // The pixel is kept, and nothing selected.
+        } else if response.clicked() {
+            match work.toolbox.tool {
+            Tool::Select => {
+                let picked = picked(work, area, pos);
+                work.document.select(picked);
+            }
+            Tool::PlaceLight => match (work.selection(), hit) {
                 (Selection::Light(i), Some(hit)) => {
-                    let eye_m = viewer.eye_m();
-                    viewer.document.edit("Place light", |d| {
+                    let eye_m = work.eye_m();
+                    work.document.edit("Place light", |d| {
                         if let Some(light) = d.lights.get_mut(i) {
                             place_light::place_highlight(light, eye_m, hit.point_m, hit.normal);
                         }
                     });
                 }
-                (_, Some(_)) => viewer
+                (_, Some(_)) => work
                     .notices
                     .error("place", "Select a light first: it is moved so that its highlight falls where you click."),
                 _ => {}
             },
             Tool::Brush | Tool::Eraser => {}
         }
+        }
+    }
+}
+
+/// A click of the right button selects what is there, and shows what can be done with it.
+fn context_menu(work: &mut Workspace, area: &Area, response: &Response) {
+    if work.toolbox.tool != Tool::Select {
+        return;
+    }
+    if response.secondary_clicked()
+        && let Some(pos) = response.interact_pointer_pos()
+    {
+        let picked = picked(work, area, pos);
+        work.document.select(picked);
+    }
+    if work.selection() != Selection::None {
+        response.context_menu(|ui| crate::panels::menu::on_selection(ui, work));
+    }
+}
+
+/// What a click at a place selects.
+fn picked(work: &Workspace, area: &Area, pos: egui::Pos2) -> Selection {
+    let description = work.document.description();
+    let lens = Lens::new(&work.camera(), area);
+    let hit = pick::surface(work, area, pos);
+    match (gizmo::light_at(description, &lens, pos), hit) {
+        (Some(light), _) => Selection::Light(light),
+        (None, Some(hit)) => Selection::Object(hit.object),
+        (None, None) => Selection::None,
     }
 }

@@ -1,10 +1,10 @@
 //! What lies under the mouse.
 
 use egui::Pos2;
-use glam::{DMat4, DVec3};
+use glam::DVec3;
 
-use crate::app::Viewer;
 use crate::engine::Built;
+use crate::workspace::Workspace;
 
 use super::{Area, lens::Lens};
 
@@ -20,9 +20,9 @@ pub(super) struct Picked {
 }
 
 /// The nearest surface under `pos`, of the newest scene that was built.
-pub(super) fn surface(viewer: &Viewer, area: &Area, pos: Pos2) -> Option<Picked> {
-    let built = viewer.engine.built()?;
-    let lens = Lens::new(&viewer.camera(), area);
+pub(super) fn surface(work: &Workspace, area: &Area, pos: Pos2) -> Option<Picked> {
+    let built = work.engine.built()?;
+    let lens = Lens::new(&work.camera(), area);
     along(&built, &lens, pos)
 }
 
@@ -58,10 +58,4 @@ fn meet(built: &Built, lens: &Lens, pos: Pos2) -> Option<Picked> {
             normal
         },
     })
-}
-
-/// An object's own frame, in which strokes are stored.
-pub(super) fn world_from_object(viewer: &Viewer, object: usize) -> Option<DMat4> {
-    let object = viewer.document.description().objects.get(object)?;
-    Some(object.world_from_object())
 }

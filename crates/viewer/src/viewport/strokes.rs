@@ -8,15 +8,15 @@ use hairline_editor::Selection;
 use hairline_editor::brush::{BrushSettings, Recorder, apply_stroke};
 use hairline_scene::description;
 
-use crate::app::Viewer;
 use crate::engine::Built;
 use crate::overlays::Overlay;
 use crate::tools::Tool;
+use crate::workspace::Workspace;
 
 use super::Area;
 use super::lens::Lens;
 use super::pick::{self, Picked};
-use show::{Drawn, color, show_drawn, show_ring, show_ways, stroke_count};
+use show::{Drawn, color, show_drawn, show_ring, show_way, stroke_count};
 
 /// Rays between two places of the pointer lie so far apart, points.
 const SPACING: f32 = 3.0;
@@ -56,6 +56,93 @@ impl StrokeTool {
         let was_going_on = self.going_on.take().is_some();
         self.is_cancelled |= was_going_on;
         was_going_on
+    }
+
+    /// What the mouse does with the brush, if one `is_in_hand`; else ends what it has begun.
+    pub fn interact(
+        &mut self,
+        ui: &Ui,
+        work: &mut Workspace,
+        area: &Area,
+        response: &Response,
+        is_in_hand: bool,
+    ) {
+        let is_held = is_in_hand
+            && response.is_pointer_button_down_on()
+            && ui.input(|input| input.pointer.button_down(PointerButton::Primary));
+        if let Some(built) = work.engine.built()
+            && is_in_hand
+        {
+            let lens = Lens::new(&work.camera(), area);
+            let painter = ui.painter().with_clip_rect(area.rect);
+            if (is_held || self.going_on.is_some() || self.before.is_some()) && !self.is_cancelled {
+                let world = World {
+                    built: &built,
+                    lens: &lens,
+                    area,
+                };
+                self.draw(ui, work, world);
+            }
+            let pos = response.interact_pointer_pos().or(response.hover_pos());
+            let pos = pos.filter(|pos| area.rect.contains(*pos));
+            let pos = pos.filter(|_| work.overlays.has(Overlay::Brush));
+            if let Some(hit) = pos.and_then(|pos| pick::along(&built, &lens, pos)) {
+                let going_on = self.going_on.as_ref();
+                // What was begun keeps its width.
+                let radius_m = match going_on.map(|going| going.settings.radius_m) {
+                    Some(radius_m) => radius_m,
+                    None => settings(work, &hit).radius_m,
+                };
+                let color = color(work.toolbox.tool);
+                show_ring(&painter, &lens, &hit, radius_m, color);
+            }
+            let color = color(work.toolbox.tool);
+            for way_m in self.going_on.iter().flat_map(Going::ways_m) {
+                show_way(&painter, &lens, way_m, color);
+            }
+        }
+        show_drawn(ui, work, &mut self.drawn, area);
+        if !is_held {
+            self.is_cancelled = false;
+            self.before = None;
+            if let Some(going) = self.going_on.take() {
+                self.drawn = finish(work, going).or(self.drawn.take());
+            }
+        }
+    }
+
+    /// Takes up where the pointer has been since the last pass.
+    fn draw(&mut self, ui: &Ui, work: &mut Workspace, world: World) {
+        let mut places: Vec<Pos2> = Vec::new();
+        ui.input(|input| {
+            for event in &input.events {
+                match event {
+                    egui::Event::PointerMoved(pos) => places.push(*pos),
+                    // The way to where the button went down is none of the stroke's, nor is that after it went up.
+                    egui::Event::PointerButton { pos, pressed, .. } => {
+                        if *pressed {
+                            places.clear();
+                        }
+                        places.push(*pos);
+                        if !*pressed {
+                            return;
+                        }
+                    }
+                    _ => {}
+                }
+            }
+            places.extend(input.pointer.interact_pos());
+        });
+        for pos in places {
+            if self.going_on.is_none() {
+                let from = self.before.replace(pos).unwrap_or(pos);
+                let begun = way(from, pos).find_map(|at| begin(work, world, at));
+                self.going_on = begun;
+            }
+            if let Some(going) = &mut self.going_on {
+                going.follow(world, pos);
+            }
+        }
     }
 }
 
@@ -138,89 +225,12 @@ impl Going {
                 .extend(recorder.finish().map(|stroke| (stroke, way_m)));
         }
     }
-}
 
-/// What the mouse does with the brush, if one `is_in_hand`; else ends what it has begun.
-pub(super) fn interact(
-    ui: &Ui,
-    viewer: &mut Viewer,
-    area: &Area,
-    response: &Response,
-    is_in_hand: bool,
-) {
-    let is_held = is_in_hand
-        && response.is_pointer_button_down_on()
-        && ui.input(|input| input.pointer.button_down(PointerButton::Primary));
-    if let Some(built) = viewer.engine.built()
-        && is_in_hand
-    {
-        let lens = Lens::new(&viewer.camera(), area);
-        let painter = ui.painter().with_clip_rect(area.rect);
-        let tool = &viewer.viewport.stroke;
-        if (is_held || tool.going_on.is_some() || tool.before.is_some()) && !tool.is_cancelled {
-            let world = World {
-                built: &built,
-                lens: &lens,
-                area,
-            };
-            draw(ui, viewer, world);
-        }
-        let pos = response.interact_pointer_pos().or(response.hover_pos());
-        let pos = pos.filter(|pos| area.rect.contains(*pos));
-        let pos = pos.filter(|_| viewer.overlays.has(Overlay::Brush));
-        if let Some(hit) = pos.and_then(|pos| pick::along(&built, &lens, pos)) {
-            let going_on = viewer.viewport.stroke.going_on.as_ref();
-            // What was begun keeps its width.
-            let radius_m = match going_on.map(|going| going.settings.radius_m) {
-                Some(radius_m) => radius_m,
-                None => settings(viewer, &hit).radius_m,
-            };
-            let color = color(viewer.toolbox.tool);
-            show_ring(&painter, &lens, &hit, radius_m, color);
-        }
-        show_ways(&painter, viewer, &lens);
-    }
-    show_drawn(ui, viewer, area);
-    if !is_held {
-        viewer.viewport.stroke.is_cancelled = false;
-        viewer.viewport.stroke.before = None;
-        if let Some(going) = viewer.viewport.stroke.going_on.take() {
-            finish(viewer, going);
-        }
-    }
-}
-
-/// Takes up where the pointer has been since the last pass.
-fn draw(ui: &Ui, viewer: &mut Viewer, world: World) {
-    let mut places: Vec<Pos2> = Vec::new();
-    ui.input(|input| {
-        for event in &input.events {
-            match event {
-                egui::Event::PointerMoved(pos) => places.push(*pos),
-                // The way to where the button went down is none of the stroke's, nor is that after it went up.
-                egui::Event::PointerButton { pos, pressed, .. } => {
-                    if *pressed {
-                        places.clear();
-                    }
-                    places.push(*pos);
-                    if !*pressed {
-                        return;
-                    }
-                }
-                _ => {}
-            }
-        }
-        places.extend(input.pointer.interact_pos());
-    });
-    for pos in places {
-        if viewer.viewport.stroke.going_on.is_none() {
-            let from = viewer.viewport.stroke.before.replace(pos).unwrap_or(pos);
-            let begun = way(from, pos).find_map(|at| begin(viewer, world, at));
-            viewer.viewport.stroke.going_on = begun;
-        }
-        if let Some(going) = &mut viewer.viewport.stroke.going_on {
-            going.follow(world, pos);
-        }
+    /// All strokes so far.
+    fn ways_m(&self) -> impl Iterator<Item = &[DVec3]> {
+        let done = self.done.iter().map(|(_, way_m)| way_m.as_slice());
+        let open = self.open.iter().map(|(recorder, _)| recorder.way_m());
+        done.chain(open)
     }
 }
 
@@ -231,13 +241,14 @@ fn way(from: Pos2, to: Pos2) -> impl Iterator<Item = Pos2> {
     (1..=rays).map(move |i| from.lerp(to, i as f32 / rays as f32))
 }
 
-fn begin(viewer: &mut Viewer, world: World, pos: Pos2) -> Option<Going> {
+fn begin(work: &mut Workspace, world: World, pos: Pos2) -> Option<Going> {
     let place = world.at(pos)?;
     let hit = place.hit;
-    let world_from_object = pick::world_from_object(viewer, hit.object)?;
+    let object = work.document.description().objects.get(hit.object)?;
+    let world_from_object = object.world_from_object();
     let settings = BrushSettings {
-        erase: viewer.toolbox.tool == Tool::Eraser,
-        ..settings(viewer, &hit)
+        erase: work.toolbox.tool == Tool::Eraser,
+        ..settings(work, &hit)
     };
     let mut going = Going {
         object: hit.object,
@@ -252,24 +263,24 @@ fn begin(viewer: &mut Viewer, world: World, pos: Pos2) -> Option<Going> {
 }
 
 /// How the brush is set; before anyone has set it, as large as fits the object and the view.
-fn settings(viewer: &mut Viewer, hit: &Picked) -> BrushSettings {
-    let fitted = viewer.fitting_brush(Some(hit.object), hit.point_m);
-    viewer.toolbox.fitted = Some(fitted);
-    viewer.brush()
+fn settings(work: &mut Workspace, hit: &Picked) -> BrushSettings {
+    let fitted = work.fitting_brush(Some(hit.object), hit.point_m);
+    work.toolbox.fitted = Some(fitted);
+    work.brush()
 }
 
 /// All strokes of the drag as one step.
-fn finish(viewer: &mut Viewer, mut going: Going) {
+fn finish(work: &mut Workspace, mut going: Going) -> Option<Drawn> {
     going.lift();
     if going.done.is_empty() {
-        return;
+        return None;
     }
     let label = match going.settings.erase {
         true => "Erase",
         false => "Brush stroke",
     };
     let ways_m = going.done.iter().map(|(_, way_m)| way_m.clone()).collect();
-    let done = viewer.document.apply(label, |description, selection| {
+    let done = work.document.apply(label, |description, selection| {
         // The strokes go where they were drawn, whatever was selected.
         let mut selection = match selection.object(description) {
             Some(selected) if selected == going.object => selection,
@@ -280,15 +291,14 @@ fn finish(viewer: &mut Viewer, mut going: Going) {
         }
         Ok(selection)
     });
-    match done {
-        Ok(()) => {
-            viewer.viewport.stroke.drawn = Some(Drawn {
-                ways_m,
-                revision: viewer.document.revision(),
-                strokes: stroke_count(viewer.document.description()),
-                tool: viewer.toolbox.tool,
-            });
-        }
-        Err(error) => viewer.notices.error("stroke", error.to_string()),
+    if let Err(error) = done {
+        work.notices.error("stroke", error.to_string());
+        return None;
     }
+    Some(Drawn {
+        ways_m,
+        revision: work.document.revision(),
+        strokes: stroke_count(work.document.description()),
+        tool: work.toolbox.tool,
+    })
 }

@@ -4,11 +4,11 @@ use egui::{Color32, Painter, Pos2, Shape, Stroke, Ui};
 use glam::DVec3;
 use hairline_scene::Description;
 
-use crate::app::Viewer;
 use crate::tools::Tool;
 use crate::viewport::lens::Lens;
 use crate::viewport::pick::Picked;
 use crate::viewport::{Area, ink};
+use crate::workspace::Workspace;
 
 /// Strokes that the scene has and no picture shows yet: on a slow machine laying them takes a while.
 pub(super) struct Drawn {
@@ -21,10 +21,10 @@ pub(super) struct Drawn {
 }
 
 impl Drawn {
-    fn is_awaited(&self, viewer: &Viewer) -> bool {
-        let description = viewer.document.description();
+    fn is_awaited(&self, work: &Workspace) -> bool {
+        let description = work.document.description();
         let is_there = stroke_count(description) >= self.strokes;
-        let shown = viewer.engine.latest().map(|frame| frame.built.revision);
+        let shown = work.engine.latest().map(|frame| frame.built.revision);
         is_there && shown.is_some_and(|shown| shown < self.revision)
     }
 }
@@ -35,17 +35,17 @@ pub(super) fn stroke_count(description: &Description) -> usize {
 }
 
 /// What was drawn last, while the picture is without it.
-pub(super) fn show_drawn(ui: &Ui, viewer: &mut Viewer, area: &Area) {
-    let Some(drawn) = viewer.viewport.stroke.drawn.take() else {
+pub(super) fn show_drawn(ui: &Ui, work: &Workspace, kept: &mut Option<Drawn>, area: &Area) {
+    let Some(drawn) = kept.take() else {
         return;
     };
-    if drawn.is_awaited(viewer) {
-        let lens = Lens::new(&viewer.document.description().camera, area);
+    if drawn.is_awaited(work) {
+        let lens = Lens::new(&work.document.description().camera, area);
         let painter = ui.painter().with_clip_rect(area.rect);
         for way_m in &drawn.ways_m {
             show_way(&painter, &lens, way_m, color(drawn.tool));
         }
-        viewer.viewport.stroke.drawn = Some(drawn);
+        *kept = Some(drawn);
     }
 }
 
@@ -72,20 +72,8 @@ pub(super) fn show_ring(
     ink::line(painter, points.collect(), 1.5, color);
 }
 
-/// The strokes so far.
-pub(super) fn show_ways(painter: &Painter, viewer: &Viewer, lens: &Lens) {
-    let Some(going) = &viewer.viewport.stroke.going_on else {
-        return;
-    };
-    let color = color(viewer.toolbox.tool);
-    let open = going.open.iter().map(|(recorder, _)| recorder.way_m());
-    let done = going.done.iter().map(|(_, way_m)| way_m.as_slice());
-    for way_m in done.chain(open) {
-        show_way(painter, lens, way_m, color);
-    }
-}
-
-fn show_way(painter: &Painter, lens: &Lens, way_m: &[DVec3], color: Color32) {
+/// A stroke so far.
+pub(super) fn show_way(painter: &Painter, lens: &Lens, way_m: &[DVec3], color: Color32) {
     let [r, g, b, _] = color.to_array();
     let color = Color32::from_rgba_unmultiplied(r, g, b, 160);
     let mut points: Vec<Pos2> = Vec::new();

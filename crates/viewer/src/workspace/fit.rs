@@ -5,13 +5,13 @@ use hairline_editor::actions::materials;
 use hairline_editor::brush::BrushSettings;
 use hairline_editor::{Selection, navigate};
 
-use crate::app::Viewer;
+use super::Workspace;
 
 /// Where things are taken to be before the scene is built.
 const UNKNOWN_M: (DVec3, DVec3) = (DVec3::splat(-0.1), DVec3::splat(0.1));
 
-impl Viewer {
-    pub(super) fn scale_brush(&mut self, factor: f64) {
+impl Workspace {
+    pub fn scale_brush(&mut self, factor: f64) {
         let mut brush = self.brush();
         brush.radius_m = (brush.radius_m * factor).clamp(1e-5, 10.0);
         self.toolbox.brush = Some(brush);
@@ -19,7 +19,7 @@ impl Viewer {
 
     /// The brush as it was set by hand; before that, as it fits what it was over last, or the selected object in the middle of
     /// the view.
-    pub(crate) fn brush(&self) -> BrushSettings {
+    pub fn brush(&self) -> BrushSettings {
         let fitted = || {
             let camera = self.camera();
             self.fitting_brush(self.selected_object(), camera.target_m.into())
@@ -30,22 +30,22 @@ impl Viewer {
             .unwrap_or_else(fitted)
     }
 
-    pub(crate) fn selected_object(&self) -> Option<usize> {
+    pub fn selected_object(&self) -> Option<usize> {
         self.selection().object(self.document.description())
     }
 
     /// The brush for a place on an object, as it is seen in the view.
-    pub(crate) fn fitting_brush(&self, object: Option<usize>, point_m: DVec3) -> BrushSettings {
+    pub fn fitting_brush(&self, object: Option<usize>, point_m: DVec3) -> BrushSettings {
         let height_m = navigate::view_height_m(&self.camera(), point_m);
         BrushSettings::for_view(height_m, self.diagonal_m(object))
     }
 
-    pub(crate) fn frame_selection(&mut self) {
+    pub fn frame_selection(&mut self) {
         self.frame(Some(self.selection()));
     }
 
     /// Brings a part, or all, into the picture.
-    pub(super) fn frame(&mut self, part: Option<Selection>) {
+    pub fn frame(&mut self, part: Option<Selection>) {
         let description = self.document.description();
         let points_m = match part {
             Some(Selection::Light(i)) => {
@@ -62,7 +62,8 @@ impl Viewer {
                 self.points_of(object.as_slice())
             }
         };
-        let aspect = self.viewport.aspect();
+        let [width, height] = description.render.size_px;
+        let aspect = f64::from(width) / f64::from(height.max(1));
         self.move_view("Frame", None, |camera| {
             navigate::frame_points(camera, &points_m, aspect);
         });
@@ -91,7 +92,7 @@ impl Viewer {
     }
 
     /// The box around an object, or around all that the scene is about, in metres: as it was built last.
-    pub(crate) fn bounds_m(&self, object: Option<usize>) -> (DVec3, DVec3) {
+    pub fn bounds_m(&self, object: Option<usize>) -> (DVec3, DVec3) {
         let own = object.and_then(|object| self.bounds_of(|i| i == object));
         own.or_else(|| {
             let subject = self.subject();
@@ -121,7 +122,7 @@ impl Viewer {
     }
 
     /// The diagonal of that box.
-    pub(crate) fn diagonal_m(&self, object: Option<usize>) -> f64 {
+    pub fn diagonal_m(&self, object: Option<usize>) -> f64 {
         let (low_m, high_m) = self.bounds_m(object);
         low_m.distance(high_m)
     }

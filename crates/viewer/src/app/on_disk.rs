@@ -1,0 +1,107 @@
+//! What other programs have written, and what is taken from the disk again.
+
+use std::path::Path;
+
+use hairline_editor::document::OnDisk;
+
+use super::Viewer;
+use crate::dialogs::Answer;
+use crate::files::{Purpose, is_same};
+
+impl Viewer {
+    /// Takes in what other programs have written: the scene file, or what it names.
+    pub(super) fn hear_of_files(&mut self, ctx: &egui::Context) {
+        while let Some(change) = self.files.changed() {
+            if self
+                .work
+                .document
+                .path()
+                .is_some_and(|own| is_same(own, &change.of))
+            {
+                self.files.scene_changed = true;
+            } else if self.work.document.files().contains(&change.of) {
+                // The scene is built anew: its builder reads what has changed.
+                self.asked = None;
+                let text = format!("{} has changed and was loaded again.", name(&change.path));
+                self.work.notices.note("reloaded", text);
+            }
+        }
+        // Not under somebody's hand.
+        let is_busy = self.dialogs.is_modal() || ctx.input(|input| input.pointer.any_down());
+        if self.files.scene_changed && !is_busy {
+            self.files.scene_changed = false;
+            self.take_changed_scene();
+        }
+    }
+
+    fn take_changed_scene(&mut self) {
+        match self.work.document.on_disk() {
+            OnDisk::Same | OnDisk::Gone => {}
+            OnDisk::Changed if self.work.document.is_modified() => {
+                self.dialogs.ask_about_change();
+            }
+            OnDisk::Changed => self.reload("has changed on disk and was loaded again."),
+        }
+    }
+
+    /// Takes the scene from its file; `why` ends the sentence that tells of it.
+    fn reload(&mut self, why: &str) {
+        match self.work.document.reload() {
+            Ok(()) => {
+                self.work.notices.clear("open");
+                let text = format!("{} {why}", self.work.document.title());
+                self.work.notices.note("reloaded", text);
+                self.tell_notes();
+            }
+            Err(error) => self.work.notices.error("open", error.to_string()),
+        }
+    }
+
+    /// File > Reload.
+    pub(super) fn wish_reload(&mut self) {
+        if self.work.document.is_modified() {
+            self.dialogs.ask_to_reload();
+        } else {
+            self.reload("was loaded again.");
+        }
+    }
+
+    /// File > Revert.
+    pub(super) fn revert(&mut self) {
+        self.work.document.revert();
+        self.work.notices.note(
+            "undo",
+            "Back to what was saved last; undo brings the changes back.",
+        );
+    }
+
+    /// Shows the questions, and does what is answered.
+    pub(super) fn show_dialogs(&mut self, ctx: &egui::Context) {
+        let title = self.work.document.title();
+        let Some(answer) = self.dialogs.show(ctx, &title) else {
+            return;
+        };
+        match answer {
+            Answer::Save => self.save(ctx),
+            Answer::SaveOver => {
+                let done = self.work.document.save_over();
+                self.saved(ctx, done);
+            }
+            Answer::SaveAs => self.ask_path(ctx, Purpose::SaveAs),
+            Answer::Replace(path) => self.write_as(ctx, &path),
+            Answer::Fulfil(wish) => self.fulfil(ctx, wish),
+            Answer::Path(purpose, path) => self.take_typed_path(ctx, purpose, &path),
+            Answer::Reload => self.reload("was loaded again."),
+            Answer::PassOver => self.work.document.pass_over_disk(),
+            Answer::AddModel(path, fit_m) => self.add_model(&path, fit_m),
+            Answer::Recover(pending) => self.recover(pending),
+        }
+    }
+}
+
+fn name(path: &Path) -> String {
+    path.file_name()
+        .unwrap_or(path.as_os_str())
+        .to_string_lossy()
+        .into_owned()
+}

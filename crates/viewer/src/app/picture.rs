@@ -1,0 +1,164 @@
+//! The picture in the middle of the window: what the engine is asked for and tells, and what lies over it.
+
+use std::sync::Arc;
+
+use egui::{Label, Rect, Response, RichText, Role, Sense, Shape, Ui, WidgetInfo};
+use hairline_image::Display;
+
+use super::Viewer;
+use crate::badges;
+use crate::engine::{Event, Frame, View};
+use crate::panels::busy::Busy;
+use crate::panels::status;
+use crate::reading;
+use crate::seen::makes_same_scene;
+use crate::viewport::Area;
+use crate::workspace::Workspace;
+
+impl Viewer {
+    /// Shows the picture in what is left of the window, and returns where.
+    pub(super) fn show_picture(&mut self, ui: &mut Ui) -> Rect {
+        // Not filled: the picture covers it, and a software driver pays for each layer.
+        let frame = egui::Frame::NONE;
+        let shown = egui::CentralPanel::default().frame(frame).show(ui, |ui| {
+            let rect = ui.available_rect_before_wrap();
+            let response = ui.allocate_rect(rect, Sense::click_and_drag());
+            response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Picture"));
+            let picture_px = self.work.document.description().render.size_px;
+            let area = Area::new(rect, picture_px, ui.pixels_per_point());
+            // Under all that follows: what the mouse does is in it.
+            let place = ui.painter().add(Shape::Noop);
+            let frame = self.work.engine.latest();
+            self.show_over(ui, &area, &response);
+            self.ask_engine();
+            let wanted = view(&self.work, &area);
+            self.viewport.view = Some(wanted);
+            self.work.engine.set_view(wanted);
+            if let Some(frame) = self.picture_to_draw(frame) {
+                let canvas = &mut self.viewport.canvas;
+                canvas.paint(ui, place, &area, &frame, &wanted);
+            } else {
+                ui.put(rect, Busy::size(32.0));
+                let words = RichText::new(status::before_the_first(&self.work.engine)).size(14.0);
+                // Words that could be selected would take the mouse from what lies under them.
+                let label = Label::new(words).selectable(false);
+                ui.put(rect.translate(egui::vec2(0.0, 32.0)), label);
+            }
+            rect
+        });
+        shown.inner
+    }
+
+    /// All that lies over the picture and is done in it.
+    fn show_over(&mut self, ui: &mut Ui, area: &Area, response: &Response) {
+        if let Some(frame) = self.work.engine.latest() {
+            area.paint_frame(ui);
+            self.compare.show(ui, &self.work, area);
+            let seen = view(&self.work, area);
+            let work = &mut self.work;
+            let now = (&frame, &mut self.viewport.canvas);
+            work.snapshots
+                .show(ui, &mut work.document, area, &seen, now);
+        }
+        // What lies over the picture is not where the pointer is.
+        if self.work.snapshots.cover() {
+            if response.dragged() || response.clicked() {
+                self.work.snapshots.show_current();
+            }
+            return;
+        }
+        let work = &mut self.work;
+        self.viewport.interact(ui, work, area, response);
+        self.viewport.show_overlays(ui, work, area);
+        reading::show(
+            ui,
+            work,
+            self.viewport.view,
+            response.rect,
+            response.hover_pos(),
+        );
+        badges::show(ui, work, response.rect);
+    }
+
+    /// The picture to be drawn in place of `frame`, the newest one when the pass began: a window that a software driver draws waits
+    /// a moment for that of the view that is wanted now.
+    fn picture_to_draw(&mut self, frame: Option<Arc<Frame>>) -> Option<Arc<Frame>> {
+        #[cfg(not(target_arch = "wasm32"))]
+        if let (Some(software), Some(view)) = (&mut self.software, self.viewport.view) {
+            software.wait_for_picture(&self.work.engine, view, self.asked_revision);
+            return self.work.engine.latest();
+        }
+        frame
+    }
+
+    /// A model that was added may be far larger or smaller than what was there.
+    pub(super) fn frame_what_was_added(&mut self) {
+        let objects = &self.work.document.description().objects;
+        let is_built = self
+            .work
+            .engine
+            .built()
+            .is_some_and(|built| built.description.objects == *objects);
+        if self.frame_when_built && is_built {
+            self.frame_when_built = false;
+            self.work.frame_selection();
+        }
+    }
+
+    pub(super) fn hear_engine(&mut self) {
+        for event in self.work.engine.events() {
+            match event {
+                // Of a scene that is another by now nobody wants to know: it may be right again.
+                Event::NotBuilt { revision, message } => {
+                    if revision == self.asked_revision {
+                        self.work.notices.error("scene", message);
+                    }
+                }
+                Event::FellBack { message } => {
+                    let text = format!("{message}. The CPU renders from now on.");
+                    self.work.notices.error("device", text);
+                }
+                Event::Recovered => self
+                    .work
+                    .notices
+                    .note("device", "The graphics device was lost, and is back."),
+            }
+        }
+    }
+
+    /// Hands the description to the engine if more than the view has changed.
+    pub(super) fn ask_engine(&mut self) {
+        let description = self.work.document.description();
+        let is_latest = |asked: &Arc<_>| Arc::ptr_eq(asked, description);
+        if self.asked.as_ref().is_some_and(is_latest) {
+            return;
+        }
+        self.files.watch(&self.work.document);
+        let is_seen_alike = |asked: &Arc<_>| makes_same_scene(asked, description);
+        if !self.asked.as_ref().is_some_and(is_seen_alike) {
+            self.work.notices.clear("scene");
+            self.asked_revision = self.work.document.revision();
+            self.work.engine.set_scene(
+                self.asked_revision,
+                Arc::clone(description),
+                self.work.document.base_dir().to_owned(),
+            );
+        }
+        self.asked = Some(Arc::clone(description));
+    }
+}
+
+fn view(work: &Workspace, area: &Area) -> View {
+    let description = work.document.description();
+    let camera = work.camera();
+    View {
+        camera: area.camera(&camera),
+        size_px: area.size_px(),
+        display: Display {
+            exposure_ev: camera.exposure_ev + work.reading.exposure_ev,
+            tone_map: description.render.tone_map,
+        },
+        filter_std_px: description.render.filter_std_px,
+        reading: work.reading.wanted(area.frame_px()),
+    }
+}

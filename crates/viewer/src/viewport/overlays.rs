@@ -1,0 +1,83 @@
+//! What is drawn over the picture, kind by kind.
+
+use egui::{Align2, Color32, FontId, Painter, Ui};
+use glam::DVec3;
+use hairline_editor::actions::lights;
+use hairline_editor::{Selection, place_light};
+
+use super::gizmo::{self, Gizmo};
+use super::lens::Lens;
+use super::{Area, Viewport, ink, line_field};
+use crate::overlays::Overlay;
+use crate::tools::Tool;
+use crate::workspace::Workspace;
+
+impl Viewport {
+    /// What is drawn over the picture and can be dragged there.
+    pub fn show_overlays(&mut self, ui: &mut Ui, work: &mut Workspace, area: &Area) {
+        let tool = work.toolbox.tool;
+        line_field::show(ui, &mut self.line_fields, work, area);
+        if matches!(tool, Tool::Select | Tool::PlaceLight) && work.overlays.has(Overlay::Lights) {
+            let lens = Lens::new(&work.camera(), area);
+            let description = work.document.description();
+            let selected = match work.selection() {
+                Selection::Light(i) => Some(i),
+                _ => None,
+            };
+            let painter = ui.painter().with_clip_rect(area.rect);
+            gizmo::show_lights(&painter, &lens, description, selected);
+        }
+        if work.overlays.has(Overlay::Handles) {
+            self.gizmo.show(ui, work, area);
+        } else {
+            self.gizmo = Gizmo::default();
+        }
+        show_names(ui, work, area);
+    }
+}
+
+/// Writes names where their objects and lights are.
+fn show_names(ui: &Ui, work: &Workspace, area: &Area) {
+    if !work.overlays.has(Overlay::Names) {
+        return;
+    }
+    let lens = Lens::new(&work.camera(), area);
+    let painter = ui.painter().with_clip_rect(area.rect);
+    let description = work.document.description();
+    for (i, object) in description.objects.iter().enumerate() {
+        let (low_m, high_m) = work.bounds_m(Some(i));
+        name(
+            &painter,
+            &lens,
+            0.5 * (low_m + high_m),
+            &object.name,
+            Color32::WHITE,
+        );
+    }
+    for (i, light) in description.lights.iter().enumerate() {
+        if light.hidden {
+            continue;
+        }
+        let title = match &light.name {
+            Some(name) => name.clone(),
+            None => format!("{} {}", lights::title(light), i + 1),
+        };
+        let color = Color32::from_rgb(255, 228, 165);
+        name(&painter, &lens, place_light::center(light), &title, color);
+    }
+}
+
+fn name(painter: &Painter, lens: &Lens, point_m: DVec3, words: &str, color: Color32) {
+    let Some(pos) = lens.project(point_m) else {
+        return;
+    };
+    let at = pos + egui::vec2(0.0, 9.0);
+    ink::words(
+        painter,
+        at,
+        Align2::CENTER_TOP,
+        words,
+        FontId::proportional(13.0),
+        color,
+    );
+}

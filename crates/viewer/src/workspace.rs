@@ -1,0 +1,92 @@
+//! What all panels work on: the scene that is edited, what paints it, how it is seen, and what is told of it.
+
+mod fit;
+mod view;
+
+use hairline_editor::bookmarks::Bookmarks;
+use hairline_editor::{ActionError, Document, Selection};
+use hairline_scene::Description;
+
+use crate::command::Command;
+use crate::engine::Engine;
+use crate::free_view::FreeView;
+use crate::gallery::Gallery;
+use crate::notices::Notices;
+use crate::overlays::Overlays;
+use crate::reading::ReadingState;
+use crate::snapshots::Snapshots;
+use crate::tools::{Tool, Toolbox};
+
+/// It knows no panel: whoever shows a part of it takes it.
+pub(crate) struct Workspace {
+    pub document: Document,
+    pub engine: Engine,
+    pub notices: Notices,
+    pub toolbox: Toolbox,
+    pub reading: ReadingState,
+    pub free_view: FreeView,
+    pub overlays: Overlays,
+    pub gallery: Gallery,
+    pub bookmarks: Bookmarks,
+    pub snapshots: Snapshots,
+    /// What panels ask for, to be done once all are shown.
+    pub wished: Vec<Command>,
+}
+
+impl Workspace {
+    /// What is selected.
+    pub fn selection(&self) -> Selection {
+        self.document.selection()
+    }
+
+    /// Does an action as one step, or tells why it was refused.
+    pub fn apply(
+        &mut self,
+        label: &str,
+        action: impl FnOnce(&mut Description, Selection) -> Result<Selection, ActionError>,
+    ) {
+        match self.document.apply(label, action) {
+            Ok(()) => self.notices.clear("action"),
+            Err(error) => self.notices.error("action", error.to_string()),
+        }
+    }
+
+    /// Whether the command has something to work on.
+    pub fn can(&self, command: Command) -> bool {
+        let selection = self.selection();
+        match command {
+            _ if !command.is_here() => false,
+            Command::Undo => self.document.undo_label().is_some(),
+            Command::Redo => self.document.redo_label().is_some(),
+            Command::Duplicate | Command::Delete | Command::MoveUp | Command::MoveDown => {
+                matches!(
+                    selection,
+                    Selection::Object(_)
+                        | Selection::Layer(_)
+                        | Selection::Light(_)
+                        | Selection::Material(_)
+                )
+            }
+            Command::ToggleHidden => {
+                matches!(selection, Selection::Layer(_) | Selection::Light(_))
+            }
+            Command::FlipSnapshot => !self.snapshots.is_empty(),
+            Command::ToggleSolo => matches!(selection, Selection::Layer(_)),
+            Command::Deselect => selection != Selection::None || self.toolbox.tool != Tool::Select,
+            Command::Reload => self.document.path().is_some(),
+            Command::Revert => self.document.can_revert(),
+            _ => true,
+        }
+    }
+
+    /// Whether a switch is on; none for what is no switch.
+    pub fn is_on(&self, command: Command) -> Option<bool> {
+        match command {
+            Command::Read(command) => self.reading.is_on(command),
+            Command::View(command) => self.free_view.is_on(command),
+            Command::Overlay(overlay) => Some(self.overlays.is_on(overlay)),
+            Command::Overlays => Some(!self.overlays.are_hidden()),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,126 @@
+//! Where the window looks from, and what moves it.
+
+use glam::DVec3;
+use hairline_editor::{DragKey, navigate};
+use hairline_scene::description::Camera;
+
+use super::Workspace;
+use crate::free_view::ViewCommand;
+
+/// A turntable goes round in this time, seconds.
+const ROUND_S: f64 = 12.0;
+
+impl Workspace {
+    /// The camera that the window looks through: the scene's, or that of a free view.
+    pub fn camera(&self) -> Camera {
+        let scene = &self.document.description().camera;
+        match &self.free_view.camera {
+            None => scene.clone(),
+            Some(free) => Camera {
+                up: scene.up,
+                exposure_ev: scene.exposure_ev,
+                ..free.clone()
+            },
+        }
+    }
+
+    /// The pinhole of it.
+    pub fn eye_m(&self) -> DVec3 {
+        self.camera().position_m.into()
+    }
+
+    /// Moves the view; the scene's camera where that is switched on, as a step, all of a drag of `key` being one.
+    pub fn move_view(
+        &mut self,
+        label: &str,
+        key: Option<DragKey>,
+        change: impl FnOnce(&mut Camera),
+    ) {
+        self.free_view.turns = false;
+        if self.free_view.moves_camera {
+            match key {
+                Some(key) => self.document.drag(label, key, |d| change(&mut d.camera)),
+                None => self.document.edit(label, |d| change(&mut d.camera)),
+            }
+            return;
+        }
+        let mut camera = self.camera();
+        change(&mut camera);
+        self.look_from(camera);
+    }
+
+    /// Looks from there; nothing changes where that is where the window looks from already.
+    fn look_from(&mut self, camera: Camera) {
+        if camera != self.camera() {
+            self.free_view.camera = Some(camera);
+        }
+    }
+
+    pub fn change_view(&mut self, command: ViewCommand) {
+        match command {
+            ViewCommand::LookThroughCamera => self.free_view.end(),
+            ViewCommand::SetCameraToView => {
+                let camera = self.camera();
+                self.document
+                    .edit("Set the camera to the view", |d| d.camera = camera);
+                self.free_view.end();
+            }
+            ViewCommand::MoveCamera => {
+                self.free_view.moves_camera = !self.free_view.moves_camera;
+                if self.free_view.moves_camera {
+                    self.free_view.end();
+                }
+            }
+            ViewCommand::Turntable => {
+                self.free_view.turns = !self.free_view.turns;
+            }
+            ViewCommand::Bookmark => {
+                let name = self.bookmarks.add(self.camera());
+                self.notices.note(
+                    "bookmark",
+                    format!("{name} is kept; the camera's panel has the list."),
+                );
+            }
+            ViewCommand::NextBookmark => {
+                let list = self.bookmarks.list();
+                let here = self.camera();
+                let is_here = |camera: &Camera| {
+                    camera.position_m == here.position_m && camera.target_m == here.target_m
+                };
+                let at = list.iter().position(|bookmark| is_here(&bookmark.camera));
+                match list.len() {
+                    0 => self.notices.note("bookmark", "No view is kept yet."),
+                    len => self.go_to_bookmark(at.map_or(0, |at| (at + 1) % len)),
+                }
+            }
+        }
+    }
+
+    /// Looks from a view that was kept.
+    pub fn go_to_bookmark(&mut self, index: usize) {
+        if let Some(bookmark) = self.bookmarks.list().get(index) {
+            let camera = bookmark.camera.clone();
+            let label = format!("Go to {}", bookmark.name);
+            self.move_view(&label, None, |view| {
+                *view = Camera {
+                    up: view.up,
+                    exposure_ev: view.exposure_ev,
+                    ..camera
+                };
+            });
+        }
+    }
+
+    /// Turns the view while the turntable goes round.
+    pub fn turn_view(&mut self, ctx: &egui::Context) {
+        if !self.free_view.turns {
+            return;
+        }
+        // A pass that took long is no reason for a jump.
+        let dt_s = ctx.input(|input| f64::from(input.stable_dt)).min(0.25);
+        let mut camera = self.camera();
+        navigate::turn(&mut camera, std::f64::consts::TAU * dt_s / ROUND_S);
+        self.look_from(camera);
+        ctx.request_repaint();
+    }
+}
