@@ -134,7 +134,7 @@ impl Viewer {
             #[cfg(not(target_arch = "wasm32"))]
             software: None,
         };
-        viewer.tell_notes();
+        viewer.work.tell_notes();
         viewer.dialogs.offer_recovery(viewer.files.start());
         if let Some(path) = viewer.work.document.path() {
             viewer.files.remember(path);

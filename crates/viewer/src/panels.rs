@@ -14,3 +14,15 @@ mod light;
 mod material;
 pub(crate) mod number;
 mod object;
+
+use egui::Ui;
+
+use crate::command::Command;
+use crate::workspace::Workspace;
+
+/// A button that asks for a command.
+fn button(ui: &mut Ui, work: &mut Workspace, command: Command) {
+    if ui.button(command.label()).clicked() {
+        work.wished.push(command);
+    }
+}

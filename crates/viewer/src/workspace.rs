@@ -3,12 +3,16 @@
 mod fit;
 mod view;
 
+use std::path::Path;
+
 use hairline_editor::bookmarks::Bookmarks;
-use hairline_editor::{ActionError, Document, Selection};
+use hairline_editor::{ActionError, Document, Selection, actions};
 use hairline_scene::Description;
+use hairline_scene::description::Map;
 
 use crate::command::Command;
 use crate::engine::Engine;
+use crate::files::is_same;
 use crate::free_view::FreeView;
 use crate::gallery::Gallery;
 use crate::notices::Notices;
@@ -49,6 +53,42 @@ impl Workspace {
             Ok(()) => self.notices.clear("action"),
             Err(error) => self.notices.error("action", error.to_string()),
         }
+    }
+
+    /// Sets the map around the scene, or none.
+    pub fn set_environment(&mut self, label: &str, map: Option<Map>) {
+        let base_dir = self.document.base_dir().to_owned();
+        self.apply(label, |d, _| {
+            Ok(actions::set_environment(d, map, &base_dir))
+        });
+    }
+
+    /// Takes the scene from its file; `why` ends the sentence that tells of it.
+    pub fn reload(&mut self, why: &str) {
+        match self.document.reload() {
+            Ok(()) => {
+                self.notices.clear("open");
+                let text = format!("{} {why}", self.document.title());
+                self.notices.note("reloaded", text);
+                self.tell_notes();
+            }
+            Err(error) => self.notices.error("open", error.to_string()),
+        }
+    }
+
+    /// What the author of the scene file should know about it.
+    pub fn tell_notes(&mut self) {
+        let notes = &self.document.description().notes;
+        if !notes.is_empty() {
+            let text = notes.join("\n");
+            eprintln!("note: {text}");
+            self.notices.note("notes", text);
+        }
+    }
+
+    /// Whether a path leads to the document's file.
+    pub fn is_own_file(&self, path: &Path) -> bool {
+        self.document.path().is_some_and(|own| is_same(own, path))
     }
 
     /// Whether the command has something to work on.

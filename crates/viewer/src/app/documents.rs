@@ -9,7 +9,7 @@ use hairline_editor::document::SaveError;
 
 use super::Viewer;
 use crate::dialogs::Wish;
-use crate::files::{Purpose, is_same};
+use crate::files::Purpose;
 use crate::snapshots::Snapshots;
 use crate::tools::Tool;
 
@@ -24,19 +24,18 @@ impl Viewer {
     }
 
     pub(super) fn fulfil(&mut self, ctx: &egui::Context, wish: Wish) {
-        match wish {
-            Wish::New => match super::built_in(self.built_in) {
-                Ok(document) => self.replace_document(document),
-                Err(error) => self.work.notices.error("open", error.to_string()),
-            },
-            Wish::Open(path) => match super::open(&path) {
-                Ok(document) => self.replace_document(document),
-                Err(error) => self.work.notices.error("open", error.to_string()),
-            },
+        let opened = match wish {
+            Wish::New => super::built_in(self.built_in),
+            Wish::Open(path) => super::open(&path),
             Wish::Quit => {
                 self.dialogs.closing = true;
                 ctx.send_viewport_cmd(ViewportCommand::Close);
+                return;
             }
+        };
+        match opened {
+            Ok(document) => self.replace_document(document),
+            Err(error) => self.work.notices.error("open", error.to_string()),
         }
     }
 
@@ -57,12 +56,7 @@ impl Viewer {
             Some(_) => chosen.to_owned(),
             None => chosen.with_extension("toml"),
         };
-        if self
-            .work
-            .document
-            .path()
-            .is_some_and(|own| is_same(own, &path))
-        {
+        if self.work.is_own_file(&path) {
             self.save(ctx);
         } else if path.exists() && !(has_asked && path == chosen) {
             self.dialogs.ask_to_replace(path);
@@ -85,14 +79,14 @@ impl Viewer {
             }
             Err(error) => self.work.notices.error("save", error.to_string()),
             Ok(()) => {
-                self.work.notices.clear("save");
-                self.files.watch(&self.work.document);
-                if let Some(path) = self.work.document.path() {
-                    self.work.bookmarks.saved_as(path);
+                let work = &mut self.work;
+                work.notices.clear("save");
+                self.files.watch(&work.document);
+                if let Some(path) = work.document.path() {
+                    work.bookmarks.saved_as(path);
                     self.files.remember(path);
-                    self.work
-                        .notices
-                        .note("saved", format!("Saved {}", path.display()));
+                    let text = format!("Saved {}", path.display());
+                    work.notices.note("saved", text);
                 }
                 if let Some(wish) = after {
                     self.fulfil(ctx, wish);
@@ -104,26 +98,17 @@ impl Viewer {
     /// Puts another document in the place of this one.
     pub(super) fn replace_document(&mut self, document: Document) {
         self.files.reopen();
-        self.work.document = document;
-        self.work.free_view.end();
-        self.work.bookmarks.open(self.work.document.path());
         self.asked = None;
-        self.work.toolbox.tool = Tool::Select;
-        self.work.snapshots = Snapshots::default();
-        self.work.notices.clear("open");
-        self.tell_notes();
-        if let Some(path) = self.work.document.path() {
+        let work = &mut self.work;
+        work.document = document;
+        work.free_view.end();
+        work.toolbox.tool = Tool::Select;
+        work.snapshots = Snapshots::default();
+        work.notices.clear("open");
+        work.tell_notes();
+        work.bookmarks.open(work.document.path());
+        if let Some(path) = work.document.path() {
             self.files.remember(path);
-        }
-    }
-
-    /// What the author of the scene file should know about it.
-    pub(super) fn tell_notes(&mut self) {
-        let notes = &self.work.document.description().notes;
-        if !notes.is_empty() {
-            let text = notes.join("\n");
-            eprintln!("note: {text}");
-            self.work.notices.note("notes", text);
         }
     }
 
@@ -132,9 +117,8 @@ impl Viewer {
             Ok(document) => {
                 self.replace_document(document);
                 self.files.take_over(pending);
-                self.work
-                    .notices
-                    .note("recovered", "Recovered. Save it to keep it.");
+                let text = "Recovered. Save it to keep it.";
+                self.work.notices.note("recovered", text);
             }
             Err(error) => self.work.notices.error("recovered", error.to_string()),
         }

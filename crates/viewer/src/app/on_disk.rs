@@ -6,18 +6,13 @@ use hairline_editor::document::OnDisk;
 
 use super::Viewer;
 use crate::dialogs::Answer;
-use crate::files::{Purpose, is_same};
+use crate::files::Purpose;
 
 impl Viewer {
     /// Takes in what other programs have written: the scene file, or what it names.
     pub(super) fn hear_of_files(&mut self, ctx: &egui::Context) {
         while let Some(change) = self.files.changed() {
-            if self
-                .work
-                .document
-                .path()
-                .is_some_and(|own| is_same(own, &change.of))
-            {
+            if self.work.is_own_file(&change.of) {
                 self.files.scene_changed = true;
             } else if self.work.document.files().contains(&change.of) {
                 // The scene is built anew: its builder reads what has changed.
@@ -40,20 +35,9 @@ impl Viewer {
             OnDisk::Changed if self.work.document.is_modified() => {
                 self.dialogs.ask_about_change();
             }
-            OnDisk::Changed => self.reload("has changed on disk and was loaded again."),
-        }
-    }
-
-    /// Takes the scene from its file; `why` ends the sentence that tells of it.
-    fn reload(&mut self, why: &str) {
-        match self.work.document.reload() {
-            Ok(()) => {
-                self.work.notices.clear("open");
-                let text = format!("{} {why}", self.work.document.title());
-                self.work.notices.note("reloaded", text);
-                self.tell_notes();
-            }
-            Err(error) => self.work.notices.error("open", error.to_string()),
+            OnDisk::Changed => self
+                .work
+                .reload("has changed on disk and was loaded again."),
         }
     }
 
@@ -62,7 +46,7 @@ impl Viewer {
         if self.work.document.is_modified() {
             self.dialogs.ask_to_reload();
         } else {
-            self.reload("was loaded again.");
+            self.work.reload("was loaded again.");
         }
     }
 
@@ -91,7 +75,7 @@ impl Viewer {
             Answer::Replace(path) => self.write_as(ctx, &path),
             Answer::Fulfil(wish) => self.fulfil(ctx, wish),
             Answer::Path(purpose, path) => self.take_typed_path(ctx, purpose, &path),
-            Answer::Reload => self.reload("was loaded again."),
+            Answer::Reload => self.work.reload("was loaded again."),
             Answer::PassOver => self.work.document.pass_over_disk(),
             Answer::AddModel(path, fit_m) => self.add_model(&path, fit_m),
             Answer::Recover(pending) => self.recover(pending),

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use hairline_editor::actions::{self, objects};
+use hairline_editor::actions::objects;
 use hairline_scene::description::Map;
 use hairline_scene::probe::{self, MeshSummary};
 
@@ -87,24 +87,16 @@ impl Viewer {
             }
         };
         self.work.notices.clear("file");
-        let base_dir = self.work.document.base_dir().to_owned();
         if purpose == Purpose::Environment {
-            self.work.apply("Set the environment", |d, _| {
-                let map = Map::File(path.to_owned());
-                Ok(actions::set_environment(d, Some(map), &base_dir))
-            })
-        } else {
-            let extent_m = probe::scene_extent_m(self.work.document.description());
-            if let Some(summary) = summary
-                && let Some(fit_m) = summary.fit_m(extent_m)
-            {
-                self.dialogs
-                    .ask_to_fit(path.to_owned(), summary.extent_m(), fit_m);
-                return;
-            }
-            self.add_model(path, None);
+            let map = Map::File(path.to_owned());
+            self.work.set_environment("Set the environment", Some(map));
             return;
-        };
+        }
+        let extent_m = probe::scene_extent_m(self.work.document.description());
+        match summary.and_then(|model| Some((model.extent_m(), model.fit_m(extent_m)?))) {
+            Some((own_m, fit_m)) => self.dialogs.ask_to_fit(path.to_owned(), own_m, fit_m),
+            None => self.add_model(path, None),
+        }
     }
 
     /// Adds a model as large as in its file, or fitted to a size.

@@ -55,10 +55,13 @@ impl Viewer {
             area.paint_frame(ui);
             self.compare.show(ui, &self.work, area);
             let seen = view(&self.work, area);
-            let work = &mut self.work;
             let now = (&frame, &mut self.viewport.canvas);
-            work.snapshots
-                .show(ui, &mut work.document, area, &seen, now);
+            let Workspace {
+                snapshots,
+                document,
+                ..
+            } = &mut self.work;
+            snapshots.show(ui, document, area, &seen, now);
         }
         // What lies over the picture is not where the pointer is.
         if self.work.snapshots.cover() {
@@ -70,13 +73,7 @@ impl Viewer {
         let work = &mut self.work;
         self.viewport.interact(ui, work, area, response);
         self.viewport.show_overlays(ui, work, area);
-        reading::show(
-            ui,
-            work,
-            self.viewport.view,
-            response.rect,
-            response.hover_pos(),
-        );
+        reading::show(ui, work, self.viewport.view, response);
         badges::show(ui, work, response.rect);
     }
 
@@ -106,42 +103,43 @@ impl Viewer {
     }
 
     pub(super) fn hear_engine(&mut self) {
+        let notices = &mut self.work.notices;
         for event in self.work.engine.events() {
             match event {
                 // Of a scene that is another by now nobody wants to know: it may be right again.
                 Event::NotBuilt { revision, message } => {
                     if revision == self.asked_revision {
-                        self.work.notices.error("scene", message);
+                        notices.error("scene", message);
                     }
                 }
                 Event::FellBack { message } => {
                     let text = format!("{message}. The CPU renders from now on.");
-                    self.work.notices.error("device", text);
+                    notices.error("device", text);
                 }
-                Event::Recovered => self
-                    .work
-                    .notices
-                    .note("device", "The graphics device was lost, and is back."),
+                Event::Recovered => {
+                    notices.note("device", "The graphics device was lost, and is back.");
+                }
             }
         }
     }
 
     /// Hands the description to the engine if more than the view has changed.
     pub(super) fn ask_engine(&mut self) {
-        let description = self.work.document.description();
+        let work = &mut self.work;
+        let description = work.document.description();
         let is_latest = |asked: &Arc<_>| Arc::ptr_eq(asked, description);
         if self.asked.as_ref().is_some_and(is_latest) {
             return;
         }
-        self.files.watch(&self.work.document);
+        self.files.watch(&work.document);
         let is_seen_alike = |asked: &Arc<_>| makes_same_scene(asked, description);
         if !self.asked.as_ref().is_some_and(is_seen_alike) {
-            self.work.notices.clear("scene");
-            self.asked_revision = self.work.document.revision();
-            self.work.engine.set_scene(
+            work.notices.clear("scene");
+            self.asked_revision = work.document.revision();
+            work.engine.set_scene(
                 self.asked_revision,
                 Arc::clone(description),
-                self.work.document.base_dir().to_owned(),
+                work.document.base_dir().to_owned(),
             );
         }
         self.asked = Some(Arc::clone(description));

@@ -41,9 +41,8 @@ impl Viewer {
             }
             Command::Redo => {
                 if let Some(label) = self.work.document.redo() {
-                    self.work
-                        .notices
-                        .note("undo", format!("Done again: {label}"));
+                    let text = format!("Done again: {label}");
+                    self.work.notices.note("undo", text);
                 }
             }
             Command::Duplicate

@@ -1,7 +1,6 @@
 //! Light from all around.
 
 use egui::Ui;
-use hairline_editor::actions;
 use hairline_editor::maps;
 use hairline_editor::ranges::Parameter;
 use hairline_scene::Light;
@@ -18,8 +17,8 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace) {
     let is_choosable = Command::SetEnvironment.is_here();
     let Some(mut environment) = work.document.description().environment.clone() else {
         ui.label("No map: the lights alone light the scene, and the background is black.");
-        if is_choosable && ui.button(Command::SetEnvironment.label()).clicked() {
-            work.wished.push(Command::SetEnvironment);
+        if is_choosable {
+            super::button(ui, work, Command::SetEnvironment);
         }
         built_in_maps(ui, work);
         return;
@@ -55,10 +54,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace) {
             work.wished.push(Command::SetEnvironment);
         }
         if ui.button("Remove the map").clicked() {
-            let base_dir = work.document.base_dir().to_owned();
-            work.apply("Remove the environment", |d, _| {
-                Ok(actions::set_environment(d, None, &base_dir))
-            });
+            work.set_environment("Remove the environment", None);
         }
     });
     built_in_maps(ui, work);
@@ -70,17 +66,9 @@ fn built_in_maps(ui: &mut Ui, work: &mut Workspace) {
     ui.strong("Maps in the box");
     let choices =
         BuiltInMap::ALL.map(|map| (map, Thumb::Map(map), maps::name(map), maps::tooltip(map)));
-    let Some(map) = cards(ui, &mut work.gallery, "maps", choices) else {
-        return;
-    };
-    let base_dir = work.document.base_dir().to_owned();
-    work.apply("Set the environment", |d, _| {
-        Ok(actions::set_environment(
-            d,
-            Some(Map::BuiltIn(map)),
-            &base_dir,
-        ))
-    });
+    if let Some(map) = cards(ui, &mut work.gallery, "maps", choices) {
+        work.set_environment("Set the environment", Some(Map::BuiltIn(map)));
+    }
 }
 
 /// What was parted from the map that the picture shows.

@@ -214,9 +214,7 @@ fn buttons(ui: &mut Ui, work: &mut Workspace, index: usize, layer: &Scratches, d
             Command::MoveDown,
             Command::Delete,
         ] {
-            if ui.button(command.label()).clicked() {
-                work.wished.push(command);
-            }
+            super::button(ui, work, command);
         }
     });
 }

@@ -69,9 +69,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
         if ui.button(Command::Duplicate.label()).clicked() {
             work.apply("Duplicate light", |d, _| lights::duplicate(d, index));
         }
-        if ui.button(Command::Delete.label()).clicked() {
-            work.wished.push(Command::Delete);
-        }
+        super::button(ui, work, Command::Delete);
     });
 }
 

@@ -128,11 +128,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
                 });
             }
         });
-        if ui.button(Command::Duplicate.label()).clicked() {
-            work.wished.push(Command::Duplicate);
-        }
-        if ui.button(Command::Delete.label()).clicked() {
-            work.wished.push(Command::Delete);
-        }
+        super::button(ui, work, Command::Duplicate);
+        super::button(ui, work, Command::Delete);
     });
 }

@@ -80,9 +80,7 @@ fn menu(ui: &mut Ui, work: &mut Workspace, group: Group, files: &Files) -> Optio
         if i > 0 && entry.command.begins_section() {
             ui.separator();
         }
-        if item(ui, work, entry.command) {
-            work.wished.push(entry.command);
-        }
+        item(ui, work, entry.command);
         if entry.command == Command::Open {
             chosen = recent(ui, files);
         }
@@ -106,8 +104,8 @@ fn recent(ui: &mut Ui, files: &Files) -> Option<PathBuf> {
     chosen
 }
 
-/// A command with its key; whether it was chosen.
-fn item(ui: &mut Ui, work: &Workspace, command: Command) -> bool {
+/// A command with its key.
+fn item(ui: &mut Ui, work: &mut Workspace, command: Command) {
     let is_on = work.is_on(command).unwrap_or(false);
     let mut button = Button::selectable(is_on, command.label());
     if let Some(shortcut) = command.shortcut() {
@@ -118,7 +116,9 @@ fn item(ui: &mut Ui, work: &Workspace, command: Command) -> bool {
         };
         button = button.shortcut_text(RichText::new(command::key_text(&shortcut)).color(color));
     }
-    ui.add_enabled(work.can(command), button).clicked()
+    if ui.add_enabled(work.can(command), button).clicked() {
+        work.wished.push(command);
+    }
 }
 
 /// What can be done with what is selected: the menu of the right button.
@@ -138,8 +138,8 @@ pub(crate) fn on_selection(ui: &mut Ui, work: &mut Workspace) {
         Command::MoveDown,
         Command::Delete,
     ] {
-        if work.can(command) && item(ui, work, command) {
-            work.wished.push(command);
+        if work.can(command) {
+            item(ui, work, command);
         }
     }
 }

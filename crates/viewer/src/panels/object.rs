@@ -77,23 +77,14 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     ui.add_space(8.0);
     ui.horizontal(|ui| {
         for command in [Command::FrameSelection, Command::Duplicate, Command::Delete] {
-            if ui.button(command.label()).clicked() {
-                work.wished.push(command);
-            }
+            super::button(ui, work, command);
         }
     });
 }
 
 /// The presets as a menu.
 pub(super) fn add_layer(ui: &mut Ui, work: &mut Workspace, object: usize) {
-    let choices = LayerPreset::ALL.map(|preset| {
-        (
-            preset,
-            Thumb::Layer(preset),
-            preset.name(),
-            preset.tooltip(),
-        )
-    });
+    let choices = LayerPreset::ALL.map(|p| (p, Thumb::Layer(p), p.name(), p.tooltip()));
     if let Some(preset) = cards(ui, &mut work.gallery, "layers", choices) {
         let diagonal_m = work.diagonal_m(Some(object));
         work.apply("Add scratches", |d, _| {

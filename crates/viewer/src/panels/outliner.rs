@@ -42,8 +42,8 @@ fn rows(ui: &mut Ui, work: &mut Workspace) {
     );
 
     section(ui, "Objects", |ui| {
-        if Command::AddModel.is_here() && ui.button(Command::AddModel.label()).clicked() {
-            work.wished.push(Command::AddModel);
+        if Command::AddModel.is_here() {
+            super::button(ui, work, Command::AddModel);
         }
         add_shape(ui, work);
     });
@@ -159,7 +159,7 @@ fn section(ui: &mut Ui, title: &str, add: impl FnOnce(&mut Ui)) {
 }
 
 fn add_shape(ui: &mut Ui, work: &mut Workspace) {
-    let choices = ShapePreset::ALL.map(|preset| (preset, Thumb::Shape(preset), preset.name(), ""));
+    let choices = ShapePreset::ALL.map(|p| (p, Thumb::Shape(p), p.name(), ""));
     if let Some(preset) = cards(ui, &mut work.gallery, "shapes", choices) {
         let diagonal_m = work.diagonal_m(None);
         work.apply("Add an object", |d, _| {
@@ -169,14 +169,7 @@ fn add_shape(ui: &mut Ui, work: &mut Workspace) {
 }
 
 fn add_light(ui: &mut Ui, work: &mut Workspace) {
-    let choices = LightPreset::ALL.map(|preset| {
-        (
-            preset,
-            Thumb::Light(preset),
-            preset.name(),
-            preset.tooltip(),
-        )
-    });
+    let choices = LightPreset::ALL.map(|p| (p, Thumb::Light(p), p.name(), p.tooltip()));
     if let Some(preset) = cards(ui, &mut work.gallery, "lights", choices) {
         let diagonal_m = work.diagonal_m(None);
         work.apply("Add a light", |d, _| {
@@ -197,13 +190,6 @@ fn add_material(ui: &mut Ui, work: &mut Workspace) {
 
 /// All materials to begin with.
 pub(super) fn material_cards(ui: &mut Ui, work: &mut Workspace) -> Option<MaterialPreset> {
-    let choices = MaterialPreset::all().map(|preset| {
-        (
-            preset,
-            Thumb::Material(preset),
-            preset.name(),
-            preset.tooltip(),
-        )
-    });
+    let choices = MaterialPreset::all().map(|p| (p, Thumb::Material(p), p.name(), p.tooltip()));
     cards(ui, &mut work.gallery, "materials", choices)
 }

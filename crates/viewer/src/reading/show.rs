@@ -1,7 +1,8 @@
 //! The histogram, the probe and the scales, over the picture.
 
 use egui::{
-    Align2, Color32, FontId, Grid, Id, Label, Painter, Pos2, Rect, RichText, Stroke, Ui, pos2, vec2,
+    Align2, Color32, FontId, Grid, Id, Label, Painter, Pos2, Rect, Response, RichText, Stroke, Ui,
+    pos2, vec2,
 };
 use hairline_image::Display;
 
@@ -10,18 +11,12 @@ use crate::engine::View;
 use crate::viewport::ink;
 use crate::workspace::Workspace;
 
-/// Shows what is switched on. `area` is the picture's; `view` is the newest one, of which there may be no picture yet.
-pub(crate) fn show(
-    ui: &mut Ui,
-    work: &mut Workspace,
-    view: Option<View>,
-    area: Rect,
-    pointer: Option<Pos2>,
-) {
+/// Shows what is switched on. `view` is the newest one, of which there may be no picture yet.
+pub(crate) fn show(ui: &mut Ui, work: &mut Workspace, view: Option<View>, picture: &Response) {
     let Some(frame) = work.engine.latest() else {
         return;
     };
-    let ctx = ui.ctx().clone();
+    let (ctx, area) = (ui.ctx().clone(), picture.rect);
     if work.reading.has_histogram {
         let mut is_open = true;
         window(
@@ -37,7 +32,7 @@ pub(crate) fn show(
         work.reading.has_histogram = is_open;
     }
     scale(ui, area, work.reading.shows, &frame.findings);
-    show_probe(ui, work, &view.unwrap_or(frame.view), area, pointer);
+    show_probe(ui, work, &view.unwrap_or(frame.view), picture);
 }
 
 /// A small window whose corner begins at a place, and grows from there.
@@ -194,14 +189,14 @@ fn scale(ui: &Ui, area: Rect, shows: Shows, findings: &Findings) {
     }
 }
 
-fn show_probe(ui: &mut Ui, work: &mut Workspace, view: &View, area: Rect, pointer: Option<Pos2>) {
+fn show_probe(ui: &mut Ui, work: &mut Workspace, view: &View, picture: &Response) {
     if !work.reading.probe.is_on() {
         return;
     }
     let Some(built) = work.engine.built() else {
         return;
     };
-    let ctx = ui.ctx().clone();
+    let (ctx, area, pointer) = (ui.ctx().clone(), picture.rect, picture.hover_pos());
     let kept = work.reading.probe.kept_at(area);
     if let Some(pos) = kept.or(pointer) {
         work.reading.probe.follow(&ctx, &built, view, area, pos);

@@ -2,12 +2,14 @@
 
 use egui::{PointerButton, Response};
 use glam::DVec2;
-use hairline_editor::{DragKey, Selection, navigate, place_light};
+use hairline_editor::place_light::place_highlight;
+use hairline_editor::{DragKey, Selection, navigate};
 
 use crate::tools::Tool;
 use crate::workspace::Workspace;
 
 use super::lens::Lens;
+use super::pick::Picked;
 use super::{Area, Viewport, gizmo, pick};
 
 /// A notch of a wheel is this many points in egui.
@@ -96,32 +98,32 @@ impl Viewport {
                     navigate::center_on(camera, hit.point_m)
                 });
             }
-        } else if response.clicked() && work.reading.probe.click(area.rect, pos) {
-            // The pixel is kept, and nothing selected.
-        } else if response.clicked() {
-            match work.toolbox.tool {
-            Tool::Select => {
-                let picked = picked(work, area, pos);
-                work.document.select(picked);
-            }
-            Tool::PlaceLight => match (work.selection(), hit) {
-                (Selection::Light(i), Some(hit)) => {
-                    let eye_m = work.eye_m();
-                    work.document.edit("Place light", |d| {
-                        if let Some(light) = d.lights.get_mut(i) {
-                            place_light::place_highlight(light, eye_m, hit.point_m, hit.normal);
-                        }
-                    });
+        } else if response.clicked() && !work.reading.probe.click(area.rect, pos) {
+            match (work.toolbox.tool, hit) {
+                (Tool::Select, _) => {
+                    let picked = picked(work, area, pos);
+                    work.document.select(picked);
                 }
-                (_, Some(_)) => work
-                    .notices
-                    .error("place", "Select a light first: it is moved so that its highlight falls where you click."),
+                (Tool::PlaceLight, Some(hit)) => place_light(work, &hit),
                 _ => {}
-            },
-            Tool::Brush | Tool::Eraser => {}
-        }
+            }
         }
     }
+}
+
+/// Moves the selected light so that its highlight falls on a place.
+fn place_light(work: &mut Workspace, hit: &Picked) {
+    let Selection::Light(i) = work.selection() else {
+        let text = "Select a light first: it is moved so that its highlight falls where you click.";
+        work.notices.error("place", text);
+        return;
+    };
+    let eye_m = work.eye_m();
+    work.document.edit("Place light", |d| {
+        if let Some(light) = d.lights.get_mut(i) {
+            place_highlight(light, eye_m, hit.point_m, hit.normal);
+        }
+    });
 }
 
 /// A click of the right button selects what is there, and shows what can be done with it.
