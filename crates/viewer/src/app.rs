@@ -18,7 +18,7 @@ use web_time::Instant;
 
 use crate::command::Command;
 use crate::compare::{Compare, Figures};
-use crate::dialogs::Dialogs;
+use crate::dialogs::{Dialogs, Wish};
 use crate::engine::{Backend, Engine};
 use crate::export::Export;
 use crate::files::Files;
@@ -58,6 +58,10 @@ pub struct Viewer {
     compare: Compare,
     /// The camera is to show all of the next scene that is built.
     frame_when_built: bool,
+    /// The window may close.
+    is_closing: bool,
+    /// Once the scene is saved, this is done.
+    after_save: Option<Wish>,
     hides_list: bool,
     hides_inspector: bool,
     /// A text had the keyboard at the end of the last pass.
@@ -123,6 +127,8 @@ impl Viewer {
             export: Export::default(),
             compare: Compare::default(),
             frame_when_built: false,
+            is_closing: false,
+            after_save: None,
             hides_list: false,
             hides_inspector: false,
             was_typing: false,

@@ -1,12 +1,12 @@
 //! Questions in the window, one at a time, and the help.
 
+mod answer;
 mod ask;
 mod fit;
 mod on_disk;
 mod recovery;
 mod thumbnails;
 
-use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use egui::{Grid, Id, Modal, Ui};
@@ -14,33 +14,9 @@ use hairline_editor::autosave::Pending;
 
 use crate::command::{self, Group};
 use crate::files::{Purpose, from_home};
+pub(crate) use answer::{Answer, Wish};
 use ask::{Loses, ask};
 use recovery::Recovery;
-
-/// What was asked for while there were unsaved changes.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Wish {
-    New,
-    Open(PathBuf),
-    Quit,
-}
-
-/// What is to be done after an answer.
-pub(crate) enum Answer {
-    Save,
-    SaveOver,
-    SaveAs,
-    Replace(PathBuf),
-    Fulfil(Wish),
-    /// A path was typed.
-    Path(Purpose, PathBuf),
-    Reload,
-    /// What another program has written is passed over.
-    PassOver,
-    /// As large as in its file, or fitted to a size.
-    AddModel(PathBuf, Option<f64>),
-    Recover(Pending),
-}
 
 /// What is being asked.
 enum Question {
@@ -73,10 +49,6 @@ enum Question {
 pub(crate) struct Dialogs {
     question: Option<Question>,
     help: bool,
-    /// The window may close.
-    pub closing: bool,
-    /// Once the scene is saved, this is done.
-    pub after_save: Option<Wish>,
 }
 
 impl Dialogs {
@@ -139,81 +111,73 @@ impl Dialogs {
                 self.help = false;
             }
         }
-        match self.question.take()? {
-            Question::Unsaved(wish) => self.unsaved(ctx, title, wish),
-            Question::Recover(mut recovery) => match recovery.show(ctx) {
-                ControlFlow::Break(recovered) => recovered.map(Answer::Recover),
-                ControlFlow::Continue(()) => {
-                    self.question = Some(Question::Recover(recovery));
-                    None
-                }
-            },
-            Question::Path(purpose, text) => self.path(ctx, purpose, text),
-            Question::Changed => self.changed_on_disk(ctx, title),
-            Question::Reload => self.load_again(ctx, title),
-            Question::SaveOver => self.save_over(ctx, title),
-            Question::Replace(path) => self.replace(ctx, path),
-            Question::Fit {
+        let mut question = self.question.take()?;
+        let answer = question.show(ctx, title);
+        if answer.is_none() {
+            self.question = Some(question);
+        }
+        answer
+    }
+}
+
+impl Question {
+    /// None until there is an answer.
+    fn show(&mut self, ctx: &egui::Context, title: &str) -> Option<Answer> {
+        match self {
+            Self::Unsaved(wish) => unsaved(ctx, title, wish),
+            Self::Recover(recovery) => recovery.show(ctx),
+            Self::Path(purpose, text) => path(ctx, *purpose, text),
+            Self::Changed => on_disk::changed(ctx, title),
+            Self::Reload => on_disk::reload(ctx, title),
+            Self::SaveOver => on_disk::save_over(ctx, title),
+            Self::Replace(path) => on_disk::replace(ctx, path),
+            Self::Fit {
                 path,
                 extent_m,
                 fit_m,
-            } => self.fit(ctx, path, extent_m, fit_m),
+            } => fit::fit(ctx, path, *extent_m, *fit_m),
         }
     }
+}
 
-    fn unsaved(&mut self, ctx: &egui::Context, title: &str, wish: Wish) -> Option<Answer> {
-        let text = format!("\"{title}\" has changes that are not saved.");
-        let answers = ["Save the changes", "Discard the changes", "Cancel"];
-        match ask(
-            ctx,
-            "unsaved",
-            "Save the changes?",
-            &text,
-            &answers,
-            Loses::Nothing,
-        ) {
-            Some(0) => {
-                self.after_save = Some(wish);
-                return Some(Answer::Save);
-            }
-            Some(1) => return Some(Answer::Fulfil(wish)),
-            Some(_) => {}
-            None => self.question = Some(Question::Unsaved(wish)),
-        }
-        None
-    }
+fn unsaved(ctx: &egui::Context, title: &str, wish: &Wish) -> Option<Answer> {
+    let text = format!("\"{title}\" has changes that are not saved.");
+    let answers = ["Save the changes", "Discard the changes", "Cancel"];
+    let heading = "Save the changes?";
+    let answer = ask(ctx, "unsaved", heading, &text, &answers, Loses::Nothing)?;
+    Some(match answer {
+        0 => Answer::SaveBefore(wish.clone()),
+        1 => Answer::Fulfil(wish.clone()),
+        _ => Answer::Cancel,
+    })
+}
 
-    fn path(&mut self, ctx: &egui::Context, purpose: Purpose, mut text: String) -> Option<Answer> {
-        let modal = Modal::new(Id::unique("path")).show(ctx, |ui| {
-            ui.set_width(460.0);
-            ui.heading(purpose.title());
-            let label = ui.label("Path");
-            let edit = egui::TextEdit::singleline(&mut text).desired_width(f32::INFINITY);
-            let response = ui.add(edit).labelled_by(label.id);
-            let entered =
-                response.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
-            // Asked for before it is read, the focus would not count as lost.
-            if !entered && ctx.memory(|memory| memory.focused().is_none()) {
-                response.request_focus();
-            }
-            ui.add_space(8.0);
-            ui.horizontal(|ui| {
-                let ok = ui.button("OK").clicked() || entered;
-                let cancel = ui.button("Cancel").clicked();
-                (ok, cancel)
-            })
-            .inner
-        });
-        let should_close = modal.should_close();
-        match modal.inner {
-            (true, _) if !text.trim().is_empty() => {
-                return Some(Answer::Path(purpose, from_home(text.trim())));
-            }
-            (_, true) => self.after_save = None,
-            _ if should_close => self.after_save = None,
-            _ => self.question = Some(Question::Path(purpose, text)),
+fn path(ctx: &egui::Context, purpose: Purpose, text: &mut String) -> Option<Answer> {
+    let modal = Modal::new(Id::unique("path")).show(ctx, |ui| {
+        ui.set_width(460.0);
+        ui.heading(purpose.title());
+        let label = ui.label("Path");
+        let edit = egui::TextEdit::singleline(text).desired_width(f32::INFINITY);
+        let response = ui.add(edit).labelled_by(label.id);
+        let entered =
+            response.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
+        // Asked for before it is read, the focus would not count as lost.
+        if !entered && ctx.memory(|memory| memory.focused().is_none()) {
+            response.request_focus();
         }
-        None
+        ui.add_space(8.0);
+        ui.horizontal(|ui| {
+            let ok = ui.button("OK").clicked() || entered;
+            let cancel = ui.button("Cancel").clicked();
+            (ok, cancel)
+        })
+        .inner
+    });
+    let should_close = modal.should_close();
+    match modal.inner {
+        (true, _) if !text.trim().is_empty() => Some(Answer::Path(purpose, from_home(text.trim()))),
+        (_, true) => Some(Answer::CancelSaving),
+        _ => should_close.then_some(Answer::CancelSaving),
     }
 }
 

@@ -190,16 +190,8 @@ impl Snapshots {
             snapshot.see(now);
         }
         self.draw(ui, area, view, (now, canvas));
-        match self.strip(ui, area) {
-            Some(Wish::Restore(index)) => self.restore(index, document),
-            Some(Wish::Delete(index)) => self.delete(index),
-            None => {}
+        if let Some(index) = self.strip(ui, area) {
+            self.restore(index, document);
         }
     }
-}
-
-/// What is to be done with the snapshot of an index.
-enum Wish {
-    Restore(usize),
-    Delete(usize),
 }

@@ -28,7 +28,7 @@ impl Viewer {
             Wish::New => super::built_in(self.built_in),
             Wish::Open(path) => super::open(&path),
             Wish::Quit => {
-                self.dialogs.closing = true;
+                self.is_closing = true;
                 ctx.send_viewport_cmd(ViewportCommand::Close);
                 return;
             }
@@ -71,10 +71,10 @@ impl Viewer {
     }
 
     pub(super) fn saved(&mut self, ctx: &egui::Context, done: Result<(), SaveError>) {
-        let after = self.dialogs.after_save.take();
+        let after = self.after_save.take();
         match done {
             Err(SaveError::ChangedOnDisk(_)) => {
-                self.dialogs.after_save = after;
+                self.after_save = after;
                 self.dialogs.ask_to_save_over();
             }
             Err(error) => self.work.notices.error("save", error.to_string()),
@@ -127,7 +127,7 @@ impl Viewer {
     /// Closing the window with unsaved changes asks first.
     pub(super) fn watch_close(&mut self, ctx: &egui::Context) {
         let is_asked = ctx.input(|input| input.viewport().close_requested());
-        if is_asked && !self.dialogs.closing && self.work.document.is_modified() {
+        if is_asked && !self.is_closing && self.work.document.is_modified() {
             ctx.send_viewport_cmd(ViewportCommand::CancelClose);
             self.dialogs.ask_about_unsaved(Wish::Quit);
         }

@@ -66,13 +66,22 @@ impl Viewer {
             return;
         };
         match answer {
-            Answer::Save => self.save(ctx),
+            Answer::Cancel => {}
+            Answer::CancelSaving => self.after_save = None,
+            Answer::SaveBefore(wish) => {
+                self.after_save = Some(wish);
+                self.save(ctx);
+            }
             Answer::SaveOver => {
                 let done = self.work.document.save_over();
                 self.saved(ctx, done);
             }
             Answer::SaveAs => self.ask_path(ctx, Purpose::SaveAs),
             Answer::Replace(path) => self.write_as(ctx, &path),
+            Answer::Rename(path) => {
+                let typed = path.display().to_string();
+                self.dialogs.ask_for_path(Purpose::SaveAs, typed);
+            }
             Answer::Fulfil(wish) => self.fulfil(ctx, wish),
             Answer::Path(purpose, path) => self.take_typed_path(ctx, purpose, &path),
             Answer::Reload => self.work.reload("was loaded again."),

@@ -19,7 +19,7 @@ impl Viewer {
 
     pub(super) fn take_choice(&mut self, ctx: &egui::Context, choice: Choice) {
         match choice {
-            Choice::Nothing => self.dialogs.after_save = None,
+            Choice::Nothing => self.after_save = None,
             Choice::NoDialogs(purpose) => {
                 let proposal = purpose.proposal(&self.work.document);
                 self.dialogs.ask_for_path(purpose, proposal);

@@ -1,11 +1,11 @@
 //! What an earlier run left, when it ended by accident.
 
-use std::ops::ControlFlow;
 use std::time::SystemTime;
 
 use egui::{Context, Id, Modal, Ui};
 use hairline_editor::autosave::Pending;
 
+use super::answer::Answer;
 use super::thumbnails::Thumbnails;
 use crate::panels::busy::Busy;
 
@@ -18,7 +18,8 @@ pub(crate) struct Recovery {
     going: Option<usize>,
 }
 
-enum Answer {
+/// What was pressed.
+enum Press {
     Recover(usize),
     AskToDiscard(usize),
     Keep,
@@ -35,7 +36,7 @@ impl Recovery {
         }
     }
 
-    fn row(&mut self, ui: &mut Ui, i: usize) -> Option<Answer> {
+    fn row(&mut self, ui: &mut Ui, i: usize) -> Option<Press> {
         let ctx = ui.ctx().clone();
         let entry = &self.pending[i];
         let thumbnails = self
@@ -57,17 +58,17 @@ impl Recovery {
                     if self.going == Some(i) {
                         ui.label("For good?");
                         if ui.button("Yes, throw it away").clicked() {
-                            answer = Some(Answer::Discard(i));
+                            answer = Some(Press::Discard(i));
                         }
                         if ui.button("Keep it").clicked() {
-                            answer = Some(Answer::Keep);
+                            answer = Some(Press::Keep);
                         }
                     } else {
                         if ui.button("Recover").clicked() {
-                            answer = Some(Answer::Recover(i));
+                            answer = Some(Press::Recover(i));
                         }
                         if ui.button("Throw away…").clicked() {
-                            answer = Some(Answer::AskToDiscard(i));
+                            answer = Some(Press::AskToDiscard(i));
                         }
                     }
                 });
@@ -76,8 +77,8 @@ impl Recovery {
         answer
     }
 
-    /// Asks; ends with what is to be recovered, if anything is.
-    pub fn show(&mut self, ctx: &Context) -> ControlFlow<Option<Pending>> {
+    /// None until there is an answer.
+    pub fn show(&mut self, ctx: &Context) -> Option<Answer> {
         let modal = Modal::new(Id::unique("recover")).show(ctx, |ui| {
             ui.set_width(520.0);
             ui.heading("Unsaved work was found");
@@ -94,27 +95,27 @@ impl Recovery {
                 });
             ui.add_space(8.0);
             if ui.button("Ask again later").clicked() {
-                answer = Some(Answer::Later);
+                answer = Some(Press::Later);
             }
             answer
         });
         let should_close = modal.should_close();
         match modal.inner {
-            Some(Answer::Recover(i)) => return ControlFlow::Break(Some(self.pending.remove(i))),
-            Some(Answer::Discard(i)) => {
+            Some(Press::Recover(i)) => return Some(Answer::Recover(self.pending.remove(i))),
+            Some(Press::Discard(i)) => {
                 self.pending.remove(i).discard();
                 *self = Self::new(std::mem::take(&mut self.pending));
                 if self.pending.is_empty() {
-                    return ControlFlow::Break(None);
+                    return Some(Answer::Cancel);
                 }
             }
-            Some(Answer::Later) => return ControlFlow::Break(None),
-            Some(Answer::AskToDiscard(i)) => self.going = Some(i),
-            Some(Answer::Keep) => self.going = None,
-            None if should_close => return ControlFlow::Break(None),
+            Some(Press::Later) => return Some(Answer::Cancel),
+            Some(Press::AskToDiscard(i)) => self.going = Some(i),
+            Some(Press::Keep) => self.going = None,
+            None if should_close => return Some(Answer::Cancel),
             None => {}
         }
-        ControlFlow::Continue(())
+        None
     }
 }
 

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use hairline_image::Image;
-use hairline_scene::{DEFAULT_SAMPLES, Scene};
+use hairline_scene::DEFAULT_SAMPLES;
 use web_time::Instant;
 
 use super::bands::{BandSize, Bands, IN_TURN, prepared};
@@ -107,7 +107,7 @@ impl Easel for CpuEasel {
         } else {
             Crew::Painter
         };
-        let scene = scene_seen(order, step);
+        let scene = step.scene(order);
         let mut prepared = prepared(&order.built, &scene);
         if step.thin > 1 || order.built.sketch.is_some() {
             let draft = crew.install(|| self.drafts.of(&order.built, step.thin));
@@ -191,13 +191,4 @@ fn shown(order: &Order, image: &Image, step: &Step) -> Shown {
         passes: Vec::new(),
         findings,
     }
-}
-
-/// The scene from where it is seen.
-fn scene_seen(order: &Order, step: &Step) -> Scene {
-    let mut scene = order.built.scene.clone();
-    scene.camera = order.view.camera;
-    scene.render.size_px = step.size_px;
-    scene.render.filter_std_px = step.filter_std_px(&order.view);
-    scene
 }

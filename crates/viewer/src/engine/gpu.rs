@@ -9,7 +9,7 @@ use hairline_gpu::{
     AdapterKind, AdapterRequest, Error, Gpu, GpuScene, PassTime, Renderer, headless,
 };
 use hairline_index::method::Method;
-use hairline_scene::{DEFAULT_SAMPLES, Scene};
+use hairline_scene::DEFAULT_SAMPLES;
 use web_time::Instant;
 
 use super::Built;
@@ -164,7 +164,7 @@ impl Easel for GpuEasel {
             Some(canvas) if canvas.size_px() == step.size_px => canvas,
             _ => gpu.block_on(self.renderer.canvas(step.size_px, band_px))?,
         };
-        let scene = scene_seen(order, step);
+        let scene = step.scene(order);
         self.step = Some(*step);
         let mut last_shown = Instant::now();
         let steps = hairline_gpu::steps(step.samples);
@@ -216,15 +216,6 @@ impl Easel for GpuEasel {
     fn kind(&self) -> &'static Kind {
         &pace::WHOLE
     }
-}
-
-/// The scene from where it is seen.
-fn scene_seen(order: &Order, step: &Step) -> Scene {
-    let mut scene = order.built.scene.clone();
-    scene.camera = order.view.camera;
-    scene.render.size_px = step.size_px;
-    scene.render.filter_std_px = step.filter_std_px(&order.view);
-    scene
 }
 
 /// What egui takes for a picture.

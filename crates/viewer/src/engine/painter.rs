@@ -99,9 +99,7 @@ impl Progress {
 
     /// Whether `order` is what is being painted already, exposure and all.
     pub fn is_at(&self, order: &Order) -> bool {
-        self.done
-            .as_ref()
-            .is_some_and(|done| done.has_same_pixels(order) && done.view.is_shown_as(&order.view))
+        self.done.as_ref().is_some_and(|done| done.is_same(order))
     }
 
     /// Paints the first picture of an order that is new; else the finer ones until something newer is wanted or it is `until`.

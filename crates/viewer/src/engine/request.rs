@@ -33,8 +33,12 @@ struct State {
 }
 
 impl State {
-    fn to_be_painted(&self) -> Option<&Arc<Built>> {
-        self.sketch.as_ref().or(self.built.as_ref())
+    /// What is to be painted now, if scene and view are there.
+    fn order(&self) -> Option<Order> {
+        Some(Order {
+            built: Arc::clone(self.sketch.as_ref().or(self.built.as_ref())?),
+            view: self.view?,
+        })
     }
 
     /// Whether the newest picture is one of the view that is wanted and of the scene of this revision.
@@ -69,6 +73,11 @@ impl Order {
     pub fn has_same_pixels(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.built, &other.built) && self.view.has_same_pixels(&other.view)
     }
+
+    /// The same, with exposure, tone curve and all.
+    pub fn is_same(&self, other: &Self) -> bool {
+        self.has_same_pixels(other) && self.view.is_shown_as(&other.view)
+    }
 }
 
 impl Shared {
@@ -85,6 +94,19 @@ impl Shared {
     /// A thread that panicked left nothing half-moved: each lock covers one move.
     fn lock(&self) -> MutexGuard<'_, State> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Blocks while something `is_missing`, until `patience` is over.
+    fn wait_while<'a>(
+        &self,
+        state: MutexGuard<'a, State>,
+        patience: Duration,
+        is_missing: impl Fn(&State) -> bool,
+    ) -> MutexGuard<'a, State> {
+        self.news
+            .wait_timeout_while(state, patience, |state| is_missing(state))
+            .unwrap_or_else(PoisonError::into_inner)
+            .0
     }
 
     pub fn want_scene(&self, revision: u64, description: Arc<Description>, base_dir: PathBuf) {
@@ -120,19 +142,12 @@ impl Shared {
     pub fn next_scene(&self) -> Option<WantedScene> {
         let mut state = self.lock();
         state.is_building = false;
-        loop {
-            if self.is_stopped() {
-                return None;
-            }
-            if let Some(wanted) = state.wanted_scene.take() {
-                state.is_building = true;
-                return Some(wanted);
-            }
-            state = self
-                .news
-                .wait(state)
-                .unwrap_or_else(PoisonError::into_inner);
-        }
+        let mut state = self.wait_while(state, Duration::MAX, |state| {
+            state.wanted_scene.is_none() && !self.is_stopped()
+        });
+        let wanted = state.wanted_scene.take_if(|_| !self.is_stopped());
+        state.is_building = wanted.is_some();
+        wanted
     }
 
     /// Whether a newer scene than the one in hand is wanted.
@@ -145,19 +160,9 @@ impl Shared {
         if cfg!(target_arch = "wasm32") {
             return;
         }
-        let deadline = Instant::now() + patience;
-        let mut state = self.lock();
-        while state.wanted_scene.is_none() && !self.is_stopped() {
-            let left = deadline.saturating_duration_since(Instant::now());
-            if left.is_zero() {
-                return;
-            }
-            state = self
-                .news
-                .wait_timeout(state, left)
-                .unwrap_or_else(PoisonError::into_inner)
-                .0;
-        }
+        drop(self.wait_while(self.lock(), patience, |state| {
+            state.wanted_scene.is_none() && !self.is_stopped()
+        }));
     }
 
     /// Something to paint until all of the scene is there; nobody else is shown it.
@@ -182,49 +187,18 @@ impl Shared {
 
     /// What is to be painted now, if scene and view are there.
     pub fn order(&self) -> Option<Order> {
-        let state = self.lock();
-        Some(Order {
-            built: Arc::clone(state.to_be_painted()?),
-            view: state.view?,
-        })
+        self.lock().order()
     }
 
     /// Blocks, which only a thread may: until the order is another one than `done`, or until `patience` is over; none when it is time to end.
     #[cfg(not(target_arch = "wasm32"))]
     pub fn next_order(&self, done: Option<&Order>, patience: Option<Duration>) -> Option<Order> {
-        let deadline = patience.map(|patience| Instant::now() + patience);
-        let mut state = self.lock();
-        loop {
-            if self.is_stopped() {
-                return None;
-            }
-            if let (Some(built), Some(view)) = (state.to_be_painted(), state.view) {
-                let order = Order {
-                    built: Arc::clone(built),
-                    view,
-                };
-                let is_new = done.is_none_or(|done| {
-                    !done.has_same_pixels(&order) || !done.view.is_shown_as(&view)
-                });
-                let is_late = deadline.is_some_and(|deadline| Instant::now() >= deadline);
-                if is_new || is_late {
-                    return Some(order);
-                }
-            }
-            state = match deadline {
-                None => self
-                    .news
-                    .wait(state)
-                    .unwrap_or_else(PoisonError::into_inner),
-                Some(deadline) => {
-                    let left = deadline.saturating_duration_since(Instant::now());
-                    self.news
-                        .wait_timeout(state, left)
-                        .unwrap_or_else(PoisonError::into_inner)
-                        .0
-                }
-            };
-        }
+        let is_done = |order: Order| done.is_some_and(|done| done.is_same(&order));
+        let patience = patience.unwrap_or(Duration::MAX);
+        let state = self.wait_while(self.lock(), patience, |state| {
+            !self.is_stopped() && state.order().is_none_or(is_done)
+        });
+        state.order().filter(|_| !self.is_stopped())
     }
 
     pub fn put_frame(&self, frame: Frame) {
@@ -255,20 +229,11 @@ impl Shared {
     /// Blocks until there is a frame of the wanted view and of this revision, an event, or until `patience` is over.
     #[cfg(not(target_arch = "wasm32"))]
     pub fn wait_for_frame(&self, revision: u64, patience: Duration) {
-        let deadline = Instant::now() + patience;
         let mut state = self.lock();
         state.is_awaited = true;
-        while !state.has_frame_of(revision) && state.events.is_empty() {
-            let left = deadline.saturating_duration_since(Instant::now());
-            if left.is_zero() {
-                break;
-            }
-            state = self
-                .news
-                .wait_timeout(state, left)
-                .unwrap_or_else(PoisonError::into_inner)
-                .0;
-        }
+        let mut state = self.wait_while(state, patience, |state| {
+            !state.has_frame_of(revision) && state.events.is_empty()
+        });
         state.is_awaited = false;
     }
 

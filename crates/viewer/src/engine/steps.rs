@@ -1,7 +1,10 @@
 //! The pictures on the way from a coarse one to the final one.
 
+use hairline_scene::Scene;
+
 use super::View;
 use super::pace::{Kind, scaled};
+use super::request::Order;
 
 /// Between the small filter of the full picture, 1, and that of the coarse one, 0: chosen by eye.
 const THINNED_FILTER: f64 = 0.8;
@@ -27,10 +30,19 @@ impl Step {
     /// The pixel's filter. A coarse picture looks through the small filter of the full one: through its own, each of its few
     /// pixels would see as many more scratches as it is larger, and a coarse picture would take as long as a fine one. It
     /// sparkles instead, for as long as something moves. Where scratches are left out, there is time for more of the pixel.
-    pub fn filter_std_px(&self, view: &View) -> f64 {
+    fn filter_std_px(&self, view: &View) -> f64 {
         let scale = f64::from(self.size_px[0]) / f64::from(view.size_px[0].max(1));
         let power = if self.thin > 1 { THINNED_FILTER } else { 1.0 };
         view.filter_std_px * scale.powf(power)
+    }
+
+    /// The scene from where it is seen.
+    pub fn scene(&self, order: &Order) -> Scene {
+        let mut scene = order.built.scene.clone();
+        scene.camera = order.view.camera;
+        scene.render.size_px = self.size_px;
+        scene.render.filter_std_px = self.filter_std_px(&order.view);
+        scene
     }
 }
 

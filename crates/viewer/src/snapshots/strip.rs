@@ -7,7 +7,7 @@ use egui::{
 
 use crate::viewport::Area;
 
-use super::{Snapshot, Snapshots, Way, Wish};
+use super::{Snapshot, Snapshots, Way};
 
 /// Height of a thumbnail, points; as wide as its picture needs, within bounds.
 const HEIGHT: f32 = 72.0;
@@ -15,8 +15,8 @@ const WIDTHS: std::ops::RangeInclusive<f32> = 48.0..=150.0;
 const NAME_HEIGHT: f32 = 18.0;
 
 impl Snapshots {
-    /// Shows it; what was asked for.
-    pub(super) fn strip(&mut self, ui: &mut Ui, area: &Area) -> Option<Wish> {
+    /// Shows it; the index of the one that is to be restored.
+    pub(super) fn strip(&mut self, ui: &mut Ui, area: &Area) -> Option<usize> {
         let corner = area.rect.left_bottom() + vec2(12.0, -12.0);
         egui::Area::new(Id::unique("snapshots"))
             .pivot(Align2::LEFT_BOTTOM)
@@ -24,7 +24,7 @@ impl Snapshots {
             .show(ui.ctx(), |ui| {
                 egui::Frame::popup(ui.style()).show(ui, |ui| {
                     ui.set_max_width(area.rect.width() - 40.0);
-                    let wish = self.tools(ui);
+                    let restored = self.tools(ui);
                     ScrollArea::horizontal().show(ui, |ui| {
                         ui.horizontal(|ui| {
                             let mut clicked = None;
@@ -41,7 +41,7 @@ impl Snapshots {
                             }
                         });
                     });
-                    wish
+                    restored
                 })
             })
             .inner
@@ -49,8 +49,8 @@ impl Snapshots {
     }
 
     /// How the chosen one is shown, and what can be done with it.
-    fn tools(&mut self, ui: &mut Ui) -> Option<Wish> {
-        let mut wish = None;
+    fn tools(&mut self, ui: &mut Ui) -> Option<usize> {
+        let mut restored = None;
         ui.horizontal(|ui| {
             for way in Way::ALL {
                 let is_on = self.is_shown && self.way == way;
@@ -70,15 +70,15 @@ impl Snapshots {
                 .on_hover_text("Makes this look the current one; undo comes back from it")
                 .clicked()
             {
-                wish = Some(Wish::Restore(chosen));
+                restored = Some(chosen);
             }
             let delete = ui.button("Delete");
             delete.widget_info(|| WidgetInfo::labeled(Role::Button, true, "Delete the snapshot"));
             if delete.clicked() {
-                wish = Some(Wish::Delete(chosen));
+                self.delete(chosen);
             }
         });
-        wish
+        restored
     }
 }
 

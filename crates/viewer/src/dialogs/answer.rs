@@ -1,0 +1,40 @@
+//! What is to be done after an answer.
+
+use std::path::PathBuf;
+
+use hairline_editor::autosave::Pending;
+
+use crate::files::Purpose;
+
+/// What was asked for while there were unsaved changes.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Wish {
+    New,
+    Open(PathBuf),
+    Quit,
+}
+
+/// What came of a question.
+pub(crate) enum Answer {
+    /// All stays as it is.
+    Cancel,
+    /// The same, and the scene is not saved.
+    CancelSaving,
+    /// The scene is saved before the wish.
+    SaveBefore(Wish),
+    Fulfil(Wish),
+    SaveOver,
+    SaveAs,
+    /// A file that is there is written over.
+    Replace(PathBuf),
+    /// The scene gets another name than this.
+    Rename(PathBuf),
+    /// A path was typed.
+    Path(Purpose, PathBuf),
+    Reload,
+    /// What another program has written is passed over.
+    PassOver,
+    /// As large as in its file, or fitted to a size.
+    AddModel(PathBuf, Option<f64>),
+    Recover(Pending),
+}
