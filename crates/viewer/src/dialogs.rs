@@ -19,7 +19,7 @@ use ask::{Loses, ask};
 use recovery::Recovery;
 
 /// What is being asked.
-enum Question {
+pub(crate) enum Question {
     /// Unsaved changes stand in the way of a wish.
     Unsaved(Wish),
     /// Autosaves of earlier runs that did not end as they should.
@@ -57,46 +57,14 @@ impl Dialogs {
         self.question.is_some() || self.help
     }
 
-    pub fn ask_about_unsaved(&mut self, wish: Wish) {
-        self.question = Some(Question::Unsaved(wish));
+    pub fn ask(&mut self, question: Question) {
+        self.question = Some(question);
     }
 
     pub fn offer_recovery(&mut self, pending: Vec<Pending>) {
         if !pending.is_empty() {
-            self.question = Some(Question::Recover(Recovery::new(pending)));
+            self.ask(Question::Recover(Recovery::new(pending)));
         }
-    }
-
-    pub fn ask_for_path(&mut self, purpose: Purpose, proposal: String) {
-        self.question = Some(Question::Path(purpose, proposal));
-    }
-
-    /// Another program has written the scene file.
-    pub fn ask_about_change(&mut self) {
-        self.question = Some(Question::Changed);
-    }
-
-    pub fn ask_to_reload(&mut self) {
-        self.question = Some(Question::Reload);
-    }
-
-    /// Another program has written the file that is to be saved.
-    pub fn ask_to_save_over(&mut self) {
-        self.question = Some(Question::SaveOver);
-    }
-
-    /// The file that is to be written is there already.
-    pub fn ask_to_replace(&mut self, path: PathBuf) {
-        self.question = Some(Question::Replace(path));
-    }
-
-    /// A model is `extent_m` large in its file, and `fit_m` would suit the scene.
-    pub fn ask_to_fit(&mut self, path: PathBuf, extent_m: f64, fit_m: f64) {
-        self.question = Some(Question::Fit {
-            path,
-            extent_m,
-            fit_m,
-        });
     }
 
     pub fn show_help(&mut self) {

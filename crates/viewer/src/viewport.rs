@@ -31,7 +31,7 @@ pub(crate) struct Viewport {
     gizmo: Gizmo,
     line_fields: Vec<LineField>,
     /// The largest time of the interface's own passes of late, for the status line.
-    interface_time: Duration,
+    pub interface_time: Duration,
     /// That the engine was given last.
     pub view: Option<View>,
     /// When the wheel was last turned, seconds: its turns in a row are one step.
@@ -61,15 +61,6 @@ impl Viewport {
     pub fn note_interface_time(&mut self, time: Duration) {
         // Falls by half in some 20 passes: a peak can be read.
         self.interface_time = time.max(self.interface_time.mul_f64(0.966));
-    }
-
-    pub fn interface_time(&self) -> Duration {
-        self.interface_time
-    }
-
-    /// Room for another picture on the same device.
-    pub fn new_canvas(&self) -> CanvasTexture {
-        CanvasTexture::new(self.canvas.render_state().cloned())
     }
 
     /// A press beside a menu or another popup closes that, and neither selects nor draws. To be asked in each pass, before what is

@@ -8,7 +8,7 @@ use hairline_editor::autosave::Pending;
 use hairline_editor::document::SaveError;
 
 use super::Viewer;
-use crate::dialogs::Wish;
+use crate::dialogs::{Question, Wish};
 use crate::files::Purpose;
 use crate::snapshots::Snapshots;
 use crate::tools::Tool;
@@ -17,7 +17,7 @@ impl Viewer {
     /// Does what would lose unsaved changes, or asks first.
     pub(super) fn wish(&mut self, ctx: &egui::Context, wish: Wish) {
         if self.work.document.is_modified() {
-            self.dialogs.ask_about_unsaved(wish);
+            self.dialogs.ask(Question::Unsaved(wish));
         } else {
             self.fulfil(ctx, wish);
         }
@@ -59,7 +59,7 @@ impl Viewer {
         if self.work.is_own_file(&path) {
             self.save(ctx);
         } else if path.exists() && !(has_asked && path == chosen) {
-            self.dialogs.ask_to_replace(path);
+            self.dialogs.ask(Question::Replace(path));
         } else {
             self.write_as(ctx, &path);
         }
@@ -75,7 +75,7 @@ impl Viewer {
         match done {
             Err(SaveError::ChangedOnDisk(_)) => {
                 self.after_save = after;
-                self.dialogs.ask_to_save_over();
+                self.dialogs.ask(Question::SaveOver);
             }
             Err(error) => self.work.notices.error("save", error.to_string()),
             Ok(()) => {
@@ -129,7 +129,7 @@ impl Viewer {
         let is_asked = ctx.input(|input| input.viewport().close_requested());
         if is_asked && !self.is_closing && self.work.document.is_modified() {
             ctx.send_viewport_cmd(ViewportCommand::CancelClose);
-            self.dialogs.ask_about_unsaved(Wish::Quit);
+            self.dialogs.ask(Question::Unsaved(Wish::Quit));
         }
     }
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 use hairline_editor::document::OnDisk;
 
 use super::Viewer;
-use crate::dialogs::Answer;
+use crate::dialogs::{Answer, Question};
 use crate::files::Purpose;
 
 impl Viewer {
@@ -33,7 +33,7 @@ impl Viewer {
         match self.work.document.on_disk() {
             OnDisk::Same | OnDisk::Gone => {}
             OnDisk::Changed if self.work.document.is_modified() => {
-                self.dialogs.ask_about_change();
+                self.dialogs.ask(Question::Changed);
             }
             OnDisk::Changed => self
                 .work
@@ -44,7 +44,7 @@ impl Viewer {
     /// File > Reload.
     pub(super) fn wish_reload(&mut self) {
         if self.work.document.is_modified() {
-            self.dialogs.ask_to_reload();
+            self.dialogs.ask(Question::Reload);
         } else {
             self.work.reload("was loaded again.");
         }
@@ -80,7 +80,7 @@ impl Viewer {
             Answer::Replace(path) => self.write_as(ctx, &path),
             Answer::Rename(path) => {
                 let typed = path.display().to_string();
-                self.dialogs.ask_for_path(Purpose::SaveAs, typed);
+                self.dialogs.ask(Question::Path(Purpose::SaveAs, typed));
             }
             Answer::Fulfil(wish) => self.fulfil(ctx, wish),
             Answer::Path(purpose, path) => self.take_typed_path(ctx, purpose, &path),

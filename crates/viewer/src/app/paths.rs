@@ -7,7 +7,7 @@ use hairline_scene::description::Map;
 use hairline_scene::probe::{self, MeshSummary};
 
 use super::Viewer;
-use crate::dialogs::Wish;
+use crate::dialogs::{Question, Wish};
 use crate::files::{Choice, Purpose};
 
 impl Viewer {
@@ -22,7 +22,7 @@ impl Viewer {
             Choice::Nothing => self.after_save = None,
             Choice::NoDialogs(purpose) => {
                 let proposal = purpose.proposal(&self.work.document);
-                self.dialogs.ask_for_path(purpose, proposal);
+                self.dialogs.ask(Question::Path(purpose, proposal));
             }
             Choice::Path(purpose, path) => self.take_path(ctx, purpose, &path),
             Choice::Probed(purpose, path, probed) => self.take_probed(purpose, &path, probed),
@@ -94,7 +94,11 @@ impl Viewer {
         }
         let extent_m = probe::scene_extent_m(self.work.document.description());
         match summary.and_then(|model| Some((model.extent_m(), model.fit_m(extent_m)?))) {
-            Some((own_m, fit_m)) => self.dialogs.ask_to_fit(path.to_owned(), own_m, fit_m),
+            Some((extent_m, fit_m)) => self.dialogs.ask(Question::Fit {
+                path: path.to_owned(),
+                extent_m,
+                fit_m,
+            }),
             None => self.add_model(path, None),
         }
     }

@@ -81,7 +81,7 @@ impl Viewer {
     fn take_snapshot(&mut self) {
         let work = &mut self.work;
         if let Some(view) = work.engine.view() {
-            let canvas = self.viewport.new_canvas();
+            let canvas = self.viewport.canvas.another();
             work.snapshots
                 .take(&work.document, view, canvas, &mut work.notices);
         }

@@ -26,7 +26,7 @@ pub(crate) fn show(ui: &mut Ui, engine: &Engine, viewport: &Viewport) {
                 ui.label("laying scratches");
             }
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                let time = viewport.interface_time();
+                let time = viewport.interface_time;
                 ui.label(RichText::new(format!("interface {}", milliseconds(time))).weak())
                     .on_hover_text("The longest pass of the interface itself of late");
                 ui.label(engine.backend().label())

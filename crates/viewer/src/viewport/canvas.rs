@@ -126,9 +126,9 @@ impl CanvasTexture {
         }
     }
 
-    /// The state of the device that draws the window, if there is one.
-    pub fn render_state(&self) -> Option<&RenderState> {
-        self.render_state.as_ref()
+    /// Room for another picture on the same device.
+    pub fn another(&self) -> Self {
+        Self::new(self.render_state.clone())
     }
 
     fn hold(&mut self, next: Held) {
