@@ -92,8 +92,7 @@ impl Viewer {
     ) -> Result<Self, hairline_scene::Error> {
         crate::style::set(ctx);
         let mut notices = Notices::default();
-        let opened = options.scene.as_deref().map(open);
-        let document = match opened {
+        let document = match options.scene.as_deref().map(open) {
             Some(Ok(document)) => document,
             other => {
                 if let Some(Err(error)) = other {
@@ -266,21 +265,14 @@ impl Viewer {
             ctx.request_repaint_after(pause);
         }
         if let Some(failed) = self.files.autosave(&self.work.document) {
-            self.work
-                .notices
-                .error("autosave", format!("No autosave: {failed}"));
+            let text = format!("No autosave: {failed}");
+            self.work.notices.error("autosave", text);
         }
         self.watch_close(&ctx);
         self.was_typing = ctx.text_edit_focused();
-        let title = format!(
-            "{}{} · Hairline",
-            self.work.document.title(),
-            if self.work.document.is_modified() {
-                " •"
-            } else {
-                ""
-            }
-        );
+        let document = &self.work.document;
+        let sign = if document.is_modified() { " •" } else { "" };
+        let title = format!("{}{sign} · Hairline", document.title());
         // A command to the window asks for another pass: without a change there would be no end of them.
         if self.title != title {
             ctx.send_viewport_cmd(egui::ViewportCommand::Title(title.clone()));

@@ -91,11 +91,8 @@ impl Viewer {
     /// A model that was added may be far larger or smaller than what was there.
     pub(super) fn frame_what_was_added(&mut self) {
         let objects = &self.work.document.description().objects;
-        let is_built = self
-            .work
-            .engine
-            .built()
-            .is_some_and(|built| built.description.objects == *objects);
+        let built = self.work.engine.built();
+        let is_built = built.is_some_and(|built| built.description.objects == *objects);
         if self.frame_when_built && is_built {
             self.frame_when_built = false;
             self.work.frame_selection();

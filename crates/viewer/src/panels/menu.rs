@@ -22,53 +22,49 @@ pub(crate) fn show(
     Panel::top("menu").show(ui, |ui| {
         MenuBar::new().ui(ui, |ui| {
             for group in Group::ALL {
-                ui.menu_button(group.name(), |ui| {
-                    chosen = menu(ui, work, group, files).or(chosen.take());
-                });
+                let menu = ui.menu_button(group.name(), |ui| menu(ui, work, group, files));
+                chosen = menu.inner.flatten().or(chosen.take());
             }
             ui.separator();
             for tool in Tool::ALL {
                 let command = Command::Pick(tool);
                 let button = Button::selectable(work.toolbox.tool == tool, command.label());
-                if ui.add(button).on_hover_text(hint(command, tool.hint())).clicked() {
-                    work.wished.push(command);
-                }
+                bar_button(ui, work, command, button, tool.hint());
             }
             ui.separator();
             let undo = work.document.undo_label().map(str::to_owned);
             let redo = work.document.redo_label().map(str::to_owned);
             for (command, what) in [(Command::Undo, undo), (Command::Redo, redo)] {
                 let button = Button::new(command.label());
-                let response = ui.add_enabled(what.is_some(), button);
-                let text = hint(command, what.as_deref().unwrap_or("nothing"));
-                if response.on_hover_text(text).clicked() {
-                    work.wished.push(command);
-                }
+                let text = what.as_deref().unwrap_or("nothing");
+                bar_button(ui, work, command, button, text);
             }
             ui.separator();
-            let button = Button::new("Snapshot");
             let text = "Keeps this look, with its picture, to compare with and to come back to";
-            if ui.add(button).on_hover_text(hint(Command::TakeSnapshot, text)).clicked() {
-                work.wished.push(Command::TakeSnapshot);
-            }
-            if !Command::Compare.is_here() {
-                return;
-            }
-            ui.separator();
-            let button = Button::selectable(is_comparing, "Compare");
-            if ui
-                .add(button)
-                .on_hover_text(hint(
-                    Command::Compare,
-                    "Renders the reference of this view in the background and shows it beside the picture",
-                ))
-                .clicked()
-            {
-                work.wished.push(Command::Compare);
+            let button = Button::new("Snapshot");
+            bar_button(ui, work, Command::TakeSnapshot, button, text);
+            if Command::Compare.is_here() {
+                ui.separator();
+                let text = "Renders the reference of this view in the background and shows it beside the \
+                            picture";
+                let button = Button::selectable(is_comparing, "Compare");
+                bar_button(ui, work, Command::Compare, button, text);
             }
         });
     });
     chosen
+}
+
+/// A button that asks for a command; the tooltip tells what it does, and its key.
+fn bar_button(ui: &mut Ui, work: &mut Workspace, command: Command, button: Button, text: &str) {
+    let response = ui.add_enabled(work.can(command), button);
+    let text = match command.shortcut() {
+        Some(shortcut) => format!("{text} ({})", command::key_text(&shortcut)),
+        None => text.to_owned(),
+    };
+    if response.on_hover_text(text).clicked() {
+        work.wished.push(command);
+    }
 }
 
 fn menu(ui: &mut Ui, work: &mut Workspace, group: Group, files: &Files) -> Option<PathBuf> {
@@ -141,14 +137,6 @@ pub(crate) fn on_selection(ui: &mut Ui, work: &mut Workspace) {
         if work.can(command) {
             item(ui, work, command);
         }
-    }
-}
-
-/// What it does, and its key.
-fn hint(command: Command, text: &str) -> String {
-    match command.shortcut() {
-        Some(shortcut) => format!("{text} ({})", command::key_text(&shortcut)),
-        None => text.to_owned(),
     }
 }
 

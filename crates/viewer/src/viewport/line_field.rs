@@ -152,7 +152,7 @@ impl LineField {
         area: &Area,
         now_s: f64,
     ) -> bool {
-        let start = Instant::now();
+        let deadline = Instant::now() + self.budget;
         let is_same_layer = self
             .layer
             .as_ref()
@@ -170,7 +170,7 @@ impl LineField {
             let is_first = self.lens.replace(lens.clone()).is_none();
             self.moved_s = if is_first { f64::NEG_INFINITY } else { now_s };
             self.search = None;
-            self.lines = lines(&self.marks, built, &lens, start, self.budget);
+            self.lines = lines(&self.marks, built, &lens, deadline);
         }
         let Some(layer) = &self.layer else {
             return true;
@@ -178,32 +178,43 @@ impl LineField {
         if now_s - self.moved_s < REST_S {
             return false;
         }
-        let search = self.search.get_or_insert_with(|| {
+        if self.search.is_none() {
             self.marks.clear();
             self.lines.clear();
-            Search::new(area)
-        });
-        search.go_on(
-            layer,
-            built,
-            &lens,
-            area,
-            (start, self.budget),
-            &mut self.marks,
-            &mut self.lines,
-        )
+        }
+        let search = self.search.get_or_insert_with(|| Search::new(area));
+        // Scratches in squares that have none yet, for as long as a pass may take.
+        while search.tried < MOST_TRIES && self.marks.len() < MOST && layer.count > 0 {
+            let number = search.tried;
+            search.tried += 1;
+            if number.is_multiple_of(BATCH) && Instant::now() >= deadline {
+                return false;
+            }
+            let Some(mark) = layer.mark(number) else {
+                continue;
+            };
+            let pos = lens.project(mark.point_m);
+            let Some(cell) = pos.and_then(|pos| search.cell(area, pos)) else {
+                continue;
+            };
+            if !search.taken[cell]
+                && mark.is_seen(built, &lens)
+                && let Some(line) = mark.line(&lens)
+            {
+                search.taken[cell] = true;
+                self.marks.push(mark);
+                self.lines.push(line);
+            }
+        }
+        true
     }
 }
 
 /// Those of the marks that are seen. What the time does not suffice for comes back when the view rests.
-fn lines(
-    marks: &[Mark],
-    built: &Built,
-    lens: &Lens,
-    start: Instant,
-    budget: Duration,
-) -> Vec<[Pos2; 2]> {
-    let batches = marks.chunks(BATCH).take_while(|_| start.elapsed() < budget);
+fn lines(marks: &[Mark], built: &Built, lens: &Lens, deadline: Instant) -> Vec<[Pos2; 2]> {
+    let batches = marks
+        .chunks(BATCH)
+        .take_while(|_| Instant::now() < deadline);
     let seen = batches.flatten().filter(|mark| mark.is_seen(built, lens));
     seen.filter_map(|mark| mark.line(lens)).collect()
 }
@@ -293,43 +304,5 @@ impl Search {
         let at = (pos - area.rect.min) / CELL;
         let cell = at.y as usize * self.columns + at.x as usize;
         (area.rect.contains(pos) && cell < self.taken.len()).then_some(cell)
-    }
-
-    /// Looks for scratches in squares that have none yet, for as long as a pass may take; says whether that was all.
-    #[allow(clippy::too_many_arguments)]
-    fn go_on(
-        &mut self,
-        layer: &Layer,
-        built: &Built,
-        lens: &Lens,
-        area: &Area,
-        (start, budget): (Instant, Duration),
-        marks: &mut Vec<Mark>,
-        lines: &mut Vec<[Pos2; 2]>,
-    ) -> bool {
-        while self.tried < MOST_TRIES && marks.len() < MOST && layer.count > 0 {
-            if self.tried.is_multiple_of(BATCH) && start.elapsed() >= budget {
-                self.tried += 1;
-                return false;
-            }
-            let mark = layer.mark(self.tried);
-            self.tried += 1;
-            let Some(mark) = mark else { continue };
-            let Some(cell) = lens
-                .project(mark.point_m)
-                .and_then(|pos| self.cell(area, pos))
-            else {
-                continue;
-            };
-            if !self.taken[cell]
-                && mark.is_seen(built, lens)
-                && let Some(line) = mark.line(lens)
-            {
-                self.taken[cell] = true;
-                marks.push(mark);
-                lines.push(line);
-            }
-        }
-        true
     }
 }

@@ -75,6 +75,7 @@ impl StrokeTool {
         {
             let lens = Lens::new(&work.camera(), area);
             let painter = ui.painter().with_clip_rect(area.rect);
+            let color = color(work.toolbox.tool);
             if (is_held || self.going_on.is_some() || self.before.is_some()) && !self.is_cancelled {
                 let world = World {
                     built: &built,
@@ -93,10 +94,8 @@ impl StrokeTool {
                     Some(radius_m) => radius_m,
                     None => settings(work, &hit).radius_m,
                 };
-                let color = color(work.toolbox.tool);
                 show_ring(&painter, &lens, &hit, radius_m, color);
             }
-            let color = color(work.toolbox.tool);
             for way_m in self.going_on.iter().flat_map(Going::ways_m) {
                 show_way(&painter, &lens, way_m, color);
             }
