@@ -8,23 +8,6 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, ensure};
 
-/// Those that must have none: all but the viewer.
-const CRATES: [&str; 13] = [
-    "apps/hairline",
-    "crates/cpu",
-    "crates/editor",
-    "crates/fixtures",
-    "crates/gpu",
-    "crates/image",
-    "crates/index",
-    "crates/memory",
-    "crates/optics",
-    "crates/plot",
-    "crates/reference",
-    "crates/scene",
-    "xtask",
-];
-
 /// The command's arguments.
 #[derive(clap::Args)]
 pub struct Rooms {
@@ -78,10 +61,15 @@ impl Rooms {
     }
 }
 
-/// Others are looked at when they are named.
+/// All that have sources of their own; others are looked at when they are named.
 fn crates() -> Vec<PathBuf> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    CRATES.map(|name| root.join(name)).into()
+    let libraries = std::fs::read_dir(root.join("crates")).into_iter().flatten();
+    let libraries = libraries.flatten().map(|entry| entry.path());
+    let programs = ["apps/hairline", "xtask"].map(|name| root.join(name));
+    let mut folders: Vec<_> = libraries.chain(programs).collect();
+    folders.sort();
+    folders
 }
 
 /// The modules below `src`, tests left out.
