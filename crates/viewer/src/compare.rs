@@ -12,11 +12,7 @@ mod work;
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
-use hairline_image::Display;
-
 use crate::jobs::Job;
-use crate::viewport::Area;
-use crate::workspace::Workspace;
 pub use figures::{Figures, LayerFigures};
 use side::{Side, SideTexture};
 use work::{Kept, Report, Shown, Wanted};
@@ -154,36 +150,5 @@ impl Compare {
     pub fn is_sampling(&self) -> bool {
         let jobs = self.sampling.iter().map(|sampling| &sampling.job);
         jobs.chain(&self.ending).any(|job| !job.is_over())
-    }
-
-    /// Shows the comparison over the picture, if it is open.
-    pub fn show(&mut self, ui: &mut egui::Ui, work: &Workspace, area: &Area) {
-        self.ending.retain(|job| !job.is_over());
-        if !self.open {
-            return;
-        }
-        let Some(built) = work.engine.built() else {
-            return;
-        };
-        let camera = work.camera();
-        let description = work.document.description();
-        let wanted = Wanted {
-            built,
-            camera: crate::viewport::camera(&camera),
-            shown_px: area.frame_px(),
-            filter_std_px: description.render.filter_std_px,
-            full_size: self.full_size,
-        };
-        let display = Display {
-            exposure_ev: camera.exposure_ev + work.reading.exposure_ev,
-            tone_map: description.render.tone_map,
-        };
-        let ctx = ui.ctx().clone();
-        let now = ui.input(|input| input.time);
-        self.follow(&ctx, wanted, now);
-        self.draw(ui, area.frame, &display);
-        if self.panel(&ctx, area.rect) {
-            self.close();
-        }
     }
 }

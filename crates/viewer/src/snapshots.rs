@@ -14,7 +14,6 @@ use hairline_scene::Description;
 use crate::engine::{Frame, View};
 use crate::notices::Notices;
 use crate::seen::makes_same_scene;
-use crate::viewport::Area;
 use crate::viewport::canvas::CanvasTexture;
 
 /// A picture of a window takes some megabytes.
@@ -172,26 +171,5 @@ impl Snapshots {
         document.edit(&label, |description| *description = restored);
         self.chosen = Some(index);
         self.is_shown = false;
-    }
-
-    /// Shows the strip, and the snapshot that is chosen, over the picture: that of `now` on `canvas`, whose view is `view`.
-    pub fn show(
-        &mut self,
-        ui: &mut egui::Ui,
-        document: &mut Document,
-        area: &Area,
-        view: &View,
-        (now, canvas): (&Arc<Frame>, &mut CanvasTexture),
-    ) {
-        if self.is_empty() {
-            return;
-        }
-        for snapshot in &mut self.list {
-            snapshot.see(now);
-        }
-        self.draw(ui, area, view, (now, canvas));
-        if let Some(index) = self.strip(ui, area) {
-            self.restore(index, document);
-        }
     }
 }

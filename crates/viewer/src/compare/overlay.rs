@@ -8,18 +8,51 @@ use hairline_image::metrics::magma;
 use hairline_image::{Display, ToneMap};
 
 use crate::panels::busy::Busy;
+use crate::viewport::{self, Area};
+use crate::workspace::Workspace;
 
 use super::Compare;
 use super::divider;
 use super::figures::LayerFigures;
 use super::side::Side;
-use super::work::{Compared, Shown};
+use super::work::{Compared, Shown, Wanted};
 
 const WIDTH: f32 = 316.0;
 
 impl Compare {
+    /// Shows the comparison over the picture, if it is open.
+    pub fn show(&mut self, ui: &mut Ui, work: &Workspace, area: &Area) {
+        self.ending.retain(|job| !job.is_over());
+        if !self.open {
+            return;
+        }
+        let Some(built) = work.engine.built() else {
+            return;
+        };
+        let camera = work.camera();
+        let description = work.document.description();
+        let wanted = Wanted {
+            built,
+            camera: viewport::camera(&camera),
+            shown_px: area.frame_px(),
+            filter_std_px: description.render.filter_std_px,
+            full_size: self.full_size,
+        };
+        let display = Display {
+            exposure_ev: camera.exposure_ev + work.reading.exposure_ev,
+            tone_map: description.render.tone_map,
+        };
+        let ctx = ui.ctx().clone();
+        let now = ui.input(|input| input.time);
+        self.follow(&ctx, wanted, now);
+        self.draw(ui, area.frame, &display);
+        if self.panel(&ctx, area.rect) {
+            self.close();
+        }
+    }
+
     /// Over the picture, whose frame is `frame`.
-    pub(super) fn draw(&mut self, ui: &mut Ui, frame: Rect, display: &Display) {
+    fn draw(&mut self, ui: &mut Ui, frame: Rect, display: &Display) {
         let shown = self.shown();
         let x = frame.left() + self.divider * frame.width();
         let right = Rect::from_min_max(pos2(x, frame.top()), frame.max);
@@ -39,7 +72,7 @@ impl Compare {
     }
 
     /// Figures, and what is shown; true where it is to be closed.
-    pub(super) fn panel(&mut self, ctx: &egui::Context, area: Rect) -> bool {
+    fn panel(&mut self, ctx: &egui::Context, area: Rect) -> bool {
         let shown = self.shown();
         let corner = area.right_top() + vec2(-12.0, 12.0);
         egui::Area::new(Id::unique("comparison"))

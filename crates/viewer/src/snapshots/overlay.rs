@@ -1,6 +1,9 @@
 //! A snapshot in the place of the picture, beside it, or right of a divider.
 
+use std::sync::Arc;
+
 use egui::{Align2, Color32, FontId, Rect, TextureId, Ui, pos2, vec2};
+use hairline_editor::Document;
 
 use crate::compare::divider;
 use crate::engine::{Frame, View};
@@ -13,8 +16,29 @@ use super::{Snapshots, Way};
 const GAP: f32 = 2.0;
 
 impl Snapshots {
+    /// Shows the strip, and the snapshot that is chosen, over the picture: that of `now` on `canvas`, whose view is `view`.
+    pub fn show(
+        &mut self,
+        ui: &mut Ui,
+        document: &mut Document,
+        area: &Area,
+        view: &View,
+        (now, canvas): (&Arc<Frame>, &mut CanvasTexture),
+    ) {
+        if self.is_empty() {
+            return;
+        }
+        for snapshot in &mut self.list {
+            snapshot.see(now);
+        }
+        self.draw(ui, area, view, (now, canvas));
+        if let Some(index) = self.strip(ui, area) {
+            self.restore(index, document);
+        }
+    }
+
     /// Draws the one that is shown; `now` on `canvas` is the current look.
-    pub(super) fn draw(
+    fn draw(
         &mut self,
         ui: &mut Ui,
         area: &Area,
