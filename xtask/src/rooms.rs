@@ -1,7 +1,7 @@
 //! `cargo xtask rooms`: modules of a crate that import each other in a circle. There must be none.
 //!
-//! A module is a file. It imports what its code names by `crate::`, `super::` or a child module. What a module hands on by `pub use` is
-//! an import of who names it, from where it is written. Comments, strings and tests are not read.
+//! A module is a file. It imports what its code names by `crate::`, `super::`, a child module or a name of its `use` lines. What a
+//! module hands on by `pub use` is an import of who names it, from where it is written. Comments, strings and tests are not read.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -157,7 +157,7 @@ impl Module {
                 "super" => Some(name[..name.len().saturating_sub(1)].to_vec()),
                 "self" => Some(name.clone()),
                 word if child(word) => Some([&name[..], &[word.to_owned()]].concat()),
-                _ => None,
+                word => module.aliases.get(word).cloned(),
             };
             match base {
                 Some(base) if path => i = module.tree(tokens, i + 1, base, [used, handed_on]),
