@@ -137,6 +137,40 @@ fn a_thousand_places_of_the_pointer_are_taken_up_at_once() {
     println!("a pass with 1000 places of the pointer: {took:?}");
 }
 
+/// Until the picture has it. What is drawn in a free view is seen from there.
+#[test]
+fn a_stroke_that_the_picture_waits_for_lies_where_the_pointer_was() {
+    let mut harness = common::viewer(common::BUILT_IN);
+    common::wait_built(&mut harness);
+    let beside = middle(&harness) + vec2(0.0, 250.0);
+    common::drag(&mut harness, beside, beside + vec2(90.0, 20.0), 6);
+    assert_ne!(
+        harness.state().camera(),
+        common::description(&harness).camera
+    );
+    common::key(&mut harness, egui::Key::B);
+    let from = middle(&harness) + vec2(-30.0, 30.0);
+    common::drag(&mut harness, from, from + vec2(60.0, 0.0), 6);
+    assert_eq!(strokes(&harness).len(), 1);
+    harness.step();
+    let viewer = harness.state();
+    let frame = viewer.engine().latest().unwrap();
+    if frame.built.revision == viewer.document().revision() {
+        return;
+    }
+    let lies_there = |clipped: &egui::epaint::ClippedShape| match &clipped.shape {
+        egui::Shape::Path(path) => {
+            let is_near = |at: f32, wanted: f32| (at - wanted).abs() < 3.0;
+            let ends = (path.points.first(), path.points.last());
+            path.stroke.width == 3.0
+                && matches!(ends, (Some(a), Some(b)) if is_near(a.x, from.x) && is_near(b.x, from.x + 60.0)
+                    && is_near(a.y, from.y) && is_near(b.y, from.y))
+        }
+        _ => false,
+    };
+    assert!(harness.output().shapes.iter().any(lies_there));
+}
+
 /// Half of the brush's width on the screen, in parts of the picture's height.
 fn share_of_view(harness: &Harness<'static, Viewer>, stroke: &Stroke) -> f64 {
     let camera = &common::description(harness).camera;

@@ -40,7 +40,7 @@ pub(super) fn show_drawn(ui: &Ui, work: &Workspace, kept: &mut Option<Drawn>, ar
         return;
     };
     if drawn.is_awaited(work) {
-        let lens = Lens::new(&work.document.description().camera, area);
+        let lens = Lens::new(&work.camera(), area);
         let painter = ui.painter().with_clip_rect(area.rect);
         for way_m in &drawn.ways_m {
             show_way(&painter, &lens, way_m, color(drawn.tool));
