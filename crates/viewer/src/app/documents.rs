@@ -1,4 +1,5 @@
-//! Which document is edited: a new one, another one, one that is recovered; and the file that it is saved to.
+//! Which document is edited: a new one, another one, one that is recovered; the file that it is saved to; and what comes of
+//! questions about all that.
 
 use std::path::Path;
 
@@ -8,7 +9,7 @@ use hairline_editor::autosave::Pending;
 use hairline_editor::document::SaveError;
 
 use super::Viewer;
-use crate::dialogs::{Question, Wish};
+use crate::dialogs::{Answer, Question, Wish};
 use crate::files::Purpose;
 use crate::snapshots::Snapshots;
 use crate::tools::Tool;
@@ -121,6 +122,38 @@ impl Viewer {
                 self.work.notices.note("recovered", text);
             }
             Err(error) => self.work.notices.error("recovered", error.to_string()),
+        }
+    }
+
+    /// Shows the questions, and does what is answered.
+    pub(super) fn show_dialogs(&mut self, ctx: &egui::Context) {
+        let title = self.work.document.title();
+        let Some(answer) = self.dialogs.show(ctx, &title) else {
+            return;
+        };
+        match answer {
+            Answer::Cancel => {}
+            Answer::CancelSaving => self.after_save = None,
+            Answer::SaveBefore(wish) => {
+                self.after_save = Some(wish);
+                self.save(ctx);
+            }
+            Answer::SaveOver => {
+                let done = self.work.document.save_over();
+                self.saved(ctx, done);
+            }
+            Answer::SaveAs => self.ask_path(ctx, Purpose::SaveAs),
+            Answer::Replace(path) => self.write_as(ctx, &path),
+            Answer::Rename(path) => {
+                let typed = path.display().to_string();
+                self.dialogs.ask(Question::Path(Purpose::SaveAs, typed));
+            }
+            Answer::Fulfil(wish) => self.fulfil(ctx, wish),
+            Answer::Path(purpose, path) => self.take_typed_path(ctx, purpose, &path),
+            Answer::Reload => self.work.reload("was loaded again."),
+            Answer::PassOver => self.work.document.pass_over_disk(),
+            Answer::AddModel(path, fit_m) => self.add_model(&path, fit_m),
+            Answer::Recover(pending) => self.recover(pending),
         }
     }
 

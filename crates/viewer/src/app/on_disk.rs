@@ -5,8 +5,7 @@ use std::path::Path;
 use hairline_editor::document::OnDisk;
 
 use super::Viewer;
-use crate::dialogs::{Answer, Question};
-use crate::files::Purpose;
+use crate::dialogs::Question;
 
 impl Viewer {
     /// Takes in what other programs have written: the scene file, or what it names.
@@ -57,38 +56,6 @@ impl Viewer {
             "undo",
             "Back to what was saved last; undo brings the changes back.",
         );
-    }
-
-    /// Shows the questions, and does what is answered.
-    pub(super) fn show_dialogs(&mut self, ctx: &egui::Context) {
-        let title = self.work.document.title();
-        let Some(answer) = self.dialogs.show(ctx, &title) else {
-            return;
-        };
-        match answer {
-            Answer::Cancel => {}
-            Answer::CancelSaving => self.after_save = None,
-            Answer::SaveBefore(wish) => {
-                self.after_save = Some(wish);
-                self.save(ctx);
-            }
-            Answer::SaveOver => {
-                let done = self.work.document.save_over();
-                self.saved(ctx, done);
-            }
-            Answer::SaveAs => self.ask_path(ctx, Purpose::SaveAs),
-            Answer::Replace(path) => self.write_as(ctx, &path),
-            Answer::Rename(path) => {
-                let typed = path.display().to_string();
-                self.dialogs.ask(Question::Path(Purpose::SaveAs, typed));
-            }
-            Answer::Fulfil(wish) => self.fulfil(ctx, wish),
-            Answer::Path(purpose, path) => self.take_typed_path(ctx, purpose, &path),
-            Answer::Reload => self.work.reload("was loaded again."),
-            Answer::PassOver => self.work.document.pass_over_disk(),
-            Answer::AddModel(path, fit_m) => self.add_model(&path, fit_m),
-            Answer::Recover(pending) => self.recover(pending),
-        }
     }
 }
 
