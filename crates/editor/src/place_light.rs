@@ -7,22 +7,19 @@ use hairline_scene::vector_area_m2;
 
 use crate::ActionError;
 
-/// The middle of a light: of a sphere its centre, of a polygon the centroid of its area.
+/// The middle of a light: of a polygon the centroid of its area.
 pub fn center(light: &Light) -> DVec3 {
     match &light.kind {
-        LightKind::Sphere { center_m, .. } => (*center_m).into(),
+        LightKind::Sphere { center_m, .. }
+        | LightKind::Disk { center_m, .. }
+        | LightKind::Rectangle { center_m, .. } => (*center_m).into(),
         LightKind::Polygon { vertices_m, .. } => centroid(&points(vertices_m)),
     }
 }
 
-/// The unit normal of the side on which a polygon shines; none for a sphere.
+/// The unit normal of the side on which a flat light shines; none for a sphere.
 pub fn facing(light: &Light) -> Option<DVec3> {
-    match &light.kind {
-        LightKind::Sphere { .. } => None,
-        LightKind::Polygon { vertices_m, .. } => {
-            vector_area_m2(&points(vertices_m)).try_normalize()
-        }
-    }
+    vector_area_m2(&light.kind.corners_m()).try_normalize()
 }
 
 /// Moves a light.
@@ -44,8 +41,7 @@ pub fn resize(light: &mut Light, factor: f64) {
     let middle = center(light);
     let extent_m = match &light.kind {
         LightKind::Sphere { radius_m, .. } => *radius_m,
-        LightKind::Polygon { vertices_m, .. } => points(vertices_m)
-            .iter()
+        kind => (kind.corners_m().iter())
             .map(|v| v.distance(middle))
             .fold(0.0, f64::max),
     };
@@ -55,19 +51,29 @@ pub fn resize(light: &mut Light, factor: f64) {
     if !wanted_m.is_finite() || !(extent_m > 0.0) {
         return;
     }
+    let factor = wanted_m / extent_m;
     match &mut light.kind {
-        LightKind::Sphere { radius_m, .. } => *radius_m = wanted_m,
+        LightKind::Sphere { radius_m, .. } | LightKind::Disk { radius_m, .. } => {
+            *radius_m = (*radius_m * factor).clamp(SMALLEST_M, LARGEST_M);
+        }
+        LightKind::Rectangle {
+            width_m, height_m, ..
+        } => {
+            for side_m in [width_m, height_m] {
+                *side_m = (*side_m * factor).clamp(SMALLEST_M, LARGEST_M);
+            }
+        }
         LightKind::Polygon { vertices_m, .. } => {
             for vertex in vertices_m {
                 let arm = DVec3::from(*vertex) - middle;
-                *vertex = (middle + arm * (wanted_m / extent_m)).into();
+                *vertex = (middle + arm * factor).into();
             }
         }
     }
 }
 
 /// Moves a light so that an eye sees the middle of its mirror image at a point of a surface. It keeps its distance to the
-/// point and its size; a polygon is turned to face the point, by the shortest way.
+/// point and its size; a flat light is turned to face the point, by the shortest way.
 ///
 /// The side of the surface is the one that the eye is on. Nothing happens where the point is the eye or the light's middle.
 pub fn place_highlight(light: &mut Light, eye_m: DVec3, point_m: DVec3, normal: DVec3) {
@@ -86,7 +92,7 @@ pub fn place_highlight(light: &mut Light, eye_m: DVec3, point_m: DVec3, normal: 
     face(light, point_m);
 }
 
-/// Turns a polygon about its middle, by the shortest way, until it faces a point. A sphere stays as it is.
+/// Turns a flat light about its middle, by the shortest way, until it faces a point. A sphere stays as it is.
 pub(crate) fn face(light: &mut Light, point_m: DVec3) {
     let Some(normal) = facing(light) else {
         return;
@@ -94,13 +100,7 @@ pub(crate) fn face(light: &mut Light, point_m: DVec3) {
     let Some(towards) = (point_m - center(light)).try_normalize() else {
         return;
     };
-    let two_sided = matches!(
-        &light.kind,
-        LightKind::Polygon {
-            two_sided: true,
-            ..
-        }
-    );
+    let two_sided = light.kind.is_two_sided();
     let towards = match two_sided && normal.dot(towards) < 0.0 {
         true => -towards,
         false => towards,
@@ -190,8 +190,10 @@ fn reshape(
 
 fn turn(light: &mut Light, rotation: DQuat) {
     let middle = center(light);
-    if let LightKind::Polygon { .. } = light.kind {
+    let corners_m = light.kind.corners_m();
+    if let [a, b, ..] = corners_m[..] {
         each_point(light, |point| middle + rotation * (point - middle));
+        light.kind.lay_width_along(rotation * (b - a));
     }
 }
 
@@ -199,6 +201,12 @@ fn each_point(light: &mut Light, change: impl Fn(DVec3) -> DVec3) {
     let change = |point: &mut [f64; 3]| *point = change((*point).into()).into();
     match &mut light.kind {
         LightKind::Sphere { center_m, .. } => change(center_m),
+        LightKind::Disk {
+            center_m, target_m, ..
+        }
+        | LightKind::Rectangle {
+            center_m, target_m, ..
+        } => [center_m, target_m].into_iter().for_each(change),
         LightKind::Polygon { vertices_m, .. } => vertices_m.iter_mut().for_each(change),
     }
 }

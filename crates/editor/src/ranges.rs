@@ -39,7 +39,7 @@ pub(crate) const DEFAULT_DIAGONAL_M: f64 = 0.3;
 impl Parameter {
     /// Every parameter.
     #[cfg(test)]
-    pub(crate) const ALL: [Self; 49] = [
+    pub(crate) const ALL: [Self; 53] = [
         Self::CameraPosition,
         Self::CameraTarget,
         Self::CameraUp,
@@ -83,7 +83,11 @@ impl Parameter {
         Self::BrushWidth,
         Self::BrushDepth,
         Self::LightCenter,
+        Self::LightTarget,
         Self::LightRadius,
+        Self::LightWidth,
+        Self::LightHeight,
+        Self::LightRotation,
         Self::LightVertex,
         Self::Radiance,
         Self::LightExposure,
@@ -140,8 +144,11 @@ impl Parameter {
             P::BrushRadius => (2e-3 * d..=0.3 * d, limits::SIZE_M),
             P::BrushDensity => (10.0 / d..=10_000.0 / d, NOT_NEGATIVE),
             P::BrushWidth | P::BrushDepth => (0.25..=4.0, limits::STROKE_FACTOR),
-            P::LightCenter | P::LightVertex => (-5.0 * d..=5.0 * d, limits::COORDINATE_M),
-            P::LightRadius => (2e-3 * d..=d, limits::SIZE_M),
+            P::LightCenter | P::LightTarget | P::LightVertex => {
+                (-5.0 * d..=5.0 * d, limits::COORDINATE_M)
+            }
+            P::LightRadius | P::LightWidth | P::LightHeight => (2e-3 * d..=d, limits::SIZE_M),
+            P::LightRotation => (-180.0..=180.0, limits::ROTATION_DEG),
             P::Radiance => (0.01..=1000.0, NOT_NEGATIVE),
             P::LightExposure => (-8.0..=8.0, limits::EXPOSURE_EV),
             P::LightTemperature => (1800.0..=10_000.0, limits::TEMPERATURE_K),
@@ -178,6 +185,8 @@ impl Parameter {
                 | P::BrushWidth
                 | P::BrushDepth
                 | P::LightRadius
+                | P::LightWidth
+                | P::LightHeight
                 | P::Radiance
         )
     }
@@ -197,9 +206,16 @@ impl Parameter {
             | P::AxisCenter
             | P::BrushRadius
             | P::LightCenter
+            | P::LightTarget
             | P::LightRadius
+            | P::LightWidth
+            | P::LightHeight
             | P::LightVertex => Unit::Metre,
-            P::FieldOfView | P::EnvironmentRotation | P::Rotation | P::Jitter => Unit::Degree,
+            P::FieldOfView
+            | P::EnvironmentRotation
+            | P::Rotation
+            | P::Jitter
+            | P::LightRotation => Unit::Degree,
             P::Exposure | P::LightExposure => Unit::Exposure,
             P::LightTemperature => Unit::Kelvin,
             P::PictureSize | P::Filter => Unit::Pixel,

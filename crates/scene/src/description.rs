@@ -7,6 +7,7 @@
 
 mod check;
 pub(crate) mod hint;
+mod light_kind;
 mod lights;
 pub mod limits;
 mod parse;
@@ -27,7 +28,8 @@ use serde::Serialize;
 use crate::environment::BuiltInMap;
 use values::{Named, is_default, serialize_named, serialize_scale};
 
-pub use lights::{Light, LightKind};
+pub use light_kind::LightKind;
+pub use lights::Light;
 pub(crate) use scratches::DEFAULT_SEED;
 pub use scratches::{
     Amount, Around, Brush, Brushed, Distribution, Laid, Layer, Listed, Pattern, Scratches, Stroke,

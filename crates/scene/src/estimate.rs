@@ -58,7 +58,7 @@ impl Estimate {
         let vertices: usize = description
             .lights
             .iter()
-            .map(|light| light.kind.vertices_m().len())
+            .map(|light| light.kind.corners_m().len())
             .sum();
         if lights > 0 {
             self.parts.push(Part {

@@ -53,6 +53,20 @@ pub fn vector_area_m2(vertices_m: &[DVec3]) -> DVec3 {
         .sum()
 }
 
+/// Corners of the polygon that stands for a disk.
+const DISK_CORNERS: usize = 32;
+
+/// A regular polygon of the area of a disk with two half axes.
+pub(crate) fn disk_corners_m(center_m: DVec3, x_m: DVec3, y_m: DVec3) -> Vec<DVec3> {
+    let step = std::f64::consts::TAU / DISK_CORNERS as f64;
+    let out = (step / step.sin()).sqrt();
+    let corner = |i: usize| {
+        let (sin, cos) = (step * i as f64).sin_cos();
+        center_m + out * (cos * x_m + sin * y_m)
+    };
+    (0..DISK_CORNERS).map(corner).collect()
+}
+
 /// Refuses what is not a planar, simple polygon.
 pub(crate) fn check(vertices_m: &[DVec3]) -> Result<(), Flaw> {
     let n = vertices_m.len();

@@ -57,7 +57,7 @@ macro_rules! scenes {
     };
 }
 
-scenes! { brushed built_in_scene closeup drawn lights mirror pan plate spoon sunlit }
+scenes! { brushed built_in_scene closeup drawn lamps lights mirror pan plate spoon sunlit }
 
 #[test]
 fn no_scene_is_left_out() {

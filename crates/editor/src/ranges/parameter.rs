@@ -89,8 +89,16 @@ pub enum Parameter {
     BrushDepth,
     /// `light.center_m`
     LightCenter,
+    /// `light.target_m`
+    LightTarget,
     /// `light.radius_m`
     LightRadius,
+    /// `light.width_m`
+    LightWidth,
+    /// `light.height_m`
+    LightHeight,
+    /// `light.rotation_deg`
+    LightRotation,
     /// A point of `light.vertices_m`
     LightVertex,
     /// `light.radiance`

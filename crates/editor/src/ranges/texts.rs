@@ -183,6 +183,22 @@ pub(super) fn of(parameter: Parameter) -> Text {
             "Radius",
             "Small lights give pure rainbows and hard-edged glints; large ones overlap the colours to white around the highlight. At the same radiance a larger one also lights more.",
         ),
+        P::LightTarget => (
+            "Target",
+            "A point that the light faces. Its distance does not matter.",
+        ),
+        P::LightWidth => (
+            "Width",
+            "From side to side. Narrow lights keep colours pure across their width.",
+        ),
+        P::LightHeight => (
+            "Height",
+            "From lower to upper edge. Long lights fill more scratches with colour.",
+        ),
+        P::LightRotation => (
+            "Rotation",
+            "Turns the light about its axis, counter-clockwise as seen from its target.",
+        ),
         P::LightVertex => (
             "Corner",
             "A corner of the light. Its outline is mirrored in the surface, and scratches draw it out; long, thin shapes keep colours pure across their short side.",

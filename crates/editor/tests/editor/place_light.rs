@@ -45,14 +45,40 @@ fn polygon() -> impl Strategy<Value = Light> {
     )
 }
 
+/// Disks and rectangles that face anywhere.
+fn aimed() -> impl Strategy<Value = Light> {
+    let sizes = (0.05..0.5_f64, 0.05..0.5_f64, -180.0..180.0_f64);
+    (point(2.0), direction(), sizes, any::<bool>(), any::<bool>()).prop_map(
+        |(center, axis, (a, b, rotation_deg), two_sided, is_disk)| {
+            let (center_m, target_m) = (center.into(), (center + 0.7 * axis).into());
+            Light::new(match is_disk {
+                true => LightKind::Disk {
+                    center_m,
+                    target_m,
+                    radius_m: a,
+                    two_sided,
+                },
+                false => LightKind::Rectangle {
+                    center_m,
+                    target_m,
+                    width_m: a,
+                    height_m: b,
+                    rotation_deg,
+                    two_sided,
+                },
+            })
+        },
+    )
+}
+
 fn light() -> impl Strategy<Value = Light> {
-    prop_oneof![sphere(), polygon()]
+    prop_oneof![sphere(), aimed(), polygon()]
 }
 
 fn vertices(light: &Light) -> Vec<DVec3> {
-    match &light.kind {
-        LightKind::Sphere { center_m, .. } => vec![(*center_m).into()],
-        LightKind::Polygon { vertices_m, .. } => vertices_m.iter().map(|&v| v.into()).collect(),
+    match light.kind.corners_m() {
+        corners_m if corners_m.is_empty() => vec![center(light)],
+        corners_m => corners_m,
     }
 }
 
@@ -84,7 +110,7 @@ proptest! {
         prop_assert!((center(&light).distance(at) - center(&before).distance(at)).abs() < 1e-12);
         prop_assert!(same(&distances(&light), &distances(&before)));
         if let Some(normal) = hairline_editor::place_light::facing(&light) {
-            let two_sided = matches!(light.kind, LightKind::Polygon { two_sided: true, .. });
+            let two_sided = light.kind.is_two_sided();
             let cos = normal.dot(-wi);
             let cos = if two_sided { cos.abs() } else { cos };
             prop_assert!(cos > 1.0 - 1e-9);

@@ -1,15 +1,14 @@
-//! Lights as an author writes them: all that is particular to a kind but its look in a window.
+//! Lights as an author writes them.
 
-use glam::DVec3;
 use hairline_optics::spectrum::black_body_rgb;
 use serde::Serialize;
 
+use super::light_kind::{self, LightKind};
 use super::limits::{EXPOSURE_EV, TEMPERATURE_K};
-use super::ranges::{Check, components, not_negative, point, size, within};
+use super::ranges::{Check, components, not_negative, within};
 use super::table::{Read, Table, Value};
 use super::values::{is_false, is_zero};
 use crate::error::Error;
-use crate::polygon;
 use crate::scene;
 
 /// `[[light]]`
@@ -37,26 +36,6 @@ pub struct Light {
     pub color: [f64; 3],
 }
 
-/// `kind` of a `[[light]]`
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[serde(tag = "kind", rename_all = "lowercase")]
-pub enum LightKind {
-    /// `"sphere"`
-    Sphere {
-        /// Required.
-        center_m: [f64; 3],
-        /// Required.
-        radius_m: f64,
-    },
-    /// `"polygon"`: planar, simple, convex or not; shines to the side that sees its vertices counter-clockwise.
-    Polygon {
-        /// At least three. Required.
-        vertices_m: Vec<[f64; 3]>,
-        /// Whether the other side shines too. Default: false.
-        two_sided: bool,
-    },
-}
-
 impl Light {
     /// A white light of radiance 1, without a name, not hidden.
     pub fn new(kind: LightKind) -> Self {
@@ -73,7 +52,7 @@ impl Light {
 }
 
 impl Light {
-    /// Refuses values out of range, and polygons that are not planar and simple. Keys begin with `light`.
+    /// Refuses values out of range, and shapes that are none. Keys begin with `light`.
     ///
     /// # Errors
     /// What is wrong.
@@ -92,20 +71,7 @@ impl Light {
                 TEMPERATURE_K,
             )?;
         }
-        match &self.kind {
-            LightKind::Sphere { center_m, radius_m } => {
-                point(&format!("{key}.center_m"), *center_m)?;
-                size(&format!("{key}.radius_m"), *radius_m)
-            }
-            LightKind::Polygon { .. } => {
-                let key = format!("{key}.vertices_m");
-                for (i, vertex) in self.kind.vertices_m().iter().enumerate() {
-                    point(&format!("{key}[{i}]"), *vertex)?;
-                }
-                polygon::check(&self.kind.corners_m())
-                    .map_err(|flaw| Error::new(key, flaw.to_string(), flaw.remedy()))
-            }
-        }
+        self.kind.check_at(key)
     }
 
     /// What it is in a scene.
@@ -113,62 +79,7 @@ impl Light {
         let tint = self.temperature_k.map_or([1.0; 3], black_body_rgb);
         let radiance = self.radiance * self.exposure_ev.exp2();
         let radiance = std::array::from_fn(|c| self.color[c] * tint[c] * radiance);
-        match &self.kind {
-            LightKind::Sphere { center_m, radius_m } => scene::Light::Sphere {
-                center_m: (*center_m).into(),
-                radius_m: *radius_m,
-                radiance,
-            },
-            LightKind::Polygon { two_sided, .. } => scene::Light::Polygon {
-                vertices_m: self.kind.corners_m(),
-                radiance,
-                two_sided: *two_sided,
-            },
-        }
-    }
-}
-
-impl LightKind {
-    /// A sphere.
-    pub fn sphere(center_m: [f64; 3], radius_m: f64) -> Self {
-        Self::Sphere { center_m, radius_m }
-    }
-
-    /// A polygon that shines to one side.
-    pub fn polygon(vertices_m: Vec<[f64; 3]>) -> Self {
-        Self::Polygon {
-            vertices_m,
-            two_sided: false,
-        }
-    }
-
-    /// What scene files call it.
-    pub fn name(&self) -> &'static str {
-        match self {
-            Self::Sphere { .. } => "sphere",
-            Self::Polygon { .. } => "polygon",
-        }
-    }
-
-    /// What people call such a light.
-    pub fn title(&self) -> &'static str {
-        match self {
-            Self::Sphere { .. } => "sphere light",
-            Self::Polygon { .. } => "polygon light",
-        }
-    }
-
-    /// Its vertices; none of a sphere.
-    pub fn vertices_m(&self) -> &[[f64; 3]] {
-        match self {
-            Self::Sphere { .. } => &[],
-            Self::Polygon { vertices_m, .. } => vertices_m,
-        }
-    }
-
-    /// The same as vectors.
-    pub fn corners_m(&self) -> Vec<DVec3> {
-        self.vertices_m().iter().map(|&v| v.into()).collect()
+        self.kind.in_scene(radiance)
     }
 }
 
@@ -187,21 +98,9 @@ impl Read for Light {
                 "temperature_k",
                 "color",
             ],
-            &[
-                ("sphere", &["center_m", "radius_m"]),
-                ("polygon", &["vertices_m", "two_sided"]),
-            ],
+            &light_kind::KEYS,
         )?;
-        let kind = match kind {
-            "sphere" => LightKind::Sphere {
-                center_m: table.required("center_m")?,
-                radius_m: table.required("radius_m")?,
-            },
-            _ => LightKind::Polygon {
-                vertices_m: table.required("vertices_m")?,
-                two_sided: table.or("two_sided", false)?,
-            },
-        };
+        let kind = LightKind::read(kind, &table)?;
         Ok(Self {
             name: table.optional("name")?,
             hidden: table.or("hidden", false)?,

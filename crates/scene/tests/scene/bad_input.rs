@@ -58,7 +58,7 @@ fn unknown_keys() {
     );
     assert_eq!(
         light("kind = \"sphere\"\ntwo_sided = true"),
-        "plate.toml:17: light[0].two_sided: kind `sphere` has no such key; it belongs to `polygon`"
+        "plate.toml:17: light[0].two_sided: kind `sphere` has no such key; it belongs to `disk`, `rectangle` and `polygon`"
     );
 }
 
@@ -219,6 +219,20 @@ fn sizes_that_are_negative_or_not_finite() {
     assert_eq!(
         light("kind = \"sphere\"\ncenter_m = [0, 0, 0]\nradius_m = -1"),
         "plate.toml:18: light[0].radius_m: found -1; must be greater than 0"
+    );
+    assert_eq!(
+        light("kind = \"disk\"\ncenter_m = [0, 0, 1]\ntarget_m = [0, 0, 1]\nradius_m = 1"),
+        "plate.toml:18: light[0].target_m: found the light's own middle; must be another point, which the light is to face"
+    );
+    assert_eq!(
+        light("kind = \"rectangle\"\ncenter_m = [0, 0, 1]\ntarget_m = [0, 0, 0]\nwidth_m = 1"),
+        "plate.toml:15: light[0]: `height_m` is missing; `light[0]` needs it"
+    );
+    assert_eq!(
+        light(
+            "kind = \"rectangle\"\ncenter_m = [0, 0, 1]\ntarget_m = [0, 0, 0]\nwidth_m = 1\nheight_m = 0"
+        ),
+        "plate.toml:20: light[0].height_m: found 0; must be greater than 0"
     );
     assert_eq!(
         light("kind = \"sphere\"\ncenter_m = [0, inf, 0]\nradius_m = 1"),

@@ -240,6 +240,20 @@ fn everything() -> Description {
                 temperature_k: Some(3200.0),
                 color: [0.1, 0.2, 0.3],
             },
+            Light::new(LightKind::Disk {
+                center_m: [0.0, 0.0, 1.0],
+                target_m: [0.5, 0.0, 0.0],
+                radius_m: 0.25,
+                two_sided: true,
+            }),
+            Light::new(LightKind::Rectangle {
+                center_m: [0.0, 0.0, 1.0],
+                target_m: [0.5, 0.0, 0.0],
+                width_m: 0.25,
+                height_m: 3.0,
+                rotation_deg: -30.0,
+                two_sided: false,
+            }),
         ],
         notes: Vec::new(),
     }

@@ -9,6 +9,7 @@ mod builder;
 mod description;
 mod environment;
 mod gltf;
+mod lights;
 mod listed;
 mod probe;
 mod scratches;

@@ -13,6 +13,7 @@ use crate::workspace::Workspace;
 
 /// Changes the colour of a white light little.
 const DAYLIGHT_K: f64 = 6500.0;
+const TWO_SIDED: &str = "Whether the other side shines too";
 
 pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     let Some(mut light) = work.document.description().lights.get(index).cloned() else {
@@ -46,8 +47,34 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
             form.vector(Parameter::LightCenter, center_m);
             form.number(Parameter::LightRadius, radius_m);
         }
+        LightKind::Disk {
+            center_m,
+            target_m,
+            radius_m,
+            two_sided,
+        } => {
+            form.vector(Parameter::LightCenter, center_m);
+            form.vector(Parameter::LightTarget, target_m);
+            form.number(Parameter::LightRadius, radius_m);
+            form.toggle("Two-sided", TWO_SIDED, two_sided);
+        }
+        LightKind::Rectangle {
+            center_m,
+            target_m,
+            width_m,
+            height_m,
+            rotation_deg,
+            two_sided,
+        } => {
+            form.vector(Parameter::LightCenter, center_m);
+            form.vector(Parameter::LightTarget, target_m);
+            form.number(Parameter::LightWidth, width_m);
+            form.number(Parameter::LightHeight, height_m);
+            form.number(Parameter::LightRotation, rotation_deg);
+            form.toggle("Two-sided", TWO_SIDED, two_sided);
+        }
         LightKind::Polygon { two_sided, .. } => {
-            form.toggle("Two-sided", "Whether the other side shines too", two_sided);
+            form.toggle("Two-sided", TWO_SIDED, two_sided);
         }
     }
     if let Some(change) = form.change() {

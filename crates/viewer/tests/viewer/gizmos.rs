@@ -24,10 +24,7 @@ fn handle(harness: &Harness<'static, Viewer>, label: &str) -> Pos2 {
 }
 
 fn corners(light: &Light) -> Vec<DVec3> {
-    match &light.kind {
-        LightKind::Polygon { vertices_m, .. } => vertices_m.iter().map(|&v| v.into()).collect(),
-        LightKind::Sphere { .. } => Vec::new(),
-    }
+    light.kind.corners_m()
 }
 
 /// How far the farthest corner lies from the plane through the first three.
@@ -205,7 +202,7 @@ fn the_size_handle_scales_about_the_middle() {
     let mut harness = with_selected("lamp");
     let radius_m = |harness: &Harness<'static, Viewer>| match common::light(harness, LAMP).kind {
         LightKind::Sphere { radius_m, .. } => radius_m,
-        LightKind::Polygon { .. } => f64::NAN,
+        _ => f64::NAN,
     };
     let before_m = radius_m(&harness);
     let from = handle(&harness, "Resize light");

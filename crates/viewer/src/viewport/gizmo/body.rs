@@ -41,14 +41,13 @@ impl Body {
     }
 
     fn of_light(light: &Light) -> Self {
-        let corners_m = light.kind.corners_m();
         Self {
             noun: "light",
             center_m: place_light::center(light),
-            turns: !corners_m.is_empty(),
+            turns: place_light::facing(light).is_some(),
             resizes: true,
             normal: place_light::facing(light),
-            corners_m,
+            corners_m: light.kind.vertices_m().iter().map(|&v| v.into()).collect(),
         }
     }
 }

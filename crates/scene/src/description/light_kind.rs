@@ -1,0 +1,294 @@
+//! The shapes of lights.
+
+use glam::DVec3;
+use serde::Serialize;
+
+use super::limits::ROTATION_DEG;
+use super::ranges::{Check, point, size, within};
+use super::table::Table;
+use super::values::{is_false, is_zero};
+use crate::error::Error;
+use crate::{polygon, scene};
+
+/// `kind` of a `[[light]]`
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(tag = "kind", rename_all = "lowercase")]
+pub enum LightKind {
+    /// `"sphere"`
+    Sphere {
+        /// Required.
+        center_m: [f64; 3],
+        /// Required.
+        radius_m: f64,
+    },
+    /// `"disk"`: flat and round; shines to the side of its target.
+    Disk {
+        /// Required.
+        center_m: [f64; 3],
+        /// A point on the axis, before the disk. Required.
+        target_m: [f64; 3],
+        /// Required.
+        radius_m: f64,
+        /// Whether the other side shines too. Default: false.
+        #[serde(skip_serializing_if = "is_false")]
+        two_sided: bool,
+    },
+    /// `"rectangle"`: shines to the side of its target.
+    Rectangle {
+        /// Required.
+        center_m: [f64; 3],
+        /// A point on the axis, before the rectangle. Required.
+        target_m: [f64; 3],
+        /// From side to side, across the height. Required.
+        width_m: f64,
+        /// Along the direction in its plane that is nearest to y, or to z where it faces along y. Required.
+        height_m: f64,
+        /// Turns it about its axis, counter-clockwise as seen from the target. Default: 0.
+        #[serde(skip_serializing_if = "is_zero")]
+        rotation_deg: f64,
+        /// Whether the other side shines too. Default: false.
+        #[serde(skip_serializing_if = "is_false")]
+        two_sided: bool,
+    },
+    /// `"polygon"`: planar, simple, convex or not; shines to the side that sees its vertices counter-clockwise.
+    Polygon {
+        /// At least three. Required.
+        vertices_m: Vec<[f64; 3]>,
+        /// Whether the other side shines too. Default: false.
+        two_sided: bool,
+    },
+}
+
+/// The keys that belong to each kind.
+pub(super) const KEYS: [(&str, &[&str]); 4] = [
+    ("sphere", &["center_m", "radius_m"]),
+    ("disk", &["center_m", "target_m", "radius_m", "two_sided"]),
+    (
+        "rectangle",
+        &[
+            "center_m",
+            "target_m",
+            "width_m",
+            "height_m",
+            "rotation_deg",
+            "two_sided",
+        ],
+    ),
+    ("polygon", &["vertices_m", "two_sided"]),
+];
+
+impl LightKind {
+    /// A sphere.
+    pub fn sphere(center_m: [f64; 3], radius_m: f64) -> Self {
+        Self::Sphere { center_m, radius_m }
+    }
+
+    /// A polygon that shines to one side.
+    pub fn polygon(vertices_m: Vec<[f64; 3]>) -> Self {
+        Self::Polygon {
+            vertices_m,
+            two_sided: false,
+        }
+    }
+
+    /// What scene files call it.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Sphere { .. } => "sphere",
+            Self::Disk { .. } => "disk",
+            Self::Rectangle { .. } => "rectangle",
+            Self::Polygon { .. } => "polygon",
+        }
+    }
+
+    /// What people call such a light.
+    pub fn title(&self) -> &'static str {
+        match self {
+            Self::Sphere { .. } => "sphere light",
+            Self::Disk { .. } => "disk light",
+            Self::Rectangle { .. } => "rectangle light",
+            Self::Polygon { .. } => "polygon light",
+        }
+    }
+
+    /// The vertices of a polygon, which may be edited one by one; none of others.
+    pub fn vertices_m(&self) -> &[[f64; 3]] {
+        match self {
+            Self::Polygon { vertices_m, .. } => vertices_m,
+            _ => &[],
+        }
+    }
+
+    /// The corners of the polygon that it is to renderers, counter-clockwise as seen from where it shines; none of a sphere.
+    pub fn corners_m(&self) -> Vec<DVec3> {
+        match self {
+            Self::Sphere { .. } => Vec::new(),
+            Self::Disk {
+                center_m,
+                target_m,
+                radius_m,
+                ..
+            } => {
+                let [x, y] = plane(*center_m, *target_m, 0.0);
+                polygon::disk_corners_m((*center_m).into(), *radius_m * x, *radius_m * y)
+            }
+            Self::Rectangle {
+                center_m,
+                target_m,
+                width_m,
+                height_m,
+                rotation_deg,
+                ..
+            } => {
+                let [x, y] = plane(*center_m, *target_m, *rotation_deg);
+                let (x, y) = (0.5 * width_m * x, 0.5 * height_m * y);
+                let center_m = DVec3::from(*center_m);
+                [-x - y, x - y, x + y, y - x]
+                    .map(|arm| center_m + arm)
+                    .into()
+            }
+            Self::Polygon { vertices_m, .. } => vertices_m.iter().map(|&v| v.into()).collect(),
+        }
+    }
+
+    /// Whether both sides of a flat one shine.
+    pub fn is_two_sided(&self) -> bool {
+        match self {
+            Self::Sphere { .. } => false,
+            Self::Disk { two_sided, .. }
+            | Self::Rectangle { two_sided, .. }
+            | Self::Polygon { two_sided, .. } => *two_sided,
+        }
+    }
+
+    /// Makes the width of a rectangle run along a direction, as far as its plane allows. Other kinds stay as they are.
+    pub fn lay_width_along(&mut self, along: DVec3) {
+        if let Self::Rectangle {
+            center_m,
+            target_m,
+            rotation_deg,
+            ..
+        } = self
+        {
+            let [x, y] = plane(*center_m, *target_m, 0.0);
+            *rotation_deg = along.dot(y).atan2(along.dot(x)).to_degrees();
+        }
+    }
+
+    pub(super) fn check_at(&self, key: &str) -> Check {
+        let point_at = |name: &str, m: &[f64; 3]| point(&format!("{key}.{name}"), *m);
+        let size_at = |name: &str, m: &f64| size(&format!("{key}.{name}"), *m);
+        match self {
+            Self::Sphere { center_m, radius_m } => {
+                point_at("center_m", center_m)?;
+                size_at("radius_m", radius_m)
+            }
+            Self::Disk {
+                center_m,
+                target_m,
+                radius_m,
+                ..
+            } => {
+                point_at("center_m", center_m)?;
+                point_at("target_m", target_m)?;
+                size_at("radius_m", radius_m)?;
+                aimed(key, *center_m, *target_m)
+            }
+            Self::Rectangle {
+                center_m,
+                target_m,
+                width_m,
+                height_m,
+                rotation_deg,
+                ..
+            } => {
+                point_at("center_m", center_m)?;
+                point_at("target_m", target_m)?;
+                size_at("width_m", width_m)?;
+                size_at("height_m", height_m)?;
+                within(&format!("{key}.rotation_deg"), *rotation_deg, ROTATION_DEG)?;
+                aimed(key, *center_m, *target_m)
+            }
+            Self::Polygon { vertices_m, .. } => {
+                let key = format!("{key}.vertices_m");
+                for (i, vertex) in vertices_m.iter().enumerate() {
+                    point(&format!("{key}[{i}]"), *vertex)?;
+                }
+                polygon::check(&self.corners_m())
+                    .map_err(|flaw| Error::new(key, flaw.to_string(), flaw.remedy()))
+            }
+        }
+    }
+
+    /// What it is in a scene.
+    pub(super) fn in_scene(&self, radiance: [f64; 3]) -> scene::Light {
+        match self {
+            Self::Sphere { center_m, radius_m } => scene::Light::Sphere {
+                center_m: (*center_m).into(),
+                radius_m: *radius_m,
+                radiance,
+            },
+            _ => scene::Light::Polygon {
+                vertices_m: self.corners_m(),
+                radiance,
+                two_sided: self.is_two_sided(),
+            },
+        }
+    }
+
+    /// From the keys of a kind.
+    pub(super) fn read(kind: &str, table: &Table) -> Result<Self, Error> {
+        Ok(match kind {
+            "sphere" => Self::Sphere {
+                center_m: table.required("center_m")?,
+                radius_m: table.required("radius_m")?,
+            },
+            "disk" => Self::Disk {
+                center_m: table.required("center_m")?,
+                target_m: table.required("target_m")?,
+                radius_m: table.required("radius_m")?,
+                two_sided: table.or("two_sided", false)?,
+            },
+            "rectangle" => Self::Rectangle {
+                center_m: table.required("center_m")?,
+                target_m: table.required("target_m")?,
+                width_m: table.required("width_m")?,
+                height_m: table.required("height_m")?,
+                rotation_deg: table.or("rotation_deg", 0.0)?,
+                two_sided: table.or("two_sided", false)?,
+            },
+            _ => Self::Polygon {
+                vertices_m: table.required("vertices_m")?,
+                two_sided: table.or("two_sided", false)?,
+            },
+        })
+    }
+}
+
+/// Nearer to the middle a target tells no direction in single precision.
+const NEAREST_TARGET_M: f64 = 1e-6;
+
+fn aimed(key: &str, center_m: [f64; 3], target_m: [f64; 3]) -> Check {
+    match DVec3::from(center_m).distance(target_m.into()) >= NEAREST_TARGET_M {
+        true => Ok(()),
+        false => Err(Error::new(
+            format!("{key}.target_m"),
+            "found the light's own middle",
+            "must be another point, which the light is to face",
+        )),
+    }
+}
+
+/// The axes of width and height of a flat light: with the way to the target they are right-handed.
+fn plane(center_m: [f64; 3], target_m: [f64; 3], rotation_deg: f64) -> [DVec3; 2] {
+    let axis = (DVec3::from(target_m) - DVec3::from(center_m)).normalize_or(DVec3::Z);
+    // A direction within a milliradian of y leaves too few digits of a width across it.
+    let up = match axis.cross(DVec3::Y).length() > 1e-3 {
+        true => DVec3::Y,
+        false => DVec3::Z,
+    };
+    let x = up.cross(axis).normalize();
+    let y = axis.cross(x);
+    let (sin, cos) = rotation_deg.to_radians().sin_cos();
+    [cos * x + sin * y, cos * y - sin * x]
+}
