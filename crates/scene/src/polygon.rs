@@ -54,7 +54,7 @@ pub fn vector_area_m2(vertices_m: &[DVec3]) -> DVec3 {
 }
 
 /// Corners of the polygon that stands for a disk.
-const DISK_CORNERS: usize = 32;
+const DISK_CORNERS: usize = 24;
 
 /// A regular polygon of the area of a disk with two half axes.
 pub(crate) fn disk_corners_m(center_m: DVec3, x_m: DVec3, y_m: DVec3) -> Vec<DVec3> {
