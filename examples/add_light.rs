@@ -11,16 +11,16 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let before = mean_of_scratches(&scene);
 
     // Vertices are counter-clockwise as seen from the side that shines.
-    scene.lights.push(Light::Polygon {
-        vertices_m: vec![
+    scene.lights.push(Light::polygon(
+        vec![
             DVec3::new(-0.3, 0.2, 0.3),
             DVec3::new(0.3, 0.2, 0.3),
             DVec3::new(0.3, 0.1, 0.4),
             DVec3::new(-0.3, 0.1, 0.4),
         ],
-        radiance: [20.0, 18.0, 15.0],
-        two_sided: true,
-    });
+        [20.0, 18.0, 15.0],
+        true,
+    ));
     let after = mean_of_scratches(&scene);
     println!("mean radiance of the scratches: {before:.4?} before, {after:.4?} after");
     Ok(())

@@ -32,11 +32,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         textures: Arc::default(),
         materials: vec![gold()],
         objects: vec![scratched_square(0.004)],
-        lights: vec![Light::Sphere {
-            center_m: DVec3::new(0.0, 0.12, 0.36),
-            radius_m: 0.03,
-            radiance: [200.0; 3],
-        }],
+        lights: vec![Light::sphere(DVec3::new(0.0, 0.12, 0.36), 0.03, [200.0; 3])],
         notes: Vec::new(),
     };
     let image = Prepared::new(&scene).render(&RenderOptions::default(), &|_| {});

@@ -92,11 +92,7 @@ pub fn furnace() -> Option<Environment> {
 /// A sphere that the square's camera sees mirrored near the middle.
 pub fn sphere_light(half_side_m: f32, radius: f64) -> Light {
     let s = half_side_m as f64 * 2.0;
-    Light::Sphere {
-        center_m: DVec3::new(0.1, 0.5, 1.0) * s,
-        radius_m: radius * s,
-        radiance: [10.0; 3],
-    }
+    Light::sphere(DVec3::new(0.1, 0.5, 1.0) * s, radius * s, [10.0; 3])
 }
 
 /// Lays a straight scratch on the first object, cut into equal pieces. Which triangle it lies on does not matter here.

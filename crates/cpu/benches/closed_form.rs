@@ -4,7 +4,7 @@
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use hairline_cpu::closed_form::{Prepared, RenderOptions};
-use hairline_scene::{Light, Scene};
+use hairline_scene::{LightShape, Scene};
 use std::path::Path;
 
 /// The picture's size sets how many scratches lie under a pixel; its cost is that of the rows.
@@ -22,7 +22,7 @@ fn closed_form(c: &mut Criterion) {
     let mut by_a_polygon = plate();
     by_a_polygon
         .lights
-        .retain(|light| matches!(light, Light::Polygon { .. }));
+        .retain(|light| matches!(light.shape, LightShape::Polygon { .. }));
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(1)
         .build()

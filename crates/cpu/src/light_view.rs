@@ -3,7 +3,7 @@
 use crate::surface::SurfacePoint;
 use glam::{DVec2, DVec3};
 use hairline_optics::band::{Cap, Outline, OutlineEdge, band_moves, polygon_facing, sphere_cap};
-use hairline_scene::{Light, Scene};
+use hairline_scene::{Light, LightShape, Scene};
 use std::ops::Range;
 
 /// One light from a point.
@@ -90,27 +90,20 @@ impl<'a> LightViews<'a> {
         for (index, &light) in self.lights.iter().enumerate() {
             self.places.push(u32::MAX);
             let place = self.views.len() as u32;
-            match light {
-                Light::Sphere {
-                    center_m,
-                    radius_m,
-                    radiance,
-                } => {
+            let radiance = DVec3::from(light.radiance);
+            match &light.shape {
+                LightShape::Sphere { center_m, radius_m } => {
                     let center = point.surface_from_world(*center_m - point.position_m);
                     if center.z > -radius_m {
                         let cap = sphere_cap(center, *radius_m);
                         self.distances_m.push(center.length().max(*radius_m));
-                        self.views.push(LightView::Sphere {
-                            cap,
-                            radiance: DVec3::from(*radiance),
-                        });
+                        self.views.push(LightView::Sphere { cap, radiance });
                         self.places[index] = place;
                         self.in_scene.push(index);
                     }
                 }
-                Light::Polygon {
+                LightShape::Polygon {
                     vertices_m,
-                    radiance,
                     two_sided,
                 } => {
                     let first = self.vertices.len();
@@ -140,7 +133,7 @@ impl<'a> LightViews<'a> {
                         facing,
                         sets,
                         bound,
-                        radiance: DVec3::from(*radiance),
+                        radiance,
                     });
                     self.places[index] = place;
                     self.in_scene.push(index);

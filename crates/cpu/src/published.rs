@@ -18,7 +18,7 @@ use hairline_optics::mask::{Mask, Masked, ScratchSums};
 use hairline_optics::published::polygon::triangulate;
 use hairline_optics::published::spectrum::{PUBLISHED_WAVELENGTHS, PublishedSpectrum};
 use hairline_optics::sptd::{sptd_lobe, sptd_sphere_published};
-use hairline_scene::Light;
+use hairline_scene::{Light, LightShape};
 
 /// A scene made ready for the published method.
 pub(crate) struct Published<'a> {
@@ -38,9 +38,9 @@ impl<'a> Published<'a> {
             // their pixels meanwhile, and wait for itself.
             prepared.triangle_lists();
         }
-        let triangles = |light: &Light| match light {
-            Light::Polygon { vertices_m, .. } => triangulate(vertices_m),
-            Light::Sphere { .. } => Vec::new(),
+        let triangles = |light: &Light| match &light.shape {
+            LightShape::Polygon { vertices_m, .. } => triangulate(vertices_m),
+            LightShape::Sphere { .. } => Vec::new(),
         };
         Self {
             prepared,

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use bytemuck::Zeroable;
 use glam::DVec3;
-use hairline_scene::{Light, Scene, vector_area_m2};
+use hairline_scene::{Light, LightShape, Scene, vector_area_m2};
 
 use crate::host::relative;
 use crate::layout;
@@ -33,10 +33,10 @@ impl Kind {
     ];
 
     fn of(light: &Light) -> Self {
-        match light {
-            Light::Sphere { .. } => Self::Spheres,
-            Light::Polygon { vertices_m, .. } if vertices_m.len() <= 4 => Self::Quads,
-            Light::Polygon { .. } => Self::Outlines,
+        match &light.shape {
+            LightShape::Sphere { .. } => Self::Spheres,
+            LightShape::Polygon { vertices_m, .. } if vertices_m.len() <= 4 => Self::Quads,
+            LightShape::Polygon { .. } => Self::Outlines,
         }
     }
 }
@@ -102,9 +102,9 @@ pub(crate) fn ranges(scene: &Scene) -> Vec<(Kind, Range<u32>)> {
 const LIGHT_TEXELS: usize = size_of::<layout::Light>() / 16;
 
 fn vertices_m(light: &Light) -> &[DVec3] {
-    match light {
-        Light::Polygon { vertices_m, .. } => vertices_m,
-        Light::Sphere { .. } => &[],
+    match &light.shape {
+        LightShape::Polygon { vertices_m, .. } => vertices_m,
+        LightShape::Sphere { .. } => &[],
     }
 }
 
@@ -120,20 +120,20 @@ pub(crate) fn packed(scene: &Scene, origin_m: DVec3) -> Vec<[u32; 4]> {
             [x, y, z, 0.0]
         }));
         let bounded = layout::Light {
-            radiance: light.radiance().map(|c| c as f32),
+            radiance: light.radiance.map(|c| c as f32),
             center_m: relative(center_m, origin_m),
             radius_m: radius_m as f32,
             first_vertex,
             vertex_count: own.len() as u32,
             ..layout::Light::zeroed()
         };
-        match light {
-            Light::Sphere { .. } => layout::Light {
+        match &light.shape {
+            LightShape::Sphere { .. } => layout::Light {
                 kind: LIGHT_SPHERE,
                 first_vertex: 0,
                 ..bounded
             },
-            Light::Polygon { two_sided, .. } => layout::Light {
+            LightShape::Polygon { two_sided, .. } => layout::Light {
                 kind: LIGHT_POLYGON,
                 normal: (vector_area_m2(own).normalize_or_zero().as_vec3()).to_array(),
                 two_sided: u32::from(*two_sided),

@@ -5,7 +5,7 @@ use hairline_index::TriangleLists;
 use hairline_index::method::Structure;
 use hairline_optics::published::polygon::triangulate;
 use hairline_optics::published::spectrum::PUBLISHED_WAVELENGTHS;
-use hairline_scene::{Light, Scene};
+use hairline_scene::{Light, LightShape, Scene};
 use wgpu::TextureFormat;
 
 use crate::error::Error;
@@ -99,9 +99,9 @@ async fn wavelengths(
 
 /// One triangle for each vertex of each polygon; those that a polygon does not need are empty.
 fn light_triangles(scene: &Scene) -> Vec<[usize; 3]> {
-    let of_light = |light: &Light| match light {
-        Light::Sphere { .. } => Vec::new(),
-        Light::Polygon { vertices_m, .. } => {
+    let of_light = |light: &Light| match &light.shape {
+        LightShape::Sphere { .. } => Vec::new(),
+        LightShape::Polygon { vertices_m, .. } => {
             let mut triangles = triangulate(vertices_m);
             triangles.resize(vertices_m.len(), [0; 3]);
             triangles

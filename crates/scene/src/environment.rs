@@ -130,10 +130,12 @@ impl Environment {
     /// Brings the suns up to date with the map's turn and intensity.
     fn with_suns(mut self) -> Self {
         let per_texel = self.texel_radiance();
-        let light = |sun: &Sun| Light::Sphere {
-            center_m: self.map_from_world.transpose() * sun.direction * SUN_DISTANCE_M,
-            radius_m: SUN_DISTANCE_M * sun.radius_rad.sin(),
-            radiance: sun.radiance.map(|c| c * per_texel),
+        let light = |sun: &Sun| {
+            Light::sphere(
+                self.map_from_world.transpose() * sun.direction * SUN_DISTANCE_M,
+                SUN_DISTANCE_M * sun.radius_rad.sin(),
+                sun.radiance.map(|c| c * per_texel),
+            )
         };
         self.suns = self.maps.suns.iter().map(light).collect();
         self

@@ -8,7 +8,7 @@ use hairline_image::metrics::Verdict;
 use hairline_image::{Image, Layer};
 use hairline_optics::metal::Metal;
 use hairline_reference::{Model, Settings};
-use hairline_scene::{Base, Scene};
+use hairline_scene::{Base, Light, Scene};
 
 const ACROSS: DVec3 = DVec3::new(1.0, -1.0, 1.0);
 
@@ -31,19 +31,9 @@ fn add_wall(scene: &mut Scene, base: Base, roughness: f64) {
 /// Before the mirror stands up. The light shines from the viewer's side: on what the mirror shows.
 fn scene(view: View, scratches: u32) -> Scene {
     let mut scene = plate(Base::Metal(Metal::Aluminium), view);
-    let hairline_scene::Light::Sphere {
-        center_m,
-        radius_m,
-        radiance,
-    } = sphere(view, -0.12, 0.12, 0.1)
-    else {
-        unreachable!()
-    };
-    scene.lights = vec![hairline_scene::Light::Sphere {
-        center_m: center_m * ACROSS,
-        radius_m,
-        radiance,
-    }];
+    let lamp = sphere(view, -0.12, 0.12, 0.1);
+    let (center_m, radius_m) = lamp.bounding_sphere();
+    scene.lights = vec![Light::sphere(center_m * ACROSS, radius_m, lamp.radiance)];
     // A mirror's least roughness is 0.002 in alpha: it blurs what it shows by 0.003 rad. The plate's own lobe of 0.01 is
     // wider, as is the light, but for their edges.
     scene.materials[0].roughness = 0.1;

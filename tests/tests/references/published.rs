@@ -9,7 +9,7 @@ use hairline_index::method::{Method, PublishedMethod, Structure};
 use hairline_optics::mask::Mask;
 use hairline_optics::metal::Metal;
 use hairline_optics::published::sine_integral::SineIntegral;
-use hairline_scene::{Base, Light, Scene};
+use hairline_scene::{Base, Light, LightShape, Scene};
 use std::sync::Arc;
 
 fn by(scene: &Scene, method: Method) -> Image {
@@ -71,7 +71,7 @@ fn equals_monte_carlo_where_the_talk_is_exact() {
 
         // The comparison sees a groove that is wider by a tenth, and that half of a panel's chord is gone.
         let mut wrong = scene.clone();
-        if let Light::Polygon { vertices_m, .. } = &mut wrong.lights[0] {
+        if let LightShape::Polygon { vertices_m, .. } = &mut wrong.lights[0].shape {
             vertices_m.pop();
         } else {
             for scratch in Arc::make_mut(&mut wrong.objects[0].scratches).iter_mut() {
@@ -123,16 +123,8 @@ fn aslant() -> Scene {
     scene.lights = vec![
         sphere(view, 0.12, -0.05, 0.05),
         panel(view, -0.1, 0.12, [0.06, 0.05]),
-        Light::Sphere {
-            center_m: DVec3::new(-1.0, 0.3, 0.0),
-            radius_m: 0.3,
-            radiance: [1.0; 3],
-        },
-        Light::Polygon {
-            vertices_m: star.collect(),
-            radiance: [1.0; 3],
-            two_sided: true,
-        },
+        Light::sphere(DVec3::new(-1.0, 0.3, 0.0), 0.3, [1.0; 3]),
+        Light::polygon(star.collect(), [1.0; 3], true),
     ];
     scratch(&mut scene, view, 60);
     scene

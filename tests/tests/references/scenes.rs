@@ -45,11 +45,11 @@ pub fn off_the_mirror(angle_rad: f64, x: f64, y: f64) -> DVec3 {
 
 /// A sphere of a given angular radius about a direction (x, y) in cosines from the mirror's.
 pub fn sphere(view: View, x: f64, y: f64, radius_rad: f64) -> Light {
-    Light::Sphere {
-        center_m: LIGHT_M * off_the_mirror(view.angle_rad, x, y),
-        radius_m: LIGHT_M * radius_rad.sin(),
-        radiance: [1.0, 0.8, 0.6],
-    }
+    Light::sphere(
+        LIGHT_M * off_the_mirror(view.angle_rad, x, y),
+        LIGHT_M * radius_rad.sin(),
+        [1.0, 0.8, 0.6],
+    )
 }
 
 /// A rectangle that faces the plate, of two given half widths.
@@ -58,16 +58,16 @@ pub fn panel(view: View, x: f64, y: f64, half_rad: [f64; 2]) -> Light {
     let right = LIGHT_M * half_rad[0].tan() * towards.cross(DVec3::Y).normalize();
     let up = LIGHT_M * half_rad[1].tan() * right.cross(towards).normalize();
     let middle = LIGHT_M * towards;
-    Light::Polygon {
-        vertices_m: vec![
+    Light::polygon(
+        vec![
             middle - right - up,
             middle + right - up,
             middle + right + up,
             middle - right + up,
         ],
-        radiance: [0.6, 0.8, 1.0],
-        two_sided: true,
-    }
+        [0.6, 0.8, 1.0],
+        true,
+    )
 }
 
 /// The same with one width and one depth for all.

@@ -12,7 +12,7 @@ use hairline_optics::irradiance::lambert_polygon;
 use hairline_optics::mask::Mask;
 use hairline_optics::metal::Metal;
 use hairline_reference::Settings;
-use hairline_scene::{Base, Environment, Light, Scene};
+use hairline_scene::{Base, Environment, LightShape, Scene};
 use std::sync::Arc;
 
 const VIEW: View = View {
@@ -237,7 +237,7 @@ fn a_penumbra_is_that_of_the_part_that_is_seen() {
     let mut scene = plate(matt, VIEW);
     let light = panel(VIEW, 0.0, 0.0, [0.08, 0.05]);
     let towards = off_the_mirror(VIEW.angle_rad, 0.0, 0.0);
-    let Light::Polygon { vertices_m, .. } = &light else {
+    let LightShape::Polygon { vertices_m, .. } = &light.shape else {
         unreachable!()
     };
     let vertices_m = vertices_m.clone();

@@ -72,21 +72,17 @@ fn five_hundred_lights() {
         let (right, up) = (0.02 * right, 0.02 * place.cross(right));
         let radiance = [random.between(1.0, 20.0).into(); 3];
         scene.lights.push(match i % 2 {
-            0 => Light::Sphere {
-                center_m: place,
-                radius_m: 0.02,
-                radiance,
-            },
-            _ => Light::Polygon {
-                vertices_m: vec![
+            0 => Light::sphere(place, 0.02, radiance),
+            _ => Light::polygon(
+                vec![
                     place - right - up,
                     place + right - up,
                     place + right + up,
                     place - right + up,
                 ],
                 radiance,
-                two_sided: true,
-            },
+                true,
+            ),
         });
     }
     check("500 lights", &scene);
@@ -114,11 +110,9 @@ fn a_segment_across_the_picture() {
         1,
     );
     scene.camera.position_m = DVec3::new(0.0, -0.6e-3, 0.5e-3);
-    scene.lights.push(Light::Sphere {
-        center_m: DVec3::new(0.0, 0.2, 0.15),
-        radius_m: 0.15,
-        radiance: [10.0; 3],
-    });
+    scene
+        .lights
+        .push(Light::sphere(DVec3::new(0.0, 0.2, 0.15), 0.15, [10.0; 3]));
     check("across the picture", &scene);
 }
 

@@ -6,7 +6,7 @@ use hairline_cpu::closed_form::{RenderOptions, render};
 use hairline_fixtures::scenes::scratched_ball;
 use hairline_image::Image;
 use hairline_optics::metal::Metal;
-use hairline_scene::{Base, Scene};
+use hairline_scene::{Base, Light, Scene};
 
 fn picture(scene: &Scene) -> Image {
     render(scene, &RenderOptions::default(), &|_| {})
@@ -149,20 +149,10 @@ fn no_light_from_nothing() {
     let mut scene = square(Base::Mirror, half_side, 32);
     lay_random(&mut scene, half_side, 100, 3e-3, 5);
     assert!(picture(&scene).beauty().rgb.iter().all(|p| *p == [0.0; 3]));
-    let hairline_scene::Light::Sphere {
-        center_m,
-        radius_m,
-        radiance,
-    } = sphere_light(half_side, 0.1)
-    else {
-        unreachable!()
-    };
+    let lamp = sphere_light(half_side, 0.1);
+    let (center_m, radius_m) = lamp.bounding_sphere();
     let center_m = center_m.with_z(-center_m.z);
-    scene.lights = vec![hairline_scene::Light::Sphere {
-        center_m,
-        radius_m,
-        radiance,
-    }];
+    scene.lights = vec![Light::sphere(center_m, radius_m, lamp.radiance)];
     assert!(picture(&scene).beauty().rgb.iter().all(|p| *p == [0.0; 3]));
 }
 

@@ -31,11 +31,11 @@ fn scratched(size_px: [u32; 2], count: u32) -> Scene {
         let [start, end] = [-reach, reach].map(|x| Vec3::new(x, y, 0.0));
         lay(&mut scene, start, end, width, depth, 1);
     }
-    let light = Light::Sphere {
-        center_m: DVec3::new(0.0, 0.4, 1.0) * 2.0 * f64::from(HALF_M),
-        radius_m: 0.004,
-        radiance: [10.0; 3],
-    };
+    let light = Light::sphere(
+        DVec3::new(0.0, 0.4, 1.0) * 2.0 * f64::from(HALF_M),
+        0.004,
+        [10.0; 3],
+    );
     scene.lights.push(light);
     scene
 }

@@ -104,25 +104,25 @@ impl Stage {
         let direction = direction.with_z((1.0 - direction.length_squared()).max(0.0).sqrt());
         let center_m = direction.normalize() * LIGHT_M;
         match self.lamp {
-            Lamp::Sphere => Some(Light::Sphere {
+            Lamp::Sphere => Some(Light::sphere(
                 center_m,
-                radius_m: LIGHT_M * self.light_rad.sin(),
-                radiance: [1.0; 3],
-            }),
+                LIGHT_M * self.light_rad.sin(),
+                [1.0; 3],
+            )),
             Lamp::Square => {
                 let half = LIGHT_M * self.light_rad.tan() * 0.5 * PI.sqrt();
                 let (x, y) = direction.normalize().any_orthonormal_pair();
                 let corner = |a: f64, b: f64| center_m + half * (a * x + b * y);
-                Some(Light::Polygon {
-                    vertices_m: vec![
+                Some(Light::polygon(
+                    vec![
                         corner(-1.0, -1.0),
                         corner(-1.0, 1.0),
                         corner(1.0, 1.0),
                         corner(1.0, -1.0),
                     ],
-                    radiance: [1.0; 3],
-                    two_sided: true,
-                })
+                    [1.0; 3],
+                    true,
+                ))
             }
             Lamp::Furnace => None,
         }

@@ -13,7 +13,7 @@ use hairline_gpu::Error;
 use hairline_image::metrics::{BeyondNoise, Estimate, away_from_silhouettes};
 use hairline_image::{Image, Layer, Layers};
 use hairline_reference::{Integrator, Settings};
-use hairline_scene::{Light, Scene};
+use hairline_scene::{LightShape, Scene};
 
 use super::figures::CellError;
 use super::worker::{Ready, Worker};
@@ -149,8 +149,8 @@ pub fn rim_of_reflection(scene: &Scene) -> DVec2 {
         return MIDDLE;
     };
     let (center_m, bound_m) = lamp.bounding_sphere();
-    let radius_m = match lamp {
-        Light::Sphere { radius_m, .. } => *radius_m,
+    let radius_m = match lamp.shape {
+        LightShape::Sphere { radius_m, .. } => radius_m,
         // The circle within it, about.
         _ => 0.5 * bound_m,
     };

@@ -211,7 +211,7 @@ fn lamp(triangle: bool, place_m: DVec2, radiance: f64) -> String {
 mod tests {
     use super::*;
     use glam::DVec3;
-    use hairline_scene::Light;
+    use hairline_scene::LightShape;
 
     fn small(lamps: Lamps) -> Scene {
         Stage {
@@ -228,10 +228,7 @@ mod tests {
         let scene = small(Lamps::Sphere);
         let to_camera = scene.camera.position_m.normalize();
         let mirrored = DVec3::new(-to_camera.x, -to_camera.y, to_camera.z);
-        let Light::Sphere {
-            center_m, radius_m, ..
-        } = scene.lights[0]
-        else {
+        let LightShape::Sphere { center_m, radius_m } = scene.lights[0].shape else {
             panic!("a sphere")
         };
         assert!(center_m.normalize().angle_between(mirrored) < 1e-5);
@@ -241,7 +238,7 @@ mod tests {
     #[test]
     fn the_triangle_faces_the_disk_and_is_as_large_as_the_sphere() {
         let scene = small(Lamps::Triangle);
-        let Light::Polygon { vertices_m, .. } = &scene.lights[0] else {
+        let LightShape::Polygon { vertices_m, .. } = &scene.lights[0].shape else {
             panic!("a polygon")
         };
         let twice = (vertices_m[1] - vertices_m[0]).cross(vertices_m[2] - vertices_m[0]);
@@ -255,7 +252,7 @@ mod tests {
         let scene = small(Lamps::Many(64));
         let spheres = scene.lights.iter();
         let spheres = spheres
-            .filter(|l| matches!(l, Light::Sphere { .. }))
+            .filter(|l| matches!(l.shape, LightShape::Sphere { .. }))
             .count();
         assert_eq!((scene.lights.len(), spheres), (64, 32));
         assert!(small(Lamps::None).lights.is_empty());

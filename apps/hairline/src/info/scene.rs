@@ -5,9 +5,9 @@ use std::path::Path;
 
 use glam::DVec3;
 use hairline_memory::{available_bytes, in_words};
-use hairline_scene::Light;
 use hairline_scene::estimate::{Estimate, scratches_bytes, textures_bytes};
 use hairline_scene::text::shown;
+use hairline_scene::{Light, LightShape};
 use serde::Serialize;
 
 use crate::console::print;
@@ -172,12 +172,7 @@ fn contents(loaded: &Loaded) -> Contents {
 
 /// A lamp of an environment: a sphere so far away that it stands in one direction.
 fn sun(sun: &Light, up: DVec3) -> Option<Sun> {
-    let Light::Sphere {
-        center_m,
-        radius_m,
-        radiance,
-    } = sun
-    else {
+    let LightShape::Sphere { center_m, radius_m } = &sun.shape else {
         return None;
     };
     let direction = center_m.normalize();
@@ -188,7 +183,7 @@ fn sun(sun: &Light, up: DVec3) -> Option<Sun> {
         direction: direction.into(),
         elevation_deg: direction.dot(top).asin().to_degrees(),
         radius_deg: (radius_m / center_m.length()).asin().to_degrees(),
-        radiance: *radiance,
+        radiance: sun.radiance,
     })
 }
 

@@ -5,7 +5,7 @@
 //! point and light: sampling and evaluating it cannot disagree.
 
 use glam::{DVec2, DVec3};
-use hairline_scene::{Light, Scene};
+use hairline_scene::{Light, LightShape, Scene};
 
 mod bound;
 mod polygon;
@@ -69,23 +69,17 @@ impl AreaLights {
     pub fn from_lights<'l>(lights: impl IntoIterator<Item = &'l Light>) -> Self {
         let lights = lights
             .into_iter()
-            .map(|light| match light {
-                Light::Sphere {
-                    center_m,
-                    radius_m,
-                    radiance,
-                } => AreaLight {
-                    shape: Shape::Sphere(SphereLight::new(*center_m, *radius_m)),
-                    radiance: DVec3::from(*radiance),
+            .map(|light| AreaLight {
+                shape: match &light.shape {
+                    LightShape::Sphere { center_m, radius_m } => {
+                        Shape::Sphere(SphereLight::new(*center_m, *radius_m))
+                    }
+                    LightShape::Polygon {
+                        vertices_m,
+                        two_sided,
+                    } => Shape::Polygon(PolygonLight::new(vertices_m, *two_sided)),
                 },
-                Light::Polygon {
-                    vertices_m,
-                    radiance,
-                    two_sided,
-                } => AreaLight {
-                    shape: Shape::Polygon(PolygonLight::new(vertices_m, *two_sided)),
-                    radiance: DVec3::from(*radiance),
-                },
+                radiance: light.radiance.into(),
             })
             .collect();
         Self { lights }

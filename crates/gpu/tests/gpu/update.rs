@@ -11,7 +11,7 @@ use hairline_image::{Image, Picture};
 use hairline_index::ScratchIndex;
 use hairline_index::method::{Method, PublishedMethod, Structure};
 use hairline_optics::metal::Metal;
-use hairline_scene::{Base, Environment, Light, Scene, ScratchTables, Texture};
+use hairline_scene::{Base, Environment, LightShape, Scene, ScratchTables, Texture};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_pcg::Pcg32;
 
@@ -78,12 +78,12 @@ fn edit(made: &mut Made, kind: u32, random: &mut impl Rng) {
     let mut trees_change = false;
     match kind {
         0 => {
-            if let Light::Sphere { center_m, .. } = &mut scene.lights[0] {
+            if let LightShape::Sphere { center_m, .. } = &mut scene.lights[0].shape {
                 center_m.x += f64::from(by);
             }
         }
         1 => {
-            if let Light::Polygon { vertices_m, .. } = &mut scene.lights[1] {
+            if let LightShape::Polygon { vertices_m, .. } = &mut scene.lights[1].shape {
                 vertices_m[2].z += f64::from(by);
             }
         }

@@ -223,16 +223,10 @@ impl LightKind {
     /// What it is in a scene.
     pub(super) fn in_scene(&self, radiance: [f64; 3]) -> scene::Light {
         match self {
-            Self::Sphere { center_m, radius_m } => scene::Light::Sphere {
-                center_m: (*center_m).into(),
-                radius_m: *radius_m,
-                radiance,
-            },
-            _ => scene::Light::Polygon {
-                vertices_m: self.corners_m(),
-                radiance,
-                two_sided: self.is_two_sided(),
-            },
+            Self::Sphere { center_m, radius_m } => {
+                scene::Light::sphere((*center_m).into(), *radius_m, radiance)
+            }
+            _ => scene::Light::polygon(self.corners_m(), radiance, self.is_two_sided()),
         }
     }
 

@@ -11,7 +11,7 @@ use hairline_image::{Display, Output, Picture};
 use hairline_optics::ggx::{ggx_alpha, ggx_eval};
 use hairline_scene::environment::lookup::{environment_dir, environment_lod, environment_uv};
 use hairline_scene::environment::{Error, LEVEL_HALVINGS, LEVEL_ROUGHNESS};
-use hairline_scene::{Environment, Light};
+use hairline_scene::{Environment, LightShape};
 use rayon::prelude::*;
 
 /// A map whose texels hold a function of their direction.
@@ -366,22 +366,16 @@ fn a_sun_is_a_light() {
     }
     let turned = parted.clone().with_up(DVec3::Z, 1.0).with_intensity(3.0);
     for (environment, intensity) in [(&parted, 1.5), (&turned, 3.0)] {
-        let [
-            Light::Sphere {
-                center_m,
-                radius_m,
-                radiance,
-            },
-        ] = environment.suns()
-        else {
+        let [sun] = environment.suns() else {
             panic!("{:?}", environment.suns())
         };
         let expected = environment.map_from_world().transpose() * toward;
+        let (center_m, radius_m) = sun.bounding_sphere();
         // Half a texel.
         assert!(center_m.angle_between(expected) < 6e-3);
         assert!((radius_m / center_m.length() / 0.03 - 1.0).abs() < 0.1);
         let expected = DVec3::splat(4000.0 * intensity);
-        assert!(relative(DVec3::from(*radiance), expected) < 1e-3);
+        assert!(relative(DVec3::from(sun.radiance), expected) < 1e-3);
     }
 }
 
@@ -404,17 +398,12 @@ fn real_maps_load() {
         );
         let mut suns = DVec3::ZERO;
         for sun in environment.suns() {
-            let Light::Sphere {
-                center_m,
-                radius_m,
-                radiance,
-            } = sun
-            else {
+            let LightShape::Sphere { center_m, radius_m } = &sun.shape else {
                 panic!("{sun:?}")
             };
             let (radius_rad, radiance) = (
                 (radius_m / center_m.length()).asin(),
-                DVec3::from(*radiance),
+                DVec3::from(sun.radiance),
             );
             println!("  a sun of {radius_rad:.4} rad, {radiance:.0}");
             suns += radiance * (0.5 * (1.0 - radius_rad.cos()));

@@ -1,48 +1,33 @@
 use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3};
-use hairline_scene::Light;
+use hairline_scene::{Light, LightShape};
 
 use super::AreaLights;
 use hairline_fixtures::statistics::{Draw, chi_square_of_two, jittered};
 
 fn sphere(center_m: [f64; 3], radius_m: f64) -> Light {
-    Light::Sphere {
-        center_m: center_m.into(),
-        radius_m,
-        radiance: [1.0, 2.0, 3.0],
-    }
+    Light::sphere(center_m.into(), radius_m, [1.0, 2.0, 3.0])
 }
 
 /// A polygon in the plane z = `height_m` that shines down, to where the tests' points are.
 fn ceiling(outline_m: &[[f64; 2]], height_m: f64) -> Light {
-    Light::Polygon {
-        // Given counter-clockwise seen from above.
-        vertices_m: outline_m
-            .iter()
-            .rev()
-            .map(|v| DVec3::new(v[0], v[1], height_m))
-            .collect(),
-        radiance: [1.0, 2.0, 3.0],
-        two_sided: false,
-    }
+    // Given counter-clockwise seen from above.
+    let vertices_m = outline_m
+        .iter()
+        .rev()
+        .map(|v| DVec3::new(v[0], v[1], height_m))
+        .collect();
+    Light::polygon(vertices_m, [1.0, 2.0, 3.0], false)
 }
 
 /// Turned and moved: nothing may depend on the axes.
-fn askew(light: Light) -> Light {
+fn askew(mut light: Light) -> Light {
     let turn = glam::DMat3::from_euler(glam::EulerRot::XYZ, 0.3, 0.7, 1.1);
-    match light {
-        Light::Polygon {
-            vertices_m,
-            radiance,
-            two_sided,
-        } => Light::Polygon {
-            vertices_m: vertices_m.iter().map(|v| turn * *v).collect(),
-            radiance,
-            two_sided,
-        },
-        sphere => sphere,
+    if let LightShape::Polygon { vertices_m, .. } = &mut light.shape {
+        vertices_m.iter_mut().for_each(|v| *v = turn * *v);
     }
+    light
 }
 
 const SQUARE: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
@@ -157,9 +142,9 @@ fn lambert(vertices: &[DVec3], normal: DVec3) -> f64 {
 }
 
 fn vertices(light: &Light) -> Option<&[DVec3]> {
-    match light {
-        Light::Polygon { vertices_m, .. } => Some(vertices_m),
-        Light::Sphere { .. } => None,
+    match &light.shape {
+        LightShape::Polygon { vertices_m, .. } => Some(vertices_m),
+        LightShape::Sphere { .. } => None,
     }
 }
 
@@ -230,19 +215,14 @@ fn the_density_is_one_over_the_solid_angle() {
     for (name, light) in seen() {
         let lights = AreaLights::from_lights(std::slice::from_ref(&light));
         let measured = 1.0 / lights.pdf(0, DVec3::ZERO, DVec3::Z);
-        let (expected, tolerance) = match (&light, vertices(&light)) {
+        let (expected, tolerance) = match (&light.shape, vertices(&light)) {
             // Girard subtracts angles of order one.
             (_, Some(vertices)) if name != "square of 1e-6 rad" => {
                 (girard(vertices), 1e-13 / measured + 1e-9)
             }
             // Flat: area, cosine, distance. The light is 1e-6 across, so the next term is 1e-12 of it.
             (_, Some(_)) => (4e-12 * (1.0 / 1.09_f64.sqrt()) / 1.09, 1e-6),
-            (
-                Light::Sphere {
-                    center_m, radius_m, ..
-                },
-                _,
-            ) => {
+            (LightShape::Sphere { center_m, radius_m }, _) => {
                 let sin2 = (radius_m / center_m.length()).powi(2);
                 let versine = if sin2 < 1e-6 {
                     0.5 * sin2
@@ -340,11 +320,9 @@ fn the_mean_of_cosine_over_density_is_the_irradiance() {
             } else {
                 draw.direction()
             };
-            let expected = match &light {
-                Light::Polygon { vertices_m, .. } => lambert(vertices_m, normal),
-                Light::Sphere {
-                    center_m, radius_m, ..
-                } => {
+            let expected = match &light.shape {
+                LightShape::Polygon { vertices_m, .. } => lambert(vertices_m, normal),
+                LightShape::Sphere { center_m, radius_m } => {
                     let sin = radius_m / center_m.length();
                     if sin >= 1.0 {
                         PI
@@ -456,19 +434,8 @@ fn points_even_in_area_would_be_noticed() {
 #[test]
 fn polygons_shine_to_the_side_that_sees_them_counter_clockwise() {
     let one_sided = ceiling(&L_SHAPE, 0.8);
-    let Light::Polygon {
-        vertices_m,
-        radiance,
-        ..
-    } = one_sided.clone()
-    else {
-        unreachable!()
-    };
-    let two_sided = Light::Polygon {
-        vertices_m,
-        radiance,
-        two_sided: true,
-    };
+    let corners_m = vertices(&one_sided).unwrap().to_vec();
+    let two_sided = Light::polygon(corners_m, one_sided.radiance, true);
     let lights = AreaLights::from_lights(&[one_sided, two_sided]);
     let (below, above) = (DVec3::ZERO, DVec3::new(0.0, 0.0, 1.6));
     let u = DVec2::new(0.3, 0.6);
