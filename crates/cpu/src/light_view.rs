@@ -2,7 +2,9 @@
 
 use crate::surface::SurfacePoint;
 use glam::{DVec2, DVec3};
-use hairline_optics::band::{Cap, Outline, OutlineEdge, band_moves, polygon_facing, sphere_cap};
+use hairline_optics::band::{
+    Cap, Outline, OutlineEdge, TUBE_CORNERS, band_moves, polygon_facing, sphere_cap, tube_outline,
+};
 use hairline_scene::{Light, LightShape, Scene};
 use std::ops::Range;
 
@@ -11,7 +13,7 @@ use std::ops::Range;
 pub(crate) enum LightView {
     /// A sphere, as the cap of directions that it covers.
     Sphere { cap: Cap, radiance: DVec3 },
-    /// A polygon; `vertices` index [`LightViews::vertices`], [`LightViews::directions`] and [`LightViews::edges`].
+    /// A polygon, or the outline of a tube; `vertices` index [`LightViews::vertices`], [`LightViews::directions`] and [`LightViews::edges`].
     Polygon {
         /// Index into the scene's lights.
         light: usize,
@@ -87,7 +89,8 @@ impl<'a> LightViews<'a> {
         self.vertices.clear();
         self.directions.clear();
         self.edges.clear();
-        for (index, &light) in self.lights.iter().enumerate() {
+        for index in 0..self.lights.len() {
+            let light = self.lights[index];
             self.places.push(u32::MAX);
             let place = self.views.len() as u32;
             let radiance = DVec3::from(light.radiance);
@@ -112,34 +115,60 @@ impl<'a> LightViews<'a> {
                             .iter()
                             .map(|v| point.surface_from_world(*v - point.position_m)),
                     );
-                    let own = &self.vertices[first..];
-                    let (away, facing) = polygon_facing(own.iter().copied(), *two_sided);
-                    if facing == 0.0 || own.iter().all(|v| v.z <= 0.0) {
-                        self.vertices.truncate(first);
-                        continue;
+                    let own = self.vertices[first..].iter();
+                    self.add_outline(
+                        point,
+                        index,
+                        first,
+                        polygon_facing(own.copied(), *two_sided),
+                    );
+                }
+                LightShape::Tube { ends_m, radius_m } => {
+                    let [a, b] = ends_m.map(|end| point.surface_from_world(end - point.position_m));
+                    if let Some(outline) = tube_outline(a, b, *radius_m) {
+                        let first = self.vertices.len();
+                        let corners = (0..TUBE_CORNERS).map(|i| outline.tube_corner(i));
+                        self.vertices.extend(corners);
+                        self.add_outline(point, index, first, (outline.away, 1.0));
                     }
-                    self.directions
-                        .extend(self.vertices[first..].iter().map(|v| v.normalize_or_zero()));
-                    let vertices = first..self.vertices.len();
-                    let sets = self.vertices[first..].iter().any(|v| v.z < 0.0);
-                    let (center_m, radius_m) = light.bounding_sphere();
-                    let center = point.surface_from_world(center_m - point.position_m);
-                    let bound = sphere_cap(center, radius_m);
-                    self.distances_m.push(center.length().max(radius_m));
-                    self.views.push(LightView::Polygon {
-                        light: index,
-                        vertices,
-                        away,
-                        facing,
-                        sets,
-                        bound,
-                        radiance,
-                    });
-                    self.places[index] = place;
-                    self.in_scene.push(index);
                 }
             }
         }
+    }
+
+    /// Adds a light whose outline is that of the vertices from `first` on, unless nothing of it is seen.
+    fn add_outline(
+        &mut self,
+        point: &SurfacePoint,
+        index: usize,
+        first: usize,
+        (away, facing): (DVec3, f64),
+    ) {
+        if facing == 0.0 || self.vertices[first..].iter().all(|v| v.z <= 0.0) {
+            self.vertices.truncate(first);
+            return;
+        }
+        let light = self.lights[index];
+        let place = self.views.len() as u32;
+        self.directions
+            .extend(self.vertices[first..].iter().map(|v| v.normalize_or_zero()));
+        let vertices = first..self.vertices.len();
+        let sets = self.vertices[first..].iter().any(|v| v.z < 0.0);
+        let (center_m, radius_m) = light.bounding_sphere();
+        let center = point.surface_from_world(center_m - point.position_m);
+        let bound = sphere_cap(center, radius_m);
+        self.distances_m.push(center.length().max(radius_m));
+        self.views.push(LightView::Polygon {
+            light: index,
+            vertices,
+            away,
+            facing,
+            sets,
+            bound,
+            radiance: light.radiance.into(),
+        });
+        self.places[index] = place;
+        self.in_scene.push(index);
     }
 
     /// Lights of the scene.

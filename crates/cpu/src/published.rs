@@ -13,6 +13,7 @@ use glam::DVec3;
 use hairline_index::method::{PublishedMethod, Structure};
 use hairline_index::scratch_index::REACH_STD;
 use hairline_index::{Hit, IndexedSegment};
+use hairline_optics::band::TUBE_CORNERS;
 use hairline_optics::ltc::{LobeFresnel, LtcLobe};
 use hairline_optics::mask::{Mask, Masked, ScratchSums};
 use hairline_optics::published::polygon::triangulate;
@@ -41,6 +42,8 @@ impl<'a> Published<'a> {
         let triangles = |light: &Light| match &light.shape {
             LightShape::Polygon { vertices_m, .. } => triangulate(vertices_m),
             LightShape::Sphere { .. } => Vec::new(),
+            // Its outline is convex.
+            LightShape::Tube { .. } => (1..TUBE_CORNERS - 1).map(|i| [0, i, i + 1]).collect(),
         };
         Self {
             prepared,

@@ -13,11 +13,15 @@ pub fn center(light: &Light) -> DVec3 {
         LightKind::Sphere { center_m, .. }
         | LightKind::Disk { center_m, .. }
         | LightKind::Rectangle { center_m, .. } => (*center_m).into(),
+        LightKind::Tube { ends_m, .. } => {
+            let [a, b] = ends_m.map(DVec3::from);
+            a.midpoint(b)
+        }
         LightKind::Polygon { vertices_m, .. } => centroid(&points(vertices_m)),
     }
 }
 
-/// The unit normal of the side on which a flat light shines; none for a sphere.
+/// The unit normal of the side on which a flat light shines; none for others.
 pub fn facing(light: &Light) -> Option<DVec3> {
     vector_area_m2(&light.kind.corners_m()).try_normalize()
 }
@@ -41,6 +45,7 @@ pub fn resize(light: &mut Light, factor: f64) {
     let middle = center(light);
     let extent_m = match &light.kind {
         LightKind::Sphere { radius_m, .. } => *radius_m,
+        LightKind::Tube { ends_m, radius_m } => radius_m + middle.distance(ends_m[0].into()),
         kind => (kind.corners_m().iter())
             .map(|v| v.distance(middle))
             .fold(0.0, f64::max),
@@ -52,9 +57,20 @@ pub fn resize(light: &mut Light, factor: f64) {
         return;
     }
     let factor = wanted_m / extent_m;
+    let scale = |point: &mut [f64; 3]| {
+        let arm = DVec3::from(*point) - middle;
+        *point = (middle + arm * factor).into();
+    };
     match &mut light.kind {
         LightKind::Sphere { radius_m, .. } | LightKind::Disk { radius_m, .. } => {
             *radius_m = (*radius_m * factor).clamp(SMALLEST_M, LARGEST_M);
+        }
+        LightKind::Tube { ends_m, radius_m } => {
+            *radius_m = (*radius_m * factor).clamp(SMALLEST_M, LARGEST_M);
+            // Shorter, its ends would be one.
+            if ends_m.map(DVec3::from)[0].distance(middle) * factor >= SMALLEST_M {
+                ends_m.iter_mut().for_each(scale);
+            }
         }
         LightKind::Rectangle {
             width_m, height_m, ..
@@ -63,12 +79,7 @@ pub fn resize(light: &mut Light, factor: f64) {
                 *side_m = (*side_m * factor).clamp(SMALLEST_M, LARGEST_M);
             }
         }
-        LightKind::Polygon { vertices_m, .. } => {
-            for vertex in vertices_m {
-                let arm = DVec3::from(*vertex) - middle;
-                *vertex = (middle + arm * factor).into();
-            }
-        }
+        LightKind::Polygon { vertices_m, .. } => vertices_m.iter_mut().for_each(scale),
     }
 }
 
@@ -92,8 +103,8 @@ pub fn place_highlight(light: &mut Light, eye_m: DVec3, point_m: DVec3, normal: 
     face(light, point_m);
 }
 
-/// Turns a flat light about its middle, by the shortest way, until it faces a point. A sphere stays as it is.
-pub(crate) fn face(light: &mut Light, point_m: DVec3) {
+/// Turns a flat light about its middle, by the shortest way, until it faces a point. Others stay as they are.
+fn face(light: &mut Light, point_m: DVec3) {
     let Some(normal) = facing(light) else {
         return;
     };
@@ -190,9 +201,12 @@ fn reshape(
 
 fn turn(light: &mut Light, rotation: DQuat) {
     let middle = center(light);
+    if let LightKind::Sphere { .. } = light.kind {
+        return;
+    }
     let corners_m = light.kind.corners_m();
+    each_point(light, |point| middle + rotation * (point - middle));
     if let [a, b, ..] = corners_m[..] {
-        each_point(light, |point| middle + rotation * (point - middle));
         light.kind.lay_width_along(rotation * (b - a));
     }
 }
@@ -207,6 +221,7 @@ fn each_point(light: &mut Light, change: impl Fn(DVec3) -> DVec3) {
         | LightKind::Rectangle {
             center_m, target_m, ..
         } => [center_m, target_m].into_iter().for_each(change),
+        LightKind::Tube { ends_m, .. } => ends_m.iter_mut().for_each(change),
         LightKind::Polygon { vertices_m, .. } => vertices_m.iter_mut().for_each(change),
     }
 }

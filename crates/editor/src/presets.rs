@@ -11,8 +11,6 @@ use hairline_scene::description::{
     MetalColor, Pattern, Scratches, Shape,
 };
 
-use crate::place_light;
-
 /// A layer of scratches to begin with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum LayerPreset {
@@ -337,7 +335,7 @@ impl LightPreset {
         }
     }
 
-    /// The light, beside and above a target, at a distance and a size that suit a scene of this diagonal; polygons face the
+    /// The light, beside and above a target, at a distance and a size that suit a scene of this diagonal; flat ones face the
     /// target. `up` is the camera's.
     pub fn light(self, target_m: DVec3, up: DVec3, diagonal_m: f64) -> Light {
         let d = fitting(diagonal_m);
@@ -345,14 +343,16 @@ impl LightPreset {
         let side = up.any_orthonormal_vector();
         let center = target_m + (up * 0.8 + side * 0.5).normalize() * (1.3 * d);
         let rectangle = |width: f64, height: f64| {
-            let [x, y] = [side, up.cross(side)].map(|axis| axis * (0.5 * d));
-            let corner = |a: f64, b: f64| (center + x * (a * width) + y * (b * height)).into();
-            LightKind::polygon(vec![
-                corner(-1.0, -1.0),
-                corner(-1.0, 1.0),
-                corner(1.0, 1.0),
-                corner(1.0, -1.0),
-            ])
+            let mut kind = LightKind::Rectangle {
+                center_m: center.into(),
+                target_m: target_m.into(),
+                width_m: width * d,
+                height_m: height * d,
+                rotation_deg: 0.0,
+                two_sided: false,
+            };
+            kind.lay_width_along(side);
+            kind
         };
         let (kind, radiance, color) = match self {
             Self::SmallLamp => (
@@ -360,18 +360,23 @@ impl LightPreset {
                 200.0,
                 [1.0, 0.95, 0.88],
             ),
-            Self::Tube => (rectangle(0.02, 1.5), 150.0, [1.0, 0.96, 0.92]),
+            Self::Tube => {
+                let end = |sign: f64| (center + sign * 0.75 * d * up.cross(side)).into();
+                let kind = LightKind::Tube {
+                    ends_m: [end(-1.0), end(1.0)],
+                    radius_m: 0.01 * d,
+                };
+                (kind, 150.0, [1.0, 0.96, 0.92])
+            }
             Self::Softbox => (rectangle(0.4, 0.4), 8.0, [1.0, 1.0, 1.0]),
             Self::Window => (rectangle(1.2, 1.6), 1.5, [0.85, 0.93, 1.0]),
         };
-        let mut light = Light {
+        Light {
             name: Some(self.name().to_lowercase()),
             radiance,
             color,
             ..Light::new(kind)
-        };
-        place_light::face(&mut light, target_m);
-        light
+        }
     }
 }
 

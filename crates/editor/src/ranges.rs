@@ -39,7 +39,7 @@ pub(crate) const DEFAULT_DIAGONAL_M: f64 = 0.3;
 impl Parameter {
     /// Every parameter.
     #[cfg(test)]
-    pub(crate) const ALL: [Self; 53] = [
+    pub(crate) const ALL: [Self; 54] = [
         Self::CameraPosition,
         Self::CameraTarget,
         Self::CameraUp,
@@ -89,6 +89,7 @@ impl Parameter {
         Self::LightHeight,
         Self::LightRotation,
         Self::LightVertex,
+        Self::LightEnd,
         Self::Radiance,
         Self::LightExposure,
         Self::LightTemperature,
@@ -144,7 +145,7 @@ impl Parameter {
             P::BrushRadius => (2e-3 * d..=0.3 * d, limits::SIZE_M),
             P::BrushDensity => (10.0 / d..=10_000.0 / d, NOT_NEGATIVE),
             P::BrushWidth | P::BrushDepth => (0.25..=4.0, limits::STROKE_FACTOR),
-            P::LightCenter | P::LightTarget | P::LightVertex => {
+            P::LightCenter | P::LightTarget | P::LightVertex | P::LightEnd => {
                 (-5.0 * d..=5.0 * d, limits::COORDINATE_M)
             }
             P::LightRadius | P::LightWidth | P::LightHeight => (2e-3 * d..=d, limits::SIZE_M),
@@ -210,7 +211,8 @@ impl Parameter {
             | P::LightRadius
             | P::LightWidth
             | P::LightHeight
-            | P::LightVertex => Unit::Metre,
+            | P::LightVertex
+            | P::LightEnd => Unit::Metre,
             P::FieldOfView
             | P::EnvironmentRotation
             | P::Rotation

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use bytemuck::Zeroable;
 use glam::DVec3;
+use hairline_optics::band::TUBE_CORNERS;
 use hairline_scene::{Light, LightShape, Scene, vector_area_m2};
 
 use crate::host::relative;
@@ -12,6 +13,7 @@ use crate::layout;
 /// [`layout::Light::kind`]. Twin: layout.wgsl.
 const LIGHT_SPHERE: u32 = 0;
 const LIGHT_POLYGON: u32 = 1;
+const LIGHT_TUBE: u32 = 2;
 
 /// What lights scratches in a pass of its own. Twin: SCRATCH_LIGHTS of shade_scratches.wgsl.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -21,14 +23,16 @@ pub(crate) enum Kind {
     Quads,
     /// Polygons of more.
     Outlines,
+    Tubes,
     Environment,
 }
 
 impl Kind {
-    pub(crate) const ALL: [Self; 4] = [
+    pub(crate) const ALL: [Self; 5] = [
         Self::Spheres,
         Self::Quads,
         Self::Outlines,
+        Self::Tubes,
         Self::Environment,
     ];
 
@@ -37,6 +41,7 @@ impl Kind {
             LightShape::Sphere { .. } => Self::Spheres,
             LightShape::Polygon { vertices_m, .. } if vertices_m.len() <= 4 => Self::Quads,
             LightShape::Polygon { .. } => Self::Outlines,
+            LightShape::Tube { .. } => Self::Tubes,
         }
     }
 }
@@ -69,11 +74,13 @@ impl Kinds {
     }
 
     /// What shaders call them. Twin: contents.wgsl.
-    pub(crate) fn constants(self) -> [(&'static str, f64); 3] {
-        let polygons = self.has(Kind::Quads) || self.has(Kind::Outlines);
+    pub(crate) fn constants(self) -> [(&'static str, f64); 4] {
+        let flat = self.has(Kind::Quads) || self.has(Kind::Outlines);
+        let polygons = flat || self.has(Kind::Tubes);
         [
             ("HAS_SPHERES", self.has(Kind::Spheres).into()),
             ("HAS_POLYGONS", polygons.into()),
+            ("HAS_TUBES", self.has(Kind::Tubes).into()),
             ("HAS_ENVIRONMENT", self.has(Kind::Environment).into()),
         ]
     }
@@ -105,6 +112,7 @@ fn vertices_m(light: &Light) -> &[DVec3] {
     match &light.shape {
         LightShape::Polygon { vertices_m, .. } => vertices_m,
         LightShape::Sphere { .. } => &[],
+        LightShape::Tube { ends_m, .. } => ends_m,
     }
 }
 
@@ -115,9 +123,14 @@ pub(crate) fn packed(scene: &Scene, origin_m: DVec3) -> Vec<[u32; 4]> {
         let (center_m, radius_m) = light.bounding_sphere();
         let own = vertices_m(light);
         let first_vertex = vertices.len() as u32;
+        // Those of a tube have its radius with them.
+        let w = match light.shape {
+            LightShape::Tube { radius_m, .. } => radius_m as f32,
+            _ => 0.0,
+        };
         vertices.extend(own.iter().map(|vertex| {
             let [x, y, z] = relative(*vertex, origin_m);
-            [x, y, z, 0.0]
+            [x, y, z, w]
         }));
         let bounded = layout::Light {
             radiance: light.radiance.map(|c| c as f32),
@@ -131,6 +144,11 @@ pub(crate) fn packed(scene: &Scene, origin_m: DVec3) -> Vec<[u32; 4]> {
             LightShape::Sphere { .. } => layout::Light {
                 kind: LIGHT_SPHERE,
                 first_vertex: 0,
+                ..bounded
+            },
+            LightShape::Tube { .. } => layout::Light {
+                kind: LIGHT_TUBE,
+                vertex_count: TUBE_CORNERS as u32,
                 ..bounded
             },
             LightShape::Polygon { two_sided, .. } => layout::Light {

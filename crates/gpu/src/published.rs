@@ -101,6 +101,8 @@ async fn wavelengths(
 fn light_triangles(scene: &Scene) -> Vec<[usize; 3]> {
     let of_light = |light: &Light| match &light.shape {
         LightShape::Sphere { .. } => Vec::new(),
+        // Shaders know them; the places are those of the ends.
+        LightShape::Tube { .. } => vec![[0; 3]; 2],
         LightShape::Polygon { vertices_m, .. } => {
             let mut triangles = triangulate(vertices_m);
             triangles.resize(vertices_m.len(), [0; 3]);

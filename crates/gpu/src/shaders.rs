@@ -45,6 +45,8 @@ modules! {
     BAND = "physics/band" needs [SCRATCH];
     /// Where the lines of a band cross an outline of four edges.
     FOUR_EDGES = "physics/four_edges" needs [BAND];
+    /// The outline of a tube.
+    TUBE = "physics/tube" needs [];
     /// An environment along the band of a scratch.
     BAND_ENVIRONMENT = "physics/band_environment" needs [BAND];
     /// The energy that scratches take.
@@ -108,7 +110,7 @@ modules! {
     /// Surface points as they lie in memory.
     PIXEL_POINT = "scene/pixel_point" needs [LAYOUT, SURFACE_POINT];
     /// Area lights from a surface point.
-    LIGHTS = "scene/lights" needs [ROWS, SURFACE_POINT, BAND];
+    LIGHTS = "scene/lights" needs [ROWS, CONTENTS, SURFACE_POINT, BAND, TUBE];
     /// From a triangle to the surface point.
     HIT = "scene/hit" needs [SCENE, SURFACE_POINT, CAMERA];
     /// A segment in the picture, and the tiles and pixels that it comes near to.
@@ -116,7 +118,7 @@ modules! {
     /// Which pixels see a segment.
     NEARNESS = "scene/nearness" needs [SEGMENTS, PIXEL_POINT, SCRATCH_LIGHT, BINDINGS];
     /// What one scratch sends to the viewer of a polygon with many vertices.
-    OUTLINE_LIGHT = "scene/outline_light" needs [ROWS, SCRATCH_LIGHT];
+    OUTLINE_LIGHT = "scene/outline_light" needs [ROWS, SCRATCH_LIGHT, TUBE];
     /// The base under lights and environment.
     BASE = "scene/base" needs [SCENE, LIGHTS, FILTERED_LOBE, ENVIRONMENT_LOBE];
     /// The method of 2018: a scratch under lights and environment.

@@ -15,6 +15,7 @@
 mod drawn;
 mod lines;
 mod outline;
+mod tube;
 
 pub use drawn::DrawnChord;
 pub use lines::{
@@ -22,6 +23,7 @@ pub use lines::{
     band_is_whole, band_lines, band_moves, band_stds, moved_band,
 };
 pub use outline::{Outline, OutlineEdge, OutlineRoots};
+pub use tube::{TUBE_CORNERS, TubeOutline, tube_outline};
 
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;

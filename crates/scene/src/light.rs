@@ -28,6 +28,13 @@ pub enum LightShape {
         /// Whether the other side shines too.
         two_sided: bool,
     },
+    /// All that is within a radius of a line: a tube with round ends. It lights nothing that is within.
+    Tube {
+        /// The ends of the line, world space; not the same.
+        ends_m: [DVec3; 2],
+        /// Radius, positive.
+        radius_m: f64,
+    },
 }
 
 impl Light {
@@ -50,10 +57,22 @@ impl Light {
         }
     }
 
+    /// A tube.
+    pub fn tube(ends_m: [DVec3; 2], radius_m: f64, radiance: [f64; 3]) -> Self {
+        Self {
+            shape: LightShape::Tube { ends_m, radius_m },
+            radiance,
+        }
+    }
+
     /// Centre and radius of a sphere around the light, for culling; not the smallest one.
     pub fn bounding_sphere(&self) -> (DVec3, f64) {
         match &self.shape {
             LightShape::Sphere { center_m, radius_m } => (*center_m, *radius_m),
+            LightShape::Tube {
+                ends_m: [a, b],
+                radius_m,
+            } => (a.midpoint(*b), 0.5 * a.distance(*b) + radius_m),
             LightShape::Polygon { vertices_m, .. } => {
                 let (low, high) = vertices_m
                     .iter()

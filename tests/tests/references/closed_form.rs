@@ -1,12 +1,12 @@
 //! The closed form against the Monte Carlo integral of the model that it stands for.
 
 use super::pictures::{Compared, LINEAR, closed, compared, sampled};
-use super::scenes::{View, panel, plate, scratch, sphere};
+use super::scenes::{View, panel, plate, scratch, sphere, tube};
 use glam::DVec2;
 use hairline_fixtures::scenes::scratched_ball;
 use hairline_image::Layer;
 use hairline_optics::metal::Metal;
-use hairline_scene::{Base, Scene};
+use hairline_scene::{Base, LightShape, Scene};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -60,6 +60,39 @@ fn plates() {
             [Layer::Scratches, Layer::Base].map(|layer| compared(&name, &exact, &reference, layer));
         assert!(agrees(&scratches, SCRATCHES), "{name}: {scratches:?}");
         assert!(base.rms().0 < BASE, "{name}: {base:?}");
+    }
+}
+
+#[test]
+fn tubes() {
+    for (angle_deg, pixel_um, half_rad, radius_rad) in
+        [(30.0_f64, 10.0, 0.03, 0.05), (50.0, 20.0, 0.06, 0.03)]
+    {
+        let view = View {
+            angle_rad: angle_deg.to_radians(),
+            pixel_um,
+            size_px: 16,
+        };
+        let mut scene = plate(Base::Metal(Metal::Aluminium), view);
+        scene.lights = vec![
+            tube(view, 0.12, -0.05, half_rad, radius_rad),
+            tube(view, -0.02, 0.14, half_rad, radius_rad),
+        ];
+        scratch(&mut scene, view, 24);
+        let (exact, reference) = (closed(&scene), sampled(&scene, LINEAR, 8));
+        let name = format!("tubes from {angle_deg} degrees");
+        let [scratches, base] =
+            [Layer::Scratches, Layer::Base].map(|layer| compared(&name, &exact, &reference, layer));
+        assert!(agrees(&scratches, SCRATCHES), "{name}: {scratches:?}");
+        assert!(base.rms().0 < BASE, "{name}: {base:?}");
+        let mut wrong = scene.clone();
+        for light in &mut wrong.lights {
+            if let LightShape::Tube { radius_m, .. } = &mut light.shape {
+                *radius_m *= 1.03;
+            }
+        }
+        let found = compared("3 % thicker", &closed(&wrong), &reference, Layer::Scratches);
+        assert!(!agrees(&found, SCRATCHES), "{found:?}");
     }
 }
 

@@ -70,6 +70,19 @@ pub fn panel(view: View, x: f64, y: f64, half_rad: [f64; 2]) -> Light {
     )
 }
 
+/// A tube across the way to the plate; half its length and its radius as angles.
+pub fn tube(view: View, x: f64, y: f64, half_rad: f64, radius_rad: f64) -> Light {
+    let middle = LIGHT_M * off_the_mirror(view.angle_rad, x, y);
+    // Neither end is as far as the other.
+    let along = (middle.cross(DVec3::new(0.3, 1.0, 0.2)).normalize() + 0.3 * middle).normalize();
+    let half = LIGHT_M * half_rad.tan() * along;
+    Light::tube(
+        [middle - half, middle + half],
+        LIGHT_M * radius_rad.sin(),
+        [0.7, 0.8, 0.5],
+    )
+}
+
 /// The same with one width and one depth for all.
 pub fn scratch_alike(scene: &mut Scene, view: View, count: u32, width_um: f32, depth_nm: f32) {
     scratch(scene, view, count);

@@ -7,4 +7,5 @@ mod never_nan;
 mod published;
 mod scratch;
 mod surface;
+mod tube;
 mod twin;

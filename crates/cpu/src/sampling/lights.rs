@@ -1,6 +1,6 @@
 //! The area lights of a scene as directions to sample: densities are per solid angle, points and directions in world space.
 //!
-//! A direction is drawn uniformly among those in which the light is seen. That leaves the cosine and the BRDF to the integrand,
+//! A direction is drawn uniformly among those in which the light is seen; of a tube, evenly over its surface. That leaves the cosine and the BRDF to the integrand,
 //! which multiple importance sampling with the BRDF's own directions takes care of, and it makes the density a constant for each
 //! point and light: sampling and evaluating it cannot disagree.
 
@@ -12,11 +12,13 @@ mod polygon;
 mod sphere;
 #[cfg(test)]
 mod tests;
+mod tube;
 
 #[cfg(test)]
 use bound::Cone;
 use polygon::PolygonLight;
 use sphere::SphereLight;
+use tube::TubeLight;
 
 /// The lights of a scene, made ready once.
 #[derive(Clone, Debug)]
@@ -34,6 +36,7 @@ struct AreaLight {
 enum Shape {
     Sphere(SphereLight),
     Polygon(PolygonLight),
+    Tube(TubeLight),
 }
 
 /// A direction towards a light.
@@ -78,6 +81,9 @@ impl AreaLights {
                         vertices_m,
                         two_sided,
                     } => Shape::Polygon(PolygonLight::new(vertices_m, *two_sided)),
+                    LightShape::Tube { ends_m, radius_m } => {
+                        Shape::Tube(TubeLight::new(*ends_m, *radius_m))
+                    }
                 },
                 radiance: light.radiance.into(),
             })
@@ -95,13 +101,14 @@ impl AreaLights {
         self.len() == 0
     }
 
-    /// A direction towards light `i`, uniform over the solid angle in which the point `from` sees it. `u` is in [0, 1)^2.
+    /// A direction towards light `i` as seen from the point `from`. `u` is in [0, 1)^2.
     /// None where the light shows its dark side or its edge.
     pub fn sample(&self, i: usize, from: DVec3, u: DVec2) -> Option<LightSample> {
         let light = &self.lights[i];
         let (direction, distance_m, pdf) = match &light.shape {
             Shape::Sphere(sphere) => sphere.sample(from, u),
             Shape::Polygon(polygon) => polygon.sample(from, u),
+            Shape::Tube(tube) => tube.sample(from, u),
         }?;
         Some(LightSample {
             direction,
@@ -118,6 +125,7 @@ impl AreaLights {
         let distance_m = match &light.shape {
             Shape::Sphere(sphere) => sphere.hit(from, direction),
             Shape::Polygon(polygon) => polygon.hit(from, direction),
+            Shape::Tube(tube) => tube.hit(from, direction),
         }?;
         Some(LightHit {
             distance_m,
@@ -130,15 +138,17 @@ impl AreaLights {
         match &self.lights[i].shape {
             Shape::Sphere(sphere) => sphere.distance_m(from, direction).1,
             Shape::Polygon(polygon) => polygon.plane_m(from, direction),
+            Shape::Tube(tube) => tube.reach_m(from, direction),
         }
     }
 
     /// The density of [`AreaLights::sample`] at a direction that hits light `i`, per steradian; the same for all of them.
     /// 0 where nothing can be sampled.
-    pub fn pdf(&self, i: usize, from: DVec3, _direction: DVec3) -> f64 {
+    pub fn pdf(&self, i: usize, from: DVec3, direction: DVec3) -> f64 {
         match &self.lights[i].shape {
             Shape::Sphere(sphere) => sphere.pdf(from),
             Shape::Polygon(polygon) => polygon.pdf(from),
+            Shape::Tube(tube) => tube.pdf(from, direction),
         }
     }
 
@@ -149,6 +159,7 @@ impl AreaLights {
         match &self.lights[i].shape {
             Shape::Sphere(sphere) => sphere.bound(from),
             Shape::Polygon(polygon) => polygon.bound(from),
+            Shape::Tube(tube) => tube.bound(from),
         }
     }
 
@@ -158,6 +169,7 @@ impl AreaLights {
         match &self.lights[i].shape {
             Shape::Sphere(sphere) => sphere.bound(from).extent(axis),
             Shape::Polygon(polygon) => polygon.extent(from, axis),
+            Shape::Tube(tube) => tube.extent(from, axis),
         }
     }
 }

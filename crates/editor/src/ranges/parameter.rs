@@ -101,6 +101,8 @@ pub enum Parameter {
     LightRotation,
     /// A point of `light.vertices_m`
     LightVertex,
+    /// An end of `light.ends_m`
+    LightEnd,
     /// `light.radiance`
     Radiance,
     /// `light.exposure_ev`

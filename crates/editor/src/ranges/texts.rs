@@ -203,6 +203,10 @@ pub(super) fn of(parameter: Parameter) -> Text {
             "Corner",
             "A corner of the light. Its outline is mirrored in the surface, and scratches draw it out; long, thin shapes keep colours pure across their short side.",
         ),
+        P::LightEnd => (
+            "End",
+            "An end of the line within the tube. Scratches that run along the tube show colours across it.",
+        ),
         P::Radiance => (
             "Radiance",
             "Brightness of the light as it is seen. 40 to 200 for small lamps in dim surroundings lets the highlight clip and its scratches glow.",

@@ -71,11 +71,24 @@ fn aimed() -> impl Strategy<Value = Light> {
     )
 }
 
+fn tube() -> impl Strategy<Value = Light> {
+    (point(2.0), direction(), 0.1..1.0, 0.01..0.1).prop_map(
+        |(center, along, length_m, radius_m)| {
+            let end = |side: f64| <[f64; 3]>::from(center + side * length_m * along);
+            let ends_m = [end(-0.5), end(0.5)];
+            Light::new(LightKind::Tube { ends_m, radius_m })
+        },
+    )
+}
+
 fn light() -> impl Strategy<Value = Light> {
-    prop_oneof![sphere(), aimed(), polygon()]
+    prop_oneof![sphere(), aimed(), tube(), polygon()]
 }
 
 fn vertices(light: &Light) -> Vec<DVec3> {
+    if let LightKind::Tube { ends_m, .. } = &light.kind {
+        return ends_m.map(DVec3::from).into();
+    }
     match light.kind.corners_m() {
         corners_m if corners_m.is_empty() => vec![center(light)],
         corners_m => corners_m,

@@ -18,7 +18,8 @@ override SCRATCH_LIGHTS: u32 = 0u;
 const SCRATCH_LIGHTS_SPHERES: u32 = 0u;
 const SCRATCH_LIGHTS_QUADS: u32 = 1u;
 const SCRATCH_LIGHTS_OUTLINES: u32 = 2u;
-const SCRATCH_LIGHTS_ENVIRONMENT: u32 = 3u;
+const SCRATCH_LIGHTS_TUBES: u32 = 3u;
+const SCRATCH_LIGHTS_ENVIRONMENT: u32 = 4u;
 
 const LANES: u32 = 64u;
 // A segment shows at a point only if their normals agree at least this well.
@@ -194,12 +195,29 @@ fn light_pair(pair: Pair, light_index: u32) -> vec3f {
         );
         return light.radiance * scratch_quad(scratch_tables, point, seen, quad);
     }
-    let facing = polygon_facing(normal, a, light.two_sided != 0u);
+    var view: OutlineView;
+    view.first_vertex = light.first_vertex;
+    view.vertex_count = light.vertex_count;
+    view.point_m = pair.position_m;
+    view.axis_x = pair.surface[0];
+    view.normal = pair.surface[2];
+    view.tangent = seen.tangent;
+    view.is_tube = SCRATCH_LIGHTS == SCRATCH_LIGHTS_TUBES;
+    var facing: f32;
+    var away: vec3f;
+    if SCRATCH_LIGHTS == SCRATCH_LIGHTS_TUBES {
+        let end = light_end_m(light.first_vertex);
+        let b = light_end_m(light.first_vertex + 1u).xyz;
+        view.tube = tube_outline(outline_local(view, end.xyz), outline_local(view, b), end.w);
+        facing = f32(view.tube.seen);
+        away = view.tube.away;
+    } else {
+        facing = polygon_facing(normal, a, light.two_sided != 0u);
+        away = band_from_surface(seen.tangent, -facing * normal);
+    }
     if facing == 0.0 {
         return vec3f(0.0);
     }
-    let view = OutlineView(light.first_vertex, light.vertex_count, pair.position_m, pair.surface[0], pair.surface[2], seen.tangent);
-    let away = band_from_surface(seen.tangent, -facing * normal);
     return light.radiance * scratch_outline(scratch_tables, point, seen, view, facing, away, center_m, light.radius_m);
 }
 

@@ -34,7 +34,7 @@ fn published_base(point: SurfacePoint) -> BaseRadiance {
             if HAS_SPHERES && source.kind == LIGHT_SPHERE {
                 share = published_base_sphere(point, part.lobe, surface.reflecting, pivot, source);
             }
-            if HAS_POLYGONS && source.kind == LIGHT_POLYGON {
+            if HAS_POLYGONS && source.kind != LIGHT_SPHERE {
                 let seen = base_polygon(point, part.lobe, source);
                 share = vec4f(ltc_reflected(part.lobe, surface.reflecting, fresnel_curves, seen.vector), seen.form_factor);
             }

@@ -141,7 +141,7 @@ fn published_light(point: SurfacePoint, sums: ptr<function, ScratchSums>) {
             if HAS_SPHERES && light.kind == LIGHT_SPHERE {
                 radiance += light.radiance * published_sphere(point, view, light);
             }
-            if HAS_POLYGONS && light.kind == LIGHT_POLYGON {
+            if HAS_POLYGONS && light.kind != LIGHT_SPHERE {
                 radiance += light.radiance * published_polygon(point, view, light);
             }
         }

@@ -41,8 +41,9 @@ fn published_offset_um(view: PublishedView) -> f32 {
 
 // Vertices of triangle `i` of a polygon, which has two less than vertices; some may be empty.
 fn published_triangle(light: Light, i: u32) -> vec3u {
-    if light.vertex_count == 3u {
-        return vec3u(0u, 1u, 2u);
+    // The outline of a tube is convex.
+    if light.vertex_count == 3u || (HAS_TUBES && light.kind == LIGHT_TUBE) {
+        return vec3u(0u, i + 1u, i + 2u);
     }
     let place = light.first_vertex + i;
     let at = vec2u(PUBLISHED_WAVELENGTHS + place % LIGHT_TRIANGLE_COLUMNS, place / LIGHT_TRIANGLE_COLUMNS);
@@ -83,16 +84,17 @@ fn published_sphere(point: SurfacePoint, view: PublishedView, light: Light) -> v
 
 // Radiance of a scratch by one polygon, triangle by triangle, per unit of its share and of the light's radiance.
 fn published_polygon(point: SurfacePoint, view: PublishedView, light: Light) -> vec3f {
-    if light_facing(point, light) == 0.0 {
+    let outline = light_outline(point, light);
+    if outline.facing == 0.0 {
         return vec3f(0.0);
     }
     var sum = vec3f(0.0);
     for (var t = 0u; t + 2u < light.vertex_count; t += 1u) {
         let vertices = published_triangle(light, t);
         let clipped = clip_triangle(array<vec3f, 3>(
-            light_vertex(point, light, vertices.x),
-            light_vertex(point, light, vertices.y),
-            light_vertex(point, light, vertices.z),
+            light_vertex(point, light, outline, vertices.x),
+            light_vertex(point, light, outline, vertices.y),
+            light_vertex(point, light, outline, vertices.z),
         ));
         let a = band_from_surface(view.tangent, clipped.corners[0]);
         for (var i = 2u; i < clipped.count; i += 1u) {

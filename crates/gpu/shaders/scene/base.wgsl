@@ -33,15 +33,16 @@ fn base_lambert_sphere(axis: vec3f, sin2: f32) -> f32 {
 }
 
 fn base_polygon(point: SurfacePoint, lobe: LtcLobe, light: Light) -> LightOnBase {
-    if light_facing(point, light) == 0.0 {
+    let outline = light_outline(point, light);
+    if outline.facing == 0.0 {
         return LightOnBase(vec3f(0.0), 0.0);
     }
     var specular = ltc_begin();
     var diffuse = lambert_begin();
-    var a = light_vertex(point, light, 0u);
+    var a = light_vertex(point, light, outline, 0u);
     var highest_z = a.z;
     for (var i = 0u; i < light.vertex_count; i += 1u) {
-        let b = light_vertex(point, light, i + 1u);
+        let b = light_vertex(point, light, outline, i + 1u);
         ltc_edge(&specular, lobe, a, b);
         if HAS_BODIES {
             lambert_edge(&diffuse, a, b);
@@ -124,7 +125,7 @@ fn base_radiance(point: SurfacePoint) -> BaseRadiance {
             if HAS_SPHERES && source.kind == LIGHT_SPHERE {
                 seen = base_sphere(point, part.lobe, source);
             }
-            if HAS_POLYGONS && source.kind == LIGHT_POLYGON {
+            if HAS_POLYGONS && source.kind != LIGHT_SPHERE {
                 seen = base_polygon(point, part.lobe, source);
             }
             light.specular += source.radiance * ltc_reflected(part.lobe, surface.reflecting, fresnel_curves, seen.vector);

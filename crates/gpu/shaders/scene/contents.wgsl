@@ -2,7 +2,9 @@
 
 override HAS_SCRATCHES: bool = true;
 override HAS_SPHERES: bool = true;
+// Tubes too, whose outlines are polygons.
 override HAS_POLYGONS: bool = true;
+override HAS_TUBES: bool = true;
 override HAS_ENVIRONMENT: bool = true;
 override HAS_TEXTURES: bool = true;
 // Materials that are not metal through and through: light falls on a body under the surface.

@@ -70,20 +70,21 @@ struct Material {
     emission_texture: vec2u,
 }
 
-// Spheres come first, then polygons of at most four vertices, then others.
+// Spheres come first, then polygons of at most four vertices, then others, then tubes.
 struct Light {
     radiance: vec3f,
-    kind: u32,                  // LIGHT_SPHERE or LIGHT_POLYGON
-    center_m: vec3f,            // of the sphere, or of one around the polygon
+    kind: u32,                  // LIGHT_SPHERE, LIGHT_POLYGON or LIGHT_TUBE
+    center_m: vec3f,            // of the sphere, or of one around the light
     radius_m: f32,
     normal: vec3f,              // of a polygon, on the side that sees its vertices counter-clockwise
     two_sided: u32,
-    first_vertex: u32,          // of those of all lights
+    first_vertex: u32,          // of those of all lights; of a tube its ends lie there
     vertex_count: u32,
 }
 
 const LIGHT_SPHERE: u32 = 0u;
 const LIGHT_POLYGON: u32 = 1u;
+const LIGHT_TUBE: u32 = 2u;
 
 // Nodes in depth-first order: a BVH traversal goes on with the next one, or with `skip`. Twin: crates/index.
 struct ScratchNode {

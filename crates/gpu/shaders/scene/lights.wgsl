@@ -1,13 +1,39 @@
 // Area lights as seen from a surface point. Needs lights. Twin: cpu/src/light_view.rs.
 
-fn light_facing(point: SurfacePoint, light: Light) -> f32 {
-    return polygon_facing(light.normal, light_corner_m(light.first_vertex) - point.position_m, light.two_sided != 0u);
+// The outline of a light with corners.
+struct LightOutline {
+    facing: f32,                // see polygon_facing
+    tube: TubeOutline,          // of a tube; in the surface's frame
 }
 
-// Vertex `i` of a polygon relative to the point, in the surface's frame; vertices repeat.
-fn light_vertex(point: SurfacePoint, light: Light, i: u32) -> vec3f {
-    let index = light.first_vertex + select(i, i - light.vertex_count, i >= light.vertex_count);
-    return surface_from_world(point, light_corner_m(index) - point.position_m);
+fn light_outline(point: SurfacePoint, light: Light) -> LightOutline {
+    var outline: LightOutline;
+    if HAS_TUBES && light.kind == LIGHT_TUBE {
+        let a = light_end_m(light.first_vertex);
+        let b = light_end_m(light.first_vertex + 1u);
+        outline.tube = tube_outline(
+            surface_from_world(point, a.xyz - point.position_m),
+            surface_from_world(point, b.xyz - point.position_m),
+            a.w,
+        );
+        outline.facing = f32(outline.tube.seen);
+    } else {
+        let a = light_corner_m(light.first_vertex) - point.position_m;
+        outline.facing = polygon_facing(light.normal, a, light.two_sided != 0u);
+    }
+    return outline;
+}
+
+// Vertex `i` of an outline relative to the point, in the surface's frame; vertices repeat.
+fn light_vertex(point: SurfacePoint, light: Light, outline: LightOutline, i: u32) -> vec3f {
+    let at = select(i, i - light.vertex_count, i >= light.vertex_count);
+    var vertex: vec3f;
+    if HAS_TUBES && light.kind == LIGHT_TUBE {
+        vertex = tube_corner(outline.tube, at);
+    } else {
+        vertex = surface_from_world(point, light_corner_m(light.first_vertex + at) - point.position_m);
+    }
+    return vertex;
 }
 
 // The cap of directions that holds a light.

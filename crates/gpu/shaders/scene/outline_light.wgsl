@@ -1,4 +1,4 @@
-// What one scratch sends to the viewer of a polygon with more than four vertices. Edges are visited one by one, several times, so that
+// What one scratch sends to the viewer of a polygon with more than four vertices, or of a tube. Edges are visited one by one, several times, so that
 // no array holds their roots. Twin: cpu/src/shade_scratches/scratch_light.rs.
 
 // A polygon as one scratch sees it.
@@ -9,13 +9,26 @@ struct OutlineView {
     axis_x: vec3f,
     normal: vec3f,
     tangent: vec2f,
+    is_tube: bool,
+    tube: TubeOutline,          // of a tube; in the frame of the scratch
 }
 
 // The unit direction to vertex `i` in the frame of the scratch.
 fn outline_direction(view: OutlineView, i: u32) -> vec3f {
-    let v = light_corner_m(view.first_vertex + i) - view.point_m;
+    var v: vec3f;
+    if view.is_tube {
+        v = tube_corner(view.tube, i);
+    } else {
+        v = outline_local(view, light_corner_m(view.first_vertex + i));
+    }
+    return surface_direction(v);
+}
+
+// A place in the frame of the scratch, relative to the point.
+fn outline_local(view: OutlineView, place_m: vec3f) -> vec3f {
+    let v = place_m - view.point_m;
     let local = vec3f(dot(v, view.axis_x), dot(v, cross(view.normal, view.axis_x)), dot(v, view.normal));
-    return band_from_surface(view.tangent, surface_direction(local));
+    return band_from_surface(view.tangent, local);
 }
 
 // Least and greatest tangent component of the outline and what is in it; nothing where it is below the horizon.

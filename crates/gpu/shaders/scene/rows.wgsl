@@ -67,6 +67,11 @@ fn light_around(i: u32) -> vec4f {
     return bitcast<vec4f>(textureLoad(lights, row_texel(4u * i + 1u), 0));
 }
 
+// An end of a tube and the tube's radius, metres: they lie among the vertices.
+fn light_end_m(i: u32) -> vec4f {
+    return bitcast<vec4f>(textureLoad(lights, row_texel(4u * frame.light_count + i), 0));
+}
+
 // A vertex of a polygonal light, metres: they lie behind the lights.
 fn light_corner_m(i: u32) -> vec3f {
     return bitcast<vec3f>(textureLoad(lights, row_texel(4u * frame.light_count + i), 0).xyz);

@@ -57,10 +57,17 @@ pub enum LightKind {
         /// Whether the other side shines too. Default: false.
         two_sided: bool,
     },
+    /// `"tube"`: all within a radius of a line; its ends are half spheres.
+    Tube {
+        /// The ends of the line. Required.
+        ends_m: [[f64; 3]; 2],
+        /// Required.
+        radius_m: f64,
+    },
 }
 
 /// The keys that belong to each kind.
-pub(super) const KEYS: [(&str, &[&str]); 4] = [
+pub(super) const KEYS: [(&str, &[&str]); 5] = [
     ("sphere", &["center_m", "radius_m"]),
     ("disk", &["center_m", "target_m", "radius_m", "two_sided"]),
     (
@@ -75,6 +82,7 @@ pub(super) const KEYS: [(&str, &[&str]); 4] = [
         ],
     ),
     ("polygon", &["vertices_m", "two_sided"]),
+    ("tube", &["ends_m", "radius_m"]),
 ];
 
 impl LightKind {
@@ -98,6 +106,7 @@ impl LightKind {
             Self::Disk { .. } => "disk",
             Self::Rectangle { .. } => "rectangle",
             Self::Polygon { .. } => "polygon",
+            Self::Tube { .. } => "tube",
         }
     }
 
@@ -108,6 +117,7 @@ impl LightKind {
             Self::Disk { .. } => "disk light",
             Self::Rectangle { .. } => "rectangle light",
             Self::Polygon { .. } => "polygon light",
+            Self::Tube { .. } => "tube light",
         }
     }
 
@@ -119,10 +129,10 @@ impl LightKind {
         }
     }
 
-    /// The corners of the polygon that it is to renderers, counter-clockwise as seen from where it shines; none of a sphere.
+    /// The corners of the polygon that it is to renderers, counter-clockwise as seen from where it shines; none of what is not flat.
     pub fn corners_m(&self) -> Vec<DVec3> {
         match self {
-            Self::Sphere { .. } => Vec::new(),
+            Self::Sphere { .. } | Self::Tube { .. } => Vec::new(),
             Self::Disk {
                 center_m,
                 target_m,
@@ -154,7 +164,7 @@ impl LightKind {
     /// Whether both sides of a flat one shine.
     pub fn is_two_sided(&self) -> bool {
         match self {
-            Self::Sphere { .. } => false,
+            Self::Sphere { .. } | Self::Tube { .. } => false,
             Self::Disk { two_sided, .. }
             | Self::Rectangle { two_sided, .. }
             | Self::Polygon { two_sided, .. } => *two_sided,
@@ -209,6 +219,21 @@ impl LightKind {
                 within(&format!("{key}.rotation_deg"), *rotation_deg, ROTATION_DEG)?;
                 aimed(key, *center_m, *target_m)
             }
+            Self::Tube { ends_m, radius_m } => {
+                for (i, end_m) in ends_m.iter().enumerate() {
+                    point(&format!("{key}.ends_m[{i}]"), *end_m)?;
+                }
+                size_at("radius_m", radius_m)?;
+                let [a, b] = ends_m.map(DVec3::from);
+                match a.distance(b) >= NEAREST_TARGET_M {
+                    true => Ok(()),
+                    false => Err(Error::new(
+                        format!("{key}.ends_m"),
+                        "found two equal ends",
+                        "must be two places; a round lamp is a `sphere`",
+                    )),
+                }
+            }
             Self::Polygon { vertices_m, .. } => {
                 let key = format!("{key}.vertices_m");
                 for (i, vertex) in vertices_m.iter().enumerate() {
@@ -225,6 +250,9 @@ impl LightKind {
         match self {
             Self::Sphere { center_m, radius_m } => {
                 scene::Light::sphere((*center_m).into(), *radius_m, radiance)
+            }
+            Self::Tube { ends_m, radius_m } => {
+                scene::Light::tube(ends_m.map(DVec3::from), *radius_m, radiance)
             }
             _ => scene::Light::polygon(self.corners_m(), radiance, self.is_two_sided()),
         }
@@ -250,6 +278,10 @@ impl LightKind {
                 height_m: table.required("height_m")?,
                 rotation_deg: table.or("rotation_deg", 0.0)?,
                 two_sided: table.or("two_sided", false)?,
+            },
+            "tube" => Self::Tube {
+                ends_m: table.required("ends_m")?,
+                radius_m: table.required("radius_m")?,
             },
             _ => Self::Polygon {
                 vertices_m: table.required("vertices_m")?,

@@ -235,6 +235,10 @@ fn sizes_that_are_negative_or_not_finite() {
         "plate.toml:20: light[0].height_m: found 0; must be greater than 0"
     );
     assert_eq!(
+        light("kind = \"tube\"\nends_m = [[0, 0, 1], [0, 0, 1]]\nradius_m = 1"),
+        "plate.toml:17: light[0].ends_m: found two equal ends; must be two places; a round lamp is a `sphere`"
+    );
+    assert_eq!(
         light("kind = \"sphere\"\ncenter_m = [0, inf, 0]\nradius_m = 1"),
         "plate.toml:17: light[0].center_m[1]: found inf; must be finite"
     );

@@ -244,6 +244,10 @@ fn everything() -> Description {
                 radius_m: 0.25,
                 two_sided: true,
             }),
+            Light::new(LightKind::Tube {
+                ends_m: [[0.0, 0.0, 1.0], [0.0, 0.5, 1.0]],
+                radius_m: 0.125,
+            }),
             Light::new(LightKind::Rectangle {
                 center_m: [0.0, 0.0, 1.0],
                 target_m: [0.5, 0.0, 0.0],

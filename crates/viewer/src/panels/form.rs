@@ -208,9 +208,9 @@ impl<'a> Form<'a> {
         });
     }
 
-    /// A corner of a polygon, counted from 1 on the screen.
-    pub fn corner(&mut self, i: usize, position_m: &mut [f64; 3]) {
-        let range = Parameter::LightVertex.range(self.diagonal_m);
+    /// One of several places, counted from 1 on the screen.
+    pub fn numbered(&mut self, parameter: Parameter, i: usize, position_m: &mut [f64; 3]) {
+        let range = parameter.range(self.diagonal_m);
         let label = format!("{} {}", range.label, i + 1);
         self.boxes_labelled(&label, &range, &["x", "y", "z"], position_m);
     }

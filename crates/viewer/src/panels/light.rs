@@ -73,6 +73,12 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
             form.number(Parameter::LightRotation, rotation_deg);
             form.toggle("Two-sided", TWO_SIDED, two_sided);
         }
+        LightKind::Tube { ends_m, radius_m } => {
+            for (i, end_m) in ends_m.iter_mut().enumerate() {
+                form.numbered(Parameter::LightEnd, i, end_m);
+            }
+            form.number(Parameter::LightRadius, radius_m);
+        }
         LightKind::Polygon { two_sided, .. } => {
             form.toggle("Two-sided", TWO_SIDED, two_sided);
         }
@@ -111,7 +117,7 @@ fn vertices(ui: &mut Ui, work: &mut Workspace, index: usize, vertices_m: &[[f64;
         ui.horizontal(|ui| {
             let mut position_m = *vertex_m;
             let mut form = Form::new(ui, ("corner", index, i), work.diagonal_m(None));
-            form.corner(i, &mut position_m);
+            form.numbered(Parameter::LightVertex, i, &mut position_m);
             if let Some(change) = form.change() {
                 moved = Some((i, position_m, change));
             }

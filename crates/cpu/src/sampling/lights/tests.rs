@@ -144,7 +144,7 @@ fn lambert(vertices: &[DVec3], normal: DVec3) -> f64 {
 fn vertices(light: &Light) -> Option<&[DVec3]> {
     match &light.shape {
         LightShape::Polygon { vertices_m, .. } => Some(vertices_m),
-        LightShape::Sphere { .. } => None,
+        _ => None,
     }
 }
 
@@ -321,6 +321,7 @@ fn the_mean_of_cosine_over_density_is_the_irradiance() {
                 draw.direction()
             };
             let expected = match &light.shape {
+                LightShape::Tube { .. } => unreachable!(),
                 LightShape::Polygon { vertices_m, .. } => lambert(vertices_m, normal),
                 LightShape::Sphere { center_m, radius_m } => {
                     let sin = radius_m / center_m.length();
@@ -551,4 +552,72 @@ fn light_timings() {
             time(&|from, _| lights.extent(0, from, DVec3::X).0),
         );
     }
+}
+
+/// How near a ray from the origin comes to a line between two points, by bisection.
+fn nearest_to_line(w: DVec3, [a, b]: [DVec3; 2]) -> f64 {
+    let beside = |s: f64| {
+        let p = a.lerp(b, s);
+        p.distance(w * p.dot(w).max(0.0))
+    };
+    let (mut low, mut high) = (0.0, 1.0);
+    while high - low > 1e-9 {
+        let third = (high - low) / 3.0;
+        if beside(low + third) < beside(high - third) {
+            high -= third;
+        } else {
+            low += third;
+        }
+    }
+    beside(low)
+}
+
+#[test]
+fn a_tube_is_sampled_as_it_is_seen() {
+    let mut draw = Draw::new(8);
+    for (a, b, radius_m) in [
+        ([-1.0, 0.2, 1.0], [1.0, 0.1, 1.2], 0.1),
+        ([0.5, 0.2, 0.4], [0.9, 0.1, 3.0], 0.2),
+        ([-1.0, 0.0, 0.31], [2.0, 0.3, 0.4], 0.3),
+        // Seen from beyond its end, and along its axis.
+        ([0.05, 0.0, 0.6], [0.0, 0.1, 2.0], 0.2),
+        ([0.0, 0.0, 1.0], [0.0, 0.0, 2.0], 0.3),
+        ([-1.0, 0.3, -0.2], [1.0, 0.4, 0.5], 0.15),
+    ] {
+        let ends_m = [a, b].map(DVec3::from);
+        let lights = AreaLights::from_lights(&[Light::tube(ends_m, radius_m, [1.0; 3])]);
+        let bound = lights.bound(0, DVec3::ZERO);
+        let axes = [(); 6].map(|()| draw.direction());
+        let extents = axes.map(|axis| lights.extent(0, DVec3::ZERO, axis));
+        for _ in 0..20_000 {
+            let sample = lights.sample(0, DVec3::ZERO, draw.two()).unwrap();
+            let w = sample.direction;
+            assert!(nearest_to_line(w, ends_m) < radius_m + 1e-9);
+            let hit = lights.hit(0, DVec3::ZERO, w).unwrap();
+            let to_line = nearest_to_line(w, ends_m.map(|end| end - hit.distance_m * w));
+            assert!(to_line < radius_m + 1e-9, "{to_line}");
+            assert!(w.dot(bound.axis) >= bound.cos);
+            for (axis, (low, high)) in axes.iter().zip(extents) {
+                assert!((low..=high).contains(&w.dot(*axis)));
+            }
+        }
+        const STEPS: u32 = 400;
+        let mut seen = 0;
+        // Equal parts of the projected hemisphere.
+        for u in jittered(STEPS as usize, 1) {
+            let (sin, cos) = (2.0 * PI * u.y).sin_cos();
+            let w = DVec3::new(u.x.sqrt() * cos, u.x.sqrt() * sin, (1.0 - u.x).sqrt());
+            let meets = nearest_to_line(w, ends_m) < radius_m;
+            assert_eq!(meets, lights.hit(0, DVec3::ZERO, w).is_some());
+            seen += u32::from(meets);
+        }
+        let exact = PI * f64::from(seen) / f64::from(STEPS * STEPS);
+        let (mean, error) = irradiance(&lights, DVec3::ZERO, DVec3::Z);
+        println!("{exact:.5}, {mean:.5} +- {error:.5}");
+        assert!((mean / exact - 1.0).abs() < 3e-3 + 4.0 * error / exact);
+        assert!((1.02 * mean / exact - 1.0).abs() > 3e-3 + 4.0 * error / exact);
+    }
+    let within = Light::tube([DVec3::NEG_X, DVec3::X], 0.2, [1.0; 3]);
+    let lights = AreaLights::from_lights(&[within]);
+    assert!(lights.sample(0, DVec3::ZERO, DVec2::splat(0.5)).is_none());
 }

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use hairline_editor::{Selection, place_light};
 use hairline_scene::Description;
-use hairline_scene::description::Light;
+use hairline_scene::description::{Light, LightKind};
 
 /// A light or an object, as far as handles are concerned.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -44,7 +44,7 @@ impl Body {
         Self {
             noun: "light",
             center_m: place_light::center(light),
-            turns: place_light::facing(light).is_some(),
+            turns: !matches!(light.kind, LightKind::Sphere { .. }),
             resizes: true,
             normal: place_light::facing(light),
             corners_m: light.kind.vertices_m().iter().map(|&v| v.into()).collect(),

@@ -3,6 +3,7 @@
 use egui::{Color32, Painter, Pos2};
 use glam::DVec3;
 use hairline_editor::place_light;
+use hairline_optics::band::{TUBE_CORNERS, TubeOutline, tube_outline};
 use hairline_scene::Description;
 use hairline_scene::description::{Light, LightKind};
 
@@ -68,6 +69,14 @@ fn outline(light: &Light, lens: &Lens) -> Vec<[Pos2; 2]> {
         LightKind::Sphere { center_m, radius_m } => {
             let smallest_m = lens.m_per_point(DVec3::from(*center_m)) * f64::from(SMALLEST);
             circle(lens, (*center_m).into(), radius_m.max(smallest_m))
+        }
+        LightKind::Tube { ends_m, radius_m } => {
+            let [a, b] = ends_m.map(|end| DVec3::from(end) - lens.eye_m());
+            let outline = tube_outline(a, b, *radius_m);
+            let corner = |outline: TubeOutline, i| lens.eye_m() + outline.tube_corner(i);
+            (0..TUBE_CORNERS)
+                .filter_map(|i| Some(corner(outline?, i)))
+                .collect()
         }
         kind => kind.corners_m(),
     };
