@@ -30,7 +30,7 @@ pub struct Task {
     pub backend: Backend,
     /// For each pixel on an edge.
     pub samples: u32,
-    /// Whether objects hide lights from one another. The CPU renderer alone has shadows.
+    /// Whether objects hide lights from one another.
     pub shadows: bool,
 }
 
@@ -51,19 +51,16 @@ impl<'a> Painter<'a> {
     /// if there is one, else the CPU renderer.
     ///
     /// # Errors
-    /// [`Failure::Work`] where the GPU that was asked for fails. The task must not ask a GPU for shadows.
+    /// [`Failure::Work`] where the GPU that was asked for fails.
     pub fn open(scene: &'a Scene, task: Task) -> Result<Self, Failure> {
         let on = match task.backend {
-            Backend::Auto if task.shadows => {
-                On::on_cpu(scene, &task.method, "it alone has shadows")
-            }
             Backend::Cpu => On::on_cpu(scene, &task.method, "as asked"),
             Backend::Gpu => {
                 let gpu = open().map_err(advise)?;
                 announce_gpu(&gpu, "as asked");
-                On::on_gpu(&gpu, scene, &task.method).map_err(advise)?
+                On::on_gpu(&gpu, scene, &task).map_err(advise)?
             }
-            Backend::Auto => On::best(scene, &task.method),
+            Backend::Auto => On::best(scene, &task),
         };
         Ok(Self { scene, task, on })
     }
@@ -153,15 +150,19 @@ impl<'a> On<'a> {
         Self::Cpu(prepared(scene, method))
     }
 
-    fn on_gpu(gpu: &Gpu, scene: &Scene, method: &Method) -> Result<Self, hairline_gpu::Error> {
+    fn on_gpu(gpu: &Gpu, scene: &Scene, task: &Task) -> Result<Self, hairline_gpu::Error> {
         let sort = || Arc::new(sorted(|watch| ScratchIndex::rebuild(scene, None, watch)));
         let (scratches, tables) = rayon::join(sort, || ScratchTables::new(scene));
-        let on = OnGpu::new(gpu, scene, &scratches, &tables, method)?;
+        let Task {
+            method, shadows, ..
+        } = task;
+        let on = OnGpu::new(gpu, scene, &scratches, &tables, method, *shadows)?;
         Ok(Self::Gpu(Box::new(on)))
     }
 
     /// A GPU if there is one, else the CPU renderer.
-    fn best(scene: &'a Scene, method: &Method) -> Self {
+    fn best(scene: &'a Scene, task: &Task) -> Self {
+        let method = &task.method;
         match open() {
             Err(error) => Self::on_cpu(scene, method, &error.to_string()),
             Ok(gpu) if gpu.adapter.kind == AdapterKind::Software => {
@@ -170,7 +171,7 @@ impl<'a> On<'a> {
             }
             Ok(gpu) => {
                 announce_gpu(&gpu, "a GPU is there");
-                Self::on_gpu(&gpu, scene, method).unwrap_or_else(|error| {
+                Self::on_gpu(&gpu, scene, task).unwrap_or_else(|error| {
                     warn_of(&gpu, &error);
                     Self::Cpu(prepared(scene, method))
                 })

@@ -13,7 +13,6 @@ use hairline_image::{Animation, Display, Image, Output};
 use hairline_index::method::Method;
 
 use crate::backend::{Painter, Task};
-use crate::cli::Backend;
 use crate::failure::Failure;
 use crate::progress::Progress;
 use crate::scene_file::{self, Overrides};
@@ -112,11 +111,6 @@ fn shadows(arguments: &cli::Render, method: &Method) -> Result<bool, Failure> {
     if method.published.is_some() {
         return Err(Failure::Input(anyhow!(
             "--shadows on: the published method has no shadows; leave out --method published"
-        )));
-    }
-    if arguments.backend == Backend::Gpu {
-        return Err(Failure::Input(anyhow!(
-            "--shadows on: the GPU renderer has no shadows yet; leave out --backend gpu"
         )));
     }
     Ok(true)

@@ -41,6 +41,16 @@ impl View<'_> {
     }
 }
 
+impl View<'_> {
+    /// Rays of each sample to each source. A pixel without an edge has one sample; of several, each has two rays: one guesses for the other.
+    pub(crate) fn rounds(&self) -> u32 {
+        match self.step {
+            0 => self.samples.max(1),
+            _ => 2,
+        }
+    }
+}
+
 /// What of a step is counted on the device.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Counted {

@@ -180,6 +180,33 @@ shared! {
         end: u32,
         adds: u32,
     }
+    /// One round of rays to one source; uniform.
+    ShadowRound {
+        source: u32,
+        round: u32,
+        rounds: u32,
+        extent_m: f32,
+    }
+    /// A ray from a sample to a source.
+    ShadowRay {
+        direction: [f32; 3],
+        distance_m: f32,
+        specular: [f32; 3],
+        offset_x: f32,
+        body: [f32; 3],
+        offset_y: f32,
+    }
+    /// Sums over the rays of half of the rounds.
+    ShadowHalf {
+        specular: [f32; 3],
+        pad_0: f32,
+        specular_hidden: [f32; 3],
+        pad_1: f32,
+        body: [f32; 3],
+        pad_2: f32,
+        body_hidden: [f32; 3],
+        pad_3: f32,
+    }
     /// Sums over the samples of a pixel.
     FilmPixel {
         base: [f32; 3],

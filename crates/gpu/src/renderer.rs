@@ -165,6 +165,20 @@ impl Renderer {
         GpuScene::new(&self.gpu, &self.layouts, source, last).await
     }
 
+    /// Lets the objects of what was uploaded hide its lights and its environment from one another, until it is updated. Rays tell, as many for
+    /// each source of a pixel's light as [`RenderOptions::samples`] says; where nothing hides one, no bit changes. Only Hairline's own method
+    /// has shadows.
+    ///
+    /// # Errors
+    /// As [`Self::upload`].
+    pub async fn add_shadows(
+        &mut self,
+        uploaded: &mut GpuScene,
+        scene: &Scene,
+    ) -> Result<(), Error> {
+        uploaded.add_shadows(&self.gpu, &self.layouts, scene).await
+    }
+
     /// Renders `scene`, which was uploaded as `uploaded`, by its own camera and at its own size; `progress` is told the
     /// share that is done.
     ///

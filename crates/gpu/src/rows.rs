@@ -1,4 +1,4 @@
-//! Arrays that lie in textures, 16 bytes a texel, row after row. Twin: `shaders/scene/rows.wgsl`.
+//! Arrays that lie in textures, 16 bytes a texel, row after row. Twins: `shaders/scene/texels.wgsl`, `rows.wgsl`.
 
 use wgpu::TextureFormat;
 
@@ -6,7 +6,7 @@ use crate::device::Gpu;
 use crate::error::Error;
 use crate::transfer::{Place, Transfer};
 
-/// Texels to a row. Twin: rows.wgsl.
+/// Texels to a row. Twin: texels.wgsl.
 pub(crate) const ROW_TEXELS: u32 = 1 << 12;
 const TEXEL_BYTES: usize = 16;
 

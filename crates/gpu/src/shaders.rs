@@ -41,6 +41,8 @@ modules! {
     SCRATCH = "physics/scratch" needs [GAUSSIAN];
     /// The spectrum of a scratch.
     SCRATCH_TABLE = "physics/scratch_table" needs [];
+    /// Random numbers that are even over rounds.
+    SOBOL = "physics/sobol" needs [];
     /// Where an area light meets the band of a scratch.
     BAND = "physics/band" needs [SCRATCH];
     /// Where the lines of a band cross an outline of four edges.
@@ -93,8 +95,12 @@ modules! {
     LAYOUT = "scene/layout" needs [];
     /// Where the scene is bound: group 0 the frame, group 1 the scene's arrays, group 2 its tables and textures.
     BINDINGS = "scene/bindings" needs [LAYOUT];
+    /// Where elements lie in textures.
+    TEXELS = "scene/texels" needs [];
     /// Arrays that lie in textures.
-    ROWS = "scene/rows" needs [BINDINGS];
+    ROWS = "scene/rows" needs [BINDINGS, TEXELS];
+    /// The triangles along a ray.
+    TRIANGLE_TREE = "scene/triangle_tree" needs [TEXELS, SURFACE_POINT];
     /// What a scene has: pipelines are compiled for it.
     CONTENTS = "scene/contents" needs [];
     /// The switches of the method of 2018 and the mask: pipelines are compiled for them.
@@ -153,6 +159,18 @@ modules! {
     SHADE_SCRATCHES = "passes/shade_scratches" needs [NEARNESS, GROUPS, METHOD, OUTLINE_LIGHT];
     /// Pass: the radiance of the base.
     SHADE_BASE = "passes/shade_base" needs [BASE, FILM, PIXEL_POINT];
+    /// The lobes of the base, to draw directions from.
+    BASE_LOBES = "scene/base_lobes" needs [BASE];
+    /// Directions to area lights.
+    LIGHT_SAMPLING = "scene/light_sampling" needs [LIGHTS, GGX, CONTENTS, SCRATCH_LIGHT];
+    /// What the passes of shadows share.
+    SHADOW = "scene/shadow" needs [LAYOUT, SOBOL];
+    /// Pass: a ray of each sample to one source of the base's light.
+    SHADOW_BASE_RAYS = "passes/shadow_base_rays" needs [BASE_LOBES, LIGHT_SAMPLING, SHADOW, FILM, PIXEL_POINT];
+    /// Pass: what each ray meets.
+    SHADOW_TRACE = "passes/shadow_trace" needs [TRIANGLE_TREE, FILM, PIXEL_POINT];
+    /// Pass: what is hidden of one source of the base's light.
+    SHADOW_BASE = "passes/shadow_base" needs [BASE, SHADOW, FILM, PIXEL_POINT];
     /// Pass: base and scratches by the method of 2018.
     SHADE_PUBLISHED = "published/shade_published" needs [PUBLISHED_GATHER, PUBLISHED_BASE, FILM, PIXEL_POINT];
     /// Pass: what a pixel adds to the film.

@@ -8,6 +8,7 @@ use crate::device::Gpu;
 use crate::error::Error;
 use crate::layout::{BaseLight, ChunkSum, PixelPaint, PixelPoint};
 use crate::scan::{Scan, ScanPasses};
+use crate::shadows::ShadowRoom;
 
 /// Pixels to a side of a tile. Twin: film.wgsl.
 pub(crate) const TILE_PX: u32 = 8;
@@ -46,6 +47,8 @@ pub(crate) struct StripRoom {
     pub group_scan: Scan,
     pub samples: Samples,
     pub lists: Lists,
+    /// None before there are shadows.
+    pub shadows: Option<ShadowRoom>,
 }
 
 /// The arrays over samples, and over groups of 64 of them. They grow to the size that is needed.
@@ -102,7 +105,7 @@ pub(crate) fn strip_rows_max(gpu: &Gpu, width_px: u32) -> u32 {
     (rows / TILE_PX * TILE_PX).max(TILE_PX)
 }
 
-fn largest_array(gpu: &Gpu) -> u64 {
+pub(crate) fn largest_array(gpu: &Gpu) -> u64 {
     let limits = gpu.limits();
     limits
         .max_storage_buffer_binding_size
@@ -152,6 +155,7 @@ impl StripRoom {
             group_starts,
             samples: Samples::new(gpu, scans).await?,
             lists: Lists::new(gpu, scans).await?,
+            shadows: None,
         })
     }
 }

@@ -10,10 +10,11 @@ use crate::device::Gpu;
 use crate::error::Error;
 use crate::film::Film;
 use crate::frame::{Counted, View, frame};
-use crate::layout::{Frame, PixelPoint};
+use crate::layout::{Frame, PixelPoint, ShadowRound};
 use crate::passes::{ScratchPasses, Shade};
 use crate::pipelines::compiled;
 use crate::scan::ScanPasses;
+use crate::shadows::{ShadowRoom, Shadows};
 use crate::strip::{
     GROUP, Lists, MadeLists, Samples, StripRoom, TILE_PX, chunks_most, strip_points, tile_count,
 };
@@ -109,7 +110,9 @@ impl StripShader {
             None => groups,
             Some(_) => chunks_most(tiles, entries),
         };
-        if !Samples::fit(gpu, points, chunks) {
+        if !Samples::fit(gpu, points, chunks)
+            || view.uploaded.shadows.is_some() && !ShadowRoom::fit(gpu, points)
+        {
             return self.halves(strip).map(Some);
         }
         room.samples.make_room(gpu, scans, points, groups).await?;
@@ -144,6 +147,10 @@ impl StripShader {
                 passes.surface.record(gpu, recording, room, film, rows);
             });
         }
+        let shadows = match &passes.shade {
+            Shade::Own { .. } => view.uploaded.shadows.as_ref(),
+            Shade::Published(_) => None,
+        };
         self.submit(view, |recording| {
             match &passes.shade {
                 Shade::Own { base, scratches } => {
@@ -154,9 +161,58 @@ impl StripShader {
                 }
                 Shade::Published(published) => published.record(gpu, recording, room, film, groups),
             }
-            passes.resolve.record(gpu, recording, room, film, rows);
+            if shadows.is_none() {
+                passes.resolve.record(gpu, recording, room, film, rows);
+            }
         });
+        if let Some(shadows) = shadows {
+            self.shade_shadows(view, shadows, room, points, groups)
+                .await?;
+            self.submit(view, |recording| {
+                passes.resolve.record(gpu, recording, room, film, rows);
+            });
+        }
         Ok(None)
+    }
+
+    /// Takes from the light of the samples what is hidden of it.
+    async fn shade_shadows(
+        &self,
+        view: &View<'_>,
+        shadows: &Shadows,
+        room: &mut StripRoom,
+        points: u64,
+        groups: u32,
+    ) -> Result<(), Error> {
+        let gpu = &self.gpu;
+        let mut shadow_room = match room.shadows.take() {
+            Some(shadow_room) => shadow_room,
+            None => ShadowRoom::new(gpu).await?,
+        };
+        shadow_room.make_room(gpu, points).await?;
+        let rounds = view.rounds();
+        let round = |source, round| ShadowRound {
+            source,
+            round,
+            rounds,
+            extent_m: shadows.extent_m,
+        };
+        let lights = view.uploaded.data.light_count;
+        let sources = lights + u32::from(view.scene.environment.is_some());
+        // A round at a time, so that no submission takes long.
+        for source in 0..sources {
+            for i in 0..rounds {
+                shadow_room.write(gpu, &round(source, i));
+                self.submit(view, |recording| {
+                    shadows.record_base_round(gpu, recording, room, &shadow_room, groups);
+                });
+            }
+            self.submit(view, |recording| {
+                shadows.record_base(gpu, recording, room, &shadow_room, groups);
+            });
+        }
+        room.shadows = Some(shadow_room);
+        Ok(())
     }
 
     /// How many groups the samples of a strip's edges make.

@@ -1,10 +1,13 @@
 //! A scene on the device, and the passes that are compiled for it.
 
+use hairline_scene::Scene;
+
 use crate::bindings::Layouts;
 use crate::device::Gpu;
 use crate::error::Error;
 use crate::passes::ScenePasses;
 use crate::scene_data::SceneData;
+use crate::shadows::Shadows;
 use crate::source::Source;
 use crate::transfer::Written;
 use crate::variant::{Contents, ShadeVariant};
@@ -13,6 +16,9 @@ use crate::variant::{Contents, ShadeVariant};
 pub struct GpuScene {
     pub(crate) data: SceneData,
     pub(crate) passes: ScenePasses,
+    /// None: nothing hides a light.
+    pub(crate) shadows: Option<Shadows>,
+    variant: ShadeVariant,
 }
 
 impl GpuScene {
@@ -33,7 +39,27 @@ impl GpuScene {
         };
         let passes = ScenePasses::new(gpu, layouts, &variant).await?;
         let data = SceneData::new(gpu, layouts, source, last.map(|last| &last.data)).await?;
-        Ok(Self { data, passes })
+        Ok(Self {
+            data,
+            passes,
+            shadows: None,
+            variant,
+        })
+    }
+
+    /// Lets the objects of the scene hide lights from one another.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub(crate) async fn add_shadows(
+        &mut self,
+        gpu: &Gpu,
+        layouts: &Layouts,
+        scene: &Scene,
+    ) -> Result<(), Error> {
+        let shadows = Shadows::new(gpu, layouts, scene, &self.data, &self.variant).await?;
+        self.shadows = Some(shadows);
+        Ok(())
     }
 
     /// What the last upload or update wrote, beside what it copied on the device; nothing about what stayed as it was.

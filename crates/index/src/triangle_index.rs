@@ -1,5 +1,7 @@
 //! Triangles along a ray.
 
+use std::ops::Range;
+
 use glam::{DVec3, Vec3A};
 use hairline_scene::Scene;
 use obvhs::BvhBuildParams;
@@ -20,6 +22,15 @@ pub struct Hit {
     pub distance_m: f64,
     /// Barycentric coordinates of the second and third vertex.
     pub barycentric: [f64; 2],
+}
+
+/// A node of a [`TriangleIndex`] in depth-first order. A walk goes on with the next node, or with `skip` if it wants nothing below this one.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TriangleNode {
+    /// The next node that is not below this one; always greater than the node's own index.
+    pub skip: u32,
+    /// Those of a leaf, at most eight, as [`TriangleIndex::triangles`] numbers them; empty for an inner node.
+    pub triangles: Range<u32>,
 }
 
 /// A tree over all triangles of a scene.
@@ -56,8 +67,48 @@ impl TriangleIndex {
         &self.tree
     }
 
+    /// The tree's nodes in depth-first order.
+    pub fn nodes(&self) -> Vec<TriangleNode> {
+        enum Step {
+            Enter(u32),
+            Leave(usize),
+        }
+        let mut nodes = Vec::with_capacity(self.tree.nodes.len());
+        let mut left = Vec::new();
+        if !self.triangles.is_empty() {
+            left.push(Step::Enter(0));
+        }
+        // Not by recursion: nobody bounds how deep a tree is.
+        while let Some(step) = left.pop() {
+            match step {
+                Step::Leave(at) => {
+                    let nodes: &mut Vec<TriangleNode> = &mut nodes;
+                    nodes[at].skip = nodes.len() as u32;
+                }
+                Step::Enter(i) => {
+                    let node = &self.tree.nodes[i as usize];
+                    let at = nodes.len();
+                    let first = node.first_index;
+                    let is_leaf = node.is_leaf();
+                    nodes.push(TriangleNode {
+                        skip: at as u32 + 1,
+                        triangles: if is_leaf {
+                            first..first + node.prim_count
+                        } else {
+                            0..0
+                        },
+                    });
+                    if !is_leaf {
+                        left.extend([Step::Leave(at), Step::Enter(first + 1), Step::Enter(first)]);
+                    }
+                }
+            }
+        }
+        nodes
+    }
+
     /// Object, triangle and corners, in the order of the tree's leaves.
-    pub(crate) fn triangles(&self) -> &[(u32, u32, [DVec3; 3])] {
+    pub fn triangles(&self) -> &[(u32, u32, [DVec3; 3])] {
         &self.triangles
     }
 

@@ -5,6 +5,7 @@ mod four_edges;
 mod lobes;
 mod never_nan;
 mod published;
+mod rays;
 mod scratch;
 mod surface;
 mod tube;

@@ -23,10 +23,14 @@ impl OnGpu {
         scratches: &Arc<ScratchIndex>,
         tables: &ScratchTables,
         method: &Method,
+        shadows: bool,
     ) -> Result<Self, Error> {
         gpu.block_on(async {
             let mut renderer = Renderer::new(gpu).await?;
-            let uploaded = renderer.upload(scene, scratches, tables, method).await?;
+            let mut uploaded = renderer.upload(scene, scratches, tables, method).await?;
+            if shadows {
+                renderer.add_shadows(&mut uploaded, scene).await?;
+            }
             Ok(Self { renderer, uploaded })
         })
     }

@@ -70,3 +70,28 @@ fn ggx_area_reflectance(single: vec3f, f0: vec3f, e0: f32) -> vec3f {
     );
     return single * gain;
 }
+
+// A visible normal: a spherical cap drawn around the stretched viewer, then unstretched.
+fn ggx_sample_normal(wo: vec3f, alpha: f32, u: vec2f) -> vec3f {
+    let stretched = normalize(vec3f(alpha * wo.x, alpha * wo.y, wo.z));
+    let z = (1.0 - u.y) * (1.0 + stretched.z) - stretched.z;
+    let r = sqrt(max(1.0 - z * z, 0.0));
+    let phi = 2.0 * GGX_PI * u.x;
+    let h = vec3f(r * cos(phi), r * sin(phi), z) + stretched;
+    return normalize(vec3f(alpha * h.x, alpha * h.y, max(h.z, 1e-12)));
+}
+
+// A direction drawn in proportion to the visible normals, from u in [0, 1)^2. It may lie below the horizon.
+fn ggx_sample(wo: vec3f, alpha: f32, u: vec2f) -> vec3f {
+    let h = ggx_sample_normal(wo, alpha, u);
+    return normalize(2.0 * dot(wo, h) * h - wo);
+}
+
+// The density of ggx_sample at wi, per steradian.
+fn ggx_pdf(wi: vec3f, wo: vec3f, alpha: f32) -> f32 {
+    let h = wi + wo;
+    if (wo.z <= 0.0 || h.z <= 0.0) {
+        return 0.0;
+    }
+    return 0.25 * ggx_d(h, alpha) * ggx_g1(wo.z, alpha) / wo.z;
+}

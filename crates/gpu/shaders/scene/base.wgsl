@@ -111,6 +111,11 @@ fn base_of(point: SurfacePoint, surface: BaseSurface, light: BaseRadiance) -> Ba
 
 // Radiance of the base towards the viewer, before scratches take theirs.
 fn base_radiance(point: SurfacePoint) -> BaseRadiance {
+    return base_radiance_of(point, vec2u(0u, frame.light_count), true);
+}
+
+// The same by some of the lights, from the first to the one before the end, and from all around or not.
+fn base_radiance_of(point: SurfacePoint, of_lights: vec2u, surrounded: bool) -> BaseRadiance {
     let surface = base_surface(point);
     var sum: BaseRadiance;
     for (var p = 0u; p < 2u; p += 1u) {
@@ -118,8 +123,11 @@ fn base_radiance(point: SurfacePoint) -> BaseRadiance {
         if part.weight == 0.0 {
             break;
         }
-        var light = base_surroundings(point, part.lobe, surface.reflecting);
-        for (var l = 0u; l < frame.light_count; l += 1u) {
+        var light: BaseRadiance;
+        if surrounded {
+            light = base_surroundings(point, part.lobe, surface.reflecting);
+        }
+        for (var l = of_lights.x; l < of_lights.y; l += 1u) {
             let source = light_at(l);
             var seen: LightOnBase;
             if HAS_SPHERES && source.kind == LIGHT_SPHERE {

@@ -151,6 +151,32 @@ struct LightRange {
     adds: u32,                  // 0: the first dispatch, which writes the sums of the mask as well
 }
 
+// One round of rays to one source, of all samples of a strip.
+struct ShadowRound {
+    source: u32,                // index into the lights; their number for the environment, one more for what scratches send
+    round: u32,
+    rounds: u32,                // of all
+    extent_m: f32,              // how far the scene reaches from the origin: what rounding goes by
+}
+
+// A ray from a sample to a source, and the light that it stands for.
+struct ShadowRay {
+    direction: vec3f,           // unit, world space
+    distance_m: f32,            // to the source; 0: there is no ray
+    specular: vec3f,            // reflected at the surface, or sent by scratches
+    offset_x: f32,              // where it starts, from what the sample shows: standard deviations of the pixel's filter to the right
+    body: vec3f,                // from under the surface
+    offset_y: f32,              // and down
+}
+
+// Sums over the rays of half of the rounds.
+struct ShadowHalf {
+    specular: vec3f,
+    specular_hidden: vec3f,     // of those that meet something
+    body: vec3f,
+    body_hidden: vec3f,
+}
+
 // Sums over the samples of a pixel: who reads them divides by their count.
 struct FilmPixel {
     base: vec3f,

@@ -1,13 +1,5 @@
-// Arrays that lie in textures, 16 bytes a texel, row after row: a texture may hold four times as much as a storage buffer, and a
-// stage has eight storage buffers only. Twin: src/rows.rs writes them.
-
-// Texels to a row.
-const ROW_BITS: u32 = 12u;
-
-// Where texel `i` lies.
-fn row_texel(i: u32) -> vec2u {
-    return vec2u(i & ((1u << ROW_BITS) - 1u), i >> ROW_BITS);
-}
+// Arrays that lie in textures: a texture may hold four times as much as a storage buffer, and a stage has eight storage buffers only.
+// Twin: src/rows.rs writes them.
 
 fn material_at(i: u32) -> Material {
     let a = textureLoad(materials, row_texel(6u * i), 0);
