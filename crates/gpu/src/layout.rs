@@ -186,6 +186,8 @@ shared! {
         round: u32,
         rounds: u32,
         extent_m: f32,
+        first_pick: u32,
+        picks: u32,
     }
     /// A ray from a sample to a source.
     ShadowRay {

@@ -14,40 +14,27 @@ use crate::pipelines::Orders;
 use crate::scan::ScanPasses;
 use crate::shaders;
 use crate::strip::{StripRoom, whole};
+use crate::variant::Constant;
 
-/// One pass for each kind of light that the scene has; spheres where it has none, for the mask.
+/// The pass, and what it needs to know before.
 pub(crate) struct ShadeScratchesPass {
     chunks: ComputePass,
-    kinds: Vec<(Kind, ComputePass)>,
+    kinds: KindPasses,
 }
+
+/// One pass for each kind of light that the scene has; spheres where it has none, for the mask.
+pub(crate) struct KindPasses(Vec<(Kind, ComputePass)>);
 
 /// Groups of a workgroup that counts chunks. Twin: group_chunks.wgsl.
 const CHUNKS_WORKGROUP: u32 = 64;
 
 impl ShadeScratchesPass {
     pub(crate) fn new(orders: &mut Orders) -> Self {
-        let has = orders.variant().has;
-        let uses = [
-            Use::Reads,
-            Use::Reads,
-            Use::Reads,
-            Use::Reads,
-            Use::Reads,
-            Use::Writes,
-            Use::DynamicUniform,
-        ];
-        let mut pass = |kind: Kind| {
-            let module = (&shaders::SHADE_SCRATCHES, "shade_scratches");
-            let constants = [("SCRATCH_LIGHTS", f64::from(kind as u32))];
-            let pass = ComputePass::order(orders, "scratches", module, &uses, &constants);
-            (kind, pass)
-        };
-        let kinds = has.lights.over_scratches().map(&mut pass).collect();
         let module = (&shaders::GROUP_CHUNKS, "group_chunks");
         let uses = [Use::Reads, Use::Reads, Use::Writes];
         Self {
             chunks: ComputePass::order(orders, "chunks", module, &uses, &[]),
-            kinds,
+            kinds: KindPasses::new(orders, "scratches", &[]),
         }
     }
 
@@ -84,8 +71,47 @@ impl ShadeScratchesPass {
         sorted: usize,
         chunks: u32,
     ) {
+        let sums = &room.samples.chunk_sums;
+        self.kinds
+            .record(gpu, recording, room, sums, sorted, chunks);
+    }
+}
+
+impl KindPasses {
+    /// With `more` constants beside that of the kind.
+    pub(crate) fn new(orders: &mut Orders, name: &'static str, more: &[Constant]) -> Self {
+        let has = orders.variant().has;
+        let uses = [
+            Use::Reads,
+            Use::Reads,
+            Use::Reads,
+            Use::Reads,
+            Use::Reads,
+            Use::Writes,
+            Use::DynamicUniform,
+        ];
+        let mut pass = |kind: Kind| {
+            let module = (&shaders::SHADE_SCRATCHES, "shade_scratches");
+            let mut constants = more.to_vec();
+            constants.push(("SCRATCH_LIGHTS", f64::from(kind as u32)));
+            let pass = ComputePass::order(orders, name, module, &uses, &constants);
+            (kind, pass)
+        };
+        Self(has.lights.over_scratches().map(&mut pass).collect())
+    }
+
+    /// Those of at most so many chunks; `output` is what the pass writes.
+    pub(crate) fn record(
+        &self,
+        gpu: &Gpu,
+        recording: &mut Recording,
+        room: &StripRoom,
+        output: &wgpu::Buffer,
+        sorted: usize,
+        chunks: u32,
+    ) {
         let ranges = &recording.scene.light_ranges;
-        for (kind, pass) in &self.kinds {
+        for (kind, pass) in &self.0 {
             let range = BindingResource::Buffer(wgpu::BufferBinding {
                 buffer: &ranges.buffer,
                 offset: 0,
@@ -97,7 +123,7 @@ impl ShadeScratchesPass {
                 whole(&room.lists.entries[sorted]),
                 whole(&room.list_starts),
                 whole(&room.samples.chunk_starts),
-                whole(&room.samples.chunk_sums),
+                whole(output),
                 range,
             ];
             let group = pass.bind(gpu, &resources);

@@ -41,6 +41,8 @@ modules! {
     SCRATCH = "physics/scratch" needs [GAUSSIAN];
     /// The spectrum of a scratch.
     SCRATCH_TABLE = "physics/scratch_table" needs [];
+    /// Luminance.
+    LUMINANCE = "physics/luminance" needs [];
     /// Random numbers that are even over rounds.
     SOBOL = "physics/sobol" needs [];
     /// Where an area light meets the band of a scratch.
@@ -155,22 +157,34 @@ modules! {
     GROUPS = "scene/groups" needs [FILM];
     /// Pass: into how many chunks each group's list is cut.
     GROUP_CHUNKS = "passes/group_chunks" needs [GROUPS];
+    /// A pixel with a segment that it sees.
+    PAIRS = "scene/pairs" needs [SEGMENTS, PIXEL_POINT, SCRATCH_LIGHT];
+    /// Scratches that stand for all.
+    PICKS = "scene/picks" needs [SOBOL, LUMINANCE];
     /// Pass: the light and the mask of scratches.
-    SHADE_SCRATCHES = "passes/shade_scratches" needs [NEARNESS, GROUPS, METHOD, OUTLINE_LIGHT];
+    SHADE_SCRATCHES = "passes/shade_scratches" needs [NEARNESS, PAIRS, PICKS, GROUPS, METHOD, OUTLINE_LIGHT];
     /// Pass: the radiance of the base.
     SHADE_BASE = "passes/shade_base" needs [BASE, FILM, PIXEL_POINT];
     /// The lobes of the base, to draw directions from.
-    BASE_LOBES = "scene/base_lobes" needs [BASE];
+    BASE_LOBES = "scene/base_lobes" needs [BASE, LUMINANCE];
     /// Directions to area lights.
     LIGHT_SAMPLING = "scene/light_sampling" needs [LIGHTS, GGX, CONTENTS, SCRATCH_LIGHT];
     /// What the passes of shadows share.
-    SHADOW = "scene/shadow" needs [LAYOUT, SOBOL];
+    SHADOW = "scene/shadow" needs [LAYOUT, SOBOL, LUMINANCE];
     /// Pass: a ray of each sample to one source of the base's light.
     SHADOW_BASE_RAYS = "passes/shadow_base_rays" needs [BASE_LOBES, LIGHT_SAMPLING, SHADOW, FILM, PIXEL_POINT];
     /// Pass: what each ray meets.
     SHADOW_TRACE = "passes/shadow_trace" needs [TRIANGLE_TREE, FILM, PIXEL_POINT];
     /// Pass: what is hidden of one source of the base's light.
     SHADOW_BASE = "passes/shadow_base" needs [BASE, SHADOW, FILM, PIXEL_POINT];
+    /// Directions to light by way of a scratch.
+    DRAWN_LIGHT = "scene/drawn_light" needs [OUTLINE_LIGHT, LUMINANCE];
+    /// Pass: where the sums begin by which scratches are picked.
+    SHADOW_PICKS = "passes/shadow_picks" needs [SHADOW, PICKS, FILM];
+    /// Pass: a ray of each sample by way of a scratch.
+    SHADOW_SCRATCH_RAYS = "passes/shadow_scratch_rays" needs [DRAWN_LIGHT, PAIRS, PICKS, SHADOW, LIGHT_SAMPLING, FILM];
+    /// Pass: what is hidden of what scratches send.
+    SHADOW_SCRATCHES = "passes/shadow_scratches" needs [SHADOW, FILM];
     /// Pass: base and scratches by the method of 2018.
     SHADE_PUBLISHED = "published/shade_published" needs [PUBLISHED_GATHER, PUBLISHED_BASE, FILM, PIXEL_POINT];
     /// Pass: what a pixel adds to the film.

@@ -14,7 +14,7 @@ use crate::layout::{Frame, PixelPoint, ShadowRound};
 use crate::passes::{ScratchPasses, Shade};
 use crate::pipelines::compiled;
 use crate::scan::ScanPasses;
-use crate::shadows::{ShadowRoom, Shadows};
+use crate::shadows::{Scratched, ShadowRoom, Shadows};
 use crate::strip::{
     GROUP, Lists, MadeLists, Samples, StripRoom, TILE_PX, chunks_most, strip_points, tile_count,
 };
@@ -166,8 +166,12 @@ impl StripShader {
             }
         });
         if let Some(shadows) = shadows {
-            self.shade_shadows(view, shadows, room, points, groups)
-                .await?;
+            let on = Scratched {
+                groups,
+                chunks,
+                sorted,
+            };
+            self.shade_shadows(view, shadows, room, points, &on).await?;
             self.submit(view, |recording| {
                 passes.resolve.record(gpu, recording, room, film, rows);
             });
@@ -182,33 +186,62 @@ impl StripShader {
         shadows: &Shadows,
         room: &mut StripRoom,
         points: u64,
-        groups: u32,
+        on: &Scratched,
     ) -> Result<(), Error> {
-        let gpu = &self.gpu;
+        let (gpu, groups) = (&self.gpu, on.groups);
         let mut shadow_room = match room.shadows.take() {
             Some(shadow_room) => shadow_room,
             None => ShadowRoom::new(gpu).await?,
         };
         shadow_room.make_room(gpu, points).await?;
-        let rounds = view.rounds();
-        let round = |source, round| ShadowRound {
-            source,
-            round,
-            rounds,
-            extent_m: shadows.extent_m,
-        };
         let lights = view.uploaded.data.light_count;
         let sources = lights + u32::from(view.scene.environment.is_some());
+        let mut next = ShadowRound {
+            source: 0,
+            round: 0,
+            rounds: view.rounds(),
+            extent_m: shadows.extent_m,
+            first_pick: 0,
+            picks: 0,
+        };
         // A round at a time, so that no submission takes long.
         for source in 0..sources {
-            for i in 0..rounds {
-                shadow_room.write(gpu, &round(source, i));
+            for round in 0..next.rounds {
+                next = ShadowRound {
+                    source,
+                    round,
+                    ..next
+                };
+                shadow_room.write(gpu, &next);
                 self.submit(view, |recording| {
                     shadows.record_base_round(gpu, recording, room, &shadow_room, groups);
                 });
             }
             self.submit(view, |recording| {
                 shadows.record_base(gpu, recording, room, &shadow_room, groups);
+            });
+        }
+        if let Some(scratches) = &shadows.passes.scratches {
+            let most = shadow_room
+                .make_room_for_picks(gpu, points, on.chunks, next.rounds)
+                .await?;
+            next.source = lights + 1;
+            for round in 0..next.rounds {
+                next.round = round;
+                if round % most == 0 {
+                    next.first_pick = round;
+                    next.picks = most.min(next.rounds - round);
+                }
+                shadow_room.write(gpu, &next);
+                self.submit(view, |recording| {
+                    if round == next.first_pick {
+                        scratches.record_picks(gpu, recording, room, &shadow_room, on);
+                    }
+                    shadows.record_scratch_round(gpu, recording, room, &shadow_room, groups);
+                });
+            }
+            self.submit(view, |recording| {
+                scratches.record_scratches(gpu, recording, room, &shadow_room, groups);
             });
         }
         room.shadows = Some(shadow_room);

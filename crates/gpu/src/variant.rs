@@ -82,9 +82,15 @@ pub fn pipeline_variants(text: &str) -> Vec<(String, Vec<(&'static str, f64)>)> 
                     constants.push(("SCRATCH_LIGHTS", kind as f64));
                     name += &format!(", lights of kind {kind}");
                 }
-                if variants.iter().all(|(_, known)| *known != constants) {
-                    variants.push((name, constants));
+                if variants.iter().any(|(_, known)| *known == constants) {
+                    continue;
                 }
+                if text.contains("override PICKS:") {
+                    let mut constants = constants.clone();
+                    constants.push(("PICKS", 1.0));
+                    variants.push((format!("{name}, picks"), constants));
+                }
+                variants.push((name, constants));
             }
         }
     }

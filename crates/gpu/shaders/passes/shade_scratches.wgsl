@@ -10,7 +10,8 @@
 @group(3) @binding(2) var<storage, read> entries: array<vec4u>;
 @group(3) @binding(3) var<storage, read> list_starts: array<u32>;
 @group(3) @binding(4) var<storage, read> chunk_starts: array<u32>;
-@group(3) @binding(5) var<storage, read_write> chunk_sums: array<ChunkSum>;
+// A ChunkSum takes two words; or, where scratches are picked, what picks.wgsl says.
+@group(3) @binding(5) var<storage, read_write> chunk_words: array<vec4u>;
 @group(3) @binding(6) var<uniform> range: LightRange;
 
 // Which kind of light the pass is compiled for.
@@ -20,6 +21,9 @@ const SCRATCH_LIGHTS_QUADS: u32 = 1u;
 const SCRATCH_LIGHTS_OUTLINES: u32 = 2u;
 const SCRATCH_LIGHTS_TUBES: u32 = 3u;
 const SCRATCH_LIGHTS_ENVIRONMENT: u32 = 4u;
+
+// Whether the pass does not add up light, but picks scratches that stand for it: shadow rays go by way of them.
+override PICKS: bool = false;
 
 const LANES: u32 = 64u;
 // A segment shows at a point only if their normals agree at least this well.
@@ -110,38 +114,6 @@ fn marks_seen(at: u32, marked: vec2u) -> vec2u {
         }
     }
     return seen;
-}
-
-// A pixel and a segment.
-struct Pair {
-    point: LitPoint,
-    seen: SeenScratch,          // without a share where the pixel does not see the segment
-    position_m: vec3f,
-    surface: mat3x3f,           // the surface's axes in world space
-}
-
-fn pair_of(pixel: PixelPoint, segment: Segment) -> Pair {
-    let axis_y = cross(pixel.normal, pixel.axis_x);
-    let a = (segment.start_m - pixel.position_m) * 1e6;
-    let b = (segment.end_m - pixel.position_m) * 1e6;
-    let point = LitPoint(
-        pixel_wo(pixel.cos_o),
-        pixel.distance_m,
-        pixel.footprint_um.xy,
-        pixel.footprint_um.zw,
-        pixel.turns.xy,
-        pixel.turns.zw,
-        pixel.coherence_um,
-        pixel_table(pixel),
-    );
-    let seen = scratch_seen(
-        point,
-        vec2f(dot(a, pixel.axis_x), dot(a, axis_y)),
-        vec2f(dot(b, pixel.axis_x), dot(b, axis_y)),
-        segment.profile,
-        segment.blur_um,
-    );
-    return Pair(point, seen, pixel.position_m, mat3x3f(pixel.axis_x, axis_y, pixel.normal));
 }
 
 // Whether a segment lies on the pixel's object, and on the side that it sees.
@@ -278,6 +250,13 @@ fn shade_scratches(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgro
         return;
     }
     var sum = ChunkSum(vec3f(0.0), 0.0, vec3f(0.0), 0.0);
+    let at = LANES * chunk_index + lane;
+    var state: PickState;
+    var first_pick = 0u;
+    if PICKS {
+        state = pick_state_from(chunk_words[at]);
+        first_pick = LANES * chunk_starts[frame.group_count] + state.per_sample * own_point;
+    }
     // Pairs that were queued, and those that have been lit.
     var queued = 0u;
     var lit = 0u;
@@ -340,7 +319,7 @@ fn shade_scratches(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgro
                 } else {
                     // The colourless density of Velinov et al. (2018) is twice the share.
                     var energy = vec3f(2.0);
-                    if METHOD_MASK != MASK_DENSITY {
+                    if METHOD_MASK != MASK_DENSITY && !PICKS {
                         energy = scratch_energy(scratch_tables, pair.point, pair.seen);
                     }
                     let is_seen = share.segment > 0.0 && is_there(pixel, index, segment);
@@ -354,7 +333,19 @@ fn shade_scratches(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgro
             if lights_now {
                 workgroupBarrier();
                 for (var j = 0u; j < waiting; j += 1u) {
-                    sum.radiance += select(vec3f(0.0), results[j], (queue[(lit + j) % QUEUE] & 63u) == lane);
+                    let item_lit = queue[(lit + j) % QUEUE];
+                    let is_own = (item_lit & 63u) == lane;
+                    if PICKS && is_own {
+                        state.sum += max(rgb_luminance(results[j]), 0.0);
+                        // Those that the sum has passed.
+                        while pick_is_due(state) {
+                            let source = select(range.first + ((item_lit >> 6u) & 7u), frame.light_count, SCRATCH_LIGHTS == SCRATCH_LIGHTS_ENVIRONMENT);
+                            let segment = entries[chunk.first_entry + (item_lit >> 9u)].y;
+                            chunk_words[first_pick + pick_slot(state)] = pick_packed(segment, source, results[j]);
+                            state.next += 1u;
+                        }
+                    }
+                    sum.radiance += select(vec3f(0.0), results[j], is_own);
                 }
                 lit += waiting;
             } else {
@@ -376,14 +367,18 @@ fn shade_scratches(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgro
             workgroupBarrier();
         }
     }
-    let at = LANES * chunk_index + lane;
+    if PICKS {
+        chunk_words[at] = pick_state_packed(state);
+        return;
+    }
     if range.adds == 0u {
-        chunk_sums[at] = sum;
+        chunk_words[2u * at] = bitcast<vec4u>(vec4f(sum.radiance, sum.share));
+        chunk_words[2u * at + 1u] = bitcast<vec4u>(vec4f(sum.energy, sum.share_by_line));
     } else {
-        chunk_sums[at].radiance += sum.radiance;
+        chunk_words[2u * at] = bitcast<vec4u>(bitcast<vec4f>(chunk_words[2u * at]) + vec4f(sum.radiance, 0.0));
     }
     // No share is negative: resolve.wgsl tells the host.
     if loops_were_cut() {
-        chunk_sums[at].share = -1.0;
+        chunk_words[2u * at].w = bitcast<u32>(-1.0);
     }
 }

@@ -36,3 +36,14 @@ fn scratch_table_total(table: texture_2d_array<u32>, layer: u32, depth_nm: f32) 
     let far = bitcast<vec3f>(textureLoad(table, vec2i(SCRATCH_TABLE_COLUMNS - 1, row + 1), layer, 0).xyz);
     return 2.0 * (near + (far - near) * (y - f32(row)));
 }
+
+// How T rises with |u|, up to a factor: the colours of what comes from a direction.
+fn scratch_table_slope(table: texture_2d_array<u32>, layer: u32, u_um: f32, depth_nm: f32) -> vec3f {
+    let u = min(abs(u_um), 1e18);
+    let column = min(i32(u / (u + SCRATCH_TABLE_U_HALF_UM) * f32(SCRATCH_TABLE_COLUMNS - 1) + 0.5), SCRATCH_TABLE_COLUMNS - 1);
+    let y = clamp(depth_nm, 0.0, SCRATCH_TABLE_DEPTH_MAX_NM) * (f32(SCRATCH_TABLE_ROWS - 1) / SCRATCH_TABLE_DEPTH_MAX_NM);
+    let row = min(i32(y), SCRATCH_TABLE_ROWS - 2);
+    let near = scratch_table_near(vec4u(0u, 0u, 0u, textureLoad(table, vec2i(column, row), layer, 0).w), 1.0);
+    let far = scratch_table_near(vec4u(0u, 0u, 0u, textureLoad(table, vec2i(column, row + 1), layer, 0).w), 1.0);
+    return near + (far - near) * (y - f32(row));
+}

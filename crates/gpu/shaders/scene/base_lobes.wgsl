@@ -9,10 +9,6 @@ struct BaseLobes {
     specular_share: f32,        // how often the specular one is drawn from
 }
 
-fn rgb_luminance(rgb: vec3f) -> f32 {
-    return dot(rgb, vec3f(0.2126, 0.7152, 0.0722));
-}
-
 fn base_lobes(point: SurfacePoint) -> BaseLobes {
     let surface = base_surface(point);
     let albedo = ggx_area_reflectance(surface.reflecting.albedo, point.f0, surface.sharp.albedo);

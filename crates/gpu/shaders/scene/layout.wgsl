@@ -157,6 +157,8 @@ struct ShadowRound {
     round: u32,
     rounds: u32,                // of all
     extent_m: f32,              // how far the scene reaches from the origin: what rounding goes by
+    first_pick: u32,            // the round of the first scratch that is picked of each sample
+    picks: u32,                 // and how many are picked at once
 }
 
 // A ray from a sample to a source, and the light that it stands for.

@@ -35,11 +35,9 @@ const SHADOW_FAR_M: f32 = 1e30;
 
 // The share of its light that a half of the rays finds hidden; none without a ray. Where no ray is hidden it is 0 to the bit.
 fn shadow_share(weight: vec3f, hidden: vec3f) -> f32 {
-    let all = dot(weight, SHADOW_LUMINANCE);
-    return select(0.0, dot(hidden, SHADOW_LUMINANCE) / max(all, 1e-30), all > 0.0);
+    let all = rgb_luminance(weight);
+    return select(0.0, rgb_luminance(hidden) / max(all, 1e-30), all > 0.0);
 }
-
-const SHADOW_LUMINANCE = vec3f(0.2126, 0.7152, 0.0722);
 
 // What of `open`, which a source sends where nothing hides it, is hidden, from the sums over even and odd rounds: (41) of docs/model.md, written
 // for the part that is missing, so that no hidden ray means no difference.

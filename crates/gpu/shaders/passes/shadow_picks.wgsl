@@ -1,0 +1,46 @@
+// Pass: where the running sums begin by which shade_scratches.wgsl picks scratches for shadow rays. A workgroup a group.
+
+@group(3) @binding(0) var<storage, read> points: array<PixelPoint>;
+@group(3) @binding(1) var<storage, read> chunk_starts: array<u32>;
+@group(3) @binding(2) var<storage, read> chunk_sums: array<ChunkSum>;
+@group(3) @binding(3) var<storage, read_write> picks: array<vec4u>;
+@group(3) @binding(4) var<uniform> shadow_round: ShadowRound;
+
+// The strata whose places a sum has passed.
+fn strata_before(sum: f32, seed: u32, step: f32) -> u32 {
+    let stratum = u32(clamp(sum / max(step, 1e-30), 0.0, f32(shadow_round.picks)));
+    return min(stratum + u32(pick_threshold(seed, stratum, step) < sum), shadow_round.picks);
+}
+
+@compute @workgroup_size(8, 8)
+fn shadow_picks(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let group = workgroup.y * workgroups.x + workgroup.x;
+    if group >= frame.group_count || !group_has(group, lane) {
+        return;
+    }
+    let at = group_point(group, lane);
+    if points[at].object == 0u {
+        return;
+    }
+    let first_chunk = chunk_starts[group];
+    let end_chunk = chunk_starts[group + 1u];
+    var all = 0.0;
+    for (var chunk = first_chunk; chunk < end_chunk; chunk += 1u) {
+        all += max(rgb_luminance(chunk_sums[GROUP * chunk + lane].radiance), 0.0);
+    }
+    let step = all / f32(shadow_round.picks);
+    let seed = sobol_hash(shadow_seed(points[at].position_m) + shadow_round.first_pick) & 0xffffffu;
+    var sum = 0.0;
+    var next = 0u;
+    for (var chunk = first_chunk; chunk < end_chunk; chunk += 1u) {
+        let begin = sum;
+        sum += max(rgb_luminance(chunk_sums[GROUP * chunk + lane].radiance), 0.0);
+        let end = select(strata_before(sum, seed, step), shadow_round.picks, chunk + 1u == end_chunk);
+        picks[GROUP * chunk + lane] = pick_state_packed(PickState(begin, next, end, shadow_round.picks, step, seed));
+        next = end;
+    }
+    let first_pick = GROUP * chunk_starts[frame.group_count] + shadow_round.picks * at;
+    for (var i = 0u; i < shadow_round.picks; i += 1u) {
+        picks[first_pick + i] = vec4u(PICK_NONE);
+    }
+}

@@ -1,0 +1,90 @@
+// Pass: for each sample a ray by way of a scratch that was picked. A workgroup a group. Twin: cpu/src/shadows.rs.
+
+@group(3) @binding(0) var<storage, read> points: array<PixelPoint>;
+@group(3) @binding(1) var<storage, read> chunk_starts: array<u32>;
+@group(3) @binding(2) var<storage, read> picks: array<vec4u>;
+@group(3) @binding(3) var<storage, read_write> rays: array<ShadowRay>;
+@group(3) @binding(4) var<uniform> shadow_round: ShadowRound;
+
+// A direction to the source by way of the pair.
+struct DrawnRay {
+    light: DrawnLight,
+    distance_m: f32,
+}
+
+fn draw_ray(pair: Pair, source: u32, u: vec3f) -> DrawnRay {
+    if source >= frame.light_count {
+        var around: DrawnLight;
+        if HAS_ENVIRONMENT {
+            around = draw_around(pair.point, pair.seen, frame.environment_from_world * pair.surface, u.yz);
+        }
+        return DrawnRay(around, SHADOW_FAR_M);
+    }
+    let light = light_at(source);
+    let center_m = (light.center_m - pair.position_m) * pair.surface;
+    var drawn = DrawnRay(DrawnLight(vec3f(0.0), false, vec3f(0.0)), SHADOW_FAR_M);
+    if HAS_SPHERES && light.kind == LIGHT_SPHERE {
+        drawn.light = draw_sphere(pair.point, pair.seen, center_m, light.radius_m, u);
+        drawn.distance_m = abs(sphere_reach_m(center_m, light.radius_m, drawn.light.direction));
+    }
+    if HAS_POLYGONS && light.kind == LIGHT_POLYGON {
+        let normal = light.normal * pair.surface;
+        let corner_m = (light_corner_m(light.first_vertex) - pair.position_m) * pair.surface;
+        let facing = polygon_facing(normal, corner_m, light.two_sided != 0u);
+        let away = band_from_surface(pair.seen.tangent, -facing * normal);
+        let view = OutlineView(light.first_vertex, light.vertex_count, pair.position_m, pair.surface[0], pair.surface[2], pair.seen.tangent);
+        if facing != 0.0 {
+            drawn.light = draw_outline(pair.point, pair.seen, view, facing, away, center_m, light.radius_m, u);
+            let plane_m = dot(normal, corner_m) / dot(normal, drawn.light.direction);
+            drawn.distance_m = select(SHADOW_FAR_M, plane_m, plane_m > 0.0 && plane_m < SHADOW_FAR_M);
+        }
+    }
+    return drawn;
+}
+
+// The ray of a sample by way of a pick; `luminance` is that of all that scratches send.
+fn ray_by(pixel: PixelPoint, pick: Pick, luminance: f32) -> ShadowRay {
+    let segment = segment_from(scratch_segment(pick.segment));
+    let pair = pair_of(pixel, segment);
+    let seed = shadow_seed(pixel.position_m);
+    let line = shadow_random(seed, shadow_round, SHADOW_LINE);
+    let chord = shadow_random(seed, shadow_round, SHADOW_CHORD);
+    let drawn = draw_ray(pair, pick.source, vec3f(line, chord.x));
+    var ray: ShadowRay;
+    if !drawn.light.is_there {
+        return ray;
+    }
+    let place = shadow_random(seed, shadow_round, SHADOW_PLACE);
+    let normals = vec3f(shadow_normals(shadow_random(seed, shadow_round, SHADOW_START)), gaussian_quantile(clamp(place.x, 1e-6, 1.0 - 1e-6)));
+    let a = (segment.start_m - pixel.position_m) * 1e6;
+    let b = (segment.end_m - pixel.position_m) * 1e6;
+    let start = place_drawn(
+        pair.point,
+        pair.seen,
+        vec2f(dot(a, pair.surface[0]), dot(a, pair.surface[1])),
+        vec2f(dot(b, pair.surface[0]), dot(b, pair.surface[1])),
+        segment.blur_um,
+        normals,
+        place.y,
+    );
+    return ShadowRay(pair.surface * drawn.light.direction, drawn.distance_m, luminance * pick.color * drawn.light.color, start.x, vec3f(0.0), start.y);
+}
+
+@compute @workgroup_size(8, 8)
+fn shadow_scratch_rays(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let group = workgroup.y * workgroups.x + workgroup.x;
+    if group >= frame.group_count || !group_has(group, lane) {
+        return;
+    }
+    let at = group_point(group, lane);
+    if points[at].object == 0u {
+        return;
+    }
+    var ray: ShadowRay;
+    let packed = picks[GROUP * chunk_starts[frame.group_count] + shadow_round.picks * at + shadow_round.round - shadow_round.first_pick];
+    if packed.x != PICK_NONE {
+        let state = pick_state_from(picks[GROUP * chunk_starts[group] + lane]);
+        ray = ray_by(points[at], pick_from(packed), state.step * f32(state.per_sample));
+    }
+    rays[at] = ray;
+}

@@ -1,0 +1,33 @@
+// A pixel with a segment that it sees.
+
+// A pixel and a segment.
+struct Pair {
+    point: LitPoint,
+    seen: SeenScratch,          // without a share where the pixel does not see the segment
+    position_m: vec3f,
+    surface: mat3x3f,           // the surface's axes in world space
+}
+
+fn pair_of(pixel: PixelPoint, segment: Segment) -> Pair {
+    let axis_y = cross(pixel.normal, pixel.axis_x);
+    let a = (segment.start_m - pixel.position_m) * 1e6;
+    let b = (segment.end_m - pixel.position_m) * 1e6;
+    let point = LitPoint(
+        pixel_wo(pixel.cos_o),
+        pixel.distance_m,
+        pixel.footprint_um.xy,
+        pixel.footprint_um.zw,
+        pixel.turns.xy,
+        pixel.turns.zw,
+        pixel.coherence_um,
+        pixel_table(pixel),
+    );
+    let seen = scratch_seen(
+        point,
+        vec2f(dot(a, pixel.axis_x), dot(a, axis_y)),
+        vec2f(dot(b, pixel.axis_x), dot(b, axis_y)),
+        segment.profile,
+        segment.blur_um,
+    );
+    return Pair(point, seen, pixel.position_m, mat3x3f(pixel.axis_x, axis_y, pixel.normal));
+}
