@@ -13,4 +13,5 @@ mod pictures;
 mod published;
 mod scenes;
 mod shadowed;
+mod shadowed_on_gpu;
 mod shadows;

@@ -15,12 +15,12 @@ use hairline_reference::Settings;
 use hairline_scene::{Base, Environment, LightShape, Scene};
 use std::sync::Arc;
 
-const VIEW: View = View {
+pub(super) const VIEW: View = View {
     angle_rad: 0.7,
     pixel_um: 30.0,
     size_px: 16,
 };
-const WHITE: Base = Base::Dielectric {
+pub(super) const WHITE: Base = Base::Dielectric {
     ior: 1.5,
     base_color: [0.9, 0.7, 0.5],
 };
@@ -30,7 +30,7 @@ const SHADOWS: Settings = Settings {
 };
 
 /// By the closed form, with rays for shadows or without.
-fn closed(scene: &Scene, samples: u32, shadows: bool) -> Image {
+pub(super) fn closed(scene: &Scene, samples: u32, shadows: bool) -> Image {
     let options = RenderOptions {
         samples,
         shadows,
@@ -64,7 +64,7 @@ fn cover(scene: &mut Scene, towards: DVec3, reach_m: f64, low_m: [f64; 2], high_
 }
 
 /// Scenes in which something is hidden, and their names.
-fn scenes() -> Vec<(&'static str, Scene)> {
+pub(super) fn scenes() -> Vec<(&'static str, Scene)> {
     let lamp = |x: f64, y: f64| off_the_mirror(VIEW.angle_rad, x, y);
     let mut edge = scratched(Base::Mirror);
     edge.lights = vec![sphere(VIEW, 0.12, -0.05, 0.08)];
@@ -153,7 +153,7 @@ fn scenes() -> Vec<(&'static str, Scene)> {
     ]
 }
 
-fn luminance(image: &Image, layer: Layer) -> Vec<f64> {
+pub(super) fn luminance(image: &Image, layer: Layer) -> Vec<f64> {
     let values = match layer {
         Layer::Base => &image.base,
         _ => &image.scratches,
@@ -328,7 +328,7 @@ fn spheres_do_not_shade_themselves() {
 }
 
 /// Puts a ball of `2 * slices * (stacks - 1)` triangles in place of the plate.
-fn set_ball(scene: &mut Scene, slices: u32, stacks: u32, radius_m: f32) {
+pub(super) fn set_ball(scene: &mut Scene, slices: u32, stacks: u32, radius_m: f32) {
     let mesh = Arc::make_mut(&mut scene.objects[0].mesh);
     let angle = |i: u32, count: u32, whole: f32| whole * i as f32 / count as f32;
     mesh.normals = (0..=stacks)

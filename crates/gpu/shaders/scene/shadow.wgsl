@@ -16,9 +16,10 @@ fn shadow_seed(position_m: vec3f) -> u32 {
     return sobol_hash(word.x ^ sobol_hash(word.y ^ sobol_hash(word.z)));
 }
 
-// Two numbers in (0, 1) for a purpose, of a round and a source.
+// Two numbers in (0, 1) for a purpose, of a round and a source. Even and odd rounds know nothing of one another, since one half of the rays
+// guesses for the other: neighbours in one sequence avoid each other, and the guess would be off.
 fn shadow_random(seed: u32, which: ShadowRound, purpose: u32) -> vec2f {
-    return sobol_pair(which.round, seed + SHADOW_PURPOSES * which.source + purpose);
+    return sobol_pair(which.round / 2u, seed + SHADOW_PURPOSES * (2u * which.source + which.round % 2u) + purpose);
 }
 
 // Beyond this a Gaussian is cut off: rays from farther would start beyond what the pixel shows.

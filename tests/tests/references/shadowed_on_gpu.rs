@@ -1,0 +1,128 @@
+//! Shadow rays on the GPU against the CPU's.
+
+use super::pictures::LINEAR;
+use super::scenes::{off_the_mirror, plate, sphere};
+use super::shadowed::{VIEW, WHITE, closed, luminance, scenes, set_ball};
+use glam::DVec3;
+use hairline_gpu::{RenderOptions, Renderer, headless};
+use hairline_image::{Image, Layer};
+use hairline_index::ScratchIndex;
+use hairline_index::method::Method;
+use hairline_scene::{Scene, ScratchTables};
+use std::sync::Arc;
+
+/// None, and a line on stderr, where there is no driver.
+fn on_gpu(scene: &Scene, samples: u32, shadows: bool) -> Option<Image> {
+    let gpu = headless::test_gpu()?;
+    let method = Method {
+        mask: LINEAR.mask,
+        ..Method::default()
+    };
+    let options = RenderOptions {
+        samples,
+        ..Default::default()
+    };
+    let index = Arc::new(ScratchIndex::build(scene));
+    let tables = ScratchTables::new(scene);
+    let image = gpu.block_on(async {
+        let mut renderer = Renderer::new(gpu).await?;
+        let mut uploaded = renderer.upload(scene, &index, &tables, &method).await?;
+        if shadows {
+            renderer.add_shadows(&mut uploaded, scene).await?;
+        }
+        renderer.render(scene, &uploaded, &options, &|_| {}).await
+    });
+    Some(image.unwrap_or_else(|error| panic!("{error}")))
+}
+
+fn rms(values: &[f64]) -> f64 {
+    (values.iter().map(|v| v * v).sum::<f64>() / values.len() as f64).sqrt()
+}
+
+/// Rays are right in the mean, their error falls by half for four times as many, and it is that of the CPU's.
+#[test]
+fn rays_come_to_the_cpus_shadows() {
+    for (name, scene) in scenes() {
+        let Some(open) = on_gpu(&scene, 1, false) else {
+            return;
+        };
+        let truth = closed(&scene, 512, true);
+        let cpu_open = closed(&scene, 1, false);
+        let by_cpu = closed(&scene, 16, true);
+        let images = [4, 16, 64].map(|samples| (samples, on_gpu(&scene, samples, true)));
+        for layer in [Layer::Scratches, Layer::Base] {
+            let of = |image: &Image| luminance(image, layer);
+            let (open, cpu_open, truth) = (of(&open), of(&cpu_open), of(&truth));
+            // What differs without shadows, by rounding, is not theirs.
+            let there: Vec<f64> = (0..truth.len())
+                .map(|i| truth[i] * (open[i] / cpu_open[i].max(1e-30)))
+                .collect();
+            let mean = there.iter().sum::<f64>() / there.len() as f64;
+            let hidden = 1.0 - mean * open.len() as f64 / open.iter().sum::<f64>();
+            assert!(hidden.abs() > 0.05, "{name}: {hidden}");
+            let by_cpu: Vec<f64> = of(&by_cpu).iter().zip(&truth).map(|(a, b)| a - b).collect();
+            let mut last = f64::INFINITY;
+            for (samples, image) in &images {
+                let image = of(image.as_ref().unwrap());
+                let errors: Vec<f64> = image.iter().zip(&there).map(|(a, b)| a - b).collect();
+                let bias = errors.iter().sum::<f64>() / errors.len() as f64;
+                let error = rms(&errors);
+                let z = bias / (error / (errors.len() as f64).sqrt());
+                println!(
+                    "{name}, {}, {samples} rays: rms {:.2} % of the mean, mean {:+.3} %, z {z:+.2}; the CPU's 16: {:.2} %",
+                    layer.name(),
+                    100.0 * error / mean,
+                    100.0 * bias / mean,
+                    100.0 * rms(&by_cpu) / mean
+                );
+                assert!(z.abs() < 4.0, "{name}");
+                assert!(error < 0.75 * last, "{name}");
+                assert!(*samples != 16 || error < 2.0 * rms(&by_cpu), "{name}");
+                last = error;
+            }
+        }
+    }
+}
+
+/// Where nothing is in the way, rays change no bit.
+#[test]
+fn nothing_in_the_way_changes_nothing_on_the_gpu() {
+    for (name, mut scene) in scenes() {
+        scene.objects.truncate(1);
+        let Some(open) = on_gpu(&scene, 3, false) else {
+            return;
+        };
+        assert!(on_gpu(&scene, 3, true) == Some(open), "{name}");
+    }
+}
+
+/// Spheres of few and of many triangles: nothing hides the side that the light shines on.
+#[test]
+fn spheres_do_not_shade_themselves_on_the_gpu() {
+    for (slices, stacks) in [(4, 3), (64, 33)] {
+        let mut scene = plate(WHITE, VIEW);
+        scene.materials[0].roughness = 0.4;
+        scene.lights = vec![sphere(VIEW, 0.3, -0.6, 0.05)];
+        set_ball(&mut scene, slices, stacks, 2e-4);
+        let Some(open) = on_gpu(&scene, 16, false) else {
+            return;
+        };
+        let image = on_gpu(&scene, 16, true).unwrap();
+        let towards = off_the_mirror(VIEW.angle_rad, 0.3, -0.6);
+        let (mut lit, mut dark) = (0, 0);
+        for i in 0..open.base.len() {
+            let normal = DVec3::from(open.normal[i].map(f64::from));
+            let (with, without) = (image.base[i][1], open.base[i][1]);
+            if normal.dot(towards) > 0.3 && open.depth_m[i].is_finite() {
+                lit += 1;
+                assert!(
+                    (with - without).abs() <= 1e-3 * without,
+                    "{slices}: {i} {with} {without}"
+                );
+            }
+            dark += i32::from(with < 0.5 * without);
+        }
+        assert!(lit > 20, "{slices}: {lit}");
+        assert!(slices == 64 || dark < 256, "{dark}");
+    }
+}
