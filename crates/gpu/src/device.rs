@@ -319,6 +319,14 @@ impl Gpu {
         self.device.limits()
     }
 
+    /// Bytes of the largest array that a shader can be given.
+    pub(crate) fn largest_array(&self) -> u64 {
+        let limits = self.limits();
+        limits
+            .max_storage_buffer_binding_size
+            .min(limits.max_buffer_size)
+    }
+
     /// The layers that a texture must have to be bound as an array of `count` of them. By way of OpenGL wgpu makes an array of what has
     /// more than one layer and nothing else; what is bound as an array and is none reads as zeros.
     pub(crate) fn array_layers(&self, count: u32) -> u32 {

@@ -50,6 +50,8 @@ mod shade_base;
 mod shade_published;
 mod shade_scratches;
 pub mod shaders;
+mod shadow_room;
+mod shadow_scratches;
 mod shadows;
 mod sort;
 mod source;

@@ -8,7 +8,7 @@ use crate::device::Gpu;
 use crate::error::Error;
 use crate::layout::{BaseLight, ChunkSum, PixelPaint, PixelPoint};
 use crate::scan::{Scan, ScanPasses};
-use crate::shadows::ShadowRoom;
+use crate::shadow_room::ShadowRoom;
 
 /// Pixels to a side of a tile. Twin: film.wgsl.
 pub(crate) const TILE_PX: u32 = 8;
@@ -91,7 +91,7 @@ pub(crate) struct MadeLists {
 /// The rows that a strip of a picture `width_px` wide may have on the device: whole tiles.
 pub(crate) fn strip_rows_max(gpu: &Gpu, width_px: u32) -> u32 {
     let limits = gpu.limits();
-    let bytes = largest_array(gpu);
+    let bytes = gpu.largest_array();
     let row_bytes = u64::from(width_px.max(1)) * POINT_BYTES;
     let by_pixels = (bytes / row_bytes) as u32;
     // A list for each tile must fit, whether there is anything in it or not.
@@ -103,13 +103,6 @@ pub(crate) fn strip_rows_max(gpu: &Gpu, width_px: u32) -> u32 {
         .saturating_sub(2);
     // Whole tiles.
     (rows / TILE_PX * TILE_PX).max(TILE_PX)
-}
-
-pub(crate) fn largest_array(gpu: &Gpu) -> u64 {
-    let limits = gpu.limits();
-    limits
-        .max_storage_buffer_binding_size
-        .min(limits.max_buffer_size)
 }
 
 /// Tiles of a strip.
@@ -186,7 +179,7 @@ impl Samples {
 
     /// Whether the device can hold so many points, and sums of so many chunks.
     pub(crate) fn fit(gpu: &Gpu, points: u64, chunks: u32) -> bool {
-        let bytes = largest_array(gpu);
+        let bytes = gpu.largest_array();
         points * POINT_BYTES <= bytes && u64::from(chunks) * CHUNK_BYTES <= bytes
     }
 
@@ -288,7 +281,7 @@ impl Lists {
 
     /// The most entries that the device can hold.
     pub(crate) fn entries_most(gpu: &Gpu) -> u32 {
-        u32::try_from(largest_array(gpu) / ENTRY_BYTES).unwrap_or(u32::MAX)
+        u32::try_from(gpu.largest_array() / ENTRY_BYTES).unwrap_or(u32::MAX)
     }
 
     /// Makes room for so many entries.

@@ -14,7 +14,9 @@ use crate::layout::{Frame, PixelPoint, ShadowRound};
 use crate::passes::{ScratchPasses, Shade};
 use crate::pipelines::compiled;
 use crate::scan::ScanPasses;
-use crate::shadows::{Scratched, ShadowRoom, Shadows};
+use crate::shadow_room::ShadowRoom;
+use crate::shadow_scratches::Scratched;
+use crate::shadows::Shadows;
 use crate::strip::{
     GROUP, Lists, MadeLists, Samples, StripRoom, TILE_PX, chunks_most, strip_points, tile_count,
 };
@@ -221,9 +223,10 @@ impl StripShader {
                 shadows.record_base(gpu, recording, room, &shadow_room, groups);
             });
         }
-        if let Some(scratches) = &shadows.passes.scratches {
+        if let Some(scratches) = &shadows.scratches {
+            let lanes = u64::from(GROUP) * u64::from(on.chunks);
             let most = shadow_room
-                .make_room_for_picks(gpu, points, on.chunks, next.rounds)
+                .make_room_for_picks(gpu, points, lanes, next.rounds)
                 .await?;
             next.source = lights + 1;
             for round in 0..next.rounds {

@@ -46,7 +46,7 @@ fn rays_come_to_the_cpus_shadows() {
         let Some(open) = on_gpu(&scene, 1, false) else {
             return;
         };
-        let truth = closed(&scene, 512, true);
+        let truth = closed(&scene, 256, true);
         let cpu_open = closed(&scene, 1, false);
         let by_cpu = closed(&scene, 16, true);
         let images = [4, 16, 64].map(|samples| (samples, on_gpu(&scene, samples, true)));

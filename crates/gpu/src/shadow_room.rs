@@ -1,0 +1,98 @@
+//! The arrays that the passes of shadows leave for one another.
+
+use wgpu::BufferUsages;
+
+use crate::device::Gpu;
+use crate::error::Error;
+use crate::layout::{ShadowHalf, ShadowRay, ShadowRound};
+
+/// The arrays over samples. They grow to the size that is needed.
+pub(crate) struct ShadowRoom {
+    pub round: wgpu::Buffer,
+    pub rays: wgpu::Buffer,
+    pub halves: wgpu::Buffer,
+    points_max: u64,
+    pub picks: wgpu::Buffer,
+    picks_bytes: u64,
+}
+
+/// Bytes of a sample in the larger of the two arrays.
+const HALVES_BYTES: u64 = 2 * size_of::<ShadowHalf>() as u64;
+const RAY_BYTES: u64 = size_of::<ShadowRay>() as u64;
+/// Of a scratch that is picked, or of the state of a lane of a chunk.
+const PICK_BYTES: u64 = 16;
+/// Picks of a sample that are made at once: each time all pairs are lit once more.
+const PICKS_MOST: u64 = 16;
+/// What they may take, unless there is one only.
+const PICKS_BYTES_MOST: u64 = 1 << 28;
+
+impl ShadowRoom {
+    pub(crate) async fn new(gpu: &Gpu) -> Result<Self, Error> {
+        let uniform = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
+        let storage = BufferUsages::STORAGE;
+        let round = size_of::<ShadowRound>() as u64;
+        Ok(Self {
+            round: gpu.buffer("round of shadows", round, uniform).await?,
+            rays: gpu.buffer("shadow rays", RAY_BYTES, storage).await?,
+            halves: gpu.buffer("sums of rays", HALVES_BYTES, storage).await?,
+            points_max: 1,
+            picks: gpu.buffer("picked scratches", PICK_BYTES, storage).await?,
+            picks_bytes: PICK_BYTES,
+        })
+    }
+
+    /// Whether the device can hold what so many samples need.
+    pub(crate) fn fit(gpu: &Gpu, points: u64) -> bool {
+        points * HALVES_BYTES <= gpu.largest_array()
+    }
+
+    /// Makes room for so many samples.
+    pub(crate) async fn make_room(&mut self, gpu: &Gpu, points: u64) -> Result<(), Error> {
+        let storage = BufferUsages::STORAGE;
+        if self.points_max < points {
+            // The old ones are given back first. An error on the way leaves none.
+            self.points_max = 0;
+            self.rays.destroy();
+            self.halves.destroy();
+            self.rays = gpu
+                .buffer("shadow rays", points * RAY_BYTES, storage)
+                .await?;
+            let bytes = points * HALVES_BYTES;
+            self.halves = gpu.buffer("sums of rays", bytes, storage).await?;
+            self.points_max = points;
+        }
+        Ok(())
+    }
+
+    /// Makes room for picks of so many samples, and for the states of so many lanes of chunks; tells how many of each sample there is room for.
+    pub(crate) async fn make_room_for_picks(
+        &mut self,
+        gpu: &Gpu,
+        points: u64,
+        lanes: u64,
+        wanted: u32,
+    ) -> Result<u32, Error> {
+        let states = PICK_BYTES * lanes;
+        let left = PICKS_BYTES_MOST
+            .min(gpu.largest_array())
+            .saturating_sub(states);
+        let room = left / (PICK_BYTES * points.max(1));
+        // One always fits: what there is for sums is more.
+        let count = room.clamp(1, PICKS_MOST).min(u64::from(wanted.max(1)));
+        let bytes = states + PICK_BYTES * points * count;
+        if self.picks_bytes < bytes {
+            self.picks_bytes = 0;
+            self.picks.destroy();
+            let storage = BufferUsages::STORAGE;
+            self.picks = gpu.buffer("picked scratches", bytes, storage).await?;
+            self.picks_bytes = bytes;
+        }
+        Ok(count as u32)
+    }
+
+    /// Says which round is next.
+    pub(crate) fn write(&self, gpu: &Gpu, round: &ShadowRound) {
+        let bytes = bytemuck::bytes_of(round);
+        gpu.queue.write_buffer(&self.round, 0, bytes);
+    }
+}
