@@ -99,7 +99,7 @@ pub struct Render {
     /// Samples for each pixel that has an edge or a crease in it; elsewhere one is enough.
     #[arg(long, value_name = "N", default_value_t = DEFAULT_SAMPLES, value_parser = clap::value_parser!(u32).range(1..=1024))]
     pub samples: u32,
-    /// Whether objects hide lights and the environment from one another: as many rays to each light as there are samples, on the CPU.
+    /// Whether objects hide lights and the environment from one another: as many rays to each light as there are samples.
     #[arg(long, value_enum, default_value_t = Switch::Off)]
     pub shadows: Switch,
     /// Other scratches of the same kinds: added to the seed of each layer.
