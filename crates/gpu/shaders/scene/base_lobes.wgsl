@@ -14,11 +14,11 @@ fn base_lobes(point: SurfacePoint) -> BaseLobes {
     let albedo = ggx_area_reflectance(surface.reflecting.albedo, point.f0, surface.sharp.albedo);
     let specular = rgb_luminance(albedo);
     let below = rgb_luminance(surface.body);
-    let variance = surface_slope_variance(point);
+    let spread = surface_slope_spread(point);
     return BaseLobes(
         point.wo,
         // The pixel's normals widen the lobe.
-        min(sqrt(surface.sharp.alpha * surface.sharp.alpha + 2.0 * (variance.x + variance.y)), 1.0),
+        min(sqrt(surface.sharp.alpha * surface.sharp.alpha + 2.0 * (spread.x + spread.y)), 1.0),
         surface.reflecting.fresnel,
         surface.body,
         select(1.0, clamp(specular / max(specular + below, 1e-30), 0.1, 0.9), below > 0.0),
