@@ -1,5 +1,7 @@
 //! Everything that a menu, a button or a key can ask for: one table, which the menus, the toolbar and the help read.
 
+mod key_text;
+
 use egui::{Key, KeyboardShortcut, Modifiers};
 use hairline_editor::navigate::Viewpoint;
 
@@ -8,6 +10,8 @@ use crate::overlays::Overlay;
 use crate::platform::{HAS_FILES, HAS_THREADS};
 use crate::reading::{ReadCommand, Shows};
 use crate::tools::Tool;
+
+pub(crate) use key_text::key_text;
 
 /// A wish of the artist.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -290,44 +294,6 @@ impl Command {
 pub(crate) fn further_keys(command: Command) -> impl Iterator<Item = KeyboardShortcut> {
     let also = ALSO.iter().filter(move |(other, _)| *other == command);
     also.map(|(_, key)| *key)
-}
-
-/// A shortcut as it stands on the keyboard.
-pub(crate) fn key_text(shortcut: &KeyboardShortcut) -> String {
-    let is_mac = cfg!(target_os = "macos");
-    let names = match is_mac {
-        true => egui::ModifierNames::SYMBOLS,
-        false => egui::ModifierNames::NAMES,
-    };
-    let mut text = names.format(&shortcut.modifiers, is_mac);
-    if !text.is_empty() && !is_mac {
-        text.push('+');
-    }
-    text.push_str(match shortcut.logical_key {
-        Key::Escape => "Esc",
-        Key::Delete => "Del",
-        Key::Backspace => "Back",
-        Key::PageUp => "PgUp",
-        Key::PageDown => "PgDn",
-        Key::ArrowUp => "Up",
-        Key::ArrowDown => "Down",
-        Key::ArrowLeft => "Left",
-        Key::ArrowRight => "Right",
-        Key::OpenBracket => "[",
-        Key::CloseBracket => "]",
-        Key::Comma => ",",
-        Key::Period => ".",
-        Key::Minus => "-",
-        Key::Plus => "+",
-        Key::Equals => "=",
-        Key::Slash => "/",
-        Key::Backslash => "\\",
-        Key::Semicolon => ";",
-        Key::Quote => "'",
-        Key::Backtick => "`",
-        other => other.name(),
-    });
-    text
 }
 
 #[cfg(test)]

@@ -7,9 +7,12 @@ mod command;
 mod develop;
 mod false_color;
 mod histogram;
+mod histogram_window;
 mod layer_view;
 mod probe;
+mod probe_window;
 mod show;
+mod window;
 
 pub(crate) use command::ReadCommand;
 pub(crate) use develop::develop;

@@ -4,10 +4,10 @@
 
 mod body;
 mod change;
+mod draw_handles;
 mod handles;
 mod lights;
 mod motion;
-mod show;
 
 use std::sync::Arc;
 
@@ -22,6 +22,7 @@ use super::Area;
 use super::lens::Lens;
 
 use body::Body;
+use draw_handles::{draw_handles, draw_off_screen, draw_words};
 use handles::{Handle, Placed};
 use motion::{Aim, Motion};
 
@@ -74,7 +75,7 @@ impl Gizmo {
         let painter = ui.painter().with_clip_rect(area.rect);
         let Some(mut placed) = handles::place(&body, &lens).filter(|p| is_in_picture(p, area))
         else {
-            show::off_screen(&painter, &lens, &body, area);
+            draw_off_screen(&painter, &lens, &body, area);
             *self = Self::default();
             return;
         };
@@ -137,12 +138,12 @@ impl Gizmo {
             if let (Some(size), Some(pos), Some(Handle::Size)) = (size, pointer, held) {
                 size.knob = pos;
             }
-            show::handles(&painter, &placed, active, held);
+            draw_handles(&painter, &placed, active, held);
         }
         if let (Some(grab), Some(pos)) = (&self.grab, pointer)
             && let Some(words) = grab.motion.and_then(|motion| motion.words(grab.handle))
         {
-            show::words(&painter, pos, &words, Color32::WHITE);
+            draw_words(&painter, pos, &words, Color32::WHITE);
         }
     }
 

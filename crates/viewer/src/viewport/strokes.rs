@@ -1,6 +1,6 @@
 //! The brush and the eraser.
 
-mod show;
+mod draw_brush;
 
 use egui::{PointerButton, Pos2, Response, Ui};
 use glam::{DMat4, DVec3};
@@ -16,7 +16,7 @@ use crate::workspace::Workspace;
 use super::Area;
 use super::lens::Lens;
 use super::pick::{self, Picked};
-use show::{Drawn, color, show_drawn, show_ring, show_way, stroke_count};
+use draw_brush::{Drawn, color, show_drawn, show_ring, show_way, stroke_count};
 
 /// Rays between two places of the pointer lie so far apart, points.
 const SPACING: f32 = 3.0;

@@ -17,7 +17,7 @@ const LIT: Color32 = Color32::from_rgb(255, 226, 150);
 const PLAIN: Color32 = Color32::from_gray(226);
 
 /// All handles; the one that is hovered or held is lit, and while one is held the others step back.
-pub(super) fn handles(
+pub(super) fn draw_handles(
     painter: &Painter,
     placed: &[Placed],
     active: Option<Handle>,
@@ -86,7 +86,7 @@ fn square(middle: Pos2, half: f32, along: Vec2) -> Vec<Pos2> {
 }
 
 /// A few words beside the pointer.
-pub(super) fn words(painter: &Painter, pos: Pos2, words: &str, color: Color32) {
+pub(super) fn draw_words(painter: &Painter, pos: Pos2, words: &str, color: Color32) {
     let at = pos + vec2(18.0, -26.0);
     boxed(painter, at, Align2::LEFT_CENTER, words, color);
 }
@@ -103,7 +103,7 @@ fn boxed(painter: &Painter, at: Pos2, align: Align2, words: &str, color: Color32
 }
 
 /// Tells where a body is that the picture does not show.
-pub(super) fn off_screen(painter: &Painter, lens: &Lens, body: &Body, area: &Area) {
+pub(super) fn draw_off_screen(painter: &Painter, lens: &Lens, body: &Body, area: &Area) {
     let way = lens.towards(body.center_m);
     let inside = area.rect.shrink(18.0);
     let half = 0.5 * inside.size();
