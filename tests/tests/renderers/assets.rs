@@ -54,7 +54,7 @@ fn a_monkey_with_fifty_thousand_scratches_in_a_studio() {
         .unwrap_or_else(|error| panic!("{error}"));
     // Seeds at a boundary may leave nothing.
     assert!(scene.objects[0].scratches.len() > 49_900);
-    let scene = middle_of(scene, 480, [160, 120]);
+    let scene = middle_of(scene, 480, [64, 48]);
     let cpu = on_the_cpu(&scene, DEFAULT_SAMPLES);
     for layer in Layer::ALL {
         let values = cpu.layer(layer);

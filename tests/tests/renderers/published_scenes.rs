@@ -89,7 +89,7 @@ fn difference(a: &Image, b: &Image) -> f64 {
 fn each_switch() {
     let usual = PublishedMethod::default();
     for name in ["plate", "closeup"] {
-        let scene = middle(&format!("{name}.toml"), 256, [64; 2]);
+        let scene = middle(&format!("{name}.toml"), 256, [32; 2]);
         let Some(mut both) = Both::new(name, &scene) else {
             return;
         };
