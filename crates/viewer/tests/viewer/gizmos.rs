@@ -193,8 +193,10 @@ fn a_ring_turns_a_polygon_about_its_middle() {
     for i in 0..4 {
         assert!((a[i].z - b[i].z).abs() < 1e-12, "about z heights stay");
     }
-    let angle = (a[1] - a[0]).angle_between(b[1] - b[0]);
-    assert!(angle > 0.1, "turned by {angle} rad");
+    // The eye is above; the pointer went counter-clockwise.
+    let (side, turned) = (a[1] - a[0], b[1] - b[0]);
+    let angle_rad = side.cross(turned).z.atan2(side.dot(turned));
+    assert!(angle_rad > 0.1, "turned by {angle_rad} rad");
 }
 
 #[test]
