@@ -93,7 +93,10 @@ impl<'a> LightViews<'a> {
             let light = self.lights[index];
             self.places.push(u32::MAX);
             let place = self.views.len() as u32;
-            let radiance = DVec3::from(light.radiance);
+            let radiance = sent(light, point.position_m);
+            if light.cone.is_some() && radiance == DVec3::ZERO {
+                continue;
+            }
             match &light.shape {
                 LightShape::Sphere { center_m, radius_m } => {
                     let center = point.surface_from_world(*center_m - point.position_m);
@@ -165,7 +168,7 @@ impl<'a> LightViews<'a> {
             facing,
             sets,
             bound,
-            radiance: light.radiance.into(),
+            radiance: sent(light, point.position_m),
         });
         self.places[index] = place;
         self.in_scene.push(index);
@@ -222,4 +225,10 @@ impl<'a> LightViews<'a> {
             sets,
         }
     }
+}
+
+/// The radiance towards a point: the cone's share is that of the light's middle.
+fn sent(light: &Light, to_m: DVec3) -> DVec3 {
+    let away = (to_m - light.bounding_sphere().0).normalize_or_zero();
+    DVec3::from(light.radiance) * light.cone.map_or(1.0, |cone| cone.share(away))
 }

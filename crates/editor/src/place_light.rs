@@ -201,7 +201,7 @@ fn reshape(
 
 fn turn(light: &mut Light, rotation: DQuat) {
     let middle = center(light);
-    if let LightKind::Sphere { .. } = light.kind {
+    if let (LightKind::Sphere { .. }, None) = (&light.kind, &light.cone) {
         return;
     }
     let corners_m = light.kind.corners_m();
@@ -213,6 +213,8 @@ fn turn(light: &mut Light, rotation: DQuat) {
 
 fn each_point(light: &mut Light, change: impl Fn(DVec3) -> DVec3) {
     let change = |point: &mut [f64; 3]| *point = change((*point).into()).into();
+    let target = light.cone.as_mut().and_then(|cone| cone.target_m.as_mut());
+    target.into_iter().for_each(change);
     match &mut light.kind {
         LightKind::Sphere { center_m, .. } => change(center_m),
         LightKind::Disk {

@@ -39,7 +39,7 @@ pub(crate) const DEFAULT_DIAGONAL_M: f64 = 0.3;
 impl Parameter {
     /// Every parameter.
     #[cfg(test)]
-    pub(crate) const ALL: [Self; 54] = [
+    pub(crate) const ALL: [Self; 56] = [
         Self::CameraPosition,
         Self::CameraTarget,
         Self::CameraUp,
@@ -90,6 +90,8 @@ impl Parameter {
         Self::LightRotation,
         Self::LightVertex,
         Self::LightEnd,
+        Self::LightCone,
+        Self::LightSoftness,
         Self::Radiance,
         Self::LightExposure,
         Self::LightTemperature,
@@ -149,6 +151,8 @@ impl Parameter {
                 (-5.0 * d..=5.0 * d, limits::COORDINATE_M)
             }
             P::LightRadius | P::LightWidth | P::LightHeight => (2e-3 * d..=d, limits::SIZE_M),
+            P::LightCone => (5.0..=180.0, limits::CONE_DEG),
+            P::LightSoftness => (0.0..=1.0, 0.0..=1.0),
             P::LightRotation => (-180.0..=180.0, limits::ROTATION_DEG),
             P::Radiance => (0.01..=1000.0, NOT_NEGATIVE),
             P::LightExposure => (-8.0..=8.0, limits::EXPOSURE_EV),
@@ -217,7 +221,8 @@ impl Parameter {
             | P::EnvironmentRotation
             | P::Rotation
             | P::Jitter
-            | P::LightRotation => Unit::Degree,
+            | P::LightRotation
+            | P::LightCone => Unit::Degree,
             P::Exposure | P::LightExposure => Unit::Exposure,
             P::LightTemperature => Unit::Kelvin,
             P::PictureSize | P::Filter => Unit::Pixel,

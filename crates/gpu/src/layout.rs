@@ -117,8 +117,9 @@ shared! {
         two_sided: u32,
         first_vertex: u32,
         vertex_count: u32,
+        cone: [f32; 2],
+        cone_axis: [f32; 3],
         pad_0: u32,
-        pad_1: u32,
     }
     /// A node over the segments of an object.
     ScratchNode {

@@ -138,6 +138,14 @@ pub(crate) fn packed(scene: &Scene, origin_m: DVec3) -> Vec<[u32; 4]> {
             radius_m: radius_m as f32,
             first_vertex,
             vertex_count: own.len() as u32,
+            cone: light.cone.map_or([-2.0, 1.0], |cone| {
+                [cone.cos_outer, cone.per_cos()].map(|x| x as f32)
+            }),
+            cone_axis: light
+                .cone
+                .map_or(DVec3::Z, |cone| cone.axis)
+                .as_vec3()
+                .to_array(),
             ..layout::Light::zeroed()
         };
         match &light.shape {

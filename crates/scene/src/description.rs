@@ -29,7 +29,7 @@ use crate::environment::BuiltInMap;
 use values::{Named, is_default, serialize_named, serialize_scale};
 
 pub use light_kind::LightKind;
-pub use lights::Light;
+pub use lights::{Cone, Light};
 pub(crate) use scratches::DEFAULT_SEED;
 pub use scratches::{
     Amount, Around, Brush, Brushed, Distribution, Laid, Layer, Listed, Pattern, Scratches, Stroke,

@@ -9,6 +9,32 @@ pub struct Light {
     pub shape: LightShape,
     /// Emitted radiance: linear Rec.709, W sr^-1 m^-2 in effect; (1, 1, 1) has the spectrum of D65.
     pub radiance: [f64; 3],
+    /// The directions that light leaves in; all, if none.
+    pub cone: Option<Cone>,
+}
+
+/// A cone of directions with a soft rim.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cone {
+    /// Unit vector, away from the light.
+    pub axis: DVec3,
+    /// Of the half angle of the rim, where all light ends.
+    pub cos_outer: f64,
+    /// Of the half angle at which light begins to fall; no less than `cos_outer`.
+    pub cos_inner: f64,
+}
+
+impl Cone {
+    /// What is left of the light that leaves in a unit direction: the fall-off of KHR_lights_punctual.
+    pub fn share(&self, direction: DVec3) -> f64 {
+        let past = self.axis.dot(direction) - self.cos_outer;
+        (past * self.per_cos()).clamp(0.0, 1.0).powi(2)
+    }
+
+    /// Over the fall-off, of one; finite at a hard rim.
+    pub fn per_cos(&self) -> f64 {
+        1.0 / (self.cos_inner - self.cos_outer).max(1e-6)
+    }
 }
 
 /// The shape of a light.
@@ -43,6 +69,7 @@ impl Light {
         Self {
             shape: LightShape::Sphere { center_m, radius_m },
             radiance,
+            cone: None,
         }
     }
 
@@ -54,6 +81,7 @@ impl Light {
                 two_sided,
             },
             radiance,
+            cone: None,
         }
     }
 
@@ -62,6 +90,7 @@ impl Light {
         Self {
             shape: LightShape::Tube { ends_m, radius_m },
             radiance,
+            cone: None,
         }
     }
 

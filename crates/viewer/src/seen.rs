@@ -89,6 +89,7 @@ fn is_same_light(x: &Light, y: &Light) -> bool {
         exposure_ev,
         temperature_k,
         color,
+        cone,
     } = x;
     *hidden == y.hidden
         && *kind == y.kind
@@ -96,4 +97,5 @@ fn is_same_light(x: &Light, y: &Light) -> bool {
         && *exposure_ev == y.exposure_ev
         && *temperature_k == y.temperature_k
         && *color == y.color
+        && *cone == y.cone
 }

@@ -6,7 +6,7 @@ use glam::DVec2;
 use hairline_fixtures::scenes::scratched_ball;
 use hairline_image::Layer;
 use hairline_optics::metal::Metal;
-use hairline_scene::{Base, LightShape, Scene};
+use hairline_scene::{Base, Cone, LightShape, Scene};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -93,6 +93,43 @@ fn tubes() {
         }
         let found = compared("3 % thicker", &closed(&wrong), &reference, Layer::Scratches);
         assert!(!agrees(&found, SCRATCHES), "{found:?}");
+    }
+}
+
+/// Each point of a light has a cone of its own; closed forms have that of its middle for all. The plate lies in the fall-off.
+#[test]
+fn cones() {
+    let view = View {
+        angle_rad: 0.6,
+        pixel_um: 10.0,
+        size_px: 16,
+    };
+    for (radius_rad, limit) in [(0.01, 0.03), (0.02, 0.06), (0.04, 0.15)] {
+        let mut scene = plate(Base::Metal(Metal::Aluminium), view);
+        scene.lights = vec![
+            sphere(view, 0.12, -0.05, radius_rad),
+            sphere(view, 0.0, -0.16, radius_rad),
+        ];
+        scratch(&mut scene, view, 24);
+        for light in &mut scene.lights {
+            let middle = light.bounding_sphere().0;
+            let beside = middle.any_orthonormal_vector() * 0.15_f64.tan();
+            light.cone = Some(Cone {
+                axis: (beside - middle.normalize()).normalize(),
+                cos_outer: 0.3_f64.cos(),
+                cos_inner: 1.0,
+            });
+        }
+        let (exact, reference) = (closed(&scene), sampled(&scene, LINEAR, 8));
+        let name = format!("cones of lights of {radius_rad} rad");
+        let scratches = compared(&name, &exact, &reference, Layer::Scratches);
+        compared(&name, &exact, &reference, Layer::Base);
+        let [at_least, _] = scratches.beyond.relative_rms_within(2.0);
+        assert!(at_least < limit, "{scratches:?}");
+        assert!((scratches.mean_ratio - 1.0).abs() < limit, "{scratches:?}");
+        scene.lights.iter_mut().for_each(|light| light.cone = None);
+        let found = compared("no cones", &closed(&scene), &reference, Layer::Scratches);
+        assert!(found.mean_ratio > 1.5, "{found:?}");
     }
 }
 

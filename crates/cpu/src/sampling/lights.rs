@@ -5,7 +5,7 @@
 //! point and light: sampling and evaluating it cannot disagree.
 
 use glam::{DVec2, DVec3};
-use hairline_scene::{Light, LightShape, Scene};
+use hairline_scene::{Cone, Light, LightShape, Scene};
 
 mod bound;
 mod polygon;
@@ -15,7 +15,7 @@ mod tests;
 mod tube;
 
 #[cfg(test)]
-use bound::Cone;
+use bound::Cone as Bound;
 use polygon::PolygonLight;
 use sphere::SphereLight;
 use tube::TubeLight;
@@ -30,6 +30,14 @@ pub struct AreaLights {
 struct AreaLight {
     shape: Shape,
     radiance: DVec3,
+    cone: Option<Cone>,
+}
+
+impl AreaLight {
+    /// What comes from there along a ray; every point of the light has its own cone.
+    fn seen(&self, direction: DVec3) -> DVec3 {
+        self.radiance * self.cone.map_or(1.0, |cone| cone.share(-direction))
+    }
 }
 
 #[derive(Clone, Debug)]
@@ -86,6 +94,7 @@ impl AreaLights {
                     }
                 },
                 radiance: light.radiance.into(),
+                cone: light.cone,
             })
             .collect();
         Self { lights }
@@ -114,7 +123,7 @@ impl AreaLights {
             direction,
             distance_m,
             pdf,
-            radiance: light.radiance,
+            radiance: light.seen(direction),
         })
     }
 
@@ -129,7 +138,7 @@ impl AreaLights {
         }?;
         Some(LightHit {
             distance_m,
-            radiance: light.radiance,
+            radiance: light.seen(direction),
         })
     }
 
@@ -155,7 +164,7 @@ impl AreaLights {
     /// A cone that holds every direction from a point to light `i`: what the tests draw even directions from. To tell which
     /// directions a light can reach, [`AreaLights::extent`] is tighter.
     #[cfg(test)]
-    pub(crate) fn bound(&self, i: usize, from: DVec3) -> Cone {
+    pub(crate) fn bound(&self, i: usize, from: DVec3) -> Bound {
         match &self.lights[i].shape {
             Shape::Sphere(sphere) => sphere.bound(from),
             Shape::Polygon(polygon) => polygon.bound(from),

@@ -103,6 +103,10 @@ pub enum Parameter {
     LightVertex,
     /// An end of `light.ends_m`
     LightEnd,
+    /// `light.cone_deg`
+    LightCone,
+    /// `light.cone_softness`
+    LightSoftness,
     /// `light.radiance`
     Radiance,
     /// `light.exposure_ev`

@@ -207,6 +207,14 @@ pub(super) fn of(parameter: Parameter) -> Text {
             "End",
             "An end of the line within the tube. Scratches that run along the tube show colours across it.",
         ),
+        P::LightCone => (
+            "Cone",
+            "The angle of the cone from rim to rim. Outside of it there is no light.",
+        ),
+        P::LightSoftness => (
+            "Softness",
+            "The part of the way from rim to axis in which the light falls off.",
+        ),
         P::Radiance => (
             "Radiance",
             "Brightness of the light as it is seen. 40 to 200 for small lamps in dim surroundings lets the highlight clip and its scratches glow.",

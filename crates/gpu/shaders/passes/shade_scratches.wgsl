@@ -146,9 +146,10 @@ fn light_pair(pair: Pair, light_index: u32) -> vec3f {
         return frame.environment_texel_radiance * radiance;
     }
     let light = light_at(light_index);
+    let sent = light_radiance(light, pair.position_m);
     let center_m = (light.center_m - pair.position_m) * pair.surface;
     if SCRATCH_LIGHTS == SCRATCH_LIGHTS_SPHERES {
-        return light.radiance * scratch_sphere(scratch_tables, point, seen, center_m, light.radius_m);
+        return sent * scratch_sphere(scratch_tables, point, seen, center_m, light.radius_m);
     }
     let normal = light.normal * pair.surface;
     let a = (light_corner_m(light.first_vertex) - pair.position_m) * pair.surface;
@@ -165,7 +166,7 @@ fn light_pair(pair: Pair, light_index: u32) -> vec3f {
             light.radius_m,
             light.two_sided != 0u,
         );
-        return light.radiance * scratch_quad(scratch_tables, point, seen, quad);
+        return sent * scratch_quad(scratch_tables, point, seen, quad);
     }
     var view: OutlineView;
     view.first_vertex = light.first_vertex;
@@ -190,7 +191,7 @@ fn light_pair(pair: Pair, light_index: u32) -> vec3f {
     if facing == 0.0 {
         return vec3f(0.0);
     }
-    return light.radiance * scratch_outline(scratch_tables, point, seen, view, facing, away, center_m, light.radius_m);
+    return sent * scratch_outline(scratch_tables, point, seen, view, facing, away, center_m, light.radius_m);
 }
 
 // What the lanes before have, given what each has. Called in uniform control flow. With two barriers in place of twelve: each lane

@@ -30,6 +30,7 @@ fn published_base(point: SurfacePoint) -> BaseRadiance {
         var light = base_surroundings(point, part.lobe, surface.reflecting);
         for (var l = 0u; l < frame.light_count; l += 1u) {
             let source = light_at(l);
+            let radiance = light_radiance(source, point.position_m);
             var share: vec4f;
             if HAS_SPHERES && source.kind == LIGHT_SPHERE {
                 share = published_base_sphere(point, part.lobe, surface.reflecting, pivot, source);
@@ -38,8 +39,8 @@ fn published_base(point: SurfacePoint) -> BaseRadiance {
                 let seen = base_polygon(point, part.lobe, source);
                 share = vec4f(ltc_reflected(part.lobe, surface.reflecting, fresnel_curves, seen.vector), seen.form_factor);
             }
-            light.specular += source.radiance * share.xyz;
-            light.diffuse += source.radiance * share.w;
+            light.specular += radiance * share.xyz;
+            light.diffuse += radiance * share.w;
         }
         sum = BaseRadiance(sum.specular + part.weight * light.specular, light.diffuse);
     }

@@ -129,6 +129,7 @@ fn base_radiance_of(point: SurfacePoint, of_lights: vec2u, surrounded: bool) -> 
         }
         for (var l = of_lights.x; l < of_lights.y; l += 1u) {
             let source = light_at(l);
+            let radiance = light_radiance(source, point.position_m);
             var seen: LightOnBase;
             if HAS_SPHERES && source.kind == LIGHT_SPHERE {
                 seen = base_sphere(point, part.lobe, source);
@@ -136,8 +137,8 @@ fn base_radiance_of(point: SurfacePoint, of_lights: vec2u, surrounded: bool) -> 
             if HAS_POLYGONS && source.kind != LIGHT_SPHERE {
                 seen = base_polygon(point, part.lobe, source);
             }
-            light.specular += source.radiance * ltc_reflected(part.lobe, surface.reflecting, fresnel_curves, seen.vector);
-            light.diffuse += source.radiance * seen.form_factor;
+            light.specular += radiance * ltc_reflected(part.lobe, surface.reflecting, fresnel_curves, seen.vector);
+            light.diffuse += radiance * seen.form_factor;
         }
         sum = BaseRadiance(sum.specular + part.weight * light.specular, light.diffuse);
     }

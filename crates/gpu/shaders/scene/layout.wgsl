@@ -80,6 +80,8 @@ struct Light {
     two_sided: u32,
     first_vertex: u32,          // of those of all lights; of a tube its ends lie there
     vertex_count: u32,
+    cone: vec2f,                // cosine at the rim, below all without a cone; 1 over the cosines of the fall-off
+    cone_axis: vec3f,
 }
 
 const LIGHT_SPHERE: u32 = 0u;

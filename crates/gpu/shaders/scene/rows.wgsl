@@ -37,11 +37,15 @@ fn scratch_segment(i: u32) -> ScratchSegment {
     return ScratchSegment(bitcast<vec3f>(a.xyz), a.w, bitcast<vec3f>(b.xyz), b.w);
 }
 
+// Without its vertices.
+const LIGHT_TEXELS: u32 = 5u;
+
 fn light_at(i: u32) -> Light {
-    let a = textureLoad(lights, row_texel(4u * i), 0);
-    let b = textureLoad(lights, row_texel(4u * i + 1u), 0);
-    let c = textureLoad(lights, row_texel(4u * i + 2u), 0);
-    let d = textureLoad(lights, row_texel(4u * i + 3u), 0);
+    let a = textureLoad(lights, row_texel(LIGHT_TEXELS * i), 0);
+    let b = textureLoad(lights, row_texel(LIGHT_TEXELS * i + 1u), 0);
+    let c = textureLoad(lights, row_texel(LIGHT_TEXELS * i + 2u), 0);
+    let d = textureLoad(lights, row_texel(LIGHT_TEXELS * i + 3u), 0);
+    let e = textureLoad(lights, row_texel(LIGHT_TEXELS * i + 4u), 0);
     return Light(
         bitcast<vec3f>(a.xyz),
         a.w,
@@ -51,20 +55,29 @@ fn light_at(i: u32) -> Light {
         c.w,
         d.x,
         d.y,
+        bitcast<vec2f>(d.zw),
+        bitcast<vec3f>(e.xyz),
     );
+}
+
+// The radiance towards a point: the cone's share is that of the light's middle.
+fn light_radiance(light: Light, to_m: vec3f) -> vec3f {
+    let cos = dot(light.cone_axis, normalize(to_m - light.center_m));
+    let share = clamp((cos - light.cone.x) * light.cone.y, 0.0, 1.0);
+    return light.radiance * (share * share);
 }
 
 // Middle and radius of the sphere that a light is, or that is around it, metres.
 fn light_around(i: u32) -> vec4f {
-    return bitcast<vec4f>(textureLoad(lights, row_texel(4u * i + 1u), 0));
+    return bitcast<vec4f>(textureLoad(lights, row_texel(LIGHT_TEXELS * i + 1u), 0));
 }
 
 // An end of a tube and the tube's radius, metres: they lie among the vertices.
 fn light_end_m(i: u32) -> vec4f {
-    return bitcast<vec4f>(textureLoad(lights, row_texel(4u * frame.light_count + i), 0));
+    return bitcast<vec4f>(textureLoad(lights, row_texel(LIGHT_TEXELS * frame.light_count + i), 0));
 }
 
 // A vertex of a polygonal light, metres: they lie behind the lights.
 fn light_corner_m(i: u32) -> vec3f {
-    return bitcast<vec3f>(textureLoad(lights, row_texel(4u * frame.light_count + i), 0).xyz);
+    return bitcast<vec3f>(textureLoad(lights, row_texel(LIGHT_TEXELS * frame.light_count + i), 0).xyz);
 }

@@ -206,9 +206,9 @@ fn only_what_changed_is_written() {
         all.copied().collect::<BTreeMap<_, _>>()
     };
     let expected = [
-        // Two of 64 bytes, and the four corners of one of them of 16.
-        (0, BTreeMap::from([("lights", 192)])),
-        (1, BTreeMap::from([("lights", 192)])),
+        // Two of 80 bytes, and the four corners of one of them of 16.
+        (0, BTreeMap::from([("lights", 224)])),
+        (1, BTreeMap::from([("lights", 224)])),
         (2, BTreeMap::from([("materials", all["materials"])])),
         (4, BTreeMap::from([("textures", 20)])),
         (6, BTreeMap::new()),

@@ -68,7 +68,7 @@ pub enum LightKind {
 
 /// The keys that belong to each kind.
 pub(super) const KEYS: [(&str, &[&str]); 5] = [
-    ("sphere", &["center_m", "radius_m"]),
+    ("sphere", &["center_m", "radius_m", "target_m"]),
     ("disk", &["center_m", "target_m", "radius_m", "two_sided"]),
     (
         "rectangle",
@@ -82,7 +82,7 @@ pub(super) const KEYS: [(&str, &[&str]); 5] = [
         ],
     ),
     ("polygon", &["vertices_m", "two_sided"]),
-    ("tube", &["ends_m", "radius_m"]),
+    ("tube", &["ends_m", "radius_m", "target_m"]),
 ];
 
 impl LightKind {
@@ -159,6 +159,21 @@ impl LightKind {
             }
             Self::Polygon { vertices_m, .. } => vertices_m.iter().map(|&v| v.into()).collect(),
         }
+    }
+
+    /// Its middle: of a polygon the middle of the box around it.
+    pub(super) fn middle_m(&self) -> DVec3 {
+        self.in_scene([0.0; 3]).bounding_sphere().0
+    }
+
+    /// The unit direction in front of a flat one.
+    pub fn axis(&self) -> Option<DVec3> {
+        polygon::vector_area_m2(&self.corners_m()).try_normalize()
+    }
+
+    /// Whether `target_m` tells where it faces, with or without a cone.
+    pub(super) fn has_target(&self) -> bool {
+        matches!(self, Self::Disk { .. } | Self::Rectangle { .. })
     }
 
     /// Whether both sides of a flat one shine.
@@ -294,7 +309,7 @@ impl LightKind {
 /// Nearer to the middle a target tells no direction in single precision.
 const NEAREST_TARGET_M: f64 = 1e-6;
 
-fn aimed(key: &str, center_m: [f64; 3], target_m: [f64; 3]) -> Check {
+pub(super) fn aimed(key: &str, center_m: [f64; 3], target_m: [f64; 3]) -> Check {
     match DVec3::from(center_m).distance(target_m.into()) >= NEAREST_TARGET_M {
         true => Ok(()),
         false => Err(Error::new(

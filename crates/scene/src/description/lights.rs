@@ -1,11 +1,12 @@
 //! Lights as an author writes them.
 
+use glam::DVec3;
 use hairline_optics::spectrum::black_body_rgb;
 use serde::Serialize;
 
-use super::light_kind::{self, LightKind};
-use super::limits::{EXPOSURE_EV, TEMPERATURE_K};
-use super::ranges::{Check, components, not_negative, within};
+use super::light_kind::{self, LightKind, aimed};
+use super::limits::{CONE_DEG, EXPOSURE_EV, TEMPERATURE_K};
+use super::ranges::{Check, components, not_negative, point, within};
 use super::table::{Read, Table, Value};
 use super::values::{is_false, is_zero};
 use crate::error::Error;
@@ -34,6 +35,79 @@ pub struct Light {
     pub temperature_k: Option<f64>,
     /// Factor on the radiance, linear Rec.709, not negative; `[1, 1, 1]` has the spectrum of D65. Default: `[1, 1, 1]`.
     pub color: [f64; 3],
+    /// The directions that light leaves in. Default: all.
+    #[serde(flatten)]
+    pub cone: Option<Cone>,
+}
+
+/// `cone_deg` of a `[[light]]` and the keys that belong to it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Cone {
+    /// From rim to rim. Required.
+    pub cone_deg: f64,
+    /// The part of the way from rim to axis in which light falls off. Default: 0.1.
+    #[serde(skip_serializing_if = "is_default_softness")]
+    pub cone_softness: f64,
+    /// What the cone of a sphere or a tube points to; required there. Others have their own axis.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub target_m: Option<[f64; 3]>,
+}
+
+const DEFAULT_SOFTNESS: f64 = 0.1;
+
+fn is_default_softness(softness: &f64) -> bool {
+    *softness == DEFAULT_SOFTNESS
+}
+
+impl Cone {
+    /// With a soft rim of the default width.
+    pub fn new(cone_deg: f64, target_m: Option<[f64; 3]>) -> Self {
+        Self {
+            cone_deg,
+            cone_softness: DEFAULT_SOFTNESS,
+            target_m,
+        }
+    }
+
+    fn check_at(&self, key: &str, kind: &LightKind) -> Check {
+        within(&format!("{key}.cone_deg"), self.cone_deg, CONE_DEG)?;
+        within(
+            &format!("{key}.cone_softness"),
+            self.cone_softness,
+            0.0..=1.0,
+        )?;
+        if kind.is_two_sided() {
+            return Err(Error::new(
+                format!("{key}.cone_deg"),
+                "found a cone of a light whose two sides shine",
+                "leave out `two_sided`, or the cone",
+            ));
+        }
+        if kind.axis().is_some() {
+            return Ok(());
+        }
+        match self.target_m {
+            Some(target_m) => {
+                point(&format!("{key}.target_m"), target_m)?;
+                aimed(key, kind.middle_m().into(), target_m)
+            }
+            None => Err(Error::new(
+                key,
+                "`target_m` is missing",
+                format!("`{key}` needs it to know where its cone points"),
+            )),
+        }
+    }
+
+    fn in_scene(&self, kind: &LightKind) -> scene::Cone {
+        let towards = self.target_m.map_or(DVec3::NEG_Z, DVec3::from) - kind.middle_m();
+        let half_rad = 0.5 * self.cone_deg.to_radians();
+        scene::Cone {
+            axis: kind.axis().unwrap_or(towards.normalize_or(DVec3::NEG_Z)),
+            cos_outer: half_rad.cos(),
+            cos_inner: (half_rad * (1.0 - self.cone_softness)).cos(),
+        }
+    }
 }
 
 impl Light {
@@ -47,6 +121,7 @@ impl Light {
             exposure_ev: 0.0,
             temperature_k: None,
             color: [1.0; 3],
+            cone: None,
         }
     }
 }
@@ -71,7 +146,11 @@ impl Light {
                 TEMPERATURE_K,
             )?;
         }
-        self.kind.check_at(key)
+        self.kind.check_at(key)?;
+        match &self.cone {
+            Some(cone) => cone.check_at(key, &self.kind),
+            None => Ok(()),
+        }
     }
 
     /// What it is in a scene.
@@ -79,7 +158,10 @@ impl Light {
         let tint = self.temperature_k.map_or([1.0; 3], black_body_rgb);
         let radiance = self.radiance * self.exposure_ev.exp2();
         let radiance = std::array::from_fn(|c| self.color[c] * tint[c] * radiance);
-        self.kind.in_scene(radiance)
+        scene::Light {
+            cone: self.cone.as_ref().map(|cone| cone.in_scene(&self.kind)),
+            ..self.kind.in_scene(radiance)
+        }
     }
 }
 
@@ -97,10 +179,13 @@ impl Read for Light {
                 "exposure_ev",
                 "temperature_k",
                 "color",
+                "cone_deg",
+                "cone_softness",
             ],
             &light_kind::KEYS,
         )?;
         let kind = LightKind::read(kind, &table)?;
+        let cone = cone(&table, &kind)?;
         Ok(Self {
             name: table.optional("name")?,
             hidden: table.or("hidden", false)?,
@@ -109,6 +194,32 @@ impl Read for Light {
             exposure_ev: table.or("exposure_ev", 0.0)?,
             temperature_k: table.optional("temperature_k")?,
             color: table.or("color", [1.0; 3])?,
+            cone,
         })
     }
+}
+
+fn cone(table: &Table, kind: &LightKind) -> Result<Option<Cone>, Error> {
+    let own = match kind.has_target() {
+        true => &["cone_softness"][..],
+        false => &["cone_softness", "target_m"],
+    };
+    let Some(cone_deg) = table.optional("cone_deg")? else {
+        return match own.iter().find(|name| table.has(name)) {
+            Some(name) => Err(Error::new(
+                table.way(name),
+                "found no cone that it belongs to",
+                "give the light a `cone_deg`, or leave it out",
+            )),
+            None => Ok(None),
+        };
+    };
+    Ok(Some(Cone {
+        cone_deg,
+        cone_softness: table.or("cone_softness", DEFAULT_SOFTNESS)?,
+        target_m: match kind.has_target() || kind.axis().is_some() {
+            true => None,
+            false => table.optional("target_m")?,
+        },
+    }))
 }

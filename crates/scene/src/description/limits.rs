@@ -20,6 +20,8 @@ pub const SIZE_M: RangeInclusive<f64> = SMALLEST_M..=LARGEST_M;
 pub const FOV_Y_DEG: RangeInclusive<f64> = 0.001..=179.0;
 /// `light.rotation_deg`
 pub const ROTATION_DEG: RangeInclusive<f64> = -360.0..=360.0;
+/// `light.cone_deg`
+pub const CONE_DEG: RangeInclusive<f64> = 0.1..=360.0;
 /// `light.temperature_k`
 pub const TEMPERATURE_K: RangeInclusive<f64> = 1000.0..=40_000.0;
 /// `camera.exposure_ev`, `light.exposure_ev`

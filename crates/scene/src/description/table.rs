@@ -100,6 +100,11 @@ impl<'a> Table<'a> {
         self.entries.get(name)
     }
 
+    /// Whether a key is there; one that may not be is not.
+    pub(super) fn has(&self, name: &str) -> bool {
+        self.entries.contains_key(name)
+    }
+
     pub(super) fn way(&self, name: &str) -> String {
         match self.key.as_str() {
             "" => name.to_owned(),

@@ -235,6 +235,26 @@ fn sizes_that_are_negative_or_not_finite() {
         "plate.toml:20: light[0].height_m: found 0; must be greater than 0"
     );
     assert_eq!(
+        light("kind = \"sphere\"\ncenter_m = [0, 0, 1]\nradius_m = 1\ncone_deg = 40"),
+        "plate.toml:15: light[0]: `target_m` is missing; `light[0]` needs it to know where its cone points"
+    );
+    assert_eq!(
+        light("kind = \"sphere\"\ncenter_m = [0, 0, 1]\nradius_m = 1\ntarget_m = [0, 0, 0]"),
+        "plate.toml:19: light[0].target_m: found no cone that it belongs to; give the light a `cone_deg`, or leave it out"
+    );
+    assert_eq!(
+        light(
+            "kind = \"disk\"\ncenter_m = [0, 0, 1]\nradius_m = 1\ntarget_m = [0, 0, 0]\ncone_deg = 0"
+        ),
+        "plate.toml:20: light[0].cone_deg: found 0; must be from 0.1 to 360"
+    );
+    assert_eq!(
+        light(
+            "kind = \"disk\"\ncenter_m = [0, 0, 1]\nradius_m = 1\ntarget_m = [0, 0, 0]\ntwo_sided = true\ncone_deg = 30"
+        ),
+        "plate.toml:21: light[0].cone_deg: found a cone of a light whose two sides shine; leave out `two_sided`, or the cone"
+    );
+    assert_eq!(
         light("kind = \"tube\"\nends_m = [[0, 0, 1], [0, 0, 1]]\nradius_m = 1"),
         "plate.toml:17: light[0].ends_m: found two equal ends; must be two places; a round lamp is a `sphere`"
     );

@@ -225,6 +225,11 @@ fn everything() -> Description {
                 exposure_ev: 0.0,
                 temperature_k: None,
                 color: [1.0; 3],
+                cone: Some(Cone {
+                    cone_deg: 30.0,
+                    cone_softness: 0.5,
+                    target_m: Some([1.0, 2.0, 3.0]),
+                }),
             },
             Light {
                 name: None,
@@ -237,6 +242,7 @@ fn everything() -> Description {
                 exposure_ev: -2.5,
                 temperature_k: Some(3200.0),
                 color: [0.1, 0.2, 0.3],
+                cone: None,
             },
             Light::new(LightKind::Disk {
                 center_m: [0.0, 0.0, 1.0],

@@ -1,10 +1,11 @@
 //! A light.
 
 use egui::Ui;
+use glam::DVec3;
 use hairline_editor::actions::lights;
 use hairline_editor::ranges::Parameter;
 use hairline_editor::{Selection, place_light};
-use hairline_scene::description::LightKind;
+use hairline_scene::description::{Cone, Light, LightKind};
 
 use super::form::Form;
 use crate::command::Command;
@@ -83,6 +84,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
             form.toggle("Two-sided", TWO_SIDED, two_sided);
         }
     }
+    cone(&mut form, &mut light);
     if let Some(change) = form.change() {
         work.document.drag(&change.label, change.key, |d| {
             d.lights[index] = light.clone();
@@ -104,6 +106,32 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
         }
         super::button(ui, work, Command::Delete);
     });
+}
+
+/// The cone of a spot; a light whose two sides shine has none.
+fn cone(form: &mut Form, light: &mut Light) {
+    if light.kind.is_two_sided() {
+        light.cone = None;
+        return;
+    }
+    let mut is_spot = light.cone.is_some();
+    form.toggle(
+        "Spot",
+        "Whether the light leaves in a cone alone",
+        &mut is_spot,
+    );
+    if !is_spot {
+        light.cone = None;
+        return;
+    }
+    let below = place_light::center(light) + DVec3::NEG_Z;
+    let target_m = light.kind.axis().is_none().then(|| below.into());
+    let cone = light.cone.get_or_insert_with(|| Cone::new(40.0, target_m));
+    form.number(Parameter::LightCone, &mut cone.cone_deg);
+    form.number(Parameter::LightSoftness, &mut cone.cone_softness);
+    if let Some(target_m) = &mut cone.target_m {
+        form.vector(Parameter::LightTarget, target_m);
+    }
 }
 
 /// The corners of a polygon: they stay in its plane.
