@@ -7,6 +7,7 @@
 mod accessor;
 mod flaw;
 mod head;
+mod lights;
 mod material;
 mod nodes;
 mod placing;
@@ -28,6 +29,7 @@ use crate::text::shown;
 pub(crate) use flaw::Flaw;
 use flaw::RIGHT;
 pub(crate) use head::{counts, names};
+pub(crate) use lights::{Punctual, PunctualKind};
 use material::Materials;
 use nodes::placed_meshes;
 pub(crate) use placing::Placing;
@@ -38,10 +40,11 @@ pub(crate) use stock::Stock;
 /// Instances of meshes that one file may place; each is baked.
 const MOST_TRIANGLES: usize = 1 << 28;
 /// Extensions that are read. Quantization needs nothing done: the accessors read every component type.
-const EXTENSIONS: [&str; 3] = [
+const EXTENSIONS: [&str; 4] = [
     "KHR_mesh_quantization",
     "KHR_materials_emissive_strength",
     "EXT_texture_webp",
+    "KHR_lights_punctual",
 ];
 
 /// Reads a file's triangles into world space. Without `material`, an index into the stock, the file's own are added there.
@@ -52,13 +55,7 @@ pub(crate) fn read(
     placing: &Placing,
     stock: Stock,
 ) -> Result<Mesh, Flaw> {
-    let bytes = reading::read(path, Kind::File, FILE_SHARE).map_err(|error| {
-        Flaw::new(
-            format!("it cannot be read ({error})"),
-            "give the path of a .gltf or .glb file, relative to the scene file",
-        )
-    })?;
-    let gltf = parse(&bytes)?;
+    let gltf = parse(&file(path)?)?;
     let base_dir = path.parent().unwrap_or(Path::new(""));
     let buffers = Buffers::read(&gltf, base_dir, stock.files)?;
     let mut materials = match material {
@@ -102,6 +99,20 @@ pub(crate) fn read(
         ));
     }
     Ok(mesh)
+}
+
+/// The lights of a file, in its own frame.
+pub(crate) fn lights(path: &Path) -> Result<Vec<Punctual>, Flaw> {
+    lights::of(&parse(&file(path)?)?.document)
+}
+
+fn file(path: &Path) -> Result<Vec<u8>, Flaw> {
+    reading::read(path, Kind::File, FILE_SHARE).map_err(|error| {
+        Flaw::new(
+            format!("it cannot be read ({error})"),
+            "give the path of a .gltf or .glb file, relative to the scene file",
+        )
+    })
 }
 
 fn parse(bytes: &[u8]) -> Result<Gltf, Flaw> {

@@ -11,8 +11,10 @@ use crate::description::{
 };
 use crate::environment::BuiltInMap;
 use crate::error::Error;
-use crate::probe;
 use crate::text::shown;
+use crate::{mesh_file, probe};
+
+mod lights;
 
 /// Sizes at which scratches can be seen; other models are shown [`SHOWN_M`] large.
 const SIZES_M: std::ops::RangeInclusive<f64> = 0.02..=1.0;
@@ -52,13 +54,23 @@ impl Description {
             ));
         }
         // From y up to z up.
+        let turned = |p: DVec3| factor * DVec3::new(p.x, -p.z, p.y);
+        let lights = mesh_file::lights(path)
+            .map_err(|flaw| Error::new("", flaw.found, flaw.right).at(path, None))?;
+        let mut lamps: Vec<_> = lights
+            .iter()
+            .filter_map(|light| lights::lamp(light, extent_m, factor, turned))
+            .collect();
         let (least, most) = summary.bounds_m;
-        let upright = |p: glam::Vec3| factor * DVec3::new(p.x.into(), (-p.z).into(), p.y.into());
+        let upright = |p: glam::Vec3| turned(p.as_dvec3());
         let [a, b] = [least, most].map(upright);
         let bounds = Bounds {
             least: a.min(b),
             most: a.max(b),
         };
+        if lamps.is_empty() {
+            lamps.push(bounds.lamp());
+        }
         let points_m: Vec<_> = summary
             .extreme_points_m
             .iter()
@@ -96,7 +108,7 @@ impl Description {
                 rotation_deg: [0.0; 3],
                 scale: [1.0; 3],
             }],
-            lights: vec![bounds.lamp()],
+            lights: lamps,
             notes,
         })
     }

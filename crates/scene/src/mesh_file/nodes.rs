@@ -12,6 +12,16 @@ pub(super) fn placed_meshes(
     document: &gltf::Document,
     world_from_object: DMat4,
 ) -> Result<Vec<(gltf::Node<'_>, DMat4)>, Flaw> {
+    let mut placed = placed_nodes(document, world_from_object)?;
+    placed.retain(|(node, _)| node.mesh().is_some());
+    Ok(placed)
+}
+
+/// The nodes of the file's scene, with their transforms.
+pub(super) fn placed_nodes(
+    document: &gltf::Document,
+    world_from_object: DMat4,
+) -> Result<Vec<(gltf::Node<'_>, DMat4)>, Flaw> {
     let scene = document
         .default_scene()
         .or_else(|| document.scenes().next());
@@ -60,9 +70,7 @@ pub(super) fn placed_meshes(
         for child in node.children().collect::<Vec<_>>().into_iter().rev() {
             stack.push((child, world_from_node, depth + 1));
         }
-        if node.mesh().is_some() {
-            placed.push((node, world_from_node));
-        }
+        placed.push((node, world_from_node));
     }
     Ok(placed)
 }

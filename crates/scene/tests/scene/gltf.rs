@@ -648,3 +648,71 @@ fn what_is_ignored_cannot_be_wrong() {
     };
     load_bytes(&cube_glb("", r#"{"mesh":0}"#, &mut glb), "").unwrap();
 }
+
+/// KHR_lights_punctual: a point, a spot that looks down, and a sun, beside a cube of a metre.
+#[test]
+fn lights_of_a_file_light_its_scene() {
+    let mut glb = Glb::default();
+    glb.more = r#","extensionsRequired":["KHR_lights_punctual"],"extensionsUsed":["KHR_lights_punctual"],"extensions":{"KHR_lights_punctual":{"lights":[
+        {"type":"point","name":"bulb","intensity":683,"color":[1,0.5,0.25]},
+        {"type":"spot","intensity":1366,"spot":{"innerConeAngle":0.25,"outerConeAngle":0.5}},
+        {"type":"directional","intensity":2049}]}}"#
+        .into();
+    let light = |i: u32, place: &str| {
+        format!(r#"{{"extensions":{{"KHR_lights_punctual":{{"light":{i}}}}},{place}}}"#)
+    };
+    let down = r#""rotation":[-0.70710678,0,0,0.70710678]"#;
+    let nodes = [
+        r#"{"mesh":0,"children":[1,2,3]}"#.to_owned(),
+        light(0, r#""translation":[1,2,3]"#),
+        light(1, &format!(r#""translation":[0,2,0],{down}"#)),
+        light(2, down),
+    ];
+    let bytes = cube_glb("", &nodes.join(","), &mut glb);
+    let dir = temporary_dir();
+    let path = dir.path().join("lit.glb");
+    std::fs::write(&path, &bytes).unwrap();
+    let description = Description::for_model(&path).unwrap();
+    description.check().unwrap();
+    let scene = Scene::build(&description, dir.path()).unwrap();
+    let [bulb, spot, sun] = &scene.lights[..] else {
+        panic!("{:?}", scene.lights)
+    };
+    assert_eq!(description.lights[0].name.as_deref(), Some("bulb"));
+    // What falls on a surface that faces it: of a sphere of radiance L and radius r at d that is L pi r^2 / d^2.
+    let irradiance = |light: &hairline_scene::Light, at_m: DVec3| {
+        let (center_m, radius_m) = light.bounding_sphere();
+        let share = light
+            .cone
+            .map_or(1.0, |cone| cone.share((at_m - center_m).normalize()));
+        let sin2 = (radius_m / center_m.distance(at_m)).powi(2);
+        DVec3::from(light.radiance) * share * std::f64::consts::PI * sin2
+    };
+    let near = |a: DVec3, b: DVec3| a.distance(b) < 1e-6 * b.length();
+    // z up: the file's (1, 2, 3) is (1, -3, 2). 683 cd are a watt per steradian.
+    let at_m = DVec3::new(1.0, -3.0, 0.0);
+    let expected = DVec3::new(1.0, 0.5, 0.25) / 4.0;
+    assert!(near(irradiance(bulb, at_m), expected), "{bulb:?}");
+    assert!(near(irradiance(spot, DVec3::ZERO), DVec3::splat(2.0 / 4.0)));
+    // The fall-off of the extension: squared, linear in the cosine.
+    let angle = 0.4_f64;
+    let beside = DVec3::new(2.0 * angle.tan(), 0.0, 0.0);
+    let share = (angle.cos() - 0.5_f64.cos()) / (0.25_f64.cos() - 0.5_f64.cos());
+    let expected = DVec3::splat(2.0 * share * share * (angle.cos() / 2.0).powi(2));
+    assert!(near(irradiance(spot, beside), expected), "{spot:?}");
+    let outside = DVec3::new(2.0 * 0.51_f64.tan(), 0.0, 0.0);
+    assert_eq!(irradiance(spot, outside), DVec3::ZERO);
+    let expected = DVec3::splat(3.0);
+    assert!(near(irradiance(sun, DVec3::ZERO), expected), "{sun:?}");
+    assert!(sun.bounding_sphere().0.normalize().distance(DVec3::Z) < 1e-6);
+    // A lamp of its own is given to what comes without.
+    let plain = dir.path().join("plain.glb");
+    std::fs::write(&plain, plain_cube()).unwrap();
+    let lamps = Description::for_model(&plain).unwrap().lights;
+    assert_eq!(lamps[0].name.as_deref(), Some("lamp"));
+    // A light that is not there.
+    let wrong = nodes.join(",").replace(r#"{"light":2}"#, r#"{"light":7}"#);
+    std::fs::write(&path, cube_glb("", &wrong, &mut glb)).unwrap();
+    let error = Description::for_model(&path).unwrap_err();
+    assert_eq!(error.found(), "its node 3 has the light 7, of 3");
+}

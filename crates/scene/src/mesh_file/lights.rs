@@ -1,0 +1,92 @@
+//! KHR_lights_punctual: the lights of a file, in its own frame.
+
+use glam::{DMat4, DVec3};
+use gltf::json::Value;
+
+use super::flaw::Flaw;
+use super::nodes::placed_nodes;
+
+const NAME: &str = "KHR_lights_punctual";
+/// The extension's default.
+const OUTER_RAD: f64 = std::f64::consts::FRAC_PI_4;
+
+/// A light without a size.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Punctual {
+    pub name: Option<String>,
+    pub kind: PunctualKind,
+    pub position: DVec3,
+    /// Unit vector, away from the light.
+    pub direction: DVec3,
+    /// Linear Rec.709.
+    pub color: [f64; 3],
+    /// Candela, of a directional light lux.
+    pub intensity: f64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum PunctualKind {
+    Point,
+    /// Half angles.
+    Spot {
+        inner_rad: f64,
+        outer_rad: f64,
+    },
+    Directional,
+}
+
+/// Those of the nodes that show.
+pub(super) fn of(document: &gltf::Document) -> Result<Vec<Punctual>, Flaw> {
+    let none = Vec::new();
+    let table = document
+        .extension_value(NAME)
+        .and_then(|value| value.get("lights")?.as_array())
+        .unwrap_or(&none);
+    let mut lights = Vec::new();
+    for (node, world_from_node) in placed_nodes(document, DMat4::IDENTITY)? {
+        let Some(index) = node
+            .extension_value(NAME)
+            .and_then(|value| value.get("light")?.as_u64())
+        else {
+            continue;
+        };
+        let Some(light) = table.get(index as usize) else {
+            return Err(Flaw::new(
+                format!(
+                    "its node {} has the light {index}, of {}",
+                    node.index(),
+                    table.len()
+                ),
+                "export it again",
+            ));
+        };
+        let position = world_from_node.transform_point3(DVec3::ZERO);
+        // Along -z of its node.
+        let direction = world_from_node.transform_vector3(DVec3::NEG_Z);
+        let number = |value: &Value, key: &str| value.get(key).and_then(Value::as_f64);
+        let color = light.get("color").and_then(|color| color.as_array());
+        let channel = |c: usize| Some(color?.get(c)?.as_f64()?.max(0.0));
+        lights.push(Punctual {
+            name: light
+                .get("name")
+                .and_then(|name| Some(name.as_str()?.to_owned())),
+            kind: match light.get("type").and_then(Value::as_str) {
+                Some("directional") => PunctualKind::Directional,
+                Some("spot") => {
+                    let spot = light.get("spot").unwrap_or(light);
+                    let outer_rad = number(spot, "outerConeAngle").unwrap_or(OUTER_RAD);
+                    PunctualKind::Spot {
+                        inner_rad: number(spot, "innerConeAngle").unwrap_or(0.0),
+                        outer_rad,
+                    }
+                }
+                _ => PunctualKind::Point,
+            },
+            position,
+            direction: direction.normalize_or(DVec3::NEG_Z),
+            color: std::array::from_fn(|c| channel(c).unwrap_or(1.0)),
+            intensity: number(light, "intensity").unwrap_or(1.0).max(0.0),
+        });
+    }
+    Ok(lights)
+}
