@@ -652,12 +652,14 @@ fn what_is_ignored_cannot_be_wrong() {
 /// KHR_lights_punctual: a point, a spot that looks down, and a sun, beside a cube of a metre.
 #[test]
 fn lights_of_a_file_light_its_scene() {
-    let mut glb = Glb::default();
-    glb.more = r#","extensionsRequired":["KHR_lights_punctual"],"extensionsUsed":["KHR_lights_punctual"],"extensions":{"KHR_lights_punctual":{"lights":[
+    let more = r#","extensionsRequired":["KHR_lights_punctual"],"extensionsUsed":["KHR_lights_punctual"],"extensions":{"KHR_lights_punctual":{"lights":[
         {"type":"point","name":"bulb","intensity":683,"color":[1,0.5,0.25]},
         {"type":"spot","intensity":1366,"spot":{"innerConeAngle":0.25,"outerConeAngle":0.5}},
-        {"type":"directional","intensity":2049}]}}"#
-        .into();
+        {"type":"directional","intensity":2049}]}}"#;
+    let mut glb = Glb {
+        more: more.into(),
+        ..Glb::default()
+    };
     let light = |i: u32, place: &str| {
         format!(r#"{{"extensions":{{"KHR_lights_punctual":{{"light":{i}}}}},{place}}}"#)
     };
