@@ -71,6 +71,16 @@ fn scratch_chord(tables: texture_2d_array<u32>, point: LitPoint, seen: SeenScrat
         - scratch_table(tables, point.table, seen.profile.width_um * low, depth_nm);
 }
 
+// The light below a q, up to a constant.
+fn scratch_below(tables: texture_2d_array<u32>, point: LitPoint, seen: SeenScratch, q: f32, cos_i: f32) -> vec3f {
+    return scratch_table(tables, point.table, seen.profile.width_um * q, oblique_depth_nm(seen.profile.depth_nm, cos_i, point.wo.z));
+}
+
+// How it rises at q, up to a factor.
+fn scratch_slope(tables: texture_2d_array<u32>, point: LitPoint, seen: SeenScratch, q: f32, cos_i: f32) -> vec3f {
+    return scratch_table_slope(tables, point.table, seen.profile.width_um * q, oblique_depth_nm(seen.profile.depth_nm, cos_i, point.wo.z));
+}
+
 // Whether any light within a sphere can reach the scratch.
 fn scratch_meets(point: LitPoint, seen: SeenScratch, center_m: vec3f, radius_m: f32) -> bool {
     let cap = sphere_cap(center_m, radius_m);

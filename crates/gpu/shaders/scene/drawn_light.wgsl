@@ -40,19 +40,19 @@ fn drawn_offer(offer: ptr<function, DrawnOffer>, sent: vec3f) -> bool {
     return false;
 }
 
-// The antiderivative of what comes to a groove through a filter of colour.
-fn drawn_sent(point: LitPoint, seen: SeenScratch, q: f32, depth_nm: f32, filter_by: vec3f) -> f32 {
-    return rgb_luminance(filter_by * scratch_table(scratch_tables, point.table, seen.profile.width_um * q, depth_nm));
+// The antiderivative of what a scratch sends through a filter of colour.
+fn drawn_sent(point: LitPoint, seen: SeenScratch, q: f32, cos_i: f32, filter_by: vec3f) -> f32 {
+    return rgb_luminance(filter_by * scratch_below(scratch_tables, point, seen, q, cos_i));
 }
 
 // The place in a part of a line below which lies as much as is left, by bisection.
-fn drawn_place(point: LitPoint, seen: SeenScratch, part: DrawnPart, depth_nm: f32, filter_by: vec3f) -> f32 {
+fn drawn_place(point: LitPoint, seen: SeenScratch, part: DrawnPart, cos_i: f32, filter_by: vec3f) -> f32 {
     var low = part.low;
     var high = part.high;
-    let wanted = drawn_sent(point, seen, low, depth_nm, filter_by) + part.left;
+    let wanted = drawn_sent(point, seen, low, cos_i, filter_by) + part.left;
     for (var i = 0u; i < DRAWN_HALVINGS; i += 1u) {
         let middle = 0.5 * (low + high);
-        if drawn_sent(point, seen, middle, depth_nm, filter_by) < wanted {
+        if drawn_sent(point, seen, middle, cos_i, filter_by) < wanted {
             low = middle;
         } else {
             high = middle;
@@ -62,8 +62,8 @@ fn drawn_place(point: LitPoint, seen: SeenScratch, part: DrawnPart, depth_nm: f3
 }
 
 // The direction of a place on a line, and its colour, given what comes from all lines.
-fn drawn_at(point: LitPoint, seen: SeenScratch, line: BandLine, q: f32, depth_nm: f32, filter_by: vec3f, total: vec3f) -> DrawnLight {
-    let slope = filter_by * scratch_table_slope(scratch_tables, point.table, seen.profile.width_um * q, depth_nm);
+fn drawn_at(point: LitPoint, seen: SeenScratch, line: BandLine, q: f32, cos_i: f32, filter_by: vec3f, total: vec3f) -> DrawnLight {
+    let slope = filter_by * scratch_slope(scratch_tables, point, seen, q, cos_i);
     let here = slope / max(rgb_luminance(slope), 1e-30);
     let mean = total / max(rgb_luminance(total), 1e-30);
     // Channels that get nothing have no colour to differ in.
@@ -78,14 +78,9 @@ fn drawn_line(lines: BandLines, wo: vec3f, i: u32, u: f32) -> BandLine {
     return band_line_at(wo, lines.stds.w * gaussian_quantile(clamp(share, 1e-6, 1.0 - 1e-6)));
 }
 
-fn drawn_depth_nm(point: LitPoint, seen: SeenScratch, line: BandLine, range: vec2f) -> f32 {
-    return oblique_depth_nm(seen.profile.depth_nm, chord_cos(line, range.x, range.y, seen.profile.width_um), point.wo.z);
-}
-
-// T(high) - T(low).
-fn drawn_between(point: LitPoint, seen: SeenScratch, high: f32, low: f32, depth_nm: f32) -> vec3f {
-    return scratch_table(scratch_tables, point.table, seen.profile.width_um * high, depth_nm)
-        - scratch_table(scratch_tables, point.table, seen.profile.width_um * low, depth_nm);
+// The cosine for the groove's depth of what lies in a range.
+fn drawn_cos(seen: SeenScratch, line: BandLine, range: vec2f) -> f32 {
+    return chord_cos(line, range.x, range.y, seen.profile.width_um);
 }
 
 // By a sphere; u holds the numbers for the line, for the choice between lines, and for the chord.
@@ -101,10 +96,10 @@ fn draw_sphere(point: LitPoint, seen: SeenScratch, center_m: vec3f, radius_m: f3
     for (var i = 0u; i < lines.count; i += 1u) {
         let line = drawn_line(lines, wo, i, u.x);
         let chord = sphere_chord(line, cap);
-        let depth_nm = drawn_depth_nm(point, seen, line, chord_range(chord, line));
-        var sent = drawn_between(point, seen, chord.enter, chord.leave, depth_nm);
+        let cos_i = drawn_cos(seen, line, chord_range(chord, line));
+        var sent = scratch_chord(scratch_tables, point, seen, chord.enter, chord.leave, cos_i);
         if chord.wraps > 0.0 {
-            sent += drawn_between(point, seen, band_q_start(line), band_q_end(line), depth_nm);
+            sent += scratch_chord(scratch_tables, point, seen, band_q_start(line), band_q_end(line), cos_i);
         }
         if drawn_offer(&offer, sent) {
             taken = i;
@@ -115,23 +110,23 @@ fn draw_sphere(point: LitPoint, seen: SeenScratch, center_m: vec3f, radius_m: f3
     }
     let line = drawn_line(lines, wo, taken, u.x);
     let chord = sphere_chord(line, cap);
-    let depth_nm = drawn_depth_nm(point, seen, line, chord_range(chord, line));
+    let cos_i = drawn_cos(seen, line, chord_range(chord, line));
     // One part, or two where the light holds the direction straight down.
     var part = DrawnPart(chord.leave, chord.enter, 0.0);
     if chord.wraps > 0.0 {
         part.low = band_q_end(line);
     }
-    let own = rgb_luminance(drawn_between(point, seen, part.high, part.low, depth_nm));
+    let own = rgb_luminance(scratch_chord(scratch_tables, point, seen, part.high, part.low, cos_i));
     var other = 0.0;
     if chord.wraps > 0.0 {
-        other = rgb_luminance(drawn_between(point, seen, band_q_start(line), chord.leave, depth_nm));
+        other = rgb_luminance(scratch_chord(scratch_tables, point, seen, band_q_start(line), chord.leave, cos_i));
     }
     part.left = u.z * (own + other);
     if part.left > own && chord.wraps > 0.0 {
         part = DrawnPart(chord.leave, band_q_start(line), part.left - own);
     }
-    let q = drawn_place(point, seen, part, depth_nm, vec3f(1.0));
-    return drawn_at(point, seen, line, q, depth_nm, vec3f(1.0), offer.total);
+    let q = drawn_place(point, seen, part, cos_i, vec3f(1.0));
+    return drawn_at(point, seen, line, q, cos_i, vec3f(1.0), offer.total);
 }
 
 // The first root above a place, and how much more of the outline lies behind it.
@@ -167,24 +162,24 @@ fn outline_next_root(view: OutlineView, line: BandLine, facing: f32, wraps: bool
 const DRAWN_NO_ROOT: f32 = 9.0;
 
 // What comes from an outline along a line.
-fn outline_sent(point: LitPoint, seen: SeenScratch, view: OutlineView, line: BandLine, facing: f32, wraps: bool, depth_nm: f32) -> vec3f {
+fn outline_sent(point: LitPoint, seen: SeenScratch, view: OutlineView, line: BandLine, facing: f32, wraps: bool, cos_i: f32) -> vec3f {
     var sent = vec3f(0.0);
     var a = outline_direction(view, view.vertex_count - 1u);
     for (var i = 0u; i < view.vertex_count; i += 1u) {
         let b = outline_direction(view, i);
         let roots = band_edge_crossings(band_edge(a, b), line);
-        sent += drawn_between(point, seen, select(0.0, roots.rising, roots.rises), select(0.0, roots.falling, roots.falls), depth_nm);
+        sent += scratch_chord(scratch_tables, point, seen, select(0.0, roots.rising, roots.rises), select(0.0, roots.falling, roots.falls), cos_i);
         a = b;
     }
     sent *= facing;
     if wraps {
-        sent += drawn_between(point, seen, band_q_start(line), band_q_end(line), depth_nm);
+        sent += scratch_chord(scratch_tables, point, seen, band_q_start(line), band_q_end(line), cos_i);
     }
     return sent;
 }
 
 // The part of a line in which the share u of what comes along it is reached: from root to root, upwards.
-fn outline_part(point: LitPoint, seen: SeenScratch, view: OutlineView, line: BandLine, facing: f32, wraps: bool, depth_nm: f32, wanted: f32) -> DrawnPart {
+fn outline_part(point: LitPoint, seen: SeenScratch, view: OutlineView, line: BandLine, facing: f32, wraps: bool, cos_i: f32, wanted: f32) -> DrawnPart {
     var part = DrawnPart(0.0, 0.0, 0.0);
     var left = wanted;
     var cover = 0.0;
@@ -195,7 +190,7 @@ fn outline_part(point: LitPoint, seen: SeenScratch, view: OutlineView, line: Ban
             break;
         }
         if cover > 0.5 {
-            let own = rgb_luminance(drawn_between(point, seen, root.x, low, depth_nm));
+            let own = rgb_luminance(scratch_chord(scratch_tables, point, seen, root.x, low, cos_i));
             part = DrawnPart(low, root.x, min(left, own));
             if left <= own {
                 break;
@@ -220,8 +215,8 @@ fn draw_outline(point: LitPoint, seen: SeenScratch, view: OutlineView, facing: f
     for (var i = 0u; i < lines.count; i += 1u) {
         let line = drawn_line(lines, wo, i, u.x);
         let range = outline_range(view, line, away);
-        let depth_nm = drawn_depth_nm(point, seen, line, range.q);
-        let sent = outline_sent(point, seen, view, line, facing, range.wraps, depth_nm);
+        let cos_i = drawn_cos(seen, line, range.q);
+        let sent = outline_sent(point, seen, view, line, facing, range.wraps, cos_i);
         if drawn_offer(&offer, sent) {
             taken = i;
             taken_sent = rgb_luminance(sent);
@@ -232,10 +227,10 @@ fn draw_outline(point: LitPoint, seen: SeenScratch, view: OutlineView, facing: f
     }
     let line = drawn_line(lines, wo, taken, u.x);
     let range = outline_range(view, line, away);
-    let depth_nm = drawn_depth_nm(point, seen, line, range.q);
-    let part = outline_part(point, seen, view, line, facing, range.wraps, depth_nm, u.z * taken_sent);
-    let q = drawn_place(point, seen, part, depth_nm, vec3f(1.0));
-    return drawn_at(point, seen, line, q, depth_nm, vec3f(1.0), offer.total);
+    let cos_i = drawn_cos(seen, line, range.q);
+    let part = outline_part(point, seen, view, line, facing, range.wraps, cos_i, u.z * taken_sent);
+    let q = drawn_place(point, seen, part, cos_i, vec3f(1.0));
+    return drawn_at(point, seen, line, q, cos_i, vec3f(1.0), offer.total);
 }
 
 // By the environment; u holds the numbers for the choice between cells, and for the chord.
@@ -259,10 +254,10 @@ fn draw_around(point: LitPoint, seen: SeenScratch, map_from_surface: mat3x3f, u:
         return DrawnLight(vec3f(0.0), false, vec3f(1.0));
     }
     let cell = environment_cell(taken, line, seen.profile.width_um);
-    let depth_nm = oblique_depth_nm(seen.profile.depth_nm, cell.direction.z, point.wo.z);
-    let own = rgb_luminance(radiance * drawn_between(point, seen, cell.q_high, cell.q_low, depth_nm));
-    let q = drawn_place(point, seen, DrawnPart(cell.q_low, cell.q_high, u.y * own), depth_nm, radiance);
-    return drawn_at(point, seen, line, q, depth_nm, radiance, offer.total);
+    let cos_i = cell.direction.z;
+    let own = rgb_luminance(radiance * scratch_chord(scratch_tables, point, seen, cell.q_high, cell.q_low, cos_i));
+    let q = drawn_place(point, seen, DrawnPart(cell.q_low, cell.q_high, u.y * own), cos_i, radiance);
+    return drawn_at(point, seen, line, q, cos_i, radiance, offer.total);
 }
 
 // Where under the pixel a part lies that sees the scratch: standard deviations of the pixel's filter to the right and down. Of what is normal
