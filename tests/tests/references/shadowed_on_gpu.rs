@@ -77,7 +77,7 @@ fn rays_come_to_the_cpus_shadows() {
                 );
                 assert!(z.abs() < 4.0, "{name}");
                 assert!(error < 0.75 * last, "{name}");
-                assert!(*samples != 16 || error < 2.0 * rms(&by_cpu), "{name}");
+                assert!(*samples != 16 || error < 2.5 * rms(&by_cpu), "{name}");
                 last = error;
             }
         }

@@ -47,15 +47,15 @@ fn ray_by(pixel: PixelPoint, pick: Pick, luminance: f32) -> ShadowRay {
     let segment = segment_from(scratch_segment(pick.segment));
     let pair = pair_of(pixel, segment);
     let seed = shadow_seed(pixel.position_m);
-    let line = shadow_random(seed, shadow_round, SHADOW_LINE);
-    let chord = shadow_random(seed, shadow_round, SHADOW_CHORD);
+    let line = shadow_random_alike(seed, shadow_round, SHADOW_LINE);
+    let chord = shadow_random_alike(seed, shadow_round, SHADOW_CHORD);
     let drawn = draw_ray(pair, pick.source, vec3f(line, chord.x));
     var ray: ShadowRay;
     if !drawn.light.is_there {
         return ray;
     }
-    let place = shadow_random(seed, shadow_round, SHADOW_PLACE);
-    let normals = vec3f(shadow_normals(shadow_random(seed, shadow_round, SHADOW_START)), gaussian_quantile(clamp(place.x, 1e-6, 1.0 - 1e-6)));
+    let place = shadow_random_alike(seed, shadow_round, SHADOW_PLACE);
+    let normals = vec3f(shadow_normals(shadow_random_alike(seed, shadow_round, SHADOW_START)), gaussian_quantile(clamp(place.x, 1e-6, 1.0 - 1e-6)));
     let a = (segment.start_m - pixel.position_m) * 1e6;
     let b = (segment.end_m - pixel.position_m) * 1e6;
     let start = place_drawn(
