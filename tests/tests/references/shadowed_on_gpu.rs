@@ -39,7 +39,7 @@ fn rms(values: &[f64]) -> f64 {
     (values.iter().map(|v| v * v).sum::<f64>() / values.len() as f64).sqrt()
 }
 
-/// Rays are right in the mean, their error falls by half for four times as many, and it is that of the CPU's.
+/// Rays are right in the mean, their error falls with their number, and it is about that of the CPU's.
 #[test]
 fn rays_come_to_the_cpus_shadows() {
     for (name, scene) in scenes() {
@@ -48,8 +48,8 @@ fn rays_come_to_the_cpus_shadows() {
         };
         let truth = closed(&scene, 256, true);
         let cpu_open = closed(&scene, 1, false);
-        let by_cpu = closed(&scene, 16, true);
-        let images = [4, 16, 64].map(|samples| (samples, on_gpu(&scene, samples, true)));
+        let by_cpu = closed(&scene, 32, true);
+        let images = [4, 32].map(|samples| (samples, on_gpu(&scene, samples, true)));
         for layer in [Layer::Scratches, Layer::Base] {
             let of = |image: &Image| luminance(image, layer);
             let (open, cpu_open, truth) = (of(&open), of(&cpu_open), of(&truth));
@@ -69,15 +69,15 @@ fn rays_come_to_the_cpus_shadows() {
                 let error = rms(&errors);
                 let z = bias / (error / (errors.len() as f64).sqrt());
                 println!(
-                    "{name}, {}, {samples} rays: rms {:.2} % of the mean, mean {:+.3} %, z {z:+.2}; the CPU's 16: {:.2} %",
+                    "{name}, {}, {samples} rays: rms {:.2} % of the mean, mean {:+.3} %, z {z:+.2}; the CPU's 32: {:.2} %",
                     layer.name(),
                     100.0 * error / mean,
                     100.0 * bias / mean,
                     100.0 * rms(&by_cpu) / mean
                 );
                 assert!(z.abs() < 4.0, "{name}");
-                assert!(error < 0.75 * last, "{name}");
-                assert!(*samples != 16 || error < 2.5 * rms(&by_cpu), "{name}");
+                assert!(error < 0.6 * last, "{name}");
+                assert!(*samples != 32 || error < 2.5 * rms(&by_cpu), "{name}");
                 last = error;
             }
         }
@@ -104,10 +104,10 @@ fn spheres_do_not_shade_themselves_on_the_gpu() {
         scene.materials[0].roughness = 0.4;
         scene.lights = vec![sphere(VIEW, 0.3, -0.6, 0.05)];
         set_ball(&mut scene, slices, stacks, 2e-4);
-        let Some(open) = on_gpu(&scene, 16, false) else {
+        let Some(open) = on_gpu(&scene, 4, false) else {
             return;
         };
-        let image = on_gpu(&scene, 16, true).unwrap();
+        let image = on_gpu(&scene, 4, true).unwrap();
         let towards = off_the_mirror(VIEW.angle_rad, 0.3, -0.6);
         let (mut lit, mut dark) = (0, 0);
         for i in 0..open.base.len() {
