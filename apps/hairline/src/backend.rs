@@ -32,6 +32,8 @@ pub struct Task {
     pub samples: u32,
     /// Whether objects hide lights from one another.
     pub shadows: bool,
+    /// Objects that light may go by besides the one that is seen; the CPU renderer alone counts them.
+    pub bounces: u32,
 }
 
 /// A renderer that holds a scene with its trees and tables, for one picture or many.
@@ -60,6 +62,9 @@ impl<'a> Painter<'a> {
                 announce_gpu(&gpu, "as asked");
                 On::on_gpu(&gpu, scene, &task).map_err(advise)?
             }
+            Backend::Auto if task.bounces > 0 => {
+                On::on_cpu(scene, &task.method, "light bounces there alone")
+            }
             Backend::Auto => On::best(scene, &task),
         };
         Ok(Self { scene, task, on })
@@ -79,6 +84,7 @@ impl<'a> Painter<'a> {
             method,
             samples,
             shadows,
+            bounces,
             ..
         } = self.task;
         let rows = 0..scene.render.size_px[1];
@@ -87,6 +93,7 @@ impl<'a> Painter<'a> {
             let options = closed_form::RenderOptions {
                 samples,
                 shadows,
+                bounces,
                 method,
             };
             prepared.with_scene(scene).render(&options, progress)
@@ -105,6 +112,7 @@ impl<'a> Painter<'a> {
         let options = closed_form::RenderOptions {
             samples: 1,
             shadows: self.task.shadows,
+            bounces: self.task.bounces,
             method: self.task.method,
         };
         let on_gpu = |on: &mut OnGpu| {

@@ -13,6 +13,7 @@ use hairline_image::{Animation, Display, Image, Output};
 use hairline_index::method::Method;
 
 use crate::backend::{Painter, Task};
+use crate::cli::Backend;
 use crate::failure::Failure;
 use crate::progress::Progress;
 use crate::scene_file::{self, Overrides};
@@ -48,13 +49,18 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
         tone_map: scene.render.tone_map,
     };
     let write = |output: &Output, image: &Image| -> Result<(), Failure> {
-        Ok(output.write_image_with_notes(image, &display, &notes(&method, shadows))?)
+        Ok(output.write_image_with_notes(
+            image,
+            &display,
+            &notes(&method, shadows, arguments.bounces),
+        )?)
     };
     let task = Task {
         method,
         backend: arguments.backend,
         samples: arguments.samples,
         shadows,
+        bounces: arguments.bounces,
     };
     let mut painter = Painter::open(scene, task)?;
     match target {
@@ -105,22 +111,37 @@ fn single(arguments: &cli::Render) -> Result<Output, Failure> {
 
 /// Whether there are shadows.
 fn shadows(arguments: &cli::Render, method: &Method) -> Result<bool, Failure> {
+    let refuse = |why: &str| Err(Failure::Input(anyhow!("{why}")));
+    let bounces = arguments.bounces;
     if arguments.shadows == Switch::Off {
+        if bounces > 0 {
+            return refuse(&format!(
+                "--bounces {bounces}: without shadows the light that an object hides would be counted beside its own; add --shadows on"
+            ));
+        }
         return Ok(false);
     }
     if method.published.is_some() {
-        return Err(Failure::Input(anyhow!(
-            "--shadows on: the published method has no shadows; leave out --method published"
-        )));
+        return refuse(
+            "--shadows on: the published method has no shadows; leave out --method published",
+        );
+    }
+    if bounces > 0 && arguments.backend == Backend::Gpu {
+        return refuse(&format!(
+            "--bounces {bounces}: the GPU renderer has no bounces; leave out --backend gpu"
+        ));
     }
     Ok(true)
 }
 
 /// What of how a picture was made is not the default.
-fn notes(method: &Method, shadows: bool) -> Notes {
+fn notes(method: &Method, shadows: bool, bounces: u32) -> Notes {
     let mut notes = Notes::new();
     if shadows {
         notes.insert("shadows".to_owned(), "on".to_owned());
+    }
+    if bounces > 0 {
+        notes.insert("bounces".to_owned(), bounces.to_string());
     }
     if *method != Method::default() {
         notes.insert("method".to_owned(), method_flags::flags_of(method));

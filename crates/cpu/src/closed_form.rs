@@ -110,7 +110,8 @@ impl Prepared<'_> {
             rows: rows.start as usize..rows.end as usize,
             only_edges: false,
             visibility: Visibility::new(&self.triangles, &camera, size_px, &rows),
-            shadows: (options.shadows && matches!(by, By::Tiles(_))).then(|| Shadows::new(self)),
+            shadows: (options.shadows && matches!(by, By::Tiles(_)))
+                .then(|| Shadows::new(self, options)),
             by,
         };
         (picture, counts)

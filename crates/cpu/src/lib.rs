@@ -22,10 +22,12 @@
 //! ```
 
 mod bin;
+mod bounces;
 mod camera_beam;
 pub mod closed_form;
 mod counts;
 pub mod draft;
+mod gather;
 mod light_view;
 mod options;
 mod prepared;

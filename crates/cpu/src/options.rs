@@ -10,6 +10,8 @@ pub struct RenderOptions {
     pub samples: u32,
     /// Whether objects hide lights and the environment from one another. `samples` rays go to each light; the method of 2018 has none.
     pub shadows: bool,
+    /// How often light may go from one object to another on its way. Only with shadows: what an object hides would be counted twice.
+    pub bounces: u32,
     /// By which method scratches are computed.
     pub method: Method,
 }
@@ -19,6 +21,7 @@ impl Default for RenderOptions {
         Self {
             samples: 1,
             shadows: false,
+            bounces: 0,
             method: Method::default(),
         }
     }

@@ -5,13 +5,13 @@
 mod lights;
 mod segment;
 
+use crate::gather::gather;
 use crate::light_view::LightViews;
 use crate::prepared::Prepared;
 use crate::published::segment::SegmentView;
 use crate::surface::SurfacePoint;
 use glam::DVec3;
 use hairline_index::method::{PublishedMethod, Structure};
-use hairline_index::scratch_index::REACH_STD;
 use hairline_index::{Hit, IndexedSegment};
 use hairline_optics::band::TUBE_CORNERS;
 use hairline_optics::ltc::{LobeFresnel, LtcLobe};
@@ -62,7 +62,7 @@ impl<'a> Published<'a> {
         let (mut sums, mut density) = (ScratchSums::default(), 0.0);
         let spectrum = &self.spectra[point.table];
         let object = hit.object as usize;
-        let visit = |segment: &IndexedSegment| {
+        let mut visit = |segment: &IndexedSegment| {
             let Some(view) = SegmentView::new(point, segment, self.method.anti_aliasing) else {
                 return;
             };
@@ -75,9 +75,8 @@ impl<'a> Published<'a> {
         };
         match self.method.structure {
             Structure::Bvh => {
-                let reach_m = gather_reach_m(point).as_vec3();
-                let tree = &self.prepared.scratches.tree;
-                tree.gather(object, point.position_m.as_vec3(), reach_m, visit);
+                let segments = &self.prepared.scratches.tree.segments;
+                gather(self.prepared, hit.object, point, |i| visit(&segments[i]));
             }
             Structure::TriangleLists => {
                 let segments = &self.prepared.scratches.tree.segments;
@@ -110,23 +109,6 @@ impl<'a> Published<'a> {
             of.albedo.map(|e| e * share)
         }
     }
-}
-
-/// How far a surface may be off the plane of a footprint for each length along it.
-const BENDS: f64 = 0.125;
-
-/// Half the sides of the box around a point that holds every segment with a share there, world space.
-fn gather_reach_m(point: &SurfacePoint) -> DVec3 {
-    let sigma_m = point.coherence_um * 1e-6;
-    // Variances of position along the world's axes; 0.7 sigma^2 covers the window across and the ends' blur along.
-    let [ax, ay] = point.footprint_axes_m;
-    let variance = ax * ax + ay * ay + DVec3::splat(0.7 * sigma_m * sigma_m);
-    let on_plane = variance.map(f64::sqrt);
-    // The footprint lies in the plane that shading sees. Scratches lie on triangles: this one leaves it by as much as its normal is
-    // another one, its neighbours by about as much again; and where a surface bends elsewhere under a footprint, by a share of its size.
-    let leaves = BENDS + 2.0 * point.normal.distance(point.facet);
-    let aside = leaves * variance.element_sum().sqrt();
-    (on_plane + point.normal.abs() * aside) * REACH_STD as f64
 }
 
 #[cfg(test)]

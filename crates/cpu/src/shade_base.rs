@@ -125,6 +125,16 @@ impl<'p, 'a> Base<'p, 'a> {
         ggx_area_reflectance(single, self.point.fresnel.f0, self.lobe_albedo).into()
     }
 
+    /// What leaves the surface of light of which single scattering and the body return so much.
+    pub fn of_area(&self, single: BaseRadiance) -> BaseRadiance {
+        let f0 = self.point.fresnel.f0;
+        let specular = ggx_area_reflectance(single.specular.to_array(), f0, self.lobe_albedo);
+        BaseRadiance {
+            specular: specular.into(),
+            ..single
+        }
+    }
+
     /// What the body sends under an irradiance over pi.
     fn diffuse(&self, irradiance: impl Fn() -> DVec3) -> DVec3 {
         // Metals have no body to light.

@@ -142,7 +142,10 @@ impl Shading<'_, '_> {
             let frame = &self.shader.frames[first + lane];
             let table = &self.prepared.tables.tables[point.point.table];
             let mut radiance = DVec3::ZERO;
-            if !self.shader.lit.is_empty() || environment.is_some() {
+            let around = point.views.views.len() + 1;
+            let bounces = |picks: &mut [Picks]| picks[point.index].sources.len() > around;
+            let bounces = self.picks.as_deref_mut().is_some_and(bounces);
+            if bounces || !self.shader.lit.is_empty() || environment.is_some() {
                 let tangent = seen.tangent(lane);
                 let place = BandPlace::new(
                     frame.steps_um.map(|step| tangent.perp_dot(step)),
@@ -152,7 +155,9 @@ impl Shading<'_, '_> {
                 let light = ScratchLight::new(point.point.wo, tangent, table, segment.profile);
                 let mut picks = self.picks.as_mut().map(|picks| &mut picks[point.index]);
                 let mut add = |source: usize, sent: DVec3| {
-                    radiance += sent;
+                    if source < around {
+                        radiance += sent;
+                    }
                     if let Some(picks) = &mut picks {
                         let pick = |radiance| Pick {
                             tangent,
@@ -183,6 +188,9 @@ impl Shading<'_, '_> {
                 if let Some(environment) = environment {
                     let sent = light.environment(point.point, environment);
                     add(point.views.views.len(), sent);
+                }
+                if bounces {
+                    add(around, light.all_around());
                 }
             }
             let energy = scratch_energy(segment.profile, table, point.point.wo.z);

@@ -10,6 +10,7 @@
 //! source, or none does, there is no noise at all: the result is F, or 0.
 
 use crate::light_view::LightViews;
+use crate::options::RenderOptions;
 use crate::prepared::Prepared;
 use crate::sampling::environment::EnvironmentSampler;
 use crate::sampling::lights::{AreaLights, LightHit};
@@ -18,21 +19,25 @@ use crate::shade_base::{Base, BaseRadiance};
 use crate::shade_scratches::{DrawnLight, Frame, Pick, Picks, ScratchLight, SourcePicks};
 use crate::surface::{SurfacePoint, raised_m};
 use glam::{DVec2, DVec3};
+use hairline_index::Hit;
+use hairline_optics::band::{Along, BandPlace};
 use hairline_optics::fresnel::{FresnelRgb, half_vector_cos};
 use hairline_optics::gaussian::gaussian;
 use hairline_optics::ggx::{ggx_alpha, ggx_eval, ggx_pdf, ggx_sample};
 use hairline_optics::ltc::ltc_sphere;
+use hairline_optics::mask::ScratchSums;
 use hairline_scene::CameraFrame;
 use std::f64::consts::PI;
 
 /// What rays to the lights of a scene need.
 pub(crate) struct Shadows<'a> {
-    prepared: &'a Prepared<'a>,
+    pub(crate) prepared: &'a Prepared<'a>,
     /// In the order of [`hairline_scene::Scene::all_lights`].
     lights: AreaLights,
     environment: Option<EnvironmentSampler>,
     /// How far the scene reaches from the origin: what rounding goes by.
     extent_m: f64,
+    pub(crate) options: RenderOptions,
 }
 
 /// What is seen of what a sample sends.
@@ -40,20 +45,53 @@ pub(crate) struct Shadowed {
     pub base: BaseRadiance,
     /// The share of the scratches' light that is left, in each channel.
     pub scratches: DVec3,
+    /// What scratches send of the light of other objects, before they weaken one another.
+    pub by_objects: DVec3,
+}
+
+impl Shadowed {
+    /// What is left of the scratches' light, and what they send of the light of other objects.
+    pub fn weaken(&self, sums: &mut ScratchSums) {
+        let left = DVec3::from(sums.radiance) * self.scratches + self.by_objects;
+        sums.radiance = left.to_array();
+    }
 }
 
 /// A sample that rays start from.
 pub(crate) struct ShadowPoint<'p, 'a> {
     pub point: &'p SurfacePoint<'a>,
     pub object: u32,
-    pub camera: &'p CameraFrame,
-    pub at_px: DVec2,
-    /// Of the pixel's filter.
-    pub std_px: f64,
+    /// None where it is not the camera that sees the point.
+    pub pixel: Option<PixelFilter<'p>>,
     pub views: &'p LightViews<'a>,
     /// Rays for each source; for a sharp edge of a shadow their number is that of the picture's samples.
     pub rounds: u32,
     pub seed: u32,
+    /// How many other objects its light goes by on its way to the camera.
+    pub depth: u32,
+}
+
+/// What of the surface a pixel averages.
+#[derive(Clone, Copy)]
+pub(crate) struct PixelFilter<'p> {
+    pub camera: &'p CameraFrame,
+    pub at_px: DVec2,
+    pub std_px: f64,
+}
+
+/// A ray by the lobes of the base.
+struct DrawnRay {
+    wi: DVec3,
+    /// World space.
+    direction: DVec3,
+    origin_m: DVec3,
+    hit: Option<Hit>,
+}
+
+impl DrawnRay {
+    fn free_m(&self) -> f64 {
+        self.hit.map_or(f64::INFINITY, |hit| hit.distance_m)
+    }
 }
 
 /// What the random numbers of a ray are for. Each has four.
@@ -87,7 +125,7 @@ impl Purpose {
 }
 
 impl<'a> Shadows<'a> {
-    pub fn new(prepared: &'a Prepared<'a>) -> Self {
+    pub fn new(prepared: &'a Prepared<'a>, options: &RenderOptions) -> Self {
         let scene = prepared.scene;
         let positions = scene.objects.iter().flat_map(|o| &o.mesh.positions_m);
         Self {
@@ -95,7 +133,13 @@ impl<'a> Shadows<'a> {
             lights: AreaLights::from_lights(scene.all_lights()),
             environment: scene.environment.as_ref().map(EnvironmentSampler::new),
             extent_m: positions.map(|p| f64::from(p.length())).fold(0.0, f64::max),
+            options: *options,
         }
+    }
+
+    /// The sources of scratches' light, for [`Picks::clear`].
+    pub fn sources(&self, views: &LightViews) -> usize {
+        views.views.len() + 1 + usize::from(self.options.bounces > 0)
     }
 
     /// What is left of the light of a sample. `picks` are those of its scratches, if it has any.
@@ -103,6 +147,7 @@ impl<'a> Shadows<'a> {
         Shadowed {
             base: self.base(at),
             scratches: picks.map_or(DVec3::ONE, |picks| self.scratches(at, picks)),
+            by_objects: picks.map_or(DVec3::ZERO, |picks| self.objects_by_scratches(at, picks)),
         }
     }
 
@@ -116,15 +161,29 @@ impl<'a> Shadows<'a> {
             .map(BaseSource::new)
             .collect();
         let lobes = Lobes::new(&base, at.point);
+        let mut by_objects = BaseRadiance::default();
         for round in 0..at.rounds {
-            self.add_round(at, &lobes, round, &mut sources);
+            let drawn = self.add_round(at, &lobes, round, &mut sources);
+            if let Some(drawn) = drawn
+                && let Some(radiance) =
+                    self.from_object(at, round, drawn.origin_m, drawn.direction, drawn.hit)
+            {
+                let per_round = radiance / (f64::from(at.rounds) * lobes.pdf(drawn.wi));
+                by_objects = by_objects + base.of_area(lobes.eval(drawn.wi)).times(per_round);
+            }
         }
         let of_sources = sources.iter().map(BaseSource::resolve);
-        of_sources.fold(BaseRadiance::default(), |sum, part| sum + part)
+        of_sources.fold(by_objects, |sum, part| sum + part)
     }
 
     /// One ray by the lobes, which any source may be met by, and one to each source: multiple importance sampling (E. Veach, 1997).
-    fn add_round(&self, at: &ShadowPoint, lobes: &Lobes, round: u32, sources: &mut [BaseSource]) {
+    fn add_round(
+        &self,
+        at: &ShadowPoint,
+        lobes: &Lobes,
+        round: u32,
+        sources: &mut [BaseSource],
+    ) -> Option<DrawnRay> {
         let point = at.point;
         let [u, v, ..] = at.random(Purpose::Origin, round);
         let on_surface_m = self.under_the_pixel(at, normals(u, v));
@@ -133,9 +192,13 @@ impl<'a> Shadows<'a> {
             let direction = point.world_from_surface(wi);
             let origin_m = self.off_the_surface(point, on_surface_m, direction);
             // Which sources it meets is known only below.
-            let nearest = self.prepared.triangles.intersect(origin_m, direction);
-            let free_m = nearest.map_or(f64::INFINITY, |hit| hit.distance_m);
-            (wi, direction, free_m)
+            let hit = self.prepared.triangles.intersect(origin_m, direction);
+            DrawnRay {
+                wi,
+                direction,
+                origin_m,
+                hit,
+            }
         });
         let from = point.position_m;
         for (i, source) in sources.iter_mut().enumerate() {
@@ -144,7 +207,7 @@ impl<'a> Shadows<'a> {
             }
             let Some(light) = at.views.light_of(i) else {
                 // The environment is the last one.
-                self.add_environment(at, lobes, round, on_surface_m, drawn, source);
+                self.add_environment(at, lobes, round, on_surface_m, drawn.as_ref(), source);
                 continue;
             };
             let [u, v, ..] = at.random(Purpose::Light(light as u32), round);
@@ -156,20 +219,21 @@ impl<'a> Shadows<'a> {
                     source.add(round, lobes.eval(wi).times(weight), is_seen);
                 }
             }
-            if let Some((wi, direction, free_m)) = drawn
+            if let Some(drawn) = &drawn
                 && let Some(LightHit {
                     distance_m,
                     radiance,
-                }) = self.lights.hit(light, from, direction)
+                }) = self.lights.hit(light, from, drawn.direction)
             {
-                let pdf = lobes.pdf(wi) + self.lights.pdf(light, from, direction);
+                let pdf = lobes.pdf(drawn.wi) + self.lights.pdf(light, from, drawn.direction);
                 source.add(
                     round,
-                    lobes.eval(wi).times(radiance / pdf),
-                    free_m >= distance_m,
+                    lobes.eval(drawn.wi).times(radiance / pdf),
+                    drawn.free_m() >= distance_m,
                 );
             }
         }
+        drawn
     }
 
     fn add_environment(
@@ -178,7 +242,7 @@ impl<'a> Shadows<'a> {
         lobes: &Lobes,
         round: u32,
         on_surface_m: DVec3,
-        drawn: Option<(DVec3, DVec3, f64)>,
+        drawn: Option<&DrawnRay>,
         source: &mut BaseSource,
     ) {
         let point = at.point;
@@ -197,9 +261,14 @@ impl<'a> Shadows<'a> {
             let is_seen = self.sees(point, on_surface_m, direction, f64::INFINITY);
             source.add(round, lobes.eval(wi).times(weight), is_seen);
         }
-        if let Some((wi, direction, free_m)) = drawn {
-            let weight = radiance(direction) / (lobes.pdf(wi) + sampler.pdf(direction));
-            source.add(round, lobes.eval(wi).times(weight), free_m == f64::INFINITY);
+        if let Some(drawn) = drawn {
+            let pdf = lobes.pdf(drawn.wi) + sampler.pdf(drawn.direction);
+            let weight = radiance(drawn.direction) / pdf;
+            source.add(
+                round,
+                lobes.eval(drawn.wi).times(weight),
+                drawn.hit.is_none(),
+            );
         }
     }
 
@@ -207,7 +276,8 @@ impl<'a> Shadows<'a> {
     fn scratches(&self, at: &ShadowPoint, picks: &Picks) -> DVec3 {
         let (mut all, mut left) = (DVec3::ZERO, DVec3::ZERO);
         let frame = Frame::new(at.point);
-        for (i, source) in picks.sources.iter().enumerate() {
+        let sources = &picks.sources[..=at.views.views.len()];
+        for (i, source) in sources.iter().enumerate() {
             all += source.radiance;
             left += self.source_by_scratches(at, &frame, i, source);
         }
@@ -254,10 +324,7 @@ impl<'a> Shadows<'a> {
             let Some(DrawnLight { direction, color }) = drawn else {
                 continue;
             };
-            let [u, v, w, x] = at.random(Purpose::ScratchOrigin(set), round);
-            let [right, down] = normals(u, v);
-            let stds = place.drawn([right, down, gaussian().quantile(w)], &along, x);
-            let on_surface_m = self.under_the_pixel(at, stds);
+            let on_surface_m = self.on_scratch(at, set, round, place, &along);
             let direction = point.world_from_surface(direction);
             let distance_m = light.map_or(f64::INFINITY, |light| {
                 self.lights.reach_m(light, on_surface_m, direction)
@@ -270,6 +337,51 @@ impl<'a> Shadows<'a> {
             );
         }
         halves.resolve(source.radiance)
+    }
+
+    /// Light of other objects by way of the scratches, before they weaken one another.
+    fn objects_by_scratches(&self, at: &ShadowPoint, picks: &Picks) -> DVec3 {
+        let all_around = at.views.views.len() + 1;
+        let Some(source) = picks.sources.get(all_around) else {
+            return DVec3::ZERO;
+        };
+        let point = at.point;
+        let table = &self.prepared.tables.tables[point.table];
+        let mut sum = DVec3::ZERO;
+        for (round, pick) in source.picks().enumerate() {
+            let (round, set) = (round as u32, all_around as u32);
+            let by = ScratchLight::new(point.wo, pick.tangent, table, pick.profile);
+            let [u, v, ..] = at.random(Purpose::Scratch(set), round);
+            let Some(DrawnLight { direction, color }) = by.draw_all_around([u, v]) else {
+                continue;
+            };
+            let direction = point.world_from_surface(direction);
+            let on_surface_m = self.on_scratch(at, set, round, pick.place, &pick.along);
+            let origin_m = self.off_the_surface(point, on_surface_m, direction);
+            let hit = self.prepared.triangles.intersect(origin_m, direction);
+            if let Some(radiance) =
+                self.from_object(at, at.rounds + round, origin_m, direction, hit)
+            {
+                let weight = pick.radiance * color * (source.luminance / luminance(pick.radiance));
+                sum += weight * radiance;
+            }
+        }
+        sum / f64::from(at.rounds)
+    }
+
+    /// A place on a scratch, drawn by what the pixel sees of it.
+    fn on_scratch(
+        &self,
+        at: &ShadowPoint,
+        set: u32,
+        round: u32,
+        place: BandPlace,
+        along: &Along,
+    ) -> DVec3 {
+        let [u, v, w, x] = at.random(Purpose::ScratchOrigin(set), round);
+        let [right, down] = normals(u, v);
+        let stds = place.drawn([right, down, gaussian().quantile(w)], along, x);
+        self.under_the_pixel(at, stds)
     }
 
     /// Whether nothing hides what lies at a distance.
@@ -289,10 +401,16 @@ impl<'a> Shadows<'a> {
     ///
     /// On the triangles themselves: a step along the plane of the normal would end below them where they are hollow.
     fn under_the_pixel(&self, at: &ShadowPoint, stds: [f64; 2]) -> DVec3 {
-        let ray = at
-            .camera
-            .camera_ray(at.at_px + DVec2::from(stds) * at.std_px);
-        let (from_m, direction) = (at.camera.position_m, ray.normalize());
+        let Some(PixelFilter {
+            camera,
+            at_px,
+            std_px,
+        }) = at.pixel
+        else {
+            return at.point.raised_m;
+        };
+        let ray = camera.camera_ray(at_px + DVec2::from(stds) * std_px);
+        let (from_m, direction) = (camera.position_m, ray.normalize());
         match self.prepared.triangles.intersect(from_m, direction) {
             Some(hit) if hit.object == at.object => {
                 let position_m = from_m + direction * hit.distance_m;

@@ -10,7 +10,7 @@ use crate::published::Published;
 use crate::resolve::{Pixel, Sample};
 use crate::shade_base::Base;
 use crate::shade_scratches::{BATCH, Picks, ScratchPoint, ScratchShader};
-use crate::shadows::{ShadowPoint, Shadowed, Shadows};
+use crate::shadows::{PixelFilter, ShadowPoint, Shadows};
 use crate::silhouettes::is_smooth;
 use crate::surface::{SurfacePoint, surface_point};
 use crate::visibility::{Visibility, center};
@@ -220,9 +220,10 @@ impl<'a> Tile<'a> {
             }
         }
         self.sums.fill(ScratchSums::default());
-        if let Some(picks) = &mut self.picks {
+        if let (Some(picks), Some(shadows)) = (&mut self.picks, &self.picture.shadows) {
             for ((point, views), picks) in self.batch.iter().zip(&self.views).zip(picks) {
-                picks.clear(views.views.len() + 1, point.rounds, u64::from(point.seed()));
+                let sources = shadows.sources(views);
+                picks.clear(sources, point.rounds, u64::from(point.seed()));
             }
         }
         if let By::Tiles(lists) = &self.picture.by {
@@ -268,33 +269,34 @@ impl<'a> Tile<'a> {
                 } => {
                     let (masked, light) = match (&self.picture.by, &self.picture.shadows) {
                         (By::Tiles(_), shadows) => {
-                            let mut masked =
-                                sums.resolve(mask, prepared.depth_coherence(hit.object));
+                            let mut sums = *sums;
                             let light = match shadows {
                                 None => Base::new(at).radiance(environment, views, ltc_sphere),
                                 Some(shadows) => {
                                     let is_scratched = prepared.is_scratched(hit);
                                     let picks = self.picks.as_ref().map(|picks| &picks[i]);
-                                    let Shadowed { base, scratches } = shadows.shadowed(
+                                    let shadowed = shadows.shadowed(
                                         &ShadowPoint {
                                             point: at,
                                             object: hit.object,
-                                            camera: &self.picture.camera,
-                                            at_px: point.at_px,
-                                            std_px: point.std_px,
+                                            pixel: Some(PixelFilter {
+                                                camera: &self.picture.camera,
+                                                at_px: point.at_px,
+                                                std_px: point.std_px,
+                                            }),
                                             views,
                                             rounds: point.rounds,
                                             seed: point.seed(),
+                                            depth: 0,
                                         },
                                         picks.filter(|_| is_scratched),
                                     );
-                                    for c in 0..3 {
-                                        masked.scratches[c] *= scratches[c];
-                                    }
-                                    base
+                                    shadowed.weaken(&mut sums);
+                                    shadowed.base
                                 }
                             };
-                            (masked, light)
+                            let coherence = prepared.depth_coherence(hit.object);
+                            (sums.resolve(mask, coherence), light)
                         }
                         (By::Published(published), _) => (
                             published.scratches(at, hit, views),

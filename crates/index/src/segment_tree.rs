@@ -39,11 +39,17 @@ impl<S: Straight> SegmentTree<S> {
         }
     }
 
-    /// Calls `visit` for every segment of an object whose node touches the box around a point.
+    /// Calls `visit` with the index of every segment of an object whose node touches the box around a point.
     #[inline]
-    pub fn gather(&self, object: usize, center_m: Vec3, reach_m: Vec3, mut visit: impl FnMut(&S)) {
+    pub fn gather(
+        &self,
+        object: usize,
+        center_m: Vec3,
+        reach_m: Vec3,
+        mut visit: impl FnMut(usize),
+    ) {
         self.walk(object, center_m - reach_m, center_m + reach_m, |segments| {
-            self.segments[segments].iter().for_each(&mut visit);
+            segments.for_each(&mut visit);
         });
     }
 

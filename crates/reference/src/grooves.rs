@@ -103,7 +103,7 @@ pub(super) fn gather(
         object,
         point.position_m.as_vec3(),
         Vec3::splat(reach_m),
-        |groove| views.extend(GrooveView::new(point, groove, reach_sigma)),
+        |i| views.extend(GrooveView::new(point, &tree.segments[i], reach_sigma)),
     );
     views
 }

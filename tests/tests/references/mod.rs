@@ -1,6 +1,7 @@
 //! The Monte Carlo reference against the closed form, against facts of physics, and against itself: docs/accuracy.md has
 //! the same comparisons on more scenes.
 
+mod bounced;
 mod chance;
 mod closed_form;
 mod environment;

@@ -31,9 +31,15 @@ const SHADOWS: Settings = Settings {
 
 /// By the closed form, with rays for shadows or without.
 pub(super) fn closed(scene: &Scene, samples: u32, shadows: bool) -> Image {
+    bounced(scene, samples, shadows, 0)
+}
+
+/// The same with bounces.
+pub(super) fn bounced(scene: &Scene, samples: u32, shadows: bool, bounces: u32) -> Image {
     let options = RenderOptions {
         samples,
         shadows,
+        bounces,
         method: Method {
             mask: Mask::Linear,
             ..Method::default()

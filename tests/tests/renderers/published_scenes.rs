@@ -66,6 +66,7 @@ impl<'a> Both<'a> {
             samples: 1,
             method,
             shadows: false,
+            bounces: 0,
         };
         let cpu = prepared.render(&options, &|_| {});
         let what = format!("{name}, {switches:?}, {mask:?}");

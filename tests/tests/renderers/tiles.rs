@@ -125,6 +125,7 @@ fn masks_for_comparison() {
             samples: 1,
             method,
             shadows: false,
+            bounces: 0,
         };
         let cpu = closed_form::render(&scene, &options, &|_| {});
         let image = headless::render(gpu, &scene, &method, &RenderOptions::default(), &|_| {});

@@ -33,7 +33,8 @@ pub(crate) struct SourcePicks {
     picks: Vec<(f64, Option<Pick>)>,
 }
 
-/// Those of a point: a source for each of [`LightViews::views`], and one for the environment.
+/// Those of a point: a source for each of [`LightViews::views`], one for the environment, and with bounces one for light of radiance 1 from
+/// all around.
 pub(crate) struct Picks {
     pub sources: Vec<SourcePicks>,
     random: Pcg32,

@@ -294,6 +294,30 @@ impl<'a> ScratchLight<'a> {
         offers.taken(self.frame)
     }
 
+    /// The same for light that is the same from all around.
+    pub fn draw_all_around(&self, [pick_u, cell_u]: [f64; 2]) -> Option<DrawnLight> {
+        let line = BandLine::new(self.wo, 0.0);
+        let mut offers = Offers::new(pick_u);
+        for cell in environment_cells(line, self.width_um()) {
+            let row = self.row(cell.direction.z);
+            let ends = [(-1.0, cell.q_low), (1.0, cell.q_high)];
+            let spectrum = |q: f64| row.at(self.width_um() * q);
+            offers.offer(line, ends.into_iter(), spectrum, cell_u);
+        }
+        offers.taken(self.frame)
+    }
+
+    /// By light of radiance 1 from all around.
+    pub fn all_around(&self) -> DVec3 {
+        let cells = environment_cells(BandLine::new(self.wo, 0.0), self.width_um());
+        let sent = cells.map(|cell| {
+            let row = self.row(cell.direction.z);
+            let at = |q: f64| DVec3::from(row.at(self.width_um() * q));
+            at(cell.q_high) - at(cell.q_low)
+        });
+        sent.into_iter().sum()
+    }
+
     /// The roots of a polygon on a line, and the antiderivative for light from there.
     fn outline_spectrum(
         &self,

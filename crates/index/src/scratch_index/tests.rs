@@ -141,7 +141,9 @@ fn a_walk_goes_through_all_trees_of_its_object_and_no_other() {
             let reach = Vec3::splat(1e-4 * (1 + i) as f32);
             let middle = all[i * 37 % all.len()].start_m;
             let mut found = Vec::new();
-            index.tree.gather(object, middle, reach, |s| found.push(*s));
+            index.tree.gather(object, middle, reach, |i| {
+                found.push(index.tree.segments[i])
+            });
             let (lower, upper) = (middle - reach, middle + reach);
             let is_near = |s: &&IndexedSegment| {
                 let (low, high) = (s.start_m.min(s.end_m), s.start_m.max(s.end_m));

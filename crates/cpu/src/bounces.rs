@@ -1,0 +1,113 @@
+//! Light that goes from one object to another: what a ray meets is shaded by the closed forms as a pixel is, with scratches and shadows, and may
+//! go on from there (docs/model.md, section 11).
+
+use crate::gather::gather;
+use crate::light_view::LightViews;
+use crate::project::Projected;
+use crate::resolve::Sample;
+use crate::shade_scratches::{Picks, ScratchPoint, ScratchShader};
+use crate::shadows::{ShadowPoint, Shadows};
+use crate::surface::{SurfacePoint, surface_point};
+use glam::{DVec2, DVec3};
+use hairline_index::Hit;
+use hairline_optics::mask::ScratchSums;
+
+impl Shadows<'_> {
+    /// Radiance that arrives at a point from an object that a ray of it has met. None if there is no object, or light may not go by so many.
+    pub(crate) fn from_object(
+        &self,
+        at: &ShadowPoint,
+        ray: u32,
+        origin_m: DVec3,
+        direction: DVec3,
+        hit: Option<Hit>,
+    ) -> Option<DVec3> {
+        let hit = hit.filter(|_| at.depth < self.options.bounces)?;
+        let scene = self.prepared.scene;
+        let position_m = origin_m + direction * hit.distance_m;
+        let width_m = width_m(at.point, hit.distance_m, direction);
+        let (e1, e2) = direction.any_orthonormal_pair();
+        let footprint = |normal: DVec3| {
+            let leaves = normal.dot(direction).min(-MIN_COS);
+            [e1, e2].map(|across| width_m * (across - direction * (across.dot(normal) / leaves)))
+        };
+        let tables = &self.prepared.tables;
+        let point = surface_point(scene, tables, position_m, -direction, footprint, &hit);
+        let mut views = LightViews::new(scene);
+        views.look_from(&point);
+        let seed = (at.seed ^ ray.wrapping_mul(0x9e37_79b9)).wrapping_mul(0x85eb_ca6b) ^ at.depth;
+        let mut sums = [ScratchSums::default()];
+        let mut picks = [Picks::new()];
+        let is_scratched = self.prepared.is_scratched(&hit);
+        if is_scratched {
+            views.ready_for_scratches(&point);
+            picks[0].clear(self.sources(&views), 1, u64::from(seed));
+            self.add_scratches(&point, &views, hit.object, &mut sums, &mut picks);
+        }
+        let onwards = ShadowPoint {
+            point: &point,
+            object: hit.object,
+            pixel: None,
+            views: &views,
+            rounds: 1,
+            seed,
+            depth: at.depth + 1,
+        };
+        let shadowed = self.shadowed(&onwards, is_scratched.then_some(&picks[0]));
+        let [mut sums] = sums;
+        shadowed.weaken(&mut sums);
+        let coherence = self.prepared.depth_coherence(hit.object);
+        let masked = sums.resolve(self.options.method.mask, coherence);
+        let sample = Sample::surface(&point, &masked, &shadowed.base, 0.0);
+        Some(sample.base + sample.scratches)
+    }
+
+    fn add_scratches(
+        &self,
+        point: &SurfacePoint,
+        views: &LightViews,
+        object: u32,
+        sums: &mut [ScratchSums],
+        picks: &mut [Picks],
+    ) {
+        // All that may be there: a place in the picture they have none.
+        let mut list = Vec::new();
+        gather(self.prepared, object, point, |segment| {
+            list.push(Projected {
+                segment: segment as u32,
+                object,
+                reach_px: f32::INFINITY,
+                ..Projected::default()
+            });
+        });
+        let points = [ScratchPoint {
+            point,
+            object,
+            at_px: DVec2::ZERO,
+            views,
+            index: 0,
+        }];
+        let mut counts = crate::counts::Counts::default();
+        ScratchShader::new().shade(
+            self.prepared,
+            &points,
+            list.iter(),
+            sums,
+            Some(picks),
+            &mut counts,
+        );
+    }
+}
+
+/// Rays that graze a surface see no more of it than this cosine lets them.
+const MIN_COS: f64 = 0.02;
+
+/// One standard deviation of what a pixel sees by way of a mirror, across a ray: as wide as on the mirror, wider by the way, and by how the
+/// mirror's normals turn.
+fn width_m(point: &SurfacePoint, distance_m: f64, direction: DVec3) -> f64 {
+    let [right, down] = point.footprint_axes_m;
+    let here_m = (right.cross(down).dot(direction)).abs().sqrt();
+    let turns = point.normal_turns.map(DVec3::length_squared);
+    let spread_rad = here_m / point.distance_m + (2.0 * (turns[0] + turns[1])).sqrt();
+    here_m + distance_m * spread_rad
+}

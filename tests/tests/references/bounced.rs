@@ -1,0 +1,148 @@
+//! Closed forms that light reaches by way of other objects against the path tracer with as many bounces.
+
+use super::pictures::{LINEAR, compared, sampled};
+use super::scenes::{add_quad, plate, scratch, sphere};
+use super::shadowed::{VIEW, WHITE, bounced, luminance};
+use glam::{DVec3, Vec3};
+use hairline_image::Layer;
+use hairline_optics::metal::Metal;
+use hairline_reference::Settings;
+use hairline_scene::{Base, Scene};
+use std::sync::Arc;
+
+/// A scratched plate and a wall on it, both lit from before the wall: all that the camera sees mirrored is the wall.
+fn before_a_wall(base: Base, wall: Base) -> Scene {
+    let mut scene = plate(base, VIEW);
+    scene.materials[0].roughness = 0.3;
+    scratch(&mut scene, VIEW, 40);
+    scene.lights = vec![sphere(VIEW, 0.3, -1.1, 0.08)];
+    let corners = [
+        [-2e-3, 4.5e-4, 0.0],
+        [2e-3, 4.5e-4, 0.0],
+        [2e-3, 4.5e-4, 3e-3],
+        [-2e-3, 4.5e-4, 3e-3],
+    ];
+    add_quad(&mut scene, wall, 0.5, corners.map(Vec3::from_array));
+    scene
+}
+
+/// A scratched plate that the camera sees in a mirror alone.
+fn in_a_mirror() -> Scene {
+    let mut scene = plate(Base::Metal(Metal::Silver), VIEW);
+    scene.materials[0].roughness = 0.1;
+    scratch(&mut scene, VIEW, 40);
+    scene.lights = vec![sphere(VIEW, 0.35, -0.3, 0.08)];
+    let from_m = scene.camera.position_m;
+    let middle_m = 0.5 * from_m;
+    let normal = (from_m.normalize() + DVec3::X).normalize();
+    let mirrored = |m: DVec3| m - 2.0 * (m - middle_m).dot(normal) * normal;
+    scene.camera.position_m = mirrored(from_m);
+    scene.camera.target_m = middle_m;
+    let (u, v) = normal.any_orthonormal_pair();
+    let corner = |a: f64, b: f64| (middle_m + 4e-3 * (a * u + b * v)).as_vec3();
+    let corners = [
+        corner(-1.0, -1.0),
+        corner(1.0, -1.0),
+        corner(1.0, 1.0),
+        corner(-1.0, 1.0),
+    ];
+    add_quad(&mut scene, Base::Mirror, 0.02, corners);
+    scene
+}
+
+fn scenes() -> [(&'static str, Scene); 4] {
+    [
+        ("a wall", before_a_wall(WHITE, WHITE)),
+        (
+            "a gold wall",
+            before_a_wall(Base::Mirror, Base::Metal(Metal::Gold)),
+        ),
+        (
+            "a mirror",
+            before_a_wall(Base::Metal(Metal::Copper), Base::Mirror),
+        ),
+        ("in a mirror", in_a_mirror()),
+    ]
+}
+
+fn settings(bounces: u32) -> Settings {
+    Settings {
+        shadows: true,
+        bounces,
+        ..LINEAR
+    }
+}
+
+#[test]
+fn light_by_way_of_objects_is_that_of_the_path_tracer() {
+    for (bounces, (name, scene)) in [1, 1, 4, 1].into_iter().zip(scenes()) {
+        let reference = sampled(&scene, settings(bounces), 6);
+        let image = bounced(&scene, 512, true, bounces);
+        let direct = bounced(&scene, 16, true, 0);
+        for (layer, limit) in [(Layer::Base, 0.02), (Layer::Scratches, 0.04)] {
+            if luminance(&reference, layer).iter().sum::<f64>() == 0.0 {
+                // Of what is seen in a mirror all is its base.
+                continue;
+            }
+            let name = format!("{name}, {bounces}");
+            let found = compared(&name, &image, &reference, layer);
+            let [at_least, _] = found.beyond.relative_rms_within(2.0);
+            assert!(at_least < limit, "{name}: {found:?}");
+            let off = (found.mean_ratio - 1.0).abs();
+            let error = 3.0 * found.mean_ratio_error;
+            assert!(off < 0.01 + error, "{name}: {found:?}");
+            let wrong = compared(&format!("{name}, direct"), &direct, &reference, layer);
+            assert!(wrong.mean_ratio < 0.9, "{name}: {wrong:?}");
+        }
+    }
+}
+
+/// Few rays are right in the mean, and the error falls by half for four times as many.
+#[test]
+fn few_rays_find_the_light_of_objects_in_the_mean() {
+    for (name, scene) in scenes() {
+        let truth = luminance(&bounced(&scene, 512, true, 1), Layer::Base);
+        let count = truth.len() as f64;
+        let mean = truth.iter().sum::<f64>() / count;
+        let mut last = f64::INFINITY;
+        for samples in [2, 8, 32] {
+            let image = luminance(&bounced(&scene, samples, true, 1), Layer::Base);
+            let errors = image.iter().zip(&truth).map(|(a, b)| a - b);
+            let bias = errors.clone().sum::<f64>() / count;
+            let rms = (errors.map(|e| e * e).sum::<f64>() / count).sqrt();
+            let z = bias / (rms / count.sqrt());
+            println!(
+                "{name}, {samples} rays: rms {:.2} % of the mean, z {z:+.2}",
+                100.0 * rms / mean
+            );
+            assert!(z.abs() < 4.0, "{name}");
+            assert!(rms < 0.7 * last, "{name}");
+            last = rms;
+        }
+    }
+}
+
+/// What a mirror shows has scratches.
+#[test]
+fn scratches_are_seen_in_a_mirror() {
+    let mut scene = in_a_mirror();
+    let seen = luminance(&bounced(&scene, 4, true, 1), Layer::Base);
+    scene.objects[0].scratches = Arc::default();
+    scene.objects[0].segments = Arc::default();
+    let without = luminance(&bounced(&scene, 4, true, 1), Layer::Base);
+    let changed = |(a, b): (&f64, &f64)| (a / b - 1.0).abs() > 0.1;
+    let share = seen
+        .iter()
+        .zip(&without)
+        .filter(|pair| changed(*pair))
+        .count();
+    assert!(share > seen.len() / 4, "{share} of {}", seen.len());
+}
+
+/// Where there is nothing to go by, a bounce changes no bit.
+#[test]
+fn without_objects_bounces_change_nothing() {
+    let mut scene = before_a_wall(WHITE, WHITE);
+    scene.objects.truncate(1);
+    assert!(bounced(&scene, 4, true, 3) == bounced(&scene, 4, true, 0));
+}
