@@ -14,6 +14,7 @@ use hairline_optics::mask::ScratchSums;
 
 impl Shadows<'_> {
     /// Radiance that arrives at a point from an object that a ray of it has met. None if there is no object, or light may not go by so many.
+    /// The ray stands for a solid angle: what it meets is averaged over that, and a small bright image in a mirror makes no bright dots.
     pub(crate) fn from_object(
         &self,
         at: &ShadowPoint,
@@ -21,18 +22,24 @@ impl Shadows<'_> {
         origin_m: DVec3,
         direction: DVec3,
         hit: Option<Hit>,
+        solid_angle_sr: f64,
     ) -> Option<DVec3> {
         let hit = hit.filter(|_| at.depth < self.options.bounces)?;
         let scene = self.prepared.scene;
         let position_m = origin_m + direction * hit.distance_m;
-        let width_m = width_m(at.point, hit.distance_m, direction);
-        let (e1, e2) = direction.any_orthonormal_pair();
-        let footprint = |normal: DVec3| {
+        let across = |normal: DVec3, width_m: f64| {
             let leaves = normal.dot(direction).min(-MIN_COS);
-            [e1, e2].map(|across| width_m * (across - direction * (across.dot(normal) / leaves)))
+            let (e1, e2) = direction.any_orthonormal_pair();
+            [e1, e2].map(|e| width_m * (e - direction * (e.dot(normal) / leaves)))
         };
+        let width = |solid_angle_sr| width_m(at.point, hit.distance_m, direction, solid_angle_sr);
+        let all_m = width(solid_angle_sr);
         let tables = &self.prepared.tables;
-        let point = surface_point(scene, tables, position_m, -direction, footprint, &hit);
+        let footprint = |normal| across(normal, all_m);
+        let mut point = surface_point(scene, tables, position_m, -direction, footprint, &hit);
+        // Rays meet other places each: the scratches of one place stand for those of a wide footprint, which are many.
+        let scratches_m = width(0.0).min(point.coherence_um * 1e-6);
+        point.footprint_axes_m = across(point.normal, scratches_m);
         let mut views = LightViews::new(scene);
         views.look_from(&point);
         let seed = (at.seed ^ ray.wrapping_mul(0x9e37_79b9)).wrapping_mul(0x85eb_ca6b) ^ at.depth;
@@ -41,7 +48,7 @@ impl Shadows<'_> {
         let is_scratched = self.prepared.is_scratched(&hit);
         if is_scratched {
             views.ready_for_scratches(&point);
-            picks[0].clear(self.sources(&views), 1, u64::from(seed));
+            picks[0].clear(self.sources(&views, at.depth + 1), 1, u64::from(seed));
             self.add_scratches(&point, &views, hit.object, &mut sums, &mut picks);
         }
         let onwards = ShadowPoint {
@@ -100,14 +107,16 @@ impl Shadows<'_> {
 }
 
 /// Rays that graze a surface see no more of it than this cosine lets them.
-const MIN_COS: f64 = 0.02;
+const MIN_COS: f64 = 0.25;
 
-/// One standard deviation of what a pixel sees by way of a mirror, across a ray: as wide as on the mirror, wider by the way, and by how the
-/// mirror's normals turn.
-fn width_m(point: &SurfacePoint, distance_m: f64, direction: DVec3) -> f64 {
+/// One standard deviation of what a pixel sees by way of a mirror, across a ray: as wide as on the mirror, wider by the way, by how the
+/// mirror's normals turn, and by the solid angle that the ray stands for (as path differentials: F. Suykens and Y. Willems, 2001).
+fn width_m(point: &SurfacePoint, distance_m: f64, direction: DVec3, solid_angle_sr: f64) -> f64 {
     let [right, down] = point.footprint_axes_m;
     let here_m = (right.cross(down).dot(direction)).abs().sqrt();
     let turns = point.normal_turns.map(DVec3::length_squared);
-    let spread_rad = here_m / point.distance_m + (2.0 * (turns[0] + turns[1])).sqrt();
+    // Of a disk, half its radius.
+    let drawn_rad2 = 0.25 * solid_angle_sr / std::f64::consts::PI;
+    let spread_rad = here_m / point.distance_m + (2.0 * (turns[0] + turns[1]) + drawn_rad2).sqrt();
     here_m + distance_m * spread_rad
 }

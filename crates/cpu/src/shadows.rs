@@ -137,9 +137,9 @@ impl<'a> Shadows<'a> {
         }
     }
 
-    /// The sources of scratches' light, for [`Picks::clear`].
-    pub fn sources(&self, views: &LightViews) -> usize {
-        views.views.len() + 1 + usize::from(self.options.bounces > 0)
+    /// The sources of scratches' light at a depth, for [`Picks::clear`].
+    pub fn sources(&self, views: &LightViews, depth: u32) -> usize {
+        views.views.len() + 1 + usize::from(depth < self.options.bounces)
     }
 
     /// What is left of the light of a sample. `picks` are those of its scratches, if it has any.
@@ -164,12 +164,19 @@ impl<'a> Shadows<'a> {
         let mut by_objects = BaseRadiance::default();
         for round in 0..at.rounds {
             let drawn = self.add_round(at, &lobes, round, &mut sources);
-            if let Some(drawn) = drawn
-                && let Some(radiance) =
-                    self.from_object(at, round, drawn.origin_m, drawn.direction, drawn.hit)
-            {
-                let per_round = radiance / (f64::from(at.rounds) * lobes.pdf(drawn.wi));
-                by_objects = by_objects + base.of_area(lobes.eval(drawn.wi)).times(per_round);
+            let Some(DrawnRay {
+                wi,
+                direction,
+                origin_m,
+                hit,
+            }) = drawn
+            else {
+                continue;
+            };
+            let each_sr = 1.0 / (f64::from(at.rounds) * lobes.pdf(wi));
+            if let Some(radiance) = self.from_object(at, round, origin_m, direction, hit, each_sr) {
+                let sent = base.of_area(lobes.eval(wi));
+                by_objects = by_objects + sent.times(radiance * each_sr);
             }
         }
         let of_sources = sources.iter().map(BaseSource::resolve);
@@ -359,9 +366,8 @@ impl<'a> Shadows<'a> {
             let on_surface_m = self.on_scratch(at, set, round, pick.place, &pick.along);
             let origin_m = self.off_the_surface(point, on_surface_m, direction);
             let hit = self.prepared.triangles.intersect(origin_m, direction);
-            if let Some(radiance) =
-                self.from_object(at, at.rounds + round, origin_m, direction, hit)
-            {
+            let ray = at.rounds + round;
+            if let Some(radiance) = self.from_object(at, ray, origin_m, direction, hit, 0.0) {
                 let weight = pick.radiance * color * (source.luminance / luminance(pick.radiance));
                 sum += weight * radiance;
             }

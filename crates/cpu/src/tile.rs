@@ -222,7 +222,7 @@ impl<'a> Tile<'a> {
         self.sums.fill(ScratchSums::default());
         if let (Some(picks), Some(shadows)) = (&mut self.picks, &self.picture.shadows) {
             for ((point, views), picks) in self.batch.iter().zip(&self.views).zip(picks) {
-                let sources = shadows.sources(views);
+                let sources = shadows.sources(views, 0);
                 picks.clear(sources, point.rounds, u64::from(point.seed()));
             }
         }

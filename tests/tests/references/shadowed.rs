@@ -2,7 +2,7 @@
 
 use super::environment::{over, sky};
 use super::pictures::{LINEAR, compared, sampled};
-use super::scenes::{View, add_quad, off_the_mirror, panel, plate, scratch, sphere};
+use super::scenes::{View, add_quad, off_the_mirror, panel, plate, scratch, sphere, tube};
 use glam::{DVec3, Vec3};
 use hairline_cpu::closed_form::{self, RenderOptions};
 use hairline_image::{Image, Layer};
@@ -133,6 +133,10 @@ pub(super) fn scenes() -> Vec<(&'static str, Scene)> {
         );
     }
 
+    let mut rod = scratched(Base::Mirror);
+    rod.lights = vec![tube(VIEW, 0.1, 0.08, 0.03, 0.03)];
+    cover(&mut rod, lamp(0.1, 0.08), 3e-3, [0.0, -2e-3], [2e-3, 2e-3]);
+
     // A wall that stands on the plate just beyond the picture.
     let mut wall = scratched(WHITE);
     wall.lights = vec![panel(VIEW, 0.0, 0.05, [0.12, 0.12])];
@@ -154,6 +158,7 @@ pub(super) fn scenes() -> Vec<(&'static str, Scene)> {
         ("a slit", slit),
         ("three lamps", lamps),
         ("two sheets", sheets),
+        ("half a tube", rod),
         ("a wall", wall),
         ("a wall under the sky", under_sky),
     ]

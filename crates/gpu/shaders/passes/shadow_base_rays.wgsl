@@ -42,6 +42,7 @@ fn candidate_scaled(weight: BaseRadiance, factor: vec3f) -> BaseRadiance {
 // A direction by the lobes and one to the light, with the weights of multiple importance sampling (E. Veach, 1997).
 fn offer_light(kept: ptr<function, Candidate>, point: SurfacePoint, lobes: BaseLobes, seed: u32, pick: f32) {
     let light = light_at(shadow_round.source);
+    let radiance = light_radiance(light, point.position_m);
     let drawn = light_draw(point, light, shadow_random(seed, shadow_round, SHADOW_LIGHT));
     if !(drawn.whole > 0.0) {
         return;
@@ -51,7 +52,7 @@ fn offer_light(kept: ptr<function, Candidate>, point: SurfacePoint, lobes: BaseL
     let is_lit = met.distance_m > 0.0 || met.covers == 0.0;
     if is_lit && drawn.direction.z > 0.0 && drawn.distance_m > 0.0 && drawn.distance_m < SHADOW_FAR_M {
         let density = max(met.covers, 1.0) / drawn.whole + base_lobes_pdf(lobes, drawn.direction);
-        let weight = candidate_scaled(base_lobes_eval(lobes, drawn.direction), light.radiance / density);
+        let weight = candidate_scaled(base_lobes_eval(lobes, drawn.direction), radiance / density);
         candidate_offer(kept, drawn.direction, drawn.distance_m, weight);
     }
     let wi = base_lobes_sample(lobes, pick, shadow_random(seed, shadow_round, SHADOW_LOBE));
@@ -59,7 +60,7 @@ fn offer_light(kept: ptr<function, Candidate>, point: SurfacePoint, lobes: BaseL
         let along = light_meets(point, light, wi);
         if along.distance_m > 0.0 {
             let density = along.covers / drawn.whole + base_lobes_pdf(lobes, wi);
-            candidate_offer(kept, wi, along.distance_m, candidate_scaled(base_lobes_eval(lobes, wi), light.radiance / density));
+            candidate_offer(kept, wi, along.distance_m, candidate_scaled(base_lobes_eval(lobes, wi), radiance / density));
         }
     }
 }

@@ -84,3 +84,15 @@ fn tube_corner(outline: TubeOutline, i: u32) -> vec3f {
     let y = select(outline.a.y, outline.b.y, is_b);
     return select(outline.a.center, outline.b.center, is_b) + out * (cos(angle) * x + sin(angle) * y);
 }
+
+// How far a unit direction from the origin goes to where it is nearest to the tube's axis, less half its way through a sphere there: to the
+// surface if it comes straight, into the tube if it comes aslant. Below zero where the tube lies behind.
+fn tube_reach_m(a: vec3f, b: vec3f, radius: f32, direction: vec3f) -> f32 {
+    let e = b - a;
+    let slant = dot(e, direction);
+    let along = dot(a, direction) * slant - dot(a, e);
+    let nearest = a + e * clamp(along / max(dot(e, e) - slant * slant, 1e-30), 0.0, 1.0);
+    let reach = dot(nearest, direction);
+    let beside = cross(nearest, direction);
+    return reach - sqrt(max(radius * radius - dot(beside, beside), 0.0));
+}

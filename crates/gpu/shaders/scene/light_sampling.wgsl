@@ -81,15 +81,16 @@ fn spherical_triangle_draw(triangle: SphericalTriangle, part: f32, u: f32) -> ve
     return normalize(b * (1.0 - along) + tangent * sqrt(max(along * (2.0 - along), 0.0)));
 }
 
-fn polygon_draw(point: SurfacePoint, light: Light, u: vec2f) -> DrawnToLight {
+// A polygon, or the outline of a tube.
+fn outline_draw(point: SurfacePoint, light: Light, outline: LightOutline, u: vec2f) -> DrawnToLight {
     var whole = 0.0;
     var left = u.x;
     var chosen: SphericalTriangle;
-    let first = light_vertex(point, light, 0u);
-    var b = light_vertex(point, light, 1u);
+    let first = light_vertex(point, light, outline, 0u);
+    var b = light_vertex(point, light, outline, 1u);
     // In one pass: a triangle takes over with its share of all so far, and what is left of the number is stretched again.
     for (var i = 2u; i < light.vertex_count; i += 1u) {
-        let c = light_vertex(point, light, i);
+        let c = light_vertex(point, light, outline, i);
         let triangle = spherical_triangle(first, b, c);
         whole += triangle.angle;
         let share = triangle.angle / max(whole, 1e-30);
@@ -102,26 +103,36 @@ fn polygon_draw(point: SurfacePoint, light: Light, u: vec2f) -> DrawnToLight {
         b = c;
     }
     let direction = spherical_triangle_draw(chosen, left * chosen.angle, u.y);
-    return DrawnToLight(direction, polygon_plane_m(point, light, direction), whole);
+    return DrawnToLight(direction, outline_reach_m(point, light, direction), whole);
 }
 
-// The distance at which a direction passes through the polygon's plane; below zero or not finite where it does not.
-fn polygon_plane_m(point: SurfacePoint, light: Light, direction: vec3f) -> f32 {
-    let normal = surface_from_world(point, light.normal);
-    return dot(normal, light_vertex(point, light, 0u)) / dot(normal, direction);
+// The distance at which a direction passes through the polygon's plane, or into a tube; below zero or not finite where it does not.
+fn outline_reach_m(point: SurfacePoint, light: Light, direction: vec3f) -> f32 {
+    var reach_m: f32;
+    if HAS_TUBES && light.kind == LIGHT_TUBE {
+        let a = light_end_m(light.first_vertex);
+        let b = light_end_m(light.first_vertex + 1u);
+        let start_m = surface_from_world(point, a.xyz - point.position_m);
+        reach_m = tube_reach_m(start_m, surface_from_world(point, b.xyz - point.position_m), a.w, direction);
+    } else {
+        let normal = surface_from_world(point, light.normal);
+        let corner_m = surface_from_world(point, light_corner_m(light.first_vertex) - point.position_m);
+        reach_m = dot(normal, corner_m) / dot(normal, direction);
+    }
+    return reach_m;
 }
 
-fn polygon_meets(point: SurfacePoint, light: Light, direction: vec3f) -> MetLight {
-    let distance_m = polygon_plane_m(point, light, direction);
+fn outline_meets(point: SurfacePoint, light: Light, outline: LightOutline, direction: vec3f) -> MetLight {
+    let distance_m = outline_reach_m(point, light, direction);
     if !(distance_m > 0.0 && distance_m < 1e30) {
         return MetLight(0.0, 0.0);
     }
     var covers = 0.0;
     var winding = 0.0;
-    let first = light_vertex(point, light, 0u);
-    var b = light_vertex(point, light, 1u);
+    let first = light_vertex(point, light, outline, 0u);
+    var b = light_vertex(point, light, outline, 1u);
     for (var i = 2u; i < light.vertex_count; i += 1u) {
-        let c = light_vertex(point, light, i);
+        let c = light_vertex(point, light, outline, i);
         let sides = vec3f(dot(cross(first, b - first), direction), dot(cross(b, c - b), direction), dot(cross(c, first - c), direction));
         let sign = f32(all(sides > vec3f(0.0))) - f32(all(sides < vec3f(0.0)));
         winding += sign;
@@ -136,8 +147,11 @@ fn light_draw(point: SurfacePoint, light: Light, u: vec2f) -> DrawnToLight {
     if HAS_SPHERES && light.kind == LIGHT_SPHERE {
         drawn = sphere_draw(surface_from_world(point, light.center_m - point.position_m), light.radius_m, u);
     }
-    if HAS_POLYGONS && light.kind == LIGHT_POLYGON && light_facing(point, light) != 0.0 {
-        drawn = polygon_draw(point, light, u);
+    if HAS_POLYGONS && light.kind != LIGHT_SPHERE {
+        let outline = light_outline(point, light);
+        if outline.facing != 0.0 {
+            drawn = outline_draw(point, light, outline, u);
+        }
     }
     return drawn;
 }
@@ -149,8 +163,8 @@ fn light_meets(point: SurfacePoint, light: Light, direction: vec3f) -> MetLight 
         let reach_m = sphere_reach_m(surface_from_world(point, light.center_m - point.position_m), light.radius_m, direction);
         met = MetLight(max(reach_m, 0.0), 1.0);
     }
-    if HAS_POLYGONS && light.kind == LIGHT_POLYGON {
-        met = polygon_meets(point, light, direction);
+    if HAS_POLYGONS && light.kind != LIGHT_SPHERE {
+        met = outline_meets(point, light, light_outline(point, light), direction);
     }
     return met;
 }
