@@ -35,7 +35,7 @@ const THINGS: [Thing; 2] = [
     },
     Thing {
         what: "a shape of light",
-        most: 14,
+        most: 12,
         names: &[
             &["Sphere", "Polygon"],
             &["LIGHT_SPHERE", "LIGHT_POLYGON"],

@@ -15,7 +15,7 @@ use hairline_optics::mask::ScratchSums;
 impl Shadows<'_> {
     /// Radiance that arrives at a point from an object that a ray of it has met. None if there is no object, or light may not go by so many.
     /// The ray stands for a solid angle: what it meets is averaged over that, and a small bright image in a mirror makes no bright dots.
-    pub(crate) fn from_object(
+    pub(crate) fn light_of_object(
         &self,
         at: &ShadowPoint,
         ray: u32,

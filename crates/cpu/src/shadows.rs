@@ -174,7 +174,9 @@ impl<'a> Shadows<'a> {
                 continue;
             };
             let each_sr = 1.0 / (f64::from(at.rounds) * lobes.pdf(wi));
-            if let Some(radiance) = self.from_object(at, round, origin_m, direction, hit, each_sr) {
+            if let Some(radiance) =
+                self.light_of_object(at, round, origin_m, direction, hit, each_sr)
+            {
                 let sent = base.of_area(lobes.eval(wi));
                 by_objects = by_objects + sent.times(radiance * each_sr);
             }
@@ -367,7 +369,7 @@ impl<'a> Shadows<'a> {
             let origin_m = self.off_the_surface(point, on_surface_m, direction);
             let hit = self.prepared.triangles.intersect(origin_m, direction);
             let ray = at.rounds + round;
-            if let Some(radiance) = self.from_object(at, ray, origin_m, direction, hit, 0.0) {
+            if let Some(radiance) = self.light_of_object(at, ray, origin_m, direction, hit, 0.0) {
                 let weight = pick.radiance * color * (source.luminance / luminance(pick.radiance));
                 sum += weight * radiance;
             }

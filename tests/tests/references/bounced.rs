@@ -35,8 +35,8 @@ fn in_a_mirror() -> Scene {
     let from_m = scene.camera.position_m;
     let middle_m = 0.5 * from_m;
     let normal = (from_m.normalize() + DVec3::X).normalize();
-    let mirrored = |m: DVec3| m - 2.0 * (m - middle_m).dot(normal) * normal;
-    scene.camera.position_m = mirrored(from_m);
+    let behind_m = (from_m - middle_m).dot(normal) * normal;
+    scene.camera.position_m = from_m - 2.0 * behind_m;
     scene.camera.target_m = middle_m;
     let (u, v) = normal.any_orthonormal_pair();
     let corner = |a: f64, b: f64| (middle_m + 4e-3 * (a * u + b * v)).as_vec3();

@@ -69,7 +69,8 @@ fn bounces_ask_for_shadows_and_the_cpu() {
 fn the_screen_lights_the_table_from_below() {
     let folder = folder_with("screened.toml", SCREENED);
     let file = folder.path().join("out.exr");
-    let lit = [0, 1].map(|bounces| {
+    // From the table to the screen's dark side, and from there to the lit table.
+    let lit = [0, 2].map(|bounces| {
         let flags = format!("--shadows on --samples 64 --bounces {bounces}");
         hairline(
             folder.path(),
@@ -79,11 +80,12 @@ fn the_screen_lights_the_table_from_below() {
         let (image, notes) = exr_file::read_image_with_notes(&file).unwrap();
         assert_eq!(
             notes.get("bounces").map(String::as_str),
-            (bounces > 0).then_some("1")
+            (bounces > 0).then_some("2")
         );
         image.base.iter().map(|p| f64::from(p[1])).sum::<f64>()
     });
-    assert!(lit[1] > 1.001 * lit[0], "{lit:?}");
+    // The same rays otherwise: no noise.
+    assert!(lit[1] > lit[0], "{lit:?}");
 }
 
 #[test]
