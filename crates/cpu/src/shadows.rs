@@ -442,10 +442,12 @@ impl<'a> Shadows<'a> {
 }
 
 impl ShadowPoint<'_, '_> {
-    /// Four numbers in (0, 1), even over the rounds.
+    /// Four numbers in (0, 1), even over the even rounds and over the odd ones.
     fn random(&self, purpose: Purpose, round: u32) -> [f64; 4] {
-        let seed = self.seed ^ purpose.set().wrapping_mul(0x9e37_79b9);
-        let numbers = sobol_burley::sample_4d(round, 0, seed);
+        // Even and odd rounds are halves that guess for each other ([`Halves`]): neither may know of the other's numbers.
+        let half = (round % 2).wrapping_mul(0x68e3_1da4);
+        let seed = self.seed ^ purpose.set().wrapping_mul(0x9e37_79b9) ^ half;
+        let numbers = sobol_burley::sample_4d(round / 2, 0, seed);
         numbers.map(|u| f64::from(u) + 0.5 / f64::from(1 << 24))
     }
 }
