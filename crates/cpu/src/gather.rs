@@ -5,9 +5,6 @@ use crate::surface::SurfacePoint;
 use glam::DVec3;
 use hairline_index::scratch_index::REACH_STD;
 
-/// How far a surface may be off the plane of a footprint for each length along it.
-const BENDS: f64 = 0.125;
-
 /// Calls `visit` with the index of every segment of an object that may have a share at the point, and of some others.
 pub(crate) fn gather(
     prepared: &Prepared,
@@ -27,9 +24,6 @@ fn reach_m(point: &SurfacePoint) -> DVec3 {
     let [ax, ay] = point.footprint_axes_m;
     let variance = ax * ax + ay * ay + DVec3::splat(0.7 * sigma_m * sigma_m);
     let on_plane = variance.map(f64::sqrt);
-    // The footprint lies in the plane that shading sees. Scratches lie on triangles: this one leaves it by as much as its normal is
-    // another one, its neighbours by about as much again; and where a surface bends elsewhere under a footprint, by a share of its size.
-    let leaves = BENDS + 2.0 * point.normal.distance(point.facet);
-    let aside = leaves * variance.element_sum().sqrt();
+    let aside = point.leaves() * variance.element_sum().sqrt();
     (on_plane + point.normal.abs() * aside) * REACH_STD as f64
 }

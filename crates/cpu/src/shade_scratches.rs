@@ -143,8 +143,8 @@ impl Shading<'_, '_> {
             let table = &self.prepared.tables.tables[point.point.table];
             let mut radiance = DVec3::ZERO;
             let around = point.views.views.len() + 1;
-            let bounces = |picks: &mut [Picks]| picks[point.index].sources.len() > around;
-            let bounces = self.picks.as_deref_mut().is_some_and(bounces);
+            let picks = self.picks.as_deref();
+            let bounces = picks.is_some_and(|p| p[point.index].sources.len() > around);
             if bounces || !self.shader.lit.is_empty() || environment.is_some() {
                 let tangent = seen.tangent(lane);
                 let place = BandPlace::new(

@@ -48,7 +48,17 @@ pub struct SurfacePoint<'a> {
     pub table: usize,
 }
 
+/// How far a surface may be off the plane of a footprint for each length along it.
+const SURFACE_BENDS: f64 = 0.125;
+
 impl SurfacePoint<'_> {
+    /// How far the surface under a footprint may be off the plane of shading, for each length along it. Scratches lie on triangles:
+    /// that of the point leaves the plane by as much as its normal is another one, its neighbours by about as much again; and where
+    /// a surface bends elsewhere under a footprint, by [`SURFACE_BENDS`].
+    pub fn leaves(&self) -> f64 {
+        SURFACE_BENDS + 2.0 * self.normal.distance(self.facet)
+    }
+
     /// A direction in the local frame.
     pub fn surface_from_world(&self, v: DVec3) -> DVec3 {
         DVec3::new(v.dot(self.axis_x), v.dot(self.axis_y), v.dot(self.normal))

@@ -16,8 +16,6 @@ pub(super) const GROUPS: usize = 8;
 /// A number for each point of a group.
 type Lanes = [f64; LANES];
 
-/// How far a surface may be off the plane of a footprint for each length along it.
-const BENDS: f64 = 0.125;
 /// The root of 0.7, the variance that bounds the coherence window's and that of the ends' blur, in coherence lengths.
 const WINDOW_STD: f64 = 0.8367;
 
@@ -46,15 +44,12 @@ pub(super) struct Group {
     half_px: [f32; 2],
 }
 
-/// How far a segment may be off the plane of shading to count for a point, metres. Scratches lie on triangles: that of the point
-/// leaves the plane by as much as its normal is another one, its neighbours by about as much again; and where a surface bends
-/// elsewhere under a footprint, by a share of its size.
+/// How far a segment may be off the plane of shading to count for a point, metres.
 fn off_plane_m(point: &crate::surface::SurfacePoint) -> f64 {
     let sigma_m = point.coherence_um * 1e-6;
     let [ax, ay] = point.footprint_axes_m.map(|axis| axis.length_squared());
-    let leaves = BENDS + 2.0 * point.normal.distance(point.facet);
     f64::from(REACH_STD)
-        * (WINDOW_STD * sigma_m + leaves * (ax + ay + 2.1 * sigma_m * sigma_m).sqrt())
+        * (WINDOW_STD * sigma_m + point.leaves() * (ax + ay + 2.1 * sigma_m * sigma_m).sqrt())
 }
 
 impl Group {
