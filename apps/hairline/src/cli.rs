@@ -107,6 +107,10 @@ pub struct Render {
     /// Objects that light may go by on its way besides the one that is seen, with shadows, on the CPU. [default: 0]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=64))]
     pub bounces: Option<u32>,
+    /// Whether light that few rays of a pixel found is spread over the pixels around, which keeps the picture's mean. For shadows and
+    /// bounces of more than 4 samples; the scratches' light is left as it is.
+    #[arg(long, value_enum, default_value_t = Switch::On)]
+    pub firefly_filter: Switch,
     /// Other scratches of the same kinds: added to the seed of each layer.
     #[arg(
         long,
@@ -327,6 +331,16 @@ pub enum Backend {
     Gpu,
     /// The CPU renderer: needs no driver.
     Cpu,
+}
+
+impl From<Backend> for hairline_work::backend::Backend {
+    fn from(flag: Backend) -> Self {
+        match flag {
+            Backend::Auto => Self::Auto,
+            Backend::Gpu => Self::Gpu,
+            Backend::Cpu => Self::Cpu,
+        }
+    }
 }
 
 fn parse_size(text: &str) -> Result<[u32; 2], String> {

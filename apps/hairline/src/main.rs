@@ -2,12 +2,10 @@
 //!
 //! Exit codes: 0 done; 1 the work failed; 2 the command line or the scene is wrong.
 
-mod backend;
 mod bench;
 mod cli;
 mod compare;
 mod console;
-mod failure;
 mod highlight;
 mod info;
 mod interrupt;
@@ -25,6 +23,7 @@ mod watch;
 use std::process::ExitCode;
 
 use clap::Parser;
+use hairline_work::{backend, failure};
 
 fn main() -> ExitCode {
     console::tell_of_panics();

@@ -1,7 +1,9 @@
 //! How far long work has come: a bar on a terminal, nothing in a pipe.
 
+use std::sync::Mutex;
 use std::time::Duration;
 
+use hairline_work::Listener;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::console::tell;
@@ -70,5 +72,55 @@ impl Progress {
 impl Drop for Progress {
     fn drop(&mut self) {
         self.bar.finish_and_clear();
+    }
+}
+
+/// Tells on stderr how work goes, with a bar while a part of it is in progress.
+#[derive(Default)]
+pub struct Terminal {
+    bar: Mutex<Option<Progress>>,
+}
+
+impl Terminal {
+    /// With a bar that has begun.
+    pub fn showing(bar: Progress) -> Self {
+        Self {
+            bar: Mutex::new(Some(bar)),
+        }
+    }
+
+    fn with_bar(&self, act: impl FnOnce(&mut Option<Progress>)) {
+        if let Ok(mut bar) = self.bar.lock() {
+            act(&mut bar);
+        }
+    }
+}
+
+impl Listener for Terminal {
+    fn tell(&self, line: &str) {
+        tell(line);
+    }
+
+    fn warn(&self, warning: &str) {
+        self.with_bar(|bar| match bar {
+            Some(bar) => bar.warn(warning),
+            None => tell(format_args!("warning: {warning}")),
+        });
+    }
+
+    fn begin(&self, what: &'static str) {
+        self.with_bar(|bar| *bar = Some(Progress::start(what)));
+    }
+
+    fn say(&self, what: &'static str) {
+        self.with_bar(|bar| bar.iter().for_each(|bar| bar.say(what)));
+    }
+
+    fn set(&self, share: f64) {
+        self.with_bar(|bar| bar.iter().for_each(|bar| bar.set(share)));
+    }
+
+    fn end(&self) {
+        self.with_bar(|bar| *bar = None);
     }
 }

@@ -1,23 +1,21 @@
 //! `hairline reference`: a scene file to a picture by Monte Carlo, with its variance, that can be stopped and gone on with.
 
-mod fingerprint;
-mod identity;
-mod sampling;
-
 use std::time::Duration;
 
 use anyhow::anyhow;
 use hairline_image::{Display, Format, Output};
 use hairline_optics::mask::Mask;
 use hairline_reference::{BATCH_SAMPLES, Integrator, Model, Settings};
+use hairline_scene::Arrays;
+use hairline_work::reference::{self, Count, End, Limits, identity};
 
 use crate::cli;
 use crate::console::tell;
 use crate::failure::Failure;
 use crate::interrupt::{Interrupt, cannot_listen};
+use crate::progress::{Progress, Terminal};
 use crate::scene_file::{self, Overrides};
 use crate::switch::Switch;
-use sampling::{Count, End, Limits};
 
 /// Samples for each pixel if neither they nor a time are asked for.
 const DEFAULT_SAMPLES: u32 = 1024;
@@ -50,7 +48,8 @@ pub fn run(arguments: &cli::Reference) -> Result<(), Failure> {
     let loaded = scene_file::load(scene_path, &overrides, &[output.path()])?;
     let scene = &loaded.scene;
     let fingerprint =
-        fingerprint::fingerprint(&loaded.description, &loaded.folder).map_err(Failure::Work)?;
+        reference::fingerprint(&loaded.description, &loaded.folder, &Arrays::default())
+            .map_err(Failure::Work)?;
     let notes = identity::notes(&settings, &fingerprint);
 
     let exists = output_path.exists();
@@ -96,7 +95,18 @@ pub fn run(arguments: &cli::Reference) -> Result<(), Failure> {
     };
     let integrator = Integrator::new(scene, settings);
     let mut image = earlier.unwrap_or_else(|| integrator.start());
-    let end = sampling::sample(&integrator, &mut image, &limits, &interrupt, &save)?;
+    let share = Count::of(&image).share_of(limits.samples);
+    let terminal = Terminal::showing(Progress::start_from("sampling", share));
+    let interrupted = || interrupt.is_asked();
+    let end = reference::sample(
+        &integrator,
+        &mut image,
+        &limits,
+        &interrupted,
+        &terminal,
+        &save,
+    )?;
+    drop(terminal);
 
     let reason = match end {
         End::Complete => return Ok(()),

@@ -11,24 +11,29 @@ use anyhow::anyhow;
 use hairline_image::exr_file::Notes;
 use hairline_image::{Animation, Display, Image, Output};
 use hairline_index::method::Method;
-use hairline_scene::{DEFAULT_TRANSPORT, Transport};
+use hairline_scene::Transport;
 
-use crate::backend::{Painter, Rendered, Task};
-use crate::cli::Backend;
+use crate::backend::{Painter, Refusal, Rendered, Task};
 use crate::console::tell;
 use crate::failure::Failure;
 use crate::interrupt::{Interrupt, cannot_listen};
-use crate::progress::Progress;
+use crate::progress::{Progress, Terminal};
 use crate::scene_file::{self, Overrides};
 use crate::switch::Switch;
-use crate::{cli, method_flags};
+use crate::{backend, cli, method_flags};
 use goals::Goals;
 use motion::Motion;
 
 /// Loads, renders and writes.
 pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
     let method = arguments.method.method()?;
-    let transport = transport(arguments, &method)?;
+    let task = Task {
+        method,
+        backend: arguments.backend.into(),
+        samples: arguments.samples,
+        transport: transport(arguments, &method)?,
+        spreads_fireflies: arguments.firefly_filter == Switch::On,
+    };
     let motion = Motion::of(&arguments.sequence)?;
     // Before the work: nobody should wait for a picture that then has no place to go.
     let target = match &motion {
@@ -51,20 +56,15 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
         exposure_ev: scene.camera.exposure_ev,
         tone_map: scene.render.tone_map,
     };
-    let notes = notes(&method, transport);
+    let notes = notes(&task);
     let write = |output: &Output, image: &Image, notes: &Notes| -> Result<(), Failure> {
         Ok(output.write_image_with_notes(image, &display, notes)?)
     };
-    let task = Task {
-        method,
-        backend: arguments.backend,
-        samples: arguments.samples,
-        transport,
-    };
-    let mut painter = Painter::open(scene, task)?;
+    let terminal = Terminal::default();
+    let mut painter = Painter::open(scene, task, &terminal)?;
     match target {
         Target::One(output) => {
-            let interrupt = match transport.shadows {
+            let interrupt = match task.transport.shadows {
                 true => Interrupt::listen().map_err(cannot_listen)?,
                 false => Interrupt::default(),
             };
@@ -128,55 +128,33 @@ fn single(arguments: &cli::Render) -> Result<Output, Failure> {
     Ok(Output::check(&path)?)
 }
 
-/// The ways of light: what is asked for, else the default as far as method and backend have it.
+/// The ways of light: what is asked for, else the default.
 fn transport(arguments: &cli::Render, method: &Method) -> Result<Transport, Failure> {
-    let refuse = |why: &str| Err(Failure::Input(anyhow!("{why}")));
-    let asked = arguments.shadows.map(|switch| switch == Switch::On);
-    if method.published.is_some() && asked == Some(true) {
-        return refuse(
-            "--shadows on: the published method has no shadows; leave out --method published",
-        );
-    }
-    let is_default = DEFAULT_TRANSPORT.shadows && method.published.is_none();
-    let asked_bounces = arguments.bounces.filter(|&bounces| bounces > 0);
-    if !asked.unwrap_or(is_default) {
-        return match asked_bounces {
-            None => Ok(Transport::DIRECT),
-            Some(bounces) => refuse(&format!(
-                "--bounces {bounces}: without shadows the light that an object hides would be counted beside its own; add --shadows on"
-            )),
-        };
-    }
-    let has_bounces = arguments.backend != Backend::Gpu;
-    if let Some(bounces) = asked_bounces
-        && !has_bounces
-    {
-        return refuse(&format!(
-            "--bounces {bounces}: the GPU renderer has no bounces; leave out --backend gpu"
-        ));
-    }
-    let default = if has_bounces {
-        DEFAULT_TRANSPORT.bounces
-    } else {
-        0
-    };
-    Ok(Transport {
-        shadows: true,
-        bounces: arguments.bounces.unwrap_or(default),
+    let shadows = arguments.shadows.map(|switch| switch == Switch::On);
+    backend::transport(method, arguments.backend.into(), shadows, arguments.bounces)
+        .map_err(|refusal| refused(arguments.bounces, refusal))
+}
+
+fn refused(bounces: Option<u32>, refusal: Refusal) -> Failure {
+    let bounces = bounces.unwrap_or(0);
+    Failure::Input(match refusal {
+        Refusal::BouncesWithoutShadows => anyhow!(
+            "--bounces {bounces}: without shadows the light that an object hides would be counted beside its own; add --shadows on"
+        ),
+        Refusal::ShadowsOfPublished => anyhow!(
+            "--shadows on: the published method has no shadows; leave out --method published"
+        ),
+        Refusal::BouncesOnGpu => {
+            anyhow!("--bounces {bounces}: the GPU renderer has no bounces; leave out --backend gpu")
+        }
     })
 }
 
 /// What of how a picture was made is not the default.
-fn notes(method: &Method, Transport { shadows, bounces }: Transport) -> Notes {
-    let mut notes = Notes::new();
-    if shadows {
-        notes.insert("shadows".to_owned(), "on".to_owned());
-    }
-    if bounces > 0 {
-        notes.insert("bounces".to_owned(), bounces.to_string());
-    }
-    if *method != Method::default() {
-        notes.insert("method".to_owned(), method_flags::flags_of(method));
+fn notes(task: &Task) -> Notes {
+    let mut notes = task.notes();
+    if task.method != Method::default() {
+        notes.insert("method".to_owned(), method_flags::flags_of(&task.method));
     }
     notes
 }

@@ -64,6 +64,22 @@ impl Prepared<'_> {
         Some((image, counts))
     }
 
+    /// The picture as far as it has come when `cancelled` says so, and whether it is whole. Tiles that were not begun by then are
+    /// black and empty.
+    pub fn render_until(
+        &self,
+        cancelled: &(dyn Fn() -> bool + Sync),
+        options: &RenderOptions,
+        progress: &(dyn Fn(f64) + Sync),
+    ) -> (Image, bool) {
+        let size_px = self.scene.render.size_px;
+        let mut image = Image::new(size_px);
+        let (picture, _) = self.picture(options, 0..size_px[1], cancelled);
+        // Segments that were cut short would make darker pixels, not fewer.
+        let is_whole = !cancelled() && picture.render(&mut image, progress, cancelled).is_some();
+        (image, is_whole)
+    }
+
     /// Renders anew those pixels of some rows that have an edge or a crease. `image` has these rows, of one sample a pixel, and becomes
     /// what [`Self::render_rows`] makes of more. None if it was cancelled, as by [`Self::render_unless`].
     pub fn refine_edges_unless(

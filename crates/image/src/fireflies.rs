@@ -88,7 +88,11 @@ impl Surfaces<'_> {
     fn upper_quartile(&self, i: usize, values: &[f32]) -> Option<f32> {
         let mut around: Vec<f32> = self.similar(i, NEAR_PX).map(|(j, _)| values[j]).collect();
         let count = around.len();
-        (count >= LEAST_NEAR).then(|| *around.select_nth_unstable_by(3 * count / 4, f32::total_cmp).1)
+        (count >= LEAST_NEAR).then(|| {
+            *around
+                .select_nth_unstable_by(3 * count / 4, f32::total_cmp)
+                .1
+        })
     }
 }
 

@@ -9,6 +9,7 @@ mod difference;
 mod error_map;
 mod estimate;
 mod flip;
+mod metric;
 mod noise;
 mod psnr;
 mod relative;
@@ -23,6 +24,7 @@ pub use estimate::Estimate;
 pub use flip::Flip;
 #[cfg(feature = "flip")]
 pub use flip::flip;
+pub use metric::Metric;
 pub use noise::BeyondNoise;
 pub use psnr::{Psnr, psnr_displayed, psnr_of_values};
 pub use relative::relative_mse;

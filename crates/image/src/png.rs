@@ -9,8 +9,11 @@ use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
 
-/// Tone-maps and encodes a picture.
-pub(crate) fn encode(picture: &Picture, display: &Display) -> Result<Vec<u8>, String> {
+/// Tone-maps and encodes a picture: the bytes of a PNG file.
+///
+/// # Errors
+/// Why it cannot be encoded, in words: a picture without pixels.
+pub fn encode(picture: &Picture, display: &Display) -> Result<Vec<u8>, String> {
     let bytes = quantize(picture, display);
     let mut png = Vec::new();
     PngEncoder::new_with_quality(&mut png, CompressionType::Default, FilterType::Adaptive)

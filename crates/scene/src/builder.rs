@@ -147,7 +147,8 @@ impl<'a> Work<'a> {
             let surface = match self.old.surface(&surface_key) {
                 Some(kept) => kept,
                 None => {
-                    let read = KeptSurface::read(surface_key, object, &key, free_bytes)?;
+                    let read =
+                        KeptSurface::read(self.loader, surface_key, object, &key, free_bytes)?;
                     let sizes = read.textures.iter().map(|texture| texture.size_px);
                     free_bytes -= sizes.map(texture_bytes).sum::<f64>();
                     Arc::new(read)

@@ -20,6 +20,7 @@
 
 #![warn(unreachable_pub)]
 
+mod arrays;
 mod builder;
 pub mod camera;
 mod convert;
@@ -45,6 +46,7 @@ mod surface;
 pub mod text;
 mod texture;
 
+pub use arrays::{Arrays, MeshArrays, ScratchArrays};
 pub use builder::SceneBuilder;
 pub use camera::CameraFrame;
 pub use description::Description;

@@ -2,6 +2,7 @@
 
 use hairline_memory::budget_bytes;
 
+use crate::arrays::Arrays;
 use crate::error::Error;
 
 /// How far long work has come.
@@ -31,6 +32,8 @@ pub enum Stage {
 pub struct Loader<'a> {
     /// Scenes that would take more memory, here and in what renderers make of them, are refused before they are built.
     pub memory_budget_bytes: u64,
+    /// What lies in memory, where a scene names no file.
+    pub arrays: &'a Arrays,
     /// Is told how far long work has come, from the calling thread.
     pub progress: &'a dyn Fn(Progress),
     /// Is asked now and then, from the calling thread, whether to give up. Then the work ends with an error for which
@@ -43,6 +46,7 @@ impl Default for Loader<'_> {
     fn default() -> Self {
         Self {
             memory_budget_bytes: budget_bytes(),
+            arrays: Arrays::none(),
             progress: &|_| {},
             cancelled: &|| false,
         }

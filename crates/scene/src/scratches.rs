@@ -31,6 +31,7 @@ use crate::scene::{Scratch, Segment};
 
 use erase::Eraser;
 pub(crate) use ground::Ground;
+pub(crate) use laying::{DEPTHS_NM, WIDTHS_UM};
 use laying::{Groove, Laying, MOST_SEGMENTS};
 use listed::Listed;
 use memory::{Demand, SEGMENT_BYTES};
@@ -215,9 +216,14 @@ impl<'a> Plan<'a> {
                 (Box::new(painted), count)
             }
             Layer::Listed(listed) => {
-                let path = base_dir.join(&listed.file);
-                let rows = listed::read(&path, &table.key)?;
-                let listed = Listed::new(loader, rows, &path, ground)?;
+                let listed = match loader.arrays.scratches(&listed.file) {
+                    Some(arrays) => Listed::of_arrays(loader, arrays, &table.key, ground)?,
+                    None => {
+                        let path = base_dir.join(&listed.file);
+                        let rows = listed::read(&path, &table.key)?;
+                        Listed::new(loader, rows, &path, ground)?
+                    }
+                };
                 let count = listed.count();
                 (Box::new(listed), count)
             }

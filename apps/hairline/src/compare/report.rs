@@ -7,7 +7,7 @@ mod pictures;
 mod values;
 
 use anyhow::Context as _;
-use hairline_image::metrics::{Comparison, LayerComparison, Verdict};
+use hairline_image::metrics::{Comparison, LayerComparison, Metric, Verdict};
 use hairline_image::{Display, Layer, Layers, Referred, ToneMap};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use serde_json::json;
@@ -15,7 +15,6 @@ use serde_json::json;
 use self::pictures::Kind;
 use self::values::ToneTable;
 use super::figure::figure;
-use super::limits::Metric;
 use super::side::Side;
 use super::table::{self, Column};
 use crate::failure::Failure;

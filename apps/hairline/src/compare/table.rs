@@ -3,12 +3,11 @@
 use std::fmt::Write as _;
 
 use comfy_table::{CellAlignment, ContentArrangement, LineStyle, Table, TableStyle};
-use hairline_image::metrics::{Comparison, LayerComparison, Problem, Verdict, ZTest};
+use hairline_image::metrics::{Comparison, LayerComparison, Metric, Problem, Verdict, ZTest};
 use hairline_image::{Display, Layer};
 use serde_json::{Map, Value, json};
 
 use super::figure::figure;
-use super::limits::Metric;
 use super::side::Side;
 
 /// A column of the table: a heading, the figure, and what it means to someone who meets it first.
@@ -252,13 +251,7 @@ fn layer_json(layer: &LayerComparison) -> Value {
     );
     figures.insert("not-finite".to_owned(), json!(layer.difference.not_finite));
     if let Some(test) = &layer.z_test {
-        let verdict = match test.verdict {
-            Verdict::ExplainedByNoise => "explained-by-noise",
-            Verdict::MoreThanNoise => "more-than-noise",
-            Verdict::LessThanNoise => "less-than-noise",
-            Verdict::TooFewValues => "too-few-values",
-        };
-        figures.insert("verdict".to_owned(), json!(verdict));
+        figures.insert("verdict".to_owned(), json!(test.verdict.name()));
     }
     Value::Object(figures)
 }

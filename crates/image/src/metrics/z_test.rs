@@ -39,6 +39,18 @@ pub enum Verdict {
     TooFewValues,
 }
 
+impl Verdict {
+    /// The name in JSON and in Python.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::ExplainedByNoise => "explained-by-noise",
+            Self::MoreThanNoise => "more-than-noise",
+            Self::LessThanNoise => "less-than-noise",
+            Self::TooFewValues => "too-few-values",
+        }
+    }
+}
+
 /// Differences measured by the noise that is known of them. Beside each figure: what it is if there is only noise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ZTest {

@@ -9,6 +9,7 @@ use glam::{DMat4, DVec3};
 use crate::description::{self, Layer, Map, Stroke, Surface};
 use crate::environment::BuiltInMap;
 use crate::error::Error;
+use crate::loader::Loader;
 use crate::mesh_file::{self, Placing, Stock};
 use crate::scene::{Material, Mesh, Scratch, Segment, Texture};
 use crate::scratches::{self, Ground, Laid};
@@ -119,6 +120,7 @@ pub(super) struct KeptSurface {
 impl KeptSurface {
     /// `key` is the way to the object in the scene file; its textures may take `free_bytes`.
     pub(super) fn read(
+        loader: &Loader,
         surface_key: SurfaceKey,
         object: &description::Object,
         key: &str,
@@ -128,6 +130,13 @@ impl KeptSurface {
         let mut files = Vec::new();
         let transform = &surface_key.world_from_object;
         let mesh = match (&surface_key.surface, &surface_key.file) {
+            (Surface::Mesh(file), _) if loader.arrays.mesh(file).is_some() => {
+                let mut mesh = Mesh::default();
+                if let Some(arrays) = loader.arrays.mesh(file) {
+                    arrays.surface().bake(transform, 0, &mut mesh);
+                }
+                mesh
+            }
             (Surface::Mesh(file), Some(stamp)) => {
                 let stock = Stock {
                     materials: &mut materials,

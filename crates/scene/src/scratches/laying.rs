@@ -5,9 +5,9 @@ use crate::description::Distribution;
 use crate::scene::{Profile, Segment};
 
 /// Widths are kept within the spectral table's range, and below the coherence windows that scenes ask for.
-pub(super) const WIDTHS_UM: (f64, f64) = (0.05, 100.0);
+pub(crate) const WIDTHS_UM: (f64, f64) = (0.05, 100.0);
 /// Depths are kept within the spectral table's range.
-pub(super) const DEPTHS_NM: (f64, f64) = (0.0, 2000.0);
+pub(crate) const DEPTHS_NM: (f64, f64) = (0.0, 2000.0);
 
 /// The renderers' trees number the segments by 28 bits.
 pub(super) const MOST_SEGMENTS: usize = 1 << 28;

@@ -2,10 +2,13 @@
 
 use std::path::Path;
 
+use rayon::prelude::*;
+
 use super::ground::Ground;
 use super::guide::Guide;
 use super::laying::{DEPTHS_NM, Groove, Laying, WIDTHS_UM};
 use super::walk::{Course, Walker};
+use crate::arrays::ScratchArrays;
 use crate::error::Error;
 use crate::loader::Loader;
 use crate::reading::{self, Kind};
@@ -107,6 +110,39 @@ fn parse_row(line: usize, row: &str) -> Result<Row, Error> {
     })
 }
 
+/// Refuses the first end that does not lie on the surface. `error` makes the message of a row, one of its ends and two halves of a
+/// sentence.
+fn check_on_surface(
+    loader: &Loader,
+    rows: &[Row],
+    ground: &Ground,
+    error: impl Fn(usize, usize, String, String) -> Error + Sync,
+) -> Result<(), Error> {
+    const TOGETHER: usize = 1 << 16;
+    let tolerance_m = OFF_SURFACE * ground.diagonal_m;
+    let closest = ground.closest();
+    for (first, rows) in (0..).step_by(TOGETHER).zip(rows.chunks(TOGETHER)) {
+        loader.go_on()?;
+        let off = |end_m: &[f64; 3]| {
+            let point_m = ground.point_in_world_m(*end_m);
+            closest.find_within(point_m, tolerance_m).is_none()
+        };
+        let wrong = rows.par_iter().enumerate().find_map_first(|(i, row)| {
+            let end = row.ends_m.iter().position(off)?;
+            Some((i, end))
+        });
+        if let Some((i, end)) = wrong {
+            let (_, distance_m) = closest.find(ground.point_in_world_m(rows[i].ends_m[end]));
+            let found = format!("found a point {distance_m:.3e} m off the object's surface");
+            let right = format!(
+                "must be at most {tolerance_m:.3e} m off, in metres of the object's own frame"
+            );
+            return Err(error(first + i, end, found, right));
+        }
+    }
+    Ok(())
+}
+
 /// Rows with the ground that they go on.
 pub(super) struct Listed<'a> {
     rows: Vec<Row>,
@@ -121,25 +157,31 @@ impl<'a> Listed<'a> {
         path: &Path,
         ground: &'a Ground,
     ) -> Result<Self, Error> {
-        const TOGETHER: usize = 1024;
-        let tolerance_m = OFF_SURFACE * ground.diagonal_m;
-        for (i, row) in rows.iter().enumerate() {
-            if i % TOGETHER == 0 {
-                loader.go_on()?;
-            }
-            for (end, prefix) in row.ends_m.iter().zip(["x0_m", "x1_m"]) {
-                let point_m = ground.point_in_world_m(*end);
-                if ground.closest().find_within(point_m, tolerance_m).is_none() {
-                    let (_, distance_m) = ground.closest().find(point_m);
-                    let found =
-                        format!("found a point {distance_m:.3e} m off the object's surface");
-                    let right = format!(
-                        "must be at most {tolerance_m:.3e} m off, in metres of the object's own frame"
-                    );
-                    return Err(Error::new(prefix, found, right).at(path, Some(row.line)));
-                }
-            }
-        }
+        check_on_surface(loader, &rows, ground, |i, end, found, right| {
+            let key = ["x0_m", "x1_m"][end];
+            Error::new(key, found, right).at(path, Some(rows[i].line))
+        })?;
+        Ok(Self { rows, ground })
+    }
+
+    /// The same of scratches in memory. `key` is the way to the layer's table in the scene.
+    pub(super) fn of_arrays(
+        loader: &Loader,
+        arrays: &ScratchArrays,
+        key: &str,
+        ground: &'a Ground,
+    ) -> Result<Self, Error> {
+        let rows = arrays.ends_m.iter().zip(&arrays.profiles).enumerate();
+        let rows: Vec<_> = rows
+            .map(|(i, (&ends_m, &profile))| Row {
+                line: i,
+                ends_m,
+                profile,
+            })
+            .collect();
+        check_on_surface(loader, &rows, ground, |i, end, found, right| {
+            Error::new(format!("{key}.ends_m[{i}][{end}]"), found, right)
+        })?;
         Ok(Self { rows, ground })
     }
 

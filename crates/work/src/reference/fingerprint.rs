@@ -4,6 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
+use hairline_scene::Arrays;
 use hairline_scene::description::{Description, Layer, Map, Surface};
 use percent_encoding::percent_decode_str;
 
@@ -11,18 +12,20 @@ use percent_encoding::percent_decode_str;
 const DIGITS: usize = 32;
 
 /// A digest of what a scene's linear picture depends on: the description, with the contents of files in the place of
-/// their names. Not of the exposure and the tone map, which act on what is displayed alone, and not of the picture's size,
+/// their names; what lies in memory has a name that tells its contents. Not of the exposure and the tone map, which act on what is displayed alone, and not of the picture's size,
 /// which a picture tells by itself.
 ///
 /// # Errors
 /// Files that cannot be read.
-pub fn fingerprint(description: &Description, folder: &Path) -> Result<String> {
+pub fn fingerprint(description: &Description, folder: &Path, arrays: &Arrays) -> Result<String> {
     let mut described = description.clone();
     described.camera.exposure_ev = 0.0;
     described.render.tone_map = hairline_image::ToneMap::default();
     described.render.size_px = [0, 0];
     let by_content = |file: &mut PathBuf, digest: fn(&Path) -> Result<String>| -> Result<()> {
-        *file = digest(&folder.join(&*file))?.into();
+        if !arrays.has(file) {
+            *file = digest(&folder.join(&*file))?.into();
+        }
         Ok(())
     };
     if let Some(environment) = &mut described.environment
@@ -152,7 +155,8 @@ file = "lines.csv"
     #[test]
     fn what_the_picture_depends_on_is_in_it() {
         let folder = folder();
-        let of = |text: &str| fingerprint(&described(text), folder.path()).unwrap();
+        let of =
+            |text: &str| fingerprint(&described(text), folder.path(), &Arrays::default()).unwrap();
         let first = of(SCENE);
         assert_eq!(first.len(), DIGITS);
         for (from, to) in [
@@ -180,7 +184,8 @@ file = "lines.csv"
     #[test]
     fn so_are_the_bytes_of_files_and_not_their_names() {
         let folder = folder();
-        let of = |text: &str| fingerprint(&described(text), folder.path()).unwrap();
+        let of =
+            |text: &str| fingerprint(&described(text), folder.path(), &Arrays::default()).unwrap();
         let first = of(SCENE);
         fs::copy(
             folder.path().join("sky.hdr"),
@@ -212,14 +217,14 @@ file = "lines.csv"
         if let Layer::Laid(laid) = &mut description.scratches[0].layer {
             laid.seed = u64::MAX;
         }
-        assert!(fingerprint(&description, folder.path()).is_ok());
+        assert!(fingerprint(&description, folder.path(), &Arrays::default()).is_ok());
     }
 
     #[test]
     fn a_file_that_is_gone_is_named() {
         let folder = folder();
         fs::remove_file(folder.path().join("sky.hdr")).unwrap();
-        let error = fingerprint(&described(SCENE), folder.path()).unwrap_err();
+        let error = fingerprint(&described(SCENE), folder.path(), &Arrays::default()).unwrap_err();
         assert!(error.to_string().contains("sky.hdr"), "{error}");
     }
 }

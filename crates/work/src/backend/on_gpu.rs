@@ -10,14 +10,14 @@ use hairline_index::method::Method;
 use hairline_scene::{Scene, ScratchTables};
 
 /// A renderer with its shaders compiled and the scene uploaded.
-pub struct OnGpu {
+pub(super) struct OnGpu {
     renderer: Renderer,
     uploaded: GpuScene,
 }
 
 impl OnGpu {
     /// Compiles and uploads.
-    pub fn new(
+    pub(super) fn new(
         gpu: &Gpu,
         scene: &Scene,
         scratches: &Arc<ScratchIndex>,
@@ -36,12 +36,12 @@ impl OnGpu {
     }
 
     /// The device.
-    pub fn gpu(&self) -> &Gpu {
+    pub(super) fn gpu(&self) -> &Gpu {
         self.renderer.gpu()
     }
 
     /// Blocks until some rows of the picture are there. `scene` has the scratches and materials of the one that was uploaded.
-    pub fn render_rows(
+    pub(super) fn render_rows(
         &mut self,
         scene: &Scene,
         samples: u32,

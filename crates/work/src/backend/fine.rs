@@ -14,11 +14,11 @@ pub const FINE_SAMPLES: u32 = SIDE * SIDE;
 const BAND_ROWS: u32 = 8;
 
 /// Some rows of a scene's picture, one sample a pixel.
-pub type RenderRows<'a, E> =
+pub(super) type RenderRows<'a, E> =
     dyn FnMut(&Scene, Range<u32>, &(dyn Fn(f64) + Sync)) -> Result<Image, E> + 'a;
 
 /// Renders with [`FINE_SAMPLES`] in every pixel: by a picture so many times larger, whose pixels are the samples.
-pub fn render<E>(
+pub(super) fn render<E>(
     scene: &Scene,
     render_rows: &mut RenderRows<E>,
     progress: &(dyn Fn(f64) + Sync),

@@ -7,8 +7,7 @@ use hairline_image::Image;
 use hairline_reference::Integrator;
 
 use crate::failure::Failure;
-use crate::interrupt::Interrupt;
-use crate::progress::Progress;
+use crate::listener::Listener;
 
 /// Work for each unit of time spent on saving, so that huge pictures are not mostly saved.
 const WORK_PER_SAVING: u32 = 20;
@@ -43,11 +42,11 @@ pub fn sample(
     integrator: &Integrator,
     image: &mut Image,
     limits: &Limits,
-    interrupt: &Interrupt,
+    interrupted: &(dyn Fn() -> bool + Sync),
+    listener: &dyn Listener,
     save: &dyn Fn(&Image) -> Result<(), Failure>,
 ) -> Result<End, Failure> {
     let start = Instant::now();
-    let progress = Progress::start_from("sampling", Count::of(image).share_of(limits.samples));
     let mut work = limits.save_every;
     loop {
         let since_save = Instant::now();
@@ -56,8 +55,8 @@ pub fn sample(
             let of_time = limits.time.map_or(0.0, |limit| {
                 start.elapsed().as_secs_f64() / limit.as_secs_f64()
             });
-            progress.set(share.max(of_time));
-            if interrupt.is_asked() || is_time_up() || since_save.elapsed() >= work {
+            listener.set(share.max(of_time));
+            if interrupted() || is_time_up() || since_save.elapsed() >= work {
                 ControlFlow::Break(())
             } else {
                 ControlFlow::Continue(())
@@ -68,7 +67,7 @@ pub fn sample(
         let count = Count::of(image);
         let end = if flow.is_continue() || count.least >= limits.samples {
             Some(End::Complete)
-        } else if interrupt.is_asked() {
+        } else if interrupted() {
             Some(End::Interrupted)
         } else if is_time_up() {
             Some(End::TimeUp)
@@ -76,7 +75,7 @@ pub fn sample(
             None
         };
         let saving = Instant::now();
-        progress.say("saving");
+        listener.say("saving");
         let saved = if count.mean > 0.0 {
             save(image)
         } else {
@@ -85,9 +84,9 @@ pub fn sample(
         match (end, saved) {
             (Some(end), saved) => return saved.map(|()| end),
             (None, Ok(())) => {}
-            (None, Err(failure)) => progress.warn(&format!("{failure}; going on")),
+            (None, Err(failure)) => listener.warn(&format!("{failure}; going on")),
         }
-        progress.say("sampling");
+        listener.say("sampling");
         work = limits.save_every.max(saving.elapsed() * WORK_PER_SAVING);
     }
 }
@@ -112,7 +111,8 @@ impl Count {
         }
     }
 
-    fn share_of(self, samples: u32) -> f64 {
+    /// Of `samples` for each pixel, the share that is done.
+    pub fn share_of(self, samples: u32) -> f64 {
         self.mean / f64::from(samples.max(1))
     }
 }
@@ -124,6 +124,22 @@ mod tests {
     use hairline_reference::{BATCH_SAMPLES, Settings};
     use hairline_scene::Scene;
     use std::cell::Cell;
+    use std::sync::atomic::{AtomicBool, Ordering};
+
+    fn never() -> bool {
+        false
+    }
+
+    struct Quiet;
+
+    impl Listener for Quiet {
+        fn tell(&self, _: &str) {}
+        fn warn(&self, _: &str) {}
+        fn begin(&self, _: &'static str) {}
+        fn say(&self, _: &'static str) {}
+        fn set(&self, _: f64) {}
+        fn end(&self) {}
+    }
 
     const SAMPLES: u32 = 8 * BATCH_SAMPLES;
 
@@ -154,13 +170,13 @@ mod tests {
         let scene = scene();
         let integrator = Integrator::new(&scene, Settings::default());
         let mut image = integrator.start();
-        let interrupt = Interrupt::default();
+        let interrupt = AtomicBool::new(false);
         let saved = Cell::new(0);
         let stop_at_third = |image: &Image| {
             saved.set(saved.get() + 1);
             assert!(Count::of(image).mean > 0.0);
             if saved.get() == 3 {
-                interrupt.ask();
+                interrupt.store(true, Ordering::Relaxed);
             }
             Ok(())
         };
@@ -168,7 +184,8 @@ mod tests {
             &integrator,
             &mut image,
             &limits(),
-            &interrupt,
+            &|| interrupt.load(Ordering::Relaxed),
+            &Quiet,
             &stop_at_third,
         );
         assert_eq!(end.unwrap(), End::Interrupted);
@@ -181,8 +198,9 @@ mod tests {
 
         let whole = uninterrupted(&integrator);
         assert_ne!(image, whole);
-        let go_on = Interrupt::default();
-        let end = sample(&integrator, &mut image, &limits(), &go_on, &|_| Ok(()));
+        let end = sample(&integrator, &mut image, &limits(), &never, &Quiet, &|_| {
+            Ok(())
+        });
         assert_eq!(end.unwrap(), End::Complete);
         assert_eq!(image, whole, "bit for bit");
     }
@@ -203,13 +221,7 @@ mod tests {
             Ok(())
         };
         let start = Instant::now();
-        let end = sample(
-            &integrator,
-            &mut image,
-            &limits,
-            &Interrupt::default(),
-            &save,
-        );
+        let end = sample(&integrator, &mut image, &limits, &never, &Quiet, &save);
         assert_eq!(end.unwrap(), End::TimeUp);
         assert_eq!(saved.get(), 1);
         // Generous: the machine may have other work.
@@ -227,14 +239,15 @@ mod tests {
             saved.set(saved.get() + 1);
             if saved.get() == 1 { fail() } else { Ok(()) }
         };
-        let quiet = Interrupt::default();
         let mut image = integrator.start();
-        let end = sample(&integrator, &mut image, &limits(), &quiet, &once);
+        let end = sample(&integrator, &mut image, &limits(), &never, &Quiet, &once);
         assert_eq!(end.unwrap(), End::Complete);
         assert!(saved.get() > 1);
 
         let mut image = integrator.start();
-        let end = sample(&integrator, &mut image, &limits(), &quiet, &|_| fail());
+        let end = sample(&integrator, &mut image, &limits(), &never, &Quiet, &|_| {
+            fail()
+        });
         assert!(end.is_err());
     }
 }

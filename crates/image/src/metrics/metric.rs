@@ -1,0 +1,94 @@
+//! The figures of a comparison by their names.
+
+use super::{LayerComparison, Verdict};
+
+/// A figure of one layer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Metric {
+    /// Root mean square difference.
+    Rms,
+    /// The same over the reference's root mean square.
+    RelativeRms,
+    /// Relative mean squared error.
+    RelativeMse,
+    /// The largest difference of a value.
+    Max,
+    /// Mean FLIP.
+    Flip,
+    /// 95th percentile of FLIP.
+    Flip95,
+    /// Peak signal-to-noise ratio in decibels: the larger the better.
+    Psnr,
+    /// The rms difference that noise does not explain.
+    RmsBeyondNoise,
+    /// The same over the reference's root mean square.
+    RelativeRmsBeyondNoise,
+    /// Mean squared z-score.
+    Z2,
+}
+
+impl Metric {
+    /// All of them.
+    pub const ALL: [Self; 10] = [
+        Self::Rms,
+        Self::RelativeRms,
+        Self::RelativeMse,
+        Self::Max,
+        Self::Flip,
+        Self::Flip95,
+        Self::Psnr,
+        Self::RmsBeyondNoise,
+        Self::RelativeRmsBeyondNoise,
+        Self::Z2,
+    ];
+
+    /// The name on the command line, in JSON and in Python.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Rms => "rms",
+            Self::RelativeRms => "relative-rms",
+            Self::RelativeMse => "relmse",
+            Self::Max => "max",
+            Self::Flip => "flip",
+            Self::Flip95 => "flip95",
+            Self::Psnr => "psnr",
+            Self::RmsBeyondNoise => "rms-beyond-noise",
+            Self::RelativeRmsBeyondNoise => "relative-rms-beyond-noise",
+            Self::Z2 => "z2",
+        }
+    }
+
+    /// Whether more of it is less of a difference.
+    pub fn larger_is_better(self) -> bool {
+        self == Self::Psnr
+    }
+
+    /// The figure, where the layer has one.
+    pub fn of(self, layer: &LayerComparison) -> Option<f64> {
+        match self {
+            Self::Rms => Some(layer.difference.rms),
+            Self::RelativeRms => Some(layer.difference.relative_rms()),
+            Self::RelativeMse => Some(layer.relative_mse),
+            Self::Max => Some(layer.difference.max_abs),
+            Self::Flip => layer.flip.as_ref().map(|flip| flip.mean),
+            Self::Flip95 => layer.flip.as_ref().map(|flip| flip.percentile_95),
+            Self::Psnr => layer.psnr.map(|psnr| psnr.db),
+            Self::RmsBeyondNoise => layer.beyond_noise.map(|noise| noise.rms()),
+            Self::RelativeRmsBeyondNoise => layer.beyond_noise.map(|noise| noise.relative_rms()),
+            Self::Z2 => layer
+                .z_test
+                .filter(|test| test.verdict != Verdict::TooFewValues)
+                .map(|test| test.mean_z2),
+        }
+    }
+
+    /// Why a layer that was compared may lack the figure.
+    pub fn why_missing(self) -> &'static str {
+        match self {
+            Self::RmsBeyondNoise | Self::RelativeRmsBeyondNoise | Self::Z2 => {
+                "the files do not say how noisy they are, or of too few values"
+            }
+            _ => "this layer is no picture for a display",
+        }
+    }
+}

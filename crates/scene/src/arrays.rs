@@ -1,0 +1,201 @@
+//! Meshes and scratches that lie in memory: what a program has computed, and no file holds.
+
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use glam::{DVec3, Vec2};
+
+use crate::error::Error;
+use crate::scene::Profile;
+use crate::scratches::{DEPTHS_NM, WIDTHS_UM};
+use crate::surface::{Surface, Vertex};
+
+/// Meshes and lists of scratches by the names that a description has in the place of their files. A name must stand for the same
+/// numbers always: what was built from them is known by it.
+#[derive(Clone, Debug, Default)]
+pub struct Arrays {
+    meshes: HashMap<PathBuf, Arc<MeshArrays>>,
+    scratches: HashMap<PathBuf, Arc<ScratchArrays>>,
+}
+
+impl Arrays {
+    /// None at all.
+    pub(crate) fn none() -> &'static Self {
+        static NONE: std::sync::LazyLock<Arrays> = std::sync::LazyLock::new(Arrays::default);
+        &NONE
+    }
+
+    /// Puts a mesh in the place of a file.
+    pub fn insert_mesh(&mut self, name: impl Into<PathBuf>, mesh: Arc<MeshArrays>) {
+        self.meshes.insert(name.into(), mesh);
+    }
+
+    /// Puts scratches in the place of a file.
+    pub fn insert_scratches(&mut self, name: impl Into<PathBuf>, scratches: Arc<ScratchArrays>) {
+        self.scratches.insert(name.into(), scratches);
+    }
+
+    /// Whether a name stands for something in memory.
+    pub fn has(&self, name: &Path) -> bool {
+        self.meshes.contains_key(name) || self.scratches.contains_key(name)
+    }
+
+    pub(crate) fn mesh(&self, name: &Path) -> Option<&Arc<MeshArrays>> {
+        self.meshes.get(name)
+    }
+
+    pub(crate) fn scratches(&self, name: &Path) -> Option<&Arc<ScratchArrays>> {
+        self.scratches.get(name)
+    }
+}
+
+/// Triangles in the object's own frame.
+#[derive(Clone, Debug)]
+pub struct MeshArrays {
+    vertices_m: Vec<[f64; 3]>,
+    triangles: Vec<[u32; 3]>,
+    normals: Option<Vec<[f64; 3]>>,
+    uvs: Option<Vec<[f64; 2]>>,
+}
+
+impl MeshArrays {
+    /// `triangles` are indices of vertices, counter-clockwise seen from outside. Without `normals`, one a vertex, triangles are flat.
+    ///
+    /// # Errors
+    /// The first array that does not fit the others or holds a number that is none, by its key.
+    pub fn new(
+        vertices_m: Vec<[f64; 3]>,
+        triangles: Vec<[u32; 3]>,
+        normals: Option<Vec<[f64; 3]>>,
+        uvs: Option<Vec<[f64; 2]>>,
+    ) -> Result<Self, Error> {
+        let count = vertices_m.len();
+        finite("vertices_m", &vertices_m)?;
+        for (key, length) in [
+            ("normals", normals.as_ref().map(Vec::len)),
+            ("uvs", uvs.as_ref().map(Vec::len)),
+        ] {
+            if let Some(length) = length.filter(|length| *length != count) {
+                let found = format!("found {length} rows for {count} vertices");
+                return Err(Error::new(key, found, "must have a row for each vertex"));
+            }
+        }
+        normals.iter().try_for_each(|it| finite("normals", it))?;
+        uvs.iter().try_for_each(|it| finite("uvs", it))?;
+        for (i, triangle) in triangles.iter().enumerate() {
+            if let Some(index) = triangle.iter().find(|index| **index as usize >= count) {
+                return Err(Error::new(
+                    format!("triangles[{i}]"),
+                    format!("found vertex {index} of {count}"),
+                    "must be below the number of vertices",
+                ));
+            }
+        }
+        if triangles.is_empty() {
+            return Err(Error::new("triangles", "found none", "must have a surface"));
+        }
+        Ok(Self {
+            vertices_m,
+            triangles,
+            normals,
+            uvs,
+        })
+    }
+
+    pub(crate) fn surface(&self) -> Surface {
+        let row = |rows: &Option<Vec<[f64; 3]>>, i: usize| {
+            rows.as_ref().map_or(DVec3::ZERO, |rows| rows[i].into())
+        };
+        let vertices = self.vertices_m.iter().enumerate().map(|(i, &at)| Vertex {
+            position_m: at.into(),
+            normal: row(&self.normals, i).normalize_or_zero(),
+            tangent: DVec3::ZERO,
+            handedness: 1.0,
+            uv: self.uvs.as_ref().map_or(Vec2::ZERO, |uvs| {
+                Vec2::new(uvs[i][0] as f32, uvs[i][1] as f32)
+            }),
+        });
+        let mut surface = Surface {
+            vertices: vertices.collect(),
+            triangles: self.triangles.clone(),
+        };
+        if self.normals.is_none() {
+            surface.make_flat_normals();
+        }
+        surface
+    }
+}
+
+/// Straight scratches in the object's own frame.
+#[derive(Clone, Debug)]
+pub struct ScratchArrays {
+    pub(crate) ends_m: Vec<[[f64; 3]; 2]>,
+    pub(crate) profiles: Vec<Profile>,
+}
+
+impl ScratchArrays {
+    /// `widths_um` and `depths_nm` have one number for each scratch, or one for all.
+    ///
+    /// # Errors
+    /// The first array that does not fit the others or holds a number out of range, by its key.
+    pub fn new(
+        ends_m: Vec<[[f64; 3]; 2]>,
+        widths_um: &[f64],
+        depths_nm: &[f64],
+    ) -> Result<Self, Error> {
+        let count = ends_m.len();
+        for (i, ends) in ends_m.iter().enumerate() {
+            finite("", ends).map_err(|error| {
+                let key = format!("ends_m[{i}]{}", error.key());
+                Error::new(key, error.found(), error.right())
+            })?;
+        }
+        for (key, sizes, (least, most)) in [
+            ("width_um", widths_um, WIDTHS_UM),
+            ("depth_nm", depths_nm, DEPTHS_NM),
+        ] {
+            if sizes.len() != count && sizes.len() != 1 {
+                let found = format!("found {} numbers for {count} scratches", sizes.len());
+                return Err(Error::new(
+                    key,
+                    found,
+                    "must be one for each, or one for all",
+                ));
+            }
+            // Written so that NaN is out of range.
+            let wrong = |size: &f64| !(least..=most).contains(size);
+            if let Some(i) = sizes.iter().position(wrong) {
+                let key = match sizes.len() {
+                    1 => key.to_owned(),
+                    _ => format!("{key}[{i}]"),
+                };
+                let right = format!("must be from {least} to {most}");
+                return Err(Error::new(key, format!("found {}", sizes[i]), right));
+            }
+        }
+        let at = |sizes: &[f64], i: usize| sizes[if sizes.len() == 1 { 0 } else { i }] as f32;
+        let profiles = (0..count).map(|i| Profile {
+            width_um: at(widths_um, i),
+            depth_nm: at(depths_nm, i),
+        });
+        Ok(Self {
+            profiles: profiles.collect(),
+            ends_m,
+        })
+    }
+}
+
+fn finite<const N: usize>(key: &str, rows: &[[f64; N]]) -> Result<(), Error> {
+    for (i, row) in rows.iter().enumerate() {
+        if let Some(c) = row.iter().position(|value| !value.is_finite()) {
+            let found = format!("found {}", row[c]);
+            return Err(Error::new(
+                format!("{key}[{i}][{c}]"),
+                found,
+                "must be finite",
+            ));
+        }
+    }
+    Ok(())
+}

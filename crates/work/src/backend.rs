@@ -1,0 +1,391 @@
+//! What renders: a graphics adapter or the CPU renderer.
+
+mod fine;
+mod on_gpu;
+
+use std::convert::Infallible;
+use std::sync::Arc;
+
+use anyhow::anyhow;
+use hairline_cpu::closed_form::{self, Prepared};
+use hairline_gpu::{AdapterKind, AdapterRequest, Gpu, headless};
+use hairline_image::{Batch, Batches, Image, Notes, spread_fireflies};
+use hairline_index::method::{Method, Structure};
+use hairline_index::{ScratchIndex, Watch};
+use hairline_scene::{DEFAULT_TRANSPORT, Scene, ScratchTables, Transport};
+
+use crate::failure::Failure;
+use crate::listener::Listener;
+pub use fine::FINE_SAMPLES;
+use on_gpu::OnGpu;
+
+/// What is asked to render.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Backend {
+    /// A GPU if there is one, else the CPU renderer.
+    #[default]
+    Auto,
+    /// A graphics adapter, be it a GPU or a software driver.
+    Gpu,
+    /// The CPU renderer: needs no driver.
+    Cpu,
+}
+
+/// What is to be rendered, and how.
+#[derive(Clone, Copy, Debug)]
+pub struct Task {
+    /// By which method.
+    pub method: Method,
+    /// What the user wants to render.
+    pub backend: Backend,
+    /// For each pixel on an edge.
+    pub samples: u32,
+    /// The ways of light; the CPU renderer alone counts bounces.
+    pub transport: Transport,
+    /// Whether what few rays found is spread over the pixels around ([`spread_fireflies`]).
+    pub spreads_fireflies: bool,
+}
+
+/// A picture that was rendered.
+pub struct Rendered {
+    /// The picture.
+    pub image: Image,
+    /// That each pixel has, of shadows, or where it has an edge.
+    pub samples: u32,
+    /// Fewer of them are there if it was stopped.
+    pub wanted: u32,
+}
+
+/// Why a [`Task`] cannot be done as it is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Refusal {
+    /// Without shadows the light that an object hides would be counted beside its own.
+    BouncesWithoutShadows,
+    /// The published method has none.
+    ShadowsOfPublished,
+    /// The GPU renderer has none.
+    BouncesOnGpu,
+}
+
+/// The ways of light that are asked for; where nothing is, the default as far as method and backend have it.
+///
+/// # Errors
+/// Why no renderer does what is asked for.
+pub fn transport(
+    method: &Method,
+    backend: Backend,
+    shadows: Option<bool>,
+    bounces: Option<u32>,
+) -> Result<Transport, Refusal> {
+    let is_published = method.published.is_some();
+    if is_published && shadows == Some(true) {
+        return Err(Refusal::ShadowsOfPublished);
+    }
+    if !shadows.unwrap_or(DEFAULT_TRANSPORT.shadows && !is_published) {
+        return match bounces {
+            None | Some(0) => Ok(Transport::DIRECT),
+            Some(_) => Err(Refusal::BouncesWithoutShadows),
+        };
+    }
+    let has_bounces = backend != Backend::Gpu;
+    let bounces = match bounces {
+        Some(1..) if !has_bounces => return Err(Refusal::BouncesOnGpu),
+        Some(bounces) => bounces,
+        None if has_bounces => DEFAULT_TRANSPORT.bounces,
+        None => 0,
+    };
+    Ok(Transport {
+        shadows: true,
+        bounces,
+    })
+}
+
+impl Task {
+    fn options(&self, samples: u32, batch: Option<Batch>) -> closed_form::RenderOptions {
+        let Transport { shadows, bounces } = self.transport;
+        closed_form::RenderOptions {
+            samples,
+            batch,
+            shadows,
+            bounces,
+            method: self.method,
+        }
+    }
+
+    /// What of how the picture is made is not the pure closed form; the method is left to who can name it.
+    pub fn notes(&self) -> Notes {
+        let Transport { shadows, bounces } = self.transport;
+        let mut notes = Notes::new();
+        if shadows {
+            notes.insert("shadows".to_owned(), "on".to_owned());
+        }
+        if bounces > 0 {
+            notes.insert("bounces".to_owned(), bounces.to_string());
+        }
+        notes
+    }
+}
+
+/// A renderer that holds a scene with its trees and tables, for one picture or many.
+pub struct Painter<'a> {
+    scene: &'a Scene,
+    task: Task,
+    listener: &'a dyn Listener,
+    on: On<'a>,
+}
+
+enum On<'a> {
+    Cpu(Box<Prepared<'a>>),
+    Gpu(Box<OnGpu>),
+}
+
+impl<'a> Painter<'a> {
+    /// Builds what rendering looks up, chooses what renders, and tells in one line on what and why. `Auto` takes a GPU if there
+    /// is one, else the CPU renderer.
+    ///
+    /// # Errors
+    /// [`Failure::Work`] where the GPU that was asked for fails.
+    pub fn open(scene: &'a Scene, task: Task, listener: &'a dyn Listener) -> Result<Self, Failure> {
+        let on = match task.backend {
+            Backend::Cpu => On::on_cpu(scene, &task.method, "as asked", listener),
+            Backend::Gpu => {
+                let gpu = open().map_err(advise)?;
+                announce_gpu(&gpu, "as asked", listener);
+                On::on_gpu(&gpu, scene, &task, listener).map_err(advise)?
+            }
+            Backend::Auto if task.transport.bounces > 0 => {
+                On::on_cpu(scene, &task.method, "light bounces there alone", listener)
+            }
+            Backend::Auto => On::best(scene, &task, listener),
+        };
+        Ok(Self {
+            scene,
+            task,
+            listener,
+            on,
+        })
+    }
+
+    /// Renders `scene`, which is the one that this was opened with but for its camera. What fails on a graphics adapter that was
+    /// not asked for is done on the CPU, from then on. Shadows add up in batches of samples: once `is_stopped` says so there will be no
+    /// further one, and the picture is that of the batches before. Without shadows a picture that was stopped on the CPU is black where
+    /// it was not begun, and has no sample.
+    ///
+    /// # Errors
+    /// [`Failure::Work`] where the GPU that was asked for fails, and where it is stopped before the first batch is there.
+    pub fn render(
+        &mut self,
+        scene: &Scene,
+        is_stopped: &(dyn Fn() -> bool + Sync),
+        progress: &(dyn Fn(f64) + Sync),
+    ) -> Result<Rendered, Failure> {
+        if !self.task.transport.shadows {
+            return self.render_direct(scene, is_stopped, progress);
+        }
+        let mut batches = Batches::new(self.task.samples);
+        let wanted = batches.samples();
+        batches.fill(progress, |batch, progress| {
+            self.render_batch(scene, wanted, Some(batch), is_stopped, progress)
+        })?;
+        let samples = batches.done();
+        let mut image = batches.into_image().ok_or_else(|| {
+            Failure::Work(anyhow!(
+                "interrupted before the first samples were done; there is nothing to write"
+            ))
+        })?;
+        if self.task.spreads_fireflies {
+            spread_fireflies(&mut image);
+        }
+        Ok(Rendered {
+            image,
+            samples,
+            wanted,
+        })
+    }
+
+    /// The closed forms alone. A graphics adapter finishes its picture.
+    fn render_direct(
+        &mut self,
+        scene: &Scene,
+        is_stopped: &(dyn Fn() -> bool + Sync),
+        progress: &(dyn Fn(f64) + Sync),
+    ) -> Result<Rendered, Failure> {
+        let samples = self.task.samples;
+        let rows = 0..scene.render.size_px[1];
+        let options = self.task.options(samples, None);
+        let on_gpu = |on: &mut OnGpu| {
+            let image = on.render_rows(scene, samples, None, rows, &|at| progress(at))?;
+            Ok((image, true))
+        };
+        let (image, is_whole) = self.paint(on_gpu, |prepared| {
+            let prepared = prepared.with_scene(scene);
+            prepared.render_until(is_stopped, &options, progress)
+        })?;
+        Ok(Rendered {
+            image,
+            samples: if is_whole { samples } else { 0 },
+            wanted: samples,
+        })
+    }
+
+    /// None if it was stopped.
+    fn render_batch(
+        &mut self,
+        scene: &Scene,
+        samples: u32,
+        batch: Option<Batch>,
+        is_stopped: &(dyn Fn() -> bool + Sync),
+        progress: &(dyn Fn(f64) + Sync),
+    ) -> Result<Option<Image>, Failure> {
+        if is_stopped() {
+            return Ok(None);
+        }
+        let rows = 0..scene.render.size_px[1];
+        let options = self.task.options(samples, batch);
+        let on_gpu = |on: &mut OnGpu| {
+            let image = on.render_rows(scene, samples, batch, rows.clone(), &|at| progress(at))?;
+            Ok(Some(image))
+        };
+        self.paint(on_gpu, |prepared| {
+            let prepared = prepared.with_scene(scene);
+            let rendered = prepared.render_unless(is_stopped, &options, rows.clone(), progress)?;
+            Some(rendered.0)
+        })
+    }
+
+    /// The same with [`FINE_SAMPLES`] in every pixel: what the closed forms' averages over a pixel must come near to.
+    ///
+    /// # Errors
+    /// As [`Self::render`].
+    pub fn render_finely(
+        &mut self,
+        scene: &Scene,
+        progress: &(dyn Fn(f64) + Sync),
+    ) -> Result<Image, Failure> {
+        let options = self.task.options(1, None);
+        let on_gpu = |on: &mut OnGpu| {
+            let mut rows = |large: &Scene, rows, told: &(dyn Fn(f64) + Sync)| {
+                on.render_rows(large, 1, None, rows, &|at| told(at))
+            };
+            fine::render(scene, &mut rows, progress)
+        };
+        self.paint(on_gpu, |prepared| {
+            let mut rows = |large: &Scene, rows, told: &(dyn Fn(f64) + Sync)| {
+                Ok::<_, Infallible>(prepared.with_scene(large).render_rows(&options, rows, told))
+            };
+            let Ok(image) = fine::render(scene, &mut rows, progress);
+            image
+        })
+    }
+
+    fn paint<T>(
+        &mut self,
+        on_gpu: impl FnOnce(&mut OnGpu) -> Result<T, hairline_gpu::Error>,
+        on_cpu: impl FnOnce(&Prepared) -> T,
+    ) -> Result<T, Failure> {
+        if let On::Gpu(ready) = &mut self.on {
+            match on_gpu(ready) {
+                Ok(done) => return Ok(done),
+                Err(error) if self.task.backend == Backend::Gpu => return Err(advise(error)),
+                Err(error) => {
+                    warn_of(ready.gpu(), &error, self.listener);
+                    self.on = On::Cpu(prepared(self.scene, &self.task.method, self.listener));
+                }
+            }
+        }
+        match &self.on {
+            On::Cpu(prepared) => Ok(on_cpu(prepared)),
+            On::Gpu(_) => unreachable!("a GPU has returned or was left"),
+        }
+    }
+}
+
+impl<'a> On<'a> {
+    fn on_cpu(scene: &'a Scene, method: &Method, why: &str, listener: &dyn Listener) -> Self {
+        announce_cpu(why, listener);
+        Self::Cpu(prepared(scene, method, listener))
+    }
+
+    fn on_gpu(
+        gpu: &Gpu,
+        scene: &Scene,
+        task: &Task,
+        listener: &dyn Listener,
+    ) -> Result<Self, hairline_gpu::Error> {
+        let rebuild = |watch: &Watch| ScratchIndex::rebuild(scene, None, watch);
+        let sort = || Arc::new(sorted(listener, rebuild));
+        let (scratches, tables) = rayon::join(sort, || ScratchTables::new(scene));
+        let shadows = task.transport.shadows;
+        let on = OnGpu::new(gpu, scene, &scratches, &tables, &task.method, shadows)?;
+        Ok(Self::Gpu(Box::new(on)))
+    }
+
+    /// A GPU if there is one, else the CPU renderer.
+    fn best(scene: &'a Scene, task: &Task, listener: &dyn Listener) -> Self {
+        let method = &task.method;
+        match open() {
+            Err(error) => Self::on_cpu(scene, method, &error.to_string(), listener),
+            Ok(gpu) if gpu.adapter.kind == AdapterKind::Software => {
+                let why = format!("no GPU; {} is a software driver", gpu.adapter.name);
+                Self::on_cpu(scene, method, &why, listener)
+            }
+            Ok(gpu) => {
+                announce_gpu(&gpu, "a GPU is there", listener);
+                Self::on_gpu(&gpu, scene, task, listener).unwrap_or_else(|error| {
+                    warn_of(&gpu, &error, listener);
+                    Self::Cpu(prepared(scene, method, listener))
+                })
+            }
+        }
+    }
+}
+
+/// Trees and tables, and what only some methods look up: now, and not again for each picture.
+fn prepared<'a>(scene: &'a Scene, method: &Method, listener: &dyn Listener) -> Box<Prepared<'a>> {
+    let prepared = sorted(listener, |watch| Prepared::watched(scene, watch));
+    if method
+        .published
+        .is_some_and(|it| it.structure == Structure::TriangleLists)
+    {
+        prepared.triangle_lists();
+    }
+    Box::new(prepared)
+}
+
+/// What `sort` builds. Nobody ends it but by ending the process.
+fn sorted<T>(listener: &dyn Listener, sort: impl FnOnce(&Watch) -> Option<T>) -> T {
+    listener.begin("sorting scratches");
+    let watch = Watch {
+        progress: &|share| listener.set(share),
+        ..Watch::default()
+    };
+    let built = sort(&watch).unwrap_or_else(|| unreachable!("nobody cancels it"));
+    listener.end();
+    built
+}
+
+/// The best adapter: GPUs come before software drivers.
+fn open() -> Result<Gpu, hairline_gpu::Error> {
+    headless::open(&AdapterRequest::default())
+}
+
+fn advise(error: hairline_gpu::Error) -> Failure {
+    Failure::Work(anyhow!("{error}; --backend cpu needs no driver"))
+}
+
+fn announce_cpu(why: &str, listener: &dyn Listener) {
+    let threads = match rayon::current_num_threads() {
+        1 => String::from("1 thread"),
+        threads => format!("{threads} threads"),
+    };
+    listener.tell(&format!("rendering on the CPU, {threads}: {why}"));
+}
+
+fn announce_gpu(gpu: &Gpu, why: &str, listener: &dyn Listener) {
+    listener.tell(&format!("rendering on {}: {why}", gpu.adapter));
+}
+
+fn warn_of(gpu: &Gpu, error: &hairline_gpu::Error, listener: &dyn Listener) {
+    let name = &gpu.adapter.name;
+    listener.warn(&format!("{name} failed ({error}); the CPU renders instead"));
+}

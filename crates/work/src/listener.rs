@@ -1,0 +1,22 @@
+//! Who is told how work goes.
+
+/// Hears what long work says of itself, from any thread.
+pub trait Listener: Sync {
+    /// A sentence that is said once: what renders and why.
+    fn tell(&self, line: &str);
+
+    /// Something is not as it should be, and the work goes on.
+    fn warn(&self, warning: &str);
+
+    /// A part of the work begins, at nothing done. A verb: "sorting scratches".
+    fn begin(&self, what: &'static str);
+
+    /// What is done meanwhile; the share stays.
+    fn say(&self, what: &'static str);
+
+    /// The share of the part that is done, from 0 to 1. Threads may report out of order.
+    fn set(&self, share: f64);
+
+    /// The part that began last has ended.
+    fn end(&self);
+}
