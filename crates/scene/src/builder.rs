@@ -7,6 +7,8 @@ use std::fmt;
 use std::path::Path;
 use std::sync::Arc;
 
+use glam::DVec3;
+
 use crate::convert;
 use crate::description::references::find;
 use crate::description::{self, Description, Layer};
@@ -15,6 +17,7 @@ use crate::estimate::Estimate;
 use crate::loader::{Loader, Stage};
 use crate::scene::{Object, Scene};
 use crate::scratches;
+use crate::studio::PhotoSet;
 use crate::texture::texture_bytes;
 use kept::{Kept, KeptLayer, KeptSurface, MapKey, Stamp, SurfaceKey};
 
@@ -97,7 +100,8 @@ impl<'a> Work<'a> {
     fn scene(&mut self) -> Result<Scene, Error> {
         self.estimate = self.check_memory()?;
         let mut scene = convert::without_surfaces(self.description);
-        let surfaces = self.surfaces(&mut scene)?;
+        let mut surfaces = self.surfaces(&mut scene)?;
+        self.photo_set(&mut surfaces, &mut scene)?;
         self.loader.go_on()?;
         scene.environment = self.environment(&scene)?;
         self.scratches(&surfaces, &mut scene)?;
@@ -177,8 +181,50 @@ impl<'a> Work<'a> {
         Ok(surfaces)
     }
 
+    /// The studio's lights, and the ground behind all other objects.
+    fn photo_set(
+        &mut self,
+        surfaces: &mut Vec<Arc<KeptSurface>>,
+        scene: &mut Scene,
+    ) -> Result<(), Error> {
+        let bounds = scene.objects.iter().map(|object| object.mesh.bounds_m());
+        let bounds = bounds.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
+        let Some((least, most)) = bounds else {
+            return Ok(());
+        };
+        let described = self.description;
+        let set = PhotoSet::new(&described.camera, (least.as_dvec3(), most.as_dvec3()));
+        if !described.studio.hidden {
+            let lights = set.lights(&described.studio);
+            scene
+                .lights
+                .extend(lights.iter().map(description::Light::in_scene));
+        }
+        let Some(ground) = described.ground.as_ref().filter(|ground| !ground.hidden) else {
+            return Ok(());
+        };
+        let (object, material) = set.ground(ground);
+        let key = SurfaceKey::new(&object, self.base_dir, DVec3::Z);
+        let surface = match self.old.surface(&key) {
+            Some(kept) => kept,
+            None => Arc::new(KeptSurface::read(key, &object, "ground", 0.0)?),
+        };
+        let surface = surface.with_materials_from(scene.materials.len() as u32);
+        scene.materials.push(convert::material(&material));
+        scene.objects.push(Object {
+            name: object.name,
+            mesh: surface.mesh.clone(),
+            scratches: Arc::default(),
+            segments: Arc::default(),
+        });
+        surfaces.push(surface);
+        Ok(())
+    }
+
     fn environment(&mut self, scene: &Scene) -> Result<Option<crate::Environment>, Error> {
-        let Some(described) = &self.description.environment else {
+        let studio = &self.description.studio;
+        let room = (!studio.hidden).then(|| PhotoSet::room(studio));
+        let Some(described) = self.description.environment.as_ref().or(room.as_ref()) else {
             return Ok(None);
         };
         self.loader.report(Stage::Environment, 0, 1);

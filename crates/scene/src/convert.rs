@@ -1,14 +1,14 @@
 //! From what is described to what it is in a [`Scene`]: units and references.
 
 use std::path::Path;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use glam::{DMat4, DVec3};
 
 use crate::Environment;
 use crate::description::references::find;
 use crate::description::{self, Description, MaterialKind, MetalColor};
-use crate::environment;
+use crate::environment::{self, BuiltInMap};
 use crate::error::Error;
 use crate::scene::{Base, Camera, Material, RenderSettings, Scene};
 use crate::surface::world_from_object;
@@ -42,7 +42,7 @@ fn camera(camera: &description::Camera) -> Camera {
     }
 }
 
-fn material(material: &description::Material) -> Material {
+pub(crate) fn material(material: &description::Material) -> Material {
     Material {
         name: material.name.clone(),
         base: match material.kind {
@@ -83,8 +83,7 @@ pub(crate) fn environment_map(
     let file = match map {
         description::Map::File(file) => base_dir.join(file),
         description::Map::BuiltIn(map) => {
-            let picture = map.picture(environment::BUILT_IN_SIZE_PX);
-            return Ok(Environment::with_suns_parted(picture, 0.0, 1.0, true));
+            return Ok(built_in_map(*map));
         }
     };
     Environment::load(&file, 0.0, 1.0, true).map_err(|error| {
@@ -94,6 +93,17 @@ pub(crate) fn environment_map(
             "must be an equirectangular .hdr or .exr, relative to the scene file",
         )
     })
+}
+
+/// One in the box, made once: to prefilter it takes longer than to build a small scene.
+fn built_in_map(map: BuiltInMap) -> Environment {
+    static MADE: [OnceLock<Environment>; BuiltInMap::ALL.len()] =
+        [const { OnceLock::new() }; BuiltInMap::ALL.len()];
+    let make = || {
+        let picture = map.picture(environment::BUILT_IN_SIZE_PX);
+        Environment::with_suns_parted(picture, 0.0, 1.0, true)
+    };
+    MADE[map as usize].get_or_init(make).clone()
 }
 
 /// The map as it is described, for a camera with `up`.

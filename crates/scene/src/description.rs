@@ -16,6 +16,7 @@ mod read;
 pub(crate) mod references;
 mod scratches;
 mod sizes;
+mod studio;
 mod table;
 mod values;
 
@@ -34,6 +35,7 @@ pub(crate) use scratches::DEFAULT_SEED;
 pub use scratches::{
     Amount, Around, Brush, Brushed, Distribution, Laid, Layer, Listed, Pattern, Scratches, Stroke,
 };
+pub use studio::{Ground, Studio};
 
 /// A whole scene file.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -42,9 +44,15 @@ pub struct Description {
     pub camera: Camera,
     /// `[render]`: may be left out.
     pub render: Render,
-    /// `[environment]`: may be left out; then there is no light but the `lights`, and the background is black.
+    /// `[environment]`: may be left out; then there is no light but the `lights` and the studio, and without a studio the background is black.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub environment: Option<Environment>,
+    /// `[studio]`: may be left out; then there is one where a scene file has neither lights nor an environment.
+    #[serde(skip_serializing_if = "Studio::is_none")]
+    pub studio: Studio,
+    /// `[ground]`: may be left out; then there is one where a scene file has a studio without asking for it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ground: Option<Ground>,
     /// `[[material]]`.
     #[serde(rename = "material", skip_serializing_if = "Vec::is_empty")]
     pub materials: Vec<Material>,

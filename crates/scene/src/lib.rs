@@ -42,6 +42,7 @@ pub mod reading;
 pub mod scene;
 mod scratches;
 mod shape;
+mod studio;
 mod surface;
 pub mod text;
 mod texture;

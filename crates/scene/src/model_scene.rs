@@ -1,4 +1,4 @@
-//! A scene around a model that comes without one: the studio in the box, a small bright lamp, light wear on metal, a camera that frames it.
+//! A scene around a model that comes without one: a studio and a ground, light wear on metal, a camera that frames it.
 
 use std::path::{Path, PathBuf};
 
@@ -6,11 +6,12 @@ use glam::{DVec2, DVec3};
 
 use crate::camera::framing;
 use crate::description::{
-    Amount, Camera, Description, Distribution, Environment, Laid, Layer, Light, LightKind, Map,
-    Object, Pattern, Render, Scratches, Surface, Up,
+    Amount, Camera, Description, Distribution, Environment, Ground, Laid, Layer, Map, Object,
+    Pattern, Render, Scratches, Studio, Surface, Up,
 };
 use crate::environment::BuiltInMap;
 use crate::error::Error;
+use crate::studio::PhotoSet;
 use crate::text::shown;
 use crate::{mesh_file, probe};
 
@@ -19,10 +20,10 @@ mod lights;
 /// Sizes at which scratches can be seen; other models are shown [`SHOWN_M`] large.
 const SIZES_M: std::ops::RangeInclusive<f64> = 0.02..=1.0;
 const SHOWN_M: f64 = 0.2;
-/// The share of the picture that the model fills.
-const FILLED: f64 = 0.95;
+/// The share of the picture that the model fills: the rest is for its shadow.
+const FILLED: f64 = 0.8;
 const FOV_Y_DEG: f64 = 28.0;
-/// Its brightest box behind the camera, to the side.
+/// Around the lights of a model's file: its brightest box behind the camera, to the side.
 const STUDIO_ROTATION_DEG: f64 = 220.0;
 const STUDIO_INTENSITY: f64 = 0.75;
 /// From the model to the camera: from above, a little from the left.
@@ -64,13 +65,6 @@ impl Description {
         let (least, most) = summary.bounds_m;
         let upright = |p: glam::Vec3| turned(p.as_dvec3());
         let [a, b] = [least, most].map(upright);
-        let bounds = Bounds {
-            least: a.min(b),
-            most: a.max(b),
-        };
-        if lamps.is_empty() {
-            lamps.push(bounds.lamp());
-        }
         let points_m: Vec<_> = summary
             .extreme_points_m
             .iter()
@@ -84,30 +78,51 @@ impl Description {
         let object = stem
             .filter(|stem| !stem.is_empty())
             .unwrap_or_else(|| "model".to_owned());
-        Ok(Self {
-            camera: camera(&points_m, render.size_px),
-            render,
-            environment: Some(Environment {
+        let camera = camera(&points_m, render.size_px);
+        let set = PhotoSet::new(&camera, (a.min(b), a.max(b)));
+        let studio = Studio::default();
+        let environment = match lamps.is_empty() {
+            true => {
+                lamps = set.lights(&studio);
+                PhotoSet::room(&studio)
+            }
+            // Whose strength is not known.
+            false => Environment {
                 map: Map::BuiltIn(BuiltInMap::Studio),
                 rotation_deg: STUDIO_ROTATION_DEG,
                 intensity: STUDIO_INTENSITY,
                 visible: true,
-            }),
-            materials: Vec::new(),
+            },
+        };
+        let (mut ground, ground_material) = set.ground(&Ground::default());
+        if object == ground.name {
+            ground.name += " under it";
+        }
+        Ok(Self {
+            camera,
+            render,
+            environment: Some(environment),
+            // In lights and an object of their own, which can be changed one by one.
+            studio: Studio::NONE,
+            ground: None,
+            materials: vec![ground_material],
             scratches: match summary.metal_share > 0.5 {
-                true => vec![wear(&object, bounds.extent_m())],
+                true => vec![wear(&object, factor * extent_m)],
                 false => Vec::new(),
             },
-            objects: vec![Object {
-                name: object,
-                surface: Surface::Mesh(name),
-                up: Up::Y,
-                fit_m,
-                material: None,
-                translation_m: [0.0; 3],
-                rotation_deg: [0.0; 3],
-                scale: [1.0; 3],
-            }],
+            objects: vec![
+                Object {
+                    name: object,
+                    surface: Surface::Mesh(name),
+                    up: Up::Y,
+                    fit_m,
+                    material: None,
+                    translation_m: [0.0; 3],
+                    rotation_deg: [0.0; 3],
+                    scale: [1.0; 3],
+                },
+                ground,
+            ],
             lights: lamps,
             notes,
         })
@@ -157,41 +172,5 @@ fn camera(points_m: &[DVec3], [width, height]: [u32; 2]) -> Camera {
         up: [0.0, 0.0, 1.0],
         fov_y_deg: FOV_Y_DEG,
         exposure_ev: 0.0,
-    }
-}
-
-/// Where the model lies.
-#[derive(Clone, Copy, Debug)]
-struct Bounds {
-    least: DVec3,
-    most: DVec3,
-}
-
-impl Bounds {
-    fn middle_m(&self) -> DVec3 {
-        0.5 * (self.least + self.most)
-    }
-
-    fn extent_m(&self) -> f64 {
-        (self.most - self.least).max_element()
-    }
-
-    /// Half of the diagonal.
-    fn radius_m(&self) -> f64 {
-        0.5 * self.least.distance(self.most)
-    }
-
-    /// Small enough for colours.
-    fn lamp(&self) -> Light {
-        let center_m = self.middle_m() + 3.4 * self.radius_m() * DVec3::new(0.35, 0.55, 1.0);
-        Light {
-            name: Some("lamp".to_owned()),
-            radiance: 1400.0,
-            color: [1.0, 0.95, 0.88],
-            ..Light::new(LightKind::Sphere {
-                center_m: center_m.into(),
-                radius_m: 0.05 * self.radius_m(),
-            })
-        }
     }
 }

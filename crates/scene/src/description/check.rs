@@ -25,6 +25,10 @@ impl Description {
             finite("environment.rotation_deg", environment.rotation_deg)?;
             not_negative("environment.intensity", environment.intensity)?;
         }
+        self.studio.check()?;
+        if let Some(ground) = &self.ground {
+            ground.check()?;
+        }
         each("material", &self.materials, material)?;
         unique("material", self.materials.iter().map(|m| m.name.as_str()))?;
         if self.objects.is_empty() {

@@ -49,6 +49,9 @@ impl Description {
                 text.push('\n');
             }
         }
+        if !self.is_lit() && self.studio.is_none() {
+            text += "[studio]\nhidden = true\n\n";
+        }
         Ok(text)
     }
 

@@ -7,7 +7,7 @@ use super::table::{Read, Table, Value, number, wrong_type};
 use super::{
     Amount, Around, Brush, Brushed, Camera, Description, Distribution, Environment, Laid, Layer,
     Listed, Map, Material, MaterialKind, MetalColor, Object, Pattern, Render, Scratches, Shape,
-    Stroke, Surface, Up,
+    Stroke, Studio, Surface, Up,
 };
 use crate::error::Error;
 
@@ -20,22 +20,31 @@ pub(super) fn description(root: &DeTable) -> Result<Description, Error> {
             "camera",
             "render",
             "environment",
+            "studio",
+            "ground",
             "material",
             "object",
             "scratches",
             "light",
         ],
     )?;
-    Ok(Description {
+    let mut description = Description {
         camera: table.required("camera")?,
         render: table.or("render", Render::default())?,
         environment: table.optional("environment")?,
+        studio: table.or("studio", Studio::NONE)?,
+        ground: table.optional("ground")?,
         materials: table.or("material", Vec::new())?,
         objects: table.or("object", Vec::new())?,
         scratches: table.or("scratches", Vec::new())?,
         lights: table.or("light", Vec::new())?,
         notes: Vec::new(),
-    })
+    };
+    if !description.is_lit() && !table.has("studio") {
+        description.studio = Studio::default();
+        description.ground.get_or_insert_default();
+    }
+    Ok(description)
 }
 
 /// Keys of earlier versions that are there, and why they have no effect.

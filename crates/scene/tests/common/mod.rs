@@ -4,8 +4,16 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// A camera, a material called "steel", and what is given.
+/// A camera, a material called "steel", and what is given. Without lights it stays dark: it has no studio.
 pub fn scene_with(rest: &str) -> String {
+    let is_lit = ["[[light]]", "[environment]"]
+        .iter()
+        .any(|table| rest.contains(table));
+    let studio = if is_lit {
+        ""
+    } else {
+        "[studio]\nhidden = true"
+    };
     format!(
         r#"[camera]
 position_m = [0.0, -0.22, 0.30]
@@ -18,6 +26,7 @@ kind = "metal"
 metal = "steel"
 
 {rest}
+{studio}
 "#
     )
 }

@@ -186,6 +186,16 @@ fn everything() -> Description {
             intensity: 0.0,
             visible: false,
         }),
+        studio: Studio {
+            hidden: true,
+            intensity: 0.5,
+            rotation_deg: 12.0,
+        },
+        ground: Some(Ground {
+            color: [0.4; 3],
+            height_m: Some(-0.5),
+            ..Ground::default()
+        }),
         materials: kinds
             .enumerate()
             .map(|(i, kind)| Material {

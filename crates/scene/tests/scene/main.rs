@@ -14,4 +14,5 @@ mod listed;
 mod probe;
 mod scratches;
 mod strokes;
+mod studio;
 mod wild_meshes;

@@ -1,0 +1,198 @@
+//! A studio for products, made by code: where its lights stand about what the camera looks at, and the ground under it.
+
+use glam::DVec3;
+
+use crate::convert::vertical_axis;
+use crate::description::{
+    self, Camera, Environment, Light, LightKind, Map, Material, MaterialKind, Object, Shape,
+    Studio, Surface, Up, limits,
+};
+use crate::environment::BuiltInMap;
+
+/// What the room around sends: enough that metal is nowhere black, too little to be seen as a wall.
+const ROOM_INTENSITY: f64 = 0.25;
+/// The ground's over the set's radius: its rim is out of the picture unless the camera lies low.
+const GROUND_RADII: f64 = 40.0;
+/// How far below the lowest point the ground lies, over the set's radius: a sheet that lies lowest is not cut by it.
+const GAP: f64 = 2e-4;
+/// A set that reaches farther than so many times what the camera sees is a room: the studio then stands about the camera's target.
+const ROOM: f64 = 3.0;
+/// The lamp's height as it is seen from the set.
+const LAMP_ELEVATION_DEG: std::ops::RangeInclusive<f64> = 25.0..=60.0;
+
+/// What a studio stands around.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PhotoSet {
+    /// On the ground, in the middle.
+    base_m: DVec3,
+    radius_m: f64,
+    /// Axes of the world's floor plan as the camera sees it, and up.
+    right: DVec3,
+    ahead: DVec3,
+    up: DVec3,
+    /// Of the camera, above the ground.
+    elevation_rad: f64,
+}
+
+impl PhotoSet {
+    /// About a box, in which all objects lie, and a camera.
+    pub(crate) fn new(camera: &Camera, (least, most): (DVec3, DVec3)) -> Self {
+        let up = vertical_axis(camera.up.into());
+        let [eye, target] = [camera.position_m, camera.target_m].map(DVec3::from);
+        let view = target - eye;
+        let right = view.cross(up);
+        // A camera that looks straight down has a right side all the same.
+        let right = match right.length() > 1e-6 * view.length() {
+            true => right.normalize(),
+            false => view.cross(camera.up.into()).normalize_or(DVec3::X),
+        };
+        let seen_m = view.length() * (0.5 * camera.fov_y_deg.to_radians()).tan();
+        let (middle, radius_m) = match 0.5 * least.distance(most) {
+            radius_m if radius_m <= ROOM * seen_m => (least.midpoint(most), radius_m),
+            _ => (target, seen_m),
+        };
+        let lowest = least.dot(up).min(most.dot(up));
+        let level = lowest.max(middle.dot(up) - radius_m);
+        Self {
+            base_m: middle + (level - middle.dot(up)) * up,
+            radius_m,
+            right,
+            ahead: up.cross(right),
+            up,
+            elevation_rad: (-view.dot(up) / view.length()).asin(),
+        }
+    }
+
+    /// The room around.
+    pub(crate) fn room(studio: &Studio) -> Environment {
+        Environment {
+            map: Map::BuiltIn(BuiltInMap::Overcast),
+            rotation_deg: 0.0,
+            intensity: ROOM_INTENSITY * studio.intensity,
+            visible: true,
+        }
+    }
+
+    /// A large soft box above, a strip on either side, a dim one behind the camera, and a small lamp that colours scratches.
+    pub(crate) fn lights(&self, studio: &Studio) -> Vec<Light> {
+        let soft_box = |name, at: [f64; 3], size: [f64; 2], radiance, color, along| {
+            self.soft_box(studio, name, at, size, radiance, color, along)
+        };
+        let (side, depth) = (DVec3::X, DVec3::Y);
+        let mut lights = vec![
+            soft_box(
+                "soft box above",
+                [0.2, 0.1, 3.2],
+                [3.4, 2.2],
+                4.0,
+                [1.0; 3],
+                side,
+            ),
+            soft_box(
+                "strip left",
+                [-3.0, 0.0, 1.7],
+                [1.2, 2.8],
+                4.5,
+                [0.93, 0.97, 1.0],
+                depth,
+            ),
+            soft_box(
+                "strip right",
+                [3.0, 0.7, 1.5],
+                [0.6, 2.6],
+                7.0,
+                [1.0, 0.95, 0.88],
+                depth,
+            ),
+            soft_box("fill", [1.4, -3.6, 2.8], [3.0, 2.2], 0.8, [1.0; 3], side),
+        ];
+        // About where a level surface mirrors it to the camera: its colours lie on what lies flat.
+        let (low, high) = LAMP_ELEVATION_DEG.into_inner();
+        let elevation_rad = self
+            .elevation_rad
+            .to_degrees()
+            .clamp(low, high)
+            .to_radians();
+        let (sin, cos) = elevation_rad.sin_cos();
+        let center_m = self.at(studio, 4.1 * DVec3::new(-0.12, cos, sin));
+        lights.push(Light {
+            name: Some("lamp".to_owned()),
+            radiance: 900.0 * studio.intensity,
+            color: [1.0, 0.95, 0.88],
+            ..Light::new(LightKind::sphere(center_m.into(), 0.06 * self.radius_m))
+        });
+        lights
+    }
+
+    /// Right of, behind and above the set, in its radii.
+    fn at(&self, studio: &Studio, place: DVec3) -> DVec3 {
+        let turn = glam::DQuat::from_axis_angle(self.up, studio.rotation_deg.to_radians());
+        let way = place.x * self.right + place.y * self.ahead + place.z * self.up;
+        self.base_m + self.radius_m * (turn * way)
+    }
+
+    #[expect(clippy::too_many_arguments, reason = "the row of a table")]
+    fn soft_box(
+        &self,
+        studio: &Studio,
+        name: &str,
+        at: [f64; 3],
+        [width, height]: [f64; 2],
+        radiance: f64,
+        color: [f64; 3],
+        along: DVec3,
+    ) -> Light {
+        let mut kind = LightKind::Rectangle {
+            center_m: self.at(studio, at.into()).into(),
+            target_m: self.at(studio, DVec3::new(0.0, 0.0, 0.4)).into(),
+            width_m: width * self.radius_m,
+            height_m: height * self.radius_m,
+            rotation_deg: 0.0,
+            two_sided: false,
+        };
+        kind.lay_width_along(self.at(studio, along) - self.base_m);
+        Light {
+            name: Some(name.to_owned()),
+            radiance: radiance * studio.intensity,
+            color,
+            ..Light::new(kind)
+        }
+    }
+
+    /// The ground and what it is made of.
+    pub(crate) fn ground(&self, ground: &description::Ground) -> (Object, Material) {
+        let level = self.base_m.dot(self.up);
+        let height_m = ground.height_m.unwrap_or(level - GAP * self.radius_m);
+        let rotation_deg = match self.up {
+            DVec3::Y => [-90.0, 0.0, 0.0],
+            DVec3::NEG_Y => [90.0, 0.0, 0.0],
+            DVec3::X => [0.0, 90.0, 0.0],
+            DVec3::NEG_X => [0.0, -90.0, 0.0],
+            DVec3::NEG_Z => [180.0, 0.0, 0.0],
+            _ => [0.0; 3],
+        };
+        let object = Object {
+            name: "ground".to_owned(),
+            surface: Surface::Shape(Shape::Disk {
+                radius_m: (GROUND_RADII * self.radius_m)
+                    .clamp(limits::SMALLEST_M, limits::LARGEST_M),
+            }),
+            up: Up::default(),
+            fit_m: None,
+            material: Some("ground".to_owned()),
+            translation_m: (self.base_m + (height_m - level) * self.up).into(),
+            rotation_deg,
+            scale: [1.0; 3],
+        };
+        let material = Material {
+            name: "ground".to_owned(),
+            kind: MaterialKind::Dielectric {
+                ior: 1.45,
+                base_color: ground.color,
+            },
+            roughness: ground.roughness,
+            coherence_um: description::DEFAULT_COHERENCE_UM,
+        };
+        (object, material)
+    }
+}
