@@ -10,6 +10,7 @@ use hairline_scene::description::{
     Amount, Around, Brushed, Distribution, Laid, Layer, Light, LightKind, Material, MaterialKind,
     MetalColor, Pattern, Scratches, Shape,
 };
+use hairline_scene::wear::{count, fitting};
 
 /// A layer of scratches to begin with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -160,24 +161,6 @@ pub fn drawn_layer(object: impl Into<String>, radius_m: f64) -> Scratches {
     Scratches {
         name: Some("drawn".to_owned()),
         ..Scratches::new(object, layer)
-    }
-}
-
-/// The number of scratches that cover a share of an object: its area is taken to be half its diagonal's square, between a
-/// disk's 0.4 and a sphere's 1. Two digits, and no more than stay quick to edit.
-pub(crate) fn count(cover: f64, length_m: f64, width_um: f64, diagonal_m: f64) -> u64 {
-    const MOST: f64 = 100_000.0;
-    let count = cover * 0.5 * diagonal_m * diagonal_m / (length_m * width_um * 1e-6);
-    let count = count.clamp(1.0, MOST);
-    let digit = 10_f64.powf(count.log10().floor() - 1.0).max(1.0);
-    ((count / digit).round() * digit) as u64
-}
-
-/// A size that presets can be fitted to.
-pub(crate) fn fitting(size_m: f64) -> f64 {
-    match size_m.is_finite() {
-        true => size_m.clamp(0.01, 100.0),
-        false => 0.2,
     }
 }
 

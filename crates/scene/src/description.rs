@@ -7,6 +7,7 @@
 
 mod check;
 pub(crate) mod hint;
+mod lens;
 mod light_kind;
 mod lights;
 pub mod limits;
@@ -79,7 +80,7 @@ pub struct Camera {
     pub target_m: [f64; 3],
     /// The direction that is up in the picture. Default: `[0, 1, 0]`, as in glTF.
     pub up: [f64; 3],
-    /// Vertical field of view, above 0 and below 180. Default: 30.
+    /// Vertical field of view, above 0 and below 180. Default: 30. A file may give `focal_length_mm` and `sensor_width_mm` instead.
     pub fov_y_deg: f64,
     /// Radiances are multiplied by 2^exposure_ev before the tone map. Default: 0.
     pub exposure_ev: f64,

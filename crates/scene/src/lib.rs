@@ -46,6 +46,7 @@ mod studio;
 mod surface;
 pub mod text;
 mod texture;
+pub mod wear;
 
 pub use arrays::{Arrays, MeshArrays, ScratchArrays};
 pub use builder::SceneBuilder;

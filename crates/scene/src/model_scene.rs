@@ -1,4 +1,4 @@
-//! A scene around a model that comes without one: a studio and a ground, light wear on metal, a camera that frames it.
+//! A scene around a model that comes without one: a studio and a ground, wear on metal, a camera that frames it.
 
 use std::path::{Path, PathBuf};
 
@@ -6,13 +6,13 @@ use glam::{DVec2, DVec3};
 
 use crate::camera::framing;
 use crate::description::{
-    Amount, Camera, Description, Distribution, Environment, Ground, Laid, Layer, Map, Object,
-    Pattern, Render, Scratches, Studio, Surface, Up,
+    Camera, Description, Environment, Ground, Map, Object, Render, Studio, Surface, Up,
 };
 use crate::environment::BuiltInMap;
 use crate::error::Error;
 use crate::studio::PhotoSet;
 use crate::text::shown;
+use crate::wear::Wear;
 use crate::{mesh_file, probe};
 
 mod lights;
@@ -107,7 +107,7 @@ impl Description {
             ground: None,
             materials: vec![ground_material],
             scratches: match summary.metal_share > 0.5 {
-                true => vec![wear(&object, factor * extent_m)],
+                true => Wear::Worn.layers(&object, a.distance(b)),
                 false => Vec::new(),
             },
             objects: vec![
@@ -133,29 +133,6 @@ fn metres(length_m: f64) -> String {
     match length_m {
         0.01..1000.0 => format!("{length_m:.3} m"),
         _ => format!("{length_m:.1e} m"),
-    }
-}
-
-/// What a drawer does.
-fn wear(object: &str, extent_m: f64) -> Scratches {
-    let spread = |mean, spread| Distribution { mean, spread };
-    Scratches {
-        object: object.to_owned(),
-        name: Some("light wear".to_owned()),
-        hidden: false,
-        solo: false,
-        layer: Layer::Laid(Laid::new(
-            Pattern::Random {
-                curvature_per_m: spread(0.0, 1.0 / extent_m),
-            },
-            Amount::Count(6000),
-            [
-                spread(0.1 * extent_m, 0.5),
-                spread(4.2, 0.12),
-                spread(138.0, 0.1),
-            ],
-        )),
-        strokes: Vec::new(),
     }
 }
 

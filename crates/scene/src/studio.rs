@@ -117,9 +117,9 @@ impl PhotoSet {
         let center_m = self.at(studio, 4.1 * DVec3::new(-0.12, cos, sin));
         lights.push(Light {
             name: Some("lamp".to_owned()),
-            radiance: 900.0 * studio.intensity,
+            radiance: 1000.0 * studio.intensity,
             color: [1.0, 0.95, 0.88],
-            ..Light::new(LightKind::sphere(center_m.into(), 0.06 * self.radius_m))
+            ..Light::new(LightKind::sphere(center_m.into(), 0.05 * self.radius_m))
         });
         lights
     }

@@ -18,6 +18,10 @@ pub const SIZE_M: RangeInclusive<f64> = SMALLEST_M..=LARGEST_M;
 
 /// `camera.fov_y_deg`
 pub const FOV_Y_DEG: RangeInclusive<f64> = 0.001..=179.0;
+/// `camera.focal_length_mm`
+pub const FOCAL_LENGTH_MM: RangeInclusive<f64> = 0.1..=10_000.0;
+/// `camera.sensor_width_mm`
+pub const SENSOR_WIDTH_MM: RangeInclusive<f64> = 0.1..=1000.0;
 /// `light.rotation_deg`
 pub const ROTATION_DEG: RangeInclusive<f64> = -360.0..=360.0;
 /// `light.cone_deg`

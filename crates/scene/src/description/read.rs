@@ -2,6 +2,7 @@
 
 use toml::de::{DeTable, DeValue};
 
+use super::lens;
 use super::sizes;
 use super::table::{Read, Table, Value, number, wrong_type};
 use super::{
@@ -40,6 +41,13 @@ pub(super) fn description(root: &DeTable) -> Result<Description, Error> {
         lights: table.or("light", Vec::new())?,
         notes: Vec::new(),
     };
+    // A lens sees by the picture's shape.
+    if let Some(camera) = table.get("camera") {
+        let camera = Table::read(camera, "camera", &CAMERA_KEYS)?;
+        if let Some(fov_y_deg) = lens::fov_y_deg(&camera, description.render.size_px)? {
+            description.camera.fov_y_deg = fov_y_deg;
+        }
+    }
     if !description.is_lit() && !table.has("studio") {
         description.studio = Studio::default();
         description.ground.get_or_insert_default();
@@ -60,13 +68,19 @@ pub(super) fn keys_without_effect(
     gather.map(|_| ("render.gather", why)).into_iter()
 }
 
+const CAMERA_KEYS: [&str; 7] = [
+    "position_m",
+    "target_m",
+    "up",
+    "fov_y_deg",
+    "exposure_ev",
+    lens::KEYS[0],
+    lens::KEYS[1],
+];
+
 impl Read for Camera {
     fn read(value: &Value, key: &str) -> Result<Self, Error> {
-        let table = Table::read(
-            value,
-            key,
-            &["position_m", "target_m", "up", "fov_y_deg", "exposure_ev"],
-        )?;
+        let table = Table::read(value, key, &CAMERA_KEYS)?;
         Ok(Self {
             position_m: table.required("position_m")?,
             target_m: table.required("target_m")?,

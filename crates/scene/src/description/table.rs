@@ -275,11 +275,12 @@ pub(super) fn number(value: &DeValue) -> Option<f64> {
 
 /// "a number", with the unit that the key promises.
 fn a_number(key: &str) -> String {
-    const UNITS: [(&str, &str); 9] = [
+    const UNITS: [(&str, &str); 10] = [
         ("_per_m2", "per square metre"),
         ("_per_m", "per metre"),
         ("_um", "micrometres"),
         ("_nm", "nanometres"),
+        ("_mm", "millimetres"),
         ("_m", "metres"),
         ("_deg", "degrees"),
         ("_px", "pixels"),

@@ -486,3 +486,45 @@ fn a_roughness_that_makes_no_difference_is_noted() {
         "{note}"
     );
 }
+
+#[test]
+fn a_lens_gives_the_field_of_view() {
+    let scene = |lens: &str| {
+        let text = format!(
+            "[camera]\nposition_m = [0, 0, 1]\ntarget_m = [0, 0, 0]\n{lens}\n[render]\nsize_px = [1200, 800]\n"
+        );
+        Description::from_toml(&text, Path::new("a.toml"))
+    };
+    let fov_y_deg = |lens: &str| {
+        scene(lens)
+            .unwrap_or_else(|e| panic!("{e}"))
+            .camera
+            .fov_y_deg
+    };
+    // 36 mm by 24 mm: 2 atan(12 / 50), and as lenses say it.
+    assert!((fov_y_deg("focal_length_mm = 50") - 26.991_466).abs() < 1e-6);
+    let half = fov_y_deg("focal_length_mm = 50\nsensor_width_mm = 18");
+    assert!((half - 2.0 * 0.12_f64.atan().to_degrees()).abs() < 1e-9);
+    // Both, where they agree.
+    assert_eq!(fov_y_deg("focal_length_mm = 50\nfov_y_deg = 27"), 27.0);
+    for (lens, message) in [
+        (
+            "focal_length_mm = 50\nfov_y_deg = 40",
+            "a.toml:5: camera.fov_y_deg: found 40; 50 mm before a sensor 36 mm wide see 26.99 degrees of 1200 x 800 pixels; leave out one of them",
+        ),
+        (
+            "sensor_width_mm = 36",
+            "a.toml:4: camera.sensor_width_mm: found no `focal_length_mm` that it belongs to; give the camera one, or leave it out",
+        ),
+        (
+            "focal_length_mm = 0",
+            "a.toml:4: camera.focal_length_mm: found 0; must be from 0.1 to 10000",
+        ),
+        (
+            "focal_length_mm = \"50mm\"",
+            "a.toml:4: camera.focal_length_mm: found the text \"50mm\"; must be a number (millimetres)",
+        ),
+    ] {
+        assert_eq!(scene(lens).unwrap_err().to_string(), message);
+    }
+}

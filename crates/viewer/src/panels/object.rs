@@ -105,17 +105,20 @@ fn wear_row(ui: &mut Ui, work: &mut Workspace, object: usize) {
     ui.label("Wear");
     let mut chosen = None;
     // The panel keeps its width.
-    let side = (ui.available_width() / Wear::ALL.len() as f32 - 9.0).clamp(32.0, SIDE);
-    ui.horizontal(|ui| {
-        ui.spacing_mut().item_spacing.x = 0.0;
-        for grade in Wear::ALL {
-            let (thumb, is_it) = ((Thumb::Wear(grade), side), is == Some(grade));
-            let card = card(ui, &mut work.gallery, thumb, grade.name(), is_it);
-            if card.on_hover_text(grade.tooltip()).clicked() {
-                chosen = Some(grade);
+    const COLUMNS: usize = 4;
+    let side = (ui.available_width() / COLUMNS as f32 - 9.0).clamp(32.0, SIDE);
+    for row in Wear::ALL.chunks(COLUMNS) {
+        ui.horizontal(|ui| {
+            ui.spacing_mut().item_spacing.x = 0.0;
+            for &grade in row {
+                let (thumb, is_it) = ((Thumb::Wear(grade), side), is == Some(grade));
+                let card = card(ui, &mut work.gallery, thumb, grade.name(), is_it);
+                if card.on_hover_text(grade.tooltip()).clicked() {
+                    chosen = Some(grade);
+                }
             }
-        }
-    });
+        });
+    }
     if is.is_none() {
         ui.weak("Its layers of wear were changed by hand: a grade replaces them.");
     }

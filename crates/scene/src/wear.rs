@@ -1,0 +1,228 @@
+//! What use and finishing leave on an object, as one choice of several layers of scratches.
+//!
+//! A grade keeps the scratches of the one before and adds to them: a seed gives the same first scratches whatever their number,
+//! so an object that becomes more worn keeps its history.
+
+use crate::description::{Amount, Around, Distribution, Laid, Layer, Pattern, Scratches};
+
+/// What an object has been through.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Wear {
+    /// As it was made: no wear.
+    New,
+    /// Some fine scratches, as of a few months of care.
+    Used,
+    /// Many fine scratches, marks and the swirls of cleaning, as of years.
+    Worn,
+    /// Dense scratches, deep marks and gouges, as of a life in a kitchen.
+    Old,
+    /// The arcs of a polishing wheel, and next to no use.
+    Polished,
+    /// Long strokes and short ones along x, lightly used.
+    Brushed,
+    /// Rings of a cloth about z, lightly used.
+    Wiped,
+    /// Scuffs in one direction, digs and fine scratches: a pocket with keys.
+    Keys,
+}
+
+/// The kinds of scratches that wear is made of.
+#[derive(Clone, Copy)]
+enum Kind {
+    Hairlines,
+    Swirls,
+    Marks,
+    Gouges,
+    Wheel,
+    LongStrokes,
+    ShortStrokes,
+    Rings,
+    Scuffs,
+    Digs,
+}
+
+impl Kind {
+    const ALL: [Self; 10] = [
+        Self::Hairlines,
+        Self::Swirls,
+        Self::Marks,
+        Self::Gouges,
+        Self::Wheel,
+        Self::LongStrokes,
+        Self::ShortStrokes,
+        Self::Rings,
+        Self::Scuffs,
+        Self::Digs,
+    ];
+
+    /// The layer's name, by which it is known again.
+    fn name(self) -> &'static str {
+        match self {
+            Self::Hairlines => "wear: hairlines",
+            Self::Swirls => "wear: swirls of cleaning",
+            Self::Marks => "wear: marks",
+            Self::Gouges => "wear: gouges",
+            Self::Wheel => "wear: polishing wheel",
+            Self::LongStrokes => "wear: long strokes",
+            Self::ShortStrokes => "wear: short strokes",
+            Self::Rings => "wear: rings of a cloth",
+            Self::Scuffs => "wear: scuffs",
+            Self::Digs => "wear: digs",
+        }
+    }
+
+    /// The share of the surface that it covers.
+    fn cover(self, wear: Wear) -> f64 {
+        match (wear, self) {
+            (Wear::Used, Self::Hairlines) => 0.0035,
+            (Wear::Used, Self::Swirls) => 0.0012,
+            (Wear::Worn, Self::Hairlines) => 0.012,
+            (Wear::Worn, Self::Swirls) => 0.006,
+            (Wear::Worn, Self::Marks) => 0.005,
+            (Wear::Old, Self::Hairlines) => 0.028,
+            (Wear::Old, Self::Swirls) => 0.012,
+            (Wear::Old, Self::Marks) => 0.016,
+            (Wear::Old, Self::Gouges) => 0.0022,
+            (Wear::Polished, Self::Wheel) => 0.022,
+            (Wear::Brushed, Self::LongStrokes | Self::ShortStrokes) => 0.03,
+            (Wear::Wiped, Self::Rings) => 0.02,
+            (Wear::Polished | Wear::Brushed | Wear::Wiped, Self::Hairlines) => 0.002,
+            (Wear::Keys, Self::Hairlines | Self::Scuffs) => 0.006,
+            (Wear::Keys, Self::Digs) => 0.0012,
+            _ => 0.0,
+        }
+    }
+
+    /// Its pattern, and the lengths over the diagonal `d` of the object, widths and depths.
+    fn look(self, d: f64) -> (Pattern, [Distribution; 3]) {
+        let drawn = |mean, spread| Distribution { mean, spread };
+        let random = |spread: f64| Pattern::Random {
+            curvature_per_m: drawn(0.0, spread / d),
+        };
+        let swirl = |mean: f64, spread: f64| Pattern::Swirl {
+            curvature_per_m: drawn(mean / d, spread / d),
+        };
+        let along = |direction, jitter_deg| Pattern::Parallel {
+            direction,
+            jitter_deg,
+        };
+        let (pattern, length, width_um, depth_nm) = match self {
+            Self::Hairlines => (random(1.5), (0.1, 0.7), (2.2, 0.15), (130.0, 0.15)),
+            Self::Swirls => (swirl(16.0, 6.0), (0.05, 0.5), (3.0, 0.15), (160.0, 0.12)),
+            Self::Marks => (random(5.0), (0.07, 0.9), (4.5, 0.2), (210.0, 0.15)),
+            Self::Gouges => (random(2.5), (0.16, 0.6), (9.0, 0.3), (330.0, 0.25)),
+            Self::Wheel => (swirl(10.0, 3.0), (0.09, 0.6), (2.4, 0.12), (105.0, 0.1)),
+            Self::LongStrokes => {
+                let pattern = along([1.0, 0.0, 0.0], 0.8);
+                (pattern, (0.6, 0.4), (4.0, 0.12), (140.0, 0.1))
+            }
+            Self::ShortStrokes => {
+                let pattern = along([1.0, 0.0, 0.0], 3.0);
+                (pattern, (0.12, 0.8), (3.0, 0.15), (120.0, 0.12))
+            }
+            Self::Rings => {
+                let pattern = Pattern::Circular(Around {
+                    jitter_deg: 6.0,
+                    ..Around::default()
+                });
+                (pattern, (0.3, 0.5), (5.0, 0.1), (130.0, 0.1))
+            }
+            Self::Scuffs => {
+                let pattern = along([0.8, 0.6, 0.0], 24.0);
+                (pattern, (0.13, 0.7), (7.0, 0.25), (290.0, 0.2))
+            }
+            Self::Digs => (random(8.0), (0.02, 0.8), (10.0, 0.3), (420.0, 0.25)),
+        };
+        let sizes = [(length.0 * d, length.1), width_um, depth_nm];
+        (pattern, sizes.map(|(mean, spread)| drawn(mean, spread)))
+    }
+
+    /// The layer for an object of this diagonal; none where there is nothing of its kind.
+    fn layer(self, wear: Wear, object: &str, diagonal_m: f64) -> Option<Scratches> {
+        let cover = self.cover(wear);
+        let (pattern, sizes) = self.look(diagonal_m);
+        let [length_m, width_um, _] = sizes;
+        let count = count(cover, length_m.mean, width_um.mean, diagonal_m);
+        let layer = Layer::Laid(Laid {
+            seed: 0x57 + self as u64,
+            ..Laid::new(pattern, Amount::Count(count), sizes)
+        });
+        (cover > 0.0).then(|| Scratches {
+            name: Some(self.name().to_owned()),
+            ..Scratches::new(object, layer)
+        })
+    }
+}
+
+impl Wear {
+    /// Every grade from new to old, then what finishing and other use leave.
+    pub const ALL: [Self; 8] = [
+        Self::New,
+        Self::Used,
+        Self::Worn,
+        Self::Old,
+        Self::Polished,
+        Self::Brushed,
+        Self::Wiped,
+        Self::Keys,
+    ];
+
+    /// What a control calls it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::New => "New",
+            Self::Used => "Used",
+            Self::Worn => "Worn",
+            Self::Old => "Old",
+            Self::Polished => "Polished",
+            Self::Brushed => "Brushed",
+            Self::Wiped => "Wiped",
+            Self::Keys => "Keys",
+        }
+    }
+
+    /// What it looks like.
+    pub fn tooltip(self) -> &'static str {
+        match self {
+            Self::New => "As it was made: the layers of wear are removed, all others stay.",
+            Self::Used => "Some fine scratches, as of a few months of care.",
+            Self::Worn => "Many fine scratches, marks and the swirls of cleaning, as of years.",
+            Self::Old => "Dense scratches, marks and a few gouges, as of a life in a kitchen.",
+            Self::Polished => "Shallow arcs of a polishing wheel: a soft bluish cobweb.",
+            Self::Brushed => "Long strokes and short ones along x: each lamp becomes a streak.",
+            Self::Wiped => "Rings of a cloth about the z axis: two coloured fans, as on a pan.",
+            Self::Keys => "Wide scuffs that lean one way, and digs: a pocket with keys.",
+        }
+    }
+
+    /// The layers for an object whose bounding box has this diagonal.
+    pub fn layers(self, object: &str, diagonal_m: f64) -> Vec<Scratches> {
+        let d = fitting(diagonal_m);
+        let layers = Kind::ALL.map(|kind| kind.layer(self, object, d));
+        layers.into_iter().flatten().collect()
+    }
+}
+
+/// Whether a layer is one of wear, by its name.
+pub fn is_wear(layer: &Scratches) -> bool {
+    let name = layer.name.as_deref();
+    Kind::ALL.iter().any(|kind| name == Some(kind.name()))
+}
+
+/// The number of scratches that cover a share of an object: its area is taken to be half its diagonal's square, between a
+/// disk's 0.4 and a sphere's 1. Two digits, and no more than stay quick to edit.
+pub fn count(cover: f64, length_m: f64, width_um: f64, diagonal_m: f64) -> u64 {
+    const MOST: f64 = 100_000.0;
+    let count = cover * 0.5 * diagonal_m * diagonal_m / (length_m * width_um * 1e-6);
+    let count = count.clamp(1.0, MOST);
+    let digit = 10_f64.powf(count.log10().floor() - 1.0).max(1.0);
+    ((count / digit).round() * digit) as u64
+}
+
+/// A size that presets can be fitted to.
+pub fn fitting(size_m: f64) -> f64 {
+    match size_m.is_finite() {
+        true => size_m.clamp(0.01, 100.0),
+        false => 0.2,
+    }
+}
