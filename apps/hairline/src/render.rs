@@ -131,7 +131,7 @@ fn single(arguments: &cli::Render) -> Result<Output, Failure> {
 /// The ways of light: what is asked for, else the default.
 fn transport(arguments: &cli::Render, method: &Method) -> Result<Transport, Failure> {
     let shadows = arguments.shadows.map(|switch| switch == Switch::On);
-    backend::transport(method, arguments.backend.into(), shadows, arguments.bounces)
+    backend::transport(method, shadows, arguments.bounces)
         .map_err(|refusal| refused(arguments.bounces, refusal))
 }
 
@@ -144,9 +144,6 @@ fn refused(bounces: Option<u32>, refusal: Refusal) -> Failure {
         Refusal::ShadowsOfPublished => anyhow!(
             "--shadows on: the published method has no shadows; leave out --method published"
         ),
-        Refusal::BouncesOnGpu => {
-            anyhow!("--bounces {bounces}: the GPU renderer has no bounces; leave out --backend gpu")
-        }
     })
 }
 

@@ -207,7 +207,7 @@ impl<'a> Work<'a> {
         let key = SurfaceKey::new(&object, self.base_dir, DVec3::Z);
         let surface = match self.old.surface(&key) {
             Some(kept) => kept,
-            None => Arc::new(KeptSurface::read(key, &object, "ground", 0.0)?),
+            None => Arc::new(KeptSurface::read(self.loader, key, &object, "ground", 0.0)?),
         };
         let surface = surface.with_materials_from(scene.materials.len() as u32);
         scene.materials.push(convert::material(&material));

@@ -40,7 +40,7 @@ pub struct Task {
     pub backend: Backend,
     /// For each pixel on an edge.
     pub samples: u32,
-    /// The ways of light; the CPU renderer alone counts bounces.
+    /// The ways of light.
     pub transport: Transport,
     /// Whether what few rays found is spread over the pixels around ([`spread_fireflies`]).
     pub spreads_fireflies: bool,
@@ -63,17 +63,14 @@ pub enum Refusal {
     BouncesWithoutShadows,
     /// The published method has none.
     ShadowsOfPublished,
-    /// The GPU renderer has none.
-    BouncesOnGpu,
 }
 
-/// The ways of light that are asked for; where nothing is, the default as far as method and backend have it.
+/// The ways of light that are asked for; where nothing is, the default as far as the method has it.
 ///
 /// # Errors
 /// Why no renderer does what is asked for.
 pub fn transport(
     method: &Method,
-    backend: Backend,
     shadows: Option<bool>,
     bounces: Option<u32>,
 ) -> Result<Transport, Refusal> {
@@ -87,16 +84,9 @@ pub fn transport(
             Some(_) => Err(Refusal::BouncesWithoutShadows),
         };
     }
-    let has_bounces = backend != Backend::Gpu;
-    let bounces = match bounces {
-        Some(1..) if !has_bounces => return Err(Refusal::BouncesOnGpu),
-        Some(bounces) => bounces,
-        None if has_bounces => DEFAULT_TRANSPORT.bounces,
-        None => 0,
-    };
     Ok(Transport {
         shadows: true,
-        bounces,
+        bounces: bounces.unwrap_or(DEFAULT_TRANSPORT.bounces),
     })
 }
 
@@ -152,9 +142,6 @@ impl<'a> Painter<'a> {
                 let gpu = open().map_err(advise)?;
                 announce_gpu(&gpu, "as asked", listener);
                 On::on_gpu(&gpu, scene, &task, listener).map_err(advise)?
-            }
-            Backend::Auto if task.transport.bounces > 0 => {
-                On::on_cpu(scene, &task.method, "light bounces there alone", listener)
             }
             Backend::Auto => On::best(scene, &task, listener),
         };
@@ -315,8 +302,14 @@ impl<'a> On<'a> {
         let rebuild = |watch: &Watch| ScratchIndex::rebuild(scene, None, watch);
         let sort = || Arc::new(sorted(listener, rebuild));
         let (scratches, tables) = rayon::join(sort, || ScratchTables::new(scene));
-        let shadows = task.transport.shadows;
-        let on = OnGpu::new(gpu, scene, &scratches, &tables, &task.method, shadows)?;
+        let on = OnGpu::new(
+            gpu,
+            scene,
+            &scratches,
+            &tables,
+            &task.method,
+            task.transport,
+        )?;
         Ok(Self::Gpu(Box::new(on)))
     }
 

@@ -7,7 +7,7 @@ use hairline_gpu::{Error, Gpu, GpuScene, RenderOptions, Renderer};
 use hairline_image::{Batch, Image};
 use hairline_index::ScratchIndex;
 use hairline_index::method::Method;
-use hairline_scene::{Scene, ScratchTables};
+use hairline_scene::{Scene, ScratchTables, Transport};
 
 /// A renderer with its shaders compiled and the scene uploaded.
 pub(super) struct OnGpu {
@@ -16,20 +16,20 @@ pub(super) struct OnGpu {
 }
 
 impl OnGpu {
-    /// Compiles and uploads.
+    /// Compiles and uploads. Only with shadows light bounces.
     pub(super) fn new(
         gpu: &Gpu,
         scene: &Scene,
         scratches: &Arc<ScratchIndex>,
         tables: &ScratchTables,
         method: &Method,
-        shadows: bool,
+        Transport { shadows, bounces }: Transport,
     ) -> Result<Self, Error> {
         gpu.block_on(async {
             let mut renderer = Renderer::new(gpu).await?;
             let mut uploaded = renderer.upload(scene, scratches, tables, method).await?;
             if shadows {
-                renderer.add_shadows(&mut uploaded, scene).await?;
+                renderer.add_shadows(&mut uploaded, scene, bounces).await?;
             }
             Ok(Self { renderer, uploaded })
         })
