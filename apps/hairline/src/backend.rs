@@ -9,10 +9,10 @@ use std::sync::Arc;
 use anyhow::anyhow;
 use hairline_cpu::closed_form::{self, Prepared};
 use hairline_gpu::{AdapterKind, AdapterRequest, Gpu, headless};
-use hairline_image::Image;
+use hairline_image::{Batch, Batches, Image};
 use hairline_index::method::{Method, Structure};
 use hairline_index::{ScratchIndex, Watch};
-use hairline_scene::{Scene, ScratchTables};
+use hairline_scene::{Scene, ScratchTables, Transport};
 
 use crate::cli::Backend;
 use crate::console::tell;
@@ -30,10 +30,17 @@ pub struct Task {
     pub backend: Backend,
     /// For each pixel on an edge.
     pub samples: u32,
-    /// Whether objects hide lights from one another.
-    pub shadows: bool,
-    /// Objects that light may go by besides the one that is seen; the CPU renderer alone counts them.
-    pub bounces: u32,
+    /// The ways of light; the CPU renderer alone counts bounces.
+    pub transport: Transport,
+}
+
+/// A picture that was rendered.
+pub struct Rendered {
+    pub image: Image,
+    /// That each pixel has, of shadows, or where it has an edge.
+    pub samples: u32,
+    /// Fewer of them are there if it was stopped.
+    pub wanted: u32,
 }
 
 /// A renderer that holds a scene with its trees and tables, for one picture or many.
@@ -62,7 +69,7 @@ impl<'a> Painter<'a> {
                 announce_gpu(&gpu, "as asked");
                 On::on_gpu(&gpu, scene, &task).map_err(advise)?
             }
-            Backend::Auto if task.bounces > 0 => {
+            Backend::Auto if task.transport.bounces > 0 => {
                 On::on_cpu(scene, &task.method, "light bounces there alone")
             }
             Backend::Auto => On::best(scene, &task),
@@ -71,32 +78,73 @@ impl<'a> Painter<'a> {
     }
 
     /// Renders `scene`, which is the one that this was opened with but for its camera. What fails on a graphics adapter that was
-    /// not asked for is done on the CPU, from then on.
+    /// not asked for is done on the CPU, from then on. Shadows add up in batches of samples: once `is_stopped` says so there will be no
+    /// further one, and the picture is that of the batches before.
     ///
     /// # Errors
-    /// [`Failure::Work`] where the GPU that was asked for fails.
+    /// [`Failure::Work`] where the GPU that was asked for fails, and where it is stopped before the first batch is there.
     pub fn render(
         &mut self,
         scene: &Scene,
+        is_stopped: &(dyn Fn() -> bool + Sync),
         progress: &(dyn Fn(f64) + Sync),
-    ) -> Result<Image, Failure> {
-        let Task {
-            method,
-            samples,
-            shadows,
-            bounces,
-            ..
-        } = self.task;
-        let rows = 0..scene.render.size_px[1];
-        let on_gpu = |on: &mut OnGpu| on.render_rows(scene, samples, rows, &|at| progress(at));
-        self.paint(on_gpu, |prepared| {
-            let options = closed_form::RenderOptions {
+    ) -> Result<Rendered, Failure> {
+        if !self.task.transport.shadows {
+            let samples = self.task.samples;
+            let image = self.render_batch(scene, samples, None, &|| false, progress)?;
+            let image = image.unwrap_or_else(|| unreachable!("nobody stops it"));
+            return Ok(Rendered {
+                image,
                 samples,
-                shadows,
-                bounces,
-                method,
-            };
-            prepared.with_scene(scene).render(&options, progress)
+                wanted: samples,
+            });
+        }
+        let mut batches = Batches::new(self.task.samples);
+        let wanted = batches.samples();
+        batches.fill(progress, |batch, progress| {
+            self.render_batch(scene, wanted, Some(batch), is_stopped, progress)
+        })?;
+        let samples = batches.done();
+        let image = batches.into_image().ok_or_else(|| {
+            Failure::Work(anyhow!(
+                "interrupted before the first samples were done; there is nothing to write"
+            ))
+        })?;
+        Ok(Rendered {
+            image,
+            samples,
+            wanted,
+        })
+    }
+
+    /// None if it was stopped.
+    fn render_batch(
+        &mut self,
+        scene: &Scene,
+        samples: u32,
+        batch: Option<Batch>,
+        is_stopped: &(dyn Fn() -> bool + Sync),
+        progress: &(dyn Fn(f64) + Sync),
+    ) -> Result<Option<Image>, Failure> {
+        if is_stopped() {
+            return Ok(None);
+        }
+        let rows = 0..scene.render.size_px[1];
+        let options = closed_form::RenderOptions {
+            samples,
+            batch,
+            shadows: self.task.transport.shadows,
+            bounces: self.task.transport.bounces,
+            method: self.task.method,
+        };
+        let on_gpu = |on: &mut OnGpu| {
+            let image = on.render_rows(scene, samples, batch, rows.clone(), &|at| progress(at))?;
+            Ok(Some(image))
+        };
+        self.paint(on_gpu, |prepared| {
+            let prepared = prepared.with_scene(scene);
+            let rendered = prepared.render_unless(is_stopped, &options, rows.clone(), progress)?;
+            Some(rendered.0)
         })
     }
 
@@ -111,13 +159,14 @@ impl<'a> Painter<'a> {
     ) -> Result<Image, Failure> {
         let options = closed_form::RenderOptions {
             samples: 1,
-            shadows: self.task.shadows,
-            bounces: self.task.bounces,
+            batch: None,
+            shadows: self.task.transport.shadows,
+            bounces: self.task.transport.bounces,
             method: self.task.method,
         };
         let on_gpu = |on: &mut OnGpu| {
             let mut rows = |large: &Scene, rows, told: &(dyn Fn(f64) + Sync)| {
-                on.render_rows(large, 1, rows, &|at| told(at))
+                on.render_rows(large, 1, None, rows, &|at| told(at))
             };
             fine::render(scene, &mut rows, progress)
         };
@@ -130,14 +179,14 @@ impl<'a> Painter<'a> {
         })
     }
 
-    fn paint(
+    fn paint<T>(
         &mut self,
-        on_gpu: impl FnOnce(&mut OnGpu) -> Result<Image, hairline_gpu::Error>,
-        on_cpu: impl FnOnce(&Prepared) -> Image,
-    ) -> Result<Image, Failure> {
+        on_gpu: impl FnOnce(&mut OnGpu) -> Result<T, hairline_gpu::Error>,
+        on_cpu: impl FnOnce(&Prepared) -> T,
+    ) -> Result<T, Failure> {
         if let On::Gpu(ready) = &mut self.on {
             match on_gpu(ready) {
-                Ok(image) => return Ok(image),
+                Ok(done) => return Ok(done),
                 Err(error) if self.task.backend == Backend::Gpu => return Err(advise(error)),
                 Err(error) => {
                     warn_of(ready.gpu(), &error);
@@ -161,10 +210,8 @@ impl<'a> On<'a> {
     fn on_gpu(gpu: &Gpu, scene: &Scene, task: &Task) -> Result<Self, hairline_gpu::Error> {
         let sort = || Arc::new(sorted(|watch| ScratchIndex::rebuild(scene, None, watch)));
         let (scratches, tables) = rayon::join(sort, || ScratchTables::new(scene));
-        let Task {
-            method, shadows, ..
-        } = task;
-        let on = OnGpu::new(gpu, scene, &scratches, &tables, method, *shadows)?;
+        let shadows = task.transport.shadows;
+        let on = OnGpu::new(gpu, scene, &scratches, &tables, &task.method, shadows)?;
         Ok(Self::Gpu(Box::new(on)))
     }
 

@@ -96,15 +96,17 @@ pub struct Render {
     /// Width and height in pixels, in place of the scene's.
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub size: Option<[u32; 2]>,
-    /// Samples for each pixel that has an edge or a crease in it; elsewhere one is enough.
+    /// Samples for each pixel that has an edge or a crease in it; elsewhere one is enough. With shadows also the rays to each light from every
+    /// pixel: they add up, and Ctrl-C ends with the picture of those that are done. More than 4 are rounded up to multiples of 4.
     #[arg(long, value_name = "N", default_value_t = DEFAULT_SAMPLES, value_parser = clap::value_parser!(u32).range(1..=1024))]
     pub samples: u32,
     /// Whether objects hide lights and the environment from one another: as many rays to each light as there are samples.
-    #[arg(long, value_enum, default_value_t = Switch::Off)]
-    pub shadows: Switch,
-    /// Objects that light may go by on its way besides the one that is seen, with `--shadows on`, on the CPU.
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=64))]
-    pub bounces: u32,
+    /// [default: off]
+    #[arg(long, value_enum)]
+    pub shadows: Option<Switch>,
+    /// Objects that light may go by on its way besides the one that is seen, with shadows, on the CPU. [default: 0]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=64))]
+    pub bounces: Option<u32>,
     /// Other scratches of the same kinds: added to the seed of each layer.
     #[arg(
         long,

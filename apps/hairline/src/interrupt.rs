@@ -3,8 +3,16 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use anyhow::anyhow;
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag;
+
+use crate::failure::Failure;
+
+/// The failure where the system refuses.
+pub fn cannot_listen(error: std::io::Error) -> Failure {
+    Failure::Work(anyhow!("cannot listen for Ctrl-C: {error}"))
+}
 
 /// Whether the user wants the work to stop.
 #[derive(Clone, Debug, Default)]

@@ -14,7 +14,7 @@ use hairline_reference::{BATCH_SAMPLES, Integrator, Model, Settings};
 use crate::cli;
 use crate::console::tell;
 use crate::failure::Failure;
-use crate::interrupt::Interrupt;
+use crate::interrupt::{Interrupt, cannot_listen};
 use crate::scene_file::{self, Overrides};
 use crate::switch::Switch;
 use sampling::{Count, End, Limits};
@@ -78,8 +78,7 @@ pub fn run(arguments: &cli::Reference) -> Result<(), Failure> {
         (None, _) => "from the start".to_owned(),
     };
     // From here on there is something to lose.
-    let interrupt = Interrupt::listen()
-        .map_err(|error| Failure::Work(anyhow!("cannot listen for Ctrl-C: {error}")))?;
+    let interrupt = Interrupt::listen().map_err(cannot_listen)?;
     tell(format_args!(
         "{}: {from}",
         announcement(arguments, &settings, &limits)

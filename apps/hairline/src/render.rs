@@ -11,10 +11,13 @@ use anyhow::anyhow;
 use hairline_image::exr_file::Notes;
 use hairline_image::{Animation, Display, Image, Output};
 use hairline_index::method::Method;
+use hairline_scene::{DEFAULT_TRANSPORT, Transport};
 
-use crate::backend::{Painter, Task};
+use crate::backend::{Painter, Rendered, Task};
 use crate::cli::Backend;
+use crate::console::tell;
 use crate::failure::Failure;
+use crate::interrupt::{Interrupt, cannot_listen};
 use crate::progress::Progress;
 use crate::scene_file::{self, Overrides};
 use crate::switch::Switch;
@@ -25,7 +28,7 @@ use motion::Motion;
 /// Loads, renders and writes.
 pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
     let method = arguments.method.method()?;
-    let shadows = shadows(arguments, &method)?;
+    let transport = transport(arguments, &method)?;
     let motion = Motion::of(&arguments.sequence)?;
     // Before the work: nobody should wait for a picture that then has no place to go.
     let target = match &motion {
@@ -48,30 +51,46 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
         exposure_ev: scene.camera.exposure_ev,
         tone_map: scene.render.tone_map,
     };
-    let write = |output: &Output, image: &Image| -> Result<(), Failure> {
-        Ok(output.write_image_with_notes(
-            image,
-            &display,
-            &notes(&method, shadows, arguments.bounces),
-        )?)
+    let notes = notes(&method, transport);
+    let write = |output: &Output, image: &Image, notes: &Notes| -> Result<(), Failure> {
+        Ok(output.write_image_with_notes(image, &display, notes)?)
     };
     let task = Task {
         method,
         backend: arguments.backend,
         samples: arguments.samples,
-        shadows,
-        bounces: arguments.bounces,
+        transport,
     };
     let mut painter = Painter::open(scene, task)?;
     match target {
         Target::One(output) => {
+            let interrupt = match transport.shadows {
+                true => Interrupt::listen().map_err(cannot_listen)?,
+                false => Interrupt::default(),
+            };
             let progress = Progress::start("rendering");
-            let image = painter.render(scene, &|share| progress.set(share))?;
+            let is_stopped = || interrupt.is_asked();
+            let rendered = painter.render(scene, &is_stopped, &|share| progress.set(share))?;
             drop(progress);
-            write(&output, &image)
+            let Rendered {
+                image,
+                samples,
+                wanted,
+            } = rendered;
+            if samples == wanted {
+                return write(&output, &image, &notes);
+            }
+            let so_far = format!("{samples} of {wanted}");
+            let mut notes = notes;
+            notes.insert("samples".to_owned(), so_far.clone());
+            write(&output, &image, &notes)?;
+            let name = output.path().display();
+            tell(format_args!("interrupted: {name} has {so_far} samples"));
+            Ok(())
         }
         Target::Many(motion, goals) => {
             let stability = arguments.sequence.stability;
+            let write = |output: &Output, image: &Image| write(output, image, &notes);
             sequence::run(&loaded, motion, &goals, stability, &mut painter, &write)
         }
     }
@@ -109,33 +128,46 @@ fn single(arguments: &cli::Render) -> Result<Output, Failure> {
     Ok(Output::check(&path)?)
 }
 
-/// Whether there are shadows.
-fn shadows(arguments: &cli::Render, method: &Method) -> Result<bool, Failure> {
+/// The ways of light: what is asked for, else the default as far as method and backend have it.
+fn transport(arguments: &cli::Render, method: &Method) -> Result<Transport, Failure> {
     let refuse = |why: &str| Err(Failure::Input(anyhow!("{why}")));
-    let bounces = arguments.bounces;
-    if arguments.shadows == Switch::Off {
-        if bounces > 0 {
-            return refuse(&format!(
-                "--bounces {bounces}: without shadows the light that an object hides would be counted beside its own; add --shadows on"
-            ));
-        }
-        return Ok(false);
-    }
-    if method.published.is_some() {
+    let asked = arguments.shadows.map(|switch| switch == Switch::On);
+    if method.published.is_some() && asked == Some(true) {
         return refuse(
             "--shadows on: the published method has no shadows; leave out --method published",
         );
     }
-    if bounces > 0 && arguments.backend == Backend::Gpu {
+    let is_default = DEFAULT_TRANSPORT.shadows && method.published.is_none();
+    let asked_bounces = arguments.bounces.filter(|&bounces| bounces > 0);
+    if !asked.unwrap_or(is_default) {
+        return match asked_bounces {
+            None => Ok(Transport::DIRECT),
+            Some(bounces) => refuse(&format!(
+                "--bounces {bounces}: without shadows the light that an object hides would be counted beside its own; add --shadows on"
+            )),
+        };
+    }
+    let has_bounces = arguments.backend != Backend::Gpu;
+    if let Some(bounces) = asked_bounces
+        && !has_bounces
+    {
         return refuse(&format!(
             "--bounces {bounces}: the GPU renderer has no bounces; leave out --backend gpu"
         ));
     }
-    Ok(true)
+    let default = if has_bounces {
+        DEFAULT_TRANSPORT.bounces
+    } else {
+        0
+    };
+    Ok(Transport {
+        shadows: true,
+        bounces: arguments.bounces.unwrap_or(default),
+    })
 }
 
 /// What of how a picture was made is not the default.
-fn notes(method: &Method, shadows: bool, bounces: u32) -> Notes {
+fn notes(method: &Method, Transport { shadows, bounces }: Transport) -> Notes {
     let mut notes = Notes::new();
     if shadows {
         notes.insert("shadows".to_owned(), "on".to_owned());

@@ -9,7 +9,7 @@ use hairline_scene::Description;
 use crate::cli;
 use crate::console::tell;
 use crate::failure::Failure;
-use crate::interrupt::Interrupt;
+use crate::interrupt::{Interrupt, cannot_listen};
 use crate::render;
 
 /// How often the files are looked at. An editor that saves in several steps is done in this time.
@@ -26,8 +26,7 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
             "--watch needs the path of a scene: there is no file that could change"
         )));
     };
-    let interrupt = Interrupt::listen()
-        .map_err(|error| Failure::Work(anyhow!("cannot listen for Ctrl-C: {error}")))?;
+    let interrupt = Interrupt::listen().map_err(cannot_listen)?;
     while !interrupt.is_asked() {
         // Before it is read: a change meanwhile is seen.
         let before = Stamps::of(scene);

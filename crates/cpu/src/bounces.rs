@@ -6,7 +6,7 @@ use crate::light_view::LightViews;
 use crate::project::Projected;
 use crate::resolve::Sample;
 use crate::shade_scratches::{Picks, ScratchPoint, ScratchShader};
-use crate::shadows::{ShadowPoint, Shadows};
+use crate::shadows::{Rounds, ShadowPoint, Shadows};
 use crate::surface::{SurfacePoint, surface_point};
 use glam::{DVec2, DVec3};
 use hairline_index::Hit;
@@ -42,6 +42,7 @@ impl Shadows<'_> {
         point.footprint_axes_m = across(point.normal, scratches_m);
         let mut views = LightViews::new(scene);
         views.look_from(&point);
+        let ray = 2 * at.rounds.now.first + ray;
         let seed = (at.seed ^ ray.wrapping_mul(0x9e37_79b9)).wrapping_mul(0x85eb_ca6b) ^ at.depth;
         let mut sums = [ScratchSums::default()];
         let mut picks = [Picks::new()];
@@ -56,7 +57,7 @@ impl Shadows<'_> {
             object: hit.object,
             pixel: None,
             views: &views,
-            rounds: 1,
+            rounds: Rounds::all(1),
             seed,
             depth: at.depth + 1,
         };

@@ -19,6 +19,7 @@ use crate::shade_base::{Base, BaseRadiance};
 use crate::shade_scratches::{DrawnLight, Frame, Pick, Picks, ScratchLight, SourcePicks};
 use crate::surface::{SurfacePoint, raised_m};
 use glam::{DVec2, DVec3};
+use hairline_image::Batch;
 use hairline_index::Hit;
 use hairline_optics::band::{Along, BandPlace};
 use hairline_optics::fresnel::{FresnelRgb, half_vector_cos};
@@ -64,11 +65,30 @@ pub(crate) struct ShadowPoint<'p, 'a> {
     /// None where it is not the camera that sees the point.
     pub pixel: Option<PixelFilter<'p>>,
     pub views: &'p LightViews<'a>,
-    /// Rays for each source; for a sharp edge of a shadow their number is that of the picture's samples.
-    pub rounds: u32,
+    /// Rays for each source.
+    pub rounds: Rounds,
     pub seed: u32,
     /// How many other objects its light goes by on its way to the camera.
     pub depth: u32,
+}
+
+/// Rays for each source; for a sharp edge of a shadow their number is that of the picture's samples.
+#[derive(Clone, Copy)]
+pub(crate) struct Rounds {
+    /// Those that are cast now. The first of them is an even one.
+    pub now: Batch,
+    /// How many there will be.
+    pub all: u32,
+}
+
+impl Rounds {
+    /// All at once.
+    pub fn all(rounds: u32) -> Self {
+        Self {
+            now: Batch::all(rounds),
+            all: rounds,
+        }
+    }
 }
 
 /// What of the surface a pixel averages.
@@ -162,7 +182,7 @@ impl<'a> Shadows<'a> {
             .collect();
         let lobes = Lobes::new(&base, at.point);
         let mut by_objects = BaseRadiance::default();
-        for round in 0..at.rounds {
+        for round in 0..at.rounds.now.count {
             let drawn = self.add_round(at, &lobes, round, &mut sources);
             let Some(DrawnRay {
                 wi,
@@ -173,12 +193,13 @@ impl<'a> Shadows<'a> {
             else {
                 continue;
             };
-            let each_sr = 1.0 / (f64::from(at.rounds) * lobes.pdf(wi));
+            let each_sr = 1.0 / (f64::from(at.rounds.all) * lobes.pdf(wi));
             if let Some(radiance) =
-                self.light_of_object(at, round, origin_m, direction, hit, each_sr)
+                self.light_of_object(at, 2 * round, origin_m, direction, hit, each_sr)
             {
                 let sent = base.of_area(lobes.eval(wi));
-                by_objects = by_objects + sent.times(radiance * each_sr);
+                let weight = 1.0 / (f64::from(at.rounds.now.count) * lobes.pdf(wi));
+                by_objects = by_objects + sent.times(radiance * weight);
             }
         }
         let of_sources = sources.iter().map(BaseSource::resolve);
@@ -368,13 +389,14 @@ impl<'a> Shadows<'a> {
             let on_surface_m = self.on_scratch(at, set, round, pick.place, &pick.along);
             let origin_m = self.off_the_surface(point, on_surface_m, direction);
             let hit = self.prepared.triangles.intersect(origin_m, direction);
-            let ray = at.rounds + round;
-            if let Some(radiance) = self.light_of_object(at, ray, origin_m, direction, hit, 0.0) {
+            if let Some(radiance) =
+                self.light_of_object(at, 2 * round + 1, origin_m, direction, hit, 0.0)
+            {
                 let weight = pick.radiance * color * (source.luminance / luminance(pick.radiance));
                 sum += weight * radiance;
             }
         }
-        sum / f64::from(at.rounds)
+        sum / f64::from(at.rounds.now.count)
     }
 
     /// A place on a scratch, drawn by what the pixel sees of it.
@@ -445,6 +467,7 @@ impl ShadowPoint<'_, '_> {
     /// Four numbers in (0, 1), even over the even rounds and over the odd ones.
     fn random(&self, purpose: Purpose, round: u32) -> [f64; 4] {
         // Even and odd rounds are halves that guess for each other ([`Halves`]): neither may know of the other's numbers.
+        let round = self.rounds.now.first + round;
         let half = (round % 2).wrapping_mul(0x68e3_1da4);
         let seed = self.seed ^ purpose.set().wrapping_mul(0x9e37_79b9) ^ half;
         let numbers = sobol_burley::sample_4d(round / 2, 0, seed);

@@ -10,12 +10,12 @@ use crate::published::Published;
 use crate::resolve::{Pixel, Sample};
 use crate::shade_base::Base;
 use crate::shade_scratches::{BATCH, Picks, ScratchPoint, ScratchShader};
-use crate::shadows::{PixelFilter, ShadowPoint, Shadows};
+use crate::shadows::{PixelFilter, Rounds, ShadowPoint, Shadows};
 use crate::silhouettes::is_smooth;
 use crate::surface::{SurfacePoint, surface_point};
 use crate::visibility::{Visibility, center};
 use glam::{DVec2, DVec3};
-use hairline_image::Image;
+use hairline_image::{Batch, Image};
 use hairline_index::Hit;
 use hairline_optics::ltc::ltc_sphere;
 use hairline_optics::mask::ScratchSums;
@@ -59,7 +59,7 @@ struct Point<'a> {
     /// Of its filter.
     std_px: f64,
     /// Rays to each light.
-    rounds: u32,
+    rounds: Rounds,
     seen: Seen<'a>,
 }
 
@@ -168,7 +168,7 @@ impl<'a> Tile<'a> {
             self.add(column, row, pixel, center(x, y), 1, hit);
             return;
         }
-        for sample in 0..samples {
+        for sample in picture.options.batch().range() {
             let at_px = center(x, y) + pixel_jitter(sample, samples);
             let camera = &picture.camera;
             let direction = camera.camera_ray(at_px).normalize();
@@ -192,11 +192,14 @@ impl<'a> Tile<'a> {
             self.shade(column, row);
         }
         let seen = self.picture.surface(at_px, samples, hit);
-        // A pixel without an edge has one sample. Two rays at least: one half of them guesses for the other.
-        let rounds = match (self.picture.options.samples, samples) {
-            (0 | 1, _) => 1,
-            (all, 1) => all,
-            _ => 2,
+        // A pixel without an edge has one sample, and the rays of all. Two rays at least: one half of them guesses for the other.
+        let options = &self.picture.options;
+        let rounds = match samples {
+            1 => Rounds {
+                now: options.batch(),
+                all: options.samples.max(1),
+            },
+            _ => Rounds::all(2),
         };
         self.batch.push(Point {
             pixel,
@@ -223,7 +226,9 @@ impl<'a> Tile<'a> {
         if let (Some(picks), Some(shadows)) = (&mut self.picks, &self.picture.shadows) {
             for ((point, views), picks) in self.batch.iter().zip(&self.views).zip(picks) {
                 let sources = shadows.sources(views, 0);
-                picks.clear(sources, point.rounds, u64::from(point.seed()));
+                let Batch { first, count } = point.rounds.now;
+                let seed = u64::from(first) << 32 | u64::from(point.seed());
+                picks.clear(sources, count, seed);
             }
         }
         if let By::Tiles(lists) = &self.picture.by {

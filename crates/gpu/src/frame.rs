@@ -3,10 +3,12 @@
 use std::ops::Range;
 
 use glam::DVec3;
+use hairline_image::Batch;
 use hairline_scene::camera::pixel_jitter;
 use hairline_scene::{Environment, Scene};
 
 use crate::layout::{ENVIRONMENT_PRESENT, ENVIRONMENT_VISIBLE, Frame};
+use crate::shadows::Shadows;
 use crate::upload::GpuScene;
 
 /// Nearer surfaces are not drawn. With reversed floating-point depth a near plane this near costs no precision, and no
@@ -23,6 +25,11 @@ pub(crate) struct View<'a> {
     pub step: u32,
     /// Of pixels on edges.
     pub samples: u32,
+    /// Those of them that are taken.
+    pub batch: Batch,
+    /// Whether the film has batches already.
+    pub adds: bool,
+    pub without_shadows: bool,
 }
 
 /// Samples of a pixel that one step shades: more would take more memory than pixels through their centres.
@@ -34,19 +41,26 @@ impl View<'_> {
         match self.step {
             0 => 0..1,
             _ => {
-                let first = (self.step - 1) * SAMPLES_AT_ONCE;
-                first..(first + SAMPLES_AT_ONCE).min(self.samples)
+                let Range { start, end } = self.batch.range();
+                let first = start + (self.step - 1) * SAMPLES_AT_ONCE;
+                first..(first + SAMPLES_AT_ONCE).min(end)
             }
         }
     }
 }
 
 impl View<'_> {
+    /// Shadows of the scene, where it has some that are wanted.
+    pub(crate) fn shadows(&self) -> Option<&Shadows> {
+        let shadows = self.uploaded.shadows.as_ref();
+        shadows.filter(|_| !self.without_shadows)
+    }
+
     /// Rays of each sample to each source. A pixel without an edge has one sample; of several, each has two rays: one guesses for the other.
-    pub(crate) fn rounds(&self) -> u32 {
+    pub(crate) fn rounds(&self) -> Batch {
         match self.step {
-            0 => self.samples.max(1),
-            _ => 2,
+            0 => self.batch,
+            _ => Batch::all(2),
         }
     }
 }
@@ -74,6 +88,8 @@ pub(crate) fn frame(
         size_px,
         step,
         samples,
+        adds,
+        ..
     } = *view;
     let camera = scene.camera.frame(size_px);
     let environment = scene.environment.as_ref();
@@ -109,7 +125,7 @@ pub(crate) fn frame(
         entry_count: counted.entries,
         object_count: scene.objects.len() as u32,
         group_count: counted.groups,
-        pad_1: 0,
+        adds: adds.into(),
     }
 }
 

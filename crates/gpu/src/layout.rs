@@ -68,7 +68,7 @@ shared! {
         entry_count: u32,
         object_count: u32,
         group_count: u32,
-        pad_1: u32,
+        adds: u32,
     }
     /// A corner of a triangle.
     Vertex {
@@ -187,6 +187,7 @@ shared! {
         round: u32,
         rounds: u32,
         extent_m: f32,
+        first_round: u32,
         first_pick: u32,
         picks: u32,
     }

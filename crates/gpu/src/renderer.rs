@@ -5,7 +5,7 @@ use std::collections::hash_map::Entry;
 use std::ops::Range;
 use std::sync::Arc;
 
-use hairline_image::{Display, Image};
+use hairline_image::{Batch, Display, Image};
 use hairline_index::ScratchIndex;
 use hairline_index::method::Method;
 use hairline_scene::{Scene, ScratchTables};
@@ -28,6 +28,11 @@ use crate::upload::GpuScene;
 pub struct RenderOptions {
     /// Jittered samples of a pixel on an edge or a crease; all other pixels, and all of them for 1, take one through the centre.
     pub samples: u32,
+    /// Which of the samples, and of the rays to each light; none: all. The mean of the pictures of all batches, each as large as the
+    /// others and of an even number, is the picture ([`hairline_image::Batches`]).
+    pub batch: Option<Batch>,
+    /// Leaves out the shadows of a scene that has them.
+    pub without_shadows: bool,
     /// Pixels in one submission: few enough that no system takes the device for hung (Windows waits two seconds), many
     /// enough that it is busy.
     pub submission_px: u32,
@@ -37,6 +42,8 @@ impl Default for RenderOptions {
     fn default() -> Self {
         Self {
             samples: 1,
+            batch: None,
+            without_shadows: false,
             submission_px: 1 << 19,
         }
     }
@@ -213,24 +220,29 @@ impl Renderer {
         let height = rows.len() as u32;
         let band = Film::band_rows(&self.gpu, [width, height], options.submission_px);
         let samples = options.samples.max(1);
+        let batch = options.batch.unwrap_or(Batch::all(samples));
+        let steps = steps(batch.count);
         let mut image = Image::new([width, height]);
         for first in (0..height).step_by(band as usize) {
             let in_image = first..(first + band).min(height);
             let in_picture = rows.start + in_image.start..rows.start + in_image.end;
             let (mut room, film) = self.take_band(width, band).await?;
-            for step in 0..steps(samples) {
+            for step in 0..steps {
                 let view = View {
                     scene,
                     uploaded,
                     size_px: scene.render.size_px,
                     step,
                     samples,
+                    batch,
+                    adds: false,
+                    without_shadows: options.without_shadows,
                 };
                 self.strips
                     .shade(&view, &film, &mut room, in_picture.clone())
                     .await?;
                 self.gpu.finished().await?;
-                let in_band = f64::from(step + 1) / f64::from(steps(samples));
+                let in_band = f64::from(step + 1) / f64::from(steps);
                 let done = f64::from(first) + f64::from(in_image.end - first) * in_band;
                 progress(done / f64::from(height));
             }
@@ -249,8 +261,9 @@ impl Renderer {
         Canvas::new(&self.gpu, &self.strips.scans, size_px, submission_px).await
     }
 
-    /// Adds step `step` of the [`steps`] for `samples` to a band of the canvas: 0, which begins anew and shades every pixel, or as many
-    /// as [`Canvas::steps`] says that it has, which refines edges. The picture has the canvas's size, whatever the scene says.
+    /// Adds step `step` of the [`steps`] for the samples, or those of a batch, to a band of the canvas: 0, which shades every pixel, or as
+    /// many as [`Canvas::steps`] says that it has, which refines edges. The first batch begins anew, later ones are added to those before.
+    /// The picture has the canvas's size, whatever the scene says.
     ///
     /// It submits the work and waits only until the tile lists are counted; [`Gpu::finished`] waits for all. Dropped or failed,
     /// it leaves the band to be begun anew.
@@ -267,15 +280,20 @@ impl Renderer {
         canvas: &mut Canvas,
         band: usize,
         step: u32,
-        samples: u32,
+        options: &RenderOptions,
     ) -> Result<(), Error> {
         let (size_px, rows) = (canvas.size_px(), canvas.rows(band));
+        let samples = options.samples.max(1);
+        let batch = options.batch.unwrap_or(Batch::all(samples));
         let view = View {
             scene,
             uploaded,
             size_px,
             step,
             samples,
+            batch,
+            adds: batch.first > 0,
+            without_shadows: options.without_shadows,
         };
         let (film, room) = canvas.begin(band, step);
         self.strips.shade(&view, film, room, rows).await?;

@@ -113,7 +113,7 @@ impl StripShader {
             Some(_) => chunks_most(tiles, entries),
         };
         if !Samples::fit(gpu, points, chunks)
-            || view.uploaded.shadows.is_some() && !ShadowRoom::fit(gpu, points)
+            || view.shadows().is_some() && !ShadowRoom::fit(gpu, points)
         {
             return self.halves(strip).map(Some);
         }
@@ -150,7 +150,7 @@ impl StripShader {
             });
         }
         let shadows = match &passes.shade {
-            Shade::Own { .. } => view.uploaded.shadows.as_ref(),
+            Shade::Own { .. } => view.shadows(),
             Shade::Published(_) => None,
         };
         self.submit(view, |recording| {
@@ -201,8 +201,9 @@ impl StripShader {
         let mut next = ShadowRound {
             source: 0,
             round: 0,
-            rounds: view.rounds(),
+            rounds: view.rounds().count,
             extent_m: shadows.extent_m,
+            first_round: view.rounds().first,
             first_pick: 0,
             picks: 0,
         };

@@ -14,6 +14,7 @@
 #![warn(unreachable_pub)]
 
 mod animation;
+mod batches;
 mod error;
 pub mod exr_file;
 mod film;
@@ -25,6 +26,7 @@ mod temporary;
 pub mod tone_map;
 
 pub use animation::{Animation, FPS_MAX};
+pub use batches::{BATCH_SAMPLES, Batch, Batches, add_batch};
 pub use error::Error;
 pub use exr_file::Notes;
 pub use film::{Image, Layer, Noise, Picture};

@@ -6,7 +6,7 @@ use crate::random::{BATCH_SAMPLES, Purpose, Random};
 use crate::wavelengths::Wavelengths;
 use glam::{DVec2, DVec3};
 use hairline_cpu::surface::surface_point;
-use hairline_image::{Image, Noise};
+use hairline_image::{Image, Noise, add_batch};
 use rayon::prelude::*;
 use spec_math::cephes64::ndtri;
 use std::ops::ControlFlow;
@@ -132,15 +132,20 @@ impl Integrator<'_> {
                         let batch = samples[i] / BATCH_SAMPLES;
                         let light = self.batch(pixel as u64, place, batch);
                         let mut beauty = sum(base[i], scratches[i]);
-                        add_batch(&mut beauty, &mut v_beauty[i], light.total(), batch);
-                        add_batch(&mut base[i], &mut v_base[i], light.base, batch);
+                        add_batch(&mut beauty, &mut v_beauty[i], light.total().into(), batch);
+                        add_batch(&mut base[i], &mut v_base[i], light.base.into(), batch);
                         add_batch(
                             &mut scratches[i],
                             &mut v_scratches[i],
-                            light.scratches,
+                            light.scratches.into(),
                             batch,
                         );
-                        add_batch(&mut density[i], &mut v_density[i], light.density, batch);
+                        add_batch(
+                            &mut density[i],
+                            &mut v_density[i],
+                            light.density.into(),
+                            batch,
+                        );
                         samples[i] = (batch + 1) * BATCH_SAMPLES;
                         report(1);
                     }
@@ -186,23 +191,4 @@ const ROUND_LEAST: Duration = Duration::from_secs(1);
 
 fn sum(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
     std::array::from_fn(|c| a[c] + b[c])
-}
-
-/// Takes a batch's mean into a pixel's mean and into the variance of that mean, `batches` of which came before (B. P. Welford,
-/// *Note on a Method for Calculating Corrected Sums of Squares and Products*, 1962). Both are rounded to what the file
-/// holds after every batch, so that a picture read back goes on as the one in memory.
-fn add_batch(mean: &mut [f32; 3], variance: &mut [f32; 3], batch: DVec3, batches: u32) {
-    let n = f64::from(batches);
-    for c in 0..3 {
-        let before = f64::from(mean[c]);
-        let after = before + (batch[c] - before) / (n + 1.0);
-        let squares =
-            f64::from(variance[c]) * n * (n - 1.0) + (batch[c] - before) * (batch[c] - after);
-        mean[c] = after as f32;
-        variance[c] = if batches > 0 {
-            (squares / (n * (n + 1.0))) as f32
-        } else {
-            0.0
-        };
-    }
 }

@@ -17,6 +17,26 @@ pub use crate::light::{Cone, Light, LightShape};
 /// renderer.
 pub const DEFAULT_SAMPLES: u32 = 8;
 
+/// The ways that light may take besides the direct one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Transport {
+    /// Whether objects hide lights and the environment from one another.
+    pub shadows: bool,
+    /// How many other objects light may go by; only with shadows.
+    pub bounces: u32,
+}
+
+impl Transport {
+    /// No other way: the closed forms alone.
+    pub const DIRECT: Self = Self {
+        shadows: false,
+        bounces: 0,
+    };
+}
+
+/// What `hairline render` and the viewer begin with.
+pub const DEFAULT_TRANSPORT: Transport = Transport::DIRECT;
+
 /// Everything that a picture depends on.
 ///
 /// What is large lies behind an [`Arc`], so a clone costs microseconds: an editor clones a scene, changes what is small (a

@@ -38,6 +38,7 @@ pub(super) fn closed(scene: &Scene, samples: u32, shadows: bool) -> Image {
 pub(super) fn bounced(scene: &Scene, samples: u32, shadows: bool, bounces: u32) -> Image {
     let options = RenderOptions {
         samples,
+        batch: None,
         shadows,
         bounces,
         method: Method {

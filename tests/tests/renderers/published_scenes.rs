@@ -65,8 +65,7 @@ impl<'a> Both<'a> {
         let options = closed_form::RenderOptions {
             samples: 1,
             method,
-            shadows: false,
-            bounces: 0,
+            ..Default::default()
         };
         let cpu = prepared.render(&options, &|_| {});
         let what = format!("{name}, {switches:?}, {mask:?}");

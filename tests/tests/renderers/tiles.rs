@@ -124,8 +124,7 @@ fn masks_for_comparison() {
         let options = closed_form::RenderOptions {
             samples: 1,
             method,
-            shadows: false,
-            bounces: 0,
+            ..Default::default()
         };
         let cpu = closed_form::render(&scene, &options, &|_| {});
         let image = headless::render(gpu, &scene, &method, &RenderOptions::default(), &|_| {});
@@ -161,6 +160,7 @@ fn a_part_is_the_same_as_in_the_whole() {
     let options = RenderOptions {
         samples: SAMPLES,
         submission_px: 10 * 61,
+        ..Default::default()
     };
     let part = gpu.block_on(async {
         let mut renderer = Renderer::new(gpu).await?;

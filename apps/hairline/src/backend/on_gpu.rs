@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use hairline_gpu::{Error, Gpu, GpuScene, RenderOptions, Renderer};
-use hairline_image::Image;
+use hairline_image::{Batch, Image};
 use hairline_index::ScratchIndex;
 use hairline_index::method::Method;
 use hairline_scene::{Scene, ScratchTables};
@@ -45,12 +45,14 @@ impl OnGpu {
         &mut self,
         scene: &Scene,
         samples: u32,
+        batch: Option<Batch>,
         rows: Range<u32>,
         progress: &dyn Fn(f64),
     ) -> Result<Image, Error> {
         let gpu = self.renderer.gpu().clone();
         let options = RenderOptions {
             samples,
+            batch,
             ..Default::default()
         };
         let Self { renderer, uploaded } = self;

@@ -213,7 +213,7 @@ impl GpuWorker {
                 Rows::Whole => {
                     for band in 0..canvas.bands() {
                         renderer
-                            .accumulate(scene, uploaded, canvas, band, 0, 1)
+                            .accumulate(scene, uploaded, canvas, band, 0, &Default::default())
                             .await?;
                     }
                     gpu.finished().await?;

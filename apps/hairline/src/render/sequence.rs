@@ -6,10 +6,10 @@ use hairline_image::{Animation, Display, Image, Output};
 use super::goals::Goals;
 use super::motion::Motion;
 use super::steadiness::Steadiness;
-use crate::backend::{FINE_SAMPLES, Painter};
+use crate::backend::{FINE_SAMPLES, Painter, Rendered};
 use crate::console::print;
 use crate::failure::Failure;
-use crate::interrupt::Interrupt;
+use crate::interrupt::{Interrupt, cannot_listen};
 use crate::progress::Progress;
 use crate::scene_file::Loaded;
 
@@ -31,8 +31,7 @@ pub fn run(
         exposure_ev: scene.camera.exposure_ev,
         tone_map: scene.render.tone_map,
     };
-    let interrupt = Interrupt::listen()
-        .map_err(|error| Failure::Work(anyhow!("cannot listen for Ctrl-C: {error}")))?;
+    let interrupt = Interrupt::listen().map_err(cannot_listen)?;
     let begin = |path| Animation::begin(path, scene.render.size_px, motion.frames, goals.fps);
     let mut animation = goals.animation.as_deref().map(begin).transpose()?;
     let mut steadiness = stability.then(|| Steadiness::new(display));
@@ -54,8 +53,17 @@ pub fn run(
             return Err(kept(Failure::Work(anyhow!("interrupted"))));
         }
         scene.camera.position_m = motion.position_m(&loaded.description.camera, frame as u32);
-        let image = painter.render(&scene, &|share| done(frame, own * share));
-        let image = image.map_err(kept)?;
+        let is_stopped = || interrupt.is_asked();
+        let rendered = painter.render(&scene, &is_stopped, &|share| done(frame, own * share));
+        let Rendered {
+            image,
+            samples,
+            wanted,
+        } = rendered.map_err(kept)?;
+        // A frame of fewer samples would stand out.
+        if samples < wanted {
+            return Err(kept(Failure::Work(anyhow!("interrupted"))));
+        }
         if let Some(output) = goals.pictures.get(frame) {
             write(output, &image).map_err(kept)?;
         }

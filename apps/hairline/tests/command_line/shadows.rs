@@ -110,3 +110,60 @@ fn shadows_darken_the_middle_and_are_noted() {
         );
     }
 }
+
+#[test]
+fn shadows_hold_their_variance_and_closed_forms_have_none() {
+    let folder = folder_with("screened.toml", SCREENED);
+    let file = folder.path().join("out.exr");
+    let render = |flags: &str| {
+        let arguments = format!("render screened.toml -o out.exr --backend cpu {flags}");
+        hairline(folder.path(), &arguments).success();
+        exr_file::read_image_with_notes(&file).unwrap()
+    };
+    let (image, notes) = render("--shadows on --samples 14");
+    let noise = image.noise.unwrap();
+    assert!(noise.samples.iter().all(|&samples| samples == 16));
+    let uncertain = noise.base.iter().filter(|v| v[1] > 0.0).count();
+    let certain = noise.base.iter().filter(|v| v[1] == 0.0).count();
+    assert!(uncertain > 50 && certain > 50, "{uncertain} {certain}");
+    assert_eq!(notes.get("samples"), None, "all of them are there");
+    assert_eq!(render("--shadows off --bounces 0").0.noise, None);
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_picture_has_the_samples_that_are_done() {
+    use std::io::{BufRead, BufReader, Read};
+    use std::process::{Command, Stdio};
+    use std::time::Duration;
+
+    let folder = folder_with("screened.toml", SCREENED);
+    let flags = "--backend cpu --shadows on --samples 1024 --size 160x120";
+    let mut child = Command::new(env!("CARGO_BIN_EXE_hairline"))
+        .current_dir(folder.path())
+        .args(format!("render screened.toml -o out.exr {flags}").split(' '))
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut stderr = BufReader::new(child.stderr.take().unwrap());
+    stderr.read_line(&mut String::new()).unwrap();
+    std::thread::sleep(Duration::from_millis(1500));
+    let id = child.id().to_string();
+    let killed = Command::new("kill").args(["-INT", &id]).status();
+    assert!(killed.unwrap().success());
+    let mut rest = String::new();
+    stderr.read_to_string(&mut rest).unwrap();
+    assert_eq!(child.wait().unwrap().code(), Some(0), "{rest}");
+    let (image, notes) = exr_file::read_image_with_notes(&folder.path().join("out.exr")).unwrap();
+    let samples = image.noise.unwrap().samples[0];
+    assert!(
+        (4..1024).contains(&samples) && samples % 4 == 0,
+        "{samples}"
+    );
+    let so_far = format!("{samples} of 1024");
+    assert_eq!(notes.get("samples"), Some(&so_far));
+    assert!(
+        rest.contains(&format!("interrupted: out.exr has {so_far} samples")),
+        "{rest}"
+    );
+}

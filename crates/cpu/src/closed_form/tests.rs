@@ -1,6 +1,7 @@
 //! Pictures at the limits: parts, threads, sizes, numbers.
 
 use super::*;
+use hairline_image::{BATCH_SAMPLES, Batches};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// A scene of a camera, a shape, a layer of scratches and lights, as scene files have them.
@@ -208,4 +209,66 @@ fn a_picture_is_given_up_after_the_tiles_in_hand() {
         // Each thread once; the first question is that of the picture, and one more is whether there is one.
         assert!(after <= threads + 2, "{at}: {after} further tiles");
     }
+}
+
+/// Half of the lamp is hidden from the middle of the disk by a smaller one.
+fn screened() -> Scene {
+    let screen = "[[object]]\nname = \"s\"\nmaterial = \"m\"\nshape = { disk = { radius_m = 0.03 } }\n\
+                  translation_m = [0.0, 0.1, 0.1]\n";
+    let lights = format!("{screen}{}", lamp([0.0, 0.3, 0.3]));
+    scene(SLANTED, [40, 24], DISK, RANDOM, &lights)
+}
+
+/// The mean of all batches, and that of the first ones.
+fn added_up(scene: &Scene, samples: u32, batches: u32) -> Image {
+    let prepared = Prepared::new(scene);
+    let mut sum = Batches::new(samples);
+    let rows = 0..scene.render.size_px[1];
+    let added = sum.fill(&|_| {}, |batch, progress| {
+        let options = RenderOptions {
+            batch: Some(batch),
+            shadows: true,
+            ..options(samples)
+        };
+        let is_over = || batch.first >= batches * BATCH_SAMPLES;
+        let part = prepared.render_unless(&is_over, &options, rows.clone(), progress);
+        Ok::<_, ()>(part.map(|part| part.0))
+    });
+    assert_eq!(added, Ok(()));
+    assert_eq!(sum.done(), samples.min(batches * BATCH_SAMPLES));
+    sum.into_image().unwrap()
+}
+
+#[test]
+fn shadows_add_up_to_those_of_all_rays_at_once() {
+    let scene = screened();
+    let at_once = |shadows| {
+        let options = RenderOptions {
+            shadows,
+            ..options(256)
+        };
+        Prepared::new(&scene).render(&options, &|_| {})
+    };
+    let (open, all) = (at_once(false), at_once(true));
+    let off = |image: &Image| {
+        let pairs = image.base.iter().zip(&all.base);
+        let squares = pairs.map(|(a, b)| f64::from(a[1] - b[1]).powi(2));
+        squares.sum::<f64>().sqrt()
+    };
+    let [one, few, many] = [1, 4, 64].map(|batches| off(&added_up(&scene, 256, batches)));
+    // As independent samples would, or better.
+    assert!(few < 0.7 * one && many < 0.3 * few, "{one} {few} {many}");
+
+    let image = added_up(&scene, 256, 64);
+    let noise = image.noise.as_ref().unwrap();
+    let (mut half, mut lit) = (0, 0);
+    for i in 0..all.base.len() {
+        if all.base[i] == open.base[i] && all.scratches[i] == open.scratches[i] {
+            lit += usize::from(open.base[i][1] > 0.0);
+            // But for the order of the samples of edges.
+            assert!((image.base[i][1] - open.base[i][1]).abs() <= 1e-5 * open.base[i][1]);
+        }
+        half += usize::from(noise.base[i][1] > 0.0);
+    }
+    assert!(half > 50 && lit > 50, "{half} {lit}");
 }

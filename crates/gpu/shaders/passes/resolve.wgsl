@@ -90,6 +90,18 @@ fn sample_value(group: u32, lane: u32, at: u32) -> FilmPixel {
     return value;
 }
 
+fn film_sum(a: FilmPixel, b: FilmPixel) -> FilmPixel {
+    var sum = a;
+    sum.base += b.base;
+    sum.scratches += b.scratches;
+    sum.density += b.density;
+    sum.normal += b.normal;
+    sum.depth_m += b.depth_m;
+    sum.coverage += b.coverage;
+    sum.samples += b.samples;
+    return sum;
+}
+
 @compute @workgroup_size(8, 8)
 fn resolve(@builtin(global_invocation_id) id: vec3u) {
     let pixel = id.xy + vec2u(0u, frame.rows.x);
@@ -101,8 +113,12 @@ fn resolve(@builtin(global_invocation_id) id: vec3u) {
     if frame.step == 0u {
         var value = sample_value(tile.x, tile.y, strip_index(pixel));
         value.samples = 1u;
-        value.edge = u32(pixel_is_edge(pixel));
-        film.pixels[at] = value;
+        if frame.adds == 0u {
+            value.edge = u32(pixel_is_edge(pixel));
+            film.pixels[at] = value;
+        } else if film.pixels[at].edge == 0u {
+            film.pixels[at] = film_sum(film.pixels[at], value);
+        }
         return;
     }
     let edge = film.pixels[at].edge;
@@ -110,22 +126,16 @@ fn resolve(@builtin(global_invocation_id) id: vec3u) {
         return;
     }
     var sum: FilmPixel;
-    if frame.step > 1u {
+    if frame.step > 1u || frame.adds != 0u {
         sum = film.pixels[at];
     }
     for (var i = 0u; i < frame.samples; i += 1u) {
         let sample = (edge - 1u) * frame.samples + i;
         let group = group_starts[tile.x] + sample / GROUP;
         let lane = sample % GROUP;
-        let value = sample_value(group, lane, GROUP * group + lane);
-        sum.base += value.base;
-        sum.scratches += value.scratches;
-        sum.density += value.density;
-        sum.normal += value.normal;
-        sum.depth_m += value.depth_m;
-        sum.coverage += value.coverage;
+        sum = film_sum(sum, sample_value(group, lane, GROUP * group + lane));
     }
-    sum.samples = select(0u, sum.samples, frame.step > 1u) + frame.samples;
+    sum.samples += frame.samples;
     sum.edge = edge;
     film.pixels[at] = sum;
 }

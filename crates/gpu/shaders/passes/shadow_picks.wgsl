@@ -29,7 +29,7 @@ fn shadow_picks(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups
         all += max(rgb_luminance(chunk_sums[GROUP * chunk + lane].radiance), 0.0);
     }
     let step = all / f32(shadow_round.picks);
-    let seed = sobol_hash(shadow_seed(points[at].position_m) + shadow_round.first_pick) & 0xffffffu;
+    let seed = sobol_hash(shadow_seed(points[at].position_m) + shadow_round.first_round + shadow_round.first_pick) & 0xffffffu;
     var sum = 0.0;
     var next = 0u;
     for (var chunk = first_chunk; chunk < end_chunk; chunk += 1u) {

@@ -27,6 +27,7 @@ struct Frame {
     entry_count: u32,           // of all tile lists of the strip; known once they are counted
     object_count: u32,
     group_count: u32,           // of 64 samples that are shaded together; known once edges are counted
+    adds: u32,                  // 1: the film has pictures already, which this one is averaged with
 }
 
 const ENVIRONMENT_PRESENT: u32 = 1u;
@@ -159,6 +160,7 @@ struct ShadowRound {
     round: u32,
     rounds: u32,                // of all
     extent_m: f32,              // how far the scene reaches from the origin: what rounding goes by
+    first_round: u32,           // rays of earlier pictures, to be averaged with this one; an even number
     first_pick: u32,            // the round of the first scratch that is picked of each sample
     picks: u32,                 // and how many are picked at once
 }

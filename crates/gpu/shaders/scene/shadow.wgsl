@@ -19,12 +19,13 @@ fn shadow_seed(position_m: vec3f) -> u32 {
 // Two numbers in (0, 1) for a purpose, of a round and a source of the base. Even and odd rounds know nothing of one another, since one half of
 // the rays guesses for the other: neighbours in one sequence avoid each other, and where weights differ the guess would be off.
 fn shadow_random(seed: u32, which: ShadowRound, purpose: u32) -> vec2f {
-    return sobol_pair(which.round / 2u, seed + SHADOW_PURPOSES * (2u * which.source + which.round % 2u) + purpose);
+    let round = which.first_round + which.round;
+    return sobol_pair(round / 2u, seed + SHADOW_PURPOSES * (2u * which.source + round % 2u) + purpose);
 }
 
 // The same for rays by way of scratches, which all stand for as much light: out of one sequence for all rounds they are the more even.
 fn shadow_random_alike(seed: u32, which: ShadowRound, purpose: u32) -> vec2f {
-    return sobol_pair(which.round, seed + SHADOW_PURPOSES * 2u * which.source + purpose);
+    return sobol_pair(which.first_round + which.round, seed + SHADOW_PURPOSES * 2u * which.source + purpose);
 }
 
 // Beyond this a Gaussian is cut off: rays from farther would start beyond what the pixel shows.

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use hairline_fixtures::{DISK, SceneFile};
 use hairline_gpu::headless::{self, test_gpu};
-use hairline_gpu::{AdapterRequest, Canvas, Error, Gpu, GpuScene, Renderer};
+use hairline_gpu::{AdapterRequest, Canvas, Error, Gpu, GpuScene, RenderOptions, Renderer};
 use hairline_image::Image;
 use hairline_index::ScratchIndex;
 use hairline_index::method::Method;
@@ -149,7 +149,7 @@ impl Stage {
             uploaded,
         } = self;
         let (scene, uploaded) = (&made.scene, &*uploaded);
-        gpu.block_on(renderer.accumulate(scene, uploaded, canvas, band, step, samples))
+        gpu.block_on(renderer.accumulate(scene, uploaded, canvas, band, step, &options(samples)))
     }
 
     /// Adds steps up to `end` of those for `samples` to all bands.
@@ -159,5 +159,13 @@ impl Stage {
                 self.accumulate(canvas, band, step, samples).unwrap();
             }
         }
+    }
+}
+
+/// To take so many samples.
+pub fn options(samples: u32) -> RenderOptions {
+    RenderOptions {
+        samples,
+        ..Default::default()
     }
 }

@@ -4,10 +4,10 @@ use std::future::Future;
 use std::pin::pin;
 use std::task::{Context, Waker};
 
-use crate::common::{BUILT_IN, Stage, default_limits, plates, scene};
+use crate::common::{BUILT_IN, Stage, default_limits, options, plates, scene};
 use hairline_gpu::headless::test_gpu;
 use hairline_gpu::{Canvas, Error, Gpu, RenderOptions, steps};
-use hairline_image::{Display, Image, ToneMap};
+use hairline_image::{Batches, Display, Image, ToneMap};
 
 const DISPLAY: Display = Display {
     exposure_ev: 0.0,
@@ -21,6 +21,7 @@ fn rendered(stage: &mut Stage, size_px: [u32; 2], samples: u32, submission_px: u
     let options = RenderOptions {
         samples,
         submission_px,
+        ..Default::default()
     };
     let picture = stage
         .renderer
@@ -56,6 +57,56 @@ fn a_canvas_of_any_size_becomes_the_rendered_picture() {
         // The same commands in the same order: not a digit differs.
         assert!(image(&canvas, gpu) == expected, "{size_px:?}");
     }
+}
+
+/// On the device as on the host.
+#[test]
+fn batches_of_samples_add_up() {
+    const SAMPLES: u32 = 12;
+    let Some(gpu) = test_gpu() else { return };
+    let mut stage = Stage::new(gpu, plates().scene());
+    let Stage {
+        renderer,
+        made,
+        uploaded,
+        ..
+    } = &mut stage;
+    gpu.block_on(renderer.add_shadows(uploaded, &made.scene))
+        .unwrap();
+    let mut canvas = gpu.block_on(renderer.canvas([97, 64], 40 * 97)).unwrap();
+    let mut batches = Batches::new(SAMPLES);
+    let mut parts = Vec::new();
+    while let Some(batch) = batches.next() {
+        let options = RenderOptions {
+            batch: Some(batch),
+            submission_px: 40 * 97,
+            ..options(SAMPLES)
+        };
+        for band in 0..canvas.bands() {
+            for step in 0..steps(batch.count) {
+                let scene = &made.scene;
+                let added = renderer.accumulate(scene, uploaded, &mut canvas, band, step, &options);
+                gpu.block_on(added).unwrap();
+            }
+        }
+        let part = renderer.render(&made.scene, uploaded, &options, &|_| {});
+        let part = gpu.block_on(part).unwrap();
+        batches.add(part.clone());
+        parts.push(part);
+    }
+    let (on_device, on_host) = (image(&canvas, gpu), batches.into_image().unwrap());
+    let mut penumbra = 0;
+    for i in 0..on_host.base.len() {
+        for (a, b) in [
+            (on_device.base[i][1], on_host.base[i][1]),
+            (on_device.scratches[i][1], on_host.scratches[i][1]),
+            (on_device.depth_m[i], on_host.depth_m[i]),
+        ] {
+            assert!((a - b).abs() <= 1e-4 * b.abs() + 1e-6, "{i}: {a} {b}");
+        }
+        penumbra += usize::from(parts[0].base[i] != parts[1].base[i]);
+    }
+    assert!(penumbra > 50, "each batch has its own rays: {penumbra}");
 }
 
 fn mean(image: &Image, rows: std::ops::Range<u32>) -> f64 {
@@ -115,7 +166,7 @@ fn an_interrupted_view_leaves_nothing_behind() {
     {
         let (scene, uploaded) = (&stage.made.scene, &stage.uploaded);
         let renderer = &mut stage.renderer;
-        let step = pin!(renderer.accumulate(scene, uploaded, &mut canvas, 0, 2, 32));
+        let step = pin!(renderer.accumulate(scene, uploaded, &mut canvas, 0, 2, &options(32)));
         let _ = step.poll(&mut Context::from_waker(Waker::noop()));
     }
     assert!([0, 3].contains(&canvas.steps(0)));

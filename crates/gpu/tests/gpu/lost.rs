@@ -50,7 +50,7 @@ fn a_lost_device_is_an_error_everywhere() {
         let scene = &made.scene;
         let lost = match step {
             0 => {
-                let sample = renderer.accumulate(scene, uploaded, &mut canvas, 1, 1, 2);
+                let sample = renderer.accumulate(scene, uploaded, &mut canvas, 1, 1, &options(2));
                 destroyed_within(&gpu, sample).map(is_lost)
             }
             1 => destroyed_within(&gpu, renderer.read_shown(&canvas, &DISPLAY)).map(is_lost),
@@ -59,7 +59,7 @@ fn a_lost_device_is_an_error_everywhere() {
         };
         assert!(lost.unwrap_or(true), "step {step}");
         // Whatever comes next says the same.
-        let next = renderer.accumulate(scene, uploaded, &mut canvas, 0, 0, 2);
+        let next = renderer.accumulate(scene, uploaded, &mut canvas, 0, 0, &options(2));
         assert!(is_lost(gpu.block_on(next)), "after step {step}");
         let next = renderer.read_shown(&canvas, &DISPLAY);
         assert!(is_lost(gpu.block_on(next)), "after step {step}");

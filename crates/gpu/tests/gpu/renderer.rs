@@ -244,7 +244,7 @@ fn the_display_shows_what_a_png_would() {
     // Bands of 10 rows, the last of 4.
     let mut canvas = gpu.block_on(renderer.canvas(size, 10 * size[0])).unwrap();
     for band in 0..canvas.bands() {
-        gpu.block_on(renderer.accumulate(&scene, &uploaded, &mut canvas, band, 0, 1))
+        gpu.block_on(renderer.accumulate(&scene, &uploaded, &mut canvas, band, 0, &options(1)))
             .unwrap();
     }
     for tone_map in ToneMap::ALL {

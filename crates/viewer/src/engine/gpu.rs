@@ -6,7 +6,7 @@ use std::time::Duration;
 use egui::ColorImage;
 use hairline_gpu::canvas::Canvas;
 use hairline_gpu::{
-    AdapterKind, AdapterRequest, Error, Gpu, GpuScene, PassTime, Renderer, headless,
+    AdapterKind, AdapterRequest, Error, Gpu, GpuScene, PassTime, RenderOptions, Renderer, headless,
 };
 use hairline_index::method::Method;
 use hairline_scene::DEFAULT_SAMPLES;
@@ -167,6 +167,10 @@ impl Easel for GpuEasel {
         let scene = step.scene(order);
         self.step = Some(*step);
         let mut last_shown = Instant::now();
+        let options = RenderOptions {
+            samples: step.samples,
+            ..RenderOptions::default()
+        };
         let steps = hairline_gpu::steps(step.samples);
         for part in 0..steps {
             for band in 0..canvas.bands() {
@@ -180,7 +184,7 @@ impl Easel for GpuEasel {
                 let renderer = &mut self.renderer;
                 gpu.block_on(async {
                     renderer
-                        .accumulate(&scene, uploaded, &mut canvas, band, part, step.samples)
+                        .accumulate(&scene, uploaded, &mut canvas, band, part, &options)
                         .await?;
                     gpu.finished().await
                 })?;

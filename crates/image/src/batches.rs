@@ -1,0 +1,259 @@
+//! A picture that comes together from batches of its samples: their mean, with the variance of that mean. It can be stopped after any
+//! batch.
+
+use std::ops::Range;
+
+use crate::{Image, Noise};
+
+/// Samples in a batch of [`Batches`].
+pub const BATCH_SAMPLES: u32 = 4;
+
+/// Some of the samples of each pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Batch {
+    /// The first of them.
+    pub first: u32,
+    /// How many there are.
+    pub count: u32,
+}
+
+impl Batch {
+    /// All of `samples`.
+    pub fn all(samples: u32) -> Self {
+        Self {
+            first: 0,
+            count: samples,
+        }
+    }
+
+    /// Their numbers.
+    pub fn range(self) -> Range<u32> {
+        self.first..self.first + self.count
+    }
+}
+
+/// The mean of the batches that were added so far.
+///
+/// ```
+/// use hairline_image::{Batches, Image};
+///
+/// let mut batches = Batches::new(8);
+/// batches.fill(&|_| {}, |batch, _| {
+///     let mut part = Image::new([1, 1]);
+///     part.base[0] = [batch.first as f32; 3];
+///     Ok::<_, ()>(Some(part))
+/// })?;
+/// let image = batches.image().unwrap();
+/// assert_eq!(image.base[0], [2.0; 3]);
+/// // Of means 0 and 4: their variance, 8, over their number.
+/// assert_eq!(image.noise.as_ref().unwrap().base[0], [4.0; 3]);
+/// # Ok::<(), ()>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Batches {
+    image: Option<Image>,
+    samples: u32,
+    size: u32,
+    done: u32,
+}
+
+impl Batches {
+    /// Nothing yet of `samples` for each pixel, at least 1; more than a batch are rounded up to whole ones.
+    pub fn new(samples: u32) -> Self {
+        let size = samples.clamp(1, BATCH_SAMPLES);
+        Self {
+            image: None,
+            samples: samples.max(1).next_multiple_of(size),
+            size,
+            done: 0,
+        }
+    }
+
+    /// The samples that each pixel is to have.
+    pub fn samples(&self) -> u32 {
+        self.samples
+    }
+
+    /// The samples that each pixel has.
+    pub fn done(&self) -> u32 {
+        self.done
+    }
+
+    /// What is to be added next; none if all are there.
+    #[expect(clippy::should_implement_trait, reason = "add is what goes on")]
+    pub fn next(&self) -> Option<Batch> {
+        (self.done < self.samples).then_some(Batch {
+            first: self.done,
+            count: self.size,
+        })
+    }
+
+    /// Adds batch after batch until all are there or `render` gives none: it renders a batch, and may tell which share of it is done.
+    /// `progress` is told the share of all.
+    ///
+    /// # Errors
+    /// What `render` fails with; the batches before it stay.
+    pub fn fill<E>(
+        &mut self,
+        progress: &(dyn Fn(f64) + Sync),
+        mut render: impl FnMut(Batch, &(dyn Fn(f64) + Sync)) -> Result<Option<Image>, E>,
+    ) -> Result<(), E> {
+        while let Some(batch) = self.next() {
+            let (first, count) = (f64::from(batch.first), f64::from(batch.count));
+            let told = |share: f64| progress((first + share * count) / f64::from(self.samples));
+            let Some(image) = render(batch, &told)? else {
+                break;
+            };
+            self.add(image);
+        }
+        Ok(())
+    }
+
+    /// The mean so far. It says how sure it is where there is more than one batch to come.
+    pub fn image(&self) -> Option<&Image> {
+        self.image.as_ref()
+    }
+
+    /// The same.
+    pub fn into_image(self) -> Option<Image> {
+        self.image
+    }
+
+    /// Adds the batch that was next: a picture of its samples alone.
+    ///
+    /// # Panics
+    /// If it has another size than those before it.
+    pub fn add(&mut self, batch: Image) {
+        let before = self.done / self.size;
+        self.done += self.size;
+        let Some(image) = &mut self.image else {
+            self.image = Some(self.first(batch));
+            return;
+        };
+        assert_eq!(image.size_px, batch.size_px, "a batch of another size");
+        let Some(noise) = &mut image.noise else {
+            unreachable!("there is more than one batch")
+        };
+        for i in 0..batch.base.len() {
+            let wide = |rgb: [f32; 3]| rgb.map(f64::from);
+            let sum = |a: [f32; 3], b: [f32; 3]| [0, 1, 2].map(|c| a[c] + b[c]);
+            let mut beauty = sum(image.base[i], image.scratches[i]);
+            let added = sum(batch.base[i], batch.scratches[i]);
+            add_batch(&mut beauty, &mut noise.beauty[i], wide(added), before);
+            let layers = [
+                (&mut image.base, &mut noise.base, &batch.base),
+                (&mut image.scratches, &mut noise.scratches, &batch.scratches),
+                (&mut image.density, &mut noise.density, &batch.density),
+            ];
+            for (means, variances, added) in layers {
+                add_batch(&mut means[i], &mut variances[i], wide(added[i]), before);
+            }
+            noise.samples[i] += self.size;
+            // Only batches that see a surface know of its depth.
+            let depth_m = &mut image.depth_m[i];
+            match (*depth_m, batch.depth_m[i]) {
+                (0.0, added) => *depth_m = added,
+                (_, 0.0) => {}
+                (mean, added) => *depth_m += (added - mean) / (before + 1) as f32,
+            }
+            if image.normal[i] != batch.normal[i] {
+                let sum =
+                    [0, 1, 2].map(|c| image.normal[i][c] * before as f32 + batch.normal[i][c]);
+                let length = sum.iter().map(|x| x * x).sum::<f32>().sqrt();
+                image.normal[i] = sum.map(|x| x / length.max(f32::MIN_POSITIVE));
+            }
+        }
+    }
+
+    fn first(&self, mut image: Image) -> Image {
+        if self.samples > self.size {
+            let mut noise = Noise::new(image.size_px, self.size);
+            noise.samples.fill(self.size);
+            image.noise = Some(noise);
+        }
+        image
+    }
+}
+
+/// Takes a batch's mean into a pixel's mean and into the variance of that mean, `batches` of which came before (B. P. Welford,
+/// *Note on a Method for Calculating Corrected Sums of Squares and Products*, 1962). Both are rounded to what a file
+/// holds after every batch, so that a picture read back goes on as the one in memory.
+pub fn add_batch(mean: &mut [f32; 3], variance: &mut [f32; 3], batch: [f64; 3], batches: u32) {
+    let n = f64::from(batches);
+    for c in 0..3 {
+        let before = f64::from(mean[c]);
+        let after = before + (batch[c] - before) / (n + 1.0);
+        let squares =
+            f64::from(variance[c]) * n * (n - 1.0) + (batch[c] - before) * (batch[c] - after);
+        mean[c] = after as f32;
+        variance[c] = if batches > 0 {
+            (squares / (n * (n + 1.0))) as f32
+        } else {
+            0.0
+        };
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn added(samples: u32, values: &[f32]) -> Batches {
+        let mut batches = Batches::new(samples);
+        for &value in values {
+            assert!(batches.next().is_some());
+            let mut batch = Image::new([1, 1]);
+            batch.base[0] = [value; 3];
+            batch.scratches[0] = [2.0 * value; 3];
+            batch.depth_m[0] = value;
+            batch.normal[0] = if value > 0.0 {
+                [0.0, 0.0, 1.0]
+            } else {
+                [0.0; 3]
+            };
+            batches.add(batch);
+        }
+        batches
+    }
+
+    #[test]
+    fn more_than_a_batch_are_whole_batches() {
+        for (asked, all, first) in [(0, 1, 1), (1, 1, 1), (3, 3, 3), (4, 4, 4), (5, 8, 4)] {
+            let batches = Batches::new(asked);
+            assert_eq!(batches.samples(), all, "{asked}");
+            assert_eq!(batches.next().unwrap(), Batch::all(first), "{asked}");
+        }
+    }
+
+    #[test]
+    fn means_and_variances_are_those_of_the_batches() {
+        let batches = added(12, &[1.0, 2.0, 6.0]);
+        assert_eq!(batches.next(), None);
+        let image = batches.image().unwrap();
+        let noise = image.noise.as_ref().unwrap();
+        assert!((image.base[0][0] - 3.0).abs() < 1e-6);
+        // Squares 4, 1 and 9 over 2, over 3.
+        assert!((noise.base[0][0] - 14.0 / 6.0).abs() < 1e-6);
+        assert!((noise.beauty[0][0] - 9.0 * 14.0 / 6.0).abs() < 1e-5);
+        assert_eq!((noise.samples[0], noise.batch), (12, 4));
+    }
+
+    #[test]
+    fn what_all_batches_agree_on_stays_to_the_bit() {
+        let image = added(64, &[0.1; 16]).into_image().unwrap();
+        assert_eq!((image.base[0], image.depth_m[0]), ([0.1; 3], 0.1));
+        assert_eq!(image.noise.unwrap().beauty[0], [0.0; 3]);
+    }
+
+    #[test]
+    fn depth_and_normal_are_those_of_batches_that_see_a_surface() {
+        let image = added(12, &[0.0, 2.0, 0.0]).into_image().unwrap();
+        assert_eq!((image.depth_m[0], image.normal[0]), (2.0, [0.0, 0.0, 1.0]));
+    }
+
+    /// One batch tells nothing of its scatter.
+    #[test]
+    fn a_single_batch_is_the_picture() {
+        assert_eq!(added(4, &[1.0]).image().unwrap().noise, None);
+    }
+}
