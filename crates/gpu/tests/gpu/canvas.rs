@@ -166,7 +166,8 @@ fn an_interrupted_view_leaves_nothing_behind() {
     {
         let (scene, uploaded) = (&stage.made.scene, &stage.uploaded);
         let renderer = &mut stage.renderer;
-        let step = pin!(renderer.accumulate(scene, uploaded, &mut canvas, 0, 2, &options(32)));
+        let options = options(32);
+        let step = pin!(renderer.accumulate(scene, uploaded, &mut canvas, 0, 2, &options));
         let _ = step.poll(&mut Context::from_waker(Waker::noop()));
     }
     assert!([0, 3].contains(&canvas.steps(0)));

@@ -4,7 +4,7 @@ use std::future::Future;
 use std::pin::pin;
 use std::task::{Context, Waker};
 
-use crate::common::{Made, Stage, plates};
+use crate::common::{Made, Stage, options, plates};
 use hairline_gpu::headless::{self, test_gpu};
 use hairline_gpu::{Error, Gpu, Renderer};
 use hairline_image::{Display, ToneMap};
