@@ -32,7 +32,7 @@ pub struct Task {
     pub samples: u32,
     /// Whether objects hide lights from one another.
     pub shadows: bool,
-    /// Objects that light may go by besides the one that is seen; the CPU renderer alone counts them.
+    /// Objects that light may go by besides the one that is seen.
     pub bounces: u32,
 }
 
@@ -61,9 +61,6 @@ impl<'a> Painter<'a> {
                 let gpu = open().map_err(advise)?;
                 announce_gpu(&gpu, "as asked");
                 On::on_gpu(&gpu, scene, &task).map_err(advise)?
-            }
-            Backend::Auto if task.bounces > 0 => {
-                On::on_cpu(scene, &task.method, "light bounces there alone")
             }
             Backend::Auto => On::best(scene, &task),
         };
@@ -162,9 +159,12 @@ impl<'a> On<'a> {
         let sort = || Arc::new(sorted(|watch| ScratchIndex::rebuild(scene, None, watch)));
         let (scratches, tables) = rayon::join(sort, || ScratchTables::new(scene));
         let Task {
-            method, shadows, ..
+            method,
+            shadows,
+            bounces,
+            ..
         } = task;
-        let on = OnGpu::new(gpu, scene, &scratches, &tables, method, *shadows)?;
+        let on = OnGpu::new(gpu, scene, &scratches, &tables, method, *shadows, *bounces)?;
         Ok(Self::Gpu(Box::new(on)))
     }
 

@@ -102,7 +102,7 @@ pub struct Render {
     /// Whether objects hide lights and the environment from one another: as many rays to each light as there are samples.
     #[arg(long, value_enum, default_value_t = Switch::Off)]
     pub shadows: Switch,
-    /// Objects that light may go by on its way besides the one that is seen, with `--shadows on`, on the CPU.
+    /// Objects that light may go by on its way besides the one that is seen, with `--shadows on`.
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=64))]
     pub bounces: u32,
     /// Other scratches of the same kinds: added to the seed of each layer.

@@ -13,7 +13,6 @@ use hairline_image::{Animation, Display, Image, Output};
 use hairline_index::method::Method;
 
 use crate::backend::{Painter, Task};
-use crate::cli::Backend;
 use crate::failure::Failure;
 use crate::progress::Progress;
 use crate::scene_file::{self, Overrides};
@@ -125,11 +124,6 @@ fn shadows(arguments: &cli::Render, method: &Method) -> Result<bool, Failure> {
         return refuse(
             "--shadows on: the published method has no shadows; leave out --method published",
         );
-    }
-    if bounces > 0 && arguments.backend == Backend::Gpu {
-        return refuse(&format!(
-            "--bounces {bounces}: the GPU renderer has no bounces; leave out --backend gpu"
-        ));
     }
     Ok(true)
 }

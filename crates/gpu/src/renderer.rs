@@ -166,8 +166,8 @@ impl Renderer {
     }
 
     /// Lets the objects of what was uploaded hide its lights and its environment from one another, until it is updated. Rays tell, as many for
-    /// each source of a pixel's light as [`RenderOptions::samples`] says; where nothing hides one, no bit changes. Only Hairline's own method
-    /// has shadows.
+    /// each source of a pixel's light as [`RenderOptions::samples`] says; where nothing hides one, no bit changes. Light goes by up to `bounces`
+    /// other objects on its way. Only Hairline's own method has shadows and bounces.
     ///
     /// # Errors
     /// As [`Self::upload`].
@@ -175,8 +175,10 @@ impl Renderer {
         &mut self,
         uploaded: &mut GpuScene,
         scene: &Scene,
+        bounces: u32,
     ) -> Result<(), Error> {
-        uploaded.add_shadows(&self.gpu, &self.layouts, scene).await
+        let (gpu, layouts) = (&self.gpu, &self.layouts);
+        uploaded.add_shadows(gpu, layouts, scene, bounces).await
     }
 
     /// Renders `scene`, which was uploaded as `uploaded`, by its own camera and at its own size; `progress` is told the
@@ -252,7 +254,7 @@ impl Renderer {
     /// Adds step `step` of the [`steps`] for `samples` to a band of the canvas: 0, which begins anew and shades every pixel, or as many
     /// as [`Canvas::steps`] says that it has, which refines edges. The picture has the canvas's size, whatever the scene says.
     ///
-    /// It submits the work and waits only until the tile lists are counted; [`Gpu::finished`] waits for all. Dropped or failed,
+    /// It submits the work and waits only until lists of scratches are counted; [`Gpu::finished`] waits for all. Dropped or failed,
     /// it leaves the band to be begun anew.
     ///
     /// # Errors

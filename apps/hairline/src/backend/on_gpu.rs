@@ -16,7 +16,7 @@ pub struct OnGpu {
 }
 
 impl OnGpu {
-    /// Compiles and uploads.
+    /// Compiles and uploads. Only with shadows light bounces.
     pub fn new(
         gpu: &Gpu,
         scene: &Scene,
@@ -24,12 +24,13 @@ impl OnGpu {
         tables: &ScratchTables,
         method: &Method,
         shadows: bool,
+        bounces: u32,
     ) -> Result<Self, Error> {
         gpu.block_on(async {
             let mut renderer = Renderer::new(gpu).await?;
             let mut uploaded = renderer.upload(scene, scratches, tables, method).await?;
             if shadows {
-                renderer.add_shadows(&mut uploaded, scene).await?;
+                renderer.add_shadows(&mut uploaded, scene, bounces).await?;
             }
             Ok(Self { renderer, uploaded })
         })
