@@ -30,7 +30,7 @@ pub struct Task {
     pub backend: Backend,
     /// For each pixel on an edge.
     pub samples: u32,
-    /// The ways of light; the CPU renderer alone counts bounces.
+    /// The ways of light.
     pub transport: Transport,
 }
 
@@ -68,9 +68,6 @@ impl<'a> Painter<'a> {
                 let gpu = open().map_err(advise)?;
                 announce_gpu(&gpu, "as asked");
                 On::on_gpu(&gpu, scene, &task).map_err(advise)?
-            }
-            Backend::Auto if task.transport.bounces > 0 => {
-                On::on_cpu(scene, &task.method, "light bounces there alone")
             }
             Backend::Auto => On::best(scene, &task),
         };
@@ -210,8 +207,10 @@ impl<'a> On<'a> {
     fn on_gpu(gpu: &Gpu, scene: &Scene, task: &Task) -> Result<Self, hairline_gpu::Error> {
         let sort = || Arc::new(sorted(|watch| ScratchIndex::rebuild(scene, None, watch)));
         let (scratches, tables) = rayon::join(sort, || ScratchTables::new(scene));
-        let shadows = task.transport.shadows;
-        let on = OnGpu::new(gpu, scene, &scratches, &tables, &task.method, shadows)?;
+        let Task {
+            method, transport, ..
+        } = task;
+        let on = OnGpu::new(gpu, scene, &scratches, &tables, method, *transport)?;
         Ok(Self::Gpu(Box::new(on)))
     }
 

@@ -104,7 +104,7 @@ pub struct Render {
     /// [default: off]
     #[arg(long, value_enum)]
     pub shadows: Option<Switch>,
-    /// Objects that light may go by on its way besides the one that is seen, with shadows, on the CPU. [default: 0]
+    /// Objects that light may go by on its way besides the one that is seen, with shadows. [default: 0]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=64))]
     pub bounces: Option<u32>,
     /// Other scratches of the same kinds: added to the seed of each layer.

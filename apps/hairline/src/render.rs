@@ -14,7 +14,6 @@ use hairline_index::method::Method;
 use hairline_scene::{DEFAULT_TRANSPORT, Transport};
 
 use crate::backend::{Painter, Rendered, Task};
-use crate::cli::Backend;
 use crate::console::tell;
 use crate::failure::Failure;
 use crate::interrupt::{Interrupt, cannot_listen};
@@ -128,7 +127,7 @@ fn single(arguments: &cli::Render) -> Result<Output, Failure> {
     Ok(Output::check(&path)?)
 }
 
-/// The ways of light: what is asked for, else the default as far as method and backend have it.
+/// The ways of light: what is asked for, else the default as far as the method has it.
 fn transport(arguments: &cli::Render, method: &Method) -> Result<Transport, Failure> {
     let refuse = |why: &str| Err(Failure::Input(anyhow!("{why}")));
     let asked = arguments.shadows.map(|switch| switch == Switch::On);
@@ -147,22 +146,9 @@ fn transport(arguments: &cli::Render, method: &Method) -> Result<Transport, Fail
             )),
         };
     }
-    let has_bounces = arguments.backend != Backend::Gpu;
-    if let Some(bounces) = asked_bounces
-        && !has_bounces
-    {
-        return refuse(&format!(
-            "--bounces {bounces}: the GPU renderer has no bounces; leave out --backend gpu"
-        ));
-    }
-    let default = if has_bounces {
-        DEFAULT_TRANSPORT.bounces
-    } else {
-        0
-    };
     Ok(Transport {
         shadows: true,
-        bounces: arguments.bounces.unwrap_or(default),
+        bounces: arguments.bounces.unwrap_or(DEFAULT_TRANSPORT.bounces),
     })
 }
 

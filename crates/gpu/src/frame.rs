@@ -7,6 +7,7 @@ use hairline_image::Batch;
 use hairline_scene::camera::pixel_jitter;
 use hairline_scene::{Environment, Scene};
 
+use crate::bounces::Bounces;
 use crate::layout::{ENVIRONMENT_PRESENT, ENVIRONMENT_VISIBLE, Frame};
 use crate::shadows::Shadows;
 use crate::upload::GpuScene;
@@ -54,6 +55,20 @@ impl View<'_> {
     pub(crate) fn shadows(&self) -> Option<&Shadows> {
         let shadows = self.uploaded.shadows.as_ref();
         shadows.filter(|_| !self.without_shadows)
+    }
+
+    /// Light of other objects, as shadows.
+    pub(crate) fn bounces(&self) -> Option<&Bounces> {
+        let bounces = self.uploaded.bounces.as_ref();
+        bounces.filter(|_| !self.without_shadows)
+    }
+
+    /// Rays of each sample to each source, of all batches.
+    pub(crate) fn all_rounds(&self) -> u32 {
+        match self.step {
+            0 => self.samples,
+            _ => self.rounds().count,
+        }
     }
 
     /// Rays of each sample to each source. A pixel without an edge has one sample; of several, each has two rays: one guesses for the other.

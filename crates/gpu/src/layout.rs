@@ -188,8 +188,12 @@ shared! {
         rounds: u32,
         extent_m: f32,
         first_round: u32,
+        all_rounds: u32,
         first_pick: u32,
         picks: u32,
+        seed: u32,
+        depth: u32,
+        by_scratches: u32,
     }
     /// A ray from a sample to a source.
     ShadowRay {
@@ -210,6 +214,23 @@ shared! {
         pad_2: f32,
         body_hidden: [f32; 3],
         pad_3: f32,
+    }
+    /// A ray from a sample to other objects.
+    BounceRay {
+        direction: [f32; 3],
+        distance_m: f32,
+        throughput: [f32; 3],
+        solid_angle_sr: f32,
+        place: [f32; 2],
+        triangle: u32,
+        object: u32,
+    }
+    /// Light of other objects that a sample sends.
+    Bounced {
+        base: [f32; 3],
+        pad_0: f32,
+        scratches: [f32; 3],
+        pad_1: f32,
     }
     /// Sums over the samples of a pixel.
     FilmPixel {

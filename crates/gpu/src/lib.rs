@@ -19,6 +19,8 @@
 
 mod bin;
 mod bindings;
+mod bounce_room;
+mod bounces;
 pub mod call;
 pub mod canvas;
 mod compute_pass;
@@ -56,6 +58,7 @@ mod shadows;
 mod sort;
 mod source;
 mod strip;
+mod strip_rays;
 mod strip_shader;
 mod surface;
 mod texture_array;

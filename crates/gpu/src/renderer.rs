@@ -173,8 +173,8 @@ impl Renderer {
     }
 
     /// Lets the objects of what was uploaded hide its lights and its environment from one another, until it is updated. Rays tell, as many for
-    /// each source of a pixel's light as [`RenderOptions::samples`] says; where nothing hides one, no bit changes. Only Hairline's own method
-    /// has shadows.
+    /// each source of a pixel's light as [`RenderOptions::samples`] says; where nothing hides one, no bit changes. Light goes by up to `bounces`
+    /// other objects on its way. Only Hairline's own method has shadows and bounces.
     ///
     /// # Errors
     /// As [`Self::upload`].
@@ -182,8 +182,10 @@ impl Renderer {
         &mut self,
         uploaded: &mut GpuScene,
         scene: &Scene,
+        bounces: u32,
     ) -> Result<(), Error> {
-        uploaded.add_shadows(&self.gpu, &self.layouts, scene).await
+        let (gpu, layouts) = (&self.gpu, &self.layouts);
+        uploaded.add_shadows(gpu, layouts, scene, bounces).await
     }
 
     /// Renders `scene`, which was uploaded as `uploaded`, by its own camera and at its own size; `progress` is told the
@@ -265,7 +267,7 @@ impl Renderer {
     /// many as [`Canvas::steps`] says that it has, which refines edges. The first batch begins anew, later ones are added to those before.
     /// The picture has the canvas's size, whatever the scene says.
     ///
-    /// It submits the work and waits only until the tile lists are counted; [`Gpu::finished`] waits for all. Dropped or failed,
+    /// It submits the work and waits only until lists of scratches are counted; [`Gpu::finished`] waits for all. Dropped or failed,
     /// it leaves the band to be begun anew.
     ///
     /// # Errors

@@ -38,6 +38,11 @@ impl SceneBuffers {
         self.index.tree.segments.len() as u32
     }
 
+    /// The tree over the segments.
+    pub(crate) fn scratch_nodes(&self) -> Vec<ScratchNode> {
+        host::nodes(&self.index, self.vertices.origin_m)
+    }
+
     /// Writes what `last` does not have.
     pub(crate) async fn upload(
         transfer: &mut Transfer<'_>,

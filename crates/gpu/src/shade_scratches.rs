@@ -14,7 +14,7 @@ use crate::pipelines::Orders;
 use crate::scan::ScanPasses;
 use crate::shaders;
 use crate::strip::{StripRoom, whole};
-use crate::variant::Constant;
+use crate::variant::{Constant, Samples};
 
 /// The pass, and what it needs to know before.
 pub(crate) struct ShadeScratchesPass {
@@ -29,12 +29,13 @@ pub(crate) struct KindPasses(Vec<(Kind, ComputePass)>);
 const CHUNKS_WORKGROUP: u32 = 64;
 
 impl ShadeScratchesPass {
-    pub(crate) fn new(orders: &mut Orders) -> Self {
+    pub(crate) fn new(orders: &mut Orders, samples: Samples) -> Self {
         let module = (&shaders::GROUP_CHUNKS, "group_chunks");
         let uses = [Use::Reads, Use::Reads, Use::Writes];
+        let constants = [samples.constant()];
         Self {
-            chunks: ComputePass::order(orders, "chunks", module, &uses, &[]),
-            kinds: KindPasses::new(orders, "scratches", &[]),
+            chunks: ComputePass::order(orders, "chunks", module, &uses, &constants),
+            kinds: KindPasses::new(orders, "scratches", &constants),
         }
     }
 
@@ -81,23 +82,8 @@ impl KindPasses {
     /// With `more` constants beside that of the kind.
     pub(crate) fn new(orders: &mut Orders, name: &'static str, more: &[Constant]) -> Self {
         let has = orders.variant().has;
-        let uses = [
-            Use::Reads,
-            Use::Reads,
-            Use::Reads,
-            Use::Reads,
-            Use::Reads,
-            Use::Writes,
-            Use::DynamicUniform,
-        ];
-        let mut pass = |kind: Kind| {
-            let module = (&shaders::SHADE_SCRATCHES, "shade_scratches");
-            let mut constants = more.to_vec();
-            constants.push(("SCRATCH_LIGHTS", f64::from(kind as u32)));
-            let pass = ComputePass::order(orders, name, module, &uses, &constants);
-            (kind, pass)
-        };
-        Self(has.lights.over_scratches().map(&mut pass).collect())
+        let pass = |kind: Kind| (kind, order(orders, name, kind as u32, more));
+        Self(has.lights.over_scratches().map(pass).collect())
     }
 
     /// Those of at most so many chunks; `output` is what the pass writes.
@@ -112,21 +98,7 @@ impl KindPasses {
     ) {
         let ranges = &recording.scene.light_ranges;
         for (kind, pass) in &self.0 {
-            let range = BindingResource::Buffer(wgpu::BufferBinding {
-                buffer: &ranges.buffer,
-                offset: 0,
-                size: wgpu::BufferSize::new(size_of::<LightRange>() as u64),
-            });
-            let resources = [
-                whole(&room.group_starts),
-                whole(&room.samples.points),
-                whole(&room.lists.entries[sorted]),
-                whole(&room.list_starts),
-                whole(&room.samples.chunk_starts),
-                whole(output),
-                range,
-            ];
-            let group = pass.bind(gpu, &resources);
+            let group = bind(pass, gpu, recording, room, output, sorted);
             let own = ranges.of.iter().enumerate().filter(|(_, of)| *of == kind);
             for (i, _) in own {
                 let offset = (i as u64 * RANGE_STRIDE) as u32;
@@ -134,4 +106,72 @@ impl KindPasses {
             }
         }
     }
+}
+
+/// Picks scratches by the energy that they take of the base.
+pub(crate) struct PickByEnergyPass(ComputePass);
+
+/// No light. Twin: shade_scratches.wgsl.
+const LIGHTS_NONE: u32 = Kind::ALL.len() as u32;
+
+impl PickByEnergyPass {
+    pub(crate) fn new(orders: &mut Orders, samples: Samples) -> Self {
+        let constants = [("PICKS", 1.0), samples.constant()];
+        Self(order(orders, "bounce picks", LIGHTS_NONE, &constants))
+    }
+
+    /// Of at most so many chunks; `output` is what the pass writes.
+    pub(crate) fn record(
+        &self,
+        gpu: &Gpu,
+        recording: &mut Recording,
+        room: &StripRoom,
+        output: &wgpu::Buffer,
+        sorted: usize,
+        chunks: u32,
+    ) {
+        let group = bind(&self.0, gpu, recording, room, output, sorted);
+        self.0.dispatch(recording, &group, &[0], in_a_row(chunks));
+    }
+}
+
+fn order(orders: &mut Orders, name: &'static str, lights: u32, more: &[Constant]) -> ComputePass {
+    let uses = [
+        Use::Reads,
+        Use::Reads,
+        Use::Reads,
+        Use::Reads,
+        Use::Reads,
+        Use::Writes,
+        Use::DynamicUniform,
+    ];
+    let module = (&shaders::SHADE_SCRATCHES, "shade_scratches");
+    let mut constants = more.to_vec();
+    constants.push(("SCRATCH_LIGHTS", f64::from(lights)));
+    ComputePass::order(orders, name, module, &uses, &constants)
+}
+
+fn bind(
+    pass: &ComputePass,
+    gpu: &Gpu,
+    recording: &Recording,
+    room: &StripRoom,
+    output: &wgpu::Buffer,
+    sorted: usize,
+) -> wgpu::BindGroup {
+    let range = BindingResource::Buffer(wgpu::BufferBinding {
+        buffer: &recording.scene.light_ranges.buffer,
+        offset: 0,
+        size: wgpu::BufferSize::new(size_of::<LightRange>() as u64),
+    });
+    let resources = [
+        whole(&room.group_starts),
+        whole(&room.samples.points),
+        whole(&room.lists.entries[sorted]),
+        whole(&room.list_starts),
+        whole(&room.samples.chunk_starts),
+        whole(output),
+        range,
+    ];
+    pass.bind(gpu, &resources)
 }

@@ -153,12 +153,14 @@ modules! {
     SORT = "passes/sort" needs [BINDINGS];
     /// Pass: where each tile's list begins.
     TILE_LISTS = "passes/tile_lists" needs [FILM];
+    /// Whether samples are what rays have met: pipelines are compiled for it.
+    AT_HITS = "scene/at_hits" needs [];
     /// Which tile a group of samples belongs to.
-    GROUPS = "scene/groups" needs [FILM];
+    GROUPS = "scene/groups" needs [FILM, AT_HITS];
     /// Pass: into how many chunks each group's list is cut.
     GROUP_CHUNKS = "passes/group_chunks" needs [GROUPS];
     /// A pixel with a segment that it sees.
-    PAIRS = "scene/pairs" needs [SEGMENTS, PIXEL_POINT, SCRATCH_LIGHT];
+    PAIRS = "scene/pairs" needs [SEGMENTS, PIXEL_POINT, SCRATCH_LIGHT, METHOD];
     /// Scratches that stand for all.
     PICKS = "scene/picks" needs [SOBOL, LUMINANCE];
     /// Pass: the light and the mask of scratches.
@@ -173,22 +175,44 @@ modules! {
     SHADOW = "scene/shadow" needs [LAYOUT, SOBOL, LUMINANCE];
     /// Pass: a ray of each sample to one source of the base's light.
     SHADOW_BASE_RAYS = "passes/shadow_base_rays" needs [BASE_LOBES, LIGHT_SAMPLING, SHADOW, FILM, PIXEL_POINT];
+    /// Where rays of a sample start.
+    RAY_START = "scene/ray_start" needs [TRIANGLE_TREE, BINDINGS, PIXEL_POINT, AT_HITS];
     /// Pass: what each ray meets.
-    SHADOW_TRACE = "passes/shadow_trace" needs [TRIANGLE_TREE, FILM, PIXEL_POINT];
+    SHADOW_TRACE = "passes/shadow_trace" needs [RAY_START, FILM];
     /// Pass: what is hidden of one source of the base's light.
     SHADOW_BASE = "passes/shadow_base" needs [BASE, SHADOW, FILM, PIXEL_POINT];
     /// Directions to light by way of a scratch.
     DRAWN_LIGHT = "scene/drawn_light" needs [OUTLINE_LIGHT, LUMINANCE];
+    /// Where under its pixel a pair lies.
+    PAIR_PLACE = "scene/pair_place" needs [DRAWN_LIGHT, PAIRS];
     /// Pass: where the sums begin by which scratches are picked.
     SHADOW_PICKS = "passes/shadow_picks" needs [SHADOW, PICKS, FILM];
     /// Pass: a ray of each sample by way of a scratch.
-    SHADOW_SCRATCH_RAYS = "passes/shadow_scratch_rays" needs [DRAWN_LIGHT, PAIRS, PICKS, SHADOW, LIGHT_SAMPLING, FILM];
+    SHADOW_SCRATCH_RAYS = "passes/shadow_scratch_rays" needs [PAIR_PLACE, PICKS, SHADOW, LIGHT_SAMPLING, FILM];
     /// Pass: what is hidden of what scratches send.
     SHADOW_SCRATCHES = "passes/shadow_scratches" needs [SHADOW, FILM];
+    /// The sums of a sample over its scratches.
+    SUMS = "scene/sums" needs [LAYOUT, METHOD, MASK, FILM];
+    /// What the passes share that draw rays to other objects.
+    BOUNCE = "scene/bounce" needs [SHADOW];
+    /// Pass: a ray of each sample to other objects by its base.
+    BOUNCE_BASE_RAYS = "passes/bounce_base_rays" needs [BOUNCE, BASE_LOBES, SUMS, PIXEL_POINT];
+    /// Pass: the same by a scratch.
+    BOUNCE_SCRATCH_RAYS = "passes/bounce_scratch_rays" needs [BOUNCE, PAIR_PLACE, PICKS, SUMS, FRESNEL];
+    /// Pass: what each of these rays meets.
+    BOUNCE_TRACE = "passes/bounce_trace" needs [RAY_START, FILM];
+    /// Pass: the surface points of what they met.
+    BOUNCE_SURFACE = "passes/bounce_surface" needs [HIT, FILM, PIXEL_POINT, GGX];
+    /// Passes: the scratches that are seen there.
+    BOUNCE_GATHER = "passes/bounce_gather" needs [ROWS, FILM, PIXEL_POINT];
+    /// Pass: light from there, added to samples.
+    BOUNCE_LIGHT = "passes/bounce_light" needs [SUMS, CONTENTS];
+    /// Pass: and to the film.
+    BOUNCE_FILM = "passes/bounce_film" needs [FILM];
     /// Pass: base and scratches by the method of 2018.
     SHADE_PUBLISHED = "published/shade_published" needs [PUBLISHED_GATHER, PUBLISHED_BASE, FILM, PIXEL_POINT];
     /// Pass: what a pixel adds to the film.
-    RESOLVE = "passes/resolve" needs [SCENE, FILM, METHOD, MASK];
+    RESOLVE = "passes/resolve" needs [SCENE, SUMS];
     /// Pass: the film on a display.
     DISPLAY = "passes/display" needs [LAYOUT, TONE_MAP];
 }

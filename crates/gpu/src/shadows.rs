@@ -13,6 +13,7 @@ use crate::bindings::Layouts;
 use crate::compute_pass::{ComputePass, Recording, Use, in_a_row};
 use crate::device::Gpu;
 use crate::error::Error;
+use crate::film::Film;
 use crate::pipelines::Orders;
 use crate::rows;
 use crate::scene_data::SceneData;
@@ -22,7 +23,7 @@ use crate::shadow_scratches::ShadowScratchesPasses;
 use crate::strip::{StripRoom, whole};
 use crate::transfer::Transfer;
 use crate::triangle_tree;
-use crate::variant::ShadeVariant;
+use crate::variant::{Constant, Samples, ShadeVariant};
 
 /// What rays to the lights of a scene need, beside the scene.
 pub(crate) struct Shadows {
@@ -31,7 +32,7 @@ pub(crate) struct Shadows {
     base: ComputePass,
     /// None where the scene has no scratches.
     pub scratches: Option<ShadowScratchesPasses>,
-    tree: wgpu::TextureView,
+    pub tree: wgpu::TextureView,
     /// How far the scene reaches from the origin of what was uploaded.
     pub extent_m: f32,
 }
@@ -57,7 +58,21 @@ impl Shadows {
         }
         let mut transfer = Transfer::new(gpu);
         let tree = rows::upload(&mut transfer, WHAT, &texels).await?;
+        let positions = scene.objects.iter().flat_map(|o| &o.mesh.positions_m);
+        let far = positions.map(|p| (p.as_dvec3() - origin_m).length());
+        let extent_m = far.fold(0.0, f64::max) as f32;
         let mut orders = Orders::new(gpu, layouts, variant);
+        let shadows = Self::over(&mut orders, tree, extent_m, Samples::OfPixels);
+        orders.compile().await?;
+        Ok(shadows)
+    }
+
+    /// The same for what rays have met.
+    pub(crate) fn of_hits(&self, orders: &mut Orders) -> Self {
+        Self::over(orders, self.tree.clone(), self.extent_m, Samples::Hits)
+    }
+
+    fn over(orders: &mut Orders, tree: wgpu::TextureView, extent_m: f32, samples: Samples) -> Self {
         let base_rays = [Use::Reads, Use::Reads, Use::Writes, Use::Uniform];
         let trace = [
             Use::Reads,
@@ -66,6 +81,7 @@ impl Shadows {
             Use::Writes,
             Use::Uniform,
             Use::Integers,
+            Use::Writes,
         ];
         let base = [
             Use::Reads,
@@ -74,31 +90,33 @@ impl Shadows {
             Use::Writes,
             Use::Uniform,
         ];
-        let mut pass =
-            |name, module, uses: &[Use]| ComputePass::order(&mut orders, name, module, uses, &[]);
-        let base_rays = pass(
-            "shadow rays",
-            (&shaders::SHADOW_BASE_RAYS, "shadow_base_rays"),
-            &base_rays,
-        );
-        let trace = pass(
-            "shadow trace",
-            (&shaders::SHADOW_TRACE, "shadow_trace"),
-            &trace,
-        );
-        let base = pass("shadow base", (&shaders::SHADOW_BASE, "shadow_base"), &base);
-        let scratches = (variant.has.scratches).then(|| ShadowScratchesPasses::new(&mut orders));
-        orders.compile().await?;
-        let positions = scene.objects.iter().flat_map(|o| &o.mesh.positions_m);
-        let far = positions.map(|p| (p.as_dvec3() - origin_m).length());
-        Ok(Self {
-            base_rays,
-            trace,
-            base,
-            scratches,
+        let has_scratches = orders.variant().has.scratches;
+        let mut pass = |name, module, uses: &[Use], constants: &[Constant]| {
+            ComputePass::order(orders, name, module, uses, constants)
+        };
+        Self {
+            base_rays: pass(
+                "shadow rays",
+                (&shaders::SHADOW_BASE_RAYS, "shadow_base_rays"),
+                &base_rays,
+                &[],
+            ),
+            trace: pass(
+                "shadow trace",
+                (&shaders::SHADOW_TRACE, "shadow_trace"),
+                &trace,
+                &[samples.constant()],
+            ),
+            base: pass(
+                "shadow base",
+                (&shaders::SHADOW_BASE, "shadow_base"),
+                &base,
+                &[],
+            ),
+            scratches: has_scratches.then(|| ShadowScratchesPasses::new(orders, samples)),
             tree,
-            extent_m: far.fold(0.0, f64::max) as f32,
-        })
+            extent_m,
+        }
     }
 
     /// A ray of each sample to a source of the base, and what it meets.
@@ -108,6 +126,7 @@ impl Shadows {
         recording: &mut Recording,
         room: &StripRoom,
         shadow_room: &ShadowRoom,
+        film: &Film,
         groups: u32,
     ) {
         let resources = [
@@ -118,7 +137,7 @@ impl Shadows {
         ];
         let pass = &self.base_rays;
         pass.run(gpu, recording, &resources, in_a_row(groups));
-        self.record_trace(gpu, recording, room, shadow_room, groups);
+        self.record_trace(gpu, recording, room, shadow_room, film, groups);
     }
 
     /// A ray of each sample by way of a scratch that was picked, and what it meets.
@@ -128,11 +147,12 @@ impl Shadows {
         recording: &mut Recording,
         room: &StripRoom,
         shadow_room: &ShadowRoom,
+        film: &Film,
         groups: u32,
     ) {
         if let Some(scratches) = &self.scratches {
             scratches.record_rays(gpu, recording, room, shadow_room, groups);
-            self.record_trace(gpu, recording, room, shadow_room, groups);
+            self.record_trace(gpu, recording, room, shadow_room, film, groups);
         }
     }
 
@@ -142,6 +162,7 @@ impl Shadows {
         recording: &mut Recording,
         room: &StripRoom,
         shadow_room: &ShadowRoom,
+        film: &Film,
         groups: u32,
     ) {
         let resources = [
@@ -151,6 +172,7 @@ impl Shadows {
             whole(&shadow_room.halves),
             whole(&shadow_room.round),
             BindingResource::TextureView(&self.tree),
+            whole(&film.buffer),
         ];
         let pass = &self.trace;
         pass.run(gpu, recording, &resources, in_a_row(groups));

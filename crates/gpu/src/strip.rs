@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use wgpu::{BindingResource, BufferUsages, TextureFormat, TextureUsages};
 
+use crate::bounce_room::BounceRoom;
 use crate::device::Gpu;
 use crate::error::Error;
 use crate::layout::{BaseLight, ChunkSum, PixelPaint, PixelPoint};
@@ -44,11 +45,14 @@ pub(crate) struct StripRoom {
     pub list_starts: wgpu::Buffer,
     /// And where the groups of its samples begin, in later steps.
     pub group_starts: wgpu::Buffer,
+    /// Of these; of hits, whose groups lie in no tile, of the starts of lists.
     pub group_scan: Scan,
     pub samples: Samples,
     pub lists: Lists,
     /// None before there are shadows.
     pub shadows: Option<ShadowRoom>,
+    /// None before there are bounces.
+    pub bounces: Option<Box<BounceRoom>>,
 }
 
 /// The arrays over samples, and over groups of 64 of them. They grow to the size that is needed.
@@ -149,6 +153,22 @@ impl StripRoom {
             samples: Samples::new(gpu, scans).await?,
             lists: Lists::new(gpu, scans).await?,
             shadows: None,
+            bounces: None,
+        })
+    }
+
+    /// Room for what rays from the samples of so many groups meet. No picture is drawn in it, and each sample has a list of its own in place of
+    /// each tile.
+    pub(crate) async fn of_hits(gpu: &Gpu, scans: &ScanPasses, groups: u32) -> Result<Self, Error> {
+        let starts = GROUP * groups + 1;
+        let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC;
+        let bytes = 4 * u64::from(starts);
+        let list_starts = gpu.buffer("lists of hits", bytes, usage).await?;
+        let group_scan = scans.of(gpu, &list_starts, starts).await?;
+        Ok(Self {
+            list_starts,
+            group_scan,
+            ..Self::new(gpu, scans, 1, 1).await?
         })
     }
 }

@@ -5,27 +5,28 @@ use std::ops::Range;
 use wgpu::BufferUsages;
 
 use crate::bindings::{Layouts, bind};
+use crate::bounce_room::BounceRoom;
 use crate::compute_pass::Recording;
 use crate::device::Gpu;
 use crate::error::Error;
 use crate::film::Film;
 use crate::frame::{Counted, View, frame};
-use crate::layout::{Frame, PixelPoint, ShadowRound};
+use crate::layout::{Frame, PixelPoint};
 use crate::passes::{ScratchPasses, Shade};
 use crate::pipelines::compiled;
 use crate::scan::ScanPasses;
 use crate::shadow_room::ShadowRoom;
 use crate::shadow_scratches::Scratched;
-use crate::shadows::Shadows;
 use crate::strip::{
     GROUP, Lists, MadeLists, Samples, StripRoom, TILE_PX, chunks_most, strip_points, tile_count,
 };
+use crate::strip_rays::Rounds;
 use crate::timing::Timing;
 use crate::visibility::VisibilityPass;
 
 /// The passes that every scene needs, and the frame that all passes read.
 pub(crate) struct StripShader {
-    gpu: Gpu,
+    pub gpu: Gpu,
     visibility: VisibilityPass,
     pub scans: ScanPasses,
     frame: wgpu::Buffer,
@@ -114,6 +115,7 @@ impl StripShader {
         };
         if !Samples::fit(gpu, points, chunks)
             || view.shadows().is_some() && !ShadowRoom::fit(gpu, points)
+            || view.bounces().is_some() && !BounceRoom::fit(gpu, points)
         {
             return self.halves(strip).map(Some);
         }
@@ -173,83 +175,28 @@ impl StripShader {
                 chunks,
                 sorted,
             };
-            self.shade_shadows(view, shadows, room, points, &on).await?;
+            let rounds = Rounds {
+                now: view.rounds(),
+                seed: 0,
+            };
+            self.shade_shadows(view, shadows, room, film, points, &on, rounds)
+                .await?;
+            let bounces = view.bounces();
+            if let Some(bounces) = bounces
+                && !self
+                    .shade_bounces(view, bounces, room, film, points, &on)
+                    .await?
+            {
+                return self.halves(strip).map(Some);
+            }
             self.submit(view, |recording| {
                 passes.resolve.record(gpu, recording, room, film, rows);
+                if let Some(bounces) = bounces {
+                    bounces.record_film(gpu, recording, room, film, rows);
+                }
             });
         }
         Ok(None)
-    }
-
-    /// Takes from the light of the samples what is hidden of it.
-    async fn shade_shadows(
-        &self,
-        view: &View<'_>,
-        shadows: &Shadows,
-        room: &mut StripRoom,
-        points: u64,
-        on: &Scratched,
-    ) -> Result<(), Error> {
-        let (gpu, groups) = (&self.gpu, on.groups);
-        let mut shadow_room = match room.shadows.take() {
-            Some(shadow_room) => shadow_room,
-            None => ShadowRoom::new(gpu).await?,
-        };
-        shadow_room.make_room(gpu, points).await?;
-        let lights = view.uploaded.data.light_count;
-        let sources = lights + u32::from(view.scene.environment.is_some());
-        let mut next = ShadowRound {
-            source: 0,
-            round: 0,
-            rounds: view.rounds().count,
-            extent_m: shadows.extent_m,
-            first_round: view.rounds().first,
-            first_pick: 0,
-            picks: 0,
-        };
-        // A round at a time, so that no submission takes long.
-        for source in 0..sources {
-            for round in 0..next.rounds {
-                next = ShadowRound {
-                    source,
-                    round,
-                    ..next
-                };
-                shadow_room.write(gpu, &next);
-                self.submit(view, |recording| {
-                    shadows.record_base_round(gpu, recording, room, &shadow_room, groups);
-                });
-            }
-            self.submit(view, |recording| {
-                shadows.record_base(gpu, recording, room, &shadow_room, groups);
-            });
-        }
-        if let Some(scratches) = &shadows.scratches {
-            let lanes = u64::from(GROUP) * u64::from(on.chunks);
-            let most = shadow_room
-                .make_room_for_picks(gpu, points, lanes, next.rounds)
-                .await?;
-            next.source = lights + 1;
-            for round in 0..next.rounds {
-                next.round = round;
-                if round % most == 0 {
-                    next.first_pick = round;
-                    next.picks = most.min(next.rounds - round);
-                }
-                shadow_room.write(gpu, &next);
-                self.submit(view, |recording| {
-                    if round == next.first_pick {
-                        scratches.record_picks(gpu, recording, room, &shadow_room, on);
-                    }
-                    shadows.record_scratch_round(gpu, recording, room, &shadow_room, groups);
-                });
-            }
-            self.submit(view, |recording| {
-                scratches.record_scratches(gpu, recording, room, &shadow_room, groups);
-            });
-        }
-        room.shadows = Some(shadow_room);
-        Ok(())
     }
 
     /// How many groups the samples of a strip's edges make.
@@ -271,7 +218,7 @@ impl StripShader {
         self.read_u32(&room.group_starts, tiles).await
     }
 
-    async fn read_u32(&self, buffer: &wgpu::Buffer, index: u32) -> Result<u32, Error> {
+    pub(crate) async fn read_u32(&self, buffer: &wgpu::Buffer, index: u32) -> Result<u32, Error> {
         let at = 4 * u64::from(index);
         let bytes = self.gpu.read(buffer, at..at + 4).await?;
         Ok(bytemuck::pod_read_unaligned(&bytes))
@@ -348,7 +295,7 @@ impl StripShader {
     }
 
     /// Submits what `record` records.
-    fn submit(&self, view: &View, record: impl FnOnce(&mut Recording)) {
+    pub(crate) fn submit(&self, view: &View, record: impl FnOnce(&mut Recording)) {
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         record(&mut self.recording(&mut encoder, view));
         self.gpu.queue.submit([encoder.finish()]);

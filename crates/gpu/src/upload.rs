@@ -3,6 +3,7 @@
 use hairline_scene::Scene;
 
 use crate::bindings::Layouts;
+use crate::bounces::Bounces;
 use crate::device::Gpu;
 use crate::error::Error;
 use crate::passes::ScenePasses;
@@ -18,6 +19,8 @@ pub struct GpuScene {
     pub(crate) passes: ScenePasses,
     /// None: nothing hides a light.
     pub(crate) shadows: Option<Shadows>,
+    /// None: light goes by no other object.
+    pub(crate) bounces: Option<Bounces>,
     variant: ShadeVariant,
 }
 
@@ -43,11 +46,12 @@ impl GpuScene {
             data,
             passes,
             shadows: None,
+            bounces: None,
             variant,
         })
     }
 
-    /// Lets the objects of the scene hide lights from one another.
+    /// Lets the objects of the scene hide lights from one another, and light go by up to `bounces` others.
     ///
     /// # Errors
     /// As [`Self::new`].
@@ -56,8 +60,14 @@ impl GpuScene {
         gpu: &Gpu,
         layouts: &Layouts,
         scene: &Scene,
+        bounces: u32,
     ) -> Result<(), Error> {
-        let shadows = Shadows::new(gpu, layouts, scene, &self.data, &self.variant).await?;
+        let Self { data, variant, .. } = self;
+        let shadows = Shadows::new(gpu, layouts, scene, data, variant).await?;
+        self.bounces = match bounces {
+            0 => None,
+            count => Some(Bounces::new(gpu, layouts, data, variant, &shadows, count).await?),
+        };
         self.shadows = Some(shadows);
         Ok(())
     }

@@ -41,6 +41,22 @@ impl Contents {
 /// A constant that a pipeline sets.
 pub(crate) type Constant = (&'static str, f64);
 
+/// Which samples a pass shades. Twin: at_hits.wgsl.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Samples {
+    /// What the camera sees.
+    OfPixels,
+    /// What rays from other samples have met.
+    Hits,
+}
+
+impl Samples {
+    /// For passes whose shader asks.
+    pub(crate) fn constant(self) -> Constant {
+        ("AT_HITS", f64::from(u8::from(self == Self::Hits)))
+    }
+}
+
 /// What the overrides of a shader's text are set to, for a scene with everything and for one with nothing, by both methods and all masks:
 /// each set has a name. For compilers other than the device's own.
 pub fn pipeline_variants(text: &str) -> Vec<(String, Vec<(&'static str, f64)>)> {
@@ -71,7 +87,7 @@ pub fn pipeline_variants(text: &str) -> Vec<(String, Vec<(&'static str, f64)>)> 
         for (scene, has) in [("everything", everything), ("nothing", Contents::default())] {
             let constants = ShadeVariant { method, has }.constants(text);
             let kinds = if text.contains("override SCRATCH_LIGHTS:") {
-                0..Kind::ALL.len()
+                0..Kind::ALL.len() + 1
             } else {
                 0..1
             };
@@ -85,10 +101,12 @@ pub fn pipeline_variants(text: &str) -> Vec<(String, Vec<(&'static str, f64)>)> 
                 if variants.iter().any(|(_, known)| *known == constants) {
                     continue;
                 }
-                if text.contains("override PICKS:") {
+                let switches = ["PICKS", "BY_ENERGY", "AT_HITS"];
+                let has = |switch: &&str| text.contains(&format!("override {switch}:"));
+                for switch in switches.into_iter().filter(has) {
                     let mut constants = constants.clone();
-                    constants.push(("PICKS", 1.0));
-                    variants.push((format!("{name}, picks"), constants));
+                    constants.push((switch, 1.0));
+                    variants.push((format!("{name}, {switch}"), constants));
                 }
                 variants.push((name, constants));
             }

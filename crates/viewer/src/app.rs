@@ -13,7 +13,7 @@ use eframe::egui_wgpu::RenderState;
 use hairline_editor::Document;
 use hairline_editor::bookmarks::Bookmarks;
 use hairline_scene::description::Camera;
-use hairline_scene::{DEFAULT_TRANSPORT, Description};
+use hairline_scene::{Description, Transport};
 use web_time::Instant;
 
 use crate::command::Command;
@@ -46,6 +46,8 @@ pub struct Options {
     pub state_dir: Option<PathBuf>,
     /// Whether to ask for files by the system's dialogs; else by a line in the window.
     pub native_dialogs: bool,
+    /// Shadows and bounces, until they are switched.
+    pub transport: Transport,
 }
 
 /// The whole window.
@@ -112,7 +114,7 @@ impl Viewer {
             toolbox: Toolbox::default(),
             reading: ReadingState::default(),
             free_view: FreeView::default(),
-            transport: DEFAULT_TRANSPORT,
+            transport: options.transport,
             overlays: Overlays::default(),
             gallery: Gallery::default(),
             bookmarks,

@@ -144,7 +144,7 @@ impl Export {
             description,
             size_px: form.size_px,
             samples: form.samples,
-            transport: work.engine.backend().counts(work.wanted_transport()),
+            transport: work.wanted_transport(),
             is_transparent: form.is_transparent,
             motion: form.motion(),
             path: form.path(),

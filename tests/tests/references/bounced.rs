@@ -50,7 +50,7 @@ fn in_a_mirror() -> Scene {
     scene
 }
 
-fn scenes() -> [(&'static str, Scene); 4] {
+pub(super) fn scenes() -> [(&'static str, Scene); 4] {
     [
         ("a wall", before_a_wall(WHITE, WHITE)),
         (

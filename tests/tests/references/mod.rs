@@ -2,6 +2,7 @@
 //! the same comparisons on more scenes.
 
 mod bounced;
+mod bounced_on_gpu;
 mod chance;
 mod closed_form;
 mod environment;

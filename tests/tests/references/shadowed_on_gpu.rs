@@ -11,8 +11,8 @@ use hairline_index::method::Method;
 use hairline_scene::{Scene, ScratchTables};
 use std::sync::Arc;
 
-/// None, and a line on stderr, where there is no driver.
-fn on_gpu(scene: &Scene, samples: u32, shadows: bool) -> Option<Image> {
+/// With shadows and so many bounces, or without. None, and a line on stderr, where there is no driver.
+pub(super) fn on_gpu(scene: &Scene, samples: u32, bounces: Option<u32>) -> Option<Image> {
     let gpu = headless::test_gpu()?;
     let method = Method {
         mask: LINEAR.mask,
@@ -27,8 +27,8 @@ fn on_gpu(scene: &Scene, samples: u32, shadows: bool) -> Option<Image> {
     let image = gpu.block_on(async {
         let mut renderer = Renderer::new(gpu).await?;
         let mut uploaded = renderer.upload(scene, &index, &tables, &method).await?;
-        if shadows {
-            renderer.add_shadows(&mut uploaded, scene).await?;
+        if let Some(bounces) = bounces {
+            renderer.add_shadows(&mut uploaded, scene, bounces).await?;
         }
         renderer.render(scene, &uploaded, &options, &|_| {}).await
     });
@@ -43,13 +43,13 @@ fn rms(values: &[f64]) -> f64 {
 #[test]
 fn rays_come_to_the_cpus_shadows() {
     for (name, scene) in scenes() {
-        let Some(open) = on_gpu(&scene, 1, false) else {
+        let Some(open) = on_gpu(&scene, 1, None) else {
             return;
         };
         let truth = closed(&scene, 256, true);
         let cpu_open = closed(&scene, 1, false);
         let by_cpu = closed(&scene, 32, true);
-        let images = [4, 32].map(|samples| (samples, on_gpu(&scene, samples, true)));
+        let images = [4, 32].map(|samples| (samples, on_gpu(&scene, samples, Some(0))));
         for layer in [Layer::Scratches, Layer::Base] {
             let of = |image: &Image| luminance(image, layer);
             let (open, cpu_open, truth) = (of(&open), of(&cpu_open), of(&truth));
@@ -89,10 +89,10 @@ fn rays_come_to_the_cpus_shadows() {
 fn nothing_in_the_way_changes_nothing_on_the_gpu() {
     for (name, mut scene) in scenes() {
         scene.objects.truncate(1);
-        let Some(open) = on_gpu(&scene, 3, false) else {
+        let Some(open) = on_gpu(&scene, 3, None) else {
             return;
         };
-        assert!(on_gpu(&scene, 3, true) == Some(open), "{name}");
+        assert!(on_gpu(&scene, 3, Some(0)) == Some(open), "{name}");
     }
 }
 
@@ -104,10 +104,10 @@ fn spheres_do_not_shade_themselves_on_the_gpu() {
         scene.materials[0].roughness = 0.4;
         scene.lights = vec![sphere(VIEW, 0.3, -0.6, 0.05)];
         set_ball(&mut scene, slices, stacks, 2e-4);
-        let Some(open) = on_gpu(&scene, 4, false) else {
+        let Some(open) = on_gpu(&scene, 4, None) else {
             return;
         };
-        let image = on_gpu(&scene, 4, true).unwrap();
+        let image = on_gpu(&scene, 4, Some(0)).unwrap();
         let towards = off_the_mirror(VIEW.angle_rad, 0.3, -0.6);
         let (mut lit, mut dark) = (0, 0);
         for i in 0..open.base.len() {

@@ -7,7 +7,7 @@ use hairline_gpu::{Error, Gpu, GpuScene, RenderOptions, Renderer};
 use hairline_image::{Batch, Image};
 use hairline_index::ScratchIndex;
 use hairline_index::method::Method;
-use hairline_scene::{Scene, ScratchTables};
+use hairline_scene::{Scene, ScratchTables, Transport};
 
 /// A renderer with its shaders compiled and the scene uploaded.
 pub struct OnGpu {
@@ -23,13 +23,14 @@ impl OnGpu {
         scratches: &Arc<ScratchIndex>,
         tables: &ScratchTables,
         method: &Method,
-        shadows: bool,
+        transport: Transport,
     ) -> Result<Self, Error> {
         gpu.block_on(async {
             let mut renderer = Renderer::new(gpu).await?;
             let mut uploaded = renderer.upload(scene, scratches, tables, method).await?;
-            if shadows {
-                renderer.add_shadows(&mut uploaded, scene).await?;
+            if transport.shadows {
+                let added = renderer.add_shadows(&mut uploaded, scene, transport.bounces);
+                added.await?;
             }
             Ok(Self { renderer, uploaded })
         })

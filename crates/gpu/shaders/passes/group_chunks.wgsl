@@ -1,4 +1,4 @@
-// Pass: into how many chunks the list of each group's tile is cut. One invocation a group.
+// Pass: into how many chunks the list of each group is cut. One invocation a group.
 
 @group(3) @binding(1) var<storage, read> list_starts: array<u32>;
 // One more than groups; becomes prefix sums.
@@ -12,8 +12,8 @@ fn group_chunks(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups
     }
     var count = 0u;
     if group < frame.group_count {
-        let tile = group_tile(group);
-        count = (list_starts[tile + 1u] - list_starts[tile] + CHUNK_SEGMENTS - 1u) / CHUNK_SEGMENTS;
+        let list = group_list(group);
+        count = (list_starts[list.y] - list_starts[list.x] + CHUNK_SEGMENTS - 1u) / CHUNK_SEGMENTS;
     }
     chunk_starts[group] = count;
 }

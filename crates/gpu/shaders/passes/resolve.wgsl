@@ -4,8 +4,7 @@
 @group(3) @binding(0) var<storage, read> points: array<PixelPoint>;
 @group(3) @binding(1) var<storage, read> base_light: array<BaseLight>;
 @group(3) @binding(2) var<storage, read> group_starts: array<u32>;
-@group(3) @binding(3) var<storage, read> chunk_starts: array<u32>;
-@group(3) @binding(4) var<storage, read> chunk_sums: array<ChunkSum>;
+// 3 and 4: sums.wgsl.
 @group(3) @binding(5) var<storage, read_write> film: Film;
 
 // The reciprocal of depth is linear over the picture of a plane, so its second difference tells a crease or a step. In units of a
@@ -41,32 +40,6 @@ fn pixel_is_edge(pixel: vec2u) -> bool {
     return is_edge;
 }
 
-// The sums of a sample over all chunks of its group, in the order of the list.
-fn sample_sums(group: u32, lane: u32) -> ScratchSums {
-    var sums = ScratchSums(0.0, 0.0, vec3f(0.0), vec3f(0.0));
-    for (var chunk = chunk_starts[group]; chunk < chunk_starts[group + 1u]; chunk += 1u) {
-        let sum = chunk_sums[GROUP * chunk + lane];
-        if sum.share < 0.0 {
-            atomicAdd(&film.gave_up, 1u);
-        }
-        sums.share += sum.share;
-        sums.share_by_line += sum.share_by_line;
-        sums.radiance += sum.radiance;
-        sums.energy += sum.energy;
-    }
-    return sums;
-}
-
-fn masked(sums: ScratchSums, depth_coherence: f32) -> Masked {
-    if METHOD_MASK == MASK_LINEAR {
-        return Masked(sums.radiance, sums.energy);
-    }
-    if METHOD_MASK == MASK_DENSITY {
-        return Masked(sums.radiance, min(sums.energy, vec3f(1.0)));
-    }
-    return mask_resolve(sums, depth_coherence);
-}
-
 // What lane `lane` of a group adds to its pixel.
 fn sample_value(group: u32, lane: u32, at: u32) -> FilmPixel {
     let point = points[at];
@@ -77,7 +50,11 @@ fn sample_value(group: u32, lane: u32, at: u32) -> FilmPixel {
     }
     var scratches = Masked(vec3f(0.0), vec3f(0.0));
     if HAS_SCRATCHES {
-        scratches = masked(sample_sums(group, lane), objects[point.object - 1u].depth_coherence);
+        let sums = sample_sums(group, lane);
+        if sums.cut > 0u {
+            atomicAdd(&film.gave_up, sums.cut);
+        }
+        scratches = masked(sums.all, objects[point.object - 1u].depth_coherence);
     }
     // A groove interrupts the reflecting surface; what shines from under it passes.
     let light = base_light[at];

@@ -21,6 +21,8 @@ const SCRATCH_LIGHTS_QUADS: u32 = 1u;
 const SCRATCH_LIGHTS_OUTLINES: u32 = 2u;
 const SCRATCH_LIGHTS_TUBES: u32 = 3u;
 const SCRATCH_LIGHTS_ENVIRONMENT: u32 = 4u;
+// None: scratches are picked by the energy that they take of the base. Light of other objects goes by way of them.
+const SCRATCH_LIGHTS_NONE: u32 = 5u;
 
 // Whether the pass does not add up light, but picks scratches that stand for it: shadow rays go by way of them.
 override PICKS: bool = false;
@@ -128,6 +130,9 @@ fn lights_reaching(pair: Pair) -> u32 {
         return 1u;
     }
     var reaching = 0u;
+    if SCRATCH_LIGHTS == SCRATCH_LIGHTS_NONE {
+        return reaching;
+    }
     for (var l = range.first; l < range.end; l += 1u) {
         let around = light_around(l);
         let center_m = (around.xyz - pair.position_m) * pair.surface;
@@ -220,12 +225,12 @@ struct Chunk {
 
 fn chunk_at(chunk: u32) -> Chunk {
     let group = chunk_group(chunk);
-    let tile = group_tile(group);
-    let first = list_starts[tile] + (chunk - chunk_starts[group]) * CHUNK_SEGMENTS;
+    let list = group_list(group);
+    let first = list_starts[list.x] + (chunk - chunk_starts[group]) * CHUNK_SEGMENTS;
     return Chunk(
         group,
         first,
-        min(first + CHUNK_SEGMENTS, list_starts[tile + 1u]),
+        min(first + CHUNK_SEGMENTS, list_starts[list.y]),
     );
 }
 
@@ -318,10 +323,9 @@ fn shade_scratches(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgro
                 if lights_now {
                     results[lane] = share.segment * light_pair(pair, range.first + ((item >> 6u) & 7u));
                 } else {
-                    // The colourless density of Velinov et al. (2018) is twice the share.
-                    var energy = vec3f(2.0);
-                    if METHOD_MASK != MASK_DENSITY && !PICKS {
-                        energy = scratch_energy(scratch_tables, pair.point, pair.seen);
+                    var energy = vec3f(0.0);
+                    if !PICKS || SCRATCH_LIGHTS == SCRATCH_LIGHTS_NONE {
+                        energy = pair_energy(scratch_tables, pair);
                     }
                     let is_seen = share.segment > 0.0 && is_there(pixel, index, segment);
                     if is_seen {
@@ -358,6 +362,14 @@ fn shade_scratches(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgro
                 }
                 queued += workgroupUniformLoad(&lanes_total);
                 for (var j = max(end - own, asked); j < min(end, asked + LANES); j += 1u) {
+                    if PICKS && SCRATCH_LIGHTS == SCRATCH_LIGHTS_NONE {
+                        state.sum += max(rgb_luminance(results[j - asked]), 0.0);
+                        while pick_is_due(state) {
+                            let segment = entries[first + nth_bit(marks[lane], j + own - end)].y;
+                            chunk_words[first_pick + pick_slot(state)] = pick_packed(segment, 0u, results[j - asked]);
+                            state.next += 1u;
+                        }
+                    }
                     sum.energy += results[j - asked];
                     sum.share += shares[j - asked].x;
                     sum.share_by_line += shares[j - asked].y;

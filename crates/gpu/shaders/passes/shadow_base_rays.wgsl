@@ -91,7 +91,7 @@ fn shadow_base_rays(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgr
     }
     let point = surface_point_from(points[at], paints[at]);
     let lobes = base_lobes(point);
-    let seed = shadow_seed(point.position_m);
+    let seed = shadow_seed(point.position_m, shadow_round);
     let choice = shadow_random(seed, shadow_round, SHADOW_CHOICE);
     var kept: Candidate;
     kept.left = choice.y;

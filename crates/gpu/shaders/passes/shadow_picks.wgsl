@@ -6,6 +6,14 @@
 @group(3) @binding(3) var<storage, read_write> picks: array<vec4u>;
 @group(3) @binding(4) var<uniform> shadow_round: ShadowRound;
 
+// Whether scratches are picked by the energy that they take of the base, in place of the light that they send.
+override BY_ENERGY: bool = false;
+
+fn chunk_luminance(chunk: u32, lane: u32) -> f32 {
+    let sum = chunk_sums[GROUP * chunk + lane];
+    return max(rgb_luminance(select(sum.radiance, sum.energy, BY_ENERGY)), 0.0);
+}
+
 // The strata whose places a sum has passed.
 fn strata_before(sum: f32, seed: u32, step: f32) -> u32 {
     let stratum = u32(clamp(sum / max(step, 1e-30), 0.0, f32(shadow_round.picks)));
@@ -26,15 +34,15 @@ fn shadow_picks(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups
     let end_chunk = chunk_starts[group + 1u];
     var all = 0.0;
     for (var chunk = first_chunk; chunk < end_chunk; chunk += 1u) {
-        all += max(rgb_luminance(chunk_sums[GROUP * chunk + lane].radiance), 0.0);
+        all += chunk_luminance(chunk, lane);
     }
     let step = all / f32(shadow_round.picks);
-    let seed = sobol_hash(shadow_seed(points[at].position_m) + shadow_round.first_round + shadow_round.first_pick) & 0xffffffu;
+    let seed = sobol_hash(shadow_seed(points[at].position_m, shadow_round) + shadow_round.first_round + shadow_round.first_pick) & 0xffffffu;
     var sum = 0.0;
     var next = 0u;
     for (var chunk = first_chunk; chunk < end_chunk; chunk += 1u) {
         let begin = sum;
-        sum += max(rgb_luminance(chunk_sums[GROUP * chunk + lane].radiance), 0.0);
+        sum += chunk_luminance(chunk, lane);
         let end = select(strata_before(sum, seed, step), shadow_round.picks, chunk + 1u == end_chunk);
         picks[GROUP * chunk + lane] = pick_state_packed(PickState(begin, next, end, shadow_round.picks, step, seed));
         next = end;

@@ -62,7 +62,7 @@ fn draw_ray(pair: Pair, source: u32, u: vec3f) -> DrawnRay {
 fn ray_by(pixel: PixelPoint, pick: Pick, luminance: f32) -> ShadowRay {
     let segment = segment_from(scratch_segment(pick.segment));
     let pair = pair_of(pixel, segment);
-    let seed = shadow_seed(pixel.position_m);
+    let seed = shadow_seed(pixel.position_m, shadow_round);
     let line = shadow_random_alike(seed, shadow_round, SHADOW_LINE);
     let chord = shadow_random_alike(seed, shadow_round, SHADOW_CHORD);
     let drawn = draw_ray(pair, pick.source, vec3f(line, chord.x));
@@ -72,17 +72,7 @@ fn ray_by(pixel: PixelPoint, pick: Pick, luminance: f32) -> ShadowRay {
     }
     let place = shadow_random_alike(seed, shadow_round, SHADOW_PLACE);
     let normals = vec3f(shadow_normals(shadow_random_alike(seed, shadow_round, SHADOW_START)), gaussian_quantile(clamp(place.x, 1e-6, 1.0 - 1e-6)));
-    let a = (segment.start_m - pixel.position_m) * 1e6;
-    let b = (segment.end_m - pixel.position_m) * 1e6;
-    let start = place_drawn(
-        pair.point,
-        pair.seen,
-        vec2f(dot(a, pair.surface[0]), dot(a, pair.surface[1])),
-        vec2f(dot(b, pair.surface[0]), dot(b, pair.surface[1])),
-        segment.blur_um,
-        normals,
-        place.y,
-    );
+    let start = pair_place(pair, pixel, segment, normals, place.y);
     return ShadowRay(pair.surface * drawn.light.direction, drawn.distance_m, luminance * pick.color * drawn.light.color, start.x, vec3f(0.0), start.y);
 }
 

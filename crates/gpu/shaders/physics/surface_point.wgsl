@@ -42,6 +42,19 @@ fn surface_slope_spread(point: SurfacePoint) -> vec3f {
     return vec3f(variance, point.turn_x.x * point.turn_x.y + point.turn_y.x * point.turn_y.y);
 }
 
+// Beyond this many standard deviations nothing of a footprint is told apart from a Gaussian's tail.
+const SURFACE_REACH_STD: f32 = 3.5;
+
+// Half the sides of the box around a point that holds every segment with a share there, world space. Twin: cpu/src/gather.rs.
+fn surface_reach_m(point: SurfacePoint) -> vec3f {
+    let sigma_m = point.coherence_um * 1e-6;
+    let x = 1e-6 * (point.axis_x * point.footprint_x_um.x + point.axis_y * point.footprint_x_um.y);
+    let y = 1e-6 * (point.axis_x * point.footprint_y_um.x + point.axis_y * point.footprint_y_um.y);
+    let variance = x * x + y * y + 0.7 * sigma_m * sigma_m;
+    let aside = point.leaves * sqrt(variance.x + variance.y + variance.z);
+    return SURFACE_REACH_STD * (sqrt(variance) + abs(point.normal) * aside);
+}
+
 // v of unit length, or `otherwise` where v has none.
 fn surface_normalize_or(v: vec3f, otherwise: vec3f) -> vec3f {
     let length2 = dot(v, v);

@@ -5,7 +5,6 @@
 
 const REACH_STD: f32 = 3.5;
 const FACING_MIN_COS: f32 = 0.2;
-const LEAF_FIRST_BITS: u32 = 28u;
 // Sides of the box that has the variance of a Gaussian of standard deviation 1: the square root of 12.
 const PUBLISHED_BOX: f32 = 3.46410162;
 // Segments seen and not yet lit. Finding and lighting are loops of their own, so that lanes that run in step do the same work.
@@ -31,16 +30,6 @@ fn published_seen(point: SurfacePoint) -> SurfacePoint {
     return seen;
 }
 
-// Half the sides of the box around a point that holds every segment with a share there, world space.
-fn published_reach_m(point: SurfacePoint) -> vec3f {
-    let sigma_m = point.coherence_um * 1e-6;
-    let x = 1e-6 * (point.axis_x * point.footprint_x_um.x + point.axis_y * point.footprint_x_um.y);
-    let y = 1e-6 * (point.axis_x * point.footprint_y_um.x + point.axis_y * point.footprint_y_um.y);
-    let variance = x * x + y * y + 0.7 * sigma_m * sigma_m;
-    let aside = point.leaves * sqrt(variance.x + variance.y + variance.z);
-    return REACH_STD * (sqrt(variance) + abs(point.normal) * aside);
-}
-
 // All scratches of the object under the point's footprint.
 fn published_scratches(point: SurfacePoint, object: Object, triangle: u32) -> ScratchSums {
     var sums = ScratchSums(0.0, 0.0, vec3f(0.0), vec3f(0.0));
@@ -53,20 +42,20 @@ fn published_scratches(point: SurfacePoint, object: Object, triangle: u32) -> Sc
         published_light(point, &sums);
         return sums;
     }
-    let reach_m = published_reach_m(point);
+    let reach_m = surface_reach_m(point);
     let lower_m = point.position_m - reach_m;
     let upper_m = point.position_m + reach_m;
     var at = object.first_node;
     while at < object.end_node {
-        let node = scratch_node(at);
+        let node = scratch_node(scratch_nodes, at);
         // Lanes that a software driver has switched off read zeros, and would go round for ever.
         if node.skip <= at {
             break;
         }
         let touches = all(node.min_m <= upper_m) && all(node.max_m >= lower_m);
         at = select(node.skip, at + 1u, touches);
-        let first = node.leaf & ((1u << LEAF_FIRST_BITS) - 1u);
-        let count = select(0u, node.leaf >> LEAF_FIRST_BITS, touches);
+        let first = node.leaf & ((1u << NODE_FIRST_BITS) - 1u);
+        let count = select(0u, node.leaf >> NODE_FIRST_BITS, touches);
         for (var i = first; i < first + count; i += 1u) {
             published_weigh(point, i, &sums);
         }

@@ -7,6 +7,7 @@ struct BaseLobes {
     fresnel: FresnelRgb,
     body: vec3f,
     specular_share: f32,        // how often the specular one is drawn from
+    albedo: f32,                // of the specular one with F = 1, single scattering
 }
 
 fn base_lobes(point: SurfacePoint) -> BaseLobes {
@@ -22,6 +23,7 @@ fn base_lobes(point: SurfacePoint) -> BaseLobes {
         surface.reflecting.fresnel,
         surface.body,
         select(1.0, clamp(specular / max(specular + below, 1e-30), 0.1, 0.9), below > 0.0),
+        surface.sharp.albedo,
     );
 }
 

@@ -235,6 +235,17 @@ fn draw_outline(point: LitPoint, seen: SeenScratch, view: OutlineView, facing: f
 
 // By the environment; u holds the numbers for the choice between cells, and for the chord.
 fn draw_around(point: LitPoint, seen: SeenScratch, map_from_surface: mat3x3f, u: vec2f) -> DrawnLight {
+    var sent: vec3f;
+    return draw_cells(point, seen, map_from_surface, true, u, &sent);
+}
+
+// By light of radiance 1 from all around. What comes of it is written to `sent`.
+fn draw_all_around(point: LitPoint, seen: SeenScratch, u: vec2f, sent: ptr<function, vec3f>) -> DrawnLight {
+    return draw_cells(point, seen, mat3x3f(), false, u, sent);
+}
+
+// By the cells of an environment, or of one of radiance 1.
+fn draw_cells(point: LitPoint, seen: SeenScratch, map_from_surface: mat3x3f, is_map: bool, u: vec2f, sent: ptr<function, vec3f>) -> DrawnLight {
     let line = band_line_at(band_from_surface(seen.tangent, point.wo), 0.0);
     var offer = DrawnOffer(vec3f(0.0), u.x);
     var taken = ENVIRONMENT_CELLS;
@@ -243,13 +254,17 @@ fn draw_around(point: LitPoint, seen: SeenScratch, map_from_surface: mat3x3f, u:
         let cell = environment_cell(i, line, seen.profile.width_um);
         if cell.q_high > cell.q_low {
             let direction = map_from_surface * surface_from_band(seen.tangent, cell.direction);
-            let blurred = environment_prefiltered(environment_levels, direction, environment_cell_roughness(cell));
+            var blurred = vec3f(1.0);
+            if is_map {
+                blurred = environment_prefiltered(environment_levels, direction, environment_cell_roughness(cell));
+            }
             if drawn_offer(&offer, blurred * scratch_chord(scratch_tables, point, seen, cell.q_high, cell.q_low, cell.direction.z)) {
                 taken = i;
                 radiance = blurred;
             }
         }
     }
+    *sent = offer.total;
     if taken == ENVIRONMENT_CELLS {
         return DrawnLight(vec3f(0.0), false, vec3f(1.0));
     }

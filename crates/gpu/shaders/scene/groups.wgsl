@@ -6,6 +6,15 @@
 // Segments of a list that one workgroup of shade_scratches takes. Small enough that no software driver ends its loops. Twin: src/strip.rs.
 const CHUNK_SEGMENTS: u32 = 512u;
 
+// Where the list of a group begins and ends, as places in the array of starts: a list for each tile, or for each sample.
+fn group_list(group: u32) -> vec2u {
+    if AT_HITS {
+        return GROUP * vec2u(group, group + 1u);
+    }
+    let tile = group_tile(group);
+    return vec2u(tile, tile + 1u);
+}
+
 fn group_tile(group: u32) -> u32 {
     if frame.step == 0u {
         return group;

@@ -1,4 +1,18 @@
-// From a triangle that a pixel sees to the surface point: interpolation, normal map, textures. Twin: cpu/src/surface.rs.
+// From a triangle that a ray meets to the surface point: interpolation, normal map, textures. Twin: cpu/src/surface.rs.
+
+// How a point is looked at.
+struct HitView {
+    ray: vec3f,
+    depth_m: f32,               // of the point, in lengths of the ray
+    right: vec3f,               // how the ray changes
+    down: vec3f,
+    stds: f32,                  // standard deviations of the filter, in such changes
+    least_cos: f32,             // footprints are no longer than at this cosine
+}
+
+fn hit_axis(view: HitView, normal: vec3f, change: vec3f) -> vec3f {
+    return footprint_axis_from(view.ray, view.depth_m, normal, change, view.least_cos);
+}
 
 // Area of the footprint in texture space, as the side of a square.
 fn hit_texture_footprint(a: Vertex, b: Vertex, c: Vertex, geometric: vec3f, axis_x: vec3f, axis_y: vec3f) -> f32 {
@@ -35,15 +49,15 @@ fn hit_normal_turn(a: Vertex, b: Vertex, c: Vertex, geometric: vec3f, interpolat
 }
 
 // How a point's surface is turned to the viewer, and the footprint there.
-fn hit_turn(point: ptr<function, SurfacePoint>, normal: vec3f, to_viewer: vec3f, ray: vec3f, depth: f32) {
+fn hit_turn(point: ptr<function, SurfacePoint>, normal: vec3f, to_viewer: vec3f, view: HitView) {
     (*point).normal = normal;
     // The viewer in the x-z plane; any x will do where they look along the normal.
     (*point).axis_x = surface_normalize_or(to_viewer - normal * dot(normal, to_viewer), surface_any_across(normal));
     (*point).axis_y = cross(normal, (*point).axis_x);
     let cos_view = dot(normal, to_viewer);
     (*point).wo = vec3f(sqrt(max(1.0 - cos_view * cos_view, 0.0)), 0.0, cos_view);
-    let x_um = footprint_axis(ray, depth, normal, frame.per_px_x) * (1e6 * frame.footprint_std_px);
-    let y_um = footprint_axis(ray, depth, normal, frame.per_px_y) * (1e6 * frame.footprint_std_px);
+    let x_um = hit_axis(view, normal, view.right) * (1e6 * view.stds);
+    let y_um = hit_axis(view, normal, view.down) * (1e6 * view.stds);
     (*point).footprint_x_um = vec2f(dot(x_um, (*point).axis_x), dot(x_um, (*point).axis_y));
     (*point).footprint_y_um = vec2f(dot(y_um, (*point).axis_x), dot(y_um, (*point).axis_y));
 }
@@ -81,26 +95,36 @@ fn hit_surface_point(triangle: u32, ray: vec3f, depth_m: ptr<function, f32>) -> 
     let a = vertices[3u * triangle];
     let b = vertices[3u * triangle + 1u];
     let c = vertices[3u * triangle + 2u];
+    let bary = surface_barycentric(frame.camera_m, ray, a.position_m, b.position_m, c.position_m);
+    let position_m = a.position_m + (b.position_m - a.position_m) * bary.x + (c.position_m - a.position_m) * bary.y;
+    let depth = dot(position_m - frame.camera_m, frame.forward);
+    *depth_m = depth;
+    let view = HitView(ray, depth, frame.per_px_x, frame.per_px_y, frame.footprint_std_px, MIN_FOOTPRINT_COS);
+    var point = hit_surface(triangle, bary, view);
+    point.distance_m = depth * length(ray);
+    return point;
+}
+
+// The surface at a place of a triangle; `distance_m` is left to the caller.
+fn hit_surface(triangle: u32, bary: vec2f, view: HitView) -> SurfacePoint {
+    let a = vertices[3u * triangle];
+    let b = vertices[3u * triangle + 1u];
+    let c = vertices[3u * triangle + 2u];
     let geometric = cross(b.position_m - a.position_m, c.position_m - a.position_m);
-    let to_viewer = -normalize(ray);
+    let to_viewer = -normalize(view.ray);
     // Either side of a sheet is a surface of its own.
     let side = select(1.0, -1.0, dot(geometric, to_viewer) < 0.0);
-    let bary = surface_barycentric(frame.camera_m, ray, a.position_m, b.position_m, c.position_m);
     let weights = vec3f(1.0 - bary.x - bary.y, bary);
     let interpolated = a.normal * weights.x + b.normal * weights.y + c.normal * weights.z;
     let smooth_normal = surface_normalize_or(interpolated, normalize(geometric));
 
     var point: SurfacePoint;
     point.position_m = a.position_m + (b.position_m - a.position_m) * bary.x + (c.position_m - a.position_m) * bary.y;
-    let depth = dot(point.position_m - frame.camera_m, frame.forward);
-    point.distance_m = depth * length(ray);
-    *depth_m = depth;
 
     let material = material_at(a.material & ~VERTEX_BITANGENT_FLIPPED);
     let uv = vec2f(a.u, a.v) * weights.x + vec2f(b.u, b.v) * weights.y + vec2f(c.u, c.v) * weights.z;
-    let std_px = frame.footprint_std_px;
-    let smooth_x = footprint_axis(ray, depth, side * smooth_normal, frame.per_px_x) * std_px;
-    let smooth_y = footprint_axis(ray, depth, side * smooth_normal, frame.per_px_y) * std_px;
+    let smooth_x = hit_axis(view, side * smooth_normal, view.right) * view.stds;
+    let smooth_y = hit_axis(view, side * smooth_normal, view.down) * view.stds;
     let filter_side = hit_texture_footprint(a, b, c, geometric, smooth_x, smooth_y);
 
     var normal = smooth_normal;
@@ -123,7 +147,7 @@ fn hit_surface_point(triangle: u32, ray: vec3f, depth_m: ptr<function, f32>) -> 
     }
     normal = surface_face_viewer(side * normal, to_viewer);
     point.leaves = SURFACE_BENDS + 2.0 * distance(normal, side * surface_normalize_or(geometric, normal));
-    hit_turn(&point, normal, to_viewer, ray, depth);
+    hit_turn(&point, normal, to_viewer, view);
     hit_paint(&point, hit_textured(material, uv, filter_side));
     let turn_x = side * hit_normal_turn(a, b, c, geometric, interpolated, smooth_x);
     let turn_y = side * hit_normal_turn(a, b, c, geometric, interpolated, smooth_y);

@@ -158,11 +158,15 @@ struct LightRange {
 struct ShadowRound {
     source: u32,                // index into the lights; their number for the environment, one more for what scratches send
     round: u32,
-    rounds: u32,                // of all
+    rounds: u32,                // of this picture
     extent_m: f32,              // how far the scene reaches from the origin: what rounding goes by
     first_round: u32,           // rays of earlier pictures, to be averaged with this one; an even number
+    all_rounds: u32,            // of this one and all that it will be averaged with
     first_pick: u32,            // the round of the first scratch that is picked of each sample
     picks: u32,                 // and how many are picked at once
+    seed: u32,                  // other random numbers for each
+    depth: u32,                 // how many objects light goes by between the samples and the camera
+    by_scratches: u32,          // of bounces: whether light leaves the sample that the camera sees by way of its scratches
 }
 
 // A ray from a sample to a source, and the light that it stands for.
@@ -181,6 +185,23 @@ struct ShadowHalf {
     specular_hidden: vec3f,     // of those that meet something
     body: vec3f,
     body_hidden: vec3f,
+}
+
+// A ray from a sample to what may send it light; then what it has met.
+struct BounceRay {
+    direction: vec3f,           // unit, world space
+    distance_m: f32,            // how far it goes; 0: there is no ray, or it met nothing
+    throughput: vec3f,          // what of light along the ray reaches the camera
+    solid_angle_sr: f32,        // that it stands for
+    place: vec2f,               // where it starts: standard deviations of the pixel's filter; then where it ends, barycentric
+    triangle: u32,              // that it met
+    object: u32,
+}
+
+// Light of other objects that a sample sends to the camera.
+struct Bounced {
+    base: vec3f,
+    scratches: vec3f,
 }
 
 // Sums over the samples of a pixel: who reads them divides by their count.

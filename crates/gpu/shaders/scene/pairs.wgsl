@@ -8,6 +8,15 @@ struct Pair {
     surface: mat3x3f,           // the surface's axes in world space
 }
 
+// What a segment takes of the base of a pixel, as it adds to the sums. The colourless density of Velinov et al. (2018) is twice the share.
+fn pair_energy(tables: texture_2d_array<u32>, pair: Pair) -> vec3f {
+    var energy = vec3f(2.0);
+    if METHOD_MASK != MASK_DENSITY {
+        energy = scratch_energy(tables, pair.point, pair.seen);
+    }
+    return energy;
+}
+
 fn pair_of(pixel: PixelPoint, segment: Segment) -> Pair {
     let axis_y = cross(pixel.normal, pixel.axis_x);
     let a = (segment.start_m - pixel.position_m) * 1e6;

@@ -25,9 +25,12 @@ fn material_at(i: u32) -> Material {
     );
 }
 
-fn scratch_node(i: u32) -> ScratchNode {
-    let a = textureLoad(scratch_nodes, row_texel(2u * i), 0);
-    let b = textureLoad(scratch_nodes, row_texel(2u * i + 1u), 0);
+// Bits of a leaf that hold its first segment; those above hold how many there are.
+const NODE_FIRST_BITS: u32 = 28u;
+
+fn scratch_node(nodes: texture_2d<u32>, i: u32) -> ScratchNode {
+    let a = textureLoad(nodes, row_texel(2u * i), 0);
+    let b = textureLoad(nodes, row_texel(2u * i + 1u), 0);
     return ScratchNode(bitcast<vec3f>(a.xyz), a.w, bitcast<vec3f>(b.xyz), b.w);
 }
 

@@ -8,12 +8,17 @@ const SHADOW_LINE: u32 = 3u;
 const SHADOW_CHORD: u32 = 4u;
 const SHADOW_PLACE: u32 = 5u;
 const SHADOW_LOBE: u32 = 6u;
+const BOUNCE_WAY: u32 = 16u;
+const BOUNCE_START: u32 = 17u;
+const BOUNCE_CHOICE: u32 = 18u;
+const BOUNCE_DIRECTION: u32 = 19u;
+const BOUNCE_PLACE: u32 = 20u;
 const SHADOW_PURPOSES: u32 = 32u;
 
 // Of a sample: another one for each place on the surface.
-fn shadow_seed(position_m: vec3f) -> u32 {
+fn shadow_seed(position_m: vec3f, which: ShadowRound) -> u32 {
     let word = bitcast<vec3u>(position_m);
-    return sobol_hash(word.x ^ sobol_hash(word.y ^ sobol_hash(word.z)));
+    return sobol_hash(word.x ^ sobol_hash(word.y ^ sobol_hash(word.z))) + which.seed;
 }
 
 // Two numbers in (0, 1) for a purpose, of a round and a source of the base. Even and odd rounds know nothing of one another, since one half of

@@ -71,7 +71,7 @@ fn batches_of_samples_add_up() {
         uploaded,
         ..
     } = &mut stage;
-    gpu.block_on(renderer.add_shadows(uploaded, &made.scene))
+    gpu.block_on(renderer.add_shadows(uploaded, &made.scene, 1))
         .unwrap();
     let mut canvas = gpu.block_on(renderer.canvas([97, 64], 40 * 97)).unwrap();
     let mut batches = Batches::new(SAMPLES);

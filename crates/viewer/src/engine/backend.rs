@@ -22,27 +22,14 @@ pub enum Backend {
 }
 
 impl Backend {
-    /// What it counts of the ways of light that are wanted, once nothing moves.
-    pub fn counts(&self, wanted: Transport) -> Transport {
-        match self {
-            Self::Cpu => wanted,
-            // Its renderer has no bounces.
-            #[cfg(not(target_arch = "wasm32"))]
-            Self::Gpu(_) | Self::Shared(_) => Transport {
-                bounces: 0,
-                ..wanted
-            },
-        }
-    }
-
-    /// The same while something moves: what takes longer than a movement lasts is left out.
+    /// What it has of the ways of light that are wanted while something moves: what takes longer than a movement lasts is left out.
     pub fn counts_in_motion(&self, wanted: Transport) -> Transport {
         match self {
             Self::Cpu => Transport::DIRECT,
             #[cfg(not(target_arch = "wasm32"))]
             Self::Gpu(gpu) | Self::Shared(gpu) => match gpu.adapter.kind {
                 AdapterKind::Software => Transport::DIRECT,
-                _ => self.counts(wanted),
+                _ => wanted,
             },
         }
     }

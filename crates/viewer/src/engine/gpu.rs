@@ -10,7 +10,7 @@ use hairline_gpu::{
 };
 use hairline_image::Batch;
 use hairline_index::method::Method;
-use hairline_scene::DEFAULT_SAMPLES;
+use hairline_scene::{DEFAULT_SAMPLES, Transport};
 use web_time::Instant;
 
 use super::easel::{Easel, Shown};
@@ -36,8 +36,8 @@ pub(super) struct GpuEasel {
     is_shared: bool,
     is_timed: bool,
     uploaded: Option<(Weak<Built>, GpuScene)>,
-    /// Whether what was uploaded has its shadows.
-    has_shadows: bool,
+    /// The bounces of the shadows that what was uploaded has; none without shadows.
+    bounces: Option<u32>,
     canvas: Option<Canvas>,
     /// Of the canvas.
     step: Option<Step>,
@@ -55,7 +55,7 @@ impl GpuEasel {
             is_shared,
             is_timed,
             uploaded: None,
-            has_shadows: false,
+            bounces: None,
             canvas: None,
             step: None,
         })
@@ -135,7 +135,7 @@ impl Easel for GpuEasel {
             ..
         } = &*order.built;
         let method = Method::default();
-        self.has_shadows = false;
+        self.bounces = None;
         match &mut self.uploaded {
             Some((last, uploaded)) => {
                 gpu.block_on(
@@ -180,12 +180,14 @@ impl Easel for GpuEasel {
             without_shadows: !step.transport.shadows,
             ..RenderOptions::default()
         };
+        let Transport { shadows, bounces } = step.transport;
         if let Some((_, uploaded)) = &mut self.uploaded
-            && step.transport.shadows
-            && !self.has_shadows
+            && shadows
+            && self.bounces != Some(bounces)
         {
-            gpu.block_on(self.renderer.add_shadows(uploaded, &order.built.scene))?;
-            self.has_shadows = true;
+            let scene = &order.built.scene;
+            gpu.block_on(self.renderer.add_shadows(uploaded, scene, bounces))?;
+            self.bounces = Some(bounces);
         }
         let batch = step.batch.unwrap_or(Batch::all(step.samples));
         let steps = hairline_gpu::steps(batch.count);

@@ -53,7 +53,6 @@ impl Studio {
         let segments = order.built.segments;
         self.spent = Duration::ZERO;
         let wanted = order.view.transport;
-        let transport = easel.backend().counts(wanted);
         loop {
             let (size_px, thin) = self.pace.moving(full_px, segments, begins);
             let coarse = Step {
@@ -70,7 +69,7 @@ impl Studio {
                     Some(_) => Vec::new(),
                     None => {
                         let best_samples = easel.best_samples();
-                        steps(easel.kind(), best_samples, full_px, &coarse, transport)
+                        steps(easel.kind(), best_samples, full_px, &coarse, wanted)
                     }
                 });
             }

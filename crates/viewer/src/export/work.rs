@@ -222,14 +222,12 @@ impl Painter {
         match &wish.backend {
             Backend::Cpu => Ok(Self::Cpu),
             #[cfg(not(target_arch = "wasm32"))]
-            Backend::Gpu(gpu) | Backend::Shared(gpu) => {
-                Self::on_gpu(gpu, built, wish.transport.shadows)
-            }
+            Backend::Gpu(gpu) | Backend::Shared(gpu) => Self::on_gpu(gpu, built, wish.transport),
         }
     }
 
     #[cfg(not(target_arch = "wasm32"))]
-    fn on_gpu(gpu: &Gpu, built: &Built, shadows: bool) -> Result<Self, hairline_gpu::Error> {
+    fn on_gpu(gpu: &Gpu, built: &Built, transport: Transport) -> Result<Self, hairline_gpu::Error> {
         let Built {
             scene,
             scratches,
@@ -240,8 +238,9 @@ impl Painter {
             let mut renderer = Renderer::new(gpu).await?;
             let method = Method::default();
             let mut uploaded = renderer.upload(scene, scratches, tables, &method).await?;
-            if shadows {
-                renderer.add_shadows(&mut uploaded, scene).await?;
+            if transport.shadows {
+                let added = renderer.add_shadows(&mut uploaded, scene, transport.bounces);
+                added.await?;
             }
             Ok(Self::Gpu {
                 renderer: Box::new(renderer),

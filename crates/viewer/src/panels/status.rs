@@ -36,8 +36,7 @@ pub(crate) fn show(ui: &mut Ui, work: &mut Workspace, viewport: &Viewport) {
                 let backend = work.engine.backend();
                 ui.label(backend.label())
                     .on_hover_text("What renders the picture");
-                let counts = backend.counts(work.transport);
-                transport(ui, work, counts);
+                transport(ui, work);
             });
         });
     });
@@ -77,7 +76,7 @@ fn activity(frame: &Frame, is_stale: bool) -> String {
     let is_added = painted.of_samples.is_some();
     match (painted.is_final, painted.samples) {
         _ if is_stale => "rendering the new view".to_owned(),
-        _ if !is_added && painted.transport != wanted => left_out(painted.transport, wanted),
+        _ if !is_added && painted.transport != wanted => left_out(wanted).to_owned(),
         (true, _) => "finished".to_owned(),
         _ if frame.built.is_sketch() => "a sketch of the scratches".to_owned(),
         (false, samples) if let Some(all) = painted.of_samples => {
@@ -92,21 +91,20 @@ fn activity(frame: &Frame, is_stale: bool) -> String {
 }
 
 /// What is not in the picture yet.
-fn left_out(has: Transport, wanted: Transport) -> String {
-    match has.shadows {
-        true => "without bounces".to_owned(),
-        false if wanted.bounces > 0 => "without shadows and bounces while it moves".to_owned(),
-        false => "without shadows while it moves".to_owned(),
+fn left_out(wanted: Transport) -> &'static str {
+    match wanted.bounces {
+        0 => "without shadows while it moves",
+        _ => "without shadows and bounces while it moves",
     }
 }
 
 /// How often light may go by other objects in the window.
 const BOUNCES: std::ops::RangeInclusive<u32> = 0..=8;
 
-/// Shadows and bounces, to be switched. `counts` is what the backend has of them.
-fn transport(ui: &mut Ui, work: &mut Workspace, counts: Transport) {
+/// Shadows and bounces, to be switched.
+fn transport(ui: &mut Ui, work: &mut Workspace) {
     let Transport { shadows, bounces } = work.transport;
-    let text = match (shadows, counts.bounces) {
+    let text = match (shadows, bounces) {
         (false, _) => "no shadows".to_owned(),
         (true, 0) => "shadows".to_owned(),
         (true, 1) => "shadows, 1 bounce".to_owned(),
@@ -130,9 +128,6 @@ fn transport(ui: &mut Ui, work: &mut Workspace, counts: Transport) {
                     .on_hover_text("How many other objects light may go by on its way");
             });
         });
-        if counts.bounces < bounces {
-            ui.label("The GPU renderer has no bounces; the CPU has.");
-        }
     });
     menu.response
         .on_hover_text("Of this window. While something moves, slow machines leave them out");

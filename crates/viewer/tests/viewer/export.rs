@@ -139,6 +139,7 @@ fn a_picture_of_a_gpu_is_what_its_renderer_makes() {
         backend: Backend::Gpu(gpu.clone()),
         state_dir: None,
         native_dialogs: false,
+        transport: hairline_scene::Transport::DIRECT,
     });
     common::wait_built(&mut harness);
     let path = folder.path().join("a.exr");

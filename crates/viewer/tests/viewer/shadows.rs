@@ -29,6 +29,7 @@ fn viewer() -> Harness<'static, Viewer> {
         backend: Backend::Cpu,
         state_dir: None,
         native_dialogs: false,
+        transport: Transport::DIRECT,
     };
     let mut harness = viewer_of(options, [900.0, 300.0]);
     wait_built(&mut harness);

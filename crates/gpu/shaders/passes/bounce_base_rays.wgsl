@@ -1,0 +1,45 @@
+// Pass: for each sample a ray by the lobes of its base. A workgroup a group. Twin: cpu/src/shadows.rs.
+
+@group(3) @binding(0) var<storage, read> points: array<PixelPoint>;
+@group(3) @binding(1) var<storage, read> paints: array<PixelPaint>;
+// In: by what way the camera sees the samples.
+@group(3) @binding(2) var<storage, read_write> rays: array<BounceRay>;
+// 3 and 4: sums.wgsl.
+@group(3) @binding(5) var<uniform> shadow_round: ShadowRound;
+
+@compute @workgroup_size(8, 8)
+fn bounce_base_rays(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let group = workgroup.y * workgroups.x + workgroup.x;
+    if group >= frame.group_count || !group_has(group, lane) {
+        return;
+    }
+    let at = group_point(group, lane);
+    var ray: BounceRay;
+    if points[at].object == 0u {
+        rays[at] = ray;
+        return;
+    }
+    var taken = vec3f(0.0);
+    if HAS_SCRATCHES {
+        taken = masked(sample_sums(group, lane).all, objects[points[at].object - 1u].depth_coherence).taken;
+    }
+    let point = surface_point_from(points[at], paints[at]);
+    let seed = shadow_seed(point.position_m, shadow_round);
+    let by_scratches = bounce_by_scratches(taken, shadow_round);
+    if shadow_random_alike(seed, shadow_round, BOUNCE_WAY).x < by_scratches {
+        return;
+    }
+    let lobes = base_lobes(point);
+    let choice = shadow_random_alike(seed, shadow_round, BOUNCE_CHOICE);
+    let wi = base_lobes_sample(lobes, choice.x, shadow_random_alike(seed, shadow_round, BOUNCE_DIRECTION));
+    let density = base_lobes_pdf(lobes, wi);
+    if wi.z > 0.0 && density > 0.0 {
+        let each_sr = 1.0 / (f32(shadow_round.all_rounds) * density);
+        let sent = base_lobes_eval(lobes, wi);
+        let specular = ggx_area_reflectance(sent.specular, point.f0, lobes.albedo) * (1.0 - taken);
+        let throughput = bounce_throughput(rays[at], shadow_round) * (specular + sent.diffuse) / (f32(shadow_round.rounds) * density * (1.0 - by_scratches));
+        let start = shadow_normals(shadow_random_alike(seed, shadow_round, BOUNCE_START));
+        ray = bounce_ray(world_from_surface(point, wi), throughput, each_sr, start);
+    }
+    rays[at] = ray;
+}

@@ -1,0 +1,60 @@
+// Pass: for each sample a ray by way of a scratch that was picked. A workgroup a group. Twin: cpu/src/shadows.rs.
+
+@group(3) @binding(0) var<storage, read> points: array<PixelPoint>;
+@group(3) @binding(1) var<storage, read> paints: array<PixelPaint>;
+// In: by what way the camera sees the samples.
+@group(3) @binding(2) var<storage, read_write> rays: array<BounceRay>;
+// 3 and 4: sums.wgsl.
+@group(3) @binding(5) var<uniform> shadow_round: ShadowRound;
+@group(3) @binding(6) var<storage, read> picks: array<vec4u>;
+
+// By a scratch; `energy` is the luminance of what all of them take of the base, by which it was picked. The throughput is that of the sample's
+// scratches before they weaken one another.
+fn ray_by(pixel: PixelPoint, index: u32, energy: f32) -> BounceRay {
+    let segment = segment_from(scratch_segment(index));
+    let pair = pair_of(pixel, segment);
+    let seed = shadow_seed(pixel.position_m, shadow_round);
+    var sent: vec3f;
+    let drawn = draw_all_around(pair.point, pair.seen, shadow_random_alike(seed, shadow_round, BOUNCE_DIRECTION), &sent);
+    let share = pair.seen.share.segment;
+    let own = rgb_luminance(share * pair_energy(scratch_tables, pair));
+    var ray: BounceRay;
+    if !drawn.is_there || !(own > 0.0) {
+        return ray;
+    }
+    let place = shadow_random_alike(seed, shadow_round, BOUNCE_PLACE);
+    let normals = vec3f(shadow_normals(shadow_random_alike(seed, shadow_round, BOUNCE_START)), gaussian_quantile(clamp(place.x, 1e-6, 1.0 - 1e-6)));
+    let start = pair_place(pair, pixel, segment, normals, place.y);
+    return bounce_ray(pair.surface * drawn.direction, share * sent * drawn.color * (energy / own), 0.0, start);
+}
+
+@compute @workgroup_size(8, 8)
+fn bounce_scratch_rays(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let group = workgroup.y * workgroups.x + workgroup.x;
+    if group >= frame.group_count || !group_has(group, lane) {
+        return;
+    }
+    let at = group_point(group, lane);
+    let pixel = points[at];
+    var ray: BounceRay;
+    if pixel.object == 0u {
+        rays[at] = ray;
+        return;
+    }
+    let depth_coherence = objects[pixel.object - 1u].depth_coherence;
+    var sums = sample_sums(group, lane).all;
+    let by_scratches = bounce_by_scratches(masked(sums, depth_coherence).taken, shadow_round);
+    let seed = shadow_seed(pixel.position_m, shadow_round);
+    if shadow_random_alike(seed, shadow_round, BOUNCE_WAY).x >= by_scratches {
+        return;
+    }
+    let packed = picks[GROUP * chunk_starts[frame.group_count] + shadow_round.picks * at + shadow_round.round - shadow_round.first_pick];
+    if packed.x != PICK_NONE {
+        let state = pick_state_from(picks[GROUP * chunk_starts[group] + lane]);
+        ray = ray_by(pixel, pick_from(packed).segment, state.step * f32(state.per_sample));
+        sums.radiance = ray.throughput / (f32(shadow_round.rounds) * by_scratches);
+        let fresnel = fresnel_eval(fresnel_curves, FresnelRgb(paints[at].f0, paints[at].curve), pixel.cos_o);
+        ray.throughput = bounce_throughput(rays[at], shadow_round) * masked(sums, depth_coherence).scratches * fresnel;
+    }
+    rays[at] = ray;
+}

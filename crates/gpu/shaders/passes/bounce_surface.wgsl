@@ -1,0 +1,47 @@
+// Pass: from what a ray has met to its surface point. A workgroup a group. Twin: cpu/src/bounces.rs.
+
+// Where the rays come from.
+@group(3) @binding(0) var<storage, read> points: array<PixelPoint>;
+@group(3) @binding(1) var<storage, read> rays: array<BounceRay>;
+@group(3) @binding(2) var<storage, read_write> hit_points: array<PixelPoint>;
+@group(3) @binding(3) var<storage, read_write> hit_paints: array<PixelPaint>;
+
+// Rays that graze a surface see no more of it than this cosine lets them.
+const HIT_LEAST_COS: f32 = 0.25;
+
+// One standard deviation of what is seen by way of a point, across a ray: as wide as there, wider by the way, by how the normals turn there, and
+// by the solid angle that the ray stands for (as path differentials: F. Suykens and Y. Willems, 2001).
+fn width_m(pixel: PixelPoint, direction: vec3f, distance_m: f32, solid_angle_sr: f32) -> f32 {
+    let um = pixel.footprint_um;
+    let area_um2 = abs((um.x * um.w - um.y * um.z) * dot(pixel.normal, direction));
+    let here_m = 1e-6 * sqrt(area_um2);
+    // Of a disk, half its radius.
+    let drawn_rad2 = 0.25 * solid_angle_sr / GGX_PI;
+    let spread_rad = here_m / pixel.distance_m + sqrt(2.0 * dot(pixel.turns, pixel.turns) + drawn_rad2);
+    return here_m + distance_m * spread_rad;
+}
+
+@compute @workgroup_size(8, 8)
+fn bounce_surface(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let group = workgroup.y * workgroups.x + workgroup.x;
+    if group >= frame.group_count || !group_has(group, lane) {
+        return;
+    }
+    let at = group_point(group, lane);
+    let ray = rays[at];
+    if !(ray.distance_m > 0.0) {
+        var nothing: PixelPoint;
+        hit_points[at] = nothing;
+        return;
+    }
+    let right = surface_any_across(ray.direction);
+    let all_m = max(width_m(points[at], ray.direction, ray.distance_m, ray.solid_angle_sr), 1e-12);
+    var point = hit_surface(ray.triangle, ray.place, HitView(ray.direction, 1.0, right, cross(ray.direction, right), all_m, HIT_LEAST_COS));
+    point.distance_m = ray.distance_m;
+    // Rays meet other places each: the scratches of one place stand for those of a wide footprint, which are many.
+    let scratches_m = min(width_m(points[at], ray.direction, ray.distance_m, 0.0), 1e-6 * point.coherence_um);
+    point.footprint_x_um *= scratches_m / all_m;
+    point.footprint_y_um *= scratches_m / all_m;
+    hit_points[at] = pixel_point_pack(point, ray.object, ray.distance_m, lane);
+    hit_paints[at] = pixel_paint_pack(point, ray.triangle);
+}

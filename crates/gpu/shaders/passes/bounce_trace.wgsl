@@ -1,0 +1,32 @@
+// Pass: what each sample's ray meets. A workgroup a group. Twin: cpu/src/shadows.rs.
+
+@group(3) @binding(0) var<storage, read> points: array<PixelPoint>;
+@group(3) @binding(1) var<storage, read> paints: array<PixelPaint>;
+@group(3) @binding(2) var<storage, read_write> rays: array<BounceRay>;
+@group(3) @binding(3) var<storage, read_write> film: Film;
+@group(3) @binding(4) var<uniform> shadow_round: ShadowRound;
+@group(3) @binding(5) var triangle_tree: texture_2d<u32>;
+
+@compute @workgroup_size(8, 8)
+fn bounce_trace(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let group = workgroup.y * workgroups.x + workgroup.x;
+    if group >= frame.group_count || !group_has(group, lane) {
+        return;
+    }
+    let at = group_point(group, lane);
+    let distance_m = rays[at].distance_m;
+    if !(distance_m > 0.0) {
+        return;
+    }
+    let direction = rays[at].direction;
+    let start = sample_start(triangle_tree, points[at], paints[at].triangle, rays[at].place);
+    let from_there = ray_from(start, direction, points[at].normal, shadow_round.extent_m);
+    let hit = tree_hit(triangle_tree, from_there, distance_m, start.triangle, false);
+    rays[at].distance_m = select(0.0, hit.distance_m, hit.triangle != 0u);
+    rays[at].place = hit.barycentric;
+    rays[at].triangle = hit.triangle - u32(hit.triangle != 0u);
+    rays[at].object = hit.object;
+    if loops_were_cut() {
+        atomicAdd(&film.gave_up, 1u);
+    }
+}

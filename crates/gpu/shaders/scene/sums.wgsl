@@ -1,0 +1,34 @@
+// The sums of a sample over all scratches that it sees, and the mask.
+
+@group(3) @binding(3) var<storage, read> chunk_starts: array<u32>;
+@group(3) @binding(4) var<storage, read> chunk_sums: array<ChunkSum>;
+
+struct SampleSums {
+    all: ScratchSums,
+    cut: u32,                   // chunks whose loops the device cut short
+}
+
+// Over all chunks of its group, in the order of the list.
+fn sample_sums(group: u32, lane: u32) -> SampleSums {
+    var sums = ScratchSums(0.0, 0.0, vec3f(0.0), vec3f(0.0));
+    var cut = 0u;
+    for (var chunk = chunk_starts[group]; chunk < chunk_starts[group + 1u]; chunk += 1u) {
+        let sum = chunk_sums[GROUP * chunk + lane];
+        cut += u32(sum.share < 0.0);
+        sums.share += sum.share;
+        sums.share_by_line += sum.share_by_line;
+        sums.radiance += sum.radiance;
+        sums.energy += sum.energy;
+    }
+    return SampleSums(sums, cut);
+}
+
+fn masked(sums: ScratchSums, depth_coherence: f32) -> Masked {
+    if METHOD_MASK == MASK_LINEAR {
+        return Masked(sums.radiance, sums.energy);
+    }
+    if METHOD_MASK == MASK_DENSITY {
+        return Masked(sums.radiance, min(sums.energy, vec3f(1.0)));
+    }
+    return mask_resolve(sums, depth_coherence);
+}

@@ -1,0 +1,96 @@
+//! The arrays that the passes of bounces leave for one another.
+
+use wgpu::BufferUsages;
+
+use crate::device::Gpu;
+use crate::error::Error;
+use crate::layout::{BounceRay, Bounced, ShadowRound};
+use crate::scan::ScanPasses;
+use crate::strip::StripRoom;
+
+/// The arrays over samples, and what their rays have met. They grow to the size that is needed.
+pub(crate) struct BounceRoom {
+    pub round: wgpu::Buffer,
+    pub rays: wgpu::Buffer,
+    pub bounced: wgpu::Buffer,
+    points_max: u64,
+    /// By turns: what was met sends rays on, which meet what lies in the other one.
+    pub hits: [StripRoom; 2],
+    groups_max: u32,
+}
+
+const RAY_BYTES: u64 = size_of::<BounceRay>() as u64;
+const BOUNCED_BYTES: u64 = size_of::<Bounced>() as u64;
+const BOUNCED_USAGE: BufferUsages = BufferUsages::STORAGE.union(BufferUsages::COPY_DST);
+
+impl BounceRoom {
+    pub(crate) async fn new(gpu: &Gpu, scans: &ScanPasses) -> Result<Self, Error> {
+        let uniform = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
+        let round = size_of::<ShadowRound>() as u64;
+        Ok(Self {
+            round: gpu.buffer("round of bounces", round, uniform).await?,
+            rays: gpu
+                .buffer("rays of bounces", RAY_BYTES, BufferUsages::STORAGE)
+                .await?,
+            bounced: gpu
+                .buffer("light of objects", BOUNCED_BYTES, BOUNCED_USAGE)
+                .await?,
+            points_max: 1,
+            hits: [
+                StripRoom::of_hits(gpu, scans, 1).await?,
+                StripRoom::of_hits(gpu, scans, 1).await?,
+            ],
+            groups_max: 1,
+        })
+    }
+
+    /// Makes room for so many samples in so many groups, and for what so many rays of each meet one after the other.
+    pub(crate) async fn make_room(
+        &mut self,
+        gpu: &Gpu,
+        scans: &ScanPasses,
+        points: u64,
+        groups: u32,
+        bounces: u32,
+    ) -> Result<(), Error> {
+        if self.points_max < points {
+            // The old ones are given back first. An error on the way leaves none.
+            self.points_max = 0;
+            self.rays.destroy();
+            self.bounced.destroy();
+            let bytes = points * RAY_BYTES;
+            self.rays = gpu
+                .buffer("rays of bounces", bytes, BufferUsages::STORAGE)
+                .await?;
+            let bytes = points * BOUNCED_BYTES;
+            self.bounced = gpu.buffer("light of objects", bytes, BOUNCED_USAGE).await?;
+            self.points_max = points;
+        }
+        if self.groups_max < groups {
+            for hits in &mut self.hits {
+                *hits = StripRoom::of_hits(gpu, scans, groups).await?;
+            }
+            self.groups_max = groups;
+        }
+        for hits in self.hits.iter_mut().take(bounces as usize) {
+            hits.samples.make_room(gpu, scans, points, groups).await?;
+        }
+        Ok(())
+    }
+
+    /// Whether the device can hold what so many samples need.
+    pub(crate) fn fit(gpu: &Gpu, points: u64) -> bool {
+        points * RAY_BYTES <= gpu.largest_array()
+    }
+
+    /// Says which round is next.
+    pub(crate) fn write(&self, gpu: &Gpu, round: &ShadowRound) {
+        let bytes = bytemuck::bytes_of(round);
+        gpu.queue.write_buffer(&self.round, 0, bytes);
+    }
+
+    /// Forgets the light of objects of so many samples.
+    pub(crate) fn clear(&self, encoder: &mut wgpu::CommandEncoder, points: u64) {
+        encoder.clear_buffer(&self.bounced, 0, Some(points * BOUNCED_BYTES));
+    }
+}

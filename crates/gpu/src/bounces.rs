@@ -1,0 +1,342 @@
+//! Light that goes from one object to another: rays from each sample, what they meet, and what that sends (docs/model.md, section 11). Twin:
+//! cpu/src/bounces.rs.
+//!
+//! What the rays of one round meet are samples again, in the same order: the passes that shade what the camera sees, and its shadows, shade them as
+//! well. Only their scratches have another list: of each sample its own, by the tree over the scratches of the scene.
+
+use wgpu::BindingResource;
+
+use crate::bindings::Layouts;
+use crate::compute_pass::{ComputePass, Recording, Use, in_a_row};
+use crate::device::Gpu;
+use crate::error::Error;
+use crate::film::Film;
+use crate::layout::ScratchNode;
+use crate::pipelines::Orders;
+use crate::rows;
+use crate::scan::ScanPasses;
+use crate::scene_data::SceneData;
+use crate::shade_scratches::{PickByEnergyPass, ShadeScratchesPass};
+use crate::shaders;
+use crate::shadow_scratches::Scratched;
+use crate::shadows::Shadows;
+use crate::strip::{StripRoom, TILE_PX, whole};
+use crate::transfer::Transfer;
+use crate::variant::{Constant, Samples, ShadeVariant};
+
+/// What rays to other objects need, beside shadows.
+pub(crate) struct Bounces {
+    /// How many objects light may go by on its way, beside the one that the camera sees.
+    pub count: u32,
+    base_rays: ComputePass,
+    /// From what the camera sees, and from what rays have met.
+    trace: [ComputePass; 2],
+    surface: ComputePass,
+    light: ComputePass,
+    film: ComputePass,
+    /// Of what rays have met.
+    pub shadows: Shadows,
+    /// None where the scene has no scratches.
+    pub scratches: Option<BounceScratches>,
+}
+
+pub(crate) struct BounceScratches {
+    begin: ComputePass,
+    /// From what the camera sees, and from what rays have met.
+    pick: [PickByEnergyPass; 2],
+    rays: ComputePass,
+    count: ComputePass,
+    list: ComputePass,
+    pub shade: ShadeScratchesPass,
+    tree: wgpu::TextureView,
+}
+
+impl Bounces {
+    /// Uploads the tree over the scratches, and compiles the passes.
+    ///
+    /// # Errors
+    /// [`Error::TooLarge`], [`Error::OutOfMemory`], [`Error::Refused`].
+    pub(crate) async fn new(
+        gpu: &Gpu,
+        layouts: &Layouts,
+        data: &SceneData,
+        variant: &ShadeVariant,
+        shadows: &Shadows,
+        count: u32,
+    ) -> Result<Self, Error> {
+        let scratches = match variant.has.scratches {
+            true => Some(upload_tree(gpu, data).await?),
+            false => None,
+        };
+        let mut orders = Orders::new(gpu, layouts, variant);
+        let bounces = Self::over(&mut orders, shadows, scratches, count);
+        orders.compile().await?;
+        Ok(bounces)
+    }
+
+    fn over(
+        orders: &mut Orders,
+        shadows: &Shadows,
+        tree: Option<wgpu::TextureView>,
+        count: u32,
+    ) -> Self {
+        use Use::{Integers, Reads, Uniform, Writes};
+        let shadows = shadows.of_hits(orders);
+        let scratches = tree.map(|tree| BounceScratches::new(orders, tree));
+        let mut pass =
+            |name, module, uses: &[Use]| ComputePass::order(orders, name, module, uses, &[]);
+        let base_rays = pass(
+            "bounce rays",
+            (&shaders::BOUNCE_BASE_RAYS, "bounce_base_rays"),
+            &[Reads, Reads, Writes, Reads, Reads, Uniform],
+        );
+        let surface = pass(
+            "bounce surface",
+            (&shaders::BOUNCE_SURFACE, "bounce_surface"),
+            &[Reads, Reads, Writes, Writes],
+        );
+        let light = pass(
+            "bounce light",
+            (&shaders::BOUNCE_LIGHT, "bounce_light"),
+            &[Reads, Reads, Writes, Reads, Reads, Writes, Uniform],
+        );
+        let film = pass(
+            "bounce film",
+            (&shaders::BOUNCE_FILM, "bounce_film"),
+            &[Reads, Reads, Writes],
+        );
+        let trace = [Samples::OfPixels, Samples::Hits].map(|samples| {
+            let module = (&shaders::BOUNCE_TRACE, "bounce_trace");
+            let uses = [Reads, Reads, Writes, Writes, Uniform, Integers];
+            ComputePass::order(orders, "bounce trace", module, &uses, &[samples.constant()])
+        });
+        Self {
+            count,
+            base_rays,
+            trace,
+            surface,
+            light,
+            film,
+            shadows,
+            scratches,
+        }
+    }
+
+    /// A ray of each sample, and what it meets.
+    pub(crate) fn record_rays(&self, gpu: &Gpu, recording: &mut Recording, by: &Bounce) {
+        let Bounce { from, to, rays, .. } = *by;
+        let groups = in_a_row(by.groups);
+        let is_seen = by.depth == 0;
+        if !(is_seen && by.by_scratches) {
+            let resources = [
+                whole(&from.samples.points),
+                whole(&from.samples.paints),
+                whole(rays),
+                whole(&from.samples.chunk_starts),
+                whole(&from.samples.chunk_sums),
+                whole(by.round),
+            ];
+            self.base_rays.run(gpu, recording, &resources, groups);
+        }
+        if let (Some(scratches), Some(shadow_room)) = (&self.scratches, &from.shadows)
+            && (by.by_scratches || !is_seen)
+        {
+            let resources = [
+                whole(&from.samples.points),
+                whole(&from.samples.paints),
+                whole(rays),
+                whole(&from.samples.chunk_starts),
+                whole(&from.samples.chunk_sums),
+                whole(by.round),
+                whole(&shadow_room.picks),
+            ];
+            scratches.rays.run(gpu, recording, &resources, groups);
+        }
+        let resources = [
+            whole(&from.samples.points),
+            whole(&from.samples.paints),
+            whole(rays),
+            whole(by.film),
+            whole(by.round),
+            BindingResource::TextureView(&self.shadows.tree),
+        ];
+        self.trace[usize::from(!is_seen)].run(gpu, recording, &resources, groups);
+        let resources = [
+            whole(&from.samples.points),
+            whole(rays),
+            whole(&to.samples.points),
+            whole(&to.samples.paints),
+        ];
+        self.surface.run(gpu, recording, &resources, groups);
+    }
+
+    /// What the hits send, added to what the camera sees.
+    pub(crate) fn record_light(&self, gpu: &Gpu, recording: &mut Recording, by: &Bounce) {
+        let hits = &by.to.samples;
+        let resources = [
+            whole(by.rays),
+            whole(&hits.base_light),
+            whole(by.bounced),
+            whole(&hits.chunk_starts),
+            whole(&hits.chunk_sums),
+            whole(by.film),
+            whole(by.round),
+        ];
+        self.light
+            .run(gpu, recording, &resources, in_a_row(by.groups));
+    }
+
+    /// All of it to the film.
+    pub(crate) fn record_film(
+        &self,
+        gpu: &Gpu,
+        recording: &mut Recording,
+        room: &StripRoom,
+        film: &Film,
+        rows: u32,
+    ) {
+        let Some(bounce_room) = &room.bounces else {
+            return;
+        };
+        let resources = [
+            whole(&bounce_room.bounced),
+            whole(&room.group_starts),
+            whole(&film.buffer),
+        ];
+        let size = [room.width_px, rows].map(|n| n.div_ceil(TILE_PX));
+        self.film.run(gpu, recording, &resources, size);
+    }
+}
+
+/// The rays of one round, from samples to what they meet.
+#[derive(Clone, Copy)]
+pub(crate) struct Bounce<'a> {
+    pub from: &'a StripRoom,
+    pub to: &'a StripRoom,
+    pub rays: &'a wgpu::Buffer,
+    pub bounced: &'a wgpu::Buffer,
+    pub round: &'a wgpu::Buffer,
+    pub film: &'a wgpu::Buffer,
+    pub groups: u32,
+    /// How many objects light goes by from `from` to the camera.
+    pub depth: u32,
+    /// Whether it leaves what the camera sees by way of its scratches.
+    pub by_scratches: bool,
+}
+
+impl BounceScratches {
+    fn new(orders: &mut Orders, tree: wgpu::TextureView) -> Self {
+        use Use::{Integers, Reads, Uniform, Writes};
+        let pick = [Samples::OfPixels, Samples::Hits]
+            .map(|samples| PickByEnergyPass::new(orders, samples));
+        let shade = ShadeScratchesPass::new(orders, Samples::Hits);
+        let mut pass = |name, module, uses: &[Use], constants: &[Constant]| {
+            ComputePass::order(orders, name, module, uses, constants)
+        };
+        let gather = [Reads, Writes, Writes, Writes, Integers];
+        let module = &shaders::BOUNCE_GATHER;
+        Self {
+            begin: pass(
+                "bounce picks",
+                (&shaders::SHADOW_PICKS, "shadow_picks"),
+                &[Reads, Reads, Reads, Writes, Uniform],
+                &[("BY_ENERGY", 1.0)],
+            ),
+            pick,
+            rays: pass(
+                "bounce rays",
+                (&shaders::BOUNCE_SCRATCH_RAYS, "bounce_scratch_rays"),
+                &[Reads, Reads, Writes, Reads, Reads, Uniform, Reads],
+                &[],
+            ),
+            count: pass("bounce gather", (module, "bounce_count"), &gather, &[]),
+            list: pass("bounce gather", (module, "bounce_list"), &gather, &[]),
+            shade,
+            tree,
+        }
+    }
+
+    /// Picks scratches of each sample, as many as the round that was written says.
+    pub(crate) fn record_picks(
+        &self,
+        gpu: &Gpu,
+        recording: &mut Recording,
+        by: &Bounce,
+        on: &Scratched,
+    ) {
+        let Some(shadow_room) = &by.from.shadows else {
+            return;
+        };
+        let samples = &by.from.samples;
+        let resources = [
+            whole(&samples.points),
+            whole(&samples.chunk_starts),
+            whole(&samples.chunk_sums),
+            whole(&shadow_room.picks),
+            whole(by.round),
+        ];
+        self.begin
+            .run(gpu, recording, &resources, in_a_row(by.groups));
+        let pick = &self.pick[usize::from(by.depth > 0)];
+        let picks = &shadow_room.picks;
+        pick.record(gpu, recording, by.from, picks, on.sorted, on.chunks);
+    }
+
+    /// How many segments each hit may see, and where its list begins.
+    pub(crate) fn record_count(
+        &self,
+        gpu: &Gpu,
+        recording: &mut Recording,
+        scans: &ScanPasses,
+        hits: &StripRoom,
+        film: &Film,
+        groups: u32,
+    ) {
+        self.gather(&self.count, gpu, recording, hits, film, groups);
+        scans.record(recording.encoder, &hits.group_scan, recording.timing);
+    }
+
+    /// The lists.
+    pub(crate) fn record_lists(
+        &self,
+        gpu: &Gpu,
+        recording: &mut Recording,
+        hits: &StripRoom,
+        film: &Film,
+        groups: u32,
+    ) {
+        self.gather(&self.list, gpu, recording, hits, film, groups);
+    }
+
+    fn gather(
+        &self,
+        pass: &ComputePass,
+        gpu: &Gpu,
+        recording: &mut Recording,
+        hits: &StripRoom,
+        film: &Film,
+        groups: u32,
+    ) {
+        let resources = [
+            whole(&hits.samples.points),
+            whole(&hits.list_starts),
+            whole(&hits.lists.entries[HITS_SORTED]),
+            whole(&film.buffer),
+            BindingResource::TextureView(&self.tree),
+        ];
+        pass.run(gpu, recording, &resources, in_a_row(groups));
+    }
+}
+
+/// Which of the two buffers of entries holds the lists of hits: they are made in their order.
+pub(crate) const HITS_SORTED: usize = 0;
+
+async fn upload_tree(gpu: &Gpu, data: &SceneData) -> Result<wgpu::TextureView, Error> {
+    const WHAT: &str = "scratch tree";
+    let nodes = data.buffers.scratch_nodes();
+    let (bytes, allowed) = rows::bytes_and_allowed(gpu, nodes.len(), size_of::<ScratchNode>());
+    if bytes > allowed {
+        return Err(gpu.too_large(WHAT, bytes, allowed, "bytes"));
+    }
+    rows::upload(&mut Transfer::new(gpu), WHAT, &nodes).await
+}

@@ -1,0 +1,314 @@
+//! The rays of a strip's samples: shadows, and light of other objects.
+
+use hairline_image::Batch;
+
+use crate::bounce_room::BounceRoom;
+use crate::bounces::{Bounce, Bounces, HITS_SORTED};
+use crate::error::Error;
+use crate::film::Film;
+use crate::frame::View;
+use crate::layout::ShadowRound;
+use crate::passes::Shade;
+use crate::shadow_room::ShadowRoom;
+use crate::shadow_scratches::Scratched;
+use crate::shadows::Shadows;
+use crate::strip::{GROUP, Lists, Samples, StripRoom, chunks_most};
+use crate::strip_shader::StripShader;
+
+/// Rays of each sample to each source.
+#[derive(Clone, Copy)]
+pub(crate) struct Rounds {
+    pub now: Batch,
+    /// Other random numbers for each.
+    pub seed: u32,
+}
+
+impl StripShader {
+    /// Takes from the light of the samples what is hidden of it.
+    #[expect(clippy::too_many_arguments, reason = "all stages take as many")]
+    pub(crate) async fn shade_shadows(
+        &self,
+        view: &View<'_>,
+        shadows: &Shadows,
+        room: &mut StripRoom,
+        film: &Film,
+        points: u64,
+        on: &Scratched,
+        rounds: Rounds,
+    ) -> Result<(), Error> {
+        let (gpu, groups) = (&self.gpu, on.groups);
+        let mut shadow_room = match room.shadows.take() {
+            Some(shadow_room) => shadow_room,
+            None => ShadowRoom::new(gpu).await?,
+        };
+        shadow_room.make_room(gpu, points).await?;
+        let lights = view.uploaded.data.light_count;
+        let sources = lights + u32::from(view.scene.environment.is_some());
+        let mut next = ShadowRound {
+            source: 0,
+            round: 0,
+            rounds: rounds.now.count,
+            first_round: rounds.now.first,
+            seed: rounds.seed,
+            extent_m: shadows.extent_m,
+            ..ShadowRound::default()
+        };
+        // A round at a time, so that no submission takes long.
+        for source in 0..sources {
+            for round in 0..next.rounds {
+                next = ShadowRound {
+                    source,
+                    round,
+                    ..next
+                };
+                shadow_room.write(gpu, &next);
+                self.submit(view, |recording| {
+                    shadows.record_base_round(gpu, recording, room, &shadow_room, film, groups);
+                });
+            }
+            self.submit(view, |recording| {
+                shadows.record_base(gpu, recording, room, &shadow_room, groups);
+            });
+        }
+        if let Some(scratches) = &shadows.scratches {
+            let lanes = u64::from(GROUP) * u64::from(on.chunks);
+            let most = shadow_room
+                .make_room_for_picks(gpu, points, lanes, next.rounds)
+                .await?;
+            next.source = lights + 1;
+            for round in 0..next.rounds {
+                next.round = round;
+                if round % most == 0 {
+                    next.first_pick = round;
+                    next.picks = most.min(next.rounds - round);
+                }
+                shadow_room.write(gpu, &next);
+                self.submit(view, |recording| {
+                    if round == next.first_pick {
+                        scratches.record_picks(gpu, recording, room, &shadow_room, on);
+                    }
+                    shadows.record_scratch_round(gpu, recording, room, &shadow_room, film, groups);
+                });
+            }
+            self.submit(view, |recording| {
+                scratches.record_scratches(gpu, recording, room, &shadow_room, groups);
+            });
+        }
+        room.shadows = Some(shadow_room);
+        Ok(())
+    }
+
+    /// Finds the light of other objects that the samples send; false if what their rays meet does not fit on the device.
+    pub(crate) async fn shade_bounces(
+        &self,
+        view: &View<'_>,
+        bounces: &Bounces,
+        room: &mut StripRoom,
+        film: &Film,
+        points: u64,
+        on: &Scratched,
+    ) -> Result<bool, Error> {
+        let (gpu, scans, groups) = (&self.gpu, &self.scans, on.groups);
+        let mut bounce_room = match room.bounces.take() {
+            Some(bounce_room) => bounce_room,
+            None => Box::new(BounceRoom::new(gpu, scans).await?),
+        };
+        let made = bounce_room.make_room(gpu, scans, points, groups, bounces.count);
+        made.await?;
+        self.submit(view, |recording| {
+            bounce_room.clear(recording.encoder, points);
+        });
+        let Batch {
+            first: first_round,
+            count: rounds,
+        } = view.rounds();
+        let mut most = rounds;
+        if bounces.scratches.is_some()
+            && let Some(shadow_room) = &mut room.shadows
+        {
+            let lanes = u64::from(GROUP) * u64::from(on.chunks);
+            let made = shadow_room.make_room_for_picks(gpu, points, lanes, rounds);
+            most = made.await?;
+        }
+        let mut fits = true;
+        for by_scratches in [false, true] {
+            if by_scratches && bounces.scratches.is_none() {
+                continue;
+            }
+            for round in 0..rounds {
+                let first_pick = round - round % most;
+                let first = ShadowRound {
+                    round,
+                    rounds,
+                    first_round,
+                    all_rounds: view.all_rounds(),
+                    extent_m: bounces.shadows.extent_m,
+                    first_pick,
+                    picks: most.min(rounds - first_pick),
+                    by_scratches: by_scratches.into(),
+                    ..ShadowRound::default()
+                };
+                fits = fits
+                    && self
+                        .go_on(
+                            view,
+                            bounces,
+                            room,
+                            &mut bounce_room,
+                            film,
+                            points,
+                            on,
+                            first,
+                        )
+                        .await?;
+            }
+        }
+        room.bounces = Some(bounce_room);
+        Ok(fits)
+    }
+
+    /// A ray of each sample, one from what it meets, and so on.
+    #[expect(clippy::too_many_arguments, reason = "all stages take as many")]
+    async fn go_on(
+        &self,
+        view: &View<'_>,
+        bounces: &Bounces,
+        room: &StripRoom,
+        bounce_room: &mut BounceRoom,
+        film: &Film,
+        points: u64,
+        on: &Scratched,
+        first: ShadowRound,
+    ) -> Result<bool, Error> {
+        let gpu = &self.gpu;
+        let mut on = *on;
+        for depth in 0..bounces.count {
+            let round = match depth {
+                0 => first,
+                _ => ShadowRound {
+                    round: 0,
+                    rounds: 1,
+                    first_round: 0,
+                    all_rounds: 1,
+                    first_pick: 0,
+                    picks: 1,
+                    depth,
+                    seed: seed(&first, depth),
+                    ..first
+                },
+            };
+            bounce_room.write(gpu, &round);
+            let to = depth as usize % 2;
+            self.submit(view, |recording| {
+                let by = bounce(room, bounce_room, film, &round, on.groups);
+                if let Some(scratches) = &bounces.scratches
+                    && (depth > 0 || by.by_scratches && round.round == round.first_pick)
+                {
+                    scratches.record_picks(gpu, recording, &by, &on);
+                }
+                bounces.record_rays(gpu, recording, &by);
+            });
+            let hits = &mut bounce_room.hits[to];
+            let next = seed(&first, depth + 1);
+            let shaded = self.shade_hits(view, bounces, hits, film, points, on.groups, next);
+            let Some(chunks) = shaded.await? else {
+                return Ok(false);
+            };
+            self.submit(view, |recording| {
+                let by = bounce(room, bounce_room, film, &round, on.groups);
+                bounces.record_light(gpu, recording, &by);
+            });
+            on.chunks = chunks;
+            on.sorted = HITS_SORTED;
+        }
+        Ok(true)
+    }
+
+    /// Shades what rays have met, with shadows. Says in how many chunks their scratches are; nothing if these do not fit on the device.
+    #[expect(clippy::too_many_arguments, reason = "all stages take as many")]
+    async fn shade_hits(
+        &self,
+        view: &View<'_>,
+        bounces: &Bounces,
+        hits: &mut StripRoom,
+        film: &Film,
+        points: u64,
+        groups: u32,
+        seed: u32,
+    ) -> Result<Option<u32>, Error> {
+        let (gpu, scans) = (&self.gpu, &self.scans);
+        let mut chunks = groups;
+        if let Some(scratches) = &bounces.scratches {
+            hits.group_scan.set_count(gpu, GROUP * groups + 1);
+            self.submit(view, |recording| {
+                scratches.record_count(gpu, recording, scans, hits, film, groups);
+            });
+            // The sum of all lies behind them.
+            let entries = self.read_u32(&hits.list_starts, GROUP * groups).await?;
+            chunks = chunks_most(groups, entries);
+            if entries > Lists::entries_most(gpu) || !Samples::fit(gpu, points, chunks) {
+                return Ok(None);
+            }
+            hits.lists.make_room(gpu, scans, entries).await?;
+            hits.samples.make_room_for_chunks(gpu, chunks).await?;
+            self.submit(view, |recording| {
+                scratches.record_lists(gpu, recording, hits, film, groups);
+                let shade = &scratches.shade;
+                shade.record_chunks(gpu, recording, scans, hits, groups);
+            });
+        }
+        self.submit(view, |recording| {
+            if let Shade::Own { base, .. } = &view.uploaded.passes.shade {
+                base.record(gpu, recording, hits, film, groups);
+            }
+            if let Some(scratches) = &bounces.scratches {
+                let shade = &scratches.shade;
+                shade.record(gpu, recording, hits, HITS_SORTED, chunks);
+            }
+        });
+        let on = Scratched {
+            groups,
+            chunks,
+            sorted: HITS_SORTED,
+        };
+        let rounds = Rounds {
+            now: Batch::all(1),
+            seed,
+        };
+        let shaded = self.shade_shadows(view, &bounces.shadows, hits, film, points, &on, rounds);
+        shaded.await?;
+        Ok(Some(chunks))
+    }
+}
+
+/// From samples to what their rays meet, which lie in one room and the other by turns.
+fn bounce<'a>(
+    room: &'a StripRoom,
+    bounce_room: &'a BounceRoom,
+    film: &'a Film,
+    round: &ShadowRound,
+    groups: u32,
+) -> Bounce<'a> {
+    let to = round.depth as usize % 2;
+    Bounce {
+        from: match round.depth {
+            0 => room,
+            _ => &bounce_room.hits[1 - to],
+        },
+        to: &bounce_room.hits[to],
+        rays: &bounce_room.rays,
+        bounced: &bounce_room.bounced,
+        round: &bounce_room.round,
+        film: &film.buffer,
+        groups,
+        depth: round.depth,
+        by_scratches: round.by_scratches != 0,
+    }
+}
+
+/// For the random numbers of what the rays of a round meet: a place may be met again in other rounds.
+fn seed(first: &ShadowRound, depth: u32) -> u32 {
+    let chain = 2 * (first.first_round + first.round) + first.by_scratches;
+    let mixed = chain.wrapping_mul(0x9e37_79b9) ^ depth.wrapping_mul(0x85eb_ca6b);
+    mixed ^ mixed >> 15
+}

@@ -1,0 +1,75 @@
+//! Light by way of other objects on the GPU against the CPU's, which the path tracer bears out (`bounced.rs`).
+
+use super::bounced::scenes;
+use super::shadowed::{bounced, luminance};
+use super::shadowed_on_gpu::on_gpu;
+use hairline_image::{Image, Layer};
+
+const LAYERS: [Layer; 2] = [Layer::Base, Layer::Scratches];
+
+fn sum(values: &[f64]) -> f64 {
+    values.iter().sum()
+}
+
+/// What bounces add to a layer of each pixel.
+fn added(with: &Image, without: &Image, layer: Layer) -> Vec<f64> {
+    let (with, without) = (luminance(with, layer), luminance(without, layer));
+    with.iter().zip(without).map(|(a, b)| a - b).collect()
+}
+
+/// A picture with and without bounces, with the same rays for its shadows.
+fn pair(picture: impl Fn(u32) -> Option<Image>, bounces: u32) -> Option<[Image; 2]> {
+    Some([picture(bounces)?, picture(0)?])
+}
+
+/// What other objects add is what they add on the CPU: in the mean over the picture, to the noise of both, and in no quarter of it does it lie
+/// elsewhere.
+#[test]
+fn the_gpus_bounces_are_the_cpus_in_the_mean() {
+    for (bounces, (name, scene)) in [1, 1, 3, 2].into_iter().zip(scenes()) {
+        let samples = 96;
+        let on_gpu = |bounces| on_gpu(&scene, samples, Some(bounces));
+        let Some([with, without]) = pair(on_gpu, bounces) else {
+            return;
+        };
+        let on_cpu = |bounces| Some(bounced(&scene, 2 * samples, true, bounces));
+        let by_cpu = pair(on_cpu, bounces).unwrap();
+        for layer in LAYERS {
+            let found = added(&with, &without, layer);
+            assert!(found.iter().all(|v| v.is_finite()), "{name}");
+            let truth = added(&by_cpu[0], &by_cpu[1], layer);
+            let errors: Vec<f64> = found.iter().zip(&truth).map(|(a, b)| a - b).collect();
+            let count = errors.len() as f64;
+            let variance = sum(&errors.iter().map(|e| e * e).collect::<Vec<_>>()) / count;
+            let mean = sum(&truth) / count;
+            let off = sum(&errors) / count / mean.max(1e-30);
+            let std = (variance / count).sqrt() / mean.max(1e-30);
+            println!(
+                "{name}, {}, {bounces}: {:+.3} % of what is added, std {:.3} %; a pixel {:.2} %",
+                layer.name(),
+                100.0 * off,
+                100.0 * std,
+                100.0 * variance.sqrt() / mean.max(1e-30)
+            );
+            if mean == 0.0 {
+                assert!(found.iter().all(|v| *v == 0.0), "{name}");
+                continue;
+            }
+            // Single precision, and what the GPU packs into fewer bits.
+            assert!(off.abs() < 2e-3 + 4.0 * std, "{name}: {off} {std}");
+            assert!(std < 0.02, "{name}: {std}");
+        }
+    }
+}
+
+/// Where there is nothing to go by, a bounce changes no bit.
+#[test]
+fn without_objects_the_gpus_bounces_change_nothing() {
+    for (name, mut scene) in scenes() {
+        scene.objects.truncate(1);
+        let Some(direct) = on_gpu(&scene, 3, Some(0)) else {
+            return;
+        };
+        assert!(on_gpu(&scene, 3, Some(2)) == Some(direct), "{name}");
+    }
+}
