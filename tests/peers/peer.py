@@ -440,7 +440,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scenes", nargs="*", type=Path)
     parser.add_argument("--hairline", default=str(ROOT / "target/release/hairline"))
-    parser.add_argument("--mode", default="render --backend cpu", help="how hairline renders")
+    parser.add_argument("--mode", default="render --backend cpu --shadows off --bounces 0", help="how hairline renders")
     parser.add_argument("--size", type=int, default=128, help="of a square picture, pixels")
     parser.add_argument("--samples", type=int, default=1024, help="of the peer, a pixel")
     parser.add_argument("--keep", type=Path, help="a folder for both pictures of each scene")

@@ -57,10 +57,18 @@ impl View<'_> {
         shadows.filter(|_| !self.without_shadows)
     }
 
-    /// Light of other objects, with the shadows.
+    /// Light of other objects, as shadows.
     pub(crate) fn bounces(&self) -> Option<&Bounces> {
         let bounces = self.uploaded.bounces.as_ref();
         bounces.filter(|_| !self.without_shadows)
+    }
+
+    /// Rays of each sample to each source, of all batches.
+    pub(crate) fn all_rounds(&self) -> u32 {
+        match self.step {
+            0 => self.samples,
+            _ => self.rounds().count,
+        }
     }
 
     /// Rays of each sample to each source. A pixel without an edge has one sample; of several, each has two rays: one guesses for the other.
@@ -68,14 +76,6 @@ impl View<'_> {
         match self.step {
             0 => self.batch,
             _ => Batch::all(2),
-        }
-    }
-
-    /// As many as these will be with all batches.
-    pub(crate) fn all_rounds(&self) -> u32 {
-        match self.step {
-            0 => self.samples.max(1),
-            _ => 2,
         }
     }
 }

@@ -1,5 +1,7 @@
 //! The rays of a strip's samples: shadows, and light of other objects.
 
+use hairline_image::Batch;
+
 use crate::bounce_room::BounceRoom;
 use crate::bounces::{Bounce, Bounces, HITS_SORTED};
 use crate::error::Error;
@@ -12,12 +14,11 @@ use crate::shadow_scratches::Scratched;
 use crate::shadows::Shadows;
 use crate::strip::{GROUP, Lists, Samples, StripRoom, chunks_most};
 use crate::strip_shader::StripShader;
-use hairline_image::Batch;
 
 /// Rays of each sample to each source.
 #[derive(Clone, Copy)]
 pub(crate) struct Rounds {
-    pub batch: Batch,
+    pub now: Batch,
     /// Other random numbers for each.
     pub seed: u32,
 }
@@ -46,8 +47,8 @@ impl StripShader {
         let mut next = ShadowRound {
             source: 0,
             round: 0,
-            rounds: rounds.batch.count,
-            first_round: rounds.batch.first,
+            rounds: rounds.now.count,
+            first_round: rounds.now.first,
             seed: rounds.seed,
             extent_m: shadows.extent_m,
             ..ShadowRound::default()
@@ -271,7 +272,7 @@ impl StripShader {
             sorted: HITS_SORTED,
         };
         let rounds = Rounds {
-            batch: Batch::all(1),
+            now: Batch::all(1),
             seed,
         };
         let shaded = self.shade_shadows(view, &bounces.shadows, hits, film, points, &on, rounds);

@@ -176,7 +176,7 @@ impl StripShader {
                 sorted,
             };
             let rounds = Rounds {
-                batch: view.rounds(),
+                now: view.rounds(),
                 seed: 0,
             };
             self.shade_shadows(view, shadows, room, film, points, &on, rounds)

@@ -26,6 +26,16 @@ impl Batch {
         }
     }
 
+    /// Those that `samples`, at least 1, are added up in; more than a batch are rounded up to whole ones.
+    pub fn of(samples: u32) -> impl Iterator<Item = Self> {
+        let count = samples.clamp(1, BATCH_SAMPLES);
+        let batches = samples.max(1).div_ceil(count);
+        (0..batches).map(move |batch| Self {
+            first: batch * count,
+            count,
+        })
+    }
+
     /// Their numbers.
     pub fn range(self) -> Range<u32> {
         self.first..self.first + self.count

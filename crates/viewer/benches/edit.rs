@@ -50,6 +50,7 @@ fn measure(backend: Backend) {
                 backend,
                 state_dir: None,
                 native_dialogs: false,
+                transport: hairline_scene::Transport::DIRECT,
             };
             Viewer::new(&context.egui_ctx, None, options).expect("the built-in scene")
         });

@@ -42,6 +42,7 @@ fn main() {
         backend: Backend::Cpu,
         state_dir: None,
         native_dialogs: false,
+        transport: hairline_scene::Transport::DIRECT,
     };
     let times: Arc<Mutex<Vec<Times>>> = Arc::default();
     let told = Arc::clone(&times);

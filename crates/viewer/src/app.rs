@@ -12,8 +12,8 @@ use std::sync::Arc;
 use eframe::egui_wgpu::RenderState;
 use hairline_editor::Document;
 use hairline_editor::bookmarks::Bookmarks;
-use hairline_scene::Description;
 use hairline_scene::description::Camera;
+use hairline_scene::{Description, Transport};
 use web_time::Instant;
 
 use crate::command::Command;
@@ -46,6 +46,8 @@ pub struct Options {
     pub state_dir: Option<PathBuf>,
     /// Whether to ask for files by the system's dialogs; else by a line in the window.
     pub native_dialogs: bool,
+    /// Shadows and bounces, until they are switched.
+    pub transport: Transport,
 }
 
 /// The whole window.
@@ -112,6 +114,7 @@ impl Viewer {
             toolbox: Toolbox::default(),
             reading: ReadingState::default(),
             free_view: FreeView::default(),
+            transport: options.transport,
             overlays: Overlays::default(),
             gallery: Gallery::default(),
             bookmarks,
@@ -231,7 +234,7 @@ impl Viewer {
         }
         let is_comparing = self.compare.is_open();
         let recent = panels::menu::show(ui, &mut self.work, &self.files, is_comparing);
-        panels::status::show(ui, &self.work.engine, &self.viewport);
+        panels::status::show(ui, &mut self.work, &self.viewport);
         if !self.hides_list {
             panels::outliner::show(ui, &mut self.work);
         }

@@ -53,6 +53,7 @@ pub(crate) enum Command {
     View(ViewCommand),
     Overlay(Overlay),
     Overlays,
+    Shadows,
 }
 
 /// Where a command is found.
@@ -167,6 +168,7 @@ const TABLE: &[Entry] = &[
     entry(Command::Overlay(Overlay::Lights), Group::View, "Outlines of lights", None),
     entry(Command::Overlay(Overlay::Handles), Group::View, "Handles of the selection", None),
     entry(Command::Overlay(Overlay::Names), Group::View, "Names", None),
+    entry(Command::Shadows, Group::View, "Shadows", Some((Modifiers::SHIFT, Key::S))),
     entry(Command::ToggleList, Group::View, "List at the left", Some((PLAIN, Key::F9))),
     entry(Command::ToggleInspector, Group::View, "Panel at the right", Some((PLAIN, Key::F10))),
     entry(Command::FullScreen, Group::View, "Full screen", Some((PLAIN, Key::F11))),
@@ -215,7 +217,7 @@ const SECTIONS: &[Command] = &[
     Command::ToggleSolo,
     Command::Deselect,
     Command::Look(Viewpoint::Front),
-    Command::ToggleList,
+    Command::Shadows,
     Command::Compare,
     Command::BrushSmaller,
 ];

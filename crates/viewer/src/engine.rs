@@ -43,6 +43,8 @@ pub use event::{Event, Wake};
 pub use frame::{Frame, Latency, Painted, Picture};
 pub use view::View;
 
+pub(crate) use steps::SHADOW_SAMPLES;
+
 use in_turn::InTurn;
 use request::Shared;
 

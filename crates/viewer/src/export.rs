@@ -12,8 +12,10 @@ use std::time::Duration;
 
 use egui::{Align2, Id, ProgressBar, Rect};
 use hairline_image::Output;
+use hairline_scene::DEFAULT_SAMPLES;
 use web_time::Instant;
 
+use crate::engine::SHADOW_SAMPLES;
 use crate::files::Purpose;
 use crate::jobs::Job;
 use crate::notices::Notices;
@@ -76,7 +78,12 @@ impl Export {
                     .unwrap_or_default();
                 let path = folder.join(purpose.proposal(&work.document));
                 let size_px = work.document.description().render.size_px;
-                Form::new(is_turntable, size_px, &path)
+                // As many as the window adds up.
+                let samples = match work.transport.shadows {
+                    true => SHADOW_SAMPLES,
+                    false => DEFAULT_SAMPLES,
+                };
+                Form::new(is_turntable, size_px, samples, &path)
             });
         self.form = Some(form);
     }
@@ -137,6 +144,7 @@ impl Export {
             description,
             size_px: form.size_px,
             samples: form.samples,
+            transport: work.wanted_transport(),
             is_transparent: form.is_transparent,
             motion: form.motion(),
             path: form.path(),

@@ -7,8 +7,8 @@ use std::path::Path;
 
 use hairline_editor::bookmarks::Bookmarks;
 use hairline_editor::{ActionError, Document, Selection, actions};
-use hairline_scene::Description;
 use hairline_scene::description::Map;
+use hairline_scene::{Description, Transport};
 
 use crate::command::Command;
 use crate::engine::Engine;
@@ -29,6 +29,8 @@ pub(crate) struct Workspace {
     pub toolbox: Toolbox,
     pub reading: ReadingState,
     pub free_view: FreeView,
+    /// Shadows and bounces in this window; no part of the scene.
+    pub transport: Transport,
     pub overlays: Overlays,
     pub gallery: Gallery,
     pub bookmarks: Bookmarks,
@@ -91,6 +93,14 @@ impl Workspace {
         self.document.path().is_some_and(|own| is_same(own, path))
     }
 
+    /// The ways of light that the window asks for.
+    pub fn wanted_transport(&self) -> Transport {
+        match self.transport.shadows {
+            true => self.transport,
+            false => Transport::DIRECT,
+        }
+    }
+
     /// Whether the command has something to work on.
     pub fn can(&self, command: Command) -> bool {
         let selection = self.selection();
@@ -126,6 +136,7 @@ impl Workspace {
             Command::View(command) => self.free_view.is_on(command),
             Command::Overlay(overlay) => Some(self.overlays.is_on(overlay)),
             Command::Overlays => Some(!self.overlays.are_hidden()),
+            Command::Shadows => Some(self.transport.shadows),
             _ => None,
         }
     }

@@ -95,6 +95,7 @@ fn open(folder: std::path::PathBuf, loses: bool) {
         backend: Backend::Cpu,
         state_dir: Some(folder),
         native_dialogs: false,
+        transport: hairline_scene::Transport::DIRECT,
     };
     let opened = window::open_as(options, Renderer::Cpu, |viewer| {
         Box::new(Unlucky {

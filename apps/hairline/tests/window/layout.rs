@@ -42,6 +42,7 @@ impl Layout {
                     backend: Backend::Cpu,
                     state_dir: None,
                     native_dialogs: false,
+                    transport: hairline_scene::Transport::DIRECT,
                 };
                 Viewer::new(&context.egui_ctx, None, options).unwrap()
             });

@@ -270,5 +270,5 @@ fn shadows_add_up_to_those_of_all_rays_at_once() {
         }
         half += usize::from(noise.base[i][1] > 0.0);
     }
-    assert!(half > 50 && lit > 50, "{half} {lit}");
+    assert!(half > 50 && lit > 10, "{half} {lit}");
 }

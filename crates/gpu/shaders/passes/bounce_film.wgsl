@@ -13,14 +13,14 @@ fn bounce_film(@builtin(global_invocation_id) id: vec3u) {
     let at = film_index(pixel);
     var first = strip_index(pixel);
     var count = 1u;
-    let edge = film.pixels[at].edge;
-    // Their samples are those of later steps alone.
-    if frame.step == 0u && frame.adds != 0u && edge != 0u {
-        return;
-    }
     if frame.step > 0u {
+        let edge = film.pixels[at].edge;
         first = GROUP * group_starts[pixel_tile(pixel).x] + (max(edge, 1u) - 1u) * frame.samples;
         count = select(0u, frame.samples, edge != 0u);
+    }
+    if frame.step == 0u && frame.adds != 0u && film.pixels[at].edge != 0u {
+        // Its samples alone are added.
+        count = 0u;
     }
     for (var i = first; i < first + count; i += 1u) {
         film.pixels[at].base += bounced[i].base;

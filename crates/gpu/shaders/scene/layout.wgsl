@@ -161,7 +161,7 @@ struct ShadowRound {
     rounds: u32,                // of this picture
     extent_m: f32,              // how far the scene reaches from the origin: what rounding goes by
     first_round: u32,           // rays of earlier pictures, to be averaged with this one; an even number
-    all_rounds: u32,            // of all pictures that are averaged
+    all_rounds: u32,            // of this one and all that it will be averaged with
     first_pick: u32,            // the round of the first scratch that is picked of each sample
     picks: u32,                 // and how many are picked at once
     seed: u32,                  // other random numbers for each

@@ -71,7 +71,7 @@ fn batches_of_samples_add_up() {
         uploaded,
         ..
     } = &mut stage;
-    gpu.block_on(renderer.add_shadows(uploaded, &made.scene))
+    gpu.block_on(renderer.add_shadows(uploaded, &made.scene, 1))
         .unwrap();
     let mut canvas = gpu.block_on(renderer.canvas([97, 64], 40 * 97)).unwrap();
     let mut batches = Batches::new(SAMPLES);
@@ -166,7 +166,8 @@ fn an_interrupted_view_leaves_nothing_behind() {
     {
         let (scene, uploaded) = (&stage.made.scene, &stage.uploaded);
         let renderer = &mut stage.renderer;
-        let step = pin!(renderer.accumulate(scene, uploaded, &mut canvas, 0, 2, &options(32)));
+        let options = options(32);
+        let step = pin!(renderer.accumulate(scene, uploaded, &mut canvas, 0, 2, &options));
         let _ = step.poll(&mut Context::from_waker(Waker::noop()));
     }
     assert!([0, 3].contains(&canvas.steps(0)));

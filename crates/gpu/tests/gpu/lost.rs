@@ -4,7 +4,7 @@ use std::future::Future;
 use std::pin::pin;
 use std::task::{Context, Waker};
 
-use crate::common::{Made, Stage, plates};
+use crate::common::{Made, Stage, options, plates};
 use hairline_gpu::headless::{self, test_gpu};
 use hairline_gpu::{Error, Gpu, Renderer};
 use hairline_image::{Display, ToneMap};
@@ -48,9 +48,10 @@ fn a_lost_device_is_an_error_everywhere() {
             ..
         } = &mut stage;
         let scene = &made.scene;
+        let options = options(2);
         let lost = match step {
             0 => {
-                let sample = renderer.accumulate(scene, uploaded, &mut canvas, 1, 1, &options(2));
+                let sample = renderer.accumulate(scene, uploaded, &mut canvas, 1, 1, &options);
                 destroyed_within(&gpu, sample).map(is_lost)
             }
             1 => destroyed_within(&gpu, renderer.read_shown(&canvas, &DISPLAY)).map(is_lost),
@@ -59,7 +60,7 @@ fn a_lost_device_is_an_error_everywhere() {
         };
         assert!(lost.unwrap_or(true), "step {step}");
         // Whatever comes next says the same.
-        let next = renderer.accumulate(scene, uploaded, &mut canvas, 0, 0, &options(2));
+        let next = renderer.accumulate(scene, uploaded, &mut canvas, 0, 0, &options);
         assert!(is_lost(gpu.block_on(next)), "after step {step}");
         let next = renderer.read_shown(&canvas, &DISPLAY);
         assert!(is_lost(gpu.block_on(next)), "after step {step}");

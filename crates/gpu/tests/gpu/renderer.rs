@@ -1,6 +1,6 @@
 //! The way of a picture through the device: what is seen, sample after sample, band after band, and what goes wrong.
 
-use crate::common::default_limits;
+use crate::common::{default_limits, options};
 use glam::{DVec2, DVec3, Vec2, Vec3, Vec4};
 use hairline_fixtures::{DISK, SceneFile};
 use hairline_gpu::headless::{self, test_gpu};
@@ -101,8 +101,8 @@ fn bands_join_to_the_same_picture() {
                 gpu,
                 &scene,
                 &RenderOptions {
-                    samples,
                     submission_px,
+                    ..options(samples)
                 },
             )
             .unwrap();
@@ -464,8 +464,8 @@ fn a_device_lost_in_the_middle_is_an_error() {
     }
     let gpu = headless::open(&AdapterRequest::default()).unwrap();
     let options = RenderOptions {
-        samples: 2,
         submission_px: 10 * 97,
+        ..options(2)
     };
     let error = headless::render(
         &gpu,

@@ -154,6 +154,7 @@ fn view(work: &Workspace, area: &Area) -> View {
             tone_map: description.render.tone_map,
         },
         filter_std_px: description.render.filter_std_px,
+        transport: work.wanted_transport(),
         reading: work.reading.wanted(area.frame_px()),
     }
 }

@@ -75,6 +75,7 @@ impl Viewer {
             Command::View(command) => self.work.change_view(command),
             Command::Overlay(overlay) => self.work.overlays.toggle(overlay),
             Command::Overlays => self.work.overlays.toggle_all(),
+            Command::Shadows => self.work.transport.shadows = !self.work.transport.shadows,
         }
     }
 

@@ -36,6 +36,7 @@ impl Compare {
             camera: viewport::camera(&camera),
             shown_px: area.frame_px(),
             filter_std_px: description.render.filter_std_px,
+            transport: work.wanted_transport(),
             full_size: self.full_size,
         };
         let display = Display {

@@ -9,7 +9,7 @@ use hairline_image::metrics::{ErrorMap, error_map};
 use hairline_image::{Display, Image, Layer, Picture, ToneMap, png};
 use hairline_index::{Groove, ScratchIndex, SegmentTree, groove_index};
 use hairline_reference::{BATCH_SAMPLES, Integrator, Parts, Settings};
-use hairline_scene::{Camera, Scene};
+use hairline_scene::{Camera, Scene, Transport};
 use web_time::Instant;
 
 use super::figures::Figures;
@@ -24,6 +24,7 @@ pub(super) struct Wanted {
     /// Of the picture in the window: the comparison is no larger, and has its shape.
     pub shown_px: [u32; 2],
     pub filter_std_px: f64,
+    pub transport: Transport,
     /// Whether the comparison is as large as the picture, however long that takes.
     pub full_size: bool,
 }
@@ -34,7 +35,17 @@ impl Wanted {
             && self.camera == other.camera
             && self.shown_px == other.shown_px
             && self.filter_std_px == other.filter_std_px
+            && self.transport == other.transport
             && self.full_size == other.full_size
+    }
+
+    /// The reference has the picture's shadows and bounces.
+    fn settings(&self) -> Settings {
+        Settings {
+            shadows: self.transport.shadows,
+            bounces: self.transport.bounces,
+            ..Settings::default()
+        }
     }
 
     /// The scene in the shape of the window, of at most so many pixels.
@@ -164,7 +175,7 @@ pub(super) fn run(wanted: &Wanted, stop: &Stop, report: &Report, kept: &Mutex<Ke
     };
     let first = wanted.scene(FIRST_PX);
     let start = Instant::now();
-    let Some(coarse) = one_round(&first, &parts, stop) else {
+    let Some(coarse) = one_round(&first, wanted.settings(), &parts, stop) else {
         return;
     };
     let seconds_per_px = start.elapsed().as_secs_f64() / coarse.pixel_count() as f64;
@@ -191,11 +202,12 @@ fn refine(
     report: &Report,
 ) {
     let go_on = |_| !stop.is_asked();
-    let picture = bands::render(&wanted.built, scene, PICTURE_SAMPLES, BAND_PX, &go_on);
+    let (transport, built) = (wanted.transport, &wanted.built);
+    let picture = bands::render(built, scene, PICTURE_SAMPLES, transport, BAND_PX, &go_on);
     let Some(picture) = picture else {
         return;
     };
-    let integrator = Integrator::from_parts(scene, Settings::default(), parts.clone());
+    let integrator = Integrator::from_parts(scene, wanted.settings(), parts.clone());
     let mut sampled = Sampled {
         picture,
         reference: integrator.start(),
@@ -221,8 +233,8 @@ fn refine(
 }
 
 /// A reference with a batch for each pixel. None if `stop` was asked.
-fn one_round(scene: &Scene, parts: &Parts, stop: &Stop) -> Option<Image> {
-    let integrator = Integrator::from_parts(scene, Settings::default(), parts.clone());
+fn one_round(scene: &Scene, settings: Settings, parts: &Parts, stop: &Stop) -> Option<Image> {
+    let integrator = Integrator::from_parts(scene, settings, parts.clone());
     let observe = |_| {
         if stop.is_asked() {
             ControlFlow::Break(())

@@ -1,7 +1,9 @@
 //! What paints.
 
 #[cfg(not(target_arch = "wasm32"))]
-use hairline_gpu::Gpu;
+use hairline_gpu::{AdapterKind, Gpu};
+
+use hairline_scene::Transport;
 
 use super::pool;
 
@@ -20,6 +22,18 @@ pub enum Backend {
 }
 
 impl Backend {
+    /// What it has of the ways of light that are wanted while something moves: what takes longer than a movement lasts is left out.
+    pub fn counts_in_motion(&self, wanted: Transport) -> Transport {
+        match self {
+            Self::Cpu => Transport::DIRECT,
+            #[cfg(not(target_arch = "wasm32"))]
+            Self::Gpu(gpu) | Self::Shared(gpu) => match gpu.adapter.kind {
+                AdapterKind::Software => Transport::DIRECT,
+                _ => wanted,
+            },
+        }
+    }
+
     /// What the status line calls it.
     pub fn label(&self) -> String {
         match self {

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use hairline_cpu::closed_form::{Prepared, RenderOptions, TILE_PX};
-use hairline_image::Image;
-use hairline_scene::Scene;
+use hairline_image::{Batch, Batches, Image};
+use hairline_scene::{Scene, Transport};
 use web_time::Instant;
 
 use super::Built;
@@ -51,27 +51,64 @@ pub(super) fn prepared<'s>(built: &Built, scene: &'s Scene) -> Prepared<'s> {
 }
 
 /// Renders `scene`, which is that of `built` from elsewhere, in bands of `band_px` pixels at first, then of as many as are
-/// soon done. `go_on` is told before each which share of the picture is done; when it says no, there is no picture.
+/// soon done. `go_on` is told before each which share of the picture is done; when it says no, there is no picture. Samples of shadows
+/// add up, and are rounded up to whole batches.
 pub(crate) fn render(
     built: &Built,
     scene: &Scene,
     samples: u32,
+    transport: Transport,
     band_px: u32,
     go_on: &dyn Fn(f64) -> bool,
 ) -> Option<Image> {
-    let band_size = BandSize {
+    let prepared = prepared(built, scene);
+    let size_px = scene.render.size_px;
+    let size = BandSize {
         first_px: band_px,
         ..OF_A_THREAD
     };
-    let mut bands = Bands::new(scene.render.size_px, band_size);
-    let prepared = prepared(built, scene);
+    let mut batches = Batches::new(samples);
+    let mut options = options(samples, transport, None);
+    if !transport.shadows {
+        return render_once(&prepared, size_px, &options, size, go_on);
+    }
+    options.samples = batches.samples();
+    while let Some(batch) = batches.next() {
+        options.batch = Some(batch);
+        let share = 1.0 / f64::from(options.samples);
+        let go_on =
+            |done: f64| go_on((f64::from(batch.first) + f64::from(batch.count) * done) * share);
+        batches.add(render_once(&prepared, size_px, &options, size, &go_on)?);
+    }
+    batches.into_image()
+}
+
+fn render_once(
+    prepared: &Prepared,
+    size_px: [u32; 2],
+    options: &RenderOptions,
+    size: BandSize,
+    go_on: &dyn Fn(f64) -> bool,
+) -> Option<Image> {
+    let mut bands = Bands::new(size_px, size);
     loop {
         if !go_on(bands.done()) {
             return None;
         }
-        if bands.next(&prepared, samples, &|| false)? {
+        if bands.next(prepared, options, &|| false)? {
             return Some(bands.image);
         }
+    }
+}
+
+/// By Hairline's own method.
+pub(crate) fn options(samples: u32, transport: Transport, batch: Option<Batch>) -> RenderOptions {
+    RenderOptions {
+        samples,
+        batch,
+        shadows: transport.shadows,
+        bounces: transport.bounces,
+        ..RenderOptions::default()
     }
 }
 
@@ -116,13 +153,9 @@ impl Bands {
     pub fn next(
         &mut self,
         prepared: &Prepared,
-        samples: u32,
+        options: &RenderOptions,
         interrupted: &(dyn Fn() -> bool + Sync),
     ) -> Option<bool> {
-        let options = RenderOptions {
-            samples,
-            ..RenderOptions::default()
-        };
         let [width, height] = self.image.size_px;
         let start = Instant::now();
         let many = self.rows.next_multiple_of(TILE_PX);
@@ -132,9 +165,9 @@ impl Bands {
         let cancelled = || self.size.breaks_off && interrupted();
         let part = if self.only_edges {
             let before = rows_of(&self.image, pixels.clone());
-            prepared.refine_edges_unless(&cancelled, &options, rows, before)?
+            prepared.refine_edges_unless(&cancelled, options, rows, before)?
         } else {
-            let (part, _) = prepared.render_unless(&cancelled, &options, rows, &|_| {})?;
+            let (part, _) = prepared.render_unless(&cancelled, options, rows, &|_| {})?;
             part
         };
         put_rows(&mut self.image, pixels, &part);

@@ -3,11 +3,12 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use hairline_image::Image;
+use hairline_image::{Batch, Batches, Image};
 use hairline_scene::DEFAULT_SAMPLES;
 use web_time::Instant;
 
-use super::bands::{BandSize, Bands, IN_TURN, prepared};
+use super::Backend;
+use super::bands::{BandSize, Bands, IN_TURN, options, prepared};
 use super::drafts::Drafts;
 use super::easel::{Easel, Shown};
 use super::frame::Picture;
@@ -15,7 +16,7 @@ use super::pace::{self, Kind};
 use super::partial::Backdrop;
 use super::pool::Crew;
 use super::request::Order;
-use super::steps::Step;
+use super::steps::{SHADOW_SAMPLES, Step};
 use crate::reading::{Findings, Shows, develop};
 
 /// A picture that is finished in part is shown as often.
@@ -26,6 +27,8 @@ pub(super) struct CpuEasel {
     scene: Option<std::sync::Weak<super::Built>>,
     last: Option<Last>,
     begun: Option<Begun>,
+    /// Samples that add up, and of which order.
+    added: Option<(Order, Batches)>,
     drafts: Drafts,
     band_size: BandSize,
     /// Whether a picture is shown before it is finished, which takes time of its own.
@@ -37,6 +40,8 @@ struct Last {
     image: Image,
     step: Step,
     order: Order,
+    /// That it has.
+    samples: u32,
 }
 
 /// A picture that is not done yet.
@@ -63,6 +68,7 @@ impl CpuEasel {
             scene: None,
             last: None,
             begun: None,
+            added: None,
             drafts: Drafts::default(),
             band_size,
             shows_parts: band_size.breaks_off,
@@ -97,7 +103,7 @@ impl Easel for CpuEasel {
         let before = self.last.as_ref().filter(is_of_order);
         let mut bands = match (begun, before) {
             (Some(begun), _) => begun.bands,
-            (None, Some(last)) if !is_coarse && last.step.is_whole(&order.view) => {
+            (None, Some(last)) if step.refines(&last.step, &order.view) => {
                 Bands::edges_of(last.image.clone(), self.band_size)
             }
             (None, _) => Bands::new(step.size_px, self.band_size),
@@ -115,15 +121,18 @@ impl Easel for CpuEasel {
         }
         // What the rows that are left look like meanwhile.
         let before = before
-            .filter(|_| !is_coarse && self.shows_parts && !bands.only_edges)
+            .filter(|last| {
+                !is_coarse && self.shows_parts && !bands.only_edges && !last.step.is_added()
+            })
             .filter(|_| order.view.reading.shows == Shows::Beauty);
+        let options = options(step.samples, step.transport, step.batch);
         let mut backdrop = None;
         let mut shown_last = Instant::now();
         let is_done = loop {
             if interrupted() {
                 break false;
             }
-            let go_on = crew.install(|| bands.next(&prepared, step.samples, interrupted));
+            let go_on = crew.install(|| bands.next(&prepared, &options, interrupted));
             match go_on {
                 Some(true) => break true,
                 Some(false) => {}
@@ -140,6 +149,8 @@ impl Easel for CpuEasel {
                     picture,
                     size_px: step.size_px,
                     samples: step.samples,
+                    of_samples: None,
+                    transport: step.transport,
                     thin: step.thin,
                     done: bands.done(),
                     passes: Vec::new(),
@@ -156,22 +167,32 @@ impl Easel for CpuEasel {
             });
             return Ok(false);
         }
-        show(shown(order, &bands.image, step));
-        self.last = Some(Last {
-            image: bands.image,
+        let (image, samples) = match step.batch {
+            None => (bands.image, step.samples),
+            Some(batch) => self.add(order, batch, bands.image),
+        };
+        let last = Last {
+            image,
             step: *step,
             order: order.clone(),
-        });
+            samples,
+        };
+        show(last.shown(order));
+        self.last = Some(last);
         Ok(true)
     }
 
     fn show_again(&mut self, order: &Order) -> Result<Option<Shown>, hairline_gpu::Error> {
         let last = self.last.as_ref();
-        Ok(last.map(|last| shown(order, &last.image, &last.step)))
+        Ok(last.map(|last| last.shown(order)))
     }
 
     fn best_samples(&self) -> u32 {
         DEFAULT_SAMPLES
+    }
+
+    fn backend(&self) -> Backend {
+        Backend::Cpu
     }
 
     fn kind(&self) -> &'static Kind {
@@ -179,16 +200,38 @@ impl Easel for CpuEasel {
     }
 }
 
-fn shown(order: &Order, image: &Image, step: &Step) -> Shown {
-    let view = &order.view;
-    let (pixels, findings) = develop(image, view.size_px, &view.display, &view.reading);
-    Shown {
-        picture: Picture::Pixels(Arc::new(pixels)),
-        size_px: step.size_px,
-        samples: step.samples,
-        thin: step.thin,
-        done: 1.0,
-        passes: Vec::new(),
-        findings,
+impl CpuEasel {
+    /// The mean of a batch and those before it, and the samples that it has.
+    fn add(&mut self, order: &Order, batch: Batch, image: Image) -> (Image, u32) {
+        let before = self.added.take();
+        let before = before.filter(|(of, _)| batch.first > 0 && of.has_same_pixels(order));
+        let (_, batches) = self.added.insert(before.unwrap_or_else(|| {
+            let none = Batches::new(SHADOW_SAMPLES);
+            (order.clone(), none)
+        }));
+        batches.add(image);
+        let mean = batches.image().cloned();
+        (
+            mean.unwrap_or_else(|| unreachable!("one was added")),
+            batches.done(),
+        )
+    }
+}
+
+impl Last {
+    fn shown(&self, order: &Order) -> Shown {
+        let (view, step) = (&order.view, &self.step);
+        let (pixels, findings) = develop(&self.image, view.size_px, &view.display, &view.reading);
+        Shown {
+            picture: Picture::Pixels(Arc::new(pixels)),
+            size_px: step.size_px,
+            samples: self.samples,
+            of_samples: step.batch.map(|_| step.samples),
+            transport: step.transport,
+            thin: step.thin,
+            done: 1.0,
+            passes: Vec::new(),
+            findings,
+        }
     }
 }

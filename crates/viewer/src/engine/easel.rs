@@ -1,5 +1,8 @@
 //! What a renderer does for the painter.
 
+use hairline_scene::Transport;
+
+use super::Backend;
 use super::frame::Picture;
 use super::pace::Kind;
 use super::request::Order;
@@ -22,6 +25,8 @@ pub(super) trait Easel {
     fn show_again(&mut self, order: &Order) -> Result<Option<Shown>, hairline_gpu::Error>;
     /// Samples of a pixel, where edges are as smooth as they get.
     fn best_samples(&self) -> u32;
+    /// As what it computes with.
+    fn backend(&self) -> Backend;
     /// What it can do about time.
     fn kind(&self) -> &'static Kind;
 }
@@ -31,6 +36,9 @@ pub(super) struct Shown {
     pub picture: Picture,
     pub size_px: [u32; 2],
     pub samples: u32,
+    /// Samples that are to come together; none where they do not add up.
+    pub of_samples: Option<u32>,
+    pub transport: Transport,
     pub thin: u32,
     /// The share that is there, where the rest is of the picture before it.
     pub done: f64,

@@ -4,6 +4,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use hairline_gpu::PassTime;
+use hairline_scene::Transport;
 
 use super::{BuildStages, Built, View};
 
@@ -39,6 +40,10 @@ pub struct Painted {
     pub size_px: [u32; 2],
     /// Samples that are in it, for pixels on edges at least.
     pub samples: u32,
+    /// Samples of shadows that are to come together; none where they do not add up.
+    pub of_samples: Option<u32>,
+    /// The ways of light that are in it.
+    pub transport: Transport,
     /// One scratch of so many is in it and stands for all of them.
     pub thin: u32,
     /// The share that is there; the rest is of a coarser picture.

@@ -8,16 +8,17 @@ use hairline_gpu::canvas::Canvas;
 use hairline_gpu::{
     AdapterKind, AdapterRequest, Error, Gpu, GpuScene, PassTime, RenderOptions, Renderer, headless,
 };
+use hairline_image::Batch;
 use hairline_index::method::Method;
-use hairline_scene::DEFAULT_SAMPLES;
+use hairline_scene::{DEFAULT_SAMPLES, Transport};
 use web_time::Instant;
 
-use super::Built;
 use super::easel::{Easel, Shown};
 use super::frame::Picture;
 use super::pace::{self, Kind};
 use super::request::Order;
 use super::steps::Step;
+use super::{Backend, Built};
 use crate::reading::{Findings, develop};
 
 /// Pixels of one submission on a software driver, between two looks at whether something newer is wanted.
@@ -35,6 +36,8 @@ pub(super) struct GpuEasel {
     is_shared: bool,
     is_timed: bool,
     uploaded: Option<(Weak<Built>, GpuScene)>,
+    /// The bounces of the shadows that what was uploaded has; none without shadows.
+    bounces: Option<u32>,
     canvas: Option<Canvas>,
     /// Of the canvas.
     step: Option<Step>,
@@ -52,6 +55,7 @@ impl GpuEasel {
             is_shared,
             is_timed,
             uploaded: None,
+            bounces: None,
             canvas: None,
             step: None,
         })
@@ -63,7 +67,7 @@ impl GpuEasel {
     }
 
     fn shown(&mut self, order: &Order, samples: u32) -> Result<Option<Shown>, Error> {
-        let Some(canvas) = &self.canvas else {
+        let (Some(canvas), Some(step)) = (&self.canvas, self.step) else {
             return Ok(None);
         };
         let size_px = canvas.size_px();
@@ -96,6 +100,8 @@ impl GpuEasel {
             picture,
             size_px,
             samples,
+            of_samples: step.batch.map(|_| step.samples),
+            transport: step.transport,
             thin: 1,
             done: 1.0,
             passes,
@@ -129,6 +135,7 @@ impl Easel for GpuEasel {
             ..
         } = &*order.built;
         let method = Method::default();
+        self.bounces = None;
         match &mut self.uploaded {
             Some((last, uploaded)) => {
                 gpu.block_on(
@@ -169,9 +176,21 @@ impl Easel for GpuEasel {
         let mut last_shown = Instant::now();
         let options = RenderOptions {
             samples: step.samples,
+            batch: step.batch,
+            without_shadows: !step.transport.shadows,
             ..RenderOptions::default()
         };
-        let steps = hairline_gpu::steps(step.samples);
+        let Transport { shadows, bounces } = step.transport;
+        if let Some((_, uploaded)) = &mut self.uploaded
+            && shadows
+            && self.bounces != Some(bounces)
+        {
+            let scene = &order.built.scene;
+            gpu.block_on(self.renderer.add_shadows(uploaded, scene, bounces))?;
+            self.bounces = Some(bounces);
+        }
+        let batch = step.batch.unwrap_or(Batch::all(step.samples));
+        let steps = hairline_gpu::steps(batch.count);
         for part in 0..steps {
             for band in 0..canvas.bands() {
                 if interrupted() {
@@ -190,9 +209,13 @@ impl Easel for GpuEasel {
                 })?;
             }
             // The first step shades every pixel once, each later one is a sample of the pixels on edges.
-            let samples = part.max(1);
             let is_last = part + 1 == steps;
-            if is_last || samples >= FEWEST_SHOWN && last_shown.elapsed() > REFRESH {
+            let samples = match step.batch {
+                Some(batch) => batch.range().end,
+                None => part.max(1),
+            };
+            let is_finer = step.batch.is_none() && samples >= FEWEST_SHOWN;
+            if is_last || is_finer && last_shown.elapsed() > REFRESH {
                 self.canvas = Some(canvas);
                 if let Some(shown) = self.shown(order, samples)? {
                     show(shown);
@@ -209,12 +232,19 @@ impl Easel for GpuEasel {
     }
 
     fn show_again(&mut self, order: &Order) -> Result<Option<Shown>, Error> {
-        let samples = self.step.map_or(1, |step| step.samples);
+        let samples = self.step.map_or(1, |step| match step.batch {
+            Some(batch) => batch.range().end,
+            None => step.samples,
+        });
         self.shown(order, samples)
     }
 
     fn best_samples(&self) -> u32 {
         DEFAULT_SAMPLES
+    }
+
+    fn backend(&self) -> Backend {
+        Backend::Gpu(self.renderer.gpu().clone())
     }
 
     fn kind(&self) -> &'static Kind {

@@ -1,6 +1,7 @@
 //! The pictures on the way from a coarse one to the final one.
 
-use hairline_scene::Scene;
+use hairline_image::Batch;
+use hairline_scene::{Scene, Transport};
 
 use super::View;
 use super::pace::{Kind, scaled};
@@ -11,6 +12,9 @@ const THINNED_FILTER: f64 = 0.8;
 /// Of the picture between the coarse one and the whole one: its scale, and one scratch of so many.
 const BETWEEN: (f64, u32) = (0.4, 4);
 
+/// Samples of shadows that add up while nothing moves: then no eye sees their noise on most scenes.
+pub(crate) const SHADOW_SAMPLES: u32 = 64;
+
 /// One picture on the way to the final one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Step {
@@ -19,12 +23,26 @@ pub(super) struct Step {
     pub samples: u32,
     /// One scratch of so many stands for all of them.
     pub thin: u32,
+    pub transport: Transport,
+    /// Which of the samples are added to those before; none: the picture is one by itself.
+    pub batch: Option<Batch>,
 }
 
 impl Step {
     /// Whether it has all pixels and all scratches.
     pub fn is_whole(&self, view: &View) -> bool {
         self.size_px == view.size_px && self.thin == 1
+    }
+
+    /// Whether it is the picture of a step before with further samples on edges alone.
+    pub fn refines(&self, last: &Self, view: &View) -> bool {
+        let is_one = |step: &Self| step.batch.is_none() && step.is_whole(view);
+        is_one(self) && is_one(last) && self.samples > 1 && self.transport == last.transport
+    }
+
+    /// Whether it is one of several whose mean is the picture.
+    pub fn is_added(&self) -> bool {
+        self.batch.is_some()
     }
 
     /// The pixel's filter. A coarse picture looks through the small filter of the full one: through its own, each of its few
@@ -46,34 +64,47 @@ impl Step {
     }
 }
 
-/// The finer pictures after a coarse one, the last with `best_samples`.
-pub(super) fn steps(kind: &Kind, best_samples: u32, full_px: [u32; 2], coarse: &Step) -> Vec<Step> {
+/// The finer pictures after a coarse one: the last with `best_samples`, or with shadows that have added up.
+pub(super) fn steps(
+    kind: &Kind,
+    best_samples: u32,
+    full_px: [u32; 2],
+    coarse: &Step,
+    transport: Transport,
+) -> Vec<Step> {
     let mut steps = Vec::new();
     let mut add = |size_px: [u32; 2], samples, thin| {
         steps.push(Step {
             size_px,
             samples,
             thin,
+            transport,
+            batch: None,
         });
     };
-    if kind.thins() {
-        let (scale, thin) = BETWEEN;
-        let between = scaled(full_px, scale);
-        if coarse.size_px[0] < between[0] {
+    let (scale, thin) = if kind.thins() { BETWEEN } else { (0.5, 1) };
+    let between = scaled(full_px, scale);
+    let is_between_better = coarse.size_px[0] < between[0];
+    if is_between_better {
+        add(between, 1, thin);
+    }
+    if transport.shadows {
+        // A small picture soon, where what was left out in motion comes in: a whole one takes a while.
+        if !is_between_better && coarse.transport != transport {
             add(between, 1, thin);
         }
-        // Then edges alone become smoother.
-        if coarse.size_px != full_px || coarse.thin > 1 {
-            add(full_px, 1, 1);
-        }
-    } else {
-        let half = scaled(full_px, 0.5);
-        if coarse.size_px[0] < half[0] {
-            add(half, 1, 1);
-        }
-        if coarse.size_px != full_px {
-            add(full_px, 1, 1);
-        }
+        steps.extend(Batch::of(SHADOW_SAMPLES).map(|batch| Step {
+            size_px: full_px,
+            samples: SHADOW_SAMPLES,
+            thin: 1,
+            transport,
+            batch: Some(batch),
+        }));
+        return steps;
+    }
+    // Then edges alone become smoother.
+    if coarse.size_px != full_px || coarse.thin > 1 {
+        add(full_px, 1, 1);
     }
     add(full_px, best_samples, 1);
     steps

@@ -52,19 +52,25 @@ impl Studio {
         let full_px = order.view.size_px;
         let segments = order.built.segments;
         self.spent = Duration::ZERO;
+        let wanted = order.view.transport;
         loop {
             let (size_px, thin) = self.pace.moving(full_px, segments, begins);
             let coarse = Step {
                 size_px,
                 samples: 1,
                 thin,
+                transport: easel.backend().counts_in_motion(wanted),
+                batch: None,
             };
             let start = Instant::now();
             if self.paint(shared, easel, order, &coarse, Turn::First, None)? {
                 // A sketch is not refined: what it is a sketch of is on the way.
                 return Ok(match order.built.sketch {
                     Some(_) => Vec::new(),
-                    None => steps(easel.kind(), easel.best_samples(), full_px, &coarse),
+                    None => {
+                        let best_samples = easel.best_samples();
+                        steps(easel.kind(), best_samples, full_px, &coarse, wanted)
+                    }
                 });
             }
             if shared.is_stopped() || !easel.kind().thins() {
@@ -118,7 +124,8 @@ impl Studio {
             // One that gives way to the interface tells little of what a coarse one takes.
             let gave_way =
                 turn != Turn::First && easel.kind().thins() && step.is_whole(&order.view);
-            if step.samples == 1 && !gave_way {
+            let moving = easel.backend().counts_in_motion(order.view.transport);
+            if step.samples == 1 && !gave_way && step.transport == moving {
                 let segments = order.built.segments;
                 self.pace.took(step.size_px, step.thin, segments, time);
             }
@@ -161,6 +168,8 @@ impl Studio {
             painted: Painted {
                 size_px: shown.size_px,
                 samples: shown.samples,
+                of_samples: shown.of_samples,
+                transport: shown.transport,
                 thin: shown.thin,
                 done: shown.done,
                 is_final,

@@ -1,6 +1,7 @@
 //! From where the scene is seen, and how.
 
 use hairline_image::Display;
+use hairline_scene::Transport;
 use hairline_scene::scene::Camera;
 
 /// Where the picture is taken from, and how it is shown.
@@ -14,6 +15,8 @@ pub struct View {
     pub display: Display,
     /// Standard deviation of the pixel's Gaussian filter.
     pub filter_std_px: f64,
+    /// Shadows and bounces that are wanted; what paints may leave out a part of it.
+    pub transport: Transport,
     /// What is shown of the picture and found out about it: a change of it paints nothing anew either.
     pub reading: crate::reading::Wanted,
 }
@@ -24,6 +27,7 @@ impl View {
         self.camera == other.camera
             && self.size_px == other.size_px
             && self.filter_std_px == other.filter_std_px
+            && self.transport == other.transport
     }
 
     /// Whether the same pixels are shown in the same way.

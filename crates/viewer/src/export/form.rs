@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 
 use egui::{DragValue, Grid, Id, Modal, Response, RichText, TextEdit, Ui, Widget};
-use hairline_scene::DEFAULT_SAMPLES;
 
 use super::work::{Motion, numbered};
 
@@ -42,11 +41,11 @@ pub(super) enum Answer {
 }
 
 impl Form {
-    pub fn new(is_turntable: bool, size_px: [u32; 2], path: &Path) -> Self {
+    pub fn new(is_turntable: bool, size_px: [u32; 2], samples: u32, path: &Path) -> Self {
         Self {
             is_turntable,
             size_px,
-            samples: DEFAULT_SAMPLES,
+            samples,
             is_as_seen: true,
             is_transparent: false,
             frames: 120,
@@ -110,7 +109,8 @@ impl Form {
                 self.size_rows(ui, window_px, scene_px);
                 let samples = DragValue::new(&mut self.samples).range(1..=4096);
                 row(ui, "Samples", samples).on_hover_text(
-                    "Samples of a pixel that has an edge or a crease in it; elsewhere one is enough",
+                    "Samples of a pixel that has an edge or a crease in it; elsewhere one is enough. With shadows also the rays to \
+                     each light",
                 );
                 if is_view_free {
                     ui.label("Seen from");
@@ -255,7 +255,7 @@ mod tests {
 
     #[test]
     fn a_name_without_an_ending_is_a_png() {
-        let path = |text: &str| Form::new(false, [4, 4], Path::new(text)).path();
+        let path = |text: &str| Form::new(false, [4, 4], 8, Path::new(text)).path();
         assert_eq!(path("/tmp/a"), Path::new("/tmp/a.png"));
         assert_eq!(path(" /tmp/a.exr "), Path::new("/tmp/a.exr"));
         assert_eq!(path("/tmp/a.jpg"), Path::new("/tmp/a.jpg"));
@@ -264,7 +264,7 @@ mod tests {
 
     #[test]
     fn a_picture_that_no_memory_holds_is_refused() {
-        let mut form = Form::new(false, [8192, 8192], Path::new("a.png"));
+        let mut form = Form::new(false, [8192, 8192], 8, Path::new("a.png"));
         assert!(!form.is_too_large());
         form.size_px = [16_384, 8192];
         assert!(form.is_too_large());

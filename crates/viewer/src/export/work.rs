@@ -9,10 +9,12 @@ use hairline_cpu::closed_form::TILE_PX;
 use hairline_editor::navigate;
 #[cfg(not(target_arch = "wasm32"))]
 use hairline_gpu::{AdapterKind, Gpu, GpuScene, RenderOptions, Renderer};
+#[cfg(not(target_arch = "wasm32"))]
+use hairline_image::Batches;
 use hairline_image::{Display, Image, Output};
 #[cfg(not(target_arch = "wasm32"))]
 use hairline_index::method::Method;
-use hairline_scene::{Description, Scene};
+use hairline_scene::{Description, Scene, Transport};
 
 use crate::engine::{Backend, Built, Wake, bands};
 use crate::jobs::Stop;
@@ -33,6 +35,8 @@ pub(super) struct Wish {
     pub description: Arc<Description>,
     pub size_px: [u32; 2],
     pub samples: u32,
+    /// Shadows and bounces, as the window has them.
+    pub transport: Transport,
     /// Whether what is no surface is transparent; the environment is not seen then.
     pub is_transparent: bool,
     pub motion: Motion,
@@ -157,7 +161,7 @@ fn frames(wish: &Wish, built: &Built, stop: &Stop, report: &Report) -> Result<bo
         };
         let scene = wish.scene(built, frame);
         let image = painter
-            .paint(built, &scene, wish.samples, &go_on)
+            .paint(built, &scene, wish, &go_on)
             .map_err(|error| error.to_string())?;
         let Some(image) = image else {
             return Ok(false);
@@ -218,12 +222,12 @@ impl Painter {
         match &wish.backend {
             Backend::Cpu => Ok(Self::Cpu),
             #[cfg(not(target_arch = "wasm32"))]
-            Backend::Gpu(gpu) | Backend::Shared(gpu) => Self::on_gpu(gpu, built),
+            Backend::Gpu(gpu) | Backend::Shared(gpu) => Self::on_gpu(gpu, built, wish.transport),
         }
     }
 
     #[cfg(not(target_arch = "wasm32"))]
-    fn on_gpu(gpu: &Gpu, built: &Built) -> Result<Self, hairline_gpu::Error> {
+    fn on_gpu(gpu: &Gpu, built: &Built, transport: Transport) -> Result<Self, hairline_gpu::Error> {
         let Built {
             scene,
             scratches,
@@ -233,7 +237,11 @@ impl Painter {
         gpu.block_on(async {
             let mut renderer = Renderer::new(gpu).await?;
             let method = Method::default();
-            let uploaded = renderer.upload(scene, scratches, tables, &method).await?;
+            let mut uploaded = renderer.upload(scene, scratches, tables, &method).await?;
+            if transport.shadows {
+                let added = renderer.add_shadows(&mut uploaded, scene, transport.bounces);
+                added.await?;
+            }
             Ok(Self::Gpu {
                 renderer: Box::new(renderer),
                 uploaded: Box::new(uploaded),
@@ -250,41 +258,75 @@ impl Painter {
         &mut self,
         built: &Built,
         scene: &Scene,
-        samples: u32,
+        wish: &Wish,
         go_on: &dyn Fn(f64) -> bool,
     ) -> Result<Option<Image>, hairline_gpu::Error> {
         match self {
-            Self::Cpu => Ok(bands::render(built, scene, samples, CPU_BAND_PX, go_on)),
+            Self::Cpu => {
+                let (samples, transport) = (wish.samples, wish.transport);
+                let image = bands::render(built, scene, samples, transport, CPU_BAND_PX, go_on);
+                Ok(image)
+            }
             #[cfg(not(target_arch = "wasm32"))]
             Self::Gpu {
                 renderer,
                 uploaded,
                 band_px,
             } => {
-                let options = RenderOptions {
-                    samples,
+                let mut options = RenderOptions {
+                    samples: wish.samples,
                     ..Default::default()
                 };
-                let gpu = renderer.gpu().clone();
-                let [width, height] = scene.render.size_px;
-                // Whole rows of tiles.
-                let band = (*band_px / width).max(1).next_multiple_of(TILE_PX);
-                let mut image = Image::new(scene.render.size_px);
-                for first in (0..height).step_by(band as usize) {
-                    if !go_on(f64::from(first) / f64::from(height)) {
-                        return Ok(None);
-                    }
-                    let rows = first..(first + band).min(height);
-                    let pixels =
-                        first as usize * width as usize..rows.end as usize * width as usize;
-                    let part = renderer.render_rows(scene, uploaded, &options, rows, &|_| {});
-                    let part = gpu.block_on(part)?;
-                    bands::put_rows(&mut image, pixels, &part);
+                let mut render = |options: &RenderOptions, go_on: &dyn Fn(f64) -> bool| {
+                    on_gpu_in_bands(renderer, uploaded, scene, options, *band_px, go_on)
+                };
+                if !wish.transport.shadows {
+                    return render(&options, go_on);
                 }
-                Ok(Some(image))
+                let mut batches = Batches::new(wish.samples);
+                options.samples = batches.samples();
+                while let Some(batch) = batches.next() {
+                    options.batch = Some(batch);
+                    let (first, count) = (f64::from(batch.first), f64::from(batch.count));
+                    let all = f64::from(options.samples);
+                    let go_on = |share: f64| go_on((first + count * share) / all);
+                    match render(&options, &go_on)? {
+                        Some(image) => batches.add(image),
+                        None => return Ok(None),
+                    }
+                }
+                Ok(batches.into_image())
             }
         }
     }
+}
+
+/// None if `go_on` said no.
+#[cfg(not(target_arch = "wasm32"))]
+fn on_gpu_in_bands(
+    renderer: &mut Renderer,
+    uploaded: &GpuScene,
+    scene: &Scene,
+    options: &RenderOptions,
+    band_px: u32,
+    go_on: &dyn Fn(f64) -> bool,
+) -> Result<Option<Image>, hairline_gpu::Error> {
+    let gpu = renderer.gpu().clone();
+    let [width, height] = scene.render.size_px;
+    // Whole rows of tiles.
+    let band = (band_px / width).max(1).next_multiple_of(TILE_PX);
+    let mut image = Image::new(scene.render.size_px);
+    for first in (0..height).step_by(band as usize) {
+        if !go_on(f64::from(first) / f64::from(height)) {
+            return Ok(None);
+        }
+        let rows = first..(first + band).min(height);
+        let pixels = first as usize * width as usize..rows.end as usize * width as usize;
+        let part = renderer.render_rows(scene, uploaded, options, rows, &|_| {});
+        let part = gpu.block_on(part)?;
+        bands::put_rows(&mut image, pixels, &part);
+    }
+    Ok(Some(image))
 }
 
 #[cfg(test)]

@@ -2,16 +2,20 @@
 
 use std::time::Duration;
 
-use egui::{Panel, RichText, Ui};
+use egui::{DragValue, Panel, RichText, Ui};
+use hairline_scene::Transport;
 
 use super::busy::Busy;
+use crate::command::Command;
 use crate::engine::{Engine, Frame, Latency};
 use crate::viewport::Viewport;
+use crate::workspace::Workspace;
 
-pub(crate) fn show(ui: &mut Ui, engine: &Engine, viewport: &Viewport) {
+pub(crate) fn show(ui: &mut Ui, work: &mut Workspace, viewport: &Viewport) {
     Panel::bottom("status").exact_size(26.0).show(ui, |ui| {
         ui.horizontal_centered(|ui| {
             ui.spacing_mut().item_spacing.x = 14.0;
+            let engine = &work.engine;
             match engine.latest() {
                 Some(frame) => picture(ui, &frame, viewport.canvas.is_stale()),
                 None => drop(ui.label(before_the_first(engine))),
@@ -29,8 +33,10 @@ pub(crate) fn show(ui: &mut Ui, engine: &Engine, viewport: &Viewport) {
                 let time = viewport.interface_time;
                 ui.label(RichText::new(format!("interface {}", milliseconds(time))).weak())
                     .on_hover_text("The longest pass of the interface itself of late");
-                ui.label(engine.backend().label())
+                let backend = work.engine.backend();
+                ui.label(backend.label())
                     .on_hover_text("What renders the picture");
+                transport(ui, work);
             });
         });
     });
@@ -66,16 +72,65 @@ fn picture(ui: &mut Ui, frame: &Frame, is_stale: bool) {
 /// What is being done about the picture.
 fn activity(frame: &Frame, is_stale: bool) -> String {
     let painted = &frame.painted;
+    let wanted = frame.view.transport;
+    let is_added = painted.of_samples.is_some();
     match (painted.is_final, painted.samples) {
         _ if is_stale => "rendering the new view".to_owned(),
+        _ if !is_added && painted.transport != wanted => left_out(wanted).to_owned(),
         (true, _) => "finished".to_owned(),
         _ if frame.built.is_sketch() => "a sketch of the scratches".to_owned(),
+        (false, samples) if let Some(all) = painted.of_samples => {
+            format!("sample {samples} of {all}")
+        }
         _ if painted.done < 1.0 => format!("finishing, {:.0} %", 100.0 * painted.done),
         (false, 1) if painted.thin > 1 => format!("refining, one scratch of {}", painted.thin),
         (false, 1) if painted.size_px == frame.view.size_px => "smoothing edges".to_owned(),
         (false, 1) => "refining".to_owned(),
         (false, samples) => format!("refining, {samples} samples"),
     }
+}
+
+/// What is not in the picture yet.
+fn left_out(wanted: Transport) -> &'static str {
+    match wanted.bounces {
+        0 => "without shadows while it moves",
+        _ => "without shadows and bounces while it moves",
+    }
+}
+
+/// How often light may go by other objects in the window.
+const BOUNCES: std::ops::RangeInclusive<u32> = 0..=8;
+
+/// Shadows and bounces, to be switched.
+fn transport(ui: &mut Ui, work: &mut Workspace) {
+    let Transport { shadows, bounces } = work.transport;
+    let text = match (shadows, bounces) {
+        (false, _) => "no shadows".to_owned(),
+        (true, 0) => "shadows".to_owned(),
+        (true, 1) => "shadows, 1 bounce".to_owned(),
+        (true, bounces) => format!("shadows, {bounces} bounces"),
+    };
+    let menu = ui.menu_button(text, |ui| {
+        let mut is_on = shadows;
+        if ui
+            .checkbox(&mut is_on, Command::Shadows.label())
+            .on_hover_text("Objects hide lights and the environment from one another")
+            .changed()
+        {
+            work.wished.push(Command::Shadows);
+        }
+        ui.add_enabled_ui(shadows, |ui| {
+            ui.horizontal(|ui| {
+                let label = ui.label("Bounces");
+                let number = DragValue::new(&mut work.transport.bounces).range(BOUNCES);
+                ui.add(number)
+                    .labelled_by(label.id)
+                    .on_hover_text("How many other objects light may go by on its way");
+            });
+        });
+    });
+    menu.response
+        .on_hover_text("Of this window. While something moves, slow machines leave them out");
 }
 
 /// The way of the last edit to the picture.

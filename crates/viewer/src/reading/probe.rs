@@ -4,7 +4,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use egui::{Pos2, Rect};
 use glam::{DVec2, DVec3};
-use hairline_cpu::closed_form::{Prepared, RenderOptions};
+use hairline_cpu::closed_form::Prepared;
 use hairline_editor::actions::layers;
 use hairline_image::Display;
 use hairline_index::Hit;
@@ -12,7 +12,7 @@ use hairline_index::scratch_index::{FACING_MIN_COS, REACH_STD};
 use hairline_scene::{CameraFrame, DEFAULT_SAMPLES, Scene};
 
 use super::false_color;
-use crate::engine::{Built, View};
+use crate::engine::{Built, SHADOW_SAMPLES, View, bands};
 use crate::jobs::Job;
 
 /// A pixel, and what is under it.
@@ -187,10 +187,11 @@ fn read(spot: &Spot) -> Option<Reading> {
         Arc::clone(&built.scratches),
         Arc::clone(&built.tables),
     );
-    let options = RenderOptions {
-        samples: DEFAULT_SAMPLES,
-        ..RenderOptions::default()
+    let samples = match view.transport.shadows {
+        true => SHADOW_SAMPLES,
+        false => DEFAULT_SAMPLES,
     };
+    let options = bands::options(samples, view.transport, None);
     let pixel = prepared.read_pixel(&options, *at_px)?;
     let image = &pixel.image;
     Some(Reading {

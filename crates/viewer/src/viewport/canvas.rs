@@ -167,6 +167,7 @@ mod tests {
                 tone_map: Default::default(),
             },
             filter_std_px: 0.5,
+            transport: hairline_scene::Transport::DIRECT,
             reading: Default::default(),
         });
         loop {

@@ -29,6 +29,7 @@ pub fn viewer(scene: &'static str) -> Harness<'static, Viewer> {
         backend: Backend::Cpu,
         state_dir: None,
         native_dialogs: false,
+        transport: hairline_scene::Transport::DIRECT,
     })
 }
 

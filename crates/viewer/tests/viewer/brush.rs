@@ -257,6 +257,7 @@ fn the_first_stroke_is_seen_at_once() {
         backend: hairline_viewer::engine::Backend::Cpu,
         state_dir: None,
         native_dialogs: false,
+        transport: hairline_scene::Transport::DIRECT,
     };
     // A small picture, without the panels.
     let mut harness = common::viewer_of(options, [300.0, 220.0]);

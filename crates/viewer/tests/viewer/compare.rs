@@ -25,6 +25,7 @@ fn sized_viewer(scene: &'static str, size: [f32; 2]) -> Harness<'static, Viewer>
         backend: Backend::Cpu,
         state_dir: None,
         native_dialogs: false,
+        transport: hairline_scene::Transport::DIRECT,
     };
     let mut harness = Harness::builder()
         .with_size(size)

@@ -47,7 +47,7 @@ fn type_path(harness: &mut Harness<'static, Viewer>, path: &Path) {
     harness.run_steps(3);
 }
 
-fn save_picture(harness: &mut Harness<'static, Viewer>, path: &Path) {
+pub fn save_picture(harness: &mut Harness<'static, Viewer>, path: &Path) {
     harness.key_press_modifiers(Modifiers::COMMAND, Key::P);
     harness.run_steps(3);
     type_path(harness, path);
@@ -65,7 +65,7 @@ fn export_turntable(harness: &mut Harness<'static, Viewer>, path: &Path, frames:
     common::click_on(harness, "Export");
 }
 
-fn wait_exported(harness: &mut Harness<'static, Viewer>) {
+pub fn wait_exported(harness: &mut Harness<'static, Viewer>) {
     common::wait_until(harness, "the export ends", |viewer| !viewer.is_exporting());
 }
 
@@ -139,6 +139,7 @@ fn a_picture_of_a_gpu_is_what_its_renderer_makes() {
         backend: Backend::Gpu(gpu.clone()),
         state_dir: None,
         native_dialogs: false,
+        transport: hairline_scene::Transport::DIRECT,
     });
     common::wait_built(&mut harness);
     let path = folder.path().join("a.exr");

@@ -146,6 +146,7 @@ fn what_a_crash_left_is_offered_and_recovered() {
         backend: Backend::Cpu,
         state_dir: Some(folder.path().to_owned()),
         native_dialogs: false,
+        transport: hairline_scene::Transport::DIRECT,
     };
     let mut harness = viewer_with(options());
     let document = harness.state_mut().document_mut();

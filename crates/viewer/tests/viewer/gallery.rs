@@ -88,6 +88,7 @@ fn a_map_in_the_box_is_named_in_the_scene() {
             backend: Backend::Cpu,
             state_dir: None,
             native_dialogs: false,
+            transport: hairline_scene::Transport::DIRECT,
         });
         wait_built(&mut harness);
         select(&mut harness, Selection::Environment);

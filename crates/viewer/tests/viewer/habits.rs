@@ -112,6 +112,7 @@ fn is_framed(scene: &str, object: &str) {
             backend: Backend::Cpu,
             state_dir: None,
             native_dialogs: false,
+            transport: hairline_scene::Transport::DIRECT,
         },
         [1440.0, 860.0],
     );
@@ -274,6 +275,7 @@ fn menus_have_the_usual_order_and_redo_its_other_key() {
         backend: Backend::Cpu,
         state_dir: None,
         native_dialogs: false,
+        transport: hairline_scene::Transport::DIRECT,
     });
     wait_built(&mut harness);
     click_on(&mut harness, "File");
@@ -350,6 +352,7 @@ fn the_help_fits_and_reads_as_the_keyboard_does() {
             backend: Backend::Cpu,
             state_dir: None,
             native_dialogs: false,
+            transport: hairline_scene::Transport::DIRECT,
         },
         [1360.0, 800.0],
     );

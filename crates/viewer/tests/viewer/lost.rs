@@ -13,6 +13,7 @@ fn options(backend: Backend) -> Options {
         backend,
         state_dir: None,
         native_dialogs: false,
+        transport: hairline_scene::Transport::DIRECT,
     }
 }
 

@@ -22,6 +22,7 @@ mod panels;
 mod picking;
 mod reading;
 mod rest;
+mod shadows;
 mod snapshots;
 mod tooltips;
 mod views;

@@ -16,6 +16,7 @@ fn open(path: &Path) -> Harness<'static, Viewer> {
         backend: Backend::Cpu,
         state_dir: None,
         native_dialogs: false,
+        transport: hairline_scene::Transport::DIRECT,
     });
     wait_built(&mut harness);
     // The files' first look.

@@ -186,6 +186,7 @@ fn layers_of_a_device_are_those_of_the_cpu() {
         backend,
         state_dir: None,
         native_dialogs: false,
+        transport: hairline_scene::Transport::DIRECT,
     };
     let mut pictures = [Backend::Cpu, Backend::Gpu(gpu.clone())].map(|backend| {
         let mut harness = common::viewer_of(options(backend), [760.0, 240.0]);

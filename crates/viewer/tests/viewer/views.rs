@@ -76,6 +76,7 @@ fn views_are_kept_and_found_again() {
             backend: Backend::Cpu,
             state_dir: Some(folder.path().join("state")),
             native_dialogs: false,
+            transport: hairline_scene::Transport::DIRECT,
         });
         wait_built(&mut harness);
         harness

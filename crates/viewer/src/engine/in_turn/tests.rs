@@ -7,6 +7,7 @@ use std::time::Duration;
 use glam::DVec3;
 use hairline_fixtures::scenes::oblique_plate;
 use hairline_image::{Display, ToneMap};
+use hairline_scene::Transport;
 use hairline_scene::{Camera, Description};
 use web_time::Instant;
 
@@ -40,6 +41,7 @@ fn view() -> View {
             tone_map: ToneMap::default(),
         },
         filter_std_px: 0.5,
+        transport: Transport::DIRECT,
     }
 }
 
