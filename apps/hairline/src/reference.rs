@@ -17,9 +17,6 @@ use crate::progress::{Progress, Terminal};
 use crate::scene_file::{self, Overrides};
 use crate::switch::Switch;
 
-/// Samples for each pixel if neither they nor a time are asked for.
-const DEFAULT_SAMPLES: u32 = 1024;
-
 /// What a crash or a power cut may cost.
 const SAVE_EVERY: Duration = Duration::from_secs(60);
 
@@ -56,7 +53,7 @@ pub fn run(arguments: &cli::Reference) -> Result<(), Failure> {
     let earlier = (exists && arguments.resume)
         .then(|| identity::read_to_resume(&output_path, scene.render.size_px, &notes))
         .transpose()?;
-    let limits = limits(arguments);
+    let limits = Limits::new(arguments.spp, arguments.time, SAVE_EVERY);
     let count = earlier.as_ref().map(Count::of);
     if let Some(count) = count
         && count.least >= limits.samples
@@ -153,21 +150,6 @@ fn settings(arguments: &cli::Reference) -> Result<Settings, Failure> {
         shadows: arguments.shadows == Switch::On,
         seed: arguments.sample_seed,
     })
-}
-
-/// Samples come in whole batches; with a time alone there are as many as fit in it.
-fn limits(arguments: &cli::Reference) -> Limits {
-    const MOST: u32 = u32::MAX / BATCH_SAMPLES * BATCH_SAMPLES;
-    let samples = match (arguments.spp, arguments.time) {
-        (Some(samples), _) => samples.next_multiple_of(BATCH_SAMPLES),
-        (None, Some(_)) => MOST,
-        (None, None) => DEFAULT_SAMPLES,
-    };
-    Limits {
-        samples,
-        time: arguments.time,
-        save_every: SAVE_EVERY,
-    }
 }
 
 /// The model, the threads and how far to go.

@@ -24,7 +24,7 @@ pub fn sine_integral(x: f64) -> f64 {
 }
 
 /// G_lambda(u): the integral of sinc^2(k v / 2) over v from 0 to u, in micrometres. Odd; lambda/2 at infinity.
-pub(crate) fn sinc_squared_integral(u_um: f64, wavelength_um: f64) -> f64 {
+pub fn sinc_squared_integral(u_um: f64, wavelength_um: f64) -> f64 {
     let k = 2.0 * PI / wavelength_um;
     if u_um.is_infinite() {
         return u_um.signum() * PI / k;

@@ -37,6 +37,7 @@ pub use scratches::{
     Amount, Around, Brush, Brushed, Distribution, Laid, Layer, Listed, Pattern, Scratches, Stroke,
 };
 pub use studio::{Ground, Studio};
+pub use values::metal_names;
 
 /// A whole scene file.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -131,6 +131,10 @@ impl KeptSurface {
         let transform = &surface_key.world_from_object;
         let mesh = match (&surface_key.surface, &surface_key.file) {
             (Surface::Mesh(file), _) if loader.arrays.mesh(file).is_some() => {
+                if surface_key.owns_materials {
+                    let right = "a mesh in memory has none of its own";
+                    return Err(Error::new(key, "`material` is missing", right));
+                }
                 let mut mesh = Mesh::default();
                 if let Some(arrays) = loader.arrays.mesh(file) {
                     arrays.surface().bake(transform, 0, &mut mesh);

@@ -36,6 +36,11 @@ impl Named for Metal {
     ];
 }
 
+/// What scene files call the metals.
+pub fn metal_names() -> &'static [(&'static str, Metal)] {
+    Metal::NAMES
+}
+
 impl Named for BuiltInMap {
     const NAMES: &'static [(&'static str, Self)] = &[
         ("studio", BuiltInMap::Studio),

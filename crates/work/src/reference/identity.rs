@@ -75,10 +75,22 @@ pub fn read_to_resume(path: &Path, size_px: [u32; 2], wanted: &Notes) -> Result<
         }
         Err(error) => return Err(error.into()),
     };
+    check(&image, &notes, size_px, wanted).map_err(|reason| refuse(&reason))?;
+    Ok(image)
+}
+
+/// Whether samples may be added to an image with its notes, of the picture that `wanted` notes and a size describe.
+///
+/// # Errors
+/// Why not, naming what differs.
+pub fn check(
+    image: &Image,
+    notes: &Notes,
+    size_px: [u32; 2],
+    wanted: &Notes,
+) -> Result<(), String> {
     let Some(noise) = &image.noise else {
-        return Err(refuse(
-            "it is not a reference (it does not say how many samples it has)",
-        ));
+        return Err("it is not a reference (it does not say how many samples it has)".to_owned());
     };
     let mut differences = Vec::new();
     if image.size_px != size_px {
@@ -91,9 +103,9 @@ pub fn read_to_resume(path: &Path, size_px: [u32; 2], wanted: &Notes) -> Result<
     for (name, called) in NOTES {
         match (notes.get(name), wanted.get(name)) {
             (None, _) => {
-                return Err(refuse(&format!(
+                return Err(format!(
                     "it is not a reference of Hairline (it does not say its {called})"
-                )));
+                ));
             }
             (its, ours) if its == ours => {}
             _ if name == "scene" => differences.push("its scene is another one".to_owned()),
@@ -116,9 +128,9 @@ pub fn read_to_resume(path: &Path, size_px: [u32; 2], wanted: &Notes) -> Result<
         differences.push("it has batches that are not whole".to_owned());
     }
     if differences.is_empty() {
-        Ok(image)
+        Ok(())
     } else {
-        Err(refuse(&differences.join(", ")))
+        Err(differences.join(", "))
     }
 }
 

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
 use hairline_image::Image;
-use hairline_reference::Integrator;
+use hairline_reference::{BATCH_SAMPLES, Integrator};
 
 use crate::failure::Failure;
 use crate::listener::Listener;
@@ -21,6 +21,26 @@ pub struct Limits {
     pub time: Option<Duration>,
     /// What a crash or a power cut may cost.
     pub save_every: Duration,
+}
+
+/// Samples for each pixel if neither they nor a time are asked for.
+const DEFAULT_SAMPLES: u32 = 1024;
+
+impl Limits {
+    /// Samples come in whole batches; with a time alone there are as many as fit in it.
+    pub fn new(samples: Option<u32>, time: Option<Duration>, save_every: Duration) -> Self {
+        const MOST: u32 = u32::MAX / BATCH_SAMPLES * BATCH_SAMPLES;
+        let samples = match (samples, time) {
+            (Some(samples), _) => samples.next_multiple_of(BATCH_SAMPLES),
+            (None, Some(_)) => MOST,
+            (None, None) => DEFAULT_SAMPLES,
+        };
+        Self {
+            samples,
+            time,
+            save_every,
+        }
+    }
 }
 
 /// Why the work ended.
@@ -121,7 +141,7 @@ impl Count {
 mod tests {
     use super::*;
     use hairline_fixtures::scenes::scratched_plate;
-    use hairline_reference::{BATCH_SAMPLES, Settings};
+    use hairline_reference::Settings;
     use hairline_scene::Scene;
     use std::cell::Cell;
     use std::sync::atomic::{AtomicBool, Ordering};

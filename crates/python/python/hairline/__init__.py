@@ -1,0 +1,72 @@
+"""Renders the coloured, hair-thin scratches of worn surfaces.
+
+    import hairline
+
+    scene = hairline.load("plate.toml")
+    scene.lights.append(hairline.SphereLight(center_m=(0, 0.2, 0.3), radius_m=0.01, radiance=500))
+    image = scene.render(size=(640, 360))
+    image.save("plate.exr")
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from ._compare import Comparison, compare
+from ._errors import Error, InterruptedWarning, SceneError, WorkError
+from ._hairline import Image, __version__, read_image
+from ._scene import Scene, load
+from ._tables import (
+    Camera,
+    DiskLight,
+    Environment,
+    Light,
+    Material,
+    Object,
+    PolygonLight,
+    RectangleLight,
+    Scratches,
+    Settings,
+    SphereLight,
+    TubeLight,
+)
+
+if TYPE_CHECKING:
+    from . import cluster, optics
+
+__all__ = [
+    "Camera",
+    "Comparison",
+    "DiskLight",
+    "Environment",
+    "Error",
+    "Image",
+    "InterruptedWarning",
+    "Light",
+    "Material",
+    "Object",
+    "PolygonLight",
+    "RectangleLight",
+    "Scene",
+    "SceneError",
+    "Scratches",
+    "Settings",
+    "SphereLight",
+    "TubeLight",
+    "WorkError",
+    "__version__",
+    "cluster",
+    "compare",
+    "load",
+    "optics",
+    "read_image",
+]
+
+
+def __getattr__(name: str) -> Any:
+    # Not before it is asked for: the cluster needs a package that may be absent.
+    if name in ("cluster", "optics"):
+        import importlib
+
+        return importlib.import_module(f"{__name__}.{name}")
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

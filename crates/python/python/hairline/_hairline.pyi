@@ -1,0 +1,142 @@
+"""The compiled part. Call it by way of the package."""
+
+import os
+from typing import Any, Callable, Literal, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from ._host import Host
+
+_Path = Union[str, "os.PathLike[str]"]
+_Floats = npt.NDArray[np.float64]
+_Singles = npt.NDArray[np.float32]
+
+__version__: str
+DEFAULT_SAMPLES: int
+
+class MeshArray:
+    name: str
+    vertices: int
+    triangles: int
+    def __init__(
+        self,
+        vertices_m: _Floats,
+        triangles: npt.NDArray[np.uint32],
+        normals: _Floats | None = None,
+        uvs: _Floats | None = None,
+    ) -> None: ...
+
+class ScratchArray:
+    name: str
+    count: int
+    def __init__(self, ends_m: _Floats, widths_um: _Floats, depths_nm: _Floats) -> None: ...
+
+class Image:
+    """A picture with its layers: linear Rec.709, rows from the top. Its arrays share its memory and cannot be written to."""
+
+    is_complete: bool
+    """Whether each pixel has all that was asked for; False after Ctrl-C."""
+    @property
+    def size(self) -> tuple[int, int]:
+        """Width and height, pixels."""
+    @property
+    def notes(self) -> dict[str, str]:
+        """What the picture remembers of its making."""
+    @property
+    def exposure_ev(self) -> float:
+        """Stops, for what is displayed."""
+    @property
+    def tone_map(self) -> str:
+        """The curve of what is displayed."""
+    @property
+    def beauty(self) -> _Singles:
+        """Base plus scratches: float32, height x width x 3, W sr^-1 m^-2. Made when first asked for, and kept."""
+    @property
+    def base(self) -> _Singles:
+        """Light by way of the base and the background: float32, height x width x 3, W sr^-1 m^-2."""
+    @property
+    def scratches(self) -> _Singles:
+        """Light by way of the scratches: float32, height x width x 3, W sr^-1 m^-2."""
+    @property
+    def density(self) -> _Singles:
+        """The share of the base's energy that scratches took: float32, height x width x 3, from 0 to 1."""
+    @property
+    def depth_m(self) -> _Singles:
+        """Distance along the view axis: float32, height x width, metres; 0 where there is no surface."""
+    @property
+    def normal(self) -> _Singles:
+        """Unit shading normal in world space: float32, height x width x 3; 0 where there is no surface."""
+    @property
+    def samples(self) -> npt.NDArray[np.uint32] | None:
+        """Samples of each pixel of a reference: uint32, height x width. None for a picture of the closed forms."""
+    def variance(
+        self, layer: Literal["beauty", "base", "scratches", "density", "depth", "normal"] = ...
+    ) -> _Singles | None:
+        """The variance of each pixel's mean in a layer of a reference: float32, height x width x 3, squared radiance."""
+    def save(self, path: _Path, exposure_ev: float | None = None, tone_map: str | None = None) -> None:
+        """Writes an .exr (linear, all layers) or a .png (displayed): the whole file or none."""
+    def png(self, exposure_ev: float | None = None, tone_map: str | None = None) -> bytes:
+        """The displayed picture as the bytes of a PNG."""
+    def codes(self, exposure_ev: float | None = None, tone_map: str | None = None) -> npt.NDArray[np.uint8]:
+        """The displayed picture: sRGB codes, uint8, height x width x 3."""
+    def to_pil(self, exposure_ev: float | None = None, tone_map: str | None = None) -> Any:
+        """The displayed picture as an image of Pillow."""
+    def _repr_png_(self) -> bytes: ...
+
+class Built:
+    """A scene that is ready to be rendered."""
+
+    def scratch_counts(self) -> list[int]:
+        """How many scratches each object has."""
+    def render(self, backend: str, samples: int, shadows: bool, bounces: int, host: Host) -> Image: ...
+    def reference(
+        self,
+        model: str,
+        samples: int | None,
+        time_s: float | None,
+        shadows: bool,
+        bounces: int,
+        mask: str,
+        sample_seed: int,
+        resume: Image | None,
+        rows: tuple[int, int] | None,
+        host: Host,
+    ) -> Image: ...
+
+class Builder:
+    def build(
+        self, table: dict[str, Any], folder: _Path, text: str | None, file: _Path, host: Host
+    ) -> Built: ...
+
+class ScratchTable:
+    def __init__(self, name: str) -> None: ...
+    def at(self, u_um: _Floats, depth_nm: _Floats) -> _Floats: ...
+    def total(self, depth_nm: _Floats) -> _Floats: ...
+
+def read(path: _Path) -> tuple[dict[str, Any], str, list[str]]: ...
+def check(table: dict[str, Any]) -> dict[str, Any]: ...
+def to_toml(table: dict[str, Any]) -> str: ...
+def read_image(path: _Path) -> Image:
+    """Reads a layered EXR that :meth:`Image.save`, ``hairline render`` or ``hairline reference`` wrote."""
+
+def compare(
+    a: Image | _Path, b: Image | _Path, exposure_ev: float, curve: str
+) -> tuple[dict[str, dict[str, Any]], list[str]]: ...
+def metal_names() -> list[str]: ...
+
+phase_step_energy: Callable[..., _Floats]
+oblique_depth_nm: Callable[..., _Floats]
+window_overlap_um2: Callable[..., _Floats]
+window_share: Callable[..., _Floats]
+band_std: Callable[..., _Floats]
+sinc_squared_integral: Callable[..., _Floats]
+fresnel_dielectric: Callable[..., _Floats]
+black_body_rgb: Callable[..., _Floats]
+mask_taken: Callable[..., _Floats]
+fresnel_metal: Callable[..., _Floats]
+metal_rgb: Callable[..., _Floats]
+coherent_response: Callable[..., _Floats]
+
+def depth_coherence(depths_nm: _Floats, weights: _Floats) -> float: ...
+def spectrum_samples() -> tuple[_Floats, _Floats]: ...

@@ -1,0 +1,307 @@
+"""Scenes."""
+
+from __future__ import annotations
+
+import math
+import os
+import warnings
+from collections.abc import Iterable, Mapping
+from pathlib import Path as FilePath
+from typing import Any, Optional, TypeVar, Union
+
+from . import _hairline as core
+from ._errors import InterruptedWarning, argument_error
+from ._hairline import Image
+from ._host import Host, Progress
+from ._tables import (
+    Camera,
+    Environment,
+    Light,
+    Material,
+    Object,
+    Path,
+    Scratches,
+    Settings,
+    Table,
+    Tables,
+    table_of,
+)
+
+T = TypeVar("T", bound=Table)
+
+_LISTS: tuple[tuple[str, str, type[Table]], ...] = (
+    ("materials", "material", Material),
+    ("objects", "object", Object),
+    ("scratches", "scratches", Scratches),
+    ("lights", "light", Light),
+)
+
+
+def _whole(key: str, value: Any, least: int, most: int) -> int:
+    is_whole = not isinstance(value, bool) and hasattr(value, "__index__")
+    if not is_whole or not least <= value.__index__() <= most:
+        raise argument_error(key, f"found {value!r}", f"must be a whole number from {least} to {most}")
+    return int(value)
+
+
+def _switch(key: str, value: Any) -> bool:
+    if not isinstance(value, bool):
+        raise argument_error(key, f"found {value!r}", "must be True or False")
+    return value
+
+
+def _name(key: str, value: Any) -> str:
+    if not isinstance(value, str):
+        raise argument_error(key, f"found {value!r}", "must be a text")
+    return value
+
+
+class Scene:
+    """Everything that a picture depends on. Its parts have the keys of scene files (docs/scene.md)."""
+
+    camera: Camera
+    settings: Settings
+    """The table ``[render]`` of scene files."""
+    environment: Optional[Environment]
+    materials: Tables[Material]
+    objects: Tables[Object]
+    scratches: Tables[Scratches]
+    lights: Tables[Light]
+    folder: FilePath
+    """What the files that it names are relative to."""
+    notes: list[str]
+    """What the author should know about the scene file, a line each."""
+
+    _source: Optional[tuple[FilePath, str, dict[str, Any]]]
+
+    def __init__(
+        self,
+        *,
+        camera: Camera,
+        settings: Optional[Settings] = None,
+        environment: Optional[Environment] = None,
+        materials: Iterable[Material] = (),
+        objects: Iterable[Object] = (),
+        scratches: Iterable[Scratches] = (),
+        lights: Iterable[Light] = (),
+        folder: Path = ".",
+    ) -> None:
+        self.camera = camera
+        self.settings = Settings() if settings is None else settings
+        self.environment = environment
+        self.materials = Tables(Material, materials)
+        self.objects = Tables(Object, objects)
+        self.scratches = Tables(Scratches, scratches)
+        self.lights = Tables(Light, lights)
+        self.folder = FilePath(folder)
+        self.notes = []
+        self._source = None
+        self._builder = core.Builder()
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        one = {"camera": Camera, "settings": Settings, "environment": Environment}.get(name)
+        if one is not None and not isinstance(value, one) and not (value is None and one is Environment):
+            found = f"found an object of type {type(value).__module__}.{type(value).__qualname__}"
+            raise argument_error(name, found, f"must be a hairline.{one.__name__}")
+        for attribute, _, kind in _LISTS:
+            if name == attribute and not isinstance(value, Tables):
+                value = Tables(kind, value)
+        if name not in Scene.__annotations__ and name != "_builder":
+            raise AttributeError(f"a scene has no attribute {name!r}")
+        object.__setattr__(self, name, value)
+
+    @classmethod
+    def from_dict(cls, table: Mapping[str, Any], folder: Path = ".") -> Scene:
+        """A scene of a dict with the keys of scene files: ``camera``, ``render``, ``environment``, ``material``, ``object``,
+        ``scratches`` and ``light``. Files that it names are looked for in ``folder``."""
+        if not isinstance(table, Mapping):
+            raise argument_error("scene", f"found an object of type {type(table).__qualname__}", "must be a dict")
+        return cls._of(core.check(dict(table)), folder)
+
+    @classmethod
+    def _of(cls, table: dict[str, Any], folder: Path) -> Scene:
+        def all_of(kind: type[T]) -> list[T]:
+            return [table_of(kind, one) for one in table.get(kind._section, [])]
+
+        environment = table.get("environment")
+        return cls(
+            camera=table_of(Camera, table["camera"]),
+            settings=table_of(Settings, table["render"]),
+            environment=None if environment is None else table_of(Environment, environment),
+            materials=all_of(Material),
+            objects=all_of(Object),
+            scratches=all_of(Scratches),
+            lights=all_of(Light),
+            folder=folder,
+        )
+
+    def to_dict(self) -> dict[str, Any]:
+        """The scene as a dict with the keys of scene files."""
+        table: dict[str, Any] = {"camera": self.camera.to_dict(), "render": self.settings.to_dict()}
+        if self.environment is not None:
+            table["environment"] = self.environment.to_dict()
+        for attribute, section, _ in _LISTS:
+            tables = getattr(self, attribute)
+            if len(tables):
+                table[section] = [one.to_dict() for one in tables]
+        return table
+
+    def to_toml(self) -> str:
+        """The scene file that loads to this scene. Arrays in memory have no place in it."""
+        for attribute, key in (("objects", "mesh"), ("scratches", "file")):
+            for i, one in enumerate(getattr(self, attribute)):
+                if isinstance(one.to_dict().get(key), (core.MeshArray, core.ScratchArray)):
+                    where = f"{one._section}[{i}].{key}"
+                    raise argument_error(where, "found an array in memory", "a scene file can only name files")
+        return core.to_toml(self.to_dict())
+
+    def save(self, path: Path) -> None:
+        """Writes the scene file. Files that it names are not copied: write it where they are."""
+        text = self.to_toml()
+        temporary = FilePath(f"{os.fspath(path)}.part")
+        temporary.write_text(text, encoding="utf-8")
+        os.replace(temporary, path)
+
+    def build(self, *, size: Optional[tuple[int, int]] = None, progress: Progress = False) -> core.Built:
+        """Reads the files, builds the meshes and lays the scratches. :meth:`render` does it by itself, and what has not changed
+        since the last time is not built again."""
+        return self._built(size, Host(progress))
+
+    def _built(self, size: Optional[tuple[int, int]], host: Host) -> core.Built:
+        table = self.to_dict()
+        text, file = None, FilePath()
+        if self._source is not None and self._source[2] == table:
+            file, text = self._source[0], self._source[1]
+        if size is not None:
+            table["render"] = {**table["render"], "size_px": size}
+        try:
+            return self._builder.build(table, self.folder, text, file, host)
+        finally:
+            host.close()
+
+    def render(
+        self,
+        *,
+        size: Optional[tuple[int, int]] = None,
+        backend: str = "auto",
+        samples: int = core.DEFAULT_SAMPLES,
+        shadows: bool = False,
+        bounces: int = 0,
+        progress: Progress = False,
+    ) -> Image:
+        """Renders the picture, the same bits as ``hairline render``.
+
+        :param size: width and height in pixels, in place of the scene's.
+        :param backend: ``"auto"`` (a GPU if there is one, else the CPU), ``"gpu"`` or ``"cpu"``.
+        :param samples: of each pixel that has an edge or a crease in it, from 1 to 1024.
+        :param shadows: whether objects hide lights and the environment from one another.
+        :param bounces: other objects that light may go by, with shadows, on the CPU, from 0 to 64.
+        :param progress: True for a bar on stderr, or a function of what is done and its share, from 0 to 1.
+
+        Ctrl-C ends it: what there is by then is returned with :attr:`Image.is_complete` False and an
+        :class:`InterruptedWarning`; with nothing there yet, KeyboardInterrupt is raised.
+        """
+        samples = _whole("samples", samples, 1, 1024)
+        bounces = _whole("bounces", bounces, 0, 64)
+        backend, shadows = _name("backend", backend), _switch("shadows", shadows)
+        host = Host(progress)
+        built = self._built(size, host)
+        try:
+            image = built.render(backend, samples, shadows, bounces, host)
+        finally:
+            host.close()
+        return _told(image)
+
+    def reference(
+        self,
+        *,
+        size: Optional[tuple[int, int]] = None,
+        model: str = "separable",
+        samples: Optional[int] = None,
+        time_s: Optional[float] = None,
+        shadows: bool = False,
+        bounces: int = 0,
+        mask: str = "energy",
+        sample_seed: int = 0,
+        resume: Optional[Image] = None,
+        progress: Progress = False,
+    ) -> Image:
+        """Samples the picture by Monte Carlo, as ``hairline reference`` does: what the closed forms must converge to.
+
+        :param model: ``"separable"``, that of :meth:`render`, or ``"full"``, all phases.
+        :param samples: of each pixel, rounded up to whole batches. Default: 1024, or as many as fit in ``time_s``.
+        :param time_s: seconds after which no more batches are begun.
+        :param mask: what scratches take from the base in the separable model: ``"energy"``, ``"linear"`` or ``"density"``.
+        :param sample_seed: other samples of the same picture.
+        :param resume: a reference of the same scene and arguments, of this program or of a file, that samples are added to.
+
+        Ctrl-C ends it as :meth:`render`.
+        """
+        return self._reference(
+            None, size, model, samples, time_s, shadows, bounces, mask, sample_seed, resume, progress
+        )
+
+    def _reference(
+        self,
+        rows: Optional[tuple[int, int]],
+        size: Optional[tuple[int, int]],
+        model: str,
+        samples: Optional[int],
+        time_s: Optional[float],
+        shadows: bool,
+        bounces: int,
+        mask: str,
+        sample_seed: int,
+        resume: Optional[Image],
+        progress: Progress,
+    ) -> Image:
+        if samples is not None:
+            samples = _whole("samples", samples, 1, 1 << 24)
+        bounces = _whole("bounces", bounces, 0, 64)
+        sample_seed = _whole("sample_seed", sample_seed, 0, (1 << 64) - 1)
+        if time_s is not None and not (isinstance(time_s, (int, float)) and 0 < time_s < math.inf):
+            raise argument_error("time_s", f"found {time_s!r}", "must be a number of seconds above 0")
+        if resume is not None and not isinstance(resume, Image):
+            raise argument_error("resume", f"found {type(resume).__name__}", "must be a hairline.Image")
+        model, mask, shadows = _name("model", model), _name("mask", mask), _switch("shadows", shadows)
+        host = Host(progress)
+        built = self._built(size, host)
+        try:
+            image = built.reference(
+                model, samples, time_s, shadows, bounces, mask, sample_seed, resume, rows, host
+            )
+        finally:
+            host.close()
+        return image if time_s is not None else _told(image)
+
+    def __repr__(self) -> str:
+        counts = ", ".join(f"{len(getattr(self, attribute))} {attribute}" for attribute, _, _ in _LISTS)
+        return f"<hairline.Scene: {counts}>"
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {"table": self.to_dict(), "folder": self.folder}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        made = Scene._of(state["table"], state["folder"])
+        for name, value in made.__dict__.items():
+            setattr(self, name, value)
+
+
+def _told(image: Image) -> Image:
+    if not image.is_complete:
+        warnings.warn("interrupted: the picture is not complete", InterruptedWarning, stacklevel=3)
+    return image
+
+
+def load(path: Union[str, "os.PathLike[str]"]) -> Scene:
+    """Reads a scene file (.toml), or a model (.glb, .gltf) in a lit scene of its own.
+
+    What is wrong with its keys and values is told here, by file, line and key; files that it names are read by
+    :meth:`Scene.render` or :meth:`Scene.build`.
+    """
+    file = FilePath(path)
+    table, text, notes = core.read(file)
+    scene = Scene._of(table, file.parent)
+    scene.notes = notes
+    scene._source = (file, text, scene.to_dict())
+    return scene

@@ -1,0 +1,504 @@
+"""The tables of a scene: the camera, lights, objects and so on, with the keys that scene files have.
+
+A value is checked when it is set, by the code that reads scene files. ``None`` takes a key away.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Iterator, Mapping, MutableSequence
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, Optional, Sequence, TypeVar, Union, overload
+
+from . import _hairline as core
+from ._arrays import ArrayLike, floats, indices, per_scratch
+from ._errors import SceneError, argument_error
+
+if TYPE_CHECKING:
+    from typing_extensions import Self, dataclass_transform
+else:
+
+    def dataclass_transform(**_: Any) -> Any:
+        return lambda of: of
+
+
+Vector = Union[Sequence[float], ArrayLike]
+"""Three numbers. What is read back is a tuple."""
+Sizes = Union[float, Mapping[str, float]]
+"""A number, or ``{"mean": .., "spread": ..}``."""
+Path = Union[str, "os.PathLike[str]"]
+
+# What is around a table while it is checked alone.
+_FRAME: dict[str, Any] = {
+    "camera": {"position_m": [0.0, 0.0, 1.0], "target_m": [0.0, 0.0, 0.0]},
+    "object": [{"name": "object", "mesh": "object.glb"}],
+}
+
+
+def _default() -> Any:
+    """Stands for a default, which the compiled part knows."""
+
+
+def _frozen(value: Any) -> Any:
+    return tuple(map(_frozen, value)) if isinstance(value, list) else value
+
+
+@dataclass_transform(kw_only_default=True)
+class Table:
+    """A table of a scene. Its attributes are its keys."""
+
+    _section: ClassVar[str]
+    _is_one_of_many: ClassVar[bool] = True
+    _fixed: ClassVar[dict[str, Any]] = {}
+    # What keys mean that are left out because they say what goes without saying.
+    _absent: ClassVar[dict[str, Any]] = {}
+    _keys: ClassVar[frozenset[str]] = frozenset()
+
+    def __init_subclass__(cls) -> None:
+        keys = {key for key in cls.__dict__.get("__annotations__", {}) if not key.startswith("_")}
+        for key in keys & set(cls.__dict__):
+            delattr(cls, key)
+        cls._keys = cls._keys | keys
+
+    def __init__(self, **keys: Any) -> None:
+        self._put({**self._fixed, **keys})
+
+    @classmethod
+    def _of(cls, table: Mapping[str, Any]) -> Self:
+        """Of a table that was checked."""
+        made = cls.__new__(cls)
+        object.__setattr__(made, "_table", dict(table))
+        return made
+
+    def _put(self, table: dict[str, Any]) -> None:
+        object.__setattr__(self, "_table", self._checked(table))
+
+    def _checked(self, table: dict[str, Any]) -> dict[str, Any]:
+        section = self._section
+        try:
+            whole = core.check({**_FRAME, section: [table] if self._is_one_of_many else table})
+        except SceneError as error:
+            # There is only one, and nobody has counted it.
+            right = str(error).replace(f"{section}[0]", section)
+            key = error.key.replace(f"{section}[0]", section)
+            raise SceneError(right, key=key, found=error.found, right=error.right) from None
+        checked = whole[section]
+        return checked[0] if self._is_one_of_many else checked
+
+    def update(self, **keys: Any) -> None:
+        """Sets several keys at once: those that only fit together."""
+        self._put({**self._table, **keys, **self._fixed})
+
+    def to_dict(self) -> dict[str, Any]:
+        """A copy as a dict of plain values."""
+        return dict(self._table)
+
+    def __getattr__(self, key: str) -> Any:
+        if key in self._keys:
+            table: dict[str, Any] = self._table
+            return _frozen(table[key]) if key in table else self._absent.get(key)
+        raise AttributeError(f"{type(self).__name__} has no attribute {key!r}")
+
+    def __setattr__(self, key: str, value: Any) -> None:
+        self.update(**{key: value})
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Table) and self._section == other._section and self._table == other._table
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __repr__(self) -> str:
+        keys = ", ".join(f"{key}={_frozen(value)!r}" for key, value in self._table.items())
+        return f"{type(self).__name__}({keys})"
+
+    def __dir__(self) -> Iterable[str]:
+        return [*super().__dir__(), *self._keys]
+
+    # Without these `__getattr__` would be asked for them before there is a table.
+    def __getstate__(self) -> dict[str, Any]:
+        return self._table  # type: ignore[no-any-return]
+
+    def __setstate__(self, table: dict[str, Any]) -> None:
+        object.__setattr__(self, "_table", table)
+
+
+class Camera(Table):
+    """``[camera]``: a pinhole."""
+
+    _section = "camera"
+    _is_one_of_many = False
+
+    position_m: Vector
+    """The pinhole, metres, 3 numbers."""
+    target_m: Vector
+    """The point in the centre of the picture, metres, 3 numbers."""
+    up: Vector = _default()
+    """The direction that is up in the picture, 3 numbers. Default: +y."""
+    fov_y_deg: float = _default()
+    """Vertical field of view, degrees. Default: 30."""
+    exposure_ev: float = _default()
+    """Stops: radiances are multiplied by 2^exposure_ev before the tone curve. Default: 0."""
+
+
+class Settings(Table):
+    """``[render]``: how the picture is sampled and shown."""
+
+    _section = "render"
+    _is_one_of_many = False
+
+    size_px: Sequence[int] = _default()
+    """Width and height, pixels. Default: 1280 x 720."""
+    filter_std_px: float = _default()
+    """Standard deviation of the pixel's Gaussian filter, pixels. Default: 0.5."""
+    tone_map: str = _default()
+    """``"neutral"`` (default), ``"agx"``, ``"aces"`` or ``"none"``."""
+
+
+class Environment(Table):
+    """``[environment]``: light from all around. Either ``file`` or ``builtin``."""
+
+    _section = "environment"
+    _is_one_of_many = False
+
+    file: Optional[Path] = _default()
+    """An equirectangular .hdr or .exr, relative to the scene file."""
+    builtin: Optional[str] = _default()
+    """``"studio"``, ``"window"`` or ``"overcast"``."""
+    rotation_deg: float = _default()
+    """Turns it about the world's up axis, degrees. Default: 0."""
+    intensity: float = _default()
+    """Factor on its radiance. Default: 1."""
+    visible: bool = _default()
+    """Whether the camera sees it behind the objects. Default: True."""
+
+
+class Material(Table):
+    """``[[material]]``"""
+
+    _section = "material"
+
+    name: str
+    """What objects call it by."""
+    kind: str
+    """``"metal"`` (with ``metal`` or ``base_color``), ``"dielectric"``, ``"metallic-roughness"`` or ``"mirror"``."""
+    metal: Optional[str] = _default()
+    """A metal whose n and k were measured: see :func:`hairline.optics.metals`."""
+    base_color: Optional[Vector] = _default()
+    """Linear Rec.709, 3 numbers from 0 to 1."""
+    ior: Optional[float] = _default()
+    """Refractive index of a dielectric, from 1 to 4. Default: 1.5."""
+    metallic: Optional[float] = _default()
+    """From 0, dielectric, to 1, metal. Default: 1."""
+    roughness: float = _default()
+    """Perceptual, as in glTF, from 0 to 1. Default: 0.1."""
+    coherence_um: float = _default()
+    """Standard deviation of the coherence window, micrometres. Default: 20."""
+
+
+class Object(Table):
+    """``[[object]]``: a ``shape`` or a ``mesh``. See :meth:`from_arrays` for meshes from numpy."""
+
+    _section = "object"
+    _absent = {"up": "y"}
+
+    name: str
+    """What layers of scratches call it by."""
+    shape: Optional[Mapping[str, Mapping[str, Any]]] = _default()
+    """``{"disk": {"radius_m": 0.1}}``; also ``plane``, ``sphere`` and ``lathe``. z is up."""
+    mesh: Optional[Union[Path, core.MeshArray]] = _default()
+    """A .glb or .gltf, relative to the scene file."""
+    material: Optional[str] = _default()
+    """The name of a material. A file that is not given one keeps its own."""
+    up: Optional[str] = _default()
+    """Which axis of a mesh's file points up, ``"y"`` (default) or ``"z"``."""
+    fit_m: Optional[float] = _default()
+    """The largest extent of a mesh's file, metres; it is scaled to that."""
+    translation_m: Vector = _default()
+    """Metres, 3 numbers. Default: 0."""
+    rotation_deg: Vector = _default()
+    """About the world's x axis, then y, then z, degrees, 3 numbers. Default: 0."""
+    scale: Union[float, Vector] = _default()
+    """Factors along the object's own axes, one number or 3. Default: 1."""
+
+    @classmethod
+    def from_arrays(
+        cls,
+        *,
+        name: str,
+        vertices_m: ArrayLike,
+        triangles: ArrayLike,
+        material: str,
+        normals: Optional[ArrayLike] = None,
+        uvs: Optional[ArrayLike] = None,
+        translation_m: Optional[Vector] = None,
+        rotation_deg: Optional[Vector] = None,
+        scale: Optional[Union[float, Vector]] = None,
+    ) -> Self:
+        """A mesh in memory.
+
+        :param vertices_m: float, n x 3, metres in the object's own frame.
+        :param triangles: int, m x 3, indices of vertices, counter-clockwise seen from outside.
+        :param normals: float, n x 3. Without them each triangle is flat.
+        :param uvs: float, n x 2.
+        """
+        mesh = core.MeshArray(
+            floats("vertices_m", vertices_m, None, 3),
+            indices("triangles", triangles, None, 3),
+            None if normals is None else floats("normals", normals, None, 3),
+            None if uvs is None else floats("uvs", uvs, None, 2),
+        )
+        return cls(
+            name=name,
+            mesh=mesh,
+            material=material,
+            translation_m=translation_m,
+            rotation_deg=rotation_deg,
+            scale=scale,
+        )
+
+    def _checked(self, table: dict[str, Any]) -> dict[str, Any]:
+        if isinstance(table.get("mesh"), core.MeshArray):
+            for key in ("up", "fit_m"):
+                if table.get(key) is not None:
+                    raise argument_error(f"object.{key}", "a mesh in memory has no such key", "it belongs to a file")
+        return super()._checked(table)
+
+
+class Scratches(Table):
+    """``[[scratches]]``: a layer on one object. See :meth:`from_arrays` for scratches from numpy."""
+
+    _section = "scratches"
+    _absent = {"hidden": False, "solo": False, "strokes": ()}
+
+    object: str
+    """The name of the object that they lie on."""
+    pattern: str
+    """``"random"``, ``"parallel"``, ``"circular"``, ``"radial"``, ``"spun"``, ``"swirl"``, ``"drawn"`` or ``"file"``."""
+    name: Optional[str] = _default()
+    """Free text."""
+    hidden: bool = _default()
+    """Laid nowhere. Default: False."""
+    solo: bool = _default()
+    """Where any layer is solo, only those are laid. Default: False."""
+    count: Optional[int] = _default()
+    """How many scratches; or ``density_per_m2``."""
+    density_per_m2: Optional[float] = _default()
+    """Scratches per square metre of the object; or ``count``."""
+    seed: Optional[int] = _default()
+    """The same seed gives the same scratches. Default: 1."""
+    length_m: Optional[Sizes] = _default()
+    """Log-normal, metres. Default: mean 0.02, spread 0.5."""
+    width_um: Optional[Sizes] = _default()
+    """Log-normal, micrometres. Default: mean 1.5, spread 0.3."""
+    depth_nm: Optional[Sizes] = _default()
+    """Log-normal, nanometres. Default: mean 200, spread 0.2."""
+    curvature_per_m: Optional[Sizes] = _default()
+    """Normal, per metre; for random, spun and swirl."""
+    direction: Optional[Vector] = _default()
+    """Of parallel scratches, 3 numbers. Default: +x."""
+    axis: Optional[Vector] = _default()
+    """Of circular, radial and spun scratches, 3 numbers. Default: +z."""
+    center_m: Optional[Vector] = _default()
+    """A point on the axis, metres, 3 numbers. Default: 0."""
+    jitter_deg: Optional[float] = _default()
+    """Standard deviation of the angle to the pattern, degrees. Default: 0."""
+    strokes: Sequence[Mapping[str, Any]] = _default()
+    """What a brush did."""
+    file: Optional[Union[Path, core.ScratchArray]] = _default()
+    """A CSV file of scratches, relative to the scene file."""
+
+    @classmethod
+    def from_arrays(
+        cls,
+        *,
+        object: str,
+        ends_m: ArrayLike,
+        width_um: ArrayLike,
+        depth_nm: ArrayLike,
+        name: Optional[str] = None,
+    ) -> Self:
+        """Straight scratches in memory.
+
+        :param ends_m: float, n x 2 x 3: both ends of each, metres in the object's own frame, on its surface.
+        :param width_um: float, n, or one number for all: from 0.05 to 100 micrometres.
+        :param depth_nm: float, n, or one number for all: from 0 to 2000 nanometres.
+        """
+        array = core.ScratchArray(
+            floats("ends_m", ends_m, None, 2, 3),
+            per_scratch("width_um", width_um),
+            per_scratch("depth_nm", depth_nm),
+        )
+        return cls(object=object, pattern="file", file=array, name=name)
+
+
+class Light(Table):
+    """``[[light]]``: one of the kinds below."""
+
+    _section = "light"
+    _absent = {"hidden": False, "exposure_ev": 0.0}
+
+    name: Optional[str] = _default()
+    """Free text."""
+    hidden: bool = _default()
+    """Lights nothing. Default: False."""
+    radiance: float = _default()
+    """W sr^-1 m^-2. Default: 1."""
+    exposure_ev: float = _default()
+    """Stops: the radiance is multiplied by 2^exposure_ev. Default: 0."""
+    temperature_k: Optional[float] = _default()
+    """The colour of a black body, kelvin. Default: none."""
+    color: Vector = _default()
+    """Factor on the radiance, linear Rec.709, 3 numbers. Default: 1."""
+    cone_deg: Optional[float] = _default()
+    """A spot's cone from rim to rim, degrees. Default: light leaves in all directions."""
+    cone_softness: Optional[float] = _default()
+    """The part of the way from rim to axis in which light falls off. Default: 0.1."""
+
+
+class SphereLight(Light):
+    """A sphere."""
+
+    _fixed = {"kind": "sphere"}
+
+    center_m: Vector
+    """Metres, 3 numbers."""
+    radius_m: float
+    """Metres."""
+    target_m: Optional[Vector] = _default()
+    """What its cone points to, metres, 3 numbers."""
+
+
+class DiskLight(Light):
+    """Flat and round; shines to the side of its target."""
+
+    _fixed = {"kind": "disk"}
+    _absent = {**Light._absent, "two_sided": False}
+
+    center_m: Vector
+    """Metres, 3 numbers."""
+    target_m: Vector
+    """A point before it on its axis, metres, 3 numbers."""
+    radius_m: float
+    """Metres."""
+    two_sided: bool = _default()
+    """Whether the other side shines too. Default: False."""
+
+
+class RectangleLight(Light):
+    """Shines to the side of its target."""
+
+    _fixed = {"kind": "rectangle"}
+    _absent = {**Light._absent, "two_sided": False, "rotation_deg": 0.0}
+
+    center_m: Vector
+    """Metres, 3 numbers."""
+    target_m: Vector
+    """A point before it on its axis, metres, 3 numbers."""
+    width_m: float
+    """Metres."""
+    height_m: float
+    """Metres."""
+    rotation_deg: float = _default()
+    """About its axis, counter-clockwise as seen from the target, degrees. Default: 0."""
+    two_sided: bool = _default()
+    """Whether the other side shines too. Default: False."""
+
+
+class PolygonLight(Light):
+    """Planar; shines to the side that sees its vertices counter-clockwise."""
+
+    _fixed = {"kind": "polygon"}
+
+    vertices_m: Union[Sequence[Vector], ArrayLike]
+    """n x 3, metres."""
+    two_sided: bool = _default()
+    """Whether the other side shines too. Default: False."""
+
+
+class TubeLight(Light):
+    """All within a radius of a line."""
+
+    _fixed = {"kind": "tube"}
+
+    ends_m: Union[Sequence[Vector], ArrayLike]
+    """2 x 3, metres."""
+    radius_m: float
+    """Metres."""
+    target_m: Optional[Vector] = _default()
+    """What its cone points to, metres, 3 numbers."""
+
+
+_LIGHTS: dict[str, type[Light]] = {
+    "sphere": SphereLight,
+    "disk": DiskLight,
+    "rectangle": RectangleLight,
+    "polygon": PolygonLight,
+    "tube": TubeLight,
+}
+
+T = TypeVar("T", bound=Table)
+
+
+def table_of(kind: type[T], table: Mapping[str, Any]) -> T:
+    """A table that was checked as an object of its class."""
+    of: type[Any] = _LIGHTS[table["kind"]] if kind is Light else kind
+    made: T = of._of(table)
+    return made
+
+
+class Tables(MutableSequence[T], Generic[T]):
+    """A list of tables: lights, objects and so on. Takes no others."""
+
+    def __init__(self, kind: type[T], tables: Iterable[T] = ()) -> None:
+        self._kind = kind
+        self._tables = [self._own(table) for table in tables]
+
+    def _own(self, table: Any) -> T:
+        if isinstance(table, self._kind):
+            return table
+        name = f"hairline.{self._kind.__name__}"
+        found = f"found an object of type {type(table).__module__}.{type(table).__qualname__}"
+        raise argument_error(self._kind._section, found, f"must be a {name}")
+
+    @overload
+    def __getitem__(self, at: int) -> T: ...
+    @overload
+    def __getitem__(self, at: slice) -> list[T]: ...
+    def __getitem__(self, at: int | slice) -> T | list[T]:
+        return self._tables[at]
+
+    @overload
+    def __setitem__(self, at: int, table: T) -> None: ...
+    @overload
+    def __setitem__(self, at: slice, table: Iterable[T]) -> None: ...
+    def __setitem__(self, at: int | slice, table: Any) -> None:
+        if isinstance(at, slice):
+            self._tables[at] = [self._own(one) for one in table]
+        else:
+            self._tables[at] = self._own(table)
+
+    def __delitem__(self, at: int | slice) -> None:
+        del self._tables[at]
+
+    def __len__(self) -> int:
+        return len(self._tables)
+
+    def __iter__(self) -> Iterator[T]:
+        return iter(self._tables)
+
+    def insert(self, index: int, value: T) -> None:
+        """Puts a table before the one at ``index``."""
+        self._tables.insert(index, self._own(value))
+
+    def named(self, name: str) -> T:
+        """The table of this name."""
+        for table in self._tables:
+            if table._table.get("name") == name:
+                return table
+        names = ", ".join(repr(table._table.get("name")) for table in self._tables)
+        raise KeyError(f"no {self._kind._section} is called {name!r}; there are {names or 'none'}")
+
+    def __repr__(self) -> str:
+        return repr(self._tables)
+
+    def __eq__(self, other: object) -> bool:
+        return list(self) == list(other) if isinstance(other, (Tables, list)) else NotImplemented

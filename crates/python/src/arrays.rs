@@ -1,0 +1,136 @@
+//! Meshes and scratches from numpy arrays. Each is copied once, into what scenes are built from.
+
+use std::sync::Arc;
+
+use hairline_scene::{Error, MeshArrays, ScratchArrays};
+use numpy::{PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3, PyUntypedArrayMethods};
+use pyo3::prelude::*;
+
+use crate::errors;
+
+/// Digits of a name: 128 bits, beyond any accident.
+const DIGITS: usize = 32;
+
+/// A name that stands for these numbers.
+fn name(parts: &[&[u8]]) -> String {
+    let mut hasher = blake3::Hasher::new();
+    for part in parts {
+        hasher.update(&(part.len() as u64).to_le_bytes());
+        hasher.update(part);
+    }
+    format!("array:{}", &hasher.finalize().to_hex()[..DIGITS])
+}
+
+fn contiguous<'a, T: numpy::Element>(
+    key: &str,
+    slice: Result<&'a [T], impl std::fmt::Debug>,
+) -> PyResult<&'a [T]> {
+    slice.map_err(|_| errors::of_argument(key, "found an array with gaps", "must be contiguous"))
+}
+
+/// Triangles in memory, by the name that a scene has for them.
+#[pyclass(frozen, module = "hairline._hairline")]
+pub(crate) struct MeshArray {
+    pub(crate) arrays: Arc<MeshArrays>,
+    #[pyo3(get)]
+    pub(crate) name: String,
+    #[pyo3(get)]
+    vertices: usize,
+    #[pyo3(get)]
+    triangles: usize,
+}
+
+#[pymethods]
+impl MeshArray {
+    #[new]
+    #[pyo3(signature = (vertices_m, triangles, normals=None, uvs=None))]
+    fn new(
+        py: Python<'_>,
+        vertices_m: PyReadonlyArray2<'_, f64>,
+        triangles: PyReadonlyArray2<'_, u32>,
+        normals: Option<PyReadonlyArray2<'_, f64>>,
+        uvs: Option<PyReadonlyArray2<'_, f64>>,
+    ) -> PyResult<Self> {
+        let vertices_m = contiguous("vertices_m", vertices_m.as_slice())?;
+        let triangles = contiguous("triangles", triangles.as_slice())?;
+        let normals = normals
+            .as_ref()
+            .map(|it| contiguous("normals", it.as_slice()));
+        let normals = normals.transpose()?;
+        let uvs = uvs
+            .as_ref()
+            .map(|it| contiguous("uvs", it.as_slice()))
+            .transpose()?;
+        let made: Result<_, Error> = py.detach(|| {
+            let name = name(&[
+                bytemuck::cast_slice(vertices_m),
+                bytemuck::cast_slice(triangles),
+                bytemuck::cast_slice(normals.unwrap_or_default()),
+                bytemuck::cast_slice(uvs.unwrap_or_default()),
+            ]);
+            let arrays = MeshArrays::new(
+                bytemuck::cast_slice(vertices_m).to_vec(),
+                bytemuck::cast_slice(triangles).to_vec(),
+                normals.map(|it| bytemuck::cast_slice(it).to_vec()),
+                uvs.map(|it| bytemuck::cast_slice(it).to_vec()),
+            )?;
+            Ok((name, arrays))
+        });
+        let (name, arrays) = made.map_err(|error| errors::of_scene(py, &error))?;
+        Ok(Self {
+            arrays: arrays.into(),
+            name,
+            vertices: vertices_m.len() / 3,
+            triangles: triangles.len() / 3,
+        })
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<{} vertices, {} triangles>", self.vertices, self.triangles)
+    }
+}
+
+/// Straight scratches in memory, by the name that a scene has for them.
+#[pyclass(frozen, module = "hairline._hairline")]
+pub(crate) struct ScratchArray {
+    pub(crate) arrays: Arc<ScratchArrays>,
+    #[pyo3(get)]
+    pub(crate) name: String,
+    #[pyo3(get)]
+    count: usize,
+}
+
+#[pymethods]
+impl ScratchArray {
+    #[new]
+    fn new(
+        py: Python<'_>,
+        ends_m: PyReadonlyArray3<'_, f64>,
+        widths_um: PyReadonlyArray1<'_, f64>,
+        depths_nm: PyReadonlyArray1<'_, f64>,
+    ) -> PyResult<Self> {
+        let count = ends_m.shape()[0];
+        let ends_m = contiguous("ends_m", ends_m.as_slice())?;
+        let widths_um = contiguous("width_um", widths_um.as_slice())?;
+        let depths_nm = contiguous("depth_nm", depths_nm.as_slice())?;
+        let made: Result<_, Error> = py.detach(|| {
+            let name = name(&[
+                bytemuck::cast_slice(ends_m),
+                bytemuck::cast_slice(widths_um),
+                bytemuck::cast_slice(depths_nm),
+            ]);
+            let ends_m = bytemuck::cast_slice(ends_m).to_vec();
+            Ok((name, ScratchArrays::new(ends_m, widths_um, depths_nm)?))
+        });
+        let (name, arrays) = made.map_err(|error| errors::of_scene(py, &error))?;
+        Ok(Self {
+            arrays: arrays.into(),
+            name,
+            count,
+        })
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<{} scratches>", self.count)
+    }
+}

@@ -1,0 +1,275 @@
+//! Pictures: their layers as arrays of numpy that share the picture's memory.
+
+use std::path::PathBuf;
+
+use hairline_image::{Display, Layer, Layers, Notes, Output, exr_file, png};
+use hairline_work::reference::identity;
+use numpy::ndarray::{ArrayView2, ArrayView3};
+use numpy::{Element, IntoPyArray, PyArray2, PyArray3, PyArrayMethods};
+use pyo3::prelude::*;
+use pyo3::sync::PyOnceLock;
+use pyo3::types::{PyBytes, PyDict};
+
+use crate::errors;
+use crate::scene::{notes_dict, tone_map};
+
+/// A picture with its layers. It does not change.
+#[pyclass(frozen, module = "hairline")]
+pub(crate) struct Image {
+    image: hairline_image::Image,
+    display: Display,
+    notes: Notes,
+    /// Whether each pixel has all that was asked for.
+    #[pyo3(get)]
+    is_complete: bool,
+    /// Made when first asked for.
+    beauty: PyOnceLock<Py<PyArray3<f32>>>,
+}
+
+/// Reads a layered EXR.
+#[pyfunction]
+pub(crate) fn read_image(py: Python<'_>, path: PathBuf) -> PyResult<Image> {
+    let read = py.detach(|| exr_file::read_image_with_notes(&path));
+    let (image, notes) = read.map_err(|error| errors::of_image(py, &error))?;
+    Ok(Image::new(image, Display::default(), notes, true))
+}
+
+impl Image {
+    pub(crate) fn new(
+        image: hairline_image::Image,
+        display: Display,
+        notes: Notes,
+        is_complete: bool,
+    ) -> Self {
+        Self {
+            image,
+            display,
+            notes,
+            is_complete,
+            beauty: PyOnceLock::new(),
+        }
+    }
+
+    /// As a comparison takes it.
+    pub(crate) fn layers(&self) -> Layers {
+        Layers::from(&self.image)
+    }
+
+    /// A copy that samples can be added to.
+    pub(crate) fn to_resume(
+        &self,
+        size_px: [u32; 2],
+        wanted: &Notes,
+    ) -> PyResult<hairline_image::Image> {
+        identity::check(&self.image, &self.notes, size_px, wanted).map_err(|reason| {
+            errors::of_argument(
+                "resume",
+                format!("cannot go on from this image: {reason}"),
+                "leave it out",
+            )
+        })?;
+        Ok(self.image.clone())
+    }
+
+    fn display(&self, exposure_ev: Option<f64>, curve: Option<&str>) -> PyResult<Display> {
+        Ok(Display {
+            exposure_ev: exposure_ev.unwrap_or(self.display.exposure_ev),
+            tone_map: curve.map_or(Ok(self.display.tone_map), tone_map)?,
+        })
+    }
+
+    fn shape(&self) -> [usize; 2] {
+        [
+            self.image.size_px[1] as usize,
+            self.image.size_px[0] as usize,
+        ]
+    }
+
+    fn rgb<'py>(slf: &Bound<'py, Self>, values: &[[f32; 3]]) -> PyResult<Bound<'py, PyAny>> {
+        let [height, width] = slf.get().shape();
+        let view = ArrayView3::from_shape((height, width, 3), values.as_flattened());
+        let view = view.map_err(|_| errors::internal())?;
+        #[expect(
+            unsafe_code,
+            reason = "the image owns the values and never changes them"
+        )]
+        let array = unsafe { PyArray3::borrow_from_array(&view, slf.clone().into_any()) };
+        read_only(array.into_any())
+    }
+
+    fn plane<'py, T: Element>(slf: &Bound<'py, Self>, values: &[T]) -> PyResult<Bound<'py, PyAny>> {
+        let [height, width] = slf.get().shape();
+        let view = ArrayView2::from_shape((height, width), values);
+        let view = view.map_err(|_| errors::internal())?;
+        #[expect(
+            unsafe_code,
+            reason = "the image owns the values and never changes them"
+        )]
+        let array = unsafe { PyArray2::borrow_from_array(&view, slf.clone().into_any()) };
+        read_only(array.into_any())
+    }
+}
+
+fn read_only(array: Bound<'_, PyAny>) -> PyResult<Bound<'_, PyAny>> {
+    let writable = PyDict::new(array.py());
+    writable.set_item("write", false)?;
+    array.call_method("setflags", (), Some(&writable))?;
+    Ok(array)
+}
+
+#[pymethods]
+impl Image {
+    #[getter]
+    fn size(&self) -> (u32, u32) {
+        let [width, height] = self.image.size_px;
+        (width, height)
+    }
+
+    #[getter]
+    fn notes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        notes_dict(py, &self.notes)
+    }
+
+    #[getter]
+    fn exposure_ev(&self) -> f64 {
+        self.display.exposure_ev
+    }
+
+    #[getter]
+    fn tone_map(&self) -> &'static str {
+        self.display.tone_map.name()
+    }
+
+    #[getter]
+    fn beauty(slf: &Bound<'_, Self>) -> PyResult<Py<PyArray3<f32>>> {
+        let py = slf.py();
+        let image = slf.get();
+        let beauty = image.beauty.get_or_try_init(py, || {
+            let rgb = py.detach(|| image.image.beauty().rgb);
+            let [height, width] = image.shape();
+            let array = rgb.into_flattened().into_pyarray(py);
+            let array = array.reshape([height, width, 3])?;
+            read_only(array.clone().into_any())?;
+            Ok::<_, PyErr>(array.unbind())
+        })?;
+        Ok(beauty.clone_ref(py))
+    }
+
+    #[getter]
+    fn base<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        Self::rgb(slf, &slf.get().image.base)
+    }
+
+    #[getter]
+    fn scratches<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        Self::rgb(slf, &slf.get().image.scratches)
+    }
+
+    #[getter]
+    fn density<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        Self::rgb(slf, &slf.get().image.density)
+    }
+
+    #[getter]
+    fn normal<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        Self::rgb(slf, &slf.get().image.normal)
+    }
+
+    #[getter]
+    fn depth_m<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        Self::plane(slf, &slf.get().image.depth_m)
+    }
+
+    /// Samples of each pixel; None for a picture of the closed forms.
+    #[getter]
+    fn samples<'py>(slf: &Bound<'py, Self>) -> PyResult<Option<Bound<'py, PyAny>>> {
+        let noise = slf.get().image.noise.as_ref();
+        noise
+            .map(|noise| Self::plane(slf, &noise.samples))
+            .transpose()
+    }
+
+    /// The variance of each pixel's mean in a layer; None where it is not known.
+    fn variance<'py>(slf: &Bound<'py, Self>, layer: &str) -> PyResult<Option<Bound<'py, PyAny>>> {
+        let names = Layer::ALL.map(|layer| (layer.name(), layer));
+        let layer = crate::scene::named("layer", layer, &names)?;
+        let variance = slf.get().image.variance(layer);
+        variance.map(|values| Self::rgb(slf, values)).transpose()
+    }
+
+    /// Writes the picture as `hairline render` does.
+    #[pyo3(signature = (path, exposure_ev=None, tone_map=None))]
+    fn save(
+        &self,
+        py: Python<'_>,
+        path: PathBuf,
+        exposure_ev: Option<f64>,
+        tone_map: Option<&str>,
+    ) -> PyResult<()> {
+        let display = self.display(exposure_ev, tone_map)?;
+        let write = || {
+            let output = Output::check(&path)?;
+            output.write_image_with_notes(&self.image, &display, &self.notes)
+        };
+        py.detach(write)
+            .map_err(|error| errors::of_image(py, &error))
+    }
+
+    /// The bytes of a PNG.
+    #[pyo3(signature = (exposure_ev=None, tone_map=None))]
+    fn png<'py>(
+        &self,
+        py: Python<'py>,
+        exposure_ev: Option<f64>,
+        tone_map: Option<&str>,
+    ) -> PyResult<Bound<'py, PyBytes>> {
+        let display = self.display(exposure_ev, tone_map)?;
+        let encoded = py.detach(|| png::encode(&self.image.beauty(), &display));
+        let bytes = encoded.map_err(|reason| errors::of_work(py, &reason))?;
+        Ok(PyBytes::new(py, &bytes))
+    }
+
+    /// What notebooks show.
+    fn _repr_png_<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        self.png(py, None, None)
+    }
+
+    /// The displayed picture as an image of Pillow.
+    #[pyo3(signature = (exposure_ev=None, tone_map=None))]
+    fn to_pil<'py>(
+        &self,
+        py: Python<'py>,
+        exposure_ev: Option<f64>,
+        tone_map: Option<&str>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let pillow = py.import("PIL.Image")?;
+        pillow.call_method1("fromarray", (self.codes(py, exposure_ev, tone_map)?,))
+    }
+
+    fn __repr__(&self) -> String {
+        let [width, height] = self.image.size_px;
+        let part = if self.is_complete {
+            ""
+        } else {
+            ", not complete"
+        };
+        format!("<hairline.Image: {width} x {height} pixels{part}>")
+    }
+
+    /// The sRGB codes of a display, 3 bytes a pixel.
+    #[pyo3(signature = (exposure_ev=None, tone_map=None))]
+    fn codes<'py>(
+        &self,
+        py: Python<'py>,
+        exposure_ev: Option<f64>,
+        tone_map: Option<&str>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let display = self.display(exposure_ev, tone_map)?;
+        let codes = py.detach(|| png::quantize(&self.image.beauty(), &display));
+        let [height, width] = self.shape();
+        Ok(codes
+            .into_pyarray(py)
+            .reshape([height, width, 3])?
+            .into_any())
+    }
+}

@@ -1,0 +1,30 @@
+//! `hairline._hairline`: what the Python package of hairline calls. The package's Python part gives it names, defaults and
+//! documentation; this part turns values and arrays into what the libraries take, and calls them.
+
+mod arrays;
+mod compare;
+mod errors;
+mod image;
+mod optics;
+mod scene;
+mod values;
+mod watched;
+
+use pyo3::prelude::*;
+
+#[pymodule]
+fn _hairline(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    module.add("DEFAULT_SAMPLES", hairline_scene::DEFAULT_SAMPLES)?;
+    module.add_class::<arrays::MeshArray>()?;
+    module.add_class::<arrays::ScratchArray>()?;
+    module.add_class::<image::Image>()?;
+    module.add_class::<scene::Builder>()?;
+    module.add_class::<scene::Built>()?;
+    module.add_function(wrap_pyfunction!(scene::read, module)?)?;
+    module.add_function(wrap_pyfunction!(scene::check, module)?)?;
+    module.add_function(wrap_pyfunction!(scene::to_toml, module)?)?;
+    module.add_function(wrap_pyfunction!(image::read_image, module)?)?;
+    module.add_function(wrap_pyfunction!(compare::compare, module)?)?;
+    optics::add_to(module)
+}

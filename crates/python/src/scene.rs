@@ -1,0 +1,363 @@
+//! Scenes: from tables of Python's to descriptions, checked as scene files are, and to what is rendered.
+
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::time::Duration;
+
+use hairline_image::{Display, Notes, ToneMap};
+use hairline_index::method::Method;
+use hairline_memory::budget_bytes;
+use hairline_optics::mask::Mask;
+use hairline_reference::{Integrator, Model, Settings};
+use hairline_scene::estimate::Estimate;
+use hairline_scene::{Description, Error, Loader, Scene, SceneBuilder, Stage, reading};
+use hairline_work::Listener;
+use hairline_work::backend::{Backend, Painter, Refusal, Task};
+use hairline_work::failure::Failure;
+use hairline_work::reference::{self, Limits, identity};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::errors;
+use crate::image::Image;
+use crate::values::Stock;
+use crate::watched::{self, Told};
+
+/// What errors call text that was made of a table, and nobody has seen.
+const NO_FILE: &str = "\u{0}";
+
+/// Reads a scene file or a model: its table, its text and the notes about it.
+#[pyfunction]
+pub(crate) fn read<'py>(
+    py: Python<'py>,
+    path: PathBuf,
+) -> PyResult<(Bound<'py, PyDict>, String, Vec<String>)> {
+    let read = || -> Result<_, Error> {
+        if Description::is_model(&path) {
+            return Ok((Description::for_model(&path)?, String::new()));
+        }
+        let text = reading::scene_text(&path)?;
+        let description = Description::from_toml(&text, &path)?;
+        let checked = description
+            .check()
+            .and_then(|()| description.check_references());
+        checked.map_err(|error| error.in_scene_file(&text, &path))?;
+        Ok((description, text))
+    };
+    let (description, text) = read().map_err(|error| errors::of_scene(py, &error))?;
+    let table = table(py, &description)?;
+    let dict = Stock::default().dict(py, &table)?;
+    Ok((dict, text, description.notes))
+}
+
+/// The table of a whole scene with its defaults filled in, or what is wrong with it.
+#[pyfunction]
+pub(crate) fn check<'py>(table: &Bound<'py, PyDict>) -> PyResult<Bound<'py, PyDict>> {
+    let py = table.py();
+    let mut stock = Stock::default();
+    let description = described(py, stock.table(table)?)?;
+    description
+        .check()
+        .map_err(|error| errors::of_scene(py, &error))?;
+    stock.dict(py, &self::table(py, &description)?)
+}
+
+/// The scene file of a table.
+#[pyfunction]
+pub(crate) fn to_toml(table: &Bound<'_, PyDict>) -> PyResult<String> {
+    let py = table.py();
+    let description = described(py, Stock::default().table(table)?)?;
+    let text = description.to_toml();
+    text.map_err(|error| errors::of_work(py, &error.to_string()))
+}
+
+fn described(py: Python<'_>, table: toml::Table) -> PyResult<Description> {
+    let text = table.to_string();
+    let read = Description::from_toml(&text, Path::new(NO_FILE));
+    read.map_err(|error| errors::of_scene(py, &error.nowhere_in(Path::new(NO_FILE))))
+}
+
+fn table(py: Python<'_>, description: &Description) -> PyResult<toml::Table> {
+    let table = toml::Table::try_from(description);
+    table.map_err(|error| errors::of_work(py, &error.to_string()))
+}
+
+/// Builds scenes one after the other, and keeps what has not changed.
+#[pyclass(frozen, module = "hairline._hairline")]
+#[derive(Default)]
+pub(crate) struct Builder {
+    builder: Mutex<SceneBuilder>,
+}
+
+#[pymethods]
+impl Builder {
+    #[new]
+    fn new() -> Self {
+        Self::default()
+    }
+
+    /// Builds the scene of a table. `text` is the file that it was read from and still equals, for the lines of errors.
+    fn build(
+        &self,
+        table: &Bound<'_, PyDict>,
+        folder: PathBuf,
+        text: Option<String>,
+        file: PathBuf,
+        host: &Bound<'_, PyAny>,
+    ) -> PyResult<Built> {
+        let py = table.py();
+        let mut stock = Stock::default();
+        let description = described(py, stock.table(table)?)?;
+        let ended = watched::run(host, |told| {
+            let mut picture = Estimate::default();
+            picture.add_picture(description.render.size_px);
+            picture.check(budget_bytes() as f64)?;
+            let loader = Loader {
+                arrays: &stock.arrays,
+                progress: &|at| {
+                    if at.done == 0 {
+                        told.begin(match at.stage {
+                            Stage::Meshes => "reading meshes",
+                            Stage::Environment => "reading the map",
+                            Stage::Scratches => "laying scratches",
+                        });
+                    }
+                    told.set(at.done as f64 / at.total.max(1) as f64);
+                },
+                cancelled: &|| told.is_cancelled(),
+                ..Loader::default()
+            };
+            // What a panic left is as good as nothing.
+            let mut builder = self.builder.lock().unwrap_or_else(|left| {
+                let mut builder = left.into_inner();
+                *builder = SceneBuilder::new();
+                builder
+            });
+            builder.build(&loader, &description, &folder)
+        })?;
+        match (ended.made, ended.interrupt) {
+            (Err(error), Some(interrupt)) if error.is_cancelled() => Err(interrupt),
+            (Err(error), _) => {
+                let placed = match &text {
+                    Some(text) => error.in_scene_file(text, &file),
+                    None => error,
+                };
+                Err(errors::of_scene(py, &placed))
+            }
+            (Ok(_), Some(interrupt)) => Err(interrupt),
+            (Ok(scene), None) => Ok(Built {
+                scene,
+                description,
+                folder,
+                stock,
+            }),
+        }
+    }
+}
+
+/// A scene that is ready to be rendered.
+#[pyclass(frozen, module = "hairline._hairline")]
+pub(crate) struct Built {
+    scene: Scene,
+    description: Description,
+    folder: PathBuf,
+    stock: Stock,
+}
+
+#[pymethods]
+impl Built {
+    /// How many scratches each object has.
+    fn scratch_counts(&self) -> Vec<usize> {
+        let objects = self.scene.objects.iter();
+        objects.map(|object| object.scratches.len()).collect()
+    }
+
+    /// Renders the picture; see `Scene.render`.
+    fn render(
+        &self,
+        backend: &str,
+        samples: u32,
+        shadows: bool,
+        bounces: u32,
+        host: &Bound<'_, PyAny>,
+    ) -> PyResult<Image> {
+        let py = host.py();
+        let task = Task {
+            method: Method::default(),
+            backend: named(
+                "backend",
+                backend,
+                &[
+                    ("auto", Backend::Auto),
+                    ("gpu", Backend::Gpu),
+                    ("cpu", Backend::Cpu),
+                ],
+            )?,
+            samples,
+            shadows,
+            bounces,
+        };
+        task.check().map_err(|refusal| refused(&task, refusal))?;
+        let ended = watched::run(host, |told| {
+            let mut painter = Painter::open(&self.scene, task, told)?;
+            told.begin("rendering");
+            let cancelled = || told.is_cancelled();
+            painter.render_until(&self.scene, &cancelled, &|share| told.set(share))
+        })?;
+        let (image, is_whole) = ended
+            .made
+            .map_err(|failure| errors::of_failure(py, &failure))?;
+        let has_some = image.depth_m.iter().any(|depth| *depth > 0.0)
+            || image.base.iter().flatten().any(|value| *value > 0.0);
+        match ended.interrupt {
+            Some(interrupt) if !is_whole && !has_some => Err(interrupt),
+            _ => Ok(Image::new(image, self.display(), task.notes(), is_whole)),
+        }
+    }
+
+    /// Samples by Monte Carlo; see `Scene.reference`.
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "the wrapper in Python names them"
+    )]
+    fn reference(
+        &self,
+        model: &str,
+        samples: Option<u32>,
+        time_s: Option<f64>,
+        shadows: bool,
+        bounces: u32,
+        mask: &str,
+        sample_seed: u64,
+        resume: Option<&Bound<'_, Image>>,
+        rows: Option<(u32, u32)>,
+        host: &Bound<'_, PyAny>,
+    ) -> PyResult<Image> {
+        let py = host.py();
+        let models = [("separable", Model::Separable), ("full", Model::Full)];
+        let masks = [
+            ("energy", Mask::Energy),
+            ("linear", Mask::Linear),
+            ("density", Mask::Density),
+        ];
+        let settings = Settings {
+            model: named("model", model, &models)?,
+            mask: named("mask", mask, &masks)?,
+            bounces,
+            shadows,
+            seed: sample_seed,
+        };
+        let fingerprint =
+            reference::fingerprint(&self.description, &self.folder, &self.stock.arrays);
+        let fingerprint =
+            fingerprint.map_err(|error| errors::of_failure(py, &Failure::Work(error)))?;
+        let notes = identity::notes(&settings, &fingerprint);
+        let earlier = match resume {
+            Some(image) => Some(image.get().to_resume(self.scene.render.size_px, &notes)?),
+            None => None,
+        };
+        let time = time_s.map(Duration::from_secs_f64);
+        let limits = Limits::new(samples, time, Duration::MAX);
+        let ended = watched::run(host, |told| {
+            self.sample(settings, earlier, rows, &limits, told)
+        })?;
+        let (image, is_whole) = ended
+            .made
+            .map_err(|failure| errors::of_failure(py, &failure))?;
+        let noise = image.noise.as_ref();
+        let is_empty = noise.is_none_or(|noise| noise.samples.iter().all(|n| *n == 0));
+        match ended.interrupt {
+            Some(interrupt) if is_empty => Err(interrupt),
+            _ => Ok(Image::new(image, self.display(), notes, is_whole)),
+        }
+    }
+}
+
+impl Built {
+    fn display(&self) -> Display {
+        Display {
+            exposure_ev: self.scene.camera.exposure_ev,
+            tone_map: self.scene.render.tone_map,
+        }
+    }
+
+    /// Also whether each pixel has its samples. Of `rows` alone, where they are given: other pixels have none.
+    fn sample(
+        &self,
+        settings: Settings,
+        earlier: Option<hairline_image::Image>,
+        rows: Option<(u32, u32)>,
+        limits: &Limits,
+        told: &Told,
+    ) -> Result<(hairline_image::Image, bool), Failure> {
+        told.begin("sorting scratches");
+        let integrator = Integrator::new(&self.scene, settings);
+        let mut image = earlier.unwrap_or_else(|| integrator.start());
+        let width = image.size_px[0] as usize;
+        let own = rows.map(|(first, end)| first as usize * width..end as usize * width);
+        let others = |image: &mut hairline_image::Image, from: u32, to: u32| {
+            if let (Some(own), Some(noise)) = (&own, &mut image.noise) {
+                let samples = noise.samples.iter_mut().enumerate();
+                samples
+                    .filter(|(i, n)| !own.contains(i) && **n == from)
+                    .for_each(|(_, n)| *n = to);
+            }
+        };
+        // Pixels that have their samples are passed by.
+        others(&mut image, 0, limits.samples);
+        told.begin("sampling");
+        let cancelled = || told.is_cancelled();
+        let end = reference::sample(&integrator, &mut image, limits, &cancelled, told, &|_| {
+            Ok(())
+        });
+        others(&mut image, limits.samples, 0);
+        Ok((image, end? == reference::End::Complete))
+    }
+}
+
+/// The value of one of a few names.
+pub(crate) fn named<T: Copy>(key: &str, name: &str, all: &[(&str, T)]) -> PyResult<T> {
+    all.iter().find(|(known, _)| *known == name).map_or_else(
+        || {
+            let names: Vec<_> = all.iter().map(|(name, _)| format!("\"{name}\"")).collect();
+            let right = format!("must be one of {}", names.join(", "));
+            Err(errors::of_argument(key, format!("found \"{name}\""), right))
+        },
+        |(_, value)| Ok(*value),
+    )
+}
+
+/// A tone curve by its name.
+pub(crate) fn tone_map(name: &str) -> PyResult<ToneMap> {
+    named(
+        "tone_map",
+        name,
+        &ToneMap::ALL.map(|curve| (curve.name(), curve)),
+    )
+}
+
+fn refused(task: &Task, refusal: Refusal) -> PyErr {
+    let found = format!("found {}", task.bounces);
+    match refusal {
+        Refusal::BouncesWithoutShadows => errors::of_argument(
+            "bounces",
+            found,
+            "add shadows=True: without them the light that an object hides would be counted beside its own",
+        ),
+        Refusal::BouncesOnGpu => errors::of_argument(
+            "bounces",
+            found,
+            "leave out backend=\"gpu\": the GPU renderer has no bounces",
+        ),
+        Refusal::ShadowsOfPublished => errors::internal(),
+    }
+}
+
+/// Notes as Python has them.
+pub(crate) fn notes_dict<'py>(py: Python<'py>, notes: &Notes) -> PyResult<Bound<'py, PyDict>> {
+    let dict = PyDict::new(py);
+    for (name, value) in notes {
+        dict.set_item(name, value)?;
+    }
+    Ok(dict)
+}
