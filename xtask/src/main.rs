@@ -10,6 +10,7 @@ mod pictures;
 mod rooms;
 mod shaders;
 mod touches;
+mod wheel;
 
 use clap::Parser;
 
@@ -36,6 +37,8 @@ enum Command {
     Shaders(shaders::Shaders),
     /// Count the files that a new groove parameter and a new light shape would touch.
     Touches(touches::Touches),
+    /// Make the package for Python, a wheel for Linux, and test it in an environment of its own.
+    Wheel(wheel::Wheel),
 }
 
 fn main() -> anyhow::Result<()> {
@@ -50,5 +53,6 @@ fn main() -> anyhow::Result<()> {
         Command::Rooms(command) => command.run(),
         Command::Shaders(command) => command.run(),
         Command::Touches(command) => command.run(),
+        Command::Wheel(command) => command.run(),
     }
 }

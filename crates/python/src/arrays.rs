@@ -2,8 +2,11 @@
 
 use std::sync::Arc;
 
-use hairline_scene::{Error, MeshArrays, ScratchArrays};
-use numpy::{PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3, PyUntypedArrayMethods};
+use hairline_scene::{Error, MeshArrays, Profile, ScratchArrays};
+use numpy::{
+    IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2,
+    PyReadonlyArray3, PyUntypedArrayMethods, ToPyArray,
+};
 use pyo3::prelude::*;
 
 use crate::errors;
@@ -26,6 +29,31 @@ fn contiguous<'a, T: numpy::Element>(
     slice: Result<&'a [T], impl std::fmt::Debug>,
 ) -> PyResult<&'a [T]> {
     slice.map_err(|_| errors::of_argument(key, "found an array with gaps", "must be contiguous"))
+}
+
+/// What [`MeshArray::new`] takes.
+type Parts<'py> = (
+    Bound<'py, PyArray2<f64>>,
+    Bound<'py, PyArray2<u32>>,
+    Option<Bound<'py, PyArray2<f64>>>,
+    Option<Bound<'py, PyArray2<f64>>>,
+);
+
+/// What [`ScratchArray::new`] takes.
+type Lists<'py> = (
+    Bound<'py, PyArray3<f64>>,
+    Bound<'py, PyArray1<f64>>,
+    Bound<'py, PyArray1<f64>>,
+);
+
+fn rows<'py, T: numpy::Element + Copy>(
+    py: Python<'py>,
+    values: &[T],
+    columns: usize,
+) -> PyResult<Bound<'py, PyArray2<T>>> {
+    values
+        .to_pyarray(py)
+        .reshape([values.len() / columns, columns])
 }
 
 /// Triangles in memory, by the name that a scene has for them.
@@ -88,6 +116,28 @@ impl MeshArray {
     fn __repr__(&self) -> String {
         format!("<{} vertices, {} triangles>", self.vertices, self.triangles)
     }
+
+    fn __deepcopy__<'py>(slf: Bound<'py, Self>, _memo: &Bound<'py, PyAny>) -> Bound<'py, Self> {
+        slf
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Parts<'py>)> {
+        let py = slf.py();
+        let arrays = &slf.get().arrays;
+        let parts = (
+            rows(py, arrays.vertices_m().as_flattened(), 3)?,
+            rows(py, arrays.triangles().as_flattened(), 3)?,
+            arrays
+                .normals()
+                .map(|it| rows(py, it.as_flattened(), 3))
+                .transpose()?,
+            arrays
+                .uvs()
+                .map(|it| rows(py, it.as_flattened(), 2))
+                .transpose()?,
+        );
+        Ok((slf.get_type().into_any(), parts))
+    }
 }
 
 /// Straight scratches in memory, by the name that a scene has for them.
@@ -114,13 +164,13 @@ impl ScratchArray {
         let widths_um = contiguous("width_um", widths_um.as_slice())?;
         let depths_nm = contiguous("depth_nm", depths_nm.as_slice())?;
         let made: Result<_, Error> = py.detach(|| {
-            let name = name(&[
-                bytemuck::cast_slice(ends_m),
-                bytemuck::cast_slice(widths_um),
-                bytemuck::cast_slice(depths_nm),
-            ]);
-            let ends_m = bytemuck::cast_slice(ends_m).to_vec();
-            Ok((name, ScratchArrays::new(ends_m, widths_um, depths_nm)?))
+            let arrays =
+                ScratchArrays::new(bytemuck::cast_slice(ends_m).to_vec(), widths_um, depths_nm)?;
+            // As they are kept, so that a copy has the same name.
+            let sizes = arrays.profiles().iter();
+            let sizes: Vec<_> = sizes.map(|it| [it.width_um, it.depth_nm]).collect();
+            let name = name(&[bytemuck::cast_slice(ends_m), bytemuck::cast_slice(&sizes)]);
+            Ok((name, arrays))
         });
         let (name, arrays) = made.map_err(|error| errors::of_scene(py, &error))?;
         Ok(Self {
@@ -132,5 +182,28 @@ impl ScratchArray {
 
     fn __repr__(&self) -> String {
         format!("<{} scratches>", self.count)
+    }
+
+    fn __deepcopy__<'py>(slf: Bound<'py, Self>, _memo: &Bound<'py, PyAny>) -> Bound<'py, Self> {
+        slf
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Lists<'py>)> {
+        let py = slf.py();
+        let arrays = &slf.get().arrays;
+        let ends_m = arrays.ends_m().as_flattened().as_flattened().to_pyarray(py);
+        let sizes = |size: fn(&Profile) -> f32| {
+            let sizes = arrays
+                .profiles()
+                .iter()
+                .map(|profile| f64::from(size(profile)));
+            sizes.collect::<Vec<_>>().into_pyarray(py)
+        };
+        let parts = (
+            ends_m.reshape([arrays.ends_m().len(), 2, 3])?,
+            sizes(|profile| profile.width_um),
+            sizes(|profile| profile.depth_nm),
+        );
+        Ok((slf.get_type().into_any(), parts))
     }
 }

@@ -12,6 +12,7 @@ use pyo3::types::{PyBytes, PyDict};
 
 use crate::errors;
 use crate::scene::{notes_dict, tone_map};
+use crate::strips;
 
 /// A picture with its layers. It does not change.
 #[pyclass(frozen, module = "hairline")]
@@ -48,6 +49,26 @@ impl Image {
             is_complete,
             beauty: PyOnceLock::new(),
         }
+    }
+
+    /// The layers.
+    pub(crate) fn image(&self) -> &hairline_image::Image {
+        &self.image
+    }
+
+    /// What it remembers of its making.
+    pub(crate) fn notes(&self) -> &Notes {
+        &self.notes
+    }
+
+    /// How it is displayed.
+    pub(crate) fn shown(&self) -> &Display {
+        &self.display
+    }
+
+    /// Whether each pixel has all that was asked for.
+    pub(crate) fn is_whole(&self) -> bool {
+        self.is_complete
     }
 
     /// As a comparison takes it.
@@ -125,8 +146,8 @@ impl Image {
         (width, height)
     }
 
-    #[getter]
-    fn notes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+    #[getter(notes)]
+    fn notes_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         notes_dict(py, &self.notes)
     }
 
@@ -244,6 +265,16 @@ impl Image {
     ) -> PyResult<Bound<'py, PyAny>> {
         let pillow = py.import("PIL.Image")?;
         pillow.call_method1("fromarray", (self.codes(py, exposure_ev, tone_map)?,))
+    }
+
+    fn __reduce__<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<(Bound<'py, PyAny>, strips::State<'py>)> {
+        let restore = py
+            .import("hairline._hairline")?
+            .getattr("picture_from_state")?;
+        Ok((restore, strips::state(py, self)))
     }
 
     fn __repr__(&self) -> String {

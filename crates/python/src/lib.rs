@@ -7,6 +7,7 @@ mod errors;
 mod image;
 mod optics;
 mod scene;
+mod strips;
 mod values;
 mod watched;
 
@@ -25,6 +26,9 @@ fn _hairline(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(scene::check, module)?)?;
     module.add_function(wrap_pyfunction!(scene::to_toml, module)?)?;
     module.add_function(wrap_pyfunction!(image::read_image, module)?)?;
+    module.add_function(wrap_pyfunction!(strips::assemble, module)?)?;
+    module.add_function(wrap_pyfunction!(strips::picture_from_state, module)?)?;
+    module.add_function(wrap_pyfunction!(scene::inputs, module)?)?;
     module.add_function(wrap_pyfunction!(compare::compare, module)?)?;
     optics::add_to(module)
 }

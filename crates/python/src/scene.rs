@@ -1,5 +1,6 @@
 //! Scenes: from tables of Python's to descriptions, checked as scene files are, and to what is rendered.
 
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::time::Duration;
@@ -20,6 +21,7 @@ use pyo3::types::PyDict;
 
 use crate::errors;
 use crate::image::Image;
+use crate::strips;
 use crate::values::Stock;
 use crate::watched::{self, Told};
 
@@ -69,6 +71,19 @@ pub(crate) fn to_toml(table: &Bound<'_, PyDict>) -> PyResult<String> {
     let description = described(py, Stock::default().table(table)?)?;
     let text = description.to_toml();
     text.map_err(|error| errors::of_work(py, &error.to_string()))
+}
+
+/// The files that a scene is made from, in `folder`.
+#[pyfunction]
+pub(crate) fn inputs(table: &Bound<'_, PyDict>, folder: PathBuf) -> PyResult<Vec<PathBuf>> {
+    let mut stock = Stock::default();
+    let description = described(table.py(), stock.table(table)?)?;
+    let inputs = description
+        .inputs(&folder)
+        .into_iter()
+        .map(|input| input.path);
+    let is_file = |path: &PathBuf| !stock.has(path, &folder);
+    Ok(inputs.filter(is_file).collect())
 }
 
 fn described(py: Python<'_>, table: toml::Table) -> PyResult<Description> {
@@ -252,10 +267,15 @@ impl Built {
         let fingerprint =
             fingerprint.map_err(|error| errors::of_failure(py, &Failure::Work(error)))?;
         let notes = identity::notes(&settings, &fingerprint);
-        let earlier = match resume {
-            Some(image) => Some(image.get().to_resume(self.scene.render.size_px, &notes)?),
-            None => None,
-        };
+        let [width, height] = self.scene.render.size_px;
+        let rows = rows.map(|(first, end)| first.min(height) as usize..end.min(height) as usize);
+        let size_px = [
+            width,
+            rows.as_ref().map_or(height, |rows| rows.len() as u32),
+        ];
+        let earlier = resume
+            .map(|image| image.get().to_resume(size_px, &notes))
+            .transpose()?;
         let time = time_s.map(Duration::from_secs_f64);
         let limits = Limits::new(samples, time, Duration::MAX);
         let ended = watched::run(host, |told| {
@@ -281,37 +301,44 @@ impl Built {
         }
     }
 
-    /// Also whether each pixel has its samples. Of `rows` alone, where they are given: other pixels have none.
+    /// Also whether each pixel has its samples. Of `rows` alone, where they are given: `earlier` has these, and so has the image.
     fn sample(
         &self,
         settings: Settings,
         earlier: Option<hairline_image::Image>,
-        rows: Option<(u32, u32)>,
+        rows: Option<Range<usize>>,
         limits: &Limits,
         told: &Told,
     ) -> Result<(hairline_image::Image, bool), Failure> {
         told.begin("sorting scratches");
         let integrator = Integrator::new(&self.scene, settings);
-        let mut image = earlier.unwrap_or_else(|| integrator.start());
-        let width = image.size_px[0] as usize;
-        let own = rows.map(|(first, end)| first as usize * width..end as usize * width);
-        let others = |image: &mut hairline_image::Image, from: u32, to: u32| {
-            if let (Some(own), Some(noise)) = (&own, &mut image.noise) {
-                let samples = noise.samples.iter_mut().enumerate();
-                samples
-                    .filter(|(i, n)| !own.contains(i) && **n == from)
-                    .for_each(|(_, n)| *n = to);
+        let mut image = match (earlier, &rows) {
+            (Some(earlier), None) => earlier,
+            (earlier, Some(rows)) => {
+                let mut image = integrator.start();
+                let width = image.size_px[0] as usize;
+                // Pixels that have their samples are passed by.
+                let others = image.noise.iter_mut().flat_map(|noise| &mut noise.samples);
+                others
+                    .enumerate()
+                    .filter(|(i, _)| !rows.contains(&(i / width)))
+                    .for_each(|(_, samples)| *samples = limits.samples);
+                if let Some(earlier) = earlier {
+                    strips::put(&mut image, rows.start, &earlier);
+                }
+                image
             }
+            (None, None) => integrator.start(),
         };
-        // Pixels that have their samples are passed by.
-        others(&mut image, 0, limits.samples);
         told.begin("sampling");
         let cancelled = || told.is_cancelled();
         let end = reference::sample(&integrator, &mut image, limits, &cancelled, told, &|_| {
             Ok(())
-        });
-        others(&mut image, limits.samples, 0);
-        Ok((image, end? == reference::End::Complete))
+        })?;
+        if let Some(rows) = rows {
+            image = strips::rows(&image, rows.start, rows.end);
+        }
+        Ok((image, end == reference::End::Complete))
     }
 }
 

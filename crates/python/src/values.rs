@@ -1,6 +1,7 @@
 //! Python's values as TOML's and back: numbers, texts, paths, sequences, arrays of numpy and tables.
 
 use std::collections::HashMap;
+use std::path::Path;
 
 use hairline_scene::Arrays;
 use pyo3::exceptions::PyOverflowError;
@@ -22,6 +23,12 @@ pub(crate) struct Stock {
 }
 
 impl Stock {
+    /// Whether a path in a folder is a name of something in memory.
+    pub(crate) fn has(&self, path: &Path, folder: &Path) -> bool {
+        path.strip_prefix(folder)
+            .is_ok_and(|name| self.arrays.has(name))
+    }
+
     /// A dictionary of Python's as a table of TOML's.
     pub(crate) fn table(&mut self, table: &Bound<'_, PyDict>) -> PyResult<toml::Table> {
         match self.value(table.as_any(), "", 0)? {

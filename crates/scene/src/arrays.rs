@@ -103,6 +103,26 @@ impl MeshArrays {
         })
     }
 
+    /// Positions, metres.
+    pub fn vertices_m(&self) -> &[[f64; 3]] {
+        &self.vertices_m
+    }
+
+    /// Indices of vertices.
+    pub fn triangles(&self) -> &[[u32; 3]] {
+        &self.triangles
+    }
+
+    /// One for each vertex, if there are any.
+    pub fn normals(&self) -> Option<&[[f64; 3]]> {
+        self.normals.as_deref()
+    }
+
+    /// One for each vertex, if there are any.
+    pub fn uvs(&self) -> Option<&[[f64; 2]]> {
+        self.uvs.as_deref()
+    }
+
     pub(crate) fn surface(&self) -> Surface {
         let row = |rows: &Option<Vec<[f64; 3]>>, i: usize| {
             rows.as_ref().map_or(DVec3::ZERO, |rows| rows[i].into())
@@ -130,8 +150,8 @@ impl MeshArrays {
 /// Straight scratches in the object's own frame.
 #[derive(Clone, Debug)]
 pub struct ScratchArrays {
-    pub(crate) ends_m: Vec<[[f64; 3]; 2]>,
-    pub(crate) profiles: Vec<Profile>,
+    ends_m: Vec<[[f64; 3]; 2]>,
+    profiles: Vec<Profile>,
 }
 
 impl ScratchArrays {
@@ -183,6 +203,16 @@ impl ScratchArrays {
             profiles: profiles.collect(),
             ends_m,
         })
+    }
+
+    /// Both ends of each, metres.
+    pub fn ends_m(&self) -> &[[[f64; 3]; 2]] {
+        &self.ends_m
+    }
+
+    /// Width and depth of each.
+    pub fn profiles(&self) -> &[Profile] {
+        &self.profiles
     }
 }
 

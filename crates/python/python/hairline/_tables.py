@@ -81,8 +81,8 @@ class Table:
             right = str(error).replace(f"{section}[0]", section)
             key = error.key.replace(f"{section}[0]", section)
             raise SceneError(right, key=key, found=error.found, right=error.right) from None
-        checked = whole[section]
-        return checked[0] if self._is_one_of_many else checked
+        checked: dict[str, Any] = whole[section][0] if self._is_one_of_many else whole[section]
+        return checked
 
     def update(self, **keys: Any) -> None:
         """Sets several keys at once: those that only fit together."""
@@ -246,14 +246,8 @@ class Object(Table):
             None if normals is None else floats("normals", normals, None, 3),
             None if uvs is None else floats("uvs", uvs, None, 2),
         )
-        return cls(
-            name=name,
-            mesh=mesh,
-            material=material,
-            translation_m=translation_m,
-            rotation_deg=rotation_deg,
-            scale=scale,
-        )
+        placing: dict[str, Any] = {"translation_m": translation_m, "rotation_deg": rotation_deg, "scale": scale}
+        return cls(name=name, mesh=mesh, material=material, **placing)
 
     def _checked(self, table: dict[str, Any]) -> dict[str, Any]:
         if isinstance(table.get("mesh"), core.MeshArray):

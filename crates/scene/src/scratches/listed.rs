@@ -171,7 +171,7 @@ impl<'a> Listed<'a> {
         key: &str,
         ground: &'a Ground,
     ) -> Result<Self, Error> {
-        let rows = arrays.ends_m.iter().zip(&arrays.profiles).enumerate();
+        let rows = arrays.ends_m().iter().zip(arrays.profiles()).enumerate();
         let rows: Vec<_> = rows
             .map(|(i, (&ends_m, &profile))| Row {
                 line: i,

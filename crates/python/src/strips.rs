@@ -1,0 +1,175 @@
+//! Pictures in parts: rows of one, parts put together, and what travels between processes.
+
+use hairline_image::{Display, Image, Noise, Notes};
+use pyo3::prelude::*;
+use pyo3::types::PyBytes;
+
+use crate::errors;
+use crate::image::Image as Picture;
+use crate::scene::tone_map;
+
+/// Some rows of a picture.
+pub(crate) fn rows(image: &Image, first: usize, end: usize) -> Image {
+    let width = image.size_px[0] as usize;
+    let own = first * width..end * width;
+    let noise = image.noise.as_ref().map(|noise| Noise {
+        beauty: noise.beauty[own.clone()].to_vec(),
+        base: noise.base[own.clone()].to_vec(),
+        scratches: noise.scratches[own.clone()].to_vec(),
+        density: noise.density[own.clone()].to_vec(),
+        samples: noise.samples[own.clone()].to_vec(),
+        batch: noise.batch,
+    });
+    Image {
+        size_px: [image.size_px[0], (end - first) as u32],
+        base: image.base[own.clone()].to_vec(),
+        scratches: image.scratches[own.clone()].to_vec(),
+        density: image.density[own.clone()].to_vec(),
+        depth_m: image.depth_m[own.clone()].to_vec(),
+        normal: image.normal[own].to_vec(),
+        noise,
+    }
+}
+
+/// Puts rows of a picture over those from `first` on. Both have noise, or none.
+pub(crate) fn put(image: &mut Image, first: usize, rows: &Image) {
+    let start = first * image.size_px[0] as usize;
+    let own = start..start + rows.depth_m.len();
+    image.base[own.clone()].copy_from_slice(&rows.base);
+    image.scratches[own.clone()].copy_from_slice(&rows.scratches);
+    image.density[own.clone()].copy_from_slice(&rows.density);
+    image.depth_m[own.clone()].copy_from_slice(&rows.depth_m);
+    image.normal[own.clone()].copy_from_slice(&rows.normal);
+    if let (Some(noise), Some(more)) = (&mut image.noise, &rows.noise) {
+        noise.beauty[own.clone()].copy_from_slice(&more.beauty);
+        noise.base[own.clone()].copy_from_slice(&more.base);
+        noise.scratches[own.clone()].copy_from_slice(&more.scratches);
+        noise.density[own.clone()].copy_from_slice(&more.density);
+        noise.samples[own].copy_from_slice(&more.samples);
+    }
+}
+
+/// One picture of strips of it, from the top.
+#[pyfunction]
+pub(crate) fn assemble(strips: Vec<Bound<'_, Picture>>) -> PyResult<Picture> {
+    let wrong = |found: &str| {
+        let right = "must be strips of one picture, from the top";
+        Err(errors::of_argument("strips", found, right))
+    };
+    let Some(first) = strips.first().map(Bound::get) else {
+        return wrong("found none");
+    };
+    let width = first.image().size_px[0];
+    let batch = |image: &Image| image.noise.as_ref().map(|noise| noise.batch);
+    let mut height = 0;
+    for strip in &strips {
+        let strip = strip.get();
+        if strip.image().size_px[0] != width {
+            return wrong("found another width");
+        }
+        if strip.notes() != first.notes() || batch(strip.image()) != batch(first.image()) {
+            return wrong("found a strip of another picture");
+        }
+        height += strip.image().size_px[1];
+    }
+    let mut image = Image::new([width, height]);
+    image.noise = batch(first.image()).map(|batch| Noise::new(image.size_px, batch));
+    let mut row = 0;
+    for strip in &strips {
+        let strip = strip.get().image();
+        put(&mut image, row, strip);
+        row += strip.size_px[1] as usize;
+    }
+    let is_complete = strips.iter().all(|strip| strip.get().is_whole());
+    let notes = first.notes().clone();
+    Ok(Picture::new(image, *first.shown(), notes, is_complete))
+}
+
+/// All that a picture is, in the order of [`picture_from_state`]'s arguments.
+pub(crate) type State<'py> = (
+    [u32; 2],
+    Bound<'py, PyBytes>,
+    Option<(u32, Bound<'py, PyBytes>)>,
+    (f64, &'static str),
+    Notes,
+    bool,
+);
+
+pub(crate) fn state<'py>(py: Python<'py>, picture: &Picture) -> State<'py> {
+    let image = picture.image();
+    let mut layers: Vec<u8> = Vec::with_capacity(image.depth_m.len() * 52);
+    for layer in [&image.base, &image.scratches, &image.density, &image.normal] {
+        layers.extend_from_slice(bytemuck::cast_slice(layer));
+    }
+    layers.extend_from_slice(bytemuck::cast_slice(&image.depth_m));
+    let noise = image.noise.as_ref().map(|noise| {
+        let mut bytes: Vec<u8> = Vec::with_capacity(noise.samples.len() * 52);
+        for layer in [&noise.beauty, &noise.base, &noise.scratches, &noise.density] {
+            bytes.extend_from_slice(bytemuck::cast_slice(layer));
+        }
+        bytes.extend_from_slice(bytemuck::cast_slice(&noise.samples));
+        (noise.batch, PyBytes::new(py, &bytes))
+    });
+    let shown = picture.shown();
+    (
+        image.size_px,
+        PyBytes::new(py, &layers),
+        noise,
+        (shown.exposure_ev, shown.tone_map.name()),
+        picture.notes().clone(),
+        picture.is_whole(),
+    )
+}
+
+/// Takes values off the front of bytes.
+fn take<T: bytemuck::AnyBitPattern>(bytes: &mut &[u8], count: usize) -> PyResult<Vec<T>> {
+    let wrong = || errors::of_argument("state", "found too few bytes", "must be a pickled picture");
+    let (own, rest) = bytes
+        .split_at_checked(count * size_of::<T>())
+        .ok_or_else(wrong)?;
+    *bytes = rest;
+    Ok(own
+        .chunks_exact(size_of::<T>())
+        .map(bytemuck::pod_read_unaligned)
+        .collect())
+}
+
+/// What [`state`] told.
+#[pyfunction]
+pub(crate) fn picture_from_state(
+    size_px: [u32; 2],
+    layers: &[u8],
+    noise: Option<(u32, Vec<u8>)>,
+    display: (f64, String),
+    notes: Notes,
+    is_complete: bool,
+) -> PyResult<Picture> {
+    let count = size_px[0] as usize * size_px[1] as usize;
+    let mut bytes = layers;
+    let noise = noise.map(|(batch, bytes)| {
+        let mut bytes = &bytes[..];
+        Ok::<_, PyErr>(Noise {
+            beauty: take(&mut bytes, count)?,
+            base: take(&mut bytes, count)?,
+            scratches: take(&mut bytes, count)?,
+            density: take(&mut bytes, count)?,
+            samples: take(&mut bytes, count)?,
+            batch,
+        })
+    });
+    let image = Image {
+        size_px,
+        base: take(&mut bytes, count)?,
+        scratches: take(&mut bytes, count)?,
+        density: take(&mut bytes, count)?,
+        normal: take(&mut bytes, count)?,
+        depth_m: take(&mut bytes, count)?,
+        noise: noise.transpose()?,
+    };
+    let (exposure_ev, curve) = display;
+    let display = Display {
+        exposure_ev,
+        tone_map: tone_map(&curve)?,
+    };
+    Ok(Picture::new(image, display, notes, is_complete))
+}

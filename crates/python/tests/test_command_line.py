@@ -1,0 +1,80 @@
+"""The command line and Python are one program: the same bits, and the same words."""
+
+import os
+import subprocess
+from pathlib import Path
+
+import pytest
+
+import hairline
+from conftest import ROOT
+
+PROGRAM = os.environ.get("HAIRLINE_PROGRAM", "")
+SCENES = sorted((ROOT / "scenes").glob("*.toml"))
+
+pytestmark = pytest.mark.skipif(not Path(PROGRAM).is_file(), reason="HAIRLINE_PROGRAM names no program")
+
+
+def run(*arguments):
+    done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True)
+    return done.returncode, done.stdout, done.stderr
+
+
+@pytest.mark.parametrize("scene", SCENES, ids=lambda path: path.stem)
+def test_pictures_are_the_same_to_the_byte(scene, tmp_path):
+    flags = ["--size", "64x40", "--backend", "cpu"]
+    code, _, err = run("render", scene, "-o", tmp_path / "program.exr", *flags)
+    assert code == 0, err
+    assert run("render", scene, "-o", tmp_path / "program.png", *flags)[0] == 0
+    image = hairline.load(scene).render(size=(64, 40), backend="cpu")
+    for name in ("exr", "png"):
+        image.save(tmp_path / f"python.{name}")
+        same = (tmp_path / f"python.{name}").read_bytes() == (tmp_path / f"program.{name}").read_bytes()
+        assert same, name
+
+
+def test_shadows_and_bounces_are_the_same(tmp_path):
+    scene = ROOT / "scenes/mirror.toml"
+    flags = ["--size", "48x30", "--backend", "cpu", "--shadows", "on", "--bounces", "1", "--samples", "2"]
+    assert run("render", scene, "-o", tmp_path / "program.exr", *flags)[0] == 0
+    image = hairline.load(scene).render(size=(48, 30), backend="cpu", shadows=True, bounces=1, samples=2)
+    image.save(tmp_path / "python.exr")
+    assert (tmp_path / "python.exr").read_bytes() == (tmp_path / "program.exr").read_bytes()
+
+
+@pytest.mark.parametrize("model", ["separable", "full"])
+def test_references_are_the_same_and_go_on_from_each_other(model, tmp_path):
+    scene = ROOT / "scenes/plate.toml"
+    flags = ["--size", "16x10", "--model", model]
+    path = tmp_path / "program.exr"
+    assert run("reference", scene, "-o", path, "--spp", "32", *flags)[0] == 0
+    image = hairline.load(scene).reference(size=(16, 10), model=model, samples=32)
+    image.save(tmp_path / "python.exr")
+    assert (tmp_path / "python.exr").read_bytes() == path.read_bytes()
+    resumed = hairline.read_image(path)
+    more = hairline.load(scene).reference(size=(16, 10), model=model, samples=64, resume=resumed)
+    more.save(tmp_path / "python.exr")
+    code, _, err = run("reference", scene, "-o", path, "--spp", "64", "--resume", *flags)
+    assert code == 0, err
+    assert (tmp_path / "python.exr").read_bytes() == path.read_bytes()
+
+
+def test_errors_are_the_same_words(tmp_path):
+    text = (ROOT / "scenes/plate.toml").read_text()
+    wrong = {
+        "radius_m = 0.08": "radius_mm = 80",
+        'metal = "steel"': 'metal = "stele"',
+        "roughness = 0.06": "roughness = 7",
+        'object = "plate"': 'object = "plates"',
+        "count = 10000": "count = -1",
+        "[camera]": "[camera",
+    }
+    for before, after in wrong.items():
+        assert before in text
+        path = tmp_path / "wrong.toml"
+        path.write_text(text.replace(before, after, 1))
+        code, _, err = run("render", path, "-o", tmp_path / "a.png")
+        with pytest.raises(hairline.SceneError) as caught:
+            hairline.load(path)
+        assert code == 2
+        assert err.strip() == f"error: {caught.value}"

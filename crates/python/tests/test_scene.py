@@ -1,0 +1,184 @@
+"""The data model is that of scene files, and says what they say."""
+
+import copy
+import pickle
+
+import numpy as np
+import pytest
+
+import hairline
+from conftest import lines_on_plate, plate_table
+
+
+def test_a_scene_goes_through_a_dict_and_a_file_and_stays_the_same(tmp_path, scene):
+    assert hairline.Scene.from_dict(scene.to_dict()).to_dict() == scene.to_dict()
+    scene.save(tmp_path / "plate.toml")
+    assert hairline.load(tmp_path / "plate.toml").to_dict() == scene.to_dict()
+    assert [path.name for path in tmp_path.iterdir()] == ["plate.toml"]
+
+
+def test_every_scene_of_the_repository_goes_through_its_own_text(repository, tmp_path):
+    paths = sorted((repository / "scenes").glob("*.toml"))
+    assert len(paths) >= 10
+    for path in paths:
+        scene = hairline.load(path)
+        (tmp_path / "again.toml").write_text(scene.to_toml())
+        assert hairline.load(tmp_path / "again.toml").to_dict() == scene.to_dict(), path.name
+
+
+def test_attributes_are_the_keys_and_defaults_are_filled_in(scene):
+    assert scene.camera.position_m == (0.0, -0.22, 0.30)
+    assert scene.camera.fov_y_deg == 30.0
+    assert scene.lights[0].radius_m == 0.02
+    assert scene.lights[0].hidden is False
+    assert scene.lights[0].temperature_k is None
+    assert isinstance(scene.lights[0], hairline.SphereLight)
+    assert scene.settings.size_px == (48, 32)
+    assert scene.objects.named("plate").material == "steel"
+
+
+def test_what_is_left_out_means_what_the_attribute_says(scene):
+    """Keys that go without saying are not written; what reading them gives must be what they are."""
+    tables = [
+        *scene.lights,
+        *scene.scratches,
+        hairline.DiskLight(center_m=(0, 0, 1), target_m=(0, 0, 0), radius_m=0.1),
+        hairline.RectangleLight(center_m=(0, 0, 1), target_m=(0, 0, 0), width_m=0.1, height_m=0.1),
+    ]
+    for table in tables:
+        for key, value in type(table)._absent.items():
+            again = copy.deepcopy(table)
+            setattr(again, key, value)
+            assert again == table, key
+            assert getattr(again, key) == value
+
+
+def test_a_change_is_checked_at_once_and_a_wrong_one_changes_nothing(scene):
+    with pytest.raises(hairline.SceneError) as caught:
+        scene.camera.fov_y_deg = 200
+    assert str(caught.value) == "camera.fov_y_deg: found 200; must be from 0.001 to 179"
+    assert caught.value.key == "camera.fov_y_deg"
+    assert caught.value.file is None and caught.value.line is None
+    assert scene.camera.fov_y_deg == 30.0
+
+
+def test_keys_that_only_fit_together_are_set_together(scene):
+    material = scene.materials[0]
+    material.update(metal=None, base_color=(0.9, 0.5, 0.2))
+    assert material.metal is None and material.base_color == (0.9, 0.5, 0.2)
+
+
+def test_what_is_read_back_cannot_be_changed_in_place(scene):
+    with pytest.raises(TypeError):
+        scene.camera.position_m[0] = 1.0
+
+
+def test_an_array_is_a_vector(scene):
+    scene.camera.position_m = np.array([0.0, -0.3, 0.2], dtype=np.float32).astype(np.float64)
+    scene.camera.fov_y_deg = np.float64(25)
+    assert scene.camera.fov_y_deg == 25.0
+    assert scene.camera.position_m[1] == pytest.approx(-0.3)
+
+
+def test_every_kind_of_light_is_made_and_appended(scene):
+    lamps = [
+        hairline.SphereLight(center_m=(0, 0.2, 0.3), radius_m=0.01, radiance=5),
+        hairline.DiskLight(center_m=(0, 0.2, 0.3), target_m=(0, 0, 0), radius_m=0.01),
+        hairline.RectangleLight(center_m=(0, 0.2, 0.3), target_m=(0, 0, 0), width_m=0.1, height_m=0.2),
+        hairline.PolygonLight(vertices_m=np.array([[0, 0, 1], [0, 1, 1], [1, 0, 1.0]])),
+        hairline.TubeLight(ends_m=[(0, 0, 1), (0, 1, 1)], radius_m=0.01),
+    ]
+    scene.lights.extend(lamps)
+    again = hairline.Scene.from_dict(scene.to_dict())
+    assert [type(light) for light in again.lights[1:]] == [type(lamp) for lamp in lamps]
+    assert list(again.lights) == list(scene.lights)
+
+
+def test_a_scene_can_be_written_in_python_alone():
+    scene = hairline.Scene(
+        camera=hairline.Camera(position_m=(0, -0.22, 0.3), target_m=(0, 0, 0), up=(0, 0, 1)),
+        settings=hairline.Settings(size_px=(48, 32)),
+        materials=[hairline.Material(name="steel", kind="metal", metal="steel", roughness=0.2)],
+        objects=[hairline.Object(name="plate", shape={"disk": {"radius_m": 0.08}}, material="steel")],
+        scratches=[hairline.Scratches(object="plate", pattern="random", count=300, width_um=4.0)],
+        lights=[hairline.SphereLight(center_m=(0.06, 0.1, 0.25), radius_m=0.02, radiance=40)],
+    )
+    assert scene.to_dict() == hairline.Scene.from_dict(plate_table()).to_dict()
+
+
+def test_errors_of_a_file_tell_file_line_and_key(tmp_path, scene):
+    path = tmp_path / "plate.toml"
+    text = scene.to_toml()
+    path.write_text(text.replace("radius_m = 0.02", "radius_mm = 20.0"))
+    with pytest.raises(hairline.SceneError) as caught:
+        hairline.load(path)
+    assert caught.value.file == str(path)
+    assert "radius_mm" in path.read_text().splitlines()[caught.value.line - 1]
+    assert caught.value.key == "light[0].radius_mm"
+    assert caught.value.right == "did you mean `radius_m = 0.02`?"
+    again = pickle.loads(pickle.dumps(caught.value))
+    assert str(again) == str(caught.value) and again.line == caught.value.line
+
+    path.write_text(text.replace('material = "steel"', 'material = "stele"'))
+    with pytest.raises(hairline.SceneError, match=r'plate.toml:\d+: object\[0\].material: found no material called "stele"'):
+        hairline.load(path)
+
+
+def test_a_file_that_a_scene_names_and_is_not_there_is_told_with_its_line(tmp_path, scene):
+    path = tmp_path / "plate.toml"
+    text = scene.to_toml().replace("shape = { disk = { radius_m = 0.08 } }", 'mesh = "gone.glb"')
+    assert "gone.glb" in text
+    path.write_text(text)
+    with pytest.raises(hairline.SceneError, match=r"plate.toml:\d+: object\[0\].mesh: \"gone.glb\""):
+        hairline.load(path).build()
+
+
+def test_scratches_from_arrays_are_those_of_a_file(tmp_path, scene):
+    ends = lines_on_plate(200)
+    rows = [",".join(map(repr, map(float, [*pair.ravel(), 3.5, 170.0]))) for pair in ends]
+    header = "x0_m,y0_m,z0_m,x1_m,y1_m,z1_m,width_um,depth_nm"
+    (tmp_path / "lines.csv").write_text("\n".join([header, *rows]))
+    scene.folder = tmp_path
+    scene.scratches = [hairline.Scratches(object="plate", pattern="file", file="lines.csv")]
+    from_file = scene.render(backend="cpu")
+    scene.scratches = [hairline.Scratches.from_arrays(object="plate", ends_m=ends, width_um=3.5, depth_nm=170.0)]
+    from_arrays = scene.render(backend="cpu")
+    assert from_file.scratches.max() > 0
+    np.testing.assert_array_equal(from_file.beauty, from_arrays.beauty)
+
+
+def test_a_mesh_from_arrays_is_rendered(scene):
+    table = scene.to_dict()
+    table["object"] = []
+    plane = hairline.Object(name="plate", shape={"plane": {"size_m": [0.1, 0.1]}}, material="steel")
+    scene.objects = [plane]
+    shape = scene.render(backend="cpu", samples=1)
+    corner = 0.05 * np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]])
+    scene.objects = [
+        hairline.Object.from_arrays(
+            name="plate", vertices_m=corner, triangles=[[0, 1, 2], [0, 2, 3]], material="steel"
+        )
+    ]
+    scene.scratches = []
+    mesh = scene.render(backend="cpu", samples=1)
+    np.testing.assert_array_equal(mesh.depth_m, shape.depth_m)
+    np.testing.assert_allclose(mesh.normal, shape.normal, atol=1e-6)
+
+
+def test_arrays_in_memory_are_not_saved_without_a_word(scene):
+    scene.scratches.append(
+        hairline.Scratches.from_arrays(object="plate", ends_m=lines_on_plate(3), width_um=3, depth_nm=100)
+    )
+    with pytest.raises(hairline.SceneError, match=r"scratches\[1\].file: found an array in memory"):
+        scene.to_toml()
+
+
+def test_scenes_are_copied_and_pickled(scene):
+    scene.scratches.append(
+        hairline.Scratches.from_arrays(object="plate", ends_m=lines_on_plate(30), width_um=3, depth_nm=100)
+    )
+    image = scene.render(backend="cpu", samples=1)
+    for again in (copy.deepcopy(scene), pickle.loads(pickle.dumps(scene))):
+        np.testing.assert_array_equal(again.render(backend="cpu", samples=1).beauty, image.beauty)
+        again.camera.fov_y_deg = 20
+        assert scene.camera.fov_y_deg == 30
