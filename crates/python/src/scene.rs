@@ -52,15 +52,20 @@ pub(crate) fn read<'py>(
     Ok((dict, text, description.notes))
 }
 
-/// The table of a whole scene with its defaults filled in, or what is wrong with it.
+/// The table of a whole scene with its defaults filled in, or what is wrong with it. `alone` where a part of it is asked for, and
+/// what it names is elsewhere.
 #[pyfunction]
-pub(crate) fn check<'py>(table: &Bound<'py, PyDict>) -> PyResult<Bound<'py, PyDict>> {
+#[pyo3(signature = (table, alone=false))]
+pub(crate) fn check<'py>(table: &Bound<'py, PyDict>, alone: bool) -> PyResult<Bound<'py, PyDict>> {
     let py = table.py();
     let mut stock = Stock::default();
     let description = described(py, stock.table(table)?)?;
-    description
-        .check()
-        .map_err(|error| errors::of_scene(py, &error))?;
+    let references = |()| match alone {
+        true => Ok(()),
+        false => description.check_references(),
+    };
+    let checked = description.check().and_then(references);
+    checked.map_err(|error| errors::of_scene(py, &error))?;
     stock.dict(py, &self::table(py, &description)?)
 }
 

@@ -75,7 +75,7 @@ class Table:
     def _checked(self, table: dict[str, Any]) -> dict[str, Any]:
         section = self._section
         try:
-            whole = core.check({**_FRAME, section: [table] if self._is_one_of_many else table})
+            whole = core.check({**_FRAME, section: [table] if self._is_one_of_many else table}, alone=True)
         except SceneError as error:
             # There is only one, and nobody has counted it.
             right = str(error).replace(f"{section}[0]", section)

@@ -50,10 +50,10 @@ def local(workers: Optional[int] = None) -> Client:
     cores = os.cpu_count() or 1
     count = workers or cores
     environment = {"RAYON_NUM_THREADS": str(max(1, cores // count))}
-    cluster = LocalCluster(  # type: ignore[no-untyped-call]
+    cluster = LocalCluster(
         n_workers=count, threads_per_worker=1, processes=True, dashboard_address=None, env=environment
     )
-    client: Client = Client(cluster)  # type: ignore[no-untyped-call]
+    client: Client = Client(cluster)
     return client
 
 
@@ -64,7 +64,7 @@ def _connected(client: Connection) -> Iterator[Client]:
         return
     if client is not None and not isinstance(client, str):
         raise argument_error("client", f"found an object of type {type(client).__qualname__}", "must be a Client or an address")
-    own = local() if client is None else Client(client)  # type: ignore[no-untyped-call]
+    own = local() if client is None else Client(client)
     cluster = own.cluster
     try:
         yield own
@@ -179,7 +179,7 @@ def _results(futures: Sequence[Future], host: Host, what: str) -> Iterator[tuple
     done = 0
     host.progress(what, 0.0)
     try:
-        for future in as_completed(futures):  # type: ignore[no-untyped-call]
+        for future in as_completed(futures):
             try:
                 result = future.result()
             except KilledWorker as killed:
