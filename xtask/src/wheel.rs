@@ -17,7 +17,7 @@ pub struct Wheel {
 }
 
 /// What builds it and what tests it.
-const TOOLS: [&str; 7] = [
+const TOOLS: [&str; 8] = [
     "maturin>=1.9,<2",
     "numpy",
     "pillow",
@@ -25,6 +25,7 @@ const TOOLS: [&str; 7] = [
     "mypy",
     "typing_extensions",
     "distributed",
+    "matplotlib",
 ];
 
 impl Wheel {

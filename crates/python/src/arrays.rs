@@ -8,6 +8,7 @@ use numpy::{
     PyReadonlyArray3, PyUntypedArrayMethods, ToPyArray,
 };
 use pyo3::prelude::*;
+use pyo3::types::PyType;
 
 use crate::errors;
 
@@ -31,16 +32,23 @@ fn contiguous<'a, T: numpy::Element>(
     slice.map_err(|_| errors::of_argument(key, "found an array with gaps", "must be contiguous"))
 }
 
-/// What [`MeshArray::new`] takes.
+/// What pickles call with the parts of either.
+fn restore(py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
+    py.import("hairline._arrays")?.getattr("restored")
+}
+
+/// The class, and what [`MeshArray::new`] takes.
 type Parts<'py> = (
+    Bound<'py, PyType>,
     Bound<'py, PyArray2<f64>>,
     Bound<'py, PyArray2<u32>>,
     Option<Bound<'py, PyArray2<f64>>>,
     Option<Bound<'py, PyArray2<f64>>>,
 );
 
-/// What [`ScratchArray::new`] takes.
+/// The class, and what [`ScratchArray::new`] takes.
 type Lists<'py> = (
+    Bound<'py, PyType>,
     Bound<'py, PyArray3<f64>>,
     Bound<'py, PyArray1<f64>>,
     Bound<'py, PyArray1<f64>>,
@@ -125,6 +133,7 @@ impl MeshArray {
         let py = slf.py();
         let arrays = &slf.get().arrays;
         let parts = (
+            slf.get_type(),
             rows(py, arrays.vertices_m().as_flattened(), 3)?,
             rows(py, arrays.triangles().as_flattened(), 3)?,
             arrays
@@ -136,7 +145,7 @@ impl MeshArray {
                 .map(|it| rows(py, it.as_flattened(), 2))
                 .transpose()?,
         );
-        Ok((slf.get_type().into_any(), parts))
+        Ok((restore(py)?, parts))
     }
 }
 
@@ -200,10 +209,11 @@ impl ScratchArray {
             sizes.collect::<Vec<_>>().into_pyarray(py)
         };
         let parts = (
+            slf.get_type(),
             ends_m.reshape([arrays.ends_m().len(), 2, 3])?,
             sizes(|profile| profile.width_um),
             sizes(|profile| profile.depth_nm),
         );
-        Ok((slf.get_type().into_any(), parts))
+        Ok((restore(py)?, parts))
     }
 }

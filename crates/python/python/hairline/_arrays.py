@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Sequence, Union
+from typing import Any, Callable, Sequence, TypeVar, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -10,6 +10,7 @@ import numpy.typing as npt
 from ._errors import argument_error
 
 Floats = npt.NDArray[np.float64]
+T = TypeVar("T")
 ArrayLike = Union[npt.ArrayLike, Sequence[Any]]
 
 
@@ -34,11 +35,21 @@ def _shaped(key: str, array: npt.NDArray[Any], shape: tuple[int | None, ...]) ->
         raise argument_error(key, f"found an array of shape {found}", f"must be of shape {right}")
 
 
+def _plain(array: npt.NDArray[Any], kind: Any) -> npt.NDArray[Any]:
+    # What comes out of a message between processes may begin at any byte.
+    return np.require(array, kind, ["C_CONTIGUOUS", "ALIGNED"])
+
+
+def restored(kind: Callable[..., T], *arrays: npt.NDArray[Any] | None) -> T:
+    """What was pickled, of its arrays."""
+    return kind(*(None if array is None else _plain(array, array.dtype) for array in arrays))
+
+
 def floats(key: str, values: Any, *shape: int | None) -> Floats:
     """A contiguous array of float64 of a shape, in which None stands for any length. No copy of what is one already."""
     array = _numbers(key, values)
     _shaped(key, array, shape)
-    return np.ascontiguousarray(array, dtype=np.float64)
+    return _plain(array, np.float64)
 
 
 def indices(key: str, values: Any, *shape: int | None) -> npt.NDArray[np.uint32]:
@@ -50,7 +61,7 @@ def indices(key: str, values: Any, *shape: int | None) -> npt.NDArray[np.uint32]
     if array.size and (array.min() < 0 or array.max() >= 2**32):
         wrong = array.min() if array.min() < 0 else array.max()
         raise argument_error(key, f"found {wrong}", "must be from 0 to 2^32 - 1")
-    return np.ascontiguousarray(array, dtype=np.uint32)
+    return _plain(array, np.uint32)
 
 
 def per_scratch(key: str, values: Any) -> Floats:

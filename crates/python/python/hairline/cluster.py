@@ -109,12 +109,12 @@ class _Parcel:
     def __init__(self, scene: Scene) -> None:
         self.table = scene.to_dict()
         self.files: list[tuple[str, bytes]] = []
-        folder = scene.folder.resolve()
-        for path in sorted({Path(path).resolve() for path in core.inputs(self.table, scene.folder)}):
-            if folder not in path.parents:
-                where = f"{path} (of the scene in {folder})"
+        for path in sorted(set(core.inputs(self.table, scene.folder))):
+            place = os.path.normpath(os.path.relpath(path, scene.folder))
+            if os.path.isabs(place) or place.startswith(os.pardir):
+                where = f"{path} (of the scene in {scene.folder})"
                 raise argument_error(where, "found a file that is not below the scene's folder", "move it there, so that it can travel")
-            self.files.append((path.relative_to(folder).as_posix(), path.read_bytes()))
+            self.files.append((Path(place).as_posix(), Path(path).read_bytes()))
         digest = hashlib.sha256(repr(self.table).encode())
         for name, contents in self.files:
             digest.update(name.encode() + b"\0" + hashlib.sha256(contents).digest())
