@@ -13,7 +13,7 @@ use hairline_reference::{Integrator, Model, Settings};
 use hairline_scene::estimate::Estimate;
 use hairline_scene::{Description, Error, Loader, Scene, SceneBuilder, Stage, reading};
 use hairline_work::Listener;
-use hairline_work::backend::{Backend, Painter, Refusal, Task};
+use hairline_work::backend::{self, Backend, Painter, Refusal, Rendered, Task};
 use hairline_work::failure::Failure;
 use hairline_work::reference::{self, Limits, identity};
 use pyo3::prelude::*;
@@ -197,13 +197,16 @@ impl Built {
         &self,
         backend: &str,
         samples: u32,
-        shadows: bool,
-        bounces: u32,
+        shadows: Option<bool>,
+        bounces: Option<u32>,
         host: &Bound<'_, PyAny>,
     ) -> PyResult<Image> {
         let py = host.py();
+        let method = Method::default();
+        let transport = backend::transport(&method, shadows, bounces)
+            .map_err(|refusal| refused(bounces, refusal))?;
         let task = Task {
-            method: Method::default(),
+            method,
             backend: named(
                 "backend",
                 backend,
@@ -214,19 +217,25 @@ impl Built {
                 ],
             )?,
             samples,
-            shadows,
-            bounces,
+            transport,
+            spreads_fireflies: true,
         };
-        task.check().map_err(|refusal| refused(&task, refusal))?;
         let ended = watched::run(host, |told| {
             let mut painter = Painter::open(&self.scene, task, told)?;
             told.begin("rendering");
             let cancelled = || told.is_cancelled();
-            painter.render_until(&self.scene, &cancelled, &|share| told.set(share))
+            painter.render(&self.scene, &cancelled, &|share| told.set(share))
         })?;
-        let (image, is_whole) = ended
-            .made
-            .map_err(|failure| errors::of_failure(py, &failure))?;
+        let Rendered {
+            image,
+            samples,
+            wanted,
+        } = match (ended.made, &ended.interrupt) {
+            (Ok(rendered), _) => rendered,
+            (Err(_), Some(interrupt)) => return Err(interrupt.clone_ref(py)),
+            (Err(failure), None) => return Err(errors::of_failure(py, &failure)),
+        };
+        let is_whole = samples == wanted;
         let has_some = image.depth_m.iter().any(|depth| *depth > 0.0)
             || image.base.iter().flatten().any(|value| *value > 0.0);
         match ended.interrupt {
@@ -368,18 +377,13 @@ pub(crate) fn tone_map(name: &str) -> PyResult<ToneMap> {
     )
 }
 
-fn refused(task: &Task, refusal: Refusal) -> PyErr {
-    let found = format!("found {}", task.bounces);
+fn refused(bounces: Option<u32>, refusal: Refusal) -> PyErr {
+    let found = format!("found {}", bounces.unwrap_or(0));
     match refusal {
         Refusal::BouncesWithoutShadows => errors::of_argument(
             "bounces",
             found,
             "add shadows=True: without them the light that an object hides would be counted beside its own",
-        ),
-        Refusal::BouncesOnGpu => errors::of_argument(
-            "bounces",
-            found,
-            "leave out backend=\"gpu\": the GPU renderer has no bounces",
         ),
         Refusal::ShadowsOfPublished => errors::internal(),
     }

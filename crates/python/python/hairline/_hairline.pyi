@@ -89,7 +89,9 @@ class Built:
 
     def scratch_counts(self) -> list[int]:
         """How many scratches each object has."""
-    def render(self, backend: str, samples: int, shadows: bool, bounces: int, host: Host) -> Image: ...
+    def render(
+        self, backend: str, samples: int, shadows: Optional[bool], bounces: Optional[int], host: Host
+    ) -> Image: ...
     def reference(
         self,
         model: str,

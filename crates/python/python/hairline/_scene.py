@@ -185,8 +185,8 @@ class Scene:
         size: Optional[tuple[int, int]] = None,
         backend: str = "auto",
         samples: int = core.DEFAULT_SAMPLES,
-        shadows: bool = False,
-        bounces: int = 0,
+        shadows: Optional[bool] = None,
+        bounces: Optional[int] = None,
         progress: Progress = False,
     ) -> Image:
         """Renders the picture, the same bits as ``hairline render``.
@@ -194,16 +194,17 @@ class Scene:
         :param size: width and height in pixels, in place of the scene's.
         :param backend: ``"auto"`` (a GPU if there is one, else the CPU), ``"gpu"`` or ``"cpu"``.
         :param samples: of each pixel that has an edge or a crease in it, from 1 to 1024.
-        :param shadows: whether objects hide lights and the environment from one another.
-        :param bounces: other objects that light may go by, with shadows, on the CPU, from 0 to 64.
+        :param shadows: whether objects hide lights and the environment from one another. Default: as ``hairline render``.
+        :param bounces: other objects that light may go by, with shadows, from 0 to 64. Default: as ``hairline render``.
         :param progress: True for a bar on stderr, or a function of what is done and its share, from 0 to 1.
 
         Ctrl-C ends it: what there is by then is returned with :attr:`Image.is_complete` False and an
         :class:`InterruptedWarning`; with nothing there yet, KeyboardInterrupt is raised.
         """
         samples = _whole("samples", samples, 1, 1024)
-        bounces = _whole("bounces", bounces, 0, 64)
-        backend, shadows = _name("backend", backend), _switch("shadows", shadows)
+        bounces = None if bounces is None else _whole("bounces", bounces, 0, 64)
+        shadows = None if shadows is None else _switch("shadows", shadows)
+        backend = _name("backend", backend)
         host = Host(progress)
         built = self._built(size, host)
         try:
