@@ -1,7 +1,7 @@
 """The compiled part. Call it by way of the package."""
 
 import os
-from typing import Any, Callable, Literal, Union
+from typing import Any, Callable, Literal, Optional, Union
 
 import numpy as np
 import numpy.typing as npt
