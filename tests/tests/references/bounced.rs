@@ -32,6 +32,11 @@ fn in_a_mirror() -> Scene {
     scene.materials[0].roughness = 0.1;
     scratch(&mut scene, VIEW, 40);
     scene.lights = vec![sphere(VIEW, 0.35, -0.3, 0.08)];
+    seen_in_a_mirror(scene)
+}
+
+/// A scene whose camera sees it in a mirror alone.
+fn seen_in_a_mirror(mut scene: Scene) -> Scene {
     let from_m = scene.camera.position_m;
     let middle_m = 0.5 * from_m;
     let normal = (from_m.normalize() + DVec3::X).normalize();
@@ -48,6 +53,11 @@ fn in_a_mirror() -> Scene {
     ];
     add_quad(&mut scene, Base::Mirror, 0.02, corners);
     scene
+}
+
+/// A wall that the camera sees in a scratched plate, which it sees in a mirror.
+pub(super) fn a_wall_in_a_mirror() -> Scene {
+    seen_in_a_mirror(before_a_wall(Base::Mirror, WHITE))
 }
 
 pub(super) fn scenes() -> [(&'static str, Scene); 4] {

@@ -1,6 +1,6 @@
 //! Light by way of other objects on the GPU against the CPU's, which the path tracer bears out (`bounced.rs`).
 
-use super::bounced::scenes;
+use super::bounced::{a_wall_in_a_mirror, scenes};
 use super::shadowed::{bounced, luminance};
 use super::shadowed_on_gpu::on_gpu;
 use hairline_image::{Image, Layer};
@@ -22,12 +22,14 @@ fn pair(picture: impl Fn(u32) -> Option<Image>, bounces: u32) -> Option<[Image; 
     Some([picture(bounces)?, picture(0)?])
 }
 
-/// What other objects add is what they add on the CPU: in the mean over the picture, to the noise of both, and in no quarter of it does it lie
-/// elsewhere.
+/// What other objects add is what they add on the CPU, in the mean over the picture. Bound: four standard deviations of the mean, which the
+/// differences of the pixels tell and which are below one percent, and 0.2 % for single precision and for what the GPU keeps in fewer bits.
 #[test]
 fn the_gpus_bounces_are_the_cpus_in_the_mean() {
-    for (bounces, (name, scene)) in [1, 1, 3, 2].into_iter().zip(scenes()) {
-        let samples = 96;
+    let last = ("a wall in a mirror", a_wall_in_a_mirror());
+    let scenes = scenes().into_iter().chain([last]);
+    let settings = [(1, 128), (1, 128), (3, 128), (1, 128), (2, 512)];
+    for ((bounces, samples), (name, scene)) in settings.into_iter().zip(scenes) {
         let on_gpu = |bounces| on_gpu(&scene, samples, Some(bounces));
         let Some([with, without]) = pair(on_gpu, bounces) else {
             return;
@@ -55,9 +57,8 @@ fn the_gpus_bounces_are_the_cpus_in_the_mean() {
                 assert!(found.iter().all(|v| *v == 0.0), "{name}");
                 continue;
             }
-            // Single precision, and what the GPU packs into fewer bits.
+            assert!(std < 0.01, "{name}: {std}");
             assert!(off.abs() < 2e-3 + 4.0 * std, "{name}: {off} {std}");
-            assert!(std < 0.02, "{name}: {std}");
         }
     }
 }
