@@ -114,10 +114,10 @@ impl PhotoSet {
             .clamp(low, high)
             .to_radians();
         let (sin, cos) = elevation_rad.sin_cos();
-        let center_m = self.at(studio, 4.1 * DVec3::new(-0.12, cos, sin));
+        let center_m = self.at(studio, 4.1 * DVec3::new(-0.2, cos, sin));
         lights.push(Light {
             name: Some("lamp".to_owned()),
-            radiance: 1000.0 * studio.intensity,
+            radiance: 800.0 * studio.intensity,
             color: [1.0, 0.95, 0.88],
             ..Light::new(LightKind::sphere(center_m.into(), 0.05 * self.radius_m))
         });

@@ -8,6 +8,10 @@ use hairline_scene::description::{Light, Material, Object, Scratches};
 pub(crate) fn makes_same_scene(a: &Description, b: &Description) -> bool {
     a.camera.up == b.camera.up
         && a.environment == b.environment
+        && a.studio == b.studio
+        // It stands as the camera does.
+        && (a.studio.hidden || a.camera == b.camera)
+        && a.ground == b.ground
         && alike(&a.objects, &b.objects, |x, y| {
             is_same_object((a, x), (b, y))
         })

@@ -60,7 +60,7 @@ pub struct Ground {
     /// Albedo, linear Rec.709, in [0, 1]. Default: a dark grey.
     #[serde(skip_serializing_if = "is_dark_grey")]
     pub color: [f64; 3],
-    /// Of its gloss, as that of a material. Default: 0.45.
+    /// Of its gloss, as that of a material. Default: 0.55.
     #[serde(skip_serializing_if = "is_satin")]
     pub roughness: f64,
     /// Where it lies along the world's up axis. Default: under the lowest point of all objects.
@@ -69,7 +69,7 @@ pub struct Ground {
 }
 
 const DARK_GREY: [f64; 3] = [0.1, 0.1, 0.105];
-const SATIN: f64 = 0.45;
+const SATIN: f64 = 0.55;
 
 impl Default for Ground {
     fn default() -> Self {

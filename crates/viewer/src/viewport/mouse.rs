@@ -149,7 +149,10 @@ fn picked(work: &Workspace, area: &Area, pos: egui::Pos2) -> Selection {
     let hit = pick::surface(work, area, pos);
     match (gizmo::light_at(description, &lens, pos), hit) {
         (Some(light), _) => Selection::Light(light),
-        (None, Some(hit)) => Selection::Object(hit.object),
-        (None, None) => Selection::None,
+        // The ground that a scene asks for by name is no object of its own.
+        (None, Some(hit)) if hit.object < description.objects.len() => {
+            Selection::Object(hit.object)
+        }
+        (None, _) => Selection::None,
     }
 }
