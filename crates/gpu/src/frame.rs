@@ -31,6 +31,7 @@ pub(crate) struct View<'a> {
     /// Whether the film has batches already.
     pub adds: bool,
     pub without_shadows: bool,
+    pub blurs_visibility: bool,
 }
 
 /// Samples of a pixel that one step shades: more would take more memory than pixels through their centres.
@@ -61,6 +62,11 @@ impl View<'_> {
     pub(crate) fn bounces(&self) -> Option<&Bounces> {
         let bounces = self.uploaded.bounces.as_ref();
         bounces.filter(|_| !self.without_shadows)
+    }
+
+    /// Whether a ray counts for the neighbours of its pixel: only where each pixel has one.
+    pub(crate) fn blurs(&self) -> bool {
+        self.blurs_visibility && self.step == 0 && self.rounds().count == 1
     }
 
     /// Rays of each sample to each source, of all batches.

@@ -189,6 +189,7 @@ shared! {
         extent_m: f32,
         first_round: u32,
         all_rounds: u32,
+        blurs: u32,
         first_pick: u32,
         picks: u32,
         seed: u32,

@@ -180,7 +180,7 @@ modules! {
     /// Pass: what each ray meets.
     SHADOW_TRACE = "passes/shadow_trace" needs [RAY_START, FILM];
     /// Pass: what is hidden of one source of the base's light.
-    SHADOW_BASE = "passes/shadow_base" needs [BASE, SHADOW, FILM, PIXEL_POINT];
+    SHADOW_BASE = "passes/shadow_base" needs [BASE, SHADOW, NEAR_RAYS, PIXEL_POINT];
     /// Directions to light by way of a scratch.
     DRAWN_LIGHT = "scene/drawn_light" needs [OUTLINE_LIGHT, LUMINANCE];
     /// Where under its pixel a pair lies.
@@ -190,7 +190,9 @@ modules! {
     /// Pass: a ray of each sample by way of a scratch.
     SHADOW_SCRATCH_RAYS = "passes/shadow_scratch_rays" needs [PAIR_PLACE, PICKS, SHADOW, LIGHT_SAMPLING, FILM];
     /// Pass: what is hidden of what scratches send.
-    SHADOW_SCRATCHES = "passes/shadow_scratches" needs [SHADOW, FILM];
+    SHADOW_SCRATCHES = "passes/shadow_scratches" needs [SHADOW, NEAR_RAYS];
+    /// Visibility of a pixel's neighbours.
+    NEAR_RAYS = "scene/near_rays" needs [LAYOUT, FILM];
     /// The sums of a sample over its scratches.
     SUMS = "scene/sums" needs [LAYOUT, METHOD, MASK, FILM];
     /// What the passes share that draw rays to other objects.

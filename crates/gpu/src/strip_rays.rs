@@ -19,6 +19,8 @@ use crate::strip_shader::StripShader;
 #[derive(Clone, Copy)]
 pub(crate) struct Rounds {
     pub now: Batch,
+    /// Whether those of neighbours count, too.
+    pub blurs: bool,
     /// Other random numbers for each.
     pub seed: u32,
 }
@@ -49,6 +51,7 @@ impl StripShader {
             round: 0,
             rounds: rounds.now.count,
             first_round: rounds.now.first,
+            blurs: rounds.blurs.into(),
             seed: rounds.seed,
             extent_m: shadows.extent_m,
             ..ShadowRound::default()
@@ -273,6 +276,7 @@ impl StripShader {
         };
         let rounds = Rounds {
             now: Batch::all(1),
+            blurs: false,
             seed,
         };
         let shaded = self.shade_shadows(view, &bounces.shadows, hits, film, points, &on, rounds);

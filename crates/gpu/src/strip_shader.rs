@@ -177,6 +177,7 @@ impl StripShader {
             };
             let rounds = Rounds {
                 now: view.rounds(),
+                blurs: view.blurs(),
                 seed: 0,
             };
             self.shade_shadows(view, shadows, room, film, points, &on, rounds)

@@ -162,6 +162,7 @@ struct ShadowRound {
     extent_m: f32,              // how far the scene reaches from the origin: what rounding goes by
     first_round: u32,           // rays of earlier pictures, to be averaged with this one; an even number
     all_rounds: u32,            // of this one and all that it will be averaged with
+    blurs: u32,                 // 1: the single rays of neighbours count beside a pixel's own
     first_pick: u32,            // the round of the first scratch that is picked of each sample
     picks: u32,                 // and how many are picked at once
     seed: u32,                  // other random numbers for each

@@ -109,6 +109,54 @@ fn batches_of_samples_add_up() {
     assert!(penumbra > 50, "each batch has its own rays: {penumbra}");
 }
 
+/// One ray a pixel, and the visibility of its neighbours: less noise than its own, and nothing else is blurred.
+#[test]
+fn blurred_visibility_has_less_noise() {
+    let Some(gpu) = test_gpu() else { return };
+    let mut stage = Stage::new(gpu, plates().scene());
+    let Stage {
+        renderer,
+        made,
+        uploaded,
+        ..
+    } = &mut stage;
+    let open = gpu.block_on(made.render(renderer, uploaded)).unwrap();
+    gpu.block_on(renderer.add_shadows(uploaded, &made.scene, 0))
+        .unwrap();
+    let mut render = |samples, blurs_visibility| {
+        let options = RenderOptions {
+            blurs_visibility,
+            ..options(samples)
+        };
+        let picture = renderer.render(&made.scene, uploaded, &options, &|_| {});
+        gpu.block_on(picture).unwrap()
+    };
+    let truth = render(256, false);
+    let [sharp, blurred] = [false, true].map(|blurs| render(1, blurs));
+    // Edges apart: the truth has many samples there.
+    let inside: Vec<usize> = (0..truth.base.len())
+        .filter(|&i| truth.depth_m[i] == sharp.depth_m[i])
+        .collect();
+    let off = |image: &Image| {
+        let squares = inside
+            .iter()
+            .map(|&i| f64::from(image.base[i][1] - truth.base[i][1]).powi(2));
+        squares.sum::<f64>().sqrt()
+    };
+    let (off_sharp, off_blurred) = (off(&sharp), off(&blurred));
+    assert!(off_blurred < 0.6 * off_sharp, "{off_blurred} {off_sharp}");
+    // What nothing hides stays to the bit.
+    let all_lit = |i: usize| {
+        let (x, y) = (i % 97, i / 97);
+        let near = |x: usize, y: usize| sharp.base[y * 97 + x] == open.base[y * 97 + x];
+        (x.saturating_sub(2)..(x + 3).min(97))
+            .all(|x| (y.saturating_sub(2)..(y + 3).min(64)).all(|y| near(x, y)))
+    };
+    let lit: Vec<usize> = (0..open.base.len()).filter(|&i| all_lit(i)).collect();
+    assert!(lit.len() > 100, "{}", lit.len());
+    assert!(lit.iter().all(|&i| blurred.base[i] == open.base[i]));
+}
+
 fn mean(image: &Image, rows: std::ops::Range<u32>) -> f64 {
     let (first, end) = (image.index(0, rows.start), rows.end * image.size_px[0]);
     let beauty = image.beauty();

@@ -1,0 +1,32 @@
+// The rays of a pixel's neighbours beside its own, while something moves: visibility alone is blurred, within a surface, and nothing of what the
+// closed forms know. Of what is bound it reads `points` and `halves`.
+
+// So many pixels to each side.
+const NEAR_RAYS_PX: i32 = 2;
+
+// Whether a sample lies on the same surface as its neighbour: near its plane and facing the same way.
+fn is_same_surface(own: PixelPoint, other: PixelPoint) -> bool {
+    let to_m = other.position_m - own.position_m;
+    return other.object == own.object && dot(other.normal, own.normal) > 0.95 && abs(dot(to_m, own.normal)) <= 0.2 * length(to_m);
+}
+
+// The sum over the single rays of a pixel and of its neighbours. A ray counts by its weight, as rounds of one pixel do.
+fn near_rays(pixel: vec2u, at: u32) -> ShadowHalf {
+    let own = points[at];
+    var sum = halves[2u * at];
+    for (var y = -NEAR_RAYS_PX; y <= NEAR_RAYS_PX; y += 1) {
+        for (var x = -NEAR_RAYS_PX; x <= NEAR_RAYS_PX; x += 1) {
+            let there = vec2i(pixel) + vec2i(x, y);
+            let is_there = there.x >= 0 && there.x < i32(frame.size_px.x) && there.y >= i32(frame.rows.x) && there.y < i32(frame.rows.y);
+            let other = strip_index(select(pixel, vec2u(there), is_there));
+            if other != at && is_same_surface(own, points[other]) {
+                let ray = halves[2u * other];
+                sum.specular += ray.specular;
+                sum.specular_hidden += ray.specular_hidden;
+                sum.body += ray.body;
+                sum.body_hidden += ray.body_hidden;
+            }
+        }
+    }
+    return sum;
+}
