@@ -14,6 +14,9 @@ pub struct Wheel {
     /// The interpreter that it is tested with.
     #[arg(long, default_value = "python3")]
     python: PathBuf,
+    /// Compare all scenes with the command line, also those that take long.
+    #[arg(long)]
+    all_scenes: bool,
 }
 
 /// What builds it and what tests it.
@@ -76,7 +79,11 @@ impl Wheel {
             .args(["-m", "pytest", "-q", "-p", "no:cacheprovider"])
             .arg(package.join("tests"))
             .env("HAIRLINE_PROGRAM", target.join("release/hairline"))
-            .env("HAIRLINE_REPOSITORY", &root))?;
+            .env("HAIRLINE_REPOSITORY", &root)
+            .env(
+                "HAIRLINE_ALL_SCENES",
+                if self.all_scenes { "1" } else { "" },
+            ))?;
         run(python()
             .current_dir(&package)
             .args(["-m", "mypy", "--cache-dir=/dev/null"]))?;

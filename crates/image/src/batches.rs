@@ -90,7 +90,6 @@ impl Batches {
     }
 
     /// What is to be added next; none if all are there.
-    #[expect(clippy::should_implement_trait, reason = "add is what goes on")]
     pub fn next(&self) -> Option<Batch> {
         (self.done < self.samples).then_some(Batch {
             first: self.done,

@@ -110,8 +110,12 @@ class _Parcel:
         self.table = scene.to_dict()
         self.files: list[tuple[str, bytes]] = []
         for path in sorted(set(core.inputs(self.table, scene.folder))):
-            place = os.path.normpath(os.path.relpath(path, scene.folder))
-            if os.path.isabs(place) or place.startswith(os.pardir):
+            try:
+                # As it is written: a worker finds it by the same way below another folder.
+                place = os.path.normpath(Path(path).relative_to(scene.folder))
+            except ValueError:
+                place = os.pardir
+            if place.startswith(os.pardir):
                 where = f"{path} (of the scene in {scene.folder})"
                 raise argument_error(where, "found a file that is not below the scene's folder", "move it there, so that it can travel")
             self.files.append((Path(place).as_posix(), Path(path).read_bytes()))
