@@ -724,8 +724,8 @@ fn lights_of_a_file_light_its_scene() {
         "lamp",
     ];
     assert_eq!(names, studio);
-    let objects = scene.objects.iter().map(|object| &*object.name);
-    assert_eq!(objects.last(), Some("ground"));
+    let mut objects = scene.objects.iter().map(|object| &*object.name);
+    assert_eq!(objects.next_back(), Some("ground"));
     // A light that is not there.
     let wrong = nodes.join(",").replace(r#"{"light":2}"#, r#"{"light":7}"#);
     std::fs::write(&path, cube_glb("", &wrong, &mut glb)).unwrap();
