@@ -54,7 +54,7 @@ const SURFACE_BENDS: f64 = 0.125;
 impl SurfacePoint<'_> {
     /// How far the surface under a footprint may be off the plane of shading, for each length along it. Scratches lie on triangles:
     /// that of the point leaves the plane by as much as its normal is another one, its neighbours by about as much again; and where
-    /// a surface bends elsewhere under a footprint, by [`SURFACE_BENDS`].
+    /// a surface bends elsewhere under a footprint, by an eighth of its size.
     pub fn leaves(&self) -> f64 {
         SURFACE_BENDS + 2.0 * self.normal.distance(self.facet)
     }
