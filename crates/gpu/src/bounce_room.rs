@@ -1,4 +1,4 @@
-//! The arrays that the passes of bounces leave for one another.
+//! The arrays that the passes of bounces leave for one another: how they are made.
 
 use wgpu::BufferUsages;
 
@@ -6,18 +6,7 @@ use crate::device::Gpu;
 use crate::error::Error;
 use crate::layout::{BounceRay, Bounced, ShadowRound};
 use crate::scan::ScanPasses;
-use crate::strip::StripRoom;
-
-/// The arrays over samples, and what their rays have met. They grow to the size that is needed.
-pub(crate) struct BounceRoom {
-    pub round: wgpu::Buffer,
-    pub rays: wgpu::Buffer,
-    pub bounced: wgpu::Buffer,
-    points_max: u64,
-    /// By turns: what was met sends rays on, which meet what lies in the other one.
-    pub hits: [StripRoom; 2],
-    groups_max: u32,
-}
+use crate::strip::{BounceRoom, GROUP, StripRoom};
 
 const RAY_BYTES: u64 = size_of::<BounceRay>() as u64;
 const BOUNCED_BYTES: u64 = size_of::<Bounced>() as u64;
@@ -92,5 +81,22 @@ impl BounceRoom {
     /// Forgets the light of objects of so many samples.
     pub(crate) fn clear(&self, encoder: &mut wgpu::CommandEncoder, points: u64) {
         encoder.clear_buffer(&self.bounced, 0, Some(points * BOUNCED_BYTES));
+    }
+}
+
+impl StripRoom {
+    /// Room for what rays from the samples of so many groups meet. No picture is drawn in it, and each sample has a list of its own in place of
+    /// each tile.
+    async fn of_hits(gpu: &Gpu, scans: &ScanPasses, groups: u32) -> Result<Self, Error> {
+        let starts = GROUP * groups + 1;
+        let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC;
+        let bytes = 4 * u64::from(starts);
+        let list_starts = gpu.buffer("lists of hits", bytes, usage).await?;
+        let group_scan = scans.of(gpu, &list_starts, starts).await?;
+        Ok(Self {
+            list_starts,
+            group_scan,
+            ..Self::new(gpu, scans, 1, 1).await?
+        })
     }
 }

@@ -22,7 +22,7 @@ use crate::shadow_scratches::Scratched;
 use crate::shadows::Shadows;
 use crate::strip::{StripRoom, TILE_PX, whole};
 use crate::transfer::Transfer;
-use crate::variant::{Constant, Samples, ShadeVariant};
+use crate::variant::{Constant, Seen, ShadeVariant};
 
 /// What rays to other objects need, beside shadows.
 pub(crate) struct Bounces {
@@ -105,10 +105,10 @@ impl Bounces {
             (&shaders::BOUNCE_FILM, "bounce_film"),
             &[Reads, Reads, Writes],
         );
-        let trace = [Samples::OfPixels, Samples::Hits].map(|samples| {
+        let trace = [Seen::ByCamera, Seen::ByRays].map(|seen| {
             let module = (&shaders::BOUNCE_TRACE, "bounce_trace");
             let uses = [Reads, Reads, Writes, Writes, Uniform, Integers];
-            ComputePass::order(orders, "bounce trace", module, &uses, &[samples.constant()])
+            ComputePass::order(orders, "bounce trace", module, &uses, &[seen.constant()])
         });
         Self {
             count,
@@ -227,9 +227,8 @@ pub(crate) struct Bounce<'a> {
 impl BounceScratches {
     fn new(orders: &mut Orders, tree: wgpu::TextureView) -> Self {
         use Use::{Integers, Reads, Uniform, Writes};
-        let pick = [Samples::OfPixels, Samples::Hits]
-            .map(|samples| PickByEnergyPass::new(orders, samples));
-        let shade = ShadeScratchesPass::new(orders, Samples::Hits);
+        let pick = [Seen::ByCamera, Seen::ByRays].map(|seen| PickByEnergyPass::new(orders, seen));
+        let shade = ShadeScratchesPass::new(orders, Seen::ByRays);
         let mut pass = |name, module, uses: &[Use], constants: &[Constant]| {
             ComputePass::order(orders, name, module, uses, constants)
         };

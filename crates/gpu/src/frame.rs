@@ -86,6 +86,16 @@ impl View<'_> {
     }
 }
 
+/// Rays of each sample to each source.
+#[derive(Clone, Copy)]
+pub(crate) struct Rounds {
+    pub now: Batch,
+    /// Whether those of neighbours count, too.
+    pub blurs: bool,
+    /// Other random numbers for each.
+    pub seed: u32,
+}
+
 /// What of a step is counted on the device.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Counted {

@@ -12,7 +12,7 @@ use crate::shade_base::ShadeBasePass;
 use crate::shade_published::ShadePublishedPass;
 use crate::shade_scratches::ShadeScratchesPass;
 use crate::surface::SurfacePass;
-use crate::variant::{Samples, ShadeVariant};
+use crate::variant::{Seen, ShadeVariant};
 
 /// The passes that are compiled for a method and for what a scene has.
 pub(crate) struct ScenePasses {
@@ -65,7 +65,7 @@ impl ScenePasses {
                     Box::new(ScratchPasses {
                         project: ProjectPass::new(&mut orders),
                         bin: BinPasses::new(&mut orders),
-                        shade: ShadeScratchesPass::new(&mut orders, Samples::OfPixels),
+                        shade: ShadeScratchesPass::new(&mut orders, Seen::ByCamera),
                     })
                 }),
             }

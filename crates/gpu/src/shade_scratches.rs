@@ -14,7 +14,7 @@ use crate::pipelines::Orders;
 use crate::scan::ScanPasses;
 use crate::shaders;
 use crate::strip::{StripRoom, whole};
-use crate::variant::{Constant, Samples};
+use crate::variant::{Constant, Seen};
 
 /// The pass, and what it needs to know before.
 pub(crate) struct ShadeScratchesPass {
@@ -29,10 +29,10 @@ pub(crate) struct KindPasses(Vec<(Kind, ComputePass)>);
 const CHUNKS_WORKGROUP: u32 = 64;
 
 impl ShadeScratchesPass {
-    pub(crate) fn new(orders: &mut Orders, samples: Samples) -> Self {
+    pub(crate) fn new(orders: &mut Orders, seen: Seen) -> Self {
         let module = (&shaders::GROUP_CHUNKS, "group_chunks");
         let uses = [Use::Reads, Use::Reads, Use::Writes];
-        let constants = [samples.constant()];
+        let constants = [seen.constant()];
         Self {
             chunks: ComputePass::order(orders, "chunks", module, &uses, &constants),
             kinds: KindPasses::new(orders, "scratches", &constants),
@@ -115,8 +115,8 @@ pub(crate) struct PickByEnergyPass(ComputePass);
 const LIGHTS_NONE: u32 = Kind::ALL.len() as u32;
 
 impl PickByEnergyPass {
-    pub(crate) fn new(orders: &mut Orders, samples: Samples) -> Self {
-        let constants = [("PICKS", 1.0), samples.constant()];
+    pub(crate) fn new(orders: &mut Orders, seen: Seen) -> Self {
+        let constants = [("PICKS", 1.0), seen.constant()];
         Self(order(orders, "bounce picks", LIGHTS_NONE, &constants))
     }
 

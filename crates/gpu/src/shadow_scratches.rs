@@ -9,7 +9,7 @@ use crate::shade_scratches::KindPasses;
 use crate::shaders;
 use crate::shadow_room::ShadowRoom;
 use crate::strip::{StripRoom, whole};
-use crate::variant::Samples;
+use crate::variant::Seen;
 
 pub(crate) struct ShadowScratchesPasses {
     begin: ComputePass,
@@ -19,7 +19,7 @@ pub(crate) struct ShadowScratchesPasses {
 }
 
 impl ShadowScratchesPasses {
-    pub(crate) fn new(orders: &mut Orders, samples: Samples) -> Self {
+    pub(crate) fn new(orders: &mut Orders, seen: Seen) -> Self {
         let mut pass =
             |name, module, uses: &[Use]| ComputePass::order(orders, name, module, uses, &[]);
         let begin = [
@@ -50,11 +50,7 @@ impl ShadowScratchesPasses {
                 (&shaders::SHADOW_SCRATCHES, "shadow_scratches"),
                 &scratches,
             ),
-            pick: KindPasses::new(
-                orders,
-                "shadow picks",
-                &[("PICKS", 1.0), samples.constant()],
-            ),
+            pick: KindPasses::new(orders, "shadow picks", &[("PICKS", 1.0), seen.constant()]),
         }
     }
 

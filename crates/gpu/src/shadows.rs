@@ -23,7 +23,7 @@ use crate::shadow_scratches::ShadowScratchesPasses;
 use crate::strip::{StripRoom, whole};
 use crate::transfer::Transfer;
 use crate::triangle_tree;
-use crate::variant::{Constant, Samples, ShadeVariant};
+use crate::variant::{Constant, Seen, ShadeVariant};
 
 /// What rays to the lights of a scene need, beside the scene.
 pub(crate) struct Shadows {
@@ -62,17 +62,17 @@ impl Shadows {
         let far = positions.map(|p| (p.as_dvec3() - origin_m).length());
         let extent_m = far.fold(0.0, f64::max) as f32;
         let mut orders = Orders::new(gpu, layouts, variant);
-        let shadows = Self::over(&mut orders, tree, extent_m, Samples::OfPixels);
+        let shadows = Self::over(&mut orders, tree, extent_m, Seen::ByCamera);
         orders.compile().await?;
         Ok(shadows)
     }
 
     /// The same for what rays have met.
     pub(crate) fn of_hits(&self, orders: &mut Orders) -> Self {
-        Self::over(orders, self.tree.clone(), self.extent_m, Samples::Hits)
+        Self::over(orders, self.tree.clone(), self.extent_m, Seen::ByRays)
     }
 
-    fn over(orders: &mut Orders, tree: wgpu::TextureView, extent_m: f32, samples: Samples) -> Self {
+    fn over(orders: &mut Orders, tree: wgpu::TextureView, extent_m: f32, seen: Seen) -> Self {
         let base_rays = [Use::Reads, Use::Reads, Use::Writes, Use::Uniform];
         let trace = [
             Use::Reads,
@@ -105,7 +105,7 @@ impl Shadows {
                 "shadow trace",
                 (&shaders::SHADOW_TRACE, "shadow_trace"),
                 &trace,
-                &[samples.constant()],
+                &[seen.constant()],
             ),
             base: pass(
                 "shadow base",
@@ -113,7 +113,7 @@ impl Shadows {
                 &base,
                 &[],
             ),
-            scratches: has_scratches.then(|| ShadowScratchesPasses::new(orders, samples)),
+            scratches: has_scratches.then(|| ShadowScratchesPasses::new(orders, seen)),
             tree,
             extent_m,
         }

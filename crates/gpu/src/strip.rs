@@ -4,7 +4,6 @@ use std::ops::Range;
 
 use wgpu::{BindingResource, BufferUsages, TextureFormat, TextureUsages};
 
-use crate::bounce_room::BounceRoom;
 use crate::device::Gpu;
 use crate::error::Error;
 use crate::layout::{BaseLight, ChunkSum, PixelPaint, PixelPoint};
@@ -53,6 +52,17 @@ pub(crate) struct StripRoom {
     pub shadows: Option<ShadowRoom>,
     /// None before there are bounces.
     pub bounces: Option<Box<BounceRoom>>,
+}
+
+/// The arrays over samples that the passes of bounces leave for one another, and what their rays have met. They grow to the size that is needed.
+pub(crate) struct BounceRoom {
+    pub round: wgpu::Buffer,
+    pub rays: wgpu::Buffer,
+    pub bounced: wgpu::Buffer,
+    pub points_max: u64,
+    /// By turns: what was met sends rays on, which meet what lies in the other one.
+    pub hits: [StripRoom; 2],
+    pub groups_max: u32,
 }
 
 /// The arrays over samples, and over groups of 64 of them. They grow to the size that is needed.
@@ -154,21 +164,6 @@ impl StripRoom {
             lists: Lists::new(gpu, scans).await?,
             shadows: None,
             bounces: None,
-        })
-    }
-
-    /// Room for what rays from the samples of so many groups meet. No picture is drawn in it, and each sample has a list of its own in place of
-    /// each tile.
-    pub(crate) async fn of_hits(gpu: &Gpu, scans: &ScanPasses, groups: u32) -> Result<Self, Error> {
-        let starts = GROUP * groups + 1;
-        let usage = BufferUsages::STORAGE | BufferUsages::COPY_SRC;
-        let bytes = 4 * u64::from(starts);
-        let list_starts = gpu.buffer("lists of hits", bytes, usage).await?;
-        let group_scan = scans.of(gpu, &list_starts, starts).await?;
-        Ok(Self {
-            list_starts,
-            group_scan,
-            ..Self::new(gpu, scans, 1, 1).await?
         })
     }
 }

@@ -2,28 +2,17 @@
 
 use hairline_image::Batch;
 
-use crate::bounce_room::BounceRoom;
 use crate::bounces::{Bounce, Bounces, HITS_SORTED};
 use crate::error::Error;
 use crate::film::Film;
-use crate::frame::View;
+use crate::frame::{Rounds, View};
 use crate::layout::ShadowRound;
 use crate::passes::Shade;
 use crate::shadow_room::ShadowRoom;
 use crate::shadow_scratches::Scratched;
 use crate::shadows::Shadows;
-use crate::strip::{GROUP, Lists, Samples, StripRoom, chunks_most};
+use crate::strip::{BounceRoom, GROUP, Lists, Samples, StripRoom, chunks_most};
 use crate::strip_shader::StripShader;
-
-/// Rays of each sample to each source.
-#[derive(Clone, Copy)]
-pub(crate) struct Rounds {
-    pub now: Batch,
-    /// Whether those of neighbours count, too.
-    pub blurs: bool,
-    /// Other random numbers for each.
-    pub seed: u32,
-}
 
 impl StripShader {
     /// Takes from the light of the samples what is hidden of it.

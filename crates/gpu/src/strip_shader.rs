@@ -5,12 +5,11 @@ use std::ops::Range;
 use wgpu::BufferUsages;
 
 use crate::bindings::{Layouts, bind};
-use crate::bounce_room::BounceRoom;
 use crate::compute_pass::Recording;
 use crate::device::Gpu;
 use crate::error::Error;
 use crate::film::Film;
-use crate::frame::{Counted, View, frame};
+use crate::frame::{Counted, Rounds, View, frame};
 use crate::layout::{Frame, PixelPoint};
 use crate::passes::{ScratchPasses, Shade};
 use crate::pipelines::compiled;
@@ -18,9 +17,9 @@ use crate::scan::ScanPasses;
 use crate::shadow_room::ShadowRoom;
 use crate::shadow_scratches::Scratched;
 use crate::strip::{
-    GROUP, Lists, MadeLists, Samples, StripRoom, TILE_PX, chunks_most, strip_points, tile_count,
+    BounceRoom, GROUP, Lists, MadeLists, Samples, StripRoom, TILE_PX, chunks_most, strip_points,
+    tile_count,
 };
-use crate::strip_rays::Rounds;
 use crate::timing::Timing;
 use crate::visibility::VisibilityPass;
 

@@ -41,19 +41,18 @@ impl Contents {
 /// A constant that a pipeline sets.
 pub(crate) type Constant = (&'static str, f64);
 
-/// Which samples a pass shades. Twin: at_hits.wgsl.
+/// By what the samples are seen that a pass shades. Twin: at_hits.wgsl.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Samples {
-    /// What the camera sees.
-    OfPixels,
-    /// What rays from other samples have met.
-    Hits,
+pub(crate) enum Seen {
+    ByCamera,
+    /// From other samples.
+    ByRays,
 }
 
-impl Samples {
+impl Seen {
     /// For passes whose shader asks.
     pub(crate) fn constant(self) -> Constant {
-        ("AT_HITS", f64::from(u8::from(self == Self::Hits)))
+        ("AT_HITS", f64::from(u8::from(self == Self::ByRays)))
     }
 }
 
