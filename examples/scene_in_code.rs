@@ -99,5 +99,6 @@ fn scratched_square(half_m: f32) -> Object {
         mesh: Arc::new(mesh),
         scratches: Arc::new(scratches),
         segments: Arc::new(segments),
+        is_lamp: false,
     }
 }

@@ -222,7 +222,7 @@ impl<'a> Shadows<'a> {
             let direction = point.world_from_surface(wi);
             let origin_m = self.off_the_surface(point, on_surface_m, direction);
             // Which sources it meets is known only below.
-            let hit = self.prepared.triangles.intersect(origin_m, direction);
+            let hit = self.prepared.triangles.intersect_solid(origin_m, direction);
             DrawnRay {
                 wi,
                 direction,
@@ -388,7 +388,7 @@ impl<'a> Shadows<'a> {
             let direction = point.world_from_surface(direction);
             let on_surface_m = self.on_scratch(at, set, round, pick.place, &pick.along);
             let origin_m = self.off_the_surface(point, on_surface_m, direction);
-            let hit = self.prepared.triangles.intersect(origin_m, direction);
+            let hit = self.prepared.triangles.intersect_solid(origin_m, direction);
             if let Some(radiance) =
                 self.light_of_object(at, 2 * round + 1, origin_m, direction, hit, 0.0)
             {
@@ -441,7 +441,7 @@ impl<'a> Shadows<'a> {
         };
         let ray = camera.camera_ray(at_px + DVec2::from(stds) * std_px);
         let (from_m, direction) = (camera.position_m, ray.normalize());
-        match self.prepared.triangles.intersect(from_m, direction) {
+        match self.prepared.triangles.intersect_solid(from_m, direction) {
             Some(hit) if hit.object == at.object => {
                 let position_m = from_m + direction * hit.distance_m;
                 raised_m(self.prepared.scene, position_m, -direction, &hit)

@@ -20,6 +20,8 @@ pub(crate) struct SceneData {
     pub textures: SceneTextures,
     pub light_count: u32,
     pub light_ranges: LightRanges,
+    /// The first of the objects that are the shapes of lights.
+    pub lamps: u32,
     pub written: Vec<Written>,
     device: wgpu::Device,
 }
@@ -55,6 +57,12 @@ impl SceneData {
             textures,
             light_count: source.scene.all_lights().count() as u32,
             light_ranges,
+            lamps: source
+                .scene
+                .objects
+                .iter()
+                .take_while(|object| !object.is_lamp)
+                .count() as u32,
             written: transfer.end(),
             device: gpu.device.clone(),
         })

@@ -51,7 +51,7 @@ impl Shadows {
     ) -> Result<Self, Error> {
         const WHAT: &str = "triangle tree";
         let origin_m = data.origin_m();
-        let texels = triangle_tree::packed(scene, &TriangleIndex::build(scene), origin_m);
+        let texels = triangle_tree::packed(scene, &TriangleIndex::without_lamps(scene), origin_m);
         let (bytes, allowed) = rows::bytes_and_allowed(gpu, texels.len(), size_of::<[u32; 4]>());
         if bytes > allowed || texels.len() > triangle_tree::TEXELS_MAX {
             return Err(gpu.too_large(WHAT, bytes, allowed, "bytes"));

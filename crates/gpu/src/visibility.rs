@@ -9,7 +9,11 @@ use crate::device::Gpu;
 use crate::shaders;
 use crate::strip::{DEPTH_FORMAT, StripRoom, VISIBILITY_FORMAT};
 
-pub(crate) struct VisibilityPass(wgpu::RenderPipeline);
+pub(crate) struct VisibilityPass {
+    objects: wgpu::RenderPipeline,
+    /// The shapes of lights, of which the camera sees the fronts.
+    lamps: wgpu::RenderPipeline,
+}
 
 impl VisibilityPass {
     pub(crate) fn new(gpu: &Gpu, layouts: &Layouts) -> Self {
@@ -26,7 +30,7 @@ impl VisibilityPass {
                 bind_group_layouts: &[Some(&layouts.frame), Some(&layouts.scene)],
                 immediate_size: 0,
             });
-        Self(
+        let pipeline = |cull_mode| {
             gpu.device
                 .create_render_pipeline(&wgpu::RenderPipelineDescriptor {
                     label: Some("visibility"),
@@ -37,9 +41,8 @@ impl VisibilityPass {
                         compilation_options: Default::default(),
                         buffers: &[],
                     },
-                    // Both sides of a sheet are seen.
                     primitive: wgpu::PrimitiveState {
-                        cull_mode: None,
+                        cull_mode,
                         ..Default::default()
                     },
                     depth_stencil: Some(wgpu::DepthStencilState {
@@ -59,8 +62,13 @@ impl VisibilityPass {
                     }),
                     multiview_mask: None,
                     cache: None,
-                }),
-        )
+                })
+        };
+        Self {
+            // Both sides of a sheet are seen.
+            objects: pipeline(None),
+            lamps: pipeline(Some(wgpu::Face::Back)),
+        }
     }
 
     pub(crate) fn record(&self, recording: &mut Recording, room: &StripRoom, rows: u32) {
@@ -101,10 +109,13 @@ impl VisibilityPass {
             0.0,
             1.0,
         );
-        pass.set_pipeline(&self.0);
+        pass.set_pipeline(&self.objects);
         pass.set_bind_group(0, *frame, &[]);
         pass.set_bind_group(1, &scene.buffers.group, &[]);
         for (object, triangles) in (0..).zip(scene.triangles()) {
+            if object == scene.lamps {
+                pass.set_pipeline(&self.lamps);
+            }
             pass.draw(3 * triangles.start..3 * triangles.end, object..object + 1);
         }
     }

@@ -93,6 +93,7 @@ mod tests {
                 segments: 0..4,
             }]),
             segments: Arc::new(segments.to_vec()),
+            is_lamp: false,
         };
         let open = grooves(&object(false));
         let beyond: Vec<_> = open.iter().map(|g| (g.before_um, g.after_um)).collect();

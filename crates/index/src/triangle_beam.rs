@@ -120,7 +120,7 @@ impl TriangleBeam {
                         side.dot(to) < -1e-12 * side.abs().dot(to.abs())
                     })
                 });
-                if beyond {
+                if beyond || triangles.is_unseen(*object, corners, origin) {
                     continue;
                 }
                 if self.candidates.len() == MAX_CANDIDATES {

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use glam::{DVec3, Vec3A};
-use hairline_scene::Scene;
+use hairline_scene::{Object, Scene};
 use obvhs::BvhBuildParams;
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
@@ -38,13 +38,25 @@ pub struct TriangleIndex {
     tree: Bvh2,
     /// Object, triangle and corners, in the order of the leaves.
     triangles: Vec<(u32, u32, [DVec3; 3])>,
+    /// The first of the objects that only the camera sees.
+    lamps: u32,
 }
 
 impl TriangleIndex {
     /// Builds the tree.
     pub fn build(scene: &Scene) -> Self {
+        Self::of(scene, |_| true)
+    }
+
+    /// Without the shapes of lights: what light meets on its way.
+    pub fn without_lamps(scene: &Scene) -> Self {
+        Self::of(scene, |object| !object.is_lamp)
+    }
+
+    fn of(scene: &Scene, is_in: impl Fn(&Object) -> bool) -> Self {
         let mut triangles = Vec::new();
-        for (o, object) in scene.objects.iter().enumerate() {
+        let objects = scene.objects.iter().enumerate();
+        for (o, object) in objects.filter(|(_, object)| is_in(object)) {
             for (t, corners) in object.mesh.triangles.iter().enumerate() {
                 let corners = corners.map(|v| object.mesh.positions_m[v as usize].as_dvec3());
                 triangles.push((o as u32, t as u32, corners));
@@ -60,7 +72,13 @@ impl TriangleIndex {
             .iter()
             .map(|i| triangles[*i as usize])
             .collect();
-        Self { tree, triangles }
+        let mut objects = scene.objects.iter();
+        let lamps = objects.position(|object| object.is_lamp);
+        Self {
+            tree,
+            triangles,
+            lamps: lamps.unwrap_or(scene.objects.len()) as u32,
+        }
     }
 
     pub(crate) fn tree(&self) -> &Bvh2 {
@@ -112,8 +130,29 @@ impl TriangleIndex {
         &self.triangles
     }
 
-    /// The nearest hit of a ray from `origin` along the unit `direction`, either side of a triangle.
+    /// Whether the camera at `origin` does not see a triangle: the back of a lamp.
+    pub(crate) fn is_unseen(&self, object: u32, [a, b, c]: &[DVec3; 3], origin: DVec3) -> bool {
+        object >= self.lamps && (*b - *a).cross(*c - *a).dot(origin - *a) <= 0.0
+    }
+
+    /// The nearest hit of a ray of the camera, from `origin` along the unit `direction`: either side of a triangle, and the fronts of lamps.
     pub fn intersect(&self, origin: DVec3, direction: DVec3) -> Option<Hit> {
+        self.nearest(origin, direction, |object, corners| {
+            !self.is_unseen(object, corners, origin)
+        })
+    }
+
+    /// The nearest hit of any other ray: lamps are not in its way.
+    pub fn intersect_solid(&self, origin: DVec3, direction: DVec3) -> Option<Hit> {
+        self.nearest(origin, direction, |object, _| object < self.lamps)
+    }
+
+    fn nearest(
+        &self,
+        origin: DVec3,
+        direction: DVec3,
+        is_there: impl Fn(u32, &[DVec3; 3]) -> bool,
+    ) -> Option<Hit> {
         if self.triangles.is_empty() {
             return None;
         }
@@ -123,6 +162,9 @@ impl TriangleIndex {
         // The tree is walked in single precision, the triangle met in double: neighbours share their edge exactly enough.
         self.tree.ray_traverse(ray, &mut nearest, |_, id| {
             let (object, triangle, corners) = &self.triangles[id];
+            if !is_there(*object, corners) {
+                return f32::INFINITY;
+            }
             match intersect_triangle(origin, direction, corners) {
                 Some((distance_m, barycentric)) => {
                     if hit.is_none_or(|h| distance_m < h.distance_m) {
@@ -141,7 +183,7 @@ impl TriangleIndex {
         hit
     }
 
-    /// Whether a ray from `origin` along the unit `direction` meets a triangle, either side of it, nearer than `distance_m`.
+    /// Whether a ray from `origin` along the unit `direction` meets a triangle, either side of it, nearer than `distance_m`. Lamps hide nothing.
     pub fn is_hidden(&self, origin: DVec3, direction: DVec3, distance_m: f64) -> bool {
         if self.triangles.is_empty() {
             return false;
@@ -149,9 +191,9 @@ impl TriangleIndex {
         let (from, along) = (origin.as_vec3a(), non_zero(direction.as_vec3a()));
         let ray = Ray::new(from, along, 0.0, distance_m as f32);
         let is_free = self.tree.ray_traverse_miss(ray, |_, id| {
-            let (_, _, corners) = &self.triangles[id];
+            let (object, _, corners) = &self.triangles[id];
             match intersect_triangle(origin, direction, corners) {
-                Some((at_m, _)) if at_m < distance_m => 0.0,
+                Some((at_m, _)) if at_m < distance_m && *object < self.lamps => 0.0,
                 _ => f32::INFINITY,
             }
         });

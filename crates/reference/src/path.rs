@@ -475,7 +475,7 @@ impl Integrator<'_> {
             return None;
         }
         let origin_m = self.off_the_surface(vertex.point, direction);
-        self.triangles.intersect(origin_m, direction)
+        self.triangles.intersect_solid(origin_m, direction)
     }
 
     /// Whether an object hides a light at some distance.

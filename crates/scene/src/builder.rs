@@ -14,6 +14,7 @@ use crate::description::references::find;
 use crate::description::{self, Description, Layer};
 use crate::error::Error;
 use crate::estimate::Estimate;
+use crate::lamp_shape;
 use crate::loader::{Loader, Stage};
 use crate::scene::{Object, Scene};
 use crate::scratches;
@@ -102,6 +103,7 @@ impl<'a> Work<'a> {
         let mut scene = convert::without_surfaces(self.description);
         let mut surfaces = self.surfaces(&mut scene)?;
         self.photo_set(&mut surfaces, &mut scene)?;
+        self.lamps(&mut scene);
         self.loader.go_on()?;
         scene.environment = self.environment(&scene)?;
         self.scratches(&surfaces, &mut scene)?;
@@ -172,6 +174,7 @@ impl<'a> Work<'a> {
                 mesh: surface.mesh.clone(),
                 scratches: Arc::default(),
                 segments: Arc::default(),
+                is_lamp: false,
             });
             surfaces.push(surface);
         }
@@ -216,9 +219,34 @@ impl<'a> Work<'a> {
             mesh: surface.mesh.clone(),
             scratches: Arc::default(),
             segments: Arc::default(),
+            is_lamp: false,
         });
         surfaces.push(surface);
         Ok(())
+    }
+
+    /// The shapes of the lights that the camera sees, behind all other objects.
+    fn lamps(&mut self, scene: &mut Scene) {
+        let eye_m = scene.camera.position_m;
+        let seen = |light: &&description::Light| light.visible && !light.hidden;
+        for light in self.description.lights.iter().filter(seen) {
+            let material = scene.materials.len() as u32;
+            let mesh = match self.old.lamp(&light.kind, material) {
+                Some(mesh) => mesh,
+                None => Arc::new(lamp_shape::mesh(&light.kind, material)),
+            };
+            self.new
+                .lamps
+                .push((light.kind.clone(), material, mesh.clone()));
+            scene.materials.push(lamp_shape::material(light, eye_m));
+            scene.objects.push(Object {
+                name: light.name.clone().unwrap_or(light.kind.title().to_owned()),
+                mesh,
+                scratches: Arc::default(),
+                segments: Arc::default(),
+                is_lamp: true,
+            });
+        }
     }
 
     fn environment(&mut self, scene: &Scene) -> Result<Option<crate::Environment>, Error> {

@@ -30,6 +30,7 @@ mod error;
 pub mod estimate;
 pub mod inputs;
 mod key_line;
+mod lamp_shape;
 mod light;
 mod load;
 mod loader;

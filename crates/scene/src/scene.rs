@@ -169,6 +169,9 @@ pub struct Object {
     pub scratches: Arc<Vec<Scratch>>,
     /// Straight pieces, one triangle each, those of one scratch side by side in the order of its walk.
     pub segments: Arc<Vec<Segment>>,
+    /// Whether it is the shape of a light that the camera sees: black but for its emission, met by no ray but the camera's, and by that on its
+    /// front alone. Such objects are the last of a scene.
+    pub is_lamp: bool,
 }
 
 impl Object {

@@ -88,6 +88,7 @@ fn is_same_light(x: &Light, y: &Light) -> bool {
     let Light {
         name: _,
         hidden,
+        visible,
         kind,
         radiance,
         exposure_ev,
@@ -96,6 +97,7 @@ fn is_same_light(x: &Light, y: &Light) -> bool {
         cone,
     } = x;
     *hidden == y.hidden
+        && *visible == y.visible
         && *kind == y.kind
         && *radiance == y.radiance
         && *exposure_ev == y.exposure_ev

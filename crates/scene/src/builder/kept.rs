@@ -6,7 +6,7 @@ use std::time::SystemTime;
 
 use glam::{DMat4, DVec3};
 
-use crate::description::{self, Layer, Map, Stroke, Surface};
+use crate::description::{self, Layer, LightKind, Map, Stroke, Surface};
 use crate::environment::BuiltInMap;
 use crate::error::Error;
 use crate::loader::Loader;
@@ -25,6 +25,8 @@ pub(super) struct Kept {
     pub map: Option<(MapKey, Environment)>,
     pub layers: Vec<Arc<KeptLayer>>,
     pub objects: Vec<Together>,
+    /// Shapes of lights, with the numbers of their materials.
+    pub lamps: Vec<(LightKind, u32, Arc<Mesh>)>,
 }
 
 /// What is known of a file without reading it; equal stamps, equal contents. What cannot be told is `None`.
@@ -256,6 +258,12 @@ impl Kept {
     pub(super) fn map(&self, key: &MapKey) -> Option<Environment> {
         let (_, map) = self.map.as_ref().filter(|(kept, _)| kept == key)?;
         Some(map.clone())
+    }
+
+    pub(super) fn lamp(&self, kind: &LightKind, material: u32) -> Option<Arc<Mesh>> {
+        let mut lamps = self.lamps.iter();
+        let (_, _, mesh) = lamps.find(|lamp| (&lamp.0, lamp.1) == (kind, material))?;
+        Some(mesh.clone())
     }
 
     pub(super) fn textures(&self, parts: Vec<Arc<Vec<Texture>>>) -> Textures {

@@ -21,6 +21,9 @@ pub struct Light {
     /// Lights nothing, as if it were not there. Default: false.
     #[serde(skip_serializing_if = "is_false")]
     pub hidden: bool,
+    /// Whether the camera sees its shape. Default: false.
+    #[serde(skip_serializing_if = "is_false")]
+    pub visible: bool,
     /// `kind` and the keys that belong to it.
     #[serde(flatten)]
     pub kind: LightKind,
@@ -116,6 +119,7 @@ impl Light {
         Self {
             name: None,
             hidden: false,
+            visible: false,
             kind,
             radiance: 1.0,
             exposure_ev: 0.0,
@@ -175,6 +179,7 @@ impl Read for Light {
                 "kind",
                 "name",
                 "hidden",
+                "visible",
                 "radiance",
                 "exposure_ev",
                 "temperature_k",
@@ -189,6 +194,7 @@ impl Read for Light {
         Ok(Self {
             name: table.optional("name")?,
             hidden: table.or("hidden", false)?,
+            visible: table.or("visible", false)?,
             kind,
             radiance: table.or("radiance", 1.0)?,
             exposure_ev: table.or("exposure_ev", 0.0)?,

@@ -26,6 +26,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     form.text("Name", "What the outliner calls it", &mut name);
     light.name = (!name.is_empty()).then_some(name);
     form.toggle("Hidden", "A hidden light gives no light", &mut light.hidden);
+    form.toggle("Visible", "The camera sees its shape", &mut light.visible);
     form.number(Parameter::Radiance, &mut light.radiance);
     form.number(Parameter::LightExposure, &mut light.exposure_ev);
     let mut glows = light.temperature_k.is_some();

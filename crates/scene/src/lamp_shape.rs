@@ -1,0 +1,159 @@
+//! The shapes of lights that the camera sees, as surfaces that shine and reflect nothing.
+
+use glam::{DMat4, DQuat, DVec2, DVec3};
+use std::f64::consts::PI;
+
+use crate::description::{self, LightKind, Shape};
+use crate::scene::{Base, Material, Mesh};
+use crate::shape;
+use crate::surface::{Surface, Vertex};
+
+/// Facets around spheres and tubes: half a picture high they stay within 0.3 pixels of their outline.
+const FACETS: u32 = 96;
+
+/// What the camera at a place sees on a light.
+pub(crate) fn material(light: &description::Light, eye_m: DVec3) -> Material {
+    let shining = light.in_scene();
+    // A light of one cone has one share in a place, that of its middle.
+    let (middle_m, _) = shining.bounding_sphere();
+    let share = match shining.cone {
+        Some(cone) => cone.share((eye_m - middle_m).normalize_or(DVec3::Z)),
+        None => 1.0,
+    };
+    Material {
+        name: light.kind.title().to_owned(),
+        base: Base::Dielectric {
+            ior: 1.0,
+            base_color: [0.0; 3],
+        },
+        roughness: 1.0,
+        coherence_um: description::DEFAULT_COHERENCE_UM,
+        emission: shining.radiance.map(|c| c * share),
+        base_color_texture: None,
+        metallic_roughness_texture: None,
+        normal_texture: None,
+        emission_texture: None,
+    }
+}
+
+/// Its surface, of one material, facing outwards.
+pub(crate) fn mesh(kind: &LightKind, material: u32) -> Mesh {
+    let mut mesh = Mesh::default();
+    match kind {
+        LightKind::Sphere { center_m, radius_m } => {
+            let place = DMat4::from_translation((*center_m).into());
+            capsule(0.0, *radius_m).bake(&place, material, &mut mesh);
+        }
+        LightKind::Tube { ends_m, radius_m } => {
+            let [a, b] = ends_m.map(DVec3::from);
+            let turn = DQuat::from_rotation_arc(DVec3::Z, (b - a).normalize_or(DVec3::Z));
+            let place = DMat4::from_rotation_translation(turn, a.midpoint(b));
+            capsule(0.5 * a.distance(b), *radius_m).bake(&place, material, &mut mesh);
+        }
+        LightKind::Disk {
+            center_m, radius_m, ..
+        } => {
+            let turn = DQuat::from_rotation_arc(DVec3::Z, kind.axis().unwrap_or(DVec3::Z));
+            let place = DMat4::from_rotation_translation(turn, (*center_m).into());
+            let disk = shape::surface(&Shape::Disk {
+                radius_m: *radius_m,
+            });
+            disk.bake(&place, material, &mut mesh);
+        }
+        // Flat, with corners.
+        _ => {
+            let axis = kind.axis().unwrap_or(DVec3::Z);
+            flat(&kind.corners_m(), axis).bake(&DMat4::IDENTITY, material, &mut mesh);
+        }
+    }
+    if kind.is_two_sided() {
+        add_back(&mut mesh);
+    }
+    mesh
+}
+
+/// All within a radius of a line along z about the origin.
+fn capsule(half_length_m: f64, radius_m: f64) -> Surface {
+    let quarter = FACETS / 4;
+    let arc = |i: u32| {
+        let (sin, cos) = libm::sincos(0.5 * PI * f64::from(i) / f64::from(quarter));
+        // The pole exactly on the axis.
+        let r = if i == 0 { 0.0 } else { radius_m * sin };
+        [r, half_length_m + radius_m * cos]
+    };
+    let upper: Vec<[f64; 2]> = (0..=quarter).map(arc).collect();
+    let lower = upper.iter().rev().map(|[r, z]| [*r, -z]);
+    let mut profile_m: Vec<[f64; 2]> = upper.iter().copied().chain(lower).collect();
+    profile_m.dedup();
+    shape::surface(&Shape::Lathe {
+        profile_m,
+        segments: FACETS,
+        smooth: true,
+    })
+}
+
+/// A polygon, convex or not, whose corners run counter-clockwise as seen against its axis.
+fn flat(corners_m: &[DVec3], axis: DVec3) -> Surface {
+    let tangent = axis.any_orthonormal_vector();
+    let across = axis.cross(tangent);
+    let vertices = corners_m.iter().map(|&position_m| Vertex {
+        position_m,
+        normal: axis,
+        tangent,
+        handedness: 1.0,
+        uv: glam::Vec2::ZERO,
+    });
+    let places: Vec<DVec2> = corners_m
+        .iter()
+        .map(|corner| DVec2::new(corner.dot(tangent), corner.dot(across)))
+        .collect();
+    Surface {
+        vertices: vertices.collect(),
+        triangles: triangles(&places),
+    }
+}
+
+/// Cuts a simple polygon, counter-clockwise, into triangles: ear by ear.
+fn triangles(places: &[DVec2]) -> Vec<[u32; 3]> {
+    let at = |corner: u32| places[corner as usize];
+    let mut ring: Vec<u32> = (0..places.len() as u32).collect();
+    let mut triangles = Vec::new();
+    while ring.len() > 2 {
+        let n = ring.len();
+        let around = |i: usize| [ring[(i + n - 1) % n], ring[i], ring[(i + 1) % n]];
+        let is_ear = |i: &usize| {
+            let ear = around(*i);
+            let [a, b, c] = ear.map(at);
+            let left = |a: DVec2, b: DVec2, p: DVec2| (b - a).perp_dot(p - a);
+            let is_inside =
+                |p: DVec2| left(a, b, p) >= 0.0 && left(b, c, p) >= 0.0 && left(c, a, p) >= 0.0;
+            left(a, b, c) > 0.0
+                && !ring
+                    .iter()
+                    .any(|corner| !ear.contains(corner) && is_inside(at(*corner)))
+        };
+        // Rounding may hide the last ears, which have no area.
+        let ear = (0..n).find(is_ear).unwrap_or(0);
+        triangles.push(around(ear));
+        ring.remove(ear);
+    }
+    triangles
+}
+
+/// The same surface seen from the other side.
+fn add_back(mesh: &mut Mesh) {
+    let first = mesh.positions_m.len() as u32;
+    mesh.positions_m.extend_from_within(..);
+    mesh.normals.extend_from_within(..);
+    for normal in &mut mesh.normals[first as usize..] {
+        *normal = -*normal;
+    }
+    mesh.tangents.extend_from_within(..);
+    mesh.uvs.extend_from_within(..);
+    let backs = mesh
+        .triangles
+        .iter()
+        .map(|[a, b, c]| [first + a, first + c, first + b]);
+    mesh.triangles.extend(backs.collect::<Vec<_>>());
+    mesh.triangle_materials.extend_from_within(..);
+}

@@ -1,0 +1,153 @@
+//! Lights that the camera sees.
+
+use conformance::two_renderers::{compare, on_the_cpu, on_the_gpu};
+use hairline_cpu::closed_form::{RenderOptions, render};
+use hairline_fixtures::SceneFile;
+use hairline_image::Image;
+use hairline_reference::{BATCH_SAMPLES, Integrator, Model, Settings};
+use hairline_scene::Scene;
+use std::ops::ControlFlow;
+
+/// One of each shape over a table, `visible` or not; the last two shine away from the camera, the spot partly.
+fn lamps(visible: bool) -> Scene {
+    let light = |keys: &str| format!("[[light]]\nvisible = {visible}\n{keys}");
+    SceneFile::seen_from([0.0, -0.6, 0.12])
+        .toward([0.0, 0.0, 0.06])
+        .fov_y_deg(30.0)
+        .size_px([192, 108])
+        .metal("steel", "steel")
+        .object("table", "steel", "plane = { size_m = [0.4, 0.4] }")
+        .random("table", 300)
+        .part(&light("kind = \"sphere\"\ncenter_m = [-0.17, 0.0, 0.11]\nradius_m = 0.02\nradiance = 3.0"))
+        .part(&light("kind = \"disk\"\ncenter_m = [-0.1, 0.0, 0.11]\ntarget_m = [-0.1, -1.0, 0.0]\nradius_m = 0.025\nradiance = 2.0\ncolor = [1.0, 0.5, 0.25]"))
+        .part(&light("kind = \"tube\"\nends_m = [[-0.04, 0.0, 0.09], [-0.02, 0.03, 0.14]]\nradius_m = 0.008\nradiance = 4.0"))
+        .part(&light("kind = \"polygon\"\nvertices_m = [[0.02, 0, 0.08], [0.08, 0, 0.08], [0.08, 0, 0.1], [0.04, 0, 0.1], [0.04, 0, 0.14], [0.02, 0, 0.14]]\nradiance = 1.5"))
+        .part(&light("kind = \"sphere\"\ncenter_m = [0.12, 0.0, 0.12]\nradius_m = 0.015\nradiance = 8.0\ncone_deg = 140.0\ncone_softness = 0.5\ntarget_m = [0.6, -0.6, 0.12]"))
+        .part(&light("kind = \"rectangle\"\ncenter_m = [0.17, 0.0, 0.11]\ntarget_m = [0.17, 1.0, 0.11]\nwidth_m = 0.03\nheight_m = 0.04\nradiance = 9.0"))
+        .part(&light("kind = \"disk\"\ncenter_m = [0.0, -0.05, 0.15]\ntarget_m = [0.0, 1.0, 0.15]\nradius_m = 0.02\ntwo_sided = true\nradiance = 0.7"))
+        .scene()
+}
+
+fn at(image: &Image, scene: &Scene, point_m: [f64; 3]) -> [f32; 3] {
+    let frame = scene.camera.frame(scene.render.size_px);
+    let way = glam::DVec3::from(point_m) - frame.position_m;
+    let way = way / way.dot(frame.forward);
+    let across = |step: glam::DVec3| way.dot(step) / step.length_squared();
+    let x = across(frame.per_px_x) + 0.5 * frame.size_px.x;
+    let y = across(frame.per_px_y) + 0.5 * frame.size_px.y;
+    image.beauty().rgb[y as usize * image.size_px[0] as usize + x as usize]
+}
+
+#[test]
+fn the_camera_sees_their_radiance() {
+    let scene = lamps(true);
+    let image = on_the_cpu(&scene, 4);
+    let spot = scene.lights[4].cone.expect("a cone");
+    let towards = (scene.camera.position_m - glam::DVec3::new(0.12, 0.0, 0.12)).normalize();
+    let spot = 8.0 * spot.share(towards);
+    assert!((0.1..7.9).contains(&spot), "{spot}");
+    for (point_m, expected) in [
+        ([-0.17, 0.0, 0.11], [3.0; 3]),
+        ([-0.1, 0.0, 0.11], [2.0, 1.0, 0.5]),
+        ([-0.03, 0.015, 0.115], [4.0; 3]),
+        ([0.03, 0.0, 0.12], [1.5; 3]),
+        // Beyond the corner of the L.
+        ([0.07, 0.0, 0.13], [0.0; 3]),
+        ([0.12, 0.0, 0.12], [spot; 3]),
+        // It shines away.
+        ([0.17, 0.0, 0.115], [0.0; 3]),
+        ([0.0, -0.05, 0.15], [0.7; 3]),
+    ] {
+        let found = at(&image, &scene, point_m);
+        for (found, expected) in found.iter().zip(expected) {
+            let found = f64::from(*found);
+            assert!(
+                (found - expected).abs() < 1e-5,
+                "{point_m:?}: {found}, not {expected}"
+            );
+        }
+    }
+}
+
+#[test]
+fn both_renderers_see_the_same_shapes() -> Result<(), String> {
+    let mut scene = lamps(true);
+    scene.render.size_px = [384, 216];
+    let Some(gpu) = on_the_gpu(&scene, 4) else {
+        return Ok(());
+    };
+    let cpu = on_the_cpu(&scene, 4);
+    compare("lamps", &scene, &gpu, &cpu)?;
+    // Silhouettes too: the samples of an edge are the same.
+    let [a, b] = [&gpu, &cpu].map(|image| image.beauty().rgb);
+    let differ = a
+        .iter()
+        .zip(&b)
+        .filter(|(a, b)| (a[1] - b[1]).abs() > 0.02 * b[1].max(0.05));
+    let share = differ.count() as f64 / b.len() as f64;
+    assert!(share < 0.002, "{share} of all pixels differ");
+    Ok(())
+}
+
+/// Shapes hide nothing from one another's light, and what they light shows it once.
+#[test]
+fn what_they_light_stays_as_it_is() {
+    let [seen, unseen] = [lamps(true), lamps(false)];
+    for (shadows, bounces) in [(false, 0), (true, 1)] {
+        let options = RenderOptions {
+            samples: 4,
+            shadows,
+            bounces,
+            ..Default::default()
+        };
+        let [a, b] = [&seen, &unseen].map(|scene| render(scene, &options, &|_| {}));
+        // Where the table is seen in both.
+        let mut table = 0;
+        let (mut error, mut sum) = (0.0, 0.0);
+        for i in 0..a.depth_m.len() {
+            let [x, y] = [&a, &b].map(|image| image.depth_m[i]);
+            if y > 0.0 && (x - y).abs() < 1e-6 {
+                table += 1;
+                error += f64::from((a.beauty().rgb[i][1] - b.beauty().rgb[i][1]).abs());
+                sum += f64::from(b.beauty().rgb[i][1]);
+            }
+        }
+        assert!(table > 4000, "{table} pixels");
+        assert!(error < 1e-3 * sum, "shadows {shadows}: {error} of {sum}");
+    }
+}
+
+/// By Monte Carlo a lamp is seen as bright, and what it lights shows it once, with bounces too.
+#[test]
+fn both_references_see_them() {
+    for model in [Model::Separable, Model::Full] {
+        let settings = Settings {
+            model,
+            shadows: true,
+            bounces: 1,
+            ..Settings::default()
+        };
+        let [seen, unseen] = [true, false].map(|visible| {
+            let mut scene = lamps(visible);
+            scene.render.size_px = [96, 54];
+            let integrator = Integrator::new(&scene, settings);
+            let mut image = integrator.start();
+            let _ = integrator.run(&mut image, BATCH_SAMPLES, &|_| ControlFlow::Continue(()));
+            (scene, image)
+        });
+        let (scene, image) = &seen;
+        let found = at(image, scene, [-0.1, 0.0, 0.11]);
+        for (found, expected) in found.iter().zip([2.0, 1.0, 0.5]) {
+            assert!((found - expected).abs() < 1e-4, "{model:?}: {found}");
+        }
+        // The same rays are drawn for what lies in front of all lamps.
+        let row = 50 * 96..54 * 96;
+        let [a, b] = [&seen.1, &unseen.1].map(|image| image.beauty().rgb[row.clone()].to_vec());
+        for (a, b) in a.iter().flatten().zip(b.iter().flatten()) {
+            assert!(
+                (a - b).abs() < 1e-3 * b.abs().max(0.1),
+                "{model:?}: {a} {b}"
+            );
+        }
+    }
+}
