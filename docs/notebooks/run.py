@@ -18,7 +18,7 @@ def run(notebook: Path, plots: "Path | None") -> None:
 
     def show() -> None:
         if plots is not None:
-            plt.savefig(plots / f"{notebook.stem}-{len(shown)}.png", dpi=60)
+            plt.savefig(plots / f"{notebook.stem}-{len(shown)}.png", dpi=60, bbox_inches="tight")
         shown.append(plt.gcf())
         plt.close("all")
 

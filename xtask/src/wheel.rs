@@ -84,9 +84,10 @@ impl Wheel {
                 "HAIRLINE_ALL_SCENES",
                 if self.all_scenes { "1" } else { "" },
             ))?;
-        run(python()
-            .current_dir(&package)
-            .args(["-m", "mypy", "--cache-dir=/dev/null"]))?;
+        let notebooks = root.join("docs/notebooks/run.py");
+        run(python().current_dir(&output).arg(notebooks))?;
+        let types = ["-m", "mypy", "--cache-dir=/dev/null"];
+        run(python().current_dir(&package).args(types))?;
         let bytes = std::fs::metadata(wheel)?.len();
         println!("{}: {:.1} MB", wheel.display(), bytes as f64 / 1e6);
         Ok(())
