@@ -22,10 +22,10 @@ use hairline_scene::Object;
 
 use crate::cli::{self, Part};
 use crate::console::{print, tell};
-use crate::failure::Failure;
 use crate::progress::Progress;
 use crate::scene_file::{self, Overrides};
 use figures::Figures;
+use hairline_work::failure::Failure;
 use machine::Machine;
 use stage::{Stage, TALK_SIZE_PX};
 use thoroughness::Thoroughness;

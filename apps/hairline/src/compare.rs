@@ -16,9 +16,9 @@ use hairline_scene::inputs::Input;
 use self::limits::Finding;
 use crate::cli;
 use crate::console::{print, tell};
-use crate::failure::Failure;
 use crate::progress::Progress;
 use crate::scene_file::refuse_inputs;
+use hairline_work::failure::Failure;
 use side::Side;
 
 /// Reads, compares, prints, writes the report, and holds the figures to the limits.

@@ -8,8 +8,8 @@ use hairline_scene::Scene;
 use hairline_scene::description::Description;
 use hairline_scene::text::shown;
 
-use crate::failure::Failure;
 use crate::size_limit::SIDE_MAX_PX;
+use hairline_work::failure::Failure;
 
 /// Where a highlight is wanted.
 #[derive(Clone, Debug, PartialEq)]

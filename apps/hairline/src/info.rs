@@ -8,7 +8,7 @@ use hairline_gpu::headless;
 
 use crate::cli;
 use crate::console::print;
-use crate::failure::Failure;
+use hairline_work::failure::Failure;
 
 /// Prints to stdout.
 pub fn run(arguments: &cli::Info) -> Result<(), Failure> {

@@ -23,7 +23,6 @@ mod watch;
 use std::process::ExitCode;
 
 use clap::Parser;
-use hairline_work::{backend, failure};
 
 fn main() -> ExitCode {
     console::tell_of_panics();

@@ -7,7 +7,7 @@ use clap_mangen::roff::Roff;
 
 use crate::cli::Cli;
 use crate::console::print;
-use crate::failure::Failure;
+use hairline_work::failure::Failure;
 
 /// Prints what a shell needs to complete the command line.
 pub fn completions(shell: Shell) -> Result<(), Failure> {

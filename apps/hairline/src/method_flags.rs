@@ -6,8 +6,8 @@ use hairline_index::method::{Method, PublishedMethod, Structure};
 use hairline_optics::mask;
 use hairline_optics::published::sine_integral::SineIntegral;
 
-use crate::failure::Failure;
 use crate::switch::Switch;
+use hairline_work::failure::Failure;
 
 /// By which method scratches are computed.
 #[derive(Args, Clone, Debug, Default)]

@@ -11,11 +11,11 @@ use hairline_work::reference::{self, Count, End, Limits, identity};
 
 use crate::cli;
 use crate::console::tell;
-use crate::failure::Failure;
 use crate::interrupt::{Interrupt, cannot_listen};
 use crate::progress::{Progress, Terminal};
 use crate::scene_file::{self, Overrides};
 use crate::switch::Switch;
+use hairline_work::failure::Failure;
 
 /// What a crash or a power cut may cost.
 const SAVE_EVERY: Duration = Duration::from_secs(60);

@@ -13,15 +13,15 @@ use hairline_image::{Animation, Display, Image, Output};
 use hairline_index::method::Method;
 use hairline_scene::Transport;
 
-use crate::backend::{Painter, Refusal, Rendered, Task};
 use crate::console::tell;
-use crate::failure::Failure;
 use crate::interrupt::{Interrupt, cannot_listen};
 use crate::progress::{Progress, Terminal};
 use crate::scene_file::{self, Overrides};
 use crate::switch::Switch;
-use crate::{backend, cli, method_flags};
+use crate::{cli, method_flags};
 use goals::Goals;
+use hairline_work::backend::{self, Painter, Refusal, Rendered, Task};
+use hairline_work::failure::Failure;
 use motion::Motion;
 
 /// Loads, renders and writes.

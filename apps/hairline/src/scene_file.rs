@@ -11,9 +11,9 @@ use hairline_scene::inputs::{Input, is_same_file};
 use hairline_scene::{Loader, Scene, SceneBuilder, Stage, reading};
 
 use crate::console::tell;
-use crate::failure::Failure;
 use crate::highlight::{self, Highlight};
 use crate::progress::Progress;
+use hairline_work::failure::Failure;
 
 /// The scene that is there without a file.
 pub const BUILT_IN: &str = include_str!("built_in_scene.toml");

@@ -11,8 +11,8 @@ use hairline_viewer::window::{Error, Renderer};
 use hairline_viewer::{Options, open};
 
 use crate::console::tell;
-use crate::failure::Failure;
 use crate::{cli, scene_file};
+use hairline_work::failure::Failure;
 
 /// Opens the viewer and returns when its window is closed.
 pub fn run(arguments: &cli::View) -> Result<(), Failure> {

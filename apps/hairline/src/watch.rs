@@ -8,9 +8,9 @@ use hairline_scene::Description;
 
 use crate::cli;
 use crate::console::tell;
-use crate::failure::Failure;
 use crate::interrupt::{Interrupt, cannot_listen};
 use crate::render;
+use hairline_work::failure::Failure;
 
 /// How often the files are looked at. An editor that saves in several steps is done in this time.
 const EVERY: Duration = Duration::from_millis(200);

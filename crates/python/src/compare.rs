@@ -9,7 +9,7 @@ use pyo3::types::PyDict;
 
 use crate::errors;
 use crate::image::Image;
-use crate::scene::tone_map;
+use crate::names::tone_map;
 
 /// A picture in memory or in a file.
 fn layers(picture: &Bound<'_, PyAny>) -> PyResult<Layers> {

@@ -11,8 +11,7 @@ use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyBytes, PyDict};
 
 use crate::errors;
-use crate::scene::{notes_dict, tone_map};
-use crate::strips;
+use crate::names::{named, notes_dict, tone_map};
 
 /// A picture with its layers. It does not change.
 #[pyclass(frozen, module = "hairline")]
@@ -213,7 +212,7 @@ impl Image {
     /// The variance of each pixel's mean in a layer; None where it is not known.
     fn variance<'py>(slf: &Bound<'py, Self>, layer: &str) -> PyResult<Option<Bound<'py, PyAny>>> {
         let names = Layer::ALL.map(|layer| (layer.name(), layer));
-        let layer = crate::scene::named("layer", layer, &names)?;
+        let layer = named("layer", layer, &names)?;
         let variance = slf.get().image.variance(layer);
         variance.map(|values| Self::rgb(slf, values)).transpose()
     }
@@ -267,14 +266,10 @@ impl Image {
         pillow.call_method1("fromarray", (self.codes(py, exposure_ev, tone_map)?,))
     }
 
-    fn __reduce__<'py>(
-        &self,
-        py: Python<'py>,
-    ) -> PyResult<(Bound<'py, PyAny>, strips::State<'py>)> {
-        let restore = py
-            .import("hairline._hairline")?
-            .getattr("picture_from_state")?;
-        Ok((restore, strips::state(py, self)))
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
+        let module = slf.py().import("hairline._hairline")?;
+        let state = module.call_method1("picture_state", (slf,))?;
+        Ok((module.getattr("picture_from_state")?, state))
     }
 
     fn __repr__(&self) -> String {

@@ -5,7 +5,9 @@ mod arrays;
 mod compare;
 mod errors;
 mod image;
+mod names;
 mod optics;
+mod rows;
 mod scene;
 mod strips;
 mod values;
@@ -28,6 +30,7 @@ fn _hairline(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(image::read_image, module)?)?;
     module.add_function(wrap_pyfunction!(strips::assemble, module)?)?;
     module.add_function(wrap_pyfunction!(strips::picture_from_state, module)?)?;
+    module.add_function(wrap_pyfunction!(strips::picture_state, module)?)?;
     module.add_function(wrap_pyfunction!(scene::inputs, module)?)?;
     module.add_function(wrap_pyfunction!(compare::compare, module)?)?;
     optics::add_to(module)

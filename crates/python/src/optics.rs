@@ -42,7 +42,7 @@ fn each<'py, const IN: usize, const OUT: usize>(
 }
 
 fn metal(name: &str) -> PyResult<Metal> {
-    crate::scene::named("metal", name, description::metal_names())
+    crate::names::named("metal", name, description::metal_names())
 }
 
 macro_rules! functions {

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::time::Duration;
 
-use hairline_image::{Display, Notes, ToneMap};
+use hairline_image::Display;
 use hairline_index::method::Method;
 use hairline_memory::budget_bytes;
 use hairline_optics::mask::Mask;
@@ -21,7 +21,8 @@ use pyo3::types::PyDict;
 
 use crate::errors;
 use crate::image::Image;
-use crate::strips;
+use crate::names::named;
+use crate::rows;
 use crate::values::Stock;
 use crate::watched::{self, Told};
 
@@ -338,7 +339,7 @@ impl Built {
                     .filter(|(i, _)| !rows.contains(&(i / width)))
                     .for_each(|(_, samples)| *samples = limits.samples);
                 if let Some(earlier) = earlier {
-                    strips::put(&mut image, rows.start, &earlier);
+                    rows::put(&mut image, rows.start, &earlier);
                 }
                 image
             }
@@ -350,31 +351,10 @@ impl Built {
             Ok(())
         })?;
         if let Some(rows) = rows {
-            image = strips::rows(&image, rows.start, rows.end);
+            image = rows::of(&image, rows.start, rows.end);
         }
         Ok((image, end == reference::End::Complete))
     }
-}
-
-/// The value of one of a few names.
-pub(crate) fn named<T: Copy>(key: &str, name: &str, all: &[(&str, T)]) -> PyResult<T> {
-    all.iter().find(|(known, _)| *known == name).map_or_else(
-        || {
-            let names: Vec<_> = all.iter().map(|(name, _)| format!("\"{name}\"")).collect();
-            let right = format!("must be one of {}", names.join(", "));
-            Err(errors::of_argument(key, format!("found \"{name}\""), right))
-        },
-        |(_, value)| Ok(*value),
-    )
-}
-
-/// A tone curve by its name.
-pub(crate) fn tone_map(name: &str) -> PyResult<ToneMap> {
-    named(
-        "tone_map",
-        name,
-        &ToneMap::ALL.map(|curve| (curve.name(), curve)),
-    )
 }
 
 fn refused(bounces: Option<u32>, refusal: Refusal) -> PyErr {
@@ -387,13 +367,4 @@ fn refused(bounces: Option<u32>, refusal: Refusal) -> PyErr {
         ),
         Refusal::ShadowsOfPublished => errors::internal(),
     }
-}
-
-/// Notes as Python has them.
-pub(crate) fn notes_dict<'py>(py: Python<'py>, notes: &Notes) -> PyResult<Bound<'py, PyDict>> {
-    let dict = PyDict::new(py);
-    for (name, value) in notes {
-        dict.set_item(name, value)?;
-    }
-    Ok(dict)
 }

@@ -1,4 +1,4 @@
-//! Pictures in parts: rows of one, parts put together, and what travels between processes.
+//! Pictures in parts: strips put together, and what travels between processes.
 
 use hairline_image::{Display, Image, Noise, Notes};
 use pyo3::prelude::*;
@@ -6,48 +6,8 @@ use pyo3::types::PyBytes;
 
 use crate::errors;
 use crate::image::Image as Picture;
-use crate::scene::tone_map;
-
-/// Some rows of a picture.
-pub(crate) fn rows(image: &Image, first: usize, end: usize) -> Image {
-    let width = image.size_px[0] as usize;
-    let own = first * width..end * width;
-    let noise = image.noise.as_ref().map(|noise| Noise {
-        beauty: noise.beauty[own.clone()].to_vec(),
-        base: noise.base[own.clone()].to_vec(),
-        scratches: noise.scratches[own.clone()].to_vec(),
-        density: noise.density[own.clone()].to_vec(),
-        samples: noise.samples[own.clone()].to_vec(),
-        batch: noise.batch,
-    });
-    Image {
-        size_px: [image.size_px[0], (end - first) as u32],
-        base: image.base[own.clone()].to_vec(),
-        scratches: image.scratches[own.clone()].to_vec(),
-        density: image.density[own.clone()].to_vec(),
-        depth_m: image.depth_m[own.clone()].to_vec(),
-        normal: image.normal[own].to_vec(),
-        noise,
-    }
-}
-
-/// Puts rows of a picture over those from `first` on. Both have noise, or none.
-pub(crate) fn put(image: &mut Image, first: usize, rows: &Image) {
-    let start = first * image.size_px[0] as usize;
-    let own = start..start + rows.depth_m.len();
-    image.base[own.clone()].copy_from_slice(&rows.base);
-    image.scratches[own.clone()].copy_from_slice(&rows.scratches);
-    image.density[own.clone()].copy_from_slice(&rows.density);
-    image.depth_m[own.clone()].copy_from_slice(&rows.depth_m);
-    image.normal[own.clone()].copy_from_slice(&rows.normal);
-    if let (Some(noise), Some(more)) = (&mut image.noise, &rows.noise) {
-        noise.beauty[own.clone()].copy_from_slice(&more.beauty);
-        noise.base[own.clone()].copy_from_slice(&more.base);
-        noise.scratches[own.clone()].copy_from_slice(&more.scratches);
-        noise.density[own.clone()].copy_from_slice(&more.density);
-        noise.samples[own].copy_from_slice(&more.samples);
-    }
-}
+use crate::names::tone_map;
+use crate::rows;
 
 /// One picture of strips of it, from the top.
 #[pyfunction]
@@ -77,7 +37,7 @@ pub(crate) fn assemble(strips: Vec<Bound<'_, Picture>>) -> PyResult<Picture> {
     let mut row = 0;
     for strip in &strips {
         let strip = strip.get().image();
-        put(&mut image, row, strip);
+        rows::put(&mut image, row, strip);
         row += strip.size_px[1] as usize;
     }
     let is_complete = strips.iter().all(|strip| strip.get().is_whole());
@@ -86,7 +46,7 @@ pub(crate) fn assemble(strips: Vec<Bound<'_, Picture>>) -> PyResult<Picture> {
 }
 
 /// All that a picture is, in the order of [`picture_from_state`]'s arguments.
-pub(crate) type State<'py> = (
+type State<'py> = (
     [u32; 2],
     Bound<'py, PyBytes>,
     Option<(u32, Bound<'py, PyBytes>)>,
@@ -95,7 +55,10 @@ pub(crate) type State<'py> = (
     bool,
 );
 
-pub(crate) fn state<'py>(py: Python<'py>, picture: &Picture) -> State<'py> {
+#[pyfunction]
+pub(crate) fn picture_state<'py>(picture: &Bound<'py, Picture>) -> State<'py> {
+    let py = picture.py();
+    let picture = picture.get();
     let image = picture.image();
     let mut layers: Vec<u8> = Vec::with_capacity(image.depth_m.len() * 52);
     for layer in [&image.base, &image.scratches, &image.density, &image.normal] {
@@ -134,7 +97,7 @@ fn take<T: bytemuck::AnyBitPattern>(bytes: &mut &[u8], count: usize) -> PyResult
         .collect())
 }
 
-/// What [`state`] told.
+/// What [`picture_state`] told.
 #[pyfunction]
 pub(crate) fn picture_from_state(
     size_px: [u32; 2],

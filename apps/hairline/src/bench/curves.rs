@@ -9,8 +9,8 @@ use super::thoroughness::Thoroughness;
 use super::timing::by_turns;
 use super::way::Way;
 use super::worker::{Ready, Worker, counted};
-use crate::failure::Failure;
 use crate::progress::Progress;
+use hairline_work::failure::Failure;
 
 /// Of a curve: its name, its methods, and the scene at each place. One of the functions below.
 pub type Stages = fn(Stage, bool) -> Plan;

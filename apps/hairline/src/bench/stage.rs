@@ -11,7 +11,7 @@ use anyhow::anyhow;
 use glam::DVec2;
 use hairline_scene::Scene;
 
-use crate::failure::Failure;
+use hairline_work::failure::Failure;
 
 /// What lights the disk.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -12,8 +12,8 @@ use super::thoroughness::Thoroughness;
 use super::timing::by_turns;
 use super::way::Way;
 use super::worker::{Ready, Worker, counted};
-use crate::failure::Failure;
 use crate::progress::Progress;
+use hairline_work::failure::Failure;
 
 /// All cells, by lamps and zooms of one scene.
 pub fn of_the_talk(

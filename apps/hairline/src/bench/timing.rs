@@ -14,7 +14,7 @@ use hairline_scene::Scene;
 
 use super::figures::{Outcome, Spread, Timing};
 use super::worker::{Elapsed, Ready, Rows, Worker};
-use crate::failure::Failure;
+use hairline_work::failure::Failure;
 
 /// How much time a measurement may take.
 #[derive(Clone, Copy, Debug)]

@@ -15,7 +15,7 @@ use super::counts::Counts;
 use super::way::Way;
 use crate::cli::Backend;
 use crate::console::tell;
-use crate::failure::Failure;
+use hairline_work::failure::Failure;
 
 /// A renderer.
 pub enum Worker {

@@ -11,8 +11,8 @@ use hairline_scene::{Light, LightShape};
 use serde::Serialize;
 
 use crate::console::print;
-use crate::failure::Failure;
 use crate::scene_file::{self, Loaded, Overrides};
+use hairline_work::failure::Failure;
 
 /// All of a scene that is worth to be known, in the units of its file.
 #[derive(Serialize)]

@@ -6,8 +6,8 @@ use anyhow::anyhow;
 use hairline_image::{Animation, Output};
 
 use crate::cli;
-use crate::failure::Failure;
 use crate::scene_file;
+use hairline_work::failure::Failure;
 
 /// Frames in a second if nothing else is asked for.
 const DEFAULT_FPS: u16 = 30;

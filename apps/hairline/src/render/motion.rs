@@ -6,7 +6,7 @@ use hairline_editor::navigate;
 use hairline_scene::description::{self, limits};
 
 use crate::cli::SequenceFlags;
-use crate::failure::Failure;
+use hairline_work::failure::Failure;
 
 /// Where the camera stands in each frame.
 #[derive(Clone, Copy, Debug, PartialEq)]

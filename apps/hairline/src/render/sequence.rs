@@ -6,12 +6,12 @@ use hairline_image::{Animation, Display, Image, Output};
 use super::goals::Goals;
 use super::motion::Motion;
 use super::steadiness::Steadiness;
-use crate::backend::{FINE_SAMPLES, Painter, Rendered};
 use crate::console::print;
-use crate::failure::Failure;
 use crate::interrupt::{Interrupt, cannot_listen};
 use crate::progress::Progress;
 use crate::scene_file::Loaded;
+use hairline_work::backend::{FINE_SAMPLES, Painter, Rendered};
+use hairline_work::failure::Failure;
 
 /// Renders all frames; `write` puts a picture in its place. With `stability` the same frames are rendered with many samples, and
 /// how steady both are is printed.

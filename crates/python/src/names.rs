@@ -1,0 +1,37 @@
+//! Values that have names, and notes.
+
+use hairline_image::{Notes, ToneMap};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::errors;
+
+/// The value of one of a few names.
+pub(crate) fn named<T: Copy>(key: &str, name: &str, all: &[(&str, T)]) -> PyResult<T> {
+    all.iter().find(|(known, _)| *known == name).map_or_else(
+        || {
+            let names: Vec<_> = all.iter().map(|(name, _)| format!("\"{name}\"")).collect();
+            let right = format!("must be one of {}", names.join(", "));
+            Err(errors::of_argument(key, format!("found \"{name}\""), right))
+        },
+        |(_, value)| Ok(*value),
+    )
+}
+
+/// A tone curve by its name.
+pub(crate) fn tone_map(name: &str) -> PyResult<ToneMap> {
+    named(
+        "tone_map",
+        name,
+        &ToneMap::ALL.map(|curve| (curve.name(), curve)),
+    )
+}
+
+/// Notes as Python has them.
+pub(crate) fn notes_dict<'py>(py: Python<'py>, notes: &Notes) -> PyResult<Bound<'py, PyDict>> {
+    let dict = PyDict::new(py);
+    for (name, value) in notes {
+        dict.set_item(name, value)?;
+    }
+    Ok(dict)
+}
