@@ -227,6 +227,7 @@ fn everything() -> Description {
             Light {
                 name: None,
                 hidden: false,
+                visible: true,
                 kind: LightKind::Sphere {
                     center_m: [0.0; 3],
                     radius_m: 0.5,
@@ -244,6 +245,7 @@ fn everything() -> Description {
             Light {
                 name: None,
                 hidden: false,
+                visible: false,
                 kind: LightKind::Polygon {
                     vertices_m: vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
                     two_sided: true,
