@@ -192,7 +192,7 @@ modules! {
     /// Pass: what is hidden of what scratches send.
     SHADOW_SCRATCHES = "passes/shadow_scratches" needs [SHADOW, NEAR_RAYS];
     /// Visibility of a pixel's neighbours.
-    NEAR_RAYS = "scene/near_rays" needs [LAYOUT, FILM];
+    NEAR_RAYS = "scene/near_rays" needs [LAYOUT, FILM, LUMINANCE];
     /// The sums of a sample over its scratches.
     SUMS = "scene/sums" needs [LAYOUT, METHOD, MASK, FILM];
     /// What the passes share that draw rays to other objects.

@@ -10,17 +10,24 @@ fn is_same_surface(own: PixelPoint, other: PixelPoint) -> bool {
     return other.object == own.object && dot(other.normal, own.normal) > 0.95 && abs(dot(to_m, own.normal)) <= 0.2 * length(to_m);
 }
 
-// The sum over the single rays of a pixel and of its neighbours. A ray counts by its weight, as rounds of one pixel do.
+// A ray of weight 1: a bright neighbour counts as much as a dark one.
+fn even_ray(ray: ShadowHalf) -> ShadowHalf {
+    let per_specular = 1.0 / max(rgb_luminance(ray.specular), 1e-30);
+    let per_body = 1.0 / max(rgb_luminance(ray.body), 1e-30);
+    return ShadowHalf(ray.specular * per_specular, ray.specular_hidden * per_specular, ray.body * per_body, ray.body_hidden * per_body);
+}
+
+// The sum over the single rays of a pixel and of its neighbours.
 fn near_rays(pixel: vec2u, at: u32) -> ShadowHalf {
     let own = points[at];
-    var sum = halves[2u * at];
+    var sum = even_ray(halves[2u * at]);
     for (var y = -NEAR_RAYS_PX; y <= NEAR_RAYS_PX; y += 1) {
         for (var x = -NEAR_RAYS_PX; x <= NEAR_RAYS_PX; x += 1) {
             let there = vec2i(pixel) + vec2i(x, y);
             let is_there = there.x >= 0 && there.x < i32(frame.size_px.x) && there.y >= i32(frame.rows.x) && there.y < i32(frame.rows.y);
             let other = strip_index(select(pixel, vec2u(there), is_there));
             if other != at && is_same_surface(own, points[other]) {
-                let ray = halves[2u * other];
+                let ray = even_ray(halves[2u * other]);
                 sum.specular += ray.specular;
                 sum.specular_hidden += ray.specular_hidden;
                 sum.body += ray.body;
