@@ -24,13 +24,18 @@ pub enum Backend {
 impl Backend {
     /// What it has of the ways of light that are wanted while something moves: what takes longer than a movement lasts is left out.
     pub fn counts_in_motion(&self, wanted: Transport) -> Transport {
+        if self.is_software() {
+            Transport::DIRECT
+        } else {
+            wanted
+        }
+    }
+
+    fn is_software(&self) -> bool {
         match self {
-            Self::Cpu => Transport::DIRECT,
+            Self::Cpu => true,
             #[cfg(not(target_arch = "wasm32"))]
-            Self::Gpu(gpu) | Self::Shared(gpu) => match gpu.adapter.kind {
-                AdapterKind::Software => Transport::DIRECT,
-                _ => wanted,
-            },
+            Self::Gpu(gpu) | Self::Shared(gpu) => gpu.adapter.kind == AdapterKind::Software,
         }
     }
 
