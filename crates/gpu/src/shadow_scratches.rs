@@ -107,9 +107,9 @@ impl ShadowScratchesPasses {
     ) {
         let resources = [
             whole(&room.samples.points),
+            whole(&shadow_room.halves),
             whole(&room.samples.chunk_starts),
             whole(&room.samples.chunk_sums),
-            whole(&shadow_room.halves),
             whole(&room.samples.base_light),
             whole(&shadow_room.round),
         ];

@@ -189,8 +189,8 @@ impl Shadows {
     ) {
         let resources = [
             whole(&room.samples.points),
-            whole(&room.samples.paints),
             whole(&shadow_room.halves),
+            whole(&room.samples.paints),
             whole(&room.samples.base_light),
             whole(&shadow_room.round),
         ];

@@ -1,8 +1,6 @@
 // Pass: takes what is hidden of one source from the radiance of the base. A workgroup a group. Twin: cpu/src/shadows.rs.
 
-@group(3) @binding(0) var<storage, read> points: array<PixelPoint>;
-@group(3) @binding(1) var<storage, read> paints: array<PixelPaint>;
-@group(3) @binding(2) var<storage, read> halves: array<ShadowHalf>;
+@group(3) @binding(2) var<storage, read> paints: array<PixelPaint>;
 @group(3) @binding(3) var<storage, read_write> base_light: array<BaseLight>;
 @group(3) @binding(4) var<uniform> shadow_round: ShadowRound;
 

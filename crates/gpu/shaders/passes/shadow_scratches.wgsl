@@ -1,9 +1,7 @@
 // Pass: weakens what scratches send by what is hidden of it. A workgroup a group. Twin: cpu/src/shadows.rs.
 
-@group(3) @binding(0) var<storage, read> points: array<PixelPoint>;
-@group(3) @binding(1) var<storage, read> chunk_starts: array<u32>;
-@group(3) @binding(2) var<storage, read> chunk_sums: array<ChunkSum>;
-@group(3) @binding(3) var<storage, read> halves: array<ShadowHalf>;
+@group(3) @binding(2) var<storage, read> chunk_starts: array<u32>;
+@group(3) @binding(3) var<storage, read> chunk_sums: array<ChunkSum>;
 @group(3) @binding(4) var<storage, read_write> base_light: array<BaseLight>;
 @group(3) @binding(5) var<uniform> shadow_round: ShadowRound;
 

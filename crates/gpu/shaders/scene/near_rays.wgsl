@@ -1,5 +1,8 @@
 // The rays of a pixel's neighbours beside its own, while something moves: visibility alone is blurred, within a surface, and nothing of what the
-// closed forms know. Of what is bound it reads `points` and `halves`.
+// closed forms know.
+
+@group(3) @binding(0) var<storage, read> points: array<PixelPoint>;
+@group(3) @binding(1) var<storage, read> halves: array<ShadowHalf>;
 
 // So many pixels to each side.
 const NEAR_RAYS_PX: i32 = 2;
