@@ -11,13 +11,10 @@ const BUILT_IN_SIZE: &str = "960x540";
 /// Width and height of the pictures of scenes/.
 const SCENE_SIZE: &str = "640x360";
 
-/// Width and height of the pictures by Monte Carlo, which take minutes.
-const REFERENCE_SIZE: &str = "480x270";
-/// Scenes whose picture is a reference's, since `render` leaves out what they are about, with its flags.
-const REFERENCES: [(&str, &[&str]); 1] = [(
-    "mirror",
-    &["--bounces", "2", "--shadows", "on", "--spp", "1024"],
-)];
+/// Rays of each pixel to each light, and samples of its edges.
+const SAMPLES: &str = "32";
+/// Scenes whose picture shows more than one bounce.
+const BOUNCES: [(&str, &str); 1] = [("mirror", "2")];
 
 /// Options of `pictures`.
 #[derive(clap::Args)]
@@ -50,18 +47,17 @@ impl Pictures {
     fn picture(&self, root: &Path, name: &str, scene: Option<&Path>) -> Result<()> {
         let file = format!("docs/pictures/{name}.png");
         let scene_file = scene.map(|path| path.display().to_string().replace('\\', "/"));
-        let reference = REFERENCES.iter().find(|(of, _)| *of == name);
-        let (command, size) = match (reference, scene) {
-            (Some(_), _) => ("reference", REFERENCE_SIZE),
-            (None, Some(_)) => ("render", SCENE_SIZE),
-            (None, None) => ("render", BUILT_IN_SIZE),
+        let size = if scene.is_some() {
+            SCENE_SIZE
+        } else {
+            BUILT_IN_SIZE
         };
-        let mut arguments = vec!["run", "--release", "-q", "-p", "hairline", "--", command];
+        let mut arguments = vec!["run", "--release", "-q", "-p", "hairline", "--", "render"];
         arguments.extend(scene_file.as_deref());
-        arguments.extend(["-o", &file, "--size", size]);
-        match reference {
-            Some((_, flags)) => arguments.extend(*flags),
-            None => arguments.extend(["--samples", "8", "--backend", &self.backend]),
+        arguments.extend(["-o", &file, "--size", size, "--samples", SAMPLES]);
+        arguments.extend(["--backend", &self.backend]);
+        if let Some((_, bounces)) = BOUNCES.iter().find(|(of, _)| *of == name) {
+            arguments.extend(["--bounces", bounces]);
         }
         println!("cargo {}", arguments.join(" "));
         let cargo = std::env::var_os("CARGO").unwrap_or("cargo".into());

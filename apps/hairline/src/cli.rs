@@ -101,10 +101,10 @@ pub struct Render {
     #[arg(long, value_name = "N", default_value_t = DEFAULT_SAMPLES, value_parser = clap::value_parser!(u32).range(1..=1024))]
     pub samples: u32,
     /// Whether objects hide lights and the environment from one another: as many rays to each light as there are samples.
-    /// [default: off]
+    /// [default: on; the published method has none]
     #[arg(long, value_enum)]
     pub shadows: Option<Switch>,
-    /// Objects that light may go by on its way besides the one that is seen, with shadows. [default: 0]
+    /// Objects that light may go by on its way besides the one that is seen, with shadows. [default: 1]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=64))]
     pub bounces: Option<u32>,
     /// Whether light that few rays of a pixel found is spread over the pixels around, which keeps the picture's mean. For shadows and

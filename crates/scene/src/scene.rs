@@ -35,7 +35,10 @@ impl Transport {
 }
 
 /// What `hairline render` and the viewer begin with.
-pub const DEFAULT_TRANSPORT: Transport = Transport::DIRECT;
+pub const DEFAULT_TRANSPORT: Transport = Transport {
+    shadows: true,
+    bounces: 1,
+};
 
 /// Everything that a picture depends on.
 ///
