@@ -34,7 +34,7 @@ impl Transport {
     };
 }
 
-/// What `hairline render` and the viewer begin with.
+/// What `hairline render` does unless it is told otherwise.
 pub const DEFAULT_TRANSPORT: Transport = Transport {
     shadows: true,
     bounces: 1,

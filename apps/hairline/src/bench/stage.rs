@@ -124,10 +124,11 @@ depth_nm = {{ mean = 220.0, spread = 0.3 }}
             -camera_m * sin,
             camera_m * cos,
         );
-        for lamp in self.lamps() {
-            text += &lamp;
+        let lamps = self.lamps();
+        if lamps.is_empty() {
+            text += "\n[studio]\nhidden = true\n";
         }
-        text
+        text + &lamps.concat()
     }
 
     /// Builds it.

@@ -55,15 +55,11 @@ pub fn run(
         scene.camera.position_m = motion.position_m(&loaded.description.camera, frame as u32);
         let is_stopped = || interrupt.is_asked();
         let rendered = painter.render(&scene, &is_stopped, &|share| done(frame, own * share));
-        let Rendered {
-            image,
-            samples,
-            wanted,
-        } = rendered.map_err(kept)?;
-        // A frame of fewer samples would stand out.
-        if samples < wanted {
-            return Err(kept(Failure::Work(anyhow!("interrupted"))));
-        }
+        let Rendered { image, .. } = match rendered {
+            // A frame of fewer samples would stand out, if there is any.
+            _ if interrupt.is_asked() => Err(kept(Failure::Work(anyhow!("interrupted")))),
+            rendered => rendered.map_err(kept),
+        }?;
         if let Some(output) = goals.pictures.get(frame) {
             write(output, &image).map_err(kept)?;
         }
