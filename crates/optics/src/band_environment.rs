@@ -20,6 +20,9 @@ pub const ENVIRONMENT_CELLS: usize = 10;
 /// Scale of x as u = W q. Larger ones take more of the cells to the lobes beside the main one.
 const CELL_SCALE_UM: f64 = 0.3;
 
+/// Cells along the band for a grating, whose orders spread the colours over all of it: even in the angle.
+pub const ROW_CELLS: usize = 48;
+
 /// Alpha of the lobe that blurs a cell over the chord that it spans.
 const CELL_ALPHA: f64 = 0.08;
 
@@ -80,6 +83,22 @@ pub fn environment_cells(line: BandLine, width_um: f64) -> [EnvironmentCell; ENV
     })
 }
 
+/// The cells of a line for a grating, from the arc's end to its start in q.
+pub fn row_cells(line: BandLine) -> [EnvironmentCell; ROW_CELLS] {
+    // Of the middles, too.
+    let step = std::f64::consts::PI / (2 * ROW_CELLS) as f64;
+    let at = |i: usize| line.offset - line.radius * (step * i as f64).cos();
+    std::array::from_fn(|i| {
+        let (q_low, middle, q_high) = (at(2 * i), at(2 * i + 1), at(2 * i + 2));
+        EnvironmentCell {
+            q_low,
+            q_high,
+            direction: line.direction_at(middle),
+            angle_rad: 2.0 * line.radius * step.sin(),
+        }
+    })
+}
+
 /// Cell `i` of a line. Cells follow one another in q from the arc's end to its start.
 pub fn environment_cell(i: usize, line: BandLine, width_um: f64) -> EnvironmentCell {
     environment_cells(line, width_um)[i]
@@ -131,6 +150,15 @@ mod tests {
                     at = cell.q_high;
                 }
                 assert_eq!(at, line.q_start());
+            }
+            let line = BandLine::new(wo, 0.0);
+            let cells = row_cells(line);
+            assert!((cells[0].q_low - line.q_end()).abs() < 1e-12);
+            assert!((cells[ROW_CELLS - 1].q_high - line.q_start()).abs() < 1e-12);
+            for (i, cell) in cells.iter().enumerate() {
+                assert!(i == 0 || cells[i - 1].q_high == cell.q_low);
+                assert!(cell.q_high >= cell.q_low);
+                assert!((cell.direction.length() - 1.0).abs() < 1e-9 && cell.direction.z >= 0.0);
             }
         }
     }

@@ -30,6 +30,7 @@ pub mod footprint;
 pub mod fresnel;
 pub mod gaussian;
 pub mod ggx;
+pub mod grating;
 pub mod irradiance;
 pub mod lobe_table;
 pub mod ltc;

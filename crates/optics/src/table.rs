@@ -78,10 +78,8 @@ impl ScratchTable {
                 })
             })
             .collect();
-        let mut texels = vec![[0u32; 4]; ROWS * COLUMNS];
-        for (row, texels) in texels.chunks_exact_mut(COLUMNS).enumerate() {
+        Self::from_rows(|row, sums| {
             let depth_nm = row as f64 * DEPTH_MAX_NM / (ROWS - 1) as f64;
-            let mut sums = vec![[0f64; 6]; COLUMNS];
             for (sample, chords) in samples.iter().zip(&chords) {
                 let energy = reflectance(sample.wavelength_nm)
                     * scratch::phase_step_energy(depth_nm, sample.wavelength_nm);
@@ -93,6 +91,15 @@ impl ScratchTable {
                     }
                 }
             }
+        })
+    }
+
+    /// `fill` adds to zeros the columns of a row: T in each channel, and its derivatives by the column index.
+    pub(crate) fn from_rows(fill: impl Fn(usize, &mut [[f64; 6]])) -> Self {
+        let mut texels = vec![[0u32; 4]; ROWS * COLUMNS];
+        for (row, texels) in texels.chunks_exact_mut(COLUMNS).enumerate() {
+            let mut sums = vec![[0f64; 6]; COLUMNS];
+            fill(row, &mut sums);
             for (texel, &[r, g, b, slopes @ ..]) in texels.iter_mut().zip(&sums) {
                 let [r, g, b] = [r, g, b].map(|t| (t as f32).to_bits());
                 *texel = [r, g, b, pack_slopes(slopes)];
@@ -169,7 +176,7 @@ impl TableRow<'_> {
 }
 
 /// u at a column or between two; infinite at the last one.
-fn column_u_um(column: f64) -> f64 {
+pub(crate) fn column_u_um(column: f64) -> f64 {
     let x = column / (COLUMNS - 1) as f64;
     U_HALF_UM * x / (1.0 - x)
 }

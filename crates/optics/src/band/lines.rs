@@ -116,6 +116,11 @@ impl BandPlace {
         }
     }
 
+    /// Of what lies everywhere under the pixel.
+    pub fn everywhere() -> Self {
+        Self::new([0.0; 2], 0.0, 1.0)
+    }
+
     /// Draws the place under the pixel, in standard deviations of its filter to the right and down, of a part that sees the scratch: from three
     /// standard normal numbers and one in (0, 1). Of what is normal over the pixel, the distance across the scratch is known, and what is
     /// along it lies between its ends.

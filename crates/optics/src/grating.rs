@@ -1,0 +1,115 @@
+//! Rows of parallel grooves finer than a pixel: compact discs, foils, brushed and turned metal (docs/model.md, section 12).
+//!
+//! The grooves of a row interfere. Averaged over where the row lies under the pixel, what it sends falls into orders of diffraction, weakened
+//! by how far the grooves are off their places as X-rays are by the warmth of a crystal (P. Debye, 1913; I. Waller, 1923), and a rest
+//! that grooves send each for itself. Both depend on q alone, for a given row: [`Grating::table`] holds their integral, so that the chords
+//! that a light cuts out of a scratch's band serve a row as they are.
+
+mod table;
+
+use num_complex::Complex64;
+use std::f64::consts::PI;
+
+use crate::diffraction::sinc;
+
+pub use table::{GRATING_DEPTH_NM, GRATING_WIDTH_UM};
+
+/// A row of parallel grooves of rectangular profile.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Grating {
+    /// From one groove to the next, in the mean.
+    pub pitch_um: f64,
+    /// Width of each groove, at most the pitch.
+    pub width_um: f64,
+    /// Mean depth.
+    pub depth_nm: f64,
+    /// Standard deviation of a groove's depth, a share of the mean.
+    pub depth_spread: f64,
+    /// Standard deviation of how far a groove is off its place.
+    pub jitter_um: f64,
+}
+
+impl Grating {
+    /// W / pitch: the share of the surface that lies in grooves.
+    pub fn fill(&self) -> f64 {
+        self.width_um / self.pitch_um
+    }
+
+    /// E D: the mean over the grooves of what a floor takes from the reflection coefficient, (3). `depth_share` is the factor on depths
+    /// by which an oblique path is shorter: half the sum of the cosines.
+    pub fn mean_phase_step(&self, depth_share: f64, wavelength_nm: f64) -> Complex64 {
+        let phase = 4.0 * PI * self.depth_nm * depth_share / wavelength_nm;
+        let std = phase * self.depth_spread;
+        1.0 - Complex64::from_polar((-0.5 * std * std).exp(), -phase)
+    }
+
+    /// E |D|^2, which is twice the real part of E D.
+    pub fn mean_phase_step_energy(&self, depth_share: f64, wavelength_nm: f64) -> f64 {
+        2.0 * self.mean_phase_step(depth_share, wavelength_nm).re
+    }
+
+    /// xi_n of the directions that an order sends a wavelength to: the grating equation.
+    pub fn order_q(&self, order: i32, wavelength_nm: f64) -> f64 {
+        f64::from(order) * wavelength_nm * 1e-3 / self.pitch_um
+    }
+
+    /// What an order other than 0 sends of any wavelength, over |E D|^2: the same for all.
+    pub fn order_weight(&self, order: i32) -> f64 {
+        self.envelope(f64::from(order) / self.pitch_um)[0] * self.order_kept(order)
+    }
+
+    /// J: what the places of the grooves leave of an order. It belongs to the order as a whole, and not to places within it.
+    fn order_kept(&self, order: i32) -> f64 {
+        let displaced = 2.0 * PI * self.jitter_um * f64::from(order) / self.pitch_um;
+        (-displaced * displaced).exp()
+    }
+
+    /// What a groove's width leaves at so many turns of the phase for each um across, and how that rises with them.
+    fn envelope(&self, turns_per_um: f64) -> [f64; 2] {
+        let x = PI * self.width_um * turns_per_um;
+        let slit = sinc(x);
+        let slope = if x.abs() < 1e-4 {
+            -x / 3.0
+        } else {
+            (x.cos() - slit) / x
+        };
+        let fill2 = self.fill() * self.fill();
+        let rise = 2.0 * slit * slope * PI * self.width_um;
+        [fill2 * slit * slit, fill2 * rise]
+    }
+
+    /// (42), integrated over xi_t: what the row sends to q, order 0 aside, for each unit of q and of the surface that it covers. `band_std` is (5)
+    /// of the wavelength.
+    pub fn density(&self, q: f64, depth_share: f64, wavelength_nm: f64, band_std: f64) -> f64 {
+        let per_um = 1e3 / wavelength_nm;
+        let slit = sinc(PI * self.width_um * per_um * q);
+        let displaced = 2.0 * PI * self.jitter_um * per_um * q;
+        let alone = self.fill() * self.width_um * per_um * slit * slit;
+        let spacing = self.order_q(1, wavelength_nm);
+        let (nearest, reach) = ((q / spacing).round(), (6.0 * band_std / spacing).ceil());
+        let peaks: f64 = ((nearest - reach) as i32..=(nearest + reach) as i32)
+            .filter(|order| *order != 0)
+            .map(|order| {
+                let off = (q - self.order_q(order, wavelength_nm)) / band_std;
+                self.order_kept(order) * (-0.5 * off * off).exp()
+            })
+            .sum();
+        let together = self.envelope(per_um * q)[0] * peaks / ((2.0 * PI).sqrt() * band_std);
+        let step = self.mean_phase_step(depth_share, wavelength_nm);
+        let of_mean = step.norm_sqr();
+        of_mean * (together - alone * (-displaced * displaced).exp()) + 2.0 * step.re * alone
+    }
+
+    /// The share of the light that goes to an order. That of order 0 leaves in the mirror's direction.
+    pub fn order_energy(&self, order: i32, depth_share: f64, wavelength_nm: f64) -> f64 {
+        let step = self.mean_phase_step(depth_share, wavelength_nm);
+        if order == 0 {
+            (1.0 - self.fill() * step).norm_sqr()
+        } else {
+            self.order_weight(order) * step.norm_sqr()
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;
