@@ -5,6 +5,7 @@ mod dist;
 mod fit_lobes;
 mod fuzz;
 mod make_models;
+mod package;
 mod paths;
 mod pictures;
 mod rooms;
@@ -27,6 +28,8 @@ enum Command {
     Fuzz(fuzz::Fuzz),
     /// Make the models and the sky of scenes/, and write them to scenes/models and scenes/maps.
     MakeModels(make_models::MakeModels),
+    /// Make the package of shaders, tables and JavaScript for other engines.
+    Package(package::Package),
     /// Find paths in documents and shaders that name no file.
     Paths,
     /// Render the pictures of the docs into docs/pictures.
@@ -48,6 +51,7 @@ fn main() -> anyhow::Result<()> {
         Command::FitLobes(command) => command.run(),
         Command::Fuzz(command) => command.run(),
         Command::MakeModels(command) => command.run(),
+        Command::Package(command) => command.run(),
         Command::Paths => paths::run(),
         Command::Pictures(command) => command.run(),
         Command::Rooms(command) => command.run(),

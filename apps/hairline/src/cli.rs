@@ -41,6 +41,8 @@ pub enum Command {
     Bench(Bench),
     /// Show the version, the graphics adapters and what they can do, and the backends available; or what is in a scene.
     Info(Info),
+    /// Write the laid scratches of an object as a list (CSV), for other programs: three.js, game engines, Blender.
+    Scratches(Scratches),
     /// Print what a shell needs to complete this command line.
     Completions(Completions),
     /// Print the manual page (roff): `hairline man | man -l -`.
@@ -55,6 +57,22 @@ pub struct Info {
     /// Print the scene as JSON.
     #[arg(long, requires = "scene")]
     pub json: bool,
+}
+
+/// `hairline scratches`
+#[derive(Args, Debug)]
+pub struct Scratches {
+    /// The scene file (TOML), or a model (.glb, .gltf); - reads a scene from stdin.
+    pub scene: PathBuf,
+    /// The list: a straight piece a row, in world space, metres; then the number of its scratch and the surface's normal.
+    #[arg(short, long, value_name = "FILE")]
+    pub output: PathBuf,
+    /// The object, by its name. Without it: the only one that has scratches.
+    #[arg(long, value_name = "NAME")]
+    pub object: Option<String>,
+    /// Only the scratches of this [[scratches]] table, counted from 0.
+    #[arg(long, value_name = "N")]
+    pub layer: Option<u32>,
 }
 
 /// `hairline completions`

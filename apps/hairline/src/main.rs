@@ -15,6 +15,7 @@ mod progress;
 mod reference;
 mod render;
 mod scene_file;
+mod scratches;
 mod size_limit;
 mod switch;
 mod view;
@@ -35,6 +36,7 @@ fn main() -> ExitCode {
         Some(cli::Command::Reference(arguments)) => reference::run(arguments),
         Some(cli::Command::Bench(arguments)) => bench::run(arguments),
         Some(cli::Command::Info(arguments)) => info::run(arguments),
+        Some(cli::Command::Scratches(arguments)) => scratches::run(arguments),
         Some(cli::Command::Completions(arguments)) => manual::completions(arguments.shell),
         Some(cli::Command::Man) => manual::page(),
         Some(cli::Command::View(arguments)) => view::run(arguments),

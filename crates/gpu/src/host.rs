@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Vec3};
 use hairline_index::{IndexedSegment, ScratchIndex};
-use hairline_scene::{Mesh, Scene, ScratchTables};
+use hairline_scene::{Mesh, Profile, Scene, ScratchTables};
 use half::f16;
 use rayon::prelude::*;
 use std::ops::Range;
@@ -122,19 +122,23 @@ fn scratch_node(node: &hairline_index::ScratchNode, origin_m: DVec3) -> ScratchN
 fn scratch_segment(segment: &IndexedSegment, origin_m: DVec3) -> ScratchSegment {
     ScratchSegment {
         start_m: relative(segment.start_m.as_dvec3(), origin_m),
-        width_depth: half_bits(segment.profile.width_um)
-            | half_bits(segment.profile.depth_nm) << 16,
+        width_depth: profile_bits(segment.profile),
         end_m: relative(segment.end_m.as_dvec3(), origin_m),
         normal_blur: octahedral(segment.normal) | half_bits(segment.blur_um) << 16,
     }
 }
 
-fn half_bits(value: f32) -> u32 {
+/// Width and depth.
+pub(crate) fn profile_bits(profile: Profile) -> u32 {
+    half_bits(profile.width_um) | half_bits(profile.depth_nm) << 16
+}
+
+pub(crate) fn half_bits(value: f32) -> u32 {
     u32::from(f16::from_f32(value).to_bits())
 }
 
-/// A unit vector as two signed bytes. Twin: `segment_normal` in segments.wgsl.
-fn octahedral(normal: Vec3) -> u32 {
+/// A unit vector as two signed bytes. Twin: `octahedral_normal` in scratch.wgsl.
+pub(crate) fn octahedral(normal: Vec3) -> u32 {
     let v = normal / (normal.x.abs() + normal.y.abs() + normal.z.abs()).max(1e-30);
     let folded = |value: f32, other: f32| {
         if v.z >= 0.0 {

@@ -48,6 +48,7 @@ mod rows;
 mod scan;
 mod scene_buffers;
 mod scene_data;
+pub mod scratch_tree;
 mod shade_base;
 mod shade_published;
 mod shade_scratches;

@@ -1,7 +1,8 @@
 //! The shader modules, and how they are joined.
 //!
-//! Modules lie in four folders. `physics` has no binding and no entry point: its data comes by arguments, so that another engine can
-//! lift it. `scene` reads what is bound. `passes` has the entry points. `published` is the method of 2018, all of it.
+//! Modules lie in five folders. `physics` has no binding and no entry point: its data comes by arguments, so that another engine can
+//! lift it. `engine` is what only other engines call: `cargo xtask package` packs it with the physics. `scene` reads what is bound.
+//! `passes` has the entry points. `published` is the method of 2018, all of it.
 //!
 //! Modules are joined by concatenation, what a module needs before it, each once; their module-level names are therefore unique
 //! over all modules.
@@ -93,6 +94,14 @@ modules! {
     PUBLISHED_FOOTPRINT = "published/published_footprint" needs [GAUSSIAN];
     /// What one scratch sends to the viewer: the module for other engines.
     SCRATCH_LIGHT = "physics/scratch_light" needs [FOUR_EDGES, BAND_ENVIRONMENT, SCRATCH_TABLE, MASK, ENVIRONMENT];
+    /// For other engines: finding scratches under a footprint.
+    SCRATCH_TREE = "engine/scratch_tree" needs [SCRATCH];
+    /// For other engines: the base of a point under lights.
+    LIT_BASE = "engine/lit_base" needs [FILTERED_LOBE, BAND, SCRATCH_LIGHT];
+    /// For other engines: all scratches of a point under lights.
+    SCRATCHED_SURFACE = "engine/scratched_surface" needs [SCRATCH_LIGHT, SCRATCH_TREE];
+    /// For other engines: a pass that makes the table of a metal.
+    MAKE_SCRATCH_TABLE = "engine/make_scratch_table" needs [SCRATCH_TABLE];
     /// The structs that the host fills, and no binding.
     LAYOUT = "scene/layout" needs [];
     /// Where the scene is bound: group 0 the frame, group 1 the scene's arrays, group 2 its tables and textures.
@@ -219,27 +228,40 @@ modules! {
     DISPLAY = "passes/display" needs [LAYOUT, TONE_MAP];
 }
 
-/// The text of `modules` and of everything that they need.
-pub fn compose(modules: &[&Module]) -> String {
-    fn visit<'a>(module: &'a Module, joined: &mut Vec<&'a str>, text: &mut String) {
-        if joined.contains(&module.name) {
+/// What `cargo xtask package` packs for other engines, with what it needs.
+pub static FOR_ENGINES: &[&Module] = &[
+    &SCRATCHED_SURFACE,
+    &LIT_BASE,
+    &CAMERA,
+    &TUBE,
+    &ENVIRONMENT_LOBE,
+];
+
+/// `modules` and everything that they need, each once and after its own needs.
+pub fn with_needs<'a>(modules: &[&'a Module]) -> Vec<&'a Module> {
+    fn visit<'a>(module: &'a Module, joined: &mut Vec<&'a Module>) {
+        if joined.iter().any(|other| other.name == module.name) {
             return;
         }
         for need in module.needs {
-            visit(need, joined, text);
+            visit(need, joined);
         }
-        joined.push(module.name);
-        text.push_str(&format!(
-            "// ---- {}.wgsl\n{}\n",
-            module.name,
-            module.source.trim_end()
-        ));
+        joined.push(module);
     }
-    let (mut joined, mut text) = (Vec::new(), String::new());
+    let mut joined = Vec::new();
     for module in modules {
-        visit(module, &mut joined, &mut text);
+        visit(module, &mut joined);
     }
-    text
+    joined
+}
+
+/// The text of `modules` and of everything that they need.
+pub fn compose(modules: &[&Module]) -> String {
+    let text = |module: &Module| {
+        let source = module.source.trim_end();
+        format!("// ---- {}.wgsl\n{source}\n", module.name)
+    };
+    with_needs(modules).into_iter().map(text).collect()
 }
 
 /// Parses and validates what a module has become.
@@ -276,6 +298,29 @@ mod tests {
             assert!(!module.source.contains("@group"), "{}", module.name);
             let other = module.needs.iter().find(|need| !is_physics(need));
             assert!(other.is_none(), "{} needs {other:?}", module.name);
+        }
+    }
+
+    /// The same of what only engines call, and naga_oil takes no member of a struct that ends in a digit.
+    #[test]
+    fn what_engines_take_binds_nothing_and_its_members_end_in_letters() {
+        for module in with_needs(FOR_ENGINES) {
+            assert!(!module.source.contains("@group"), "{}", module.name);
+            let folder = module.name.split('/').next();
+            assert!(
+                matches!(folder, Some("physics" | "engine")),
+                "{}",
+                module.name
+            );
+            let structs = module.source.split("\nstruct ").skip(1);
+            for line in structs.flat_map(|text| text.split("\n}").next().unwrap_or("").lines()) {
+                let name = line.split(':').next().unwrap_or("").trim();
+                assert!(
+                    !name.ends_with(|c: char| c.is_ascii_digit()),
+                    "{}: {name}",
+                    module.name
+                );
+            }
         }
     }
 

@@ -59,3 +59,4 @@ pub use loader::{Loader, Progress, Stage};
 pub use material_optics::{MaterialOptics, Reflector, ScratchTables};
 pub use polygon::vector_area_m2;
 pub use scene::*;
+pub use scratches::write_scratches;

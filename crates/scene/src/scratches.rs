@@ -34,6 +34,7 @@ pub(crate) use ground::Ground;
 pub(crate) use laying::{DEPTHS_NM, WIDTHS_UM};
 use laying::{Groove, Laying, MOST_SEGMENTS};
 use listed::Listed;
+pub use listed::write_scratches;
 use memory::{Demand, SEGMENT_BYTES};
 use painted::Painted;
 use strewn::Strewn;

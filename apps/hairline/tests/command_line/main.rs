@@ -11,5 +11,6 @@ mod compare;
 mod method;
 mod opengl;
 mod reference;
+mod scratches;
 mod sequence;
 mod shadows;

@@ -242,8 +242,8 @@ struct BandEdge {
     a: vec3f,                   // unit directions to its ends
     b_x: f32,
     m: vec3f,                   // normal of its plane: the cross product of a and b
-    m2: f32,                    // its square without the tangent component
-    length2: f32,               // its square; 0 for no edge
+    across_sq: f32,             // its square without the tangent component
+    m_sq: f32,                  // its square; 0 for no edge
     turns: f32,                 // 1 where the tangent component has a greatest value between the ends, -1 for a least one
 }
 
@@ -259,7 +259,7 @@ fn band_edge(a: vec3f, b: vec3f) -> BandEdge {
 
 // Least and greatest tangent component along an edge.
 fn band_edge_extent(edge: BandEdge) -> vec2f {
-    let extreme = min(sqrt(edge.m2 / max(edge.length2, 1e-30)), 1.0);
+    let extreme = min(sqrt(edge.across_sq / max(edge.m_sq, 1e-30)), 1.0);
     return vec2f(
         select(min(edge.a.x, edge.b_x), -extreme, edge.turns < 0.0),
         select(max(edge.a.x, edge.b_x), extreme, edge.turns > 0.0),
@@ -286,15 +286,15 @@ struct EdgeCrossings {
 fn band_edge_crossings(edge: BandEdge, line: BandLine) -> EdgeCrossings {
     let beyond_a = edge.a.x >= line.along;
     let beyond_b = edge.b_x >= line.along;
-    let s2 = edge.m2 - line.along * line.along * edge.length2;
+    let s2 = edge.across_sq - line.along * line.along * edge.m_sq;
     // Both ends on one side: two roots if the edge turns back between them, on the other side of the line; else none.
     let twice = beyond_a == beyond_b && edge.turns == select(1.0, -1.0, beyond_a) && s2 > 0.0;
     let s = sqrt(max(s2, 0.0));
-    let scale = 1.0 / max(edge.m2, 1e-30);
+    let scale = 1.0 / max(edge.across_sq, 1e-30);
     let y = vec2f(-line.along * edge.m.x * edge.m.y) + vec2f(-s, s) * edge.m.z;
     let z = vec2f(-line.along * edge.m.x * edge.m.z) + vec2f(s, -s) * edge.m.y;
     // Of no length, but with the line between its rounded ends.
-    let point = edge.length2 < 1e-18;
+    let point = edge.m_sq < 1e-18;
     return EdgeCrossings(
         band_q(line, select(y.x * scale, edge.a.y, point), select(z.x * scale, edge.a.z, point)),
         band_q(line, select(y.y * scale, edge.a.y, point), select(z.y * scale, edge.a.z, point)),

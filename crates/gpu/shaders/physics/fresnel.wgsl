@@ -7,7 +7,7 @@ const FRESNEL_NODES: u32 = 128u;
 const FRESNEL_CURVE_ROWS: u32 = 9u;
 
 struct FresnelRgb {
-    f0: vec3f,
+    at_normal: vec3f,
     curve: u32,
 }
 
@@ -25,7 +25,7 @@ fn fresnel_lookup(curves: texture_2d<f32>, curve: u32, cos_theta: f32) -> vec4f 
 }
 
 fn fresnel_of_parts(fresnel: FresnelRgb, parts: vec4f) -> vec3f {
-    return parts.xyz + parts.w * fresnel.f0;
+    return parts.xyz + parts.w * fresnel.at_normal;
 }
 
 fn fresnel_eval(curves: texture_2d<f32>, fresnel: FresnelRgb, cos_theta: f32) -> vec3f {

@@ -140,22 +140,22 @@ fn irradiance_basis(w: vec3f) -> IrradianceBasis {
 
 struct EllipticCone {
     axis: vec3f,
-    t1: f32,
-    side1: vec3f,
-    t2: f32,
-    side2: vec3f,
+    tan_a: f32,
+    side_a: vec3f,
+    tan_b: f32,
+    side_b: vec3f,
 }
 
 fn irradiance_cone(cone: EllipticCone) -> vec3f {
-    let t1 = cone.t1;
-    let t2 = cone.t2;
+    let t1 = cone.tan_a;
+    let t2 = cone.tan_b;
     let p2 = 1.0 + t1 * t1;
     let q2 = 1.0 + t2 * t2;
     let pq = sqrt(p2) * sqrt(q2);
     let whole = IRRADIANCE_PI * t1 * t2 / pq;
 
-    let z1 = t1 * cone.side1.z;
-    let z2 = t2 * cone.side2.z;
+    let z1 = t1 * cone.side_a.z;
+    let z2 = t2 * cone.side_b.z;
     let amplitude = length(vec2f(z1, z2));
     if (cone.axis.z >= amplitude) {
         return whole * cone.axis;
@@ -179,10 +179,10 @@ fn irradiance_cone(cone: EllipticCone) -> vec3f {
     let along1 = irradiance_cone_along1(s_to, t2, p2, kappa2) - irradiance_cone_along1(s_from, t2, p2, kappa2);
     let along2 = irradiance_cone_along2(c_to, s_to, t1, p2, q2, kappa2)
         - irradiance_cone_along2(c_from, s_from, t1, p2, q2, kappa2);
-    let arc = 0.5 * (cone.axis * (t1 * t2 / pq * swept) - cone.side1 * along1 - cone.side2 * along2);
+    let arc = 0.5 * (cone.axis * (t1 * t2 / pq * swept) - cone.side_a * along1 - cone.side_b * along2);
 
-    let start = (cone.axis + cone.side1 * (t1 * c_from) + cone.side2 * (t2 * s_from)).xy;
-    let back = 2.0 * sin_b * (cone.side1 * (t1 * sin_t0) - cone.side2 * (t2 * cos_t0)).xy;
+    let start = (cone.axis + cone.side_a * (t1 * c_from) + cone.side_b * (t2 * s_from)).xy;
+    let back = 2.0 * sin_b * (cone.side_a * (t1 * sin_t0) - cone.side_b * (t2 * cos_t0)).xy;
     let stop = start - back;
     let turn = start.x * back.y - start.y * back.x;
     let closing = sign(turn) * irradiance_angle(abs(turn), dot(stop, start));

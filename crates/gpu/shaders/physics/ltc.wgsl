@@ -143,7 +143,7 @@ struct LtcCone {
     v: vec3f,
     volume: f32,
     n: vec3f,
-    size2: vec2f,
+    size_sq: vec2f,
     centre: vec3f,
 }
 
@@ -186,14 +186,14 @@ fn ltc_one_pole(a: f32, pole: f32, b: f32) -> f32 {
 
 fn ltc_cone_middle(cone: LtcCone) -> vec3f {
     let root = max(cone.root, 1e-30);
-    return cone.centre / vec3f(root + cone.size2, root);
+    return cone.centre / vec3f(root + cone.size_sq, root);
 }
 
 // The vector irradiance of a cone that the horizon does not cut.
 fn ltc_cone_whole(cone: LtcCone) -> vec3f {
     let root = max(cone.root, 1e-30);
     let middle = ltc_cone_middle(cone);
-    let poles = sqrt((root + cone.size2.x) * (root + cone.size2.y));
+    let poles = sqrt((root + cone.size_sq.x) * (root + cone.size_sq.y));
     let magnitude = GGX_PI * cone.volume / (root * poles * dot(middle, middle));
     return magnitude * (cone.u * middle.x + cone.v * middle.y + cone.n * middle.z);
 }
@@ -202,7 +202,7 @@ fn ltc_cone_axes(cone: LtcCone) -> EllipticCone {
     let root = max(cone.root, 1e-30);
     let middle = ltc_cone_middle(cone);
     let per_length = inverseSqrt(root * dot(middle, middle));
-    let size = sqrt(cone.size2);
+    let size = sqrt(cone.size_sq);
     let boost = -per_length * middle.xy * size;
     let forward = boost / (1.0 + per_length);
     // In the frame of u, v and n.

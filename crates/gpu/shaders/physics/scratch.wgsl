@@ -6,6 +6,21 @@ struct Profile {
     depth_nm: f32,
 }
 
+// From two half floats.
+fn profile_unpacked(word: u32) -> Profile {
+    let halves = unpack2x16float(word);
+    return Profile(halves.x, halves.y);
+}
+
+// A unit vector from its octahedral map. Q. Meyer et al., "On Floating-Point Normal Vectors", 2010.
+fn octahedral_normal(octahedral: vec2f) -> vec3f {
+    var v = vec3f(octahedral, 1.0 - abs(octahedral.x) - abs(octahedral.y));
+    let fold = max(-v.z, 0.0);
+    v.x += select(fold, -fold, v.x >= 0.0);
+    v.y += select(fold, -fold, v.y >= 0.0);
+    return normalize(v);
+}
+
 // Standard deviation, in direction cosines along the scratch, of the band that it lights.
 fn band_std(coherence_um: f32, wavelength_nm: f32) -> f32 {
     return wavelength_nm * 1e-3 / (8.88576588 * coherence_um);
@@ -18,9 +33,9 @@ fn oblique_depth_nm(depth_nm: f32, cos_i: f32, cos_o: f32) -> f32 {
 
 // Covariance of a footprint in a scratch's own axes, um^2.
 struct Footprint {
-    across_um2: f32,
-    along_um2: f32,
-    cross_um2: f32,
+    across_sq_um: f32,
+    along_sq_um: f32,
+    cross_sq_um: f32,
 }
 
 // The share of the footprint-averaged coherence window that a segment covers, and that its endless line would.
@@ -39,12 +54,12 @@ fn scratch_share(
     footprint: Footprint,
     coherence_um: f32,
 ) -> ScratchShare {
-    let variance = footprint.across_um2 + 0.5 * coherence_um * coherence_um;
+    let variance = footprint.across_sq_um + 0.5 * coherence_um * coherence_um;
     let across = exp(-min(0.5 * offset_um * offset_um / variance, GAUSSIAN_TAIL)) * inverseSqrt(6.28318531 * variance);
     // Where the footprint is slanted, the part of it that lies on the scratch is displaced along it.
-    let slant = footprint.cross_um2 / variance;
+    let slant = footprint.cross_sq_um / variance;
     let shift = offset_um * slant;
-    let along_variance = footprint.along_um2 - footprint.cross_um2 * slant + blur_um * blur_um;
+    let along_variance = footprint.along_sq_um - footprint.cross_sq_um * slant + blur_um * blur_um;
     let z = max(sqrt(2.0 * max(along_variance, 0.0)), 1e-6);
     let line = width_um * across;
     return ScratchShare(line * 0.5 * gaussian_erf_difference((start_um - shift) / z, (end_um - shift) / z), line);

@@ -24,7 +24,7 @@ struct SeenScratch {
     tangent: vec2f,
     offset_um: f32,             // of its line, across the tangent
     across_um: vec2f,           // footprint_x_um and footprint_y_um across it
-    variance_um2: f32,          // of footprint and coherence window across it
+    variance_sq_um: f32,          // of footprint and coherence window across it
     profile: Profile,
 }
 
@@ -61,7 +61,7 @@ fn scratch_band(point: LitPoint, seen: SeenScratch, axis: vec3f, light_m: f32) -
     let x = band_moves(point.turn_x, vec3f(point.footprint_x_um, 0.0), point.wo, per_o, axis, per_i);
     let y = band_moves(point.turn_y, vec3f(point.footprint_y_um, 0.0), point.wo, per_o, axis, per_i);
     let moves = vec2f(dot(x, seen.tangent), dot(y, seen.tangent));
-    return moved_band(band_stds(point.coherence_um), moves, seen.across_um, seen.offset_um, seen.variance_um2);
+    return moved_band(band_stds(point.coherence_um), moves, seen.across_um, seen.offset_um, seen.variance_sq_um);
 }
 
 // The light between two q, for light whose directions have the cosine cos_i to the normal.

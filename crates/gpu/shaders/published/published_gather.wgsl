@@ -81,7 +81,7 @@ fn published_weight(point: SurfacePoint, segment: Segment, view: PublishedView) 
     );
     let sigma = point.coherence_um;
     let offset_um = published_offset_um(view);
-    let reach2 = REACH_STD * REACH_STD * (footprint.across_um2 + 0.5 * sigma * sigma);
+    let reach2 = REACH_STD * REACH_STD * (footprint.across_sq_um + 0.5 * sigma * sigma);
     let elsewhere = dot(segment.normal, point.normal) < FACING_MIN_COS;
     if offset_um * offset_um > reach2 || elsewhere || !(view.end.x > view.start.x) {
         return PublishedWeight(ScratchShare(0.0, 0.0), 0.0);

@@ -72,7 +72,7 @@ fn base_environment(point: SurfacePoint, lobe: LtcLobe, reflecting: LobeFresnel)
         all += (radiance - all) * (tap.weight / weights);
         grazing += (radiance - grazing) * (tap.grazing_weight / grazing_weights);
     }
-    let normal = reflecting.fresnel.f0 * lobe.albedo;
+    let normal = reflecting.fresnel.at_normal * lobe.albedo;
     return BaseRadiance(normal * all + (reflecting.albedo - normal) * grazing, scene_irradiance(point.normal) / 3.14159265);
 }
 

@@ -280,8 +280,8 @@ fn draw_cells(point: LitPoint, seen: SeenScratch, map_from_surface: mat3x3f, is_
 // numbers. Twin: BandPlace::drawn of optics/src/band/lines.rs.
 fn place_drawn(point: LitPoint, seen: SeenScratch, start_um: vec2f, end_um: vec2f, blur_um: f32, normals: vec3f, u: f32) -> vec2f {
     let across = seen.across_um;
-    let slopes = across / seen.variance_um2;
-    let window = sqrt(max(seen.variance_um2 - dot(across, across), 0.0));
+    let slopes = across / seen.variance_sq_um;
+    let window = sqrt(max(seen.variance_sq_um - dot(across, across), 0.0));
     let place = normals.xy + slopes * (seen.offset_um - dot(across, normals.xy) - normals.z * window);
     let along = vec2f(dot(point.footprint_x_um, seen.tangent), dot(point.footprint_y_um, seen.tangent));
     let cross_um2 = dot(along, across);

@@ -10,7 +10,7 @@ fn unpacked(normals: &[Vec3]) -> Option<Vec<Vec3>> {
     let call = Call {
         modules: &[&shaders::SEGMENTS],
         // Bits as two numbers, since a row's numbers are floats.
-        snippet: "let n = segment_normal(unpack4x8snorm(u32(x[0])).xy); y[0] = n.x; y[1] = n.y; y[2] = n.z;",
+        snippet: "let n = octahedral_normal(unpack4x8snorm(u32(x[0])).xy); y[0] = n.x; y[1] = n.y; y[2] = n.z;",
         tables: &[],
     };
     let rows: Vec<[f32; 1]> = normals.iter().map(|n| [octahedral(*n) as f32]).collect();

@@ -1,5 +1,6 @@
-//! A layer whose scratches are listed in a CSV file, one straight scratch a row.
+//! A layer whose scratches are listed in a CSV file, one straight scratch a row; and lists for other programs.
 
+use std::io::{self, Write};
 use std::path::Path;
 
 use rayon::prelude::*;
@@ -12,12 +13,15 @@ use crate::arrays::ScratchArrays;
 use crate::error::Error;
 use crate::loader::Loader;
 use crate::reading::{self, Kind};
-use crate::scene::{Profile, Segment};
+use crate::scene::{Object, Profile, Scratch, Segment};
 use crate::text::shown;
 
 const COLUMNS: [&str; 8] = [
     "x0_m", "y0_m", "z0_m", "x1_m", "y1_m", "z1_m", "width_um", "depth_nm",
 ];
+/// What a list for other programs has besides: the number of the scratch, whose straight pieces follow one another, and the surface's
+/// normal in the middle of the piece.
+const MORE_COLUMNS: &str = "scratch,nx,ny,nz";
 /// Ends may lie this far off the surface, relative to the diagonal of the object: a list made for the ideal shape fits its facets.
 const OFF_SURFACE: f64 = 0.01;
 /// On a curved surface the way between two points is longer than the straight line through it.
@@ -108,6 +112,34 @@ fn parse_row(line: usize, row: &str) -> Result<Row, Error> {
             depth_nm: depth_nm as f32,
         },
     })
+}
+
+/// Writes laid scratches of an object for other programs: a straight piece a row, in world space. The numbers read back as what they were.
+/// packages/hairline-shaders reads it.
+///
+/// # Errors
+/// What cannot be written.
+pub fn write_scratches<'a>(
+    object: &Object,
+    scratches: impl IntoIterator<Item = &'a Scratch>,
+    out: &mut impl Write,
+) -> io::Result<()> {
+    writeln!(out, "{},{MORE_COLUMNS}", COLUMNS.join(","))?;
+    for (number, scratch) in scratches.into_iter().enumerate() {
+        let Profile { width_um, depth_nm } = scratch.profile;
+        let own = scratch.segments.start as usize..scratch.segments.end as usize;
+        for piece in &object.segments[own] {
+            for x in [piece.start_m, piece.end_m]
+                .iter()
+                .flat_map(|end| end.to_array())
+            {
+                write!(out, "{x},")?;
+            }
+            let [x, y, z] = piece.normal.to_array();
+            writeln!(out, "{width_um},{depth_nm},{number},{x},{y},{z}")?;
+        }
+    }
+    Ok(())
 }
 
 /// Refuses the first end that does not lie on the surface. `error` makes the message of a row, one of its ends and two halves of a

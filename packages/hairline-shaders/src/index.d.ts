@@ -1,0 +1,96 @@
+/** All shader modules in one file. */
+export const hairlineWgsl: string;
+/** The pass that makes tables. */
+export const makeScratchTableWgsl: string;
+
+/** A metal whose refractive index was measured. */
+export type Metal = 'iron' | 'steel' | 'aluminium' | 'copper' | 'gold' | 'silver' | 'brass' | 'chromium' | 'titanium' | 'nickel';
+export const metals: Metal[];
+/** Reflectance at normal incidence, linear Rec.709. */
+export function metalColor(metal: Metal): [number, number, number];
+
+/** Texels of an rgba32float texture. */
+export interface TableTexels { data: Float32Array; width: number; height: number }
+/** The tables of the base. */
+export class Tables {
+  constructor(bytes: ArrayBuffer);
+  readonly shapes: TableTexels;
+  readonly albedo: TableTexels;
+  readonly curves: TableTexels;
+}
+/** Fetches tables.bin, from beside the scripts unless an address is given. */
+export function loadTables(url?: string | URL): Promise<Tables>;
+/** `curve` of FresnelRgb; null: Schlick's. */
+export function curveOf(metal: Metal | null): number;
+
+export const tableSize: { columns: number; rows: number };
+/** Texels of T(u, d), four numbers each, rgba32uint; null: a metal given by its colour. */
+export function scratchTable(metal: Metal | null): Uint32Array;
+/** The same by a pass: a texture of a layer for each metal. */
+export function makeScratchTable(device: GPUDevice, metal: Metal | null | (Metal | null)[]): GPUTexture;
+
+/** Straight pieces of scratches, in an object's own frame. */
+export interface ScratchArrays {
+  /** Three numbers for each piece. */
+  starts: Float64Array;
+  ends: Float64Array;
+  widthsUm: Float64Array;
+  depthsNm: Float64Array;
+  /** The number of the scratch; its pieces follow one another. */
+  scratch: Uint32Array;
+  /** The surface's, three numbers for each piece; null: not known, so that scratches show on both sides of a sheet. */
+  normals?: Float64Array | null;
+}
+export class Scratches implements ScratchArrays {
+  constructor(arrays: ScratchArrays);
+  readonly starts: Float64Array;
+  readonly ends: Float64Array;
+  readonly widthsUm: Float64Array;
+  readonly depthsNm: Float64Array;
+  readonly scratch: Uint32Array;
+  readonly normals: Float64Array | null;
+  readonly count: number;
+  /** By a matrix of 16 numbers, column by column. */
+  transformed(matrix: ArrayLike<number>): Scratches;
+}
+/** Reads a list (CSV). `name` is what errors call it. */
+export function readScratches(text: string, name?: string): Scratches;
+/** By how much free ends move inwards, and what smooths them. */
+export function scratchEnds(lengthUm: number, coherenceUm: number): { shrinkUm: number; blurUm: number };
+/** How alike depths are: pairs of a depth in nm and a weight. */
+export function depthCoherence(depths: [number, number][]): number;
+
+/** A piece with its free ends moved inwards. */
+export interface PreparedPiece {
+  start: number[];
+  end: number[];
+  normal: number[] | null;
+  widthUm: number;
+  depthNm: number;
+  blurUm: number;
+}
+export interface Prepared { pieces: PreparedPiece[]; coherenceUm: number; depthCoherence: number }
+export function preparedPieces(scratches: Scratches, options?: { coherenceUm?: number; metresPerUnit?: number }): Prepared;
+/** Texels of an rgba32uint texture. */
+export function scratchTree(prepared: Prepared, options?: { metresPerUnit?: number }): { texels: Uint32Array; width: number; height: number };
+
+/** Alike for all, or drawn: log-normal, of curvatures normal. */
+export type Size = number | { mean: number; spread?: number };
+export interface PatternOptions {
+  pattern?: 'random' | 'parallel' | 'circular' | 'radial';
+  count: number;
+  seed?: number;
+  lengthM?: Size;
+  widthUm?: Size;
+  depthNm?: Size;
+  /** Of 'random'. */
+  curvaturePerM?: Size;
+  jitterDeg?: number;
+  axis?: number[];
+  centerM?: number[];
+  /** Of 'parallel'. */
+  direction?: number[];
+  metresPerUnit?: number;
+}
+/** Lays scratches on triangles. */
+export function layScratches(mesh: { positions: ArrayLike<number>; index: ArrayLike<number> | null }, options: PatternOptions): Scratches;

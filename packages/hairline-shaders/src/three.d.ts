@@ -1,0 +1,28 @@
+import type { BufferGeometry, MeshStandardMaterialParameters } from 'three';
+import { MeshStandardNodeMaterial } from 'three/webgpu';
+import { Metal, PatternOptions, Scratches, Tables } from './index.js';
+
+export { Scratches, loadTables, readScratches } from './index.js';
+
+/** Lays scratches in a pattern on a geometry. */
+export function scratchesOn(geometry: BufferGeometry, options: PatternOptions): Scratches;
+
+export interface ScratchedNodeMaterialParameters extends MeshStandardMaterialParameters {
+  tables: Tables;
+  /** A measured metal; null: `color` and `metalness`. */
+  metal?: Metal | null;
+  /** In the mesh's own frame. */
+  scratches?: Scratches | null;
+  coherenceUm?: number;
+  /** How long a unit of the mesh's own frame is in the world. */
+  metresPerUnit?: number;
+  /** Of lights that have no `userData.radius`. */
+  lightRadius?: number;
+}
+/** A standard material with scratches that split light into colours. */
+export class ScratchedNodeMaterial extends MeshStandardNodeMaterial {
+  constructor(parameters: ScratchedNodeMaterialParameters);
+  readonly isScratchedNodeMaterial: true;
+  readonly scratches: Scratches | null;
+  readonly metal: Metal | null;
+}

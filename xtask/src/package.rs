@@ -1,0 +1,140 @@
+//! `cargo xtask package`: the shaders for other engines, with tables and the JavaScript of packages/hairline-shaders, as one npm package
+//! without a build step; prints its sizes. `--pictures` also draws its test pages in Chromium, against the CPU renderer.
+
+mod browser;
+mod files;
+mod modules;
+mod pictures;
+mod tables;
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use flate2::Compression;
+use flate2::write::GzEncoder;
+use hairline_gpu::shaders::{FOR_ENGINES, MAKE_SCRATCH_TABLE, with_needs};
+
+use files::{copy, install, node, write};
+
+/// The command's arguments.
+#[derive(clap::Args)]
+pub struct Package {
+    /// The folder that the package is made in.
+    #[arg(short, long, default_value = "target/package")]
+    output: PathBuf,
+    /// Test it in Node: shaders by Chrome's compiler, tables and trees against their twins.
+    #[arg(long)]
+    test: bool,
+    /// Draw the test pages in Chromium and compare them with the CPU renderer.
+    #[arg(long)]
+    pictures: bool,
+    /// Serve the example for three.js on this port of this machine, until it is ended.
+    #[arg(long, value_name = "PORT", num_args = 0..=1, default_missing_value = "8080")]
+    serve: Option<u16>,
+}
+
+/// What is written by hand, beside the folder `src`.
+const FILES: [&str; 2] = ["package.json", "README.md"];
+
+impl Package {
+    /// Makes the package.
+    pub fn run(self) -> anyhow::Result<()> {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR"))
+            .join("..")
+            .canonicalize()?;
+        let by_hand = root.join("packages/hairline-shaders");
+        let package = self.output.join("hairline-shaders");
+        if package.exists() {
+            std::fs::remove_dir_all(&package)?;
+        }
+        std::fs::create_dir_all(&package)?;
+        for file in FILES {
+            copy(&by_hand.join(file), &package.join(file))?;
+        }
+        for licence in ["LICENSE-MIT", "LICENSE-APACHE"] {
+            copy(&root.join(licence), &package.join(licence))?;
+        }
+        for entry in std::fs::read_dir(by_hand.join("src"))? {
+            let entry = entry?;
+            copy(&entry.path(), &package.join("src").join(entry.file_name()))?;
+        }
+
+        let all = with_needs(FOR_ENGINES);
+        let whole = modules::single_file(&all);
+        let pass = modules::single_file(&with_needs(&[&MAKE_SCRATCH_TABLE]));
+        for text in [&whole, &pass] {
+            modules::validate(text)?;
+        }
+        write(&package.join("wgsl/hairline.wgsl"), whole.as_bytes())?;
+        write(
+            &package.join("wgsl/make_scratch_table.wgsl"),
+            pass.as_bytes(),
+        )?;
+        for module in &all {
+            let file = format!("wesl/{}.wesl", modules::short_name(module));
+            write(&package.join(file), modules::wesl(module, &all).as_bytes())?;
+        }
+        let script = modules::script(&whole, &pass);
+        write(&package.join("src/wgsl.js"), script.as_bytes())?;
+        write(
+            &package.join("src/data.js"),
+            tables::data(&root)?.as_bytes(),
+        )?;
+        write(&package.join("tables.bin"), &tables::tables())?;
+        print_sizes(&package)?;
+
+        if self.test {
+            tables::write_tree_twin(&self.output)?;
+            node(&by_hand.join("test"), &["check.mjs"], &self.output)?;
+        }
+        if self.pictures {
+            pictures::run(&root, &self.output)?;
+        }
+        if let Some(port) = self.serve {
+            let tests = by_hand.join("test");
+            install(&tests)?;
+            let folders = [
+                ("/package/", package),
+                ("/three/", tests.join("node_modules/three")),
+                ("/", by_hand.join("example")),
+            ];
+            browser::serve(&folders, port)?;
+        }
+        Ok(())
+    }
+}
+
+/// What a page loads, in bytes and compressed.
+fn print_sizes(package: &Path) -> anyhow::Result<()> {
+    let mut parts: Vec<(&str, Vec<PathBuf>)> = vec![
+        ("WGSL, one file", vec![package.join("wgsl/hairline.wgsl")]),
+        ("for three.js", vec![package.join("src/three.js")]),
+        ("tables", vec![package.join("tables.bin")]),
+    ];
+    let mut scripts = Vec::new();
+    for entry in std::fs::read_dir(package.join("src"))? {
+        let path = entry?.path();
+        let is_script = path.extension().is_some_and(|ending| ending == "js");
+        if is_script && !path.ends_with("three.js") {
+            scripts.push(path);
+        }
+    }
+    scripts.sort();
+    parts.insert(1, ("JavaScript, the WGSL in it", scripts));
+    println!("{:<28} {:>9} {:>11}", "", "bytes", "compressed");
+    for (what, files) in parts {
+        let mut bytes = Vec::new();
+        for file in files {
+            bytes.extend(std::fs::read(file)?);
+        }
+        println!("{what:<28} {:>9} {:>11}", bytes.len(), compressed(&bytes)?);
+    }
+    Ok(())
+}
+
+/// As a server sends it.
+fn compressed(bytes: &[u8]) -> anyhow::Result<usize> {
+    let mut encoder = GzEncoder::new(Vec::new(), Compression::best());
+    encoder.write_all(bytes)?;
+    Ok(encoder.finish()?.len())
+}

@@ -1,0 +1,46 @@
+//! Files of the package, and what its tests need from npm.
+
+use std::path::Path;
+use std::process::Command;
+
+use anyhow::{Context, ensure};
+
+/// Runs a test in its folder, with what it needs installed there.
+pub(super) fn node(folder: &Path, script: &[&str], output: &Path) -> anyhow::Result<()> {
+    install(folder)?;
+    let status = Command::new("node")
+        .current_dir(folder)
+        .args(script)
+        .arg(output.canonicalize()?)
+        .status()
+        .context("node cannot be run")?;
+    ensure!(status.success(), "{} failed", script.join(" "));
+    Ok(())
+}
+
+/// What the tests need from npm, at the versions of the lock file.
+pub(super) fn install(folder: &Path) -> anyhow::Result<()> {
+    if folder.join("node_modules/.package-lock.json").exists() {
+        return Ok(());
+    }
+    let status = Command::new("npm")
+        .current_dir(folder)
+        .args(["ci", "--no-audit", "--no-fund"])
+        .status()
+        .context("npm cannot be run")?;
+    ensure!(status.success(), "npm ci failed");
+    Ok(())
+}
+
+pub(super) fn copy(from: &Path, to: &Path) -> anyhow::Result<()> {
+    let bytes =
+        std::fs::read(from).with_context(|| format!("{} cannot be read", from.display()))?;
+    write(to, &bytes)
+}
+
+pub(super) fn write(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
+    if let Some(folder) = path.parent() {
+        std::fs::create_dir_all(folder)?;
+    }
+    std::fs::write(path, bytes).with_context(|| format!("{} cannot be written", path.display()))
+}

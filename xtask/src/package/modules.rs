@@ -1,0 +1,158 @@
+//! The shader modules as engines take them: one file of WGSL, and a WESL module each.
+
+use std::collections::BTreeSet;
+use std::fmt::Write;
+
+use hairline_gpu::shaders::{Module, with_needs};
+
+/// Columns and rows of the package's tables: 2 MiB a metal, a quarter of what the renderer has.
+pub(super) const TABLE_SIZE: [u32; 2] = [512, 256];
+
+const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+/// The name within the package.
+pub(super) fn short_name(module: &Module) -> &'static str {
+    module.name.rsplit('/').next().unwrap_or(module.name)
+}
+
+/// A module's text for the package: with its size of tables.
+fn source(module: &Module) -> String {
+    let text = module.source.trim_end().to_owned();
+    if short_name(module) != "scratch_table" {
+        return text;
+    }
+    let [columns, rows] = TABLE_SIZE;
+    text.replace(
+        "COLUMNS: i32 = 1024;",
+        &format!("COLUMNS: i32 = {columns};"),
+    )
+    .replace("ROWS: i32 = 512;", &format!("ROWS: i32 = {rows};"))
+}
+
+fn without_comment(line: &str) -> &str {
+    line.split("//").next().unwrap_or("").trim()
+}
+
+/// Modules in the order of their needs as one file, without comments.
+pub(super) fn single_file(modules: &[&Module]) -> String {
+    let mut text = format!(
+        "// hairline-shaders {VERSION}, MIT OR Apache-2.0. Made by `cargo xtask package`; the modules in the folder wesl have the comments.\n"
+    );
+    for module in modules {
+        for line in source(module).lines().map(without_comment) {
+            if !line.is_empty() {
+                text.push_str(line);
+                text.push('\n');
+            }
+        }
+    }
+    text
+}
+
+/// By naga.
+pub(super) fn validate(text: &str) -> anyhow::Result<()> {
+    let parsed = naga::front::wgsl::parse_str(text)
+        .map_err(|error| anyhow::anyhow!("{}", error.emit_to_string(text)))?;
+    naga::valid::Validator::new(
+        naga::valid::ValidationFlags::all(),
+        naga::valid::Capabilities::SHADER_FLOAT16_IN_FLOAT32,
+    )
+    .validate(&parsed)
+    .map_err(|error| anyhow::anyhow!("{}", error.emit_to_string(text)))?;
+    Ok(())
+}
+
+/// The names that a module declares.
+fn declared(module: &Module) -> BTreeSet<&'static str> {
+    module
+        .source
+        .lines()
+        .filter_map(|line| {
+            let (kind, rest) = line.split_once(' ')?;
+            let is_declaration = matches!(kind, "fn" | "struct" | "const" | "alias");
+            let end = rest.find(|c: char| !is_name(c)).unwrap_or(rest.len());
+            is_declaration.then(|| &rest[..end])
+        })
+        .collect()
+}
+
+fn is_name(c: char) -> bool {
+    c.is_ascii_alphanumeric() || c == '_'
+}
+
+/// The names that a text uses, members of structs left out.
+fn used(text: &str) -> BTreeSet<String> {
+    let mut names = BTreeSet::new();
+    for line in text.lines().map(without_comment) {
+        let mut before = ' ';
+        let mut name = String::new();
+        for c in line.chars().chain([' ']) {
+            if is_name(c) {
+                name.push(c);
+                continue;
+            }
+            if !name.is_empty() {
+                if before != '.' {
+                    names.insert(std::mem::take(&mut name));
+                }
+                name.clear();
+            }
+            before = c;
+        }
+    }
+    names
+}
+
+/// A module with the imports of WESL (https://wesl-lang.dev).
+pub(super) fn wesl(module: &Module, all: &[&Module]) -> String {
+    let text = source(module);
+    let uses = used(&text);
+    let needs = with_needs(&[module]);
+    let mut out = String::new();
+    let _ = writeln!(
+        out,
+        "// hairline-shaders {VERSION}, module {}. MIT OR Apache-2.0. Made by `cargo xtask package`.",
+        short_name(module)
+    );
+    let _ = writeln!(
+        out,
+        "// Units end names: _m metres, _um micrometres, _nm nanometres, _rad radians; _sq is squared. Binds nothing, has no entry point.\n"
+    );
+    let mut imported = BTreeSet::new();
+    // By the order of all, so that the first that declares a name is where it comes from.
+    for other in all.iter().filter(|other| other.name != module.name) {
+        if !needs.iter().any(|need| need.name == other.name) {
+            continue;
+        }
+        let names: Vec<_> = declared(other)
+            .into_iter()
+            .filter(|name| uses.contains(*name) && imported.insert(*name))
+            .collect();
+        if !names.is_empty() {
+            let _ = writeln!(
+                out,
+                "import package::{}::{{{}}};",
+                short_name(other),
+                names.join(", ")
+            );
+        }
+    }
+    out.push('\n');
+    out.push_str(&text);
+    out.push('\n');
+    out
+}
+
+/// The two files as a JavaScript module.
+pub(super) fn script(whole: &str, pass: &str) -> String {
+    let quoted = |text: &str| {
+        text.replace('\\', "\\\\")
+            .replace('`', "\\`")
+            .replace('$', "\\$")
+    };
+    format!(
+        "// Made by `cargo xtask package`.\nexport const hairlineWgsl = `{}`;\nexport const makeScratchTableWgsl = `{}`;\n",
+        quoted(whole),
+        quoted(pass)
+    )
+}

@@ -1,0 +1,197 @@
+//! Scenes drawn by three.js in Chromium, against the CPU renderer without shadows.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, ensure};
+use hairline_cpu::closed_form::{Prepared, RenderOptions};
+use hairline_image::{Image, Layer};
+use hairline_scene::{Base, LightShape, Scene, write_scratches};
+use serde_json::{Value, json};
+
+use super::browser::answers;
+use super::files::{install, write};
+
+/// The scenes in packages/hairline-shaders/test.
+const SCENES: [&str; 2] = ["plate", "dome"];
+/// The most that a picture may be off, as rms over that of the picture.
+const LIMIT: f64 = 0.01;
+
+/// Draws all scenes and compares them.
+pub(super) fn run(root: &Path, output: &Path) -> anyhow::Result<()> {
+    let tests = root.join("packages/hairline-shaders/test");
+    install(&tests)?;
+    let mut pictures = Vec::new();
+    for name in SCENES {
+        let mut scene = Scene::load(tests.join(format!("{name}.toml")))?;
+        write_page(&output.join("pages").join(name), &scene)?;
+        let worn = render(&scene);
+        for object in &mut scene.objects {
+            object.scratches = Default::default();
+            object.segments = Default::default();
+        }
+        pictures.push((name, worn, render(&scene)));
+    }
+    let folders: [(&str, PathBuf); 4] = [
+        ("/package/", output.join("hairline-shaders")),
+        ("/three/", tests.join("node_modules/three")),
+        ("/pages/", output.join("pages")),
+        ("/test/", tests),
+    ];
+    let page = format!("/test/page.html?scenes={}", SCENES.join(","));
+    let drawn = answers(&folders, &page)?;
+    for (name, worn, bare) in &pictures {
+        let find = |what: &str| {
+            let wanted = format!("{name}/{what}");
+            let found = drawn.iter().find(|(path, _)| *path == wanted);
+            let (_, bytes) = found.with_context(|| format!("the page sent no {wanted}"))?;
+            Ok::<_, anyhow::Error>(bytes.as_slice())
+        };
+        let timing = String::from_utf8_lossy(find("times")?).into_owned();
+        let (three_worn, three_bare) = (colours(find("worn")?), colours(find("bare")?));
+        let save = |what: &str, rgb: &[[f32; 3]]| -> anyhow::Result<()> {
+            let bytes: Vec<u8> = rgb.iter().flatten().flat_map(|x| x.to_le_bytes()).collect();
+            write(
+                &output.join("pages").join(name).join(format!("{what}.f32")),
+                &bytes,
+            )
+        };
+        let (beauty, base) = (worn.layer(Layer::Beauty), bare.layer(Layer::Beauty));
+        save("hairline", &beauty)?;
+        save("three", &three_worn)?;
+        let inner = inner_pixels(worn);
+        let difference = |a: &[[f32; 3]], b: &[[f32; 3]]| -> Vec<[f32; 3]> {
+            let minus = |(a, b): (&[f32; 3], &[f32; 3])| std::array::from_fn(|c| a[c] - b[c]);
+            a.iter().zip(b).map(minus).collect()
+        };
+        let errors = [
+            ("picture", error(&three_worn, &beauty, &inner)),
+            ("without scratches", error(&three_bare, &base, &inner)),
+            (
+                "what scratches change",
+                error(
+                    &difference(&three_worn, &three_bare),
+                    &difference(&beauty, &base),
+                    &inner,
+                ),
+            ),
+        ];
+        for (what, error) in errors {
+            println!(
+                "three.js, {name}: {what}: relative rms error {:.3} %",
+                100.0 * error
+            );
+        }
+        println!("three.js, {name}: {timing}");
+        for (what, error) in errors {
+            ensure!(
+                error < LIMIT,
+                "{name}: {what} is {:.2} % off",
+                100.0 * error
+            );
+        }
+    }
+    Ok(())
+}
+
+fn render(scene: &Scene) -> Image {
+    Prepared::new(scene).render(&RenderOptions::default(), &|_| {})
+}
+
+/// What the page draws: the scene as JSON, its first object's mesh and scratches.
+fn write_page(folder: &Path, scene: &Scene) -> anyhow::Result<()> {
+    let object = &scene.objects[0];
+    let mesh = &object.mesh;
+    let mut bytes = Vec::new();
+    for v in mesh.positions_m.iter().chain(&mesh.normals) {
+        bytes.extend(v.to_array().iter().flat_map(|x| x.to_le_bytes()));
+    }
+    bytes.extend(
+        mesh.triangles
+            .iter()
+            .flatten()
+            .flat_map(|i| i.to_le_bytes()),
+    );
+    write(&folder.join("mesh.bin"), &bytes)?;
+    let mut list = Vec::new();
+    write_scratches(object, object.scratches.iter(), &mut list)?;
+    write(&folder.join("scratches.csv"), &list)?;
+    let material = &scene.materials[mesh.triangle_materials[0] as usize];
+    let surface = match material.base {
+        Base::Metal(_) => json!({ "metal": "steel" }),
+        Base::MetallicRoughness {
+            base_color,
+            metallic,
+        } => json!({ "color": base_color, "metalness": metallic }),
+        _ => anyhow::bail!("the test page knows steel and metallic-roughness"),
+    };
+    let lights: anyhow::Result<Vec<Value>> = scene
+        .lights
+        .iter()
+        .map(|light| match &light.shape {
+            LightShape::Sphere { center_m, radius_m } => Ok(json!({
+                "kind": "sphere", "center": center_m.to_array(), "radius": radius_m, "radiance": light.radiance,
+            })),
+            LightShape::Polygon { vertices_m, .. } => Ok(json!({
+                "kind": "rectangle", "radiance": light.radiance,
+                "corners": vertices_m.iter().map(|v| v.to_array()).collect::<Vec<_>>(),
+            })),
+            LightShape::Tube { .. } => anyhow::bail!("the test page knows no tubes"),
+        })
+        .collect();
+    let camera = &scene.camera;
+    let page = json!({
+        "size": scene.render.size_px,
+        "camera": {
+            "position": camera.position_m.to_array(), "target": camera.target_m.to_array(),
+            "up": camera.up.to_array(), "fov": camera.fov_y_rad.to_degrees(),
+        },
+        "vertices": mesh.positions_m.len(), "triangles": mesh.triangles.len(),
+        "surface": surface, "roughness": material.roughness, "lights": lights?,
+    });
+    write(&folder.join("scene.json"), &serde_json::to_vec(&page)?)
+}
+
+/// Four f32 a pixel.
+fn colours(bytes: &[u8]) -> Vec<[f32; 3]> {
+    let (pixels, _) = bytes.as_chunks::<16>();
+    let channel = |pixel: &[u8; 16], c: usize| {
+        f32::from_le_bytes([
+            pixel[4 * c],
+            pixel[4 * c + 1],
+            pixel[4 * c + 2],
+            pixel[4 * c + 3],
+        ])
+    };
+    pixels
+        .iter()
+        .map(|pixel| std::array::from_fn(|c| channel(pixel, c)))
+        .collect()
+}
+
+/// Pixels around which all is covered: rims are smoothed by samples in one picture and not in the other.
+fn inner_pixels(image: &Image) -> Vec<usize> {
+    let [width, height] = image.size_px.map(|n| n as usize);
+    let is_inner = |i: &usize| {
+        let (x, y) = (i % width, i / width);
+        (-2..=2_isize).all(|dy| {
+            (-2..=2_isize).all(|dx| {
+                let at = [(x, dx, width), (y, dy, height)]
+                    .map(|(at, step, size)| at.saturating_add_signed(step).min(size - 1));
+                image.depth_m[at[1] * width + at[0]] > 0.0
+            })
+        })
+    };
+    (0..width * height).filter(is_inner).collect()
+}
+
+/// The rms of the difference over that of the second.
+fn error(a: &[[f32; 3]], b: &[[f32; 3]], pixels: &[usize]) -> f64 {
+    let (mut off, mut all) = (0.0, 0.0);
+    for &i in pixels {
+        for (x, y) in a[i].iter().zip(&b[i]) {
+            off += f64::from(x - y).powi(2);
+            all += f64::from(*y).powi(2);
+        }
+    }
+    (off / all).sqrt()
+}

@@ -1,0 +1,107 @@
+//! The package's numbers: tables for textures, spectra as JavaScript, and a tree for the test of its twin.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use anyhow::{Context, ensure};
+use hairline_gpu::scratch_tree;
+use hairline_index::ScratchIndex;
+use hairline_optics::fresnel::FresnelCurve;
+use hairline_optics::lobe_table::{albedo_table, shape_texels};
+use hairline_optics::metal::Metal;
+use hairline_scene::Scene;
+
+use super::files::write;
+use super::modules::TABLE_SIZE;
+
+/// Names of scene files, in the order of `Metal::ALL`.
+const METALS: [&str; 10] = [
+    "iron",
+    "steel",
+    "aluminium",
+    "copper",
+    "gold",
+    "silver",
+    "brass",
+    "chromium",
+    "titanium",
+    "nickel",
+];
+/// Of the dielectric's curve.
+const IOR: f64 = 1.5;
+
+/// Textures of four f32 a texel, one after the other: shapes of lobes (32 wide), their albedo (32 x 32), curves of reflectance (128 wide,
+/// 9 rows each: Schlick's, the metals', a dielectric's).
+pub(super) fn tables() -> Vec<u8> {
+    let mut texels: Vec<[f32; 4]> = shape_texels().to_vec();
+    texels.extend(albedo_table().texels());
+    let metals = Metal::ALL.iter().map(|metal| metal.fresnel_curve());
+    let curves = std::iter::once(FresnelCurve::schlick().clone())
+        .chain(metals)
+        .chain([FresnelCurve::dielectric(IOR)]);
+    for curve in curves {
+        texels.extend(curve.nodes());
+        texels.extend(curve.albedo_table().texels());
+    }
+    texels
+        .iter()
+        .flatten()
+        .flat_map(|value| value.to_le_bytes())
+        .collect()
+}
+
+/// Rows of numbers of a CSV file.
+fn rows(path: &Path) -> anyhow::Result<Vec<Vec<f64>>> {
+    let text = std::fs::read_to_string(path)
+        .with_context(|| format!("{} cannot be read", path.display()))?;
+    text.lines()
+        .filter(|line| line.starts_with(|c: char| c.is_ascii_digit()))
+        .map(|line| line.split(',').map(|cell| Ok(cell.parse()?)).collect())
+        .collect()
+}
+
+/// The observer and the metals' n and k, with the size of the tables.
+pub(super) fn data(root: &Path) -> anyhow::Result<String> {
+    let folder = root.join("crates/optics/data");
+    let observer = rows(&folder.join("cie.csv"))?;
+    let metals = rows(&folder.join("metals.csv"))?;
+    let width = 1 + 2 * METALS.len();
+    ensure!(
+        metals.iter().all(|row| row.len() == width),
+        "metals.csv must have {width} columns"
+    );
+    let [columns, table_rows] = TABLE_SIZE;
+    let mut out = format!(
+        "// Made by `cargo xtask package` from crates/optics/data, which names the sources.\n\
+         export const COLUMNS = {columns};\nexport const ROWS = {table_rows};\nexport const IOR = {IOR};\n\
+         export const OBSERVER = {};\nexport const METALS = {{\n",
+        serde_json::to_string(&observer)?
+    );
+    for (i, name) in METALS.iter().enumerate() {
+        let pairs: Vec<_> = metals
+            .iter()
+            .map(|row| [row[1 + 2 * i], row[2 + 2 * i]])
+            .collect();
+        writeln!(out, "  {name}: {},", serde_json::to_string(&pairs)?)?;
+    }
+    out.push_str("};\n");
+    Ok(out)
+}
+
+/// Random scratches on a ball, as Rust packs their tree.
+pub(super) fn write_tree_twin(output: &Path) -> anyhow::Result<()> {
+    let text = "
+        camera = { position_m = [0.0, -0.3, 0.3], target_m = [0.0, 0.0, 0.0], up = [0.0, 0.0, 1.0] }
+        material = [{ name = \"m\", kind = \"mirror\" }]
+        object = [{ name = \"o\", material = \"m\", shape = { sphere = { radius_m = 0.02 } } }]
+        scratches = [{ object = \"o\", pattern = \"random\", count = 60, seed = 1, length_m = 0.02 }]
+    ";
+    let scene = Scene::from_toml(text, "tree twin", ".")?;
+    let texels = scratch_tree::texels(&ScratchIndex::build(&scene), 0);
+    let bytes: Vec<u8> = texels
+        .iter()
+        .flatten()
+        .flat_map(|x| x.to_le_bytes())
+        .collect();
+    write(&output.join("test/tree_texels.bin"), &bytes)
+}
