@@ -5,7 +5,7 @@ mod window;
 use std::path::Path;
 
 use anyhow::anyhow;
-use hairline_scene::{Description, Transport, probe};
+use hairline_scene::{DEFAULT_TRANSPORT, Description, probe};
 use hairline_viewer::engine::Backend;
 use hairline_viewer::window::{Error, Renderer};
 use hairline_viewer::{Options, open};
@@ -40,8 +40,7 @@ pub fn run(arguments: &cli::View) -> Result<(), Failure> {
         backend: Backend::Cpu,
         state_dir: state_dir.or_else(hairline_viewer::state_dir),
         native_dialogs: !arguments.plain_dialogs,
-        // Where the CPU renders, samples that add up leave a slider that is dragged too little time.
-        transport: Transport::DIRECT,
+        transport: DEFAULT_TRANSPORT,
     };
     let opened = window::in_one_sentence(|| open(options, renderer))?;
     opened.map_err(|error| match error {

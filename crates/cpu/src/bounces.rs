@@ -46,7 +46,7 @@ impl Shadows<'_> {
         let seed = (at.seed ^ ray.wrapping_mul(0x9e37_79b9)).wrapping_mul(0x85eb_ca6b) ^ at.depth;
         let mut sums = [ScratchSums::default()];
         let mut picks = [Picks::new()];
-        let is_scratched = self.prepared.is_scratched(&hit);
+        let is_scratched = self.prepared.draft.is_none() && self.prepared.is_scratched(&hit);
         if is_scratched {
             views.ready_for_scratches(&point);
             picks[0].clear(self.sources(&views, at.depth + 1), 1, u64::from(seed));

@@ -46,7 +46,8 @@ impl Prepared<'_> {
             .unwrap_or_else(|| unreachable!("nobody cancels it"))
     }
 
-    /// The same, unless `cancelled` says so, which is asked from any thread, before each tile: then there is nothing.
+    /// The same, unless `cancelled` says so, which is asked from any thread, before each tile and, where there are shadows, before each sample:
+    /// then there is nothing.
     pub fn render_unless(
         &self,
         cancelled: &(dyn Fn() -> bool + Sync),
@@ -64,7 +65,7 @@ impl Prepared<'_> {
         Some((image, counts))
     }
 
-    /// The picture as far as it has come when `cancelled` says so, and whether it is whole. Tiles that were not begun by then are
+    /// The picture as far as it has come when `cancelled` says so, and whether it is whole. Tiles that were not done by then are
     /// black and empty.
     pub fn render_until(
         &self,

@@ -1,6 +1,7 @@
 //! A scene with what the stages look up: trees and tables. It knows no stage.
 
 use crate::draft::Draft;
+use crate::sampling::environment::EnvironmentSampler;
 use hairline_index::{Hit, IndexedSegment, ScratchIndex, TriangleIndex, TriangleLists, Watch};
 use hairline_scene::{Scene, ScratchTables};
 use std::sync::{Arc, OnceLock};
@@ -15,6 +16,8 @@ pub struct Prepared<'a> {
     pub(crate) draft: Option<Arc<Draft>>,
     /// For methods that look scratches up by triangle.
     lists: OnceLock<TriangleLists>,
+    /// For rays to the environment.
+    sampler: OnceLock<EnvironmentSampler>,
     /// Of each object, counted over the whole scene.
     first_triangles: Vec<usize>,
 }
@@ -54,6 +57,7 @@ impl<'a> Prepared<'a> {
             tables,
             draft: None,
             lists: OnceLock::new(),
+            sampler: OnceLock::new(),
             first_triangles: scene
                 .objects
                 .iter()
@@ -75,11 +79,13 @@ impl<'a> Prepared<'a> {
             tables: self.tables.clone(),
             draft: self.draft.clone(),
             lists: self.lists.clone(),
+            sampler: OnceLock::new(),
             first_triangles: self.first_triangles.clone(),
         }
     }
 
-    /// The same with a few of the scratches, each of which stands for many. For Hairline's own method; that of 2018 takes all.
+    /// The same with a few of the scratches, each of which stands for many. For Hairline's own method; that of 2018 takes all. There is no tree
+    /// over them: where light comes from other objects, these have no scratches.
     pub fn with_draft(mut self, draft: Arc<Draft>) -> Self {
         self.draft = Some(draft);
         self
@@ -94,6 +100,13 @@ impl<'a> Prepared<'a> {
     pub fn triangle_lists(&self) -> &TriangleLists {
         self.lists
             .get_or_init(|| TriangleLists::build(self.scene, &self.scratches))
+    }
+
+    /// What directions to the environment are drawn by, if there is one; built when first asked for, not for each part of a picture.
+    pub(crate) fn environment_sampler(&self) -> Option<&EnvironmentSampler> {
+        let environment = self.scene.environment.as_ref()?;
+        let sampler = || EnvironmentSampler::new(environment);
+        Some(self.sampler.get_or_init(sampler))
     }
 
     pub(crate) fn triangle_list(&self, hit: &Hit) -> &[u32] {

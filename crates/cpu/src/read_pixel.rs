@@ -41,7 +41,7 @@ impl Prepared<'_> {
             _ if is_smooth(&picture.visibility, &picture.camera, column, row) => 1,
             many => many,
         };
-        let mut tile = Tile::new(&picture);
+        let mut tile = Tile::new(&picture, &|| false);
         let sample = tile.render_pixel(column, row);
         let Counts { pairs, .. } = tile.counts;
         Some(PixelReading {

@@ -35,7 +35,7 @@ pub(crate) struct Shadows<'a> {
     pub(crate) prepared: &'a Prepared<'a>,
     /// In the order of [`hairline_scene::Scene::all_lights`].
     lights: AreaLights,
-    environment: Option<EnvironmentSampler>,
+    environment: Option<&'a EnvironmentSampler>,
     /// How far the scene reaches from the origin: what rounding goes by.
     extent_m: f64,
     pub(crate) options: RenderOptions,
@@ -151,7 +151,7 @@ impl<'a> Shadows<'a> {
         Self {
             prepared,
             lights: AreaLights::from_lights(scene.all_lights()),
-            environment: scene.environment.as_ref().map(EnvironmentSampler::new),
+            environment: prepared.environment_sampler(),
             extent_m: positions.map(|p| f64::from(p.length())).fold(0.0, f64::max),
             options: *options,
         }
@@ -277,7 +277,7 @@ impl<'a> Shadows<'a> {
     ) {
         let point = at.point;
         let (Some(environment), Some(sampler)) =
-            (&self.prepared.scene.environment, &self.environment)
+            (&self.prepared.scene.environment, self.environment)
         else {
             return;
         };

@@ -93,6 +93,9 @@ pub(crate) enum Seen<'a> {
 /// The room that a thread needs for a tile, filled anew for each.
 pub(crate) struct Tile<'a> {
     picture: &'a Picture<'a>,
+    /// Asked before each batch, and with shadows before each of its points: their rays take a while.
+    cancelled: &'a (dyn Fn() -> bool + Sync),
+    is_cancelled: bool,
     rays: CameraBeam,
     batch: Vec<Point<'a>>,
     /// The lights from each point of the batch.
@@ -106,9 +109,11 @@ pub(crate) struct Tile<'a> {
 }
 
 impl<'a> Tile<'a> {
-    pub fn new(picture: &'a Picture<'a>) -> Self {
+    pub fn new(picture: &'a Picture<'a>, cancelled: &'a (dyn Fn() -> bool + Sync)) -> Self {
         Self {
             picture,
+            cancelled,
+            is_cancelled: false,
             rays: CameraBeam::default(),
             batch: Vec::with_capacity(BATCH),
             views: (0..BATCH)
@@ -125,8 +130,9 @@ impl<'a> Tile<'a> {
         }
     }
 
-    /// Renders the part of a tile that lies within the picture's rows; there is nothing of other pixels. Row by row.
-    pub fn render(&mut self, column: usize, row: usize) -> [Option<Sample>; SIDE * SIDE] {
+    /// Renders the part of a tile that lies within the picture's rows; there is nothing of other pixels. Row by row. None if it was
+    /// cancelled: then it renders nothing more.
+    pub fn render(&mut self, column: usize, row: usize) -> Option<[Option<Sample>; SIDE * SIDE]> {
         let picture = self.picture;
         self.pixels = [Pixel::default(); SIDE * SIDE];
         let (x0, y0) = (column * SIDE, row * SIDE);
@@ -143,7 +149,8 @@ impl<'a> Tile<'a> {
             self.add_pixel(column, row, pixel, [x, y]);
         }
         self.shade(column, row);
-        self.pixels.map(|pixel| pixel.resolve())
+        let is_whole = !self.is_cancelled;
+        is_whole.then(|| self.pixels.map(|pixel| pixel.resolve()))
     }
 
     /// Renders one pixel of the picture's rows.
@@ -210,8 +217,22 @@ impl<'a> Tile<'a> {
         });
     }
 
-    /// Shades the batch, and empties it.
+    /// Shades the batch, unless it is cancelled, and empties it.
     fn shade(&mut self, column: usize, row: usize) {
+        self.shade_unless_cancelled(column, row);
+        self.batch.clear();
+    }
+
+    /// Whether it is of no use to go on.
+    fn gives_up(&mut self) -> bool {
+        self.is_cancelled = self.is_cancelled || (self.cancelled)();
+        self.is_cancelled
+    }
+
+    fn shade_unless_cancelled(&mut self, column: usize, row: usize) {
+        if self.gives_up() {
+            return;
+        }
         let prepared = self.picture.prepared;
         let is_tiled = matches!(self.picture.by, By::Tiles(_));
         for (point, views) in self.batch.iter().zip(&mut self.views) {
@@ -263,8 +284,11 @@ impl<'a> Tile<'a> {
         }
         let environment = prepared.scene.environment.as_ref();
         let mask = self.picture.options.method.mask;
-        let samples = self.batch.iter().zip(&self.views).zip(&self.sums);
-        for (i, ((point, views), sums)) in samples.enumerate() {
+        for i in 0..self.batch.len() {
+            if self.picture.shadows.is_some() && self.gives_up() {
+                return;
+            }
+            let (point, views, sums) = (&self.batch[i], &self.views[i], &self.sums[i]);
             let sample = match &point.seen {
                 Seen::Background(radiance) => Sample::background(*radiance),
                 Seen::Surface {
@@ -313,7 +337,6 @@ impl<'a> Tile<'a> {
             };
             self.pixels[point.pixel].add(&sample);
         }
-        self.batch.clear();
     }
 }
 
@@ -323,7 +346,7 @@ impl<'a> Picture<'a> {
         &'a self,
         image: &mut Image,
         progress: &(dyn Fn(f64) + Sync),
-        cancelled: &(dyn Fn() -> bool + Sync),
+        cancelled: &'a (dyn Fn() -> bool + Sync),
     ) -> Option<Counts> {
         let width = image.size_px[0] as usize;
         let tile_rows: Vec<usize> =
@@ -348,12 +371,14 @@ impl<'a> Picture<'a> {
             let tiles: Vec<_> = (0..width.div_ceil(SIDE))
                 .into_par_iter()
                 .map(|column| {
-                    if is_cancelled.load(Ordering::Relaxed) || cancelled() {
-                        is_cancelled.store(true, Ordering::Relaxed);
+                    if is_cancelled.load(Ordering::Relaxed) {
                         return [None; SIDE * SIDE];
                     }
-                    let mut tile = take(&rooms).unwrap_or_else(|| Tile::new(self));
-                    let samples = tile.render(column, row);
+                    let mut tile = take(&rooms).unwrap_or_else(|| Tile::new(self, cancelled));
+                    let Some(samples) = tile.render(column, row) else {
+                        is_cancelled.store(true, Ordering::Relaxed);
+                        return [None; SIDE * SIDE];
+                    };
                     put_back(&rooms, tile);
                     samples
                 })

@@ -9,7 +9,7 @@
 //!     backend: Backend::Cpu,
 //!     state_dir: hairline_viewer::state_dir(),
 //!     native_dialogs: true,
-//!     transport: hairline_scene::Transport::DIRECT,
+//!     transport: hairline_scene::DEFAULT_TRANSPORT,
 //! };
 //! hairline_viewer::open(options, Renderer::default()).unwrap();
 //! ```

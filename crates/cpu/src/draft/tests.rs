@@ -5,6 +5,7 @@ use crate::closed_form::{Prepared, RenderOptions};
 use hairline_fixtures::scenes::oblique_plate;
 use hairline_image::Image;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 fn scene() -> Scene {
     oblique_plate(6000, 0.03)
@@ -63,4 +64,33 @@ fn what_is_cancelled_ends_without_a_picture() {
     let prepared = Prepared::new(&scene);
     let none = prepared.render_unless(&|| true, &RenderOptions::default(), 0..32, &|_| {});
     assert!(none.is_none());
+}
+
+/// A draft has no tree in which a ray finds scratches: the few pieces are not those of the tree.
+#[test]
+fn what_rays_meet_in_a_draft_has_no_scratches() {
+    let scene = oblique_plate(6000, 0.03)
+        .object("ball", "steel", "sphere = { radius_m = 0.03 }")
+        .size_px([40, 32])
+        .scene();
+    let options = RenderOptions {
+        shadows: true,
+        bounces: 1,
+        ..RenderOptions::default()
+    };
+    let draft = Arc::new(Draft::new(&scene, 8, &|_| WHOLE));
+    let prepared = Prepared::new(&scene).with_draft(draft);
+    let asked = AtomicUsize::new(0);
+    let count = || {
+        asked.fetch_add(1, Ordering::Relaxed);
+        false
+    };
+    let (image, _) = prepared
+        .render_unless(&count, &options, 0..32, &|_| {})
+        .unwrap();
+    assert!(image.base.iter().flatten().all(|c| c.is_finite()));
+    // Rays take a while: what is wanted meanwhile is asked before those of each pixel.
+    let seen = image.depth_m.iter().filter(|depth_m| **depth_m > 0.0);
+    let (asked, seen) = (asked.into_inner(), seen.count());
+    assert!(seen > 500 && asked > seen, "{asked} for {seen} pixels");
 }

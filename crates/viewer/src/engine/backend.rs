@@ -31,7 +31,8 @@ impl Backend {
         }
     }
 
-    fn is_software(&self) -> bool {
+    /// Whether it computes on the cores that scenes are built on.
+    pub(super) fn is_software(&self) -> bool {
         match self {
             Self::Cpu => true,
             #[cfg(not(target_arch = "wasm32"))]

@@ -17,7 +17,7 @@ pub(super) fn run(shared: &Shared) {
 /// Builds one, and hands it over or tells why there is none.
 pub(super) fn build(shared: &Shared, workshop: &mut Workshop, wanted: WantedScene) {
     let has_sketch = matches!(shared.backend(), Backend::Cpu)
-        && pool::Crew::Sketcher.install(|| sketch(shared, workshop, &wanted));
+        && pool::Crew::Drafter.install(|| sketch(shared, workshop, &wanted));
     // Where there is a sketch to be seen, the whole of what is outdated already need not be built.
     let cancelled = || shared.is_stopped() || has_sketch && shared.wants_scene();
     if has_sketch && workshop.has_built() {

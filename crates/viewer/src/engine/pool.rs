@@ -7,11 +7,13 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 use crate::priority;
 
 /// Whose threads. A pool each: a thread that waits takes up other work of its own pool, and a painter that took up the building
-/// of a scene would show nothing until that is done.
+/// of a scene would show nothing until that is done. What comes from outside waits until all that is in a pool is done.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Crew {
     /// Builds scenes.
     Builder,
+    /// Builds sketches of scenes, which a hand waits for as for coarse pictures.
+    Drafter,
     /// Paints coarse pictures. As important as the interface, which on a busy machine would leave nothing for what its user waits
     /// for.
     Sketcher,
@@ -23,10 +25,12 @@ impl Crew {
     /// None where the system starts no threads: then the caller computes.
     fn pool(self) -> Option<&'static ThreadPool> {
         static BUILDER: OnceLock<Option<ThreadPool>> = OnceLock::new();
+        static DRAFTER: OnceLock<Option<ThreadPool>> = OnceLock::new();
         static SKETCHER: OnceLock<Option<ThreadPool>> = OnceLock::new();
         static PAINTER: OnceLock<Option<ThreadPool>> = OnceLock::new();
         let (pool, name, gives_way) = match self {
             Self::Builder => (&BUILDER, "builder", true),
+            Self::Drafter => (&DRAFTER, "drafter", false),
             Self::Sketcher => (&SKETCHER, "sketcher", false),
             Self::Painter => (&PAINTER, "painter", true),
         };
@@ -57,7 +61,7 @@ impl Crew {
 /// Starts all threads: they have the priority of the one that does.
 #[cfg(not(target_arch = "wasm32"))]
 pub(super) fn start() {
-    for crew in [Crew::Builder, Crew::Sketcher, Crew::Painter] {
+    for crew in [Crew::Builder, Crew::Drafter, Crew::Sketcher, Crew::Painter] {
         crew.pool();
     }
 }

@@ -132,6 +132,17 @@ impl Shared {
         self.lock().view
     }
 
+    /// Whether a finer picture of `order` is wanted no more. One that is painted `on_cores` also gives way to the building of a newer scene, which would
+    /// wait for the same cores; it goes on where nothing comes of that.
+    pub fn is_outdated(&self, order: &Order, on_cores: bool) -> bool {
+        let state = self.lock();
+        let is_building = state.is_building || state.wanted_scene.is_some();
+        on_cores && is_building
+            || state
+                .order()
+                .is_none_or(|newest| !newest.has_same_pixels(order))
+    }
+
     /// The scene that is to be built next, if there is one.
     pub fn take_scene(&self) -> Option<WantedScene> {
         self.lock().wanted_scene.take()

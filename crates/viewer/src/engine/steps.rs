@@ -64,7 +64,8 @@ impl Step {
     }
 }
 
-/// The finer pictures after a coarse one: the last with `best_samples`, or with shadows that have added up.
+/// The finer pictures after a coarse one: the last with `best_samples`, or with shadows that have added up. What was left out of the coarse one
+/// comes in when all pixels and all scratches are there: a batch of samples takes many times as long.
 pub(super) fn steps(
     kind: &Kind,
     best_samples: u32,
@@ -78,34 +79,30 @@ pub(super) fn steps(
             size_px,
             samples,
             thin,
-            transport,
+            transport: coarse.transport,
             batch: None,
         });
     };
     let (scale, thin) = if kind.thins() { BETWEEN } else { (0.5, 1) };
     let between = scaled(full_px, scale);
-    let is_between_better = coarse.size_px[0] < between[0];
-    if is_between_better {
+    if coarse.size_px[0] < between[0] {
         add(between, 1, thin);
     }
-    if transport.shadows {
-        // A small picture soon, where what was left out in motion comes in: a whole one takes a while.
-        if !is_between_better && coarse.transport != transport {
-            add(between, 1, thin);
-        }
-        steps.extend(Batch::of(SHADOW_SAMPLES).map(|batch| Step {
-            size_px: full_px,
-            samples: SHADOW_SAMPLES,
-            thin: 1,
-            transport,
-            batch: Some(batch),
-        }));
-        return steps;
-    }
-    // Then edges alone become smoother.
-    if coarse.size_px != full_px || coarse.thin > 1 {
+    let is_whole = coarse.size_px == full_px && coarse.thin == 1;
+    if !is_whole && (!transport.shadows || coarse.transport != transport) {
         add(full_px, 1, 1);
     }
-    add(full_px, best_samples, 1);
+    if !transport.shadows {
+        // Then edges alone become smoother.
+        add(full_px, best_samples, 1);
+        return steps;
+    }
+    steps.extend(Batch::of(SHADOW_SAMPLES).map(|batch| Step {
+        size_px: full_px,
+        samples: SHADOW_SAMPLES,
+        thin: 1,
+        transport,
+        batch: Some(batch),
+    }));
     steps
 }

@@ -94,18 +94,14 @@ impl Studio {
         let start = Instant::now();
         let is_new = easel.take(order)?;
         let uploaded = start.elapsed();
-        let is_outdated = || {
-            shared
-                .order()
-                .is_none_or(|newest| !newest.has_same_pixels(order))
-        };
+        let on_cores = easel.backend().is_software();
         // The first picture of a movement comes to its end, whatever is wanted meanwhile: else a steady hand would see none. One that
         // takes too long is made coarser, where that can be.
         let may_be_coarser = easel.kind().thins() && !self.pace.is_at_coarsest();
         let gives_way = || match turn {
             Turn::First if may_be_coarser => start.elapsed() > FIRST_AT_MOST,
             Turn::First => false,
-            Turn::Between | Turn::Last => is_outdated(),
+            Turn::Between | Turn::Last => shared.is_outdated(order, on_cores),
         };
         let interrupted = || {
             shared.is_stopped() || until.is_some_and(|until| Instant::now() >= until) || gives_way()

@@ -73,14 +73,22 @@ fn picture(ui: &mut Ui, frame: &Frame, is_stale: bool) {
 fn activity(frame: &Frame, is_stale: bool) -> String {
     let painted = &frame.painted;
     let wanted = frame.view.transport;
-    let is_added = painted.of_samples.is_some();
     match (painted.is_final, painted.samples) {
         _ if is_stale => "rendering the new view".to_owned(),
-        _ if !is_added && painted.transport != wanted => left_out(wanted).to_owned(),
+        _ if painted.transport != wanted => {
+            let left_out = ways(wanted);
+            match painted.thin == 1 && painted.size_px == frame.view.size_px {
+                true => format!("{left_out} follow"),
+                false => format!("without {left_out} while it moves"),
+            }
+        }
         (true, _) => "finished".to_owned(),
         _ if frame.built.is_sketch() => "a sketch of the scratches".to_owned(),
         (false, samples) if let Some(all) = painted.of_samples => {
             format!("sample {samples} of {all}")
+        }
+        _ if painted.done < 1.0 && wanted.shadows => {
+            format!("adding {}, {:.0} %", ways(wanted), 100.0 * painted.done)
         }
         _ if painted.done < 1.0 => format!("finishing, {:.0} %", 100.0 * painted.done),
         (false, 1) if painted.thin > 1 => format!("refining, one scratch of {}", painted.thin),
@@ -90,11 +98,11 @@ fn activity(frame: &Frame, is_stale: bool) -> String {
     }
 }
 
-/// What is not in the picture yet.
-fn left_out(wanted: Transport) -> &'static str {
+/// What there is beside the closed form.
+fn ways(wanted: Transport) -> &'static str {
     match wanted.bounces {
-        0 => "without shadows while it moves",
-        _ => "without shadows and bounces while it moves",
+        0 => "shadows",
+        _ => "shadows and bounces",
     }
 }
 
