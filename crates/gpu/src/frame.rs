@@ -28,8 +28,6 @@ pub(crate) struct View<'a> {
     pub samples: u32,
     /// Those of them that are taken.
     pub batch: Batch,
-    /// Whether the film has batches already.
-    pub adds: bool,
     pub without_shadows: bool,
     pub blurs_visibility: bool,
 }
@@ -119,7 +117,6 @@ pub(crate) fn frame(
         size_px,
         step,
         samples,
-        adds,
         ..
     } = *view;
     let camera = scene.camera.frame(size_px);
@@ -156,7 +153,7 @@ pub(crate) fn frame(
         entry_count: counted.entries,
         object_count: scene.objects.len() as u32,
         group_count: counted.groups,
-        adds: adds.into(),
+        pad_1: 0,
     }
 }
 

@@ -68,7 +68,7 @@ shared! {
         entry_count: u32,
         object_count: u32,
         group_count: u32,
-        adds: u32,
+        pad_1: u32,
     }
     /// A corner of a triangle.
     Vertex {

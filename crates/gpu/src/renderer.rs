@@ -241,7 +241,6 @@ impl Renderer {
                     step,
                     samples,
                     batch,
-                    adds: false,
                     without_shadows: options.without_shadows,
                     blurs_visibility: options.blurs_visibility,
                 };
@@ -269,8 +268,8 @@ impl Renderer {
     }
 
     /// Adds step `step` of the [`steps`] for the samples, or those of a batch, to a band of the canvas: 0, which shades every pixel, or as
-    /// many as [`Canvas::steps`] says that it has, which refines edges. The first batch begins anew, later ones are added to those before.
-    /// The picture has the canvas's size, whatever the scene says.
+    /// many as [`Canvas::steps`] says that it has, which refines edges. A batch is a picture by itself. The picture has the canvas's size,
+    /// whatever the scene says.
     ///
     /// It submits the work and waits only until lists of scratches are counted; [`Gpu::finished`] waits for all. Dropped or failed,
     /// it leaves the band to be begun anew.
@@ -299,7 +298,6 @@ impl Renderer {
             step,
             samples,
             batch,
-            adds: batch.first > 0,
             without_shadows: options.without_shadows,
             blurs_visibility: options.blurs_visibility,
         };

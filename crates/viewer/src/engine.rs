@@ -7,6 +7,7 @@
 //!
 //! Where there are no threads, in a browser, both work in turn with the interface: [`Engine::work`] does a slice.
 
+mod adding;
 mod backend;
 pub(crate) mod bands;
 mod build;

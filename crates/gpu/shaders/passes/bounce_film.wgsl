@@ -18,10 +18,6 @@ fn bounce_film(@builtin(global_invocation_id) id: vec3u) {
         first = GROUP * group_starts[pixel_tile(pixel).x] + (max(edge, 1u) - 1u) * frame.samples;
         count = select(0u, frame.samples, edge != 0u);
     }
-    if frame.step == 0u && frame.adds != 0u && film.pixels[at].edge != 0u {
-        // Its samples alone are added.
-        count = 0u;
-    }
     for (var i = first; i < first + count; i += 1u) {
         film.pixels[at].base += bounced[i].base;
         film.pixels[at].scratches += bounced[i].scratches;

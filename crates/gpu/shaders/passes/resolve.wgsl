@@ -90,12 +90,8 @@ fn resolve(@builtin(global_invocation_id) id: vec3u) {
     if frame.step == 0u {
         var value = sample_value(tile.x, tile.y, strip_index(pixel));
         value.samples = 1u;
-        if frame.adds == 0u {
-            value.edge = u32(pixel_is_edge(pixel));
-            film.pixels[at] = value;
-        } else if film.pixels[at].edge == 0u {
-            film.pixels[at] = film_sum(film.pixels[at], value);
-        }
+        value.edge = u32(pixel_is_edge(pixel));
+        film.pixels[at] = value;
         return;
     }
     let edge = film.pixels[at].edge;
@@ -103,7 +99,7 @@ fn resolve(@builtin(global_invocation_id) id: vec3u) {
         return;
     }
     var sum: FilmPixel;
-    if frame.step > 1u || frame.adds != 0u {
+    if frame.step > 1u {
         sum = film.pixels[at];
     }
     for (var i = 0u; i < frame.samples; i += 1u) {

@@ -27,7 +27,6 @@ struct Frame {
     entry_count: u32,           // of all tile lists of the strip; known once they are counted
     object_count: u32,
     group_count: u32,           // of 64 samples that are shaded together; known once edges are counted
-    adds: u32,                  // 1: the film has pictures already, which this one is averaged with
 }
 
 const ENVIRONMENT_PRESENT: u32 = 1u;

@@ -3,11 +3,12 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use hairline_image::{Batch, Batches, Image};
+use hairline_image::Image;
 use hairline_scene::DEFAULT_SAMPLES;
 use web_time::Instant;
 
 use super::Backend;
+use super::adding::Adding;
 use super::bands::{BandSize, Bands, IN_TURN, options, prepared};
 use super::drafts::Drafts;
 use super::easel::{Easel, Shown};
@@ -16,7 +17,7 @@ use super::pace::{self, Kind};
 use super::partial::Backdrop;
 use super::pool::Crew;
 use super::request::Order;
-use super::steps::{SHADOW_SAMPLES, Step};
+use super::steps::Step;
 use crate::reading::{Findings, Shows, develop};
 
 /// A picture that is finished in part is shown as often.
@@ -27,8 +28,7 @@ pub(super) struct CpuEasel {
     scene: Option<std::sync::Weak<super::Built>>,
     last: Option<Last>,
     begun: Option<Begun>,
-    /// Samples that add up, and of which order.
-    added: Option<(Order, Batches)>,
+    adding: Adding,
     drafts: Drafts,
     band_size: BandSize,
     /// Whether a picture is shown before it is finished, which takes time of its own.
@@ -68,7 +68,7 @@ impl CpuEasel {
             scene: None,
             last: None,
             begun: None,
-            added: None,
+            adding: Adding::default(),
             drafts: Drafts::default(),
             band_size,
             shows_parts: band_size.breaks_off,
@@ -169,7 +169,7 @@ impl Easel for CpuEasel {
         }
         let (image, samples) = match step.batch {
             None => (bands.image, step.samples),
-            Some(batch) => self.add(order, batch, bands.image),
+            Some(batch) => crew.install(|| self.adding.add(order, batch, bands.image)),
         };
         let last = Last {
             image,
@@ -197,24 +197,6 @@ impl Easel for CpuEasel {
 
     fn kind(&self) -> &'static Kind {
         &pace::THINNED
-    }
-}
-
-impl CpuEasel {
-    /// The mean of a batch and those before it, and the samples that it has.
-    fn add(&mut self, order: &Order, batch: Batch, image: Image) -> (Image, u32) {
-        let before = self.added.take();
-        let before = before.filter(|(of, _)| batch.first > 0 && of.has_same_pixels(order));
-        let (_, batches) = self.added.insert(before.unwrap_or_else(|| {
-            let none = Batches::new(SHADOW_SAMPLES);
-            (order.clone(), none)
-        }));
-        batches.add(image);
-        let mean = batches.image().cloned();
-        (
-            mean.unwrap_or_else(|| unreachable!("one was added")),
-            batches.done(),
-        )
     }
 }
 

@@ -8,11 +8,12 @@ use hairline_gpu::canvas::Canvas;
 use hairline_gpu::{
     AdapterKind, AdapterRequest, Error, Gpu, GpuScene, PassTime, RenderOptions, Renderer, headless,
 };
-use hairline_image::Batch;
+use hairline_image::{Batch, Image};
 use hairline_index::method::Method;
 use hairline_scene::{DEFAULT_SAMPLES, Transport};
 use web_time::Instant;
 
+use super::adding::Adding;
 use super::easel::{Easel, Shown};
 use super::frame::Picture;
 use super::pace::{self, Kind};
@@ -41,6 +42,9 @@ pub(super) struct GpuEasel {
     canvas: Option<Canvas>,
     /// Of the canvas.
     step: Option<Step>,
+    adding: Adding,
+    /// What batches have added up to, of which the canvas has the last one, and how many samples it has.
+    mean: Option<(Image, u32)>,
 }
 
 impl GpuEasel {
@@ -58,6 +62,8 @@ impl GpuEasel {
             bounces: None,
             canvas: None,
             step: None,
+            adding: Adding::default(),
+            mean: None,
         })
     }
 
@@ -70,17 +76,25 @@ impl GpuEasel {
         let (Some(canvas), Some(step)) = (&self.canvas, self.step) else {
             return Ok(None);
         };
+        if step.is_added() && self.mean.is_none() {
+            return Ok(None);
+        }
         let size_px = canvas.size_px();
         let display = &order.view.display;
         let gpu = self.renderer.gpu().clone();
         let mut findings = Findings::default();
+        let mut developed = |image: &Image| {
+            let wanted = &order.view.reading;
+            let (pixels, found) = develop(image, order.view.size_px, display, wanted);
+            findings = found;
+            Picture::Pixels(Arc::new(pixels))
+        };
         let picture = gpu.block_on(async {
+            if let Some((mean, _)) = &self.mean {
+                return Ok(developed(mean));
+            }
             if order.view.reading.needs_layers() {
-                let image = canvas.image().await?;
-                let wanted = &order.view.reading;
-                let (pixels, found) = develop(&image, order.view.size_px, display, wanted);
-                findings = found;
-                return Ok(Picture::Pixels(Arc::new(pixels)));
+                return Ok(developed(&canvas.image().await?));
             }
             if self.is_shared {
                 let view = target(&gpu, size_px).await?;
@@ -173,6 +187,9 @@ impl Easel for GpuEasel {
         };
         let scene = step.scene(order);
         self.step = Some(*step);
+        if step.batch.is_none_or(|batch| batch.first == 0) {
+            self.mean = None;
+        }
         let mut last_shown = Instant::now();
         let options = RenderOptions {
             samples: step.samples,
@@ -212,8 +229,12 @@ impl Easel for GpuEasel {
             }
             // The first step shades every pixel once, each later one is a sample of the pixels on edges.
             let is_last = part + 1 == steps;
-            let samples = match step.batch {
-                Some(batch) => batch.range().end,
+            if is_last && let Some(batch) = step.batch {
+                let image = gpu.block_on(canvas.image())?;
+                self.mean = Some(self.adding.add(order, batch, image));
+            }
+            let samples = match &self.mean {
+                Some((_, samples)) => *samples,
                 None => part.max(1),
             };
             let is_finer = step.batch.is_none() && samples >= FEWEST_SHOWN;
@@ -234,10 +255,10 @@ impl Easel for GpuEasel {
     }
 
     fn show_again(&mut self, order: &Order) -> Result<Option<Shown>, Error> {
-        let samples = self.step.map_or(1, |step| match step.batch {
-            Some(batch) => batch.range().end,
-            None => step.samples,
-        });
+        let samples = match &self.mean {
+            Some((_, samples)) => *samples,
+            None => self.step.map_or(1, |step| step.samples),
+        };
         self.shown(order, samples)
     }
 

@@ -11,7 +11,7 @@ use hairline_editor::navigate;
 use hairline_gpu::{AdapterKind, Gpu, GpuScene, RenderOptions, Renderer};
 #[cfg(not(target_arch = "wasm32"))]
 use hairline_image::Batches;
-use hairline_image::{Display, Image, Output};
+use hairline_image::{Display, Image, Output, spread_fireflies};
 #[cfg(not(target_arch = "wasm32"))]
 use hairline_index::method::Method;
 use hairline_scene::{Description, Scene, Transport};
@@ -163,9 +163,10 @@ fn frames(wish: &Wish, built: &Built, stop: &Stop, report: &Report) -> Result<bo
         let image = painter
             .paint(built, &scene, wish, &go_on)
             .map_err(|error| error.to_string())?;
-        let Some(image) = image else {
+        let Some(mut image) = image else {
             return Ok(false);
         };
+        spread_fireflies(&mut image);
         if stop.is_asked() {
             return Ok(false);
         }
