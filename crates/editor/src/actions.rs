@@ -7,6 +7,7 @@ pub mod layers;
 pub mod lights;
 pub mod materials;
 pub mod objects;
+pub mod studio;
 
 mod list;
 

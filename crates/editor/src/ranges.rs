@@ -39,7 +39,7 @@ pub(crate) const DEFAULT_DIAGONAL_M: f64 = 0.3;
 impl Parameter {
     /// Every parameter.
     #[cfg(test)]
-    pub(crate) const ALL: [Self; 56] = [
+    pub(crate) const ALL: [Self; 59] = [
         Self::CameraPosition,
         Self::CameraTarget,
         Self::CameraUp,
@@ -49,6 +49,9 @@ impl Parameter {
         Self::Filter,
         Self::EnvironmentRotation,
         Self::EnvironmentIntensity,
+        Self::StudioRotation,
+        Self::StudioIntensity,
+        Self::GroundHeight,
         Self::Roughness,
         Self::Coherence,
         Self::Ior,
@@ -117,8 +120,8 @@ impl Parameter {
             P::Exposure => (-8.0..=8.0, limits::EXPOSURE_EV),
             P::PictureSize => (64.0..=4096.0, limits::PICTURE_PX),
             P::Filter => (0.3..=2.0, limits::FILTER_STD_PX),
-            P::EnvironmentRotation | P::Rotation => (-180.0..=180.0, ANY),
-            P::EnvironmentIntensity => (0.01..=10.0, NOT_NEGATIVE),
+            P::EnvironmentRotation | P::StudioRotation | P::Rotation => (-180.0..=180.0, ANY),
+            P::EnvironmentIntensity | P::StudioIntensity => (0.01..=10.0, NOT_NEGATIVE),
             P::Roughness => (0.0..=0.6, limits::ROUGHNESS),
             P::Coherence => (5.0..=100.0, limits::COHERENCE_UM),
             P::Ior => (1.0..=2.5, limits::IOR),
@@ -130,7 +133,7 @@ impl Parameter {
             P::PlaneSize | P::ShapeRadius | P::FitSize => (0.05 * d..=5.0 * d, limits::SIZE_M),
             P::LatheSegments => (16.0..=512.0, limits::LATHE_SEGMENTS),
             P::ProfileRadius => (0.0..=d, limits::PROFILE_RADIUS_M),
-            P::ProfileHeight => (-d..=d, limits::COORDINATE_M),
+            P::ProfileHeight | P::GroundHeight => (-d..=d, limits::COORDINATE_M),
             P::Count => (10.0..=100_000.0, 0.0..=LARGEST_EXACT),
             P::Density => (10.0 / (d * d)..=100_000.0 / (d * d), NOT_NEGATIVE),
             P::Seed => (0.0..=1000.0, 0.0..=LARGEST_EXACT),
@@ -177,6 +180,7 @@ impl Parameter {
         matches!(
             self,
             P::EnvironmentIntensity
+                | P::StudioIntensity
                 | P::Coherence
                 | P::Scale
                 | P::PlaneSize
@@ -207,6 +211,7 @@ impl Parameter {
             | P::FitSize
             | P::ProfileRadius
             | P::ProfileHeight
+            | P::GroundHeight
             | P::Length
             | P::AxisCenter
             | P::BrushRadius
@@ -219,6 +224,7 @@ impl Parameter {
             | P::LightEnd => Unit::Metre,
             P::FieldOfView
             | P::EnvironmentRotation
+            | P::StudioRotation
             | P::Rotation
             | P::Jitter
             | P::LightRotation

@@ -12,6 +12,10 @@ pub enum Selection {
     Camera,
     /// `[environment]`, whether there is one or not.
     Environment,
+    /// `[studio]`, lit or not.
+    Studio,
+    /// `[ground]`, whether there is one or not.
+    Ground,
     /// `[render]`
     Render,
     /// An `[[object]]`, by its place in the description, as in all that follow.
@@ -28,7 +32,12 @@ impl Selection {
     /// Whether the description has it.
     pub fn is_in(self, description: &Description) -> bool {
         match self {
-            Self::None | Self::Camera | Self::Environment | Self::Render => true,
+            Self::None
+            | Self::Camera
+            | Self::Environment
+            | Self::Studio
+            | Self::Ground
+            | Self::Render => true,
             Self::Object(i) => i < description.objects.len(),
             Self::Material(i) => i < description.materials.len(),
             Self::Layer(i) => i < description.scratches.len(),

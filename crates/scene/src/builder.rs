@@ -251,7 +251,7 @@ impl<'a> Work<'a> {
 
     fn environment(&mut self, scene: &Scene) -> Result<Option<crate::Environment>, Error> {
         let studio = &self.description.studio;
-        let room = (!studio.hidden).then(|| PhotoSet::room(studio));
+        let room = (!studio.hidden).then(|| studio.room());
         let Some(described) = self.description.environment.as_ref().or(room.as_ref()) else {
             return Ok(None);
         };

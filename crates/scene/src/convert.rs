@@ -70,7 +70,7 @@ pub(crate) fn material(material: &description::Material) -> Material {
 
 /// The axis of the world nearest to the camera's up: the direction of the environment's top. A camera that is rolled a little
 /// leaves the world upright.
-pub(crate) fn vertical_axis(up: DVec3) -> DVec3 {
+pub fn vertical_axis(up: DVec3) -> DVec3 {
     let axis = DVec3::AXES[up.abs().max_position()];
     axis * axis.dot(up).signum()
 }

@@ -52,6 +52,7 @@ pub mod wear;
 pub use arrays::{Arrays, MeshArrays, ScratchArrays};
 pub use builder::SceneBuilder;
 pub use camera::CameraFrame;
+pub use convert::vertical_axis;
 pub use description::Description;
 pub use environment::Environment;
 pub use error::Error;

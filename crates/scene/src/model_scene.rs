@@ -84,7 +84,7 @@ impl Description {
         let environment = match lamps.is_empty() {
             true => {
                 lamps = set.lights(&studio);
-                PhotoSet::room(&studio)
+                studio.room()
             }
             // Whose strength is not known.
             false => Environment {

@@ -34,6 +34,23 @@ pub(crate) struct PhotoSet {
     elevation_rad: f64,
 }
 
+impl Studio {
+    /// What it lights a scene with, in the place of which these would do: `bounds_m` is the box around all of the scene's objects.
+    pub fn lights(&self, camera: &Camera, bounds_m: (DVec3, DVec3)) -> Vec<Light> {
+        PhotoSet::new(camera, bounds_m).lights(self)
+    }
+
+    /// The room around, where a scene has no environment of its own.
+    pub fn room(&self) -> Environment {
+        Environment {
+            map: Map::BuiltIn(BuiltInMap::Overcast),
+            rotation_deg: 0.0,
+            intensity: ROOM_INTENSITY * self.intensity,
+            visible: true,
+        }
+    }
+}
+
 impl PhotoSet {
     /// About a box, in which all objects lie, and a camera.
     pub(crate) fn new(camera: &Camera, (least, most): (DVec3, DVec3)) -> Self {
@@ -60,16 +77,6 @@ impl PhotoSet {
             ahead: up.cross(right),
             up,
             elevation_rad: (-view.dot(up) / view.length()).asin(),
-        }
-    }
-
-    /// The room around.
-    pub(crate) fn room(studio: &Studio) -> Environment {
-        Environment {
-            map: Map::BuiltIn(BuiltInMap::Overcast),
-            rotation_deg: 0.0,
-            intensity: ROOM_INTENSITY * studio.intensity,
-            visible: true,
         }
     }
 

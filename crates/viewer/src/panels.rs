@@ -14,6 +14,7 @@ mod light;
 mod material;
 pub(crate) mod number;
 mod object;
+mod studio;
 
 use egui::Ui;
 

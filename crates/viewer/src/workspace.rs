@@ -118,7 +118,13 @@ impl Workspace {
                 )
             }
             Command::ToggleHidden => {
-                matches!(selection, Selection::Layer(_) | Selection::Light(_))
+                matches!(
+                    selection,
+                    Selection::Layer(_)
+                        | Selection::Light(_)
+                        | Selection::Studio
+                        | Selection::Ground
+                )
             }
             Command::FlipSnapshot => !self.snapshots.is_empty(),
             Command::ToggleSolo => matches!(selection, Selection::Layer(_)),

@@ -21,6 +21,12 @@ pub enum Parameter {
     EnvironmentRotation,
     /// `environment.intensity`
     EnvironmentIntensity,
+    /// `studio.rotation_deg`
+    StudioRotation,
+    /// `studio.intensity`
+    StudioIntensity,
+    /// `ground.height_m`
+    GroundHeight,
     /// `material.roughness`
     Roughness,
     /// `material.coherence_um`

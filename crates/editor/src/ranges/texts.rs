@@ -46,6 +46,18 @@ pub(super) fn of(parameter: Parameter) -> Text {
             "Intensity",
             "Brightness of the surroundings. Dim ones let the colours of lamps on scratches stand out; bright ones wash them out.",
         ),
+        P::StudioRotation => (
+            "Rotation",
+            "Turns the soft boxes and the lamp about the vertical, and with them their reflections on metal.",
+        ),
+        P::StudioIntensity => (
+            "Intensity",
+            "Brightness of all of the studio, its lamp and its room among them: reflections and the colours of scratches alike.",
+        ),
+        P::GroundHeight => (
+            "Height",
+            "Where the floor lies along the vertical. Just under an object, its shadow touches it; deeper, it floats.",
+        ),
         P::Roughness => (
             "Roughness",
             "How far the polished highlight spreads. 0.05 to 0.15 leaves dark room around it where scratches shine; rougher surfaces drown them. The scratches themselves stay as sharp.",

@@ -1,7 +1,7 @@
 //! What commands do.
 
 use egui::ViewportCommand;
-use hairline_editor::actions::{layers, lights, materials, objects};
+use hairline_editor::actions::{layers, lights, materials, objects, studio};
 use hairline_editor::{Selection, navigate};
 
 use super::Viewer;
@@ -112,6 +112,8 @@ impl Viewer {
                 }
                 (Command::ToggleHidden, S::Layer(i)) => layers::toggle_hidden(d, i)?,
                 (Command::ToggleHidden, S::Light(i)) => lights::toggle_hidden(d, i)?,
+                (Command::ToggleHidden, S::Studio) => studio::toggle_hidden(d),
+                (Command::ToggleHidden, S::Ground) => studio::toggle_ground(d),
                 (Command::ToggleSolo, S::Layer(i)) => layers::toggle_solo(d, i)?,
                 (_, other) => other,
             })

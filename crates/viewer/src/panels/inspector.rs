@@ -3,7 +3,7 @@
 use egui::{Panel, ScrollArea, Ui};
 use hairline_editor::Selection;
 
-use super::{camera, environment, layer, light, material, object};
+use super::{camera, environment, layer, light, material, object, studio};
 use crate::workspace::Workspace;
 
 pub(crate) fn show(ui: &mut Ui, work: &mut Workspace) {
@@ -20,6 +20,8 @@ pub(crate) fn show(ui: &mut Ui, work: &mut Workspace) {
                     Selection::Camera => camera::show(ui, work),
                     Selection::Render => camera::show_render(ui, work),
                     Selection::Environment => environment::show(ui, work),
+                    Selection::Studio => studio::show(ui, work),
+                    Selection::Ground => studio::show_ground(ui, work),
                     Selection::Object(i) => object::show(ui, work, i),
                     Selection::Material(i) => material::show(ui, work, i),
                     Selection::Layer(i) => layer::show(ui, work, i),

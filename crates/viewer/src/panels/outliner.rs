@@ -1,8 +1,8 @@
 //! The list of all that the scene has.
 
 use egui::{Panel, RichText, ScrollArea, Ui};
+use hairline_editor::actions::{ActionError, layers, lights, materials, objects, studio};
 use hairline_editor::Selection;
-use hairline_editor::actions::{layers, lights, materials, objects};
 use hairline_editor::maps;
 use hairline_editor::presets::{LightPreset, MaterialPreset, ShapePreset};
 use hairline_scene::Description;
@@ -59,20 +59,33 @@ fn rows(ui: &mut Ui, work: &mut Workspace) {
         });
     }
 
+    let ground = Switched {
+        selection: Selection::Ground,
+        name: "Ground",
+        is_shown: description.ground.as_ref().is_some_and(|g| !g.hidden),
+        what: "the ground",
+        tooltip: "Whether there is a floor under all objects",
+    };
+    ground.line(ui, work, |d| Ok(studio::toggle_ground(d)));
+
     section(ui, "Lights", |ui| add_light(ui, work));
+    let of_studio = Switched {
+        selection: Selection::Studio,
+        name: "Studio",
+        is_shown: !description.studio.hidden,
+        what: "the studio",
+        tooltip: "Whether soft boxes, a lamp and a dim room light all objects",
+    };
+    of_studio.line(ui, work, |d| Ok(studio::toggle_hidden(d)));
     for (i, light) in description.lights.iter().enumerate() {
-        ui.horizontal(|ui| {
-            let name = numbered(lights::title(light), &description, i);
-            let mut shown = !light.hidden;
-            let eye = ui
-                .checkbox(&mut shown, "")
-                .on_hover_text("Whether it shines");
-            name_node(ui, &eye, &format!("Show light {}", i + 1));
-            if eye.changed() {
-                work.apply("Hide or show a light", |d, _| lights::toggle_hidden(d, i));
-            }
-            line(ui, work, Selection::Light(i), &name, shown);
-        });
+        let shining = Switched {
+            selection: Selection::Light(i),
+            name: &numbered(lights::title(light), &description, i),
+            is_shown: !light.hidden,
+            what: &format!("light {}", i + 1),
+            tooltip: "Whether it shines",
+        };
+        shining.line(ui, work, |d| lights::toggle_hidden(d, i));
     }
 
     section(ui, "Materials", |ui| add_material(ui, work));
@@ -108,6 +121,35 @@ fn layer_line(ui: &mut Ui, work: &mut Workspace, description: &Description, i: u
             is_shown,
         );
     });
+}
+
+/// A line with a box that hides and shows what it is of.
+struct Switched<'n> {
+    selection: Selection,
+    name: &'n str,
+    is_shown: bool,
+    /// To complete "Show".
+    what: &'n str,
+    tooltip: &'n str,
+}
+
+impl Switched<'_> {
+    fn line(
+        &self,
+        ui: &mut Ui,
+        work: &mut Workspace,
+        toggle: impl FnOnce(&mut Description) -> Result<Selection, ActionError>,
+    ) {
+        ui.horizontal(|ui| {
+            let mut is_shown = self.is_shown;
+            let eye = ui.checkbox(&mut is_shown, "").on_hover_text(self.tooltip);
+            name_node(ui, &eye, &format!("Show {}", self.what));
+            if eye.changed() {
+                work.apply(&format!("Hide or show {}", self.what), |d, _| toggle(d));
+            }
+            line(ui, work, self.selection, self.name, is_shown);
+        });
+    }
 }
 
 /// What screen readers and tests call a control that shows no text.

@@ -4,6 +4,7 @@ use glam::DVec3;
 use hairline_editor::actions::materials;
 use hairline_editor::brush::BrushSettings;
 use hairline_editor::{Selection, navigate};
+use hairline_scene::vertical_axis;
 
 use super::Workspace;
 
@@ -99,6 +100,21 @@ impl Workspace {
             self.bounds_of(|i| subject.contains(&i))
         })
         .unwrap_or(UNKNOWN_M)
+    }
+
+    /// The box around all objects, where they are built as they are described.
+    pub fn built_bounds_m(&self) -> Option<(DVec3, DVec3)> {
+        let objects = &self.document.description().objects;
+        let built = self.engine.built()?;
+        let is_built = built.description.objects == *objects;
+        is_built.then(|| self.bounds_of(|i| i < objects.len()))?
+    }
+
+    /// Where their lowest point is along the vertical.
+    pub fn lowest_m(&self) -> Option<f64> {
+        let up = vertical_axis(self.document.description().camera.up.into());
+        let (a, b) = self.built_bounds_m()?;
+        Some(a.dot(up).min(b.dot(up)))
     }
 
     /// The box around some objects.

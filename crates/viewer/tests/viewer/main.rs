@@ -24,5 +24,6 @@ mod reading;
 mod rest;
 mod shadows;
 mod snapshots;
+mod studio;
 mod tooltips;
 mod views;

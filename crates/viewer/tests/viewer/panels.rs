@@ -143,6 +143,20 @@ fn a_material_of_every_kind_and_lights() {
 }
 
 #[test]
+fn the_studio_and_the_ground() {
+    let mut harness = viewer(BUILT_IN);
+    wait_built(&mut harness);
+    edit(&mut harness, |d| {
+        d.studio.hidden = false;
+        d.ground.get_or_insert_default().height_m = Some(-0.01);
+    });
+    for selection in [Selection::Studio, Selection::Ground] {
+        select(&mut harness, selection);
+        assert_eq!(every_number_is_live(&mut harness), 2, "{selection:?}");
+    }
+}
+
+#[test]
 fn the_environment() {
     let mut harness = viewer(BUILT_IN);
     wait_built(&mut harness);
