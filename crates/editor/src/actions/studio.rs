@@ -30,8 +30,6 @@ pub fn to_lights(description: &mut Description, bounds_m: (DVec3, DVec3)) -> Sel
     for light in studio.lights(&description.camera, bounds_m) {
         lights::add(description, light);
     }
-    description
-        .environment
-        .get_or_insert_with(|| studio.room());
+    description.environment.get_or_insert_with(|| studio.room());
     Selection::Light(first)
 }

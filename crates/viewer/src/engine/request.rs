@@ -132,8 +132,8 @@ impl Shared {
         self.lock().view
     }
 
-    /// Whether a finer picture of `order` is wanted no more. One that is painted `on_cores` also gives way to the building of a newer scene, which would
-    /// wait for the same cores; it goes on where nothing comes of that.
+    /// Whether a finer picture of `order` is wanted no more. One that is painted `on_cores` also gives way to the building of a newer scene, which
+    /// would wait for the same cores; it goes on where nothing comes of that.
     pub fn is_outdated(&self, order: &Order, on_cores: bool) -> bool {
         let state = self.lock();
         let is_building = state.is_building || state.wanted_scene.is_some();

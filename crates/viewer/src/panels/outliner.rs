@@ -1,8 +1,8 @@
 //! The list of all that the scene has.
 
 use egui::{Panel, RichText, ScrollArea, Ui};
-use hairline_editor::actions::{ActionError, layers, lights, materials, objects, studio};
 use hairline_editor::Selection;
+use hairline_editor::actions::{ActionError, layers, lights, materials, objects, studio};
 use hairline_editor::maps;
 use hairline_editor::presets::{LightPreset, MaterialPreset, ShapePreset};
 use hairline_scene::Description;

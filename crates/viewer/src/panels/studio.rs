@@ -27,7 +27,10 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace) {
     }
     ui.add_space(8.0);
     let bounds_m = work.built_bounds_m().filter(|_| is_lit);
-    let button = ui.add_enabled(bounds_m.is_some(), Button::new("Make ordinary lights of it"));
+    let button = ui.add_enabled(
+        bounds_m.is_some(),
+        Button::new("Make ordinary lights of it"),
+    );
     let button = button.on_hover_text(
         "Lights of the list, each to be moved and changed by itself; the picture stays as it is",
     );

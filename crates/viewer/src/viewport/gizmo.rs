@@ -4,6 +4,7 @@
 
 mod body;
 mod change;
+mod cone;
 mod draw_handles;
 mod handles;
 mod lights;

@@ -5,7 +5,7 @@ use egui::{Pos2, vec2};
 use egui_kittest::{Harness, kittest::Queryable};
 use glam::DVec3;
 use hairline_editor::{Selection, place_light};
-use hairline_scene::description::{Light, LightKind};
+use hairline_scene::description::{Cone, Light, LightKind};
 use hairline_viewer::Viewer;
 
 const LAMP: usize = 0;
@@ -213,6 +213,37 @@ fn the_size_handle_scales_about_the_middle() {
     let factor = radius_m(&harness) / before_m;
     // Places on the screen are single precision.
     assert!((factor - 1.5).abs() < 1e-3, "by {factor}");
+}
+
+#[test]
+fn the_rims_of_a_cone_follow_the_pointer() {
+    let mut harness = with_selected("lamp");
+    assert!(harness.query_by_label("Open the cone").is_none());
+    harness.state_mut().document_mut().edit("by the test", |d| {
+        d.lights[LAMP].cone = Some(Cone::new(40.0, Some([-0.06, 0.03, 0.0])));
+    });
+    harness.run_steps(3);
+    let cone = |harness: &Harness<'static, Viewer>| common::light(harness, LAMP).cone.unwrap();
+    let before = cone(&harness);
+    let middle = handle(&harness, "Move light across the view");
+    // The lamp shines down: what is right of it opens to the right.
+    for (label, sign) in [("Open the cone", 1.0), ("Soften the cone", -1.0)] {
+        let from = handle(&harness, label);
+        let out = vec2((from.x - middle.x).signum(), 0.0);
+        common::drag(&mut harness, from, from + out * 12.0 * sign, 6);
+        let now = cone(&harness);
+        let told = harness.state().document().undo_label();
+        assert_eq!(told, Some(label));
+        match sign > 0.0 {
+            true => assert!(now.cone_deg > 43.0 && now.cone_deg < 80.0, "{now:?}"),
+            false => assert!(
+                now.cone_softness > 0.15 && now.cone_softness < 1.0,
+                "{now:?}"
+            ),
+        }
+        common::undo(&mut harness);
+        assert_eq!(cone(&harness), before);
+    }
 }
 
 #[test]

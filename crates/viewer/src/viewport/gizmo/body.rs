@@ -5,6 +5,8 @@ use hairline_editor::{Selection, place_light};
 use hairline_scene::Description;
 use hairline_scene::description::{Light, LightKind};
 
+use super::cone::Spot;
+
 /// A light or an object, as far as handles are concerned.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Body {
@@ -20,6 +22,8 @@ pub(super) struct Body {
     pub corners_m: Vec<DVec3>,
     /// The polygon's, unit.
     pub normal: Option<DVec3>,
+    /// Of a light that has one.
+    pub spot: Option<Spot>,
 }
 
 impl Body {
@@ -44,10 +48,11 @@ impl Body {
         Self {
             noun: "light",
             center_m: place_light::center(light),
-            turns: !matches!(light.kind, LightKind::Sphere { .. }),
+            turns: !matches!(light.kind, LightKind::Sphere { .. }) || light.cone.is_some(),
             resizes: true,
             normal: place_light::facing(light),
             corners_m: light.kind.vertices_m().iter().map(|&v| v.into()).collect(),
+            spot: Spot::of(light),
         }
     }
 }

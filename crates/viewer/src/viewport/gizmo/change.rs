@@ -45,6 +45,16 @@ fn change_light(light: &mut Light, before: &Light, motion: &Motion) {
                 return;
             }
         }
+        Motion::Open(deg) => {
+            if let Some(cone) = &mut changed.cone {
+                cone.cone_deg = deg;
+            }
+        }
+        Motion::Soften(softness) => {
+            if let Some(cone) = &mut changed.cone {
+                cone.cone_softness = softness;
+            }
+        }
     }
     *light = changed;
 }
@@ -57,7 +67,7 @@ fn change_object(object: &mut Object, before: &Object, motion: &Motion) {
         Motion::Turn(axis, angle_rad) => {
             object.rotation_deg = turned(before, axis, angle_rad);
         }
-        Motion::Resize(_) | Motion::Corner(..) => {}
+        Motion::Resize(_) | Motion::Corner(..) | Motion::Open(_) | Motion::Soften(_) => {}
     }
 }
 

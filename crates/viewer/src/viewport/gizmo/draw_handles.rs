@@ -56,7 +56,9 @@ fn one(painter: &Painter, placed: &Placed, is_active: bool, color: Color32) {
                 );
             }
         }
-        Handle::Ring(_) => ink::line(painter, placed.line.clone(), 1.5 + grown, color),
+        Handle::Ring(_) | Handle::Rim(_) => {
+            ink::line(painter, placed.line.clone(), 1.5 + grown, color)
+        }
         Handle::Middle => {
             ink::circle(painter, knob, 7.0 + grown, 1.5, color);
             ink::dot(painter, knob, 2.0 + grown, color);

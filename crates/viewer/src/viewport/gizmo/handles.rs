@@ -7,6 +7,7 @@ use egui::{Pos2, Vec2};
 use glam::DVec3;
 
 use super::body::Body;
+use super::cone::{Rim, Spot};
 use crate::viewport::lens::Lens;
 
 /// Length of an arrow that lies across the view, points.
@@ -42,6 +43,8 @@ pub(super) enum Handle {
     Size,
     /// Moves a corner of a polygon in its plane.
     Corner(usize),
+    /// Opens the cone of a spot, or softens it.
+    Rim(Rim),
 }
 
 impl Handle {
@@ -54,7 +57,14 @@ impl Handle {
             Self::Ring(i) => format!("Turn {noun} about {}", AXIS_NAMES[i]),
             Self::Size => format!("Resize {noun}"),
             Self::Corner(i) => format!("Move corner {}", i + 1),
+            Self::Rim(Rim::Outer) => "Open the cone".to_owned(),
+            Self::Rim(Rim::Inner) => "Soften the cone".to_owned(),
         }
+    }
+
+    /// Whether it is met all along its line and has no knob to be seen.
+    fn is_line(self) -> bool {
+        matches!(self, Self::Ring(_) | Self::Rim(_))
     }
 }
 
@@ -116,6 +126,14 @@ pub(super) fn place(body: &Body, lens: &Lens) -> Option<Vec<Placed>> {
             });
         }
     }
+    for rim in [Rim::Outer, Rim::Inner] {
+        let rim_of = |spot: Spot| Some((spot.rim(lens, rim)?, spot.knob(lens, rim)?));
+        placed.extend(body.spot.and_then(rim_of).map(|(line, knob)| Placed {
+            handle: Handle::Rim(rim),
+            line,
+            knob,
+        }));
+    }
     placed.push(Placed {
         handle: Handle::Middle,
         line: Vec::new(),
@@ -133,9 +151,9 @@ fn clear_knobs_of_rings(placed: &mut [Placed]) {
         }
         let others = || placed.iter().enumerate().filter(|(other, _)| *other != i);
         let room = |pos: &Pos2| {
-            let gaps = others().map(|(_, other)| match other.handle {
-                Handle::Ring(_) => distance_to_line(&other.line, *pos),
-                _ => distance_to_line(&other.line, *pos).min(other.knob.distance(*pos)),
+            let gaps = others().map(|(_, other)| match other.handle.is_line() {
+                true => distance_to_line(&other.line, *pos),
+                false => distance_to_line(&other.line, *pos).min(other.knob.distance(*pos)),
             });
             gaps.fold(f32::INFINITY, f32::min)
         };
@@ -199,9 +217,9 @@ pub(super) fn under(placed: &[Placed], pos: Pos2) -> Option<Handle> {
             .min_by(|a, b| a.0.total_cmp(&b.0))
             .map(|(_, handle)| handle)
     };
-    let to_knob = |placed: &Placed, pos: Pos2| match placed.handle {
-        Handle::Ring(_) => f32::INFINITY,
-        _ => placed.knob.distance(pos),
+    let to_knob = |placed: &Placed, pos: Pos2| match placed.handle.is_line() {
+        true => f32::INFINITY,
+        false => placed.knob.distance(pos),
     };
     let to_line = |placed: &Placed, pos: Pos2| distance_to_line(&placed.line, pos);
     distances(to_knob, KNOB_REACH).or_else(|| distances(to_line, LINE_REACH))

@@ -7,6 +7,7 @@ use hairline_optics::band::{TUBE_CORNERS, TubeOutline, tube_outline};
 use hairline_scene::Description;
 use hairline_scene::description::{Light, LightKind};
 
+use super::cone::Spot;
 use super::handles::distance_to_segment;
 use crate::viewport::ink;
 use crate::viewport::lens::Lens;
@@ -35,6 +36,10 @@ pub(in crate::viewport) fn show(
         };
         for piece in outline(light, lens) {
             ink::segment(painter, piece, width, color);
+        }
+        let cone = Spot::of(light).map(|spot| spot.outline(lens));
+        for piece in cone.into_iter().flatten() {
+            ink::segment(painter, piece, 0.7 * width, color.gamma_multiply(0.7));
         }
         if let Some(middle) = lens.project(place_light::center(light)) {
             ink::dot(painter, middle, 1.75, color);

@@ -6,6 +6,7 @@ use egui::Pos2;
 use glam::DVec3;
 
 use super::body::Body;
+use super::cone::Rim;
 use super::handles::{self, Handle};
 use crate::viewport::lens::Lens;
 
@@ -20,12 +21,18 @@ pub(super) enum Motion {
     Resize(f64),
     /// A corner to this place.
     Corner(usize, DVec3),
+    /// A cone to this angle, degrees.
+    Open(f64),
+    /// A cone to this softness.
+    Soften(f64),
 }
 
 /// Nothing is moved further than so many times its distance to the eye: an axis that runs to the horizon has no end.
 const FARTHEST: f64 = 10.0;
 /// A turn snaps to this.
 const SNAP_RAD: f64 = PI / 12.0;
+/// And a cone's angle to this.
+const SNAP_DEG: f64 = 5.0;
 /// Nothing shrinks to less of itself in one drag.
 const SMALLEST: f64 = 0.02;
 /// Below this cosine between the view and a ring's axis the ring is seen from its edge.
@@ -81,6 +88,17 @@ pub(super) fn of(body: &Body, handle: Handle, from: &Aim, to: &Aim, snaps: bool)
                 corner_m + (to.on(corner_m, normal)? - from.on(corner_m, normal)?),
             )
         }
+        Handle::Rim(rim) => {
+            let (spot, lens) = (body.spot?, &from.lens);
+            match rim {
+                Rim::Outer => {
+                    let deg = spot.opened_deg(lens, from.pos, to.pos)?;
+                    let steps = (deg / SNAP_DEG).round().max(1.0);
+                    Motion::Open(if snaps { steps * SNAP_DEG } else { deg })
+                }
+                Rim::Inner => Motion::Soften(spot.softened(lens, from.pos, to.pos)?),
+            }
+        }
     };
     Some(motion)
 }
@@ -122,6 +140,8 @@ impl Motion {
             (Self::Move(delta_m), _) => length(delta_m.length(), false),
             (Self::Turn(_, angle_rad), _) => format!("{:+.1}°", angle_rad.to_degrees()),
             (Self::Resize(factor), _) => format!("× {factor:.2}"),
+            (Self::Open(deg), _) => format!("cone {deg:.1}°"),
+            (Self::Soften(softness), _) => format!("softness {softness:.2}"),
             (Self::Corner(..), _) => return None,
         })
     }

@@ -1,0 +1,172 @@
+//! The cone of a spot: what of it is seen, and how its rims are dragged.
+//!
+//! The outer rim is where the light ends, the inner one where it begins to fall off. Both are drawn on the cone at a fixed size on the screen, the
+//! inner one nearer to the light: so each can be met where both have one angle.
+
+use egui::{Pos2, Vec2};
+use glam::DVec3;
+use hairline_editor::place_light;
+use hairline_scene::description::{Light, limits};
+
+use crate::viewport::lens::Lens;
+
+/// From the light to its rims, points.
+const OUTER: f32 = 132.0;
+const INNER: f32 = 104.0;
+/// Pieces of a rim.
+const STEPS: usize = 48;
+/// A place of a rim that moves by less than this share of what the liveliest one does tells little of its angle.
+const LIVELY: f32 = 0.6;
+/// Angles that are tried for a place of the pointer.
+const TRIED: usize = 720;
+/// Where two angles are seen in one place, the one that is nearer to that before, by so many points a radian.
+const NEARER: f64 = 2.0;
+
+/// Which rim.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Rim {
+    Outer,
+    Inner,
+}
+
+/// A cone, with its apex in the light's middle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Spot {
+    apex_m: DVec3,
+    axis: DVec3,
+    /// From the axis to the outer rim.
+    half_rad: f64,
+    softness: f64,
+}
+
+impl Spot {
+    /// None without a cone.
+    pub fn of(light: &Light) -> Option<Self> {
+        let cone = light.cone.as_ref()?;
+        let apex_m = place_light::center(light);
+        let towards = match light.kind.axis() {
+            Some(axis) => axis,
+            None => DVec3::from(cone.target_m?) - apex_m,
+        };
+        Some(Self {
+            apex_m,
+            axis: towards.try_normalize()?,
+            half_rad: 0.5 * cone.cone_deg.to_radians(),
+            softness: cone.cone_softness,
+        })
+    }
+
+    fn angle_rad(&self, rim: Rim) -> f64 {
+        match rim {
+            Rim::Outer => self.half_rad,
+            Rim::Inner => self.half_rad * (1.0 - self.softness),
+        }
+    }
+
+    /// The point at an angle from the axis, so far around it.
+    fn point_m(&self, lens: &Lens, rim: Rim, angle_rad: f64, around_rad: f64) -> DVec3 {
+        let points = match rim {
+            Rim::Outer => OUTER,
+            Rim::Inner => INNER,
+        };
+        let reach_m = lens.m_per_point(self.apex_m) * f64::from(points);
+        let (across, along) = self.axis.any_orthonormal_pair();
+        let (sin, cos) = angle_rad.sin_cos();
+        let (y, x) = around_rad.sin_cos();
+        self.apex_m + (self.axis * cos + (across * x + along * y) * sin) * reach_m
+    }
+
+    fn around_rad(step: usize) -> f64 {
+        step as f64 / STEPS as f64 * std::f64::consts::TAU
+    }
+
+    /// A rim as it is seen, closed; none where a part of it lies behind the eye.
+    pub fn rim(&self, lens: &Lens, rim: Rim) -> Option<Vec<Pos2>> {
+        let angle_rad = self.angle_rad(rim);
+        let point = |step| self.point_m(lens, rim, angle_rad, Self::around_rad(step));
+        (0..=STEPS).map(|step| lens.project(point(step))).collect()
+    }
+
+    /// The places of a rim that move most on the screen as its angle grows, by their steps: where it is best taken.
+    fn lively(&self, lens: &Lens, rim: Rim) -> Vec<(usize, Pos2)> {
+        const LITTLE_RAD: f64 = 0.02;
+        let angle_rad = self.angle_rad(rim);
+        let places: Vec<_> = (0..STEPS)
+            .filter_map(|step| {
+                let at =
+                    |angle| lens.project(self.point_m(lens, rim, angle, Self::around_rad(step)));
+                let (now, next) = (at(angle_rad)?, at(angle_rad + LITTLE_RAD)?);
+                Some((step, now, now.distance(next)))
+            })
+            .collect();
+        let most = places.iter().map(|place| place.2).fold(0.0, f32::max);
+        let lively = places.into_iter().filter(|place| place.2 >= LIVELY * most);
+        lively.map(|(step, now, _)| (step, now)).collect()
+    }
+
+    /// Where a rim is to be met by those who do not see it.
+    pub fn knob(&self, lens: &Lens, rim: Rim) -> Option<Pos2> {
+        let lively = self.lively(lens, rim);
+        let right = lively.iter().max_by(|a, b| a.1.x.total_cmp(&b.1.x));
+        right.map(|(_, place)| *place)
+    }
+
+    /// The rims, and the sides that the eye sees as edges, in pieces.
+    pub fn outline(&self, lens: &Lens) -> Vec<[Pos2; 2]> {
+        let (Some(apex), Some(outer)) = (lens.project(self.apex_m), self.rim(lens, Rim::Outer))
+        else {
+            return Vec::new();
+        };
+        let inner = self.rim(lens, Rim::Inner).filter(|_| self.softness > 0.0);
+        let edges = |rim: &[Pos2]| -> Vec<[Pos2; 2]> {
+            rim.windows(2).map(|ends| [ends[0], ends[1]]).collect()
+        };
+        let mut pieces = edges(&outer);
+        pieces.extend(inner.into_iter().flat_map(|rim| edges(&rim)));
+        let middle: Vec2 = outer[1..].iter().map(|p| *p - apex).sum();
+        if middle.length() > STEPS as f32 {
+            // As far aside as can be, seen from the apex.
+            let aside = |p: &Pos2| middle.rot90().dot((*p - apex).normalized());
+            let left = outer.iter().min_by(|a, b| aside(a).total_cmp(&aside(b)));
+            let right = outer.iter().max_by(|a, b| aside(a).total_cmp(&aside(b)));
+            pieces.extend(left.into_iter().chain(right).map(|end| [apex, *end]));
+        }
+        pieces
+    }
+
+    /// The angle of a rim, in radians from the axis, that a drag from one place to another gives it: the place of the rim that was
+    /// taken follows the pointer.
+    fn dragged_rad(&self, lens: &Lens, rim: Rim, from: Pos2, to: Pos2) -> Option<f64> {
+        let before_rad = self.angle_rad(rim);
+        let lively = self.lively(lens, rim).into_iter();
+        let (taken, _) = lively.min_by(|a, b| a.1.distance(from).total_cmp(&b.1.distance(from)))?;
+        let around_rad = Self::around_rad(taken);
+        let at = |angle_rad| lens.project(self.point_m(lens, rim, angle_rad, around_rad));
+        let wanted = at(before_rad)? + (to - from);
+        let most_rad = match rim {
+            Rim::Outer => 0.5 * limits::CONE_DEG.end().to_radians(),
+            Rim::Inner => self.half_rad,
+        };
+        let angles = (0..=TRIED).map(|i| most_rad * i as f64 / TRIED as f64);
+        let far = |angle_rad: f64| {
+            let distance = at(angle_rad).map_or(f64::INFINITY, |p| p.distance(wanted).into());
+            distance + NEARER * (angle_rad - before_rad).abs()
+        };
+        angles.min_by(|a, b| far(*a).total_cmp(&far(*b)))
+    }
+
+    /// The whole angle of the cone after a drag of its outer rim, degrees.
+    pub fn opened_deg(&self, lens: &Lens, from: Pos2, to: Pos2) -> Option<f64> {
+        let half_rad = self.dragged_rad(lens, Rim::Outer, from, to)?;
+        let (least, most) = limits::CONE_DEG.into_inner();
+        let deg = 2.0 * half_rad.to_degrees();
+        Some(((deg * 10.0).round() / 10.0).clamp(least, most))
+    }
+
+    /// The softness after a drag of its inner rim.
+    pub fn softened(&self, lens: &Lens, from: Pos2, to: Pos2) -> Option<f64> {
+        let inner_rad = self.dragged_rad(lens, Rim::Inner, from, to)?;
+        let softness = 1.0 - inner_rad / self.half_rad;
+        Some(((softness * 100.0).round() / 100.0).clamp(0.0, 1.0))
+    }
+}
