@@ -96,6 +96,12 @@ pub struct View {
     /// Ask for files by a line in the window, not by the system's dialogs.
     #[arg(long)]
     pub plain_dialogs: bool,
+    /// Whether objects hide lights and the environment from one another. The window can switch it. [default: on]
+    #[arg(long, value_enum)]
+    pub shadows: Option<Switch>,
+    /// Objects that light may go by on its way besides the one that is seen, with shadows. [default: 1]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=8))]
+    pub bounces: Option<u32>,
 }
 
 /// `hairline render`

@@ -31,7 +31,7 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
         method,
         backend: arguments.backend.into(),
         samples: arguments.samples,
-        transport: transport(arguments, &method)?,
+        transport: transport(arguments.shadows, arguments.bounces, &method)?,
         spreads_fireflies: arguments.firefly_filter == Switch::On,
     };
     let motion = Motion::of(&arguments.sequence)?;
@@ -129,10 +129,13 @@ fn single(arguments: &cli::Render) -> Result<Output, Failure> {
 }
 
 /// The ways of light: what is asked for, else the default.
-fn transport(arguments: &cli::Render, method: &Method) -> Result<Transport, Failure> {
-    let shadows = arguments.shadows.map(|switch| switch == Switch::On);
-    backend::transport(method, shadows, arguments.bounces)
-        .map_err(|refusal| refused(arguments.bounces, refusal))
+pub fn transport(
+    shadows: Option<Switch>,
+    bounces: Option<u32>,
+    method: &Method,
+) -> Result<Transport, Failure> {
+    let shadows = shadows.map(|switch| switch == Switch::On);
+    backend::transport(method, shadows, bounces).map_err(|refusal| refused(bounces, refusal))
 }
 
 fn refused(bounces: Option<u32>, refusal: Refusal) -> Failure {

@@ -5,12 +5,14 @@ mod window;
 use std::path::Path;
 
 use anyhow::anyhow;
-use hairline_scene::{DEFAULT_TRANSPORT, Description, probe};
+use hairline_index::method::Method;
+use hairline_scene::{Description, probe};
 use hairline_viewer::engine::Backend;
 use hairline_viewer::window::{Error, Renderer};
 use hairline_viewer::{Options, open};
 
 use crate::console::tell;
+use crate::render::transport;
 use crate::{cli, scene_file};
 use hairline_work::failure::Failure;
 
@@ -40,7 +42,7 @@ pub fn run(arguments: &cli::View) -> Result<(), Failure> {
         backend: Backend::Cpu,
         state_dir: state_dir.or_else(hairline_viewer::state_dir),
         native_dialogs: !arguments.plain_dialogs,
-        transport: DEFAULT_TRANSPORT,
+        transport: transport(arguments.shadows, arguments.bounces, &Method::default())?,
     };
     let opened = window::in_one_sentence(|| open(options, renderer))?;
     opened.map_err(|error| match error {

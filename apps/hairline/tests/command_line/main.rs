@@ -14,3 +14,4 @@ mod reference;
 mod scratches;
 mod sequence;
 mod shadows;
+mod viewer;

@@ -68,14 +68,25 @@ struct Window<'d> {
 
 impl<'d> Window<'d> {
     fn open(display: &'d Display, folder: &Path, scene: &Path) -> Self {
-        Self::open_titled(display, folder, scene, "plate.toml · Hairline")
+        Self::open_with(display, folder, scene, &[])
     }
 
-    fn open_titled(display: &'d Display, folder: &Path, scene: &Path, title: &str) -> Self {
+    fn open_with(display: &'d Display, folder: &Path, scene: &Path, flags: &[&str]) -> Self {
+        Self::open_titled(display, folder, scene, flags, "plate.toml · Hairline")
+    }
+
+    fn open_titled(
+        display: &'d Display,
+        folder: &Path,
+        scene: &Path,
+        flags: &[&str],
+        title: &str,
+    ) -> Self {
         let program = Command::new(env!("CARGO_BIN_EXE_hairline"))
             .args(["view", "--backend", "cpu", "--plain-dialogs", "--state-dir"])
             .arg(folder.join("state"))
             .arg(scene)
+            .args(flags)
             .env("DISPLAY", display.name())
             .env_remove("WAYLAND_DISPLAY")
             // What makes tests of shaders start sooner makes the window slow.
@@ -201,7 +212,9 @@ fn an_artist_opens_turns_changes_draws_undoes_saves_and_comes_back() {
     std::fs::write(&scene, SCENE).unwrap();
     let before = Description::from_toml(SCENE, &scene).unwrap();
     let layout = Layout::of(&scene);
-    let window = Window::open(&display, folder.path(), &scene);
+    // Samples that add up settle late.
+    let open = || Window::open_with(&display, folder.path(), &scene, &["--shadows", "off"]);
+    let window = open();
     let first = window.settled(&layout);
     assert!(first.brightest() > 100, "the picture is dark");
     keep(&display.screen(), "opened");
@@ -256,7 +269,7 @@ fn an_artist_opens_turns_changes_draws_undoes_saves_and_comes_back() {
     // And back: what was saved is what is seen.
     let last = window.settled(&layout);
     window.quit();
-    let window = Window::open(&display, folder.path(), &scene);
+    let window = open();
     let reopened = window.settled(&layout);
     keep(&display.screen(), "reopened");
     // The mouse's ring, the selection's lines and dither are the only differences left.

@@ -81,6 +81,7 @@ fn pictures_of_the_window() {
         &display,
         folder.path(),
         Path::new(MODEL),
+        &[],
         "untitled · Hairline",
     );
     shot("viewer-model");

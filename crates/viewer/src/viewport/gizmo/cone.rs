@@ -123,7 +123,8 @@ impl Spot {
         };
         let mut pieces = edges(&outer);
         pieces.extend(inner.into_iter().flat_map(|rim| edges(&rim)));
-        let middle: Vec2 = outer[1..].iter().map(|p| *p - apex).sum();
+        let ways = outer[1..].iter().map(|p| *p - apex);
+        let middle = ways.fold(Vec2::ZERO, |sum, way| sum + way);
         if middle.length() > STEPS as f32 {
             // As far aside as can be, seen from the apex.
             let aside = |p: &Pos2| middle.rot90().dot((*p - apex).normalized());

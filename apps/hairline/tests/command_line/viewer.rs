@@ -1,0 +1,82 @@
+//! The viewer ends with the picture of `hairline render`, to the last bit.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use hairline_image::Display;
+use hairline_scene::{DEFAULT_TRANSPORT, Description};
+use hairline_viewer::engine::{Backend, Engine, Picture, View};
+
+use crate::common::{folder_with, hairline};
+
+/// A scratched disk before a bright wall: in its mirror few rays find much.
+const SCENE: &str = r#"
+camera = { position_m = [0.0, -0.3, 0.2], target_m = [0.0, 0.02, 0.01], up = [0.0, 0.0, 1.0], fov_y_deg = 40.0 }
+render = { size_px = [40, 28] }
+material = [
+    { name = "steel", kind = "metal", metal = "steel", roughness = 0.3 },
+    { name = "paint", kind = "dielectric", base_color = [0.8, 0.6, 0.4], roughness = 0.4 },
+]
+object = [
+    { name = "disk", shape = { disk = { radius_m = 0.1 } }, material = "steel" },
+    { name = "ball", shape = { sphere = { radius_m = 0.02 } }, material = "paint", translation_m = [0.0, 0.02, 0.03] },
+]
+scratches = [{ object = "disk", pattern = "random", count = 80, width_um = { mean = 4.0, spread = 0.1 } }]
+light = [{ kind = "sphere", center_m = [0.05, 0.1, 0.1], radius_m = 0.004, radiance = 900.0 }]
+"#;
+
+const PATIENCE: Duration = Duration::from_secs(600);
+
+#[test]
+fn a_view_that_stands_still_is_the_picture_that_is_rendered() {
+    let folder = folder_with("scene.toml", SCENE);
+    let render = |name: &str, flags: &str| {
+        let arguments = format!("render scene.toml --backend cpu --samples 64 -o {name} {flags}");
+        hairline(folder.path(), &arguments).success();
+        let picture = image::open(folder.path().join(name)).unwrap();
+        picture.to_rgb8().into_raw()
+    };
+    let rendered = render("rendered.png", "");
+    let fireflies = render("fireflies.png", "--firefly-filter off");
+    assert_ne!(rendered, fireflies, "the scene tells nothing of the filter");
+
+    let description = Description::from_toml(SCENE, "scene.toml".as_ref()).unwrap();
+    let engine = Engine::start(Backend::Cpu, Arc::new(|| {}));
+    engine.set_scene(1, Arc::new(description.clone()), PathBuf::new());
+    let start = Instant::now();
+    let waited = || {
+        assert!(start.elapsed() < PATIENCE, "no picture came");
+        std::thread::sleep(Duration::from_millis(5));
+    };
+    let built = loop {
+        match engine.built() {
+            Some(built) => break built,
+            None => waited(),
+        }
+    };
+    engine.set_view(View {
+        camera: built.scene.camera,
+        size_px: description.render.size_px,
+        display: Display {
+            exposure_ev: description.camera.exposure_ev,
+            tone_map: description.render.tone_map,
+        },
+        filter_std_px: description.render.filter_std_px,
+        transport: DEFAULT_TRANSPORT,
+        reading: Default::default(),
+    });
+    let frame = loop {
+        match engine.latest() {
+            Some(frame) if frame.painted.is_final => break frame,
+            _ => waited(),
+        }
+    };
+    let Picture::Pixels(pixels) = &frame.picture else {
+        panic!("the CPU paints pixels");
+    };
+    let shown: Vec<u8> = (pixels.pixels.iter())
+        .flat_map(|pixel| [pixel.r(), pixel.g(), pixel.b()])
+        .collect();
+    assert_eq!(shown, rendered);
+}
