@@ -158,7 +158,7 @@ impl Bounces {
             whole(rays),
             whole(by.film),
             whole(by.round),
-            BindingResource::TextureView(&self.shadows.tree),
+            BindingResource::TextureView(&self.shadows.tree.view),
         ];
         self.trace[usize::from(!is_seen)].run(gpu, recording, &resources, groups);
         let resources = [

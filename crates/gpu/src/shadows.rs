@@ -5,7 +5,6 @@
 //! sums over the rounds comes what of the closed form is hidden, and is taken away. Where no ray is hidden that is 0 to the bit. Rays and
 //! sums of one source are all that is kept, 176 bytes a sample, and 16 for each scratch that is picked.
 
-use hairline_index::TriangleIndex;
 use hairline_scene::Scene;
 use wgpu::BindingResource;
 
@@ -15,14 +14,12 @@ use crate::device::Gpu;
 use crate::error::Error;
 use crate::film::Film;
 use crate::pipelines::Orders;
-use crate::rows;
 use crate::scene_data::SceneData;
 use crate::shaders;
 use crate::shadow_room::ShadowRoom;
 use crate::shadow_scratches::ShadowScratchesPasses;
 use crate::strip::{StripRoom, whole};
-use crate::transfer::Transfer;
-use crate::triangle_tree;
+use crate::triangle_tree::TriangleTree;
 use crate::variant::{Constant, Seen, ShadeVariant};
 
 /// What rays to the lights of a scene need, beside the scene.
@@ -32,32 +29,25 @@ pub(crate) struct Shadows {
     base: ComputePass,
     /// None where the scene has no scratches.
     pub scratches: Option<ShadowScratchesPasses>,
-    pub tree: wgpu::TextureView,
+    pub tree: TriangleTree,
     /// How far the scene reaches from the origin of what was uploaded.
     pub extent_m: f32,
 }
 
 impl Shadows {
-    /// Builds the tree, uploads it, and compiles the passes.
+    /// Compiles the passes over the tree of the scene.
     ///
     /// # Errors
-    /// [`Error::TooLarge`], [`Error::OutOfMemory`], [`Error::Refused`].
+    /// [`Error::OutOfMemory`], [`Error::Refused`].
     pub(crate) async fn new(
         gpu: &Gpu,
         layouts: &Layouts,
         scene: &Scene,
         data: &SceneData,
         variant: &ShadeVariant,
+        tree: TriangleTree,
     ) -> Result<Self, Error> {
-        const WHAT: &str = "triangle tree";
         let origin_m = data.origin_m();
-        let texels = triangle_tree::packed(scene, &TriangleIndex::without_lamps(scene), origin_m);
-        let (bytes, allowed) = rows::bytes_and_allowed(gpu, texels.len(), size_of::<[u32; 4]>());
-        if bytes > allowed || texels.len() > triangle_tree::TEXELS_MAX {
-            return Err(gpu.too_large(WHAT, bytes, allowed, "bytes"));
-        }
-        let mut transfer = Transfer::new(gpu);
-        let tree = rows::upload(&mut transfer, WHAT, &texels).await?;
         let positions = scene.objects.iter().flat_map(|o| &o.mesh.positions_m);
         let far = positions.map(|p| (p.as_dvec3() - origin_m).length());
         let extent_m = far.fold(0.0, f64::max) as f32;
@@ -72,7 +62,7 @@ impl Shadows {
         Self::over(orders, self.tree.clone(), self.extent_m, Seen::ByRays)
     }
 
-    fn over(orders: &mut Orders, tree: wgpu::TextureView, extent_m: f32, seen: Seen) -> Self {
+    fn over(orders: &mut Orders, tree: TriangleTree, extent_m: f32, seen: Seen) -> Self {
         let base_rays = [Use::Reads, Use::Reads, Use::Writes, Use::Uniform];
         let trace = [
             Use::Reads,
@@ -171,7 +161,7 @@ impl Shadows {
             whole(&shadow_room.rays),
             whole(&shadow_room.halves),
             whole(&shadow_room.round),
-            BindingResource::TextureView(&self.tree),
+            BindingResource::TextureView(&self.tree.view),
             whole(&film.buffer),
         ];
         let pass = &self.trace;

@@ -4,17 +4,74 @@
 //! for a leaf, how many triangles it has and the texel of the first. Behind them the triangles in the order of the leaves, three texels
 //! each: the corners, with the number of the triangle in the scene + 1 and the object.
 
+use std::sync::Arc;
+
 use glam::{DVec3, Vec3};
 use hairline_index::TriangleIndex;
-use hairline_scene::Scene;
+use hairline_scene::{Mesh, Scene};
 
+use crate::device::Gpu;
+use crate::error::Error;
 use crate::host::relative;
+use crate::rows;
+use crate::transfer::Transfer;
 
 /// Bits of a leaf that hold the texel of its first triangle. Twin: triangle_tree.wgsl.
 const FIRST_BITS: u32 = 28;
 
 /// How many texels a tree may have.
-pub(crate) const TEXELS_MAX: usize = 1 << FIRST_BITS;
+const TEXELS_MAX: usize = 1 << FIRST_BITS;
+
+/// A tree on the device, and what it was made of.
+#[derive(Clone)]
+pub(crate) struct TriangleTree {
+    pub view: wgpu::TextureView,
+    device: wgpu::Device,
+    origin_m: DVec3,
+    meshes: Vec<Arc<Mesh>>,
+}
+
+impl TriangleTree {
+    /// Builds and uploads it.
+    ///
+    /// # Errors
+    /// [`Error::TooLarge`], [`Error::OutOfMemory`].
+    pub(crate) async fn upload(
+        transfer: &mut Transfer<'_>,
+        scene: &Scene,
+        origin_m: DVec3,
+    ) -> Result<Self, Error> {
+        const WHAT: &str = "triangle tree";
+        let gpu = transfer.gpu;
+        let texels = packed(scene, &TriangleIndex::without_lamps(scene), origin_m);
+        let (bytes, allowed) = rows::bytes_and_allowed(gpu, texels.len(), size_of::<[u32; 4]>());
+        if bytes > allowed || texels.len() > TEXELS_MAX {
+            return Err(gpu.too_large(WHAT, bytes, allowed, "bytes"));
+        }
+        Ok(Self {
+            view: rows::upload(transfer, WHAT, &texels).await?,
+            device: gpu.device.clone(),
+            origin_m,
+            meshes: solid(scene).cloned().collect(),
+        })
+    }
+
+    /// Whether it would be the same for this scene.
+    pub(crate) fn is_of(&self, gpu: &Gpu, scene: &Scene, origin_m: DVec3) -> bool {
+        self.device == gpu.device
+            && self.origin_m == origin_m
+            && solid(scene).count() == self.meshes.len()
+            && solid(scene)
+                .zip(&self.meshes)
+                .all(|(a, b)| Arc::ptr_eq(a, b))
+    }
+}
+
+/// What rays meet.
+fn solid(scene: &Scene) -> impl Iterator<Item = &Arc<Mesh>> {
+    let objects = scene.objects.iter().filter(|object| !object.is_lamp);
+    objects.map(|object| &object.mesh)
+}
 
 /// A tree as texels. Positions are relative to `origin_m`; boxes are around corners as they were rounded.
 pub fn packed(scene: &Scene, index: &TriangleIndex, origin_m: DVec3) -> Vec<[u32; 4]> {

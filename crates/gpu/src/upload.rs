@@ -10,7 +10,8 @@ use crate::passes::ScenePasses;
 use crate::scene_data::SceneData;
 use crate::shadows::Shadows;
 use crate::source::Source;
-use crate::transfer::Written;
+use crate::transfer::{Transfer, Written};
+use crate::triangle_tree::TriangleTree;
 use crate::variant::{Contents, ShadeVariant};
 
 /// A scene on the device, for one method: everything but the camera.
@@ -21,6 +22,8 @@ pub struct GpuScene {
     pub(crate) shadows: Option<Shadows>,
     /// None: light goes by no other object.
     pub(crate) bounces: Option<Bounces>,
+    /// For shadows, or those of the scene before.
+    tree: Option<TriangleTree>,
     variant: ShadeVariant,
 }
 
@@ -47,6 +50,7 @@ impl GpuScene {
             passes,
             shadows: None,
             bounces: None,
+            tree: last.and_then(|last| last.tree.clone()),
             variant,
         })
     }
@@ -63,7 +67,18 @@ impl GpuScene {
         bounces: u32,
     ) -> Result<(), Error> {
         let Self { data, variant, .. } = self;
-        let shadows = Shadows::new(gpu, layouts, scene, data, variant).await?;
+        let kept = self.tree.take();
+        let tree = match kept.filter(|tree| tree.is_of(gpu, scene, data.origin_m())) {
+            Some(tree) => tree,
+            None => {
+                let mut transfer = Transfer::new(gpu);
+                let tree = TriangleTree::upload(&mut transfer, scene, data.origin_m()).await?;
+                data.written.extend(transfer.end());
+                tree
+            }
+        };
+        self.tree = Some(tree.clone());
+        let shadows = Shadows::new(gpu, layouts, scene, data, variant, tree).await?;
         self.bounces = match bounces {
             0 => None,
             count => Some(Bounces::new(gpu, layouts, data, variant, &shadows, count).await?),

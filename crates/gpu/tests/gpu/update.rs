@@ -253,6 +253,29 @@ fn only_what_changed_is_written() {
 }
 
 #[test]
+fn the_tree_that_rays_walk_stays_where_surfaces_do() {
+    let Some(gpu) = test_gpu() else { return };
+    let mut stage = Stage::new(gpu, rich());
+    let mut random = Pcg32::seed_from_u64(7);
+    let writes_tree = |stage: &mut Stage| {
+        let scene = &stage.made.scene;
+        let added = stage.renderer.add_shadows(&mut stage.uploaded, scene, 0);
+        gpu.block_on(added).unwrap();
+        written(&stage.uploaded).contains_key("triangle tree")
+    };
+    assert!(writes_tree(&mut stage));
+    for (kind, is_other) in [(0, false), (2, false), (7, true), (1, false)] {
+        edit(&mut stage.made, kind, &mut random);
+        update(&mut stage).unwrap();
+        assert_eq!(writes_tree(&mut stage), is_other, "edit {kind}");
+        let seen = image(&mut stage);
+        let mut fresh = Stage::new(gpu, stage.made.scene.clone());
+        writes_tree(&mut fresh);
+        assert!(image(&mut fresh) == seen, "edit {kind}");
+    }
+}
+
+#[test]
 fn a_scene_that_does_not_fit_leaves_the_last_one() {
     let Some(gpu) = default_limits() else { return };
     let mut stage = Stage::new(&gpu, rich());
