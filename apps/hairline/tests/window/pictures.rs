@@ -6,9 +6,10 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use egui::vec2;
+use egui::{Pos2, Vec2, vec2};
 use hairline_gpu::headless::test_gpu;
 
+use crate::display::Display;
 use crate::layout::Layout;
 use crate::{Window, display, keep};
 
@@ -16,74 +17,118 @@ use crate::{Window, display, keep};
 const SCENE: &str = include_str!("../../src/built_in_scene.toml");
 const MODEL: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/models/spoon.glb");
 /// A picture that still changes after so long is taken as it is.
-const LONGEST: Duration = Duration::from_secs(150);
+const LONGEST: Duration = Duration::from_secs(100);
 /// One that stood still for so long is finished.
 const STILL: Duration = Duration::from_secs(10);
 
-#[test]
-#[ignore = "makes pictures for the docs, for some minutes"]
-fn pictures_of_the_window() {
+/// A window with the scene, and where things are in it.
+struct Studio<'d> {
+    display: &'d Display,
+    layout: Layout,
+    window: Window<'d>,
+}
+
+impl<'d> Studio<'d> {
+    fn open(display: &'d Display, folder: &Path) -> Self {
+        let scene = folder.join("plate.toml");
+        std::fs::write(&scene, SCENE).unwrap();
+        Self {
+            display,
+            layout: Layout::of(&scene),
+            window: Window::open(display, folder, &scene),
+        }
+    }
+
+    fn middle(&self) -> Pos2 {
+        self.layout.picture().center()
+    }
+
+    /// The pointer lies where it hides nothing.
+    fn step_aside(&self) {
+        let corner = self.layout.picture().left_top();
+        self.display.move_to(corner + Vec2::splat(20.0));
+    }
+
+    /// Across the light that the marks diffract, where a stroke is seen.
+    fn draw_a_stroke(&self) {
+        let middle = self.middle();
+        self.display.click(self.layout.layer());
+        self.display.move_to(middle);
+        self.display.keys(&["b"]);
+        self.display.drag(&[
+            middle + vec2(-110.0, 60.0),
+            middle + vec2(-40.0, 25.0),
+            middle + vec2(40.0, 30.0),
+            middle + vec2(110.0, 5.0),
+        ]);
+        self.step_aside();
+    }
+
+    fn shot(&self, name: &str) {
+        let (start, mut since) = (Instant::now(), Instant::now());
+        let mut last = self.display.screenshot(self.layout.picture());
+        while since.elapsed() < STILL && start.elapsed() < LONGEST {
+            std::thread::sleep(Duration::from_millis(500));
+            let now = self.display.screenshot(self.layout.picture());
+            if now.differing(&last) > 0 {
+                (last, since) = (now, Instant::now());
+            }
+        }
+        keep(&self.display.screen(), name);
+    }
+}
+
+/// Does `make` in a window with the scene, where there can be one.
+fn in_a_window(make: impl FnOnce(Studio, &Path)) {
     if test_gpu().is_none() {
         return;
     }
     let Some(display) = display() else { return };
     let folder = tempfile::tempdir().unwrap();
-    let scene = folder.path().join("plate.toml");
-    std::fs::write(&scene, SCENE).unwrap();
-    let layout = Layout::of(&scene);
-    let picture = layout.picture();
-    let middle = picture.center();
-    let aside = picture.left_top() + vec2(20.0, 20.0);
-    let window = Window::open(&display, folder.path(), &scene);
-    let shot = |name: &str| {
-        let (start, mut since) = (Instant::now(), Instant::now());
-        let mut last = display.screenshot(picture);
-        while since.elapsed() < STILL && start.elapsed() < LONGEST {
-            std::thread::sleep(Duration::from_millis(500));
-            let now = display.screenshot(picture);
-            if now.differing(&last) > 0 {
-                (last, since) = (now, Instant::now());
-            }
-        }
-        keep(&display.screen(), name);
-    };
-    shot("viewer-start");
-    display.click(layout.layer());
-    display.move_to(aside);
-    shot("viewer-layer");
-    // Across the light that the marks diffract, where a stroke is seen.
-    display.move_to(middle);
-    display.keys(&["b"]);
-    display.drag(&[
-        middle + vec2(-110.0, 60.0),
-        middle + vec2(-40.0, 25.0),
-        middle + vec2(40.0, 30.0),
-        middle + vec2(110.0, 5.0),
-    ]);
-    display.move_to(aside);
-    shot("viewer");
-    display.keys(&["i"]);
-    display.click(middle + vec2(-40.0, 25.0));
-    shot("viewer-probe");
-    display.keys(&["Escape"]);
-    display.keys(&["i"]);
-    // The look with the stroke, kept; then the one without it, and back to the kept one.
-    display.keys(&["s"]);
-    display.keys(&["Control_L", "z"]);
-    display.keys(&["j"]);
-    shot("viewer-snapshot");
-    display.keys(&["j"]);
-    display.keys(&["c"]);
-    shot("viewer-compare");
-    drop(window);
+    make(Studio::open(&display, folder.path()), folder.path());
+}
 
-    let window = Window::open_titled(
-        &display,
-        folder.path(),
-        Path::new(MODEL),
-        &[],
-        "untitled · Hairline",
-    );
-    shot("viewer-model");
-    drop(window);
+#[test]
+#[ignore = "makes pictures for the docs, for some minutes"]
+fn pictures_of_a_layer_and_of_a_stroke() {
+    in_a_window(|studio, _| {
+        studio.display.click(studio.layout.layer());
+        studio.step_aside();
+        studio.shot("viewer-layer");
+        studio.draw_a_stroke();
+        studio.shot("viewer");
+    });
+}
+
+#[test]
+#[ignore = "makes pictures for the docs, for some minutes"]
+fn pictures_of_the_probe_and_of_a_snapshot() {
+    in_a_window(|studio, _| {
+        let display = studio.display;
+        studio.draw_a_stroke();
+        display.keys(&["i"]);
+        display.click(studio.middle() + vec2(-40.0, 25.0));
+        studio.shot("viewer-probe");
+        display.keys(&["Escape"]);
+        display.keys(&["i"]);
+        // The look with the stroke, kept; then the one without it, and back to the kept one.
+        display.keys(&["s"]);
+        display.keys(&["Control_L", "z"]);
+        display.keys(&["j"]);
+        studio.shot("viewer-snapshot");
+    });
+}
+
+#[test]
+#[ignore = "makes pictures for the docs, for some minutes"]
+fn pictures_of_a_comparison_and_of_a_model() {
+    in_a_window(|mut studio, folder| {
+        studio.step_aside();
+        studio.display.keys(&["c"]);
+        studio.shot("viewer-compare");
+        let (display, model) = (studio.display, Path::new(MODEL));
+        drop(studio.window);
+        studio.window = Window::open_titled(display, folder, model, &[], "untitled · Hairline");
+        studio.shot("viewer-model");
+    });
 }
