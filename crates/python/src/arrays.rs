@@ -2,13 +2,13 @@
 
 use std::sync::Arc;
 
-use hairline_scene::{Error, MeshArrays, Profile, ScratchArrays};
+use hairline_scene::{Error, MeshArrays, ScratchArrays};
 use numpy::{
-    IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2,
-    PyReadonlyArray3, PyUntypedArrayMethods, ToPyArray,
+    IntoPyArray, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3,
+    PyUntypedArrayMethods, ToPyArray,
 };
 use pyo3::prelude::*;
-use pyo3::types::PyType;
+use pyo3::types::{PyTuple, PyType};
 
 use crate::errors;
 
@@ -44,14 +44,6 @@ type Parts<'py> = (
     Bound<'py, PyArray2<u32>>,
     Option<Bound<'py, PyArray2<f64>>>,
     Option<Bound<'py, PyArray2<f64>>>,
-);
-
-/// The class, and what [`ScratchArray::new`] takes.
-type Lists<'py> = (
-    Bound<'py, PyType>,
-    Bound<'py, PyArray3<f64>>,
-    Bound<'py, PyArray1<f64>>,
-    Bound<'py, PyArray1<f64>>,
 );
 
 fn rows<'py, T: numpy::Element + Copy>(
@@ -161,23 +153,26 @@ pub(crate) struct ScratchArray {
 
 #[pymethods]
 impl ScratchArray {
+    /// `sizes` in the order of [`ScratchArrays::SIZES`].
     #[new]
+    #[pyo3(signature = (ends_m, *sizes))]
     fn new(
         py: Python<'_>,
         ends_m: PyReadonlyArray3<'_, f64>,
-        widths_um: PyReadonlyArray1<'_, f64>,
-        depths_nm: PyReadonlyArray1<'_, f64>,
+        sizes: Vec<PyReadonlyArray1<'_, f64>>,
     ) -> PyResult<Self> {
         let count = ends_m.shape()[0];
         let ends_m = contiguous("ends_m", ends_m.as_slice())?;
-        let widths_um = contiguous("width_um", widths_um.as_slice())?;
-        let depths_nm = contiguous("depth_nm", depths_nm.as_slice())?;
+        let keys = ScratchArrays::SIZES;
+        let mut slices = [&[][..]; ScratchArrays::SIZES.len()];
+        for ((slice, array), key) in slices.iter_mut().zip(&sizes).zip(keys) {
+            *slice = contiguous(key, array.as_slice())?;
+        }
         let made: Result<_, Error> = py.detach(|| {
-            let arrays =
-                ScratchArrays::new(bytemuck::cast_slice(ends_m).to_vec(), widths_um, depths_nm)?;
+            let arrays = ScratchArrays::new(bytemuck::cast_slice(ends_m).to_vec(), slices)?;
             // As they are kept, so that a copy has the same name.
-            let sizes = arrays.profiles().iter();
-            let sizes: Vec<_> = sizes.map(|it| [it.width_um, it.depth_nm]).collect();
+            let sizes = (0..keys.len()).flat_map(|place| arrays.size(place));
+            let sizes: Vec<f32> = sizes.collect();
             let name = name(&[bytemuck::cast_slice(ends_m), bytemuck::cast_slice(&sizes)]);
             Ok((name, arrays))
         });
@@ -197,23 +192,18 @@ impl ScratchArray {
         slf
     }
 
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Lists<'py>)> {
+    fn __reduce__<'py>(
+        slf: &Bound<'py, Self>,
+    ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
         let py = slf.py();
         let arrays = &slf.get().arrays;
         let ends_m = arrays.ends_m().as_flattened().as_flattened().to_pyarray(py);
-        let sizes = |size: fn(&Profile) -> f32| {
-            let sizes = arrays
-                .profiles()
-                .iter()
-                .map(|profile| f64::from(size(profile)));
-            sizes.collect::<Vec<_>>().into_pyarray(py)
-        };
-        let parts = (
-            slf.get_type(),
-            ends_m.reshape([arrays.ends_m().len(), 2, 3])?,
-            sizes(|profile| profile.width_um),
-            sizes(|profile| profile.depth_nm),
-        );
-        Ok((restore(py)?, parts))
+        let ends_m = ends_m.reshape([arrays.ends_m().len(), 2, 3])?;
+        let mut parts = vec![slf.get_type().into_any(), ends_m.into_any()];
+        for place in 0..ScratchArrays::SIZES.len() {
+            let size: Vec<f64> = arrays.size(place).map(f64::from).collect();
+            parts.push(size.into_pyarray(py).into_any());
+        }
+        Ok((restore(py)?, PyTuple::new(py, parts)?))
     }
 }

@@ -8,7 +8,7 @@ use glam::{DVec3, Vec2};
 
 use crate::error::Error;
 use crate::scene::Profile;
-use crate::scratches::{DEPTHS_NM, WIDTHS_UM};
+use crate::scratches::LISTED_SIZES;
 use crate::surface::{Surface, Vertex};
 
 /// Meshes and lists of scratches by the names that a description has in the place of their files. A name must stand for the same
@@ -147,6 +147,8 @@ impl MeshArrays {
     }
 }
 
+const SIZE_COUNT: usize = LISTED_SIZES.len();
+
 /// Straight scratches in the object's own frame.
 #[derive(Clone, Debug)]
 pub struct ScratchArrays {
@@ -155,54 +157,66 @@ pub struct ScratchArrays {
 }
 
 impl ScratchArrays {
-    /// `widths_um` and `depths_nm` have one number for each scratch, or one for all.
+    /// What [`ScratchArrays::new`] takes of each scratch besides its ends, in this order.
+    pub const SIZES: [&str; SIZE_COUNT] = {
+        let mut keys = [""; SIZE_COUNT];
+        let mut i = 0;
+        while i < SIZE_COUNT {
+            keys[i] = LISTED_SIZES[i].key;
+            i += 1;
+        }
+        keys
+    };
+
+    /// `sizes` are those of [`Self::SIZES`]; each has one number for each scratch, or one for all.
     ///
     /// # Errors
     /// The first array that does not fit the others or holds a number out of range, by its key.
-    pub fn new(
-        ends_m: Vec<[[f64; 3]; 2]>,
-        widths_um: &[f64],
-        depths_nm: &[f64],
-    ) -> Result<Self, Error> {
+    pub fn new(ends_m: Vec<[[f64; 3]; 2]>, sizes: [&[f64]; SIZE_COUNT]) -> Result<Self, Error> {
         let count = ends_m.len();
         for (i, ends) in ends_m.iter().enumerate() {
             finite("", ends).map_err(|error| {
                 let key = format!("ends_m[{i}]{}", error.key());
                 Error::new(key, error.found(), error.right())
             })?;
-        }
-        for (key, sizes, (least, most)) in [
-            ("width_um", widths_um, WIDTHS_UM),
-            ("depth_nm", depths_nm, DEPTHS_NM),
-        ] {
-            if sizes.len() != count && sizes.len() != 1 {
-                let found = format!("found {} numbers for {count} scratches", sizes.len());
+            if ends[0] == ends[1] {
+                let found = "found both ends at one point";
                 return Err(Error::new(
-                    key,
+                    format!("ends_m[{i}]"),
                     found,
+                    "must be two points",
+                ));
+            }
+        }
+        let mut profiles = vec![Profile::default(); count];
+        for (size, values) in LISTED_SIZES.iter().zip(sizes) {
+            if values.len() != count && values.len() != 1 {
+                return Err(Error::new(
+                    size.key,
+                    format!("found {} numbers for {count} scratches", values.len()),
                     "must be one for each, or one for all",
                 ));
             }
-            // Written so that NaN is out of range.
-            let wrong = |size: &f64| !(least..=most).contains(size);
-            if let Some(i) = sizes.iter().position(wrong) {
-                let key = match sizes.len() {
-                    1 => key.to_owned(),
-                    _ => format!("{key}[{i}]"),
+            for (i, value) in values.iter().enumerate() {
+                let key = || match values.len() {
+                    1 => size.key.to_owned(),
+                    _ => format!("{}[{i}]", size.key),
                 };
-                let right = format!("must be from {least} to {most}");
-                return Err(Error::new(key, format!("found {}", sizes[i]), right));
+                size.check(key, *value)?;
+            }
+            for (profile, value) in profiles.iter_mut().zip(values.iter().cycle()) {
+                *(size.of)(profile) = *value as f32;
             }
         }
-        let at = |sizes: &[f64], i: usize| sizes[if sizes.len() == 1 { 0 } else { i }] as f32;
-        let profiles = (0..count).map(|i| Profile {
-            width_um: at(widths_um, i),
-            depth_nm: at(depths_nm, i),
-        });
-        Ok(Self {
-            profiles: profiles.collect(),
-            ends_m,
-        })
+        Ok(Self { ends_m, profiles })
+    }
+
+    /// One of [`Self::SIZES`], by its place, of each scratch.
+    pub fn size(&self, place: usize) -> impl Iterator<Item = f32> {
+        let of = LISTED_SIZES[place].of;
+        self.profiles
+            .iter()
+            .map(move |profile| *of(&mut profile.clone()))
     }
 
     /// Both ends of each, metres.
@@ -210,8 +224,8 @@ impl ScratchArrays {
         &self.ends_m
     }
 
-    /// Width and depth of each.
-    pub fn profiles(&self) -> &[Profile] {
+    /// The groove of each.
+    pub(crate) fn profiles(&self) -> &[Profile] {
         &self.profiles
     }
 }

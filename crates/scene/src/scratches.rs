@@ -31,7 +31,7 @@ use crate::scene::{Scratch, Segment};
 
 use erase::Eraser;
 pub(crate) use ground::Ground;
-pub(crate) use laying::{DEPTHS_NM, WIDTHS_UM};
+pub(crate) use laying::LISTED_SIZES;
 use laying::{Groove, Laying, MOST_SEGMENTS};
 use listed::Listed;
 pub use listed::write_scratches;
@@ -222,7 +222,7 @@ impl<'a> Plan<'a> {
                     None => {
                         let path = base_dir.join(&listed.file);
                         let rows = listed::read(&path, &table.key)?;
-                        Listed::new(loader, rows, &path, ground)?
+                        Listed::new(loader, &rows, &path, ground)?
                     }
                 };
                 let count = listed.count();

@@ -106,42 +106,43 @@ impl Kind {
             direction,
             jitter_deg,
         };
-        let (pattern, length, width_um, depth_nm) = match self {
-            Self::Hairlines => (random(1.5), (0.1, 0.7), (2.2, 0.15), (130.0, 0.15)),
-            Self::Swirls => (swirl(16.0, 6.0), (0.05, 0.5), (3.0, 0.15), (160.0, 0.12)),
-            Self::Marks => (random(5.0), (0.07, 0.9), (4.5, 0.2), (210.0, 0.15)),
-            Self::Gouges => (random(2.5), (0.16, 0.6), (9.0, 0.3), (330.0, 0.25)),
-            Self::Wheel => (swirl(10.0, 3.0), (0.09, 0.6), (2.4, 0.12), (105.0, 0.1)),
+        let (pattern, sizes) = match self {
+            Self::Hairlines => (random(1.5), [(0.1, 0.7), (2.2, 0.15), (130.0, 0.15)]),
+            Self::Swirls => (swirl(16.0, 6.0), [(0.05, 0.5), (3.0, 0.15), (160.0, 0.12)]),
+            Self::Marks => (random(5.0), [(0.07, 0.9), (4.5, 0.2), (210.0, 0.15)]),
+            Self::Gouges => (random(2.5), [(0.16, 0.6), (9.0, 0.3), (330.0, 0.25)]),
+            Self::Wheel => (swirl(10.0, 3.0), [(0.09, 0.6), (2.4, 0.12), (105.0, 0.1)]),
             Self::LongStrokes => {
                 let pattern = along([1.0, 0.0, 0.0], 0.8);
-                (pattern, (0.6, 0.4), (4.0, 0.12), (140.0, 0.1))
+                (pattern, [(0.6, 0.4), (4.0, 0.12), (140.0, 0.1)])
             }
             Self::ShortStrokes => {
                 let pattern = along([1.0, 0.0, 0.0], 3.0);
-                (pattern, (0.12, 0.8), (3.0, 0.15), (120.0, 0.12))
+                (pattern, [(0.12, 0.8), (3.0, 0.15), (120.0, 0.12)])
             }
             Self::Rings => {
                 let pattern = Pattern::Circular(Around {
                     jitter_deg: 6.0,
                     ..Around::default()
                 });
-                (pattern, (0.3, 0.5), (5.0, 0.1), (130.0, 0.1))
+                (pattern, [(0.3, 0.5), (5.0, 0.1), (130.0, 0.1)])
             }
             Self::Scuffs => {
                 let pattern = along([0.8, 0.6, 0.0], 24.0);
-                (pattern, (0.13, 0.7), (7.0, 0.25), (290.0, 0.2))
+                (pattern, [(0.13, 0.7), (7.0, 0.25), (290.0, 0.2)])
             }
-            Self::Digs => (random(8.0), (0.02, 0.8), (10.0, 0.3), (420.0, 0.25)),
+            Self::Digs => (random(8.0), [(0.02, 0.8), (10.0, 0.3), (420.0, 0.25)]),
         };
-        let sizes = [(length.0 * d, length.1), width_um, depth_nm];
-        (pattern, sizes.map(|(mean, spread)| drawn(mean, spread)))
+        let mut sizes = sizes.map(|(mean, spread)| drawn(mean, spread));
+        sizes[0].mean *= d;
+        (pattern, sizes)
     }
 
     /// The layer for an object of this diagonal; none where there is nothing of its kind.
     fn layer(self, wear: Wear, object: &str, diagonal_m: f64) -> Option<Scratches> {
         let cover = self.cover(wear);
         let (pattern, sizes) = self.look(diagonal_m);
-        let [length_m, width_um, _] = sizes;
+        let [length_m, width_um, ..] = sizes;
         let count = count(cover, length_m.mean, width_um.mean, diagonal_m);
         let layer = Layer::Laid(Laid {
             seed: 0x57 + self as u64,

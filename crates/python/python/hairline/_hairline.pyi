@@ -30,7 +30,7 @@ class MeshArray:
 class ScratchArray:
     name: str
     count: int
-    def __init__(self, ends_m: _Floats, widths_um: _Floats, depths_nm: _Floats) -> None: ...
+    def __init__(self, ends_m: _Floats, *sizes: _Floats) -> None: ...
 
 class Image:
     """A picture with its layers: linear Rec.709, rows from the top. Its arrays share its memory and cannot be written to."""
@@ -73,7 +73,7 @@ class Image:
     def variance(
         self, layer: Literal["beauty", "base", "scratches", "density", "depth", "normal"] = ...
     ) -> _Singles | None:
-        """The variance of each pixel's mean in a layer of a reference: float32, height x width x 3, squared radiance."""
+        """The variance of each pixel's mean in a layer: float32, height x width x 3, squared radiance. None where it is not known."""
     def save(self, path: _Path, exposure_ev: float | None = None, tone_map: str | None = None) -> None:
         """Writes an .exr (linear, all layers) or a .png (displayed): the whole file or none."""
     def png(self, exposure_ev: float | None = None, tone_map: str | None = None) -> bytes:
@@ -120,7 +120,7 @@ def read(path: _Path) -> tuple[dict[str, Any], str, list[str]]: ...
 def check(table: dict[str, Any], alone: bool = False) -> dict[str, Any]: ...
 def to_toml(table: dict[str, Any]) -> str: ...
 def read_image(path: _Path) -> Image:
-    """Reads a layered EXR that :meth:`Image.save`, ``hairline render`` or ``hairline reference`` wrote."""
+    """Reads a layered EXR that `Image.save`, `hairline render` or `hairline reference` wrote."""
 
 def compare(
     a: Image | _Path, b: Image | _Path, exposure_ev: float, curve: str

@@ -32,7 +32,7 @@ impl Facet {
     pub(super) fn new(mesh: &Mesh, triangle: u32) -> Self {
         let corners_m = mesh.corners_m(triangle as usize);
         let [a, b, c] = corners_m;
-        let normal = (b - a).cross(c - a).normalize_or_zero();
+        let normal = normal(corners_m);
         let along = [b - a, c - b, a - c].map(DVec3::normalize_or_zero);
         Self {
             corners_m,
@@ -136,17 +136,6 @@ impl Facet {
         (next.inward[next_edge] * outward - next.along[next_edge] * along).normalize_or_zero()
     }
 
-    /// Weights of the corners at a point of the plane, kept inside.
-    pub(super) fn barycentric(&self, point_m: DVec3) -> [f64; 3] {
-        let [a, b, c] = self.corners_m;
-        let area = (b - a).cross(c - a).dot(self.normal);
-        let at_b = (c - a).cross(a - point_m).dot(self.normal) / area;
-        let at_c = (b - a).cross(point_m - a).dot(self.normal) / area;
-        let weights = [1.0 - at_b - at_c, at_b, at_c].map(|w| w.max(0.0));
-        let sum: f64 = weights.iter().sum();
-        weights.map(|w| w / sum)
-    }
-
     /// How far a point lies outside of the facet: 0 within it.
     #[cfg(test)]
     pub(super) fn distance_m(&self, point_m: DVec3) -> f64 {
@@ -154,6 +143,21 @@ impl Facet {
         let below = (0..3).map(|e| -(point_m - self.corners_m[e]).dot(self.inward[e]));
         below.fold(offset.dot(self.normal).abs(), f64::max)
     }
+}
+
+/// Unit, to the side that sees the corners counter-clockwise.
+pub(super) fn normal([a, b, c]: [DVec3; 3]) -> DVec3 {
+    (b - a).cross(c - a).normalize_or_zero()
+}
+
+/// Weights of the corners of a triangle at a point of its plane, kept inside.
+pub(super) fn barycentric([a, b, c]: [DVec3; 3], normal: DVec3, point_m: DVec3) -> [f64; 3] {
+    let area = (b - a).cross(c - a).dot(normal);
+    let at_b = (c - a).cross(a - point_m).dot(normal) / area;
+    let at_c = (b - a).cross(point_m - a).dot(normal) / area;
+    let weights = [1.0 - at_b - at_c, at_b, at_c].map(|w| w.max(0.0));
+    let sum: f64 = weights.iter().sum();
+    weights.map(|w| w / sum)
 }
 
 impl Arc {

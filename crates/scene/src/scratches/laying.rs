@@ -2,12 +2,51 @@
 
 use super::walk::{Course, Walker};
 use crate::description::Distribution;
+use crate::error::Error;
 use crate::scene::{Profile, Segment};
 
 /// Widths are kept within the spectral table's range, and below the coherence windows that scenes ask for.
-pub(crate) const WIDTHS_UM: (f64, f64) = (0.05, 100.0);
+const WIDTHS_UM: (f64, f64) = (0.05, 100.0);
 /// Depths are kept within the spectral table's range.
-pub(crate) const DEPTHS_NM: (f64, f64) = (0.0, 2000.0);
+const DEPTHS_NM: (f64, f64) = (0.0, 2000.0);
+
+/// A size of a groove that lists tell of each scratch.
+pub(crate) struct Size {
+    /// Its column in a file, its array in memory.
+    pub key: &'static str,
+    range: (f64, f64),
+    pub of: fn(&mut Profile) -> &mut f32,
+}
+
+/// In the order of the columns.
+pub(crate) const LISTED_SIZES: [Size; 2] = [
+    Size {
+        key: "width_um",
+        range: WIDTHS_UM,
+        of: |profile| &mut profile.width_um,
+    },
+    Size {
+        key: "depth_nm",
+        range: DEPTHS_NM,
+        of: |profile| &mut profile.depth_nm,
+    },
+];
+
+impl Size {
+    /// # Errors
+    /// At `key`: a number that is out of range, or none at all.
+    pub(crate) fn check(&self, key: impl FnOnce() -> String, value: f64) -> Result<(), Error> {
+        let (least, most) = self.range;
+        // Written so that NaN is out of range.
+        match (least..=most).contains(&value) {
+            true => Ok(()),
+            false => {
+                let right = format!("must be from {least} to {most}");
+                Err(Error::new(key(), format!("found {value}"), right))
+            }
+        }
+    }
+}
 
 /// The renderers' trees number the segments by 28 bits.
 pub(super) const MOST_SEGMENTS: usize = 1 << 28;

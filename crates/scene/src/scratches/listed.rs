@@ -2,13 +2,15 @@
 
 use std::io::{self, Write};
 use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
+use glam::DVec3;
 use rayon::prelude::*;
 
 use super::ground::Ground;
 use super::guide::Guide;
-use super::laying::{DEPTHS_NM, Groove, Laying, WIDTHS_UM};
-use super::walk::{Course, Walker};
+use super::laying::{Groove, LISTED_SIZES, Laying};
+use super::walk::{Course, Spot, Walker};
 use crate::arrays::ScratchArrays;
 use crate::error::Error;
 use crate::loader::Loader;
@@ -16,9 +18,8 @@ use crate::reading::{self, Kind};
 use crate::scene::{Object, Profile, Scratch, Segment};
 use crate::text::shown;
 
-const COLUMNS: [&str; 8] = [
-    "x0_m", "y0_m", "z0_m", "x1_m", "y1_m", "z1_m", "width_um", "depth_nm",
-];
+const ENDS: [&str; 6] = ["x0_m", "y0_m", "z0_m", "x1_m", "y1_m", "z1_m"];
+const COUNT: usize = ENDS.len() + LISTED_SIZES.len();
 /// What a list for other programs has besides: the number of the scratch, whose straight pieces follow one another, and the surface's
 /// normal in the middle of the piece.
 const MORE_COLUMNS: &str = "scratch,nx,ny,nz";
@@ -36,6 +37,12 @@ pub(super) struct Row {
     profile: Profile,
 }
 
+/// The header.
+fn columns() -> Vec<&'static str> {
+    let sizes = LISTED_SIZES.iter().map(|size| size.key);
+    ENDS.into_iter().chain(sizes).collect()
+}
+
 /// Reads all rows. `key` is the way to the layer's table in the scene file.
 pub(super) fn read(path: &Path, key: &str) -> Result<Vec<Row>, Error> {
     // The rows take about as much as the text, twice.
@@ -47,7 +54,7 @@ pub(super) fn read(path: &Path, key: &str) -> Result<Vec<Row>, Error> {
         )
     })?;
     let text = String::from_utf8(text).map_err(|_| {
-        let right = format!("must be a text with the header `{}`", COLUMNS.join(","));
+        let right = format!("must be a text with the header `{}`", columns().join(","));
         Error::new("", "found bytes that are no UTF-8", right).at(path, None)
     })?;
     parse(&text, path)
@@ -62,28 +69,34 @@ fn parse(text: &str, path: &Path) -> Result<Vec<Row>, Error> {
         .enumerate()
         .map(|(i, line)| (i + 1, line.trim()))
         .filter(|(_, line)| !line.is_empty());
-    let header_is = || format!("must be the header `{}`", COLUMNS.join(","));
+    let header_is = || format!("must be the header `{}`", columns().join(","));
     let Some((first, header)) = lines.next() else {
         return Err(Error::new("", "found an empty file", header_is()).at(path, Some(1)));
     };
     let header: Vec<_> = header.split(',').map(str::trim).collect();
-    if header != COLUMNS {
+    if header != columns() {
         let found = format!("found `{}`", shown(&header.join(",")));
         return Err(Error::new("", found, header_is()).at(path, Some(first)));
     }
-    lines
-        .map(|(line, row)| parse_row(line, row).map_err(|error| error.at(path, Some(line))))
+    let lines: Vec<_> = lines.collect();
+    let rows: Vec<_> = lines
+        .par_iter()
+        .map(|&(line, row)| parse_row(line, row).map_err(|error| (line, error)))
+        .collect();
+    // The first wrong one, whichever was read first.
+    rows.into_iter()
+        .map(|row| row.map_err(|(line, error)| error.at(path, Some(line))))
         .collect()
 }
 
 fn parse_row(line: usize, row: &str) -> Result<Row, Error> {
     let cells: Vec<_> = row.split(',').map(str::trim).collect();
-    if cells.len() != COLUMNS.len() {
+    if cells.len() != COUNT {
         let found = format!("found {} cells", cells.len());
-        let right = format!("must be {}, as in the header", COLUMNS.len());
+        let right = format!("must be {COUNT}, as in the header");
         return Err(Error::new("", found, right));
     }
-    let mut values = [0.0; COLUMNS.len()];
+    let mut values = [0.0; COUNT];
     for (i, cell) in cells.iter().enumerate() {
         values[i] = cell
             .parse()
@@ -91,26 +104,26 @@ fn parse_row(line: usize, row: &str) -> Result<Row, Error> {
             .filter(|value: &f64| value.is_finite())
             .ok_or_else(|| {
                 let found = format!("found \"{}\"", shown(cell));
-                Error::new(COLUMNS[i], found, "must be a number")
+                Error::new(columns()[i], found, "must be a number")
             })?;
     }
-    let [x0, y0, z0, x1, y1, z1, width_um, depth_nm] = values;
-    for (name, value, (least, most)) in [
-        ("width_um", width_um, WIDTHS_UM),
-        ("depth_nm", depth_nm, DEPTHS_NM),
-    ] {
-        if !(least..=most).contains(&value) {
-            let right = format!("must be from {least} to {most}");
-            return Err(Error::new(name, format!("found {value}"), right));
-        }
+    let [x0, y0, z0, x1, y1, z1, sizes @ ..] = values;
+    let mut profile = Profile::default();
+    for (size, value) in LISTED_SIZES.iter().zip(sizes) {
+        size.check(|| size.key.to_owned(), value)?;
+        *(size.of)(&mut profile) = value as f32;
+    }
+    if (x0, y0, z0) == (x1, y1, z1) {
+        return Err(Error::new(
+            "",
+            "found both ends at one point",
+            "must be two points",
+        ));
     }
     Ok(Row {
         line,
         ends_m: [[x0, y0, z0], [x1, y1, z1]],
-        profile: Profile {
-            width_um: width_um as f32,
-            depth_nm: depth_nm as f32,
-        },
+        profile,
     })
 }
 
@@ -124,76 +137,48 @@ pub fn write_scratches<'a>(
     scratches: impl IntoIterator<Item = &'a Scratch>,
     out: &mut impl Write,
 ) -> io::Result<()> {
-    writeln!(out, "{},{MORE_COLUMNS}", COLUMNS.join(","))?;
+    writeln!(out, "{},{MORE_COLUMNS}", columns().join(","))?;
     for (number, scratch) in scratches.into_iter().enumerate() {
-        let Profile { width_um, depth_nm } = scratch.profile;
+        let mut profile = scratch.profile;
+        let sizes = LISTED_SIZES.each_ref().map(|size| *(size.of)(&mut profile));
         let own = scratch.segments.start as usize..scratch.segments.end as usize;
         for piece in &object.segments[own] {
-            for x in [piece.start_m, piece.end_m]
-                .iter()
-                .flat_map(|end| end.to_array())
-            {
+            let ends = [piece.start_m, piece.end_m].map(|end| end.to_array());
+            for x in ends.as_flattened().iter().chain(&sizes) {
                 write!(out, "{x},")?;
             }
             let [x, y, z] = piece.normal.to_array();
-            writeln!(out, "{width_um},{depth_nm},{number},{x},{y},{z}")?;
+            writeln!(out, "{number},{x},{y},{z}")?;
         }
     }
     Ok(())
 }
 
-/// Refuses the first end that does not lie on the surface. `error` makes the message of a row, one of its ends and two halves of a
-/// sentence.
-fn check_on_surface(
-    loader: &Loader,
-    rows: &[Row],
-    ground: &Ground,
-    error: impl Fn(usize, usize, String, String) -> Error + Sync,
-) -> Result<(), Error> {
-    const TOGETHER: usize = 1 << 16;
-    let tolerance_m = OFF_SURFACE * ground.diagonal_m;
-    let closest = ground.closest();
-    for (first, rows) in (0..).step_by(TOGETHER).zip(rows.chunks(TOGETHER)) {
-        loader.go_on()?;
-        let off = |end_m: &[f64; 3]| {
-            let point_m = ground.point_in_world_m(*end_m);
-            closest.find_within(point_m, tolerance_m).is_none()
-        };
-        let wrong = rows.par_iter().enumerate().find_map_first(|(i, row)| {
-            let end = row.ends_m.iter().position(off)?;
-            Some((i, end))
-        });
-        if let Some((i, end)) = wrong {
-            let (_, distance_m) = closest.find(ground.point_in_world_m(rows[i].ends_m[end]));
-            let found = format!("found a point {distance_m:.3e} m off the object's surface");
-            let right = format!(
-                "must be at most {tolerance_m:.3e} m off, in metres of the object's own frame"
-            );
-            return Err(error(first + i, end, found, right));
-        }
-    }
-    Ok(())
+/// A scratch with its ends on the surface.
+struct Placed {
+    start: Spot,
+    end_m: DVec3,
+    profile: Profile,
 }
 
-/// Rows with the ground that they go on.
-pub(super) struct Listed<'a> {
-    rows: Vec<Row>,
-    ground: &'a Ground,
+/// Scratches on the ground that they go on.
+pub(super) struct Listed {
+    scratches: Vec<Placed>,
 }
 
-impl<'a> Listed<'a> {
+impl Listed {
     /// Refuses rows that do not lie on the surface.
     pub(super) fn new(
         loader: &Loader,
-        rows: Vec<Row>,
+        rows: &[Row],
         path: &Path,
-        ground: &'a Ground,
+        ground: &Ground,
     ) -> Result<Self, Error> {
-        check_on_surface(loader, &rows, ground, |i, end, found, right| {
+        let row = |i: usize| (rows[i].ends_m, rows[i].profile);
+        Self::placed(loader, rows.len(), row, ground, |i, end, found, right| {
             let key = ["x0_m", "x1_m"][end];
             Error::new(key, found, right).at(path, Some(rows[i].line))
-        })?;
-        Ok(Self { rows, ground })
+        })
     }
 
     /// The same of scratches in memory. `key` is the way to the layer's table in the scene.
@@ -201,40 +186,87 @@ impl<'a> Listed<'a> {
         loader: &Loader,
         arrays: &ScratchArrays,
         key: &str,
-        ground: &'a Ground,
+        ground: &Ground,
     ) -> Result<Self, Error> {
-        let rows = arrays.ends_m().iter().zip(arrays.profiles()).enumerate();
-        let rows: Vec<_> = rows
-            .map(|(i, (&ends_m, &profile))| Row {
-                line: i,
-                ends_m,
-                profile,
-            })
-            .collect();
-        check_on_surface(loader, &rows, ground, |i, end, found, right| {
+        let (ends_m, profiles) = (arrays.ends_m(), arrays.profiles());
+        let row = |i: usize| (ends_m[i], profiles[i]);
+        Self::placed(loader, ends_m.len(), row, ground, |i, end, found, right| {
             Error::new(format!("{key}.ends_m[{i}][{end}]"), found, right)
-        })?;
-        Ok(Self { rows, ground })
+        })
+    }
+
+    /// Refuses the first end that does not lie on the surface. `error` makes the message of a row, one of its ends and two halves of
+    /// a sentence.
+    fn placed(
+        loader: &Loader,
+        count: usize,
+        row: impl Fn(usize) -> ([[f64; 3]; 2], Profile) + Sync,
+        ground: &Ground,
+        error: impl Fn(usize, usize, String, String) -> Error,
+    ) -> Result<Self, Error> {
+        const TOGETHER: usize = 1 << 16;
+        let tolerance_m = OFF_SURFACE * ground.diagonal_m;
+        let closest = ground.closest();
+        // Twice the row, and the end.
+        let wrong = AtomicUsize::new(usize::MAX);
+        let place = |i: usize| {
+            let (ends_m, profile) = row(i);
+            let [start, end] = [0, 1].map(|end| {
+                let point_m = ground.point_in_world_m(ends_m[end]);
+                let found = closest.find_within(point_m, tolerance_m);
+                let (spot, _) = found.unwrap_or_else(|| {
+                    wrong.fetch_min(2 * i + end, Ordering::Relaxed);
+                    (
+                        Spot {
+                            triangle: 0,
+                            point_m,
+                        },
+                        0.0,
+                    )
+                });
+                spot
+            });
+            Placed {
+                start,
+                end_m: end.point_m,
+                profile,
+            }
+        };
+        let mut scratches = Vec::with_capacity(count);
+        for first in (0..count).step_by(TOGETHER) {
+            loader.go_on()?;
+            let together = first..count.min(first + TOGETHER);
+            scratches.par_extend(together.into_par_iter().map(place));
+            let wrong = wrong.load(Ordering::Relaxed);
+            if wrong < usize::MAX {
+                let (i, end) = (wrong / 2, wrong % 2);
+                let (ends_m, _) = row(i);
+                let (_, distance_m) = closest.find(ground.point_in_world_m(ends_m[end]));
+                let found = format!("found a point {distance_m:.3e} m off the object's surface");
+                let right = format!(
+                    "must be at most {tolerance_m:.3e} m off, in metres of the object's own frame"
+                );
+                return Err(error(i, end, found, right));
+            }
+        }
+        Ok(Self { scratches })
     }
 
     pub(super) fn count(&self) -> u64 {
-        self.rows.len() as u64
+        self.scratches.len() as u64
     }
 }
 
-impl Laying for Listed<'_> {
+impl Laying for Listed {
     fn lay(&self, walker: &Walker, index: u64, segments: &mut Vec<Segment>) -> Groove {
-        let row = &self.rows[index as usize];
-        let [(start, _), (end, _)] = row.ends_m.map(|point| {
-            self.ground
-                .closest()
-                .find(self.ground.point_in_world_m(point))
-        });
-        let guide = Guide::Towards { end_m: end.point_m };
-        let length_m = LONGEST_WAY * start.point_m.distance(end.point_m);
-        walker.lay_from(start, &guide, length_m, segments);
+        let placed = &self.scratches[index as usize];
+        let guide = Guide::Towards {
+            end_m: placed.end_m,
+        };
+        let length_m = LONGEST_WAY * placed.start.point_m.distance(placed.end_m);
+        walker.lay_from(placed.start, &guide, length_m, segments);
         Groove {
-            profile: row.profile,
+            profile: placed.profile,
             course: Course::Open,
         }
     }

@@ -3,7 +3,7 @@
 
 use glam::{DVec3, Vec3};
 
-use super::facet::{Arc, Facet};
+use super::facet::{self, Arc, Facet};
 use super::guide::{Aim, Guide, chord_length_m};
 use super::neighbours::Neighbours;
 use crate::scene::{Mesh, Segment};
@@ -114,8 +114,8 @@ impl<'a> Walker<'a> {
         let mut left_m = length_m;
         let mut start_direction = None;
         let mut idle_steps = 0;
+        let mut facet = Facet::new(self.mesh, start.triangle);
         for _ in 0..MOST_STEPS {
-            let facet = Facet::new(self.mesh, spot.triangle);
             let Some(aim) = self.aim(guide, &facet, spot, heading, entry, reversed) else {
                 break;
             };
@@ -166,6 +166,7 @@ impl<'a> Walker<'a> {
                 triangle,
                 point_m: next.point_on_edge(next_edge, share),
             };
+            facet = next;
             entry = Some(next_edge);
         }
         (pieces, Course::Open)
@@ -223,13 +224,14 @@ impl<'a> Walker<'a> {
 
     /// A piece of a triangle with the shading normal at its middle.
     pub(super) fn segment(&self, start_m: DVec3, end_m: DVec3, triangle: u32) -> Segment {
-        let facet = Facet::new(self.mesh, triangle);
-        let weights = facet.barycentric((start_m + end_m) / 2.0);
+        let corners_m = self.mesh.corners_m(triangle as usize);
+        let facet_normal = facet::normal(corners_m);
+        let weights = facet::barycentric(corners_m, facet_normal, (start_m + end_m) / 2.0);
         let corners = self.mesh.triangles[triangle as usize];
         let normal: DVec3 = (0..3)
             .map(|i| self.mesh.normals[corners[i] as usize].as_dvec3() * weights[i])
             .sum();
-        let normal: Vec3 = normal.normalize_or(facet.normal).as_vec3();
+        let normal: Vec3 = normal.normalize_or(facet_normal).as_vec3();
         Segment {
             start_m: start_m.as_vec3(),
             end_m: end_m.as_vec3(),
@@ -254,8 +256,8 @@ fn closes(
     }
     let (way_m, miss_m) = arc.nearest(start.point_m);
     let met = (-tolerance_m..=reach_m + tolerance_m).contains(&way_m) && miss_m < tolerance_m;
-    let (_, direction) = arc.at(way_m);
-    (met && direction.dot(start_direction) > 0.999).then_some(way_m.max(0.0))
+    let is_along = || arc.at(way_m).1.dot(start_direction) > 0.999;
+    (met && is_along()).then(|| way_m.max(0.0))
 }
 
 /// Cuts an arc into chords of equal length.

@@ -105,7 +105,7 @@ fn on_a_curved_surface_they_follow_it() {
 
 #[test]
 fn mistakes_name_their_line_and_column() {
-    let cases: [(&[u8], &str); 9] = [
+    let cases: [(&[u8], &str); 10] = [
         (
             b"",
             ":1: found an empty file; must be the header `x0_m,y0_m,z0_m,x1_m,y1_m,z1_m,width_um,depth_nm`",
@@ -137,6 +137,10 @@ fn mistakes_name_their_line_and_column() {
         (
             b"H0,0,0,0.1,0,0,1,-2",
             ":2: depth_nm: found -2; must be from 0 to 2000",
+        ),
+        (
+            b"H0,0,0,0.1,0,0,1,2\n0,0,0.1,0,0,0.1,1,2",
+            ":3: found both ends at one point; must be two points",
         ),
         (
             b"\xff\xfe\x00",
