@@ -49,49 +49,84 @@ impl Wheel {
             .arg(&environment))?;
         let programs = environment.join("bin");
         let python = || Command::new(programs.join("python"));
+        // What is imported is compiled then.
         let quietly = [
             "-m",
             "pip",
             "install",
             "--quiet",
+            "--no-compile",
             "--disable-pip-version-check",
         ];
         run(python().args(quietly).args(TOOLS))?;
 
-        for old in wheels(&output)? {
-            std::fs::remove_file(old)?;
-        }
-        run(Command::new(programs.join("maturin"))
-            .args(["build", "--release", "--quiet", "--out"])
-            .arg(&output)
-            .arg("--manifest-path")
-            .arg(package.join("Cargo.toml"))
-            .env("CARGO", package.join("cargo-of-workspace")))?;
-        let wheels = wheels(&output)?;
-        let wheel = wheels.first().context("maturin made no wheel")?;
-        run(python().args(quietly).arg("--no-deps").arg(wheel))?;
+        let make = || -> anyhow::Result<PathBuf> {
+            for old in wheels(&output)? {
+                std::fs::remove_file(old)?;
+            }
+            run(Command::new(programs.join("maturin"))
+                .args(["build", "--release", "--quiet", "--out"])
+                .arg(&output)
+                .arg("--manifest-path")
+                .arg(package.join("Cargo.toml"))
+                .env("CARGO", package.join("cargo-of-workspace")))?;
+            let wheel = wheels(&output)?.pop().context("maturin made no wheel")?;
+            run(python().args(quietly).arg("--no-deps").arg(&wheel))?;
+            Ok(wheel)
+        };
+        let check_types = || {
+            let cache = format!("--cache-dir={}", output.join("types").display());
+            let types = ["-m", "mypy", &cache];
+            run(python().current_dir(&package).args(types))
+        };
+        let (wheel, types) = beside(make, check_types)?;
+        let (wheel, ()) = (wheel?, types?);
 
         // From elsewhere: the package that is tested is the one that was installed.
         let target = root.join("target");
         let target = std::env::var_os("CARGO_TARGET_DIR").map_or(target, PathBuf::from);
-        run(python()
-            .current_dir(&output)
-            .args(["-m", "pytest", "-q", "-p", "no:cacheprovider"])
-            .arg(package.join("tests"))
-            .env("HAIRLINE_PROGRAM", target.join("release/hairline"))
-            .env("HAIRLINE_REPOSITORY", &root)
-            .env(
-                "HAIRLINE_ALL_SCENES",
-                if self.all_scenes { "1" } else { "" },
-            ))?;
-        let notebooks = root.join("docs/notebooks/run.py");
-        run(python().current_dir(&output).arg(notebooks))?;
-        let types = ["-m", "mypy", "--cache-dir=/dev/null"];
-        run(python().current_dir(&package).args(types))?;
-        let bytes = std::fs::metadata(wheel)?.len();
+        let tests = |which: &[&str]| {
+            run(python()
+                .current_dir(&output)
+                .args(["-m", "pytest", "-q", "-p", "no:cacheprovider"])
+                .args(which)
+                .arg(package.join("tests"))
+                .env("HAIRLINE_PROGRAM", target.join("release/hairline"))
+                .env("HAIRLINE_REPOSITORY", &root)
+                .env(
+                    "HAIRLINE_ALL_SCENES",
+                    if self.all_scenes { "1" } else { "" },
+                ))
+        };
+        let notebooks = || {
+            run(python()
+                .current_dir(&output)
+                .arg(root.join("docs/notebooks/run.py")))
+        };
+        // A cluster's tests mostly wait for workers.
+        let cluster = "test_cluster or test_documents";
+        let (others, cluster) = beside(
+            || tests(&["-k", &format!("not ({cluster})")]),
+            || tests(&["-k", cluster]).and_then(|()| notebooks()),
+        )?;
+        others.and(cluster)?;
+        let bytes = std::fs::metadata(&wheel)?.len();
         println!("{}: {:.1} MB", wheel.display(), bytes as f64 / 1e6);
         Ok(())
     }
+}
+
+/// Both at once: each waits for one core at times, and for the disk.
+fn beside<A: Send, B: Send>(
+    a: impl FnOnce() -> A + Send,
+    b: impl FnOnce() -> B + Send,
+) -> anyhow::Result<(A, B)> {
+    std::thread::scope(|scope| {
+        let a = scope.spawn(a);
+        let b = b();
+        let a = a.join().map_err(|_| anyhow::anyhow!("a thread panicked"))?;
+        Ok((a, b))
+    })
 }
 
 fn wheels(folder: &Path) -> anyhow::Result<Vec<PathBuf>> {
@@ -101,8 +136,11 @@ fn wheels(folder: &Path) -> anyhow::Result<Vec<PathBuf>> {
     Ok(paths.into_iter().filter(is_wheel).collect())
 }
 
+/// What it says is shown once it is done: others may be at work.
 fn run(command: &mut Command) -> anyhow::Result<()> {
-    let status = command.status().with_context(|| format!("{command:?}"))?;
-    ensure!(status.success(), "{command:?}: {status}");
+    let done = command.output().with_context(|| format!("{command:?}"))?;
+    let said = [done.stdout, done.stderr].concat();
+    print!("{}", String::from_utf8_lossy(&said));
+    ensure!(done.status.success(), "{command:?}: {}", done.status);
     Ok(())
 }
