@@ -9,7 +9,7 @@ use pyo3::types::PyDict;
 
 use crate::errors;
 use crate::image::Image;
-use crate::names::tone_map;
+use crate::names::{exposure, tone_map};
 
 /// A picture in memory or in a file.
 fn layers(picture: &Bound<'_, PyAny>) -> PyResult<Layers> {
@@ -27,12 +27,12 @@ fn layers(picture: &Bound<'_, PyAny>) -> PyResult<Layers> {
 pub(crate) fn compare<'py>(
     a: &Bound<'py, PyAny>,
     b: &Bound<'py, PyAny>,
-    exposure_ev: f64,
+    exposure_ev: &Bound<'py, PyAny>,
     curve: &str,
 ) -> PyResult<(Bound<'py, PyDict>, Vec<String>)> {
     let py = a.py();
     let display = Display {
-        exposure_ev,
+        exposure_ev: exposure(exposure_ev)?,
         tone_map: tone_map(curve)?,
     };
     let (a, b) = (layers(a)?, layers(b)?);

@@ -11,22 +11,22 @@ use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyBytes, PyDict};
 
 use crate::errors;
-use crate::names::{named, notes_dict, tone_map};
+use crate::names::{exposure, named, notes_dict, tone_map};
 
-/// A picture with its layers. It does not change.
+/// A picture with its layers: linear Rec.709, rows from the top. Its arrays share its memory and cannot be written to.
 #[pyclass(frozen, module = "hairline")]
 pub(crate) struct Image {
     image: hairline_image::Image,
     display: Display,
     notes: Notes,
-    /// Whether each pixel has all that was asked for.
+    /// Whether each pixel has all that was asked for; False after Ctrl-C.
     #[pyo3(get)]
     is_complete: bool,
     /// Made when first asked for.
     beauty: PyOnceLock<Py<PyArray3<f32>>>,
 }
 
-/// Reads a layered EXR.
+/// Reads a layered EXR that `Image.save`, `hairline render` or `hairline reference` wrote.
 #[pyfunction]
 pub(crate) fn read_image(py: Python<'_>, path: PathBuf) -> PyResult<Image> {
     let read = py.detach(|| exr_file::read_image_with_notes(&path));
@@ -91,9 +91,14 @@ impl Image {
         Ok(self.image.clone())
     }
 
-    fn display(&self, exposure_ev: Option<f64>, curve: Option<&str>) -> PyResult<Display> {
+    fn display(
+        &self,
+        exposure_ev: Option<&Bound<'_, PyAny>>,
+        curve: Option<&str>,
+    ) -> PyResult<Display> {
+        let own = self.display.exposure_ev;
         Ok(Display {
-            exposure_ev: exposure_ev.unwrap_or(self.display.exposure_ev),
+            exposure_ev: exposure_ev.map_or(Ok(own), exposure)?,
             tone_map: curve.map_or(Ok(self.display.tone_map), tone_map)?,
         })
     }
@@ -139,27 +144,32 @@ fn read_only(array: Bound<'_, PyAny>) -> PyResult<Bound<'_, PyAny>> {
 
 #[pymethods]
 impl Image {
+    /// Width and height, pixels.
     #[getter]
     fn size(&self) -> (u32, u32) {
         let [width, height] = self.image.size_px;
         (width, height)
     }
 
+    /// What the picture remembers of its making.
     #[getter(notes)]
     fn notes_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         notes_dict(py, &self.notes)
     }
 
+    /// Stops, for what is displayed.
     #[getter]
     fn exposure_ev(&self) -> f64 {
         self.display.exposure_ev
     }
 
+    /// The curve of what is displayed.
     #[getter]
     fn tone_map(&self) -> &'static str {
         self.display.tone_map.name()
     }
 
+    /// Base plus scratches: float32, height x width x 3, W sr^-1 m^-2. Made when first asked for, and kept.
     #[getter]
     fn beauty(slf: &Bound<'_, Self>) -> PyResult<Py<PyArray3<f32>>> {
         let py = slf.py();
@@ -175,32 +185,37 @@ impl Image {
         Ok(beauty.clone_ref(py))
     }
 
+    /// Light by way of the base and the background: float32, height x width x 3, W sr^-1 m^-2.
     #[getter]
     fn base<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
         Self::rgb(slf, &slf.get().image.base)
     }
 
+    /// Light by way of the scratches: float32, height x width x 3, W sr^-1 m^-2.
     #[getter]
     fn scratches<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
         Self::rgb(slf, &slf.get().image.scratches)
     }
 
+    /// The share of the base's energy that scratches took: float32, height x width x 3, from 0 to 1.
     #[getter]
     fn density<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
         Self::rgb(slf, &slf.get().image.density)
     }
 
+    /// Unit shading normal in world space: float32, height x width x 3; 0 where there is no surface.
     #[getter]
     fn normal<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
         Self::rgb(slf, &slf.get().image.normal)
     }
 
+    /// Distance along the view axis: float32, height x width, metres; 0 where there is no surface.
     #[getter]
     fn depth_m<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
         Self::plane(slf, &slf.get().image.depth_m)
     }
 
-    /// Samples of each pixel; None for a picture of the closed forms.
+    /// Samples of each pixel of a reference: uint32, height x width. None for a picture of the closed forms.
     #[getter]
     fn samples<'py>(slf: &Bound<'py, Self>) -> PyResult<Option<Bound<'py, PyAny>>> {
         let noise = slf.get().image.noise.as_ref();
@@ -209,7 +224,7 @@ impl Image {
             .transpose()
     }
 
-    /// The variance of each pixel's mean in a layer; None where it is not known.
+    /// The variance of each pixel's mean in a layer: float32, height x width x 3, squared radiance. None where it is not known.
     fn variance<'py>(slf: &Bound<'py, Self>, layer: &str) -> PyResult<Option<Bound<'py, PyAny>>> {
         let names = Layer::ALL.map(|layer| (layer.name(), layer));
         let layer = named("layer", layer, &names)?;
@@ -217,13 +232,13 @@ impl Image {
         variance.map(|values| Self::rgb(slf, values)).transpose()
     }
 
-    /// Writes the picture as `hairline render` does.
+    /// Writes an .exr (linear, all layers) or a .png (displayed): the whole file or none.
     #[pyo3(signature = (path, exposure_ev=None, tone_map=None))]
     fn save(
         &self,
         py: Python<'_>,
         path: PathBuf,
-        exposure_ev: Option<f64>,
+        exposure_ev: Option<&Bound<'_, PyAny>>,
         tone_map: Option<&str>,
     ) -> PyResult<()> {
         let display = self.display(exposure_ev, tone_map)?;
@@ -235,12 +250,12 @@ impl Image {
             .map_err(|error| errors::of_image(py, &error))
     }
 
-    /// The bytes of a PNG.
+    /// The displayed picture as the bytes of a PNG.
     #[pyo3(signature = (exposure_ev=None, tone_map=None))]
     fn png<'py>(
         &self,
         py: Python<'py>,
-        exposure_ev: Option<f64>,
+        exposure_ev: Option<&Bound<'_, PyAny>>,
         tone_map: Option<&str>,
     ) -> PyResult<Bound<'py, PyBytes>> {
         let display = self.display(exposure_ev, tone_map)?;
@@ -259,7 +274,7 @@ impl Image {
     fn to_pil<'py>(
         &self,
         py: Python<'py>,
-        exposure_ev: Option<f64>,
+        exposure_ev: Option<&Bound<'_, PyAny>>,
         tone_map: Option<&str>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let pillow = py.import("PIL.Image")?;
@@ -282,12 +297,12 @@ impl Image {
         format!("<hairline.Image: {width} x {height} pixels{part}>")
     }
 
-    /// The sRGB codes of a display, 3 bytes a pixel.
+    /// The displayed picture: sRGB codes, uint8, height x width x 3.
     #[pyo3(signature = (exposure_ev=None, tone_map=None))]
     fn codes<'py>(
         &self,
         py: Python<'py>,
-        exposure_ev: Option<f64>,
+        exposure_ev: Option<&Bound<'_, PyAny>>,
         tone_map: Option<&str>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let display = self.display(exposure_ev, tone_map)?;

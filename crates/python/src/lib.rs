@@ -7,7 +7,6 @@ mod errors;
 mod image;
 mod names;
 mod optics;
-mod rows;
 mod scene;
 mod strips;
 mod values;

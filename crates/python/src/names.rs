@@ -1,6 +1,7 @@
-//! Values that have names, and notes.
+//! Values that have names, stops, and notes.
 
 use hairline_image::{Notes, ToneMap};
+use hairline_scene::description::limits::EXPOSURE_EV;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -25,6 +26,21 @@ pub(crate) fn tone_map(name: &str) -> PyResult<ToneMap> {
         name,
         &ToneMap::ALL.map(|curve| (curve.name(), curve)),
     )
+}
+
+/// Stops.
+pub(crate) fn exposure(value: &Bound<'_, PyAny>) -> PyResult<f64> {
+    let number = value.extract::<f64>().ok();
+    let within = number.filter(|stops| EXPOSURE_EV.contains(stops));
+    within.ok_or_else(|| {
+        let found = value.repr().map_or_else(
+            |_| "found no number".to_owned(),
+            |shown| format!("found {shown}"),
+        );
+        let (least, most) = (EXPOSURE_EV.start(), EXPOSURE_EV.end());
+        let right = format!("must be a number of stops from {least} to {most}");
+        errors::of_argument("exposure_ev", found, right)
+    })
 }
 
 /// Notes as Python has them.

@@ -2,16 +2,16 @@
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
+use std::sync::{Arc, Mutex, OnceLock};
 use std::time::Duration;
 
 use hairline_image::Display;
 use hairline_index::method::Method;
 use hairline_memory::budget_bytes;
 use hairline_optics::mask::Mask;
-use hairline_reference::{Integrator, Model, Settings};
+use hairline_reference::{Integrator, Model, Parts, Settings};
 use hairline_scene::estimate::Estimate;
-use hairline_scene::{Description, Error, Loader, Scene, SceneBuilder, Stage, reading};
+use hairline_scene::{Description, Error, Loader, Object, Scene, SceneBuilder, Stage, reading};
 use hairline_work::Listener;
 use hairline_work::backend::{self, Backend, Painter, Refusal, Rendered, Task};
 use hairline_work::failure::Failure;
@@ -22,7 +22,6 @@ use pyo3::types::PyDict;
 use crate::errors;
 use crate::image::Image;
 use crate::names::named;
-use crate::rows;
 use crate::values::Stock;
 use crate::watched::{self, Told};
 
@@ -108,6 +107,8 @@ fn table(py: Python<'_>, description: &Description) -> PyResult<toml::Table> {
 #[derive(Default)]
 pub(crate) struct Builder {
     builder: Mutex<SceneBuilder>,
+    /// What references of the last scene looked up.
+    last: Mutex<Option<(Scene, Arc<OnceLock<Parts>>)>>,
 }
 
 #[pymethods]
@@ -167,6 +168,7 @@ impl Builder {
             }
             (Ok(_), Some(interrupt)) => Err(interrupt),
             (Ok(scene), None) => Ok(Built {
+                parts: self.parts(&scene),
                 scene,
                 description,
                 folder,
@@ -176,10 +178,35 @@ impl Builder {
     }
 }
 
+impl Builder {
+    /// Those of the last scene, if this one has its surfaces, scratches and materials.
+    fn parts(&self, scene: &Scene) -> Arc<OnceLock<Parts>> {
+        let mut last = self.last.lock().unwrap_or_else(|left| left.into_inner());
+        let alike = |a: &Object, b: &Object| {
+            Arc::ptr_eq(&a.mesh, &b.mesh)
+                && Arc::ptr_eq(&a.scratches, &b.scratches)
+                && Arc::ptr_eq(&a.segments, &b.segments)
+        };
+        let kept = last.as_ref().filter(|(old, _)| {
+            old.materials == scene.materials
+                && old.objects.len() == scene.objects.len()
+                && old
+                    .objects
+                    .iter()
+                    .zip(&scene.objects)
+                    .all(|(a, b)| alike(a, b))
+        });
+        let parts = kept.map(|(_, parts)| parts.clone()).unwrap_or_default();
+        *last = Some((scene.clone(), parts.clone()));
+        parts
+    }
+}
+
 /// A scene that is ready to be rendered.
 #[pyclass(frozen, module = "hairline._hairline")]
 pub(crate) struct Built {
     scene: Scene,
+    parts: Arc<OnceLock<Parts>>,
     description: Description,
     folder: PathBuf,
     stock: Stock,
@@ -283,7 +310,7 @@ impl Built {
             fingerprint.map_err(|error| errors::of_failure(py, &Failure::Work(error)))?;
         let notes = identity::notes(&settings, &fingerprint);
         let [width, height] = self.scene.render.size_px;
-        let rows = rows.map(|(first, end)| first.min(height) as usize..end.min(height) as usize);
+        let rows = rows.map(|(first, end)| first.min(height)..end.min(height));
         let size_px = [
             width,
             rows.as_ref().map_or(height, |rows| rows.len() as u32),
@@ -291,7 +318,8 @@ impl Built {
         let earlier = resume
             .map(|image| image.get().to_resume(size_px, &notes))
             .transpose()?;
-        let time = time_s.map(Duration::from_secs_f64);
+        // Longer than a duration can be is for ever.
+        let time = time_s.map(|s| Duration::try_from_secs_f64(s).unwrap_or(Duration::MAX));
         let limits = Limits::new(samples, time, Duration::MAX);
         let ended = watched::run(host, |told| {
             self.sample(settings, earlier, rows, &limits, told)
@@ -316,43 +344,27 @@ impl Built {
         }
     }
 
-    /// Also whether each pixel has its samples. Of `rows` alone, where they are given: `earlier` has these, and so has the image.
+    /// Also whether each pixel has its samples. Of `rows` alone, where they are given.
     fn sample(
         &self,
         settings: Settings,
         earlier: Option<hairline_image::Image>,
-        rows: Option<Range<usize>>,
+        rows: Option<Range<u32>>,
         limits: &Limits,
         told: &Told,
     ) -> Result<(hairline_image::Image, bool), Failure> {
         told.begin("sorting scratches");
-        let integrator = Integrator::new(&self.scene, settings);
-        let mut image = match (earlier, &rows) {
-            (Some(earlier), None) => earlier,
-            (earlier, Some(rows)) => {
-                let mut image = integrator.start();
-                let width = image.size_px[0] as usize;
-                // Pixels that have their samples are passed by.
-                let others = image.noise.iter_mut().flat_map(|noise| &mut noise.samples);
-                others
-                    .enumerate()
-                    .filter(|(i, _)| !rows.contains(&(i / width)))
-                    .for_each(|(_, samples)| *samples = limits.samples);
-                if let Some(earlier) = earlier {
-                    rows::put(&mut image, rows.start, &earlier);
-                }
-                image
-            }
-            (None, None) => integrator.start(),
-        };
+        let parts = self.parts.get_or_init(|| Parts::new(&self.scene)).clone();
+        let mut integrator = Integrator::from_parts(&self.scene, settings, parts);
+        if let Some(rows) = rows {
+            integrator = integrator.of_rows(rows);
+        }
+        let mut image = earlier.unwrap_or_else(|| integrator.start());
         told.begin("sampling");
         let cancelled = || told.is_cancelled();
         let end = reference::sample(&integrator, &mut image, limits, &cancelled, told, &|_| {
             Ok(())
         })?;
-        if let Some(rows) = rows {
-            image = rows::of(&image, rows.start, rows.end);
-        }
         Ok((image, end == reference::End::Complete))
     }
 }

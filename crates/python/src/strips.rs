@@ -7,7 +7,6 @@ use pyo3::types::PyBytes;
 use crate::errors;
 use crate::image::Image as Picture;
 use crate::names::tone_map;
-use crate::rows;
 
 /// One picture of strips of it, from the top.
 #[pyfunction]
@@ -37,12 +36,30 @@ pub(crate) fn assemble(strips: Vec<Bound<'_, Picture>>) -> PyResult<Picture> {
     let mut row = 0;
     for strip in &strips {
         let strip = strip.get().image();
-        rows::put(&mut image, row, strip);
+        put(&mut image, row, strip);
         row += strip.size_px[1] as usize;
     }
     let is_complete = strips.iter().all(|strip| strip.get().is_whole());
     let notes = first.notes().clone();
     Ok(Picture::new(image, *first.shown(), notes, is_complete))
+}
+
+/// Puts rows of a picture over those from `first` on. Both have noise, or none.
+fn put(image: &mut Image, first: usize, rows: &Image) {
+    let start = first * image.size_px[0] as usize;
+    let own = start..start + rows.depth_m.len();
+    image.base[own.clone()].copy_from_slice(&rows.base);
+    image.scratches[own.clone()].copy_from_slice(&rows.scratches);
+    image.density[own.clone()].copy_from_slice(&rows.density);
+    image.depth_m[own.clone()].copy_from_slice(&rows.depth_m);
+    image.normal[own.clone()].copy_from_slice(&rows.normal);
+    if let (Some(noise), Some(more)) = (&mut image.noise, &rows.noise) {
+        noise.beauty[own.clone()].copy_from_slice(&more.beauty);
+        noise.base[own.clone()].copy_from_slice(&more.base);
+        noise.scratches[own.clone()].copy_from_slice(&more.scratches);
+        noise.density[own.clone()].copy_from_slice(&more.density);
+        noise.samples[own].copy_from_slice(&more.samples);
+    }
 }
 
 /// All that a picture is, in the order of [`picture_from_state`]'s arguments.

@@ -57,6 +57,14 @@ def arrays():
     print(f"{count} scratches: taken over in {taken - start:.2f} s, laid in {laid - taken:.2f} s")
 
 
+def processor_s(pids):
+    """Seconds that processes have had of all cores."""
+    import psutil
+
+    times = [psutil.Process(pid).cpu_times() for pid in pids]
+    return sum(time.user + time.system for time in times)
+
+
 def on_cluster():
     from hairline import cluster
 
@@ -64,15 +72,28 @@ def on_cluster():
     size, samples = (320, 200), 512
     # One thread each way, so that workers are compared and not cores.
     single = [sys.executable, __file__, "single"]
-    seconds = float(subprocess.check_output(single, env={**os.environ, "RAYON_NUM_THREADS": "1"}))
-    print(f"reference, {size[0]} x {size[1]}, {samples} samples: one process of one thread {seconds:.1f} s")
+    one_thread = {**os.environ, "RAYON_NUM_THREADS": "1"}
+    seconds, processor = map(float, subprocess.check_output(single, env=one_thread).split())
+    print(f"reference, {size[0]} x {size[1]}, {samples} samples: one process of one thread {seconds:.1f} s, {processor:.1f} s of a processor")
     for workers in (1, 2, 4):
         client = cluster.local(workers)
         # Their first piece imports and builds.
         cluster.reference(scene, size=size, samples=64, client=client)
-        start = time.perf_counter()
-        image = cluster.reference(scene, size=size, samples=samples, client=client)
-        print(f"{workers} workers: {time.perf_counter() - start:.1f} s")
+        pids = list(client.run(os.getpid).values())
+
+        def timed(**how):
+            start, own, theirs = time.perf_counter(), processor_s([os.getpid()]), processor_s(pids)
+            image = cluster.reference(scene, client=client, **how)
+            taken = time.perf_counter() - start
+            return image, taken, processor_s([os.getpid()]) - own, processor_s(pids) - theirs
+
+        image, taken, own, theirs = timed(size=size, samples=samples)
+        print(f"{workers} workers: {taken:.1f} s; of a processor {theirs:.1f} s on them, {own:.1f} s here")
+        # Next to no work: what is left is what a piece costs.
+        pieces = 200
+        _, taken, own, theirs = timed(size=(1, pieces), samples=64, rows_each=1)
+        ms = 1e3 / pieces
+        print(f"  {pieces} pieces of a pixel: {ms * taken:.1f} ms each; of a processor {ms * theirs:.1f} ms on them, {ms * own:.1f} ms here")
         local = client.cluster
         client.close()
         local.close()
@@ -84,9 +105,9 @@ def on_cluster():
 def single():
     scene = hairline.Scene.from_dict(plate_table())
     scene.reference(size=(8, 8), samples=64)
-    start = time.perf_counter()
+    start, processor = time.perf_counter(), processor_s([os.getpid()])
     scene.reference(size=(320, 200), samples=512)
-    print(time.perf_counter() - start)
+    print(time.perf_counter() - start, processor_s([os.getpid()]) - processor)
 
 
 if __name__ == "__main__":

@@ -87,6 +87,8 @@ def test_what_is_no_table_is_no_scene(table):
         (dict(depth_nm="deep"), "depth_nm: found texts"),
         (dict(depth_nm=-1), "depth_nm: found -1; must be from 0 to 2000"),
         (dict(depth_nm=None), "depth_nm: found an object of type builtins.NoneType"),
+        (dict(ends_m=np.ma.masked_greater(ENDS, 0)), "ends_m: found masked values; must be an array of numbers, all of them known"),
+        (dict(ends_m=ENDS[:, [0, 0]]), "ends_m[0]: found both ends at one point; must be two points"),
     ],
 )
 def test_wrong_arrays_of_scratches(keys, message):
@@ -167,6 +169,7 @@ def test_wrong_arguments_of_a_render(scene, keys, message):
         (dict(model="exact"), 'model: found "exact"; must be one of "separable", "full"'),
         (dict(time_s=0), "time_s: found 0; must be a number of seconds above 0"),
         (dict(time_s=float("nan")), "time_s: found nan"),
+        (dict(time_s="60"), "time_s: found '60'; must be a number of seconds above 0"),
         (dict(samples=-1), "samples: found -1"),
         (dict(sample_seed=-1), "sample_seed: found -1"),
         (dict(resume=3), "resume: found int; must be a hairline.Image"),
@@ -189,6 +192,49 @@ def test_a_scene_takes_tables_of_its_own_alone(scene):
         scene.light = []
     with pytest.raises(hairline.SceneError, match="camera.postion_m: unknown key; did you mean `position_m`?"):
         scene.camera.postion_m = (0, 0, 1)
+
+
+def test_lists_of_tables_are_lists(scene):
+    lamp = scene.lights[0]
+    for wrong, found in ((lamp, "hairline._tables.SphereLight"), (None, "builtins.NoneType"), ({"light": lamp}, "builtins.dict")):
+        with pytest.raises(hairline.SceneError, match=f"lights: found an object of type {found}; must be a list of hairline.Light"):
+            scene.lights = wrong
+    with pytest.raises(KeyError, match="no light is called 'key'; there are none"):
+        scene.lights.named("key")
+
+
+def test_a_lamp_stays_of_its_kind(scene):
+    with pytest.raises(hairline.SceneError, match="light.kind: found 'disk'; a SphereLight has 'sphere' always"):
+        hairline.SphereLight(kind="disk", center_m=(0, 0, 1), radius_m=0.1)
+    with pytest.raises(hairline.SceneError, match="light.kind: found 'disk'"):
+        scene.lights[0].update(kind="disk")
+    with pytest.raises(TypeError, match="SphereLight takes its keys by their names"):
+        hairline.SphereLight((0, 0, 1), 0.1)
+
+
+def test_arrays_are_no_files():
+    with pytest.raises(hairline.SceneError, match="object.mesh: found an object of type numpy.ndarray; .*Object.from_arrays"):
+        hairline.Object(name="mesh", mesh=CORNERS, material="steel")
+
+
+def test_a_lens_and_an_angle_are_not_given_together():
+    camera = {"position_m": (0, 0, 1), "target_m": (0, 0, 0)}
+    with pytest.raises(hairline.SceneError, match="camera.fov_y_deg: found 22.9 beside focal_length_mm; leave out one of them"):
+        hairline.Camera(**camera, focal_length_mm=50, fov_y_deg=22.9)
+    with pytest.raises(hairline.SceneError, match="camera.sensor_width_mm: found no `focal_length_mm`"):
+        hairline.Camera(**camera, sensor_width_mm=36)
+
+
+@pytest.mark.parametrize("exposure_ev, found", [("1", "found '1'"), (float("nan"), "found nan"), (100, "found 100"), (None, "found None")])
+def test_stops_are_numbers(scene, tmp_path, exposure_ev, found):
+    image = scene.render(size=(8, 8), backend="cpu", samples=1, shadows=False)
+    right = "exposure_ev: " + found + "; must be a number of stops from -64 to 64"
+    with pytest.raises(hairline.SceneError, match=right):
+        hairline.compare(image, image, exposure_ev=exposure_ev)
+    # None stands for the scene's own there.
+    if exposure_ev is not None:
+        with pytest.raises(hairline.SceneError, match=right):
+            image.save(tmp_path / "picture.png", exposure_ev=exposure_ev)
 
 
 def test_a_progress_that_is_no_function_is_refused(scene):

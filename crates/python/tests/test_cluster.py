@@ -1,6 +1,7 @@
 """Work in pieces: the same picture, whoever does it and whoever dies."""
 
 import os
+import random
 import signal
 import time
 
@@ -44,21 +45,34 @@ def test_a_reference_in_pieces_is_the_single_one(client, scene):
     assert pieces.is_complete
 
 
-def test_a_worker_that_is_killed_loses_its_piece_and_nothing_else(client, scene):
+def test_workers_that_are_killed_at_random_lose_their_pieces_and_nothing_else(client, scene):
     whole = scene.reference(size=(96, 64), samples=256)
+    chance = random.Random(27)
     killed = []
 
     def kill(what, share):
-        if share > 0.1 and len(killed) < 2 * share:
-            victim = list(client.run(os.getpid).values())[len(killed)]
-            killed.append(victim)
-            os.kill(victim, signal.SIGKILL)
+        if share < 1 and len(killed) < 3 and chance.random() < 0.3:
+            alive = sorted(client.run(os.getpid, on_error="ignore").values())
+            killed.append(chance.choice(alive))
+            os.kill(killed[-1], signal.SIGKILL)
 
     pieces = cluster.reference(
         scene, size=(96, 64), samples=256, samples_each=128, rows_each=8, client=client, progress=kill
     )
-    assert killed
+    assert len(killed) == 3
     same(pieces, whole)
+
+
+def test_a_piece_that_kills_its_workers_is_given_up(client, scene):
+    """Not handed from worker to worker for ever."""
+    here = os.getpid()
+
+    class Bomb:
+        def __index__(self):
+            return 8 if os.getpid() == here else os._exit(9)
+
+    with pytest.raises(hairline.WorkError, match="killed every worker that had it"):
+        list(cluster.render(scene, [{}], client=client, size=(8, 8), samples=Bomb()))
 
 
 def test_what_is_wrong_is_told_before_anything_is_sent(scene):
@@ -74,6 +88,8 @@ def test_what_is_wrong_is_told_before_anything_is_sent(scene):
         lambda: list(cluster.render(scene, [{"light[3].radius_m": 1}], client=nowhere)),
         lambda: list(cluster.render(scene, [{"light[0]..": 1}], client=nowhere)),
         lambda: list(cluster.render(scene, [3], client=nowhere)),
+        lambda: list(cluster.render(scene, [{}], client=nowhere, samples="8")),
+        lambda: list(cluster.render(scene, [{}], client=nowhere, size=(0, 8))),
         lambda: cluster.reference(scene, samples="64", client=nowhere),
         lambda: cluster.reference(scene, samples=64, model="exact", client=nowhere),
         lambda: cluster.render_files(scene, [{}, {}], "picture.png", client=nowhere),

@@ -89,10 +89,22 @@ def test_a_reference_knows_its_noise_and_goes_on(scene):
         scene.reference(size=(24, 16), samples=256, resume=closed)
 
 
+def test_a_reference_is_of_the_scene_as_it_is_now(scene):
+    """What is kept of the one before goes with what changed."""
+    scene.reference(size=(24, 16), samples=64)
+    scene.lights[0].radiance = 80
+    scene.scratches[0].depth_nm = 90
+    scene.materials[0].metal = "gold"
+    again = hairline.Scene.from_dict(scene.to_dict()).reference(size=(24, 16), samples=64)
+    for _ in range(2):
+        np.testing.assert_array_equal(scene.reference(size=(24, 16), samples=64).beauty, again.beauty)
+
+
 def test_time_is_a_limit(scene):
     start = time.monotonic()
     image = scene.reference(size=(48, 32), time_s=0.2)
     assert time.monotonic() - start < 10
+    assert scene.reference(size=(8, 8), samples=64, time_s=1e30).is_complete
     assert not image.is_complete and image.samples.max() > 0
 
 

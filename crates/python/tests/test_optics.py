@@ -90,6 +90,11 @@ def test_a_groove_scatters_its_share():
     [
         (lambda: optics.phase_step_energy("deep", 500), "depth_nm: found texts"),
         (lambda: optics.phase_step_energy(np.nan, 500), "depth_nm: found NaN"),
+        (lambda: optics.phase_step_energy([5, -5], 500), "depth_nm: found -5; must be from 0 to 1e+09"),
+        (lambda: optics.phase_step_energy(5, 0), "wavelength_nm: found 0; must be above 0"),
+        (lambda: optics.fresnel_metal("gold", 1, 900), "wavelength_nm: found 900; must be from 380 to 780"),
+        (lambda: optics.fresnel_metal("gold", 2, 500), "cos_theta: found 2; must be from 0 to 1"),
+        (lambda: optics.scratch_mean_energy("gold", 2500), "depth_nm: found 2500; must be from 0 to 2000"),
         (lambda: optics.phase_step_energy(np.ones(3), np.ones(4)), "found shapes that do not fit one another"),
         (lambda: optics.metal_rgb("unobtainium"), 'metal: found "unobtainium"; must be one of "iron"'),
         (lambda: optics.rgb_from_spectrum(np.ones(80)), "values: found an array of shape (80,); must end in 81"),

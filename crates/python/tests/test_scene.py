@@ -2,6 +2,7 @@
 
 import copy
 import pickle
+import re
 
 import numpy as np
 import pytest
@@ -40,6 +41,8 @@ def test_attributes_are_the_keys_and_defaults_are_filled_in(scene):
 def test_what_is_left_out_means_what_the_attribute_says(scene):
     """Keys that go without saying are not written; what reading them gives must be what they are."""
     tables = [
+        hairline.Studio(),
+        hairline.Ground(),
         *scene.lights,
         *scene.scratches,
         hairline.DiskLight(center_m=(0, 0, 1), target_m=(0, 0, 0), radius_m=0.1),
@@ -51,6 +54,62 @@ def test_what_is_left_out_means_what_the_attribute_says(scene):
             setattr(again, key, value)
             assert again == table, key
             assert getattr(again, key) == value
+
+
+CLASSES = {
+    "camera": [hairline.Camera],
+    "render": [hairline.Settings],
+    "environment": [hairline.Environment],
+    "studio": [hairline.Studio],
+    "ground": [hairline.Ground],
+    "material": [hairline.Material],
+    "object": [hairline.Object],
+    "scratches": [hairline.Scratches],
+    "light": [hairline.Light, *hairline.Light.__subclasses__()],
+}
+# Of what lies within a key: shapes, strokes and rows of a list. The kind of a light is its class.
+INNER = {"disk", "kind", "lathe", "plane", "sphere", "profile_m", "segments", "size_m", "smooth", "density_per_m", "depth", "erase", "points_m"}
+INNER |= {"radius_m", "width", "x0_m", "x1_m", "y0_m", "y1_m", "z0_m", "z1_m"}
+
+
+def test_every_key_of_the_documentation_is_an_attribute(repository):
+    sections = re.split(r"^## ", (repository / "docs/scene.md").read_text(encoding="utf-8"), flags=re.MULTILINE)
+    seen = []
+    for section in sections:
+        names = re.findall(r"`\[+(\w+)\]+`", section.splitlines()[0])
+        seen += names
+        attributes = {key for name in names for kind in CLASSES[name] for key in kind._keys}
+        rows = [row.split("|")[1:3] for row in re.findall(r"^\|.*$", section, flags=re.MULTILINE)]
+        keys = {key for row in rows for cell in row for key in re.findall(r"^`(\w+)`(?: of .*)?$", cell.strip())}
+        assert not names or keys - attributes - INNER == set(), names
+    assert sorted(seen) == sorted(CLASSES)
+
+
+def test_a_studio_is_there_where_a_file_has_one(table):
+    lit = hairline.Scene.from_dict(table)
+    assert lit.studio is None and lit.ground is None
+    lit.studio, lit.ground = hairline.Studio(intensity=0.5), hairline.Ground(height_m=-0.01)
+    again = hairline.Scene.from_dict(lit.to_dict())
+    assert (again.studio, again.ground) == (lit.studio, lit.ground)
+    alone = hairline.Scene.from_dict({**table, "light": []})
+    assert (alone.studio, alone.ground) == (hairline.Studio(), hairline.Ground())
+    dark = hairline.Scene.from_dict({**table, "light": [], "studio": {"hidden": True}})
+    assert dark.studio == hairline.Studio(hidden=True) and dark.ground is None
+    for scene, is_lit in ((alone, True), (dark, False), (pickle.loads(pickle.dumps(dark)), False)):
+        assert (scene.render(size=(16, 12), backend="cpu", samples=1, shadows=False).beauty.max() > 0) == is_lit
+
+
+def test_a_lens_sees_by_the_shape_of_the_picture(scene):
+    scene.settings.size_px = (40, 40)
+    scene.camera.focal_length_mm = 50
+    assert scene.camera.fov_y_deg is None and scene.camera.sensor_width_mm is None
+    angle = np.degrees(2 * np.arctan(0.5 * 36 / 50))
+    assert hairline.Scene.from_dict(scene.to_dict()).camera.fov_y_deg == pytest.approx(angle)
+    by_lens = scene.render(size=(24, 12), backend="cpu", samples=1, shadows=False)
+    scene.camera.fov_y_deg = angle
+    assert scene.camera.focal_length_mm is None
+    by_angle = scene.render(size=(24, 12), backend="cpu", samples=1, shadows=False)
+    np.testing.assert_allclose(by_lens.beauty, by_angle.beauty, rtol=1e-4)
 
 
 def test_a_change_is_checked_at_once_and_a_wrong_one_changes_nothing(scene):

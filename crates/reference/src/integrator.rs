@@ -7,6 +7,7 @@ use hairline_index::{Groove, ScratchIndex, SegmentTree, TriangleIndex, groove_in
 use hairline_optics::mask::Mask;
 use hairline_scene::{CameraFrame, Scene, ScratchTables};
 use rayon::prelude::*;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// What waves do at a scratch.
@@ -64,6 +65,8 @@ impl Parts {
 pub struct Integrator<'a> {
     pub(super) scene: &'a Scene,
     pub(super) settings: Settings,
+    /// Of the picture.
+    pub(super) rows: Range<u32>,
     pub(super) triangles: Arc<TriangleIndex>,
     pub(super) grooves: Arc<SegmentTree<Groove>>,
     pub(super) depth_coherence: Vec<f32>,
@@ -94,6 +97,7 @@ impl<'a> Integrator<'a> {
         Self {
             scene,
             settings,
+            rows: 0..scene.render.size_px[1],
             triangles,
             grooves,
             depth_coherence: ScratchIndex::depth_coherence(scene),
@@ -104,5 +108,16 @@ impl<'a> Integrator<'a> {
             camera: scene.camera.frame(scene.render.size_px),
             extent_m: positions.map(|p| p.length() as f64).fold(0.0, f64::max),
         }
+    }
+
+    /// Some rows of the picture alone, which become an image of their own: the same samples as in the whole.
+    pub fn of_rows(mut self, rows: Range<u32>) -> Self {
+        let height = self.scene.render.size_px[1];
+        self.rows = rows.start.min(height)..rows.end.min(height);
+        self
+    }
+
+    pub(super) fn size_px(&self) -> [u32; 2] {
+        [self.scene.render.size_px[0], self.rows.len() as u32]
     }
 }

@@ -20,15 +20,15 @@ pub const REVISION: u32 = 3;
 impl Integrator<'_> {
     /// An image without samples, to hand to [`Integrator::run`]: depth and normal alone, those of each pixel's middle.
     pub fn start(&self) -> Image {
-        let mut image = Image::new(self.scene.render.size_px);
+        let mut image = Image::new(self.size_px());
         image.noise = Some(Noise::new(image.size_px, BATCH_SAMPLES));
-        let width = image.size_px[0] as usize;
+        let (width, first) = (image.size_px[0] as usize, self.first_pixel());
         let layers = (&mut image.depth_m, &mut image.normal);
         layers
             .into_par_iter()
             .enumerate()
             .for_each(|(i, (depth_m, normal))| {
-                let middle = DVec2::new((i % width) as f64 + 0.5, (i / width) as f64 + 0.5);
+                let middle = middle(first + i, width);
                 let ray = self.camera.camera_ray(middle);
                 let direction = ray.normalize();
                 if let Some(hit) = self.triangles.intersect(self.camera.position_m, direction) {
@@ -52,17 +52,14 @@ impl Integrator<'_> {
     /// picture: some pixels may have more batches than others, and none at all where the first round was cut short.
     ///
     /// # Panics
-    /// If `image` has another size than the scene, or no noise, or batches of another size.
+    /// If `image` has another size than the scene, or the rows of [`Integrator::of_rows`], or no noise, or batches of another size.
     pub fn run(
         &self,
         image: &mut Image,
         samples: u32,
         observe: &(dyn Fn(f64) -> ControlFlow<()> + Sync),
     ) -> ControlFlow<()> {
-        assert_eq!(
-            image.size_px, self.scene.render.size_px,
-            "an image of another size"
-        );
+        assert_eq!(image.size_px, self.size_px(), "an image of another size");
         let noise = image.noise.as_ref().expect("an image with noise");
         assert_eq!(noise.batch, BATCH_SAMPLES, "batches of another size");
         let target = samples.div_ceil(BATCH_SAMPLES);
@@ -106,7 +103,7 @@ impl Integrator<'_> {
         report: &(dyn Fn(u64) + Sync),
         stop: &AtomicBool,
     ) {
-        let width = image.size_px[0] as usize;
+        let (width, first) = (image.size_px[0] as usize, self.first_pixel());
         let noise = image.noise.as_mut().expect("checked by the caller");
         let chunks = (
             image.base.par_chunks_mut(CHUNK_PX),
@@ -125,9 +122,8 @@ impl Integrator<'_> {
                 let (base, scratches, density, samples, v_beauty, v_base, v_scratches, v_density) =
                     pixels;
                 for i in 0..base.len() {
-                    let pixel = chunk * CHUNK_PX + i;
-                    let place =
-                        DVec2::new((pixel % width) as f64 + 0.5, (pixel / width) as f64 + 0.5);
+                    let pixel = first + chunk * CHUNK_PX + i;
+                    let place = middle(pixel, width);
                     while samples[i] / BATCH_SAMPLES < up_to && !stop.load(Ordering::Relaxed) {
                         let batch = samples[i] / BATCH_SAMPLES;
                         let light = self.batch(pixel as u64, place, batch);
@@ -151,6 +147,11 @@ impl Integrator<'_> {
                     }
                 }
             });
+    }
+
+    /// How many pixels of the picture lie before the image.
+    fn first_pixel(&self) -> usize {
+        self.rows.start as usize * self.scene.render.size_px[0] as usize
     }
 
     /// The mean of a batch of samples.
@@ -188,6 +189,11 @@ const CHUNK_PX: usize = 16;
 
 /// Rounds shorter than this are made longer.
 const ROUND_LEAST: Duration = Duration::from_secs(1);
+
+/// Of a pixel of a picture of this width.
+fn middle(pixel: usize, width: usize) -> DVec2 {
+    DVec2::new((pixel % width) as f64 + 0.5, (pixel / width) as f64 + 0.5)
+}
 
 fn sum(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
     std::array::from_fn(|c| a[c] + b[c])

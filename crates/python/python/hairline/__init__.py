@@ -20,6 +20,7 @@ from ._tables import (
     Camera,
     DiskLight,
     Environment,
+    Ground,
     Light,
     Material,
     Object,
@@ -28,6 +29,7 @@ from ._tables import (
     Scratches,
     Settings,
     SphereLight,
+    Studio,
     TubeLight,
 )
 
@@ -40,6 +42,7 @@ __all__ = [
     "DiskLight",
     "Environment",
     "Error",
+    "Ground",
     "Image",
     "InterruptedWarning",
     "Light",
@@ -52,6 +55,7 @@ __all__ = [
     "Scratches",
     "Settings",
     "SphereLight",
+    "Studio",
     "TubeLight",
     "WorkError",
     "__version__",

@@ -18,12 +18,15 @@ def _numbers(key: str, values: Any) -> npt.NDArray[Any]:
     try:
         array = np.asarray(values)
     except (ValueError, TypeError) as error:
-        raise argument_error(key, f"found {type(values).__name__} ({error})", "must be an array of numbers") from None
+        what = str(error).split(". ")[0]
+        raise argument_error(key, f"found {type(values).__name__} ({what})", "must be an array of numbers") from None
     if array.dtype.kind not in "fiu":
         what = "texts" if array.dtype.kind in "US" else f"values of type {array.dtype}"
         if array.dtype.kind == "O":
             what = f"an object of type {type(values).__module__}.{type(values).__name__}"
         raise argument_error(key, f"found {what}", "must be an array of numbers")
+    if np.ma.is_masked(values):
+        raise argument_error(key, "found masked values", "must be an array of numbers, all of them known")
     return array
 
 

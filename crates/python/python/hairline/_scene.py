@@ -16,12 +16,14 @@ from ._host import Host, Progress
 from ._tables import (
     Camera,
     Environment,
+    Ground,
     Light,
     Material,
     Object,
     Path,
     Scratches,
     Settings,
+    Studio,
     Table,
     Tables,
     table_of,
@@ -29,6 +31,14 @@ from ._tables import (
 
 T = TypeVar("T", bound=Table)
 
+_SINGLE: dict[str, type[Table]] = {
+    "camera": Camera,
+    "settings": Settings,
+    "environment": Environment,
+    "studio": Studio,
+    "ground": Ground,
+}
+_OPTIONAL = ("environment", "studio", "ground")
 _LISTS: tuple[tuple[str, str, type[Table]], ...] = (
     ("materials", "material", Material),
     ("objects", "object", Object),
@@ -56,6 +66,22 @@ def _name(key: str, value: Any) -> str:
     return value
 
 
+def render_arguments(
+    *,
+    backend: str = "auto",
+    samples: int = core.DEFAULT_SAMPLES,
+    shadows: Optional[bool] = None,
+    bounces: Optional[int] = None,
+) -> tuple[str, int, Optional[bool], Optional[int]]:
+    """Those of :meth:`Scene.render`, checked."""
+    return (
+        _name("backend", backend),
+        _whole("samples", samples, 1, 1024),
+        None if shadows is None else _switch("shadows", shadows),
+        None if bounces is None else _whole("bounces", bounces, 0, 64),
+    )
+
+
 class Scene:
     """Everything that a picture depends on. Its parts have the keys of scene files (docs/scene.md)."""
 
@@ -63,6 +89,9 @@ class Scene:
     settings: Settings
     """The table ``[render]`` of scene files."""
     environment: Optional[Environment]
+    studio: Optional[Studio]
+    """None: where there are no lights and no environment one with its defaults, on a ground; else none."""
+    ground: Optional[Ground]
     materials: Tables[Material]
     objects: Tables[Object]
     scratches: Tables[Scratches]
@@ -80,6 +109,8 @@ class Scene:
         camera: Camera,
         settings: Optional[Settings] = None,
         environment: Optional[Environment] = None,
+        studio: Optional[Studio] = None,
+        ground: Optional[Ground] = None,
         materials: Iterable[Material] = (),
         objects: Iterable[Object] = (),
         scratches: Iterable[Scratches] = (),
@@ -89,6 +120,8 @@ class Scene:
         self.camera = camera
         self.settings = Settings() if settings is None else settings
         self.environment = environment
+        self.studio = studio
+        self.ground = ground
         self.materials = Tables(Material, materials)
         self.objects = Tables(Object, objects)
         self.scratches = Tables(Scratches, scratches)
@@ -99,12 +132,15 @@ class Scene:
         self._builder = core.Builder()
 
     def __setattr__(self, name: str, value: Any) -> None:
-        one = {"camera": Camera, "settings": Settings, "environment": Environment}.get(name)
-        if one is not None and not isinstance(value, one) and not (value is None and one is Environment):
+        one = _SINGLE.get(name)
+        if one is not None and not isinstance(value, one) and not (value is None and name in _OPTIONAL):
             found = f"found an object of type {type(value).__module__}.{type(value).__qualname__}"
             raise argument_error(name, found, f"must be a hairline.{one.__name__}")
         for attribute, _, kind in _LISTS:
             if name == attribute and not isinstance(value, Tables):
+                if not isinstance(value, Iterable) or isinstance(value, Mapping):
+                    found = f"found an object of type {type(value).__module__}.{type(value).__qualname__}"
+                    raise argument_error(name, found, f"must be a list of hairline.{kind.__name__}")
                 value = Tables(kind, value)
         if name not in Scene.__annotations__ and name != "_builder":
             raise AttributeError(f"a scene has no attribute {name!r}")
@@ -112,8 +148,8 @@ class Scene:
 
     @classmethod
     def from_dict(cls, table: Mapping[str, Any], folder: Path = ".") -> Scene:
-        """A scene of a dict with the keys of scene files: ``camera``, ``render``, ``environment``, ``material``, ``object``,
-        ``scratches`` and ``light``. Files that it names are looked for in ``folder``."""
+        """A scene of a dict with the keys of scene files: ``camera``, ``render``, ``environment``, ``studio``, ``ground``, ``material``,
+        ``object``, ``scratches`` and ``light``. Files that it names are looked for in ``folder``."""
         if not isinstance(table, Mapping):
             raise argument_error("scene", f"found an object of type {type(table).__qualname__}", "must be a dict")
         return cls._of(core.check(dict(table)), folder)
@@ -123,11 +159,19 @@ class Scene:
         def all_of(kind: type[T]) -> list[T]:
             return [table_of(kind, one) for one in table.get(kind._section, [])]
 
-        environment = table.get("environment")
+        def one_of(kind: type[T]) -> Optional[T]:
+            return table_of(kind, table[kind._section]) if kind._section in table else None
+
+        studio = one_of(Studio)
+        if studio is None and "light" not in table and "environment" not in table:
+            # It said so, or there would be one.
+            studio = Studio(hidden=True)
         return cls(
             camera=table_of(Camera, table["camera"]),
             settings=table_of(Settings, table["render"]),
-            environment=None if environment is None else table_of(Environment, environment),
+            environment=one_of(Environment),
+            studio=studio,
+            ground=one_of(Ground),
             materials=all_of(Material),
             objects=all_of(Object),
             scratches=all_of(Scratches),
@@ -138,8 +182,9 @@ class Scene:
     def to_dict(self) -> dict[str, Any]:
         """The scene as a dict with the keys of scene files."""
         table: dict[str, Any] = {"camera": self.camera.to_dict(), "render": self.settings.to_dict()}
-        if self.environment is not None:
-            table["environment"] = self.environment.to_dict()
+        for one in (self.environment, self.studio, self.ground):
+            if one is not None:
+                table[one._section] = one.to_dict()
         for attribute, section, _ in _LISTS:
             tables = getattr(self, attribute)
             if len(tables):
@@ -167,13 +212,20 @@ class Scene:
         since the last time is not built again."""
         return self._built(size, Host(progress))
 
-    def _built(self, size: Optional[tuple[int, int]], host: Host) -> core.Built:
+    def _sized(self, size: Optional[tuple[int, int]]) -> dict[str, Any]:
+        """The scene as a dict, with another size of the picture: a lens sees what it saw by the scene's own."""
         table = self.to_dict()
-        text, file = None, FilePath()
-        if self._source is not None and self._source[2] == table:
-            file, text = self._source[0], self._source[1]
         if size is not None:
+            if "focal_length_mm" in table["camera"]:
+                table["camera"] = core.check(table)["camera"]
             table["render"] = {**table["render"], "size_px": size}
+        return table
+
+    def _built(self, size: Optional[tuple[int, int]], host: Host) -> core.Built:
+        text, file = None, FilePath()
+        if self._source is not None and self._source[2] == self.to_dict():
+            file, text = self._source[0], self._source[1]
+        table = self._sized(size)
         try:
             return self._builder.build(table, self.folder, text, file, host)
         finally:
@@ -201,14 +253,11 @@ class Scene:
         Ctrl-C ends it: what there is by then is returned with :attr:`Image.is_complete` False and an
         :class:`InterruptedWarning`; with nothing there yet, KeyboardInterrupt is raised.
         """
-        samples = _whole("samples", samples, 1, 1024)
-        bounces = None if bounces is None else _whole("bounces", bounces, 0, 64)
-        shadows = None if shadows is None else _switch("shadows", shadows)
-        backend = _name("backend", backend)
+        arguments = render_arguments(backend=backend, samples=samples, shadows=shadows, bounces=bounces)
         host = Host(progress)
         built = self._built(size, host)
         try:
-            image = built.render(backend, samples, shadows, bounces, host)
+            image = built.render(*arguments, host)
         finally:
             host.close()
         return _told(image)

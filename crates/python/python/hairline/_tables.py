@@ -7,6 +7,9 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Iterator, Mapping, MutableSequence
+from functools import lru_cache
+from inspect import Parameter, Signature
+from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, Optional, Sequence, TypeVar, Union, overload
 
 from . import _hairline as core
@@ -42,8 +45,41 @@ def _frozen(value: Any) -> Any:
     return tuple(map(_frozen, value)) if isinstance(value, list) else value
 
 
+@lru_cache(maxsize=1)
+def _notes() -> dict[str, dict[str, str]]:
+    """What is written below each key, of each class."""
+    import ast
+
+    notes: dict[str, dict[str, str]] = {}
+    try:
+        body = ast.parse(FilePath(__file__).read_text(encoding="utf-8")).body
+    except OSError:  # pragma: no cover
+        return notes
+    for kind in body:
+        if isinstance(kind, ast.ClassDef):
+            for key, note in zip(kind.body, kind.body[1:]):
+                if (
+                    isinstance(key, ast.AnnAssign)
+                    and isinstance(note, ast.Expr)
+                    and isinstance(note.value, ast.Constant)
+                ):
+                    notes.setdefault(kind.name, {})[ast.unparse(key.target)] = str(note.value.value)
+    return notes
+
+
+class _Documented(type):
+    """Tells the keys of a table where ``help`` and notebooks ask for its documentation."""
+
+    @property
+    def __doc__(cls) -> str:  # type: ignore[override]
+        notes = [(key, note) for kind in cls.__mro__ for key, note in _notes().get(kind.__name__, {}).items()]
+        lines = [str(cls.__dict__.get("__doc__") or "")]
+        lines += [f"{key}\n    {note}" for key, note in notes]
+        return "\n\n".join(lines)
+
+
 @dataclass_transform(kw_only_default=True)
-class Table:
+class Table(metaclass=_Documented):
     """A table of a scene. Its attributes are its keys."""
 
     _section: ClassVar[str]
@@ -51,16 +87,25 @@ class Table:
     _fixed: ClassVar[dict[str, Any]] = {}
     # What keys mean that are left out because they say what goes without saying.
     _absent: ClassVar[dict[str, Any]] = {}
+    # What a table is that is left out of a scene because it says nothing.
+    _nothing: ClassVar[dict[str, Any]] = {}
     _keys: ClassVar[frozenset[str]] = frozenset()
+    __signature__: ClassVar[Signature] = Signature()
 
     def __init_subclass__(cls) -> None:
-        keys = {key for key in cls.__dict__.get("__annotations__", {}) if not key.startswith("_")}
-        for key in keys & set(cls.__dict__):
+        own = [key for key in cls.__dict__.get("__annotations__", {}) if not key.startswith("_")]
+        named = [Parameter(key, Parameter.KEYWORD_ONLY, default=None if key in cls.__dict__ else Parameter.empty) for key in own]
+        cls.__signature__ = Signature([*named, *cls.__signature__.parameters.values()])
+        for key in set(own) & set(cls.__dict__):
             delattr(cls, key)
-        cls._keys = cls._keys | keys
+        cls._keys = cls._keys | set(own)
 
-    def __init__(self, **keys: Any) -> None:
-        self._put({**self._fixed, **keys})
+    def __init__(self, *unnamed: Any, **keys: Any) -> None:
+        name = type(self).__name__
+        if unnamed:
+            raise TypeError(f"{name} takes its keys by their names, as in {name}({next(iter(self.__signature__.parameters))}=...)")
+        object.__setattr__(self, "_table", {})
+        Table.update(self, **keys)
 
     @classmethod
     def _of(cls, table: Mapping[str, Any]) -> Self:
@@ -81,11 +126,14 @@ class Table:
             right = str(error).replace(f"{section}[0]", section)
             key = error.key.replace(f"{section}[0]", section)
             raise SceneError(right, key=key, found=error.found, right=error.right) from None
-        checked: dict[str, Any] = whole[section][0] if self._is_one_of_many else whole[section]
+        checked: dict[str, Any] = whole[section][0] if self._is_one_of_many else whole.get(section, self._nothing)
         return checked
 
     def update(self, **keys: Any) -> None:
         """Sets several keys at once: those that only fit together."""
+        for key, right in self._fixed.items():
+            if keys.get(key, right) != right:
+                raise argument_error(f"{self._section}.{key}", f"found {keys[key]!r}", f"a {type(self).__name__} has {right!r} always")
         self._put({**self._table, **keys, **self._fixed})
 
     def to_dict(self) -> dict[str, Any]:
@@ -133,10 +181,34 @@ class Camera(Table):
     """The point in the centre of the picture, metres, 3 numbers."""
     up: Vector = _default()
     """The direction that is up in the picture, 3 numbers. Default: +y."""
-    fov_y_deg: float = _default()
-    """Vertical field of view, degrees. Default: 30."""
+    fov_y_deg: Optional[float] = _default()
+    """Vertical field of view, degrees. Default: 30. None where ``focal_length_mm`` tells it."""
+    focal_length_mm: Optional[float] = _default()
+    """The field of view by a lens, millimetres. Set it, and ``fov_y_deg`` goes; and the other way round."""
+    sensor_width_mm: Optional[float] = _default()
+    """With ``focal_length_mm``: how wide the picture is on the sensor, millimetres. Default: 36."""
     exposure_ev: float = _default()
     """Stops: radiances are multiplied by 2^exposure_ev before the tone curve. Default: 0."""
+
+    def update(self, **keys: Any) -> None:
+        lens = [keys.get("focal_length_mm"), keys.get("sensor_width_mm")]
+        if keys.get("fov_y_deg") is not None:
+            keys = {"focal_length_mm": None, "sensor_width_mm": None, **keys}
+        elif lens != [None, None]:
+            keys = {"fov_y_deg": None, **keys}
+        super().update(**keys)
+
+    def _checked(self, table: dict[str, Any]) -> dict[str, Any]:
+        checked = super()._checked(table)
+        lens = {key: table[key] for key in ("focal_length_mm", "sensor_width_mm") if table.get(key) is not None}
+        if lens:
+            if table.get("fov_y_deg") is not None:
+                found = f"found {table['fov_y_deg']} beside focal_length_mm"
+                raise argument_error("camera.fov_y_deg", found, "leave out one of them")
+            # What it sees depends on the shape of the picture, which a scene knows.
+            del checked["fov_y_deg"]
+            checked.update((key, float(value)) for key, value in lens.items())
+        return checked
 
 
 class Settings(Table):
@@ -169,6 +241,40 @@ class Environment(Table):
     """Factor on its radiance. Default: 1."""
     visible: bool = _default()
     """Whether the camera sees it behind the objects. Default: True."""
+
+
+class Studio(Table):
+    """``[studio]``: soft boxes, a lamp and a dim room around the objects. A scene without lights and environment has one, on a
+    :class:`Ground`; ``Studio(hidden=True)`` leaves it in the dark."""
+
+    _section = "studio"
+    _is_one_of_many = False
+    _absent = {"hidden": False, "intensity": 1.0, "rotation_deg": 0.0}
+    _nothing = {"hidden": True}
+
+    hidden: bool = _default()
+    """Lights nothing. Default: False."""
+    intensity: float = _default()
+    """Factor on its radiances. Default: 1."""
+    rotation_deg: float = _default()
+    """Turns it about the world's up axis, degrees. Default: 0."""
+
+
+class Ground(Table):
+    """``[ground]``: a wide floor under all objects."""
+
+    _section = "ground"
+    _is_one_of_many = False
+    _absent = {"hidden": False, "color": (0.1, 0.1, 0.105), "roughness": 0.55}
+
+    hidden: bool = _default()
+    """As if it were not there. Default: False."""
+    color: Vector = _default()
+    """Albedo, linear Rec.709, 3 numbers from 0 to 1. Default: a dark grey."""
+    roughness: float = _default()
+    """As that of a material. Default: 0.55."""
+    height_m: Optional[float] = _default()
+    """Where it lies along the world's up axis, metres. Default: under the lowest point of all objects."""
 
 
 class Material(Table):
@@ -250,6 +356,9 @@ class Object(Table):
         return cls(name=name, mesh=mesh, material=material, **placing)
 
     def _checked(self, table: dict[str, Any]) -> dict[str, Any]:
+        if not isinstance(table.get("mesh", ""), (str, os.PathLike, core.MeshArray, type(None))):
+            found = f"found an object of type {type(table['mesh']).__module__}.{type(table['mesh']).__qualname__}"
+            raise argument_error("object.mesh", found, "must be the path of a file; arrays go by hairline.Object.from_arrays")
         if isinstance(table.get("mesh"), core.MeshArray):
             for key in ("up", "fit_m"):
                 if table.get(key) is not None:
@@ -328,12 +437,14 @@ class Light(Table):
     """``[[light]]``: one of the kinds below."""
 
     _section = "light"
-    _absent = {"hidden": False, "exposure_ev": 0.0}
+    _absent = {"hidden": False, "visible": False, "exposure_ev": 0.0}
 
     name: Optional[str] = _default()
     """Free text."""
     hidden: bool = _default()
     """Lights nothing. Default: False."""
+    visible: bool = _default()
+    """Whether the camera sees its shape. Default: False."""
     radiance: float = _default()
     """W sr^-1 m^-2. Default: 1."""
     exposure_ev: float = _default()
@@ -345,7 +456,11 @@ class Light(Table):
     cone_deg: Optional[float] = _default()
     """A spot's cone from rim to rim, degrees. Default: light leaves in all directions."""
     cone_softness: Optional[float] = _default()
-    """The part of the way from rim to axis in which light falls off. Default: 0.1."""
+    """The part of the way from rim to axis in which light falls off. Default: 0.1, with a cone."""
+
+    def __getattr__(self, key: str) -> Any:
+        value = super().__getattr__(key)
+        return 0.1 if key == "cone_softness" and value is None and "cone_deg" in self._table else value
 
 
 class SphereLight(Light):
@@ -488,7 +603,7 @@ class Tables(MutableSequence[T], Generic[T]):
         for table in self._tables:
             if table._table.get("name") == name:
                 return table
-        names = ", ".join(repr(table._table.get("name")) for table in self._tables)
+        names = ", ".join(repr(table._table["name"]) for table in self._tables if "name" in table._table)
         raise KeyError(f"no {self._kind._section} is called {name!r}; there are {names or 'none'}")
 
     def __repr__(self) -> str:

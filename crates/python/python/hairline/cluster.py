@@ -20,7 +20,7 @@ import os
 import re
 import tempfile
 from collections import OrderedDict
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from itertools import product
 from pathlib import Path
@@ -36,7 +36,7 @@ from . import _hairline as core
 from ._errors import WorkError, argument_error
 from ._hairline import Image
 from ._host import Host, Progress
-from ._scene import Scene
+from ._scene import Scene, render_arguments
 
 __all__ = ["local", "reference", "render", "render_files", "sweep"]
 
@@ -178,22 +178,30 @@ def _strip_on_worker(
     return _unpacked(parcel).scene({})._reference(rows=rows, samples=samples, resume=before, **keys)
 
 
-def _results(futures: Sequence[Future], host: Host, what: str) -> Iterator[tuple[Future, Any]]:
-    """What is done, in the order in which it is; a failure ends all."""
+def _results(
+    futures: Sequence[Future], host: Host, what: str, wanted: Optional[Container[str]] = None
+) -> Iterator[tuple[Future, Any]]:
+    """What is done, in the order in which it is; a failure ends all. What is not ``wanted``, by its key, stays where it is, and is
+    forgotten there once nobody needs it."""
     done = 0
+    left = {future.key: future for future in futures}
     host.progress(what, 0.0)
     try:
         for future in as_completed(futures):
+            is_wanted = wanted is None or future.key in wanted
             try:
-                result = future.result()
+                result = future.result() if is_wanted or future.status != "finished" else None
             except KilledWorker as killed:
                 raise WorkError(f"a piece of the work killed every worker that had it: {killed}") from killed
+            if not is_wanted and left.pop(future.key, None):
+                future.release()
             done += 1
             host.progress(what, done / len(futures))
-            yield future, result
+            if is_wanted:
+                yield future, result
     finally:
         # All of them are of no use to anybody else.
-        for future in futures:
+        for future in left.values():
             future.cancel()
         host.close()
 
@@ -212,7 +220,7 @@ def render(
     :param client: a Client, the address of a scheduler, or None for this machine.
     :param arguments: as :meth:`hairline.Scene.render` takes them.
     """
-    listed = _checked(scene, changes)
+    listed = _checked(scene, changes, arguments)
     host = Host(progress)
     with _connected(client) as connected:
         [parcel] = connected.scatter([_Parcel(scene)], broadcast=True, hash=False)
@@ -238,7 +246,7 @@ def render_files(
 
     :param pattern: ``"frames/{:04d}.exr"``: the path of each, by the number of its change, from 0.
     """
-    listed = _checked(scene, changes)
+    listed = _checked(scene, changes, arguments)
     paths = [Path(os.fspath(pattern).format(i)) for i in range(len(listed))]
     if len(set(paths)) < len(paths):
         raise argument_error("pattern", f"found {os.fspath(pattern)!r}", 'must hold a place for the number, as in "{:04d}.png"')
@@ -306,9 +314,7 @@ def reference(
     :param samples_each: of a piece. A worker that dies loses so many. Default: all.
     :param rows_each: rows of a strip. Default: four strips for each worker, and 8 rows at least.
     """
-    scene = Scene._of(scene.to_dict(), scene.folder)
-    if size is not None:
-        scene.settings.size_px = size
+    scene = Scene._of(core.check(scene._sized(size)), scene.folder)
     # What is wrong with the scene or the arguments is told here, once.
     arguments = {
         "size": None,
@@ -344,16 +350,16 @@ def reference(
                 strips.append(strip)
         last = {strip.key: i for i, strip in enumerate(strips)}
         done: dict[int, Image] = {}
-        for future, image in _results(pieces, host, "sampling"):
-            if future.key in last:
-                done[last[future.key]] = image
+        for future, image in _results(pieces, host, "sampling", last):
+            done[last[future.key]] = image
     return core.assemble([done[i] for i in range(len(strips))])
 
 
-def _checked(scene: Scene, changes: Iterable[Change]) -> list[Change]:
-    """Builds the scene, and checks each change, here: what is wrong is told once."""
+def _checked(scene: Scene, changes: Iterable[Change], arguments: Mapping[str, Any]) -> list[Change]:
+    """Builds the scene, and checks each change and the arguments, here: what is wrong is told once."""
     listed = list(changes)
-    scene.build()
+    render_arguments(**{key: value for key, value in arguments.items() if key != "size"})
+    scene.build(size=arguments.get("size"))
     table = scene.to_dict()
     for i, change in enumerate(listed):
         if not isinstance(change, Mapping):

@@ -8,7 +8,7 @@ are between a direction and the normal.
 from __future__ import annotations
 
 from functools import lru_cache
-from typing import Any, Callable, NamedTuple, Sequence
+from typing import Any, Callable, Mapping, NamedTuple, Sequence
 
 import numpy as np
 
@@ -40,11 +40,41 @@ __all__ = [
 ]
 
 
-def _over(call: Callable[..., Floats], channels: int, **arguments: Any) -> Floats:
+_POSITIVE = (5e-324, 1e9)
+_RANGES = {
+    "coherence_um": _POSITIVE,
+    "cos_i": (0, 1),
+    "cos_o": (0, 1),
+    "cos_sum": (0, 2),
+    "cos_theta": (0, 1),
+    "depth_coherence": (0, 1),
+    "depth_nm": (0, 1e9),
+    "eta": _POSITIVE,
+    "temperature_k": _POSITIVE,
+    "wavelength_nm": _POSITIVE,
+    "width_um": (0, 1e9),
+}
+_MEASURED_NM = (380, 780)
+_TABULATED_NM = (0, 2000)
+
+
+def _within(key: str, array: Floats, least: float, most: float) -> None:
+    wrong = ~((array >= least) & (array <= most))
+    if wrong.any():
+        found = array[wrong].flat[0]
+        right = "must be above 0" if (least, most) == _POSITIVE else f"must be from {least:g} to {most:g}"
+        raise argument_error(key, f"found {found:g}", right)
+
+
+def _over(
+    call: Callable[..., Floats], channels: int, /, ranges: Mapping[str, tuple[float, float]] = _RANGES, **arguments: Any
+) -> Floats:
     arrays = [np.asarray(_numbers(key, value), dtype=np.float64) for key, value in arguments.items()]
     for key, array in zip(arguments, arrays):
         if np.isnan(array).any():
             raise argument_error(key, "found NaN", "must be numbers")
+        if key in ranges:
+            _within(key, array, *ranges[key])
     try:
         together = np.broadcast_arrays(*arrays)
     except ValueError:
@@ -101,9 +131,13 @@ def band_std(coherence_um: ArrayLike, wavelength_nm: ArrayLike) -> Floats:
 
 
 def fresnel_metal(metal: str, cos_theta: ArrayLike, wavelength_nm: ArrayLike) -> Floats:
-    """Unpolarised reflectance of a metal, from 0 to 1."""
+    """Unpolarised reflectance of a metal, from 0 to 1, at wavelengths from 380 to 780 nm."""
     return _over(
-        lambda *arrays: core.fresnel_metal(metal, *arrays), 1, cos_theta=cos_theta, wavelength_nm=wavelength_nm
+        lambda *arrays: core.fresnel_metal(metal, *arrays),
+        1,
+        ranges={**_RANGES, "wavelength_nm": _MEASURED_NM},
+        cos_theta=cos_theta,
+        wavelength_nm=wavelength_nm,
     )
 
 
@@ -157,13 +191,14 @@ def _table(metal: str) -> core.ScratchTable:
 
 
 def scratch_table(metal: str, u_um: ArrayLike, depth_nm: ArrayLike) -> Floats:
-    """T_c(u, d) of a metal, the table that pictures are made with, shape (..., 3). Odd in u, the groove's width times a sine."""
-    return _over(_table(metal).at, 3, u_um=u_um, depth_nm=depth_nm)
+    """T_c(u, d) of a metal, the table that pictures are made with, shape (..., 3). Odd in u, the groove's width times a sine; depths from
+    0 to 2000 nm."""
+    return _over(_table(metal).at, 3, ranges={"depth_nm": _TABULATED_NM}, u_um=u_um, depth_nm=depth_nm)
 
 
 def scratch_mean_energy(metal: str, depth_nm: ArrayLike) -> Floats:
     """The mean of |D|^2 over the spectrum in each channel, shape (..., 3): what a groove scatters of the light on it."""
-    return _over(_table(metal).total, 3, depth_nm=depth_nm)
+    return _over(_table(metal).total, 3, ranges={"depth_nm": _TABULATED_NM}, depth_nm=depth_nm)
 
 
 def scratch_radiance(
