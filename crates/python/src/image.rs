@@ -6,6 +6,7 @@ use hairline_image::{Display, Layer, Layers, Notes, Output, exr_file, png};
 use hairline_work::reference::identity;
 use numpy::ndarray::{ArrayView2, ArrayView3};
 use numpy::{Element, IntoPyArray, PyArray2, PyArray3, PyArrayMethods};
+use pyo3::exceptions::PyImportError;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyBytes, PyDict};
@@ -277,7 +278,12 @@ impl Image {
         exposure_ev: Option<&Bound<'_, PyAny>>,
         tone_map: Option<&str>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let pillow = py.import("PIL.Image")?;
+        let pillow = py.import("PIL.Image").map_err(|missing| {
+            let needed = "to_pil needs Pillow: pip install 'hairline[pil]'";
+            let error = PyImportError::new_err(needed);
+            error.set_cause(py, Some(missing));
+            error
+        })?;
         pillow.call_method1("fromarray", (self.codes(py, exposure_ev, tone_map)?,))
     }
 

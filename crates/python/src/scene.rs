@@ -189,6 +189,7 @@ impl Builder {
         };
         let kept = last.as_ref().filter(|(old, _)| {
             old.materials == scene.materials
+                && Arc::ptr_eq(&old.textures, &scene.textures)
                 && old.objects.len() == scene.objects.len()
                 && old
                     .objects

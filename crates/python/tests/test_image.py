@@ -62,6 +62,13 @@ def test_pillow_shows_what_a_png_holds(image):
     assert brighter.sum() > decoded.astype(int).sum()
 
 
+def test_without_pillow_it_is_asked_for(image, monkeypatch):
+    monkeypatch.setitem(sys.modules, "PIL.Image", None)
+    monkeypatch.setitem(sys.modules, "PIL", None)
+    with pytest.raises(ImportError, match=r"to_pil needs Pillow: pip install 'hairline\[pil\]'"):
+        image.to_pil()
+
+
 def test_equal_pictures_do_not_differ_and_others_do(image, scene, tmp_path):
     same = hairline.compare(image, image)
     assert same["beauty"]["rms"] == 0 and same["beauty"]["psnr"] == np.inf and not same.problems
