@@ -10,8 +10,10 @@ import hairline
 from conftest import ROOT
 
 PROGRAM = os.environ.get("HAIRLINE_PROGRAM", "")
-# These take most of a minute together; `cargo xtask wheel --all-scenes` renders them too.
-LONG = () if os.environ.get("HAIRLINE_ALL_SCENES") else ("spoon", "sunlit")
+# `cargo xtask wheel --all-scenes` renders all, with the samples that they have by default.
+ALL = bool(os.environ.get("HAIRLINE_ALL_SCENES"))
+LONG = () if ALL else ("spoon", "sunlit")
+QUICK = ("closeup", "mirror")
 SCENES = [path for path in sorted((ROOT / "scenes").glob("*.toml")) if path.stem not in LONG]
 
 pytestmark = pytest.mark.skipif(not Path(PROGRAM).is_file(), reason="HAIRLINE_PROGRAM names no program")
@@ -36,15 +38,16 @@ def check_same(a, b):
 
 @pytest.mark.parametrize("scene", SCENES, ids=lambda path: path.stem)
 def test_pictures_are_the_same_to_the_bit(scene, tmp_path):
-    flags = ["--size", "64x40", "--backend", "cpu"]
+    samples = {} if ALL or scene.stem in QUICK else {"samples": 2}
+    flags = ["--size", "64x40", "--backend", "cpu", *(f"--{flag}={value}" for flag, value in samples.items())]
     code, _, err = run("render", scene, "-o", tmp_path / "program.exr", *flags)
     assert code == 0, err
-    hairline.load(scene).render(size=(64, 40), backend="cpu").save(tmp_path / "python.exr")
+    hairline.load(scene).render(size=(64, 40), backend="cpu", **samples).save(tmp_path / "python.exr")
     check_same(tmp_path / "python.exr", tmp_path / "program.exr")
 
 
 def test_displayed_pictures_are_the_same_to_the_byte(tmp_path):
-    scene = ROOT / "scenes/plate.toml"
+    scene = ROOT / "scenes/closeup.toml"
     assert run("render", scene, "-o", tmp_path / "program.png", "--size", "64x40", "--backend", "cpu")[0] == 0
     png = hairline.load(scene).render(size=(64, 40), backend="cpu").png()
     assert png == (tmp_path / "program.png").read_bytes()

@@ -20,6 +20,10 @@ def test_code_in_documents_runs(document, tmp_path, monkeypatch):
     blocks = CODE.findall(text)
     assert blocks, document
     shutil.copytree(ROOT / "scenes", tmp_path / "scenes")
+    plate = tmp_path / "scenes/plate.toml"
+    few = plate.read_text(encoding="utf-8").replace("count = 10000", "count = 300")
+    assert few.count("count = 300\n") == 1
+    plate.write_text(few, encoding="utf-8")
     monkeypatch.chdir(tmp_path)
     # Smaller than a reader would have them: what they show is tested elsewhere.
     code = "\n".join(blocks).replace("(640, 360)", "(64, 36)").replace("(320, 180)", "(32, 18)")

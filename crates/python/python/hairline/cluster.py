@@ -19,6 +19,7 @@ import hashlib
 import os
 import re
 import tempfile
+import warnings
 from collections import OrderedDict
 from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -125,6 +126,17 @@ class _Parcel:
         self.name = digest.hexdigest()[:32]
 
 
+def _itself(parcel: _Parcel) -> _Parcel:
+    return parcel
+
+
+def _sent(client: Client, scene: Scene) -> Future:
+    """The scene, which workers hand on to one another. It is the result of work: what is scattered is lost where all die that had it."""
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", "Sending large graph")
+        return client.submit(_itself, _Parcel(scene), pure=False)
+
+
 class _Unpacked:
     """A parcel on a worker: its folder lives as long as it is kept."""
 
@@ -223,7 +235,7 @@ def render(
     listed = _checked(scene, changes, arguments)
     host = Host(progress)
     with _connected(client) as connected:
-        [parcel] = connected.scatter([_Parcel(scene)], broadcast=True, hash=False)
+        parcel = _sent(connected, scene)
         futures = [
             connected.submit(_render_on_worker, parcel, change, arguments, pure=False) for change in listed
         ]
@@ -260,7 +272,7 @@ def render_files(
         path.mkdir(parents=True, exist_ok=True)
     host = Host(progress)
     with _connected(client) as connected:
-        [parcel] = connected.scatter([_Parcel(scene)], broadcast=True, hash=False)
+        parcel = _sent(connected, scene)
         futures = [
             connected.submit(_file_on_worker, parcel, listed[i], ending, arguments, pure=False) for i in due
         ]
@@ -335,7 +347,7 @@ def reference(
         workers = max(1, len(connected.scheduler_info()["workers"]))
         each = rows_each or max(8, -(-height // (4 * workers)))
         steps = [*range(samples_each or samples, samples, samples_each or samples), samples]
-        [parcel] = connected.scatter([_Parcel(scene)], broadcast=True, hash=False)
+        parcel = _sent(connected, scene)
         strips: list[Future] = []
         pieces: list[Future] = []
         for first in range(0, height, each):

@@ -167,7 +167,9 @@ impl Closest {
             if node.count > 0 {
                 for &triangle in &self.triangles[first..first + node.count as usize] {
                     let corners_m = self.mesh.corners_m(triangle as usize);
-                    let point_m = nearest_on_triangle(corners_m, point);
+                    let Some(point_m) = nearest_on_triangle(corners_m, point, least) else {
+                        continue;
+                    };
                     let distance = point_m.distance_squared(point);
                     if distance < least {
                         (found, least) = (Some(Spot { triangle, point_m }), distance);
@@ -288,26 +290,37 @@ fn split(items: &mut [Item], depth: usize) -> usize {
     count
 }
 
-/// The foot of the perpendicular if it lies inside, else the nearest point of an edge.
-fn nearest_on_triangle([a, b, c]: [DVec3; 3], point: DVec3) -> DVec3 {
+/// The foot of the perpendicular if it lies inside, else the nearest point of an edge; nothing where that is farther than the root of
+/// `most` for certain.
+fn nearest_on_triangle([a, b, c]: [DVec3; 3], point: DVec3, most: f64) -> Option<DVec3> {
+    // More than rounding.
+    const CERTAIN: f64 = 1.0 + 1e-9;
+    let edges = [(a, b - a), (b, c - b), (c, a - c)];
     let normal = (b - a).cross(c - a);
-    let inside = [(a, b), (b, c), (c, a)]
-        .iter()
-        .all(|(from, to)| normal.cross(to - from).dot(point - from) >= 0.0);
-    if inside {
-        return point - normal * ((point - a).dot(normal) / normal.length_squared());
+    let size = normal.length_squared();
+    let mut is_inside = true;
+    for (from, edge) in edges {
+        let beyond = normal.cross(edge).dot(point - from);
+        if beyond < 0.0 {
+            is_inside = false;
+            if beyond * beyond > most * (size * edge.length_squared() * CERTAIN) {
+                return None;
+            }
+        }
     }
-    [(a, b), (b, c), (c, a)]
-        .map(|(from, to)| {
-            let share = (point - from).dot(to - from) / (to - from).length_squared();
-            from.lerp(to, share.clamp(0.0, 1.0))
-        })
-        .into_iter()
-        .min_by(|p, q| {
-            p.distance_squared(point)
-                .total_cmp(&q.distance_squared(point))
-        })
-        .expect("there are three edges")
+    if is_inside {
+        return Some(point - normal * ((point - a).dot(normal) / size));
+    }
+    let mut best = (DVec3::ZERO, f64::INFINITY);
+    for (from, edge) in edges {
+        let share = (point - from).dot(edge) / edge.length_squared();
+        let nearest = from.lerp(from + edge, share.clamp(0.0, 1.0));
+        let distance = nearest.distance_squared(point);
+        if distance < best.1 {
+            best = (nearest, distance);
+        }
+    }
+    Some(best.0)
 }
 
 #[cfg(test)]
@@ -326,7 +339,8 @@ mod tests {
             let angle = f64::from(i);
             let point = DVec3::new(angle.sin(), angle.cos(), (2.0 * angle).sin()) * 0.15;
             let all = (0..mesh.triangles.len())
-                .map(|t| nearest_on_triangle(mesh.corners_m(t), point).distance(point));
+                .filter_map(|t| nearest_on_triangle(mesh.corners_m(t), point, f64::INFINITY))
+                .map(|nearest| nearest.distance(point));
             let (spot, distance_m) = tree.find(point);
             assert_eq!(distance_m, all.fold(f64::INFINITY, f64::min));
             assert_eq!(distance_m, spot.point_m.distance(point));
