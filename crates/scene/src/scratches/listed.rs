@@ -81,12 +81,10 @@ fn parse(text: &str, path: &Path) -> Result<Vec<Row>, Error> {
     let lines: Vec<_> = lines.collect();
     let rows: Vec<_> = lines
         .par_iter()
-        .map(|&(line, row)| parse_row(line, row).map_err(|error| (line, error)))
+        .map(|&(line, row)| parse_row(line, row).map_err(|error| error.at(path, Some(line))))
         .collect();
     // The first wrong one, whichever was read first.
-    rows.into_iter()
-        .map(|row| row.map_err(|(line, error)| error.at(path, Some(line))))
-        .collect()
+    rows.into_iter().collect()
 }
 
 fn parse_row(line: usize, row: &str) -> Result<Row, Error> {
