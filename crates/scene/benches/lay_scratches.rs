@@ -26,7 +26,7 @@ fn lay_scratches(c: &mut Criterion) {
     ] {
         let mut group = c.benchmark_group(format!("lay_scratches, {name}"));
         group.sample_size(10);
-        for count in [1_000, 10_000, 100_000] {
+        for count in [1_000_u32, 10_000, 100_000] {
             let drawn = format!(
                 "pattern = \"random\"\ncount = {count}\nseed = 1\n\
                  length_m = {{ mean = 0.03, spread = 0.5 }}\nwidth_um = 2.0\ndepth_nm = 200.0\n\
