@@ -25,7 +25,7 @@ struct Thing {
 const THINGS: [Thing; 2] = [
     Thing {
         what: "a parameter of a groove",
-        most: 20,
+        most: 21,
         names: &[
             &["width_um", "depth_nm"],
             &["width_depth"],
