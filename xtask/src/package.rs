@@ -93,12 +93,12 @@ impl Package {
         if let Some(port) = self.serve {
             let tests = by_hand.join("test");
             install(&tests)?;
-            let folders = [
+            let folders = vec![
                 ("/package/", package),
                 ("/three/", tests.join("node_modules/three")),
                 ("/", by_hand.join("example")),
             ];
-            browser::serve(&folders, port)?;
+            browser::serve(folders, port)?;
         }
         Ok(())
     }
@@ -106,21 +106,28 @@ impl Package {
 
 /// What a page loads, in bytes and compressed.
 fn print_sizes(package: &Path) -> anyhow::Result<()> {
-    let mut parts: Vec<(&str, Vec<PathBuf>)> = vec![
-        ("WGSL, one file", vec![package.join("wgsl/hairline.wgsl")]),
-        ("for three.js", vec![package.join("src/three.js")]),
-        ("tables", vec![package.join("tables.bin")]),
-    ];
-    let mut scripts = Vec::new();
+    let (mut scripts, mut for_three) = (Vec::new(), Vec::new());
     for entry in std::fs::read_dir(package.join("src"))? {
         let path = entry?.path();
-        let is_script = path.extension().is_some_and(|ending| ending == "js");
-        if is_script && !path.ends_with("three.js") {
-            scripts.push(path);
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        if name.ends_with(".js") {
+            let is_for_three = name.starts_with("three");
+            let list = if is_for_three {
+                &mut for_three
+            } else {
+                &mut scripts
+            };
+            list.push(path.clone());
         }
     }
     scripts.sort();
-    parts.insert(1, ("JavaScript, the WGSL in it", scripts));
+    for_three.sort();
+    let parts = [
+        ("WGSL, one file", vec![package.join("wgsl/hairline.wgsl")]),
+        ("JavaScript, the WGSL in it", scripts),
+        ("for three.js", for_three),
+        ("tables", vec![package.join("tables.bin")]),
+    ];
     println!("{:<28} {:>9} {:>11}", "", "bytes", "compressed");
     for (what, files) in parts {
         let mut bytes = Vec::new();

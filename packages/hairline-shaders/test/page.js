@@ -25,10 +25,10 @@ function colour(light, [r, g, b], factor) {
   return light;
 }
 
-function lightOf({ kind, center, radius, corners, radiance }) {
+function lightOf({ kind, center, radius, corners, radiance }, asSpot) {
   if (kind === 'sphere') {
-    // Candela of a sphere of that radiance.
-    const light = colour(new THREE.PointLight(), radiance, Math.PI * radius * radius);
+    // Candela of a sphere of that radiance. The cone of a spot is wide enough to hold the scene, and points to its origin.
+    const light = colour(asSpot ? new THREE.SpotLight(0xffffff, 1, 0, 1.2, 0.1) : new THREE.PointLight(), radiance, Math.PI * radius * radius);
     light.position.set(...center);
     light.userData.radius = radius;
     return light;
@@ -50,8 +50,8 @@ async function draw(renderer, name, tables) {
   const page = await get('scene.json', 'json');
   const geometry = geometryOf(await get('mesh.bin', 'arrayBuffer'), page);
   const scratches = readScratches(await get('scratches.csv', 'text'));
-  const scene = new THREE.Scene();
-  for (const light of page.lights) scene.add(lightOf(light));
+  // As an instance of a mesh that is turned back, under spots, it is the same picture.
+  const turn = new THREE.Matrix4().makeRotationZ(0.5).setPosition(0.01, 0.02, 0);
   const { position, target, up, fov } = page.camera;
   const [width, height] = page.size;
   const camera = new THREE.PerspectiveCamera(fov, width / height, 0.001, 10);
@@ -61,14 +61,21 @@ async function draw(renderer, name, tables) {
   const picture = new THREE.RenderTarget(width, height, { type: THREE.FloatType });
   const { metal = null, color, metalness } = page.surface;
   const times = [];
-  for (const [what, list] of [['worn', scratches], ['bare', null]]) {
+  for (const [what, list] of [['worn', scratches], ['bare', null], ['instanced', scratches]]) {
+    const isInstanced = what === 'instanced';
+    const scene = new THREE.Scene();
+    for (const light of page.lights) scene.add(lightOf(light, isInstanced));
     const began = performance.now();
     const material = new ScratchedNodeMaterial({ tables, metal, scratches: list, roughness: page.roughness });
     if (color) {
       material.color.setRGB(...color);
       material.metalness = metalness;
     }
-    const mesh = new THREE.Mesh(geometry, material);
+    const mesh = isInstanced ? new THREE.InstancedMesh(geometry, material, 1) : new THREE.Mesh(geometry, material);
+    if (isInstanced) {
+      mesh.setMatrixAt(0, turn);
+      mesh.applyMatrix4(turn.clone().invert());
+    }
     scene.add(mesh);
     const made = performance.now();
     renderer.setRenderTarget(picture);
@@ -80,7 +87,6 @@ async function draw(renderer, name, tables) {
     const seconds = (from, to) => `${((to - from) / 1000).toFixed(2)} s`;
     times.push(`${what}: made in ${seconds(began, made)}, compiled in ${seconds(made, compiled)}, drawn in ${seconds(compiled, drawn)}`);
     await send(`/result/${name}/${what}`, new Float32Array(pixels.buffer, pixels.byteOffset, 4 * width * height).slice());
-    scene.remove(mesh);
   }
   await send(`/result/${name}/times`, times.join('; '));
 }

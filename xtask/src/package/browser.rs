@@ -4,12 +4,15 @@ use std::io::{BufRead, BufReader, Read, Write};
 use std::net::{TcpListener, TcpStream};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
+use std::sync::Arc;
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::thread;
 use std::time::{Duration, Instant};
 
 use anyhow::bail;
 
 /// Folders by the beginnings of addresses.
-pub(super) type Folders<'a> = &'a [(&'a str, PathBuf)];
+pub(super) type Folders = Vec<(&'static str, PathBuf)>;
 
 /// The names under which browsers with WebGPU are installed.
 const PROGRAMS: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
@@ -22,36 +25,29 @@ pub(super) type Answer = (String, Vec<u8>);
 /// Opens a page and waits until it has sent `/done`. What it sends to `/failure` is an error.
 pub(super) fn answers(folders: Folders, page: &str) -> anyhow::Result<Vec<Answer>> {
     let listener = TcpListener::bind("127.0.0.1:0")?;
-    listener.set_nonblocking(true)?;
-    let profile = tempfile::tempdir()?;
     let address = format!("http://127.0.0.1:{}{page}", listener.local_addr()?.port());
+    let (sender, receiver) = channel();
+    // Ends with the program.
+    thread::spawn(move || listen(&listener, folders, &sender));
+    let profile = tempfile::tempdir()?;
     let mut browser = Browser(start(profile.path(), &address)?);
     let mut answers = Vec::new();
     let begun = Instant::now();
     while begun.elapsed() < PATIENCE {
-        if let Some(status) = browser.0.try_wait()? {
-            bail!("the browser ended by itself: {status}");
-        }
-        let Ok((stream, _)) = listener.accept() else {
-            std::thread::sleep(Duration::from_millis(5));
-            continue;
-        };
-        stream.set_nonblocking(false)?;
-        stream.set_read_timeout(Some(Duration::from_secs(10)))?;
-        // A connection that the browser opens ahead and leaves alone is none of ours.
-        let Ok(Some(request)) = read(&stream) else {
-            continue;
-        };
-        match request {
-            Request::Get(path) => send(stream, file(folders, &path))?,
-            Request::Post(path, body) => {
-                send(stream, Some((Vec::new(), "text/plain")))?;
-                match path.as_str() {
-                    "/done" => return Ok(answers),
-                    "/failure" => bail!("the page failed: {}", String::from_utf8_lossy(&body)),
-                    _ => answers.push((path.trim_start_matches("/result/").to_owned(), body)),
+        match receiver.recv_timeout(Duration::from_secs(1)) {
+            Ok((path, _)) if path == "/done" => return Ok(answers),
+            Ok((path, body)) if path == "/failure" => {
+                bail!("the page failed: {}", String::from_utf8_lossy(&body))
+            }
+            Ok((path, body)) => {
+                answers.push((path.trim_start_matches("/result/").to_owned(), body));
+            }
+            Err(RecvTimeoutError::Timeout) => {
+                if let Some(status) = browser.0.try_wait()? {
+                    bail!("the browser ended by itself: {status}");
                 }
             }
+            Err(RecvTimeoutError::Disconnected) => bail!("the server ended by itself"),
         }
     }
     bail!("the page took longer than {} s", PATIENCE.as_secs())
@@ -61,14 +57,28 @@ pub(super) fn answers(folders: Folders, page: &str) -> anyhow::Result<Vec<Answer
 pub(super) fn serve(folders: Folders, port: u16) -> anyhow::Result<()> {
     let listener = TcpListener::bind(("127.0.0.1", port))?;
     println!("http://127.0.0.1:{}/", listener.local_addr()?.port());
-    for stream in listener.incoming() {
-        let stream = stream?;
-        stream.set_read_timeout(Some(Duration::from_secs(1)))?;
-        if let Ok(Some(Request::Get(path))) = read(&stream) {
-            send(stream, file(folders, &path))?;
-        }
-    }
+    listen(&listener, folders, &channel().0);
     Ok(())
+}
+
+/// A thread for each connection: browsers open some ahead and leave them alone.
+fn listen(listener: &TcpListener, folders: Folders, sender: &Sender<Answer>) {
+    let folders = Arc::new(folders);
+    for stream in listener.incoming().flatten() {
+        let (folders, sender) = (Arc::clone(&folders), sender.clone());
+        thread::spawn(move || {
+            if let Ok(Some(request)) = read(&stream) {
+                match request {
+                    Request::Get(path) => send(stream, file(&folders, &path)),
+                    Request::Post(path, body) => {
+                        send(stream, Some((Vec::new(), "text/plain")));
+                        // Nobody waits for it any more.
+                        let _ = sender.send((path, body));
+                    }
+                }
+            }
+        });
+    }
 }
 
 /// Ends with its scope.
@@ -143,7 +153,7 @@ fn read(stream: &TcpStream) -> anyhow::Result<Option<Request>> {
 }
 
 /// A file and its type; none where there is none.
-fn file(folders: Folders, path: &str) -> Option<(Vec<u8>, &'static str)> {
+fn file(folders: &Folders, path: &str) -> Option<(Vec<u8>, &'static str)> {
     if path.contains("..") {
         return None;
     }
@@ -164,7 +174,7 @@ fn file(folders: Folders, path: &str) -> Option<(Vec<u8>, &'static str)> {
     Some((bytes, kind))
 }
 
-fn send(mut stream: TcpStream, answer: Option<(Vec<u8>, &str)>) -> anyhow::Result<()> {
+fn send(mut stream: TcpStream, answer: Option<(Vec<u8>, &str)>) {
     let (status, bytes, kind) = match answer {
         Some((bytes, kind)) => ("200 OK", bytes, kind),
         None => ("404 Not Found", Vec::new(), "text/plain"),
@@ -177,5 +187,4 @@ fn send(mut stream: TcpStream, answer: Option<(Vec<u8>, &str)>) -> anyhow::Resul
     let _ = stream
         .write_all(head.as_bytes())
         .and_then(|()| stream.write_all(&bytes));
-    Ok(())
 }

@@ -1,6 +1,6 @@
 //! Scenes drawn by three.js in Chromium, against the CPU renderer without shadows.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use anyhow::{Context, ensure};
 use hairline_cpu::closed_form::{Prepared, RenderOptions};
@@ -8,13 +8,13 @@ use hairline_image::{Image, Layer};
 use hairline_scene::{Base, LightShape, Scene, write_scratches};
 use serde_json::{Value, json};
 
-use super::browser::answers;
+use super::browser::{Folders, answers};
 use super::files::{install, write};
 
 /// The scenes in packages/hairline-shaders/test.
 const SCENES: [&str; 2] = ["plate", "dome"];
 /// The most that a picture may be off, as rms over that of the picture.
-const LIMIT: f64 = 0.01;
+const LIMIT: f64 = 0.005;
 
 /// Draws all scenes and compares them.
 pub(super) fn run(root: &Path, output: &Path) -> anyhow::Result<()> {
@@ -31,14 +31,14 @@ pub(super) fn run(root: &Path, output: &Path) -> anyhow::Result<()> {
         }
         pictures.push((name, worn, render(&scene)));
     }
-    let folders: [(&str, PathBuf); 4] = [
+    let folders: Folders = vec![
         ("/package/", output.join("hairline-shaders")),
         ("/three/", tests.join("node_modules/three")),
         ("/pages/", output.join("pages")),
         ("/test/", tests),
     ];
     let page = format!("/test/page.html?scenes={}", SCENES.join(","));
-    let drawn = answers(&folders, &page)?;
+    let drawn = answers(folders, &page)?;
     for (name, worn, bare) in &pictures {
         let find = |what: &str| {
             let wanted = format!("{name}/{what}");
@@ -64,6 +64,10 @@ pub(super) fn run(root: &Path, output: &Path) -> anyhow::Result<()> {
             a.iter().zip(b).map(minus).collect()
         };
         let errors = [
+            (
+                "as an instance",
+                error(&colours(find("instanced")?), &beauty, &inner),
+            ),
             ("picture", error(&three_worn, &beauty, &inner)),
             ("without scratches", error(&three_bare, &base, &inner)),
             (
