@@ -99,6 +99,7 @@ fn scratched_square(half_m: f32) -> Object {
         mesh: Arc::new(mesh),
         scratches: Arc::new(scratches),
         segments: Arc::new(segments),
+        gratings: Vec::new(),
         is_lamp: false,
     }
 }

@@ -79,6 +79,7 @@ pub fn square(base: Base, half_side_m: f32, size_px: u32) -> Scene {
             mesh: Arc::new(mesh),
             scratches: Arc::default(),
             segments: Arc::default(),
+            gratings: Vec::new(),
             is_lamp: false,
         }],
         lights: Vec::new(),

@@ -47,8 +47,11 @@ impl Shadows<'_> {
         let mut sums = [ScratchSums::default()];
         let mut picks = [Picks::new()];
         let is_scratched = self.prepared.draft.is_none() && self.prepared.is_scratched(&hit);
-        if is_scratched {
+        let has_gratings = self.prepared.has_gratings(&hit);
+        if is_scratched || has_gratings {
             views.ready_for_scratches(&point);
+        }
+        if is_scratched {
             picks[0].clear(self.sources(&views, at.depth + 1), 1, u64::from(seed));
             self.add_scratches(&point, &views, hit.object, &mut sums, &mut picks);
         }
@@ -65,7 +68,11 @@ impl Shadows<'_> {
         let [mut sums] = sums;
         shadowed.weaken(&mut sums);
         let coherence = self.prepared.depth_coherence(hit.object);
-        let masked = sums.resolve(self.options.method.mask, coherence);
+        let mut masked = sums.resolve(self.options.method.mask, coherence);
+        if has_gratings {
+            let [picks] = &mut picks;
+            masked = self.gratings(&onwards, picks).under(masked);
+        }
         let sample = Sample::surface(&point, &masked, &shadowed.base, 0.0);
         Some(sample.base + sample.scratches)
     }

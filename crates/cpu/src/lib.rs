@@ -1,7 +1,7 @@
 //! Rendering on the CPU in f64: the readable twin of the shaders, and the renderer where no driver exists.
 //!
 //! A picture goes through the stages of the GPU, of the same names: `visibility`, `surface`, `project`, `bin`, `shade_scratches`,
-//! `shade_base`, `resolve`.
+//! `shade_gratings`, `shade_base`, `resolve`.
 //!
 //! ```
 //! use hairline_cpu::closed_form::{Prepared, RenderOptions};
@@ -37,6 +37,7 @@ pub mod read_pixel;
 mod resolve;
 pub mod sampling;
 mod shade_base;
+mod shade_gratings;
 mod shade_scratches;
 mod shadows;
 mod silhouettes;

@@ -123,6 +123,11 @@ impl<'a> Prepared<'a> {
         }
     }
 
+    /// Whether the object has gratings.
+    pub(crate) fn has_gratings(&self, hit: &Hit) -> bool {
+        !self.scene.objects[hit.object as usize].gratings.is_empty()
+    }
+
     /// How alike the phase steps of an object's scratches are.
     pub(crate) fn depth_coherence(&self, object: u32) -> f64 {
         self.scratches.depth_coherence[object as usize].into()

@@ -4,10 +4,12 @@
 //! Segment by segment of the tile's list: eight points at once are tested whether they see it, then each that does asks those lights
 //! which can reach the segment from any point of the tile.
 
+mod drawn_light;
 mod lanes;
 mod light_bounds;
 mod picks;
 mod point;
+mod row_spread;
 mod scratch_light;
 
 use crate::counts::Counts;
@@ -22,9 +24,11 @@ use light_bounds::LightBounds;
 use pulp::Arch;
 use scratch_light::scratch_energy;
 
+pub(crate) use drawn_light::DrawnLight;
 pub(crate) use picks::{Pick, Picks, SourcePicks};
 pub(crate) use point::{Frame, ScratchPoint};
-pub(crate) use scratch_light::{DrawnLight, ScratchLight};
+pub(crate) use row_spread::{ROW_PROFILE, RowSpread};
+pub(crate) use scratch_light::ScratchLight;
 
 /// Points that are shaded together.
 pub(crate) const BATCH: usize = GROUPS * LANES;
@@ -168,6 +172,7 @@ impl Shading<'_, '_> {
                                 ends: seen.ends(lane),
                             },
                             profile: segment.profile,
+                            row: None,
                             radiance,
                         };
                         picks.add(source, share.segment * sent, pick);

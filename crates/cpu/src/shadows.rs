@@ -16,6 +16,7 @@ use crate::sampling::environment::EnvironmentSampler;
 use crate::sampling::lights::{AreaLights, LightHit};
 use crate::sampling::luminance;
 use crate::shade_base::{Base, BaseRadiance};
+use crate::shade_gratings::ShadedGratings;
 use crate::shade_scratches::{DrawnLight, Frame, Pick, Picks, ScratchLight, SourcePicks};
 use crate::surface::{SurfacePoint, raised_m};
 use glam::{DVec2, DVec3};
@@ -168,6 +169,21 @@ impl<'a> Shadows<'a> {
             base: self.base(at),
             scratches: picks.map_or(DVec3::ONE, |picks| self.scratches(at, picks)),
             by_objects: picks.map_or(DVec3::ZERO, |picks| self.objects_by_scratches(at, picks)),
+        }
+    }
+
+    /// The gratings at a point, with what is left of their light. `picks` is room for theirs.
+    pub fn gratings(&self, at: &ShadowPoint, picks: &mut Picks) -> ShadedGratings {
+        let Batch { first, count } = at.rounds.now;
+        // Other numbers than those of the point's scratches.
+        let seed = u64::from(first) << 32 | u64::from(!at.seed);
+        picks.clear(self.sources(at.views, at.depth), count, seed);
+        let (prepared, point) = (self.prepared, at.point);
+        let open = ShadedGratings::new(prepared, point, at.object, at.views, Some(picks));
+        let left = open.radiance * self.scratches(at, picks);
+        ShadedGratings {
+            radiance: left + self.objects_by_scratches(at, picks),
+            ..open
         }
     }
 
@@ -329,19 +345,17 @@ impl<'a> Shadows<'a> {
         source: &SourcePicks,
     ) -> DVec3 {
         let point = at.point;
-        let table = &self.prepared.tables.tables[point.table];
         let light = at.views.light_of(i);
         let mut halves = Halves::default();
         for (round, pick) in source.picks().enumerate() {
             let Pick {
-                tangent,
                 place,
                 along,
-                profile,
                 radiance,
+                ..
             } = *pick;
             let round = round as u32;
-            let by = ScratchLight::new(point.wo, tangent, table, profile);
+            let by = self.picked(point, pick);
             let set = i as u32;
             let [u, v, w, _] = at.random(Purpose::Scratch(set), round);
             let drawn = match light {
@@ -369,6 +383,17 @@ impl<'a> Shadows<'a> {
         halves.resolve(source.radiance)
     }
 
+    fn picked(&self, point: &SurfacePoint, pick: &Pick) -> ScratchLight<'_> {
+        let tables = &self.prepared.tables.tables;
+        match pick.row {
+            None => {
+                let table = &tables[point.table];
+                ScratchLight::new(point.wo, pick.tangent, table, pick.profile)
+            }
+            Some(row) => ScratchLight::of_row(point.wo, pick.tangent, &tables[row.table], row),
+        }
+    }
+
     /// Light of other objects by way of the scratches, before they weaken one another.
     fn objects_by_scratches(&self, at: &ShadowPoint, picks: &Picks) -> DVec3 {
         let all_around = at.views.views.len() + 1;
@@ -376,11 +401,10 @@ impl<'a> Shadows<'a> {
             return DVec3::ZERO;
         };
         let point = at.point;
-        let table = &self.prepared.tables.tables[point.table];
         let mut sum = DVec3::ZERO;
         for (round, pick) in source.picks().enumerate() {
             let (round, set) = (round as u32, all_around as u32);
-            let by = ScratchLight::new(point.wo, pick.tangent, table, pick.profile);
+            let by = self.picked(point, pick);
             let [u, v, ..] = at.random(Purpose::Scratch(set), round);
             let Some(DrawnLight { direction, color }) = by.draw_all_around([u, v]) else {
                 continue;

@@ -9,6 +9,7 @@ use crate::prepared::Prepared;
 use crate::published::Published;
 use crate::resolve::{Pixel, Sample};
 use crate::shade_base::Base;
+use crate::shade_gratings::ShadedGratings;
 use crate::shade_scratches::{BATCH, Picks, ScratchPoint, ScratchShader};
 use crate::shadows::{PixelFilter, Rounds, ShadowPoint, Shadows};
 use crate::silhouettes::is_smooth;
@@ -103,6 +104,7 @@ pub(crate) struct Tile<'a> {
     sums: Vec<ScratchSums>,
     /// Where there are shadows.
     picks: Option<Vec<Picks>>,
+    grating_picks: Picks,
     shader: ScratchShader,
     pixels: [Pixel; SIDE * SIDE],
     pub counts: Counts,
@@ -124,6 +126,7 @@ impl<'a> Tile<'a> {
                 .shadows
                 .as_ref()
                 .map(|_| (0..BATCH).map(|_| Picks::new()).collect()),
+            grating_picks: Picks::new(),
             shader: ScratchShader::new(),
             pixels: [Pixel::default(); SIDE * SIDE],
             counts: Counts::default(),
@@ -238,7 +241,7 @@ impl<'a> Tile<'a> {
         for (point, views) in self.batch.iter().zip(&mut self.views) {
             if let Seen::Surface { point, hit, .. } = &point.seen {
                 views.look_from(point);
-                if is_tiled && prepared.is_scratched(hit) {
+                if is_tiled && (prepared.is_scratched(hit) || prepared.has_gratings(hit)) {
                     views.ready_for_scratches(point);
                 }
             }
@@ -299,33 +302,44 @@ impl<'a> Tile<'a> {
                     let (masked, light) = match (&self.picture.by, &self.picture.shadows) {
                         (By::Tiles(_), shadows) => {
                             let mut sums = *sums;
+                            let has_gratings = prepared.has_gratings(hit);
+                            let gratings;
                             let light = match shadows {
-                                None => Base::new(at).radiance(environment, views, ltc_sphere),
+                                None => {
+                                    gratings = has_gratings.then(|| {
+                                        ShadedGratings::new(prepared, at, hit.object, views, None)
+                                    });
+                                    Base::new(at).radiance(environment, views, ltc_sphere)
+                                }
                                 Some(shadows) => {
                                     let is_scratched = prepared.is_scratched(hit);
                                     let picks = self.picks.as_ref().map(|picks| &picks[i]);
-                                    let shadowed = shadows.shadowed(
-                                        &ShadowPoint {
-                                            point: at,
-                                            object: hit.object,
-                                            pixel: Some(PixelFilter {
-                                                camera: &self.picture.camera,
-                                                at_px: point.at_px,
-                                                std_px: point.std_px,
-                                            }),
-                                            views,
-                                            rounds: point.rounds,
-                                            seed: point.seed(),
-                                            depth: 0,
-                                        },
-                                        picks.filter(|_| is_scratched),
-                                    );
+                                    let shadow_point = ShadowPoint {
+                                        point: at,
+                                        object: hit.object,
+                                        pixel: Some(PixelFilter {
+                                            camera: &self.picture.camera,
+                                            at_px: point.at_px,
+                                            std_px: point.std_px,
+                                        }),
+                                        views,
+                                        rounds: point.rounds,
+                                        seed: point.seed(),
+                                        depth: 0,
+                                    };
+                                    let picks = picks.filter(|_| is_scratched);
+                                    let shadowed = shadows.shadowed(&shadow_point, picks);
                                     shadowed.weaken(&mut sums);
+                                    gratings = has_gratings.then(|| {
+                                        shadows.gratings(&shadow_point, &mut self.grating_picks)
+                                    });
                                     shadowed.base
                                 }
                             };
                             let coherence = prepared.depth_coherence(hit.object);
-                            (sums.resolve(mask, coherence), light)
+                            let masked = sums.resolve(mask, coherence);
+                            let masked = gratings.map_or(masked, |gratings| gratings.under(masked));
+                            (masked, light)
                         }
                         (By::Published(published), _) => (
                             published.scratches(at, hit, views),

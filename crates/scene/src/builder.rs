@@ -7,13 +7,14 @@ use std::fmt;
 use std::path::Path;
 use std::sync::Arc;
 
-use glam::DVec3;
+use glam::{DMat4, DVec3};
 
 use crate::convert;
 use crate::description::references::find;
 use crate::description::{self, Description, Layer};
 use crate::error::Error;
 use crate::estimate::Estimate;
+use crate::grating::Grating;
 use crate::lamp_shape;
 use crate::loader::{Loader, Stage};
 use crate::scene::{Object, Scene};
@@ -60,6 +61,7 @@ impl SceneBuilder {
         base_dir: &Path,
     ) -> Result<Scene, Error> {
         description.check()?;
+        description.check_gratings()?;
         let mut work = Work {
             loader,
             description,
@@ -174,6 +176,7 @@ impl<'a> Work<'a> {
                 mesh: surface.mesh.clone(),
                 scratches: Arc::default(),
                 segments: Arc::default(),
+                gratings: self.gratings(&object.name, &object.world_from_object()),
                 is_lamp: false,
             });
             surfaces.push(surface);
@@ -182,6 +185,15 @@ impl<'a> Work<'a> {
         self.new.textures = self.old.textures(textures);
         scene.textures = self.new.textures.together.clone();
         Ok(surfaces)
+    }
+
+    /// Those of an object that are not hidden.
+    fn gratings(&self, object: &str, world_from_object: &DMat4) -> Vec<Grating> {
+        let described = self.description.gratings.iter();
+        described
+            .filter(|grating| !grating.hidden && grating.object == object)
+            .map(|grating| grating.in_scene(world_from_object))
+            .collect()
     }
 
     /// The studio's lights, and the ground behind all other objects.
@@ -219,6 +231,7 @@ impl<'a> Work<'a> {
             mesh: surface.mesh.clone(),
             scratches: Arc::default(),
             segments: Arc::default(),
+            gratings: Vec::new(),
             is_lamp: false,
         });
         surfaces.push(surface);
@@ -244,6 +257,7 @@ impl<'a> Work<'a> {
                 mesh,
                 scratches: Arc::default(),
                 segments: Arc::default(),
+                gratings: Vec::new(),
                 is_lamp: true,
             });
         }

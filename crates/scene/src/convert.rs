@@ -4,12 +4,14 @@ use std::path::Path;
 use std::sync::{Arc, OnceLock};
 
 use glam::{DMat4, DVec3};
+use hairline_optics::grating::Grating as Row;
 
 use crate::Environment;
 use crate::description::references::find;
-use crate::description::{self, Description, MaterialKind, MetalColor};
+use crate::description::{self, Around, Description, MaterialKind, MetalColor, Pattern};
 use crate::environment::{self, BuiltInMap};
 use crate::error::Error;
+use crate::grating::{Bearing, Grating, GrooveField};
 use crate::scene::{Base, Camera, Material, RenderSettings, Scene};
 use crate::surface::world_from_object;
 
@@ -115,6 +117,55 @@ pub(crate) fn environment(
     map.with_up(vertical_axis(up), described.rotation_deg.to_radians())
         .with_intensity(described.intensity)
         .with_visible(described.visible)
+}
+
+impl description::Grating {
+    /// On an object that is placed so.
+    pub(crate) fn in_scene(&self, world_from_object: &DMat4) -> Grating {
+        let direction = |direction: [f64; 3]| {
+            let direction = world_from_object.transform_vector3(direction.into());
+            direction.normalize_or_zero()
+        };
+        let around = |around: &Around, bearing| {
+            let field = GrooveField::Around {
+                axis: direction(around.axis),
+                center_m: world_from_object.transform_point3(around.center_m.into()),
+                bearing,
+            };
+            (field, around.jitter_deg)
+        };
+        let (field, jitter_deg) = match &self.pattern {
+            Pattern::Circular(axis) => around(axis, Bearing::Circular),
+            Pattern::Radial(axis) => around(axis, Bearing::Radial),
+            Pattern::Spun {
+                around: axis,
+                curvature_per_m,
+            } => {
+                let curvature_per_m = curvature_per_m.mean;
+                around(axis, Bearing::Spun { curvature_per_m })
+            }
+            Pattern::Parallel {
+                direction: along,
+                jitter_deg,
+            } => (GrooveField::Along(direction(*along)), *jitter_deg),
+            Pattern::Random { .. } | Pattern::Swirl { .. } => {
+                unreachable!("refused by `Description::check`")
+            }
+        };
+        Grating {
+            row: Row {
+                pitch_um: self.pitch_um,
+                width_um: self.width_um,
+                depth_nm: self.depth_nm.mean,
+                depth_spread: self.depth_nm.spread,
+                jitter_um: self.jitter_um,
+            },
+            field,
+            angle_std_rad: jitter_deg.to_radians(),
+            coverage: self.coverage,
+            radii_m: self.radius_m.unwrap_or([0.0, f64::INFINITY]),
+        }
+    }
 }
 
 impl description::Object {

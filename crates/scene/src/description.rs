@@ -6,6 +6,7 @@
 //! its line and a hint; ranges are checked in `check`, so that they hold for descriptions that come from no file.
 
 mod check;
+mod gratings;
 pub(crate) mod hint;
 mod lens;
 mod light_kind;
@@ -30,6 +31,7 @@ use serde::Serialize;
 use crate::environment::BuiltInMap;
 use values::{Named, is_default, serialize_named, serialize_scale};
 
+pub use gratings::Grating;
 pub use light_kind::LightKind;
 pub use lights::{Cone, Light};
 pub(crate) use scratches::DEFAULT_SEED;
@@ -64,6 +66,9 @@ pub struct Description {
     /// `[[scratches]]`: each a layer of scratches on one object; an object may have many.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub scratches: Vec<Scratches>,
+    /// `[[grating]]`: each a row of grooves on one object; an object may have many.
+    #[serde(rename = "grating", skip_serializing_if = "Vec::is_empty")]
+    pub gratings: Vec<Grating>,
     /// `[[light]]`.
     #[serde(rename = "light", skip_serializing_if = "Vec::is_empty")]
     pub lights: Vec<Light>,
@@ -197,7 +202,7 @@ pub enum MetalColor {
 /// `[[object]]`
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Object {
-    /// What layers of scratches call it by; no two are equal. Required.
+    /// What layers of scratches and gratings call it by; no two are equal. Required.
     pub name: String,
     /// `shape` or `mesh`.
     #[serde(flatten)]

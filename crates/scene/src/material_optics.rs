@@ -1,7 +1,9 @@
 //! What the materials of a scene mean to the physics: coefficients and tables that every renderer reads alike.
 
+use crate::grating::Grating;
 use crate::scene::{Base, Material, Scene};
 use hairline_optics::fresnel::FresnelCurve;
+use hairline_optics::grating::Grating as Row;
 use hairline_optics::metal::Metal;
 use hairline_optics::published::spectrum::PublishedSpectrum;
 use hairline_optics::table::ScratchTable;
@@ -64,6 +66,15 @@ pub struct ScratchTables {
     pub reflectors: Vec<Reflector>,
     /// One for each material of the scene.
     pub materials: Vec<MaterialOptics>,
+    /// Tables of gratings, for each material that they lie on; those of materials come before them.
+    gratings: Vec<GratingTable>,
+}
+
+/// Which table a grating has on a material.
+struct GratingTable {
+    row: Row,
+    material: usize,
+    table: usize,
 }
 
 impl ScratchTables {
@@ -93,17 +104,26 @@ impl ScratchTables {
                 material_optics(material, table as u32, curve as u32)
             })
             .collect();
-        let tables = metals
+        let mut tables: Vec<ScratchTable> = metals
             .iter()
             .map(|metal| ScratchTable::new(|nm| reflectance(*metal, nm)))
             .collect();
+        let materials: Vec<MaterialOptics> = materials;
+        let gratings = grating_tables(scene, &materials, &metals, &mut tables);
         Self {
             tables,
+            gratings,
             metals,
             curves: reflectors.iter().map(|r| r.curve()).collect(),
             reflectors,
             materials,
         }
+    }
+
+    /// Which of [`Self::tables`] a grating of the scene has on a material that it lies on.
+    pub fn grating_table(&self, grating: &Grating, material: usize) -> Option<usize> {
+        let is_it = |known: &&GratingTable| known.material == material && known.row == grating.row;
+        self.gratings.iter().find(is_it).map(|known| known.table)
     }
 
     /// What the method of 2018 has in the place of each table: `count` wavelengths.
@@ -113,6 +133,55 @@ impl ScratchTables {
             .map(|metal| PublishedSpectrum::new(count, |nm| reflectance(*metal, nm)))
             .collect()
     }
+}
+
+/// Adds a table for each row of grooves on each material that differs in what the table depends on.
+fn grating_tables(
+    scene: &Scene,
+    materials: &[MaterialOptics],
+    metals: &[Option<Metal>],
+    tables: &mut Vec<ScratchTable>,
+) -> Vec<GratingTable> {
+    let mut known: Vec<GratingTable> = Vec::new();
+    for object in scene.objects.iter().filter(|o| !o.gratings.is_empty()) {
+        let mut own: Vec<usize> = object
+            .mesh
+            .triangle_materials
+            .iter()
+            .map(|material| *material as usize)
+            .collect();
+        own.sort_unstable();
+        own.dedup();
+        for (grating, material) in object
+            .gratings
+            .iter()
+            .flat_map(|g| own.iter().map(move |m| (g, *m)))
+        {
+            let of = |material: usize| {
+                let coherence_um = scene.materials[material].coherence_um;
+                (metals[materials[material].table as usize], coherence_um)
+            };
+            let same_row = |k: &&GratingTable| k.row == grating.row;
+            let alike = known.iter().filter(same_row);
+            if alike.clone().any(|k| k.material == material) {
+                continue;
+            }
+            let (metal, coherence_um) = of(material);
+            let shared = alike
+                .clone()
+                .find(|k| of(k.material) == (metal, coherence_um));
+            let table = shared.map_or(tables.len(), |k| k.table);
+            if table == tables.len() {
+                tables.push(grating.row.table(coherence_um, |nm| reflectance(metal, nm)));
+            }
+            known.push(GratingTable {
+                row: grating.row,
+                material,
+                table,
+            });
+        }
+    }
+    known
 }
 
 /// At normal incidence.

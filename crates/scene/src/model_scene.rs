@@ -106,6 +106,7 @@ impl Description {
             studio: Studio::NONE,
             ground: None,
             materials: vec![ground_material],
+            gratings: Vec::new(),
             scratches: match summary.metal_share > 0.5 {
                 true => Wear::Worn.layers(&object, a.distance(b)),
                 false => Vec::new(),

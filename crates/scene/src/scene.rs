@@ -10,6 +10,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use crate::environment::Environment;
+use crate::grating::Grating;
 
 pub use crate::light::{Cone, Light, LightShape};
 
@@ -161,7 +162,7 @@ pub struct Texture {
     pub srgb: bool,
 }
 
-/// A surface and the scratches that lie on it.
+/// A surface, with the scratches and gratings that lie on it.
 #[derive(Clone, Debug)]
 pub struct Object {
     /// The name in the scene file.
@@ -172,6 +173,8 @@ pub struct Object {
     pub scratches: Arc<Vec<Scratch>>,
     /// Straight pieces, one triangle each, those of one scratch side by side in the order of its walk.
     pub segments: Arc<Vec<Segment>>,
+    /// Grooves that are finer than a pixel.
+    pub gratings: Vec<Grating>,
     /// Whether it is the shape of a light that the camera sees: black but for its emission, met by no ray but the camera's, and by that on its
     /// front alone. Such objects are the last of a scene.
     pub is_lamp: bool,

@@ -5,6 +5,7 @@ mod dense;
 mod environment;
 mod environment_band;
 mod furnaces;
+mod gratings;
 mod lamps;
 mod physics;
 mod published_scenes;

@@ -20,6 +20,7 @@ struct Contents {
     size_px: [u32; 2],
     objects: Vec<Object>,
     layers: Vec<Layer>,
+    gratings: Vec<Grating>,
     lights: Vec<Lamp>,
     environment: Option<Environment>,
     textures: usize,
@@ -43,6 +44,15 @@ struct Layer {
     pattern: String,
     scratches: usize,
     segments: usize,
+    hidden: bool,
+}
+
+#[derive(Serialize)]
+struct Grating {
+    name: Option<String>,
+    object: String,
+    pattern: &'static str,
+    pitch_um: f64,
     hidden: bool,
 }
 
@@ -127,6 +137,13 @@ fn contents(loaded: &Loaded) -> Contents {
             hidden: table.hidden,
         }
     });
+    let gratings = description.gratings.iter().map(|grating| Grating {
+        name: grating.name.clone(),
+        object: grating.object.clone(),
+        pattern: grating.pattern.name(),
+        pitch_um: grating.pitch_um,
+        hidden: grating.hidden,
+    });
     let lights = description.lights.iter().map(|light| Lamp {
         name: light.name.clone(),
         kind: light.kind.name(),
@@ -158,6 +175,7 @@ fn contents(loaded: &Loaded) -> Contents {
         size_px: scene.render.size_px,
         objects: objects.collect(),
         layers: layers.collect(),
+        gratings: gratings.collect(),
         lights: lights.collect(),
         environment,
         textures: scene.textures.len(),
@@ -216,6 +234,24 @@ fn write(contents: &Contents, out: &mut String) -> fmt::Result {
             layer.scratches,
             layer.segments,
             if layer.hidden { ", hidden" } else { "" }
+        )?;
+        if i == MOST_LINES {
+            writeln!(out, "  ..")?;
+            break;
+        }
+    }
+    if !contents.gratings.is_empty() {
+        writeln!(out, "gratings: {}", contents.gratings.len())?;
+    }
+    for (i, grating) in contents.gratings.iter().enumerate() {
+        writeln!(
+            out,
+            "  {}{} on \"{}\": a groove every {} um{}",
+            grating.pattern,
+            named(&grating.name),
+            shown(&grating.object),
+            grating.pitch_um,
+            if grating.hidden { ", hidden" } else { "" }
         )?;
         if i == MOST_LINES {
             writeln!(out, "  ..")?;

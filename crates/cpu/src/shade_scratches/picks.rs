@@ -1,6 +1,7 @@
 //! Scratches that stand for all: for each light a few, each drawn with the probability of its part of the light that the scratches of a point
 //! send. Shadow rays start from them.
 
+use super::row_spread::RowSpread;
 use crate::sampling::luminance;
 use glam::{DVec2, DVec3};
 use hairline_optics::band::{Along, BandPlace};
@@ -8,7 +9,7 @@ use hairline_scene::Profile;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
 
-/// A scratch under a point.
+/// A scratch under a point, or a grating.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pick {
     /// In the surface's frame.
@@ -16,6 +17,8 @@ pub(crate) struct Pick {
     pub place: BandPlace,
     pub along: Along,
     pub profile: Profile,
+    /// Of a grating; none for a scratch.
+    pub row: Option<RowSpread>,
     /// What it sends by way of the light.
     pub radiance: DVec3,
 }
@@ -117,6 +120,7 @@ mod tests {
                         width_um: i as f32,
                         depth_nm: 0.0,
                     },
+                    row: None,
                     radiance,
                 });
             }

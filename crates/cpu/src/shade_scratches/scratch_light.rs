@@ -1,15 +1,16 @@
 //! A scratch as seen from a point, and the light that it sends to the viewer (docs/model.md, sections 5 and 6). Twin:
 //! scratch_light.wgsl.
 
+use super::drawn_light::{DrawnLight, Offers};
+use super::row_spread::{ROW_PROFILE, RowSpread};
 use crate::light_view::{LightView, LightViews};
-use crate::sampling::luminance;
 use crate::surface::SurfacePoint;
 use glam::{DVec2, DVec3};
 use hairline_optics::band::{
-    BandFrame, BandLine, BandMotion, BandPlace, BandStds, Cap, DrawnChord, Outline, OutlineRoots,
+    BandFrame, BandLine, BandMotion, BandPlace, BandStds, Cap, Outline, OutlineRoots,
     band_is_whole, band_lines, chord_cos, sphere_band_extent, sphere_chord,
 };
-use hairline_optics::band_environment::environment_cells;
+use hairline_optics::band_environment::{EnvironmentCell, environment_cells, row_cells};
 use hairline_optics::scratch::oblique_depth_nm;
 use hairline_optics::table::{ScratchTable, TableRow};
 use hairline_scene::{Environment, Profile};
@@ -19,85 +20,14 @@ pub(super) fn scratch_energy(profile: Profile, table: &ScratchTable, cos_o: f64)
     table.scratch_table_total(oblique_depth_nm(profile.depth_nm.into(), cos_o, cos_o))
 }
 
-/// A direction of a source by way of a scratch.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct DrawnLight {
-    /// In the surface's frame.
-    pub direction: DVec3,
-    /// What comes from there over what comes from a mean direction, given that directions are drawn by luminance.
-    pub color: DVec3,
-}
-
-/// One of many lines, drawn by what comes along them, and a place on it.
-struct Offers {
-    chord: DrawnChord,
-    /// What comes along all of them.
-    total: DVec3,
-    /// In [0, 1): what is left of the number that picks.
-    left: f64,
-    taken: Option<(BandLine, f64, DVec3)>,
-}
-
-impl Offers {
-    fn new(pick_u: f64) -> Self {
-        Self {
-            chord: DrawnChord::default(),
-            total: DVec3::ZERO,
-            left: pick_u,
-            taken: None,
-        }
-    }
-
-    /// Offers the part of a line between roots. `spectrum` is the antiderivative of what comes from there.
-    fn offer(
-        &mut self,
-        line: BandLine,
-        roots: impl Iterator<Item = (f64, f64)>,
-        spectrum: impl Fn(f64) -> [f64; 3],
-        chord_u: f64,
-    ) {
-        let of_luminance = |q: f64| luminance(spectrum(q).into());
-        self.chord.find(roots, of_luminance);
-        let before = luminance(self.total);
-        for (low, high) in self.chord.intervals() {
-            self.total += DVec3::from(spectrum(high)) - DVec3::from(spectrum(low));
-        }
-        let all = luminance(self.total);
-        if !(all > before) {
-            return;
-        }
-        let share = 1.0 - before / all;
-        if self.left >= share {
-            self.left = (self.left - share) / (1.0 - share);
-            return;
-        }
-        self.left /= share;
-        self.taken = self.chord.draw(of_luminance, chord_u).map(|(low, high)| {
-            let sent = DVec3::from(spectrum(high)) - DVec3::from(spectrum(low));
-            (line, 0.5 * (low + high), sent)
-        });
-    }
-
-    fn taken(self, frame: BandFrame) -> Option<DrawnLight> {
-        let (line, q, sent) = self.taken?;
-        let mean = self.total / luminance(self.total);
-        let here = sent / luminance(sent);
-        // Channels that get nothing have no colour to differ in.
-        let color = DVec3::select(mean.cmpgt(DVec3::ZERO), here / mean, DVec3::ONE);
-        Some(DrawnLight {
-            direction: frame.surface_from_band(line.direction_at(q)),
-            color: if color.is_finite() { color } else { DVec3::ONE },
-        })
-    }
-}
-
-/// A scratch from a point.
+/// A scratch from a point, or the grooves of a grating.
 pub(crate) struct ScratchLight<'a> {
-    frame: BandFrame,
+    pub(super) frame: BandFrame,
     /// `wo` in the frame of the scratch.
-    wo: DVec3,
+    pub(super) wo: DVec3,
     table: &'a ScratchTable,
     profile: Profile,
+    row: Option<RowSpread>,
 }
 
 impl<'a> ScratchLight<'a> {
@@ -109,15 +39,52 @@ impl<'a> ScratchLight<'a> {
             wo: frame.band_from_surface(wo),
             table,
             profile,
+            row: None,
         }
     }
 
-    fn width_um(&self) -> f64 {
+    /// The grooves of a grating of whose table `table` is.
+    pub fn of_row(wo: DVec3, tangent: DVec2, table: &'a ScratchTable, row: RowSpread) -> Self {
+        Self {
+            row: Some(row),
+            ..Self::new(wo, tangent, table, ROW_PROFILE)
+        }
+    }
+
+    /// u for each unit of q.
+    #[inline]
+    pub(super) fn width_um(&self) -> f64 {
         self.profile.width_um.into()
     }
 
+    /// How the band moves over the pixel towards a light. `place` is where a scratch lies under the footprint.
+    #[inline]
+    pub(super) fn motion(&self, place: BandPlace, views: &LightViews, view: usize) -> BandMotion {
+        let tangent = self.frame.tangent;
+        let moves = views.moves[view].map(|m| m.dot(tangent));
+        match &self.row {
+            None => place.moved(moves),
+            Some(row) => {
+                let axis = views.views[view].bound().axis.truncate();
+                row.motion(moves, self.wo.y + tangent.perp_dot(axis))
+            }
+        }
+    }
+
+    /// The cells of the environment along the middle line.
+    #[inline(always)]
+    pub(super) fn for_cells(&self, mut each: impl FnMut(&EnvironmentCell)) {
+        let line = BandLine::new(self.wo, 0.0);
+        match &self.row {
+            None => environment_cells(line, self.width_um())
+                .iter()
+                .for_each(&mut each),
+            Some(_) => row_cells(line).iter().for_each(&mut each),
+        }
+    }
+
     /// T over u for light with a cosine to the normal.
-    fn row(&self, cos_i: f64) -> TableRow<'a> {
+    pub(super) fn row(&self, cos_i: f64) -> TableRow<'a> {
         let depth_nm = oblique_depth_nm(self.profile.depth_nm.into(), cos_i, self.wo.z);
         self.table.at_depth(depth_nm)
     }
@@ -134,7 +101,7 @@ impl<'a> ScratchLight<'a> {
     ) -> Option<DVec3> {
         let light = &views.views[view];
         let tangent = self.frame.tangent;
-        let motion = place.moved(views.moves[view].map(|m| m.dot(tangent)));
+        let motion = self.motion(place, views, view);
         let bound = light.bound();
         let along = tangent.dot(bound.axis.truncate());
         if !self.may_meet(stds, along, bound, motion) {
@@ -167,9 +134,15 @@ impl<'a> ScratchLight<'a> {
     }
 
     /// The antiderivative over q of what the groove sends for light from a part of a line.
-    fn spectrum(&self, line: BandLine, (low, high): (f64, f64)) -> impl Fn(f64) -> [f64; 3] + 'a {
+    pub(super) fn spectrum(
+        &self,
+        line: BandLine,
+        (low, high): (f64, f64),
+    ) -> impl Fn(f64) -> [f64; 3] + 'a {
         let width_um = self.width_um();
-        let row = self.row(chord_cos(line, low, high, width_um));
+        // The light of a grating lies about its orders, wherever they are; that of a scratch about the mirror's direction.
+        let weighed_um = if self.row.is_some() { 0.0 } else { width_um };
+        let row = self.row(chord_cos(line, low, high, weighed_um));
         move |q| row.at(width_um * q)
     }
 
@@ -234,8 +207,7 @@ impl<'a> ScratchLight<'a> {
         [line_u, pick_u, chord_u]: [f64; 3],
     ) -> Option<DrawnLight> {
         let light = &views.views[view];
-        let tangent = self.frame.tangent;
-        let motion = place.moved(views.moves[view].map(|m| m.dot(tangent)));
+        let motion = self.motion(place, views, view);
         let wo = self.wo + motion.shift * DVec3::X;
         let stds = motion.band(*stds).stds;
         let mut roots = OutlineRoots::default();
@@ -274,7 +246,7 @@ impl<'a> ScratchLight<'a> {
         offers.taken(self.frame)
     }
 
-    /// The same by way of the environment; two numbers in [0, 1).
+    /// A direction by way of the environment, as [`Self::draw_light`]; two numbers in [0, 1).
     pub fn draw_environment(
         &self,
         point: &SurfacePoint,
@@ -283,14 +255,14 @@ impl<'a> ScratchLight<'a> {
     ) -> Option<DrawnLight> {
         let line = BandLine::new(self.wo, 0.0);
         let mut offers = Offers::new(pick_u);
-        for cell in environment_cells(line, self.width_um()) {
+        self.for_cells(|cell| {
             let towards = point.world_from_surface(self.frame.surface_from_band(cell.direction));
             let blurred = environment.prefiltered(towards, cell.environment_cell_roughness());
             let row = self.row(cell.direction.z);
             let spectrum = |q: f64| (blurred * DVec3::from(row.at(self.width_um() * q))).into();
             let ends = [(-1.0, cell.q_low), (1.0, cell.q_high)];
             offers.offer(line, ends.into_iter(), spectrum, cell_u);
-        }
+        });
         offers.taken(self.frame)
     }
 
@@ -298,24 +270,25 @@ impl<'a> ScratchLight<'a> {
     pub fn draw_all_around(&self, [pick_u, cell_u]: [f64; 2]) -> Option<DrawnLight> {
         let line = BandLine::new(self.wo, 0.0);
         let mut offers = Offers::new(pick_u);
-        for cell in environment_cells(line, self.width_um()) {
+        self.for_cells(|cell| {
             let row = self.row(cell.direction.z);
             let ends = [(-1.0, cell.q_low), (1.0, cell.q_high)];
             let spectrum = |q: f64| row.at(self.width_um() * q);
             offers.offer(line, ends.into_iter(), spectrum, cell_u);
-        }
+        });
         offers.taken(self.frame)
     }
 
     /// By light of radiance 1 from all around.
+    #[inline(always)]
     pub fn all_around(&self) -> DVec3 {
-        let cells = environment_cells(BandLine::new(self.wo, 0.0), self.width_um());
-        let sent = cells.map(|cell| {
+        let mut sum = DVec3::ZERO;
+        self.for_cells(|cell| {
             let row = self.row(cell.direction.z);
             let at = |q: f64| DVec3::from(row.at(self.width_um() * q));
-            at(cell.q_high) - at(cell.q_low)
+            sum += at(cell.q_high) - at(cell.q_low);
         });
-        sent.into_iter().sum()
+        sum
     }
 
     /// The roots of a polygon on a line, and the antiderivative for light from there.
@@ -332,7 +305,23 @@ impl<'a> ScratchLight<'a> {
     /// By the environment, along the band's middle line, cell by cell.
     #[inline(always)]
     pub fn environment(&self, point: &SurfacePoint, environment: &Environment) -> DVec3 {
-        let cells = environment_cells(BandLine::new(self.wo, 0.0), self.width_um());
+        let line = BandLine::new(self.wo, 0.0);
+        match &self.row {
+            None => {
+                let cells = environment_cells(line, self.width_um());
+                self.by_cells(&cells, point, environment)
+            }
+            Some(_) => self.by_cells(&row_cells(line), point, environment),
+        }
+    }
+
+    #[inline(always)]
+    fn by_cells<const N: usize>(
+        &self,
+        cells: &[EnvironmentCell; N],
+        point: &SurfacePoint,
+        environment: &Environment,
+    ) -> DVec3 {
         let towards = cells.map(|cell| {
             let direction = self.frame.surface_from_band(cell.direction);
             point.world_from_surface(direction)

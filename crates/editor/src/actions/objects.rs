@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use hairline_scene::Description;
-use hairline_scene::description::{Material, Object, Scratches, Shape, Surface, Up};
+use hairline_scene::description::{Grating, Material, Object, Scratches, Shape, Surface, Up};
 
 use super::{ActionError, list, materials};
 use crate::{Selection, paths, presets};
@@ -59,7 +59,7 @@ fn add(
     list::insert(description, description.objects.len(), object)
 }
 
-/// Adds a copy in the same place, with copies of its layers: they keep their seeds, so it is scratched alike.
+/// Adds a copy in the same place, with copies of its gratings and its layers: they keep their seeds, so it is scratched alike.
 ///
 /// # Errors
 /// [`ActionError::Missing`].
@@ -77,10 +77,19 @@ pub fn duplicate(description: &mut Description, index: usize) -> Result<Selectio
         })
         .collect();
     description.scratches.extend(copies);
+    let gratings = description.gratings.iter();
+    let copies: Vec<_> = gratings
+        .filter(|grating| grating.object == original)
+        .map(|grating| Grating {
+            object: name.clone(),
+            ..grating.clone()
+        })
+        .collect();
+    description.gratings.extend(copies);
     Ok(selection)
 }
 
-/// Removes an object and its layers.
+/// Removes an object with its layers and gratings.
 ///
 /// # Errors
 /// [`ActionError::LastObject`], [`ActionError::Missing`].
@@ -105,6 +114,9 @@ pub fn delete(
         other => other,
     };
     description.scratches.retain(|layer| layer.object != name);
+    description
+        .gratings
+        .retain(|grating| grating.object != name);
     list::remove::<Object>(description, index, selection)
 }
 
@@ -134,6 +146,11 @@ pub fn rename(
     for layer in &mut description.scratches {
         if layer.object == old {
             layer.object.clone_from(&name);
+        }
+    }
+    for grating in &mut description.gratings {
+        if grating.object == old {
+            grating.object.clone_from(&name);
         }
     }
     Ok(Selection::Object(index))

@@ -16,6 +16,7 @@ from ._host import Host, Progress
 from ._tables import (
     Camera,
     Environment,
+    Grating,
     Ground,
     Light,
     Material,
@@ -43,6 +44,7 @@ _LISTS: tuple[tuple[str, str, type[Table]], ...] = (
     ("materials", "material", Material),
     ("objects", "object", Object),
     ("scratches", "scratches", Scratches),
+    ("gratings", "grating", Grating),
     ("lights", "light", Light),
 )
 
@@ -95,6 +97,7 @@ class Scene:
     materials: Tables[Material]
     objects: Tables[Object]
     scratches: Tables[Scratches]
+    gratings: Tables[Grating]
     lights: Tables[Light]
     folder: FilePath
     """What the files that it names are relative to."""
@@ -114,6 +117,7 @@ class Scene:
         materials: Iterable[Material] = (),
         objects: Iterable[Object] = (),
         scratches: Iterable[Scratches] = (),
+        gratings: Iterable[Grating] = (),
         lights: Iterable[Light] = (),
         folder: Path = ".",
     ) -> None:
@@ -125,6 +129,7 @@ class Scene:
         self.materials = Tables(Material, materials)
         self.objects = Tables(Object, objects)
         self.scratches = Tables(Scratches, scratches)
+        self.gratings = Tables(Grating, gratings)
         self.lights = Tables(Light, lights)
         self.folder = FilePath(folder)
         self.notes = []
@@ -149,7 +154,7 @@ class Scene:
     @classmethod
     def from_dict(cls, table: Mapping[str, Any], folder: Path = ".") -> Scene:
         """A scene of a dict with the keys of scene files: ``camera``, ``render``, ``environment``, ``studio``, ``ground``, ``material``,
-        ``object``, ``scratches`` and ``light``. Files that it names are looked for in ``folder``."""
+        ``object``, ``scratches``, ``grating`` and ``light``. Files that it names are looked for in ``folder``."""
         if not isinstance(table, Mapping):
             raise argument_error("scene", f"found an object of type {type(table).__qualname__}", "must be a dict")
         return cls._of(core.check(dict(table)), folder)
@@ -175,6 +180,7 @@ class Scene:
             materials=all_of(Material),
             objects=all_of(Object),
             scratches=all_of(Scratches),
+            gratings=all_of(Grating),
             lights=all_of(Light),
             folder=folder,
         )

@@ -433,6 +433,44 @@ class Scratches(Table):
         return cls(object=object, pattern="file", file=array, name=name)
 
 
+class Grating(Table):
+    """``[[grating]]``: grooves side by side, finer than a pixel, that cover an object."""
+
+    _section = "grating"
+    _absent = {"hidden": False}
+
+    object: str
+    """The name of the object that they cover."""
+    pattern: str
+    """``"parallel"``, ``"circular"``, ``"radial"`` or ``"spun"``."""
+    pitch_um: float
+    """From one groove to the next, micrometres, from 0.3 to 50."""
+    name: Optional[str] = _default()
+    """Free text."""
+    hidden: bool = _default()
+    """Laid nowhere. Default: False."""
+    width_um: Optional[float] = _default()
+    """Width of a groove, micrometres, at most the pitch. Default: 0.4 of the pitch."""
+    depth_nm: Optional[Sizes] = _default()
+    """Normal, nanometres; the spread is a share of the mean. Default: 120."""
+    jitter_um: Optional[float] = _default()
+    """Standard deviation of how far a groove is off its place, micrometres. Default: 0."""
+    jitter_deg: Optional[float] = _default()
+    """Standard deviation of a groove's angle to the pattern, degrees. Default: 0."""
+    coverage: Optional[float] = _default()
+    """The share of the surface that they cover. Default: 1."""
+    radius_m: Optional[Sequence[float]] = _default()
+    """The least and the greatest distance from the axis, metres. Default: everywhere."""
+    direction: Optional[Vector] = _default()
+    """Of parallel grooves, 3 numbers. Default: +x."""
+    axis: Optional[Vector] = _default()
+    """Of circular, radial and spun grooves, 3 numbers. Default: +z."""
+    center_m: Optional[Vector] = _default()
+    """A point on the axis, metres, 3 numbers. Default: 0."""
+    curvature_per_m: Optional[float] = _default()
+    """Of spun grooves, per metre. Default: 20."""
+
+
 class Light(Table):
     """``[[light]]``: one of the kinds below."""
 

@@ -6,8 +6,8 @@ use super::ranges::{
 };
 use super::sizes;
 use super::{
-    Amount, Around, Brush, Camera, Description, Distribution, Laid, Layer, Light, Material,
-    MaterialKind, MetalColor, Object, Pattern, Render, Scratches, Shape, Stroke, Surface,
+    Amount, Around, Brush, Camera, Description, Distribution, Grating, Laid, Layer, Light,
+    Material, MaterialKind, MetalColor, Object, Pattern, Render, Scratches, Shape, Stroke, Surface,
 };
 use crate::error::Error;
 use crate::text::shown;
@@ -38,6 +38,7 @@ impl Description {
         each("object", &self.objects, object)?;
         unique("object", self.objects.iter().map(|o| o.name.as_str()))?;
         each("scratches", &self.scratches, scratches)?;
+        each("grating", &self.gratings, Grating::check_at)?;
         each("light", &self.lights, Light::check_at)
     }
 }
@@ -272,44 +273,51 @@ fn laid(laid: &Laid, key: &str) -> Check {
         not_negative(&format!("{key}.density_per_m2"), density)?;
     }
     drawn(laid.seed, laid.sizes(), key)?;
-    let jitter = |jitter_deg| jitter(jitter_deg, key);
-    let around = |around: &Around| {
-        direction(&format!("{key}.axis"), around.axis)?;
-        point(&format!("{key}.center_m"), around.center_m)?;
-        jitter(around.jitter_deg)
-    };
-    let curvature = |drawn: Distribution| {
-        let way = format!("{key}.curvature_per_m");
-        spread(&way, drawn, limits::CURVATURE_SPREAD_PER_M)?;
-        within(&way, drawn.mean, limits::CURVATURE_PER_M)
-    };
-    match &laid.pattern {
-        Pattern::Random { curvature_per_m } => curvature(*curvature_per_m),
-        Pattern::Parallel {
-            direction: along,
-            jitter_deg,
-        } => {
-            direction(&format!("{key}.direction"), *along)?;
-            jitter(*jitter_deg)
-        }
-        Pattern::Circular(axis) | Pattern::Radial(axis) => around(axis),
-        Pattern::Spun {
-            around: axis,
-            curvature_per_m,
-        } => {
-            around(axis)?;
-            curvature(*curvature_per_m)
-        }
-        Pattern::Swirl { curvature_per_m } => {
-            curvature(*curvature_per_m)?;
-            if curvature_per_m.mean == 0.0 {
-                return Err(Error::new(
-                    format!("{key}.curvature_per_m"),
-                    "found a mean of 0",
-                    "swirls need one: one over their radius",
-                ));
+    laid.pattern.check_at(key)
+}
+
+impl Pattern {
+    /// Refuses values out of range; `key` is the way to the table that has the pattern.
+    pub(super) fn check_at(&self, key: &str) -> Check {
+        let jitter = |jitter_deg| jitter(jitter_deg, key);
+        let around = |around: &Around| {
+            direction(&format!("{key}.axis"), around.axis)?;
+            point(&format!("{key}.center_m"), around.center_m)?;
+            jitter(around.jitter_deg)
+        };
+        let curvature = |drawn: Distribution| {
+            let way = format!("{key}.curvature_per_m");
+            spread(&way, drawn, limits::CURVATURE_SPREAD_PER_M)?;
+            within(&way, drawn.mean, limits::CURVATURE_PER_M)
+        };
+        match self {
+            Self::Random { curvature_per_m } => curvature(*curvature_per_m),
+            Self::Parallel {
+                direction: along,
+                jitter_deg,
+            } => {
+                direction(&format!("{key}.direction"), *along)?;
+                jitter(*jitter_deg)
             }
-            Ok(())
+            Self::Circular(axis) | Self::Radial(axis) => around(axis),
+            Self::Spun {
+                around: axis,
+                curvature_per_m,
+            } => {
+                around(axis)?;
+                curvature(*curvature_per_m)
+            }
+            Self::Swirl { curvature_per_m } => {
+                curvature(*curvature_per_m)?;
+                if curvature_per_m.mean == 0.0 {
+                    return Err(Error::new(
+                        format!("{key}.curvature_per_m"),
+                        "found a mean of 0",
+                        "swirls need one: one over their radius",
+                    ));
+                }
+                Ok(())
+            }
         }
     }
 }

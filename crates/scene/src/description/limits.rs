@@ -65,7 +65,13 @@ pub const LOG_NORMAL_SPREAD: RangeInclusive<f64> = 0.0..=3.0;
 pub const CURVATURE_PER_M: RangeInclusive<f64> = -1e4..=1e4;
 /// Spread of `scratches.curvature_per_m`.
 pub const CURVATURE_SPREAD_PER_M: RangeInclusive<f64> = 0.0..=1e4;
-/// `scratches.jitter_deg`
+/// `grating.pitch_um`: beyond, grooves are scratches of their own.
+pub const PITCH_UM: RangeInclusive<f64> = 0.3..=50.0;
+/// Spread of `grating.depth_nm`, a share of the mean.
+pub const GRATING_DEPTH_SPREAD: RangeInclusive<f64> = 0.0..=1.0;
+/// `grating.coverage`
+pub const COVERAGE: RangeInclusive<f64> = 0.0..=1.0;
+/// `scratches.jitter_deg`, `grating.jitter_deg`
 pub const JITTER_DEG: RangeInclusive<f64> = 0.0..=90.0;
 /// `scratches.seed`: TOML's integers end there.
 pub const LARGEST_SEED: u64 = i64::MAX as u64;

@@ -26,6 +26,7 @@ pub(super) fn description(root: &DeTable) -> Result<Description, Error> {
             "material",
             "object",
             "scratches",
+            "grating",
             "light",
         ],
     )?;
@@ -38,6 +39,7 @@ pub(super) fn description(root: &DeTable) -> Result<Description, Error> {
         materials: table.or("material", Vec::new())?,
         objects: table.or("object", Vec::new())?,
         scratches: table.or("scratches", Vec::new())?,
+        gratings: table.or("grating", Vec::new())?,
         lights: table.or("light", Vec::new())?,
         notes: Vec::new(),
     };
@@ -293,6 +295,16 @@ impl Read for Scratches {
     }
 }
 
+/// The axis that a pattern turns about.
+pub(super) fn around(table: &Table) -> Result<Around, Error> {
+    let default = Around::default();
+    Ok(Around {
+        axis: table.or("axis", default.axis)?,
+        center_m: table.or("center_m", default.center_m)?,
+        jitter_deg: table.or("jitter_deg", default.jitter_deg)?,
+    })
+}
+
 /// What is read of a `[[scratches]]` for its pattern.
 fn layer(pattern: &str, table: &Table) -> Result<Layer, Error> {
     if pattern == "file" {
@@ -301,14 +313,7 @@ fn layer(pattern: &str, table: &Table) -> Result<Layer, Error> {
     }
     let seed = table.or("seed", super::DEFAULT_SEED)?;
     let sizes = sizes::read(table)?;
-    let around = || -> Result<Around, Error> {
-        let default = Around::default();
-        Ok(Around {
-            axis: table.or("axis", default.axis)?,
-            center_m: table.or("center_m", default.center_m)?,
-            jitter_deg: table.or("jitter_deg", default.jitter_deg)?,
-        })
-    };
+    let around = || around(table);
     let curvature_per_m = |mean, spread| table.or("curvature_per_m", Distribution { mean, spread });
     let pattern = match pattern {
         "random" => Pattern::Random {

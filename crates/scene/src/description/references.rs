@@ -23,6 +23,16 @@ impl Description {
             let key = format!("scratches[{i}].object");
             find(&scratches.object, objects.clone(), &key, "object")?;
         }
+        self.check_gratings()
+    }
+
+    /// Refuses gratings on objects that the scene does not have.
+    pub(crate) fn check_gratings(&self) -> Result<(), Error> {
+        let objects = self.objects.iter().map(|o| o.name.as_str());
+        for (i, grating) in self.gratings.iter().enumerate() {
+            let key = format!("grating[{i}].object");
+            find(&grating.object, objects.clone(), &key, "object")?;
+        }
         Ok(())
     }
 }

@@ -65,14 +65,7 @@ impl Layer {
     /// What `pattern` says.
     pub fn pattern_name(&self) -> &'static str {
         match self {
-            Self::Laid(laid) => match laid.pattern {
-                Pattern::Random { .. } => "random",
-                Pattern::Parallel { .. } => "parallel",
-                Pattern::Circular(_) => "circular",
-                Pattern::Radial(_) => "radial",
-                Pattern::Spun { .. } => "spun",
-                Pattern::Swirl { .. } => "swirl",
-            },
+            Self::Laid(laid) => laid.pattern.name(),
             Self::Brushed(_) => "drawn",
             Self::Listed(_) => "file",
         }
@@ -249,6 +242,20 @@ pub enum Pattern {
         /// Default: mean 25, spread 8.
         curvature_per_m: Distribution,
     },
+}
+
+impl Pattern {
+    /// What `pattern` says.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Random { .. } => "random",
+            Self::Parallel { .. } => "parallel",
+            Self::Circular(_) => "circular",
+            Self::Radial(_) => "radial",
+            Self::Spun { .. } => "spun",
+            Self::Swirl { .. } => "swirl",
+        }
+    }
 }
 
 /// An axis that a pattern turns about.

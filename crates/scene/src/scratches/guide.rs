@@ -9,6 +9,7 @@ use std::f64::consts::FRAC_PI_2;
 use glam::DVec3;
 
 use super::facet::Facet;
+use crate::grating::Bearing;
 
 /// Nearer than this to its axis, or to its end, a field has no direction.
 const NO_DIRECTION_M: f64 = 1e-8;
@@ -43,17 +44,6 @@ pub(super) enum Guide {
     },
     /// Straight to a point.
     Towards { end_m: DVec3 },
-}
-
-/// How a pattern about an axis lies to the circles around it.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Bearing {
-    /// Along them.
-    Circular,
-    /// Across them.
-    Radial,
-    /// Along circles of this curvature that pass through the axis.
-    Spun { curvature_per_m: f64 },
 }
 
 /// Where to go: straight or along an arc, and how far before asking again.

@@ -4,12 +4,13 @@ use std::f64::consts::TAU;
 
 use super::facet::Facet;
 use super::ground::Ground;
-use super::guide::{Bearing, Guide};
+use super::guide::Guide;
 use super::laying::{Groove, Laying, scratch_profile};
 use super::random::Stream;
 use super::swirl::Lattice;
 use super::walk::{Spot, Walker};
 use crate::description::{Around, Laid, Pattern};
+use crate::grating::Bearing;
 use crate::scene::Segment;
 
 /// A layer's description with the ground that it goes on.

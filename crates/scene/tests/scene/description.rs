@@ -223,6 +223,29 @@ fn everything() -> Description {
             })
             .collect(),
         scratches,
+        gratings: vec![
+            Grating::new(
+                "object 0",
+                Pattern::Parallel {
+                    direction: [0.0, 1.0, 0.0],
+                    jitter_deg: 0.5,
+                },
+                0.74,
+            ),
+            Grating {
+                name: Some("track".into()),
+                hidden: true,
+                width_um: 0.5,
+                depth_nm: Distribution {
+                    mean: 110.0,
+                    spread: 0.25,
+                },
+                jitter_um: 0.125,
+                coverage: 0.75,
+                radius_m: Some([0.0, 0.5]),
+                ..Grating::new("object 1", Pattern::Circular(Around::default()), 1.6)
+            },
+        ],
         lights: vec![
             Light {
                 name: None,
@@ -290,6 +313,7 @@ fn whatever_is_saved_loads_again_to_the_same() {
     least.materials.clear();
     least.objects.clear();
     least.scratches.clear();
+    least.gratings.clear();
     least.lights.clear();
     assert_eq!(parsed(&least.to_toml().unwrap()), least);
 }

@@ -237,5 +237,12 @@ fn has_same_scratches(a: &Scene, b: &Scene) -> bool {
 }
 
 fn has_same_optics(a: &Scene, b: &Scene) -> bool {
-    a.materials == b.materials
+    let gratings = |scene: &Scene| {
+        scene
+            .objects
+            .iter()
+            .map(|o| o.gratings.clone())
+            .collect::<Vec<_>>()
+    };
+    a.materials == b.materials && gratings(a) == gratings(b)
 }

@@ -1,0 +1,121 @@
+//! Shade gratings: what the grooves under a point send that are finer than a pixel, and what they take from the mirror's direction (docs/model.md,
+//! section 12). A grating meets lights by the chords of a scratch, with a table of its own.
+
+use crate::light_view::LightViews;
+use crate::prepared::Prepared;
+use crate::shade_scratches::{Frame, Pick, Picks, ROW_PROFILE, RowSpread, ScratchLight};
+use crate::surface::SurfacePoint;
+use glam::{DVec2, DVec3};
+use hairline_optics::band::{Along, BandPlace, OutlineRoots};
+use hairline_optics::mask::Masked;
+use hairline_scene::GroovePlace;
+
+/// All gratings under a point.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct ShadedGratings {
+    /// Radiance, Fresnel left out.
+    pub radiance: DVec3,
+    /// What the base's mirror direction loses to it: that of light from all around.
+    pub taken: DVec3,
+}
+
+impl ShadedGratings {
+    /// Those of an object at a point. `views` are ready for scratches. `picks`, where there are shadows, has its sources cleared.
+    pub fn new(
+        prepared: &Prepared,
+        point: &SurfacePoint,
+        object: u32,
+        views: &LightViews,
+        mut picks: Option<&mut Picks>,
+    ) -> Self {
+        let scene = prepared.scene;
+        let environment = scene.environment.as_ref();
+        let gratings = &scene.objects[object as usize].gratings;
+        let seen = |grating: &hairline_scene::Grating| {
+            grating.seen_from_pixel(point.position_m, point.normal, point.footprint_axes_m)
+        };
+        // Gratings lie side by side: together they cover all of the surface at most.
+        let covered: f64 = gratings
+            .iter()
+            .filter_map(seen)
+            .map(|place| place.share)
+            .sum();
+        let stds = Frame::new(point).stds;
+        let mut roots = [OutlineRoots::default(), OutlineRoots::default()];
+        let mut sum = Self::default();
+        for grating in gratings {
+            let (Some(seen), Some(table)) = (
+                seen(grating),
+                prepared.tables.grating_table(grating, point.material),
+            ) else {
+                continue;
+            };
+            let GroovePlace {
+                tangent,
+                turns_rad,
+                share,
+            } = seen;
+            let share = share / covered.max(1.0);
+            let tangent = point.surface_from_world(tangent).truncate();
+            let tangent = tangent.normalize_or(DVec2::X);
+            let row = RowSpread {
+                table,
+                turns_rad,
+                angle_std_rad: grating.angle_std_rad,
+            };
+            let table = &prepared.tables.tables[table];
+            let light = ScratchLight::of_row(point.wo, tangent, table, row);
+            let around = views.views.len() + 1;
+            let mut add = |source: usize, sent: DVec3| {
+                let sent = share * sent;
+                if source < around {
+                    sum.radiance += sent;
+                }
+                if let Some(picks) = &mut picks
+                    && source < picks.sources.len()
+                {
+                    picks.add(source, sent, |radiance| pick(tangent, row, radiance));
+                }
+            };
+            for view in 0..views.views.len() {
+                let place = BandPlace::everywhere();
+                if let Some(sent) = light.light(&stds, place, views, view, &mut roots) {
+                    add(view, sent);
+                }
+            }
+            if let Some(environment) = environment {
+                add(around - 1, light.environment(point, environment));
+            }
+            let all_around = light.all_around();
+            add(around, all_around);
+            sum.taken += share * all_around;
+        }
+        sum
+    }
+
+    /// Scratches lie on top: they take of what gratings send as of what the mirror does.
+    pub fn under(&self, scratches: Masked) -> Masked {
+        let left = DVec3::ONE - DVec3::from(scratches.taken);
+        let radiance = DVec3::from(scratches.scratches) + left * self.radiance;
+        Masked {
+            scratches: radiance.to_array(),
+            taken: (DVec3::ONE - left * (DVec3::ONE - self.taken)).to_array(),
+        }
+    }
+}
+
+/// A pick of a grating: its rays start anywhere under the pixel.
+fn pick(tangent: DVec2, row: RowSpread, radiance: DVec3) -> Pick {
+    Pick {
+        tangent,
+        place: BandPlace::everywhere(),
+        along: Along {
+            steps_um: [0.0; 2],
+            blur_um: 1.0,
+            ends: [f64::NEG_INFINITY, f64::INFINITY],
+        },
+        profile: ROW_PROFILE,
+        row: Some(row),
+        radiance,
+    }
+}

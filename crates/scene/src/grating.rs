@@ -1,0 +1,246 @@
+//! Gratings as renderers read them: rows of grooves, and where on a surface they run which way.
+
+use glam::DVec3;
+use hairline_optics::gaussian::gaussian;
+use hairline_optics::grating::Grating as Row;
+
+/// Grooves side by side that cover a part of an object.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Grating {
+    /// The grooves.
+    pub row: Row,
+    /// Which way they run.
+    pub field: GrooveField,
+    /// Standard deviation of a groove's angle to the field.
+    pub angle_std_rad: f64,
+    /// The share of the surface that they cover, where they are.
+    pub coverage: f64,
+    /// The least and the greatest distance from the field's axis; 0 and infinity for everywhere.
+    pub radii_m: [f64; 2],
+}
+
+/// Which way grooves run over a surface, world space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum GrooveField {
+    /// Along a direction.
+    Along(DVec3),
+    /// At a fixed bearing to the circles about an axis.
+    Around {
+        /// A unit vector.
+        axis: DVec3,
+        /// A point on it.
+        center_m: DVec3,
+        /// How the grooves lie to the circles.
+        bearing: Bearing,
+    },
+}
+
+/// How a pattern about an axis lies to the circles around it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Bearing {
+    /// Along them.
+    Circular,
+    /// Across them.
+    Radial,
+    /// Along circles of this curvature that pass through the axis.
+    Spun {
+        /// One over their radius.
+        curvature_per_m: f64,
+    },
+}
+
+/// Nearer than this to its axis a field has no direction.
+const NO_DIRECTION_M: f64 = 1e-8;
+
+/// Where a surface stands across a direction, its projection is noise.
+const LEAST_PART: f64 = 1e-3;
+
+/// Grooves that a pixel sees.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GroovePlace {
+    /// Along them: a unit vector in the plane of the surface.
+    pub tangent: DVec3,
+    /// By which angle they turn over one standard deviation of the pixel's filter to the right and down, to the left.
+    pub turns_rad: [f64; 2],
+    /// The share of the pixel that they cover.
+    pub share: f64,
+}
+
+impl GrooveField {
+    /// The unit direction of the grooves at a point, in the plane across a unit normal; none where there is none. As for scratches (`scratches/guide.rs`).
+    fn tangent(&self, point_m: DVec3, normal: DVec3) -> Option<DVec3> {
+        let in_plane = |v: DVec3| v - normal * normal.dot(v);
+        match *self {
+            Self::Along(direction) => {
+                let along = in_plane(direction);
+                (along.length() > LEAST_PART * direction.length()).then(|| along.normalize())
+            }
+            Self::Around {
+                axis,
+                center_m,
+                bearing,
+            } => {
+                let arm_m = point_m - center_m;
+                // Counter-clockwise seen from outside, so that a pattern looks the same on both sides of a sheet.
+                let spin = axis.cross(arm_m) * if axis.dot(normal) < 0.0 { -1.0 } else { 1.0 };
+                let circle = in_plane(spin);
+                if circle.length() < NO_DIRECTION_M {
+                    return None;
+                }
+                let circle = circle.normalize();
+                let outwards = circle.cross(normal);
+                Some(match bearing {
+                    Bearing::Circular => circle,
+                    Bearing::Radial => outwards,
+                    Bearing::Spun { curvature_per_m } => {
+                        // A chord from the axis meets its circle at the angle asin(chord curvature / 2).
+                        let sin = (spin.length() * curvature_per_m / 2.0).clamp(-1.0, 1.0);
+                        outwards * (1.0 - sin * sin).max(0.0).sqrt() + circle * sin
+                    }
+                })
+            }
+        }
+    }
+
+    /// The distance from the axis, and the unit direction away from it.
+    fn axis_distance_m(&self, point_m: DVec3) -> Option<(f64, DVec3)> {
+        let Self::Around { axis, center_m, .. } = *self else {
+            return None;
+        };
+        let arm_m = point_m - center_m;
+        let away_m = arm_m - axis * axis.dot(arm_m);
+        Some((away_m.length(), away_m.normalize_or_zero()))
+    }
+}
+
+impl Grating {
+    /// The grooves that a pixel sees about a point of a surface, if any. `axes_m` are how the point moves by one standard deviation of the
+    /// pixel's filter to the right and down.
+    pub fn seen_from_pixel(
+        &self,
+        point_m: DVec3,
+        normal: DVec3,
+        axes_m: [DVec3; 2],
+    ) -> Option<GroovePlace> {
+        let share = self.coverage * self.share_within(point_m, axes_m);
+        if share <= 0.0 {
+            return None;
+        }
+        let tangent = self.field.tangent(point_m, normal)?;
+        let turns_rad = axes_m.map(|axis| {
+            // Halfway, where a field that turns much over a pixel still tells by how much.
+            let [before, after] = [-0.5, 0.5].map(|s| {
+                let there = self.field.tangent(point_m + s * axis, normal);
+                let there = there.unwrap_or(tangent);
+                normal.dot(tangent.cross(there)).atan2(tangent.dot(there))
+            });
+            after - before
+        });
+        Some(GroovePlace {
+            tangent,
+            turns_rad,
+            share,
+        })
+    }
+
+    /// The share of a pixel that lies between the radii.
+    fn share_within(&self, point_m: DVec3, axes_m: [DVec3; 2]) -> f64 {
+        let Some((radius_m, away)) = self.field.axis_distance_m(point_m) else {
+            return 1.0;
+        };
+        let std_m = axes_m[0].dot(away).hypot(axes_m[1].dot(away)).max(1e-12);
+        let [least_m, most_m] = self.radii_m;
+        // There is nothing nearer than the axis.
+        let inner = if least_m > 0.0 {
+            (radius_m - least_m) / std_m
+        } else {
+            f64::INFINITY
+        };
+        gaussian().between((radius_m - most_m) / std_m, inner)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn grating(bearing: Bearing, radii_m: [f64; 2]) -> Grating {
+        Grating {
+            row: Row {
+                pitch_um: 1.6,
+                width_um: 0.6,
+                depth_nm: 110.0,
+                depth_spread: 0.0,
+                jitter_um: 0.0,
+            },
+            field: GrooveField::Around {
+                axis: DVec3::Z,
+                center_m: DVec3::new(0.01, 0.0, 0.0),
+                bearing,
+            },
+            angle_std_rad: 0.0,
+            coverage: 0.5,
+            radii_m,
+        }
+    }
+
+    const EVERYWHERE_M: [f64; 2] = [0.0, f64::INFINITY];
+
+    #[test]
+    fn grooves_run_around_and_across_their_axis() {
+        let point_m = DVec3::new(0.05, 0.0, 0.002);
+        for (bearing, expected) in [
+            (Bearing::Circular, DVec3::Y),
+            (Bearing::Radial, DVec3::X),
+            // The circle's far side lies 0.08 m from the axis: halfway there an arc has turned by 30 degrees.
+            (
+                Bearing::Spun {
+                    curvature_per_m: 25.0,
+                },
+                DVec3::new(0.75f64.sqrt(), 0.5, 0.0),
+            ),
+        ] {
+            let axes_m = [DVec3::X * 1e-4, DVec3::Y * 1e-4];
+            let grating = grating(bearing, EVERYWHERE_M);
+            let place = grating.seen_from_pixel(point_m, DVec3::Z, axes_m).unwrap();
+            assert!(place.tangent.distance(expected) < 1e-9, "{place:?}");
+            assert!((place.share - 0.5).abs() < 1e-12);
+            // A step along a circle of 4 cm turns the pattern with it; one outwards bends a spiral further.
+            assert!((place.turns_rad[1] - 1e-4 / 0.04).abs() < 1e-6, "{place:?}");
+            let bends = if let Bearing::Spun { .. } = bearing {
+                (0.5f64 + 12.5 * 0.5e-4).asin() - (0.5f64 - 12.5 * 0.5e-4).asin()
+            } else {
+                0.0
+            };
+            assert!(
+                (place.turns_rad[0] - bends).abs() < 1e-6,
+                "{place:?} {bends}"
+            );
+        }
+        // Seen from the other side the pattern is the same.
+        let below = grating(Bearing::Circular, EVERYWHERE_M);
+        let place = below.seen_from_pixel(point_m, -DVec3::Z, [DVec3::ZERO; 2]);
+        assert!(place.unwrap().tangent.distance(-DVec3::Y) < 1e-9);
+    }
+
+    #[test]
+    fn grooves_end_at_their_radii() {
+        let ring = grating(Bearing::Circular, [0.023, 0.058]);
+        let share = |radius_m: f64| {
+            let point_m = DVec3::new(0.01 + radius_m, 0.0, 0.0);
+            let axes_m = [DVec3::X * 1e-4, DVec3::Y * 1e-4];
+            let place = ring.seen_from_pixel(point_m, DVec3::Z, axes_m);
+            place.map_or(0.0, |place| place.share)
+        };
+        assert!(share(0.02) < 1e-6 && share(0.06) < 1e-6);
+        assert!((share(0.04) - 0.5).abs() < 1e-6);
+        assert!((share(0.023) - 0.25).abs() < 1e-6 && (share(0.058) - 0.25).abs() < 1e-6);
+        let nowhere = grating(Bearing::Circular, EVERYWHERE_M);
+        let axis_m = DVec3::new(0.01, 0.0, 0.3);
+        assert!(
+            nowhere
+                .seen_from_pixel(axis_m, DVec3::Z, [DVec3::ZERO; 2])
+                .is_none()
+        );
+    }
+}

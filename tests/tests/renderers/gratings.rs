@@ -1,0 +1,131 @@
+//! Gratings in pictures: their energy, and the angles of their orders.
+
+use conformance::furnace;
+use hairline_cpu::closed_form::{RenderOptions, render};
+use hairline_fixtures::{BALL, SceneFile};
+use hairline_image::Image;
+use hairline_optics::scratch::phase_step_energy;
+use hairline_optics::spectrum;
+use hairline_scene::Scene;
+
+fn one_sample(scene: &Scene) -> Image {
+    let options = RenderOptions {
+        samples: 1,
+        ..RenderOptions::default()
+    };
+    render(scene, &options, &|_| {})
+}
+
+/// What the base loses, gratings send: whatever the pitch, the view and the scratches on top.
+#[test]
+fn a_white_furnace_stays_white() {
+    let file = |gratings: &str| {
+        SceneFile::seen_from([0.0, -0.2, 0.1])
+            .size_px([40, 30])
+            .mirror("m")
+            .object("ball", "m", BALL)
+            .part(gratings)
+    };
+    let circular = "[[grating]]\nobject = \"ball\"\npattern = \"circular\"\n";
+    let fine = format!("{circular}pitch_um = 0.6\nwidth_um = 0.3\ndepth_nm = 150.0\n");
+    let coarse = format!(
+        "{circular}pitch_um = 20.0\njitter_um = 2.0\njitter_deg = 3.0\ncoverage = 0.6\n\
+         depth_nm = {{ mean = 300.0, spread = 0.2 }}\n"
+    );
+    for file in [
+        file(&fine),
+        file(&coarse),
+        file(&fine).part(&coarse),
+        file(&coarse).random("ball", 400),
+    ] {
+        let has_scratches = file.to_string().contains("[[scratches]]");
+        let mut scene = file.part("[studio]\nhidden = true").scene();
+        scene.environment = furnace();
+        let image = one_sample(&scene);
+        let mut covered = 0;
+        for i in 0..image.depth_m.len() {
+            let all: [f32; 3] = std::array::from_fn(|c| image.base[i][c] + image.scratches[i][c]);
+            if image.depth_m[i] > 0.0 && image.scratches[i][1] > 0.01 {
+                covered += 1;
+                // Scratches lose what goes beyond the horizon.
+                let least = if has_scratches { 0.9 } else { 0.999 };
+                assert!(all.iter().all(|v| (least..1.001).contains(v)), "{all:?}");
+            }
+        }
+        assert!(covered > 100, "{covered}");
+    }
+}
+
+/// The mean wavelength of a first order in the picture, found by the angles there, is the one that the eye sees of it.
+#[test]
+fn orders_lie_where_the_grating_equation_says() {
+    // Grooves so shallow that their colours follow the inverse square of the wavelength.
+    let (pitch_um, depth_nm, camera_m) = (1.6, 4.0, 2.0);
+    // A strip across the order's way, wider than the band.
+    let [lamp_y_m, lamp_z_m, half_m] = [0.5, 0.9, 0.0005];
+    let corner_m = |x: f64, y: f64| [x, lamp_y_m + y * half_m, lamp_z_m];
+    let width_px = 400;
+    let scene = SceneFile::seen_from([0.0, 0.0, camera_m])
+        .size_px([3, width_px])
+        .fov_y_deg(30.0)
+        .mirror("m")
+        .object("plate", "m", "plane = { size_m = [0.1, 1.2] }")
+        .part(&format!(
+            "[[grating]]\nobject = \"plate\"\npattern = \"parallel\"\npitch_um = {pitch_um}\n\
+             width_um = 0.5\ndepth_nm = {depth_nm:?}"
+        ))
+        .polygon(
+            &[
+                corner_m(-0.1, -1.0),
+                corner_m(-0.1, 1.0),
+                corner_m(0.1, 1.0),
+                corner_m(0.1, -1.0),
+            ],
+            1e6,
+        )
+        .with("two_sided = true")
+        .scene();
+    let image = one_sample(&scene);
+    let half = f64::from(width_px) / 2.0;
+    let slope = (15.0f64).to_radians().tan() / half;
+    let q = |row: f64| {
+        // Up in the picture is +y.
+        let y = -(row - half) * slope * camera_m;
+        let to_lamp = (lamp_y_m - y) / (lamp_y_m - y).hypot(lamp_z_m);
+        to_lamp - y / y.hypot(camera_m)
+    };
+    // The lamp's chord in q, up to a factor.
+    let chord = |row: f64| {
+        let y = -(row - half) * slope * camera_m;
+        1.0 / (lamp_y_m - y).hypot(lamp_z_m).powi(3)
+    };
+    let (mut sum, mut moment) = (0.0, 0.0);
+    for row in 0..width_px as usize {
+        let middle = row as f64 + 0.5;
+        let at = q(middle);
+        // Orders 1 and 2 overlap beyond 0.47; what the eye sees of the second begins at 0.5.
+        if !(0.23..0.485).contains(&at) {
+            continue;
+        }
+        let rgb = image.scratches[3 * row + 1];
+        let luminance = 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
+        let step = (q(row as f64 + 1.0) - q(row as f64)).abs();
+        let density = f64::from(luminance) / chord(middle) * step;
+        sum += density;
+        moment += density * at;
+    }
+    let found_nm = 1e3 * pitch_um * moment / sum;
+    let (mut sum, mut moment) = (0.0, 0.0);
+    for sample in spectrum::samples() {
+        let [r, g, b] = sample.weight;
+        let seen = (0.2126 * r + 0.7152 * g + 0.0722 * b)
+            * phase_step_energy(depth_nm, sample.wavelength_nm);
+        sum += seen;
+        moment += seen * sample.wavelength_nm;
+    }
+    let expected_nm = moment / sum;
+    println!(
+        "gratings: the first order's mean wavelength is {found_nm:.2} nm in the picture, {expected_nm:.2} by the spectrum"
+    );
+    assert!((found_nm / expected_nm - 1.0).abs() < 1e-3);
+}
