@@ -139,7 +139,7 @@ impl<'a> Field<'a> {
 }
 
 /// The sum of D times the share of each groove, in the mirror's direction. Grooves that cross share floor: of random ones
-/// that would cover x, 1 - exp(-x) is covered.
+/// that would cover x, 1 - exp(-x) is covered. Those of a grating do not cross.
 fn taken_amplitude(
     point: &SurfacePoint,
     grooves: &[GrooveView],
@@ -148,7 +148,11 @@ fn taken_amplitude(
     let shares = grooves
         .iter()
         .map(|g| groove_overlap(&g.piece, point.coherence_um));
-    let all: f64 = shares.clone().sum();
+    let crossing = grooves
+        .iter()
+        .zip(shares.clone())
+        .filter(|(g, _)| !g.is_in_row);
+    let all: f64 = crossing.map(|(_, share)| share).sum();
     let apart = if all > 0.0 {
         -(-all).exp_m1() / all
     } else {
@@ -156,6 +160,7 @@ fn taken_amplitude(
     };
     let mut taken = [Complex64::ZERO; WAVELENGTHS];
     for (groove, share) in grooves.iter().zip(shares) {
+        let apart = if groove.is_in_row { 1.0 } else { apart };
         for (taken, nm) in taken.iter_mut().zip(wavelengths.nm) {
             *taken += apart * share * groove.piece.phase_step(2.0 * point.wo.z, nm);
         }

@@ -24,6 +24,8 @@ pub(super) struct GrooveView {
     pub piece: GroovePiece,
     /// (6) at the point.
     pub share: ScratchShare,
+    /// Whether it is one of a grating's, which run side by side.
+    pub is_in_row: bool,
 }
 
 impl GrooveView {
@@ -67,7 +69,19 @@ impl GrooveView {
             wo: frame.band_from_surface(point.wo),
             piece,
             share: point_share(&piece, whole, sigma_um),
+            is_in_row: false,
         })
+    }
+
+    /// One of a grating's, which is as long as its line.
+    pub(crate) fn of_row(frame: BandFrame, wo: DVec3, piece: GroovePiece, sigma_um: f64) -> Self {
+        Self {
+            frame,
+            wo,
+            piece,
+            share: point_share(&piece, [f64::NEG_INFINITY, f64::INFINITY], sigma_um),
+            is_in_row: true,
+        }
     }
 }
 

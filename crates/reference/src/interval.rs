@@ -33,6 +33,11 @@ impl CutNormal {
         })
     }
 
+    /// Of the uncut distribution.
+    pub(crate) fn share(&self) -> f64 {
+        self.share
+    }
+
     pub(crate) fn sample(&self, u: f64) -> f64 {
         let x = self.std * ndtri(self.below + u * self.share);
         // Rounding of the quantile must not leave the interval.

@@ -33,9 +33,11 @@
 
 mod base;
 mod coherent;
+mod gratings;
 mod grooves;
 mod integrator;
 mod interval;
+mod orders;
 mod path;
 mod random;
 mod reflectance;

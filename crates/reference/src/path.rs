@@ -2,6 +2,7 @@
 
 use super::base::BaseLobes;
 use super::coherent::{Drawn, Field, FieldDirections, FieldResponse};
+use super::gratings::RowView;
 use super::grooves::{self, GrooveView, REACH_OF_AMPLITUDE, REACH_OF_ENERGY};
 use super::integrator::{Integrator, Model};
 use super::random::{Purpose, Random};
@@ -52,7 +53,12 @@ struct Vertex<'a> {
 
 /// What scratches do, by the model.
 enum Response<'a> {
-    Separable { lobes: Vec<Lobe<'a>>, kept: f64 },
+    Separable {
+        lobes: Vec<Lobe>,
+        kept: f64,
+        /// That of a grating under them, and what they leave of its light.
+        row: Option<Box<(Lobe, DVec3)>>,
+    },
     Full(Box<Field<'a>>),
 }
 
@@ -114,7 +120,8 @@ impl Integrator<'_> {
             Model::Separable => REACH_OF_ENERGY,
             Model::Full => REACH_OF_AMPLITUDE,
         };
-        let views = grooves::gather(&self.grooves, object, &point, reach_sigma);
+        let mut views = grooves::gather(&self.grooves, object, &point, reach_sigma);
+        let row = RowView::drawn(&self.scene.objects[object], &self.tables, &point, random);
         let material = &self.scene.materials[point.material];
         let optics = &self.tables.materials[point.material];
         let reflectance = &self.reflectances[point.material];
@@ -124,15 +131,24 @@ impl Integrator<'_> {
         let (response, taken, specular_kept) = match self.settings.model {
             Model::Separable => {
                 let (kept, taken) = self.mask(object, &point, &views);
-                let lobes = lobes(&views, wavelengths, &weights, point.coherence_um);
-                (
-                    Response::Separable { lobes, kept },
-                    taken,
-                    DVec3::ONE - taken,
-                )
+                let sigma_um = point.coherence_um;
+                let lobes = lobes(&views, wavelengths, &weights, sigma_um);
+                let mut left = DVec3::ONE - taken;
+                // Scratches lie on top.
+                let row = row.map(|row| {
+                    let lobe = Lobe::of_row(&row, wavelengths, &weights, sigma_um);
+                    let under = Box::new((lobe, left));
+                    left *= DVec3::ONE - row.taken(&self.tables);
+                    under
+                });
+                let response = Response::Separable { lobes, kept, row };
+                (response, DVec3::ONE - left, left)
             }
             Model::Full => {
                 let smooth = ggx_alpha(point.roughness) <= GGX_MIN_ALPHA;
+                if let Some(row) = row {
+                    views.extend(row.grooves(random, point.coherence_um, reach_sigma));
+                }
                 let field = Field::new(&point, &views, smooth, wavelengths, &fresnel);
                 let taken = field.taken();
                 let lobe = if smooth {
@@ -158,8 +174,13 @@ impl Integrator<'_> {
         };
         light.base += self.by_base(&vertex, wavelengths);
         match &vertex.response {
-            Response::Separable { lobes, kept } => {
+            Response::Separable { lobes, kept, row } => {
                 light.scratches += *kept * self.by_grooves(&vertex, lobes, wavelengths);
+                if let Some(row) = row {
+                    let (lobe, left) = &**row;
+                    let lobe = std::slice::from_ref(lobe);
+                    light.scratches += *left * self.by_grooves(&vertex, lobe, wavelengths);
+                }
             }
             Response::Full(field) if !field.is_empty() => {
                 let by_field = self.by_field(&vertex, field, wavelengths);
@@ -247,7 +268,7 @@ impl Integrator<'_> {
     fn by_grooves(&self, vertex: &Vertex, lobes: &[Lobe], wavelengths: &Wavelengths) -> DVec3 {
         let mut sum = DVec3::ZERO;
         for (g, lobe) in lobes.iter().enumerate() {
-            let axes = world_axes(lobe.groove, vertex.point);
+            let axes = world_axes(lobe.frame, vertex.point);
             for light in 0..self.lights.len() {
                 let [along, across] =
                     axes.map(|axis| self.lights.extent(light, vertex.point.position_m, axis));
@@ -265,7 +286,7 @@ impl Integrator<'_> {
                     let Some(drawn) = directions.sample(u, v) else {
                         continue;
                     };
-                    let direction = vertex.world(lobe.groove.frame.surface_from_band(drawn.wi));
+                    let direction = vertex.world(lobe.frame.surface_from_band(drawn.wi));
                     if let Some(hit) = self.lights.hit(light, vertex.point.position_m, direction)
                         && !self.is_hidden(vertex.point, direction, hit.distance_m)
                     {
@@ -288,7 +309,7 @@ impl Integrator<'_> {
                 let [u, v, ..] = vertex.random.four(purpose);
                 let v = (f64::from(draw) + v) / f64::from(ENVIRONMENT_DRAWS);
                 if let Some(drawn) = directions.sample(u, v) {
-                    let direction = vertex.world(lobe.groove.frame.surface_from_band(drawn.wi));
+                    let direction = vertex.world(lobe.frame.surface_from_band(drawn.wi));
                     if self.next_surface(vertex, direction).is_none() {
                         let value = lobe.eval(&drawn) / drawn.pdf;
                         sum +=
@@ -310,11 +331,11 @@ impl Integrator<'_> {
         lobes: &[Lobe],
         wavelengths: &Wavelengths,
     ) -> DVec3 {
-        let all: f64 = lobes.iter().map(|l| l.groove.share.segment).sum();
+        let all: f64 = lobes.iter().map(|lobe| lobe.share).sum();
         let [pick, u, v, _] = vertex.random.four(Purpose::Bounce);
         let mut left = pick * all;
         for lobe in lobes {
-            let share = lobe.groove.share.segment;
+            let share = lobe.share;
             if left >= share {
                 left -= share;
                 continue;
@@ -325,7 +346,7 @@ impl Integrator<'_> {
             let Some(drawn) = drawn else {
                 break;
             };
-            let direction = vertex.world(lobe.groove.frame.surface_from_band(drawn.wi));
+            let direction = vertex.world(lobe.frame.surface_from_band(drawn.wi));
             let Some(hit) = self.next_surface(vertex, direction) else {
                 break;
             };
@@ -498,12 +519,12 @@ impl Integrator<'_> {
 /// Below, d xi = cos d omega loses its meaning as a measure of directions.
 const MIN_COS: f64 = 1e-6;
 
-fn lobes<'a>(
-    views: &'a [GrooveView],
+fn lobes(
+    views: &[GrooveView],
     wavelengths: &Wavelengths,
     weights: &Spectrum<DVec3>,
     coherence_um: f64,
-) -> Vec<Lobe<'a>> {
+) -> Vec<Lobe> {
     views
         .iter()
         .filter(|view| view.share.segment > 0.0)

@@ -25,6 +25,10 @@ pub(super) enum Purpose {
     FieldEnvironment { draw: u32 },
     /// How a path goes on by way of scratches: which of them, or of the field's draws (1), whither (2).
     Bounce,
+    /// Which grating is at a point (1), its grooves' angle (1) and place (1).
+    Row,
+    /// How far a groove of a grating is off its place (1) and its depth (1).
+    RowGroove(u32),
 }
 
 impl Purpose {
@@ -43,6 +47,8 @@ impl Purpose {
             Self::FieldLight { light, draw } => [6, light, draw],
             Self::FieldEnvironment { draw } => [7, draw, 0],
             Self::Bounce => [8, 0, 0],
+            Self::Row => [9, 0, 0],
+            Self::RowGroove(groove) => [10, groove, 0],
         }
     }
 }

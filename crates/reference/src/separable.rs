@@ -1,61 +1,107 @@
 //! Light by way of grooves, each for itself: the separable |S|^2 of docs/model.md, (3) to (7), at a point.
 
+use super::gratings::RowView;
 use super::grooves::GrooveView;
 use super::interval::{CutCauchy, CutNormal, normal};
+use super::orders::Orders;
 use super::wavelengths::{Spectrum, WIDEST_NM, Wavelengths};
 use glam::DVec3;
 use hairline_cpu::surface::SurfacePoint;
+use hairline_optics::band::BandFrame;
 use hairline_optics::diffraction::sinc;
+use hairline_optics::grating::Grating as Row;
 use hairline_optics::scratch::{band_std, phase_step_energy};
 use std::f64::consts::PI;
 
 /// Half width of the distribution over u = W q that directions across a groove are drawn by: about that of sinc^2 at green.
 const DRAWN_HALF_WIDTH_UM: f64 = 0.2;
 
-/// One groove's response, made ready for many directions.
-pub(super) struct Lobe<'a> {
-    pub groove: &'a GrooveView,
-    /// rho W/lambda times the weight of each wavelength: all but the angles and the phase.
+/// The response of a groove, or of all grooves of a grating, made ready for many directions.
+pub(super) struct Lobe {
+    pub frame: BandFrame,
+    /// `wo` in its frame.
+    wo: DVec3,
+    /// Of the window: rho, or 1 for a grating.
+    pub share: f64,
+    /// The share times the weight of each wavelength.
     strength: Spectrum<DVec3>,
     nm: Spectrum<f64>,
-    half_k_width: Spectrum<f64>,
     band_std: Spectrum<f64>,
     drawn_std: f64,
+    of: Of,
 }
 
-impl<'a> Lobe<'a> {
+/// What a lobe is of.
+enum Of {
+    Groove { width_um: f64, depth_nm: f64 },
+    Row(Row),
+}
+
+impl Lobe {
     /// `weight` holds the material's reflectance; `coherence_um` is sigma.
     pub(crate) fn new(
-        groove: &'a GrooveView,
+        groove: &GrooveView,
         wavelengths: &Wavelengths,
         weight: &Spectrum<DVec3>,
         coherence_um: f64,
     ) -> Self {
-        let piece = &groove.piece;
-        let at = |j: usize| wavelengths.nm[j];
-        let strength = std::array::from_fn(|j| {
-            weight[j] * (groove.share.segment * piece.width_um / (at(j) * 1e-3))
-        });
+        let (width_um, depth_nm) = (groove.piece.width_um, groove.piece.depth_nm);
+        Self::of(
+            (groove.frame, groove.wo, groove.share.segment),
+            Of::Groove { width_um, depth_nm },
+            wavelengths,
+            weight,
+            coherence_um,
+        )
+    }
+
+    /// The same of a grating.
+    pub(crate) fn of_row(
+        view: &RowView,
+        wavelengths: &Wavelengths,
+        weight: &Spectrum<DVec3>,
+        coherence_um: f64,
+    ) -> Self {
+        let of = Of::Row(view.row);
+        let place = (view.frame, view.wo, 1.0);
+        Self::of(place, of, wavelengths, weight, coherence_um)
+    }
+
+    fn of(
+        (frame, wo, share): (BandFrame, DVec3, f64),
+        of: Of,
+        wavelengths: &Wavelengths,
+        weight: &Spectrum<DVec3>,
+        coherence_um: f64,
+    ) -> Self {
         Self {
-            groove,
-            strength,
+            frame,
+            wo,
+            share,
+            strength: weight.map(|weight| weight * share),
             nm: wavelengths.nm,
-            half_k_width: wavelengths.nm.map(|nm| PI * piece.width_um / (nm * 1e-3)),
             band_std: wavelengths.nm.map(|nm| band_std(coherence_um, nm)),
             drawn_std: band_std(coherence_um, WIDEST_NM),
+            of,
         }
     }
 
     /// The BRDF times the light's cosine, per d xi, for a direction that [`LobeDirections`] drew.
     pub(crate) fn eval(&self, to: &LobeDirection) -> DVec3 {
         // The path into the groove and out is longer the steeper both are.
-        let depth_nm = self.groove.piece.depth_nm * 0.5 * (to.wi.z + self.groove.wo.z);
+        let depth_share = 0.5 * (to.wi.z + self.wo.z);
         (0..self.strength.len())
             .map(|j| {
-                let energy = phase_step_energy(depth_nm, self.nm[j]);
-                let across = sinc(self.half_k_width[j] * to.q);
-                let along = normal(to.xi_t, self.band_std[j]);
-                self.strength[j] * (energy * across * across * along)
+                let nm = self.nm[j];
+                let across = match &self.of {
+                    Of::Groove { width_um, depth_nm } => {
+                        let slit = sinc(PI * width_um / (nm * 1e-3) * to.q);
+                        let energy = phase_step_energy(depth_nm * depth_share, nm);
+                        energy * width_um / (nm * 1e-3) * slit * slit
+                    }
+                    Of::Row(row) => row.density(to.q, depth_share, nm, self.band_std[j]),
+                };
+                self.strength[j] * (across * normal(to.xi_t, self.band_std[j]))
             })
             .sum()
     }
@@ -67,13 +113,42 @@ impl<'a> Lobe<'a> {
         along: (f64, f64),
         across: (f64, f64),
     ) -> Option<LobeDirections> {
-        let wo = self.groove.wo;
-        let scale = DRAWN_HALF_WIDTH_UM / self.groove.piece.width_um;
+        let (low, high) = (self.wo.y + across.0, self.wo.y + across.1);
+        let q = match &self.of {
+            Of::Groove { width_um, .. } => {
+                Across::Slit(CutCauchy::new(DRAWN_HALF_WIDTH_UM / width_um, low, high)?)
+            }
+            Of::Row(row) => Across::Orders(Orders::new(row, &self.nm, &self.band_std, low, high)?),
+        };
         Some(LobeDirections {
-            wo,
-            xi_t: CutNormal::new(self.drawn_std, wo.x + along.0, wo.x + along.1)?,
-            q: CutCauchy::new(scale, wo.y + across.0, wo.y + across.1)?,
+            wo: self.wo,
+            xi_t: CutNormal::new(self.drawn_std, self.wo.x + along.0, self.wo.x + along.1)?,
+            q,
         })
+    }
+}
+
+/// How q is drawn.
+enum Across {
+    /// About the mirror's direction.
+    Slit(CutCauchy),
+    /// About the orders of a grating, and a part as about the mirror's direction.
+    Orders(Orders),
+}
+
+impl Across {
+    fn sample(&self, v: f64) -> f64 {
+        match self {
+            Self::Slit(slit) => slit.sample(v),
+            Self::Orders(orders) => orders.sample(v),
+        }
+    }
+
+    fn pdf(&self, q: f64) -> f64 {
+        match self {
+            Self::Slit(slit) => slit.pdf(q),
+            Self::Orders(orders) => orders.pdf(q),
+        }
     }
 }
 
@@ -81,7 +156,7 @@ impl<'a> Lobe<'a> {
 pub(super) struct LobeDirections {
     wo: DVec3,
     xi_t: CutNormal,
-    q: CutCauchy,
+    q: Across,
 }
 
 /// One of them.
@@ -114,7 +189,7 @@ pub(super) fn direction_from_cosines(x: f64, y: f64) -> Option<DVec3> {
     (z2 > 0.0).then(|| DVec3::new(x, y, z2.sqrt()))
 }
 
-/// The components along world axes that a groove's frame has.
-pub(super) fn world_axes(groove: &GrooveView, point: &SurfacePoint) -> [DVec3; 2] {
-    [DVec3::X, DVec3::Y].map(|axis| point.world_from_surface(groove.frame.surface_from_band(axis)))
+/// The axes of a groove's frame in world space.
+pub(super) fn world_axes(frame: BandFrame, point: &SurfacePoint) -> [DVec3; 2] {
+    [DVec3::X, DVec3::Y].map(|axis| point.world_from_surface(frame.surface_from_band(axis)))
 }

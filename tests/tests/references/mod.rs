@@ -9,6 +9,7 @@ mod environment;
 mod full_wave;
 mod furnace;
 mod going_on;
+mod gratings;
 mod mask;
 mod mirrored;
 mod pictures;

@@ -1,0 +1,109 @@
+//! Gratings at a point: one row of grooves, drawn as often as it covers the surface, with its grooves wherever they may lie.
+
+use super::grooves::GrooveView;
+use super::random::{Purpose, Random};
+use glam::{DVec2, DVec3};
+use hairline_cpu::surface::SurfacePoint;
+use hairline_optics::band::{BandFrame, BandLine};
+use hairline_optics::band_environment::row_cells;
+use hairline_optics::coherent::GroovePiece;
+use hairline_optics::grating::{GRATING_DEPTH_NM, GRATING_WIDTH_UM, Grating as Row};
+use hairline_optics::scratch::oblique_depth_nm;
+use hairline_scene::{Object, ScratchTables};
+use spec_math::cephes64::ndtri;
+
+/// Where grooves end, which the window does not see: its amplitude has fallen to 2e-8.
+const END_SIGMA: f64 = 6.0;
+
+/// A row of grooves from a point.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct RowView {
+    pub row: Row,
+    pub frame: BandFrame,
+    /// `wo` in the frame of its grooves.
+    pub wo: DVec3,
+    table: usize,
+    /// Where the grooves lie: in [0, 1) of a pitch.
+    phase: f64,
+}
+
+impl RowView {
+    /// One of the gratings at a point of an object, or none.
+    pub(super) fn drawn(
+        object: &Object,
+        tables: &ScratchTables,
+        point: &SurfacePoint,
+        random: Random,
+    ) -> Option<Self> {
+        let seen = |grating: &hairline_scene::Grating| {
+            grating.seen_from_pixel(point.position_m, point.normal, [DVec3::ZERO; 2])
+        };
+        let gratings = object.gratings.iter();
+        let places: Vec<_> = gratings.filter_map(|g| Some((g, seen(g)?))).collect();
+        let covered: f64 = places.iter().map(|(_, place)| place.share).sum();
+        let [pick, angle, phase, _] = random.four(Purpose::Row);
+        let mut left = pick * covered.max(1.0);
+        for (grating, place) in places {
+            if left >= place.share {
+                left -= place.share;
+                continue;
+            }
+            let tangent = point.surface_from_world(place.tangent).truncate();
+            let turn = DVec2::from_angle(grating.angle_std_rad * ndtri(angle));
+            let frame = BandFrame {
+                tangent: tangent.normalize_or(DVec2::X).rotate(turn),
+            };
+            return Some(Self {
+                row: grating.row,
+                frame,
+                wo: frame.band_from_surface(point.wo),
+                table: tables.grating_table(grating, point.material)?,
+                phase,
+            });
+        }
+        None
+    }
+
+    /// Its grooves in the window, each off its place by chance.
+    pub(super) fn grooves(
+        &self,
+        random: Random,
+        coherence_um: f64,
+        reach_sigma: f64,
+    ) -> impl Iterator<Item = GrooveView> {
+        let Row {
+            pitch_um,
+            width_um,
+            depth_nm,
+            depth_spread,
+            jitter_um,
+        } = self.row;
+        let reach = (reach_sigma * coherence_um / pitch_um).ceil() as i32 + 1;
+        (-reach..=reach).map(move |j| {
+            let [place, depth, ..] = random.four(Purpose::RowGroove((j + reach) as u32));
+            let piece = GroovePiece {
+                tangent: self.frame.tangent,
+                offset_um: (f64::from(j) + self.phase) * pitch_um + jitter_um * ndtri(place),
+                // Beyond what the window shows.
+                start_um: -END_SIGMA * coherence_um,
+                end_um: END_SIGMA * coherence_um,
+                width_um,
+                depth_nm: depth_nm * (1.0 + depth_spread * ndtri(depth)),
+            };
+            GrooveView::of_row(self.frame, self.wo, piece, coherence_um)
+        })
+    }
+
+    /// What the base's mirror direction loses to it: what it sends of light from all around, as in the closed form.
+    pub(super) fn taken(&self, tables: &ScratchTables) -> DVec3 {
+        let table = &tables.tables[self.table];
+        let cells = row_cells(BandLine::new(self.wo, 0.0));
+        let sent = cells.iter().map(|cell| {
+            let depth_nm = oblique_depth_nm(GRATING_DEPTH_NM, cell.direction.z, self.wo.z);
+            let row = table.at_depth(depth_nm);
+            let at = |q: f64| DVec3::from(row.at(GRATING_WIDTH_UM * q));
+            at(cell.q_high) - at(cell.q_low)
+        });
+        sent.sum()
+    }
+}

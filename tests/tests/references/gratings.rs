@@ -1,0 +1,110 @@
+//! Gratings: the closed form against Monte Carlo of the same model, and against the whole field of rows whose grooves all have their phases.
+
+use super::pictures::{LINEAR, closed, mean, sampled};
+use super::scenes::{View, plate, sphere};
+use glam::DVec3;
+use hairline_image::Image;
+use hairline_optics::grating::Grating as Row;
+use hairline_reference::{Model, Settings};
+use hairline_scene::{Base, Grating, GrooveField, Scene};
+
+const FULL: Settings = Settings {
+    model: Model::Full,
+    ..LINEAR
+};
+
+const VIEW: View = View {
+    angle_rad: 0.3,
+    pixel_um: 40.0,
+    size_px: 4,
+};
+
+/// Grooves across the plane of view, under a light about the direction of the first order at 550 nm.
+fn grated(row: Row, angle_std_rad: f64, light_rad: f64) -> Scene {
+    let mut scene = plate(Base::Mirror, VIEW);
+    scene.materials[0].roughness = 0.0;
+    scene.objects[0].gratings = vec![Grating {
+        row,
+        field: GrooveField::Along(DVec3::X),
+        angle_std_rad,
+        coverage: 1.0,
+        radii_m: [0.0, f64::INFINITY],
+    }];
+    scene.lights = vec![sphere(VIEW, 0.0, -0.55 / row.pitch_um, light_rad)];
+    scene
+}
+
+/// Of the gratings' light, all channels together: what of it is off, and the standard error of that.
+fn compared(name: &str, exact: &Image, reference: &Image) -> (f64, f64) {
+    let [a, b] = [exact, reference].map(|image| mean(&image.scratches));
+    let rms = |v: [f64; 3]| v.iter().map(|v| v * v).sum::<f64>().sqrt();
+    let pixels = reference.scratches.len() as f64;
+    let noise = reference.noise.as_ref().expect("by Monte Carlo");
+    let variance: f64 = noise
+        .scratches
+        .iter()
+        .flatten()
+        .map(|v| f64::from(*v))
+        .sum();
+    let off = rms(std::array::from_fn(|c| a[c] - b[c])) / rms(b);
+    let error = variance.sqrt() / pixels / rms(b);
+    println!(
+        "gratings, {name}: {:.2} % off, standard error {:.2} %",
+        100.0 * off,
+        100.0 * error
+    );
+    (off, error)
+}
+
+fn row(pitch_um: f64, width_um: f64, jitter: f64, depth_spread: f64) -> Row {
+    Row {
+        pitch_um,
+        width_um,
+        depth_nm: 110.0,
+        depth_spread,
+        jitter_um: jitter * pitch_um,
+    }
+}
+
+#[test]
+fn rows_of_grooves() {
+    for (row, angle_std_rad, light_rad) in [
+        (row(0.74, 0.35, 0.0, 0.0), 0.0, 0.05),
+        (row(1.6, 0.6, 0.0, 0.0), 0.0, 0.3),
+        (row(1.6, 0.6, 0.1, 0.1), 0.0, 0.02),
+        (row(1.6, 0.6, 0.05, 0.0), 0.05, 0.1),
+        (row(10.0, 3.0, 0.2, 0.0), 0.0, 0.05),
+        (row(30.0, 5.0, 0.0, 0.2), 0.0, 0.05),
+    ] {
+        let scene = grated(row, angle_std_rad, light_rad);
+        let (exact, reference) = (closed(&scene), sampled(&scene, LINEAR, 40));
+        let name = format!("{row:?}, angles {angle_std_rad}, light of {light_rad} rad");
+        let (off, error) = compared(&name, &exact, &reference);
+        // One depth for a chord, as for scratches, is the most of it.
+        assert!(off < 0.03 + 2.0 * error && error < 0.02, "{name}: {off}");
+    }
+}
+
+#[test]
+fn rows_of_grooves_with_all_phases() {
+    for (row, light_rad, limit) in [
+        (row(0.74, 0.35, 0.0, 0.0), 0.05, 0.03),
+        (row(1.6, 0.6, 0.0, 0.0), 0.02, 0.03),
+        (row(1.6, 0.6, 0.0, 0.0), 0.002, 0.08),
+        (row(10.0, 3.0, 0.2, 0.0), 0.05, 0.03),
+        (row(30.0, 5.0, 0.0, 0.0), 0.05, 0.03),
+    ] {
+        let scene = grated(row, 0.0, light_rad);
+        let (exact, reference) = (closed(&scene), sampled(&scene, FULL, 12));
+        let name = format!("{row:?} with all phases, light of {light_rad} rad");
+        let (off, error) = compared(&name, &exact, &reference);
+        assert!(off < limit + 2.0 * error && error < 0.03, "{name}: {off}");
+    }
+    // What single scratches would send instead is seen.
+    let scene = grated(row(1.6, 0.6, 0.0, 0.0), 0.0, 0.02);
+    let reference = sampled(&scene, FULL, 4);
+    let mut wrong = scene.clone();
+    wrong.objects[0].gratings[0].row.jitter_um = 1.0;
+    let (off, _) = compared("as single scratches", &closed(&wrong), &reference);
+    assert!(off > 0.3, "{off}");
+}
