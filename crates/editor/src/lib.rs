@@ -30,6 +30,7 @@ pub mod bookmarks;
 pub mod brush;
 pub mod document;
 pub mod folders;
+pub mod grating_presets;
 mod history;
 pub mod maps;
 pub mod navigate;

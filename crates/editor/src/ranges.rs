@@ -39,7 +39,7 @@ pub(crate) const DEFAULT_DIAGONAL_M: f64 = 0.3;
 impl Parameter {
     /// Every parameter.
     #[cfg(test)]
-    pub(crate) const ALL: [Self; 59] = [
+    pub(crate) const ALL: [Self; 65] = [
         Self::CameraPosition,
         Self::CameraTarget,
         Self::CameraUp,
@@ -81,6 +81,12 @@ impl Parameter {
         Self::Axis,
         Self::AxisCenter,
         Self::Direction,
+        Self::Pitch,
+        Self::GrooveWidth,
+        Self::GrooveDepthSpread,
+        Self::Displacement,
+        Self::GrooveAngles,
+        Self::Coverage,
         Self::BrushRadius,
         Self::BrushDensity,
         Self::BrushWidth,
@@ -146,6 +152,12 @@ impl Parameter {
             P::Curvature => (-50.0 / d..=50.0 / d, limits::CURVATURE_PER_M),
             P::CurvatureSpread => (0.0..=50.0 / d, limits::CURVATURE_SPREAD_PER_M),
             P::Jitter => (0.0..=30.0, limits::JITTER_DEG),
+            P::Pitch => (0.4..=50.0, limits::PITCH_UM),
+            P::GrooveWidth => (0.1..=20.0, above_zero(0.0..=*limits::PITCH_UM.end())),
+            P::GrooveDepthSpread => (0.0..=0.5, limits::GRATING_DEPTH_SPREAD),
+            P::Displacement => (0.0..=5.0, 0.0..=*limits::PITCH_UM.end()),
+            P::GrooveAngles => (0.0..=10.0, limits::JITTER_DEG),
+            P::Coverage => (0.0..=1.0, limits::COVERAGE),
             P::AxisCenter => (-d..=d, limits::COORDINATE_M),
             P::BrushRadius => (2e-3 * d..=0.3 * d, limits::SIZE_M),
             P::BrushDensity => (10.0 / d..=10_000.0 / d, NOT_NEGATIVE),
@@ -189,6 +201,8 @@ impl Parameter {
                 | P::Count
                 | P::Density
                 | P::Length
+                | P::Pitch
+                | P::GrooveWidth
                 | P::BrushRadius
                 | P::BrushDensity
                 | P::BrushWidth
@@ -227,12 +241,15 @@ impl Parameter {
             | P::StudioRotation
             | P::Rotation
             | P::Jitter
+            | P::GrooveAngles
             | P::LightRotation
             | P::LightCone => Unit::Degree,
             P::Exposure | P::LightExposure => Unit::Exposure,
             P::LightTemperature => Unit::Kelvin,
             P::PictureSize | P::Filter => Unit::Pixel,
-            P::Coherence | P::Width => Unit::Micrometre,
+            P::Coherence | P::Width | P::Pitch | P::GrooveWidth | P::Displacement => {
+                Unit::Micrometre
+            }
             P::Depth => Unit::Nanometre,
             P::Density => Unit::PerSquareMetre,
             P::Curvature | P::CurvatureSpread | P::BrushDensity => Unit::PerMetre,

@@ -9,6 +9,7 @@ pub(crate) mod status;
 
 mod camera;
 mod environment;
+mod grating;
 mod layer;
 mod light;
 mod material;

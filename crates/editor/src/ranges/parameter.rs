@@ -85,6 +85,18 @@ pub enum Parameter {
     AxisCenter,
     /// `scratches.direction`
     Direction,
+    /// `grating.pitch_um`
+    Pitch,
+    /// `grating.width_um`
+    GrooveWidth,
+    /// Spread of `grating.depth_nm`
+    GrooveDepthSpread,
+    /// `grating.jitter_um`
+    Displacement,
+    /// `grating.jitter_deg`
+    GrooveAngles,
+    /// `grating.coverage`
+    Coverage,
     /// `radius_m` of a stroke.
     BrushRadius,
     /// `density_per_m` of a stroke.

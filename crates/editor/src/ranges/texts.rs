@@ -171,6 +171,30 @@ pub(super) fn of(parameter: Parameter) -> Text {
             "Direction",
             "Where the scratches run, in the object's own frame. Lamps are drawn out into streaks across it.",
         ),
+        P::Pitch => (
+            "Pitch",
+            "From one groove to the next. Fine rows throw wide rainbows far out, coarse ones narrow rainbows close to the highlight. Disc 1.6, DVD 0.74, turned steel 30.",
+        ),
+        P::GrooveWidth => (
+            "Groove width",
+            "How much of the pitch is groove. Half of it gives the brightest first order and no second one; narrow grooves send more light to far orders.",
+        ),
+        P::GrooveDepthSpread => (
+            "Depth spread",
+            "How much the depths of grooves differ, as a share of the mean. It weakens the rainbows and adds a white sheen that single grooves send.",
+        ),
+        P::Displacement => (
+            "Displacement",
+            "How far grooves are off their places. A tenth of the pitch keeps two thirds of the first rainbow; at a quarter all grooves shine for themselves.",
+        ),
+        P::GrooveAngles => (
+            "Angles",
+            "How far grooves stray from the pattern's direction. 0 gives lines of light with hard edges; a degree or more makes soft fans of them.",
+        ),
+        P::Coverage => (
+            "Coverage",
+            "The share of the surface that the grooves cover. The rest mirrors as the material does.",
+        ),
         P::BrushRadius => (
             "Brush radius",
             "Half the width of the band in which scratches are laid or taken away.",

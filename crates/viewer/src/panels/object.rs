@@ -75,6 +75,8 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     }
     ui.menu_button("Add scratches…", |ui| add_layer(ui, work, index));
     ui.add_space(8.0);
+    super::grating::section(ui, work, index);
+    ui.add_space(8.0);
     ui.horizontal(|ui| {
         for command in [Command::FrameSelection, Command::Duplicate, Command::Delete] {
             super::button(ui, work, command);

@@ -1,0 +1,120 @@
+//! Gratings to start from: things that everybody knows.
+
+use hairline_scene::description::{Around, Distribution, Grating, Pattern};
+
+/// A grating with all its numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum GratingPreset {
+    /// The track of a compact disc.
+    CompactDisc,
+    /// That of a DVD.
+    Dvd,
+    /// The lands between the grooves of a record, as its stamper leaves them.
+    Vinyl,
+    /// Embossed foil.
+    Foil,
+    /// Drawn over by a fine brush.
+    BrushedAluminium,
+    /// Turned on a lathe.
+    TurnedSteel,
+}
+
+impl GratingPreset {
+    /// Every preset, in the order of a menu.
+    pub const ALL: [Self; 6] = [
+        Self::CompactDisc,
+        Self::Dvd,
+        Self::Vinyl,
+        Self::Foil,
+        Self::BrushedAluminium,
+        Self::TurnedSteel,
+    ];
+
+    /// What a menu calls it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::CompactDisc => "Compact disc",
+            Self::Dvd => "DVD",
+            Self::Vinyl => "Vinyl",
+            Self::Foil => "Holographic foil",
+            Self::BrushedAluminium => "Brushed aluminium",
+            Self::TurnedSteel => "Turned steel",
+        }
+    }
+
+    /// What it looks like.
+    pub fn tooltip(self) -> &'static str {
+        match self {
+            Self::CompactDisc => {
+                "A row around the z axis every 1.6 µm: fans of pure rainbows that turn with the light, two or three on each side."
+            }
+            Self::Dvd => "A row every 0.74 µm: one wide rainbow, far away from the highlight.",
+            Self::Vinyl => {
+                "Rough grooves every 40 µm around the z axis: faint colours close to a soft bright fan. For dark plastic."
+            }
+            Self::Foil => {
+                "Straight rows every 1.2 µm along x: a lamp breaks into colours across them. Wrapping paper, seals."
+            }
+            Self::BrushedAluminium => {
+                "Fine uneven rows along x: lamps are drawn out into streaks with a hint of colour. Hi-fi fronts, laptops."
+            }
+            Self::TurnedSteel => {
+                "The feed of a lathe, 30 µm, around the z axis: narrow colours beside the highlight, in a fan."
+            }
+        }
+    }
+
+    /// The grating on an object.
+    pub fn grating(self, object: impl Into<String>) -> Grating {
+        let circular = |jitter_deg| {
+            Pattern::Circular(Around {
+                jitter_deg,
+                ..Around::default()
+            })
+        };
+        let along_x = |jitter_deg| Pattern::Parallel {
+            direction: [1.0, 0.0, 0.0],
+            jitter_deg,
+        };
+        // Pattern; pitch, width and jitter in um; mean and spread of the depth in nm.
+        let (pattern, [pitch_um, width_um, jitter_um], [mean, spread]) = match self {
+            Self::CompactDisc => (circular(0.0), [1.6, 0.6, 0.03], [110.0, 0.05]),
+            Self::Dvd => (circular(0.0), [0.74, 0.32, 0.015], [105.0, 0.05]),
+            Self::Vinyl => (circular(0.3), [40.0, 16.0, 2.0], [400.0, 0.5]),
+            Self::Foil => (along_x(0.5), [1.2, 0.6, 0.03], [140.0, 0.05]),
+            Self::BrushedAluminium => (along_x(1.5), [6.0, 2.4, 1.5], [160.0, 0.5]),
+            Self::TurnedSteel => (circular(0.2), [30.0, 12.0, 1.0], [140.0, 0.2]),
+        };
+        Grating {
+            name: Some(self.name().to_lowercase()),
+            width_um,
+            depth_nm: Distribution { mean, spread },
+            jitter_um,
+            ..Grating::new(object, pattern, pitch_um)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use hairline_scene::Description;
+
+    #[test]
+    fn presets_are_scenes_and_come_back_from_their_files() {
+        let text = "camera = { position_m = [0, -0.2, 0.2], target_m = [0, 0, 0], up = [0, 0, 1] }\n\
+            material = [{ name = \"m\", kind = \"mirror\" }]\n\
+            object = [{ name = \"o\", material = \"m\", shape = { disk = { radius_m = 0.06 } } }]\n";
+        let mut description = Description::from_toml(text, "test".as_ref()).unwrap();
+        description.gratings = GratingPreset::ALL
+            .map(|preset| preset.grating("o"))
+            .to_vec();
+        description
+            .check()
+            .and(description.check_references())
+            .unwrap();
+        let saved = description.to_toml().unwrap();
+        let loaded = Description::from_toml(&saved, "test".as_ref()).unwrap();
+        assert_eq!(loaded.gratings, description.gratings);
+    }
+}

@@ -1,0 +1,91 @@
+//! The gratings of an object.
+
+use egui::{CollapsingHeader, Ui};
+use hairline_editor::grating_presets::GratingPreset;
+use hairline_editor::ranges::Parameter;
+use hairline_scene::description::{Grating, Pattern};
+
+use super::form::Form;
+use crate::workspace::Workspace;
+
+/// Those of the object with this index, with what adds one.
+pub(super) fn section(ui: &mut Ui, work: &mut Workspace, object: usize) {
+    let description = work.document.description().clone();
+    let Some(name) = description.objects.get(object).map(|o| o.name.clone()) else {
+        return;
+    };
+    ui.strong("Gratings");
+    let own = (0..).zip(&description.gratings);
+    for (index, grating) in own.filter(|(_, grating)| grating.object == name) {
+        let title = grating.name.as_deref().unwrap_or("grating");
+        let title = format!("{title}, {} µm", grating.pitch_um);
+        CollapsingHeader::new(title)
+            .id_salt(("grating", index))
+            .show(ui, |ui| rows(ui, work, object, index, grating.clone()));
+    }
+    ui.menu_button("Add grating…", |ui| {
+        for preset in GratingPreset::ALL {
+            let button = ui.button(preset.name()).on_hover_text(preset.tooltip());
+            if button.clicked() {
+                let grating = preset.grating(&name);
+                work.apply("Add grating", |d, selection| {
+                    d.gratings.push(grating);
+                    Ok(selection)
+                });
+                ui.close();
+            }
+        }
+    })
+    .response
+    .on_hover_text("Grooves side by side, finer than a pixel: their light interferes");
+}
+
+fn rows(ui: &mut Ui, work: &mut Workspace, object: usize, index: usize, mut grating: Grating) {
+    let mut form = Form::new(ui, ("grating", index), work.diagonal_m(Some(object)));
+    form.toggle(
+        "Hidden",
+        "As if the grating were not there",
+        &mut grating.hidden,
+    );
+    let mut pitch_um = grating.pitch_um;
+    form.number(Parameter::Pitch, &mut pitch_um);
+    if pitch_um != grating.pitch_um {
+        // Grooves keep their share of the surface, and order its measure.
+        let factor = pitch_um / grating.pitch_um;
+        grating.width_um *= factor;
+        grating.jitter_um *= factor;
+        grating.pitch_um = pitch_um;
+    }
+    form.number(Parameter::GrooveWidth, &mut grating.width_um);
+    grating.width_um = grating.width_um.min(grating.pitch_um);
+    form.number(Parameter::Depth, &mut grating.depth_nm.mean);
+    form.number(Parameter::GrooveDepthSpread, &mut grating.depth_nm.spread);
+    form.number(Parameter::Displacement, &mut grating.jitter_um);
+    grating.jitter_um = grating.jitter_um.min(grating.pitch_um);
+    match &mut grating.pattern {
+        Pattern::Circular(around) | Pattern::Radial(around) | Pattern::Spun { around, .. } => {
+            form.number(Parameter::GrooveAngles, &mut around.jitter_deg);
+            form.vector(Parameter::AxisCenter, &mut around.center_m);
+        }
+        Pattern::Parallel {
+            direction,
+            jitter_deg,
+        } => {
+            form.number(Parameter::GrooveAngles, jitter_deg);
+            form.vector(Parameter::Direction, direction);
+        }
+        Pattern::Random { .. } | Pattern::Swirl { .. } => {}
+    }
+    form.number(Parameter::Coverage, &mut grating.coverage);
+    if let Some(change) = form.change() {
+        work.document.drag(&change.label, change.key, |d| {
+            d.gratings[index] = grating.clone();
+        });
+    }
+    if ui.button("Delete grating").clicked() {
+        work.apply("Delete grating", |d, selection| {
+            d.gratings.remove(index);
+            Ok(selection)
+        });
+    }
+}
