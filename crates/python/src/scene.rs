@@ -11,7 +11,7 @@ use hairline_memory::budget_bytes;
 use hairline_optics::mask::Mask;
 use hairline_reference::{Integrator, Model, Parts, Settings};
 use hairline_scene::estimate::Estimate;
-use hairline_scene::{Description, Error, Loader, Object, Scene, SceneBuilder, Stage, reading};
+use hairline_scene::{Description, Error, Loader, Scene, SceneBuilder, Stage, reading};
 use hairline_work::Listener;
 use hairline_work::backend::{self, Backend, Painter, Refusal, Rendered, Task};
 use hairline_work::failure::Failure;
@@ -182,21 +182,9 @@ impl Builder {
     /// Those of the last scene, if this one has its surfaces, scratches and materials.
     fn parts(&self, scene: &Scene) -> Arc<OnceLock<Parts>> {
         let mut last = self.last.lock().unwrap_or_else(|left| left.into_inner());
-        let alike = |a: &Object, b: &Object| {
-            Arc::ptr_eq(&a.mesh, &b.mesh)
-                && Arc::ptr_eq(&a.scratches, &b.scratches)
-                && Arc::ptr_eq(&a.segments, &b.segments)
-        };
-        let kept = last.as_ref().filter(|(old, _)| {
-            old.materials == scene.materials
-                && Arc::ptr_eq(&old.textures, &scene.textures)
-                && old.objects.len() == scene.objects.len()
-                && old
-                    .objects
-                    .iter()
-                    .zip(&scene.objects)
-                    .all(|(a, b)| alike(a, b))
-        });
+        let kept = last
+            .as_ref()
+            .filter(|(old, _)| Parts::are_alike(old, scene));
         let parts = kept.map(|(_, parts)| parts.clone()).unwrap_or_default();
         *last = Some((scene.clone(), parts.clone()));
         parts

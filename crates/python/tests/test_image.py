@@ -102,6 +102,7 @@ def test_a_reference_is_of_the_scene_as_it_is_now(scene):
     scene.lights[0].radiance = 80
     scene.scratches[0].depth_nm = 90
     scene.materials[0].metal = "gold"
+    scene.gratings.append(hairline.Grating(object="plate", pattern="parallel", pitch_um=1.6))
     again = hairline.Scene.from_dict(scene.to_dict()).reference(size=(24, 16), samples=64)
     for _ in range(2):
         np.testing.assert_array_equal(scene.reference(size=(24, 16), samples=64).beauty, again.beauty)

@@ -65,6 +65,7 @@ CLASSES = {
     "material": [hairline.Material],
     "object": [hairline.Object],
     "scratches": [hairline.Scratches],
+    "grating": [hairline.Grating],
     "light": [hairline.Light, *hairline.Light.__subclasses__()],
 }
 # Of what lies within a key: shapes, strokes and rows of a list. The kind of a light is its class.

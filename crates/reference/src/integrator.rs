@@ -5,7 +5,7 @@ use hairline_cpu::sampling::environment::EnvironmentSampler;
 use hairline_cpu::sampling::lights::AreaLights;
 use hairline_index::{Groove, ScratchIndex, SegmentTree, TriangleIndex, groove_index};
 use hairline_optics::mask::Mask;
-use hairline_scene::{CameraFrame, Scene, ScratchTables};
+use hairline_scene::{CameraFrame, Object, Scene, ScratchTables};
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::Arc;
@@ -58,6 +58,21 @@ impl Parts {
             grooves: grooves.into(),
             tables: tables.into(),
         }
+    }
+
+    /// Whether those of one scene are those of another: its surfaces, scratches, gratings and materials are the same ones.
+    pub fn are_alike(a: &Scene, b: &Scene) -> bool {
+        let alike = |a: &Object, b: &Object| {
+            Arc::ptr_eq(&a.mesh, &b.mesh)
+                && Arc::ptr_eq(&a.scratches, &b.scratches)
+                && Arc::ptr_eq(&a.segments, &b.segments)
+                && a.gratings == b.gratings
+                && a.is_lamp == b.is_lamp
+        };
+        Arc::ptr_eq(&a.textures, &b.textures)
+            && a.materials == b.materials
+            && a.objects.len() == b.objects.len()
+            && a.objects.iter().zip(&b.objects).all(|(a, b)| alike(a, b))
     }
 }
 
