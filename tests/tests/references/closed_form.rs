@@ -1,7 +1,7 @@
 //! The closed form against the Monte Carlo integral of the model that it stands for.
 
 use super::pictures::{Compared, LINEAR, closed, compared, sampled};
-use super::scenes::{View, panel, plate, scratch, sphere, tube};
+use super::scenes::{View, outline, panel, plate, scratch, sphere, tube};
 use glam::DVec2;
 use hairline_fixtures::scenes::scratched_ball;
 use hairline_image::Layer;
@@ -92,6 +92,36 @@ fn tubes() {
             }
         }
         let found = compared("3 % thicker", &closed(&wrong), &reference, Layer::Scratches);
+        assert!(!agrees(&found, SCRATCHES), "{found:?}");
+    }
+}
+
+/// A disk, which renderers take for 24 corners, and a star.
+#[test]
+fn disks_and_stars() {
+    let view = View {
+        angle_rad: 0.7,
+        pixel_um: 20.0,
+        size_px: 16,
+    };
+    let star = |i: i32| if i % 2 == 0 { 0.09 } else { 0.05 };
+    for (name, corners_rad) in [
+        ("disks", vec![0.06; 24]),
+        ("stars", (0..10).map(star).collect()),
+    ] {
+        let mut scene = plate(Base::Metal(Metal::Aluminium), view);
+        let light = |x, y, larger: f64| {
+            outline(view, x, y, corners_rad.iter().map(|radius| radius * larger))
+        };
+        scene.lights = vec![light(0.12, -0.05, 1.0), light(-0.02, 0.14, 1.0)];
+        scratch(&mut scene, view, 24);
+        let (exact, reference) = (closed(&scene), sampled(&scene, LINEAR, 8));
+        let [scratches, base] =
+            [Layer::Scratches, Layer::Base].map(|layer| compared(name, &exact, &reference, layer));
+        assert!(agrees(&scratches, SCRATCHES), "{name}: {scratches:?}");
+        assert!(base.rms().0 < BASE, "{name}: {base:?}");
+        scene.lights = vec![light(0.12, -0.05, 1.03), light(-0.02, 0.14, 1.03)];
+        let found = compared("3 % larger", &closed(&scene), &reference, Layer::Scratches);
         assert!(!agrees(&found, SCRATCHES), "{found:?}");
     }
 }

@@ -70,6 +70,20 @@ pub fn panel(view: View, x: f64, y: f64, half_rad: [f64; 2]) -> Light {
     )
 }
 
+/// A flat light that faces the plate; its corners by their angles from its middle, all around.
+pub fn outline(view: View, x: f64, y: f64, corners_rad: impl IntoIterator<Item = f64>) -> Light {
+    let towards = off_the_mirror(view.angle_rad, x, y);
+    let (right, up) = towards.any_orthonormal_pair();
+    let corners: Vec<f64> = corners_rad.into_iter().collect();
+    let turn = std::f64::consts::TAU / corners.len() as f64;
+    let corner = |(i, radius): (usize, &f64)| {
+        let (sin, cos) = (turn * i as f64).sin_cos();
+        LIGHT_M * (towards + radius.tan() * (cos * right + sin * up))
+    };
+    let vertices_m = corners.iter().enumerate().map(corner).collect();
+    Light::polygon(vertices_m, [0.9, 0.7, 0.8], true)
+}
+
 /// A tube across the way to the plate; half its length and its radius as angles.
 pub fn tube(view: View, x: f64, y: f64, half_rad: f64, radius_rad: f64) -> Light {
     let middle = LIGHT_M * off_the_mirror(view.angle_rad, x, y);

@@ -7,13 +7,10 @@ use glam::{DVec3, Vec3};
 use hairline_cpu::closed_form::{self, RenderOptions};
 use hairline_image::{Image, Layer};
 use hairline_index::method::Method;
-use hairline_optics::gaussian::gaussian;
-use hairline_optics::irradiance::lambert_polygon;
 use hairline_optics::mask::Mask;
 use hairline_optics::metal::Metal;
 use hairline_reference::Settings;
-use hairline_scene::{Base, Environment, LightShape, Scene};
-use std::sync::Arc;
+use hairline_scene::{Base, Environment, Scene};
 
 pub(super) const VIEW: View = View {
     angle_rad: 0.7,
@@ -237,133 +234,4 @@ fn nothing_in_the_way_changes_nothing() {
             "{name}"
         );
     }
-}
-
-/// The penumbra of a rectangle on a matt plate: of the part of the light that lies beside the screen, the exact irradiance.
-#[test]
-fn a_penumbra_is_that_of_the_part_that_is_seen() {
-    let matt = Base::Dielectric {
-        ior: 1.0001,
-        base_color: [0.8; 3],
-    };
-    let mut scene = plate(matt, VIEW);
-    let light = panel(VIEW, 0.0, 0.0, [0.08, 0.05]);
-    let towards = off_the_mirror(VIEW.angle_rad, 0.0, 0.0);
-    let LightShape::Polygon { vertices_m, .. } = &light.shape else {
-        unreachable!()
-    };
-    let vertices_m = vertices_m.clone();
-    scene.lights = vec![light];
-    let open = closed(&scene, 1, false);
-    cover(&mut scene, towards, 2e-3, [0.0, -2e-3], [2e-3, 2e-3]);
-    let image = closed(&scene, 4096, true);
-    let edge_m = towards * 2e-3;
-    let right = towards.cross(DVec3::Y).normalize();
-    // Exactly, at a point of the plate.
-    let share_at = |at_m: f64| {
-        let point_m = DVec3::X * at_m;
-        // What is right of the plane through the point and the edge is hidden.
-        let reach = (edge_m - point_m).dot(right) / (edge_m - point_m).dot(towards);
-        let of = |m: DVec3| (m - point_m).dot(right) - reach * (m - point_m).dot(towards);
-        let irradiance = |vertices: &[DVec3]| {
-            let seen: Vec<DVec3> = vertices.iter().map(|v| *v - point_m).collect();
-            if seen.len() < 3 {
-                0.0
-            } else {
-                lambert_polygon(&seen).abs()
-            }
-        };
-        irradiance(&clipped(&vertices_m, of)) / irradiance(&vertices_m)
-    };
-    let pixel_m = VIEW.pixel_um * 1e-6;
-    let std_m = scene.render.footprint_std_px(1) * pixel_m;
-    for x in 0..VIEW.size_px {
-        let middle_m = (f64::from(x) + 0.5 - 0.5 * f64::from(VIEW.size_px)) * pixel_m;
-        // Over the pixel.
-        let places = (0..32).map(|i| gaussian().quantile((f64::from(i) + 0.5) / 32.0));
-        let shares = places.map(|std| share_at(middle_m + std * std_m));
-        let expected = shares.sum::<f64>() / 32.0;
-        let column = |image: &Image| -> f64 {
-            let rows = 0..VIEW.size_px;
-            rows.map(|y| f64::from(image.base[image.index(x, y)][1]))
-                .sum()
-        };
-        let found = column(&image) / column(&open);
-        println!(
-            "{:.0} um: {found:.4}, exactly {expected:.4}",
-            middle_m * 1e6
-        );
-        assert!((found - expected).abs() < 5e-3, "{found} {expected}");
-    }
-}
-
-/// The part of a polygon where a linear function is not positive.
-fn clipped(vertices: &[DVec3], of: impl Fn(DVec3) -> f64) -> Vec<DVec3> {
-    let mut part = Vec::new();
-    for (i, &a) in vertices.iter().enumerate() {
-        let b = vertices[(i + 1) % vertices.len()];
-        let (at_a, at_b) = (of(a), of(b));
-        if at_a <= 0.0 {
-            part.push(a);
-        }
-        if (at_a <= 0.0) != (at_b <= 0.0) {
-            part.push(a + (b - a) * (at_a / (at_a - at_b)));
-        }
-    }
-    part
-}
-
-/// Spheres of few and of many triangles: nothing hides the side that the light shines on.
-#[test]
-fn spheres_do_not_shade_themselves() {
-    for (slices, stacks) in [(4, 3), (64, 33)] {
-        let mut scene = plate(WHITE, VIEW);
-        scene.materials[0].roughness = 0.4;
-        scene.lights = vec![sphere(VIEW, 0.3, -0.6, 0.05)];
-        set_ball(&mut scene, slices, stacks, 2e-4);
-        let (open, image) = (closed(&scene, 16, false), closed(&scene, 16, true));
-        let towards = off_the_mirror(VIEW.angle_rad, 0.3, -0.6);
-        let mut lit = 0;
-        for i in 0..open.base.len() {
-            let normal = DVec3::from(open.normal[i].map(f64::from));
-            if normal.dot(towards) > 0.3 && open.depth_m[i].is_finite() {
-                lit += 1;
-                let (with, without) = (f64::from(image.base[i][1]), f64::from(open.base[i][1]));
-                assert!(
-                    (with - without).abs() <= 1e-3 * without,
-                    "{slices}: {i} {with} {without}"
-                );
-            }
-        }
-        assert!(lit > 20, "{slices}: {lit}");
-    }
-}
-
-/// Puts a ball of `2 * slices * (stacks - 1)` triangles in place of the plate.
-pub(super) fn set_ball(scene: &mut Scene, slices: u32, stacks: u32, radius_m: f32) {
-    let mesh = Arc::make_mut(&mut scene.objects[0].mesh);
-    let angle = |i: u32, count: u32, whole: f32| whole * i as f32 / count as f32;
-    mesh.normals = (0..=stacks)
-        .flat_map(|i| (0..=slices).map(move |j| (i, j)))
-        .map(|(i, j)| {
-            let (sin, cos) = angle(i, stacks, std::f32::consts::PI).sin_cos();
-            let (y, x) = angle(j, slices, std::f32::consts::TAU).sin_cos();
-            Vec3::new(sin * x, sin * y, cos)
-        })
-        .collect();
-    mesh.positions_m = mesh.normals.iter().map(|n| *n * radius_m).collect();
-    mesh.uvs = vec![glam::Vec2::ZERO; mesh.normals.len()];
-    mesh.tangents = vec![Vec3::X.extend(1.0); mesh.normals.len()];
-    let row = slices + 1;
-    let cells = (0..stacks).flat_map(|i| (0..slices).map(move |j| i * row + j));
-    mesh.triangles = cells
-        .flat_map(|a| [[a, a + row, a + row + 1], [a, a + row + 1, a + 1]])
-        // Those of the poles' cells have no area.
-        .filter(|t| {
-            let [a, b, c] = t.map(|i| mesh.positions_m[i as usize]);
-            (b - a).cross(c - a).length() > 1e-6 * radius_m * radius_m
-        })
-        .collect();
-    mesh.triangle_materials = vec![0; mesh.triangles.len()];
-    assert_eq!(mesh.triangles.len() as u32, 2 * slices * (stacks - 1));
 }

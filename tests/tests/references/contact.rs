@@ -1,0 +1,171 @@
+//! Rays that begin on a surface: no shadow of what faces the light, no gap at the foot of what stands.
+
+use super::scenes::{off_the_mirror, plate, sphere};
+use super::shadowed::{VIEW, WHITE, closed};
+use super::shadowed_on_gpu::on_gpu;
+use glam::{DVec2, DVec3, Vec3};
+use hairline_fixtures::SceneFile;
+use hairline_fixtures::scenes::scratched_ball;
+use hairline_image::Image;
+use hairline_index::TriangleIndex;
+use hairline_scene::Scene;
+use std::sync::Arc;
+
+/// Without shadows and with them, by each renderer that there is.
+fn by_each(scene: &Scene, samples: u32) -> Vec<(&'static str, Image, Image)> {
+    let cpu = (closed(scene, samples, false), closed(scene, samples, true));
+    let gpu = on_gpu(scene, samples, None).zip(on_gpu(scene, samples, Some(0)));
+    let gpu = gpu.map(|(open, image)| ("GPU", open, image));
+    [("CPU", cpu.0, cpu.1)].into_iter().chain(gpu).collect()
+}
+
+/// The foot of a box, in pixels of 0.02 mm: dark behind it, and all the light before it.
+#[test]
+fn a_shadow_begins_at_the_foot() {
+    let side = |name: &str, x_m: f64, turn_deg: f64| {
+        format!(
+            "[[object]]\nname = \"{name}\"\nmaterial = \"matt\"\nshape = {{ plane = {{ size_m = [0.01, 0.01] }} }}\n\
+             rotation_deg = [0.0, {turn_deg:?}, 0.0]\ntranslation_m = [{x_m:?}, 0.0, 0.005]"
+        )
+    };
+    for (foot_m, from_m, is_dark) in [(-0.005, -0.1, true), (0.005, 0.1, false)] {
+        let scene = SceneFile::seen_from([from_m, -0.01, 0.1])
+            .toward([foot_m, 0.0, 0.0])
+            .fov_y_deg(0.13)
+            .size_px([16, 16])
+            .part("[[material]]\nname = \"matt\"\nkind = \"dielectric\"\nior = 1.0")
+            .object("plate", "matt", "plane = { size_m = [1.0, 1.0] }")
+            .part(&side("left", -0.005, -90.0))
+            .part(&side("right", 0.005, 90.0))
+            .object("top", "matt", "plane = { size_m = [0.01, 0.01] }")
+            .with("translation_m = [0.0, 0.0, 0.01]")
+            .sphere([0.1, 0.0, 0.1], 0.01, 10.0)
+            .scene();
+        let camera = scene.camera.frame([16, 16]);
+        let beside_m = |i: usize| {
+            let pixel = DVec2::new((i % 16) as f64 + 0.5, (i / 16) as f64 + 0.5);
+            let ray = camera.camera_ray(pixel);
+            let at = camera.position_m - ray * (camera.position_m.z / ray.z);
+            at.x.abs() - foot_m.abs()
+        };
+        for (by, open, image) in by_each(&scene, 16) {
+            // The filter of the pixels at the foot reaches the box.
+            let on_plate: Vec<usize> = (0..256)
+                .filter(|i| (6e-5..1e-4).contains(&beside_m(*i)))
+                .collect();
+            assert!(on_plate.len() > 20, "{by}: {}", on_plate.len());
+            for i in on_plate {
+                let lit = if is_dark { [0.0; 3] } else { open.base[i] };
+                assert!(open.base[i][1] > 0.0 && image.base[i] == lit, "{by}: {i}");
+            }
+        }
+    }
+}
+
+/// Balls of 16 and of 4,096 triangles: what faces the lamp on a facet that faces it has all of its light, and of what the shading normal
+/// shows lit beyond, most is left.
+#[test]
+fn balls_do_not_shade_themselves() {
+    for (slices, stacks) in [(4, 3), (64, 33)] {
+        let mut scene = plate(WHITE, VIEW);
+        scene.materials[0].roughness = 0.4;
+        scene.lights = vec![sphere(VIEW, 0.3, -0.6, 0.05)];
+        set_ball(&mut scene, slices, stacks, 2e-4);
+        let towards = off_the_mirror(VIEW.angle_rad, 0.3, -0.6);
+        let facing = facets_facing(&scene, towards);
+        let side = VIEW.size_px as usize;
+        // The filter reaches this far.
+        let around = |i: usize| {
+            let (x, y) = (i % side, i / side);
+            let reach = |at: usize| at.saturating_sub(2)..(at + 3).min(side);
+            reach(y).flat_map(move |y| reach(x).map(move |x| y * side + x))
+        };
+        for (by, open, image) in by_each(&scene, 16) {
+            let (mut before, mut all, mut left) = (0, 0.0, 0.0);
+            for i in 0..open.base.len() {
+                let normal = DVec3::from(open.normal[i].map(f64::from));
+                // 0.05 is the lamp's radius.
+                if open.depth_m[i] == 0.0 || normal.dot(towards) < 0.08 {
+                    continue;
+                }
+                let (with, without) = (f64::from(image.base[i][1]), f64::from(open.base[i][1]));
+                all += without;
+                left += with;
+                if around(i).all(|i| facing[i] > 0.08) {
+                    before += 1;
+                    assert!(with == without, "{by}, {slices}: {i} {with} {without}");
+                }
+            }
+            println!(
+                "{by}, {slices} slices: {before} pixels, {:.4} of the light",
+                left / all
+            );
+            assert!(before > 20, "{by}, {slices}: {before}");
+            assert!(left > 0.995 * all, "{by}, {slices}: {}", left / all);
+        }
+    }
+}
+
+/// Where a scratched ball faces the lamp, shadows change no bit of its scratches or its base.
+#[test]
+fn a_scratched_ball_hides_nothing_from_itself() {
+    let scene = scratched_ball(0.04)
+        .toward([0.012, -0.034, 0.034])
+        .fov_y_deg(0.15)
+        .size_px([16, 16])
+        .scene();
+    for (by, open, image) in by_each(&scene, 8) {
+        assert!(open.scratches.iter().any(|p| p[1] > 0.0), "{by}");
+        assert!(image == open, "{by}");
+    }
+}
+
+/// Of each pixel's middle: the cosine between the facet that is seen and a direction; 1 where nothing is.
+fn facets_facing(scene: &Scene, towards: DVec3) -> Vec<f64> {
+    let index = TriangleIndex::build(scene);
+    let camera = scene.camera.frame(scene.render.size_px);
+    let side = scene.render.size_px[0];
+    let pixels = (0..side).flat_map(|y| (0..side).map(move |x| [x, y]));
+    let facing = |pixel: [u32; 2]| {
+        let ray = camera.camera_ray(DVec2::from(pixel.map(|p| f64::from(p) + 0.5)));
+        index
+            .intersect(camera.position_m, ray.normalize())
+            .map_or(1.0, |hit| {
+                let mesh = &scene.objects[0].mesh;
+                let [a, b, c] = mesh.triangles[hit.triangle as usize]
+                    .map(|v| mesh.positions_m[v as usize].as_dvec3());
+                let normal = (b - a).cross(c - a).normalize();
+                towards.dot(normal) * -normal.dot(ray).signum()
+            })
+    };
+    pixels.map(facing).collect()
+}
+
+/// Puts a ball of `2 * slices * (stacks - 1)` triangles in place of the plate.
+fn set_ball(scene: &mut Scene, slices: u32, stacks: u32, radius_m: f32) {
+    let mesh = Arc::make_mut(&mut scene.objects[0].mesh);
+    let angle = |i: u32, count: u32, whole: f32| whole * i as f32 / count as f32;
+    mesh.normals = (0..=stacks)
+        .flat_map(|i| (0..=slices).map(move |j| (i, j)))
+        .map(|(i, j)| {
+            let (sin, cos) = angle(i, stacks, std::f32::consts::PI).sin_cos();
+            let (y, x) = angle(j, slices, std::f32::consts::TAU).sin_cos();
+            Vec3::new(sin * x, sin * y, cos)
+        })
+        .collect();
+    mesh.positions_m = mesh.normals.iter().map(|n| *n * radius_m).collect();
+    mesh.uvs = vec![glam::Vec2::ZERO; mesh.normals.len()];
+    mesh.tangents = vec![Vec3::X.extend(1.0); mesh.normals.len()];
+    let row = slices + 1;
+    let cells = (0..stacks).flat_map(|i| (0..slices).map(move |j| i * row + j));
+    mesh.triangles = cells
+        .flat_map(|a| [[a, a + row, a + row + 1], [a, a + row + 1, a + 1]])
+        // Those of the poles' cells have no area.
+        .filter(|t| {
+            let [a, b, c] = t.map(|i| mesh.positions_m[i as usize]);
+            (b - a).cross(c - a).length() > 1e-6 * radius_m * radius_m
+        })
+        .collect();
+    mesh.triangle_materials = vec![0; mesh.triangles.len()];
+    assert_eq!(mesh.triangles.len() as u32, 2 * slices * (stacks - 1));
+}

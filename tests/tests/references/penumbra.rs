@@ -1,0 +1,137 @@
+//! The penumbra behind an edge, against integrals over the directions in which a light is seen.
+
+use super::shadowed::closed;
+use glam::{DVec2, DVec3};
+use hairline_fixtures::SceneFile;
+use hairline_image::Image;
+use hairline_optics::gaussian::gaussian;
+
+const MIDDLE_M: DVec3 = DVec3::new(0.0, 0.10, 0.13);
+const EDGE_HEIGHT_M: f64 = 0.03;
+const SIZE_PX: [u32; 2] = [24, 4];
+
+/// A lamp: its keys in a scene file, and whether a line that leaves a point meets it.
+struct Lamp {
+    keys: &'static str,
+    meets: fn(DVec3, DVec3) -> bool,
+}
+
+const LAMPS: [Lamp; 3] = [
+    Lamp {
+        keys: "kind = \"rectangle\"\ncenter_m = [0.0, 0.10, 0.13]\ntarget_m = [0.0, 0.0, 0.0]\nwidth_m = 0.03\nheight_m = 0.02",
+        meets: |from, along| {
+            let facing = MIDDLE_M.normalize();
+            let at = on_plane(from, along, facing);
+            // The height runs as near to y as the plane lets it.
+            at.x.abs() < 0.015 && at.dot(DVec3::X.cross(facing)).abs() < 0.01
+        },
+    },
+    Lamp {
+        keys: "kind = \"disk\"\ncenter_m = [0.0, 0.10, 0.13]\ntarget_m = [0.0, 0.0, 0.0]\nradius_m = 0.015",
+        meets: |from, along| on_plane(from, along, MIDDLE_M.normalize()).length() < 0.015,
+    },
+    Lamp {
+        keys: "kind = \"tube\"\nends_m = [[-0.015, 0.11, 0.14], [0.015, 0.09, 0.12]]\nradius_m = 0.006",
+        meets: |from, along| {
+            let [first, last] = [
+                DVec3::new(-0.015, 0.11, 0.14),
+                DVec3::new(0.015, 0.09, 0.12),
+            ];
+            let (way, first) = (last - first, first - from);
+            // The point of the lamp's line that is nearest to the ray.
+            let beside = |v: DVec3| v - along * v.dot(along);
+            let share = -beside(first).dot(way) / beside(way).dot(way);
+            beside(first + way * share.clamp(0.0, 1.0)).length() < 0.006
+        },
+    },
+];
+
+/// From the lamp's middle to where a line meets its plane.
+fn on_plane(from: DVec3, along: DVec3, facing: DVec3) -> DVec3 {
+    let way = MIDDLE_M - from;
+    along * (way.dot(facing) / along.dot(facing)) - way
+}
+
+/// Irradiance at a point under a lamp: all of it, and what passes the edge at x = 0 of a board.
+fn irradiance(lamp: &Lamp, from: DVec3) -> [f64; 2] {
+    const STEPS: i32 = 144;
+    let towards = (MIDDLE_M - from).normalize();
+    // Askew, so that no line of the grid runs along an edge.
+    let (x, y) = towards.any_orthonormal_pair();
+    let (right, up) = (0.8 * x + 0.6 * y, 0.8 * y - 0.6 * x);
+    let (mut all, mut seen) = (0.0, 0.0);
+    let at = |i: i32| 0.14 * ((f64::from(i) + 0.5) / f64::from(STEPS) * 2.0 - 1.0);
+    for (i, j) in (0..STEPS).flat_map(|i| (0..STEPS).map(move |j| (i, j))) {
+        let way = towards + at(i) * right + at(j) * up;
+        let along = way.normalize();
+        if (lamp.meets)(from, along) {
+            // The solid angle of a square of the plane one unit away, and the cosine on the plate.
+            let weight = along.z * way.length().powi(-3);
+            all += weight;
+            if from.x + along.x / along.z * EDGE_HEIGHT_M < 0.0 {
+                seen += weight;
+            }
+        }
+    }
+    [all, seen]
+}
+
+fn scene_file(lamp: &Lamp) -> SceneFile {
+    SceneFile::seen_from([0.0, -0.1928, 0.2298])
+        .fov_y_deg(0.3056)
+        .size_px(SIZE_PX)
+        .part("[[material]]\nname = \"matt\"\nkind = \"dielectric\"\nior = 1.0")
+        .object("plate", "matt", "plane = { size_m = [0.05, 0.05] }")
+        .part(&format!("[[light]]\n{}", lamp.keys))
+}
+
+#[test]
+fn penumbras_are_those_of_what_is_seen_of_a_lamp() {
+    for lamp in LAMPS {
+        let file = scene_file(&lamp);
+        let open = closed(&file.scene(), 1, false);
+        let scene = file
+            .object("board", "matt", "plane = { size_m = [0.06, 0.21] }")
+            .with(&format!("translation_m = [0.03, 0.095, {EDGE_HEIGHT_M}]"))
+            .scene();
+        let image = closed(&scene, 4096, true);
+        let camera = scene.camera.frame(SIZE_PX);
+        let std_px = scene.render.footprint_std_px(1);
+        // Even steps of probability of the pixel's filter.
+        let places = [-2.5, -1.5, -0.5, 0.5, 1.5, 2.5].map(|i| gaussian().quantile(0.5 + i / 6.0));
+        let (mut penumbra, mut errors, mut squares) = (0, 0.0, 0.0);
+        for x in 0..SIZE_PX[0] {
+            let (mut all, mut seen) = (0.0, 0.0);
+            for (y, right, down) in (0..SIZE_PX[1])
+                .flat_map(|y| places.map(|right| (y, right)))
+                .flat_map(|(y, right)| places.map(|down| (y, right, down)))
+            {
+                let middle = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
+                let ray = camera.camera_ray(middle + std_px * DVec2::new(right, down));
+                let from = camera.position_m - ray * (camera.position_m.z / ray.z);
+                let [a, s] = irradiance(&lamp, from.with_z(0.0));
+                all += a;
+                seen += s;
+            }
+            let column = |image: &Image| -> f64 {
+                let rows = 0..SIZE_PX[1];
+                rows.map(|y| f64::from(image.base[image.index(x, y)][1]))
+                    .sum()
+            };
+            let (found, exact) = (column(&image) / column(&open), seen / all);
+            println!("{}: {x}: {found:.4}, exactly {exact:.4}", &lamp.keys[..16]);
+            errors += found - exact;
+            squares += (found - exact).powi(2);
+            penumbra += i32::from((0.05..0.95).contains(&exact));
+        }
+        let count = f64::from(SIZE_PX[0]);
+        let (rms, mean) = ((squares / count).sqrt(), errors / count);
+        println!("rms {rms:.5}, mean {mean:+.5}");
+        assert!(
+            rms < 4e-3 && mean.abs() < 1.5e-3,
+            "{rms} {mean}: {}",
+            lamp.keys
+        );
+        assert!(penumbra > 8, "{penumbra}: {}", lamp.keys);
+    }
+}
