@@ -1,6 +1,7 @@
 //! Scenes in code and comparisons that the conformance tests share.
 
 pub mod two_renderers;
+pub mod unbiased;
 
 use glam::{DVec3, Vec2, Vec3, Vec4};
 use hairline_scene::{

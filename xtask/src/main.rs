@@ -11,6 +11,7 @@ mod pictures;
 mod rooms;
 mod shaders;
 mod touches;
+mod unbiased;
 mod wheel;
 
 use clap::Parser;
@@ -40,6 +41,8 @@ enum Command {
     Shaders(shaders::Shaders),
     /// Count the files that a new groove parameter and a new light shape would touch.
     Touches(touches::Touches),
+    /// Measure shadows and bounces against the path tracer, and write docs/accuracy/shadows.md.
+    Unbiased(unbiased::Unbiased),
     /// Make the package for Python, a wheel for Linux, and test it in an environment of its own.
     Wheel(wheel::Wheel),
 }
@@ -57,6 +60,7 @@ fn main() -> anyhow::Result<()> {
         Command::Rooms(command) => command.run(),
         Command::Shaders(command) => command.run(),
         Command::Touches(command) => command.run(),
+        Command::Unbiased(command) => command.run(),
         Command::Wheel(command) => command.run(),
     }
 }

@@ -1,0 +1,258 @@
+//! `cargo xtask unbiased`: shadows and bounces of `render` against the path tracer, at four numbers of samples. Writes docs/accuracy/shadows.md.
+//! Each scene with a number of bounces has a file of figures; the document is made of those that are there.
+
+use std::fmt::Write;
+use std::fs;
+use std::path::Path;
+use std::time::Instant;
+
+use anyhow::{Context, Result, anyhow};
+use conformance::unbiased::{
+    Found, LAYERS, SCENES, brighter, expected, found, rendered, scene, without,
+};
+use hairline_image::metrics::Verdict;
+use hairline_image::output::write_atomically;
+use hairline_scene::{Scene, Transport};
+use hairline_work::backend::Backend;
+use serde::{Deserialize, Serialize};
+
+/// Samples of a picture.
+const SAMPLES: [u32; 4] = [16, 64, 256, 1024];
+/// The same on a graphics adapter, which may be a software driver.
+const SAMPLES_ON_GPU: [u32; 3] = [16, 64, 256];
+/// By how much light is wrong that must be noticed.
+const BRIGHTER: f64 = 0.03;
+
+/// Options of `unbiased`.
+#[derive(clap::Args)]
+pub struct Unbiased {
+    /// Render on a graphics adapter, be it a software driver.
+    #[arg(long)]
+    gpu: bool,
+
+    /// Bounces to measure; without any the document is written anew, and nothing measured.
+    #[arg(long, value_delimiter = ',')]
+    bounces: Vec<u32>,
+
+    /// Samples of the path tracer for each pixel.
+    #[arg(long, default_value_t = 1024)]
+    reference: u32,
+
+    /// Only these, by the names of the files in tests/shadows.
+    names: Vec<String>,
+}
+
+/// What was found of a scene with a number of bounces.
+#[derive(Serialize, Deserialize)]
+struct Figures {
+    scene: String,
+    bounces: u32,
+    is_on_gpu: bool,
+    /// Of the path tracer.
+    reference: u32,
+    layers: Vec<LayerFigures>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct LayerFigures {
+    name: String,
+    /// Of the light without shadows and bounces, the part that is missing; below 0 where bounces add more.
+    missing: f64,
+    /// By number of samples.
+    found: Vec<SampleFigures>,
+    /// Verdicts on wrong pictures of the fewest samples: too bright, and without an object that hides light.
+    brighter: String,
+    without: Option<String>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct SampleFigures {
+    samples: u32,
+    off: f64,
+    off_std: f64,
+    rms: f64,
+    picture_z: f64,
+    verdict: String,
+}
+
+impl SampleFigures {
+    fn new(samples: u32, found: &Found) -> Self {
+        Self {
+            samples,
+            off: found.off,
+            off_std: found.off_std,
+            rms: found.rms,
+            picture_z: found.z.picture_z,
+            verdict: word(found).to_owned(),
+        }
+    }
+}
+
+fn word(found: &Found) -> &'static str {
+    match found.z.verdict {
+        Verdict::ExplainedByNoise => "noise",
+        Verdict::MoreThanNoise => "**more**",
+        Verdict::LessThanNoise => "less",
+        Verdict::TooFewValues => "too few",
+    }
+}
+
+impl Unbiased {
+    /// Measures and writes.
+    pub fn run(self) -> Result<()> {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+        let folder = root.join("target/unbiased");
+        fs::create_dir_all(&folder).context("make target/unbiased")?;
+        let is_asked = |name: &str| self.names.is_empty() || self.names.iter().any(|n| n == name);
+        for (name, occluders) in SCENES.iter().filter(|(name, _)| is_asked(name)) {
+            for &bounces in &self.bounces {
+                let start = Instant::now();
+                let figures = self.measure(name, occluders, bounces)?;
+                let by = if self.gpu { "gpu" } else { "cpu" };
+                let file = folder.join(format!("{by}-{name}-{bounces}.json"));
+                write_atomically(&file, &serde_json::to_vec_pretty(&figures)?)?;
+                println!("{}: {:.0} s", file.display(), start.elapsed().as_secs_f64());
+            }
+        }
+        let mut all = Vec::new();
+        for entry in fs::read_dir(&folder).context("list target/unbiased")? {
+            let path = entry?.path();
+            let bytes = fs::read(&path).with_context(|| path.display().to_string())?;
+            let figures: Figures = serde_json::from_slice(&bytes)
+                .with_context(|| format!("{}: measure it again", path.display()))?;
+            all.push(figures);
+        }
+        let place = |name: &str| SCENES.iter().position(|(n, _)| *n == name);
+        all.sort_by_key(|f| (f.is_on_gpu, place(&f.scene), f.bounces));
+        let document = root.join("docs/accuracy/shadows.md");
+        write_atomically(&document, text(&all).as_bytes())?;
+        println!("{}", document.display());
+        Ok(())
+    }
+
+    fn measure(&self, name: &str, occluders: &[&str], bounces: u32) -> Result<Figures> {
+        let right = scene(name);
+        let (backend, samples) = match self.gpu {
+            true => (Backend::Gpu, &SAMPLES_ON_GPU[..]),
+            false => (Backend::Cpu, &SAMPLES[..]),
+        };
+        let shadows = Transport {
+            shadows: true,
+            bounces,
+        };
+        let picture = |scene: &Scene, samples, transport| {
+            rendered(scene, backend, samples, transport).map_err(|error| anyhow!("{error}"))
+        };
+        let open = picture(&right, samples[samples.len() - 1], Transport::DIRECT)?;
+        let expected = expected(&right, &open, bounces, self.reference);
+        let images = samples
+            .iter()
+            .map(|&n| Ok((n, picture(&right, n, shadows)?)))
+            .collect::<Result<Vec<_>>>()?;
+        let bright = picture(&brighter(name, BRIGHTER), samples[0], shadows)?;
+        let bare = match occluders {
+            [] => None,
+            _ => Some(picture(&without(right, occluders), samples[0], shadows)?),
+        };
+        let layers = LAYERS.map(|layer| {
+            let of = |image| found(image, &expected, &open, layer);
+            let sum = |values: Vec<[f32; 3]>| -> f64 {
+                values.iter().flatten().map(|c| f64::from(*c)).sum()
+            };
+            LayerFigures {
+                name: layer.name().to_owned(),
+                missing: 1.0 - sum(expected.layer(layer)) / sum(open.layer(layer)),
+                found: images
+                    .iter()
+                    .map(|(n, image)| SampleFigures::new(*n, &of(image)))
+                    .collect(),
+                brighter: word(&of(&bright)).to_owned(),
+                without: bare.as_ref().map(|image| word(&of(image)).to_owned()),
+            }
+        });
+        Ok(Figures {
+            scene: name.to_owned(),
+            bounces,
+            is_on_gpu: self.gpu,
+            reference: self.reference,
+            layers: layers.into(),
+        })
+    }
+}
+
+/// The document.
+fn text(all: &[Figures]) -> String {
+    let mut text = String::from(HEAD);
+    for (is_on_gpu, title) in [(false, "CPU"), (true, "A graphics adapter")] {
+        let rows: Vec<_> = all.iter().filter(|f| f.is_on_gpu == is_on_gpu).collect();
+        let Some(first) = rows.first() else {
+            continue;
+        };
+        let counts: Vec<_> = first.layers[0]
+            .found
+            .iter()
+            .map(|f| f.samples.to_string())
+            .collect();
+        let _ = write!(
+            text,
+            "\n## {title}\n\n{} samples of the path tracer. Columns of several figures are for {} samples.\n\n\
+             | scene | bounces | layer | missing, % | rms of a pixel, % | mean off, % | z of the picture | verdict | 3 % brighter | an object left out |\n\
+             |---|---|---|---|---|---|---|---|---|---|\n",
+            first.reference,
+            counts.join(", ")
+        );
+        for figures in rows {
+            for layer in &figures.layers {
+                let each = |of: &dyn Fn(&SampleFigures) -> String| {
+                    let all: Vec<_> = layer.found.iter().map(of).collect();
+                    all.join(", ")
+                };
+                let last = layer.found.last();
+                let off = last.map_or_else(String::new, |f| {
+                    format!("{:+.2} ± {:.2}", 100.0 * f.off, 100.0 * f.off_std)
+                });
+                let mut verdicts: Vec<_> = layer.found.iter().map(|f| f.verdict.as_str()).collect();
+                verdicts.dedup();
+                let _ = writeln!(
+                    text,
+                    "| {} | {} | {} | {:.0} | {} | {off} | {} | {} | {} | {} |",
+                    figures.scene,
+                    figures.bounces,
+                    layer.name,
+                    100.0 * layer.missing,
+                    each(&|f| format!("{:.1}", 100.0 * f.rms)),
+                    each(&|f| format!("{:+.1}", f.picture_z)),
+                    verdicts.join(", "),
+                    layer.brighter,
+                    layer.without.as_deref().unwrap_or("–"),
+                );
+            }
+        }
+    }
+    text
+}
+
+const HEAD: &str = "# Shadows and bounces against the path tracer
+
+Made by
+
+    cargo xtask unbiased --bounces 0,1,4          # the CPU renderer
+    cargo xtask unbiased --bounces 0,1 --gpu      # a graphics adapter, be it a software driver
+
+from six scenes of 48 x 32 pixels in `tests/shadows`, with the linear mask. It is what these commands do, scene by scene:
+
+    hairline render tests/shadows/edge.toml --shadows on --bounces 1 --samples 64 --mask linear --firefly-filter off -o a.exr
+    hairline reference tests/shadows/edge.toml --shadows on --bounces 1 --spp 1024 --mask linear -o b.exr
+    hairline compare a.exr b.exr
+
+but for one thing. What is compared with is not the path tracer's picture b alone: rays tell which part of a closed form is seen, and a
+closed form that is half a percent too bright is so in the shadow too. So the picture that rays must come to is b + s/f (F − f): F is the closed form and f the
+path tracer's picture without shadows, s the path tracer's with shadows and without bounces. All three of the path tracer's pictures take the same samples, so where nothing is hidden
+there is no noise in it. [accuracy.md](../accuracy.md) tells how far F is from f.
+
+*Missing*: the part of the light without shadows and bounces that is not there. *rms of a pixel*: the error over the mean of the picture without shadows, without the noise of
+the path tracer; half for four times the samples, or less. *Mean off*: the error of the whole picture for the most samples over the same, ± one standard
+deviation by how the errors of pixels scatter. *z* and *verdict* are those of the z-test of `hairline compare`, by the variances that the pictures hold: `noise` explains the
+difference; it is `less` than the variances say, since samples avoid one another; or it is `more`. The last two columns are the verdicts on wrong pictures of the fewest samples: with lights
+3 % too bright, and without an object that hides light (where there is one outside of the picture).
+";
