@@ -4,6 +4,7 @@ use std::path::Path;
 
 use glam::DVec3;
 use hairline_editor::actions::{self, layers, lights, materials, objects};
+use hairline_editor::grating_presets::GratingPreset;
 use hairline_editor::presets::*;
 use hairline_editor::{ActionError, Selection};
 use hairline_fixtures::SceneFile;
@@ -186,6 +187,9 @@ fn copies_and_new_layers_have_seeds_and_names_of_their_own() {
 #[test]
 fn renaming_takes_references_along() {
     let mut description = scene();
+    let name = description.objects[0].name.clone();
+    let grating = GratingPreset::CompactDisc.grating(name);
+    description.gratings.push(grating);
     objects::rename(&mut description, 0, " pan ").unwrap();
     materials::rename(&mut description, 1, "brass").unwrap();
     description
