@@ -20,7 +20,10 @@ pub(super) fn node(folder: &Path, script: &[&str], output: &Path) -> anyhow::Res
 
 /// What the tests need from npm, at the versions of the lock file.
 pub(super) fn install(folder: &Path) -> anyhow::Result<()> {
-    if folder.join("node_modules/.package-lock.json").exists() {
+    let changed =
+        |file: &str| std::fs::metadata(folder.join(file)).and_then(|data| data.modified());
+    let installed = changed("node_modules/.package-lock.json");
+    if installed.is_ok_and(|at| changed("package-lock.json").is_ok_and(|lock| lock <= at)) {
         return Ok(());
     }
     let status = Command::new("npm")
