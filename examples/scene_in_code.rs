@@ -9,7 +9,8 @@ use hairline_cpu::closed_form::{Prepared, RenderOptions};
 use hairline_image::{Display, Output};
 use hairline_optics::metal::Metal;
 use hairline_scene::{
-    Base, Camera, Light, Material, Mesh, Object, Profile, RenderSettings, Scene, Scratch, Segment,
+    Base, Camera, GLTF_DIELECTRIC, Light, Material, Mesh, Object, Profile, RenderSettings, Scene,
+    Scratch, Segment,
 };
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -52,6 +53,9 @@ fn gold() -> Material {
         metallic_roughness_texture: None,
         normal_texture: None,
         emission_texture: None,
+        dielectric: GLTF_DIELECTRIC,
+        is_unlit: false,
+        cutout: None,
     }
 }
 
@@ -70,6 +74,7 @@ fn scratched_square(half_m: f32) -> Object {
         uvs: vec![Vec2::ZERO; 4],
         triangles: vec![[0, 1, 2], [0, 2, 3]],
         triangle_materials: vec![0; 2],
+        ..Mesh::default()
     };
     let (mut scratches, mut segments) = (Vec::new(), Vec::new());
     for wave in 0..30_u8 {

@@ -5,8 +5,8 @@ pub mod unbiased;
 
 use glam::{DVec3, Vec2, Vec3, Vec4};
 use hairline_scene::{
-    Base, Camera, Environment, Light, Material, Mesh, Object, Profile, RenderSettings, Scene,
-    Scratch, Segment,
+    Base, Camera, Environment, GLTF_DIELECTRIC, Light, Material, Mesh, Object, Profile,
+    RenderSettings, Scene, Scratch, Segment,
 };
 use std::path::Path;
 use std::sync::Arc;
@@ -46,6 +46,7 @@ pub fn square(base: Base, half_side_m: f32, size_px: u32) -> Scene {
         uvs: vec![Vec2::ZERO; 4],
         triangles: vec![[0, 1, 2], [0, 2, 3]],
         triangle_materials: vec![0; 2],
+        ..Mesh::default()
     };
     let material = Material {
         name: "base".into(),
@@ -57,6 +58,9 @@ pub fn square(base: Base, half_side_m: f32, size_px: u32) -> Scene {
         metallic_roughness_texture: None,
         normal_texture: None,
         emission_texture: None,
+        dielectric: GLTF_DIELECTRIC,
+        is_unlit: false,
+        cutout: None,
     };
     Scene {
         camera: Camera {

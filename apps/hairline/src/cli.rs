@@ -7,6 +7,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use hairline_image::{FPS_MAX, Layer, ToneMap};
 use hairline_scene::DEFAULT_SAMPLES;
+use hairline_scene::description::limits::TIME_S;
 
 use crate::compare::limits::{self, Limit};
 use crate::highlight;
@@ -149,6 +150,9 @@ pub struct Render {
     /// The curve from radiance to a .png, in place of the scene's.
     #[arg(long, value_name = "CURVE", value_parser = tone_maps())]
     pub tone_map: Option<ToneMap>,
+    /// The time of the models' first animations, seconds, in place of the scene's.
+    #[arg(long, value_name = "S", value_parser = parse_time)]
+    pub time: Option<f64>,
     /// Put the highlight here: move a light so that its mirror image lies at this pixel of the picture, counted from the upper left
     /// corner. The first light that is not hidden, or the one of this name.
     #[arg(long, value_name = "X,Y[,LIGHT]", value_parser = highlight::parse)]
@@ -425,6 +429,12 @@ fn parse_exposure(text: &str) -> Result<f64, String> {
         .ok()
         .filter(|ev| ev.abs() <= 100.0)
         .ok_or_else(|| "write a number of stops from -100 to 100, as in -1.5".to_owned())
+}
+
+fn parse_time(text: &str) -> Result<f64, String> {
+    let time = text.parse::<f64>().ok();
+    time.filter(|time| TIME_S.contains(time))
+        .ok_or_else(|| "write a number of seconds from 0 to 1e6, as in 1.5".to_owned())
 }
 
 fn parse_duration(text: &str) -> Result<Duration, String> {

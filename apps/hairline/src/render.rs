@@ -45,6 +45,7 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
         exposure_ev: arguments.exposure,
         scratch_seed: arguments.seed,
         tone_map: arguments.tone_map,
+        time_s: arguments.time,
         highlight: arguments.highlight.as_ref(),
     };
     let loaded = scene_file::load(arguments.scene.as_deref(), &overrides, &target.paths())?;

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::anyhow;
 use hairline_image::ToneMap;
 use hairline_memory::budget_bytes;
-use hairline_scene::description::Description;
+use hairline_scene::description::{Description, Surface};
 use hairline_scene::estimate::Estimate;
 use hairline_scene::inputs::{Input, is_same_file};
 use hairline_scene::{Loader, Scene, SceneBuilder, Stage, reading};
@@ -27,6 +27,8 @@ pub struct Overrides<'a> {
     pub exposure_ev: Option<f64>,
     /// Added to the seed of each layer of scratches.
     pub scratch_seed: u64,
+    /// The time of the models' animations.
+    pub time_s: Option<f64>,
     /// The curve to the display.
     pub tone_map: Option<ToneMap>,
     /// Where a light's mirror image is to lie.
@@ -62,6 +64,13 @@ pub fn load(
     }
     if let Some(tone_map) = overrides.tone_map {
         description.render.tone_map = tone_map;
+    }
+    if let Some(time_s) = overrides.time_s {
+        for object in &mut description.objects {
+            if let Surface::Mesh(_) = object.surface {
+                object.time_s = Some(time_s);
+            }
+        }
     }
     for scratches in &mut description.scratches {
         if let Some(seed) = scratches.layer.seed_mut() {

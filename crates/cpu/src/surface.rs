@@ -126,9 +126,12 @@ pub fn surface_point<'a>(
     let axes = footprint(side * smooth);
     let looked_up = |index: Option<usize>, sample: Sampler| {
         index.map(|i| {
-            let uv = triangle_uv(mesh, triangle, weights);
-            let texel_scale = texture_footprint(mesh, triangle, &corners, axes);
-            sample_texture(&scene.textures[i], uv, texel_scale, sample)
+            let texture = &scene.textures[i];
+            let [a, b, c] = mesh.corner_uvs(triangle, texture);
+            let uv = a * weights[0] + b * weights[1] + c * weights[2];
+            let uv_area = (b - a).perp_dot(c - a).abs();
+            let texel_scale = texture_footprint(uv_area, &corners, axes);
+            sample_texture(texture, uv, texel_scale, sample)
         })
     };
     let texture = |index: Option<usize>| looked_up(index, sample_level);
@@ -160,7 +163,7 @@ pub fn surface_point<'a>(
         .unwrap_or_else(|| normal.any_orthonormal_vector());
     let axis_y = normal.cross(axis_x);
 
-    let mut base_color = DVec3::from(optics.base_color);
+    let mut base_color = DVec3::from(optics.base_color) * mesh.color(triangle, weights).truncate();
     let mut metallic = optics.metallic;
     let mut roughness = material.roughness;
     if let Some(texel) = texture(material.base_color_texture) {
@@ -170,7 +173,8 @@ pub fn surface_point<'a>(
         roughness *= texel.y;
         metallic *= texel.z;
     }
-    let emission = texture(material.emission_texture).map_or(DVec3::ONE, |t| t.truncate());
+    let mut emission = texture(material.emission_texture).map_or(DVec3::ONE, |t| t.truncate())
+        * DVec3::from(material.emission);
     // Most triangles of what is flat have one normal.
     let is_flat = normals[0] == normals[1] && normals[0] == normals[2];
     let normal_turns = if is_flat {
@@ -178,7 +182,11 @@ pub fn surface_point<'a>(
     } else {
         axes.map(|axis| normal_turn(&corners, &normals, geometric, interpolated, axis))
     };
-    let f0 = DVec3::splat(optics.dielectric_f0).lerp(base_color, metallic);
+    let mut f0 = DVec3::splat(optics.dielectric_f0).lerp(base_color, metallic);
+    if material.is_unlit {
+        emission = base_color;
+        (f0, base_color) = (DVec3::ZERO, DVec3::ZERO);
+    }
     let cos = normal.dot(to_viewer);
     SurfacePoint {
         position_m,
@@ -203,7 +211,7 @@ pub fn surface_point<'a>(
         diffuse: base_color * (1.0 - metallic),
         roughness,
         slope_std,
-        emission: emission * DVec3::from(material.emission),
+        emission,
         material: material_index,
         coherence_um: material.coherence_um,
         table: optics.table as usize,
@@ -277,27 +285,16 @@ fn interpolate(weights: [f64; 3], corners: [DVec3; 3]) -> DVec3 {
     corners[0] * weights[0] + corners[1] * weights[1] + corners[2] * weights[2]
 }
 
-fn triangle_uv(mesh: &Mesh, triangle: [u32; 3], weights: [f64; 3]) -> DVec2 {
-    let [a, b, c] = triangle.map(|i| mesh.uvs[i as usize].as_dvec2());
-    a * weights[0] + b * weights[1] + c * weights[2]
-}
-
-/// Area of the footprint in texture space (u times v), one standard deviation wide, as the side of a square.
-fn texture_footprint(
-    mesh: &Mesh,
-    triangle: [u32; 3],
-    corners: &[DVec3; 3],
-    axes: [DVec3; 2],
-) -> f64 {
-    let [a, b, c] = triangle.map(|i| mesh.uvs[i as usize].as_dvec2());
-    let uv_area = (b - a).perp_dot(c - a).abs();
+/// Area of the footprint in texture space (u times v), one standard deviation wide, as the side of a square, where a triangle spans
+/// `uv_area` of it twice.
+fn texture_footprint(uv_area: f64, corners: &[DVec3; 3], axes: [DVec3; 2]) -> f64 {
     let area = (corners[1] - corners[0])
         .cross(corners[2] - corners[0])
         .length();
     (uv_area / area * axes[0].cross(axes[1]).length()).sqrt()
 }
 
-/// Trilinear look-up, repeating, in linear values. `footprint` is the side of the filter in texture space.
+/// Trilinear look-up in linear values. `footprint` is the side of the filter in texture space.
 fn sample_texture(texture: &Texture, uv: DVec2, footprint: f64, sample: Sampler) -> glam::DVec4 {
     let texels = footprint * (texture.size_px[0] as f64 * texture.size_px[1] as f64).sqrt();
     // A Gaussian of one texel's width is what bilinear look-up amounts to: level 0 serves down to there.
@@ -319,14 +316,14 @@ fn sample_texture(texture: &Texture, uv: DVec2, footprint: f64, sample: Sampler)
 /// Bilinear look-up in a level, by a filter of so many texels of the first.
 type Sampler = fn(&Texture, usize, DVec2, f64) -> glam::DVec4;
 
-fn sample_level(texture: &Texture, level: usize, uv: DVec2, _: f64) -> glam::DVec4 {
-    let (texels, t) = four_texels(texture, level, uv);
+fn sample_level(texture: &Texture, level: usize, uv: DVec2, texels_std: f64) -> glam::DVec4 {
+    let (texels, t) = texture.four_texels(level, uv, texels_std);
     blend(texels, t)
 }
 
 /// Of a normal map, where w is how far slopes spread: beyond the texels' own also over what the pixel sees of the map.
 fn sample_normals(texture: &Texture, level: usize, uv: DVec2, texels_std: f64) -> glam::DVec4 {
-    let (texels, t) = four_texels(texture, level, uv);
+    let (texels, t) = texture.four_texels(level, uv, texels_std);
     let mut mean = blend(texels, t);
     let right = (texels[1] - texels[0]).lerp(texels[3] - texels[2], t[1]);
     let down = (texels[2] - texels[0]).lerp(texels[3] - texels[1], t[0]);
@@ -343,39 +340,4 @@ fn blend(texels: [glam::DVec4; 4], [x, y]: [f64; 2]) -> glam::DVec4 {
     texels[0]
         .lerp(texels[1], x)
         .lerp(texels[2].lerp(texels[3], x), y)
-}
-
-/// The texels about a place, row by row, and how far it is from the first.
-fn four_texels(texture: &Texture, level: usize, uv: DVec2) -> ([glam::DVec4; 4], [f64; 2]) {
-    let [width, height] = texture.size_px.map(|n| (n >> level).max(1) as i64);
-    let at = uv * DVec2::new(width as f64, height as f64) - 0.5;
-    let corner = at.floor();
-    let t = at - corner;
-    let texel = |dx: i64, dy: i64| {
-        let x = (corner.x as i64 + dx).rem_euclid(width);
-        let y = (corner.y as i64 + dy).rem_euclid(height);
-        decode(
-            texture.levels[level][(y * width + x) as usize],
-            texture.srgb,
-        )
-    };
-    let texels = [texel(0, 0), texel(1, 0), texel(0, 1), texel(1, 1)];
-    (texels, t.to_array())
-}
-
-fn decode(texel: [u8; 4], srgb: bool) -> glam::DVec4 {
-    let linear = texel.map(|c| c as f64 / 255.0);
-    let color = |c: f64| {
-        if srgb {
-            hairline_image::tone_map::linear_from_srgb(c as f32) as f64
-        } else {
-            c
-        }
-    };
-    glam::DVec4::new(
-        color(linear[0]),
-        color(linear[1]),
-        color(linear[2]),
-        linear[3],
-    )
 }

@@ -39,7 +39,7 @@ pub(crate) const DEFAULT_DIAGONAL_M: f64 = 0.3;
 impl Parameter {
     /// Every parameter.
     #[cfg(test)]
-    pub(crate) const ALL: [Self; 65] = [
+    pub(crate) const ALL: [Self; 66] = [
         Self::CameraPosition,
         Self::CameraTarget,
         Self::CameraUp,
@@ -63,6 +63,7 @@ impl Parameter {
         Self::PlaneSize,
         Self::ShapeRadius,
         Self::FitSize,
+        Self::Time,
         Self::LatheSegments,
         Self::ProfileRadius,
         Self::ProfileHeight,
@@ -137,6 +138,7 @@ impl Parameter {
             // Smaller than 1e-6 neither way; 0 lies between and is refused.
             P::Scale => (0.01..=10.0, -*limits::SCALE.end()..=*limits::SCALE.end()),
             P::PlaneSize | P::ShapeRadius | P::FitSize => (0.05 * d..=5.0 * d, limits::SIZE_M),
+            P::Time => (0.0..=10.0, limits::TIME_S),
             P::LatheSegments => (16.0..=512.0, limits::LATHE_SEGMENTS),
             P::ProfileRadius => (0.0..=d, limits::PROFILE_RADIUS_M),
             P::ProfileHeight | P::GroundHeight => (-d..=d, limits::COORDINATE_M),

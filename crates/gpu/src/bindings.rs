@@ -19,6 +19,9 @@ pub(crate) const SCENE_BUFFERS: [&str; 6] = [
 
 /// From this one on they lie in textures.
 const FIRST_ROWS: u32 = 2;
+const MATERIALS: u32 = 2;
+/// Among the scene's tables and textures, those of materials.
+const TEXTURES: u32 = 6;
 
 /// The layouts that the passes share.
 pub(crate) struct Layouts {
@@ -36,6 +39,8 @@ impl Layouts {
             .map(|i| match i {
                 0 => entry(i, both, storage(true)),
                 i if i < FIRST_ROWS => entry(i, compute, storage(true)),
+                // What is cut out of triangles is a matter of their materials.
+                MATERIALS => entry(i, compute | ShaderStages::FRAGMENT, integers()),
                 i => entry(i, compute, integers()),
             })
             .collect();
@@ -54,7 +59,10 @@ impl Layouts {
         ];
         let textures: Vec<_> = (0..)
             .zip(textures)
-            .map(|(i, ty)| entry(i, compute, ty))
+            .map(|(i, ty)| match i {
+                TEXTURES => entry(i, compute | ShaderStages::FRAGMENT, ty),
+                _ => entry(i, compute, ty),
+            })
             .collect();
         Self {
             frame: layout(gpu, "frame", &[entry(0, both, uniform())]),

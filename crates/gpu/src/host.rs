@@ -1,6 +1,6 @@
 //! From a scene's own units to the structs that host and shader share.
 
-use glam::{DVec3, Vec3};
+use glam::{DVec3, Vec3, Vec4};
 use hairline_index::{IndexedSegment, ScratchIndex};
 use hairline_scene::{Mesh, Profile, Scene, ScratchTables};
 use half::f16;
@@ -37,6 +37,11 @@ pub(crate) fn vertices(mesh: &Mesh, origin_m: DVec3) -> Vec<Vertex> {
                 u: mesh.uvs[corner].x,
                 tangent: tangent.truncate().to_array(),
                 v: mesh.uvs[corner].y,
+                other_uv: mesh
+                    .other_uvs
+                    .get(corner)
+                    .map_or([0.0; 2], |uv| uv.to_array()),
+                color: color(mesh.colors.get(corner).copied().unwrap_or(Vec4::ONE)),
             }
         })
     };
@@ -45,6 +50,13 @@ pub(crate) fn vertices(mesh: &Mesh, origin_m: DVec3) -> Vec<Vertex> {
         .with_min_len(CHUNK)
         .flat_map_iter(corners)
         .collect()
+}
+
+/// Twin: `vertex_color` in hit.wgsl.
+fn color(color: Vec4) -> [u32; 2] {
+    let half = |x: f32| (x.clamp(0.0, 1.0) * 65535.0).round() as u32;
+    let [r, g, b, a] = color.to_array().map(half);
+    [r | g << 16, b | a << 16]
 }
 
 /// One for each object of the scene whose index this is.
@@ -100,13 +112,13 @@ fn material(scene: &Scene, tables: &ScratchTables, array: &TextureArray, index: 
             .map_or(1.0, |(_, scale)| scale as f32),
         table: optics.table,
         curve: optics.curve,
-        pad_0: 0,
+        is_unlit: material.is_unlit.into(),
         base_color_texture: array.packed(material.base_color_texture),
         metallic_roughness_texture: array.packed(material.metallic_roughness_texture),
         normal_texture: array.packed(material.normal_texture.map(|(texture, _)| texture)),
         emission_texture: array.packed(material.emission_texture),
-        pad_1: 0,
-        pad_2: 0,
+        alpha: material.cutout.map_or(1.0, |it| it.alpha as f32),
+        threshold: material.cutout.map_or(-1.0, |it| it.threshold as f32),
     }
 }
 

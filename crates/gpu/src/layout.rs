@@ -78,6 +78,8 @@ shared! {
         u: f32,
         tangent: [f32; 3],
         v: f32,
+        other_uv: [f32; 2],
+        color: [u32; 2],
     }
     /// The scratches of an object.
     Object {
@@ -99,13 +101,13 @@ shared! {
         normal_scale: f32,
         table: u32,
         curve: u32,
-        pad_0: u32,
+        is_unlit: u32,
         base_color_texture: [u32; 2],
         metallic_roughness_texture: [u32; 2],
         normal_texture: [u32; 2],
         emission_texture: [u32; 2],
-        pad_1: u32,
-        pad_2: u32,
+        alpha: f32,
+        threshold: f32,
     }
     /// A light.
     Light {

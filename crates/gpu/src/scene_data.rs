@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use glam::DVec3;
+use hairline_scene::{Object, Scene};
 
 use crate::bindings::Layouts;
 use crate::device::Gpu;
@@ -22,8 +23,24 @@ pub(crate) struct SceneData {
     pub light_ranges: LightRanges,
     /// The first of the objects that are the shapes of lights.
     pub lamps: u32,
+    /// Which objects have a surface that is not everywhere on their triangles.
+    pub cutouts: Vec<bool>,
     pub written: Vec<Written>,
     device: wgpu::Device,
+}
+
+fn cutouts(scene: &Scene) -> Vec<bool> {
+    let is_cut: Vec<bool> = scene
+        .materials
+        .iter()
+        .map(|it| it.cutout.is_some())
+        .collect();
+    let any = is_cut.contains(&true);
+    let of_object = |object: &Object| {
+        let mut materials = object.mesh.triangle_materials.iter();
+        any && materials.any(|material| is_cut[*material as usize])
+    };
+    scene.objects.iter().map(of_object).collect()
 }
 
 impl SceneData {
@@ -63,6 +80,7 @@ impl SceneData {
                 .iter()
                 .take_while(|object| !object.is_lamp)
                 .count() as u32,
+            cutouts: cutouts(source.scene),
             written: transfer.end(),
             device: gpu.device.clone(),
         })

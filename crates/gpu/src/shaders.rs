@@ -148,6 +148,8 @@ modules! {
     PUBLISHED_BASE = "published/published_base" needs [BASE, SPTD];
     /// Pass: triangle and object of each pixel.
     VISIBILITY = "passes/visibility" needs [BINDINGS];
+    /// Pass: the same of objects that are cut out.
+    VISIBILITY_CUTOUTS = "passes/visibility_cutouts" needs [VISIBILITY, CUTOUTS];
     /// Pass: from the triangle that a pixel sees to its surface point.
     SURFACE = "passes/surface" needs [HIT, FILM, PIXEL_POINT];
     /// Pass: the pixels of each tile that have an edge or a crease.
@@ -184,8 +186,10 @@ modules! {
     SHADOW = "scene/shadow" needs [LAYOUT, SOBOL, LUMINANCE];
     /// Pass: a ray of each sample to one source of the base's light.
     SHADOW_BASE_RAYS = "passes/shadow_base_rays" needs [BASE_LOBES, LIGHT_SAMPLING, SHADOW, FILM, PIXEL_POINT];
+    /// Where surfaces are not.
+    CUTOUTS = "scene/cutouts" needs [SCENE, TRIANGLE_TREE];
     /// Where rays of a sample start.
-    RAY_START = "scene/ray_start" needs [TRIANGLE_TREE, BINDINGS, PIXEL_POINT, AT_HITS];
+    RAY_START = "scene/ray_start" needs [CUTOUTS, PIXEL_POINT, AT_HITS];
     /// Pass: what each ray meets.
     SHADOW_TRACE = "passes/shadow_trace" needs [RAY_START, FILM];
     /// Pass: what is hidden of one source of the base's light.

@@ -1,6 +1,6 @@
 //! The textures of materials in one array.
 
-use hairline_scene::{Scene, Texture};
+use hairline_scene::{Sampling, Scene, Texture, Wrap};
 use wgpu::{TextureFormat, TextureViewDimension};
 
 use crate::error::Error;
@@ -58,7 +58,10 @@ impl TextureArray {
             // Twin: scene_texture() in scene.wgsl.
             array.packed.push([
                 width | height << 16,
-                layer as u32 | levels << 16 | u32::from(texture.srgb) << 24,
+                layer as u32
+                    | levels << 16
+                    | u32::from(texture.srgb) << 24
+                    | sampling(&texture.sampling) << 25,
             ]);
         }
         array
@@ -95,6 +98,17 @@ impl TextureArray {
         }
         Ok(array_view(&array))
     }
+}
+
+/// Two bits for each wrap, then one for sharp texels and one for the other coordinates. Twin: scene.wgsl.
+fn sampling(sampling: &Sampling) -> u32 {
+    let wrap = |wrap: Wrap| match wrap {
+        Wrap::Repeat => 0,
+        Wrap::Mirror => 1,
+        Wrap::Clamp => 2,
+    };
+    let [x, y] = sampling.wrap.map(wrap);
+    x | y << 2 | u32::from(sampling.is_sharp) << 4 | u32::from(sampling.by_other_uvs) << 5
 }
 
 fn level_size(texture: &Texture, level: u32) -> [u32; 2] {

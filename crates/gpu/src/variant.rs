@@ -21,6 +21,8 @@ pub(crate) struct Contents {
     pub scratches: bool,
     pub lights: Kinds,
     pub textures: bool,
+    pub colors: bool,
+    pub cutouts: bool,
     /// Materials that are not metal through and through.
     pub bodies: bool,
 }
@@ -31,6 +33,8 @@ impl Contents {
             scratches: scene.objects.iter().any(|o| !o.segments.is_empty()),
             lights: Kinds::of(scene),
             textures: !scene.textures.is_empty(),
+            colors: scene.objects.iter().any(|o| !o.mesh.colors.is_empty()),
+            cutouts: scene.materials.iter().any(|it| it.cutout.is_some()),
             bodies: (scene.materials.iter().zip(&tables.materials)).any(|(material, optics)| {
                 optics.metallic < 1.0 || material.metallic_roughness_texture.is_some()
             }),
@@ -63,6 +67,8 @@ pub fn pipeline_variants(text: &str) -> Vec<(String, Vec<(&'static str, f64)>)> 
         scratches: true,
         lights: Kinds::ALL,
         textures: true,
+        colors: true,
+        cutouts: true,
         bodies: true,
     };
     let lists = PublishedMethod {
@@ -127,6 +133,8 @@ impl ShadeVariant {
         let mut constants = vec![
             ("HAS_SCRATCHES", has.scratches.into()),
             ("HAS_TEXTURES", has.textures.into()),
+            ("HAS_COLORS", has.colors.into()),
+            ("HAS_CUTOUTS", has.cutouts.into()),
             ("HAS_BODIES", has.bodies.into()),
             ("METHOD_MASK", mask.into()),
             (

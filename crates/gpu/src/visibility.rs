@@ -1,6 +1,6 @@
 //! Pass: the triangle and the object that each pixel sees.
 //!
-//! Inputs: frame, vertices. Outputs: the strip's visibility and depth. One draw for each object, without an index buffer:
+//! Inputs: frame, vertices; materials and textures of what is cut out. Outputs: the strip's visibility and depth. One draw for each object, without an index buffer:
 //! the shader divides the vertex's number by three, which works on every device.
 
 use crate::bindings::Layouts;
@@ -11,33 +11,46 @@ use crate::strip::{DEPTH_FORMAT, StripRoom, VISIBILITY_FORMAT};
 
 pub(crate) struct VisibilityPass {
     objects: wgpu::RenderPipeline,
+    /// Objects whose surface is not everywhere on their triangles.
+    cutouts: wgpu::RenderPipeline,
     /// The shapes of lights, of which the camera sees the fronts.
     lamps: wgpu::RenderPipeline,
 }
 
 impl VisibilityPass {
     pub(crate) fn new(gpu: &Gpu, layouts: &Layouts) -> Self {
-        let module = gpu
-            .device
-            .create_shader_module(wgpu::ShaderModuleDescriptor {
-                label: Some("visibility"),
-                source: wgpu::ShaderSource::Wgsl(shaders::compose(&[&shaders::VISIBILITY]).into()),
-            });
-        let layout = gpu
-            .device
-            .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-                label: Some("visibility"),
-                bind_group_layouts: &[Some(&layouts.frame), Some(&layouts.scene)],
-                immediate_size: 0,
-            });
-        let pipeline = |cull_mode| {
+        let module = |module: &'static shaders::Module| {
+            let source = shaders::compose(&[module]);
+            gpu.device
+                .create_shader_module(wgpu::ShaderModuleDescriptor {
+                    label: Some(module.name),
+                    source: wgpu::ShaderSource::Wgsl(source.into()),
+                })
+        };
+        let groups = [
+            Some(&layouts.frame),
+            Some(&layouts.scene),
+            Some(&layouts.textures),
+        ];
+        let layout = |groups: &[Option<&wgpu::BindGroupLayout>]| {
+            gpu.device
+                .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                    label: Some("visibility"),
+                    bind_group_layouts: groups,
+                    immediate_size: 0,
+                })
+        };
+        let pipeline = |module: &wgpu::ShaderModule,
+                        [vertex, fragment]: [&str; 2],
+                        layout: &wgpu::PipelineLayout,
+                        cull_mode| {
             gpu.device
                 .create_render_pipeline(&wgpu::RenderPipelineDescriptor {
                     label: Some("visibility"),
-                    layout: Some(&layout),
+                    layout: Some(layout),
                     vertex: wgpu::VertexState {
-                        module: &module,
-                        entry_point: Some("visibility_vertex"),
+                        module,
+                        entry_point: Some(vertex),
                         compilation_options: Default::default(),
                         buffers: &[],
                     },
@@ -55,8 +68,8 @@ impl VisibilityPass {
                     }),
                     multisample: Default::default(),
                     fragment: Some(wgpu::FragmentState {
-                        module: &module,
-                        entry_point: Some("visibility_fragment"),
+                        module,
+                        entry_point: Some(fragment),
                         compilation_options: Default::default(),
                         targets: &[Some(VISIBILITY_FORMAT.into())],
                     }),
@@ -64,10 +77,17 @@ impl VisibilityPass {
                     cache: None,
                 })
         };
+        let whole = module(&shaders::VISIBILITY);
+        let cut = module(&shaders::VISIBILITY_CUTOUTS);
+        let of_whole = layout(&groups[..2]);
+        let of_cut = layout(&groups);
+        let entries = ["visibility_vertex", "visibility_fragment"];
+        let of_cut_entries = ["cutout_vertex", "cutout_fragment"];
         Self {
             // Both sides of a sheet are seen.
-            objects: pipeline(None),
-            lamps: pipeline(Some(wgpu::Face::Back)),
+            objects: pipeline(&whole, entries, &of_whole, None),
+            cutouts: pipeline(&cut, of_cut_entries, &of_cut, None),
+            lamps: pipeline(&whole, entries, &of_whole, Some(wgpu::Face::Back)),
         }
     }
 
@@ -109,13 +129,15 @@ impl VisibilityPass {
             0.0,
             1.0,
         );
-        pass.set_pipeline(&self.objects);
         pass.set_bind_group(0, *frame, &[]);
         pass.set_bind_group(1, &scene.buffers.group, &[]);
+        pass.set_bind_group(2, &scene.textures.group, &[]);
         for (object, triangles) in (0..).zip(scene.triangles()) {
-            if object == scene.lamps {
-                pass.set_pipeline(&self.lamps);
-            }
+            pass.set_pipeline(match object {
+                lamp if lamp >= scene.lamps => &self.lamps,
+                cut if scene.cutouts[cut as usize] => &self.cutouts,
+                _ => &self.objects,
+            });
             pass.draw(3 * triangles.start..3 * triangles.end, object..object + 1);
         }
     }

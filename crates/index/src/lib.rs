@@ -23,6 +23,7 @@
 
 #![warn(unreachable_pub)]
 
+mod cutouts;
 mod depth_spread;
 pub mod groove_index;
 mod indexed_segment;

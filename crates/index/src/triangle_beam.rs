@@ -147,7 +147,8 @@ impl TriangleBeam {
         let mut nearest: Option<Hit> = None;
         for candidate in &self.candidates {
             let nearest_m = nearest.map_or(f64::INFINITY, |hit| hit.distance_m);
-            nearest = candidate.intersect(direction, nearest_m).or(nearest);
+            let met = candidate.intersect(direction, nearest_m);
+            nearest = met.filter(|hit| triangles.is_there(hit)).or(nearest);
         }
         nearest
     }

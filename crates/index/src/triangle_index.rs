@@ -9,6 +9,7 @@ use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
 use obvhs::ray::{Ray, RayHit};
 
+use crate::cutouts::Cutouts;
 use crate::tree;
 
 /// Where a ray meets a surface.
@@ -40,6 +41,7 @@ pub struct TriangleIndex {
     triangles: Vec<(u32, u32, [DVec3; 3])>,
     /// The first of the objects that only the camera sees.
     lamps: u32,
+    cutouts: Option<Cutouts>,
 }
 
 impl TriangleIndex {
@@ -78,7 +80,13 @@ impl TriangleIndex {
             tree,
             triangles,
             lamps: lamps.unwrap_or(scene.objects.len()) as u32,
+            cutouts: Cutouts::of(scene),
         }
+    }
+
+    /// Whether the surface is there that a ray meets, and not cut out of its triangle.
+    pub(crate) fn is_there(&self, hit: &Hit) -> bool {
+        self.cutouts.as_ref().is_none_or(|it| it.is_there(hit))
     }
 
     pub(crate) fn tree(&self) -> &Bvh2 {
@@ -167,13 +175,17 @@ impl TriangleIndex {
             }
             match intersect_triangle(origin, direction, corners) {
                 Some((distance_m, barycentric)) => {
+                    let met = Hit {
+                        object: *object,
+                        triangle: *triangle,
+                        distance_m,
+                        barycentric,
+                    };
+                    if !self.is_there(&met) {
+                        return f32::INFINITY;
+                    }
                     if hit.is_none_or(|h| distance_m < h.distance_m) {
-                        hit = Some(Hit {
-                            object: *object,
-                            triangle: *triangle,
-                            distance_m,
-                            barycentric,
-                        });
+                        hit = Some(met);
                     }
                     distance_m as f32
                 }
@@ -191,10 +203,19 @@ impl TriangleIndex {
         let (from, along) = (origin.as_vec3a(), non_zero(direction.as_vec3a()));
         let ray = Ray::new(from, along, 0.0, distance_m as f32);
         let is_free = self.tree.ray_traverse_miss(ray, |_, id| {
-            let (object, _, corners) = &self.triangles[id];
-            match intersect_triangle(origin, direction, corners) {
-                Some((at_m, _)) if at_m < distance_m && *object < self.lamps => 0.0,
-                _ => f32::INFINITY,
+            let (object, triangle, corners) = &self.triangles[id];
+            let met = match intersect_triangle(origin, direction, corners) {
+                Some((at_m, barycentric)) if at_m < distance_m && *object < self.lamps => Hit {
+                    object: *object,
+                    triangle: *triangle,
+                    distance_m: at_m,
+                    barycentric,
+                },
+                _ => return f32::INFINITY,
+            };
+            match self.is_there(&met) {
+                true => 0.0,
+                false => f32::INFINITY,
             }
         });
         !is_free

@@ -92,13 +92,17 @@ impl FresnelCurve {
 
     /// Schlick's, for every F0.
     pub fn schlick() -> &'static Self {
-        static CURVE: LazyLock<FresnelCurve> = LazyLock::new(|| {
-            FresnelCurve::of_parts(|cos_theta| {
-                let t = schlick_weight(cos_theta);
-                [t, t, t, 1.0 - t]
-            })
-        });
+        static CURVE: LazyLock<FresnelCurve> = LazyLock::new(|| FresnelCurve::grazing(1.0));
         &CURVE
+    }
+
+    /// Schlick's curve to another reflectance at grazing incidence: F0 + (F90 - F0)(1 - c)^5.
+    pub fn grazing(f90: f64) -> Self {
+        Self::of_parts(|cos_theta| {
+            let weight = schlick_weight(cos_theta);
+            let t = f90 * weight;
+            [t, t, t, 1.0 - weight]
+        })
     }
 
     fn of_parts(parts: impl Fn(f64) -> [f64; 4]) -> Self {

@@ -49,7 +49,9 @@ pub(crate) fn read<'py>(
     let (description, text) = read().map_err(|error| errors::of_scene(py, &error))?;
     let table = table(py, &description)?;
     let dict = Stock::default().dict(py, &table)?;
-    Ok((dict, text, description.notes))
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let models = description.model_notes(folder);
+    Ok((dict, text, [description.notes, models].concat()))
 }
 
 /// The table of a whole scene with its defaults filled in, or what is wrong with it. `alone` where a part of it is asked for, and

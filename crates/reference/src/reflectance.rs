@@ -54,7 +54,7 @@ const ROUGHNESS_STEPS: usize = 32;
 
 impl Reflectance {
     pub(crate) fn new(material: &Material) -> Self {
-        let reflector = Reflector::new(&material.base);
+        let reflector = Reflector::new(material);
         match material.metallic_roughness_texture {
             None => Self::at(reflector, &[material.roughness]),
             Some(_) => {
@@ -109,6 +109,13 @@ impl Reflectance {
             Reflector::Schlick => {
                 let t = schlick_weight(cos_theta);
                 FacetParts { t, s: 1.0 - t }
+            }
+            Reflector::Grazing(reflectance) => {
+                let weight = schlick_weight(cos_theta);
+                FacetParts {
+                    t: reflectance * weight,
+                    s: 1.0 - weight,
+                }
             }
             Reflector::Metal(_) => FacetParts { t: 1.0, s: 0.0 },
         }

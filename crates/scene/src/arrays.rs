@@ -130,11 +130,10 @@ impl MeshArrays {
         let vertices = self.vertices_m.iter().enumerate().map(|(i, &at)| Vertex {
             position_m: at.into(),
             normal: row(&self.normals, i).normalize_or_zero(),
-            tangent: DVec3::ZERO,
-            handedness: 1.0,
             uv: self.uvs.as_ref().map_or(Vec2::ZERO, |uvs| {
                 Vec2::new(uvs[i][0] as f32, uvs[i][1] as f32)
             }),
+            ..Vertex::default()
         });
         let mut surface = Surface {
             vertices: vertices.collect(),

@@ -171,6 +171,12 @@ impl<'a> Work<'a> {
             if !surface.textures.is_empty() {
                 textures.push(surface.textures.clone());
             }
+            for note in surface.notes.iter() {
+                // Objects may share a file.
+                if !scene.notes.contains(note) {
+                    scene.notes.push(note.clone());
+                }
+            }
             scene.objects.push(Object {
                 name: object.name.clone(),
                 mesh: surface.mesh.clone(),

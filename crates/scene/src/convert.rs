@@ -12,7 +12,7 @@ use crate::description::{self, Around, Description, MaterialKind, MetalColor, Pa
 use crate::environment::{self, BuiltInMap};
 use crate::error::Error;
 use crate::grating::{Bearing, Grating, GrooveField};
-use crate::scene::{Base, Camera, Material, RenderSettings, Scene};
+use crate::scene::{Base, Camera, GLTF_DIELECTRIC, Material, RenderSettings, Scene};
 use crate::surface::world_from_object;
 
 /// All that takes no time: camera, settings, materials, lights.
@@ -67,6 +67,9 @@ pub(crate) fn material(material: &description::Material) -> Material {
         metallic_roughness_texture: None,
         normal_texture: None,
         emission_texture: None,
+        dielectric: GLTF_DIELECTRIC,
+        is_unlit: false,
+        cutout: None,
     }
 }
 

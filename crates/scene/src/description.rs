@@ -215,6 +215,9 @@ pub struct Object {
     /// have no such key.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fit_m: Option<f64>,
+    /// The time of a mesh's first animation, in seconds. Default: none, the model is at rest. Shapes have no such key.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub time_s: Option<f64>,
     /// Name of a material. Required for a shape; a mesh that leaves it out keeps the materials of its file.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,

@@ -4,7 +4,7 @@ use glam::{DMat4, DQuat, DVec2, DVec3};
 use std::f64::consts::PI;
 
 use crate::description::{self, LightKind, Shape};
-use crate::scene::{Base, Material, Mesh};
+use crate::scene::{Base, GLTF_DIELECTRIC, Material, Mesh};
 use crate::shape;
 use crate::surface::{Surface, Vertex};
 
@@ -33,6 +33,9 @@ pub(crate) fn material(light: &description::Light, eye_m: DVec3) -> Material {
         metallic_roughness_texture: None,
         normal_texture: None,
         emission_texture: None,
+        dielectric: GLTF_DIELECTRIC,
+        is_unlit: false,
+        cutout: None,
     }
 }
 
@@ -100,8 +103,7 @@ fn flat(corners_m: &[DVec3], axis: DVec3) -> Surface {
         position_m,
         normal: axis,
         tangent,
-        handedness: 1.0,
-        uv: glam::Vec2::ZERO,
+        ..Vertex::default()
     });
     let places: Vec<DVec2> = corners_m
         .iter()

@@ -29,6 +29,8 @@ pub struct MaterialOptics {
 pub enum Reflector {
     /// Schlick's approximation, which serves every colour.
     Schlick,
+    /// The same, rising to another reflectance at grazing incidence than 1.
+    Grazing(f64),
     /// A metal's measured refractive index.
     Metal(Metal),
     /// A dielectric's refractive index.
@@ -37,10 +39,12 @@ pub enum Reflector {
 
 impl Reflector {
     /// Of a material.
-    pub fn new(base: &Base) -> Self {
-        match *base {
+    pub fn new(material: &Material) -> Self {
+        let [_, grazing] = material.dielectric;
+        match material.base {
             Base::Metal(metal) => Self::Metal(metal),
             Base::Dielectric { ior, .. } => Self::Dielectric(ior),
+            Base::MetallicRoughness { .. } if grazing != 1.0 => Self::Grazing(grazing),
             _ => Self::Schlick,
         }
     }
@@ -48,6 +52,7 @@ impl Reflector {
     fn curve(self) -> FresnelCurve {
         match self {
             Self::Schlick => FresnelCurve::schlick().clone(),
+            Self::Grazing(reflectance) => FresnelCurve::grazing(reflectance),
             Self::Metal(metal) => metal.fresnel_curve(),
             Self::Dielectric(ior) => FresnelCurve::dielectric(ior),
         }
@@ -95,7 +100,7 @@ impl ScratchTables {
                     metals.push(metal);
                     metals.len() - 1
                 });
-                let reflector = Reflector::new(&material.base);
+                let reflector = Reflector::new(material);
                 let curve = reflectors.iter().position(|r| *r == reflector);
                 let curve = curve.unwrap_or_else(|| {
                     reflectors.push(reflector);
@@ -211,6 +216,7 @@ fn material_optics(material: &Material, table: u32, curve: u32) -> MaterialOptic
             metallic,
         } => MaterialOptics {
             metallic,
+            dielectric_f0: material.dielectric[0],
             ..metal(base_color)
         },
     }

@@ -1,23 +1,34 @@
 //! glTF 2.0 and GLB files, after the specification of the Khronos Group (2021).
 //!
 //! All nodes of the file's scene become one mesh with a material per triangle. What the file cannot be trusted with (bounds,
-//! cycles, numbers that are none) is checked here: a broken file ends in a [`Flaw`], never in a panic. Left out: skins and
-//! morph targets (the rest pose is shown), vertex colours, alpha, texture transforms; points and lines are skipped.
+//! cycles, numbers that are none) is checked here: a broken file ends in a [`Flaw`], never in a panic. What is not read is told:
+//! [`LeftOut`].
 
 mod accessor;
+mod draco;
+mod extensions;
 mod flaw;
 mod head;
+mod images;
+mod instances;
+mod left_out;
 mod lights;
 mod material;
 mod nodes;
 mod placing;
+mod pose;
 mod primitive;
 mod root;
+mod shapes;
+mod skin;
 mod source;
+mod spec_gloss;
 mod stock;
 mod tangents;
+mod uv;
 
 use std::borrow::Cow;
+use std::collections::HashMap;
 use std::path::Path;
 
 use glam::DMat4;
@@ -28,24 +39,20 @@ use crate::scene::Mesh;
 use crate::text::shown;
 pub(crate) use flaw::Flaw;
 use flaw::RIGHT;
-pub(crate) use head::{counts, names};
+pub(crate) use head::{counts, left_out, names};
+use images::Images;
+pub use left_out::LeftOut;
+pub(crate) use left_out::Wanted;
 pub(crate) use lights::{Punctual, PunctualKind};
 use material::Materials;
-use nodes::placed_meshes;
 pub(crate) use placing::Placing;
+use shapes::Shapes;
 use source::Buffers;
 use stock::FILE_SHARE;
 pub(crate) use stock::Stock;
 
 /// Instances of meshes that one file may place; each is baked.
 const MOST_TRIANGLES: usize = 1 << 28;
-/// Extensions that are read. Quantization needs nothing done: the accessors read every component type.
-const EXTENSIONS: [&str; 4] = [
-    "KHR_mesh_quantization",
-    "KHR_materials_emissive_strength",
-    "EXT_texture_webp",
-    "KHR_lights_punctual",
-];
 
 /// Reads a file's triangles into world space. Without `material`, an index into the stock, the file's own are added there.
 pub(crate) fn read(
@@ -55,24 +62,38 @@ pub(crate) fn read(
     placing: &Placing,
     stock: Stock,
 ) -> Result<Mesh, Flaw> {
-    let gltf = parse(&file(path)?)?;
+    let gltf = parse(&file(path)?, placing.time_s.is_some())?;
     let base_dir = path.parent().unwrap_or(Path::new(""));
-    let buffers = Buffers::read(&gltf, base_dir, stock.files)?;
+    let Stock {
+        materials,
+        textures,
+        files,
+        free_bytes,
+        with_mips,
+    } = stock;
+    let buffers = Buffers::read(&gltf, base_dir, files)?;
     let mut materials = match material {
         Some(material) => Materials::One(material),
-        None => Materials::own(base_dir, &buffers, stock),
+        None => {
+            let images = Images {
+                base_dir,
+                buffers: &buffers,
+                textures,
+                files,
+                free_bytes,
+                with_mips,
+                known: HashMap::new(),
+            };
+            Materials::own(&gltf.document, images, materials)
+        }
     };
     let mut mesh = Mesh::default();
-    let mut without_surface = 0;
-    let object_from_file = placing.object_from_file(&gltf.document, &buffers)?;
-    for (node, world_from_node) in
-        placed_meshes(&gltf.document, *world_from_object * object_from_file)?
-    {
-        for primitive in node.mesh().into_iter().flat_map(|mesh| mesh.primitives()) {
-            let Some(surface) = primitive::read(&primitive, &buffers)? else {
-                without_surface += 1;
-                continue;
-            };
+    let shapes = Shapes::new(&gltf.document, &buffers, placing.time_s)?;
+    let world_from_file = *world_from_object * placing.object_from_file(&shapes)?;
+    let without_surface = shapes.visit(&mut |shape| {
+        let surface = shape.rough.finished(&shape.primitive);
+        let material = materials.index(&shape.primitive)?;
+        for file_from_place in &shape.places {
             let so_far = mesh.triangles.len().max(mesh.positions_m.len());
             let more = surface.triangles.len().max(surface.vertices.len());
             if so_far + more > MOST_TRIANGLES {
@@ -81,10 +102,10 @@ pub(crate) fn read(
                     "must have fewer",
                 ));
             }
-            let material = materials.index(&primitive)?;
-            surface.bake(&world_from_node, material, &mut mesh);
+            surface.bake(&(world_from_file * *file_from_place), material, &mut mesh);
         }
-    }
+        Ok(())
+    })?;
     if mesh.triangles.is_empty() && without_surface > 0 {
         let found = "it has points and lines, and no triangles";
         return Err(Flaw::new(
@@ -103,7 +124,7 @@ pub(crate) fn read(
 
 /// The lights of a file, in its own frame.
 pub(crate) fn lights(path: &Path) -> Result<Vec<Punctual>, Flaw> {
-    lights::of(&parse(&file(path)?)?.document)
+    lights::of(&parse(&file(path)?, false)?.document)
 }
 
 fn file(path: &Path) -> Result<Vec<u8>, Flaw> {
@@ -115,7 +136,8 @@ fn file(path: &Path) -> Result<Vec<u8>, Flaw> {
     })
 }
 
-fn parse(bytes: &[u8]) -> Result<Gltf, Flaw> {
+/// Animations are kept where they are wanted: broken ones make a file unusable.
+fn parse(bytes: &[u8], with_animations: bool) -> Result<Gltf, Flaw> {
     let right = RIGHT;
     if bytes.is_empty() {
         return Err(Flaw::new("it is empty", right));
@@ -138,7 +160,7 @@ fn parse(bytes: &[u8]) -> Result<Gltf, Flaw> {
     let (text, blob) = parts(bytes)?;
     let mut json = root::read(&text)?;
     json.extensions_required
-        .retain(|name| !EXTENSIONS.contains(&name.as_str()));
+        .retain(|name| !extensions::is_read(name));
     if let Some(name) = json.extensions_required.first() {
         return Err(Flaw::new(
             format!(
@@ -151,8 +173,9 @@ fn parse(bytes: &[u8]) -> Result<Gltf, Flaw> {
             },
         ));
     }
-    root::leave_out_what_is_ignored(&mut json);
+    root::leave_out_what_is_ignored(&mut json, with_animations);
     root::find_images(&mut json)?;
+    root::find_packed_views(&mut json);
     // What the crate's own validation takes for granted.
     let accessors = json.accessors.len();
     let mut primitives = json.meshes.iter().flat_map(|mesh| &mesh.primitives);

@@ -117,6 +117,7 @@ impl Description {
                     surface: Surface::Mesh(name),
                     up: Up::Y,
                     fit_m,
+                    time_s: None,
                     material: None,
                     translation_m: [0.0; 3],
                     rotation_deg: [0.0; 3],

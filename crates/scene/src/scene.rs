@@ -62,7 +62,8 @@ pub struct Scene {
     pub objects: Vec<Object>,
     /// Area lights, those of the environment not among them: see [`Scene::all_lights`].
     pub lights: Vec<Light>,
-    /// What the author should know about the scene file, a line each, such as a key that has no effect any more.
+    /// What the author should know about the scene file and its models, a line each: a key that has no effect any more, a part of a
+    /// model that is not shown.
     pub notes: Vec<String>,
 }
 
@@ -121,6 +122,24 @@ pub struct Material {
     pub normal_texture: Option<(usize, f64)>,
     /// Emission texture (sRGB encoded), multiplied with the emission.
     pub emission_texture: Option<usize>,
+    /// Of [`Base::MetallicRoughness`], what is no metal: its reflectance at normal and at grazing incidence.
+    pub dielectric: [f64; 2],
+    /// Whether it sends its base colour and reflects nothing, as a picture without light (KHR_materials_unlit).
+    pub is_unlit: bool,
+    /// Where its surface is not.
+    pub cutout: Option<Cutout>,
+}
+
+/// What glTF says of a dielectric without its extensions: [`Material::dielectric`].
+pub const GLTF_DIELECTRIC: [f64; 2] = [0.04, 1.0];
+
+/// A surface is only where its alpha is at least a threshold: rays go through the rest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cutout {
+    /// Factor on the alpha of the base colour texture and of the vertices.
+    pub alpha: f64,
+    /// The least alpha at which the surface is there.
+    pub threshold: f64,
 }
 
 /// The kind of a surface.
@@ -160,6 +179,45 @@ pub struct Texture {
     pub levels: Vec<Vec<[u8; 4]>>,
     /// Whether colour channels are sRGB encoded.
     pub srgb: bool,
+    /// How it is looked up.
+    pub sampling: Sampling,
+}
+
+/// How a texture is looked up.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Sampling {
+    /// Beyond its left and right borders, and beyond the upper and lower ones.
+    pub wrap: [Wrap; 2],
+    /// Whether its texels, seen large, are rectangles of one value each.
+    pub is_sharp: bool,
+    /// Whether it lies by [`Mesh::other_uvs`] in place of [`Mesh::uvs`].
+    pub by_other_uvs: bool,
+}
+
+/// What a texture is beyond a border.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Wrap {
+    /// The same again.
+    #[default]
+    Repeat,
+    /// Its mirror image.
+    Mirror,
+    /// The texels at the border.
+    Clamp,
+}
+
+impl Wrap {
+    /// Which of `count` texels in a row stands at a place of the row without an end.
+    pub fn texel(self, at: i64, count: i64) -> i64 {
+        match self {
+            Self::Repeat => at.rem_euclid(count),
+            Self::Clamp => at.clamp(0, count - 1),
+            Self::Mirror => {
+                let at = at.rem_euclid(2 * count);
+                at.min(2 * count - 1 - at)
+            }
+        }
+    }
 }
 
 /// A surface, with the scratches and gratings that lie on it.
@@ -202,7 +260,7 @@ impl Object {
     }
 }
 
-/// Triangles in world space. The vertex arrays are equally long.
+/// Triangles in world space. The vertex arrays are equally long; those of other coordinates and of colours may be empty.
 #[derive(Clone, Debug, Default)]
 pub struct Mesh {
     /// World space, metres.
@@ -213,6 +271,10 @@ pub struct Mesh {
     pub tangents: Vec<Vec4>,
     /// Texture coordinates; (0, 0) is the upper left corner.
     pub uvs: Vec<Vec2>,
+    /// A second set of texture coordinates; without it they are (0, 0).
+    pub other_uvs: Vec<Vec2>,
+    /// Factors on base colour and alpha, linear Rec.709; without them 1.
+    pub colors: Vec<Vec4>,
     /// Vertex indices, counter-clockwise seen from outside. None is degenerate.
     pub triangles: Vec<[u32; 3]>,
     /// Index into [`Scene::materials`], one for each triangle.

@@ -73,6 +73,7 @@ fn flat_vertex(position_m: DVec3, facing: f64, x: f64, y: f64) -> Vertex {
         tangent: DVec3::X,
         handedness: facing,
         uv: Vec2::new((0.5 + x) as f32, (0.5 - y) as f32),
+        ..Vertex::default()
     }
 }
 
@@ -218,8 +219,8 @@ fn add_turned_piece(surface: &mut Surface, ends: [ProfileEnd; 2], segments: u32)
                 position_m: turned(end.point_m),
                 normal: turned(end.normal),
                 tangent: DVec3::new(-sin, cos, 0.0),
-                handedness: 1.0,
                 uv: Vec2::new(turn as f32, end.v as f32),
+                ..Vertex::default()
             });
         }
     }

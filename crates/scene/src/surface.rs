@@ -1,11 +1,11 @@
 //! From vertices in double precision, in a frame of their own, to a [`Mesh`] in world space.
 
-use glam::{DMat3, DMat4, DVec3, Vec2, Vec3};
+use glam::{DMat3, DMat4, DVec3, Vec2, Vec3, Vec4};
 
 use crate::scene::Mesh;
 
 /// A vertex before it is moved to world space and rounded.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Vertex {
     pub position_m: DVec3,
     /// Unit.
@@ -15,6 +15,24 @@ pub(crate) struct Vertex {
     /// The bitangent is `normal x tangent` times this, as in glTF.
     pub handedness: f64,
     pub uv: Vec2,
+    /// See [`Mesh::other_uvs`].
+    pub other_uv: Vec2,
+    /// Linear, with alpha.
+    pub color: Vec4,
+}
+
+impl Default for Vertex {
+    fn default() -> Self {
+        Self {
+            position_m: DVec3::ZERO,
+            normal: DVec3::ZERO,
+            tangent: DVec3::ZERO,
+            handedness: 1.0,
+            uv: Vec2::ZERO,
+            other_uv: Vec2::ZERO,
+            color: Vec4::ONE,
+        }
+    }
 }
 
 /// Triangles of one material in a frame of their own.
@@ -34,19 +52,29 @@ impl Surface {
     /// Appends the surface, moved by `world_from_local`, to `mesh`, without its degenerate triangles.
     pub(crate) fn bake(&self, world_from_local: &DMat4, material: u32, mesh: &mut Mesh) {
         let linear = DMat3::from_mat4(*world_from_local);
-        // Normals go by the cofactor matrix, which unlike the inverse exists for flattened objects too. A mirror image turns
-        // both the winding and, by the determinant's sign, the normals.
+        // A mirror image turns both the winding and, by the determinant's sign, the normals.
         let mirror = if linear.determinant() < 0.0 {
             -1.0
         } else {
             1.0
         };
-        let cofactor = DMat3::from_cols(
-            linear.y_axis.cross(linear.z_axis),
-            linear.z_axis.cross(linear.x_axis),
-            linear.x_axis.cross(linear.y_axis),
-        );
+        let cofactor = cofactor(&linear);
         let first = mesh.positions_m.len() as u32;
+        let is_used = |what: fn(&Vertex) -> bool| self.vertices.iter().any(what);
+        let has_other_uvs =
+            !mesh.other_uvs.is_empty() || is_used(|vertex| vertex.other_uv != Vec2::ZERO);
+        let has_colors = !mesh.colors.is_empty() || is_used(|vertex| vertex.color != Vec4::ONE);
+        if has_other_uvs {
+            // Of what came before.
+            mesh.other_uvs.resize(first as usize, Vec2::ZERO);
+            mesh.other_uvs
+                .extend(self.vertices.iter().map(|vertex| vertex.other_uv));
+        }
+        if has_colors {
+            mesh.colors.resize(first as usize, Vec4::ONE);
+            mesh.colors
+                .extend(self.vertices.iter().map(|vertex| vertex.color));
+        }
         for vertex in &self.vertices {
             let position = world_from_local.transform_point3(vertex.position_m);
             let normal = (mirror * (cofactor * vertex.normal)).normalize_or(DVec3::Z);
@@ -83,6 +111,15 @@ impl Surface {
         }
         self.vertices = vertices;
     }
+}
+
+/// By which normals go where a linear map takes a surface; unlike the inverse it exists for flattened objects too.
+pub(crate) fn cofactor(linear: &DMat3) -> DMat3 {
+    DMat3::from_cols(
+        linear.y_axis.cross(linear.z_axis),
+        linear.z_axis.cross(linear.x_axis),
+        linear.x_axis.cross(linear.y_axis),
+    )
 }
 
 /// The unit part of `direction` perpendicular to `normal`; any perpendicular where there is none.
@@ -229,8 +266,7 @@ mod tests {
             position_m: DVec3::new(x, y, 0.0),
             normal: DVec3::Z,
             tangent: DVec3::X,
-            handedness: 1.0,
-            uv: Vec2::ZERO,
+            ..Vertex::default()
         };
         let surface = Surface {
             vertices: vec![

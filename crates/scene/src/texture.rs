@@ -6,7 +6,7 @@ use hairline_memory::{costs, in_words};
 use image::{ImageReader, Limits};
 use rayon::prelude::*;
 
-use crate::scene::Texture;
+use crate::scene::{Sampling, Texture};
 
 const LARGEST_PX: u32 = 16_384;
 
@@ -39,14 +39,8 @@ pub(crate) fn texture_bytes([width, height]: [u32; 2]) -> f64 {
     f64::from(width) * f64::from(height) * costs::TEXEL
 }
 
-/// Decodes a PNG, JPEG or WebP file and builds its mip chain; without it, there is the first level alone. It may take
-/// `free_bytes`.
-pub(crate) fn decode(
-    bytes: &[u8],
-    channels: Channels,
-    with_mips: bool,
-    free_bytes: f64,
-) -> Result<Texture, Unusable> {
+/// The texels of a PNG, JPEG or WebP file, row by row from the top, and its size. As a texture it may take `free_bytes`.
+pub(crate) fn decode(bytes: &[u8], free_bytes: f64) -> Result<Texels, Unusable> {
     let guessed = ImageReader::new(Cursor::new(bytes)).with_guessed_format()?;
     let size_px: [u32; 2] = guessed.into_dimensions()?.into();
     if texture_bytes(size_px) > free_bytes {
@@ -62,18 +56,34 @@ pub(crate) fn decode(
     reader.limits(limits);
     let image = reader.decode()?.into_rgba8();
     let size_px = [image.width(), image.height()];
-    let mut texels: Vec<[u8; 4]> = image.pixels().map(|pixel| pixel.0).collect();
+    let texels = image.pixels().map(|pixel| pixel.0).collect();
+    Ok(Texels { size_px, texels })
+}
+
+/// An image as it is stored.
+pub(crate) struct Texels {
+    pub size_px: [u32; 2],
+    pub texels: Vec<[u8; 4]>,
+}
+
+/// An image with its mip chain; or with the first level alone.
+pub(crate) fn of(image: Texels, channels: Channels, with_mips: bool) -> Texture {
+    let Texels {
+        size_px,
+        mut texels,
+    } = image;
     if channels == Channels::Normals {
         texels.iter_mut().for_each(|texel| texel[3] = 0);
     }
-    Ok(match with_mips {
+    match with_mips {
         true => self::with_mips(size_px, texels, channels),
         false => Texture {
             size_px,
             levels: vec![texels],
             srgb: channels == Channels::Color,
+            sampling: Sampling::default(),
         },
-    })
+    }
 }
 
 /// A texture from its texels, row by row from the top.
@@ -121,6 +131,7 @@ pub(crate) fn with_mips(size_px: [u32; 2], texels: Vec<[u8; 4]>, channels: Chann
         size_px,
         levels,
         srgb,
+        sampling: Sampling::default(),
     }
 }
 
@@ -167,7 +178,7 @@ fn covered(i: u32, n: u32, half: u32) -> Vec<(u32, f32)> {
 }
 
 /// IEC 61966-2-1.
-fn srgb_to_linear(code: f32) -> f32 {
+pub(crate) fn srgb_to_linear(code: f32) -> f32 {
     match code <= 0.04045 {
         true => code / 12.92,
         false => ((code + 0.055) / 1.055).powf(2.4),
@@ -175,7 +186,7 @@ fn srgb_to_linear(code: f32) -> f32 {
 }
 
 /// IEC 61966-2-1.
-fn linear_to_srgb(linear: f32) -> f32 {
+pub(crate) fn linear_to_srgb(linear: f32) -> f32 {
     match linear <= 0.003_130_8 {
         true => linear * 12.92,
         false => 1.055 * linear.powf(1.0 / 2.4) - 0.055,

@@ -119,6 +119,7 @@ impl Viewer {
             gallery: Gallery::default(),
             bookmarks,
             snapshots: Snapshots::default(),
+            model_notes: Vec::new(),
             wished: Vec::new(),
         };
         let mut viewer = Self {

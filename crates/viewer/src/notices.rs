@@ -21,14 +21,23 @@ struct Notice {
     topic: &'static str,
 }
 
+impl Notice {
+    /// How long it stays, if it is a note.
+    fn seconds(&self) -> f64 {
+        let lines = self.text.lines().count().max(1);
+        NOTE_SECONDS + LINE_SECONDS * (lines - 1) as f64
+    }
+}
+
 /// The newest last.
 #[derive(Default)]
 pub(crate) struct Notices {
     list: Vec<Notice>,
 }
 
-/// A note goes by itself after this time.
+/// A note goes by itself after this time, and as much longer for each further line as it takes to read it.
 const NOTE_SECONDS: f64 = 5.0;
+const LINE_SECONDS: f64 = 3.0;
 /// More would hide the picture.
 const MOST: usize = 4;
 
@@ -83,13 +92,16 @@ impl Notices {
         }
         self.list.retain(|notice| {
             notice.kind == Kind::Error
-                || notice.since.is_none_or(|since| now - since < NOTE_SECONDS)
+                || notice
+                    .since
+                    .is_none_or(|since| now - since < notice.seconds())
         });
         if self.list.is_empty() {
             return;
         }
-        if self.list.iter().any(|notice| notice.kind == Kind::Note) {
-            ctx.request_repaint_after(std::time::Duration::from_secs_f64(NOTE_SECONDS));
+        let notes = self.list.iter().filter(|it| it.kind == Kind::Note);
+        if let Some(seconds) = notes.map(Notice::seconds).reduce(f64::min) {
+            ctx.request_repaint_after(std::time::Duration::from_secs_f64(seconds));
         }
         let mut dismissed = None;
         egui::Area::new(egui::Id::unique("notices"))

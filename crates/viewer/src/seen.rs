@@ -35,6 +35,7 @@ fn is_same_object((a, x): (&Description, &Object), (b, y): (&Description, &Objec
         scale,
         up,
         fit_m,
+        time_s,
     } = x;
     let is_same_material = match (material(a, x), material(b, y)) {
         (Some(x), Some(y)) => is_same_but_for_name(x, y),
@@ -49,6 +50,7 @@ fn is_same_object((a, x): (&Description, &Object), (b, y): (&Description, &Objec
         && *scale == y.scale
         && *up == y.up
         && *fit_m == y.fit_m
+        && *time_s == y.time_s
 }
 
 fn material<'d>(description: &'d Description, object: &Object) -> Option<&'d Material> {

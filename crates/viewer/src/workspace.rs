@@ -35,6 +35,8 @@ pub(crate) struct Workspace {
     pub gallery: Gallery,
     pub bookmarks: Bookmarks,
     pub snapshots: Snapshots,
+    /// What was told of the scene's models last.
+    pub model_notes: Vec<String>,
     /// What panels ask for, to be done once all are shown.
     pub wished: Vec<Command>,
 }
@@ -85,6 +87,25 @@ impl Workspace {
             let text = notes.join("\n");
             eprintln!("note: {text}");
             self.notices.note("notes", text);
+        }
+    }
+
+    /// What the models of the newest scene have and the picture has not, once.
+    pub fn tell_model_notes(&mut self) {
+        let Some(built) = self.engine.built() else {
+            return;
+        };
+        let is_of_model = |note: &&String| !built.description.notes.contains(note);
+        let notes = built.scene.notes.iter().filter(is_of_model);
+        if notes.clone().ne(&self.model_notes) {
+            self.model_notes = notes.cloned().collect();
+            for note in &self.model_notes {
+                eprintln!("note: {note}");
+            }
+            match self.model_notes.is_empty() {
+                true => self.notices.clear("models"),
+                false => self.notices.note("models", self.model_notes.join("\n")),
+            }
         }
     }
 

@@ -6,7 +6,7 @@ use glam::Vec3;
 use hairline_cpu::closed_form::{RenderOptions, render};
 use hairline_fixtures::SceneFile;
 use hairline_optics::metal::Metal;
-use hairline_scene::{Base, Scene, Texture};
+use hairline_scene::{Base, Sampling, Scene, Texture};
 use std::sync::Arc;
 
 const WHITE: [f64; 3] = [1.0; 3];
@@ -130,6 +130,7 @@ fn normal_maps_in_a_furnace() {
         size_px: [64; 2],
         levels: levels.into(),
         srgb: false,
+        sampling: Sampling::default(),
     }]);
     scene.materials[0].normal_texture = Some((0, 1.0));
     check("normal map", scene);

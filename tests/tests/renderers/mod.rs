@@ -7,6 +7,7 @@ mod environment_band;
 mod furnaces;
 mod gratings;
 mod lamps;
+mod models;
 mod physics;
 mod published_scenes;
 mod scenes;

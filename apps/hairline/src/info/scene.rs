@@ -1,7 +1,7 @@
 //! `hairline info SCENE`: what a scene is made of.
 
 use std::fmt::{self, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use glam::DVec3;
 use hairline_memory::{available_bytes, in_words};
@@ -24,6 +24,8 @@ struct Contents {
     lights: Vec<Lamp>,
     environment: Option<Environment>,
     textures: usize,
+    /// What models have and the picture has not.
+    left_out: Vec<LeftOut>,
     memory: Memory,
 }
 
@@ -80,6 +82,16 @@ struct Sun {
     elevation_deg: f64,
     radius_deg: f64,
     radiance: [f64; 3],
+}
+
+#[derive(Serialize)]
+struct LeftOut {
+    file: String,
+    what: String,
+    count: usize,
+    meaning: String,
+    /// Whether the picture would be another one with it.
+    matters: bool,
 }
 
 #[derive(Serialize)]
@@ -179,6 +191,7 @@ fn contents(loaded: &Loaded) -> Contents {
         lights: lights.collect(),
         environment,
         textures: scene.textures.len(),
+        left_out: left_out(loaded),
         memory: Memory {
             estimate_bytes: Estimate::of(description, &loaded.folder).bytes()
                 + laid
@@ -186,6 +199,21 @@ fn contents(loaded: &Loaded) -> Contents {
             available_bytes: available_bytes(),
         },
     }
+}
+
+fn left_out(loaded: &Loaded) -> Vec<LeftOut> {
+    let models = loaded.description.left_out(&loaded.folder).into_iter();
+    let of_model = |(file, left_out): (PathBuf, Vec<hairline_scene::LeftOut>)| {
+        let file = file.to_string_lossy().into_owned();
+        left_out.into_iter().map(move |it| LeftOut {
+            file: file.clone(),
+            what: it.what,
+            count: it.count,
+            meaning: it.meaning,
+            matters: it.matters,
+        })
+    };
+    models.flat_map(of_model).collect()
 }
 
 /// A lamp of an environment: a sphere so far away that it stands in one direction.
@@ -296,6 +324,22 @@ fn write(contents: &Contents, out: &mut String) -> fmt::Result {
         }
     }
     writeln!(out, "textures: {}", contents.textures)?;
+    writeln!(out, "left out of models: {}", contents.left_out.len())?;
+    for it in &contents.left_out {
+        writeln!(
+            out,
+            "  {}: {} ({}); {}{}",
+            shown(&it.file),
+            it.what,
+            it.count,
+            it.meaning,
+            if it.matters {
+                ""
+            } else {
+                "; the picture is the same"
+            }
+        )?;
+    }
     let free = contents.memory.available_bytes;
     let free = free.map_or("unknown".to_owned(), |bytes| in_words(bytes as f64));
     let needed = in_words(contents.memory.estimate_bytes);

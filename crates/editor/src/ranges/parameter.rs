@@ -49,6 +49,8 @@ pub enum Parameter {
     ShapeRadius,
     /// `fit_m` of a model.
     FitSize,
+    /// `time_s` of a model.
+    Time,
     /// `segments` of a lathe.
     LatheSegments,
     /// The radius of a point of a lathe's profile.

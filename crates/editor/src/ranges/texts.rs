@@ -99,6 +99,10 @@ pub(super) fn of(parameter: Parameter) -> Text {
             "Fitted size",
             "The largest extent of the model, whatever it is in its file.",
         ),
+        P::Time => (
+            "Time (s)",
+            "Seconds from the start of the model's first animation. Its scratches are laid anew where it stands then.",
+        ),
         P::LatheSegments => (
             "Segments",
             "Facets around the axis. More: a rounder outline and smoother highlights, and a little more work.",

@@ -24,7 +24,7 @@ fn shadow_trace(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups
     if ray.distance_m > 0.0 {
         let start = sample_start(triangle_tree, points[at], paints[at].triangle, vec2f(ray.offset_x, ray.offset_y));
         let from_there = ray_from(start, ray.direction, points[at].normal, shadow_round.extent_m);
-        let hit = tree_hit(triangle_tree, from_there, ray.distance_m, start.triangle, true);
+        let hit = cutout_hit(triangle_tree, from_there, ray.distance_m, start.triangle, true);
         is_hidden = hit.triangle != 0u;
     }
     let half = 2u * at + shadow_round.round % 2u;

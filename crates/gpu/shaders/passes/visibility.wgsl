@@ -5,10 +5,9 @@ struct VisibilityVertex {
     @location(0) @interpolate(flat) ids: vec2u,
 }
 
-// One instance is one object; `vertex` counts corners over the whole scene.
-@vertex
-fn visibility_vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index) object: u32) -> VisibilityVertex {
-    let relative = vertices[vertex].position_m - frame.camera_m;
+// Where a point lies in the picture.
+fn visibility_clip(position_m: vec3f) -> vec4f {
+    let relative = position_m - frame.camera_m;
     let depth = dot(frame.forward, relative);
     // Pixels from the picture's centre, times depth; the sample's place comes to lie in the pixel's centre.
     let scale = frame.px_per_slope * frame.px_per_slope;
@@ -18,8 +17,13 @@ fn visibility_vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index
     let half_size = 0.5 * vec2f(f32(frame.size_px.x), f32(frame.rows.y - frame.rows.x + 2u));
     let middle = 0.5 * f32(frame.rows.x + frame.rows.y) - 0.5 * f32(frame.size_px.y);
     // Reversed depth without a far plane: near_m / depth keeps all its digits at any distance.
-    let clip = vec4f(x / half_size.x, (middle * depth - y) / half_size.y, frame.near_m, depth);
-    return VisibilityVertex(clip, vec2u(vertex / 3u + 1u, object));
+    return vec4f(x / half_size.x, (middle * depth - y) / half_size.y, frame.near_m, depth);
+}
+
+// One instance is one object; `vertex` counts corners over the whole scene.
+@vertex
+fn visibility_vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index) object: u32) -> VisibilityVertex {
+    return VisibilityVertex(visibility_clip(vertices[vertex].position_m), vec2u(vertex / 3u + 1u, object));
 }
 
 @fragment

@@ -7,5 +7,9 @@ override HAS_POLYGONS: bool = true;
 override HAS_TUBES: bool = true;
 override HAS_ENVIRONMENT: bool = true;
 override HAS_TEXTURES: bool = true;
+// Colours of vertices.
+override HAS_COLORS: bool = true;
+// Surfaces that are not everywhere on their triangles.
+override HAS_CUTOUTS: bool = true;
 // Materials that are not metal through and through: light falls on a body under the surface.
 override HAS_BODIES: bool = true;

@@ -14,10 +14,16 @@ fn hit_axis(view: HitView, normal: vec3f, change: vec3f) -> vec3f {
     return footprint_axis_from(view.ray, view.depth_m, normal, change, view.least_cos);
 }
 
-// Area of the footprint in texture space, as the side of a square.
-fn hit_texture_footprint(a: Vertex, b: Vertex, c: Vertex, geometric: vec3f, axis_x: vec3f, axis_y: vec3f) -> f32 {
-    let uv_b = vec2f(b.u - a.u, b.v - a.v);
-    let uv_c = vec2f(c.u - a.u, c.v - a.v);
+// Where textures are looked up: by either set of coordinates, with a filter so wide in texture space.
+struct TexturePlace {
+    uv: vec2f,
+    filter_side: f32,
+    other_uv: vec2f,
+    other_side: f32,
+}
+
+// Area of the footprint in texture space, as the side of a square, of a triangle with these edges there.
+fn hit_texture_footprint(uv_b: vec2f, uv_c: vec2f, geometric: vec3f, axis_x: vec3f, axis_y: vec3f) -> f32 {
     let uv_area = abs(uv_b.x * uv_c.y - uv_b.y * uv_c.x);
     return sqrt(uv_area / max(length(geometric), 1e-30) * length(cross(axis_x, axis_y)));
 }
@@ -26,9 +32,20 @@ fn hit_has_texture(texture: vec2u) -> bool {
     return HAS_TEXTURES && scene_has_texture(texture);
 }
 
-fn hit_texture(texture: vec2u, uv: vec2f, footprint: f32) -> vec4f {
-    let lod = surface_texture_lod(footprint, scene_texture_size(texture), scene_texture_levels(texture));
-    return scene_texture(texture, uv, lod);
+// The coordinates that a texture lies by, and the side of its filter.
+fn hit_place(texture: vec2u, place: TexturePlace) -> vec3f {
+    return select(vec3f(place.uv, place.filter_side), vec3f(place.other_uv, place.other_side), scene_by_other_uv(texture));
+}
+
+fn hit_texture(texture: vec2u, place: TexturePlace) -> vec4f {
+    let there = hit_place(texture, place);
+    let lod = surface_texture_lod(there.z, scene_texture_size(texture), scene_texture_levels(texture));
+    return scene_texture(texture, there.xy, lod, there.z);
+}
+
+// Twin: host.rs.
+fn vertex_color(vertex: Vertex) -> vec4f {
+    return vec4f(unpack2x16unorm(vertex.color.x), unpack2x16unorm(vertex.color.y));
 }
 
 // How the interpolated normal of a triangle turns along a step on its plane; `interpolated` is not yet a unit vector.
@@ -71,21 +88,26 @@ fn hit_paint(point: ptr<function, SurfacePoint>, material: Material) {
     (*point).diffuse = material.base_color * (1.0 - material.metallic);
     (*point).coherence_um = material.coherence_um;
     (*point).table = material.table;
+    if material.is_unlit != 0u {
+        (*point).emission = material.base_color;
+        (*point).f0 = vec3f(0.0);
+        (*point).diffuse = vec3f(0.0);
+    }
 }
 
 // What a material is at a place of its textures.
-fn hit_textured(material: Material, uv: vec2f, filter_side: f32) -> Material {
+fn hit_textured(material: Material, place: TexturePlace) -> Material {
     var there = material;
     if hit_has_texture(material.base_color_texture) {
-        there.base_color *= hit_texture(material.base_color_texture, uv, filter_side).xyz;
+        there.base_color *= hit_texture(material.base_color_texture, place).xyz;
     }
     if hit_has_texture(material.metallic_roughness_texture) {
-        let texel = hit_texture(material.metallic_roughness_texture, uv, filter_side);
+        let texel = hit_texture(material.metallic_roughness_texture, place);
         there.roughness *= texel.y;
         there.metallic *= texel.z;
     }
     if hit_has_texture(material.emission_texture) {
-        there.emission *= hit_texture(material.emission_texture, uv, filter_side).xyz;
+        there.emission *= hit_texture(material.emission_texture, place).xyz;
     }
     return there;
 }
@@ -121,18 +143,28 @@ fn hit_surface(triangle: u32, bary: vec2f, view: HitView) -> SurfacePoint {
     var point: SurfacePoint;
     point.position_m = a.position_m + (b.position_m - a.position_m) * bary.x + (c.position_m - a.position_m) * bary.y;
 
-    let material = material_at(a.material & ~VERTEX_BITANGENT_FLIPPED);
+    var material = material_at(a.material & ~VERTEX_BITANGENT_FLIPPED);
+    if HAS_COLORS {
+        material.base_color *= (vertex_color(a) * weights.x + vertex_color(b) * weights.y + vertex_color(c) * weights.z).xyz;
+    }
     let uv = vec2f(a.u, a.v) * weights.x + vec2f(b.u, b.v) * weights.y + vec2f(c.u, c.v) * weights.z;
     let smooth_x = hit_axis(view, side * smooth_normal, view.right) * view.stds;
     let smooth_y = hit_axis(view, side * smooth_normal, view.down) * view.stds;
-    let filter_side = hit_texture_footprint(a, b, c, geometric, smooth_x, smooth_y);
+    let uv_a = vec2f(a.u, a.v);
+    let place = TexturePlace(
+        uv,
+        hit_texture_footprint(vec2f(b.u, b.v) - uv_a, vec2f(c.u, c.v) - uv_a, geometric, smooth_x, smooth_y),
+        a.other_uv * weights.x + b.other_uv * weights.y + c.other_uv * weights.z,
+        hit_texture_footprint(b.other_uv - a.other_uv, c.other_uv - a.other_uv, geometric, smooth_x, smooth_y),
+    );
 
     var normal = smooth_normal;
     point.slope_std = 0.0;
     if hit_has_texture(material.normal_texture) {
         let map = material.normal_texture;
-        let lod = surface_texture_lod(filter_side, scene_texture_size(map), scene_texture_levels(map));
-        let looked_up = scene_normals(map, uv, lod, filter_side);
+        let there = hit_place(map, place);
+        let lod = surface_texture_lod(there.z, scene_texture_size(map), scene_texture_levels(map));
+        let looked_up = scene_normals(map, there.xy, lod, there.z);
         let texel = looked_up.xyz * 2.0 - 1.0;
         var tangent = a.tangent * weights.x + b.tangent * weights.y + c.tangent * weights.z;
         tangent = surface_normalize_or(tangent - smooth_normal * dot(smooth_normal, tangent), surface_any_across(smooth_normal));
@@ -148,7 +180,7 @@ fn hit_surface(triangle: u32, bary: vec2f, view: HitView) -> SurfacePoint {
     normal = surface_face_viewer(side * normal, to_viewer);
     point.leaves = SURFACE_BENDS + 2.0 * distance(normal, side * surface_normalize_or(geometric, normal));
     hit_turn(&point, normal, to_viewer, view);
-    hit_paint(&point, hit_textured(material, uv, filter_side));
+    hit_paint(&point, hit_textured(material, place));
     let turn_x = side * hit_normal_turn(a, b, c, geometric, interpolated, smooth_x);
     let turn_y = side * hit_normal_turn(a, b, c, geometric, interpolated, smooth_y);
     point.turn_x = vec2f(dot(turn_x, point.axis_x), dot(turn_x, point.axis_y));

@@ -40,6 +40,8 @@ struct Vertex {
     u: f32,
     tangent: vec3f,
     v: f32,
+    other_uv: vec2f,            // a second set of texture coordinates
+    color: vec2u,               // factor on base colour and alpha, 16 bits each; see vertex_color()
 }
 
 const VERTEX_BITANGENT_FLIPPED: u32 = 0x80000000u;
@@ -64,10 +66,13 @@ struct Material {
     normal_scale: f32,
     table: u32,                 // layer of the scratch tables
     curve: u32,                 // of fresnel_curves
+    is_unlit: u32,              // 1: it sends its base colour and reflects nothing
     base_color_texture: vec2u,  // packed, see scene_texture(); zero: none
     metallic_roughness_texture: vec2u,
     normal_texture: vec2u,
     emission_texture: vec2u,
+    alpha: f32,                 // factor on that of the texture and of the vertices
+    threshold: f32,             // of the alpha at which the surface is there; negative: it is there everywhere
 }
 
 // Spheres come first, then polygons of at most four vertices, then others, then tubes.

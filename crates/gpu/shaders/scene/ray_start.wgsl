@@ -48,7 +48,7 @@ fn under_the_pixel(tree: texture_2d<u32>, pixel: PixelPoint, own: u32, stds: vec
     if there.x >= 0.0 && there.y >= 0.0 && there.x + there.y <= 1.0 {
         return ray_start(own, there, -ray);
     }
-    let hit = tree_hit(tree, tree_ray(frame.camera_m, normalize(ray)), 1e30, 0u, false);
+    let hit = cutout_hit(tree, tree_ray(frame.camera_m, normalize(ray)), 1e30, 0u, false);
     if hit.triangle != 0u && hit.object == pixel.object - 1u {
         return ray_start(hit.triangle - 1u, hit.barycentric, -ray);
     }

@@ -18,10 +18,13 @@ fn material_at(i: u32) -> Material {
         bitcast<f32>(c.z),
         c.w,
         d.x,
+        d.y,
         d.zw,
         e.xy,
         e.zw,
         f.xy,
+        bitcast<f32>(f.z),
+        bitcast<f32>(f.w),
     );
 }
 

@@ -22,7 +22,8 @@ fn scene_irradiance(normal: vec3f) -> vec3f {
 }
 
 // A texture of a material. Every texture lies in the upper left corner of a layer, in its own size; the host packs
-// x: width, height << 16; y: layer, levels << 16, sRGB << 24.
+// x: width, height << 16; y: layer, levels << 16, sRGB << 24, what is beyond the borders << 25 and << 27, sharp texels << 29, the other
+// coordinates << 30.
 fn scene_texture_size(texture: vec2u) -> vec2u {
     return vec2u(texture.x & 0xffffu, texture.x >> 16u);
 }
@@ -35,18 +36,23 @@ fn scene_has_texture(texture: vec2u) -> bool {
     return texture.x != 0u;
 }
 
-// Trilinear look-up, repeating, in linear values. `lod` is within the texture's levels.
-fn scene_texture(texture: vec2u, uv: vec2f, lod: f32) -> vec4f {
+// Whether it lies by the second set of coordinates.
+fn scene_by_other_uv(texture: vec2u) -> bool {
+    return ((texture.y >> 30u) & 1u) != 0u;
+}
+
+// Trilinear look-up in linear values. `lod` is within the texture's levels, `filter_side` that of the filter in texture space.
+fn scene_texture(texture: vec2u, uv: vec2f, lod: f32, filter_side: f32) -> vec4f {
     let level = floor(lod);
-    let near = scene_texture_level(texture, u32(level), uv);
+    let near = scene_texture_level(texture, u32(level), uv, filter_side);
     if level == lod {
         return near;
     }
-    return mix(near, scene_texture_level(texture, u32(level) + 1u, uv), lod - level);
+    return mix(near, scene_texture_level(texture, u32(level) + 1u, uv, filter_side), lod - level);
 }
 
-fn scene_texture_level(texture: vec2u, level: u32, uv: vec2f) -> vec4f {
-    return scene_blend(scene_four_texels(texture, level, uv));
+fn scene_texture_level(texture: vec2u, level: u32, uv: vec2f, filter_side: f32) -> vec4f {
+    return scene_blend(scene_four_texels(texture, level, uv, filter_side));
 }
 
 // The texels about a place, and where it lies between them.
@@ -58,19 +64,61 @@ struct FourTexels {
     t: vec2f,
 }
 
-// By hand and not by a sampler, so that sizes of all kinds share an array and every device blends alike.
-fn scene_four_texels(texture: vec2u, level: u32, uv: vec2f) -> FourTexels {
-    let size = vec2i(max(scene_texture_size(texture) >> vec2u(level), vec2u(1u)));
-    let at = (uv - floor(uv)) * vec2f(size) - 0.5;
+// Of a row without an end, two neighbours.
+struct TwoTexels {
+    low: i32,
+    high: i32,
+    t: f32,
+}
+
+const WRAP_MIRROR: u32 = 1u;
+const WRAP_CLAMP: u32 = 2u;
+// The standard deviation of a texel's width.
+const TEXEL_STD: f32 = 0.28867513;
+
+fn scene_wrapped(at: i32, size: i32, wrap: u32) -> i32 {
+    if wrap == WRAP_CLAMP {
+        return clamp(at, 0, size - 1);
+    }
+    if wrap == WRAP_MIRROR {
+        let there = (at + 2 * size) % (2 * size);
+        return min(there, 2 * size - 1 - there);
+    }
+    return (at + size) % size;
+}
+
+fn scene_two_texels(place: f32, size: i32, wrap: u32) -> TwoTexels {
+    // Brought near to 0 first: places far off have few digits behind the point.
+    var near = place - floor(place);
+    if wrap == WRAP_MIRROR {
+        near = place - 2.0 * floor(0.5 * place);
+    }
+    if wrap == WRAP_CLAMP {
+        near = clamp(place, 0.0, 1.0);
+    }
+    let at = near * f32(size) - 0.5;
     let corner = floor(at);
-    let low = (vec2i(corner) + size) % size;
-    let high = (low + 1) % size;
+    return TwoTexels(scene_wrapped(i32(corner), size, wrap), scene_wrapped(i32(corner) + 1, size, wrap), at - corner);
+}
+
+// By hand and not by a sampler, so that sizes of all kinds share an array and every device blends alike.
+fn scene_four_texels(texture: vec2u, level: u32, uv: vec2f, filter_side: f32) -> FourTexels {
+    let all = scene_texture_size(texture);
+    let size = vec2i(max(all >> vec2u(level), vec2u(1u)));
+    let x = scene_two_texels(uv.x, size.x, (texture.y >> 25u) & 3u);
+    let y = scene_two_texels(uv.y, size.y, (texture.y >> 27u) & 3u);
+    var t = vec2f(x.t, y.t);
+    if level == 0u && ((texture.y >> 29u) & 1u) != 0u {
+        // The edges of sharp texels are as soft as the filter.
+        let texels = filter_side * sqrt(f32(all.x) * f32(all.y));
+        t = clamp((t - 0.5) / clamp(texels / TEXEL_STD, 1e-3, 1.0) + 0.5, vec2f(0.0), vec2f(1.0));
+    }
     return FourTexels(
-        scene_texel(texture, level, low),
-        scene_texel(texture, level, vec2i(high.x, low.y)),
-        scene_texel(texture, level, vec2i(low.x, high.y)),
-        scene_texel(texture, level, high),
-        at - corner,
+        scene_texel(texture, level, vec2i(x.low, y.low)),
+        scene_texel(texture, level, vec2i(x.high, y.low)),
+        scene_texel(texture, level, vec2i(x.low, y.high)),
+        scene_texel(texture, level, vec2i(x.high, y.high)),
+        t,
     );
 }
 
@@ -89,7 +137,7 @@ fn scene_normals(texture: vec2u, uv: vec2f, lod: f32, filter_side: f32) -> vec4f
 }
 
 fn scene_normals_level(texture: vec2u, level: u32, uv: vec2f, filter_side: f32) -> vec4f {
-    let texels = scene_four_texels(texture, level, uv);
+    let texels = scene_four_texels(texture, level, uv, filter_side);
     let mean = scene_blend(texels);
     let right = 2.0 * mix(texels.top_right.xy - texels.top_left.xy, texels.low_right.xy - texels.low_left.xy, texels.t.y);
     let down = 2.0 * mix(texels.low_left.xy - texels.top_left.xy, texels.low_right.xy - texels.top_right.xy, texels.t.x);
@@ -104,7 +152,7 @@ fn scene_normals_level(texture: vec2u, level: u32, uv: vec2f, filter_side: f32) 
 fn scene_texel(texture: vec2u, level: u32, at: vec2i) -> vec4f {
     // Signed: GLSL, which some drivers are given, takes no other.
     let texel = textureLoad(textures, at, i32(texture.y & 0xffffu), i32(level));
-    if (texture.y >> 24u) == 0u {
+    if ((texture.y >> 24u) & 1u) == 0u {
         return texel;
     }
     return vec4f(linear_from_srgb(texel.x), linear_from_srgb(texel.y), linear_from_srgb(texel.z), texel.w);

@@ -8,7 +8,7 @@ use hairline_gpu::{AdapterRequest, Error, Gpu, GpuScene, RenderOptions, Renderer
 use hairline_image::tone_map::{display_code, dither_offset, linear_from_srgb};
 use hairline_image::{Display, Image, Picture, ToneMap};
 use hairline_index::ScratchIndex;
-use hairline_scene::{Environment, Mesh, Scene, ScratchTables, Texture};
+use hairline_scene::{Environment, Mesh, Sampling, Scene, ScratchTables, Texture};
 use std::sync::Arc;
 
 /// A tilted mirror.
@@ -294,11 +294,13 @@ fn textures_keep_their_texels() {
         size_px: [12, 6],
         levels: vec![texels(72), texels(18)],
         srgb: true,
+        sampling: Sampling::default(),
     };
     let linear = Texture {
         size_px: [3, 17],
         levels: vec![texels(51)],
         srgb: false,
+        sampling: Sampling::default(),
     };
     // Twice as wide as high, like the picture; u, v over it.
     let corner = |x: f32, y: f32| (Vec3::new(x, y, 0.0), Vec2::new(0.5 + 0.5 * x, 0.5 - y));
@@ -315,6 +317,7 @@ fn textures_keep_their_texels() {
         uvs: corners.map(|c| c.1).to_vec(),
         triangles: vec![[0, 1, 2], [0, 2, 3]],
         triangle_materials: vec![0, 0],
+        ..Mesh::default()
     });
     scene.materials[0].emission = [2.0, 1.0, 0.5];
     for (textures, used) in [

@@ -11,7 +11,7 @@ use hairline_image::{Image, Picture};
 use hairline_index::ScratchIndex;
 use hairline_index::method::{Method, PublishedMethod, Structure};
 use hairline_optics::metal::Metal;
-use hairline_scene::{Base, Environment, LightShape, Scene, ScratchTables, Texture};
+use hairline_scene::{Base, Environment, LightShape, Sampling, Scene, ScratchTables, Texture};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_pcg::Pcg32;
 
@@ -46,6 +46,7 @@ fn texture(value: u8) -> Texture {
             vec![[value; 4]],
         ],
         srgb: true,
+        sampling: Sampling::default(),
     }
 }
 

@@ -10,11 +10,11 @@ use crate::description::{self, Layer, LightKind, Map, Stroke, Surface};
 use crate::environment::BuiltInMap;
 use crate::error::Error;
 use crate::loader::Loader;
-use crate::mesh_file::{self, Placing, Stock};
+use crate::mesh_file::{self, Placing, Stock, Wanted};
 use crate::scene::{Material, Mesh, Scratch, Segment, Texture};
 use crate::scratches::{self, Ground, Laid};
 use crate::text::shown;
-use crate::{Environment, shape};
+use crate::{Environment, model_notes, shape};
 
 /// What the last build left.
 #[derive(Clone, Default)]
@@ -90,6 +90,7 @@ impl SurfaceKey {
                     up: object.up,
                     world_up,
                     fit_m: object.fit_m,
+                    time_s: object.time_s,
                 };
                 (Some(Stamp::of(&base_dir.join(file))), placing)
             }
@@ -115,6 +116,8 @@ pub(super) struct KeptSurface {
     /// The file's own; their textures count from 0.
     pub materials: Arc<Vec<Material>>,
     pub textures: Arc<Vec<Texture>>,
+    /// What the author of the scene should know about the file.
+    pub notes: Arc<Vec<String>>,
     /// Laying does not look at materials, so one serves all numbers of them.
     ground: Arc<OnceLock<Arc<Ground>>>,
 }
@@ -130,6 +133,7 @@ impl KeptSurface {
     ) -> Result<Self, Error> {
         let (mut materials, mut textures) = (Vec::new(), Vec::new());
         let mut files = Vec::new();
+        let mut notes = Vec::new();
         let transform = &surface_key.world_from_object;
         let mesh = match (&surface_key.surface, &surface_key.file) {
             (Surface::Mesh(file), _) if loader.arrays.mesh(file).is_some() => {
@@ -154,6 +158,8 @@ impl KeptSurface {
                 let material = (!surface_key.owns_materials).then_some(0);
                 let placing = &surface_key.placing;
                 let read = mesh_file::read(&stamp.path, material, transform, placing, stock);
+                let left_out = mesh_file::left_out(&stamp.path, Wanted::of(object));
+                notes = model_notes::notes(file, &left_out);
                 read.map_err(|flaw| {
                     let found = format!("\"{}\": {}", shown(&file.to_string_lossy()), flaw.found);
                     Error::new(format!("{key}.mesh"), found, flaw.right)
@@ -181,6 +187,7 @@ impl KeptSurface {
             first_material: 0,
             materials: Arc::new(materials),
             textures: Arc::new(textures),
+            notes: Arc::new(notes),
             ground: Arc::default(),
         })
     }
@@ -204,6 +211,7 @@ impl KeptSurface {
             first_material: first,
             materials: self.materials.clone(),
             textures: self.textures.clone(),
+            notes: self.notes.clone(),
             ground: self.ground.clone(),
         })
     }

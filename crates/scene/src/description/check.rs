@@ -163,6 +163,12 @@ fn object(object: &Object, key: &str) -> Check {
     if let Some(fit_m) = object.fit_m {
         size(&format!("{key}.fit_m"), fit_m)?;
     }
+    if let Some(time_s) = object.time_s
+        && !limits::TIME_S.contains(&time_s)
+    {
+        let right = "must be from 0 to 1e6";
+        return Err(Error::new(format!("{key}.time_s"), found(time_s), right));
+    }
     match (&object.surface, &object.material) {
         (Surface::Shape(shape), Some(_)) => self::shape(shape, &format!("{key}.shape")),
         (Surface::Shape(_), None) => Err(Error::new(

@@ -46,6 +46,8 @@ pub const METALLIC: RangeInclusive<f64> = 0.0..=1.0;
 /// Channels of `material.base_color`.
 pub const BASE_COLOR: RangeInclusive<f64> = 0.0..=1.0;
 
+/// `object.time_s`
+pub const TIME_S: RangeInclusive<f64> = 0.0..=1e6;
 /// Sizes of the factors of `object.scale`, which may be negative.
 pub const SCALE: RangeInclusive<f64> = 1e-6..=1e6;
 /// `segments` of a lathe.

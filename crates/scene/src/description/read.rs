@@ -177,6 +177,7 @@ impl Read for Object {
                 "material",
                 "up",
                 "fit_m",
+                "time_s",
                 "translation_m",
                 "rotation_deg",
                 "scale",
@@ -188,7 +189,7 @@ impl Read for Object {
             _ => Surface::Mesh(table.required("mesh")?),
         };
         if let Surface::Shape(_) = surface
-            && let Some(extra) = ["up", "fit_m"]
+            && let Some(extra) = ["up", "fit_m", "time_s"]
                 .into_iter()
                 .find(|it| table.get(it).is_some())
         {
@@ -205,6 +206,7 @@ impl Read for Object {
             material: table.optional("material")?,
             up: table.or("up", Up::default())?,
             fit_m: table.optional("fit_m")?,
+            time_s: table.optional("time_s")?,
             translation_m: table.or("translation_m", [0.0; 3])?,
             rotation_deg: table.or("rotation_deg", [0.0; 3])?,
             scale,

@@ -4,10 +4,13 @@ use std::fs::File;
 use std::io::{BufReader, Read};
 use std::path::{Path, PathBuf};
 
+use gltf::json::deserialize::from_slice;
 use gltf::json::mesh::Mode;
 use gltf::json::validation::Checked::Valid;
 use gltf::json::{Index, Root, mesh::Primitive, mesh::Semantic};
 
+use super::instances;
+use super::left_out::{self, LeftOut, Wanted};
 use super::source::percent_decoded;
 use crate::reading::check_regular;
 
@@ -36,18 +39,30 @@ pub(crate) fn counts(path: &Path) -> Option<Counts> {
         // A binary chunk is there twice while it is read.
         counts.bytes += 2.0 * buffer.byte_length.0 as f64;
     }
-    let meshes = root
-        .nodes
-        .iter()
-        .filter_map(|node| root.meshes.get(node.mesh?.value()));
-    for primitive in meshes.flat_map(|mesh| &mesh.primitives) {
-        counts.add(&root, primitive);
+    for node in &root.nodes {
+        let mesh = node.mesh.and_then(|mesh| root.meshes.get(mesh.value()));
+        let instances = instances(&root, node);
+        for primitive in mesh.into_iter().flat_map(|mesh| &mesh.primitives) {
+            counts.add(&root, primitive, instances);
+        }
     }
     Some(counts)
 }
 
+/// How often EXT_mesh_gpu_instancing places a node's mesh.
+fn instances(root: &Root, node: &gltf::json::Node) -> f64 {
+    let count = || {
+        let others = &node.extensions.as_ref()?.others;
+        let attributes = others.get(instances::NAME)?.get("attributes")?;
+        let index = attributes.as_object()?.values().next()?.as_u64()?;
+        let accessor = root.accessors.get(usize::try_from(index).ok()?)?;
+        Some(accessor.count.0 as f64)
+    };
+    count().unwrap_or(1.0)
+}
+
 impl Counts {
-    fn add(&mut self, root: &Root, primitive: &Primitive) {
+    fn add(&mut self, root: &Root, primitive: &Primitive, instances: f64) {
         let count = |index: Index<gltf::json::Accessor>| {
             let accessor = root.accessors.get(index.value());
             accessor.map_or(0.0, |accessor| accessor.count.0 as f64)
@@ -60,12 +75,13 @@ impl Counts {
             Valid(Mode::TriangleStrip | Mode::TriangleFan) => corners,
             _ => 0.0,
         };
-        self.triangles += triangles.floor();
-        self.vertices += match attribute(Semantic::Normals) {
+        self.triangles += instances * triangles.floor();
+        let vertices = match attribute(Semantic::Normals) {
             Some(_) => vertices,
             // Each triangle has its own then.
             None => 3.0 * triangles,
         };
+        self.vertices += instances * vertices;
     }
 }
 
@@ -88,8 +104,20 @@ pub(crate) fn names(path: &Path) -> Vec<(String, PathBuf)> {
     buffers.chain(images).collect()
 }
 
-/// The text of a .gltf file, or the first chunk of a .glb file, with its length.
+/// What a glTF file has and the picture has not; nothing where it cannot be read.
+pub(crate) fn left_out(path: &Path, wanted: Wanted) -> Vec<LeftOut> {
+    let root = text(path).and_then(|text| from_slice(&text).ok());
+    root.map_or_else(Vec::new, |root| left_out::of(&root, wanted))
+}
+
+/// What the text says, and its length.
 fn head(path: &Path) -> Option<(Root, f64)> {
+    let text = text(path)?;
+    Some((from_slice(&text).ok()?, text.len() as f64))
+}
+
+/// The text of a .gltf file, or the first chunk of a .glb file.
+fn text(path: &Path) -> Option<Vec<u8>> {
     check_regular(path).ok()?;
     let mut file = BufReader::new(File::open(path).ok()?);
     let mut start = [0; 20];
@@ -104,6 +132,5 @@ fn head(path: &Path) -> Option<(Root, f64)> {
         text.extend(start);
         file.take(LONGEST_TEXT).read_to_end(&mut text).ok()?;
     }
-    let root = gltf::json::deserialize::from_slice(&text).ok()?;
-    Some((root, text.len() as f64))
+    Some(text)
 }

@@ -1,10 +1,11 @@
 //! KHR_lights_punctual: the lights of a file, in its own frame.
 
-use glam::{DMat4, DVec3};
+use glam::DVec3;
 use gltf::json::Value;
 
 use super::flaw::Flaw;
 use super::nodes::placed_nodes;
+use super::pose::Pose;
 
 const NAME: &str = "KHR_lights_punctual";
 /// The extension's default.
@@ -43,7 +44,8 @@ pub(super) fn of(document: &gltf::Document) -> Result<Vec<Punctual>, Flaw> {
         .and_then(|value| value.get("lights")?.as_array())
         .unwrap_or(&none);
     let mut lights = Vec::new();
-    for (node, world_from_node) in placed_nodes(document, DMat4::IDENTITY)? {
+    for placed in placed_nodes(document, &Pose::at_rest(document))? {
+        let node = &placed.node;
         let Some(index) = node
             .extension_value(NAME)
             .and_then(|value| value.get("light")?.as_u64())
@@ -60,9 +62,9 @@ pub(super) fn of(document: &gltf::Document) -> Result<Vec<Punctual>, Flaw> {
                 "export it again",
             ));
         };
-        let position = world_from_node.transform_point3(DVec3::ZERO);
+        let position = placed.file_from_node.transform_point3(DVec3::ZERO);
         // Along -z of its node.
-        let direction = world_from_node.transform_vector3(DVec3::NEG_Z);
+        let direction = placed.file_from_node.transform_vector3(DVec3::NEG_Z);
         let number = |value: &Value, key: &str| value.get(key).and_then(Value::as_f64);
         let color = light.get("color").and_then(|color| color.as_array());
         let channel = |c: usize| Some(color?.get(c)?.as_f64()?.max(0.0));

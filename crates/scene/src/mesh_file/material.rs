@@ -1,16 +1,21 @@
-//! The materials of a glTF file: metallic-roughness, with the textures that they use.
+//! The materials of a glTF file: metallic-roughness, and what its extensions make of it.
 
 use std::collections::HashMap;
-use std::path::Path;
 
-use gltf::Primitive;
+use gltf::json::Value;
+use gltf::material::AlphaMode;
+use gltf::{Document, Primitive};
 
 use super::flaw::Flaw;
-use super::source::{Buffers, resource};
-use super::stock::Stock;
+use super::images::Images;
+use super::spec_gloss::{self, SpecGloss};
+use super::uv::{self, Way, Ways};
 use crate::description::DEFAULT_COHERENCE_UM;
-use crate::scene::{Base, Material, Texture};
-use crate::texture::{self, Channels, texture_bytes};
+use crate::scene::{Base, Cutout, GLTF_DIELECTRIC, Material};
+use crate::texture::Channels;
+
+/// The alpha at which a surface that is neither there nor away is taken to be there.
+const BLEND_THRESHOLD: f64 = 0.5;
 
 /// What the primitives' materials become.
 pub(super) enum Materials<'a> {
@@ -21,23 +26,24 @@ pub(super) enum Materials<'a> {
 }
 
 pub(super) struct Own<'a> {
-    base_dir: &'a Path,
-    buffers: &'a Buffers,
-    stock: Stock<'a>,
+    document: &'a Document,
+    images: Images<'a>,
+    materials: &'a mut Vec<Material>,
     /// From the file's materials, `None` for its default one, to the scene's.
     indices: HashMap<Option<usize>, u32>,
-    /// From the file's images, as sRGB or linear data, to the scene's textures.
-    textures: HashMap<(usize, Channels), usize>,
 }
 
 impl<'a> Materials<'a> {
-    pub(super) fn own(base_dir: &'a Path, buffers: &'a Buffers, stock: Stock<'a>) -> Self {
+    pub(super) fn own(
+        document: &'a Document,
+        images: Images<'a>,
+        materials: &'a mut Vec<Material>,
+    ) -> Self {
         Self::Own(Own {
-            base_dir,
-            buffers,
-            stock,
+            document,
+            images,
+            materials,
             indices: HashMap::new(),
-            textures: HashMap::new(),
         })
     }
 
@@ -50,119 +56,175 @@ impl<'a> Materials<'a> {
     }
 }
 
-/// The texture coordinates that a material's textures use. A vertex has one pair, so they are taken to agree.
-pub(super) fn uv_set(material: &gltf::Material) -> u32 {
-    let pbr = material.pbr_metallic_roughness();
-    let base = pbr.base_color_texture().map(|t| t.tex_coord());
-    let rough = pbr.metallic_roughness_texture().map(|t| t.tex_coord());
-    let normal = material.normal_texture().map(|t| t.tex_coord());
-    let emission = material.emissive_texture().map(|t| t.tex_coord());
-    base.or(rough).or(normal).or(emission).unwrap_or(0)
-}
-
 impl Own<'_> {
     fn index(&mut self, material: &gltf::Material) -> Result<u32, Flaw> {
         if let Some(&index) = self.indices.get(&material.index()) {
             return Ok(index);
         }
-        let converted = self.convert(material)?;
-        let index = self.stock.materials.len() as u32;
-        self.stock.materials.push(converted);
+        let mut converted = self.convert(material)?;
+        if let Some(extension) = material.extension_value(spec_gloss::NAME) {
+            self.take_spec_gloss(extension, material, &mut converted)?;
+        }
+        let index = self.materials.len() as u32;
+        self.materials.push(converted);
         self.indices.insert(material.index(), index);
         Ok(index)
     }
 
     fn convert(&mut self, material: &gltf::Material) -> Result<Material, Flaw> {
         let pbr = material.pbr_metallic_roughness();
-        let [r, g, b, _] = pbr.base_color_factor();
+        let [r, g, b, a] = pbr.base_color_factor();
         let unit = |x: f32| f64::from(x).clamp(0.0, 1.0);
         let strength = emissive_strength(material);
-        let normal_texture = material.normal_texture();
+        let metallic = unit(pbr.metallic_factor());
+        let is_unlit = material.extension_value("KHR_materials_unlit").is_some();
+        let ways = Ways::of(material);
+        let mut look = |texture: Option<(gltf::Texture, Way)>, channels| match texture {
+            Some((texture, way)) => {
+                let by_other_uvs = ways.is_second(way);
+                self.images
+                    .texture(&texture, channels, by_other_uvs)
+                    .map(Some)
+            }
+            None => Ok(None),
+        };
+        let normals = material.normal_texture();
         Ok(Material {
             name: material.name().unwrap_or("glTF default").to_owned(),
             base: Base::MetallicRoughness {
                 base_color: [r, g, b].map(unit),
-                metallic: unit(pbr.metallic_factor()),
+                metallic,
             },
             roughness: unit(pbr.roughness_factor()),
             coherence_um: DEFAULT_COHERENCE_UM,
             emission: material
                 .emissive_factor()
                 .map(|x| f64::from(x).max(0.0) * strength),
-            base_color_texture: self.texture(
-                pbr.base_color_texture().map(|t| t.texture()),
-                Channels::Color,
-            )?,
-            metallic_roughness_texture: self.texture(
-                pbr.metallic_roughness_texture().map(|t| t.texture()),
+            base_color_texture: look(used(pbr.base_color_texture()), Channels::Color)?,
+            metallic_roughness_texture: look(
+                used(pbr.metallic_roughness_texture()),
                 Channels::Linear,
             )?,
-            normal_texture: self
-                .texture(
-                    normal_texture.as_ref().map(|t| t.texture()),
-                    Channels::Normals,
-                )?
-                .zip(normal_texture.map(|t| f64::from(t.scale()))),
-            emission_texture: self.texture(
-                material.emissive_texture().map(|t| t.texture()),
-                Channels::Color,
-            )?,
+            normal_texture: look(
+                normals
+                    .as_ref()
+                    .map(|it| (it.texture(), uv::of_normals(it))),
+                Channels::Normals,
+            )?
+            .zip(normals.map(|it| f64::from(it.scale()))),
+            emission_texture: look(used(material.emissive_texture()), Channels::Color)?,
+            dielectric: match is_unlit {
+                true => [0.0; 2],
+                false => dielectric(material, metallic),
+            },
+            is_unlit,
+            cutout: cutout(material, unit(a)),
         })
     }
 
-    fn texture(
+    /// What the older model says of a material in the place of the newer one.
+    fn take_spec_gloss(
         &mut self,
-        texture: Option<gltf::Texture>,
-        channels: Channels,
-    ) -> Result<Option<usize>, Flaw> {
-        let Some(image) = texture.map(|texture| texture.source()) else {
-            return Ok(None);
+        extension: &Value,
+        material: &gltf::Material,
+        converted: &mut Material,
+    ) -> Result<(), Flaw> {
+        let factors = SpecGloss::of(extension);
+        let texture = |name: &str| {
+            let index = extension.get(name)?.get("index")?.as_u64()?;
+            self.document.textures().nth(usize::try_from(index).ok()?)
         };
-        let key = (image.index(), channels);
-        if let Some(&index) = self.textures.get(&key) {
-            return Ok(Some(index));
+        let (diffuse, specular) = (
+            texture("diffuseTexture"),
+            texture("specularGlossinessTexture"),
+        );
+        converted.dielectric = GLTF_DIELECTRIC;
+        converted.cutout = cutout(material, f64::from(factors.diffuse[3]));
+        if diffuse.is_none() && specular.is_none() {
+            let metal = factors.metal();
+            converted.base = Base::MetallicRoughness {
+                base_color: metal.base_color.map(f64::from),
+                metallic: f64::from(metal.metallic),
+            };
+            converted.roughness = f64::from(metal.roughness);
+            return Ok(());
         }
-        let index = self.stock.textures.len();
-        let texture = self.read_image(&image, channels)?;
-        self.stock.free_bytes -= texture_bytes(texture.size_px);
-        self.stock.textures.push(texture);
-        self.textures.insert(key, index);
-        Ok(Some(index))
+        // Both lie as the first of them does.
+        let way = ["diffuseTexture", "specularGlossinessTexture"]
+            .into_iter()
+            .find_map(|name| uv::of_json(extension.get(name)?));
+        let by_other_uvs = way.is_some_and(|way| Ways::of(material).is_second(way));
+        let images =
+            self.images
+                .spec_gloss(&factors, diffuse.as_ref(), specular.as_ref(), by_other_uvs)?;
+        converted.base = Base::MetallicRoughness {
+            base_color: [1.0; 3],
+            metallic: 1.0,
+        };
+        converted.roughness = 1.0;
+        converted.base_color_texture = Some(images[0]);
+        converted.metallic_roughness_texture = Some(images[1]);
+        Ok(())
     }
+}
 
-    fn read_image(&mut self, image: &gltf::Image, channels: Channels) -> Result<Texture, Flaw> {
-        let what = format!("image {}", image.index());
-        let with_mips = self.stock.with_mips;
-        let free_bytes = self.stock.free_bytes;
-        let decode = |bytes: &[u8]| {
-            if bytes.starts_with(b"\xabKTX ") {
-                let found = format!("its {what} is a KTX image");
-                return Err(Flaw::new(
-                    found,
-                    "export it again with PNG, JPEG or WebP images",
-                ));
-            }
-            texture::decode(bytes, channels, with_mips, free_bytes).map_err(|error| {
-                Flaw::new(
-                    format!("its {what} cannot be decoded ({error})"),
-                    "must be a PNG, JPEG or WebP image",
-                )
-            })
-        };
-        match image.source() {
-            gltf::image::Source::View { view, .. } => decode(self.buffers.view(&view)?),
-            gltf::image::Source::Uri { uri, .. } => {
-                decode(&resource(uri, self.base_dir, &what, self.stock.files)?)
-            }
-        }
-    }
+/// A texture, and how it lies.
+fn used<'a>(info: Option<gltf::texture::Info<'a>>) -> Option<(gltf::Texture<'a>, Way)> {
+    info.map(|info| (info.texture(), Way::of(&info)))
 }
 
 /// KHR_materials_emissive_strength: a factor on the emission, which is bounded by 1 without it.
 fn emissive_strength(material: &gltf::Material) -> f64 {
-    material
-        .extension_value("KHR_materials_emissive_strength")
-        .and_then(|extension| extension.get("emissiveStrength")?.as_f64())
-        .filter(|strength| (0.0..=1e6).contains(strength))
+    number(
+        material,
+        "KHR_materials_emissive_strength",
+        "emissiveStrength",
+    )
+    .filter(|strength| (0.0..=1e6).contains(strength))
+    .unwrap_or(1.0)
+}
+
+fn number(material: &gltf::Material, extension: &str, name: &str) -> Option<f64> {
+    let extension = material.extension_value(extension)?;
+    extension.get(name)?.as_f64()
+}
+
+/// KHR_materials_ior and KHR_materials_specular: what is no metal reflects, at normal and at grazing incidence. A metal reflects all at
+/// grazing incidence.
+fn dielectric(material: &gltf::Material, metallic: f64) -> [f64; 2] {
+    const SPECULAR: &str = "KHR_materials_specular";
+    let [f0, _] = GLTF_DIELECTRIC;
+    let of_index = |ior: f64| match ior {
+        // The extension's sign for a mirror under its own colour.
+        0.0 => 1.0,
+        ior => ((ior - 1.0) / (ior + 1.0)).powi(2),
+    };
+    let f0 = number(material, "KHR_materials_ior", "ior").map_or(f0, of_index);
+    let specular = number(material, SPECULAR, "specularFactor")
         .unwrap_or(1.0)
+        .clamp(0.0, 1.0);
+    let color = material
+        .extension_value(SPECULAR)
+        .and_then(|it| it.get("specularColorFactor"));
+    let channel = |i: usize| color.and_then(|it| it.get(i)?.as_f64()).unwrap_or(1.0);
+    // Reflections of what is no metal have no colour here: that of the middle channels' brightness.
+    let brightness = 0.2126 * channel(0) + 0.7152 * channel(1) + 0.0722 * channel(2);
+    let grazing = specular + (1.0 - specular) * metallic;
+    [specular * (f0 * brightness.max(0.0)).min(1.0), grazing]
+}
+
+/// Where a material's surface is not. What is to be blended is there or not there, where its alpha varies.
+fn cutout(material: &gltf::Material, alpha: f64) -> Option<Cutout> {
+    match material.alpha_mode() {
+        AlphaMode::Opaque => None,
+        AlphaMode::Mask => Some(Cutout {
+            alpha,
+            threshold: f64::from(material.alpha_cutoff().unwrap_or(0.5)),
+        }),
+        AlphaMode::Blend => Some(Cutout {
+            // A surface of glass, all of one alpha, stays.
+            alpha: 1.0,
+            threshold: BLEND_THRESHOLD,
+        }),
+    }
 }

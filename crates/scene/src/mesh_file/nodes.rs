@@ -1,27 +1,26 @@
 //! Which nodes of a file show, and where they stand.
 
-use glam::{DMat4, DQuat, DVec3};
+use glam::DMat4;
 
 use super::flaw::Flaw;
+use super::pose::Pose;
 
 /// Nodes may lie this deep within each other; more is taken for a mistake.
 const DEEPEST: usize = 256;
 
-/// The nodes of the file's scene that have a mesh, with their transforms.
-pub(super) fn placed_meshes(
-    document: &gltf::Document,
-    world_from_object: DMat4,
-) -> Result<Vec<(gltf::Node<'_>, DMat4)>, Flaw> {
-    let mut placed = placed_nodes(document, world_from_object)?;
-    placed.retain(|(node, _)| node.mesh().is_some());
-    Ok(placed)
+/// A node of the file's scene.
+pub(super) struct Placed<'a> {
+    pub node: gltf::Node<'a>,
+    pub file_from_node: DMat4,
+    /// Of its mesh's morph targets.
+    pub weights: Vec<f64>,
 }
 
-/// The nodes of the file's scene, with their transforms.
-pub(super) fn placed_nodes(
-    document: &gltf::Document,
-    world_from_object: DMat4,
-) -> Result<Vec<(gltf::Node<'_>, DMat4)>, Flaw> {
+/// The nodes of the file's scene, as they stand.
+pub(super) fn placed_nodes<'a>(
+    document: &'a gltf::Document,
+    pose: &Pose,
+) -> Result<Vec<Placed<'a>>, Flaw> {
     let scene = document
         .default_scene()
         .or_else(|| document.scenes().next());
@@ -44,9 +43,9 @@ pub(super) fn placed_nodes(
     let mut stack: Vec<_> = roots
         .into_iter()
         .rev()
-        .map(|root| (root, world_from_object, 0))
+        .map(|root| (root, DMat4::IDENTITY, 0))
         .collect();
-    while let Some((node, world_from_parent, depth)) = stack.pop() {
+    while let Some((node, file_from_parent, depth)) = stack.pop() {
         // Nodes form trees, so meeting one twice is a mistake, and might go on for ever.
         if depth > DEEPEST {
             return Err(Flaw::new(
@@ -66,36 +65,24 @@ pub(super) fn placed_nodes(
                 "nodes must form trees",
             ));
         }
-        let world_from_node = world_from_parent * parent_from_node(&node);
-        for child in node.children().collect::<Vec<_>>().into_iter().rev() {
-            stack.push((child, world_from_node, depth + 1));
+        if is_hidden(&node) {
+            continue;
         }
-        placed.push((node, world_from_node));
+        let file_from_node = file_from_parent * pose.parent_from_node(&node);
+        for child in node.children().collect::<Vec<_>>().into_iter().rev() {
+            stack.push((child, file_from_node, depth + 1));
+        }
+        placed.push(Placed {
+            weights: pose.weights(&node),
+            node,
+            file_from_node,
+        });
     }
     Ok(placed)
 }
 
-fn parent_from_node(node: &gltf::Node) -> DMat4 {
-    match node.transform() {
-        gltf::scene::Transform::Matrix { matrix } => {
-            DMat4::from_cols_array_2d(&matrix.map(|column| column.map(f64::from)))
-        }
-        gltf::scene::Transform::Decomposed {
-            translation,
-            rotation,
-            scale,
-        } => {
-            let rotation = DQuat::from_array(rotation.map(f64::from));
-            // Exporters round, and a zero quaternion has no direction.
-            let rotation = match rotation.length() > 1e-6 {
-                true => rotation.normalize(),
-                false => DQuat::IDENTITY,
-            };
-            DMat4::from_scale_rotation_translation(
-                DVec3::from_array(scale.map(f64::from)),
-                rotation,
-                DVec3::from_array(translation.map(f64::from)),
-            )
-        }
-    }
+/// KHR_node_visibility: what is below it is hidden too.
+fn is_hidden(node: &gltf::Node) -> bool {
+    let extension = node.extension_value("KHR_node_visibility");
+    extension.and_then(|it| it.get("visible")?.as_bool()) == Some(false)
 }

@@ -1,15 +1,12 @@
 //! How a file's own frame becomes the object's: which way is up, and how large it is.
 
 use glam::{DMat3, DMat4, DVec3};
-use gltf::{Document, Semantic};
 
-use super::accessor;
 use super::flaw::Flaw;
-use super::nodes::placed_meshes;
-use super::source::Buffers;
+use super::shapes::Shapes;
 use crate::description::Up;
 
-/// The keys `up` and `fit_m` of an object.
+/// The keys `up`, `fit_m` and `time_s` of an object.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Placing {
     /// The axis of the file that points up.
@@ -18,6 +15,8 @@ pub(crate) struct Placing {
     pub world_up: DVec3,
     /// The largest extent that the object is to have.
     pub fit_m: Option<f64>,
+    /// The time of the file's first animation; without it the model is at rest.
+    pub time_s: Option<f64>,
 }
 
 impl Placing {
@@ -26,31 +25,25 @@ impl Placing {
         up: Up::Z,
         world_up: DVec3::Z,
         fit_m: None,
+        time_s: None,
     };
 
     /// The turn and the factor that the object begins with.
-    pub(super) fn object_from_file(
-        &self,
-        document: &Document,
-        buffers: &Buffers,
-    ) -> Result<DMat4, Flaw> {
+    pub(super) fn object_from_file(&self, shapes: &Shapes) -> Result<DMat4, Flaw> {
         let turn = DMat4::from_mat3(quarter_turn(self.up.axis(), self.world_up));
         let Some(fit_m) = self.fit_m else {
             return Ok(turn);
         };
         let (mut least, mut most) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        for (node, object_from_node) in placed_meshes(document, turn)? {
-            for primitive in node.mesh().into_iter().flat_map(|mesh| mesh.primitives()) {
-                let Some(positions) = primitive.get(&Semantic::Positions) else {
-                    continue;
-                };
-                for point in accessor::read_numbers::<3>(&positions, buffers)? {
-                    let point = DVec3::from_array(point.map(f64::from));
-                    let point = object_from_node.transform_point3(point);
+        shapes.visit(&mut |shape| {
+            for file_from_place in &shape.places {
+                for vertex in &shape.rough.surface.vertices {
+                    let point = file_from_place.transform_point3(vertex.position_m);
                     (least, most) = (least.min(point), most.max(point));
                 }
             }
-        }
+            Ok(())
+        })?;
         let extent_m = (most - least).max_element();
         if !(extent_m.is_finite() && extent_m > 0.0) {
             let found = "it has no extent that `fit_m` could change";

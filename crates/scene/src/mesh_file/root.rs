@@ -4,6 +4,7 @@
 use gltf::json::deserialize::{from_slice, from_value};
 use gltf::json::{Index, Root, Value};
 
+use super::draco;
 use super::flaw::{Flaw, RIGHT};
 use crate::text::shown;
 
@@ -27,7 +28,7 @@ pub(super) fn read(text: &[u8]) -> Result<Root, Flaw> {
         .get("asset")
         .and_then(|asset| asset.get("version")?.as_str());
     check_version(version.unwrap_or("1.0"))?;
-    // Animations of extensions have another form, and none is read.
+    // Animations of extensions have another form, and are not read.
     let Some(members) = value
         .as_object_mut()
         .filter(|it| it.contains_key("animations"))
@@ -53,13 +54,13 @@ pub(super) fn wrong_version(version: &str) -> Flaw {
     )
 }
 
-/// Animations, skins and cameras.
-pub(super) fn leave_out_what_is_ignored(root: &mut Root) {
-    root.animations.clear();
-    root.skins.clear();
+/// Cameras, and animations where they are not wanted.
+pub(super) fn leave_out_what_is_ignored(root: &mut Root, with_animations: bool) {
+    if !with_animations {
+        root.animations.clear();
+    }
     root.cameras.clear();
     for node in &mut root.nodes {
-        node.skin = None;
         node.camera = None;
     }
 }
@@ -99,4 +100,34 @@ pub(super) fn find_images(root: &mut Root) -> Result<(), Flaw> {
         }
     }
     Ok(())
+}
+
+/// Gives the accessors of what Draco packs the view that it is packed in: the crate knows none without a view.
+pub(super) fn find_packed_views(root: &mut Root) {
+    let mut packed = Vec::new();
+    for primitive in root.meshes.iter().flat_map(|mesh| &mesh.primitives) {
+        let extensions = primitive.extensions.as_ref();
+        let Some(extension) = extensions.and_then(|it| it.others.get(draco::NAME)) else {
+            continue;
+        };
+        let view = extension.get("bufferView").and_then(Value::as_u64);
+        let Some(view) = view.and_then(|view| u32::try_from(view).ok()) else {
+            continue;
+        };
+        let attributes = primitive.attributes.iter().filter(|(semantic, _)| {
+            let names = extension.get("attributes");
+            names.is_some_and(|names| names.get(semantic.to_string()).is_some())
+        });
+        let accessors = attributes
+            .map(|(_, accessor)| accessor)
+            .chain(&primitive.indices);
+        packed.extend(accessors.map(|accessor| (accessor.value(), view)));
+    }
+    for (accessor, view) in packed {
+        if let Some(accessor) = root.accessors.get_mut(accessor)
+            && accessor.sparse.is_none()
+        {
+            accessor.buffer_view.get_or_insert(Index::new(view));
+        }
+    }
 }

@@ -118,6 +118,7 @@ impl Viewer {
                 }
             }
         }
+        self.work.tell_model_notes();
     }
 
     /// Hands the description to the engine if more than the view has changed.

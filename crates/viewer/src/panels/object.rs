@@ -54,6 +54,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
                 &mut object.up,
             );
             fit_rows(&mut form, &mut object.fit_m);
+            time_rows(&mut form, &mut object.time_s);
         }
         Surface::Shape(shape) => shape_rows(&mut form, shape),
     }
@@ -156,6 +157,22 @@ fn fit_rows(form: &mut Form, fit_m: &mut Option<f64>) {
         Some(_) if !is_fitted => *fit_m = None,
         Some(size_m) => form.number(Parameter::FitSize, size_m),
         None if is_fitted => *fit_m = Some(form.diagonal_m),
+        None => {}
+    }
+}
+
+/// At rest, or at a time of its animation.
+fn time_rows(form: &mut Form, time_s: &mut Option<f64>) {
+    let mut is_animated = time_s.is_some();
+    form.toggle(
+        "Animate",
+        "Whether the model stands as its first animation has it at a time; else it is at rest",
+        &mut is_animated,
+    );
+    match time_s {
+        Some(_) if !is_animated => *time_s = None,
+        Some(time_s) => form.number(Parameter::Time, time_s),
+        None if is_animated => *time_s = Some(0.0),
         None => {}
     }
 }

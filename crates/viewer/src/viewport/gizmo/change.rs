@@ -98,6 +98,7 @@ mod tests {
             material: None,
             up: Default::default(),
             fit_m: None,
+            time_s: None,
             translation_m: [0.0; 3],
             rotation_deg,
             scale: [1.0; 3],

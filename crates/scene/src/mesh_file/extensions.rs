@@ -1,0 +1,79 @@
+//! The extensions of glTF: those that are read, and what the picture is without the others.
+
+/// Extensions that are read. Quantization needs nothing done: the accessors read every component type.
+const READ: [&str; 12] = [
+    "EXT_mesh_gpu_instancing",
+    "EXT_texture_webp",
+    "KHR_draco_mesh_compression",
+    "KHR_lights_punctual",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_specular",
+    "KHR_materials_unlit",
+    "KHR_mesh_quantization",
+    "KHR_node_visibility",
+    "KHR_texture_transform",
+];
+
+/// Whether a file may require it, and what it says is in the picture.
+pub(super) fn is_read(name: &str) -> bool {
+    READ.contains(&name)
+}
+
+/// What of a file an extension belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Scope {
+    /// All but what follows.
+    File,
+    /// What a surface looks like: materials and their images.
+    Look,
+}
+
+impl Scope {
+    /// That of a member of this name.
+    pub(super) fn within(self, name: &str) -> Self {
+        match name {
+            "materials" | "textures" | "images" | "samplers" => Self::Look,
+            _ => self,
+        }
+    }
+}
+
+/// What the picture is without an extension that is not read, and whether it is another one than with it.
+pub(super) fn meaning(name: &str) -> (&'static str, bool) {
+    let matters = |meaning| (meaning, true);
+    let harmless = |meaning| (meaning, false);
+    match name {
+        "KHR_materials_clearcoat" => matters("coated surfaces miss the highlight of their coat"),
+        "KHR_materials_anisotropy" => matters("brushed surfaces shine alike in all directions"),
+        "KHR_materials_sheen" => matters("cloth misses its sheen"),
+        "KHR_materials_iridescence" => matters("thin films have no colours"),
+        "KHR_materials_transmission"
+        | "KHR_materials_volume"
+        | "KHR_materials_diffuse_transmission"
+        | "KHR_materials_volume_scatter"
+        | "KHR_materials_dispersion" => matters("what is clear is shown opaque"),
+        "KHR_materials_variants" => matters("the file's first look is shown"),
+        "KHR_texture_basisu" | "MSFT_texture_dds" | "EXT_texture_avif" => {
+            harmless("the texture's other image is shown")
+        }
+        "EXT_meshopt_compression" | "KHR_meshopt_compression" | "MESHOPT_compression" => {
+            harmless("the same data are there uncompressed")
+        }
+        "MSFT_lod" | "MSFT_screencoverage" => harmless("the finest level is shown"),
+        "KHR_animation_pointer" => harmless("animations are told of by themselves"),
+        "KHR_xmp"
+        | "KHR_xmp_json_ld"
+        | "EXT_mesh_features"
+        | "EXT_structural_metadata"
+        | "EXT_instance_features"
+        | "FB_geometry_metadata"
+        | "AGI_stk_metadata" => harmless("data about the file, not of the picture"),
+        "KHR_audio" | "KHR_audio_emitter" | "MSFT_audio_emitter" => {
+            harmless("it is heard, not seen")
+        }
+        "CESIUM_RTC" => harmless("where on the earth it stands"),
+        _ => matters("Hairline does not know it"),
+    }
+}

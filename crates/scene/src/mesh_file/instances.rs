@@ -1,0 +1,83 @@
+//! EXT_mesh_gpu_instancing: a node's mesh in many places.
+
+use glam::{DMat4, DVec3};
+use gltf::Document;
+
+use super::accessor::read_numbers;
+use super::flaw::Flaw;
+use super::pose::unit;
+use super::source::Buffers;
+
+pub(super) const NAME: &str = "EXT_mesh_gpu_instancing";
+
+/// From each instance to the node; one, where the node has no such extension.
+pub(super) fn node_from_instances(
+    document: &Document,
+    node: &gltf::Node,
+    buffers: &Buffers,
+) -> Result<Vec<DMat4>, Flaw> {
+    let Some(attributes) = node
+        .extension_value(NAME)
+        .and_then(|value| value.get("attributes"))
+    else {
+        return Ok(vec![DMat4::IDENTITY]);
+    };
+    let accessor = |name: &str| {
+        let Some(index) = attributes.get(name).and_then(|index| index.as_u64()) else {
+            return Ok(None);
+        };
+        let accessor = usize::try_from(index)
+            .ok()
+            .and_then(|index| document.accessors().nth(index));
+        accessor.map(Some).ok_or_else(|| {
+            Flaw::new(
+                format!(
+                    "its node {} has instances by accessor {index}",
+                    node.index()
+                ),
+                "must be below the number of accessors",
+            )
+        })
+    };
+    let translations = match accessor("TRANSLATION")? {
+        Some(accessor) => Some(read_numbers::<3>(&accessor, buffers)?),
+        None => None,
+    };
+    let rotations = match accessor("ROTATION")? {
+        Some(accessor) => Some(read_numbers::<4>(&accessor, buffers)?),
+        None => None,
+    };
+    let scales = match accessor("SCALE")? {
+        Some(accessor) => Some(read_numbers::<3>(&accessor, buffers)?),
+        None => None,
+    };
+    let counts = [
+        translations.as_ref().map(Vec::len),
+        rotations.as_ref().map(Vec::len),
+        scales.as_ref().map(Vec::len),
+    ];
+    let mut counts = counts.into_iter().flatten();
+    let count = counts.next().unwrap_or(1);
+    if counts.any(|other| other != count) {
+        return Err(Flaw::new(
+            format!("its node {} has instances of unequal number", node.index()),
+            "must have as many of each of TRANSLATION, ROTATION and SCALE",
+        ));
+    }
+    let vector = |values: &Option<Vec<[f32; 3]>>, i: usize, or: DVec3| {
+        values
+            .as_ref()
+            .map_or(or, |values| DVec3::from(values[i].map(f64::from)))
+    };
+    let place = |i: usize| {
+        let rotation = rotations
+            .as_ref()
+            .map_or([0.0, 0.0, 0.0, 1.0], |all| all[i].map(f64::from));
+        DMat4::from_scale_rotation_translation(
+            vector(&scales, i, DVec3::ONE),
+            unit(rotation),
+            vector(&translations, i, DVec3::ZERO),
+        )
+    };
+    Ok((0..count).map(place).collect())
+}

@@ -1,0 +1,311 @@
+//! What a glTF file has and the picture has not: every extension, attribute and property that is not read, counted.
+//!
+//! It is found in the text itself, by the names of the specification (section 5): what a reader does not know it cannot miss. A file
+//! that cannot be read has nothing here, and is refused elsewhere.
+
+use std::collections::BTreeMap;
+
+use gltf::json::Value;
+
+use super::extensions::{self, Scope};
+use crate::text::shown;
+
+/// Something of a file that is not in the picture.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LeftOut {
+    /// Its name in the file, or what it is.
+    pub what: String,
+    /// How often it occurs.
+    pub count: usize,
+    /// What that means for the picture.
+    pub meaning: String,
+    /// Whether the picture would be another one with it.
+    pub matters: bool,
+}
+
+/// What is found, in the order of its kind and name; by kind, name and meaning.
+#[derive(Default)]
+struct Found(BTreeMap<(u8, String, String, bool), usize>);
+
+/// Kinds in the order in which they are told.
+const EXTENSION: u8 = 0;
+const ATTRIBUTE: u8 = 1;
+const PROPERTY: u8 = 2;
+
+/// How a file is used.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Wanted {
+    /// Without its own materials what they say is of no account.
+    pub own_materials: bool,
+    /// Whether its first animation is shown, at a time.
+    pub animation: bool,
+}
+
+/// What is left out of a file whose text this is.
+pub(super) fn of(root: &Value, wanted: Wanted) -> Vec<LeftOut> {
+    let owns_materials = wanted.own_materials;
+    let mut found = Found::default();
+    found.extensions(root, Scope::File, owns_materials);
+    found.properties(root, wanted);
+    for primitive in primitives(root) {
+        found.primitive(primitive);
+    }
+    if owns_materials {
+        for material in list(root, "materials") {
+            found.material(material);
+        }
+    }
+    let told = |((_, what, meaning, matters), count)| LeftOut {
+        what,
+        count,
+        meaning,
+        matters,
+    };
+    found.0.into_iter().map(told).collect()
+}
+
+impl Found {
+    fn add(&mut self, kind: u8, what: &str, count: usize, meaning: &str, matters: bool) {
+        if count > 0 {
+            let key = (kind, shown(what), meaning.to_owned(), matters);
+            *self.0.entry(key).or_default() += count;
+        }
+    }
+
+    /// All extensions below a value, wherever the specification lets one be.
+    fn extensions(&mut self, value: &Value, scope: Scope, owns_materials: bool) {
+        match value {
+            Value::Array(elements) => {
+                for element in elements {
+                    self.extensions(element, scope, owns_materials);
+                }
+            }
+            Value::Object(members) => {
+                for (name, member) in members {
+                    match name.as_str() {
+                        // An application's own, of any form.
+                        "extras" => {}
+                        "extensions" => {
+                            for name in member.as_object().into_iter().flatten().map(|it| it.0) {
+                                self.extension(name, scope, owns_materials);
+                            }
+                            self.extensions(member, scope, owns_materials);
+                        }
+                        _ => self.extensions(member, scope.within(name), owns_materials),
+                    }
+                }
+            }
+            _ => {}
+        }
+    }
+
+    fn extension(&mut self, name: &str, scope: Scope, owns_materials: bool) {
+        if (scope == Scope::Look && !owns_materials) || extensions::is_read(name) {
+            return;
+        }
+        let (meaning, matters) = extensions::meaning(name);
+        self.add(EXTENSION, name, 1, meaning, matters);
+    }
+
+    fn properties(&mut self, root: &Value, wanted: Wanted) {
+        let count = |name: &str| list(root, name).len();
+        let (shown, meaning) = match wanted.animation {
+            true => (1, "the first one is shown"),
+            false => (
+                0,
+                "the model is at rest; `time_s` of its object shows the first one at a time",
+            ),
+        };
+        let others = count("animations").saturating_sub(shown);
+        self.add(PROPERTY, "animations", others, meaning, true);
+        let meaning = "a scene has its own camera";
+        self.add(PROPERTY, "cameras", count("cameras"), meaning, false);
+        let others = count("scenes").saturating_sub(1);
+        let meaning = "one scene of the file is shown";
+        self.add(PROPERTY, "scenes", others, meaning, true);
+        for (list_name, known) in KNOWN {
+            let is_look = Scope::File.within(list_name) == Scope::Look;
+            if is_look && !wanted.own_materials {
+                continue;
+            }
+            for element in list(root, list_name) {
+                self.unknown(list_name, element, known);
+            }
+        }
+        self.unknown("the file", root, KNOWN_AT_TOP);
+    }
+
+    /// Members that the specification does not have.
+    fn unknown(&mut self, place: &str, value: &Value, known: &[&str]) {
+        for name in value.as_object().into_iter().flatten().map(|it| it.0) {
+            if !known.contains(&name.as_str()) && !EVERYWHERE.contains(&name.as_str()) {
+                let what = format!("{} of {place}", shown(name));
+                self.add(PROPERTY, &what, 1, "glTF 2.0 has no such property", false);
+            }
+        }
+    }
+
+    fn primitive(&mut self, primitive: &Value) {
+        // POINTS, LINES, LINE_LOOP, LINE_STRIP.
+        if let Some(0..=3) = primitive.get("mode").and_then(Value::as_u64) {
+            let meaning = "they have no surface";
+            self.add(PROPERTY, "points or lines", 1, meaning, true);
+        }
+        let attributes = primitive.get("attributes").and_then(Value::as_object);
+        for name in attributes.into_iter().flatten().map(|it| it.0) {
+            let (meaning, matters) = match name.as_str() {
+                "POSITION" | "NORMAL" | "TANGENT" => continue,
+                // What does not use a set of coordinates does not miss it.
+                name if name.starts_with("TEXCOORD_") => continue,
+                // Told of the skins.
+                name if name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_") => continue,
+                "COLOR_0" => continue,
+                name if name.starts_with("COLOR_") => {
+                    ("further colours of vertices do not tint the surface", true)
+                }
+                name if name.starts_with('_') => ("numbers of an application's own", false),
+                _ => ("glTF 2.0 has no such attribute", false),
+            };
+            self.add(ATTRIBUTE, name, 1, meaning, matters);
+        }
+    }
+
+    fn material(&mut self, material: &Value) {
+        if material.get("alphaMode").and_then(Value::as_str) == Some("BLEND") {
+            let meaning = "what is clear to more than a half is cut away, the rest is opaque";
+            self.add(PROPERTY, "alphaMode BLEND", 1, meaning, true);
+        }
+        if material.get("occlusionTexture").is_some() {
+            let meaning = "crevices are as bright as the rest";
+            self.add(PROPERTY, "occlusionTexture", 1, meaning, true);
+        }
+        // Ways in which images lie on the surface: a vertex has places for two.
+        let mut ways: Vec<(u64, Option<&Value>)> = Vec::new();
+        for texture in textures_of(material) {
+            let set = texture.get("texCoord").and_then(Value::as_u64);
+            let transform = texture
+                .get("extensions")
+                .and_then(|it| it.get("KHR_texture_transform"));
+            let way = (set.unwrap_or(0), transform);
+            if !ways.contains(&way) {
+                ways.push(way);
+            }
+        }
+        let meaning = "a third way to place images on one surface; they lie as the first one";
+        let others = ways.len().saturating_sub(2);
+        self.add(PROPERTY, "texCoord", others, meaning, true);
+        if let Some(specular) = material
+            .get("extensions")
+            .and_then(|it| it.get("KHR_materials_specular"))
+        {
+            self.specular(specular);
+        }
+    }
+
+    fn specular(&mut self, specular: &Value) {
+        for name in ["specularTexture", "specularColorTexture"] {
+            let count = usize::from(specular.get(name).is_some());
+            let meaning = "what is no metal reflects alike all over";
+            self.add(PROPERTY, name, count, meaning, true);
+        }
+        let color = specular
+            .get("specularColorFactor")
+            .and_then(Value::as_array);
+        if color.is_some_and(|color| color.windows(2).any(|it| it[0] != it[1])) {
+            let meaning = "what is no metal reflects without a colour";
+            self.add(PROPERTY, "specularColorFactor", 1, meaning, true);
+        }
+    }
+}
+
+/// The uses of textures of a material, those of its extensions that are not read left aside.
+fn textures_of(material: &Value) -> impl Iterator<Item = &Value> {
+    let pbr = material.get("pbrMetallicRoughness");
+    let of_pbr = ["baseColorTexture", "metallicRoughnessTexture"];
+    let of_pbr = of_pbr
+        .into_iter()
+        .filter_map(move |name| pbr.and_then(|it| it.get(name)));
+    let own = ["normalTexture", "emissiveTexture"];
+    of_pbr.chain(own.into_iter().filter_map(|name| material.get(name)))
+}
+
+fn list<'a>(value: &'a Value, name: &str) -> &'a [Value] {
+    let elements = value.get(name).and_then(Value::as_array);
+    elements.map_or(&[], Vec::as_slice)
+}
+
+fn primitives(root: &Value) -> impl Iterator<Item = &Value> {
+    let meshes = list(root, "meshes").iter();
+    meshes.flat_map(|mesh| list(mesh, "primitives"))
+}
+
+/// What every element may have.
+const EVERYWHERE: [&str; 3] = ["name", "extensions", "extras"];
+const KNOWN_AT_TOP: &[&str] = &[
+    "extensionsUsed",
+    "extensionsRequired",
+    "accessors",
+    "animations",
+    "asset",
+    "buffers",
+    "bufferViews",
+    "cameras",
+    "images",
+    "materials",
+    "meshes",
+    "nodes",
+    "samplers",
+    "scene",
+    "scenes",
+    "skins",
+    "textures",
+];
+/// The properties of the elements of each list, by the specification.
+const KNOWN: [(&str, &[&str]); 8] = [
+    (
+        "nodes",
+        &[
+            "camera",
+            "children",
+            "skin",
+            "matrix",
+            "mesh",
+            "rotation",
+            "scale",
+            "translation",
+            "weights",
+        ],
+    ),
+    ("meshes", &["primitives", "weights"]),
+    (
+        "materials",
+        &[
+            "pbrMetallicRoughness",
+            "normalTexture",
+            "occlusionTexture",
+            "emissiveTexture",
+            "emissiveFactor",
+            "alphaMode",
+            "alphaCutoff",
+            "doubleSided",
+        ],
+    ),
+    ("textures", &["sampler", "source"]),
+    ("samplers", &["magFilter", "minFilter", "wrapS", "wrapT"]),
+    ("images", &["uri", "mimeType", "bufferView"]),
+    (
+        "accessors",
+        &[
+            "bufferView",
+            "byteOffset",
+            "componentType",
+            "normalized",
+            "count",
+            "type",
+            "max",
+            "min",
+            "sparse",
+        ],
+    ),
+    ("scenes", &["nodes"]),
+];

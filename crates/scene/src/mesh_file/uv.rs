@@ -1,0 +1,140 @@
+//! How the images of a material lie on its surface: by which set of texture coordinates, and by KHR_texture_transform.
+
+use glam::Vec2;
+use gltf::json::Value;
+use gltf::material::Material;
+
+use super::spec_gloss;
+
+const NAME: &str = "KHR_texture_transform";
+
+/// From a vertex's texture coordinates to a place of the image.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Way {
+    /// Of the sets of texture coordinates.
+    pub set: u32,
+    offset: [f64; 2],
+    rotation_rad: f64,
+    scale: [f64; 2],
+}
+
+impl Way {
+    pub(super) fn new(set: u32, transform: Option<&Value>) -> Self {
+        let number = |value: &Value| value.as_f64().filter(|x| x.is_finite());
+        let pair = |name: &str, or: f64| {
+            let values = transform.and_then(|it| it.get(name));
+            [0, 1].map(|i| values.and_then(|it| number(it.get(i)?)).unwrap_or(or))
+        };
+        let other_set = transform.and_then(|it| it.get("texCoord")?.as_u64());
+        let rotation = transform.and_then(|it| number(it.get("rotation")?));
+        Self {
+            set: other_set.and_then(|set| set.try_into().ok()).unwrap_or(set),
+            offset: pair("offset", 0.0),
+            rotation_rad: rotation.unwrap_or(0.0),
+            scale: pair("scale", 1.0),
+        }
+    }
+
+    /// Of a use of a texture.
+    pub(super) fn of(texture: &gltf::texture::Info) -> Self {
+        Self::new(texture.tex_coord(), texture.extension_value(NAME))
+    }
+
+    /// Scaled, then turned, then moved: turned counter-clockwise as one sees an image whose v runs down.
+    pub(super) fn place(&self, uv: [f32; 2]) -> Vec2 {
+        let (sine, cosine) = libm::sincos(self.rotation_rad);
+        let [u, v] = [0, 1].map(|i| f64::from(uv[i]) * self.scale[i]);
+        let [x, y] = self.offset;
+        Vec2::new(
+            (cosine * u + sine * v + x) as f32,
+            (cosine * v - sine * u + y) as f32,
+        )
+    }
+}
+
+/// The ways of a material's images, the normal map's first: its tangents go by it. A vertex keeps two places; where there are more
+/// ways, those beyond are taken for the first.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Ways {
+    pub first: Option<Way>,
+    pub second: Option<Way>,
+}
+
+impl Ways {
+    pub(super) fn of(material: &Material) -> Self {
+        let mut ways = Self::default();
+        for way in all(material) {
+            ways.add(way);
+        }
+        ways
+    }
+
+    fn add(&mut self, way: Way) {
+        if self.first.is_none() {
+            self.first = Some(way);
+        } else if self.second.is_none() && self.first != Some(way) {
+            self.second = Some(way);
+        }
+    }
+
+    /// Whether an image lies by the second of the places.
+    pub(super) fn is_second(&self, way: Way) -> bool {
+        self.second == Some(way)
+    }
+}
+
+/// Of all images that are read.
+fn all(material: &Material) -> Vec<Way> {
+    let pbr = material.pbr_metallic_roughness();
+    let normal = material
+        .normal_texture()
+        .map(|it| Way::new(it.tex_coord(), it.extension_value(NAME)));
+    let rest = [
+        pbr.base_color_texture(),
+        pbr.metallic_roughness_texture(),
+        material.emissive_texture(),
+    ];
+    let rest = rest.iter().flatten().map(Way::of);
+    let older = material.extension_value(spec_gloss::NAME);
+    let older = ["diffuseTexture", "specularGlossinessTexture"]
+        .into_iter()
+        .filter_map(|name| of_json(older?.get(name)?));
+    normal.into_iter().chain(rest).chain(older).collect()
+}
+
+/// Of a use of a texture within an extension.
+pub(super) fn of_json(texture: &Value) -> Option<Way> {
+    texture.get("index")?;
+    let set = texture.get("texCoord").and_then(Value::as_u64);
+    let transform = texture.get("extensions").and_then(|it| it.get(NAME));
+    Some(Way::new(
+        set.and_then(|set| set.try_into().ok()).unwrap_or(0),
+        transform,
+    ))
+}
+
+/// The way of a normal map.
+pub(super) fn of_normals(texture: &gltf::material::NormalTexture) -> Way {
+    Way::new(texture.tex_coord(), texture.extension_value(NAME))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_place_is_scaled_then_turned_then_moved() {
+        let transform = r#"{"offset":[0.5,0.25],"rotation":1.5707963267948966,"scale":[2,4]}"#;
+        let transform: Value = gltf::json::deserialize::from_str(transform).unwrap();
+        let way = Way::new(0, Some(&transform));
+        // A quarter turn takes u to -v and v to u.
+        for (uv, place) in [
+            ([0.0, 0.0], [0.5, 0.25]),
+            ([1.0, 0.0], [0.5, -1.75]),
+            ([0.0, 1.0], [4.5, 0.25]),
+        ] {
+            assert!(way.place(uv).abs_diff_eq(place.into(), 1e-6), "{uv:?}");
+        }
+        assert_eq!(Way::new(3, None).place([0.25, 7.0]), Vec2::new(0.25, 7.0));
+    }
+}

@@ -1,0 +1,63 @@
+//! What a scene's author is told of its models: what their files have and the picture has not.
+
+use std::path::{Path, PathBuf};
+
+use crate::description::{Description, Object, Surface};
+use crate::mesh_file::{self, LeftOut, Wanted};
+use crate::text::shown;
+
+impl Description {
+    /// What of its models is not in the picture, file by file, each once. Files are looked for in `base_dir`; what cannot be read has
+    /// nothing.
+    pub fn left_out(&self, base_dir: &Path) -> Vec<(PathBuf, Vec<LeftOut>)> {
+        let mut models: Vec<(&PathBuf, Wanted)> = Vec::new();
+        for object in &self.objects {
+            let Surface::Mesh(file) = &object.surface else {
+                continue;
+            };
+            let wanted = Wanted::of(object);
+            match models.iter_mut().find(|(known, _)| *known == file) {
+                Some((_, known)) => {
+                    known.own_materials |= wanted.own_materials;
+                    known.animation |= wanted.animation;
+                }
+                None => models.push((file, wanted)),
+            }
+        }
+        let of_file = |(file, wanted): (&PathBuf, Wanted)| {
+            let left_out = mesh_file::left_out(&base_dir.join(file), wanted);
+            (file.clone(), left_out)
+        };
+        models.into_iter().map(of_file).collect()
+    }
+
+    /// The same as notes, a line each: what makes the picture another one.
+    pub fn model_notes(&self, base_dir: &Path) -> Vec<String> {
+        let left_out = self.left_out(base_dir).into_iter();
+        left_out
+            .flat_map(|(file, left_out)| notes(&file, &left_out))
+            .collect()
+    }
+}
+
+impl Wanted {
+    pub(crate) fn of(object: &Object) -> Self {
+        Self {
+            own_materials: object.material.is_none(),
+            animation: object.time_s.is_some(),
+        }
+    }
+}
+
+/// What makes the picture another one, a line each.
+pub(crate) fn notes(file: &Path, left_out: &[LeftOut]) -> Vec<String> {
+    let name = file.file_name().unwrap_or(file.as_os_str());
+    let name = shown(&name.to_string_lossy());
+    let line = |it: &LeftOut| {
+        format!(
+            "{name}: {} ({}) left out; {}",
+            it.what, it.count, it.meaning
+        )
+    };
+    left_out.iter().filter(|it| it.matters).map(line).collect()
+}

@@ -1,0 +1,106 @@
+//! What is told of models whose files have more than the picture.
+
+use crate::common::{Glb, cube, scene_with, temporary_dir};
+use hairline_scene::{Description, Scene};
+use std::path::Path;
+
+/// A cube with all that is left out, and some that is read.
+fn rich_cube() -> Vec<u8> {
+    let mut glb = Glb::default();
+    let (corners, triangles) = cube();
+    let positions = glb.floats(&corners);
+    let ids = glb.floats(&[[7.0f32]; 8]);
+    let indices = glb.indices(&triangles);
+    glb.more = r#","extensionsUsed":["KHR_materials_clearcoat","VENDOR_glow","KHR_materials_unlit"],
+        "animations":[{"channels":[],"samplers":[]},{"channels":[],"samplers":[]}],
+        "scenes":[{"nodes":[0]},{"nodes":[0]}],"asset2":{},
+        "cameras":[{"type":"perspective","perspective":{"yfov":1,"znear":1}}],
+        "materials":[
+            {"alphaMode":"BLEND","occlusionTexture":{"index":0},"extensions":{"KHR_materials_clearcoat":{"extensions":{"VENDOR_glow":{}}}}},
+            {"shine":1,"extensions":{"KHR_materials_unlit":{},"KHR_materials_clearcoat":{},"KHR_materials_specular":{"specularColorFactor":[1,0,0]}}}],
+        "images":[{"uri":"data:image/png;base64,AAAA","mimeType":"image/png"}],"textures":[{"source":0}]"#
+        .to_owned();
+    let attributes = format!(r#""POSITION":{positions},"_BATCHID":{ids}"#);
+    let mesh = format!(
+        r#"{{"primitives":[{{"attributes":{{{attributes}}},"indices":{indices}}},{{"mode":1,"attributes":{{"POSITION":{positions}}}}}]}}"#
+    );
+    let json = glb
+        .json(
+            &mesh,
+            r#"{"mesh":0,"extras":{"extensions":{"not":1}}}"#,
+            None,
+        )
+        .replace(r#""scenes":[{"nodes":[0]}],"nodes""#, r#""nodes""#);
+    crate::common::glb_of(&json, &glb.bin)
+}
+
+fn told(dir: &Path, keys: &str) -> Vec<String> {
+    let text = scene_with(&format!(
+        "[[object]]\nname = \"it\"\nmesh = \"it.glb\"\n{keys}[[object]]\nname = \"again\"\nmesh = \"it.glb\"\n{keys}"
+    ));
+    let description = Description::from_toml(&text, Path::new("test.toml")).unwrap();
+    let scene = Scene::build(&description, dir).unwrap();
+    // Without building it the same is known.
+    assert_eq!(scene.notes, description.model_notes(dir));
+    scene.notes
+}
+
+#[test]
+fn what_is_left_out_is_told_once_with_its_count() {
+    let dir = temporary_dir();
+    std::fs::write(dir.path().join("it.glb"), rich_cube()).unwrap();
+    let notes = told(dir.path(), "");
+    assert_eq!(
+        notes,
+        [
+            "it.glb: KHR_materials_clearcoat (2) left out; coated surfaces miss the highlight of their coat",
+            "it.glb: VENDOR_glow (1) left out; Hairline does not know it",
+            "it.glb: alphaMode BLEND (1) left out; what is clear to more than a half is cut away, the rest is opaque",
+            "it.glb: animations (2) left out; the model is at rest; `time_s` of its object shows the first one at a time",
+            "it.glb: occlusionTexture (1) left out; crevices are as bright as the rest",
+            "it.glb: points or lines (1) left out; they have no surface",
+            "it.glb: scenes (1) left out; one scene of the file is shown",
+            "it.glb: specularColorFactor (1) left out; what is no metal reflects without a colour",
+        ]
+    );
+    // Another material takes the place of the file's: nothing of those is missed.
+    let notes = told(dir.path(), "material = \"steel\"\ntime_s = 1.0\n").join("\n");
+    assert!(
+        !notes.contains("clearcoat") && !notes.contains("BLEND"),
+        "{notes}"
+    );
+    assert!(
+        notes.contains("animations (1) left out; the first one is shown"),
+        "{notes}"
+    );
+}
+
+#[test]
+fn what_changes_no_picture_is_listed_too() {
+    let dir = temporary_dir();
+    std::fs::write(dir.path().join("it.glb"), rich_cube()).unwrap();
+    let text = scene_with("[[object]]\nname = \"it\"\nmesh = \"it.glb\"\n");
+    let description = Description::from_toml(&text, Path::new("test.toml")).unwrap();
+    let (file, all) = description.left_out(dir.path()).remove(0);
+    assert_eq!(file, Path::new("it.glb"));
+    let harmless: Vec<_> = all.iter().filter(|it| !it.matters).collect();
+    let names: Vec<_> = harmless.iter().map(|it| it.what.as_str()).collect();
+    assert_eq!(
+        names,
+        [
+            "_BATCHID",
+            "asset2 of the file",
+            "cameras",
+            "shine of materials"
+        ]
+    );
+    // A plain file has nothing to tell.
+    let mut glb = Glb::default();
+    let (corners, triangles) = cube();
+    let (positions, indices) = (glb.floats(&corners), glb.indices(&triangles));
+    let mesh = format!(
+        r#"{{"primitives":[{{"attributes":{{"POSITION":{positions}}},"indices":{indices}}}]}}"#
+    );
+    std::fs::write(dir.path().join("it.glb"), glb.bytes(&mesh, r#"{"mesh":0}"#)).unwrap();
+    assert!(description.left_out(dir.path())[0].1.is_empty());
+}

@@ -1,0 +1,168 @@
+//! What surfaces of glTF files look like: where images lie, colours of vertices, what extensions make of a material.
+
+use crate::common::{Glb, scene_with, temporary_dir};
+use glam::{Vec2, Vec4, vec2, vec4};
+use hairline_scene::{Base, Cutout, Reflector, Sampling, Scene, Texture, Wrap};
+
+/// The scene of a square with two sets of texture coordinates and colours, of the only material of a file.
+fn scene(material: &str, more: &str) -> Scene {
+    let mut glb = Glb::default();
+    let corners = [[0.0f32, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+    let positions = glb.floats(&corners.map(|[x, y]| [x, y, 0.0]));
+    let uvs = glb.floats(&corners);
+    let others = glb.floats(&corners.map(|[x, y]| [4.0 * x, 1.0 - y]));
+    let bytes = [[255, 0, 0, 255], [255, 255, 255, 0]].repeat(2).concat();
+    let view = glb.view(&bytes);
+    let colors = glb.accessor(format!(
+        r#"{{"bufferView":{view},"componentType":5121,"normalized":true,"count":4,"type":"VEC4"}}"#
+    ));
+    let indices = glb.indices(&[0, 1, 2, 0, 2, 3]);
+    let mesh = format!(
+        r#"{{"primitives":[{{"attributes":{{"POSITION":{positions},"TEXCOORD_0":{uvs},"TEXCOORD_1":{others},"COLOR_0":{colors}}},
+            "indices":{indices},"material":0}}]}}"#
+    );
+    let image = |texels: &[[u8; 4]]| {
+        let width = texels.len() as u32;
+        let image = image::RgbaImage::from_raw(width, 1, texels.concat()).unwrap();
+        let mut png = std::io::Cursor::new(Vec::new());
+        image.write_to(&mut png, image::ImageFormat::Png).unwrap();
+        png.into_inner()
+    };
+    let [a, b] = [
+        image(&[[200, 100, 0, 255], [0, 0, 0, 128]]),
+        image(&[[255, 255, 255, 51]]),
+    ]
+    .map(|png| glb.view(&png));
+    glb.more = format!(
+        r#","images":[{{"bufferView":{a},"mimeType":"image/png"}},{{"bufferView":{b},"mimeType":"image/png"}}],
+        "samplers":[{{"wrapS":33648,"wrapT":33071,"magFilter":9728}}],
+        "textures":[{{"source":0}},{{"source":0,"sampler":0}},{{"source":1}}],"materials":[{{{material}}}]{more}"#
+    );
+    let dir = temporary_dir();
+    std::fs::write(dir.path().join("it.glb"), glb.bytes(&mesh, r#"{"mesh":0}"#)).unwrap();
+    let text = scene_with("[[object]]\nname = \"it\"\nmesh = \"it.glb\"\nup = \"z\"");
+    Scene::from_toml(&text, "test.toml", dir.path()).unwrap()
+}
+
+fn texture(scene: &Scene, index: Option<usize>) -> &Texture {
+    &scene.textures[index.unwrap()]
+}
+
+#[test]
+fn images_lie_where_the_file_puts_them() {
+    let moved =
+        r#""extensions":{"KHR_texture_transform":{"offset":[0.5,0],"scale":[2,2],"texCoord":0}}"#;
+    let scene = scene(
+        &format!(
+            r#""pbrMetallicRoughness":{{"baseColorTexture":{{"index":1,"texCoord":1}},"metallicRoughnessTexture":{{"index":0,{moved}}}}},
+            "emissiveTexture":{{"index":0,"texCoord":1}}"#
+        ),
+        "",
+    );
+    let mesh = &scene.objects[0].mesh;
+    let material = &scene.materials[mesh.triangle_materials[0] as usize];
+    let base = texture(&scene, material.base_color_texture);
+    let expected = Sampling {
+        wrap: [Wrap::Mirror, Wrap::Clamp],
+        is_sharp: true,
+        by_other_uvs: false,
+    };
+    assert_eq!(base.sampling, expected);
+    // The same image by other coordinates and another sampler.
+    let metal = texture(&scene, material.metallic_roughness_texture);
+    let expected = Sampling {
+        by_other_uvs: true,
+        ..Sampling::default()
+    };
+    assert_eq!(metal.sampling, expected);
+    assert_eq!(
+        texture(&scene, material.emission_texture).sampling,
+        Sampling::default()
+    );
+    // The first way is that of the base colour, the second one moved.
+    let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+    for [x, y] in corners {
+        let i = (0..mesh.positions_m.len())
+            .find(|&i| mesh.positions_m[i].truncate() == vec2(x, y))
+            .unwrap();
+        assert_eq!(mesh.uvs[i], vec2(4.0 * x, 1.0 - y));
+        assert_eq!(mesh.other_uvs[i], Vec2::new(2.0 * x + 0.5, 2.0 * y));
+    }
+}
+
+#[test]
+fn vertices_have_colours() {
+    let scene = scene(r#""name":"plain""#, "");
+    let mesh = &scene.objects[0].mesh;
+    // Flat normals: each triangle has its own corners.
+    let red = vec4(1.0, 0.0, 0.0, 1.0);
+    let clear = vec4(1.0, 1.0, 1.0, 0.0);
+    let expected: Vec<Vec4> = [red, clear, red, red, red, clear].to_vec();
+    assert_eq!(mesh.colors, expected);
+    assert!(mesh.other_uvs.is_empty());
+}
+
+#[test]
+fn extensions_change_what_a_surface_reflects() {
+    let material = |text: &str| {
+        let scene = scene(text, "");
+        scene.materials[scene.objects[0].mesh.triangle_materials[0] as usize].clone()
+    };
+    let plastic = r#""pbrMetallicRoughness":{"metallicFactor":0}"#;
+    assert_eq!(material(plastic).dielectric, [0.04, 1.0]);
+    assert_eq!(Reflector::new(&material(plastic)), Reflector::Schlick);
+    let water = material(&format!(
+        r#"{plastic},"extensions":{{"KHR_materials_ior":{{"ior":3}}}}"#
+    ));
+    assert_eq!(water.dielectric, [0.25, 1.0]);
+    let dull = material(&format!(
+        r#"{plastic},"extensions":{{"KHR_materials_specular":{{"specularFactor":0.5,"specularColorFactor":[0.5,0.5,0.5]}}}}"#
+    ));
+    assert!((dull.dielectric[0] - 0.01).abs() < 1e-12 && dull.dielectric[1] == 0.5);
+    assert_eq!(Reflector::new(&dull), Reflector::Grazing(0.5));
+    let unlit = material(&format!(
+        r#"{plastic},"extensions":{{"KHR_materials_unlit":{{}}}}"#
+    ));
+    assert!(unlit.is_unlit && unlit.dielectric == [0.0; 2]);
+    // A metal of the older model, and an image of it.
+    let old = r#""extensions":{"KHR_materials_pbrSpecularGlossiness":{"diffuseFactor":[0,0,0,1],"specularFactor":[0.9,0.6,0.3],"glossinessFactor":0.75"#;
+    let metal = material(&format!("{old}}}}}"));
+    let Base::MetallicRoughness {
+        base_color,
+        metallic,
+    } = metal.base
+    else {
+        panic!("{:?}", metal.base)
+    };
+    assert!((metallic - 1.0).abs() < 1e-3, "{metallic}");
+    assert!((base_color[1] - 0.6).abs() < 1e-3 && metal.roughness == 0.25);
+    let mapped = material(&format!(
+        r#"{old},"specularGlossinessTexture":{{"index":2}}}}}}"#
+    ));
+    assert_eq!(
+        (mapped.base_color_texture, mapped.metallic_roughness_texture),
+        (Some(0), Some(1))
+    );
+}
+
+#[test]
+fn surfaces_are_cut_out_by_their_alpha() {
+    let cutout = |text: &str| {
+        let scene = scene(text, "");
+        scene.materials[scene.objects[0].mesh.triangle_materials[0] as usize].cutout
+    };
+    assert_eq!(cutout(r#""name":"whole""#), None);
+    let mask = r#""alphaMode":"MASK","alphaCutoff":0.25,"pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.5]}"#;
+    let expected = Cutout {
+        alpha: 0.5,
+        threshold: 0.25,
+    };
+    assert_eq!(cutout(mask), Some(expected));
+    let blend = r#""alphaMode":"BLEND","pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.1]}"#;
+    // Glass stays; what is cut are the parts of an image.
+    let expected = Cutout {
+        alpha: 1.0,
+        threshold: 0.5,
+    };
+    assert_eq!(cutout(blend), Some(expected));
+}

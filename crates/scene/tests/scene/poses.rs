@@ -1,0 +1,269 @@
+//! glTF files whose meshes are packed, placed many times, or moved: by nodes, joints and morph targets. The files are made here.
+
+use crate::common::{Glb, cube, scene_with, temporary_dir};
+use draco_core::{
+    DataType, EncoderBuffer, EncoderOptions, FaceIndex, GeometryAttributeType, MeshEncoder,
+    PointAttribute, PointIndex,
+};
+use glam::{Vec3, vec3};
+use hairline_scene::{Mesh, Scene};
+use std::sync::Arc;
+
+fn mesh(bytes: &[u8], keys: &str) -> Arc<Mesh> {
+    load(bytes, keys).unwrap().objects[0].mesh.clone()
+}
+
+fn load(bytes: &[u8], keys: &str) -> Result<Scene, String> {
+    let dir = temporary_dir();
+    std::fs::write(dir.path().join("it.glb"), bytes).unwrap();
+    let text = scene_with(&format!(
+        "[[object]]\nname = \"it\"\nmesh = \"it.glb\"\nup = \"z\"\n{keys}"
+    ));
+    Scene::from_toml(&text, "test.toml", dir.path()).map_err(|error| error.to_string())
+}
+
+fn cube_mesh(glb: &mut Glb, more: &str) -> String {
+    let (corners, triangles) = cube();
+    let positions = glb.floats(&corners);
+    let indices = glb.indices(&triangles);
+    format!(
+        r#"{{"primitives":[{{"attributes":{{"POSITION":{positions}}},"indices":{indices}{more}}}]}}"#
+    )
+}
+
+/// A cube's middle.
+fn middle(mesh: &Mesh) -> Vec3 {
+    let (least, most) = mesh.bounds_m();
+    0.5 * (least + most)
+}
+
+#[test]
+fn nodes_move_as_the_first_animation_has_them() {
+    let mut glb = Glb::default();
+    let mesh_text = cube_mesh(&mut glb, "");
+    let times = glb.floats(&[[1.0], [3.0]]);
+    let places = glb.floats(&[[0.0, 0.0, 0.0], [4.0, 0.0, 2.0]]);
+    let half = std::f32::consts::FRAC_1_SQRT_2;
+    let turns = glb.floats(&[[0.0, 0.0, 0.0, 1.0], [0.0, 0.0, half, half]]);
+    glb.more = format!(
+        r#","animations":[{{"channels":[
+            {{"sampler":0,"target":{{"node":1,"path":"translation"}}}},
+            {{"sampler":1,"target":{{"node":0,"path":"rotation"}}}}],
+          "samplers":[{{"input":{times},"output":{places}}},{{"input":{times},"output":{turns},"interpolation":"STEP"}}]}}]"#
+    );
+    let nodes = r#"{"children":[1]},{"mesh":0,"translation":[9,0,0]}"#;
+    let bytes = glb.bytes(&mesh_text, nodes);
+    // At rest; before the first key; between; on the last, when the parent has turned as well; after it.
+    for (keys, place) in [
+        ("", vec3(9.0, 0.0, 0.0)),
+        ("time_s = 0.0", Vec3::ZERO),
+        ("time_s = 2.0", vec3(2.0, 0.0, 1.0)),
+        ("time_s = 3.0", vec3(0.0, 4.0, 2.0)),
+        ("time_s = 50.0", vec3(0.0, 4.0, 2.0)),
+    ] {
+        let found = middle(&mesh(&bytes, keys));
+        assert!(found.abs_diff_eq(place, 1e-5), "{keys}: {found}");
+    }
+    let error = load(&bytes, "time_s = -1").unwrap_err();
+    assert!(
+        error.contains("object[0].time_s: found -1; must be from 0"),
+        "{error}"
+    );
+    // A sampler whose numbers are too few.
+    glb.more = glb.more.replace(
+        &format!(r#""output":{places}"#),
+        &format!(r#""output":{times}"#),
+    );
+    let error = load(&glb.bytes(&mesh_text, nodes), "time_s = 1").unwrap_err();
+    assert!(error.contains("must have 3 components"), "{error}");
+}
+
+#[test]
+fn joints_and_morph_targets_move_vertices() {
+    let mut glb = Glb::default();
+    // Each corner goes with the joint of its side along x, those of the upper half of z by both.
+    let (corners, _) = cube();
+    let shares: Vec<[f32; 4]> = corners
+        .iter()
+        .map(|[x, _, z]| match (*z > 0.0, *x > 0.0) {
+            (true, _) => [0.5, 0.5, 0.0, 0.0],
+            (_, true) => [0.0, 1.0, 0.0, 0.0],
+            _ => [1.0, 0.0, 0.0, 0.0],
+        })
+        .collect();
+    let weights = glb.floats(&shares);
+    let numbers = glb.view(&[0, 1, 0, 0].repeat(corners.len()));
+    let joints = glb.accessor(format!(
+        r#"{{"bufferView":{numbers},"componentType":5121,"count":8,"type":"VEC4"}}"#
+    ));
+    let moves = glb.floats(&[[0.0, 0.0, 3.0]; 8]);
+    let (positions, indices) = {
+        let (corners, triangles) = cube();
+        (glb.floats(&corners), glb.indices(&triangles))
+    };
+    let mesh_text = format!(
+        r#"{{"weights":[0.5],"primitives":[{{"attributes":{{"POSITION":{positions},"JOINTS_0":{joints},"WEIGHTS_0":{weights}}},
+            "indices":{indices},"targets":[{{"POSITION":{moves}}}]}}]}}"#
+    );
+    let nodes = r#"{"children":[1,2,3]},{"mesh":0,"skin":0,"translation":[100,0,0]},
+        {"translation":[-1,0,0]},{"translation":[1,0,0],"scale":[1,2,1]}"#;
+    glb.more = r#","skins":[{"joints":[2,3]}]"#.to_owned();
+    let moved = mesh(&glb.bytes(&mesh_text, nodes), "");
+    // Where the node stands does not matter. Morphed by half of 3 first: z from 1 to 2.
+    let (least, most) = moved.bounds_m();
+    assert!(least.abs_diff_eq(vec3(-1.5, -1.0, 1.0), 1e-5), "{least}");
+    assert!(most.abs_diff_eq(vec3(1.5, 1.0, 2.0), 1e-5), "{most}");
+    let upper = moved.positions_m.iter().filter(|p| p.z > 1.5);
+    // The mean of both joints: not moved along x, one and a half as wide along y.
+    assert!(
+        upper
+            .clone()
+            .all(|p| p.abs().abs_diff_eq(vec3(0.5, 0.75, 2.0), 1e-5))
+    );
+    // Flat normals are those of where it stands now.
+    for (triangle, normal) in moved.triangles.iter().zip(moved.normals.chunks(3)) {
+        let [a, b, c] = triangle.map(|v| moved.positions_m[v as usize]);
+        assert!(normal[0].dot((b - a).cross(c - a).normalize()) > 0.9999);
+    }
+    // The same without a skin: the morph alone, where the node is.
+    glb.more = String::new();
+    let nodes = r#"{"mesh":0,"translation":[100,0,0],"weights":[1]}"#;
+    let morphed = mesh(&glb.bytes(&mesh_text, nodes), "");
+    assert!(middle(&morphed).abs_diff_eq(vec3(100.0, 0.0, 3.0), 1e-4));
+    // A joint that is nowhere, and a number that is no joint.
+    glb.more = r#","skins":[{"joints":[1]}]"#.to_owned();
+    let nodes = r#"{"mesh":0,"skin":0},{}"#;
+    let error = load(&glb.bytes(&mesh_text, nodes), "").unwrap_err();
+    assert!(
+        error.contains("its skin 0 has the joint 1, which is in no scene"),
+        "{error}"
+    );
+    let nodes = r#"{"mesh":0,"skin":0,"children":[1]},{}"#;
+    let error = load(&glb.bytes(&mesh_text, nodes), "").unwrap_err();
+    assert!(error.contains("refers to joint 1 of 1"), "{error}");
+}
+
+#[test]
+fn instances_stand_in_many_places() {
+    let mut glb = Glb::default();
+    let mesh_text = cube_mesh(&mut glb, "");
+    let places = glb.floats(&[[0.0, 0.0, 0.0], [3.0, 0.0, 0.0], [0.0, 5.0, 0.0]]);
+    let scales = glb.floats(&[[1.0; 3], [1.0; 3], [2.0, 2.0, 2.0]]);
+    glb.more = r#","extensionsUsed":["EXT_mesh_gpu_instancing"],"extensionsRequired":["EXT_mesh_gpu_instancing"]"#.to_owned();
+    let node = |more: &str| {
+        format!(
+            r#"{{"mesh":0,"translation":[10,0,0],"extensions":{{"EXT_mesh_gpu_instancing":{{"attributes":{{"TRANSLATION":{places}{more}}}}}}}}}"#
+        )
+    };
+    let bytes = glb.bytes(&mesh_text, &node(&format!(r#","SCALE":{scales}"#)));
+    let all = mesh(&bytes, "");
+    assert_eq!(all.triangles.len(), 36);
+    let (least, most) = all.bounds_m();
+    assert!(least.abs_diff_eq(vec3(9.0, -0.5, -1.0), 1e-5), "{least}");
+    assert!(most.abs_diff_eq(vec3(13.5, 6.0, 1.0), 1e-5), "{most}");
+    // The largest of the file is fitted with them.
+    let (least, most) = mesh(&bytes, "fit_m = 1").bounds_m();
+    assert!(((most - least).max_element() - 1.0).abs() < 1e-5);
+    let one = glb.floats(&[[1.0; 3]]);
+    let bytes = glb.bytes(&mesh_text, &node(&format!(r#","SCALE":{one}"#)));
+    let error = load(&bytes, "").unwrap_err();
+    assert!(
+        error.contains("its node 0 has instances of unequal number"),
+        "{error}"
+    );
+}
+
+#[test]
+fn hidden_nodes_are_not_there() {
+    let mut glb = Glb::default();
+    let mesh_text = cube_mesh(&mut glb, "");
+    let hidden = r#""extensions":{"KHR_node_visibility":{"visible":false}}"#;
+    let nodes = format!(
+        r#"{{"mesh":0,"children":[1]}},{{"translation":[9,0,0],"children":[2],{hidden}}},{{"mesh":0}}"#
+    );
+    assert_eq!(mesh(&glb.bytes(&mesh_text, &nodes), "").triangles.len(), 12);
+}
+
+/// The cube packed by Draco, by the encoder of the same crate: 12 bits to a coordinate.
+fn packed_cube() -> Vec<u8> {
+    let (corners, triangles) = cube();
+    let mut packed = draco_core::Mesh::new();
+    packed.set_num_points(corners.len());
+    packed.set_num_faces(triangles.len() / 3);
+    for (i, face) in triangles.as_chunks::<3>().0.iter().enumerate() {
+        packed.set_face(FaceIndex(i as u32), face.map(|v| PointIndex(v.into())));
+    }
+    let mut positions = PointAttribute::new();
+    positions.init(
+        GeometryAttributeType::Position,
+        3,
+        DataType::Float32,
+        false,
+        corners.len(),
+    );
+    let bytes: Vec<u8> = corners
+        .iter()
+        .flatten()
+        .flat_map(|x| x.to_le_bytes())
+        .collect();
+    positions.buffer_mut().write(0, &bytes);
+    packed.add_attribute(positions);
+    let mut options = EncoderOptions::new();
+    options.set_attribute_int(0, "quantization_bits", 12);
+    let mut buffer = EncoderBuffer::new();
+    let mut encoder = MeshEncoder::new();
+    encoder.set_mesh(packed);
+    encoder.encode(&options, &mut buffer).unwrap();
+    buffer.data().to_vec()
+}
+
+#[test]
+fn packed_meshes_are_unpacked() {
+    let mut glb = Glb::default();
+    let packed = packed_cube();
+    let view = glb.view(&packed);
+    let bound = r#""min":[-0.5,-0.5,-0.5],"max":[0.5,0.5,0.5]"#;
+    let positions = glb.accessor(format!(
+        r#"{{"componentType":5126,"count":8,"type":"VEC3",{bound}}}"#
+    ));
+    let indices = glb.accessor(r#"{"componentType":5123,"count":36,"type":"SCALAR"}"#.to_owned());
+    let mesh_text = format!(
+        r#"{{"primitives":[{{"attributes":{{"POSITION":{positions}}},"indices":{indices},
+            "extensions":{{"KHR_draco_mesh_compression":{{"bufferView":{view},"attributes":{{"POSITION":0}}}}}}}}]}}"#
+    );
+    glb.more = r#","extensionsUsed":["KHR_draco_mesh_compression"],"extensionsRequired":["KHR_draco_mesh_compression"]"#.to_owned();
+    let bytes = glb.bytes(&mesh_text, r#"{"mesh":0}"#);
+    let unpacked = mesh(&bytes, "");
+    assert_eq!(unpacked.triangles.len(), 12);
+    let (least, most) = unpacked.bounds_m();
+    assert!(least.abs_diff_eq(Vec3::splat(-0.5), 3e-4), "{least}");
+    assert!(most.abs_diff_eq(Vec3::splat(0.5), 3e-4), "{most}");
+    let volume: f32 = unpacked
+        .triangles
+        .iter()
+        .map(|t| {
+            let [a, b, c] = t.map(|v| unpacked.positions_m[v as usize]);
+            a.dot(b.cross(c)) / 6.0
+        })
+        .sum();
+    assert!((volume - 1.0).abs() < 2e-3, "{volume}");
+    // Bytes of it changed one by one: a message or another shape, and no panic.
+    let at = bytes
+        .windows(packed.len())
+        .position(|it| it == packed)
+        .unwrap();
+    for i in 0..packed.len() {
+        let mut damaged = bytes.clone();
+        damaged[at + i] ^= 0x5a;
+        if let Err(error) = load(&damaged, "") {
+            assert!(error.contains("it.glb"), "{error}");
+        }
+    }
+    glb.bin.truncate(packed.len() / 2);
+    glb.bin.resize(packed.len().next_multiple_of(4), 0);
+    let error = load(&glb.bytes(&mesh_text, r#"{"mesh":0}"#), "").unwrap_err();
+    assert!(
+        error.contains("its primitive 0 cannot be unpacked"),
+        "{error}"
+    );
+}

@@ -1,0 +1,235 @@
+//! What models bring: images beyond their borders and by other coordinates, colours of vertices, surfaces without light, and surfaces
+//! that are not everywhere on their triangles.
+
+use std::sync::Arc;
+
+use conformance::square;
+use conformance::two_renderers::{compare_pixels, on_the_cpu, on_the_gpu};
+use glam::{DVec3, Vec2, Vec3, Vec4, vec2};
+use hairline_cpu::closed_form;
+use hairline_gpu::{Renderer, headless};
+use hairline_image::Image;
+use hairline_image::tone_map::linear_from_srgb;
+use hairline_index::{ScratchIndex, TriangleIndex};
+use hairline_scene::{
+    Base, Cutout, Light, LightShape, Mesh, Sampling, Scene, ScratchTables, Texture, Wrap,
+};
+
+const HALF_M: f32 = 0.1;
+
+/// A white square under a lamp.
+fn white() -> Scene {
+    let base = Base::MetallicRoughness {
+        base_color: [1.0; 3],
+        metallic: 0.0,
+    };
+    let mut scene = square(base, HALF_M, 96);
+    scene.materials[0].roughness = 0.4;
+    scene.lights.push(Light {
+        radiance: [200.0; 3],
+        shape: LightShape::Sphere {
+            center_m: DVec3::new(0.0, 0.0, 0.4),
+            radius_m: 0.004,
+        },
+        cone: None,
+    });
+    scene
+}
+
+fn mesh_of(scene: &mut Scene) -> &mut Mesh {
+    Arc::make_mut(&mut scene.objects[0].mesh)
+}
+
+/// Eight texels by four of many colours.
+fn motley(sampling: Sampling) -> Texture {
+    let texel = |i: u32, step: u32| [i * step % 251, i * 2 * step % 253, i * 5 * step % 256, 255];
+    let level = |count: u32, step| {
+        (0..count)
+            .map(|i| texel(i + 1, step).map(|c| c as u8))
+            .collect()
+    };
+    Texture {
+        size_px: [8, 4],
+        levels: vec![level(32, 37), level(8, 41), level(2, 43), level(1, 91)],
+        srgb: true,
+        sampling,
+    }
+}
+
+#[test]
+fn images_beyond_their_borders_and_colours_of_vertices() {
+    for (i, wrap) in [
+        [Wrap::Mirror, Wrap::Clamp],
+        [Wrap::Clamp, Wrap::Repeat],
+        [Wrap::Repeat, Wrap::Mirror],
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let mut scene = white();
+        let corners = [[-1.2, 2.3], [1.9, 2.1], [2.6, -1.4], [-1.6, -1.1]];
+        let mesh = mesh_of(&mut scene);
+        mesh.uvs = vec![Vec2::ZERO, vec2(9.0, 0.0), vec2(9.0, 9.0), vec2(0.0, 9.0)];
+        mesh.other_uvs = corners.map(Vec2::from).to_vec();
+        let colors = [[1.0, 0.2, 0.5], [0.1, 1.0, 0.9], [0.4, 0.5, 1.0], [1.0; 3]];
+        mesh.colors = colors.map(|c| Vec3::from(c).extend(1.0)).to_vec();
+        let sampling = Sampling {
+            wrap,
+            is_sharp: i % 2 == 0,
+            by_other_uvs: true,
+        };
+        let plain = Sampling::default();
+        scene.textures = Arc::new(vec![motley(plain), motley(sampling)]);
+        scene.materials[0].base_color_texture = Some(1);
+        scene.materials[0].metallic_roughness_texture = Some(0);
+        let cpu = on_the_cpu(&scene, 1);
+        let Some(gpu) = on_the_gpu(&scene, 1) else {
+            return;
+        };
+        let name = format!("{wrap:?}");
+        compare_pixels(&name, &gpu, &cpu, None).unwrap();
+        // The colours are seen.
+        let means = [0, 1, 2].map(|c| cpu.base.iter().map(|p| p[c]).sum::<f32>());
+        assert!(
+            means[0] > 1.02 * means[1] || means[1] > 1.02 * means[0],
+            "{means:?}"
+        );
+    }
+}
+
+#[test]
+fn a_surface_without_light_sends_its_colour() {
+    let mut scene = white();
+    let mesh = mesh_of(&mut scene);
+    mesh.colors = vec![Vec4::new(0.5, 0.25, 1.0, 1.0); 4];
+    scene.textures = Arc::new(vec![Texture {
+        size_px: [1, 1],
+        levels: vec![vec![[200, 100, 50, 255]]],
+        srgb: true,
+        sampling: Sampling::default(),
+    }]);
+    let material = &mut scene.materials[0];
+    material.base_color_texture = Some(0);
+    material.is_unlit = true;
+    material.dielectric = [0.0; 2];
+    let expected = [(200, 0.5), (100, 0.25), (50, 1.0)]
+        .map(|(code, color)| color * linear_from_srgb(code as f32 / 255.0));
+    let check = |image: &Image| {
+        let seen = image.base[image.index(48, 48)];
+        for c in 0..3 {
+            assert!(
+                (seen[c] - expected[c]).abs() < 1e-4,
+                "{seen:?}, not {expected:?}"
+            );
+        }
+    };
+    check(&on_the_cpu(&scene, 1));
+    let Some(gpu) = on_the_gpu(&scene, 1) else {
+        return;
+    };
+    check(&gpu);
+}
+
+/// The square, and 3 cm over it a lid that is there in its left half alone.
+fn half_a_lid() -> Scene {
+    let mut scene = white();
+    let mut lid = scene.objects[0].clone();
+    let mesh = Arc::make_mut(&mut lid.mesh);
+    for position in &mut mesh.positions_m {
+        position.z = 0.03;
+    }
+    mesh.uvs = [[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]]
+        .map(Vec2::from)
+        .to_vec();
+    mesh.triangle_materials = vec![1; 2];
+    lid.name = "lid".into();
+    scene.objects.push(lid);
+    scene.textures = Arc::new(vec![Texture {
+        size_px: [2, 1],
+        levels: vec![vec![[255, 0, 0, 255], [255, 0, 0, 0]]],
+        srgb: true,
+        sampling: Sampling {
+            wrap: [Wrap::Clamp; 2],
+            is_sharp: true,
+            by_other_uvs: false,
+        },
+    }]);
+    let mut material = scene.materials[0].clone();
+    material.base_color_texture = Some(0);
+    material.cutout = Some(Cutout {
+        alpha: 0.8,
+        threshold: 0.5,
+    });
+    scene.materials.push(material);
+    scene
+}
+
+#[test]
+fn rays_go_through_what_is_cut_out() {
+    let scene = half_a_lid();
+    let triangles = TriangleIndex::build(&scene);
+    for (x, is_there) in [(-0.05, true), (-0.001, true), (0.001, false), (0.05, false)] {
+        let (above, below) = (DVec3::new(x, 0.01, 0.2), DVec3::new(x, 0.01, 0.01));
+        let hit = triangles.intersect(above, DVec3::NEG_Z).unwrap();
+        assert_eq!(hit.object == 1, is_there, "{x}");
+        assert_eq!(triangles.is_hidden(below, DVec3::Z, 1.0), is_there, "{x}");
+        assert_eq!(
+            triangles.intersect_solid(below, DVec3::Z).is_some(),
+            is_there,
+            "{x}"
+        );
+    }
+}
+
+/// With shadows and a bounce.
+fn shadowed(scene: &Scene, samples: u32) -> Option<[Image; 2]> {
+    let options = closed_form::RenderOptions {
+        samples,
+        shadows: true,
+        bounces: 1,
+        ..Default::default()
+    };
+    let cpu = closed_form::render(scene, &options, &|_| {});
+    let gpu = headless::test_gpu()?;
+    let options = hairline_gpu::RenderOptions {
+        samples,
+        ..Default::default()
+    };
+    let index = Arc::new(ScratchIndex::build(scene));
+    let tables = ScratchTables::new(scene);
+    let image = gpu.block_on(async {
+        let mut renderer = Renderer::new(gpu).await?;
+        let method = Default::default();
+        let mut uploaded = renderer.upload(scene, &index, &tables, &method).await?;
+        renderer.add_shadows(&mut uploaded, scene, 1).await?;
+        renderer.render(scene, &uploaded, &options, &|_| {}).await
+    });
+    Some([cpu, image.unwrap_or_else(|error| panic!("{error}"))])
+}
+
+#[test]
+fn what_is_cut_out_is_seen_through_and_lets_light_by() {
+    let scene = half_a_lid();
+    let Some([cpu, gpu]) = shadowed(&scene, 16) else {
+        return;
+    };
+    // Away from the edge of the lid and of its shadow both see the same, and as much light.
+    let mut seen = [0, 0];
+    for y in 4..92 {
+        for x in 4..92 {
+            let i = cpu.index(x, y);
+            if cpu.depth_m[i] == 0.0 || (44..52).contains(&x) {
+                continue;
+            }
+            let is_red = cpu.base[i][1] < 0.5 * cpu.base[i][0];
+            seen[usize::from(is_red)] += 1;
+            let (a, b) = (cpu.base[i], gpu.base[i]);
+            assert!((cpu.depth_m[i] - gpu.depth_m[i]).abs() < 1e-4, "{x}, {y}");
+            assert!(
+                (a[0] - b[0]).abs() < 0.1 * a[0] + 2e-3,
+                "{x}, {y}: {a:?}, {b:?}"
+            );
+        }
+    }
+    assert!(seen.iter().all(|count| *count > 400), "{seen:?}");
+}
