@@ -1,6 +1,7 @@
 //! Builds scenes one after the other and keeps what has not changed: what an editor needs.
 
 mod kept;
+mod parts;
 
 use std::collections::HashMap;
 use std::fmt;
@@ -22,6 +23,7 @@ use crate::scratches;
 use crate::studio::PhotoSet;
 use crate::texture::texture_bytes;
 use kept::{Kept, KeptLayer, KeptSurface, MapKey, Stamp, SurfaceKey};
+use parts::{OnPart, PartGround};
 
 /// Builds scenes one after the other. What of a scene is as it was in the one before is not made again, but shared with it:
 ///
@@ -95,6 +97,8 @@ struct Coat<'a> {
     /// How many earlier layers on the same object have the same seed.
     number: u64,
     is_shown: bool,
+    /// What it is laid on; of one that is not to be laid, if it was made before.
+    ground: Option<Arc<PartGround>>,
     /// From the last build or this one.
     laid: Option<Arc<KeptLayer>>,
 }
@@ -292,16 +296,25 @@ impl<'a> Work<'a> {
         let used = coats.iter().filter(|coat| coat.is_shown);
         let used = used.filter_map(|coat| coat.laid.as_deref());
         let used_bytes = used.map(|kept| kept.laid.bytes()).sum::<f64>() + self.estimate.bytes();
-        let tables: Vec<_> = coats
-            .iter()
+        for (i, coat) in coats
+            .iter_mut()
             .enumerate()
             .filter(|(_, coat)| is_due(coat))
-            .map(|(i, coat)| scratches::Table {
-                key: format!("scratches[{i}]"),
-                layer: &coat.table.layer,
-                strokes: &coat.table.strokes,
-                number: coat.number,
-                ground: surfaces[coat.object].ground(),
+        {
+            let key = format!("scratches[{i}]");
+            let ground = surfaces[coat.object].ground(&OnPart::of(coat.table), &key)?;
+            coat.ground = Some(ground);
+        }
+        let due = coats.iter().enumerate().filter(|(_, coat)| is_due(coat));
+        let tables: Vec<_> = due
+            .filter_map(|(i, coat)| {
+                Some(scratches::Table {
+                    key: format!("scratches[{i}]"),
+                    layer: &coat.table.layer,
+                    strokes: &coat.table.strokes,
+                    number: coat.number,
+                    ground: &coat.ground.as_ref()?.ground,
+                })
             })
             .collect();
         // Before they are read.
@@ -310,13 +323,16 @@ impl<'a> Work<'a> {
         drop(tables);
         let due = coats.iter_mut().filter(|coat| is_due(coat));
         for ((coat, laid), file) in due.zip(laid).zip(stamps) {
+            let Some(ground) = &coat.ground else {
+                continue;
+            };
             coat.laid = Some(Arc::new(KeptLayer {
                 layer: coat.table.layer.clone(),
                 strokes: coat.table.strokes.clone(),
                 number: coat.number,
-                ground: surfaces[coat.object].ground().clone(),
+                ground: ground.ground.clone(),
                 file,
-                laid,
+                laid: ground.on_the_whole(laid),
             }));
         }
         for (i, object) in scene.objects.iter_mut().enumerate() {
@@ -355,12 +371,13 @@ impl<'a> Work<'a> {
                 None => 0,
             };
             let is_shown = !table.hidden && (table.solo || !solo);
-            let ground = surfaces[object].ground_if_made();
-            let laid = ground.and_then(|ground| {
+            let ground = surfaces[object].ground_if_made(&OnPart::of(table));
+            let laid = ground.as_ref().and_then(|ground| {
                 let file = self.stamp(&table.layer);
-                self.old.layer(table, number, ground, &file)
+                self.old.layer(table, number, &ground.ground, &file)
             });
             coats.push(Coat {
+                ground,
                 table,
                 object,
                 number,

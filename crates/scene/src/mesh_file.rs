@@ -49,7 +49,7 @@ pub(crate) use placing::Placing;
 use shapes::Shapes;
 use source::Buffers;
 use stock::FILE_SHARE;
-pub(crate) use stock::Stock;
+pub(crate) use stock::{Part, Stock};
 
 /// Instances of meshes that one file may place; each is baked.
 const MOST_TRIANGLES: usize = 1 << 28;
@@ -65,6 +65,7 @@ pub(crate) fn read(
     let gltf = parse(&file(path)?, placing.time_s.is_some())?;
     let base_dir = path.parent().unwrap_or(Path::new(""));
     let Stock {
+        parts,
         materials,
         textures,
         files,
@@ -93,6 +94,7 @@ pub(crate) fn read(
     let without_surface = shapes.visit(&mut |shape| {
         let surface = shape.rough.finished(&shape.primitive);
         let material = materials.index(&shape.primitive)?;
+        let first = mesh.triangles.len();
         for file_from_place in &shape.places {
             let so_far = mesh.triangles.len().max(mesh.positions_m.len());
             let more = surface.triangles.len().max(surface.vertices.len());
@@ -104,6 +106,10 @@ pub(crate) fn read(
             }
             surface.bake(&(world_from_file * *file_from_place), material, &mut mesh);
         }
+        parts.push(Part {
+            nodes: shape.nodes.clone(),
+            triangles: first..mesh.triangles.len(),
+        });
         Ok(())
     })?;
     if mesh.triangles.is_empty() && without_surface > 0 {

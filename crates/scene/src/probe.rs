@@ -64,6 +64,7 @@ pub struct EnvironmentSummary {
 pub fn mesh(path: &Path) -> Result<MeshSummary, Error> {
     let (mut materials, mut textures) = (Vec::new(), Vec::new());
     let stock = Stock {
+        parts: &mut Vec::new(),
         materials: &mut materials,
         textures: &mut textures,
         files: &mut Vec::new(),

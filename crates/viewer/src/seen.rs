@@ -71,6 +71,8 @@ fn is_same_but_for_name(x: &Material, y: &Material) -> bool {
 fn is_same_layer((a, x): (&Description, &Scratches), (b, y): (&Description, &Scratches)) -> bool {
     let Scratches {
         object: _,
+        material,
+        node,
         name: _,
         hidden,
         solo,
@@ -82,6 +84,7 @@ fn is_same_layer((a, x): (&Description, &Scratches), (b, y): (&Description, &Scr
     place(a, x) == place(b, y)
         && *hidden == y.hidden
         && *solo == y.solo
+        && (material, node) == (&y.material, &y.node)
         && *layer == y.layer
         && *strokes == y.strokes
 }

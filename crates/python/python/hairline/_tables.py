@@ -376,6 +376,10 @@ class Scratches(Table):
 
     object: str
     """The name of the object that they lie on."""
+    material: Optional[str] = _default()
+    """The name of a material of the object's file: they lie on what is of it. Default: on all of the object."""
+    node: Optional[str] = _default()
+    """The name of a node of the object's file: they lie on it and on what is below it. Default: on all of the object."""
     pattern: str
     """``"random"``, ``"parallel"``, ``"circular"``, ``"radial"``, ``"spun"``, ``"swirl"``, ``"drawn"`` or ``"file"``."""
     name: Optional[str] = _default()

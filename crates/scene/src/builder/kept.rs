@@ -1,16 +1,17 @@
 //! What a build leaves for the next one, and how that finds it.
 
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::SystemTime;
 
 use glam::{DMat4, DVec3};
 
+use super::parts::{OnPart, PartGround, Surroundings};
 use crate::description::{self, Layer, LightKind, Map, Stroke, Surface};
 use crate::environment::BuiltInMap;
 use crate::error::Error;
 use crate::loader::Loader;
-use crate::mesh_file::{self, Placing, Stock, Wanted};
+use crate::mesh_file::{self, Part, Placing, Stock, Wanted};
 use crate::scene::{Material, Mesh, Scratch, Segment, Texture};
 use crate::scratches::{self, Ground, Laid};
 use crate::text::shown;
@@ -118,8 +119,10 @@ pub(super) struct KeptSurface {
     pub textures: Arc<Vec<Texture>>,
     /// What the author of the scene should know about the file.
     pub notes: Arc<Vec<String>>,
-    /// Laying does not look at materials, so one serves all numbers of them.
-    ground: Arc<OnceLock<Arc<Ground>>>,
+    /// What its file calls its parts.
+    parts: Arc<Vec<Part>>,
+    /// Laying does not look at the numbers of materials, so one serves all of them.
+    grounds: Arc<Mutex<Vec<(OnPart, Arc<PartGround>)>>>,
 }
 
 impl KeptSurface {
@@ -133,7 +136,7 @@ impl KeptSurface {
     ) -> Result<Self, Error> {
         let (mut materials, mut textures) = (Vec::new(), Vec::new());
         let mut files = Vec::new();
-        let mut notes = Vec::new();
+        let (mut notes, mut parts) = (Vec::new(), Vec::new());
         let transform = &surface_key.world_from_object;
         let mesh = match (&surface_key.surface, &surface_key.file) {
             (Surface::Mesh(file), _) if loader.arrays.mesh(file).is_some() => {
@@ -149,6 +152,7 @@ impl KeptSurface {
             }
             (Surface::Mesh(file), Some(stamp)) => {
                 let stock = Stock {
+                    parts: &mut parts,
                     materials: &mut materials,
                     textures: &mut textures,
                     files: &mut files,
@@ -188,7 +192,8 @@ impl KeptSurface {
             materials: Arc::new(materials),
             textures: Arc::new(textures),
             notes: Arc::new(notes),
-            ground: Arc::default(),
+            parts: Arc::new(parts),
+            grounds: Arc::default(),
         })
     }
 
@@ -212,19 +217,41 @@ impl KeptSurface {
             materials: self.materials.clone(),
             textures: self.textures.clone(),
             notes: self.notes.clone(),
-            ground: self.ground.clone(),
+            parts: self.parts.clone(),
+            grounds: self.grounds.clone(),
         })
     }
 
-    pub(super) fn ground(&self) -> &Arc<Ground> {
-        self.ground.get_or_init(|| {
-            let transform = self.key.world_from_object;
-            Arc::new(Ground::new(self.mesh.clone(), transform))
-        })
+    /// What layers on a part of it are laid on; `key` is the way to such a layer in the scene file.
+    pub(super) fn ground(&self, on: &OnPart, key: &str) -> Result<Arc<PartGround>, Error> {
+        if let Some(made) = self.ground_if_made(on) {
+            return Ok(made);
+        }
+        let triangles = on.triangles(&Surroundings {
+            mesh: &self.mesh,
+            first_material: self.first_material,
+            materials: &self.materials,
+            parts: &self.parts,
+            key,
+        })?;
+        let made = Arc::new(PartGround::new(
+            &self.mesh,
+            triangles,
+            self.key.world_from_object,
+        ));
+        self.grounds().push((on.clone(), made.clone()));
+        Ok(made)
     }
 
-    pub(super) fn ground_if_made(&self) -> Option<&Arc<Ground>> {
-        self.ground.get()
+    pub(super) fn ground_if_made(&self, on: &OnPart) -> Option<Arc<PartGround>> {
+        let grounds = self.grounds();
+        let (_, made) = grounds.iter().find(|(known, _)| known == on)?;
+        Some(made.clone())
+    }
+
+    fn grounds(&self) -> MutexGuard<'_, Vec<(OnPart, Arc<PartGround>)>> {
+        // What was pushed is whole, whoever panicked.
+        self.grounds.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 

@@ -271,7 +271,9 @@ impl Read for Scratches {
             value,
             key,
             "pattern",
-            &["object", "pattern", "name", "hidden", "solo", "strokes"],
+            &[
+                "object", "material", "node", "pattern", "name", "hidden", "solo", "strokes",
+            ],
             &[
                 ("random", &with(&["curvature_per_m"])),
                 ("parallel", &with(&["direction", "jitter_deg"])),
@@ -288,6 +290,8 @@ impl Read for Scratches {
         )?;
         Ok(Self {
             object: table.required("object")?,
+            material: table.optional("material")?,
+            node: table.optional("node")?,
             name: table.optional("name")?,
             hidden: table.or("hidden", false)?,
             solo: table.or("solo", false)?,

@@ -9,6 +9,12 @@ use serde::{Serialize, Serializer};
 pub struct Scratches {
     /// The name of the object they lie on. Required.
     pub object: String,
+    /// The name of a material of the object's file: they lie on what is of it, and end where it ends. Default: on all of the object.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub material: Option<String>,
+    /// The name of a node of the object's file: they lie on it and on what is below it. Default: on all of the object.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub node: Option<String>,
     /// Free text, for lists that people read. Default: none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
@@ -27,10 +33,12 @@ pub struct Scratches {
 }
 
 impl Scratches {
-    /// A layer with nothing but its pattern: no name, not hidden, not solo, no strokes.
+    /// A layer on all of an object, with nothing but its pattern: no name, not hidden, not solo, no strokes.
     pub fn new(object: impl Into<String>, layer: Layer) -> Self {
         Self {
             object: object.into(),
+            material: None,
+            node: None,
             name: None,
             hidden: false,
             solo: false,

@@ -1,5 +1,7 @@
 //! Which nodes of a file show, and where they stand.
 
+use std::sync::Arc;
+
 use glam::DMat4;
 
 use super::flaw::Flaw;
@@ -11,6 +13,8 @@ const DEEPEST: usize = 256;
 /// A node of the file's scene.
 pub(super) struct Placed<'a> {
     pub node: gltf::Node<'a>,
+    /// Its name and those of the nodes above it.
+    pub names: Arc<[String]>,
     pub file_from_node: DMat4,
     /// Of its mesh's morph targets.
     pub weights: Vec<f64>,
@@ -40,12 +44,12 @@ pub(super) fn placed_nodes<'a>(
     };
     let mut placed = Vec::new();
     let mut seen = vec![false; document.nodes().len()];
-    let mut stack: Vec<_> = roots
+    let mut stack: Vec<(gltf::Node, DMat4, Arc<[String]>, usize)> = roots
         .into_iter()
         .rev()
-        .map(|root| (root, DMat4::IDENTITY, 0))
+        .map(|root| (root, DMat4::IDENTITY, Arc::default(), 0))
         .collect();
-    while let Some((node, file_from_parent, depth)) = stack.pop() {
+    while let Some((node, file_from_parent, above, depth)) = stack.pop() {
         // Nodes form trees, so meeting one twice is a mistake, and might go on for ever.
         if depth > DEEPEST {
             return Err(Flaw::new(
@@ -68,13 +72,20 @@ pub(super) fn placed_nodes<'a>(
         if is_hidden(&node) {
             continue;
         }
+        let names: Arc<[String]> = match node.name() {
+            Some(name) => std::iter::once(name.to_owned())
+                .chain(above.iter().cloned())
+                .collect(),
+            None => above,
+        };
         let file_from_node = file_from_parent * pose.parent_from_node(&node);
         for child in node.children().collect::<Vec<_>>().into_iter().rev() {
-            stack.push((child, file_from_node, depth + 1));
+            stack.push((child, file_from_node, Arc::clone(&names), depth + 1));
         }
         placed.push(Placed {
             weights: pose.weights(&node),
             node,
+            names,
             file_from_node,
         });
     }

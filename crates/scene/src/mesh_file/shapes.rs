@@ -1,5 +1,7 @@
 //! The primitives of the file's scene, as they stand, one after the other.
 
+use std::sync::Arc;
+
 use glam::DMat4;
 use gltf::{Document, Primitive};
 
@@ -21,6 +23,8 @@ pub(super) struct Shapes<'a> {
 /// One of them.
 pub(super) struct Shape<'a> {
     pub primitive: Primitive<'a>,
+    /// The names of its node and of those above it.
+    pub nodes: Arc<[String]>,
     pub rough: Rough,
     /// Where it stands, as often as it does.
     pub places: Vec<DMat4>,
@@ -68,6 +72,7 @@ impl<'a> Shapes<'a> {
                 match rough {
                     Some(rough) => seen(Shape {
                         primitive,
+                        nodes: placed.names.clone(),
                         rough,
                         places: places.clone(),
                     })?,

@@ -1,6 +1,6 @@
 //! Scratches lie on their surface, follow their pattern, and are the same everywhere.
 
-use crate::common::{object, scene_with};
+use crate::common::{self, object, scene_with};
 use glam::DVec3;
 use hairline_scene::{Object, Scene, Scratch, Segment};
 
@@ -471,4 +471,102 @@ fn the_same_seed_gives_the_same_scratches_everywhere() {
         }
     }
     assert_eq!(hash, 0x9f77_921c_1d35_011c, "{hash:#x}");
+}
+
+/// A model of three squares side by side: the first two of one material, the last two below one node.
+fn three_squares() -> Vec<u8> {
+    let mut glb = common::Glb::default();
+    let square = |x: f32| {
+        [
+            [x, 0.0, 0.0],
+            [x + 1.0, 0.0, 0.0],
+            [x + 1.0, 1.0, 0.0],
+            [x, 1.0, 0.0],
+        ]
+    };
+    let indices = glb.indices(&[0, 1, 2, 0, 2, 3]);
+    let meshes: Vec<_> = [(0.0, 0), (1.0, 0), (2.0, 1)]
+        .into_iter()
+        .map(|(x, material)| {
+            let positions = glb.floats(&square(x));
+            format!(
+                r#"{{"primitives":[{{"attributes":{{"POSITION":{positions}}},"indices":{indices},"material":{material}}}]}}"#
+            )
+        })
+        .collect();
+    glb.more = r#","materials":[{"name":"gold"},{"name":"black"}]"#.to_owned();
+    let nodes = r#"{"name":"all","mesh":0,"children":[1]},{"name":"strap","children":[2,3]},{"mesh":1},{"name":"clasp","mesh":2}"#;
+    glb.bytes(&meshes.join(","), nodes)
+}
+
+#[test]
+fn scratches_lie_on_a_material_or_below_a_node() {
+    let dir = common::temporary_dir();
+    std::fs::write(dir.path().join("a.glb"), three_squares()).unwrap();
+    let load = |keys: &str| {
+        let text = common::scene_with(&format!(
+            "[[object]]\nname = \"it\"\nmesh = \"a.glb\"\nup = \"z\"\n[[scratches]]\nobject = \"it\"\npattern = \"random\"\ndensity_per_m2 = 100.0\nlength_m = 0.5\n{keys}"
+        ));
+        Scene::from_toml(&text, "test.toml", dir.path())
+    };
+    for (keys, from, to) in [
+        ("", 0.0, 3.0),
+        ("material = \"gold\"", 0.0, 2.0),
+        ("material = \"black\"", 2.0, 3.0),
+        ("node = \"strap\"", 1.0, 3.0),
+        ("node = \"clasp\"", 2.0, 3.0),
+        ("node = \"all\"", 0.0, 3.0),
+        ("node = \"strap\"\nmaterial = \"gold\"", 1.0, 2.0),
+    ] {
+        let scene = load(keys).unwrap();
+        let object = &scene.objects[0];
+        // As many as on that area, all within it, each on the triangle that it says.
+        assert_eq!(
+            object.scratches.len(),
+            (100.0 * (to - from)) as usize,
+            "{keys}"
+        );
+        for segment in object.segments.iter() {
+            let corners = object.mesh.triangles[segment.triangle as usize]
+                .map(|v| object.mesh.positions_m[v as usize]);
+            for point in [segment.start_m, segment.end_m] {
+                assert!(
+                    (from - 1e-5..=to + 1e-5).contains(&point.x),
+                    "{keys}: {point}"
+                );
+                let xs = corners.map(|corner| corner.x);
+                let (least, most) = (xs[0].min(xs[1]).min(xs[2]), xs[0].max(xs[1]).max(xs[2]));
+                assert!(
+                    (least - 1e-5..=most + 1e-5).contains(&point.x),
+                    "{keys}: {point}"
+                );
+            }
+        }
+    }
+    for (keys, expected) in [
+        (
+            "material = \"golt\"",
+            "scratches[0].material: found no material called \"golt\" in the object; did you mean \"gold\"?",
+        ),
+        (
+            "node = \"xyzzy\"",
+            "found no node called \"xyzzy\" in the object; it has \"all\", \"clasp\", \"strap\"",
+        ),
+        (
+            "node = \"clasp\"\nmaterial = \"gold\"",
+            "found nothing that is of this material below this node",
+        ),
+    ] {
+        let error = load(keys).unwrap_err().to_string();
+        assert!(error.contains(expected), "{error}");
+    }
+    let shape = format!(
+        "{}[[scratches]]\nobject = \"it\"\nmaterial = \"steel\"\npattern = \"random\"\ncount = 5\n",
+        common::object("{ disk = { radius_m = 1 } }")
+    );
+    let error = Scene::from_toml(&common::scene_with(&shape), "test.toml", "").unwrap_err();
+    assert_eq!(
+        error.right(),
+        "the object has no material of a file; leave it out"
+    );
 }
