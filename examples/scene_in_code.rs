@@ -53,6 +53,7 @@ fn gold() -> Material {
         metallic_roughness_texture: None,
         normal_texture: None,
         emission_texture: None,
+        occlusion_texture: None,
         dielectric: GLTF_DIELECTRIC,
         is_unlit: false,
         cutout: None,

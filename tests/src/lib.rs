@@ -58,6 +58,7 @@ pub fn square(base: Base, half_side_m: f32, size_px: u32) -> Scene {
         metallic_roughness_texture: None,
         normal_texture: None,
         emission_texture: None,
+        occlusion_texture: None,
         dielectric: GLTF_DIELECTRIC,
         is_unlit: false,
         cutout: None,

@@ -110,10 +110,11 @@ impl<'p, 'a> Base<'p, 'a> {
     /// The part of the environment without its suns.
     pub fn by_environment(&self, environment: &Environment) -> BaseRadiance {
         let Self { point, of, .. } = self;
-        BaseRadiance {
+        let around = BaseRadiance {
             specular: self.specular(|lobe| reflected(environment, point, lobe, of)),
             diffuse: self.diffuse(|| environment.irradiance(point.normal) / PI),
-        }
+        };
+        around.times(DVec3::splat(point.open))
     }
 
     /// What the parts of the lobe reflect, given what one does, single scattering.

@@ -38,6 +38,8 @@ pub struct SurfacePoint<'a> {
     pub roughness: f64,
     /// How far a normal map's slopes spread about the one that is looked up, in each direction.
     pub slope_std: f64,
+    /// What of the environment's light reaches the base.
+    pub open: f64,
     /// Emitted radiance.
     pub emission: DVec3,
     /// Index into the scene's materials.
@@ -211,6 +213,10 @@ pub fn surface_point<'a>(
         diffuse: base_color * (1.0 - metallic),
         roughness,
         slope_std,
+        open: material.occlusion_texture.map_or(1.0, |(index, strength)| {
+            let red = texture(Some(index)).map_or(1.0, |texel| texel.x);
+            1.0 + strength * (red - 1.0)
+        }),
         emission,
         material: material_index,
         coherence_um: material.coherence_um,

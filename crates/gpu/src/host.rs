@@ -119,6 +119,11 @@ fn material(scene: &Scene, tables: &ScratchTables, array: &TextureArray, index: 
         emission_texture: array.packed(material.emission_texture),
         alpha: material.cutout.map_or(1.0, |it| it.alpha as f32),
         threshold: material.cutout.map_or(-1.0, |it| it.threshold as f32),
+        occlusion_texture: array.packed(material.occlusion_texture.map(|(texture, _)| texture)),
+        occlusion_strength: material
+            .occlusion_texture
+            .map_or(0.0, |(_, strength)| strength as f32),
+        pad_0: 0.0,
     }
 }
 

@@ -108,6 +108,9 @@ shared! {
         emission_texture: [u32; 2],
         alpha: f32,
         threshold: f32,
+        occlusion_texture: [u32; 2],
+        occlusion_strength: f32,
+        pad_0: f32,
     }
     /// A light.
     Light {
@@ -159,7 +162,7 @@ shared! {
         diffuse: [f32; 3],
         triangle: u32,
         emission: [f32; 3],
-        curve: u32,
+        curve_and_open: u32,
     }
     /// Radiance of the base.
     BaseLight {

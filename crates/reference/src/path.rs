@@ -250,12 +250,13 @@ impl Integrator<'_> {
             let wi = point.surface_from_world(direction);
             if wi.z > 0.0 && sampler_pdf > 0.0 && self.next_surface(vertex, direction).is_none() {
                 let pdf = sampler_pdf + vertex.lobes.pdf(wi);
-                sum += environment.radiance(direction) * vertex.base(wi) / pdf;
+                sum += point.open * environment.radiance(direction) * vertex.base(wi) / pdf;
             }
             if let Some((direction, value, pdf)) = drawn
                 && next.is_none()
             {
-                sum += environment.radiance(direction) * value / (pdf + sampler.pdf(direction));
+                let pdf = pdf + sampler.pdf(direction);
+                sum += point.open * environment.radiance(direction) * value / pdf;
             }
         }
         if let (Some((direction, value, pdf)), Some(hit)) = (drawn, next) {

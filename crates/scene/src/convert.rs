@@ -67,6 +67,7 @@ pub(crate) fn material(material: &description::Material) -> Material {
         metallic_roughness_texture: None,
         normal_texture: None,
         emission_texture: None,
+        occlusion_texture: None,
         dielectric: GLTF_DIELECTRIC,
         is_unlit: false,
         cutout: None,
@@ -202,6 +203,9 @@ pub(crate) fn with_textures_from(material: Material, first: usize) -> Material {
             .normal_texture
             .map(|(texture, scale)| (texture + first, scale)),
         emission_texture: shifted(material.emission_texture),
+        occlusion_texture: material
+            .occlusion_texture
+            .map(|(texture, strength)| (texture + first, strength)),
         ..material
     }
 }

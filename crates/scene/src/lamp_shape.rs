@@ -33,6 +33,7 @@ pub(crate) fn material(light: &description::Light, eye_m: DVec3) -> Material {
         metallic_roughness_texture: None,
         normal_texture: None,
         emission_texture: None,
+        occlusion_texture: None,
         dielectric: GLTF_DIELECTRIC,
         is_unlit: false,
         cutout: None,

@@ -122,6 +122,8 @@ pub struct Material {
     pub normal_texture: Option<(usize, f64)>,
     /// Emission texture (sRGB encoded), multiplied with the emission.
     pub emission_texture: Option<usize>,
+    /// Texture whose red (linear) is what of the environment's light reaches the base, and how much of that counts, in [0, 1].
+    pub occlusion_texture: Option<(usize, f64)>,
     /// Of [`Base::MetallicRoughness`], what is no metal: its reflectance at normal and at grazing incidence.
     pub dielectric: [f64; 2],
     /// Whether it sends its base colour and reflects nothing, as a picture without light (KHR_materials_unlit).

@@ -181,12 +181,11 @@ fn rays_go_through_what_is_cut_out() {
     }
 }
 
-/// With shadows and a bounce.
+/// With shadows.
 fn shadowed(scene: &Scene, samples: u32) -> Option<[Image; 2]> {
     let options = closed_form::RenderOptions {
         samples,
         shadows: true,
-        bounces: 1,
         ..Default::default()
     };
     let cpu = closed_form::render(scene, &options, &|_| {});
@@ -201,7 +200,7 @@ fn shadowed(scene: &Scene, samples: u32) -> Option<[Image; 2]> {
         let mut renderer = Renderer::new(gpu).await?;
         let method = Default::default();
         let mut uploaded = renderer.upload(scene, &index, &tables, &method).await?;
-        renderer.add_shadows(&mut uploaded, scene, 1).await?;
+        renderer.add_shadows(&mut uploaded, scene, 0).await?;
         renderer.render(scene, &uploaded, &options, &|_| {}).await
     });
     Some([cpu, image.unwrap_or_else(|error| panic!("{error}"))])
@@ -232,4 +231,40 @@ fn what_is_cut_out_is_seen_through_and_lets_light_by() {
         }
     }
     assert!(seen.iter().all(|count| *count > 400), "{seen:?}");
+}
+
+/// Of an environment that is the same all around a surface gets what its map of occlusion lets by: exactly that share of the open one's light.
+#[test]
+fn occlusion_takes_its_share_of_the_environment() {
+    let mut open = white();
+    open.lights.clear();
+    let map = hairline_image::Picture {
+        size_px: [4, 2],
+        rgb: vec![[0.7, 0.5, 0.3]; 8],
+    };
+    open.environment = Some(hairline_scene::Environment::from_map(map, 0.0, 1.0, false));
+    let mut closed = open.clone();
+    closed.textures = Arc::new(vec![Texture {
+        size_px: [1, 1],
+        levels: vec![vec![[51, 255, 255, 255]]],
+        srgb: false,
+        sampling: Sampling::default(),
+    }]);
+    // 1 + 0.5 (0.2 - 1).
+    closed.materials[0].occlusion_texture = Some((0, 0.5));
+    let check = |open: &Image, closed: &Image| {
+        for (x, y) in [(48, 48), (30, 60), (70, 40)] {
+            let i = open.index(x, y);
+            for c in 0..3 {
+                let share = closed.base[i][c] / open.base[i][c];
+                assert!((share - 0.6).abs() < 1e-4, "{share}");
+            }
+        }
+    };
+    let by_cpu = |scene| on_the_cpu(scene, 1);
+    check(&by_cpu(&open), &by_cpu(&closed));
+    let (Some(a), Some(b)) = (on_the_gpu(&open, 1), on_the_gpu(&closed, 1)) else {
+        return;
+    };
+    check(&a, &b);
 }

@@ -23,6 +23,7 @@ struct SurfacePoint {
     emission: vec3f,
     coherence_um: f32,
     table: u32,
+    open: f32,                  // what of the environment's light reaches the base
 }
 
 // How far a surface may be off the plane of a footprint for each length along it, where shading and facet normal agree.

@@ -81,6 +81,8 @@ fn base_surroundings(point: SurfacePoint, lobe: LtcLobe, reflecting: LobeFresnel
     var light: BaseRadiance;
     if HAS_ENVIRONMENT {
         light = base_environment(point, lobe, reflecting);
+        light.specular *= point.open;
+        light.diffuse *= point.open;
     }
     return light;
 }

@@ -181,6 +181,10 @@ fn hit_surface(triangle: u32, bary: vec2f, view: HitView) -> SurfacePoint {
     point.leaves = SURFACE_BENDS + 2.0 * distance(normal, side * surface_normalize_or(geometric, normal));
     hit_turn(&point, normal, to_viewer, view);
     hit_paint(&point, hit_textured(material, place));
+    point.open = 1.0;
+    if hit_has_texture(material.occlusion_texture) {
+        point.open += material.occlusion_strength * (hit_texture(material.occlusion_texture, place).x - 1.0);
+    }
     let turn_x = side * hit_normal_turn(a, b, c, geometric, interpolated, smooth_x);
     let turn_y = side * hit_normal_turn(a, b, c, geometric, interpolated, smooth_y);
     point.turn_x = vec2f(dot(turn_x, point.axis_x), dot(turn_x, point.axis_y));

@@ -73,6 +73,8 @@ struct Material {
     emission_texture: vec2u,
     alpha: f32,                 // factor on that of the texture and of the vertices
     threshold: f32,             // of the alpha at which the surface is there; negative: it is there everywhere
+    occlusion_texture: vec2u,
+    occlusion_strength: f32,
 }
 
 // Spheres come first, then polygons of at most four vertices, then others, then tubes.
@@ -133,7 +135,7 @@ struct PixelPaint {
     diffuse: vec3f,
     triangle: u32,
     emission: vec3f,
-    curve: u32,                 // of fresnel_curves
+    curve_and_open: u32,        // of fresnel_curves in 16 bits; what of the environment's light arrives, in 16 bits
 }
 
 // Radiance of the base to the viewer, before scratches take their part.

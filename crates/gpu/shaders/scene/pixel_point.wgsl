@@ -17,8 +17,17 @@ fn pixel_point_pack(point: SurfacePoint, object: u32, depth_m: f32, place: u32) 
     );
 }
 
+// Low and high halves.
+fn pixel_curve_and_open(point: SurfacePoint) -> u32 {
+    return point.curve | (u32(round(65535.0 * point.open)) << 16u);
+}
+
+fn pixel_curve(paint: PixelPaint) -> u32 {
+    return paint.curve_and_open & 0xffffu;
+}
+
 fn pixel_paint_pack(point: SurfacePoint, triangle: u32) -> PixelPaint {
-    return PixelPaint(point.f0, pack2x16unorm(vec2f(point.roughness, point.slope_std)), point.diffuse, triangle, point.emission, point.curve);
+    return PixelPaint(point.f0, pack2x16unorm(vec2f(point.roughness, point.slope_std)), point.diffuse, triangle, point.emission, pixel_curve_and_open(point));
 }
 
 fn pixel_table(pixel: PixelPoint) -> u32 {
@@ -48,12 +57,13 @@ fn surface_point_from(pixel: PixelPoint, paint: PixelPaint) -> SurfacePoint {
         pixel.turns.zw,
         pixel.leaves,
         paint.f0,
-        paint.curve,
+        pixel_curve(paint),
         paint.diffuse,
         lobe.x,
         lobe.y,
         paint.emission,
         pixel.coherence_um,
         pixel_table(pixel),
+        f32(paint.curve_and_open >> 16u) / 65535.0,
     );
 }

@@ -1,13 +1,16 @@
 // Arrays that lie in textures: a texture may hold four times as much as a storage buffer, and a stage has eight storage buffers only.
 // Twin: src/rows.rs writes them.
 
+const MATERIAL_TEXELS: u32 = 7u;
+
 fn material_at(i: u32) -> Material {
-    let a = textureLoad(materials, row_texel(6u * i), 0);
-    let b = textureLoad(materials, row_texel(6u * i + 1u), 0);
-    let c = textureLoad(materials, row_texel(6u * i + 2u), 0);
-    let d = textureLoad(materials, row_texel(6u * i + 3u), 0);
-    let e = textureLoad(materials, row_texel(6u * i + 4u), 0);
-    let f = textureLoad(materials, row_texel(6u * i + 5u), 0);
+    let a = textureLoad(materials, row_texel(MATERIAL_TEXELS * i), 0);
+    let b = textureLoad(materials, row_texel(MATERIAL_TEXELS * i + 1u), 0);
+    let c = textureLoad(materials, row_texel(MATERIAL_TEXELS * i + 2u), 0);
+    let d = textureLoad(materials, row_texel(MATERIAL_TEXELS * i + 3u), 0);
+    let e = textureLoad(materials, row_texel(MATERIAL_TEXELS * i + 4u), 0);
+    let f = textureLoad(materials, row_texel(MATERIAL_TEXELS * i + 5u), 0);
+    let g = textureLoad(materials, row_texel(MATERIAL_TEXELS * i + 6u), 0);
     return Material(
         bitcast<vec3f>(a.xyz),
         bitcast<f32>(a.w),
@@ -25,6 +28,8 @@ fn material_at(i: u32) -> Material {
         f.xy,
         bitcast<f32>(f.z),
         bitcast<f32>(f.w),
+        g.xy,
+        bitcast<f32>(g.z),
     );
 }
 

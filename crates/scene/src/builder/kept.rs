@@ -106,6 +106,9 @@ impl SurfaceKey {
     }
 }
 
+/// What layers lie on, by their parts.
+type Grounds = Vec<(OnPart, Arc<PartGround>)>;
+
 /// An object's surface with what it brings along.
 pub(super) struct KeptSurface {
     key: SurfaceKey,
@@ -122,7 +125,7 @@ pub(super) struct KeptSurface {
     /// What its file calls its parts.
     parts: Arc<Vec<Part>>,
     /// Laying does not look at the numbers of materials, so one serves all of them.
-    grounds: Arc<Mutex<Vec<(OnPart, Arc<PartGround>)>>>,
+    grounds: Arc<Mutex<Grounds>>,
 }
 
 impl KeptSurface {
@@ -249,7 +252,7 @@ impl KeptSurface {
         Some(made.clone())
     }
 
-    fn grounds(&self) -> MutexGuard<'_, Vec<(OnPart, Arc<PartGround>)>> {
+    fn grounds(&self) -> MutexGuard<'_, Grounds> {
         // What was pushed is whole, whoever panicked.
         self.grounds.lock().unwrap_or_else(PoisonError::into_inner)
     }

@@ -175,10 +175,6 @@ impl Found {
             let meaning = "what is clear to more than a half is cut away, the rest is opaque";
             self.add(PROPERTY, "alphaMode BLEND", 1, meaning, true);
         }
-        if material.get("occlusionTexture").is_some() {
-            let meaning = "crevices are as bright as the rest";
-            self.add(PROPERTY, "occlusionTexture", 1, meaning, true);
-        }
         // Ways in which images lie on the surface: a vertex has places for two.
         let mut ways: Vec<(u64, Option<&Value>)> = Vec::new();
         for texture in textures_of(material) {
@@ -225,7 +221,7 @@ fn textures_of(material: &Value) -> impl Iterator<Item = &Value> {
     let of_pbr = of_pbr
         .into_iter()
         .filter_map(move |name| pbr.and_then(|it| it.get(name)));
-    let own = ["normalTexture", "emissiveTexture"];
+    let own = ["normalTexture", "emissiveTexture", "occlusionTexture"];
     of_pbr.chain(own.into_iter().filter_map(|name| material.get(name)))
 }
 

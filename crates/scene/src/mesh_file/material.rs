@@ -89,6 +89,7 @@ impl Own<'_> {
             None => Ok(None),
         };
         let normals = material.normal_texture();
+        let occlusion = material.occlusion_texture();
         Ok(Material {
             name: material.name().unwrap_or("glTF default").to_owned(),
             base: Base::MetallicRoughness {
@@ -113,6 +114,13 @@ impl Own<'_> {
             )?
             .zip(normals.map(|it| f64::from(it.scale()))),
             emission_texture: look(used(material.emissive_texture()), Channels::Color)?,
+            occlusion_texture: look(
+                occlusion
+                    .as_ref()
+                    .map(|it| (it.texture(), uv::of_occlusion(it))),
+                Channels::Linear,
+            )?
+            .zip(occlusion.map(|it| unit(it.strength()))),
             dielectric: match is_unlit {
                 true => [0.0; 2],
                 false => dielectric(material, metallic),

@@ -95,6 +95,8 @@ fn all(material: &Material) -> Vec<Way> {
         material.emissive_texture(),
     ];
     let rest = rest.iter().flatten().map(Way::of);
+    let occlusion = material.occlusion_texture();
+    let rest = rest.chain(occlusion.as_ref().map(of_occlusion));
     let older = material.extension_value(spec_gloss::NAME);
     let older = ["diffuseTexture", "specularGlossinessTexture"]
         .into_iter()
@@ -111,6 +113,11 @@ pub(super) fn of_json(texture: &Value) -> Option<Way> {
         set.and_then(|set| set.try_into().ok()).unwrap_or(0),
         transform,
     ))
+}
+
+/// The way of an occlusion map.
+pub(super) fn of_occlusion(texture: &gltf::material::OcclusionTexture) -> Way {
+    Way::new(texture.tex_coord(), texture.extension_value(NAME))
 }
 
 /// The way of a normal map.

@@ -57,7 +57,6 @@ fn what_is_left_out_is_told_once_with_its_count() {
             "it.glb: VENDOR_glow (1) left out; Hairline does not know it",
             "it.glb: alphaMode BLEND (1) left out; what is clear to more than a half is cut away, the rest is opaque",
             "it.glb: animations (2) left out; the model is at rest; `time_s` of its object shows the first one at a time",
-            "it.glb: occlusionTexture (1) left out; crevices are as bright as the rest",
             "it.glb: points or lines (1) left out; they have no surface",
             "it.glb: scenes (1) left out; one scene of the file is shown",
             "it.glb: specularColorFactor (1) left out; what is no metal reflects without a colour",

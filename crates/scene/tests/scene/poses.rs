@@ -256,12 +256,12 @@ fn packed_meshes_are_unpacked() {
         let mut damaged = bytes.clone();
         damaged[at + i] ^= 0x5a;
         if let Err(error) = load(&damaged, "") {
-            assert!(error.contains("it.glb"), "{error}");
+            assert!(error.contains("object[0]"), "{error}");
         }
     }
-    glb.bin.truncate(packed.len() / 2);
-    glb.bin.resize(packed.len().next_multiple_of(4), 0);
-    let error = load(&glb.bytes(&mesh_text, r#"{"mesh":0}"#), "").unwrap_err();
+    let mut other = bytes.clone();
+    other[at] = b'X';
+    let error = load(&other, "").unwrap_err();
     assert!(
         error.contains("its primitive 0 cannot be unpacked"),
         "{error}"
