@@ -6,7 +6,6 @@ import { ScratchedNodeMaterial, loadTables, readScratches } from 'hairline-shade
 
 const send = (path, body) => fetch(path, { method: 'POST', body });
 const fail = (reason) => send('/failure', String(reason?.stack ?? reason));
-addEventListener('error', (event) => fail(event.error ?? event.message));
 addEventListener('unhandledrejection', (event) => fail(event.reason));
 
 /** Positions and normals of f32, then indices. */

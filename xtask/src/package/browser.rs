@@ -101,7 +101,10 @@ fn start(profile: &Path, address: &str) -> anyhow::Result<Child> {
                 "--disable-extensions",
                 "--enable-unsafe-webgpu",
                 "--use-webgpu-adapter=swiftshader",
+                // Without these a canvas takes the process of the GPU along.
                 "--enable-features=Vulkan",
+                "--use-vulkan=swiftshader",
+                "--use-angle=swiftshader",
             ])
             .arg(format!("--user-data-dir={}", profile.display()))
             .arg(address)
