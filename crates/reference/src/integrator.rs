@@ -44,6 +44,9 @@ pub struct Parts {
     pub grooves: Arc<SegmentTree<Groove>>,
     /// What the materials mean to the physics.
     pub tables: Arc<ScratchTables>,
+    /// One for each material.
+    reflectances: Arc<Vec<Reflectance>>,
+    depth_coherence: Arc<Vec<f32>>,
 }
 
 impl Parts {
@@ -53,10 +56,23 @@ impl Parts {
             || TriangleIndex::build(scene),
             || rayon::join(|| groove_index::build(scene), || ScratchTables::new(scene)),
         );
+        Self::of(scene, triangles.into(), grooves.into(), tables.into())
+    }
+
+    /// Takes trees and tables of a scene that are there already.
+    pub fn of(
+        scene: &Scene,
+        triangles: Arc<TriangleIndex>,
+        grooves: Arc<SegmentTree<Groove>>,
+        tables: Arc<ScratchTables>,
+    ) -> Self {
+        let reflectances: Vec<_> = scene.materials.par_iter().map(Reflectance::new).collect();
         Self {
-            triangles: triangles.into(),
-            grooves: grooves.into(),
-            tables: tables.into(),
+            triangles,
+            grooves,
+            tables,
+            reflectances: reflectances.into(),
+            depth_coherence: ScratchIndex::depth_coherence(scene).into(),
         }
     }
 
@@ -84,10 +100,10 @@ pub struct Integrator<'a> {
     pub(super) rows: Range<u32>,
     pub(super) triangles: Arc<TriangleIndex>,
     pub(super) grooves: Arc<SegmentTree<Groove>>,
-    pub(super) depth_coherence: Vec<f32>,
+    pub(super) depth_coherence: Arc<Vec<f32>>,
     pub(super) tables: Arc<ScratchTables>,
     /// One for each material.
-    pub(super) reflectances: Vec<Reflectance>,
+    pub(super) reflectances: Arc<Vec<Reflectance>>,
     pub(super) lights: AreaLights,
     pub(super) environment: Option<EnvironmentSampler>,
     pub(super) camera: CameraFrame,
@@ -107,6 +123,8 @@ impl<'a> Integrator<'a> {
             triangles,
             grooves,
             tables,
+            reflectances,
+            depth_coherence,
         } = parts;
         let positions = scene.objects.iter().flat_map(|o| &o.mesh.positions_m);
         Self {
@@ -115,9 +133,9 @@ impl<'a> Integrator<'a> {
             rows: 0..scene.render.size_px[1],
             triangles,
             grooves,
-            depth_coherence: ScratchIndex::depth_coherence(scene),
+            depth_coherence,
             tables,
-            reflectances: scene.materials.par_iter().map(Reflectance::new).collect(),
+            reflectances,
             lights: AreaLights::new(scene),
             environment: scene.environment.as_ref().map(EnvironmentSampler::new),
             camera: scene.camera.frame(scene.render.size_px),

@@ -168,11 +168,8 @@ pub(super) fn run(wanted: &Wanted, stop: &Stop, report: &Report, kept: &Mutex<Ke
     let earlier = lock(kept).of(built);
     let grooves = earlier.unwrap_or_else(|| Arc::new(groove_index::build(&built.scene)));
     lock(kept).0 = Some((Arc::downgrade(&built.scratches), Arc::clone(&grooves)));
-    let parts = Parts {
-        triangles: Arc::clone(&built.triangles),
-        grooves,
-        tables: Arc::clone(&built.tables),
-    };
+    let (triangles, tables) = (Arc::clone(&built.triangles), Arc::clone(&built.tables));
+    let parts = Parts::of(&built.scene, triangles, grooves, tables);
     let first = wanted.scene(FIRST_PX);
     let start = Instant::now();
     let Some(coarse) = one_round(&first, wanted.settings(), &parts, stop) else {
