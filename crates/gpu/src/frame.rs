@@ -153,7 +153,7 @@ pub(crate) fn frame(
         entry_count: counted.entries,
         object_count: scene.objects.len() as u32,
         group_count: counted.groups,
-        pad_1: 0,
+        base_light_count: data.base_light_count,
     }
 }
 

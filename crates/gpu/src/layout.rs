@@ -68,7 +68,7 @@ shared! {
         entry_count: u32,
         object_count: u32,
         group_count: u32,
-        pad_1: u32,
+        base_light_count: u32,
     }
     /// A corner of a triangle.
     Vertex {

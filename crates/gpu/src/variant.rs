@@ -19,7 +19,9 @@ pub(crate) struct ShadeVariant {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub(crate) struct Contents {
     pub scratches: bool,
+    /// That shine on scratches, and on the base.
     pub lights: Kinds,
+    pub base_lights: Kinds,
     pub textures: bool,
     pub colors: bool,
     pub cutouts: bool,
@@ -32,6 +34,7 @@ impl Contents {
         Self {
             scratches: scene.objects.iter().any(|o| !o.segments.is_empty()),
             lights: Kinds::of(scene),
+            base_lights: Kinds::on_base(scene),
             textures: !scene.textures.is_empty(),
             colors: scene.objects.iter().any(|o| !o.mesh.colors.is_empty()),
             cutouts: scene.materials.iter().any(|it| it.cutout.is_some()),
@@ -66,6 +69,7 @@ pub fn pipeline_variants(text: &str) -> Vec<(String, Vec<(&'static str, f64)>)> 
     let everything = Contents {
         scratches: true,
         lights: Kinds::ALL,
+        base_lights: Kinds::ALL,
         textures: true,
         colors: true,
         cutouts: true,
@@ -147,7 +151,7 @@ impl ShadeVariant {
                 (published.si == SineIntegral::Fast).into(),
             ),
         ];
-        constants.extend(has.lights.constants());
+        constants.extend(has.lights.constants(has.base_lights));
         constants.retain(|(name, _)| text.contains(&format!("override {name}:")));
         constants
     }

@@ -27,6 +27,7 @@ struct Frame {
     entry_count: u32,           // of all tile lists of the strip; known once they are counted
     object_count: u32,
     group_count: u32,           // of 64 samples that are shaded together; known once edges are counted
+    base_light_count: u32,      // of the lights, those that do not shine on scratches alone: they come first
 }
 
 const ENVIRONMENT_PRESENT: u32 = 1u;
@@ -77,7 +78,8 @@ struct Material {
     occlusion_strength: f32,
 }
 
-// Spheres come first, then polygons of at most four vertices, then others, then tubes.
+// Spheres come first, then polygons of at most four vertices, then others, then tubes; behind them, in the same order, lights for
+// scratches alone.
 struct Light {
     radiance: vec3f,
     kind: u32,                  // LIGHT_SPHERE, LIGHT_POLYGON or LIGHT_TUBE
