@@ -5,7 +5,7 @@ use hairline_optics::mask::Mask;
 use hairline_optics::published::sine_integral::SineIntegral;
 use hairline_scene::{Scene, ScratchTables};
 
-use crate::lights::{Kind, Kinds};
+use crate::lights::{self, Kind, Kinds};
 
 /// What a pipeline is specialised for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -22,6 +22,8 @@ pub(crate) struct Contents {
     /// That shine on scratches, and on the base.
     pub lights: Kinds,
     pub base_lights: Kinds,
+    /// Lights with barn doors.
+    pub doors: bool,
     pub textures: bool,
     pub colors: bool,
     pub cutouts: bool,
@@ -35,6 +37,10 @@ impl Contents {
             scratches: scene.objects.iter().any(|o| !o.segments.is_empty()),
             lights: Kinds::of(scene),
             base_lights: Kinds::on_base(scene),
+            doors: scene
+                .lights
+                .iter()
+                .any(|light| lights::doors(light).is_some()),
             textures: !scene.textures.is_empty(),
             colors: scene.objects.iter().any(|o| !o.mesh.colors.is_empty()),
             cutouts: scene.materials.iter().any(|it| it.cutout.is_some()),
@@ -70,6 +76,7 @@ pub fn pipeline_variants(text: &str) -> Vec<(String, Vec<(&'static str, f64)>)> 
         scratches: true,
         lights: Kinds::ALL,
         base_lights: Kinds::ALL,
+        doors: true,
         textures: true,
         colors: true,
         cutouts: true,
@@ -136,6 +143,7 @@ impl ShadeVariant {
         let published = method.published.unwrap_or_default();
         let mut constants = vec![
             ("HAS_SCRATCHES", has.scratches.into()),
+            ("HAS_DOORS", has.doors.into()),
             ("HAS_TEXTURES", has.textures.into()),
             ("HAS_COLORS", has.colors.into()),
             ("HAS_CUTOUTS", has.cutouts.into()),

@@ -9,6 +9,7 @@ override HAS_ENVIRONMENT: bool = true;
 // The same of lights that do not shine on scratches alone.
 override BASE_HAS_SPHERES: bool = true;
 override BASE_HAS_POLYGONS: bool = true;
+override HAS_DOORS: bool = true;
 override HAS_TEXTURES: bool = true;
 // Colours of vertices.
 override HAS_COLORS: bool = true;
