@@ -262,7 +262,7 @@ fn models_open_upright_in_a_lit_scene() {
     write_triangle(folder.path());
     let assert = hairline(
         folder.path(),
-        "render a.gltf --backend cpu --size 64x36 -o a.exr",
+        "render a.gltf --backend cpu --size 64x36 --samples 1 -o a.exr",
     )
     .success();
     let text = stderr_of(&assert);
