@@ -35,6 +35,26 @@ impl LightView {
         }
     }
 
+    /// A direction well within it, as far above the horizon as there is one.
+    pub fn highest(&self, views: &LightViews) -> DVec3 {
+        match self {
+            Self::Sphere { cap, .. } if cap.cos_radius <= 0.0 => DVec3::Z,
+            Self::Sphere { cap, .. } => {
+                let up = (DVec3::Z - cap.axis.z * cap.axis).normalize_or_zero();
+                (cap.axis + 0.9 * cap.sin_radius / cap.cos_radius * up).normalize()
+            }
+            Self::Polygon {
+                vertices, bound, ..
+            } => {
+                let corners = views.directions[vertices.clone()].iter();
+                let highest = corners.copied().max_by(|a, b| a.z.total_cmp(&b.z));
+                highest.map_or(bound.axis, |corner| {
+                    (0.9 * corner + 0.1 * bound.axis).normalize()
+                })
+            }
+        }
+    }
+
     /// A cap of directions that holds it.
     pub fn bound(&self) -> &Cap {
         match self {

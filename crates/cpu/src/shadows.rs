@@ -218,7 +218,11 @@ impl<'a> Shadows<'a> {
                 by_objects = by_objects + sent.times(radiance * weight);
             }
         }
-        let of_sources = sources.iter().map(BaseSource::resolve);
+        let rounds = at.rounds.now.count;
+        let of_sources = sources
+            .iter()
+            .enumerate()
+            .map(|(i, source)| source.resolve(rounds, &|| self.sees_highest(at, i)));
         of_sources.fold(by_objects, |sum, part| sum + part)
     }
 
@@ -381,7 +385,8 @@ impl<'a> Shadows<'a> {
                 self.sees(point, on_surface_m, direction, distance_m),
             );
         }
-        halves.resolve(source.radiance)
+        let rounds = at.rounds.now.count;
+        halves.resolve(source.radiance, rounds, &|| self.sees_highest(at, i))
     }
 
     fn picked(&self, point: &SurfacePoint, pick: &Pick) -> ScratchLight<'_> {
@@ -437,6 +442,18 @@ impl<'a> Shadows<'a> {
         let [right, down] = normals(u, v);
         let stds = place.drawn([right, down, gaussian().quantile(w)], along, x);
         self.under_the_pixel(at, stds)
+    }
+
+    /// Whether the highest part of a source is seen, of those in [`LightViews::views`] or of the environment.
+    fn sees_highest(&self, at: &ShadowPoint, source: usize) -> bool {
+        let point = at.point;
+        let light = at.views.views.get(source);
+        let wi = light.map_or(DVec3::Z, |light| light.highest(at.views));
+        let direction = point.world_from_surface(wi);
+        let distance_m = at.views.light_of(source).map_or(f64::INFINITY, |light| {
+            self.lights.reach_m(light, point.raised_m, direction)
+        });
+        wi.z > 0.0 && self.sees(point, point.raised_m, direction, distance_m)
     }
 
     /// Whether nothing hides what lies at a distance.
@@ -593,10 +610,11 @@ impl BaseSource {
         self.diffuse.add(round, weight.diffuse, is_seen);
     }
 
-    fn resolve(&self) -> BaseRadiance {
+    /// As [`Halves::resolve`].
+    fn resolve(&self, rounds: u32, probe: &dyn Fn() -> bool) -> BaseRadiance {
         BaseRadiance {
-            specular: self.specular.resolve(self.open.specular),
-            diffuse: self.diffuse.resolve(self.open.diffuse),
+            specular: self.specular.resolve(self.open.specular, rounds, probe),
+            diffuse: self.diffuse.resolve(self.open.diffuse, rounds, probe),
         }
     }
 }
@@ -607,43 +625,47 @@ struct Halves([Half; 2]);
 
 #[derive(Clone, Copy, Debug, Default)]
 struct Half {
-    rounds: u32,
     weight: DVec3,
     /// Of the rays that see the source.
     seen: DVec3,
 }
 
 impl Half {
-    /// A guess of the share that is seen; 1 without a ray.
-    fn share(&self) -> f64 {
+    /// A guess of the share that is seen; none without a ray.
+    fn share(&self) -> Option<f64> {
         let (seen, all) = (luminance(self.seen), luminance(self.weight));
-        if all > 0.0 { seen / all } else { 1.0 }
+        (all > 0.0).then(|| seen / all)
     }
 
-    /// What this half says of the source, given a guess.
-    fn shadowed(&self, open: DVec3, guess: f64) -> DVec3 {
-        let per_round = 1.0 / f64::from(self.rounds.max(1));
-        open * guess + (self.seen - guess * self.weight) * per_round
+    /// What this half of so many rounds says of the source, given a guess.
+    fn shadowed(&self, open: DVec3, guess: f64, rounds: u32) -> DVec3 {
+        open * guess + (self.seen - guess * self.weight) / f64::from(rounds)
     }
 }
 
 impl Halves {
     fn add(&mut self, round: u32, weight: DVec3, is_seen: bool) {
         let half = &mut self.0[(round % 2) as usize];
-        half.rounds = half.rounds.max(round / 2 + 1);
         half.weight += weight;
         if is_seen {
             half.seen += weight;
         }
     }
 
-    /// What is left of the light of a source that sends `open` where nothing hides it.
-    fn resolve(&self, open: DVec3) -> DVec3 {
-        let [even, odd] = &self.0;
-        if odd.rounds == 0 {
-            // One ray cannot guess for another: it speaks for all colours.
-            return open * even.share();
+    /// What is left, after so many rounds, of the light of a source that sends `open` where nothing hides it. Rounds without a ray count: those of
+    /// a lamp that is setting mostly point below the horizon. A half without any guesses what `probe` finds.
+    fn resolve(&self, open: DVec3, rounds: u32, probe: &dyn Fn() -> bool) -> DVec3 {
+        if open == DVec3::ZERO {
+            return open;
         }
-        0.5 * (even.shadowed(open, odd.share()) + odd.shadowed(open, even.share()))
+        let guess = |half: &Half| half.share().unwrap_or_else(|| f64::from(u8::from(probe())));
+        let [even, odd] = &self.0;
+        if rounds < 2 {
+            // One ray cannot guess for another: it speaks for all colours.
+            return open * guess(even);
+        }
+        let by_even = even.shadowed(open, guess(odd), rounds.div_ceil(2));
+        let by_odd = odd.shadowed(open, guess(even), rounds / 2);
+        0.5 * (by_even + by_odd)
     }
 }

@@ -1,8 +1,9 @@
-//! Rays that begin on a surface: no shadow of what faces the light, no gap at the foot of what stands.
+//! Rays that begin on a surface: no light through what is thin, no shadow of what faces the light, no gap at the foot of what stands.
 
 use super::scenes::{off_the_mirror, plate, sphere};
 use super::shadowed::{VIEW, WHITE, closed};
 use super::shadowed_on_gpu::on_gpu;
+use conformance::furnace;
 use glam::{DVec2, DVec3, Vec3};
 use hairline_fixtures::SceneFile;
 use hairline_fixtures::scenes::scratched_ball;
@@ -17,6 +18,50 @@ fn by_each(scene: &Scene, samples: u32) -> Vec<(&'static str, Image, Image)> {
     let gpu = on_gpu(scene, samples, None).zip(on_gpu(scene, samples, Some(0)));
     let gpu = gpu.map(|(open, image)| ("GPU", open, image));
     [("CPU", cpu.0, cpu.1)].into_iter().chain(gpu).collect()
+}
+
+/// A camera and a scratched plate under a can of 3,584 triangles without thickness; lamps shine from outside.
+fn under_a_can(target_m: [f64; 3], fov_y_deg: f64) -> Scene {
+    SceneFile::seen_from([0.02, -0.03, 0.025])
+        .toward(target_m)
+        .fov_y_deg(fov_y_deg)
+        .size_px([24, 16])
+        .metal("steel", "steel")
+        .with("roughness = 0.4")
+        .object("plate", "steel", "plane = { size_m = [0.2, 0.2] }")
+        .random("plate", 2000)
+        .object("can", "steel", "lathe = { profile_m = [[0, 0.03], [0.01, 0.03], [0.02, 0.03], [0.03, 0.03], [0.04, 0.03], [0.04, 0.02], [0.04, 0.01], [0.04, 0.0]], segments = 256 }")
+        .sphere([0.02, -0.02, 0.1], 0.02, 100.0)
+        .part("[[light]]\nkind = \"rectangle\"\ncenter_m = [0.0, 0.1, 0.1]\ntarget_m = [0.0, 0.0, 0.0]\nwidth_m = 0.1\nheight_m = 0.1\nradiance = 100.0")
+        .part("[[light]]\nkind = \"disk\"\ncenter_m = [0.1, 0.0, 0.05]\ntarget_m = [0.0, 0.0, 0.0]\nradius_m = 0.04\nradiance = 100.0")
+        .part("[[light]]\nkind = \"tube\"\nends_m = [[-0.1, -0.1, 0.02], [-0.1, 0.1, 0.02]]\nradius_m = 0.01\nradiance = 100.0")
+        .scene()
+}
+
+/// Not on the plate, not on the can, nor where they meet; the sky is white.
+#[test]
+fn no_light_comes_through_a_sheet() {
+    let mut scene = under_a_can([-0.004, 0.006, 0.004], 40.0);
+    scene.environment = furnace();
+    let open = closed(&scene, 16, false).beauty().rgb;
+    let image = closed(&scene, 16, true).beauty().rgb;
+    assert!(open.iter().all(|p| p[1] > 0.0));
+    assert!(image.iter().all(|p| *p == [0.0; 3]));
+}
+
+/// On the plate, away from the foot of the can, but for rounding.
+#[test]
+fn no_light_comes_through_a_sheet_on_the_gpu() {
+    let scene = under_a_can([0.0; 3], 15.0);
+    let open = on_gpu(&scene, 16, None);
+    let image = on_gpu(&scene, 16, Some(0));
+    let Some((open, image)) = open.zip(image) else {
+        return;
+    };
+    let (open, image) = (open.beauty().rgb, image.beauty().rgb);
+    assert!(open.iter().all(|p| p[1] > 0.0));
+    let mut pixels = open.iter().zip(&image);
+    assert!(pixels.all(|(open, left)| left[1].abs() < 1e-5 * open[1]));
 }
 
 /// The foot of a box, in pixels of 0.02 mm: dark behind it, and all the light before it.
