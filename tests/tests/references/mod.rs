@@ -20,3 +20,4 @@ mod scenes;
 mod shadowed;
 mod shadowed_on_gpu;
 mod shadows;
+mod unbiased;
