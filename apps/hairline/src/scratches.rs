@@ -42,10 +42,10 @@ pub fn run(arguments: &cli::Scratches) -> Result<(), Failure> {
         .with_context(|| format!("{} cannot be written", output.display()))
         .map_err(Failure::Work)?;
     tell(format_args!(
-        "{}: {} scratches of \"{}\"",
+        "{}: scratches of \"{}\": {}",
         output.display(),
-        scratches.len(),
-        object.name
+        object.name,
+        scratches.len()
     ));
     Ok(())
 }
