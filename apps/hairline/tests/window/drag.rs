@@ -12,7 +12,7 @@ use hairline_gpu::headless::test_gpu;
 
 use crate::display::{Display, Picture};
 use crate::layout::Layout;
-use crate::{PATIENCE, Window, keep};
+use crate::{Window, keep};
 
 const BUILT_IN: &str = include_str!("../../src/built_in_scene.toml");
 const PLATE: &str = include_str!("../../../../scenes/plate.toml");
@@ -36,8 +36,6 @@ struct Seen {
     pictures: usize,
     first: Option<Duration>,
     longest_pause: Duration,
-    /// From the end of the drag to the last change of the picture.
-    settled: Duration,
 }
 
 impl Seen {
@@ -47,11 +45,10 @@ impl Seen {
 
     fn print(&self, what: &str) {
         println!(
-            "{what}: {:.1} pictures a second, the first after {:.0} ms, the longest pause {:.0} ms, the last change {:.1} s after the end",
+            "{what}: {:.1} pictures a second, the first after {:.0} ms, the longest pause {:.0} ms",
             self.a_second(),
             1e3 * self.first.map_or(f64::NAN, |first| first.as_secs_f64()),
             1e3 * self.longest_pause.as_secs_f64(),
-            self.settled.as_secs_f64(),
         );
     }
 }
@@ -74,11 +71,11 @@ impl<'d> Watch<'d> {
         }
     }
 
-    /// Once there is a picture that stands still for so long.
-    fn first(display: &'d Display, layout: &Layout, window: &Window, quiet: Duration) -> Self {
+    /// Once there is a picture.
+    fn first(display: &'d Display, layout: &Layout, window: &Window) -> Self {
         let mut watch = Self::new(display, layout);
         window.wait_for("a picture", || watch.is_lit());
-        watch.settle(quiet);
+        watch.rest();
         watch
     }
 
@@ -96,23 +93,15 @@ impl<'d> Watch<'d> {
         has
     }
 
-    /// Until nothing has changed for a while; returns when it last did.
-    fn settle(&mut self, quiet: Duration) -> Instant {
-        let (start, mut last) = (Instant::now(), Instant::now());
-        while last.elapsed() < quiet {
-            if self.has_changed(0.0) {
-                last = Instant::now();
-            }
-            assert!(start.elapsed() < PATIENCE, "the picture never settles");
-            std::thread::sleep(Duration::from_millis(50));
-        }
-        last
+    /// As a hand does between two clicks. The picture becomes finer meanwhile, for minutes.
+    fn rest(&mut self) {
+        std::thread::sleep(Duration::from_secs(1));
+        self.has_changed(0.0);
     }
 }
 
-/// Drags to and fro from a point by as much, and watches for changes of such a share of the picture at least; afterwards until nothing
-/// has changed for so long.
-fn drag(watch: &mut Watch, from: Pos2, reach: egui::Vec2, least: f64, quiet: Duration) -> Seen {
+/// Drags to and fro from a point by as much, and watches for changes of such a share of the picture at least.
+fn drag(watch: &mut Watch, from: Pos2, reach: egui::Vec2, least: f64) -> Seen {
     let display = watch.display;
     display.press(from);
     // A press alone shows nothing but may change the interface.
@@ -124,7 +113,6 @@ fn drag(watch: &mut Watch, from: Pos2, reach: egui::Vec2, least: f64, quiet: Dur
         pictures: 0,
         first: None,
         longest_pause: Duration::ZERO,
-        settled: Duration::ZERO,
     };
     while start.elapsed() < DURATION {
         if start.elapsed() >= EVENT * events {
@@ -143,9 +131,6 @@ fn drag(watch: &mut Watch, from: Pos2, reach: egui::Vec2, least: f64, quiet: Dur
     seen.longest_pause = seen.longest_pause.max(last.elapsed());
     keep(&display.screen(), "dragging");
     display.release();
-    let released = Instant::now();
-    seen.settled = watch.settle(quiet).saturating_duration_since(released);
-    keep(&display.screen(), "dragged");
     seen
 }
 
@@ -157,26 +142,25 @@ fn pictures_come_while_a_hand_drags() {
     let Some(display) = crate::display() else {
         return;
     };
-    // The heavier scene alone would take another minute of every test run, and so would all refinements.
+    // The heavier scene would take another half minute of every test run.
     let scenes = [
         ("plate", PLATE, LAMP_IN_PLATE_M),
         ("built-in scene", BUILT_IN, LAMP_IN_BUILT_IN_M),
     ];
-    let (count, quiet) = if std::env::var_os("HAIRLINE_SCREENSHOTS").is_some() {
-        (2, Duration::from_secs(4))
-    } else {
-        (1, Duration::ZERO)
+    let count = match std::env::var_os("HAIRLINE_SCREENSHOTS") {
+        Some(_) => 2,
+        None => 1,
     };
     for (name, text, lamp_m) in scenes.into_iter().take(count) {
         let folder = tempfile::tempdir().unwrap();
         let (layout, window) = open(&display, folder.path(), text);
-        let mut watch = Watch::first(&display, &layout, &window, quiet);
+        let mut watch = Watch::first(&display, &layout, &window);
         let middle = layout.picture().center();
-        let turned = drag(&mut watch, middle, vec2(120.0, 40.0), TURNED, quiet);
+        let turned = drag(&mut watch, middle, vec2(120.0, 40.0), TURNED);
         turned.print(&format!("{name}, the view turns"));
         display.click(layout.layer());
-        watch.settle(Duration::from_secs(1));
-        let widened = drag(&mut watch, layout.width(), vec2(40.0, 0.0), EDITED, quiet);
+        watch.rest();
+        let widened = drag(&mut watch, layout.width(), vec2(40.0, 0.0), EDITED);
         widened.print(&format!("{name}, the width of a layer"));
         drop(window);
 
@@ -184,15 +168,15 @@ fn pictures_come_while_a_hand_drags() {
             "\n[[light]]\nname = \"lamp\"\nkind = \"sphere\"\ncenter_m = {lamp_m:?}\nradius_m = 0.004\nradiance = 200.0\n"
         );
         let (layout, window) = open(&display, folder.path(), &(text.to_owned() + &lamp));
-        let mut watch = Watch::first(&display, &layout, &window, quiet);
+        let mut watch = Watch::first(&display, &layout, &window);
         let lamp = layout.lamp().expect("the lamp's handles in the picture");
         assert!(!watch.area.expand(60.0).contains(lamp.handle), "{lamp:?}");
         // The very first click was seen to be lost: this one is for that.
         display.click(layout.layer());
-        watch.settle(Duration::from_secs(1));
+        watch.rest();
         display.click(lamp.line);
-        watch.settle(Duration::from_secs(1));
-        let moved = drag(&mut watch, lamp.handle, vec2(30.0, 20.0), EDITED, quiet);
+        watch.rest();
+        let moved = drag(&mut watch, lamp.handle, vec2(30.0, 20.0), EDITED);
         moved.print(&format!("{name}, a handle moves a lamp"));
         // Beside the handle the view would have turned.
         window.is_modified();
