@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use hairline_scene::{Cutout, Material, Mesh, Scene, Texture};
 
-use crate::triangle_index::Hit;
+use crate::hit::Hit;
 
 /// What tells whether a surface is there, for scenes in which something is cut out.
 pub(crate) struct Cutouts {

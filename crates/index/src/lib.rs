@@ -26,6 +26,7 @@
 mod cutouts;
 mod depth_spread;
 pub mod groove_index;
+mod hit;
 mod indexed_segment;
 mod layer_runs;
 pub mod method;
@@ -38,11 +39,12 @@ pub mod triangle_lists;
 pub mod watch;
 
 pub use groove_index::Groove;
+pub use hit::Hit;
 pub use indexed_segment::IndexedSegment;
 pub use method::Method;
 pub use scratch_index::ScratchIndex;
 pub use segment_tree::{ScratchNode, SegmentTree};
 pub use triangle_beam::TriangleBeam;
-pub use triangle_index::{Hit, TriangleIndex, TriangleNode};
+pub use triangle_index::{TriangleIndex, TriangleNode};
 pub use triangle_lists::TriangleLists;
 pub use watch::Watch;

@@ -1,7 +1,8 @@
 //! Triangles along many rays of one origin: the tree is walked once for a narrow pyramid, and each ray within it tries what was
 //! found.
 
-use crate::triangle_index::{Hit, TriangleIndex};
+use crate::hit::Hit;
+use crate::triangle_index::TriangleIndex;
 use glam::DVec3;
 
 /// A pyramid of directions from one point, and the triangles that rays within it may meet.

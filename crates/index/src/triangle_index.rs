@@ -10,20 +10,8 @@ use obvhs::bvh2::Bvh2;
 use obvhs::ray::{Ray, RayHit};
 
 use crate::cutouts::Cutouts;
+use crate::hit::Hit;
 use crate::tree;
-
-/// Where a ray meets a surface.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hit {
-    /// Index into [`Scene::objects`].
-    pub object: u32,
-    /// Index into the object's triangles.
-    pub triangle: u32,
-    /// Distance along the unit direction.
-    pub distance_m: f64,
-    /// Barycentric coordinates of the second and third vertex.
-    pub barycentric: [f64; 2],
-}
 
 /// A node of a [`TriangleIndex`] in depth-first order. A walk goes on with the next node, or with `skip` if it wants nothing below this one.
 #[derive(Clone, Debug, PartialEq, Eq)]
