@@ -401,7 +401,7 @@ fn default_limits_are_enough() {
     assert!(image.depth_m[image.index(48, 32)] > 0.0);
 }
 
-/// A million triangles of 144 bytes do not fit into 128 MiB; that is known before any memory is spent on them.
+/// A million triangles of 192 bytes do not fit into 128 MiB; that is known before any memory is spent on them.
 #[test]
 fn a_scene_beyond_one_binding_is_refused_with_figures() {
     let Some(gpu) = default_limits() else { return };
@@ -416,12 +416,12 @@ fn a_scene_beyond_one_binding_is_refused_with_figures() {
     let mut renderer = gpu.block_on(Renderer::new(&gpu)).unwrap();
     let Err(error) = gpu.block_on(renderer.upload(&scene, &index, &tables, &Default::default()))
     else {
-        panic!("a million triangles of 144 bytes went into 128 MiB");
+        panic!("a million triangles of 192 bytes went into 128 MiB");
     };
     let message = error.to_string();
     assert!(matches!(error, Error::TooLarge { .. }), "{message}");
     assert!(
-        ["triangles", "1000000", "144000000 bytes", "134217728"]
+        ["triangles", "1000000", "192000000 bytes", "134217728"]
             .iter()
             .all(|s| message.contains(s)),
         "{message}"

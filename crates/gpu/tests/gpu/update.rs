@@ -199,7 +199,7 @@ fn only_what_changed_is_written() {
     assert_eq!(all["scratch segments"], 32 * segments);
     assert!(all.len() > 10, "{all:?}");
     let triangles =
-        |scene: &Scene, object: usize| 144 * scene.objects[object].mesh.triangles.len() as u64;
+        |scene: &Scene, object: usize| 192 * scene.objects[object].mesh.triangles.len() as u64;
     let tree = [("scratch segments", all["scratch segments"])];
     let plate = ("triangles", triangles(&stage.made.scene, 0));
     let with_tree = |rest: &[(&'static str, u64)]| {
@@ -282,7 +282,7 @@ fn a_scene_that_does_not_fit_leaves_the_last_one() {
     let mut stage = Stage::new(&gpu, rich());
     let before = image(&mut stage);
     let kept = stage.made.clone();
-    // 144 MB of triangles do not fit into 128 MiB.
+    // 192 MB of triangles do not fit into 128 MiB.
     let mesh = Arc::make_mut(&mut stage.made.scene.objects[0].mesh);
     mesh.triangles = vec![[0, 1, 2]; 1_000_000];
     mesh.triangle_materials = vec![0; 1_000_000];
