@@ -71,7 +71,7 @@ pub struct Scratches {
     /// The object, by its name. Without it: the only one that has scratches.
     #[arg(long, value_name = "NAME")]
     pub object: Option<String>,
-    /// Only the scratches of this [[scratches]] table, counted from 0.
+    /// Only this layer of scratches, counted from 0.
     #[arg(long, value_name = "N")]
     pub layer: Option<u32>,
 }

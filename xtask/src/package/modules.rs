@@ -103,7 +103,7 @@ fn used(text: &str) -> BTreeSet<String> {
     names
 }
 
-/// A module with the imports of WESL (https://wesl-lang.dev).
+/// A module with the imports of WESL (<https://wesl-lang.dev>).
 pub(super) fn wesl(module: &Module, all: &[&Module]) -> String {
     let text = source(module);
     let uses = used(&text);
