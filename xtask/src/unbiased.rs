@@ -256,6 +256,6 @@ deviation by how the errors of pixels scatter. *z* and *verdict* are those of th
 difference; it is `less` than the variances say, since samples avoid one another; or it is `more`. The last two columns are the verdicts on wrong pictures of the fewest samples: with lights
 3 % too bright, and without an object that hides light (where there is one outside of the picture).
 
-Where the verdict is `more`, the mean is off by less than 0.1 % of the light without shadows: the expected picture takes the closed form's error for even over a lamp, which it need not be
-where a part of the lamp is hidden. Behind the slit, where a seventh of the light is left, 16 samples are too few to notice 3 %.
+Where the verdict is `more`, the mean is off by less than 0.1 % of the light without shadows. The cause is not shown. A likely one: the expected picture takes the closed form's error for
+even over a lamp, which it need not be where a part of the lamp is hidden. Behind the slit, where a seventh of the light is left, 16 samples are too few to notice 3 %.
 ";
