@@ -44,9 +44,12 @@ impl LightView {
     }
 }
 
-/// All lights of a scene from a point. One for each thread, filled anew for every point without allocating.
+/// All lights of a scene from a point: first those that shine on everything, then those that shine on scratches alone. One for each thread,
+/// filled anew for every point without allocating.
 pub(crate) struct LightViews<'a> {
     lights: Vec<&'a Light>,
+    /// Of `lights`, how many shine on the base too.
+    on_base: usize,
     pub views: Vec<LightView>,
     /// For each light of the scene its place in `views`; `u32::MAX` if it is left out.
     places: Vec<u32>,
@@ -67,7 +70,8 @@ pub(crate) struct LightViews<'a> {
 impl<'a> LightViews<'a> {
     pub fn new(scene: &'a Scene) -> Self {
         Self {
-            lights: scene.all_lights().collect(),
+            lights: scene.scratch_lights().collect(),
+            on_base: scene.all_lights().count(),
             views: Vec::new(),
             places: Vec::new(),
             in_scene: Vec::new(),
@@ -189,6 +193,11 @@ impl<'a> LightViews<'a> {
     /// The scene's light of a place in `views`; none beyond the last.
     pub fn light_of(&self, view: usize) -> Option<usize> {
         self.in_scene.get(view).copied()
+    }
+
+    /// Those that shine on the base too.
+    pub fn on_base(&self) -> &[LightView] {
+        &self.views[..self.in_scene.partition_point(|light| *light < self.on_base)]
     }
 
     /// Finds what all scratches at the point share; only once there are any.

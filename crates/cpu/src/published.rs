@@ -50,7 +50,7 @@ impl<'a> Published<'a> {
             method,
             mask,
             spectra: prepared.tables.published_spectra(PUBLISHED_WAVELENGTHS),
-            triangles: prepared.scene.all_lights().map(triangles).collect(),
+            triangles: prepared.scene.scratch_lights().map(triangles).collect(),
         }
     }
 

@@ -83,7 +83,7 @@ impl<'p, 'a> Base<'p, 'a> {
         views: &LightViews,
         sphere: impl Fn(&LtcLobe, &LobeFresnel, DVec3, f64) -> [f64; 3],
     ) -> BaseRadiance {
-        let lights = views.views.iter();
+        let lights = views.on_base().iter();
         let by_lights = lights.map(|light| self.by_light(light, views, &sphere));
         let around = environment.map(|environment| self.by_environment(environment));
         by_lights

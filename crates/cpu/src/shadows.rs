@@ -33,7 +33,7 @@ use std::f64::consts::PI;
 /// What rays to the lights of a scene need.
 pub(crate) struct Shadows<'a> {
     pub(crate) prepared: &'a Prepared<'a>,
-    /// In the order of [`hairline_scene::Scene::all_lights`].
+    /// In the order of [`hairline_scene::Scene::scratch_lights`].
     lights: AreaLights,
     environment: Option<EnvironmentSampler>,
     /// How far the scene reaches from the origin: what rounding goes by.
@@ -150,7 +150,7 @@ impl<'a> Shadows<'a> {
         let positions = scene.objects.iter().flat_map(|o| &o.mesh.positions_m);
         Self {
             prepared,
-            lights: AreaLights::from_lights(scene.all_lights()),
+            lights: AreaLights::from_lights(scene.scratch_lights()),
             environment: scene.environment.as_ref().map(EnvironmentSampler::new),
             extent_m: positions.map(|p| f64::from(p.length())).fold(0.0, f64::max),
             options: *options,
@@ -174,7 +174,7 @@ impl<'a> Shadows<'a> {
     fn base(&self, at: &ShadowPoint) -> BaseRadiance {
         let base = Base::new(at.point);
         let environment = self.prepared.scene.environment.as_ref();
-        let lights = at.views.views.iter();
+        let lights = at.views.on_base().iter();
         let mut sources: Vec<BaseSource> = lights
             .map(|light| base.by_light(light, at.views, ltc_sphere))
             .chain(environment.map(|environment| base.by_environment(environment)))
@@ -235,7 +235,8 @@ impl<'a> Shadows<'a> {
             if !source.is_lit() {
                 continue;
             }
-            let Some(light) = at.views.light_of(i) else {
+            let light = at.views.light_of(i);
+            let Some(light) = light.filter(|_| i < at.views.on_base().len()) else {
                 // The environment is the last one.
                 self.add_environment(at, lobes, round, on_surface_m, drawn.as_ref(), source);
                 continue;

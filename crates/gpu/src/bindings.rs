@@ -1,7 +1,7 @@
 //! What the passes bind, group by group. Twin: `shaders/scene/bindings.wgsl`.
 //!
 //! Group 0 the frame, group 1 the scene's arrays, group 2 its tables and textures; group 3 is each pass's own. Of the 16 sampled
-//! textures of a WebGPU stage 14 are taken, one more by passes that read visibility; of the 8 storage buffers 2.
+//! textures of a WebGPU stage 15 are taken, one more by passes that read visibility; of the 8 storage buffers 2.
 
 use wgpu::{ShaderStages, TextureViewDimension};
 
@@ -51,6 +51,7 @@ impl Layouts {
             numbers(d2, false),
             integers(),
             numbers(d2, false),
+            numbers(d2, true),
         ];
         let textures: Vec<_> = (0..)
             .zip(textures)

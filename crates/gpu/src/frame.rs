@@ -157,6 +157,10 @@ pub(crate) fn frame(
         object_count: scene.objects.len() as u32,
         group_count: counted.groups,
         adds: adds.into(),
+        base_light_count: data.base_light_count,
+        pad_1: 0,
+        pad_2: 0,
+        pad_3: 0,
     }
 }
 

@@ -69,6 +69,10 @@ shared! {
         object_count: u32,
         group_count: u32,
         adds: u32,
+        base_light_count: u32,
+        pad_1: u32,
+        pad_2: u32,
+        pad_3: u32,
     }
     /// A corner of a triangle.
     Vertex {

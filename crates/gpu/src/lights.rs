@@ -53,9 +53,19 @@ pub(crate) struct Kinds([bool; Kind::ALL.len()]);
 impl Kinds {
     pub(crate) const ALL: Self = Self([true; Kind::ALL.len()]);
 
+    /// Those that shine on scratches.
     pub(crate) fn of(scene: &Scene) -> Self {
+        Self::of_lights(scene, scene.scratch_lights())
+    }
+
+    /// Those that shine on the base.
+    pub(crate) fn on_base(scene: &Scene) -> Self {
+        Self::of_lights(scene, scene.all_lights())
+    }
+
+    fn of_lights<'l>(scene: &Scene, lights: impl Iterator<Item = &'l Light>) -> Self {
         let mut kinds = Self::default();
-        for light in scene.all_lights() {
+        for light in lights {
             kinds.0[Kind::of(light) as usize] = true;
         }
         kinds.0[Kind::Environment as usize] = scene.environment.is_some();
@@ -73,36 +83,53 @@ impl Kinds {
         Kind::ALL.into_iter().filter(wanted)
     }
 
-    /// What shaders call them. Twin: contents.wgsl.
-    pub(crate) fn constants(self) -> [(&'static str, f64); 4] {
-        let flat = self.has(Kind::Quads) || self.has(Kind::Outlines);
-        let polygons = flat || self.has(Kind::Tubes);
+    /// What shaders call those that shine on scratches and those that shine on the base. Twin: contents.wgsl.
+    pub(crate) fn constants(self, on_base: Self) -> [(&'static str, f64); 6] {
         [
             ("HAS_SPHERES", self.has(Kind::Spheres).into()),
-            ("HAS_POLYGONS", polygons.into()),
+            ("HAS_POLYGONS", self.has_polygons().into()),
             ("HAS_TUBES", self.has(Kind::Tubes).into()),
             ("HAS_ENVIRONMENT", self.has(Kind::Environment).into()),
+            ("BASE_HAS_SPHERES", on_base.has(Kind::Spheres).into()),
+            ("BASE_HAS_POLYGONS", on_base.has_polygons().into()),
         ]
+    }
+
+    fn has_polygons(self) -> bool {
+        let kinds = [Kind::Quads, Kind::Outlines, Kind::Tubes];
+        kinds.into_iter().any(|kind| self.has(kind))
     }
 }
 
-/// All area lights, kind after kind.
+/// All area lights, kind after kind: first those that shine on everything, then those that shine on scratches alone.
 pub(crate) fn sorted(scene: &Scene) -> Vec<&Light> {
-    let mut lights: Vec<_> = scene.all_lights().collect();
-    lights.sort_by_key(|light| Kind::of(light));
+    let mut lights: Vec<_> = scene.scratch_lights().collect();
+    let (on_base, on_scratches) = lights.split_at_mut(scene.all_lights().count());
+    for lights in [on_base, on_scratches] {
+        lights.sort_by_key(|light| Kind::of(light));
+    }
     lights
 }
 
 /// Where the lights of each kind that the scene has lie among the sorted ones; the environment lies nowhere.
 pub(crate) fn ranges(scene: &Scene) -> Vec<(Kind, Range<u32>)> {
     let lights = sorted(scene);
-    let end = |kind| lights.partition_point(|light| Kind::of(light) <= kind) as u32;
-    let start = |kind| lights.partition_point(|light| Kind::of(light) < kind) as u32;
-    let range = |kind| match kind {
-        Kind::Environment => (kind, 0..0),
-        _ => (kind, start(kind)..end(kind)),
-    };
-    Kinds::of(scene).over_scratches().map(range).collect()
+    let on_base = scene.all_lights().count();
+    let mut ranges = Vec::new();
+    for kind in Kinds::of(scene).over_scratches() {
+        let own = [0..on_base, on_base..lights.len()].map(|of| {
+            let (first, lights) = (of.start, &lights[of]);
+            let start = lights.partition_point(|light| Kind::of(light) < kind);
+            let end = lights.partition_point(|light| Kind::of(light) <= kind);
+            (first + start) as u32..(first + end) as u32
+        });
+        let mut own: Vec<_> = own.into_iter().filter(|of| !of.is_empty()).collect();
+        if own.is_empty() {
+            own.push(0..0);
+        }
+        ranges.extend(own.into_iter().map(|of| (kind, of)));
+    }
+    ranges
 }
 
 /// Texels of a light without its vertices.
@@ -176,5 +203,5 @@ pub(crate) fn packed(scene: &Scene, origin_m: DVec3) -> Vec<[u32; 4]> {
 /// How many texels [`packed`] makes.
 pub(crate) fn texels(scene: &Scene) -> usize {
     let texels = |light| LIGHT_TEXELS + vertices_m(light).len();
-    scene.all_lights().map(texels).sum()
+    scene.scratch_lights().map(texels).sum()
 }

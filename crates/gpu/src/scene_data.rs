@@ -19,6 +19,8 @@ pub(crate) struct SceneData {
     pub buffers: SceneBuffers,
     pub textures: SceneTextures,
     pub light_count: u32,
+    /// Of the lights, those that do not shine on scratches alone: they come first.
+    pub base_light_count: u32,
     pub light_ranges: LightRanges,
     /// The first of the objects that are the shapes of lights.
     pub lamps: u32,
@@ -55,7 +57,8 @@ impl SceneData {
         Ok(Self {
             buffers,
             textures,
-            light_count: source.scene.all_lights().count() as u32,
+            light_count: source.scene.scratch_lights().count() as u32,
+            base_light_count: source.scene.all_lights().count() as u32,
             light_ranges,
             lamps: source
                 .scene

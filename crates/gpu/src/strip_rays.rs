@@ -34,7 +34,8 @@ impl StripShader {
         };
         shadow_room.make_room(gpu, points).await?;
         let lights = view.uploaded.data.light_count;
-        let sources = lights + u32::from(view.scene.environment.is_some());
+        let environment = view.scene.environment.iter().map(|_| lights);
+        let sources = (0..view.uploaded.data.base_light_count).chain(environment);
         let mut next = ShadowRound {
             source: 0,
             round: 0,
@@ -46,7 +47,7 @@ impl StripShader {
             ..ShadowRound::default()
         };
         // A round at a time, so that no submission takes long.
-        for source in 0..sources {
+        for source in sources {
             for round in 0..next.rounds {
                 next = ShadowRound {
                     source,

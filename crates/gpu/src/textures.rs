@@ -31,7 +31,7 @@ pub(crate) struct SceneTextures {
     curves: wgpu::TextureView,
     lobes: [wgpu::TextureView; 3],
     environment: Option<Environment>,
-    maps: [wgpu::TextureView; 2],
+    maps: [wgpu::TextureView; 3],
     textures: Arc<Vec<Texture>>,
     array: wgpu::TextureView,
     published: Published,
@@ -88,7 +88,7 @@ impl SceneTextures {
         let last_published = last.map(|last| &last.published);
         let published = Published::upload(transfer, source, last_published).await?;
         let [albedo, ltc, sptd] = &lobes;
-        let [background, levels] = &maps;
+        let [background, levels, beside_windows] = &maps;
         let resources = [
             &scratch_tables,
             albedo,
@@ -100,6 +100,7 @@ impl SceneTextures {
             &published.wavelengths,
             &published.triangle_lists,
             &curves,
+            beside_windows,
         ]
         .map(wgpu::BindingResource::TextureView);
         Ok(Self {
@@ -196,14 +197,15 @@ async fn lobe(
     Ok(texture.create_view(&Default::default()))
 }
 
-/// What the camera sees and what rough surfaces reflect; black where there is no environment.
+/// What the camera sees, what rough surfaces reflect, and what scratches do; black where there is no environment.
 async fn environment_maps(
     transfer: &mut Transfer<'_>,
     environment: Option<&Environment>,
-) -> Result<[wgpu::TextureView; 2], Error> {
+) -> Result<[wgpu::TextureView; 3], Error> {
     let black = [Picture::new([1, 1])];
     let background = environment.map_or(&black[0], |e| e.background());
     let levels = environment.map_or(black.as_slice(), |e| e.prefiltered_levels());
+    let beside_windows = environment.map_or(black.as_slice(), |e| e.levels_beside_windows());
     let format = TextureFormat::Rgba16Float;
     let what = "environment";
     let texture = transfer
@@ -212,12 +214,43 @@ async fn environment_maps(
     write_radiance(transfer, what, &texture, Place::default(), background);
     let background = texture.create_view(&Default::default());
 
-    // Levels of the same size one above the other. Twin: environment_level_place() in environment.wgsl.
-    let what = "prefiltered environment";
+    let texture = environment_levels(transfer, "prefiltered environment", levels).await?;
+    // Below the first level, which has no other beside it. Twin: environment_mean_by_cosine() in environment.wgsl.
+    if let Some(environment) = environment {
+        let place = Place {
+            row: levels[0].size_px[1],
+            ..Place::default()
+        };
+        let map = environment.irradiance_map();
+        write_radiance(transfer, "irradiance", &texture, place, map);
+    }
+    let view = texture.create_view(&Default::default());
+    let beside_windows = if std::ptr::eq(levels, beside_windows) {
+        view.clone()
+    } else {
+        let what = "environment beside windows";
+        let texture = environment_levels(transfer, what, beside_windows).await?;
+        texture.create_view(&Default::default())
+    };
+    Ok([background, view, beside_windows])
+}
+
+/// Levels of the same size one above the other. Twin: environment_level_place() in environment.wgsl.
+async fn environment_levels(
+    transfer: &mut Transfer<'_>,
+    what: &'static str,
+    levels: &[Picture],
+) -> Result<wgpu::Texture, Error> {
     let [width, height] = levels[0].size_px;
     let mips = LEVEL_HALVINGS[levels.len() - 1] as u32 + 1;
     let texture = transfer
-        .texture(what, [width, 2 * height], 1, mips, format)
+        .texture(
+            what,
+            [width, 2 * height],
+            1,
+            mips,
+            TextureFormat::Rgba16Float,
+        )
         .await?;
     for (i, map) in levels.iter().enumerate() {
         let level = LEVEL_HALVINGS[i];
@@ -229,21 +262,7 @@ async fn environment_maps(
         };
         write_radiance(transfer, what, &texture, place, map);
     }
-    // Below the first level, which has no other beside it. Twin: environment_mean_by_cosine() in environment.wgsl.
-    if let Some(environment) = environment {
-        let place = Place {
-            row: height,
-            ..Place::default()
-        };
-        write_radiance(
-            transfer,
-            what,
-            &texture,
-            place,
-            environment.irradiance_map(),
-        );
-    }
-    Ok([background, texture.create_view(&Default::default())])
+    Ok(texture)
 }
 
 /// The texels are half floats already.

@@ -19,7 +19,9 @@ pub(crate) struct ShadeVariant {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub(crate) struct Contents {
     pub scratches: bool,
+    /// That shine on scratches, and on the base.
     pub lights: Kinds,
+    pub base_lights: Kinds,
     pub textures: bool,
     /// Materials that are not metal through and through.
     pub bodies: bool,
@@ -30,6 +32,7 @@ impl Contents {
         Self {
             scratches: scene.objects.iter().any(|o| !o.segments.is_empty()),
             lights: Kinds::of(scene),
+            base_lights: Kinds::on_base(scene),
             textures: !scene.textures.is_empty(),
             bodies: (scene.materials.iter().zip(&tables.materials)).any(|(material, optics)| {
                 optics.metallic < 1.0 || material.metallic_roughness_texture.is_some()
@@ -62,6 +65,7 @@ pub fn pipeline_variants(text: &str) -> Vec<(String, Vec<(&'static str, f64)>)> 
     let everything = Contents {
         scratches: true,
         lights: Kinds::ALL,
+        base_lights: Kinds::ALL,
         textures: true,
         bodies: true,
     };
@@ -139,7 +143,7 @@ impl ShadeVariant {
                 (published.si == SineIntegral::Fast).into(),
             ),
         ];
-        constants.extend(has.lights.constants());
+        constants.extend(has.lights.constants(has.base_lights));
         constants.retain(|(name, _)| text.contains(&format!("override {name}:")));
         constants
     }

@@ -2,7 +2,7 @@
 //!
 //! Shading follows the split sum: a reflection off a rough surface is the map blurred by the surface's lobe, put together from round ones
 //! ([`Environment::prefiltered`], `hairline_optics::environment_lobe`), times the lobe's directional albedo; diffuse light is the map blurred by the cosine
-//! ([`Environment::irradiance`]). Suns ([`Environment::load`]) are lights of their own.
+//! ([`Environment::irradiance`]). Suns ([`Environment::load`]) are lights of their own; for scratches windows are, too.
 //!
 //! The map's top is at +Y, as in glTF, and its centre column at -Z, where a glTF camera looks by default; +X is to the
 //! right of it. [`Environment::with_up`] turns all of that to another axis.
@@ -15,7 +15,8 @@ use hairline_image::Picture;
 
 use crate::light::Light;
 use half_texels::{fit_half, round_to_half};
-use suns::{Parted, Sun};
+use suns::Sun;
+use windows::Window;
 
 mod built_in;
 mod file;
@@ -25,6 +26,7 @@ pub mod lookup;
 mod prefilter;
 mod resample;
 mod suns;
+mod windows;
 
 pub use built_in::BuiltInMap;
 pub(crate) use built_in::SIZE_PX as BUILT_IN_SIZE_PX;
@@ -50,6 +52,8 @@ pub struct Environment {
     visible: bool,
     /// The suns as they shine on the scene.
     suns: Vec<Light>,
+    /// The windows as they shine on scratches.
+    windows: Vec<Light>,
 }
 
 #[derive(Debug)]
@@ -58,6 +62,9 @@ struct Maps {
     suns: Vec<Sun>,
     background: Picture,
     levels: Vec<Picture>,
+    /// As suns, and the levels without them; none where there is no window.
+    windows: Vec<Window>,
+    levels_beside_windows: Option<Vec<Picture>>,
     irradiance: Picture,
     texel_scale: f64,
     repaired_texels: usize,
@@ -70,7 +77,7 @@ impl Environment {
     /// radiance; `visible` says whether the camera sees it.
     ///
     /// What is small and bright in it, the disc of the sun above all, becomes a light: [`Environment::suns`]. The camera sees it
-    /// where it was.
+    /// where it was. What is larger and has a sharp outline becomes a light for scratches alone: [`Environment::windows`].
     ///
     /// Negative and NaN components count as 0, infinite ones as the largest finite value;
     /// [`Environment::repaired_texels`] counts them. Maps wider than 8192 pixels are halved until they are not.
@@ -84,7 +91,7 @@ impl Environment {
         visible: bool,
     ) -> Result<Self, Error> {
         let map = file::read(path)?;
-        Ok(Self::with_suns_parted(
+        Ok(Self::with_lamps_parted(
             map,
             rotation_rad,
             intensity,
@@ -98,21 +105,21 @@ impl Environment {
     /// # Panics
     /// If the map is empty.
     pub fn from_map(map: Picture, rotation_rad: f64, intensity: f64, visible: bool) -> Self {
-        let maps = Maps::new(map, |_| Parted::default());
+        let maps = Maps::new(map, false);
         Self::of_maps(maps, rotation_rad, intensity, visible)
     }
 
-    /// The same, its suns parted from it as [`Environment::load`] does.
+    /// The same, its suns and windows parted from it as [`Environment::load`] does.
     ///
     /// # Panics
     /// If the map is empty.
-    pub fn with_suns_parted(
+    pub fn with_lamps_parted(
         map: Picture,
         rotation_rad: f64,
         intensity: f64,
         visible: bool,
     ) -> Self {
-        let maps = Maps::new(map, suns::part);
+        let maps = Maps::new(map, true);
         Self::of_maps(maps, rotation_rad, intensity, visible)
     }
 
@@ -123,21 +130,28 @@ impl Environment {
             map_from_world: map_from_world(DVec3::Y, rotation_rad),
             visible,
             suns: Vec::new(),
+            windows: Vec::new(),
         }
-        .with_suns()
+        .with_lamps()
     }
 
-    /// Brings the suns up to date with the map's turn and intensity.
-    fn with_suns(mut self) -> Self {
+    /// Brings suns and windows up to date with the map's turn and intensity.
+    fn with_lamps(mut self) -> Self {
         let per_texel = self.texel_radiance();
-        let light = |sun: &Sun| {
+        let world_from_map = self.map_from_world.transpose();
+        let sun = |sun: &Sun| {
             Light::sphere(
-                self.map_from_world.transpose() * sun.direction * SUN_DISTANCE_M,
+                world_from_map * sun.direction * SUN_DISTANCE_M,
                 SUN_DISTANCE_M * sun.radius_rad.sin(),
                 sun.radiance.map(|c| c * per_texel),
             )
         };
-        self.suns = self.maps.suns.iter().map(light).collect();
+        let window = |window: &Window| {
+            let outline = window.outline.turned(|d| world_from_map * d);
+            outline.light(SUN_DISTANCE_M, window.radiance.map(|c| c * per_texel))
+        };
+        self.suns = self.maps.suns.iter().map(sun).collect();
+        self.windows = self.maps.windows.iter().map(window).collect();
         self
     }
 
@@ -155,14 +169,14 @@ impl Environment {
     #[must_use]
     pub fn with_up(mut self, up: DVec3, rotation_rad: f64) -> Self {
         self.map_from_world = map_from_world(up, rotation_rad);
-        self.with_suns()
+        self.with_lamps()
     }
 
     /// Sets the factor on the map's radiance.
     #[must_use]
     pub fn with_intensity(mut self, intensity: f64) -> Self {
         self.intensity = intensity;
-        self.with_suns()
+        self.with_lamps()
     }
 
     /// Sets whether the camera sees it.
@@ -200,6 +214,24 @@ impl Environment {
         let dirs = dirs.map(|dir| self.map_from_world * dir);
         let radiance = environment_prefiltered_all(&self.maps.levels, dirs, roughness);
         radiance.map(|radiance| radiance * self.texel_radiance())
+    }
+
+    /// [`Environment::prefiltered_all`] of what is left of the map without its [windows](Environment::windows).
+    #[inline(always)]
+    pub fn beside_windows_all<const N: usize>(
+        &self,
+        dirs: [DVec3; N],
+        roughness: [f64; N],
+    ) -> [DVec3; N] {
+        let dirs = dirs.map(|dir| self.map_from_world * dir);
+        let radiance = environment_prefiltered_all(self.levels_beside_windows(), dirs, roughness);
+        radiance.map(|radiance| radiance * self.texel_radiance())
+    }
+
+    /// [`Environment::prefiltered`] of what is left of the map without its [windows](Environment::windows).
+    pub fn beside_windows(&self, dir: DVec3, roughness: f64) -> DVec3 {
+        let (levels, dir) = (self.levels_beside_windows(), self.map_from_world * dir);
+        environment_prefiltered_lod(levels, dir, environment_lod(roughness)) * self.texel_radiance()
     }
 
     /// [`Environment::prefiltered`] by level: `lod` 0 is the sharp map, each further level belongs to
@@ -254,6 +286,18 @@ impl Environment {
         &self.suns
     }
 
+    /// Windows and soft boxes: what is bright and has a sharp outline, larger than a sun, as lights as far away as suns. Scratches have
+    /// them beside the rest of the map ([`Environment::beside_windows`]); for all others they are in the map.
+    pub fn windows(&self) -> &[Light] {
+        &self.windows
+    }
+
+    /// [`Environment::prefiltered_levels`] of the map without its windows.
+    pub fn levels_beside_windows(&self) -> &[Picture] {
+        let beside = self.maps.levels_beside_windows.as_ref();
+        beside.unwrap_or(&self.maps.levels)
+    }
+
     /// How many texels of the file held a negative, infinite or NaN component.
     pub fn repaired_texels(&self) -> usize {
         self.maps.repaired_texels
@@ -261,20 +305,28 @@ impl Environment {
 }
 
 impl Maps {
-    /// Of a map whose suns `part` takes out.
-    fn new(mut map: Picture, part: impl Fn(&mut Picture) -> Parted) -> Self {
+    /// Of a map whose suns and windows may be taken out.
+    fn new(mut map: Picture, parts: bool) -> Self {
         assert!(!map.rgb.is_empty(), "an empty environment map");
         let repaired_texels = repair(&mut map);
         while map.size_px[0] > MAP_WIDTH_MAX {
             map = resample::resample(&map, map.size_px.map(|n| n / 2));
         }
         let texel_scale = fit_half(&mut map);
-        let parted = part(&mut map);
+        let parted = if parts {
+            suns::part(&mut map)
+        } else {
+            suns::Parted::default()
+        };
+        let windows = parts.then(|| windows::part(&map)).flatten();
         let levels = prefilter::prefilter(&map);
         let irradiance = irradiance::blur(&levels[0]);
         parted.put_back(&mut map);
         round_to_half(&mut map);
+        let (windows, beside) = windows.unzip();
         Self {
+            windows: windows.unwrap_or_default(),
+            levels_beside_windows: beside.map(|rest| prefilter::prefilter(&rest)),
             suns: parted.suns,
             background: map,
             levels,

@@ -71,6 +71,12 @@ impl Scene {
         let suns = self.environment.iter().flat_map(Environment::suns);
         self.lights.iter().chain(suns)
     }
+
+    /// Those, then the environment's [windows](Environment::windows): what shines on scratches beside the rest of the environment.
+    pub fn scratch_lights(&self) -> impl Iterator<Item = &Light> + Clone {
+        let windows = self.environment.iter().flat_map(Environment::windows);
+        self.all_lights().chain(windows)
+    }
 }
 
 /// A pinhole camera.

@@ -2,6 +2,7 @@
 
 use super::pictures::{LINEAR, closed, compared, sampled};
 use super::scenes::{self, View, plate, scratch};
+use conformance::two_renderers::{compare, on_the_cpu, on_the_gpu};
 use glam::{DVec2, DVec3};
 use hairline_fixtures::SceneFile;
 use hairline_image::{Layer, Picture};
@@ -84,7 +85,7 @@ fn a_sun_in_the_sky() {
             }
         }
         let whole = over(Environment::from_map(map.clone(), 0.0, 1.0, false));
-        let parted = over(Environment::with_suns_parted(map, 0.0, 1.0, false));
+        let parted = over(Environment::with_lamps_parted(map, 0.0, 1.0, false));
         assert_eq!(parted.suns().len(), 1);
         scene.environment = Some(whole);
         let (stained, reference) = (closed(&scene), sampled(&scene, LINEAR, 16));
@@ -138,4 +139,51 @@ fn a_lamp_is_drawn_out() {
         let base = compared(&name, &exact, &reference, Layer::Base);
         assert!(base.rms().0 < bound, "{base:?}");
     }
+}
+
+/// A window in that sky, 0.5 x 0.3 rad beside the mirror's direction: the whole map by chance against the window as a light of the scratches and
+/// the rest as cells.
+#[test]
+fn a_window_in_the_sky() {
+    const SIZE_PX: [u32; 2] = [1024, 512];
+    let angle_rad = 0.6;
+    let view = View {
+        angle_rad,
+        pixel_um: 20.0,
+        size_px: 16,
+    };
+    let mut scene = plate(Base::Metal(Metal::Aluminium), view);
+    scene.materials[0].roughness = 0.3;
+    scratch(&mut scene, view, 20);
+    let map_from_world = over(Environment::uniform([1.0; 3])).map_from_world();
+    let middle = map_from_world * scenes::off_the_mirror(angle_rad, 0.12, 0.1);
+    let right = DVec3::Y.cross(middle).normalize();
+    let up = middle.cross(right);
+    let mut map = sky(SIZE_PX);
+    for (i, texel) in map.rgb.iter_mut().enumerate() {
+        let toward = direction(SIZE_PX, i as u32);
+        let at = DVec2::new(toward.dot(right), toward.dot(up)) / toward.dot(middle);
+        if toward.dot(middle) > 0.0 && at.x.abs() < 0.25 && at.y.abs() < 0.15 {
+            *texel = [40.0, 38.0, 32.0];
+        }
+    }
+    let whole = over(Environment::from_map(map.clone(), 0.0, 1.0, false));
+    let parted = over(Environment::with_lamps_parted(map, 0.0, 1.0, false));
+    assert_eq!((parted.suns().len(), parted.windows().len()), (0, 1));
+    scene.environment = Some(whole);
+    let (blurred, reference) = (closed(&scene), sampled(&scene, LINEAR, 8));
+    scene.environment = Some(parted);
+    let exact = closed(&scene);
+    if let Some(gpu) = on_the_gpu(&scene, 1) {
+        compare("window", &scene, &gpu, &on_the_cpu(&scene, 1)).unwrap();
+    }
+    let scratches = compared("window", &exact, &reference, Layer::Scratches);
+    let [at_least, _] = scratches.beyond.relative_rms_within(2.0);
+    assert!(at_least < 0.015, "{scratches:?}");
+    assert!((scratches.mean_ratio - 1.0).abs() < 0.01 + 3.0 * scratches.mean_ratio_error);
+    // The base knows nothing of it.
+    assert!(exact.base == blurred.base);
+    // Left to the cells its edges blur.
+    let cells = compared("window, in the map", &blurred, &reference, Layer::Scratches);
+    assert!(cells.rms().0 > 1.2 * scratches.rms().0, "{cells:?}");
 }

@@ -60,6 +60,20 @@ struct Environment {
     size_px: [u32; 2],
     /// Lamps that were found in it, which light as lights do.
     lamps: Vec<Sun>,
+    /// Windows and soft boxes, which light scratches as lights do.
+    windows: Vec<Window>,
+}
+
+#[derive(Serialize)]
+struct Window {
+    /// Of its middle: unit, in the world.
+    direction: [f64; 3],
+    /// Above the horizon.
+    elevation_deg: f64,
+    /// From side to side, as they are seen.
+    size_deg: [f64; 2],
+    /// Beyond what is around it.
+    radiance: [f64; 3],
 }
 
 #[derive(Serialize)]
@@ -142,6 +156,11 @@ fn contents(loaded: &Loaded) -> Contents {
             .iter()
             .filter_map(|sun| self::sun(sun, up))
             .collect(),
+        windows: environment
+            .windows()
+            .iter()
+            .map(|light| window(light, up))
+            .collect(),
     });
     let segments: usize = scene
         .objects
@@ -176,15 +195,43 @@ fn sun(sun: &Light, up: DVec3) -> Option<Sun> {
         return None;
     };
     let direction = center_m.normalize();
-    // The environment's top is the axis nearest to the camera's up.
-    let axis = DVec3::AXES[up.abs().max_position()];
-    let top = axis * axis.dot(up).signum();
     Some(Sun {
         direction: direction.into(),
-        elevation_deg: direction.dot(top).asin().to_degrees(),
+        elevation_deg: elevation_deg(direction, up),
         radius_deg: (radius_m / center_m.length()).asin().to_degrees(),
         radiance: sun.radiance,
     })
+}
+
+/// A window of an environment: a disc or four corners, as far away.
+fn window(light: &Light, up: DVec3) -> Window {
+    let (center_m, radius_m) = light.bounding_sphere();
+    let (direction, size_rad) = match &light.shape {
+        LightShape::Polygon { vertices_m, .. } => {
+            let n = vertices_m.len();
+            let side = |i: usize| vertices_m[i % n].angle_between(vertices_m[(i + 1) % n]);
+            let size_rad = [0, 1].map(|i| 0.5 * (side(i) + side(i + 2)));
+            let middle: DVec3 = vertices_m.iter().map(|v| v.normalize()).sum();
+            (middle.normalize(), size_rad)
+        }
+        _ => {
+            let across_rad = 2.0 * (radius_m / center_m.length()).asin();
+            (center_m.normalize(), [across_rad; 2])
+        }
+    };
+    Window {
+        direction: direction.into(),
+        elevation_deg: elevation_deg(direction, up),
+        size_deg: size_rad.map(f64::to_degrees),
+        radiance: light.radiance,
+    }
+}
+
+/// The environment's top is the axis nearest to the camera's up.
+fn elevation_deg(direction: DVec3, up: DVec3) -> f64 {
+    let axis = DVec3::AXES[up.abs().max_position()];
+    let top = axis * axis.dot(up).signum();
+    direction.dot(top).asin().to_degrees()
 }
 
 fn write(contents: &Contents, out: &mut String) -> fmt::Result {
@@ -255,6 +302,18 @@ fn write(contents: &Contents, out: &mut String) -> fmt::Result {
                     sun.elevation_deg,
                     sun.radius_deg,
                     sun.radiance.map(|it| format!("{it:.1}")).join(", ")
+                )?;
+            }
+            let windows = environment.windows.len();
+            writeln!(out, "  windows and soft boxes found in it: {windows}")?;
+            for window in &environment.windows {
+                writeln!(
+                    out,
+                    "  towards {}, {:.1} degrees above the horizon, {} degrees, radiance {}",
+                    window.direction.map(|it| format!("{it:.3}")).join(", "),
+                    window.elevation_deg,
+                    window.size_deg.map(|it| format!("{it:.1}")).join(" x "),
+                    window.radiance.map(|it| format!("{it:.1}")).join(", ")
                 )?;
             }
         }

@@ -63,7 +63,7 @@ impl Published<'_> {
                 },
                 |direction, roughness| {
                     let direction = view.frame.surface_from_band(direction);
-                    environment.prefiltered(point.world_from_surface(direction), roughness)
+                    environment.beside_windows(point.world_from_surface(direction), roughness)
                 },
             );
         }

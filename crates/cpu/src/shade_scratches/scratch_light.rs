@@ -285,7 +285,7 @@ impl<'a> ScratchLight<'a> {
         let mut offers = Offers::new(pick_u);
         for cell in environment_cells(line, self.width_um()) {
             let towards = point.world_from_surface(self.frame.surface_from_band(cell.direction));
-            let blurred = environment.prefiltered(towards, cell.environment_cell_roughness());
+            let blurred = environment.beside_windows(towards, cell.environment_cell_roughness());
             let row = self.row(cell.direction.z);
             let spectrum = |q: f64| (blurred * DVec3::from(row.at(self.width_um() * q))).into();
             let ends = [(-1.0, cell.q_low), (1.0, cell.q_high)];
@@ -329,7 +329,7 @@ impl<'a> ScratchLight<'a> {
         self.spectrum(line, roots.range)
     }
 
-    /// By the environment, along the band's middle line, cell by cell.
+    /// By the environment but for its windows, along the band's middle line, cell by cell.
     #[inline(always)]
     pub fn environment(&self, point: &SurfacePoint, environment: &Environment) -> DVec3 {
         let cells = environment_cells(BandLine::new(self.wo, 0.0), self.width_um());
@@ -338,7 +338,7 @@ impl<'a> ScratchLight<'a> {
             point.world_from_surface(direction)
         });
         let roughness = cells.map(|cell| cell.environment_cell_roughness());
-        let blurred = environment.prefiltered_all(towards, roughness);
+        let blurred = environment.beside_windows_all(towards, roughness);
         let mut sum = DVec3::ZERO;
         for (cell, blurred) in cells.iter().zip(blurred) {
             let row = self.row(cell.direction.z);

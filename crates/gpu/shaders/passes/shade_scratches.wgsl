@@ -147,7 +147,7 @@ fn light_pair(pair: Pair, light_index: u32) -> vec3f {
     let seen = pair.seen;
     if SCRATCH_LIGHTS == SCRATCH_LIGHTS_ENVIRONMENT {
         let map_from_surface = frame.environment_from_world * pair.surface;
-        let radiance = scratch_environment(scratch_tables, point, seen, environment_levels, map_from_surface);
+        let radiance = scratch_environment(scratch_tables, point, seen, levels_beside_windows, map_from_surface);
         return frame.environment_texel_radiance * radiance;
     }
     let light = light_at(light_index);

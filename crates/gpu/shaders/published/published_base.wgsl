@@ -28,14 +28,14 @@ fn published_base(point: SurfacePoint) -> BaseRadiance {
         let alphas = part.lobe.alphas;
         let pivot = sptd_lobe(point.wo, min(sqrt(sqrt(alphas.x * alphas.y)), 1.0), lobe_sptd, lobe_albedo);
         var light = base_surroundings(point, part.lobe, surface.reflecting);
-        for (var l = 0u; l < frame.light_count; l += 1u) {
+        for (var l = 0u; l < frame.base_light_count; l += 1u) {
             let source = light_at(l);
             let radiance = light_radiance(source, point.position_m);
             var share: vec4f;
-            if HAS_SPHERES && source.kind == LIGHT_SPHERE {
+            if BASE_HAS_SPHERES && source.kind == LIGHT_SPHERE {
                 share = published_base_sphere(point, part.lobe, surface.reflecting, pivot, source);
             }
-            if HAS_POLYGONS && source.kind != LIGHT_SPHERE {
+            if BASE_HAS_POLYGONS && source.kind != LIGHT_SPHERE {
                 let seen = base_polygon(point, part.lobe, source);
                 share = vec4f(ltc_reflected(part.lobe, surface.reflecting, fresnel_curves, seen.vector), seen.form_factor);
             }

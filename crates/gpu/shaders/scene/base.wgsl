@@ -111,7 +111,7 @@ fn base_of(point: SurfacePoint, surface: BaseSurface, light: BaseRadiance) -> Ba
 
 // Radiance of the base towards the viewer, before scratches take theirs.
 fn base_radiance(point: SurfacePoint) -> BaseRadiance {
-    return base_radiance_of(point, vec2u(0u, frame.light_count), true);
+    return base_radiance_of(point, vec2u(0u, frame.base_light_count), true);
 }
 
 // The same by some of the lights, from the first to the one before the end, and from all around or not.
@@ -131,10 +131,10 @@ fn base_radiance_of(point: SurfacePoint, of_lights: vec2u, surrounded: bool) -> 
             let source = light_at(l);
             let radiance = light_radiance(source, point.position_m);
             var seen: LightOnBase;
-            if HAS_SPHERES && source.kind == LIGHT_SPHERE {
+            if BASE_HAS_SPHERES && source.kind == LIGHT_SPHERE {
                 seen = base_sphere(point, part.lobe, source);
             }
-            if HAS_POLYGONS && source.kind != LIGHT_SPHERE {
+            if BASE_HAS_POLYGONS && source.kind != LIGHT_SPHERE {
                 seen = base_polygon(point, part.lobe, source);
             }
             light.specular += radiance * ltc_reflected(part.lobe, surface.reflecting, fresnel_curves, seen.vector);

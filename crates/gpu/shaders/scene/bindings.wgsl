@@ -24,3 +24,5 @@
 @group(2) @binding(8) var triangle_lists: texture_2d<u32>;
 // Curves of reflectance over the angle; fresnel.wgsl says how they lie.
 @group(2) @binding(9) var fresnel_curves: texture_2d<f32>;
+// environment_levels without what shines on scratches as lights do; the same where there is no such light.
+@group(2) @binding(10) var levels_beside_windows: texture_2d<f32>;

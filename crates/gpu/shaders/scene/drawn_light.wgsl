@@ -256,7 +256,7 @@ fn draw_cells(point: LitPoint, seen: SeenScratch, map_from_surface: mat3x3f, is_
             let direction = map_from_surface * surface_from_band(seen.tangent, cell.direction);
             var blurred = vec3f(1.0);
             if is_map {
-                blurred = environment_prefiltered(environment_levels, direction, environment_cell_roughness(cell));
+                blurred = environment_prefiltered(levels_beside_windows, direction, environment_cell_roughness(cell));
             }
             if drawn_offer(&offer, blurred * scratch_chord(scratch_tables, point, seen, cell.q_high, cell.q_low, cell.direction.z)) {
                 taken = i;

@@ -28,6 +28,7 @@ struct Frame {
     object_count: u32,
     group_count: u32,           // of 64 samples that are shaded together; known once edges are counted
     adds: u32,                  // 1: the film has pictures already, which this one is averaged with
+    base_light_count: u32,      // of the lights, those that do not shine on scratches alone: they come first
 }
 
 const ENVIRONMENT_PRESENT: u32 = 1u;
@@ -71,7 +72,8 @@ struct Material {
     emission_texture: vec2u,
 }
 
-// Spheres come first, then polygons of at most four vertices, then others, then tubes.
+// Spheres come first, then polygons of at most four vertices, then others, then tubes; behind them, in the same order, lights for
+// scratches alone.
 struct Light {
     radiance: vec3f,
     kind: u32,                  // LIGHT_SPHERE, LIGHT_POLYGON or LIGHT_TUBE

@@ -15,6 +15,12 @@ fn scene_prefiltered(direction: vec3f, roughness: f32) -> vec3f {
     return texel * frame.environment_texel_radiance;
 }
 
+// The same without its windows: for scratches.
+fn scene_beside_windows(direction: vec3f, roughness: f32) -> vec3f {
+    let texel = environment_prefiltered(levels_beside_windows, frame.environment_from_world * direction, roughness);
+    return texel * frame.environment_texel_radiance;
+}
+
 // The environment's irradiance on a surface of unit normal, world space.
 fn scene_irradiance(normal: vec3f) -> vec3f {
     let texel = 3.14159265 * environment_mean_by_cosine(environment_levels, frame.environment_from_world * normal);

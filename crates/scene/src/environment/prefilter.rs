@@ -30,7 +30,7 @@ const LEVELS: usize = 12;
 pub const LEVEL_HALVINGS: [usize; LEVELS] = [0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6];
 
 /// Width and height of level 0; powers of two.
-const LEVEL_0_SIZE_PX: [u32; 2] = [2048, 1024];
+pub(super) const LEVEL_0_SIZE_PX: [u32; 2] = [2048, 1024];
 
 /// The finest map that a level is made from, and up to how many of its texels away that and each coarser map is looked at, by a level's
 /// halvings: smooth levels have many texels, and tails that are dim. Texels of the finest map are a quarter of the level's, where there are any.

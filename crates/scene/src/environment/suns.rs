@@ -97,7 +97,7 @@ pub(super) fn part(map: &mut Picture) -> Parted {
 }
 
 /// What counts as a texel's brightness.
-fn value(texel: [f32; 3]) -> f64 {
+pub(super) fn value(texel: [f32; 3]) -> f64 {
     texel.iter().map(|c| f64::from(*c)).sum()
 }
 
@@ -237,11 +237,11 @@ impl Spot {
     }
 }
 
-fn radiance(map: &Picture, i: usize) -> DVec3 {
+pub(super) fn radiance(map: &Picture, i: usize) -> DVec3 {
     DVec3::from(map.rgb[i].map(f64::from))
 }
 
-fn direction(map: &Picture, i: usize) -> DVec3 {
+pub(super) fn direction(map: &Picture, i: usize) -> DVec3 {
     let [width, height] = map.size_px;
     let at = DVec2::new(
         f64::from(i as u32 % width) + 0.5,
@@ -251,7 +251,7 @@ fn direction(map: &Picture, i: usize) -> DVec3 {
 }
 
 /// The texels beside, above and below one, and at its corners. In the rows at the poles all lie beside one another.
-fn neighbours(map: &Picture, i: usize) -> impl Iterator<Item = usize> {
+pub(super) fn neighbours(map: &Picture, i: usize) -> impl Iterator<Item = usize> {
     let [width, height] = map.size_px.map(|n| n as usize);
     let (x, y) = (i % width, i / width);
     let is_pole = y == 0 || y + 1 == height;

@@ -1,0 +1,239 @@
+//! Windows: what is bright in a map and has a sharp outline, from lamps larger than a sun to soft boxes and windows.
+//!
+//! A scratch looks a map up in ten cells of its band, each blurred by a lobe (docs/model.md, section 8): that smears an outline which the
+//! scratch itself shows sharply. So for scratches windows are lights of their own, and the cells hold the rest of the map. The base knows
+//! nothing of them: its lobes are wider, and a mirror shows what is behind a window's panes.
+
+use std::collections::HashSet;
+
+use glam::DVec3;
+use hairline_image::Picture;
+use rayon::prelude::*;
+
+use super::prefilter::LEVEL_0_SIZE_PX;
+use super::resample::{resample, row_solid_angle};
+use super::suns::{direction, neighbours, radiance, value};
+use patch::{Patch, best_fit};
+
+mod outline;
+mod patch;
+
+pub(crate) use outline::Window;
+
+/// Windows of a map, at most: each costs what a light costs, and a device lights scratches from seven lights at once.
+const WINDOWS_MOST: usize = 7;
+/// The map that is searched is no wider: texels of 0.7 degrees.
+const SEARCH_WIDTH_PX: u32 = 512;
+/// Values beyond which texels are a region, over the map's mean.
+const THRESHOLDS: [f64; 8] = [2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0, 256.0];
+/// The largest region.
+const SOLID_ANGLE_MOST_SR: f64 = 0.6;
+/// The least share of the whole map's light that a window holds.
+const SHARE: f64 = 0.005;
+/// How much of a region an outline tells, at least, in squares: what is left of a window behind bars would have as many edges.
+const EVEN: f64 = 0.85;
+/// Of the map's mean, the least radiance.
+const BRIGHT: f64 = 2.0;
+
+/// The windows of a map, and what is left of it: the light of both together is the map's. None where there is no window.
+pub(super) fn part(map: &Picture) -> Option<(Vec<Window>, Picture)> {
+    let windows = Search::new(map).windows();
+    if windows.is_empty() {
+        return None;
+    }
+    // As fine as look-ups are: between the texels of a coarse map its edges are soft, and those of the windows are not.
+    let mut rest = resample(map, LEVEL_0_SIZE_PX);
+    let windows = windows
+        .into_iter()
+        .map(|window| taken_out(window, &mut rest))
+        .collect();
+    Some((windows, rest))
+}
+
+/// A map that is no wider than what is searched.
+fn narrowed(map: &Picture) -> Picture {
+    let mut narrow = map.clone();
+    while narrow.size_px[0] > SEARCH_WIDTH_PX {
+        narrow = resample(&narrow, narrow.size_px.map(|n| n.div_ceil(2)));
+    }
+    narrow
+}
+
+/// Takes a window out of a map: where it is darker than its outline's even radiance, less than nothing is left. Returns it as bright as what was
+/// taken.
+fn taken_out(window: Window, rest: &mut Picture) -> Window {
+    let [width, height] = rest.size_px;
+    let covers = window
+        .outline
+        .measure(std::f64::consts::PI / f64::from(height));
+    let radiance_of_it = DVec3::from(window.radiance);
+    let covered: Vec<f64> = (0..rest.rgb.len())
+        .into_par_iter()
+        .map(|i| covers(direction(rest, i)))
+        .collect();
+    let mut covered_sr = 0.0;
+    for (i, covered) in covered.into_iter().enumerate() {
+        if covered > 0.0 {
+            covered_sr += covered * row_solid_angle(i as u32 / width, height) / f64::from(width);
+            let left = radiance(rest, i) - radiance_of_it * covered;
+            rest.rgb[i] = left.as_vec3().to_array();
+        }
+    }
+    Window {
+        // Texels are in part outside.
+        radiance: (radiance_of_it * (covered_sr / window.outline.solid_angle_sr())).to_array(),
+        outline: window.outline,
+    }
+}
+
+/// A map that windows are looked for in.
+struct Search {
+    map: Picture,
+    directions: Vec<DVec3>,
+    solid_angles: Vec<f64>,
+    /// Of the whole map.
+    light: f64,
+    mean: f64,
+}
+
+/// A window that might be taken.
+struct Candidate {
+    window: Window,
+    patch: Patch,
+}
+
+impl Candidate {
+    /// Of the error that scratches make without it: the square of what it is bright by, over its solid angle; and bands meet wide ones more
+    /// often.
+    fn gain(&self) -> f64 {
+        let radiance: f64 = self.window.radiance.iter().sum();
+        radiance.powi(2) * self.window.outline.solid_angle_sr().powf(1.5)
+    }
+}
+
+impl Search {
+    fn new(map: &Picture) -> Self {
+        let map = narrowed(map);
+        let [width, height] = map.size_px;
+        let texels = 0..map.rgb.len();
+        let directions = texels.clone().map(|i| direction(&map, i)).collect();
+        let solid_angles: Vec<f64> = texels
+            .map(|i| row_solid_angle(i as u32 / width, height) / f64::from(width))
+            .collect();
+        let lights = map.rgb.iter().zip(&solid_angles);
+        let light: f64 = lights.map(|(texel, sr)| value(*texel) * sr).sum();
+        Self {
+            mean: light / (4.0 * std::f64::consts::PI),
+            map,
+            directions,
+            solid_angles,
+            light,
+        }
+    }
+
+    /// The windows that tell the most, one after the other, each of what those before have left.
+    fn windows(self) -> Vec<Window> {
+        let regions = self.regions();
+        let fits = regions.par_iter().filter_map(|region| {
+            let patch = self.patch(region);
+            let outline = best_fit(&patch)?;
+            let radiance = patch.step(&outline).to_array();
+            let is_even = patch.evenness(&outline) > EVEN;
+            is_even.then_some(Candidate {
+                window: Window { outline, radiance },
+                patch,
+            })
+        });
+        let mut candidates: Vec<Candidate> = fits.collect();
+        candidates.sort_by(|a, b| b.gain().total_cmp(&a.gain()));
+        let mut windows: Vec<Window> = Vec::new();
+        for mut candidate in candidates {
+            let before = candidate.gain();
+            for taken in &windows {
+                candidate.patch.take_out(taken);
+            }
+            let step = candidate.patch.step(&candidate.window.outline);
+            candidate.window.radiance = step.to_array();
+            let sum = step.element_sum();
+            let is_window = sum * candidate.window.outline.solid_angle_sr() > SHARE * self.light
+                && sum > BRIGHT * self.mean
+                && sum > candidate.patch.surroundings.element_sum()
+                && candidate.gain() > 0.5 * before;
+            if is_window {
+                windows.push(candidate.window);
+            }
+            if windows.len() == WINDOWS_MOST {
+                break;
+            }
+        }
+        windows
+    }
+
+    /// Texels that hang together and are brighter than a threshold, for each threshold; each region once.
+    fn regions(&self) -> Vec<Vec<usize>> {
+        let values: Vec<f64> = self.map.rgb.iter().map(|texel| value(*texel)).collect();
+        let mut known = HashSet::new();
+        let mut regions = Vec::new();
+        for threshold in THRESHOLDS.map(|times| times * self.mean) {
+            let mut seen: Vec<bool> = values.iter().map(|value| *value <= threshold).collect();
+            for first in 0..seen.len() {
+                if seen[first] {
+                    continue;
+                }
+                seen[first] = true;
+                let mut region = vec![first];
+                let mut next = 0;
+                while let Some(&i) = region.get(next) {
+                    next += 1;
+                    for neighbour in neighbours(&self.map, i) {
+                        if !seen[neighbour] {
+                            seen[neighbour] = true;
+                            region.push(neighbour);
+                        }
+                    }
+                }
+                let solid_angle: f64 = region.iter().map(|&i| self.solid_angles[i]).sum();
+                let lights = region.iter().map(|&i| values[i] * self.solid_angles[i]);
+                let is_candidate =
+                    solid_angle < SOLID_ANGLE_MOST_SR && lights.sum::<f64>() > SHARE * self.light;
+                if is_candidate && known.insert((first, region.len())) {
+                    regions.push(region);
+                }
+            }
+        }
+        regions
+    }
+
+    /// A region with what is around it.
+    fn patch(&self, region: &[usize]) -> Patch {
+        let mut texels: Vec<usize> = region.to_vec();
+        let mut is_in: HashSet<usize> = region.iter().copied().collect();
+        // Rings, the nearest of which the camera has blurred.
+        let mut ends = vec![texels.len()];
+        let mut from = 0;
+        for _ in 0..3 {
+            let to = texels.len();
+            for at in from..to {
+                for neighbour in neighbours(&self.map, texels[at]) {
+                    if is_in.insert(neighbour) {
+                        texels.push(neighbour);
+                    }
+                }
+            }
+            from = to;
+            ends.push(texels.len());
+        }
+        let each = texels.iter();
+        Patch::new(
+            each.clone().map(|&i| self.directions[i]).collect(),
+            each.clone().map(|&i| self.solid_angles[i]).collect(),
+            each.map(|&i| radiance(&self.map, i)).collect(),
+            region.len(),
+            ends[1]..ends[3],
+            std::f64::consts::PI / f64::from(self.map.size_px[1]),
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,122 @@
+//! The outlines of windows, on the sphere of directions.
+
+use std::f64::consts::TAU;
+
+use glam::DVec3;
+
+use crate::light::Light;
+
+/// A part of the sky of even radiance.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Window {
+    /// In the map's frame.
+    pub outline: Outline,
+    /// Beyond what is left in the map, in texel units.
+    pub radiance: [f64; 3],
+}
+
+/// A disc, or four corners.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Outline {
+    /// All within a radius of a direction.
+    Disc {
+        /// Unit vector.
+        direction: DVec3,
+        /// As it is seen, from its middle to its rim.
+        radius_rad: f64,
+    },
+    /// Convex; within a hemisphere.
+    Quad {
+        /// Unit vectors, counter-clockwise as seen from outside of the sphere.
+        corners: [DVec3; 4],
+    },
+}
+
+impl Outline {
+    /// How much of a texel of a width lies within, by the direction of its middle.
+    pub(crate) fn measure(&self, texel_rad: f64) -> impl Fn(DVec3) -> f64 + Sync + use<> {
+        let step = move |inside_rad: f64| (0.5 + inside_rad / texel_rad).clamp(0.0, 1.0);
+        let (direction, radius_rad, edges) = match self {
+            Self::Disc {
+                direction,
+                radius_rad,
+            } => (*direction, *radius_rad, None),
+            Self::Quad { corners } => (DVec3::Z, 0.0, Some(edges(corners))),
+        };
+        move |toward: DVec3| match &edges {
+            Some(edges) => edges.iter().map(|edge| step(edge.dot(toward))).product(),
+            None => step(radius_rad - direction.angle_between(toward)),
+        }
+    }
+
+    pub(crate) fn solid_angle_sr(&self) -> f64 {
+        match self {
+            Self::Disc { radius_rad, .. } => TAU * (1.0 - radius_rad.cos()),
+            Self::Quad { corners } => {
+                let [a, b, c, d] = *corners;
+                triangle_sr(a, b, c) + triangle_sr(a, c, d)
+            }
+        }
+    }
+
+    /// Its middle.
+    pub(crate) fn middle(&self) -> DVec3 {
+        match self {
+            Self::Disc { direction, .. } => *direction,
+            Self::Quad { corners } => corners.iter().sum::<DVec3>().normalize(),
+        }
+    }
+
+    /// As a light so far away that it stands in one direction for all of a scene.
+    pub(crate) fn light(&self, distance_m: f64, radiance: [f64; 3]) -> Light {
+        match self {
+            Self::Disc {
+                direction,
+                radius_rad,
+            } => Light::sphere(
+                *direction * distance_m,
+                distance_m * radius_rad.sin(),
+                radiance,
+            ),
+            Self::Quad { corners } => {
+                let middle = self.middle();
+                let in_plane = |corner: &DVec3| *corner * (distance_m / corner.dot(middle));
+                // The scene sees the other side of the sphere.
+                let vertices_m = corners.iter().rev().map(in_plane).collect();
+                Light::polygon(vertices_m, radiance, false)
+            }
+        }
+    }
+
+    /// The same, turned.
+    pub(crate) fn turned(&self, turn: impl Fn(DVec3) -> DVec3) -> Self {
+        match self {
+            Self::Disc {
+                direction,
+                radius_rad,
+            } => Self::Disc {
+                direction: turn(*direction),
+                radius_rad: *radius_rad,
+            },
+            Self::Quad { corners } => Self::Quad {
+                corners: corners.map(turn),
+            },
+        }
+    }
+}
+
+/// Unit normals of the planes of the edges, to the side that is within.
+fn edges(corners: &[DVec3; 4]) -> [DVec3; 4] {
+    std::array::from_fn(|i| {
+        let next = corners[(i + 1) % 4];
+        corners[i].cross(next).normalize_or_zero()
+    })
+}
+
+/// A. van Oosterom and J. Strackee, *The Solid Angle of a Plane Triangle*, 1983.
+fn triangle_sr(a: DVec3, b: DVec3, c: DVec3) -> f64 {
+    2.0 * a
+        .dot(b.cross(c))
+        .abs()
+        .atan2(1.0 + a.dot(b) + b.dot(c) + c.dot(a))
+}
