@@ -92,6 +92,7 @@ impl Parameter {
         Self::LightEnd,
         Self::LightCone,
         Self::LightSoftness,
+        Self::LightDoor,
         Self::Radiance,
         Self::LightExposure,
         Self::LightTemperature,
@@ -153,6 +154,7 @@ impl Parameter {
             P::LightRadius | P::LightWidth | P::LightHeight => (2e-3 * d..=d, limits::SIZE_M),
             P::LightCone => (5.0..=180.0, limits::CONE_DEG),
             P::LightSoftness => (0.0..=1.0, 0.0..=1.0),
+            P::LightDoor => (0.0..=90.0, limits::BARN_DOOR_DEG),
             P::LightRotation => (-180.0..=180.0, limits::ROTATION_DEG),
             P::Radiance => (0.01..=1000.0, NOT_NEGATIVE),
             P::LightExposure => (-8.0..=8.0, limits::EXPOSURE_EV),
@@ -222,7 +224,8 @@ impl Parameter {
             | P::Rotation
             | P::Jitter
             | P::LightRotation
-            | P::LightCone => Unit::Degree,
+            | P::LightCone
+            | P::LightDoor => Unit::Degree,
             P::Exposure | P::LightExposure => Unit::Exposure,
             P::LightTemperature => Unit::Kelvin,
             P::PictureSize | P::Filter => Unit::Pixel,

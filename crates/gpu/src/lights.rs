@@ -5,7 +5,7 @@ use std::ops::Range;
 use bytemuck::Zeroable;
 use glam::DVec3;
 use hairline_optics::band::TUBE_CORNERS;
-use hairline_scene::{Light, LightShape, Scene, vector_area_m2};
+use hairline_scene::{Doors, Light, LightShape, Scene, vector_area_m2};
 
 use crate::host::relative;
 use crate::layout;
@@ -143,6 +143,19 @@ fn vertices_m(light: &Light) -> &[DVec3] {
     }
 }
 
+/// The barn doors of a light.
+pub(crate) fn doors(light: &Light) -> Option<Doors> {
+    light.cone.and_then(|cone| cone.doors)
+}
+
+/// Places among the vertices that a light's doors take, behind its own. Twin: rows.wgsl.
+pub(crate) const DOOR_PLACES: usize = 3;
+
+/// Places among the vertices that a light takes.
+pub(crate) fn places(light: &Light) -> usize {
+    vertices_m(light).len() + doors(light).map_or(0, |_| DOOR_PLACES)
+}
+
 /// All area lights, and behind them the vertices of those that have some, as texels.
 pub(crate) fn packed(scene: &Scene, origin_m: DVec3) -> Vec<[u32; 4]> {
     let mut vertices: Vec<[f32; 4]> = Vec::new();
@@ -159,6 +172,11 @@ pub(crate) fn packed(scene: &Scene, origin_m: DVec3) -> Vec<[u32; 4]> {
             let [x, y, z] = relative(*vertex, origin_m);
             [x, y, z, w]
         }));
+        if let Some(doors) = doors(light) {
+            let across = doors.across.extend(0.0).to_array();
+            let places = [across, doors.tans, doors.per_tan()];
+            vertices.extend(places.map(|place| place.map(|x| x as f32)));
+        }
         let bounded = layout::Light {
             radiance: light.radiance.map(|c| c as f32),
             center_m: relative(center_m, origin_m),
@@ -173,6 +191,7 @@ pub(crate) fn packed(scene: &Scene, origin_m: DVec3) -> Vec<[u32; 4]> {
                 .map_or(DVec3::Z, |cone| cone.axis)
                 .as_vec3()
                 .to_array(),
+            has_doors: doors(light).is_some().into(),
             ..layout::Light::zeroed()
         };
         match &light.shape {
@@ -202,6 +221,6 @@ pub(crate) fn packed(scene: &Scene, origin_m: DVec3) -> Vec<[u32; 4]> {
 
 /// How many texels [`packed`] makes.
 pub(crate) fn texels(scene: &Scene) -> usize {
-    let texels = |light| LIGHT_TEXELS + vertices_m(light).len();
+    let texels = |light| LIGHT_TEXELS + places(light);
     scene.scratch_lights().map(texels).sum()
 }

@@ -97,7 +97,7 @@ async fn wavelengths(
     Ok(texture.create_view(&Default::default()))
 }
 
-/// One triangle for each vertex of each polygon; those that a polygon does not need are empty.
+/// One triangle for each place among the vertices of the lights; those that a polygon does not need are empty.
 fn light_triangles(scene: &Scene) -> Vec<[usize; 3]> {
     let of_light = |light: &Light| match &light.shape {
         LightShape::Sphere { .. } => Vec::new(),
@@ -105,7 +105,7 @@ fn light_triangles(scene: &Scene) -> Vec<[usize; 3]> {
         LightShape::Tube { .. } => vec![[0; 3]; 2],
         LightShape::Polygon { vertices_m, .. } => {
             let mut triangles = triangulate(vertices_m);
-            triangles.resize(vertices_m.len(), [0; 3]);
+            triangles.resize(lights::places(light), [0; 3]);
             triangles
         }
     };

@@ -109,7 +109,7 @@ modules! {
     /// Where elements lie in textures.
     TEXELS = "scene/texels" needs [];
     /// Arrays that lie in textures.
-    ROWS = "scene/rows" needs [BINDINGS, TEXELS];
+    ROWS = "scene/rows" needs [BINDINGS, TEXELS, CONTENTS];
     /// The triangles along a ray.
     TRIANGLE_TREE = "scene/triangle_tree" needs [TEXELS, SURFACE_POINT];
     /// What a scene has: pipelines are compiled for it.

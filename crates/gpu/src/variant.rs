@@ -5,7 +5,7 @@ use hairline_optics::mask::Mask;
 use hairline_optics::published::sine_integral::SineIntegral;
 use hairline_scene::{Scene, ScratchTables};
 
-use crate::lights::{Kind, Kinds};
+use crate::lights::{self, Kind, Kinds};
 
 /// What a pipeline is specialised for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -22,6 +22,8 @@ pub(crate) struct Contents {
     /// That shine on scratches, and on the base.
     pub lights: Kinds,
     pub base_lights: Kinds,
+    /// Lights with barn doors.
+    pub doors: bool,
     pub textures: bool,
     /// Materials that are not metal through and through.
     pub bodies: bool,
@@ -33,6 +35,10 @@ impl Contents {
             scratches: scene.objects.iter().any(|o| !o.segments.is_empty()),
             lights: Kinds::of(scene),
             base_lights: Kinds::on_base(scene),
+            doors: scene
+                .lights
+                .iter()
+                .any(|light| lights::doors(light).is_some()),
             textures: !scene.textures.is_empty(),
             bodies: (scene.materials.iter().zip(&tables.materials)).any(|(material, optics)| {
                 optics.metallic < 1.0 || material.metallic_roughness_texture.is_some()
@@ -66,6 +72,7 @@ pub fn pipeline_variants(text: &str) -> Vec<(String, Vec<(&'static str, f64)>)> 
         scratches: true,
         lights: Kinds::ALL,
         base_lights: Kinds::ALL,
+        doors: true,
         textures: true,
         bodies: true,
     };
@@ -130,6 +137,7 @@ impl ShadeVariant {
         let published = method.published.unwrap_or_default();
         let mut constants = vec![
             ("HAS_SCRATCHES", has.scratches.into()),
+            ("HAS_DOORS", has.doors.into()),
             ("HAS_TEXTURES", has.textures.into()),
             ("HAS_BODIES", has.bodies.into()),
             ("METHOD_MASK", mask.into()),

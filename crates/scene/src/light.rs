@@ -22,13 +22,66 @@ pub struct Cone {
     pub cos_outer: f64,
     /// Of the half angle at which light begins to fall; no less than `cos_outer`.
     pub cos_inner: f64,
+    /// Flaps beside the light, if it has any.
+    pub doors: Option<Doors>,
+}
+
+/// Barn doors: four planes that light does not pass.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Doors {
+    /// Unit vector across the axis, to the right as seen from before the light.
+    pub across: DVec3,
+    /// Of the angles between the axis and each door: left, right, above and below as seen from before the light.
+    pub tans: [f64; 4],
+}
+
+impl Doors {
+    /// The part of a door's angle in which light falls off.
+    const SOFTNESS: f64 = 0.1;
+
+    /// Over the fall-off at each door, of one; finite where a door is shut.
+    pub fn per_tan(&self) -> [f64; 4] {
+        self.tans.map(|tan| {
+            let inner = ((1.0 - Self::SOFTNESS) * tan.atan()).tan();
+            1.0 / (tan - inner).max(1e-3)
+        })
+    }
+
+    /// What the doors of a light along an axis leave of the light in a unit direction.
+    fn share(&self, axis: DVec3, direction: DVec3) -> f64 {
+        let ahead = axis.dot(direction);
+        if ahead <= 0.0 {
+            return 0.0;
+        }
+        let right = self.across.dot(direction) / ahead;
+        let up = axis.cross(self.across).dot(direction) / ahead;
+        let beside = [-right, right, up, -up];
+        let doors = self.tans.into_iter().zip(self.per_tan()).zip(beside);
+        let shares =
+            doors.map(|((tan, per_tan), beside)| ((tan - beside) * per_tan).clamp(0.0, 1.0));
+        shares.product::<f64>().powi(2)
+    }
 }
 
 impl Cone {
-    /// What is left of the light that leaves in a unit direction: the fall-off of KHR_lights_punctual.
+    /// All directions.
+    pub fn open(axis: DVec3) -> Self {
+        Self {
+            axis,
+            cos_outer: -2.0,
+            cos_inner: -1.0,
+            doors: None,
+        }
+    }
+
+    /// What is left of the light that leaves in a unit direction: the fall-off of KHR_lights_punctual, and what doors leave of it.
     pub fn share(&self, direction: DVec3) -> f64 {
         let past = self.axis.dot(direction) - self.cos_outer;
-        (past * self.per_cos()).clamp(0.0, 1.0).powi(2)
+        let of_cone = (past * self.per_cos()).clamp(0.0, 1.0).powi(2);
+        of_cone
+            * self
+                .doors
+                .map_or(1.0, |doors| doors.share(self.axis, direction))
     }
 
     /// Over the fall-off, of one; finite at a hard rim.

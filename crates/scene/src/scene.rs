@@ -11,7 +11,7 @@ use std::sync::Arc;
 
 use crate::environment::Environment;
 
-pub use crate::light::{Cone, Light, LightShape};
+pub use crate::light::{Cone, Doors, Light, LightShape};
 
 /// Samples of a pixel with an edge or a crease in it, in a finished picture: of the window, of an export, of `hairline render`, by every
 /// renderer.

@@ -95,6 +95,7 @@ fn is_same_light(x: &Light, y: &Light) -> bool {
         temperature_k,
         color,
         cone,
+        barn_doors_deg,
     } = x;
     *hidden == y.hidden
         && *visible == y.visible
@@ -104,4 +105,5 @@ fn is_same_light(x: &Light, y: &Light) -> bool {
         && *temperature_k == y.temperature_k
         && *color == y.color
         && *cone == y.cone
+        && *barn_doors_deg == y.barn_doors_deg
 }

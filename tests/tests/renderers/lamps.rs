@@ -151,3 +151,55 @@ fn both_references_see_them() {
         }
     }
 }
+
+/// A small lamp 0.2 m above a rough table with one door at 30 degrees and another at 45: the light ends where they stand, and is that without
+/// doors where they are open. Both renderers and Monte Carlo agree.
+#[test]
+fn barn_doors_end_the_light() -> Result<(), String> {
+    let scene = |doors: &str| {
+        SceneFile::seen_from([0.0, -1.0e-3, 1.0])
+            .fov_y_deg(40.0)
+            .size_px([160, 160])
+            .part("[[material]]\nname = \"paper\"\nkind = \"dielectric\"\nbase_color = [0.8, 0.8, 0.8]\nroughness = 1.0")
+            .object("table", "paper", "plane = { size_m = [1.0, 1.0] }")
+            .part(&format!(
+                "[[light]]\nkind = \"rectangle\"\ncenter_m = [0.0, 0.0, 0.2]\ntarget_m = [0.0, 0.0, 0.0]\nwidth_m = 0.002\nheight_m = 0.002\nradiance = 900.0\n{doors}"
+            ))
+            .scene()
+    };
+    let [open, shaded] = ["", "barn_doors_deg = [30.0, 90.0, 90.0, 45.0]"].map(scene);
+    let [of_open, of_shaded] = [&open, &shaded].map(|scene| on_the_cpu(scene, 1));
+    // As seen from the target, with y up, right is at -x.
+    let share = |x: f64, y: f64| {
+        let point_m = [x, y, 0.0];
+        f64::from(at(&of_shaded, &shaded, point_m)[1] / at(&of_open, &open, point_m)[1])
+    };
+    for (x, y, expected) in [
+        (0.0, 0.0, 1.0),
+        (-0.25, 0.0, 1.0),
+        (0.0, 0.25, 1.0),
+        // Falling off begins at 27 degrees.
+        (0.2 * 26.0_f64.to_radians().tan(), 0.0, 1.0),
+        (0.2 * 31.5_f64.to_radians().tan(), 0.0, 0.0),
+        (0.0, -0.2 * 46.5_f64.to_radians().tan(), 0.0),
+        (0.0, -0.2 * 39.5_f64.to_radians().tan(), 1.0),
+    ] {
+        let found = share(x, y);
+        assert!(
+            (found - expected).abs() < 0.01,
+            "{x} {y}: {found}, not {expected}"
+        );
+    }
+    let integrator = Integrator::new(&shaded, Settings::default());
+    let mut image = integrator.start();
+    let _ = integrator.run(&mut image, BATCH_SAMPLES, &|_| ControlFlow::Continue(()));
+    let [sum, reference] = [&of_shaded, &image].map(|image| {
+        let base = image.base.iter().map(|rgb| f64::from(rgb[1]));
+        base.sum::<f64>()
+    });
+    assert!((sum / reference - 1.0).abs() < 0.01, "{sum} {reference}");
+    match on_the_gpu(&shaded, 1) {
+        Some(gpu) => compare("barn doors", &shaded, &gpu, &of_shaded),
+        None => Ok(()),
+    }
+}

@@ -107,6 +107,8 @@ pub enum Parameter {
     LightCone,
     /// `light.cone_softness`
     LightSoftness,
+    /// An angle of `light.barn_doors_deg`
+    LightDoor,
     /// `light.radiance`
     Radiance,
     /// `light.exposure_ev`

@@ -215,6 +215,10 @@ pub(super) fn of(parameter: Parameter) -> Text {
             "Softness",
             "The part of the way from rim to axis in which the light falls off.",
         ),
+        P::LightDoor => (
+            "Barn door",
+            "The angle between the light's axis and a flap that ends its light: left, right, above and below as seen from its target. 90 is open.",
+        ),
         P::Radiance => (
             "Radiance",
             "Brightness of the light as it is seen. 40 to 200 for small lamps in dim surroundings lets the highlight clip and its scratches glow.",

@@ -9,6 +9,7 @@ override HAS_ENVIRONMENT: bool = true;
 // The same of lights that do not shine on scratches alone.
 override BASE_HAS_SPHERES: bool = true;
 override BASE_HAS_POLYGONS: bool = true;
+override HAS_DOORS: bool = true;
 override HAS_TEXTURES: bool = true;
 // Materials that are not metal through and through: light falls on a body under the surface.
 override HAS_BODIES: bool = true;

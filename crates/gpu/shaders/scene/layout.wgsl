@@ -85,6 +85,7 @@ struct Light {
     vertex_count: u32,
     cone: vec2f,                // cosine at the rim, below all without a cone; 1 over the cosines of the fall-off
     cone_axis: vec3f,
+    has_doors: u32,             // barn doors: behind its vertices lie the direction across, tangents, and 1 over those of the fall-off
 }
 
 const LIGHT_SPHERE: u32 = 0u;

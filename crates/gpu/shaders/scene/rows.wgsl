@@ -60,14 +60,31 @@ fn light_at(i: u32) -> Light {
         d.y,
         bitcast<vec2f>(d.zw),
         bitcast<vec3f>(e.xyz),
+        e.w,
     );
 }
 
 // The radiance towards a point: the cone's share is that of the light's middle.
 fn light_radiance(light: Light, to_m: vec3f) -> vec3f {
-    let cos = dot(light.cone_axis, normalize(to_m - light.center_m));
-    let share = clamp((cos - light.cone.x) * light.cone.y, 0.0, 1.0);
+    let away = normalize(to_m - light.center_m);
+    let cos = dot(light.cone_axis, away);
+    var share = clamp((cos - light.cone.x) * light.cone.y, 0.0, 1.0);
+    if HAS_DOORS && light.has_doors != 0u {
+        share *= doors_share(light, away, cos);
+    }
     return light.radiance * (share * share);
+}
+
+// The root of what the barn doors of a light leave in a direction away from it. Twin: Doors::share of crates/scene/src/light.rs.
+fn doors_share(light: Light, away: vec3f, cos: f32) -> f32 {
+    let first = light.first_vertex + light.vertex_count;
+    let across = light_corner_m(first);
+    let tans = light_end_m(first + 1u);
+    let per_tan = light_end_m(first + 2u);
+    let beside = vec2f(dot(across, away), dot(cross(light.cone_axis, across), away)) / max(cos, 1e-6);
+    let doors = clamp((tans - vec4f(-beside.x, beside, -beside.y)) * per_tan, vec4f(0.0), vec4f(1.0));
+    let pairs = doors.xy * doors.zw;
+    return select(0.0, pairs.x * pairs.y, cos > 0.0);
 }
 
 // Middle and radius of the sphere that a light is, or that is around it, metres.

@@ -346,6 +346,8 @@ class Light(Table):
     """A spot's cone from rim to rim, degrees. Default: light leaves in all directions."""
     cone_softness: Optional[float] = _default()
     """The part of the way from rim to axis in which light falls off. Default: 0.1."""
+    barn_doors_deg: Optional[Sequence[float]] = _default()
+    """Of a disk or a rectangle: angles between its axis and flaps that end its light, degrees: left, right, above, below as seen from its target."""
 
 
 class SphereLight(Light):

@@ -171,6 +171,24 @@ impl LightKind {
         polygon::vector_area_m2(&self.corners_m()).try_normalize()
     }
 
+    /// The unit direction of the width of what faces a target, to the right as seen from there.
+    pub(super) fn across(&self) -> Option<DVec3> {
+        let (center_m, target_m, rotation_deg) = match self {
+            Self::Disk {
+                center_m, target_m, ..
+            } => (center_m, target_m, 0.0),
+            Self::Rectangle {
+                center_m,
+                target_m,
+                rotation_deg,
+                ..
+            } => (center_m, target_m, *rotation_deg),
+            _ => return None,
+        };
+        let [across, _] = plane(*center_m, *target_m, rotation_deg);
+        Some(across)
+    }
+
     /// Whether `target_m` tells where it faces, with or without a cone.
     pub(super) fn has_target(&self) -> bool {
         matches!(self, Self::Disk { .. } | Self::Rectangle { .. })

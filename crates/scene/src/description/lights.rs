@@ -5,7 +5,7 @@ use hairline_optics::spectrum::black_body_rgb;
 use serde::Serialize;
 
 use super::light_kind::{self, LightKind, aimed};
-use super::limits::{CONE_DEG, EXPOSURE_EV, TEMPERATURE_K};
+use super::limits::{BARN_DOOR_DEG, CONE_DEG, EXPOSURE_EV, TEMPERATURE_K};
 use super::ranges::{Check, components, not_negative, point, within};
 use super::table::{Read, Table, Value};
 use super::values::{is_false, is_zero};
@@ -41,6 +41,10 @@ pub struct Light {
     /// The directions that light leaves in. Default: all.
     #[serde(flatten)]
     pub cone: Option<Cone>,
+    /// Of a disk or a rectangle: the angles between its axis and flaps that end its light, to the left, to the right, above and below as
+    /// seen from its target. 90 is open. Default: no flaps.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub barn_doors_deg: Option<[f64; 4]>,
 }
 
 /// `cone_deg` of a `[[light]]` and the keys that belong to it.
@@ -109,6 +113,7 @@ impl Cone {
             axis: kind.axis().unwrap_or(towards.normalize_or(DVec3::NEG_Z)),
             cos_outer: half_rad.cos(),
             cos_inner: (half_rad * (1.0 - self.cone_softness)).cos(),
+            doors: None,
         }
     }
 }
@@ -126,6 +131,7 @@ impl Light {
             temperature_k: None,
             color: [1.0; 3],
             cone: None,
+            barn_doors_deg: None,
         }
     }
 }
@@ -151,9 +157,47 @@ impl Light {
             )?;
         }
         self.kind.check_at(key)?;
+        self.check_doors(&format!("{key}.barn_doors_deg"))?;
         match &self.cone {
             Some(cone) => cone.check_at(key, &self.kind),
             None => Ok(()),
+        }
+    }
+
+    fn check_doors(&self, key: &str) -> Check {
+        let Some(doors_deg) = self.barn_doors_deg else {
+            return Ok(());
+        };
+        if self.kind.across().is_none() || self.kind.is_two_sided() {
+            return Err(Error::new(
+                key,
+                format!("found barn doors of a {}", self.kind.title()),
+                "must be those of a disk or a rectangle that shines to one side",
+            ));
+        }
+        doors_deg.iter().enumerate().try_for_each(|(i, angle_deg)| {
+            within(&format!("{key}[{i}]"), *angle_deg, BARN_DOOR_DEG)
+        })
+    }
+
+    fn doors(&self) -> Option<scene::Doors> {
+        Some(scene::Doors {
+            across: self.kind.across()?,
+            // An open door ends nothing, and its number is one.
+            tans: self
+                .barn_doors_deg?
+                .map(|angle_deg| angle_deg.to_radians().tan().clamp(0.0, 1e6)),
+        })
+    }
+
+    fn cone_in_scene(&self) -> Option<scene::Cone> {
+        let cone = self.cone.as_ref().map(|cone| cone.in_scene(&self.kind));
+        match (self.doors(), self.kind.axis()) {
+            (Some(doors), Some(axis)) => Some(scene::Cone {
+                doors: Some(doors),
+                ..cone.unwrap_or(scene::Cone::open(axis))
+            }),
+            _ => cone,
         }
     }
 
@@ -163,7 +207,7 @@ impl Light {
         let radiance = self.radiance * self.exposure_ev.exp2();
         let radiance = std::array::from_fn(|c| self.color[c] * tint[c] * radiance);
         scene::Light {
-            cone: self.cone.as_ref().map(|cone| cone.in_scene(&self.kind)),
+            cone: self.cone_in_scene(),
             ..self.kind.in_scene(radiance)
         }
     }
@@ -186,6 +230,7 @@ impl Read for Light {
                 "color",
                 "cone_deg",
                 "cone_softness",
+                "barn_doors_deg",
             ],
             &light_kind::KEYS,
         )?;
@@ -201,6 +246,7 @@ impl Read for Light {
             temperature_k: table.optional("temperature_k")?,
             color: table.or("color", [1.0; 3])?,
             cone,
+            barn_doors_deg: table.optional("barn_doors_deg")?,
         })
     }
 }

@@ -26,6 +26,8 @@ pub const SENSOR_WIDTH_MM: RangeInclusive<f64> = 0.1..=1000.0;
 pub const ROTATION_DEG: RangeInclusive<f64> = -360.0..=360.0;
 /// `light.cone_deg`
 pub const CONE_DEG: RangeInclusive<f64> = 0.1..=360.0;
+/// `light.barn_doors_deg`
+pub const BARN_DOOR_DEG: RangeInclusive<f64> = 0.0..=90.0;
 /// `light.temperature_k`
 pub const TEMPERATURE_K: RangeInclusive<f64> = 1000.0..=40_000.0;
 /// `camera.exposure_ev`, `light.exposure_ev`

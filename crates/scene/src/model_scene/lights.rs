@@ -70,6 +70,7 @@ pub(super) fn lamp(
         radiance,
         color: light.color,
         cone,
+        barn_doors_deg: None,
         ..Light::new(LightKind::sphere(center_m.into(), radius_m))
     })
 }

@@ -255,6 +255,18 @@ fn sizes_that_are_negative_or_not_finite() {
         "plate.toml:21: light[0].cone_deg: found a cone of a light whose two sides shine; leave out `two_sided`, or the cone"
     );
     assert_eq!(
+        light(
+            "kind = \"disk\"\ncenter_m = [0, 0, 1]\nradius_m = 1\ntarget_m = [0, 0, 0]\nbarn_doors_deg = [30, 30, 95, 30]"
+        ),
+        "plate.toml:20: light[0].barn_doors_deg[2]: found 95; must be from 0 to 90"
+    );
+    assert_eq!(
+        light(
+            "kind = \"sphere\"\ncenter_m = [0, 0, 1]\nradius_m = 1\nbarn_doors_deg = [30, 30, 30, 30]"
+        ),
+        "plate.toml:19: light[0].barn_doors_deg: found barn doors of a sphere light; must be those of a disk or a rectangle that shines to one side"
+    );
+    assert_eq!(
         light("kind = \"tube\"\nends_m = [[0, 0, 1], [0, 0, 1]]\nradius_m = 1"),
         "plate.toml:17: light[0].ends_m: found two equal ends; must be two places; a round lamp is a `sphere`"
     );

@@ -241,6 +241,7 @@ fn everything() -> Description {
                     cone_softness: 0.5,
                     target_m: Some([1.0, 2.0, 3.0]),
                 }),
+                barn_doors_deg: None,
             },
             Light {
                 name: None,
@@ -255,6 +256,7 @@ fn everything() -> Description {
                 temperature_k: Some(3200.0),
                 color: [0.1, 0.2, 0.3],
                 cone: None,
+                barn_doors_deg: None,
             },
             Light::new(LightKind::Disk {
                 center_m: [0.0, 0.0, 1.0],

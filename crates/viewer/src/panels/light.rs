@@ -86,6 +86,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
         }
     }
     cone(&mut form, &mut light);
+    doors(&mut form, &mut light);
     if let Some(change) = form.change() {
         work.document.drag(&change.label, change.key, |d| {
             d.lights[index] = light.clone();
@@ -133,6 +134,28 @@ fn cone(form: &mut Form, light: &mut Light) {
     if let Some(target_m) = &mut cone.target_m {
         form.vector(Parameter::LightTarget, target_m);
     }
+}
+
+/// Flaps beside a disk or a rectangle; a light whose two sides shine has none.
+fn doors(form: &mut Form, light: &mut Light) {
+    let has_target = matches!(
+        light.kind,
+        LightKind::Disk { .. } | LightKind::Rectangle { .. }
+    );
+    if !has_target || light.kind.is_two_sided() {
+        light.barn_doors_deg = None;
+        return;
+    }
+    let mut has_doors = light.barn_doors_deg.is_some();
+    form.toggle("Barn doors", "Whether flaps end its light", &mut has_doors);
+    if !has_doors {
+        light.barn_doors_deg = None;
+        return;
+    }
+    let doors_deg = light.barn_doors_deg.get_or_insert([45.0; 4]);
+    let (beside, above_and_below) = doors_deg.split_at_mut(2);
+    form.boxes(Parameter::LightDoor, &["left", "right"], beside);
+    form.boxes(Parameter::LightDoor, &["above", "below"], above_and_below);
 }
 
 /// The corners of a polygon: they stay in its plane.
