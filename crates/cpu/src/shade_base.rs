@@ -98,12 +98,18 @@ impl<'p, 'a> Base<'p, 'a> {
         views: &LightViews,
         sphere: impl Fn(&LtcLobe, &LobeFresnel, DVec3, f64) -> [f64; 3],
     ) -> BaseRadiance {
-        let specular = self
-            .specular(|lobe| DVec3::from(reflected_light(light, views, lobe, &self.of, &sphere)));
+        let picture = views.picture(light);
+        let specular = self.specular(|lobe| {
+            let even = DVec3::from(reflected_light(light, views, lobe, &self.of, &sphere));
+            picture.map_or(even, |picture| even * picture.on_lobe(lobe))
+        });
         let radiance = light.radiance();
         BaseRadiance {
             specular: radiance * specular,
-            diffuse: self.diffuse(|| radiance * form_factor(light, views)),
+            diffuse: self.diffuse(|| {
+                let even = radiance * form_factor(light, views);
+                picture.map_or(even, |picture| even * picture.on_body())
+            }),
         }
     }
 

@@ -102,6 +102,8 @@ modules! {
     SCRATCHED_SURFACE = "engine/scratched_surface" needs [SCRATCH_LIGHT, SCRATCH_TREE];
     /// For other engines: a pass that makes the table of a metal.
     MAKE_SCRATCH_TABLE = "engine/make_scratch_table" needs [SCRATCH_TABLE];
+    /// Pictures on flat lights.
+    PICTURE = "physics/picture" needs [];
     /// The structs that the host fills, and no binding.
     LAYOUT = "scene/layout" needs [];
     /// Where the scene is bound: group 0 the frame, group 1 the scene's arrays, group 2 its tables and textures.
@@ -128,6 +130,10 @@ modules! {
     PIXEL_POINT = "scene/pixel_point" needs [LAYOUT, SURFACE_POINT];
     /// Area lights from a surface point.
     LIGHTS = "scene/lights" needs [ROWS, CONTENTS, SURFACE_POINT, BAND, TUBE];
+    /// Pictures on lights as a point sees them.
+    PICTURE_LIGHT = "scene/picture_light" needs [SCENE, PICTURE];
+    /// What one scratch sends to the viewer of a rectangle with a picture.
+    SCRATCH_PICTURE = "scene/scratch_picture" needs [PICTURE_LIGHT, SCRATCH_LIGHT];
     /// From a triangle to the surface point.
     HIT = "scene/hit" needs [SCENE, SURFACE_POINT, CAMERA];
     /// A segment in the picture, and the tiles and pixels that it comes near to.
@@ -137,10 +143,10 @@ modules! {
     /// What one scratch sends to the viewer of a polygon with many vertices.
     OUTLINE_LIGHT = "scene/outline_light" needs [ROWS, SCRATCH_LIGHT, TUBE];
     /// The base under lights and environment.
-    BASE = "scene/base" needs [SCENE, LIGHTS, FILTERED_LOBE, ENVIRONMENT_LOBE];
+    BASE = "scene/base" needs [SCENE, LIGHTS, PICTURE_LIGHT, FILTERED_LOBE, ENVIRONMENT_LOBE];
     /// The method of 2018: a scratch under lights and environment.
     PUBLISHED_LIGHTS = "published/published_lights" needs [
-        SCENE, LIGHTS, SEGMENTS, METHOD, BAND_ENVIRONMENT, PUBLISHED_SPECTRUM, PUBLISHED_SPHERE, PUBLISHED_POLYGON
+        SCENE, LIGHTS, PICTURE_LIGHT, SEGMENTS, METHOD, BAND_ENVIRONMENT, PUBLISHED_SPECTRUM, PUBLISHED_SPHERE, PUBLISHED_POLYGON
     ];
     /// The method of 2018: the scratches under a pixel.
     PUBLISHED_GATHER = "published/published_gather" needs [PUBLISHED_LIGHTS, PUBLISHED_FOOTPRINT, TRIANGLE_LISTS, MASK];
@@ -173,7 +179,7 @@ modules! {
     /// Scratches that stand for all.
     PICKS = "scene/picks" needs [SOBOL, LUMINANCE];
     /// Pass: the light and the mask of scratches.
-    SHADE_SCRATCHES = "passes/shade_scratches" needs [NEARNESS, PAIRS, PICKS, GROUPS, METHOD, OUTLINE_LIGHT];
+    SHADE_SCRATCHES = "passes/shade_scratches" needs [NEARNESS, PAIRS, PICKS, GROUPS, METHOD, OUTLINE_LIGHT, SCRATCH_PICTURE];
     /// Pass: the radiance of the base.
     SHADE_BASE = "passes/shade_base" needs [BASE, FILM, PIXEL_POINT];
     /// The lobes of the base, to draw directions from.
@@ -192,12 +198,14 @@ modules! {
     SHADOW_BASE = "passes/shadow_base" needs [BASE, SHADOW, NEAR_RAYS, PIXEL_POINT];
     /// Directions to light by way of a scratch.
     DRAWN_LIGHT = "scene/drawn_light" needs [OUTLINE_LIGHT, LUMINANCE];
+    /// The same by a rectangle with a picture.
+    DRAWN_PICTURE = "scene/drawn_picture" needs [DRAWN_LIGHT, SCRATCH_PICTURE];
     /// Where under its pixel a pair lies.
     PAIR_PLACE = "scene/pair_place" needs [DRAWN_LIGHT, PAIRS];
     /// Pass: where the sums begin by which scratches are picked.
     SHADOW_PICKS = "passes/shadow_picks" needs [SHADOW, PICKS, FILM];
     /// Pass: a ray of each sample by way of a scratch.
-    SHADOW_SCRATCH_RAYS = "passes/shadow_scratch_rays" needs [PAIR_PLACE, PICKS, SHADOW, LIGHT_SAMPLING, FILM];
+    SHADOW_SCRATCH_RAYS = "passes/shadow_scratch_rays" needs [PAIR_PLACE, DRAWN_PICTURE, PICKS, SHADOW, LIGHT_SAMPLING, FILM];
     /// Pass: what is hidden of what scratches send.
     SHADOW_SCRATCHES = "passes/shadow_scratches" needs [SHADOW, NEAR_RAYS];
     /// Visibility of a pixel's neighbours.

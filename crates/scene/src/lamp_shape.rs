@@ -4,7 +4,7 @@ use glam::{DMat4, DQuat, DVec2, DVec3};
 use std::f64::consts::PI;
 
 use crate::description::{self, LightKind, Shape};
-use crate::scene::{Base, Material, Mesh};
+use crate::scene::{self, Base, Material, Mesh};
 use crate::shape;
 use crate::surface::{Surface, Vertex};
 
@@ -12,8 +12,11 @@ use crate::surface::{Surface, Vertex};
 const FACETS: u32 = 96;
 
 /// What the camera at a place sees on a light.
-pub(crate) fn material(light: &description::Light, eye_m: DVec3) -> Material {
-    let shining = light.in_scene();
+pub(crate) fn material(
+    light: &description::Light,
+    shining: &scene::Light,
+    eye_m: DVec3,
+) -> Material {
     // A light of one cone has one share in a place, that of its middle.
     let (middle_m, _) = shining.bounding_sphere();
     let share = match shining.cone {
@@ -32,7 +35,7 @@ pub(crate) fn material(light: &description::Light, eye_m: DVec3) -> Material {
         base_color_texture: None,
         metallic_roughness_texture: None,
         normal_texture: None,
-        emission_texture: None,
+        emission_texture: shining.picture,
     }
 }
 
@@ -96,13 +99,19 @@ fn capsule(half_length_m: f64, radius_m: f64) -> Surface {
 fn flat(corners_m: &[DVec3], axis: DVec3) -> Surface {
     let tangent = axis.any_orthonormal_vector();
     let across = axis.cross(tangent);
-    let vertices = corners_m.iter().map(|&position_m| Vertex {
-        position_m,
-        normal: axis,
-        tangent,
-        handedness: 1.0,
-        uv: glam::Vec2::ZERO,
-    });
+    // Those of a rectangle's picture; others have none.
+    let uvs = [[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]].map(glam::Vec2::from);
+    let places_on = uvs.into_iter().chain(std::iter::repeat(glam::Vec2::ZERO));
+    let vertices = corners_m
+        .iter()
+        .zip(places_on)
+        .map(|(&position_m, uv)| Vertex {
+            position_m,
+            normal: axis,
+            tangent,
+            handedness: 1.0,
+            uv,
+        });
     let places: Vec<DVec2> = corners_m
         .iter()
         .map(|corner| DVec2::new(corner.dot(tangent), corner.dot(across)))

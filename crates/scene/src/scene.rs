@@ -10,6 +10,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use crate::environment::Environment;
+use crate::texture;
 
 pub use crate::light::{Cone, Doors, Light, LightShape};
 
@@ -165,6 +166,13 @@ pub struct Texture {
     pub levels: Vec<Vec<[u8; 4]>>,
     /// Whether colour channels are sRGB encoded.
     pub srgb: bool,
+}
+
+impl Texture {
+    /// Of sRGB codes, row by row from the top.
+    pub fn of_colors(size_px: [u32; 2], texels: Vec<[u8; 4]>) -> Self {
+        texture::with_mips(size_px, texels, texture::Channels::Color)
+    }
 }
 
 /// A surface and the scratches that lie on it.

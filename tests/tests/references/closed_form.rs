@@ -118,6 +118,7 @@ fn cones() {
                 axis: (beside - middle.normalize()).normalize(),
                 cos_outer: 0.3_f64.cos(),
                 cos_inner: 1.0,
+                doors: None,
             });
         }
         let (exact, reference) = (closed(&scene), sampled(&scene, LINEAR, 8));

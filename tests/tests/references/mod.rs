@@ -11,6 +11,7 @@ mod furnace;
 mod going_on;
 mod mask;
 mod mirrored;
+mod picture;
 mod pictures;
 mod published;
 mod scenes;

@@ -5,6 +5,7 @@ mod draws;
 mod four_edges;
 mod lobes;
 mod never_nan;
+mod picture;
 mod published;
 mod rays;
 mod scratch;

@@ -2,6 +2,7 @@
 //! scratch_light.wgsl.
 
 use crate::light_view::{LightView, LightViews};
+use crate::picture::PictureView;
 use crate::sampling::luminance;
 use crate::surface::SurfacePoint;
 use glam::{DVec2, DVec3};
@@ -10,6 +11,7 @@ use hairline_optics::band::{
     band_is_whole, band_lines, chord_cos, sphere_band_extent, sphere_chord,
 };
 use hairline_optics::band_environment::environment_cells;
+use hairline_optics::picture::{PICTURE_CELLS, picture_place};
 use hairline_optics::scratch::oblique_depth_nm;
 use hairline_optics::table::{ScratchTable, TableRow};
 use hairline_scene::{Environment, Profile};
@@ -153,7 +155,8 @@ impl<'a> ScratchLight<'a> {
                 ..
             } => {
                 let outline = views.outline(vertices, *away, *facing, *sets);
-                Some(*radiance * self.polygon(stds, outline, motion, roots)?)
+                let picture = views.picture(light);
+                Some(*radiance * self.polygon(stds, outline, motion, roots, picture)?)
             }
         }
     }
@@ -195,6 +198,7 @@ impl<'a> ScratchLight<'a> {
         outline: Outline,
         motion: BandMotion,
         [middle_roots, roots]: &mut [OutlineRoots; 2],
+        picture: Option<PictureView>,
     ) -> Option<DVec3> {
         let wo = self.wo + motion.shift * DVec3::X;
         // Large lights cover the whole band, and their corners tell so.
@@ -203,7 +207,7 @@ impl<'a> ScratchLight<'a> {
         if band_is_whole(wo.x, wo.x + low, wo.x + high, std) {
             let line = BandLine::new(wo, 0.0);
             let spectrum = self.outline_spectrum(outline, line, roots);
-            return Some(roots.integral(spectrum).into());
+            return Some(self.on_line(line, roots, spectrum, picture).into());
         }
         let (lowest, highest) = outline.band_extent(self.frame, wo.x);
         if !motion.reaches(lowest, highest, stds.mean) {
@@ -215,12 +219,53 @@ impl<'a> ScratchLight<'a> {
         let spectrum = self.outline_spectrum(outline, middle, middle_roots);
         Some(lines.integral(wo, |line| {
             if line == middle {
-                middle_roots.integral(&spectrum)
+                self.on_line(line, middle_roots, &spectrum, picture)
             } else {
                 outline.roots(self.frame, line, roots);
-                roots.integral(&spectrum)
+                self.on_line(line, roots, &spectrum, picture)
             }
         }))
+    }
+
+    /// The light of an outline along a line, given its roots there and the antiderivative over q of what the groove sends.
+    fn on_line(
+        &self,
+        line: BandLine,
+        roots: &OutlineRoots,
+        spectrum: impl Fn(f64) -> [f64; 3],
+        picture: Option<PictureView>,
+    ) -> [f64; 3] {
+        let Some(picture) = picture else {
+            return roots.integral(spectrum);
+        };
+        let at = |q: f64| DVec3::from(spectrum(q));
+        let parts = self.picture_parts(line, roots, &picture, |q| luminance(at(q)));
+        let sent = parts.map(|(low, high, radiance)| radiance * (at(high) - at(low)));
+        sent.sum::<DVec3>().to_array()
+    }
+
+    /// The parts of the chords of a light with a picture, from q to q, with what the picture sends from there.
+    fn picture_parts(
+        &self,
+        line: BandLine,
+        roots: &OutlineRoots,
+        picture: &PictureView,
+        of_luminance: impl Fn(f64) -> f64,
+    ) -> impl Iterator<Item = (f64, f64, DVec3)> {
+        let mut chord = DrawnChord::default();
+        chord.find(roots.signed().iter().copied(), of_luminance);
+        let chords: Vec<(f64, f64)> = chord.intervals().collect();
+        let (frame, picture) = (self.frame, *picture);
+        let towards = move |q: f64| frame.surface_from_band(line.direction_at(q));
+        let width_um = self.width_um();
+        chords.into_iter().flat_map(move |(first, last)| {
+            (0..PICTURE_CELLS).map(move |i| {
+                let place = |at: f64| picture_place(i as f64 + at, first, last, width_um);
+                let [low, middle, high] = [0.0, 0.5, 1.0].map(place);
+                let directions = [low, middle, high].map(towards);
+                (low, high, picture.on_chord(directions))
+            })
+        })
     }
 
     /// A direction from which a light reaches the viewer by way of the scratch: drawn in proportion to the luminance of what comes from there,
@@ -267,7 +312,18 @@ impl<'a> ScratchLight<'a> {
                     let line = lines.drawn_line(wo, i, line_u);
                     outline.roots(self.frame, line, &mut roots);
                     let spectrum = self.spectrum(line, roots.range);
-                    offers.offer(line, roots.signed().iter().copied(), spectrum, chord_u);
+                    let Some(picture) = views.picture(light) else {
+                        offers.offer(line, roots.signed().iter().copied(), spectrum, chord_u);
+                        continue;
+                    };
+                    let of_luminance = |q: f64| luminance(spectrum(q).into());
+                    for (low, high, radiance) in
+                        self.picture_parts(line, &roots, &picture, of_luminance)
+                    {
+                        let ends = [(-1.0, low), (1.0, high)];
+                        let spectrum = |q: f64| (radiance * DVec3::from(spectrum(q))).into();
+                        offers.offer(line, ends.into_iter(), spectrum, chord_u);
+                    }
                 }
             }
         }

@@ -10,6 +10,7 @@ override HAS_ENVIRONMENT: bool = true;
 override BASE_HAS_SPHERES: bool = true;
 override BASE_HAS_POLYGONS: bool = true;
 override HAS_DOORS: bool = true;
+override HAS_PICTURES: bool = true;
 override HAS_TEXTURES: bool = true;
 // Materials that are not metal through and through: light falls on a body under the surface.
 override HAS_BODIES: bool = true;
