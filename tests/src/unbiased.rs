@@ -7,7 +7,7 @@ use hairline_index::method::Method;
 use hairline_optics::mask::Mask;
 use hairline_reference::{BATCH_SAMPLES, Integrator, Parts, Settings};
 use hairline_scene::{Scene, Transport};
-use hairline_work::Listener;
+use hairline_work::Quiet;
 use hairline_work::backend::{Backend, Painter, Task};
 use hairline_work::failure::Failure;
 use std::ops::ControlFlow;
@@ -88,20 +88,8 @@ pub fn rendered(
         transport,
         spreads_fireflies: false,
     };
-    let mut painter = Painter::open(scene, task, &Nobody)?;
+    let mut painter = Painter::open(scene, task, &Quiet)?;
     Ok(painter.render(scene, &|| false, &|_| {})?.image)
-}
-
-/// Nobody is told.
-struct Nobody;
-
-impl Listener for Nobody {
-    fn tell(&self, _: &str) {}
-    fn warn(&self, _: &str) {}
-    fn begin(&self, _: &'static str) {}
-    fn say(&self, _: &'static str) {}
-    fn set(&self, _: f64) {}
-    fn end(&self) {}
 }
 
 /// What a picture with shadows and bounces should be: that of the path tracer, and as much of the closed form's own error as is seen of the

@@ -8,4 +8,4 @@ pub mod failure;
 mod listener;
 pub mod reference;
 
-pub use listener::Listener;
+pub use listener::{Listener, Quiet};

@@ -20,3 +20,15 @@ pub trait Listener: Sync {
     /// The part that began last has ended.
     fn end(&self);
 }
+
+/// Says nothing of the work.
+pub struct Quiet;
+
+impl Listener for Quiet {
+    fn tell(&self, _: &str) {}
+    fn warn(&self, _: &str) {}
+    fn begin(&self, _: &'static str) {}
+    fn say(&self, _: &'static str) {}
+    fn set(&self, _: f64) {}
+    fn end(&self) {}
+}

@@ -140,6 +140,7 @@ impl Count {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Quiet;
     use hairline_fixtures::scenes::scratched_plate;
     use hairline_reference::Settings;
     use hairline_scene::Scene;
@@ -148,17 +149,6 @@ mod tests {
 
     fn never() -> bool {
         false
-    }
-
-    struct Quiet;
-
-    impl Listener for Quiet {
-        fn tell(&self, _: &str) {}
-        fn warn(&self, _: &str) {}
-        fn begin(&self, _: &'static str) {}
-        fn say(&self, _: &'static str) {}
-        fn set(&self, _: f64) {}
-        fn end(&self) {}
     }
 
     const SAMPLES: u32 = 8 * BATCH_SAMPLES;
