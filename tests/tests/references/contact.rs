@@ -107,6 +107,36 @@ fn a_shadow_begins_at_the_foot() {
     }
 }
 
+/// A wall without thickness, the lamp behind it: all that the camera sees before it is dark, up to its foot. What pixels there average
+/// reaches above the foot, where a ray of the camera ends at the wall and not on the plate behind it.
+#[test]
+fn no_light_comes_from_beyond_a_wall() {
+    let scene = SceneFile::seen_from([-0.1, -0.01, 0.1])
+        .toward([-0.00503, 0.0, 0.0])
+        .fov_y_deg(0.13)
+        .size_px([16, 16])
+        .part("[[material]]\nname = \"matt\"\nkind = \"dielectric\"\nior = 1.0")
+        .metal("steel", "steel")
+        .with("roughness = 0.4")
+        .object("plate", "steel", "plane = { size_m = [0.1, 0.1] }")
+        .random("plate", 20_000)
+        .object("wall", "matt", "plane = { size_m = [0.01, 0.01] }")
+        .with("rotation_deg = [0.0, -90.0, 0.0]\ntranslation_m = [-0.005, 0.0, 0.005]")
+        .sphere([0.1, 0.0, 0.1], 0.01, 10.0)
+        .scene();
+    for (by, open, image) in by_each(&scene, 16) {
+        let [base, scratches] =
+            [&open.base, &open.scratches].map(|l| l.iter().filter(|p| p[1] > 0.0).count());
+        assert!(base > 100 && scratches > 100, "{by}: {base} {scratches}");
+        let (open, left) = (open.beauty().rgb, image.beauty().rgb);
+        let all: f32 = open.iter().map(|p| p[1]).sum();
+        let leaks: f32 = left.iter().map(|p| p[1].abs()).sum();
+        println!("{by}: {leaks} of {all}");
+        // But for rounding.
+        assert!(leaks < 1e-4 * all, "{by}: {leaks} of {all}");
+    }
+}
+
 /// Balls of 16 and of 4,096 triangles: what faces the lamp on a facet that faces it has all of its light, and of what the shading normal
 /// shows lit beyond, most is left.
 #[test]

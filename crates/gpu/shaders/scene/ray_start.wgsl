@@ -39,15 +39,12 @@ fn own_barycentric(triangle: u32, ray: vec3f) -> vec2f {
     return surface_barycentric(frame.camera_m, ray, a, vertices[3u * triangle + 1u].position_m, vertices[3u * triangle + 2u].position_m);
 }
 
-// What a pixel shows so many standard deviations of its filter to the right and down. On the triangles themselves: a step along the plane
-// of the normal would end below them where they are hollow.
+// What a pixel shows so many standard deviations of its filter to the right and down: what the camera's ray there meets, if it is the
+// pixel's own object. On the triangles themselves, since a step along the plane of the normal would end below them where they are hollow.
+// Not on the plane of the pixel's own triangle either: it goes on behind what stands on it.
 fn under_the_pixel(tree: texture_2d<u32>, pixel: PixelPoint, own: u32, stds: vec2f) -> RayStart {
     let middle = (pixel.position_m - frame.camera_m) / pixel.depth_m;
     let ray = middle + frame.footprint_std_px * (frame.per_px_x * stds.x + frame.per_px_y * stds.y);
-    let there = own_barycentric(own, ray);
-    if there.x >= 0.0 && there.y >= 0.0 && there.x + there.y <= 1.0 {
-        return ray_start(own, there, -ray);
-    }
     let hit = cutout_hit(tree, tree_ray(frame.camera_m, normalize(ray)), 1e30, 0u, false);
     if hit.triangle != 0u && hit.object == pixel.object - 1u {
         return ray_start(hit.triangle - 1u, hit.barycentric, -ray);
