@@ -372,13 +372,33 @@ pub enum ShapePreset {
     Disk,
     /// A sphere.
     Sphere,
+    /// A flat box with rounded edges.
+    Box,
+    /// A cylinder with rounded rims.
+    Cylinder,
+    /// A ring of round section.
+    Torus,
+    /// A watch glass.
+    Dome,
     /// A pan without a handle.
     Pan,
+    /// A studio's floor that turns up into its wall.
+    Sweep,
 }
 
 impl ShapePreset {
     /// Every preset, in the order of a menu.
-    pub const ALL: [Self; 4] = [Self::Plane, Self::Disk, Self::Sphere, Self::Pan];
+    pub const ALL: [Self; 9] = [
+        Self::Plane,
+        Self::Disk,
+        Self::Sphere,
+        Self::Box,
+        Self::Cylinder,
+        Self::Torus,
+        Self::Dome,
+        Self::Pan,
+        Self::Sweep,
+    ];
 
     /// What a menu calls it.
     pub fn name(self) -> &'static str {
@@ -386,7 +406,12 @@ impl ShapePreset {
             Self::Plane => "Plane",
             Self::Disk => "Disk",
             Self::Sphere => "Sphere",
+            Self::Box => "Box",
+            Self::Cylinder => "Cylinder",
+            Self::Torus => "Torus",
+            Self::Dome => "Dome",
             Self::Pan => "Pan",
+            Self::Sweep => "Sweep",
         }
     }
 
@@ -399,6 +424,28 @@ impl ShapePreset {
             },
             Self::Disk => Shape::Disk { radius_m: r },
             Self::Sphere => Shape::Sphere { radius_m: r },
+            Self::Box => Shape::Box {
+                size_m: [2.0 * r, 1.4 * r, 0.4 * r],
+                rounding_m: 0.08 * r,
+            },
+            Self::Cylinder => Shape::Cylinder {
+                radius_m: r,
+                height_m: r,
+                rounding_m: 0.08 * r,
+            },
+            Self::Torus => Shape::Torus {
+                radius_m: 0.75 * r,
+                tube_radius_m: 0.25 * r,
+            },
+            Self::Dome => Shape::Dome {
+                radius_m: r,
+                height_m: 0.4 * r,
+            },
+            Self::Sweep => Shape::Sweep {
+                size_m: [2.0 * r, 2.0 * r],
+                height_m: r,
+                rounding_m: 0.5 * r,
+            },
             Self::Pan => Shape::Lathe {
                 profile_m: [
                     [0.0, 0.0],

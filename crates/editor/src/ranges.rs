@@ -39,7 +39,7 @@ pub(crate) const DEFAULT_DIAGONAL_M: f64 = 0.3;
 impl Parameter {
     /// Every parameter.
     #[cfg(test)]
-    pub(crate) const ALL: [Self; 67] = [
+    pub(crate) const ALL: [Self; 70] = [
         Self::CameraPosition,
         Self::CameraTarget,
         Self::CameraUp,
@@ -62,6 +62,9 @@ impl Parameter {
         Self::Scale,
         Self::PlaneSize,
         Self::ShapeRadius,
+        Self::ShapeHeight,
+        Self::TubeRadius,
+        Self::Rounding,
         Self::FitSize,
         Self::Time,
         Self::LatheSegments,
@@ -138,7 +141,11 @@ impl Parameter {
             P::Translation => (-2.0 * d..=2.0 * d, limits::COORDINATE_M),
             // Smaller than 1e-6 neither way; 0 lies between and is refused.
             P::Scale => (0.01..=10.0, -*limits::SCALE.end()..=*limits::SCALE.end()),
-            P::PlaneSize | P::ShapeRadius | P::FitSize => (0.05 * d..=5.0 * d, limits::SIZE_M),
+            P::PlaneSize | P::ShapeRadius | P::ShapeHeight | P::FitSize => {
+                (0.05 * d..=5.0 * d, limits::SIZE_M)
+            }
+            P::TubeRadius => (0.01 * d..=d, limits::SIZE_M),
+            P::Rounding => (0.0..=0.5 * d, limits::ROUNDING_M),
             P::Time => (0.0..=10.0, limits::TIME_S),
             P::LatheSegments => (16.0..=512.0, limits::LATHE_SEGMENTS),
             P::ProfileRadius => (0.0..=d, limits::PROFILE_RADIUS_M),
@@ -201,6 +208,8 @@ impl Parameter {
                 | P::Scale
                 | P::PlaneSize
                 | P::ShapeRadius
+                | P::ShapeHeight
+                | P::TubeRadius
                 | P::FitSize
                 | P::Count
                 | P::Density
@@ -226,6 +235,9 @@ impl Parameter {
             | P::Translation
             | P::PlaneSize
             | P::ShapeRadius
+            | P::ShapeHeight
+            | P::TubeRadius
+            | P::Rounding
             | P::FitSize
             | P::ProfileRadius
             | P::ProfileHeight

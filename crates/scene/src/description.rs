@@ -17,6 +17,7 @@ mod ranges;
 mod read;
 pub(crate) mod references;
 mod scratches;
+mod shapes;
 mod sizes;
 mod studio;
 mod table;
@@ -38,6 +39,7 @@ pub(crate) use scratches::DEFAULT_SEED;
 pub use scratches::{
     Amount, Around, Brush, Brushed, Distribution, Laid, Layer, Listed, Pattern, Scratches, Stroke,
 };
+pub use shapes::Shape;
 pub use studio::{Ground, Studio};
 pub use values::metal_names;
 
@@ -258,38 +260,6 @@ pub enum Surface {
     Shape(Shape),
     /// `mesh = "FILE"`: a `.gltf` or `.glb`, relative to the scene file.
     Mesh(PathBuf),
-}
-
-/// A built-in shape about the origin, z up.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Shape {
-    /// A rectangle in the xy plane that faces +z.
-    Plane {
-        /// Edge lengths along x and y. Required.
-        size_m: [f64; 2],
-    },
-    /// A disk in the xy plane that faces +z.
-    Disk {
-        /// Required.
-        radius_m: f64,
-    },
-    /// A sphere.
-    Sphere {
-        /// Required.
-        radius_m: f64,
-    },
-    /// A profile turned about the z axis.
-    Lathe {
-        /// Points `[r, z]`, at least two, r not negative. The surface faces to the left of the way along the profile, r
-        /// to the right and z up: a plate's upper side runs from the axis outwards, a cup's outside runs downwards.
-        /// A profile that ends where it starts is closed, as for a ring. Required.
-        profile_m: Vec<[f64; 2]>,
-        /// Facets around, from 3 to 4096. Default: 256.
-        segments: u32,
-        /// Whether the profile is rounded where it bends by less than 40 degrees; sharper corners stay. Default: true.
-        smooth: bool,
-    },
 }
 
 /// sigma of materials that do not say it, those of glTF files among them.

@@ -1,12 +1,10 @@
 //! The shapes of lights that the camera sees, as surfaces that shine and reflect nothing.
 
-use glam::{DMat4, DQuat, DVec2, DVec3};
-use std::f64::consts::PI;
-
 use crate::description::{self, LightKind, Shape};
 use crate::scene::{Base, GLTF_DIELECTRIC, Material, Mesh};
 use crate::shape;
 use crate::surface::{Surface, Vertex};
+use glam::{DMat4, DQuat, DVec2, DVec3};
 
 /// Facets around spheres and tubes: half a picture high they stay within 0.3 pixels of their outline.
 const FACETS: u32 = 96;
@@ -46,13 +44,14 @@ pub(crate) fn mesh(kind: &LightKind, material: u32) -> Mesh {
     match kind {
         LightKind::Sphere { center_m, radius_m } => {
             let place = DMat4::from_translation((*center_m).into());
-            capsule(0.0, *radius_m).bake(&place, material, &mut mesh);
+            shape::capsule(0.0, *radius_m, FACETS).bake(&place, material, &mut mesh);
         }
         LightKind::Tube { ends_m, radius_m } => {
             let [a, b] = ends_m.map(DVec3::from);
             let turn = DQuat::from_rotation_arc(DVec3::Z, (b - a).normalize_or(DVec3::Z));
             let place = DMat4::from_rotation_translation(turn, a.midpoint(b));
-            capsule(0.5 * a.distance(b), *radius_m).bake(&place, material, &mut mesh);
+            shape::capsule(0.5 * a.distance(b), *radius_m, FACETS)
+                .bake(&place, material, &mut mesh);
         }
         LightKind::Disk {
             center_m, radius_m, ..
@@ -74,26 +73,6 @@ pub(crate) fn mesh(kind: &LightKind, material: u32) -> Mesh {
         add_back(&mut mesh);
     }
     mesh
-}
-
-/// All within a radius of a line along z about the origin.
-fn capsule(half_length_m: f64, radius_m: f64) -> Surface {
-    let quarter = FACETS / 4;
-    let arc = |i: u32| {
-        let (sin, cos) = libm::sincos(0.5 * PI * f64::from(i) / f64::from(quarter));
-        // The pole exactly on the axis.
-        let r = if i == 0 { 0.0 } else { radius_m * sin };
-        [r, half_length_m + radius_m * cos]
-    };
-    let upper: Vec<[f64; 2]> = (0..=quarter).map(arc).collect();
-    let lower = upper.iter().rev().map(|[r, z]| [*r, -z]);
-    let mut profile_m: Vec<[f64; 2]> = upper.iter().copied().chain(lower).collect();
-    profile_m.dedup();
-    shape::surface(&Shape::Lathe {
-        profile_m,
-        segments: FACETS,
-        smooth: true,
-    })
 }
 
 /// A polygon, convex or not, whose corners run counter-clockwise as seen against its axis.

@@ -220,6 +220,7 @@ impl Mesh {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::description::Shape;
     use crate::shape;
 
     fn geometric_normal(mesh: &Mesh, triangle: usize) -> DVec3 {
@@ -229,7 +230,7 @@ mod tests {
 
     #[test]
     fn mirrored_objects_keep_their_outside() {
-        let sphere = shape::sphere(0.1);
+        let sphere = shape::surface(&Shape::Sphere { radius_m: 0.1 });
         for scale in [[1.0; 3], [-1.0, 1.0, 1.0], [-1.0; 3], [1.0, -2.0, 0.5]] {
             let transform = world_from_object([0.0; 3], [10.0, 20.0, 30.0], scale);
             let mut mesh = Mesh::default();
@@ -286,7 +287,7 @@ mod tests {
 
     #[test]
     fn flat_normals_are_those_of_the_triangles() {
-        let mut sphere = shape::sphere(1.0);
+        let mut sphere = shape::surface(&Shape::Sphere { radius_m: 1.0 });
         sphere.make_flat_normals();
         let mut mesh = Mesh::default();
         sphere.bake(&DMat4::IDENTITY, 0, &mut mesh);

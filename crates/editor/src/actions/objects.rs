@@ -31,12 +31,7 @@ pub fn add_shape(
     }
     let material: &Material = list::get(description, material.unwrap_or(0))?;
     let material = Some(material.name.clone());
-    let name = match shape {
-        Shape::Plane { .. } => "plane",
-        Shape::Disk { .. } => "disk",
-        Shape::Sphere { .. } => "sphere",
-        Shape::Lathe { .. } => "lathe",
-    };
+    let name = shape.kind();
     Ok(add(description, name, Surface::Shape(shape), material))
 }
 

@@ -43,10 +43,16 @@ pub enum Parameter {
     Rotation,
     /// `object.scale`
     Scale,
-    /// `size_m` of a plane.
+    /// `size_m` of a plane, a box or a sweep.
     PlaneSize,
-    /// `radius_m` of a disk or a sphere.
+    /// `radius_m` of a shape.
     ShapeRadius,
+    /// `height_m` of a shape.
+    ShapeHeight,
+    /// `tube_radius_m` of a torus.
+    TubeRadius,
+    /// `rounding_m` of a shape.
+    Rounding,
     /// `fit_m` of a model.
     FitSize,
     /// `time_s` of a model.

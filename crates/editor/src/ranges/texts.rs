@@ -95,6 +95,15 @@ pub(super) fn of(parameter: Parameter) -> Text {
             "Radius",
             "Half its width. With a count, the same scratches spread over more surface; with a density, there are more of them.",
         ),
+        P::ShapeHeight => ("Height", "From its lower to its upper end."),
+        P::TubeRadius => (
+            "Tube radius",
+            "Half the thickness of the ring, below its radius. A thin tube draws highlights out to fine lines.",
+        ),
+        P::Rounding => (
+            "Rounding",
+            "Radius of its edges. Rounded edges catch a line of light from almost everywhere; 0 leaves them sharp and dark.",
+        ),
         P::FitSize => (
             "Fitted size",
             "The largest extent of the model, whatever it is in its file.",

@@ -7,7 +7,7 @@ use super::ranges::{
 use super::sizes;
 use super::{
     Amount, Around, Brush, Camera, Description, Distribution, Grating, Laid, Layer, Light,
-    Material, MaterialKind, MetalColor, Object, Pattern, Render, Scratches, Shape, Stroke, Surface,
+    Material, MaterialKind, MetalColor, Object, Pattern, Render, Scratches, Stroke, Surface,
 };
 use crate::error::Error;
 use crate::text::shown;
@@ -170,42 +170,13 @@ fn object(object: &Object, key: &str) -> Check {
         return Err(Error::new(format!("{key}.time_s"), found(time_s), right));
     }
     match (&object.surface, &object.material) {
-        (Surface::Shape(shape), Some(_)) => self::shape(shape, &format!("{key}.shape")),
+        (Surface::Shape(shape), Some(_)) => shape.check_at(&format!("{key}.shape")),
         (Surface::Shape(_), None) => Err(Error::new(
             key,
             "`material` is missing",
             "a shape needs one; only a mesh brings its own",
         )),
         (Surface::Mesh(_), _) => Ok(()),
-    }
-}
-
-fn shape(shape: &Shape, key: &str) -> Check {
-    match shape {
-        Shape::Plane { size_m } => size_m
-            .iter()
-            .enumerate()
-            .try_for_each(|(i, &edge)| size(&format!("{key}.plane.size_m[{i}]"), edge)),
-        Shape::Disk { radius_m } => size(&format!("{key}.disk.radius_m"), *radius_m),
-        Shape::Sphere { radius_m } => size(&format!("{key}.sphere.radius_m"), *radius_m),
-        Shape::Lathe {
-            profile_m,
-            segments,
-            ..
-        } => {
-            let facets = format!("{key}.lathe.segments");
-            within(&facets, (*segments).into(), limits::LATHE_SEGMENTS)?;
-            let profile = format!("{key}.lathe.profile_m");
-            if profile_m.len() < 2 {
-                let found = format!("found {} points", profile_m.len());
-                return Err(Error::new(profile, found, "must be at least two"));
-            }
-            for (i, [r, z]) in profile_m.iter().enumerate() {
-                within(&format!("{profile}[{i}][0]"), *r, limits::PROFILE_RADIUS_M)?;
-                within(&format!("{profile}[{i}][1]"), *z, limits::COORDINATE_M)?;
-            }
-            Ok(())
-        }
     }
 }
 

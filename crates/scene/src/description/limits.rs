@@ -54,6 +54,8 @@ pub const TIME_S: RangeInclusive<f64> = 0.0..=1e6;
 pub const SCALE: RangeInclusive<f64> = 1e-6..=1e6;
 /// `segments` of a lathe.
 pub const LATHE_SEGMENTS: RangeInclusive<f64> = 3.0..=4096.0;
+/// `rounding_m` of shapes.
+pub const ROUNDING_M: RangeInclusive<f64> = 0.0..=LARGEST_M;
 /// Radii of a lathe's profile.
 pub const PROFILE_RADIUS_M: RangeInclusive<f64> = 0.0..=LARGEST_M;
 

@@ -7,8 +7,8 @@ use super::sizes;
 use super::table::{Read, Table, Value, number, wrong_type};
 use super::{
     Amount, Around, Brush, Brushed, Camera, Description, Distribution, Environment, Laid, Layer,
-    Listed, Map, Material, MaterialKind, MetalColor, Object, Pattern, Render, Scratches, Shape,
-    Stroke, Studio, Surface, Up,
+    Listed, Map, Material, MaterialKind, MetalColor, Object, Pattern, Render, Scratches, Stroke,
+    Studio, Surface, Up,
 };
 use crate::error::Error;
 
@@ -223,42 +223,6 @@ impl Read for ScaleFactors {
             DeValue::Array(_) => Read::read(value, key).map(Self),
             _ => f64::read(value, key).map(|factor| Self([factor; 3])),
         }
-    }
-}
-
-impl Read for Shape {
-    fn read(value: &Value, key: &str) -> Result<Self, Error> {
-        const KINDS: [&str; 4] = ["plane", "disk", "sphere", "lathe"];
-        let outer = Table::read(value, key, &KINDS)?;
-        let mut present = KINDS.iter().filter(|kind| outer.get(kind).is_some());
-        let (Some(kind), None) = (present.next(), present.next()) else {
-            let found = format!("found {} shapes", outer.entries.len());
-            let right = "must be one, such as `{ disk = { radius_m = 0.1 } }`";
-            return Err(Error::new(key, found, right));
-        };
-        let inner = |keys| {
-            let value = outer.get(kind).expect("the kind was found just now");
-            Table::read(value, &outer.way(kind), keys)
-        };
-        Ok(match *kind {
-            "plane" => Self::Plane {
-                size_m: inner(&["size_m"])?.required("size_m")?,
-            },
-            "disk" => Self::Disk {
-                radius_m: inner(&["radius_m"])?.required("radius_m")?,
-            },
-            "sphere" => Self::Sphere {
-                radius_m: inner(&["radius_m"])?.required("radius_m")?,
-            },
-            _ => {
-                let lathe = inner(&["profile_m", "segments", "smooth"])?;
-                Self::Lathe {
-                    profile_m: lathe.required("profile_m")?,
-                    segments: lathe.or("segments", 256)?,
-                    smooth: lathe.or("smooth", true)?,
-                }
-            }
-        })
     }
 }
 

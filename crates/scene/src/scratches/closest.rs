@@ -326,13 +326,18 @@ fn nearest_on_triangle([a, b, c]: [DVec3; 3], point: DVec3, most: f64) -> Option
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::description::Shape;
     use crate::shape;
     use glam::DMat4;
 
     #[test]
     fn finds_what_a_search_through_all_finds() {
         let mut mesh = Mesh::default();
-        shape::sphere(0.1).bake(&DMat4::from_scale(DVec3::new(1.0, 2.0, 0.5)), 0, &mut mesh);
+        shape::surface(&Shape::Sphere { radius_m: 0.1 }).bake(
+            &DMat4::from_scale(DVec3::new(1.0, 2.0, 0.5)),
+            0,
+            &mut mesh,
+        );
         let mesh = Arc::new(mesh);
         let tree = Closest::new(mesh.clone());
         for i in 0..50 {

@@ -200,6 +200,30 @@ fn sizes_that_are_negative_or_not_finite() {
             "plate.toml:13: object[0].shape.lathe.profile_m[1][0]: found -0.1; must be from 0 to 1000",
         ),
         (
+            &object("{ box = { size_m = [1.0, 0.2, 0.5], rounding_m = 0.2 } }"),
+            "plate.toml:13: object[0].shape.box.rounding_m: found 0.2; must be at most half of the shortest edge: 0.1",
+        ),
+        (
+            &object("{ cylinder = { radius_m = 0.1, height_m = 0, rounding_m = -1 } }"),
+            "plate.toml:13: object[0].shape.cylinder.height_m: found 0; must be greater than 0",
+        ),
+        (
+            &object("{ cylinder = { radius_m = 0.1, height_m = 0.3, rounding_m = 0.12 } }"),
+            "plate.toml:13: object[0].shape.cylinder.rounding_m: found 0.12; must be at most the radius and half of the height: 0.1",
+        ),
+        (
+            &object("{ torus = { radius_m = 0.1, tube_radius_m = 0.1 } }"),
+            "plate.toml:13: object[0].shape.torus.tube_radius_m: found 0.1; must be below `radius_m`, 0.1",
+        ),
+        (
+            &object("{ dome = { radius_m = 0.1, height_m = 0.2 } }"),
+            "plate.toml:13: object[0].shape.dome.height_m: found 0.2; must be at most `radius_m`: 0.1",
+        ),
+        (
+            &object("{ sweep = { size_m = [1.0, 0.5], height_m = 1.0, rounding_m = 0.6 } }"),
+            "plate.toml:13: object[0].shape.sweep.rounding_m: found 0.6; must be at most `height_m` and the extent along y: 0.5",
+        ),
+        (
             &format!("{}scale = 0", disk()),
             "plate.toml:15: object[0].scale: found 0; its size must be between 1e-6 and 1e6",
         ),

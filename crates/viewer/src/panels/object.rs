@@ -177,11 +177,58 @@ fn time_rows(form: &mut Form, time_s: &mut Option<f64>) {
     }
 }
 
+/// A number that another one of the shape bounds; it follows where that falls below it.
+fn up_to(form: &mut Form, parameter: Parameter, value: &mut f64, most: f64) {
+    form.number(parameter, value);
+    *value = value.min(most);
+}
+
 fn shape_rows(form: &mut Form, shape: &mut Shape) {
     match shape {
         Shape::Plane { size_m } => form.boxes(Parameter::PlaneSize, &["x", "y"], size_m),
         Shape::Disk { radius_m } | Shape::Sphere { radius_m } => {
             form.number(Parameter::ShapeRadius, radius_m);
+        }
+        Shape::Box { size_m, rounding_m } => {
+            form.boxes(Parameter::PlaneSize, &["x", "y", "z"], size_m);
+            let shortest = size_m.iter().copied().fold(f64::INFINITY, f64::min);
+            up_to(form, Parameter::Rounding, rounding_m, 0.5 * shortest);
+        }
+        Shape::Cylinder {
+            radius_m,
+            height_m,
+            rounding_m,
+        } => {
+            form.number(Parameter::ShapeRadius, radius_m);
+            form.number(Parameter::ShapeHeight, height_m);
+            let most = radius_m.min(0.5 * *height_m);
+            up_to(form, Parameter::Rounding, rounding_m, most);
+        }
+        Shape::Torus {
+            radius_m,
+            tube_radius_m,
+        } => {
+            form.number(Parameter::ShapeRadius, radius_m);
+            up_to(
+                form,
+                Parameter::TubeRadius,
+                tube_radius_m,
+                0.999 * *radius_m,
+            );
+        }
+        Shape::Dome { radius_m, height_m } => {
+            form.number(Parameter::ShapeRadius, radius_m);
+            up_to(form, Parameter::ShapeHeight, height_m, *radius_m);
+        }
+        Shape::Sweep {
+            size_m,
+            height_m,
+            rounding_m,
+        } => {
+            form.boxes(Parameter::PlaneSize, &["x", "y"], size_m);
+            form.number(Parameter::ShapeHeight, height_m);
+            let most = height_m.min(size_m[1]);
+            up_to(form, Parameter::Rounding, rounding_m, most);
         }
         Shape::Lathe {
             profile_m,
