@@ -319,14 +319,17 @@ impl Maps {
             suns::Parted::default()
         };
         let windows = parts.then(|| windows::part(&map)).flatten();
-        let levels = prefilter::prefilter(&map);
+        let (windows, beside) = windows.unzip();
+        let maps: Vec<&Picture> = std::iter::once(&map).chain(&beside).collect();
+        let mut levels = prefilter::prefilter(&maps).into_iter();
+        let (levels, levels_beside_windows) =
+            (levels.next().expect("as many as maps"), levels.next());
         let irradiance = irradiance::blur(&levels[0]);
         parted.put_back(&mut map);
         round_to_half(&mut map);
-        let (windows, beside) = windows.unzip();
         Self {
             windows: windows.unwrap_or_default(),
-            levels_beside_windows: beside.map(|rest| prefilter::prefilter(&rest)),
+            levels_beside_windows,
             suns: parted.suns,
             background: map,
             levels,
