@@ -18,7 +18,7 @@ use crate::scan::ScanPasses;
 use crate::scene_data::SceneData;
 use crate::shade_scratches::{PickByEnergyPass, ShadeScratchesPass};
 use crate::shaders;
-use crate::shadow_scratches::Scratched;
+use crate::shadow_picks::Scratched;
 use crate::shadows::Shadows;
 use crate::strip::{StripRoom, TILE_PX, whole};
 use crate::transfer::Transfer;
@@ -38,6 +38,8 @@ pub(crate) struct Bounces {
     pub shadows: Shadows,
     /// None where the scene has no scratches.
     pub scratches: Option<BounceScratches>,
+    /// By way of gratings. None where the scene has none.
+    gratings: Option<ComputePass>,
 }
 
 pub(crate) struct BounceScratches {
@@ -83,6 +85,7 @@ impl Bounces {
         use Use::{Integers, Reads, Uniform, Writes};
         let shadows = shadows.of_hits(orders);
         let scratches = tree.map(|tree| BounceScratches::new(orders, tree));
+        let has_gratings = orders.variant().has.gratings;
         let mut pass =
             |name, module, uses: &[Use]| ComputePass::order(orders, name, module, uses, &[]);
         let base_rays = pass(
@@ -105,6 +108,13 @@ impl Bounces {
             (&shaders::BOUNCE_FILM, "bounce_film"),
             &[Reads, Reads, Writes],
         );
+        let gratings = has_gratings.then(|| {
+            pass(
+                "bounce rays",
+                (&shaders::BOUNCE_GRATING_RAYS, "bounce_grating_rays"),
+                &[Reads, Reads, Reads, Reads, Reads, Uniform, Writes],
+            )
+        });
         let trace = [Seen::ByCamera, Seen::ByRays].map(|seen| {
             let module = (&shaders::BOUNCE_TRACE, "bounce_trace");
             let uses = [Reads, Reads, Writes, Writes, Uniform, Integers];
@@ -119,6 +129,16 @@ impl Bounces {
             film,
             shadows,
             scratches,
+            gratings,
+        }
+    }
+
+    /// Whether rays may leave what the camera sees in a way.
+    pub(crate) fn has(&self, way: Way) -> bool {
+        match way {
+            Way::Base => true,
+            Way::Scratches => self.scratches.is_some(),
+            Way::Gratings => self.gratings.is_some(),
         }
     }
 
@@ -127,7 +147,8 @@ impl Bounces {
         let Bounce { from, to, rays, .. } = *by;
         let groups = in_a_row(by.groups);
         let is_seen = by.depth == 0;
-        if !(is_seen && by.by_scratches) {
+        let goes = |way| !is_seen || by.way == way;
+        if goes(Way::Base) {
             let resources = [
                 whole(&from.samples.points),
                 whole(&from.samples.paints),
@@ -139,7 +160,7 @@ impl Bounces {
             self.base_rays.run(gpu, recording, &resources, groups);
         }
         if let (Some(scratches), Some(shadow_room)) = (&self.scratches, &from.shadows)
-            && (by.by_scratches || !is_seen)
+            && goes(Way::Scratches)
         {
             let resources = [
                 whole(&from.samples.points),
@@ -151,6 +172,20 @@ impl Bounces {
                 whole(&shadow_room.picks),
             ];
             scratches.rays.run(gpu, recording, &resources, groups);
+        }
+        if let Some(pass) = &self.gratings
+            && goes(Way::Gratings)
+        {
+            let resources = [
+                whole(&from.samples.points),
+                whole(&from.samples.paints),
+                whole(recording.scene.buffers.gratings()),
+                whole(&from.samples.chunk_starts),
+                whole(&from.samples.chunk_sums),
+                whole(by.round),
+                whole(rays),
+            ];
+            pass.run(gpu, recording, &resources, groups);
         }
         let resources = [
             whole(&from.samples.points),
@@ -220,8 +255,20 @@ pub(crate) struct Bounce<'a> {
     pub groups: u32,
     /// How many objects light goes by from `from` to the camera.
     pub depth: u32,
-    /// Whether it leaves what the camera sees by way of its scratches.
-    pub by_scratches: bool,
+    /// How it leaves what the camera sees.
+    pub way: Way,
+}
+
+/// How light leaves a sample. Twin: bounce.wgsl.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Way {
+    Base,
+    Scratches,
+    Gratings,
+}
+
+impl Way {
+    pub(crate) const ALL: [Self; 3] = [Self::Base, Self::Scratches, Self::Gratings];
 }
 
 impl BounceScratches {

@@ -58,12 +58,6 @@ pub enum Error {
         /// Shader invocations that gave up.
         pixels: u32,
     },
-    /// The scene has something that no pass renders.
-    #[error("\"{object}\" has gratings, which the CPU renders alone so far")]
-    Gratings {
-        /// Name of the object.
-        object: String,
-    },
     /// The graphics library refused a call: a mistake in this crate.
     #[error("the graphics library refused a call (a mistake in Hairline): {description}")]
     Validation {

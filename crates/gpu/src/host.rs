@@ -2,13 +2,13 @@
 
 use glam::{DVec3, Vec3, Vec4};
 use hairline_index::{IndexedSegment, ScratchIndex};
-use hairline_scene::{Mesh, Profile, Scene, ScratchTables};
+use hairline_scene::{Bearing, GrooveField, Mesh, Profile, Scene, ScratchTables};
 use half::f16;
 use rayon::prelude::*;
 use std::ops::Range;
 
 use crate::layout::VERTEX_BITANGENT_FLIPPED;
-use crate::layout::{Material, Object, ScratchNode, ScratchSegment, Vertex};
+use crate::layout::{Grating, Material, Object, ScratchNode, ScratchSegment, Vertex};
 use crate::texture_array::TextureArray;
 
 /// Elements that a thread takes at a time: fewer are not worth another thread.
@@ -59,10 +59,13 @@ fn color(color: Vec4) -> [u32; 2] {
     [r | g << 16, b | a << 16]
 }
 
-/// One for each object of the scene whose index this is.
-pub(crate) fn objects(index: &ScratchIndex) -> Vec<Object> {
+/// One for each object of the scene whose index this is. `gratings` are those of each.
+pub(crate) fn objects(index: &ScratchIndex, gratings: &[Vec<Grating>]) -> Vec<Object> {
+    let mut end_grating = 0;
     let object = |(i, nodes): (usize, &Range<u32>)| {
         let segments = index.segment_range(i);
+        let first_grating = end_grating;
+        end_grating += gratings[i].len() as u32;
         Object {
             first_segment: segments.start,
             end_segment: segments.end,
@@ -70,9 +73,70 @@ pub(crate) fn objects(index: &ScratchIndex) -> Vec<Object> {
             end_node: nodes.end,
             depth_coherence: index.depth_coherence[i],
             coherence_um: index.coherence_max_um()[i],
+            first_grating,
+            end_grating,
         }
     };
     index.tree.objects.iter().enumerate().map(object).collect()
+}
+
+/// Those of each object of a scene, each once for each material that it lies on.
+pub(crate) fn gratings(
+    scene: &Scene,
+    tables: &ScratchTables,
+    origin_m: DVec3,
+) -> Vec<Vec<Grating>> {
+    let of_object = |object: &hairline_scene::Object| {
+        let materials = if object.gratings.is_empty() {
+            Vec::new()
+        } else {
+            object.mesh.materials()
+        };
+        let own = object.gratings.iter();
+        own.flat_map(|it| materials.iter().map(move |material| (it, *material)))
+            .filter_map(|(it, material)| {
+                let table = tables.grating_table(it, material)?;
+                Some(grating(it, material, table, origin_m))
+            })
+            .collect()
+    };
+    scene.objects.iter().map(of_object).collect()
+}
+
+/// Twin of the kinds: gratings.wgsl.
+fn grating(
+    grating: &hairline_scene::Grating,
+    material: usize,
+    table: usize,
+    origin_m: DVec3,
+) -> Grating {
+    let (axis, center_m, kind, curvature_per_m) = match grating.field {
+        GrooveField::Along(direction) => (direction.normalize_or_zero(), origin_m, 0, 0.0),
+        GrooveField::Around {
+            axis,
+            center_m,
+            bearing,
+        } => {
+            let (kind, curvature_per_m) = match bearing {
+                Bearing::Circular => (1, 0.0),
+                Bearing::Radial => (2, 0.0),
+                Bearing::Spun { curvature_per_m } => (3, curvature_per_m),
+            };
+            (axis, center_m, kind, curvature_per_m)
+        }
+    };
+    Grating {
+        axis: axis.as_vec3().to_array(),
+        kind,
+        center_m: relative(center_m, origin_m),
+        curvature_per_m: curvature_per_m as f32,
+        radii_m: grating.radii_m.map(|radius| radius.min(1e9) as f32),
+        coverage: grating.coverage as f32,
+        angle_std_rad: grating.angle_std_rad as f32,
+        material: material as u32,
+        table: table as u32,
+        ..Grating::default()
+    }
 }
 
 pub(crate) fn nodes(index: &ScratchIndex, origin_m: DVec3) -> Vec<ScratchNode> {

@@ -81,7 +81,7 @@ shared! {
         other_uv: [f32; 2],
         color: [u32; 2],
     }
-    /// The scratches of an object.
+    /// The scratches of an object, and its gratings.
     Object {
         first_segment: u32,
         end_segment: u32,
@@ -89,6 +89,22 @@ shared! {
         end_node: u32,
         depth_coherence: f32,
         coherence_um: f32,
+        first_grating: u32,
+        end_grating: u32,
+    }
+    /// Grooves side by side.
+    Grating {
+        axis: [f32; 3],
+        kind: u32,
+        center_m: [f32; 3],
+        curvature_per_m: f32,
+        radii_m: [f32; 2],
+        coverage: f32,
+        angle_std_rad: f32,
+        material: u32,
+        table: u32,
+        pad_0: u32,
+        pad_1: u32,
     }
     /// A material.
     Material {
@@ -199,7 +215,7 @@ shared! {
         picks: u32,
         seed: u32,
         depth: u32,
-        by_scratches: u32,
+        way: u32,
     }
     /// A ray from a sample to a source.
     ShadowRay {

@@ -9,6 +9,7 @@ use crate::pipelines::Orders;
 use crate::project::ProjectPass;
 use crate::resolve::ResolvePass;
 use crate::shade_base::ShadeBasePass;
+use crate::shade_gratings::ShadeGratingsPass;
 use crate::shade_published::ShadePublishedPass;
 use crate::shade_scratches::ShadeScratchesPass;
 use crate::surface::SurfacePass;
@@ -29,6 +30,8 @@ pub(crate) enum Shade {
         base: ShadeBasePass,
         /// None where the scene has none.
         scratches: Option<Box<ScratchPasses>>,
+        /// None where the scene has none.
+        gratings: Option<ShadeGratingsPass>,
     },
     /// By the method of 2018.
     Published(ShadePublishedPass),
@@ -46,6 +49,16 @@ impl ScenePasses {
         match &self.shade {
             Shade::Own { scratches, .. } => scratches.as_deref(),
             Shade::Published(_) => None,
+        }
+    }
+
+    /// Chunks of sums that gratings of so many groups need behind those of scratches.
+    pub(crate) fn grating_chunks(&self, groups: u32) -> u32 {
+        match &self.shade {
+            Shade::Own {
+                gratings: Some(_), ..
+            } => groups,
+            _ => 0,
         }
     }
 
@@ -68,6 +81,7 @@ impl ScenePasses {
                         shade: ShadeScratchesPass::new(&mut orders, Seen::ByCamera),
                     })
                 }),
+                gratings: (variant.has.gratings).then(|| ShadeGratingsPass::new(&mut orders)),
             }
         };
         let passes = Self {

@@ -173,11 +173,6 @@ impl Renderer {
         last: Option<&GpuScene>,
         source: &Source<'_>,
     ) -> Result<GpuScene, Error> {
-        let mut objects = source.scene.objects.iter();
-        if let Some(object) = objects.find(|object| !object.gratings.is_empty()) {
-            let object = object.name.clone();
-            return Err(Error::Gratings { object });
-        }
         GpuScene::new(&self.gpu, &self.layouts, source, last).await
     }
 

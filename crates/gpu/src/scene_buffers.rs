@@ -10,7 +10,7 @@ use crate::bindings::{Layouts, SCENE_BUFFERS, bind};
 use crate::device::Gpu;
 use crate::error::Error;
 use crate::host;
-use crate::layout::{Material, Object, ScratchNode, ScratchSegment, Vertex};
+use crate::layout::{Grating, Material, Object, ScratchNode, ScratchSegment, Vertex};
 use crate::lights;
 use crate::rows;
 use crate::source::Source;
@@ -23,6 +23,7 @@ pub(crate) struct SceneBuffers {
     pub group: wgpu::BindGroup,
     pub vertices: Vertices,
     objects: Small<Object, wgpu::Buffer>,
+    gratings: Small<Grating, wgpu::Buffer>,
     materials: Small<Material, wgpu::TextureView>,
     lights: Small<[u32; 4], wgpu::TextureView>,
     index: Arc<ScratchIndex>,
@@ -36,6 +37,11 @@ impl SceneBuffers {
     /// Segments of scratches.
     pub(crate) fn segment_count(&self) -> u32 {
         self.index.tree.segments.len() as u32
+    }
+
+    /// Those of each object one after the other; passes about gratings bind them.
+    pub(crate) fn gratings(&self) -> &wgpu::Buffer {
+        &self.gratings.there
     }
 
     /// The tree over the segments.
@@ -61,12 +67,19 @@ impl SceneBuffers {
         let last_vertices = last.map(|last| &last.vertices);
         let vertices = Vertices::upload(transfer, triangles, scene, last_vertices).await?;
         let origin_m = vertices.origin_m;
+        let gratings = host::gratings(scene, tables, origin_m);
         let objects = Small::keep(
             last.map(|last| &last.objects),
-            host::objects(index),
+            host::objects(index, &gratings),
             async |elements| storage_buffer(transfer, objects, elements).await,
         );
         let objects = objects.await?;
+        let gratings = Small::keep(
+            last.map(|last| &last.gratings),
+            gratings.concat(),
+            async |elements| storage_buffer(transfer, "gratings", elements).await,
+        );
+        let gratings = gratings.await?;
         let materials = Small::keep(
             last.map(|last| &last.materials),
             host::materials(scene, tables, array),
@@ -105,6 +118,7 @@ impl SceneBuffers {
             group: bind(transfer.gpu, "scene", &layouts.scene, &resources),
             vertices,
             objects,
+            gratings,
             materials,
             lights,
             index: Arc::clone(index),

@@ -7,9 +7,7 @@ use wgpu::BindingResource;
 
 use crate::compute_pass::{ComputePass, Recording, Use, in_a_row};
 use crate::device::Gpu;
-use crate::layout::LightRange;
-use crate::light_ranges::RANGE_STRIDE;
-use crate::lights::Kind;
+use crate::kind_passes::{KindPasses, LIGHTS_NONE, bind, order};
 use crate::pipelines::Orders;
 use crate::scan::ScanPasses;
 use crate::shaders;
@@ -22,9 +20,6 @@ pub(crate) struct ShadeScratchesPass {
     kinds: KindPasses,
 }
 
-/// One pass for each kind of light that the scene has; spheres where it has none, for the mask.
-pub(crate) struct KindPasses(Vec<(Kind, ComputePass)>);
-
 /// Groups of a workgroup that counts chunks. Twin: group_chunks.wgsl.
 const CHUNKS_WORKGROUP: u32 = 64;
 
@@ -35,7 +30,7 @@ impl ShadeScratchesPass {
         let constants = [seen.constant()];
         Self {
             chunks: ComputePass::order(orders, "chunks", module, &uses, &constants),
-            kinds: KindPasses::new(orders, "scratches", &constants),
+            kinds: kinds(orders, "scratches", &constants),
         }
     }
 
@@ -72,52 +67,20 @@ impl ShadeScratchesPass {
         sorted: usize,
         chunks: u32,
     ) {
-        let sums = &room.samples.chunk_sums;
+        let resources = resources(room, &room.samples.chunk_sums, sorted);
         self.kinds
-            .record(gpu, recording, room, sums, sorted, chunks);
-    }
-}
-
-impl KindPasses {
-    /// With `more` constants beside that of the kind.
-    pub(crate) fn new(orders: &mut Orders, name: &'static str, more: &[Constant]) -> Self {
-        let has = orders.variant().has;
-        let pass = |kind: Kind| (kind, order(orders, name, kind as u32, more));
-        Self(has.lights.over_scratches().map(pass).collect())
-    }
-
-    /// Those of at most so many chunks; `output` is what the pass writes.
-    pub(crate) fn record(
-        &self,
-        gpu: &Gpu,
-        recording: &mut Recording,
-        room: &StripRoom,
-        output: &wgpu::Buffer,
-        sorted: usize,
-        chunks: u32,
-    ) {
-        let ranges = &recording.scene.light_ranges;
-        for (kind, pass) in &self.0 {
-            let group = bind(pass, gpu, recording, room, output, sorted);
-            let own = ranges.of.iter().enumerate().filter(|(_, of)| *of == kind);
-            for (i, _) in own {
-                let offset = (i as u64 * RANGE_STRIDE) as u32;
-                pass.dispatch(recording, &group, &[offset], in_a_row(chunks));
-            }
-        }
+            .record(gpu, recording, &resources, in_a_row(chunks));
     }
 }
 
 /// Picks scratches by the energy that they take of the base.
 pub(crate) struct PickByEnergyPass(ComputePass);
 
-/// No light. Twin: shade_scratches.wgsl.
-const LIGHTS_NONE: u32 = Kind::ALL.len() as u32;
-
 impl PickByEnergyPass {
     pub(crate) fn new(orders: &mut Orders, seen: Seen) -> Self {
         let constants = [("PICKS", 1.0), seen.constant()];
-        Self(order(orders, "bounce picks", LIGHTS_NONE, &constants))
+        let name = "bounce picks";
+        Self(order(orders, name, MODULE, &USES, LIGHTS_NONE, &constants))
     }
 
     /// Of at most so many chunks; `output` is what the pass writes.
@@ -130,48 +93,41 @@ impl PickByEnergyPass {
         sorted: usize,
         chunks: u32,
     ) {
-        let group = bind(&self.0, gpu, recording, room, output, sorted);
+        let resources = resources(room, output, sorted);
+        let group = bind(&self.0, gpu, recording, &resources);
         self.0.dispatch(recording, &group, &[0], in_a_row(chunks));
     }
 }
 
-fn order(orders: &mut Orders, name: &'static str, lights: u32, more: &[Constant]) -> ComputePass {
-    let uses = [
-        Use::Reads,
-        Use::Reads,
-        Use::Reads,
-        Use::Reads,
-        Use::Reads,
-        Use::Writes,
-        Use::DynamicUniform,
-    ];
-    let module = (&shaders::SHADE_SCRATCHES, "shade_scratches");
-    let mut constants = more.to_vec();
-    constants.push(("SCRATCH_LIGHTS", f64::from(lights)));
-    ComputePass::order(orders, name, module, &uses, &constants)
+/// What the pass that lights scratches binds before the range of lights.
+const USES: [Use; 6] = [
+    Use::Reads,
+    Use::Reads,
+    Use::Reads,
+    Use::Reads,
+    Use::Reads,
+    Use::Writes,
+];
+
+const MODULE: (&shaders::Module, &str) = (&shaders::SHADE_SCRATCHES, "shade_scratches");
+
+/// One pass for each kind of light; with `PICKS` they pick scratches in place of lighting them.
+pub(crate) fn kinds(orders: &mut Orders, name: &'static str, more: &[Constant]) -> KindPasses {
+    KindPasses::new(orders, name, MODULE, &USES, more)
 }
 
-fn bind(
-    pass: &ComputePass,
-    gpu: &Gpu,
-    recording: &Recording,
-    room: &StripRoom,
-    output: &wgpu::Buffer,
+/// `output` is what the pass writes.
+pub(crate) fn resources<'r>(
+    room: &'r StripRoom,
+    output: &'r wgpu::Buffer,
     sorted: usize,
-) -> wgpu::BindGroup {
-    let range = BindingResource::Buffer(wgpu::BufferBinding {
-        buffer: &recording.scene.light_ranges.buffer,
-        offset: 0,
-        size: wgpu::BufferSize::new(size_of::<LightRange>() as u64),
-    });
-    let resources = [
+) -> [BindingResource<'r>; 6] {
+    [
         whole(&room.group_starts),
         whole(&room.samples.points),
         whole(&room.lists.entries[sorted]),
         whole(&room.list_starts),
         whole(&room.samples.chunk_starts),
         whole(output),
-        range,
-    ];
-    pass.bind(gpu, &resources)
+    ]
 }

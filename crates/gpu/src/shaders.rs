@@ -94,6 +94,8 @@ modules! {
     PUBLISHED_FOOTPRINT = "published/published_footprint" needs [GAUSSIAN];
     /// What one scratch sends to the viewer: the module for other engines.
     SCRATCH_LIGHT = "physics/scratch_light" needs [FOUR_EDGES, BAND_ENVIRONMENT, SCRATCH_TABLE, MASK, ENVIRONMENT];
+    /// What the grooves of a grating send.
+    GRATING = "physics/grating" needs [SCRATCH_LIGHT];
     /// For other engines: finding scratches under a footprint.
     SCRATCH_TREE = "engine/scratch_tree" needs [SCRATCH];
     /// For other engines: the base of a point under lights.
@@ -136,6 +138,8 @@ modules! {
     NEARNESS = "scene/nearness" needs [SEGMENTS, PIXEL_POINT, SCRATCH_LIGHT, BINDINGS];
     /// What one scratch sends to the viewer of a polygon with many vertices.
     OUTLINE_LIGHT = "scene/outline_light" needs [ROWS, SCRATCH_LIGHT, TUBE];
+    /// Which way the grooves of a grating run.
+    GRATINGS = "scene/gratings" needs [LAYOUT, GAUSSIAN];
     /// The base under lights and environment.
     BASE = "scene/base" needs [SCENE, LIGHTS, FILTERED_LOBE, ENVIRONMENT_LOBE];
     /// The method of 2018: a scratch under lights and environment.
@@ -172,10 +176,16 @@ modules! {
     GROUP_CHUNKS = "passes/group_chunks" needs [GROUPS];
     /// A pixel with a segment that it sees.
     PAIRS = "scene/pairs" needs [SEGMENTS, PIXEL_POINT, SCRATCH_LIGHT, METHOD];
+    /// What a pair sends of a light.
+    PAIR_LIGHT = "scene/pair_light" needs [PAIRS, OUTLINE_LIGHT];
+    /// A sample with a grating that it sees.
+    GRATING_PAIRS = "scene/grating_pairs" needs [PAIRS, GRATING, GRATINGS, BINDINGS];
     /// Scratches that stand for all.
     PICKS = "scene/picks" needs [SOBOL, LUMINANCE];
     /// Pass: the light and the mask of scratches.
-    SHADE_SCRATCHES = "passes/shade_scratches" needs [NEARNESS, PAIRS, PICKS, GROUPS, METHOD, OUTLINE_LIGHT];
+    SHADE_SCRATCHES = "passes/shade_scratches" needs [NEARNESS, PAIR_LIGHT, PICKS, GROUPS];
+    /// Pass: the light of gratings.
+    SHADE_GRATINGS = "passes/shade_gratings" needs [GRATING_PAIRS, PAIR_LIGHT, PICKS, FILM, FRESNEL];
     /// Pass: the radiance of the base.
     SHADE_BASE = "passes/shade_base" needs [BASE, FILM, PIXEL_POINT];
     /// The lobes of the base, to draw directions from.
@@ -196,24 +206,32 @@ modules! {
     SHADOW_BASE = "passes/shadow_base" needs [BASE, SHADOW, NEAR_RAYS, PIXEL_POINT];
     /// Directions to light by way of a scratch.
     DRAWN_LIGHT = "scene/drawn_light" needs [OUTLINE_LIGHT, LUMINANCE];
+    /// Rays to sources by way of a pair.
+    DRAWN_RAY = "scene/drawn_ray" needs [DRAWN_LIGHT, PAIRS, LIGHT_SAMPLING, SHADOW];
     /// Where under its pixel a pair lies.
     PAIR_PLACE = "scene/pair_place" needs [DRAWN_LIGHT, PAIRS];
     /// Pass: where the sums begin by which scratches are picked.
     SHADOW_PICKS = "passes/shadow_picks" needs [SHADOW, PICKS, FILM];
     /// Pass: a ray of each sample by way of a scratch.
-    SHADOW_SCRATCH_RAYS = "passes/shadow_scratch_rays" needs [PAIR_PLACE, PICKS, SHADOW, LIGHT_SAMPLING, FILM];
+    SHADOW_SCRATCH_RAYS = "passes/shadow_scratch_rays" needs [PAIR_PLACE, DRAWN_RAY, PICKS, FILM];
+    /// Pass: a ray of each sample by way of a grating.
+    SHADOW_GRATING_RAYS = "passes/shadow_grating_rays" needs [GRATING_PAIRS, DRAWN_RAY, PICKS, FILM];
+    /// Pass: what is hidden of what gratings send.
+    SHADOW_GRATINGS = "passes/shadow_gratings" needs [SHADOW, NEAR_RAYS];
     /// Pass: what is hidden of what scratches send.
     SHADOW_SCRATCHES = "passes/shadow_scratches" needs [SHADOW, NEAR_RAYS];
     /// Visibility of a pixel's neighbours.
     NEAR_RAYS = "scene/near_rays" needs [LAYOUT, FILM, LUMINANCE];
     /// The sums of a sample over its scratches.
-    SUMS = "scene/sums" needs [LAYOUT, METHOD, MASK, FILM];
+    SUMS = "scene/sums" needs [LAYOUT, METHOD, MASK, FILM, CONTENTS];
     /// What the passes share that draw rays to other objects.
     BOUNCE = "scene/bounce" needs [SHADOW];
     /// Pass: a ray of each sample to other objects by its base.
     BOUNCE_BASE_RAYS = "passes/bounce_base_rays" needs [BOUNCE, BASE_LOBES, SUMS, PIXEL_POINT];
     /// Pass: the same by a scratch.
     BOUNCE_SCRATCH_RAYS = "passes/bounce_scratch_rays" needs [BOUNCE, PAIR_PLACE, PICKS, SUMS, FRESNEL];
+    /// Pass: the same by a grating.
+    BOUNCE_GRATING_RAYS = "passes/bounce_grating_rays" needs [BOUNCE, GRATING_PAIRS, DRAWN_LIGHT, SUMS, FRESNEL];
     /// Pass: what each of these rays meets.
     BOUNCE_TRACE = "passes/bounce_trace" needs [RAY_START, FILM];
     /// Pass: the surface points of what they met.
@@ -221,7 +239,7 @@ modules! {
     /// Passes: the scratches that are seen there.
     BOUNCE_GATHER = "passes/bounce_gather" needs [ROWS, FILM, PIXEL_POINT];
     /// Pass: light from there, added to samples.
-    BOUNCE_LIGHT = "passes/bounce_light" needs [SUMS, CONTENTS];
+    BOUNCE_LIGHT = "passes/bounce_light" needs [SUMS, BOUNCE];
     /// Pass: and to the film.
     BOUNCE_FILM = "passes/bounce_film" needs [FILM];
     /// Pass: base and scratches by the method of 2018.

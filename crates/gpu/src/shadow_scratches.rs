@@ -1,14 +1,15 @@
 //! Passes: which scratches shadow rays go by, the rays, and what is hidden of what scratches send.
-//!
-//! Some pairs of a sample are picked by lighting all of them once more; a round takes one of the picks.
 
 use crate::compute_pass::{ComputePass, Recording, Use, in_a_row};
 use crate::device::Gpu;
+use crate::film::Film;
+use crate::kind_passes::KindPasses;
 use crate::pipelines::Orders;
-use crate::shade_scratches::KindPasses;
+use crate::shade_scratches::{self, kinds};
 use crate::shaders;
+use crate::shadow_picks::{ByPicks, Scratched};
 use crate::shadow_room::ShadowRoom;
-use crate::strip::{StripRoom, whole};
+use crate::strip::{GROUP, StripRoom, whole};
 use crate::variant::Seen;
 
 pub(crate) struct ShadowScratchesPasses {
@@ -50,17 +51,23 @@ impl ShadowScratchesPasses {
                 (&shaders::SHADOW_SCRATCHES, "shadow_scratches"),
                 &scratches,
             ),
-            pick: KindPasses::new(orders, "shadow picks", &[("PICKS", 1.0), seen.constant()]),
+            pick: kinds(orders, "shadow picks", &[("PICKS", 1.0), seen.constant()]),
         }
     }
+}
 
-    /// Picks scratches of each sample, as many as the round that was written says.
-    pub(crate) fn record_picks(
+impl ByPicks for ShadowScratchesPasses {
+    fn lanes(&self, on: &Scratched) -> u64 {
+        u64::from(GROUP) * u64::from(on.chunks)
+    }
+
+    fn record_picks(
         &self,
         gpu: &Gpu,
         recording: &mut Recording,
         room: &StripRoom,
         shadow_room: &ShadowRoom,
+        _film: &Film,
         on: &Scratched,
     ) {
         let resources = [
@@ -72,13 +79,12 @@ impl ShadowScratchesPasses {
         ];
         self.begin
             .run(gpu, recording, &resources, in_a_row(on.groups));
-        let picks = &shadow_room.picks;
+        let resources = shade_scratches::resources(room, &shadow_room.picks, on.sorted);
         self.pick
-            .record(gpu, recording, room, picks, on.sorted, on.chunks);
+            .record(gpu, recording, &resources, in_a_row(on.chunks));
     }
 
-    /// A ray of each sample by way of the round's pick.
-    pub(crate) fn record_rays(
+    fn record_rays(
         &self,
         gpu: &Gpu,
         recording: &mut Recording,
@@ -96,8 +102,7 @@ impl ShadowScratchesPasses {
         self.rays.run(gpu, recording, &resources, in_a_row(groups));
     }
 
-    /// Weakens what scratches send by what is hidden of it.
-    pub(crate) fn record_scratches(
+    fn record_hidden(
         &self,
         gpu: &Gpu,
         recording: &mut Recording,
@@ -116,13 +121,4 @@ impl ShadowScratchesPasses {
         self.scratches
             .run(gpu, recording, &resources, in_a_row(groups));
     }
-}
-
-/// What scratches are picked from.
-#[derive(Clone, Copy)]
-pub(crate) struct Scratched {
-    pub groups: u32,
-    pub chunks: u32,
-    /// Which of the two buffers of entries is sorted.
-    pub sorted: usize,
 }

@@ -1,7 +1,7 @@
 //! Shadows: rays from each sample to the sources of its light, and what is hidden of each (docs/model.md, section 11). Twin:
 //! cpu/src/shadows.rs.
 //!
-//! Source by source of the base, and once for all that scratches send: in each round a ray of each sample is drawn, then followed; from the
+//! Source by source of the base, and once for all that scratches send, and once for all that gratings do: in each round a ray of each sample is drawn, then followed; from the
 //! sums over the rounds comes what of the closed form is hidden, and is taken away. Where no ray is hidden that is 0 to the bit. Rays and
 //! sums of one source are all that is kept, 176 bytes a sample, and 16 for each scratch that is picked.
 
@@ -16,6 +16,8 @@ use crate::film::Film;
 use crate::pipelines::Orders;
 use crate::scene_data::SceneData;
 use crate::shaders;
+use crate::shadow_gratings::ShadowGratingsPasses;
+use crate::shadow_picks::ByPicks;
 use crate::shadow_room::ShadowRoom;
 use crate::shadow_scratches::ShadowScratchesPasses;
 use crate::strip::{StripRoom, whole};
@@ -27,8 +29,8 @@ pub(crate) struct Shadows {
     base_rays: ComputePass,
     trace: ComputePass,
     base: ComputePass,
-    /// None where the scene has no scratches.
-    pub scratches: Option<ShadowScratchesPasses>,
+    /// By scratches and by gratings, of which the scene has some.
+    pub by_picks: Vec<Box<dyn ByPicks>>,
     pub tree: TriangleTree,
     /// How far the scene reaches from the origin of what was uploaded.
     pub extent_m: f32,
@@ -80,7 +82,14 @@ impl Shadows {
             Use::Writes,
             Use::Uniform,
         ];
-        let has_scratches = orders.variant().has.scratches;
+        let has = orders.variant().has;
+        let mut by_picks: Vec<Box<dyn ByPicks>> = Vec::new();
+        if has.scratches {
+            by_picks.push(Box::new(ShadowScratchesPasses::new(orders, seen)));
+        }
+        if has.gratings {
+            by_picks.push(Box::new(ShadowGratingsPasses::new(orders)));
+        }
         let mut pass = |name, module, uses: &[Use], constants: &[Constant]| {
             ComputePass::order(orders, name, module, uses, constants)
         };
@@ -103,7 +112,7 @@ impl Shadows {
                 &base,
                 &[],
             ),
-            scratches: has_scratches.then(|| ShadowScratchesPasses::new(orders, seen)),
+            by_picks,
             tree,
             extent_m,
         }
@@ -130,9 +139,11 @@ impl Shadows {
         self.record_trace(gpu, recording, room, shadow_room, film, groups);
     }
 
-    /// A ray of each sample by way of a scratch that was picked, and what it meets.
-    pub(crate) fn record_scratch_round(
+    /// A ray of each sample by way of what was picked, and what it meets.
+    #[expect(clippy::too_many_arguments, reason = "all stages take as many")]
+    pub(crate) fn record_picked_round(
         &self,
+        by: &dyn ByPicks,
         gpu: &Gpu,
         recording: &mut Recording,
         room: &StripRoom,
@@ -140,10 +151,8 @@ impl Shadows {
         film: &Film,
         groups: u32,
     ) {
-        if let Some(scratches) = &self.scratches {
-            scratches.record_rays(gpu, recording, room, shadow_room, groups);
-            self.record_trace(gpu, recording, room, shadow_room, film, groups);
-        }
+        by.record_rays(gpu, recording, room, shadow_room, groups);
+        self.record_trace(gpu, recording, room, shadow_room, film, groups);
     }
 
     fn record_trace(

@@ -2,14 +2,14 @@
 
 use hairline_image::Batch;
 
-use crate::bounces::{Bounce, Bounces, HITS_SORTED};
+use crate::bounces::{Bounce, Bounces, HITS_SORTED, Way};
 use crate::error::Error;
 use crate::film::Film;
 use crate::frame::{Rounds, View};
 use crate::layout::ShadowRound;
 use crate::passes::Shade;
+use crate::shadow_picks::Scratched;
 use crate::shadow_room::ShadowRoom;
-use crate::shadow_scratches::Scratched;
 use crate::shadows::Shadows;
 use crate::strip::{BounceRoom, GROUP, Lists, Samples, StripRoom, chunks_most};
 use crate::strip_shader::StripShader;
@@ -63,12 +63,11 @@ impl StripShader {
                 shadows.record_base(gpu, recording, room, &shadow_room, groups);
             });
         }
-        if let Some(scratches) = &shadows.scratches {
-            let lanes = u64::from(GROUP) * u64::from(on.chunks);
+        for (source, by) in (lights + 1..).zip(&shadows.by_picks) {
             let most = shadow_room
-                .make_room_for_picks(gpu, points, lanes, next.rounds)
+                .make_room_for_picks(gpu, points, by.lanes(on), next.rounds)
                 .await?;
-            next.source = lights + 1;
+            next.source = source;
             for round in 0..next.rounds {
                 next.round = round;
                 if round % most == 0 {
@@ -78,13 +77,22 @@ impl StripShader {
                 shadow_room.write(gpu, &next);
                 self.submit(view, |recording| {
                     if round == next.first_pick {
-                        scratches.record_picks(gpu, recording, room, &shadow_room, on);
+                        by.record_picks(gpu, recording, room, &shadow_room, film, on);
                     }
-                    shadows.record_scratch_round(gpu, recording, room, &shadow_room, film, groups);
+                    let by = by.as_ref();
+                    shadows.record_picked_round(
+                        by,
+                        gpu,
+                        recording,
+                        room,
+                        &shadow_room,
+                        film,
+                        groups,
+                    );
                 });
             }
             self.submit(view, |recording| {
-                scratches.record_scratches(gpu, recording, room, &shadow_room, groups);
+                by.record_hidden(gpu, recording, room, &shadow_room, groups);
             });
         }
         room.shadows = Some(shadow_room);
@@ -124,8 +132,8 @@ impl StripShader {
             most = made.await?;
         }
         let mut fits = true;
-        for by_scratches in [false, true] {
-            if by_scratches && bounces.scratches.is_none() {
+        for way in Way::ALL {
+            if !bounces.has(way) {
                 continue;
             }
             for round in 0..rounds {
@@ -138,7 +146,7 @@ impl StripShader {
                     extent_m: bounces.shadows.extent_m,
                     first_pick,
                     picks: most.min(rounds - first_pick),
-                    by_scratches: by_scratches.into(),
+                    way: way as u32,
                     ..ShadowRound::default()
                 };
                 fits = fits
@@ -195,7 +203,7 @@ impl StripShader {
             self.submit(view, |recording| {
                 let by = bounce(room, bounce_room, film, &round, on.groups);
                 if let Some(scratches) = &bounces.scratches
-                    && (depth > 0 || by.by_scratches && round.round == round.first_pick)
+                    && (depth > 0 || by.way == Way::Scratches && round.round == round.first_pick)
                 {
                     scratches.record_picks(gpu, recording, &by, &on);
                 }
@@ -229,7 +237,7 @@ impl StripShader {
         groups: u32,
         seed: u32,
     ) -> Result<Option<u32>, Error> {
-        let (gpu, scans) = (&self.gpu, &self.scans);
+        let (gpu, scans, passes) = (&self.gpu, &self.scans, &view.uploaded.passes);
         let mut chunks = groups;
         if let Some(scratches) = &bounces.scratches {
             hits.group_scan.set_count(gpu, GROUP * groups + 1);
@@ -239,24 +247,32 @@ impl StripShader {
             // The sum of all lies behind them.
             let entries = self.read_u32(&hits.list_starts, GROUP * groups).await?;
             chunks = chunks_most(groups, entries);
-            if entries > Lists::entries_most(gpu) || !Samples::fit(gpu, points, chunks) {
+            let all_chunks = chunks + passes.grating_chunks(groups);
+            if entries > Lists::entries_most(gpu) || !Samples::fit(gpu, points, all_chunks) {
                 return Ok(None);
             }
             hits.lists.make_room(gpu, scans, entries).await?;
-            hits.samples.make_room_for_chunks(gpu, chunks).await?;
             self.submit(view, |recording| {
                 scratches.record_lists(gpu, recording, hits, film, groups);
                 let shade = &scratches.shade;
                 shade.record_chunks(gpu, recording, scans, hits, groups);
             });
+        } else {
+            hits.samples.one_chunk_a_group(gpu, groups);
         }
+        let all_chunks = chunks + passes.grating_chunks(groups);
+        hits.samples.make_room_for_chunks(gpu, all_chunks).await?;
         self.submit(view, |recording| {
-            if let Shade::Own { base, .. } = &view.uploaded.passes.shade {
-                base.record(gpu, recording, hits, film, groups);
-            }
             if let Some(scratches) = &bounces.scratches {
                 let shade = &scratches.shade;
                 shade.record(gpu, recording, hits, HITS_SORTED, chunks);
+            }
+            if let Shade::Own { base, gratings, .. } = &passes.shade {
+                base.record(gpu, recording, hits, film, groups);
+                if let Some(gratings) = gratings {
+                    let sums = &hits.samples.chunk_sums;
+                    gratings.record(gpu, recording, hits, film, sums, groups);
+                }
             }
         });
         let on = Scratched {
@@ -296,13 +312,13 @@ fn bounce<'a>(
         film: &film.buffer,
         groups,
         depth: round.depth,
-        by_scratches: round.by_scratches != 0,
+        way: Way::ALL[round.way as usize],
     }
 }
 
 /// For the random numbers of what the rays of a round meet: a place may be met again in other rounds.
 fn seed(first: &ShadowRound, depth: u32) -> u32 {
-    let chain = 2 * (first.first_round + first.round) + first.by_scratches;
+    let chain = 3 * (first.first_round + first.round) + first.way;
     let mixed = chain.wrapping_mul(0x9e37_79b9) ^ depth.wrapping_mul(0x85eb_ca6b);
     mixed ^ mixed >> 15
 }

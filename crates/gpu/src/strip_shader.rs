@@ -14,8 +14,8 @@ use crate::layout::{Frame, PixelPoint};
 use crate::passes::{ScratchPasses, Shade};
 use crate::pipelines::compiled;
 use crate::scan::ScanPasses;
+use crate::shadow_picks::Scratched;
 use crate::shadow_room::ShadowRoom;
-use crate::shadow_scratches::Scratched;
 use crate::strip::{
     BounceRoom, GROUP, Lists, MadeLists, Samples, StripRoom, TILE_PX, chunks_most, strip_points,
     tile_count,
@@ -112,7 +112,8 @@ impl StripShader {
             None => groups,
             Some(_) => chunks_most(tiles, entries),
         };
-        if !Samples::fit(gpu, points, chunks)
+        let grating_chunks = passes.grating_chunks(groups);
+        if !Samples::fit(gpu, points, chunks + grating_chunks)
             || view.shadows().is_some() && !ShadowRoom::fit(gpu, points)
             || view.bounces().is_some() && !BounceRoom::fit(gpu, points)
         {
@@ -128,13 +129,14 @@ impl StripShader {
             if view.step > 0 {
                 chunks = self.read_u32(&room.samples.chunk_starts, groups).await?;
             }
-            if !Samples::fit(gpu, points, chunks) {
+            if !Samples::fit(gpu, points, chunks + grating_chunks) {
                 return self.halves(strip).map(Some);
             }
         } else {
             room.samples.one_chunk_a_group(gpu, groups);
         }
-        room.samples.make_room_for_chunks(gpu, chunks).await?;
+        let all_chunks = chunks + grating_chunks;
+        room.samples.make_room_for_chunks(gpu, all_chunks).await?;
         self.submit(view, |recording| {
             if view.step == 0 && strip.start == film_row {
                 film.clear(recording.encoder);
@@ -156,10 +158,18 @@ impl StripShader {
         };
         self.submit(view, |recording| {
             match &passes.shade {
-                Shade::Own { base, scratches } => {
+                Shade::Own {
+                    base,
+                    scratches,
+                    gratings,
+                } => {
                     base.record(gpu, recording, room, film, groups);
                     if let Some(scratches) = scratches {
                         scratches.shade.record(gpu, recording, room, sorted, chunks);
+                    }
+                    if let Some(gratings) = gratings {
+                        let sums = &room.samples.chunk_sums;
+                        gratings.record(gpu, recording, room, film, sums, groups);
                     }
                 }
                 Shade::Published(published) => published.record(gpu, recording, room, film, groups),

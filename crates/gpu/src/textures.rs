@@ -8,7 +8,7 @@ use hairline_optics::lobe_table::{self, LOBE_TABLE_SIZE};
 use hairline_optics::metal::Metal;
 use hairline_optics::table;
 use hairline_scene::environment::LEVEL_HALVINGS;
-use hairline_scene::{Environment, Reflector, ScratchTables, Texture};
+use hairline_scene::{Environment, GratingSpectrum, Reflector, ScratchTables, Texture};
 use half::f16;
 use rayon::prelude::*;
 use wgpu::TextureFormat;
@@ -25,6 +25,8 @@ pub(crate) struct SceneTextures {
     pub group: wgpu::BindGroup,
     /// Each has one table.
     metals: Vec<Option<Metal>>,
+    /// And these, behind them.
+    grating_spectra: Vec<GratingSpectrum>,
     scratch_tables: wgpu::TextureView,
     /// What the curves of reflectance are of.
     reflectors: Vec<Reflector>,
@@ -47,7 +49,9 @@ impl SceneTextures {
         last: Option<&Self>,
     ) -> Result<Self, Error> {
         let Source { scene, tables, .. } = *source;
-        let same_tables = |last: &&Self| last.metals == tables.metals;
+        let same_tables = |last: &&Self| {
+            last.metals == tables.metals && last.grating_spectra == tables.grating_spectra
+        };
         let scratch_tables = match last.filter(same_tables) {
             Some(last) => last.scratch_tables.clone(),
             None => scratch_tables(transfer, tables).await?,
@@ -106,6 +110,7 @@ impl SceneTextures {
         Ok(Self {
             group: bind(transfer.gpu, "textures", &layouts.textures, &resources),
             metals: tables.metals.clone(),
+            grating_spectra: tables.grating_spectra.clone(),
             scratch_tables,
             reflectors: tables.reflectors.clone(),
             curves,

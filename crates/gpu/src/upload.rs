@@ -41,7 +41,7 @@ impl GpuScene {
     ) -> Result<Self, Error> {
         let variant = ShadeVariant {
             method: *source.method,
-            has: Contents::of(source.scene, source.tables),
+            has: Contents::of(source.scene, source.tables, source.method),
         };
         let passes = ScenePasses::new(gpu, layouts, &variant).await?;
         let data = SceneData::new(gpu, layouts, source, last.map(|last| &last.data)).await?;

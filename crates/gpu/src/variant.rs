@@ -19,6 +19,8 @@ pub(crate) struct ShadeVariant {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub(crate) struct Contents {
     pub scratches: bool,
+    /// Which the method of 2018 leaves out.
+    pub gratings: bool,
     /// That shine on scratches, and on the base.
     pub lights: Kinds,
     pub base_lights: Kinds,
@@ -32,9 +34,11 @@ pub(crate) struct Contents {
 }
 
 impl Contents {
-    pub(crate) fn of(scene: &Scene, tables: &ScratchTables) -> Self {
+    pub(crate) fn of(scene: &Scene, tables: &ScratchTables, method: &Method) -> Self {
         Self {
             scratches: scene.objects.iter().any(|o| !o.segments.is_empty()),
+            gratings: method.published.is_none()
+                && scene.objects.iter().any(|o| !o.gratings.is_empty()),
             lights: Kinds::of(scene),
             base_lights: Kinds::on_base(scene),
             doors: scene
@@ -74,6 +78,7 @@ impl Seen {
 pub fn pipeline_variants(text: &str) -> Vec<(String, Vec<(&'static str, f64)>)> {
     let everything = Contents {
         scratches: true,
+        gratings: true,
         lights: Kinds::ALL,
         base_lights: Kinds::ALL,
         doors: true,
@@ -143,6 +148,7 @@ impl ShadeVariant {
         let published = method.published.unwrap_or_default();
         let mut constants = vec![
             ("HAS_SCRATCHES", has.scratches.into()),
+            ("HAS_GRATINGS", has.gratings.into()),
             ("HAS_DOORS", has.doors.into()),
             ("HAS_TEXTURES", has.textures.into()),
             ("HAS_COLORS", has.colors.into()),

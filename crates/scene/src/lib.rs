@@ -61,7 +61,7 @@ pub use environment::Environment;
 pub use error::Error;
 pub use grating::{Bearing, Grating, GrooveField, GroovePlace};
 pub use loader::{Loader, Progress, Stage};
-pub use material_optics::{MaterialOptics, Reflector, ScratchTables};
+pub use material_optics::{GratingSpectrum, MaterialOptics, Reflector, ScratchTables};
 pub use mesh_file::LeftOut;
 pub use polygon::vector_area_m2;
 pub use scene::*;

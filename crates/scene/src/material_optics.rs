@@ -71,15 +71,21 @@ pub struct ScratchTables {
     pub reflectors: Vec<Reflector>,
     /// One for each material of the scene.
     pub materials: Vec<MaterialOptics>,
-    /// Tables of gratings, for each material that they lie on; those of materials come before them.
-    gratings: Vec<GratingTable>,
+    /// What each table of a grating is of. Those of materials come before them.
+    pub grating_spectra: Vec<GratingSpectrum>,
+    /// Of each material, see [`GratingSpectrum`].
+    coherences_um: Vec<f64>,
 }
 
-/// Which table a grating has on a material.
-struct GratingTable {
-    row: Row,
-    material: usize,
-    table: usize,
+/// What the table of a grating depends on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GratingSpectrum {
+    /// The grooves.
+    pub row: Row,
+    /// The metal that they are in; none for white's reflectance.
+    pub metal: Option<Metal>,
+    /// Standard deviation of the coherence window of its surface.
+    pub coherence_um: f64,
 }
 
 impl ScratchTables {
@@ -114,21 +120,47 @@ impl ScratchTables {
             .map(|metal| ScratchTable::new(|nm| reflectance(*metal, nm)))
             .collect();
         let materials: Vec<MaterialOptics> = materials;
-        let gratings = grating_tables(scene, &materials, &metals, &mut tables);
-        Self {
-            tables,
-            gratings,
+        let own = scene.materials.iter();
+        let coherences_um: Vec<f64> = own.map(|material| material.coherence_um).collect();
+        let mut all = Self {
+            tables: Vec::new(),
+            grating_spectra: Vec::new(),
+            coherences_um,
             metals,
             curves: reflectors.iter().map(|r| r.curve()).collect(),
             reflectors,
             materials,
+        };
+        for object in scene.objects.iter().filter(|o| !o.gratings.is_empty()) {
+            for material in object.mesh.materials() {
+                for grating in &object.gratings {
+                    let spectrum = all.spectrum(grating, material);
+                    if !all.grating_spectra.contains(&spectrum) {
+                        all.grating_spectra.push(spectrum);
+                    }
+                }
+            }
+        }
+        tables.extend(all.grating_spectra.iter().map(|of| {
+            of.row
+                .table(of.coherence_um, |nm| reflectance(of.metal, nm))
+        }));
+        Self { tables, ..all }
+    }
+
+    fn spectrum(&self, grating: &Grating, material: usize) -> GratingSpectrum {
+        GratingSpectrum {
+            row: grating.row,
+            metal: self.metals[self.materials[material].table as usize],
+            coherence_um: self.coherences_um[material],
         }
     }
 
     /// Which of [`Self::tables`] a grating of the scene has on a material that it lies on.
     pub fn grating_table(&self, grating: &Grating, material: usize) -> Option<usize> {
-        let is_it = |known: &&GratingTable| known.material == material && known.row == grating.row;
-        self.gratings.iter().find(is_it).map(|known| known.table)
+        let spectrum = self.spectrum(grating, material);
+        let at = self.grating_spectra.iter().position(|of| *of == spectrum)?;
+        Some(self.metals.len() + at)
     }
 
     /// What the method of 2018 has in the place of each table: `count` wavelengths.
@@ -138,55 +170,6 @@ impl ScratchTables {
             .map(|metal| PublishedSpectrum::new(count, |nm| reflectance(*metal, nm)))
             .collect()
     }
-}
-
-/// Adds a table for each row of grooves on each material that differs in what the table depends on.
-fn grating_tables(
-    scene: &Scene,
-    materials: &[MaterialOptics],
-    metals: &[Option<Metal>],
-    tables: &mut Vec<ScratchTable>,
-) -> Vec<GratingTable> {
-    let mut known: Vec<GratingTable> = Vec::new();
-    for object in scene.objects.iter().filter(|o| !o.gratings.is_empty()) {
-        let mut own: Vec<usize> = object
-            .mesh
-            .triangle_materials
-            .iter()
-            .map(|material| *material as usize)
-            .collect();
-        own.sort_unstable();
-        own.dedup();
-        for (grating, material) in object
-            .gratings
-            .iter()
-            .flat_map(|g| own.iter().map(move |m| (g, *m)))
-        {
-            let of = |material: usize| {
-                let coherence_um = scene.materials[material].coherence_um;
-                (metals[materials[material].table as usize], coherence_um)
-            };
-            let same_row = |k: &&GratingTable| k.row == grating.row;
-            let alike = known.iter().filter(same_row);
-            if alike.clone().any(|k| k.material == material) {
-                continue;
-            }
-            let (metal, coherence_um) = of(material);
-            let shared = alike
-                .clone()
-                .find(|k| of(k.material) == (metal, coherence_um));
-            let table = shared.map_or(tables.len(), |k| k.table);
-            if table == tables.len() {
-                tables.push(grating.row.table(coherence_um, |nm| reflectance(metal, nm)));
-            }
-            known.push(GratingTable {
-                row: grating.row,
-                material,
-                table,
-            });
-        }
-    }
-    known
 }
 
 /// At normal incidence.

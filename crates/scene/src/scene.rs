@@ -289,6 +289,17 @@ pub struct Mesh {
     pub triangle_materials: Vec<u32>,
 }
 
+impl Mesh {
+    /// The materials of its triangles, each once, in order.
+    pub fn materials(&self) -> Vec<usize> {
+        let all = self.triangle_materials.iter();
+        let mut all: Vec<usize> = all.map(|material| *material as usize).collect();
+        all.sort_unstable();
+        all.dedup();
+        all
+    }
+}
+
 /// The cross section of a groove: a rectangle. It travels whole, from the layer that draws it to what shades it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Profile {

@@ -2,7 +2,7 @@
 
 use super::pictures::{LINEAR, compared, sampled};
 use super::scenes::{add_quad, plate, scratch, sphere};
-use super::shadowed::{VIEW, WHITE, bounced, luminance};
+use super::shadowed::{VIEW, WHITE, bounced, luminance, with_rows};
 use glam::{DVec3, Vec3};
 use hairline_image::Layer;
 use hairline_optics::metal::Metal;
@@ -55,12 +55,12 @@ fn seen_in_a_mirror(mut scene: Scene) -> Scene {
     scene
 }
 
-/// A wall that the camera sees in a scratched plate, which it sees in a mirror.
+/// A wall that the camera sees in a scratched plate with gratings, which it sees in a mirror.
 pub(super) fn a_wall_in_a_mirror() -> Scene {
-    seen_in_a_mirror(before_a_wall(Base::Mirror, WHITE))
+    seen_in_a_mirror(with_rows(before_a_wall(Base::Mirror, WHITE)))
 }
 
-pub(super) fn scenes() -> [(&'static str, Scene); 4] {
+pub(super) fn scenes() -> [(&'static str, Scene); 5] {
     [
         ("a wall", before_a_wall(WHITE, WHITE)),
         (
@@ -70,6 +70,10 @@ pub(super) fn scenes() -> [(&'static str, Scene); 4] {
         (
             "a mirror",
             before_a_wall(Base::Metal(Metal::Copper), Base::Mirror),
+        ),
+        (
+            "a wall by rows of grooves",
+            with_rows(before_a_wall(Base::Mirror, WHITE)),
         ),
         ("in a mirror", in_a_mirror()),
     ]
@@ -85,7 +89,7 @@ fn settings(bounces: u32) -> Settings {
 
 #[test]
 fn light_by_way_of_objects_is_that_of_the_path_tracer() {
-    for (bounces, (name, scene)) in [1, 1, 4, 1].into_iter().zip(scenes()) {
+    for (bounces, (name, scene)) in [1, 1, 4, 1, 1].into_iter().zip(scenes()) {
         let reference = sampled(&scene, settings(bounces), 6);
         let image = bounced(&scene, 512, true, bounces);
         let direct = bounced(&scene, 16, true, 0);

@@ -112,6 +112,7 @@ pub fn add_quad(scene: &mut Scene, base: Base, roughness: f64, corners_m: [Vec3;
     let [a, b, _, d] = corners_m;
     quad.name = "quad".into();
     quad.scratches = Arc::default();
+    quad.gratings.clear();
     quad.segments = Arc::default();
     let mesh = Arc::make_mut(&mut quad.mesh);
     mesh.positions_m = corners_m.to_vec();

@@ -7,10 +7,11 @@ use glam::{DVec3, Vec3};
 use hairline_cpu::closed_form::{self, RenderOptions};
 use hairline_image::{Image, Layer};
 use hairline_index::method::Method;
+use hairline_optics::grating::Grating as Row;
 use hairline_optics::mask::Mask;
 use hairline_optics::metal::Metal;
 use hairline_reference::Settings;
-use hairline_scene::{Base, Environment, Scene};
+use hairline_scene::{Base, Bearing, Environment, Grating, GrooveField, Scene};
 
 pub(super) const VIEW: View = View {
     angle_rad: 0.7,
@@ -65,6 +66,35 @@ fn cover(scene: &mut Scene, towards: DVec3, reach_m: f64, low_m: [f64; 2], high_
         corner(low_m[0], high_m[1]),
     ];
     add_quad(scene, Base::Mirror, 0.5, corners);
+}
+
+/// Two gratings on the plate side by side, scratches on top.
+pub(super) fn with_rows(mut scene: Scene) -> Scene {
+    let row = |pitch_um: f64| Row {
+        pitch_um,
+        width_um: 0.4 * pitch_um,
+        depth_nm: 110.0,
+        depth_spread: 0.2,
+        jitter_um: 0.05 * pitch_um,
+    };
+    let along = Grating {
+        row: row(1.6),
+        field: GrooveField::Along(DVec3::X),
+        angle_std_rad: 0.05,
+        coverage: 0.4,
+        radii_m: [0.0, f64::INFINITY],
+    };
+    let around = Grating {
+        row: row(8.0),
+        field: GrooveField::Around {
+            axis: DVec3::Z,
+            center_m: DVec3::new(-2e-3, 1e-3, 0.0),
+            bearing: Bearing::Circular,
+        },
+        ..along
+    };
+    scene.objects[0].gratings = vec![along, around];
+    scene
 }
 
 /// Scenes in which something is hidden, and their names.
@@ -146,6 +176,8 @@ pub(super) fn scenes() -> Vec<(&'static str, Scene)> {
     ];
     add_quad(&mut wall, Base::Mirror, 0.5, corners.map(Vec3::from_array));
 
+    let rows = with_rows(wall.clone());
+
     let mut under_sky = wall.clone();
     under_sky.lights.clear();
     let map = Environment::from_map(sky([128, 64]), 0.0, 1.0, false);
@@ -158,6 +190,7 @@ pub(super) fn scenes() -> Vec<(&'static str, Scene)> {
         ("two sheets", sheets),
         ("half a tube", rod),
         ("a wall", wall),
+        ("a wall by rows of grooves", rows),
         ("a wall under the sky", under_sky),
     ]
 }

@@ -1,6 +1,7 @@
-//! Gratings in pictures: their energy, and the angles of their orders.
+//! Gratings in pictures: the GPU against the CPU, their energy, and the angles of their orders.
 
 use conformance::furnace;
+use conformance::two_renderers::{compare, on_the_cpu, on_the_gpu};
 use hairline_cpu::closed_form::{RenderOptions, render};
 use hairline_fixtures::{BALL, SceneFile};
 use hairline_image::Image;
@@ -128,4 +129,49 @@ fn orders_lie_where_the_grating_equation_says() {
         "gratings: the first order's mean wavelength is {found_nm:.2} nm in the picture, {expected_nm:.2} by the spectrum"
     );
     assert!((found_nm / expected_nm - 1.0).abs() < 1e-3);
+}
+
+/// A plate and a ball with gratings of all patterns side by side, scratches on top of some, under lights of all kinds and a studio.
+fn all_patterns() -> SceneFile {
+    let fine = "pitch_um = 1.6\njitter_um = 0.05\ndepth_nm = { mean = 120.0, spread = 0.1 }\n";
+    let rough = "pitch_um = 8.0\njitter_um = 1.0\njitter_deg = 2.0\ncoverage = 0.7\n";
+    let grating = |object: &str, pattern: &str, more: &str| {
+        format!("[[grating]]\nobject = \"{object}\"\npattern = \"{pattern}\"\n{more}")
+    };
+    SceneFile::seen_from([0.0, -0.22, 0.16])
+        .size_px([96, 72])
+        .fov_y_deg(24.0)
+        .metal("aluminium", "aluminium")
+        .with("roughness = 0.2")
+        .metal("gold", "gold")
+        .with("roughness = 0.3")
+        .object("plate", "aluminium", "plane = { size_m = [0.2, 0.2] }")
+        .object("ball", "gold", "sphere = { radius_m = 0.02 }")
+        .with("translation_m = [0.02, 0.0, 0.02]")
+        .part(&grating("plate", "parallel", &format!("direction = [1.0, 0.3, 0.0]\n{rough}")))
+        .part(&grating("plate", "circular", &format!("radius_m = [0.01, 0.05]\n{fine}")))
+        .part(&grating("ball", "radial", &format!("center_m = [0.02, 0.0, 0.02]\n{fine}")))
+        .part(&grating("ball", "spun", &format!("center_m = [0.02, 0.0, 0.02]\ncurvature_per_m = 30.0\n{rough}")))
+        .random("ball", 60)
+        .sphere([0.05, 0.2, 0.3], 0.01, 60.0)
+        .polygon(&[[-0.3, 0.1, 0.3], [-0.2, 0.1, 0.3], [-0.2, 0.2, 0.3], [-0.3, 0.2, 0.3]], 20.0)
+        .with("two_sided = true")
+        .part("[[light]]\nkind = \"tube\"\nends_m = [[0.2, -0.2, 0.3], [0.25, 0.3, 0.35]]\nradius_m = 0.004\nradiance = 40.0")
+        .part("[[light]]\nkind = \"disk\"\ncenter_m = [0.0, 0.4, 0.4]\ntarget_m = [0.0, 0.0, 0.0]\nradius_m = 0.03\nradiance = 10.0")
+        .part("[studio]\nhidden = true")
+}
+
+#[test]
+fn gpu_and_cpu_show_the_same_gratings() {
+    let scene = all_patterns().scene();
+    let Some(gpu) = on_the_gpu(&scene, 1) else {
+        return;
+    };
+    let cpu = on_the_cpu(&scene, 1);
+    compare("gratings", &scene, &gpu, &cpu).unwrap_or_else(|error| panic!("{error}"));
+    // A groove a hundredth further from the next is seen.
+    let mut wrong = scene.clone();
+    wrong.objects[0].gratings[1].row.pitch_um *= 1.01;
+    let seen = compare("wrong", &scene, &gpu, &on_the_cpu(&wrong, 1)).unwrap_err();
+    assert!(seen.contains("scratches"), "{seen}");
 }

@@ -11,8 +11,6 @@ use hairline_scene::{DEFAULT_SAMPLES, Scene};
 /// Of the whole picture, and of its middle: whole pictures so small would see all scratches in each tile.
 const WIDTH_PX: u32 = 1280;
 const MIDDLE_PX: [u32; 2] = [120, 88];
-/// Scenes with gratings, which the CPU renders alone so far.
-const ON_THE_CPU_ALONE: [&str; 1] = ["disc"];
 /// Scenes that are rendered twice.
 const TWICE: [&str; 2] = ["lights", "spoon"];
 
@@ -59,7 +57,7 @@ macro_rules! scenes {
     };
 }
 
-scenes! { brushed built_in_scene closeup drawn lamps lights mirror pan plate spoon sunlit }
+scenes! { brushed built_in_scene closeup disc drawn lamps lights mirror pan plate spoon sunlit }
 
 #[test]
 fn no_scene_is_left_out() {
@@ -67,11 +65,6 @@ fn no_scene_is_left_out() {
     for path in files.map(|entry| entry.unwrap().path()) {
         let name = path.file_stem().unwrap().to_string_lossy();
         let is_scene = path.extension().is_some_and(|ending| ending == "toml");
-        if is_scene && ON_THE_CPU_ALONE.contains(&&*name) {
-            let scene = load(&path);
-            assert!(scene.objects.iter().any(|it| !it.gratings.is_empty()));
-            continue;
-        }
         assert!(!is_scene || ALL.contains(&&*name), "{name}");
     }
 }

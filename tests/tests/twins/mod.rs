@@ -3,6 +3,7 @@
 mod band;
 mod draws;
 mod four_edges;
+mod gratings;
 mod lobes;
 mod never_nan;
 mod published;

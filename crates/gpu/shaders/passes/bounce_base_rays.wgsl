@@ -25,8 +25,9 @@ fn bounce_base_rays(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgr
     }
     let point = surface_point_from(points[at], paints[at]);
     let seed = shadow_seed(point.position_m, shadow_round);
-    let by_scratches = bounce_by_scratches(taken, shadow_round);
-    if shadow_random_alike(seed, shadow_round, BOUNCE_WAY).x < by_scratches {
+    let gratings = grating_sums(group, lane).taken;
+    let way = bounce_way(BOUNCE_BY_BASE, taken, gratings, shadow_round);
+    if !bounce_goes(way, shadow_random_alike(seed, shadow_round, BOUNCE_WAY).x) {
         return;
     }
     let lobes = base_lobes(point);
@@ -36,8 +37,8 @@ fn bounce_base_rays(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgr
     if wi.z > 0.0 && density > 0.0 {
         let each_sr = 1.0 / (f32(shadow_round.all_rounds) * density);
         let sent = base_lobes_eval(lobes, wi);
-        let specular = ggx_area_reflectance(sent.specular, point.f0, lobes.albedo) * (1.0 - taken);
-        let throughput = bounce_throughput(rays[at], shadow_round) * (specular + sent.diffuse) / (f32(shadow_round.rounds) * density * (1.0 - by_scratches));
+        let specular = ggx_area_reflectance(sent.specular, point.f0, lobes.albedo) * (1.0 - taken) * (1.0 - gratings);
+        let throughput = bounce_throughput(rays[at], shadow_round) * (specular + sent.diffuse) / (f32(shadow_round.rounds) * density * way.share);
         let start = shadow_normals(shadow_random_alike(seed, shadow_round, BOUNCE_START));
         ray = bounce_ray(world_from_surface(point, wi), throughput, each_sr, start);
     }

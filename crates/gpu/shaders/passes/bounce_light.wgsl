@@ -27,8 +27,9 @@ fn bounce_light(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups
         scratches = masked(sums.all, objects[ray.object].depth_coherence);
     }
     let light = base_light[at];
-    let radiance = light.body + light.specular * (1.0 - scratches.taken) + scratches.scratches * light.fresnel;
-    if shadow_round.by_scratches == 0u {
+    let gratings = under_scratches(grating_sums(group, lane), scratches.taken);
+    let radiance = light.body + light.specular * (1.0 - gratings.taken) + scratches.scratches * light.fresnel + gratings.scratches;
+    if shadow_round.way == BOUNCE_BY_BASE {
         bounced[at].base += ray.throughput * radiance;
     } else {
         bounced[at].scratches += ray.throughput * radiance;

@@ -43,16 +43,16 @@ fn bounce_scratch_rays(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_wor
     }
     let depth_coherence = objects[pixel.object - 1u].depth_coherence;
     var sums = sample_sums(group, lane).all;
-    let by_scratches = bounce_by_scratches(masked(sums, depth_coherence).taken, shadow_round);
+    let way = bounce_way(BOUNCE_BY_SCRATCHES, masked(sums, depth_coherence).taken, grating_sums(group, lane).taken, shadow_round);
     let seed = shadow_seed(pixel.position_m, shadow_round);
-    if shadow_random_alike(seed, shadow_round, BOUNCE_WAY).x >= by_scratches {
+    if !bounce_goes(way, shadow_random_alike(seed, shadow_round, BOUNCE_WAY).x) {
         return;
     }
     let packed = picks[GROUP * chunk_starts[frame.group_count] + shadow_round.picks * at + shadow_round.round - shadow_round.first_pick];
     if packed.x != PICK_NONE {
         let state = pick_state_from(picks[GROUP * chunk_starts[group] + lane]);
         ray = ray_by(pixel, pick_from(packed).segment, state.step * f32(state.per_sample));
-        sums.radiance = ray.throughput / (f32(shadow_round.rounds) * by_scratches);
+        sums.radiance = ray.throughput / (f32(shadow_round.rounds) * way.share);
         let fresnel = fresnel_eval(fresnel_curves, FresnelRgb(paints[at].f0, pixel_curve(paints[at])), pixel.cos_o);
         ray.throughput = bounce_throughput(rays[at], shadow_round) * masked(sums, depth_coherence).scratches * fresnel;
     }

@@ -58,9 +58,10 @@ fn sample_value(group: u32, lane: u32, at: u32) -> FilmPixel {
     }
     // A groove interrupts the reflecting surface; what shines from under it passes.
     let light = base_light[at];
-    value.base = light.body + light.specular * (1.0 - scratches.taken);
-    value.scratches = scratches.scratches * light.fresnel;
-    value.density = scratches.taken;
+    let gratings = under_scratches(grating_sums(group, lane), scratches.taken);
+    value.base = light.body + light.specular * (1.0 - gratings.taken);
+    value.scratches = scratches.scratches * light.fresnel + gratings.scratches;
+    value.density = gratings.taken;
     value.normal = point.normal;
     value.depth_m = point.depth_m;
     value.coverage = 1.0;

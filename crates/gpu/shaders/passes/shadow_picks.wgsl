@@ -1,4 +1,5 @@
-// Pass: where the running sums begin by which shade_scratches.wgsl picks scratches for shadow rays. A workgroup a group.
+// Passes: where the running sums begin by which shade_scratches.wgsl picks scratches for shadow rays, and shade_gratings.wgsl gratings. A workgroup a
+// group.
 
 @group(3) @binding(0) var<storage, read> points: array<PixelPoint>;
 @group(3) @binding(1) var<storage, read> chunk_starts: array<u32>;
@@ -48,6 +49,27 @@ fn shadow_picks(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups
         next = end;
     }
     let first_pick = GROUP * chunk_starts[frame.group_count] + shadow_round.picks * at;
+    for (var i = 0u; i < shadow_round.picks; i += 1u) {
+        picks[first_pick + i] = vec4u(PICK_NONE);
+    }
+}
+
+@compute @workgroup_size(8, 8)
+fn shadow_grating_picks(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let group = workgroup.y * workgroups.x + workgroup.x;
+    if group >= frame.group_count || !group_has(group, lane) {
+        return;
+    }
+    let at = group_point(group, lane);
+    if points[at].object == 0u {
+        return;
+    }
+    // As sums.wgsl says.
+    let all = chunk_luminance(chunk_starts[frame.group_count] + group, lane);
+    let seed = sobol_hash(shadow_seed(points[at].position_m, shadow_round) + shadow_round.first_round + shadow_round.first_pick) & 0xffffffu;
+    let state = PickState(0.0, 0u, shadow_round.picks, shadow_round.picks, all / f32(shadow_round.picks), seed);
+    picks[GROUP * group + lane] = pick_state_packed(state);
+    let first_pick = GROUP * frame.group_count + shadow_round.picks * at;
     for (var i = 0u; i < shadow_round.picks; i += 1u) {
         picks[first_pick + i] = vec4u(PICK_NONE);
     }

@@ -35,6 +35,25 @@ fn environment_cell(i: u32, line: BandLine, width_um: f32) -> EnvironmentCell {
     return EnvironmentCell(q.x, q.z, vec3f(line.along, middle), chord);
 }
 
+// Cells of the band of a grating, whose orders spread the colours over all of it: even in the angle.
+const ROW_CELLS: u32 = 48u;
+
+fn row_cell(i: u32, line: BandLine) -> EnvironmentCell {
+    // Half a cell.
+    let step = 0.5 * 3.14159265 / f32(ROW_CELLS);
+    let angles = step * (2.0 * f32(i) + vec3f(0.0, 1.0, 2.0));
+    let across = -line.radius * cos(angles);
+    // The ends of the arc are the roots of lights that cover it.
+    let low = select(across.x, -line.radius, i == 0u);
+    let high = select(across.z, line.radius, i == ROW_CELLS - 1u);
+    return EnvironmentCell(
+        line.offset + low,
+        line.offset + high,
+        vec3f(line.along, across.y, line.radius * sin(angles.y)),
+        2.0 * line.radius * sin(step),
+    );
+}
+
 // The perceptual roughness of the mirror lobe that stands for the cell.
 fn environment_cell_roughness(cell: EnvironmentCell) -> f32 {
     return sqrt(ENVIRONMENT_CELL_ALPHA * cell.angle_rad);

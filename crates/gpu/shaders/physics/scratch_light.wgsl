@@ -26,6 +26,9 @@ struct SeenScratch {
     across_um: vec2f,           // footprint_x_um and footprint_y_um across it
     variance_sq_um: f32,          // of footprint and coherence window across it
     profile: Profile,
+    weighed_um: f32,            // its width, as chord_cos() asks for; 0 for grooves of a grating, whose light lies about its orders, wherever they are
+    turns_rad: vec2f,           // by which angle grooves of a grating turn over footprint_x_um and footprint_y_um, to the left; 0 for a scratch
+    angle_std_rad: f32,         // and standard deviation of their angles at any place
 }
 
 // A segment between two points of the surface's plane. `blur_um` smooths its ends, see scratch_share().
@@ -43,7 +46,7 @@ fn scratch_seen(point: LitPoint, start_um: vec2f, end_um: vec2f, profile: Profil
         let footprint = Footprint(dot(across, across), dot(along, along), dot(across, along));
         share = scratch_share(profile.width_um, offset, dot(t, start_um), dot(t, end_um), blur_um, footprint, point.coherence_um);
     }
-    return SeenScratch(share, t, offset, across, variance, profile);
+    return SeenScratch(share, t, offset, across, variance, profile, profile.width_um, vec2f(0.0), 0.0);
 }
 
 // A footprint cannot be told apart from its Gaussian's tail beyond this many standard deviations.
@@ -60,8 +63,14 @@ fn scratch_band(point: LitPoint, seen: SeenScratch, axis: vec3f, light_m: f32) -
     let per_i = 1e-6 / light_m;
     let x = band_moves(point.turn_x, vec3f(point.footprint_x_um, 0.0), point.wo, per_o, axis, per_i);
     let y = band_moves(point.turn_y, vec3f(point.footprint_y_um, 0.0), point.wo, per_o, axis, per_i);
-    let moves = vec2f(dot(x, seen.tangent), dot(y, seen.tangent));
-    return moved_band(band_stds(point.coherence_um), moves, seen.across_um, seen.offset_um, seen.variance_sq_um);
+    let xi_n = band_from_surface(seen.tangent, point.wo + axis).y;
+    let moves = vec2f(dot(x, seen.tangent), dot(y, seen.tangent)) + seen.turns_rad * xi_n;
+    var band = moved_band(band_stds(point.coherence_um), moves, seen.across_um, seen.offset_um, seen.variance_sq_um);
+    if seen.angle_std_rad > 0.0 {
+        let within = seen.angle_std_rad * xi_n;
+        band.stds = min(sqrt(band.stds * band.stds + within * within), vec4f(BAND_STD_MAX));
+    }
+    return band;
 }
 
 // The light between two q, for light whose directions have the cosine cos_i to the normal.
@@ -108,7 +117,7 @@ fn scratch_sphere(tables: texture_2d_array<u32>, point: LitPoint, seen: SeenScra
         let line = band_line_at(wo, weight_and_xi.w);
         let chord = sphere_chord(line, cap);
         let range = chord_range(chord, line);
-        let cos_i = chord_cos(line, range.x, range.y, seen.profile.width_um);
+        let cos_i = chord_cos(line, range.x, range.y, seen.weighed_um);
         var integral = scratch_chord(tables, point, seen, chord.enter, chord.leave, cos_i);
         // The whole arc once more where the light holds the direction straight down.
         if chord.wraps > 0.0 {
@@ -158,7 +167,7 @@ fn scratch_quad(tables: texture_2d_array<u32>, point: LitPoint, seen: SeenScratc
         let weight_and_xi = band_line(lines, l);
         let line = band_line_at(wo, weight_and_xi.w);
         var roots = four_edges_roots(outline, line, away);
-        let cos_i = chord_cos(line, roots.range.x, roots.range.y, seen.profile.width_um);
+        let cos_i = chord_cos(line, roots.range.x, roots.range.y, seen.weighed_um);
         var integral = vec3f(0.0);
         // As many roots enter the outline as leave it. The whole arc counts once more where the light holds straight down.
         for (var i = 0u; i < roots.count + u32(roots.wraps); i += 1u) {

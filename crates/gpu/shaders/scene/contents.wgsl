@@ -1,6 +1,7 @@
 // What a scene has. Pipelines are compiled for it, without the code for what is not there. Twin: src/variant.rs.
 
 override HAS_SCRATCHES: bool = true;
+override HAS_GRATINGS: bool = true;
 override HAS_SPHERES: bool = true;
 // Tubes too, whose outlines are polygons.
 override HAS_POLYGONS: bool = true;

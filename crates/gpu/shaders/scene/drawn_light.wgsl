@@ -80,7 +80,7 @@ fn drawn_line(lines: BandLines, wo: vec3f, i: u32, u: f32) -> BandLine {
 
 // The cosine for the groove's depth of what lies in a range.
 fn drawn_cos(seen: SeenScratch, line: BandLine, range: vec2f) -> f32 {
-    return chord_cos(line, range.x, range.y, seen.profile.width_um);
+    return chord_cos(line, range.x, range.y, seen.weighed_um);
 }
 
 // By a sphere; u holds the numbers for the line, for the choice between lines, and for the chord.
@@ -233,25 +233,33 @@ fn draw_outline(point: LitPoint, seen: SeenScratch, view: OutlineView, facing: f
     return drawn_at(point, seen, line, q, cos_i, vec3f(1.0), offer.total);
 }
 
-// By the environment; u holds the numbers for the choice between cells, and for the chord.
-fn draw_around(point: LitPoint, seen: SeenScratch, map_from_surface: mat3x3f, u: vec2f) -> DrawnLight {
+// By the environment; u holds the numbers for the choice between cells, and for the chord. `cells` is how many the band has: those of a scratch, or
+// of a grating.
+fn draw_around(point: LitPoint, seen: SeenScratch, cells: u32, map_from_surface: mat3x3f, u: vec2f) -> DrawnLight {
     var sent: vec3f;
-    return draw_cells(point, seen, map_from_surface, true, u, &sent);
+    return draw_cells(point, seen, cells, map_from_surface, true, u, &sent);
 }
 
 // By light of radiance 1 from all around. What comes of it is written to `sent`.
 fn draw_all_around(point: LitPoint, seen: SeenScratch, u: vec2f, sent: ptr<function, vec3f>) -> DrawnLight {
-    return draw_cells(point, seen, mat3x3f(), false, u, sent);
+    return draw_cells(point, seen, ENVIRONMENT_CELLS, mat3x3f(), false, u, sent);
+}
+
+fn drawn_cell(i: u32, cells: u32, line: BandLine, seen: SeenScratch) -> EnvironmentCell {
+    if cells == ROW_CELLS {
+        return row_cell(i, line);
+    }
+    return environment_cell(i, line, seen.profile.width_um);
 }
 
 // By the cells of an environment, or of one of radiance 1.
-fn draw_cells(point: LitPoint, seen: SeenScratch, map_from_surface: mat3x3f, is_map: bool, u: vec2f, sent: ptr<function, vec3f>) -> DrawnLight {
+fn draw_cells(point: LitPoint, seen: SeenScratch, cells: u32, map_from_surface: mat3x3f, is_map: bool, u: vec2f, sent: ptr<function, vec3f>) -> DrawnLight {
     let line = band_line_at(band_from_surface(seen.tangent, point.wo), 0.0);
     var offer = DrawnOffer(vec3f(0.0), u.x);
-    var taken = ENVIRONMENT_CELLS;
+    var taken = cells;
     var radiance = vec3f(0.0);
-    for (var i = 0u; i < ENVIRONMENT_CELLS; i += 1u) {
-        let cell = environment_cell(i, line, seen.profile.width_um);
+    for (var i = 0u; i < cells; i += 1u) {
+        let cell = drawn_cell(i, cells, line, seen);
         if cell.q_high > cell.q_low {
             let direction = map_from_surface * surface_from_band(seen.tangent, cell.direction);
             var blurred = vec3f(1.0);
@@ -265,10 +273,10 @@ fn draw_cells(point: LitPoint, seen: SeenScratch, map_from_surface: mat3x3f, is_
         }
     }
     *sent = offer.total;
-    if taken == ENVIRONMENT_CELLS {
+    if taken == cells {
         return DrawnLight(vec3f(0.0), false, vec3f(1.0));
     }
-    let cell = environment_cell(taken, line, seen.profile.width_um);
+    let cell = drawn_cell(taken, cells, line, seen);
     let cos_i = cell.direction.z;
     let own = rgb_luminance(radiance * scratch_chord(scratch_tables, point, seen, cell.q_high, cell.q_low, cos_i));
     let q = drawn_place(point, seen, DrawnPart(cell.q_low, cell.q_high, u.y * own), cos_i, radiance);

@@ -47,7 +47,7 @@ struct Vertex {
 
 const VERTEX_BITANGENT_FLIPPED: u32 = 0x80000000u;
 
-// The scratches of an object: a range of segments, and of the nodes over them.
+// The scratches of an object: a range of segments, and of the nodes over them; and a range of gratings.
 struct Object {
     first_segment: u32,
     end_segment: u32,
@@ -55,6 +55,21 @@ struct Object {
     end_node: u32,
     depth_coherence: f32,
     coherence_um: f32,          // the largest of its materials
+    first_grating: u32,
+    end_grating: u32,
+}
+
+// Grooves side by side on one material of an object. See gratings.wgsl.
+struct Grating {
+    axis: vec3f,                // unit: along the grooves, or the axis that they lie about
+    kind: u32,                  // GROOVES_ALONG and so on
+    center_m: vec3f,            // on the axis
+    curvature_per_m: f32,       // of spun grooves
+    radii_m: vec2f,             // the least and the greatest distance from the axis
+    coverage: f32,
+    angle_std_rad: f32,         // of a groove to the field
+    material: u32,
+    table: u32,                 // layer of the scratch tables
 }
 
 struct Material {
@@ -176,7 +191,7 @@ struct ShadowRound {
     picks: u32,                 // and how many are picked at once
     seed: u32,                  // other random numbers for each
     depth: u32,                 // how many objects light goes by between the samples and the camera
-    by_scratches: u32,          // of bounces: whether light leaves the sample that the camera sees by way of its scratches
+    way: u32,                   // of bounces: how light leaves the sample that the camera sees, BOUNCE_BY_BASE and so on
 }
 
 // A ray from a sample to a source, and the light that it stands for.

@@ -17,11 +17,9 @@ fn pair_energy(tables: texture_2d_array<u32>, pair: Pair) -> vec3f {
     return energy;
 }
 
-fn pair_of(pixel: PixelPoint, segment: Segment) -> Pair {
-    let axis_y = cross(pixel.normal, pixel.axis_x);
-    let a = (segment.start_m - pixel.position_m) * 1e6;
-    let b = (segment.end_m - pixel.position_m) * 1e6;
-    let point = LitPoint(
+// A pixel under lights, with a layer of the scratch tables.
+fn pair_point(pixel: PixelPoint, table: u32) -> LitPoint {
+    return LitPoint(
         pixel_wo(pixel.cos_o),
         pixel.distance_m,
         pixel.footprint_um.xy,
@@ -29,8 +27,15 @@ fn pair_of(pixel: PixelPoint, segment: Segment) -> Pair {
         pixel.turns.xy,
         pixel.turns.zw,
         pixel.coherence_um,
-        pixel_table(pixel),
+        table,
     );
+}
+
+fn pair_of(pixel: PixelPoint, segment: Segment) -> Pair {
+    let axis_y = cross(pixel.normal, pixel.axis_x);
+    let a = (segment.start_m - pixel.position_m) * 1e6;
+    let b = (segment.end_m - pixel.position_m) * 1e6;
+    let point = pair_point(pixel, pixel_table(pixel));
     let seen = scratch_seen(
         point,
         vec2f(dot(a, pixel.axis_x), dot(a, axis_y)),

@@ -3,6 +3,24 @@
 @group(3) @binding(3) var<storage, read> chunk_starts: array<u32>;
 @group(3) @binding(4) var<storage, read> chunk_sums: array<ChunkSum>;
 
+// The chunk behind those of all lists that holds what the gratings of a group send, Fresnel included, and what they take of the mirror's direction.
+fn grating_chunk(group: u32) -> u32 {
+    return chunk_starts[frame.group_count] + group;
+}
+
+fn grating_sums(group: u32, lane: u32) -> Masked {
+    if !HAS_GRATINGS {
+        return Masked(vec3f(0.0), vec3f(0.0));
+    }
+    let sum = chunk_sums[GROUP * grating_chunk(group) + lane];
+    return Masked(sum.radiance, sum.energy);
+}
+
+// What scratches leave of what gratings send, and both of the mirror's direction: scratches lie on top.
+fn under_scratches(gratings: Masked, taken: vec3f) -> Masked {
+    return Masked((1.0 - taken) * gratings.scratches, 1.0 - (1.0 - taken) * (1.0 - gratings.taken));
+}
+
 struct SampleSums {
     all: ScratchSums,
     cut: u32,                   // chunks whose loops the device cut short

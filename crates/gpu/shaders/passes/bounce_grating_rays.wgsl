@@ -1,0 +1,76 @@
+// Pass: for each sample a ray by way of its gratings. A workgroup a group. Twin: cpu/src/shadows.rs.
+
+@group(3) @binding(0) var<storage, read> points: array<PixelPoint>;
+@group(3) @binding(1) var<storage, read> paints: array<PixelPaint>;
+// 2: grating_pairs.wgsl; 3 and 4: sums.wgsl.
+@group(3) @binding(5) var<uniform> shadow_round: ShadowRound;
+// In: by what way the camera sees the samples.
+@group(3) @binding(6) var<storage, read_write> rays: array<BounceRay>;
+
+// A direction by way of one of the gratings, by what each sends of light of radiance 1 from all around; what all send is written to `sent`.
+fn draw_grating(pixel: PixelPoint, paint: PixelPaint, u: vec2f, sent: ptr<function, vec3f>) -> DrawnLight {
+    let object = objects[pixel.object - 1u];
+    let covered = gratings_cover(pixel, paint);
+    var offer = DrawnOffer(vec3f(0.0), u.x);
+    var taken = vec2u(object.end_grating, 0u);
+    for (var i = object.first_grating; i < object.end_grating; i += 1u) {
+        if !grating_is_on(gratings[i], paint) {
+            continue;
+        }
+        let pair = grating_pair(pixel, gratings[i], covered);
+        let line = band_line_at(band_from_surface(pair.seen.tangent, pair.point.wo), 0.0);
+        for (var c = 0u; c < ROW_CELLS; c += 1u) {
+            let cell = row_cell(c, line);
+            let share = pair.seen.share.segment;
+            if drawn_offer(&offer, share * scratch_chord(scratch_tables, pair.point, pair.seen, cell.q_high, cell.q_low, cell.direction.z)) {
+                taken = vec2u(i, c);
+            }
+        }
+    }
+    *sent = offer.total;
+    if taken.x == object.end_grating {
+        return DrawnLight(vec3f(0.0), false, vec3f(1.0));
+    }
+    let pair = grating_pair(pixel, gratings[taken.x], covered);
+    let line = band_line_at(band_from_surface(pair.seen.tangent, pair.point.wo), 0.0);
+    let cell = row_cell(taken.y, line);
+    let cos_i = cell.direction.z;
+    let own = rgb_luminance(scratch_chord(scratch_tables, pair.point, pair.seen, cell.q_high, cell.q_low, cos_i));
+    let q = drawn_place(pair.point, pair.seen, DrawnPart(cell.q_low, cell.q_high, u.y * own), cos_i, vec3f(1.0));
+    return drawn_at(pair.point, pair.seen, line, q, cos_i, vec3f(1.0), offer.total);
+}
+
+@compute @workgroup_size(8, 8)
+fn bounce_grating_rays(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let group = workgroup.y * workgroups.x + workgroup.x;
+    if group >= frame.group_count || !group_has(group, lane) {
+        return;
+    }
+    let at = group_point(group, lane);
+    let pixel = points[at];
+    var ray: BounceRay;
+    if pixel.object == 0u {
+        rays[at] = ray;
+        return;
+    }
+    var by_scratches = vec3f(0.0);
+    if HAS_SCRATCHES {
+        by_scratches = masked(sample_sums(group, lane).all, objects[pixel.object - 1u].depth_coherence).taken;
+    }
+    let way = bounce_way(BOUNCE_BY_GRATINGS, by_scratches, grating_sums(group, lane).taken, shadow_round);
+    let seed = shadow_seed(pixel.position_m, shadow_round);
+    if !bounce_goes(way, shadow_random_alike(seed, shadow_round, BOUNCE_WAY).x) {
+        return;
+    }
+    let paint = paints[at];
+    var sent: vec3f;
+    let drawn = draw_grating(pixel, paint, shadow_random_alike(seed, shadow_round, BOUNCE_DIRECTION), &sent);
+    if drawn.is_there {
+        let axes = mat3x3f(pixel.axis_x, cross(pixel.normal, pixel.axis_x), pixel.normal);
+        let fresnel = fresnel_eval(fresnel_curves, FresnelRgb(paint.f0, pixel_curve(paint)), pixel.cos_o);
+        let leaves = (1.0 - by_scratches) * fresnel * sent * drawn.color / (f32(shadow_round.rounds) * way.share);
+        let start = shadow_normals(shadow_random_alike(seed, shadow_round, BOUNCE_START));
+        ray = bounce_ray(axes * drawn.direction, bounce_throughput(rays[at], shadow_round) * leaves, 0.0, start);
+    }
+    rays[at] = ray;
+}

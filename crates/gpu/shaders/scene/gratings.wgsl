@@ -1,0 +1,86 @@
+// Gratings: where on a surface their grooves run which way, and how a sample sees them. Twin: crates/scene/src/grating.rs.
+
+const GROOVES_ALONG: u32 = 0u;
+const GROOVES_CIRCULAR: u32 = 1u;
+const GROOVES_RADIAL: u32 = 2u;
+const GROOVES_SPUN: u32 = 3u;
+
+// Nearer than this to its axis a field has no direction.
+const GROOVES_NO_DIRECTION_M: f32 = 1e-8;
+// Where a surface stands across a direction, its projection is noise.
+const GROOVES_LEAST_PART: f32 = 1e-3;
+// Beyond so many standard deviations a normal distribution has nothing.
+const GROOVES_FAR_STD: f32 = 9.0;
+
+// Grooves that a pixel sees.
+struct GroovePlace {
+    tangent: vec3f,             // unit, in the plane of the surface; zero: there are none
+    turns_rad: vec2f,           // by which angle they turn over one standard deviation of the pixel's filter to the right and down, to the left
+    share: f32,                 // of the pixel that they cover
+}
+
+// The unit direction of grooves in the plane across a unit normal, so far from the middle of their field; zero where there is none.
+fn groove_tangent(grating: Grating, arm_m: vec3f, normal: vec3f) -> vec3f {
+    if grating.kind == GROOVES_ALONG {
+        let along = grating.axis - normal * dot(normal, grating.axis);
+        let length2 = dot(along, along);
+        return select(vec3f(0.0), along * inverseSqrt(max(length2, 1e-30)), length2 > GROOVES_LEAST_PART * GROOVES_LEAST_PART);
+    }
+    // Counter-clockwise seen from outside, so that a pattern looks the same on both sides of a sheet.
+    let spin = cross(grating.axis, arm_m) * select(1.0, -1.0, dot(grating.axis, normal) < 0.0);
+    let around = spin - normal * dot(normal, spin);
+    let length2 = dot(around, around);
+    if length2 < GROOVES_NO_DIRECTION_M * GROOVES_NO_DIRECTION_M {
+        return vec3f(0.0);
+    }
+    let circle = around * inverseSqrt(length2);
+    let outwards = cross(circle, normal);
+    if grating.kind == GROOVES_CIRCULAR {
+        return circle;
+    }
+    if grating.kind == GROOVES_RADIAL {
+        return outwards;
+    }
+    // A chord from the axis meets its circle at the angle asin(chord curvature / 2).
+    let sin = clamp(0.5 * length(spin) * grating.curvature_per_m, -1.0, 1.0);
+    return outwards * sqrt(max(1.0 - sin * sin, 0.0)) + circle * sin;
+}
+
+// The angle from one direction in the plane across a normal to another, to the left; 0 to none.
+fn groove_angle(normal: vec3f, from_here: vec3f, to_there: vec3f) -> f32 {
+    let there = select(to_there, from_here, all(to_there == vec3f(0.0)));
+    return atan2(dot(normal, cross(from_here, there)), dot(from_here, there));
+}
+
+// The share of a pixel that lies between the radii.
+fn groove_share_within(grating: Grating, arm_m: vec3f, right_m: vec3f, down_m: vec3f) -> f32 {
+    if grating.kind == GROOVES_ALONG {
+        return 1.0;
+    }
+    let away_m = arm_m - grating.axis * dot(grating.axis, arm_m);
+    let radius_m = length(away_m);
+    let away = away_m / max(radius_m, 1e-30);
+    let std_m = max(length(vec2f(dot(right_m, away), dot(down_m, away))), 1e-12);
+    let ends = clamp((radius_m - grating.radii_m) / std_m, vec2f(-GROOVES_FAR_STD), vec2f(GROOVES_FAR_STD));
+    // There is nothing nearer than the axis.
+    let inner = select(ends.x, GROOVES_FAR_STD, grating.radii_m.x <= 0.0);
+    return gaussian_cdf(inner) - gaussian_cdf(ends.y);
+}
+
+// The grooves that a pixel sees about a point of a surface. `right_m` and `down_m` are how the point moves by one standard deviation of the pixel's
+// filter.
+fn groove_place(grating: Grating, point_m: vec3f, normal: vec3f, right_m: vec3f, down_m: vec3f) -> GroovePlace {
+    let arm_m = point_m - grating.center_m;
+    let tangent = groove_tangent(grating, arm_m, normal);
+    if all(tangent == vec3f(0.0)) {
+        return GroovePlace(tangent, vec2f(0.0), 0.0);
+    }
+    // Halfway, where a field that turns much over a pixel still tells by how much.
+    let turns = vec2f(
+        groove_angle(normal, tangent, groove_tangent(grating, arm_m + 0.5 * right_m, normal))
+            - groove_angle(normal, tangent, groove_tangent(grating, arm_m - 0.5 * right_m, normal)),
+        groove_angle(normal, tangent, groove_tangent(grating, arm_m + 0.5 * down_m, normal))
+            - groove_angle(normal, tangent, groove_tangent(grating, arm_m - 0.5 * down_m, normal)),
+    );
+    return GroovePlace(tangent, turns, grating.coverage * groove_share_within(grating, arm_m, right_m, down_m));
+}

@@ -1,0 +1,71 @@
+// What a pair sends of the light of one kind of area lights. Twin: cpu/src/shade_scratches/scratch_light.rs.
+
+// Which kind of light the pass is compiled for.
+override SCRATCH_LIGHTS: u32 = 0u;
+const SCRATCH_LIGHTS_SPHERES: u32 = 0u;
+const SCRATCH_LIGHTS_QUADS: u32 = 1u;
+const SCRATCH_LIGHTS_OUTLINES: u32 = 2u;
+const SCRATCH_LIGHTS_TUBES: u32 = 3u;
+const SCRATCH_LIGHTS_ENVIRONMENT: u32 = 4u;
+// None: scratches are picked by the energy that they take of the base. Light of other objects goes by way of them.
+const SCRATCH_LIGHTS_NONE: u32 = 5u;
+
+// Whether a light may reach a pair.
+fn pair_meets(pair: Pair, light_index: u32) -> bool {
+    let around = light_around(light_index);
+    let center_m = (around.xyz - pair.position_m) * pair.surface;
+    return scratch_meets(pair.point, pair.seen, center_m, around.w);
+}
+
+// The light of a pair by an area light, Fresnel left out.
+fn pair_light(pair: Pair, light_index: u32) -> vec3f {
+    let point = pair.point;
+    let seen = pair.seen;
+    let light = light_at(light_index);
+    let sent = light_radiance(light, pair.position_m);
+    let center_m = (light.center_m - pair.position_m) * pair.surface;
+    if SCRATCH_LIGHTS == SCRATCH_LIGHTS_SPHERES {
+        return sent * scratch_sphere(scratch_tables, point, seen, center_m, light.radius_m);
+    }
+    let normal = light.normal * pair.surface;
+    let a = (light_corner_m(light.first_vertex) - pair.position_m) * pair.surface;
+    if SCRATCH_LIGHTS == SCRATCH_LIGHTS_QUADS {
+        let last = select(light.first_vertex + 3u, light.first_vertex, light.vertex_count == 3u);
+        let quad = QuadLight(
+            a,
+            (light_corner_m(light.first_vertex + 1u) - pair.position_m) * pair.surface,
+            (light_corner_m(light.first_vertex + 2u) - pair.position_m) * pair.surface,
+            (light_corner_m(last) - pair.position_m) * pair.surface,
+            light.vertex_count,
+            normal,
+            center_m,
+            light.radius_m,
+            light.two_sided != 0u,
+        );
+        return sent * scratch_quad(scratch_tables, point, seen, quad);
+    }
+    var view: OutlineView;
+    view.first_vertex = light.first_vertex;
+    view.vertex_count = light.vertex_count;
+    view.point_m = pair.position_m;
+    view.axis_x = pair.surface[0];
+    view.normal = pair.surface[2];
+    view.tangent = seen.tangent;
+    view.is_tube = SCRATCH_LIGHTS == SCRATCH_LIGHTS_TUBES;
+    var facing: f32;
+    var away: vec3f;
+    if SCRATCH_LIGHTS == SCRATCH_LIGHTS_TUBES {
+        let end = light_end_m(light.first_vertex);
+        let b = light_end_m(light.first_vertex + 1u).xyz;
+        view.tube = tube_outline(outline_local(view, end.xyz), outline_local(view, b), end.w);
+        facing = f32(view.tube.seen);
+        away = view.tube.away;
+    } else {
+        facing = polygon_facing(normal, a, light.two_sided != 0u);
+        away = band_from_surface(seen.tangent, -facing * normal);
+    }
+    if facing == 0.0 {
+        return vec3f(0.0);
+    }
+    return sent * scratch_outline(scratch_tables, point, seen, view, facing, away, center_m, light.radius_m);
+}

@@ -1,0 +1,111 @@
+//! Passes: which gratings shadow rays go by, the rays, and what is hidden of what gratings send.
+
+use crate::compute_pass::{ComputePass, Recording, Use, in_a_row};
+use crate::device::Gpu;
+use crate::film::Film;
+use crate::pipelines::Orders;
+use crate::shade_gratings::ShadeGratingsPass;
+use crate::shaders;
+use crate::shadow_picks::{ByPicks, Scratched};
+use crate::shadow_room::ShadowRoom;
+use crate::strip::{GROUP, StripRoom, whole};
+
+pub(crate) struct ShadowGratingsPasses {
+    begin: ComputePass,
+    pick: ShadeGratingsPass,
+    rays: ComputePass,
+    gratings: ComputePass,
+}
+
+impl ShadowGratingsPasses {
+    pub(crate) fn new(orders: &mut Orders) -> Self {
+        use Use::{Reads, Uniform, Writes};
+        let mut pass =
+            |name, module, uses: &[Use]| ComputePass::order(orders, name, module, uses, &[]);
+        let begin = [Reads, Reads, Reads, Writes, Uniform];
+        Self {
+            begin: pass(
+                "shadow picks",
+                (&shaders::SHADOW_PICKS, "shadow_grating_picks"),
+                &begin,
+            ),
+            rays: pass(
+                "shadow rays",
+                (&shaders::SHADOW_GRATING_RAYS, "shadow_grating_rays"),
+                &begin,
+            ),
+            gratings: pass(
+                "shadow gratings",
+                (&shaders::SHADOW_GRATINGS, "shadow_gratings"),
+                &begin,
+            ),
+            pick: ShadeGratingsPass::picks(orders),
+        }
+    }
+}
+
+impl ByPicks for ShadowGratingsPasses {
+    fn lanes(&self, on: &Scratched) -> u64 {
+        u64::from(GROUP) * u64::from(on.groups)
+    }
+
+    fn record_picks(
+        &self,
+        gpu: &Gpu,
+        recording: &mut Recording,
+        room: &StripRoom,
+        shadow_room: &ShadowRoom,
+        film: &Film,
+        on: &Scratched,
+    ) {
+        let resources = [
+            whole(&room.samples.points),
+            whole(&room.samples.chunk_starts),
+            whole(&room.samples.chunk_sums),
+            whole(&shadow_room.picks),
+            whole(&shadow_room.round),
+        ];
+        self.begin
+            .run(gpu, recording, &resources, in_a_row(on.groups));
+        let picks = &shadow_room.picks;
+        self.pick
+            .record(gpu, recording, room, film, picks, on.groups);
+    }
+
+    fn record_rays(
+        &self,
+        gpu: &Gpu,
+        recording: &mut Recording,
+        room: &StripRoom,
+        shadow_room: &ShadowRoom,
+        groups: u32,
+    ) {
+        let resources = [
+            whole(&room.samples.points),
+            whole(&shadow_room.picks),
+            whole(recording.scene.buffers.gratings()),
+            whole(&shadow_room.rays),
+            whole(&shadow_room.round),
+        ];
+        self.rays.run(gpu, recording, &resources, in_a_row(groups));
+    }
+
+    fn record_hidden(
+        &self,
+        gpu: &Gpu,
+        recording: &mut Recording,
+        room: &StripRoom,
+        shadow_room: &ShadowRoom,
+        groups: u32,
+    ) {
+        let resources = [
+            whole(&room.samples.points),
+            whole(&shadow_room.halves),
+            whole(&room.samples.chunk_starts),
+            whole(&room.samples.chunk_sums),
+            whole(&shadow_room.round),
+        ];
+        self.gratings
+            .run(gpu, recording, &resources, in_a_row(groups));
+    }
+}

@@ -1,0 +1,202 @@
+//! Rows of grooves: which way they run under a pixel, how their band is widened, and what they send of light from all around.
+
+use super::twin::{Sequence, Tolerance, Twin};
+use glam::{DVec2, DVec3};
+use hairline_gpu::call::{Table, Texels};
+use hairline_gpu::shaders;
+use hairline_optics::band::{BandFrame, BandLine, BandMotion, band_moves, band_stds};
+use hairline_optics::band_environment::row_cells;
+use hairline_optics::grating::{GRATING_DEPTH_NM, GRATING_WIDTH_UM, Grating as Row};
+use hairline_optics::scratch::oblique_depth_nm;
+use hairline_optics::table::{COLUMNS, ROWS, ScratchTable};
+use hairline_scene::{Bearing, Grating, GrooveField};
+use std::sync::LazyLock;
+
+const ROW: Row = Row {
+    pitch_um: 1.6,
+    width_um: 0.6,
+    depth_nm: 110.0,
+    depth_spread: 0.1,
+    jitter_um: 0.05,
+};
+
+static TABLE: LazyLock<ScratchTable> = LazyLock::new(|| ROW.table(20.0, |_| 1.0));
+
+fn v(x: &[f64]) -> DVec3 {
+    DVec3::new(x[0], x[1], x[2])
+}
+
+/// The kinds as gratings.wgsl counts them.
+fn field(kind: f64, axis: DVec3, center_m: DVec3) -> GrooveField {
+    let around = |bearing| GrooveField::Around {
+        axis,
+        center_m,
+        bearing,
+    };
+    match kind {
+        0.0 => GrooveField::Along(axis),
+        1.0 => around(Bearing::Circular),
+        2.0 => around(Bearing::Radial),
+        _ => around(Bearing::Spun {
+            curvature_per_m: 1.0,
+        }),
+    }
+}
+
+#[test]
+fn grooves_under_pixels() {
+    let mut random = Sequence(3);
+    let rows: Vec<[f32; 16]> = (0..8000)
+        .map(|i| {
+            let mut row = [0.0; 16];
+            row[0] = (i % 4) as f32;
+            let normal = random.direction(-1.0);
+            row[1..4].copy_from_slice(&random.direction(-1.0));
+            row[4..7].copy_from_slice(&normal);
+            // From a hundredth of a millimetre to a metre from the axis; pixels up to a tenth as wide.
+            let reach_m = 10f32.powf(random.between(-5.0, 0.0));
+            row[7..10].copy_from_slice(&random.direction(-1.0).map(|x| x * reach_m));
+            for at in [10, 13] {
+                let step = DVec3::from(random.direction(-1.0).map(f64::from));
+                let normal = DVec3::from(normal.map(f64::from));
+                let across = step - normal * normal.dot(step);
+                let size = f64::from(reach_m) * 10f64.powf(f64::from(random.between(-4.0, -1.0)));
+                row[at..at + 3].copy_from_slice(&(across * size).as_vec3().to_array());
+            }
+            row
+        })
+        // Next to where a field ends, rounding decides.
+        .filter(|row| {
+            let [axis, normal, arm] = [1, 4, 7].map(|at| v(&row.map(f64::from)[at..]));
+            axis.cross(normal).length() > 0.05
+                && (axis.cross(arm)).cross(normal).length() > 0.05 * arm.length()
+        })
+        .collect();
+    Twin {
+        name: "groove_place",
+        modules: &[&shaders::GRATINGS],
+        snippet: "let grating = Grating(vec3f(x[1], x[2], x[3]), u32(x[0]), vec3f(0.0), 1.0, vec2f(1e-3, 0.1), 0.7, 0.0, 0u, 0u);
+            let normal = vec3f(x[4], x[5], x[6]);
+            let place = groove_place(grating, vec3f(x[7], x[8], x[9]), normal, vec3f(x[10], x[11], x[12]), vec3f(x[13], x[14], x[15]));
+            let is_seen = f32(place.share > 1e-3);
+            y[0] = is_seen * place.tangent.x; y[1] = is_seen * place.tangent.y; y[2] = is_seen * place.tangent.z;
+            y[3] = is_seen * place.turns_rad.x; y[4] = is_seen * place.turns_rad.y; y[5] = is_seen * place.share;",
+        tables: &[],
+        expected: &|x: [f64; 16]| {
+            let grating = Grating {
+                row: ROW,
+                field: field(x[0], v(&x[1..]), DVec3::ZERO),
+                angle_std_rad: 0.0,
+                coverage: 0.7,
+                radii_m: [1e-3, 0.1],
+            };
+            let axes_m = [v(&x[10..]), v(&x[13..])];
+            let seen = grating.seen_from_pixel(v(&x[7..]), v(&x[4..]), axes_m);
+            let seen = seen.filter(|it| it.share > 1e-3);
+            seen.map_or([0.0; 6], |it| {
+                let [right, down] = it.turns_rad;
+                [it.tangent.x, it.tangent.y, it.tangent.z, right, down, it.share]
+            })
+        },
+        tolerance: Tolerance {
+            absolute: 2e-5,
+            relative: 1e-3,
+        },
+    }
+    // Where they end within a pixel, rounding of the place counts.
+    .check(&rows, rows.len() / 500);
+}
+
+#[test]
+fn bands_of_rows() {
+    let mut random = Sequence(5);
+    let rows: Vec<[f32; 13]> = (0..4000)
+        .map(|_| {
+            let mut row = [0.0; 13];
+            row[..3].copy_from_slice(&random.direction(0.0));
+            row[3..6].copy_from_slice(&random.direction(0.0));
+            for value in &mut row[6..10] {
+                *value = random.between(-300.0, 300.0);
+            }
+            row[10] = random.between(-0.05, 0.05);
+            row[11] = random.between(-0.05, 0.05);
+            row[12] = random.between(0.0, 0.1);
+            row
+        })
+        .collect();
+    Twin {
+        name: "scratch_band of a row",
+        modules: &[&shaders::GRATING],
+        snippet: "let point = LitPoint(vec3f(x[0], x[1], x[2]), 0.3, vec2f(x[6], x[7]), vec2f(x[8], x[9]), vec2f(0.01, 0.0), vec2f(0.0, 0.02), 20.0, 0u);
+            let seen = row_seen(vec2f(0.6, 0.8), 0.5, vec2f(x[10], x[11]), x[12]);
+            let band = scratch_band(point, seen, vec3f(x[3], x[4], x[5]), 0.4);
+            y[0] = band.shift; y[1] = band.stds.x; y[2] = band.stds.y; y[3] = band.stds.z; y[4] = band.stds.w;",
+        tables: &[],
+        // (45) of docs/model.md.
+        expected: &|x: [f64; 13]| {
+            let (wo, wi) = (v(&x[0..]), v(&x[3..]));
+            let tangent = DVec2::new(0.6, 0.8);
+            let xi_n = tangent.perp_dot((wo + wi).truncate());
+            let steps = [(DVec2::new(0.01, 0.0), 6, 10), (DVec2::new(0.0, 0.02), 8, 11)];
+            let moves = steps.map(|(turn, at, turns)| {
+                let axis_m = 1e-6 * DVec3::new(x[at], x[at + 1], 0.0);
+                let by_pixel = band_moves(turn, axis_m, wo, 1.0 / 0.3, wi, 1.0 / 0.4);
+                by_pixel.dot(tangent) + x[turns] * xi_n
+            });
+            let variance = moves[0].powi(2) + moves[1].powi(2) + (x[12] * xi_n).powi(2);
+            let band = BandMotion { shift: 0.0, variance }.band(band_stds(20.0));
+            let [r, g, b] = band.stds.channels;
+            [band.shift, r, g, b, band.stds.mean]
+        },
+        tolerance: Tolerance {
+            absolute: 1e-5,
+            relative: 1e-4,
+        },
+    }
+    .check(&rows, 0);
+}
+
+#[test]
+fn light_from_all_around() {
+    let mut random = Sequence(6);
+    let mut rows: Vec<[f32; 4]> = vec![[0.0, 0.0, 1.0, 0.0], [0.0, 0.99995, 0.01, 1.0]];
+    rows.extend((0..2000).map(|_| {
+        let [x, y, z] = random.direction(0.01);
+        [x, y, z, random.between(0.0, 6.3)]
+    }));
+    let tables = [Table {
+        size: [COLUMNS as u32, ROWS as u32],
+        layers: Some(1),
+        texels: Texels::Integers(&TABLE.texels),
+    }];
+    Twin {
+        name: "row_all_around",
+        modules: &[&shaders::GRATING],
+        snippet: "let wo = vec3f(x[0], x[1], x[2]);
+            let point = LitPoint(wo, 0.3, vec2f(0.0), vec2f(0.0), vec2f(0.0), vec2f(0.0), 20.0, 0u);
+            let seen = row_seen(vec2f(cos(x[3]), sin(x[3])), 1.0, vec2f(0.0), 0.0);
+            let sum = row_all_around(table_0, point, seen);
+            y[0] = sum.x; y[1] = sum.y; y[2] = sum.z;",
+        tables: &tables,
+        expected: &|[x, y, z, angle]| {
+            let frame = BandFrame {
+                tangent: DVec2::from_angle(angle),
+            };
+            let wo = DVec3::new(x, y, z);
+            let mut sum = DVec3::ZERO;
+            for cell in row_cells(BandLine::new(frame.band_from_surface(wo), 0.0)) {
+                let depth_nm = oblique_depth_nm(GRATING_DEPTH_NM, cell.direction.z, z);
+                let row = TABLE.at_depth(depth_nm);
+                let at = |q: f64| DVec3::from(row.at(GRATING_WIDTH_UM * q));
+                sum += at(cell.q_high) - at(cell.q_low);
+            }
+            sum.to_array()
+        },
+        // The built-in cosine may be off by 5e-4, so may the depth of each cell.
+        tolerance: Tolerance {
+            absolute: 1e-3,
+            relative: 1e-3,
+        },
+    }
+    .check(&rows, 0);
+}
