@@ -6,13 +6,12 @@
 //! numbers. Notes are text attributes whose names start with `hairline.`.
 
 use std::collections::BTreeMap;
-use std::fs::File;
-use std::io::{BufReader, Cursor};
+use std::io::Cursor;
 use std::path::Path;
 
 use exr::prelude::*;
 
-use crate::{Error, Image, Noise, Picture};
+use crate::{Error, Image, Noise, Picture, held};
 
 /// What a render should remember about its making (scene, model, seed), by name. Any text; names of 246 bytes at most.
 pub type Notes = BTreeMap<String, String>;
@@ -117,12 +116,12 @@ pub fn read_image(path: &Path) -> std::result::Result<Image, Error> {
 /// # Errors
 /// [`Error::CannotRead`], [`Error::Unusable`].
 pub fn size_px(path: &Path) -> std::result::Result<[u32; 2], Error> {
-    let file = File::open(path).map_err(|e| Error::cannot_read(path, &e))?;
+    let file = held::open(path).map_err(|e| Error::cannot_read(path, &e))?;
     let unusable = |reason: String| Error::Unusable {
         path: path.to_owned(),
         reason,
     };
-    let meta = exr::meta::MetaData::read_from_buffered(BufReader::new(file), false);
+    let meta = exr::meta::MetaData::read_from_buffered(file, false);
     let meta = meta.map_err(|e| match e {
         exr::error::Error::Io(e) => Error::cannot_read(path, &e),
         e => unusable(format!("not an EXR file that can be read: {e}")),
@@ -324,14 +323,14 @@ impl Part {
 
 impl Contents {
     pub(crate) fn read(path: &Path) -> std::result::Result<Self, Error> {
-        let file = File::open(path).map_err(|e| Error::cannot_read(path, &e))?;
+        let file = held::open(path).map_err(|e| Error::cannot_read(path, &e))?;
         let file = read()
             .no_deep_data()
             .largest_resolution_level()
             .all_channels()
             .all_layers()
             .all_attributes()
-            .from_buffered(BufReader::new(file))
+            .from_buffered(file)
             .map_err(|e| match e {
                 exr::error::Error::Io(e) => Error::cannot_read(path, &e),
                 e => Error::Unusable {

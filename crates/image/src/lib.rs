@@ -19,6 +19,7 @@ mod error;
 pub mod exr_file;
 mod film;
 mod fireflies;
+pub mod held;
 mod layers;
 pub mod metrics;
 pub mod output;

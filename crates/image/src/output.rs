@@ -6,8 +6,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use crate::exr_file::{self, Notes};
-use crate::temporary;
-use crate::{Display, Error, Image, Picture, png};
+use crate::{Display, Error, Image, Picture, held, png, temporary};
 
 /// A picture format that can be written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -146,6 +145,9 @@ impl Output {
 /// # Errors
 /// [`Error::CannotWrite`].
 pub fn check_writable(path: &Path) -> Result<(), Error> {
+    if held::HOLDS_WHAT_IS_WRITTEN {
+        return Ok(());
+    }
     let target = resolve(path)?;
     drop(temporary::beside(path, &target)?);
     Ok(())
@@ -156,6 +158,10 @@ pub fn check_writable(path: &Path) -> Result<(), Error> {
 /// # Errors
 /// [`Error::CannotWrite`].
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), Error> {
+    if held::HOLDS_WHAT_IS_WRITTEN {
+        held::write(path, bytes);
+        return Ok(());
+    }
     let fail = |e: &std::io::Error| Error::cannot_write(path, e);
     let target = resolve(path)?;
     let mut temporary = temporary::beside(path, &target)?;

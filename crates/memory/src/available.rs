@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-/// What the process may still have, in bytes; `None` where the system does not tell, which is everywhere but on Linux.
+/// What the process may still have, in bytes; `None` where the system does not tell: it does on Linux and in a browser.
 pub fn available_bytes() -> Option<u64> {
     let free = field_bytes("/proc/meminfo", "MemAvailable:");
     let groups = fs::read_to_string("/proc/self/cgroup").unwrap_or_default();
@@ -25,7 +25,15 @@ fn left_of_limits() -> Option<u64> {
     [all, data].into_iter().flatten().min()
 }
 
-#[cfg(not(target_os = "linux"))]
+/// WebAssembly has addresses for 4 GiB, and what a page once took it keeps.
+#[cfg(target_arch = "wasm32")]
+fn left_of_limits() -> Option<u64> {
+    const PAGE_BYTES: u64 = 1 << 16;
+    let taken_pages = core::arch::wasm32::memory_size::<0>() as u64;
+    Some((1 << 32) - taken_pages * PAGE_BYTES)
+}
+
+#[cfg(not(any(target_os = "linux", target_arch = "wasm32")))]
 fn left_of_limits() -> Option<u64> {
     None
 }

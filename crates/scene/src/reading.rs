@@ -1,9 +1,10 @@
 //! Files read within a limit: a device or a file of any size is refused, not read to the end of memory.
 
-use std::fs::{File, Metadata};
+use std::fs::Metadata;
 use std::io::{self, Read};
 use std::path::Path;
 
+use hairline_image::held;
 use hairline_memory::{budget_bytes, in_words};
 
 use crate::error::Error;
@@ -34,12 +35,11 @@ fn read_at_most(path: &Path, kind: Kind, most: u64) -> Result<Vec<u8>, String> {
             in_words(most as f64)
         )
     };
-    let metadata = path.metadata().map_err(|error| error.to_string())?;
-    check_kind(&metadata, kind)?;
-    if metadata.len() > most {
-        return Err(refuse(metadata.len()));
+    let length = length(path, kind)?;
+    if length > most {
+        return Err(refuse(length));
     }
-    let file = File::open(path).map_err(|error| error.to_string())?;
+    let file = held::open(path).map_err(|error| error.to_string())?;
     let mut bytes = Vec::new();
     // Files of the system and pipes say no length.
     let read = file.take(most + 1).read_to_end(&mut bytes);
@@ -48,6 +48,16 @@ fn read_at_most(path: &Path, kind: Kind, most: u64) -> Result<Vec<u8>, String> {
         true => Ok(bytes),
         false => Err(refuse(bytes.len() as u64)),
     }
+}
+
+/// Of a file that may be read; what is on a disk may have more by now.
+fn length(path: &Path, kind: Kind) -> Result<u64, String> {
+    if let Some(held) = held::bytes(path) {
+        return Ok(held.len() as u64);
+    }
+    let metadata = path.metadata().map_err(|error| error.to_string())?;
+    check_kind(&metadata, kind)?;
+    Ok(metadata.len())
 }
 
 fn check_kind(metadata: &Metadata, kind: Kind) -> Result<(), String> {
@@ -63,6 +73,9 @@ fn check_kind(metadata: &Metadata, kind: Kind) -> Result<(), String> {
 
 /// Refuses what [`read`] refuses, for files that others read.
 pub(crate) fn check_regular(path: &Path) -> io::Result<()> {
+    if held::edition(path).is_some() {
+        return Ok(());
+    }
     let metadata = path.metadata()?;
     if metadata.is_dir() {
         return Err(io::ErrorKind::IsADirectory.into());

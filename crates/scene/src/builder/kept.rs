@@ -5,6 +5,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::SystemTime;
 
 use glam::{DMat4, DVec3};
+use hairline_image::held;
 
 use super::parts::{OnPart, PartGround, Surroundings};
 use crate::description::{self, Layer, LightKind, Map, Stroke, Surface};
@@ -36,6 +37,8 @@ pub(super) struct Stamp {
     path: PathBuf,
     changed: Option<SystemTime>,
     length: Option<u64>,
+    /// Of a file that is held in memory.
+    edition: Option<u64>,
 }
 
 impl Stamp {
@@ -45,6 +48,7 @@ impl Stamp {
             path: path.to_owned(),
             changed: metadata.as_ref().and_then(|m| m.modified().ok()),
             length: metadata.map(|m| m.len()),
+            edition: held::edition(path),
         }
     }
 

@@ -1,10 +1,9 @@
 //! Environment maps from files.
 
-use std::fs::File;
-use std::io::{self, BufRead, BufReader, Read};
+use std::io::{self, BufRead, Read};
 use std::path::{Path, PathBuf};
 
-use hairline_image::{Picture, exr_file};
+use hairline_image::{Picture, exr_file, held};
 use image::codecs::hdr::HdrDecoder;
 use image::{ImageDecoder, ImageError};
 
@@ -68,8 +67,8 @@ pub(crate) fn size_px(path: &Path) -> Result<[u32; 2], Error> {
     check_regular(path).map_err(|e| cannot_read(path, &e))?;
     let size_px = match ending(path).as_deref() {
         Some("hdr") => {
-            let file = File::open(path).map_err(|e| cannot_read(path, &e))?;
-            let decoder = HdrDecoder::new(BufReader::new(file));
+            let file = held::open(path).map_err(|e| cannot_read(path, &e))?;
+            let decoder = HdrDecoder::new(file);
             decoder
                 .map_err(|e| from_radiance(path, e))?
                 .dimensions()
@@ -133,8 +132,8 @@ fn from_exr(path: &Path, error: hairline_image::Error) -> Error {
 
 /// Reads a Radiance picture. Its EXPOSURE, if it has one, is undone: it says by what the radiances were multiplied.
 fn read_radiance(path: &Path) -> Result<Picture, Error> {
-    let file = File::open(path).map_err(|e| cannot_read(path, &e))?;
-    let reader = as_radiance(BufReader::new(file)).map_err(|e| cannot_read(path, &e))?;
+    let file = held::open(path).map_err(|e| cannot_read(path, &e))?;
+    let reader = as_radiance(file).map_err(|e| cannot_read(path, &e))?;
     let decoder = HdrDecoder::new(reader).map_err(|e| from_radiance(path, e))?;
     let size_px: [u32; 2] = decoder.dimensions().into();
     check_size(path, size_px)?;
@@ -162,7 +161,7 @@ fn read_radiance(path: &Path) -> Result<Picture, Error> {
 }
 
 /// The same picture begins with `#?RGBE` where other programs wrote it; the decoder knows `#?RADIANCE` alone.
-fn as_radiance(mut file: BufReader<File>) -> io::Result<impl BufRead> {
+fn as_radiance(mut file: impl BufRead) -> io::Result<impl BufRead> {
     const OTHER: &[u8] = b"#?RGBE";
     let is_other = file.fill_buf()?.starts_with(OTHER);
     let begin: &[u8] = if is_other { b"#?RADIANCE" } else { b"" };

@@ -1,13 +1,13 @@
 //! What the text of a glTF file says of its size and its files, before anything of them is read.
 
-use std::fs::File;
-use std::io::{BufReader, Read};
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use gltf::json::deserialize::from_slice;
 use gltf::json::mesh::Mode;
 use gltf::json::validation::Checked::Valid;
 use gltf::json::{Index, Root, mesh::Primitive, mesh::Semantic};
+use hairline_image::held;
 
 use super::instances;
 use super::left_out::{self, LeftOut, Wanted};
@@ -119,7 +119,7 @@ fn head(path: &Path) -> Option<(Root, f64)> {
 /// The text of a .gltf file, or the first chunk of a .glb file.
 fn text(path: &Path) -> Option<Vec<u8>> {
     check_regular(path).ok()?;
-    let mut file = BufReader::new(File::open(path).ok()?);
+    let mut file = held::open(path).ok()?;
     let mut start = [0; 20];
     file.read_exact(&mut start).ok()?;
     let mut text = Vec::new();
