@@ -1,11 +1,13 @@
 //! Layers of scratches.
 
+use std::path::Path;
+
 use hairline_scene::Description;
 use hairline_scene::description::limits::LARGEST_SEED;
-use hairline_scene::description::{Layer, Pattern, Scratches};
+use hairline_scene::description::{Layer, Listed, Object, Pattern, Scratches};
 
 use super::{ActionError, list};
-use crate::Selection;
+use crate::{Selection, paths};
 
 /// Adds a layer behind the last one of its object, with a seed that no other layer has.
 ///
@@ -24,6 +26,24 @@ pub fn add(description: &mut Description, layer: Scratches) -> Result<Selection,
         last.map_or(description.scratches.len(), |last| last + 1),
         layer,
     ))
+}
+
+/// Adds the scratches of a CSV file to an object; `base_dir` is the scene file's folder.
+///
+/// # Errors
+/// [`ActionError::Missing`]: no such object.
+pub fn add_list(
+    description: &mut Description,
+    object: usize,
+    file: &Path,
+    base_dir: &Path,
+) -> Result<Selection, ActionError> {
+    let object = list::get::<Object>(description, object)?.name.clone();
+    let file = paths::written(file, base_dir);
+    add(
+        description,
+        Scratches::new(object, Layer::Listed(Listed { file })),
+    )
 }
 
 /// Adds a copy behind the original, with a seed of its own: the same wear, other scratches.
