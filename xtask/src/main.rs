@@ -12,6 +12,7 @@ mod rooms;
 mod shaders;
 mod touches;
 mod unbiased;
+mod web;
 mod wheel;
 
 use clap::Parser;
@@ -43,6 +44,8 @@ enum Command {
     Touches(touches::Touches),
     /// Measure shadows and bounces against the path tracer, and write docs/accuracy/shadows.md.
     Unbiased(unbiased::Unbiased),
+    /// Make the viewer for browsers, a folder of static files.
+    Web(web::Web),
     /// Make the package for Python, a wheel for Linux, and test it in an environment of its own.
     Wheel(wheel::Wheel),
 }
@@ -61,6 +64,7 @@ fn main() -> anyhow::Result<()> {
         Command::Shaders(command) => command.run(),
         Command::Touches(command) => command.run(),
         Command::Unbiased(command) => command.run(),
+        Command::Web(command) => command.run(),
         Command::Wheel(command) => command.run(),
     }
 }

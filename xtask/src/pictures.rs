@@ -74,7 +74,7 @@ impl Pictures {
 }
 
 /// Paths from the root, in the order of their names.
-fn scene_files(root: &Path) -> Result<Vec<PathBuf>> {
+pub fn scene_files(root: &Path) -> Result<Vec<PathBuf>> {
     let mut files = Vec::new();
     for entry in std::fs::read_dir(root.join("scenes")).context("list scenes")? {
         let name = PathBuf::from(entry?.file_name());

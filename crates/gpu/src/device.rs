@@ -161,7 +161,11 @@ impl Adapter {
             .into_iter()
             .filter(|s| !s.is_empty());
         Self {
-            name: info.name,
+            // Browsers keep it to themselves.
+            name: match info.name.is_empty() {
+                true => "unnamed GPU".to_owned(),
+                false => info.name,
+            },
             kind,
             backend: info.backend.to_string(),
             driver: driver.collect::<Vec<_>>().join(" "),

@@ -28,6 +28,7 @@ use crate::loss::WindowLoss;
 use crate::notices::Notices;
 use crate::overlays::Overlays;
 use crate::panels;
+use crate::platform::{self, HAS_DISK};
 use crate::reading::ReadingState;
 use crate::snapshots::Snapshots;
 use crate::tools::Toolbox;
@@ -215,7 +216,13 @@ impl Viewer {
         }
         self.hear_engine();
         self.work.turn_view(&ctx);
-        for path in dropped_files(&ctx) {
+        // What is dropped onto a page the page itself takes.
+        let dropped = if HAS_DISK {
+            dropped_files(&ctx)
+        } else {
+            Vec::new()
+        };
+        for path in dropped {
             self.take_file(&ctx, &path);
         }
         self.frame_what_was_added();
@@ -268,6 +275,7 @@ impl Viewer {
         if let Some(pause) = self.work.engine.work() {
             ctx.request_repaint_after(pause);
         }
+        platform::hand_out_files();
         if let Some(failed) = self.files.autosave(&self.work.document) {
             let text = format!("No autosave: {failed}");
             self.work.notices.error("autosave", text);
@@ -294,6 +302,12 @@ impl Viewer {
     #[cfg(not(target_arch = "wasm32"))]
     pub(crate) fn set_software(&mut self, software: crate::window::SoftwareWindow) {
         self.software = Some(software);
+    }
+
+    /// Leaves all of the window to the picture.
+    #[cfg(target_arch = "wasm32")]
+    pub(crate) fn hide_panels(&mut self) {
+        (self.hides_list, self.hides_inspector) = (true, true);
     }
 
     /// What is not saved is kept, and offered at the next start: nothing can be asked any more.
@@ -325,6 +339,11 @@ impl eframe::App for Viewer {
 
     fn clear_color(&self, _visuals: &egui::Visuals) -> [f32; 4] {
         crate::style::GROUND.to_normalized_gamma_f32()
+    }
+
+    #[cfg(target_arch = "wasm32")]
+    fn as_any_mut(&mut self) -> Option<&mut dyn std::any::Any> {
+        Some(self)
     }
 
     fn on_exit(&mut self) {

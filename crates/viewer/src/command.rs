@@ -7,7 +7,7 @@ use hairline_editor::navigate::Viewpoint;
 
 use crate::free_view::ViewCommand;
 use crate::overlays::Overlay;
-use crate::platform::{HAS_FILES, HAS_THREADS};
+use crate::platform::{HAS_DISK, HAS_PAGE, HAS_THREADS};
 use crate::reading::{ReadCommand, Shows};
 use crate::tools::Tool;
 
@@ -17,9 +17,11 @@ pub(crate) use key_text::key_text;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Command {
     New,
+    Gallery,
     Open,
     Save,
     SaveAs,
+    CopyLink,
     Reload,
     Revert,
     AddModel,
@@ -127,9 +129,11 @@ const PLAIN: Modifiers = Modifiers::NONE;
 #[rustfmt::skip]
 const TABLE: &[Entry] = &[
     entry(Command::New, Group::File, "New from the built-in scene", Some((COMMAND, Key::N))),
+    entry(Command::Gallery, Group::File, "Scenes…", None),
     entry(Command::Open, Group::File, "Open…", Some((COMMAND, Key::O))),
     entry(Command::Save, Group::File, "Save", Some((COMMAND, Key::S))),
     entry(Command::SaveAs, Group::File, "Save as…", Some((COMMAND_SHIFT, Key::S))),
+    entry(Command::CopyLink, Group::File, "Copy a link to the scene", Some((Modifiers::SHIFT, Key::L))),
     entry(Command::Reload, Group::File, "Reload from the file", Some((COMMAND, Key::R))),
     entry(Command::Revert, Group::File, "Revert to what was saved", None),
     entry(Command::AddModel, Group::File, "Add a model (glTF)…", Some((COMMAND, Key::I))),
@@ -235,17 +239,9 @@ impl Command {
     /// Whether this platform has what it needs: then it is in the menus and has its key.
     pub fn is_here(self) -> bool {
         match self {
-            Self::Open
-            | Self::Save
-            | Self::SaveAs
-            | Self::Reload
-            | Self::Revert
-            | Self::AddModel
-            | Self::SetEnvironment
-            | Self::Screenshot
-            | Self::Turntable
-            | Self::Quit => HAS_FILES,
-            Self::Compare | Self::Read(ReadCommand::Probe) => HAS_THREADS,
+            Self::Reload | Self::Quit => HAS_DISK,
+            Self::Gallery | Self::CopyLink => HAS_PAGE,
+            Self::Turntable | Self::Compare | Self::Read(ReadCommand::Probe) => HAS_THREADS,
             _ => true,
         }
     }

@@ -5,7 +5,8 @@
 //! The interface hands in what it wants with [`Engine::set_scene`] and [`Engine::set_view`], which only store it, and takes
 //! what is there with [`Engine::latest`].
 //!
-//! Where there are no threads, in a browser, both work in turn with the interface: [`Engine::work`] does a slice.
+//! Where there are no threads, in a browser, both work in turn with the interface: [`Engine::work`] does a slice. There a GPU's picture is
+//! a task of the page, which the slice begins and nobody waits for.
 
 mod adding;
 mod backend;
@@ -17,7 +18,6 @@ mod drafts;
 mod easel;
 mod event;
 mod frame;
-#[cfg(not(target_arch = "wasm32"))]
 mod gpu;
 mod in_turn;
 mod pace;
@@ -28,6 +28,8 @@ mod request;
 mod sketch;
 mod steps;
 mod studio;
+#[cfg(target_arch = "wasm32")]
+mod task;
 mod view;
 
 use std::path::PathBuf;
@@ -88,15 +90,19 @@ impl Engine {
     /// Starts with nothing to paint; [`Self::work`] does all of it.
     #[cfg(target_arch = "wasm32")]
     pub fn start(backend: Backend, wake: Wake) -> Self {
-        debug_assert!(matches!(backend, Backend::Cpu));
-        Self::start_in_turn(wake)
+        Self::in_turn(backend, wake)
     }
 
     /// Starts without threads: the CPU renderer paints, where and when [`Self::work`] is called.
     pub fn start_in_turn(wake: Wake) -> Self {
+        Self::in_turn(Backend::Cpu, wake)
+    }
+
+    fn in_turn(backend: Backend, wake: Wake) -> Self {
+        let shared = Arc::new(Shared::new(backend, wake));
         Self {
-            shared: Arc::new(Shared::new(Backend::Cpu, wake)),
-            workers: Workers::InTurn(Box::new(InTurn::new())),
+            workers: Workers::InTurn(Box::new(InTurn::new(&shared))),
+            shared,
         }
     }
 

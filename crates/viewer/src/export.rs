@@ -176,9 +176,12 @@ impl Export {
         let wake = ctx.clone();
         let report = Report::new(Arc::new(move || wake.request_repaint()));
         let (wished, told) = (wish.clone(), report.clone());
+        #[cfg(not(target_arch = "wasm32"))]
         let job = Job::start("export", move |stop| {
-            work::run(&wished, &built, stop, &told)
+            work::run_to_the_end(&wished, &built, stop, &told);
         });
+        #[cfg(target_arch = "wasm32")]
+        let job = Job::in_page(async move |stop| work::run(&wished, &built, &stop, &told).await);
         match job {
             Err(error) => work.notices.error("export", error.to_string()),
             Ok(job) => {

@@ -1,7 +1,7 @@
 //! Files: dialogs of the system, recent ones, and autosaves.
 //!
 //! A dialog of the system waits in a thread of its own. Where the system has none, a line in the window asks for the path.
-//! A browser has no paths: none of the commands that would come here is in its menus.
+//! In a browser the page asks for what is to be read, and holds it; a line in the window asks for the name of what is written.
 
 mod watch;
 
@@ -15,6 +15,7 @@ use hairline_editor::recent::Recent;
 use hairline_scene::probe::{self, MeshSummary};
 use web_time::Instant;
 
+use crate::platform::HAS_THREADS;
 use watch::{Change, Watch};
 
 /// What a path is wanted for.
@@ -42,7 +43,6 @@ impl Purpose {
     }
 
     /// What files are shown.
-    #[cfg(not(target_arch = "wasm32"))]
     fn filter(self) -> (&'static str, &'static [&'static str]) {
         match self {
             Self::Open => ("Hairline scenes and models", &["toml", "glb", "gltf"]),
@@ -53,7 +53,6 @@ impl Purpose {
         }
     }
 
-    #[cfg(not(target_arch = "wasm32"))]
     fn writes(self) -> bool {
         matches!(self, Self::SaveAs | Self::Screenshot | Self::Turntable)
     }
@@ -159,6 +158,12 @@ impl Files {
         if self.waiting.is_some() {
             return;
         }
+        // What is chosen there comes as if it were dropped onto the window.
+        #[cfg(target_arch = "wasm32")]
+        if !purpose.writes() {
+            crate::script::pick(&purpose.filter().1.join(","));
+            return;
+        }
         let (sender, answer) = channel();
         self.waiting = Some(Waiting {
             purpose,
@@ -185,8 +190,12 @@ impl Files {
             let _ = sender.send(Choice::Probed(purpose, path, probed));
             wake.request_repaint();
         };
-        // If no thread starts, the file is not taken; a system in that state has other worries.
-        let _ = std::thread::Builder::new().spawn(work);
+        if HAS_THREADS {
+            // If no thread starts, the file is not taken; a system in that state has other worries.
+            let _ = std::thread::Builder::new().spawn(work);
+        } else {
+            work();
+        }
     }
 
     /// What came of a dialog or a look into a file, once each.

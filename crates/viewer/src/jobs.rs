@@ -1,5 +1,5 @@
 //! Work in the background that nobody waits for: exports, references. On all cores, but after the picture in the window. A
-//! browser starts no threads: none of the commands that would come here is in its menus.
+//! browser starts no threads: there an export is a task of the page, and the commands that need more are in no menu.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -27,6 +27,9 @@ impl Stop {
 pub(crate) struct Job {
     stop: Stop,
     thread: Option<JoinHandle<()>>,
+    /// Whether a task of the page has ended, if it is one.
+    #[cfg(target_arch = "wasm32")]
+    task: Option<std::rc::Rc<std::cell::Cell<bool>>>,
 }
 
 impl Job {
@@ -46,6 +49,29 @@ impl Job {
         Ok(Self {
             stop,
             thread: Some(thread),
+            #[cfg(target_arch = "wasm32")]
+            task: None,
+        })
+    }
+
+    /// Starts `work` as a task of the page, which goes on while it waits.
+    ///
+    /// # Errors
+    /// None.
+    #[cfg(target_arch = "wasm32")]
+    pub fn in_page(work: impl AsyncFnOnce(Stop) + 'static) -> std::io::Result<Self> {
+        let stop = Stop::default();
+        let asked = stop.clone();
+        let has_ended = std::rc::Rc::new(std::cell::Cell::new(false));
+        let task = std::rc::Rc::clone(&has_ended);
+        wasm_bindgen_futures::spawn_local(async move {
+            work(asked).await;
+            has_ended.set(true);
+        });
+        Ok(Self {
+            stop,
+            thread: None,
+            task: Some(task),
         })
     }
 
@@ -62,6 +88,10 @@ impl Job {
 
     /// Whether the work has ended, be it by a panic.
     pub fn is_over(&self) -> bool {
+        #[cfg(target_arch = "wasm32")]
+        if let Some(task) = &self.task {
+            return task.get();
+        }
         self.thread.as_ref().is_none_or(JoinHandle::is_finished)
     }
 }

@@ -22,6 +22,7 @@ mod app;
 mod badges;
 mod command;
 mod compare;
+mod device;
 mod dialogs;
 pub mod engine;
 mod export;
@@ -29,13 +30,18 @@ mod files;
 mod free_view;
 mod gallery;
 mod jobs;
+mod link;
 mod loss;
 mod notices;
 mod overlays;
+#[cfg(target_arch = "wasm32")]
+pub mod page;
 mod panels;
 mod platform;
 mod priority;
 pub mod reading;
+#[cfg(target_arch = "wasm32")]
+mod script;
 mod seen;
 mod snapshots;
 mod style;
@@ -47,6 +53,7 @@ mod workspace;
 
 pub use app::{Options, Viewer};
 pub use compare::{Figures, LayerFigures};
+pub use device::Renderer;
 #[cfg(not(target_arch = "wasm32"))]
 pub use window::open;
 

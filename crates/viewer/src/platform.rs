@@ -1,7 +1,35 @@
 //! What this platform has. In a browser a command that needs what is not there is in no menu and has no key.
 
-/// Whether paths lead to files, by dialogs of the system or by a line in the window. Not in a browser.
-pub(crate) const HAS_FILES: bool = cfg!(not(target_arch = "wasm32"));
+/// Whether paths lead to files that other programs read and write. Not in a browser: there the viewer holds the files that the page was
+/// given, and hands out those that it writes.
+pub(crate) const HAS_DISK: bool = cfg!(not(target_arch = "wasm32"));
 
 /// Whether work goes on beside the interface. Not in a browser: there the engine works in turn with it.
 pub(crate) const HAS_THREADS: bool = cfg!(not(target_arch = "wasm32"));
+
+/// Whether the window is in a page, which shows a gallery of scenes and has an address.
+pub(crate) const HAS_PAGE: bool = cfg!(target_arch = "wasm32");
+
+/// Has the page show its gallery of scenes.
+pub(crate) fn show_gallery() {
+    #[cfg(target_arch = "wasm32")]
+    crate::script::gallery();
+}
+
+/// The address of the page, without a fragment; none where there is no page.
+pub(crate) fn page_address() -> Option<String> {
+    #[cfg(target_arch = "wasm32")]
+    return crate::script::address();
+    #[cfg(not(target_arch = "wasm32"))]
+    None
+}
+
+/// Has the page hand out the files that were written.
+pub(crate) fn hand_out_files() {
+    #[cfg(target_arch = "wasm32")]
+    for path in hairline_image::held::take_written() {
+        if let Some(bytes) = hairline_image::held::bytes(&path) {
+            crate::script::save(&path.to_string_lossy(), &bytes);
+        }
+    }
+}

@@ -13,6 +13,8 @@ pub(crate) const GROUND: Color32 = Color32::from_gray(30);
 
 /// Dark and without hue, so that the eye judges the picture's colours and not the frame's.
 pub(crate) fn set(ctx: &egui::Context) {
+    #[cfg(target_arch = "wasm32")]
+    ctx.add_font(signs());
     ctx.set_theme(ThemePreference::Dark);
     let mut visuals = Visuals::dark();
     visuals.panel_fill = GROUND;
@@ -33,6 +35,20 @@ pub(crate) fn set(ctx: &egui::Context) {
         style.spacing.item_spacing = egui::vec2(6.0, 4.0);
         style.interaction.tooltip_delay = 0.3;
     });
+}
+
+/// The signs on buttons and in menus that no font of text has. On a desktop they come from egui's fonts of all emoji, which would be an
+/// eighth of what a browser loads.
+#[cfg(target_arch = "wasm32")]
+fn signs() -> egui::epaint::text::FontInsert {
+    use egui::epaint::text::{FontData, FontInsert, FontPriority, InsertFontFamily};
+    let everywhere = [egui::FontFamily::Proportional, egui::FontFamily::Monospace];
+    let places = everywhere.map(|family| InsertFontFamily {
+        family,
+        priority: FontPriority::Lowest,
+    });
+    let data = FontData::from_static(include_bytes!("../assets/signs.ttf"));
+    FontInsert::new("signs", data, places.to_vec())
 }
 
 /// A tooltip of one of several choices in `menu`: beside all of them, where it covers none.

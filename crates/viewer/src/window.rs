@@ -3,30 +3,18 @@
 mod ready;
 mod software;
 
-use std::sync::Arc;
-
-use eframe::egui_wgpu::{RenderState, WgpuSetup, WgpuSetupCreateNew};
+use eframe::egui_wgpu::RenderState;
 use egui::ViewportBuilder;
-use hairline_gpu::{Adapter, AdapterKind, AdapterRequest, Gpu, headless};
+use hairline_gpu::{AdapterRequest, Gpu, headless};
 
 use crate::app::{Options, Viewer};
+use crate::device;
 use crate::engine::Backend;
 use crate::loss::WindowLoss;
 use crate::priority;
 
+pub use crate::device::Renderer;
 pub(crate) use software::SoftwareWindow;
-
-/// What is to paint.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Renderer {
-    /// The window's GPU; where that is a driver that computes on the CPU, the CPU renderer, which is faster.
-    #[default]
-    Auto,
-    /// A graphics adapter, be it a software driver.
-    Gpu,
-    /// The CPU renderer.
-    Cpu,
-}
 
 /// Why there is no window.
 #[derive(Debug, thiserror::Error)]
@@ -85,11 +73,7 @@ pub fn open_as(
         dithering: false,
         ..Default::default()
     };
-    let mut setup = WgpuSetupCreateNew::without_display_handle();
-    // What the renderer needs, so that it can share the device.
-    setup.device_descriptor =
-        Arc::new(|adapter| Adapter::new(adapter.clone()).device_descriptor(false));
-    native.wgpu_options.wgpu_setup = WgpuSetup::CreateNew(setup);
+    native.wgpu_options.wgpu_setup = device::setup();
     let loss = WindowLoss::default();
     let watched = loss.clone();
     eframe::run_native(
@@ -97,7 +81,7 @@ pub fn open_as(
         native,
         Box::new(move |context| {
             let state = context.wgpu_render_state.clone();
-            let is_software = is_software(state.as_ref());
+            let is_software = state.as_ref().is_some_and(device::is_software);
             let backend = backend(state.as_ref(), renderer)?;
             watch(state.as_ref(), &backend, &watched);
             let options = Options { backend, ..options };
@@ -114,10 +98,6 @@ pub fn open_as(
         Some(reason) => Err(Error::Lost(reason.to_owned())),
         None => Ok(()),
     }
-}
-
-fn is_software(state: Option<&RenderState>) -> bool {
-    state.is_some_and(|state| Adapter::new(state.adapter.clone()).kind == AdapterKind::Software)
 }
 
 /// Has `loss` told when the window's device is lost.
@@ -142,15 +122,10 @@ fn backend(
     let shared = || -> Option<Gpu> {
         let state = state?;
         // A software driver does one thing after the other: a picture on the window's device would hold the window up.
-        if is_software(Some(state)) {
+        if device::is_software(state) {
             return None;
         }
-        Gpu::from_window(
-            state.adapter.clone(),
-            state.device.clone(),
-            state.queue.clone(),
-        )
-        .ok()
+        device::shared(state).ok()
     };
     Ok(match renderer {
         Renderer::Cpu => Backend::Cpu,

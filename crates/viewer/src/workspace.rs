@@ -11,12 +11,13 @@ use hairline_scene::description::Map;
 use hairline_scene::{Description, Transport};
 
 use crate::command::Command;
-use crate::engine::Engine;
+use crate::engine::{Backend, Engine};
 use crate::files::is_same;
 use crate::free_view::FreeView;
 use crate::gallery::Gallery;
 use crate::notices::Notices;
 use crate::overlays::Overlays;
+use crate::platform::HAS_THREADS;
 use crate::reading::ReadingState;
 use crate::snapshots::Snapshots;
 use crate::tools::{Tool, Toolbox};
@@ -127,6 +128,8 @@ impl Workspace {
         let selection = self.selection();
         match command {
             _ if !command.is_here() => false,
+            // A page would stand still until the CPU has rendered all of a picture.
+            Command::Screenshot => HAS_THREADS || !matches!(self.engine.backend(), Backend::Cpu),
             Command::Undo => self.document.undo_label().is_some(),
             Command::Redo => self.document.redo_label().is_some(),
             Command::Duplicate | Command::Delete | Command::MoveUp | Command::MoveDown => {

@@ -11,6 +11,8 @@ use hairline_editor::document::SaveError;
 use super::Viewer;
 use crate::dialogs::{Answer, Question, Wish};
 use crate::files::Purpose;
+use crate::link;
+use crate::platform;
 use crate::snapshots::Snapshots;
 use crate::tools::Tool;
 
@@ -93,6 +95,50 @@ impl Viewer {
                     self.fulfil(ctx, wish);
                 }
             }
+        }
+    }
+
+    /// Puts a link to the scene, as the window shows it, into the clipboard.
+    pub(super) fn copy_link(&mut self, ctx: &egui::Context) {
+        let Some(address) = platform::page_address() else {
+            return;
+        };
+        let work = &mut self.work;
+        if let Some(file) = work.document.files().first() {
+            let text = format!(
+                "No link: the scene is made of {}, which a link cannot hold. Save the scene, and pass both files on.",
+                file.display()
+            );
+            work.notices.error("link", text);
+            return;
+        }
+        let mut description = (**work.document.description()).clone();
+        description.camera = work.camera();
+        let fragment = description
+            .to_toml()
+            .map_err(|error| error.to_string())
+            .and_then(|text| link::fragment(&text).map_err(|error| error.to_string()));
+        match fragment {
+            Ok(fragment) => {
+                ctx.copy_text(format!("{address}#{fragment}"));
+                let text = format!("A link of {} bytes is in the clipboard.", fragment.len());
+                work.notices.clear("link");
+                work.notices.note("link", text);
+            }
+            Err(why) => work.notices.error("link", format!("No link: {why}.")),
+        }
+    }
+
+    /// Opens the scene in the fragment of an address, if there is one. What is wrong with it is told, and then nothing changes.
+    pub fn open_link(&mut self, ctx: &egui::Context, fragment: &str) {
+        let path = Path::new("scene.toml");
+        match link::text(fragment) {
+            None => {}
+            Some(Ok(text)) => {
+                hairline_image::held::hold(path, text.into_bytes());
+                self.wish(ctx, Wish::Open(path.to_owned()));
+            }
+            Some(Err(error)) => self.work.notices.error("open", error.to_string()),
         }
     }
 

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use hairline_editor::actions::objects;
+use hairline_editor::actions::{layers, objects};
 use hairline_scene::description::Map;
 use hairline_scene::probe::{self, MeshSummary};
 
@@ -51,21 +51,31 @@ impl Viewer {
     }
 
     /// A file from outside, by its ending. What is wrong with it is told, and then nothing changes.
-    pub(super) fn take_file(&mut self, ctx: &egui::Context, path: &Path) {
+    pub(crate) fn take_file(&mut self, ctx: &egui::Context, path: &Path) {
         let ending = path.extension().unwrap_or_default();
         match ending.to_string_lossy().to_lowercase().as_str() {
             "toml" => self.wish(ctx, Wish::Open(path.to_owned())),
             "glb" | "gltf" => self.probe(ctx, Purpose::AddModel, path),
             "hdr" | "exr" => self.probe(ctx, Purpose::Environment, path),
+            "csv" => self.add_list(path),
             _ => self.work.notices.error(
                 "file",
                 format!(
-                    "{}: is none of the files that can be dropped here: scenes (.toml), models (.glb, .gltf) and \
-                     environment maps (.hdr, .exr)",
+                    "{}: is none of the files that can be dropped here: scenes (.toml), models (.glb, .gltf), \
+                     environment maps (.hdr, .exr) and lists of scratches (.csv)",
                     path.display()
                 ),
             ),
         }
+    }
+
+    /// Adds a file's scratches to the selected object, else to the first.
+    fn add_list(&mut self, path: &Path) {
+        let base_dir = self.work.document.base_dir().to_owned();
+        let object = self.work.selected_object().unwrap_or(0);
+        self.work.apply("Add the scratches of a file", |d, _| {
+            layers::add_list(d, object, &absolute(path), &base_dir)
+        });
     }
 
     fn probe(&mut self, ctx: &egui::Context, purpose: Purpose, path: &Path) {

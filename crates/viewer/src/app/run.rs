@@ -21,9 +21,11 @@ impl Viewer {
         }
         match command {
             Command::New => self.wish(ctx, Wish::New),
+            Command::Gallery => crate::platform::show_gallery(),
             Command::Open => self.ask_path(ctx, Purpose::Open),
             Command::Save => self.save(ctx),
             Command::SaveAs => self.ask_path(ctx, Purpose::SaveAs),
+            Command::CopyLink => self.copy_link(ctx),
             Command::Reload => self.wish_reload(),
             Command::Revert => self.revert(),
             Command::AddModel => self.ask_path(ctx, Purpose::AddModel),

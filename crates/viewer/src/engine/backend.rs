@@ -1,6 +1,5 @@
 //! What paints.
 
-#[cfg(not(target_arch = "wasm32"))]
 use hairline_gpu::{AdapterKind, Gpu};
 
 use hairline_scene::Transport;
@@ -12,12 +11,9 @@ use super::pool;
 pub enum Backend {
     /// The CPU renderer, on threads of low priority.
     Cpu,
-    /// A device of its own, whose pictures are copied to the window's: what a window on another adapter needs. Not in a
-    /// browser: the painter waits for it, which a page must not.
-    #[cfg(not(target_arch = "wasm32"))]
+    /// A device of its own, whose pictures are copied to the window's: what a window on another adapter needs.
     Gpu(Gpu),
-    /// The window's own device: its pictures are shown where they are. Not in a browser, for the same reason.
-    #[cfg(not(target_arch = "wasm32"))]
+    /// The window's own device: its pictures are shown where they are.
     Shared(Gpu),
 }
 
@@ -35,7 +31,6 @@ impl Backend {
     pub(super) fn is_software(&self) -> bool {
         match self {
             Self::Cpu => true,
-            #[cfg(not(target_arch = "wasm32"))]
             Self::Gpu(gpu) | Self::Shared(gpu) => gpu.adapter.kind == AdapterKind::Software,
         }
     }
@@ -47,7 +42,6 @@ impl Backend {
                 1 => String::from("CPU, 1 thread"),
                 threads => format!("CPU, {threads} threads"),
             },
-            #[cfg(not(target_arch = "wasm32"))]
             Self::Gpu(gpu) | Self::Shared(gpu) => gpu.adapter.to_string(),
         }
     }

@@ -77,7 +77,7 @@ impl CpuEasel {
 }
 
 impl Easel for CpuEasel {
-    fn take(&mut self, order: &Order) -> Result<bool, hairline_gpu::Error> {
+    async fn take(&mut self, order: &Order) -> Result<bool, hairline_gpu::Error> {
         let built = Arc::downgrade(&order.built);
         let is_new = !self.scene.as_ref().is_some_and(|last| last.ptr_eq(&built));
         self.scene = Some(built);
@@ -87,7 +87,7 @@ impl Easel for CpuEasel {
         Ok(is_new)
     }
 
-    fn paint(
+    async fn paint(
         &mut self,
         order: &Order,
         step: &Step,
@@ -182,7 +182,7 @@ impl Easel for CpuEasel {
         Ok(true)
     }
 
-    fn show_again(&mut self, order: &Order) -> Result<Option<Shown>, hairline_gpu::Error> {
+    async fn show_again(&mut self, order: &Order) -> Result<Option<Shown>, hairline_gpu::Error> {
         let last = self.last.as_ref();
         Ok(last.map(|last| last.shown(order)))
     }

@@ -1,4 +1,4 @@
-//! What a renderer does for the painter.
+//! What a renderer does for the painter. A GPU is awaited: by a thread that blocks, in a browser by the page's own loop of events.
 
 use hairline_scene::Transport;
 
@@ -11,10 +11,10 @@ use super::steps::Step;
 /// What a painter can do in one step.
 pub(super) trait Easel {
     /// Takes the scene of `order`, if it is another one than before. True if it was.
-    fn take(&mut self, order: &Order) -> Result<bool, hairline_gpu::Error>;
+    async fn take(&mut self, order: &Order) -> Result<bool, hairline_gpu::Error>;
     /// Paints a step; `show` is called whenever there is something better to be seen than before. False if `interrupted`
     /// said so before the step was done.
-    fn paint(
+    async fn paint(
         &mut self,
         order: &Order,
         step: &Step,
@@ -22,7 +22,7 @@ pub(super) trait Easel {
         show: &mut dyn FnMut(Shown),
     ) -> Result<bool, hairline_gpu::Error>;
     /// The last picture by another exposure or tone curve.
-    fn show_again(&mut self, order: &Order) -> Result<Option<Shown>, hairline_gpu::Error>;
+    async fn show_again(&mut self, order: &Order) -> Result<Option<Shown>, hairline_gpu::Error>;
     /// Samples of a pixel, where edges are as smooth as they get.
     fn best_samples(&self) -> u32;
     /// As what it computes with.

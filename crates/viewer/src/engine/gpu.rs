@@ -5,9 +5,7 @@ use std::time::Duration;
 
 use egui::ColorImage;
 use hairline_gpu::canvas::Canvas;
-use hairline_gpu::{
-    AdapterKind, AdapterRequest, Error, Gpu, GpuScene, PassTime, RenderOptions, Renderer, headless,
-};
+use hairline_gpu::{AdapterKind, Error, Gpu, GpuScene, PassTime, RenderOptions, Renderer};
 use hairline_image::{Batch, Image};
 use hairline_index::method::Method;
 use hairline_scene::{DEFAULT_SAMPLES, Transport};
@@ -48,12 +46,9 @@ pub(super) struct GpuEasel {
 }
 
 impl GpuEasel {
-    pub fn open(gpu: Gpu, is_shared: bool) -> Result<Self, Error> {
-        let (renderer, is_timed) = gpu.block_on(async {
-            let mut renderer = Renderer::new(&gpu).await?;
-            let is_timed = renderer.time_passes().await?;
-            Ok::<_, Error>((renderer, is_timed))
-        })?;
+    pub async fn open(gpu: Gpu, is_shared: bool) -> Result<Self, Error> {
+        let mut renderer = Renderer::new(&gpu).await?;
+        let is_timed = renderer.time_passes().await?;
         Ok(Self {
             renderer,
             is_shared,
@@ -68,11 +63,12 @@ impl GpuEasel {
     }
 
     /// The adapter again, after its device was lost.
+    #[cfg(not(target_arch = "wasm32"))]
     pub fn reopen() -> Result<Gpu, Error> {
-        headless::open(&AdapterRequest::default())
+        hairline_gpu::headless::open(&hairline_gpu::AdapterRequest::default())
     }
 
-    fn shown(&mut self, order: &Order, samples: u32) -> Result<Option<Shown>, Error> {
+    async fn shown(&mut self, order: &Order, samples: u32) -> Result<Option<Shown>, Error> {
         let (Some(canvas), Some(step)) = (&self.canvas, self.step) else {
             return Ok(None);
         };
@@ -89,27 +85,24 @@ impl GpuEasel {
             findings = found;
             Picture::Pixels(Arc::new(pixels))
         };
-        let picture = gpu.block_on(async {
-            if let Some((mean, _)) = &self.mean {
-                return Ok(developed(mean));
-            }
-            if order.view.reading.needs_layers() {
-                return Ok(developed(&canvas.image().await?));
-            }
-            if self.is_shared {
-                let view = target(&gpu, size_px).await?;
-                self.renderer
-                    .show(canvas, display, &view, TARGET_FORMAT)
-                    .await?;
-                gpu.finished().await?;
-                return Ok(Picture::Texture(view));
-            }
+        let picture = if let Some((mean, _)) = &self.mean {
+            developed(mean)
+        } else if order.view.reading.needs_layers() {
+            developed(&canvas.image().await?)
+        } else if self.is_shared {
+            let view = target(&gpu, size_px).await?;
+            self.renderer
+                .show(canvas, display, &view, TARGET_FORMAT)
+                .await?;
+            gpu.finished().await?;
+            Picture::Texture(view)
+        } else {
             let pixels = self.renderer.read_shown(canvas, display).await?;
             let size = size_px.map(|side| side as usize);
             let image = ColorImage::from_rgba_premultiplied(size, &pixels);
-            Ok::<_, Error>(Picture::Pixels(Arc::new(image)))
-        })?;
-        let passes = self.pass_times()?;
+            Picture::Pixels(Arc::new(image))
+        };
+        let passes = self.pass_times().await?;
         Ok(Some(Shown {
             picture,
             size_px,
@@ -123,25 +116,23 @@ impl GpuEasel {
         }))
     }
 
-    fn pass_times(&mut self) -> Result<Vec<PassTime>, Error> {
+    async fn pass_times(&mut self) -> Result<Vec<PassTime>, Error> {
         if !self.is_timed {
             return Ok(Vec::new());
         }
-        let gpu = self.renderer.gpu().clone();
-        let times = gpu.block_on(self.renderer.pass_times())?;
+        let times = self.renderer.pass_times().await?;
         Ok(times.unwrap_or_default())
     }
 }
 
 impl Easel for GpuEasel {
-    fn take(&mut self, order: &Order) -> Result<bool, Error> {
+    async fn take(&mut self, order: &Order) -> Result<bool, Error> {
         let built = Arc::downgrade(&order.built);
         if let Some((last, _)) = &self.uploaded
             && last.ptr_eq(&built)
         {
             return Ok(false);
         }
-        let gpu = self.renderer.gpu().clone();
         let Built {
             scene,
             scratches,
@@ -152,22 +143,21 @@ impl Easel for GpuEasel {
         self.bounces = None;
         match &mut self.uploaded {
             Some((last, uploaded)) => {
-                gpu.block_on(
-                    self.renderer
-                        .update(uploaded, scene, scratches, tables, &method),
-                )?;
+                self.renderer
+                    .update(uploaded, scene, scratches, tables, &method)
+                    .await?;
                 *last = built;
             }
             None => {
-                let uploaded =
-                    gpu.block_on(self.renderer.upload(scene, scratches, tables, &method))?;
+                let uploading = self.renderer.upload(scene, scratches, tables, &method);
+                let uploaded = uploading.await?;
                 self.uploaded = Some((built, uploaded));
             }
         }
         Ok(true)
     }
 
-    fn paint(
+    async fn paint(
         &mut self,
         order: &Order,
         step: &Step,
@@ -183,7 +173,7 @@ impl Easel for GpuEasel {
         };
         let mut canvas = match self.canvas.take() {
             Some(canvas) if canvas.size_px() == step.size_px => canvas,
-            _ => gpu.block_on(self.renderer.canvas(step.size_px, band_px))?,
+            _ => self.renderer.canvas(step.size_px, band_px).await?,
         };
         let scene = step.scene(order);
         self.step = Some(*step);
@@ -205,7 +195,7 @@ impl Easel for GpuEasel {
             && self.bounces != Some(bounces)
         {
             let scene = &order.built.scene;
-            gpu.block_on(self.renderer.add_shadows(uploaded, scene, bounces))?;
+            self.renderer.add_shadows(uploaded, scene, bounces).await?;
             self.bounces = Some(bounces);
         }
         let batch = step.batch.unwrap_or(Batch::all(step.samples));
@@ -219,18 +209,15 @@ impl Easel for GpuEasel {
                 let Some((_, uploaded)) = &self.uploaded else {
                     return Ok(false);
                 };
-                let renderer = &mut self.renderer;
-                gpu.block_on(async {
-                    renderer
-                        .accumulate(&scene, uploaded, &mut canvas, band, part, &options)
-                        .await?;
-                    gpu.finished().await
-                })?;
+                self.renderer
+                    .accumulate(&scene, uploaded, &mut canvas, band, part, &options)
+                    .await?;
+                gpu.finished().await?;
             }
             // The first step shades every pixel once, each later one is a sample of the pixels on edges.
             let is_last = part + 1 == steps;
             if is_last && let Some(batch) = step.batch {
-                let image = gpu.block_on(canvas.image())?;
+                let image = canvas.image().await?;
                 self.mean = Some(self.adding.add(order, batch, image));
             }
             let samples = match &self.mean {
@@ -240,7 +227,7 @@ impl Easel for GpuEasel {
             let is_finer = step.batch.is_none() && samples >= FEWEST_SHOWN;
             if is_last || is_finer && last_shown.elapsed() > REFRESH {
                 self.canvas = Some(canvas);
-                if let Some(shown) = self.shown(order, samples)? {
+                if let Some(shown) = self.shown(order, samples).await? {
                     show(shown);
                 }
                 last_shown = Instant::now();
@@ -254,12 +241,12 @@ impl Easel for GpuEasel {
         Ok(true)
     }
 
-    fn show_again(&mut self, order: &Order) -> Result<Option<Shown>, Error> {
+    async fn show_again(&mut self, order: &Order) -> Result<Option<Shown>, Error> {
         let samples = match &self.mean {
             Some((_, samples)) => *samples,
             None => self.step.map_or(1, |step| step.samples),
         };
-        self.shown(order, samples)
+        self.shown(order, samples).await
     }
 
     fn best_samples(&self) -> u32 {

@@ -1,5 +1,9 @@
-//! The work of both threads where there are none: a slice of it after each pass of the interface.
+//! The work of both threads where there are none: a slice of it after each pass of the interface. The CPU paints in the slice; a GPU's
+//! picture is a task of the page's own loop of events, begun in one slice and looked after in later ones.
 
+use std::pin::pin;
+use std::sync::Arc;
+use std::task::{Context, Waker};
 use std::time::Duration;
 
 use web_time::Instant;
@@ -9,7 +13,9 @@ use super::builder;
 use super::cpu::CpuEasel;
 use super::pace;
 use super::painter::{Progress, STILL};
-use super::request::Shared;
+use super::request::{Order, Shared};
+#[cfg(target_arch = "wasm32")]
+use super::{Backend, task::Task};
 
 /// Of a finer picture: with the interface's own pass it is soon enough for a hand.
 const SLICE: Duration = Duration::from_millis(20);
@@ -17,47 +23,104 @@ const SLICE: Duration = Duration::from_millis(20);
 /// Builder and painter, one after the other.
 pub(super) struct InTurn {
     workshop: Workshop,
-    easel: CpuEasel,
-    progress: Option<Progress>,
-    /// When the last movement was painted.
-    moved: Option<Instant>,
+    painter: Painter,
+    pause: Pause,
+}
+
+enum Painter {
+    Cpu(Box<(CpuEasel, Progress)>),
+    #[cfg(target_arch = "wasm32")]
+    Gpu(Task),
+}
+
+impl Painter {
+    fn cpu(shared: &Shared) -> Self {
+        let progress = Progress::new(shared, &pace::THINNED);
+        Self::Cpu(Box::new((CpuEasel::in_turn(), progress)))
+    }
 }
 
 impl InTurn {
-    pub fn new() -> Self {
+    pub fn new(shared: &Arc<Shared>) -> Self {
         Self {
             workshop: Workshop::default(),
-            easel: CpuEasel::in_turn(),
-            progress: None,
-            moved: None,
+            #[cfg(not(target_arch = "wasm32"))]
+            painter: Painter::cpu(shared),
+            #[cfg(target_arch = "wasm32")]
+            painter: match shared.backend() {
+                Backend::Cpu => Painter::cpu(shared),
+                Backend::Gpu(gpu) | Backend::Shared(gpu) => Painter::Gpu(Task::open(shared, gpu)),
+            },
+            pause: Pause::default(),
         }
     }
 
     /// Does what is wanted most, and returns when to come again if there is more to do. A scene is built to its end: the
     /// interface stands still for as long.
-    pub fn slice(&mut self, shared: &Shared) -> Option<Duration> {
+    pub fn slice(&mut self, shared: &Arc<Shared>) -> Option<Duration> {
         if let Some(wanted) = shared.take_scene() {
             builder::build(shared, &mut self.workshop, wanted);
             return Some(Duration::ZERO);
         }
         let order = shared.order()?;
-        let progress = self
-            .progress
-            .get_or_insert_with(|| Progress::new(shared, &pace::THINNED));
-        let now = Instant::now();
-        if !progress.is_at(&order) {
-            self.moved = Some(now);
-        } else if !progress.has_more() {
-            return None;
-        } else if let Some(rest) = self.moved.and_then(|moved| STILL.checked_sub(now - moved))
-            && !rest.is_zero()
-        {
-            // A moment to see whether the movement goes on.
-            return Some(rest);
+        // A GPU that has failed.
+        #[cfg(target_arch = "wasm32")]
+        if matches!(
+            (&self.painter, shared.backend()),
+            (Painter::Gpu(_), Backend::Cpu)
+        ) {
+            self.painter = Painter::cpu(shared);
         }
-        // The CPU renderer fails at nothing.
-        let _ = progress.go_on(shared, &mut self.easel, order, Some(now + SLICE));
-        progress.has_more().then_some(Duration::ZERO)
+        match &mut self.painter {
+            Painter::Cpu(painter) => {
+                let (easel, progress) = &mut **painter;
+                let pause = self.pause.before(progress, &order)?;
+                if !pause.is_zero() {
+                    return Some(pause);
+                }
+                let until = Instant::now() + SLICE;
+                // The CPU renderer fails at nothing and waits for nothing: it is done at once.
+                {
+                    let painting = pin!(progress.go_on(shared, easel, order, Some(until)));
+                    let _ = painting.poll(&mut Context::from_waker(Waker::noop()));
+                }
+                progress.has_more().then_some(Duration::ZERO)
+            }
+            #[cfg(target_arch = "wasm32")]
+            Painter::Gpu(task) => {
+                let pause = self.pause.before(&task.at_rest()?.progress, &order)?;
+                if pause.is_zero() {
+                    // It wakes the interface when it is done.
+                    task.go_on(shared, order);
+                    return None;
+                }
+                Some(pause)
+            }
+        }
+    }
+}
+
+/// Between a movement and what is finer.
+#[derive(Default)]
+struct Pause {
+    /// When the last movement was painted.
+    moved: Option<Instant>,
+}
+
+impl Pause {
+    /// How long to wait before an order is gone on with; none where nothing is left to be done.
+    fn before(&mut self, progress: &Progress, order: &Order) -> Option<Duration> {
+        let now = Instant::now();
+        if !progress.is_at(order) {
+            self.moved = Some(now);
+            return Some(Duration::ZERO);
+        }
+        if !progress.has_more() {
+            return None;
+        }
+        // A moment to see whether the movement goes on.
+        let rest = self.moved.and_then(|moved| STILL.checked_sub(now - moved));
+        Some(rest.unwrap_or_default())
     }
 }
 

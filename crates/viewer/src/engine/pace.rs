@@ -16,10 +16,6 @@ const fn level(scale: f64, thin: u32) -> Level {
 }
 
 /// For a renderer that draws all scratches: small steps, so that a change is not noticed, and few, so that it is rare.
-#[cfg_attr(
-    target_arch = "wasm32",
-    expect(dead_code, reason = "a browser has no GPU easel")
-)]
 pub(super) const WHOLE: Kind = Kind {
     levels: &[
         level(1.0, 1),

@@ -2,6 +2,8 @@
 
 use std::time::Duration;
 
+#[cfg(not(target_arch = "wasm32"))]
+use hairline_gpu::Gpu;
 use web_time::Instant;
 
 #[cfg(not(target_arch = "wasm32"))]
@@ -26,14 +28,16 @@ const REOPENINGS: u32 = 2;
 pub(super) fn run(shared: &Shared) {
     let mut reopenings = 0;
     loop {
+        let on_gpu = |gpu: Gpu, is_shared: bool| {
+            gpu.block_on(async {
+                let mut easel = GpuEasel::open(gpu.clone(), is_shared).await?;
+                work(shared, &mut easel).await
+            })
+        };
         let outcome = match shared.backend() {
-            Backend::Cpu => work(shared, &mut CpuEasel::of_a_thread()),
-            Backend::Gpu(gpu) => {
-                GpuEasel::open(gpu, false).and_then(|mut easel| work(shared, &mut easel))
-            }
-            Backend::Shared(gpu) => {
-                GpuEasel::open(gpu, true).and_then(|mut easel| work(shared, &mut easel))
-            }
+            Backend::Cpu => pollster::block_on(work(shared, &mut CpuEasel::of_a_thread())),
+            Backend::Gpu(gpu) => on_gpu(gpu, false),
+            Backend::Shared(gpu) => on_gpu(gpu, true),
         };
         let Err(error) = outcome else { return };
         // A window whose own device is lost has to be opened anew; only a device beside it can be.
@@ -59,7 +63,7 @@ pub(super) fn run(shared: &Shared) {
 
 /// Paints until it is time to end.
 #[cfg(not(target_arch = "wasm32"))]
-fn work(shared: &Shared, easel: &mut dyn Easel) -> Result<(), hairline_gpu::Error> {
+async fn work(shared: &Shared, easel: &mut impl Easel) -> Result<(), hairline_gpu::Error> {
     let mut progress = Progress::new(shared, easel.kind());
     loop {
         // A moment to see whether the movement goes on; then finer and finer.
@@ -67,7 +71,7 @@ fn work(shared: &Shared, easel: &mut dyn Easel) -> Result<(), hairline_gpu::Erro
         let Some(order) = shared.next_order(progress.done.as_ref(), patience) else {
             return Ok(());
         };
-        progress.go_on(shared, easel, order, None)?;
+        progress.go_on(shared, easel, order, None).await?;
     }
 }
 
@@ -103,10 +107,10 @@ impl Progress {
     }
 
     /// Paints the first picture of an order that is new; else the finer ones until something newer is wanted or it is `until`.
-    pub fn go_on(
+    pub async fn go_on(
         &mut self,
         shared: &Shared,
-        easel: &mut dyn Easel,
+        easel: &mut impl Easel,
         order: Order,
         until: Option<Instant>,
     ) -> Result<(), hairline_gpu::Error> {
@@ -114,7 +118,7 @@ impl Progress {
         match &self.done {
             Some(last) if last.has_same_pixels(&order) => {
                 if !last.view.is_shown_as(&order.view)
-                    && let Some(shown) = easel.show_again(&order)?
+                    && let Some(shown) = easel.show_again(&order).await?
                 {
                     let is_final = self.steps.is_empty();
                     studio.put(shared, &order, shown, is_final, Duration::ZERO, None);
@@ -125,7 +129,8 @@ impl Progress {
                         1 => Turn::Last,
                         _ => Turn::Between,
                     };
-                    if !studio.paint(shared, easel, &order, &step, turn, until)? {
+                    let painting = studio.paint(shared, easel, &order, &step, turn, until);
+                    if !painting.await? {
                         break;
                     }
                     self.steps.remove(0);
@@ -134,7 +139,7 @@ impl Progress {
             _ => {
                 // What begins to move is answered at once; what moves already is as fine as it can be in time.
                 let begins = self.done.is_none() || self.steps.len() < self.steps_first;
-                self.steps = studio.first(shared, easel, &order, begins)?;
+                self.steps = studio.first(shared, easel, &order, begins).await?;
                 self.steps_first = self.steps.len();
                 self.done = Some(order);
             }

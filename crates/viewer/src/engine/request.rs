@@ -228,6 +228,12 @@ impl Shared {
         self.tell(is_awaited);
     }
 
+    /// Has the interface look at what is there.
+    #[cfg(target_arch = "wasm32")]
+    pub fn wake(&self) {
+        (self.wake)();
+    }
+
     /// An interface that waits needs no further pass to see what is there.
     fn tell(&self, is_awaited: bool) {
         if is_awaited {
@@ -272,7 +278,6 @@ impl Shared {
             .clone()
     }
 
-    #[cfg(not(target_arch = "wasm32"))]
     pub fn set_backend(&self, backend: Backend) {
         *self.backend.lock().unwrap_or_else(PoisonError::into_inner) = backend;
     }

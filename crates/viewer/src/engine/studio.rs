@@ -42,10 +42,10 @@ impl Studio {
     }
 
     /// The first picture of an order, as coarse as it must be; returns the steps that are left.
-    pub fn first(
+    pub async fn first(
         &mut self,
         shared: &Shared,
-        easel: &mut dyn Easel,
+        easel: &mut impl Easel,
         order: &Order,
         begins: bool,
     ) -> Result<Vec<Step>, hairline_gpu::Error> {
@@ -63,7 +63,9 @@ impl Studio {
                 batch: None,
             };
             let start = Instant::now();
-            if self.paint(shared, easel, order, &coarse, Turn::First, None)? {
+            let turn = Turn::First;
+            let painting = self.paint(shared, easel, order, &coarse, turn, None);
+            if painting.await? {
                 // A sketch is not refined: what it is a sketch of is on the way.
                 return Ok(match order.built.sketch {
                     Some(_) => Vec::new(),
@@ -82,17 +84,17 @@ impl Studio {
     }
 
     /// Paints a step; false if something newer is wanted or it is `until`.
-    pub fn paint(
+    pub async fn paint(
         &mut self,
         shared: &Shared,
-        easel: &mut dyn Easel,
+        easel: &mut impl Easel,
         order: &Order,
         step: &Step,
         turn: Turn,
         until: Option<Instant>,
     ) -> Result<bool, hairline_gpu::Error> {
         let start = Instant::now();
-        let is_new = easel.take(order)?;
+        let is_new = easel.take(order).await?;
         let uploaded = start.elapsed();
         let on_cores = easel.backend().is_software();
         // The first picture of a movement comes to its end, whatever is wanted meanwhile: else a steady hand would see none. One that
@@ -107,13 +109,14 @@ impl Studio {
             shared.is_stopped() || until.is_some_and(|until| Instant::now() >= until) || gives_way()
         };
         let mut last: Option<Shown> = None;
-        let finished = easel.paint(order, step, &interrupted, &mut |shown| {
+        let mut show = |shown: Shown| {
             if shown.done < 1.0 {
                 self.put(shared, order, shown, false, start.elapsed(), None);
             } else if let Some(earlier) = last.replace(shown) {
                 self.put(shared, order, earlier, false, start.elapsed(), None);
             }
-        })?;
+        };
+        let finished = easel.paint(order, step, &interrupted, &mut show).await?;
         let time = self.spent + (start.elapsed() - uploaded);
         self.spent = if finished { Duration::ZERO } else { time };
         if let Some(shown) = last {

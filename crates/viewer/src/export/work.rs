@@ -4,15 +4,11 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use hairline_cpu::closed_form::Prepared;
-#[cfg(not(target_arch = "wasm32"))]
 use hairline_cpu::closed_form::TILE_PX;
 use hairline_editor::navigate;
-#[cfg(not(target_arch = "wasm32"))]
 use hairline_gpu::{AdapterKind, Gpu, GpuScene, RenderOptions, Renderer};
-#[cfg(not(target_arch = "wasm32"))]
 use hairline_image::Batches;
 use hairline_image::{Display, Image, Output, spread_fireflies};
-#[cfg(not(target_arch = "wasm32"))]
 use hairline_index::method::Method;
 use hairline_scene::{Description, Scene, Transport};
 
@@ -139,9 +135,19 @@ impl Report {
     }
 }
 
+/// Renders and writes all pictures, or those until `stop` is asked; blocks, which only a thread may.
+#[cfg(not(target_arch = "wasm32"))]
+pub(super) fn run_to_the_end(wish: &Wish, built: &Built, stop: &Stop, report: &Report) {
+    let working = run(wish, built, stop, report);
+    match &wish.backend {
+        Backend::Cpu => pollster::block_on(working),
+        Backend::Gpu(gpu) | Backend::Shared(gpu) => gpu.block_on(working),
+    }
+}
+
 /// Renders and writes all pictures, or those until `stop` is asked.
-pub(super) fn run(wish: &Wish, built: &Built, stop: &Stop, report: &Report) {
-    let end = match frames(wish, built, stop, report) {
+pub(super) async fn run(wish: &Wish, built: &Built, stop: &Stop, report: &Report) {
+    let end = match frames(wish, built, stop, report).await {
         Ok(true) => End::Complete,
         Ok(false) => End::Cancelled,
         Err(message) => End::Failed(message),
@@ -150,8 +156,9 @@ pub(super) fn run(wish: &Wish, built: &Built, stop: &Stop, report: &Report) {
 }
 
 /// False if it was stopped.
-fn frames(wish: &Wish, built: &Built, stop: &Stop, report: &Report) -> Result<bool, String> {
-    let mut painter = Painter::open(wish, built).map_err(|error| error.to_string())?;
+async fn frames(wish: &Wish, built: &Built, stop: &Stop, report: &Report) -> Result<bool, String> {
+    let opened = Painter::open(wish, built).await;
+    let mut painter = opened.map_err(|error| error.to_string())?;
     for frame in 0..wish.frames() {
         // Before the work: the folder may have gone meanwhile.
         let output = Output::check(&wish.frame_path(frame)).map_err(|error| error.to_string())?;
@@ -162,6 +169,7 @@ fn frames(wish: &Wish, built: &Built, stop: &Stop, report: &Report) -> Result<bo
         let scene = wish.scene(built, frame);
         let image = painter
             .paint(built, &scene, wish, &go_on)
+            .await
             .map_err(|error| error.to_string())?;
         let Some(mut image) = image else {
             return Ok(false);
@@ -200,16 +208,13 @@ fn coverage(built: &Built, scene: &Scene, samples: u32) -> Vec<f32> {
 /// Pixels of the first band on the CPU.
 const CPU_BAND_PX: u32 = 1 << 13;
 /// On a driver that computes on the CPU, between two looks at whether to go on; all samples of them.
-#[cfg(not(target_arch = "wasm32"))]
 const SOFTWARE_BAND_PX: u32 = 1 << 13;
 /// On a GPU.
-#[cfg(not(target_arch = "wasm32"))]
 const HARDWARE_BAND_PX: u32 = 1 << 19;
 
 /// What renders: what the window's painter uses too, but a renderer of its own.
 enum Painter {
     Cpu,
-    #[cfg(not(target_arch = "wasm32"))]
     Gpu {
         renderer: Box<Renderer>,
         uploaded: Box<GpuScene>,
@@ -218,44 +223,45 @@ enum Painter {
 }
 
 impl Painter {
-    #[cfg_attr(target_arch = "wasm32", expect(unused_variables))]
-    fn open(wish: &Wish, built: &Built) -> Result<Self, hairline_gpu::Error> {
+    async fn open(wish: &Wish, built: &Built) -> Result<Self, hairline_gpu::Error> {
         match &wish.backend {
             Backend::Cpu => Ok(Self::Cpu),
-            #[cfg(not(target_arch = "wasm32"))]
-            Backend::Gpu(gpu) | Backend::Shared(gpu) => Self::on_gpu(gpu, built, wish.transport),
+            Backend::Gpu(gpu) | Backend::Shared(gpu) => {
+                Self::on_gpu(gpu, built, wish.transport).await
+            }
         }
     }
 
-    #[cfg(not(target_arch = "wasm32"))]
-    fn on_gpu(gpu: &Gpu, built: &Built, transport: Transport) -> Result<Self, hairline_gpu::Error> {
+    async fn on_gpu(
+        gpu: &Gpu,
+        built: &Built,
+        transport: Transport,
+    ) -> Result<Self, hairline_gpu::Error> {
         let Built {
             scene,
             scratches,
             tables,
             ..
         } = built;
-        gpu.block_on(async {
-            let mut renderer = Renderer::new(gpu).await?;
-            let method = Method::default();
-            let mut uploaded = renderer.upload(scene, scratches, tables, &method).await?;
-            if transport.shadows {
-                let added = renderer.add_shadows(&mut uploaded, scene, transport.bounces);
-                added.await?;
-            }
-            Ok(Self::Gpu {
-                renderer: Box::new(renderer),
-                uploaded: Box::new(uploaded),
-                band_px: match gpu.adapter.kind {
-                    AdapterKind::Software => SOFTWARE_BAND_PX,
-                    _ => HARDWARE_BAND_PX,
-                },
-            })
+        let mut renderer = Renderer::new(gpu).await?;
+        let method = Method::default();
+        let mut uploaded = renderer.upload(scene, scratches, tables, &method).await?;
+        if transport.shadows {
+            let added = renderer.add_shadows(&mut uploaded, scene, transport.bounces);
+            added.await?;
+        }
+        Ok(Self::Gpu {
+            renderer: Box::new(renderer),
+            uploaded: Box::new(uploaded),
+            band_px: match gpu.adapter.kind {
+                AdapterKind::Software => SOFTWARE_BAND_PX,
+                _ => HARDWARE_BAND_PX,
+            },
         })
     }
 
     /// None if `go_on` said no.
-    fn paint(
+    async fn paint(
         &mut self,
         built: &Built,
         scene: &Scene,
@@ -268,7 +274,6 @@ impl Painter {
                 let image = bands::render(built, scene, samples, transport, CPU_BAND_PX, go_on);
                 Ok(image)
             }
-            #[cfg(not(target_arch = "wasm32"))]
             Self::Gpu {
                 renderer,
                 uploaded,
@@ -278,11 +283,10 @@ impl Painter {
                     samples: wish.samples,
                     ..Default::default()
                 };
-                let mut render = |options: &RenderOptions, go_on: &dyn Fn(f64) -> bool| {
-                    on_gpu_in_bands(renderer, uploaded, scene, options, *band_px, go_on)
-                };
+                let band_px = *band_px;
                 if !wish.transport.shadows {
-                    return render(&options, go_on);
+                    return on_gpu_in_bands(renderer, uploaded, scene, &options, band_px, go_on)
+                        .await;
                 }
                 let mut batches = Batches::new(wish.samples);
                 options.samples = batches.samples();
@@ -291,7 +295,9 @@ impl Painter {
                     let (first, count) = (f64::from(batch.first), f64::from(batch.count));
                     let all = f64::from(options.samples);
                     let go_on = |share: f64| go_on((first + count * share) / all);
-                    match render(&options, &go_on)? {
+                    let part =
+                        on_gpu_in_bands(renderer, uploaded, scene, &options, band_px, &go_on);
+                    match part.await? {
                         Some(image) => batches.add(image),
                         None => return Ok(None),
                     }
@@ -303,8 +309,7 @@ impl Painter {
 }
 
 /// None if `go_on` said no.
-#[cfg(not(target_arch = "wasm32"))]
-fn on_gpu_in_bands(
+async fn on_gpu_in_bands(
     renderer: &mut Renderer,
     uploaded: &GpuScene,
     scene: &Scene,
@@ -312,7 +317,6 @@ fn on_gpu_in_bands(
     band_px: u32,
     go_on: &dyn Fn(f64) -> bool,
 ) -> Result<Option<Image>, hairline_gpu::Error> {
-    let gpu = renderer.gpu().clone();
     let [width, height] = scene.render.size_px;
     // Whole rows of tiles.
     let band = (band_px / width).max(1).next_multiple_of(TILE_PX);
@@ -324,8 +328,7 @@ fn on_gpu_in_bands(
         let rows = first..(first + band).min(height);
         let pixels = first as usize * width as usize..rows.end as usize * width as usize;
         let part = renderer.render_rows(scene, uploaded, options, rows, &|_| {});
-        let part = gpu.block_on(part)?;
-        bands::put_rows(&mut image, pixels, &part);
+        bands::put_rows(&mut image, pixels, &part.await?);
     }
     Ok(Some(image))
 }

@@ -2,12 +2,14 @@
 
 use std::path::PathBuf;
 
-use egui::{Button, MenuBar, Panel, RichText, Ui};
+use egui::scroll_area::ScrollBarVisibility;
+use egui::{Button, MenuBar, Panel, RichText, ScrollArea, Ui};
 use hairline_editor::ranges::Parameter;
 
 use super::form::Form;
 use crate::command::{self, Command, Group};
 use crate::files::Files;
+use crate::platform::{HAS_DISK, HAS_PAGE};
 use crate::tools::Tool;
 use crate::workspace::Workspace;
 
@@ -18,39 +20,56 @@ pub(crate) fn show(
     files: &Files,
     is_comparing: bool,
 ) -> Option<PathBuf> {
+    let shown = Panel::top("menu").show(ui, |ui| match HAS_PAGE {
+        false => bar(ui, work, files, is_comparing),
+        // Narrower than the bar, on a telephone: a finger moves it.
+        true => {
+            let area =
+                ScrollArea::horizontal().scroll_bar_visibility(ScrollBarVisibility::AlwaysHidden);
+            area.show(ui, |ui| bar(ui, work, files, is_comparing)).inner
+        }
+    });
+    shown.inner
+}
+
+fn bar(ui: &mut Ui, work: &mut Workspace, files: &Files, is_comparing: bool) -> Option<PathBuf> {
     let mut chosen = None;
-    Panel::top("menu").show(ui, |ui| {
-        MenuBar::new().ui(ui, |ui| {
-            for group in Group::ALL {
-                let menu = ui.menu_button(group.name(), |ui| menu(ui, work, group, files));
-                chosen = menu.inner.flatten().or(chosen.take());
-            }
+    MenuBar::new().ui(ui, |ui| {
+        for group in Group::ALL {
+            let menu = ui.menu_button(group.name(), |ui| menu(ui, work, group, files));
+            chosen = menu.inner.flatten().or(chosen.take());
+        }
+        ui.separator();
+        for tool in Tool::ALL {
+            let command = Command::Pick(tool);
+            let button = Button::selectable(work.toolbox.tool == tool, command.label());
+            bar_button(ui, work, command, button, tool.hint());
+        }
+        ui.separator();
+        if Command::Gallery.is_here() {
+            let text = "Scenes to begin with";
+            let button = Button::new("Scenes");
+            bar_button(ui, work, Command::Gallery, button, text);
             ui.separator();
-            for tool in Tool::ALL {
-                let command = Command::Pick(tool);
-                let button = Button::selectable(work.toolbox.tool == tool, command.label());
-                bar_button(ui, work, command, button, tool.hint());
-            }
+        }
+        let undo = work.document.undo_label().map(str::to_owned);
+        let redo = work.document.redo_label().map(str::to_owned);
+        for (command, what) in [(Command::Undo, undo), (Command::Redo, redo)] {
+            let button = Button::new(command.label());
+            let text = what.as_deref().unwrap_or("nothing");
+            bar_button(ui, work, command, button, text);
+        }
+        ui.separator();
+        let text = "Keeps this look, with its picture, to compare with and to come back to";
+        let button = Button::new("Snapshot");
+        bar_button(ui, work, Command::TakeSnapshot, button, text);
+        if Command::Compare.is_here() {
             ui.separator();
-            let undo = work.document.undo_label().map(str::to_owned);
-            let redo = work.document.redo_label().map(str::to_owned);
-            for (command, what) in [(Command::Undo, undo), (Command::Redo, redo)] {
-                let button = Button::new(command.label());
-                let text = what.as_deref().unwrap_or("nothing");
-                bar_button(ui, work, command, button, text);
-            }
-            ui.separator();
-            let text = "Keeps this look, with its picture, to compare with and to come back to";
-            let button = Button::new("Snapshot");
-            bar_button(ui, work, Command::TakeSnapshot, button, text);
-            if Command::Compare.is_here() {
-                ui.separator();
-                let text = "Renders the reference of this view in the background and shows it beside the \
-                            picture";
-                let button = Button::selectable(is_comparing, "Compare");
-                bar_button(ui, work, Command::Compare, button, text);
-            }
-        });
+            let text = "Renders the reference of this view in the background and shows it beside the \
+                        picture";
+            let button = Button::selectable(is_comparing, "Compare");
+            bar_button(ui, work, Command::Compare, button, text);
+        }
     });
     chosen
 }
@@ -77,7 +96,7 @@ fn menu(ui: &mut Ui, work: &mut Workspace, group: Group, files: &Files) -> Optio
             ui.separator();
         }
         item(ui, work, entry.command);
-        if entry.command == Command::Open {
+        if entry.command == Command::Open && HAS_DISK {
             chosen = recent(ui, files);
         }
     }

@@ -37,11 +37,21 @@ impl Viewport {
             || response.dragged_by(PointerButton::Secondary);
         let pans = response.dragged_by(PointerButton::Middle)
             || response.dragged_by(PointerButton::Primary) && shift && !is_brush;
+        // Two fingers move and pinch; egui takes the first of them for a pointer.
+        let fingers = ui.input(|input| input.multi_touch());
+        let fingers = fingers.filter(|_| response.hovered() || response.dragged());
+        let (orbits, pans, moved) = match fingers {
+            None => (orbits, pans, moved),
+            Some(touch) => {
+                let by = touch.translation_delta;
+                (false, true, DVec2::new(by.x.into(), by.y.into()))
+            }
+        };
         let is_shielded = self.is_shielded;
         if is_shielded && response.is_pointer_button_down_on() {
             egui::Popup::close_all(ui.ctx());
         }
-        let is_in_hand = is_brush && !alt && !is_shielded;
+        let is_in_hand = is_brush && !alt && !is_shielded && fingers.is_none();
         self.stroke.interact(ui, work, area, response, is_in_hand);
         if pans && moved != DVec2::ZERO {
             let key = DragKey::of("pan");

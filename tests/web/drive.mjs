@@ -1,0 +1,199 @@
+// Drives the viewer in headless Chromium, on its software driver for WebGPU: `node drive.mjs FOLDER PROGRAM [PICTURES]`. FOLDER is what
+// `cargo xtask web` made, PROGRAM is the command line, which renders what is compared; pictures of the page go to PICTURES. Prints a line a
+// step; ends with 1 at the first that fails. First the processor renders, as a page chooses on a software driver; then WebGPU.
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { createReadStream, existsSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
+import { createServer } from 'node:http';
+import { tmpdir } from 'node:os';
+import { extname, join } from 'node:path';
+import puppeteer from 'puppeteer-core';
+
+const [folder, program, pictures] = process.argv.slice(2);
+const here = import.meta.dirname;
+const scratch = mkdtempSync(join(tmpdir(), 'hairline-web-'));
+const CHROMES = ['chromium', 'google-chrome', 'chromium-browser'].map((name) => `/usr/bin/${name}`);
+/** Of a step that waits for a picture: SwiftShader renders on the processor. */
+const PATIENCE_MS = 120_000;
+/** What the first picture may take, from the address on. */
+const FIRST_PICTURE_MS = 60_000;
+
+const TYPES = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm', '.json': 'application/json' };
+const server = createServer((request, response) => {
+  const path = join(folder, decodeURIComponent(new URL(request.url, 'http://x').pathname).replace(/\/$/, '/index.html'));
+  if (!existsSync(path) || !statSync(path).isFile()) return response.writeHead(404).end();
+  response.writeHead(200, { 'content-type': TYPES[extname(path)] ?? 'application/octet-stream' });
+  createReadStream(path).pipe(response);
+});
+await new Promise((ready) => server.listen(0, '127.0.0.1', ready));
+const address = `http://127.0.0.1:${server.address().port}/`;
+
+const browser = await puppeteer.launch({
+  executablePath: process.env.CHROME ?? CHROMES.find(existsSync),
+  // With Vulkan alone can headless Chromium show what WebGPU draws: else it takes the device away at the first frame.
+  args: ['--no-sandbox', '--enable-unsafe-webgpu', '--use-webgpu-adapter=swiftshader', '--enable-features=Vulkan', '--use-vulkan=swiftshader', '--use-angle=swiftshader'],
+  defaultViewport: { width: 1200, height: 700 },
+});
+await browser.defaultBrowserContext().overridePermissions(address, ['clipboard-read', 'clipboard-sanitized-write']);
+
+const started = Date.now();
+const told = (step, text = '') => console.log(`${((Date.now() - started) / 1000).toFixed(1).padStart(6)} s  ${step} ${text}`);
+const pause = (ms) => new Promise((done) => setTimeout(done, ms));
+
+async function open(fragment = '') {
+  const page = await browser.newPage();
+  page.on('pageerror', (error) => told('page error:', error.message));
+  page.on('console', (message) => message.type() === 'error' && told('console:', message.text()));
+  await page.goto(address + fragment);
+  return page;
+}
+
+const state = (page) => page.evaluate(() => window.hairline?.state());
+
+/** The state, once it `is` as it should be. */
+async function until(page, what, is, patience = PATIENCE_MS) {
+  const end = Date.now() + patience;
+  for (;;) {
+    const now = await state(page);
+    if (now && is(now)) return now;
+    if (Date.now() > end) {
+      await page.screenshot({ path: join(tmpdir(), 'hairline-web-failed.png') });
+      const words = await page.evaluate(() => document.getElementById('words').textContent);
+      throw new Error(`${what}: not within ${patience / 1000} s: ${JSON.stringify(now)}; the page says "${words}"`);
+    }
+    await pause(100);
+  }
+}
+
+async function press(page, ...keys) {
+  for (const key of keys) await page.keyboard.down(key);
+  for (const key of keys.reverse()) await page.keyboard.up(key);
+  // Until the window has been drawn with it: the keyboard moves on by one control in a pass.
+  await page.evaluate(async () => {
+    for (let i = 0; i < 3; i += 1) await new Promise(requestAnimationFrame);
+  });
+}
+
+async function give(page, ...paths) {
+  const chooser = await page.$('#chooser');
+  await chooser.uploadFile(...paths);
+}
+
+/** A file that the page hands out. */
+async function downloaded(name) {
+  const path = join(scratch, name);
+  for (const end = Date.now() + PATIENCE_MS; !existsSync(path); await pause(100)) assert(Date.now() < end, `no ${name} came`);
+  return path;
+}
+
+async function allowDownloads(page) {
+  const cdp = await page.createCDPSession();
+  await cdp.send('Browser.setDownloadBehavior', { behavior: 'allow', downloadPath: scratch });
+}
+
+async function keep(page, name) {
+  if (pictures) await page.screenshot({ path: join(pictures, `${name}.png`) });
+}
+
+const MIDDLE = { x: 560, y: 350 };
+
+/** Turns the view by a drag, about the target; returns the state with its picture. */
+async function turn(page, before) {
+  await page.mouse.move(MIDDLE.x, MIDDLE.y);
+  await page.mouse.down();
+  await page.mouse.move(MIDDLE.x + 60, MIDDLE.y - 20, { steps: 4 });
+  await page.mouse.up();
+  const turned = await until(page, 'orbit', (now) => now.pictures > before.pictures && now.camera[0] !== before.camera[0]);
+  const distance = (camera) => Math.hypot(...camera.map((x, i) => x - before.target[i]));
+  assert(Math.abs(distance(turned.camera) / distance(before.camera) - 1) < 1e-6, 'turned about the target');
+  return turned;
+}
+
+try {
+  const page = await open();
+  await allowDownloads(page);
+  const first = await until(page, 'first picture', (now) => now.pictures > 0, FIRST_PICTURE_MS);
+  told('the first picture is there, by', first.backend);
+  assert.deepEqual(first.messages, []);
+  await keep(page, 'start');
+  await turn(page, first);
+  told('a drag turned the view');
+  await keep(page, 'turned');
+
+  await give(page, join(here, 'scene.toml'));
+  const opened = await until(page, 'a scene', (now) => now.objects === 1 && now.finished && !now.building);
+  assert.deepEqual(opened.messages, []);
+  told('a scene file was opened and rendered to its end');
+  await keep(page, 'scene');
+
+  await page.mouse.click(MIDDLE.x, MIDDLE.y);
+  await until(page, 'a selection', (now) => now.selection.startsWith('Object'));
+  await press(page, 'Control', 'd');
+  await until(page, 'an edit', (now) => now.objects === 2);
+  await press(page, 'Control', 'z');
+  await until(page, 'undo', (now) => now.objects === 1);
+  told('an edit was done and undone');
+
+  await press(page, 'Shift', 'l');
+  await until(page, 'a link', (now) => now.messages.some((text) => text.includes('in the clipboard')));
+  let link = '';
+  // The page is told of it before the browser has put it there.
+  for (const end = Date.now() + PATIENCE_MS; !link && Date.now() < end; await pause(100)) link = await page.evaluate(() => navigator.clipboard.readText());
+  const fragment = new URL(link).hash;
+  const other = await open(fragment);
+  const same = await until(other, 'the scene of a link', (now) => now.pictures > 0 && now.objects === 1);
+  assert.deepEqual(same.camera, opened.camera);
+  told('a link opened the same scene:', `${fragment.length} bytes`);
+  await other.evaluate((cut) => (location.hash = cut), fragment.slice(0, -40));
+  const warned = await until(other, 'a warning', (now) => now.messages.some((text) => text.includes('cut short')));
+  assert.equal(warned.objects, 1, 'the scene that was open stays');
+  told('a link that was cut short was refused');
+  await other.close();
+
+  const broken = join(scratch, 'broken.glb');
+  writeFileSync(broken, readFileSync(join(folder, 'scenes/models/spoon.glb')).subarray(0, 5000));
+  const huge = join(scratch, 'huge.hdr');
+  writeFileSync(huge, '#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 20000 +X 40000\n');
+  for (const [path, words] of [[broken, 'broken.glb'], [huge, '16384 pixels']]) {
+    await give(page, path);
+    const now = await until(page, path, (now) => now.messages.some((text) => text.includes(words)));
+    assert.equal(now.objects, 1, 'the scene that was open stays');
+    told('refused:', now.messages.find((text) => text.includes(words)));
+  }
+  await give(page, join(folder, 'scenes/models/spoon.glb'));
+  await until(page, 'a model', (now) => now.objects === 2);
+  told('a model was added');
+  await give(page, join(folder, 'scenes/maps/evening.hdr'));
+  await until(page, 'an environment', (now) => now.environment);
+  told('an environment was set');
+
+  await press(page, 'Control', 's');
+  await press(page, 'Enter');
+  const text = readFileSync(await downloaded('scene.toml'), 'utf8');
+  assert(text.includes('spoon.glb') && text.includes('evening.hdr'), text);
+  told('the scene was saved');
+  await page.close();
+
+  const drawn = await open(`?backend=gpu${fragment}`);
+  await allowDownloads(drawn);
+  const by_gpu = await until(drawn, 'first picture', (now) => now.pictures > 0 && now.objects === 1, FIRST_PICTURE_MS);
+  assert(by_gpu.backend.includes('webgpu'), by_gpu.backend);
+  told('the first picture is there, by', by_gpu.backend);
+  await press(drawn, 'Control', 'p');
+  await press(drawn, 'Shift', 'Tab');
+  await press(drawn, 'Shift', 'Tab');
+  await press(drawn, 'Enter');
+  const picture = await downloaded('scene.png');
+  const native = join(scratch, 'native.png');
+  const flags = ['--shadows', by_gpu.shadows ? 'on' : 'off', '--backend', 'cpu'];
+  execFileSync(program, ['render', join(here, 'scene.toml'), '-o', native, ...flags]);
+  const figures = execFileSync(program, ['compare', picture, native, '--json', '--fail-above', 'flip=0.005', '--fail-above', 'relative-rms=0.01']);
+  told('the exported picture is that of the command line:', figures.toString().replace(/\s+/g, ' ').slice(0, 200));
+  await turn(drawn, await state(drawn));
+  told('a drag turned the view');
+  await keep(drawn, 'gpu');
+} finally {
+  await browser.close();
+  server.close();
+  rmSync(scratch, { recursive: true });
+}

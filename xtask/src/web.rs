@@ -1,0 +1,230 @@
+//! The viewer for browsers: a folder of static files, for any web server.
+
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use anyhow::{Context, ensure};
+use clap::Args;
+use flate2::Compression;
+use flate2::write::GzEncoder;
+use hairline_scene::Description;
+use image::imageops::FilterType;
+use serde_json::json;
+
+const TARGET: &str = "wasm32-unknown-unknown";
+
+#[derive(Args)]
+pub struct Web {
+    /// Where the files go.
+    #[arg(short, long, default_value = "target/web")]
+    output: PathBuf,
+    /// Drive it in headless Chromium afterwards, and compare its picture with that of the command line.
+    #[arg(long)]
+    test: bool,
+}
+
+impl Web {
+    pub fn run(self) -> anyhow::Result<()> {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR"))
+            .join("..")
+            .canonicalize()?;
+        if self.output.exists() {
+            fs::remove_dir_all(&self.output)?;
+        }
+        fs::create_dir_all(&self.output)?;
+        let output = self.output.canonicalize()?;
+        let built = compile(&root)?;
+        let bindgen = bindgen(&root)?;
+        run(Command::new(bindgen)
+            .args(["--target", "web", "--no-typescript"])
+            .args(["--remove-name-section", "--remove-producers-section"])
+            .args(["--out-name", "hairline", "--out-dir"])
+            .arg(&output)
+            .arg(built))?;
+        let program = output.join("hairline_bg.wasm");
+        shrink(&root, &program)?;
+        copy_page(&root, &output)?;
+        let bytes = fs::metadata(&program)?.len();
+        fs::write(
+            output.join("size.json"),
+            json!({ "bytes": bytes }).to_string(),
+        )?;
+        let compressed = gzip_bytes(&fs::read(&program)?)?;
+        println!(
+            "{}: {:.2} MB; {:.2} MB as servers send it, by gzip",
+            program.display(),
+            bytes as f64 / 1e6,
+            compressed as f64 / 1e6
+        );
+        if self.test {
+            return drive(&root, &output);
+        }
+        println!(
+            "try it: python3 -m http.server --directory {}",
+            self.output.display()
+        );
+        Ok(())
+    }
+}
+
+fn gzip_bytes(bytes: &[u8]) -> anyhow::Result<usize> {
+    let mut packed = GzEncoder::new(Vec::new(), Compression::best());
+    packed.write_all(bytes)?;
+    Ok(packed.finish()?.len())
+}
+
+/// By `tests/web/drive.mjs`, with the command line that `.ci/run` builds.
+fn drive(root: &Path, output: &Path) -> anyhow::Result<()> {
+    let tests = root.join("tests/web");
+    run(Command::new("npm")
+        .current_dir(&tests)
+        .args(["ci", "--no-audit", "--no-fund"]))?;
+    let cargo = ["build", "--release", "--workspace", "--bins"];
+    run(Command::new("cargo").current_dir(root).args(cargo))?;
+    let target = std::env::var_os("CARGO_TARGET_DIR").map_or(root.join("target"), PathBuf::from);
+    run(Command::new("node")
+        .current_dir(&tests)
+        .arg("drive.mjs")
+        .arg(output)
+        .arg(target.join("release/hairline")))
+}
+
+/// Compiles `apps/web` in a folder of its own, as `.ci/run` checks it.
+fn compile(root: &Path) -> anyhow::Result<PathBuf> {
+    let folder = root.join("target/browser");
+    let mut cargo = Command::new("cargo");
+    cargo
+        .current_dir(root)
+        .args(["build", "--profile", "web", "--package", "hairline-web"])
+        .args(["--target", TARGET])
+        .env("CARGO_TARGET_DIR", &folder);
+    if !has_target()? {
+        let toolchain = Command::new(root.join(".ci/browser-toolchain"))
+            .arg(root.join("target/browser-toolchain"))
+            .stderr(std::process::Stdio::inherit())
+            .output()?;
+        ensure!(
+            toolchain.status.success(),
+            "there is no standard library for {TARGET}: `rustup target add {TARGET}` fetches one"
+        );
+        let toolchain = PathBuf::from(String::from_utf8(toolchain.stdout)?.trim());
+        cargo
+            .env("RUSTC", toolchain.join("bin/rustc"))
+            .env("LD_LIBRARY_PATH", toolchain.join("lib"));
+    }
+    run(&mut cargo)?;
+    Ok(folder.join(TARGET).join("web/hairline_web.wasm"))
+}
+
+fn has_target() -> anyhow::Result<bool> {
+    let asked = Command::new("rustc")
+        .args(["--print", "target-libdir", "--target", TARGET])
+        .output()?;
+    Ok(Path::new(String::from_utf8(asked.stdout)?.trim()).is_dir())
+}
+
+/// The tool that writes what JavaScript calls; it must be as new as the library, to the last digit.
+fn bindgen(root: &Path) -> anyhow::Result<PathBuf> {
+    let lock = fs::read_to_string(root.join("Cargo.lock"))?;
+    let (_, after) = lock
+        .split_once("name = \"wasm-bindgen\"\nversion = \"")
+        .context("Cargo.lock names no wasm-bindgen")?;
+    let (version, _) = after.split_once('"').context("Cargo.lock is cut short")?;
+    let tools = root.join("target/browser/tools");
+    for program in [
+        PathBuf::from("wasm-bindgen"),
+        tools.join("bin/wasm-bindgen"),
+    ] {
+        let told = Command::new(&program).arg("--version").output();
+        if told.is_ok_and(|told| told.stdout.ends_with(format!(" {version}\n").as_bytes())) {
+            return Ok(program);
+        }
+    }
+    println!(
+        "wasm-bindgen {version} is installed into {}",
+        tools.display()
+    );
+    run(Command::new("cargo")
+        .args(["install", "wasm-bindgen-cli", "--quiet"])
+        .args(["--version", version, "--root"])
+        .arg(&tools)
+        .env("CARGO_PROFILE_RELEASE_OPT_LEVEL", "1"))?;
+    Ok(tools.join("bin/wasm-bindgen"))
+}
+
+/// By Binaryen, where it is installed: a fifth smaller.
+fn shrink(root: &Path, program: &Path) -> anyhow::Result<()> {
+    let of_tests = root.join("tests/web/node_modules/.bin/wasm-opt");
+    let tool = [PathBuf::from("wasm-opt"), of_tests]
+        .into_iter()
+        .find(|tool| Command::new(tool).arg("--version").output().is_ok());
+    let Some(tool) = tool else {
+        println!(
+            "there is no wasm-opt (Debian's binaryen, npm's binaryen): the program stays larger"
+        );
+        return Ok(());
+    };
+    run(Command::new(tool)
+        .args(["-Oz", "--all-features"])
+        .arg(program)
+        .arg("-o")
+        .arg(program))
+}
+
+/// The page itself, with the pictures and scenes that it shows.
+fn copy_page(root: &Path, output: &Path) -> anyhow::Result<()> {
+    for name in ["index.html", "page.css", "page.js"] {
+        fs::copy(root.join("apps/web/page").join(name), output.join(name))?;
+    }
+    fs::copy(
+        root.join("crates/viewer/assets/hairline.png"),
+        output.join("hairline.png"),
+    )?;
+    let opening = root.join("docs/pictures/hairline.png");
+    small(&opening, &output.join("opening.jpg"), 800)?;
+
+    let (scenes, copies) = (root.join("scenes"), output.join("scenes"));
+    fs::create_dir(&copies)?;
+    let mut list = Vec::new();
+    for path in crate::pictures::scene_files(root)? {
+        let text = fs::read_to_string(&path)?;
+        let description = Description::from_toml(&text, &path)?;
+        let title = path.file_stem().unwrap_or_default().to_string_lossy();
+        let file = format!("{title}.toml");
+        fs::write(copies.join(&file), &text)?;
+        let picture = root.join(format!("docs/pictures/{title}.png"));
+        small(&picture, &copies.join(format!("{title}.jpg")), 320)?;
+        list.push(json!({ "file": file, "title": title, "about": about(&text) }));
+        for input in description.inputs(Path::new("")) {
+            let copy = copies.join(&input.path);
+            fs::create_dir_all(copy.parent().unwrap_or(&copies))?;
+            fs::copy(scenes.join(&input.path), copy)?;
+        }
+    }
+    fs::write(output.join("scenes.json"), json!(list).to_string())?;
+    Ok(())
+}
+
+/// The first sentence of the comment that a scene begins with.
+fn about(text: &str) -> String {
+    let comment = text.lines().map_while(|line| line.strip_prefix('#'));
+    let whole = comment.map(str::trim).collect::<Vec<_>>().join(" ");
+    let end = whole.find(". ").map_or(whole.len(), |end| end + 1);
+    whole[..end].to_owned()
+}
+
+/// A picture as a JPEG that is not wider than `width`.
+fn small(from: &Path, to: &Path, width: u32) -> anyhow::Result<()> {
+    let picture = image::open(from).with_context(|| from.display().to_string())?;
+    let small = picture.resize(width, u32::MAX, FilterType::Lanczos3);
+    small.to_rgb8().save(to)?;
+    Ok(())
+}
+
+fn run(command: &mut Command) -> anyhow::Result<()> {
+    let status = command.status().with_context(|| format!("{command:?}"))?;
+    ensure!(status.success(), "{command:?}: {status}");
+    Ok(())
+}
