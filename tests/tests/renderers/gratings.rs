@@ -175,3 +175,53 @@ fn gpu_and_cpu_show_the_same_gratings() {
     let seen = compare("wrong", &scene, &gpu, &on_the_cpu(&wrong, 1)).unwrap_err();
     assert!(seen.contains("scratches"), "{seen}");
 }
+
+/// From the whole disc to 10 um a pixel, in steps of a half: the mean of the picture goes on as it went before, and it hardly changes where the camera
+/// moves by a third of a pixel.
+#[test]
+fn a_zoom_neither_steps_nor_flickers() {
+    let width_px = 12;
+    let seen = |pitch_um: f64, pixel_um: f64, aside_px: f64| {
+        let target_m = [0.03 + aside_px * pixel_um * 1e-6, 0.02, 0.0];
+        let distance_m = 0.3;
+        let half = 0.5 * f64::from(width_px) * pixel_um * 1e-6 / distance_m;
+        let scene = SceneFile::seen_from([target_m[0], target_m[1] - 0.18, 0.24])
+            .toward(target_m)
+            .size_px([width_px, width_px])
+            .fov_y_deg(2.0 * half.atan().to_degrees())
+            .metal("m", "aluminium")
+            .object("disc", "m", "disk = { radius_m = 0.06 }")
+            .part(&format!(
+                "[[grating]]\nobject = \"disc\"\npattern = \"circular\"\npitch_um = {pitch_um:?}\njitter_um = {:?}",
+                0.02 * pitch_um
+            ))
+            .sphere([0.1, 0.25, 0.4], 0.02, 50.0)
+            .part("[[light]]\nkind = \"tube\"\nends_m = [[-0.4, -0.1, 0.3], [-0.4, 0.35, 0.3]]\nradius_m = 0.006\nradiance = 60.0")
+            .part("[environment]\nbuiltin = \"studio\"")
+            .scene();
+        let image = one_sample(&scene);
+        let count = image.scratches.len() as f64;
+        let sum = image.scratches.iter().flatten().map(|v| f64::from(*v));
+        sum.sum::<f64>() / count
+    };
+    for pitch_um in [1.6, 30.0] {
+        let (mut pixel_um, mut last) = (300.0, Vec::new());
+        let mut most: [f64; 2] = [0.0; 2];
+        while pixel_um > 10.0 {
+            let here = seen(pitch_um, pixel_um, 0.0);
+            let beside = seen(pitch_um, pixel_um, 0.33);
+            most[1] = most[1].max((beside / here - 1.0).abs());
+            last.push(here.ln());
+            if let [.., a, b, c] = last[..] {
+                most[0] = most[0].max(f64::abs(a - 2.0 * b + c));
+            }
+            pixel_um /= 1.5;
+        }
+        println!(
+            "gratings, zoom, {pitch_um} um: a step differs by {:.2} % from the one before, a third of a pixel {:.2} %",
+            100.0 * most[0],
+            100.0 * most[1]
+        );
+        assert!(most[0] < 0.03 && most[1] < 0.03, "{pitch_um}: {most:?}");
+    }
+}

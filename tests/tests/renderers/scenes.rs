@@ -57,7 +57,7 @@ macro_rules! scenes {
     };
 }
 
-scenes! { brushed built_in_scene closeup disc drawn lamps lights mirror pan plate spoon sunlit }
+scenes! { baubles brushed built_in_scene closeup disc drawn knob lamps lights mirror pan plate record spoon sunlit }
 
 #[test]
 fn no_scene_is_left_out() {

@@ -8,6 +8,7 @@ mod lobes;
 mod never_nan;
 mod published;
 mod rays;
+mod rows_never_nan;
 mod scratch;
 mod surface;
 mod tube;

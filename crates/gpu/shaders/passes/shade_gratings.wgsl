@@ -15,7 +15,7 @@ override PICKS: bool = false;
 
 // The light of a grating by one of the lights of the dispatch.
 fn grating_light(pair: Pair, light_index: u32) -> vec3f {
-    if SCRATCH_LIGHTS == SCRATCH_LIGHTS_ENVIRONMENT {
+    if lights_are_around() {
         let map_from_surface = frame.environment_from_world * pair.surface;
         return frame.environment_texel_radiance * row_environment(scratch_tables, pair.point, pair.seen, levels_beside_windows, map_from_surface);
     }
@@ -46,8 +46,8 @@ fn shade_gratings(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgrou
         first_pick = GROUP * frame.group_count + state.per_sample * at;
     }
     // All around there is one source.
-    let first = select(range.first, frame.light_count, SCRATCH_LIGHTS == SCRATCH_LIGHTS_ENVIRONMENT);
-    let end = select(range.end, frame.light_count + 1u, SCRATCH_LIGHTS == SCRATCH_LIGHTS_ENVIRONMENT);
+    let first = select(range.first, frame.light_count, lights_are_around());
+    let end = select(range.end, frame.light_count + 1u, lights_are_around());
     var radiance = vec3f(0.0);
     var taken = vec3f(0.0);
     for (var i = object.first_grating; i < object.end_grating; i += 1u) {

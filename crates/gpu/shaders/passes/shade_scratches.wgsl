@@ -116,11 +116,11 @@ fn is_there(pixel: PixelPoint, index: u32, segment: Segment) -> bool {
 
 // Which lights of the dispatch may reach a pair, a bit for each.
 fn lights_reaching(pair: Pair) -> u32 {
-    if SCRATCH_LIGHTS == SCRATCH_LIGHTS_ENVIRONMENT {
+    if lights_are_around() {
         return 1u;
     }
     var reaching = 0u;
-    if SCRATCH_LIGHTS == SCRATCH_LIGHTS_NONE {
+    if lights_are_none() {
         return reaching;
     }
     for (var l = range.first; l < range.end; l += 1u) {
@@ -131,7 +131,7 @@ fn lights_reaching(pair: Pair) -> u32 {
 
 // The light of a pair, Fresnel left out.
 fn light_pair(pair: Pair, light_index: u32) -> vec3f {
-    if SCRATCH_LIGHTS == SCRATCH_LIGHTS_ENVIRONMENT {
+    if lights_are_around() {
         let map_from_surface = frame.environment_from_world * pair.surface;
         let radiance = scratch_environment(scratch_tables, pair.point, pair.seen, levels_beside_windows, map_from_surface);
         return frame.environment_texel_radiance * radiance;
@@ -264,7 +264,7 @@ fn shade_scratches(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgro
                     results[lane] = share.segment * light_pair(pair, range.first + ((item >> 6u) & 7u));
                 } else {
                     var energy = vec3f(0.0);
-                    if !PICKS || SCRATCH_LIGHTS == SCRATCH_LIGHTS_NONE {
+                    if !PICKS || lights_are_none() {
                         energy = pair_energy(scratch_tables, pair);
                     }
                     let is_seen = share.segment > 0.0 && is_there(pixel, index, segment);
@@ -284,7 +284,7 @@ fn shade_scratches(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgro
                         state.sum += max(rgb_luminance(results[j]), 0.0);
                         // Those that the sum has passed.
                         while pick_is_due(state) {
-                            let source = select(range.first + ((item_lit >> 6u) & 7u), frame.light_count, SCRATCH_LIGHTS == SCRATCH_LIGHTS_ENVIRONMENT);
+                            let source = select(range.first + ((item_lit >> 6u) & 7u), frame.light_count, lights_are_around());
                             let segment = entries[chunk.first_entry + (item_lit >> 9u)].y;
                             chunk_words[first_pick + pick_slot(state)] = pick_packed(segment, source, results[j]);
                             state.next += 1u;
@@ -302,7 +302,7 @@ fn shade_scratches(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgro
                 }
                 queued += workgroupUniformLoad(&lanes_total);
                 for (var j = max(end - own, asked); j < min(end, asked + LANES); j += 1u) {
-                    if PICKS && SCRATCH_LIGHTS == SCRATCH_LIGHTS_NONE {
+                    if PICKS && lights_are_none() {
                         state.sum += max(rgb_luminance(results[j - asked]), 0.0);
                         while pick_is_due(state) {
                             let segment = entries[first + nth_bit(marks[lane], j + own - end)].y;

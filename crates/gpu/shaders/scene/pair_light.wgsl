@@ -10,6 +10,15 @@ const SCRATCH_LIGHTS_ENVIRONMENT: u32 = 4u;
 // None: scratches are picked by the energy that they take of the base. Light of other objects goes by way of them.
 const SCRATCH_LIGHTS_NONE: u32 = 5u;
 
+// Whether the pass is for light from all around.
+fn lights_are_around() -> bool {
+    return SCRATCH_LIGHTS == SCRATCH_LIGHTS_ENVIRONMENT;
+}
+
+fn lights_are_none() -> bool {
+    return SCRATCH_LIGHTS == SCRATCH_LIGHTS_NONE;
+}
+
 // Whether a light may reach a pair.
 fn pair_meets(pair: Pair, light_index: u32) -> bool {
     let around = light_around(light_index);
