@@ -57,6 +57,7 @@ fn gold() -> Material {
         dielectric: GLTF_DIELECTRIC,
         is_unlit: false,
         cutout: None,
+        coat: None,
     }
 }
 

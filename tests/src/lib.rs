@@ -62,6 +62,7 @@ pub fn square(base: Base, half_side_m: f32, size_px: u32) -> Scene {
         dielectric: GLTF_DIELECTRIC,
         is_unlit: false,
         cutout: None,
+        coat: None,
     };
     Scene {
         camera: Camera {

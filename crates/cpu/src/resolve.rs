@@ -34,7 +34,7 @@ impl Sample {
     ) -> Self {
         let taken = DVec3::from(masked.taken);
         // A groove interrupts the reflecting surface; what shines from under it passes.
-        let fresnel = DVec3::from(point.fresnel.eval(point.wo.z));
+        let fresnel = point.reflectance(point.wo.z);
         Self {
             base: point.emission + light.diffuse + light.specular * (DVec3::ONE - taken),
             scratches: DVec3::from(masked.scratches) * fresnel,

@@ -7,6 +7,7 @@ use glam::DVec3;
 use hairline_optics::band::Cap;
 use hairline_optics::environment_lobe::{ENVIRONMENT_TAPS, environment_lobe};
 use hairline_optics::filtered_lobe::filtered_lobe;
+use hairline_optics::fresnel::FresnelRgb;
 use hairline_optics::ggx::ggx_area_reflectance;
 use hairline_optics::irradiance::{lambert_polygon, lambert_sphere};
 use hairline_optics::ltc::{LobeFresnel, LtcLobe, ltc_begin, ltc_edge, ltc_end, ltc_lobe};
@@ -44,34 +45,86 @@ impl Add for BaseRadiance {
     }
 }
 
-/// The base at a point, ready for any light.
-pub(crate) struct Base<'p, 'a> {
-    point: &'p SurfacePoint<'a>,
+/// A GGX lobe of a pixel, ready for any light.
+pub(crate) struct Layer<'a> {
     /// Weights and lobes whose sum is the lobe of the pixel.
     parts: [(f64, LtcLobe); 2],
     of: LobeFresnel<'a>,
     /// What the lobe reflects with F = 1.
     lobe_albedo: f64,
-    /// What the surface reflects of light from all around.
+    /// What it reflects of light from all around.
     pub albedo: DVec3,
-    /// What leaves the body of the light that falls on the surface.
+}
+
+impl<'a> Layer<'a> {
+    fn new(point: &SurfacePoint, fresnel: FresnelRgb<'a>, roughness: f64) -> Self {
+        let sharp = ltc_lobe(point.wo, roughness);
+        let filtered = filtered_lobe(sharp.alpha, point.slope_spread(), point.wo.z);
+        let of = LobeFresnel::new(fresnel, point.wo, roughness);
+        Self {
+            parts: filtered.parts(&sharp),
+            of,
+            lobe_albedo: sharp.albedo,
+            albedo: ggx_area_reflectance(of.albedo, fresnel.f0, sharp.albedo).into(),
+        }
+    }
+
+    /// What the parts of the lobe reflect, given what one does, single scattering.
+    fn reflected(&self, single: impl Fn(&LtcLobe, &LobeFresnel) -> DVec3) -> DVec3 {
+        let parts = self.parts.iter().filter(|(weight, _)| *weight != 0.0);
+        let single: DVec3 = parts
+            .map(|(weight, lobe)| *weight * single(lobe, &self.of))
+            .sum();
+        // The fit may make the second part a little larger than the first.
+        self.of_single(single.max(DVec3::ZERO))
+    }
+
+    /// What it reflects of light of which single scattering returns so much.
+    pub fn of_single(&self, single: DVec3) -> DVec3 {
+        let f0 = self.of.fresnel.f0;
+        ggx_area_reflectance(single.to_array(), f0, self.lobe_albedo).into()
+    }
+}
+
+/// The base at a point, ready for any light.
+pub(crate) struct Base<'p, 'a> {
+    point: &'p SurfacePoint<'a>,
+    /// The lobe over the body.
+    pub lobe: Layer<'a>,
+    /// The layer over both, with its share of the surface.
+    pub coat: Option<(f64, Layer<'a>)>,
+    /// What leaves the body of the light that falls on it.
     pub body: DVec3,
 }
 
 impl<'p, 'a> Base<'p, 'a> {
     pub fn new(point: &'p SurfacePoint<'a>) -> Self {
-        let sharp = ltc_lobe(point.wo, point.roughness);
-        let filtered = filtered_lobe(sharp.alpha, point.slope_spread(), point.wo.z);
-        let of = LobeFresnel::new(point.fresnel, point.wo, point.roughness);
-        let albedo = ggx_area_reflectance(of.albedo, point.fresnel.f0, sharp.albedo).into();
+        let lobe = Layer::new(point, point.fresnel, point.roughness);
+        let coat = point.coat.filter(|coat| coat.weight > 0.0);
         Self {
             point,
-            parts: filtered.parts(&sharp),
-            of,
-            lobe_albedo: sharp.albedo,
-            albedo,
             // What the surface does not reflect reaches the body.
-            body: point.diffuse * (DVec3::ONE - albedo).max(DVec3::ZERO),
+            body: point.diffuse * (DVec3::ONE - lobe.albedo).max(DVec3::ZERO),
+            lobe,
+            coat: coat.map(|it| (it.weight, Layer::new(point, it.fresnel, it.roughness))),
+        }
+    }
+
+    /// The base under its coat: what the coat does not reflect goes through it (docs/model.md, (29a)). Scratches take from what it
+    /// reflects, and where it is not from what the base does.
+    pub fn coated(
+        &self,
+        base: BaseRadiance,
+        by_coat: impl FnOnce(&Layer) -> DVec3,
+    ) -> BaseRadiance {
+        let Some((weight, coat)) = &self.coat else {
+            return base;
+        };
+        let passed = *weight * (DVec3::ONE - coat.albedo).max(DVec3::ZERO);
+        let bare = 1.0 - weight;
+        BaseRadiance {
+            specular: base.specular * bare + *weight * by_coat(coat),
+            diffuse: base.diffuse * (passed + bare) + base.specular * passed,
         }
     }
 
@@ -98,42 +151,27 @@ impl<'p, 'a> Base<'p, 'a> {
         views: &LightViews,
         sphere: impl Fn(&LtcLobe, &LobeFresnel, DVec3, f64) -> [f64; 3],
     ) -> BaseRadiance {
-        let specular = self
-            .specular(|lobe| DVec3::from(reflected_light(light, views, lobe, &self.of, &sphere)));
+        let single = |lobe: &LtcLobe, of: &LobeFresnel| {
+            reflected_light(light, views, lobe, of, &sphere).into()
+        };
         let radiance = light.radiance();
-        BaseRadiance {
-            specular: radiance * specular,
+        let bare = BaseRadiance {
+            specular: radiance * self.lobe.reflected(single),
             diffuse: self.diffuse(|| radiance * form_factor(light, views)),
-        }
+        };
+        self.coated(bare, |coat| radiance * coat.reflected(single))
     }
 
     /// The part of the environment without its suns.
     pub fn by_environment(&self, environment: &Environment) -> BaseRadiance {
-        let Self { point, of, .. } = self;
-        let around = BaseRadiance {
-            specular: self.specular(|lobe| reflected(environment, point, lobe, of)),
+        let point = self.point;
+        let single = |lobe: &LtcLobe, of: &LobeFresnel| reflected(environment, point, lobe, of);
+        let bare = BaseRadiance {
+            specular: self.lobe.reflected(single),
             diffuse: self.diffuse(|| environment.irradiance(point.normal) / PI),
         };
-        around.times(DVec3::splat(point.open))
-    }
-
-    /// What the parts of the lobe reflect, given what one does, single scattering.
-    fn specular(&self, single: impl Fn(&LtcLobe) -> DVec3) -> DVec3 {
-        let parts = self.parts.iter().filter(|(weight, _)| *weight != 0.0);
-        let single: DVec3 = parts.map(|(weight, lobe)| *weight * single(lobe)).sum();
-        // The fit may make the second part a little larger than the first.
-        let single = single.max(DVec3::ZERO).to_array();
-        ggx_area_reflectance(single, self.point.fresnel.f0, self.lobe_albedo).into()
-    }
-
-    /// What leaves the surface of light of which single scattering and the body return so much.
-    pub fn of_area(&self, single: BaseRadiance) -> BaseRadiance {
-        let f0 = self.point.fresnel.f0;
-        let specular = ggx_area_reflectance(single.specular.to_array(), f0, self.lobe_albedo);
-        BaseRadiance {
-            specular: specular.into(),
-            ..single
-        }
+        self.coated(bare, |coat| coat.reflected(single))
+            .times(DVec3::splat(point.open))
     }
 
     /// What the body sends under an irradiance over pi.

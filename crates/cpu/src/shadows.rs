@@ -213,7 +213,7 @@ impl<'a> Shadows<'a> {
             if let Some(radiance) =
                 self.light_of_object(at, 2 * round, origin_m, direction, hit, each_sr)
             {
-                let sent = base.of_area(lobes.eval(wi));
+                let sent = lobes.eval(wi);
                 let weight = 1.0 / (f64::from(at.rounds.now.count) * lobes.pdf(wi));
                 by_objects = by_objects + sent.times(radiance * weight);
             }
@@ -528,58 +528,99 @@ fn normals(u: f64, v: f64) -> [f64; 2] {
 }
 
 /// The lobes of the base, simple enough to be drawn from. They only shape shadows: the closed form says how much light there is.
-struct Lobes<'a> {
+struct Lobes<'l, 'a> {
+    base: &'l Base<'l, 'a>,
     wo: DVec3,
-    alpha: f64,
-    fresnel: FresnelRgb<'a>,
-    body: DVec3,
-    /// How often the specular one is drawn from.
-    specular_share: f64,
+    lobe: DrawnLobe<'a>,
+    coat: Option<DrawnLobe<'a>>,
+    /// How often that of the body is drawn from.
+    body_share: f64,
 }
 
-impl<'a> Lobes<'a> {
-    fn new(base: &Base, point: &SurfacePoint<'a>) -> Self {
-        let alpha = ggx_alpha(point.roughness);
-        let (specular, below) = (luminance(base.albedo), luminance(base.body));
-        Self {
-            wo: point.wo,
-            // The pixel's normals widen the lobe.
-            alpha: (alpha * alpha + 2.0 * point.slope_spread().variance.element_sum())
+/// A lobe, widened by the pixel's normals.
+struct DrawnLobe<'a> {
+    alpha: f64,
+    fresnel: FresnelRgb<'a>,
+    /// How often it is drawn from.
+    share: f64,
+}
+
+impl DrawnLobe<'_> {
+    fn single(&self, wi: DVec3, wo: DVec3) -> DVec3 {
+        let facet = self.fresnel.eval(half_vector_cos(wi, wo));
+        DVec3::from(facet) * ggx_eval(wi, wo, self.alpha)
+    }
+}
+
+impl<'l, 'a> Lobes<'l, 'a> {
+    fn new(base: &'l Base<'l, 'a>, point: &SurfacePoint<'a>) -> Self {
+        let alpha = |roughness: f64| {
+            let alpha = ggx_alpha(roughness);
+            (alpha * alpha + 2.0 * point.slope_spread().variance.element_sum())
                 .sqrt()
-                .min(1.0),
-            fresnel: point.fresnel,
-            body: base.body,
-            specular_share: if below > 0.0 {
-                (specular / (specular + below)).clamp(0.1, 0.9)
-            } else {
-                1.0
+                .min(1.0)
+        };
+        let (specular, below) = (luminance(base.lobe.albedo), luminance(base.body));
+        let share = if below > 0.0 {
+            (specular / (specular + below)).clamp(0.1, 0.9)
+        } else {
+            1.0
+        };
+        let coat = point.coat.zip(base.coat.as_ref());
+        let coat = coat.map(|(it, (weight, layer))| DrawnLobe {
+            alpha: alpha(it.roughness),
+            fresnel: it.fresnel,
+            // Faint as it is, its highlights are the strongest.
+            share: (weight * luminance(layer.albedo)).max(0.3 * weight),
+        });
+        let left = 1.0 - coat.as_ref().map_or(0.0, |coat| coat.share);
+        Self {
+            base,
+            wo: point.wo,
+            lobe: DrawnLobe {
+                alpha: alpha(point.roughness),
+                fresnel: point.fresnel,
+                share: left * share,
             },
+            coat,
+            body_share: left * (1.0 - share),
         }
     }
 
     fn sample(&self, pick: f64, u: DVec2) -> Option<DVec3> {
-        let wi = if pick < self.specular_share {
-            ggx_sample(self.wo, self.alpha, u)
-        } else {
-            let (sin, cos) = (2.0 * PI * u.x).sin_cos();
-            let r = u.y.sqrt();
-            DVec3::new(r * cos, r * sin, (1.0 - u.y).sqrt())
+        let wi = match &self.coat {
+            Some(coat) if pick >= 1.0 - coat.share => ggx_sample(self.wo, coat.alpha, u),
+            _ if pick < self.lobe.share || self.body_share == 0.0 => {
+                ggx_sample(self.wo, self.lobe.alpha, u)
+            }
+            _ => {
+                let (sin, cos) = (2.0 * PI * u.x).sin_cos();
+                let r = u.y.sqrt();
+                DVec3::new(r * cos, r * sin, (1.0 - u.y).sqrt())
+            }
         };
         (wi.z > 0.0).then_some(wi)
     }
 
     fn pdf(&self, wi: DVec3) -> f64 {
-        let body = wi.z.max(0.0) / PI;
-        let specular = ggx_pdf(wi, self.wo, self.alpha);
-        specular * self.specular_share + body * (1.0 - self.specular_share)
+        let lobes = std::iter::once(&self.lobe).chain(&self.coat);
+        let by_lobes: f64 = lobes
+            .map(|lobe| lobe.share * ggx_pdf(wi, self.wo, lobe.alpha))
+            .sum();
+        by_lobes + wi.z.max(0.0) / PI * self.body_share
     }
 
     /// The BRDF times the cosine.
     fn eval(&self, wi: DVec3) -> BaseRadiance {
-        let facet = self.fresnel.eval(half_vector_cos(wi, self.wo));
-        BaseRadiance {
-            specular: DVec3::from(facet) * ggx_eval(wi, self.wo, self.alpha),
-            diffuse: self.body * (wi.z.max(0.0) / PI),
+        let bare = BaseRadiance {
+            specular: self.base.lobe.of_single(self.lobe.single(wi, self.wo)),
+            diffuse: self.base.body * (wi.z.max(0.0) / PI),
+        };
+        match &self.coat {
+            Some(drawn) => self
+                .base
+                .coated(bare, |coat| coat.of_single(drawn.single(wi, self.wo))),
+            None => bare,
         }
     }
 }

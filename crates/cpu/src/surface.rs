@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 use hairline_index::Hit;
 use hairline_optics::filtered_lobe::SlopeSpread;
 use hairline_optics::fresnel::FresnelRgb;
-use hairline_scene::{Mesh, Scene, ScratchTables, Texture};
+use hairline_scene::{COAT_F0, Mesh, Scene, ScratchTables, Texture};
 
 /// A shading point. Its local frame has z along the shading normal and the viewer in the x-z plane.
 #[derive(Clone, Copy, Debug)]
@@ -34,8 +34,10 @@ pub struct SurfacePoint<'a> {
     pub fresnel: FresnelRgb<'a>,
     /// Albedo of the diffuse body.
     pub diffuse: DVec3,
-    /// Of the surface between the scratches.
+    /// Of the surface between the scratches, or of what is under the coat.
     pub roughness: f64,
+    /// A clear layer over all of this.
+    pub coat: Option<PointCoat<'a>>,
     /// How far a normal map's slopes spread about the one that is looked up, in each direction.
     pub slope_std: f64,
     /// What of the environment's light reaches the base.
@@ -50,6 +52,17 @@ pub struct SurfacePoint<'a> {
     pub table: usize,
 }
 
+/// A coat at a point.
+#[derive(Clone, Copy, Debug)]
+pub struct PointCoat<'a> {
+    /// The share of the surface that it covers.
+    pub weight: f64,
+    /// Perceptual.
+    pub roughness: f64,
+    /// Reflectance where it is.
+    pub fresnel: FresnelRgb<'a>,
+}
+
 /// How far a surface may be off the plane of a footprint for each length along it.
 const SURFACE_BENDS: f64 = 0.125;
 
@@ -59,6 +72,14 @@ impl SurfacePoint<'_> {
     /// a surface bends elsewhere under a footprint, by an eighth of its size.
     pub fn leaves(&self) -> f64 {
         SURFACE_BENDS + 2.0 * self.normal.distance(self.facet)
+    }
+
+    /// What the surface in which scratches lie reflects at a cosine: the coat, where it is.
+    pub fn reflectance(&self, cos_theta: f64) -> DVec3 {
+        let base = DVec3::from(self.fresnel.eval(cos_theta));
+        self.coat.map_or(base, |coat| {
+            base.lerp(coat.fresnel.eval(cos_theta).into(), coat.weight)
+        })
     }
 
     /// A direction in the local frame.
@@ -212,6 +233,17 @@ pub fn surface_point<'a>(
         },
         diffuse: base_color * (1.0 - metallic),
         roughness,
+        coat: optics
+            .coat_curve
+            .zip(material.coat)
+            .map(|(curve, coat)| PointCoat {
+                weight: coat.weight,
+                roughness: coat.roughness,
+                fresnel: FresnelRgb {
+                    f0: [COAT_F0; 3],
+                    curve: &tables.curves[curve as usize],
+                },
+            }),
         slope_std,
         open: material.occlusion_texture.map_or(1.0, |(index, strength)| {
             let red = texture(Some(index)).map_or(1.0, |texel| texel.x);

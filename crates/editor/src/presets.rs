@@ -6,6 +6,7 @@
 
 use glam::DVec3;
 use hairline_optics::metal::Metal;
+use hairline_scene::Coat;
 use hairline_scene::description::{
     Amount, Around, Brushed, Distribution, Laid, Layer, Light, LightKind, Material, MaterialKind,
     MetalColor, Pattern, Scratches, Shape,
@@ -171,6 +172,8 @@ pub enum MaterialPreset {
     Metal(Metal),
     /// A clear coat over a dark body.
     CarPaint,
+    /// A clear coat over metal flakes.
+    FlakePaint,
     /// Dark and dull, for what stands around.
     DarkTable,
     /// Reflects all.
@@ -192,7 +195,12 @@ impl MaterialPreset {
             Metal::Brass,
             Metal::Copper,
         ];
-        let others = [Self::CarPaint, Self::DarkTable, Self::Mirror];
+        let others = [
+            Self::CarPaint,
+            Self::FlakePaint,
+            Self::DarkTable,
+            Self::Mirror,
+        ];
         METALS.into_iter().map(Self::Metal).chain(others)
     }
 
@@ -201,6 +209,7 @@ impl MaterialPreset {
         match self {
             Self::Metal(metal) => metal_name(metal),
             Self::CarPaint => "Car paint",
+            Self::FlakePaint => "Metallic paint",
             Self::DarkTable => "Dark table",
             Self::Mirror => "Mirror",
         }
@@ -219,6 +228,9 @@ impl MaterialPreset {
             Self::CarPaint => {
                 "A clear coat over a dark body: only about 4 % is mirrored, so scratches show around strong lights alone."
             }
+            Self::FlakePaint => {
+                "Lacquer over metal flakes: a broad, coloured sheen, and white scratches in the coat above it."
+            }
             Self::DarkTable => "Dark and dull: a ground that leaves the object the stage.",
             Self::Mirror => "Reflects everything, without a colour: scratches at their purest.",
         }
@@ -235,6 +247,13 @@ impl MaterialPreset {
                 },
                 0.05,
             ),
+            Self::FlakePaint => (
+                MaterialKind::MetallicRoughness {
+                    base_color: [0.02, 0.05, 0.16],
+                    metallic: 1.0,
+                },
+                0.45,
+            ),
             Self::DarkTable => (
                 MaterialKind::Dielectric {
                     ior: 1.2,
@@ -249,6 +268,13 @@ impl MaterialPreset {
             kind,
             roughness,
             coherence_um: 20.0,
+            coat: match self {
+                Self::FlakePaint => Some(Coat {
+                    weight: 1.0,
+                    roughness: 0.03,
+                }),
+                _ => None,
+            },
         }
     }
 }

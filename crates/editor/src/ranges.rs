@@ -39,7 +39,7 @@ pub(crate) const DEFAULT_DIAGONAL_M: f64 = 0.3;
 impl Parameter {
     /// Every parameter.
     #[cfg(test)]
-    pub(crate) const ALL: [Self; 70] = [
+    pub(crate) const ALL: [Self; 72] = [
         Self::CameraPosition,
         Self::CameraTarget,
         Self::CameraUp,
@@ -53,6 +53,8 @@ impl Parameter {
         Self::StudioIntensity,
         Self::GroundHeight,
         Self::Roughness,
+        Self::Clearcoat,
+        Self::ClearcoatRoughness,
         Self::Coherence,
         Self::Ior,
         Self::BaseColor,
@@ -134,6 +136,8 @@ impl Parameter {
             P::EnvironmentRotation | P::StudioRotation | P::Rotation => (-180.0..=180.0, ANY),
             P::EnvironmentIntensity | P::StudioIntensity => (0.01..=10.0, NOT_NEGATIVE),
             P::Roughness => (0.0..=0.6, limits::ROUGHNESS),
+            P::Clearcoat => (0.0..=1.0, limits::CLEARCOAT),
+            P::ClearcoatRoughness => (0.0..=0.6, limits::ROUGHNESS),
             P::Coherence => (5.0..=100.0, limits::COHERENCE_UM),
             P::Ior => (1.0..=2.5, limits::IOR),
             P::BaseColor => (0.0..=1.0, limits::BASE_COLOR),

@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Vec3, Vec4};
 use hairline_index::{IndexedSegment, ScratchIndex};
-use hairline_scene::{Bearing, GrooveField, Mesh, Profile, Scene, ScratchTables};
+use hairline_scene::{Bearing, Coat, GrooveField, Mesh, Profile, Scene, ScratchTables};
 use half::f16;
 use rayon::prelude::*;
 use std::ops::Range;
@@ -54,9 +54,19 @@ pub(crate) fn vertices(mesh: &Mesh, origin_m: DVec3) -> Vec<Vertex> {
 
 /// Twin: `vertex_color` in hit.wgsl.
 fn color(color: Vec4) -> [u32; 2] {
-    let half = |x: f32| (x.clamp(0.0, 1.0) * 65535.0).round() as u32;
-    let [r, g, b, a] = color.to_array().map(half);
+    let [r, g, b, a] = color.to_array().map(half_of_unit);
     [r | g << 16, b | a << 16]
+}
+
+/// Twin: `unpack2x16unorm`.
+fn half_of_unit(x: f32) -> u32 {
+    (x.clamp(0.0, 1.0) * 65535.0).round() as u32
+}
+
+/// Twin: `surface_coat` in coat.wgsl.
+fn coat(coat: Coat) -> u32 {
+    let [weight, roughness] = [coat.weight, coat.roughness].map(|x| half_of_unit(x as f32));
+    weight | roughness << 16
 }
 
 /// One for each object of the scene whose index this is. `gratings` are those of each.
@@ -187,7 +197,7 @@ fn material(scene: &Scene, tables: &ScratchTables, array: &TextureArray, index: 
         occlusion_strength: material
             .occlusion_texture
             .map_or(0.0, |(_, strength)| strength as f32),
-        pad_0: 0.0,
+        coat: material.coat.map_or(0, coat),
     }
 }
 

@@ -126,7 +126,7 @@ shared! {
         threshold: f32,
         occlusion_texture: [u32; 2],
         occlusion_strength: f32,
-        pad_0: f32,
+        coat: u32,
     }
     /// A light.
     Light {
@@ -175,7 +175,8 @@ shared! {
     PixelPaint {
         f0: [f32; 3],
         lobe: u32,
-        diffuse: [f32; 3],
+        diffuse: [u32; 2],
+        coat: u32,
         triangle: u32,
         emission: [f32; 3],
         curve_and_open: u32,

@@ -140,8 +140,10 @@ modules! {
     OUTLINE_LIGHT = "scene/outline_light" needs [ROWS, SCRATCH_LIGHT, TUBE];
     /// Which way the grooves of a grating run.
     GRATINGS = "scene/gratings" needs [LAYOUT, GAUSSIAN];
+    /// A clear layer over the base.
+    COAT = "scene/coat" needs [BINDINGS, FRESNEL, CONTENTS];
     /// The base under lights and environment.
-    BASE = "scene/base" needs [SCENE, LIGHTS, FILTERED_LOBE, ENVIRONMENT_LOBE];
+    BASE = "scene/base" needs [SCENE, LIGHTS, FILTERED_LOBE, ENVIRONMENT_LOBE, COAT];
     /// The method of 2018: a scratch under lights and environment.
     PUBLISHED_LIGHTS = "published/published_lights" needs [
         SCENE, LIGHTS, SEGMENTS, METHOD, BAND_ENVIRONMENT, PUBLISHED_SPECTRUM, PUBLISHED_SPHERE, PUBLISHED_POLYGON
@@ -229,9 +231,9 @@ modules! {
     /// Pass: a ray of each sample to other objects by its base.
     BOUNCE_BASE_RAYS = "passes/bounce_base_rays" needs [BOUNCE, BASE_LOBES, SUMS, PIXEL_POINT];
     /// Pass: the same by a scratch.
-    BOUNCE_SCRATCH_RAYS = "passes/bounce_scratch_rays" needs [BOUNCE, PAIR_PLACE, PICKS, SUMS, FRESNEL];
+    BOUNCE_SCRATCH_RAYS = "passes/bounce_scratch_rays" needs [BOUNCE, PAIR_PLACE, PICKS, SUMS, COAT];
     /// Pass: the same by a grating.
-    BOUNCE_GRATING_RAYS = "passes/bounce_grating_rays" needs [BOUNCE, GRATING_PAIRS, DRAWN_LIGHT, SUMS, FRESNEL];
+    BOUNCE_GRATING_RAYS = "passes/bounce_grating_rays" needs [BOUNCE, GRATING_PAIRS, DRAWN_LIGHT, SUMS, COAT];
     /// Pass: what each of these rays meets.
     BOUNCE_TRACE = "passes/bounce_trace" needs [RAY_START, FILM];
     /// Pass: the surface points of what they met.

@@ -31,6 +31,8 @@ pub(crate) struct Contents {
     pub cutouts: bool,
     /// Materials that are not metal through and through.
     pub bodies: bool,
+    /// The curve of coats, if there are any.
+    pub coats: Option<u32>,
 }
 
 impl Contents {
@@ -51,6 +53,7 @@ impl Contents {
             bodies: (scene.materials.iter().zip(&tables.materials)).any(|(material, optics)| {
                 optics.metallic < 1.0 || material.metallic_roughness_texture.is_some()
             }),
+            coats: tables.materials.iter().find_map(|optics| optics.coat_curve),
         }
     }
 }
@@ -86,6 +89,7 @@ pub fn pipeline_variants(text: &str) -> Vec<(String, Vec<(&'static str, f64)>)> 
         colors: true,
         cutouts: true,
         bodies: true,
+        coats: Some(0),
     };
     let lists = PublishedMethod {
         structure: Structure::TriangleLists,
@@ -154,6 +158,8 @@ impl ShadeVariant {
             ("HAS_COLORS", has.colors.into()),
             ("HAS_CUTOUTS", has.cutouts.into()),
             ("HAS_BODIES", has.bodies.into()),
+            ("HAS_COATS", has.coats.is_some().into()),
+            ("COAT_CURVE", has.coats.unwrap_or(0).into()),
             ("METHOD_MASK", mask.into()),
             (
                 "PUBLISHED_LISTS",

@@ -1,5 +1,5 @@
 //! The base of docs/model.md, section 8, as a BRDF to evaluate and to sample: GGX (25) with its Fresnel (26) and the factor for
-//! multiple scattering of (27), over the diffuse body of (29).
+//! multiple scattering of (27), over the diffuse body of (29), and the coat of (29a) over both.
 //!
 //! Nothing fitted or tabulated for the closed form enters: reflectances are those of [`Reflectance`].
 
@@ -10,6 +10,7 @@ use hairline_optics::ggx::{ggx_alpha, ggx_eval, ggx_pdf, ggx_sample};
 
 use crate::reflectance::Reflectance;
 use hairline_cpu::surface::SurfacePoint;
+use hairline_scene::COAT_F0;
 
 /// The base at a point for its viewer. Directions are unit vectors in the point's local frame.
 #[derive(Clone, Copy)]
@@ -24,12 +25,56 @@ pub(crate) struct BaseLobes<'a> {
     body: DVec3,
     /// How often the specular lobe is sampled.
     specular_share: f64,
+    coat: Option<CoatLobe<'a>>,
 }
 
+/// A clear layer over the base (29a).
+#[derive(Clone, Copy)]
+struct CoatLobe<'a> {
+    /// The share of the surface that it covers.
+    weight: f64,
+    alpha: f64,
+    reflectance: &'a Reflectance,
+    gain: f64,
+    /// What goes through it.
+    passed: DVec3,
+    /// How often its lobe is sampled.
+    share: f64,
+}
+
+const COAT_F0_RGB: DVec3 = DVec3::splat(COAT_F0);
+
 impl<'a> BaseLobes<'a> {
-    pub(crate) fn new(point: &SurfacePoint, reflectance: &'a Reflectance) -> Self {
+    /// `coat` is the reflectance of a coat.
+    pub(crate) fn new(
+        point: &SurfacePoint,
+        reflectance: &'a Reflectance,
+        coat: Option<&'a Reflectance>,
+    ) -> Self {
         let f0 = DVec3::from(point.fresnel.f0);
-        Self::from_parts(point.wo, reflectance, f0, point.diffuse, point.roughness)
+        let bare = Self::from_parts(point.wo, reflectance, f0, point.diffuse, point.roughness);
+        match point.coat.zip(coat) {
+            Some((it, of)) => bare.coated(it.weight, it.roughness, of),
+            None => bare,
+        }
+    }
+
+    fn coated(self, weight: f64, roughness: f64, reflectance: &'a Reflectance) -> Self {
+        let of_lobe = reflectance.albedo(roughness, self.wo.z);
+        let albedo = of_lobe.reflected(COAT_F0_RGB);
+        let coat = CoatLobe {
+            weight,
+            alpha: ggx_alpha(roughness),
+            reflectance,
+            gain: of_lobe.gain(),
+            passed: (DVec3::ONE - albedo).max(DVec3::ZERO),
+            // Faint as it is, its highlights are the strongest.
+            share: 0.3 * weight,
+        };
+        Self {
+            coat: Some(coat),
+            ..self
+        }
     }
 
     fn from_parts(
@@ -57,6 +102,7 @@ impl<'a> BaseLobes<'a> {
             gain: of_lobe.gain(),
             body,
             specular_share,
+            coat: None,
         }
     }
 
@@ -66,17 +112,30 @@ impl<'a> BaseLobes<'a> {
             return (DVec3::ZERO, DVec3::ZERO);
         }
         let h = (wi + self.wo).normalize_or(DVec3::Z);
-        let facet = self.reflectance.eval(wi.dot(h), self.f0);
+        let reflected = |reflectance: &Reflectance, f0, gain: f64, alpha| {
+            let facet = reflectance.eval(wi.dot(h), f0);
+            (facet.once + facet.twice * gain) * ggx_eval(wi, self.wo, alpha)
+        };
+        let specular = reflected(self.reflectance, self.f0, self.gain, self.alpha);
+        let diffuse = self.body * (wi.z / PI);
+        let Some(coat) = &self.coat else {
+            return (specular, diffuse);
+        };
+        let by_coat = reflected(coat.reflectance, COAT_F0_RGB, coat.gain, coat.alpha);
+        let bare = 1.0 - coat.weight;
         (
-            (facet.once + facet.twice * self.gain) * ggx_eval(wi, self.wo, self.alpha),
-            self.body * (wi.z / PI),
+            bare * specular + coat.weight * by_coat,
+            bare * diffuse + coat.weight * coat.passed * (specular + diffuse),
         )
     }
 
     /// A direction above the horizon; `pick` and `u` are in [0, 1). None where the specular lobe was picked and its direction
     /// lies below: such a sample counts as zero.
     pub(crate) fn sample(&self, pick: f64, u: DVec2) -> Option<DVec3> {
-        let wi = if pick < self.specular_share {
+        let coat_share = self.coat.map_or(0.0, |coat| coat.share);
+        let wi = if let Some(coat) = self.coat.filter(|_| pick >= 1.0 - coat_share) {
+            ggx_sample(self.wo, coat.alpha, u)
+        } else if pick < self.specular_share * (1.0 - coat_share) || self.specular_share == 1.0 {
             ggx_sample(self.wo, self.alpha, u)
         } else {
             cosine_sample(u)
@@ -91,7 +150,11 @@ impl<'a> BaseLobes<'a> {
             return 0.0;
         }
         let specular = ggx_pdf(wi, self.wo, self.alpha);
-        specular * self.specular_share + wi.z / PI * (1.0 - self.specular_share)
+        let bare = specular * self.specular_share + wi.z / PI * (1.0 - self.specular_share);
+        match &self.coat {
+            Some(coat) => bare + (ggx_pdf(wi, self.wo, coat.alpha) - bare) * coat.share,
+            None => bare,
+        }
     }
 }
 

@@ -46,6 +46,8 @@ pub struct Parts {
     pub tables: Arc<ScratchTables>,
     /// One for each material.
     reflectances: Arc<Vec<Reflectance>>,
+    /// Those of coats.
+    coats: Arc<Vec<Option<Reflectance>>>,
     depth_coherence: Arc<Vec<f32>>,
 }
 
@@ -67,11 +69,17 @@ impl Parts {
         tables: Arc<ScratchTables>,
     ) -> Self {
         let reflectances: Vec<_> = scene.materials.par_iter().map(Reflectance::new).collect();
+        let coats: Vec<_> = scene
+            .materials
+            .par_iter()
+            .map(Reflectance::of_coat)
+            .collect();
         Self {
             triangles,
             grooves,
             tables,
             reflectances: reflectances.into(),
+            coats: coats.into(),
             depth_coherence: ScratchIndex::depth_coherence(scene).into(),
         }
     }
@@ -104,6 +112,8 @@ pub struct Integrator<'a> {
     pub(super) tables: Arc<ScratchTables>,
     /// One for each material.
     pub(super) reflectances: Arc<Vec<Reflectance>>,
+    /// Those of coats.
+    pub(super) coats: Arc<Vec<Option<Reflectance>>>,
     pub(super) lights: AreaLights,
     pub(super) environment: Option<EnvironmentSampler>,
     pub(super) camera: CameraFrame,
@@ -124,6 +134,7 @@ impl<'a> Integrator<'a> {
             grooves,
             tables,
             reflectances,
+            coats,
             depth_coherence,
         } = parts;
         let positions = scene.objects.iter().flat_map(|o| &o.mesh.positions_m);
@@ -136,6 +147,7 @@ impl<'a> Integrator<'a> {
             depth_coherence,
             tables,
             reflectances,
+            coats,
             lights: AreaLights::new(scene),
             environment: scene.environment.as_ref().map(EnvironmentSampler::new),
             camera: scene.camera.frame(scene.render.size_px),

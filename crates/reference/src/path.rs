@@ -125,7 +125,8 @@ impl Integrator<'_> {
         let material = &self.scene.materials[point.material];
         let optics = &self.tables.materials[point.material];
         let reflectance = &self.reflectances[point.material];
-        let fresnel = SpectralFresnel::new(&material.base, optics, &point, reflectance);
+        let coat = self.coats[point.material].as_ref();
+        let fresnel = SpectralFresnel::new(&material.base, optics, &point, reflectance, coat);
         let weights = fresnel.separable(wavelengths);
 
         let (response, taken, specular_kept) = match self.settings.model {
@@ -145,7 +146,8 @@ impl Integrator<'_> {
                 (response, DVec3::ONE - left, left)
             }
             Model::Full => {
-                let smooth = ggx_alpha(point.roughness) <= GGX_MIN_ALPHA;
+                let roughness = point.coat.map_or(point.roughness, |coat| coat.roughness);
+                let smooth = ggx_alpha(roughness) <= GGX_MIN_ALPHA;
                 if let Some(row) = row {
                     views.extend(row.grooves(random, point.coherence_um, reach_sigma));
                 }
@@ -160,7 +162,7 @@ impl Integrator<'_> {
             }
         };
         let vertex = Vertex {
-            lobes: BaseLobes::new(&point, reflectance),
+            lobes: BaseLobes::new(&point, reflectance, coat),
             specular_kept,
             response,
             depth,

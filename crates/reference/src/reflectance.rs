@@ -65,6 +65,12 @@ impl Reflectance {
         }
     }
 
+    /// That of a material's coat.
+    pub(crate) fn of_coat(material: &Material) -> Option<Self> {
+        let coat = material.coat?;
+        Some(Self::at(Reflector::COAT, &[coat.roughness]))
+    }
+
     /// For these roughnesses, which rise.
     pub(crate) fn at(reflector: Reflector, roughness: &[f64]) -> Self {
         let metal = match reflector {

@@ -5,7 +5,7 @@ use glam::DVec3;
 use hairline_cpu::surface::SurfacePoint;
 use hairline_optics::metal::Metal;
 use hairline_optics::spectrum;
-use hairline_scene::{Base, MaterialOptics};
+use hairline_scene::{Base, COAT_F0, MaterialOptics};
 
 /// Wavelengths in a sample: all of them see the same directions, which costs little and keeps colour noise low.
 pub(super) const WAVELENGTHS: usize = 8;
@@ -46,6 +46,8 @@ pub(super) struct SpectralFresnel<'a> {
     reflectance: &'a Reflectance,
     f0: DVec3,
     cos_o: f64,
+    /// That of a coat, and its share of the surface.
+    coat: Option<(f64, &'a Reflectance)>,
 }
 
 impl<'a> SpectralFresnel<'a> {
@@ -54,9 +56,11 @@ impl<'a> SpectralFresnel<'a> {
         optics: &MaterialOptics,
         point: &SurfacePoint,
         reflectance: &'a Reflectance,
+        coat: Option<&'a Reflectance>,
     ) -> Self {
+        let coat = point.coat.map(|it| it.weight).zip(coat);
         let (metal, metal_f0) = match base {
-            Base::Metal(metal) => (Some(*metal), DVec3::from(optics.base_color)),
+            Base::Metal(metal) if coat.is_none() => (Some(*metal), DVec3::from(optics.base_color)),
             _ => (None, DVec3::ONE),
         };
         Self {
@@ -65,11 +69,16 @@ impl<'a> SpectralFresnel<'a> {
             reflectance,
             f0: DVec3::from(point.fresnel.f0),
             cos_o: point.wo.z,
+            coat,
         }
     }
 
     fn at(&self, cos_theta: f64) -> DVec3 {
-        self.reflectance.eval(cos_theta, self.f0).once
+        let base = self.reflectance.eval(cos_theta, self.f0).once;
+        self.coat.map_or(base, |(weight, reflectance)| {
+            let coat = reflectance.eval(cos_theta, DVec3::splat(COAT_F0)).once;
+            base.lerp(coat, weight)
+        })
     }
 
     /// Weights with the model's reflectance, (7) and (17): the spectrum's shape at normal incidence, the colour by the

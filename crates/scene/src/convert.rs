@@ -71,6 +71,7 @@ pub(crate) fn material(material: &description::Material) -> Material {
         dielectric: GLTF_DIELECTRIC,
         is_unlit: false,
         cutout: None,
+        coat: material.coat,
     }
 }
 

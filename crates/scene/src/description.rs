@@ -30,6 +30,7 @@ use hairline_optics::metal::Metal;
 use serde::Serialize;
 
 use crate::environment::BuiltInMap;
+use crate::scene::Coat;
 use values::{Named, is_default, serialize_named, serialize_scale};
 
 pub use gratings::Grating;
@@ -163,6 +164,9 @@ pub struct Material {
     pub roughness: f64,
     /// Standard deviation of the Gaussian coherence window. From 1 to 1000. Default: 20.
     pub coherence_um: f64,
+    /// `clearcoat` and `clearcoat_roughness`: a clear layer over it, in which its scratches lie. Default: none.
+    #[serde(flatten, skip_serializing_if = "Option::is_none")]
+    pub coat: Option<Coat>,
 }
 
 /// `kind` of a `[[material]]`

@@ -35,6 +35,7 @@ pub(crate) fn material(light: &description::Light, eye_m: DVec3) -> Material {
         dielectric: GLTF_DIELECTRIC,
         is_unlit: false,
         cutout: None,
+        coat: None,
     }
 }
 

@@ -1,7 +1,7 @@
 //! What the materials of a scene mean to the physics: coefficients and tables that every renderer reads alike.
 
 use crate::grating::Grating;
-use crate::scene::{Base, Material, Scene};
+use crate::scene::{Base, COAT_IOR, Material, Scene};
 use hairline_optics::fresnel::FresnelCurve;
 use hairline_optics::grating::Grating as Row;
 use hairline_optics::metal::Metal;
@@ -20,8 +20,10 @@ pub struct MaterialOptics {
     pub dielectric_f0: f64,
     /// Which of [`ScratchTables::curves`] its reflectance follows.
     pub curve: u32,
-    /// Which of [`ScratchTables::tables`] its scratches use.
+    /// Which of [`ScratchTables::tables`] its scratches use: white's in a coat.
     pub table: u32,
+    /// The same as `curve`, of its coat.
+    pub coat_curve: Option<u32>,
 }
 
 /// What a curve of reflectance over the angle is of.
@@ -48,6 +50,9 @@ impl Reflector {
             _ => Self::Schlick,
         }
     }
+
+    /// Of every coat.
+    pub const COAT: Self = Self::Dielectric(COAT_IOR);
 
     fn curve(self) -> FresnelCurve {
         match self {
@@ -99,20 +104,26 @@ impl ScratchTables {
             .iter()
             .map(|material| {
                 let metal = match material.base {
-                    Base::Metal(metal) => Some(metal),
+                    Base::Metal(metal) if material.coat.is_none() => Some(metal),
                     _ => None,
                 };
                 let table = metals.iter().position(|m| *m == metal).unwrap_or_else(|| {
                     metals.push(metal);
                     metals.len() - 1
                 });
-                let reflector = Reflector::new(material);
-                let curve = reflectors.iter().position(|r| *r == reflector);
-                let curve = curve.unwrap_or_else(|| {
-                    reflectors.push(reflector);
-                    reflectors.len() - 1
-                });
-                material_optics(material, table as u32, curve as u32)
+                let mut curve_of = |reflector: Reflector| {
+                    let known = reflectors.iter().position(|r| *r == reflector);
+                    let curve = known.unwrap_or_else(|| {
+                        reflectors.push(reflector);
+                        reflectors.len() - 1
+                    });
+                    curve as u32
+                };
+                let curve = curve_of(Reflector::new(material));
+                MaterialOptics {
+                    coat_curve: material.coat.map(|_| curve_of(Reflector::COAT)),
+                    ..material_optics(material, table as u32, curve)
+                }
             })
             .collect();
         let mut tables: Vec<ScratchTable> = metals
@@ -184,6 +195,7 @@ fn material_optics(material: &Material, table: u32, curve: u32) -> MaterialOptic
         dielectric_f0: 0.04,
         curve,
         table,
+        coat_curve: None,
     };
     match material.base {
         Base::Mirror => metal([1.0; 3]),

@@ -6,6 +6,7 @@
 
 use glam::{DVec3, Vec2, Vec3, Vec4};
 use hairline_optics::metal::Metal;
+use serde::Serialize;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -136,7 +137,25 @@ pub struct Material {
     pub is_unlit: bool,
     /// Where its surface is not.
     pub cutout: Option<Cutout>,
+    /// A clear layer over all of this. Scratches lie in it.
+    pub coat: Option<Coat>,
 }
+
+/// A layer of lacquer over a base, as of cars and phones: refractive index [`COAT_IOR`], without a colour (KHR_materials_clearcoat).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Coat {
+    /// `clearcoat`: the share of the surface that it covers, in [0, 1].
+    #[serde(rename = "clearcoat")]
+    pub weight: f64,
+    /// `clearcoat_roughness`: as that of materials. In [0, 1]. Default: 0.
+    #[serde(rename = "clearcoat_roughness")]
+    pub roughness: f64,
+}
+
+/// The refractive index of a [`Coat`].
+pub const COAT_IOR: f64 = 1.5;
+/// What it reflects at normal incidence.
+pub const COAT_F0: f64 = 0.04;
 
 /// What glTF says of a dielectric without its extensions: [`Material::dielectric`].
 pub const GLTF_DIELECTRIC: [f64; 2] = [0.04, 1.0];

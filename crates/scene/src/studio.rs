@@ -200,6 +200,7 @@ impl PhotoSet {
             },
             roughness: ground.roughness,
             coherence_um: description::DEFAULT_COHERENCE_UM,
+            coat: None,
         };
         (object, material)
     }

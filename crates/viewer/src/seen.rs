@@ -64,8 +64,12 @@ fn is_same_but_for_name(x: &Material, y: &Material) -> bool {
         kind,
         roughness,
         coherence_um,
+        coat,
     } = x;
-    *kind == y.kind && *roughness == y.roughness && *coherence_um == y.coherence_um
+    *kind == y.kind
+        && *roughness == y.roughness
+        && *coherence_um == y.coherence_um
+        && *coat == y.coat
 }
 
 fn is_same_layer((a, x): (&Description, &Scratches), (b, y): (&Description, &Scratches)) -> bool {

@@ -6,7 +6,7 @@ use glam::DVec2;
 use hairline_fixtures::scenes::scratched_ball;
 use hairline_image::Layer;
 use hairline_optics::metal::Metal;
-use hairline_scene::{Base, Cone, LightShape, Scene};
+use hairline_scene::{Base, Coat, Cone, LightShape, Scene};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -60,6 +60,39 @@ fn plates() {
             [Layer::Scratches, Layer::Base].map(|layer| compared(&name, &exact, &reference, layer));
         assert!(agrees(&scratches, SCRATCHES), "{name}: {scratches:?}");
         assert!(base.rms().0 < BASE, "{name}: {base:?}");
+    }
+}
+
+/// A clear layer with scratches in it, over gold and over a part of a body.
+#[test]
+fn coated_plates() {
+    let view = View {
+        angle_rad: 50f64.to_radians(),
+        pixel_um: 20.0,
+        size_px: 16,
+    };
+    let body = Base::Dielectric {
+        ior: 1.3,
+        base_color: [0.4, 0.1, 0.05],
+    };
+    for (base, weight) in [(Base::Metal(Metal::Gold), 1.0), (body, 0.6)] {
+        let mut scene = plate(base, view);
+        scene.materials[0].roughness = 0.4;
+        light(&mut scene, view);
+        scratch(&mut scene, view, 24);
+        let bare = closed(&scene);
+        scene.materials[0].coat = Some(Coat {
+            weight,
+            roughness: 0.1,
+        });
+        let (exact, reference) = (closed(&scene), sampled(&scene, LINEAR, 8));
+        let name = format!("a coat on {weight} of {base:?}");
+        let [scratches, base] =
+            [Layer::Scratches, Layer::Base].map(|layer| compared(&name, &exact, &reference, layer));
+        assert!(agrees(&scratches, SCRATCHES), "{name}: {scratches:?}");
+        assert!(base.rms().0 < BASE, "{name}: {base:?}");
+        let wrong = compared("no coat", &bare, &reference, Layer::Base);
+        assert!(wrong.rms().0 > BASE, "{name}: {wrong:?}");
     }
 }
 

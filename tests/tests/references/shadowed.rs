@@ -11,7 +11,7 @@ use hairline_optics::grating::Grating as Row;
 use hairline_optics::mask::Mask;
 use hairline_optics::metal::Metal;
 use hairline_reference::Settings;
-use hairline_scene::{Base, Bearing, Environment, Grating, GrooveField, Scene};
+use hairline_scene::{Base, Bearing, Coat, Environment, Grating, GrooveField, Scene};
 
 pub(super) const VIEW: View = View {
     angle_rad: 0.7,
@@ -128,6 +128,11 @@ pub(super) fn scenes() -> Vec<(&'static str, Scene)> {
     );
 
     let mut lamps = scratched(WHITE);
+    lamps.materials[0].roughness = 0.4;
+    lamps.materials[0].coat = Some(Coat {
+        weight: 0.7,
+        roughness: 0.1,
+    });
     lamps.lights = vec![
         sphere(VIEW, 0.12, -0.05, 0.05),
         panel(VIEW, -0.1, 0.12, [0.06, 0.05]),

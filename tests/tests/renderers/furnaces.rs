@@ -6,7 +6,7 @@ use glam::Vec3;
 use hairline_cpu::closed_form::{RenderOptions, render};
 use hairline_fixtures::SceneFile;
 use hairline_optics::metal::Metal;
-use hairline_scene::{Base, Sampling, Scene, Texture};
+use hairline_scene::{Base, Coat, Sampling, Scene, Texture};
 use std::sync::Arc;
 
 const WHITE: [f64; 3] = [1.0; 3];
@@ -86,6 +86,20 @@ fn check(name: &str, mut scene: Scene) {
         "{name}: {:.4} off where all comes back, {:.4} elsewhere",
         worst[1], worst[0]
     );
+}
+
+/// What a coat does not send back goes through it, and comes back from a white base.
+#[test]
+fn a_coated_white_base_returns_all() {
+    let mut scene = square(Base::ColoredMetal { base_color: WHITE }, 0.01, 8);
+    scene.environment = furnace();
+    scene.materials[0].roughness = 0.3;
+    for (weight, roughness) in [(1.0, 0.02), (1.0, 0.4), (0.4, 0.1)] {
+        scene.materials[0].coat = Some(Coat { weight, roughness });
+        for value in base(&scene).into_iter().flatten().flatten() {
+            assert!((value - 1.0).abs() < 0.01, "{weight} {roughness}: {value}");
+        }
+    }
 }
 
 #[test]

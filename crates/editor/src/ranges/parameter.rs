@@ -29,6 +29,10 @@ pub enum Parameter {
     GroundHeight,
     /// `material.roughness`
     Roughness,
+    /// `material.clearcoat`
+    Clearcoat,
+    /// `material.clearcoat_roughness`
+    ClearcoatRoughness,
     /// `material.coherence_um`
     Coherence,
     /// `material.ior`

@@ -62,6 +62,14 @@ pub(super) fn of(parameter: Parameter) -> Text {
             "Roughness",
             "How far the polished highlight spreads. 0.05 to 0.15 leaves dark room around it where scratches shine; rougher surfaces drown them. The scratches themselves stay as sharp.",
         ),
+        P::Clearcoat => (
+            "Clear coat",
+            "How much of the surface has a layer of lacquer. Scratches lie in it: it mirrors about 4 % without a colour, whatever shines from under it.",
+        ),
+        P::ClearcoatRoughness => (
+            "Coat roughness",
+            "How far the highlight of the coat spreads. 0 to 0.05 for car paint, more where it is matt.",
+        ),
         P::Coherence => (
             "Coherence",
             "How far apart two points of the surface still act together on light. Larger: each scratch catches a lamp in a narrower band, so glints are thinner and crisper. Smaller: broader, softer glints. 20 suits most.",

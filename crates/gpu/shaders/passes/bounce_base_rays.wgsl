@@ -37,7 +37,7 @@ fn bounce_base_rays(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgr
     if wi.z > 0.0 && density > 0.0 {
         let each_sr = 1.0 / (f32(shadow_round.all_rounds) * density);
         let sent = base_lobes_eval(lobes, wi);
-        let specular = ggx_area_reflectance(sent.specular, point.f0, lobes.albedo) * (1.0 - taken) * (1.0 - gratings);
+        let specular = sent.specular * (1.0 - taken) * (1.0 - gratings);
         let throughput = bounce_throughput(rays[at], shadow_round) * (specular + sent.diffuse) / (f32(shadow_round.rounds) * density * way.share);
         let start = shadow_normals(shadow_random_alike(seed, shadow_round, BOUNCE_START));
         ray = bounce_ray(world_from_surface(point, wi), throughput, each_sr, start);

@@ -24,6 +24,7 @@ struct SurfacePoint {
     coherence_um: f32,
     table: u32,
     open: f32,                  // what of the environment's light reaches the base
+    coat: u32,                  // share of the surface and roughness of a clear layer over it, in 16 bits each
 }
 
 // How far a surface may be off the plane of a footprint for each length along it, where shading and facet normal agree.

@@ -17,32 +17,43 @@ fn published_base_sphere(point: SurfacePoint, lobe: LtcLobe, reflecting: LobeFre
 
 // Radiance of the base towards the viewer, before scratches take theirs.
 fn published_base(point: SurfacePoint) -> BaseRadiance {
-    let surface = base_surface(point);
+    let layer = base_layer(point);
+    var base = published_layer(point, layer);
+    base = BaseRadiance(layer_of_single(layer, base.specular), base.diffuse * base_body(point, layer));
+    let share = surface_coat(point.coat).x;
+    if HAS_COATS && share > 0.0 {
+        let coat = coat_layer(point);
+        base = base_coated(share, coat.albedo, base, layer_of_single(coat, published_layer(point, coat).specular));
+    }
+    return base;
+}
+
+fn published_layer(point: SurfacePoint, layer: Layer) -> BaseRadiance {
     var sum: BaseRadiance;
     for (var p = 0u; p < 2u; p += 1u) {
-        let part = filtered_lobe_part(surface.sharp, surface.filtered, p);
+        let part = filtered_lobe_part(layer.sharp, layer.filtered, p);
         if part.weight == 0.0 {
             break;
         }
         // The pivot transform knows round lobes alone.
         let alphas = part.lobe.alphas;
         let pivot = sptd_lobe(point.wo, min(sqrt(sqrt(alphas.x * alphas.y)), 1.0), lobe_sptd, lobe_albedo);
-        var light = base_surroundings(point, part.lobe, surface.reflecting);
+        var light = base_surroundings(point, part.lobe, layer.reflecting);
         for (var l = 0u; l < frame.base_light_count; l += 1u) {
             let source = light_at(l);
             let radiance = light_radiance(source, point.position_m);
             var share: vec4f;
             if BASE_HAS_SPHERES && source.kind == LIGHT_SPHERE {
-                share = published_base_sphere(point, part.lobe, surface.reflecting, pivot, source);
+                share = published_base_sphere(point, part.lobe, layer.reflecting, pivot, source);
             }
             if BASE_HAS_POLYGONS && source.kind != LIGHT_SPHERE {
                 let seen = base_polygon(point, part.lobe, source);
-                share = vec4f(ltc_reflected(part.lobe, surface.reflecting, fresnel_curves, seen.vector), seen.form_factor);
+                share = vec4f(ltc_reflected(part.lobe, layer.reflecting, fresnel_curves, seen.vector), seen.form_factor);
             }
             light.specular += radiance * share.xyz;
             light.diffuse += radiance * share.w;
         }
         sum = BaseRadiance(sum.specular + part.weight * light.specular, light.diffuse);
     }
-    return base_of(point, surface, sum);
+    return sum;
 }

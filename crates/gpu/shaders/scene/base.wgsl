@@ -87,28 +87,45 @@ fn base_surroundings(point: SurfacePoint, lobe: LtcLobe, reflecting: LobeFresnel
     return light;
 }
 
-// The lobe of a point, and what the body under it gets.
-struct BaseSurface {
+// A lobe of a point.
+struct Layer {
     sharp: LtcLobe,
     filtered: FilteredLobe,
     reflecting: LobeFresnel,
-    body: vec3f,
+    albedo: vec3f,              // of light from all around
 }
 
-fn base_surface(point: SurfacePoint) -> BaseSurface {
-    let sharp = ltc_lobe(point.wo, point.roughness, lobe_shapes, lobe_albedo);
+fn layer_of(point: SurfacePoint, fresnel: FresnelRgb, roughness: f32) -> Layer {
+    let sharp = ltc_lobe(point.wo, roughness, lobe_shapes, lobe_albedo);
     let filtered = filtered_lobe(sharp.alpha, surface_slope_spread(point), point.wo.z);
-    let reflecting = lobe_fresnel(FresnelRgb(point.f0, point.curve), point.wo, point.roughness, fresnel_curves);
-    let albedo = ggx_area_reflectance(reflecting.albedo, point.f0, sharp.albedo);
-    // What the surface does not reflect reaches the body.
-    return BaseSurface(sharp, filtered, reflecting, point.diffuse * max(1.0 - albedo, vec3f(0.0)));
+    let reflecting = lobe_fresnel(fresnel, point.wo, roughness, fresnel_curves);
+    return Layer(sharp, filtered, reflecting, ggx_area_reflectance(reflecting.albedo, fresnel.at_normal, sharp.albedo));
 }
 
-// From what lights and environment send: single scattering of the lobe, and what falls on the body.
-fn base_of(point: SurfacePoint, surface: BaseSurface, light: BaseRadiance) -> BaseRadiance {
+fn base_layer(point: SurfacePoint) -> Layer {
+    return layer_of(point, FresnelRgb(point.f0, point.curve), point.roughness);
+}
+
+fn coat_layer(point: SurfacePoint) -> Layer {
+    return layer_of(point, coat_fresnel(), surface_coat(point.coat).y);
+}
+
+// What it reflects of light of which single scattering returns so much.
+fn layer_of_single(layer: Layer, single: vec3f) -> vec3f {
     // The fit may make the second part a little larger than the first.
-    let specular = ggx_area_reflectance(max(light.specular, vec3f(0.0)), point.f0, surface.sharp.albedo);
-    return BaseRadiance(specular, light.diffuse * surface.body);
+    return ggx_area_reflectance(max(single, vec3f(0.0)), layer.reflecting.fresnel.at_normal, layer.sharp.albedo);
+}
+
+// What the body sends, over what falls on it: what the lobe over it does not reflect reaches it.
+fn base_body(point: SurfacePoint, layer: Layer) -> vec3f {
+    return point.diffuse * max(1.0 - layer.albedo, vec3f(0.0));
+}
+
+// The base under a layer that covers a share of it, has an albedo, and reflects so much by itself.
+fn base_coated(share: f32, albedo: vec3f, base: BaseRadiance, by_coat: vec3f) -> BaseRadiance {
+    let passed = share * max(1.0 - albedo, vec3f(0.0));
+    let bare = 1.0 - share;
+    return BaseRadiance(base.specular * bare + share * by_coat, base.diffuse * (passed + bare) + base.specular * passed);
 }
 
 // Radiance of the base towards the viewer, before scratches take theirs.
@@ -118,16 +135,29 @@ fn base_radiance(point: SurfacePoint) -> BaseRadiance {
 
 // The same by some of the lights, from the first to the one before the end, and from all around or not.
 fn base_radiance_of(point: SurfacePoint, of_lights: vec2u, surrounded: bool) -> BaseRadiance {
-    let surface = base_surface(point);
+    let layer = base_layer(point);
+    var base = layer_lit(point, layer, of_lights, surrounded);
+    base = BaseRadiance(layer_of_single(layer, base.specular), base.diffuse * base_body(point, layer));
+    let share = surface_coat(point.coat).x;
+    if HAS_COATS && share > 0.0 {
+        let coat = coat_layer(point);
+        let lit = layer_lit(point, coat, of_lights, surrounded);
+        base = base_coated(share, coat.albedo, base, layer_of_single(coat, lit.specular));
+    }
+    return base;
+}
+
+// What a lobe reflects, single scattering, and what falls on a body under it.
+fn layer_lit(point: SurfacePoint, layer: Layer, of_lights: vec2u, surrounded: bool) -> BaseRadiance {
     var sum: BaseRadiance;
     for (var p = 0u; p < 2u; p += 1u) {
-        let part = filtered_lobe_part(surface.sharp, surface.filtered, p);
+        let part = filtered_lobe_part(layer.sharp, layer.filtered, p);
         if part.weight == 0.0 {
             break;
         }
         var light: BaseRadiance;
         if surrounded {
-            light = base_surroundings(point, part.lobe, surface.reflecting);
+            light = base_surroundings(point, part.lobe, layer.reflecting);
         }
         for (var l = of_lights.x; l < of_lights.y; l += 1u) {
             let source = light_at(l);
@@ -139,10 +169,10 @@ fn base_radiance_of(point: SurfacePoint, of_lights: vec2u, surrounded: bool) -> 
             if BASE_HAS_POLYGONS && source.kind != LIGHT_SPHERE {
                 seen = base_polygon(point, part.lobe, source);
             }
-            light.specular += radiance * ltc_reflected(part.lobe, surface.reflecting, fresnel_curves, seen.vector);
+            light.specular += radiance * ltc_reflected(part.lobe, layer.reflecting, fresnel_curves, seen.vector);
             light.diffuse += radiance * seen.form_factor;
         }
         sum = BaseRadiance(sum.specular + part.weight * light.specular, light.diffuse);
     }
-    return base_of(point, surface, sum);
+    return sum;
 }

@@ -88,6 +88,7 @@ fn hit_paint(point: ptr<function, SurfacePoint>, material: Material) {
     (*point).diffuse = material.base_color * (1.0 - material.metallic);
     (*point).coherence_um = material.coherence_um;
     (*point).table = material.table;
+    (*point).coat = material.coat;
     if material.is_unlit != 0u {
         (*point).emission = material.base_color;
         (*point).f0 = vec3f(0.0);

@@ -91,6 +91,7 @@ struct Material {
     threshold: f32,             // of the alpha at which the surface is there; negative: it is there everywhere
     occlusion_texture: vec2u,
     occlusion_strength: f32,
+    coat: u32,                  // share of the surface and roughness of a clear layer over it, in 16 bits each
 }
 
 // Spheres come first, then polygons of at most four vertices, then others, then tubes; behind them, in the same order, lights for
@@ -150,7 +151,8 @@ struct PixelPoint {
 struct PixelPaint {
     f0: vec3f,
     lobe: u32,                  // roughness and spread of slopes, in 16 bits each
-    diffuse: vec3f,
+    diffuse: vec2u,             // 16 bits each
+    coat: u32,                  // as that of materials
     triangle: u32,
     emission: vec3f,
     curve_and_open: u32,        // of fresnel_curves in 16 bits; what of the environment's light arrives, in 16 bits

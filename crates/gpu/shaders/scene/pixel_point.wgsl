@@ -27,7 +27,8 @@ fn pixel_curve(paint: PixelPaint) -> u32 {
 }
 
 fn pixel_paint_pack(point: SurfacePoint, triangle: u32) -> PixelPaint {
-    return PixelPaint(point.f0, pack2x16unorm(vec2f(point.roughness, point.slope_std)), point.diffuse, triangle, point.emission, pixel_curve_and_open(point));
+    let diffuse = vec2u(pack2x16unorm(point.diffuse.xy), pack2x16unorm(vec2f(point.diffuse.z, 0.0)));
+    return PixelPaint(point.f0, pack2x16unorm(vec2f(point.roughness, point.slope_std)), diffuse, point.coat, triangle, point.emission, pixel_curve_and_open(point));
 }
 
 fn pixel_table(pixel: PixelPoint) -> u32 {
@@ -58,12 +59,13 @@ fn surface_point_from(pixel: PixelPoint, paint: PixelPaint) -> SurfacePoint {
         pixel.leaves,
         paint.f0,
         pixel_curve(paint),
-        paint.diffuse,
+        vec3f(unpack2x16unorm(paint.diffuse.x), unpack2x16unorm(paint.diffuse.y).x),
         lobe.x,
         lobe.y,
         paint.emission,
         pixel.coherence_um,
         pixel_table(pixel),
         f32(paint.curve_and_open >> 16u) / 65535.0,
+        paint.coat,
     );
 }

@@ -296,6 +296,10 @@ class Material(Table):
     """From 0, dielectric, to 1, metal. Default: 1."""
     roughness: float = _default()
     """Perceptual, as in glTF, from 0 to 1. Default: 0.1."""
+    clearcoat: Optional[float] = _default()
+    """The share of the surface that a clear layer covers, in which scratches lie, from 0 to 1. Default: none."""
+    clearcoat_roughness: Optional[float] = _default()
+    """With ``clearcoat``: as ``roughness``, of the layer. Default: 0."""
     coherence_um: float = _default()
     """Standard deviation of the coherence window, micrometres. Default: 20."""
 
@@ -309,7 +313,7 @@ class Object(Table):
     name: str
     """What layers of scratches call it by."""
     shape: Optional[Mapping[str, Mapping[str, Any]]] = _default()
-    """``{"disk": {"radius_m": 0.1}}``; also ``plane``, ``sphere`` and ``lathe``. z is up."""
+    """``{"disk": {"radius_m": 0.1}}``; also ``plane``, ``sphere``, ``box``, ``cylinder``, ``torus``, ``dome``, ``sweep`` and ``lathe``. z is up."""
     mesh: Optional[Union[Path, core.MeshArray]] = _default()
     """A .glb or .gltf, relative to the scene file."""
     material: Optional[str] = _default()

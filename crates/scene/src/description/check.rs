@@ -122,6 +122,11 @@ fn material(material: &Material, key: &str) -> Check {
     )?;
     let coherence = format!("{key}.coherence_um");
     within(&coherence, material.coherence_um, limits::COHERENCE_UM)?;
+    if let Some(coat) = material.coat {
+        within(&format!("{key}.clearcoat"), coat.weight, limits::CLEARCOAT)?;
+        let roughness = format!("{key}.clearcoat_roughness");
+        within(&roughness, coat.roughness, limits::ROUGHNESS)?;
+    }
     let color = |rgb: [f64; 3]| components(&format!("{key}.base_color"), rgb, limits::BASE_COLOR);
     match material.kind {
         MaterialKind::Metal(MetalColor::Measured(_)) | MaterialKind::Mirror => Ok(()),

@@ -11,6 +11,7 @@ use super::{
     Studio, Surface, Up,
 };
 use crate::error::Error;
+use crate::scene::Coat;
 
 /// Reads a whole scene file.
 pub(super) fn description(root: &DeTable) -> Result<Description, Error> {
@@ -128,7 +129,14 @@ impl Read for Environment {
 
 impl Read for Material {
     fn read(value: &Value, key: &str) -> Result<Self, Error> {
-        const SHARED: [&str; 4] = ["name", "kind", "roughness", "coherence_um"];
+        const SHARED: [&str; 6] = [
+            "name",
+            "kind",
+            "roughness",
+            "coherence_um",
+            "clearcoat",
+            "clearcoat_roughness",
+        ];
         let (kind, table) = Table::read_kind(
             value,
             key,
@@ -156,7 +164,22 @@ impl Read for Material {
             },
             _ => MaterialKind::Mirror,
         };
+        let coat = match table.optional("clearcoat")? {
+            Some(weight) => Some(Coat {
+                weight,
+                roughness: table.or("clearcoat_roughness", 0.0)?,
+            }),
+            None if table.has("clearcoat_roughness") => {
+                return Err(Error::new(
+                    table.way("clearcoat_roughness"),
+                    "found no `clearcoat` beside it",
+                    "add one, such as `clearcoat = 1`",
+                ));
+            }
+            None => None,
+        };
         Ok(Self {
+            coat,
             name: table.required("name")?,
             kind,
             roughness: table.or("roughness", 0.1)?,

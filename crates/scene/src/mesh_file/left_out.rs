@@ -196,6 +196,27 @@ impl Found {
         {
             self.specular(specular);
         }
+        if let Some(coat) = material
+            .get("extensions")
+            .and_then(|it| it.get("KHR_materials_clearcoat"))
+        {
+            self.coat(coat, material.get("normalTexture").is_some());
+        }
+    }
+
+    fn coat(&mut self, coat: &Value, has_normals: bool) {
+        let textures = [
+            ("clearcoatTexture", "the coat is as thick all over"),
+            ("clearcoatRoughnessTexture", "the coat is as rough all over"),
+        ];
+        for (name, meaning) in textures {
+            let count = usize::from(coat.get(name).is_some());
+            self.add(PROPERTY, name, count, meaning, true);
+        }
+        let meaning = "the coat has the bumps of what is under it";
+        let has_own = coat.get("clearcoatNormalTexture").is_some();
+        let count = usize::from(has_own || has_normals);
+        self.add(PROPERTY, "normals of clearcoat", count, meaning, true);
     }
 
     fn specular(&mut self, specular: &Value) {

@@ -11,11 +11,25 @@ use super::images::Images;
 use super::spec_gloss::{self, SpecGloss};
 use super::uv::{self, Way, Ways};
 use crate::description::DEFAULT_COHERENCE_UM;
-use crate::scene::{Base, Cutout, GLTF_DIELECTRIC, Material};
+use crate::scene::{Base, Coat, Cutout, GLTF_DIELECTRIC, Material};
 use crate::texture::Channels;
 
 /// The alpha at which a surface that is neither there nor away is taken to be there.
 const BLEND_THRESHOLD: f64 = 0.5;
+
+/// KHR_materials_clearcoat, without its textures.
+fn coat(material: &gltf::Material) -> Option<Coat> {
+    let extension = material.extension_value("KHR_materials_clearcoat")?;
+    let factor = |name: &str| {
+        let value = extension.get(name).and_then(Value::as_f64);
+        value.unwrap_or(0.0).clamp(0.0, 1.0)
+    };
+    let coat = Coat {
+        weight: factor("clearcoatFactor"),
+        roughness: factor("clearcoatRoughnessFactor"),
+    };
+    (coat.weight > 0.0).then_some(coat)
+}
 
 /// What the primitives' materials become.
 pub(super) enum Materials<'a> {
@@ -127,6 +141,7 @@ impl Own<'_> {
             },
             is_unlit,
             cutout: cutout(material, unit(a)),
+            coat: coat(material).filter(|_| !is_unlit),
         })
     }
 

@@ -6,7 +6,7 @@ use crate::common::{asset, scene_with, temporary_dir};
 use hairline_image::ToneMap;
 use hairline_optics::metal::Metal;
 use hairline_scene::description::*;
-use hairline_scene::{Base, Scene, description};
+use hairline_scene::{Base, Coat, Scene, description};
 
 const EXAMPLE: &str = include_str!("../example.toml");
 
@@ -203,6 +203,10 @@ fn everything() -> Description {
                 kind,
                 roughness: 0.3,
                 coherence_um: 20.0,
+                coat: (i % 2 == 1).then_some(Coat {
+                    weight: 0.5,
+                    roughness: 0.1,
+                }),
             })
             .collect(),
         objects: surfaces

@@ -5,6 +5,7 @@ use hairline_editor::actions::materials;
 use hairline_editor::presets::MaterialPreset;
 use hairline_editor::ranges::Parameter;
 use hairline_optics::metal::Metal;
+use hairline_scene::Coat;
 use hairline_scene::description::{MaterialKind, MetalColor};
 
 use super::form::Form;
@@ -59,6 +60,27 @@ impl Kind {
     }
 }
 
+/// Without a coat, or with one.
+fn coat_rows(form: &mut Form, coat: &mut Option<Coat>) {
+    let mut is_coated = coat.is_some();
+    let tooltip = "Whether a clear layer lies over it, in which its scratches are";
+    form.toggle("Coated", tooltip, &mut is_coated);
+    match coat {
+        Some(_) if !is_coated => *coat = None,
+        Some(coat) => {
+            form.number(Parameter::Clearcoat, &mut coat.weight);
+            form.number(Parameter::ClearcoatRoughness, &mut coat.roughness);
+        }
+        None if is_coated => {
+            *coat = Some(Coat {
+                weight: 1.0,
+                roughness: 0.03,
+            });
+        }
+        None => {}
+    }
+}
+
 pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     let Some(mut material) = work.document.description().materials.get(index).cloned() else {
         return;
@@ -104,6 +126,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
         MaterialKind::Mirror => {}
     }
     form.number(Parameter::Roughness, &mut material.roughness);
+    coat_rows(&mut form, &mut material.coat);
     form.number(Parameter::Coherence, &mut material.coherence_um);
     if let Some(change) = form.change() {
         if name != material.name {
