@@ -153,6 +153,9 @@ pub struct Render {
     /// The time of the models' first animations, seconds, in place of the scene's.
     #[arg(long, value_name = "S", value_parser = parse_time)]
     pub time: Option<f64>,
+    /// See by this camera of a model's file: its name, or its number from 0.
+    #[arg(long, value_name = "CAMERA")]
+    pub camera: Option<String>,
     /// Put the highlight here: move a light so that its mirror image lies at this pixel of the picture, counted from the upper left
     /// corner. The first light that is not hidden, or the one of this name.
     #[arg(long, value_name = "X,Y[,LIGHT]", value_parser = highlight::parse)]

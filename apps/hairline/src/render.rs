@@ -46,6 +46,7 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
         scratch_seed: arguments.seed,
         tone_map: arguments.tone_map,
         time_s: arguments.time,
+        camera: arguments.camera.as_deref(),
         highlight: arguments.highlight.as_ref(),
     };
     let loaded = scene_file::load(arguments.scene.as_deref(), &overrides, &target.paths())?;

@@ -29,6 +29,8 @@ pub struct Overrides<'a> {
     pub scratch_seed: u64,
     /// The time of the models' animations.
     pub time_s: Option<f64>,
+    /// A camera of a model's file.
+    pub camera: Option<&'a str>,
     /// The curve to the display.
     pub tone_map: Option<ToneMap>,
     /// Where a light's mirror image is to lie.
@@ -71,6 +73,10 @@ pub fn load(
                 object.time_s = Some(time_s);
             }
         }
+    }
+    if let Some(camera) = overrides.camera {
+        let taken = description.see_by(camera, &source.folder);
+        taken.map_err(|error| error.in_scene_file(&source.text, &source.name))?;
     }
     for scratches in &mut description.scratches {
         if let Some(seed) = scratches.layer.seed_mut() {

@@ -28,6 +28,7 @@ pub mod description;
 pub mod environment;
 mod error;
 pub mod estimate;
+mod file_camera;
 mod grating;
 pub mod inputs;
 mod key_line;

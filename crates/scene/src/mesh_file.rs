@@ -5,6 +5,7 @@
 //! [`LeftOut`].
 
 mod accessor;
+mod cameras;
 mod draco;
 mod extensions;
 mod flaw;
@@ -37,6 +38,7 @@ use gltf::Gltf;
 use crate::reading::{self, Kind};
 use crate::scene::Mesh;
 use crate::text::shown;
+pub(crate) use cameras::FileCamera;
 pub(crate) use flaw::Flaw;
 use flaw::RIGHT;
 pub(crate) use head::{counts, left_out, names};
@@ -126,6 +128,21 @@ pub(crate) fn read(
         ));
     }
     Ok(mesh)
+}
+
+/// A camera of a file, in world space.
+pub(crate) fn camera(
+    path: &Path,
+    world_from_object: &DMat4,
+    placing: &Placing,
+    wanted: &str,
+) -> Result<FileCamera, Flaw> {
+    let gltf = parse(&file(path)?, placing.time_s.is_some())?;
+    let base_dir = path.parent().unwrap_or(Path::new(""));
+    let buffers = Buffers::read(&gltf, base_dir, &mut Vec::new())?;
+    let shapes = Shapes::new(&gltf.document, &buffers, placing.time_s)?;
+    let world_from_file = *world_from_object * placing.object_from_file(&shapes)?;
+    Ok(shapes.camera(wanted)?.moved(&world_from_file))
 }
 
 /// The lights of a file, in its own frame.

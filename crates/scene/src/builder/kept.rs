@@ -91,12 +91,7 @@ impl SurfaceKey {
         let (file, placing) = match &object.surface {
             Surface::Shape(_) => (None, Placing::NONE),
             Surface::Mesh(file) => {
-                let placing = Placing {
-                    up: object.up,
-                    world_up,
-                    fit_m: object.fit_m,
-                    time_s: object.time_s,
-                };
+                let placing = Placing::of(object, world_up);
                 (Some(Stamp::of(&base_dir.join(file))), placing)
             }
         };

@@ -118,7 +118,7 @@ impl Found {
         };
         let others = count("animations").saturating_sub(shown);
         self.add(PROPERTY, "animations", others, meaning, true);
-        let meaning = "a scene has its own camera";
+        let meaning = "a scene has its own camera; `--camera` takes one of these";
         self.add(PROPERTY, "cameras", count("cameras"), meaning, false);
         let others = count("scenes").saturating_sub(1);
         let meaning = "one scene of the file is shown";

@@ -4,7 +4,7 @@ use glam::{DMat3, DMat4, DVec3};
 
 use super::flaw::Flaw;
 use super::shapes::Shapes;
-use crate::description::Up;
+use crate::description::{Object, Up};
 
 /// The keys `up`, `fit_m` and `time_s` of an object.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,6 +27,16 @@ impl Placing {
         fit_m: None,
         time_s: None,
     };
+
+    /// What an object says of its file.
+    pub(crate) fn of(object: &Object, world_up: DVec3) -> Self {
+        Self {
+            up: object.up,
+            world_up,
+            fit_m: object.fit_m,
+            time_s: object.time_s,
+        }
+    }
 
     /// The turn and the factor that the object begins with.
     pub(super) fn object_from_file(&self, shapes: &Shapes) -> Result<DMat4, Flaw> {

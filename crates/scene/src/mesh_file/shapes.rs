@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::DMat4;
 use gltf::{Document, Primitive};
 
+use super::cameras::{self, FileCamera};
 use super::flaw::Flaw;
 use super::instances::node_from_instances;
 use super::nodes::{Placed, placed_nodes};
@@ -46,6 +47,11 @@ impl<'a> Shapes<'a> {
             buffers,
             placed: placed_nodes(document, &pose)?,
         })
+    }
+
+    /// A camera of the file, as it stands then, in the file's frame.
+    pub(super) fn camera(&self, wanted: &str) -> Result<FileCamera, Flaw> {
+        cameras::of(&self.placed, wanted)
     }
 
     /// Reads each once, and returns how many have no surface.

@@ -732,3 +732,46 @@ fn lights_of_a_file_light_its_scene() {
     let error = Description::for_model(&path).unwrap_err();
     assert_eq!(error.found(), "its node 3 has the light 7, of 3");
 }
+
+#[test]
+fn a_camera_of_a_file_is_seen_by() {
+    let more = r#","cameras":[
+        {"name":"eye","type":"perspective","perspective":{"yfov":0.5,"znear":0.1}},
+        {"type":"orthographic","orthographic":{"xmag":1,"ymag":1,"znear":0.1,"zfar":9}}]"#;
+    let mut glb = Glb {
+        more: more.into(),
+        ..Glb::default()
+    };
+    // Above the cube, looking down at it by 30 degrees.
+    let (sin, cos) = 15f64.to_radians().sin_cos();
+    let nodes = format!(
+        r#"{{"mesh":0,"children":[1,2]}},{{"camera":0,"translation":[0,1,2],"rotation":[{},0,0,{cos}]}},{{"name":"plan","camera":1}}"#,
+        -sin
+    );
+    let bytes = cube_glb("", &nodes, &mut glb);
+    let dir = temporary_dir();
+    let path = dir.path().join("seen.glb");
+    std::fs::write(&path, &bytes).unwrap();
+    let mut description = Description::for_model(&path).unwrap();
+    description.see_by("eye", dir.path()).unwrap();
+    description.check().unwrap();
+    let camera = &description.camera;
+    // z up: the file's (x, y, z) is (x, -z, y).
+    let (position, target) = (
+        DVec3::from(camera.position_m),
+        DVec3::from(camera.target_m),
+    );
+    assert!(position.distance(DVec3::new(0.0, -2.0, 1.0)) < 1e-12);
+    let (sin, cos) = 30f64.to_radians().sin_cos();
+    let forward = (target - position).normalize();
+    assert!(forward.distance(DVec3::new(0.0, cos, -sin)) < 1e-12, "{forward}");
+    assert!((camera.fov_y_deg - 0.5_f64.to_degrees()).abs() < 1e-5);
+    assert_eq!(camera.up, [0.0, 0.0, 1.0]);
+    // By its number, too.
+    let by_name = description.camera.clone();
+    description.see_by("0", dir.path()).unwrap();
+    assert_eq!(description.camera, by_name);
+    let mut error = |wanted: &str| description.see_by(wanted, dir.path()).unwrap_err();
+    assert_eq!(error("nose").right(), "its cameras are eye, plan");
+    assert!(error("plan").found().ends_with("its camera \"plan\" is orthographic"));
+}

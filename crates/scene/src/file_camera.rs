@@ -1,0 +1,64 @@
+//! A scene seen by a camera of one of its models' files.
+
+use std::path::Path;
+
+use glam::DVec3;
+
+use crate::convert::vertical_axis;
+use crate::description::limits;
+use crate::description::{Camera, Description, Surface};
+use crate::error::Error;
+use crate::mesh_file::{self, FileCamera, Placing};
+
+impl Description {
+    /// Takes over a camera of the first model that has it: by its name or its node's, or by its number from 0. The exposure stays.
+    ///
+    /// # Errors
+    /// No model has it, or it is none that Hairline can see by; what is wrong with a file.
+    pub fn see_by(&mut self, wanted: &str, base_dir: &Path) -> Result<(), Error> {
+        let world_up = vertical_axis(self.camera.up.into());
+        let mut first_flaw = None;
+        for (i, object) in self.objects.iter().enumerate() {
+            let Surface::Mesh(file) = &object.surface else {
+                continue;
+            };
+            let placing = Placing::of(object, world_up);
+            let path = base_dir.join(file);
+            let found =
+                mesh_file::camera(&path, &object.world_from_object(), &placing, wanted);
+            let flaw = match found.and_then(|seen| camera(&seen, &self.camera, world_up)) {
+                Ok(camera) => {
+                    self.camera = camera;
+                    return Ok(());
+                }
+                Err(flaw) => flaw,
+            };
+            let found = format!("\"{}\": {}", path.display(), flaw.found);
+            let error = Error::new(format!("object[{i}].mesh"), found, flaw.right);
+            first_flaw.get_or_insert(error);
+        }
+        Err(first_flaw.unwrap_or_else(|| {
+            Error::new("camera", "found no model", "only a model's file has cameras")
+        }))
+    }
+}
+
+/// That of a description. Models stand by the axis nearest to its `up`, which therefore has to stay.
+fn camera(seen: &FileCamera, before: &Camera, world_up: DVec3) -> Result<Camera, mesh_file::Flaw> {
+    let right = seen.forward.cross(seen.up);
+    // Of all vectors that are up in this picture the one nearest to the axis.
+    let up = world_up - right * world_up.dot(right);
+    if up.dot(seen.up) <= 0.0 || vertical_axis(up) != world_up {
+        let found = "its camera is rolled by more than 45 degrees";
+        return Err(mesh_file::Flaw::new(found, "must stand upright"));
+    }
+    let middle = DVec3::from(before.target_m) - seen.position;
+    let distance_m = middle.dot(seen.forward).max(10.0 * limits::SMALLEST_M);
+    Ok(Camera {
+        position_m: seen.position.into(),
+        target_m: (seen.position + seen.forward * distance_m).into(),
+        up: up.into(),
+        fov_y_deg: seen.fov_y_rad.to_degrees(),
+        exposure_ev: before.exposure_ev,
+    })
+}
