@@ -253,7 +253,7 @@ mod tests {
         let error = estimate.check(4e9).unwrap_err();
         assert_eq!(error.key(), "object[0].shape.lathe");
         assert!(error.found().contains("22110208 triangles"), "{error}");
-        assert!(error.found().contains("10.30 GiB"), "{error}");
+        assert!(error.found().contains("11.33 GiB"), "{error}");
         assert!(error.right().contains("3.73 GiB are free"), "{error}");
         estimate.check(2e10).unwrap();
     }

@@ -24,8 +24,7 @@ impl Description {
             };
             let placing = Placing::of(object, world_up);
             let path = base_dir.join(file);
-            let found =
-                mesh_file::camera(&path, &object.world_from_object(), &placing, wanted);
+            let found = mesh_file::camera(&path, &object.world_from_object(), &placing, wanted);
             let flaw = match found.and_then(|seen| camera(&seen, &self.camera, world_up)) {
                 Ok(camera) => {
                     self.camera = camera;
@@ -38,7 +37,11 @@ impl Description {
             first_flaw.get_or_insert(error);
         }
         Err(first_flaw.unwrap_or_else(|| {
-            Error::new("camera", "found no model", "only a model's file has cameras")
+            Error::new(
+                "camera",
+                "found no model",
+                "only a model's file has cameras",
+            )
         }))
     }
 }

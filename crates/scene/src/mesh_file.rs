@@ -48,6 +48,7 @@ pub(crate) use left_out::Wanted;
 pub(crate) use lights::{Punctual, PunctualKind};
 use material::Materials;
 pub(crate) use placing::Placing;
+use root::Kept;
 use shapes::Shapes;
 use source::Buffers;
 use stock::FILE_SHARE;
@@ -64,7 +65,11 @@ pub(crate) fn read(
     placing: &Placing,
     stock: Stock,
 ) -> Result<Mesh, Flaw> {
-    let gltf = parse(&file(path)?, placing.time_s.is_some())?;
+    let kept = Kept {
+        animations: placing.time_s.is_some(),
+        cameras: false,
+    };
+    let gltf = parse(&file(path)?, kept)?;
     let base_dir = path.parent().unwrap_or(Path::new(""));
     let Stock {
         parts,
@@ -137,7 +142,11 @@ pub(crate) fn camera(
     placing: &Placing,
     wanted: &str,
 ) -> Result<FileCamera, Flaw> {
-    let gltf = parse(&file(path)?, placing.time_s.is_some())?;
+    let kept = Kept {
+        animations: placing.time_s.is_some(),
+        cameras: true,
+    };
+    let gltf = parse(&file(path)?, kept)?;
     let base_dir = path.parent().unwrap_or(Path::new(""));
     let buffers = Buffers::read(&gltf, base_dir, &mut Vec::new())?;
     let shapes = Shapes::new(&gltf.document, &buffers, placing.time_s)?;
@@ -147,7 +156,7 @@ pub(crate) fn camera(
 
 /// The lights of a file, in its own frame.
 pub(crate) fn lights(path: &Path) -> Result<Vec<Punctual>, Flaw> {
-    lights::of(&parse(&file(path)?, false)?.document)
+    lights::of(&parse(&file(path)?, Kept::default())?.document)
 }
 
 fn file(path: &Path) -> Result<Vec<u8>, Flaw> {
@@ -159,8 +168,7 @@ fn file(path: &Path) -> Result<Vec<u8>, Flaw> {
     })
 }
 
-/// Animations are kept where they are wanted: broken ones make a file unusable.
-fn parse(bytes: &[u8], with_animations: bool) -> Result<Gltf, Flaw> {
+fn parse(bytes: &[u8], kept: Kept) -> Result<Gltf, Flaw> {
     let right = RIGHT;
     if bytes.is_empty() {
         return Err(Flaw::new("it is empty", right));
@@ -196,7 +204,7 @@ fn parse(bytes: &[u8], with_animations: bool) -> Result<Gltf, Flaw> {
             },
         ));
     }
-    root::leave_out_what_is_ignored(&mut json, with_animations);
+    root::leave_out_what_is_ignored(&mut json, kept);
     root::find_images(&mut json)?;
     root::find_packed_views(&mut json);
     // What the crate's own validation takes for granted.

@@ -9,9 +9,12 @@ use super::flaw::Flaw;
 use super::source::Buffers;
 
 pub(super) const NAME: &str = "KHR_draco_mesh_compression";
-/// Of one primitive: a few bytes may stand for any number of points.
-const MOST_POINTS: u64 = 1 << 28;
-const MOST_BYTES: u64 = 1 << 32;
+/// A few bytes may stand for any number of points. So many more than the accessors say are taken for an oversight of an exporter; those of
+/// the accessors were counted before the file was read.
+const MOST_SHARE: u64 = 4;
+const FEW_POINTS: u64 = 1 << 16;
+/// What is held for a point or a face while it is unpacked.
+const MOST_POINT_BYTES: u64 = 1 << 10;
 
 /// A primitive unpacked.
 pub(super) struct Unpacked {
@@ -39,10 +42,15 @@ impl Unpacked {
             .and_then(Value::as_u64)
             .and_then(|index| document.views().nth(usize::try_from(index).ok()?))
             .ok_or_else(|| broken("names no buffer view".to_owned()))?;
+        let corners = primitive.indices().map_or(0, |it| it.count());
+        let points = primitive
+            .get(&Semantic::Positions)
+            .map_or(0, |it| it.count());
+        let most = MOST_SHARE * corners.max(points) as u64 + FEW_POINTS;
         let limits = DecodeLimits::default()
-            .with_max_points(MOST_POINTS)
-            .with_max_faces(MOST_POINTS)
-            .with_max_decoded_bytes(MOST_BYTES);
+            .with_max_points(most)
+            .with_max_faces(most)
+            .with_max_decoded_bytes(MOST_POINT_BYTES * most);
         let mut packed = DecoderBuffer::new(buffers.view(&view)?).with_limits(limits);
         let mut mesh = Mesh::new();
         MeshDecoder::new()

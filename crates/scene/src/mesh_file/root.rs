@@ -54,14 +54,23 @@ pub(super) fn wrong_version(version: &str) -> Flaw {
     )
 }
 
-/// Cameras, and animations where they are not wanted.
-pub(super) fn leave_out_what_is_ignored(root: &mut Root, with_animations: bool) {
-    if !with_animations {
+/// What of a file is kept where it is wanted: broken, it makes a file unusable.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Kept {
+    pub animations: bool,
+    pub cameras: bool,
+}
+
+/// The rest.
+pub(super) fn leave_out_what_is_ignored(root: &mut Root, kept: Kept) {
+    if !kept.animations {
         root.animations.clear();
     }
-    root.cameras.clear();
-    for node in &mut root.nodes {
-        node.camera = None;
+    if !kept.cameras {
+        root.cameras.clear();
+        for node in &mut root.nodes {
+            node.camera = None;
+        }
     }
 }
 

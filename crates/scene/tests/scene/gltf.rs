@@ -757,14 +757,14 @@ fn a_camera_of_a_file_is_seen_by() {
     description.check().unwrap();
     let camera = &description.camera;
     // z up: the file's (x, y, z) is (x, -z, y).
-    let (position, target) = (
-        DVec3::from(camera.position_m),
-        DVec3::from(camera.target_m),
-    );
+    let (position, target) = (DVec3::from(camera.position_m), DVec3::from(camera.target_m));
     assert!(position.distance(DVec3::new(0.0, -2.0, 1.0)) < 1e-12);
     let (sin, cos) = 30f64.to_radians().sin_cos();
     let forward = (target - position).normalize();
-    assert!(forward.distance(DVec3::new(0.0, cos, -sin)) < 1e-12, "{forward}");
+    assert!(
+        forward.distance(DVec3::new(0.0, cos, -sin)) < 1e-12,
+        "{forward}"
+    );
     assert!((camera.fov_y_deg - 0.5_f64.to_degrees()).abs() < 1e-5);
     assert_eq!(camera.up, [0.0, 0.0, 1.0]);
     // By its number, too.
@@ -773,5 +773,9 @@ fn a_camera_of_a_file_is_seen_by() {
     assert_eq!(description.camera, by_name);
     let mut error = |wanted: &str| description.see_by(wanted, dir.path()).unwrap_err();
     assert_eq!(error("nose").right(), "its cameras are eye, plan");
-    assert!(error("plan").found().ends_with("its camera \"plan\" is orthographic"));
+    assert!(
+        error("plan")
+            .found()
+            .ends_with("its camera \"plan\" is orthographic")
+    );
 }

@@ -217,11 +217,10 @@ fn packed_cube() -> Vec<u8> {
     buffer.data().to_vec()
 }
 
-#[test]
-fn packed_meshes_are_unpacked() {
+/// A file with a packed cube.
+fn packed_file(packed: &[u8]) -> Vec<u8> {
     let mut glb = Glb::default();
-    let packed = packed_cube();
-    let view = glb.view(&packed);
+    let view = glb.view(packed);
     let bound = r#""min":[-0.5,-0.5,-0.5],"max":[0.5,0.5,0.5]"#;
     let positions = glb.accessor(format!(
         r#"{{"componentType":5126,"count":8,"type":"VEC3",{bound}}}"#
@@ -232,8 +231,13 @@ fn packed_meshes_are_unpacked() {
             "extensions":{{"KHR_draco_mesh_compression":{{"bufferView":{view},"attributes":{{"POSITION":0}}}}}}}}]}}"#
     );
     glb.more = r#","extensionsUsed":["KHR_draco_mesh_compression"],"extensionsRequired":["KHR_draco_mesh_compression"]"#.to_owned();
-    let bytes = glb.bytes(&mesh_text, r#"{"mesh":0}"#);
-    let unpacked = mesh(&bytes, "");
+    glb.bytes(&mesh_text, r#"{"mesh":0}"#)
+}
+
+#[test]
+fn packed_meshes_are_unpacked() {
+    let packed = packed_cube();
+    let unpacked = mesh(&packed_file(&packed), "");
     assert_eq!(unpacked.triangles.len(), 12);
     let (least, most) = unpacked.bounds_m();
     assert!(least.abs_diff_eq(Vec3::splat(-0.5), 3e-4), "{least}");
@@ -248,22 +252,43 @@ fn packed_meshes_are_unpacked() {
         .sum();
     assert!((volume - 1.0).abs() < 2e-3, "{volume}");
     // Bytes of it changed one by one: a message or another shape, and no panic.
-    let at = bytes
-        .windows(packed.len())
-        .position(|it| it == packed)
-        .unwrap();
     for i in 0..packed.len() {
-        let mut damaged = bytes.clone();
-        damaged[at + i] ^= 0x5a;
-        if let Err(error) = load(&damaged, "") {
+        let mut damaged = packed.clone();
+        damaged[i] ^= 0x5a;
+        if let Err(error) = load(&packed_file(&damaged), "") {
             assert!(error.contains("object[0]"), "{error}");
         }
     }
-    let mut other = bytes.clone();
-    other[at] = b'X';
-    let error = load(&other, "").unwrap_err();
+    let mut other = packed.clone();
+    other[0] = b'X';
+    let error = load(&packed_file(&other), "").unwrap_err();
     assert!(
         error.contains("its primitive 0 cannot be unpacked"),
         "{error}"
     );
+}
+
+mod damaged {
+    use super::{load, packed_cube, packed_file};
+    use proptest::prelude::*;
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(512))]
+        /// Bytes of a packed mesh changed, and its end cut off: a message or another shape; no panic, and no memory for what is not there.
+        #[test]
+        fn packed_meshes_end_in_a_message_or_a_shape(
+            changed in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 0..6),
+            kept in 0.0..2.0f64,
+        ) {
+            let mut packed = packed_cube();
+            for (at, byte) in changed {
+                let at = at.index(packed.len());
+                packed[at] = byte;
+            }
+            packed.truncate((kept.min(1.0) * packed.len() as f64) as usize);
+            if let Err(error) = load(&packed_file(&packed), "") {
+                prop_assert!(error.contains("object[0]"), "{error}");
+            }
+        }
+    }
 }
