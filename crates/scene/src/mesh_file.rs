@@ -15,6 +15,7 @@ mod instances;
 mod left_out;
 mod lights;
 mod material;
+mod meshopt;
 mod nodes;
 mod placing;
 mod pose;

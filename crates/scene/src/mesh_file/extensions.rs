@@ -1,8 +1,9 @@
 //! The extensions of glTF: those that are read, and what the picture is without the others.
 
 /// Extensions that are read. Quantization needs nothing done: the accessors read every component type.
-const READ: [&str; 13] = [
+const READ: [&str; 14] = [
     "EXT_mesh_gpu_instancing",
+    "EXT_meshopt_compression",
     "EXT_texture_webp",
     "KHR_draco_mesh_compression",
     "KHR_lights_punctual",
@@ -58,7 +59,7 @@ pub(super) fn meaning(name: &str) -> (&'static str, bool) {
         "KHR_texture_basisu" | "MSFT_texture_dds" | "EXT_texture_avif" => {
             harmless("the texture's other image is shown")
         }
-        "EXT_meshopt_compression" | "KHR_meshopt_compression" | "MESHOPT_compression" => {
+        "KHR_meshopt_compression" | "MESHOPT_compression" => {
             harmless("the same data are there uncompressed")
         }
         "MSFT_lod" | "MSFT_screencoverage" => harmless("the finest level is shown"),

@@ -1,16 +1,22 @@
 //! The bytes that a glTF file refers to: its own binary chunk, other files, data URIs.
 
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use gltf::Gltf;
 
 use super::flaw::Flaw;
+use super::meshopt;
 use super::stock::FILE_SHARE;
 use crate::reading::{self, Kind};
 use crate::text::shown;
 
-/// The file's buffers, each at least as long as the file says.
-pub(super) struct Buffers(Vec<Vec<u8>>);
+/// The file's buffers, each at least as long as the file says, unless it only stands for bytes that are packed elsewhere.
+pub(super) struct Buffers {
+    whole: Vec<Vec<u8>>,
+    /// The views that were packed by themselves.
+    unpacked: HashMap<usize, Vec<u8>>,
+}
 
 impl Buffers {
     pub(super) fn read(
@@ -19,6 +25,9 @@ impl Buffers {
         files: &mut Vec<PathBuf>,
     ) -> Result<Self, Flaw> {
         let read = |buffer: gltf::Buffer| {
+            if meshopt::is_stand_in(&buffer) {
+                return Ok(Vec::new());
+            }
             let what = format!("buffer {}", buffer.index());
             let bytes = match buffer.source() {
                 gltf::buffer::Source::Uri(uri) => resource(uri, base_dir, &what, files)?,
@@ -42,13 +51,22 @@ impl Buffers {
             Ok(bytes)
         };
         let buffers = gltf.document.buffers().map(read);
-        buffers.collect::<Result<_, _>>().map(Self)
+        let whole = buffers.collect::<Result<Vec<_>, _>>()?;
+        let views = gltf.document.views();
+        let unpacked = views
+            .filter(|view| meshopt::is_stand_in(&view.buffer()))
+            .map(|view| Ok((view.index(), meshopt::unpack(&view, &whole)?)))
+            .collect::<Result<_, _>>()?;
+        Ok(Self { whole, unpacked })
     }
 
     /// The bytes of a view.
     pub(super) fn view(&self, view: &gltf::buffer::View) -> Result<&[u8], Flaw> {
+        if let Some(bytes) = self.unpacked.get(&view.index()) {
+            return Ok(bytes);
+        }
         let end = view.offset().checked_add(view.length());
-        end.and_then(|end| self.0[view.buffer().index()].get(view.offset()..end))
+        end.and_then(|end| self.whole[view.buffer().index()].get(view.offset()..end))
             .ok_or_else(|| {
                 Flaw::new(
                     format!("its buffer view {} reaches beyond its buffer", view.index()),

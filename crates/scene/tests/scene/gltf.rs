@@ -378,9 +378,9 @@ fn broken_files_end_in_a_message() {
         (
             replaced(
                 r#""scene":0"#,
-                r#""extensionsRequired":["EXT_meshopt_compression"],"scene":0"#,
+                r#""extensionsRequired":["KHR_texture_basisu"],"scene":0"#,
             ),
-            "it requires the extension EXT_meshopt_compression, which is not supported; export it again without that",
+            "it requires the extension KHR_texture_basisu, which is not supported; export it again without that",
         ),
         (
             replaced(

@@ -1,12 +1,16 @@
 //! glTF files whose meshes are packed, placed many times, or moved: by nodes, joints and morph targets. The files are made here.
 
-use crate::common::{Glb, cube, scene_with, temporary_dir};
+use crate::common::{Glb, cube, glb_of, scene_with, temporary_dir};
 use draco_core::{
     DataType, EncoderBuffer, EncoderOptions, FaceIndex, GeometryAttributeType, MeshEncoder,
     PointAttribute, PointIndex,
 };
 use glam::{Vec3, vec3};
 use hairline_scene::{Mesh, Scene};
+use meshopt_rs::index::IndexEncodingVersion;
+use meshopt_rs::index::buffer::encode_index_buffer;
+use meshopt_rs::vertex::VertexEncodingVersion;
+use meshopt_rs::vertex::buffer::encode_vertex_buffer;
 use std::sync::Arc;
 
 fn mesh(bytes: &[u8], keys: &str) -> Arc<Mesh> {
@@ -184,6 +188,14 @@ fn hidden_nodes_are_not_there() {
     assert_eq!(mesh(&glb.bytes(&mesh_text, &nodes), "").triangles.len(), 12);
 }
 
+fn volume_m3(mesh: &Mesh) -> f32 {
+    let of_corners = |t: &[u32; 3]| {
+        let [a, b, c] = t.map(|v| mesh.positions_m[v as usize]);
+        a.dot(b.cross(c)) / 6.0
+    };
+    mesh.triangles.iter().map(of_corners).sum()
+}
+
 /// The cube packed by Draco, by the encoder of the same crate: 12 bits to a coordinate.
 fn packed_cube() -> Vec<u8> {
     let (corners, triangles) = cube();
@@ -242,14 +254,7 @@ fn packed_meshes_are_unpacked() {
     let (least, most) = unpacked.bounds_m();
     assert!(least.abs_diff_eq(Vec3::splat(-0.5), 3e-4), "{least}");
     assert!(most.abs_diff_eq(Vec3::splat(0.5), 3e-4), "{most}");
-    let volume: f32 = unpacked
-        .triangles
-        .iter()
-        .map(|t| {
-            let [a, b, c] = t.map(|v| unpacked.positions_m[v as usize]);
-            a.dot(b.cross(c)) / 6.0
-        })
-        .sum();
+    let volume = volume_m3(&unpacked);
     assert!((volume - 1.0).abs() < 2e-3, "{volume}");
     // Bytes of it changed one by one: a message or another shape, and no panic.
     for i in 0..packed.len() {
@@ -268,8 +273,68 @@ fn packed_meshes_are_unpacked() {
     );
 }
 
+/// The cube with positions and triangles packed by meshoptimizer's codings, by the encoder of the same crate. `damage` may change the packed bytes.
+fn meshopt_file(damage: impl Fn(&mut Vec<u8>)) -> Vec<u8> {
+    let (corners, triangles) = cube();
+    let indices: Vec<u32> = triangles.iter().map(|index| u32::from(*index)).collect();
+    let mut glb = Glb::default();
+    let mut at = 0;
+    let mut pack = |glb: &mut Glb, mut packed: Vec<u8>, stride: usize, count: usize, mode: &str| {
+        damage(&mut packed);
+        let (offset, length) = (glb.bin.len(), packed.len());
+        glb.bin.extend(packed);
+        let bytes = stride * count;
+        glb.views.push(format!(
+            r#"{{"buffer":1,"byteOffset":{at},"byteLength":{bytes},"extensions":{{"EXT_meshopt_compression":{{"buffer":0,
+                "byteOffset":{offset},"byteLength":{length},"byteStride":{stride},"count":{count},"mode":"{mode}"}}}}}}"#
+        ));
+        at += bytes;
+        glb.views.len() - 1
+    };
+    let mut packed = vec![0; 4096];
+    let used = encode_vertex_buffer(&mut packed, &corners, VertexEncodingVersion::V0).unwrap();
+    let positions = pack(&mut glb, packed[..used].into(), 12, 8, "ATTRIBUTES");
+    let mut packed = vec![0; 4096];
+    let used = encode_index_buffer(&mut packed, &indices, IndexEncodingVersion::V0).unwrap();
+    let triangles = pack(&mut glb, packed[..used].into(), 2, 36, "TRIANGLES");
+    let bound = r#""min":[-0.5,-0.5,-0.5],"max":[0.5,0.5,0.5]"#;
+    glb.accessor(format!(
+        r#"{{"bufferView":{positions},"componentType":5126,"count":8,"type":"VEC3",{bound}}}"#
+    ));
+    glb.accessor(format!(
+        r#"{{"bufferView":{triangles},"componentType":5123,"count":36,"type":"SCALAR"}}"#
+    ));
+    glb.more = r#","extensionsUsed":["EXT_meshopt_compression"],"extensionsRequired":["EXT_meshopt_compression"]"#.to_owned();
+    let mesh_text = r#"{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}"#;
+    let json = glb.json(mesh_text, r#"{"mesh":0}"#, None);
+    let stand_in = format!(
+        r#"}},{{"byteLength":{at},"extensions":{{"EXT_meshopt_compression":{{"fallback":true}}}}}}],"bufferViews""#
+    );
+    glb_of(&json.replace(r#"}],"bufferViews""#, &stand_in), &glb.bin)
+}
+
+#[test]
+fn views_packed_by_meshoptimizer_are_unpacked() {
+    let unpacked = mesh(&meshopt_file(|_| {}), "");
+    let mut glb = Glb::default();
+    let mesh_text = cube_mesh(&mut glb, "");
+    let plain = mesh(&glb.bytes(&mesh_text, r#"{"mesh":0}"#), "");
+    assert_eq!(unpacked.bounds_m(), plain.bounds_m());
+    assert_eq!(volume_m3(&unpacked), volume_m3(&plain));
+    let error = load(&meshopt_file(|packed| packed[0] = 0), "").unwrap_err();
+    assert!(
+        error.contains("its buffer view 0 cannot be unpacked (InvalidHeader)"),
+        "{error}"
+    );
+    let error = load(&meshopt_file(|packed| packed.truncate(9)), "").unwrap_err();
+    assert!(
+        error.contains("its buffer view 0 cannot be unpacked"),
+        "{error}"
+    );
+}
+
 mod damaged {
-    use super::{load, packed_cube, packed_file};
+    use super::{load, meshopt_file, packed_cube, packed_file};
     use proptest::prelude::*;
 
     proptest! {
@@ -287,6 +352,23 @@ mod damaged {
             }
             packed.truncate((kept.min(1.0) * packed.len() as f64) as usize);
             if let Err(error) = load(&packed_file(&packed), "") {
+                prop_assert!(error.contains("object[0]"), "{error}");
+            }
+        }
+
+        #[test]
+        fn packed_views_do_too(
+            changed in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 0..6),
+            kept in 0.0..2.0f64,
+        ) {
+            let damaged = meshopt_file(|packed| {
+                for (at, byte) in &changed {
+                    let at = at.index(packed.len());
+                    packed[at] = *byte;
+                }
+                packed.truncate((kept.min(1.0) * packed.len() as f64) as usize);
+            });
+            if let Err(error) = load(&damaged, "") {
                 prop_assert!(error.contains("object[0]"), "{error}");
             }
         }

@@ -1,0 +1,161 @@
+//! EXT_meshopt_compression: buffer views that are packed by themselves. The crate meshopt-rs unpacks them.
+
+use gltf::buffer::View;
+use gltf::json::Value;
+use meshopt_rs::index::buffer::decode_index_buffer;
+use meshopt_rs::index::sequence::decode_index_sequence;
+use meshopt_rs::vertex::buffer::decode_vertex_buffer;
+use meshopt_rs::vertex::filter;
+
+use super::flaw::Flaw;
+
+/// The newer name is of the same form; its newer coding is refused.
+const NAMES: [&str; 2] = ["EXT_meshopt_compression", "KHR_meshopt_compression"];
+/// No coding packs more bytes into one; then there is what is held for a few.
+const MOST_SHARE: usize = 64;
+const FEW_BYTES: usize = 1 << 16;
+
+/// Whether a buffer only stands for bytes that are packed elsewhere.
+pub(super) fn is_stand_in(buffer: &gltf::Buffer) -> bool {
+    let is_one = |name: &&str| {
+        let fallback = |value: &Value| value.get("fallback").and_then(Value::as_bool);
+        buffer.extension_value(name).and_then(fallback) == Some(true)
+    };
+    NAMES.iter().any(is_one)
+}
+
+/// How a view is packed.
+struct Packing<'v> {
+    packed: &'v [u8],
+    count: usize,
+    stride: usize,
+    mode: &'v str,
+    filter: &'v str,
+}
+
+/// The bytes of a view of a buffer that is a stand-in; `buffers` are all of the file's.
+pub(super) fn unpack(view: &View, buffers: &[Vec<u8>]) -> Result<Vec<u8>, Flaw> {
+    let broken = |found: String| {
+        let found = format!("its buffer view {} {found}", view.index());
+        Flaw::new(
+            found,
+            "must be packed by meshoptimizer as the extension has it",
+        )
+    };
+    let mut extensions = NAMES.iter().filter_map(|name| view.extension_value(name));
+    let packing = extensions
+        .next()
+        .and_then(|value| Packing::of(value, buffers));
+    let packing = packing.ok_or_else(|| broken("does not say where its bytes are".to_owned()))?;
+    let bytes = packing.count.checked_mul(packing.stride);
+    if bytes != Some(view.length()) {
+        return Err(broken("is not as long as its elements are".to_owned()));
+    }
+    if view.length() > MOST_SHARE * packing.packed.len() + FEW_BYTES {
+        return Err(broken("is longer than what its bytes can hold".to_owned()));
+    }
+    packing
+        .unpacked()
+        .map_err(|why| broken(format!("cannot be unpacked ({why})")))
+}
+
+impl<'v> Packing<'v> {
+    fn of(value: &'v Value, buffers: &'v [Vec<u8>]) -> Option<Self> {
+        let number = |name: &str| usize::try_from(value.get(name)?.as_u64()?).ok();
+        let text = |name: &str| value.get(name).and_then(Value::as_str);
+        let start = number("byteOffset").unwrap_or(0);
+        let end = start.checked_add(number("byteLength")?)?;
+        Some(Self {
+            packed: buffers.get(number("buffer")?)?.get(start..end)?,
+            count: number("count")?,
+            stride: number("byteStride")?,
+            mode: text("mode")?,
+            filter: text("filter").unwrap_or("NONE"),
+        })
+    }
+
+    fn unpacked(&self) -> Result<Vec<u8>, String> {
+        match self.mode {
+            "ATTRIBUTES" => self.filtered(self.attributes()?),
+            "TRIANGLES" if self.count.is_multiple_of(3) => {
+                let mut indices = vec![0_u32; self.count];
+                decode_index_buffer(&mut indices, self.packed).map_err(in_words)?;
+                self.indices(&indices)
+            }
+            "INDICES" => {
+                let mut indices = vec![0_u32; self.count];
+                decode_index_sequence(&mut indices, self.packed).map_err(in_words)?;
+                self.indices(&indices)
+            }
+            mode => Err(format!("{} elements by the mode {mode:?}", self.count)),
+        }
+    }
+
+    fn indices(&self, indices: &[u32]) -> Result<Vec<u8>, String> {
+        let bytes = indices.iter().map(|index| index.to_le_bytes());
+        match self.stride {
+            2 => Ok(bytes.flat_map(|[a, b, ..]| [a, b]).collect()),
+            4 => Ok(bytes.flatten().collect()),
+            stride => Err(format!("indices of {stride} bytes")),
+        }
+    }
+
+    fn attributes(&self) -> Result<Vec<u8>, String> {
+        match self.stride {
+            4 => self.elements::<4>(),
+            8 => self.elements::<8>(),
+            12 => self.elements::<12>(),
+            16 => self.elements::<16>(),
+            20 => self.elements::<20>(),
+            24 => self.elements::<24>(),
+            28 => self.elements::<28>(),
+            32 => self.elements::<32>(),
+            40 => self.elements::<40>(),
+            48 => self.elements::<48>(),
+            64 => self.elements::<64>(),
+            stride => Err(format!("elements of {stride} bytes")),
+        }
+    }
+
+    fn elements<const N: usize>(&self) -> Result<Vec<u8>, String> {
+        let mut elements = vec![[0_u8; N]; self.count];
+        decode_vertex_buffer(&mut elements, self.packed).map_err(in_words)?;
+        Ok(elements.into_flattened())
+    }
+
+    fn filtered(&self, mut bytes: Vec<u8>) -> Result<Vec<u8>, String> {
+        match (self.filter, self.stride) {
+            ("NONE", _) => {}
+            ("OCTAHEDRAL", 4) => filter::decode_filter_oct_8(bytes.as_chunks_mut().0),
+            ("OCTAHEDRAL", 8) => by_words(&mut bytes, filter::decode_filter_oct_16),
+            ("QUATERNION", 8) => by_words(&mut bytes, filter::decode_filter_quat),
+            ("EXPONENTIAL", _) => {
+                let chunks = bytes.as_chunks().0.iter();
+                let mut words: Vec<u32> = chunks.map(|word| u32::from_le_bytes(*word)).collect();
+                filter::decode_filter_exp(&mut words);
+                bytes = words.iter().flat_map(|word| word.to_le_bytes()).collect();
+            }
+            (filter, stride) => return Err(format!("{filter:?} of {stride} bytes")),
+        }
+        Ok(bytes)
+    }
+}
+
+fn by_words(bytes: &mut Vec<u8>, filter: impl Fn(&mut [[u16; 4]])) {
+    let word = |pair: &[u8; 2]| u16::from_le_bytes(*pair);
+    let element = |bytes: &[u8; 8]| {
+        let pairs = bytes.as_chunks::<2>().0;
+        std::array::from_fn(|i| word(&pairs[i]))
+    };
+    let mut words: Vec<[u16; 4]> = bytes.as_chunks().0.iter().map(element).collect();
+    filter(&mut words);
+    *bytes = words
+        .iter()
+        .flatten()
+        .flat_map(|word| word.to_le_bytes())
+        .collect();
+}
+
+fn in_words<E: std::fmt::Debug>(error: E) -> String {
+    format!("{error:?}")
+}
