@@ -30,6 +30,7 @@ fn material_at(i: u32) -> Material {
         bitcast<f32>(f.w),
         g.xy,
         bitcast<f32>(g.z),
+        g.w,
     );
 }
 

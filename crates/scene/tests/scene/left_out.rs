@@ -11,13 +11,13 @@ fn rich_cube() -> Vec<u8> {
     let positions = glb.floats(&corners);
     let ids = glb.floats(&[[7.0f32]; 8]);
     let indices = glb.indices(&triangles);
-    glb.more = r#","extensionsUsed":["KHR_materials_clearcoat","VENDOR_glow","KHR_materials_unlit"],
+    glb.more = r#","extensionsUsed":["KHR_materials_sheen","VENDOR_glow","KHR_materials_unlit"],
         "animations":[{"channels":[],"samplers":[]},{"channels":[],"samplers":[]}],
         "scenes":[{"nodes":[0]},{"nodes":[0]}],"asset2":{},
         "cameras":[{"type":"perspective","perspective":{"yfov":1,"znear":1}}],
         "materials":[
-            {"alphaMode":"BLEND","occlusionTexture":{"index":0},"extensions":{"KHR_materials_clearcoat":{"extensions":{"VENDOR_glow":{}}}}},
-            {"shine":1,"extensions":{"KHR_materials_unlit":{},"KHR_materials_clearcoat":{},"KHR_materials_specular":{"specularColorFactor":[1,0,0]}}}],
+            {"alphaMode":"BLEND","occlusionTexture":{"index":0},"extensions":{"KHR_materials_sheen":{"extensions":{"VENDOR_glow":{}}}}},
+            {"shine":1,"extensions":{"KHR_materials_unlit":{},"KHR_materials_sheen":{},"KHR_materials_clearcoat":{"clearcoatTexture":{"index":0}},"KHR_materials_specular":{"specularColorFactor":[1,0,0]}}}],
         "images":[{"uri":"data:image/png;base64,AAAA","mimeType":"image/png"}],"textures":[{"source":0}]"#
         .to_owned();
     let attributes = format!(r#""POSITION":{positions},"_BATCHID":{ids}"#);
@@ -53,10 +53,11 @@ fn what_is_left_out_is_told_once_with_its_count() {
     assert_eq!(
         notes,
         [
-            "it.glb: KHR_materials_clearcoat (2) left out; coated surfaces miss the highlight of their coat",
+            "it.glb: KHR_materials_sheen (2) left out; cloth misses its sheen",
             "it.glb: VENDOR_glow (1) left out; Hairline does not know it",
             "it.glb: alphaMode BLEND (1) left out; what is clear to more than a half is cut away, the rest is opaque",
             "it.glb: animations (2) left out; the model is at rest; `time_s` of its object shows the first one at a time",
+            "it.glb: clearcoatTexture (1) left out; the coat is as thick all over",
             "it.glb: points or lines (1) left out; they have no surface",
             "it.glb: scenes (1) left out; one scene of the file is shown",
             "it.glb: specularColorFactor (1) left out; what is no metal reflects without a colour",
@@ -65,7 +66,7 @@ fn what_is_left_out_is_told_once_with_its_count() {
     // Another material takes the place of the file's: nothing of those is missed.
     let notes = told(dir.path(), "material = \"steel\"\ntime_s = 1.0\n").join("\n");
     assert!(
-        !notes.contains("clearcoat") && !notes.contains("BLEND"),
+        !notes.contains("sheen") && !notes.contains("BLEND"),
         "{notes}"
     );
     assert!(

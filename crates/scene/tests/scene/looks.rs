@@ -2,7 +2,7 @@
 
 use crate::common::{Glb, scene_with, temporary_dir};
 use glam::{Vec2, Vec4, vec2, vec4};
-use hairline_scene::{Base, Cutout, Reflector, Sampling, Scene, Texture, Wrap};
+use hairline_scene::{Base, Coat, Cutout, Reflector, Sampling, Scene, Texture, Wrap};
 
 /// The scene of a square with two sets of texture coordinates and colours, of the only material of a file.
 fn scene(material: &str, more: &str) -> Scene {
@@ -124,6 +124,15 @@ fn extensions_change_what_a_surface_reflects() {
         r#"{plastic},"extensions":{{"KHR_materials_unlit":{{}}}}"#
     ));
     assert!(unlit.is_unlit && unlit.dielectric == [0.0; 2]);
+    let coated = material(&format!(
+        r#"{plastic},"extensions":{{"KHR_materials_clearcoat":{{"clearcoatFactor":0.75,"clearcoatRoughnessFactor":0.25}}}}"#
+    ));
+    let (weight, roughness) = (0.75, 0.25);
+    assert_eq!(coated.coat, Some(Coat { weight, roughness }));
+    let bare = material(&format!(
+        r#"{plastic},"extensions":{{"KHR_materials_clearcoat":{{}}}}"#
+    ));
+    assert_eq!(bare.coat, None);
     // A metal of the older model, and an image of it.
     let old = r#""extensions":{"KHR_materials_pbrSpecularGlossiness":{"diffuseFactor":[0,0,0,1],"specularFactor":[0.9,0.6,0.3],"glossinessFactor":0.75"#;
     let metal = material(&format!("{old}}}}}"));
