@@ -187,7 +187,7 @@ modules! {
     /// Pass: the light and the mask of scratches.
     SHADE_SCRATCHES = "passes/shade_scratches" needs [NEARNESS, PAIR_LIGHT, PICKS, GROUPS];
     /// Pass: the light of gratings.
-    SHADE_GRATINGS = "passes/shade_gratings" needs [GRATING_PAIRS, PAIR_LIGHT, PICKS, FILM, FRESNEL];
+    SHADE_GRATINGS = "passes/shade_gratings" needs [GRATING_PAIRS, PAIR_LIGHT, PICKS, FILM, COAT];
     /// Pass: the radiance of the base.
     SHADE_BASE = "passes/shade_base" needs [BASE, FILM, PIXEL_POINT];
     /// The lobes of the base, to draw directions from.
