@@ -11,12 +11,10 @@ use glam::DVec2;
 
 use crate::description::Shape;
 use crate::surface::Surface;
-use profile::{Profile, add_flat_disk, flat_vertex};
+use profile::{Profile, ROUNDING_FACETS, add_flat_disk, flat_vertex};
 
 /// Facets around a disk or a sphere.
 const FACETS: u32 = 256;
-/// Facets of a quarter of a rounded edge, which is small beside its shape.
-const ROUNDING_FACETS: u32 = 16;
 
 /// The surface of a shape.
 pub(crate) fn surface(shape: &Shape) -> Surface {

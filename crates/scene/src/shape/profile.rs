@@ -7,6 +7,9 @@ use glam::{DVec2, DVec3, Vec2};
 
 use crate::surface::{Surface, Vertex};
 
+/// Facets of a quarter of a rounded edge, which is small beside its shape.
+pub(super) const ROUNDING_FACETS: u32 = 16;
+
 /// An end of a straight piece of a profile.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ProfileEnd {

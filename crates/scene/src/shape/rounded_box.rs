@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Vec2};
 
-use super::ROUNDING_FACETS;
+use super::profile::ROUNDING_FACETS;
 use crate::surface::{Surface, Vertex};
 
 /// Each side's directions of u and of up in its texture; their cross product is its outward normal.
