@@ -150,7 +150,7 @@ pub struct Render {
     /// The curve from radiance to a .png, in place of the scene's.
     #[arg(long, value_name = "CURVE", value_parser = tone_maps())]
     pub tone_map: Option<ToneMap>,
-    /// The time of the models' first animations, seconds, in place of the scene's.
+    /// The time of the models' animations, seconds, in place of the scene's.
     #[arg(long, value_name = "S", value_parser = parse_time)]
     pub time: Option<f64>,
     /// See by this camera of a model's file: its name, or its number from 0.

@@ -221,9 +221,12 @@ pub struct Object {
     /// have no such key.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fit_m: Option<f64>,
-    /// The time of a mesh's first animation, in seconds. Default: none, the model is at rest. Shapes have no such key.
+    /// The time of an animation of a mesh, in seconds. Default: none, the model is at rest. Shapes have no such key.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub time_s: Option<f64>,
+    /// With `time_s`: the name of the animation, or its number from 0. Default: the first one. Shapes have no such key.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub animation: Option<String>,
     /// Name of a material. Required for a shape; a mesh that leaves it out keeps the materials of its file.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,

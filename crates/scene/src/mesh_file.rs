@@ -97,7 +97,7 @@ pub(crate) fn read(
         }
     };
     let mut mesh = Mesh::default();
-    let shapes = Shapes::new(&gltf.document, &buffers, placing.time_s)?;
+    let shapes = Shapes::new(&gltf.document, &buffers, placing.moment())?;
     let world_from_file = *world_from_object * placing.object_from_file(&shapes)?;
     let without_surface = shapes.visit(&mut |shape| {
         let surface = shape.rough.finished(&shape.primitive);
@@ -150,7 +150,7 @@ pub(crate) fn camera(
     let gltf = parse(&file(path)?, kept)?;
     let base_dir = path.parent().unwrap_or(Path::new(""));
     let buffers = Buffers::read(&gltf, base_dir, &mut Vec::new())?;
-    let shapes = Shapes::new(&gltf.document, &buffers, placing.time_s)?;
+    let shapes = Shapes::new(&gltf.document, &buffers, placing.moment())?;
     let world_from_file = *world_from_object * placing.object_from_file(&shapes)?;
     Ok(shapes.camera(wanted)?.moved(&world_from_file))
 }

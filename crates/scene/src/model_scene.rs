@@ -118,6 +118,7 @@ impl Description {
                     up: Up::Y,
                     fit_m,
                     time_s: None,
+                    animation: None,
                     material: None,
                     translation_m: [0.0; 3],
                     rotation_deg: [0.0; 3],

@@ -187,6 +187,7 @@ impl PhotoSet {
             up: Up::default(),
             fit_m: None,
             time_s: None,
+            animation: None,
             material: Some("ground".to_owned()),
             translation_m: (self.base_m + (height_m - level) * self.up).into(),
             rotation_deg,

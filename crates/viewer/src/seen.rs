@@ -36,6 +36,7 @@ fn is_same_object((a, x): (&Description, &Object), (b, y): (&Description, &Objec
         up,
         fit_m,
         time_s,
+        animation,
     } = x;
     let is_same_material = match (material(a, x), material(b, y)) {
         (Some(x), Some(y)) => is_same_but_for_name(x, y),
@@ -51,6 +52,7 @@ fn is_same_object((a, x): (&Description, &Object), (b, y): (&Description, &Objec
         && *up == y.up
         && *fit_m == y.fit_m
         && *time_s == y.time_s
+        && *animation == y.animation
 }
 
 fn material<'d>(description: &'d Description, object: &Object) -> Option<&'d Material> {

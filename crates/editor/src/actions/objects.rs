@@ -48,6 +48,7 @@ fn add(
         up: Up::default(),
         fit_m: None,
         time_s: None,
+        animation: None,
         translation_m: [0.0; 3],
         rotation_deg: [0.0; 3],
         scale: [1.0; 3],

@@ -118,7 +118,7 @@ pub(super) fn of(parameter: Parameter) -> Text {
         ),
         P::Time => (
             "Time (s)",
-            "Seconds from the start of the model's first animation. Its scratches are laid anew where it stands then.",
+            "Seconds from the start of the model's animation. Its scratches are laid anew where it stands then.",
         ),
         P::LatheSegments => (
             "Segments",

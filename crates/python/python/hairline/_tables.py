@@ -323,7 +323,9 @@ class Object(Table):
     fit_m: Optional[float] = _default()
     """The largest extent of a mesh's file, metres; it is scaled to that."""
     time_s: Optional[float] = _default()
-    """The time of a mesh's first animation, seconds. Without it the model is at rest."""
+    """The time of an animation of a mesh, seconds. Without it the model is at rest."""
+    animation: Optional[str] = _default()
+    """With ``time_s``: the name of the animation, or its number from 0. Default: the first one."""
     translation_m: Vector = _default()
     """Metres, 3 numbers. Default: 0."""
     rotation_deg: Vector = _default()
@@ -366,7 +368,7 @@ class Object(Table):
             found = f"found an object of type {type(table['mesh']).__module__}.{type(table['mesh']).__qualname__}"
             raise argument_error("object.mesh", found, "must be the path of a file; arrays go by hairline.Object.from_arrays")
         if isinstance(table.get("mesh"), core.MeshArray):
-            for key in ("up", "fit_m", "time_s"):
+            for key in ("up", "fit_m", "time_s", "animation"):
                 if table.get(key) is not None:
                     raise argument_error(f"object.{key}", "a mesh in memory has no such key", "it belongs to a file")
         return super()._checked(table)

@@ -174,6 +174,11 @@ fn object(object: &Object, key: &str) -> Check {
         let right = "must be from 0 to 1e6";
         return Err(Error::new(format!("{key}.time_s"), found(time_s), right));
     }
+    if object.animation.is_some() && object.time_s.is_none() {
+        let right = "add one, such as `time_s = 0`: an animation is shown at a time";
+        let found = "found no `time_s` beside it";
+        return Err(Error::new(format!("{key}.animation"), found, right));
+    }
     match (&object.surface, &object.material) {
         (Surface::Shape(shape), Some(_)) => shape.check_at(&format!("{key}.shape")),
         (Surface::Shape(_), None) => Err(Error::new(

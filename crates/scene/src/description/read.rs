@@ -201,6 +201,7 @@ impl Read for Object {
                 "up",
                 "fit_m",
                 "time_s",
+                "animation",
                 "translation_m",
                 "rotation_deg",
                 "scale",
@@ -212,7 +213,7 @@ impl Read for Object {
             _ => Surface::Mesh(table.required("mesh")?),
         };
         if let Surface::Shape(_) = surface
-            && let Some(extra) = ["up", "fit_m", "time_s"]
+            && let Some(extra) = ["up", "fit_m", "time_s", "animation"]
                 .into_iter()
                 .find(|it| table.get(it).is_some())
         {
@@ -230,6 +231,7 @@ impl Read for Object {
             up: table.or("up", Up::default())?,
             fit_m: table.optional("fit_m")?,
             time_s: table.optional("time_s")?,
+            animation: table.optional("animation")?,
             translation_m: table.or("translation_m", [0.0; 3])?,
             rotation_deg: table.or("rotation_deg", [0.0; 3])?,
             scale,

@@ -37,7 +37,7 @@ const PROPERTY: u8 = 2;
 pub(crate) struct Wanted {
     /// Without its own materials what they say is of no account.
     pub own_materials: bool,
-    /// Whether its first animation is shown, at a time.
+    /// Whether one of its animations is shown, at a time.
     pub animation: bool,
 }
 
@@ -110,10 +110,13 @@ impl Found {
     fn properties(&mut self, root: &Value, wanted: Wanted) {
         let count = |name: &str| list(root, name).len();
         let (shown, meaning) = match wanted.animation {
-            true => (1, "the first one is shown"),
+            true => (
+                1,
+                "one of them is shown; `animation` of its object says which",
+            ),
             false => (
                 0,
-                "the model is at rest; `time_s` of its object shows the first one at a time",
+                "the model is at rest; `time_s` of its object shows one at a time",
             ),
         };
         let others = count("animations").saturating_sub(shown);

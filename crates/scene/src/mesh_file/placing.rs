@@ -3,11 +3,12 @@
 use glam::{DMat3, DMat4, DVec3};
 
 use super::flaw::Flaw;
+use super::pose::Moment;
 use super::shapes::Shapes;
 use crate::description::{Object, Up};
 
-/// The keys `up`, `fit_m` and `time_s` of an object.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// The keys `up`, `fit_m`, `time_s` and `animation` of an object.
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Placing {
     /// The axis of the file that points up.
     pub up: Up,
@@ -15,8 +16,10 @@ pub(crate) struct Placing {
     pub world_up: DVec3,
     /// The largest extent that the object is to have.
     pub fit_m: Option<f64>,
-    /// The time of the file's first animation; without it the model is at rest.
+    /// The time of an animation of the file; without it the model is at rest.
     pub time_s: Option<f64>,
+    /// Which one, by its name or its number; without it the first.
+    pub animation: Option<String>,
 }
 
 impl Placing {
@@ -26,6 +29,7 @@ impl Placing {
         world_up: DVec3::Z,
         fit_m: None,
         time_s: None,
+        animation: None,
     };
 
     /// What an object says of its file.
@@ -35,7 +39,14 @@ impl Placing {
             world_up,
             fit_m: object.fit_m,
             time_s: object.time_s,
+            animation: object.animation.clone(),
         }
+    }
+
+    /// Of the file's animation, unless it is at rest.
+    pub(super) fn moment(&self) -> Option<Moment<'_>> {
+        let animation = self.animation.as_deref();
+        self.time_s.map(|time_s| Moment { time_s, animation })
     }
 
     /// The turn and the factor that the object begins with.

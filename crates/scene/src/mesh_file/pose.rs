@@ -1,4 +1,4 @@
-//! How the nodes of a file stand: at rest, or at a time of its first animation (glTF 2.0, sections 3.5 and 3.11).
+//! How the nodes of a file stand: at rest, or at a time of one of its animations (glTF 2.0, sections 3.5 and 3.11).
 
 use glam::{DMat4, DQuat, DVec3};
 use gltf::animation::{Channel, Interpolation, Property};
@@ -6,6 +6,15 @@ use gltf::animation::{Channel, Interpolation, Property};
 use super::accessor::read_numbers;
 use super::flaw::Flaw;
 use super::source::Buffers;
+use crate::text::shown;
+
+/// A time of an animation.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Moment<'p> {
+    pub time_s: f64,
+    /// Its name or its number; without it the first one.
+    pub animation: Option<&'p str>,
+}
 
 /// The nodes of a file by their numbers.
 pub(super) struct Pose(Vec<NodePose>);
@@ -22,14 +31,19 @@ impl Pose {
         Self(parts.collect())
     }
 
-    /// With the first animation at a time. Before its first key and after its last one an animation stands still.
+    /// With an animation at a time: the one of a name or a number, or the first. Before its first key and after its last one an animation
+    /// stands still.
     pub(super) fn at(
         document: &gltf::Document,
         buffers: &Buffers,
-        time_s: f64,
+        Moment { time_s, animation }: Moment,
     ) -> Result<Self, Flaw> {
         let mut parts: Vec<Parts> = document.nodes().map(|node| Parts::of(&node)).collect();
-        if let Some(animation) = document.animations().next() {
+        let animation = match animation {
+            Some(wanted) => Some(named(document, wanted)?),
+            None => document.animations().next(),
+        };
+        if let Some(animation) = animation {
             for channel in animation.channels() {
                 let node = &mut parts[channel.target().node().index()];
                 node.animate(&channel, buffers, time_s)?;
@@ -51,6 +65,20 @@ impl Pose {
         let weights = node.weights().or(of_mesh).unwrap_or_default();
         weights.iter().copied().map(f64::from).collect()
     }
+}
+
+fn named<'d>(document: &'d gltf::Document, wanted: &str) -> Result<gltf::Animation<'d>, Flaw> {
+    let is_wanted =
+        |it: &gltf::Animation| it.name() == Some(wanted) || wanted.parse() == Ok(it.index());
+    document.animations().find(is_wanted).ok_or_else(|| {
+        let name = |it: gltf::Animation| it.name().map_or_else(|| it.index().to_string(), shown);
+        let known: Vec<_> = document.animations().map(name).collect();
+        let right = match known.is_empty() {
+            true => "it has none at all".to_owned(),
+            false => format!("its animations are {}", known.join(", ")),
+        };
+        Flaw::new(format!("it has no animation \"{}\"", shown(wanted)), right)
+    })
 }
 
 /// A node's transform taken apart. A file that animates a node gives it no matrix.

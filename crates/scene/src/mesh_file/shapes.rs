@@ -9,7 +9,7 @@ use super::cameras::{self, FileCamera};
 use super::flaw::Flaw;
 use super::instances::node_from_instances;
 use super::nodes::{Placed, placed_nodes};
-use super::pose::Pose;
+use super::pose::{Moment, Pose};
 use super::primitive::{self, Rough};
 use super::skin::Motion;
 use super::source::Buffers;
@@ -32,14 +32,14 @@ pub(super) struct Shape<'a> {
 }
 
 impl<'a> Shapes<'a> {
-    /// At a time of the file's first animation, or at rest.
+    /// At a time of an animation of the file, or at rest.
     pub(super) fn new(
         document: &'a Document,
         buffers: &'a Buffers,
-        time_s: Option<f64>,
+        moment: Option<Moment>,
     ) -> Result<Self, Flaw> {
-        let pose = match time_s {
-            Some(time_s) => Pose::at(document, buffers, time_s)?,
+        let pose = match moment {
+            Some(moment) => Pose::at(document, buffers, moment)?,
             None => Pose::at_rest(document),
         };
         Ok(Self {

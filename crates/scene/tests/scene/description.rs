@@ -220,6 +220,7 @@ fn everything() -> Description {
                 },
                 fit_m: matches!(surface, Surface::Mesh(_)).then_some(0.2),
                 time_s: matches!(surface, Surface::Mesh(_)).then_some(1.5),
+                animation: matches!(surface, Surface::Mesh(_)).then(|| "walk".to_owned()),
                 surface,
                 material: (i % 2 == 0).then(|| "material 0".to_owned()),
                 translation_m: [0.0, 1.0, 2.0],

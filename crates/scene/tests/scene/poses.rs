@@ -73,6 +73,29 @@ fn nodes_move_as_the_first_animation_has_them() {
         error.contains("object[0].time_s: found -1; must be from 0"),
         "{error}"
     );
+    // Another one, by its name or its number.
+    let one = glb.more.clone();
+    glb.more = glb.more.replace(
+        r#""animations":["#,
+        r#""animations":[{"name":"wave","channels":[],"samplers":[]},"#,
+    );
+    let bytes = glb.bytes(&mesh_text, nodes);
+    for (animation, place) in [("wave", vec3(9.0, 0.0, 0.0)), ("1", vec3(2.0, 0.0, 1.0))] {
+        let keys = format!("time_s = 2.0\nanimation = \"{animation}\"");
+        let found = middle(&mesh(&bytes, &keys));
+        assert!(found.abs_diff_eq(place, 1e-5), "{animation}: {found}");
+    }
+    let error = load(&bytes, "time_s = 2.0\nanimation = \"run\"").unwrap_err();
+    assert!(
+        error.contains("no animation \"run\"; its animations are wave, 1"),
+        "{error}"
+    );
+    let error = load(&bytes, "animation = \"wave\"").unwrap_err();
+    assert!(
+        error.contains("object[0].animation: found no `time_s` beside it"),
+        "{error}"
+    );
+    glb.more = one;
     // A sampler whose numbers are too few.
     glb.more = glb.more.replace(
         &format!(r#""output":{places}"#),

@@ -54,7 +54,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
                 &mut object.up,
             );
             fit_rows(&mut form, &mut object.fit_m);
-            time_rows(&mut form, &mut object.time_s);
+            time_rows(&mut form, &mut object.time_s, &mut object.animation);
         }
         Surface::Shape(shape) => shape_rows(&mut form, shape),
     }
@@ -162,16 +162,22 @@ fn fit_rows(form: &mut Form, fit_m: &mut Option<f64>) {
 }
 
 /// At rest, or at a time of its animation.
-fn time_rows(form: &mut Form, time_s: &mut Option<f64>) {
+fn time_rows(form: &mut Form, time_s: &mut Option<f64>, animation: &mut Option<String>) {
     let mut is_animated = time_s.is_some();
     form.toggle(
         "Animate",
-        "Whether the model stands as its first animation has it at a time; else it is at rest",
+        "Whether the model stands as an animation has it at a time; else it is at rest",
         &mut is_animated,
     );
     match time_s {
-        Some(_) if !is_animated => *time_s = None,
-        Some(time_s) => form.number(Parameter::Time, time_s),
+        Some(_) if !is_animated => (*time_s, *animation) = (None, None),
+        Some(time_s) => {
+            form.number(Parameter::Time, time_s);
+            let mut name = animation.clone().unwrap_or_default();
+            let tooltip = "Which animation, by its name or its number from 0; empty for the first";
+            form.text("Animation", tooltip, &mut name);
+            *animation = Some(name).filter(|name| !name.is_empty());
+        }
         None if is_animated => *time_s = Some(0.0),
         None => {}
     }

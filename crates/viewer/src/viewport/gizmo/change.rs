@@ -99,6 +99,7 @@ mod tests {
             up: Default::default(),
             fit_m: None,
             time_s: None,
+            animation: None,
             translation_m: [0.0; 3],
             rotation_deg,
             scale: [1.0; 3],
