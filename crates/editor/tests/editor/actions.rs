@@ -342,10 +342,10 @@ fn presets_are_legal_for_objects_of_any_size() {
     }
     // All metals, each once.
     let mut names: Vec<_> = MaterialPreset::all().map(MaterialPreset::name).collect();
-    assert_eq!(names.len(), hairline_optics::metal::Metal::ALL.len() + 3);
+    assert_eq!(names.len(), hairline_optics::metal::Metal::ALL.len() + 4);
     names.sort();
     names.dedup();
-    assert_eq!(names.len(), hairline_optics::metal::Metal::ALL.len() + 3);
+    assert_eq!(names.len(), hairline_optics::metal::Metal::ALL.len() + 4);
 }
 
 fn shines_on(light: &Light, target: DVec3) {
