@@ -192,9 +192,15 @@ fn copy_page(root: &Path, output: &Path) -> anyhow::Result<()> {
         let text = fs::read_to_string(&path)?;
         let description = Description::from_toml(&text, &path)?;
         let title = path.file_stem().unwrap_or_default().to_string_lossy();
+        let picture = root.join(format!("docs/pictures/{title}.png"));
+        if !picture.exists() {
+            println!(
+                "{title} is not in the gallery: `cargo xtask pictures` has made no picture of it"
+            );
+            continue;
+        }
         let file = format!("{title}.toml");
         fs::write(copies.join(&file), &text)?;
-        let picture = root.join(format!("docs/pictures/{title}.png"));
         small(&picture, &copies.join(format!("{title}.jpg")), 320)?;
         list.push(json!({ "file": file, "title": title, "about": about(&text) }));
         for input in description.inputs(Path::new("")) {
