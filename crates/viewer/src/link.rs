@@ -104,9 +104,12 @@ mod tests {
 
     #[test]
     fn what_is_too_long_or_too_large_is_refused() {
-        let noise: String = (0..20_000_u32)
-            .map(|i| char::from(32 + (i.wrapping_mul(2_654_435_761) >> 24) as u8 % 90))
-            .collect();
+        // Letters that follow no pattern: a linear congruential generator's high bits.
+        let states = std::iter::successors(Some(1_u32), |state| {
+            Some(state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223))
+        });
+        let letters = states.map(|state| char::from(32 + (state >> 24) as u8 % 90));
+        let noise: String = letters.take(20_000).collect();
         assert!(matches!(fragment(&noise), Err(Error::TooLong { needed }) if needed > MOST_BYTES));
         let blank = fragment(&" ".repeat(2 << 20)).unwrap();
         assert_eq!(text(&blank), Some(Err(Error::TooLarge)));
