@@ -13,6 +13,8 @@ mod backend;
 pub(crate) mod bands;
 mod build;
 mod builder;
+#[cfg(not(target_arch = "wasm32"))]
+mod caught;
 mod cpu;
 mod drafts;
 mod easel;
@@ -171,7 +173,7 @@ impl Drop for Engine {
             #[cfg(not(target_arch = "wasm32"))]
             Workers::Threads(threads) => {
                 for thread in threads.drain(..) {
-                    // A thread that panicked has said so on stderr.
+                    // What panics in it is told in the window.
                     let _ = thread.join();
                 }
             }

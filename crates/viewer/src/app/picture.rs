@@ -116,6 +116,12 @@ impl Viewer {
                 Event::Recovered => {
                     notices.note("device", "The graphics device was lost, and is back.");
                 }
+                Event::Panicked { what, message } => {
+                    let text = format!(
+                        "{what} failed by a mistake of Hairline's: {message}. Move the view or change the scene to go on."
+                    );
+                    notices.error("panic", text);
+                }
             }
         }
         self.work.tell_model_notes();

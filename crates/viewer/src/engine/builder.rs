@@ -1,6 +1,8 @@
 //! The building of scenes, by a thread of its own where there are threads.
 
 use super::build::Workshop;
+#[cfg(not(target_arch = "wasm32"))]
+use super::caught::caught;
 use super::painter::STILL;
 use super::request::{Shared, WantedScene};
 use super::{Backend, Event, pool};
@@ -10,7 +12,13 @@ pub(super) fn run(shared: &Shared) {
     crate::priority::lower();
     let mut workshop = Workshop::default();
     while let Some(wanted) = shared.next_scene() {
-        build(shared, &mut workshop, wanted);
+        let built = caught(shared, "Building the scene", || {
+            build(shared, &mut workshop, wanted);
+        });
+        if built.is_none() {
+            workshop = Workshop::default();
+            shared.drop_sketch();
+        }
     }
 }
 

@@ -19,6 +19,13 @@ pub enum Event {
     },
     /// A device that was lost is back.
     Recovered,
+    /// A thread panicked, by a mistake of the program's. It goes on with the next change of the view or the scene.
+    Panicked {
+        /// What it was at.
+        what: &'static str,
+        /// Of the panic.
+        message: String,
+    },
 }
 
 /// How the interface is told that something new is there.

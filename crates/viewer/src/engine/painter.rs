@@ -7,6 +7,8 @@ use hairline_gpu::Gpu;
 use web_time::Instant;
 
 #[cfg(not(target_arch = "wasm32"))]
+use super::caught::caught;
+#[cfg(not(target_arch = "wasm32"))]
 use super::cpu::CpuEasel;
 use super::easel::Easel;
 #[cfg(not(target_arch = "wasm32"))]
@@ -34,12 +36,20 @@ pub(super) fn run(shared: &Shared) {
                 work(shared, &mut easel).await
             })
         };
-        let outcome = match shared.backend() {
+        let outcome = caught(shared, "Painting", || match shared.backend() {
             Backend::Cpu => pollster::block_on(work(shared, &mut CpuEasel::of_a_thread())),
             Backend::Gpu(gpu) => on_gpu(gpu, false),
             Backend::Shared(gpu) => on_gpu(gpu, true),
+        });
+        let error = match outcome {
+            Some(Ok(())) => return,
+            Some(Err(error)) => error,
+            // The same picture would panic again: the next one is tried, by an easel of its own.
+            None => match shared.next_order(shared.order().as_ref(), None) {
+                Some(_) => continue,
+                None => return,
+            },
         };
-        let Err(error) = outcome else { return };
         // A window whose own device is lost has to be opened anew; only a device beside it can be.
         let reopened = match shared.backend() {
             Backend::Gpu(_) if reopenings < REOPENINGS => GpuEasel::reopen().ok(),

@@ -19,6 +19,7 @@ mod lost;
 mod numbers;
 mod on_disk;
 mod panels;
+mod panics;
 mod picking;
 mod reading;
 mod rest;

@@ -1,0 +1,42 @@
+//! A thread of the engine that panics: the window says so, and the next change has its picture.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use crate::common::{SMALL, viewer, wait_built, wait_until};
+
+/// Each thread wakes the window when it has something new: in the middle of its work.
+#[test]
+fn a_panic_is_told_and_the_picture_goes_on() {
+    for (thread, what) in [
+        ("painter", "Painting failed"),
+        ("scene builder", "Building the scene failed"),
+    ] {
+        let mut harness = viewer(SMALL);
+        wait_built(&mut harness);
+        let breaks = AtomicBool::new(true);
+        harness.ctx.set_request_repaint_callback(move |_| {
+            let is_it = std::thread::current().name() == Some(thread);
+            assert!(
+                !(is_it && breaks.swap(false, Ordering::Relaxed)),
+                "a broken lamp"
+            );
+        });
+        let change = |d: &mut hairline_scene::Description| {
+            d.camera.position_m[0] += 0.1;
+            d.objects[0].translation_m[0] += 0.001;
+        };
+        harness.state_mut().document_mut().edit("Break", change);
+        wait_until(&mut harness, "a message", |viewer| {
+            let messages = viewer.messages();
+            messages
+                .iter()
+                .any(|text| text.contains(what) && text.contains("a broken lamp"))
+        });
+        harness.state_mut().document_mut().edit("Turn", change);
+        let wanted = harness.state().document().revision();
+        wait_until(&mut harness, "a picture after the panic", |viewer| {
+            let frame = viewer.engine().latest();
+            frame.is_some_and(|frame| frame.built.revision == wanted)
+        });
+    }
+}
