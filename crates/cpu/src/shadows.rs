@@ -109,12 +109,6 @@ struct DrawnRay {
     hit: Option<Hit>,
 }
 
-impl DrawnRay {
-    fn free_m(&self) -> f64 {
-        self.hit.map_or(f64::INFINITY, |hit| hit.distance_m)
-    }
-}
-
 /// What the random numbers of a ray are for. Each has four.
 #[derive(Clone, Copy)]
 enum Purpose {
@@ -277,11 +271,9 @@ impl<'a> Shadows<'a> {
                 }) = self.lights.hit(light, from, drawn.direction)
             {
                 let pdf = lobes.pdf(drawn.wi) + self.lights.pdf(light, from, drawn.direction);
-                source.add(
-                    round,
-                    lobes.eval(drawn.wi).times(radiance / pdf),
-                    drawn.free_m() >= distance_m,
-                );
+                let weight = radiance / pdf;
+                let is_seen = self.sees(point, on_surface_m, drawn.direction, distance_m);
+                source.add(round, lobes.eval(drawn.wi).times(weight), is_seen);
             }
         }
         drawn
@@ -376,7 +368,7 @@ impl<'a> Shadows<'a> {
             let on_surface_m = self.on_scratch(at, set, round, place, &along);
             let direction = point.world_from_surface(direction);
             let distance_m = light.map_or(f64::INFINITY, |light| {
-                self.lights.reach_m(light, on_surface_m, direction)
+                self.lights.reach_m(light, point.position_m, direction)
             });
             let weight = radiance * color * (source.luminance / luminance(radiance));
             halves.add(
@@ -451,19 +443,25 @@ impl<'a> Shadows<'a> {
         let wi = light.map_or(DVec3::Z, |light| light.highest(at.views));
         let direction = point.world_from_surface(wi);
         let distance_m = at.views.light_of(source).map_or(f64::INFINITY, |light| {
-            self.lights.reach_m(light, point.raised_m, direction)
+            self.lights.reach_m(light, point.position_m, direction)
         });
         wi.z > 0.0 && self.sees(point, point.raised_m, direction, distance_m)
     }
 
-    /// Whether nothing hides what lies at a distance.
+    /// Whether nothing hides, from a place on the surface, what the point sees in a direction at a distance. The ray goes to that very place:
+    /// a parallel one would blur the shadow of what is near a lamp by more than the pixel's filter does.
     fn sees(
         &self,
         point: &SurfacePoint,
         on_surface_m: DVec3,
-        direction: DVec3,
-        distance_m: f64,
+        mut direction: DVec3,
+        mut distance_m: f64,
     ) -> bool {
+        if distance_m.is_finite() {
+            let way_m = point.position_m + direction * distance_m - on_surface_m;
+            distance_m = way_m.length();
+            direction = way_m / distance_m;
+        }
         let origin_m = self.off_the_surface(point, on_surface_m, direction);
         let triangles = &self.prepared.triangles;
         !triangles.is_hidden(origin_m, direction, distance_m)

@@ -1,22 +1,27 @@
 //! The penumbra behind an edge, against integrals over the directions in which a light is seen.
 
 use super::shadowed::closed;
+use super::shadowed_on_gpu::on_gpu;
 use glam::{DVec2, DVec3};
 use hairline_fixtures::SceneFile;
 use hairline_image::Image;
 use hairline_optics::gaussian::gaussian;
+use hairline_scene::Scene;
 
 const MIDDLE_M: DVec3 = DVec3::new(0.0, 0.10, 0.13);
-const EDGE_HEIGHT_M: f64 = 0.03;
 const SIZE_PX: [u32; 2] = [24, 4];
 
 /// A lamp: its keys in a scene file, and whether a line that leaves a point meets it.
 struct Lamp {
     keys: &'static str,
     meets: fn(DVec3, DVec3) -> bool,
+    /// Of the board above the plate.
+    edge_m: f64,
+    /// The lamp is seen within this slope from its middle.
+    reach: f64,
 }
 
-const LAMPS: [Lamp; 3] = [
+const LAMPS: [Lamp; 4] = [
     Lamp {
         keys: "kind = \"rectangle\"\ncenter_m = [0.0, 0.10, 0.13]\ntarget_m = [0.0, 0.0, 0.0]\nwidth_m = 0.03\nheight_m = 0.02",
         meets: |from, along| {
@@ -25,10 +30,21 @@ const LAMPS: [Lamp; 3] = [
             // The height runs as near to y as the plane lets it.
             at.x.abs() < 0.015 && at.dot(DVec3::X.cross(facing)).abs() < 0.01
         },
+        edge_m: 0.03,
+        reach: 0.14,
     },
     Lamp {
         keys: "kind = \"disk\"\ncenter_m = [0.0, 0.10, 0.13]\ntarget_m = [0.0, 0.0, 0.0]\nradius_m = 0.015",
         meets: |from, along| on_plane(from, along, MIDDLE_M.normalize()).length() < 0.015,
+        edge_m: 0.03,
+        reach: 0.14,
+    },
+    // A board right before a lamp that is as small as a pixel.
+    Lamp {
+        keys: "kind = \"disk\"\ncenter_m = [0.0, 0.10, 0.13]\ntarget_m = [0.0, 0.0, 0.0]\nradius_m = 0.0005",
+        meets: |from, along| on_plane(from, along, MIDDLE_M.normalize()).length() < 0.0005,
+        edge_m: 0.117,
+        reach: 0.004,
     },
     Lamp {
         keys: "kind = \"tube\"\nends_m = [[-0.015, 0.11, 0.14], [0.015, 0.09, 0.12]]\nradius_m = 0.006",
@@ -43,6 +59,8 @@ const LAMPS: [Lamp; 3] = [
             let share = -beside(first).dot(way) / beside(way).dot(way);
             beside(first + way * share.clamp(0.0, 1.0)).length() < 0.006
         },
+        edge_m: 0.03,
+        reach: 0.14,
     },
 ];
 
@@ -60,7 +78,7 @@ fn irradiance(lamp: &Lamp, from: DVec3) -> [f64; 2] {
     let (x, y) = towards.any_orthonormal_pair();
     let (right, up) = (0.8 * x + 0.6 * y, 0.8 * y - 0.6 * x);
     let (mut all, mut seen) = (0.0, 0.0);
-    let at = |i: i32| 0.14 * ((f64::from(i) + 0.5) / f64::from(STEPS) * 2.0 - 1.0);
+    let at = |i: i32| lamp.reach * ((f64::from(i) + 0.5) / f64::from(STEPS) * 2.0 - 1.0);
     for (i, j) in (0..STEPS).flat_map(|i| (0..STEPS).map(move |j| (i, j))) {
         let way = towards + at(i) * right + at(j) * up;
         let along = way.normalize();
@@ -68,7 +86,7 @@ fn irradiance(lamp: &Lamp, from: DVec3) -> [f64; 2] {
             // The solid angle of a square of the plane one unit away, and the cosine on the plate.
             let weight = along.z * way.length().powi(-3);
             all += weight;
-            if from.x + along.x / along.z * EDGE_HEIGHT_M < 0.0 {
+            if from.x + along.x / along.z * lamp.edge_m < 0.0 {
                 seen += weight;
             }
         }
@@ -85,53 +103,67 @@ fn scene_file(lamp: &Lamp) -> SceneFile {
         .part(&format!("[[light]]\n{}", lamp.keys))
 }
 
+/// By each renderer that there is, with a bound on the error: without the board and with it.
+fn pictures(open: &Scene, scene: &Scene) -> Vec<(&'static str, f64, [Image; 2])> {
+    let by_cpu = [closed(open, 1, false), closed(scene, 4096, true)];
+    let by_gpu = [on_gpu(open, 1, None), on_gpu(scene, 1024, Some(0))];
+    let by_gpu = match by_gpu {
+        [Some(open), Some(image)] => Some(("GPU", 6e-3, [open, image])),
+        _ => None,
+    };
+    [("CPU", 4e-3, by_cpu)].into_iter().chain(by_gpu).collect()
+}
+
 #[test]
 fn penumbras_are_those_of_what_is_seen_of_a_lamp() {
     for lamp in LAMPS {
         let file = scene_file(&lamp);
-        let open = closed(&file.scene(), 1, false);
+        let open = file.scene();
         let scene = file
             .object("board", "matt", "plane = { size_m = [0.06, 0.21] }")
-            .with(&format!("translation_m = [0.03, 0.095, {EDGE_HEIGHT_M}]"))
+            .with(&format!("translation_m = [0.03, 0.095, {}]", lamp.edge_m))
             .scene();
-        let image = closed(&scene, 4096, true);
         let camera = scene.camera.frame(SIZE_PX);
         let std_px = scene.render.footprint_std_px(1);
         // Even steps of probability of the pixel's filter.
         let places = [-2.5, -1.5, -0.5, 0.5, 1.5, 2.5].map(|i| gaussian().quantile(0.5 + i / 6.0));
-        let (mut penumbra, mut errors, mut squares) = (0, 0.0, 0.0);
-        for x in 0..SIZE_PX[0] {
-            let (mut all, mut seen) = (0.0, 0.0);
-            for (y, right, down) in (0..SIZE_PX[1])
-                .flat_map(|y| places.map(|right| (y, right)))
-                .flat_map(|(y, right)| places.map(|down| (y, right, down)))
-            {
-                let middle = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
-                let ray = camera.camera_ray(middle + std_px * DVec2::new(right, down));
-                let from = camera.position_m - ray * (camera.position_m.z / ray.z);
-                let [a, s] = irradiance(&lamp, from.with_z(0.0));
-                all += a;
-                seen += s;
-            }
-            let column = |image: &Image| -> f64 {
+        let exact: Vec<f64> = (0..SIZE_PX[0])
+            .map(|x| {
+                let (mut all, mut seen) = (0.0, 0.0);
+                for (y, right, down) in (0..SIZE_PX[1])
+                    .flat_map(|y| places.map(|right| (y, right)))
+                    .flat_map(|(y, right)| places.map(|down| (y, right, down)))
+                {
+                    let middle = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
+                    let ray = camera.camera_ray(middle + std_px * DVec2::new(right, down));
+                    let from = camera.position_m - ray * (camera.position_m.z / ray.z);
+                    let [a, s] = irradiance(&lamp, from.with_z(0.0));
+                    all += a;
+                    seen += s;
+                }
+                seen / all
+            })
+            .collect();
+        let is_penumbra = |share: &&f64| (0.05..0.95).contains(*share);
+        let penumbra = exact.iter().filter(is_penumbra).count();
+        assert!(penumbra > 8, "{penumbra}: {}", lamp.keys);
+        for (by, bound, [open, image]) in pictures(&open, &scene) {
+            let column = |image: &Image, x: usize| -> f64 {
                 let rows = 0..SIZE_PX[1];
-                rows.map(|y| f64::from(image.base[image.index(x, y)][1]))
+                rows.map(|y| f64::from(image.base[image.index(x as u32, y)][1]))
                     .sum()
             };
-            let (found, exact) = (column(&image) / column(&open), seen / all);
-            println!("{}: {x}: {found:.4}, exactly {exact:.4}", &lamp.keys[..16]);
-            errors += found - exact;
-            squares += (found - exact).powi(2);
-            penumbra += i32::from((0.05..0.95).contains(&exact));
+            let found = |x| column(&image, x) / column(&open, x);
+            let errors = exact.iter().enumerate().map(|(x, exact)| found(x) - exact);
+            let count = exact.len() as f64;
+            let rms = (errors.clone().map(|e| e * e).sum::<f64>() / count).sqrt();
+            let mean = errors.sum::<f64>() / count;
+            println!("{by}: rms {rms:.5}, mean {mean:+.5}: {}", lamp.keys);
+            assert!(
+                rms < bound && mean.abs() < 1.5e-3,
+                "{by}: {rms} {mean}: {}",
+                lamp.keys
+            );
         }
-        let count = f64::from(SIZE_PX[0]);
-        let (rms, mean) = ((squares / count).sqrt(), errors / count);
-        println!("rms {rms:.5}, mean {mean:+.5}");
-        assert!(
-            rms < 4e-3 && mean.abs() < 1.5e-3,
-            "{rms} {mean}: {}",
-            lamp.keys
-        );
-        assert!(penumbra > 8, "{penumbra}: {}", lamp.keys);
     }
 }

@@ -42,8 +42,8 @@ fn shadow_normals(u: vec2f) -> vec2f {
     return radius * vec2f(cos(6.28318531 * u.y), sin(6.28318531 * u.y));
 }
 
-// No ray is as long: what is all around has no distance.
-const SHADOW_FAR_M: f32 = 1e30;
+// No ray is as long: what is all around has no distance. Its square is a single still.
+const SHADOW_FAR_M: f32 = 1e15;
 
 // The share of its light that a half of the rays finds hidden; none without a ray. Where no ray is hidden it is 0 to the bit.
 fn shadow_share(weight: vec3f, hidden: vec3f) -> f32 {
