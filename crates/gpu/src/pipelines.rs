@@ -60,7 +60,7 @@ impl<'a> Orders<'a> {
         self.variant
     }
 
-    /// Asks for a pipeline over the frame, the scene, its textures and `group_3`, with `more` constants beside the variant's.
+    /// Asks for a pipeline over the frame, the scene, its textures and `group_3`, with `more` constants beside the variant's or in place of them.
     pub(crate) fn pipeline(
         &mut self,
         (module, entry_point): (&'static shaders::Module, &'static str),
@@ -119,6 +119,7 @@ impl<'a> Orders<'a> {
         let Self { gpu, layouts, .. } = self;
         let text = shaders::compose(&[order.module]);
         let mut constants = self.variant.constants(&text);
+        constants.retain(|(name, _)| order.more.iter().all(|(other, _)| other != name));
         constants.extend(&order.more);
         let label = Some(order.module.name);
         let shader = gpu

@@ -28,7 +28,8 @@ use crate::variant::{Constant, Seen, ShadeVariant};
 pub(crate) struct Shadows {
     base_rays: ComputePass,
     trace: ComputePass,
-    base: ComputePass,
+    base_of_lights: ComputePass,
+    base_around: ComputePass,
     /// By scratches and by gratings, of which the scene has some.
     pub by_picks: Vec<Box<dyn ByPicks>>,
     pub tree: TriangleTree,
@@ -106,11 +107,18 @@ impl Shadows {
                 &trace,
                 &[seen.constant()],
             ),
-            base: pass(
+            // One source at a time: neither has the other's code.
+            base_of_lights: pass(
                 "shadow base",
                 (&shaders::SHADOW_BASE, "shadow_base"),
                 &base,
-                &[],
+                &[("HAS_ENVIRONMENT", 0.0)],
+            ),
+            base_around: pass(
+                "shadow base around",
+                (&shaders::SHADOW_BASE, "shadow_base"),
+                &base,
+                &[("BASE_HAS_SPHERES", 0.0), ("BASE_HAS_POLYGONS", 0.0)],
             ),
             by_picks,
             tree,
@@ -177,7 +185,7 @@ impl Shadows {
         pass.run(gpu, recording, &resources, in_a_row(groups));
     }
 
-    /// Takes what is hidden of a source from the base.
+    /// Takes what is hidden of a source from the base: of a light, or of all that is around.
     pub(crate) fn record_base(
         &self,
         gpu: &Gpu,
@@ -185,6 +193,7 @@ impl Shadows {
         room: &StripRoom,
         shadow_room: &ShadowRoom,
         groups: u32,
+        is_around: bool,
     ) {
         let resources = [
             whole(&room.samples.points),
@@ -193,7 +202,10 @@ impl Shadows {
             whole(&room.samples.base_light),
             whole(&shadow_room.round),
         ];
-        let pass = &self.base;
+        let pass = match is_around {
+            true => &self.base_around,
+            false => &self.base_of_lights,
+        };
         pass.run(gpu, recording, &resources, in_a_row(groups));
     }
 }

@@ -60,7 +60,8 @@ impl StripShader {
                 });
             }
             self.submit(view, |recording| {
-                shadows.record_base(gpu, recording, room, &shadow_room, groups);
+                let is_around = source >= lights;
+                shadows.record_base(gpu, recording, room, &shadow_room, groups, is_around);
             });
         }
         for (source, by) in (lights + 1..).zip(&shadows.by_picks) {

@@ -36,8 +36,8 @@ fn draw_grating(pixel: PixelPoint, paint: PixelPaint, u: vec2f, sent: ptr<functi
     let cell = row_cell(taken.y, line);
     let cos_i = cell.direction.z;
     let own = rgb_luminance(scratch_chord(scratch_tables, pair.point, pair.seen, cell.q_high, cell.q_low, cos_i));
-    let q = drawn_place(pair.point, pair.seen, DrawnPart(cell.q_low, cell.q_high, u.y * own), cos_i, vec3f(1.0));
-    return drawn_at(pair.point, pair.seen, line, q, cos_i, vec3f(1.0), offer.total);
+    let part = DrawnPart(cell.q_low, cell.q_high, u.y * own);
+    return drawn_direction(pair.point, pair.seen, DrawnFrom(line, part, cos_i, true, vec3f(1.0), offer.total));
 }
 
 @compute @workgroup_size(8, 8)

@@ -14,8 +14,8 @@ fn ray_by(pixel: PixelPoint, index: u32, energy: f32) -> BounceRay {
     let segment = segment_from(scratch_segment(index));
     let pair = pair_of(pixel, segment);
     let seed = shadow_seed(pixel.position_m, shadow_round);
-    var sent: vec3f;
-    let drawn = draw_all_around(pair.point, pair.seen, shadow_random_alike(seed, shadow_round, BOUNCE_DIRECTION), &sent);
+    let from_there = draw_all_around(pair.point, pair.seen, shadow_random_alike(seed, shadow_round, BOUNCE_DIRECTION));
+    let drawn = drawn_direction(pair.point, pair.seen, from_there);
     let share = pair.seen.share.segment;
     let own = rgb_luminance(share * pair_energy(scratch_tables, pair));
     var ray: BounceRay;
@@ -25,7 +25,7 @@ fn ray_by(pixel: PixelPoint, index: u32, energy: f32) -> BounceRay {
     let place = shadow_random_alike(seed, shadow_round, BOUNCE_PLACE);
     let normals = vec3f(shadow_normals(shadow_random_alike(seed, shadow_round, BOUNCE_START)), gaussian_quantile(clamp(place.x, 1e-6, 1.0 - 1e-6)));
     let start = pair_place(pair, pixel, segment, normals, place.y);
-    return bounce_ray(pair.surface * drawn.direction, share * sent * drawn.color * (energy / own), 0.0, start);
+    return bounce_ray(pair.surface * drawn.direction, share * from_there.total * drawn.color * (energy / own), 0.0, start);
 }
 
 @compute @workgroup_size(8, 8)

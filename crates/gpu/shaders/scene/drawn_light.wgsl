@@ -45,27 +45,43 @@ fn drawn_sent(point: LitPoint, seen: SeenScratch, q: f32, cos_i: f32, filter_by:
     return rgb_luminance(filter_by * scratch_below(scratch_tables, point, seen, q, cos_i));
 }
 
-// The place in a part of a line below which lies as much as is left, by bisection.
-fn drawn_place(point: LitPoint, seen: SeenScratch, part: DrawnPart, cos_i: f32, filter_by: vec3f) -> f32 {
-    var low = part.low;
-    var high = part.high;
-    let wanted = drawn_sent(point, seen, low, cos_i, filter_by) + part.left;
-    for (var i = 0u; i < DRAWN_HALVINGS; i += 1u) {
-        let middle = 0.5 * (low + high);
-        if drawn_sent(point, seen, middle, cos_i, filter_by) < wanted {
+// Where a direction is looked for: a part of a line, with the cosine for the groove's depth.
+struct DrawnFrom {
+    line: BandLine,
+    part: DrawnPart,
+    cos_i: f32,
+    is_there: bool,
+    filter_by: vec3f,           // colour that all of it comes through
+    total: vec3f,               // what comes from all lines
+}
+
+// The direction below which lies as much of the part as is left, by bisection, and its colour.
+fn drawn_direction(point: LitPoint, seen: SeenScratch, from_there: DrawnFrom) -> DrawnLight {
+    if !from_there.is_there {
+        return DrawnLight(vec3f(0.0), false, vec3f(1.0));
+    }
+    let line = from_there.line;
+    let cos_i = from_there.cos_i;
+    let filter_by = from_there.filter_by;
+    var low = from_there.part.low;
+    var high = from_there.part.high;
+    var wanted = 0.0;
+    // The first round tells what lies below the part: one look-up in the text, as passes are long.
+    for (var i = 0u; i <= DRAWN_HALVINGS; i += 1u) {
+        let middle = select(0.5 * (low + high), low, i == 0u);
+        let sent = drawn_sent(point, seen, middle, cos_i, filter_by);
+        if i == 0u {
+            wanted = sent + from_there.part.left;
+        } else if sent < wanted {
             low = middle;
         } else {
             high = middle;
         }
     }
-    return 0.5 * (low + high);
-}
-
-// The direction of a place on a line, and its colour, given what comes from all lines.
-fn drawn_at(point: LitPoint, seen: SeenScratch, line: BandLine, q: f32, cos_i: f32, filter_by: vec3f, total: vec3f) -> DrawnLight {
+    let q = 0.5 * (low + high);
     let slope = filter_by * scratch_slope(scratch_tables, point, seen, q, cos_i);
     let here = slope / max(rgb_luminance(slope), 1e-30);
-    let mean = total / max(rgb_luminance(total), 1e-30);
+    let mean = from_there.total / max(rgb_luminance(from_there.total), 1e-30);
     // Channels that get nothing have no colour to differ in.
     let color = select(vec3f(1.0), here / max(mean, vec3f(1e-6)), mean > vec3f(1e-6));
     let direction = vec3f(line.along, q - line.offset, band_cos_at(line, q));
@@ -84,7 +100,7 @@ fn drawn_cos(seen: SeenScratch, line: BandLine, range: vec2f) -> f32 {
 }
 
 // By a sphere; u holds the numbers for the line, for the choice between lines, and for the chord.
-fn draw_sphere(point: LitPoint, seen: SeenScratch, center_m: vec3f, radius_m: f32, u: vec3f) -> DrawnLight {
+fn draw_sphere(point: LitPoint, seen: SeenScratch, center_m: vec3f, radius_m: f32, u: vec3f) -> DrawnFrom {
     let light = sphere_cap(center_m, radius_m);
     let band = scratch_band(point, seen, light.axis, max(length(center_m), radius_m));
     let wo = band_from_surface(seen.tangent, point.wo) + vec3f(band.shift, 0.0, 0.0);
@@ -92,41 +108,34 @@ fn draw_sphere(point: LitPoint, seen: SeenScratch, center_m: vec3f, radius_m: f3
     let extent = sphere_band_extent(wo, cap);
     let lines = band_lines(wo.x, extent.x, extent.y, band.stds);
     var offer = DrawnOffer(vec3f(0.0), u.y);
-    var taken = lines.count;
+    var taken: DrawnFrom;
+    var wraps = false;
     for (var i = 0u; i < lines.count; i += 1u) {
         let line = drawn_line(lines, wo, i, u.x);
         let chord = sphere_chord(line, cap);
         let cos_i = drawn_cos(seen, line, chord_range(chord, line));
-        var sent = scratch_chord(scratch_tables, point, seen, chord.enter, chord.leave, cos_i);
-        if chord.wraps > 0.0 {
-            sent += scratch_chord(scratch_tables, point, seen, band_q_start(line), band_q_end(line), cos_i);
+        // The whole arc once more where the light holds the direction straight down.
+        var sent = vec3f(0.0);
+        for (var k = 0u; k < 1u + u32(chord.wraps > 0.0); k += 1u) {
+            let ends = select(vec2f(chord.enter, chord.leave), vec2f(band_q_start(line), band_q_end(line)), k == 1u);
+            sent += scratch_chord(scratch_tables, point, seen, ends.x, ends.y, cos_i);
         }
         if drawn_offer(&offer, sent) {
-            taken = i;
+            taken = DrawnFrom(line, DrawnPart(chord.leave, chord.enter, u.z * rgb_luminance(sent)), cos_i, true, vec3f(1.0), vec3f(0.0));
+            wraps = chord.wraps > 0.0;
         }
     }
-    if taken == lines.count {
-        return DrawnLight(vec3f(0.0), false, vec3f(1.0));
+    // Then there are two parts: the lower one ends where the chord is entered, the upper one begins where it is left.
+    if wraps {
+        let lower = rgb_luminance(scratch_chord(scratch_tables, point, seen, taken.part.high, band_q_end(taken.line), taken.cos_i));
+        if taken.part.left > lower {
+            taken.part = DrawnPart(taken.part.low, band_q_start(taken.line), taken.part.left - lower);
+        } else {
+            taken.part.low = band_q_end(taken.line);
+        }
     }
-    let line = drawn_line(lines, wo, taken, u.x);
-    let chord = sphere_chord(line, cap);
-    let cos_i = drawn_cos(seen, line, chord_range(chord, line));
-    // One part, or two where the light holds the direction straight down.
-    var part = DrawnPart(chord.leave, chord.enter, 0.0);
-    if chord.wraps > 0.0 {
-        part.low = band_q_end(line);
-    }
-    let own = rgb_luminance(scratch_chord(scratch_tables, point, seen, part.high, part.low, cos_i));
-    var other = 0.0;
-    if chord.wraps > 0.0 {
-        other = rgb_luminance(scratch_chord(scratch_tables, point, seen, band_q_start(line), chord.leave, cos_i));
-    }
-    part.left = u.z * (own + other);
-    if part.left > own && chord.wraps > 0.0 {
-        part = DrawnPart(chord.leave, band_q_start(line), part.left - own);
-    }
-    let q = drawn_place(point, seen, part, cos_i, vec3f(1.0));
-    return drawn_at(point, seen, line, q, cos_i, vec3f(1.0), offer.total);
+    taken.total = offer.total;
+    return taken;
 }
 
 // The first root above a place, and how much more of the outline lies behind it.
@@ -139,14 +148,14 @@ fn nearer_root(next: vec2f, after: f32, q: f32, more: f32) -> vec2f {
 
 fn outline_next_root(view: OutlineView, line: BandLine, facing: f32, wraps: bool, after: f32) -> vec2f {
     var next = vec2f(DRAWN_NO_ROOT, 0.0);
-    var a = outline_direction(view, view.vertex_count - 1u);
-    for (var i = 0u; i < view.vertex_count; i += 1u) {
-        let b = outline_direction(view, i);
+    var a: vec3f;
+    for (var i = 0u; i <= view.vertex_count; i += 1u) {
+        let b = outline_corner(view, i);
         let roots = band_edge_crossings(band_edge(a, b), line);
-        if roots.rises {
+        if i > 0u && roots.rises {
             next = nearer_root(next, after, roots.rising, -facing);
         }
-        if roots.falls {
+        if i > 0u && roots.falls {
             next = nearer_root(next, after, roots.falling, facing);
         }
         a = b;
@@ -164,18 +173,22 @@ const DRAWN_NO_ROOT: f32 = 9.0;
 // What comes from an outline along a line.
 fn outline_sent(point: LitPoint, seen: SeenScratch, view: OutlineView, line: BandLine, facing: f32, wraps: bool, cos_i: f32) -> vec3f {
     var sent = vec3f(0.0);
-    var a = outline_direction(view, view.vertex_count - 1u);
-    for (var i = 0u; i < view.vertex_count; i += 1u) {
-        let b = outline_direction(view, i);
+    var a: vec3f;
+    for (var i = 0u; i <= view.vertex_count + u32(wraps); i += 1u) {
+        let b = outline_corner(view, min(i, view.vertex_count));
         let roots = band_edge_crossings(band_edge(a, b), line);
-        sent += scratch_chord(scratch_tables, point, seen, select(0.0, roots.rising, roots.rises), select(0.0, roots.falling, roots.falls), cos_i);
+        // Where there is no root of one sense, both ends are the middle, which counts for nothing: so before the first edge.
+        var ends = vec2f(select(0.0, roots.rising, roots.rises && i > 0u), select(0.0, roots.falling, roots.falls && i > 0u));
+        ends = select(ends, facing * vec2f(band_q_start(line), band_q_end(line)), i > view.vertex_count);
+        sent += scratch_chord(scratch_tables, point, seen, ends.x, ends.y, cos_i);
         a = b;
     }
-    sent *= facing;
-    if wraps {
-        sent += scratch_chord(scratch_tables, point, seen, band_q_start(line), band_q_end(line), cos_i);
-    }
-    return sent;
+    return facing * sent;
+}
+
+// The corner before the first edge, then the one at the end of each.
+fn outline_corner(view: OutlineView, i: u32) -> vec3f {
+    return outline_direction(view, select(i - 1u, view.vertex_count - 1u, i == 0u));
 }
 
 // The part of a line in which the share u of what comes along it is reached: from root to root, upwards.
@@ -204,45 +217,40 @@ fn outline_part(point: LitPoint, seen: SeenScratch, view: OutlineView, line: Ban
 }
 
 // By a polygon that faces the point.
-fn draw_outline(point: LitPoint, seen: SeenScratch, view: OutlineView, facing: f32, away: vec3f, center_m: vec3f, radius_m: f32, u: vec3f) -> DrawnLight {
+fn draw_outline(point: LitPoint, seen: SeenScratch, view: OutlineView, facing: f32, away: vec3f, center_m: vec3f, radius_m: f32, u: vec3f) -> DrawnFrom {
     let band = scratch_band(point, seen, sphere_cap(center_m, radius_m).axis, max(length(center_m), radius_m));
     let wo = band_from_surface(seen.tangent, point.wo) + vec3f(band.shift, 0.0, 0.0);
     let extent = outline_extent(view, away);
     let lines = band_lines(wo.x, wo.x + extent.x, wo.x + extent.y, band.stds);
     var offer = DrawnOffer(vec3f(0.0), u.y);
-    var taken = lines.count;
-    var taken_sent = 0.0;
+    var taken: DrawnFrom;
+    var wraps = false;
     for (var i = 0u; i < lines.count; i += 1u) {
         let line = drawn_line(lines, wo, i, u.x);
         let range = outline_range(view, line, away);
         let cos_i = drawn_cos(seen, line, range.q);
         let sent = outline_sent(point, seen, view, line, facing, range.wraps, cos_i);
         if drawn_offer(&offer, sent) {
-            taken = i;
-            taken_sent = rgb_luminance(sent);
+            taken = DrawnFrom(line, DrawnPart(0.0, 0.0, u.z * rgb_luminance(sent)), cos_i, true, vec3f(1.0), vec3f(0.0));
+            wraps = range.wraps;
         }
     }
-    if taken == lines.count {
-        return DrawnLight(vec3f(0.0), false, vec3f(1.0));
+    if taken.is_there {
+        taken.part = outline_part(point, seen, view, taken.line, facing, wraps, taken.cos_i, taken.part.left);
     }
-    let line = drawn_line(lines, wo, taken, u.x);
-    let range = outline_range(view, line, away);
-    let cos_i = drawn_cos(seen, line, range.q);
-    let part = outline_part(point, seen, view, line, facing, range.wraps, cos_i, u.z * taken_sent);
-    let q = drawn_place(point, seen, part, cos_i, vec3f(1.0));
-    return drawn_at(point, seen, line, q, cos_i, vec3f(1.0), offer.total);
+    taken.total = offer.total;
+    return taken;
 }
 
 // By the environment; u holds the numbers for the choice between cells, and for the chord. `cells` is how many the band has: those of a scratch, or
 // of a grating.
-fn draw_around(point: LitPoint, seen: SeenScratch, cells: u32, map_from_surface: mat3x3f, u: vec2f) -> DrawnLight {
-    var sent: vec3f;
-    return draw_cells(point, seen, cells, map_from_surface, true, u, &sent);
+fn draw_around(point: LitPoint, seen: SeenScratch, cells: u32, map_from_surface: mat3x3f, u: vec2f) -> DrawnFrom {
+    return draw_cells(point, seen, cells, map_from_surface, true, u);
 }
 
-// By light of radiance 1 from all around. What comes of it is written to `sent`.
-fn draw_all_around(point: LitPoint, seen: SeenScratch, u: vec2f, sent: ptr<function, vec3f>) -> DrawnLight {
-    return draw_cells(point, seen, ENVIRONMENT_CELLS, mat3x3f(), false, u, sent);
+// By light of radiance 1 from all around; the total is what comes of it.
+fn draw_all_around(point: LitPoint, seen: SeenScratch, u: vec2f) -> DrawnFrom {
+    return draw_cells(point, seen, ENVIRONMENT_CELLS, mat3x3f(), false, u);
 }
 
 fn drawn_cell(i: u32, cells: u32, line: BandLine, seen: SeenScratch) -> EnvironmentCell {
@@ -253,11 +261,10 @@ fn drawn_cell(i: u32, cells: u32, line: BandLine, seen: SeenScratch) -> Environm
 }
 
 // By the cells of an environment, or of one of radiance 1.
-fn draw_cells(point: LitPoint, seen: SeenScratch, cells: u32, map_from_surface: mat3x3f, is_map: bool, u: vec2f, sent: ptr<function, vec3f>) -> DrawnLight {
+fn draw_cells(point: LitPoint, seen: SeenScratch, cells: u32, map_from_surface: mat3x3f, is_map: bool, u: vec2f) -> DrawnFrom {
     let line = band_line_at(band_from_surface(seen.tangent, point.wo), 0.0);
     var offer = DrawnOffer(vec3f(0.0), u.x);
-    var taken = cells;
-    var radiance = vec3f(0.0);
+    var taken: DrawnFrom;
     for (var i = 0u; i < cells; i += 1u) {
         let cell = drawn_cell(i, cells, line, seen);
         if cell.q_high > cell.q_low {
@@ -266,21 +273,15 @@ fn draw_cells(point: LitPoint, seen: SeenScratch, cells: u32, map_from_surface: 
             if is_map {
                 blurred = environment_prefiltered(levels_beside_windows, direction, environment_cell_roughness(cell));
             }
-            if drawn_offer(&offer, blurred * scratch_chord(scratch_tables, point, seen, cell.q_high, cell.q_low, cell.direction.z)) {
-                taken = i;
-                radiance = blurred;
+            let cos_i = cell.direction.z;
+            let sent = blurred * scratch_chord(scratch_tables, point, seen, cell.q_high, cell.q_low, cos_i);
+            if drawn_offer(&offer, sent) {
+                taken = DrawnFrom(line, DrawnPart(cell.q_low, cell.q_high, u.y * rgb_luminance(sent)), cos_i, true, blurred, vec3f(0.0));
             }
         }
     }
-    *sent = offer.total;
-    if taken == cells {
-        return DrawnLight(vec3f(0.0), false, vec3f(1.0));
-    }
-    let cell = drawn_cell(taken, cells, line, seen);
-    let cos_i = cell.direction.z;
-    let own = rgb_luminance(radiance * scratch_chord(scratch_tables, point, seen, cell.q_high, cell.q_low, cos_i));
-    let q = drawn_place(point, seen, DrawnPart(cell.q_low, cell.q_high, u.y * own), cos_i, radiance);
-    return drawn_at(point, seen, line, q, cos_i, radiance, offer.total);
+    taken.total = offer.total;
+    return taken;
 }
 
 // Where under the pixel a part lies that sees the scratch: standard deviations of the pixel's filter to the right and down. Of what is normal

@@ -8,19 +8,26 @@ struct DrawnRay {
 
 // `cells` as for draw_around().
 fn draw_ray(pair: Pair, cells: u32, source: u32, u: vec3f) -> DrawnRay {
-    if source >= frame.light_count {
-        var around: DrawnLight;
-        if HAS_ENVIRONMENT {
-            around = draw_around(pair.point, pair.seen, cells, frame.environment_from_world * pair.surface, u.yz);
-        }
-        return DrawnRay(around, SHADOW_FAR_M);
+    var from_there: DrawnFrom;
+    if source < frame.light_count {
+        from_there = draw_light(pair, light_at(source), u);
+    } else if HAS_ENVIRONMENT {
+        from_there = draw_around(pair.point, pair.seen, cells, frame.environment_from_world * pair.surface, u.yz);
     }
-    let light = light_at(source);
+    let drawn = drawn_direction(pair.point, pair.seen, from_there);
+    var distance_m = SHADOW_FAR_M;
+    if source < frame.light_count {
+        let reach_m = light_reach_m(pair, light_at(source), drawn.direction);
+        distance_m = select(SHADOW_FAR_M, reach_m, reach_m > 0.0 && reach_m < SHADOW_FAR_M);
+    }
+    return DrawnRay(drawn, distance_m);
+}
+
+fn draw_light(pair: Pair, light: Light, u: vec3f) -> DrawnFrom {
     let center_m = (light.center_m - pair.position_m) * pair.surface;
-    var drawn = DrawnRay(DrawnLight(vec3f(0.0), false, vec3f(0.0)), SHADOW_FAR_M);
+    var drawn: DrawnFrom;
     if HAS_SPHERES && light.kind == LIGHT_SPHERE {
-        drawn.light = draw_sphere(pair.point, pair.seen, center_m, light.radius_m, u);
-        drawn.distance_m = abs(sphere_reach_m(center_m, light.radius_m, drawn.light.direction));
+        drawn = draw_sphere(pair.point, pair.seen, center_m, light.radius_m, u);
     }
     if HAS_POLYGONS && light.kind != LIGHT_SPHERE {
         let normal = light.normal * pair.surface;
@@ -35,20 +42,32 @@ fn draw_ray(pair: Pair, cells: u32, source: u32, u: vec3f) -> DrawnRay {
         view.is_tube = HAS_TUBES && light.kind == LIGHT_TUBE;
         var facing = polygon_facing(normal, corner_m, light.two_sided != 0u);
         var away = band_from_surface(pair.seen.tangent, -facing * normal);
-        let a = light_end_m(light.first_vertex);
-        let b_m = light_end_m(light.first_vertex + 1u).xyz;
         if view.is_tube {
-            view.tube = tube_outline(outline_local(view, a.xyz), outline_local(view, b_m), a.w);
+            let a = light_end_m(light.first_vertex);
+            let b = light_end_m(light.first_vertex + 1u);
+            view.tube = tube_outline(outline_local(view, a.xyz), outline_local(view, b.xyz), a.w);
             facing = f32(view.tube.seen);
             away = view.tube.away;
         }
         if facing != 0.0 {
-            drawn.light = draw_outline(pair.point, pair.seen, view, facing, away, center_m, light.radius_m, u);
-            let plane_m = dot(normal, corner_m) / dot(normal, drawn.light.direction);
-            let tube_m = tube_reach_m((a.xyz - pair.position_m) * pair.surface, (b_m - pair.position_m) * pair.surface, a.w, drawn.light.direction);
-            let reach_m = select(plane_m, tube_m, view.is_tube);
-            drawn.distance_m = select(SHADOW_FAR_M, reach_m, reach_m > 0.0 && reach_m < SHADOW_FAR_M);
+            drawn = draw_outline(pair.point, pair.seen, view, facing, away, center_m, light.radius_m, u);
         }
     }
     return drawn;
+}
+
+// How far a light is in a direction that goes to it, or past it by little. Below zero or not finite where it is not there.
+fn light_reach_m(pair: Pair, light: Light, direction: vec3f) -> f32 {
+    var reach_m = 0.0;
+    if HAS_SPHERES && light.kind == LIGHT_SPHERE {
+        reach_m = abs(sphere_reach_m((light.center_m - pair.position_m) * pair.surface, light.radius_m, direction));
+    } else if HAS_TUBES && light.kind == LIGHT_TUBE {
+        let a = light_end_m(light.first_vertex);
+        let b = light_end_m(light.first_vertex + 1u);
+        reach_m = tube_reach_m((a.xyz - pair.position_m) * pair.surface, (b.xyz - pair.position_m) * pair.surface, a.w, direction);
+    } else if HAS_POLYGONS {
+        let normal = light.normal * pair.surface;
+        reach_m = dot(normal, (light_corner_m(light.first_vertex) - pair.position_m) * pair.surface) / dot(normal, direction);
+    }
+    return reach_m;
 }

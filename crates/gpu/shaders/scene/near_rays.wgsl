@@ -20,16 +20,16 @@ fn even_ray(ray: ShadowHalf) -> ShadowHalf {
     return ShadowHalf(ray.specular * per_specular, ray.specular_hidden * per_specular, ray.body * per_body, ray.body_hidden * per_body);
 }
 
-// The sum over the single rays of a pixel and of its neighbours.
+// The sum over the single rays of a pixel and of its neighbours; the pixel is one of those.
 fn near_rays(pixel: vec2u, at: u32) -> ShadowHalf {
     let own = points[at];
-    var sum = even_ray(halves[2u * at]);
+    var sum: ShadowHalf;
     for (var y = -NEAR_RAYS_PX; y <= NEAR_RAYS_PX; y += 1) {
         for (var x = -NEAR_RAYS_PX; x <= NEAR_RAYS_PX; x += 1) {
             let there = vec2i(pixel) + vec2i(x, y);
             let is_there = there.x >= 0 && there.x < i32(frame.size_px.x) && there.y >= i32(frame.rows.x) && there.y < i32(frame.rows.y);
             let other = strip_index(select(pixel, vec2u(there), is_there));
-            if other != at && is_same_surface(own, points[other]) {
+            if is_there && is_same_surface(own, points[other]) {
                 let ray = even_ray(halves[2u * other]);
                 sum.specular += ray.specular;
                 sum.specular_hidden += ray.specular_hidden;
