@@ -1,8 +1,10 @@
 //! Shadows and bounces against the path tracer: the scenes of `tests/shadows`, their pictures, what these should be, and how far they are from
 //! that.
 
+use glam::DVec2;
 use hairline_image::metrics::ZTest;
 use hairline_image::{Image, Layer, Layers, Noise};
+use hairline_index::TriangleIndex;
 use hairline_index::method::Method;
 use hairline_optics::mask::Mask;
 use hairline_reference::{BATCH_SAMPLES, Integrator, Parts, Settings};
@@ -206,30 +208,58 @@ pub struct Found {
     pub z: ZTest,
 }
 
-/// Compares a layer of a picture of several batches with that of [`expected`]; `open` is that without shadows.
+/// Pixels that show one object alone, as far as a pixel's filter reaches. On an outline the path tracer averages over the filter, and the
+/// renderers over the pixel: both objects are right there, but not their parts of the pixel.
+pub fn inside(scene: &Scene) -> Vec<bool> {
+    let size_px = scene.render.size_px;
+    let triangles = TriangleIndex::build(scene);
+    let camera = scene.camera.frame(size_px);
+    let object = |x: i32, y: i32| {
+        let ray = camera.camera_ray(DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5));
+        let hit = triangles.intersect(camera.position_m, ray.normalize());
+        hit.map(|hit| hit.object)
+    };
+    let [width, height] = size_px.map(|side| side as i32);
+    let around = |at: i32| at - FILTER_REACH_PX..=at + FILTER_REACH_PX;
+    let is_inside = |x: i32, y: i32| {
+        let own = object(x, y);
+        around(y).all(|y| around(x).all(|x| object(x, y) == own))
+    };
+    let pixels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+    pixels.map(|(x, y)| is_inside(x, y)).collect()
+}
+
+/// Five standard deviations of it.
+const FILTER_REACH_PX: i32 = 3;
+
+/// Compares a layer of a picture of several batches with that of [`expected`], where the picture is [`inside`]; `open` is that without shadows.
 ///
 /// # Panics
 /// Where none of the two knows its noise.
-pub fn found(image: &Image, expected: &Image, open: &Image, layer: Layer) -> Found {
+pub fn found(
+    image: &Image,
+    expected: &Image,
+    open: &Image,
+    layer: Layer,
+    inside: &[bool],
+) -> Found {
     let (a, b) = (Layers::from(image), Layers::from(expected));
     let [a, b] = [&a, &b].map(|held| held.estimate(layer).expect("all layers are there"));
-    let sum = |rgb: &[f32; 3]| rgb.iter().map(|c| f64::from(*c)).sum::<f64>();
-    let errors = a.values.iter().zip(b.values).map(|(a, b)| sum(a) - sum(b));
-    let squares: f64 = errors.clone().map(|e| e * e).sum();
+    let pixels = || (0..inside.len()).filter(|i| inside[*i]);
+    let sum = |rgb: [f32; 3]| rgb.iter().map(|c| f64::from(*c)).sum::<f64>();
+    let errors = || pixels().map(|i| sum(a.values[i]) - sum(b.values[i]));
+    let squares: f64 = errors().map(|e| e * e).sum();
     // The channels of a pixel err together.
-    let std = |v: &[f32; 3]| v.iter().map(|v| f64::from(*v).sqrt()).sum::<f64>();
-    let noise: f64 = b
-        .variance
-        .iter()
-        .flat_map(|v| v.iter())
-        .map(|v| std(v).powi(2))
-        .sum();
-    let all: f64 = open.layer(layer).iter().map(sum).sum();
-    let count = a.values.len() as f64;
+    let std = |v: [f32; 3]| v.iter().map(|v| f64::from(*v).sqrt()).sum::<f64>();
+    let variance = b.variance.expect("the path tracer knows its noise");
+    let noise: f64 = pixels().map(|i| std(variance[i]).powi(2)).sum();
+    let open = open.layer(layer);
+    let all: f64 = pixels().map(|i| sum(open[i])).sum();
+    let count = pixels().count() as f64;
     Found {
-        off: errors.sum::<f64>() / all,
+        off: errors().sum::<f64>() / all,
         off_std: squares.sqrt() / all,
         rms: (squares - noise).max(0.0).sqrt() * count.sqrt() / all,
-        z: ZTest::between(image.size_px, &a, &b, None).expect("both are estimates"),
+        z: ZTest::between(image.size_px, &a, &b, Some(inside)).expect("both are estimates"),
     }
 }

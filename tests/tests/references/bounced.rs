@@ -35,6 +35,16 @@ fn in_a_mirror() -> Scene {
     seen_in_a_mirror(scene)
 }
 
+/// The same with all scratches along an axis, whose boxes have no width: which of them a point sees depends on how far around it looks.
+pub(super) fn along_an_axis_in_a_mirror() -> Scene {
+    let mut scene = in_a_mirror();
+    scene.lights = vec![sphere(VIEW, 0.0, -0.3, 0.08)];
+    for segment in Arc::make_mut(&mut scene.objects[0].segments) {
+        segment.end_m.y = segment.start_m.y;
+    }
+    scene
+}
+
 /// A scene whose camera sees it in a mirror alone.
 fn seen_in_a_mirror(mut scene: Scene) -> Scene {
     let from_m = scene.camera.position_m;

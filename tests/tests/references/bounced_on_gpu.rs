@@ -1,6 +1,6 @@
 //! Light by way of other objects on the GPU against the CPU's, which the path tracer bears out (`bounced.rs`).
 
-use super::bounced::{a_wall_in_a_mirror, scenes};
+use super::bounced::{a_wall_in_a_mirror, along_an_axis_in_a_mirror, scenes};
 use super::shadowed::{bounced, luminance};
 use super::shadowed_on_gpu::on_gpu;
 use hairline_image::{Image, Layer};
@@ -26,10 +26,14 @@ fn pair(picture: impl Fn(u32) -> Option<Image>, bounces: u32) -> Option<[Image; 
 /// differences of the pixels tell and which are below one percent, and 0.2 % for single precision and for what the GPU keeps in fewer bits.
 #[test]
 fn the_gpus_bounces_are_the_cpus_in_the_mean() {
-    let last = ("a wall in a mirror", a_wall_in_a_mirror());
-    let scenes = scenes().into_iter().chain([last]);
-    let settings = [(1, 128), (1, 128), (3, 128), (1, 128), (1, 128), (2, 512)];
-    for ((bounces, samples), (name, scene)) in settings.into_iter().zip(scenes) {
+    let more = [
+        ("along an axis", along_an_axis_in_a_mirror()),
+        ("a wall in a mirror", a_wall_in_a_mirror()),
+    ];
+    let scenes = scenes().into_iter().chain(more);
+    let few = [1, 1, 3, 1, 1].map(|bounces| (bounces, 128));
+    let settings = few.into_iter().chain([(1, 96), (2, 512)]);
+    for ((bounces, samples), (name, scene)) in settings.zip(scenes) {
         let on_gpu = |bounces| on_gpu(&scene, samples, Some(bounces));
         let Some([with, without]) = pair(on_gpu, bounces) else {
             return;

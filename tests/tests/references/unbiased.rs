@@ -1,7 +1,9 @@
 //! One of the scenes of `cargo xtask unbiased`, in fewer pixels: noise explains how far few rays are from the path tracer, and not what a
 //! wrong light or a missing object makes.
 
-use conformance::unbiased::{LAYERS, SCENES, brighter, expected, found, rendered, scene, without};
+use conformance::unbiased::{
+    LAYERS, SCENES, brighter, expected, found, inside, rendered, scene, without,
+};
 use hairline_image::Image;
 use hairline_image::metrics::Verdict;
 use hairline_scene::{Scene, Transport};
@@ -34,9 +36,10 @@ fn noise_explains_what_few_rays_differ_by_and_no_fault() {
             .iter()
             .find(|(n, _)| *n == name)
             .map_or(&[][..], |it| it.1);
-        let bare = picture(&without(right, occluders), SAMPLES[0], shadows);
+        let bare = picture(&without(right.clone(), occluders), SAMPLES[0], shadows);
+        let inside = inside(&right);
         for layer in LAYERS {
-            let of = |image| found(image, &expected, &open, layer);
+            let of = |image| found(image, &expected, &open, layer, &inside);
             for (samples, image) in SAMPLES.iter().zip(&images) {
                 let found = of(image);
                 println!("{name}, {bounces}, {}, {samples}: {found:?}", layer.name());
