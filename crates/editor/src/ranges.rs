@@ -39,7 +39,7 @@ pub(crate) const DEFAULT_DIAGONAL_M: f64 = 0.3;
 impl Parameter {
     /// Every parameter.
     #[cfg(test)]
-    pub(crate) const ALL: [Self; 72] = [
+    pub(crate) const ALL: [Self; 74] = [
         Self::CameraPosition,
         Self::CameraTarget,
         Self::CameraUp,
@@ -93,6 +93,8 @@ impl Parameter {
         Self::Displacement,
         Self::GrooveAngles,
         Self::Coverage,
+        Self::InnerRadius,
+        Self::OuterRadius,
         Self::BrushRadius,
         Self::BrushDensity,
         Self::BrushWidth,
@@ -172,6 +174,7 @@ impl Parameter {
             P::Displacement => (0.0..=5.0, 0.0..=*limits::PITCH_UM.end()),
             P::GrooveAngles => (0.0..=10.0, limits::JITTER_DEG),
             P::Coverage => (0.0..=1.0, limits::COVERAGE),
+            P::InnerRadius | P::OuterRadius => (0.0..=d, limits::PROFILE_RADIUS_M),
             P::AxisCenter => (-d..=d, limits::COORDINATE_M),
             P::BrushRadius => (2e-3 * d..=0.3 * d, limits::SIZE_M),
             P::BrushDensity => (10.0 / d..=10_000.0 / d, NOT_NEGATIVE),
@@ -248,6 +251,8 @@ impl Parameter {
             | P::GroundHeight
             | P::Length
             | P::AxisCenter
+            | P::InnerRadius
+            | P::OuterRadius
             | P::BrushRadius
             | P::LightCenter
             | P::LightTarget

@@ -121,7 +121,10 @@ fn grating(
     origin_m: DVec3,
 ) -> Grating {
     let (axis, center_m, kind, curvature_per_m) = match grating.field {
-        GrooveField::Along(direction) => (direction.normalize_or_zero(), origin_m, 0, 0.0),
+        GrooveField::Along {
+            direction,
+            center_m,
+        } => (direction.normalize_or_zero(), center_m, 0, 0.0),
         GrooveField::Around {
             axis,
             center_m,

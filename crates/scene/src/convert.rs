@@ -152,7 +152,14 @@ impl description::Grating {
             Pattern::Parallel {
                 direction: along,
                 jitter_deg,
-            } => (GrooveField::Along(direction(*along)), *jitter_deg),
+            } => {
+                let center_m = self.center_m.unwrap_or_default();
+                let field = GrooveField::Along {
+                    direction: direction(*along),
+                    center_m: world_from_object.transform_point3(center_m.into()),
+                };
+                (field, *jitter_deg)
+            }
             Pattern::Random { .. } | Pattern::Swirl { .. } => {
                 unreachable!("refused by `Description::check`")
             }

@@ -15,7 +15,7 @@ pub struct Grating {
     pub angle_std_rad: f64,
     /// The share of the surface that they cover, where they are.
     pub coverage: f64,
-    /// The least and the greatest distance from the field's axis; 0 and infinity for everywhere.
+    /// The least and the greatest distance from the field's axis, or from the middle of one that has none; 0 and infinity for everywhere.
     pub radii_m: [f64; 2],
 }
 
@@ -23,7 +23,12 @@ pub struct Grating {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum GrooveField {
     /// Along a direction.
-    Along(DVec3),
+    Along {
+        /// Of any length.
+        direction: DVec3,
+        /// What [`Grating::radii_m`] are counted from.
+        center_m: DVec3,
+    },
     /// At a fixed bearing to the circles about an axis.
     Around {
         /// A unit vector.
@@ -71,7 +76,7 @@ impl GrooveField {
     fn tangent(&self, point_m: DVec3, normal: DVec3) -> Option<DVec3> {
         let in_plane = |v: DVec3| v - normal * normal.dot(v);
         match *self {
-            Self::Along(direction) => {
+            Self::Along { direction, .. } => {
                 let along = in_plane(direction);
                 (along.length() > LEAST_PART * direction.length()).then(|| along.normalize())
             }
@@ -102,14 +107,16 @@ impl GrooveField {
         }
     }
 
-    /// The distance from the axis, and the unit direction away from it.
-    fn axis_distance_m(&self, point_m: DVec3) -> Option<(f64, DVec3)> {
-        let Self::Around { axis, center_m, .. } = *self else {
-            return None;
+    /// The distance from the axis or the middle, and the unit direction away from it.
+    fn distance_m(&self, point_m: DVec3) -> (f64, DVec3) {
+        let away_m = match *self {
+            Self::Along { center_m, .. } => point_m - center_m,
+            Self::Around { axis, center_m, .. } => {
+                let arm_m = point_m - center_m;
+                arm_m - axis * axis.dot(arm_m)
+            }
         };
-        let arm_m = point_m - center_m;
-        let away_m = arm_m - axis * axis.dot(arm_m);
-        Some((away_m.length(), away_m.normalize_or_zero()))
+        (away_m.length(), away_m.normalize_or_zero())
     }
 }
 
@@ -145,9 +152,10 @@ impl Grating {
 
     /// The share of a pixel that lies between the radii.
     fn share_within(&self, point_m: DVec3, axes_m: [DVec3; 2]) -> f64 {
-        let Some((radius_m, away)) = self.field.axis_distance_m(point_m) else {
+        if self.radii_m == [0.0, f64::INFINITY] {
             return 1.0;
-        };
+        }
+        let (radius_m, away) = self.field.distance_m(point_m);
         let std_m = axes_m[0].dot(away).hypot(axes_m[1].dot(away)).max(1e-12);
         let [least_m, most_m] = self.radii_m;
         // There is nothing nearer than the axis.
@@ -235,6 +243,18 @@ mod tests {
         assert!(share(0.02) < 1e-6 && share(0.06) < 1e-6);
         assert!((share(0.04) - 0.5).abs() < 1e-6);
         assert!((share(0.023) - 0.25).abs() < 1e-6 && (share(0.058) - 0.25).abs() < 1e-6);
+        // Of parallel ones from their middle, in all directions.
+        let mut parallel = grating(Bearing::Circular, [0.0, 0.02]);
+        parallel.field = GrooveField::Along {
+            direction: DVec3::X,
+            center_m: DVec3::new(0.0, 0.0, 0.01),
+        };
+        for (height_m, expected) in [(0.0, 0.5), (0.03, 0.25), (0.04, 0.0)] {
+            let axes_m = [DVec3::X * 1e-4, DVec3::Z * 1e-4];
+            let place = parallel.seen_from_pixel(DVec3::Z * height_m, DVec3::Y, axes_m);
+            let share = place.map_or(0.0, |place| place.share);
+            assert!((share - expected).abs() < 1e-6, "{height_m}: {share}");
+        }
         let nowhere = grating(Bearing::Circular, EVERYWHERE_M);
         let axis_m = DVec3::new(0.01, 0.0, 0.3);
         assert!(

@@ -25,7 +25,10 @@ fn grated(row: Row, angle_std_rad: f64, light_rad: f64) -> Scene {
     scene.materials[0].roughness = 0.0;
     scene.objects[0].gratings = vec![Grating {
         row,
-        field: GrooveField::Along(DVec3::X),
+        field: GrooveField::Along {
+            direction: DVec3::X,
+            center_m: DVec3::ZERO,
+        },
         angle_std_rad,
         coverage: 1.0,
         radii_m: [0.0, f64::INFINITY],

@@ -79,7 +79,10 @@ pub(super) fn with_rows(mut scene: Scene) -> Scene {
     };
     let along = Grating {
         row: row(1.6),
-        field: GrooveField::Along(DVec3::X),
+        field: GrooveField::Along {
+            direction: DVec3::X,
+            center_m: DVec3::ZERO,
+        },
         angle_std_rad: 0.05,
         coverage: 0.4,
         radii_m: [0.0, f64::INFINITY],

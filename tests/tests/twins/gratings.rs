@@ -34,7 +34,10 @@ fn field(kind: f64, axis: DVec3, center_m: DVec3) -> GrooveField {
         bearing,
     };
     match kind {
-        0.0 => GrooveField::Along(axis),
+        0.0 => GrooveField::Along {
+            direction: axis,
+            center_m,
+        },
         1.0 => around(Bearing::Circular),
         2.0 => around(Bearing::Radial),
         _ => around(Bearing::Spun {

@@ -109,6 +109,10 @@ pub enum Parameter {
     GrooveAngles,
     /// `grating.coverage`
     Coverage,
+    /// The first of `grating.radius_m`
+    InnerRadius,
+    /// The second of `grating.radius_m`
+    OuterRadius,
     /// `radius_m` of a stroke.
     BrushRadius,
     /// `density_per_m` of a stroke.

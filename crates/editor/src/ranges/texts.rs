@@ -216,6 +216,14 @@ pub(super) fn of(parameter: Parameter) -> Text {
             "Coverage",
             "The share of the surface that the grooves cover. The rest mirrors as the material does.",
         ),
+        P::InnerRadius => (
+            "Inner radius",
+            "There are no grooves nearer to the middle than this.",
+        ),
+        P::OuterRadius => (
+            "Outer radius",
+            "There are no grooves farther from the middle than this.",
+        ),
         P::BrushRadius => (
             "Brush radius",
             "Half the width of the band in which scratches are laid or taken away.",

@@ -54,10 +54,9 @@ fn groove_angle(normal: vec3f, from_here: vec3f, to_there: vec3f) -> f32 {
 
 // The share of a pixel that lies between the radii.
 fn groove_share_within(grating: Grating, arm_m: vec3f, right_m: vec3f, down_m: vec3f) -> f32 {
-    if grating.kind == GROOVES_ALONG {
-        return 1.0;
-    }
-    let away_m = arm_m - grating.axis * dot(grating.axis, arm_m);
+    // From the axis; from the middle where there is none.
+    let along_m = select(dot(grating.axis, arm_m), 0.0, grating.kind == GROOVES_ALONG);
+    let away_m = arm_m - grating.axis * along_m;
     let radius_m = length(away_m);
     let away = away_m / max(radius_m, 1e-30);
     let std_m = max(length(vec2f(dot(right_m, away), dot(down_m, away))), 1e-12);

@@ -63,9 +63,9 @@ struct Object {
 struct Grating {
     axis: vec3f,                // unit: along the grooves, or the axis that they lie about
     kind: u32,                  // GROOVES_ALONG and so on
-    center_m: vec3f,            // on the axis
+    center_m: vec3f,            // on the axis; of grooves along a direction, what the radii are counted from
     curvature_per_m: f32,       // of spun grooves
-    radii_m: vec2f,             // the least and the greatest distance from the axis
+    radii_m: vec2f,             // the least and the greatest distance from the axis or the middle
     coverage: f32,
     angle_std_rad: f32,         // of a groove to the field
     material: u32,

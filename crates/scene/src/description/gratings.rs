@@ -35,9 +35,12 @@ pub struct Grating {
     pub jitter_um: f64,
     /// The share of the surface that the grooves cover. In [0, 1]. Default: 1.
     pub coverage: f64,
-    /// The least and the greatest distance from the pattern's axis; not for `"parallel"`. Default: everywhere.
+    /// The least and the greatest distance from the pattern's axis; for `"parallel"`, from `center_m`. Default: everywhere.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub radius_m: Option<[f64; 2]>,
+    /// For `"parallel"` what `radius_m` is counted from, in the object's frame. Default: its origin.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub center_m: Option<[f64; 3]>,
 }
 
 /// Depths where a grating does not say them.
@@ -63,6 +66,7 @@ impl Grating {
             jitter_um: 0.0,
             coverage: 1.0,
             radius_m: None,
+            center_m: None,
         }
     }
 
@@ -115,16 +119,21 @@ impl Grating {
             0.0..=self.pitch_um,
         )?;
         within(&format!("{key}.coverage"), self.coverage, limits::COVERAGE)?;
-        let Some([least, most]) = self.radius_m else {
-            return Ok(());
-        };
         let radius = format!("{key}.radius_m");
-        if self.around().is_none() {
+        let Some([least, most]) = self.radius_m else {
+            let Some(_) = self.center_m else {
+                return Ok(());
+            };
             return Err(Error::new(
-                radius,
-                "found a distance from an axis that the pattern has not",
-                "belongs to `circular`, `radial` and `spun`",
+                format!("{key}.center_m"),
+                "found a middle for distances that are not there",
+                "belongs to `radius_m`",
             ));
+        };
+        if let Some(center_m) = self.center_m {
+            for (i, value) in center_m.into_iter().enumerate() {
+                within(&format!("{key}.center_m[{i}]"), value, limits::COORDINATE_M)?;
+            }
         }
         within(&format!("{radius}[0]"), least, limits::PROFILE_RADIUS_M)?;
         within(&format!("{radius}[1]"), most, limits::PROFILE_RADIUS_M)?;
@@ -141,7 +150,7 @@ impl Grating {
 
 impl Read for Grating {
     fn read(value: &Value, key: &str) -> Result<Self, Error> {
-        const AROUND: [&str; 4] = ["axis", "center_m", "jitter_deg", "radius_m"];
+        const AROUND: [&str; 3] = ["axis", "center_m", "jitter_deg"];
         let (pattern, table) = Table::read_kind(
             value,
             key,
@@ -156,9 +165,10 @@ impl Read for Grating {
                 "depth_nm",
                 "jitter_um",
                 "coverage",
+                "radius_m",
             ],
             &[
-                ("parallel", &["direction", "jitter_deg"]),
+                ("parallel", &["direction", "jitter_deg", "center_m"]),
                 ("circular", &AROUND),
                 ("radial", &AROUND),
                 ("spun", &[&AROUND[..], &["curvature_per_m"]].concat()),
@@ -182,7 +192,7 @@ impl Read for Grating {
                 )?,
             },
         };
-        let is_around = !matches!(pattern, Pattern::Parallel { .. });
+        let is_parallel = matches!(pattern, Pattern::Parallel { .. });
         let default = Self::new(
             table.required::<String>("object")?,
             pattern,
@@ -195,8 +205,9 @@ impl Read for Grating {
             depth_nm: table.or("depth_nm", default.depth_nm)?,
             jitter_um: table.or("jitter_um", default.jitter_um)?,
             coverage: table.or("coverage", default.coverage)?,
-            radius_m: match is_around {
-                true => table.optional("radius_m")?,
+            radius_m: table.optional("radius_m")?,
+            center_m: match is_parallel {
+                true => table.optional("center_m")?,
                 false => None,
             },
             ..default
@@ -233,6 +244,12 @@ mod tests {
         let loaded = Description::from_toml(&saved, "test".as_ref()).unwrap();
         assert_eq!(loaded.gratings, described.gratings);
         assert_eq!(described.gratings[0].radius_m, Some([0.01, 0.05]));
+        let parallel = "object = \"o\"\npattern = \"parallel\"\npitch_um = 3.0\nradius_m = [0.0, 0.05]\ncenter_m = [0.1, 0, 0]\n";
+        let described = Description::from_toml(&text(parallel), "test".as_ref()).unwrap();
+        let saved = described.to_toml().unwrap();
+        let loaded = Description::from_toml(&saved, "test".as_ref()).unwrap();
+        assert_eq!(loaded.gratings, described.gratings);
+        assert_eq!(described.gratings[0].center_m, Some([0.1, 0.0, 0.0]));
     }
 
     #[test]
@@ -253,6 +270,10 @@ mod tests {
             (
                 format!("{DISC}radius_m = [0.05, 0.02]"),
                 "test:8: grating[0].radius_m: found 0.05 and 0.02; the second must be the greater one",
+            ),
+            (
+                format!("{DISC}center_m = [0, 0, 0.1]").replace("circular", "parallel"),
+                "test:8: grating[0].center_m: found a middle for distances that are not there; belongs to `radius_m`",
             ),
             (
                 format!("{DISC}direction = [1, 0, 0]"),

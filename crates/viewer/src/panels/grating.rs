@@ -40,8 +40,12 @@ pub(super) fn section(ui: &mut Ui, work: &mut Workspace, object: usize) {
     .on_hover_text("Grooves side by side, finer than a pixel: their light interferes");
 }
 
+/// Width of the narrowest ring, in the object's size.
+const LEAST_RING: f64 = 1e-4;
+
 fn rows(ui: &mut Ui, work: &mut Workspace, object: usize, index: usize, mut grating: Grating) {
-    let mut form = Form::new(ui, ("grating", index), work.diagonal_m(Some(object)));
+    let everywhere_m = work.diagonal_m(Some(object));
+    let mut form = Form::new(ui, ("grating", index), everywhere_m);
     form.toggle(
         "Hidden",
         "As if the grating were not there",
@@ -77,6 +81,26 @@ fn rows(ui: &mut Ui, work: &mut Workspace, object: usize, index: usize, mut grat
         Pattern::Random { .. } | Pattern::Swirl { .. } => {}
     }
     form.number(Parameter::Coverage, &mut grating.coverage);
+    let mut is_bounded = grating.radius_m.is_some();
+    form.toggle(
+        "Within radii",
+        "Grooves inside of a circle, outside of one, or in a ring",
+        &mut is_bounded,
+    );
+    match (is_bounded, &mut grating.radius_m) {
+        (false, _) => (grating.radius_m, grating.center_m) = (None, None),
+        (true, None) => grating.radius_m = Some([0.0, everywhere_m]),
+        (true, Some([least, most])) => {
+            form.number(Parameter::InnerRadius, least);
+            form.number(Parameter::OuterRadius, most);
+            // The outer one stays the greater.
+            *most = most.max(*least + LEAST_RING * everywhere_m);
+            if let Pattern::Parallel { .. } = grating.pattern {
+                let center_m = grating.center_m.get_or_insert_default();
+                form.vector(Parameter::AxisCenter, center_m);
+            }
+        }
+    }
     if let Some(change) = form.change() {
         work.document.drag(&change.label, change.key, |d| {
             d.gratings[index] = grating.clone();
