@@ -1,9 +1,10 @@
-//! `cargo xtask make-models`: the models of our own that `scenes/` shows, and the sky over one of them. Everything in them is computed here, by
+//! `cargo xtask make-models`: the models of our own that `scenes/` shows, the sky over one of them, and a soft box. Everything in them is computed here, by
 //! functions that give the same bits on every platform.
 
 mod glb;
 mod handle_texture;
 mod sky;
+mod soft_box;
 mod spline;
 mod spoon;
 
@@ -32,6 +33,7 @@ impl MakeModels {
         for (name, bytes) in [
             ("models/spoon.glb", spoons()?),
             ("maps/evening.hdr", sky::evening()?),
+            ("maps/soft_box.png", soft_box::cloth()?),
         ] {
             println!("{name}: {} bytes", bytes.len());
             let path = scenes.join(name);

@@ -30,6 +30,7 @@ pub mod draft;
 mod gather;
 mod light_view;
 mod options;
+mod picture;
 mod prepared;
 mod project;
 mod published;

@@ -1,11 +1,12 @@
 //! The lights as seen from a point, in the frame of its surface.
 
+use crate::picture::{PictureView, picture_mean};
 use crate::surface::SurfacePoint;
 use glam::{DVec2, DVec3};
 use hairline_optics::band::{
     Cap, Outline, OutlineEdge, TUBE_CORNERS, band_moves, polygon_facing, sphere_cap, tube_outline,
 };
-use hairline_scene::{Light, LightShape, Scene};
+use hairline_scene::{Light, LightShape, Scene, Texture};
 use std::ops::Range;
 
 /// One light from a point.
@@ -68,6 +69,7 @@ impl LightView {
 /// filled anew for every point without allocating.
 pub(crate) struct LightViews<'a> {
     lights: Vec<&'a Light>,
+    textures: &'a [Texture],
     /// Of `lights`, how many shine on the base too.
     on_base: usize,
     pub views: Vec<LightView>,
@@ -91,6 +93,7 @@ impl<'a> LightViews<'a> {
     pub fn new(scene: &'a Scene) -> Self {
         Self {
             lights: scene.scratch_lights().collect(),
+            textures: &scene.textures,
             on_base: scene.all_lights().count(),
             views: Vec::new(),
             places: Vec::new(),
@@ -213,6 +216,29 @@ impl<'a> LightViews<'a> {
     /// The scene's light of a place in `views`; none beyond the last.
     pub fn light_of(&self, view: usize) -> Option<usize> {
         self.in_scene.get(view).copied()
+    }
+
+    /// The picture on one of `views`, if it has one.
+    pub fn picture(&self, view: &LightView) -> Option<PictureView<'a>> {
+        let LightView::Polygon {
+            light, vertices, ..
+        } = view
+        else {
+            return None;
+        };
+        let texture = &self.textures[self.lights[*light].picture?];
+        Some(PictureView::new(texture, &self.vertices[vertices.clone()]))
+    }
+
+    /// The mean of the picture on one of `views`; 1 without one.
+    pub fn picture_mean(&self, view: &LightView) -> DVec3 {
+        match view {
+            LightView::Polygon { light, .. } => match self.lights[*light].picture {
+                Some(texture) => picture_mean(&self.textures[texture]),
+                None => DVec3::ONE,
+            },
+            LightView::Sphere { .. } => DVec3::ONE,
+        }
     }
 
     /// Those that shine on the base too.

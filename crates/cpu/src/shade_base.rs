@@ -151,13 +151,18 @@ impl<'p, 'a> Base<'p, 'a> {
         views: &LightViews,
         sphere: impl Fn(&LtcLobe, &LobeFresnel, DVec3, f64) -> [f64; 3],
     ) -> BaseRadiance {
+        let picture = views.picture(light);
         let single = |lobe: &LtcLobe, of: &LobeFresnel| {
-            reflected_light(light, views, lobe, of, &sphere).into()
+            let even = DVec3::from(reflected_light(light, views, lobe, of, &sphere));
+            picture.map_or(even, |picture| even * picture.on_lobe(lobe))
         };
         let radiance = light.radiance();
         let bare = BaseRadiance {
             specular: radiance * self.lobe.reflected(single),
-            diffuse: self.diffuse(|| radiance * form_factor(light, views)),
+            diffuse: self.diffuse(|| {
+                let even = radiance * form_factor(light, views);
+                picture.map_or(even, |picture| even * picture.on_body())
+            }),
         };
         self.coated(bare, |coat| radiance * coat.reflected(single))
     }

@@ -8,6 +8,7 @@ mod drawn_light;
 mod lanes;
 mod light_bounds;
 mod picks;
+mod picture_chords;
 mod point;
 mod row_spread;
 mod scratch_light;

@@ -145,7 +145,7 @@ impl<'a> Shadows<'a> {
         let positions = scene.objects.iter().flat_map(|o| &o.mesh.positions_m);
         Self {
             prepared,
-            lights: AreaLights::from_lights(scene.scratch_lights()),
+            lights: AreaLights::with_textures(scene.scratch_lights(), &scene.textures),
             environment: prepared.environment_sampler(),
             extent_m: positions.map(|p| f64::from(p.length())).fold(0.0, f64::max),
             options: *options,

@@ -354,6 +354,11 @@ fn sample_texture(texture: &Texture, uv: DVec2, footprint: f64, sample: Sampler)
 /// Bilinear look-up in a level, by a filter of so many texels of the first.
 type Sampler = fn(&Texture, usize, DVec2, f64) -> glam::DVec4;
 
+/// A level of a texture between its texels, linear.
+pub(crate) fn texture_level(texture: &Texture, level: usize, uv: DVec2) -> DVec3 {
+    sample_level(texture, level, uv, 0.0).truncate()
+}
+
 fn sample_level(texture: &Texture, level: usize, uv: DVec2, texels_std: f64) -> glam::DVec4 {
     let (texels, t) = texture.four_texels(level, uv, texels_std);
     blend(texels, t)

@@ -23,6 +23,11 @@ pub(crate) fn each_path(description: &mut Description, change: &mut dyn FnMut(&m
             change(&mut listed.file);
         }
     }
+    for light in &mut description.lights {
+        if let Some(picture) = &mut light.picture {
+            change(picture);
+        }
+    }
 }
 
 /// The same, to be read.
@@ -39,7 +44,9 @@ pub(crate) fn named(description: &Description) -> impl Iterator<Item = &Path> {
         Layer::Listed(listed) => Some(listed.file.as_path()),
         Layer::Laid(_) | Layer::Brushed(_) => None,
     });
-    map.into_iter().chain(meshes.chain(lists).flatten())
+    let pictures = description.lights.iter().map(|l| l.picture.as_deref());
+    map.into_iter()
+        .chain(meshes.chain(lists).chain(pictures).flatten())
 }
 
 /// `path` as a scene file in `base_dir` would write it. Both are absolute and `base_dir` has no `..` and no symbolic links;

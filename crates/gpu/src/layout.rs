@@ -140,7 +140,7 @@ shared! {
         vertex_count: u32,
         cone: [f32; 2],
         cone_axis: [f32; 3],
-        has_doors: u32,
+        extras: u32,
     }
     /// A node over the segments of an object.
     ScratchNode {

@@ -9,11 +9,16 @@ use hairline_scene::{Doors, Light, LightShape, Scene, vector_area_m2};
 
 use crate::host::relative;
 use crate::layout;
+use crate::texture_array::TextureArray;
 
 /// [`layout::Light::kind`]. Twin: layout.wgsl.
 const LIGHT_SPHERE: u32 = 0;
 const LIGHT_POLYGON: u32 = 1;
 const LIGHT_TUBE: u32 = 2;
+
+/// [`layout::Light::extras`]. Twin: layout.wgsl.
+const LIGHT_DOORS: u32 = 1;
+const LIGHT_PICTURE: u32 = 2;
 
 /// What lights scratches in a pass of its own. Twin: SCRATCH_LIGHTS of shade_scratches.wgsl.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -24,21 +29,25 @@ pub(crate) enum Kind {
     /// Polygons of more.
     Outlines,
     Tubes,
+    /// Rectangles with pictures on them.
+    Pictures,
     Environment,
 }
 
 impl Kind {
-    pub(crate) const ALL: [Self; 5] = [
+    pub(crate) const ALL: [Self; 6] = [
         Self::Spheres,
         Self::Quads,
         Self::Outlines,
         Self::Tubes,
+        Self::Pictures,
         Self::Environment,
     ];
 
     fn of(light: &Light) -> Self {
         match &light.shape {
             LightShape::Sphere { .. } => Self::Spheres,
+            LightShape::Polygon { .. } if light.picture.is_some() => Self::Pictures,
             LightShape::Polygon { vertices_m, .. } if vertices_m.len() <= 4 => Self::Quads,
             LightShape::Polygon { .. } => Self::Outlines,
             LightShape::Tube { .. } => Self::Tubes,
@@ -84,11 +93,12 @@ impl Kinds {
     }
 
     /// What shaders call those that shine on scratches and those that shine on the base. Twin: contents.wgsl.
-    pub(crate) fn constants(self, on_base: Self) -> [(&'static str, f64); 6] {
+    pub(crate) fn constants(self, on_base: Self) -> [(&'static str, f64); 7] {
         [
             ("HAS_SPHERES", self.has(Kind::Spheres).into()),
             ("HAS_POLYGONS", self.has_polygons().into()),
             ("HAS_TUBES", self.has(Kind::Tubes).into()),
+            ("HAS_PICTURES", self.has(Kind::Pictures).into()),
             ("HAS_ENVIRONMENT", self.has(Kind::Environment).into()),
             ("BASE_HAS_SPHERES", on_base.has(Kind::Spheres).into()),
             ("BASE_HAS_POLYGONS", on_base.has_polygons().into()),
@@ -96,7 +106,7 @@ impl Kinds {
     }
 
     fn has_polygons(self) -> bool {
-        let kinds = [Kind::Quads, Kind::Outlines, Kind::Tubes];
+        let kinds = [Kind::Quads, Kind::Outlines, Kind::Tubes, Kind::Pictures];
         kinds.into_iter().any(|kind| self.has(kind))
     }
 }
@@ -153,11 +163,12 @@ pub(crate) const DOOR_PLACES: usize = 3;
 
 /// Places among the vertices that a light takes.
 pub(crate) fn places(light: &Light) -> usize {
-    vertices_m(light).len() + doors(light).map_or(0, |_| DOOR_PLACES)
+    let doors = doors(light).map_or(0, |_| DOOR_PLACES);
+    vertices_m(light).len() + doors + usize::from(light.picture.is_some())
 }
 
 /// All area lights, and behind them the vertices of those that have some, as texels.
-pub(crate) fn packed(scene: &Scene, origin_m: DVec3) -> Vec<[u32; 4]> {
+pub(crate) fn packed(scene: &Scene, array: &TextureArray, origin_m: DVec3) -> Vec<[u32; 4]> {
     let mut vertices: Vec<[f32; 4]> = Vec::new();
     let pack = |light: &Light| {
         let (center_m, radius_m) = light.bounding_sphere();
@@ -177,6 +188,10 @@ pub(crate) fn packed(scene: &Scene, origin_m: DVec3) -> Vec<[u32; 4]> {
             let places = [across, doors.tans, doors.per_tan()];
             vertices.extend(places.map(|place| place.map(|x| x as f32)));
         }
+        if light.picture.is_some() {
+            let [x, y] = array.packed(light.picture).map(f32::from_bits);
+            vertices.push([x, y, 0.0, 0.0]);
+        }
         let bounded = layout::Light {
             radiance: light.radiance.map(|c| c as f32),
             center_m: relative(center_m, origin_m),
@@ -191,7 +206,8 @@ pub(crate) fn packed(scene: &Scene, origin_m: DVec3) -> Vec<[u32; 4]> {
                 .map_or(DVec3::Z, |cone| cone.axis)
                 .as_vec3()
                 .to_array(),
-            has_doors: doors(light).is_some().into(),
+            extras: u32::from(doors(light).is_some()) * LIGHT_DOORS
+                + u32::from(light.picture.is_some()) * LIGHT_PICTURE,
             ..layout::Light::zeroed()
         };
         match &light.shape {

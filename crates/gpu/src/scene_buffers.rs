@@ -88,7 +88,7 @@ impl SceneBuffers {
         let materials = materials.await?;
         let lights = Small::keep(
             last.map(|last| &last.lights),
-            lights::packed(scene, origin_m),
+            lights::packed(scene, array, origin_m),
             async |elements| rows::upload(transfer, light_rows, elements).await,
         );
         let lights = lights.await?;

@@ -104,6 +104,8 @@ modules! {
     SCRATCHED_SURFACE = "engine/scratched_surface" needs [SCRATCH_LIGHT, SCRATCH_TREE];
     /// For other engines: a pass that makes the table of a metal.
     MAKE_SCRATCH_TABLE = "engine/make_scratch_table" needs [SCRATCH_TABLE];
+    /// Pictures on flat lights.
+    PICTURE = "physics/picture" needs [];
     /// The structs that the host fills, and no binding.
     LAYOUT = "scene/layout" needs [];
     /// Where the scene is bound: group 0 the frame, group 1 the scene's arrays, group 2 its tables and textures.
@@ -130,6 +132,10 @@ modules! {
     PIXEL_POINT = "scene/pixel_point" needs [LAYOUT, SURFACE_POINT];
     /// Area lights from a surface point.
     LIGHTS = "scene/lights" needs [ROWS, CONTENTS, SURFACE_POINT, BAND, TUBE];
+    /// Pictures on lights as a point sees them.
+    PICTURE_LIGHT = "scene/picture_light" needs [SCENE, PICTURE];
+    /// What one scratch sends to the viewer of a rectangle with a picture.
+    SCRATCH_PICTURE = "scene/scratch_picture" needs [PICTURE_LIGHT, SCRATCH_LIGHT];
     /// From a triangle to the surface point.
     HIT = "scene/hit" needs [SCENE, SURFACE_POINT, CAMERA];
     /// A segment in the picture, and the tiles and pixels that it comes near to.
@@ -143,10 +149,10 @@ modules! {
     /// A clear layer over the base.
     COAT = "scene/coat" needs [BINDINGS, FRESNEL, CONTENTS];
     /// The base under lights and environment.
-    BASE = "scene/base" needs [SCENE, LIGHTS, FILTERED_LOBE, ENVIRONMENT_LOBE, COAT];
+    BASE = "scene/base" needs [SCENE, LIGHTS, PICTURE_LIGHT, FILTERED_LOBE, ENVIRONMENT_LOBE, COAT];
     /// The method of 2018: a scratch under lights and environment.
     PUBLISHED_LIGHTS = "published/published_lights" needs [
-        SCENE, LIGHTS, SEGMENTS, METHOD, BAND_ENVIRONMENT, PUBLISHED_SPECTRUM, PUBLISHED_SPHERE, PUBLISHED_POLYGON
+        SCENE, LIGHTS, PICTURE_LIGHT, SEGMENTS, METHOD, BAND_ENVIRONMENT, PUBLISHED_SPECTRUM, PUBLISHED_SPHERE, PUBLISHED_POLYGON
     ];
     /// The method of 2018: the scratches under a pixel.
     PUBLISHED_GATHER = "published/published_gather" needs [PUBLISHED_LIGHTS, PUBLISHED_FOOTPRINT, TRIANGLE_LISTS, MASK];
@@ -179,7 +185,7 @@ modules! {
     /// A pixel with a segment that it sees.
     PAIRS = "scene/pairs" needs [SEGMENTS, PIXEL_POINT, SCRATCH_LIGHT, METHOD];
     /// What a pair sends of a light.
-    PAIR_LIGHT = "scene/pair_light" needs [PAIRS, OUTLINE_LIGHT];
+    PAIR_LIGHT = "scene/pair_light" needs [PAIRS, OUTLINE_LIGHT, SCRATCH_PICTURE];
     /// A sample with a grating that it sees.
     GRATING_PAIRS = "scene/grating_pairs" needs [PAIRS, GRATING, GRATINGS, BINDINGS];
     /// Scratches that stand for all.
@@ -208,8 +214,10 @@ modules! {
     SHADOW_BASE = "passes/shadow_base" needs [BASE, SHADOW, NEAR_RAYS, PIXEL_POINT];
     /// Directions to light by way of a scratch.
     DRAWN_LIGHT = "scene/drawn_light" needs [OUTLINE_LIGHT, LUMINANCE];
+    /// The same by a rectangle with a picture.
+    DRAWN_PICTURE = "scene/drawn_picture" needs [DRAWN_LIGHT, SCRATCH_PICTURE];
     /// Rays to sources by way of a pair.
-    DRAWN_RAY = "scene/drawn_ray" needs [DRAWN_LIGHT, PAIRS, LIGHT_SAMPLING, SHADOW];
+    DRAWN_RAY = "scene/drawn_ray" needs [DRAWN_PICTURE, PAIRS, LIGHT_SAMPLING, SHADOW];
     /// Where under its pixel a pair lies.
     PAIR_PLACE = "scene/pair_place" needs [DRAWN_LIGHT, PAIRS];
     /// Pass: where the sums begin by which scratches are picked.

@@ -36,6 +36,7 @@ pub mod lobe_table;
 pub mod ltc;
 pub mod mask;
 pub mod metal;
+pub mod picture;
 pub mod published;
 pub mod scratch;
 pub mod spectrum;

@@ -217,6 +217,15 @@ pub fn ltc_edge(state: &mut PolygonIrradiance, lobe: &LtcLobe, a: DVec3, b: DVec
     );
 }
 
+/// The vector irradiance of a polygon in the cosine's space.
+pub fn ltc_vector(lobe: &LtcLobe, vertices: &[DVec3]) -> DVec3 {
+    let mut state = ltc_begin();
+    for (i, &a) in vertices.iter().enumerate() {
+        ltc_edge(&mut state, lobe, a, vertices[(i + 1) % vertices.len()]);
+    }
+    irradiance_end(&state)
+}
+
 /// What the lobe reflects of the polygon, either orientation: as [`polygon_light`].
 pub fn ltc_end(state: &PolygonIrradiance, lobe: &LtcLobe, of: &LobeFresnel) -> [f64; 3] {
     ltc_reflected(lobe, of, irradiance_end(state))

@@ -17,12 +17,13 @@ use crate::error::Error;
 use crate::estimate::Estimate;
 use crate::grating::Grating;
 use crate::lamp_shape;
+use crate::light_picture::LightPicture;
 use crate::loader::{Loader, Stage};
-use crate::scene::{Object, Scene};
+use crate::scene::{Object, Scene, Texture};
 use crate::scratches;
 use crate::studio::PhotoSet;
 use crate::texture::texture_bytes;
-use kept::{Kept, KeptLayer, KeptSurface, MapKey, Stamp, SurfaceKey};
+use kept::{Kept, KeptLayer, KeptPicture, KeptSurface, MapKey, Stamp, SurfaceKey};
 use parts::{OnPart, PartGround};
 
 /// Builds scenes one after the other. What of a scene is as it was in the one before is not made again, but shared with it:
@@ -191,6 +192,7 @@ impl<'a> Work<'a> {
             });
             surfaces.push(surface);
         }
+        self.pictures(scene, free_bytes, texture_count, &mut textures)?;
         self.loader.report(Stage::Meshes, total, total);
         self.new.textures = self.old.textures(textures);
         scene.textures = self.new.textures.together.clone();
@@ -204,6 +206,51 @@ impl<'a> Work<'a> {
             .filter(|grating| !grating.hidden && grating.object == object)
             .map(|grating| grating.in_scene(world_from_object))
             .collect()
+    }
+
+    /// The pictures on lights, whose textures follow so many others.
+    fn pictures(
+        &mut self,
+        scene: &mut Scene,
+        mut free_bytes: f64,
+        mut texture_count: usize,
+        textures: &mut Vec<Arc<Vec<Texture>>>,
+    ) -> Result<(), Error> {
+        let lights = self.description.lights.iter().enumerate();
+        let shining = lights.filter(|(_, light)| !light.hidden);
+        for ((i, described), light) in shining.zip(&mut scene.lights) {
+            let Some(file) = &described.picture else {
+                continue;
+            };
+            let stamp = Stamp::of(&self.base_dir.join(file));
+            let known = self
+                .new
+                .picture(&stamp)
+                .or_else(|| self.old.picture(&stamp));
+            let picture = match known {
+                Some(picture) => picture,
+                None => {
+                    let read = LightPicture::read(&self.base_dir.join(file), free_bytes);
+                    let read = read.map_err(|found| {
+                        let right =
+                            "must be a .png, .jpg, .webp, .hdr or .exr, relative to the scene file";
+                        Error::new(format!("light[{i}].picture"), found, right)
+                    })?;
+                    free_bytes -= texture_bytes(read.texture.size_px);
+                    KeptPicture {
+                        file: stamp,
+                        brightest: read.brightest,
+                        texture: Arc::new(vec![read.texture]),
+                    }
+                }
+            };
+            light.radiance = light.radiance.map(|c| c * picture.brightest);
+            light.picture = Some(texture_count);
+            texture_count += 1;
+            textures.push(picture.texture.clone());
+            self.new.pictures.push(picture);
+        }
+        Ok(())
     }
 
     /// The studio's lights, and the ground behind all other objects.
@@ -251,8 +298,9 @@ impl<'a> Work<'a> {
     /// The shapes of the lights that the camera sees, behind all other objects.
     fn lamps(&mut self, scene: &mut Scene) {
         let eye_m = scene.camera.position_m;
-        let seen = |light: &&description::Light| light.visible && !light.hidden;
-        for light in self.description.lights.iter().filter(seen) {
+        let lights = self.description.lights.iter();
+        let shining = lights.filter(|light| !light.hidden).zip(&scene.lights);
+        for (light, shining) in shining.filter(|(light, _)| light.visible) {
             let material = scene.materials.len() as u32;
             let mesh = match self.old.lamp(&light.kind, material) {
                 Some(mesh) => mesh,
@@ -261,7 +309,9 @@ impl<'a> Work<'a> {
             self.new
                 .lamps
                 .push((light.kind.clone(), material, mesh.clone()));
-            scene.materials.push(lamp_shape::material(light, eye_m));
+            scene
+                .materials
+                .push(lamp_shape::material(light, shining, eye_m));
             scene.objects.push(Object {
                 name: light.name.clone().unwrap_or(light.kind.title().to_owned()),
                 mesh,

@@ -31,7 +31,7 @@ mod windows;
 pub use built_in::BuiltInMap;
 pub(crate) use built_in::SIZE_PX as BUILT_IN_SIZE_PX;
 pub use file::Error;
-pub(crate) use file::{read, size_px};
+pub(crate) use file::{read, read_picture, size_px};
 pub use prefilter::{LEVEL_HALVINGS, LEVEL_ROUGHNESS};
 
 use lookup::{

@@ -1,7 +1,7 @@
 //! The shapes of lights that the camera sees, as surfaces that shine and reflect nothing.
 
 use crate::description::{self, LightKind, Shape};
-use crate::scene::{Base, GLTF_DIELECTRIC, Material, Mesh};
+use crate::scene::{self, Base, GLTF_DIELECTRIC, Material, Mesh};
 use crate::shape;
 use crate::surface::{Surface, Vertex};
 use glam::{DMat4, DQuat, DVec2, DVec3};
@@ -10,8 +10,11 @@ use glam::{DMat4, DQuat, DVec2, DVec3};
 const FACETS: u32 = 96;
 
 /// What the camera at a place sees on a light.
-pub(crate) fn material(light: &description::Light, eye_m: DVec3) -> Material {
-    let shining = light.in_scene();
+pub(crate) fn material(
+    light: &description::Light,
+    shining: &scene::Light,
+    eye_m: DVec3,
+) -> Material {
     // A light of one cone has one share in a place, that of its middle.
     let (middle_m, _) = shining.bounding_sphere();
     let share = match shining.cone {
@@ -30,7 +33,7 @@ pub(crate) fn material(light: &description::Light, eye_m: DVec3) -> Material {
         base_color_texture: None,
         metallic_roughness_texture: None,
         normal_texture: None,
-        emission_texture: None,
+        emission_texture: shining.picture,
         occlusion_texture: None,
         dielectric: GLTF_DIELECTRIC,
         is_unlit: false,
@@ -80,12 +83,19 @@ pub(crate) fn mesh(kind: &LightKind, material: u32) -> Mesh {
 fn flat(corners_m: &[DVec3], axis: DVec3) -> Surface {
     let tangent = axis.any_orthonormal_vector();
     let across = axis.cross(tangent);
-    let vertices = corners_m.iter().map(|&position_m| Vertex {
-        position_m,
-        normal: axis,
-        tangent,
-        ..Vertex::default()
-    });
+    // Those of a rectangle's picture; others have none.
+    let uvs = [[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]].map(glam::Vec2::from);
+    let places_on = uvs.into_iter().chain(std::iter::repeat(glam::Vec2::ZERO));
+    let vertices = corners_m
+        .iter()
+        .zip(places_on)
+        .map(|(&position_m, uv)| Vertex {
+            position_m,
+            normal: axis,
+            tangent,
+            uv,
+            ..Vertex::default()
+        });
     let places: Vec<DVec2> = corners_m
         .iter()
         .map(|corner| DVec2::new(corner.dot(tangent), corner.dot(across)))

@@ -34,6 +34,7 @@ pub mod inputs;
 mod key_line;
 mod lamp_shape;
 mod light;
+mod light_picture;
 mod load;
 mod loader;
 pub mod material_optics;

@@ -11,6 +11,9 @@ pub struct Light {
     pub radiance: [f64; 3],
     /// The directions that light leaves in; all, if none.
     pub cone: Option<Cone>,
+    /// A picture on it: an index into [`Scene::textures`](crate::scene::Scene::textures), whose values are factors on the radiance. Of a
+    /// rectangle alone: the picture's left lower corner is at its first vertex, the right lower one at its second.
+    pub picture: Option<usize>,
 }
 
 /// A cone of directions with a soft rim.
@@ -123,6 +126,7 @@ impl Light {
             shape: LightShape::Sphere { center_m, radius_m },
             radiance,
             cone: None,
+            picture: None,
         }
     }
 
@@ -135,6 +139,7 @@ impl Light {
             },
             radiance,
             cone: None,
+            picture: None,
         }
     }
 
@@ -144,6 +149,7 @@ impl Light {
             shape: LightShape::Tube { ends_m, radius_m },
             radiance,
             cone: None,
+            picture: None,
         }
     }
 

@@ -114,7 +114,7 @@ pub(crate) fn with_mips(size_px: [u32; 2], texels: Vec<[u8; 4]>, channels: Chann
         } else {
             a
         };
-        let [r, g, b] = [r, g, b].map(|x| code(if srgb { linear_to_srgb(x) } else { x }));
+        let [r, g, b] = [r, g, b].map(|x| if srgb { srgb_code(x) } else { code(x) });
         [r, g, b, code(a)]
     };
     let mut size = size_px;
@@ -183,6 +183,11 @@ pub(crate) fn srgb_to_linear(code: f32) -> f32 {
         true => code / 12.92,
         false => ((code + 0.055) / 1.055).powf(2.4),
     }
+}
+
+/// The code of a linear value.
+pub(crate) fn srgb_code(linear: f32) -> u8 {
+    (linear_to_srgb(linear.clamp(0.0, 1.0)) * 255.0).round() as u8
 }
 
 /// IEC 61966-2-1.

@@ -107,6 +107,7 @@ fn is_same_light(x: &Light, y: &Light) -> bool {
         color,
         cone,
         barn_doors_deg,
+        picture,
     } = x;
     *hidden == y.hidden
         && *visible == y.visible
@@ -117,4 +118,5 @@ fn is_same_light(x: &Light, y: &Light) -> bool {
         && *color == y.color
         && *cone == y.cone
         && *barn_doors_deg == y.barn_doors_deg
+        && *picture == y.picture
 }

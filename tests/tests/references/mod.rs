@@ -14,6 +14,7 @@ mod gratings;
 mod mask;
 mod mirrored;
 mod penumbra;
+mod picture;
 mod pictures;
 mod published;
 mod scenes;

@@ -32,6 +32,7 @@ fn white() -> Scene {
             radius_m: 0.004,
         },
         cone: None,
+        picture: None,
     });
     scene
 }

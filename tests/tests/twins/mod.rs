@@ -6,6 +6,7 @@ mod four_edges;
 mod gratings;
 mod lobes;
 mod never_nan;
+mod picture;
 mod published;
 mod rays;
 mod rows_never_nan;

@@ -26,8 +26,8 @@ impl Published<'_> {
             DVec3::from(spectrum.radiance(segments, width_um, depth_nm, self.method.si))
         };
         let mut sum = DVec3::ZERO;
-        for light in &views.views {
-            match light {
+        for view_of_light in &views.views {
+            match view_of_light {
                 LightView::Sphere { cap, radiance } => {
                     sum += *radiance * over(&sphere_segments(view.wo, cap.turned(view.frame)));
                 }
@@ -38,6 +38,7 @@ impl Published<'_> {
                     ..
                 } => {
                     let vertices = &views.vertices[vertices.clone()];
+                    let mean = *radiance * views.picture_mean(view_of_light);
                     for corners in &self.triangles[*light] {
                         let clipped = clip_triangle(corners.map(|i| vertices[i]));
                         for triangle in clipped.triangles() {
@@ -45,7 +46,7 @@ impl Published<'_> {
                                 triangle.map(|corner| view.frame.band_from_surface(corner));
                             let segments = triangle_segments(view.wo, triangle);
                             if segments.count > 0 {
-                                sum += *radiance * over(&segments);
+                                sum += mean * over(&segments);
                             }
                         }
                     }

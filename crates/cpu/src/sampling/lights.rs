@@ -5,7 +5,9 @@
 //! point and light: sampling and evaluating it cannot disagree.
 
 use glam::{DVec2, DVec3};
-use hairline_scene::{Cone, Light, LightShape, Scene};
+use hairline_optics::picture::PicturePlane;
+use hairline_scene::{Cone, Light, LightShape, Scene, Texture};
+use std::sync::Arc;
 
 mod bound;
 mod polygon;
@@ -14,6 +16,7 @@ mod sphere;
 mod tests;
 mod tube;
 
+use crate::picture::{WHOLE, picture_radiance};
 #[cfg(test)]
 use bound::Cone as Bound;
 use polygon::PolygonLight;
@@ -31,12 +34,32 @@ struct AreaLight {
     shape: Shape,
     radiance: DVec3,
     cone: Option<Cone>,
+    picture: Option<Picture>,
+}
+
+/// A picture on a light: its texture, and the light's corners.
+#[derive(Clone, Debug)]
+struct Picture {
+    textures: Arc<Vec<Texture>>,
+    texture: usize,
+    corners_m: [DVec3; 4],
+}
+
+impl Picture {
+    /// Along a ray.
+    fn seen(&self, from: DVec3, direction: DVec3) -> DVec3 {
+        let plane = PicturePlane::of(&self.corners_m.map(|corner| corner - from));
+        let texture = &self.textures[self.texture];
+        picture_radiance(texture, plane.picture_uv(direction), 0.0, WHOLE)
+    }
 }
 
 impl AreaLight {
     /// What comes from there along a ray; every point of the light has its own cone.
-    fn seen(&self, direction: DVec3) -> DVec3 {
-        self.radiance * self.cone.map_or(1.0, |cone| cone.share(-direction))
+    fn seen(&self, from: DVec3, direction: DVec3) -> DVec3 {
+        let even = self.radiance * self.cone.map_or(1.0, |cone| cone.share(-direction));
+        let picture = self.picture.as_ref();
+        picture.map_or(even, |picture| even * picture.seen(from, direction))
     }
 }
 
@@ -73,11 +96,22 @@ impl AreaLights {
     /// The lights of a scene. The environment's suns are not among them: [`EnvironmentSampler`](super::environment::EnvironmentSampler)
     /// finds them in its map.
     pub fn new(scene: &Scene) -> Self {
-        Self::from_lights(&scene.lights)
+        Self::with_textures(&scene.lights, &scene.textures)
     }
 
     /// Any lights, in this order.
     pub fn from_lights<'l>(lights: impl IntoIterator<Item = &'l Light>) -> Self {
+        Self::with_textures(lights, &Arc::default())
+    }
+
+    /// The same with the textures of their pictures.
+    ///
+    /// # Panics
+    /// If a picture is not among them.
+    pub fn with_textures<'l>(
+        lights: impl IntoIterator<Item = &'l Light>,
+        textures: &Arc<Vec<Texture>>,
+    ) -> Self {
         let lights = lights
             .into_iter()
             .map(|light| AreaLight {
@@ -95,6 +129,7 @@ impl AreaLights {
                 },
                 radiance: light.radiance.into(),
                 cone: light.cone,
+                picture: picture(light, textures),
             })
             .collect();
         Self { lights }
@@ -123,7 +158,7 @@ impl AreaLights {
             direction,
             distance_m,
             pdf,
-            radiance: light.seen(direction),
+            radiance: light.seen(from, direction),
         })
     }
 
@@ -138,7 +173,7 @@ impl AreaLights {
         }?;
         Some(LightHit {
             distance_m,
-            radiance: light.seen(direction),
+            radiance: light.seen(from, direction),
         })
     }
 
@@ -181,4 +216,17 @@ impl AreaLights {
             Shape::Tube(tube) => tube.extent(from, axis),
         }
     }
+}
+
+fn picture(light: &Light, textures: &Arc<Vec<Texture>>) -> Option<Picture> {
+    let texture = light.picture?;
+    let LightShape::Polygon { vertices_m, .. } = &light.shape else {
+        return None;
+    };
+    assert!(texture < textures.len(), "a picture without its texture");
+    Some(Picture {
+        textures: textures.clone(),
+        texture,
+        corners_m: vertices_m.as_slice().try_into().ok()?,
+    })
 }

@@ -4,6 +4,8 @@
 use super::drawn_light::{DrawnLight, Offers};
 use super::row_spread::{ROW_PROFILE, RowSpread};
 use crate::light_view::{LightView, LightViews};
+use crate::picture::PictureView;
+use crate::sampling::luminance;
 use crate::surface::SurfacePoint;
 use glam::{DVec2, DVec3};
 use hairline_optics::band::{
@@ -55,6 +57,14 @@ impl<'a> ScratchLight<'a> {
     #[inline]
     pub(super) fn width_um(&self) -> f64 {
         self.profile.width_um.into()
+    }
+
+    /// Its width, where its light lies about the mirror's direction; that of a grating lies about its orders, wherever they are.
+    pub(super) fn weighed_um(&self) -> f64 {
+        match self.row {
+            Some(_) => 0.0,
+            None => self.width_um(),
+        }
     }
 
     /// How the band moves over the pixel towards a light. `place` is where a scratch lies under the footprint.
@@ -120,7 +130,8 @@ impl<'a> ScratchLight<'a> {
                 ..
             } => {
                 let outline = views.outline(vertices, *away, *facing, *sets);
-                Some(*radiance * self.polygon(stds, outline, motion, roots)?)
+                let picture = views.picture(light);
+                Some(*radiance * self.polygon(stds, outline, motion, roots, picture)?)
             }
         }
     }
@@ -140,9 +151,7 @@ impl<'a> ScratchLight<'a> {
         (low, high): (f64, f64),
     ) -> impl Fn(f64) -> [f64; 3] + 'a {
         let width_um = self.width_um();
-        // The light of a grating lies about its orders, wherever they are; that of a scratch about the mirror's direction.
-        let weighed_um = if self.row.is_some() { 0.0 } else { width_um };
-        let row = self.row(chord_cos(line, low, high, weighed_um));
+        let row = self.row(chord_cos(line, low, high, self.weighed_um()));
         move |q| row.at(width_um * q)
     }
 
@@ -168,6 +177,7 @@ impl<'a> ScratchLight<'a> {
         outline: Outline,
         motion: BandMotion,
         [middle_roots, roots]: &mut [OutlineRoots; 2],
+        picture: Option<PictureView>,
     ) -> Option<DVec3> {
         let wo = self.wo + motion.shift * DVec3::X;
         // Large lights cover the whole band, and their corners tell so.
@@ -176,7 +186,7 @@ impl<'a> ScratchLight<'a> {
         if band_is_whole(wo.x, wo.x + low, wo.x + high, std) {
             let line = BandLine::new(wo, 0.0);
             let spectrum = self.outline_spectrum(outline, line, roots);
-            return Some(roots.integral(spectrum).into());
+            return Some(self.on_line(line, roots, spectrum, picture).into());
         }
         let (lowest, highest) = outline.band_extent(self.frame, wo.x);
         if !motion.reaches(lowest, highest, stds.mean) {
@@ -188,12 +198,29 @@ impl<'a> ScratchLight<'a> {
         let spectrum = self.outline_spectrum(outline, middle, middle_roots);
         Some(lines.integral(wo, |line| {
             if line == middle {
-                middle_roots.integral(&spectrum)
+                self.on_line(line, middle_roots, &spectrum, picture)
             } else {
                 outline.roots(self.frame, line, roots);
-                roots.integral(&spectrum)
+                self.on_line(line, roots, &spectrum, picture)
             }
         }))
+    }
+
+    /// The light of an outline along a line, given its roots there and the antiderivative over q of what the groove sends.
+    fn on_line(
+        &self,
+        line: BandLine,
+        roots: &OutlineRoots,
+        spectrum: impl Fn(f64) -> [f64; 3],
+        picture: Option<PictureView>,
+    ) -> [f64; 3] {
+        let Some(picture) = picture else {
+            return roots.integral(spectrum);
+        };
+        let at = |q: f64| DVec3::from(spectrum(q));
+        let parts = self.picture_parts(line, roots, picture, |q| luminance(at(q)));
+        let sent = parts.map(|(low, high, radiance)| radiance * (at(high) - at(low)));
+        sent.sum::<DVec3>().to_array()
     }
 
     /// A direction from which a light reaches the viewer by way of the scratch: drawn in proportion to the luminance of what comes from there,
@@ -239,7 +266,18 @@ impl<'a> ScratchLight<'a> {
                     let line = lines.drawn_line(wo, i, line_u);
                     outline.roots(self.frame, line, &mut roots);
                     let spectrum = self.spectrum(line, roots.range);
-                    offers.offer(line, roots.signed().iter().copied(), spectrum, chord_u);
+                    let Some(picture) = views.picture(light) else {
+                        offers.offer(line, roots.signed().iter().copied(), spectrum, chord_u);
+                        continue;
+                    };
+                    let of_luminance = |q: f64| luminance(spectrum(q).into());
+                    for (low, high, radiance) in
+                        self.picture_parts(line, &roots, picture, of_luminance)
+                    {
+                        let ends = [(-1.0, low), (1.0, high)];
+                        let spectrum = |q: f64| (radiance * DVec3::from(spectrum(q))).into();
+                        offers.offer(line, ends.into_iter(), spectrum, chord_u);
+                    }
                 }
             }
         }

@@ -39,10 +39,25 @@ fn candidate_scaled(weight: BaseRadiance, factor: vec3f) -> BaseRadiance {
     return BaseRadiance(weight.specular * factor, weight.diffuse * factor);
 }
 
+// What the picture on a light, if it has one, sends from a direction.
+fn light_picture_toward(point: SurfacePoint, light: Light, direction: vec3f) -> vec3f {
+    var radiance = vec3f(1.0);
+    if HAS_PICTURES && (light.extras & LIGHT_PICTURE) != 0u {
+        let corner = light_corner_m(light.first_vertex);
+        let plane = PicturePlane(
+            surface_from_world(point, corner - point.position_m),
+            surface_from_world(point, light_corner_m(light.first_vertex + 1u) - corner),
+            surface_from_world(point, light_corner_m(light.first_vertex + 3u) - corner),
+        );
+        radiance = picture_radiance(light_picture(light), picture_uv(plane, direction), 0.0, vec2f(0.0), 1.0);
+    }
+    return radiance;
+}
+
 // A direction by the lobes and one to the light, with the weights of multiple importance sampling (E. Veach, 1997).
 fn offer_light(kept: ptr<function, Candidate>, point: SurfacePoint, lobes: BaseLobes, seed: u32, pick: f32) {
     let light = light_at(shadow_round.source);
-    let radiance = light_radiance(light, point.position_m);
+    let even = light_radiance(light, point.position_m);
     let drawn = light_draw(point, light, shadow_random(seed, shadow_round, SHADOW_LIGHT));
     if !(drawn.whole > 0.0) {
         return;
@@ -52,6 +67,7 @@ fn offer_light(kept: ptr<function, Candidate>, point: SurfacePoint, lobes: BaseL
     let is_lit = met.distance_m > 0.0 || met.covers == 0.0;
     if is_lit && drawn.direction.z > 0.0 && drawn.distance_m > 0.0 && drawn.distance_m < SHADOW_FAR_M {
         let density = max(met.covers, 1.0) / drawn.whole + base_lobes_pdf(lobes, drawn.direction);
+        let radiance = even * light_picture_toward(point, light, drawn.direction);
         let weight = candidate_scaled(base_lobes_eval(lobes, drawn.direction), radiance / density);
         candidate_offer(kept, drawn.direction, drawn.distance_m, weight);
     }
@@ -60,6 +76,7 @@ fn offer_light(kept: ptr<function, Candidate>, point: SurfacePoint, lobes: BaseL
         let along = light_meets(point, light, wi);
         if along.distance_m > 0.0 {
             let density = along.covers / drawn.whole + base_lobes_pdf(lobes, wi);
+            let radiance = even * light_picture_toward(point, light, wi);
             candidate_offer(kept, wi, along.distance_m, candidate_scaled(base_lobes_eval(lobes, wi), radiance / density));
         }
     }

@@ -41,7 +41,7 @@ fn published_layer(point: SurfacePoint, layer: Layer) -> BaseRadiance {
         var light = base_surroundings(point, part.lobe, layer.reflecting);
         for (var l = 0u; l < frame.base_light_count; l += 1u) {
             let source = light_at(l);
-            let radiance = light_radiance(source, point.position_m);
+            let radiance = published_light_radiance(source, point.position_m);
             var share: vec4f;
             if BASE_HAS_SPHERES && source.kind == LIGHT_SPHERE {
                 share = published_base_sphere(point, part.lobe, layer.reflecting, pivot, source);

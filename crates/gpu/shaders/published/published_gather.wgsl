@@ -127,7 +127,7 @@ fn published_light(point: SurfacePoint, sums: ptr<function, ScratchSums>) {
         var radiance = vec3f(0.0);
         for (var l = 0u; l < frame.light_count; l += 1u) {
             let light = light_at(l);
-            let sent = light_radiance(light, point.position_m);
+            let sent = published_light_radiance(light, point.position_m);
             if HAS_SPHERES && light.kind == LIGHT_SPHERE {
                 radiance += sent * published_sphere(point, view, light);
             }

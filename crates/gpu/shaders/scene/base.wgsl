@@ -56,6 +56,49 @@ fn base_polygon(point: SurfacePoint, lobe: LtcLobe, light: Light) -> LightOnBase
     return LightOnBase(irradiance_end(specular), lambert_end(diffuse));
 }
 
+// What the lobe and the body see of a light's picture in the mean, part by part. Twins: on_lobe and on_body of cpu/src/picture.rs.
+fn base_picture(point: SurfacePoint, lobe: LtcLobe, light: Light) -> BaseRadiance {
+    let picture = light_picture(light);
+    let axes = mat3x3f(point.axis_x, point.axis_y, point.normal);
+    let plane = light_picture_plane(light, point.position_m, axes);
+    var mean: BaseRadiance;
+    var weights = vec2f(0.0);
+    for (var i = 0u; i < PICTURE_PARTS * PICTURE_PARTS; i += 1u) {
+        let part = picture_part(plane, i);
+        let in_cosine = PicturePlane(
+            ltc_to_cosine(lobe, lobe_rotate(lobe.x_axis, part.corner)),
+            ltc_to_cosine(lobe, lobe_rotate(lobe.x_axis, part.right)),
+            ltc_to_cosine(lobe, lobe_rotate(lobe.x_axis, part.up)),
+        );
+        let on_lobe = picture_irradiance(in_cosine);
+        if on_lobe.z > 0.0 {
+            weights.x += on_lobe.z;
+            mean.specular += (picture_part_at(picture, picture_look(in_cosine, on_lobe), i) - mean.specular) * (on_lobe.z / weights.x);
+        }
+        if HAS_BODIES {
+            let on_body = picture_irradiance(part);
+            if on_body.z > 0.0 {
+                weights.y += on_body.z;
+                mean.diffuse += (picture_part_at(picture, picture_look(part, on_body), i) - mean.diffuse) * (on_body.z / weights.y);
+            }
+        }
+    }
+    return mean;
+}
+
+// The vector irradiance of a parallelogram.
+fn picture_irradiance(plane: PicturePlane) -> vec3f {
+    var state = irradiance_begin();
+    let b = plane.corner + plane.right;
+    let c = b + plane.up;
+    let d = plane.corner + plane.up;
+    irradiance_edge(&state, plane.corner, b, plane.right);
+    irradiance_edge(&state, b, c, plane.up);
+    irradiance_edge(&state, c, d, -plane.right);
+    irradiance_edge(&state, d, plane.corner, -plane.up);
+    return irradiance_end(state);
+}
+
 // What the lobe reflects of light from all around, single scattering, and what falls on the body.
 fn base_environment(point: SurfacePoint, lobe: LtcLobe, reflecting: LobeFresnel) -> BaseRadiance {
     let looked_up = environment_lobe(lobe, lobe_shapes);
@@ -169,8 +212,15 @@ fn layer_lit(point: SurfacePoint, layer: Layer, of_lights: vec2u, surrounded: bo
             if BASE_HAS_POLYGONS && source.kind != LIGHT_SPHERE {
                 seen = base_polygon(point, part.lobe, source);
             }
-            light.specular += radiance * ltc_reflected(part.lobe, layer.reflecting, fresnel_curves, seen.vector);
-            light.diffuse += radiance * seen.form_factor;
+            var on_lobe = radiance;
+            var on_body = radiance;
+            if HAS_PICTURES && (source.extras & LIGHT_PICTURE) != 0u {
+                let picture = base_picture(point, part.lobe, source);
+                on_lobe *= picture.specular;
+                on_body *= picture.diffuse;
+            }
+            light.specular += on_lobe * ltc_reflected(part.lobe, layer.reflecting, fresnel_curves, seen.vector);
+            light.diffuse += on_body * seen.form_factor;
         }
         sum = BaseRadiance(sum.specular + part.weight * light.specular, light.diffuse);
     }

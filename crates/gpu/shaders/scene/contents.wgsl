@@ -11,6 +11,7 @@ override HAS_ENVIRONMENT: bool = true;
 override BASE_HAS_SPHERES: bool = true;
 override BASE_HAS_POLYGONS: bool = true;
 override HAS_DOORS: bool = true;
+override HAS_PICTURES: bool = true;
 override HAS_TEXTURES: bool = true;
 // Colours of vertices.
 override HAS_COLORS: bool = true;

@@ -94,8 +94,8 @@ struct Material {
     coat: u32,                  // share of the surface and roughness of a clear layer over it, in 16 bits each
 }
 
-// Spheres come first, then polygons of at most four vertices, then others, then tubes; behind them, in the same order, lights for
-// scratches alone.
+// Spheres come first, then polygons of at most four vertices, then others, then tubes, then rectangles with pictures; behind them, in the
+// same order, lights for scratches alone.
 struct Light {
     radiance: vec3f,
     kind: u32,                  // LIGHT_SPHERE, LIGHT_POLYGON or LIGHT_TUBE
@@ -107,12 +107,17 @@ struct Light {
     vertex_count: u32,
     cone: vec2f,                // cosine at the rim, below all without a cone; 1 over the cosines of the fall-off
     cone_axis: vec3f,
-    has_doors: u32,             // barn doors: behind its vertices lie the direction across, tangents, and 1 over those of the fall-off
+    extras: u32,                // LIGHT_DOORS, LIGHT_PICTURE: what lies behind its vertices, in this order
 }
 
 const LIGHT_SPHERE: u32 = 0u;
 const LIGHT_POLYGON: u32 = 1u;
 const LIGHT_TUBE: u32 = 2u;
+
+// Barn doors: the direction across, tangents, and 1 over those of the fall-off.
+const LIGHT_DOORS: u32 = 1u;
+// A picture: a texture as scene_texture() takes it.
+const LIGHT_PICTURE: u32 = 2u;
 
 // Nodes in depth-first order: a BVH traversal goes on with the next one, or with `skip`. Twin: crates/index.
 struct ScratchNode {

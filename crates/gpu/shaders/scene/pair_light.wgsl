@@ -6,9 +6,10 @@ const SCRATCH_LIGHTS_SPHERES: u32 = 0u;
 const SCRATCH_LIGHTS_QUADS: u32 = 1u;
 const SCRATCH_LIGHTS_OUTLINES: u32 = 2u;
 const SCRATCH_LIGHTS_TUBES: u32 = 3u;
-const SCRATCH_LIGHTS_ENVIRONMENT: u32 = 4u;
+const SCRATCH_LIGHTS_PICTURES: u32 = 4u;
+const SCRATCH_LIGHTS_ENVIRONMENT: u32 = 5u;
 // None: scratches are picked by the energy that they take of the base. Light of other objects goes by way of them.
-const SCRATCH_LIGHTS_NONE: u32 = 5u;
+const SCRATCH_LIGHTS_NONE: u32 = 6u;
 
 // Whether the pass is for light from all around.
 fn lights_are_around() -> bool {
@@ -38,7 +39,7 @@ fn pair_light(pair: Pair, light_index: u32) -> vec3f {
     }
     let normal = light.normal * pair.surface;
     let a = (light_corner_m(light.first_vertex) - pair.position_m) * pair.surface;
-    if SCRATCH_LIGHTS == SCRATCH_LIGHTS_QUADS {
+    if SCRATCH_LIGHTS == SCRATCH_LIGHTS_QUADS || SCRATCH_LIGHTS == SCRATCH_LIGHTS_PICTURES {
         let last = select(light.first_vertex + 3u, light.first_vertex, light.vertex_count == 3u);
         let quad = QuadLight(
             a,
@@ -51,6 +52,11 @@ fn pair_light(pair: Pair, light_index: u32) -> vec3f {
             light.radius_m,
             light.two_sided != 0u,
         );
+        if SCRATCH_LIGHTS == SCRATCH_LIGHTS_PICTURES {
+            let plane = light_picture_plane(light, pair.position_m, pair.surface);
+            let with_picture = PictureLight(quad, plane, light_picture(light));
+            return sent * scratch_picture(scratch_tables, point, seen, with_picture);
+        }
         return sent * scratch_quad(scratch_tables, point, seen, quad);
     }
     var view: OutlineView;

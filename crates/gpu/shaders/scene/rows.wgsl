@@ -78,7 +78,7 @@ fn light_radiance(light: Light, to_m: vec3f) -> vec3f {
     let away = normalize(to_m - light.center_m);
     let cos = dot(light.cone_axis, away);
     var share = clamp((cos - light.cone.x) * light.cone.y, 0.0, 1.0);
-    if HAS_DOORS && light.has_doors != 0u {
+    if HAS_DOORS && (light.extras & LIGHT_DOORS) != 0u {
         share *= doors_share(light, away, cos);
     }
     return light.radiance * (share * share);

@@ -560,6 +560,8 @@ class RectangleLight(Light):
     """Metres."""
     rotation_deg: float = _default()
     """About its axis, counter-clockwise as seen from the target, degrees. Default: 0."""
+    picture: Optional[Path] = _default()
+    """A picture on it, upright as seen from the target: the path of a .png, .jpg, .webp, .hdr or .exr. Default: none."""
     two_sided: bool = _default()
     """Whether the other side shines too. Default: False."""
 

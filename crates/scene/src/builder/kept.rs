@@ -23,6 +23,7 @@ use crate::{Environment, model_notes, shape};
 pub(super) struct Kept {
     pub surfaces: Vec<Arc<KeptSurface>>,
     pub textures: Textures,
+    pub pictures: Vec<KeptPicture>,
     /// The map with no rotation, intensity 1.
     pub map: Option<(MapKey, Environment)>,
     pub layers: Vec<Arc<KeptLayer>>,
@@ -257,7 +258,16 @@ impl KeptSurface {
     }
 }
 
-/// The textures of several surfaces, one after the other.
+/// A picture on a light, and how bright it is.
+#[derive(Clone)]
+pub(super) struct KeptPicture {
+    pub file: Stamp,
+    pub brightest: f64,
+    /// It alone.
+    pub texture: Arc<Vec<Texture>>,
+}
+
+/// The textures of several surfaces, then those of lights, one after the other.
 #[derive(Clone, Default)]
 pub(super) struct Textures {
     parts: Vec<Arc<Vec<Texture>>>,
@@ -295,6 +305,13 @@ impl Kept {
     pub(super) fn map(&self, key: &MapKey) -> Option<Environment> {
         let (_, map) = self.map.as_ref().filter(|(kept, _)| kept == key)?;
         Some(map.clone())
+    }
+
+    pub(super) fn picture(&self, file: &Stamp) -> Option<KeptPicture> {
+        self.pictures
+            .iter()
+            .find(|kept| kept.file == *file)
+            .cloned()
     }
 
     pub(super) fn lamp(&self, kind: &LightKind, material: u32) -> Option<Arc<Mesh>> {

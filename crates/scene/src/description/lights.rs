@@ -1,5 +1,7 @@
 //! Lights as an author writes them.
 
+use std::path::PathBuf;
+
 use glam::DVec3;
 use hairline_optics::spectrum::black_body_rgb;
 use serde::Serialize;
@@ -45,6 +47,10 @@ pub struct Light {
     /// seen from its target. 90 is open. Default: no flaps.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub barn_doors_deg: Option<[f64; 4]>,
+    /// Of a rectangle: a picture on it, upright as seen from its target, relative to the scene file. Its linear values are factors on the radiance.
+    /// Default: none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub picture: Option<PathBuf>,
 }
 
 /// `cone_deg` of a `[[light]]` and the keys that belong to it.
@@ -132,6 +138,7 @@ impl Light {
             color: [1.0; 3],
             cone: None,
             barn_doors_deg: None,
+            picture: None,
         }
     }
 }
@@ -158,6 +165,13 @@ impl Light {
         }
         self.kind.check_at(key)?;
         self.check_doors(&format!("{key}.barn_doors_deg"))?;
+        if self.picture.is_some() && !matches!(self.kind, LightKind::Rectangle { .. }) {
+            return Err(Error::new(
+                format!("{key}.picture"),
+                format!("found a picture on a {}", self.kind.title()),
+                "must be on a rectangle",
+            ));
+        }
         match &self.cone {
             Some(cone) => cone.check_at(key, &self.kind),
             None => Ok(()),
@@ -231,6 +245,7 @@ impl Read for Light {
                 "cone_deg",
                 "cone_softness",
                 "barn_doors_deg",
+                "picture",
             ],
             &light_kind::KEYS,
         )?;
@@ -247,6 +262,7 @@ impl Read for Light {
             color: table.or("color", [1.0; 3])?,
             cone,
             barn_doors_deg: table.optional("barn_doors_deg")?,
+            picture: table.optional("picture")?,
         })
     }
 }

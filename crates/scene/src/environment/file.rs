@@ -8,6 +8,7 @@ use image::codecs::hdr::HdrDecoder;
 use image::{ImageDecoder, ImageError};
 
 use crate::reading::check_regular;
+use crate::texture::{Unusable, texture_bytes};
 
 /// An environment map that cannot be used. The message names the file and the reason.
 #[derive(Debug, thiserror::Error)]
@@ -87,11 +88,32 @@ fn ending(path: &Path) -> Option<String> {
 
 /// Reads an equirectangular map.
 pub(crate) fn read(path: &Path) -> Result<Picture, Error> {
+    read_if(path, &check_size)
+}
+
+/// Reads a picture of any shape, which may take `free_bytes` as a texture.
+pub(crate) fn read_picture(path: &Path, free_bytes: f64) -> Result<Picture, Error> {
+    read_if(path, &|path: &Path, size_px: [u32; 2]| {
+        check_width(path, size_px)?;
+        if texture_bytes(size_px) > free_bytes {
+            let too_large = Unusable::TooLarge {
+                size_px,
+                free_bytes,
+            };
+            return Err(cannot_read(path, &io::Error::other(too_large)));
+        }
+        Ok(())
+    })
+}
+
+/// Reads a picture whose size is right.
+fn read_if(path: &Path, check_size: CheckSize) -> Result<Picture, Error> {
     check_regular(path).map_err(|e| cannot_read(path, &e))?;
     match ending(path).as_deref() {
-        Some("hdr") => read_radiance(path),
+        Some("hdr") => read_radiance(path, check_size),
         Some("exr") => {
-            size_px(path)?;
+            let size_px = exr_file::size_px(path).map_err(|e| from_exr(path, e))?;
+            check_size(path, size_px)?;
             let picture = exr_file::read_picture(path).map_err(|e| from_exr(path, e))?;
             check_size(path, picture.size_px)?;
             Ok(picture)
@@ -102,13 +124,20 @@ pub(crate) fn read(path: &Path) -> Result<Picture, Error> {
     }
 }
 
+type CheckSize<'a> = &'a dyn Fn(&Path, [u32; 2]) -> Result<(), Error>;
+
 fn check_size(path: &Path, size_px: [u32; 2]) -> Result<(), Error> {
-    let path = path.to_owned();
     let [width, height] = size_px;
     if height == 0 || u64::from(width) != 2 * u64::from(height) {
+        let path = path.to_owned();
         return Err(Error::NotEquirectangular { path, size_px });
     }
-    if width > WIDTH_MAX {
+    check_width(path, size_px)
+}
+
+fn check_width(path: &Path, size_px: [u32; 2]) -> Result<(), Error> {
+    let path = path.to_owned();
+    if size_px.into_iter().any(|n| n > WIDTH_MAX) {
         return Err(Error::TooLarge { path, size_px });
     }
     Ok(())
@@ -131,7 +160,7 @@ fn from_exr(path: &Path, error: hairline_image::Error) -> Error {
 }
 
 /// Reads a Radiance picture. Its EXPOSURE, if it has one, is undone: it says by what the radiances were multiplied.
-fn read_radiance(path: &Path) -> Result<Picture, Error> {
+fn read_radiance(path: &Path, check_size: CheckSize) -> Result<Picture, Error> {
     let file = held::open(path).map_err(|e| cannot_read(path, &e))?;
     let reader = as_radiance(file).map_err(|e| cannot_read(path, &e))?;
     let decoder = HdrDecoder::new(reader).map_err(|e| from_radiance(path, e))?;

@@ -71,6 +71,7 @@ pub(super) fn lamp(
         color: light.color,
         cone,
         barn_doors_deg: None,
+        picture: None,
         ..Light::new(LightKind::sphere(center_m.into(), radius_m))
     })
 }

@@ -299,6 +299,26 @@ fn sizes_that_are_negative_or_not_finite() {
         "plate.toml:19: light[0].barn_doors_deg: found barn doors of a sphere light; must be those of a disk or a rectangle that shines to one side"
     );
     assert_eq!(
+        light("kind = \"sphere\"\ncenter_m = [0, 0, 1]\nradius_m = 1\npicture = \"box.png\""),
+        "plate.toml:19: light[0].picture: found a picture on a sphere light; must be on a rectangle"
+    );
+    let with_picture = |file: &str| {
+        light(&format!(
+            "kind = \"rectangle\"\ncenter_m = [0, 0, 1]\ntarget_m = [0, 0, 0]\nwidth_m = 1\nheight_m = 1\npicture = \"{file}\""
+        ))
+    };
+    for file in ["missing.png", "missing.hdr"] {
+        let message = with_picture(file);
+        assert!(
+            message.starts_with("plate.toml:21: light[0].picture: ")
+                && message.contains(file)
+                && message.ends_with(
+                    "; must be a .png, .jpg, .webp, .hdr or .exr, relative to the scene file"
+                ),
+            "{message}"
+        );
+    }
+    assert_eq!(
         light("kind = \"tube\"\nends_m = [[0, 0, 1], [0, 0, 1]]\nradius_m = 1"),
         "plate.toml:17: light[0].ends_m: found two equal ends; must be two places; a round lamp is a `sphere`"
     );

@@ -271,6 +271,7 @@ fn everything() -> Description {
                     target_m: Some([1.0, 2.0, 3.0]),
                 }),
                 barn_doors_deg: None,
+                picture: None,
             },
             Light {
                 name: None,
@@ -286,6 +287,7 @@ fn everything() -> Description {
                 color: [0.1, 0.2, 0.3],
                 cone: None,
                 barn_doors_deg: None,
+                picture: None,
             },
             Light::new(LightKind::Disk {
                 center_m: [0.0, 0.0, 1.0],

@@ -1,5 +1,7 @@
 //! A light.
 
+use std::path::Path;
+
 use egui::Ui;
 use glam::DVec3;
 use hairline_editor::actions::lights;
@@ -87,6 +89,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     }
     cone(&mut form, &mut light);
     doors(&mut form, &mut light);
+    picture(&mut form, &mut light);
     if let Some(change) = form.change() {
         work.document.drag(&change.label, change.key, |d| {
             d.lights[index] = light.clone();
@@ -134,6 +137,22 @@ fn cone(form: &mut Form, light: &mut Light) {
     if let Some(target_m) = &mut cone.target_m {
         form.vector(Parameter::LightTarget, target_m);
     }
+}
+
+/// The picture on a rectangle: its file, as the scene file writes it.
+fn picture(form: &mut Form, light: &mut Light) {
+    if !matches!(light.kind, LightKind::Rectangle { .. }) {
+        light.picture = None;
+        return;
+    }
+    let shown = light.picture.as_deref().unwrap_or(Path::new(""));
+    let mut file = shown.to_string_lossy().into_owned();
+    form.text(
+        "Picture",
+        "A .png, .jpg, .webp, .hdr or .exr on the light, relative to the scene file: what a soft box looks like. None: an even light",
+        &mut file,
+    );
+    light.picture = (!file.is_empty()).then(|| file.into());
 }
 
 /// Flaps beside a disk or a rectangle; a light whose two sides shine has none.

@@ -43,6 +43,11 @@ pub fn fingerprint(description: &Description, folder: &Path, arrays: &Arrays) ->
             by_content(&mut listed.file, digest_of_file)?;
         }
     }
+    for light in &mut described.lights {
+        if let Some(picture) = &mut light.picture {
+            by_content(picture, digest_of_file)?;
+        }
+    }
     // Not TOML, which does not have the upper half of the seeds.
     let text = serde_json::to_vec(&described).context("the scene cannot be described")?;
     Ok(shortened(&blake3::hash(&text)))

@@ -1,0 +1,104 @@
+//! Pictures on lights: look-ups, and how a point sees them. Twin: picture_light.wgsl.
+
+use crate::surface::texture_level;
+use glam::{DVec2, DVec3};
+use hairline_optics::irradiance::irradiance_polygon;
+use hairline_optics::ltc::{LtcLobe, ltc_vector};
+use hairline_optics::picture::{
+    PICTURE_PARTS, PictureLook, PicturePlane, picture_lod, picture_part_spread, picture_part_uv,
+};
+use hairline_scene::Texture;
+
+/// A picture on a light, as seen from a point.
+#[derive(Clone, Copy)]
+pub(crate) struct PictureView<'a> {
+    texture: &'a Texture,
+    plane: PicturePlane,
+}
+
+impl<'a> PictureView<'a> {
+    /// `corners` are those of the light, relative to the point, in the frame of its surface.
+    pub fn new(texture: &'a Texture, corners: &[DVec3]) -> Self {
+        Self {
+            texture,
+            plane: PicturePlane::of(corners),
+        }
+    }
+
+    fn at(&self, look: PictureLook) -> DVec3 {
+        let size_px = self.texture.size_px.map(f64::from).into();
+        picture_radiance(
+            self.texture,
+            look.uv,
+            picture_lod(look.spread, size_px),
+            WHOLE,
+        )
+    }
+
+    /// What a lobe sees of it in the mean.
+    pub fn on_lobe(&self, lobe: &LtcLobe) -> DVec3 {
+        self.mean(|part| {
+            let vector = ltc_vector(lobe, &part.corners());
+            (vector.z, part.picture_on_lobe(lobe, vector))
+        })
+    }
+
+    /// What a diffuse body sees of it in the mean.
+    pub fn on_body(&self) -> DVec3 {
+        self.mean(|part| {
+            let vector = irradiance_polygon(&part.corners());
+            (vector.z, part.picture_look(vector))
+        })
+    }
+
+    /// Over the parts of the picture, by a weight and a look-up of each.
+    fn mean(&self, seen: impl Fn(&PicturePlane) -> (f64, PictureLook)) -> DVec3 {
+        let size_px = DVec2::from(self.texture.size_px.map(f64::from));
+        let share = 1.0 / PICTURE_PARTS as f64;
+        let (mut mean, mut weights) = (DVec3::ZERO, 0.0);
+        for i in 0..PICTURE_PARTS * PICTURE_PARTS {
+            let (weight, look) = seen(&self.plane.picture_part(i));
+            if weight > 0.0 {
+                let spread = picture_part_spread(look.spread);
+                let low = picture_part_uv(i);
+                let (uv, lod) = (low + look.uv * share, picture_lod(spread, size_px));
+                let range = [low, low + share];
+                let radiance = picture_radiance(self.texture, uv, lod, range);
+                weights += weight;
+                mean += (radiance - mean) * (weight / weights);
+            }
+        }
+        mean
+    }
+
+    /// What comes from a part of a chord, by the directions of its ends and its middle.
+    pub fn on_chord(&self, directions: [DVec3; 3]) -> DVec3 {
+        self.at(self.plane.picture_on_chord(directions))
+    }
+}
+
+/// The mean of all of a picture.
+pub(crate) fn picture_mean(texture: &Texture) -> DVec3 {
+    texture_level(texture, texture.levels.len() - 1, DVec2::splat(0.5))
+}
+
+/// All of a picture, from corner to corner.
+pub(crate) const WHOLE: [DVec2; 2] = [DVec2::ZERO, DVec2::ONE];
+
+/// A trilinear look-up that ends at the edges of a range.
+pub(crate) fn picture_radiance(
+    texture: &Texture,
+    uv: DVec2,
+    lod: f64,
+    [low, high]: [DVec2; 2],
+) -> DVec3 {
+    let lod = lod.min((texture.levels.len() - 1) as f64);
+    let at = |level: f64| {
+        let size_px = texture
+            .size_px
+            .map(|n| f64::from((n >> level as u32).max(1)));
+        let half = (0.5 / DVec2::from(size_px)).min(0.5 * (high - low));
+        texture_level(texture, level as usize, uv.clamp(low + half, high - half))
+    };
+    at(lod.floor()).lerp(at(lod.ceil()), lod.fract())
+}

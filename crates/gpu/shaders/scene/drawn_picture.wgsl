@@ -1,0 +1,57 @@
+// A direction from which a rectangle with a picture reaches the viewer by way of a scratch, drawn as drawn_light.wgsl does. Twin: draw_light of
+// cpu/src/shade_scratches/scratch_light.rs.
+
+// Part `i` of the chords of a line: its lower end, its middle and its upper end.
+fn drawn_picture_part(seen: SeenScratch, chords: PictureChords, i: u32) -> vec3f {
+    let ends = select(chords.first, chords.second, i >= PICTURE_CELLS);
+    let at = f32(i % PICTURE_CELLS);
+    let width_um = seen.weighed_um;
+    return vec3f(
+        picture_place(at, ends.x, ends.y, width_um),
+        picture_place(at + 0.5, ends.x, ends.y, width_um),
+        picture_place(at + 1.0, ends.x, ends.y, width_um),
+    );
+}
+
+fn draw_picture(point: LitPoint, seen: SeenScratch, light: PictureLight, u: vec3f) -> DrawnLight {
+    let quad = light.quad;
+    let none = DrawnLight(vec3f(0.0), false, vec3f(1.0));
+    let facing = polygon_facing(quad.normal, quad.a_m, quad.two_sided);
+    if facing == 0.0 {
+        return none;
+    }
+    let band = scratch_band(point, seen, sphere_cap(quad.center_m, quad.radius_m).axis, max(length(quad.center_m), quad.radius_m));
+    let wo = band_from_surface(seen.tangent, point.wo) + vec3f(band.shift, 0.0, 0.0);
+    let away = band_from_surface(seen.tangent, -facing * quad.normal);
+    let outline = picture_outline(seen, quad);
+    let extent = four_edges_extent(outline, away);
+    let lines = band_lines(wo.x, wo.x + extent.x, wo.x + extent.y, band.stds);
+    var offer = DrawnOffer(vec3f(0.0), u.y);
+    var taken = lines.count;
+    var part = vec2f(0.0);
+    var radiance = vec3f(0.0);
+    var taken_cos = 0.0;
+    for (var l = 0u; l < lines.count; l += 1u) {
+        let line = drawn_line(lines, wo, l, u.x);
+        let roots = four_edges_roots(outline, line, away);
+        let cos_i = drawn_cos(seen, line, roots.range);
+        let chords = picture_chords(roots, line);
+        for (var i = 0u; i < chords.count * PICTURE_CELLS; i += 1u) {
+            let ends = drawn_picture_part(seen, chords, i);
+            let here = picture_piece(seen, light, line, ends.x, ends.y, ends.z);
+            if drawn_offer(&offer, here * scratch_chord(scratch_tables, point, seen, ends.z, ends.x, cos_i)) {
+                taken = l;
+                part = ends.xz;
+                radiance = here;
+                taken_cos = cos_i;
+            }
+        }
+    }
+    if taken == lines.count {
+        return none;
+    }
+    let line = drawn_line(lines, wo, taken, u.x);
+    let own = rgb_luminance(radiance * scratch_chord(scratch_tables, point, seen, part.y, part.x, taken_cos));
+    let q = drawn_place(point, seen, DrawnPart(part.x, part.y, u.z * own), taken_cos, radiance);
+    return drawn_at(point, seen, line, q, taken_cos, radiance, offer.total);
+}
