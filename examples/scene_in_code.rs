@@ -9,8 +9,8 @@ use hairline_cpu::closed_form::{Prepared, RenderOptions};
 use hairline_image::{Display, Output};
 use hairline_optics::metal::Metal;
 use hairline_scene::{
-    Base, Camera, GLTF_DIELECTRIC, Light, Material, Mesh, Object, Profile, RenderSettings, Scene,
-    Scratch, Segment,
+    Base, Camera, GLTF_DIELECTRIC, Lens, Light, Material, Mesh, Object, Profile, RenderSettings,
+    Scene, Scratch, Segment,
 };
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -23,6 +23,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             up: DVec3::Z,
             fov_y_rad: 0.4,
             exposure_ev: 0.0,
+            lens: Lens::default(),
         },
         render: RenderSettings {
             size_px: [320, 240],

@@ -5,7 +5,7 @@ pub mod unbiased;
 
 use glam::{DVec3, Vec2, Vec3, Vec4};
 use hairline_scene::{
-    Base, Camera, Environment, GLTF_DIELECTRIC, Light, Material, Mesh, Object, Profile,
+    Base, Camera, Environment, GLTF_DIELECTRIC, Lens, Light, Material, Mesh, Object, Profile,
     RenderSettings, Scene, Scratch, Segment,
 };
 use std::path::Path;
@@ -71,6 +71,7 @@ pub fn square(base: Base, half_side_m: f32, size_px: u32) -> Scene {
             up: DVec3::Y,
             fov_y_rad: 0.6,
             exposure_ev: 0.0,
+            lens: Lens::default(),
         },
         render: RenderSettings {
             size_px: [size_px; 2],

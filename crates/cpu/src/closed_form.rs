@@ -108,7 +108,7 @@ impl Prepared<'_> {
     ) -> (Picture<'_>, Counts) {
         let scene = self.scene;
         let size_px = scene.render.size_px;
-        let camera = scene.camera.frame(size_px);
+        let camera = scene.camera.frame_of_batch(size_px, options.batch());
         let mut counts = Counts::default();
         let by = match options.method.published {
             None => {

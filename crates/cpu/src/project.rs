@@ -138,8 +138,8 @@ impl Rows {
         let jitter_px = if samples > 1 { JITTER_PX } else { 0.0 };
         let px = 1.0 / camera.per_px_x.length();
         let room = DVec2::splat(filter_px + jitter_px + ROUNDING_PX);
-        let low = DVec2::new(0.0, rows.start.into()) - 0.5 * camera.size_px - room;
-        let high = DVec2::new(camera.size_px.x, rows.end.into()) - 0.5 * camera.size_px + room;
+        let low = DVec2::new(0.0, rows.start.into()) - camera.middle_px - room;
+        let high = DVec2::new(camera.size_px.x, rows.end.into()) - camera.middle_px + room;
         let (x, y) = (camera.per_px_x * px * px, camera.per_px_y * px * px);
         let planes = [
             x - camera.forward * low.x,
@@ -226,7 +226,7 @@ impl Rows {
         let window_px = REACH_MARGIN * f64::from(REACH_STD) * window_m * self.px * ray / nearest_m;
         let pixel = |ray: DVec3| {
             let at = DVec2::new(ray.dot(self.camera.per_px_x), ray.dot(self.camera.per_px_y));
-            let pixel = at * (self.px * self.px) + 0.5 * self.camera.size_px;
+            let pixel = at * (self.px * self.px) + self.camera.middle_px;
             pixel.as_vec2().to_array()
         };
         let reach_px = self.filter_px.hypot(window_px) + self.jitter_px + ROUNDING_PX;

@@ -196,6 +196,7 @@ pub fn view(camera: &Camera, size_px: [u32; 2]) -> CameraFrame {
         up: camera.up.into(),
         fov_y_rad: camera.fov_y_deg.to_radians(),
         exposure_ev: camera.exposure_ev,
+        lens: camera.lens(),
     }
     .frame(size_px)
 }

@@ -44,6 +44,8 @@ impl Parameter {
         Self::CameraTarget,
         Self::CameraUp,
         Self::FieldOfView,
+        Self::Aperture,
+        Self::FocusDistance,
         Self::Exposure,
         Self::PictureSize,
         Self::Filter,
@@ -132,6 +134,8 @@ impl Parameter {
             P::CameraPosition | P::CameraTarget => (-5.0 * d..=5.0 * d, limits::COORDINATE_M),
             P::CameraUp | P::Axis | P::Direction => (-1.0..=1.0, limits::DIRECTION),
             P::FieldOfView => (5.0..=90.0, limits::FOV_Y_DEG),
+            P::Aperture => (1e-3 * d..=0.1 * d, 0.0..=1e-3 * limits::APERTURE_MM.end()),
+            P::FocusDistance => (0.1 * d..=5.0 * d, limits::SIZE_M),
             P::Exposure => (-8.0..=8.0, limits::EXPOSURE_EV),
             P::PictureSize => (64.0..=4096.0, limits::PICTURE_PX),
             P::Filter => (0.3..=2.0, limits::FILTER_STD_PX),
@@ -260,7 +264,9 @@ impl Parameter {
             | P::LightWidth
             | P::LightHeight
             | P::LightVertex
-            | P::LightEnd => Unit::Metre,
+            | P::LightEnd
+            | P::Aperture
+            | P::FocusDistance => Unit::Metre,
             P::FieldOfView
             | P::EnvironmentRotation
             | P::StudioRotation

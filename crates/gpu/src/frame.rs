@@ -119,7 +119,7 @@ pub(crate) fn frame(
         samples,
         ..
     } = *view;
-    let camera = scene.camera.frame(size_px);
+    let camera = scene.camera.frame_of_batch(size_px, view.batch);
     let environment = scene.environment.as_ref();
     // Jittered samples share the pixel's filter; the one through the centre has all of it.
     let (jitter, of) = match step {
@@ -154,6 +154,8 @@ pub(crate) fn frame(
         object_count: scene.objects.len() as u32,
         group_count: counted.groups,
         base_light_count: data.base_light_count,
+        middle_px: camera.middle_px.as_vec2().to_array(),
+        pad_1: [0; 2],
     }
 }
 

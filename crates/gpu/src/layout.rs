@@ -69,6 +69,8 @@ shared! {
         object_count: u32,
         group_count: u32,
         base_light_count: u32,
+        middle_px: [f32; 2],
+        pad_1: [u32; 2],
     }
     /// A corner of a triangle.
     Vertex {

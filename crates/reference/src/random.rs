@@ -29,6 +29,8 @@ pub(super) enum Purpose {
     Row,
     /// How far a groove of a grating is off its place (1) and its depth (1).
     RowGroove(u32),
+    /// A point of the lens (2).
+    Lens,
 }
 
 impl Purpose {
@@ -49,6 +51,7 @@ impl Purpose {
             Self::Bounce => [8, 0, 0],
             Self::Row => [9, 0, 0],
             Self::RowGroove(groove) => [10, groove, 0],
+            Self::Lens => [11, 0, 0],
         }
     }
 }

@@ -7,6 +7,7 @@ use crate::wavelengths::Wavelengths;
 use glam::{DVec2, DVec3};
 use hairline_cpu::surface::surface_point;
 use hairline_image::{Image, Noise, add_batch};
+use hairline_scene::camera::lens_point_at;
 use rayon::prelude::*;
 use spec_math::cephes64::ndtri;
 use std::ops::ControlFlow;
@@ -162,9 +163,18 @@ impl Integrator<'_> {
             let [x, y, w, _] = random.four(Purpose::Camera);
             let std = self.scene.render.filter_std_px;
             let place = middle + std * DVec2::new(ndtri(x), ndtri(y));
-            let direction = self.camera.camera_ray(place).normalize();
+            let lens = &self.scene.camera.lens;
+            let camera = match lens.radius_m > 0.0 {
+                true => {
+                    let [u, v, ..] = random.four(Purpose::Lens);
+                    let point = lens_point_at(DVec2::new(u, v));
+                    self.camera.through_lens(lens, point)
+                }
+                false => self.camera,
+            };
+            let direction = camera.camera_ray(place).normalize();
             let wavelengths = Wavelengths::new(w);
-            let one = self.arrive(self.camera.position_m, direction, &wavelengths, random);
+            let one = self.arrive(camera.position_m, direction, &wavelengths, random);
             light.base += one.base;
             light.scratches += one.scratches;
             light.density += one.density;

@@ -1,8 +1,10 @@
 //! From a pixel to a ray and to the footprint that it leaves on a surface.
 
 use crate::description::limits;
-use crate::scene::{Camera, RenderSettings};
+use crate::scene::{Camera, Lens, RenderSettings};
 use glam::{DVec2, DVec3};
+use hairline_image::Batch;
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 /// A camera made ready for one picture size. Rays start at `position_m`; pixel coordinates run from the upper left
 /// corner, pixel centres at half-integers.
@@ -18,6 +20,8 @@ pub struct CameraFrame {
     pub per_px_y: DVec3,
     /// Width and height.
     pub size_px: DVec2,
+    /// Where in the picture the ray along `forward` is: in its middle, unless the camera is seen through another point of its lens than that.
+    pub middle_px: DVec2,
 }
 
 impl Camera {
@@ -38,6 +42,16 @@ impl Camera {
             per_px_x: right * per_px,
             per_px_y: -up * per_px,
             size_px: size,
+            middle_px: 0.5 * size,
+        }
+    }
+
+    /// The same for a batch of samples: each of them sees the scene through another point of the lens, the first one through its middle.
+    pub fn frame_of_batch(&self, size_px: [u32; 2], batch: Batch) -> CameraFrame {
+        let frame = self.frame(size_px);
+        match self.lens.radius_m > 0.0 {
+            true => frame.through_lens(&self.lens, lens_point(batch.first / batch.count.max(1))),
+            false => frame,
         }
     }
 
@@ -107,10 +121,41 @@ pub fn framing(points_m: &[DVec3], [right, up, forward]: [DVec3; 3], tan: DVec2)
     }
 }
 
+/// Point `i` of a disk of radius 1, which the points cover evenly: those of [`pixel_jitter`], by the map of P. Shirley and K. Chiu, *A Low
+/// Distortion Map Between Disk and Square* (1997).
+fn lens_point(i: u32) -> DVec2 {
+    let on_square = (R2_STEP * f64::from(i) + 0.5).fract();
+    lens_point_at(on_square)
+}
+
+/// Where a point of the unit square lies on a disk of radius 1; its middle in the middle.
+pub fn lens_point_at(on_square: DVec2) -> DVec2 {
+    let DVec2 { x, y } = 2.0 * on_square - 1.0;
+    let (radius, angle_rad) = match x.abs() > y.abs() {
+        true => (x, FRAC_PI_4 * (y / x)),
+        false if y == 0.0 => (0.0, 0.0),
+        false => (y, FRAC_PI_2 - FRAC_PI_4 * (x / y)),
+    };
+    let (sin, cos) = angle_rad.sin_cos();
+    radius * DVec2::new(cos, sin)
+}
+
 impl CameraFrame {
+    /// The camera seen through a point of its lens, in its radii to the right and up: what is in focus stays where it is in the picture.
+    pub fn through_lens(&self, lens: &Lens, point: DVec2) -> Self {
+        let per_px = self.per_px_x.length();
+        let px_at_focus = lens.radius_m / (lens.focus_m * per_px);
+        let moved_m = lens.radius_m / per_px * (self.per_px_x * point.x - self.per_px_y * point.y);
+        Self {
+            position_m: self.position_m + moved_m,
+            middle_px: self.middle_px + px_at_focus * DVec2::new(point.x, -point.y),
+            ..*self
+        }
+    }
+
     /// Direction of the ray through a point of the picture; its component along `forward` is one.
     pub fn camera_ray(&self, pixel: DVec2) -> DVec3 {
-        let offset = pixel - 0.5 * self.size_px;
+        let offset = pixel - self.middle_px;
         self.forward + self.per_px_x * offset.x + self.per_px_y * offset.y
     }
 
@@ -133,6 +178,9 @@ impl CameraFrame {
 /// Least cosine between a ray and the surface that a footprint is computed with.
 pub const MIN_FOOTPRINT_COS: f64 = 0.035;
 
+/// Reciprocals of the plastic number and of its square.
+const R2_STEP: DVec2 = DVec2::new(0.754_877_666_246_692_7, 0.569_840_290_998_053_2);
+
 /// Offset of sample `i` of `count` from the pixel's centre, within half a pixel: R. Roberts' R2 sequence, whose points
 /// cover the square evenly for any count, each with its mirror image about the centre. So no count shifts the picture: a
 /// pixel on an edge, averaged over its samples, fits its neighbour that needs only one.
@@ -140,9 +188,7 @@ pub fn pixel_jitter(i: u32, count: u32) -> DVec2 {
     if !count.is_multiple_of(2) && i + 1 == count {
         return DVec2::ZERO;
     }
-    // Reciprocals of the plastic number and of its square.
-    let step = DVec2::new(0.754_877_666_246_692_7, 0.569_840_290_998_053_2);
-    let point = (step * f64::from(i / 2 + 1) + 0.5).fract() - 0.5;
+    let point = (R2_STEP * f64::from(i / 2 + 1) + 0.5).fract() - 0.5;
     if i.is_multiple_of(2) { point } else { -point }
 }
 
@@ -171,7 +217,57 @@ mod tests {
             up: DVec3::Z,
             fov_y_rad: 0.5,
             exposure_ev: 0.0,
+            lens: Lens::default(),
         }
+    }
+
+    /// Where a point is in the picture.
+    fn projected(frame: &CameraFrame, point_m: DVec3) -> DVec2 {
+        let v = point_m - frame.position_m;
+        let at = |axis: DVec3| v.dot(axis) / (v.dot(frame.forward) * axis.length_squared());
+        frame.middle_px + DVec2::new(at(frame.per_px_x), at(frame.per_px_y))
+    }
+
+    /// What is in focus stays; what is not moves by the lens's radius times the distance of both depths, over both, on a disk whose points have
+    /// the middle for their mean, and half its radius for the standard deviation of each axis.
+    #[test]
+    fn a_lens_blurs_by_its_circle_of_confusion() {
+        let mut camera = camera();
+        camera.lens = Lens {
+            radius_m: 0.01,
+            focus_m: 0.5,
+        };
+        let size_px = [640, 480];
+        let pinhole = camera.frame(size_px);
+        let (mut sum, mut squares) = (DVec2::ZERO, DVec2::ZERO);
+        const COUNT: u32 = 256;
+        for i in 0..COUNT {
+            let batch = Batch {
+                first: 4 * i,
+                count: 4,
+            };
+            let frame = camera.frame_of_batch(size_px, batch);
+            let at = |depth_m: f64, place: DVec2| {
+                let point_m = pinhole.position_m + depth_m * pinhole.camera_ray(place);
+                projected(&frame, point_m) - place
+            };
+            for place in [DVec2::new(320.0, 240.0), DVec2::new(20.0, 400.0)] {
+                assert!(at(0.5, place).length() < 1e-9);
+            }
+            let ray = frame.camera_ray(DVec2::new(20.0, 400.0));
+            assert!((ray.dot(frame.forward) - 1.0).abs() < 1e-12);
+            let moved = at(0.8, DVec2::new(20.0, 400.0));
+            (sum, squares) = (sum + moved, squares + moved * moved);
+            assert!(i > 0 || moved.length() < 1e-9, "the first one is a pinhole");
+        }
+        let radius_px = 0.01 * (0.8 - 0.5) / (0.8 * 0.5) / pinhole.per_px_x.length();
+        let (mean, variance) = (sum / f64::from(COUNT), squares / f64::from(COUNT));
+        assert!(mean.length() < 0.01 * radius_px, "{mean}");
+        let expected = DVec2::splat(0.25 * radius_px * radius_px);
+        assert!(
+            (variance / expected - 1.0).abs().max_element() < 0.01,
+            "{variance} {expected}"
+        );
     }
 
     #[test]

@@ -41,6 +41,7 @@ fn camera(camera: &description::Camera) -> Camera {
         up: camera.up.into(),
         fov_y_rad: camera.fov_y_deg.to_radians(),
         exposure_ev: camera.exposure_ev,
+        lens: camera.lens(),
     }
 }
 

@@ -93,6 +93,12 @@ pub struct Camera {
     pub fov_y_deg: f64,
     /// Radiances are multiplied by 2^exposure_ev before the tone map. Default: 0.
     pub exposure_ev: f64,
+    /// Diameter of the lens's opening. Default: a pinhole. A file may give `f_stop` beside `focal_length_mm` instead.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub aperture_mm: Option<f64>,
+    /// With `aperture_mm`: the distance of what is in focus, along the view. Default: that of the target.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub focus_distance_m: Option<f64>,
 }
 
 /// `[render]`

@@ -83,10 +83,10 @@ impl Scene {
     }
 }
 
-/// A pinhole camera.
+/// A camera: a pinhole, or a thin lens.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
-    /// The pinhole, world space.
+    /// The pinhole, or the middle of the lens, world space.
     pub position_m: DVec3,
     /// The point in the centre of the picture, world space.
     pub target_m: DVec3,
@@ -96,6 +96,17 @@ pub struct Camera {
     pub fov_y_rad: f64,
     /// Exposure: radiances are multiplied by 2^exposure_ev before the tone map.
     pub exposure_ev: f64,
+    /// What is in focus.
+    pub lens: Lens,
+}
+
+/// A thin lens, across the view.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Lens {
+    /// Radius of its opening. Without one the camera is a pinhole: everything is in focus.
+    pub radius_m: f64,
+    /// Depth along the view of what is in focus.
+    pub focus_m: f64,
 }
 
 /// How the picture is sampled and shown.

@@ -46,6 +46,9 @@ pub struct Task {
     pub spreads_fireflies: bool,
 }
 
+/// A picture by a lens has as many samples at least: fewer points of the lens would be seen one by one.
+const LENS_SAMPLES: u32 = 64;
+
 /// A picture that was rendered.
 pub struct Rendered {
     /// The picture.
@@ -154,8 +157,8 @@ impl<'a> Painter<'a> {
     }
 
     /// Renders `scene`, which is the one that this was opened with but for its camera. What fails on a graphics adapter that was
-    /// not asked for is done on the CPU, from then on. Shadows add up in batches of samples: once `is_stopped` says so there will be no
-    /// further one, and the picture is that of the batches before. Without shadows a picture that was stopped on the CPU is black where
+    /// not asked for is done on the CPU, from then on. Shadows and what is out of focus add up in batches of samples: once `is_stopped` says so there will be no
+    /// further one, and the picture is that of the batches before. Without them a picture that was stopped on the CPU is black where
     /// it was not begun, and has no sample.
     ///
     /// # Errors
@@ -166,10 +169,12 @@ impl<'a> Painter<'a> {
         is_stopped: &(dyn Fn() -> bool + Sync),
         progress: &(dyn Fn(f64) + Sync),
     ) -> Result<Rendered, Failure> {
-        if !self.task.transport.shadows {
+        let has_lens = scene.camera.lens.radius_m > 0.0;
+        if !self.task.transport.shadows && !has_lens {
             return self.render_direct(scene, is_stopped, progress);
         }
-        let mut batches = Batches::new(self.task.samples);
+        let least = if has_lens { LENS_SAMPLES } else { 1 };
+        let mut batches = Batches::new(self.task.samples.max(least));
         let wanted = batches.samples();
         batches.fill(progress, |batch, progress| {
             self.render_batch(scene, wanted, Some(batch), is_stopped, progress)

@@ -6,6 +6,7 @@ mod bounced_on_gpu;
 mod chance;
 mod closed_form;
 mod contact;
+mod depth_of_field;
 mod environment;
 mod full_wave;
 mod furnace;

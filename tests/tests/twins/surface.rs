@@ -52,6 +52,7 @@ fn footprints() {
                 per_px_x: DVec3::X * px,
                 per_px_y: DVec3::NEG_Y * py,
                 size_px: DVec2::ONE,
+                middle_px: DVec2::splat(0.5),
             };
             let [a, b] = frame.footprint_axes(v(rx, ry, -1.0), depth, v(nx, ny, nz));
             let (a, b) = (a / (depth * px), b / (depth * py));

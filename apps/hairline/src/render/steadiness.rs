@@ -70,7 +70,7 @@ fn moved(
 mod tests {
     use super::*;
     use glam::{DVec2, DVec3};
-    use hairline_scene::Camera;
+    use hairline_scene::{Camera, Lens};
 
     fn frame(position_m: DVec3) -> CameraFrame {
         Camera {
@@ -79,6 +79,7 @@ mod tests {
             up: DVec3::Z,
             fov_y_rad: 0.4,
             exposure_ev: 0.0,
+            lens: Lens::default(),
         }
         .frame([64, 36])
     }

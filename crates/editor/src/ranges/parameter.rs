@@ -11,6 +11,10 @@ pub enum Parameter {
     CameraUp,
     /// `camera.fov_y_deg`
     FieldOfView,
+    /// `camera.aperture_mm`, in metres
+    Aperture,
+    /// `camera.focus_distance_m`
+    FocusDistance,
     /// `camera.exposure_ev`
     Exposure,
     /// `render.size_px`

@@ -26,6 +26,11 @@ pub(super) fn of(parameter: Parameter) -> Text {
             "Field of view",
             "Small: a long lens, flat, with highlights that spread over much of the surface. Large: a wide lens, with tighter highlights.",
         ),
+        P::Aperture => (
+            "Opening",
+            "Diameter of the lens's opening: the larger, the sooner things blur before and behind what is in focus. The focal length over the f-stop.",
+        ),
+        P::FocusDistance => ("Focus", "How far away things are sharp, along the view."),
         P::Exposure => (
             "Exposure",
             "Each step doubles or halves the brightness. High enough for the core of a highlight to wash out softly, low enough to keep the colours around it.",

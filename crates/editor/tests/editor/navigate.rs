@@ -18,6 +18,8 @@ fn camera() -> impl Strategy<Value = Camera> {
             up,
             fov_y_deg,
             exposure_ev: 0.0,
+            aperture_mm: None,
+            focus_distance_m: None,
         })
         .prop_filter("a view that is not along its up", |c| {
             let view = DVec3::from(c.target_m) - DVec3::from(c.position_m);
@@ -181,6 +183,8 @@ fn the_surface_follows_the_pointer() {
         up: [0.0, 2.0, 0.0],
         fov_y_deg: 30.0,
         exposure_ev: 0.0,
+        aperture_mm: None,
+        focus_distance_m: None,
     };
     let near = DVec3::new(0.0, 0.0, 0.1);
     orbit(&mut camera, DVec2::new(20.0, 10.0), SIZE_PX);
@@ -201,6 +205,8 @@ fn a_point_is_centred() {
         up: [0.0, 1.0, 0.0],
         fov_y_deg: 30.0,
         exposure_ev: 0.0,
+        aperture_mm: None,
+        focus_distance_m: None,
     };
     let point = DVec3::new(0.2, 0.1, 0.0);
     frame_points(&mut camera, &[point], 1.5);

@@ -11,8 +11,9 @@ fn visibility_clip(position_m: vec3f) -> vec4f {
     let depth = dot(frame.forward, relative);
     // Pixels from the picture's centre, times depth; the sample's place comes to lie in the pixel's centre.
     let scale = frame.px_per_slope * frame.px_per_slope;
-    let x = scale * dot(frame.per_px_x, relative) - frame.jitter_px.x * depth;
-    let y = scale * dot(frame.per_px_y, relative) - frame.jitter_px.y * depth;
+    let off_px = frame.middle_px - 0.5 * vec2f(frame.size_px) - frame.jitter_px;
+    let x = scale * dot(frame.per_px_x, relative) + off_px.x * depth;
+    let y = scale * dot(frame.per_px_y, relative) + off_px.y * depth;
     // The viewport is the strip, and a row above and below it.
     let half_size = 0.5 * vec2f(f32(frame.size_px.x), f32(frame.rows.y - frame.rows.x + 2u));
     let middle = 0.5 * f32(frame.rows.x + frame.rows.y) - 0.5 * f32(frame.size_px.y);

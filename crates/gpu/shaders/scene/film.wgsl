@@ -52,7 +52,7 @@ fn pixel_tile(pixel: vec2u) -> vec2u {
 
 // The ray through a place of the picture, pixels from its upper left corner.
 fn film_ray_at(place_px: vec2f) -> vec3f {
-    let at = place_px - 0.5 * vec2f(frame.size_px);
+    let at = place_px - frame.middle_px;
     return frame.forward + frame.per_px_x * at.x + frame.per_px_y * at.y;
 }
 

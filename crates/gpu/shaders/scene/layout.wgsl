@@ -28,6 +28,7 @@ struct Frame {
     object_count: u32,
     group_count: u32,           // of 64 samples that are shaded together; known once edges are counted
     base_light_count: u32,      // of the lights, those that do not shine on scratches alone: they come first
+    middle_px: vec2f,           // where in the picture the ray along `forward` is
 }
 
 const ENVIRONMENT_PRESENT: u32 = 1u;

@@ -54,7 +54,7 @@ fn project_segment(index: u32) -> ProjectedSegment {
     }
     let depths = max(vec2f(depth_a, depth_b), vec2f(frame.near_m));
     let scale = frame.px_per_slope * frame.px_per_slope / depths;
-    let corner = 0.5 * vec2f(frame.size_px) - vec2f(0.0, f32(frame.rows.x));
+    let corner = frame.middle_px - vec2f(0.0, f32(frame.rows.x));
     var start = vec2f(dot(a, frame.per_px_x), dot(a, frame.per_px_y)) * scale.x + corner;
     var end = vec2f(dot(b, frame.per_px_x), dot(b, frame.per_px_y)) * scale.y + corner;
     // The coherence window, or what smooths the ends, where it looks largest; away from the picture's middle it is stretched.

@@ -170,7 +170,7 @@ class Table(metaclass=_Documented):
 
 
 class Camera(Table):
-    """``[camera]``: a pinhole."""
+    """``[camera]``: a pinhole, or a thin lens."""
 
     _section = "camera"
     _is_one_of_many = False
@@ -189,6 +189,10 @@ class Camera(Table):
     """With ``focal_length_mm``: how wide the picture is on the sensor, millimetres. Default: 36."""
     exposure_ev: float = _default()
     """Stops: radiances are multiplied by 2^exposure_ev before the tone curve. Default: 0."""
+    aperture_mm: Optional[float] = _default()
+    """Diameter of the lens's opening, millimetres: focal length over f-stop. Default: a pinhole, everything is in focus."""
+    focus_distance_m: Optional[float] = _default()
+    """With ``aperture_mm``: the distance of what is in focus along the view, metres. Default: that of the target."""
 
     def update(self, **keys: Any) -> None:
         lens = [keys.get("focal_length_mm"), keys.get("sensor_width_mm")]

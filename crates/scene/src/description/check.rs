@@ -80,6 +80,20 @@ fn camera(camera: &Camera, key: &str) -> Check {
         camera.fov_y_deg,
         limits::FOV_Y_DEG,
     )?;
+    if let Some(aperture_mm) = camera.aperture_mm {
+        within(
+            &format!("{key}.aperture_mm"),
+            aperture_mm,
+            limits::APERTURE_MM,
+        )?;
+    }
+    if let Some(focus_distance_m) = camera.focus_distance_m {
+        within(
+            &format!("{key}.focus_distance_m"),
+            focus_distance_m,
+            limits::SIZE_M,
+        )?;
+    }
     let [position, target, up] =
         [camera.position_m, camera.target_m, camera.up].map(glam::DVec3::from_array);
     let view = target - position;

@@ -1,17 +1,22 @@
-//! The field of view of a `[camera]` by its lens, as cameras have it.
+//! The field of view of a `[camera]` and its opening by its lens, as cameras have it.
 
-use super::limits::{FOCAL_LENGTH_MM, SENSOR_WIDTH_MM};
+use super::Camera;
+use super::limits::{F_STOP, FOCAL_LENGTH_MM, SENSOR_WIDTH_MM};
 use super::ranges::{found, within};
 use super::table::Table;
 use crate::error::Error;
+use crate::scene::Lens;
 
 /// Of a 35 mm camera.
 const FULL_FRAME_MM: f64 = 36.0;
 /// `fov_y_deg` beside a lens may be rounded by this.
 const ROUNDING_DEG: f64 = 0.05;
 
+/// `aperture_mm` beside an f-stop may be rounded by this share.
+const ROUNDING: f64 = 1e-3;
+
 /// The keys of a lens.
-pub(super) const KEYS: [&str; 2] = ["focal_length_mm", "sensor_width_mm"];
+pub(super) const KEYS: [&str; 3] = ["focal_length_mm", "sensor_width_mm", "f_stop"];
 
 /// What a `[camera]` sees from top to bottom of a picture, if it says so by its lens. The sensor is as wide as the picture.
 pub(super) fn fov_y_deg(camera: &Table, [width, height]: [u32; 2]) -> Result<Option<f64>, Error> {
@@ -41,5 +46,59 @@ pub(super) fn fov_y_deg(camera: &Table, [width, height]: [u32; 2]) -> Result<Opt
             ),
         )),
         given => Ok(given.or(Some(fov_y_deg))),
+    }
+}
+
+/// The diameter of the opening of a `[camera]`, if it has one: as it is, or by its f-stop.
+pub(super) fn aperture_mm(camera: &Table) -> Result<Option<f64>, Error> {
+    let given = camera.optional::<f64>("aperture_mm")?;
+    let Some(f_stop) = camera.optional::<f64>("f_stop")? else {
+        return Ok(given);
+    };
+    let way = camera.way("f_stop");
+    within(&way, f_stop, F_STOP)?;
+    let Some(focal_length_mm) = camera.optional::<f64>("focal_length_mm")? else {
+        return Err(Error::new(
+            way,
+            "found no `focal_length_mm` that it belongs to",
+            "give the camera one, or `aperture_mm` in place of the f-stop",
+        ));
+    };
+    let aperture_mm = focal_length_mm / f_stop;
+    match given {
+        Some(given) if (given / aperture_mm - 1.0).abs() > ROUNDING => Err(Error::new(
+            camera.way("aperture_mm"),
+            found(given),
+            format!(
+                "{focal_length_mm} mm at f/{f_stop} have an opening of {aperture_mm:.3} mm; leave out one of them"
+            ),
+        )),
+        given => Ok(given.or(Some(aperture_mm))),
+    }
+}
+
+/// The distance of what is in focus, of a `[camera]` that has an opening.
+pub(super) fn focus_distance_m(camera: &Table) -> Result<Option<f64>, Error> {
+    let given = camera.optional("focus_distance_m")?;
+    if given.is_some() && !camera.has("aperture_mm") && !camera.has("f_stop") {
+        return Err(Error::new(
+            camera.way("focus_distance_m"),
+            "found no opening that it belongs to",
+            "give the camera an `aperture_mm` or an `f_stop`, or leave it out: all is in focus then",
+        ));
+    }
+    Ok(given)
+}
+
+impl Camera {
+    /// Its lens.
+    pub fn lens(&self) -> Lens {
+        let [position, target] = [self.position_m, self.target_m].map(glam::DVec3::from);
+        Lens {
+            radius_m: 0.5e-3 * self.aperture_mm.unwrap_or(0.0),
+            focus_m: self
+                .focus_distance_m
+                .unwrap_or_else(|| position.distance(target)),
+        }
     }
 }

@@ -22,6 +22,10 @@ pub const FOV_Y_DEG: RangeInclusive<f64> = 0.001..=179.0;
 pub const FOCAL_LENGTH_MM: RangeInclusive<f64> = 0.1..=10_000.0;
 /// `camera.sensor_width_mm`
 pub const SENSOR_WIDTH_MM: RangeInclusive<f64> = 0.1..=1000.0;
+/// `camera.f_stop`
+pub const F_STOP: RangeInclusive<f64> = 0.1..=1000.0;
+/// `camera.aperture_mm`
+pub const APERTURE_MM: RangeInclusive<f64> = 0.0..=1000.0;
 /// `light.rotation_deg`
 pub const ROTATION_DEG: RangeInclusive<f64> = -360.0..=360.0;
 /// `light.cone_deg`

@@ -71,7 +71,7 @@ pub(super) fn keys_without_effect(
     gather.map(|_| ("render.gather", why)).into_iter()
 }
 
-const CAMERA_KEYS: [&str; 7] = [
+const CAMERA_KEYS: [&str; 10] = [
     "position_m",
     "target_m",
     "up",
@@ -79,6 +79,9 @@ const CAMERA_KEYS: [&str; 7] = [
     "exposure_ev",
     lens::KEYS[0],
     lens::KEYS[1],
+    lens::KEYS[2],
+    "aperture_mm",
+    "focus_distance_m",
 ];
 
 impl Read for Camera {
@@ -90,6 +93,8 @@ impl Read for Camera {
             up: table.or("up", [0.0, 1.0, 0.0])?,
             fov_y_deg: table.or("fov_y_deg", 30.0)?,
             exposure_ev: table.or("exposure_ev", 0.0)?,
+            aperture_mm: lens::aperture_mm(&table)?,
+            focus_distance_m: lens::focus_distance_m(&table)?,
         })
     }
 }

@@ -174,6 +174,8 @@ fn everything() -> Description {
             up: [0.0, 1.0, 0.0],
             fov_y_deg: 45.5,
             exposure_ev: -2.5,
+            aperture_mm: Some(1.5),
+            focus_distance_m: Some(0.25),
         },
         render: Render {
             size_px: [1, 16_384],
@@ -543,7 +545,22 @@ fn a_lens_gives_the_field_of_view() {
     assert!((half - 2.0 * 0.12_f64.atan().to_degrees()).abs() < 1e-9);
     // Both, where they agree.
     assert_eq!(fov_y_deg("focal_length_mm = 50\nfov_y_deg = 27"), 27.0);
+    let aperture_mm = |lens: &str| scene(lens).unwrap().camera.aperture_mm;
+    assert_eq!(aperture_mm("focal_length_mm = 50\nf_stop = 4"), Some(12.5));
+    assert_eq!(aperture_mm("aperture_mm = 3"), Some(3.0));
     for (lens, message) in [
+        (
+            "f_stop = 4",
+            "a.toml:4: camera.f_stop: found no `focal_length_mm` that it belongs to; give the camera one, or `aperture_mm` in place of the f-stop",
+        ),
+        (
+            "focal_length_mm = 50\nf_stop = 4\naperture_mm = 10",
+            "a.toml:6: camera.aperture_mm: found 10; 50 mm at f/4 have an opening of 12.500 mm; leave out one of them",
+        ),
+        (
+            "focus_distance_m = 0.3",
+            "a.toml:4: camera.focus_distance_m: found no opening that it belongs to; give the camera an `aperture_mm` or an `f_stop`, or leave it out: all is in focus then",
+        ),
         (
             "focal_length_mm = 50\nfov_y_deg = 40",
             "a.toml:5: camera.fov_y_deg: found 40; 50 mm before a sensor 36 mm wide see 26.99 degrees of 1200 x 800 pixels; leave out one of them",

@@ -4,6 +4,7 @@ use egui::{Button, Ui};
 use hairline_editor::navigate::{self, Viewpoint};
 use hairline_editor::ranges::Parameter;
 use hairline_image::ToneMap;
+use hairline_scene::description::Camera;
 
 use super::form::Form;
 use crate::command::Command;
@@ -17,6 +18,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace) {
     let mut form = Form::new(ui, "camera", work.diagonal_m(None));
     form.number(Parameter::Exposure, &mut camera.exposure_ev);
     form.number(Parameter::FieldOfView, &mut camera.fov_y_deg);
+    lens(&mut form, &mut camera);
     form.vector(Parameter::CameraPosition, &mut camera.position_m);
     form.vector(Parameter::CameraTarget, &mut camera.target_m);
     form.vector(Parameter::CameraUp, &mut camera.up);
@@ -41,6 +43,33 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace) {
     });
     show_views(ui, work);
     show_render(ui, work);
+}
+
+/// A lens in place of a pinhole.
+fn lens(form: &mut Form, camera: &mut Camera) {
+    let mut has_lens = camera.aperture_mm.is_some();
+    form.toggle(
+        "Depth of field",
+        "A lens in place of a pinhole: what is nearer or farther than its focus blurs, once the view stands still",
+        &mut has_lens,
+    );
+    let mut focus_m = camera.lens().focus_m;
+    if !has_lens {
+        (camera.aperture_mm, camera.focus_distance_m) = (None, None);
+        return;
+    }
+    // By default a hundredth of the distance of what is in focus.
+    let aperture_mm = *camera.aperture_mm.get_or_insert(10.0 * focus_m);
+    let (before_m, focus_before_m) = (1e-3 * aperture_mm, focus_m);
+    let mut aperture_m = before_m;
+    form.number(Parameter::Aperture, &mut aperture_m);
+    form.number(Parameter::FocusDistance, &mut focus_m);
+    if aperture_m != before_m {
+        camera.aperture_mm = Some(1e3 * aperture_m);
+    }
+    if focus_m != focus_before_m {
+        camera.focus_distance_m = Some(focus_m);
+    }
 }
 
 /// The free view, and the views that are kept.

@@ -90,5 +90,6 @@ pub(crate) fn camera(camera: &description::Camera) -> Camera {
         fov_y_rad: camera.fov_y_deg.to_radians(),
         // Shown by a `Display`, so that a change of it paints nothing anew.
         exposure_ev: 0.0,
+        lens: camera.lens(),
     }
 }

@@ -123,6 +123,8 @@ mod tests {
             up: [0.0, 0.0, 1.0],
             fov_y_deg: 40.0,
             exposure_ev: 0.0,
+            aperture_mm: None,
+            focus_distance_m: None,
         }
     }
 

@@ -19,6 +19,8 @@ impl Workspace {
             Some(free) => Camera {
                 up: scene.up,
                 exposure_ev: scene.exposure_ev,
+                aperture_mm: scene.aperture_mm,
+                focus_distance_m: scene.focus_distance_m,
                 ..free.clone()
             },
         }
@@ -105,6 +107,8 @@ impl Workspace {
                 *view = Camera {
                     up: view.up,
                     exposure_ev: view.exposure_ev,
+                    aperture_mm: view.aperture_mm,
+                    focus_distance_m: view.focus_distance_m,
                     ..camera
                 };
             });

@@ -8,7 +8,7 @@ use glam::DVec3;
 use hairline_fixtures::scenes::oblique_plate;
 use hairline_image::{Display, ToneMap};
 use hairline_scene::Transport;
-use hairline_scene::{Camera, Description};
+use hairline_scene::{Camera, Description, Lens};
 use web_time::Instant;
 
 use super::super::{Backend, Engine, Frame, Picture, View};
@@ -34,6 +34,7 @@ fn view() -> View {
             up: DVec3::Z,
             fov_y_rad: 0.7,
             exposure_ev: 0.0,
+            lens: Lens::default(),
         },
         size_px: [160, 90],
         display: Display {
