@@ -17,9 +17,9 @@ use crate::{Window, display, keep};
 const SCENE: &str = include_str!("../../src/built_in_scene.toml");
 const MODEL: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/models/spoon.glb");
 /// A picture that still changes after so long is taken as it is.
-const LONGEST: Duration = Duration::from_secs(80);
+const LONGEST: Duration = Duration::from_secs(300);
 /// One that stood still for so long is finished.
-const STILL: Duration = Duration::from_secs(10);
+const STILL: Duration = Duration::from_secs(20);
 
 /// A window with the scene, and where things are in it.
 struct Studio<'d> {
