@@ -39,7 +39,7 @@ pub(crate) const DEFAULT_DIAGONAL_M: f64 = 0.3;
 impl Parameter {
     /// Every parameter.
     #[cfg(test)]
-    pub(crate) const ALL: [Self; 74] = [
+    pub(crate) const ALL: [Self; 76] = [
         Self::CameraPosition,
         Self::CameraTarget,
         Self::CameraUp,
