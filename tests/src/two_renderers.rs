@@ -5,7 +5,7 @@ use hairline_cpu::closed_form;
 use hairline_gpu::headless;
 use hairline_image::metrics::{away_from_silhouettes, layer_difference};
 use hairline_image::{Image, Layer};
-use hairline_index::{Hit, TriangleIndex};
+use hairline_index::TriangleIndex;
 use hairline_scene::Scene;
 
 /// A scene so many pixels wide, its proportions kept.
@@ -44,28 +44,18 @@ fn on_one_triangle(scene: &Scene) -> Vec<bool> {
     let pixels = (0..height)
         .flat_map(|y| (0..width).map(move |x| DVec2::new(x as f64 + 0.5, y as f64 + 0.5)));
     let seen = |pixel| triangles.intersect(camera.position_m, camera.camera_ray(pixel).normalize());
-    let facet = |hit: &Hit| {
-        let mesh = &scene.objects[hit.object as usize].mesh;
-        let corners = mesh.triangles[hit.triangle as usize];
-        let [a, b, c] = corners.map(|v| mesh.positions_m[v as usize].as_dvec3());
-        (b - a).cross(c - a).normalize()
-    };
-    // Of one object, and of no other fold of it.
-    let are_alike = |a: Option<Hit>, b: Option<Hit>| match (a, b) {
-        (Some(a), Some(b)) => a.object == b.object && facet(&a).dot(facet(&b)).abs() > 0.8,
-        (a, b) => a.is_none() && b.is_none(),
-    };
+    let object = |pixel| seen(pixel).map(|hit| hit.object);
     let clear = |pixel| {
         let inside = seen(pixel).is_none_or(|hit| {
             let [u, v] = hit.barycentric;
             u.min(v).min(1.0 - u - v) > 2e-3
         });
-        // One sample of a silhouette may meet what is behind it.
+        // One sample of a silhouette may meet another object.
         let steps = [(-1.0, 0.0), (1.0, 0.0), (0.0, -1.0), (0.0, 1.0)];
         inside
             && steps
                 .iter()
-                .all(|&(x, y)| are_alike(seen(pixel + DVec2::new(x, y)), seen(pixel)))
+                .all(|&(x, y)| object(pixel + DVec2::new(x, y)) == object(pixel))
     };
     pixels.map(clear).collect()
 }
