@@ -1,5 +1,6 @@
 //! Pictures on lights: textures whose brightest channel is 1, and how bright that is.
 
+use std::io;
 use std::path::Path;
 
 use hairline_image::Picture;
@@ -31,7 +32,9 @@ impl LightPicture {
             .iter()
             .any(|own| ending.eq_ignore_ascii_case(own))
         {
-            let picture = environment::read_picture(path, free_bytes);
+            let fits =
+                |size_px| texture::check_memory(size_px, free_bytes).map_err(io::Error::other);
+            let picture = environment::read_picture(path, &fits);
             return picture.map_or_else(|error| Err(error.to_string()), Self::of_linear);
         }
         let bytes = reading::read(path, Kind::File, SHARE)

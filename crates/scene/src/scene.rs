@@ -12,7 +12,6 @@ use std::sync::Arc;
 
 use crate::environment::Environment;
 use crate::grating::Grating;
-use crate::texture;
 
 pub use crate::light::{Cone, Doors, Light, LightShape};
 
@@ -220,15 +219,6 @@ pub struct Texture {
     pub srgb: bool,
     /// How it is looked up.
     pub sampling: Sampling,
-}
-
-impl Texture {
-    /// Of sRGB codes, row by row from the top; it ends at its borders.
-    pub fn of_colors(size_px: [u32; 2], texels: Vec<[u8; 4]>) -> Self {
-        let mut texture = texture::with_mips(size_px, texels, texture::Channels::Color);
-        texture.sampling.wrap = [Wrap::Clamp; 2];
-        texture
-    }
 }
 
 /// How a texture is looked up.

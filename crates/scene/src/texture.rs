@@ -6,7 +6,7 @@ use hairline_memory::{costs, in_words};
 use image::{ImageReader, Limits};
 use rayon::prelude::*;
 
-use crate::scene::{Sampling, Texture};
+use crate::scene::{Sampling, Texture, Wrap};
 
 const LARGEST_PX: u32 = 16_384;
 
@@ -39,16 +39,22 @@ pub(crate) fn texture_bytes([width, height]: [u32; 2]) -> f64 {
     f64::from(width) * f64::from(height) * costs::TEXEL
 }
 
-/// The texels of a PNG, JPEG or WebP file, row by row from the top, and its size. As a texture it may take `free_bytes`.
-pub(crate) fn decode(bytes: &[u8], free_bytes: f64) -> Result<Texels, Unusable> {
-    let guessed = ImageReader::new(Cursor::new(bytes)).with_guessed_format()?;
-    let size_px: [u32; 2] = guessed.into_dimensions()?.into();
+/// Whether a texture of that size may be made where so much of the memory is free.
+pub(crate) fn check_memory(size_px: [u32; 2], free_bytes: f64) -> Result<(), Unusable> {
     if texture_bytes(size_px) > free_bytes {
         return Err(Unusable::TooLarge {
             size_px,
             free_bytes,
         });
     }
+    Ok(())
+}
+
+/// The texels of a PNG, JPEG or WebP file, row by row from the top, and its size. As a texture it may take `free_bytes`.
+pub(crate) fn decode(bytes: &[u8], free_bytes: f64) -> Result<Texels, Unusable> {
+    let guessed = ImageReader::new(Cursor::new(bytes)).with_guessed_format()?;
+    let size_px: [u32; 2] = guessed.into_dimensions()?.into();
+    check_memory(size_px, free_bytes)?;
     let mut reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format()?;
     let mut limits = Limits::default();
     limits.max_image_width = Some(LARGEST_PX);
@@ -83,6 +89,15 @@ pub(crate) fn of(image: Texels, channels: Channels, with_mips: bool) -> Texture 
             srgb: channels == Channels::Color,
             sampling: Sampling::default(),
         },
+    }
+}
+
+impl Texture {
+    /// Of sRGB codes, row by row from the top; it ends at its borders.
+    pub fn of_colors(size_px: [u32; 2], texels: Vec<[u8; 4]>) -> Self {
+        let mut texture = with_mips(size_px, texels, Channels::Color);
+        texture.sampling.wrap = [Wrap::Clamp; 2];
+        texture
     }
 }
 

@@ -13,12 +13,12 @@ fn drawn_picture_part(seen: SeenScratch, chords: PictureChords, i: u32) -> vec3f
     );
 }
 
-fn draw_picture(point: LitPoint, seen: SeenScratch, light: PictureLight, u: vec3f) -> DrawnLight {
+fn draw_picture(point: LitPoint, seen: SeenScratch, light: PictureLight, u: vec3f) -> DrawnFrom {
     let quad = light.quad;
-    let none = DrawnLight(vec3f(0.0), false, vec3f(1.0));
+    var taken: DrawnFrom;
     let facing = polygon_facing(quad.normal, quad.a_m, quad.two_sided);
     if facing == 0.0 {
-        return none;
+        return taken;
     }
     let band = scratch_band(point, seen, sphere_cap(quad.center_m, quad.radius_m).axis, max(length(quad.center_m), quad.radius_m));
     let wo = band_from_surface(seen.tangent, point.wo) + vec3f(band.shift, 0.0, 0.0);
@@ -27,10 +27,6 @@ fn draw_picture(point: LitPoint, seen: SeenScratch, light: PictureLight, u: vec3
     let extent = four_edges_extent(outline, away);
     let lines = band_lines(wo.x, wo.x + extent.x, wo.x + extent.y, band.stds);
     var offer = DrawnOffer(vec3f(0.0), u.y);
-    var taken = lines.count;
-    var part = vec2f(0.0);
-    var radiance = vec3f(0.0);
-    var taken_cos = 0.0;
     for (var l = 0u; l < lines.count; l += 1u) {
         let line = drawn_line(lines, wo, l, u.x);
         let roots = four_edges_roots(outline, line, away);
@@ -39,19 +35,12 @@ fn draw_picture(point: LitPoint, seen: SeenScratch, light: PictureLight, u: vec3
         for (var i = 0u; i < chords.count * PICTURE_CELLS; i += 1u) {
             let ends = drawn_picture_part(seen, chords, i);
             let here = picture_piece(seen, light, line, ends.x, ends.y, ends.z);
-            if drawn_offer(&offer, here * scratch_chord(scratch_tables, point, seen, ends.z, ends.x, cos_i)) {
-                taken = l;
-                part = ends.xz;
-                radiance = here;
-                taken_cos = cos_i;
+            let sent = here * scratch_chord(scratch_tables, point, seen, ends.z, ends.x, cos_i);
+            if drawn_offer(&offer, sent) {
+                taken = DrawnFrom(line, DrawnPart(ends.x, ends.z, u.z * rgb_luminance(sent)), cos_i, true, here, vec3f(0.0));
             }
         }
     }
-    if taken == lines.count {
-        return none;
-    }
-    let line = drawn_line(lines, wo, taken, u.x);
-    let own = rgb_luminance(radiance * scratch_chord(scratch_tables, point, seen, part.y, part.x, taken_cos));
-    let q = drawn_place(point, seen, DrawnPart(part.x, part.y, u.z * own), taken_cos, radiance);
-    return drawn_at(point, seen, line, q, taken_cos, radiance, offer.total);
+    taken.total = offer.total;
+    return taken;
 }

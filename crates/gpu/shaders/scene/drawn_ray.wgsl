@@ -34,9 +34,7 @@ fn draw_light(pair: Pair, light: Light, u: vec3f) -> DrawnFrom {
         let normal = light.normal * pair.surface;
         let last = plane.corner + plane.up;
         let quad = QuadLight(plane.corner, plane.corner + plane.right, last + plane.right, last, 4u, normal, center_m, light.radius_m, light.two_sided != 0u);
-        drawn.light = draw_picture(pair.point, pair.seen, PictureLight(quad, plane, light_picture(light)), u);
-        let reach_m = dot(normal, plane.corner) / dot(normal, drawn.light.direction);
-        drawn.distance_m = select(SHADOW_FAR_M, reach_m, reach_m > 0.0 && reach_m < SHADOW_FAR_M);
+        drawn = draw_picture(pair.point, pair.seen, PictureLight(quad, plane, light_picture(light)), u);
     } else if HAS_POLYGONS && light.kind != LIGHT_SPHERE {
         let normal = light.normal * pair.surface;
         let corner_m = (light_corner_m(light.first_vertex) - pair.position_m) * pair.surface;

@@ -8,7 +8,6 @@ use image::codecs::hdr::HdrDecoder;
 use image::{ImageDecoder, ImageError};
 
 use crate::reading::check_regular;
-use crate::texture::{Unusable, texture_bytes};
 
 /// An environment map that cannot be used. The message names the file and the reason.
 #[derive(Debug, thiserror::Error)]
@@ -91,18 +90,14 @@ pub(crate) fn read(path: &Path) -> Result<Picture, Error> {
     read_if(path, &check_size)
 }
 
-/// Reads a picture of any shape, which may take `free_bytes` as a texture.
-pub(crate) fn read_picture(path: &Path, free_bytes: f64) -> Result<Picture, Error> {
+/// Reads a picture of any shape whose size a check allows.
+pub(crate) fn read_picture(
+    path: &Path,
+    check: &dyn Fn([u32; 2]) -> io::Result<()>,
+) -> Result<Picture, Error> {
     read_if(path, &|path: &Path, size_px: [u32; 2]| {
         check_width(path, size_px)?;
-        if texture_bytes(size_px) > free_bytes {
-            let too_large = Unusable::TooLarge {
-                size_px,
-                free_bytes,
-            };
-            return Err(cannot_read(path, &io::Error::other(too_large)));
-        }
-        Ok(())
+        check(size_px).map_err(|e| cannot_read(path, &e))
     })
 }
 
