@@ -232,7 +232,7 @@ fn floods_are_refused() {
             text.contains("object[1].shape.lathe: found 22110208 triangles"),
             "{text}"
         );
-        assert!(text.contains("10.30 GiB of memory"), "{text}");
+        assert!(text.contains("11.33 GiB of memory"), "{text}");
     }
     assert!(!folder.path().join("a.png").exists());
 }
