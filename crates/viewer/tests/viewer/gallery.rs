@@ -8,6 +8,7 @@ use egui::{Key, Modifiers};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use hairline_editor::Selection;
+use hairline_editor::presets::ShapePreset;
 use hairline_editor::wear::Wear;
 use hairline_optics::metal::Metal;
 use hairline_scene::description::{Map, MaterialKind, MetalColor};
@@ -54,8 +55,8 @@ fn pictures_of_presets_come_in_the_background_and_are_chosen_by_name() {
     wait_built(&mut harness);
     assert_eq!(harness.state().small_pictures(), (0, false));
     click_on(&mut harness, "Add to objects");
-    wait_until(&mut harness, "four pictures", |viewer| {
-        viewer.small_pictures() == (4, false)
+    wait_until(&mut harness, "a picture of each", |viewer| {
+        viewer.small_pictures() == (ShapePreset::ALL.len(), false)
     });
     let objects = description(&harness).objects.len();
     click_on(&mut harness, "Sphere");
