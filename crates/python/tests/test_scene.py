@@ -70,7 +70,7 @@ CLASSES = {
 }
 # Of what lies within a key: shapes, strokes and rows of a list. The kind of a light is its class.
 INNER = {"disk", "kind", "lathe", "plane", "sphere", "profile_m", "segments", "size_m", "smooth", "density_per_m", "depth", "erase", "points_m"}
-INNER |= {"radius_m", "width", "x0_m", "x1_m", "y0_m", "y1_m", "z0_m", "z1_m"}
+INNER |= {"box", "cylinder", "dome", "rounding_m", "sweep", "torus", "radius_m", "width", "x0_m", "x1_m", "y0_m", "y1_m", "z0_m", "z1_m"}
 
 
 def test_every_key_of_the_documentation_is_an_attribute(repository):
@@ -111,6 +111,16 @@ def test_a_lens_sees_by_the_shape_of_the_picture(scene):
     assert scene.camera.focal_length_mm is None
     by_angle = scene.render(size=(24, 12), backend="cpu", samples=1, shadows=False)
     np.testing.assert_allclose(by_lens.beauty, by_angle.beauty, rtol=1e-4)
+
+
+def test_an_f_stop_is_an_opening(scene):
+    scene.camera.update(focal_length_mm=50, f_stop=2)
+    assert scene.camera.aperture_mm is None
+    assert hairline.Scene.from_dict(scene.to_dict()).camera.aperture_mm == 25
+    scene.camera.aperture_mm = 10
+    assert scene.camera.f_stop is None
+    with pytest.raises(hairline.SceneError, match="camera.f_stop: found no `focal_length_mm`"):
+        scene.camera.update(f_stop=2, fov_y_deg=30)
 
 
 def test_a_change_is_checked_at_once_and_a_wrong_one_changes_nothing(scene):

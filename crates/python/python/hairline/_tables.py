@@ -190,9 +190,11 @@ class Camera(Table):
     exposure_ev: float = _default()
     """Stops: radiances are multiplied by 2^exposure_ev before the tone curve. Default: 0."""
     aperture_mm: Optional[float] = _default()
-    """Diameter of the lens's opening, millimetres: focal length over f-stop. Default: a pinhole, everything is in focus."""
+    """Diameter of the lens's opening, millimetres. Default: a pinhole, everything is in focus."""
+    f_stop: Optional[float] = _default()
+    """``focal_length_mm`` over the opening. Set it, and ``aperture_mm`` goes; and the other way round."""
     focus_distance_m: Optional[float] = _default()
-    """With ``aperture_mm``: the distance of what is in focus along the view, metres. Default: that of the target."""
+    """With an opening: the distance of what is in focus along the view, metres. Default: that of the target."""
 
     def update(self, **keys: Any) -> None:
         lens = [keys.get("focal_length_mm"), keys.get("sensor_width_mm")]
@@ -200,11 +202,19 @@ class Camera(Table):
             keys = {"focal_length_mm": None, "sensor_width_mm": None, **keys}
         elif lens != [None, None]:
             keys = {"fov_y_deg": None, **keys}
+        if keys.get("aperture_mm") is not None:
+            keys = {"f_stop": None, **keys}
+        elif keys.get("f_stop") is not None:
+            keys = {"aperture_mm": None, **keys}
         super().update(**keys)
 
     def _checked(self, table: dict[str, Any]) -> dict[str, Any]:
         checked = super()._checked(table)
-        lens = {key: table[key] for key in ("focal_length_mm", "sensor_width_mm") if table.get(key) is not None}
+        words_of_photographers = ("focal_length_mm", "sensor_width_mm", "f_stop")
+        lens = {key: table[key] for key in words_of_photographers if table.get(key) is not None}
+        if "f_stop" in lens:
+            # It agrees with the aperture, if that is given.
+            del checked["aperture_mm"]
         if lens:
             if table.get("fov_y_deg") is not None:
                 found = f"found {table['fov_y_deg']} beside focal_length_mm"
