@@ -6,12 +6,12 @@ use crate::film::Film;
 use crate::pipelines::Orders;
 use crate::shade_gratings::ShadeGratingsPass;
 use crate::shaders;
-use crate::shadow_picks::{ByPicks, Scratched};
+use crate::shadow_picks::{ByPicks, Scratched, ShadowPicksPass};
 use crate::shadow_room::ShadowRoom;
 use crate::strip::{GROUP, StripRoom, whole};
 
 pub(crate) struct ShadowGratingsPasses {
-    begin: ComputePass,
+    begin: ShadowPicksPass,
     pick: ShadeGratingsPass,
     rays: ComputePass,
     gratings: ComputePass,
@@ -20,24 +20,21 @@ pub(crate) struct ShadowGratingsPasses {
 impl ShadowGratingsPasses {
     pub(crate) fn new(orders: &mut Orders) -> Self {
         use Use::{Reads, Uniform, Writes};
+        let begin = ShadowPicksPass::new(orders, "shadow_grating_picks");
         let mut pass =
             |name, module, uses: &[Use]| ComputePass::order(orders, name, module, uses, &[]);
-        let begin = [Reads, Reads, Reads, Writes, Uniform];
+        let uses = [Reads, Reads, Reads, Writes, Uniform];
         Self {
-            begin: pass(
-                "shadow picks",
-                (&shaders::SHADOW_PICKS, "shadow_grating_picks"),
-                &begin,
-            ),
+            begin,
             rays: pass(
                 "shadow rays",
                 (&shaders::SHADOW_GRATING_RAYS, "shadow_grating_rays"),
-                &begin,
+                &uses,
             ),
             gratings: pass(
                 "shadow gratings",
                 (&shaders::SHADOW_GRATINGS, "shadow_gratings"),
-                &begin,
+                &uses,
             ),
             pick: ShadeGratingsPass::picks(orders),
         }
@@ -58,15 +55,8 @@ impl ByPicks for ShadowGratingsPasses {
         film: &Film,
         on: &Scratched,
     ) {
-        let resources = [
-            whole(&room.samples.points),
-            whole(&room.samples.chunk_starts),
-            whole(&room.samples.chunk_sums),
-            whole(&shadow_room.picks),
-            whole(&shadow_room.round),
-        ];
         self.begin
-            .run(gpu, recording, &resources, in_a_row(on.groups));
+            .record(gpu, recording, room, shadow_room, on.groups);
         let picks = &shadow_room.picks;
         self.pick
             .record(gpu, recording, room, film, picks, on.groups);

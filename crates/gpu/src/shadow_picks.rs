@@ -3,11 +3,49 @@
 //! Some pairs of a sample, each of a scratch or a grating with a light, stand for all. They are picked by lighting all of them once more; a round
 //! takes one of the picks.
 
-use crate::compute_pass::Recording;
+use crate::compute_pass::{ComputePass, Recording, Use, in_a_row};
 use crate::device::Gpu;
 use crate::film::Film;
+use crate::pipelines::Orders;
+use crate::shaders;
 use crate::shadow_room::ShadowRoom;
-use crate::strip::StripRoom;
+use crate::strip::{StripRoom, whole};
+
+/// Pass: where the running sums of a group begin by which the second lighting picks.
+pub(crate) struct ShadowPicksPass(ComputePass);
+
+impl ShadowPicksPass {
+    pub(crate) fn new(orders: &mut Orders, entry: &'static str) -> Self {
+        use Use::{Reads, Uniform, Writes};
+        let uses = [Reads, Reads, Reads, Writes, Uniform];
+        let module = (&shaders::SHADOW_PICKS, entry);
+        Self(ComputePass::order(
+            orders,
+            "shadow picks",
+            module,
+            &uses,
+            &[],
+        ))
+    }
+
+    pub(crate) fn record(
+        &self,
+        gpu: &Gpu,
+        recording: &mut Recording,
+        room: &StripRoom,
+        shadow_room: &ShadowRoom,
+        groups: u32,
+    ) {
+        let resources = [
+            whole(&room.samples.points),
+            whole(&room.samples.chunk_starts),
+            whole(&room.samples.chunk_sums),
+            whole(&shadow_room.picks),
+            whole(&shadow_room.round),
+        ];
+        self.0.run(gpu, recording, &resources, in_a_row(groups));
+    }
+}
 
 /// The passes about what is picked.
 pub(crate) trait ByPicks {

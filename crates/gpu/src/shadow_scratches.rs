@@ -7,13 +7,13 @@ use crate::kind_passes::KindPasses;
 use crate::pipelines::Orders;
 use crate::shade_scratches::{self, kinds};
 use crate::shaders;
-use crate::shadow_picks::{ByPicks, Scratched};
+use crate::shadow_picks::{ByPicks, Scratched, ShadowPicksPass};
 use crate::shadow_room::ShadowRoom;
 use crate::strip::{GROUP, StripRoom, whole};
 use crate::variant::Seen;
 
 pub(crate) struct ShadowScratchesPasses {
-    begin: ComputePass,
+    begin: ShadowPicksPass,
     pick: KindPasses,
     rays: ComputePass,
     scratches: ComputePass,
@@ -21,9 +21,10 @@ pub(crate) struct ShadowScratchesPasses {
 
 impl ShadowScratchesPasses {
     pub(crate) fn new(orders: &mut Orders, seen: Seen) -> Self {
+        let begin = ShadowPicksPass::new(orders, "shadow_picks");
         let mut pass =
             |name, module, uses: &[Use]| ComputePass::order(orders, name, module, uses, &[]);
-        let begin = [
+        let rays_use = [
             Use::Reads,
             Use::Reads,
             Use::Reads,
@@ -40,12 +41,8 @@ impl ShadowScratchesPasses {
         ];
         let rays = &shaders::SHADOW_SCRATCH_RAYS;
         Self {
-            begin: pass(
-                "shadow picks",
-                (&shaders::SHADOW_PICKS, "shadow_picks"),
-                &begin,
-            ),
-            rays: pass("shadow rays", (rays, "shadow_scratch_rays"), &begin),
+            begin,
+            rays: pass("shadow rays", (rays, "shadow_scratch_rays"), &rays_use),
             scratches: pass(
                 "shadow scratches",
                 (&shaders::SHADOW_SCRATCHES, "shadow_scratches"),
@@ -70,15 +67,8 @@ impl ByPicks for ShadowScratchesPasses {
         _film: &Film,
         on: &Scratched,
     ) {
-        let resources = [
-            whole(&room.samples.points),
-            whole(&room.samples.chunk_starts),
-            whole(&room.samples.chunk_sums),
-            whole(&shadow_room.picks),
-            whole(&shadow_room.round),
-        ];
         self.begin
-            .run(gpu, recording, &resources, in_a_row(on.groups));
+            .record(gpu, recording, room, shadow_room, on.groups);
         let resources = shade_scratches::resources(room, &shadow_room.picks, on.sorted);
         self.pick
             .record(gpu, recording, &resources, in_a_row(on.chunks));

@@ -14,10 +14,7 @@ fn shadow_base(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups)
     if points[at].object == 0u {
         return;
     }
-    var even = halves[2u * at];
-    if shadow_round.blurs != 0u {
-        even = near_rays(group_pixel(group, lane), at);
-    }
+    let even = even_half(group_pixel(group, lane), at, shadow_round);
     let odd = halves[2u * at + 1u];
     // Most samples see all of most lights.
     if all(even.specular_hidden + even.body_hidden == vec3f(0.0))

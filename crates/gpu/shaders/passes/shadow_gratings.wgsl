@@ -16,10 +16,7 @@ fn shadow_gratings(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgro
     }
     // As sums.wgsl says.
     let sum = GROUP * (chunk_starts[frame.group_count] + group) + lane;
-    var even = halves[2u * at];
-    if shadow_round.blurs != 0u {
-        even = near_rays(group_pixel(group, lane), at);
-    }
+    let even = even_half(group_pixel(group, lane), at, shadow_round);
     let odd = halves[2u * at + 1u];
     chunk_sums[sum].radiance -= shadow_lost(
         chunk_sums[sum].radiance,

@@ -19,10 +19,7 @@ fn shadow_scratches(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgr
     for (var chunk = chunk_starts[group]; chunk < chunk_starts[group + 1u]; chunk += 1u) {
         open += chunk_sums[GROUP * chunk + lane].radiance;
     }
-    var even = halves[2u * at];
-    if shadow_round.blurs != 0u {
-        even = near_rays(group_pixel(group, lane), at);
-    }
+    let even = even_half(group_pixel(group, lane), at, shadow_round);
     let odd = halves[2u * at + 1u];
     let lost = shadow_lost(
         open,

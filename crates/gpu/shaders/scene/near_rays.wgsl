@@ -40,3 +40,12 @@ fn near_rays(pixel: vec2u, at: u32) -> ShadowHalf {
     }
     return sum;
 }
+
+// The half of a sample's rays that holds its single one, or what that and its neighbours' say together.
+fn even_half(pixel: vec2u, at: u32, round: ShadowRound) -> ShadowHalf {
+    var even = halves[2u * at];
+    if round.blurs != 0u {
+        even = near_rays(pixel, at);
+    }
+    return even;
+}
