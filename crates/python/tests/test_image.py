@@ -136,7 +136,7 @@ def test_what_a_progress_function_raises_ends_the_work(scene):
 
 
 def interrupt_soon(after_s):
-    # A shell starts its background jobs with the signal ignored; Python leaves it at that.
+    # A shell's background job starts with SIGINT ignored, and Python then installs no handler.
     signal.signal(signal.SIGINT, signal.default_int_handler)
     timer = threading.Timer(after_s, lambda: os.kill(os.getpid(), signal.SIGINT))
     timer.start()

@@ -3,7 +3,15 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use hairline_viewer::Viewer;
+
 use crate::common::{SMALL, viewer, wait_built, wait_until};
+
+/// Whether the picture is that of the newest description.
+fn is_pictured(viewer: &Viewer) -> bool {
+    let frame = viewer.engine().latest();
+    frame.is_some_and(|frame| frame.built.revision == viewer.document().revision())
+}
 
 /// Each thread wakes the window when it has something new: in the middle of its work.
 #[test]
@@ -27,14 +35,11 @@ fn a_panic_is_told_and_the_picture_goes_on() {
             d.camera.position_m[0] += 0.1;
             d.objects[0].translation_m[0] += 0.001;
         };
-        // egui calls back only where no pass is asked for yet: one piece of work may wake the window without that, so several are done.
+        // egui calls back only if no pass is requested yet, so one edit may not be enough.
         while breaks.load(Ordering::Relaxed) {
             harness.state_mut().document_mut().edit("Break", change);
-            let asked = harness.state().document().revision();
             wait_until(&mut harness, "a panic or a picture", |viewer| {
-                let frame = viewer.engine().latest();
-                !breaks.load(Ordering::Relaxed)
-                    || frame.is_some_and(|frame| frame.built.revision == asked)
+                !breaks.load(Ordering::Relaxed) || is_pictured(viewer)
             });
         }
         wait_until(&mut harness, "a message", |viewer| {
@@ -44,10 +49,6 @@ fn a_panic_is_told_and_the_picture_goes_on() {
                 .any(|text| text.contains(what) && text.contains("a broken lamp"))
         });
         harness.state_mut().document_mut().edit("Turn", change);
-        let wanted = harness.state().document().revision();
-        wait_until(&mut harness, "a picture after the panic", |viewer| {
-            let frame = viewer.engine().latest();
-            frame.is_some_and(|frame| frame.built.revision == wanted)
-        });
+        wait_until(&mut harness, "a picture after the panic", is_pictured);
     }
 }
