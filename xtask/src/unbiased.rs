@@ -1,8 +1,9 @@
 //! `cargo xtask unbiased`: shadows and bounces of `render` against the path tracer, at four numbers of samples. Writes docs/accuracy/shadows.md.
-//! Each scene with a number of bounces has a file of figures; the document is made of those that are there.
+//! The document is made of the rows in docs/accuracy/shadows.json: a run replaces those that it measures.
 
 use std::fmt::Write;
 use std::fs;
+use std::io::ErrorKind;
 use std::path::Path;
 use std::time::Instant;
 
@@ -16,10 +17,6 @@ use hairline_scene::{Scene, Transport};
 use hairline_work::backend::Backend;
 use serde::{Deserialize, Serialize};
 
-/// Samples of a picture.
-const SAMPLES: [u32; 4] = [16, 64, 256, 1024];
-/// The same on a graphics adapter, which may be a software driver.
-const SAMPLES_ON_GPU: [u32; 3] = [16, 64, 256];
 /// By how much light is wrong that must be noticed.
 const BRIGHTER: f64 = 0.03;
 
@@ -34,8 +31,12 @@ pub struct Unbiased {
     #[arg(long, value_delimiter = ',')]
     bounces: Vec<u32>,
 
+    /// Samples of the pictures, from few to many.
+    #[arg(long, value_delimiter = ',', default_values_t = [4, 16, 64, 256])]
+    samples: Vec<u32>,
+
     /// Samples of the path tracer for each pixel.
-    #[arg(long, default_value_t = 1024)]
+    #[arg(long, default_value_t = 512)]
     reference: u32,
 
     /// Only these, by the names of the files in tests/shadows.
@@ -51,6 +52,14 @@ struct Figures {
     /// Of the path tracer.
     reference: u32,
     layers: Vec<LayerFigures>,
+}
+
+impl Figures {
+    /// By which rows are told apart and ordered.
+    fn row(&self) -> (bool, Option<usize>, u32) {
+        let place = SCENES.iter().position(|(name, _)| *name == self.scene);
+        (self.is_on_gpu, place, self.bounces)
+    }
 }
 
 #[derive(Serialize, Deserialize)]
@@ -100,31 +109,25 @@ fn word(found: &Found) -> &'static str {
 impl Unbiased {
     /// Measures and writes.
     pub fn run(self) -> Result<()> {
-        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-        let folder = root.join("target/unbiased");
-        fs::create_dir_all(&folder).context("make target/unbiased")?;
+        let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/accuracy");
+        let [kept, document] = ["shadows.json", "shadows.md"].map(|name| docs.join(name));
+        let mut all = read(&kept)?;
         let is_asked = |name: &str| self.names.is_empty() || self.names.iter().any(|n| n == name);
         for (name, occluders) in SCENES.iter().filter(|(name, _)| is_asked(name)) {
             for &bounces in &self.bounces {
                 let start = Instant::now();
                 let figures = self.measure(name, occluders, bounces)?;
-                let by = if self.gpu { "gpu" } else { "cpu" };
-                let file = folder.join(format!("{by}-{name}-{bounces}.json"));
-                write_atomically(&file, &serde_json::to_vec_pretty(&figures)?)?;
-                println!("{}: {:.0} s", file.display(), start.elapsed().as_secs_f64());
+                println!(
+                    "{name}, {bounces} bounces: {:.0} s",
+                    start.elapsed().as_secs_f64()
+                );
+                all.retain(|f| f.row() != figures.row());
+                all.push(figures);
+                all.sort_by_key(Figures::row);
+                // After each row: the next one may take an hour.
+                write_atomically(&kept, &serde_json::to_vec_pretty(&all)?)?;
             }
         }
-        let mut all = Vec::new();
-        for entry in fs::read_dir(&folder).context("list target/unbiased")? {
-            let path = entry?.path();
-            let bytes = fs::read(&path).with_context(|| path.display().to_string())?;
-            let figures: Figures = serde_json::from_slice(&bytes)
-                .with_context(|| format!("{}: measure it again", path.display()))?;
-            all.push(figures);
-        }
-        let place = |name: &str| SCENES.iter().position(|(n, _)| *n == name);
-        all.sort_by_key(|f| (f.is_on_gpu, place(&f.scene), f.bounces));
-        let document = root.join("docs/accuracy/shadows.md");
         write_atomically(&document, text(&all).as_bytes())?;
         println!("{}", document.display());
         Ok(())
@@ -132,10 +135,8 @@ impl Unbiased {
 
     fn measure(&self, name: &str, occluders: &[&str], bounces: u32) -> Result<Figures> {
         let right = scene(name);
-        let (backend, samples) = match self.gpu {
-            true => (Backend::Gpu, &SAMPLES_ON_GPU[..]),
-            false => (Backend::Cpu, &SAMPLES[..]),
-        };
+        let backend = if self.gpu { Backend::Gpu } else { Backend::Cpu };
+        let samples = &self.samples;
         let shadows = Transport {
             shadows: true,
             bounces,
@@ -182,26 +183,28 @@ impl Unbiased {
     }
 }
 
+/// What was measured before.
+fn read(path: &Path) -> Result<Vec<Figures>> {
+    let bytes = match fs::read(path) {
+        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(Vec::new()),
+        read => read.with_context(|| path.display().to_string())?,
+    };
+    serde_json::from_slice(&bytes).with_context(|| path.display().to_string())
+}
+
 /// The document.
 fn text(all: &[Figures]) -> String {
     let mut text = String::from(HEAD);
     for (is_on_gpu, title) in [(false, "CPU"), (true, "A graphics adapter")] {
         let rows: Vec<_> = all.iter().filter(|f| f.is_on_gpu == is_on_gpu).collect();
-        let Some(first) = rows.first() else {
+        if rows.is_empty() {
             continue;
-        };
-        let counts: Vec<_> = first.layers[0]
-            .found
-            .iter()
-            .map(|f| f.samples.to_string())
-            .collect();
+        }
         let _ = write!(
             text,
-            "\n## {title}\n\n{} samples of the path tracer. Columns of several figures are for {} samples.\n\n\
-             | scene | bounces | layer | missing, % | rms of a pixel, % | mean off, % | z of the picture | verdict | 3 % brighter | an object left out |\n\
-             |---|---|---|---|---|---|---|---|---|---|\n",
-            first.reference,
-            counts.join(", ")
+            "\n## {title}\n\n\
+             | scene | bounces | samples | of the path tracer | layer | missing, % | rms of a pixel, % | mean off, % | z of the picture | verdict | 3 % brighter | an object left out |\n\
+             |---|---|---|---|---|---|---|---|---|---|---|---|\n",
         );
         for figures in rows {
             for layer in &figures.layers {
@@ -217,9 +220,11 @@ fn text(all: &[Figures]) -> String {
                 verdicts.dedup();
                 let _ = writeln!(
                     text,
-                    "| {} | {} | {} | {:.0} | {} | {off} | {} | {} | {} | {} |",
+                    "| {} | {} | {} | {} | {} | {:.0} | {} | {off} | {} | {} | {} | {} |",
                     figures.scene,
                     figures.bounces,
+                    each(&|f| f.samples.to_string()),
+                    figures.reference,
                     layer.name,
                     100.0 * layer.missing,
                     each(&|f| format!("{:.1}", 100.0 * f.rms)),
@@ -252,6 +257,7 @@ closed form that is half a percent too bright is so in the shadow too. So the pi
 path tracer's picture without shadows, s the path tracer's with shadows and without bounces. All three of the path tracer's pictures take the same samples, so where nothing is hidden
 there is no noise in it. [accuracy.md](../accuracy.md) tells how far F is from f.
 
+Columns of several figures are for as many samples as the row names.
 *Missing*: the part of the light without shadows and bounces that is not there. *rms of a pixel*: the error over the mean of the picture without shadows, without the noise of
 the path tracer; half for four times the samples, or less. *Mean off*: the error of the whole picture for the most samples over the same, ± one standard
 deviation by how the errors of pixels scatter. *z* and *verdict* are those of the z-test of `hairline compare`, by the variances that the pictures hold: `noise` explains the
