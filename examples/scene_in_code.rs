@@ -107,6 +107,7 @@ fn scratched_square(half_m: f32) -> Object {
         mesh: Arc::new(mesh),
         scratches: Arc::new(scratches),
         segments: Arc::new(segments),
+        parts: Arc::default(),
         gratings: Vec::new(),
         is_lamp: false,
     }

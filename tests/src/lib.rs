@@ -87,6 +87,7 @@ pub fn square(base: Base, half_side_m: f32, size_px: u32) -> Scene {
             mesh: Arc::new(mesh),
             scratches: Arc::default(),
             segments: Arc::default(),
+            parts: Arc::default(),
             gratings: Vec::new(),
             is_lamp: false,
         }],

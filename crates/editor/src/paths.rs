@@ -22,6 +22,12 @@ pub(crate) fn each_path(description: &mut Description, change: &mut dyn FnMut(&m
         if let Layer::Listed(listed) = &mut scratches.layer {
             change(&mut listed.file);
         }
+        let place = &mut scratches.place;
+        place
+            .mask
+            .iter_mut()
+            .chain(&mut place.density)
+            .for_each(&mut *change);
     }
     for light in &mut description.lights {
         if let Some(picture) = &mut light.picture {
@@ -44,9 +50,11 @@ pub(crate) fn named(description: &Description) -> impl Iterator<Item = &Path> {
         Layer::Listed(listed) => Some(listed.file.as_path()),
         Layer::Laid(_) | Layer::Brushed(_) => None,
     });
+    let places = description.scratches.iter().flat_map(|s| s.place.files());
     let pictures = description.lights.iter().map(|l| l.picture.as_deref());
     map.into_iter()
         .chain(meshes.chain(lists).chain(pictures).flatten())
+        .chain(places.map(PathBuf::as_path))
 }
 
 /// `path` as a scene file in `base_dir` would write it. Both are absolute and `base_dir` has no `..` and no symbolic links;

@@ -39,7 +39,7 @@ pub(crate) const DEFAULT_DIAGONAL_M: f64 = 0.3;
 impl Parameter {
     /// Every parameter.
     #[cfg(test)]
-    pub(crate) const ALL: [Self; 76] = [
+    pub(crate) const ALL: [Self; 82] = [
         Self::CameraPosition,
         Self::CameraTarget,
         Self::CameraUp,
@@ -89,6 +89,12 @@ impl Parameter {
         Self::Axis,
         Self::AxisCenter,
         Self::Direction,
+        Self::Edges,
+        Self::EdgeWidth,
+        Self::Tile,
+        Self::PlaceCenter,
+        Self::PlaceInnerRadius,
+        Self::PlaceOuterRadius,
         Self::Pitch,
         Self::GrooveWidth,
         Self::GrooveDepthSpread,
@@ -178,8 +184,13 @@ impl Parameter {
             P::Displacement => (0.0..=5.0, 0.0..=*limits::PITCH_UM.end()),
             P::GrooveAngles => (0.0..=10.0, limits::JITTER_DEG),
             P::Coverage => (0.0..=1.0, limits::COVERAGE),
-            P::InnerRadius | P::OuterRadius => (0.0..=d, limits::PROFILE_RADIUS_M),
-            P::AxisCenter => (-d..=d, limits::COORDINATE_M),
+            P::Edges => (0.0..=1.0, limits::EDGES),
+            P::EdgeWidth => (2e-3 * d..=0.1 * d, limits::SIZE_M),
+            P::Tile => (0.02 * d..=2.0 * d, limits::SIZE_M),
+            P::InnerRadius | P::OuterRadius | P::PlaceInnerRadius | P::PlaceOuterRadius => {
+                (0.0..=d, limits::PROFILE_RADIUS_M)
+            }
+            P::AxisCenter | P::PlaceCenter => (-d..=d, limits::COORDINATE_M),
             P::BrushRadius => (2e-3 * d..=0.3 * d, limits::SIZE_M),
             P::BrushDensity => (10.0 / d..=10_000.0 / d, NOT_NEGATIVE),
             P::BrushWidth | P::BrushDepth => (0.25..=4.0, limits::STROKE_FACTOR),
@@ -225,6 +236,8 @@ impl Parameter {
                 | P::Count
                 | P::Density
                 | P::Length
+                | P::EdgeWidth
+                | P::Tile
                 | P::Pitch
                 | P::GrooveWidth
                 | P::BrushRadius
@@ -255,6 +268,11 @@ impl Parameter {
             | P::GroundHeight
             | P::Length
             | P::AxisCenter
+            | P::EdgeWidth
+            | P::Tile
+            | P::PlaceCenter
+            | P::PlaceInnerRadius
+            | P::PlaceOuterRadius
             | P::InnerRadius
             | P::OuterRadius
             | P::BrushRadius

@@ -93,6 +93,7 @@ mod tests {
                 segments: 0..4,
             }]),
             segments: Arc::new(segments.to_vec()),
+            parts: Arc::default(),
             gratings: Vec::new(),
             is_lamp: false,
         };

@@ -1,9 +1,9 @@
 //! Builds scenes one after the other and keeps what has not changed: what an editor needs.
 
+mod coats;
 mod kept;
 mod parts;
 
-use std::collections::HashMap;
 use std::fmt;
 use std::path::Path;
 use std::sync::Arc;
@@ -11,8 +11,7 @@ use std::sync::Arc;
 use glam::{DMat4, DVec3};
 
 use crate::convert;
-use crate::description::references::find;
-use crate::description::{self, Description, Layer};
+use crate::description::{self, Description};
 use crate::error::Error;
 use crate::estimate::Estimate;
 use crate::grating::Grating;
@@ -20,11 +19,9 @@ use crate::lamp_shape;
 use crate::light_picture::LightPicture;
 use crate::loader::{Loader, Stage};
 use crate::scene::{Object, Scene, Texture};
-use crate::scratches;
 use crate::studio::PhotoSet;
 use crate::texture::texture_bytes;
-use kept::{Kept, KeptLayer, KeptPicture, KeptSurface, MapKey, Stamp, SurfaceKey};
-use parts::{OnPart, PartGround};
+use kept::{Kept, KeptPicture, KeptSurface, MapKey, Stamp, SurfaceKey};
 
 /// Builds scenes one after the other. What of a scene is as it was in the one before is not made again, but shared with it:
 ///
@@ -89,19 +86,6 @@ struct Work<'a> {
     new: Kept,
     /// What is to be built, but for textures and scratches.
     estimate: Estimate,
-}
-
-/// A `[[scratches]]` table and where it goes.
-struct Coat<'a> {
-    table: &'a description::Scratches,
-    object: usize,
-    /// How many earlier layers on the same object have the same seed.
-    number: u64,
-    is_shown: bool,
-    /// What it is laid on; of one that is not to be laid, if it was made before.
-    ground: Option<Arc<PartGround>>,
-    /// From the last build or this one.
-    laid: Option<Arc<KeptLayer>>,
 }
 
 impl<'a> Work<'a> {
@@ -187,6 +171,7 @@ impl<'a> Work<'a> {
                 mesh: surface.mesh.clone(),
                 scratches: Arc::default(),
                 segments: Arc::default(),
+                parts: surface.parts.clone(),
                 gratings: self.gratings(&object.name, &object.world_from_object()),
                 is_lamp: false,
             });
@@ -288,6 +273,7 @@ impl<'a> Work<'a> {
             mesh: surface.mesh.clone(),
             scratches: Arc::default(),
             segments: Arc::default(),
+            parts: Arc::default(),
             gratings: Vec::new(),
             is_lamp: false,
         });
@@ -317,6 +303,7 @@ impl<'a> Work<'a> {
                 mesh,
                 scratches: Arc::default(),
                 segments: Arc::default(),
+                parts: Arc::default(),
                 gratings: Vec::new(),
                 is_lamp: true,
             });
@@ -338,111 +325,5 @@ impl<'a> Work<'a> {
         self.new.map = Some((key, map.clone()));
         self.loader.report(Stage::Environment, 1, 1);
         Ok(Some(convert::environment(described, map, scene.camera.up)))
-    }
-
-    fn scratches(&mut self, surfaces: &[Arc<KeptSurface>], scene: &mut Scene) -> Result<(), Error> {
-        let mut coats = self.coats(surfaces)?;
-        let is_due = |coat: &Coat| coat.is_shown && coat.laid.is_none();
-        let used = coats.iter().filter(|coat| coat.is_shown);
-        let used = used.filter_map(|coat| coat.laid.as_deref());
-        let used_bytes = used.map(|kept| kept.laid.bytes()).sum::<f64>() + self.estimate.bytes();
-        for (i, coat) in coats
-            .iter_mut()
-            .enumerate()
-            .filter(|(_, coat)| is_due(coat))
-        {
-            let key = format!("scratches[{i}]");
-            let ground = surfaces[coat.object].ground(&OnPart::of(coat.table), &key)?;
-            coat.ground = Some(ground);
-        }
-        let due = coats.iter().enumerate().filter(|(_, coat)| is_due(coat));
-        let tables: Vec<_> = due
-            .filter_map(|(i, coat)| {
-                Some(scratches::Table {
-                    key: format!("scratches[{i}]"),
-                    layer: &coat.table.layer,
-                    strokes: &coat.table.strokes,
-                    number: coat.number,
-                    ground: &coat.ground.as_ref()?.ground,
-                })
-            })
-            .collect();
-        // Before they are read.
-        let stamps: Vec<_> = tables.iter().map(|t| self.stamp(t.layer)).collect();
-        let laid = scratches::lay(self.loader, &tables, self.base_dir, used_bytes)?;
-        drop(tables);
-        let due = coats.iter_mut().filter(|coat| is_due(coat));
-        for ((coat, laid), file) in due.zip(laid).zip(stamps) {
-            let Some(ground) = &coat.ground else {
-                continue;
-            };
-            coat.laid = Some(Arc::new(KeptLayer {
-                layer: coat.table.layer.clone(),
-                strokes: coat.table.strokes.clone(),
-                number: coat.number,
-                ground: ground.ground.clone(),
-                file,
-                laid: ground.on_the_whole(laid),
-            }));
-        }
-        for (i, object) in scene.objects.iter_mut().enumerate() {
-            let layers = (0..).zip(&coats).filter_map(|(layer, coat)| {
-                let is_here = coat.is_shown && coat.object == i;
-                let laid = coat.laid.as_ref().filter(|_| is_here)?;
-                Some((layer, laid.clone()))
-            });
-            let together = self.old.together(layers.collect())?;
-            object.scratches = together.scratches.clone();
-            object.segments = together.segments.clone();
-            self.new.objects.push(together);
-        }
-        let laid = coats.into_iter().filter_map(|coat| coat.laid);
-        self.new.layers = laid.collect();
-        Ok(())
-    }
-
-    /// All tables, with what the last build has laid for them.
-    fn coats(&self, surfaces: &[Arc<KeptSurface>]) -> Result<Vec<Coat<'a>>, Error> {
-        let tables = &self.description.scratches;
-        let solo = tables.iter().any(|table| table.solo);
-        let mut coats: Vec<Coat> = Vec::new();
-        let mut numbers: HashMap<(usize, u64), u64> = HashMap::new();
-        for (i, table) in tables.iter().enumerate() {
-            let names = self.description.objects.iter().map(|o| o.name.as_str());
-            let key = format!("scratches[{i}].object");
-            let object = find(&table.object, names, &key, "object")?;
-            let seed = table.layer.seed();
-            let number = match seed {
-                Some(seed) => {
-                    let next = numbers.entry((object, seed)).or_insert(0);
-                    *next += 1;
-                    *next - 1
-                }
-                None => 0,
-            };
-            let is_shown = !table.hidden && (table.solo || !solo);
-            let ground = surfaces[object].ground_if_made(&OnPart::of(table));
-            let laid = ground.as_ref().and_then(|ground| {
-                let file = self.stamp(&table.layer);
-                self.old.layer(table, number, &ground.ground, &file)
-            });
-            coats.push(Coat {
-                ground,
-                table,
-                object,
-                number,
-                is_shown,
-                laid,
-            });
-        }
-        Ok(coats)
-    }
-
-    /// Of the file that the layer is read from.
-    fn stamp(&self, layer: &Layer) -> Option<Stamp> {
-        match layer {
-            Layer::Listed(listed) => Some(Stamp::of(&self.base_dir.join(&listed.file))),
-            Layer::Laid(_) | Layer::Brushed(_) => None,
-        }
     }
 }

@@ -13,6 +13,7 @@ mod light_kind;
 mod lights;
 pub mod limits;
 mod parse;
+mod place;
 mod ranges;
 mod read;
 pub(crate) mod references;
@@ -36,6 +37,7 @@ use values::{Named, is_default, serialize_named, serialize_scale};
 pub use gratings::Grating;
 pub use light_kind::LightKind;
 pub use lights::{Cone, Light};
+pub use place::Place;
 pub(crate) use scratches::DEFAULT_SEED;
 pub use scratches::{
     Amount, Around, Brush, Brushed, Distribution, Laid, Layer, Listed, Pattern, Scratches, Stroke,

@@ -47,6 +47,14 @@ impl Description {
                     base_dir.join(&listed.file),
                 );
             }
+            for file in scratches.place.files() {
+                add(format!("a picture of scratches[{i}]"), base_dir.join(file));
+            }
+        }
+        for (i, light) in self.lights.iter().enumerate() {
+            if let Some(file) = &light.picture {
+                add(format!("the picture of light[{i}]"), base_dir.join(file));
+            }
         }
         inputs
     }

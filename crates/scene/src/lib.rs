@@ -30,6 +30,7 @@ mod error;
 pub mod estimate;
 mod file_camera;
 mod grating;
+mod grey_map;
 pub mod inputs;
 mod key_line;
 mod lamp_shape;

@@ -37,7 +37,7 @@ use glam::DMat4;
 use gltf::Gltf;
 
 use crate::reading::{self, Kind};
-use crate::scene::Mesh;
+use crate::scene::{Mesh, Part};
 use crate::text::shown;
 pub(crate) use cameras::FileCamera;
 pub(crate) use flaw::Flaw;
@@ -53,7 +53,7 @@ use root::Kept;
 use shapes::Shapes;
 use source::Buffers;
 use stock::FILE_SHARE;
-pub(crate) use stock::{Part, Stock};
+pub(crate) use stock::Stock;
 
 /// Instances of meshes that one file may place; each is baked.
 const MOST_TRIANGLES: usize = 1 << 28;

@@ -269,11 +269,22 @@ pub struct Object {
     pub scratches: Arc<Vec<Scratch>>,
     /// Straight pieces, one triangle each, those of one scratch side by side in the order of its walk.
     pub segments: Arc<Vec<Segment>>,
+    /// What its file calls parts of it; none of a shape.
+    pub parts: Arc<Vec<Part>>,
     /// Grooves that are finer than a pixel.
     pub gratings: Vec<Grating>,
     /// Whether it is the shape of a light that the camera sees: black but for its emission, met by no ray but the camera's, and by that on its
     /// front alone. Such objects are the last of a scene.
     pub is_lamp: bool,
+}
+
+/// The triangles of one node of a model's file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Part {
+    /// The names of the node and of those above it, from the innermost on.
+    pub nodes: Arc<[String]>,
+    /// In [`Mesh::triangles`].
+    pub triangles: Range<usize>,
 }
 
 impl Object {

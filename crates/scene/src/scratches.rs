@@ -6,6 +6,8 @@
 //! stream of its own, so the result depends neither on the number of threads nor, for the first ones, on the count.
 
 mod closest;
+mod cut;
+mod edges;
 mod erase;
 mod facet;
 mod ground;
@@ -15,6 +17,7 @@ mod listed;
 mod memory;
 mod neighbours;
 mod painted;
+mod place;
 mod random;
 mod strewn;
 mod swirl;
@@ -37,6 +40,9 @@ use listed::Listed;
 pub use listed::write_scratches;
 use memory::{Demand, SEGMENT_BYTES};
 use painted::Painted;
+pub(crate) use place::Means;
+use place::Place;
+use random::Stream;
 use strewn::Strewn;
 use walk::{Course, Walker};
 
@@ -44,6 +50,8 @@ use walk::{Course, Walker};
 const PILOTS: u64 = 1024;
 /// Segments that are enough to know.
 const PILOT_SEGMENTS: usize = 1 << 20;
+/// Tells the draws of whether a scratch is laid from all others: seeds of layers end below.
+const LOT: u64 = 1 << 63;
 /// Scratches of one task.
 const CHUNK: u64 = 32;
 /// Scratches between two looks at whether to give up: so few at first, twice as many after a batch of fewer segments than that, which
@@ -63,6 +71,8 @@ pub(crate) struct Table<'a> {
     /// How many earlier layers on the same object have the same seed.
     pub number: u64,
     pub ground: &'a Ground,
+    /// Where on it.
+    pub means: Means<'a>,
 }
 
 /// The scratches of one layer; their `layer` is 0.
@@ -100,6 +110,7 @@ struct Plan<'a> {
     table: &'a Table<'a>,
     laying: Box<dyn Laying + 'a>,
     eraser: Option<Eraser>,
+    place: Option<Place<'a>>,
     count: u64,
     /// The first scratches, and how many: they told how much memory all of them take.
     pilot: (Laid, u64),
@@ -233,6 +244,7 @@ impl<'a> Plan<'a> {
             table,
             laying,
             eraser: Eraser::new(loader, table.strokes, ground)?,
+            place: Place::new(&table.means, ground, &table.key)?,
             count,
             pilot: Default::default(),
         })
@@ -293,17 +305,49 @@ impl<'a> Plan<'a> {
         Ok(())
     }
 
+    /// Whether a scratch is one of those that are thick enough where it lies.
+    fn is_drawn(&self, index: u64) -> bool {
+        let Some(place) = self.place.as_ref().filter(|place| !place.is_even()) else {
+            return true;
+        };
+        let chance = self.laying.middle(index).map_or(0.0, |it| place.chance(it));
+        // Of another stream than all else of the scratch, which stays as it is without.
+        let seed = LOT ^ self.table.layer.seed().unwrap_or(0);
+        Stream::new(seed, self.table.number, index).uniform() < chance
+    }
+
+    /// What erasers and the layer's places leave of a scratch, in runs; `None` where they leave all of it.
+    fn rest(
+        &self,
+        walker: &Walker,
+        index: u64,
+        course: Course,
+        whole: &[Segment],
+    ) -> Option<Vec<Vec<Segment>>> {
+        let place = self.place.as_ref().filter(|place| place.has_ends());
+        if self.eraser.is_none() && place.is_none() {
+            return None;
+        }
+        cut::rest(walker, course, whole, |segment, parts| {
+            if let Some(eraser) = &self.eraser {
+                eraser.erased(segment, self.laying.strokes_before(index), parts);
+            }
+            if let Some(place) = place {
+                place.elsewhere(segment, parts);
+            }
+        })
+    }
+
     fn lay_chunk(&self, walker: &Walker, scratches: std::ops::Range<u64>) -> Laid {
         let mut laid = Laid::default();
         for index in scratches {
+            if !self.is_drawn(index) {
+                continue;
+            }
             let start = laid.segments.len();
             let groove = self.laying.lay(walker, index, &mut laid.segments);
-            let rest = self.eraser.as_ref().and_then(|eraser| {
-                let strokes_before = self.laying.strokes_before(index);
-                let whole = &laid.segments[start..];
-                eraser.rest(walker, strokes_before, groove.course, whole)
-            });
-            let Some(runs) = rest else {
+            let whole = &laid.segments[start..];
+            let Some(runs) = self.rest(walker, index, groove.course, whole) else {
                 laid.push(&groove, groove.course, start..laid.segments.len());
                 continue;
             };

@@ -196,6 +196,7 @@ const TABLE: &[Entry] = &[
     entry(Command::Pick(Tool::Brush), Group::Tools, "Brush", Some((PLAIN, Key::B))),
     entry(Command::Pick(Tool::Eraser), Group::Tools, "Eraser", Some((PLAIN, Key::E))),
     entry(Command::Pick(Tool::PlaceLight), Group::Tools, "Place light", Some((PLAIN, Key::L))),
+    entry(Command::Pick(Tool::PickPart), Group::Tools, "Pick part", Some((PLAIN, Key::P))),
     entry(Command::BrushSmaller, Group::Tools, "Smaller brush", Some((PLAIN, Key::OpenBracket))),
     entry(Command::BrushLarger, Group::Tools, "Larger brush", Some((PLAIN, Key::CloseBracket))),
     entry(Command::Help, Group::Help, "Keys and mouse", Some((PLAIN, Key::F1))),

@@ -37,6 +37,7 @@ mod overlays;
 #[cfg(target_arch = "wasm32")]
 pub mod page;
 mod panels;
+mod parts;
 mod platform;
 mod priority;
 pub mod reading;

@@ -11,6 +11,7 @@ mod camera;
 mod environment;
 mod grating;
 mod layer;
+mod layer_place;
 mod light;
 mod material;
 pub(crate) mod number;

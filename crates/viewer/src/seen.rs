@@ -79,6 +79,7 @@ fn is_same_layer((a, x): (&Description, &Scratches), (b, y): (&Description, &Scr
         object: _,
         material,
         node,
+        place: places,
         name: _,
         hidden,
         solo,
@@ -91,6 +92,7 @@ fn is_same_layer((a, x): (&Description, &Scratches), (b, y): (&Description, &Scr
         && *hidden == y.hidden
         && *solo == y.solo
         && (material, node) == (&y.material, &y.node)
+        && *places == y.place
         && *layer == y.layer
         && *strokes == y.strokes
 }

@@ -14,10 +14,18 @@ pub(crate) enum Tool {
     Eraser,
     /// Click moves the selected light so that its highlight falls there.
     PlaceLight,
+    /// Click keeps the selected layer to the part of the model that is there.
+    PickPart,
 }
 
 impl Tool {
-    pub const ALL: [Self; 4] = [Self::Select, Self::Brush, Self::Eraser, Self::PlaceLight];
+    pub const ALL: [Self; 5] = [
+        Self::Select,
+        Self::Brush,
+        Self::Eraser,
+        Self::PlaceLight,
+        Self::PickPart,
+    ];
 
     /// What it does, for a tooltip.
     pub fn hint(self) -> &'static str {
@@ -27,6 +35,9 @@ impl Tool {
             Self::Eraser => "Drag over an object to take scratches of the selected layer away",
             Self::PlaceLight => {
                 "Click on an object: the selected light moves so that its highlight falls there"
+            }
+            Self::PickPart => {
+                "Click on a part of an object: the selected layer of scratches lies on that part alone"
             }
         }
     }

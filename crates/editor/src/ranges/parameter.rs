@@ -101,6 +101,18 @@ pub enum Parameter {
     AxisCenter,
     /// `scratches.direction`
     Direction,
+    /// `scratches.where.edges`
+    Edges,
+    /// `scratches.where.edge_width_m`
+    EdgeWidth,
+    /// `scratches.where.tile_m`
+    Tile,
+    /// `scratches.where.center_m`
+    PlaceCenter,
+    /// The first of `scratches.where.radius_m`
+    PlaceInnerRadius,
+    /// The second of `scratches.where.radius_m`
+    PlaceOuterRadius,
     /// `grating.pitch_um`
     Pitch,
     /// `grating.width_um`

@@ -197,6 +197,30 @@ pub(super) fn of(parameter: Parameter) -> Text {
             "Direction",
             "Where the scratches run, in the object's own frame. Lamps are drawn out into streaks across it.",
         ),
+        P::Edges => (
+            "Edges",
+            "Wear comes first where a surface stands out. At 1 there are scratches at convex edges alone, at 0 everywhere alike.",
+        ),
+        P::EdgeWidth => (
+            "Edge width",
+            "How far from an edge there are scratches. Narrow: a bright line along it. Wide: a soft border.",
+        ),
+        P::Tile => (
+            "Tile",
+            "How wide the pictures are, laid on from three sides and repeated. Small ones show that they repeat.",
+        ),
+        P::PlaceCenter => (
+            "Middle",
+            "What the radii are counted from, in the object's own frame: the spot that a hand rubs.",
+        ),
+        P::PlaceInnerRadius => (
+            "Inner radius",
+            "There are no scratches nearer to the middle than this.",
+        ),
+        P::PlaceOuterRadius => (
+            "Outer radius",
+            "There are no scratches farther from the middle than this.",
+        ),
         P::Pitch => (
             "Pitch",
             "From one groove to the next. Fine rows throw wide rainbows far out, coarse ones narrow rainbows close to the highlight. Disc 1.6, DVD 0.74, turned steel 30.",

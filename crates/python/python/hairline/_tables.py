@@ -400,6 +400,8 @@ class Scratches(Table):
     """The name of a material of the object's file: they lie on what is of it. Default: on all of the object."""
     node: Optional[str] = _default()
     """The name of a node of the object's file: they lie on it and on what is below it. Default: on all of the object."""
+    where: Optional[Mapping[str, Any]] = _default()
+    """On which places they lie, and how thickly: ``mask``, ``density``, ``tile_m``, ``edges``, ``edge_width_m``, ``radius_m``, ``center_m``."""
     pattern: str
     """``"random"``, ``"parallel"``, ``"circular"``, ``"radial"``, ``"spun"``, ``"swirl"``, ``"drawn"`` or ``"file"``."""
     name: Optional[str] = _default()

@@ -8,12 +8,13 @@ use glam::{DMat4, DVec3};
 use hairline_image::held;
 
 use super::parts::{OnPart, PartGround, Surroundings};
-use crate::description::{self, Layer, LightKind, Map, Stroke, Surface};
+use crate::description::{self, Layer, LightKind, Map, Place, Stroke, Surface};
 use crate::environment::BuiltInMap;
 use crate::error::Error;
+use crate::grey_map::GreyMap;
 use crate::loader::Loader;
-use crate::mesh_file::{self, Part, Placing, Stock, Wanted};
-use crate::scene::{Material, Mesh, Scratch, Segment, Texture};
+use crate::mesh_file::{self, Placing, Stock, Wanted};
+use crate::scene::{Material, Mesh, Part, Scratch, Segment, Texture};
 use crate::scratches::{self, Ground, Laid};
 use crate::text::shown;
 use crate::{Environment, model_notes, shape};
@@ -24,6 +25,8 @@ pub(super) struct Kept {
     pub surfaces: Vec<Arc<KeptSurface>>,
     pub textures: Textures,
     pub pictures: Vec<KeptPicture>,
+    /// Those of layers' places.
+    pub grey_maps: Vec<(Stamp, Arc<GreyMap>)>,
     /// The map with no rotation, intensity 1.
     pub map: Option<(MapKey, Environment)>,
     pub layers: Vec<Arc<KeptLayer>>,
@@ -123,7 +126,7 @@ pub(super) struct KeptSurface {
     /// What the author of the scene should know about the file.
     pub notes: Arc<Vec<String>>,
     /// What its file calls its parts.
-    parts: Arc<Vec<Part>>,
+    pub parts: Arc<Vec<Part>>,
     /// Laying does not look at the numbers of materials, so one serves all of them.
     grounds: Arc<Mutex<Grounds>>,
 }
@@ -278,10 +281,11 @@ pub(super) struct Textures {
 pub(super) struct KeptLayer {
     pub layer: Layer,
     pub strokes: Vec<Stroke>,
+    pub place: Place,
     pub number: u64,
     pub ground: Arc<Ground>,
-    /// The file that it was read from, if any.
-    pub file: Option<Stamp>,
+    /// The files that it was read from.
+    pub files: Vec<Stamp>,
     pub laid: Laid,
 }
 
@@ -314,6 +318,11 @@ impl Kept {
             .cloned()
     }
 
+    pub(super) fn grey_map(&self, file: &Stamp) -> Option<Arc<GreyMap>> {
+        let (_, map) = self.grey_maps.iter().find(|(kept, _)| kept == file)?;
+        Some(map.clone())
+    }
+
     pub(super) fn lamp(&self, kind: &LightKind, material: u32) -> Option<Arc<Mesh>> {
         let mut lamps = self.lamps.iter();
         let (_, _, mesh) = lamps.find(|lamp| (&lamp.0, lamp.1) == (kind, material))?;
@@ -337,14 +346,15 @@ impl Kept {
         table: &description::Scratches,
         number: u64,
         ground: &Arc<Ground>,
-        file: &Option<Stamp>,
+        files: &[Stamp],
     ) -> Option<Arc<KeptLayer>> {
         let alike = |kept: &&Arc<KeptLayer>| {
             Arc::ptr_eq(&kept.ground, ground)
                 && kept.number == number
                 && kept.layer == table.layer
                 && kept.strokes == table.strokes
-                && kept.file == *file
+                && kept.place == table.place
+                && kept.files == files
         };
         self.layers.iter().find(alike).cloned()
     }

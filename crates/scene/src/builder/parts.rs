@@ -8,8 +8,7 @@ use glam::DMat4;
 use crate::description::Scratches;
 use crate::description::hint::nearest;
 use crate::error::Error;
-use crate::mesh_file::Part;
-use crate::scene::{Material, Mesh};
+use crate::scene::{Material, Mesh, Part};
 use crate::scratches::{Ground, Laid};
 use crate::text::shown;
 

@@ -213,6 +213,7 @@ fn scratches(scratches: &Scratches, key: &str) -> Check {
         }
         Layer::Listed(_) => {}
     }
+    scratches.place.check_at(&format!("{key}.where"))?;
     let paints = matches!(scratches.layer, Layer::Brushed(_));
     each(&format!("{key}.strokes"), &scratches.strokes, |s, key| {
         stroke(s, paints, key)

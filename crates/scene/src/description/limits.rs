@@ -85,6 +85,8 @@ pub const GRATING_DEPTH_SPREAD: RangeInclusive<f64> = 0.0..=1.0;
 pub const COVERAGE: RangeInclusive<f64> = 0.0..=1.0;
 /// `scratches.jitter_deg`, `grating.jitter_deg`
 pub const JITTER_DEG: RangeInclusive<f64> = 0.0..=90.0;
+/// `scratches.where.edges`
+pub const EDGES: RangeInclusive<f64> = 0.0..=1.0;
 /// `scratches.seed`: TOML's integers end there.
 pub const LARGEST_SEED: u64 = i64::MAX as u64;
 /// `width` and `depth` of a stroke: factors on its layer's sizes.

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use serde::{Serialize, Serializer};
 
+use super::place::Place;
+
 /// `[[scratches]]`
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Scratches {
@@ -15,6 +17,9 @@ pub struct Scratches {
     /// The name of a node of the object's file: they lie on it and on what is below it. Default: on all of the object.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub node: Option<String>,
+    /// `where`: on which places they lie, and how thickly. Default: everywhere alike.
+    #[serde(rename = "where", skip_serializing_if = "Place::is_everywhere")]
+    pub place: Place,
     /// Free text, for lists that people read. Default: none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
@@ -39,6 +44,7 @@ impl Scratches {
             object: object.into(),
             material: None,
             node: None,
+            place: Place::default(),
             name: None,
             hidden: false,
             solo: false,

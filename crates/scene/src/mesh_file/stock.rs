@@ -1,22 +1,11 @@
 //! What a file brings besides its triangles.
 
-use std::ops::Range;
 use std::path::PathBuf;
-use std::sync::Arc;
 
-use crate::scene::{Material, Texture};
+use crate::scene::{Material, Part, Texture};
 
 /// Of the free memory, what one file may take.
 pub(super) const FILE_SHARE: f64 = 1.0 / 4.0;
-
-/// The triangles of one node's primitive, wherever instances of it stand.
-#[derive(Clone, Debug)]
-pub(crate) struct Part {
-    /// The names of the node and of those above it.
-    pub nodes: Arc<[String]>,
-    /// Of the mesh that was read.
-    pub triangles: Range<usize>,
-}
 
 /// Where a file's parts and its own materials go.
 pub(crate) struct Stock<'a> {

@@ -11,10 +11,10 @@ use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::builder::build_bvh2;
 use rayon::prelude::*;
 
+use super::cut::{Parts, ball};
 use super::facet::Facet;
 use super::ground::Ground;
 use super::painted::world_points_m;
-use super::walk::{Course, Walker};
 use crate::description::{Brush, Stroke};
 use crate::error::Error;
 use crate::loader::Loader;
@@ -83,56 +83,10 @@ impl Eraser {
         }))
     }
 
-    /// What is left of a scratch that `strokes_before` strokes came before, in runs of joined segments; `None` where it is
-    /// untouched.
-    pub(super) fn rest(
-        &self,
-        walker: &Walker,
-        strokes_before: usize,
-        course: Course,
-        segments: &[Segment],
-    ) -> Option<Vec<Vec<Segment>>> {
-        let erased: Vec<_> = segments
-            .iter()
-            .map(|segment| self.erased(segment, strokes_before))
-            .collect();
-        if erased.iter().all(Vec::is_empty) {
-            return None;
-        }
-        let mut runs = vec![Vec::new()];
-        let mut push = |segment: Option<Segment>| match (segment, runs.last_mut()) {
-            (Some(segment), Some(run)) => run.push(segment),
-            (None, Some(run)) if !run.is_empty() => runs.push(Vec::new()),
-            _ => {}
-        };
-        for (segment, erased) in segments.iter().zip(&erased) {
-            let mut from = 0.0;
-            for &[start, end] in erased {
-                push(part(walker, segment, [from, start]));
-                push(None);
-                from = end;
-            }
-            push(part(walker, segment, [from, 1.0]));
-        }
-        if runs.last().is_some_and(Vec::is_empty) {
-            runs.pop();
-        }
-        // A ring that is cut begins and ends at its cuts, and not where its list of segments does.
-        if course == Course::Closed
-            && let [first, .., last] = runs.as_mut_slice()
-            && last.last().map(|s| s.end_m) == first.first().map(|s| s.start_m)
-        {
-            last.append(first);
-            runs.swap_remove(0);
-        }
-        Some(runs)
-    }
-
-    /// The parts of a segment that are erased, from 0 to 1, in order and apart.
-    fn erased(&self, segment: &Segment, strokes_before: usize) -> Vec<[f64; 2]> {
+    /// Adds the parts of a segment that are erased, from 0 to 1, of a scratch that `strokes_before` strokes came before.
+    pub(super) fn erased(&self, segment: &Segment, strokes_before: usize, parts: &mut Parts) {
         let [start, end] = [segment.start_m, segment.end_m].map(|p| p.as_dvec3());
         let normal = segment.normal.as_dvec3();
-        let mut parts: Vec<[f64; 2]> = Vec::new();
         let bounds = Aabb::from_points(&[segment.start_m.into(), segment.end_m.into()]);
         self.tree.aabb_traverse(bounds, |tree, node| {
             let node = &tree.nodes[node as usize];
@@ -146,38 +100,7 @@ impl Eraser {
             }
             true
         });
-        parts.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]));
-        parts.dedup_by(|next, last| {
-            let joins = next[0] <= last[1];
-            if joins {
-                last[1] = last[1].max(next[1]);
-            }
-            joins
-        });
-        parts
     }
-}
-
-/// A part of a segment, if it is long enough to matter.
-fn part(walker: &Walker, segment: &Segment, [from, to]: [f64; 2]) -> Option<Segment> {
-    if [from, to] == [0.0, 1.0] {
-        return Some(*segment);
-    }
-    let [start, end] = [segment.start_m, segment.end_m].map(|p| p.as_dvec3());
-    if !((to - from) * start.distance(end) >= walker.shortest_piece_m) {
-        return None;
-    }
-    let cut = walker.segment(start.lerp(end, from), start.lerp(end, to), segment.triangle);
-    Some(Segment {
-        // Joints stay as they are, to the last bit.
-        start_m: if from == 0.0 {
-            segment.start_m
-        } else {
-            cut.start_m
-        },
-        end_m: if to == 1.0 { segment.end_m } else { cut.end_m },
-        ..cut
-    })
 }
 
 impl Capsule {
@@ -205,22 +128,6 @@ impl Capsule {
         let inside = [from.max(0.0), to.min(1.0)];
         (inside[0] < inside[1]).then_some(inside)
     }
-}
-
-/// Where |offset + t way| is below the radius.
-fn ball(offset: DVec3, way: DVec3, radius_m: f64) -> Option<[f64; 2]> {
-    let outside = offset.length_squared() - radius_m * radius_m;
-    let squared = way.length_squared();
-    // Also where nothing changes along the way, but for rounding.
-    if squared <= 1e-24 * radius_m * radius_m {
-        return (outside < 0.0).then_some([f64::NEG_INFINITY, f64::INFINITY]);
-    }
-    let middle = -offset.dot(way) / squared;
-    let half_squared = middle * middle - outside / squared;
-    (half_squared > 0.0).then(|| {
-        let half = libm::sqrt(half_squared);
-        [middle - half, middle + half]
-    })
 }
 
 /// Where height + t rise lies between 0 and `length_m`.

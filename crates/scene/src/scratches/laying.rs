@@ -1,6 +1,6 @@
 //! What every kind of layer gives of a scratch.
 
-use super::walk::{Course, Walker};
+use super::walk::{Course, Spot, Walker};
 use crate::description::Distribution;
 use crate::error::Error;
 use crate::scene::{Profile, Segment};
@@ -61,6 +61,9 @@ pub(super) struct Groove {
 pub(super) trait Laying: Sync {
     /// Appends the segments of one scratch.
     fn lay(&self, walker: &Walker, index: u64, segments: &mut Vec<Segment>) -> Groove;
+
+    /// Where a scratch has its middle, if it has one; as [`Laying::lay`] lays it.
+    fn middle(&self, index: u64) -> Option<Spot>;
 
     /// How many of the layer's strokes came before a scratch, its own included.
     fn strokes_before(&self, _index: u64) -> usize {

@@ -160,17 +160,18 @@ struct Placed {
 }
 
 /// Scratches on the ground that they go on.
-pub(super) struct Listed {
+pub(super) struct Listed<'a> {
     scratches: Vec<Placed>,
+    ground: &'a Ground,
 }
 
-impl Listed {
+impl<'a> Listed<'a> {
     /// Refuses rows that do not lie on the surface.
     pub(super) fn new(
         loader: &Loader,
         rows: &[Row],
         path: &Path,
-        ground: &Ground,
+        ground: &'a Ground,
     ) -> Result<Self, Error> {
         let row = |i: usize| (rows[i].ends_m, rows[i].profile);
         Self::placed(loader, rows.len(), row, ground, |i, end, found, right| {
@@ -184,7 +185,7 @@ impl Listed {
         loader: &Loader,
         arrays: &ScratchArrays,
         key: &str,
-        ground: &Ground,
+        ground: &'a Ground,
     ) -> Result<Self, Error> {
         let (ends_m, profiles) = (arrays.ends_m(), arrays.profiles());
         let row = |i: usize| (ends_m[i], profiles[i]);
@@ -199,7 +200,7 @@ impl Listed {
         loader: &Loader,
         count: usize,
         row: impl Fn(usize) -> ([[f64; 3]; 2], Profile) + Sync,
-        ground: &Ground,
+        ground: &'a Ground,
         error: impl Fn(usize, usize, String, String) -> Error,
     ) -> Result<Self, Error> {
         const TOGETHER: usize = 1 << 16;
@@ -247,7 +248,7 @@ impl Listed {
                 return Err(error(i, end, found, right));
             }
         }
-        Ok(Self { scratches })
+        Ok(Self { scratches, ground })
     }
 
     pub(super) fn count(&self) -> u64 {
@@ -255,7 +256,7 @@ impl Listed {
     }
 }
 
-impl Laying for Listed {
+impl Laying for Listed<'_> {
     fn lay(&self, walker: &Walker, index: u64, segments: &mut Vec<Segment>) -> Groove {
         let placed = &self.scratches[index as usize];
         let guide = Guide::Towards {
@@ -267,5 +268,11 @@ impl Laying for Listed {
             profile: placed.profile,
             course: Course::Open,
         }
+    }
+
+    fn middle(&self, index: u64) -> Option<Spot> {
+        let placed = &self.scratches[index as usize];
+        let middle_m = placed.start.point_m.lerp(placed.end_m, 0.5);
+        Some(self.ground.closest().find(middle_m).0)
     }
 }

@@ -21,44 +21,12 @@ pub(super) struct Neighbours(Vec<[u32; 3]>);
 
 impl Neighbours {
     pub(super) fn new(mesh: &Mesh) -> Self {
-        let welded = welded(mesh);
-        let normals: Vec<DVec3> = (0..mesh.triangles.len() as u32)
-            .into_par_iter()
-            .map(|t| Facet::new(mesh, t).normal)
-            .collect();
-
-        // Half edges side by side with those of the same two ends.
-        let mut half_edges: Vec<_> = mesh
-            .triangles
-            .par_iter()
-            .enumerate()
-            .flat_map_iter(|(t, triangle)| {
-                let corners = triangle.map(|v| welded[v as usize]);
-                (0..3u32).map(move |edge| {
-                    let from = corners[edge as usize];
-                    let to = corners[(edge as usize + 1) % 3];
-                    let ends = (from.min(to), from.max(to));
-                    (ends, from > to, t as u32 * 4 + edge)
-                })
-            })
-            .collect();
-        half_edges.par_sort_unstable();
-
         let mut beyond = vec![[NONE; 3]; mesh.triangles.len()];
-        for group in half_edges.chunk_by(|a, b| a.0 == b.0) {
-            for &(_, backwards, half_edge) in group {
-                let normal = normals[half_edge as usize / 4];
-                // Sheets that are closed by a back side have four triangles at an edge: go on with the one that bends least.
-                let best = group
-                    .iter()
-                    .filter(|other| other.1 != backwards)
-                    .map(|other| (normals[other.2 as usize / 4].dot(normal), other.2))
-                    .max_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1)));
-                if let Some((_, other)) = best.filter(|(bend, _)| *bend >= CREASE_COS) {
-                    beyond[half_edge as usize / 4][half_edge as usize % 4] = other;
-                }
+        each_bend(mesh, |bend| {
+            if bend.normals[0].dot(bend.normals[1]) >= CREASE_COS {
+                beyond[bend.half_edge as usize / 4][bend.half_edge as usize % 4] = bend.beyond;
             }
-        }
+        });
         Self(beyond)
     }
 
@@ -67,6 +35,70 @@ impl Neighbours {
         match self.0[triangle as usize][edge] {
             NONE => None,
             other => Some((other / 4, other as usize % 4)),
+        }
+    }
+}
+
+/// An edge of a triangle with the triangle beyond it.
+pub(super) struct Bend {
+    /// Four times the triangle, and the edge.
+    half_edge: u32,
+    /// The same of what lies beyond.
+    beyond: u32,
+    /// Of the triangle and of the one beyond, unit.
+    pub normals: [DVec3; 2],
+}
+
+impl Bend {
+    /// The ends of the edge, in the triangle's own order.
+    pub(super) fn ends_m(&self, mesh: &Mesh) -> [DVec3; 2] {
+        let corners_m = mesh.corners_m(self.half_edge as usize / 4);
+        let edge = self.half_edge as usize % 4;
+        [corners_m[edge], corners_m[(edge + 1) % 3]]
+    }
+}
+
+/// All edges that a triangle has with another one, each from both sides.
+pub(super) fn each_bend(mesh: &Mesh, mut bend: impl FnMut(Bend)) {
+    let welded = welded(mesh);
+    let normals: Vec<DVec3> = (0..mesh.triangles.len() as u32)
+        .into_par_iter()
+        .map(|t| Facet::new(mesh, t).normal)
+        .collect();
+
+    // Half edges side by side with those of the same two ends.
+    let mut half_edges: Vec<_> = mesh
+        .triangles
+        .par_iter()
+        .enumerate()
+        .flat_map_iter(|(t, triangle)| {
+            let corners = triangle.map(|v| welded[v as usize]);
+            (0..3u32).map(move |edge| {
+                let from = corners[edge as usize];
+                let to = corners[(edge as usize + 1) % 3];
+                let ends = (from.min(to), from.max(to));
+                (ends, from > to, t as u32 * 4 + edge)
+            })
+        })
+        .collect();
+    half_edges.par_sort_unstable();
+
+    for group in half_edges.chunk_by(|a, b| a.0 == b.0) {
+        for &(_, backwards, half_edge) in group {
+            let normal = normals[half_edge as usize / 4];
+            // Sheets that are closed by a back side have four triangles at an edge: go on with the one that bends least.
+            let best = group
+                .iter()
+                .filter(|other| other.1 != backwards)
+                .map(|other| (normals[other.2 as usize / 4].dot(normal), other.2))
+                .max_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1)));
+            if let Some((_, beyond)) = best {
+                bend(Bend {
+                    half_edge,
+                    beyond,
+                    normals: [normal, normals[beyond as usize / 4]],
+                });
+            }
         }
     }
 }

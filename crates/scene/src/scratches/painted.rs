@@ -90,6 +90,21 @@ impl<'a> Painted<'a> {
         self.paths.partition_point(|path| path.first <= index) - 1
     }
 
+    fn stream(&self, index: u64) -> Stream {
+        // Erasing strokes are not counted, so that they may come and go. Far more scratches than 2^32 fit into no memory.
+        let number = self.path(index);
+        let nth = index - self.paths[number].first;
+        Stream::new(self.layer.seed, self.number, (number as u64) << 32 | nth)
+    }
+
+    /// Where a scratch has its middle, and where the brush was for it, by the first two draws of its stream.
+    fn seed(&self, index: u64, stream: &mut Stream) -> Option<(Spot, Touch)> {
+        let path = &self.paths[self.path(index)];
+        let [along, across] = std::array::from_fn(|_| stream.uniform());
+        let touch = path.touch(self.ground, index - path.first, along, across)?;
+        Some((self.land(&touch, path.radius_m)?, touch))
+    }
+
     /// The nearest place on the side of the surface that the brush is on; `None` where it hangs over the rim.
     fn land(&self, touch: &Touch, radius_m: f64) -> Option<Spot> {
         let most_m = REACH * radius_m;
@@ -105,16 +120,12 @@ impl<'a> Painted<'a> {
 
 impl Laying for Painted<'_> {
     fn lay(&self, walker: &Walker, index: u64, segments: &mut Vec<Segment>) -> Groove {
-        let number = self.path(index);
-        let path = &self.paths[number];
-        let nth = index - path.first;
-        // Erasing strokes are not counted, so that they may come and go. Far more scratches than 2^32 fit into no memory.
-        let mut stream = Stream::new(self.layer.seed, self.number, (number as u64) << 32 | nth);
-        let [along, across, angle] = std::array::from_fn(|_| stream.uniform());
+        let path = &self.paths[self.path(index)];
+        let mut stream = self.stream(index);
+        let seed = self.seed(index, &mut stream);
+        let angle = stream.uniform();
         let [length, width, depth, jitter] = std::array::from_fn(|_| stream.normal());
 
-        let touch = path.touch(self.ground, nth, along, across);
-        let seed = touch.and_then(|touch| Some((self.land(&touch, path.radius_m)?, touch)));
         if let Some((seed, touch)) = seed {
             let facet = Facet::new(&self.ground.mesh, seed.triangle);
             let direction = touch
@@ -133,6 +144,11 @@ impl Laying for Painted<'_> {
             profile: scratch_profile(self.layer.sizes(), [width, depth], [path.width, path.depth]),
             course: Course::Open,
         }
+    }
+
+    fn middle(&self, index: u64) -> Option<Spot> {
+        let (seed, _) = self.seed(index, &mut self.stream(index))?;
+        Some(seed)
     }
 
     fn strokes_before(&self, index: u64) -> usize {

@@ -24,7 +24,7 @@ pub(super) struct Strewn<'a> {
 impl Laying for Strewn<'_> {
     fn lay(&self, walker: &Walker, index: u64, segments: &mut Vec<Segment>) -> Groove {
         let laid = self.laid;
-        let mut stream = Stream::new(laid.seed, self.number, index);
+        let mut stream = self.stream(index);
         // Everything is drawn for every pattern, in this order: a layer that changes its pattern keeps its places and sizes.
         let seed = self.ground.random_spot(&mut stream);
         let seed_angle_rad = TAU * stream.uniform();
@@ -37,9 +37,17 @@ impl Laying for Strewn<'_> {
             course: walker.lay(seed, &guide, length_m, segments),
         }
     }
+
+    fn middle(&self, index: u64) -> Option<Spot> {
+        Some(self.ground.random_spot(&mut self.stream(index)))
+    }
 }
 
 impl Strewn<'_> {
+    fn stream(&self, index: u64) -> Stream {
+        Stream::new(self.laid.seed, self.number, index)
+    }
+
     /// `curvature` and `jitter` are standard normal draws.
     fn guide(&self, seed: Spot, seed_angle_rad: f64, curvature: f64, jitter: f64) -> Guide {
         let around = |around: &Around, bearing| Guide::Around {

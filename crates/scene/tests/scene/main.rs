@@ -13,6 +13,7 @@ mod left_out;
 mod lights;
 mod listed;
 mod looks;
+mod places;
 mod poses;
 mod probe;
 mod scratches;

@@ -1,7 +1,5 @@
 //! A layer of scratches.
 
-use std::collections::BTreeSet;
-
 use egui::Ui;
 use hairline_editor::Selection;
 use hairline_editor::presets::LayerPreset;
@@ -9,34 +7,12 @@ use hairline_editor::ranges::Parameter;
 use hairline_scene::description::{Amount, Around, Distribution, Laid, Layer, Pattern, Scratches};
 
 use super::form::Form;
+use super::layer_place;
 use crate::command::Command;
+use crate::parts;
 use crate::style::beside;
 use crate::tools::Tool;
 use crate::workspace::Workspace;
-
-/// The materials of the file of a layer's object, by their names.
-fn materials(work: &Workspace, layer: &Scratches) -> BTreeSet<String> {
-    let description = work.document.description();
-    let object = description
-        .objects
-        .iter()
-        .find(|it| it.name == layer.object);
-    let is_own = object.is_some_and(|it| it.material.is_none());
-    let (true, Some(built)) = (is_own, work.engine.built()) else {
-        return BTreeSet::new();
-    };
-    let scene = &built.scene;
-    let object = scene.objects.iter().find(|it| it.name == layer.object);
-    let mut numbers: Vec<u32> = object
-        .map_or(&[][..], |object| &object.mesh.triangle_materials)
-        .chunk_by(|a, b| a == b)
-        .map(|run| run[0])
-        .collect();
-    numbers.sort_unstable();
-    numbers.dedup();
-    let name = |number: u32| Some(scene.materials.get(number as usize)?.name.clone());
-    numbers.into_iter().filter_map(name).collect()
-}
 
 pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     let description = work.document.description().clone();
@@ -45,7 +21,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     };
     let object = Selection::Layer(index).object(&description);
     let diagonal_m = work.diagonal_m(object);
-    let materials = materials(work, &layer);
+    let names = parts::names(work, &layer.object);
     ui.heading("Scratches");
     let mut form = Form::new(ui, ("layer", index), diagonal_m);
     let mut name = layer.name.clone().unwrap_or_default();
@@ -56,16 +32,6 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
         .iter()
         .map(|o| (o.name.clone(), o.name.clone()));
     form.choice("Object", "What they lie on", objects, &mut layer.object);
-    if materials.len() > 1 || layer.material.is_some() {
-        let all = (None, "All of it".to_owned());
-        let named = materials.into_iter().map(|name| (Some(name.clone()), name));
-        form.choice(
-            "On material",
-            "Of the model's file: they lie on what is of it, and end where it ends",
-            std::iter::once(all).chain(named),
-            &mut layer.material,
-        );
-    }
     form.toggle(
         "Hidden",
         "A hidden layer is laid nowhere",
@@ -76,6 +42,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
         "If a layer is solo, only solo layers are seen",
         &mut layer.solo,
     );
+    let picks = layer_place::show(&mut form, &mut layer, names);
     match &mut layer.layer {
         Layer::Laid(laid) => laid_rows(&mut form, laid),
         Layer::Brushed(brushed) => {
@@ -107,6 +74,9 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
         work.document.drag(&change.label, change.key, |d| {
             d.scratches[index] = layer.clone();
         });
+    }
+    if picks {
+        work.toolbox.tool = Tool::PickPart;
     }
     strokes(ui, work, index, &layer);
     buttons(ui, work, index, &layer, diagonal_m);

@@ -93,7 +93,10 @@ const SELECTED: Color32 = Color32::from_rgb(255, 246, 220);
 /// The layers whose directions are wanted: the selected one, or all that are shown.
 fn wanted(work: &Workspace) -> Vec<usize> {
     // Under the brush they would cover what it lays.
-    let is_wanted = matches!(work.toolbox.tool, Tool::Select | Tool::Eraser);
+    let is_wanted = matches!(
+        work.toolbox.tool,
+        Tool::Select | Tool::Eraser | Tool::PickPart
+    );
     let description = work.document.description();
     let selected = match work.selection() {
         Selection::Layer(index) => Some(index),

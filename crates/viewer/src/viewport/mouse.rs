@@ -5,6 +5,7 @@ use glam::DVec2;
 use hairline_editor::place_light::place_highlight;
 use hairline_editor::{DragKey, Selection, navigate};
 
+use crate::parts;
 use crate::tools::Tool;
 use crate::workspace::Workspace;
 
@@ -115,6 +116,7 @@ impl Viewport {
                     work.document.select(picked);
                 }
                 (Tool::PlaceLight, Some(hit)) => place_light(work, &hit),
+                (Tool::PickPart, Some(hit)) => pick_part(work, &hit),
                 _ => {}
             }
         }
@@ -132,6 +134,27 @@ fn place_light(work: &mut Workspace, hit: &Picked) {
     work.document.edit("Place light", |d| {
         if let Some(light) = d.lights.get_mut(i) {
             place_highlight(light, eye_m, hit.point_m, hit.normal);
+        }
+    });
+}
+
+/// Keeps the selected layer to the part that was clicked on: what is of its material and of the node that it belongs to.
+fn pick_part(work: &mut Workspace, hit: &Picked) {
+    let Selection::Layer(i) = work.selection() else {
+        let text = "Select a layer of scratches first: it is kept to the part that you click on.";
+        work.notices.error("part", text);
+        return;
+    };
+    let described = work.document.description().objects.get(hit.object).cloned();
+    let (Some(described), Some(built)) = (described, work.engine.built()) else {
+        return;
+    };
+    let (material, node) = parts::at(&built.scene, &described, hit.object, hit.triangle);
+    work.toolbox.tool = Tool::Select;
+    work.document.edit("Pick a part", |d| {
+        if let Some(layer) = d.scratches.get_mut(i) {
+            layer.object.clone_from(&described.name);
+            (layer.material, layer.node) = (material, node);
         }
     });
 }

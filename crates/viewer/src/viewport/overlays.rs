@@ -17,7 +17,9 @@ impl Viewport {
     pub fn show_overlays(&mut self, ui: &mut Ui, work: &mut Workspace, area: &Area) {
         let tool = work.toolbox.tool;
         line_field::show(ui, &mut self.line_fields, work, area);
-        if matches!(tool, Tool::Select | Tool::PlaceLight) && work.overlays.has(Overlay::Lights) {
+        if matches!(tool, Tool::Select | Tool::PlaceLight | Tool::PickPart)
+            && work.overlays.has(Overlay::Lights)
+        {
             let lens = Lens::new(&work.camera(), area);
             let description = work.document.description();
             let selected = match work.selection() {

@@ -13,6 +13,8 @@ use super::{Area, lens::Lens};
 pub(super) struct Picked {
     /// In the description's objects.
     pub object: usize,
+    /// In the object's mesh.
+    pub triangle: usize,
     /// World space.
     pub point_m: DVec3,
     /// Unit, towards the eye.
@@ -51,6 +53,7 @@ fn meet(built: &Built, lens: &Lens, pos: Pos2) -> Option<Picked> {
     let normal = normal.normalize_or(-ray);
     Some(Picked {
         object: hit.object as usize,
+        triangle: hit.triangle as usize,
         point_m: lens.eye_m() + ray * hit.distance_m,
         normal: if normal.dot(ray) > 0.0 {
             -normal

@@ -117,7 +117,7 @@ fn a_layer_of_every_pattern() {
         d.scratches[0] = hairline_editor::presets::drawn_layer("pan", 0.01);
     });
     select(&mut harness, Selection::Layer(0));
-    assert_eq!(every_number_is_live(&mut harness), 8);
+    assert_eq!(every_number_is_live(&mut harness), 9);
 }
 
 #[test]

@@ -4,6 +4,8 @@ use crate::common;
 use egui::{Rect, vec2};
 use glam::{DVec2, DVec3};
 use hairline_editor::{Selection, navigate};
+use hairline_viewer::Options;
+use hairline_viewer::engine::Backend;
 
 #[test]
 fn a_click_on_the_disk_selects_it_and_one_beside_it_nothing() {
@@ -39,4 +41,74 @@ fn a_double_click_where_the_disks_centre_is_seen_looks_at_its_centre() {
     let target_m = DVec3::from(harness.state().camera().target_m);
     // Half a pixel is 0.3 mm there; a hundredth of one is what rounding to the screen's single precision leaves.
     assert!(target_m.length() < 1e-5, "{target_m} instead of the origin");
+}
+
+/// Two squares beside each other, 10 cm wide: the right one is a node "clasp" of a material "gold".
+fn two_squares(dir: &std::path::Path) {
+    let corners = [[-0.1, 0.0], [0.0, 0.0], [0.0, 0.1], [-0.1, 0.1]];
+    let right = corners.map(|[x, y]| [x + 0.1, y]);
+    let floats = corners.into_iter().chain(right);
+    let floats = floats.flat_map(|[x, y]| [x as f32, y as f32 - 0.05, 0.0]);
+    let mut bytes: Vec<u8> = floats.flat_map(f32::to_le_bytes).collect();
+    bytes.extend([0u16, 1, 2, 0, 2, 3].into_iter().flat_map(u16::to_le_bytes));
+    std::fs::write(dir.join("a.bin"), bytes).unwrap();
+    let accessor = |offset: u32| {
+        format!(
+            r#"{{"bufferView":0,"byteOffset":{offset},"componentType":5126,"count":4,"type":"VEC3","min":[-0.1,-0.1,0],"max":[0.1,0.1,0]}}"#
+        )
+    };
+    let mesh = |i: u32| {
+        format!(
+            r#"{{"primitives":[{{"attributes":{{"POSITION":{i}}},"indices":2,"material":{i}}}]}}"#
+        )
+    };
+    let text = format!(
+        r#"{{"asset":{{"version":"2.0"}},"scenes":[{{"nodes":[0,1]}}],"nodes":[{{"name":"strap","mesh":0}},{{"name":"clasp","mesh":1}}],
+        "meshes":[{},{}],"materials":[{{"name":"steel"}},{{"name":"gold"}}],"buffers":[{{"uri":"a.bin","byteLength":108}}],
+        "bufferViews":[{{"buffer":0,"byteOffset":0,"byteLength":96}},{{"buffer":0,"byteOffset":96,"byteLength":12}}],
+        "accessors":[{},{},{{"bufferView":1,"componentType":5123,"count":6,"type":"SCALAR"}}]}}"#,
+        mesh(0),
+        mesh(1),
+        accessor(0),
+        accessor(48)
+    );
+    std::fs::write(dir.join("a.gltf"), text).unwrap();
+}
+
+#[test]
+fn a_click_keeps_a_layer_to_the_part_that_is_there() {
+    let dir = tempfile::tempdir().unwrap();
+    two_squares(dir.path());
+    let scene = dir.path().join("a.toml");
+    let text = "[camera]\nposition_m = [0, 0, 0.4]\ntarget_m = [0, 0, 0]\nup = [0, 1, 0]\n\
+        [[object]]\nname = \"it\"\nmesh = \"a.gltf\"\n\
+        [[scratches]]\nobject = \"it\"\npattern = \"random\"\ncount = 50\nlength_m = 0.02\n";
+    std::fs::write(&scene, text).unwrap();
+    let mut harness = common::viewer_with(Options {
+        scene: Some(scene),
+        built_in: common::SMALL,
+        backend: Backend::Cpu,
+        state_dir: None,
+        native_dialogs: false,
+        transport: hairline_scene::Transport::DIRECT,
+    });
+    common::wait_built(&mut harness);
+    let document = harness.state_mut().document_mut();
+    document.select(Selection::Layer(0));
+    harness.run_steps(3);
+    common::click_on(&mut harness, "Pick a part…");
+    let middle = common::picture(&harness).center();
+    common::click_at(&mut harness, middle + vec2(40.0, 10.0));
+    common::wait_built(&mut harness);
+    let layer = common::description(&harness).scratches[0].clone();
+    assert_eq!(layer.material.as_deref(), Some("gold"));
+    assert_eq!(layer.node.as_deref(), Some("clasp"));
+    // The layer stays selected, and is laid on the right square alone.
+    assert_eq!(harness.state().document().selection(), Selection::Layer(0));
+    common::wait_until(&mut harness, "the layer lies on the right", |viewer| {
+        viewer.engine().built().is_some_and(|built| {
+            let segments = &built.scene.objects[0].segments;
+            !segments.is_empty() && segments.iter().all(|it| it.start_m.x > -1e-5)
+        })
+    });
 }

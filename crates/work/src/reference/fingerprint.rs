@@ -42,6 +42,10 @@ pub fn fingerprint(description: &Description, folder: &Path, arrays: &Arrays) ->
         if let Layer::Listed(listed) = &mut scratches.layer {
             by_content(&mut listed.file, digest_of_file)?;
         }
+        let place = &mut scratches.place;
+        for file in place.mask.iter_mut().chain(&mut place.density) {
+            by_content(file, digest_of_file)?;
+        }
     }
     for light in &mut described.lights {
         if let Some(picture) = &mut light.picture {

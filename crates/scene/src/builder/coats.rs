@@ -1,0 +1,199 @@
+//! The scratches of a scene: what a build lays, and what it has from the last one.
+
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use super::Work;
+use super::kept::{KeptLayer, KeptSurface, Stamp};
+use super::parts::{OnPart, PartGround};
+use crate::description::references::find;
+use crate::description::{self, Layer, Place};
+use crate::error::Error;
+use crate::grey_map::GreyMap;
+use crate::scene::Scene;
+use crate::scratches;
+
+/// A `[[scratches]]` table and where it goes.
+struct Coat<'a> {
+    table: &'a description::Scratches,
+    object: usize,
+    /// How many earlier layers on the same object have the same seed.
+    number: u64,
+    is_shown: bool,
+    /// Those that it is read from, as they are.
+    files: Vec<Stamp>,
+    /// What it is laid on; of one that is not to be laid, if it was made before.
+    ground: Option<Arc<PartGround>>,
+    /// From the last build or this one.
+    laid: Option<Arc<KeptLayer>>,
+}
+
+impl<'a> Work<'a> {
+    pub(super) fn scratches(
+        &mut self,
+        surfaces: &[Arc<KeptSurface>],
+        scene: &mut Scene,
+    ) -> Result<(), Error> {
+        let mut coats = self.coats(surfaces)?;
+        let is_due = |coat: &Coat| coat.is_shown && coat.laid.is_none();
+        let used = coats.iter().filter(|coat| coat.is_shown);
+        let used = used.filter_map(|coat| coat.laid.as_deref());
+        let used_bytes = used.map(|kept| kept.laid.bytes()).sum::<f64>() + self.estimate.bytes();
+        for (i, coat) in coats
+            .iter_mut()
+            .enumerate()
+            .filter(|(_, coat)| is_due(coat))
+        {
+            let key = format!("scratches[{i}]");
+            let ground = surfaces[coat.object].ground(&OnPart::of(coat.table), &key)?;
+            coat.ground = Some(ground);
+        }
+        let mut tables = Vec::new();
+        for (i, coat) in coats.iter().enumerate() {
+            let Some(ground) = coat.ground.as_ref().filter(|_| is_due(coat)) else {
+                continue;
+            };
+            let key = format!("scratches[{i}]");
+            tables.push(scratches::Table {
+                layer: &coat.table.layer,
+                strokes: &coat.table.strokes,
+                number: coat.number,
+                ground: &ground.ground,
+                means: self.means(&coat.table.place, &surfaces[coat.object], &key, used_bytes)?,
+                key,
+            });
+        }
+        let laid = scratches::lay(self.loader, &tables, self.base_dir, used_bytes)?;
+        drop(tables);
+        let due = coats.iter_mut().filter(|coat| is_due(coat));
+        for (coat, laid) in due.zip(laid) {
+            let Some(ground) = &coat.ground else {
+                continue;
+            };
+            coat.laid = Some(Arc::new(KeptLayer {
+                layer: coat.table.layer.clone(),
+                strokes: coat.table.strokes.clone(),
+                place: coat.table.place.clone(),
+                number: coat.number,
+                ground: ground.ground.clone(),
+                files: coat.files.clone(),
+                laid: ground.on_the_whole(laid),
+            }));
+        }
+        for (i, object) in scene.objects.iter_mut().enumerate() {
+            let layers = (0..).zip(&coats).filter_map(|(layer, coat)| {
+                let is_here = coat.is_shown && coat.object == i;
+                let laid = coat.laid.as_ref().filter(|_| is_here)?;
+                Some((layer, laid.clone()))
+            });
+            let together = self.old.together(layers.collect())?;
+            object.scratches = together.scratches.clone();
+            object.segments = together.segments.clone();
+            self.new.objects.push(together);
+        }
+        let laid = coats.into_iter().filter_map(|coat| coat.laid);
+        self.new.layers = laid.collect();
+        Ok(())
+    }
+
+    /// All tables, with what the last build has laid for them.
+    fn coats(&self, surfaces: &[Arc<KeptSurface>]) -> Result<Vec<Coat<'a>>, Error> {
+        let tables = &self.description.scratches;
+        let solo = tables.iter().any(|table| table.solo);
+        let mut coats: Vec<Coat> = Vec::new();
+        let mut numbers: HashMap<(usize, u64), u64> = HashMap::new();
+        for (i, table) in tables.iter().enumerate() {
+            let names = self.description.objects.iter().map(|o| o.name.as_str());
+            let key = format!("scratches[{i}].object");
+            let object = find(&table.object, names, &key, "object")?;
+            let seed = table.layer.seed();
+            let number = match seed {
+                Some(seed) => {
+                    let next = numbers.entry((object, seed)).or_insert(0);
+                    *next += 1;
+                    *next - 1
+                }
+                None => 0,
+            };
+            let is_shown = !table.hidden && (table.solo || !solo);
+            let ground = surfaces[object].ground_if_made(&OnPart::of(table));
+            // Before they are read.
+            let files = self.stamps(table);
+            let laid = ground
+                .as_ref()
+                .and_then(|ground| self.old.layer(table, number, &ground.ground, &files));
+            coats.push(Coat {
+                files,
+                ground,
+                table,
+                object,
+                number,
+                is_shown,
+                laid,
+            });
+        }
+        Ok(coats)
+    }
+
+    /// Of the files that a layer is read from.
+    fn stamps(&self, table: &description::Scratches) -> Vec<Stamp> {
+        let list = match &table.layer {
+            Layer::Listed(listed) => Some(&listed.file),
+            Layer::Laid(_) | Layer::Brushed(_) => None,
+        };
+        let files = list.into_iter().chain(table.place.files());
+        files
+            .map(|file| Stamp::of(&self.base_dir.join(file)))
+            .collect()
+    }
+
+    /// What the places of a layer are told by; `key` is the way to it.
+    fn means(
+        &mut self,
+        place: &'a Place,
+        surface: &KeptSurface,
+        key: &str,
+        used_bytes: f64,
+    ) -> Result<scratches::Means<'a>, Error> {
+        let mut picture = |name: &str, file: &Option<PathBuf>| {
+            let way = format!("{key}.where.{name}");
+            let read = file
+                .as_ref()
+                .map(|file| self.grey_map(&way, file, used_bytes));
+            read.transpose()
+        };
+        let mask = picture("mask", &place.mask)?;
+        let density = picture("density", &place.density)?;
+        let whole = (place.edges > 0.0).then(|| surface.ground(&OnPart::default(), key));
+        Ok(scratches::Means {
+            described: place,
+            mask,
+            density,
+            whole: whole.transpose()?.map(|whole| whole.ground.clone()),
+        })
+    }
+
+    /// A picture of a layer's places. `key` is the way to it.
+    fn grey_map(&mut self, key: &str, file: &Path, used_bytes: f64) -> Result<Arc<GreyMap>, Error> {
+        let path = self.base_dir.join(file);
+        let stamp = Stamp::of(&path);
+        let known = self
+            .new
+            .grey_map(&stamp)
+            .or_else(|| self.old.grey_map(&stamp));
+        let map = match known {
+            Some(map) => map,
+            None => {
+                let free_bytes = self.loader.memory_budget_bytes as f64 - used_bytes;
+                let read = GreyMap::read(&path, free_bytes);
+                Arc::new(read.map_err(|found| {
+                    let right = "must be a .png, .jpg or .webp, relative to the scene file";
+                    Error::new(key, found, right)
+                })?)
+            }
+        };
+        self.new.grey_maps.push((stamp, map.clone()));
+        Ok(map)
+    }
+}

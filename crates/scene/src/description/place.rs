@@ -1,0 +1,114 @@
+//! `where` of a `[[scratches]]`: on which places of its object a layer lies, and how thickly.
+
+use std::path::PathBuf;
+
+use serde::Serialize;
+
+use super::limits;
+use super::ranges::{Check, point, size, within};
+use super::table::{Read, Table, Value};
+use super::values::is_default;
+use crate::error::Error;
+
+/// `where`: places of an object, and how thickly they are scratched.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Place {
+    /// A picture: scratches lie where it is lighter than half of white, and end where it is darker. `.png`, `.jpg` or `.webp`, relative
+    /// to the scene file. Default: everywhere.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mask: Option<PathBuf>,
+    /// A picture: a scratch is laid with the probability that the picture has at its middle, from 0 (black) to 1 (white). Default: 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub density: Option<PathBuf>,
+    /// The pictures are laid on the object from its three sides, each so wide, in its own frame. Default: they lie by its texture
+    /// coordinates.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tile_m: Option<f64>,
+    /// From 0, scratches come alike on edges and on flat parts, to 1, on convex edges alone. Default: 0.
+    #[serde(skip_serializing_if = "is_default")]
+    pub edges: f64,
+    /// With `edges`: how far from an edge there are scratches, in the world's metres. Default: a fiftieth of the object's diagonal.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub edge_width_m: Option<f64>,
+    /// The least and the greatest distance from `center_m`, in the world's metres: scratches end there. Default: everywhere.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub radius_m: Option<[f64; 2]>,
+    /// With `radius_m`: what it is counted from, in the object's own frame. Default: its origin.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub center_m: Option<[f64; 3]>,
+}
+
+impl Place {
+    /// Whether it leaves nothing out.
+    pub fn is_everywhere(&self) -> bool {
+        *self == Self::default()
+    }
+
+    /// The pictures that it names.
+    pub fn files(&self) -> impl Iterator<Item = &PathBuf> {
+        self.mask.iter().chain(&self.density)
+    }
+
+    /// Refuses values out of range, and keys that need another one.
+    pub(super) fn check_at(&self, key: &str) -> Check {
+        let way = |name: &str| format!("{key}.{name}");
+        let alone = |name: &str, right: &str| {
+            let found = "found it without what it belongs to";
+            Err(Error::new(way(name), found, right))
+        };
+        if let Some(tile_m) = self.tile_m {
+            size(&way("tile_m"), tile_m)?;
+            if self.files().next().is_none() {
+                return alone("tile_m", "belongs to `mask` or `density`");
+            }
+        }
+        within(&way("edges"), self.edges, limits::EDGES)?;
+        if let Some(edge_width_m) = self.edge_width_m {
+            size(&way("edge_width_m"), edge_width_m)?;
+            if self.edges == 0.0 {
+                return alone("edge_width_m", "belongs to `edges`, such as `edges = 0.8`");
+            }
+        }
+        if let Some([least, most]) = self.radius_m {
+            within(&way("radius_m[0]"), least, limits::PROFILE_RADIUS_M)?;
+            within(&way("radius_m[1]"), most, limits::PROFILE_RADIUS_M)?;
+            if least >= most {
+                let found = format!("found {least} and {most}");
+                let right = "the second must be the greater one";
+                return Err(Error::new(way("radius_m"), found, right));
+            }
+        }
+        match (self.center_m, self.radius_m) {
+            (Some(_), None) => alone("center_m", "belongs to `radius_m`"),
+            (Some(center_m), _) => point(&way("center_m"), center_m),
+            (None, _) => Ok(()),
+        }
+    }
+}
+
+impl Read for Place {
+    fn read(value: &Value, key: &str) -> Result<Self, Error> {
+        let table = Table::read(
+            value,
+            key,
+            &[
+                "mask",
+                "density",
+                "tile_m",
+                "edges",
+                "edge_width_m",
+                "radius_m",
+                "center_m",
+            ],
+        )?;
+        Ok(Self {
+            mask: table.optional("mask")?,
+            density: table.optional("density")?,
+            tile_m: table.optional("tile_m")?,
+            edges: table.or("edges", 0.0)?,
+            edge_width_m: table.optional("edge_width_m")?,
+            radius_m: table.optional("radius_m")?,
+            center_m: table.optional("center_m")?,
+        })
+    }
+}

@@ -1,0 +1,93 @@
+//! Pictures that say of each place of a surface how much of something there is.
+
+use std::path::Path;
+
+use glam::DVec2;
+
+use crate::reading::{self, Kind};
+use crate::text::shown;
+use crate::texture;
+
+/// A picture of shares from 0 to 1, which is repeated beyond its borders.
+#[derive(Clone, Debug)]
+pub(crate) struct GreyMap {
+    size_px: [u32; 2],
+    /// Row by row from the top.
+    values: Vec<u8>,
+}
+
+/// Of the memory that is free, what a file may have.
+const SHARE: f64 = 0.25;
+
+impl GreyMap {
+    /// Reads a .png, .jpg or .webp, which may take `free_bytes`. Its values are those of its codes, 1 for the lightest: the mean of its
+    /// colours, times its alpha where it has one.
+    ///
+    /// # Errors
+    /// What was found in the place of a picture.
+    pub(crate) fn read(path: &Path, free_bytes: f64) -> Result<Self, String> {
+        let named = |why: String| format!("{}: {why}", shown(&path.to_string_lossy()));
+        let bytes = reading::read(path, Kind::File, SHARE).map_err(|why| named(why.to_string()))?;
+        let image = texture::decode(&bytes, free_bytes).map_err(|why| named(why.to_string()))?;
+        let value = |[r, g, b, a]: &[u8; 4]| {
+            let sum = u32::from(*r) + u32::from(*g) + u32::from(*b);
+            // Rounded, and exact for white and black.
+            ((sum * u32::from(*a) + 382) / 765) as u8
+        };
+        Ok(Self {
+            size_px: image.size_px,
+            values: image.texels.iter().map(value).collect(),
+        })
+    }
+
+    /// In texels.
+    pub(crate) fn size(&self) -> DVec2 {
+        DVec2::new(self.size_px[0].into(), self.size_px[1].into())
+    }
+
+    /// The share at a place, between those of the four texels about it. (0, 0) is the upper left corner.
+    pub(crate) fn value(&self, uv: DVec2) -> f64 {
+        let [width, height] = self.size_px.map(i64::from);
+        let at = uv * self.size() - 0.5;
+        let corner = at.floor();
+        let share = at - corner;
+        let texel = |dx: i64, dy: i64| {
+            let x = (corner.x as i64 + dx).rem_euclid(width);
+            let y = (corner.y as i64 + dy).rem_euclid(height);
+            f64::from(self.values[(y * width + x) as usize]) / 255.0
+        };
+        let row = |dy| texel(0, dy) * (1.0 - share.x) + texel(1, dy) * share.x;
+        row(0) * (1.0 - share.y) + row(1) * share.y
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use image::{Rgba, RgbaImage};
+
+    #[test]
+    fn values_are_codes_and_lie_as_the_picture_does() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("corners.png");
+        let mut picture = RgbaImage::from_pixel(2, 2, Rgba([0, 0, 0, 255]));
+        picture.put_pixel(1, 0, Rgba([255; 4]));
+        picture.put_pixel(0, 1, Rgba([255, 255, 255, 51]));
+        picture.save(&path).unwrap();
+        let map = GreyMap::read(&path, 1e9).unwrap();
+        // The middles of the four texels, then of the whole.
+        for (u, v, expected) in [
+            (0.25, 0.25, 0.0),
+            (0.75, 0.25, 1.0),
+            (0.25, 0.75, 0.2),
+            (0.75, 0.75, 0.0),
+            (1.75, -0.75, 1.0),
+            (0.5, 0.5, 0.3),
+        ] {
+            let value = map.value(DVec2::new(u, v));
+            assert!((value - expected).abs() < 1e-9, "{u} {v}: {value}");
+        }
+        std::fs::write(&path, "no picture").unwrap();
+        assert!(GreyMap::read(&path, 1e9).is_err());
+    }
+}

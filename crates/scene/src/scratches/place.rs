@@ -1,0 +1,256 @@
+//! Where on its ground a layer lies, and how thickly: what `where` of a `[[scratches]]` says.
+
+use std::sync::Arc;
+
+use glam::{DMat4, DVec2, DVec3};
+
+use super::cut::{Parts, ball};
+use super::edges::Edges;
+use super::facet::{self, Facet};
+use super::ground::Ground;
+use super::walk::Spot;
+use crate::description;
+use crate::error::Error;
+use crate::grey_map::GreyMap;
+use crate::scene::{Mesh, Segment};
+
+/// What of a `where` was read and made for it.
+pub(crate) struct Means<'a> {
+    pub described: &'a description::Place,
+    pub mask: Option<Arc<GreyMap>>,
+    pub density: Option<Arc<GreyMap>>,
+    /// With edges: the whole object's surface, since the border of a part is no edge.
+    pub whole: Option<Arc<Ground>>,
+}
+
+/// Where edges reach as far as this share of the object's diagonal, unless a layer says it.
+const DEFAULT_EDGE_WIDTH: f64 = 0.02;
+/// Edges reach this share of the diagonal at least: less would be more pieces than there is memory for.
+const LEAST_EDGE_WIDTH: f64 = 1e-3;
+/// Looks at a mask along one segment, at most.
+const MOST_LOOKS: f64 = 4096.0;
+/// Halvings of the way between two looks: to a millionth of a texel.
+const HALVINGS: u32 = 20;
+
+/// Places of a ground.
+pub(super) struct Place<'a> {
+    ground: &'a Ground,
+    mask: Option<Arc<GreyMap>>,
+    density: Option<Arc<GreyMap>>,
+    lie: Lie,
+    edges: Option<Edges>,
+    edges_share: f64,
+    center_m: DVec3,
+    radii_m: Option<[f64; 2]>,
+}
+
+/// How pictures lie on a surface.
+#[derive(Clone, Copy)]
+enum Lie {
+    ByUv,
+    /// From the three sides of the object, so wide in its frame.
+    FromThreeSides {
+        tile_m: f64,
+        object_from_world: DMat4,
+    },
+}
+
+/// Where a picture is looked up for a place, and how much each counts; only the first by texture coordinates.
+#[derive(Clone, Copy)]
+struct LookUp {
+    uvs: [DVec2; 3],
+    shares: [f64; 3],
+}
+
+impl<'a> Place<'a> {
+    /// `None` where it leaves nothing out. `key` is the way to the layer.
+    ///
+    /// # Errors
+    /// Pictures on an object without texture coordinates, edges that are too narrow for it.
+    pub(super) fn new(means: &Means, ground: &'a Ground, key: &str) -> Result<Option<Self>, Error> {
+        let described = means.described;
+        if described.is_everywhere() {
+            return Ok(None);
+        }
+        let lie = match described.tile_m {
+            Some(tile_m) => Lie::FromThreeSides {
+                tile_m,
+                object_from_world: ground.world_from_object.inverse(),
+            },
+            None => Lie::ByUv,
+        };
+        let of_picture = [("mask", &described.mask), ("density", &described.density)];
+        let named = of_picture.iter().find(|(_, file)| file.is_some());
+        if let (Lie::ByUv, Some((name, _))) = (lie, named)
+            && !has_uvs(&ground.mesh)
+        {
+            return Err(Error::new(
+                format!("{key}.where.{name}"),
+                "found a picture for a surface without texture coordinates",
+                "add `tile_m`, how wide it is, to lay it on from three sides",
+            ));
+        }
+        Ok(Some(Self {
+            ground,
+            mask: means.mask.clone(),
+            density: means.density.clone(),
+            lie,
+            edges: edges(means, key)?,
+            edges_share: described.edges,
+            center_m: ground.point_in_world_m(described.center_m.unwrap_or([0.0; 3])),
+            radii_m: described.radius_m,
+        }))
+    }
+
+    /// Whether each scratch is as likely as the others.
+    pub(super) fn is_even(&self) -> bool {
+        self.density.is_none() && self.edges.is_none()
+    }
+
+    /// Whether scratches end where it ends.
+    pub(super) fn has_ends(&self) -> bool {
+        self.mask.is_some() || self.radii_m.is_some()
+    }
+
+    /// The probability that a scratch whose middle is there is laid.
+    pub(super) fn chance(&self, middle: Spot) -> f64 {
+        let of_picture = self.density.as_ref().map_or(1.0, |map| {
+            self.look_up(middle.triangle, middle.point_m).value(map)
+        });
+        let of_edges = self.edges.as_ref().map_or(1.0, |edges| {
+            let normal = Facet::new(&self.ground.mesh, middle.triangle).normal;
+            1.0 - self.edges_share + self.edges_share * edges.at(middle.point_m, normal)
+        });
+        of_picture * of_edges
+    }
+
+    /// Adds the parts of a segment that lie elsewhere, from 0 to 1.
+    pub(super) fn elsewhere(&self, segment: &Segment, parts: &mut Parts) {
+        let [start, end] = [segment.start_m, segment.end_m].map(|p| p.as_dvec3());
+        if let Some([least_m, most_m]) = self.radii_m {
+            let (offset, way) = (start - self.center_m, end - start);
+            let within = |radius_m| ball(offset, way, radius_m).unwrap_or([1.0; 2]);
+            let [from, to] = within(most_m);
+            let outside = [[0.0, from], [to, 1.0]];
+            let all = outside.into_iter().chain([within(least_m)]);
+            let clamped = all.map(|[from, to]| [from.max(0.0), to.min(1.0)]);
+            parts.extend(clamped.filter(|[from, to]| from < to));
+        }
+        if let Some(mask) = &self.mask {
+            let ends = [start, end].map(|point_m| self.look_up(segment.triangle, point_m));
+            dark(mask, ends, parts);
+        }
+    }
+
+    fn look_up(&self, triangle: u32, point_m: DVec3) -> LookUp {
+        let mesh = &self.ground.mesh;
+        let corners_m = mesh.corners_m(triangle as usize);
+        let facet_normal = facet::normal(corners_m);
+        let weights = facet::barycentric(corners_m, facet_normal, point_m);
+        let corners = mesh.triangles[triangle as usize].map(|corner| corner as usize);
+        match self.lie {
+            Lie::ByUv => {
+                let uv = |i: usize| mesh.uvs[corners[i]].as_dvec2() * weights[i];
+                LookUp {
+                    uvs: [uv(0) + uv(1) + uv(2), DVec2::ZERO, DVec2::ZERO],
+                    shares: [1.0, 0.0, 0.0],
+                }
+            }
+            Lie::FromThreeSides {
+                tile_m,
+                object_from_world,
+            } => {
+                let normal = |i: usize| mesh.normals[corners[i]].as_dvec3() * weights[i];
+                let normal = (normal(0) + normal(1) + normal(2)).normalize_or(facet_normal);
+                // As normals go: by the transpose of the way back.
+                let world_from_object = self.ground.world_from_object;
+                let axes = [
+                    world_from_object.x_axis,
+                    world_from_object.y_axis,
+                    world_from_object.z_axis,
+                ];
+                // Sharp, so that few places mix two sides.
+                let shares = axes.map(|axis| axis.truncate().dot(normal).powi(4));
+                let sum: f64 = shares.iter().sum();
+                let p = object_from_world.transform_point3(point_m) / tile_m;
+                LookUp {
+                    uvs: [[p.y, -p.z], [p.x, -p.z], [p.x, -p.y]].map(DVec2::from),
+                    shares: shares.map(|share| share / sum),
+                }
+            }
+        }
+    }
+}
+
+impl LookUp {
+    fn value(&self, map: &GreyMap) -> f64 {
+        let seen = (0..3).filter(|&i| self.shares[i] > 0.0);
+        seen.map(|i| self.shares[i] * map.value(self.uvs[i])).sum()
+    }
+
+    fn lerp(&self, other: &Self, t: f64) -> Self {
+        Self {
+            uvs: std::array::from_fn(|i| self.uvs[i].lerp(other.uvs[i], t)),
+            shares: std::array::from_fn(|i| {
+                self.shares[i] + (other.shares[i] - self.shares[i]) * t
+            }),
+        }
+    }
+}
+
+/// Those that scratches are to keep to, if any.
+fn edges(means: &Means, key: &str) -> Result<Option<Edges>, Error> {
+    let Some(whole) = &means.whole else {
+        return Ok(None);
+    };
+    let width_m = means.described.edge_width_m;
+    let width_m = width_m.unwrap_or(DEFAULT_EDGE_WIDTH * whole.diagonal_m);
+    let least_m = LEAST_EDGE_WIDTH * whole.diagonal_m;
+    match width_m >= least_m {
+        true => Ok(Some(Edges::new(&whole.mesh, width_m))),
+        false => Err(Error::new(
+            format!("{key}.where.edge_width_m"),
+            format!("found {width_m}"),
+            format!("must be at least {least_m:.2e} on an object of this size"),
+        )),
+    }
+}
+
+/// Adds the parts of a way from one look-up to another where a mask is darker than half of white.
+fn dark(mask: &GreyMap, [start, end]: [LookUp; 2], parts: &mut Parts) {
+    let above = |t: f64| start.lerp(&end, t).value(mask) - 0.5;
+    let texels = |i: usize| ((end.uvs[i] - start.uvs[i]) * mask.size()).length();
+    let seen = (0..3).filter(|&i| start.shares[i] + end.shares[i] > 0.0);
+    let looks = seen.map(texels).fold(1.0, f64::max).ceil().min(MOST_LOOKS);
+    let (mut from, mut before) = (0.0, above(0.0));
+    let mut dark_from = (before < 0.0).then_some(0.0);
+    for look in 1..=looks as u32 {
+        let to = f64::from(look) / looks;
+        let here = above(to);
+        if (here < 0.0) != (before < 0.0) {
+            let [mut a, mut b] = [from, to];
+            for _ in 0..HALVINGS {
+                let middle = 0.5 * (a + b);
+                match (above(middle) < 0.0) == (before < 0.0) {
+                    true => a = middle,
+                    false => b = middle,
+                }
+            }
+            match dark_from.take() {
+                Some(dark_from) => parts.push([dark_from, b]),
+                None => dark_from = Some(b),
+            }
+        }
+        (from, before) = (to, here);
+    }
+    parts.extend(dark_from.map(|dark_from| [dark_from, 1.0]));
+}
+
+/// Whether any triangle spans an area of a texture.
+fn has_uvs(mesh: &Mesh) -> bool {
+    mesh.triangles.iter().any(|corners| {
+        let [a, b, c] = corners.map(|corner| mesh.uvs.get(corner as usize).copied());
+        let spans = |a: glam::Vec2, b: glam::Vec2, c: glam::Vec2| (b - a).perp_dot(c - a) != 0.0;
+        matches!((a, b, c), (Some(a), Some(b), Some(c)) if spans(a, b, c))
+    })
+}

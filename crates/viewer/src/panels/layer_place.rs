@@ -1,0 +1,144 @@
+//! Where on its object a layer of scratches lies, and how thickly.
+
+use std::collections::BTreeSet;
+use std::path::PathBuf;
+
+use hairline_editor::ranges::Parameter;
+use hairline_scene::description::{Place, Scratches};
+
+use super::form::Form;
+use crate::parts::Names;
+
+/// Its rows; true where a part is to be picked in the picture.
+pub(super) fn show(form: &mut Form, layer: &mut Scratches, names: Names) -> bool {
+    form.section("Where");
+    let has_parts = names.materials.len() > 1 || names.nodes.len() > 1;
+    if names.materials.len() > 1 || layer.material.is_some() {
+        one_of(
+            form,
+            "On material",
+            "Of the model's file: they lie on what is of it, and end where it ends",
+            names.materials,
+            &mut layer.material,
+        );
+    }
+    if names.nodes.len() > 1 || layer.node.is_some() {
+        one_of(
+            form,
+            "On node",
+            "Of the model's file: they lie on it and on what is below it, and end where that ends",
+            names.nodes,
+            &mut layer.node,
+        );
+    }
+    let picks = has_parts && pick(form);
+    places(form, &mut layer.place);
+    picks
+}
+
+fn pick(form: &mut Form) -> bool {
+    let mut is_clicked = false;
+    form.custom("", "", |ui, _| {
+        let button = ui.button("Pick a part…");
+        let hint = "The next click in the picture keeps the layer to the part that is there";
+        is_clicked = button.on_hover_text(hint).clicked();
+        false
+    });
+    is_clicked
+}
+
+fn one_of(
+    form: &mut Form,
+    label: &str,
+    tooltip: &str,
+    names: BTreeSet<String>,
+    chosen: &mut Option<String>,
+) {
+    let all = (None, "All of it".to_owned());
+    let named = names.into_iter().map(|name| (Some(name.clone()), name));
+    form.choice(label, tooltip, std::iter::once(all).chain(named), chosen);
+}
+
+fn places(form: &mut Form, place: &mut Place) {
+    form.number(Parameter::Edges, &mut place.edges);
+    match place.edges > 0.0 {
+        true => {
+            // As the scene has it where nothing is said.
+            let mut width_m = place.edge_width_m.unwrap_or(0.02 * form.diagonal_m);
+            let before_m = width_m;
+            form.number(Parameter::EdgeWidth, &mut width_m);
+            if width_m != before_m {
+                place.edge_width_m = Some(width_m);
+            }
+        }
+        false => place.edge_width_m = None,
+    }
+    picture(
+        form,
+        "Mask",
+        "A picture, relative to the scene file: scratches lie where it is light, and end where it is dark. None: everywhere",
+        &mut place.mask,
+    );
+    picture(
+        form,
+        "Density map",
+        "A picture, relative to the scene file: the lighter it is, the more scratches there are. None: alike everywhere",
+        &mut place.density,
+    );
+    tiles(form, place);
+    radii(form, place);
+}
+
+fn picture(form: &mut Form, label: &str, tooltip: &str, chosen: &mut Option<PathBuf>) {
+    let shown = chosen.as_deref().map(|file| file.to_string_lossy());
+    let mut file = shown.unwrap_or_default().into_owned();
+    form.text(label, tooltip, &mut file);
+    *chosen = (!file.is_empty()).then(|| file.into());
+}
+
+/// How the pictures lie.
+fn tiles(form: &mut Form, place: &mut Place) {
+    if place.files().next().is_none() {
+        place.tile_m = None;
+        return;
+    }
+    let mut is_tiled = place.tile_m.is_some();
+    form.toggle(
+        "From three sides",
+        "Lays the pictures on along the object's own axes, where it has no texture coordinates",
+        &mut is_tiled,
+    );
+    match (is_tiled, &mut place.tile_m) {
+        (false, tile_m) => *tile_m = None,
+        (true, None) => place.tile_m = Some(0.25 * form.diagonal_m),
+        (true, Some(tile_m)) => form.number(Parameter::Tile, tile_m),
+    }
+}
+
+/// Width of the narrowest shell, in the object's size.
+const LEAST_SHELL: f64 = 1e-4;
+
+fn radii(form: &mut Form, place: &mut Place) {
+    let everywhere_m = form.diagonal_m;
+    let mut is_bounded = place.radius_m.is_some();
+    form.toggle(
+        "Within radii",
+        "Scratches inside of a ball, outside of one, or between two",
+        &mut is_bounded,
+    );
+    match (is_bounded, &mut place.radius_m) {
+        (false, _) => (place.radius_m, place.center_m) = (None, None),
+        (true, None) => place.radius_m = Some([0.0, 0.25 * everywhere_m]),
+        (true, Some([least, most])) => {
+            form.number(Parameter::PlaceInnerRadius, least);
+            form.number(Parameter::PlaceOuterRadius, most);
+            // The outer one stays the greater.
+            *most = most.max(*least + LEAST_SHELL * everywhere_m);
+            let mut center_m = place.center_m.unwrap_or_default();
+            form.vector(Parameter::PlaceCenter, &mut center_m);
+            if place.center_m.is_some() || center_m != [0.0; 3] {
+                place.center_m = Some(center_m);
+            }
+        }
+    }
+}

@@ -1,0 +1,71 @@
+//! The parts of a model, by what its file calls them.
+
+use std::collections::BTreeSet;
+
+use hairline_scene::Scene;
+use hairline_scene::description::Object;
+
+use crate::workspace::Workspace;
+
+/// What the file of an object calls its parts.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Names {
+    pub materials: BTreeSet<String>,
+    pub nodes: BTreeSet<String>,
+}
+
+/// Those of an object, in the newest scene that was built.
+pub(crate) fn names(work: &Workspace, object: &str) -> Names {
+    let described = work.document.description().objects.iter();
+    let described = described.clone().find(|it| it.name == object);
+    let Some(built) = work.engine.built() else {
+        return Names::default();
+    };
+    let scene = &built.scene;
+    let Some(made) = scene.objects.iter().find(|it| it.name == object) else {
+        return Names::default();
+    };
+    let mut names = Names::default();
+    names.nodes = made
+        .parts
+        .iter()
+        .flat_map(|part| part.nodes.iter().cloned())
+        .collect();
+    if described.is_some_and(|it| it.material.is_none()) {
+        let numbers = made.mesh.triangle_materials.chunk_by(|a, b| a == b);
+        let numbers: BTreeSet<u32> = numbers.map(|run| run[0]).collect();
+        let name = |number: u32| Some(scene.materials.get(number as usize)?.name.clone());
+        names.materials = numbers.into_iter().filter_map(name).collect();
+    }
+    names
+}
+
+/// The material and the node that tell the part of an object in which a triangle lies from the others; none where there is one alone.
+pub(crate) fn at(
+    scene: &Scene,
+    described: &Object,
+    object: usize,
+    triangle: usize,
+) -> (Option<String>, Option<String>) {
+    let Some(made) = scene.objects.get(object) else {
+        return (None, None);
+    };
+    let numbers = &made.mesh.triangle_materials;
+    let own = numbers.get(triangle).copied();
+    let is_one_of_many =
+        described.material.is_none() && numbers.iter().any(|number| Some(*number) != own);
+    let material = own
+        .and_then(|number| scene.materials.get(number as usize))
+        .filter(|_| is_one_of_many)
+        .map(|material| material.name.clone());
+    let part = made
+        .parts
+        .iter()
+        .find(|it| it.triangles.contains(&triangle));
+    let is_alone = made
+        .parts
+        .iter()
+        .all(|it| part.is_some_and(|own| own.nodes == it.nodes));
+    let node = part.filter(|_| !is_alone).and_then(|it| it.nodes.first());
+    (material, node.cloned())
+}
