@@ -152,7 +152,9 @@ impl<'a> Work<'a> {
                 }
             };
             let surface = surface.with_materials_from(first_material);
-            let own = surface.materials.iter().cloned();
+            let mut own = surface.materials.to_vec();
+            parts::override_materials(&object.overrides, &mut own, &key)?;
+            let own = own.into_iter();
             scene
                 .materials
                 .extend(own.map(|own| convert::with_textures_from(own, texture_count)));

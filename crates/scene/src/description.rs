@@ -12,6 +12,7 @@ mod lens;
 mod light_kind;
 mod lights;
 pub mod limits;
+mod overrides;
 mod parse;
 mod place;
 mod ranges;
@@ -37,6 +38,7 @@ use values::{Named, is_default, serialize_named, serialize_scale};
 pub use gratings::Grating;
 pub use light_kind::LightKind;
 pub use lights::{Cone, Light};
+pub use overrides::Override;
 pub use place::Place;
 pub(crate) use scratches::DEFAULT_SEED;
 pub use scratches::{
@@ -238,6 +240,9 @@ pub struct Object {
     /// Name of a material. Required for a shape; a mesh that leaves it out keeps the materials of its file.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,
+    /// Other factors for materials of its file, whose maps stay. Shapes, and meshes of a `material`, have no such key. Default: none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub overrides: Vec<Override>,
     /// Moves the object, after it was scaled and rotated. Default: `[0, 0, 0]`.
     pub translation_m: [f64; 3],
     /// Turns the object about the world's x axis, then y, then z. Default: `[0, 0, 0]`.

@@ -119,6 +119,7 @@ impl Description {
                     fit_m,
                     time_s: None,
                     animation: None,
+                    overrides: Vec::new(),
                     material: None,
                     translation_m: [0.0; 3],
                     rotation_deg: [0.0; 3],

@@ -188,6 +188,7 @@ impl PhotoSet {
             fit_m: None,
             time_s: None,
             animation: None,
+            overrides: Vec::new(),
             material: Some("ground".to_owned()),
             translation_m: (self.base_m + (height_m - level) * self.up).into(),
             rotation_deg,

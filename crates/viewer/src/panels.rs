@@ -16,6 +16,7 @@ mod light;
 mod material;
 pub(crate) mod number;
 mod object;
+mod overrides;
 mod studio;
 
 use egui::Ui;

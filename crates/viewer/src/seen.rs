@@ -37,6 +37,7 @@ fn is_same_object((a, x): (&Description, &Object), (b, y): (&Description, &Objec
         fit_m,
         time_s,
         animation,
+        overrides,
     } = x;
     let is_same_material = match (material(a, x), material(b, y)) {
         (Some(x), Some(y)) => is_same_but_for_name(x, y),
@@ -53,6 +54,7 @@ fn is_same_object((a, x): (&Description, &Object), (b, y): (&Description, &Objec
         && *fit_m == y.fit_m
         && *time_s == y.time_s
         && *animation == y.animation
+        && *overrides == y.overrides
 }
 
 fn material<'d>(description: &'d Description, object: &Object) -> Option<&'d Material> {

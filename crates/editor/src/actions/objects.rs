@@ -49,6 +49,7 @@ fn add(
         fit_m: None,
         time_s: None,
         animation: None,
+        overrides: Vec::new(),
         translation_m: [0.0; 3],
         rotation_deg: [0.0; 3],
         scale: [1.0; 3],

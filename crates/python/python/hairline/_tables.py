@@ -322,7 +322,7 @@ class Object(Table):
     """``[[object]]``: a ``shape`` or a ``mesh``. See :meth:`from_arrays` for meshes from numpy."""
 
     _section = "object"
-    _absent = {"up": "y"}
+    _absent = {"up": "y", "overrides": ()}
 
     name: str
     """What layers of scratches call it by."""
@@ -340,6 +340,8 @@ class Object(Table):
     """The time of an animation of a mesh, seconds. Without it the model is at rest."""
     animation: Optional[str] = _default()
     """With ``time_s``: the name of the animation, or its number from 0. Default: the first one."""
+    overrides: Sequence[Mapping[str, Any]] = _default()
+    """Other factors for materials of a mesh's file, whose maps stay: ``material`` with ``roughness``, ``metallic``, ``base_color`` or ``metal``."""
     translation_m: Vector = _default()
     """Metres, 3 numbers. Default: 0."""
     rotation_deg: Vector = _default()
@@ -382,7 +384,7 @@ class Object(Table):
             found = f"found an object of type {type(table['mesh']).__module__}.{type(table['mesh']).__qualname__}"
             raise argument_error("object.mesh", found, "must be the path of a file; arrays go by hairline.Object.from_arrays")
         if isinstance(table.get("mesh"), core.MeshArray):
-            for key in ("up", "fit_m", "time_s", "animation"):
+            for key in ("up", "fit_m", "time_s", "animation", "overrides"):
                 if table.get(key) is not None:
                     raise argument_error(f"object.{key}", "a mesh in memory has no such key", "it belongs to a file")
         return super()._checked(table)

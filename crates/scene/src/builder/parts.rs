@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use glam::DMat4;
 
-use crate::description::Scratches;
 use crate::description::hint::nearest;
+use crate::description::{Override, Scratches};
 use crate::error::Error;
 use crate::scene::{Material, Mesh, Part};
 use crate::scratches::{Ground, Laid};
@@ -71,6 +71,29 @@ impl OnPart {
             false => Ok(Some(triangles)),
         }
     }
+}
+
+/// Gives materials of a file the factors that an object says. `key` is the way to it.
+///
+/// # Errors
+/// A material that the file does not have.
+pub(super) fn override_materials(
+    overrides: &[Override],
+    materials: &mut [Material],
+    key: &str,
+) -> Result<(), Error> {
+    for (i, own) in overrides.iter().enumerate() {
+        let names = materials.iter().map(|it| it.name.as_str());
+        known(
+            "material",
+            &own.material,
+            names,
+            &format!("{key}.overrides[{i}]"),
+        )?;
+        let named = materials.iter_mut().filter(|it| it.name == own.material);
+        named.for_each(|material| own.apply(material));
+    }
+    Ok(())
 }
 
 /// Refuses a name that nothing in the object has.

@@ -7,7 +7,8 @@ use super::ranges::{
 use super::sizes;
 use super::{
     Amount, Around, Brush, Camera, Description, Distribution, Grating, Laid, Layer, Light,
-    Material, MaterialKind, MetalColor, Object, Pattern, Render, Scratches, Stroke, Surface,
+    Material, MaterialKind, MetalColor, Object, Override, Pattern, Render, Scratches, Stroke,
+    Surface,
 };
 use crate::error::Error;
 use crate::text::shown;
@@ -193,6 +194,15 @@ fn object(object: &Object, key: &str) -> Check {
         let found = "found no `time_s` beside it";
         return Err(Error::new(format!("{key}.animation"), found, right));
     }
+    if let (Some(_), [_, ..]) = (&object.material, &object.overrides[..]) {
+        return Err(Error::new(
+            format!("{key}.overrides"),
+            "found `material` beside it, of which all of the mesh is",
+            "leave out one of the two",
+        ));
+    }
+    let overrides = format!("{key}.overrides");
+    each(&overrides, &object.overrides, Override::check_at)?;
     match (&object.surface, &object.material) {
         (Surface::Shape(shape), Some(_)) => shape.check_at(&format!("{key}.shape")),
         (Surface::Shape(_), None) => Err(Error::new(

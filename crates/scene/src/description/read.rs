@@ -207,6 +207,7 @@ impl Read for Object {
                 "fit_m",
                 "time_s",
                 "animation",
+                "overrides",
                 "translation_m",
                 "rotation_deg",
                 "scale",
@@ -218,7 +219,7 @@ impl Read for Object {
             _ => Surface::Mesh(table.required("mesh")?),
         };
         if let Surface::Shape(_) = surface
-            && let Some(extra) = ["up", "fit_m", "time_s", "animation"]
+            && let Some(extra) = ["up", "fit_m", "time_s", "animation", "overrides"]
                 .into_iter()
                 .find(|it| table.get(it).is_some())
         {
@@ -237,6 +238,7 @@ impl Read for Object {
             fit_m: table.optional("fit_m")?,
             time_s: table.optional("time_s")?,
             animation: table.optional("animation")?,
+            overrides: table.or("overrides", Vec::new())?,
             translation_m: table.or("translation_m", [0.0; 3])?,
             rotation_deg: table.or("rotation_deg", [0.0; 3])?,
             scale,

@@ -223,8 +223,15 @@ fn everything() -> Description {
                 fit_m: matches!(surface, Surface::Mesh(_)).then_some(0.2),
                 time_s: matches!(surface, Surface::Mesh(_)).then_some(1.5),
                 animation: matches!(surface, Surface::Mesh(_)).then(|| "walk".to_owned()),
+                overrides: match surface {
+                    Surface::Mesh(_) => overrides(),
+                    Surface::Shape(_) => Vec::new(),
+                },
+                material: match surface {
+                    Surface::Mesh(_) => None,
+                    Surface::Shape(_) => (i % 2 == 0).then(|| "material 0".to_owned()),
+                },
                 surface,
-                material: (i % 2 == 0).then(|| "material 0".to_owned()),
                 translation_m: [0.0, 1.0, 2.0],
                 rotation_deg: [10.0, 20.0, 30.0],
                 scale: if i == 1 { [2.0; 3] } else { [1.0, -2.0, 3.0] },
@@ -580,4 +587,19 @@ fn a_lens_gives_the_field_of_view() {
     ] {
         assert_eq!(scene(lens).unwrap_err().to_string(), message);
     }
+}
+
+fn overrides() -> Vec<Override> {
+    vec![
+        Override {
+            roughness: Some(0.25),
+            metal: Some(Metal::Gold),
+            ..Override::new("case")
+        },
+        Override {
+            metallic: Some(0.5),
+            base_color: Some([0.5, 0.25, 1.0]),
+            ..Override::new("strap")
+        },
+    ]
 }

@@ -218,6 +218,59 @@ fn primitives_keep_their_materials_and_textures() {
             );
         }
     }
+    // An override changes factors, and leaves all maps and the other materials.
+    let path = dir.path().join("it.glb");
+    let over = "overrides = [{ material = \"mapped\", roughness = 0.25, metallic = 0.5, base_color = [0.5, 0.25, 1] }]";
+    let other = load(&path, over).unwrap();
+    let red = scene.materials.iter().find(|m| m.name == "red");
+    assert_eq!(other.materials.iter().find(|m| m.name == "red"), red);
+    let expected = hairline_scene::Material {
+        roughness: 0.25,
+        base: Base::MetallicRoughness {
+            base_color: [0.5, 0.25, 1.0],
+            metallic: 0.5,
+        },
+        ..mapped.clone()
+    };
+    let changed = other.materials.iter().find(|m| m.name == "mapped");
+    assert_eq!(changed, Some(&expected));
+    let gold = load(
+        &path,
+        "overrides = [{ material = \"red\", metal = \"gold\" }]",
+    )
+    .unwrap();
+    let changed = gold.materials.iter().find(|m| m.name == "red").unwrap();
+    let Base::MetallicRoughness {
+        base_color,
+        metallic,
+    } = changed.base
+    else {
+        panic!("{changed:?}");
+    };
+    // Gold reflects red almost whole and a third of blue; what is said alone changes.
+    assert!(base_color[0] > 0.9 && base_color[2] < 0.5 && metallic == 0.25);
+    for (more, expected) in [
+        (
+            "overrides = [{ material = \"maped\" }]",
+            "object[0].overrides[0].material: found no material called \"maped\" in the object; did you mean \"mapped\"?",
+        ),
+        (
+            "overrides = [{ material = \"red\", roughness = 2 }]",
+            "object[0].overrides[0].roughness: found 2; must be from 0 to 1",
+        ),
+        (
+            "overrides = [{ material = \"red\", metal = \"gold\", base_color = [1, 1, 1] }]",
+            "object[0].overrides[0].metal: found `base_color` beside it; must have one of them at most",
+        ),
+        (
+            "material = \"steel\"\noverrides = [{ material = \"red\", roughness = 0.5 }]",
+            "object[0].overrides: found `material` beside it, of which all of the mesh is; leave out one of the two",
+        ),
+    ] {
+        let error = load(&path, more).unwrap_err().to_string();
+        assert!(error.contains(expected), "{error}");
+    }
+
     // A material of the scene replaces all of them, and no texture is read.
     let scene = load(&dir.path().join("it.glb"), "material = \"steel\"").unwrap();
     assert!(

@@ -9,6 +9,7 @@ use hairline_editor::wear::{self, Wear};
 use hairline_scene::description::{Shape, Surface, Up};
 
 use super::form::Form;
+use super::overrides;
 use crate::command::Command;
 use crate::gallery::{SIDE, Thumb, card, cards};
 use crate::workspace::Workspace;
@@ -67,6 +68,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
             });
         }
     }
+    overrides::section(ui, work, index);
     ui.add_space(8.0);
     ui.strong("Scratches");
     for i in objects::layers(&description, index) {

@@ -100,6 +100,7 @@ mod tests {
             fit_m: None,
             time_s: None,
             animation: None,
+            overrides: Vec::new(),
             translation_m: [0.0; 3],
             rotation_deg,
             scale: [1.0; 3],

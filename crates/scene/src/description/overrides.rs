@@ -1,0 +1,103 @@
+//! `overrides` of an `[[object]]`: other factors for materials of its file, whose maps stay.
+
+use hairline_optics::metal::Metal;
+use serde::{Serialize, Serializer};
+
+use super::limits;
+use super::ranges::{Check, components, within};
+use super::table::{Read, Table, Value};
+use super::values::serialize_named;
+use crate::error::Error;
+use crate::scene::{Base, Material};
+
+/// One of `overrides`: what a scene says of a material of a model's file. Its maps stay, and multiply these factors.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Override {
+    /// The material's name in the file. Required.
+    pub material: String,
+    /// Factor on its roughness map, or its roughness. In [0, 1]. Default: as in the file.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub roughness: Option<f64>,
+    /// Factor on its metallic map, or how metallic it is. In [0, 1]. Default: as in the file.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub metallic: Option<f64>,
+    /// Factor on its base colour map, or its base colour, linear Rec.709. In [0, 1] each. Default: as in the file.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub base_color: Option<[f64; 3]>,
+    /// In the place of `base_color`: the colour of a metal by its measured refractive index. Default: none.
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "name_of")]
+    pub metal: Option<Metal>,
+}
+
+fn name_of<S: Serializer>(metal: &Option<Metal>, serializer: S) -> Result<S::Ok, S::Error> {
+    match metal {
+        Some(metal) => serialize_named(metal, serializer),
+        None => serializer.serialize_none(),
+    }
+}
+
+impl Override {
+    /// Of a material, with nothing else yet.
+    pub fn new(material: impl Into<String>) -> Self {
+        Self {
+            material: material.into(),
+            roughness: None,
+            metallic: None,
+            base_color: None,
+            metal: None,
+        }
+    }
+
+    /// Changes a material of the file.
+    pub(crate) fn apply(&self, material: &mut Material) {
+        if let Some(own) = self.roughness {
+            material.roughness = own;
+        }
+        // Materials of files are all of this kind.
+        if let Base::MetallicRoughness {
+            base_color,
+            metallic,
+        } = &mut material.base
+        {
+            *base_color = self.base_color.unwrap_or(*base_color);
+            *metallic = self.metallic.unwrap_or(*metallic);
+            if let Some(metal) = self.metal {
+                *base_color = metal.reflectance_rgb(1.0);
+            }
+        }
+    }
+
+    /// Refuses values out of range.
+    pub(super) fn check_at(&self, key: &str) -> Check {
+        let way = |name: &str| format!("{key}.{name}");
+        if let Some(roughness) = self.roughness {
+            within(&way("roughness"), roughness, limits::ROUGHNESS)?;
+        }
+        if let Some(metallic) = self.metallic {
+            within(&way("metallic"), metallic, limits::METALLIC)?;
+        }
+        match (self.base_color, self.metal) {
+            (Some(_), Some(_)) => Err(Error::new(
+                way("metal"),
+                "found `base_color` beside it",
+                "must have one of them at most",
+            )),
+            (Some(color), None) => components(&way("base_color"), color, limits::BASE_COLOR),
+            (None, _) => Ok(()),
+        }
+    }
+}
+
+impl Read for Override {
+    fn read(value: &Value, key: &str) -> Result<Self, Error> {
+        let keys = ["material", "roughness", "metallic", "base_color", "metal"];
+        let table = Table::read(value, key, &keys)?;
+        Ok(Self {
+            material: table.required("material")?,
+            roughness: table.optional("roughness")?,
+            metallic: table.optional("metallic")?,
+            base_color: table.optional("base_color")?,
+            metal: table.optional("metal")?,
+        })
+    }
+}
