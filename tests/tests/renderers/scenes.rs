@@ -60,7 +60,7 @@ macro_rules! scenes {
     };
 }
 
-scenes! { baubles bonnet brushed built_in_scene caseback closeup disc drawn knob lamps lights mirror pan plate record spoon sunlit }
+scenes! { baubles bonnet brushed built_in_scene caseback closeup disc drawn knob lamps lighter lights mirror pan plate record spoon sunlit }
 
 #[test]
 fn no_scene_is_left_out() {
