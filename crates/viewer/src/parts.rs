@@ -25,12 +25,11 @@ pub(crate) fn names(work: &Workspace, object: &str) -> Names {
     let Some(made) = scene.objects.iter().find(|it| it.name == object) else {
         return Names::default();
     };
-    let mut names = Names::default();
-    names.nodes = made
-        .parts
-        .iter()
-        .flat_map(|part| part.nodes.iter().cloned())
-        .collect();
+    let nodes = made.parts.iter().flat_map(|part| part.nodes.iter());
+    let mut names = Names {
+        nodes: nodes.cloned().collect(),
+        ..Names::default()
+    };
     if described.is_some_and(|it| it.material.is_none()) {
         let numbers = made.mesh.triangle_materials.chunk_by(|a, b| a == b);
         let numbers: BTreeSet<u32> = numbers.map(|run| run[0]).collect();

@@ -7,8 +7,8 @@ use super::ranges::{
 use super::sizes;
 use super::{
     Amount, Around, Brush, Camera, Description, Distribution, Grating, Laid, Layer, Light,
-    Material, MaterialKind, MetalColor, Object, Override, Pattern, Render, Scratches, Stroke,
-    Surface,
+    Material, MaterialKind, MetalColor, Object, Override, Pattern, Place, Render, Scratches,
+    Stroke, Surface,
 };
 use crate::error::Error;
 use crate::text::shown;
@@ -223,11 +223,47 @@ fn scratches(scratches: &Scratches, key: &str) -> Check {
         }
         Layer::Listed(_) => {}
     }
-    scratches.place.check_at(&format!("{key}.where"))?;
+    place(&scratches.place, &format!("{key}.where"))?;
     let paints = matches!(scratches.layer, Layer::Brushed(_));
     each(&format!("{key}.strokes"), &scratches.strokes, |s, key| {
         stroke(s, paints, key)
     })
+}
+
+/// Refuses values out of range, and keys that need another one.
+fn place(place: &Place, key: &str) -> Check {
+    let way = |name: &str| format!("{key}.{name}");
+    let alone = |name: &str, right: &str| {
+        let found = "found it without what it belongs to";
+        Err(Error::new(way(name), found, right))
+    };
+    if let Some(tile_m) = place.tile_m {
+        size(&way("tile_m"), tile_m)?;
+        if place.files().next().is_none() {
+            return alone("tile_m", "belongs to `mask` or `density`");
+        }
+    }
+    within(&way("edges"), place.edges, limits::EDGES)?;
+    if let Some(edge_width_m) = place.edge_width_m {
+        size(&way("edge_width_m"), edge_width_m)?;
+        if place.edges == 0.0 {
+            return alone("edge_width_m", "belongs to `edges`, such as `edges = 0.8`");
+        }
+    }
+    if let Some([least, most]) = place.radius_m {
+        within(&way("radius_m[0]"), least, limits::PROFILE_RADIUS_M)?;
+        within(&way("radius_m[1]"), most, limits::PROFILE_RADIUS_M)?;
+        if least >= most {
+            let found = format!("found {least} and {most}");
+            let right = "the second must be the greater one";
+            return Err(Error::new(way("radius_m"), found, right));
+        }
+    }
+    match (place.center_m, place.radius_m) {
+        (Some(_), None) => alone("center_m", "belongs to `radius_m`"),
+        (Some(center_m), _) => point(&way("center_m"), center_m),
+        (None, _) => Ok(()),
+    }
 }
 
 /// `paints` says whether the layer takes strokes that lay scratches.

@@ -4,8 +4,6 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 
-use super::limits;
-use super::ranges::{Check, point, size, within};
 use super::table::{Read, Table, Value};
 use super::values::is_default;
 use crate::error::Error;
@@ -47,42 +45,6 @@ impl Place {
     /// The pictures that it names.
     pub fn files(&self) -> impl Iterator<Item = &PathBuf> {
         self.mask.iter().chain(&self.density)
-    }
-
-    /// Refuses values out of range, and keys that need another one.
-    pub(super) fn check_at(&self, key: &str) -> Check {
-        let way = |name: &str| format!("{key}.{name}");
-        let alone = |name: &str, right: &str| {
-            let found = "found it without what it belongs to";
-            Err(Error::new(way(name), found, right))
-        };
-        if let Some(tile_m) = self.tile_m {
-            size(&way("tile_m"), tile_m)?;
-            if self.files().next().is_none() {
-                return alone("tile_m", "belongs to `mask` or `density`");
-            }
-        }
-        within(&way("edges"), self.edges, limits::EDGES)?;
-        if let Some(edge_width_m) = self.edge_width_m {
-            size(&way("edge_width_m"), edge_width_m)?;
-            if self.edges == 0.0 {
-                return alone("edge_width_m", "belongs to `edges`, such as `edges = 0.8`");
-            }
-        }
-        if let Some([least, most]) = self.radius_m {
-            within(&way("radius_m[0]"), least, limits::PROFILE_RADIUS_M)?;
-            within(&way("radius_m[1]"), most, limits::PROFILE_RADIUS_M)?;
-            if least >= most {
-                let found = format!("found {least} and {most}");
-                let right = "the second must be the greater one";
-                return Err(Error::new(way("radius_m"), found, right));
-            }
-        }
-        match (self.center_m, self.radius_m) {
-            (Some(_), None) => alone("center_m", "belongs to `radius_m`"),
-            (Some(center_m), _) => point(&way("center_m"), center_m),
-            (None, _) => Ok(()),
-        }
     }
 }
 
