@@ -9,8 +9,8 @@ use crate::gather::gather;
 use crate::light_view::LightViews;
 use crate::prepared::Prepared;
 use crate::published::segment::SegmentView;
+use crate::shade_base::SphereOnLobe;
 use crate::surface::SurfacePoint;
-use glam::DVec3;
 use hairline_index::method::{PublishedMethod, Structure};
 use hairline_index::{Hit, IndexedSegment};
 use hairline_optics::band::TUBE_CORNERS;
@@ -98,14 +98,15 @@ impl<'a> Published<'a> {
     pub fn base_sphere(
         &self,
         point: &SurfacePoint,
-    ) -> impl Fn(&LtcLobe, &LobeFresnel, DVec3, f64) -> [f64; 3] + use<> {
+    ) -> impl Fn(&LtcLobe, &LobeFresnel, &SphereOnLobe) -> [f64; 3] + use<> {
         let wo = point.wo;
-        move |lobe, of, axis, sin2| {
+        move |lobe, of, sphere| {
             // The pivot transform knows round lobes alone.
             let roughness = (lobe.alphas.x * lobe.alphas.y).powf(0.25).min(1.0);
             let pivot = sptd_lobe(wo, roughness);
             // The published fit knows F = 1 alone; Fresnel is that of the whole lobe.
-            let share = sptd_sphere_published(&pivot, axis, sin2) / lobe.albedo.max(1e-30);
+            let share =
+                sptd_sphere_published(&pivot, sphere.axis, sphere.sin2) / lobe.albedo.max(1e-30);
             of.albedo.map(|e| e * share)
         }
     }

@@ -6,11 +6,13 @@ use crate::surface::SurfacePoint;
 use glam::DVec3;
 use hairline_optics::band::Cap;
 use hairline_optics::environment_lobe::{ENVIRONMENT_TAPS, environment_lobe};
-use hairline_optics::filtered_lobe::filtered_lobe;
+use hairline_optics::filtered_lobe::{LobePart, filtered_lobe};
 use hairline_optics::fresnel::FresnelRgb;
 use hairline_optics::ggx::ggx_area_reflectance;
 use hairline_optics::irradiance::{lambert_polygon, lambert_sphere};
-use hairline_optics::ltc::{LobeFresnel, LtcLobe, ltc_begin, ltc_edge, ltc_end, ltc_lobe};
+use hairline_optics::ltc::{
+    LobeFresnel, LtcLobe, ltc_lobe, ltc_reflected, ltc_sphere_vector, ltc_vector,
+};
 use hairline_scene::Environment;
 use std::f64::consts::PI;
 use std::ops::Add;
@@ -48,7 +50,7 @@ impl Add for BaseRadiance {
 /// A GGX lobe of a pixel, ready for any light.
 pub(crate) struct Layer<'a> {
     /// Weights and lobes whose sum is the lobe of the pixel.
-    parts: [(f64, LtcLobe); 2],
+    parts: [LobePart; 3],
     of: LobeFresnel<'a>,
     /// What the lobe reflects with F = 1.
     lobe_albedo: f64,
@@ -69,12 +71,11 @@ impl<'a> Layer<'a> {
         }
     }
 
-    /// What the parts of the lobe reflect, given what one does, single scattering.
-    fn reflected(&self, single: impl Fn(&LtcLobe, &LobeFresnel) -> DVec3) -> DVec3 {
-        let parts = self.parts.iter().filter(|(weight, _)| *weight != 0.0);
-        let single: DVec3 = parts
-            .map(|(weight, lobe)| *weight * single(lobe, &self.of))
-            .sum();
+    /// What it reflects, given what a part of the lobe does times its weight, single scattering.
+    fn reflected(&self, weighted: impl Fn(&LobePart, &LobeFresnel) -> DVec3) -> DVec3 {
+        let parts = self.parts.iter();
+        let parts = parts.filter(|part| part.core != 0.0 || part.tails != 0.0);
+        let single: DVec3 = parts.map(|part| weighted(part, &self.of)).sum();
         // The fit may make the second part a little larger than the first.
         self.of_single(single.max(DVec3::ZERO))
     }
@@ -134,7 +135,7 @@ impl<'p, 'a> Base<'p, 'a> {
         &self,
         environment: Option<&Environment>,
         views: &LightViews,
-        sphere: impl Fn(&LtcLobe, &LobeFresnel, DVec3, f64) -> [f64; 3],
+        sphere: impl Fn(&LtcLobe, &LobeFresnel, &SphereOnLobe) -> [f64; 3],
     ) -> BaseRadiance {
         let lights = views.on_base().iter();
         let by_lights = lights.map(|light| self.by_light(light, views, &sphere));
@@ -144,17 +145,20 @@ impl<'p, 'a> Base<'p, 'a> {
             .fold(BaseRadiance::default(), Add::add)
     }
 
-    /// The part of one light. `sphere` is what the lobe reflects of a sphere: [`hairline_optics::ltc::ltc_sphere`].
+    /// The part of one light. `sphere` is what the lobe reflects of a sphere: [`transformed_sphere`].
     pub fn by_light(
         &self,
         light: &LightView,
         views: &LightViews,
-        sphere: impl Fn(&LtcLobe, &LobeFresnel, DVec3, f64) -> [f64; 3],
+        sphere: impl Fn(&LtcLobe, &LobeFresnel, &SphereOnLobe) -> [f64; 3],
     ) -> BaseRadiance {
         let picture = views.picture(light);
-        let single = |lobe: &LtcLobe, of: &LobeFresnel| {
-            let even = DVec3::from(reflected_light(light, views, lobe, of, &sphere));
-            picture.map_or(even, |picture| even * picture.on_lobe(lobe))
+        let single = |part: &LobePart, of: &LobeFresnel| {
+            let even = DVec3::from(reflected_light(light, views, part, of, &sphere));
+            match picture {
+                Some(picture) if even != DVec3::ZERO => even * picture.on_lobe(&part.lobe),
+                _ => even,
+            }
         };
         let radiance = light.radiance();
         let bare = BaseRadiance {
@@ -170,7 +174,10 @@ impl<'p, 'a> Base<'p, 'a> {
     /// The part of the environment without its suns.
     pub fn by_environment(&self, environment: &Environment) -> BaseRadiance {
         let point = self.point;
-        let single = |lobe: &LtcLobe, of: &LobeFresnel| reflected(environment, point, lobe, of);
+        let single = |part: &LobePart, of: &LobeFresnel| match part.core {
+            0.0 => DVec3::ZERO,
+            weight => weight * reflected(environment, point, &part.lobe, of),
+        };
         let bare = BaseRadiance {
             specular: self.lobe.reflected(single),
             diffuse: self.diffuse(|| environment.irradiance(point.normal) / PI),
@@ -189,24 +196,48 @@ impl<'p, 'a> Base<'p, 'a> {
     }
 }
 
-/// What a lobe reflects of a light, single scattering, over its radiance.
+/// A sphere as a lobe sees it.
+pub(crate) struct SphereOnLobe {
+    /// The unit direction to its centre, in the local frame.
+    pub axis: DVec3,
+    /// The squared sine of its angular radius.
+    pub sin2: f64,
+    /// [`ltc_sphere_vector`].
+    vector: DVec3,
+}
+
+/// What a lobe reflects of a sphere, single scattering, over its radiance.
+pub(crate) fn transformed_sphere(
+    lobe: &LtcLobe,
+    of: &LobeFresnel,
+    sphere: &SphereOnLobe,
+) -> [f64; 3] {
+    ltc_reflected(lobe, of, sphere.vector)
+}
+
+/// What a part of a lobe reflects of a light, times its weight; single scattering, over the light's radiance.
 fn reflected_light(
     light: &LightView,
     views: &LightViews,
-    lobe: &LtcLobe,
+    part: &LobePart,
     of: &LobeFresnel,
-    sphere: impl Fn(&LtcLobe, &LobeFresnel, DVec3, f64) -> [f64; 3],
+    sphere: impl Fn(&LtcLobe, &LobeFresnel, &SphereOnLobe) -> [f64; 3],
 ) -> [f64; 3] {
+    let lobe = &part.lobe;
+    let weighted = |vector: DVec3, reflected: &dyn Fn() -> [f64; 3]| match part.weight(vector) {
+        0.0 => [0.0; 3],
+        weight => reflected().map(|channel| weight * channel),
+    };
     match light {
-        LightView::Sphere { cap, .. } => sphere(lobe, of, cap.axis, sphere_sin2(cap)),
+        LightView::Sphere { cap, .. } => {
+            let (axis, sin2) = (cap.axis, sphere_sin2(cap));
+            let vector = ltc_sphere_vector(lobe, axis, sin2);
+            let seen = SphereOnLobe { axis, sin2, vector };
+            weighted(vector, &|| sphere(lobe, of, &seen))
+        }
         LightView::Polygon { vertices, .. } => {
-            let vertices = &views.vertices[vertices.clone()];
-            let mut state = ltc_begin();
-            for (i, a) in vertices.iter().enumerate() {
-                let next = if i + 1 < vertices.len() { i + 1 } else { 0 };
-                ltc_edge(&mut state, lobe, *a, vertices[next]);
-            }
-            ltc_end(&state, lobe, of)
+            let vector = ltc_vector(lobe, &views.vertices[vertices.clone()]);
+            weighted(vector, &|| ltc_reflected(lobe, of, vector))
         }
     }
 }

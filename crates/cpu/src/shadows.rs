@@ -15,7 +15,7 @@ use crate::prepared::Prepared;
 use crate::sampling::environment::EnvironmentSampler;
 use crate::sampling::lights::{AreaLights, LightHit};
 use crate::sampling::luminance;
-use crate::shade_base::{Base, BaseRadiance};
+use crate::shade_base::{Base, BaseRadiance, transformed_sphere};
 use crate::shade_gratings::ShadedGratings;
 use crate::shade_scratches::{DrawnLight, Frame, Pick, Picks, ScratchLight, SourcePicks};
 use crate::surface::{SurfacePoint, raised_m};
@@ -26,7 +26,6 @@ use hairline_optics::band::{Along, BandPlace};
 use hairline_optics::fresnel::{FresnelRgb, half_vector_cos};
 use hairline_optics::gaussian::gaussian;
 use hairline_optics::ggx::{ggx_alpha, ggx_eval, ggx_pdf, ggx_sample};
-use hairline_optics::ltc::ltc_sphere;
 use hairline_optics::mask::ScratchSums;
 use hairline_scene::CameraFrame;
 use std::f64::consts::PI;
@@ -186,7 +185,7 @@ impl<'a> Shadows<'a> {
         let environment = self.prepared.scene.environment.as_ref();
         let lights = at.views.on_base().iter();
         let mut sources: Vec<BaseSource> = lights
-            .map(|light| base.by_light(light, at.views, ltc_sphere))
+            .map(|light| base.by_light(light, at.views, transformed_sphere))
             .chain(environment.map(|environment| base.by_environment(environment)))
             .map(BaseSource::new)
             .collect();

@@ -8,7 +8,7 @@ use crate::options::RenderOptions;
 use crate::prepared::Prepared;
 use crate::published::Published;
 use crate::resolve::{Pixel, Sample};
-use crate::shade_base::Base;
+use crate::shade_base::{Base, transformed_sphere};
 use crate::shade_gratings::ShadedGratings;
 use crate::shade_scratches::{BATCH, Picks, ScratchPoint, ScratchShader};
 use crate::shadows::{PixelFilter, Rounds, ShadowPoint, Shadows};
@@ -18,7 +18,6 @@ use crate::visibility::{Visibility, center};
 use glam::{DVec2, DVec3};
 use hairline_image::{Batch, Image};
 use hairline_index::Hit;
-use hairline_optics::ltc::ltc_sphere;
 use hairline_optics::mask::ScratchSums;
 use hairline_scene::CameraFrame;
 use hairline_scene::camera::pixel_jitter;
@@ -309,7 +308,7 @@ impl<'a> Tile<'a> {
                                     gratings = has_gratings.then(|| {
                                         ShadedGratings::new(prepared, at, hit.object, views, None)
                                     });
-                                    Base::new(at).radiance(environment, views, ltc_sphere)
+                                    Base::new(at).radiance(environment, views, transformed_sphere)
                                 }
                                 Some(shadows) => {
                                     let is_scratched = prepared.is_scratched(hit);

@@ -2,11 +2,12 @@
 //!
 //! The mean of a GGX lobe over a pixel's normals has a wider core and the same far tails. One wider GGX, as in Y. Tokuyoshi and
 //! A. S. Kaplanyan, "Improved geometric specular antialiasing" (2019), has the core and lifts the tails: faint veils about lamps, bright
-//! fringes at silhouettes. A little more than one GGX less a part of a wider one has both.
+//! fringes at silhouettes. A little more than one GGX less a part of a wider one has both, in the mean over the directions about it. Where the
+//! spread is not round the two have other tails in each direction, so far from the core the sharp lobe takes over: there a blur changes little.
 
 use std::f64::consts::SQRT_2;
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 use crate::ltc::LtcLobe;
 
@@ -19,6 +20,10 @@ const BEND2: f64 = 0.25;
 /// Below this excess the wider lobe is left out.
 const MIN_EXCESS: f64 = 0.02;
 
+/// The distances from the first lobe's middle, in its widths, between which the sharp lobe takes over. Chosen by the errors that the test
+/// `small_lamps_have_the_tails_of_a_sharp_lobe` prints.
+const TAILS: [f64; 2] = [1.5, 3.2];
+
 /// How slopes spread about their mean, in the plane of view and normal (x) and across it (y).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SlopeSpread {
@@ -28,7 +33,7 @@ pub struct SlopeSpread {
     pub covariance: f64,
 }
 
-/// A lobe as the difference of two.
+/// A lobe as the difference of two, and the sharp one in the place of its tails.
 #[derive(Clone, Copy, Debug)]
 pub struct FilteredLobe {
     /// [`LtcLobe::alphas`] of the first. The second is wider by the root of 2.
@@ -83,11 +88,54 @@ pub fn filtered_lobe(alpha: f64, spread: SlopeSpread, cos_o: f64) -> FilteredLob
     }
 }
 
+/// One of the lobes that a [`FilteredLobe`] is the sum of.
+#[derive(Clone, Copy, Debug)]
+pub struct LobePart {
+    /// The lobe.
+    pub lobe: LtcLobe,
+    /// Its weight for light around the middle.
+    pub core: f64,
+    /// Its weight for light far from the middle.
+    pub tails: f64,
+    /// [`LtcLobe::alphas`] and [`LtcLobe::shear`] of the first.
+    first: (DVec2, f64),
+}
+
+impl LobePart {
+    /// Its weight for a light of this vector irradiance in the lobe's cosine space.
+    pub fn weight(&self, vector: DVec3) -> f64 {
+        if self.core == self.tails {
+            return self.core;
+        }
+        let (alphas, shear) = self.first;
+        let per_first = self.lobe.alphas / alphas;
+        // In the first lobe's space.
+        let x = vector.x * per_first.x;
+        let y = (vector.y + self.lobe.shear * vector.x) * per_first.y - shear * x;
+        let widths = x.hypot(y) / vector.z.max(1e-30);
+        let [from, to] = TAILS;
+        let t = ((widths - from) / (to - from)).clamp(0.0, 1.0);
+        self.core + t * t * (3.0 - 2.0 * t) * (self.tails - self.core)
+    }
+}
+
 impl FilteredLobe {
-    /// The two lobes and their weights, from the sharp lobe. The second weight is zero where one is enough.
-    pub fn parts(&self, sharp: &LtcLobe) -> [(f64, LtcLobe); 2] {
-        let lobe =
+    /// The lobes whose weighted sum it is, from the sharp lobe: the first alone where its weight is 1 everywhere.
+    pub fn parts(&self, sharp: &LtcLobe) -> [LobePart; 3] {
+        let first = (self.alphas, self.shear);
+        let wide =
             |width: f64| sharp.widened(width * self.alphas, self.shear, self.bent, self.excess);
-        [(1.0 + self.excess, lobe(1.0)), (-self.excess, lobe(SQRT_2))]
+        let part = |lobe, core, tails| LobePart {
+            lobe,
+            core,
+            tails,
+            first,
+        };
+        let tails = if self.excess > 0.0 { 1.0 } else { 0.0 };
+        [
+            part(wide(1.0), 1.0 + self.excess, 1.0 - tails),
+            part(wide(SQRT_2), -self.excess, 0.0),
+            part(*sharp, 0.0, tails),
+        ]
     }
 }

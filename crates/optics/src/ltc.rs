@@ -263,23 +263,24 @@ pub fn sphere_light(
 
 /// [`sphere_light`] for a lobe at hand.
 pub fn ltc_sphere(lobe: &LtcLobe, of: &LobeFresnel, axis: DVec3, sin2: f64) -> [f64; 3] {
+    ltc_reflected(lobe, of, ltc_sphere_vector(lobe, axis, sin2))
+}
+
+/// The vector irradiance of a sphere in the cosine's space.
+pub fn ltc_sphere_vector(lobe: &LtcLobe, axis: DVec3, sin2: f64) -> DVec3 {
     if sin2 >= 1.0 {
-        return of.albedo;
-    }
-    if sin2 <= 0.0 {
-        return [0.0; 3];
+        return PI * DVec3::Z;
     }
     // The horizon is the same here as in the cosine's space.
-    if axis.z <= 0.0 && axis.z * axis.z >= sin2 {
-        return [0.0; 3];
+    if sin2 <= 0.0 || axis.z <= 0.0 && axis.z * axis.z >= sin2 {
+        return DVec3::ZERO;
     }
     let cone = ltc_cone(lobe, lobe.rotate(axis), sin2);
-    let vector = if axis.z * axis.z >= sin2 {
+    if axis.z * axis.z >= sin2 {
         ltc_cone_whole(&cone)
     } else {
         irradiance_cone(&ltc_cone_axes(&cone))
-    };
-    ltc_reflected(lobe, of, vector)
+    }
 }
 
 /// A cone of directions in the cosine's space: what is within the rim c + u cos t + v sin t. In the frame of u, v (perpendicular)
@@ -464,7 +465,7 @@ const REST_FROM: f64 = 0.3;
 /// What is missing in E0 is the same integral over the part of the hemisphere that the light leaves free. Of a light and the rest the smaller is
 /// the better known, so with a growing share the result goes over from the one to the other. The means fade as the light comes to fill the
 /// hemisphere, where the albedos are exact. The numbers here are chosen by the measured errors of docs/lobes.md.
-fn ltc_reflected(lobe: &LtcLobe, of: &LobeFresnel, vector: DVec3) -> [f64; 3] {
+pub fn ltc_reflected(lobe: &LtcLobe, of: &LobeFresnel, vector: DVec3) -> [f64; 3] {
     let share = (vector.z / PI).clamp(0.0, 1.0);
     if share <= 0.0 {
         return [0.0; 3];

@@ -467,12 +467,15 @@ fn filtered_lobes() {
             for (var p = 0u; p < 2u; p += 1u) {
                 let part = filtered_lobe_part(sharp, filtered, p);
                 y[p] = ltc_sphere(part.lobe, reflecting, table_3, axis, x[7]).y / x[8];
-                y[2u + p] = part.weight;
+                y[2u + p] = part.core;
                 y[4u + p] = part.lobe.alphas[p];
                 let tap = environment_tap(environment_lobe(part.lobe, table_0), table_0, 2u);
                 y[6u + p] = tap.roughness;
                 y[8u + p] = tap.direction.y;
                 y[10u + p] = tap.weight;
+            }
+            for (var p = 0u; p < FILTERED_LOBE_PARTS; p += 1u) {
+                y[12u + p] = filtered_lobe_weight(filtered, filtered_lobe_part(sharp, filtered, p), axis);
             }",
         tables: &tables,
         expected: &|row| {
@@ -480,7 +483,9 @@ fn filtered_lobes() {
             let sharp = ltc_lobe(wo, roughness);
             let of = LobeFresnel::new(schlick(), wo, roughness);
             let filtered = filtered_lobe(sharp.alpha, slope_spread(axis), wo.z);
-            let [(w0, first), (w1, second)] = filtered.parts(&sharp);
+            let parts = filtered.parts(&sharp);
+            let [first, second] = [0, 1].map(|p| parts[p].lobe);
+            let weights = parts.map(|part| part.weight(axis));
             let [i0, i1] =
                 [first, second].map(|lobe| ltc_sphere(&lobe, &of, axis, sin2)[1] / brightest);
             let [t0, t1] = [first, second].map(|lobe| environment_lobe(&lobe).environment_tap(2));
@@ -489,8 +494,8 @@ fn filtered_lobes() {
             [
                 i0,
                 i1,
-                w0,
-                w1,
+                parts[0].core,
+                parts[1].core,
                 alphas[0],
                 alphas[1],
                 t0.roughness,
@@ -499,6 +504,9 @@ fn filtered_lobes() {
                 directions[1],
                 t0.weight,
                 t1.weight,
+                weights[0],
+                weights[1],
+                weights[2],
             ]
         },
         tolerance: CLEAR,

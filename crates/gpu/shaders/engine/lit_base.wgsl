@@ -59,12 +59,13 @@ fn lit_base_sphere(base: LitBase, curves: texture_2d<f32>, center_m: vec3f, radi
     // A cap that holds every direction stands for a sphere around the point.
     let sin_sq = select(cap.sin_radius * cap.sin_radius, 1.0, cap.cos_radius < 0.0);
     var specular = vec3f(0.0);
-    for (var p = 0u; p < 2u; p += 1u) {
+    for (var p = 0u; p < FILTERED_LOBE_PARTS; p += 1u) {
         let part = filtered_lobe_part(base.sharp, base.filtered, p);
-        if part.weight == 0.0 {
+        if part.core == 0.0 && part.tails == 0.0 {
             break;
         }
-        specular += part.weight * ltc_sphere(part.lobe, base.reflecting, curves, cap.axis, sin_sq);
+        let vector = ltc_sphere_vector(part.lobe, cap.axis, sin_sq);
+        specular += filtered_lobe_weight(base.filtered, part, vector) * ltc_reflected(part.lobe, base.reflecting, curves, vector);
     }
     return BaseLit(specular, lambert_sphere(cap.axis, sin_sq));
 }
@@ -76,9 +77,9 @@ fn lit_base_quad(base: LitBase, curves: texture_2d<f32>, light: QuadLight) -> Ba
     }
     var specular = vec3f(0.0);
     var form_factor = 0.0;
-    for (var p = 0u; p < 2u; p += 1u) {
+    for (var p = 0u; p < FILTERED_LOBE_PARTS; p += 1u) {
         let part = filtered_lobe_part(base.sharp, base.filtered, p);
-        if part.weight == 0.0 {
+        if part.core == 0.0 && part.tails == 0.0 {
             break;
         }
         var reflected = ltc_begin();
@@ -93,7 +94,8 @@ fn lit_base_quad(base: LitBase, curves: texture_2d<f32>, light: QuadLight) -> Ba
             lambert_edge(&body, corners[0], to);
             corners = mat4x3f(corners[1], corners[2], corners[3], corners[0]);
         }
-        specular += part.weight * ltc_end(reflected, part.lobe, base.reflecting, curves);
+        let vector = irradiance_end(reflected);
+        specular += filtered_lobe_weight(base.filtered, part, vector) * ltc_reflected(part.lobe, base.reflecting, curves, vector);
         form_factor = lambert_end(body);
     }
     return BaseLit(specular, form_factor);

@@ -1,4 +1,4 @@
-// The lobe of a pixel whose normals differ, as the difference of two. Needs ltc. Twin: optics::filtered_lobe, which explains it.
+// The lobe of a pixel whose normals differ, as the difference of two and, far from its core, the sharp one. Needs ltc. Twin: optics::filtered_lobe, which explains it.
 
 struct FilteredLobe {
     alphas: vec2f,              // as the first's of LtcLobe
@@ -32,14 +32,36 @@ fn filtered_lobe(alpha: f32, spread: vec3f, cos_o: f32) -> FilteredLobe {
     return FilteredLobe(vec2f(alpha_x, alpha_y), turn.y / (alpha_x * alpha_y), bend2 / (bend2 + 0.25), select(excess, 0.0, excess < 0.02));
 }
 
-// One of the two lobes, and its weight.
+// How many lobes it is the sum of at most.
+const FILTERED_LOBE_PARTS: u32 = 3u;
+
+// One of the lobes.
 struct FilteredLobePart {
     lobe: LtcLobe,
-    weight: f32,
+    core: f32,                  // its weight for light around the middle
+    tails: f32,                 // and for light far from it; both are 0 from the last part on
 }
 
 fn filtered_lobe_part(sharp: LtcLobe, filtered: FilteredLobe, i: u32) -> FilteredLobePart {
+    let tails = select(0.0, 1.0, filtered.excess > 0.0);
+    if i == 2u {
+        return FilteredLobePart(sharp, 0.0, tails);
+    }
     let first = i == 0u;
     let alphas = filtered.alphas * select(1.41421356, 1.0, first);
-    return FilteredLobePart(ltc_widened(sharp, alphas, filtered.shear, filtered.bent, filtered.excess), select(-filtered.excess, 1.0 + filtered.excess, first));
+    return FilteredLobePart(
+        ltc_widened(sharp, alphas, filtered.shear, filtered.bent, filtered.excess),
+        select(-filtered.excess, 1.0 + filtered.excess, first),
+        select(0.0, 1.0 - tails, first),
+    );
+}
+
+// A part's weight for a light of this vector irradiance in the lobe's cosine space.
+fn filtered_lobe_weight(filtered: FilteredLobe, part: FilteredLobePart, vector: vec3f) -> f32 {
+    let per_first = part.lobe.alphas / filtered.alphas;
+    // In the first lobe's space.
+    let x = vector.x * per_first.x;
+    let y = (vector.y + part.lobe.shear * vector.x) * per_first.y - filtered.shear * x;
+    let widths = length(vec2f(x, y)) / max(vector.z, 1e-30);
+    return mix(part.core, part.tails, smoothstep(1.5, 3.2, widths));
 }

@@ -30,30 +30,34 @@ fn published_base(point: SurfacePoint) -> BaseRadiance {
 
 fn published_layer(point: SurfacePoint, layer: Layer) -> BaseRadiance {
     var sum: BaseRadiance;
-    for (var p = 0u; p < 2u; p += 1u) {
+    for (var p = 0u; p < FILTERED_LOBE_PARTS; p += 1u) {
         let part = filtered_lobe_part(layer.sharp, layer.filtered, p);
-        if part.weight == 0.0 {
+        if part.core == 0.0 && part.tails == 0.0 {
             break;
         }
         // The pivot transform knows round lobes alone.
         let alphas = part.lobe.alphas;
         let pivot = sptd_lobe(point.wo, min(sqrt(sqrt(alphas.x * alphas.y)), 1.0), lobe_sptd, lobe_albedo);
         var light = base_surroundings(point, part.lobe, layer.reflecting);
+        light.specular *= part.core;
         for (var l = 0u; l < frame.base_light_count; l += 1u) {
             let source = light_at(l);
             let radiance = published_light_radiance(source, point.position_m);
             var share: vec4f;
+            var vector: vec3f;
             if BASE_HAS_SPHERES && source.kind == LIGHT_SPHERE {
                 share = published_base_sphere(point, part.lobe, layer.reflecting, pivot, source);
+                vector = base_sphere(point, part.lobe, source).vector;
             }
             if BASE_HAS_POLYGONS && source.kind != LIGHT_SPHERE {
                 let seen = base_polygon(point, part.lobe, source);
+                vector = seen.vector;
                 share = vec4f(ltc_reflected(part.lobe, layer.reflecting, fresnel_curves, seen.vector), seen.form_factor);
             }
-            light.specular += radiance * share.xyz;
+            light.specular += filtered_lobe_weight(layer.filtered, part, vector) * radiance * share.xyz;
             light.diffuse += radiance * share.w;
         }
-        sum = BaseRadiance(sum.specular + part.weight * light.specular, light.diffuse);
+        sum = BaseRadiance(sum.specular + light.specular, light.diffuse);
     }
     return sum;
 }

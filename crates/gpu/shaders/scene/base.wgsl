@@ -193,14 +193,15 @@ fn base_radiance_of(point: SurfacePoint, of_lights: vec2u, surrounded: bool) -> 
 // What a lobe reflects, single scattering, and what falls on a body under it.
 fn layer_lit(point: SurfacePoint, layer: Layer, of_lights: vec2u, surrounded: bool) -> BaseRadiance {
     var sum: BaseRadiance;
-    for (var p = 0u; p < 2u; p += 1u) {
+    for (var p = 0u; p < FILTERED_LOBE_PARTS; p += 1u) {
         let part = filtered_lobe_part(layer.sharp, layer.filtered, p);
-        if part.weight == 0.0 {
+        if part.core == 0.0 && part.tails == 0.0 {
             break;
         }
         var light: BaseRadiance;
-        if surrounded {
+        if surrounded && part.core != 0.0 {
             light = base_surroundings(point, part.lobe, layer.reflecting);
+            light.specular *= part.core;
         }
         for (var l = of_lights.x; l < of_lights.y; l += 1u) {
             let source = light_at(l);
@@ -219,10 +220,17 @@ fn layer_lit(point: SurfacePoint, layer: Layer, of_lights: vec2u, surrounded: bo
                 on_lobe *= picture.specular;
                 on_body *= picture.diffuse;
             }
-            light.specular += on_lobe * ltc_reflected(part.lobe, layer.reflecting, fresnel_curves, seen.vector);
+            let weight = filtered_lobe_weight(layer.filtered, part, seen.vector);
+            if weight != 0.0 {
+                light.specular += weight * on_lobe * ltc_reflected(part.lobe, layer.reflecting, fresnel_curves, seen.vector);
+            }
             light.diffuse += on_body * seen.form_factor;
         }
-        sum = BaseRadiance(sum.specular + part.weight * light.specular, light.diffuse);
+        sum.specular += light.specular;
+        // Of any part: that of the environment only the first have.
+        if p == 0u {
+            sum.diffuse = light.diffuse;
+        }
     }
     return sum;
 }

@@ -4,11 +4,15 @@ use std::f64::consts::{PI, TAU};
 
 use glam::{DVec2, DVec3};
 use hairline_optics::environment_lobe::{ENVIRONMENT_TAPS, environment_lobe};
-use hairline_optics::filtered_lobe::{SlopeSpread, filtered_lobe};
-use hairline_optics::ggx::ggx_alpha;
-use hairline_optics::ltc::{
-    LobeFresnel, LtcLobe, ltc_begin, ltc_edge, ltc_end, ltc_lobe, ltc_sphere,
-};
+use hairline_optics::filtered_lobe::{LobePart, SlopeSpread, filtered_lobe};
+use hairline_optics::ggx::{ggx_alpha, ggx_eval};
+use hairline_optics::ltc::{LobeFresnel, ltc_lobe, ltc_reflected, ltc_sphere_vector, ltc_vector};
+
+/// What a part reflects of a sphere, times its weight.
+fn sphere_of_part(part: &LobePart, of: &LobeFresnel, axis: DVec3, sin2: f64) -> f64 {
+    let vector = ltc_sphere_vector(&part.lobe, axis, sin2);
+    part.weight(vector) * ltc_reflected(&part.lobe, of, vector)[0]
+}
 
 /// The density of slopes of GGX.
 fn ggx_slopes(slope: DVec2, alphas: DVec2) -> f64 {
@@ -124,7 +128,7 @@ fn curved_surfaces_keep_their_energy() {
                     let reflected: f64 = filtered
                         .parts(&sharp)
                         .iter()
-                        .map(|(weight, lobe)| weight * ltc_sphere(lobe, &of, DVec3::Z, sin2)[0])
+                        .map(|part| sphere_of_part(part, &of, DVec3::Z, sin2))
                         .sum();
                     let error = reflected / of.albedo[0] - 1.0;
                     assert!(
@@ -189,7 +193,7 @@ fn look_ups_lie_along_the_spread() {
         let sharp = ltc_lobe(DVec3::new(sin, 0.0, cos), roughness);
         for angle in [0.4, 1.5, 2.5] {
             let filtered = filtered_lobe(sharp.alpha, one_way(0.002, angle), cos);
-            let [(_, lobe), _] = filtered.parts(&sharp);
+            let lobe = filtered.parts(&sharp)[0].lobe;
             let looked_up = environment_lobe(&lobe);
             // Slopes of half vectors over their mean: in the plane, towards the viewer, and across it.
             let slopes: Vec<DVec2> = (0..ENVIRONMENT_TAPS)
@@ -215,7 +219,7 @@ fn tubes_keep_their_light() {
         f0: [1.0; 3],
         curve: hairline_optics::fresnel::FresnelCurve::schlick(),
     };
-    for (variance, most_off) in [(1e-4, 0.02), (1e-3, 0.2), (1e-2, 0.4)] {
+    for variance in [1e-4, 1e-3, 1e-2] {
         for (angle_deg, angle) in [(20.0f64, 1.57), (50.0, 1.57), (50.0, 0.8), (70.0, 0.8)] {
             let (sin, cos) = angle_deg.to_radians().sin_cos();
             let wo = DVec3::new(sin, 0.0, cos);
@@ -223,7 +227,7 @@ fn tubes_keep_their_light() {
             let of = LobeFresnel::new(white, wo, 0.06);
             let filtered = filtered_lobe(sharp.alpha, one_way(variance, angle), cos);
             // Light from a tube across the plane of view and normal, summed over its places.
-            let sum = |parts: &[(f64, LtcLobe)]| -> f64 {
+            let sum = |parts: &[LobePart]| -> f64 {
                 let at = |x: f64, y: f64| {
                     DVec3::new(-sin, 0.0, cos) + x * DVec3::new(cos, 0.0, sin) + y * DVec3::Y
                 };
@@ -231,21 +235,97 @@ fn tubes_keep_their_light() {
                     [(-0.01, -1.0), (0.01, -1.0), (0.01, 1.0), (-0.01, 1.0)]
                         .map(|(dx, y)| at(x + dx, y))
                 };
-                let reflected = |lobe: &LtcLobe, vertices: [DVec3; 4]| {
-                    let mut state = ltc_begin();
-                    for k in 0..4 {
-                        ltc_edge(&mut state, lobe, vertices[k], vertices[(k + 1) % 4]);
-                    }
-                    ltc_end(&state, lobe, &of)[0]
+                let reflected = |part: &LobePart, vertices: [DVec3; 4]| {
+                    let vector = ltc_vector(&part.lobe, &vertices);
+                    part.weight(vector) * ltc_reflected(&part.lobe, &of, vector)[0]
                 };
                 (-200..=200)
                     .map(|i| tube(f64::from(i) * 0.01))
-                    .flat_map(|tube| parts.iter().map(move |(w, l)| w * reflected(l, tube)))
+                    .flat_map(|tube| parts.iter().map(move |part| reflected(part, tube)))
                     .sum()
             };
-            let kept = sum(&filtered.parts(&sharp)) / sum(&[(1.0, sharp)]);
+            let kept = sum(&filtered.parts(&sharp))
+                / sum(&filtered_lobe(sharp.alpha, SlopeSpread::default(), cos).parts(&sharp));
             println!("{angle_deg} degrees, variance {variance} at {angle}: {kept:.3}");
-            assert!((kept - 1.0).abs() < most_off, "{angle_deg} {angle}: {kept}");
+            assert!((kept - 1.0).abs() < 0.08, "{angle_deg} {angle}: {kept}");
         }
     }
+}
+
+/// GGX towards a direction, averaged over normals whose slopes spread.
+fn mean_of_normals(wo: DVec3, alpha: f64, spread: SlopeSpread, wi: DVec3) -> f64 {
+    const STEPS: i32 = 32;
+    let x = spread.variance.x.sqrt();
+    let shared = spread.covariance / x;
+    let y = (spread.variance.y - shared * shared).max(0.0).sqrt();
+    let (mut sum, mut weights) = (0.0, 0.0);
+    for i in 0..STEPS * STEPS {
+        let [a, b] = [i % STEPS, i / STEPS].map(|k| (f64::from(k) + 0.5) * 8.0 / 32.0 - 4.0);
+        let weight = (-0.5 * (a * a + b * b)).exp();
+        let normal = DVec3::new(x * a, shared * a + y * b, 1.0).normalize();
+        let axis_x = (DVec3::X - normal * normal.x).normalize();
+        let axes = glam::DMat3::from_cols(axis_x, normal.cross(axis_x), normal).transpose();
+        sum += weight * ggx_eval(axes * wo, axes * wi, alpha);
+        weights += weight;
+    }
+    sum / weights
+}
+
+#[test]
+fn small_lamps_have_the_tails_of_a_sharp_lobe() {
+    let white = hairline_optics::fresnel::FresnelRgb {
+        f0: [1.0; 3],
+        curve: hairline_optics::fresnel::FresnelCurve::schlick(),
+    };
+    let roughness = 0.055;
+    let alpha = ggx_alpha(roughness);
+    // By the lobes in use, and by the difference of two alone.
+    let mut worst = [1.0f64; 2];
+    for (t, across, correlation) in [
+        (0.3, 1.0, 0.0),
+        (0.3, 0.2, 0.8),
+        (1.0, 0.2, 0.0),
+        (3.0, 0.2, 0.0),
+        (3.0, 0.5, -0.8),
+    ] {
+        let variance = t * alpha * alpha * DVec2::new(1.0, across);
+        let spread = SlopeSpread {
+            variance,
+            covariance: correlation * (variance.x * variance.y).sqrt(),
+        };
+        for angle_deg in [0.0f64, 50.0] {
+            let (sin, cos) = angle_deg.to_radians().sin_cos();
+            let wo = DVec3::new(sin, 0.0, cos);
+            let sharp = ltc_lobe(wo, roughness);
+            let of = LobeFresnel::new(white, wo, roughness);
+            let parts = filtered_lobe(alpha, spread, cos).parts(&sharp);
+            for k in [0.0, 2.0, 5.0, 10.0, 20.0] {
+                for turn in [0.0f64, 0.8, 1.57, 2.4] {
+                    let tilt: f64 = k * alpha;
+                    let half = (DVec2::from_angle(turn) * tilt.sin()).extend(tilt.cos());
+                    let wi = half * (2.0 * half.dot(wo)) - wo;
+                    let sin2 = 1e-8;
+                    let exact = mean_of_normals(wo, alpha, spread, wi) * PI * sin2;
+                    let ours: f64 = parts.iter().map(|p| sphere_of_part(p, &of, wi, sin2)).sum();
+                    let by_two: f64 = parts[..2]
+                        .iter()
+                        .map(|part| {
+                            let vector = ltc_sphere_vector(&part.lobe, wi, sin2);
+                            part.core * ltc_reflected(&part.lobe, &of, vector)[0]
+                        })
+                        .sum();
+                    for (worst, value) in worst.iter_mut().zip([ours, by_two]) {
+                        let ratio = value / exact;
+                        *worst = worst.max(ratio).max(1.0 / ratio.max(1e-3));
+                    }
+                }
+            }
+        }
+    }
+    println!(
+        "off by a factor of {:.2}, by two lobes {:.2}",
+        worst[0], worst[1]
+    );
+    assert!(worst[0] < 2.0, "{worst:?}");
+    assert!(worst[1] > 4.0, "{worst:?}");
 }
