@@ -1,7 +1,7 @@
 //! What the camera sees along the rays of neighbouring pixels.
 
 use glam::{DVec2, DVec3};
-use hairline_index::{Hit, TriangleBeam, TriangleIndex};
+use hairline_index::{Coverage, Hit, TriangleBeam, TriangleIndex};
 use hairline_scene::CameraFrame;
 
 /// The triangles under a few pixels of a row. One for each thread and picture, aimed anew where a ray leaves it: pixels come row by
@@ -17,7 +17,8 @@ pub(crate) struct CameraBeam {
 const BLOCK_PX: f64 = 16.0;
 
 impl CameraBeam {
-    /// The nearest hit of the ray through a point of the picture; `direction` is the unit direction of it. Scene and camera are the
+    /// The nearest hit of the ray through a point of the picture; `direction` is the unit direction of it, and `coverage` says which
+    /// surfaces it meets that cover a part of what lies behind. Scene and camera are the
     /// same for all calls.
     pub fn intersect(
         &mut self,
@@ -25,6 +26,7 @@ impl CameraBeam {
         camera: &CameraFrame,
         pixel: DVec2,
         direction: DVec3,
+        coverage: Coverage,
     ) -> Option<Hit> {
         let size = DVec2::new(BLOCK_PX, 1.0);
         let block = (pixel / size).floor();
@@ -35,6 +37,7 @@ impl CameraBeam {
             self.beam.aim(triangles, camera.position_m, corners);
             self.block = Some(index);
         }
-        self.beam.intersect(triangles, camera.position_m, direction)
+        self.beam
+            .intersect(triangles, camera.position_m, direction, coverage)
     }
 }

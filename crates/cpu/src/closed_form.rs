@@ -126,7 +126,7 @@ impl Prepared<'_> {
             options: *options,
             rows: rows.start as usize..rows.end as usize,
             only_edges: false,
-            visibility: Visibility::new(&self.triangles, &camera, size_px, &rows),
+            visibility: Visibility::new(&self.triangles, &camera, size_px, &rows, options.samples),
             shadows: (options.shadows && matches!(by, By::Tiles(_)))
                 .then(|| Shadows::new(self, options)),
             by,

@@ -6,7 +6,7 @@ use crate::options::RenderOptions;
 use crate::prepared::Prepared;
 use crate::silhouettes::is_smooth;
 use crate::tile::Tile;
-use crate::visibility::{Visibility, center};
+use crate::visibility::{Visibility, center, coverage};
 use hairline_image::Image;
 use hairline_index::Hit;
 use hairline_scene::camera::pixel_jitter;
@@ -64,7 +64,7 @@ impl Prepared<'_> {
     pub fn coverage(&self, samples: u32, rows: Range<u32>) -> Vec<f32> {
         let size_px = self.scene.render.size_px;
         let camera = self.scene.camera.frame(size_px);
-        let visibility = Visibility::new(&self.triangles, &camera, size_px, &rows);
+        let visibility = Visibility::new(&self.triangles, &camera, size_px, &rows, samples);
         let (width, samples) = (size_px[0] as usize, samples.max(1));
         let mut shares = vec![0.0; rows.len() * width];
         let pixels = shares.par_iter_mut().enumerate();
@@ -77,7 +77,8 @@ impl Prepared<'_> {
             let covered = (0..samples).filter(|&sample| {
                 let at_px = center(x, y) + pixel_jitter(sample, samples);
                 let direction = camera.camera_ray(at_px).normalize();
-                rays.intersect(&self.triangles, &camera, at_px, direction)
+                let coverage = coverage(x, y, sample);
+                rays.intersect(&self.triangles, &camera, at_px, direction, coverage)
                     .is_some()
             });
             *share = covered.count() as f32 / samples as f32;

@@ -480,12 +480,13 @@ impl<'a> Shadows<'a> {
         };
         let ray = camera.camera_ray(at_px + DVec2::from(stds) * std_px);
         let (from_m, direction) = (camera.position_m, ray.normalize());
-        match self.prepared.triangles.intersect_solid(from_m, direction) {
-            Some(hit) if hit.object == at.object => {
+        let triangles = &self.prepared.triangles;
+        match triangles.intersect_object(at.object, from_m, direction) {
+            Some(hit) => {
                 let position_m = from_m + direction * hit.distance_m;
                 raised_m(self.prepared.scene, position_m, -direction, &hit)
             }
-            _ => at.point.raised_m,
+            None => at.point.raised_m,
         }
     }
 

@@ -1,7 +1,7 @@
 //! Which pixels need more than one sample.
 //!
-//! Shading integrates the pixel's filter in closed form, so samples are for what it does not know: edges of objects and
-//! creases. A pixel whose centre and eight neighbours lie on one smooth surface is done with one sample and the whole
+//! Shading integrates the pixel's filter in closed form, so samples are for what it does not know: edges of objects,
+//! creases, and surfaces that cover a part of what lies behind them. A pixel whose centre and eight neighbours lie on one smooth surface is done with one sample and the whole
 //! filter. Features thinner than a pixel that no pixel's centre meets are missed, as by any single sample.
 
 use crate::visibility::Visibility;
@@ -26,6 +26,9 @@ pub(crate) fn is_smooth(seen: &Visibility, camera: &CameraFrame, x: usize, y: us
     // At the picture's border a neighbour is the pixel itself and the difference a first one: two samples fewer there
     // are not worth a case.
     neighbours.iter().all(|&[a, b]| {
+        if [(x, y), a, b].iter().any(|&(x, y)| seen.is_partial(x, y)) {
+            return false;
+        }
         let (a, b) = (at(a.0, a.1), at(b.0, b.1));
         a.0 == object && b.0 == object && (a.1 + b.1 - 2.0 * middle).abs() <= most
     })
@@ -47,7 +50,13 @@ mod tests {
             .scene();
         let size_px = scene.render.size_px;
         let camera = scene.camera.frame(size_px);
-        let seen = Visibility::new(&TriangleIndex::build(&scene), &camera, size_px, &(0..200));
+        let seen = Visibility::new(
+            &TriangleIndex::build(&scene),
+            &camera,
+            size_px,
+            &(0..200),
+            2,
+        );
         let rough = (0..200 * 200)
             .filter(|i| !is_smooth(&seen, &camera, i % 200, i / 200))
             .count();

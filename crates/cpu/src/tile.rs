@@ -14,7 +14,7 @@ use crate::shade_scratches::{BATCH, Picks, ScratchPoint, ScratchShader};
 use crate::shadows::{PixelFilter, Rounds, ShadowPoint, Shadows};
 use crate::silhouettes::is_smooth;
 use crate::surface::{SurfacePoint, surface_point};
-use crate::visibility::{Visibility, center};
+use crate::visibility::{Visibility, center, coverage};
 use glam::{DVec2, DVec3};
 use hairline_image::{Batch, Image};
 use hairline_index::Hit;
@@ -182,7 +182,9 @@ impl<'a> Tile<'a> {
             let camera = &picture.camera;
             let direction = camera.camera_ray(at_px).normalize();
             let triangles = &picture.prepared.triangles;
-            let hit = self.rays.intersect(triangles, camera, at_px, direction);
+            let coverage = coverage(x, y, sample);
+            let rays = &mut self.rays;
+            let hit = rays.intersect(triangles, camera, at_px, direction, coverage);
             self.add(column, row, pixel, at_px, samples, hit);
         }
     }

@@ -2,7 +2,7 @@
 
 use crate::camera_beam::CameraBeam;
 use glam::DVec2;
-use hairline_index::{Hit, TriangleIndex};
+use hairline_index::{Coverage, Hit, TriangleIndex};
 use hairline_scene::CameraFrame;
 use rayon::prelude::*;
 use std::ops::Range;
@@ -13,6 +13,8 @@ pub(crate) struct Visibility {
     hits: Vec<Hit>,
     /// Reciprocals of the depths along the view axis; 0 for the background.
     per_depths_m: Vec<f64>,
+    /// Whether the surface may cover only a part of what lies behind it.
+    partial: Vec<bool>,
     /// The row that `hits` begins with, and the row behind the last one.
     rows: Range<usize>,
     width: usize,
@@ -26,35 +28,56 @@ const NOTHING: Hit = Hit {
     barycentric: [0.0; 2],
 };
 
+/// By what a sample of a pixel meets surfaces that cover a part of what lies behind them.
+pub(crate) fn coverage(x: usize, y: usize, sample: u32) -> Coverage {
+    Coverage::of_sample([x as u32, y as u32], sample)
+}
+
 /// The middle of a pixel.
 pub(crate) fn center(x: usize, y: usize) -> DVec2 {
     DVec2::new(x as f64 + 0.5, y as f64 + 0.5)
 }
 
 impl Visibility {
+    /// Where pixels have several samples, their centres see any surface that covers something: such pixels count as edges.
     pub fn new(
         triangles: &TriangleIndex,
         camera: &CameraFrame,
         size_px: [u32; 2],
         rows: &Range<u32>,
+        samples: u32,
     ) -> Self {
         let [width, height] = size_px.map(|n| n as usize);
         let first = (rows.start as usize).saturating_sub(1);
         let end = (rows.end as usize + 1).min(height);
         let mut hits = vec![NOTHING; (end - first) * width];
         let mut per_depths_m = vec![0.0; hits.len()];
-        let pixels = hits.par_iter_mut().zip(&mut per_depths_m).enumerate();
-        pixels.for_each_init(CameraBeam::default, |rays, (i, (seen, per_depth_m))| {
-            let pixel = center(i % width, first + i / width);
-            let ray = camera.camera_ray(pixel);
-            if let Some(hit) = rays.intersect(triangles, camera, pixel, ray.normalize()) {
-                *seen = hit;
-                *per_depth_m = ray.length() / hit.distance_m;
-            }
-        });
+        let mut partial = vec![false; hits.len()];
+        let pixels = (&mut hits, &mut per_depths_m, &mut partial)
+            .into_par_iter()
+            .enumerate();
+        pixels.for_each_init(
+            CameraBeam::default,
+            |rays, (i, (seen, per_depth_m, is_partial))| {
+                let (x, y) = (i % width, first + i / width);
+                let pixel = center(x, y);
+                let ray = camera.camera_ray(pixel);
+                let coverage = match samples {
+                    0 | 1 => coverage(x, y, 0),
+                    _ => Coverage::Any,
+                };
+                let hit = rays.intersect(triangles, camera, pixel, ray.normalize(), coverage);
+                if let Some(hit) = hit {
+                    *seen = hit;
+                    *per_depth_m = ray.length() / hit.distance_m;
+                    *is_partial = triangles.is_partial(&hit);
+                }
+            },
+        );
         Self {
             hits,
             per_depths_m,
+            partial,
             rows: first..end,
             width,
         }
@@ -70,6 +93,11 @@ impl Visibility {
     pub fn hit(&self, x: usize, y: usize) -> Option<&Hit> {
         let hit = &self.hits[self.index(x, y)];
         (hit.object != NOTHING.object).then_some(hit)
+    }
+
+    /// Whether what a pixel's centre sees may cover only a part of what lies behind it.
+    pub fn is_partial(&self, x: usize, y: usize) -> bool {
+        self.partial[self.index(x, y)]
     }
 
     /// The object that a pixel's centre sees, and the reciprocal of the depth there; (`u32::MAX`, 0) for the background.

@@ -66,7 +66,12 @@ impl Layouts {
             })
             .collect();
         Self {
-            frame: layout(gpu, "frame", &[entry(0, both, uniform())]),
+            // Which sample it is decides what is cut out of surfaces that cover their share.
+            frame: layout(
+                gpu,
+                "frame",
+                &[entry(0, both | ShaderStages::FRAGMENT, uniform())],
+            ),
             scene: layout(gpu, "scene", &scene),
             textures: layout(gpu, "textures", &textures),
         }

@@ -155,7 +155,12 @@ pub(crate) fn frame(
         group_count: counted.groups,
         base_light_count: data.base_light_count,
         middle_px: camera.middle_px.as_vec2().to_array(),
-        pad_1: [0; 2],
+        // A pixel of several samples counts as an edge where a surface covers only a part.
+        coverage_round: match (step, samples) {
+            (0, 2..) => u32::MAX,
+            _ => sample,
+        },
+        pad_1: 0,
     }
 }
 

@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Vec3, Vec4};
 use hairline_index::{IndexedSegment, ScratchIndex};
-use hairline_scene::{Bearing, Coat, GrooveField, Mesh, Profile, Scene, ScratchTables};
+use hairline_scene::{AlphaRule, Bearing, Coat, GrooveField, Mesh, Profile, Scene, ScratchTables};
 use half::f16;
 use rayon::prelude::*;
 use std::ops::Range;
@@ -174,6 +174,9 @@ pub(crate) fn materials(
         .collect()
 }
 
+/// Twin: coverage.wgsl.
+const ALPHA_IS_SHARE: f32 = 2.0;
+
 fn material(scene: &Scene, tables: &ScratchTables, array: &TextureArray, index: usize) -> Material {
     let (material, optics) = (&scene.materials[index], &tables.materials[index]);
     let rgb = |color: [f64; 3]| color.map(|c| c as f32);
@@ -195,7 +198,10 @@ fn material(scene: &Scene, tables: &ScratchTables, array: &TextureArray, index: 
         normal_texture: array.packed(material.normal_texture.map(|(texture, _)| texture)),
         emission_texture: array.packed(material.emission_texture),
         alpha: material.cutout.map_or(1.0, |it| it.alpha as f32),
-        threshold: material.cutout.map_or(-1.0, |it| it.threshold as f32),
+        threshold: material.cutout.map_or(-1.0, |it| match it.rule {
+            AlphaRule::AtLeast(threshold) => threshold as f32,
+            AlphaRule::Share => ALPHA_IS_SHARE,
+        }),
         occlusion_texture: array.packed(material.occlusion_texture.map(|(texture, _)| texture)),
         occlusion_strength: material
             .occlusion_texture

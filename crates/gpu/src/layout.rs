@@ -70,7 +70,8 @@ shared! {
         group_count: u32,
         base_light_count: u32,
         middle_px: [f32; 2],
-        pad_1: [u32; 2],
+        coverage_round: u32,
+        pad_1: u32,
     }
     /// A corner of a triangle.
     Vertex {

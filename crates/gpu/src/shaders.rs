@@ -163,7 +163,7 @@ modules! {
     /// Pass: the same of objects that are cut out.
     VISIBILITY_CUTOUTS = "passes/visibility_cutouts" needs [VISIBILITY, CUTOUTS];
     /// Pass: from the triangle that a pixel sees to its surface point.
-    SURFACE = "passes/surface" needs [HIT, FILM, PIXEL_POINT];
+    SURFACE = "passes/surface" needs [HIT, FILM, PIXEL_POINT, COVERAGE];
     /// Pass: the pixels of each tile that have an edge or a crease.
     EDGES = "passes/edges" needs [FILM];
     /// Pass: from segments to the picture.
@@ -204,8 +204,10 @@ modules! {
     SHADOW = "scene/shadow" needs [LAYOUT, SOBOL, LUMINANCE];
     /// Pass: a ray of each sample to one source of the base's light.
     SHADOW_BASE_RAYS = "passes/shadow_base_rays" needs [BASE_LOBES, LIGHT_SAMPLING, SHADOW, FILM, PIXEL_POINT];
+    /// Which surfaces a ray meets that cover a part of what lies behind them.
+    COVERAGE = "scene/coverage" needs [SOBOL, TRIANGLE_TREE];
     /// Where surfaces are not.
-    CUTOUTS = "scene/cutouts" needs [SCENE, TRIANGLE_TREE];
+    CUTOUTS = "scene/cutouts" needs [SCENE, COVERAGE];
     /// Where rays of a sample start.
     RAY_START = "scene/ray_start" needs [CUTOUTS, PIXEL_POINT, AT_HITS];
     /// Pass: what each ray meets.

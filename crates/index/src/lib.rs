@@ -23,6 +23,7 @@
 
 #![warn(unreachable_pub)]
 
+mod coverage;
 mod cutouts;
 mod depth_spread;
 pub mod groove_index;
@@ -38,6 +39,7 @@ pub(crate) mod triangle_index;
 pub mod triangle_lists;
 pub mod watch;
 
+pub use coverage::Coverage;
 pub use groove_index::Groove;
 pub use hit::Hit;
 pub use indexed_segment::IndexedSegment;

@@ -1,6 +1,7 @@
 //! Triangles along many rays of one origin: the tree is walked once for a narrow pyramid, and each ray within it tries what was
 //! found.
 
+use crate::coverage::Coverage;
 use crate::hit::Hit;
 use crate::triangle_index::TriangleIndex;
 use glam::DVec3;
@@ -134,22 +135,24 @@ impl TriangleBeam {
         }
     }
 
-    /// The nearest hit of a ray along the unit `direction` within the pyramid, as [`TriangleIndex::intersect`] finds it. `triangles`
+    /// The nearest hit of a ray along the unit `direction` within the pyramid, as [`TriangleIndex::intersect_covered`] finds it. `triangles`
     /// and `origin` are what it was aimed with.
     pub fn intersect(
         &self,
         triangles: &TriangleIndex,
         origin: DVec3,
         direction: DVec3,
+        coverage: Coverage,
     ) -> Option<Hit> {
         if self.is_full {
-            return triangles.intersect(origin, direction);
+            return triangles.intersect_covered(origin, direction, coverage);
         }
         let mut nearest: Option<Hit> = None;
         for candidate in &self.candidates {
             let nearest_m = nearest.map_or(f64::INFINITY, |hit| hit.distance_m);
             let met = candidate.intersect(direction, nearest_m);
-            nearest = met.filter(|hit| triangles.is_there(hit)).or(nearest);
+            let met = met.filter(|hit| triangles.is_there(hit, coverage));
+            nearest = met.or(nearest);
         }
         nearest
     }
@@ -207,7 +210,7 @@ mod tests {
                     for x in 0..8 {
                         let direction = ray(f64::from(x) + 0.37, 0.61).normalize();
                         let expected = triangles.intersect(origin, direction);
-                        let found = beam.intersect(&triangles, origin, direction);
+                        let found = beam.intersect(&triangles, origin, direction, Coverage::Any);
                         let Some(expected) = expected else {
                             assert_eq!(found, None);
                             misses += 1;
@@ -230,7 +233,9 @@ mod tests {
                     let away = ray(40.0, 8.5).normalize();
                     let seen = triangles.intersect(origin, away);
                     beside += u32::from(
-                        beam.intersect(&triangles, origin, away).is_none() && seen.is_some(),
+                        beam.intersect(&triangles, origin, away, Coverage::Any)
+                            .is_none()
+                            && seen.is_some(),
                     );
                 }
             }
@@ -254,10 +259,14 @@ mod tests {
         let mut beam = TriangleBeam::new();
         let above = DVec3::new(0.0, 0.0, 0.5);
         beam.aim(&triangles, above, up);
-        assert_eq!(beam.intersect(&triangles, above, DVec3::Z), None);
+        assert_eq!(
+            beam.intersect(&triangles, above, DVec3::Z, Coverage::Any),
+            None
+        );
         let down = up.map(|corner| corner * DVec3::new(1.0, 1.0, -1.0));
         beam.aim(&triangles, above, down);
-        let hit = beam.intersect(&triangles, above, DVec3::new(0.01, 0.02, -1.0).normalize());
+        let direction = DVec3::new(0.01, 0.02, -1.0).normalize();
+        let hit = beam.intersect(&triangles, above, direction, Coverage::Any);
         assert!(hit.is_some());
     }
 }

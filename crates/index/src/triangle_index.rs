@@ -9,6 +9,7 @@ use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
 use obvhs::ray::{Ray, RayHit};
 
+use crate::coverage::Coverage;
 use crate::cutouts::Cutouts;
 use crate::hit::Hit;
 use crate::tree;
@@ -73,8 +74,23 @@ impl TriangleIndex {
     }
 
     /// Whether the surface is there that a ray meets, and not cut out of its triangle.
-    pub(crate) fn is_there(&self, hit: &Hit) -> bool {
-        self.cutouts.as_ref().is_none_or(|it| it.is_there(hit))
+    pub(crate) fn is_there(&self, hit: &Hit, coverage: Coverage) -> bool {
+        let cutouts = self.cutouts.as_ref();
+        cutouts.is_none_or(|it| it.is_there(hit, coverage))
+    }
+
+    /// Whether the surface of a hit may cover only a part of what lies behind it.
+    pub fn is_partial(&self, hit: &Hit) -> bool {
+        let cutouts = self.cutouts.as_ref();
+        cutouts.is_some_and(|it| it.is_partial(hit))
+    }
+
+    /// That of a ray that is drawn by chance.
+    fn by_ray(&self, origin: DVec3, direction: DVec3) -> Coverage {
+        match self.cutouts {
+            Some(_) => Coverage::of_ray(origin, direction),
+            None => Coverage::Any,
+        }
     }
 
     pub(crate) fn tree(&self) -> &Bvh2 {
@@ -132,21 +148,47 @@ impl TriangleIndex {
     }
 
     /// The nearest hit of a ray of the camera, from `origin` along the unit `direction`: either side of a triangle, and the fronts of lamps.
+    /// Of surfaces that cover a part of what lies behind them, any.
     pub fn intersect(&self, origin: DVec3, direction: DVec3) -> Option<Hit> {
-        self.nearest(origin, direction, |object, corners| {
+        self.intersect_covered(origin, direction, Coverage::Any)
+    }
+
+    /// The same; of surfaces that cover a part of what lies behind them, those that `coverage` says.
+    pub fn intersect_covered(
+        &self,
+        origin: DVec3,
+        direction: DVec3,
+        coverage: Coverage,
+    ) -> Option<Hit> {
+        self.nearest(origin, direction, coverage, |object, corners| {
             !self.is_unseen(object, corners, origin)
         })
     }
 
-    /// The nearest hit of any other ray: lamps are not in its way.
+    /// The same of one of many rays that are drawn by chance: it meets such surfaces as often as their alpha says.
+    pub fn intersect_drawn(&self, origin: DVec3, direction: DVec3) -> Option<Hit> {
+        let coverage = self.by_ray(origin, direction);
+        self.intersect_covered(origin, direction, coverage)
+    }
+
+    /// The nearest hit of any other ray, drawn by chance: lamps are not in its way.
     pub fn intersect_solid(&self, origin: DVec3, direction: DVec3) -> Option<Hit> {
-        self.nearest(origin, direction, |object, _| object < self.lamps)
+        let coverage = self.by_ray(origin, direction);
+        self.nearest(origin, direction, coverage, |object, _| object < self.lamps)
+    }
+
+    /// The nearest hit of a ray that looks for an object: lamps and what covers it only in part are not in its way.
+    pub fn intersect_object(&self, object: u32, origin: DVec3, direction: DVec3) -> Option<Hit> {
+        let coverage = Coverage::Only(object);
+        let hit = self.nearest(origin, direction, coverage, |object, _| object < self.lamps);
+        hit.filter(|hit| hit.object == object)
     }
 
     fn nearest(
         &self,
         origin: DVec3,
         direction: DVec3,
+        coverage: Coverage,
         is_there: impl Fn(u32, &[DVec3; 3]) -> bool,
     ) -> Option<Hit> {
         if self.triangles.is_empty() {
@@ -169,7 +211,7 @@ impl TriangleIndex {
                         distance_m,
                         barycentric,
                     };
-                    if !self.is_there(&met) {
+                    if !self.is_there(&met, coverage) {
                         return f32::INFINITY;
                     }
                     if hit.is_none_or(|h| distance_m < h.distance_m) {
@@ -183,11 +225,12 @@ impl TriangleIndex {
         hit
     }
 
-    /// Whether a ray from `origin` along the unit `direction` meets a triangle, either side of it, nearer than `distance_m`. Lamps hide nothing.
+    /// Whether a ray from `origin` along the unit `direction`, drawn by chance, meets a triangle, either side of it, nearer than `distance_m`. Lamps hide nothing.
     pub fn is_hidden(&self, origin: DVec3, direction: DVec3, distance_m: f64) -> bool {
         if self.triangles.is_empty() {
             return false;
         }
+        let coverage = self.by_ray(origin, direction);
         let (from, along) = (origin.as_vec3a(), non_zero(direction.as_vec3a()));
         let ray = Ray::new(from, along, 0.0, distance_m as f32);
         let is_free = self.tree.ray_traverse_miss(ray, |_, id| {
@@ -201,7 +244,7 @@ impl TriangleIndex {
                 },
                 _ => return f32::INFINITY,
             };
-            match self.is_there(&met) {
+            match self.is_there(&met, coverage) {
                 true => 0.0,
                 false => f32::INFINITY,
             }

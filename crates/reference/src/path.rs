@@ -83,7 +83,7 @@ impl Integrator<'_> {
         wavelengths: &Wavelengths,
         random: Random,
     ) -> Light {
-        match self.triangles.intersect(origin_m, direction) {
+        match self.triangles.intersect_drawn(origin_m, direction) {
             Some(hit) => self.leave(origin_m, direction, &hit, wavelengths, 0, random),
             None => Light {
                 base: match &self.scene.environment {

@@ -33,6 +33,7 @@ mod grating;
 mod grey_map;
 pub mod inputs;
 mod key_line;
+mod ktx2;
 mod lamp_shape;
 mod light;
 mod light_picture;

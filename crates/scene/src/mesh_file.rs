@@ -6,6 +6,7 @@
 
 mod accessor;
 mod cameras;
+mod cutout;
 mod draco;
 mod extensions;
 mod flaw;
@@ -81,6 +82,7 @@ pub(crate) fn read(
         with_mips,
     } = stock;
     let buffers = Buffers::read(&gltf, base_dir, files)?;
+    let first_own = materials.len();
     let mut materials = match material {
         Some(material) => Materials::One(material),
         None => {
@@ -120,6 +122,7 @@ pub(crate) fn read(
         });
         Ok(())
     })?;
+    materials.forget_whole(first_own, &mesh);
     if mesh.triangles.is_empty() && without_surface > 0 {
         let found = "it has points and lines, and no triangles";
         return Err(Flaw::new(
@@ -199,10 +202,7 @@ fn parse(bytes: &[u8], kept: Kept) -> Result<Gltf, Flaw> {
                 "it requires the extension {}, which is not supported",
                 shown(name)
             ),
-            match name.as_str() {
-                "KHR_texture_basisu" => "export it again with PNG, JPEG or WebP images",
-                _ => "export it again without that",
-            },
+            "export it again without that",
         ));
     }
     root::leave_out_what_is_ignored(&mut json, kept);

@@ -146,7 +146,7 @@ pub struct Material {
     pub dielectric: [f64; 2],
     /// Whether it sends its base colour and reflects nothing, as a picture without light (KHR_materials_unlit).
     pub is_unlit: bool,
-    /// Where its surface is not.
+    /// Where its surface is not; none if it is everywhere.
     pub cutout: Option<Cutout>,
     /// A clear layer over all of this. Scratches lie in it.
     pub coat: Option<Coat>,
@@ -171,13 +171,22 @@ pub const COAT_F0: f64 = 0.04;
 /// What glTF says of a dielectric without its extensions: [`Material::dielectric`].
 pub const GLTF_DIELECTRIC: [f64; 2] = [0.04, 1.0];
 
-/// A surface is only where its alpha is at least a threshold: rays go through the rest.
+/// A surface that is not everywhere on its triangles: rays go through the rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cutout {
     /// Factor on the alpha of the base colour texture and of the vertices.
     pub alpha: f64,
-    /// The least alpha at which the surface is there.
-    pub threshold: f64,
+    /// Where the surface is, by the product of these.
+    pub rule: AlphaRule,
+}
+
+/// What an alpha says of a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AlphaRule {
+    /// The surface is there where alpha is at least this.
+    AtLeast(f64),
+    /// Alpha is the share of what lies behind that the surface covers.
+    Share,
 }
 
 /// The kind of a surface.

@@ -6,9 +6,10 @@ use hairline_memory::{costs, in_words};
 use image::{ImageReader, Limits};
 use rayon::prelude::*;
 
+use crate::ktx2;
 use crate::scene::{Sampling, Texture, Wrap};
 
-const LARGEST_PX: u32 = 16_384;
+pub(crate) const LARGEST_PX: u32 = 16_384;
 
 /// What the channels of an image are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -27,6 +28,8 @@ pub(crate) enum Channels {
 pub(crate) enum Unusable {
     #[error("{0}")]
     Broken(#[from] image::ImageError),
+    #[error("{0}")]
+    Ktx(String),
     #[error(transparent)]
     Unreadable(#[from] std::io::Error),
     #[error("{}x{} pixels would take about {} of memory, and {} are free", .size_px[0], .size_px[1],
@@ -50,8 +53,11 @@ pub(crate) fn check_memory(size_px: [u32; 2], free_bytes: f64) -> Result<(), Unu
     Ok(())
 }
 
-/// The texels of a PNG, JPEG or WebP file, row by row from the top, and its size. As a texture it may take `free_bytes`.
+/// The texels of a PNG, JPEG, WebP or KTX2 file, row by row from the top, and its size. As a texture it may take `free_bytes`.
 pub(crate) fn decode(bytes: &[u8], free_bytes: f64) -> Result<Texels, Unusable> {
+    if ktx2::is_ktx(bytes) {
+        return ktx2::decode(bytes, free_bytes);
+    }
     let guessed = ImageReader::new(Cursor::new(bytes)).with_guessed_format()?;
     let size_px: [u32; 2] = guessed.into_dimensions()?.into();
     check_memory(size_px, free_bytes)?;

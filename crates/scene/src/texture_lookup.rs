@@ -70,21 +70,21 @@ impl Mesh {
 }
 
 impl Cutout {
-    /// Whether a surface of this material is there, at a place of a triangle of these weights of its corners.
-    pub fn is_there(
+    /// The alpha of a surface of this material, at a place of a triangle of these weights of its corners.
+    pub fn alpha_at(
         &self,
         material: &Material,
         textures: &[Texture],
         mesh: &Mesh,
         triangle: [u32; 3],
         weights: [f64; 3],
-    ) -> bool {
+    ) -> f64 {
         let of_texture = material.base_color_texture.map_or(1.0, |i| {
             let texture = &textures[i];
             let [a, b, c] = mesh.corner_uvs(triangle, texture);
             texture.alpha(a * weights[0] + b * weights[1] + c * weights[2])
         });
-        self.alpha * of_texture * mesh.color(triangle, weights).w >= self.threshold
+        self.alpha * of_texture * mesh.color(triangle, weights).w
     }
 }
 

@@ -1,6 +1,7 @@
 //! Whole pictures: the GPU against the CPU, and both against physics.
 
 mod assets;
+mod blends;
 mod dense;
 mod environment;
 mod environment_band;

@@ -12,7 +12,7 @@ use hairline_image::Image;
 use hairline_image::tone_map::linear_from_srgb;
 use hairline_index::{ScratchIndex, TriangleIndex};
 use hairline_scene::{
-    Base, Cutout, Light, LightShape, Mesh, Sampling, Scene, ScratchTables, Texture, Wrap,
+    AlphaRule, Base, Cutout, Light, LightShape, Mesh, Sampling, Scene, ScratchTables, Texture, Wrap,
 };
 
 const HALF_M: f32 = 0.1;
@@ -159,7 +159,7 @@ fn half_a_lid() -> Scene {
     material.base_color_texture = Some(0);
     material.cutout = Some(Cutout {
         alpha: 0.8,
-        threshold: 0.5,
+        rule: AlphaRule::AtLeast(0.5),
     });
     scene.materials.push(material);
     scene

@@ -22,6 +22,8 @@ pub enum Kind {
     Exr,
     /// Textures.
     Png,
+    /// Textures of Basis Universal.
+    Ktx2,
 }
 
 /// One input: files in a folder, of which `scene.toml` is rendered.

@@ -80,6 +80,12 @@ const MODEL: &str = "\n[[object]]\nname = \"model\"\nmesh = \"FILE\"\nfit_m = 0.
 const LIST: &str = "\n[[scratches]]\nobject = \"plate\"\npattern = \"file\"\nfile = \"list.csv\"\n";
 const CSV: &str = "x0_m,y0_m,z0_m,x1_m,y1_m,z1_m,width_um,depth_nm\n-0.04,0.01,0,0.05,0.02,0,4.2,130\n0.00,-0.03,0,0.01,0.04,0,4.5,138\n";
 
+/// Packed as ETC1S, and as UASTC.
+const KTX2: [&[u8]; 2] = [
+    include_bytes!("../../../crates/scene/tests/scene/images/etc1s.ktx2"),
+    include_bytes!("../../../crates/scene/tests/scene/images/uastc_zstd.ktx2"),
+];
+
 /// All of them, made once.
 pub struct Originals {
     exr: Vec<u8>,
@@ -179,6 +185,15 @@ impl Originals {
                 file("a.bin", self.bin.clone()),
                 file("tile.png", mutated(&self.png, random)),
             ],
+            Kind::Ktx2 => {
+                let original = KTX2[random.random_range(0..KTX2.len())];
+                vec![
+                    with_model("a.gltf"),
+                    file("a.gltf", json(Some("a.bin"), "tile.ktx2").into_bytes()),
+                    file("a.bin", self.bin.clone()),
+                    file("tile.ktx2", mutated(original, random)),
+                ]
+            }
         };
         Case {
             name: String::new(),
@@ -288,6 +303,17 @@ pub fn sound_cases(originals: &Originals) -> Vec<Case> {
                     glb(json(None, "tile.png").as_bytes(), &originals.bin),
                 ),
                 ("tile.png", originals.png.clone()),
+            ],
+        ),
+        case(
+            "sound-ktx2",
+            vec![
+                ("scene.toml", scene(MODEL.replace("FILE", "a.glb"))),
+                (
+                    "a.glb",
+                    glb(json(None, "tile.ktx2").as_bytes(), &originals.bin),
+                ),
+                ("tile.ktx2", KTX2[0].to_vec()),
             ],
         ),
         case(

@@ -21,7 +21,7 @@ fn bounce_trace(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups
     let direction = rays[at].direction;
     let start = sample_start(triangle_tree, points[at], paints[at].triangle, rays[at].place);
     let from_there = ray_from(start, direction, points[at].normal, shadow_round.extent_m);
-    let hit = cutout_hit(triangle_tree, from_there, distance_m, start.triangle, false);
+    let hit = cutout_hit(triangle_tree, from_there, distance_m, start.triangle, false, 0u);
     rays[at].distance_m = select(0.0, hit.distance_m, hit.triangle != 0u);
     rays[at].place = hit.barycentric;
     rays[at].triangle = hit.triangle - u32(hit.triangle != 0u);

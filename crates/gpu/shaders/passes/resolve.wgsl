@@ -15,27 +15,28 @@ const CREASE_PX: f32 = 0.2;
 struct Neighbour {
     object: u32,
     per_depth: f32,
+    is_partial: bool,
 }
 
 fn neighbour(pixel: vec2u, step: vec2i) -> Neighbour {
     let at = clamp(vec2i(pixel) + step, vec2i(0), vec2i(frame.size_px) - 1);
     let point = strip_index(vec2u(at));
     let object = points[point].object;
-    return Neighbour(object, select(0.0, 1.0 / points[point].depth_m, object != 0u));
+    return Neighbour(object, select(0.0, 1.0 / points[point].depth_m, object != 0u), object != 0u && (points[point].table_and_place & PIXEL_PARTIAL) != 0u);
 }
 
 // Whether one sample through the centre is not enough.
 fn pixel_is_edge(pixel: vec2u) -> bool {
     let middle = neighbour(pixel, vec2i(0));
     let bend_max = CREASE_PX * middle.per_depth / frame.px_per_slope;
-    var is_edge = false;
+    var is_edge = middle.is_partial;
     for (var i = 0; i < 4; i += 1) {
         // To the right, down, and along both diagonals.
         let step = vec2i(i32(i != 1), i32(i != 0) * select(1, -1, i == 3));
         let before = neighbour(pixel, -step);
         let after = neighbour(pixel, step);
         let bend = abs(before.per_depth + after.per_depth - 2.0 * middle.per_depth);
-        is_edge = is_edge || before.object != middle.object || after.object != middle.object || bend > bend_max;
+        is_edge = is_edge || before.is_partial || after.is_partial || before.object != middle.object || after.object != middle.object || bend > bend_max;
     }
     return is_edge;
 }

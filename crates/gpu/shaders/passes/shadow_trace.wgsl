@@ -27,7 +27,7 @@ fn shadow_trace(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups
         let way_m = points[at].position_m + ray.distance_m * ray.direction - start.position_m;
         let distance_m = length(way_m);
         let from_there = ray_from(start, way_m / distance_m, points[at].normal, shadow_round.extent_m);
-        let hit = cutout_hit(triangle_tree, from_there, distance_m, start.triangle, true);
+        let hit = cutout_hit(triangle_tree, from_there, distance_m, start.triangle, true, 0u);
         is_hidden = hit.triangle != 0u;
     }
     let half = 2u * at + shadow_round.round % 2u;

@@ -42,5 +42,8 @@ fn surface(@builtin(global_invocation_id) id: vec3u) {
     var depth_m: f32;
     let point = hit_surface_point(seen.x - 1u, ray, &depth_m);
     points[at] = pixel_point_pack(point, seen.y, depth_m, place);
+    if HAS_CUTOUTS && material_at(vertices[3u * (seen.x - 1u)].material & ~VERTEX_BITANGENT_FLIPPED).threshold == ALPHA_IS_SHARE {
+        points[at].table_and_place |= PIXEL_PARTIAL;
+    }
     paints[at] = pixel_paint_pack(point, seen.x - 1u);
 }

@@ -21,8 +21,19 @@ fn cutout_vertex(@builtin(vertex_index) vertex: u32, @builtin(instance_index) ob
 @fragment
 fn cutout_fragment(in: CutoutVertex) -> @location(0) vec2u {
     let material = material_at(in.ids.z);
-    if material.threshold >= 0.0 && cutout_alpha(material, in.uv.xy, in.uv.zw) * in.alpha < material.threshold {
-        discard;
+    if material.threshold >= 0.0 {
+        let alpha = cutout_alpha(material, in.uv.xy, in.uv.zw) * in.alpha;
+        var is_there = alpha >= material.threshold;
+        if material.threshold == ALPHA_IS_SHARE && frame.coverage_round == COVERAGE_ANY {
+            is_there = alpha > 0.0;
+        } else if material.threshold == ALPHA_IS_SHARE {
+            // The target begins with the row above the strip.
+            let pixel = vec2u(in.clip.xy) + vec2u(0u, frame.rows.x) - vec2u(0u, 1u);
+            is_there = coverage_meets(alpha, in.ids.x - 1u, coverage_key_of_pixel(pixel), frame.coverage_round);
+        }
+        if !is_there {
+            discard;
+        }
     }
     return in.ids.xy;
 }

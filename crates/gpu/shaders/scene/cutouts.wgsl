@@ -1,4 +1,4 @@
-// Where surfaces are not. Twin: scene/src/texture_lookup.rs.
+// Where surfaces are not. Twins: scene/src/texture_lookup.rs, index/src/cutouts.rs.
 
 // Layers of cut-out surfaces that a ray goes through; at the next one it ends.
 const CUTOUT_LAYERS: u32 = 64u;
@@ -13,8 +13,10 @@ fn cutout_alpha(material: Material, uv: vec2f, other_uv: vec2f) -> f32 {
     return alpha;
 }
 
-// Whether the surface of a triangle is there at a place of it.
-fn cutout_is_there(triangle: u32, barycentric: vec2f) -> bool {
+// Whether a ray meets the surface where it meets its triangle: of those that cover a part of what lies behind them, any of the object
+// `only` (+ 1) and no other; with 0 by chance.
+fn cutout_is_there(hit: TriangleHit, only: u32, key: u32) -> bool {
+    let triangle = hit.triangle - 1u;
     let a = vertices[3u * triangle];
     let material = material_at(a.material & ~VERTEX_BITANGENT_FLIPPED);
     if material.threshold < 0.0 {
@@ -22,23 +24,31 @@ fn cutout_is_there(triangle: u32, barycentric: vec2f) -> bool {
     }
     let b = vertices[3u * triangle + 1u];
     let c = vertices[3u * triangle + 2u];
-    let weights = vec3f(1.0 - barycentric.x - barycentric.y, barycentric);
+    let weights = vec3f(1.0 - hit.barycentric.x - hit.barycentric.y, hit.barycentric);
     let uv = vec2f(a.u, a.v) * weights.x + vec2f(b.u, b.v) * weights.y + vec2f(c.u, c.v) * weights.z;
     let other_uv = a.other_uv * weights.x + b.other_uv * weights.y + c.other_uv * weights.z;
     let alphas = vec3f(unpack2x16unorm(a.color.y).y, unpack2x16unorm(b.color.y).y, unpack2x16unorm(c.color.y).y);
-    return cutout_alpha(material, uv, other_uv) * dot(alphas, weights) >= material.threshold;
+    let alpha = cutout_alpha(material, uv, other_uv) * dot(alphas, weights);
+    if material.threshold != ALPHA_IS_SHARE {
+        return alpha >= material.threshold;
+    }
+    if only != 0u {
+        return alpha > 0.0 && hit.object + 1u == only;
+    }
+    return coverage_meets(alpha, triangle, key, 0u);
 }
 
 // As tree_hit, through what is cut out.
-fn cutout_hit(tree: texture_2d<u32>, ray: TreeRay, limit_m: f32, but: u32, first_met: bool) -> TriangleHit {
+fn cutout_hit(tree: texture_2d<u32>, ray: TreeRay, limit_m: f32, but: u32, first_met: bool, only: u32) -> TriangleHit {
     if !HAS_CUTOUTS {
         return tree_hit(tree, ray, limit_m, but, first_met);
     }
+    let key = coverage_key_of_ray(ray);
     var from_there = ray;
     var gone_m = 0.0;
     var hit = tree_hit(tree, from_there, limit_m, but, false);
     for (var i = 0u; i < CUTOUT_LAYERS; i += 1u) {
-        if hit.triangle == 0u || cutout_is_there(hit.triangle - 1u, hit.barycentric) {
+        if hit.triangle == 0u || cutout_is_there(hit, only, key) {
             break;
         }
         gone_m += hit.distance_m;

@@ -29,7 +29,11 @@ struct Frame {
     group_count: u32,           // of 64 samples that are shaded together; known once edges are counted
     base_light_count: u32,      // of the lights, those that do not shine on scratches alone: they come first
     middle_px: vec2f,           // where in the picture the ray along `forward` is
+    coverage_round: u32,        // of all samples of a pixel, which one is looked at; COVERAGE_ANY: it stands for all
 }
+
+// The sample sees any surface that covers something.
+const COVERAGE_ANY: u32 = 0xffffffffu;
 
 const ENVIRONMENT_PRESENT: u32 = 1u;
 const ENVIRONMENT_VISIBLE: u32 = 2u;
@@ -89,7 +93,7 @@ struct Material {
     normal_texture: vec2u,
     emission_texture: vec2u,
     alpha: f32,                 // factor on that of the texture and of the vertices
-    threshold: f32,             // of the alpha at which the surface is there; negative: it is there everywhere
+    threshold: f32,             // of the alpha at which the surface is there; negative: it is there everywhere; ALPHA_IS_SHARE
     occlusion_texture: vec2u,
     occlusion_strength: f32,
     coat: u32,                  // share of the surface and roughness of a clear layer over it, in 16 bits each
@@ -149,9 +153,12 @@ struct PixelPoint {
     turns: vec4f,               // how the smooth normal turns over each of them, in the surface frame
     cos_o: f32,                 // of the viewer to the normal
     distance_m: f32,            // to the viewer
-    table_and_place: u32,       // layer of the scratch tables in 16 bits; the pixel's place in its tile
+    table_and_place: u32,       // layer of the scratch tables in 16 bits; the pixel's place in its tile, and PIXEL_PARTIAL
     leaves: f32,                // how far the surface may be off the plane of shading for each length along it
 }
+
+// Of table_and_place: the surface may cover only a part of what lies behind it.
+const PIXEL_PARTIAL: u32 = 0x80000000u;
 
 // What its surface is made of, as the base needs it.
 struct PixelPaint {

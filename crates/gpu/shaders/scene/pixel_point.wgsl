@@ -36,7 +36,7 @@ fn pixel_table(pixel: PixelPoint) -> u32 {
 }
 
 fn pixel_place(pixel: PixelPoint) -> u32 {
-    return pixel.table_and_place >> 16u;
+    return (pixel.table_and_place & ~PIXEL_PARTIAL) >> 16u;
 }
 
 fn pixel_wo(cos_o: f32) -> vec3f {

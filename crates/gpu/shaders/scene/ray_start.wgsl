@@ -45,7 +45,7 @@ fn own_barycentric(triangle: u32, ray: vec3f) -> vec2f {
 fn under_the_pixel(tree: texture_2d<u32>, pixel: PixelPoint, own: u32, stds: vec2f) -> RayStart {
     let middle = (pixel.position_m - frame.camera_m) / pixel.depth_m;
     let ray = middle + frame.footprint_std_px * (frame.per_px_x * stds.x + frame.per_px_y * stds.y);
-    let hit = cutout_hit(tree, tree_ray(frame.camera_m, normalize(ray)), 1e30, 0u, false);
+    let hit = cutout_hit(tree, tree_ray(frame.camera_m, normalize(ray)), 1e30, 0u, false, pixel.object);
     if hit.triangle != 0u && hit.object == pixel.object - 1u {
         return ray_start(hit.triangle - 1u, hit.barycentric, -ray);
     }

@@ -1,7 +1,7 @@
 //! The extensions of glTF: those that are read, and what the picture is without the others.
 
 /// Extensions that are read. Quantization needs nothing done: the accessors read every component type.
-const READ: [&str; 14] = [
+const READ: [&str; 15] = [
     "EXT_mesh_gpu_instancing",
     "EXT_meshopt_compression",
     "EXT_texture_webp",
@@ -15,6 +15,7 @@ const READ: [&str; 14] = [
     "KHR_materials_unlit",
     "KHR_mesh_quantization",
     "KHR_node_visibility",
+    "KHR_texture_basisu",
     "KHR_texture_transform",
 ];
 
@@ -56,9 +57,7 @@ pub(super) fn meaning(name: &str) -> (&'static str, bool) {
         | "KHR_materials_volume_scatter"
         | "KHR_materials_dispersion" => matters("what is clear is shown opaque"),
         "KHR_materials_variants" => matters("the file's first look is shown"),
-        "KHR_texture_basisu" | "MSFT_texture_dds" | "EXT_texture_avif" => {
-            harmless("the texture's other image is shown")
-        }
+        "MSFT_texture_dds" | "EXT_texture_avif" => harmless("the texture's other image is shown"),
         "KHR_meshopt_compression" | "MESHOPT_compression" => {
             harmless("the same data are there uncompressed")
         }

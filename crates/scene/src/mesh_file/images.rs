@@ -78,17 +78,10 @@ impl Images<'_> {
         let what = format!("image {}", image.index());
         let free_bytes = self.free_bytes;
         let decode = |bytes: &[u8]| {
-            if bytes.starts_with(b"\xabKTX ") {
-                let found = format!("its {what} is a KTX image");
-                return Err(Flaw::new(
-                    found,
-                    "export it again with PNG, JPEG or WebP images",
-                ));
-            }
             texture::decode(bytes, free_bytes).map_err(|error| {
                 Flaw::new(
                     format!("its {what} cannot be decoded ({error})"),
-                    "must be a PNG, JPEG or WebP image",
+                    "must be a PNG, JPEG, WebP or KTX2 image (ETC1S or UASTC)",
                 )
             })
         };

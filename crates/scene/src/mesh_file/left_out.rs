@@ -174,10 +174,6 @@ impl Found {
     }
 
     fn material(&mut self, material: &Value) {
-        if material.get("alphaMode").and_then(Value::as_str) == Some("BLEND") {
-            let meaning = "what is clear to more than a half is cut away, the rest is opaque";
-            self.add(PROPERTY, "alphaMode BLEND", 1, meaning, true);
-        }
         // Ways in which images lie on the surface: a vertex has places for two.
         let mut ways: Vec<(u64, Option<&Value>)> = Vec::new();
         for texture in textures_of(material) {

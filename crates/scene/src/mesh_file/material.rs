@@ -3,19 +3,16 @@
 use std::collections::HashMap;
 
 use gltf::json::Value;
-use gltf::material::AlphaMode;
 use gltf::{Document, Primitive};
 
+use super::cutout::{self, cutout};
 use super::flaw::Flaw;
 use super::images::Images;
 use super::spec_gloss::{self, SpecGloss};
 use super::uv::{self, Way, Ways};
 use crate::description::DEFAULT_COHERENCE_UM;
-use crate::scene::{Base, Coat, Cutout, GLTF_DIELECTRIC, Material};
+use crate::scene::{Base, Coat, GLTF_DIELECTRIC, Material, Mesh};
 use crate::texture::Channels;
-
-/// The alpha at which a surface that is neither there nor away is taken to be there.
-const BLEND_THRESHOLD: f64 = 0.5;
 
 /// KHR_materials_clearcoat, without its textures.
 fn coat(material: &gltf::Material) -> Option<Coat> {
@@ -59,6 +56,13 @@ impl<'a> Materials<'a> {
             materials,
             indices: HashMap::new(),
         })
+    }
+
+    /// Forgets the cutouts of what is whole on a mesh, of the materials that were added from the number `first` on.
+    pub(super) fn forget_whole(&mut self, first: usize, mesh: &Mesh) {
+        if let Self::Own(own) = self {
+            cutout::forget_whole(own.materials, first, own.images.textures, mesh);
+        }
     }
 
     /// The scene's material for a primitive.
@@ -234,20 +238,4 @@ fn dielectric(material: &gltf::Material, metallic: f64) -> [f64; 2] {
     let brightness = 0.2126 * channel(0) + 0.7152 * channel(1) + 0.0722 * channel(2);
     let grazing = specular + (1.0 - specular) * metallic;
     [specular * (f0 * brightness.max(0.0)).min(1.0), grazing]
-}
-
-/// Where a material's surface is not. What is to be blended is there or not there, where its alpha varies.
-fn cutout(material: &gltf::Material, alpha: f64) -> Option<Cutout> {
-    match material.alpha_mode() {
-        AlphaMode::Opaque => None,
-        AlphaMode::Mask => Some(Cutout {
-            alpha,
-            threshold: f64::from(material.alpha_cutoff().unwrap_or(0.5)),
-        }),
-        AlphaMode::Blend => Some(Cutout {
-            // A surface of glass, all of one alpha, stays.
-            alpha: 1.0,
-            threshold: BLEND_THRESHOLD,
-        }),
-    }
 }

@@ -91,15 +91,9 @@ pub(super) fn find_images(root: &mut Root) -> Result<(), Flaw> {
         if texture.source.value() < images {
             continue;
         }
-        match (named("EXT_texture_webp"), named("KHR_texture_basisu")) {
-            (Some(source), _) => texture.source = Index::new(source),
-            (None, Some(_)) => {
-                return Err(Flaw::new(
-                    format!("its texture {i} has a KTX2 image alone (KHR_texture_basisu)"),
-                    "export it again with PNG, JPEG or WebP images",
-                ));
-            }
-            (None, None) => {
+        match named("EXT_texture_webp").or_else(|| named("KHR_texture_basisu")) {
+            Some(source) => texture.source = Index::new(source),
+            None => {
                 let found = format!("its texture {i} has no image that is there");
                 return Err(Flaw::new(
                     found,

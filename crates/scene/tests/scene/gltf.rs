@@ -431,9 +431,9 @@ fn broken_files_end_in_a_message() {
         (
             replaced(
                 r#""scene":0"#,
-                r#""extensionsRequired":["KHR_texture_basisu"],"scene":0"#,
+                r#""extensionsRequired":["KHR_materials_glow"],"scene":0"#,
             ),
-            "it requires the extension KHR_texture_basisu, which is not supported; export it again with PNG, JPEG or WebP images",
+            "it requires the extension KHR_materials_glow, which is not supported; export it again without that",
         ),
         (
             replaced(
@@ -663,9 +663,9 @@ fn what_cannot_be_read_is_named() {
         ),
         (
             format!(
-                r#"{{{asset},"textures":[{{"extensions":{{"KHR_texture_basisu":{{"source":0}}}}}}],"images":[{{"uri":"a.ktx2"}}]}}"#
+                r#"{{{asset},"textures":[{{"extensions":{{"KHR_texture_basisu":{{"source":7}}}}}}],"images":[{{"uri":"a.ktx2"}}]}}"#
             ),
-            "its texture 0 has a KTX2 image alone",
+            "its texture 0 has no image that is there",
         ),
         (
             format!(

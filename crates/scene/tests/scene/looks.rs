@@ -2,7 +2,7 @@
 
 use crate::common::{Glb, scene_with, temporary_dir};
 use glam::{Vec2, Vec4, vec2, vec4};
-use hairline_scene::{Base, Coat, Cutout, Reflector, Sampling, Scene, Texture, Wrap};
+use hairline_scene::{AlphaRule, Base, Coat, Cutout, Reflector, Sampling, Scene, Texture, Wrap};
 
 /// The scene of a square with two sets of texture coordinates and colours, of the only material of a file.
 fn scene(material: &str, more: &str) -> Scene {
@@ -164,14 +164,13 @@ fn surfaces_are_cut_out_by_their_alpha() {
     let mask = r#""alphaMode":"MASK","alphaCutoff":0.25,"pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.5]}"#;
     let expected = Cutout {
         alpha: 0.5,
-        threshold: 0.25,
+        rule: AlphaRule::AtLeast(0.25),
     };
     assert_eq!(cutout(mask), Some(expected));
     let blend = r#""alphaMode":"BLEND","pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.1]}"#;
-    // Glass stays; what is cut are the parts of an image.
     let expected = Cutout {
-        alpha: 1.0,
-        threshold: 0.5,
+        alpha: f64::from(0.1f32),
+        rule: AlphaRule::Share,
     };
     assert_eq!(cutout(blend), Some(expected));
 }

@@ -1,0 +1,26 @@
+// Which of the surfaces that cover a part of what lies behind them a ray meets. Twin: index/src/coverage.rs.
+
+// What the threshold of a material is whose alpha is such a share. Twin: src/host.rs.
+const ALPHA_IS_SHARE: f32 = 2.0;
+
+// For the sample of a pixel. Rounds of one key spread their numbers evenly.
+fn coverage_key_of_pixel(pixel: vec2u) -> u32 {
+    return sobol_hash(pixel.x ^ sobol_hash(pixel.y));
+}
+
+// For a ray that is drawn by chance itself.
+fn coverage_key_of_ray(ray: TreeRay) -> u32 {
+    let origin = bitcast<vec3u>(ray.origin_m);
+    let direction = bitcast<vec3u>(ray.direction);
+    var key = 0u;
+    for (var i = 0u; i < 3u; i += 1u) {
+        key = sobol_hash(key ^ sobol_hash(origin[i]));
+        key = sobol_hash(key ^ sobol_hash(direction[i]));
+    }
+    return key;
+}
+
+// Whether a ray meets a surface of an alpha on a triangle of the scene.
+fn coverage_meets(alpha: f32, triangle: u32, key: u32, round: u32) -> bool {
+    return alpha >= sobol_pair(round, key ^ sobol_hash(triangle + 1u)).x;
+}
