@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use crate::ktx2;
 use crate::scene::{Sampling, Texture, Wrap};
 
-pub(crate) const LARGEST_PX: u32 = 16_384;
+const LARGEST_PX: u32 = 16_384;
 
 /// What the channels of an image are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -29,7 +29,7 @@ pub(crate) enum Unusable {
     #[error("{0}")]
     Broken(#[from] image::ImageError),
     #[error("{0}")]
-    Ktx(String),
+    Ktx(#[from] ktx2::Broken),
     #[error(transparent)]
     Unreadable(#[from] std::io::Error),
     #[error("{}x{} pixels would take about {} of memory, and {} are free", .size_px[0], .size_px[1],
@@ -56,7 +56,10 @@ pub(crate) fn check_memory(size_px: [u32; 2], free_bytes: f64) -> Result<(), Unu
 /// The texels of a PNG, JPEG, WebP or KTX2 file, row by row from the top, and its size. As a texture it may take `free_bytes`.
 pub(crate) fn decode(bytes: &[u8], free_bytes: f64) -> Result<Texels, Unusable> {
     if ktx2::is_ktx(bytes) {
-        return ktx2::decode(bytes, free_bytes);
+        let size_px = ktx2::size_px(bytes, LARGEST_PX)?;
+        check_memory(size_px, free_bytes)?;
+        let texels = ktx2::texels(bytes)?;
+        return Ok(Texels { size_px, texels });
     }
     let guessed = ImageReader::new(Cursor::new(bytes)).with_guessed_format()?;
     let size_px: [u32; 2] = guessed.into_dimensions()?.into();
