@@ -27,6 +27,7 @@ mod compute_pass;
 pub mod device;
 mod display;
 mod edges;
+pub mod engine_tables;
 pub mod error;
 mod film;
 mod frame;

@@ -102,6 +102,8 @@ modules! {
     LIT_BASE = "engine/lit_base" needs [FILTERED_LOBE, BAND, SCRATCH_LIGHT];
     /// For other engines: all scratches of a point under lights.
     SCRATCHED_SURFACE = "engine/scratched_surface" needs [SCRATCH_LIGHT, SCRATCH_TREE];
+    /// For other engines: the frame of a pixel from what a fragment shader knows.
+    PIXEL_FRAME = "engine/pixel_frame" needs [CAMERA, SCRATCHED_SURFACE, LIT_BASE];
     /// For other engines: a pass that makes the table of a metal.
     MAKE_SCRATCH_TABLE = "engine/make_scratch_table" needs [SCRATCH_TABLE];
     /// Pictures on flat lights.
@@ -266,7 +268,7 @@ modules! {
 pub static FOR_ENGINES: &[&Module] = &[
     &SCRATCHED_SURFACE,
     &LIT_BASE,
-    &CAMERA,
+    &PIXEL_FRAME,
     &TUBE,
     &ENVIRONMENT_LOBE,
 ];

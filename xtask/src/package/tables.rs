@@ -4,11 +4,9 @@ use std::fmt::Write;
 use std::path::Path;
 
 use anyhow::{Context, ensure};
+use hairline_gpu::engine_tables::{self, IOR};
 use hairline_gpu::scratch_tree;
 use hairline_index::ScratchIndex;
-use hairline_optics::fresnel::FresnelCurve;
-use hairline_optics::lobe_table::{albedo_table, shape_texels};
-use hairline_optics::metal::Metal;
 use hairline_scene::Scene;
 
 use super::files::write;
@@ -27,24 +25,11 @@ const METALS: [&str; 10] = [
     "titanium",
     "nickel",
 ];
-/// Of the dielectric's curve.
-const IOR: f64 = 1.5;
-
-/// Textures of four f32 a texel, one after the other: shapes of lobes (32 wide), their albedo (32 x 32), curves of reflectance (128 wide,
-/// 9 rows each: Schlick's, the metals', a dielectric's).
+/// Textures of four f32 a texel, one after the other: shapes, albedo and curves of `engine_tables`.
 pub(super) fn tables() -> Vec<u8> {
-    let mut texels: Vec<[f32; 4]> = shape_texels().to_vec();
-    texels.extend(albedo_table().texels());
-    let metals = Metal::ALL.iter().map(|metal| metal.fresnel_curve());
-    let curves = std::iter::once(FresnelCurve::schlick().clone())
-        .chain(metals)
-        .chain([FresnelCurve::dielectric(IOR)]);
-    for curve in curves {
-        texels.extend(curve.nodes());
-        texels.extend(curve.albedo_table().texels());
-    }
-    texels
+    [engine_tables::shapes(), engine_tables::albedo(), engine_tables::curves()]
         .iter()
+        .flat_map(|table| &table.texels)
         .flatten()
         .flat_map(|value| value.to_le_bytes())
         .collect()

@@ -127,6 +127,21 @@ fn scratched_quad(tables: texture_2d_array<u32>, tree: texture_2d<u32>, point: S
     return sum;
 }
 
+// For an engine that looks its environment up by itself: one of the ENVIRONMENT_CELLS cells of a scratch's band.
+struct ScratchedCell {
+    direction: vec3f,               // of the look-up, in the surface's frame
+    roughness: f32,                 // perceptual, of the mirror lobe that stands for the cell
+    response: vec3f,                // times the share and what is seen there it is what the scratch sends; 0 for a cell that is empty
+}
+
+fn scratched_cell(tables: texture_2d_array<u32>, table: u32, wo: vec3f, tangent: vec2f, profile: Profile, i: u32) -> ScratchedCell {
+    let cell = environment_cell(i, band_line_at(band_from_surface(tangent, wo), 0.0), profile.width_um);
+    let depth_nm = oblique_depth_nm(profile.depth_nm, cell.direction.z, wo.z);
+    let low = scratch_table(tables, table, profile.width_um * cell.q_low, depth_nm);
+    let high = scratch_table(tables, table, profile.width_um * max(cell.q_high, cell.q_low), depth_nm);
+    return ScratchedCell(surface_from_band(tangent, cell.direction), environment_cell_roughness(cell), high - low);
+}
+
 // Of an environment of prefiltered levels, see environment.wgsl. `map_from_surface` turns directions into the map's frame.
 fn scratched_environment(
     tables: texture_2d_array<u32>,
