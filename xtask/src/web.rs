@@ -1,5 +1,7 @@
 //! The viewer for browsers: a folder of static files, for any web server.
 
+mod site;
+
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -46,6 +48,8 @@ impl Web {
         let program = output.join("hairline_bg.wasm");
         shrink(&root, &program)?;
         copy_page(&root, &output)?;
+        let pages = site::write(&root, &output)?;
+        println!("{pages} pages of docs, from README.html on");
         let bytes = fs::metadata(&program)?.len();
         fs::write(
             output.join("size.json"),

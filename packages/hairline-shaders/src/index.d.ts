@@ -52,6 +52,8 @@ export class Scratches implements ScratchArrays {
   readonly count: number;
   /** By a matrix of 16 numbers, column by column. */
   transformed(matrix: ArrayLike<number>): Scratches;
+  /** These and `other`, which lie on the same mesh: both with normals, or neither. */
+  joined(other: Scratches): Scratches;
 }
 /** Reads a list (CSV). `name` is what errors call it. */
 export function readScratches(text: string, name?: string): Scratches;

@@ -32,6 +32,21 @@ export class Scratches {
       ...this, starts: apply(this.starts, 1), ends: apply(this.ends, 1), normals: this.normals && apply(this.normals, 0),
     });
   }
+
+  /** These and `other`, which lie on the same mesh. */
+  joined(other) {
+    if (!this.normals !== !other.normals) throw new Error('scratches: found some with normals and some without; must be all or none');
+    const join = (name) => Float64Array.from([...this[name], ...other[name]]);
+    const first = this.scratch.reduce((most, number) => Math.max(most, number + 1), 0);
+    return new Scratches({
+      starts: join('starts'),
+      ends: join('ends'),
+      widthsUm: join('widthsUm'),
+      depthsNm: join('depthsNm'),
+      scratch: Uint32Array.from([...this.scratch, ...other.scratch.map((number) => number + first)]),
+      normals: this.normals && join('normals'),
+    });
+  }
 }
 
 const COLUMNS = ['x0_m', 'y0_m', 'z0_m', 'x1_m', 'y1_m', 'z1_m', 'width_um', 'depth_nm'];

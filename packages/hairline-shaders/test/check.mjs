@@ -167,6 +167,12 @@ for (let from = 0, to; from < few.count; from = to) {
   }
 }
 
+// Joined, each keeps its numbers; with and without normals they do not go together.
+const both = few.joined(more);
+assert.deepEqual([both.count, both.starts.length], [few.count + more.count, few.starts.length + more.starts.length]);
+assert.equal(new Set(both.scratch).size, 50);
+assert.throws(() => few.joined(new hairline.Scratches({ ...more, normals: null })), /must be all or none/);
+
 const header = 'x0_m,y0_m,z0_m,x1_m,y1_m,z1_m,width_um,depth_nm';
 for (const [list, message] of [
   ['a,b\n', /list.csv:1: found `a,b`; must be the header/],
