@@ -3,7 +3,7 @@
 use crate::surface::texture_level;
 use glam::{DVec2, DVec3};
 use hairline_optics::irradiance::irradiance_polygon;
-use hairline_optics::ltc::{LtcLobe, ltc_vector};
+use hairline_optics::ltc::{LobeFresnel, LtcLobe, ltc_small_light, ltc_vector};
 use hairline_optics::picture::{
     PICTURE_PARTS, PictureLook, PicturePlane, picture_lod, picture_part_spread, picture_part_uv,
 };
@@ -35,11 +35,12 @@ impl<'a> PictureView<'a> {
         )
     }
 
-    /// What a lobe sees of it in the mean.
-    pub fn on_lobe(&self, lobe: &LtcLobe) -> DVec3 {
+    /// What a lobe reflects of it in the mean.
+    pub fn on_lobe(&self, lobe: &LtcLobe, of: &LobeFresnel) -> DVec3 {
         self.mean(|part| {
             let vector = ltc_vector(lobe, &part.corners());
-            (vector.z, part.picture_on_lobe(lobe, vector))
+            let reflected = ltc_small_light(lobe, of, vector);
+            (reflected.into(), part.picture_on_lobe(lobe, vector))
         })
     }
 
@@ -47,25 +48,25 @@ impl<'a> PictureView<'a> {
     pub fn on_body(&self) -> DVec3 {
         self.mean(|part| {
             let vector = irradiance_polygon(&part.corners());
-            (vector.z, part.picture_look(vector))
+            (DVec3::splat(vector.z), part.picture_look(vector))
         })
     }
 
     /// Over the parts of the picture, by a weight and a look-up of each.
-    fn mean(&self, seen: impl Fn(&PicturePlane) -> (f64, PictureLook)) -> DVec3 {
+    fn mean(&self, seen: impl Fn(&PicturePlane) -> (DVec3, PictureLook)) -> DVec3 {
         let size_px = DVec2::from(self.texture.size_px.map(f64::from));
         let share = 1.0 / PICTURE_PARTS as f64;
-        let (mut mean, mut weights) = (DVec3::ZERO, 0.0);
+        let (mut mean, mut weights) = (DVec3::ZERO, DVec3::ZERO);
         for i in 0..PICTURE_PARTS * PICTURE_PARTS {
             let (weight, look) = seen(&self.plane.picture_part(i));
-            if weight > 0.0 {
+            if weight.max_element() > 0.0 {
                 let spread = picture_part_spread(look.spread);
                 let low = picture_part_uv(i);
                 let (uv, lod) = (low + look.uv * share, picture_lod(spread, size_px));
                 let range = [low, low + share];
                 let radiance = picture_radiance(self.texture, uv, lod, range);
                 weights += weight;
-                mean += (radiance - mean) * (weight / weights);
+                mean += (radiance - mean) * (weight / weights.max(DVec3::splat(1e-300)));
             }
         }
         mean

@@ -156,7 +156,7 @@ impl<'p, 'a> Base<'p, 'a> {
         let single = |part: &LobePart, of: &LobeFresnel| {
             let even = DVec3::from(reflected_light(light, views, part, of, &sphere));
             match picture {
-                Some(picture) if even != DVec3::ZERO => even * picture.on_lobe(&part.lobe),
+                Some(picture) if even != DVec3::ZERO => even * picture.on_lobe(&part.lobe, of),
                 _ => even,
             }
         };

@@ -212,10 +212,18 @@ impl<'a> Shadows<'a> {
             }
         }
         let rounds = at.rounds.now.count;
-        let of_sources = sources
-            .iter()
-            .enumerate()
-            .map(|(i, source)| source.resolve(rounds, &|| self.sees_highest(at, i)));
+        let lights = at.views.on_base().len();
+        if rounds == 1
+            && let Some(around) = sources.get_mut(lights)
+            && around.is_lit()
+        {
+            let (on_surface_m, drawn) = self.draw_by_lobes(at, &lobes, 1);
+            self.add_environment(at, &lobes, 1, on_surface_m, drawn.as_ref(), around);
+        }
+        let of_sources = sources.iter().enumerate().map(|(i, source)| {
+            let rounds = rounds.max(if i < lights { 1 } else { ROUNDS_AROUND });
+            source.resolve(rounds, &|| self.sees_highest(at, i))
+        });
         of_sources.fold(by_objects, |sum, part| sum + part)
     }
 
@@ -228,21 +236,7 @@ impl<'a> Shadows<'a> {
         sources: &mut [BaseSource],
     ) -> Option<DrawnRay> {
         let point = at.point;
-        let [u, v, ..] = at.random(Purpose::Origin, round);
-        let on_surface_m = self.under_the_pixel(at, normals(u, v));
-        let [u, v, pick, _] = at.random(Purpose::Lobe, round);
-        let drawn = lobes.sample(pick, DVec2::new(u, v)).map(|wi| {
-            let direction = point.world_from_surface(wi);
-            let origin_m = self.off_the_surface(point, on_surface_m, direction);
-            // Which sources it meets is known only below.
-            let hit = self.prepared.triangles.intersect_solid(origin_m, direction);
-            DrawnRay {
-                wi,
-                direction,
-                origin_m,
-                hit,
-            }
-        });
+        let (on_surface_m, drawn) = self.draw_by_lobes(at, lobes, round);
         let from = point.position_m;
         for (i, source) in sources.iter_mut().enumerate() {
             if !source.is_lit() {
@@ -276,6 +270,32 @@ impl<'a> Shadows<'a> {
             }
         }
         drawn
+    }
+
+    /// Where rays of a round start, and the one by the lobes.
+    fn draw_by_lobes(
+        &self,
+        at: &ShadowPoint,
+        lobes: &Lobes,
+        round: u32,
+    ) -> (DVec3, Option<DrawnRay>) {
+        let point = at.point;
+        let [u, v, ..] = at.random(Purpose::Origin, round);
+        let on_surface_m = self.under_the_pixel(at, normals(u, v));
+        let [u, v, pick, _] = at.random(Purpose::Lobe, round);
+        let drawn = lobes.sample(pick, DVec2::new(u, v)).map(|wi| {
+            let direction = point.world_from_surface(wi);
+            let origin_m = self.off_the_surface(point, on_surface_m, direction);
+            // Which sources it meets is known only later.
+            let hit = self.prepared.triangles.intersect_solid(origin_m, direction);
+            DrawnRay {
+                wi,
+                direction,
+                origin_m,
+                hit,
+            }
+        });
+        (on_surface_m, drawn)
     }
 
     fn add_environment(
@@ -514,6 +534,10 @@ impl ShadowPoint<'_, '_> {
         numbers.map(|u| f64::from(u) + 0.5 / f64::from(1 << 24))
     }
 }
+
+/// Rounds of an environment at least. One ray speaks for all of a source, and half the directions of an environment may be dark: what hides those would
+/// hide half its light. Of two, one guesses for the other.
+const ROUNDS_AROUND: u32 = 2;
 
 /// Beyond this a Gaussian is cut off: rays from farther would start beyond what the pixel shows.
 const REACH_STD: f64 = 3.0;

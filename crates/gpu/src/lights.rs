@@ -44,6 +44,23 @@ impl Kind {
         Self::Environment,
     ];
 
+    const CORNERED: [Self; 4] = [Self::Quads, Self::Outlines, Self::Tubes, Self::Pictures];
+
+    /// Those of rays, which take polygons of few vertices as others.
+    pub(crate) fn of_rays(self) -> Self {
+        match self {
+            Self::Quads => Self::Outlines,
+            other => other,
+        }
+    }
+
+    /// What a pass is compiled for that takes lights of this kind alone.
+    pub(crate) fn constants(self) -> [(&'static str, f64); 9] {
+        let mut only = Kinds::default();
+        only.0[self as usize] = true;
+        only.constants(only)
+    }
+
     fn of(light: &Light) -> Self {
         match &light.shape {
             LightShape::Sphere { .. } => Self::Spheres,
@@ -92,12 +109,21 @@ impl Kinds {
         Kind::ALL.into_iter().filter(wanted)
     }
 
+    /// Those of rays, each of which has passes of its own.
+    pub(crate) fn of_rays(self) -> impl Iterator<Item = Kind> {
+        let folded = move |kind: &Kind| *kind != Kind::Quads || !self.has(Kind::Outlines);
+        let there = Kind::ALL.into_iter().filter(move |kind| self.has(*kind));
+        there.filter(folded).map(Kind::of_rays)
+    }
+
     /// What shaders call those that shine on scratches and those that shine on the base. Twin: contents.wgsl.
-    pub(crate) fn constants(self, on_base: Self) -> [(&'static str, f64); 7] {
+    pub(crate) fn constants(self, on_base: Self) -> [(&'static str, f64); 9] {
         [
             ("HAS_SPHERES", self.has(Kind::Spheres).into()),
             ("HAS_POLYGONS", self.has_polygons().into()),
             ("HAS_TUBES", self.has(Kind::Tubes).into()),
+            ("ONLY_TUBES", self.has_only(Kind::Tubes).into()),
+            ("ONLY_PICTURES", self.has_only(Kind::Pictures).into()),
             ("HAS_PICTURES", self.has(Kind::Pictures).into()),
             ("HAS_ENVIRONMENT", self.has(Kind::Environment).into()),
             ("BASE_HAS_SPHERES", on_base.has(Kind::Spheres).into()),
@@ -105,9 +131,16 @@ impl Kinds {
         ]
     }
 
+    /// Whether all lights with corners are of that kind.
+    fn has_only(self, kind: Kind) -> bool {
+        self.has(kind)
+            && Kind::CORNERED
+                .into_iter()
+                .all(|it| it == kind || !self.has(it))
+    }
+
     fn has_polygons(self) -> bool {
-        let kinds = [Kind::Quads, Kind::Outlines, Kind::Tubes, Kind::Pictures];
-        kinds.into_iter().any(|kind| self.has(kind))
+        Kind::CORNERED.into_iter().any(|kind| self.has(kind))
     }
 }
 
@@ -119,6 +152,13 @@ pub(crate) fn sorted(scene: &Scene) -> Vec<&Light> {
         lights.sort_by_key(|light| Kind::of(light));
     }
     lights
+}
+
+/// The kind of each light that shines on the base, in the order of [`sorted`].
+pub(crate) fn kinds_on_base(scene: &Scene) -> Vec<Kind> {
+    let on_base = scene.all_lights().count();
+    let lights = sorted(scene).into_iter().take(on_base);
+    lights.map(Kind::of).collect()
 }
 
 /// Where the lights of each kind that the scene has lie among the sorted ones; the environment lies nowhere.

@@ -226,10 +226,8 @@ modules! {
     PAIR_PLACE = "scene/pair_place" needs [DRAWN_LIGHT, PAIRS];
     /// Pass: where the sums begin by which scratches are picked.
     SHADOW_PICKS = "passes/shadow_picks" needs [SHADOW, PICKS, FILM];
-    /// Pass: a ray of each sample by way of a scratch.
-    SHADOW_SCRATCH_RAYS = "passes/shadow_scratch_rays" needs [PAIR_PLACE, DRAWN_RAY, PICKS, FILM];
-    /// Pass: a ray of each sample by way of a grating.
-    SHADOW_GRATING_RAYS = "passes/shadow_grating_rays" needs [GRATING_PAIRS, DRAWN_RAY, PICKS, FILM];
+    /// Pass: a ray of each sample by way of a scratch or a grating.
+    SHADOW_PICKED_RAYS = "passes/shadow_picked_rays" needs [PAIR_PLACE, GRATING_PAIRS, DRAWN_RAY, PICKS, FILM];
     /// Pass: what is hidden of what gratings send.
     SHADOW_GRATINGS = "passes/shadow_gratings" needs [SHADOW, NEAR_RAYS];
     /// Pass: what is hidden of what scratches send.

@@ -6,14 +6,14 @@ use crate::film::Film;
 use crate::pipelines::Orders;
 use crate::shade_gratings::ShadeGratingsPass;
 use crate::shaders;
-use crate::shadow_picks::{ByPicks, Scratched, ShadowPicksPass};
+use crate::shadow_picks::{ByPicks, PickedRaysPasses, Scratched, ShadowPicksPass};
 use crate::shadow_room::ShadowRoom;
 use crate::strip::{GROUP, StripRoom, whole};
 
 pub(crate) struct ShadowGratingsPasses {
     begin: ShadowPicksPass,
     pick: ShadeGratingsPass,
-    rays: ComputePass,
+    rays: PickedRaysPasses,
     gratings: ComputePass,
 }
 
@@ -21,20 +21,16 @@ impl ShadowGratingsPasses {
     pub(crate) fn new(orders: &mut Orders) -> Self {
         use Use::{Reads, Uniform, Writes};
         let begin = ShadowPicksPass::new(orders, "shadow_grating_picks");
-        let mut pass =
-            |name, module, uses: &[Use]| ComputePass::order(orders, name, module, uses, &[]);
         let uses = [Reads, Reads, Reads, Writes, Uniform];
         Self {
             begin,
-            rays: pass(
-                "shadow rays",
-                (&shaders::SHADOW_GRATING_RAYS, "shadow_grating_rays"),
-                &uses,
-            ),
-            gratings: pass(
+            rays: PickedRaysPasses::new(orders, true),
+            gratings: ComputePass::order(
+                orders,
                 "shadow gratings",
                 (&shaders::SHADOW_GRATINGS, "shadow_gratings"),
                 &uses,
+                &[],
             ),
             pick: ShadeGratingsPass::picks(orders),
         }
@@ -62,22 +58,8 @@ impl ByPicks for ShadowGratingsPasses {
             .record(gpu, recording, room, film, picks, on.groups);
     }
 
-    fn record_rays(
-        &self,
-        gpu: &Gpu,
-        recording: &mut Recording,
-        room: &StripRoom,
-        shadow_room: &ShadowRoom,
-        groups: u32,
-    ) {
-        let resources = [
-            whole(&room.samples.points),
-            whole(&shadow_room.picks),
-            whole(recording.scene.buffers.gratings()),
-            whole(&shadow_room.rays),
-            whole(&shadow_room.round),
-        ];
-        self.rays.run(gpu, recording, &resources, in_a_row(groups));
+    fn rays(&self) -> &PickedRaysPasses {
+        &self.rays
     }
 
     fn record_hidden(

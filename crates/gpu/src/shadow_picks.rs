@@ -6,6 +6,7 @@
 use crate::compute_pass::{ComputePass, Recording, Use, in_a_row};
 use crate::device::Gpu;
 use crate::film::Film;
+use crate::lights::Kind;
 use crate::pipelines::Orders;
 use crate::shaders;
 use crate::shadow_room::ShadowRoom;
@@ -47,6 +48,50 @@ impl ShadowPicksPass {
     }
 }
 
+/// Passes: a ray of each sample by way of the round's pick, one pass for each kind of light that it goes to.
+pub(crate) struct PickedRaysPasses(Vec<ComputePass>);
+
+impl PickedRaysPasses {
+    /// By way of scratches, or of gratings.
+    pub(crate) fn new(orders: &mut Orders, of_gratings: bool) -> Self {
+        use Use::{Reads, Uniform, Writes};
+        let uses = [Reads, Reads, Reads, Reads, Writes, Uniform];
+        let module = (&shaders::SHADOW_PICKED_RAYS, "shadow_picked_rays");
+        let mut kinds: Vec<_> = orders.variant().has.lights.of_rays().collect();
+        if kinds.is_empty() {
+            // Then there is no pick, which one pass must tell.
+            kinds.push(Kind::Spheres);
+        }
+        let pass = |kind: Kind| {
+            let mut constants = kind.constants().to_vec();
+            constants.push(("OF_GRATINGS", of_gratings.into()));
+            ComputePass::order(orders, "shadow rays", module, &uses, &constants)
+        };
+        Self(kinds.into_iter().map(pass).collect())
+    }
+
+    pub(crate) fn record(
+        &self,
+        gpu: &Gpu,
+        recording: &mut Recording,
+        room: &StripRoom,
+        shadow_room: &ShadowRoom,
+        groups: u32,
+    ) {
+        let resources = [
+            whole(&room.samples.points),
+            whole(&room.samples.chunk_starts),
+            whole(recording.scene.buffers.gratings()),
+            whole(&shadow_room.picks),
+            whole(&shadow_room.rays),
+            whole(&shadow_room.round),
+        ];
+        for pass in &self.0 {
+            pass.run(gpu, recording, &resources, in_a_row(groups));
+        }
+    }
+}
+
 /// The passes about what is picked.
 pub(crate) trait ByPicks {
     /// How many states there are of what has been picked so far.
@@ -63,15 +108,7 @@ pub(crate) trait ByPicks {
         on: &Scratched,
     );
 
-    /// A ray of each sample by way of the round's pick.
-    fn record_rays(
-        &self,
-        gpu: &Gpu,
-        recording: &mut Recording,
-        room: &StripRoom,
-        shadow_room: &ShadowRoom,
-        groups: u32,
-    );
+    fn rays(&self) -> &PickedRaysPasses;
 
     /// Weakens what was sent by what is hidden of it.
     fn record_hidden(

@@ -7,7 +7,7 @@ use crate::kind_passes::KindPasses;
 use crate::pipelines::Orders;
 use crate::shade_scratches::{self, kinds};
 use crate::shaders;
-use crate::shadow_picks::{ByPicks, Scratched, ShadowPicksPass};
+use crate::shadow_picks::{ByPicks, PickedRaysPasses, Scratched, ShadowPicksPass};
 use crate::shadow_room::ShadowRoom;
 use crate::strip::{GROUP, StripRoom, whole};
 use crate::variant::Seen;
@@ -15,22 +15,13 @@ use crate::variant::Seen;
 pub(crate) struct ShadowScratchesPasses {
     begin: ShadowPicksPass,
     pick: KindPasses,
-    rays: ComputePass,
+    rays: PickedRaysPasses,
     scratches: ComputePass,
 }
 
 impl ShadowScratchesPasses {
     pub(crate) fn new(orders: &mut Orders, seen: Seen) -> Self {
         let begin = ShadowPicksPass::new(orders, "shadow_picks");
-        let mut pass =
-            |name, module, uses: &[Use]| ComputePass::order(orders, name, module, uses, &[]);
-        let rays_use = [
-            Use::Reads,
-            Use::Reads,
-            Use::Reads,
-            Use::Writes,
-            Use::Uniform,
-        ];
         let scratches = [
             Use::Reads,
             Use::Reads,
@@ -39,14 +30,15 @@ impl ShadowScratchesPasses {
             Use::Writes,
             Use::Uniform,
         ];
-        let rays = &shaders::SHADOW_SCRATCH_RAYS;
         Self {
             begin,
-            rays: pass("shadow rays", (rays, "shadow_scratch_rays"), &rays_use),
-            scratches: pass(
+            rays: PickedRaysPasses::new(orders, false),
+            scratches: ComputePass::order(
+                orders,
                 "shadow scratches",
                 (&shaders::SHADOW_SCRATCHES, "shadow_scratches"),
                 &scratches,
+                &[],
             ),
             pick: kinds(orders, "shadow picks", &[("PICKS", 1.0), seen.constant()]),
         }
@@ -74,22 +66,8 @@ impl ByPicks for ShadowScratchesPasses {
             .record(gpu, recording, &resources, in_a_row(on.chunks));
     }
 
-    fn record_rays(
-        &self,
-        gpu: &Gpu,
-        recording: &mut Recording,
-        room: &StripRoom,
-        shadow_room: &ShadowRoom,
-        groups: u32,
-    ) {
-        let resources = [
-            whole(&room.samples.points),
-            whole(&room.samples.chunk_starts),
-            whole(&shadow_room.picks),
-            whole(&shadow_room.rays),
-            whole(&shadow_room.round),
-        ];
-        self.rays.run(gpu, recording, &resources, in_a_row(groups));
+    fn rays(&self) -> &PickedRaysPasses {
+        &self.rays
     }
 
     fn record_hidden(

@@ -13,6 +13,7 @@ use crate::compute_pass::{ComputePass, Recording, Use, in_a_row};
 use crate::device::Gpu;
 use crate::error::Error;
 use crate::film::Film;
+use crate::lights::Kind;
 use crate::pipelines::Orders;
 use crate::scene_data::SceneData;
 use crate::shaders;
@@ -26,15 +27,22 @@ use crate::variant::{Constant, Seen, ShadeVariant};
 
 /// What rays to the lights of a scene need, beside the scene.
 pub(crate) struct Shadows {
-    base_rays: ComputePass,
     trace: ComputePass,
-    base_of_lights: ComputePass,
-    base_around: ComputePass,
+    base: Vec<BasePasses>,
     /// By scratches and by gratings, of which the scene has some.
     pub by_picks: Vec<Box<dyn ByPicks>>,
     pub tree: TriangleTree,
     /// How far the scene reaches from the origin of what was uploaded.
     pub extent_m: f32,
+}
+
+/// Passes over a source of the base: neither has the code of sources of other kinds.
+struct BasePasses {
+    /// That of the source.
+    kind: Kind,
+    rays: ComputePass,
+    /// Takes away what is hidden.
+    hidden: ComputePass,
 }
 
 impl Shadows {
@@ -66,7 +74,7 @@ impl Shadows {
     }
 
     fn over(orders: &mut Orders, tree: TriangleTree, extent_m: f32, seen: Seen) -> Self {
-        let base_rays = [Use::Reads, Use::Reads, Use::Writes, Use::Uniform];
+        let rays = [Use::Reads, Use::Reads, Use::Writes, Use::Uniform];
         let trace = [
             Use::Reads,
             Use::Reads,
@@ -76,7 +84,7 @@ impl Shadows {
             Use::Integers,
             Use::Writes,
         ];
-        let base = [
+        let hidden = [
             Use::Reads,
             Use::Reads,
             Use::Reads,
@@ -94,41 +102,47 @@ impl Shadows {
         let mut pass = |name, module, uses: &[Use], constants: &[Constant]| {
             ComputePass::order(orders, name, module, uses, constants)
         };
-        Self {
-            base_rays: pass(
+        let over_base = has.base_lights.of_rays().map(|kind| BasePasses {
+            kind,
+            rays: pass(
                 "shadow rays",
                 (&shaders::SHADOW_BASE_RAYS, "shadow_base_rays"),
-                &base_rays,
-                &[],
+                &rays,
+                &kind.constants(),
             ),
+            hidden: pass(
+                "shadow base",
+                (&shaders::SHADOW_BASE, "shadow_base"),
+                &hidden,
+                &kind.constants(),
+            ),
+        });
+        let base = over_base.collect();
+        Self {
             trace: pass(
                 "shadow trace",
                 (&shaders::SHADOW_TRACE, "shadow_trace"),
                 &trace,
                 &[seen.constant()],
             ),
-            // One source at a time: neither has the other's code.
-            base_of_lights: pass(
-                "shadow base",
-                (&shaders::SHADOW_BASE, "shadow_base"),
-                &base,
-                &[("HAS_ENVIRONMENT", 0.0)],
-            ),
-            base_around: pass(
-                "shadow base around",
-                (&shaders::SHADOW_BASE, "shadow_base"),
-                &base,
-                &[("BASE_HAS_SPHERES", 0.0), ("BASE_HAS_POLYGONS", 0.0)],
-            ),
+            base,
             by_picks,
             tree,
             extent_m,
         }
     }
 
-    /// A ray of each sample to a source of the base, and what it meets.
+    fn base(&self, kind: Kind) -> Option<&BasePasses> {
+        self.base
+            .iter()
+            .find(|passes| passes.kind == kind.of_rays())
+    }
+
+    /// A ray of each sample to a source of the base, which is of some kind, and what it meets.
+    #[expect(clippy::too_many_arguments, reason = "all stages take as many")]
     pub(crate) fn record_base_round(
         &self,
+        kind: Kind,
         gpu: &Gpu,
         recording: &mut Recording,
         room: &StripRoom,
@@ -142,8 +156,9 @@ impl Shadows {
             whole(&shadow_room.rays),
             whole(&shadow_room.round),
         ];
-        let pass = &self.base_rays;
-        pass.run(gpu, recording, &resources, in_a_row(groups));
+        if let Some(BasePasses { rays, .. }) = self.base(kind) {
+            rays.run(gpu, recording, &resources, in_a_row(groups));
+        }
         self.record_trace(gpu, recording, room, shadow_room, film, groups);
     }
 
@@ -159,7 +174,8 @@ impl Shadows {
         film: &Film,
         groups: u32,
     ) {
-        by.record_rays(gpu, recording, room, shadow_room, groups);
+        let rays = by.rays();
+        rays.record(gpu, recording, room, shadow_room, groups);
         self.record_trace(gpu, recording, room, shadow_room, film, groups);
     }
 
@@ -185,15 +201,15 @@ impl Shadows {
         pass.run(gpu, recording, &resources, in_a_row(groups));
     }
 
-    /// Takes what is hidden of a source from the base: of a light, or of all that is around.
+    /// Takes what is hidden of a source of some kind from the base.
     pub(crate) fn record_base(
         &self,
+        kind: Kind,
         gpu: &Gpu,
         recording: &mut Recording,
         room: &StripRoom,
         shadow_room: &ShadowRoom,
         groups: u32,
-        is_around: bool,
     ) {
         let resources = [
             whole(&room.samples.points),
@@ -202,10 +218,8 @@ impl Shadows {
             whole(&room.samples.base_light),
             whole(&shadow_room.round),
         ];
-        let pass = match is_around {
-            true => &self.base_around,
-            false => &self.base_of_lights,
-        };
-        pass.run(gpu, recording, &resources, in_a_row(groups));
+        if let Some(BasePasses { hidden, .. }) = self.base(kind) {
+            hidden.run(gpu, recording, &resources, in_a_row(groups));
+        }
     }
 }

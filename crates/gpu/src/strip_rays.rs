@@ -7,12 +7,16 @@ use crate::error::Error;
 use crate::film::Film;
 use crate::frame::{Rounds, View};
 use crate::layout::ShadowRound;
+use crate::lights::{self, Kind};
 use crate::passes::Shade;
 use crate::shadow_picks::Scratched;
 use crate::shadow_room::ShadowRoom;
 use crate::shadows::Shadows;
 use crate::strip::{BounceRoom, GROUP, Lists, Samples, StripRoom, chunks_most};
 use crate::strip_shader::StripShader;
+
+/// Rounds of an environment at least, as on the CPU: one ray cannot tell what hides its dark side from what hides the bright one.
+const ROUNDS_AROUND: u32 = 2;
 
 impl StripShader {
     /// Takes from the light of the samples what is hidden of it.
@@ -33,9 +37,10 @@ impl StripShader {
             None => ShadowRoom::new(gpu).await?,
         };
         shadow_room.make_room(gpu, points).await?;
-        let lights = view.uploaded.data.light_count;
-        let environment = view.scene.environment.iter().map(|_| lights);
-        let sources = (0..view.uploaded.data.base_light_count).chain(environment);
+        let light_count = view.uploaded.data.light_count;
+        let environment = view.scene.environment.iter().map(|_| light_count);
+        let kinds = (0..).zip(lights::kinds_on_base(view.scene));
+        let sources = kinds.chain(environment.map(|source| (source, Kind::Environment)));
         let mut next = ShadowRound {
             source: 0,
             round: 0,
@@ -47,24 +52,39 @@ impl StripShader {
             ..ShadowRound::default()
         };
         // A round at a time, so that no submission takes long.
-        for source in sources {
-            for round in 0..next.rounds {
+        for (source, kind) in sources {
+            // Those of neighbours are several.
+            let is_alone = kind == Kind::Environment && !rounds.blurs;
+            let count = rounds
+                .now
+                .count
+                .max(if is_alone { ROUNDS_AROUND } else { 1 });
+            for round in 0..count {
                 next = ShadowRound {
                     source,
                     round,
+                    rounds: count,
                     ..next
                 };
                 shadow_room.write(gpu, &next);
                 self.submit(view, |recording| {
-                    shadows.record_base_round(gpu, recording, room, &shadow_room, film, groups);
+                    shadows.record_base_round(
+                        kind,
+                        gpu,
+                        recording,
+                        room,
+                        &shadow_room,
+                        film,
+                        groups,
+                    );
                 });
             }
             self.submit(view, |recording| {
-                let is_around = source >= lights;
-                shadows.record_base(gpu, recording, room, &shadow_room, groups, is_around);
+                shadows.record_base(kind, gpu, recording, room, &shadow_room, groups);
             });
         }
-        for (source, by) in (lights + 1..).zip(&shadows.by_picks) {
+        next.rounds = rounds.now.count;
+        for (source, by) in (light_count + 1..).zip(&shadows.by_picks) {
             let most = shadow_room
                 .make_room_for_picks(gpu, points, by.lanes(on), next.rounds)
                 .await?;

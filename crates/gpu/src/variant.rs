@@ -126,7 +126,7 @@ pub fn pipeline_variants(text: &str) -> Vec<(String, Vec<(&'static str, f64)>)> 
                 if variants.iter().any(|(_, known)| *known == constants) {
                     continue;
                 }
-                let switches = ["PICKS", "BY_ENERGY", "AT_HITS"];
+                let switches = ["PICKS", "BY_ENERGY", "AT_HITS", "OF_GRATINGS"];
                 let has = |switch: &&str| text.contains(&format!("override {switch}:"));
                 for switch in switches.into_iter().filter(has) {
                     let mut constants = constants.clone();

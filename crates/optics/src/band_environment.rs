@@ -23,6 +23,9 @@ const CELL_SCALE_UM: f64 = 0.3;
 /// Cells along the band for a grating, whose orders spread the colours over all of it: even in the angle.
 pub const ROW_CELLS: usize = 48;
 
+/// Parts of a cell that shadow rays tell apart.
+pub const CELL_PARTS: usize = 6;
+
 /// Alpha of the lobe that blurs a cell over the chord that it spans.
 const CELL_ALPHA: f64 = 0.08;
 
@@ -44,6 +47,22 @@ impl EnvironmentCell {
     #[inline]
     pub fn environment_cell_roughness(&self) -> f64 {
         (CELL_ALPHA * self.angle_rad).sqrt()
+    }
+
+    /// The cell in parts that are even in q. `line` is the cell's.
+    pub fn parts(&self, line: BandLine) -> [Self; CELL_PARTS] {
+        let step = (self.q_high - self.q_low) / CELL_PARTS as f64;
+        std::array::from_fn(|i| {
+            let q_low = self.q_low + step * i as f64;
+            let q_high = q_low + step;
+            let ends = [q_low, q_high].map(|q| line.direction_at(q));
+            Self {
+                q_low,
+                q_high,
+                direction: line.direction_at(q_low + 0.5 * step),
+                angle_rad: ends[0].distance(ends[1]),
+            }
+        })
     }
 }
 

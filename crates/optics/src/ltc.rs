@@ -489,6 +489,17 @@ pub fn ltc_reflected(lobe: &LtcLobe, of: &LobeFresnel, vector: DVec3) -> [f64; 3
     std::array::from_fn(|ch| integral * (mean[ch] + fade * (of.albedo[ch] / e0 - mean[ch])))
 }
 
+/// What the lobe reflects, single scattering, of a light so small that it lies in one direction, from its vector irradiance in the cosine's space.
+pub fn ltc_small_light(lobe: &LtcLobe, of: &LobeFresnel, vector: DVec3) -> [f64; 3] {
+    let length = vector.length().max(1e-30);
+    if vector.z <= 0.0 {
+        return [0.0; 3];
+    }
+    let ([value], [cos_h]) = ltc_exact_over_jacobian(lobe, [vector / length]);
+    let facet = of.fresnel.of_parts(of.fresnel.curve.lookup(cos_h));
+    facet.map(|facet| length * value * facet)
+}
+
 /// The mean of GGX over the fit, times E0; and the means of the parts of a reflectance over GGX. From the vector irradiance of what they are
 /// taken over: at five directions of a cap that has the same irradiance ([`ltc_ring`]).
 fn ltc_means(lobe: &LtcLobe, of: &LobeFresnel, vector: DVec3) -> (f64, [f64; 4]) {

@@ -1,13 +1,15 @@
 //! Closed forms that light reaches by way of other objects against the path tracer with as many bounces.
 
+use super::environment::over;
 use super::pictures::{LINEAR, compared, sampled};
 use super::scenes::{add_quad, plate, scratch, sphere};
 use super::shadowed::{VIEW, WHITE, bounced, luminance, with_rows};
 use glam::{DVec3, Vec3};
-use hairline_image::Layer;
+use hairline_image::{Image, Layer};
 use hairline_optics::metal::Metal;
 use hairline_reference::Settings;
-use hairline_scene::{Base, Scene};
+use hairline_scene::environment::BuiltInMap;
+use hairline_scene::{Base, Environment, Scene};
 use std::sync::Arc;
 
 /// A scratched plate and a wall on it, both lit from before the wall: all that the camera sees mirrored is the wall.
@@ -121,6 +123,22 @@ fn light_by_way_of_objects_is_that_of_the_path_tracer() {
             assert!(wrong.mean_ratio < 0.9, "{name}: {wrong:?}");
         }
     }
+}
+
+/// What a ray meets may see the bright half of a sky and not its dark one, or the other way round: both are found with one ray a place.
+#[test]
+fn light_of_a_sky_by_way_of_a_wall() {
+    let mut scene = before_a_wall(WHITE, WHITE);
+    scene.lights.clear();
+    let sky = BuiltInMap::Overcast.picture([256, 128]);
+    scene.environment = Some(over(Environment::from_map(sky, 0.0, 1.0, false)));
+    let sum = |image: &Image| luminance(image, Layer::Base).iter().sum::<f64>();
+    let by_wall = |of: &dyn Fn(u32) -> Image| sum(&of(1)) - sum(&of(0));
+    let expected = by_wall(&|bounces| sampled(&scene, settings(bounces), 16));
+    let found = by_wall(&|bounces| bounced(&scene, 512, true, bounces)) / expected;
+    let all = expected / sum(&bounced(&scene, 1, false, 0));
+    println!("{found:.4} of the light by way of a wall, which is {all:.3} of all");
+    assert!((found - 1.0).abs() < 0.03 && all > 0.02, "{found} {all}");
 }
 
 /// Few rays are right in the mean, and the error falls by half for four times as many.

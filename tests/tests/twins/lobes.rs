@@ -625,6 +625,30 @@ fn polygons() {
     twin.check(&rows.horizon, rows.horizon.len() / 1000);
 }
 
+#[test]
+fn small_lights() {
+    let tables = tables();
+    let rows = polygon_rows(20_000);
+    Twin {
+        name: "ltc_small_light",
+        modules: &[&shaders::LTC],
+        snippet: "let lobe = ltc_lobe(vec3f(x[0], x[1], x[2]), x[3], table_0, table_1);
+            let reflecting = lobe_fresnel(FresnelRgb(vec3f(0.04, 0.5, 1.0), 0u), vec3f(x[0], x[1], x[2]), x[3], table_3);
+            // Above the horizon of the cosine's space.
+            let i = ltc_small_light(lobe, reflecting, table_3, normalize(vec3f(x[4], x[5], abs(x[6]) + 0.05)));
+            y[0] = i.x; y[1] = i.y; y[2] = i.z;",
+        tables: &tables,
+        expected: &|row| {
+            let (wo, roughness, ..) = polygon_row(row);
+            let of = LobeFresnel::new(schlick(), wo, roughness);
+            let vector = v(row[4], row[5], row[6].abs() + 0.05).normalize();
+            ltc_small_light(&ltc_lobe(wo, roughness), &of, vector)
+        },
+        tolerance: CLEAR,
+    }
+    .check(&rows.clear, 0);
+}
+
 /// A look-up of whatever viewer is somewhere, no wider than any lobe, and the first one counts.
 fn is_tap(i: usize, [x, y, z, roughness, weight, grazing_weight]: [f64; 6]) -> bool {
     let length = (x * x + y * y + z * z).sqrt();

@@ -27,12 +27,16 @@ const METALS: [&str; 10] = [
 ];
 /// Textures of four f32 a texel, one after the other: shapes, albedo and curves of `engine_tables`.
 pub(super) fn tables() -> Vec<u8> {
-    [engine_tables::shapes(), engine_tables::albedo(), engine_tables::curves()]
-        .iter()
-        .flat_map(|table| &table.texels)
-        .flatten()
-        .flat_map(|value| value.to_le_bytes())
-        .collect()
+    [
+        engine_tables::shapes(),
+        engine_tables::albedo(),
+        engine_tables::curves(),
+    ]
+    .iter()
+    .flat_map(|table| &table.texels)
+    .flatten()
+    .flat_map(|value| value.to_le_bytes())
+    .collect()
 }
 
 /// Rows of numbers of a CSV file.

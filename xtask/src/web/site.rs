@@ -30,10 +30,7 @@ pub(super) fn write(root: &Path, output: &Path) -> anyhow::Result<usize> {
         taken: HashSet::new(),
         waiting: vec![FIRST.into()],
     };
-    fs::copy(
-        root.join("apps/web/page").join(STYLE),
-        output.join(STYLE),
-    )?;
+    fs::copy(root.join("apps/web/page").join(STYLE), output.join(STYLE))?;
     let mut pages = 0;
     while let Some(page) = site.waiting.pop() {
         if site.taken.insert(page.clone()) {
@@ -54,8 +51,8 @@ struct Site<'a> {
 
 impl Site<'_> {
     fn page(&mut self, page: &Path) -> anyhow::Result<()> {
-        let text = fs::read_to_string(self.root.join(page))
-            .with_context(|| page.display().to_string())?;
+        let text =
+            fs::read_to_string(self.root.join(page)).with_context(|| page.display().to_string())?;
         let folder = page.parent().unwrap_or(Path::new(""));
         let mut events: Vec<Event> = Parser::new_ext(&text, Options::ENABLE_TABLES).collect();
         name_headings(&mut events);
@@ -100,9 +97,13 @@ impl Site<'_> {
                     }));
                 }
                 // A page that tells of pictures beside it shows them.
-                Event::Code(name) if self.root.join(folder).join(&*name).is_file() && name.ends_with(".png") => {
+                Event::Code(name)
+                    if self.root.join(folder).join(&*name).is_file() && name.ends_with(".png") =>
+                {
                     let picture = self.picture(folder, &name)?;
-                    let shown = format!("<a href=\"{picture}\"><img src=\"{picture}\" alt=\"{name}\" loading=\"lazy\"></a>");
+                    let shown = format!(
+                        "<a href=\"{picture}\"><img src=\"{picture}\" alt=\"{name}\" loading=\"lazy\"></a>"
+                    );
                     out.push(Event::InlineHtml(shown.into()));
                 }
                 Event::Html(tags) => {
@@ -117,7 +118,10 @@ impl Site<'_> {
         let title = text.lines().find_map(|line| line.strip_prefix("# "));
         let path = self.output.join(page.with_extension("html"));
         fs::create_dir_all(path.parent().unwrap_or(self.output))?;
-        Ok(fs::write(path, around(folder, title.unwrap_or("Hairline"), &body))?)
+        Ok(fs::write(
+            path,
+            around(folder, title.unwrap_or("Hairline"), &body),
+        )?)
     }
 
     /// Where a link leads in the folder, if it does.
@@ -134,13 +138,17 @@ impl Site<'_> {
             return None;
         }
         self.waiting.push(target);
-        Some(format!("{}{anchor}", file.strip_suffix(".md")?.to_owned() + ".html"))
+        Some(format!(
+            "{}{anchor}",
+            file.strip_suffix(".md")?.to_owned() + ".html"
+        ))
     }
 
     /// A picture of the docs, made small; its address beside the page.
     fn picture(&mut self, folder: &Path, url: &str) -> anyhow::Result<String> {
         let small = Path::new(url).with_extension("jpg");
-        let path = plain(&folder.join(url)).with_context(|| format!("{url} is outside of the docs"))?;
+        let path =
+            plain(&folder.join(url)).with_context(|| format!("{url} is outside of the docs"))?;
         if self.taken.insert(path.clone()) {
             let copy = self.output.join(path.with_extension("jpg"));
             fs::create_dir_all(copy.parent().unwrap_or(self.output))?;
@@ -153,7 +161,8 @@ impl Site<'_> {
     fn plots(&mut self, folder: &Path, tags: &str) -> anyhow::Result<()> {
         for part in tags.split("src=\"").skip(1) {
             let name = part.split('"').next().unwrap_or("");
-            let path = plain(&folder.join(name)).with_context(|| format!("{name} is outside of the docs"))?;
+            let path = plain(&folder.join(name))
+                .with_context(|| format!("{name} is outside of the docs"))?;
             if self.taken.insert(path.clone()) {
                 let copy = self.output.join(&path);
                 fs::create_dir_all(copy.parent().unwrap_or(self.output))?;
@@ -177,10 +186,19 @@ fn name_headings(events: &mut [Event]) {
                     _ => None,
                 });
                 let kept = |c: char| c.is_alphanumeric() || matches!(c, ' ' | '-' | '_');
-                let name: String = words.collect::<String>().to_lowercase().chars().filter(|c| kept(*c)).collect();
+                let name: String = words
+                    .collect::<String>()
+                    .to_lowercase()
+                    .chars()
+                    .filter(|c| kept(*c))
+                    .collect();
                 let name = name.trim().replace(' ', "-");
                 let count = seen.entry(name.clone()).or_default();
-                let unique = if *count == 0 { name } else { format!("{name}-{count}") };
+                let unique = if *count == 0 {
+                    name
+                } else {
+                    format!("{name}-{count}")
+                };
                 *count += 1;
                 if let Event::Start(Tag::Heading { id, .. }) = &mut events[start] {
                     *id = Some(CowStr::from(unique));

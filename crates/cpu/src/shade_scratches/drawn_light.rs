@@ -1,8 +1,16 @@
 //! Directions by way of a scratch or a grating, drawn in proportion to what comes from there: shadow rays go that way.
 
+use super::scratch_light::ScratchLight;
+use crate::light_view::{LightView, LightViews};
 use crate::sampling::luminance;
+use crate::surface::SurfacePoint;
 use glam::DVec3;
-use hairline_optics::band::{BandFrame, BandLine, DrawnChord};
+use hairline_optics::band::{
+    BandFrame, BandLine, BandPlace, BandStds, DrawnChord, OutlineRoots, band_lines,
+    sphere_band_extent, sphere_chord,
+};
+use hairline_optics::band_environment::EnvironmentCell;
+use hairline_scene::Environment;
 
 /// A direction of a source by way of a scratch.
 #[derive(Clone, Copy, Debug)]
@@ -13,28 +21,59 @@ pub(crate) struct DrawnLight {
     pub color: DVec3,
 }
 
-/// One of many lines, drawn by what comes along them, and a place on it.
-pub(super) struct Offers {
-    chord: DrawnChord,
-    /// What comes along all of them.
+/// One of many, drawn by the luminance of what each sends.
+struct Choice {
+    /// What all of them send.
     total: DVec3,
     /// In [0, 1): what is left of the number that picks.
     left: f64,
+}
+
+impl Choice {
+    fn new(pick_u: f64) -> Self {
+        Self {
+            total: DVec3::ZERO,
+            left: pick_u,
+        }
+    }
+
+    /// Whether the next one is taken in place of those before.
+    fn offer(&mut self, sent: DVec3) -> bool {
+        let before = luminance(self.total);
+        self.total += sent;
+        let all = luminance(self.total);
+        if !(all > before) {
+            return false;
+        }
+        let share = 1.0 - before / all;
+        let is_taken = self.left < share;
+        self.left = if is_taken {
+            self.left / share
+        } else {
+            (self.left - share) / (1.0 - share)
+        };
+        is_taken
+    }
+}
+
+/// One of many lines, drawn by what comes along them, and a place on it.
+struct Offers {
+    chord: DrawnChord,
+    lines: Choice,
     taken: Option<(BandLine, f64, DVec3)>,
 }
 
 impl Offers {
-    pub fn new(pick_u: f64) -> Self {
+    fn new(pick_u: f64) -> Self {
         Self {
             chord: DrawnChord::default(),
-            total: DVec3::ZERO,
-            left: pick_u,
+            lines: Choice::new(pick_u),
             taken: None,
         }
     }
 
     /// Offers the part of a line between roots. `spectrum` is the antiderivative of what comes from there.
-    pub fn offer(
+    fn offer(
         &mut self,
         line: BandLine,
         roots: impl Iterator<Item = (f64, f64)>,
@@ -43,29 +82,22 @@ impl Offers {
     ) {
         let of_luminance = |q: f64| luminance(spectrum(q).into());
         self.chord.find(roots, of_luminance);
-        let before = luminance(self.total);
-        for (low, high) in self.chord.intervals() {
-            self.total += DVec3::from(spectrum(high)) - DVec3::from(spectrum(low));
-        }
-        let all = luminance(self.total);
-        if !(all > before) {
+        let parts = self.chord.intervals();
+        let sent =
+            parts.map(|(low, high)| DVec3::from(spectrum(high)) - DVec3::from(spectrum(low)));
+        if !self.lines.offer(sent.sum()) {
             return;
         }
-        let share = 1.0 - before / all;
-        if self.left >= share {
-            self.left = (self.left - share) / (1.0 - share);
-            return;
-        }
-        self.left /= share;
         self.taken = self.chord.draw(of_luminance, chord_u).map(|(low, high)| {
             let sent = DVec3::from(spectrum(high)) - DVec3::from(spectrum(low));
             (line, 0.5 * (low + high), sent)
         });
     }
 
-    pub fn taken(self, frame: BandFrame) -> Option<DrawnLight> {
+    fn taken(self, frame: BandFrame) -> Option<DrawnLight> {
         let (line, q, sent) = self.taken?;
-        let mean = self.total / luminance(self.total);
+        let total = self.lines.total;
+        let mean = total / luminance(total);
         let here = sent / luminance(sent);
         // Channels that get nothing have no colour to differ in.
         let color = DVec3::select(mean.cmpgt(DVec3::ZERO), here / mean, DVec3::ONE);
@@ -73,5 +105,133 @@ impl Offers {
             direction: frame.surface_from_band(line.direction_at(q)),
             color: if color.is_finite() { color } else { DVec3::ONE },
         })
+    }
+}
+
+impl ScratchLight<'_> {
+    /// A direction from which a light reaches the viewer by way of the scratch: drawn in proportion to the luminance of what comes from there,
+    /// by three numbers in [0, 1). None where nothing comes. Other arguments as for [`Self::light`].
+    pub fn draw_light(
+        &self,
+        stds: &BandStds,
+        place: BandPlace,
+        views: &LightViews,
+        view: usize,
+        [line_u, pick_u, chord_u]: [f64; 3],
+    ) -> Option<DrawnLight> {
+        let light = &views.views[view];
+        let motion = self.motion(place, views, view);
+        let wo = self.wo + motion.shift * DVec3::X;
+        let stds = motion.band(*stds).stds;
+        let mut roots = OutlineRoots::default();
+        let mut offers = Offers::new(pick_u);
+        // One line of each part of the band, and of these one by what comes along it.
+        match light {
+            LightView::Sphere { cap, .. } => {
+                let cap = cap.turned(self.frame);
+                let (lowest, highest) = sphere_band_extent(wo, cap);
+                let lines = band_lines(wo.x, lowest, highest, stds);
+                for i in 0..lines.count {
+                    let line = lines.drawn_line(wo, i, line_u);
+                    let on_line = sphere_chord(line, cap);
+                    let spectrum = self.spectrum(line, on_line.range(line));
+                    offers.offer(line, on_line.signed(line), spectrum, chord_u);
+                }
+            }
+            LightView::Polygon {
+                vertices,
+                away,
+                facing,
+                sets,
+                ..
+            } => {
+                let outline = views.outline(vertices, *away, *facing, *sets);
+                let (lowest, highest) = outline.band_extent(self.frame, wo.x);
+                let lines = band_lines(wo.x, lowest, highest, stds);
+                for i in 0..lines.count {
+                    let line = lines.drawn_line(wo, i, line_u);
+                    outline.roots(self.frame, line, &mut roots);
+                    let spectrum = self.spectrum(line, roots.range);
+                    let Some(picture) = views.picture(light) else {
+                        offers.offer(line, roots.signed().iter().copied(), spectrum, chord_u);
+                        continue;
+                    };
+                    let of_luminance = |q: f64| luminance(spectrum(q).into());
+                    for (low, high, radiance) in
+                        self.picture_parts(line, &roots, picture, of_luminance)
+                    {
+                        let ends = [(-1.0, low), (1.0, high)];
+                        let spectrum = |q: f64| (radiance * DVec3::from(spectrum(q))).into();
+                        offers.offer(line, ends.into_iter(), spectrum, chord_u);
+                    }
+                }
+            }
+        }
+        offers.taken(self.frame)
+    }
+
+    /// A direction by way of the environment, as [`Self::draw_light`]; two numbers in [0, 1). One cell is drawn by what comes from it, one of its
+    /// parts by what comes from that, and the colour has what really comes from the direction: the closed form takes the environment and the
+    /// groove's depth as even over a cell, but an object may hide its bright side alone.
+    pub fn draw_environment(
+        &self,
+        point: &SurfacePoint,
+        environment: &Environment,
+        [pick_u, part_u]: [f64; 2],
+    ) -> Option<DrawnLight> {
+        let line = BandLine::new(self.wo, 0.0);
+        let from = |direction: DVec3, roughness: f64| {
+            let direction = self.frame.surface_from_band(direction);
+            environment.beside_windows(point.world_from_surface(direction), roughness)
+        };
+        let response = |cell: &EnvironmentCell| {
+            let row = self.row(cell.direction.z);
+            move |q: f64| DVec3::from(row.at(self.width_um() * q))
+        };
+        let mut cells = Choice::new(pick_u);
+        let mut taken = None;
+        self.for_cells(|cell| {
+            let blurred = from(cell.direction, cell.environment_cell_roughness());
+            let response = response(cell);
+            let sent = blurred * (response(cell.q_high) - response(cell.q_low));
+            if cells.offer(sent) {
+                taken = Some((*cell, luminance(sent)));
+            }
+        });
+        let (cell, of_cell) = taken?;
+        let mut parts = Choice::new(cells.left);
+        let mut taken = None;
+        for part in cell.parts(line) {
+            let here = from(part.direction, part.environment_cell_roughness());
+            let response = response(&part);
+            if parts.offer(here * (response(part.q_high) - response(part.q_low))) {
+                taken = Some((part, here));
+            }
+        }
+        let (part, here) = taken?;
+        let response = response(&part);
+        let mut offers = Offers::new(0.0);
+        let ends = [(-1.0, part.q_low), (1.0, part.q_high)];
+        let spectrum = |q: f64| (here * response(q)).into();
+        offers.offer(line, ends.into_iter(), spectrum, part_u);
+        offers.lines.total = cells.total;
+        let mut drawn = offers.taken(self.frame)?;
+        let there = self.frame.band_from_surface(drawn.direction);
+        let really = DVec3::select(here.cmpgt(DVec3::ZERO), from(there, 0.0) / here, DVec3::ONE);
+        drawn.color *= really * (luminance(parts.total) / of_cell);
+        Some(drawn)
+    }
+
+    /// The same for light that is the same from all around.
+    pub fn draw_all_around(&self, [pick_u, cell_u]: [f64; 2]) -> Option<DrawnLight> {
+        let line = BandLine::new(self.wo, 0.0);
+        let mut offers = Offers::new(pick_u);
+        self.for_cells(|cell| {
+            let row = self.row(cell.direction.z);
+            let ends = [(-1.0, cell.q_low), (1.0, cell.q_high)];
+            let spectrum = |q: f64| row.at(self.width_um() * q);
+            offers.offer(line, ends.into_iter(), spectrum, cell_u);
+        });
+        offers.taken(self.frame)
     }
 }

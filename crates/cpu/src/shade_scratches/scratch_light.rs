@@ -1,7 +1,6 @@
 //! A scratch as seen from a point, and the light that it sends to the viewer (docs/model.md, sections 5 and 6). Twin:
 //! scratch_light.wgsl.
 
-use super::drawn_light::{DrawnLight, Offers};
 use super::row_spread::{ROW_PROFILE, RowSpread};
 use crate::light_view::{LightView, LightViews};
 use crate::picture::PictureView;
@@ -221,100 +220,6 @@ impl<'a> ScratchLight<'a> {
         let parts = self.picture_parts(line, roots, picture, |q| luminance(at(q)));
         let sent = parts.map(|(low, high, radiance)| radiance * (at(high) - at(low)));
         sent.sum::<DVec3>().to_array()
-    }
-
-    /// A direction from which a light reaches the viewer by way of the scratch: drawn in proportion to the luminance of what comes from there,
-    /// by three numbers in [0, 1). None where nothing comes. Other arguments as for [`Self::light`].
-    pub fn draw_light(
-        &self,
-        stds: &BandStds,
-        place: BandPlace,
-        views: &LightViews,
-        view: usize,
-        [line_u, pick_u, chord_u]: [f64; 3],
-    ) -> Option<DrawnLight> {
-        let light = &views.views[view];
-        let motion = self.motion(place, views, view);
-        let wo = self.wo + motion.shift * DVec3::X;
-        let stds = motion.band(*stds).stds;
-        let mut roots = OutlineRoots::default();
-        let mut offers = Offers::new(pick_u);
-        // One line of each part of the band, and of these one by what comes along it.
-        match light {
-            LightView::Sphere { cap, .. } => {
-                let cap = cap.turned(self.frame);
-                let (lowest, highest) = sphere_band_extent(wo, cap);
-                let lines = band_lines(wo.x, lowest, highest, stds);
-                for i in 0..lines.count {
-                    let line = lines.drawn_line(wo, i, line_u);
-                    let on_line = sphere_chord(line, cap);
-                    let spectrum = self.spectrum(line, on_line.range(line));
-                    offers.offer(line, on_line.signed(line), spectrum, chord_u);
-                }
-            }
-            LightView::Polygon {
-                vertices,
-                away,
-                facing,
-                sets,
-                ..
-            } => {
-                let outline = views.outline(vertices, *away, *facing, *sets);
-                let (lowest, highest) = outline.band_extent(self.frame, wo.x);
-                let lines = band_lines(wo.x, lowest, highest, stds);
-                for i in 0..lines.count {
-                    let line = lines.drawn_line(wo, i, line_u);
-                    outline.roots(self.frame, line, &mut roots);
-                    let spectrum = self.spectrum(line, roots.range);
-                    let Some(picture) = views.picture(light) else {
-                        offers.offer(line, roots.signed().iter().copied(), spectrum, chord_u);
-                        continue;
-                    };
-                    let of_luminance = |q: f64| luminance(spectrum(q).into());
-                    for (low, high, radiance) in
-                        self.picture_parts(line, &roots, picture, of_luminance)
-                    {
-                        let ends = [(-1.0, low), (1.0, high)];
-                        let spectrum = |q: f64| (radiance * DVec3::from(spectrum(q))).into();
-                        offers.offer(line, ends.into_iter(), spectrum, chord_u);
-                    }
-                }
-            }
-        }
-        offers.taken(self.frame)
-    }
-
-    /// A direction by way of the environment, as [`Self::draw_light`]; two numbers in [0, 1).
-    pub fn draw_environment(
-        &self,
-        point: &SurfacePoint,
-        environment: &Environment,
-        [pick_u, cell_u]: [f64; 2],
-    ) -> Option<DrawnLight> {
-        let line = BandLine::new(self.wo, 0.0);
-        let mut offers = Offers::new(pick_u);
-        self.for_cells(|cell| {
-            let towards = point.world_from_surface(self.frame.surface_from_band(cell.direction));
-            let blurred = environment.beside_windows(towards, cell.environment_cell_roughness());
-            let row = self.row(cell.direction.z);
-            let spectrum = |q: f64| (blurred * DVec3::from(row.at(self.width_um() * q))).into();
-            let ends = [(-1.0, cell.q_low), (1.0, cell.q_high)];
-            offers.offer(line, ends.into_iter(), spectrum, cell_u);
-        });
-        offers.taken(self.frame)
-    }
-
-    /// The same for light that is the same from all around.
-    pub fn draw_all_around(&self, [pick_u, cell_u]: [f64; 2]) -> Option<DrawnLight> {
-        let line = BandLine::new(self.wo, 0.0);
-        let mut offers = Offers::new(pick_u);
-        self.for_cells(|cell| {
-            let row = self.row(cell.direction.z);
-            let ends = [(-1.0, cell.q_low), (1.0, cell.q_high)];
-            let spectrum = |q: f64| row.at(self.width_um() * q);
-            offers.offer(line, ends.into_iter(), spectrum, cell_u);
-        });
-        offers.taken(self.frame)
     }
 
     /// By light of radiance 1 from all around.

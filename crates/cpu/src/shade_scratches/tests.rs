@@ -4,11 +4,13 @@ use super::*;
 use crate::closed_form::RenderOptions;
 use crate::light_view::LightViews;
 use crate::project::{REACH_MARGIN, ROUNDING_PX, Rows};
+use crate::sampling::luminance;
 use crate::surface::SurfacePoint;
 use crate::tile::Seen as SeenPoint;
 use crate::visibility::center;
 use glam::{DVec2, DVec3, Vec3};
 use hairline_fixtures::SceneFile;
+use hairline_optics::band::BandLine;
 use hairline_optics::footprint::{Footprint, scratch_share};
 use hairline_scene::{Profile, Scene};
 use rand::{RngExt, SeedableRng};
@@ -234,4 +236,89 @@ fn lanes_see_the_closed_forms_share() {
     }
     assert!(seen > 1000, "{seen}");
     assert!(point.normal.distance(DVec3::Z) < 2.0);
+}
+
+/// From each part of the band as much is drawn as an integral over directions says: from the bright side of a cell, not from all of it alike.
+#[test]
+fn what_is_drawn_of_an_environment_comes_from_there() {
+    const BINS: usize = 12;
+    let scene = SceneFile::seen_from([0.0, -0.2, 0.1])
+        .size_px([8, 8])
+        .mirror("m")
+        .object("o", "m", "plane = { size_m = [0.2, 0.2] }")
+        .part("[environment]\nbuiltin = \"studio\"")
+        .scene();
+    let environment = scene.environment.as_ref().unwrap();
+    let prepared = Prepared::new(&scene);
+    let (picture, _) = prepared.picture(&RenderOptions::default(), 0..8, &|| false);
+    let hit = picture.visibility.hit(4, 4).copied();
+    let SeenPoint::Surface { point, .. } = picture.surface(center(4, 4), 1, hit) else {
+        panic!("the plane is in the middle");
+    };
+    let table = &prepared.tables.tables[point.table];
+    for (turn_rad, width_um) in [(0.3f64, 1.0), (1.2, 3.0)] {
+        let profile = Profile {
+            width_um,
+            depth_nm: 300.0,
+        };
+        let tangent = DVec2::from_angle(turn_rad);
+        let scratch = ScratchLight::new(point.wo, tangent, table, profile);
+        let line = BandLine::new(scratch.wo, 0.0);
+        let bin = |q: f64| {
+            let share = (q - line.q_end()) / (line.q_start() - line.q_end());
+            ((share * BINS as f64) as usize).min(BINS - 1)
+        };
+        // Over the directions between two places of the line, cut fine; `of` is the radiance and the cosine for the groove's depth.
+        let integral = |low: f64, high: f64, of: &dyn Fn(DVec3) -> (DVec3, f64)| {
+            let steps = 400;
+            let at = |i: f64| low + (high - low) * i / f64::from(steps);
+            let part = |i: u32| {
+                let (radiance, cos) = of(line.direction_at(at(f64::from(i) + 0.5)));
+                let row = scratch.row(cos);
+                let below = |i: f64| DVec3::from(row.at(f64::from(width_um) * at(i)));
+                (
+                    bin(at(f64::from(i) + 0.5)),
+                    luminance(radiance * (below(f64::from(i) + 1.0) - below(f64::from(i)))),
+                )
+            };
+            (0..steps).map(part).collect::<Vec<_>>()
+        };
+        let world =
+            |in_band: DVec3| point.world_from_surface(scratch.frame.surface_from_band(in_band));
+        let (mut exact, mut by_cells) = ([0.0; BINS], [0.0; BINS]);
+        scratch.for_cells(|cell| {
+            let really = |direction: DVec3| {
+                let radiance = environment.beside_windows(world(direction), 0.0);
+                (radiance, direction.z)
+            };
+            for (bin, sent) in integral(cell.q_low, cell.q_high, &really) {
+                exact[bin] += sent;
+            }
+            let blur = cell.environment_cell_roughness();
+            let blurred = environment.beside_windows(world(cell.direction), blur);
+            for (bin, sent) in integral(cell.q_low, cell.q_high, &|_| (blurred, cell.direction.z)) {
+                by_cells[bin] += sent;
+            }
+        });
+        let mut drawn = [0.0; BINS];
+        let all = scratch.environment(&point, environment);
+        let (cells, places) = (400, 100);
+        for i in 0..cells * places {
+            let [u, v] = [(i % cells, cells), (i / cells, places)]
+                .map(|(i, of)| (f64::from(i) + 0.5) / f64::from(of));
+            let one = scratch
+                .draw_environment(&point, environment, [u, v])
+                .unwrap();
+            let q = scratch.frame.band_from_surface(one.direction).y + line.offset;
+            drawn[bin(q)] += luminance(all * one.color) / f64::from(cells * places);
+        }
+        let sum: f64 = exact.iter().sum();
+        let off = |found: &[f64; BINS]| {
+            let errors = found.iter().zip(&exact).map(|(a, b)| (a - b).abs() / sum);
+            errors.fold(0.0, f64::max)
+        };
+        let (drawn, by_cells) = (off(&drawn), off(&by_cells));
+        println!("{turn_rad} rad, {width_um} um: off by {drawn:.4} of all, cells by {by_cells:.4}");
+        assert!(drawn < 0.004 && by_cells > 0.01, "{drawn} {by_cells}");
+    }
 }

@@ -282,6 +282,14 @@ fn ltc_reflected(lobe: LtcLobe, reflecting: LobeFresnel, curves: texture_2d<f32>
     return integral * mix(mean, reflecting.albedo / lobe.albedo, sin4 * sin4);
 }
 
+// What the lobe reflects, single scattering, of a light so small that it lies in one direction, from its vector irradiance in the cosine's space.
+fn ltc_small_light(lobe: LtcLobe, reflecting: LobeFresnel, curves: texture_2d<f32>, vector: vec3f) -> vec3f {
+    let magnitude = max(length(vector), 1e-30);
+    var sums = LtcMeans(vec4f(0.0), 0.0, 0.0);
+    ltc_add(&sums, lobe, reflecting.fresnel.curve, curves, vector / magnitude, magnitude);
+    return fresnel_of_parts(reflecting.fresnel, sums.parts);
+}
+
 // Sums over directions: GGX times the parts of a reflectance, GGX, the cosine.
 struct LtcMeans {
     parts: vec4f,

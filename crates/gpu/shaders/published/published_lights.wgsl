@@ -42,7 +42,7 @@ fn published_offset_um(view: PublishedView) -> f32 {
 // Vertices of triangle `i` of a polygon, which has two less than vertices; some may be empty.
 fn published_triangle(light: Light, i: u32) -> vec3u {
     // The outline of a tube is convex.
-    if light.vertex_count == 3u || (HAS_TUBES && light.kind == LIGHT_TUBE) {
+    if light.vertex_count == 3u || light_is_tube(light) {
         return vec3u(0u, i + 1u, i + 2u);
     }
     let place = light.first_vertex + i;

@@ -56,46 +56,65 @@ fn base_polygon(point: SurfacePoint, lobe: LtcLobe, light: Light) -> LightOnBase
     return LightOnBase(irradiance_end(specular), lambert_end(diffuse));
 }
 
-// What the lobe and the body see of a light's picture in the mean, part by part. Twins: on_lobe and on_body of cpu/src/picture.rs.
-fn base_picture(point: SurfacePoint, lobe: LtcLobe, light: Light) -> BaseRadiance {
+// The same of a light with a picture.
+struct PictureOnBase {
+    seen: LightOnBase,
+    mean: BaseRadiance,         // what the lobe reflects of the picture and what falls on the body, over what it would be of an even one
+}
+
+// Part by part. Twins: on_lobe and on_body of cpu/src/picture.rs.
+fn base_picture(point: SurfacePoint, lobe: LtcLobe, reflecting: LobeFresnel, light: Light) -> PictureOnBase {
+    var on: PictureOnBase;
+    if light_outline(point, light).facing == 0.0 {
+        return on;
+    }
     let picture = light_picture(light);
     let axes = mat3x3f(point.axis_x, point.axis_y, point.normal);
     let plane = light_picture_plane(light, point.position_m, axes);
-    var mean: BaseRadiance;
-    var weights = vec2f(0.0);
+    var on_lobes = vec3f(0.0);
     for (var i = 0u; i < PICTURE_PARTS * PICTURE_PARTS; i += 1u) {
         let part = picture_part(plane, i);
-        let in_cosine = PicturePlane(
-            ltc_to_cosine(lobe, lobe_rotate(lobe.x_axis, part.corner)),
-            ltc_to_cosine(lobe, lobe_rotate(lobe.x_axis, part.right)),
-            ltc_to_cosine(lobe, lobe_rotate(lobe.x_axis, part.up)),
-        );
-        let on_lobe = picture_irradiance(in_cosine);
-        if on_lobe.z > 0.0 {
-            weights.x += on_lobe.z;
-            mean.specular += (picture_part_at(picture, picture_look(in_cosine, on_lobe), i) - mean.specular) * (on_lobe.z / weights.x);
-        }
-        if HAS_BODIES {
-            let on_body = picture_irradiance(part);
-            if on_body.z > 0.0 {
-                weights.y += on_body.z;
-                mean.diffuse += (picture_part_at(picture, picture_look(part, on_body), i) - mean.diffuse) * (on_body.z / weights.y);
+        // For the lobe in the cosine's space, then for the body: the code stands in it once, as passes with it are long.
+        for (var k = 0u; k < select(1u, 2u, HAS_BODIES); k += 1u) {
+            var as_seen = part;
+            if k == 0u {
+                as_seen = PicturePlane(
+                    ltc_to_cosine(lobe, lobe_rotate(lobe.x_axis, part.corner)),
+                    ltc_to_cosine(lobe, lobe_rotate(lobe.x_axis, part.right)),
+                    ltc_to_cosine(lobe, lobe_rotate(lobe.x_axis, part.up)),
+                );
+            }
+            let vector = picture_irradiance(as_seen, light.vertex_count);
+            if vector.z <= 0.0 {
+                continue;
+            }
+            let radiance = picture_part_at(picture, picture_look(as_seen, vector), i);
+            if k == 0u {
+                let reflected = ltc_small_light(lobe, reflecting, fresnel_curves, vector);
+                on_lobes += reflected;
+                on.seen.vector += vector;
+                on.mean.specular += (radiance - on.mean.specular) * (reflected / max(on_lobes, vec3f(1e-30)));
+            } else {
+                let form_factor = vector.z / GGX_PI;
+                on.seen.form_factor += form_factor;
+                on.mean.diffuse += (radiance - on.mean.diffuse) * (form_factor / on.seen.form_factor);
             }
         }
     }
-    return mean;
+    return on;
 }
 
 // The vector irradiance of a parallelogram.
-fn picture_irradiance(plane: PicturePlane) -> vec3f {
+fn picture_irradiance(plane: PicturePlane, corners: u32) -> vec3f {
     var state = irradiance_begin();
-    let b = plane.corner + plane.right;
-    let c = b + plane.up;
-    let d = plane.corner + plane.up;
-    irradiance_edge(&state, plane.corner, b, plane.right);
-    irradiance_edge(&state, b, c, plane.up);
-    irradiance_edge(&state, c, d, -plane.right);
-    irradiance_edge(&state, d, plane.corner, -plane.up);
+    var a = plane.corner;
+    // Not unrolled: it is the number of a light's corners.
+    for (var i = 0u; i < corners; i += 1u) {
+        let along = select(plane.right, plane.up, (i & 1u) != 0u);
+        let b = plane.corner + select(vec3f(0.0), plane.right, i < 2u) + select(vec3f(0.0), plane.up, i == 1u || i == 2u);
+        irradiance_edge(&state, a, b, select(along, -along, i > 1u));
+        a = b;
+    }
     return irradiance_end(state);
 }
 
@@ -178,14 +197,29 @@ fn base_radiance(point: SurfacePoint) -> BaseRadiance {
 
 // The same by some of the lights, from the first to the one before the end, and from all around or not.
 fn base_radiance_of(point: SurfacePoint, of_lights: vec2u, surrounded: bool) -> BaseRadiance {
-    let layer = base_layer(point);
-    var base = layer_lit(point, layer, of_lights, surrounded);
-    base = BaseRadiance(layer_of_single(layer, base.specular), base.diffuse * base_body(point, layer));
-    let share = surface_coat(point.coat).x;
-    if HAS_COATS && share > 0.0 {
-        let coat = coat_layer(point);
-        let lit = layer_lit(point, coat, of_lights, surrounded);
-        base = base_coated(share, coat.albedo, base, layer_of_single(coat, lit.specular));
+    if !HAS_COATS {
+        let layer = base_layer(point);
+        let lit = layer_lit(point, layer, of_lights, surrounded);
+        return BaseRadiance(layer_of_single(layer, lit.specular), lit.diffuse * base_body(point, layer));
+    }
+    let coat = surface_coat(point.coat);
+    var base: BaseRadiance;
+    // The code of a layer stands in it once: passes with it are long.
+    for (var i = 0u; i < select(1u, 2u, coat.x > 0.0); i += 1u) {
+        var fresnel = FresnelRgb(point.f0, point.curve);
+        var roughness = point.roughness;
+        if i > 0u {
+            fresnel = coat_fresnel();
+            roughness = coat.y;
+        }
+        let layer = layer_of(point, fresnel, roughness);
+        let lit = layer_lit(point, layer, of_lights, surrounded);
+        let single = layer_of_single(layer, lit.specular);
+        if i > 0u {
+            base = base_coated(coat.x, layer.albedo, base, single);
+        } else {
+            base = BaseRadiance(single, lit.diffuse * base_body(point, layer));
+        }
     }
     return base;
 }
@@ -207,18 +241,17 @@ fn layer_lit(point: SurfacePoint, layer: Layer, of_lights: vec2u, surrounded: bo
             let source = light_at(l);
             let radiance = light_radiance(source, point.position_m);
             var seen: LightOnBase;
-            if BASE_HAS_SPHERES && source.kind == LIGHT_SPHERE {
-                seen = base_sphere(point, part.lobe, source);
-            }
-            if BASE_HAS_POLYGONS && source.kind != LIGHT_SPHERE {
-                seen = base_polygon(point, part.lobe, source);
-            }
             var on_lobe = radiance;
             var on_body = radiance;
-            if HAS_PICTURES && (source.extras & LIGHT_PICTURE) != 0u {
-                let picture = base_picture(point, part.lobe, source);
-                on_lobe *= picture.specular;
-                on_body *= picture.diffuse;
+            if BASE_HAS_SPHERES && source.kind == LIGHT_SPHERE {
+                seen = base_sphere(point, part.lobe, source);
+            } else if light_has_picture(source) {
+                let picture = base_picture(point, part.lobe, layer.reflecting, source);
+                seen = picture.seen;
+                on_lobe *= picture.mean.specular;
+                on_body *= picture.mean.diffuse;
+            } else if BASE_HAS_POLYGONS {
+                seen = base_polygon(point, part.lobe, source);
             }
             let weight = filtered_lobe_weight(layer.filtered, part, seen.vector);
             if weight != 0.0 {

@@ -6,6 +6,9 @@ override HAS_SPHERES: bool = true;
 // Tubes too, whose outlines are polygons.
 override HAS_POLYGONS: bool = true;
 override HAS_TUBES: bool = true;
+// Lights with corners are all of a kind.
+override ONLY_TUBES: bool = false;
+override ONLY_PICTURES: bool = false;
 override HAS_ENVIRONMENT: bool = true;
 // The same of lights that do not shine on scratches alone.
 override BASE_HAS_SPHERES: bool = true;

@@ -242,15 +242,49 @@ fn draw_outline(point: LitPoint, seen: SeenScratch, view: OutlineView, facing: f
     return taken;
 }
 
-// By the environment; u holds the numbers for the choice between cells, and for the chord. `cells` is how many the band has: those of a scratch, or
-// of a grating.
-fn draw_around(point: LitPoint, seen: SeenScratch, cells: u32, map_from_surface: mat3x3f, u: vec2f) -> DrawnFrom {
-    return draw_cells(point, seen, cells, map_from_surface, true, u);
+// By light of radiance 1 from all around; the total is what comes of it. u holds the numbers for the choice between cells, and for the chord.
+fn draw_all_around(point: LitPoint, seen: SeenScratch, u: vec2f) -> DrawnFrom {
+    var cell = draw_cell(point, seen, ENVIRONMENT_CELLS, mat3x3f(), false, u.x);
+    cell.from_there.part.left = u.y * cell.luminance;
+    return cell.from_there;
 }
 
-// By light of radiance 1 from all around; the total is what comes of it.
-fn draw_all_around(point: LitPoint, seen: SeenScratch, u: vec2f) -> DrawnFrom {
-    return draw_cells(point, seen, ENVIRONMENT_CELLS, mat3x3f(), false, u);
+// Parts of a cell, even in q. Twin: EnvironmentCell::parts of optics.
+const DRAWN_CELL_PARTS: u32 = 6u;
+
+// Part `i` of the cell of a line between two places.
+fn drawn_cell_part(i: u32, line: BandLine, low: f32, high: f32) -> EnvironmentCell {
+    let q = mix(vec3f(low), vec3f(high), (f32(i) + vec3f(0.0, 0.5, 1.0)) / f32(DRAWN_CELL_PARTS));
+    let chord = distance(environment_arc_point(line, q.x), environment_arc_point(line, q.z));
+    return EnvironmentCell(q.x, q.z, vec3f(line.along, environment_arc_point(line, q.y)), chord);
+}
+
+// A direction by the environment. `cells` is how many the band has: those of a scratch, or of a grating. Of the cell one part is drawn by what comes
+// from it, and the colour has what really comes from the direction: the closed form takes the environment and the groove's depth as even over a
+// cell, but an object may hide its bright side alone.
+fn draw_around(point: LitPoint, seen: SeenScratch, cells: u32, map_from_surface: mat3x3f, u: vec2f) -> DrawnLight {
+    let cell = draw_cell(point, seen, cells, map_from_surface, true, u.x);
+    var from_there = cell.from_there;
+    from_there.is_there = false;
+    var offer = DrawnOffer(vec3f(0.0), cell.left);
+    for (var i = 0u; i < DRAWN_CELL_PARTS; i += 1u) {
+        let part = drawn_cell_part(i, cell.from_there.line, cell.from_there.part.low, cell.from_there.part.high);
+        let here = drawn_cell_light(seen, map_from_surface, part);
+        let sent = here * scratch_chord(scratch_tables, point, seen, part.q_high, part.q_low, part.direction.z);
+        if drawn_offer(&offer, sent) {
+            from_there.part = DrawnPart(part.q_low, part.q_high, u.y * rgb_luminance(sent));
+            from_there.cos_i = part.direction.z;
+            from_there.filter_by = here;
+            from_there.is_there = cell.from_there.is_there;
+        }
+    }
+    var drawn = drawn_direction(point, seen, from_there);
+    if drawn.is_there {
+        let sharp = environment_prefiltered_lod(levels_beside_windows, map_from_surface * drawn.direction, 0.0);
+        let really = select(vec3f(1.0), sharp / max(from_there.filter_by, vec3f(1e-30)), from_there.filter_by > vec3f(0.0));
+        drawn.color *= really * (rgb_luminance(offer.total) / cell.luminance);
+    }
+    return drawn;
 }
 
 fn drawn_cell(i: u32, cells: u32, line: BandLine, seen: SeenScratch) -> EnvironmentCell {
@@ -260,27 +294,40 @@ fn drawn_cell(i: u32, cells: u32, line: BandLine, seen: SeenScratch) -> Environm
     return environment_cell(i, line, seen.profile.width_um);
 }
 
-// By the cells of an environment, or of one of radiance 1.
-fn draw_cells(point: LitPoint, seen: SeenScratch, cells: u32, map_from_surface: mat3x3f, is_map: bool, u: vec2f) -> DrawnFrom {
+// What comes from a cell of the environment: the unit of the map.
+fn drawn_cell_light(seen: SeenScratch, map_from_surface: mat3x3f, cell: EnvironmentCell) -> vec3f {
+    let direction = map_from_surface * surface_from_band(seen.tangent, cell.direction);
+    return environment_prefiltered(levels_beside_windows, direction, environment_cell_roughness(cell));
+}
+
+// A cell of an environment, or of one of radiance 1.
+struct DrawnCell {
+    from_there: DrawnFrom,      // the whole cell
+    luminance: f32,             // of what comes from it
+    left: f32,                  // of the number that chooses
+}
+
+fn draw_cell(point: LitPoint, seen: SeenScratch, cells: u32, map_from_surface: mat3x3f, is_map: bool, u: f32) -> DrawnCell {
     let line = band_line_at(band_from_surface(seen.tangent, point.wo), 0.0);
-    var offer = DrawnOffer(vec3f(0.0), u.x);
-    var taken: DrawnFrom;
+    var offer = DrawnOffer(vec3f(0.0), u);
+    var taken: DrawnCell;
     for (var i = 0u; i < cells; i += 1u) {
         let cell = drawn_cell(i, cells, line, seen);
         if cell.q_high > cell.q_low {
-            let direction = map_from_surface * surface_from_band(seen.tangent, cell.direction);
             var blurred = vec3f(1.0);
             if is_map {
-                blurred = environment_prefiltered(levels_beside_windows, direction, environment_cell_roughness(cell));
+                blurred = drawn_cell_light(seen, map_from_surface, cell);
             }
             let cos_i = cell.direction.z;
             let sent = blurred * scratch_chord(scratch_tables, point, seen, cell.q_high, cell.q_low, cos_i);
             if drawn_offer(&offer, sent) {
-                taken = DrawnFrom(line, DrawnPart(cell.q_low, cell.q_high, u.y * rgb_luminance(sent)), cos_i, true, blurred, vec3f(0.0));
+                taken.from_there = DrawnFrom(line, DrawnPart(cell.q_low, cell.q_high, 0.0), cos_i, true, blurred, vec3f(0.0));
+                taken.luminance = rgb_luminance(sent);
             }
         }
     }
-    taken.total = offer.total;
+    taken.from_there.total = offer.total;
+    taken.left = offer.left;
     return taken;
 }
 

@@ -6,21 +6,34 @@ struct DrawnRay {
     distance_m: f32,
 }
 
+// Whether a source is of the kind that the pass is compiled for: passes over rays have one. Twin: Kind::of_rays of gpu/src/lights.rs.
+fn draws_to(source: u32) -> bool {
+    if source >= frame.light_count {
+        return HAS_ENVIRONMENT;
+    }
+    let light = light_at(source);
+    if light.kind == LIGHT_SPHERE {
+        return HAS_SPHERES;
+    }
+    if light.kind == LIGHT_TUBE {
+        return HAS_TUBES;
+    }
+    return HAS_POLYGONS && !HAS_TUBES && HAS_PICTURES == ((light.extras & LIGHT_PICTURE) != 0u);
+}
+
 // `cells` as for draw_around().
 fn draw_ray(pair: Pair, cells: u32, source: u32, u: vec3f) -> DrawnRay {
-    var from_there: DrawnFrom;
-    if source < frame.light_count {
-        from_there = draw_light(pair, light_at(source), u);
-    } else if HAS_ENVIRONMENT {
-        from_there = draw_around(pair.point, pair.seen, cells, frame.environment_from_world * pair.surface, u.yz);
+    if source >= frame.light_count {
+        var around: DrawnLight;
+        if HAS_ENVIRONMENT {
+            around = draw_around(pair.point, pair.seen, cells, frame.environment_from_world * pair.surface, u.yz);
+        }
+        return DrawnRay(around, SHADOW_FAR_M);
     }
-    let drawn = drawn_direction(pair.point, pair.seen, from_there);
-    var distance_m = SHADOW_FAR_M;
-    if source < frame.light_count {
-        let reach_m = light_reach_m(pair, light_at(source), drawn.direction);
-        distance_m = select(SHADOW_FAR_M, reach_m, reach_m > 0.0 && reach_m < SHADOW_FAR_M);
-    }
-    return DrawnRay(drawn, distance_m);
+    let light = light_at(source);
+    let drawn = drawn_direction(pair.point, pair.seen, draw_light(pair, light, u));
+    let reach_m = light_reach_m(pair, light, drawn.direction);
+    return DrawnRay(drawn, select(SHADOW_FAR_M, reach_m, reach_m > 0.0 && reach_m < SHADOW_FAR_M));
 }
 
 fn draw_light(pair: Pair, light: Light, u: vec3f) -> DrawnFrom {
@@ -28,14 +41,13 @@ fn draw_light(pair: Pair, light: Light, u: vec3f) -> DrawnFrom {
     var drawn: DrawnFrom;
     if HAS_SPHERES && light.kind == LIGHT_SPHERE {
         drawn = draw_sphere(pair.point, pair.seen, center_m, light.radius_m, u);
-    }
-    if HAS_PICTURES && (light.extras & LIGHT_PICTURE) != 0u {
+    } else if light_has_picture(light) {
         let plane = light_picture_plane(light, pair.position_m, pair.surface);
         let normal = light.normal * pair.surface;
         let last = plane.corner + plane.up;
         let quad = QuadLight(plane.corner, plane.corner + plane.right, last + plane.right, last, 4u, normal, center_m, light.radius_m, light.two_sided != 0u);
         drawn = draw_picture(pair.point, pair.seen, PictureLight(quad, plane, light_picture(light)), u);
-    } else if HAS_POLYGONS && light.kind != LIGHT_SPHERE {
+    } else if HAS_POLYGONS {
         let normal = light.normal * pair.surface;
         let corner_m = (light_corner_m(light.first_vertex) - pair.position_m) * pair.surface;
         var view: OutlineView;
@@ -45,7 +57,7 @@ fn draw_light(pair: Pair, light: Light, u: vec3f) -> DrawnFrom {
         view.axis_x = pair.surface[0];
         view.normal = pair.surface[2];
         view.tangent = pair.seen.tangent;
-        view.is_tube = HAS_TUBES && light.kind == LIGHT_TUBE;
+        view.is_tube = light_is_tube(light);
         var facing = polygon_facing(normal, corner_m, light.two_sided != 0u);
         var away = band_from_surface(pair.seen.tangent, -facing * normal);
         if view.is_tube {
@@ -67,7 +79,7 @@ fn light_reach_m(pair: Pair, light: Light, direction: vec3f) -> f32 {
     var reach_m = 0.0;
     if HAS_SPHERES && light.kind == LIGHT_SPHERE {
         reach_m = abs(sphere_reach_m((light.center_m - pair.position_m) * pair.surface, light.radius_m, direction));
-    } else if HAS_TUBES && light.kind == LIGHT_TUBE {
+    } else if light_is_tube(light) {
         let a = light_end_m(light.first_vertex);
         let b = light_end_m(light.first_vertex + 1u);
         reach_m = tube_reach_m((a.xyz - pair.position_m) * pair.surface, (b.xyz - pair.position_m) * pair.surface, a.w, direction);

@@ -70,16 +70,22 @@ fn groove_share_within(grating: Grating, arm_m: vec3f, right_m: vec3f, down_m: v
 // filter.
 fn groove_place(grating: Grating, point_m: vec3f, normal: vec3f, right_m: vec3f, down_m: vec3f) -> GroovePlace {
     let arm_m = point_m - grating.center_m;
-    let tangent = groove_tangent(grating, arm_m, normal);
-    if all(tangent == vec3f(0.0)) {
-        return GroovePlace(tangent, vec2f(0.0), 0.0);
+    var tangent = vec3f(0.0);
+    var turns = vec2f(0.0);
+    // The middle, then to both sides, halfway, where a field that turns much over a pixel still tells by how much. One copy of the code.
+    for (var i = 0u; i < 5u; i += 1u) {
+        let step_m = select(select(down_m, right_m, i < 3u), vec3f(0.0), i == 0u);
+        let side = select(-1.0, 1.0, (i & 1u) != 0u);
+        let there = groove_tangent(grating, arm_m + 0.5 * side * step_m, normal);
+        if i == 0u {
+            tangent = there;
+            if all(tangent == vec3f(0.0)) {
+                return GroovePlace(tangent, turns, 0.0);
+            }
+            continue;
+        }
+        let angle = side * groove_angle(normal, tangent, there);
+        turns += select(vec2f(0.0, angle), vec2f(angle, 0.0), i < 3u);
     }
-    // Halfway, where a field that turns much over a pixel still tells by how much.
-    let turns = vec2f(
-        groove_angle(normal, tangent, groove_tangent(grating, arm_m + 0.5 * right_m, normal))
-            - groove_angle(normal, tangent, groove_tangent(grating, arm_m - 0.5 * right_m, normal)),
-        groove_angle(normal, tangent, groove_tangent(grating, arm_m + 0.5 * down_m, normal))
-            - groove_angle(normal, tangent, groove_tangent(grating, arm_m - 0.5 * down_m, normal)),
-    );
     return GroovePlace(tangent, turns, grating.coverage * groove_share_within(grating, arm_m, right_m, down_m));
 }

@@ -109,7 +109,7 @@ fn outline_draw(point: SurfacePoint, light: Light, outline: LightOutline, u: vec
 // The distance at which a direction passes through the polygon's plane, or into a tube; below zero or not finite where it does not.
 fn outline_reach_m(point: SurfacePoint, light: Light, direction: vec3f) -> f32 {
     var reach_m: f32;
-    if HAS_TUBES && light.kind == LIGHT_TUBE {
+    if light_is_tube(light) {
         let a = light_end_m(light.first_vertex);
         let b = light_end_m(light.first_vertex + 1u);
         let start_m = surface_from_world(point, a.xyz - point.position_m);

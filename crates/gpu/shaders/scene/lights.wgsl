@@ -8,7 +8,7 @@ struct LightOutline {
 
 fn light_outline(point: SurfacePoint, light: Light) -> LightOutline {
     var outline: LightOutline;
-    if HAS_TUBES && light.kind == LIGHT_TUBE {
+    if light_is_tube(light) {
         let a = light_end_m(light.first_vertex);
         let b = light_end_m(light.first_vertex + 1u);
         outline.tube = tube_outline(
@@ -28,7 +28,7 @@ fn light_outline(point: SurfacePoint, light: Light) -> LightOutline {
 fn light_vertex(point: SurfacePoint, light: Light, outline: LightOutline, i: u32) -> vec3f {
     let at = select(i, i - light.vertex_count, i >= light.vertex_count);
     var vertex: vec3f;
-    if HAS_TUBES && light.kind == LIGHT_TUBE {
+    if light_is_tube(light) {
         vertex = tube_corner(outline.tube, at);
     } else {
         vertex = surface_from_world(point, light_corner_m(light.first_vertex + at) - point.position_m);

@@ -16,17 +16,23 @@ fn light_picture_plane(light: Light, place_m: vec3f, world_from_local: mat3x3f) 
     return PicturePlane((corner - place_m) * world_from_local, (right - corner) * world_from_local, (up - corner) * world_from_local);
 }
 
-// A trilinear look-up that ends at the edges of a square.
+// A trilinear look-up that ends at the edges of a square. The code of a texel stands in it once: passes with it are long.
 fn picture_radiance(picture: vec2u, uv: vec2f, wanted_lod: f32, low: vec2f, side: f32) -> vec3f {
     let lod = min(wanted_lod, f32(scene_texture_levels(picture) - 1u));
-    let near = picture_level(picture, u32(lod), uv, low, side);
-    return mix(near, picture_level(picture, u32(ceil(lod)), uv, low, side), fract(lod));
-}
-
-fn picture_level(picture: vec2u, level: u32, uv: vec2f, low: vec2f, side: f32) -> vec3f {
-    let size = max(scene_texture_size(picture) >> vec2u(level), vec2u(1u));
-    let half = min(0.5 / vec2f(size), vec2f(0.5 * side));
-    return scene_texture_level(picture, level, clamp(uv, low + half, low + side - half), 0.0).rgb;
+    let past = fract(lod);
+    let taps = select(4u, 8u, past > 0.0);
+    var sum = vec3f(0.0);
+    for (var tap = 0u; tap < taps; tap += 1u) {
+        let level = u32(lod) + tap / 4u;
+        let size = vec2f(max(scene_texture_size(picture) >> vec2u(level), vec2u(1u)));
+        let half = min(0.5 / size, vec2f(0.5 * side));
+        let at = clamp(uv, low + half, low + side - half) * size - 0.5;
+        let upper = vec2f(f32(tap & 1u), f32((tap >> 1u) & 1u));
+        let shares = abs(1.0 - upper - (at - floor(at)));
+        let texel = scene_texel(picture, level, vec2i(clamp(floor(at) + upper, vec2f(0.0), size - 1.0)));
+        sum += (shares.x * shares.y * select(1.0 - past, past, tap >= 4u)) * texel.rgb;
+    }
+    return sum;
 }
 
 fn picture_at(picture: vec2u, look: PictureLook) -> vec3f {

@@ -1,0 +1,66 @@
+// Pass: for each sample a ray by way of a scratch or a grating that was picked, if it goes to a light of the kind that the pass is compiled for. A
+// workgroup a group. Twin: cpu/src/shadows.rs.
+
+@group(3) @binding(0) var<storage, read> points: array<PixelPoint>;
+@group(3) @binding(1) var<storage, read> chunk_starts: array<u32>;
+// 2: grating_pairs.wgsl.
+@group(3) @binding(3) var<storage, read> picks: array<vec4u>;
+@group(3) @binding(4) var<storage, read_write> rays: array<ShadowRay>;
+@group(3) @binding(5) var<uniform> shadow_round: ShadowRound;
+
+// Whether gratings were picked, in place of scratches.
+override OF_GRATINGS: bool = false;
+
+// The ray of a sample by way of a pick; `luminance` is that of all that scratches send, or gratings.
+fn ray_by(pixel: PixelPoint, pick: Pick, luminance: f32) -> ShadowRay {
+    var pair: Pair;
+    var segment: Segment;
+    if OF_GRATINGS {
+        pair = grating_pair(pixel, gratings[pick.segment], 1.0);
+    } else {
+        segment = segment_from(scratch_segment(pick.segment));
+        pair = pair_of(pixel, segment);
+    }
+    let seed = shadow_seed(pixel.position_m, shadow_round);
+    let line = shadow_random_alike(seed, shadow_round, SHADOW_LINE);
+    let chord = shadow_random_alike(seed, shadow_round, SHADOW_CHORD);
+    let drawn = draw_ray(pair, select(ENVIRONMENT_CELLS, ROW_CELLS, OF_GRATINGS), pick.source, vec3f(line, chord.x));
+    var ray: ShadowRay;
+    if !drawn.light.is_there {
+        return ray;
+    }
+    // By way of a grating it starts anywhere under the pixel.
+    var start = shadow_normals(shadow_random_alike(seed, shadow_round, SHADOW_START));
+    if !OF_GRATINGS {
+        let place = shadow_random_alike(seed, shadow_round, SHADOW_PLACE);
+        start = pair_place(pair, pixel, segment, vec3f(start, gaussian_quantile(clamp(place.x, 1e-6, 1.0 - 1e-6))), place.y);
+    }
+    return ShadowRay(pair.surface * drawn.light.direction, drawn.distance_m, luminance * pick.color * drawn.light.color, start.x, vec3f(0.0), start.y);
+}
+
+@compute @workgroup_size(8, 8)
+fn shadow_picked_rays(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let group = workgroup.y * workgroups.x + workgroup.x;
+    if group >= frame.group_count || !group_has(group, lane) {
+        return;
+    }
+    let at = group_point(group, lane);
+    if points[at].object == 0u {
+        return;
+    }
+    // Picks of scratches lie as picks.wgsl says, those of gratings as shade_gratings.wgsl does.
+    let end = select(chunk_starts[frame.group_count], frame.group_count, OF_GRATINGS);
+    let packed = picks[GROUP * end + shadow_round.picks * at + shadow_round.round - shadow_round.first_pick];
+    if packed.x == PICK_NONE {
+        var nothing: ShadowRay;
+        rays[at] = nothing;
+        return;
+    }
+    let pick = pick_from(packed);
+    if !draws_to(pick.source) {
+        return;
+    }
+    let begin = select(chunk_starts[group], group, OF_GRATINGS);
+    let state = pick_state_from(picks[GROUP * begin + lane]);
+    rays[at] = ray_by(points[at], pick, state.step * f32(state.per_sample));
+}
