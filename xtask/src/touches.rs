@@ -26,7 +26,7 @@ const THINGS: [Thing; 2] = [
     Thing {
         what: "a parameter of a groove",
         // Those of gratings among them.
-        most: 27,
+        most: 28,
         names: &[
             &["width_um", "depth_nm"],
             &["width_depth"],

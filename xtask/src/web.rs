@@ -1,6 +1,7 @@
 //! The viewer for browsers: a folder of static files, for any web server.
 
 mod site;
+mod thumbnail;
 
 use std::fs;
 use std::io::Write;
@@ -12,8 +13,9 @@ use clap::Args;
 use flate2::Compression;
 use flate2::write::GzEncoder;
 use hairline_scene::Description;
-use image::imageops::FilterType;
 use serde_json::json;
+
+use thumbnail::thumbnail;
 
 const TARGET: &str = "wasm32-unknown-unknown";
 
@@ -187,7 +189,7 @@ fn copy_page(root: &Path, output: &Path) -> anyhow::Result<()> {
         output.join("hairline.png"),
     )?;
     let opening = root.join("docs/pictures/hairline.png");
-    small(&opening, &output.join("opening.jpg"), 800)?;
+    thumbnail(&opening, &output.join("opening.jpg"), 800)?;
 
     let (scenes, copies) = (root.join("scenes"), output.join("scenes"));
     fs::create_dir(&copies)?;
@@ -205,7 +207,7 @@ fn copy_page(root: &Path, output: &Path) -> anyhow::Result<()> {
         }
         let file = format!("{title}.toml");
         fs::write(copies.join(&file), &text)?;
-        small(&picture, &copies.join(format!("{title}.jpg")), 320)?;
+        thumbnail(&picture, &copies.join(format!("{title}.jpg")), 320)?;
         list.push(json!({ "file": file, "title": title, "about": about(&text) }));
         for input in description.inputs(Path::new("")) {
             let copy = copies.join(&input.path);
@@ -223,14 +225,6 @@ fn about(text: &str) -> String {
     let whole = comment.map(str::trim).collect::<Vec<_>>().join(" ");
     let end = whole.find(". ").map_or(whole.len(), |end| end + 1);
     whole[..end].to_owned()
-}
-
-/// A picture as a JPEG that is not wider than `width`.
-fn small(from: &Path, to: &Path, width: u32) -> anyhow::Result<()> {
-    let picture = image::open(from).with_context(|| from.display().to_string())?;
-    let small = picture.resize(width, u32::MAX, FilterType::Lanczos3);
-    small.to_rgb8().save(to)?;
-    Ok(())
 }
 
 fn run(command: &mut Command) -> anyhow::Result<()> {

@@ -7,6 +7,8 @@ use std::path::{Component, Path, PathBuf};
 use anyhow::Context;
 use pulldown_cmark::{CowStr, Event, Options, Parser, Tag, TagEnd, html};
 
+use super::thumbnail::thumbnail;
+
 /// Pages are reached from this one.
 const FIRST: &str = "README.md";
 /// The style of all pages.
@@ -152,7 +154,7 @@ impl Site<'_> {
         if self.taken.insert(path.clone()) {
             let copy = self.output.join(path.with_extension("jpg"));
             fs::create_dir_all(copy.parent().unwrap_or(self.output))?;
-            super::small(&self.root.join(&path), &copy, WIDTH_MAX)?;
+            thumbnail(&self.root.join(&path), &copy, WIDTH_MAX)?;
         }
         Ok(small.to_string_lossy().into_owned())
     }
