@@ -36,7 +36,7 @@ const THINGS: [Thing; 2] = [
     },
     Thing {
         what: "a shape of light",
-        most: 12,
+        most: 13,
         names: &[
             &["Sphere", "Polygon"],
             &["LIGHT_SPHERE", "LIGHT_POLYGON"],

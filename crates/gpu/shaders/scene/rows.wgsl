@@ -54,11 +54,11 @@ const LIGHT_TEXELS: u32 = 5u;
 
 // Of a light with corners.
 fn light_is_tube(light: Light) -> bool {
-    return ONLY_TUBES || HAS_TUBES && light.kind == LIGHT_TUBE;
+    return ONLY_TUBES || (HAS_TUBES && light.kind == LIGHT_TUBE);
 }
 
 fn light_has_picture(light: Light) -> bool {
-    return ONLY_PICTURES || HAS_PICTURES && (light.extras & LIGHT_PICTURE) != 0u;
+    return ONLY_PICTURES || (HAS_PICTURES && (light.extras & LIGHT_PICTURE) != 0u);
 }
 
 fn light_at(i: u32) -> Light {
