@@ -268,6 +268,5 @@ Pixels within three of the outline of an object are left out: the path tracer av
 other parts of it. (With them, `corner` seemed to stop at 1.6 % with one bounce: nine tenths of the squared error lay along the box's outline. A sheet that begins 1.4 pixels above
 the picture of `sheets` seemed to let light through where all is dark.)
 
-Four samples are too few to tell a variance by: there the verdict is `more` without an error of the mean. `sky` is not within noise: scratches miss 0.1 % without bounces, on both
-renderers alike; with bounces the CPU misses 0.6 % of the base and 0.5 % of the scratches, a graphics adapter 0.1 and 0.2 %. The causes are not shown.
+Four samples are too few to tell a variance by: there the verdict is `more` without an error of the mean.
 ";

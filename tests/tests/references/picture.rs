@@ -135,54 +135,8 @@ fn a_soft_box_on_a_grating() {
             scene
         });
         let name = format!("soft box on grooves of jitter {jitter_um} um under {scratches}");
-        // An order of a row without jitter is narrower than a part of the picture, which it sees blurred: 3.8 %.
+        // 3.8 % without jitter, the cause not shown.
         failures.extend(wrong(&name, &scene, &even, [0.045, 0.03]));
     }
     assert!(failures.is_empty(), "{failures:?}");
-}
-
-#[test]
-#[ignore]
-fn experiment() {
-    for angle_rad in [0.4, 0.9] {
-        for (name, ior, color, roughness) in [
-            ("body", 1.0001, 0.5, 0.3),
-            ("specular", 1.5, 0.0, 0.3),
-            ("specular", 1.5, 0.0, 0.6),
-            ("both", 1.5, 0.5, 0.3),
-        ] {
-            let base = Base::Dielectric {
-                ior,
-                base_color: [color; 3],
-            };
-            let view = View { angle_rad, ..VIEW };
-            for picture in [Some(0), None] {
-                let mut scene = lit(base, view, picture);
-                scene.materials[0].roughness = roughness;
-                scene.objects[0].scratches = Arc::default();
-                scene.objects[0].segments = Arc::default();
-                let name = format!("EXP {angle_rad} {name} {roughness} {picture:?}");
-                compared(
-                    &name,
-                    &closed(&scene),
-                    &sampled(&scene, LINEAR, 8),
-                    Layer::Base,
-                );
-            }
-        }
-    }
-}
-
-#[test]
-#[ignore]
-fn experiment_cost() {
-    use hairline_scene::Transport;
-    use hairline_work::backend::Backend;
-    let mut scene = Scene::load(std::env::var("HL_SCENE").unwrap()).unwrap();
-    scene.render.size_px = [64, 48];
-    let shadows = Transport {
-        shadows: true,
-        bounces: 1,
-    };
-    let _ = conformance::unbiased::rendered(&scene, Backend::Gpu, 1, shadows);
 }
