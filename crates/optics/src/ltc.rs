@@ -460,7 +460,7 @@ const FIT_FROM: f64 = 0.0003;
 const REST_FROM: f64 = 0.3;
 
 /// What the lobe reflects, from the light's vector irradiance in the cosine's space: E0 times the share of the cosine, times
-/// the mean of GGX over the fit ([`ltc_means`]); then that, times the mean of Fresnel's reflectance over GGX.
+/// the mean of GGX over the fit (`ltc_means`); then that, times the mean of Fresnel's reflectance over GGX.
 ///
 /// What is missing in E0 is the same integral over the part of the hemisphere that the light leaves free. Of a light and the rest the smaller is
 /// the better known, so with a growing share the result goes over from the one to the other. The means fade as the light comes to fill the
