@@ -2,11 +2,13 @@
 
 use glam::DVec2;
 use hairline_cpu::closed_form;
-use hairline_gpu::headless;
+use hairline_gpu::{Renderer, headless};
 use hairline_image::metrics::{away_from_silhouettes, layer_difference};
 use hairline_image::{Image, Layer};
-use hairline_index::TriangleIndex;
-use hairline_scene::Scene;
+use hairline_index::method::Method;
+use hairline_index::{ScratchIndex, TriangleIndex};
+use hairline_scene::{Scene, ScratchTables};
+use std::sync::Arc;
 
 /// A scene so many pixels wide, its proportions kept.
 pub fn at_width(mut scene: Scene, width_px: u32) -> Scene {
@@ -23,6 +25,31 @@ pub fn on_the_gpu(scene: &Scene, samples: u32) -> Option<Image> {
         ..Default::default()
     };
     let image = headless::render(gpu, scene, &Default::default(), &options, &|_| {});
+    Some(image.unwrap_or_else(|error| panic!("{error}")))
+}
+
+/// The same by a method, with shadows and so many bounces or without.
+pub fn on_the_gpu_by(
+    scene: &Scene,
+    method: &Method,
+    samples: u32,
+    bounces: Option<u32>,
+) -> Option<Image> {
+    let gpu = headless::test_gpu()?;
+    let options = hairline_gpu::RenderOptions {
+        samples,
+        ..Default::default()
+    };
+    let index = Arc::new(ScratchIndex::build(scene));
+    let tables = ScratchTables::new(scene);
+    let image = gpu.block_on(async {
+        let mut renderer = Renderer::new(gpu).await?;
+        let mut uploaded = renderer.upload(scene, &index, &tables, method).await?;
+        if let Some(bounces) = bounces {
+            renderer.add_shadows(&mut uploaded, scene, bounces).await?;
+        }
+        renderer.render(scene, &uploaded, &options, &|_| {}).await
+    });
     Some(image.unwrap_or_else(|error| panic!("{error}")))
 }
 

@@ -49,7 +49,7 @@ impl Add for BaseRadiance {
 
 /// A GGX lobe of a pixel, ready for any light.
 pub(crate) struct Layer<'a> {
-    /// Weights and lobes whose sum is the lobe of the pixel.
+    /// The lobes whose weighted sum is the lobe of the pixel.
     parts: [LobePart; 3],
     of: LobeFresnel<'a>,
     /// What the lobe reflects with F = 1.
@@ -73,8 +73,7 @@ impl<'a> Layer<'a> {
 
     /// What it reflects, given what a part of the lobe does times its weight, single scattering.
     fn reflected(&self, weighted: impl Fn(&LobePart, &LobeFresnel) -> DVec3) -> DVec3 {
-        let parts = self.parts.iter();
-        let parts = parts.filter(|part| part.core != 0.0 || part.tails != 0.0);
+        let parts = self.parts.iter().filter(|part| part.counts());
         let single: DVec3 = parts.map(|part| weighted(part, &self.of)).sum();
         // The fit may make the second part a little larger than the first.
         self.of_single(single.max(DVec3::ZERO))
@@ -224,22 +223,25 @@ fn reflected_light(
     sphere: impl Fn(&LtcLobe, &LobeFresnel, &SphereOnLobe) -> [f64; 3],
 ) -> [f64; 3] {
     let lobe = &part.lobe;
-    let weighted = |vector: DVec3, reflected: &dyn Fn() -> [f64; 3]| match part.weight(vector) {
-        0.0 => [0.0; 3],
-        weight => reflected().map(|channel| weight * channel),
-    };
-    match light {
+    let (vector, round) = match light {
         LightView::Sphere { cap, .. } => {
             let (axis, sin2) = (cap.axis, sphere_sin2(cap));
-            let vector = ltc_sphere_vector(lobe, axis, sin2);
-            let seen = SphereOnLobe { axis, sin2, vector };
-            weighted(vector, &|| sphere(lobe, of, &seen))
+            (ltc_sphere_vector(lobe, axis, sin2), Some((axis, sin2)))
         }
         LightView::Polygon { vertices, .. } => {
-            let vector = ltc_vector(lobe, &views.vertices[vertices.clone()]);
-            weighted(vector, &|| ltc_reflected(lobe, of, vector))
+            let vertices = &views.vertices[vertices.clone()];
+            (ltc_vector(lobe, vertices), None)
         }
+    };
+    let weight = part.weight(vector);
+    if weight == 0.0 {
+        return [0.0; 3];
     }
+    let reflected = match round {
+        Some((axis, sin2)) => sphere(lobe, of, &SphereOnLobe { axis, sin2, vector }),
+        None => ltc_reflected(lobe, of, vector),
+    };
+    reflected.map(|channel| weight * channel)
 }
 
 /// A cap that holds every direction stands for a sphere around the point.

@@ -51,7 +51,8 @@ impl Coverage {
     }
 }
 
-/// A number in (0, 1) of a round: the first of the pairs of gpu/shaders/physics/sobol.wgsl.
+/// A number in (0, 1) of a round: the first of the pairs of gpu/shaders/physics/sobol.wgsl, as both renderers must see the same. The crate
+/// sobol_burley has points of this kind, but other ones.
 fn drawn(round: u32, seed: u32) -> f64 {
     let mixed = hash(seed);
     let index = scramble(round.reverse_bits(), mixed).reverse_bits();

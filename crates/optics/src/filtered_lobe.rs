@@ -102,6 +102,11 @@ pub struct LobePart {
 }
 
 impl LobePart {
+    /// Whether it has a weight anywhere.
+    pub fn counts(&self) -> bool {
+        self.core != 0.0 || self.tails != 0.0
+    }
+
     /// Its weight for a light of this vector irradiance in the lobe's cosine space.
     pub fn weight(&self, vector: DVec3) -> f64 {
         if self.core == self.tails {

@@ -2,35 +2,18 @@
 
 use super::pictures::LINEAR;
 use super::shadowed::{closed, luminance, scenes};
-use hairline_gpu::{RenderOptions, Renderer, headless};
+use conformance::two_renderers::on_the_gpu_by;
 use hairline_image::{Image, Layer};
-use hairline_index::ScratchIndex;
 use hairline_index::method::Method;
-use hairline_scene::{Scene, ScratchTables};
-use std::sync::Arc;
+use hairline_scene::Scene;
 
 /// With shadows and so many bounces, or without. None, and a line on stderr, where there is no driver.
 pub(super) fn on_gpu(scene: &Scene, samples: u32, bounces: Option<u32>) -> Option<Image> {
-    let gpu = headless::test_gpu()?;
     let method = Method {
         mask: LINEAR.mask,
         ..Method::default()
     };
-    let options = RenderOptions {
-        samples,
-        ..Default::default()
-    };
-    let index = Arc::new(ScratchIndex::build(scene));
-    let tables = ScratchTables::new(scene);
-    let image = gpu.block_on(async {
-        let mut renderer = Renderer::new(gpu).await?;
-        let mut uploaded = renderer.upload(scene, &index, &tables, &method).await?;
-        if let Some(bounces) = bounces {
-            renderer.add_shadows(&mut uploaded, scene, bounces).await?;
-        }
-        renderer.render(scene, &uploaded, &options, &|_| {}).await
-    });
-    Some(image.unwrap_or_else(|error| panic!("{error}")))
+    on_the_gpu_by(scene, &method, samples, bounces)
 }
 
 fn rms(values: &[f64]) -> f64 {

@@ -3,15 +3,14 @@
 use std::sync::Arc;
 
 use conformance::square;
-use conformance::two_renderers::{compare_pixels, on_the_cpu, on_the_gpu};
+use conformance::two_renderers::{compare_pixels, on_the_cpu, on_the_gpu, on_the_gpu_by};
 use glam::DVec3;
 use hairline_cpu::closed_form::{self, Prepared};
-use hairline_gpu::{Renderer, headless};
 use hairline_image::{Image, Layer};
-use hairline_index::ScratchIndex;
+use hairline_index::method::Method;
 use hairline_reference::{Integrator, Model, Settings};
 use hairline_scene::{
-    AlphaRule, Base, Cutout, Light, LightShape, Material, Sampling, Scene, ScratchTables, Texture,
+    AlphaRule, Base, Cutout, Light, LightShape, Material, Sampling, Scene, Texture,
 };
 
 const SIZE_PX: u32 = 64;
@@ -196,23 +195,7 @@ fn sheets_take_their_share_of_the_light() {
         &reference(&covered, true),
         6e-3,
     );
-    let by_gpu = |scene: &Scene| {
-        let gpu = headless::test_gpu()?;
-        let options = hairline_gpu::RenderOptions {
-            samples: SAMPLES,
-            ..Default::default()
-        };
-        let index = Arc::new(ScratchIndex::build(scene));
-        let tables = ScratchTables::new(scene);
-        let image = gpu.block_on(async {
-            let mut renderer = Renderer::new(gpu).await?;
-            let method = Default::default();
-            let mut uploaded = renderer.upload(scene, &index, &tables, &method).await?;
-            renderer.add_shadows(&mut uploaded, scene, 0).await?;
-            renderer.render(scene, &uploaded, &options, &|_| {}).await
-        });
-        Some(image.unwrap_or_else(|error| panic!("{error}")))
-    };
+    let by_gpu = |scene: &Scene| on_the_gpu_by(scene, &Method::default(), SAMPLES, Some(0));
     if let (Some(open), Some(covered)) = (by_gpu(&open), by_gpu(&covered)) {
         check("GPU", &open, &covered, 4e-3);
     }

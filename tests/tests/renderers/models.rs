@@ -4,15 +4,15 @@
 use std::sync::Arc;
 
 use conformance::square;
-use conformance::two_renderers::{compare_pixels, on_the_cpu, on_the_gpu};
+use conformance::two_renderers::{compare_pixels, on_the_cpu, on_the_gpu, on_the_gpu_by};
 use glam::{DVec3, Vec2, Vec3, Vec4, vec2};
 use hairline_cpu::closed_form;
-use hairline_gpu::{Renderer, headless};
 use hairline_image::Image;
 use hairline_image::tone_map::linear_from_srgb;
-use hairline_index::{ScratchIndex, TriangleIndex};
+use hairline_index::TriangleIndex;
+use hairline_index::method::Method;
 use hairline_scene::{
-    AlphaRule, Base, Cutout, Light, LightShape, Mesh, Sampling, Scene, ScratchTables, Texture, Wrap,
+    AlphaRule, Base, Cutout, Light, LightShape, Mesh, Sampling, Scene, Texture, Wrap,
 };
 
 const HALF_M: f32 = 0.1;
@@ -190,21 +190,10 @@ fn shadowed(scene: &Scene, samples: u32) -> Option<[Image; 2]> {
         ..Default::default()
     };
     let cpu = closed_form::render(scene, &options, &|_| {});
-    let gpu = headless::test_gpu()?;
-    let options = hairline_gpu::RenderOptions {
-        samples,
-        ..Default::default()
-    };
-    let index = Arc::new(ScratchIndex::build(scene));
-    let tables = ScratchTables::new(scene);
-    let image = gpu.block_on(async {
-        let mut renderer = Renderer::new(gpu).await?;
-        let method = Default::default();
-        let mut uploaded = renderer.upload(scene, &index, &tables, &method).await?;
-        renderer.add_shadows(&mut uploaded, scene, 0).await?;
-        renderer.render(scene, &uploaded, &options, &|_| {}).await
-    });
-    Some([cpu, image.unwrap_or_else(|error| panic!("{error}"))])
+    Some([
+        cpu,
+        on_the_gpu_by(scene, &Method::default(), samples, Some(0))?,
+    ])
 }
 
 #[test]

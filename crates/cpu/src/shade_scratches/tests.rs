@@ -240,7 +240,7 @@ fn lanes_see_the_closed_forms_share() {
 
 /// From each part of the band as much is drawn as an integral over directions says: from the bright side of a cell, not from all of it alike.
 #[test]
-#[ignore = "open: a part of the band is off by 7 % under a studio; perhaps its map beside the windows is below zero"]
+#[ignore = "open: a part of the band is off by 7 %, under an overcast sky by 0.5 %; perhaps a map beside its windows is below zero"]
 fn what_is_drawn_of_an_environment_comes_from_there() {
     const BINS: usize = 12;
     let scene = SceneFile::seen_from([0.0, -0.2, 0.1])

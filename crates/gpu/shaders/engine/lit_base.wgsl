@@ -61,7 +61,7 @@ fn lit_base_sphere(base: LitBase, curves: texture_2d<f32>, center_m: vec3f, radi
     var specular = vec3f(0.0);
     for (var p = 0u; p < FILTERED_LOBE_PARTS; p += 1u) {
         let part = filtered_lobe_part(base.sharp, base.filtered, p);
-        if part.core == 0.0 && part.tails == 0.0 {
+        if !filtered_lobe_counts(part) {
             break;
         }
         let vector = ltc_sphere_vector(part.lobe, cap.axis, sin_sq);
@@ -79,7 +79,7 @@ fn lit_base_quad(base: LitBase, curves: texture_2d<f32>, light: QuadLight) -> Ba
     var form_factor = 0.0;
     for (var p = 0u; p < FILTERED_LOBE_PARTS; p += 1u) {
         let part = filtered_lobe_part(base.sharp, base.filtered, p);
-        if part.core == 0.0 && part.tails == 0.0 {
+        if !filtered_lobe_counts(part) {
             break;
         }
         var reflected = ltc_begin();

@@ -56,6 +56,11 @@ fn filtered_lobe_part(sharp: LtcLobe, filtered: FilteredLobe, i: u32) -> Filtere
     );
 }
 
+// Whether a part has a weight anywhere.
+fn filtered_lobe_counts(part: FilteredLobePart) -> bool {
+    return part.core != 0.0 || part.tails != 0.0;
+}
+
 // A part's weight for a light of this vector irradiance in the lobe's cosine space.
 fn filtered_lobe_weight(filtered: FilteredLobe, part: FilteredLobePart, vector: vec3f) -> f32 {
     let per_first = part.lobe.alphas / filtered.alphas;

@@ -32,7 +32,7 @@ fn published_layer(point: SurfacePoint, layer: Layer) -> BaseRadiance {
     var sum: BaseRadiance;
     for (var p = 0u; p < FILTERED_LOBE_PARTS; p += 1u) {
         let part = filtered_lobe_part(layer.sharp, layer.filtered, p);
-        if part.core == 0.0 && part.tails == 0.0 {
+        if !filtered_lobe_counts(part) {
             break;
         }
         // The pivot transform knows round lobes alone.

@@ -229,7 +229,7 @@ fn layer_lit(point: SurfacePoint, layer: Layer, of_lights: vec2u, surrounded: bo
     var sum: BaseRadiance;
     for (var p = 0u; p < FILTERED_LOBE_PARTS; p += 1u) {
         let part = filtered_lobe_part(layer.sharp, layer.filtered, p);
-        if part.core == 0.0 && part.tails == 0.0 {
+        if !filtered_lobe_counts(part) {
             break;
         }
         var light: BaseRadiance;
