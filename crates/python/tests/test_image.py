@@ -192,14 +192,11 @@ def test_other_threads_run_meanwhile(scene):
     assert len(during) > 20
 
 
-def test_import_is_quick_and_needs_no_display():
-    script = "import time; t = time.perf_counter(); import hairline; print(time.perf_counter() - t)"
+def test_import_needs_no_display_and_of_other_packages_numpy_alone():
+    script = "import sys; before = set(sys.modules); import hairline; print(*{name.split('.')[0] for name in set(sys.modules) - before})"
     environment = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
-    times = [
-        float(subprocess.run([sys.executable, "-c", script], env=environment, capture_output=True, check=True).stdout)
-        for _ in range(5)
-    ]
-    assert min(times) < 0.3
+    done = subprocess.run([sys.executable, "-c", script], env=environment, capture_output=True, check=True, text=True)
+    assert {name for name in done.stdout.split() if name not in sys.stdlib_module_names} == {"hairline", "numpy"}
 
 
 def test_nothing_is_warned_of_a_whole_picture(scene):

@@ -68,10 +68,11 @@ CLASSES = {
     "grating": [hairline.Grating],
     "light": [hairline.Light, *hairline.Light.__subclasses__()],
 }
-# Of what lies within a key: shapes, strokes, rows of a list and overrides of materials. The kind of a light is its class.
+# Of what lies within a key: shapes, strokes, rows of a list, overrides of materials and places. The kind of a light is its class.
 INNER = {"disk", "kind", "lathe", "plane", "sphere", "profile_m", "segments", "size_m", "smooth", "density_per_m", "depth", "erase", "points_m"}
 INNER |= {"box", "cylinder", "dome", "rounding_m", "sweep", "torus", "radius_m", "width", "x0_m", "x1_m", "y0_m", "y1_m", "z0_m", "z1_m"}
 INNER |= {"base_color", "metal", "metallic", "roughness"}
+INNER |= {"density", "edge_width_m", "edges", "mask", "tile_m"}
 
 
 def test_every_key_of_the_documentation_is_an_attribute(repository):
