@@ -11,6 +11,7 @@ use hairline_optics::grating::Grating as Row;
 use hairline_optics::mask::Mask;
 use hairline_optics::metal::Metal;
 use hairline_reference::Settings;
+use hairline_scene::environment::BuiltInMap;
 use hairline_scene::{Base, Bearing, Coat, Environment, Grating, GrooveField, Scene};
 
 pub(super) const VIEW: View = View {
@@ -186,10 +187,10 @@ pub(super) fn scenes() -> Vec<(&'static str, Scene)> {
 
     let rows = with_rows(wall.clone());
 
-    let mut under_sky = wall.clone();
-    under_sky.lights.clear();
-    let map = Environment::from_map(sky([128, 64]), 0.0, 1.0, false);
-    under_sky.environment = Some(over(map));
+    let under_sky = under(
+        &wall,
+        Environment::from_map(sky([128, 64]), 0.0, 1.0, false),
+    );
 
     vec![
         ("half a lamp", edge),
@@ -201,6 +202,22 @@ pub(super) fn scenes() -> Vec<(&'static str, Scene)> {
         ("a wall by rows of grooves", rows),
         ("a wall under the sky", under_sky),
     ]
+}
+
+/// A scene under an environment alone.
+fn under(scene: &Scene, environment: Environment) -> Scene {
+    let mut scene = scene.clone();
+    scene.lights.clear();
+    scene.environment = Some(over(environment));
+    scene
+}
+
+/// One of [`scenes`] in a studio, whose windows are lights for scratches: beside them what is left of the map is below zero in places.
+pub(super) fn in_a_studio() -> (&'static str, Scene) {
+    let map = BuiltInMap::Studio.picture([256, 128]);
+    let studio = Environment::with_lamps_parted(map, 0.0, 1.0, false);
+    let (_, wall) = &scenes()[5];
+    ("a wall in a studio", under(wall, studio))
 }
 
 pub(super) fn luminance(image: &Image, layer: Layer) -> Vec<f64> {

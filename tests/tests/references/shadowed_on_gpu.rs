@@ -1,7 +1,7 @@
 //! Shadow rays on the GPU against the CPU's.
 
 use super::pictures::LINEAR;
-use super::shadowed::{closed, luminance, scenes};
+use super::shadowed::{closed, in_a_studio, luminance, scenes};
 use conformance::two_renderers::on_the_gpu_by;
 use hairline_image::{Image, Layer};
 use hairline_index::method::Method;
@@ -23,7 +23,7 @@ fn rms(values: &[f64]) -> f64 {
 /// Rays are right in the mean, their error falls with their number, and it is about that of the CPU's.
 #[test]
 fn rays_come_to_the_cpus_shadows() {
-    for (name, scene) in scenes() {
+    for (name, scene) in scenes().into_iter().chain([in_a_studio()]) {
         let Some(open) = on_gpu(&scene, 1, None) else {
             return;
         };

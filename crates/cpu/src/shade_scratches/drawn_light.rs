@@ -21,10 +21,12 @@ pub(crate) struct DrawnLight {
     pub color: DVec3,
 }
 
-/// One of many, drawn by the luminance of what each sends.
+/// One of many, drawn by the luminance of what each sends: by its size, as what is left of an environment beside its windows may be below zero.
 struct Choice {
     /// What all of them send.
     total: DVec3,
+    /// The sum of the sizes.
+    weight: f64,
     /// In [0, 1): what is left of the number that picks.
     left: f64,
 }
@@ -33,19 +35,20 @@ impl Choice {
     fn new(pick_u: f64) -> Self {
         Self {
             total: DVec3::ZERO,
+            weight: 0.0,
             left: pick_u,
         }
     }
 
     /// Whether the next one is taken in place of those before.
     fn offer(&mut self, sent: DVec3) -> bool {
-        let before = luminance(self.total);
+        let weight = luminance(sent).abs();
         self.total += sent;
-        let all = luminance(self.total);
-        if !(all > before) {
+        self.weight += weight;
+        if !(weight > 0.0) {
             return false;
         }
-        let share = 1.0 - before / all;
+        let share = weight / self.weight;
         let is_taken = self.left < share;
         self.left = if is_taken {
             self.left / share
@@ -95,16 +98,21 @@ impl Offers {
     }
 
     fn taken(self, frame: BandFrame) -> Option<DrawnLight> {
-        let (line, q, sent) = self.taken?;
+        let (direction, here) = self.place()?;
         let total = self.lines.total;
         let mean = total / luminance(total);
-        let here = sent / luminance(sent);
         // Channels that get nothing have no colour to differ in.
         let color = DVec3::select(mean.cmpgt(DVec3::ZERO), here / mean, DVec3::ONE);
         Some(DrawnLight {
-            direction: frame.surface_from_band(line.direction_at(q)),
+            direction: frame.surface_from_band(direction),
             color: if color.is_finite() { color } else { DVec3::ONE },
         })
+    }
+
+    /// The direction in the frame of the scratch, and the colour of what comes from there, of luminance 1.
+    fn place(&self) -> Option<(DVec3, DVec3)> {
+        let (line, q, sent) = self.taken?;
+        Some((line.direction_at(q), sent / luminance(sent)))
     }
 }
 
@@ -188,38 +196,41 @@ impl ScratchLight<'_> {
             let row = self.row(cell.direction.z);
             move |q: f64| DVec3::from(row.at(self.width_um() * q))
         };
+        let sent = |cell: &EnvironmentCell| {
+            let (response, blur) = (response(cell), cell.environment_cell_roughness());
+            (response(cell.q_high) - response(cell.q_low)) * from(cell.direction, blur)
+        };
         let mut cells = Choice::new(pick_u);
         let mut taken = None;
         self.for_cells(|cell| {
-            let blurred = from(cell.direction, cell.environment_cell_roughness());
-            let response = response(cell);
-            let sent = blurred * (response(cell.q_high) - response(cell.q_low));
+            let sent = sent(cell);
             if cells.offer(sent) {
-                taken = Some((*cell, luminance(sent)));
+                taken = Some((*cell, luminance(sent).abs()));
             }
         });
         let (cell, of_cell) = taken?;
         let mut parts = Choice::new(cells.left);
         let mut taken = None;
         for part in cell.parts(line) {
-            let here = from(part.direction, part.environment_cell_roughness());
-            let response = response(&part);
-            if parts.offer(here * (response(part.q_high) - response(part.q_low))) {
-                taken = Some((part, here));
+            let sent = sent(&part);
+            if parts.offer(sent) {
+                taken = Some((part, luminance(sent).abs()));
             }
         }
-        let (part, here) = taken?;
+        let (part, of_part) = taken?;
+        // Within the part by the groove alone, whose light is nowhere below zero.
         let response = response(&part);
         let mut offers = Offers::new(0.0);
         let ends = [(-1.0, part.q_low), (1.0, part.q_high)];
-        let spectrum = |q: f64| (here * response(q)).into();
-        offers.offer(line, ends.into_iter(), spectrum, part_u);
-        offers.lines.total = cells.total;
-        let mut drawn = offers.taken(self.frame)?;
-        let there = self.frame.band_from_surface(drawn.direction);
-        let really = DVec3::select(here.cmpgt(DVec3::ZERO), from(there, 0.0) / here, DVec3::ONE);
-        drawn.color *= really * (luminance(parts.total) / of_cell);
-        Some(drawn)
+        offers.offer(line, ends.into_iter(), |q| response(q).into(), part_u);
+        let (direction, by_groove) = offers.place()?;
+        let chance = of_cell / cells.weight * of_part / parts.weight;
+        let sent = from(direction, 0.0) * by_groove * (luminance(offers.lines.total) / chance);
+        let color = sent / cells.total;
+        Some(DrawnLight {
+            direction: self.frame.surface_from_band(direction),
+            color: DVec3::select(cells.total.cmpne(DVec3::ZERO), color, DVec3::ONE),
+        })
     }
 
     /// The same for light that is the same from all around.

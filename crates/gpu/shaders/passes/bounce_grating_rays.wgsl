@@ -11,7 +11,7 @@
 fn draw_grating(pixel: PixelPoint, paint: PixelPaint, u: vec2f, sent: ptr<function, vec3f>) -> DrawnLight {
     let object = objects[pixel.object - 1u];
     let covered = gratings_cover(pixel, paint);
-    var offer = DrawnOffer(vec3f(0.0), u.x);
+    var offer = drawn_offers(u.x);
     var taken = vec2u(object.end_grating, 0u);
     for (var i = object.first_grating; i < object.end_grating; i += 1u) {
         if !grating_is_on(gratings[i], paint) {

@@ -7,7 +7,7 @@ const DRAWN_HALVINGS: u32 = 20u;
 struct DrawnLight {
     direction: vec3f,           // in the surface's frame
     is_there: bool,
-    color: vec3f,               // what comes from there over what comes in the mean, by channel; of luminance 1
+    color: vec3f,               // what comes from there over what comes in the mean, by channel
 }
 
 // A part of a line, and how much of what comes from it lies below the place that is looked for.
@@ -17,21 +17,27 @@ struct DrawnPart {
     left: f32,
 }
 
-// One of many that were offered with what comes from each.
+// One of many that were offered with what comes from each. Each is drawn by the size of its luminance: what is left of an environment beside its
+// windows may be below zero.
 struct DrawnOffer {
     total: vec3f,
+    weight: f32,                // the sum of the sizes
     left: f32,                  // of the number that chooses
+}
+
+fn drawn_offers(u: f32) -> DrawnOffer {
+    return DrawnOffer(vec3f(0.0), 0.0, u);
 }
 
 // Whether the new one is taken in place of those before.
 fn drawn_offer(offer: ptr<function, DrawnOffer>, sent: vec3f) -> bool {
-    let before = rgb_luminance((*offer).total);
+    let weight = abs(rgb_luminance(sent));
     (*offer).total += sent;
-    let all = rgb_luminance((*offer).total);
-    if !(all > before) {
+    (*offer).weight += weight;
+    if !(weight > 0.0) {
         return false;
     }
-    let share = 1.0 - before / all;
+    let share = weight / (*offer).weight;
     if (*offer).left < share {
         (*offer).left /= share;
         return true;
@@ -107,7 +113,7 @@ fn draw_sphere(point: LitPoint, seen: SeenScratch, center_m: vec3f, radius_m: f3
     let cap = cap_turned(seen.tangent, light);
     let extent = sphere_band_extent(wo, cap);
     let lines = band_lines(wo.x, extent.x, extent.y, band.stds);
-    var offer = DrawnOffer(vec3f(0.0), u.y);
+    var offer = drawn_offers(u.y);
     var taken: DrawnFrom;
     var wraps = false;
     for (var i = 0u; i < lines.count; i += 1u) {
@@ -222,7 +228,7 @@ fn draw_outline(point: LitPoint, seen: SeenScratch, view: OutlineView, facing: f
     let wo = band_from_surface(seen.tangent, point.wo) + vec3f(band.shift, 0.0, 0.0);
     let extent = outline_extent(view, away);
     let lines = band_lines(wo.x, wo.x + extent.x, wo.x + extent.y, band.stds);
-    var offer = DrawnOffer(vec3f(0.0), u.y);
+    var offer = drawn_offers(u.y);
     var taken: DrawnFrom;
     var wraps = false;
     for (var i = 0u; i < lines.count; i += 1u) {
@@ -260,29 +266,35 @@ fn drawn_cell_part(i: u32, line: BandLine, low: f32, high: f32) -> EnvironmentCe
 }
 
 // A direction by the environment. `cells` is how many the band has: those of a scratch, or of a grating. Of the cell one part is drawn by what comes
-// from it, and the colour has what really comes from the direction: the closed form takes the environment and the groove's depth as even over a
-// cell, but an object may hide its bright side alone.
+// from it, in the part a place by what the groove sends, and the colour has what really comes from the direction: the closed form takes the
+// environment and the groove's depth as even over a cell, but an object may hide its bright side alone.
 fn draw_around(point: LitPoint, seen: SeenScratch, cells: u32, map_from_surface: mat3x3f, u: vec2f) -> DrawnLight {
     let cell = draw_cell(point, seen, cells, map_from_surface, true, u.x);
     var from_there = cell.from_there;
     from_there.is_there = false;
-    var offer = DrawnOffer(vec3f(0.0), cell.left);
+    from_there.filter_by = vec3f(1.0);
+    from_there.total = vec3f(1.0);
+    var offer = drawn_offers(cell.left);
+    // What the groove sends of light of radiance 1, over the chance of the cell and of the part.
+    var by_groove = 0.0;
     for (var i = 0u; i < DRAWN_CELL_PARTS; i += 1u) {
         let part = drawn_cell_part(i, cell.from_there.line, cell.from_there.part.low, cell.from_there.part.high);
-        let here = drawn_cell_light(seen, map_from_surface, part);
-        let sent = here * scratch_chord(scratch_tables, point, seen, part.q_high, part.q_low, part.direction.z);
+        let chord = scratch_chord(scratch_tables, point, seen, part.q_high, part.q_low, part.direction.z);
+        let sent = drawn_cell_light(seen, map_from_surface, part) * chord;
         if drawn_offer(&offer, sent) {
-            from_there.part = DrawnPart(part.q_low, part.q_high, u.y * rgb_luminance(sent));
+            let luminance = rgb_luminance(chord);
+            from_there.part = DrawnPart(part.q_low, part.q_high, u.y * luminance);
             from_there.cos_i = part.direction.z;
-            from_there.filter_by = here;
             from_there.is_there = cell.from_there.is_there;
+            by_groove = luminance / (cell.chance * abs(rgb_luminance(sent)));
         }
     }
     var drawn = drawn_direction(point, seen, from_there);
     if drawn.is_there {
-        let sharp = environment_prefiltered_lod(levels_beside_windows, map_from_surface * drawn.direction, 0.0);
-        let really = select(vec3f(1.0), sharp / max(from_there.filter_by, vec3f(1e-30)), from_there.filter_by > vec3f(0.0));
-        drawn.color *= really * (rgb_luminance(offer.total) / cell.luminance);
+        let really = environment_prefiltered_lod(levels_beside_windows, map_from_surface * drawn.direction, 0.0);
+        let total = cell.from_there.total;
+        let color = drawn.color * really * (by_groove * offer.weight) / total;
+        drawn.color = select(vec3f(1.0), color, total != vec3f(0.0));
     }
     return drawn;
 }
@@ -304,12 +316,13 @@ fn drawn_cell_light(seen: SeenScratch, map_from_surface: mat3x3f, cell: Environm
 struct DrawnCell {
     from_there: DrawnFrom,      // the whole cell
     luminance: f32,             // of what comes from it
+    chance: f32,                // by which it was drawn
     left: f32,                  // of the number that chooses
 }
 
 fn draw_cell(point: LitPoint, seen: SeenScratch, cells: u32, map_from_surface: mat3x3f, is_map: bool, u: f32) -> DrawnCell {
     let line = band_line_at(band_from_surface(seen.tangent, point.wo), 0.0);
-    var offer = DrawnOffer(vec3f(0.0), u);
+    var offer = drawn_offers(u);
     var taken: DrawnCell;
     for (var i = 0u; i < cells; i += 1u) {
         let cell = drawn_cell(i, cells, line, seen);
@@ -327,6 +340,7 @@ fn draw_cell(point: LitPoint, seen: SeenScratch, cells: u32, map_from_surface: m
         }
     }
     taken.from_there.total = offer.total;
+    taken.chance = abs(taken.luminance) / max(offer.weight, 1e-30);
     taken.left = offer.left;
     return taken;
 }

@@ -26,7 +26,7 @@ fn draw_picture(point: LitPoint, seen: SeenScratch, light: PictureLight, u: vec3
     let outline = picture_outline(seen, quad);
     let extent = four_edges_extent(outline, away);
     let lines = band_lines(wo.x, wo.x + extent.x, wo.x + extent.y, band.stds);
-    var offer = DrawnOffer(vec3f(0.0), u.y);
+    var offer = drawn_offers(u.y);
     for (var l = 0u; l < lines.count; l += 1u) {
         let line = drawn_line(lines, wo, l, u.x);
         let roots = four_edges_roots(outline, line, away);
