@@ -5,6 +5,7 @@ mod dist;
 mod fit_lobes;
 mod fuzz;
 mod make_models;
+mod models;
 mod package;
 mod paths;
 mod pictures;
@@ -30,6 +31,8 @@ enum Command {
     Fuzz(fuzz::Fuzz),
     /// Make the models and the sky of scenes/, and write them to scenes/models and scenes/maps.
     MakeModels(make_models::MakeModels),
+    /// Open and render glTF files of public repositories, and write docs/accuracy/models.md.
+    Models(models::Models),
     /// Make the package of shaders, tables and JavaScript for other engines.
     Package(package::Package),
     /// Find paths in documents and shaders that name no file.
@@ -57,6 +60,7 @@ fn main() -> anyhow::Result<()> {
         Command::FitLobes(command) => command.run(),
         Command::Fuzz(command) => command.run(),
         Command::MakeModels(command) => command.run(),
+        Command::Models(command) => command.run(),
         Command::Package(command) => command.run(),
         Command::Paths => paths::run(),
         Command::Pictures(command) => command.run(),
