@@ -63,6 +63,7 @@ pub fn square(base: Base, half_side_m: f32, size_px: u32) -> Scene {
         is_unlit: false,
         cutout: None,
         coat: None,
+        coat_textures: [None; 2],
     };
     Scene {
         camera: Camera {

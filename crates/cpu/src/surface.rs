@@ -237,8 +237,8 @@ pub fn surface_point<'a>(
             .coat_curve
             .zip(material.coat)
             .map(|(curve, coat)| PointCoat {
-                weight: coat.weight,
-                roughness: coat.roughness,
+                weight: coat.weight * texture(material.coat_textures[0]).map_or(1.0, |t| t.x),
+                roughness: coat.roughness * texture(material.coat_textures[1]).map_or(1.0, |t| t.y),
                 fresnel: FresnelRgb {
                     f0: [COAT_F0; 3],
                     curve: &tables.curves[curve as usize],

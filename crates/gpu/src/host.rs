@@ -207,6 +207,8 @@ fn material(scene: &Scene, tables: &ScratchTables, array: &TextureArray, index: 
             .occlusion_texture
             .map_or(0.0, |(_, strength)| strength as f32),
         coat: material.coat.map_or(0, coat),
+        coat_texture: array.packed(material.coat_textures[0]),
+        coat_roughness_texture: array.packed(material.coat_textures[1]),
     }
 }
 

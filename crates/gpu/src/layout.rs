@@ -130,6 +130,8 @@ shared! {
         occlusion_texture: [u32; 2],
         occlusion_strength: f32,
         coat: u32,
+        coat_texture: [u32; 2],
+        coat_roughness_texture: [u32; 2],
     }
     /// A light.
     Light {

@@ -73,6 +73,7 @@ pub(crate) fn material(material: &description::Material) -> Material {
         is_unlit: false,
         cutout: None,
         coat: material.coat,
+        coat_textures: [None; 2],
     }
 }
 
@@ -215,6 +216,7 @@ pub(crate) fn with_textures_from(material: Material, first: usize) -> Material {
         occlusion_texture: material
             .occlusion_texture
             .map(|(texture, strength)| (texture + first, strength)),
+        coat_textures: material.coat_textures.map(shifted),
         ..material
     }
 }

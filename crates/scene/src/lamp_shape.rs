@@ -39,6 +39,7 @@ pub(crate) fn material(
         is_unlit: false,
         cutout: None,
         coat: None,
+        coat_textures: [None; 2],
     }
 }
 

@@ -150,6 +150,8 @@ pub struct Material {
     pub cutout: Option<Cutout>,
     /// A clear layer over all of this. Scratches lie in it.
     pub coat: Option<Coat>,
+    /// Textures (linear) of the coat: the red of the first is a factor on its weight, the green of the second on its roughness.
+    pub coat_textures: [Option<usize>; 2],
 }
 
 /// A layer of lacquer over a base, as of cars and phones: refractive index [`COAT_IOR`], without a colour (KHR_materials_clearcoat).

@@ -12,7 +12,7 @@ use hairline_image::tone_map::linear_from_srgb;
 use hairline_index::TriangleIndex;
 use hairline_index::method::Method;
 use hairline_scene::{
-    AlphaRule, Base, Cutout, Light, LightShape, Mesh, Sampling, Scene, Texture, Wrap,
+    AlphaRule, Base, Coat, Cutout, Light, LightShape, Mesh, Sampling, Scene, Texture, Wrap,
 };
 
 const HALF_M: f32 = 0.1;
@@ -257,4 +257,29 @@ fn occlusion_takes_its_share_of_the_environment() {
         return;
     };
     check(&a, &b);
+}
+
+/// Maps of a clear layer are factors: a layer with maps of one value is that of the products.
+#[test]
+fn maps_of_a_clear_layer_are_factors_on_it() {
+    let mut mapped = white();
+    let map = |texel: [u8; 4]| Texture {
+        size_px: [1, 1],
+        levels: vec![vec![texel]],
+        srgb: false,
+        sampling: Sampling::default(),
+    };
+    mapped.textures = Arc::new(vec![map([51, 255, 255, 255]), map([255, 102, 255, 255])]);
+    let coat = |weight, roughness| Some(Coat { weight, roughness });
+    mapped.materials[0].coat = coat(1.0, 0.5);
+    let mut product = mapped.clone();
+    product.materials[0].coat = coat(0.2, 0.2);
+    mapped.materials[0].coat_textures = [Some(0), Some(1)];
+    let plain = white();
+    let [a, b, bare] = [&mapped, &product, &plain].map(|scene| on_the_cpu(scene, 1));
+    compare_pixels("by factors, CPU", &a, &b, None).unwrap();
+    assert!(compare_pixels("without a layer", &a, &bare, None).is_err());
+    if let Some(gpu) = on_the_gpu(&mapped, 1) {
+        compare_pixels("by factors, GPU", &gpu, &b, None).unwrap();
+    }
 }

@@ -96,6 +96,18 @@ fn hit_paint(point: ptr<function, SurfacePoint>, material: Material) {
     }
 }
 
+// Its clear layer at a place of its textures, packed as its factors are.
+fn hit_coat(material: Material, place: TexturePlace) -> u32 {
+    var coat = unpack2x16unorm(material.coat);
+    if hit_has_texture(material.coat_texture) {
+        coat.x *= hit_texture(material.coat_texture, place).x;
+    }
+    if hit_has_texture(material.coat_roughness_texture) {
+        coat.y *= hit_texture(material.coat_roughness_texture, place).y;
+    }
+    return pack2x16unorm(coat);
+}
+
 // What a material is at a place of its textures.
 fn hit_textured(material: Material, place: TexturePlace) -> Material {
     var there = material;
@@ -109,6 +121,9 @@ fn hit_textured(material: Material, place: TexturePlace) -> Material {
     }
     if hit_has_texture(material.emission_texture) {
         there.emission *= hit_texture(material.emission_texture, place).xyz;
+    }
+    if HAS_COATS {
+        there.coat = hit_coat(material, place);
     }
     return there;
 }

@@ -97,6 +97,8 @@ struct Material {
     occlusion_texture: vec2u,
     occlusion_strength: f32,
     coat: u32,                  // share of the surface and roughness of a clear layer over it, in 16 bits each
+    coat_texture: vec2u,        // red: factor on the share
+    coat_roughness_texture: vec2u, // green: factor on the roughness
 }
 
 // Spheres come first, then polygons of at most four vertices, then others, then tubes, then rectangles with pictures; behind them, in the

@@ -1,7 +1,7 @@
 // Arrays that lie in textures: a texture may hold four times as much as a storage buffer, and a stage has eight storage buffers only.
 // Twin: src/rows.rs writes them.
 
-const MATERIAL_TEXELS: u32 = 7u;
+const MATERIAL_TEXELS: u32 = 8u;
 
 fn material_at(i: u32) -> Material {
     let a = textureLoad(materials, row_texel(MATERIAL_TEXELS * i), 0);
@@ -11,6 +11,10 @@ fn material_at(i: u32) -> Material {
     let e = textureLoad(materials, row_texel(MATERIAL_TEXELS * i + 4u), 0);
     let f = textureLoad(materials, row_texel(MATERIAL_TEXELS * i + 5u), 0);
     let g = textureLoad(materials, row_texel(MATERIAL_TEXELS * i + 6u), 0);
+    var h: vec4u;
+    if HAS_COATS {
+        h = textureLoad(materials, row_texel(MATERIAL_TEXELS * i + 7u), 0);
+    }
     return Material(
         bitcast<vec3f>(a.xyz),
         bitcast<f32>(a.w),
@@ -31,6 +35,8 @@ fn material_at(i: u32) -> Material {
         g.xy,
         bitcast<f32>(g.z),
         g.w,
+        h.xy,
+        h.zw,
     );
 }
 

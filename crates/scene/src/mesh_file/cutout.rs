@@ -75,6 +75,7 @@ mod tests {
                 is_unlit: false,
                 cutout: Some(cutout),
                 coat: None,
+                coat_textures: [None; 2],
             };
             let textures = [Texture {
                 size_px: [2, 1],

@@ -204,14 +204,6 @@ impl Found {
     }
 
     fn coat(&mut self, coat: &Value, has_normals: bool) {
-        let textures = [
-            ("clearcoatTexture", "the coat is as thick all over"),
-            ("clearcoatRoughnessTexture", "the coat is as rough all over"),
-        ];
-        for (name, meaning) in textures {
-            let count = usize::from(coat.get(name).is_some());
-            self.add(PROPERTY, name, count, meaning, true);
-        }
         let meaning = "the coat has the bumps of what is under it";
         let has_own = coat.get("clearcoatNormalTexture").is_some();
         let count = usize::from(has_own || has_normals);
@@ -242,7 +234,15 @@ fn textures_of(material: &Value) -> impl Iterator<Item = &Value> {
         .into_iter()
         .filter_map(move |name| pbr.and_then(|it| it.get(name)));
     let own = ["normalTexture", "emissiveTexture", "occlusionTexture"];
-    of_pbr.chain(own.into_iter().filter_map(|name| material.get(name)))
+    let own = own.into_iter().filter_map(|name| material.get(name));
+    let coat = material
+        .get("extensions")
+        .and_then(|it| it.get("KHR_materials_clearcoat"));
+    let of_coat = ["clearcoatTexture", "clearcoatRoughnessTexture"];
+    let of_coat = of_coat
+        .into_iter()
+        .filter_map(move |name| coat.and_then(|it| it.get(name)));
+    of_pbr.chain(own).chain(of_coat)
 }
 
 fn list<'a>(value: &'a Value, name: &str) -> &'a [Value] {

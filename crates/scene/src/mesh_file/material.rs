@@ -5,28 +5,15 @@ use std::collections::HashMap;
 use gltf::json::Value;
 use gltf::{Document, Primitive};
 
+use super::coat;
 use super::cutout::{self, cutout};
 use super::flaw::Flaw;
 use super::images::Images;
 use super::spec_gloss::{self, SpecGloss};
 use super::uv::{self, Way, Ways};
 use crate::description::DEFAULT_COHERENCE_UM;
-use crate::scene::{Base, Coat, GLTF_DIELECTRIC, Material, Mesh};
+use crate::scene::{Base, GLTF_DIELECTRIC, Material, Mesh};
 use crate::texture::Channels;
-
-/// KHR_materials_clearcoat, without its textures.
-fn coat(material: &gltf::Material) -> Option<Coat> {
-    let extension = material.extension_value("KHR_materials_clearcoat")?;
-    let factor = |name: &str| {
-        let value = extension.get(name).and_then(Value::as_f64);
-        value.unwrap_or(0.0).clamp(0.0, 1.0)
-    };
-    let coat = Coat {
-        weight: factor("clearcoatFactor"),
-        roughness: factor("clearcoatRoughnessFactor"),
-    };
-    (coat.weight > 0.0).then_some(coat)
-}
 
 /// What the primitives' materials become.
 pub(super) enum Materials<'a> {
@@ -108,6 +95,11 @@ impl Own<'_> {
         };
         let normals = material.normal_texture();
         let occlusion = material.occlusion_texture();
+        let coat = coat::coat(material).filter(|_| !is_unlit);
+        let [of_weight, of_roughness] = match coat {
+            Some(_) => coat::textures(self.document, material)?,
+            None => [None, None],
+        };
         Ok(Material {
             name: material.name().unwrap_or("glTF default").to_owned(),
             base: Base::MetallicRoughness {
@@ -145,7 +137,11 @@ impl Own<'_> {
             },
             is_unlit,
             cutout: cutout(material, unit(a)),
-            coat: coat(material).filter(|_| !is_unlit),
+            coat_textures: [
+                look(of_weight, Channels::Linear)?,
+                look(of_roughness, Channels::Linear)?,
+            ],
+            coat,
         })
     }
 

@@ -4,7 +4,7 @@ use glam::Vec2;
 use gltf::json::Value;
 use gltf::material::Material;
 
-use super::spec_gloss;
+use super::{coat, spec_gloss};
 
 const NAME: &str = "KHR_texture_transform";
 
@@ -101,7 +101,13 @@ fn all(material: &Material) -> Vec<Way> {
     let older = ["diffuseTexture", "specularGlossinessTexture"]
         .into_iter()
         .filter_map(|name| of_json(older?.get(name)?));
-    normal.into_iter().chain(rest).chain(older).collect()
+    let coat = coat::ways(material);
+    normal
+        .into_iter()
+        .chain(rest)
+        .chain(older)
+        .chain(coat)
+        .collect()
 }
 
 /// Of a use of a texture within an extension.

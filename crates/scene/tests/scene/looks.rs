@@ -133,6 +133,17 @@ fn extensions_change_what_a_surface_reflects() {
         r#"{plastic},"extensions":{{"KHR_materials_clearcoat":{{}}}}"#
     ));
     assert_eq!(bare.coat, None);
+    let mapped = |roughness_map: &str| {
+        format!(
+            r#"{plastic},"extensions":{{"KHR_materials_clearcoat":{{"clearcoatFactor":1,"clearcoatTexture":{{"index":2}},"clearcoatRoughnessTexture":{{{roughness_map}}}}}}}"#
+        )
+    };
+    let textured = scene(&mapped(r#""index":2,"texCoord":1"#), "");
+    let coated = &textured.materials[textured.objects[0].mesh.triangle_materials[0] as usize];
+    assert_eq!(coated.coat_textures, [Some(0), Some(1)]);
+    // The same image lies in two ways.
+    let by_other = [0, 1].map(|i| textured.textures[i].sampling.by_other_uvs);
+    assert_eq!(by_other, [false, true]);
     // A metal of the older model, and an image of it.
     let old = r#""extensions":{"KHR_materials_pbrSpecularGlossiness":{"diffuseFactor":[0,0,0,1],"specularFactor":[0.9,0.6,0.3],"glossinessFactor":0.75"#;
     let metal = material(&format!("{old}}}}}"));
