@@ -5,7 +5,9 @@
 //! [`LeftOut`].
 
 mod accessor;
+mod attributes;
 mod cameras;
+mod coat;
 mod cutout;
 mod draco;
 mod extensions;
@@ -14,6 +16,7 @@ mod head;
 mod images;
 mod instances;
 mod left_out;
+mod leniency;
 mod lights;
 mod material;
 mod meshopt;
@@ -178,6 +181,9 @@ fn parse(bytes: &[u8], kept: Kept) -> Result<Gltf, Flaw> {
         return Err(Flaw::new("it is empty", right));
     }
     if bytes.starts_with(b"glTF") {
+        if bytes.get(4..8) == Some(&[1, 0, 0, 0]) {
+            return Err(root::wrong_version("1.0"));
+        }
         // The header of 12 bytes and a chunk header of 8; the length is the header's third number.
         let length = bytes
             .get(8..12)
@@ -195,7 +201,7 @@ fn parse(bytes: &[u8], kept: Kept) -> Result<Gltf, Flaw> {
     let (text, blob) = parts(bytes)?;
     let mut json = root::read(&text)?;
     json.extensions_required
-        .retain(|name| !extensions::is_read(name));
+        .retain(|name| !extensions::may_be_required(name));
     if let Some(name) = json.extensions_required.first() {
         return Err(Flaw::new(
             format!(
@@ -208,6 +214,7 @@ fn parse(bytes: &[u8], kept: Kept) -> Result<Gltf, Flaw> {
     root::leave_out_what_is_ignored(&mut json, kept);
     root::find_images(&mut json)?;
     root::find_packed_views(&mut json);
+    leniency::loosen(&mut json);
     // What the crate's own validation takes for granted.
     let accessors = json.accessors.len();
     let mut primitives = json.meshes.iter().flat_map(|mesh| &mesh.primitives);
@@ -236,9 +243,9 @@ fn parts(bytes: &[u8]) -> Result<Parts<'_>, Flaw> {
     if !bytes.starts_with(b"glTF") {
         return Ok((Cow::Borrowed(bytes), None));
     }
-    if bytes.get(4..8) == Some(&[1, 0, 0, 0]) {
-        return Err(root::wrong_version("1.0"));
-    }
+    // What follows the length that it says is not its own.
+    let length = u32::from_le_bytes([bytes[8], bytes[9], bytes[10], bytes[11]]);
+    let bytes = &bytes[..bytes.len().min(length as usize)];
     let glb = gltf::binary::Glb::from_slice(bytes).map_err(|error| {
         let found = format!("it is no valid binary glTF ({error})");
         Flaw::new(found, RIGHT)

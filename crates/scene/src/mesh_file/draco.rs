@@ -73,10 +73,20 @@ impl Unpacked {
         &self,
         semantic: &Semantic,
         accessor: &gltf::Accessor,
-    ) -> Option<Vec<[f32; N]>> {
+    ) -> Result<Option<Vec<[f32; N]>>, Flaw> {
         let name = semantic.to_string();
-        let (_, id) = self.attributes.iter().find(|(known, _)| *known == name)?;
-        let attribute = self.mesh.attribute_by_unique_id(*id)?;
+        let known = self.attributes.iter().find(|(known, _)| *known == name);
+        let Some((_, id)) = known else {
+            return Ok(None);
+        };
+        let attribute = self.mesh.attribute_by_unique_id(*id).ok_or_else(|| {
+            Flaw::new(
+                format!(
+                    "its {name} is to be attribute {id} of what Draco packs, which is not there"
+                ),
+                "must be packed by Draco as the extension has it",
+            )
+        })?;
         let mut numbers = attribute.read_f32s(self.mesh.num_points(), N);
         // The accessor says what they are.
         let largest = match accessor.data_type() {
@@ -92,7 +102,7 @@ impl Unpacked {
                 .iter_mut()
                 .for_each(|x| *x = (*x / largest).max(-1.0));
         }
-        Some(numbers.as_chunks().0.to_vec())
+        Ok(Some(numbers.as_chunks().0.to_vec()))
     }
 
     pub(super) fn triangles(&self) -> Vec<[u32; 3]> {

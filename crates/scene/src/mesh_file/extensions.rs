@@ -1,7 +1,7 @@
 //! The extensions of glTF: those that are read, and what the picture is without the others.
 
 /// Extensions that are read. Quantization needs nothing done: the accessors read every component type.
-const READ: [&str; 15] = [
+const READ: [&str; 16] = [
     "EXT_mesh_gpu_instancing",
     "EXT_meshopt_compression",
     "EXT_texture_webp",
@@ -14,6 +14,7 @@ const READ: [&str; 15] = [
     "KHR_materials_specular",
     "KHR_materials_unlit",
     "KHR_mesh_quantization",
+    "KHR_meshopt_compression",
     "KHR_node_visibility",
     "KHR_texture_basisu",
     "KHR_texture_transform",
@@ -23,6 +24,22 @@ const READ: [&str; 15] = [
 pub(super) fn is_read(name: &str) -> bool {
     READ.contains(&name)
 }
+
+/// The same, and what leaves a picture as the file's own: other looks to choose from, and data about it.
+pub(super) fn may_be_required(name: &str) -> bool {
+    is_read(name) || name == "KHR_materials_variants" || IS_DATA.contains(&name)
+}
+
+/// Data about the file, not of the picture.
+const IS_DATA: [&str; 7] = [
+    "KHR_xmp",
+    "KHR_xmp_json_ld",
+    "EXT_mesh_features",
+    "EXT_structural_metadata",
+    "EXT_instance_features",
+    "FB_geometry_metadata",
+    "AGI_stk_metadata",
+];
 
 /// What of a file an extension belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -58,18 +75,10 @@ pub(super) fn meaning(name: &str) -> (&'static str, bool) {
         | "KHR_materials_dispersion" => matters("what is clear is shown opaque"),
         "KHR_materials_variants" => matters("the file's first look is shown"),
         "MSFT_texture_dds" | "EXT_texture_avif" => harmless("the texture's other image is shown"),
-        "KHR_meshopt_compression" | "MESHOPT_compression" => {
-            harmless("the same data are there uncompressed")
-        }
+        "MESHOPT_compression" => harmless("the same data are there uncompressed"),
         "MSFT_lod" | "MSFT_screencoverage" => harmless("the finest level is shown"),
         "KHR_animation_pointer" => harmless("animations are told of by themselves"),
-        "KHR_xmp"
-        | "KHR_xmp_json_ld"
-        | "EXT_mesh_features"
-        | "EXT_structural_metadata"
-        | "EXT_instance_features"
-        | "FB_geometry_metadata"
-        | "AGI_stk_metadata" => harmless("data about the file, not of the picture"),
+        name if IS_DATA.contains(&name) => harmless("data about the file, not of the picture"),
         "KHR_audio" | "KHR_audio_emitter" | "MSFT_audio_emitter" => {
             harmless("it is heard, not seen")
         }

@@ -11,17 +11,26 @@ use super::flaw::Flaw;
 
 /// The newer name is of the same form; its newer coding is refused.
 const NAMES: [&str; 2] = ["EXT_meshopt_compression", "KHR_meshopt_compression"];
+/// How attributes begin that are packed by version 1 of the coding.
+const NEWER_ATTRIBUTES: u8 = 0xa1;
 /// No coding packs more bytes into one; then there is what is held for a few.
 const MOST_SHARE: usize = 64;
 const FEW_BYTES: usize = 1 << 16;
 
-/// Whether a buffer only stands for bytes that are packed elsewhere.
+/// Whether a buffer says that it only stands for bytes that are packed elsewhere.
 pub(super) fn is_stand_in(buffer: &gltf::Buffer) -> bool {
     let is_one = |name: &&str| {
         let fallback = |value: &Value| value.get("fallback").and_then(Value::as_bool);
         buffer.extension_value(name).and_then(fallback) == Some(true)
     };
     NAMES.iter().any(is_one)
+}
+
+/// Whether the bytes of a view are packed elsewhere.
+pub(super) fn is_packed(view: &View) -> bool {
+    NAMES
+        .iter()
+        .any(|name| view.extension_value(name).is_some())
 }
 
 /// How a view is packed.
@@ -34,7 +43,7 @@ struct Packing<'v> {
 }
 
 /// The bytes of a view of a buffer that is a stand-in; `buffers` are all of the file's.
-pub(super) fn unpack(view: &View, buffers: &[Vec<u8>]) -> Result<Vec<u8>, Flaw> {
+pub(super) fn unpack(view: &View, buffers: &[Option<Vec<u8>>]) -> Result<Vec<u8>, Flaw> {
     let broken = |found: String| {
         let found = format!("its buffer view {} {found}", view.index());
         Flaw::new(
@@ -60,13 +69,13 @@ pub(super) fn unpack(view: &View, buffers: &[Vec<u8>]) -> Result<Vec<u8>, Flaw> 
 }
 
 impl<'v> Packing<'v> {
-    fn of(value: &'v Value, buffers: &'v [Vec<u8>]) -> Option<Self> {
+    fn of(value: &'v Value, buffers: &'v [Option<Vec<u8>>]) -> Option<Self> {
         let number = |name: &str| usize::try_from(value.get(name)?.as_u64()?).ok();
         let text = |name: &str| value.get(name).and_then(Value::as_str);
         let start = number("byteOffset").unwrap_or(0);
         let end = start.checked_add(number("byteLength")?)?;
         Some(Self {
-            packed: buffers.get(number("buffer")?)?.get(start..end)?,
+            packed: buffers.get(number("buffer")?)?.as_ref()?.get(start..end)?,
             count: number("count")?,
             stride: number("byteStride")?,
             mode: text("mode")?,
@@ -76,6 +85,9 @@ impl<'v> Packing<'v> {
 
     fn unpacked(&self) -> Result<Vec<u8>, String> {
         match self.mode {
+            "ATTRIBUTES" if self.packed.first() == Some(&NEWER_ATTRIBUTES) => {
+                Err("it is of version 1 of the coding, which is not supported".to_owned())
+            }
             "ATTRIBUTES" => self.filtered(self.attributes()?),
             "TRIANGLES" if self.count.is_multiple_of(3) => {
                 let mut indices = vec![0_u32; self.count];

@@ -6,6 +6,7 @@ use gltf::json::{Index, Root, Value};
 
 use super::draco;
 use super::flaw::{Flaw, RIGHT};
+use super::leniency;
 use crate::text::shown;
 
 /// Reads the text of a file.
@@ -16,18 +17,20 @@ pub(super) fn read(text: &[u8]) -> Result<Root, Flaw> {
             RIGHT,
         )
     };
-    let error = match from_slice::<Root>(text) {
-        Ok(root) => {
-            check_version(&root.asset.version)?;
-            return Ok(root);
-        }
-        Err(error) => error,
-    };
+    if let Ok(root) = from_slice::<Root>(text) {
+        check_version(&root.asset.version)?;
+        return Ok(root);
+    }
     let mut value: Value = from_slice(text).map_err(|error| invalid(&error))?;
     let version = value
         .get("asset")
         .and_then(|asset| asset.get("version")?.as_str());
     check_version(version.unwrap_or("1.0"))?;
+    leniency::loosen_text(&mut value);
+    let error = match from_value::<Root>(value.clone()) {
+        Ok(root) => return Ok(root),
+        Err(error) => error,
+    };
     // Animations of extensions have another form, and are not read.
     let Some(members) = value
         .as_object_mut()

@@ -4,6 +4,7 @@ use glam::{DMat3, DMat4, DVec3};
 use gltf::{Accessor, Primitive, Semantic};
 
 use super::accessor::read_numbers;
+use super::attributes::Attributes;
 use super::flaw::Flaw;
 use super::nodes::Placed;
 use super::source::Buffers;
@@ -32,13 +33,12 @@ impl Motion {
     /// Moves the vertices of a primitive, whose normals may be zero.
     pub(super) fn apply(
         &self,
-        primitive: &Primitive,
-        buffers: &Buffers,
+        attributes: &Attributes,
         vertices: &mut [Vertex],
     ) -> Result<(), Flaw> {
-        self.morph(primitive, buffers, vertices)?;
+        self.morph(attributes.primitive, attributes.buffers, vertices)?;
         if let Some(joints) = &self.file_from_rest {
-            bend(joints, primitive, buffers, vertices)?;
+            bend(joints, attributes, vertices)?;
         }
         Ok(())
     }
@@ -104,22 +104,16 @@ fn joints(skin: &gltf::Skin, all: &[Placed], buffers: &Buffers) -> Result<Vec<DM
 }
 
 /// Each vertex goes with the mean of its joints.
-fn bend(
-    joints: &[DMat4],
-    primitive: &Primitive,
-    buffers: &Buffers,
-    vertices: &mut [Vertex],
-) -> Result<(), Flaw> {
+fn bend(joints: &[DMat4], attributes: &Attributes, vertices: &mut [Vertex]) -> Result<(), Flaw> {
     let mut file_from_rest = vec![DMat4::ZERO; vertices.len()];
     let mut sums = vec![0.0; vertices.len()];
     for set in 0.. {
-        let of = |semantic| primitive.get(&semantic);
-        let (Some(numbers), Some(shares)) = (of(Semantic::Joints(set)), of(Semantic::Weights(set)))
+        let of = |semantic| attributes.matching::<4>(&semantic, vertices.len());
+        let (Some(numbers), Some(shares)) =
+            (of(Semantic::Joints(set))?, of(Semantic::Weights(set))?)
         else {
             break;
         };
-        let numbers = finite::<4>(&numbers, buffers, vertices.len())?;
-        let shares = finite::<4>(&shares, buffers, vertices.len())?;
         for (i, (numbers, shares)) in numbers.iter().zip(&shares).enumerate() {
             for (&number, &share) in numbers.iter().zip(shares) {
                 if share <= 0.0 {
@@ -129,7 +123,7 @@ fn bend(
                     return Err(Flaw::new(
                         format!(
                             "its primitive {} refers to joint {number} of {}",
-                            primitive.index(),
+                            attributes.primitive.index(),
                             joints.len()
                         ),
                         "joints must be below their number",

@@ -11,9 +11,10 @@ use super::stock::FILE_SHARE;
 use crate::reading::{self, Kind};
 use crate::text::shown;
 
-/// The file's buffers, each at least as long as the file says, unless it only stands for bytes that are packed elsewhere.
+/// The file's buffers, each at least as long as the file says.
 pub(super) struct Buffers {
-    whole: Vec<Vec<u8>>,
+    /// Some have no bytes: they only stand for some that are packed elsewhere, or are not used.
+    whole: Vec<Option<Vec<u8>>>,
     /// The views that were packed by themselves.
     unpacked: HashMap<usize, Vec<u8>>,
 }
@@ -25,18 +26,15 @@ impl Buffers {
         files: &mut Vec<PathBuf>,
     ) -> Result<Self, Flaw> {
         let read = |buffer: gltf::Buffer| {
-            if meshopt::is_stand_in(&buffer) {
-                return Ok(Vec::new());
-            }
             let what = format!("buffer {}", buffer.index());
             let bytes = match buffer.source() {
+                gltf::buffer::Source::Uri(_) if meshopt::is_stand_in(&buffer) => return Ok(None),
                 gltf::buffer::Source::Uri(uri) => resource(uri, base_dir, &what, files)?,
-                gltf::buffer::Source::Bin => gltf.blob.clone().ok_or_else(|| {
-                    Flaw::new(
-                        format!("its {what} has neither a `uri` nor a binary chunk"),
-                        "must have one of them",
-                    )
-                })?,
+                // The chunk belongs to the first one; others have no bytes.
+                gltf::buffer::Source::Bin => match &gltf.blob {
+                    Some(blob) if buffer.index() == 0 => blob.clone(),
+                    _ => return Ok(None),
+                },
             };
             if bytes.len() < buffer.length() {
                 return Err(Flaw::new(
@@ -48,13 +46,14 @@ impl Buffers {
                     "must be whole; export or copy the file again",
                 ));
             }
-            Ok(bytes)
+            Ok(Some(bytes))
         };
         let buffers = gltf.document.buffers().map(read);
         let whole = buffers.collect::<Result<Vec<_>, _>>()?;
-        let views = gltf.document.views();
-        let unpacked = views
-            .filter(|view| meshopt::is_stand_in(&view.buffer()))
+        let unpacked = gltf
+            .document
+            .views()
+            .filter(|view| whole[view.buffer().index()].is_none() && meshopt::is_packed(view))
             .map(|view| Ok((view.index(), meshopt::unpack(&view, &whole)?)))
             .collect::<Result<_, _>>()?;
         Ok(Self { whole, unpacked })
@@ -65,8 +64,15 @@ impl Buffers {
         if let Some(bytes) = self.unpacked.get(&view.index()) {
             return Ok(bytes);
         }
+        let buffer = view.buffer().index();
+        let bytes = self.whole[buffer].as_ref().ok_or_else(|| {
+            Flaw::new(
+                format!("its buffer {buffer} has neither a `uri` nor a binary chunk"),
+                "must have one of them",
+            )
+        })?;
         let end = view.offset().checked_add(view.length());
-        end.and_then(|end| self.whole[view.buffer().index()].get(view.offset()..end))
+        end.and_then(|end| bytes.get(view.offset()..end))
             .ok_or_else(|| {
                 Flaw::new(
                     format!("its buffer view {} reaches beyond its buffer", view.index()),

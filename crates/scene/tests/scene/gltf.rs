@@ -373,6 +373,52 @@ fn flaw(bytes: &[u8]) -> String {
     format!("{}; {}", error.found(), error.right())
 }
 
+/// What the specification allows and few files have, and what files lack that nothing needs.
+#[test]
+fn unusual_files_are_read() {
+    let (corners, triangles) = common::cube();
+    let mut glb = Glb::default();
+    let positions = glb.floats(&corners);
+    let indices = glb.indices(&triangles);
+    let zeros = glb.accessor(r#"{"componentType":5126,"count":8,"type":"VEC2"}"#.to_owned());
+    let mesh = format!(
+        r#"{{"primitives":[{{"attributes":{{"POSITION":{positions},"TEXCOORD_0":{zeros}}},"indices":{indices}}}]}}"#
+    );
+    let text = glb.json(&mesh, r#"{"mesh":0}"#, None);
+    let bounds = |bytes: &[u8]| {
+        let dir = temporary_dir();
+        std::fs::write(dir.path().join("it.glb"), bytes).unwrap();
+        let scene = scene_with("[[object]]\nname = \"it\"\nmesh = \"it.glb\"\n");
+        let scene = Scene::from_toml(&scene, "test.toml", dir.path()).unwrap();
+        scene.objects[0].mesh.bounds_m()
+    };
+    let plain = glb_of(&text, &glb.bin);
+    let expected = bounds(&plain);
+    assert_eq!(bounds(&plain_cube()), expected);
+    for [from, to] in [
+        [
+            r#""scenes":[{"nodes":[0]}]"#,
+            r#""scenes":[{"nodes":[0]},{}]"#,
+        ],
+        [r#""count":8"#, r#""count":8.0"#],
+        [r#""min":"#, r#""least":"#],
+        [
+            r#"],"bufferViews""#,
+            r#",{"byteLength":1024}],"bufferViews""#,
+        ],
+        [
+            r#""scene":0"#,
+            r#""extensionsRequired":["KHR_materials_variants"],"scene":0"#,
+        ],
+    ] {
+        assert!(text.contains(from), "{from} is not in {text}");
+        let unusual = glb_of(&text.replacen(from, to, 1), &glb.bin);
+        assert_eq!(bounds(&unusual), expected, "{to}");
+    }
+    let with_more_behind = [&plain[..], &[0; 5]].concat();
+    assert_eq!(bounds(&with_more_behind), expected);
+}
+
 #[test]
 fn broken_files_end_in_a_message() {
     let cube = plain_cube();

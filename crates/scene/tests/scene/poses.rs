@@ -252,6 +252,89 @@ fn packed_cube() -> Vec<u8> {
     buffer.data().to_vec()
 }
 
+/// A cube's corners, triangles and joints, each of which has all of a vertex: what Draco packs of a skinned model.
+fn packed_limb() -> Vec<u8> {
+    let (corners, triangles) = cube();
+    let mut packed = draco_core::Mesh::new();
+    packed.set_num_points(corners.len());
+    packed.set_num_faces(triangles.len() / 3);
+    for (i, face) in triangles.as_chunks::<3>().0.iter().enumerate() {
+        packed.set_face(FaceIndex(i as u32), face.map(|v| PointIndex(v.into())));
+    }
+    let mut add = |kind, components, data_type, bytes: &[u8]| {
+        let mut attribute = PointAttribute::new();
+        attribute.init(kind, components, data_type, false, corners.len());
+        attribute.buffer_mut().write(0, bytes);
+        packed.add_attribute(attribute);
+    };
+    let floats = |values: Vec<f32>| {
+        values
+            .iter()
+            .flat_map(|x| x.to_le_bytes())
+            .collect::<Vec<_>>()
+    };
+    let positions = floats(corners.iter().flatten().copied().collect());
+    let joints: Vec<u8> = corners
+        .iter()
+        .flat_map(|[x, ..]| [u8::from(*x > 0.0), 0, 0, 0])
+        .collect();
+    let shares = floats([1.0, 0.0, 0.0, 0.0].repeat(corners.len()));
+    add(
+        GeometryAttributeType::Position,
+        3,
+        DataType::Float32,
+        &positions,
+    );
+    add(GeometryAttributeType::Generic, 4, DataType::Uint8, &joints);
+    add(
+        GeometryAttributeType::Generic,
+        4,
+        DataType::Float32,
+        &shares,
+    );
+    let mut options = EncoderOptions::new();
+    options.set_attribute_int(0, "quantization_bits", 12);
+    options.set_attribute_int(2, "quantization_bits", 12);
+    let mut buffer = EncoderBuffer::new();
+    let mut encoder = MeshEncoder::new();
+    encoder.set_mesh(packed);
+    encoder.encode(&options, &mut buffer).unwrap();
+    buffer.data().to_vec()
+}
+
+#[test]
+fn packed_joints_move_vertices() {
+    let file = |attributes: &str| {
+        let mut glb = Glb::default();
+        let view = glb.view(&packed_limb());
+        let bound = r#""min":[-0.5,-0.5,-0.5],"max":[0.5,0.5,0.5]"#;
+        for accessor in [
+            &format!(r#"{{"componentType":5126,"count":8,"type":"VEC3",{bound}}}"#),
+            r#"{"componentType":5121,"count":8,"type":"VEC4"}"#,
+            r#"{"componentType":5126,"count":8,"type":"VEC4"}"#,
+            r#"{"componentType":5123,"count":36,"type":"SCALAR"}"#,
+        ] {
+            glb.accessor(accessor.to_owned());
+        }
+        let mesh_text = format!(
+            r#"{{"primitives":[{{"attributes":{{"POSITION":0,"JOINTS_0":1,"WEIGHTS_0":2}},"indices":3,
+                "extensions":{{"KHR_draco_mesh_compression":{{"bufferView":{view},"attributes":{{{attributes}}}}}}}}}]}}"#
+        );
+        glb.more = r#","skins":[{"joints":[1,2]}],"extensionsUsed":["KHR_draco_mesh_compression"],
+            "extensionsRequired":["KHR_draco_mesh_compression"]"#
+            .to_owned();
+        let nodes = r#"{"mesh":0,"skin":0,"children":[1,2]},{"translation":[-1,0,0]},{"translation":[2,0,0]}"#;
+        glb.bytes(&mesh_text, nodes)
+    };
+    let moved = mesh(&file(r#""POSITION":0,"JOINTS_0":1,"WEIGHTS_0":2"#), "");
+    let (least, most) = moved.bounds_m();
+    assert!(least.abs_diff_eq(vec3(-1.5, -0.5, -0.5), 1e-3), "{least}");
+    assert!(most.abs_diff_eq(vec3(2.5, 0.5, 0.5), 1e-3), "{most}");
+    let error = load(&file(r#""POSITION":0,"JOINTS_0":1,"WEIGHTS_0":7"#), "").unwrap_err();
+    let found = "its WEIGHTS_0 is to be attribute 7 of what Draco packs, which is not there";
+    assert!(error.contains(found), "{error}");
+}
+
 /// A file with a packed cube.
 fn packed_file(packed: &[u8]) -> Vec<u8> {
     let mut glb = Glb::default();
@@ -298,6 +381,11 @@ fn packed_meshes_are_unpacked() {
 
 /// The cube with positions and triangles packed by meshoptimizer's codings, by the encoder of the same crate. `damage` may change the packed bytes.
 fn meshopt_file(damage: impl Fn(&mut Vec<u8>)) -> Vec<u8> {
+    edited_meshopt_file(damage, |text| text)
+}
+
+/// The same with its text edited.
+fn edited_meshopt_file(damage: impl Fn(&mut Vec<u8>), edit: impl Fn(String) -> String) -> Vec<u8> {
     let (corners, triangles) = cube();
     let indices: Vec<u32> = triangles.iter().map(|index| u32::from(*index)).collect();
     let mut glb = Glb::default();
@@ -333,7 +421,10 @@ fn meshopt_file(damage: impl Fn(&mut Vec<u8>)) -> Vec<u8> {
     let stand_in = format!(
         r#"}},{{"byteLength":{at},"extensions":{{"EXT_meshopt_compression":{{"fallback":true}}}}}}],"bufferViews""#
     );
-    glb_of(&json.replace(r#"}],"bufferViews""#, &stand_in), &glb.bin)
+    glb_of(
+        &edit(json.replace(r#"}],"bufferViews""#, &stand_in)),
+        &glb.bin,
+    )
 }
 
 #[test]
@@ -344,6 +435,19 @@ fn views_packed_by_meshoptimizer_are_unpacked() {
     let plain = mesh(&glb.bytes(&mesh_text, r#"{"mesh":0}"#), "");
     assert_eq!(unpacked.bounds_m(), plain.bounds_m());
     assert_eq!(volume_m3(&unpacked), volume_m3(&plain));
+    // By the newer name of the extension, and where a buffer without bytes does not say that it is a stand-in.
+    for [from, to] in [
+        ["EXT_meshopt", "KHR_meshopt"],
+        [r#""fallback":true"#, r#""fallback":false"#],
+    ] {
+        let again = mesh(
+            &edited_meshopt_file(|_| {}, |text| text.replace(from, to)),
+            "",
+        );
+        assert_eq!(again.bounds_m(), plain.bounds_m());
+    }
+    let error = load(&meshopt_file(|packed| packed[0] = 0xa1), "").unwrap_err();
+    assert!(error.contains("version 1 of the coding"), "{error}");
     let error = load(&meshopt_file(|packed| packed[0] = 0), "").unwrap_err();
     assert!(
         error.contains("its buffer view 0 cannot be unpacked (InvalidHeader)"),

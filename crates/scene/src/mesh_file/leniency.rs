@@ -1,0 +1,84 @@
+//! What the specification allows and the crate does not, and what files lack that nothing here needs: files with these are read.
+
+use std::num::FpCategory;
+
+use gltf::json::deserialize::from_value;
+use gltf::json::validation::Checked::Valid;
+use gltf::json::{Index, Root, Value, mesh::Semantic};
+
+/// Whole numbers beyond this have no place for their last digit in double precision.
+const WHOLE_BELOW: f64 = 9_007_199_254_740_992.0;
+
+/// In the text: scenes without nodes, and whole numbers written with a point (glTF 2.0, section 2.7).
+pub(super) fn loosen_text(value: &mut Value) {
+    let scenes = value.get_mut("scenes").and_then(Value::as_array_mut);
+    for scene in scenes.into_iter().flatten() {
+        if let Some(members) = scene.as_object_mut()
+            && !members.contains_key("nodes")
+        {
+            members.insert("nodes".to_owned(), Value::Array(Vec::new()));
+        }
+    }
+    make_whole(value);
+}
+
+fn make_whole(value: &mut Value) {
+    match value {
+        Value::Array(elements) => elements.iter_mut().for_each(make_whole),
+        Value::Object(members) => members.iter_mut().for_each(|it| make_whole(it.1)),
+        Value::Number(number) if number.is_f64() => {
+            let whole = number
+                .as_f64()
+                .filter(|x| x.fract().classify() == FpCategory::Zero && x.abs() < WHOLE_BELOW);
+            if let Some(whole) = whole {
+                *value = Value::from(whole as i64);
+            }
+        }
+        _ => {}
+    }
+}
+
+/// In what was read: accessors without bytes, which are zero (section 3.6.2), and positions whose bounds nobody wrote.
+pub(super) fn loosen(root: &mut Root) {
+    let without_bytes = |accessor: &gltf::json::Accessor| {
+        accessor.buffer_view.is_none() && accessor.sparse.is_none()
+    };
+    if root.accessors.iter().any(without_bytes)
+        && let Some(nothing) = nothing(root)
+    {
+        for accessor in root.accessors.iter_mut().filter(|it| without_bytes(it)) {
+            accessor.sparse = Some(nothing.clone());
+        }
+    }
+    let primitives = root.meshes.iter().flat_map(|mesh| &mesh.primitives);
+    let positions = primitives.filter_map(|it| it.attributes.get(&Valid(Semantic::Positions)));
+    let positions: Vec<usize> = positions.map(Index::value).collect();
+    for at in positions {
+        let Some(accessor) = root.accessors.get_mut(at) else {
+            continue;
+        };
+        for bound in [&mut accessor.min, &mut accessor.max] {
+            let values = bound.as_ref().and_then(Value::as_array);
+            let is_right =
+                values.is_some_and(|it| it.len() == 3 && it.iter().all(Value::is_number));
+            if !is_right {
+                *bound = Some(Value::from(vec![0; 3]));
+            }
+        }
+    }
+}
+
+/// Other values for none of an accessor's elements, in a view of a buffer of no bytes.
+fn nothing(root: &mut Root) -> Option<gltf::json::accessor::sparse::Sparse> {
+    let made = |text: String| gltf::json::deserialize::from_str::<Value>(&text).ok();
+    let buffer = made(r#"{"byteLength":0,"uri":"data:application/octet-stream;base64,"}"#.into());
+    root.buffers.push(from_value(buffer?).ok()?);
+    let buffer = root.buffers.len() - 1;
+    let view = made(format!(r#"{{"buffer":{buffer},"byteLength":0}}"#));
+    root.buffer_views.push(from_value(view?).ok()?);
+    let view = root.buffer_views.len() - 1;
+    let sparse = made(format!(
+        r#"{{"count":0,"indices":{{"bufferView":{view},"componentType":5121}},"values":{{"bufferView":{view}}}}}"#
+    ));
+    from_value(sparse?).ok()
+}
