@@ -13,7 +13,7 @@ use hairline_scene::description::Description;
 use hairline_scene::{Error, Loader, SceneBuilder};
 use serde_json::Value;
 
-const SIZE_PX: [u32; 2] = [160, 90];
+const SIZE_PX: [u32; 2] = [96, 54];
 
 /// What became of a file.
 pub struct Opened {

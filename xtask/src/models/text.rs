@@ -25,7 +25,7 @@ pub fn document(sources: &[Source]) -> String {
 const INTRODUCTION: &str = "\
 # Files as people have them
 
-Each glTF file of some public repositories, opened as `hairline render FILE` opens it and rendered 160 x 90 pixels large on the CPU, without shadows and without wear.
+Each glTF file of some public repositories, opened as `hairline render FILE` opens it and rendered 96 x 54 pixels large on the CPU, without shadows and without wear.
 The files are not part of Hairline. The table is made by
 
     cargo xtask models FOLDER...
