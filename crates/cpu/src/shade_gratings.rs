@@ -55,7 +55,14 @@ impl ShadedGratings {
                 turns_rad,
                 share,
             } = seen;
-            let share = share / covered.max(1.0);
+            let density = grating.groove_density(
+                point.position_m,
+                point.normal,
+                tangent,
+                point.footprint_axes_m,
+                point.coherence_um,
+            );
+            let share = density * share / covered.max(1.0);
             let tangent = point.surface_from_world(tangent).truncate();
             let tangent = tangent.normalize_or(DVec2::X);
             let row = RowSpread {

@@ -148,6 +148,11 @@ fn grating(
         angle_std_rad: grating.angle_std_rad as f32,
         material: material as u32,
         table: table as u32,
+        seed: grating.seed,
+        pitch_um: grating.row.pitch_um as f32,
+        width_um: grating.row.width_um as f32,
+        jitter_pitches: (grating.row.jitter_um / grating.row.pitch_um) as f32,
+        densest: (1.0 / grating.row.most_taken()) as f32,
         ..Grating::default()
     }
 }

@@ -106,8 +106,12 @@ shared! {
         angle_std_rad: f32,
         material: u32,
         table: u32,
+        seed: u32,
+        pitch_um: f32,
+        width_um: f32,
+        jitter_pitches: f32,
+        densest: f32,
         pad_0: u32,
-        pad_1: u32,
     }
     /// A material.
     Material {

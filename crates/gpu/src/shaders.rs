@@ -148,6 +148,8 @@ modules! {
     OUTLINE_LIGHT = "scene/outline_light" needs [ROWS, SCRATCH_LIGHT, TUBE];
     /// Which way the grooves of a grating run.
     GRATINGS = "scene/gratings" needs [LAYOUT, GAUSSIAN];
+    /// Single grooves of a grating.
+    SINGLE_GROOVES = "scene/single_grooves" needs [GRATINGS, SOBOL];
     /// A clear layer over the base.
     COAT = "scene/coat" needs [BINDINGS, FRESNEL, CONTENTS];
     /// The base under lights and environment.
@@ -189,7 +191,7 @@ modules! {
     /// What a pair sends of a light.
     PAIR_LIGHT = "scene/pair_light" needs [PAIRS, OUTLINE_LIGHT, SCRATCH_PICTURE];
     /// A sample with a grating that it sees.
-    GRATING_PAIRS = "scene/grating_pairs" needs [PAIRS, GRATING, GRATINGS, BINDINGS];
+    GRATING_PAIRS = "scene/grating_pairs" needs [PAIRS, GRATING, SINGLE_GROOVES, BINDINGS, CONTENTS];
     /// Scratches that stand for all.
     PICKS = "scene/picks" needs [SOBOL, LUMINANCE];
     /// Pass: the light and the mask of scratches.

@@ -3,7 +3,7 @@
 use hairline_index::method::{Method, PublishedMethod, Structure};
 use hairline_optics::mask::Mask;
 use hairline_optics::published::sine_integral::SineIntegral;
-use hairline_scene::{Scene, ScratchTables};
+use hairline_scene::{Object, Scene, ScratchTables};
 
 use crate::lights::{self, Kind, Kinds};
 
@@ -21,6 +21,8 @@ pub(crate) struct Contents {
     pub scratches: bool,
     /// Which the method of 2018 leaves out.
     pub gratings: bool,
+    /// Gratings whose grooves could be seen one by one.
+    pub single_grooves: bool,
     /// That shine on scratches, and on the base.
     pub lights: Kinds,
     pub base_lights: Kinds,
@@ -37,10 +39,12 @@ pub(crate) struct Contents {
 
 impl Contents {
     pub(crate) fn of(scene: &Scene, tables: &ScratchTables, method: &Method) -> Self {
+        let gratings = method.published.is_none();
         Self {
             scratches: scene.objects.iter().any(|o| !o.segments.is_empty()),
-            gratings: method.published.is_none()
-                && scene.objects.iter().any(|o| !o.gratings.is_empty()),
+            gratings: gratings && scene.objects.iter().any(|o| !o.gratings.is_empty()),
+            single_grooves: gratings
+                && scene.objects.iter().any(|o| shows_single_grooves(scene, o)),
             lights: Kinds::of(scene),
             base_lights: Kinds::on_base(scene),
             doors: scene
@@ -56,6 +60,14 @@ impl Contents {
             coats: tables.materials.iter().find_map(|optics| optics.coat_curve),
         }
     }
+}
+
+fn shows_single_grooves(scene: &Scene, object: &Object) -> bool {
+    object.gratings.iter().any(|grating| {
+        let materials = object.mesh.materials();
+        let mut coherences_um = materials.iter().map(|at| scene.materials[*at].coherence_um);
+        coherences_um.any(|coherence_um| grating.shows_single_grooves(coherence_um))
+    })
 }
 
 /// A constant that a pipeline sets.
@@ -82,6 +94,7 @@ pub fn pipeline_variants(text: &str) -> Vec<(String, Vec<(&'static str, f64)>)> 
     let everything = Contents {
         scratches: true,
         gratings: true,
+        single_grooves: true,
         lights: Kinds::ALL,
         base_lights: Kinds::ALL,
         doors: true,
@@ -153,6 +166,7 @@ impl ShadeVariant {
         let mut constants = vec![
             ("HAS_SCRATCHES", has.scratches.into()),
             ("HAS_GRATINGS", has.gratings.into()),
+            ("HAS_SINGLE_GROOVES", has.single_grooves.into()),
             ("HAS_DOORS", has.doors.into()),
             ("HAS_TEXTURES", has.textures.into()),
             ("HAS_COLORS", has.colors.into()),

@@ -5,6 +5,7 @@
 //! that grooves send each for itself. Both depend on q alone, for a given row: [`Grating::table`] holds their integral, so that the chords
 //! that a light cuts out of a scratch's band serve a row as they are.
 
+mod single;
 mod table;
 
 use num_complex::Complex64;
@@ -12,6 +13,7 @@ use std::f64::consts::PI;
 
 use crate::diffraction::sinc;
 
+pub use single::GroovesAt;
 pub use table::{GRATING_DEPTH_NM, GRATING_WIDTH_UM};
 
 /// A row of parallel grooves of rectangular profile.

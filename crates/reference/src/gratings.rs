@@ -7,7 +7,7 @@ use hairline_cpu::surface::SurfacePoint;
 use hairline_optics::band::{BandFrame, BandLine};
 use hairline_optics::band_environment::row_cells;
 use hairline_optics::coherent::GroovePiece;
-use hairline_optics::grating::{GRATING_DEPTH_NM, GRATING_WIDTH_UM, Grating as Row};
+use hairline_optics::grating::{GRATING_DEPTH_NM, GRATING_WIDTH_UM, Grating as Row, GroovesAt};
 use hairline_optics::scratch::oblique_depth_nm;
 use hairline_scene::{Object, ScratchTables};
 use spec_math::cephes64::ndtri;
@@ -25,6 +25,11 @@ pub(super) struct RowView {
     table: usize,
     /// Where the grooves lie: in [0, 1) of a pitch.
     phase: f64,
+    /// Where they lie indeed, if they could be told from one another.
+    single: Option<GroovesAt>,
+    seed: u32,
+    /// Of single grooves at the point, over their mean.
+    pub density: f64,
 }
 
 impl RowView {
@@ -53,18 +58,31 @@ impl RowView {
             let frame = BandFrame {
                 tangent: tangent.normalize_or(DVec2::X).rotate(turn),
             };
+            let single = match grating.shows_single_grooves(point.coherence_um) {
+                true => grating.grooves_at(point.position_m, point.normal.cross(place.tangent)),
+                false => None,
+            };
             return Some(Self {
                 row: grating.row,
                 frame,
                 wo: frame.band_from_surface(point.wo),
                 table: tables.grating_table(grating, point.material)?,
                 phase,
+                single,
+                seed: grating.seed,
+                density: grating.groove_density(
+                    point.position_m,
+                    point.normal,
+                    place.tangent,
+                    [DVec3::ZERO; 2],
+                    point.coherence_um,
+                ),
             });
         }
         None
     }
 
-    /// Its grooves in the window, each off its place by chance.
+    /// Its grooves in the window, each off its place by chance or by its number.
     pub(super) fn grooves(
         &self,
         random: Random,
@@ -81,9 +99,13 @@ impl RowView {
         let reach = (reach_sigma * coherence_um / pitch_um).ceil() as i32 + 1;
         (-reach..=reach).map(move |j| {
             let [place, depth, ..] = random.four(Purpose::RowGroove((j + reach) as u32));
+            let offset_um = match self.single {
+                Some(at) => self.row.groove_offset_um(at, j, self.seed),
+                None => (f64::from(j) + self.phase) * pitch_um + jitter_um * ndtri(place),
+            };
             let piece = GroovePiece {
                 tangent: self.frame.tangent,
-                offset_um: (f64::from(j) + self.phase) * pitch_um + jitter_um * ndtri(place),
+                offset_um,
                 // Beyond what the window shows.
                 start_um: -END_SIGMA * coherence_um,
                 end_um: END_SIGMA * coherence_um,
@@ -104,6 +126,6 @@ impl RowView {
             let at = |q: f64| DVec3::from(row.at(GRATING_WIDTH_UM * q));
             at(cell.q_high) - at(cell.q_low)
         });
-        sent.sum()
+        self.density * sent.sum::<DVec3>()
     }
 }

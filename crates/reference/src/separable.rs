@@ -21,7 +21,7 @@ pub(super) struct Lobe {
     pub frame: BandFrame,
     /// `wo` in its frame.
     wo: DVec3,
-    /// Of the window: rho, or 1 for a grating.
+    /// Of the window: rho; for a grating its density over the mean.
     pub share: f64,
     /// The share times the weight of each wavelength.
     strength: Spectrum<DVec3>,
@@ -63,7 +63,7 @@ impl Lobe {
         coherence_um: f64,
     ) -> Self {
         let of = Of::Row(view.row);
-        let place = (view.frame, view.wo, 1.0);
+        let place = (view.frame, view.wo, view.density);
         Self::of(place, of, wavelengths, weight, coherence_um)
     }
 

@@ -178,6 +178,7 @@ impl description::Grating {
             angle_std_rad: jitter_deg.to_radians(),
             coverage: self.coverage,
             radii_m: self.radius_m.unwrap_or([0.0, f64::INFINITY]),
+            seed: (self.seed ^ (self.seed >> 32)) as u32,
         }
     }
 }

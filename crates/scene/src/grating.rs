@@ -1,5 +1,7 @@
 //! Gratings as renderers read them: rows of grooves, and where on a surface they run which way.
 
+mod single;
+
 use glam::DVec3;
 use hairline_optics::gaussian::gaussian;
 use hairline_optics::grating::Grating as Row;
@@ -17,6 +19,8 @@ pub struct Grating {
     pub coverage: f64,
     /// The least and the greatest distance from the field's axis, or from the middle of one that has none; 0 and infinity for everywhere.
     pub radii_m: [f64; 2],
+    /// By which grooves are off their places, where they are seen one by one.
+    pub seed: u32,
 }
 
 /// Which way grooves run over a surface, world space.
@@ -73,7 +77,7 @@ pub struct GroovePlace {
 
 impl GrooveField {
     /// The unit direction of the grooves at a point, in the plane across a unit normal; none where there is none. As for scratches (`scratches/guide.rs`).
-    fn tangent(&self, point_m: DVec3, normal: DVec3) -> Option<DVec3> {
+    pub fn tangent(&self, point_m: DVec3, normal: DVec3) -> Option<DVec3> {
         let in_plane = |v: DVec3| v - normal * normal.dot(v);
         match *self {
             Self::Along { direction, .. } => {
@@ -189,6 +193,7 @@ mod tests {
             angle_std_rad: 0.0,
             coverage: 0.5,
             radii_m,
+            seed: 1,
         }
     }
 

@@ -1,9 +1,9 @@
 //! Gratings: the closed form against Monte Carlo of the same model, and against the whole field of rows whose grooves all have their phases.
 
-use super::pictures::{LINEAR, closed, mean, sampled};
+use super::pictures::{self, LINEAR, closed, mean, sampled};
 use super::scenes::{View, plate, sphere};
 use glam::DVec3;
-use hairline_image::Image;
+use hairline_image::{Image, Layer};
 use hairline_optics::grating::Grating as Row;
 use hairline_reference::{Model, Settings};
 use hairline_scene::{Base, Grating, GrooveField, Scene};
@@ -32,6 +32,7 @@ fn grated(row: Row, angle_std_rad: f64, light_rad: f64) -> Scene {
         angle_std_rad,
         coverage: 1.0,
         radii_m: [0.0, f64::INFINITY],
+        seed: 1,
     }];
     scene.lights = vec![sphere(VIEW, 0.0, -0.55 / row.pitch_um, light_rad)];
     scene
@@ -57,6 +58,53 @@ fn compared(name: &str, exact: &Image, reference: &Image) -> (f64, f64) {
         100.0 * error
     );
     (off, error)
+}
+
+/// Pixels of 8 um on grooves every 40, in windows that show single ones: where they lie, the light is.
+#[test]
+fn single_grooves_lie_where_they_are() {
+    let view = View {
+        pixel_um: 8.0,
+        size_px: 12,
+        ..VIEW
+    };
+    let scene = |coherence_um: f64, jitter: f64| {
+        let mut scene = plate(Base::Mirror, view);
+        scene.materials[0].roughness = 0.0;
+        scene.materials[0].coherence_um = coherence_um;
+        scene.objects[0].gratings = grated(row(40.0, 4.0, jitter, 0.0), 0.0, 0.1).objects[0]
+            .gratings
+            .clone();
+        scene.lights = vec![sphere(view, 0.0, -0.12, 0.04)];
+        scene
+    };
+    for (settings, coherence_um, jitter, batches) in [
+        (LINEAR, 8.0, 0.1, 6),
+        (LINEAR, 20.0, 0.0, 6),
+        (FULL, 8.0, 0.1, 2),
+        (FULL, 20.0, 0.0, 2),
+    ] {
+        let scene = scene(coherence_um, jitter);
+        let (exact, reference) = (closed(&scene), sampled(&scene, settings, batches));
+        let name = format!(
+            "single grooves, {:?}, window {coherence_um} um",
+            settings.model
+        );
+        let all = pictures::compared(&name, &exact, &reference, Layer::Scratches);
+        let (off, _) = all.rms();
+        assert!(off < 0.05, "{name}: {off}");
+        let mut wrong = scene.clone();
+        wrong.objects[0].gratings[0].seed = 2;
+        if jitter > 0.0 {
+            let all = pictures::compared(
+                "other places",
+                &closed(&wrong),
+                &reference,
+                Layer::Scratches,
+            );
+            assert!(all.rms().0 > 0.1);
+        }
+    }
 }
 
 fn row(pitch_um: f64, width_um: f64, jitter: f64, depth_spread: f64) -> Row {

@@ -176,6 +176,60 @@ fn gpu_and_cpu_show_the_same_gratings() {
     assert!(seen.contains("scratches"), "{seen}");
 }
 
+/// Pixels of 6 um on grooves of 30 and 40 um, seven centimetres from the middle of the scene.
+#[test]
+fn gpu_and_cpu_show_the_same_single_grooves() {
+    let grating = |object: &str, pattern: &str, pitch_um: f64, more: &str| {
+        format!(
+            "[[grating]]\nobject = \"{object}\"\npattern = \"{pattern}\"\npitch_um = {pitch_um:?}\nwidth_um = 8.0\n\
+             jitter_um = 3.0\ndepth_nm = {{ mean = 300.0, spread = 0.5 }}\n{more}"
+        )
+    };
+    let scene = SceneFile::seen_from([0.06, 0.01, 0.02])
+        .toward([0.06, 0.03, 0.0])
+        .size_px([96, 72])
+        .fov_y_deg(1.0)
+        .metal("aluminium", "aluminium")
+        .with("roughness = 0.2\ncoherence_um = 8.0")
+        .object("plate", "aluminium", "plane = { size_m = [0.2, 0.2] }")
+        .object("ball", "aluminium", "sphere = { radius_m = 0.0003 }")
+        .with("translation_m = [0.0601, 0.03, 0.0]")
+        .part(&grating(
+            "plate",
+            "parallel",
+            40.0,
+            "direction = [1.0, 0.3, 0.0]\ncoverage = 0.5",
+        ))
+        .part(&grating(
+            "plate",
+            "circular",
+            30.0,
+            "coverage = 0.5\nseed = 5",
+        ))
+        .part(&grating("ball", "circular", 30.0, ""))
+        .polygon(
+            &[
+                [-1.0, -1.0, 0.7],
+                [-1.0, 1.0, 0.7],
+                [1.0, 1.0, 0.7],
+                [1.0, -1.0, 0.7],
+            ],
+            1.0,
+        )
+        .with("two_sided = true")
+        .part("[studio]\nhidden = true")
+        .scene();
+    let Some(gpu) = on_the_gpu(&scene, 1) else {
+        return;
+    };
+    let cpu = on_the_cpu(&scene, 1);
+    compare("single grooves", &scene, &gpu, &cpu).unwrap_or_else(|error| panic!("{error}"));
+    let mut wrong = scene.clone();
+    wrong.objects[0].gratings[1].seed = 6;
+    let seen = compare("wrong", &scene, &gpu, &on_the_cpu(&wrong, 1)).unwrap_err();
+    assert!(seen.contains("scratches"), "{seen}");
+}
+
 /// From the whole disc to 10 um a pixel, in steps of a half: the mean of the picture goes on as it went before, and it hardly changes where the camera
 /// moves by a third of a pixel.
 #[test]

@@ -78,7 +78,7 @@ fn grooves_under_pixels() {
     Twin {
         name: "groove_place",
         modules: &[&shaders::GRATINGS],
-        snippet: "let grating = Grating(vec3f(x[1], x[2], x[3]), u32(x[0]), vec3f(0.0), 1.0, vec2f(1e-3, 0.1), 0.7, 0.0, 0u, 0u);
+        snippet: "let grating = Grating(vec3f(x[1], x[2], x[3]), u32(x[0]), vec3f(0.0), 1.0, vec2f(1e-3, 0.1), 0.7, 0.0, 0u, 0u, 0u, 1.6, 0.6, 0.0, 1.0);
             let normal = vec3f(x[4], x[5], x[6]);
             let place = groove_place(grating, vec3f(x[7], x[8], x[9]), normal, vec3f(x[10], x[11], x[12]), vec3f(x[13], x[14], x[15]));
             let is_seen = f32(place.share > 1e-3);
@@ -92,6 +92,7 @@ fn grooves_under_pixels() {
                 angle_std_rad: 0.0,
                 coverage: 0.7,
                 radii_m: [1e-3, 0.1],
+                seed: 1,
             };
             let axes_m = [v(&x[10..]), v(&x[13..])];
             let seen = grating.seen_from_pixel(v(&x[7..]), v(&x[4..]), axes_m);
@@ -108,6 +109,89 @@ fn grooves_under_pixels() {
     }
     // Where they end within a pixel, rounding of the place counts.
     .check(&rows, rows.len() / 500);
+}
+
+#[test]
+fn single_grooves() {
+    let mut random = Sequence(9);
+    let rows: Vec<[f32; 16]> = (0..8000)
+        .map(|i| {
+            let mut row = [0.0; 16];
+            row[0] = (i % 2) as f32;
+            let normal = random.direction(-1.0);
+            row[1..4].copy_from_slice(&random.direction(-1.0));
+            row[4..7].copy_from_slice(&normal);
+            // Up to a tenth of a metre from the axis.
+            let reach_m = random.between(1e-3, 0.1);
+            row[7..10].copy_from_slice(&random.direction(-1.0).map(|x| x * reach_m));
+            row[10] = random.between(8.0, 50.0);
+            row[11] = row[10] * random.between(0.02, 0.6);
+            row[12] = random.between(0.0, 0.3);
+            // Pixel and window.
+            row[13] = row[10] * random.between(0.0, 1.0);
+            row[14] = row[10] * random.between(0.2, 1.2);
+            row[15] = random.between(0.0, 1e4).floor();
+            row
+        })
+        // Next to where a field ends, and between two cuts, rounding decides.
+        .filter(|row| {
+            let x = row.map(f64::from);
+            let field = field(x[0], v(&x[1..]), DVec3::ZERO);
+            let tangent = field.tangent(v(&x[7..]), v(&x[4..]));
+            tangent.is_some_and(|tangent| {
+                let across = v(&x[4..]).cross(tangent);
+                let at = |turn: f64| {
+                    let turned = across + turn * v(&x[4..]);
+                    single(&x)
+                        .grooves_at(v(&x[7..]), turned.normalize())
+                        .map(|at| at.number)
+                };
+                at(1e-5) == at(-1e-5) && v(&x[1..]).cross(v(&x[4..])).length() > 0.05
+            })
+        })
+        .collect();
+    assert!(rows.len() > 6000, "{}", rows.len());
+    Twin {
+        name: "groove_density",
+        modules: &[&shaders::SINGLE_GROOVES],
+        snippet: "let grating = Grating(vec3f(x[1], x[2], x[3]), u32(x[0]), vec3f(0.0), 0.0, vec2f(0.0), 1.0, 0.0, 0u, 0u, u32(x[15]), x[10], x[11], x[12], 100.0);
+            let normal = vec3f(x[4], x[5], x[6]);
+            let arm_m = vec3f(x[7], x[8], x[9]);
+            let across = cross(normal, groove_tangent(grating, arm_m, normal));
+            y[0] = groove_density(grating, arm_m, across, across * x[13] * 1e-6, vec3f(0.0), x[14]);",
+        tables: &[],
+        expected: &|x: [f64; 16]| {
+            let grating = single(&x);
+            let (point_m, normal) = (v(&x[7..]), v(&x[4..]));
+            let tangent = grating.field.tangent(point_m, normal).unwrap();
+            let axes_m = [normal.cross(tangent) * x[13] * 1e-6, DVec3::ZERO];
+            [grating.groove_density(point_m, normal, tangent, axes_m, x[14])]
+        },
+        // Places are rounded to a hundredth of a micrometre.
+        tolerance: Tolerance {
+            absolute: 5e-3,
+            relative: 5e-3,
+        },
+    }
+    .check(&rows, 0);
+}
+
+/// So shallow that its grooves may be as dense as they are.
+fn single(x: &[f64; 16]) -> Grating {
+    Grating {
+        row: Row {
+            pitch_um: x[10],
+            width_um: x[11],
+            depth_nm: 1.0,
+            depth_spread: 0.0,
+            jitter_um: x[12] * x[10],
+        },
+        field: field(x[0], v(&x[1..]), DVec3::ZERO),
+        angle_std_rad: 0.0,
+        coverage: 1.0,
+        radii_m: [0.0, f64::INFINITY],
+        seed: x[15] as u32,
+    }
 }
 
 #[test]

@@ -166,7 +166,7 @@ fn light_of_rows_in_the_shader() {
         texels: Texels::Integers(&texels),
     }];
     let call = Call {
-        modules: &[&shaders::GRATING, &shaders::GRATINGS],
+        modules: &[&shaders::GRATING, &shaders::SINGLE_GROOVES],
         snippet: "let wo = vec3f(x[0], x[1], x[2]);
             let towards = vec3f(x[3], x[4], x[5]);
             let point = LitPoint(wo, 0.3, vec2f(100.0, 0.0), vec2f(0.0, 1e3), vec2f(0.0), vec2f(0.01), 20.0, u32(x[8]));
@@ -180,12 +180,13 @@ fn light_of_rows_in_the_shader() {
             let line = band_line_at(band_from_surface(tangent, wo), 0.0);
             let cell = row_cell(u32(x[12] * 7.0), line);
             let around = scratch_chord(table_0, point, seen, cell.q_high, cell.q_low, cell.direction.z);
-            let grating = Grating(towards, u32(x[8]) % 4u, vec3f(0.0), 20.0, vec2f(0.0, x[6]), 1.0, x[11], 0u, 0u);
+            let grating = Grating(towards, u32(x[8]) % 4u, vec3f(0.0), 20.0, vec2f(0.0, x[6]), 1.0, x[11], 0u, 0u, u32(x[8]), 1e3 * x[6], 400.0 * x[6], abs(x[10]), 4.0);
             let place = groove_place(grating, wo * x[6], wo, towards * x[7], cross(towards, wo) * x[10]);
+            let density = groove_density(grating, wo * x[6], cross(wo, place.tangent), towards * x[7], cross(towards, wo) * x[10], 20.0);
             y[0] = dot(sphere, vec3f(0.2126, 0.7152, 0.0722));
             y[1] = dot(flat, vec3f(0.2126, 0.7152, 0.0722));
             y[2] = dot(around, vec3f(0.2126, 0.7152, 0.0722));
-            y[3] = place.share + abs(place.turns_rad.x) + abs(place.turns_rad.y) + dot(place.tangent, place.tangent);",
+            y[3] = density + place.share + abs(place.turns_rad.x) + abs(place.turns_rad.y) + dot(place.tangent, place.tangent);",
         tables: &tables,
     };
     let rows = views(CONFIGURATIONS);

@@ -2,6 +2,8 @@
 
 override HAS_SCRATCHES: bool = true;
 override HAS_GRATINGS: bool = true;
+// Gratings whose grooves could be seen one by one.
+override HAS_SINGLE_GROOVES: bool = true;
 override HAS_SPHERES: bool = true;
 // Tubes too, whose outlines are polygons.
 override HAS_POLYGONS: bool = true;

@@ -3,12 +3,15 @@
 // Those of each object one after the other, each once for each material that it lies on.
 @group(3) @binding(2) var<storage, read> gratings: array<Grating>;
 
+// How the point moves by one standard deviation of the pixel's filter to the right and down.
+fn grating_steps_m(pixel: PixelPoint) -> mat2x3f {
+    let axes = mat2x3f(pixel.axis_x, cross(pixel.normal, pixel.axis_x));
+    return axes * mat2x2f(1e-6 * pixel.footprint_um.xy, 1e-6 * pixel.footprint_um.zw);
+}
+
 fn grating_place(pixel: PixelPoint, grating: Grating) -> GroovePlace {
-    let axis_y = cross(pixel.normal, pixel.axis_x);
-    let um = 1e-6 * pixel.footprint_um;
-    let right_m = um.x * pixel.axis_x + um.y * axis_y;
-    let down_m = um.z * pixel.axis_x + um.w * axis_y;
-    return groove_place(grating, pixel.position_m, pixel.normal, right_m, down_m);
+    let steps_m = grating_steps_m(pixel);
+    return groove_place(grating, pixel.position_m, pixel.normal, steps_m[0], steps_m[1]);
 }
 
 // Whether a grating lies on the surface of a sample.
@@ -35,6 +38,12 @@ fn grating_pair(pixel: PixelPoint, grating: Grating, covered: f32) -> Pair {
     let along = vec2f(dot(place.tangent, pixel.axis_x), dot(place.tangent, axis_y));
     let length2 = dot(along, along);
     let tangent = select(vec2f(1.0, 0.0), along * inverseSqrt(max(length2, 1e-30)), length2 > 0.0);
-    let seen = row_seen(tangent, place.share / max(covered, 1.0), place.turns_rad, grating.angle_std_rad);
+    var share = place.share / max(covered, 1.0);
+    if HAS_SINGLE_GROOVES {
+        let steps_m = grating_steps_m(pixel);
+        let arm_m = pixel.position_m - grating.center_m;
+        share *= groove_density(grating, arm_m, cross(pixel.normal, place.tangent), steps_m[0], steps_m[1], pixel.coherence_um);
+    }
+    let seen = row_seen(tangent, share, place.turns_rad, grating.angle_std_rad);
     return Pair(pair_point(pixel, grating.table), seen, pixel.position_m, mat3x3f(pixel.axis_x, axis_y, pixel.normal));
 }

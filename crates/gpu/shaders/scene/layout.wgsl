@@ -75,6 +75,11 @@ struct Grating {
     angle_std_rad: f32,         // of a groove to the field
     material: u32,
     table: u32,                 // layer of the scratch tables
+    seed: u32,                  // by which grooves are off their places
+    pitch_um: f32,
+    width_um: f32,
+    jitter_pitches: f32,        // standard deviation of how far a groove is off its place
+    densest: f32,               // no factor for single grooves is greater: they take no more than there is
 }
 
 struct Material {

@@ -485,6 +485,8 @@ class Grating(Table):
     """Normal, nanometres; the spread is a share of the mean. Default: 120."""
     jitter_um: Optional[float] = _default()
     """Standard deviation of how far a groove is off its place, micrometres. Default: 0."""
+    seed: Optional[int] = _default()
+    """Which grooves are off their places by how much, where they are seen one by one. Default: 1."""
     jitter_deg: Optional[float] = _default()
     """Standard deviation of a groove's angle to the pattern, degrees. Default: 0."""
     coverage: Optional[float] = _default()

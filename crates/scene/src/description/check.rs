@@ -298,8 +298,8 @@ fn stroke(stroke: &Stroke, paints: bool, key: &str) -> Check {
     }
 }
 
-/// The seed of a layer that draws random numbers, and its lengths, widths and depths.
-fn drawn(seed: u64, sizes: [Distribution; 3], key: &str) -> Check {
+/// The seed of what draws random numbers.
+pub(super) fn check_seed(seed: u64, key: &str) -> Check {
     if seed > limits::LARGEST_SEED {
         // TOML's integers end there, so it could not be saved.
         let found = format!("found {seed}");
@@ -309,6 +309,12 @@ fn drawn(seed: u64, sizes: [Distribution; 3], key: &str) -> Check {
             "must be below 2^63",
         ));
     }
+    Ok(())
+}
+
+/// The seed of a layer that draws random numbers, and its lengths, widths and depths.
+fn drawn(seed: u64, sizes: [Distribution; 3], key: &str) -> Check {
+    check_seed(seed, key)?;
     sizes::check(sizes, key)
 }
 

@@ -2,10 +2,11 @@
 
 use serde::Serialize;
 
+use super::check::check_seed;
 use super::limits;
 use super::ranges::{Check, positive, within};
 use super::read::around;
-use super::scratches::{Around, Distribution, Pattern};
+use super::scratches::{Around, DEFAULT_SEED, Distribution, Pattern};
 use super::table::{Read, Table, Value};
 use super::values::is_false;
 use crate::error::Error;
@@ -33,6 +34,8 @@ pub struct Grating {
     pub depth_nm: Distribution,
     /// Standard deviation of how far a groove is off its place. At most the pitch. Default: 0.
     pub jitter_um: f64,
+    /// Which grooves are off their places by how much, where they are seen one by one. Default: 1.
+    pub seed: u64,
     /// The share of the surface that the grooves cover. In [0, 1]. Default: 1.
     pub coverage: f64,
     /// The least and the greatest distance from the pattern's axis; for `"parallel"`, from `center_m`. Default: everywhere.
@@ -64,6 +67,7 @@ impl Grating {
             width_um: DEFAULT_FILL * pitch_um,
             depth_nm: DEFAULT_DEPTH_NM,
             jitter_um: 0.0,
+            seed: DEFAULT_SEED,
             coverage: 1.0,
             radius_m: None,
             center_m: None,
@@ -118,6 +122,7 @@ impl Grating {
             self.jitter_um,
             0.0..=self.pitch_um,
         )?;
+        check_seed(self.seed, key)?;
         within(&format!("{key}.coverage"), self.coverage, limits::COVERAGE)?;
         let radius = format!("{key}.radius_m");
         let Some([least, most]) = self.radius_m else {
@@ -164,6 +169,7 @@ impl Read for Grating {
                 "width_um",
                 "depth_nm",
                 "jitter_um",
+                "seed",
                 "coverage",
                 "radius_m",
             ],
@@ -204,6 +210,7 @@ impl Read for Grating {
             width_um: table.or("width_um", default.width_um)?,
             depth_nm: table.or("depth_nm", default.depth_nm)?,
             jitter_um: table.or("jitter_um", default.jitter_um)?,
+            seed: table.or("seed", default.seed)?,
             coverage: table.or("coverage", default.coverage)?,
             radius_m: table.optional("radius_m")?,
             center_m: match is_parallel {
@@ -238,7 +245,7 @@ mod tests {
         assert_eq!(described.gratings, [disc]);
         let all = "object = \"o\"\nname = \"n\"\nhidden = true\npattern = \"spun\"\naxis = [0, 1, 0]\n\
             center_m = [0, 0, 0.1]\njitter_deg = 2.0\ncurvature_per_m = 10.0\npitch_um = 3.0\nwidth_um = 1.0\n\
-            depth_nm = { mean = 200.0, spread = 0.2 }\njitter_um = 0.1\ncoverage = 0.5\nradius_m = [0.01, 0.05]\n";
+            depth_nm = { mean = 200.0, spread = 0.2 }\njitter_um = 0.1\nseed = 9\ncoverage = 0.5\nradius_m = [0.01, 0.05]\n";
         let described = Description::from_toml(&text(all), "test".as_ref()).unwrap();
         let saved = described.to_toml().unwrap();
         let loaded = Description::from_toml(&saved, "test".as_ref()).unwrap();

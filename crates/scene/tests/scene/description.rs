@@ -256,6 +256,7 @@ fn everything() -> Description {
                     spread: 0.25,
                 },
                 jitter_um: 0.125,
+                seed: 9,
                 coverage: 0.75,
                 radius_m: Some([0.0, 0.5]),
                 ..Grating::new("object 1", Pattern::Circular(Around::default()), 1.6)
