@@ -14,6 +14,8 @@ use hairline_scene::Texture;
 pub(crate) struct PictureView<'a> {
     texture: &'a Texture,
     plane: PicturePlane,
+    /// Of the band about a chord, in direction cosines, at q = 0 and for each q²: what a line in the band's middle sees is blurred by it.
+    across_variance: [f64; 2],
 }
 
 impl<'a> PictureView<'a> {
@@ -22,6 +24,15 @@ impl<'a> PictureView<'a> {
         Self {
             texture,
             plane: PicturePlane::of(corners),
+            across_variance: [0.0; 2],
+        }
+    }
+
+    /// As chords see it that stand for a band, by its variance at q = 0 and for each q².
+    pub fn across(self, across_variance: [f64; 2]) -> Self {
+        Self {
+            across_variance,
+            ..self
         }
     }
 
@@ -72,9 +83,11 @@ impl<'a> PictureView<'a> {
         mean
     }
 
-    /// What comes from a part of a chord, by the directions of its ends and its middle.
-    pub fn on_chord(&self, directions: [DVec3; 3]) -> DVec3 {
-        self.at(self.plane.picture_on_chord(directions))
+    /// What comes from a part of a chord with its middle at q, by the directions of its ends and its middle.
+    pub fn on_chord(&self, directions: [DVec3; 3], q: f64) -> DVec3 {
+        let [middle, per_q2] = self.across_variance;
+        let across_std = (middle + per_q2 * q * q).max(0.0).sqrt();
+        self.at(self.plane.picture_on_chord(directions, across_std))
     }
 }
 

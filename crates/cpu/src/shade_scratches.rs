@@ -4,6 +4,7 @@
 //! Segment by segment of the tile's list: eight points at once are tested whether they see it, then each that does asks those lights
 //! which can reach the segment from any point of the tile.
 
+mod chord_depths;
 mod drawn_light;
 mod lanes;
 mod light_bounds;

@@ -23,6 +23,14 @@ const CELL_SCALE_UM: f64 = 0.3;
 /// Cells along the band for a grating, whose orders spread the colours over all of it: even in the angle.
 pub const ROW_CELLS: usize = 48;
 
+/// A part of a light's chord on a grating, of one depth, is no longer in q.
+const ROW_PART: f64 = 0.05;
+
+/// In how many parts a grating sees a chord of so much in q.
+pub fn row_part_count(length: f64) -> usize {
+    (length / ROW_PART).ceil().clamp(1.0, ROW_CELLS as f64) as usize
+}
+
 /// Parts of a cell that shadow rays tell apart.
 pub const CELL_PARTS: usize = 6;
 

@@ -40,8 +40,10 @@ pub const PICTURE_PARTS: usize = 4;
 /// One over the square of the widest blur of a part, in its own widths: four texels in it, which still tell one side from the other.
 const PART_WIDEST: f64 = 16.0;
 
-/// Parts of a chord of a light with a picture, each of which has one look-up.
+/// Parts of a chord of a light with a picture, each of which has one look-up at the middle.
 pub const PICTURE_CELLS: usize = 12;
+/// The same for a grating: its orders are narrower than a twelfth of a soft box.
+pub const PICTURE_ROW_CELLS: usize = 48;
 /// Scale of x as u = W q, as for an environment's cells.
 const CELL_SCALE_UM: f64 = 0.3;
 /// Of an even chord the standard deviation, over its length; half of it, for what it blurs across it has not.
@@ -115,12 +117,19 @@ impl PicturePlane {
         plane.picture_look(vector)
     }
 
-    /// The look-up of a part of a chord, by the directions of its ends and its middle.
-    pub fn picture_on_chord(&self, [low, middle, high]: [DVec3; 3]) -> PictureLook {
-        let length = self.picture_uv(low) - self.picture_uv(high);
+    /// The look-up of a part of a chord, by the directions of its ends and its middle. `across_std` is the standard deviation of the band about the
+    /// chord, in direction cosines.
+    pub fn picture_on_chord(
+        &self,
+        [low, middle, high]: [DVec3; 3],
+        across_std: f64,
+    ) -> PictureLook {
+        let length = self.picture_uv(low).distance(self.picture_uv(high));
+        // Of the chord; across it the picture is about as far away.
+        let share = across_std / low.distance(high).max(1e-30);
         PictureLook {
             uv: self.picture_uv(middle),
-            spread: CELL_STD * length.length(),
+            spread: CELL_STD.max(share) * length,
         }
     }
 }
@@ -142,13 +151,11 @@ pub fn picture_lod(spread: f64, size_px: DVec2) -> f64 {
     (2.0 * texels).max(1.0).log2()
 }
 
-/// A place between `low` and `high` in q, even in x = q / (|q| + h) as an environment's cells are: at whole numbers parts of a chord end, and
-/// their light comes from the middle between two.
-pub fn picture_place(i: f64, low: f64, high: f64, width_um: f64) -> f64 {
+/// A place between `low` and `high` in q at a share of the way, even in x = q / (|q| + h) as an environment's cells are.
+pub fn picture_place(share: f64, low: f64, high: f64, width_um: f64) -> f64 {
     let scale = CELL_SCALE_UM / width_um.max(1e-3);
     let from = low / (low.abs() + scale);
     let to = high / (high.abs() + scale);
-    let share = i / PICTURE_CELLS as f64;
     let x = from + (to - from) * share;
     let q = scale * x / (1.0 - x.abs()).max(1e-9);
     // Rounding must not leave out a part.
@@ -186,7 +193,8 @@ mod tests {
     fn cells_tile_a_chord() {
         for (low, high) in [(-0.8, 0.3), (0.01, 0.02), (-0.5, -0.1)] {
             for width_um in [0.0, 1.0, 50.0] {
-                let place = |i: usize| picture_place(i as f64, low, high, width_um);
+                let place =
+                    |i: usize| picture_place(i as f64 / PICTURE_CELLS as f64, low, high, width_um);
                 let ends: Vec<f64> = (0..=PICTURE_CELLS).map(place).collect();
                 assert_eq!([ends[0], ends[PICTURE_CELLS]], [low, high]);
                 assert!(ends.is_sorted(), "{ends:?}");

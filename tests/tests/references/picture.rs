@@ -108,7 +108,7 @@ fn a_soft_box_on_a_coat() {
 #[test]
 fn a_soft_box_on_a_grating() {
     let mut failures = Vec::new();
-    for (jitter_um, angle_std_rad, scratches) in [(0.0, 0.0, 0), (0.1, 0.03, 20)] {
+    for (jitter_um, angle_std_rad, scratches) in [(0.0, 0.0, 0), (0.0, 0.03, 0), (0.1, 0.03, 20)] {
         let [scene, even] = [Some(0), None].map(|picture| {
             let mut scene = lit(Base::Metal(Metal::Aluminium), VIEW, picture);
             if scratches == 0 {
@@ -134,9 +134,17 @@ fn a_soft_box_on_a_grating() {
             }];
             scene
         });
-        let name = format!("soft box on grooves of jitter {jitter_um} um under {scratches}");
-        // 3.8 % without jitter, the cause not shown.
-        failures.extend(wrong(&name, &scene, &even, [0.045, 0.03]));
+        let name = format!(
+            "soft box on grooves of jitter {jitter_um} um and {angle_std_rad} rad under {scratches}"
+        );
+        failures.extend(wrong(&name, &scene, &even, [0.02, 0.03]));
+        if jitter_um > 0.0 {
+            // With one depth for all of a chord this is 5 %.
+            let reference = sampled(&even, LINEAR, 8);
+            let even = compared("even", &closed(&even), &reference, Layer::Scratches);
+            let [at_least, _] = even.beyond.relative_rms_within(2.0);
+            failures.extend((at_least > 0.01).then_some(even));
+        }
     }
     assert!(failures.is_empty(), "{failures:?}");
 }

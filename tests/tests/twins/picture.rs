@@ -37,7 +37,7 @@ fn look_ups() {
             let toward = vec3f(x[9], x[10], x[11]);
             let uv = picture_uv(plane, toward);
             let look = picture_look(plane, toward);
-            let chord = picture_on_chord(plane, plane.corner, toward, plane.corner + plane.right);
+            let chord = picture_on_chord(plane, plane.corner, toward, plane.corner + plane.right, 0.3);
             y[0] = uv.x; y[1] = uv.y; y[2] = look.spread; y[3] = chord.uv.x; y[4] = chord.spread;
             y[5] = picture_lod(picture_part_spread(look.spread), vec2f(512.0, 256.0));",
         tables: &[],
@@ -50,7 +50,7 @@ fn look_ups() {
             };
             let uv = plane.picture_uv(v(9));
             let look = plane.picture_look(v(9));
-            let chord = plane.picture_on_chord([v(0), v(9), v(0) + v(3)]);
+            let chord = plane.picture_on_chord([v(0), v(9), v(0) + v(3)], 0.3);
             let lod = picture_lod(picture_part_spread(look.spread), DVec2::new(512.0, 256.0));
             [uv.x, uv.y, look.spread, chord.uv.x, chord.spread, lod]
         },
@@ -69,7 +69,7 @@ fn cells() {
     for i in 0..1000 {
         let (a, b) = (random.between(-1.5, 1.5), random.between(-1.5, 1.5));
         rows.push([
-            (i % 13) as f32,
+            (i % 13) as f32 / 12.0,
             a.min(b),
             a.max(b),
             random.between(0.0, 20.0),
@@ -80,7 +80,9 @@ fn cells() {
         modules: &[&shaders::PICTURE],
         snippet: "y[0] = picture_place(x[0], x[1], x[2], x[3]);",
         tables: &[],
-        expected: &|[i, low, high, width_um]: [f64; 4]| [picture_place(i, low, high, width_um)],
+        expected: &|[share, low, high, width_um]: [f64; 4]| {
+            [picture_place(share, low, high, width_um)]
+        },
         tolerance: Tolerance {
             absolute: 1e-5,
             relative: 1e-4,

@@ -4,7 +4,7 @@ use super::scratch_light::ScratchLight;
 use crate::picture::PictureView;
 use glam::DVec3;
 use hairline_optics::band::{BandLine, DrawnChord, OutlineRoots};
-use hairline_optics::picture::{PICTURE_CELLS, picture_place};
+use hairline_optics::picture::{PICTURE_CELLS, PICTURE_ROW_CELLS, picture_place};
 
 impl ScratchLight<'_> {
     /// The parts of the chords of a light, from q to q, with what the picture sends from there. `of_luminance` is the antiderivative of what
@@ -22,12 +22,18 @@ impl ScratchLight<'_> {
         let frame = self.frame;
         let towards = move |q: f64| frame.surface_from_band(line.direction_at(q));
         let weighed_um = self.weighed_um();
+        let count = match self.row {
+            Some(_) => PICTURE_ROW_CELLS,
+            None => PICTURE_CELLS,
+        };
         chords.into_iter().flat_map(move |(first, last)| {
-            (0..PICTURE_CELLS).map(move |i| {
-                let place = |at: f64| picture_place(i as f64 + at, first, last, weighed_um);
+            (0..count).map(move |i| {
+                let place = |at: f64| {
+                    picture_place((i as f64 + at) / count as f64, first, last, weighed_um)
+                };
                 let [low, middle, high] = [0.0, 0.5, 1.0].map(place);
                 let directions = [low, middle, high].map(towards);
-                (low, high, picture.on_chord(directions))
+                (low, high, picture.on_chord(directions, middle))
             })
         })
     }

@@ -1,6 +1,7 @@
 //! A scratch as seen from a point, and the light that it sends to the viewer (docs/model.md, sections 5 and 6). Twin:
 //! scratch_light.wgsl.
 
+use super::chord_depths::PartedChord;
 use super::row_spread::{ROW_PROFILE, RowSpread};
 use crate::light_view::{LightView, LightViews};
 use crate::picture::PictureView;
@@ -28,7 +29,7 @@ pub(crate) struct ScratchLight<'a> {
     pub(super) wo: DVec3,
     table: &'a ScratchTable,
     profile: Profile,
-    row: Option<RowSpread>,
+    pub(super) row: Option<RowSpread>,
 }
 
 impl<'a> ScratchLight<'a> {
@@ -129,10 +130,19 @@ impl<'a> ScratchLight<'a> {
                 ..
             } => {
                 let outline = views.outline(vertices, *away, *facing, *sets);
-                let picture = views.picture(light);
+                let variance = self.across_variance(motion.widened(stds.mean), bound);
+                let picture = views.picture(light).map(|picture| (picture, variance));
                 Some(*radiance * self.polygon(stds, outline, motion, roots, picture)?)
             }
         }
+    }
+
+    /// The variance of the band at q = 0 and for each q², given its standard deviation towards a light: the grooves of a grating that lie about a
+    /// little widen it with the distance from the mirror's direction.
+    fn across_variance(&self, std: f64, light: &Cap) -> [f64; 2] {
+        let per_q2 = self.row.map_or(0.0, |row| row.angle_std_rad.powi(2));
+        let q = self.wo.y + self.frame.tangent.perp_dot(light.axis.truncate());
+        [std * std - per_q2 * q * q, per_q2]
     }
 
     /// Whether the band can meet a cap whose axis has the component `along` on the tangent.
@@ -151,7 +161,13 @@ impl<'a> ScratchLight<'a> {
     ) -> impl Fn(f64) -> [f64; 3] + 'a {
         let width_um = self.width_um();
         let row = self.row(chord_cos(line, low, high, self.weighed_um()));
-        move |q| row.at(width_um * q)
+        let parted = self
+            .row
+            .and_then(|_| PartedChord::new(line, (low, high), width_um, |cos_i| self.row(cos_i)));
+        move |q| match &parted {
+            Some(parted) => parted.at(q),
+            None => row.at(width_um * q),
+        }
     }
 
     /// By a sphere of radiance 1.
@@ -176,7 +192,7 @@ impl<'a> ScratchLight<'a> {
         outline: Outline,
         motion: BandMotion,
         [middle_roots, roots]: &mut [OutlineRoots; 2],
-        picture: Option<PictureView>,
+        picture: Option<(PictureView, [f64; 2])>,
     ) -> Option<DVec3> {
         let wo = self.wo + motion.shift * DVec3::X;
         // Large lights cover the whole band, and their corners tell so.
@@ -185,6 +201,7 @@ impl<'a> ScratchLight<'a> {
         if band_is_whole(wo.x, wo.x + low, wo.x + high, std) {
             let line = BandLine::new(wo, 0.0);
             let spectrum = self.outline_spectrum(outline, line, roots);
+            let picture = picture.map(|(picture, variance)| picture.across(variance));
             return Some(self.on_line(line, roots, spectrum, picture).into());
         }
         let (lowest, highest) = outline.band_extent(self.frame, wo.x);
@@ -192,6 +209,11 @@ impl<'a> ScratchLight<'a> {
             return None;
         }
         let lines = band_lines(wo.x, lowest, highest, motion.band(*stds).stds);
+        // Several lines see the picture where they lie.
+        let picture = picture.map(|(picture, variance)| match lines.count {
+            1 => picture.across(variance),
+            _ => picture,
+        });
         // One cosine for all lines, that of the middle one.
         let middle = lines.middle_line(wo);
         let spectrum = self.outline_spectrum(outline, middle, middle_roots);

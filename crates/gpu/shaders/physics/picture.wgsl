@@ -19,6 +19,7 @@ const PICTURE_LEAST_COS: f32 = 0.05;
 const PICTURE_PARTS: u32 = 4u;
 const PICTURE_PART_WIDEST: f32 = 16.0;
 const PICTURE_CELLS: u32 = 12u;
+const PICTURE_ROW_CELLS: u32 = 48u;
 const PICTURE_CELL_SCALE_UM: f32 = 0.3;
 const PICTURE_CELL_STD: f32 = 0.145;
 
@@ -59,10 +60,11 @@ fn picture_look(plane: PicturePlane, vector: vec3f) -> PictureLook {
     return PictureLook(picture_uv(plane, toward), PICTURE_COSINE_STD * distance * inverseSqrt(cos * area));
 }
 
-// The look-up of a part of a chord, by the directions of its ends and its middle.
-fn picture_on_chord(plane: PicturePlane, low: vec3f, middle: vec3f, high: vec3f) -> PictureLook {
+// The look-up of a part of a chord, by the directions of its ends and its middle. `across_std` is the standard deviation of the band about the chord.
+fn picture_on_chord(plane: PicturePlane, low: vec3f, middle: vec3f, high: vec3f, across_std: f32) -> PictureLook {
     let along = picture_uv(plane, low) - picture_uv(plane, high);
-    return PictureLook(picture_uv(plane, middle), PICTURE_CELL_STD * length(along));
+    let share = across_std / max(distance(low, high), 1e-6);
+    return PictureLook(picture_uv(plane, middle), max(PICTURE_CELL_STD, share) * length(along));
 }
 
 // The blur of a part over the root of the picture's area, given that of its look-up over the part's own.
@@ -75,11 +77,11 @@ fn picture_lod(spread: f32, size_px: vec2f) -> f32 {
     return log2(max(2.0 * spread * sqrt(size_px.x * size_px.y), 1.0));
 }
 
-// Where the parts of a chord end, and between whole numbers their middles.
-fn picture_place(i: f32, low: f32, high: f32, width_um: f32) -> f32 {
+// A place at a share of the way.
+fn picture_place(share: f32, low: f32, high: f32, width_um: f32) -> f32 {
     let scale = PICTURE_CELL_SCALE_UM / max(width_um, 1e-3);
     let begin = low / (abs(low) + scale);
-    let x = begin + (high / (abs(high) + scale) - begin) * i / f32(PICTURE_CELLS);
+    let x = begin + (high / (abs(high) + scale) - begin) * share;
     let q = clamp(scale * x / max(1.0 - abs(x), 1e-6), min(low, high), high);
-    return select(select(q, low, i <= 0.0), high, i >= f32(PICTURE_CELLS));
+    return select(select(q, low, share <= 0.0), high, share >= 1.0);
 }

@@ -26,7 +26,7 @@ struct SeenScratch {
     across_um: vec2f,           // footprint_x_um and footprint_y_um across it
     variance_sq_um: f32,          // of footprint and coherence window across it
     profile: Profile,
-    weighed_um: f32,            // its width, as chord_cos() asks for; 0 for grooves of a grating, whose light lies about its orders, wherever they are
+    is_row: bool,               // whether it stands for grooves of a grating, whose light lies about its orders, wherever they are
     turns_rad: vec2f,           // by which angle grooves of a grating turn over footprint_x_um and footprint_y_um, to the left; 0 for a scratch
     angle_std_rad: f32,         // and standard deviation of their angles at any place
 }
@@ -46,7 +46,12 @@ fn scratch_seen(point: LitPoint, start_um: vec2f, end_um: vec2f, profile: Profil
         let footprint = Footprint(dot(across, across), dot(along, along), dot(across, along));
         share = scratch_share(profile.width_um, offset, dot(t, start_um), dot(t, end_um), blur_um, footprint, point.coherence_um);
     }
-    return SeenScratch(share, t, offset, across, variance, profile, profile.width_um, vec2f(0.0), 0.0);
+    return SeenScratch(share, t, offset, across, variance, profile, false, vec2f(0.0), 0.0);
+}
+
+// Its width, as chord_cos() asks for.
+fn weighed_um(seen: SeenScratch) -> f32 {
+    return select(seen.profile.width_um, 0.0, seen.is_row);
 }
 
 // A footprint cannot be told apart from its Gaussian's tail beyond this many standard deviations.
@@ -78,6 +83,51 @@ fn scratch_chord(tables: texture_2d_array<u32>, point: LitPoint, seen: SeenScrat
     let depth_nm = oblique_depth_nm(seen.profile.depth_nm, cos_i, point.wo.z);
     return scratch_table(tables, point.table, seen.profile.width_um * high, depth_nm)
         - scratch_table(tables, point.table, seen.profile.width_um * low, depth_nm);
+}
+
+// The depths of the groove along a chord. Twin: cpu/src/shade_scratches/chord_depths.rs.
+struct ChordDepths {
+    low: f32,
+    step: f32,
+    count: u32,                 // parts, each of one depth: one for a scratch, whose light lies about the mirror's direction
+    cos_i: f32,                 // for one part
+}
+
+// A part of a chord of a grating is no longer in q, and there are no more.
+const ROW_PART: f32 = 0.05;
+const ROW_PARTS_MOST: f32 = 48.0;
+
+// `range` is from the least to the greatest q of the light.
+fn chord_depths(seen: SeenScratch, line: BandLine, range: vec2f) -> ChordDepths {
+    let length = range.y - range.x;
+    let count = select(1.0, clamp(ceil(length / ROW_PART), 1.0, ROW_PARTS_MOST), seen.is_row);
+    return ChordDepths(range.x, length / count, u32(count), chord_cos(line, range.x, range.y, weighed_um(seen)));
+}
+
+// The part that q lies in; beyond the ends, that at the end.
+fn chord_part(depths: ChordDepths, q: f32) -> u32 {
+    return u32(clamp((q - depths.low) / max(depths.step, 1e-12), 0.0, f32(depths.count - 1u)));
+}
+
+// The light between two q of a chord.
+fn parted_chord(tables: texture_2d_array<u32>, point: LitPoint, seen: SeenScratch, line: BandLine, depths: ChordDepths, high: f32, low: f32) -> vec3f {
+    // Known where a pass is compiled.
+    if !seen.is_row {
+        return scratch_chord(tables, point, seen, high, low, depths.cos_i);
+    }
+    let from_q = min(low, high);
+    let to_q = max(low, high);
+    let first = chord_part(depths, from_q);
+    let last = chord_part(depths, to_q);
+    var sum = vec3f(0.0);
+    for (var i = first; i <= last; i += 1u) {
+        let start = depths.low + depths.step * f32(i);
+        let middle_cos = band_cos_at(line, start + 0.5 * depths.step);
+        let below = select(start, from_q, i == first);
+        let above = select(start + depths.step, to_q, i == last);
+        sum += scratch_chord(tables, point, seen, above, below, select(middle_cos, depths.cos_i, depths.count == 1u));
+    }
+    return select(sum, -sum, high < low);
 }
 
 // The light below a q, up to a constant.
@@ -117,11 +167,11 @@ fn scratch_sphere(tables: texture_2d_array<u32>, point: LitPoint, seen: SeenScra
         let line = band_line_at(wo, weight_and_xi.w);
         let chord = sphere_chord(line, cap);
         let range = chord_range(chord, line);
-        let cos_i = chord_cos(line, range.x, range.y, seen.weighed_um);
-        var integral = scratch_chord(tables, point, seen, chord.enter, chord.leave, cos_i);
+        let depths = chord_depths(seen, line, range);
+        var integral = parted_chord(tables, point, seen, line, depths, chord.enter, chord.leave);
         // The whole arc once more where the light holds the direction straight down.
         if chord.wraps > 0.0 {
-            integral += scratch_chord(tables, point, seen, band_q_start(line), band_q_end(line), cos_i);
+            integral += parted_chord(tables, point, seen, line, depths, band_q_start(line), band_q_end(line));
         }
         sum += weight_and_xi.xyz * integral;
         weights += weight_and_xi.xyz;
@@ -167,13 +217,13 @@ fn scratch_quad(tables: texture_2d_array<u32>, point: LitPoint, seen: SeenScratc
         let weight_and_xi = band_line(lines, l);
         let line = band_line_at(wo, weight_and_xi.w);
         var roots = four_edges_roots(outline, line, away);
-        let cos_i = chord_cos(line, roots.range.x, roots.range.y, seen.weighed_um);
+        let depths = chord_depths(seen, line, roots.range);
         var integral = vec3f(0.0);
         // As many roots enter the outline as leave it. The whole arc counts once more where the light holds straight down.
         for (var i = 0u; i < roots.count + u32(roots.wraps); i += 1u) {
             var ends = next_roots(&roots);
             ends = select(ends, facing * vec2f(band_q_start(line), band_q_end(line)), i == roots.count);
-            integral += scratch_chord(tables, point, seen, ends.x, ends.y, cos_i);
+            integral += parted_chord(tables, point, seen, line, depths, ends.x, ends.y);
         }
         sum += weight_and_xi.xyz * (facing * integral);
         weights += weight_and_xi.xyz;

@@ -102,7 +102,7 @@ fn drawn_line(lines: BandLines, wo: vec3f, i: u32, u: f32) -> BandLine {
 
 // The cosine for the groove's depth of what lies in a range.
 fn drawn_cos(seen: SeenScratch, line: BandLine, range: vec2f) -> f32 {
-    return chord_cos(line, range.x, range.y, seen.weighed_um);
+    return chord_cos(line, range.x, range.y, weighed_um(seen));
 }
 
 // By a sphere; u holds the numbers for the line, for the choice between lines, and for the chord.

@@ -3,13 +3,14 @@
 
 // Part `i` of the chords of a line: its lower end, its middle and its upper end.
 fn drawn_picture_part(seen: SeenScratch, chords: PictureChords, i: u32) -> vec3f {
-    let ends = select(chords.first, chords.second, i >= PICTURE_CELLS);
-    let at = f32(i % PICTURE_CELLS);
-    let width_um = seen.weighed_um;
+    let count = picture_cells(seen);
+    let ends = select(chords.first, chords.second, i >= count);
+    let share = (f32(i % count) + vec3f(0.0, 0.5, 1.0)) / f32(count);
+    let width_um = weighed_um(seen);
     return vec3f(
-        picture_place(at, ends.x, ends.y, width_um),
-        picture_place(at + 0.5, ends.x, ends.y, width_um),
-        picture_place(at + 1.0, ends.x, ends.y, width_um),
+        picture_place(share.x, ends.x, ends.y, width_um),
+        picture_place(share.y, ends.x, ends.y, width_um),
+        picture_place(share.z, ends.x, ends.y, width_um),
     );
 }
 
@@ -32,12 +33,14 @@ fn draw_picture(point: LitPoint, seen: SeenScratch, light: PictureLight, u: vec3
         let roots = four_edges_roots(outline, line, away);
         let cos_i = drawn_cos(seen, line, roots.range);
         let chords = picture_chords(roots, line);
-        for (var i = 0u; i < chords.count * PICTURE_CELLS; i += 1u) {
+        for (var i = 0u; i < chords.count * picture_cells(seen); i += 1u) {
             let ends = drawn_picture_part(seen, chords, i);
-            let here = picture_piece(seen, light, line, ends.x, ends.y, ends.z);
-            let sent = here * scratch_chord(scratch_tables, point, seen, ends.z, ends.x, cos_i);
+            // A line of its own is drawn across the band.
+            let here = picture_piece(seen, light, line, ends.x, ends.y, ends.z, vec2f(0.0));
+            let part_cos = picture_cos(seen, line, ends.y, cos_i);
+            let sent = here * scratch_chord(scratch_tables, point, seen, ends.z, ends.x, part_cos);
             if drawn_offer(&offer, sent) {
-                taken = DrawnFrom(line, DrawnPart(ends.x, ends.z, u.z * rgb_luminance(sent)), cos_i, true, here, vec3f(0.0));
+                taken = DrawnFrom(line, DrawnPart(ends.x, ends.z, u.z * rgb_luminance(sent)), part_cos, true, here, vec3f(0.0));
             }
         }
     }

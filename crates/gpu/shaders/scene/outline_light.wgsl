@@ -81,19 +81,20 @@ fn scratch_outline(tables: texture_2d_array<u32>, point: LitPoint, seen: SeenScr
         let weight_and_xi = band_line(lines, l);
         let line = band_line_at(wo, weight_and_xi.w);
         let range = outline_range(view, line, away);
-        let cos_i = chord_cos(line, range.q.x, range.q.y, seen.weighed_um);
+        let depths = chord_depths(seen, line, range.q);
         var integral = vec3f(0.0);
         var a = outline_direction(view, view.vertex_count - 1u);
         for (var i = 0u; i < view.vertex_count; i += 1u) {
             let b = outline_direction(view, i);
             let roots = band_edge_crossings(band_edge(a, b), line);
-            // Where there is no root of one sense, both ends are the middle, which counts for nothing.
-            integral += scratch_chord(tables, point, seen, select(0.0, roots.rising, roots.rises), select(0.0, roots.falling, roots.falls), cos_i);
+            // A root without its partner counts from the chord's end: all that is counted so adds up to nothing.
+            let ends = select(range.q.xx, vec2f(roots.rising, roots.falling), vec2<bool>(roots.rises, roots.falls));
+            integral += parted_chord(tables, point, seen, line, depths, ends.x, ends.y);
             a = b;
         }
         integral *= facing;
         if range.wraps {
-            integral += scratch_chord(tables, point, seen, band_q_start(line), band_q_end(line), cos_i);
+            integral += parted_chord(tables, point, seen, line, depths, band_q_start(line), band_q_end(line));
         }
         sum += weight_and_xi.xyz * integral;
         weights += weight_and_xi.xyz;

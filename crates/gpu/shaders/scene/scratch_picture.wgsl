@@ -7,13 +7,24 @@ struct PictureLight {
     picture: vec2u,
 }
 
-// The light of a part of a chord.
-fn picture_piece(seen: SeenScratch, light: PictureLight, line: BandLine, low: f32, middle: f32, high: f32) -> vec3f {
+// Parts of a chord.
+fn picture_cells(seen: SeenScratch) -> u32 {
+    return select(PICTURE_CELLS, PICTURE_ROW_CELLS, seen.is_row);
+}
+
+// The cosine for the groove's depth in a part, given that for all of the chord.
+fn picture_cos(seen: SeenScratch, line: BandLine, middle: f32, cos_i: f32) -> f32 {
+    return select(cos_i, band_cos_at(line, middle), seen.is_row);
+}
+
+// The light of a part of a chord, which stands for a band by its variance at q = 0 and for each q squared.
+fn picture_piece(seen: SeenScratch, light: PictureLight, line: BandLine, low: f32, middle: f32, high: f32, across_variance: vec2f) -> vec3f {
     let look = picture_on_chord(
         light.plane,
         picture_direction(seen, line, low),
         picture_direction(seen, line, middle),
         picture_direction(seen, line, high),
+        sqrt(max(across_variance.x + across_variance.y * middle * middle, 0.0)),
     );
     return picture_at(light.picture, look);
 }
@@ -24,17 +35,16 @@ fn picture_direction(seen: SeenScratch, line: BandLine, q: f32) -> vec3f {
 }
 
 // Of a chord from q to q.
-fn picture_chord(tables: texture_2d_array<u32>, point: LitPoint, seen: SeenScratch, light: PictureLight, line: BandLine, ends: vec2f, cos_i: f32) -> vec3f {
+fn picture_chord(tables: texture_2d_array<u32>, point: LitPoint, seen: SeenScratch, light: PictureLight, line: BandLine, ends: vec2f, cos_i: f32, across_variance: vec2f) -> vec3f {
     var sum = vec3f(0.0);
     var low = ends.x;
-    var below = scratch_below(tables, point, seen, low, cos_i);
-    for (var i = 1u; i <= PICTURE_CELLS; i += 1u) {
-        let middle = picture_place(f32(i) - 0.5, ends.x, ends.y, seen.weighed_um);
-        let high = picture_place(f32(i), ends.x, ends.y, seen.weighed_um);
-        let above = scratch_below(tables, point, seen, high, cos_i);
-        sum += (above - below) * picture_piece(seen, light, line, low, middle, high);
+    let count = picture_cells(seen);
+    for (var i = 0u; i < count; i += 1u) {
+        let middle = picture_place((f32(i) + 0.5) / f32(count), ends.x, ends.y, weighed_um(seen));
+        let high = picture_place(f32(i + 1u) / f32(count), ends.x, ends.y, weighed_um(seen));
+        let sent = scratch_chord(tables, point, seen, high, low, picture_cos(seen, line, middle, cos_i));
+        sum += sent * picture_piece(seen, light, line, low, middle, high, across_variance);
         low = high;
-        below = above;
     }
     return sum;
 }
@@ -73,18 +83,26 @@ fn scratch_picture(tables: texture_2d_array<u32>, point: LitPoint, seen: SeenScr
     let outline = picture_outline(seen, quad);
     let extent = four_edges_extent(outline, away);
     let lines = band_lines(wo.x, wo.x + extent.x, wo.x + extent.y, band.stds);
+    // Several lines see the picture where they lie.
+    var across_variance = vec2f(0.0);
+    if lines.count == 1u {
+        let axis = sphere_cap(quad.center_m, quad.radius_m).axis;
+        let q = band_from_surface(seen.tangent, point.wo + axis).y;
+        let per_q2 = seen.angle_std_rad * seen.angle_std_rad;
+        across_variance = vec2f(band.stds.w * band.stds.w - per_q2 * q * q, per_q2);
+    }
     var sum = vec3f(0.0);
     var weights = vec3f(0.0);
     for (var l = 0u; l < lines.count; l += 1u) {
         let weight_and_xi = band_line(lines, l);
         let line = band_line_at(wo, weight_and_xi.w);
         let roots = four_edges_roots(outline, line, away);
-        let cos_i = chord_cos(line, roots.range.x, roots.range.y, seen.weighed_um);
+        let cos_i = chord_cos(line, roots.range.x, roots.range.y, weighed_um(seen));
         let chords = picture_chords(roots, line);
         var integral = vec3f(0.0);
         for (var i = 0u; i < chords.count; i += 1u) {
             let ends = select(chords.first, chords.second, i == 1u);
-            integral += picture_chord(tables, point, seen, light, line, ends, cos_i);
+            integral += picture_chord(tables, point, seen, light, line, ends, cos_i, across_variance);
         }
         sum += weight_and_xi.xyz * integral;
         weights += weight_and_xi.xyz;
