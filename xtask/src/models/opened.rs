@@ -67,7 +67,10 @@ impl Opened {
         match attempt {
             Ok(Ok(outcome)) => opened.outcome = outcome,
             Ok(Err(error)) => {
-                opened.outcome = Outcome::Refused(format!("{}; {}", error.found(), error.right()));
+                // Messages name files by where they lie here.
+                let folder = format!("{}/", path.parent().unwrap_or(Path::new("")).display());
+                let reason = format!("{}; {}", error.found(), error.right());
+                opened.outcome = Outcome::Refused(reason.replace(&folder, ""));
             }
             Err(cause) => {
                 let text = cause.downcast_ref::<&str>().map(|text| (*text).to_owned());

@@ -15,6 +15,7 @@ pub fn document(sources: &[Source]) -> String {
     summary(&mut out, sources);
     lacking(&mut out, sources);
     extensions(&mut out, sources);
+    out.push_str(BY_EYE);
     out.push_str(FILES);
     for source in sources {
         files(&mut out, source);
@@ -31,6 +32,18 @@ The files are not part of Hairline. The table is made by
     cargo xtask models FOLDER...
 
 with a folder for each repository, called `OWNER+NAME`. Files and buffers of 4 MiB and more were not in the copies that were used.
+";
+
+const BY_EYE: &str = "
+## By eye
+
+Pictures of Hairline beside those that the repositories publish with their models:
+
+* market-assets, `nes`, `race-car` and `helicopter` (packed by Draco; the thumbnails are of another renderer): the same shapes, the same colours and maps, glass of the
+  visor and of the canopy at the same places. Hairline's light is a darker studio, and its ground touches the model. The thumbnails' camera sees from farther off.
+* MeshesLibrary, `Material_SpecularGlossiness_02` (`Figures/SampleImages`, rendered by Babylon.js): the same picture of dirt and stripes. Under Babylon's map of a street the
+  rough metal of the dirt is brighter than under the studio.
+* MeshesLibrary, `Mesh_PrimitivesUV_03`: two triangles by two sets of coordinates, the seam at the same place, with the same colours of vertices.
 ";
 
 const FILES: &str = "
