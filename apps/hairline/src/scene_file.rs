@@ -74,7 +74,8 @@ pub fn load(
             }
         }
     }
-    if let Some(camera) = overrides.camera {
+    let of_file = description.camera.of_file.clone();
+    if let Some(camera) = overrides.camera.or(of_file.as_deref()) {
         let taken = description.see_by(camera, &source.folder);
         taken.map_err(|error| error.in_scene_file(&source.text, &source.name))?;
     }

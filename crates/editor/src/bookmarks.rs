@@ -161,6 +161,7 @@ fn read_view(value: &Value) -> Option<Bookmark> {
     Some(Bookmark {
         name: table.get("name")?.as_str()?.to_owned(),
         camera: Camera {
+            of_file: None,
             position_m: vector("position_m")?,
             target_m: vector("target_m")?,
             up: vector("up")?,
@@ -178,6 +179,7 @@ mod tests {
 
     fn camera(x: f64) -> Camera {
         Camera {
+            of_file: None,
             position_m: [x, -0.5, 0.25],
             target_m: [0.0, 0.1, 0.0],
             up: [0.0, 0.0, 1.0],

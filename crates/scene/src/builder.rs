@@ -62,6 +62,7 @@ impl SceneBuilder {
     ) -> Result<Scene, Error> {
         description.check()?;
         description.check_gratings()?;
+        let description = &*description.with_its_camera(base_dir)?;
         let mut work = Work {
             loader,
             description,

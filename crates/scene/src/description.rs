@@ -87,9 +87,13 @@ pub struct Description {
 /// `[camera]`
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Camera {
-    /// The pinhole. Required.
+    /// A camera of a model's file in the place of this one: its name, that of its node, or its number. The exposure and the lens are of this
+    /// one. Default: none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub of_file: Option<String>,
+    /// The pinhole. Required without `of_file`.
     pub position_m: [f64; 3],
-    /// The point in the centre of the picture. Required.
+    /// The point in the centre of the picture. Required without `of_file`.
     pub target_m: [f64; 3],
     /// The direction that is up in the picture. Default: `[0, 1, 0]`, as in glTF.
     pub up: [f64; 3],

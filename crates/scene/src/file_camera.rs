@@ -1,5 +1,6 @@
 //! A scene seen by a camera of one of its models' files.
 
+use std::borrow::Cow;
 use std::path::Path;
 
 use glam::DVec3;
@@ -11,6 +12,34 @@ use crate::error::Error;
 use crate::mesh_file::{self, FileCamera, Placing};
 
 impl Description {
+    /// The same with the camera of a file that it asks for by `of_file`, if it does.
+    ///
+    /// # Errors
+    /// As of [`Description::see_by`].
+    pub fn with_its_camera(&self, base_dir: &Path) -> Result<Cow<'_, Self>, Error> {
+        let Some(wanted) = &self.camera.of_file else {
+            return Ok(Cow::Borrowed(self));
+        };
+        let mut seen = self.clone();
+        seen.see_by(wanted, base_dir)?;
+        Ok(Cow::Owned(seen))
+    }
+
+    /// The cameras of its models' files that it can be seen by: their names or their nodes', or their numbers. What cannot be read has none.
+    pub fn file_cameras(&self, base_dir: &Path) -> Vec<String> {
+        let files = self.objects.iter().filter_map(|it| match &it.surface {
+            Surface::Mesh(file) => Some(base_dir.join(file)),
+            Surface::Shape(_) => None,
+        });
+        let mut names = Vec::new();
+        for name in files.flat_map(|file| mesh_file::camera_names(&file)) {
+            if !names.contains(&name) {
+                names.push(name);
+            }
+        }
+        names
+    }
+
     /// Takes over a camera of the first model that has it: by its name or its node's, or by its number from 0. The exposure stays.
     ///
     /// # Errors
@@ -58,6 +87,7 @@ fn camera(seen: &FileCamera, before: &Camera, world_up: DVec3) -> Result<Camera,
     let middle = DVec3::from(before.target_m) - seen.position;
     let distance_m = middle.dot(seen.forward).max(10.0 * limits::SMALLEST_M);
     Ok(Camera {
+        of_file: None,
         position_m: seen.position.into(),
         target_m: (seen.position + seen.forward * distance_m).into(),
         up: up.into(),

@@ -46,7 +46,7 @@ use crate::text::shown;
 pub(crate) use cameras::FileCamera;
 pub(crate) use flaw::Flaw;
 use flaw::RIGHT;
-pub(crate) use head::{counts, left_out, names};
+pub(crate) use head::{camera_names, counts, left_out, names};
 use images::Images;
 pub use left_out::LeftOut;
 pub(crate) use left_out::Wanted;

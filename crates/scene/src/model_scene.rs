@@ -148,6 +148,7 @@ fn camera(points_m: &[DVec3], [width, height]: [u32; 2]) -> Camera {
     let tan = DVec2::new(tan_y * f64::from(width) / f64::from(height), tan_y);
     let view = framing(points_m, [right, right.cross(forward), forward], tan);
     Camera {
+        of_file: None,
         position_m: view.position_m.into(),
         target_m: view.target_m.into(),
         up: [0.0, 0.0, 1.0],

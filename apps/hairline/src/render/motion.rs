@@ -98,6 +98,7 @@ mod tests {
 
     fn camera() -> description::Camera {
         description::Camera {
+            of_file: None,
             position_m: [0.1, -0.3, 0.2],
             target_m: [0.1, 0.0, 0.0],
             up: [0.0, 0.0, 1.0],

@@ -47,10 +47,16 @@ impl Document {
         let path = path.as_ref();
         let text = reading::scene_text(path)?;
         let description = Self::read(&text, path)?;
+        let folder = path.parent().unwrap_or(Path::new(""));
+        // From here on it is one that can be moved.
+        let seen = description
+            .with_its_camera(folder)
+            .map_err(|error| error.in_scene_file(&text, path))?
+            .into_owned();
         Ok(Self {
             path: Some(path.to_owned()),
             text: Some(text.into()),
-            ..Self::untitled(description, path.parent().unwrap_or(Path::new("")))
+            ..Self::untitled(seen, folder)
         })
     }
 

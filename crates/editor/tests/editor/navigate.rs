@@ -13,6 +13,7 @@ fn camera() -> impl Strategy<Value = Camera> {
     let point = move || [coordinate(), coordinate(), coordinate()];
     (point(), point(), point(), 5.0..80.0)
         .prop_map(|(position_m, target_m, up, fov_y_deg)| Camera {
+            of_file: None,
             position_m,
             target_m,
             up,
@@ -178,6 +179,7 @@ proptest! {
 #[test]
 fn the_surface_follows_the_pointer() {
     let mut camera = Camera {
+        of_file: None,
         position_m: [0.0, 0.0, 1.0],
         target_m: [0.0; 3],
         up: [0.0, 2.0, 0.0],
@@ -200,6 +202,7 @@ fn the_surface_follows_the_pointer() {
 #[test]
 fn a_point_is_centred() {
     let mut camera = Camera {
+        of_file: None,
         position_m: [0.0, 0.0, 1.0],
         target_m: [0.0; 3],
         up: [0.0, 1.0, 0.0],

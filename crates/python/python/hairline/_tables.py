@@ -195,6 +195,8 @@ class Camera(Table):
     """``focal_length_mm`` over the opening. Set it, and ``aperture_mm`` goes; and the other way round."""
     focus_distance_m: Optional[float] = _default()
     """With an opening: the distance of what is in focus along the view, metres. Default: that of the target."""
+    of_file: Optional[str] = _default()
+    """A camera of a model's file in the place of this one: its name, its node's, or its number. Default: none."""
 
     def update(self, **keys: Any) -> None:
         lens = [keys.get("focal_length_mm"), keys.get("sensor_width_mm")]

@@ -71,7 +71,8 @@ pub(super) fn keys_without_effect(
     gather.map(|_| ("render.gather", why)).into_iter()
 }
 
-const CAMERA_KEYS: [&str; 10] = [
+const CAMERA_KEYS: [&str; 11] = [
+    "of_file",
     "position_m",
     "target_m",
     "up",
@@ -87,9 +88,19 @@ const CAMERA_KEYS: [&str; 10] = [
 impl Read for Camera {
     fn read(value: &Value, key: &str) -> Result<Self, Error> {
         let table = Table::read(value, key, &CAMERA_KEYS)?;
+        let of_file: Option<String> = table.optional("of_file")?;
+        // Until the file is read, anywhere.
+        let [position_m, target_m] = match of_file {
+            Some(_) => [
+                table.or("position_m", [0.0; 3])?,
+                table.or("target_m", [1.0; 3])?,
+            ],
+            None => [table.required("position_m")?, table.required("target_m")?],
+        };
         Ok(Self {
-            position_m: table.required("position_m")?,
-            target_m: table.required("target_m")?,
+            of_file,
+            position_m,
+            target_m,
             up: table.or("up", [0.0, 1.0, 0.0])?,
             fov_y_deg: table.or("fov_y_deg", 30.0)?,
             exposure_ev: table.or("exposure_ev", 0.0)?,

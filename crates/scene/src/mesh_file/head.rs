@@ -105,6 +105,21 @@ pub(crate) fn names(path: &Path) -> Vec<(String, PathBuf)> {
     buffers.chain(images).collect()
 }
 
+/// What the perspective cameras of a file are called: their names, else their nodes', else their numbers.
+pub(crate) fn camera_names(path: &Path) -> Vec<String> {
+    let Some((root, _)) = head(path) else {
+        return Vec::new();
+    };
+    let name = |node: &gltf::json::Node| {
+        let index = node.camera?.value();
+        let camera = root.cameras.get(index)?;
+        camera.perspective.as_ref()?;
+        let name = camera.name.clone().or_else(|| node.name.clone());
+        Some(name.unwrap_or_else(|| index.to_string()))
+    };
+    root.nodes.iter().filter_map(name).collect()
+}
+
 /// What a glTF file has and the picture has not; nothing where it cannot be read.
 pub(crate) fn left_out(path: &Path, wanted: Wanted) -> Vec<LeftOut> {
     let root = text(path).and_then(|text| from_slice(&text).ok());

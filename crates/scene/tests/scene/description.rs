@@ -169,6 +169,7 @@ fn everything() -> Description {
     ];
     Description {
         camera: Camera {
+            of_file: None,
             position_m: [1.0, 2.0, 3.0],
             target_m: [0.0; 3],
             up: [0.0, 1.0, 0.0],

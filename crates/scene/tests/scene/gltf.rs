@@ -870,6 +870,21 @@ fn a_camera_of_a_file_is_seen_by() {
     let by_name = description.camera.clone();
     description.see_by("0", dir.path()).unwrap();
     assert_eq!(description.camera, by_name);
+    assert_eq!(description.file_cameras(dir.path()), ["eye"]);
+    // A scene file says the same.
+    let whole = description.to_toml().unwrap();
+    let (_, rest) = whole.split_once("[render]").unwrap();
+    let text = format!("[camera]\nof_file = \"eye\"\nup = [0, 0, 1]\n[render]{rest}");
+    let read = Description::from_toml(&text, Path::new("test.toml")).unwrap();
+    assert_eq!(read.camera.of_file.as_deref(), Some("eye"));
+    let again = Description::from_toml(&read.to_toml().unwrap(), Path::new("test.toml")).unwrap();
+    assert_eq!(again, read);
+    let scene = Scene::build(&read, dir.path()).unwrap();
+    assert!(scene.camera.position_m.distance(position) < 1e-12);
+    let wrong = text.replace("\"eye\"", "\"nose\"");
+    let wrong = Description::from_toml(&wrong, Path::new("test.toml")).unwrap();
+    let error = Scene::build(&wrong, dir.path()).unwrap_err().to_string();
+    assert!(error.contains("its cameras are eye, plan"), "{error}");
     let mut error = |wanted: &str| description.see_by(wanted, dir.path()).unwrap_err();
     assert_eq!(error("nose").right(), "its cameras are eye, plan");
     assert!(

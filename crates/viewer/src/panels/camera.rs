@@ -1,10 +1,12 @@
 //! The camera, and how the picture is shown.
 
-use egui::{Button, Ui};
+use std::sync::Arc;
+
+use egui::{Button, Id, Ui};
 use hairline_editor::navigate::{self, Viewpoint};
 use hairline_editor::ranges::Parameter;
 use hairline_image::ToneMap;
-use hairline_scene::description::Camera;
+use hairline_scene::description::{Camera, Description, Surface};
 
 use super::form::Form;
 use crate::command::Command;
@@ -41,8 +43,48 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace) {
             }
         }
     });
+    show_file_cameras(ui, work);
     show_views(ui, work);
     show_render(ui, work);
+}
+
+/// The cameras of the models' files.
+fn show_file_cameras(ui: &mut Ui, work: &mut Workspace) {
+    let description = work.document.description();
+    let surfaces = description.objects.iter().map(|it| &it.surface);
+    let files: Vec<_> = surfaces
+        .filter_map(|it| match it {
+            Surface::Mesh(file) => Some(file.clone()),
+            Surface::Shape(_) => None,
+        })
+        .collect();
+    // Files are not read for each frame of the window.
+    let key = Id::new(("cameras of files", work.document.base_dir(), files));
+    let known = ui.data(|data| data.get_temp::<Arc<[String]>>(key));
+    let names = known.unwrap_or_else(|| {
+        let names: Arc<[String]> = description.file_cameras(work.document.base_dir()).into();
+        ui.data_mut(|data| data.insert_temp(key, names.clone()));
+        names
+    });
+    if names.is_empty() {
+        return;
+    }
+    ui.add_space(8.0);
+    ui.strong("Cameras of the model's file");
+    ui.horizontal_wrapped(|ui| {
+        for name in names.iter().filter(|name| ui.button(&***name).clicked()) {
+            let mut seen = Description::clone(work.document.description());
+            match seen.see_by(name, work.document.base_dir()) {
+                Ok(()) => {
+                    let label = format!("See by the camera {name}");
+                    work.document.edit(&label, |d| d.camera = seen.camera);
+                    work.free_view.end();
+                    work.notices.clear("file camera");
+                }
+                Err(error) => work.notices.error("file camera", error.to_string()),
+            }
+        }
+    });
 }
 
 /// A lens in place of a pinhole.

@@ -118,6 +118,7 @@ mod tests {
 
     fn camera() -> Camera {
         Camera {
+            of_file: None,
             position_m: [0.1, -0.5, 0.3],
             target_m: [0.0, 0.02, 0.01],
             up: [0.0, 0.0, 1.0],

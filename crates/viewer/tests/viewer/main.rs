@@ -16,6 +16,7 @@ mod gives_way;
 mod gizmos;
 mod habits;
 mod lost;
+mod model_files;
 mod numbers;
 mod on_disk;
 mod panels;

@@ -43,8 +43,8 @@ fn a_double_click_where_the_disks_centre_is_seen_looks_at_its_centre() {
     assert!(target_m.length() < 1e-5, "{target_m} instead of the origin");
 }
 
-/// Two squares beside each other, 10 cm wide: the right one is a node "clasp" of a material "gold".
-fn two_squares(dir: &std::path::Path) {
+/// Two squares beside each other, 10 cm wide: the right one is a node "clasp" of a material "gold". A camera "front" stands before them.
+pub(crate) fn two_squares(dir: &std::path::Path) {
     let corners = [[-0.1, 0.0], [0.0, 0.0], [0.0, 0.1], [-0.1, 0.1]];
     let right = corners.map(|[x, y]| [x + 0.1, y]);
     let floats = corners.into_iter().chain(right);
@@ -63,7 +63,9 @@ fn two_squares(dir: &std::path::Path) {
         )
     };
     let text = format!(
-        r#"{{"asset":{{"version":"2.0"}},"scenes":[{{"nodes":[0,1]}}],"nodes":[{{"name":"strap","mesh":0}},{{"name":"clasp","mesh":1}}],
+        r#"{{"asset":{{"version":"2.0"}},"scenes":[{{"nodes":[0,1,2]}}],
+        "nodes":[{{"name":"strap","mesh":0}},{{"name":"clasp","mesh":1}},{{"name":"front","camera":0,"translation":[0,0,0.5]}}],
+        "cameras":[{{"type":"perspective","perspective":{{"yfov":0.5,"znear":0.1}}}}],
         "meshes":[{},{}],"materials":[{{"name":"steel"}},{{"name":"gold"}}],"buffers":[{{"uri":"a.bin","byteLength":108}}],
         "bufferViews":[{{"buffer":0,"byteOffset":0,"byteLength":96}},{{"buffer":0,"byteOffset":96,"byteLength":12}}],
         "accessors":[{},{},{{"bufferView":1,"componentType":5123,"count":6,"type":"SCALAR"}}]}}"#,

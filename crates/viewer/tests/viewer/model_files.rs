@@ -1,0 +1,84 @@
+//! What of a model's file is changed and chosen in the panels.
+
+use crate::common::{self, click_on, description, undo, wait_built, wait_until};
+use crate::picking::two_squares;
+use egui::accesskit::Role;
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+use hairline_editor::Selection;
+use hairline_scene::description::Override;
+use hairline_viewer::engine::Backend;
+use hairline_viewer::{Options, Viewer};
+
+/// A scene of two squares, and what is selected in it.
+fn opened(selection: Selection) -> (Harness<'static, Viewer>, tempfile::TempDir) {
+    let dir = tempfile::tempdir().unwrap();
+    two_squares(dir.path());
+    let scene = dir.path().join("a.toml");
+    let text = "[camera]\nposition_m = [0, 0, 0.4]\ntarget_m = [0, 0, 0]\n\
+        [[object]]\nname = \"it\"\nmesh = \"a.gltf\"\n";
+    std::fs::write(&scene, text).unwrap();
+    let mut harness = common::viewer_with(Options {
+        scene: Some(scene),
+        built_in: common::SMALL,
+        backend: Backend::Cpu,
+        state_dir: None,
+        native_dialogs: false,
+        transport: hairline_scene::Transport::DIRECT,
+    });
+    wait_built(&mut harness);
+    harness.state_mut().document_mut().select(selection);
+    harness.run_steps(3);
+    (harness, dir)
+}
+
+/// Until a material of the built scene has this roughness, and the other one its own.
+fn wait_for_roughness(harness: &mut Harness<'static, Viewer>, gold: f64) {
+    wait_until(harness, "the roughness of gold", |viewer| {
+        viewer.engine().built().is_some_and(|built| {
+            let of = |name: &str| {
+                let mut materials = built.scene.materials.iter();
+                materials.find(|it| it.name == name).map(|it| it.roughness)
+            };
+            of("gold") == Some(gold) && of("steel") == Some(1.0)
+        })
+    });
+}
+
+#[test]
+fn a_material_of_a_file_gets_another_roughness_and_its_own_again() {
+    let (mut harness, _dir) = opened(Selection::Object(0));
+    click_on(&mut harness, "gold");
+    harness.run_steps(30);
+    let set = |harness: &mut Harness<'static, Viewer>| {
+        let number = harness.get_by_role_and_label(Role::SpinButton, "Roughness");
+        number.set_value_accesskit(0.25);
+        harness.run_steps(3);
+    };
+    set(&mut harness);
+    let expected = Override {
+        roughness: Some(0.25),
+        ..Override::new("gold")
+    };
+    assert_eq!(description(&harness).objects[0].overrides, [expected]);
+    wait_for_roughness(&mut harness, 0.25);
+    undo(&mut harness);
+    assert_eq!(description(&harness).objects[0].overrides, []);
+    wait_for_roughness(&mut harness, 1.0);
+    set(&mut harness);
+    wait_for_roughness(&mut harness, 0.25);
+    click_on(&mut harness, "As in the file");
+    assert_eq!(description(&harness).objects[0].overrides, []);
+}
+
+#[test]
+fn the_scene_is_seen_by_a_camera_of_its_models_file() {
+    let (mut harness, _dir) = opened(Selection::Camera);
+    let before = description(&harness).camera.clone();
+    click_on(&mut harness, "front");
+    let camera = description(&harness).camera.clone();
+    assert_eq!(camera.position_m, [0.0, 0.0, 0.5]);
+    assert!((camera.fov_y_deg - 0.5_f64.to_degrees()).abs() < 1e-5);
+    undo(&mut harness);
+    assert_eq!(description(&harness).camera, before);
+}
