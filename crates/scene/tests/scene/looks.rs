@@ -185,3 +185,42 @@ fn surfaces_are_cut_out_by_their_alpha() {
     };
     assert_eq!(cutout(blend), Some(expected));
 }
+
+/// From a file that requires the extension to the texels that the program unpacks that packed them.
+#[test]
+fn images_of_basis_universal_are_textures() {
+    let dir = temporary_dir();
+    let images = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/scene/images/");
+    for name in ["etc1s.ktx2", "uastc_zstd.ktx2"] {
+        std::fs::copy(format!("{images}{name}"), dir.path().join(name)).unwrap();
+    }
+    let mut glb = Glb::default();
+    let positions = glb.floats(&[[0.0f32, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
+    let indices = glb.indices(&[0, 1, 2]);
+    let mesh = format!(
+        r#"{{"primitives":[{{"attributes":{{"POSITION":{positions}}},"indices":{indices},"material":0}}]}}"#
+    );
+    glb.more = r#","extensionsUsed":["KHR_texture_basisu"],"extensionsRequired":["KHR_texture_basisu"],
+        "images":[{"uri":"uastc_zstd.ktx2"},{"uri":"etc1s.ktx2"}],
+        "textures":[{"extensions":{"KHR_texture_basisu":{"source":1}}},{"extensions":{"KHR_texture_basisu":{"source":0}}}],
+        "materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}},"emissiveTexture":{"index":1}}]"#
+        .to_owned();
+    std::fs::write(dir.path().join("it.glb"), glb.bytes(&mesh, r#"{"mesh":0}"#)).unwrap();
+    let text = scene_with("[[object]]\nname = \"it\"\nmesh = \"it.glb\"\n");
+    let scene = Scene::from_toml(&text, "test.toml", dir.path()).unwrap();
+    assert_eq!(scene.notes, [""; 0]);
+    let material = scene.materials.last().unwrap();
+    for (index, name) in [
+        (material.base_color_texture, "etc1s.png"),
+        (material.emission_texture, "uastc_zstd.png"),
+    ] {
+        let unpacked = image::open(format!("{images}{name}")).unwrap().into_rgba8();
+        let texture = texture(&scene, index);
+        assert_eq!(texture.size_px, [unpacked.width(), unpacked.height()]);
+        assert_eq!(
+            texture.levels[0].as_flattened(),
+            unpacked.as_raw(),
+            "{name}"
+        );
+    }
+}

@@ -59,7 +59,7 @@ fn show_file_cameras(ui: &mut Ui, work: &mut Workspace) {
         })
         .collect();
     // Files are not read for each frame of the window.
-    let key = Id::new(("cameras of files", work.document.base_dir(), files));
+    let key = Id::unique(("cameras of files", work.document.base_dir(), files));
     let known = ui.data(|data| data.get_temp::<Arc<[String]>>(key));
     let names = known.unwrap_or_else(|| {
         let names: Arc<[String]> = description.file_cameras(work.document.base_dir()).into();
