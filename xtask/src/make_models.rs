@@ -3,6 +3,7 @@
 
 mod glb;
 mod handle_texture;
+mod knife;
 mod sky;
 mod soft_box;
 mod spline;
@@ -32,6 +33,7 @@ impl MakeModels {
         let scenes = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../scenes");
         for (name, bytes) in [
             ("models/spoon.glb", spoons()?),
+            ("models/knife.glb", cooks_knife()?),
             ("maps/evening.hdr", sky::evening()?),
             ("maps/soft_box.png", soft_box::cloth()?),
         ] {
@@ -120,6 +122,49 @@ fn spoons() -> Result<Vec<u8>> {
         { "name": "handle", "mesh": 1, "translation": handle_at },
     ]);
     glb.root["scenes"] = json!([{ "name": "spoons", "nodes": [0] }]);
+    glb.root["scene"] = json!(0);
+    glb.finish()
+}
+
+/// A cook's knife on its side, y up, metres, the middle of the blade's heel at the origin.
+fn cooks_knife() -> Result<Vec<u8>> {
+    let mut glb = Glb::default();
+    let metal = |name: &str, roughness: f64| {
+        json!({
+            "name": name,
+            "pbrMetallicRoughness": { "baseColorFactor": [0.6, 0.58, 0.56, 1.0], "roughnessFactor": roughness },
+        })
+    };
+    glb.root["materials"] = json!([
+        metal("blade", 0.09),
+        metal("edge", 0.08),
+        metal("bolster", 0.06),
+        {
+            "name": "handle",
+            "pbrMetallicRoughness": {
+                "baseColorFactor": [0.045, 0.02, 0.011, 1.0], "metallicFactor": 0.0, "roughnessFactor": 0.38,
+            },
+        },
+        metal("rivets", 0.12),
+    ]);
+    let parts = [
+        knife::blade(),
+        knife::edge_bevel(),
+        knife::bolster(),
+        knife::handle(),
+        knife::rivets(),
+    ];
+    let primitives: Vec<_> = (0..)
+        .zip(&parts)
+        .map(|(i, part)| glb.primitive(part, i, Uses { tangents: false }))
+        .collect();
+    glb.root["meshes"] = json!([{ "name": "knife", "primitives": primitives }]);
+    let rotation = DQuat::from_rotation_x(-FRAC_PI_2).as_quat().to_array();
+    // Millimetres, z up, to metres, y up.
+    glb.root["nodes"] = json!([
+        { "name": "knife", "mesh": 0, "scale": [0.001, 0.001, 0.001], "rotation": rotation },
+    ]);
+    glb.root["scenes"] = json!([{ "name": "knife", "nodes": [0] }]);
     glb.root["scene"] = json!(0);
     glb.finish()
 }
