@@ -5,8 +5,6 @@ const GROOVES_SINGLE_STD: f32 = 0.5;
 const GROOVES_MEAN_STD: f32 = 1.0;
 // Grooves that are asked for on either side.
 const GROOVES_REACH: i32 = 6;
-// Angle between the planes or cones that cut grooves: eight to a half turn.
-const GROOVES_CUT_RAD: f32 = 0.39269908;
 
 // Grooves about a point.
 struct GroovesAt {
@@ -29,14 +27,21 @@ fn grooves_across(grating: Grating, arm_m: vec3f, direction: vec3f) -> vec4f {
     return vec4f(radius_m, height_m, dot(direction, away_m) / max(radius_m, 1e-30), dot(direction, grating.axis));
 }
 
+// Of the planes or cones that cut grooves, eight to a half turn, the one nearest to a direction.
+fn grooves_cut(towards: vec2f) -> vec2f {
+    let size = abs(towards);
+    let slope = min(size.x, size.y) / max(max(size.x, size.y), 1e-30);
+    let slanted = select(vec2f(0.92387953, 0.38268343), vec2f(0.70710678), slope >= 0.66817864);
+    let cut = select(slanted, vec2f(1.0, 0.0), slope < 0.19891237);
+    return sign(towards) * select(cut.yx, cut, size.x >= size.y);
+}
+
 // The grooves so far from the middle of their field, counted along a unit direction across them.
 fn grooves_at(grating: Grating, arm_m: vec3f, across: vec3f) -> GroovesAt {
     let place = grooves_across(grating, arm_m, across);
-    // The nearest cut.
-    let turns = round(atan2(place.w, place.z) / GROOVES_CUT_RAD);
+    let cut = grooves_cut(place.zw);
     // The other way counts the same grooves.
-    let direction = select(1.0, -1.0, turns > 4.5 || turns < -3.5);
-    let cut = vec2f(cos(turns * GROOVES_CUT_RAD), sin(turns * GROOVES_CUT_RAD));
+    let direction = select(1.0, -1.0, cut.x < 0.0 || (cut.x == 0.0 && cut.y < 0.0));
     let along_m = direction * dot(place.xy, cut);
     // At least the cosine of half a cut, where the direction is one.
     let stretch = direction / max(dot(place.zw, cut), 0.5);

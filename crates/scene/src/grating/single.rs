@@ -4,11 +4,29 @@
 use super::{Bearing, Grating, GrooveField};
 use glam::DVec3;
 use hairline_optics::grating::GroovesAt;
-use std::f64::consts::PI;
+use std::f64::consts::FRAC_1_SQRT_2;
 
-/// Single grooves are cut by planes or cones at one of so many angles to a half turn, the nearest to across the surface: they go on over
-/// slopes, and are at most 2 % further apart than the pitch.
-const CUTS: f64 = 8.0;
+/// Single grooves are cut by planes or cones at one of eight angles to a half turn, the nearest to across the surface: they go on over slopes, and are
+/// at most 2 % further apart than the pitch. In an eighth of a turn there are three, the cosine and the sine of each, up to a slope.
+const CUTS: [([f64; 2], f64); 3] = [
+    ([1.0, 0.0], 0.198_912_367_4),
+    ([0.923_879_532_5, 0.382_683_432_4], 0.668_178_637_9),
+    ([FRAC_1_SQRT_2, FRAC_1_SQRT_2], f64::INFINITY),
+];
+
+/// The cut nearest to a direction.
+fn cut([x, y]: [f64; 2]) -> [f64; 2] {
+    let (far, near) = (x.abs().max(y.abs()), x.abs().min(y.abs()));
+    let [.., last] = CUTS;
+    let found = CUTS.iter().find(|(_, most)| near < most * far);
+    let [cos, sin] = found.unwrap_or(&last).0;
+    let [along_x, along_y] = if x.abs() >= y.abs() {
+        [cos, sin]
+    } else {
+        [sin, cos]
+    };
+    [along_x.copysign(x), along_y.copysign(y)]
+}
 
 impl GrooveField {
     /// Two coordinates of a point that grooves stay at, and how they change along a direction. None where grooves do not run side by side for
@@ -82,16 +100,13 @@ impl Grating {
     /// The grooves about a point, counted along a unit direction across them, in the plane of the surface. None where they have no numbers.
     pub fn grooves_at(&self, point_m: DVec3, across: DVec3) -> Option<GroovesAt> {
         let [place_m, slope] = self.field.across_m(point_m, across)?;
-        let turn = PI / CUTS;
-        let angle = (slope[1].atan2(slope[0]) / turn).round() * turn;
+        let [cos, sin] = cut(slope);
         // The other way counts the same grooves.
-        let half = 0.5 * PI + 1e-3 * turn;
-        let sign = if (half - PI..half).contains(&angle) {
-            1.0
-        } else {
+        let sign = if cos < 0.0 || (cos == 0.0 && sin < 0.0) {
             -1.0
+        } else {
+            1.0
         };
-        let (sin, cos) = angle.sin_cos();
         let along_m = sign * (place_m[0] * cos + place_m[1] * sin);
         let stretch = 1.0 / (slope[0] * cos + slope[1] * sin);
         let pitch_m = 1e-6 * self.row.pitch_um;
