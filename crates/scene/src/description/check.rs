@@ -2,7 +2,8 @@
 
 use super::limits;
 use super::ranges::{
-    Check, components, direction, finite, found, not_negative, point, size, spread, within,
+    Check, check_seed, components, direction, finite, found, not_negative, point, size, spread,
+    within,
 };
 use super::sizes;
 use super::{
@@ -296,20 +297,6 @@ fn stroke(stroke: &Stroke, paints: bool, key: &str) -> Check {
             within(&format!("{key}.depth"), depth, limits::STROKE_FACTOR)
         }
     }
-}
-
-/// The seed of what draws random numbers.
-pub(super) fn check_seed(seed: u64, key: &str) -> Check {
-    if seed > limits::LARGEST_SEED {
-        // TOML's integers end there, so it could not be saved.
-        let found = format!("found {seed}");
-        return Err(Error::new(
-            format!("{key}.seed"),
-            found,
-            "must be below 2^63",
-        ));
-    }
-    Ok(())
 }
 
 /// The seed of a layer that draws random numbers, and its lengths, widths and depths.

@@ -2,9 +2,8 @@
 
 use serde::Serialize;
 
-use super::check::check_seed;
 use super::limits;
-use super::ranges::{Check, positive, within};
+use super::ranges::{Check, check_seed, positive, within};
 use super::read::around;
 use super::scratches::{Around, DEFAULT_SEED, Distribution, Pattern};
 use super::table::{Read, Table, Value};

@@ -97,3 +97,17 @@ pub(super) fn spread(key: &str, drawn: Distribution, spreads: RangeInclusive<f64
         }
     }
 }
+
+/// The seed of what draws random numbers.
+pub(super) fn check_seed(seed: u64, key: &str) -> Check {
+    if seed > limits::LARGEST_SEED {
+        // TOML's integers end there, so it could not be saved.
+        let found = format!("found {seed}");
+        return Err(Error::new(
+            format!("{key}.seed"),
+            found,
+            "must be below 2^63",
+        ));
+    }
+    Ok(())
+}
