@@ -4,6 +4,7 @@ mod accuracy;
 mod dist;
 mod fit_lobes;
 mod fuzz;
+mod gratings;
 mod make_models;
 mod models;
 mod package;
@@ -29,6 +30,8 @@ enum Command {
     FitLobes(fit_lobes::FitLobes),
     /// Run mutated inputs through the command line: no panic, no hang, no flood of memory.
     Fuzz(fuzz::Fuzz),
+    /// Measure gratings against the full wave, and write docs/accuracy/gratings.md.
+    Gratings(gratings::Gratings),
     /// Make the models and the sky of scenes/, and write them to scenes/models and scenes/maps.
     MakeModels(make_models::MakeModels),
     /// Open and render glTF files of public repositories, and write docs/accuracy/models.md.
@@ -59,6 +62,7 @@ fn main() -> anyhow::Result<()> {
         Command::Dist(command) => command.run(),
         Command::FitLobes(command) => command.run(),
         Command::Fuzz(command) => command.run(),
+        Command::Gratings(command) => command.run(),
         Command::MakeModels(command) => command.run(),
         Command::Models(command) => command.run(),
         Command::Package(command) => command.run(),
