@@ -15,7 +15,7 @@ use anyhow::{Context, Result, bail};
 use hairline_image::output::write_atomically;
 use hairline_scene::SceneBuilder;
 use hairline_scene::description::Description;
-use opened::{Opened, Outcome};
+use opened::{Opened, Outcome, Source};
 
 /// Options of `models`.
 #[derive(clap::Args)]
@@ -31,12 +31,6 @@ pub struct Models {
     /// Only files whose path contains this; nothing is written but pictures then.
     #[arg(long)]
     only: Option<String>,
-}
-
-/// What became of the files of a source.
-struct Source {
-    name: String,
-    files: Vec<Opened>,
 }
 
 impl Models {

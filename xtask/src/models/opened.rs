@@ -15,6 +15,12 @@ use serde_json::Value;
 
 const SIZE_PX: [u32; 2] = [96, 54];
 
+/// What became of the files of a source.
+pub struct Source {
+    pub name: String,
+    pub files: Vec<Opened>,
+}
+
 /// What became of a file.
 pub struct Opened {
     /// Below its source.

@@ -3,8 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
-use super::Source;
-use super::opened::{Opened, Outcome};
+use super::opened::{Opened, Outcome, Source};
 
 /// So many files of one outcome are named; of more the first ones.
 const NAMED: usize = 12;

@@ -5,7 +5,6 @@ use gltf::json::Value;
 use gltf::material::Material;
 
 use super::flaw::Flaw;
-use super::uv::{self, Way};
 use crate::scene::Coat;
 
 const NAME: &str = "KHR_materials_clearcoat";
@@ -26,35 +25,19 @@ pub(super) fn coat(material: &Material) -> Option<Coat> {
     (coat.weight > 0.0).then_some(coat)
 }
 
-/// The textures on the factors, and how each lies.
-pub(super) fn textures<'a>(
-    document: &'a Document,
-    material: &Material,
-) -> Result<[Option<(gltf::Texture<'a>, Way)>; 2], Flaw> {
-    let mut textures = [None, None];
-    for (texture, name) in textures.iter_mut().zip(TEXTURES) {
-        let used = material.extension_value(NAME).and_then(|it| it.get(name));
-        let Some((used, way)) = used.and_then(|used| Some((used, uv::of_json(used)?))) else {
-            continue;
-        };
-        let index = used.get("index").and_then(Value::as_u64);
-        let index = index.and_then(|index| usize::try_from(index).ok());
-        let known = index.and_then(|index| document.textures().nth(index));
-        let known = known.ok_or_else(|| {
-            let found = format!("a {name} is a texture that is not there");
-            Flaw::new(found, super::RIGHT)
-        })?;
-        *texture = Some((known, way));
-    }
-    Ok(textures)
+/// What the file says of each texture on the factors of a layer that is there.
+pub(super) fn uses<'a>(material: &'a Material<'a>) -> [Option<&'a Value>; 2] {
+    let there = coat(material).and_then(|_| material.extension_value(NAME));
+    TEXTURES.map(|name| there?.get(name))
 }
 
-/// How the textures of a layer lie.
-pub(super) fn ways(material: &Material) -> impl Iterator<Item = Way> {
-    let extension = material
-        .extension_value(NAME)
-        .filter(|_| coat(material).is_some());
-    TEXTURES
-        .into_iter()
-        .filter_map(move |name| uv::of_json(extension?.get(name)?))
+/// The texture that a use names.
+pub(super) fn texture<'a>(document: &'a Document, used: &Value) -> Result<gltf::Texture<'a>, Flaw> {
+    let index = used.get("index").and_then(Value::as_u64);
+    let index = index.and_then(|index| usize::try_from(index).ok());
+    let known = index.and_then(|index| document.textures().nth(index));
+    known.ok_or_else(|| {
+        let found = "a texture of its clear coat is not there";
+        Flaw::new(found, super::flaw::RIGHT)
+    })
 }

@@ -96,10 +96,14 @@ impl Own<'_> {
         let normals = material.normal_texture();
         let occlusion = material.occlusion_texture();
         let coat = coat::coat(material).filter(|_| !is_unlit);
-        let [of_weight, of_roughness] = match coat {
-            Some(_) => coat::textures(self.document, material)?,
-            None => [None, None],
-        };
+        let mut of_coat = [None, None];
+        for (texture, used) in of_coat.iter_mut().zip(coat::uses(material)) {
+            let used = used.filter(|_| coat.is_some());
+            if let Some((used, way)) = used.and_then(|used| Some((used, uv::of_json(used)?))) {
+                *texture = Some((coat::texture(self.document, used)?, way));
+            }
+        }
+        let [of_weight, of_roughness] = of_coat;
         Ok(Material {
             name: material.name().unwrap_or("glTF default").to_owned(),
             base: Base::MetallicRoughness {

@@ -101,7 +101,10 @@ fn all(material: &Material) -> Vec<Way> {
     let older = ["diffuseTexture", "specularGlossinessTexture"]
         .into_iter()
         .filter_map(|name| of_json(older?.get(name)?));
-    let coat = coat::ways(material);
+    let coat = coat::uses(material)
+        .into_iter()
+        .flatten()
+        .filter_map(of_json);
     normal
         .into_iter()
         .chain(rest)
