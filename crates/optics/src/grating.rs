@@ -12,9 +12,13 @@ use num_complex::Complex64;
 use std::f64::consts::PI;
 
 use crate::diffraction::sinc;
+use crate::spectrum::WAVELENGTH_MIN_NM;
 
 pub use single::GroovesAt;
 pub use table::{GRATING_DEPTH_NM, GRATING_WIDTH_UM};
+
+/// Phases at which the most that a row takes is looked for.
+const PHASES: u32 = 16;
 
 /// A row of parallel grooves of rectangular profile.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -110,6 +114,21 @@ impl Grating {
         } else {
             self.order_weight(order) * step.norm_sqr()
         }
+    }
+
+    /// An upper bound of what the row takes of the mirror's direction, 1 - eta_0 of (43), over all wavelengths and angles.
+    pub fn most_taken(&self) -> f64 {
+        let fill = self.fill();
+        // Spread depths take the most within the first turn of the phase.
+        let last = (4.0 * PI * self.depth_nm / WAVELENGTH_MIN_NM).min(2.0 * PI);
+        let taken = (0..=PHASES).map(|i| {
+            let phase = last * f64::from(i) / f64::from(PHASES);
+            let std = phase * self.depth_spread;
+            let kept = (-0.5 * std * std).exp();
+            let real = 1.0 - kept * phase.cos();
+            2.0 * fill * real - fill * fill * (2.0 * real - 1.0 + kept * kept)
+        });
+        taken.fold(0.0, f64::max).clamp(1e-3, 1.0)
     }
 }
 

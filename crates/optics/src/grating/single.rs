@@ -5,7 +5,6 @@
 //! factor on what the row sends. Grooves much narrower than the window are then the scratches of (20), at the places that their numbers give.
 
 use super::Grating;
-use crate::spectrum::WAVELENGTH_MIN_NM;
 use std::f64::consts::PI;
 
 /// Standard deviation of pixel and window, in pitches, up to which single grooves are seen as they are.
@@ -16,9 +15,6 @@ const MEAN_STD: f64 = 1.0;
 
 /// Grooves that are asked for on either side: those that are off their places may be as far away.
 const REACH: i32 = 6;
-
-/// Phases at which the most that a row takes is looked for.
-const PHASES: u32 = 16;
 
 /// Grooves about a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,21 +59,6 @@ impl Grating {
     pub fn groove_offset_um(&self, at: GroovesAt, step: i32, seed: u32) -> f64 {
         let shift = self.jitter_um / self.pitch_um * groove_shift(at.number + step, seed);
         at.offset_um + (f64::from(step) + shift) * at.pitch_um
-    }
-
-    /// An upper bound of what the row takes of the mirror's direction, 1 - eta_0 of (43), over all wavelengths and angles.
-    pub fn most_taken(&self) -> f64 {
-        let fill = self.fill();
-        // Spread depths take the most within the first turn of the phase.
-        let last = (4.0 * PI * self.depth_nm / WAVELENGTH_MIN_NM).min(2.0 * PI);
-        let taken = (0..=PHASES).map(|i| {
-            let phase = last * f64::from(i) / f64::from(PHASES);
-            let std = phase * self.depth_spread;
-            let kept = (-0.5 * std * std).exp();
-            let real = 1.0 - kept * phase.cos();
-            2.0 * fill * real - fill * fill * (2.0 * real - 1.0 + kept * kept)
-        });
-        taken.fold(0.0, f64::max).clamp(1e-3, 1.0)
     }
 }
 
