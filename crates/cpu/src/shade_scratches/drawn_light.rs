@@ -12,6 +12,13 @@ use hairline_optics::band::{
 use hairline_optics::band_environment::EnvironmentCell;
 use hairline_scene::Environment;
 
+/// Parts of a cell that are above and below zero may send nothing together, and then one of them would stand for many times the whole: no ray weighs
+/// more than as if all parts were so many times their cell.
+const PARTS_OVER_CELL_MOST: f64 = 4.0;
+
+/// The same of cells, beyond which a ray stands for a share of the total.
+const CELLS_OVER_TOTAL_MOST: f64 = 3.0;
+
 /// A direction of a source by way of a scratch.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct DrawnLight {
@@ -224,12 +231,21 @@ impl ScratchLight<'_> {
         let ends = [(-1.0, part.q_low), (1.0, part.q_high)];
         offers.offer(line, ends.into_iter(), |q| response(q).into(), part_u);
         let (direction, by_groove) = offers.place()?;
-        let chance = of_cell / cells.weight * of_part / parts.weight;
-        let sent = from(direction, 0.0) * by_groove * (luminance(offers.lines.total) / chance);
+        let cancelling = (parts.weight / of_cell).min(PARTS_OVER_CELL_MOST);
+        let over_chance = cells.weight * cancelling / of_part;
+        // Blurred as a part: beside a window's edge the sharp map rises and falls by more than all of it sends.
+        let blur = part.environment_cell_roughness();
+        let sent =
+            from(direction, blur) * by_groove * (luminance(offers.lines.total) * over_chance);
         let color = sent / cells.total;
+        let is_telling = cells.weight < CELLS_OVER_TOTAL_MOST * luminance(cells.total).abs();
         Some(DrawnLight {
             direction: self.frame.surface_from_band(direction),
-            color: DVec3::select(cells.total.cmpne(DVec3::ZERO), color, DVec3::ONE),
+            color: if is_telling && color.is_finite() {
+                color
+            } else {
+                DVec3::ONE
+            },
         })
     }
 

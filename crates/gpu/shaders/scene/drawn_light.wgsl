@@ -255,6 +255,11 @@ fn draw_all_around(point: LitPoint, seen: SeenScratch, u: vec2f) -> DrawnFrom {
     return cell.from_there;
 }
 
+// Parts of a cell that are above and below zero may send nothing together: no ray weighs more than as if all parts were so many times their cell; of
+// cells, beyond which a ray stands for a share of the total.
+const DRAWN_PARTS_OVER_CELL_MOST: f32 = 4.0;
+const DRAWN_CELLS_OVER_TOTAL_MOST: f32 = 3.0;
+
 // Parts of a cell, even in q. Twin: EnvironmentCell::parts of optics.
 const DRAWN_CELL_PARTS: u32 = 6u;
 
@@ -275,8 +280,10 @@ fn draw_around(point: LitPoint, seen: SeenScratch, cells: u32, map_from_surface:
     from_there.filter_by = vec3f(1.0);
     from_there.total = vec3f(1.0);
     var offer = drawn_offers(cell.left);
-    // What the groove sends of light of radiance 1, over the chance of the cell and of the part.
+    // What the groove sends of light of radiance 1, over what comes from the part.
     var by_groove = 0.0;
+    // Beside a window's edge the sharp map rises and falls by more than all of it sends: it is blurred as for a part.
+    var roughness = 0.0;
     for (var i = 0u; i < DRAWN_CELL_PARTS; i += 1u) {
         let part = drawn_cell_part(i, cell.from_there.line, cell.from_there.part.low, cell.from_there.part.high);
         let chord = scratch_chord(scratch_tables, point, seen, part.q_high, part.q_low, part.direction.z);
@@ -286,15 +293,18 @@ fn draw_around(point: LitPoint, seen: SeenScratch, cells: u32, map_from_surface:
             from_there.part = DrawnPart(part.q_low, part.q_high, u.y * luminance);
             from_there.cos_i = part.direction.z;
             from_there.is_there = cell.from_there.is_there;
-            by_groove = luminance / (cell.chance * abs(rgb_luminance(sent)));
+            roughness = environment_cell_roughness(part);
+            by_groove = luminance / abs(rgb_luminance(sent));
         }
     }
     var drawn = drawn_direction(point, seen, from_there);
     if drawn.is_there {
-        let really = environment_prefiltered_lod(levels_beside_windows, map_from_surface * drawn.direction, 0.0);
+        let really = environment_prefiltered(levels_beside_windows, map_from_surface * drawn.direction, roughness);
         let total = cell.from_there.total;
-        let color = drawn.color * really * (by_groove * offer.weight) / total;
-        drawn.color = select(vec3f(1.0), color, total != vec3f(0.0));
+        let cancelling = min(offer.weight / abs(cell.luminance), DRAWN_PARTS_OVER_CELL_MOST);
+        let color = drawn.color * really * (by_groove * cancelling * cell.weight) / total;
+        let is_telling = cell.weight < DRAWN_CELLS_OVER_TOTAL_MOST * abs(rgb_luminance(total));
+        drawn.color = select(vec3f(1.0), color, is_telling & all(total != vec3f(0.0)));
     }
     return drawn;
 }
@@ -316,7 +326,7 @@ fn drawn_cell_light(seen: SeenScratch, map_from_surface: mat3x3f, cell: Environm
 struct DrawnCell {
     from_there: DrawnFrom,      // the whole cell
     luminance: f32,             // of what comes from it
-    chance: f32,                // by which it was drawn
+    weight: f32,                // of all cells
     left: f32,                  // of the number that chooses
 }
 
@@ -340,7 +350,7 @@ fn draw_cell(point: LitPoint, seen: SeenScratch, cells: u32, map_from_surface: m
         }
     }
     taken.from_there.total = offer.total;
-    taken.chance = abs(taken.luminance) / max(offer.weight, 1e-30);
+    taken.weight = offer.weight;
     taken.left = offer.left;
     return taken;
 }
