@@ -14,7 +14,7 @@ pub(crate) const GROUND: Color32 = Color32::from_gray(30);
 /// Dark and without hue, so that the eye judges the picture's colours and not the frame's.
 pub(crate) fn set(ctx: &egui::Context) {
     #[cfg(target_arch = "wasm32")]
-    ctx.add_font(signs());
+    ctx.set_fonts(fonts());
     ctx.set_theme(ThemePreference::Dark);
     let mut visuals = Visuals::dark();
     visuals.panel_fill = GROUND;
@@ -37,18 +37,32 @@ pub(crate) fn set(ctx: &egui::Context) {
     });
 }
 
-/// The signs on buttons and in menus that no font of text has. On a desktop they come from egui's fonts of all emoji, which would be an
-/// eighth of what a browser loads.
+/// One font of text, and the signs that it lacks. On a desktop both come from egui's own fonts, which would be a fifth of what a browser loads.
 #[cfg(target_arch = "wasm32")]
-fn signs() -> egui::epaint::text::FontInsert {
-    use egui::epaint::text::{FontData, FontInsert, FontPriority, InsertFontFamily};
-    let everywhere = [egui::FontFamily::Proportional, egui::FontFamily::Monospace];
-    let places = everywhere.map(|family| InsertFontFamily {
-        family,
-        priority: FontPriority::Lowest,
-    });
-    let data = FontData::from_static(include_bytes!("../assets/signs.ttf"));
-    FontInsert::new("signs", data, places.to_vec())
+fn fonts() -> egui::FontDefinitions {
+    use egui::{FontData, FontFamily, FontTweak};
+    let mut fonts = egui::FontDefinitions::empty();
+    let files: [(&str, &'static [u8]); 2] = [
+        ("text", include_bytes!("../assets/text.ttf")),
+        ("signs", include_bytes!("../assets/signs.ttf")),
+    ];
+    for (name, bytes) in files {
+        // They have no hints, and those that egui makes up take bars off letters.
+        let tweak = FontTweak {
+            hinting: Some(false),
+            ..FontTweak::default()
+        };
+        let data = FontData::from_static(bytes).tweak(tweak);
+        fonts.font_data.insert(name.to_owned(), data.into());
+        for family in [FontFamily::Proportional, FontFamily::Monospace] {
+            fonts
+                .families
+                .entry(family)
+                .or_default()
+                .push(name.to_owned());
+        }
+    }
+    fonts
 }
 
 /// A tooltip of one of several choices in `menu`: beside all of them, where it covers none.

@@ -25,7 +25,7 @@ fn a_picture_is_that_of_the_cpu() {
         eprintln!("skipped: no driver renders by way of OpenGL");
         return;
     }
-    let render = "render scratched.toml --size 96x64 --samples 1";
+    let render = "render scratched.toml --size 96x64 --samples 1 --shadows off";
     by_opengl(folder.path(), &format!("{render} --backend gpu -o gl.exr"))
         .assert()
         .success();
