@@ -59,6 +59,7 @@ fn gold() -> Material {
         is_unlit: false,
         cutout: None,
         coat: None,
+        coat_textures: [None; 2],
     }
 }
 
