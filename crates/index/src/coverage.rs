@@ -2,6 +2,7 @@
 //! Transparency", 2010. Twin: gpu/shaders/scene/coverage.wgsl.
 
 use glam::DVec3;
+use hairline_optics::word_hash::word_hash;
 
 /// By what a ray decides whether it meets such a surface or goes on through it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,7 +24,7 @@ impl Coverage {
     /// Of one of many samples of a pixel: together they meet a surface as often as its alpha says, within one of them.
     pub fn of_sample([x, y]: [u32; 2], sample: u32) -> Self {
         Self::Drawn {
-            key: hash(x ^ hash(y)),
+            key: word_hash(x ^ word_hash(y)),
             round: sample,
         }
     }
@@ -33,7 +34,7 @@ impl Coverage {
         let words = [origin_m, direction].map(|v| v.to_array()).concat();
         let mixed = words.iter().fold(0, |key, &word| {
             let bits = word.to_bits();
-            hash(key ^ hash(bits as u32 ^ (bits >> 32) as u32))
+            word_hash(key ^ word_hash(bits as u32 ^ (bits >> 32) as u32))
         });
         Self::Drawn {
             key: mixed,
@@ -46,7 +47,7 @@ impl Coverage {
         match self {
             Self::Any => alpha > 0.0,
             Self::Only(own) => alpha > 0.0 && object == own,
-            Self::Drawn { key, round } => alpha >= drawn(round, key ^ hash(triangle + 1)),
+            Self::Drawn { key, round } => alpha >= drawn(round, key ^ word_hash(triangle + 1)),
         }
     }
 }
@@ -54,9 +55,9 @@ impl Coverage {
 /// A number in (0, 1) of a round: the first of the pairs of gpu/shaders/physics/sobol.wgsl, as both renderers must see the same. The crate
 /// sobol_burley has points of this kind, but other ones.
 fn drawn(round: u32, seed: u32) -> f64 {
-    let mixed = hash(seed);
+    let mixed = word_hash(seed);
     let index = scramble(round.reverse_bits(), mixed).reverse_bits();
-    let x = scramble(index, hash(mixed ^ 0x9e37_79b9)).reverse_bits();
+    let x = scramble(index, word_hash(mixed ^ 0x9e37_79b9)).reverse_bits();
     (f64::from(x >> 8) + 0.5) / 16_777_216.0
 }
 
@@ -68,17 +69,6 @@ fn scramble(reversed: u32, seed: u32) -> u32 {
     x = x.wrapping_mul((seed >> 16) | 1);
     x ^= x.wrapping_mul(0x0552_6c56);
     x ^= x.wrapping_mul(0x53a2_2864);
-    x
-}
-
-/// Mixes a word well. C. Wellons, "hash prospector", 2018.
-fn hash(word: u32) -> u32 {
-    let mut x = word;
-    x ^= x >> 16;
-    x = x.wrapping_mul(0x21f0_aaad);
-    x ^= x >> 15;
-    x = x.wrapping_mul(0x735a_2d97);
-    x ^= x >> 15;
     x
 }
 

@@ -42,3 +42,4 @@ pub mod scratch;
 pub mod spectrum;
 pub mod sptd;
 pub mod table;
+pub mod word_hash;

@@ -25,14 +25,19 @@ impl Description {
         Ok(Cow::Owned(seen))
     }
 
+    /// The files of its models, as it names them.
+    pub fn mesh_files(&self) -> impl Iterator<Item = &Path> {
+        self.objects.iter().filter_map(|it| match &it.surface {
+            Surface::Mesh(file) => Some(file.as_path()),
+            Surface::Shape(_) => None,
+        })
+    }
+
     /// The cameras of its models' files that it can be seen by: their names or their nodes', or their numbers. What cannot be read has none.
     pub fn file_cameras(&self, base_dir: &Path) -> Vec<String> {
-        let files = self.objects.iter().filter_map(|it| match &it.surface {
-            Surface::Mesh(file) => Some(base_dir.join(file)),
-            Surface::Shape(_) => None,
-        });
         let mut names = Vec::new();
-        for name in files.flat_map(|file| mesh_file::camera_names(&file)) {
+        let files = self.mesh_files();
+        for name in files.flat_map(|file| mesh_file::camera_names(&base_dir.join(file))) {
             if !names.contains(&name) {
                 names.push(name);
             }

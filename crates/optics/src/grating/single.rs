@@ -5,6 +5,7 @@
 //! factor on what the row sends. Grooves much narrower than the window are then the scratches of (20), at the places that their numbers give.
 
 use super::Grating;
+use crate::word_hash::word_hash;
 use std::f64::consts::PI;
 
 /// Standard deviation of pixel and window, in pitches, up to which single grooves are seen as they are.
@@ -64,22 +65,12 @@ impl Grating {
 
 /// How far a groove is off its place: of mean 0 and variance 1, nearly normal, the same for a number and a seed everywhere.
 fn groove_shift(number: i32, seed: u32) -> f64 {
-    let first = mix(number.cast_unsigned() ^ mix(seed));
-    let second = mix(first ^ 0x9e37_79b9);
+    let first = word_hash(number.cast_unsigned() ^ word_hash(seed));
+    let second = word_hash(first ^ 0x9e37_79b9);
     let halves = [first & 0xffff, first >> 16, second & 0xffff, second >> 16];
     // Four numbers that are even in [0, 1) have the variance 1/3.
     let sum: u32 = halves.iter().sum();
     (f64::from(sum) / 65536.0 - 2.0) * 3f64.sqrt()
-}
-
-/// Mixes a word well (C. Wellons, "hash prospector", 2018).
-fn mix(word: u32) -> u32 {
-    let mut x = word;
-    x ^= x >> 16;
-    x = x.wrapping_mul(0x21f0_aaad);
-    x ^= x >> 15;
-    x = x.wrapping_mul(0x735a_2d97);
-    x ^ (x >> 15)
 }
 
 #[cfg(test)]

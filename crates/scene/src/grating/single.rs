@@ -29,8 +29,8 @@ fn cut([x, y]: [f64; 2]) -> [f64; 2] {
 }
 
 impl GrooveField {
-    /// Two coordinates of a point that grooves stay at, and how they change along a direction. None where grooves do not run side by side for
-    /// good: those of a sheaf part.
+    /// Two coordinates of a point that grooves stay at, and how they change along a direction. None for radial and spun
+    /// grooves: they diverge, so none has a number.
     fn across_m(&self, point_m: DVec3, direction: DVec3) -> Option<[[f64; 2]; 2]> {
         match *self {
             Self::Along {
@@ -67,11 +67,11 @@ impl GrooveField {
 impl Grating {
     /// Whether a pixel, however small, could show single grooves on a surface of this coherence window.
     pub fn shows_single_grooves(&self, coherence_um: f64) -> bool {
-        let is_sheaf = match self.field {
-            GrooveField::Along { .. } => false,
-            GrooveField::Around { bearing, .. } => bearing != Bearing::Circular,
+        let is_numbered = match self.field {
+            GrooveField::Along { .. } => true,
+            GrooveField::Around { bearing, .. } => bearing == Bearing::Circular,
         };
-        !is_sheaf && self.row.shows_single_grooves(coherence_um)
+        is_numbered && self.row.shows_single_grooves(coherence_um)
     }
 
     /// The factor on what a pixel sees of the grooves, in the place of their mean: single ones where pixel and coherence window are narrower than

@@ -219,8 +219,8 @@ fn volume_m3(mesh: &Mesh) -> f32 {
     mesh.triangles.iter().map(of_corners).sum()
 }
 
-/// The cube packed by Draco, by the encoder of the same crate: 12 bits to a coordinate.
-fn packed_cube() -> Vec<u8> {
+/// The corners of the cube, and its triangles as Draco takes them.
+fn draco_cube() -> (Vec<[f32; 3]>, draco_core::Mesh) {
     let (corners, triangles) = cube();
     let mut packed = draco_core::Mesh::new();
     packed.set_num_points(corners.len());
@@ -228,6 +228,25 @@ fn packed_cube() -> Vec<u8> {
     for (i, face) in triangles.as_chunks::<3>().0.iter().enumerate() {
         packed.set_face(FaceIndex(i as u32), face.map(|v| PointIndex(v.into())));
     }
+    (corners.to_vec(), packed)
+}
+
+/// Packed by Draco, with 12 bits to each number of the attributes that are rounded.
+fn encoded(packed: draco_core::Mesh, rounded: &[i32]) -> Vec<u8> {
+    let mut options = EncoderOptions::new();
+    for &attribute in rounded {
+        options.set_attribute_int(attribute, "quantization_bits", 12);
+    }
+    let mut buffer = EncoderBuffer::new();
+    let mut encoder = MeshEncoder::new();
+    encoder.set_mesh(packed);
+    encoder.encode(&options, &mut buffer).unwrap();
+    buffer.data().to_vec()
+}
+
+/// The cube packed by Draco, by the encoder of the same crate: 12 bits to a coordinate.
+fn packed_cube() -> Vec<u8> {
+    let (corners, mut packed) = draco_cube();
     let mut positions = PointAttribute::new();
     positions.init(
         GeometryAttributeType::Position,
@@ -243,24 +262,12 @@ fn packed_cube() -> Vec<u8> {
         .collect();
     positions.buffer_mut().write(0, &bytes);
     packed.add_attribute(positions);
-    let mut options = EncoderOptions::new();
-    options.set_attribute_int(0, "quantization_bits", 12);
-    let mut buffer = EncoderBuffer::new();
-    let mut encoder = MeshEncoder::new();
-    encoder.set_mesh(packed);
-    encoder.encode(&options, &mut buffer).unwrap();
-    buffer.data().to_vec()
+    encoded(packed, &[0])
 }
 
 /// A cube's corners, triangles and joints, each of which has all of a vertex: what Draco packs of a skinned model.
 fn packed_limb() -> Vec<u8> {
-    let (corners, triangles) = cube();
-    let mut packed = draco_core::Mesh::new();
-    packed.set_num_points(corners.len());
-    packed.set_num_faces(triangles.len() / 3);
-    for (i, face) in triangles.as_chunks::<3>().0.iter().enumerate() {
-        packed.set_face(FaceIndex(i as u32), face.map(|v| PointIndex(v.into())));
-    }
+    let (corners, mut packed) = draco_cube();
     let mut add = |kind, components, data_type, bytes: &[u8]| {
         let mut attribute = PointAttribute::new();
         attribute.init(kind, components, data_type, false, corners.len());
@@ -292,14 +299,7 @@ fn packed_limb() -> Vec<u8> {
         DataType::Float32,
         &shares,
     );
-    let mut options = EncoderOptions::new();
-    options.set_attribute_int(0, "quantization_bits", 12);
-    options.set_attribute_int(2, "quantization_bits", 12);
-    let mut buffer = EncoderBuffer::new();
-    let mut encoder = MeshEncoder::new();
-    encoder.set_mesh(packed);
-    encoder.encode(&options, &mut buffer).unwrap();
-    buffer.data().to_vec()
+    encoded(packed, &[0, 2])
 }
 
 #[test]

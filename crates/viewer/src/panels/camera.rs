@@ -1,12 +1,13 @@
 //! The camera, and how the picture is shown.
 
+use std::path::Path;
 use std::sync::Arc;
 
 use egui::{Button, Id, Ui};
 use hairline_editor::navigate::{self, Viewpoint};
 use hairline_editor::ranges::Parameter;
 use hairline_image::ToneMap;
-use hairline_scene::description::{Camera, Description, Surface};
+use hairline_scene::description::{Camera, Description};
 
 use super::form::Form;
 use crate::command::Command;
@@ -51,13 +52,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace) {
 /// The cameras of the models' files.
 fn show_file_cameras(ui: &mut Ui, work: &mut Workspace) {
     let description = work.document.description();
-    let surfaces = description.objects.iter().map(|it| &it.surface);
-    let files: Vec<_> = surfaces
-        .filter_map(|it| match it {
-            Surface::Mesh(file) => Some(file.clone()),
-            Surface::Shape(_) => None,
-        })
-        .collect();
+    let files: Vec<_> = description.mesh_files().map(Path::to_owned).collect();
     // Files are not read for each frame of the window.
     let key = Id::unique(("cameras of files", work.document.base_dir(), files));
     let known = ui.data(|data| data.get_temp::<Arc<[String]>>(key));

@@ -38,6 +38,20 @@ pub fn viewer_with(options: Options) -> Harness<'static, Viewer> {
     viewer_of(options, [1280.0, 800.0])
 }
 
+/// A scene's file, on the CPU, once it is built.
+pub fn viewer_of_file(scene: &std::path::Path) -> Harness<'static, Viewer> {
+    let mut harness = viewer_with(Options {
+        scene: Some(scene.to_owned()),
+        built_in: SMALL,
+        backend: Backend::Cpu,
+        state_dir: None,
+        native_dialogs: false,
+        transport: hairline_scene::Transport::DIRECT,
+    });
+    wait_built(&mut harness);
+    harness
+}
+
 /// The same in another size.
 pub fn viewer_of(options: Options, size: [f32; 2]) -> Harness<'static, Viewer> {
     Harness::builder().with_size(size).build_eframe(|cc| {

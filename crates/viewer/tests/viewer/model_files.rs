@@ -1,14 +1,13 @@
 //! What of a model's file is changed and chosen in the panels.
 
-use crate::common::{self, click_on, description, undo, wait_built, wait_until};
+use crate::common::{self, click_on, description, undo, wait_until};
 use crate::picking::two_squares;
 use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use hairline_editor::Selection;
 use hairline_scene::description::Override;
-use hairline_viewer::engine::Backend;
-use hairline_viewer::{Options, Viewer};
+use hairline_viewer::Viewer;
 
 /// A scene of two squares, and what is selected in it.
 fn opened(selection: Selection) -> (Harness<'static, Viewer>, tempfile::TempDir) {
@@ -18,15 +17,7 @@ fn opened(selection: Selection) -> (Harness<'static, Viewer>, tempfile::TempDir)
     let text = "[camera]\nposition_m = [0, 0, 0.4]\ntarget_m = [0, 0, 0]\n\
         [[object]]\nname = \"it\"\nmesh = \"a.gltf\"\n";
     std::fs::write(&scene, text).unwrap();
-    let mut harness = common::viewer_with(Options {
-        scene: Some(scene),
-        built_in: common::SMALL,
-        backend: Backend::Cpu,
-        state_dir: None,
-        native_dialogs: false,
-        transport: hairline_scene::Transport::DIRECT,
-    });
-    wait_built(&mut harness);
+    let mut harness = common::viewer_of_file(&scene);
     harness.state_mut().document_mut().select(selection);
     harness.run_steps(3);
     (harness, dir)

@@ -2,23 +2,14 @@
 
 use std::path::Path;
 
-use crate::common::{SMALL, click_on, description, viewer_with, wait_built, wait_until};
+use crate::common::{SMALL, click_on, description, viewer_of_file, wait_until};
 use egui::{Key, Modifiers};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
-use hairline_viewer::engine::Backend;
-use hairline_viewer::{Options, Viewer};
+use hairline_viewer::Viewer;
 
 fn open(path: &Path) -> Harness<'static, Viewer> {
-    let mut harness = viewer_with(Options {
-        scene: Some(path.to_owned()),
-        built_in: SMALL,
-        backend: Backend::Cpu,
-        state_dir: None,
-        native_dialogs: false,
-        transport: hairline_scene::Transport::DIRECT,
-    });
-    wait_built(&mut harness);
+    let harness = viewer_of_file(path);
     // The files' first look.
     std::thread::sleep(std::time::Duration::from_millis(300));
     harness

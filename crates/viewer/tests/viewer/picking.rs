@@ -4,8 +4,6 @@ use crate::common;
 use egui::{Rect, vec2};
 use glam::{DVec2, DVec3};
 use hairline_editor::{Selection, navigate};
-use hairline_viewer::Options;
-use hairline_viewer::engine::Backend;
 
 #[test]
 fn a_click_on_the_disk_selects_it_and_one_beside_it_nothing() {
@@ -86,15 +84,7 @@ fn a_click_keeps_a_layer_to_the_part_that_is_there() {
         [[object]]\nname = \"it\"\nmesh = \"a.gltf\"\n\
         [[scratches]]\nobject = \"it\"\npattern = \"random\"\ncount = 50\nlength_m = 0.02\n";
     std::fs::write(&scene, text).unwrap();
-    let mut harness = common::viewer_with(Options {
-        scene: Some(scene),
-        built_in: common::SMALL,
-        backend: Backend::Cpu,
-        state_dir: None,
-        native_dialogs: false,
-        transport: hairline_scene::Transport::DIRECT,
-    });
-    common::wait_built(&mut harness);
+    let mut harness = common::viewer_of_file(&scene);
     let document = harness.state_mut().document_mut();
     document.select(Selection::Layer(0));
     harness.run_steps(3);
