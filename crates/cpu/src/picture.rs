@@ -1,6 +1,5 @@
 //! Pictures on lights: look-ups, and how a point sees them. Twin: picture_light.wgsl.
 
-use crate::surface::texture_level;
 use glam::{DVec2, DVec3};
 use hairline_optics::irradiance::irradiance_polygon;
 use hairline_optics::ltc::{LobeFresnel, LtcLobe, ltc_small_light, ltc_vector};
@@ -93,7 +92,9 @@ impl<'a> PictureView<'a> {
 
 /// The mean of all of a picture.
 pub(crate) fn picture_mean(texture: &Texture) -> DVec3 {
-    texture_level(texture, texture.levels.len() - 1, DVec2::splat(0.5))
+    texture
+        .at_level(texture.levels.len() - 1, DVec2::splat(0.5), 0.0)
+        .truncate()
 }
 
 /// All of a picture, from corner to corner.
@@ -112,7 +113,9 @@ pub(crate) fn picture_radiance(
             .size_px
             .map(|n| f64::from((n >> level as u32).max(1)));
         let half = (0.5 / DVec2::from(size_px)).min(0.5 * (high - low));
-        texture_level(texture, level as usize, uv.clamp(low + half, high - half))
+        texture
+            .at_level(level as usize, uv.clamp(low + half, high - half), 0.0)
+            .truncate()
     };
     at(lod.floor()).lerp(at(lod.ceil()), lod.fract())
 }

@@ -8,7 +8,7 @@ use crate::surface::SurfacePoint;
 use glam::{DVec2, DVec3};
 use hairline_optics::band::{Along, BandPlace, OutlineRoots};
 use hairline_optics::mask::Masked;
-use hairline_scene::GroovePlace;
+use hairline_scene::{GrooveGround, GroovePlace};
 
 /// All gratings under a point.
 #[derive(Clone, Copy, Debug, Default)]
@@ -31,8 +31,14 @@ impl ShadedGratings {
         let scene = prepared.scene;
         let environment = scene.environment.as_ref();
         let gratings = &scene.objects[object as usize].gratings;
+        let ground = GrooveGround {
+            textures: &scene.textures,
+            mesh: &scene.objects[object as usize].mesh,
+            triangle: point.triangle,
+        };
+        let [position_m, normal] = [point.position_m, point.normal];
         let seen = |grating: &hairline_scene::Grating| {
-            grating.seen_from_pixel(point.position_m, point.normal, point.footprint_axes_m)
+            grating.seen_from_pixel(&ground, position_m, normal, point.footprint_axes_m)
         };
         // Gratings lie side by side: together they cover all of the surface at most.
         let covered: f64 = gratings
@@ -56,8 +62,9 @@ impl ShadedGratings {
                 share,
             } = seen;
             let density = grating.groove_density(
-                point.position_m,
-                point.normal,
+                &ground,
+                position_m,
+                normal,
                 tangent,
                 point.footprint_axes_m,
                 point.coherence_um,

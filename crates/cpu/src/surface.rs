@@ -4,6 +4,7 @@ use glam::{DVec2, DVec3};
 use hairline_index::Hit;
 use hairline_optics::filtered_lobe::SlopeSpread;
 use hairline_optics::fresnel::FresnelRgb;
+use hairline_scene::texture_lookup::{TextureSampler, blend, texture_footprint};
 use hairline_scene::{COAT_F0, Mesh, Scene, ScratchTables, Texture};
 
 /// A shading point. Its local frame has z along the shading normal and the viewer in the x-z plane.
@@ -46,6 +47,8 @@ pub struct SurfacePoint<'a> {
     pub emission: DVec3,
     /// Index into the scene's materials.
     pub material: usize,
+    /// That it lies on, of its object.
+    pub triangle: u32,
     /// Standard deviation of the coherence window.
     pub coherence_um: f64,
     /// Which scratch table.
@@ -147,17 +150,17 @@ pub fn surface_point<'a>(
     let material = &scene.materials[material_index];
     let optics = &tables.materials[material_index];
     let axes = footprint(side * smooth);
-    let looked_up = |index: Option<usize>, sample: Sampler| {
+    let looked_up = |index: Option<usize>, sample: TextureSampler| {
         index.map(|i| {
             let texture = &scene.textures[i];
             let [a, b, c] = mesh.corner_uvs(triangle, texture);
             let uv = a * weights[0] + b * weights[1] + c * weights[2];
             let uv_area = (b - a).perp_dot(c - a).abs();
             let texel_scale = texture_footprint(uv_area, &corners, axes);
-            sample_texture(texture, uv, texel_scale, sample)
+            texture.filtered(uv, texel_scale, sample)
         })
     };
-    let texture = |index: Option<usize>| looked_up(index, sample_level);
+    let texture = |index: Option<usize>| looked_up(index, Texture::at_level);
 
     let mut normal = smooth;
     let mut slope_std = 0.0;
@@ -251,6 +254,7 @@ pub fn surface_point<'a>(
         }),
         emission,
         material: material_index,
+        triangle: hit.triangle,
         coherence_um: material.coherence_um,
         table: optics.table as usize,
     }
@@ -323,47 +327,6 @@ fn interpolate(weights: [f64; 3], corners: [DVec3; 3]) -> DVec3 {
     corners[0] * weights[0] + corners[1] * weights[1] + corners[2] * weights[2]
 }
 
-/// Area of the footprint in texture space (u times v), one standard deviation wide, as the side of a square, where a triangle spans
-/// `uv_area` of it twice.
-fn texture_footprint(uv_area: f64, corners: &[DVec3; 3], axes: [DVec3; 2]) -> f64 {
-    let area = (corners[1] - corners[0])
-        .cross(corners[2] - corners[0])
-        .length();
-    (uv_area / area * axes[0].cross(axes[1]).length()).sqrt()
-}
-
-/// Trilinear look-up in linear values. `footprint` is the side of the filter in texture space.
-fn sample_texture(texture: &Texture, uv: DVec2, footprint: f64, sample: Sampler) -> glam::DVec4 {
-    let texels = footprint * (texture.size_px[0] as f64 * texture.size_px[1] as f64).sqrt();
-    // A Gaussian of one texel's width is what bilinear look-up amounts to: level 0 serves down to there.
-    let last = (texture.levels.len() - 1) as f64;
-    let lod = if texels > 0.0 {
-        (2.0 * texels).log2().clamp(0.0, last)
-    } else {
-        0.0
-    };
-    let (low, share) = (lod.floor(), lod.fract());
-    let near = sample(texture, low as usize, uv, texels);
-    if share == 0.0 {
-        near
-    } else {
-        near.lerp(sample(texture, low as usize + 1, uv, texels), share)
-    }
-}
-
-/// Bilinear look-up in a level, by a filter of so many texels of the first.
-type Sampler = fn(&Texture, usize, DVec2, f64) -> glam::DVec4;
-
-/// A level of a texture between its texels, linear.
-pub(crate) fn texture_level(texture: &Texture, level: usize, uv: DVec2) -> DVec3 {
-    sample_level(texture, level, uv, 0.0).truncate()
-}
-
-fn sample_level(texture: &Texture, level: usize, uv: DVec2, texels_std: f64) -> glam::DVec4 {
-    let (texels, t) = texture.four_texels(level, uv, texels_std);
-    blend(texels, t)
-}
-
 /// Of a normal map, where w is how far slopes spread: beyond the texels' own also over what the pixel sees of the map.
 fn sample_normals(texture: &Texture, level: usize, uv: DVec2, texels_std: f64) -> glam::DVec4 {
     let (texels, t) = texture.four_texels(level, uv, texels_std);
@@ -377,10 +340,4 @@ fn sample_normals(texture: &Texture, level: usize, uv: DVec2, texels_std: f64) -
     let up = (mean.z * 2.0 - 1.0).max(0.1);
     mean.w = (mean.w * mean.w + 0.5 * seen * (steps2[0] + steps2[1]) / (up * up)).sqrt();
     mean
-}
-
-fn blend(texels: [glam::DVec4; 4], [x, y]: [f64; 2]) -> glam::DVec4 {
-    texels[0]
-        .lerp(texels[1], x)
-        .lerp(texels[2].lerp(texels[3], x), y)
 }

@@ -1,6 +1,6 @@
 //! Gratings to start from: things that everybody knows.
 
-use hairline_scene::description::{Around, Distribution, Grating, Pattern};
+use hairline_scene::description::{Around, Distribution, Grating, GroovePattern};
 
 /// A grating with all its numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -67,12 +67,12 @@ impl GratingPreset {
     /// The grating on an object.
     pub fn grating(self, object: impl Into<String>) -> Grating {
         let circular = |jitter_deg| {
-            Pattern::Circular(Around {
+            GroovePattern::Circular(Around {
                 jitter_deg,
                 ..Around::default()
             })
         };
-        let along_x = |jitter_deg| Pattern::Parallel {
+        let along_x = |jitter_deg| GroovePattern::Parallel {
             direction: [1.0, 0.0, 0.0],
             jitter_deg,
         };

@@ -29,6 +29,9 @@ pub(crate) fn each_path(description: &mut Description, change: &mut dyn FnMut(&m
             .chain(&mut place.density)
             .for_each(&mut *change);
     }
+    for grating in &mut description.gratings {
+        grating.files_mut().for_each(&mut *change);
+    }
     for light in &mut description.lights {
         if let Some(picture) = &mut light.picture {
             change(picture);
@@ -51,10 +54,11 @@ pub(crate) fn named(description: &Description) -> impl Iterator<Item = &Path> {
         Layer::Laid(_) | Layer::Brushed(_) => None,
     });
     let places = description.scratches.iter().flat_map(|s| s.place.files());
+    let of_gratings = description.gratings.iter().flat_map(|g| g.files());
     let pictures = description.lights.iter().map(|l| l.picture.as_deref());
     map.into_iter()
         .chain(meshes.chain(lists).chain(pictures).flatten())
-        .chain(places.map(PathBuf::as_path))
+        .chain(places.chain(of_gratings).map(PathBuf::as_path))
 }
 
 /// `path` as a scene file in `base_dir` would write it. Both are absolute and `base_dir` has no `..` and no symbolic links;

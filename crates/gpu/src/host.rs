@@ -1,8 +1,11 @@
 //! From a scene's own units to the structs that host and shader share.
 
-use glam::{DVec3, Vec3, Vec4};
+use glam::{DMat4, DVec3, Mat4, Vec3, Vec4};
 use hairline_index::{IndexedSegment, ScratchIndex};
-use hairline_scene::{AlphaRule, Bearing, Coat, GrooveField, Mesh, Profile, Scene, ScratchTables};
+use hairline_scene::{
+    AlphaRule, Bearing, Coat, GrooveField, GroovePicture, Mesh, PictureLie, Profile, Scene,
+    ScratchTables,
+};
 use half::f16;
 use rayon::prelude::*;
 use std::ops::Range;
@@ -94,6 +97,7 @@ pub(crate) fn objects(index: &ScratchIndex, gratings: &[Vec<Grating>]) -> Vec<Ob
 pub(crate) fn gratings(
     scene: &Scene,
     tables: &ScratchTables,
+    array: &TextureArray,
     origin_m: DVec3,
 ) -> Vec<Vec<Grating>> {
     let of_object = |object: &hairline_scene::Object| {
@@ -106,20 +110,26 @@ pub(crate) fn gratings(
         own.flat_map(|it| materials.iter().map(move |material| (it, *material)))
             .filter_map(|(it, material)| {
                 let table = tables.grating_table(it, material)?;
-                Some(grating(it, material, table, origin_m))
+                Some(grating(it, [material, table], array, origin_m))
             })
             .collect()
     };
     scene.objects.iter().map(of_object).collect()
 }
 
+/// Twins: gratings.wgsl.
+const GROOVES_MASK_BY_SIDES: u32 = 1;
+const GROOVES_BY_U: u32 = 2;
+const GROOVES_BY_V: u32 = 4;
+
 /// Twin of the kinds: gratings.wgsl.
 fn grating(
     grating: &hairline_scene::Grating,
-    material: usize,
-    table: usize,
+    [material, table]: [usize; 2],
+    array: &TextureArray,
     origin_m: DVec3,
 ) -> Grating {
+    let (mut maps, mut directions) = (0, None);
     let (axis, center_m, kind, curvature_per_m) = match grating.field {
         GrooveField::Along {
             direction,
@@ -137,7 +147,26 @@ fn grating(
             };
             (axis, center_m, kind, curvature_per_m)
         }
+        GrooveField::ByUv { uv, center_m } => {
+            maps |= if uv.along_v {
+                GROOVES_BY_V
+            } else {
+                GROOVES_BY_U
+            };
+            directions = uv.directions;
+            (DVec3::ZERO, center_m, 0, 0.0)
+        }
     };
+    let mut tiles = Mat4::ZERO;
+    if let Some(GroovePicture {
+        lie: PictureLie::FromThreeSides { tiles_from_world },
+        ..
+    }) = grating.mask
+    {
+        maps |= GROOVES_MASK_BY_SIDES;
+        let from_origin = tiles_from_world * DMat4::from_translation(origin_m);
+        tiles = from_origin.as_mat4();
+    }
     Grating {
         axis: axis.as_vec3().to_array(),
         kind,
@@ -153,7 +182,12 @@ fn grating(
         width_um: grating.row.width_um as f32,
         jitter_pitches: (grating.row.jitter_um / grating.row.pitch_um) as f32,
         densest: (1.0 / grating.row.most_taken()) as f32,
-        ..Grating::default()
+        maps,
+        tiles_x: tiles.row(0).to_array(),
+        tiles_y: tiles.row(1).to_array(),
+        tiles_z: tiles.row(2).to_array(),
+        mask: array.packed(grating.mask.map(|mask| mask.texture)),
+        directions: array.packed(directions),
     }
 }
 

@@ -111,7 +111,12 @@ shared! {
         width_um: f32,
         jitter_pitches: f32,
         densest: f32,
-        pad_0: u32,
+        maps: u32,
+        tiles_x: [f32; 4],
+        tiles_y: [f32; 4],
+        tiles_z: [f32; 4],
+        mask: [u32; 2],
+        directions: [u32; 2],
     }
     /// A material.
     Material {

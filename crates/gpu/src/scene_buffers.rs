@@ -67,7 +67,7 @@ impl SceneBuffers {
         let last_vertices = last.map(|last| &last.vertices);
         let vertices = Vertices::upload(transfer, triangles, scene, last_vertices).await?;
         let origin_m = vertices.origin_m;
-        let gratings = host::gratings(scene, tables, origin_m);
+        let gratings = host::gratings(scene, tables, array, origin_m);
         let objects = Small::keep(
             last.map(|last| &last.objects),
             host::objects(index, &gratings),

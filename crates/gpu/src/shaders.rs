@@ -149,7 +149,9 @@ modules! {
     /// Which way the grooves of a grating run.
     GRATINGS = "scene/gratings" needs [LAYOUT, GAUSSIAN];
     /// Single grooves of a grating.
-    SINGLE_GROOVES = "scene/single_grooves" needs [GRATINGS, SOBOL];
+    SINGLE_GROOVES = "scene/single_grooves" needs [GRATINGS, SOBOL, CONTENTS];
+    /// The triangle under a grating.
+    GROOVE_GROUND = "scene/groove_ground" needs [GRATINGS, SCENE, SURFACE_POINT];
     /// A clear layer over the base.
     COAT = "scene/coat" needs [BINDINGS, FRESNEL, CONTENTS];
     /// The base under lights and environment.
@@ -191,7 +193,7 @@ modules! {
     /// What a pair sends of a light.
     PAIR_LIGHT = "scene/pair_light" needs [PAIRS, OUTLINE_LIGHT, SCRATCH_PICTURE];
     /// A sample with a grating that it sees.
-    GRATING_PAIRS = "scene/grating_pairs" needs [PAIRS, GRATING, SINGLE_GROOVES, BINDINGS, CONTENTS];
+    GRATING_PAIRS = "scene/grating_pairs" needs [PAIRS, GRATING, SINGLE_GROOVES, GROOVE_GROUND, BINDINGS, CONTENTS];
     /// Scratches that stand for all.
     PICKS = "scene/picks" needs [SOBOL, LUMINANCE];
     /// Pass: the light and the mask of scratches.

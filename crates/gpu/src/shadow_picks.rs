@@ -55,7 +55,7 @@ impl PickedRaysPasses {
     /// By way of scratches, or of gratings.
     pub(crate) fn new(orders: &mut Orders, of_gratings: bool) -> Self {
         use Use::{Reads, Uniform, Writes};
-        let uses = [Reads, Reads, Reads, Reads, Writes, Uniform];
+        let uses = [Reads, Reads, Reads, Reads, Writes, Uniform, Reads];
         let module = (&shaders::SHADOW_PICKED_RAYS, "shadow_picked_rays");
         let mut kinds: Vec<_> = orders.variant().has.lights.of_rays().collect();
         if kinds.is_empty() {
@@ -85,6 +85,7 @@ impl PickedRaysPasses {
             whole(&shadow_room.picks),
             whole(&shadow_room.rays),
             whole(&shadow_room.round),
+            whole(&room.samples.paints),
         ];
         for pass in &self.0 {
             pass.run(gpu, recording, &resources, in_a_row(groups));

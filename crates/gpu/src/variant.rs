@@ -3,7 +3,7 @@
 use hairline_index::method::{Method, PublishedMethod, Structure};
 use hairline_optics::mask::Mask;
 use hairline_optics::published::sine_integral::SineIntegral;
-use hairline_scene::{Object, Scene, ScratchTables};
+use hairline_scene::{Bearing, Grating, GrooveField, Object, Scene, ScratchTables};
 
 use crate::lights::{self, Kind, Kinds};
 
@@ -23,6 +23,10 @@ pub(crate) struct Contents {
     pub gratings: bool,
     /// Gratings whose grooves could be seen one by one.
     pub single_grooves: bool,
+    /// And among these such that come nearer to one another along their way.
+    pub branching_grooves: bool,
+    /// Gratings with pictures, or along texture coordinates.
+    pub groove_maps: bool,
     /// That shine on scratches, and on the base.
     pub lights: Kinds,
     pub base_lights: Kinds,
@@ -40,11 +44,18 @@ pub(crate) struct Contents {
 impl Contents {
     pub(crate) fn of(scene: &Scene, tables: &ScratchTables, method: &Method) -> Self {
         let gratings = method.published.is_none();
+        let single_grooves =
+            gratings && scene.objects.iter().any(|o| shows_single_grooves(scene, o));
+        let any = |is: fn(&Grating) -> bool| {
+            let mut all = scene.objects.iter().flat_map(|o| &o.gratings);
+            all.any(is)
+        };
         Self {
             scratches: scene.objects.iter().any(|o| !o.segments.is_empty()),
             gratings: gratings && scene.objects.iter().any(|o| !o.gratings.is_empty()),
-            single_grooves: gratings
-                && scene.objects.iter().any(|o| shows_single_grooves(scene, o)),
+            single_grooves,
+            branching_grooves: single_grooves && any(branches),
+            groove_maps: gratings && any(has_maps),
             lights: Kinds::of(scene),
             base_lights: Kinds::on_base(scene),
             doors: scene
@@ -68,6 +79,19 @@ fn shows_single_grooves(scene: &Scene, object: &Object) -> bool {
         let mut coherences_um = materials.iter().map(|at| scene.materials[*at].coherence_um);
         coherences_um.any(|coherence_um| grating.shows_single_grooves(coherence_um))
     })
+}
+
+/// Whether its grooves come nearer to one another along their way.
+fn branches(grating: &Grating) -> bool {
+    match grating.field {
+        GrooveField::Along { .. } => false,
+        GrooveField::Around { bearing, .. } => bearing != Bearing::Circular,
+        GrooveField::ByUv { .. } => true,
+    }
+}
+
+fn has_maps(grating: &Grating) -> bool {
+    grating.mask.is_some() || matches!(grating.field, GrooveField::ByUv { .. })
 }
 
 /// A constant that a pipeline sets.
@@ -95,6 +119,8 @@ pub fn pipeline_variants(text: &str) -> Vec<(String, Vec<(&'static str, f64)>)> 
         scratches: true,
         gratings: true,
         single_grooves: true,
+        branching_grooves: true,
+        groove_maps: true,
         lights: Kinds::ALL,
         base_lights: Kinds::ALL,
         doors: true,
@@ -167,6 +193,8 @@ impl ShadeVariant {
             ("HAS_SCRATCHES", has.scratches.into()),
             ("HAS_GRATINGS", has.gratings.into()),
             ("HAS_SINGLE_GROOVES", has.single_grooves.into()),
+            ("HAS_BRANCHING_GROOVES", has.branching_grooves.into()),
+            ("HAS_GROOVE_MAPS", has.groove_maps.into()),
             ("HAS_DOORS", has.doors.into()),
             ("HAS_TEXTURES", has.textures.into()),
             ("HAS_COLORS", has.colors.into()),

@@ -9,7 +9,7 @@ use hairline_optics::band_environment::row_cells;
 use hairline_optics::coherent::GroovePiece;
 use hairline_optics::grating::{GRATING_DEPTH_NM, GRATING_WIDTH_UM, Grating as Row, GroovesAt};
 use hairline_optics::scratch::oblique_depth_nm;
-use hairline_scene::{Object, ScratchTables};
+use hairline_scene::{GrooveGround, Scene, ScratchTables};
 use spec_math::cephes64::ndtri;
 
 /// Where grooves end, which the window does not see: its amplitude has fallen to 2e-8.
@@ -35,13 +35,21 @@ pub(super) struct RowView {
 impl RowView {
     /// One of the gratings at a point of an object, or none.
     pub(super) fn drawn(
-        object: &Object,
+        scene: &Scene,
+        object: usize,
         tables: &ScratchTables,
         point: &SurfacePoint,
         random: Random,
     ) -> Option<Self> {
+        let object = &scene.objects[object];
+        let ground = GrooveGround {
+            textures: &scene.textures,
+            mesh: &object.mesh,
+            triangle: point.triangle,
+        };
+        let (position_m, normal) = (point.position_m, point.normal);
         let seen = |grating: &hairline_scene::Grating| {
-            grating.seen_from_pixel(point.position_m, point.normal, [DVec3::ZERO; 2])
+            grating.seen_from_pixel(&ground, position_m, normal, [DVec3::ZERO; 2])
         };
         let gratings = object.gratings.iter();
         let places: Vec<_> = gratings.filter_map(|g| Some((g, seen(g)?))).collect();
@@ -59,7 +67,7 @@ impl RowView {
                 tangent: tangent.normalize_or(DVec2::X).rotate(turn),
             };
             let single = match grating.shows_single_grooves(point.coherence_um) {
-                true => grating.grooves_at(point.position_m, point.normal.cross(place.tangent)),
+                true => grating.grooves_at(&ground, position_m, normal, place.tangent),
                 false => None,
             };
             return Some(Self {
@@ -71,8 +79,9 @@ impl RowView {
                 single,
                 seed: grating.seed,
                 density: grating.groove_density(
-                    point.position_m,
-                    point.normal,
+                    &ground,
+                    position_m,
+                    normal,
                     place.tangent,
                     [DVec3::ZERO; 2],
                     point.coherence_um,
@@ -96,9 +105,18 @@ impl RowView {
             depth_spread,
             jitter_um,
         } = self.row;
-        let reach = (reach_sigma * coherence_um / pitch_um).ceil() as i32 + 1;
-        (-reach..=reach).map(move |j| {
-            let [place, depth, ..] = random.four(Purpose::RowGroove((j + reach) as u32));
+        // Grooves that branch are up to twice as dense.
+        let least_um = self
+            .single
+            .map_or(pitch_um, |at| at.pitch_um.abs().min(pitch_um));
+        let reach = (reach_sigma * coherence_um / least_um).ceil() as i32 + 1;
+        (-reach..=reach).filter_map(move |j| {
+            let [place, depth, begun, _] = random.four(Purpose::RowGroove((j + reach) as u32));
+            if let Some(at) = self.single
+                && !self.row.has_groove(at, j, self.seed, begun)
+            {
+                return None;
+            }
             let offset_um = match self.single {
                 Some(at) => self.row.groove_offset_um(at, j, self.seed),
                 None => (f64::from(j) + self.phase) * pitch_um + jitter_um * ndtri(place),
@@ -112,7 +130,7 @@ impl RowView {
                 width_um,
                 depth_nm: depth_nm * (1.0 + depth_spread * ndtri(depth)),
             };
-            GrooveView::of_row(self.frame, self.wo, piece, coherence_um)
+            Some(GrooveView::of_row(self.frame, self.wo, piece, coherence_um))
         })
     }
 

@@ -121,7 +121,7 @@ impl Integrator<'_> {
             Model::Full => REACH_OF_AMPLITUDE,
         };
         let mut views = grooves::gather(&self.grooves, object, &point, reach_sigma);
-        let row = RowView::drawn(&self.scene.objects[object], &self.tables, &point, random);
+        let row = RowView::drawn(self.scene, object, &self.tables, &point, random);
         let material = &self.scene.materials[point.material];
         let optics = &self.tables.materials[point.material];
         let reflectance = &self.reflectances[point.material];

@@ -1,6 +1,7 @@
 //! Builds scenes one after the other and keeps what has not changed: what an editor needs.
 
 mod coats;
+mod gratings;
 mod kept;
 mod parts;
 
@@ -8,19 +9,19 @@ use std::fmt;
 use std::path::Path;
 use std::sync::Arc;
 
-use glam::{DMat4, DVec3};
+use glam::DVec3;
 
 use crate::convert;
 use crate::description::{self, Description};
 use crate::error::Error;
 use crate::estimate::Estimate;
-use crate::grating::Grating;
 use crate::lamp_shape;
 use crate::light_picture::LightPicture;
 use crate::loader::{Loader, Stage};
-use crate::scene::{Object, Scene, Texture};
+use crate::scene::{Object, Scene};
 use crate::studio::PhotoSet;
 use crate::texture::texture_bytes;
+use gratings::NewTextures;
 use kept::{Kept, KeptPicture, KeptSurface, MapKey, Stamp, SurfaceKey};
 
 /// Builds scenes one after the other. What of a scene is as it was in the one before is not made again, but shared with it:
@@ -131,10 +132,12 @@ impl<'a> Work<'a> {
         let objects = &self.description.objects;
         let total = objects.len() as u64;
         let mut surfaces = Vec::new();
-        let mut textures = Vec::new();
-        let mut texture_count = 0;
+        let mut textures = NewTextures {
+            parts: Vec::new(),
+            count: 0,
+            free_bytes: self.loader.memory_budget_bytes as f64 - self.estimate.bytes(),
+        };
         let up = convert::vertical_axis(scene.camera.up);
-        let mut free_bytes = self.loader.memory_budget_bytes as f64 - self.estimate.bytes();
         for (i, object) in objects.iter().enumerate() {
             self.loader.go_on()?;
             self.loader.report(Stage::Meshes, i as u64, total);
@@ -145,10 +148,11 @@ impl<'a> Work<'a> {
             let surface = match self.old.surface(&surface_key) {
                 Some(kept) => kept,
                 None => {
+                    let free_bytes = textures.free_bytes;
                     let read =
                         KeptSurface::read(self.loader, surface_key, object, &key, free_bytes)?;
                     let sizes = read.textures.iter().map(|texture| texture.size_px);
-                    free_bytes -= sizes.map(texture_bytes).sum::<f64>();
+                    textures.free_bytes -= sizes.map(texture_bytes).sum::<f64>();
                     Arc::new(read)
                 }
             };
@@ -156,13 +160,10 @@ impl<'a> Work<'a> {
             let mut own = surface.materials.to_vec();
             parts::override_materials(&object.overrides, &mut own, &key)?;
             let own = own.into_iter();
+            let first_texture = textures.add(surface.textures.clone());
             scene
                 .materials
-                .extend(own.map(|own| convert::with_textures_from(own, texture_count)));
-            texture_count += surface.textures.len();
-            if !surface.textures.is_empty() {
-                textures.push(surface.textures.clone());
-            }
+                .extend(own.map(|own| convert::with_textures_from(own, first_texture)));
             for note in surface.notes.iter() {
                 // Objects may share a file.
                 if !scene.notes.contains(note) {
@@ -175,35 +176,21 @@ impl<'a> Work<'a> {
                 scratches: Arc::default(),
                 segments: Arc::default(),
                 parts: surface.parts.clone(),
-                gratings: self.gratings(&object.name, &object.world_from_object()),
+                gratings: Vec::new(),
                 is_lamp: false,
             });
             surfaces.push(surface);
         }
-        self.pictures(scene, free_bytes, texture_count, &mut textures)?;
+        self.gratings(scene, &surfaces, &mut textures)?;
+        self.pictures(scene, &mut textures)?;
         self.loader.report(Stage::Meshes, total, total);
-        self.new.textures = self.old.textures(textures);
+        self.new.textures = self.old.textures(textures.parts);
         scene.textures = self.new.textures.together.clone();
         Ok(surfaces)
     }
 
-    /// Those of an object that are not hidden.
-    fn gratings(&self, object: &str, world_from_object: &DMat4) -> Vec<Grating> {
-        let described = self.description.gratings.iter();
-        described
-            .filter(|grating| !grating.hidden && grating.object == object)
-            .map(|grating| grating.in_scene(world_from_object))
-            .collect()
-    }
-
-    /// The pictures on lights, whose textures follow so many others.
-    fn pictures(
-        &mut self,
-        scene: &mut Scene,
-        mut free_bytes: f64,
-        mut texture_count: usize,
-        textures: &mut Vec<Arc<Vec<Texture>>>,
-    ) -> Result<(), Error> {
+    /// The pictures on lights.
+    fn pictures(&mut self, scene: &mut Scene, textures: &mut NewTextures) -> Result<(), Error> {
         let lights = self.description.lights.iter().enumerate();
         let shining = lights.filter(|(_, light)| !light.hidden);
         for ((i, described), light) in shining.zip(&mut scene.lights) {
@@ -218,13 +205,13 @@ impl<'a> Work<'a> {
             let picture = match known {
                 Some(picture) => picture,
                 None => {
-                    let read = LightPicture::read(&self.base_dir.join(file), free_bytes);
+                    let read = LightPicture::read(&self.base_dir.join(file), textures.free_bytes);
                     let read = read.map_err(|found| {
                         let right =
                             "must be a .png, .jpg, .webp, .hdr or .exr, relative to the scene file";
                         Error::new(format!("light[{i}].picture"), found, right)
                     })?;
-                    free_bytes -= texture_bytes(read.texture.size_px);
+                    textures.free_bytes -= texture_bytes(read.texture.size_px);
                     KeptPicture {
                         file: stamp,
                         brightest: read.brightest,
@@ -233,9 +220,7 @@ impl<'a> Work<'a> {
                 }
             };
             light.radiance = light.radiance.map(|c| c * picture.brightest);
-            light.picture = Some(texture_count);
-            texture_count += 1;
-            textures.push(picture.texture.clone());
+            light.picture = Some(textures.add(picture.texture.clone()));
             self.new.pictures.push(picture);
         }
         Ok(())

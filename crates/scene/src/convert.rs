@@ -8,10 +8,13 @@ use hairline_optics::grating::Grating as Row;
 
 use crate::Environment;
 use crate::description::references::find;
-use crate::description::{self, Around, Description, MaterialKind, MetalColor, Pattern};
+use crate::description::{
+    self, Around, Description, GroovePattern, MaterialKind, MetalColor, UvAxis,
+};
 use crate::environment::{self, BuiltInMap};
 use crate::error::Error;
-use crate::grating::{Bearing, Grating, GrooveField};
+use crate::grating::{Bearing, Grating, GrooveField, GroovePicture, UvField};
+use crate::picture_lie::PictureLie;
 use crate::scene::{Base, Camera, GLTF_DIELECTRIC, Material, RenderSettings, Scene};
 use crate::surface::world_from_object;
 
@@ -127,8 +130,13 @@ pub(crate) fn environment(
 }
 
 impl description::Grating {
-    /// On an object that is placed so.
-    pub(crate) fn in_scene(&self, world_from_object: &DMat4) -> Grating {
+    /// On an object that is placed so. `mask` and `directions` are the textures of the scene that it names.
+    pub(crate) fn in_scene(
+        &self,
+        world_from_object: &DMat4,
+        mask: Option<usize>,
+        directions: Option<usize>,
+    ) -> Grating {
         let direction = |direction: [f64; 3]| {
             let direction = world_from_object.transform_vector3(direction.into());
             direction.normalize_or_zero()
@@ -141,29 +149,37 @@ impl description::Grating {
             };
             (field, around.jitter_deg)
         };
+        let center_m = self.center_m.unwrap_or_default();
+        let center_m = world_from_object.transform_point3(center_m.into());
         let (field, jitter_deg) = match &self.pattern {
-            Pattern::Circular(axis) => around(axis, Bearing::Circular),
-            Pattern::Radial(axis) => around(axis, Bearing::Radial),
-            Pattern::Spun {
+            GroovePattern::Circular(axis) => around(axis, Bearing::Circular),
+            GroovePattern::Radial(axis) => around(axis, Bearing::Radial),
+            GroovePattern::Spun {
                 around: axis,
                 curvature_per_m,
             } => {
-                let curvature_per_m = curvature_per_m.mean;
+                let curvature_per_m = *curvature_per_m;
                 around(axis, Bearing::Spun { curvature_per_m })
             }
-            Pattern::Parallel {
+            GroovePattern::Parallel {
                 direction: along,
                 jitter_deg,
             } => {
-                let center_m = self.center_m.unwrap_or_default();
+                let direction = direction(*along);
                 let field = GrooveField::Along {
-                    direction: direction(*along),
-                    center_m: world_from_object.transform_point3(center_m.into()),
+                    direction,
+                    center_m,
                 };
                 (field, *jitter_deg)
             }
-            Pattern::Random { .. } | Pattern::Swirl { .. } => {
-                unreachable!("refused by `Description::check`")
+            GroovePattern::Uv {
+                along, jitter_deg, ..
+            } => {
+                let uv = UvField {
+                    along_v: *along == UvAxis::V,
+                    directions,
+                };
+                (GrooveField::ByUv { uv, center_m }, *jitter_deg)
             }
         };
         Grating {
@@ -178,6 +194,10 @@ impl description::Grating {
             angle_std_rad: jitter_deg.to_radians(),
             coverage: self.coverage,
             radii_m: self.radius_m.unwrap_or([0.0, f64::INFINITY]),
+            mask: mask.map(|texture| GroovePicture {
+                texture,
+                lie: PictureLie::new(self.tile_m, world_from_object),
+            }),
             seed: (self.seed ^ (self.seed >> 32)) as u32,
         }
     }

@@ -35,7 +35,7 @@ use crate::environment::BuiltInMap;
 use crate::scene::Coat;
 use values::{Named, is_default, serialize_named, serialize_scale};
 
-pub use gratings::Grating;
+pub use gratings::{Grating, GroovePattern, UvAxis};
 pub use light_kind::LightKind;
 pub use lights::{Cone, Light};
 pub use overrides::Override;

@@ -1,10 +1,15 @@
 //! Gratings as renderers read them: rows of grooves, and where on a surface they run which way.
 
+mod ground;
 mod single;
 
 use glam::DVec3;
 use hairline_optics::gaussian::gaussian;
 use hairline_optics::grating::Grating as Row;
+
+use crate::picture_lie::PictureLie;
+
+pub use ground::GrooveGround;
 
 /// Grooves side by side that cover a part of an object.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,8 +24,19 @@ pub struct Grating {
     pub coverage: f64,
     /// The least and the greatest distance from the field's axis, or from the middle of one that has none; 0 and infinity for everywhere.
     pub radii_m: [f64; 2],
+    /// What of the surface they cover besides, place by place: the red of a picture is a factor on their coverage.
+    pub mask: Option<GroovePicture>,
     /// By which grooves are off their places, where they are seen one by one.
     pub seed: u32,
+}
+
+/// A picture on the surface of a grating.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GroovePicture {
+    /// Of the scene's.
+    pub texture: usize,
+    /// How it lies there.
+    pub lie: PictureLie,
 }
 
 /// Which way grooves run over a surface, world space.
@@ -42,6 +58,34 @@ pub enum GrooveField {
         /// How the grooves lie to the circles.
         bearing: Bearing,
     },
+    /// By the texture coordinates of the surface.
+    ByUv {
+        /// Which way.
+        uv: UvField,
+        /// What [`Grating::radii_m`] are counted from.
+        center_m: DVec3,
+    },
+}
+
+/// A direction by texture coordinates.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct UvField {
+    /// Along the second coordinate, in place of the first.
+    pub along_v: bool,
+    /// A picture (linear) of the scene's that turns it: red and green are the parts along the tangent and the bitangent, from -1 to 1.
+    pub directions: Option<usize>,
+}
+
+/// Where grooves along a direction go, about a point.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct GrooveCourse {
+    /// The direction there, of any length.
+    pub here: DVec3,
+    /// How it changes over one standard deviation of the pixel's filter to the right and down.
+    pub steps: [DVec3; 2],
+    /// What grooves by texture coordinates stay at, in turns of the texture, and its gradient: by it they are numbered.
+    pub level: f64,
+    pub level_per_m: DVec3,
 }
 
 /// How a pattern about an axis lies to the circles around it.
@@ -76,13 +120,36 @@ pub struct GroovePlace {
 }
 
 impl GrooveField {
-    /// The unit direction of the grooves at a point, in the plane across a unit normal; none where there is none. As for scratches (`scratches/guide.rs`).
-    pub fn tangent(&self, point_m: DVec3, normal: DVec3) -> Option<DVec3> {
+    /// The unit direction of the grooves at a point, in the plane across a unit normal; none where there is none.
+    pub fn tangent(&self, ground: &GrooveGround, point_m: DVec3, normal: DVec3) -> Option<DVec3> {
+        let course = self.course(ground, point_m, normal, [DVec3::ZERO; 2]);
+        self.tangent_by(course.here, point_m, normal)
+    }
+
+    fn course(
+        &self,
+        ground: &GrooveGround,
+        point_m: DVec3,
+        normal: DVec3,
+        axes_m: [DVec3; 2],
+    ) -> GrooveCourse {
+        match self {
+            Self::Along { direction, .. } => GrooveCourse {
+                here: direction.normalize_or_zero(),
+                ..GrooveCourse::default()
+            },
+            Self::Around { .. } => GrooveCourse::default(),
+            Self::ByUv { uv, .. } => ground.course(uv, point_m, normal, axes_m),
+        }
+    }
+
+    /// `direction` is that of the course there. As for scratches (`scratches/guide.rs`).
+    fn tangent_by(&self, direction: DVec3, point_m: DVec3, normal: DVec3) -> Option<DVec3> {
         let in_plane = |v: DVec3| v - normal * normal.dot(v);
         match *self {
-            Self::Along { direction, .. } => {
+            Self::Along { .. } | Self::ByUv { .. } => {
                 let along = in_plane(direction);
-                (along.length() > LEAST_PART * direction.length()).then(|| along.normalize())
+                (along.length() > LEAST_PART).then(|| along.normalize())
             }
             Self::Around {
                 axis,
@@ -90,8 +157,7 @@ impl GrooveField {
                 bearing,
             } => {
                 let arm_m = point_m - center_m;
-                // Counter-clockwise seen from outside, so that a pattern looks the same on both sides of a sheet.
-                let spin = axis.cross(arm_m) * if axis.dot(normal) < 0.0 { -1.0 } else { 1.0 };
+                let spin = side(axis, normal) * axis.cross(arm_m);
                 let circle = in_plane(spin);
                 if circle.length() < NO_DIRECTION_M {
                     return None;
@@ -103,7 +169,7 @@ impl GrooveField {
                     Bearing::Radial => outwards,
                     Bearing::Spun { curvature_per_m } => {
                         // A chord from the axis meets its circle at the angle asin(chord curvature / 2).
-                        let sin = (spin.length() * curvature_per_m / 2.0).clamp(-1.0, 1.0);
+                        let sin = (0.5 * spin.length() * curvature_per_m).clamp(-1.0, 1.0);
                         outwards * (1.0 - sin * sin).max(0.0).sqrt() + circle * sin
                     }
                 })
@@ -114,7 +180,7 @@ impl GrooveField {
     /// The distance from the axis or the middle, and the unit direction away from it.
     fn distance_m(&self, point_m: DVec3) -> (f64, DVec3) {
         let away_m = match *self {
-            Self::Along { center_m, .. } => point_m - center_m,
+            Self::Along { center_m, .. } | Self::ByUv { center_m, .. } => point_m - center_m,
             Self::Around { axis, center_m, .. } => {
                 let arm_m = point_m - center_m;
                 arm_m - axis * axis.dot(arm_m)
@@ -124,24 +190,36 @@ impl GrooveField {
     }
 }
 
+/// Patterns turn counter-clockwise seen from outside, so that one looks the same on both sides of a sheet.
+fn side(axis: DVec3, normal: DVec3) -> f64 {
+    if axis.dot(normal) < 0.0 { -1.0 } else { 1.0 }
+}
+
 impl Grating {
     /// The grooves that a pixel sees about a point of a surface, if any. `axes_m` are how the point moves by one standard deviation of the
     /// pixel's filter to the right and down.
     pub fn seen_from_pixel(
         &self,
+        ground: &GrooveGround,
         point_m: DVec3,
         normal: DVec3,
         axes_m: [DVec3; 2],
     ) -> Option<GroovePlace> {
-        let share = self.coverage * self.share_within(point_m, axes_m);
+        let mut share = self.coverage * self.share_within(point_m, axes_m);
+        if let Some(mask) = &self.mask {
+            share *= ground.picture_share(mask, point_m, axes_m);
+        }
         if share <= 0.0 {
             return None;
         }
-        let tangent = self.field.tangent(point_m, normal)?;
-        let turns_rad = axes_m.map(|axis| {
+        let course = self.field.course(ground, point_m, normal, axes_m);
+        let tangent = self.field.tangent_by(course.here, point_m, normal)?;
+        let turns_rad = [0, 1].map(|i| {
+            let (axis, step) = (axes_m[i], course.steps[i]);
             // Halfway, where a field that turns much over a pixel still tells by how much.
             let [before, after] = [-0.5, 0.5].map(|s| {
-                let there = self.field.tangent(point_m + s * axis, normal);
+                let there =
+                    (self.field).tangent_by(course.here + s * step, point_m + s * axis, normal);
                 let there = there.unwrap_or(tangent);
                 normal.dot(tangent.cross(there)).atan2(tangent.dot(there))
             });
@@ -175,6 +253,17 @@ impl Grating {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::Mesh;
+    use std::sync::LazyLock;
+
+    static NO_MESH: LazyLock<Mesh> = LazyLock::new(Mesh::default);
+
+    /// What fields do not look at that are not by texture coordinates.
+    pub(super) static NOWHERE: LazyLock<GrooveGround> = LazyLock::new(|| GrooveGround {
+        textures: &[],
+        mesh: &NO_MESH,
+        triangle: 0,
+    });
 
     fn grating(bearing: Bearing, radii_m: [f64; 2]) -> Grating {
         Grating {
@@ -193,6 +282,7 @@ mod tests {
             angle_std_rad: 0.0,
             coverage: 0.5,
             radii_m,
+            mask: None,
             seed: 1,
         }
     }
@@ -215,7 +305,9 @@ mod tests {
         ] {
             let axes_m = [DVec3::X * 1e-4, DVec3::Y * 1e-4];
             let grating = grating(bearing, EVERYWHERE_M);
-            let place = grating.seen_from_pixel(point_m, DVec3::Z, axes_m).unwrap();
+            let place = grating
+                .seen_from_pixel(&NOWHERE, point_m, DVec3::Z, axes_m)
+                .unwrap();
             assert!(place.tangent.distance(expected) < 1e-9, "{place:?}");
             assert!((place.share - 0.5).abs() < 1e-12);
             // A step along a circle of 4 cm turns the pattern with it; one outwards bends a spiral further.
@@ -232,7 +324,7 @@ mod tests {
         }
         // Seen from the other side the pattern is the same.
         let below = grating(Bearing::Circular, EVERYWHERE_M);
-        let place = below.seen_from_pixel(point_m, -DVec3::Z, [DVec3::ZERO; 2]);
+        let place = below.seen_from_pixel(&NOWHERE, point_m, -DVec3::Z, [DVec3::ZERO; 2]);
         assert!(place.unwrap().tangent.distance(-DVec3::Y) < 1e-9);
     }
 
@@ -242,7 +334,7 @@ mod tests {
         let share = |radius_m: f64| {
             let point_m = DVec3::new(0.01 + radius_m, 0.0, 0.0);
             let axes_m = [DVec3::X * 1e-4, DVec3::Y * 1e-4];
-            let place = ring.seen_from_pixel(point_m, DVec3::Z, axes_m);
+            let place = ring.seen_from_pixel(&NOWHERE, point_m, DVec3::Z, axes_m);
             place.map_or(0.0, |place| place.share)
         };
         assert!(share(0.02) < 1e-6 && share(0.06) < 1e-6);
@@ -256,7 +348,7 @@ mod tests {
         };
         for (height_m, expected) in [(0.0, 0.5), (0.03, 0.25), (0.04, 0.0)] {
             let axes_m = [DVec3::X * 1e-4, DVec3::Z * 1e-4];
-            let place = parallel.seen_from_pixel(DVec3::Z * height_m, DVec3::Y, axes_m);
+            let place = parallel.seen_from_pixel(&NOWHERE, DVec3::Z * height_m, DVec3::Y, axes_m);
             let share = place.map_or(0.0, |place| place.share);
             assert!((share - expected).abs() < 1e-6, "{height_m}: {share}");
         }
@@ -264,7 +356,7 @@ mod tests {
         let axis_m = DVec3::new(0.01, 0.0, 0.3);
         assert!(
             nowhere
-                .seen_from_pixel(axis_m, DVec3::Z, [DVec3::ZERO; 2])
+                .seen_from_pixel(&NOWHERE, axis_m, DVec3::Z, [DVec3::ZERO; 2])
                 .is_none()
         );
     }

@@ -4,8 +4,6 @@ use std::path::Path;
 
 use glam::DVec2;
 
-use crate::reading::{self, Kind};
-use crate::text::shown;
 use crate::texture;
 
 /// A picture of shares from 0 to 1, which is repeated beyond its borders.
@@ -16,27 +14,23 @@ pub(crate) struct GreyMap {
     values: Vec<u8>,
 }
 
-/// Of the memory that is free, what a file may have.
-const SHARE: f64 = 0.25;
+/// What a texel says: the mean of its colours, times its alpha where it has one.
+pub(crate) fn share([r, g, b, a]: &[u8; 4]) -> u8 {
+    let sum = u32::from(*r) + u32::from(*g) + u32::from(*b);
+    // Rounded, and exact for white and black.
+    ((sum * u32::from(*a) + 382) / 765) as u8
+}
 
 impl GreyMap {
-    /// Reads a .png, .jpg or .webp, which may take `free_bytes`. Its values are those of its codes, 1 for the lightest: the mean of its
-    /// colours, times its alpha where it has one.
+    /// Reads a .png, .jpg or .webp, which may take `free_bytes`. Its values are those of its codes, 1 for the lightest.
     ///
     /// # Errors
     /// What was found in the place of a picture.
     pub(crate) fn read(path: &Path, free_bytes: f64) -> Result<Self, String> {
-        let named = |why: String| format!("{}: {why}", shown(&path.to_string_lossy()));
-        let bytes = reading::read(path, Kind::File, SHARE).map_err(|why| named(why.to_string()))?;
-        let image = texture::decode(&bytes, free_bytes).map_err(|why| named(why.to_string()))?;
-        let value = |[r, g, b, a]: &[u8; 4]| {
-            let sum = u32::from(*r) + u32::from(*g) + u32::from(*b);
-            // Rounded, and exact for white and black.
-            ((sum * u32::from(*a) + 382) / 765) as u8
-        };
+        let image = texture::read(path, free_bytes)?;
         Ok(Self {
             size_px: image.size_px,
-            values: image.texels.iter().map(value).collect(),
+            values: image.texels.iter().map(share).collect(),
         })
     }
 

@@ -51,6 +51,11 @@ impl Description {
                 add(format!("a picture of scratches[{i}]"), base_dir.join(file));
             }
         }
+        for (i, grating) in self.gratings.iter().enumerate() {
+            for file in grating.files() {
+                add(format!("a picture of grating[{i}]"), base_dir.join(file));
+            }
+        }
         for (i, light) in self.lights.iter().enumerate() {
             if let Some(file) = &light.picture {
                 add(format!("the picture of light[{i}]"), base_dir.join(file));

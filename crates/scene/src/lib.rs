@@ -43,6 +43,7 @@ pub mod material_optics;
 mod mesh_file;
 mod model_notes;
 mod model_scene;
+mod picture_lie;
 mod polygon;
 pub mod probe;
 pub mod reading;
@@ -53,7 +54,7 @@ mod studio;
 mod surface;
 pub mod text;
 mod texture;
-mod texture_lookup;
+pub mod texture_lookup;
 pub mod wear;
 
 pub use arrays::{Arrays, MeshArrays, ScratchArrays};
@@ -63,10 +64,13 @@ pub use convert::vertical_axis;
 pub use description::Description;
 pub use environment::Environment;
 pub use error::Error;
-pub use grating::{Bearing, Grating, GrooveField, GroovePlace};
+pub use grating::{
+    Bearing, Grating, GrooveField, GrooveGround, GroovePicture, GroovePlace, UvField,
+};
 pub use loader::{Loader, Progress, Stage};
 pub use material_optics::{GratingSpectrum, MaterialOptics, Reflector, ScratchTables};
 pub use mesh_file::LeftOut;
+pub use picture_lie::{PictureLie, three_sides};
 pub use polygon::vector_area_m2;
 pub use scene::*;
 pub use scratches::write_scratches;

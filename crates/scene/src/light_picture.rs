@@ -6,9 +6,7 @@ use std::path::Path;
 use hairline_image::Picture;
 
 use crate::environment;
-use crate::reading::{self, Kind};
 use crate::scene::Texture;
-use crate::text::shown;
 use crate::texture;
 
 /// A picture and the factor on its values. Those of .hdr and .exr are in eight bits, relative to the brightest.
@@ -17,9 +15,6 @@ pub(crate) struct LightPicture {
     pub texture: Texture,
     pub brightest: f64,
 }
-
-/// Of the memory that is free, what a file may have.
-const SHARE: f64 = 0.25;
 
 impl LightPicture {
     /// Reads a .hdr, .exr, .png, .jpg or .webp, which may take `free_bytes`.
@@ -37,10 +32,7 @@ impl LightPicture {
             let picture = environment::read_picture(path, &fits);
             return picture.map_or_else(|error| Err(error.to_string()), Self::of_linear);
         }
-        let bytes = reading::read(path, Kind::File, SHARE)
-            .map_err(|why| format!("{}: {why}", shown(&path.to_string_lossy())))?;
-        let image = texture::decode(&bytes, free_bytes)
-            .map_err(|why| format!("{}: {why}", shown(&path.to_string_lossy())))?;
+        let image = texture::read(path, free_bytes)?;
         Ok(Self {
             texture: Texture::of_colors(image.size_px, image.texels),
             brightest: 1.0,

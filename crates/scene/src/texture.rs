@@ -1,13 +1,16 @@
 //! Images of materials with their mip chains: each level the exact mean of the one below, in linear light.
 
 use std::io::Cursor;
+use std::path::Path;
 
 use hairline_memory::{costs, in_words};
 use image::{ImageReader, Limits};
 use rayon::prelude::*;
 
 use crate::ktx2;
+use crate::reading::{self, Kind};
 use crate::scene::{Sampling, Texture, Wrap};
+use crate::text::shown;
 
 const LARGEST_PX: u32 = 16_384;
 
@@ -51,6 +54,19 @@ pub(crate) fn check_memory(size_px: [u32; 2], free_bytes: f64) -> Result<(), Unu
         });
     }
     Ok(())
+}
+
+/// Of the memory that is free, what a file may have.
+const SHARE: f64 = 0.25;
+
+/// The picture in a file, which may take `free_bytes` as a texture.
+///
+/// # Errors
+/// What was found in the place of a picture.
+pub(crate) fn read(path: &Path, free_bytes: f64) -> Result<Texels, String> {
+    let named = |why: String| format!("{}: {why}", shown(&path.to_string_lossy()));
+    let bytes = reading::read(path, Kind::File, SHARE).map_err(|why| named(why.to_string()))?;
+    decode(&bytes, free_bytes).map_err(|why| named(why.to_string()))
 }
 
 /// The texels of a PNG, JPEG, WebP or KTX2 file, row by row from the top, and its size. As a texture it may take `free_bytes`.

@@ -1,6 +1,6 @@
 //! Look-ups in textures, as all renderers do them. Twin: gpu/shaders/scene/scene.wgsl.
 
-use glam::{DVec2, DVec4, Vec2};
+use glam::{DVec2, DVec3, DVec4, Vec2};
 use hairline_image::tone_map::linear_from_srgb;
 
 use crate::scene::{Cutout, Material, Mesh, Texture};
@@ -38,13 +38,54 @@ impl Texture {
         (texels, t)
     }
 
+    /// Trilinear look-up in linear values. `filter_side` is that of the filter in texture space: its area as a square, one standard deviation wide.
+    pub fn filtered(&self, uv: DVec2, filter_side: f64, sample: TextureSampler) -> DVec4 {
+        let texels = filter_side * (self.size_px[0] as f64 * self.size_px[1] as f64).sqrt();
+        // A Gaussian of one texel's width is what bilinear look-up amounts to: level 0 serves down to there.
+        let last = (self.levels.len() - 1) as f64;
+        let lod = if texels > 0.0 {
+            (2.0 * texels).log2().clamp(0.0, last)
+        } else {
+            0.0
+        };
+        let (low, share) = (lod.floor(), lod.fract());
+        let near = sample(self, low as usize, uv, texels);
+        if share == 0.0 {
+            near
+        } else {
+            near.lerp(sample(self, low as usize + 1, uv, texels), share)
+        }
+    }
+
+    /// A level between its texels, linear.
+    pub fn at_level(&self, level: usize, uv: DVec2, filter_texels: f64) -> DVec4 {
+        let (texels, t) = self.four_texels(level, uv, filter_texels);
+        blend(texels, t)
+    }
+
     /// The alpha at a place, from the first level.
     fn alpha(&self, uv: DVec2) -> f64 {
-        let (texels, [x, y]) = self.four_texels(0, uv, 0.0);
-        let [a, b, c, d] = texels.map(|texel| texel.w);
-        let (top, low) = (a + (b - a) * x, c + (d - c) * x);
-        top + (low - top) * y
+        self.at_level(0, uv, 0.0).w
     }
+}
+
+/// Bilinear look-up in a level, by a filter of so many texels of the first.
+pub type TextureSampler = fn(&Texture, usize, DVec2, f64) -> DVec4;
+
+/// The mean of four texels, so far from the first to the others.
+pub fn blend(texels: [DVec4; 4], [x, y]: [f64; 2]) -> DVec4 {
+    texels[0]
+        .lerp(texels[1], x)
+        .lerp(texels[2].lerp(texels[3], x), y)
+}
+
+/// The area of a footprint in texture space as the side of a square, one standard deviation wide: that of two axes on a triangle of
+/// these corners that spans `uv_area` twice.
+pub fn texture_footprint(uv_area: f64, corners_m: &[DVec3; 3], axes_m: [DVec3; 2]) -> f64 {
+    let area_m2 = (corners_m[1] - corners_m[0])
+        .cross(corners_m[2] - corners_m[0])
+        .length();
+    (uv_area / area_m2 * axes_m[0].cross(axes_m[1]).length()).sqrt()
 }
 
 impl Mesh {

@@ -10,6 +10,7 @@ pub(crate) mod status;
 mod camera;
 mod environment;
 mod grating;
+mod groove_pattern;
 mod layer;
 mod layer_place;
 mod light;

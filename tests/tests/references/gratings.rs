@@ -32,6 +32,7 @@ fn grated(row: Row, angle_std_rad: f64, light_rad: f64) -> Scene {
         angle_std_rad,
         coverage: 1.0,
         radii_m: [0.0, f64::INFINITY],
+        mask: None,
         seed: 1,
     }];
     scene.lights = vec![sphere(VIEW, 0.0, -0.55 / row.pitch_um, light_rad)];

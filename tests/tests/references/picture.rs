@@ -130,6 +130,7 @@ fn a_soft_box_on_a_grating() {
                 angle_std_rad,
                 coverage: 0.8,
                 radii_m: [0.0, f64::INFINITY],
+                mask: None,
                 seed: 1,
             }];
             scene

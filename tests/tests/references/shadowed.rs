@@ -87,6 +87,7 @@ pub(super) fn with_rows(mut scene: Scene) -> Scene {
         angle_std_rad: 0.05,
         coverage: 0.4,
         radii_m: [0.0, f64::INFINITY],
+        mask: None,
         seed: 1,
     };
     let around = Grating {

@@ -63,38 +63,75 @@ fn a_white_furnace_stays_white() {
 fn orders_lie_where_the_grating_equation_says() {
     // Of a compact disc orders 1 and 2 overlap beyond 0.47, and what the eye sees of the second begins at 0.5; of a DVD all wavelengths are within.
     for (pitch_um, within) in [(1.6, 0.23..0.485), (0.74, 0.49..1.0)] {
-        let [found_nm, expected_nm] = first_order_nm(pitch_um, within);
+        let plate = Grooved {
+            size_m: 1.0,
+            object: "plane = { size_m = [0.1, 1.2] }",
+            center_y_m: 0.0,
+            grating: "pattern = \"parallel\"",
+        };
+        let found_nm = first_order_nm(&plate, pitch_um, within.clone());
+        let expected_nm = seen_nm();
         println!(
             "gratings, {pitch_um} um: the first order's mean wavelength is {found_nm:.2} nm in the picture, {expected_nm:.2} by the spectrum"
         );
         assert!((found_nm / expected_nm - 1.0).abs() < 1e-3, "{pitch_um}");
+        // A disc as it is sold, from 27 to 55 mm off its axis.
+        let disc = Grooved {
+            size_m: 0.15,
+            object: "disk = { radius_m = 0.06 }",
+            center_y_m: -0.027,
+            grating: "pattern = \"circular\"\nradius_m = [0.0228, 0.058]",
+        };
+        if pitch_um == 1.6 {
+            let found_nm = first_order_nm(&disc, pitch_um, within.clone());
+            println!("gratings, on a disc: {found_nm:.2} nm");
+            assert!((found_nm / expected_nm - 1.0).abs() < 1e-3, "{found_nm}");
+            // Grooves of another pitch are seen.
+            let wrong_nm = first_order_nm(&disc, 1.61, within) * 1.6 / 1.61;
+            assert!((wrong_nm / expected_nm - 1.0).abs() > 3e-3, "{wrong_nm}");
+        }
     }
 }
 
-/// The mean wavelength of a first order by the angles in a picture, and by the spectrum; `within` are the directions across the grooves that are asked for.
-fn first_order_nm(pitch_um: f64, within: Range<f64>) -> [f64; 2] {
-    // Grooves so shallow that their colours follow the inverse square of the wavelength, and the square of the depth along the path.
-    let (depth_nm, camera_m) = (4.0, 2.0);
+/// What light of a strip lamp above falls on, and how large all of it is.
+struct Grooved {
+    size_m: f64,
+    object: &'static str,
+    center_y_m: f64,
+    grating: &'static str,
+}
+
+/// Grooves so shallow that their colours follow the inverse square of the wavelength, and the square of the depth along the path.
+const SHALLOW_NM: f64 = 4.0;
+
+/// The mean wavelength of a first order by the angles in a picture; `within` are the directions across the grooves that are asked for.
+fn first_order_nm(grooved: &Grooved, pitch_um: f64, within: Range<f64>) -> f64 {
+    let camera_m = 2.0 * grooved.size_m;
     // A strip across the order's way, wider than the band.
-    let [lamp_y_m, lamp_z_m, half_m] = [0.5, 0.9, 0.0005];
-    let corner_m = |x: f64, y: f64| [x, lamp_y_m + y * half_m, lamp_z_m];
+    let [lamp_y_m, lamp_z_m, half_m, reach_m] = [0.5, 0.9, 0.0005, 0.1].map(|v| v * grooved.size_m);
+    let corner_m = |x: f64, y: f64| [x * reach_m, lamp_y_m + y * half_m, lamp_z_m];
     let width_px = 400;
     let scene = SceneFile::seen_from([0.0, 0.0, camera_m])
         .size_px([3, width_px])
         .fov_y_deg(30.0)
         .mirror("m")
-        .object("plate", "m", "plane = { size_m = [0.1, 1.2] }")
+        .object("it", "m", grooved.object)
+        .with(&format!(
+            "translation_m = [0.0, {:?}, 0.0]",
+            grooved.center_y_m
+        ))
         .part(&format!(
-            "[[grating]]\nobject = \"plate\"\npattern = \"parallel\"\npitch_um = {pitch_um}\n\
-             width_um = {:?}\ndepth_nm = {depth_nm:?}",
+            "[[grating]]\nobject = \"it\"\n{}\npitch_um = {pitch_um}\n\
+             width_um = {:?}\ndepth_nm = {SHALLOW_NM:?}",
+            grooved.grating,
             0.3 * pitch_um
         ))
         .polygon(
             &[
-                corner_m(-0.1, -1.0),
-                corner_m(-0.1, 1.0),
-                corner_m(0.1, 1.0),
-                corner_m(0.1, -1.0),
+                corner_m(-1.0, -1.0),
+                corner_m(-1.0, 1.0),
+                corner_m(1.0, 1.0),
+                corner_m(1.0, -1.0),
             ],
             1e6,
         )
@@ -130,16 +167,20 @@ fn first_order_nm(pitch_um: f64, within: Range<f64>) -> [f64; 2] {
         sum += density;
         moment += density * at;
     }
-    let found_nm = 1e3 * pitch_um * moment / sum;
+    1e3 * pitch_um * moment / sum
+}
+
+/// The mean wavelength that the eye sees of white light from shallow grooves.
+fn seen_nm() -> f64 {
     let (mut sum, mut moment) = (0.0, 0.0);
     for sample in spectrum::samples() {
         let [r, g, b] = sample.weight;
         let seen = (0.2126 * r + 0.7152 * g + 0.0722 * b)
-            * phase_step_energy(depth_nm, sample.wavelength_nm);
+            * phase_step_energy(SHALLOW_NM, sample.wavelength_nm);
         sum += seen;
         moment += seen * sample.wavelength_nm;
     }
-    [found_nm, moment / sum]
+    moment / sum
 }
 
 /// A plate and a ball with gratings of all patterns side by side, scratches on top of some, under lights of all kinds and a studio.
@@ -288,5 +329,99 @@ fn a_zoom_neither_steps_nor_flickers() {
             100.0 * most[1]
         );
         assert!(most[0] < 0.03 && most[1] < 0.03, "{pitch_um}: {most:?}");
+    }
+}
+
+/// Frames of a zoom into a disc of this pitch, from 1 mm to 10 um a pixel, each a tenth nearer; by what the middle one of three differs from the mean of the
+/// two about it, both warped to it: the greatest of all frames, relative.
+fn flicker(pitch_um: f64, filter_std_px: f64) -> f64 {
+    let side_px = 40;
+    let frame = |pixel_um: f64| {
+        let distance_m = 0.3;
+        let half = 0.5 * f64::from(side_px) * pixel_um * 1e-6 / distance_m;
+        let target_m = [0.03, 0.02, 0.0];
+        let mut scene = SceneFile::seen_from([target_m[0], target_m[1] - 0.18, 0.24])
+            .toward(target_m)
+            .size_px([side_px, side_px])
+            .fov_y_deg(2.0 * half.atan().to_degrees())
+            .metal("m", "aluminium")
+            .with("coherence_um = 8.0")
+            .object("disc", "m", "disk = { radius_m = 0.06 }")
+            .part(&format!(
+                "[[grating]]\nobject = \"disc\"\npattern = \"circular\"\npitch_um = {pitch_um:?}\njitter_um = {:?}",
+                0.02 * pitch_um
+            ))
+            .sphere([0.1, 0.25, 0.4], 0.02, 50.0)
+            .part("[[light]]\nkind = \"tube\"\nends_m = [[-0.4, -0.1, 0.3], [-0.4, 0.35, 0.3]]\nradius_m = 0.006\nradiance = 60.0")
+            .part("[environment]\nbuiltin = \"studio\"")
+            .scene();
+        scene.render.filter_std_px = filter_std_px;
+        one_sample(&scene)
+            .scratches
+            .iter()
+            .map(|rgb| f64::from(0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]))
+            .collect::<Vec<f64>>()
+    };
+    let ratio = 1.1;
+    let count = (100f64.ln() / f64::ln(ratio)).ceil() as i32;
+    let frames: Vec<_> = (0..=count)
+        .map(|i| frame(1000.0 / f64::powi(ratio, i)))
+        .collect();
+    let side = side_px as usize;
+    let half = 0.5 * f64::from(side_px);
+    // Between four pixels each way, by cubics through them.
+    let weights = |t: f64| {
+        let (t2, t3) = (t * t, t * t * t);
+        [
+            0.5 * (2.0 * t2 - t - t3),
+            0.5 * (3.0 * t3 - 5.0 * t2 + 2.0),
+            0.5 * (4.0 * t2 - 3.0 * t3 + t),
+            0.5 * (t3 - t2),
+        ]
+    };
+    let warped = |frame: &[f64], x: usize, y: usize, scale: f64| {
+        let [at_x, at_y] = [x, y].map(|v| (v as f64 + 0.5 - half) * scale + half - 0.5);
+        let (first_x, first_y) = (at_x.floor(), at_y.floor());
+        let (across, down) = (weights(at_x - first_x), weights(at_y - first_y));
+        let mut sum = 0.0;
+        for j in 0..4 {
+            for i in 0..4 {
+                let place = (first_y as usize + j - 1) * side + first_x as usize + i - 1;
+                sum += across[i] * down[j] * frame[place];
+            }
+        }
+        sum
+    };
+    let mut most: f64 = 0.0;
+    for three in frames.windows(3) {
+        let (mut error, mut all) = (0.0, 0.0);
+        for y in 5..side - 5 {
+            for x in 5..side - 5 {
+                let before = warped(&three[0], x, y, 1.0 / ratio);
+                let after = warped(&three[2], x, y, ratio);
+                let here = three[1][y * side + x];
+                error += (here - 0.5 * (before + after)).powi(2);
+                all += here * here;
+            }
+        }
+        most = most.max((error / all).sqrt());
+    }
+    most
+}
+
+/// Also where single grooves begin to show, a few pixels apart. Pixels that look at points see other grooves in each frame.
+#[test]
+fn frames_of_a_zoom_do_not_flicker() {
+    for (pitch_um, limit) in [(1.6, 0.02), (30.0, 0.05)] {
+        let [found, by_points] = [0.5, 0.02].map(|std_px| flicker(pitch_um, std_px));
+        println!(
+            "gratings, frames of a zoom, {pitch_um} um: a frame differs from those about it by {:.2} % at most, by {:.2} % with pixels that look at points",
+            100.0 * found,
+            100.0 * by_points
+        );
+        assert!(found < limit, "{pitch_um}: {found}");
+        if pitch_um == 30.0 {
+            assert!(by_points > 3.0 * limit, "{by_points}");
+        }
     }
 }

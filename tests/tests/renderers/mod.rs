@@ -7,6 +7,7 @@ mod environment;
 mod environment_band;
 mod furnaces;
 mod gratings;
+mod groove_maps;
 mod lamps;
 mod models;
 mod physics;

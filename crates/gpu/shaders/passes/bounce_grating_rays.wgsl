@@ -17,7 +17,7 @@ fn draw_grating(pixel: PixelPoint, paint: PixelPaint, u: vec2f, sent: ptr<functi
         if !grating_is_on(gratings[i], paint) {
             continue;
         }
-        let pair = grating_pair(pixel, gratings[i], covered);
+        let pair = grating_pair(pixel, paint.triangle, gratings[i], covered);
         let line = band_line_at(band_from_surface(pair.seen.tangent, pair.point.wo), 0.0);
         for (var c = 0u; c < ROW_CELLS; c += 1u) {
             let cell = row_cell(c, line);
@@ -31,7 +31,7 @@ fn draw_grating(pixel: PixelPoint, paint: PixelPaint, u: vec2f, sent: ptr<functi
     if taken.x == object.end_grating {
         return DrawnLight(vec3f(0.0), false, vec3f(1.0));
     }
-    let pair = grating_pair(pixel, gratings[taken.x], covered);
+    let pair = grating_pair(pixel, paint.triangle, gratings[taken.x], covered);
     let line = band_line_at(band_from_surface(pair.seen.tangent, pair.point.wo), 0.0);
     let cell = row_cell(taken.y, line);
     let cos_i = cell.direction.z;

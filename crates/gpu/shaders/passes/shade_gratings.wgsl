@@ -54,7 +54,7 @@ fn shade_gratings(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgrou
         if !grating_is_on(gratings[i], paints[at]) {
             continue;
         }
-        let pair = grating_pair(points[at], gratings[i], covered);
+        let pair = grating_pair(points[at], paints[at].triangle, gratings[i], covered);
         let share = pair.seen.share.segment;
         if !(share > 0.0) {
             continue;

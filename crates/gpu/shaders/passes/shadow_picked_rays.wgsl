@@ -7,16 +7,17 @@
 @group(3) @binding(3) var<storage, read> picks: array<vec4u>;
 @group(3) @binding(4) var<storage, read_write> rays: array<ShadowRay>;
 @group(3) @binding(5) var<uniform> shadow_round: ShadowRound;
+@group(3) @binding(6) var<storage, read> paints: array<PixelPaint>;
 
 // Whether gratings were picked, in place of scratches.
 override OF_GRATINGS: bool = false;
 
 // The ray of a sample by way of a pick; `luminance` is that of all that scratches send, or gratings.
-fn ray_by(pixel: PixelPoint, pick: Pick, luminance: f32) -> ShadowRay {
+fn ray_by(pixel: PixelPoint, triangle: u32, pick: Pick, luminance: f32) -> ShadowRay {
     var pair: Pair;
     var segment: Segment;
     if OF_GRATINGS {
-        pair = grating_pair(pixel, gratings[pick.segment], 1.0);
+        pair = grating_pair(pixel, triangle, gratings[pick.segment], 1.0);
     } else {
         segment = segment_from(scratch_segment(pick.segment));
         pair = pair_of(pixel, segment);
@@ -62,5 +63,5 @@ fn shadow_picked_rays(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_work
     }
     let begin = select(chunk_starts[group], group, OF_GRATINGS);
     let state = pick_state_from(picks[GROUP * begin + lane]);
-    rays[at] = ray_by(points[at], pick, state.step * f32(state.per_sample));
+    rays[at] = ray_by(points[at], paints[at].triangle, pick, state.step * f32(state.per_sample));
 }

@@ -4,6 +4,10 @@ override HAS_SCRATCHES: bool = true;
 override HAS_GRATINGS: bool = true;
 // Gratings whose grooves could be seen one by one.
 override HAS_SINGLE_GROOVES: bool = true;
+// And among these such that come nearer to one another along their way.
+override HAS_BRANCHING_GROOVES: bool = true;
+// Gratings with pictures, or along texture coordinates.
+override HAS_GROOVE_MAPS: bool = true;
 override HAS_SPHERES: bool = true;
 // Tubes too, whose outlines are polygons.
 override HAS_POLYGONS: bool = true;

@@ -5,12 +5,26 @@ const GROOVES_CIRCULAR: u32 = 1u;
 const GROOVES_RADIAL: u32 = 2u;
 const GROOVES_SPUN: u32 = 3u;
 
+// Of Grating.maps: the mask lies from three sides; grooves run along the first texture coordinate, along the second.
+const GROOVES_MASK_BY_SIDES: u32 = 1u;
+const GROOVES_BY_U: u32 = 2u;
+const GROOVES_BY_V: u32 = 4u;
+
 // Nearer than this to its axis a field has no direction.
 const GROOVES_NO_DIRECTION_M: f32 = 1e-8;
 // Where a surface stands across a direction, its projection is noise.
 const GROOVES_LEAST_PART: f32 = 1e-3;
 // Beyond so many standard deviations a normal distribution has nothing.
 const GROOVES_FAR_STD: f32 = 9.0;
+
+// Where grooves along a direction go, about a point.
+struct GrooveCourse {
+    here: vec3f,                // the direction there, of any length
+    level: f32,                 // what grooves by texture coordinates stay at, in turns of the texture
+    right: vec3f,               // how the direction changes over one standard deviation of the pixel's filter to the right
+    down: vec3f,                // and down
+    level_per_m: vec3f,         // gradient of the level; zero: grooves have no numbers
+}
 
 // Grooves that a pixel sees.
 struct GroovePlace {
@@ -19,10 +33,15 @@ struct GroovePlace {
     share: f32,                 // of the pixel that they cover
 }
 
-// The unit direction of grooves in the plane across a unit normal, so far from the middle of their field; zero where there is none.
-fn groove_tangent(grating: Grating, arm_m: vec3f, normal: vec3f) -> vec3f {
+fn groove_course_straight(grating: Grating) -> GrooveCourse {
+    return GrooveCourse(grating.axis, 0.0, vec3f(0.0), vec3f(0.0), vec3f(0.0));
+}
+
+// The unit direction of grooves in the plane across a unit normal, so far from the middle of their field; zero where there is none. `direction` is
+// that of their course there.
+fn groove_tangent(grating: Grating, direction: vec3f, arm_m: vec3f, normal: vec3f) -> vec3f {
     if grating.kind == GROOVES_ALONG {
-        let along = grating.axis - normal * dot(normal, grating.axis);
+        let along = direction - normal * dot(normal, direction);
         let length2 = dot(along, along);
         return select(vec3f(0.0), along * inverseSqrt(max(length2, 1e-30)), length2 > GROOVES_LEAST_PART * GROOVES_LEAST_PART);
     }
@@ -68,7 +87,7 @@ fn groove_share_within(grating: Grating, arm_m: vec3f, right_m: vec3f, down_m: v
 
 // The grooves that a pixel sees about a point of a surface. `right_m` and `down_m` are how the point moves by one standard deviation of the pixel's
 // filter.
-fn groove_place(grating: Grating, point_m: vec3f, normal: vec3f, right_m: vec3f, down_m: vec3f) -> GroovePlace {
+fn groove_place(grating: Grating, course: GrooveCourse, point_m: vec3f, normal: vec3f, right_m: vec3f, down_m: vec3f) -> GroovePlace {
     let arm_m = point_m - grating.center_m;
     var tangent = vec3f(0.0);
     var turns = vec2f(0.0);
@@ -76,7 +95,8 @@ fn groove_place(grating: Grating, point_m: vec3f, normal: vec3f, right_m: vec3f,
     for (var i = 0u; i < 5u; i += 1u) {
         let step_m = select(select(down_m, right_m, i < 3u), vec3f(0.0), i == 0u);
         let side = select(-1.0, 1.0, (i & 1u) != 0u);
-        let there = groove_tangent(grating, arm_m + 0.5 * side * step_m, normal);
+        let turn = select(select(course.down, course.right, i < 3u), vec3f(0.0), i == 0u);
+        let there = groove_tangent(grating, course.here + 0.5 * side * turn, arm_m + 0.5 * side * step_m, normal);
         if i == 0u {
             tangent = there;
             if all(tangent == vec3f(0.0)) {

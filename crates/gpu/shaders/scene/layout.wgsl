@@ -80,6 +80,12 @@ struct Grating {
     width_um: f32,
     jitter_pitches: f32,        // standard deviation of how far a groove is off its place
     densest: f32,               // no factor for single grooves is greater: they take no more than there is
+    maps: u32,                  // GROOVES_BY_U and so on
+    tiles_x: vec4f,             // of a mask from three sides: from a place to the object's frame in widths of the picture, row by row
+    tiles_y: vec4f,
+    tiles_z: vec4f,
+    mask: vec2u,                // a texture, see scene_texture(): its red is a factor on the coverage; zero: none
+    directions: vec2u,          // a texture that turns grooves by texture coordinates
 }
 
 struct Material {

@@ -17,6 +17,15 @@ const MEAN_STD: f64 = 1.0;
 /// Grooves that are asked for on either side: those that are off their places may be as far away.
 const REACH: i32 = 6;
 
+/// The same of those that branch, which are up to twice as dense.
+const BRANCHING_REACH: i32 = 8;
+
+/// Grooves that begin between two others grow within this share of the way on which their distance doubles.
+const GROWTH: f64 = 1.0 / 64.0;
+
+/// Grooves that branch are counted up to two to this power: single precision tells no more apart.
+const MOST_BITS: i32 = 20;
+
 /// Grooves about a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GroovesAt {
@@ -27,6 +36,62 @@ pub struct GroovesAt {
     /// From one place to the next: the pitch, or more where the surface stands slanted to the planes that cut the grooves. Negative where they
     /// are counted against the direction of `offset_um`.
     pub pitch_um: f64,
+    /// Of grooves that come nearer to one another along their way.
+    pub branches: Option<Branches>,
+}
+
+/// Grooves that come nearer to one another along their way: so that they stay a pitch apart in the mean, one begins between two others, or ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Branches {
+    /// There are two to this power of places to a turn, of which those of odd numbers are not all taken.
+    bits: i32,
+    /// The share of the odd ones that are.
+    taken: f64,
+}
+
+impl GroovesAt {
+    /// Of grooves that keep to a number of turns. At the point it is `turns`, and changes by so many per metre along the direction.
+    /// None where they are too many to be told apart.
+    pub fn branching(turns: f64, turns_per_m: f64, pitch_um: f64) -> Option<Self> {
+        // Grooves of this pitch to a turn.
+        let count = 1e6 / (pitch_um * turns_per_m.abs().max(1e-12));
+        let doublings = count.log2().max(0.0);
+        let bits = doublings.floor() as i32 + 1;
+        if bits > MOST_BITS {
+            return None;
+        }
+        let places = f64::from(1 << bits);
+        let at = (turns - turns.floor()) * places;
+        let place_um = 1e6 / (places * turns_per_m);
+        Some(Self {
+            number: at.round() as i32,
+            offset_um: (at.round() - at) * place_um,
+            pitch_um: place_um,
+            branches: Some(Branches {
+                bits,
+                taken: 2f64.powf(doublings - doublings.floor()) - 1.0,
+            }),
+        })
+    }
+
+    /// The number of a groove that stays its own wherever others begin beside it.
+    fn own_number(&self, step: i32) -> u32 {
+        let number = self.number.wrapping_add(step).cast_unsigned();
+        self.branches
+            .map_or(number, |branches| number << (32 - branches.bits))
+    }
+
+    /// How much of a groove there is that comes so many after the nearest.
+    fn grown(&self, step: i32, seed: u32) -> f64 {
+        match self.branches {
+            Some(branches) if (self.number + step) & 1 == 1 => {
+                let word = word_hash(self.own_number(step) ^ word_hash(!seed));
+                let begins = f64::from(word >> 8) / f64::from(1 << 24) * (1.0 - GROWTH);
+                ((branches.taken - begins) / GROWTH).clamp(0.0, 1.0)
+            }
+            _ => 1.0,
+        }
+    }
 }
 
 impl Grating {
@@ -38,34 +103,48 @@ impl Grating {
     /// The factor on what the row sends: 1 in the mean. `std_um` is the standard deviation of pixel and window across the grooves, the root of
     /// V in (20).
     pub fn groove_density(&self, at: GroovesAt, std_um: f64, seed: u32) -> f64 {
-        let part = (std_um / at.pitch_um.abs() - SINGLE_STD) / (MEAN_STD - SINGLE_STD);
+        let pitch_um = self.mean_pitch_um(&at);
+        let part = (std_um / pitch_um - SINGLE_STD) / (MEAN_STD - SINGLE_STD);
         if part >= 1.0 {
             return 1.0;
         }
         let part = part.max(0.0);
         let seen = 1.0 - part * part * (3.0 - 2.0 * part);
         let mut sum = 0.0;
-        for step in -REACH..=REACH {
+        let reach = at.branches.map_or(REACH, |_| BRANCHING_REACH);
+        for step in -reach..=reach {
             let middle_um = self.groove_offset_um(at, step, seed);
+            let grown = at.grown(step, seed);
             for edge_um in [-0.5, 0.5].map(|side| middle_um + side * self.width_um) {
                 let far = edge_um / std_um;
-                sum += (-0.5 * far * far).exp();
+                sum += grown * (-0.5 * far * far).exp();
             }
         }
-        let density = 0.5 * at.pitch_um.abs() / ((2.0 * PI).sqrt() * std_um) * sum;
+        let density = 0.5 * pitch_um / ((2.0 * PI).sqrt() * std_um) * sum;
         (1.0 + seen * (density - 1.0)).min(1.0 / self.most_taken())
+    }
+
+    /// How far grooves are from one another in the mean.
+    fn mean_pitch_um(&self, at: &GroovesAt) -> f64 {
+        at.branches.map_or(at.pitch_um.abs(), |_| self.pitch_um)
     }
 
     /// How far off the groove is that comes so many after the nearest: displacements are stretched as the places are.
     pub fn groove_offset_um(&self, at: GroovesAt, step: i32, seed: u32) -> f64 {
-        let shift = self.jitter_um / self.pitch_um * groove_shift(at.number + step, seed);
-        at.offset_um + (f64::from(step) + shift) * at.pitch_um
+        let shift = groove_shift(at.own_number(step), seed);
+        let stretch = (self.mean_pitch_um(&at) / self.pitch_um).copysign(at.pitch_um);
+        at.offset_um + f64::from(step) * at.pitch_um + self.jitter_um * stretch * shift
+    }
+
+    /// Whether that groove is there; `draw` is in [0, 1), for one that only begins.
+    pub fn has_groove(&self, at: GroovesAt, step: i32, seed: u32, draw: f64) -> bool {
+        draw < at.grown(step, seed)
     }
 }
 
 /// How far a groove is off its place: of mean 0 and variance 1, nearly normal, the same for a number and a seed everywhere.
-fn groove_shift(number: i32, seed: u32) -> f64 {
-    let first = word_hash(number.cast_unsigned() ^ word_hash(seed));
+fn groove_shift(number: u32, seed: u32) -> f64 {
+    let first = word_hash(number ^ word_hash(seed));
     let second = word_hash(first ^ 0x9e37_79b9);
     let halves = [first & 0xffff, first >> 16, second & 0xffff, second >> 16];
     // Four numbers that are even in [0, 1) have the variance 1/3.
@@ -94,6 +173,7 @@ mod tests {
             number: number as i32,
             offset_um: 40.0 * number - um,
             pitch_um: 40.0,
+            branches: None,
         }
     }
 
@@ -116,6 +196,44 @@ mod tests {
         }
     }
 
+    /// Along the rays of a star, from where there are 512 to where there are 2048.
+    #[test]
+    fn grooves_that_branch_keep_their_mean_and_their_places() {
+        let density = |turns: f64, radius_um: f64, std_um: f64| {
+            let turns_per_m = 1e6 / (2.0 * PI * radius_um);
+            let at = GroovesAt::branching(turns, turns_per_m, 40.0).unwrap();
+            row(3.0).groove_density(at, std_um, 7)
+        };
+        let mut radius_um = 512.0 * 40.0 / (2.0 * PI);
+        let end_um = 4.0 * radius_um;
+        let mut means = Vec::new();
+        while radius_um < end_um {
+            for std_um in [5.0, 14.0, 24.0] {
+                let count = 8000;
+                let at = |i: i32| density(f64::from(i) / f64::from(count), radius_um, std_um);
+                let mean = (0..count).map(at).sum::<f64>() / f64::from(count);
+                // Chance takes half of half of the places at most.
+                assert!((mean - 1.0).abs() < 0.06, "{radius_um} {std_um}: {mean}");
+                means.push(mean);
+            }
+            // Nothing moves or begins at once; not where the number of grooves has doubled either.
+            for i in 0..500 {
+                let [here, there] =
+                    [1.0, 1.0002].map(|s| density(f64::from(i) / 500.0, s * radius_um, 8.0));
+                assert!(
+                    (there - here).abs() < 0.12,
+                    "{radius_um} {i}: {here} {there}"
+                );
+            }
+            radius_um *= 1.0189;
+        }
+        let mean = means.iter().sum::<f64>() / means.len() as f64;
+        assert!((mean - 1.0).abs() < 0.01, "{mean}");
+        // Next to nothing to a turn, and too many.
+        assert!(GroovesAt::branching(0.3, 1e9, 40.0).is_some());
+        assert!(GroovesAt::branching(0.3, 1e-3, 40.0).is_none());
+    }
+
     /// Narrow grooves of a wide window have the shares of scratches.
     #[test]
     fn narrow_grooves_are_scratches() {
@@ -133,8 +251,9 @@ mod tests {
         for place_um in [0.0, 7.0, 19.0, 33.0] {
             let shares: f64 = (-3..4)
                 .map(|number| {
-                    let offset_um =
-                        40.0 * f64::from(number) + 3.0 * groove_shift(number, 7) - place_um;
+                    let offset_um = 40.0 * f64::from(number)
+                        + 3.0 * groove_shift((number as i32).cast_unsigned(), 7)
+                        - place_um;
                     let ends = [-1e4, 1e4];
                     scratch_share(
                         0.2,
@@ -204,12 +323,8 @@ mod tests {
         let count = 100_000;
         let [sum, squares, next] = (0..count)
             .map(|i| {
-                let shift = groove_shift(i - count / 2, 3);
-                [
-                    shift,
-                    shift * shift,
-                    shift * groove_shift(i + 1 - count / 2, 3),
-                ]
+                let shift = groove_shift(i, 3);
+                [shift, shift * shift, shift * groove_shift(i + 1, 3)]
             })
             .fold([0.0; 3], |a, b| std::array::from_fn(|i| a[i] + b[i]));
         let count = f64::from(count);

@@ -474,7 +474,7 @@ class Grating(Table):
     object: str
     """The name of the object that they cover."""
     pattern: str
-    """``"parallel"``, ``"circular"``, ``"radial"`` or ``"spun"``."""
+    """``"parallel"``, ``"circular"``, ``"radial"``, ``"spun"`` or ``"uv"``."""
     pitch_um: float
     """From one groove to the next, micrometres, from 0.3 to 50."""
     name: Optional[str] = _default()
@@ -493,8 +493,16 @@ class Grating(Table):
     """Standard deviation of a groove's angle to the pattern, degrees. Default: 0."""
     coverage: Optional[float] = _default()
     """The share of the surface that they cover. Default: 1."""
+    mask: Optional[Path] = _default()
+    """A picture whose values are factors on the coverage. Default: none."""
+    tile_m: Optional[float] = _default()
+    """The mask is laid on from three sides, so wide, metres. Default: by texture coordinates."""
     radius_m: Optional[Sequence[float]] = _default()
     """The least and the greatest distance from the axis, metres. Default: everywhere."""
+    along: Optional[str] = _default()
+    """Of grooves by texture coordinates: ``"u"`` or ``"v"``. Default: ``"u"``."""
+    directions: Optional[Path] = _default()
+    """A picture that turns grooves by texture coordinates, as anisotropy textures of glTF do. Default: none."""
     direction: Optional[Vector] = _default()
     """Of parallel grooves, 3 numbers. Default: +x."""
     axis: Optional[Vector] = _default()

@@ -7,6 +7,7 @@ use std::time::SystemTime;
 use glam::{DMat4, DVec3};
 use hairline_image::held;
 
+use super::gratings::GroovePictureKind;
 use super::parts::{OnPart, PartGround, Surroundings};
 use crate::description::{self, Layer, LightKind, Map, Place, Stroke, Surface};
 use crate::environment::BuiltInMap;
@@ -25,6 +26,7 @@ pub(super) struct Kept {
     pub surfaces: Vec<Arc<KeptSurface>>,
     pub textures: Textures,
     pub pictures: Vec<KeptPicture>,
+    pub groove_pictures: Vec<KeptGroovePicture>,
     /// Those of layers' places.
     pub grey_maps: Vec<(Stamp, Arc<GreyMap>)>,
     /// The map with no rotation, intensity 1.
@@ -270,7 +272,16 @@ pub(super) struct KeptPicture {
     pub texture: Arc<Vec<Texture>>,
 }
 
-/// The textures of several surfaces, then those of lights, one after the other.
+/// A picture of a grating.
+#[derive(Clone)]
+pub(super) struct KeptGroovePicture {
+    pub file: Stamp,
+    pub kind: GroovePictureKind,
+    /// It alone.
+    pub texture: Arc<Vec<Texture>>,
+}
+
+/// The textures of several surfaces, of gratings, then those of lights, one after the other.
 #[derive(Clone, Default)]
 pub(super) struct Textures {
     parts: Vec<Arc<Vec<Texture>>>,
@@ -315,6 +326,17 @@ impl Kept {
         self.pictures
             .iter()
             .find(|kept| kept.file == *file)
+            .cloned()
+    }
+
+    pub(super) fn groove_picture(
+        &self,
+        file: &Stamp,
+        kind: GroovePictureKind,
+    ) -> Option<KeptGroovePicture> {
+        self.groove_pictures
+            .iter()
+            .find(|kept| kept.file == *file && kept.kind == kind)
             .cloned()
     }
 

@@ -305,7 +305,7 @@ fn drawn(seed: u64, sizes: [Distribution; 3], key: &str) -> Check {
     sizes::check(sizes, key)
 }
 
-fn jitter(jitter_deg: f64, key: &str) -> Check {
+pub(super) fn jitter(jitter_deg: f64, key: &str) -> Check {
     within(&format!("{key}.jitter_deg"), jitter_deg, limits::JITTER_DEG)
 }
 
@@ -321,11 +321,7 @@ impl Pattern {
     /// Refuses values out of range; `key` is the way to the table that has the pattern.
     pub(super) fn check_at(&self, key: &str) -> Check {
         let jitter = |jitter_deg| jitter(jitter_deg, key);
-        let around = |around: &Around| {
-            direction(&format!("{key}.axis"), around.axis)?;
-            point(&format!("{key}.center_m"), around.center_m)?;
-            jitter(around.jitter_deg)
-        };
+        let around = |around: &Around| around.check_at(key);
         let curvature = |drawn: Distribution| {
             let way = format!("{key}.curvature_per_m");
             spread(&way, drawn, limits::CURVATURE_SPREAD_PER_M)?;
@@ -360,5 +356,14 @@ impl Pattern {
                 Ok(())
             }
         }
+    }
+}
+
+impl Around {
+    /// Refuses values out of range; `key` is the way to the table that has the axis.
+    pub(super) fn check_at(&self, key: &str) -> Check {
+        direction(&format!("{key}.axis"), self.axis)?;
+        point(&format!("{key}.center_m"), self.center_m)?;
+        jitter(self.jitter_deg, key)
     }
 }

@@ -1,13 +1,17 @@
 //! The `[[grating]]` tables of a scene file.
 
-use serde::Serialize;
+use std::path::PathBuf;
 
+use serde::Serialize;
+use toml::de::DeValue;
+
+use super::check::jitter;
 use super::limits;
-use super::ranges::{Check, check_seed, positive, within};
+use super::ranges::{Check, check_seed, direction, positive, size, within};
 use super::read::around;
-use super::scratches::{Around, DEFAULT_SEED, Distribution, Pattern};
+use super::scratches::{Around, DEFAULT_SEED, Distribution};
 use super::table::{Read, Table, Value};
-use super::values::is_false;
+use super::values::{Named, is_default, is_false, serialize_named};
 use crate::error::Error;
 
 /// `[[grating]]`: grooves side by side, nearer to one another than a pixel can show. They interfere, as those of a compact disc do.
@@ -21,10 +25,9 @@ pub struct Grating {
     /// Laid nowhere. Default: false.
     #[serde(skip_serializing_if = "is_false")]
     pub hidden: bool,
-    /// `pattern` and the keys that belong to it: `"parallel"`, `"circular"`, `"radial"` or `"spun"`. `jitter_deg` is the standard deviation
-    /// of a groove's angle to the pattern.
+    /// `pattern` and the keys that belong to it.
     #[serde(flatten)]
-    pub pattern: Pattern,
+    pub pattern: GroovePattern,
     /// From one groove to the next. From 0.3 to 50. Required.
     pub pitch_um: f64,
     /// Width of a groove, at most the pitch. Default: 0.4 of the pitch.
@@ -37,12 +40,117 @@ pub struct Grating {
     pub seed: u64,
     /// The share of the surface that the grooves cover. In [0, 1]. Default: 1.
     pub coverage: f64,
-    /// The least and the greatest distance from the pattern's axis; for `"parallel"`, from `center_m`. Default: everywhere.
+    /// A picture whose values, from 0 (black) to 1 (white), are factors on the coverage. `.png`, `.jpg` or `.webp`, relative to the scene file.
+    /// Default: 1 everywhere.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mask: Option<PathBuf>,
+    /// The mask is laid on the object from its three sides, so wide, in its own frame. Default: it lies by its texture coordinates.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tile_m: Option<f64>,
+    /// The least and the greatest distance from the pattern's axis; for patterns without one, from `center_m`. Default: everywhere.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub radius_m: Option<[f64; 2]>,
-    /// For `"parallel"` what `radius_m` is counted from, in the object's frame. Default: its origin.
+    /// For patterns without an axis what `radius_m` is counted from, in the object's frame. Default: its origin.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub center_m: Option<[f64; 3]>,
+}
+
+/// `pattern` of a `[[grating]]`: those of scratches whose rows do not cross one another. `jitter_deg` is the standard deviation of a groove's
+/// angle to the pattern.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(tag = "pattern", rename_all = "lowercase")]
+pub enum GroovePattern {
+    /// `"parallel"`: all along one direction.
+    Parallel {
+        /// Default: `[1, 0, 0]`.
+        direction: [f64; 3],
+        /// Default: 0.
+        jitter_deg: f64,
+    },
+    /// `"circular"`: around an axis.
+    Circular(Around),
+    /// `"radial"`: away from an axis.
+    Radial(Around),
+    /// `"spun"`: arcs of one curvature that leave the axis in all directions.
+    Spun {
+        /// The axis.
+        #[serde(flatten)]
+        around: Around,
+        /// One over their radius. Default: 20.
+        curvature_per_m: f64,
+    },
+    /// `"uv"`: along the texture coordinates of the surface.
+    Uv {
+        /// Which of them. Default: `"u"`.
+        #[serde(serialize_with = "serialize_named", skip_serializing_if = "is_default")]
+        along: UvAxis,
+        /// A picture that turns them, as anisotropy textures of glTF do: red and green are the parts along u and up across it, from -1 (black) to
+        /// 1. `.png`, `.jpg` or `.webp`, relative to the scene file. Default: none.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        directions: Option<PathBuf>,
+        /// Default: 0.
+        jitter_deg: f64,
+    },
+}
+
+/// A texture coordinate.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum UvAxis {
+    /// The first.
+    #[default]
+    U,
+    /// The second.
+    V,
+}
+
+impl Named for UvAxis {
+    const NAMES: &'static [(&'static str, Self)] = &[("u", Self::U), ("v", Self::V)];
+}
+
+impl GroovePattern {
+    /// What `pattern` says.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Parallel { .. } => "parallel",
+            Self::Circular(_) => "circular",
+            Self::Radial(_) => "radial",
+            Self::Spun { .. } => "spun",
+            Self::Uv { .. } => "uv",
+        }
+    }
+
+    /// The axis, if it has one.
+    pub fn around(&self) -> Option<&Around> {
+        match self {
+            Self::Circular(around) | Self::Radial(around) | Self::Spun { around, .. } => {
+                Some(around)
+            }
+            Self::Parallel { .. } | Self::Uv { .. } => None,
+        }
+    }
+
+    /// Refuses values out of range; `key` is the way to the grating.
+    fn check_at(&self, key: &str) -> Check {
+        match self {
+            Self::Parallel {
+                direction: along,
+                jitter_deg,
+            } => {
+                direction(&format!("{key}.direction"), *along)?;
+                jitter(*jitter_deg, key)
+            }
+            Self::Circular(around) | Self::Radial(around) => around.check_at(key),
+            Self::Spun {
+                around,
+                curvature_per_m,
+            } => {
+                around.check_at(key)?;
+                let way = format!("{key}.curvature_per_m");
+                within(&way, *curvature_per_m, limits::CURVATURE_PER_M)
+            }
+            Self::Uv { jitter_deg, .. } => jitter(*jitter_deg, key),
+        }
+    }
 }
 
 /// Depths where a grating does not say them.
@@ -56,7 +164,7 @@ const DEFAULT_FILL: f64 = 0.4;
 
 impl Grating {
     /// Grooves everywhere on an object, all alike, of the default width and depth.
-    pub fn new(object: impl Into<String>, pattern: Pattern, pitch_um: f64) -> Self {
+    pub fn new(object: impl Into<String>, pattern: GroovePattern, pitch_um: f64) -> Self {
         Self {
             object: object.into(),
             name: None,
@@ -68,42 +176,34 @@ impl Grating {
             jitter_um: 0.0,
             seed: DEFAULT_SEED,
             coverage: 1.0,
+            mask: None,
+            tile_m: None,
             radius_m: None,
             center_m: None,
         }
     }
 
-    /// The pattern's axis, if it has one.
-    pub fn around(&self) -> Option<&Around> {
-        match &self.pattern {
-            Pattern::Circular(around) | Pattern::Radial(around) | Pattern::Spun { around, .. } => {
-                Some(around)
-            }
-            Pattern::Parallel { .. } | Pattern::Random { .. } | Pattern::Swirl { .. } => None,
-        }
+    /// The pictures that it names.
+    pub fn files(&self) -> impl Iterator<Item = &PathBuf> {
+        let directions = match &self.pattern {
+            GroovePattern::Uv { directions, .. } => directions.as_ref(),
+            _ => None,
+        };
+        self.mask.iter().chain(directions)
+    }
+
+    /// The same, to be changed.
+    pub fn files_mut(&mut self) -> impl Iterator<Item = &mut PathBuf> {
+        let directions = match &mut self.pattern {
+            GroovePattern::Uv { directions, .. } => directions.as_mut(),
+            _ => None,
+        };
+        self.mask.iter_mut().chain(directions)
     }
 
     /// Refuses values out of range.
     pub(super) fn check_at(&self, key: &str) -> Check {
         self.pattern.check_at(key)?;
-        if let Pattern::Random { .. } | Pattern::Swirl { .. } = self.pattern {
-            return Err(Error::new(
-                format!("{key}.pattern"),
-                "found a pattern whose scratches cross one another",
-                "must be `parallel`, `circular`, `radial` or `spun`",
-            ));
-        }
-        if let Pattern::Spun {
-            curvature_per_m, ..
-        } = &self.pattern
-            && curvature_per_m.spread != 0.0
-        {
-            return Err(Error::new(
-                format!("{key}.curvature_per_m.spread"),
-                "found arcs that cross one another",
-                "must be 0: the grooves of a grating run side by side",
-            ));
-        }
         within(&format!("{key}.pitch_um"), self.pitch_um, limits::PITCH_UM)?;
         let width = format!("{key}.width_um");
         positive(&width, self.width_um)?;
@@ -123,6 +223,14 @@ impl Grating {
         )?;
         check_seed(self.seed, key)?;
         within(&format!("{key}.coverage"), self.coverage, limits::COVERAGE)?;
+        if let Some(tile_m) = self.tile_m {
+            let way = format!("{key}.tile_m");
+            size(&way, tile_m)?;
+            if self.mask.is_none() {
+                let found = "found a width without a picture";
+                return Err(Error::new(way, found, "belongs to `mask`"));
+            }
+        }
         let radius = format!("{key}.radius_m");
         let Some([least, most]) = self.radius_m else {
             let Some(_) = self.center_m else {
@@ -152,9 +260,28 @@ impl Grating {
     }
 }
 
+/// Refuses the patterns of scratches that are none of gratings.
+fn refuse_crossings(value: &Value, key: &str) -> Result<(), Error> {
+    let pattern = match value.get_ref() {
+        DeValue::Table(entries) => entries.get("pattern").map(|pattern| pattern.get_ref()),
+        _ => None,
+    };
+    match pattern {
+        Some(DeValue::String(name)) if ["random", "swirl"].contains(&name.as_ref()) => {
+            Err(Error::new(
+                format!("{key}.pattern"),
+                format!("found \"{name}\", whose scratches cross one another"),
+                "must be `parallel`, `circular`, `radial`, `spun` or `uv`",
+            ))
+        }
+        _ => Ok(()),
+    }
+}
+
 impl Read for Grating {
     fn read(value: &Value, key: &str) -> Result<Self, Error> {
         const AROUND: [&str; 3] = ["axis", "center_m", "jitter_deg"];
+        refuse_crossings(value, key)?;
         let (pattern, table) = Table::read_kind(
             value,
             key,
@@ -170,6 +297,8 @@ impl Read for Grating {
                 "jitter_um",
                 "seed",
                 "coverage",
+                "mask",
+                "tile_m",
                 "radius_m",
             ],
             &[
@@ -177,27 +306,27 @@ impl Read for Grating {
                 ("circular", &AROUND),
                 ("radial", &AROUND),
                 ("spun", &[&AROUND[..], &["curvature_per_m"]].concat()),
+                ("uv", &["along", "directions", "jitter_deg", "center_m"]),
             ],
         )?;
         let pattern = match pattern {
-            "parallel" => Pattern::Parallel {
+            "parallel" => GroovePattern::Parallel {
                 direction: table.or("direction", [1.0, 0.0, 0.0])?,
                 jitter_deg: table.or("jitter_deg", 0.0)?,
             },
-            "circular" => Pattern::Circular(around(&table)?),
-            "radial" => Pattern::Radial(around(&table)?),
-            _ => Pattern::Spun {
+            "circular" => GroovePattern::Circular(around(&table)?),
+            "radial" => GroovePattern::Radial(around(&table)?),
+            "spun" => GroovePattern::Spun {
                 around: around(&table)?,
-                curvature_per_m: table.or(
-                    "curvature_per_m",
-                    Distribution {
-                        mean: 20.0,
-                        spread: 0.0,
-                    },
-                )?,
+                curvature_per_m: table.or("curvature_per_m", 20.0)?,
+            },
+            _ => GroovePattern::Uv {
+                along: table.or("along", UvAxis::default())?,
+                directions: table.optional("directions")?,
+                jitter_deg: table.or("jitter_deg", 0.0)?,
             },
         };
-        let is_parallel = matches!(pattern, Pattern::Parallel { .. });
+        let has_axis = pattern.around().is_some();
         let default = Self::new(
             table.required::<String>("object")?,
             pattern,
@@ -211,10 +340,12 @@ impl Read for Grating {
             jitter_um: table.or("jitter_um", default.jitter_um)?,
             seed: table.or("seed", default.seed)?,
             coverage: table.or("coverage", default.coverage)?,
+            mask: table.optional("mask")?,
+            tile_m: table.optional("tile_m")?,
             radius_m: table.optional("radius_m")?,
-            center_m: match is_parallel {
-                true => table.optional("center_m")?,
-                false => None,
+            center_m: match has_axis {
+                true => None,
+                false => table.optional("center_m")?,
             },
             ..default
         })
@@ -240,7 +371,7 @@ mod tests {
     #[test]
     fn what_is_left_out_has_defaults_and_what_is_saved_loads_again() {
         let described = Description::from_toml(&text(DISC), "test".as_ref()).unwrap();
-        let disc = Grating::new("o", Pattern::Circular(Around::default()), 1.6);
+        let disc = Grating::new("o", GroovePattern::Circular(Around::default()), 1.6);
         assert_eq!(described.gratings, [disc]);
         let all = "object = \"o\"\nname = \"n\"\nhidden = true\npattern = \"spun\"\naxis = [0, 1, 0]\n\
             center_m = [0, 0, 0.1]\njitter_deg = 2.0\ncurvature_per_m = 10.0\npitch_um = 3.0\nwidth_um = 1.0\n\
@@ -256,6 +387,12 @@ mod tests {
         let loaded = Description::from_toml(&saved, "test".as_ref()).unwrap();
         assert_eq!(loaded.gratings, described.gratings);
         assert_eq!(described.gratings[0].center_m, Some([0.1, 0.0, 0.0]));
+        let uv = "object = \"o\"\npattern = \"uv\"\nalong = \"v\"\ndirections = \"d.png\"\npitch_um = 3.0\nmask = \"m.png\"\ntile_m = 0.02\n";
+        let described = Description::from_toml(&text(uv), "test".as_ref()).unwrap();
+        let saved = described.to_toml().unwrap();
+        let loaded = Description::from_toml(&saved, "test".as_ref()).unwrap();
+        assert_eq!(loaded.gratings, described.gratings);
+        assert_eq!(described.gratings[0].files().count(), 2);
     }
 
     #[test]
@@ -281,6 +418,19 @@ mod tests {
                 format!("{DISC}center_m = [0, 0, 0.1]").replace("circular", "parallel"),
                 "test:8: grating[0].center_m: found a middle for distances that are not there; belongs to `radius_m`",
             ),
+            (
+                format!("{DISC}tile_m = 0.01"),
+                "test:8: grating[0].tile_m: found a width without a picture; belongs to `mask`",
+            ),
+            (
+                format!("{DISC}mask = \"nowhere.png\"").replace("circular", "uv"),
+                "test:8: grating[0].mask: ./nowhere.png: No such file or directory (os error 2); must be a .png, .jpg or .webp, relative to the scene file",
+            ),
+            (
+                format!("{DISC}along = \"w\"").replace("circular", "uv"),
+                "test:8: grating[0].along: found \"w\"; must be one of `u` and `v`",
+            ),
+            (DISC.replace("circular", "swirl"), "x"),
             (
                 format!("{DISC}direction = [1, 0, 0]"),
                 "test:8: grating[0].direction: pattern `circular` has no such key; it belongs to `parallel`",

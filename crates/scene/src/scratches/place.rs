@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use glam::{DMat4, DVec2, DVec3};
+use glam::{DVec2, DVec3};
 
 use super::cut::{Parts, ball};
 use super::edges::Edges;
@@ -12,7 +12,8 @@ use super::walk::Spot;
 use crate::description;
 use crate::error::Error;
 use crate::grey_map::GreyMap;
-use crate::scene::{Mesh, Segment};
+use crate::picture_lie::{PictureLie, three_sides};
+use crate::scene::Segment;
 
 /// What of a `where` was read and made for it.
 pub(crate) struct Means<'a> {
@@ -37,22 +38,11 @@ pub(super) struct Place<'a> {
     ground: &'a Ground,
     mask: Option<Arc<GreyMap>>,
     density: Option<Arc<GreyMap>>,
-    lie: Lie,
+    lie: PictureLie,
     edges: Option<Edges>,
     edges_share: f64,
     center_m: DVec3,
     radii_m: Option<[f64; 2]>,
-}
-
-/// How pictures lie on a surface.
-#[derive(Clone, Copy)]
-enum Lie {
-    ByUv,
-    /// From the three sides of the object, so wide in its frame.
-    FromThreeSides {
-        tile_m: f64,
-        object_from_world: DMat4,
-    },
 }
 
 /// Where a picture is looked up for a place, and how much each counts; only the first by texture coordinates.
@@ -72,17 +62,11 @@ impl<'a> Place<'a> {
         if described.is_everywhere() {
             return Ok(None);
         }
-        let lie = match described.tile_m {
-            Some(tile_m) => Lie::FromThreeSides {
-                tile_m,
-                object_from_world: ground.world_from_object.inverse(),
-            },
-            None => Lie::ByUv,
-        };
+        let lie = PictureLie::new(described.tile_m, &ground.world_from_object);
         let of_picture = [("mask", &described.mask), ("density", &described.density)];
         let named = of_picture.iter().find(|(_, file)| file.is_some());
-        if let (Lie::ByUv, Some((name, _))) = (lie, named)
-            && !has_uvs(&ground.mesh)
+        if let (PictureLie::ByUv, Some((name, _))) = (lie, named)
+            && !ground.mesh.has_uvs()
         {
             return Err(Error::new(
                 format!("{key}.where.{name}"),
@@ -149,34 +133,18 @@ impl<'a> Place<'a> {
         let weights = facet::barycentric(corners_m, facet_normal, point_m);
         let corners = mesh.triangles[triangle as usize].map(|corner| corner as usize);
         match self.lie {
-            Lie::ByUv => {
+            PictureLie::ByUv => {
                 let uv = |i: usize| mesh.uvs[corners[i]].as_dvec2() * weights[i];
                 LookUp {
                     uvs: [uv(0) + uv(1) + uv(2), DVec2::ZERO, DVec2::ZERO],
                     shares: [1.0, 0.0, 0.0],
                 }
             }
-            Lie::FromThreeSides {
-                tile_m,
-                object_from_world,
-            } => {
+            PictureLie::FromThreeSides { tiles_from_world } => {
                 let normal = |i: usize| mesh.normals[corners[i]].as_dvec3() * weights[i];
                 let normal = (normal(0) + normal(1) + normal(2)).normalize_or(facet_normal);
-                // As normals go: by the transpose of the way back.
-                let world_from_object = self.ground.world_from_object;
-                let axes = [
-                    world_from_object.x_axis,
-                    world_from_object.y_axis,
-                    world_from_object.z_axis,
-                ];
-                // Sharp, so that few places mix two sides.
-                let shares = axes.map(|axis| axis.truncate().dot(normal).powi(4));
-                let sum: f64 = shares.iter().sum();
-                let p = object_from_world.transform_point3(point_m) / tile_m;
-                LookUp {
-                    uvs: [[p.y, -p.z], [p.x, -p.z], [p.x, -p.y]].map(DVec2::from),
-                    shares: shares.map(|share| share / sum),
-                }
+                let (uvs, shares) = three_sides(&tiles_from_world, point_m, normal);
+                LookUp { uvs, shares }
             }
         }
     }
@@ -244,13 +212,4 @@ fn dark(mask: &GreyMap, [start, end]: [LookUp; 2], parts: &mut Parts) {
         (from, before) = (to, here);
     }
     parts.extend(dark_from.map(|dark_from| [dark_from, 1.0]));
-}
-
-/// Whether any triangle spans an area of a texture.
-fn has_uvs(mesh: &Mesh) -> bool {
-    mesh.triangles.iter().any(|corners| {
-        let [a, b, c] = corners.map(|corner| mesh.uvs.get(corner as usize).copied());
-        let spans = |a: glam::Vec2, b: glam::Vec2, c: glam::Vec2| (b - a).perp_dot(c - a) != 0.0;
-        matches!((a, b, c), (Some(a), Some(b), Some(c)) if spans(a, b, c))
-    })
 }

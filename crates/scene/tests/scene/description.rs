@@ -242,7 +242,7 @@ fn everything() -> Description {
         gratings: vec![
             Grating::new(
                 "object 0",
-                Pattern::Parallel {
+                GroovePattern::Parallel {
                     direction: [0.0, 1.0, 0.0],
                     jitter_deg: 0.5,
                 },
@@ -260,7 +260,7 @@ fn everything() -> Description {
                 seed: 9,
                 coverage: 0.75,
                 radius_m: Some([0.0, 0.5]),
-                ..Grating::new("object 1", Pattern::Circular(Around::default()), 1.6)
+                ..Grating::new("object 1", GroovePattern::Circular(Around::default()), 1.6)
             },
         ],
         lights: vec![

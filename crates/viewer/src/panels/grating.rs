@@ -3,9 +3,11 @@
 use egui::{CollapsingHeader, Ui};
 use hairline_editor::grating_presets::GratingPreset;
 use hairline_editor::ranges::Parameter;
-use hairline_scene::description::{Grating, Pattern};
+use hairline_scene::description::Grating;
 
 use super::form::Form;
+use super::groove_pattern;
+use super::layer_place::{picture, tile};
 use crate::workspace::Workspace;
 
 /// Those of the object with this index, with what adds one.
@@ -66,21 +68,21 @@ fn rows(ui: &mut Ui, work: &mut Workspace, object: usize, index: usize, mut grat
     form.number(Parameter::GrooveDepthSpread, &mut grating.depth_nm.spread);
     form.number(Parameter::Displacement, &mut grating.jitter_um);
     grating.jitter_um = grating.jitter_um.min(grating.pitch_um);
-    match &mut grating.pattern {
-        Pattern::Circular(around) | Pattern::Radial(around) | Pattern::Spun { around, .. } => {
-            form.number(Parameter::GrooveAngles, &mut around.jitter_deg);
-            form.vector(Parameter::AxisCenter, &mut around.center_m);
-        }
-        Pattern::Parallel {
-            direction,
-            jitter_deg,
-        } => {
-            form.number(Parameter::GrooveAngles, jitter_deg);
-            form.vector(Parameter::Direction, direction);
-        }
-        Pattern::Random { .. } | Pattern::Swirl { .. } => {}
+    groove_pattern::rows(&mut form, &mut grating.pattern);
+    if grating.pattern.around().is_some() {
+        grating.center_m = None;
     }
     form.number(Parameter::Coverage, &mut grating.coverage);
+    picture(
+        &mut form,
+        "Mask",
+        "A picture, relative to the scene file: the darker it is, the less of the surface the grooves cover. None: alike everywhere",
+        &mut grating.mask,
+    );
+    match grating.mask {
+        Some(_) => tile(&mut form, &mut grating.tile_m),
+        None => grating.tile_m = None,
+    }
     let mut is_bounded = grating.radius_m.is_some();
     form.toggle(
         "Within radii",
@@ -95,7 +97,7 @@ fn rows(ui: &mut Ui, work: &mut Workspace, object: usize, index: usize, mut grat
             form.number(Parameter::OuterRadius, most);
             // The outer one stays the greater.
             *most = most.max(*least + LEAST_RING * everywhere_m);
-            if let Pattern::Parallel { .. } = grating.pattern {
+            if grating.pattern.around().is_none() {
                 let center_m = grating.center_m.get_or_insert_default();
                 form.vector(Parameter::AxisCenter, center_m);
             }

@@ -89,7 +89,7 @@ fn places(form: &mut Form, place: &mut Place) {
     radii(form, place);
 }
 
-fn picture(form: &mut Form, label: &str, tooltip: &str, chosen: &mut Option<PathBuf>) {
+pub(super) fn picture(form: &mut Form, label: &str, tooltip: &str, chosen: &mut Option<PathBuf>) {
     let shown = chosen.as_deref().map(|file| file.to_string_lossy());
     let mut file = shown.unwrap_or_default().into_owned();
     form.text(label, tooltip, &mut file);
@@ -102,15 +102,20 @@ fn tiles(form: &mut Form, place: &mut Place) {
         place.tile_m = None;
         return;
     }
-    let mut is_tiled = place.tile_m.is_some();
+    tile(form, &mut place.tile_m);
+}
+
+/// How wide pictures are, if they do not lie by texture coordinates.
+pub(super) fn tile(form: &mut Form, tile_m: &mut Option<f64>) {
+    let mut is_tiled = tile_m.is_some();
     form.toggle(
         "From three sides",
         "Lays the pictures on along the object's own axes, where it has no texture coordinates",
         &mut is_tiled,
     );
-    match (is_tiled, &mut place.tile_m) {
+    match (is_tiled, tile_m) {
         (false, tile_m) => *tile_m = None,
-        (true, None) => place.tile_m = Some(0.25 * form.diagonal_m),
+        (true, tile_m @ None) => *tile_m = Some(0.25 * form.diagonal_m),
         (true, Some(tile_m)) => form.number(Parameter::Tile, tile_m),
     }
 }

@@ -1,0 +1,60 @@
+//! How pictures lie on surfaces: by texture coordinates, or from the three sides of an object.
+
+use glam::{DMat4, DVec2, DVec3};
+
+use crate::scene::Mesh;
+
+/// How a picture lies on a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PictureLie {
+    /// By the texture coordinates of the mesh.
+    ByUv,
+    /// From the three sides of the object, repeated.
+    FromThreeSides {
+        /// The object's own frame, in widths of the picture.
+        tiles_from_world: DMat4,
+    },
+}
+
+impl PictureLie {
+    /// Of a picture on an object that is placed so, so wide in its own frame; by texture coordinates without a width.
+    pub(crate) fn new(tile_m: Option<f64>, world_from_object: &DMat4) -> Self {
+        tile_m.map_or(Self::ByUv, |tile_m| Self::FromThreeSides {
+            tiles_from_world: DMat4::from_scale(DVec3::splat(1.0 / tile_m))
+                * world_from_object.inverse(),
+        })
+    }
+}
+
+/// Where a picture that lies from three sides is looked up for a place of a surface, and how much each side counts. Twin:
+/// groove_places.wgsl.
+pub fn three_sides(
+    tiles_from_world: &DMat4,
+    point_m: DVec3,
+    normal: DVec3,
+) -> ([DVec2; 3], [f64; 3]) {
+    let p = tiles_from_world.transform_point3(point_m);
+    let rows = tiles_from_world.transpose();
+    // As normals go: by the transpose of the way back. Sharp, so that few places mix two sides.
+    let shares = [rows.x_axis, rows.y_axis, rows.z_axis].map(|row| {
+        let row = row.truncate();
+        (row.dot(normal) / row.length_squared()).powi(4)
+    });
+    let sum: f64 = shares.iter().sum();
+    (
+        [[p.y, -p.z], [p.x, -p.z], [p.x, -p.y]].map(DVec2::from),
+        shares.map(|share| share / sum),
+    )
+}
+
+impl Mesh {
+    /// Whether any triangle spans an area of a texture.
+    pub(crate) fn has_uvs(&self) -> bool {
+        self.triangles.iter().any(|corners| {
+            let [a, b, c] = corners.map(|corner| self.uvs.get(corner as usize).copied());
+            let spans =
+                |a: glam::Vec2, b: glam::Vec2, c: glam::Vec2| (b - a).perp_dot(c - a) != 0.0;
+            matches!((a, b, c), (Some(a), Some(b), Some(c)) if spans(a, b, c))
+        })
+    }
+}

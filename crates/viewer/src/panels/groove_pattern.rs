@@ -1,0 +1,135 @@
+//! Which way the grooves of a grating run.
+
+use hairline_editor::ranges::Parameter;
+use hairline_scene::description::{Around, GroovePattern, UvAxis};
+
+use super::form::Form;
+use super::layer_place::picture;
+
+pub(super) fn rows(form: &mut Form, pattern: &mut GroovePattern) {
+    let mut kind = Kind::of(pattern);
+    form.choice(
+        "Pattern",
+        "Which way the grooves run over the surface",
+        Kind::ALL.map(|kind| (kind, kind.name().to_owned())),
+        &mut kind,
+    );
+    if kind != Kind::of(pattern) {
+        *pattern = kind.begin(pattern);
+    }
+    match pattern {
+        GroovePattern::Parallel {
+            direction,
+            jitter_deg,
+        } => {
+            form.number(Parameter::GrooveAngles, jitter_deg);
+            form.vector(Parameter::Direction, direction);
+        }
+        GroovePattern::Circular(around) | GroovePattern::Radial(around) => axis(form, around),
+        GroovePattern::Spun {
+            around,
+            curvature_per_m,
+        } => {
+            axis(form, around);
+            form.number(Parameter::Curvature, curvature_per_m);
+        }
+        GroovePattern::Uv {
+            along,
+            directions,
+            jitter_deg,
+        } => {
+            form.number(Parameter::GrooveAngles, jitter_deg);
+            form.choice(
+                "Along",
+                "Which texture coordinate the grooves run along",
+                [(UvAxis::U, "u".to_owned()), (UvAxis::V, "v".to_owned())],
+                along,
+            );
+            picture(
+                form,
+                "Direction map",
+                "A picture, relative to the scene file, that turns the grooves: red and green are the parts along the coordinate and across it, as in anisotropy textures of glTF. None: as they are",
+                directions,
+            );
+        }
+    }
+}
+
+fn axis(form: &mut Form, around: &mut Around) {
+    form.number(Parameter::GrooveAngles, &mut around.jitter_deg);
+    form.vector(Parameter::Axis, &mut around.axis);
+    form.vector(Parameter::AxisCenter, &mut around.center_m);
+}
+
+/// A pattern by name.
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    Parallel,
+    Circular,
+    Radial,
+    Spun,
+    Uv,
+}
+
+impl Kind {
+    const ALL: [Self; 5] = [
+        Self::Parallel,
+        Self::Circular,
+        Self::Radial,
+        Self::Spun,
+        Self::Uv,
+    ];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Parallel => "parallel",
+            Self::Circular => "circular",
+            Self::Radial => "radial",
+            Self::Spun => "spun",
+            Self::Uv => "texture coordinates",
+        }
+    }
+
+    fn of(pattern: &GroovePattern) -> Self {
+        match pattern {
+            GroovePattern::Parallel { .. } => Self::Parallel,
+            GroovePattern::Circular(_) => Self::Circular,
+            GroovePattern::Radial(_) => Self::Radial,
+            GroovePattern::Spun { .. } => Self::Spun,
+            GroovePattern::Uv { .. } => Self::Uv,
+        }
+    }
+
+    /// The pattern with what it shares with the one before: the axis and the scatter of angles stay.
+    fn begin(self, before: &GroovePattern) -> GroovePattern {
+        let around = match before {
+            GroovePattern::Circular(around)
+            | GroovePattern::Radial(around)
+            | GroovePattern::Spun { around, .. } => *around,
+            GroovePattern::Parallel { jitter_deg, .. } | GroovePattern::Uv { jitter_deg, .. } => {
+                Around {
+                    jitter_deg: *jitter_deg,
+                    ..Around::default()
+                }
+            }
+        };
+        let jitter_deg = around.jitter_deg;
+        match self {
+            Self::Parallel => GroovePattern::Parallel {
+                direction: [1.0, 0.0, 0.0],
+                jitter_deg,
+            },
+            Self::Circular => GroovePattern::Circular(around),
+            Self::Radial => GroovePattern::Radial(around),
+            Self::Spun => GroovePattern::Spun {
+                around,
+                curvature_per_m: 20.0,
+            },
+            Self::Uv => GroovePattern::Uv {
+                along: UvAxis::U,
+                directions: None,
+                jitter_deg,
+            },
+        }
+    }
+}
