@@ -428,9 +428,12 @@ mod tests {
             ),
             (
                 format!("{DISC}along = \"w\"").replace("circular", "uv"),
-                "test:8: grating[0].along: found \"w\"; must be one of `u` and `v`",
+                "test:8: grating[0].along: found the text \"w\"; must be one of `u` and `v`",
             ),
-            (DISC.replace("circular", "swirl"), "x"),
+            (
+                DISC.replace("circular", "swirl"),
+                "test:6: grating[0].pattern: found \"swirl\", whose scratches cross one another; must be `parallel`, `circular`, `radial`, `spun` or `uv`",
+            ),
             (
                 format!("{DISC}direction = [1, 0, 0]"),
                 "test:8: grating[0].direction: pattern `circular` has no such key; it belongs to `parallel`",
