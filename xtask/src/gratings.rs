@@ -113,6 +113,7 @@ impl Gratings {
             text.push('\n');
             println!("at independent places, {pitch_um} um");
         }
+        text += IN_PICTURES;
         let document = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/accuracy/gratings.md");
         write_atomically(&document, text.as_bytes())?;
         println!("{}", document.display());
@@ -268,6 +269,10 @@ const INDEPENDENT: &str = "\n## Dense scratches\n\n\
     mean where a pixel is far below the window: speckles, which no statistics of a layer know.\n\n\
     | spacing, µm | 0.002 rad | 0.01 | 0.05 | 0.3 | one row, 0.002 rad | 0.01 | 0.05 | 0.3 |\n\
     |---|---|---|---|---|---|---|---|---|\n";
+
+const IN_PICTURES: &str = "\n## In pictures\n\n\
+    The angles of a compact disc's first order and what the frames of a zoom differ by are measured by the tests `orders_lie_where_the_grating_equation_says`, \
+    `a_zoom_neither_steps_nor_flickers` and `frames_of_a_zoom_do_not_flicker`; [model.md](../model.md#12-gratings) has the figures.\n";
 
 #[cfg(test)]
 mod tests {

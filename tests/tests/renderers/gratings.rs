@@ -384,10 +384,10 @@ fn flicker(pitch_um: f64, filter_std_px: f64) -> f64 {
         let (first_x, first_y) = (at_x.floor(), at_y.floor());
         let (across, down) = (weights(at_x - first_x), weights(at_y - first_y));
         let mut sum = 0.0;
-        for j in 0..4 {
-            for i in 0..4 {
+        for (j, down) in down.iter().enumerate() {
+            for (i, across) in across.iter().enumerate() {
                 let place = (first_y as usize + j - 1) * side + first_x as usize + i - 1;
-                sum += across[i] * down[j] * frame[place];
+                sum += across * down * frame[place];
             }
         }
         sum
