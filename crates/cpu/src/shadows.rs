@@ -28,7 +28,10 @@ use hairline_optics::gaussian::gaussian;
 use hairline_optics::ggx::{ggx_alpha, ggx_eval, ggx_pdf, ggx_sample};
 use hairline_optics::mask::ScratchSums;
 use hairline_scene::CameraFrame;
+use object_rays::ObjectRays;
 use std::f64::consts::PI;
+
+mod object_rays;
 
 /// What rays to the lights of a scene need.
 pub(crate) struct Shadows<'a> {
@@ -411,14 +414,15 @@ impl<'a> Shadows<'a> {
         }
     }
 
-    /// Light of other objects by way of the scratches, before they weaken one another.
+    /// Light of other objects by way of the scratches, before they weaken one another: as (41), with the light that rays bring in the place of whether
+    /// they see the source. Each ray has a colour of its own, and without a guess even light would come in speckles of all colours.
     fn objects_by_scratches(&self, at: &ShadowPoint, picks: &Picks) -> DVec3 {
         let all_around = at.views.views.len() + 1;
         let Some(source) = picks.sources.get(all_around) else {
             return DVec3::ZERO;
         };
         let point = at.point;
-        let mut sum = DVec3::ZERO;
+        let mut halves = [ObjectRays::default(); 2];
         for (round, pick) in source.picks().enumerate() {
             let (round, set) = (round as u32, all_around as u32);
             let by = self.picked(point, pick);
@@ -430,14 +434,18 @@ impl<'a> Shadows<'a> {
             let on_surface_m = self.on_scratch(at, set, round, pick.place, &pick.along);
             let origin_m = self.off_the_surface(point, on_surface_m, direction);
             let hit = self.prepared.triangles.intersect_solid(origin_m, direction);
-            if let Some(radiance) =
-                self.light_of_object(at, 2 * round + 1, origin_m, direction, hit, 0.0)
-            {
-                let weight = pick.radiance * color * (source.luminance / luminance(pick.radiance));
-                sum += weight * radiance;
-            }
+            let radiance = self.light_of_object(at, 2 * round + 1, origin_m, direction, hit, 0.0);
+            let weight = pick.radiance * color * (source.luminance / luminance(pick.radiance));
+            halves[(round % 2) as usize].add(weight, radiance.unwrap_or_default());
         }
-        sum / f64::from(at.rounds.now.count)
+        let rounds = at.rounds.now.count;
+        let [even, odd] = &halves;
+        if rounds < 2 {
+            return even.brought;
+        }
+        let by_even = even.light(source.radiance, odd.guess(), rounds.div_ceil(2));
+        let by_odd = odd.light(source.radiance, even.guess(), rounds / 2);
+        0.5 * (by_even + by_odd)
     }
 
     /// A place on a scratch, drawn by what the pixel sees of it.
