@@ -4,6 +4,7 @@ mod coats;
 mod gratings;
 mod kept;
 mod parts;
+mod textures;
 
 use std::fmt;
 use std::path::Path;
@@ -21,8 +22,8 @@ use crate::loader::{Loader, Stage};
 use crate::scene::{Object, Scene};
 use crate::studio::PhotoSet;
 use crate::texture::texture_bytes;
-use gratings::NewTextures;
 use kept::{Kept, KeptPicture, KeptSurface, MapKey, Stamp, SurfaceKey};
+use textures::NewTextures;
 
 /// Builds scenes one after the other. What of a scene is as it was in the one before is not made again, but shared with it:
 ///

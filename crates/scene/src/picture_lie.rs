@@ -2,8 +2,6 @@
 
 use glam::{DMat4, DVec2, DVec3};
 
-use crate::scene::Mesh;
-
 /// How a picture lies on a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PictureLie {
@@ -45,16 +43,4 @@ pub fn three_sides(
         [[p.y, -p.z], [p.x, -p.z], [p.x, -p.y]].map(DVec2::from),
         shares.map(|share| share / sum),
     )
-}
-
-impl Mesh {
-    /// Whether any triangle spans an area of a texture.
-    pub(crate) fn has_uvs(&self) -> bool {
-        self.triangles.iter().any(|corners| {
-            let [a, b, c] = corners.map(|corner| self.uvs.get(corner as usize).copied());
-            let spans =
-                |a: glam::Vec2, b: glam::Vec2, c: glam::Vec2| (b - a).perp_dot(c - a) != 0.0;
-            matches!((a, b, c), (Some(a), Some(b), Some(c)) if spans(a, b, c))
-        })
-    }
 }

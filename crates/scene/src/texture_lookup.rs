@@ -89,6 +89,15 @@ pub fn texture_footprint(uv_area: f64, corners_m: &[DVec3; 3], axes_m: [DVec3; 2
 }
 
 impl Mesh {
+    /// Whether any triangle spans an area of a texture.
+    pub(crate) fn has_uvs(&self) -> bool {
+        self.triangles.iter().any(|corners| {
+            let [a, b, c] = corners.map(|corner| self.uvs.get(corner as usize).copied());
+            let spans = |a: Vec2, b: Vec2, c: Vec2| (b - a).perp_dot(c - a) != 0.0;
+            matches!((a, b, c), (Some(a), Some(b), Some(c)) if spans(a, b, c))
+        })
+    }
+
     /// The places of a texture at the corners of a triangle.
     pub fn corner_uvs(&self, triangle: [u32; 3], texture: &Texture) -> [DVec2; 3] {
         let uvs = match texture.sampling.by_other_uvs {

@@ -4,41 +4,14 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use super::Work;
-use super::kept::{KeptGroovePicture, KeptSurface, Stamp};
+use super::kept::{GroovePictureKind, KeptGroovePicture, KeptSurface, Stamp};
+use super::textures::NewTextures;
 use crate::description::references::find;
 use crate::description::{self, GroovePattern};
 use crate::error::Error;
 use crate::grey_map;
 use crate::scene::{Scene, Texture};
 use crate::texture::{self, Channels, Texels, texture_bytes};
-
-/// What a picture of a grating says.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum GroovePictureKind {
-    /// Shares, in all channels.
-    Mask,
-    /// Directions, in red and green.
-    Directions,
-}
-
-/// Textures of a scene that is being built.
-pub(super) struct NewTextures {
-    pub parts: Vec<Arc<Vec<Texture>>>,
-    pub count: usize,
-    pub free_bytes: f64,
-}
-
-impl NewTextures {
-    /// Adds those of one file, and returns the number of the first.
-    pub(super) fn add(&mut self, textures: Arc<Vec<Texture>>) -> usize {
-        let first = self.count;
-        self.count += textures.len();
-        if !textures.is_empty() {
-            self.parts.push(textures);
-        }
-        first
-    }
-}
 
 impl Work<'_> {
     /// Those of all objects that are not hidden.

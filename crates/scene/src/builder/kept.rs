@@ -7,7 +7,6 @@ use std::time::SystemTime;
 use glam::{DMat4, DVec3};
 use hairline_image::held;
 
-use super::gratings::GroovePictureKind;
 use super::parts::{OnPart, PartGround, Surroundings};
 use crate::description::{self, Layer, LightKind, Map, Place, Stroke, Surface};
 use crate::environment::BuiltInMap;
@@ -270,6 +269,15 @@ pub(super) struct KeptPicture {
     pub brightest: f64,
     /// It alone.
     pub texture: Arc<Vec<Texture>>,
+}
+
+/// What a picture of a grating says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum GroovePictureKind {
+    /// Shares, in all channels.
+    Mask,
+    /// Directions, in red and green.
+    Directions,
 }
 
 /// A picture of a grating.

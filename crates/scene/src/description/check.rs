@@ -2,8 +2,8 @@
 
 use super::limits;
 use super::ranges::{
-    Check, check_seed, components, direction, finite, found, not_negative, point, size, spread,
-    within,
+    Check, check_seed, components, direction, finite, found, jitter, not_negative, point, size,
+    spread, within,
 };
 use super::sizes;
 use super::{
@@ -303,10 +303,6 @@ fn stroke(stroke: &Stroke, paints: bool, key: &str) -> Check {
 fn drawn(seed: u64, sizes: [Distribution; 3], key: &str) -> Check {
     check_seed(seed, key)?;
     sizes::check(sizes, key)
-}
-
-pub(super) fn jitter(jitter_deg: f64, key: &str) -> Check {
-    within(&format!("{key}.jitter_deg"), jitter_deg, limits::JITTER_DEG)
 }
 
 fn laid(laid: &Laid, key: &str) -> Check {

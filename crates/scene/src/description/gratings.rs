@@ -5,9 +5,8 @@ use std::path::PathBuf;
 use serde::Serialize;
 use toml::de::DeValue;
 
-use super::check::jitter;
 use super::limits;
-use super::ranges::{Check, check_seed, direction, positive, size, within};
+use super::ranges::{Check, check_seed, direction, jitter, positive, size, within};
 use super::read::around;
 use super::scratches::{Around, DEFAULT_SEED, Distribution};
 use super::table::{Read, Table, Value};

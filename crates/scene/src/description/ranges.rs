@@ -76,6 +76,11 @@ pub(super) fn point(key: &str, point: [f64; 3]) -> Check {
     components(key, point, limits::COORDINATE_M)
 }
 
+/// The standard deviation of angles to a pattern; `key` is the way to the table that has it.
+pub(super) fn jitter(jitter_deg: f64, key: &str) -> Check {
+    within(&format!("{key}.jitter_deg"), jitter_deg, limits::JITTER_DEG)
+}
+
 pub(super) fn direction(key: &str, direction: [f64; 3]) -> Check {
     components(key, direction, limits::DIRECTION)?;
     match glam::DVec3::from_array(direction).length() > 1e-6 {
