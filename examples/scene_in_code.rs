@@ -60,6 +60,8 @@ fn gold() -> Material {
         cutout: None,
         coat: None,
         coat_textures: [None; 2],
+        anisotropy: None,
+        anisotropy_texture: None,
     }
 }
 

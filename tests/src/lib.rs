@@ -64,6 +64,8 @@ pub fn square(base: Base, half_side_m: f32, size_px: u32) -> Scene {
         cutout: None,
         coat: None,
         coat_textures: [None; 2],
+        anisotropy: None,
+        anisotropy_texture: None,
     };
     Scene {
         camera: Camera {

@@ -5,7 +5,9 @@ use crate::light_view::{LightView, LightViews};
 use crate::surface::SurfacePoint;
 use glam::DVec3;
 use hairline_optics::band::Cap;
+use hairline_optics::brushed_lobe::BrushedLobe;
 use hairline_optics::environment_lobe::{ENVIRONMENT_TAPS, environment_lobe};
+use hairline_optics::facets::FacetAxes;
 use hairline_optics::filtered_lobe::{LobePart, filtered_lobe};
 use hairline_optics::fresnel::FresnelRgb;
 use hairline_optics::ggx::ggx_area_reflectance;
@@ -49,13 +51,20 @@ impl Add for BaseRadiance {
 
 /// A GGX lobe of a pixel, ready for any light.
 pub(crate) struct Layer<'a> {
-    /// The lobes whose weighted sum is the lobe of the pixel.
-    parts: [LobePart; 3],
+    shape: Shape,
     of: LobeFresnel<'a>,
     /// What the lobe reflects with F = 1.
     lobe_albedo: f64,
     /// What it reflects of light from all around.
     pub albedo: DVec3,
+}
+
+/// How a lobe is integrated over a light.
+enum Shape {
+    /// By the lobes whose weighted sum it is.
+    Parts([LobePart; 3]),
+    /// Of facets that lean further one way: slice by slice. The transformed cosine stands for it where parts of a light are weighed.
+    Brushed(Box<(BrushedLobe, LtcLobe)>),
 }
 
 impl<'a> Layer<'a> {
@@ -64,19 +73,82 @@ impl<'a> Layer<'a> {
         let filtered = filtered_lobe(sharp.alpha, point.slope_spread(), point.wo.z);
         let of = LobeFresnel::new(fresnel, point.wo, roughness);
         Self {
-            parts: filtered.parts(&sharp),
+            shape: Shape::Parts(filtered.parts(&sharp)),
             of,
             lobe_albedo: sharp.albedo,
             albedo: ggx_area_reflectance(of.albedo, fresnel.f0, sharp.albedo).into(),
         }
     }
 
-    /// What it reflects, given what a part of the lobe does times its weight, single scattering.
-    fn reflected(&self, weighted: impl Fn(&LobePart, &LobeFresnel) -> DVec3) -> DVec3 {
-        let parts = self.parts.iter().filter(|part| part.counts());
-        let single: DVec3 = parts.map(|part| weighted(part, &self.of)).sum();
+    fn brushed(point: &SurfacePoint, fresnel: FresnelRgb<'a>, facets: FacetAxes) -> Self {
+        let lobe = BrushedLobe::new(point.wo, facets, point.slope_spread());
+        let [lobe_albedo, ..] = lobe.albedo(&FresnelRgb::schlick([1.0; 3]));
+        let of = LobeFresnel {
+            fresnel,
+            albedo: lobe.albedo(&fresnel),
+        };
+        Self {
+            shape: Shape::Brushed(Box::new((lobe, lobe.chord(point.wo)))),
+            of,
+            lobe_albedo,
+            albedo: ggx_area_reflectance(of.albedo, fresnel.f0, lobe_albedo).into(),
+        }
+    }
+
+    /// What it reflects of a light, over its radiance. `sphere` is what a lobe reflects of a sphere.
+    fn lit_by(
+        &self,
+        light: &LightView,
+        views: &LightViews,
+        sphere: impl Fn(&LtcLobe, &LobeFresnel, &SphereOnLobe) -> [f64; 3],
+    ) -> DVec3 {
+        let picture = views.picture(light);
+        let pictured = |even: DVec3, lobe: &LtcLobe| match &picture {
+            Some(picture) if even != DVec3::ZERO => even * picture.on_lobe(lobe, &self.of),
+            _ => even,
+        };
+        let single = match &self.shape {
+            Shape::Parts(parts) => {
+                let part = |part: &LobePart| {
+                    let even = reflected_light(light, views, part, &self.of, &sphere);
+                    pictured(even.into(), &part.lobe)
+                };
+                parts.iter().filter(|part| part.counts()).map(part).sum()
+            }
+            Shape::Brushed(brushed) => {
+                let (lobe, chord) = &**brushed;
+                let fresnel = &self.of.fresnel;
+                let even = match light {
+                    LightView::Sphere { cap, .. } => {
+                        lobe.sphere(cap.axis, sphere_sin2(cap), fresnel)
+                    }
+                    LightView::Polygon { vertices, .. } => {
+                        lobe.polygon(&views.vertices[vertices.clone()], fresnel)
+                    }
+                };
+                pictured(even.into(), chord)
+            }
+        };
         // The fit may make the second part a little larger than the first.
-        self.of_single(single.max(DVec3::ZERO))
+        self.of_single(DVec3::max(single, DVec3::ZERO))
+    }
+
+    /// What it reflects of the environment without its suns.
+    fn surrounded_by(&self, environment: &Environment, point: &SurfacePoint) -> DVec3 {
+        let single = match &self.shape {
+            Shape::Parts(parts) => {
+                let part = |part: &LobePart| match part.core {
+                    0.0 => DVec3::ZERO,
+                    weight => weight * reflected(environment, point, &part.lobe, &self.of),
+                };
+                parts.iter().map(part).sum()
+            }
+            Shape::Brushed(brushed) => {
+                DVec3::from(self.of.albedo)
+                    * brushed_around(environment, point, &brushed.0, &self.of)
+            }
+        };
+        self.of_single(DVec3::max(single, DVec3::ZERO))
     }
 
     /// What it reflects of light of which single scattering returns so much.
@@ -99,7 +171,10 @@ pub(crate) struct Base<'p, 'a> {
 
 impl<'p, 'a> Base<'p, 'a> {
     pub fn new(point: &'p SurfacePoint<'a>) -> Self {
-        let lobe = Layer::new(point, point.fresnel, point.roughness);
+        let lobe = match point.facets {
+            Some(facets) => Layer::brushed(point, point.fresnel, facets),
+            None => Layer::new(point, point.fresnel, point.roughness),
+        };
         let coat = point.coat.filter(|coat| coat.weight > 0.0);
         Self {
             point,
@@ -152,36 +227,25 @@ impl<'p, 'a> Base<'p, 'a> {
         sphere: impl Fn(&LtcLobe, &LobeFresnel, &SphereOnLobe) -> [f64; 3],
     ) -> BaseRadiance {
         let picture = views.picture(light);
-        let single = |part: &LobePart, of: &LobeFresnel| {
-            let even = DVec3::from(reflected_light(light, views, part, of, &sphere));
-            match picture {
-                Some(picture) if even != DVec3::ZERO => even * picture.on_lobe(&part.lobe, of),
-                _ => even,
-            }
-        };
         let radiance = light.radiance();
         let bare = BaseRadiance {
-            specular: radiance * self.lobe.reflected(single),
+            specular: radiance * self.lobe.lit_by(light, views, &sphere),
             diffuse: self.diffuse(|| {
                 let even = radiance * form_factor(light, views);
                 picture.map_or(even, |picture| even * picture.on_body())
             }),
         };
-        self.coated(bare, |coat| radiance * coat.reflected(single))
+        self.coated(bare, |coat| radiance * coat.lit_by(light, views, &sphere))
     }
 
     /// The part of the environment without its suns.
     pub fn by_environment(&self, environment: &Environment) -> BaseRadiance {
         let point = self.point;
-        let single = |part: &LobePart, of: &LobeFresnel| match part.core {
-            0.0 => DVec3::ZERO,
-            weight => weight * reflected(environment, point, &part.lobe, of),
-        };
         let bare = BaseRadiance {
-            specular: self.lobe.reflected(single),
+            specular: self.lobe.surrounded_by(environment, point),
             diffuse: self.diffuse(|| environment.irradiance(point.normal) / PI),
         };
-        self.coated(bare, |coat| coat.reflected(single))
+        self.coated(bare, |coat| coat.surrounded_by(environment, point))
             .times(DVec3::splat(point.open))
     }
 
@@ -285,4 +349,24 @@ fn reflected(
     }
     let normal = DVec3::from(of.fresnel.f0) * lobe.albedo;
     normal * all + (DVec3::from(of.albedo) - normal) * grazing
+}
+
+/// The mean of an environment over a lobe of brushed metal, as its facets reflect it.
+fn brushed_around(
+    environment: &Environment,
+    point: &SurfacePoint,
+    lobe: &BrushedLobe,
+    of: &LobeFresnel,
+) -> DVec3 {
+    let taps = lobe.around(&of.fresnel);
+    let directions = taps.map(|tap| point.world_from_surface(tap.direction));
+    let radiance = environment.prefiltered_all(directions, taps.map(|tap| tap.roughness));
+    let (mut mean, mut weights) = (DVec3::ZERO, DVec3::splat(1e-300));
+    for (tap, radiance) in taps.iter().zip(radiance) {
+        let weight = DVec3::from(tap.reflected);
+        weights += weight;
+        // Running means, which of equal values are exact.
+        mean += (radiance - mean) * (weight / weights);
+    }
+    mean
 }

@@ -23,9 +23,10 @@ use glam::{DVec2, DVec3};
 use hairline_image::Batch;
 use hairline_index::Hit;
 use hairline_optics::band::{Along, BandPlace};
+use hairline_optics::facets::{FacetAxes, Facets};
 use hairline_optics::fresnel::{FresnelRgb, half_vector_cos};
 use hairline_optics::gaussian::gaussian;
-use hairline_optics::ggx::{ggx_alpha, ggx_eval, ggx_pdf, ggx_sample};
+use hairline_optics::ggx::ggx_alpha;
 use hairline_optics::mask::ScratchSums;
 use hairline_scene::CameraFrame;
 use object_rays::ObjectRays;
@@ -569,7 +570,7 @@ struct Lobes<'l, 'a> {
 
 /// A lobe, widened by the pixel's normals.
 struct DrawnLobe<'a> {
-    alpha: f64,
+    facets: Facets,
     fresnel: FresnelRgb<'a>,
     /// How often it is drawn from.
     share: f64,
@@ -578,17 +579,19 @@ struct DrawnLobe<'a> {
 impl DrawnLobe<'_> {
     fn single(&self, wi: DVec3, wo: DVec3) -> DVec3 {
         let facet = self.fresnel.eval(half_vector_cos(wi, wo));
-        DVec3::from(facet) * ggx_eval(wi, wo, self.alpha)
+        DVec3::from(facet) * self.facets.eval(wi, wo)
     }
 }
 
 impl<'l, 'a> Lobes<'l, 'a> {
     fn new(base: &'l Base<'l, 'a>, point: &SurfacePoint<'a>) -> Self {
-        let alpha = |roughness: f64| {
-            let alpha = ggx_alpha(roughness);
-            (alpha * alpha + 2.0 * point.slope_spread().variance.element_sum())
-                .sqrt()
-                .min(1.0)
+        let facets = |own: Option<FacetAxes>, roughness: f64| {
+            let round = FacetAxes {
+                along: DVec2::X,
+                alphas: DVec2::splat(ggx_alpha(roughness)),
+            };
+            let added = 2.0 * point.slope_spread().variance.element_sum();
+            Facets::new(own.unwrap_or(round).spread_by(added))
         };
         let (specular, below) = (luminance(base.lobe.albedo), luminance(base.body));
         let share = if below > 0.0 {
@@ -598,7 +601,7 @@ impl<'l, 'a> Lobes<'l, 'a> {
         };
         let coat = point.coat.zip(base.coat.as_ref());
         let coat = coat.map(|(it, (weight, layer))| DrawnLobe {
-            alpha: alpha(it.roughness),
+            facets: facets(None, it.roughness),
             fresnel: it.fresnel,
             // Faint as it is, its highlights are the strongest.
             share: (weight * luminance(layer.albedo)).max(0.3 * weight),
@@ -608,7 +611,7 @@ impl<'l, 'a> Lobes<'l, 'a> {
             base,
             wo: point.wo,
             lobe: DrawnLobe {
-                alpha: alpha(point.roughness),
+                facets: facets(point.facets, point.roughness),
                 fresnel: point.fresnel,
                 share: left * share,
             },
@@ -619,9 +622,9 @@ impl<'l, 'a> Lobes<'l, 'a> {
 
     fn sample(&self, pick: f64, u: DVec2) -> Option<DVec3> {
         let wi = match &self.coat {
-            Some(coat) if pick >= 1.0 - coat.share => ggx_sample(self.wo, coat.alpha, u),
+            Some(coat) if pick >= 1.0 - coat.share => coat.facets.sample(self.wo, u),
             _ if pick < self.lobe.share || self.body_share == 0.0 => {
-                ggx_sample(self.wo, self.lobe.alpha, u)
+                self.lobe.facets.sample(self.wo, u)
             }
             _ => {
                 let (sin, cos) = (2.0 * PI * u.x).sin_cos();
@@ -635,7 +638,7 @@ impl<'l, 'a> Lobes<'l, 'a> {
     fn pdf(&self, wi: DVec3) -> f64 {
         let lobes = std::iter::once(&self.lobe).chain(&self.coat);
         let by_lobes: f64 = lobes
-            .map(|lobe| lobe.share * ggx_pdf(wi, self.wo, lobe.alpha))
+            .map(|lobe| lobe.share * lobe.facets.pdf(wi, self.wo))
             .sum();
         by_lobes + wi.z.max(0.0) / PI * self.body_share
     }

@@ -2,8 +2,10 @@
 
 use glam::{DVec2, DVec3};
 use hairline_index::Hit;
+use hairline_optics::facets::{FacetAxes, anisotropic_alpha};
 use hairline_optics::filtered_lobe::SlopeSpread;
 use hairline_optics::fresnel::FresnelRgb;
+use hairline_optics::ggx::ggx_alpha;
 use hairline_scene::texture_lookup::{TextureSampler, blend, texture_footprint};
 use hairline_scene::{COAT_F0, Mesh, Scene, ScratchTables, Texture};
 
@@ -37,6 +39,8 @@ pub struct SurfacePoint<'a> {
     pub diffuse: DVec3,
     /// Of the surface between the scratches, or of what is under the coat.
     pub roughness: f64,
+    /// How its facets lean where they lean further one way than across it.
+    pub facets: Option<FacetAxes>,
     /// A clear layer over all of this.
     pub coat: Option<PointCoat<'a>>,
     /// How far a normal map's slopes spread about the one that is looked up, in each direction.
@@ -162,16 +166,20 @@ pub fn surface_point<'a>(
     };
     let texture = |index: Option<usize>| looked_up(index, Texture::at_level);
 
+    let tangents = || {
+        let tangents = triangle.map(|i| mesh.tangents[i as usize].as_dvec4());
+        let tangent = interpolate(weights, tangents.map(|t| t.truncate()));
+        let tangent =
+            (tangent - smooth * smooth.dot(tangent)).normalize_or(smooth.any_orthonormal_vector());
+        [tangent, smooth.cross(tangent) * tangents[0].w]
+    };
+
     let mut normal = smooth;
     let mut slope_std = 0.0;
     if let Some((index, scale)) = material.normal_texture
         && let Some(texel) = looked_up(Some(index), sample_normals)
     {
-        let tangents = triangle.map(|i| mesh.tangents[i as usize].as_dvec4());
-        let tangent = interpolate(weights, tangents.map(|t| t.truncate()));
-        let tangent =
-            (tangent - smooth * smooth.dot(tangent)).normalize_or(smooth.any_orthonormal_vector());
-        let bitangent = smooth.cross(tangent) * tangents[0].w;
+        let [tangent, bitangent] = tangents();
         let n = texel.truncate() * 2.0 - DVec3::ONE;
         normal = (tangent * (n.x * scale) + bitangent * (n.y * scale) + smooth * n.z)
             .normalize_or(smooth);
@@ -180,6 +188,15 @@ pub fn surface_point<'a>(
             slope_std = texel.w * scale;
         }
     }
+    let brushed = material.anisotropy.filter(|it| it.strength > 0.0);
+    let anisotropy = brushed.map(|it| {
+        let texel = texture(material.anisotropy_texture);
+        let own = texel.map_or(DVec2::X, |t| t.truncate().truncate() * 2.0 - DVec2::ONE);
+        let turn = DVec2::from_angle(it.direction_deg.to_radians()).rotate(own);
+        let [tangent, bitangent] = tangents();
+        let strength = it.strength * texel.map_or(1.0, |t| t.z);
+        (tangent * turn.x + bitangent * turn.y, strength)
+    });
     let smooth = side * smooth;
     let normal = face_viewer(side * normal, to_viewer);
     // The viewer in the x-z plane; any x will do where they look along the normal.
@@ -236,6 +253,13 @@ pub fn surface_point<'a>(
         },
         diffuse: base_color * (1.0 - metallic),
         roughness,
+        facets: anisotropy.map(|(way, strength)| {
+            let alpha = ggx_alpha(roughness);
+            FacetAxes {
+                along: DVec2::new(way.dot(axis_x), way.dot(axis_y)).normalize_or(DVec2::X),
+                alphas: DVec2::new(anisotropic_alpha(alpha, strength), alpha),
+            }
+        }),
         coat: optics
             .coat_curve
             .zip(material.coat)

@@ -275,6 +275,7 @@ impl MaterialPreset {
                 }),
                 _ => None,
             },
+            anisotropy: None,
         }
     }
 }

@@ -39,7 +39,7 @@ pub(crate) const DEFAULT_DIAGONAL_M: f64 = 0.3;
 impl Parameter {
     /// Every parameter.
     #[cfg(test)]
-    pub(crate) const ALL: [Self; 82] = [
+    pub(crate) const ALL: [Self; 84] = [
         Self::CameraPosition,
         Self::CameraTarget,
         Self::CameraUp,
@@ -57,6 +57,8 @@ impl Parameter {
         Self::Roughness,
         Self::Clearcoat,
         Self::ClearcoatRoughness,
+        Self::Anisotropy,
+        Self::AnisotropyDirection,
         Self::Coherence,
         Self::Ior,
         Self::BaseColor,
@@ -150,6 +152,8 @@ impl Parameter {
             P::Roughness => (0.0..=0.6, limits::ROUGHNESS),
             P::Clearcoat => (0.0..=1.0, limits::CLEARCOAT),
             P::ClearcoatRoughness => (0.0..=0.6, limits::ROUGHNESS),
+            P::Anisotropy => (0.0..=1.0, limits::ANISOTROPY),
+            P::AnisotropyDirection => (-90.0..=90.0, ANY),
             P::Coherence => (5.0..=100.0, limits::COHERENCE_UM),
             P::Ior => (1.0..=2.5, limits::IOR),
             P::BaseColor => (0.0..=1.0, limits::BASE_COLOR),

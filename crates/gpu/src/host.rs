@@ -248,6 +248,11 @@ fn material(scene: &Scene, tables: &ScratchTables, array: &TextureArray, index: 
         coat: material.coat.map_or(0, coat),
         coat_texture: array.packed(material.coat_textures[0]),
         coat_roughness_texture: array.packed(material.coat_textures[1]),
+        anisotropy: material.anisotropy.map_or(0.0, |it| it.strength as f32),
+        anisotropy_direction_rad: material
+            .anisotropy
+            .map_or(0.0, |it| it.direction_deg.to_radians() as f32),
+        anisotropy_texture: array.packed(material.anisotropy_texture),
     }
 }
 

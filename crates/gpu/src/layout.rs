@@ -141,6 +141,9 @@ shared! {
         coat: u32,
         coat_texture: [u32; 2],
         coat_roughness_texture: [u32; 2],
+        anisotropy: f32,
+        anisotropy_direction_rad: f32,
+        anisotropy_texture: [u32; 2],
     }
     /// A light.
     Light {

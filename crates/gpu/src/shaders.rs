@@ -70,6 +70,10 @@ modules! {
     LTC = "physics/ltc" needs [GGX, IRRADIANCE, LOBE_FRESNEL];
     /// The lobe of a pixel whose normals differ.
     FILTERED_LOBE = "physics/filtered_lobe" needs [LTC];
+    /// Facets that lean further one way than across it.
+    FACETS = "physics/facets" needs [GGX];
+    /// Their lobe over lights, slice by slice.
+    BRUSHED_LOBE = "physics/brushed_lobe" needs [FACETS, FILTERED_LOBE];
     /// The GGX lobe over an environment, by round lobes in a row.
     ENVIRONMENT_LOBE = "physics/environment_lobe" needs [LTC];
     /// The GGX lobe over a sphere, by a pivot transform.
@@ -131,7 +135,7 @@ modules! {
     /// Where pixels lie in the arrays of a strip and in the film.
     FILM = "scene/film" needs [BINDINGS];
     /// Surface points as they lie in memory.
-    PIXEL_POINT = "scene/pixel_point" needs [LAYOUT, SURFACE_POINT];
+    PIXEL_POINT = "scene/pixel_point" needs [LAYOUT, SURFACE_POINT, CONTENTS];
     /// Area lights from a surface point.
     LIGHTS = "scene/lights" needs [ROWS, CONTENTS, SURFACE_POINT, BAND, TUBE];
     /// Pictures on lights as a point sees them.
@@ -155,7 +159,9 @@ modules! {
     /// A clear layer over the base.
     COAT = "scene/coat" needs [BINDINGS, FRESNEL, CONTENTS];
     /// The base under lights and environment.
-    BASE = "scene/base" needs [SCENE, LIGHTS, PICTURE_LIGHT, FILTERED_LOBE, ENVIRONMENT_LOBE, COAT];
+    BASE = "scene/base" needs [
+        SCENE, LIGHTS, PICTURE_LIGHT, FILTERED_LOBE, ENVIRONMENT_LOBE, BRUSHED_LOBE, COAT
+    ];
     /// The method of 2018: a scratch under lights and environment.
     PUBLISHED_LIGHTS = "published/published_lights" needs [
         SCENE, LIGHTS, PICTURE_LIGHT, SEGMENTS, METHOD, BAND_ENVIRONMENT, PUBLISHED_SPECTRUM, PUBLISHED_SPHERE, PUBLISHED_POLYGON

@@ -37,6 +37,8 @@ pub(crate) struct Contents {
     pub cutouts: bool,
     /// Materials that are not metal through and through.
     pub bodies: bool,
+    /// Materials whose facets lean further one way than across it.
+    pub anisotropy: bool,
     /// The curve of coats, if there are any.
     pub coats: Option<u32>,
 }
@@ -68,6 +70,7 @@ impl Contents {
             bodies: (scene.materials.iter().zip(&tables.materials)).any(|(material, optics)| {
                 optics.metallic < 1.0 || material.metallic_roughness_texture.is_some()
             }),
+            anisotropy: scene.materials.iter().any(|it| it.anisotropy.is_some()),
             coats: tables.materials.iter().find_map(|optics| optics.coat_curve),
         }
     }
@@ -128,6 +131,7 @@ pub fn pipeline_variants(text: &str) -> Vec<(String, Vec<(&'static str, f64)>)> 
         colors: true,
         cutouts: true,
         bodies: true,
+        anisotropy: true,
         coats: Some(0),
     };
     let lists = PublishedMethod {
@@ -200,6 +204,7 @@ impl ShadeVariant {
             ("HAS_COLORS", has.colors.into()),
             ("HAS_CUTOUTS", has.cutouts.into()),
             ("HAS_BODIES", has.bodies.into()),
+            ("HAS_ANISOTROPY", has.anisotropy.into()),
             ("HAS_COATS", has.coats.is_some().into()),
             ("COAT_CURVE", has.coats.unwrap_or(0).into()),
             ("METHOD_MASK", mask.into()),

@@ -9,6 +9,7 @@ use std::f64::consts::SQRT_2;
 
 use glam::{DVec2, DVec3};
 
+use crate::facets::FacetAxes;
 use crate::ltc::LtcLobe;
 
 /// The largest variance of slopes in a direction: rims narrower than a pixel stay sharp, as in the paper.
@@ -33,6 +34,78 @@ pub struct SlopeSpread {
     pub covariance: f64,
 }
 
+impl SlopeSpread {
+    /// No more than the limits: variances and covariance.
+    fn bounded(&self, cos_o: f64) -> (DVec2, f64) {
+        let most = DVec2::new(
+            MAX_VARIANCE.min(MAX_VARIANCE_OVER_COS2 * cos_o * cos_o),
+            MAX_VARIANCE,
+        );
+        let variance = self.variance.min(most);
+        // Correlated as before.
+        let kept = variance / self.variance.max(DVec2::splat(1e-30));
+        (variance, self.covariance * (kept.x * kept.y).sqrt())
+    }
+}
+
+/// What a variance of slopes adds to the square of an alpha.
+fn widening(variance: f64, alpha: f64) -> f64 {
+    (2.6 + 2.5 / (1.0 + 1.5 * variance.sqrt() / alpha)) * variance
+}
+
+/// The facets of a [`FilteredLobe`]'s first lobe, and its excess, where the surface's are not round.
+pub(crate) fn filtered_facets(
+    surface: FacetAxes,
+    spread: SlopeSpread,
+    cos_o: f64,
+) -> (FacetAxes, f64) {
+    let (variance, covariance) = spread.bounded(cos_o);
+    let (mean, half) = (
+        0.5 * (variance.x + variance.y),
+        0.5 * (variance.x - variance.y),
+    );
+    let apart = half.hypot(covariance);
+    if mean <= 0.0 {
+        return (surface, 0.0);
+    }
+    // Of the spread.
+    let axis = DVec2::from_angle(0.5 * covariance.atan2(half));
+    let along = [axis, axis.perp()].map(|axis| {
+        let (x, y) = (axis.dot(surface.along), axis.perp_dot(surface.along));
+        (DVec2::new(x, y) * surface.alphas).length()
+    });
+    let added = DVec2::new(
+        widening(mean + apart, along[0]),
+        widening((mean - apart).max(0.0), along[1]),
+    );
+    let own = surface.alphas * surface.alphas;
+    // In the surface's axes.
+    let (cos, sin) = (axis.dot(surface.along), axis.perp_dot(surface.along));
+    let xx = own.x + added.x * cos * cos + added.y * sin * sin;
+    let yy = own.y + added.x * sin * sin + added.y * cos * cos;
+    let xy = (added.y - added.x) * sin * cos;
+    let product = own.x * own.y
+        + added.x * added.y
+        + own.x * (added.x * sin * sin + added.y * cos * cos)
+        + own.y * (added.x * cos * cos + added.y * sin * sin);
+    let (mean, half) = (0.5 * (xx + yy), 0.5 * (xx - yy));
+    let long2 = mean + half.hypot(xy);
+    let turn = DVec2::from_angle(0.5 * xy.atan2(half));
+    let excess = 1.0 - (own.x + own.y) / (xx + yy);
+    let axes = FacetAxes {
+        along: turn.rotate(surface.along),
+        alphas: DVec2::new(long2.sqrt(), (product / long2).sqrt()),
+    };
+    (axes, if excess < MIN_EXCESS { 0.0 } else { excess })
+}
+
+/// How far the sharp lobe has taken over so many widths from the first one's middle.
+pub(crate) fn filtered_tails(widths: f64) -> f64 {
+    let [from, to] = TAILS;
+    let t = ((widths - from) / (to - from)).clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
+}
+
 /// A lobe as the difference of two, and the sharp one in the place of its tails.
 #[derive(Clone, Copy, Debug)]
 pub struct FilteredLobe {
@@ -52,14 +125,7 @@ pub struct FilteredLobe {
 /// fitted to GGX convolved with a Gaussian: the misplaced share is 2 to 11 % up to a variance of alpha squared and 20 % of a mirror, where
 /// one GGX has 6 to 37 % (test `pixels_blur_the_core_and_not_the_tails`).
 pub fn filtered_lobe(alpha: f64, spread: SlopeSpread, cos_o: f64) -> FilteredLobe {
-    let most = DVec2::new(
-        MAX_VARIANCE.min(MAX_VARIANCE_OVER_COS2 * cos_o * cos_o),
-        MAX_VARIANCE,
-    );
-    let variance = spread.variance.min(most);
-    // Correlated as before.
-    let kept = variance / spread.variance.max(DVec2::splat(1e-30));
-    let covariance = spread.covariance * (kept.x * kept.y).sqrt();
+    let (variance, covariance) = spread.bounded(cos_o);
     // By the axes of the spread.
     let (mean, half) = (
         0.5 * (variance.x + variance.y),
@@ -67,10 +133,8 @@ pub fn filtered_lobe(alpha: f64, spread: SlopeSpread, cos_o: f64) -> FilteredLob
     );
     let apart = half.hypot(covariance);
     let sharp2 = alpha * alpha;
-    let wide2 = DVec2::new(mean + apart, (mean - apart).max(0.0)).map(|variance| {
-        let widening = 2.6 + 2.5 / (1.0 + 1.5 * variance.sqrt() / alpha);
-        (sharp2 + widening * variance).min(1.0)
-    });
+    let wide2 = DVec2::new(mean + apart, (mean - apart).max(0.0))
+        .map(|variance| (sharp2 + widening(variance, alpha)).min(1.0));
     let turn = 0.5 * (wide2.x - wide2.y) * DVec2::new(half, covariance) / apart.max(1e-30);
     let alpha_x = (0.5 * (wide2.x + wide2.y) + turn.x).sqrt();
     let alpha_y = (wide2.x * wide2.y).sqrt() / alpha_x;
@@ -118,9 +182,7 @@ impl LobePart {
         let x = vector.x * per_first.x;
         let y = (vector.y + self.lobe.shear * vector.x) * per_first.y - shear * x;
         let widths = x.hypot(y) / vector.z.max(1e-30);
-        let [from, to] = TAILS;
-        let t = ((widths - from) / (to - from)).clamp(0.0, 1.0);
-        self.core + t * t * (3.0 - 2.0 * t) * (self.tails - self.core)
+        self.core + filtered_tails(widths) * (self.tails - self.core)
     }
 }
 

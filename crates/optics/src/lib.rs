@@ -22,9 +22,11 @@
 
 pub mod band;
 pub mod band_environment;
+pub mod brushed_lobe;
 pub mod coherent;
 pub mod diffraction;
 pub mod environment_lobe;
+pub mod facets;
 pub mod filtered_lobe;
 pub mod footprint;
 pub mod fresnel;

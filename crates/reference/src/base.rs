@@ -6,9 +6,10 @@
 use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3};
-use hairline_optics::ggx::{ggx_alpha, ggx_eval, ggx_pdf, ggx_sample};
+use hairline_optics::facets::Facets;
+use hairline_optics::ggx::ggx_alpha;
 
-use crate::reflectance::Reflectance;
+use crate::reflectance::{Albedo, Reflectance};
 use hairline_cpu::surface::SurfacePoint;
 use hairline_scene::COAT_F0;
 
@@ -16,7 +17,7 @@ use hairline_scene::COAT_F0;
 #[derive(Clone, Copy)]
 pub(crate) struct BaseLobes<'a> {
     wo: DVec3,
-    alpha: f64,
+    facets: Facets,
     reflectance: &'a Reflectance,
     f0: DVec3,
     /// What multiple scattering adds to a white surface's light: the bracket of (27) less one, over F0.
@@ -33,7 +34,7 @@ pub(crate) struct BaseLobes<'a> {
 struct CoatLobe<'a> {
     /// The share of the surface that it covers.
     weight: f64,
-    alpha: f64,
+    facets: Facets,
     reflectance: &'a Reflectance,
     gain: f64,
     /// What goes through it.
@@ -52,7 +53,13 @@ impl<'a> BaseLobes<'a> {
         coat: Option<&'a Reflectance>,
     ) -> Self {
         let f0 = DVec3::from(point.fresnel.f0);
-        let bare = Self::from_parts(point.wo, reflectance, f0, point.diffuse, point.roughness);
+        let bare = match point.facets.map(Facets::new) {
+            Some(facets) => {
+                let of_lobe = reflectance.albedo_of(&facets, point.wo);
+                Self::from_lobe(point.wo, reflectance, f0, point.diffuse, facets, of_lobe)
+            }
+            None => Self::from_parts(point.wo, reflectance, f0, point.diffuse, point.roughness),
+        };
         match point.coat.zip(coat) {
             Some((it, of)) => bare.coated(it.weight, it.roughness, of),
             None => bare,
@@ -64,7 +71,7 @@ impl<'a> BaseLobes<'a> {
         let albedo = of_lobe.reflected(COAT_F0_RGB);
         let coat = CoatLobe {
             weight,
-            alpha: ggx_alpha(roughness),
+            facets: Facets::round(ggx_alpha(roughness)),
             reflectance,
             gain: of_lobe.gain(),
             passed: (DVec3::ONE - albedo).max(DVec3::ZERO),
@@ -85,6 +92,18 @@ impl<'a> BaseLobes<'a> {
         roughness: f64,
     ) -> Self {
         let of_lobe = reflectance.albedo(roughness, wo.z);
+        let facets = Facets::round(ggx_alpha(roughness));
+        Self::from_lobe(wo, reflectance, f0, diffuse, facets, of_lobe)
+    }
+
+    fn from_lobe(
+        wo: DVec3,
+        reflectance: &'a Reflectance,
+        f0: DVec3,
+        diffuse: DVec3,
+        facets: Facets,
+        of_lobe: Albedo,
+    ) -> Self {
         let albedo = of_lobe.reflected(f0);
         let body = diffuse * (DVec3::ONE - albedo).max(DVec3::ZERO);
         let (specular, below) = (albedo.element_sum().max(0.0), body.element_sum());
@@ -96,7 +115,7 @@ impl<'a> BaseLobes<'a> {
         };
         Self {
             wo,
-            alpha: ggx_alpha(roughness),
+            facets,
             reflectance,
             f0,
             gain: of_lobe.gain(),
@@ -112,16 +131,16 @@ impl<'a> BaseLobes<'a> {
             return (DVec3::ZERO, DVec3::ZERO);
         }
         let h = (wi + self.wo).normalize_or(DVec3::Z);
-        let reflected = |reflectance: &Reflectance, f0, gain: f64, alpha| {
+        let reflected = |reflectance: &Reflectance, f0, gain: f64, facets: &Facets| {
             let facet = reflectance.eval(wi.dot(h), f0);
-            (facet.once + facet.twice * gain) * ggx_eval(wi, self.wo, alpha)
+            (facet.once + facet.twice * gain) * facets.eval(wi, self.wo)
         };
-        let specular = reflected(self.reflectance, self.f0, self.gain, self.alpha);
+        let specular = reflected(self.reflectance, self.f0, self.gain, &self.facets);
         let diffuse = self.body * (wi.z / PI);
         let Some(coat) = &self.coat else {
             return (specular, diffuse);
         };
-        let by_coat = reflected(coat.reflectance, COAT_F0_RGB, coat.gain, coat.alpha);
+        let by_coat = reflected(coat.reflectance, COAT_F0_RGB, coat.gain, &coat.facets);
         let bare = 1.0 - coat.weight;
         (
             bare * specular + coat.weight * by_coat,
@@ -134,9 +153,9 @@ impl<'a> BaseLobes<'a> {
     pub(crate) fn sample(&self, pick: f64, u: DVec2) -> Option<DVec3> {
         let coat_share = self.coat.map_or(0.0, |coat| coat.share);
         let wi = if let Some(coat) = self.coat.filter(|_| pick >= 1.0 - coat_share) {
-            ggx_sample(self.wo, coat.alpha, u)
+            coat.facets.sample(self.wo, u)
         } else if pick < self.specular_share * (1.0 - coat_share) || self.specular_share == 1.0 {
-            ggx_sample(self.wo, self.alpha, u)
+            self.facets.sample(self.wo, u)
         } else {
             cosine_sample(u)
         };
@@ -149,10 +168,10 @@ impl<'a> BaseLobes<'a> {
         if wi.z <= 0.0 {
             return 0.0;
         }
-        let specular = ggx_pdf(wi, self.wo, self.alpha);
+        let specular = self.facets.pdf(wi, self.wo);
         let bare = specular * self.specular_share + wi.z / PI * (1.0 - self.specular_share);
         match &self.coat {
-            Some(coat) => bare + (ggx_pdf(wi, self.wo, coat.alpha) - bare) * coat.share,
+            Some(coat) => bare + (coat.facets.pdf(wi, self.wo) - bare) * coat.share,
             None => bare,
         }
     }

@@ -147,7 +147,8 @@ impl Integrator<'_> {
             }
             Model::Full => {
                 let roughness = point.coat.map_or(point.roughness, |coat| coat.roughness);
-                let smooth = ggx_alpha(roughness) <= GGX_MIN_ALPHA;
+                let brushed = point.coat.is_none() && point.facets.is_some();
+                let smooth = ggx_alpha(roughness) <= GGX_MIN_ALPHA && !brushed;
                 if let Some(row) = row {
                     views.extend(row.grooves(random, point.coherence_um, reach_sigma));
                 }

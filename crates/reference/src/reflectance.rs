@@ -1,6 +1,7 @@
 //! What facets reflect, and what lobes made of them do: by the equations and by quadrature. The curves and tables of the closed form take no part.
 
 use glam::DVec3;
+use hairline_optics::facets::Facets;
 use hairline_optics::fresnel::{dielectric, schlick_weight};
 use hairline_optics::ggx::{ggx_alpha, ggx_mean};
 use hairline_optics::metal::Metal;
@@ -49,6 +50,8 @@ const METAL_NODES: usize = 2049;
 /// Nodes of albedos, and points along each axis of their quadrature.
 const ALBEDO_NODES: usize = 97;
 const ALBEDO_STEPS: usize = 64;
+/// The same of a lobe that is seen at one point.
+const ALBEDO_STEPS_AT_A_POINT: usize = 24;
 /// Steps of roughness where a texture gives it.
 const ROUGHNESS_STEPS: usize = 32;
 
@@ -142,6 +145,18 @@ impl Reflectance {
         let [once, twice] =
             [0, 1].map(|k| self.metal[i][k].lerp(self.metal[i + 1][k], at - i as f64));
         FacetReflectance { once, twice }
+    }
+
+    /// Of the lobe of facets for a viewer, where they are not round: too many for a table.
+    pub(crate) fn albedo_of(&self, facets: &Facets, wo: DVec3) -> Albedo {
+        let [e0, t, s] = facets.mean(wo, ALBEDO_STEPS_AT_A_POINT, |cos_h| {
+            let FacetParts { t, s } = self.parts(cos_h);
+            [1.0, t, s]
+        });
+        Albedo {
+            e0,
+            parts: FacetParts { t, s },
+        }
     }
 
     /// Of the lobe for a viewer.

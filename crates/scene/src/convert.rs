@@ -77,6 +77,8 @@ pub(crate) fn material(material: &description::Material) -> Material {
         cutout: None,
         coat: material.coat,
         coat_textures: [None; 2],
+        anisotropy: material.anisotropy,
+        anisotropy_texture: None,
     }
 }
 
@@ -238,6 +240,7 @@ pub(crate) fn with_textures_from(material: Material, first: usize) -> Material {
             .occlusion_texture
             .map(|(texture, strength)| (texture + first, strength)),
         coat_textures: material.coat_textures.map(shifted),
+        anisotropy_texture: shifted(material.anisotropy_texture),
         ..material
     }
 }

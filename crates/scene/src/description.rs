@@ -32,7 +32,7 @@ use hairline_optics::metal::Metal;
 use serde::Serialize;
 
 use crate::environment::BuiltInMap;
-use crate::scene::Coat;
+use crate::scene::{Anisotropy, Coat};
 use values::{Named, is_default, serialize_named, serialize_scale};
 
 pub use gratings::{Grating, GroovePattern, UvAxis};
@@ -181,6 +181,9 @@ pub struct Material {
     /// `clearcoat` and `clearcoat_roughness`: a clear layer over it, in which its scratches lie. Default: none.
     #[serde(flatten, skip_serializing_if = "Option::is_none")]
     pub coat: Option<Coat>,
+    /// `anisotropy` and `anisotropy_direction_deg`: highlights that are drawn out one way, as on brushed metal. Default: none.
+    #[serde(flatten, skip_serializing_if = "Option::is_none")]
+    pub anisotropy: Option<Anisotropy>,
 }
 
 /// `kind` of a `[[material]]`

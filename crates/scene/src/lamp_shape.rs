@@ -40,6 +40,8 @@ pub(crate) fn material(
         cutout: None,
         coat: None,
         coat_textures: [None; 2],
+        anisotropy: None,
+        anisotropy_texture: None,
     }
 }
 

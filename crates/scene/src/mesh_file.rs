@@ -5,11 +5,13 @@
 //! [`LeftOut`].
 
 mod accessor;
+mod anisotropy;
 mod attributes;
 mod cameras;
 mod coat;
 mod cutout;
 mod draco;
+mod extension_texture;
 mod extensions;
 mod flaw;
 mod head;

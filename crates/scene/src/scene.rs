@@ -152,6 +152,22 @@ pub struct Material {
     pub coat: Option<Coat>,
     /// Textures (linear) of the coat: the red of the first is a factor on its weight, the green of the second on its roughness.
     pub coat_textures: [Option<usize>; 2],
+    /// Highlights of the base that are drawn out one way, as on brushed metal.
+    pub anisotropy: Option<Anisotropy>,
+    /// Texture (linear) of it: red and green are a direction, which `direction_deg` turns, blue is a factor on the strength.
+    pub anisotropy_texture: Option<usize>,
+}
+
+/// Facets that lean further one way than across it (KHR_materials_anisotropy).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Anisotropy {
+    /// `anisotropy`: the alpha of GGX one way goes from that of the roughness to 1 with the square of this. In [0, 1].
+    #[serde(rename = "anisotropy")]
+    pub strength: f64,
+    /// `anisotropy_direction_deg`: that way, counter-clockwise from the surface's tangent, along which u of its texture coordinates rises.
+    /// Default: 0.
+    #[serde(rename = "anisotropy_direction_deg")]
+    pub direction_deg: f64,
 }
 
 /// A layer of lacquer over a base, as of cars and phones: refractive index [`COAT_IOR`], without a colour (KHR_materials_clearcoat).

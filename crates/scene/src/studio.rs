@@ -203,6 +203,7 @@ impl PhotoSet {
             roughness: ground.roughness,
             coherence_um: description::DEFAULT_COHERENCE_UM,
             coat: None,
+            anisotropy: None,
         };
         (object, material)
     }

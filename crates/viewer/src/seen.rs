@@ -69,11 +69,13 @@ fn is_same_but_for_name(x: &Material, y: &Material) -> bool {
         roughness,
         coherence_um,
         coat,
+        anisotropy,
     } = x;
     *kind == y.kind
         && *roughness == y.roughness
         && *coherence_um == y.coherence_um
         && *coat == y.coat
+        && *anisotropy == y.anisotropy
 }
 
 fn is_same_layer((a, x): (&Description, &Scratches), (b, y): (&Description, &Scratches)) -> bool {

@@ -6,7 +6,7 @@ use glam::DVec2;
 use hairline_fixtures::scenes::scratched_ball;
 use hairline_image::Layer;
 use hairline_optics::metal::Metal;
-use hairline_scene::{Base, Coat, Cone, LightShape, Scene};
+use hairline_scene::{Anisotropy, Base, Coat, Cone, LightShape, Scene};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -92,6 +92,46 @@ fn coated_plates() {
         assert!(agrees(&scratches, SCRATCHES), "{name}: {scratches:?}");
         assert!(base.rms().0 < BASE, "{name}: {base:?}");
         let wrong = compared("no coat", &bare, &reference, Layer::Base);
+        assert!(wrong.rms().0 > BASE, "{name}: {wrong:?}");
+    }
+}
+
+/// Brushed along, across and askew, nearly round and drawn out far.
+#[test]
+fn brushed_plates() {
+    let body = Base::Dielectric {
+        ior: 1.5,
+        base_color: [0.4, 0.1, 0.05],
+    };
+    let gold = Base::Metal(Metal::Gold);
+    for (base, angle_deg, roughness, strength, direction_deg) in [
+        (gold, 30.0_f64, 0.25, 0.5, 0.0),
+        (gold, 65.0, 0.2, 0.6, 35.0),
+        (body, 50.0, 0.4, 0.7, -60.0),
+    ] {
+        let view = View {
+            angle_rad: angle_deg.to_radians(),
+            pixel_um: 20.0,
+            size_px: 16,
+        };
+        let mut scene = plate(base, view);
+        scene.materials[0].roughness = roughness;
+        light(&mut scene, view);
+        scene.lights.push(tube(view, -0.3, -0.2, 0.2, 0.05));
+        scratch(&mut scene, view, 24);
+        let round = closed(&scene);
+        scene.materials[0].anisotropy = Some(Anisotropy {
+            strength,
+            direction_deg,
+        });
+        let (exact, reference) = (closed(&scene), sampled(&scene, LINEAR, 4));
+        let name =
+            format!("{base:?} from {angle_deg} degrees, brushed {strength} at {direction_deg}");
+        let [scratches, base] =
+            [Layer::Scratches, Layer::Base].map(|layer| compared(&name, &exact, &reference, layer));
+        assert!(agrees(&scratches, SCRATCHES), "{name}: {scratches:?}");
+        assert!(base.rms().0 < BASE, "{name}: {base:?}");
+        let wrong = compared("not brushed", &round, &reference, Layer::Base);
         assert!(wrong.rms().0 > BASE, "{name}: {wrong:?}");
     }
 }

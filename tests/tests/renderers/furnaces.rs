@@ -6,7 +6,7 @@ use glam::Vec3;
 use hairline_cpu::closed_form::{RenderOptions, render};
 use hairline_fixtures::SceneFile;
 use hairline_optics::metal::Metal;
-use hairline_scene::{Base, Coat, Sampling, Scene, Texture};
+use hairline_scene::{Anisotropy, Base, Coat, Sampling, Scene, Texture};
 use std::sync::Arc;
 
 const WHITE: [f64; 3] = [1.0; 3];
@@ -98,6 +98,26 @@ fn a_coated_white_base_returns_all() {
         scene.materials[0].coat = Some(Coat { weight, roughness });
         for value in base(&scene).into_iter().flatten().flatten() {
             assert!((value - 1.0).abs() < 0.01, "{weight} {roughness}: {value}");
+        }
+    }
+}
+
+/// Facets that lean one way send all back as well, by all that they lean to.
+#[test]
+fn a_brushed_white_base_returns_all() {
+    let mut scene = square(Base::ColoredMetal { base_color: WHITE }, 0.01, 8);
+    scene.environment = furnace();
+    scene.materials[0].roughness = 0.3;
+    for (strength, direction_deg) in [(0.3, 0.0), (0.6, 90.0), (1.0, 30.0)] {
+        scene.materials[0].anisotropy = Some(Anisotropy {
+            strength,
+            direction_deg,
+        });
+        for value in base(&scene).into_iter().flatten().flatten() {
+            assert!(
+                (value - 1.0).abs() < 0.01,
+                "{strength} {direction_deg}: {value}"
+            );
         }
     }
 }

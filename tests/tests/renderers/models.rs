@@ -4,15 +4,17 @@
 use std::sync::Arc;
 
 use conformance::square;
-use conformance::two_renderers::{compare_pixels, on_the_cpu, on_the_gpu, on_the_gpu_by};
+use conformance::two_renderers::{compare, compare_pixels, on_the_cpu, on_the_gpu, on_the_gpu_by};
 use glam::{DVec3, Vec2, Vec3, Vec4, vec2};
 use hairline_cpu::closed_form;
+use hairline_fixtures::SceneFile;
 use hairline_image::Image;
 use hairline_image::tone_map::linear_from_srgb;
 use hairline_index::TriangleIndex;
 use hairline_index::method::Method;
 use hairline_scene::{
-    AlphaRule, Base, Coat, Cutout, Light, LightShape, Mesh, Sampling, Scene, Texture, Wrap,
+    AlphaRule, Anisotropy, Base, Coat, Cutout, Light, LightShape, Mesh, Sampling, Scene, Texture,
+    Wrap,
 };
 
 const HALF_M: f32 = 0.1;
@@ -281,5 +283,89 @@ fn maps_of_a_clear_layer_are_factors_on_it() {
     assert!(compare_pixels("without a layer", &a, &bare, None).is_err());
     if let Some(gpu) = on_the_gpu(&mapped, 1) {
         compare_pixels("by factors, GPU", &gpu, &b, None).unwrap();
+    }
+}
+
+/// A map of anisotropy turns it and is a factor on it: one of one value is that of the sum and the product.
+#[test]
+fn a_map_of_anisotropy_turns_it_and_is_a_factor_on_it() {
+    let mut mapped = white();
+    mapped.textures = Arc::new(vec![Texture {
+        size_px: [1, 1],
+        // Along v, and 0.4.
+        levels: vec![vec![[128, 255, 102, 255]]],
+        srgb: false,
+        sampling: Sampling::default(),
+    }]);
+    let brushed = |strength, direction_deg| {
+        Some(Anisotropy {
+            strength,
+            direction_deg,
+        })
+    };
+    let mut product = mapped.clone();
+    mapped.materials[0].anisotropy = brushed(1.0, 30.0);
+    mapped.materials[0].anisotropy_texture = Some(0);
+    // 128 is a little more than a half.
+    let off_deg = (1.0_f64 / 255.0).atan().to_degrees();
+    product.materials[0].anisotropy = brushed(0.4, 120.0 - off_deg);
+    let plain = white();
+    let [a, b, round] = [&mapped, &product, &plain].map(|scene| on_the_cpu(scene, 1));
+    compare_pixels("by factors, CPU", &a, &b, None).unwrap();
+    assert!(compare_pixels("round", &a, &round, None).is_err());
+    if let Some(gpu) = on_the_gpu(&mapped, 1) {
+        compare_pixels("by factors, GPU", &gpu, &b, None).unwrap();
+    }
+}
+
+/// Balls, whose normals turn under a pixel, under lamps of all kinds and a sky: brushed one way and another, with and without a body.
+#[test]
+fn brushed_balls() {
+    for (metallic, roughness, strength, direction_deg) in [
+        (1.0, 0.25, 0.6, 0.0),
+        (1.0, 0.15, 0.9, 60.0),
+        (0.0, 0.4, 0.5, 90.0),
+    ] {
+        let mut scene = SceneFile::seen_from([0.0, -0.5, 0.2])
+            .mirror("m")
+            .object("ball", "m", "sphere = { radius_m = 0.05 }")
+            .fov_y_deg(14.0)
+            .size_px([72, 72])
+            .scene();
+        scene.materials[0].base = Base::MetallicRoughness {
+            base_color: [0.9, 0.6, 0.4],
+            metallic,
+        };
+        scene.materials[0].roughness = roughness;
+        scene.materials[0].anisotropy = Some(Anisotropy {
+            strength,
+            direction_deg,
+        });
+        let map = hairline_image::Picture {
+            size_px: [8, 4],
+            rgb: (0..32)
+                .map(|i| [0.1 * (i % 5) as f32, 0.3, 0.05 * (i % 7) as f32])
+                .collect(),
+        };
+        scene.environment = Some(hairline_scene::Environment::from_map(map, 0.3, 1.0, false));
+        let lamp = DVec3::new(-0.4, -0.5, 0.6);
+        scene.lights = vec![
+            Light::sphere(lamp, 0.05, [30.0, 20.0, 10.0]),
+            Light::polygon(
+                vec![
+                    DVec3::new(0.4, -0.6, -0.1),
+                    DVec3::new(0.8, -0.2, -0.1),
+                    DVec3::new(0.8, -0.2, 0.5),
+                    DVec3::new(0.4, -0.6, 0.5),
+                ],
+                [2.0, 3.0, 4.0],
+                true,
+            ),
+        ];
+        let cpu = on_the_cpu(&scene, 1);
+        if let Some(gpu) = on_the_gpu(&scene, 1) {
+            let name = format!("{metallic} {roughness} {strength} {direction_deg}");
+            compare(&name, &scene, &gpu, &cpu).unwrap();
+        }
     }
 }

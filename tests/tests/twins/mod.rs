@@ -1,6 +1,7 @@
 //! Every optics function against its shader twin, over tables of inputs that hold the awkward ones.
 
 mod band;
+mod brushed;
 mod draws;
 mod four_edges;
 mod gratings;

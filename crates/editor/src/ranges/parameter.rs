@@ -37,6 +37,10 @@ pub enum Parameter {
     Clearcoat,
     /// `material.clearcoat_roughness`
     ClearcoatRoughness,
+    /// `material.anisotropy`
+    Anisotropy,
+    /// `material.anisotropy_direction_deg`
+    AnisotropyDirection,
     /// `material.coherence_um`
     Coherence,
     /// `material.ior`

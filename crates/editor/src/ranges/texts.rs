@@ -75,6 +75,14 @@ pub(super) fn of(parameter: Parameter) -> Text {
             "Coat roughness",
             "How far the highlight of the coat spreads. 0 to 0.05 for car paint, more where it is matt.",
         ),
+        P::Anisotropy => (
+            "Anisotropy",
+            "How far highlights are drawn out one way, as on brushed metal. 0: alike in all directions. 0.4 to 0.7 for brushed pans, lids and panels.",
+        ),
+        P::AnisotropyDirection => (
+            "Drawn out",
+            "Which way highlights are drawn out: across the brushing. 0 is along the horizontal of the texture coordinates, around the axis of what is turned; 90 is across.",
+        ),
         P::Coherence => (
             "Coherence",
             "How far apart two points of the surface still act together on light. Larger: each scratch catches a lamp in a narrower band, so glints are thinner and crisper. Smaller: broader, softer glints. 20 suits most.",

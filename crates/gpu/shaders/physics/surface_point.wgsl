@@ -25,6 +25,8 @@ struct SurfacePoint {
     table: u32,
     open: f32,                  // what of the environment's light reaches the base
     coat: u32,                  // share of the surface and roughness of a clear layer over it, in 16 bits each
+    long_alpha: f32,            // of facets that lean further one way than across it, that way; 0 where they do not
+    long_axis: vec2f,           // that way, a unit vector of the local frame
 }
 
 // How far a surface may be off the plane of a footprint for each length along it, where shading and facet normal agree.

@@ -29,6 +29,10 @@ fn published_base(point: SurfacePoint) -> BaseRadiance {
 }
 
 fn published_layer(point: SurfacePoint, layer: Layer) -> BaseRadiance {
+    // The pivot transform knows round lobes alone.
+    if HAS_ANISOTROPY && layer.is_brushed {
+        return brushed_lit(point, layer, vec2u(0u, frame.base_light_count), true);
+    }
     var sum: BaseRadiance;
     for (var p = 0u; p < FILTERED_LOBE_PARTS; p += 1u) {
         let part = filtered_lobe_part(layer.sharp, layer.filtered, p);

@@ -151,6 +151,7 @@ fn base_surroundings(point: SurfacePoint, lobe: LtcLobe, reflecting: LobeFresnel
 
 // A lobe of a point.
 struct Layer {
+    is_brushed: bool,           // its facets lean further one way: `sharp` has its albedo alone
     sharp: LtcLobe,
     filtered: FilteredLobe,
     reflecting: LobeFresnel,
@@ -161,11 +162,34 @@ fn layer_of(point: SurfacePoint, fresnel: FresnelRgb, roughness: f32) -> Layer {
     let sharp = ltc_lobe(point.wo, roughness, lobe_shapes, lobe_albedo);
     let filtered = filtered_lobe(sharp.alpha, surface_slope_spread(point), point.wo.z);
     let reflecting = lobe_fresnel(fresnel, point.wo, roughness, fresnel_curves);
-    return Layer(sharp, filtered, reflecting, ggx_area_reflectance(reflecting.albedo, fresnel.at_normal, sharp.albedo));
+    return Layer(false, sharp, filtered, reflecting, ggx_area_reflectance(reflecting.albedo, fresnel.at_normal, sharp.albedo));
 }
 
 fn base_layer(point: SurfacePoint) -> Layer {
-    return layer_of(point, FresnelRgb(point.f0, point.curve), point.roughness);
+    return layer_brushed(point, layer_of(point, FresnelRgb(point.f0, point.curve), point.roughness));
+}
+
+fn base_facets(point: SurfacePoint) -> FacetAxes {
+    let alpha = ggx_alpha(point.roughness);
+    return FacetAxes(point.long_axis, vec2f(max(point.long_alpha, alpha), alpha));
+}
+
+fn base_brushed_lobe(point: SurfacePoint) -> BrushedLobe {
+    return brushed_lobe(point.wo, base_facets(point), surface_slope_spread(point));
+}
+
+// The layer with the albedos of facets that lean further one way, where they do.
+fn layer_brushed(point: SurfacePoint, round: Layer) -> Layer {
+    var layer = round;
+    if HAS_ANISOTROPY && point.long_alpha > 0.0 {
+        let fresnel = round.reflecting.fresnel;
+        let albedo = brushed_albedo(base_brushed_lobe(point), fresnel, fresnel_curves);
+        layer.is_brushed = true;
+        layer.sharp.albedo = albedo.w;
+        layer.reflecting.albedo = albedo.xyz;
+        layer.albedo = ggx_area_reflectance(albedo.xyz, fresnel.at_normal, albedo.w);
+    }
+    return layer;
 }
 
 fn coat_layer(point: SurfacePoint) -> Layer {
@@ -212,7 +236,10 @@ fn base_radiance_of(point: SurfacePoint, of_lights: vec2u, surrounded: bool) -> 
             fresnel = coat_fresnel();
             roughness = coat.y;
         }
-        let layer = layer_of(point, fresnel, roughness);
+        var layer = layer_of(point, fresnel, roughness);
+        if i == 0u {
+            layer = layer_brushed(point, layer);
+        }
         let lit = layer_lit(point, layer, of_lights, surrounded);
         let single = layer_of_single(layer, lit.specular);
         if i > 0u {
@@ -226,6 +253,9 @@ fn base_radiance_of(point: SurfacePoint, of_lights: vec2u, surrounded: bool) -> 
 
 // What a lobe reflects, single scattering, and what falls on a body under it.
 fn layer_lit(point: SurfacePoint, layer: Layer, of_lights: vec2u, surrounded: bool) -> BaseRadiance {
+    if HAS_ANISOTROPY && layer.is_brushed {
+        return brushed_lit(point, layer, of_lights, surrounded);
+    }
     var sum: BaseRadiance;
     for (var p = 0u; p < FILTERED_LOBE_PARTS; p += 1u) {
         let part = filtered_lobe_part(layer.sharp, layer.filtered, p);
@@ -266,4 +296,117 @@ fn layer_lit(point: SurfacePoint, layer: Layer, of_lights: vec2u, surrounded: bo
         }
     }
     return sum;
+}
+
+// The same of facets that lean further one way, slice by slice.
+fn brushed_lit(point: SurfacePoint, layer: Layer, of_lights: vec2u, surrounded: bool) -> BaseRadiance {
+    let lobe = base_brushed_lobe(point);
+    let fresnel = layer.reflecting.fresnel;
+    // Of the body's light, and by which parts of a picture are weighed.
+    let chord = brushed_chord(lobe, ltc_lobe(point.wo, brushed_chord_roughness(lobe), lobe_shapes, lobe_albedo));
+    var sum: BaseRadiance;
+    if surrounded && HAS_ENVIRONMENT {
+        sum.specular = layer.reflecting.albedo * brushed_around(point, lobe, fresnel) * point.open;
+        sum.diffuse = scene_irradiance(point.normal) / 3.14159265 * point.open;
+    }
+    for (var l = of_lights.x; l < of_lights.y; l += 1u) {
+        let source = light_at(l);
+        let radiance = light_radiance(source, point.position_m);
+        var seen: LightOnBase;
+        var on_lobe = radiance;
+        var on_body = radiance;
+        if BASE_HAS_SPHERES && source.kind == LIGHT_SPHERE {
+            seen = base_sphere(point, chord, source);
+            on_lobe *= brushed_light_sphere(point, lobe, fresnel, source);
+        } else {
+            if light_has_picture(source) {
+                let picture = base_picture(point, chord, layer.reflecting, source);
+                seen = picture.seen;
+                on_lobe *= picture.mean.specular;
+                on_body *= picture.mean.diffuse;
+            } else if BASE_HAS_POLYGONS && HAS_BODIES {
+                seen = base_polygon(point, chord, source);
+            }
+            if BASE_HAS_POLYGONS {
+                on_lobe *= brushed_light_polygon(point, lobe, fresnel, source);
+            }
+        }
+        sum.specular += on_lobe;
+        sum.diffuse += on_body * seen.form_factor;
+    }
+    return sum;
+}
+
+fn brushed_light_sphere(point: SurfacePoint, lobe: BrushedLobe, fresnel: FresnelRgb, light: Light) -> vec3f {
+    let center = surface_from_world(point, light.center_m - point.position_m);
+    if center.z <= -light.radius_m {
+        return vec3f(0.0);
+    }
+    let cap = sphere_cap(center, light.radius_m);
+    let sin2 = select(cap.sin_radius * cap.sin_radius, 1.0, cap.cos_radius < 0.0);
+    return brushed_sphere(lobe, cap.axis, sin2, fresnel, fresnel_curves);
+}
+
+// Twin: BrushedLobe::polygon of optics.
+fn brushed_light_polygon(point: SurfacePoint, lobe: BrushedLobe, fresnel: FresnelRgb, light: Light) -> vec3f {
+    let outline = light_outline(point, light);
+    var sum = vec3f(0.0);
+    if outline.facing == 0.0 {
+        return sum;
+    }
+    var range = vec2f(1.0, -1.0);
+    var area = vec3f(0.0);
+    var highest_z = 0.0;
+    let first = brushed_from_local(lobe, light_vertex(point, light, outline, 0u));
+    var a = first;
+    for (var i = 0u; i < light.vertex_count; i += 1u) {
+        let b = brushed_from_local(lobe, light_vertex(point, light, outline, i + 1u));
+        area += cross(a, b);
+        highest_z = max(highest_z, b.z);
+        range = brushed_range(lobe, range, brushed_edge(a, b, false));
+        range = brushed_range(lobe, range, brushed_edge(a, b, true));
+        a = b;
+    }
+    let visible = brushed_visible(lobe, range);
+    if highest_z <= 0.0 || visible.y <= visible.x {
+        return sum;
+    }
+    let orientation = select(1.0, -1.0, dot(area, first) < 0.0);
+    for (var n = 0u; n < BRUSHED_NODES; n += 1u) {
+        let node = brushed_node(n, visible);
+        let slice = brushed_slice(lobe, node.x);
+        if !slice.is_seen {
+            continue;
+        }
+        // The edges once for each kind of facets: most lobes have one.
+        for (var k = 0u; k < brushed_parts(lobe); k += 1u) {
+            let part = brushed_part(lobe, slice, k);
+            var moments = brushed_none();
+            a = first;
+            for (var i = 0u; i < 2u * light.vertex_count; i += 1u) {
+                let b = brushed_from_local(lobe, light_vertex(point, light, outline, i / 2u + 1u));
+                let edge = brushed_edge(a, b, (i & 1u) == 1u);
+                brushed_add_crossings(&moments, part, brushed_crossings(lobe, slice.slope, edge), orientation);
+                if (i & 1u) == 1u {
+                    a = b;
+                }
+            }
+            sum += node.y * brushed_reflected(lobe, slice, k, moments, fresnel, fresnel_curves);
+        }
+    }
+    return max(sum, vec3f(0.0));
+}
+
+// The mean of the environment over the lobe, as its facets reflect it.
+fn brushed_around(point: SurfacePoint, lobe: BrushedLobe, fresnel: FresnelRgb) -> vec3f {
+    var mean = vec3f(0.0);
+    var weights = vec3f(1e-30);
+    for (var i = 0u; i < BRUSHED_TAPS; i += 1u) {
+        let tap = brushed_tap(lobe, i, fresnel, fresnel_curves);
+        let radiance = scene_prefiltered(world_from_surface(point, tap.direction), tap.roughness);
+        weights += tap.reflected;
+        // Running means, which of equal values are exact.
+        mean += (radiance - mean) * (tap.reflected / weights);
+    }
+    return mean;
 }

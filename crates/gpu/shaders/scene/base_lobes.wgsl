@@ -4,6 +4,7 @@
 struct BaseLobes {
     wo: vec3f,
     alpha: f32,
+    facets: Facets,             // in its place, with anisotropy
     fresnel: FresnelRgb,
     body: vec3f,
     share: f32,                 // how often the specular one is drawn from
@@ -27,6 +28,13 @@ fn base_lobes(point: SurfacePoint) -> BaseLobes {
     var lobes: BaseLobes;
     lobes.wo = point.wo;
     lobes.alpha = base_lobes_alpha(layer.sharp.alpha, spread);
+    if HAS_ANISOTROPY {
+        var axes = facets_round(layer.sharp.alpha);
+        if layer.is_brushed {
+            axes = base_facets(point);
+        }
+        lobes.facets = facets_of(facet_axes_spread_by(axes, 2.0 * (spread.x + spread.y)));
+    }
     lobes.fresnel = layer.reflecting.fresnel;
     lobes.body = base_body(point, layer);
     lobes.albedo = layer.sharp.albedo;
@@ -51,6 +59,9 @@ fn base_lobes(point: SurfacePoint) -> BaseLobes {
 fn base_lobes_sample(lobes: BaseLobes, pick: f32, u: vec2f) -> vec3f {
     let by_coat = HAS_COATS && lobes.coat_share > 0.0 && pick >= lobes.share + lobes.body_share;
     if pick < lobes.share || by_coat || lobes.body_share == 0.0 {
+        if HAS_ANISOTROPY && !by_coat {
+            return facets_sample(lobes.facets, lobes.wo, u);
+        }
         return ggx_sample(lobes.wo, select(lobes.alpha, lobes.coat_alpha, by_coat), u);
     }
     let phi = 2.0 * GGX_PI * u.x;
@@ -58,7 +69,13 @@ fn base_lobes_sample(lobes: BaseLobes, pick: f32, u: vec2f) -> vec3f {
 }
 
 fn base_lobes_pdf(lobes: BaseLobes, wi: vec3f) -> f32 {
-    var density = lobes.body_share * max(wi.z, 0.0) / GGX_PI + lobes.share * ggx_pdf(wi, lobes.wo, lobes.alpha);
+    var by_facets: f32;
+    if HAS_ANISOTROPY {
+        by_facets = facets_pdf(lobes.facets, wi, lobes.wo);
+    } else {
+        by_facets = ggx_pdf(wi, lobes.wo, lobes.alpha);
+    }
+    var density = lobes.body_share * max(wi.z, 0.0) / GGX_PI + lobes.share * by_facets;
     if HAS_COATS && lobes.coat_share > 0.0 {
         density += (1.0 - lobes.share - lobes.body_share) * ggx_pdf(wi, lobes.wo, lobes.coat_alpha);
     }
@@ -69,7 +86,13 @@ fn base_lobes_pdf(lobes: BaseLobes, wi: vec3f) -> f32 {
 fn base_lobes_eval(lobes: BaseLobes, wi: vec3f) -> BaseRadiance {
     let cos_h = half_vector_cos(wi, lobes.wo);
     let facet = fresnel_eval(fresnel_curves, lobes.fresnel, cos_h);
-    let single = facet * ggx_eval(wi, lobes.wo, lobes.alpha);
+    var by_facets: f32;
+    if HAS_ANISOTROPY {
+        by_facets = facets_eval(lobes.facets, wi, lobes.wo);
+    } else {
+        by_facets = ggx_eval(wi, lobes.wo, lobes.alpha);
+    }
+    let single = facet * by_facets;
     var base = BaseRadiance(ggx_area_reflectance(single, lobes.fresnel.at_normal, lobes.albedo), lobes.body * (max(wi.z, 0.0) / GGX_PI));
     if HAS_COATS && lobes.coat_share > 0.0 {
         let by_coat = fresnel_eval(fresnel_curves, coat_fresnel(), cos_h) * ggx_eval(wi, lobes.wo, lobes.coat_alpha);

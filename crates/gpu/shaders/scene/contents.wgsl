@@ -28,6 +28,8 @@ override HAS_COLORS: bool = true;
 override HAS_CUTOUTS: bool = true;
 // Materials that are not metal through and through: light falls on a body under the surface.
 override HAS_BODIES: bool = true;
+// Materials whose facets lean further one way than across it.
+override HAS_ANISOTROPY: bool = true;
 // Materials under a clear layer, and which curve of reflectance such layers have.
 override HAS_COATS: bool = true;
 override COAT_CURVE: u32 = 0u;

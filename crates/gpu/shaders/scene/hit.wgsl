@@ -96,6 +96,37 @@ fn hit_paint(point: ptr<function, SurfacePoint>, material: Material) {
     }
 }
 
+// Where textures lie on a surface: unit vectors along u and across it.
+struct HitTangents {
+    along: vec3f,
+    across: vec3f,
+}
+
+fn hit_tangents(a: Vertex, b: Vertex, c: Vertex, weights: vec3f, smooth_normal: vec3f) -> HitTangents {
+    let tangent = a.tangent * weights.x + b.tangent * weights.y + c.tangent * weights.z;
+    let along = surface_normalize_or(tangent - smooth_normal * dot(smooth_normal, tangent), surface_any_across(smooth_normal));
+    let flip = select(1.0, -1.0, (a.material & VERTEX_BITANGENT_FLIPPED) != 0u);
+    return HitTangents(along, cross(smooth_normal, along) * flip);
+}
+
+// Which way its facets lean most, and how far.
+fn hit_brush(point: ptr<function, SurfacePoint>, material: Material, place: TexturePlace, tangents: HitTangents) {
+    var strength = material.anisotropy;
+    var own = vec2f(1.0, 0.0);
+    if hit_has_texture(material.anisotropy_texture) {
+        let texel = hit_texture(material.anisotropy_texture, place);
+        own = 2.0 * texel.xy - 1.0;
+        strength *= texel.z;
+    }
+    let turn = vec2f(cos(material.anisotropy_direction_rad), sin(material.anisotropy_direction_rad));
+    let way = tangents.along * (turn.x * own.x - turn.y * own.y) + tangents.across * (turn.y * own.x + turn.x * own.y);
+    let local = vec2f(dot(way, (*point).axis_x), dot(way, (*point).axis_y));
+    (*point).long_axis = select(vec2f(1.0, 0.0), local * inverseSqrt(max(dot(local, local), 1e-30)), dot(local, local) > 1e-20);
+    let rough = clamp((*point).roughness, 0.0, 1.0);
+    let alpha = max(rough * rough, 0.002);
+    (*point).long_alpha = alpha + (1.0 - alpha) * strength * strength;
+}
+
 // Its clear layer at a place of its textures, packed as its factors are.
 fn hit_coat(material: Material, place: TexturePlace) -> u32 {
     var coat = unpack2x16unorm(material.coat);
@@ -182,13 +213,10 @@ fn hit_surface(triangle: u32, bary: vec2f, view: HitView) -> SurfacePoint {
         let lod = surface_texture_lod(there.z, scene_texture_size(map), scene_texture_levels(map));
         let looked_up = scene_normals(map, there.xy, lod, there.z);
         let texel = looked_up.xyz * 2.0 - 1.0;
-        var tangent = a.tangent * weights.x + b.tangent * weights.y + c.tangent * weights.z;
-        tangent = surface_normalize_or(tangent - smooth_normal * dot(smooth_normal, tangent), surface_any_across(smooth_normal));
-        let flip = select(1.0, -1.0, (a.material & VERTEX_BITANGENT_FLIPPED) != 0u);
-        let bitangent = cross(smooth_normal, tangent) * flip;
+        let tangents = hit_tangents(a, b, c, weights, smooth_normal);
         let scale = material.normal_scale;
         normal = surface_normalize_or(
-            tangent * (texel.x * scale) + bitangent * (texel.y * scale) + smooth_normal * texel.z,
+            tangents.along * (texel.x * scale) + tangents.across * (texel.y * scale) + smooth_normal * texel.z,
             smooth_normal,
         );
         point.slope_std = looked_up.w * scale;
@@ -196,7 +224,11 @@ fn hit_surface(triangle: u32, bary: vec2f, view: HitView) -> SurfacePoint {
     normal = surface_face_viewer(side * normal, to_viewer);
     point.leaves = SURFACE_BENDS + 2.0 * distance(normal, side * surface_normalize_or(geometric, normal));
     hit_turn(&point, normal, to_viewer, view);
-    hit_paint(&point, hit_textured(material, place));
+    let there = hit_textured(material, place);
+    hit_paint(&point, there);
+    if HAS_ANISOTROPY && material.anisotropy > 0.0 {
+        hit_brush(&point, there, place, hit_tangents(a, b, c, weights, smooth_normal));
+    }
     point.open = 1.0;
     if hit_has_texture(material.occlusion_texture) {
         point.open += material.occlusion_strength * (hit_texture(material.occlusion_texture, place).x - 1.0);

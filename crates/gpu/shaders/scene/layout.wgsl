@@ -110,6 +110,9 @@ struct Material {
     coat: u32,                  // share of the surface and roughness of a clear layer over it, in 16 bits each
     coat_texture: vec2u,        // red: factor on the share
     coat_roughness_texture: vec2u, // green: factor on the roughness
+    anisotropy: f32,
+    anisotropy_direction_rad: f32, // from the tangent
+    anisotropy_texture: vec2u,  // red and green: a direction that the former turns; blue: factor on the strength
 }
 
 // Spheres come first, then polygons of at most four vertices, then others, then tubes, then rectangles with pictures; behind them, in the
@@ -176,8 +179,8 @@ const PIXEL_PARTIAL: u32 = 0x80000000u;
 // What its surface is made of, as the base needs it.
 struct PixelPaint {
     f0: vec3f,
-    lobe: u32,                  // roughness and spread of slopes, in 16 bits each
-    diffuse: vec2u,             // 16 bits each
+    lobe: u32,                  // roughness and spread of slopes, in 16 bits each; with anisotropy see pixel_lobe_pack()
+    diffuse: vec2u,             // 16 bits each; the last are spare
     coat: u32,                  // as that of materials
     triangle: u32,
     emission: vec3f,

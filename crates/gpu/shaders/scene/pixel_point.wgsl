@@ -26,9 +26,34 @@ fn pixel_curve(paint: PixelPaint) -> u32 {
     return paint.curve_and_open & 0xffffu;
 }
 
+// Roughness, spread of slopes, the longer alpha and the turn of its axis over half a turn: 16 bits each of the former two, and no more; with
+// anisotropy 12 bits of each, the last 16 of which are in y.
+fn pixel_lobe_pack(point: SurfacePoint) -> vec2u {
+    if !HAS_ANISOTROPY {
+        return vec2u(pack2x16unorm(vec2f(point.roughness, point.slope_std)), 0u);
+    }
+    var turn = 0.0;
+    if point.long_alpha > 0.0 {
+        turn = atan2(point.long_axis.y, point.long_axis.x) / 3.14159265;
+    }
+    let all = clamp(vec4f(point.roughness, point.slope_std, point.long_alpha, turn - floor(turn)), vec4f(0.0), vec4f(1.0));
+    let bits = vec4u(round(4095.0 * all));
+    return vec2u(bits.x | (bits.y << 12u) | ((bits.z & 0xffu) << 24u), (bits.z >> 8u) | (bits.w << 4u));
+}
+
+fn pixel_lobe(paint: PixelPaint) -> vec4f {
+    if !HAS_ANISOTROPY {
+        return vec4f(unpack2x16unorm(paint.lobe), 0.0, 0.0);
+    }
+    let spare = paint.diffuse.y >> 16u;
+    let bits = vec4u(paint.lobe & 0xfffu, (paint.lobe >> 12u) & 0xfffu, (paint.lobe >> 24u) | ((spare & 0xfu) << 8u), spare >> 4u);
+    return vec4f(bits) / 4095.0;
+}
+
 fn pixel_paint_pack(point: SurfacePoint, triangle: u32) -> PixelPaint {
-    let diffuse = vec2u(pack2x16unorm(point.diffuse.xy), pack2x16unorm(vec2f(point.diffuse.z, 0.0)));
-    return PixelPaint(point.f0, pack2x16unorm(vec2f(point.roughness, point.slope_std)), diffuse, point.coat, triangle, point.emission, pixel_curve_and_open(point));
+    let lobe = pixel_lobe_pack(point);
+    let diffuse = vec2u(pack2x16unorm(point.diffuse.xy), pack2x16unorm(vec2f(point.diffuse.z, 0.0)) | (lobe.y << 16u));
+    return PixelPaint(point.f0, lobe.x, diffuse, point.coat, triangle, point.emission, pixel_curve_and_open(point));
 }
 
 fn pixel_table(pixel: PixelPoint) -> u32 {
@@ -44,7 +69,8 @@ fn pixel_wo(cos_o: f32) -> vec3f {
 }
 
 fn surface_point_from(pixel: PixelPoint, paint: PixelPaint) -> SurfacePoint {
-    let lobe = unpack2x16unorm(paint.lobe);
+    let lobe = pixel_lobe(paint);
+    let turn = 3.14159265 * lobe.w;
     return SurfacePoint(
         pixel.position_m,
         pixel.axis_x,
@@ -67,5 +93,7 @@ fn surface_point_from(pixel: PixelPoint, paint: PixelPaint) -> SurfacePoint {
         pixel_table(pixel),
         f32(paint.curve_and_open >> 16u) / 65535.0,
         paint.coat,
+        lobe.z,
+        vec2f(cos(turn), sin(turn)),
     );
 }

@@ -1,7 +1,7 @@
 // Arrays that lie in textures: a texture may hold four times as much as a storage buffer, and a stage has eight storage buffers only.
 // Twin: src/rows.rs writes them.
 
-const MATERIAL_TEXELS: u32 = 8u;
+const MATERIAL_TEXELS: u32 = 9u;
 
 fn material_at(i: u32) -> Material {
     let a = textureLoad(materials, row_texel(MATERIAL_TEXELS * i), 0);
@@ -14,6 +14,10 @@ fn material_at(i: u32) -> Material {
     var h: vec4u;
     if HAS_COATS {
         h = textureLoad(materials, row_texel(MATERIAL_TEXELS * i + 7u), 0);
+    }
+    var j: vec4u;
+    if HAS_ANISOTROPY {
+        j = textureLoad(materials, row_texel(MATERIAL_TEXELS * i + 8u), 0);
     }
     return Material(
         bitcast<vec3f>(a.xyz),
@@ -37,6 +41,9 @@ fn material_at(i: u32) -> Material {
         g.w,
         h.xy,
         h.zw,
+        bitcast<f32>(j.x),
+        bitcast<f32>(j.y),
+        j.zw,
     );
 }
 

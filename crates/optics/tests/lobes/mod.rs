@@ -1,6 +1,7 @@
 //! The area-light lobes against converged cubature of GGX, and what must hold for any input.
 
 mod accuracy;
+mod brushed;
 mod cubature;
 mod environment;
 mod filtered;

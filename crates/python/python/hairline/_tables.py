@@ -316,6 +316,10 @@ class Material(Table):
     """The share of the surface that a clear layer covers, in which scratches lie, from 0 to 1. Default: none."""
     clearcoat_roughness: Optional[float] = _default()
     """With ``clearcoat``: as ``roughness``, of the layer. Default: 0."""
+    anisotropy: Optional[float] = _default()
+    """How far highlights are drawn out one way, as on brushed metal, from 0 to 1. Default: none."""
+    anisotropy_direction_deg: Optional[float] = _default()
+    """With ``anisotropy``: which way, counter-clockwise from where u of the texture coordinates rises. Default: 0."""
     coherence_um: float = _default()
     """Standard deviation of the coherence window, micrometres. Default: 20."""
 

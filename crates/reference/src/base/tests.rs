@@ -63,7 +63,7 @@ impl Rings {
     fn new(lobes: &BaseLobes, rings: usize, sectors: usize) -> Self {
         Self {
             wo: lobes.wo,
-            first_rad: 0.02 * lobes.alpha,
+            first_rad: 0.02 * lobes.facets.alphas.x,
             rings,
             sectors,
         }
@@ -342,7 +342,7 @@ fn base_timings() {
     };
     let (wo, f0) = (lobes.wo, lobes.f0);
     time("new", &|i| {
-        BaseLobes::from_parts(wo, lobes.reflectance, f0, DVec3::ONE, us[i].x).alpha
+        BaseLobes::from_parts(wo, lobes.reflectance, f0, DVec3::ONE, us[i].x).gain
     });
     time("sample", &|i| {
         lobes.sample(us[i].x, us[i]).map_or(0.0, |w| w.z)

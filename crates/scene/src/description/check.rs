@@ -143,6 +143,12 @@ fn material(material: &Material, key: &str) -> Check {
         let roughness = format!("{key}.clearcoat_roughness");
         within(&roughness, coat.roughness, limits::ROUGHNESS)?;
     }
+    if let Some(anisotropy) = material.anisotropy {
+        let strength = format!("{key}.anisotropy");
+        within(&strength, anisotropy.strength, limits::ANISOTROPY)?;
+        let direction = format!("{key}.anisotropy_direction_deg");
+        finite(&direction, anisotropy.direction_deg)?;
+    }
     let color = |rgb: [f64; 3]| components(&format!("{key}.base_color"), rgb, limits::BASE_COLOR);
     match material.kind {
         MaterialKind::Metal(MetalColor::Measured(_)) | MaterialKind::Mirror => Ok(()),

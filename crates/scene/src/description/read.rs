@@ -11,7 +11,7 @@ use super::{
     Stroke, Studio, Surface, Up,
 };
 use crate::error::Error;
-use crate::scene::Coat;
+use crate::scene::{Anisotropy, Coat};
 
 /// Reads a whole scene file.
 pub(super) fn description(root: &DeTable) -> Result<Description, Error> {
@@ -145,13 +145,15 @@ impl Read for Environment {
 
 impl Read for Material {
     fn read(value: &Value, key: &str) -> Result<Self, Error> {
-        const SHARED: [&str; 6] = [
+        const SHARED: [&str; 8] = [
             "name",
             "kind",
             "roughness",
             "coherence_um",
             "clearcoat",
             "clearcoat_roughness",
+            "anisotropy",
+            "anisotropy_direction_deg",
         ];
         let (kind, table) = Table::read_kind(
             value,
@@ -194,8 +196,23 @@ impl Read for Material {
             }
             None => None,
         };
+        let anisotropy = match table.optional("anisotropy")? {
+            Some(strength) => Some(Anisotropy {
+                strength,
+                direction_deg: table.or("anisotropy_direction_deg", 0.0)?,
+            }),
+            None if table.has("anisotropy_direction_deg") => {
+                return Err(Error::new(
+                    table.way("anisotropy_direction_deg"),
+                    "found no `anisotropy` beside it",
+                    "add one, such as `anisotropy = 0.6`",
+                ));
+            }
+            None => None,
+        };
         Ok(Self {
             coat,
+            anisotropy,
             name: table.required("name")?,
             kind,
             roughness: table.or("roughness", 0.1)?,

@@ -1,10 +1,8 @@
 //! KHR_materials_clearcoat: a clear layer over a material, by two factors and two textures.
 
-use gltf::Document;
 use gltf::json::Value;
 use gltf::material::Material;
 
-use super::flaw::Flaw;
 use crate::scene::Coat;
 
 const NAME: &str = "KHR_materials_clearcoat";
@@ -29,15 +27,4 @@ pub(super) fn coat(material: &Material) -> Option<Coat> {
 pub(super) fn uses<'a>(material: &'a Material<'a>) -> [Option<&'a Value>; 2] {
     let there = coat(material).and_then(|_| material.extension_value(NAME));
     TEXTURES.map(|name| there?.get(name))
-}
-
-/// The texture that a use names.
-pub(super) fn texture<'a>(document: &'a Document, used: &Value) -> Result<gltf::Texture<'a>, Flaw> {
-    let index = used.get("index").and_then(Value::as_u64);
-    let index = index.and_then(|index| usize::try_from(index).ok());
-    let known = index.and_then(|index| document.textures().nth(index));
-    known.ok_or_else(|| {
-        let found = "a texture of its clear coat is not there";
-        Flaw::new(found, super::flaw::RIGHT)
-    })
 }

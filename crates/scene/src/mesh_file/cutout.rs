@@ -76,6 +76,8 @@ mod tests {
                 cutout: Some(cutout),
                 coat: None,
                 coat_textures: [None; 2],
+                anisotropy: None,
+                anisotropy_texture: None,
             };
             let textures = [Texture {
                 size_px: [2, 1],

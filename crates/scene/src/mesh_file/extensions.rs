@@ -1,12 +1,13 @@
 //! The extensions of glTF: those that are read, and what the picture is without the others.
 
 /// Extensions that are read. Quantization needs nothing done: the accessors read every component type.
-const READ: [&str; 16] = [
+const READ: [&str; 17] = [
     "EXT_mesh_gpu_instancing",
     "EXT_meshopt_compression",
     "EXT_texture_webp",
     "KHR_draco_mesh_compression",
     "KHR_lights_punctual",
+    "KHR_materials_anisotropy",
     "KHR_materials_clearcoat",
     "KHR_materials_emissive_strength",
     "KHR_materials_ior",
@@ -65,7 +66,6 @@ pub(super) fn meaning(name: &str) -> (&'static str, bool) {
     let matters = |meaning| (meaning, true);
     let harmless = |meaning| (meaning, false);
     match name {
-        "KHR_materials_anisotropy" => matters("brushed surfaces shine alike in all directions"),
         "KHR_materials_sheen" => matters("cloth misses its sheen"),
         "KHR_materials_iridescence" => matters("thin films have no colours"),
         "KHR_materials_transmission"

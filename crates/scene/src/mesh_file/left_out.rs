@@ -242,7 +242,10 @@ fn textures_of(material: &Value) -> impl Iterator<Item = &Value> {
     let of_coat = of_coat
         .into_iter()
         .filter_map(move |name| coat.and_then(|it| it.get(name)));
-    of_pbr.chain(own).chain(of_coat)
+    let anisotropy = material
+        .get("extensions")
+        .and_then(|it| it.get("KHR_materials_anisotropy")?.get("anisotropyTexture"));
+    of_pbr.chain(own).chain(of_coat).chain(anisotropy)
 }
 
 fn list<'a>(value: &'a Value, name: &str) -> &'a [Value] {

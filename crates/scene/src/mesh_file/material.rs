@@ -5,8 +5,10 @@ use std::collections::HashMap;
 use gltf::json::Value;
 use gltf::{Document, Primitive};
 
+use super::anisotropy;
 use super::coat;
 use super::cutout::{self, cutout};
+use super::extension_texture;
 use super::flaw::Flaw;
 use super::images::Images;
 use super::spec_gloss::{self, SpecGloss};
@@ -99,11 +101,12 @@ impl Own<'_> {
         let mut of_coat = [None, None];
         for (texture, used) in of_coat.iter_mut().zip(coat::uses(material)) {
             let used = used.filter(|_| coat.is_some());
-            if let Some((used, way)) = used.and_then(|used| Some((used, uv::of_json(used)?))) {
-                *texture = Some((coat::texture(self.document, used)?, way));
-            }
+            *texture = extension_texture::used(self.document, used, "clear coat")?;
         }
         let [of_weight, of_roughness] = of_coat;
+        let anisotropy = anisotropy::anisotropy(material).filter(|_| !is_unlit);
+        let of_anisotropy = anisotropy.and_then(|_| anisotropy::texture(material));
+        let of_anisotropy = extension_texture::used(self.document, of_anisotropy, "anisotropy")?;
         Ok(Material {
             name: material.name().unwrap_or("glTF default").to_owned(),
             base: Base::MetallicRoughness {
@@ -146,6 +149,8 @@ impl Own<'_> {
                 look(of_roughness, Channels::Linear)?,
             ],
             coat,
+            anisotropy,
+            anisotropy_texture: look(of_anisotropy, Channels::Linear)?,
         })
     }
 

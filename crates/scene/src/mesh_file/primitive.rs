@@ -4,6 +4,7 @@ use glam::{DVec3, Vec2, Vec4};
 use gltf::mesh::Mode;
 use gltf::{Document, Primitive, Semantic};
 
+use super::anisotropy;
 use super::attributes::Attributes;
 use super::flaw::Flaw;
 use super::skin::Motion;
@@ -90,13 +91,15 @@ pub(super) fn read(
 }
 
 impl Rough {
-    /// With normals, and with tangents where a normal map needs them.
+    /// With normals, and with tangents where a normal map or brushed metal needs them.
     pub(super) fn finished(self, primitive: &Primitive) -> Surface {
         let mut surface = self.surface;
         if !self.has_normals {
             surface.make_flat_normals();
         }
-        let needs_tangents = primitive.material().normal_texture().is_some();
+        let material = primitive.material();
+        let needs_tangents =
+            material.normal_texture().is_some() || anisotropy::anisotropy(&material).is_some();
         if needs_tangents && !self.has_tangents && self.has_uvs {
             surface = tangents::made_up(&surface);
         }

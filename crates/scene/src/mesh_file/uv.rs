@@ -4,7 +4,7 @@ use glam::Vec2;
 use gltf::json::Value;
 use gltf::material::Material;
 
-use super::{coat, spec_gloss};
+use super::{anisotropy, coat, spec_gloss};
 
 const NAME: &str = "KHR_texture_transform";
 
@@ -105,11 +105,13 @@ fn all(material: &Material) -> Vec<Way> {
         .into_iter()
         .flatten()
         .filter_map(of_json);
+    let anisotropy = anisotropy::texture(material).and_then(of_json);
     normal
         .into_iter()
         .chain(rest)
         .chain(older)
         .chain(coat)
+        .chain(anisotropy)
         .collect()
 }
 

@@ -208,6 +208,14 @@ fn sizes_that_are_negative_or_not_finite() {
             "plate.toml:14: material[1].clearcoat_roughness: found no `clearcoat` beside it; add one, such as `clearcoat = 1`",
         ),
         (
+            "[[material]]\nname = \"a\"\nkind = \"mirror\"\nanisotropy = -0.1",
+            "plate.toml:14: material[1].anisotropy: found -0.1; must be from 0 to 1",
+        ),
+        (
+            "[[material]]\nname = \"a\"\nkind = \"mirror\"\nanisotropy_direction_deg = 30.0",
+            "plate.toml:14: material[1].anisotropy_direction_deg: found no `anisotropy` beside it; add one, such as `anisotropy = 0.6`",
+        ),
+        (
             &object("{ box = { size_m = [1.0, 0.2, 0.5], rounding_m = 0.2 } }"),
             "plate.toml:13: object[0].shape.box.rounding_m: found 0.2; must be at most half of the shortest edge: 0.1",
         ),

@@ -6,7 +6,7 @@ use crate::common::{asset, scene_with, temporary_dir};
 use hairline_image::ToneMap;
 use hairline_optics::metal::Metal;
 use hairline_scene::description::*;
-use hairline_scene::{Base, Coat, Scene, description};
+use hairline_scene::{Anisotropy, Base, Coat, Scene, description};
 
 const EXAMPLE: &str = include_str!("../example.toml");
 
@@ -209,6 +209,10 @@ fn everything() -> Description {
                 coat: (i % 2 == 1).then_some(Coat {
                     weight: 0.5,
                     roughness: 0.1,
+                }),
+                anisotropy: (i % 3 == 1).then_some(Anisotropy {
+                    strength: 0.6,
+                    direction_deg: 30.0,
                 }),
             })
             .collect(),

@@ -2,7 +2,9 @@
 
 use crate::common::{Glb, scene_with, temporary_dir};
 use glam::{Vec2, Vec4, vec2, vec4};
-use hairline_scene::{AlphaRule, Base, Coat, Cutout, Reflector, Sampling, Scene, Texture, Wrap};
+use hairline_scene::{
+    AlphaRule, Anisotropy, Base, Coat, Cutout, Reflector, Sampling, Scene, Texture, Wrap,
+};
 
 /// The scene of a square with two sets of texture coordinates and colours, of the only material of a file.
 fn scene(material: &str, more: &str) -> Scene {
@@ -144,6 +146,27 @@ fn extensions_change_what_a_surface_reflects() {
     // The same image lies in two ways.
     let by_other = [0, 1].map(|i| textured.textures[i].sampling.by_other_uvs);
     assert_eq!(by_other, [false, true]);
+    let brushed = |text: &str| {
+        scene(
+            &format!(r#"{plastic},"extensions":{{"KHR_materials_anisotropy":{{{text}}}}}"#),
+            "",
+        )
+    };
+    let of = |scene: &Scene| {
+        scene.materials[scene.objects[0].mesh.triangle_materials[0] as usize].clone()
+    };
+    let quarter = std::f64::consts::FRAC_PI_2;
+    let turned = brushed(&format!(
+        r#""anisotropyStrength":0.5,"anisotropyRotation":{quarter},"anisotropyTexture":{{"index":2}}"#
+    ));
+    let (strength, direction_deg) = (0.5, 90.0);
+    let expected = Anisotropy {
+        strength,
+        direction_deg,
+    };
+    assert_eq!(of(&turned).anisotropy, Some(expected));
+    assert!(!texture(&turned, of(&turned).anisotropy_texture).srgb);
+    assert_eq!(of(&brushed("")).anisotropy, None);
     // A metal of the older model, and an image of it.
     let old = r#""extensions":{"KHR_materials_pbrSpecularGlossiness":{"diffuseFactor":[0,0,0,1],"specularFactor":[0.9,0.6,0.3],"glossinessFactor":0.75"#;
     let metal = material(&format!("{old}}}}}"));

@@ -166,6 +166,7 @@ fn clay() -> Material {
         roughness: 0.6,
         coherence_um: 20.0,
         coat: None,
+        anisotropy: None,
     }
 }
 

@@ -5,8 +5,8 @@ use hairline_editor::actions::materials;
 use hairline_editor::presets::MaterialPreset;
 use hairline_editor::ranges::Parameter;
 use hairline_optics::metal::Metal;
-use hairline_scene::Coat;
 use hairline_scene::description::{MaterialKind, MetalColor};
+use hairline_scene::{Anisotropy, Coat};
 
 use super::form::Form;
 use super::outliner::material_cards;
@@ -81,6 +81,30 @@ fn coat_rows(form: &mut Form, coat: &mut Option<Coat>) {
     }
 }
 
+/// Alike in all directions, or brushed.
+fn anisotropy_rows(form: &mut Form, anisotropy: &mut Option<Anisotropy>) {
+    let mut is_brushed = anisotropy.is_some();
+    let tooltip = "Whether highlights are drawn out one way, as on brushed metal";
+    form.toggle("Brushed", tooltip, &mut is_brushed);
+    match anisotropy {
+        Some(_) if !is_brushed => *anisotropy = None,
+        Some(anisotropy) => {
+            form.number(Parameter::Anisotropy, &mut anisotropy.strength);
+            form.number(
+                Parameter::AnisotropyDirection,
+                &mut anisotropy.direction_deg,
+            );
+        }
+        None if is_brushed => {
+            *anisotropy = Some(Anisotropy {
+                strength: 0.6,
+                direction_deg: 0.0,
+            });
+        }
+        None => {}
+    }
+}
+
 pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     let Some(mut material) = work.document.description().materials.get(index).cloned() else {
         return;
@@ -126,6 +150,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
         MaterialKind::Mirror => {}
     }
     form.number(Parameter::Roughness, &mut material.roughness);
+    anisotropy_rows(&mut form, &mut material.anisotropy);
     coat_rows(&mut form, &mut material.coat);
     form.number(Parameter::Coherence, &mut material.coherence_um);
     if let Some(change) = form.change() {

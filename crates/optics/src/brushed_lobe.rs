@@ -1,0 +1,594 @@
+//! The lobe of elliptic GGX facets over a polygon, a sphere or everything, slice by slice (docs/model.md, section 8). Twin: `brushed_lobe.wgsl`.
+//!
+//! Where facets lean much further one way than across it, as on brushed metal, the lobe lies along an arc that no transformed cosine follows. Facets of
+//! one slope along the longer axis reflect the viewer to a circle; the density of their slopes across it has an elementary integral. Along the axis a
+//! rule of few nodes adds such slices, over no more than the slopes at which the light is seen: small lights are as exact as large ones.
+//!
+//! A circle enters and leaves a light at its edges. Each crossing adds the integral from the slice's end to there, with the sign of the edge, so edges
+//! are taken one by one, in any order. What lies below the horizon counts as if it were at the slice's end.
+//!
+//! Masking and Fresnel's reflectance vary slowly across a slice: they are taken at two places that have the mean and the variance of what the light
+//! covers.
+
+use std::f64::consts::PI;
+
+use glam::{DVec2, DVec3};
+
+use crate::facets::{FacetAxes, Facets};
+use crate::filtered_lobe::{SlopeSpread, filtered_facets, filtered_tails};
+use crate::fresnel::FresnelRgb;
+use crate::ggx::GGX_MIN_ALPHA;
+use crate::ltc::{LtcLobe, ltc_lobe};
+
+/// Fejer's first rule: Chebyshev's nodes in (0, 1), and weights by which polynomials are exact; the same in (-1, 0).
+const RULE: [[f64; 2]; 8] = [
+    [0.098_017_140_329_561, 0.195_451_247_812_314],
+    [0.290_284_677_254_462, 0.187_749_728_115_074],
+    [0.471_396_736_825_998, 0.173_419_411_771_946],
+    [0.634_393_284_163_645, 0.151_392_461_637_132],
+    [0.773_010_453_362_737, 0.125_129_618_158_384],
+    [0.881_921_264_348_355, 0.091_718_313_205_295],
+    [0.956_940_335_732_209, 0.058_336_464_069_376],
+    [0.995_184_726_672_197, 0.016_802_755_230_479],
+];
+
+/// The same with fewer nodes: for look-ups of an environment, two a slice.
+const RULE_AROUND: [[f64; 2]; 4] = [
+    [0.195_090_322_016_128, 0.385_876_602_222_307],
+    [0.555_570_233_019_602, 0.324_152_519_064_524],
+    [0.831_469_612_302_545, 0.222_987_933_014_579],
+    [0.980_785_280_403_230, 0.066_982_945_698_590],
+];
+/// Look-ups of an environment.
+pub const BRUSHED_TAPS: usize = 4 * RULE_AROUND.len();
+/// Gauss's rule in (0, 1), the same in (-1, 0): for albedos, across a slice.
+const RULE_ACROSS: [[f64; 2]; 2] = [
+    [0.339_981_043_584_856, 0.652_145_154_862_546],
+    [0.861_136_311_594_053, 0.347_854_845_137_454],
+];
+/// The share of all facets in a slice, over a step of its place.
+const DENSITY: f64 = 0.5;
+/// The alphas of a look-up over half of the slopes that it stands for, and over the alpha across the slice.
+const TAP_WIDTHS: [f64; 2] = [0.85, 0.55];
+/// A share of a slice below which it sees nothing; below its negative it sees all but that.
+const LEAST_SHARE: f64 = 1e-12;
+
+/// The lobe seen from one direction.
+#[derive(Clone, Copy, Debug)]
+pub struct BrushedLobe {
+    /// The viewer, in a frame whose x axis is the longer one of the slopes.
+    wo: DVec3,
+    /// That axis in the local frame.
+    along: DVec2,
+    /// As the parts of a [`crate::filtered_lobe::FilteredLobe`]: of the pixel, wider by the root of 2, of the surface, which masks.
+    facets: [Facets; 3],
+    /// [`crate::filtered_lobe::FilteredLobe::excess`].
+    excess: f64,
+}
+
+/// Facets of one slope along the axis.
+struct Slice {
+    slope: f64,
+    parts: [SlicePart; 3],
+}
+
+/// What a slice has of facets of one kind: their slopes across the axis.
+#[derive(Clone, Copy, Default)]
+struct SlicePart {
+    /// How many there are, over those of the first kind.
+    weight: f64,
+    middle: f64,
+    alpha: f64,
+    /// Those that reflect to above the horizon, as tangents of [`Moments`].
+    from: f64,
+    to: f64,
+}
+
+/// Of the part of a slice that sees a light. Slopes are the middle one and alpha times a tangent.
+#[derive(Clone, Copy)]
+struct Moments {
+    /// How often what is above the middle counts whole: as tails are subtracted from that, those of faint parts keep their digits.
+    whole: f64,
+    /// Integrals of the density of slopes, less what `whole` tells; and of it times the sine and its square.
+    share: f64,
+    first: f64,
+    second: f64,
+    /// The least and the greatest tangent.
+    least: f64,
+    greatest: f64,
+}
+
+/// A round lobe that stands for a part of the lobe.
+#[derive(Clone, Copy, Debug)]
+pub struct BrushedTap {
+    /// Unit vector to its middle, in the local frame.
+    pub direction: DVec3,
+    /// Perceptual.
+    pub roughness: f64,
+    /// What it reflects, single scattering.
+    pub reflected: [f64; 3],
+}
+
+impl Moments {
+    const NONE: Self = Self {
+        whole: 0.0,
+        share: 0.0,
+        first: 0.0,
+        second: 0.0,
+        least: FAR,
+        greatest: -FAR,
+    };
+
+    /// Adds the integrals up to a tangent, times a sign.
+    fn add(&mut self, tan: f64, sign: f64) {
+        let cos = 1.0 / (1.0 + tan * tan).sqrt();
+        let sine = tan.abs() * cos;
+        let cubed = cos * cos * cos;
+        // Beyond it, on its side of the middle.
+        let tail = (cos.atan2(sine) - sine * cos) / PI;
+        let tail_second = 0.25 * tail + sine * cubed * 0.5 / PI;
+        let towards = if tan > 0.0 { -sign } else { sign };
+        self.whole += if tan > 0.0 { sign } else { 0.0 };
+        self.share += towards * tail;
+        self.first -= sign * 2.0 / (3.0 * PI) * cubed;
+        self.second += towards * tail_second;
+        self.least = self.least.min(tan);
+        self.greatest = self.greatest.max(tan);
+    }
+
+    /// Adds all between two tangents.
+    fn add_between(&mut self, from: f64, to: f64) {
+        self.add(to, 1.0);
+        self.add(from, -1.0);
+    }
+
+    fn share(&self) -> f64 {
+        self.whole + self.share
+    }
+
+    /// Two tangents that have the mean and the variance of the sines.
+    fn places(&self) -> [f64; 2] {
+        let share = self.share();
+        let mean = self.first / share;
+        let square = (0.25 * self.whole + self.second) / share;
+        let spread = (square - mean * mean).max(0.0).sqrt();
+        [mean - spread, mean + spread].map(|sine| {
+            let tan = sine / (1.0 - sine * sine).max(1e-12).sqrt();
+            tan.clamp(self.least, self.greatest)
+        })
+    }
+}
+
+impl SlicePart {
+    /// The tangent of a slope, within what is above the horizon.
+    fn tan(&self, slope: f64) -> f64 {
+        ((slope - self.middle) / self.alpha).clamp(self.from, self.to)
+    }
+}
+
+impl BrushedLobe {
+    /// The lobe of a surface for a viewer above the horizon, in the local frame. The pixel's slopes spread so about their mean.
+    pub fn new(wo: DVec3, surface: FacetAxes, spread: SlopeSpread) -> Self {
+        let (axes, excess) = filtered_facets(surface, spread, wo.z);
+        let along = axes.along;
+        let first = Facets::new(FacetAxes {
+            along: DVec2::X,
+            ..axes
+        });
+        let second = Facets {
+            alphas: first.alphas * std::f64::consts::SQRT_2,
+            ..first
+        };
+        let own = Facets::new(FacetAxes {
+            along: turned(along, surface.along),
+            ..surface
+        });
+        Self {
+            wo: turned(along, wo.truncate()).extend(wo.z),
+            along,
+            facets: [first, second, own],
+            excess,
+        }
+    }
+
+    /// One transformed cosine in the place of the lobe, which draws its chord: by it parts of a light are weighed against one another.
+    pub fn chord(&self, wo: DVec3) -> LtcLobe {
+        let own = Facets::new(FacetAxes {
+            along: self.along,
+            alphas: self.facets[0].alphas,
+        });
+        let alpha = (own.alphas.x * own.alphas.y).sqrt().min(1.0);
+        ltc_lobe(wo, alpha.sqrt()).widened(own.alphas, own.shear, 0.0, 0.0)
+    }
+
+    fn turned(&self, w: DVec3) -> DVec3 {
+        turned(self.along, w.truncate()).extend(w.z)
+    }
+
+    /// Where a direction lies among the slices, from -1 to 1, each as likely.
+    fn place(&self, w: DVec3) -> f64 {
+        let length = w.length();
+        let x = -(w.x + self.wo.x * length) / self.facets[0].alphas.x;
+        let z = w.z + self.wo.z * length;
+        x / (x * x + z * z).max(1e-30).sqrt()
+    }
+
+    /// [`Self::place`] of a slope along the axis.
+    fn place_of_slope(&self, slope: f64) -> f64 {
+        let x = slope / self.facets[0].alphas.x;
+        x / (1.0 + x * x).sqrt()
+    }
+
+    /// What of a range of places reflects to above the horizon.
+    fn visible(&self, range: [f64; 2]) -> [f64; 2] {
+        let [from, to] = [-1.0, 1.0].map(|end| self.place_of_slope((end - self.wo.x) / self.wo.z));
+        [range[0].max(from), range[1].min(to)]
+    }
+
+    fn parts(&self) -> usize {
+        if self.excess > 0.0 { 3 } else { 1 }
+    }
+
+    fn slice(&self, place: f64) -> Option<Slice> {
+        let wo = self.wo;
+        let root = ((1.0 - place) * (1.0 + place)).sqrt();
+        let slope = self.facets[0].alphas.x * place / root;
+        let inside = wo.y * wo.y - wo.z * (2.0 * slope * wo.x - wo.z * (1.0 - slope * slope));
+        if inside <= 0.0 {
+            return None;
+        }
+        let ends = [-1.0, 1.0].map(|sign| (-wo.y + sign * inside.sqrt()) / wo.z);
+        let parts = std::array::from_fn(|k| {
+            if k >= self.parts() {
+                return SlicePart::default();
+            }
+            let facets = &self.facets[k];
+            let x = slope / facets.alphas.x;
+            let stretch = (1.0 + x * x).sqrt();
+            let mut part = SlicePart {
+                weight: self.facets[0].alphas.x / (facets.alphas.x * (stretch * root).powi(3)),
+                middle: facets.alphas.y * facets.shear * x,
+                alpha: facets.alphas.y * stretch,
+                from: -FAR,
+                to: FAR,
+            };
+            let [from, to] = ends.map(|end| part.tan(end));
+            (part.from, part.to) = (from, to);
+            part
+        });
+        Some(Slice { slope, parts })
+    }
+
+    /// Two look-ups of what a part of a slice reflects of what its moments tell of.
+    fn reflected(
+        &self,
+        slice: &Slice,
+        k: usize,
+        mut moments: Moments,
+        of: &FresnelRgb,
+    ) -> [(DVec3, DVec3, [f64; 3]); 2] {
+        let part = &slice.parts[k];
+        // The other way round: all but what was added.
+        if moments.share() < -LEAST_SHARE {
+            moments.add_between(part.from, part.to);
+        }
+        let share = moments.share();
+        if share <= LEAST_SHARE {
+            return [(DVec3::Z, DVec3::Z, [0.0; 3]); 2];
+        }
+        moments
+            .places()
+            .map(|tan| self.facet(slice, k, tan, 0.5 * share, of))
+    }
+
+    /// Where facets of a kind at a place of a slice reflect to, their normal, and what so many of them reflect.
+    fn facet(
+        &self,
+        slice: &Slice,
+        k: usize,
+        tan: f64,
+        share: f64,
+        of: &FresnelRgb,
+    ) -> (DVec3, DVec3, [f64; 3]) {
+        let part = &slice.parts[k];
+        let y = part.middle + part.alpha * tan;
+        let h = DVec3::new(-slice.slope, -y, 1.0).normalize();
+        let cos = self.wo.dot(h);
+        let wi = 2.0 * cos * h - self.wo;
+        if wi.z <= 0.0 {
+            return (DVec3::Z, h, [0.0; 3]);
+        }
+        let masked = 4.0 * cos * self.facets[2].visibility(wi, self.wo) * wi.z / h.z;
+        let weight = share * DENSITY * part.weight * masked;
+        (wi, h, of.eval(cos).map(|facet| weight * facet))
+    }
+
+    /// How much facets of a kind count at a slope.
+    fn counts(&self, k: usize, slopes: DVec2) -> f64 {
+        if self.excess == 0.0 {
+            return 1.0;
+        }
+        let tails = filtered_tails((slopes / self.facets[0].alphas).length());
+        match k {
+            0 => (1.0 + self.excess) * (1.0 - tails),
+            1 => -self.excess * (1.0 - tails),
+            _ => tails,
+        }
+    }
+
+    /// The sum over slices in a range of places. `crossings` tells the slopes at which a slice enters and leaves a light, with signs.
+    fn over(
+        &self,
+        range: [f64; 2],
+        of: &FresnelRgb,
+        crossings: impl Fn(f64, &mut dyn FnMut(f64, f64)),
+    ) -> [f64; 3] {
+        let [from, to] = self.visible(range);
+        let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
+        let mut sum = [0.0; 3];
+        if half <= 0.0 {
+            return sum;
+        }
+        for [node, weight] in both_ways(&RULE) {
+            let Some(slice) = self.slice(middle + half * node) else {
+                continue;
+            };
+            let mut moments = [Moments::NONE; 3];
+            crossings(slice.slope, &mut |y, sign| {
+                for (part, moments) in slice.parts.iter().zip(&mut moments).take(self.parts()) {
+                    moments.add(part.tan(y), sign);
+                }
+            });
+            for (k, moments) in moments.into_iter().enumerate().take(self.parts()) {
+                for (_, h, reflected) in self.reflected(&slice, k, moments, of) {
+                    let counts = half * weight * self.counts(k, -h.truncate() / h.z);
+                    for (sum, reflected) in sum.iter_mut().zip(reflected) {
+                        *sum += counts * reflected;
+                    }
+                }
+            }
+        }
+        // The parts' difference may be a little less than nothing.
+        sum.map(|channel| channel.max(0.0))
+    }
+
+    /// What the surface reflects of light from all around, single scattering: of its own facets, whatever the pixel shows.
+    pub fn albedo(&self, of: &FresnelRgb) -> [f64; 3] {
+        let [from, to] = self.visible([-1.0, 1.0]);
+        let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
+        let mut sum = [0.0; 3];
+        for [node, weight] in both_ways(&RULE) {
+            let Some(slice) = self.slice(middle + half * node) else {
+                continue;
+            };
+            let part = slice.parts[0];
+            let ends = [part.from, part.to].map(f64::atan);
+            let (turn, half_turn) = (0.5 * (ends[0] + ends[1]), 0.5 * (ends[1] - ends[0]));
+            for [across, weight_across] in both_ways(&RULE_ACROSS) {
+                let tan = (turn + half_turn * across).tan();
+                let share = 2.0 / PI / (1.0 + tan * tan) * half_turn * weight_across;
+                let (_, _, reflected) = self.facet(&slice, 0, tan, half * weight * share, of);
+                for (sum, reflected) in sum.iter_mut().zip(reflected) {
+                    *sum += reflected;
+                }
+            }
+        }
+        sum
+    }
+
+    /// Look-ups that together are what the lobe of the pixel reflects of light from all around, but for a factor.
+    pub fn around(&self, of: &FresnelRgb) -> [BrushedTap; BRUSHED_TAPS] {
+        let [from, to] = self.visible([-1.0, 1.0]);
+        let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
+        let mut taps = [BrushedTap {
+            direction: DVec3::Z,
+            roughness: 1.0,
+            reflected: [0.0; 3],
+        }; BRUSHED_TAPS];
+        for ([node, weight], taps) in both_ways(&RULE_AROUND).zip(taps.chunks_mut(2)) {
+            let place = middle + half * node;
+            let Some(slice) = self.slice(place) else {
+                continue;
+            };
+            let part = slice.parts[0];
+            let mut moments = Moments::NONE;
+            moments.add_between(part.from, part.to);
+            let found = self.reflected(&slice, 0, moments, of);
+            let cos2 = 1.0 - place * place;
+            let slopes = 0.5 * half * weight * self.facets[0].alphas.x / (cos2 * cos2.sqrt());
+            let [along, across] = [TAP_WIDTHS[0] * slopes, TAP_WIDTHS[1] * part.alpha];
+            for (tap, (wi, h, reflected)) in taps.iter_mut().zip(found) {
+                let alpha2 = along * across * self.wo.dot(h) * h.z.powi(3);
+                let alpha = alpha2.max(0.0).sqrt().clamp(GGX_MIN_ALPHA, 1.0);
+                *tap = BrushedTap {
+                    direction: (self.along * wi.x + self.along.perp() * wi.y).extend(wi.z),
+                    roughness: alpha.sqrt(),
+                    reflected: reflected.map(|channel| channel * half * weight),
+                };
+            }
+        }
+        taps
+    }
+
+    /// What the lobe reflects of a sphere, single scattering, over its radiance. `axis` is the unit direction to its centre in the local frame, `sin2`
+    /// the squared sine of its angular radius; from inside (sin2 >= 1) everything is lit.
+    pub fn sphere(&self, axis: DVec3, sin2: f64, of: &FresnelRgb) -> [f64; 3] {
+        let c = self.turned(axis);
+        let wo = self.wo;
+        // Cosine of the radius, squared sine and 1 less the cosine; from inside those of a cap that holds more than all.
+        let (least, sin2, versine) = if sin2 >= 1.0 {
+            (-2.0, -3.0, 3.0)
+        } else {
+            let cos = (1.0 - sin2).sqrt();
+            (cos, sin2, sin2 / (1.0 + cos))
+        };
+        // A direction with slopes x and y is inside where a2 y^2 + 2 a1 y + a0 is above zero, with a1 = b0 + b1 x and a0 = e0 + e1 x + e2 x^2.
+        let m = wo.dot(c) + least;
+        let a2 = 2.0 * wo.y * c.y - m;
+        let (b0, b1) = (-(wo.z * c.y + wo.y * c.z), wo.x * c.y + wo.y * c.x);
+        let (e0, e1, e2) = (
+            2.0 * wo.z * c.z - m,
+            -2.0 * (wo.x * c.z + wo.z * c.x),
+            2.0 * wo.x * c.x - m,
+        );
+        // a1^2 - a2 a0, in an order that keeps the digits of small spheres: d2 x^2 + 2 d1 x + d0. Slices reach it where that is above zero.
+        let (p, r) = (wo.x + c.x, wo.z + c.z);
+        let crossed = versine * (wo.x * c.z + wo.z * c.x);
+        let (of_x, of_z) = (
+            sin2 + 2.0 * versine * wo.x * c.x,
+            sin2 + 2.0 * versine * wo.z * c.z,
+        );
+        let (d2, d1, d0) = (of_z - r * r, crossed - p * r, of_x - p * p);
+        let is_outside = a2 > 0.0;
+        let mut range = [-1.0, 1.0];
+        if d2 < 0.0 && !is_outside {
+            let inside = r * r * of_x + p * p * of_z - 2.0 * p * r * crossed + crossed * crossed
+                - of_x * of_z;
+            if inside <= 0.0 {
+                return [0.0; 3];
+            }
+            let ends = [1.0, -1.0].map(|sign| (-d1 + sign * inside.sqrt()) / d2);
+            range = ends.map(|end| self.place_of_slope(end));
+        }
+        self.over(range, of, |x, add| {
+            let (a1, a0) = (b0 + b1 * x, e0 + x * (e1 + x * e2));
+            let inside = d0 + x * (2.0 * d1 + x * d2);
+            let sign = if is_outside { -1.0 } else { 1.0 };
+            if is_outside {
+                add(FAR, 1.0);
+                add(-FAR, -1.0);
+            }
+            if inside > 0.0 {
+                let reach = inside.sqrt().copysign(a1);
+                let q = -(a1 + reach);
+                // Of two forms of the nearer end the one that cancels less.
+                let near = if 2.0 * reach.abs() < a1.abs() {
+                    (reach - a1) / a2
+                } else {
+                    a0 / q
+                };
+                let ends = [q / a2, near];
+                add(ends[0].max(ends[1]).min(FAR), sign);
+                add(ends[0].min(ends[1]).max(-FAR), -sign);
+            }
+        })
+    }
+
+    /// The same of a plane polygon, convex or not, either orientation; vertices relative to the point, in the local frame.
+    pub fn polygon(&self, vertices: &[DVec3], of: &FresnelRgb) -> [f64; 3] {
+        let edges = |visit: &mut dyn FnMut(DVec3, DVec3)| {
+            for (i, &a) in vertices.iter().enumerate() {
+                let b = vertices[(i + 1) % vertices.len()];
+                for_each_raised(self.turned(a), self.turned(b), visit);
+            }
+        };
+        if vertices.iter().all(|vertex| vertex.z <= 0.0) {
+            return [0.0; 3];
+        }
+        let mut range = [1.0_f64, -1.0_f64];
+        let mut area = DVec3::ZERO;
+        for (i, &a) in vertices.iter().enumerate() {
+            area += a.cross(vertices[(i + 1) % vertices.len()]);
+        }
+        let orientation = if area.dot(vertices[0]) < 0.0 {
+            -1.0
+        } else {
+            1.0
+        };
+        edges(&mut |a, b| {
+            let (at_a, at_b) = (self.place(a), self.place(b));
+            let middle = self.place(a.normalize_or(DVec3::Z) + b.normalize_or(DVec3::Z));
+            // The parabola through the three.
+            let bend = at_a + at_b - 2.0 * middle;
+            let turn = 0.25 * (at_b - at_a) / bend;
+            let extreme = if turn.abs() < 0.5 {
+                middle - 0.5 * bend * (turn * turn) * 4.0
+            } else {
+                at_a
+            };
+            for place in [at_a, at_b, extreme] {
+                range = [range[0].min(place), range[1].max(place)];
+            }
+        });
+        let range = range.map(|place| place.clamp(-1.0, 1.0));
+        self.over(range, of, |x, add| {
+            edges(&mut |a, b| self.crossings(x, a, b, &mut |y, sign| add(y, sign * orientation)));
+        })
+    }
+
+    /// Where an edge crosses the circle of a slope: the zeros of w.x + x w.z + k |w|, which along the edge is convex or concave as k is above zero or
+    /// below.
+    fn crossings(&self, x: f64, a: DVec3, b: DVec3, add: &mut dyn FnMut(f64, f64)) {
+        let wo = self.wo;
+        let k = wo.x + x * wo.z;
+        let d = b - a;
+        let (at_a, step) = (a.x + x * a.z, d.x + x * d.z);
+        let value = |s: f64| at_a + s * step + k * (a + s * d).length();
+        let (value_a, value_b) = (value(0.0), value(1.0));
+        let mut crossed = |mut s: f64, sign: f64| {
+            for _ in 0..NEWTON_ROUNDS {
+                let w = a + s * d;
+                let length = w.length().max(1e-30);
+                let slope = step + k * w.dot(d) / length;
+                let moved = (at_a + s * step + k * length) / slope;
+                s = if moved.is_finite() {
+                    (s - moved).clamp(0.0, 1.0)
+                } else {
+                    s
+                };
+            }
+            let w = a + s * d;
+            let length = w.length();
+            let y = -(w.y + wo.y * length) / (w.z + wo.z * length).max(1e-30);
+            add(y.clamp(-FAR, FAR), sign);
+        };
+        let curved = if k > 0.0 { 1.0 } else { -1.0 };
+        if (value_a > 0.0) != (value_b > 0.0) {
+            // From the side from which Newton's steps do not overshoot.
+            let from = if value_a * curved > 0.0 { 0.0 } else { 1.0 };
+            crossed(from, if value_b > value_a { 1.0 } else { -1.0 });
+        } else if value_a * curved > 0.0 {
+            // Where it turns, it may be on the other side.
+            let d2 = d.length_squared().max(1e-30);
+            let sine = -step / (k * d2.sqrt());
+            if sine * sine >= 1.0 {
+                return;
+            }
+            let foot = a.cross(d).length() / d2.sqrt();
+            let turn =
+                (foot * sine / (1.0 - sine * sine).sqrt() - a.dot(d) / d2.sqrt()) / d2.sqrt();
+            if turn > 0.0 && turn < 1.0 && value(turn) * curved < 0.0 {
+                crossed(0.0, -curved);
+                crossed(1.0, curved);
+            }
+        }
+    }
+}
+
+/// Newton's steps: each doubles the digits.
+const NEWTON_ROUNDS: usize = 5;
+/// A slope beyond all that reflect to above the horizon.
+const FAR: f64 = 1e9;
+
+/// A rule that is given for one side of its middle.
+fn both_ways(rule: &[[f64; 2]]) -> impl Iterator<Item = [f64; 2]> {
+    let both = |&[node, weight]: &[f64; 2]| [[-node, weight], [node, weight]];
+    rule.iter().flat_map(both)
+}
+
+fn turned(along: DVec2, v: DVec2) -> DVec2 {
+    DVec2::new(v.dot(along), along.perp_dot(v))
+}
+
+/// An edge in two parts, what lies below the horizon raised to it.
+fn for_each_raised(a: DVec3, b: DVec3, visit: &mut dyn FnMut(DVec3, DVec3)) {
+    let raised = |w: DVec3| DVec3::new(w.x, w.y, w.z.max(0.0));
+    if (a.z > 0.0) == (b.z > 0.0) {
+        visit(raised(a), raised(b));
+        return;
+    }
+    let cut = a + a.z / (a.z - b.z) * (b - a);
+    let cut = DVec3::new(cut.x, cut.y, 0.0);
+    visit(raised(a), cut);
+    visit(cut, raised(b));
+}

@@ -1,0 +1,229 @@
+//! Lights on brushed metal against cubature of elliptic GGX. Errors are those of `accuracy`.
+
+use glam::{DVec2, DVec3};
+use hairline_optics::brushed_lobe::BrushedLobe;
+use hairline_optics::facets::{FacetAxes, Facets, anisotropic_alpha};
+use hairline_optics::filtered_lobe::SlopeSpread;
+use hairline_optics::fresnel::FresnelRgb;
+use hairline_optics::ltc::ltc_lobe;
+use rayon::prelude::*;
+
+use super::cubature::{Cap, Patch, Triangle};
+
+const ROUGHNESS: [f64; 3] = [0.15, 0.3, 0.5];
+const STRENGTH: [f64; 3] = [0.4, 0.7, 0.9];
+const ANGLE_DEG: [f64; 3] = [0.0, 40.0, 70.0];
+const TURN_DEG: [f64; 3] = [0.0, 45.0, 90.0];
+const RADIUS_RAD: [f64; 4] = [0.02, 0.08, 0.25, 0.8];
+
+fn surface(roughness: f64, strength: f64, turn_deg: f64) -> FacetAxes {
+    let alpha = roughness * roughness;
+    FacetAxes {
+        along: DVec2::from_angle(turn_deg.to_radians()),
+        alphas: DVec2::new(anisotropic_alpha(alpha, strength), alpha),
+    }
+}
+
+fn viewer(angle_deg: f64) -> DVec3 {
+    let (sin, cos) = angle_deg.to_radians().sin_cos();
+    DVec3::new(sin, 0.0, cos)
+}
+
+fn reflected(wo: DVec3, axes: FacetAxes, along: f64, across: f64) -> DVec3 {
+    let slope = axes.along * along * axes.alphas.x + axes.along.perp() * across * axes.alphas.y;
+    let h = DVec3::new(-slope.x, -slope.y, 1.0).normalize();
+    2.0 * wo.dot(h) * h - wo
+}
+
+/// The integral over a patch, by cells that shrink towards the arc along which the lobe lies.
+fn integrate(patch: impl Patch, wo: DVec3, axes: FacetAxes) -> f64 {
+    let facets = Facets::new(axes);
+    let arc: Vec<DVec3> = (-40..=40)
+        .map(|i| {
+            let place = f64::from(i) / 41.0;
+            reflected(wo, axes, place / (1.0 - place * place).sqrt(), 0.0)
+        })
+        .collect();
+    let width = 0.5 * axes.alphas.y * wo.z.max(0.15);
+    let distance = |w: DVec3| {
+        let to = |ends: &[DVec3]| {
+            let d = ends[1] - ends[0];
+            let t = (w - ends[0]).dot(d) / d.length_squared().max(1e-30);
+            (w - ends[0] - t.clamp(0.0, 1.0) * d).length()
+        };
+        arc.windows(2).map(to).fold(f64::INFINITY, f64::min)
+    };
+    const GAUSS: [(f64, f64); 3] = [
+        (-0.774_596_669_241_483, 0.555_555_555_555_556),
+        (0.0, 0.888_888_888_888_889),
+        (0.774_596_669_241_483, 0.555_555_555_555_556),
+    ];
+    let mut cells = vec![([0.0, 1.0], [0.0, 0.5], 0), ([0.0, 1.0], [0.5, 1.0], 0)];
+    let mut sum = 0.0;
+    while let Some((u, v, depth)) = cells.pop() {
+        let at = |i: usize, j: usize| {
+            let lerp = |r: [f64; 2], k: usize| r[0] + 0.5 * k as f64 * (r[1] - r[0]);
+            patch.at(lerp(u, i), lerp(v, j)).0
+        };
+        let centre = at(1, 1);
+        let reach = (0..9)
+            .map(|k| (at(k / 3, k % 3) - centre).length())
+            .fold(0.0, f64::max);
+        let scale = distance(centre) + width;
+        let crosses = (-reach..reach).contains(&centre.z);
+        let is_coarse = reach > 0.35 * (scale - reach).max(0.25 * scale);
+        if depth < 24 && (is_coarse || (crosses && reach > 0.03 && depth < 10)) {
+            let along_u = (at(2, 1) - at(0, 1)).length();
+            let along_u = along_u.max((at(2, 2) - at(0, 2)).length());
+            let along_v = (at(1, 1) - at(1, 0)).length() + (at(2, 2) - at(2, 1)).length();
+            let (mid_u, mid_v) = (0.5 * (u[0] + u[1]), 0.5 * (v[0] + v[1]));
+            if along_u > along_v {
+                cells.push(([u[0], mid_u], v, depth + 1));
+                cells.push(([mid_u, u[1]], v, depth + 1));
+            } else {
+                cells.push((u, [v[0], mid_v], depth + 1));
+                cells.push((u, [mid_v, v[1]], depth + 1));
+            }
+            continue;
+        }
+        let (half_u, half_v) = (0.5 * (u[1] - u[0]), 0.5 * (v[1] - v[0]));
+        for (x, weight_x) in GAUSS {
+            for (y, weight_y) in GAUSS {
+                let (direction, measure) =
+                    patch.at(u[0] + half_u * (1.0 + x), v[0] + half_v * (1.0 + y));
+                let weight = weight_x * weight_y * half_u * half_v * measure;
+                sum += facets.eval(direction, wo) * weight;
+            }
+        }
+    }
+    sum
+}
+
+/// (approximate, by one transformed cosine, exact).
+type Case = [f64; 3];
+
+/// Errors over the brightest place of each surface, view and size: means of the slices' and of one transformed cosine's, and the slices' largest.
+fn errors(evaluate: impl Fn(DVec3, FacetAxes, DVec3, f64) -> Case + Sync) -> [f64; 3] {
+    let mut groups = Vec::new();
+    for roughness in ROUGHNESS {
+        for strength in STRENGTH {
+            for turn_deg in TURN_DEG {
+                for angle_deg in ANGLE_DEG {
+                    for radius_rad in RADIUS_RAD {
+                        let axes = surface(roughness, strength, turn_deg);
+                        groups.push((viewer(angle_deg), axes, radius_rad));
+                    }
+                }
+            }
+        }
+    }
+    let found: Vec<[f64; 2]> = groups
+        .into_par_iter()
+        .flat_map_iter(|(wo, axes, radius_rad)| {
+            let along = [-1.5, -0.5, 0.0, 0.5, 1.5].into_iter();
+            let places = along.flat_map(|u| [-1.5, 0.0, 1.0].map(|v| reflected(wo, axes, u, v)));
+            let cases: Vec<Case> = places
+                .filter(|place| place.z > -0.5 * radius_rad.sin())
+                .map(|place| evaluate(wo, axes, place, radius_rad))
+                .collect();
+            let brightest = cases.iter().map(|case| case[2]).fold(0.0, f64::max);
+            let off = move |[slices, chord, exact]: Case| {
+                [slices, chord].map(|it| 100.0 * (it - exact).abs() / brightest)
+            };
+            cases.into_iter().map(off)
+        })
+        .collect();
+    let mean = |k: usize| found.iter().map(|off| off[k]).sum::<f64>() / found.len() as f64;
+    let mut slices: Vec<f64> = found.iter().map(|off| off[0]).collect();
+    slices.sort_by(f64::total_cmp);
+    let worst = slices[slices.len() - 1];
+    println!(
+        "{} cases: mean {:.2} %, 95th percentile {:.2} %, worst {worst:.1} %",
+        slices.len(),
+        mean(0),
+        slices[slices.len() * 95 / 100],
+    );
+    [mean(0), mean(1), worst]
+}
+
+fn white() -> FresnelRgb<'static> {
+    FresnelRgb::schlick([1.0; 3])
+}
+
+#[test]
+fn spheres_match_elliptic_ggx() {
+    let [mean, chord, worst] = errors(|wo, axes, axis, radius_rad| {
+        let lobe = BrushedLobe::new(wo, axes, SlopeSpread::default());
+        let sin2 = radius_rad.sin().powi(2);
+        let chord = lobe.chord(wo);
+        let of = hairline_optics::ltc::LobeFresnel {
+            fresnel: white(),
+            albedo: [chord.albedo; 3],
+        };
+        [
+            lobe.sphere(axis, sin2, &white())[0],
+            hairline_optics::ltc::ltc_sphere(&chord, &of, axis, sin2)[0],
+            integrate(Cap { axis, radius_rad }, wo, axes),
+        ]
+    });
+    println!("one transformed cosine: mean {chord:.2} %");
+    assert!(mean < 0.25, "mean {mean} %");
+    assert!(worst < 12.0, "worst {worst} %");
+    assert!(chord > 5.0 * mean, "one transformed cosine: {chord} %");
+}
+
+/// An oblong, and one with a notch.
+#[test]
+#[ignore = "takes a minute of two cores"]
+fn polygons_match_elliptic_ggx() {
+    const OUTLINES: [(f64, &str); 2] = [(1.0, "oblong"), (0.3, "notched")];
+    for (notch, name) in OUTLINES {
+        println!("{name}");
+        let [mean, _, worst] = errors(|wo, axes, axis, radius_rad| {
+            let (x, y) = axis.any_orthonormal_pair();
+            let outline = [
+                (-1.0, -0.6),
+                (1.0, -0.6),
+                (notch, 0.0),
+                (1.0, 0.6),
+                (-1.0, 0.6),
+            ];
+            let vertices = outline.map(|(u, v)| axis + radius_rad.tan() * (u * x + v * y));
+            let lobe = BrushedLobe::new(wo, axes, SlopeSpread::default());
+            let [a, b, c, d, e] = vertices;
+            let exact: f64 = [[a, b, c], [a, c, d], [a, d, e]]
+                .map(|part| integrate(Triangle(part), wo, axes))
+                .iter()
+                .sum();
+            [lobe.polygon(&vertices, &white())[0], 0.0, exact.abs()]
+        });
+        assert!(mean < 0.5, "mean {mean} %");
+        assert!(worst < 12.0, "worst {worst} %");
+    }
+}
+
+#[test]
+fn albedos_match_quadrature() {
+    let mut worst = [0.0_f64; 2];
+    for roughness in ROUGHNESS {
+        for strength in [0.0, 0.4, 0.7, 0.9] {
+            for angle_deg in [0.0, 40.0, 70.0, 80.0] {
+                for turn_deg in TURN_DEG {
+                    let axes = surface(roughness, strength, turn_deg);
+                    let wo = viewer(angle_deg);
+                    let lobe = BrushedLobe::new(wo, axes, SlopeSpread::default());
+                    let [exact] = Facets::new(axes).mean(wo, 96, |_| [1.0]);
+                    let off = (lobe.albedo(&white())[0] - exact).abs();
+                    let round = (ltc_lobe(wo, roughness).albedo - exact).abs();
+                    worst = [worst[0].max(off), worst[1].max(round)];
+                }
+            }
+        }
+    }
+    println!(
+        "albedos off by {:.4}; of round facets {:.4}",
+        worst[0], worst[1]
+    );
+    assert!(worst[0] < 0.015, "{}", worst[0]);
+    assert!(worst[1] > 0.2, "{}", worst[1]);
+}

@@ -1,0 +1,28 @@
+//! KHR_materials_anisotropy: highlights that are drawn out one way, by two factors and a texture.
+
+use gltf::json::Value;
+use gltf::material::Material;
+
+use crate::scene::Anisotropy;
+
+const NAME: &str = "KHR_materials_anisotropy";
+
+/// The factors; none where highlights are alike in all directions.
+pub(super) fn anisotropy(material: &Material) -> Option<Anisotropy> {
+    let extension = material.extension_value(NAME)?;
+    let number = |name: &str| {
+        let value = extension.get(name).and_then(Value::as_f64);
+        value.filter(|x| x.is_finite()).unwrap_or(0.0)
+    };
+    let anisotropy = Anisotropy {
+        strength: number("anisotropyStrength").clamp(0.0, 1.0),
+        direction_deg: number("anisotropyRotation").to_degrees(),
+    };
+    (anisotropy.strength > 0.0).then_some(anisotropy)
+}
+
+/// What the file says of the texture of an anisotropy that is there.
+pub(super) fn texture<'a>(material: &'a Material<'a>) -> Option<&'a Value> {
+    anisotropy(material)?;
+    material.extension_value(NAME)?.get("anisotropyTexture")
+}

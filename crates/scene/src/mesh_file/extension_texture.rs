@@ -1,0 +1,24 @@
+//! Textures that extensions of materials use, which the crate knows nothing of.
+
+use gltf::Document;
+use gltf::json::Value;
+
+use super::flaw::{Flaw, RIGHT};
+use super::uv::{self, Way};
+
+/// The texture of a use, and how it lies; `of` is what it belongs to.
+pub(super) fn used<'a>(
+    document: &'a Document,
+    used: Option<&Value>,
+    of: &str,
+) -> Result<Option<(gltf::Texture<'a>, Way)>, Flaw> {
+    let Some((used, way)) = used.and_then(|used| Some((used, uv::of_json(used)?))) else {
+        return Ok(None);
+    };
+    let index = used.get("index").and_then(Value::as_u64);
+    let index = index.and_then(|index| usize::try_from(index).ok());
+    let known = index.and_then(|index| document.textures().nth(index));
+    let texture =
+        known.ok_or_else(|| Flaw::new(format!("a texture of its {of} is not there"), RIGHT))?;
+    Ok(Some((texture, way)))
+}
