@@ -37,7 +37,6 @@ fn shade_gratings(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgrou
     }
     // Read anew for each grating: they would fill registers while lights are looked at.
     let object = objects[points[at].object - 1u];
-    let covered = gratings_cover(points[at], paints[at]);
     let fresnel = coated_reflectance(FresnelRgb(paints[at].f0, pixel_curve(paints[at])), paints[at].coat, points[at].cos_o);
     var state: PickState;
     var first_pick = 0u;
@@ -50,11 +49,21 @@ fn shade_gratings(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgrou
     let end = select(range.end, frame.light_count + 1u, lights_are_around());
     var radiance = vec3f(0.0);
     var taken = vec3f(0.0);
-    for (var i = object.first_grating; i < object.end_grating; i += 1u) {
+    // Once for what all of them cover, once for their light: one copy of the code that places them.
+    let count = object.end_grating - object.first_grating;
+    var covered = 0.0;
+    for (var k = 0u; k < 2u * count; k += 1u) {
+        let lights = k >= count;
+        let i = object.first_grating + select(k, k - count, lights);
         if !grating_is_on(gratings[i], paints[at]) {
             continue;
         }
-        let pair = grating_pair(points[at], paints[at].triangle, gratings[i], covered);
+        let place = grating_place(points[at], paints[at].triangle, gratings[i]);
+        if !lights {
+            covered += place.share;
+            continue;
+        }
+        let pair = grating_pair_at(points[at], paints[at].triangle, gratings[i], place, covered);
         let share = pair.seen.share.segment;
         if !(share > 0.0) {
             continue;

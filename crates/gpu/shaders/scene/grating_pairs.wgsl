@@ -47,8 +47,12 @@ fn gratings_cover(pixel: PixelPoint, paint: PixelPaint) -> f32 {
 
 // As a pair with a scratch. `covered` is what all gratings would cover.
 fn grating_pair(pixel: PixelPoint, triangle: u32, grating: Grating, covered: f32) -> Pair {
+    return grating_pair_at(pixel, triangle, grating, grating_place(pixel, triangle, grating), covered);
+}
+
+// The same where its place is known.
+fn grating_pair_at(pixel: PixelPoint, triangle: u32, grating: Grating, place: GroovePlace, covered: f32) -> Pair {
     let axis_y = cross(pixel.normal, pixel.axis_x);
-    let place = grating_place(pixel, triangle, grating);
     let along = vec2f(dot(place.tangent, pixel.axis_x), dot(place.tangent, axis_y));
     let length2 = dot(along, along);
     let tangent = select(vec2f(1.0, 0.0), along * inverseSqrt(max(length2, 1e-30)), length2 > 0.0);
