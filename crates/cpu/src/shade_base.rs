@@ -60,6 +60,8 @@ pub(crate) struct Layer<'a> {
 }
 
 /// How a lobe is integrated over a light.
+// Most materials have parts, which no point of a surface should allocate for.
+#[expect(clippy::large_enum_variant)]
 enum Shape {
     /// By the lobes whose weighted sum it is.
     Parts([LobePart; 3]),
