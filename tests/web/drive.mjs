@@ -31,7 +31,7 @@ const address = `http://127.0.0.1:${server.address().port}/`;
 const browser = await puppeteer.launch({
   executablePath: process.env.CHROME ?? CHROMES.find(existsSync),
   // With Vulkan alone can headless Chromium show what WebGPU draws: else it takes the device away at the first frame.
-  args: ['--no-sandbox', '--enable-unsafe-webgpu', '--use-webgpu-adapter=swiftshader', '--enable-features=Vulkan', '--use-vulkan=swiftshader', '--use-angle=swiftshader'],
+  args: ['--no-sandbox', '--disable-dev-shm-usage', '--enable-unsafe-webgpu', '--use-webgpu-adapter=swiftshader', '--enable-features=Vulkan', '--use-vulkan=swiftshader', '--use-angle=swiftshader'],
   defaultViewport: { width: 1200, height: 700 },
 });
 await browser.defaultBrowserContext().overridePermissions(address, ['clipboard-read', 'clipboard-sanitized-write']);
@@ -68,11 +68,15 @@ async function until(page, what, is, patience = PATIENCE_MS) {
 async function press(page, ...keys) {
   for (const key of keys) await page.keyboard.down(key);
   for (const key of keys.reverse()) await page.keyboard.up(key);
-  // Until the window has been drawn with it: the keyboard moves on by one control in a pass.
-  await page.evaluate(async () => {
+  // The keyboard moves on by one control in a pass.
+  await drawn(page);
+}
+
+/** Until the window has been drawn with what it was told. */
+const drawn = (page) =>
+  page.evaluate(async () => {
     for (let i = 0; i < 3; i += 1) await new Promise(requestAnimationFrame);
   });
-}
 
 async function give(page, ...paths) {
   const chooser = await page.$('#chooser');
@@ -104,9 +108,39 @@ async function turn(page, before) {
   await page.mouse.move(MIDDLE.x + 60, MIDDLE.y - 20, { steps: 4 });
   await page.mouse.up();
   const turned = await until(page, 'orbit', (now) => now.pictures > before.pictures && now.camera[0] !== before.camera[0]);
-  const distance = (camera) => Math.hypot(...camera.map((x, i) => x - before.target[i]));
-  assert(Math.abs(distance(turned.camera) / distance(before.camera) - 1) < 1e-6, 'turned about the target');
+  const ratio = distance(turned.camera, before.target) / distance(before.camera, before.target);
+  assert(Math.abs(ratio - 1) < 1e-6, 'turned about the target');
   return turned;
+}
+
+const distance = (a, b) => Math.hypot(...a.map((x, i) => x - b[i]));
+
+/** Fingers at points of the page, frame by frame: what each frame holds is where they are. */
+async function fingers(page, frames) {
+  const cdp = await page.createCDPSession();
+  const send = (type, points) => cdp.send('Input.dispatchTouchEvent', { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
+  // At once, before the page answers: fingers that rest are a long press.
+  await Promise.all([send('touchStart', frames[0]), send('touchMove', frames[1])]);
+  for (const points of frames.slice(2)) {
+    await drawn(page);
+    await send('touchMove', points);
+  }
+  await drawn(page);
+  await send('touchEnd', []);
+  await drawn(page);
+  await cdp.detach();
+}
+
+/** One finger turns the view, two that spread bring it nearer. */
+async function touch(page, before) {
+  const { x, y } = MIDDLE;
+  const steps = [0, 1, 2, 3];
+  await fingers(page, steps.map((i) => [[x + 25 * i, y - 10 * i]]));
+  const turned = await until(page, 'a turn by touch', (now) => now.pictures > before.pictures && distance(now.camera, before.camera) > 1e-4);
+  assert(Math.abs(distance(turned.camera, turned.target) / distance(before.camera, before.target) - 1) < 1e-6, 'one finger does not zoom');
+  await fingers(page, steps.map((i) => [[x - 50 - 25 * i, y], [x + 50 + 25 * i, y]]));
+  const isNearer = (now) => distance(now.camera, now.target) < 0.8 * distance(turned.camera, turned.target);
+  return until(page, 'two fingers that spread', isNearer);
 }
 
 try {
@@ -116,9 +150,11 @@ try {
   told('the first picture is there, by', first.backend);
   assert.deepEqual(first.messages, []);
   await keep(page, 'start');
-  await turn(page, first);
+  const turned = await turn(page, first);
   told('a drag turned the view');
   await keep(page, 'turned');
+  await touch(page, turned);
+  told('one finger turned the view, two brought it nearer');
 
   await give(page, join(here, 'scene.toml'));
   const opened = await until(page, 'a scene', (now) => now.objects === 1 && now.finished && !now.building);
@@ -174,24 +210,24 @@ try {
   told('the scene was saved');
   await page.close();
 
-  const drawn = await open(`?backend=gpu${fragment}`);
-  await allowDownloads(drawn);
-  const by_gpu = await until(drawn, 'first picture', (now) => now.pictures > 0 && now.objects === 1, FIRST_PICTURE_MS);
+  const by_webgpu = await open(`?backend=gpu${fragment}`);
+  await allowDownloads(by_webgpu);
+  const by_gpu = await until(by_webgpu, 'first picture', (now) => now.pictures > 0 && now.objects === 1, FIRST_PICTURE_MS);
   assert(by_gpu.backend.includes('webgpu'), by_gpu.backend);
   told('the first picture is there, by', by_gpu.backend);
-  await press(drawn, 'Control', 'p');
-  await press(drawn, 'Shift', 'Tab');
-  await press(drawn, 'Shift', 'Tab');
-  await press(drawn, 'Enter');
+  await press(by_webgpu, 'Control', 'p');
+  await press(by_webgpu, 'Shift', 'Tab');
+  await press(by_webgpu, 'Shift', 'Tab');
+  await press(by_webgpu, 'Enter');
   const picture = await downloaded('scene.png');
   const native = join(scratch, 'native.png');
   const flags = ['--shadows', by_gpu.shadows ? 'on' : 'off', '--backend', 'cpu'];
   execFileSync(program, ['render', join(here, 'scene.toml'), '-o', native, ...flags]);
   const figures = execFileSync(program, ['compare', picture, native, '--json', '--fail-above', 'flip=0.005', '--fail-above', 'relative-rms=0.01']);
   told('the exported picture is that of the command line:', figures.toString().replace(/\s+/g, ' ').slice(0, 200));
-  await turn(drawn, await state(drawn));
+  await turn(by_webgpu, await state(by_webgpu));
   told('a drag turned the view');
-  await keep(drawn, 'gpu');
+  await keep(by_webgpu, 'gpu');
 } finally {
   await browser.close();
   server.close();
