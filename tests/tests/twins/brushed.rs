@@ -146,7 +146,7 @@ const BRIGHTEST: &str = "let peak = 1.0 / (3.14159 * axes.alphas.x * axes.alphas
 
 fn per_brightest(surface: [f64; 4], size: f64) -> f64 {
     let (wo, axes) = made(surface);
-    let peak = 1.0 / (3.14159 * axes.alphas.x * axes.alphas.y * wo.z);
+    let peak = 1.0 / (std::f64::consts::PI * axes.alphas.x * axes.alphas.y * wo.z);
     1.0 / (peak * size * size).min(1.0)
 }
 
