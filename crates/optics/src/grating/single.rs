@@ -250,9 +250,9 @@ mod tests {
         let coherence_um = 10.0;
         for place_um in [0.0, 7.0, 19.0, 33.0] {
             let shares: f64 = (-3..4)
-                .map(|number| {
+                .map(|number: i32| {
                     let offset_um = 40.0 * f64::from(number)
-                        + 3.0 * groove_shift((number as i32).cast_unsigned(), 7)
+                        + 3.0 * groove_shift(number.cast_unsigned(), 7)
                         - place_um;
                     let ends = [-1e4, 1e4];
                     scratch_share(
