@@ -112,10 +112,9 @@ struct FilteredFacets {
 }
 
 fn filtered_facets(surface: FacetAxes, spread: vec3f, cos_o: f32) -> FilteredFacets {
-    let variance = min(spread.xy, vec2f(min(0.06, 0.1 * cos_o * cos_o), 0.06));
-    // Correlated as before.
-    let kept = sqrt(variance / max(spread.xy, vec2f(1e-30)));
-    let covariance = spread.z * (kept.x * kept.y);
+    let bounded = spread_bounded(spread, cos_o);
+    let variance = bounded.xy;
+    let covariance = bounded.z;
     let mean = 0.5 * (variance.x + variance.y);
     let half = 0.5 * (variance.x - variance.y);
     let apart = length(vec2f(half, covariance));
@@ -127,8 +126,7 @@ fn filtered_facets(surface: FacetAxes, spread: vec3f, cos_o: f32) -> FilteredFac
     let c = dot(axis, surface.along);
     let s = axis.x * surface.along.y - axis.y * surface.along.x;
     let along = vec2f(length(vec2f(c, s) * surface.alphas), length(vec2f(-s, c) * surface.alphas));
-    let variances = vec2f(mean + apart, max(mean - apart, 0.0));
-    let added = (2.6 + 2.5 / (1.0 + 1.5 * sqrt(variances) / along)) * variances;
+    let added = spread_widening(vec2f(mean + apart, max(mean - apart, 0.0)), along);
     let own = surface.alphas * surface.alphas;
     let xx = own.x + added.x * c * c + added.y * s * s;
     let yy = own.y + added.x * s * s + added.y * c * c;

@@ -7,20 +7,31 @@ struct FilteredLobe {
     excess: f32,                // the weight of the second; the first has 1 and this
 }
 
-// `spread`: variances of the slopes in the plane of view and normal (x) and across it (y), and their covariance.
-fn filtered_lobe(alpha: f32, spread: vec3f, cos_o: f32) -> FilteredLobe {
+// Variances and covariance of a pixel's slopes, no more than the limits.
+fn spread_bounded(spread: vec3f, cos_o: f32) -> vec3f {
     let variance = min(spread.xy, vec2f(min(0.06, 0.1 * cos_o * cos_o), 0.06));
     // Correlated as before.
     let kept = sqrt(variance / max(spread.xy, vec2f(1e-30)));
-    let covariance = spread.z * (kept.x * kept.y);
+    return vec3f(variance, spread.z * (kept.x * kept.y));
+}
+
+// What variances of slopes add to the squares of alphas.
+fn spread_widening(variance: vec2f, alpha: vec2f) -> vec2f {
+    return (2.6 + 2.5 / (1.0 + 1.5 * sqrt(variance) / alpha)) * variance;
+}
+
+// `spread`: variances of the slopes in the plane of view and normal (x) and across it (y), and their covariance.
+fn filtered_lobe(alpha: f32, spread: vec3f, cos_o: f32) -> FilteredLobe {
+    let bounded = spread_bounded(spread, cos_o);
+    let variance = bounded.xy;
+    let covariance = bounded.z;
     // By the axes of the spread.
     let mean = 0.5 * (variance.x + variance.y);
     let half = 0.5 * (variance.x - variance.y);
     let apart = length(vec2f(half, covariance));
     let sharp2 = alpha * alpha;
     let along = vec2f(mean + apart, max(mean - apart, 0.0));
-    let widening = 2.6 + 2.5 / (1.0 + 1.5 * sqrt(along) / alpha);
-    let wide2 = min(sharp2 + widening * along, vec2f(1.0));
+    let wide2 = min(sharp2 + spread_widening(along, vec2f(alpha)), vec2f(1.0));
     let turn = vec2f(half, covariance) * (0.5 * (wide2.x - wide2.y) / max(apart, 1e-30));
     let alpha_x = sqrt(0.5 * (wide2.x + wide2.y) + turn.x);
     let alpha_y = sqrt(wide2.x * wide2.y) / alpha_x;
