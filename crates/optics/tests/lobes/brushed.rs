@@ -8,7 +8,7 @@ use hairline_optics::fresnel::FresnelRgb;
 use hairline_optics::ltc::ltc_lobe;
 use rayon::prelude::*;
 
-use super::cubature::{Cap, Patch, Triangle};
+use super::cubature::{Cap, Cell, Patch, Triangle, integrate_by};
 
 const ROUGHNESS: [f64; 3] = [0.15, 0.3, 0.5];
 const STRENGTH: [f64; 3] = [0.4, 0.7, 0.9];
@@ -58,45 +58,15 @@ fn integrate(patch: impl Patch, wo: DVec3, axes: FacetAxes) -> f64 {
         (0.0, 0.888_888_888_888_889),
         (0.774_596_669_241_483, 0.555_555_555_555_556),
     ];
-    let mut cells = vec![([0.0, 1.0], [0.0, 0.5], 0), ([0.0, 1.0], [0.5, 1.0], 0)];
-    let mut sum = 0.0;
-    while let Some((u, v, depth)) = cells.pop() {
-        let at = |i: usize, j: usize| {
-            let lerp = |r: [f64; 2], k: usize| r[0] + 0.5 * k as f64 * (r[1] - r[0]);
-            patch.at(lerp(u, i), lerp(v, j)).0
-        };
-        let centre = at(1, 1);
-        let reach = (0..9)
-            .map(|k| (at(k / 3, k % 3) - centre).length())
-            .fold(0.0, f64::max);
-        let scale = distance(centre) + width;
-        let crosses = (-reach..reach).contains(&centre.z);
-        let is_coarse = reach > 0.35 * (scale - reach).max(0.25 * scale);
-        if depth < 24 && (is_coarse || (crosses && reach > 0.03 && depth < 10)) {
-            let along_u = (at(2, 1) - at(0, 1)).length();
-            let along_u = along_u.max((at(2, 2) - at(0, 2)).length());
-            let along_v = (at(1, 1) - at(1, 0)).length() + (at(2, 2) - at(2, 1)).length();
-            let (mid_u, mid_v) = (0.5 * (u[0] + u[1]), 0.5 * (v[0] + v[1]));
-            if along_u > along_v {
-                cells.push(([u[0], mid_u], v, depth + 1));
-                cells.push(([mid_u, u[1]], v, depth + 1));
-            } else {
-                cells.push((u, [v[0], mid_v], depth + 1));
-                cells.push((u, [mid_v, v[1]], depth + 1));
-            }
-            continue;
-        }
-        let (half_u, half_v) = (0.5 * (u[1] - u[0]), 0.5 * (v[1] - v[0]));
-        for (x, weight_x) in GAUSS {
-            for (y, weight_y) in GAUSS {
-                let (direction, measure) =
-                    patch.at(u[0] + half_u * (1.0 + x), v[0] + half_v * (1.0 + y));
-                let weight = weight_x * weight_y * half_u * half_v * measure;
-                sum += facets.eval(direction, wo) * weight;
-            }
-        }
-    }
-    sum
+    let is_coarse = |cell: Cell| {
+        let scale = distance(cell.centre) + width;
+        let crosses = cell.crosses_horizon() && cell.reach > 0.03 && cell.depth < 10;
+        let is_wide = cell.reach > 0.35 * (scale - cell.reach).max(0.25 * scale);
+        cell.depth < 24 && (is_wide || crosses)
+    };
+    integrate_by(patch, &GAUSS, is_coarse, &|direction| {
+        facets.eval(direction, wo)
+    })
 }
 
 /// (approximate, by one transformed cosine, exact).

@@ -70,6 +70,36 @@ impl<T: Copy + Default + Add<Output = T> + Mul<f64, Output = T>> Integrand for T
 
 /// The integral of `lobe` over the part of a patch above the horizon.
 pub fn integrate<T: Integrand>(patch: impl Patch, peak: Peak, lobe: &dyn Fn(DVec3) -> T) -> T {
+    let is_coarse = |cell: Cell| {
+        let near = ((cell.centre - peak.direction).length() - cell.reach).max(0.0);
+        let crosses = cell.crosses_horizon() && cell.reach > 0.02 && cell.depth < 12;
+        cell.depth < 44 && (cell.reach > 0.25 * (near + peak.width_rad) || crosses)
+    };
+    integrate_by(patch, &GAUSS, is_coarse, lobe)
+}
+
+/// A part of a patch.
+pub struct Cell {
+    pub centre: DVec3,
+    /// The distance to the farthest of its corners and edges' middles.
+    pub reach: f64,
+    /// How often the patch was halved.
+    pub depth: u32,
+}
+
+impl Cell {
+    pub fn crosses_horizon(&self) -> bool {
+        (-self.reach..self.reach).contains(&self.centre.z)
+    }
+}
+
+/// The same, by a rule of nodes and weights on [-1, 1] in cells that are halved while they are too coarse.
+pub fn integrate_by<T: Integrand>(
+    patch: impl Patch,
+    rule: &[(f64, f64)],
+    is_coarse: impl Fn(Cell) -> bool,
+    lobe: &dyn Fn(DVec3) -> T,
+) -> T {
     let mut cells = vec![([0.0, 1.0], [0.0, 0.5], 0), ([0.0, 1.0], [0.5, 1.0], 0)];
     let mut sum = T::default();
     while let Some((u, v, depth)) = cells.pop() {
@@ -81,11 +111,11 @@ pub fn integrate<T: Integrand>(patch: impl Patch, peak: Peak, lobe: &dyn Fn(DVec
         let reach = (0..9)
             .map(|k| (at(k / 3, k % 3) - centre).length())
             .fold(0.0, f64::max);
-        let near = ((centre - peak.direction).length() - reach).max(0.0);
-        let crosses = (-reach..reach).contains(&centre.z);
-        if depth < 44
-            && (reach > 0.25 * (near + peak.width_rad) || (crosses && reach > 0.02 && depth < 12))
-        {
+        if is_coarse(Cell {
+            centre,
+            reach,
+            depth,
+        }) {
             let along_u = (at(2, 1) - at(0, 1))
                 .length()
                 .max((at(2, 2) - at(0, 2)).length());
@@ -101,8 +131,8 @@ pub fn integrate<T: Integrand>(patch: impl Patch, peak: Peak, lobe: &dyn Fn(DVec
             continue;
         }
         let (half_u, half_v) = (0.5 * (u[1] - u[0]), 0.5 * (v[1] - v[0]));
-        for (x, weight_x) in GAUSS {
-            for (y, weight_y) in GAUSS {
+        for &(x, weight_x) in rule {
+            for &(y, weight_y) in rule {
                 let (direction, measure) =
                     patch.at(u[0] + half_u * (1.0 + x), v[0] + half_v * (1.0 + y));
                 if direction.z > 0.0 {
