@@ -8,6 +8,8 @@ use hairline_image::Image;
 use hairline_scene::{GrooveField, GroovePicture, PictureLie, Sampling, Scene, Texture, UvField};
 use std::sync::Arc;
 
+use super::gratings::grooves_one_by_one;
+
 const SIDE_PX: u32 = 64;
 
 /// Of numbers from 0 to 1, with its means.
@@ -153,54 +155,23 @@ fn gpu_and_cpu_show_the_same_maps() {
     }
 }
 
-/// Grooves of 40 um a few millimetres from the camera, with a window that tells them apart.
+/// Grooves of 40 um that branch.
 #[test]
 fn gpu_and_cpu_show_the_same_grooves_one_by_one() {
-    let grating = |object: &str, pattern: &str, more: &str| {
+    let grating = |object: &str, pattern: &str, coverage: f64, more: &str| {
         format!(
             "[[grating]]\nobject = \"{object}\"\npattern = \"{pattern}\"\npitch_um = 40.0\nwidth_um = 8.0\n\
-             jitter_um = 3.0\ncoverage = 0.5\ndepth_nm = {{ mean = 300.0, spread = 0.5 }}\n{more}"
+             jitter_um = 3.0\ncoverage = {coverage:?}\ndepth_nm = {{ mean = 300.0, spread = 0.5 }}\n{more}"
         )
     };
-    let scene = SceneFile::seen_from([0.06, 0.01, 0.02])
-        .toward([0.06, 0.03, 0.0])
-        .size_px([96, 72])
-        .fov_y_deg(1.0)
-        .metal("aluminium", "aluminium")
-        .with("roughness = 0.2\ncoherence_um = 8.0")
-        .object("plate", "aluminium", "plane = { size_m = [0.2, 0.2] }")
-        .object("ball", "aluminium", "sphere = { radius_m = 0.0003 }")
-        .with("translation_m = [0.0601, 0.03, 0.0]")
-        .part(&grating("plate", "radial", ""))
-        .part(&grating(
-            "plate",
-            "spun",
-            "curvature_per_m = 20.0\nseed = 5",
-        ))
-        .part(
-            &grating("ball", "uv", "along = \"v\"\ncoverage = 1.0").replace("coverage = 0.5\n", ""),
-        )
-        .polygon(
-            &[
-                [-1.0, -1.0, 0.7],
-                [-1.0, 1.0, 0.7],
-                [1.0, 1.0, 0.7],
-                [1.0, -1.0, 0.7],
-            ],
-            1.0,
-        )
-        .with("two_sided = true")
-        .part("[studio]\nhidden = true")
-        .scene();
-    let Some(gpu) = on_the_gpu(&scene, 1) else {
-        return;
-    };
-    let cpu = on_the_cpu(&scene, 1);
-    compare("branching grooves", &scene, &gpu, &cpu).unwrap_or_else(|error| panic!("{error}"));
-    let mut wrong = scene.clone();
-    wrong.objects[0].gratings[1].seed = 6;
-    let seen = compare("wrong", &scene, &gpu, &on_the_cpu(&wrong, 1)).unwrap_err();
-    assert!(seen.contains("scratches"), "{seen}");
+    grooves_one_by_one(
+        "branching grooves",
+        &[
+            grating("plate", "radial", 0.5, ""),
+            grating("plate", "spun", 0.5, "curvature_per_m = 20.0\nseed = 5"),
+            grating("ball", "uv", 1.0, "along = \"v\""),
+        ],
+    );
 }
 
 fn plate(change: impl Fn(&mut Scene)) -> Image {
