@@ -28,6 +28,7 @@ from pathlib import Path
 from typing import Any, Optional, Union
 
 try:
+    import dask
     from distributed import Client, Future, LocalCluster, as_completed
     from distributed.scheduler import KilledWorker
 except ImportError as missing:  # pragma: no cover
@@ -51,6 +52,10 @@ def local(workers: Optional[int] = None) -> Client:
     cores = os.cpu_count() or 1
     count = workers or cores
     environment = {"RAYON_NUM_THREADS": str(max(1, cores // count))}
+    # A local cluster drops a worker that does not come back in this time, and waits for ever once all are dropped. On a machine that is
+    # busy the default of 15 s is too short for a process to start.
+    if dask.config.get("distributed.deploy.lost-worker-timeout", "15s") == "15s":
+        dask.config.set({"distributed.deploy.lost-worker-timeout": "10 minutes"})
     cluster = LocalCluster(
         n_workers=count, threads_per_worker=1, processes=True, dashboard_address=None, env=environment
     )
