@@ -7,6 +7,7 @@ use hairline_optics::grating::Grating as Row;
 use hairline_optics::metal::Metal;
 use hairline_optics::published::spectrum::PublishedSpectrum;
 use hairline_optics::table::ScratchTable;
+use std::sync::{Arc, OnceLock};
 
 /// A material's reflection before textures: a metallic part with the base colour as its reflectance at normal incidence, and
 /// a dielectric one over a diffuse body of the base colour.
@@ -67,7 +68,7 @@ impl Reflector {
 /// The scratch tables that a scene needs, one for each reflectance spectrum.
 pub struct ScratchTables {
     /// Distinct tables.
-    pub tables: Vec<ScratchTable>,
+    pub tables: Vec<Arc<ScratchTable>>,
     /// The metal of each table; none for white's.
     pub metals: Vec<Option<Metal>>,
     /// Distinct curves of reflectance over the angle.
@@ -126,10 +127,8 @@ impl ScratchTables {
                 }
             })
             .collect();
-        let mut tables: Vec<ScratchTable> = metals
-            .iter()
-            .map(|metal| ScratchTable::new(|nm| reflectance(*metal, nm)))
-            .collect();
+        let mut tables: Vec<Arc<ScratchTable>> =
+            metals.iter().map(|metal| scratch_table(*metal)).collect();
         let materials: Vec<MaterialOptics> = materials;
         let own = scene.materials.iter();
         let coherences_um: Vec<f64> = own.map(|material| material.coherence_um).collect();
@@ -153,8 +152,10 @@ impl ScratchTables {
             }
         }
         tables.extend(all.grating_spectra.iter().map(|of| {
-            of.row
-                .table(of.coherence_um, |nm| reflectance(of.metal, nm))
+            let table = of
+                .row
+                .table(of.coherence_um, |nm| reflectance(of.metal, nm));
+            Arc::new(table)
         }));
         Self { tables, ..all }
     }
@@ -181,6 +182,16 @@ impl ScratchTables {
             .map(|metal| PublishedSpectrum::new(count, |nm| reflectance(*metal, nm)))
             .collect()
     }
+}
+
+/// The table of a metal's scratches, or of white ones. It is the same in every scene, so that each is made once.
+fn scratch_table(metal: Option<Metal>) -> Arc<ScratchTable> {
+    static MADE: [OnceLock<Arc<ScratchTable>>; Metal::ALL.len() + 1] =
+        [const { OnceLock::new() }; Metal::ALL.len() + 1];
+    let at = metal.and_then(|metal| Metal::ALL.iter().position(|known| *known == metal));
+    let made = &MADE[at.unwrap_or(Metal::ALL.len())];
+    let table = || Arc::new(ScratchTable::new(|nm| reflectance(metal, nm)));
+    Arc::clone(made.get_or_init(table))
 }
 
 /// At normal incidence.

@@ -102,7 +102,7 @@ fn settings(bounces: u32) -> Settings {
 #[test]
 fn light_by_way_of_objects_is_that_of_the_path_tracer() {
     // Rays by way of rows of grooves scatter the most.
-    let settings_of = [(1, 512), (1, 512), (4, 512), (1, 2048), (1, 512)];
+    let settings_of = [(1, 256), (1, 256), (4, 512), (1, 1024), (1, 512)];
     for ((bounces, samples), (name, scene)) in settings_of.into_iter().zip(scenes()) {
         let reference = sampled(&scene, settings(bounces), 6);
         let image = bounced(&scene, samples, true, bounces);
@@ -145,7 +145,7 @@ fn light_of_a_sky_by_way_of_a_wall() {
 #[test]
 fn few_rays_find_the_light_of_objects_in_the_mean() {
     for (name, scene) in scenes() {
-        let truth = luminance(&bounced(&scene, 512, true, 1), Layer::Base);
+        let truth = luminance(&bounced(&scene, 256, true, 1), Layer::Base);
         let count = truth.len() as f64;
         let mean = truth.iter().sum::<f64>() / count;
         let mut last = f64::INFINITY;

@@ -13,6 +13,7 @@ use hairline_optics::metal::Metal;
 use hairline_reference::Settings;
 use hairline_scene::environment::BuiltInMap;
 use hairline_scene::{Base, Bearing, Coat, Environment, Grating, GrooveField, Scene};
+use std::sync::LazyLock;
 
 pub(super) const VIEW: View = View {
     angle_rad: 0.7,
@@ -105,6 +106,11 @@ pub(super) fn with_rows(mut scene: Scene) -> Scene {
 
 /// Scenes in which something is hidden, and their names.
 pub(super) fn scenes() -> Vec<(&'static str, Scene)> {
+    static SCENES: LazyLock<Vec<(&'static str, Scene)>> = LazyLock::new(make_scenes);
+    SCENES.clone()
+}
+
+fn make_scenes() -> Vec<(&'static str, Scene)> {
     let lamp = |x: f64, y: f64| off_the_mirror(VIEW.angle_rad, x, y);
     let mut edge = scratched(Base::Mirror);
     edge.lights = vec![sphere(VIEW, 0.12, -0.05, 0.08)];
@@ -237,7 +243,7 @@ pub(super) fn luminance(image: &Image, layer: Layer) -> Vec<f64> {
 #[test]
 fn many_rays_come_to_the_path_tracers_shadows() {
     for (name, scene) in scenes() {
-        let (exact, reference) = (closed(&scene, 1024, true), sampled(&scene, SHADOWS, 6));
+        let (exact, reference) = (closed(&scene, 512, true), sampled(&scene, SHADOWS, 6));
         let (open, open_reference) = (closed(&scene, 1, false), sampled(&scene, LINEAR, 4));
         for (layer, limit) in [(Layer::Scratches, 0.03), (Layer::Base, 0.02)] {
             let found = compared(name, &exact, &reference, layer);
@@ -258,7 +264,7 @@ fn many_rays_come_to_the_path_tracers_shadows() {
 #[test]
 fn few_rays_are_right_in_the_mean() {
     for (name, scene) in scenes() {
-        let truth = closed(&scene, 512, true);
+        let truth = closed(&scene, 256, true);
         for layer in [Layer::Scratches, Layer::Base] {
             let truth = luminance(&truth, layer);
             let mean = truth.iter().sum::<f64>() / truth.len() as f64;
