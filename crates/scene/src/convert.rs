@@ -115,7 +115,7 @@ fn built_in_map(map: BuiltInMap) -> Environment {
         [const { OnceLock::new() }; BuiltInMap::ALL.len()];
     let make = || {
         let picture = map.picture(environment::BUILT_IN_SIZE_PX);
-        Environment::with_lamps_parted(picture, 0.0, 1.0, true)
+        Environment::from_map(picture, 0.0, 1.0, true)
     };
     MADE[map as usize].get_or_init(make).clone()
 }

@@ -3,7 +3,7 @@
 use super::pictures::{LINEAR, closed, compared, sampled};
 use super::scenes::{self, View, plate, scratch};
 use conformance::two_renderers::{compare, on_the_cpu, on_the_gpu};
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, Vec3};
 use hairline_fixtures::SceneFile;
 use hairline_image::{Layer, Picture};
 use hairline_optics::metal::Metal;
@@ -29,6 +29,18 @@ fn direction([width, height]: [u32; 2], i: u32) -> DVec3 {
         (f64::from(i % width) + 0.5) / f64::from(width),
         (f64::from(i / width) + 0.5) / f64::from(height),
     ))
+}
+
+/// The mean over 8 x 8 places of a texel.
+fn mean_over_texel(size_px: [u32; 2], i: u32, value: impl Fn(DVec3) -> f64) -> f64 {
+    const EACH_WAY: u32 = 8;
+    let [width, height] = size_px.map(|n| n * EACH_WAY);
+    let corner = [i % size_px[0], i / size_px[0]].map(|at| at * EACH_WAY);
+    let places = (0..EACH_WAY * EACH_WAY).map(|k| {
+        let [x, y] = [corner[0] + k % EACH_WAY, corner[1] + k / EACH_WAY];
+        value(direction([width, height], y * width + x))
+    });
+    places.sum::<f64>() / f64::from(EACH_WAY * EACH_WAY)
 }
 
 /// As it stands over the plate.
@@ -160,12 +172,18 @@ fn a_window_in_the_sky() {
     let right = DVec3::Y.cross(middle).normalize();
     let up = middle.cross(right);
     let mut map = sky(SIZE_PX);
-    for (i, texel) in map.rgb.iter_mut().enumerate() {
-        let toward = direction(SIZE_PX, i as u32);
+    let is_within = |toward: DVec3| {
         let at = DVec2::new(toward.dot(right), toward.dot(up)) / toward.dot(middle);
-        if toward.dot(middle) > 0.0 && at.x.abs() < 0.25 && at.y.abs() < 0.15 {
-            *texel = [40.0, 38.0, 32.0];
-        }
+        toward.dot(middle) > 0.0 && at.x.abs() < 0.25 && at.y.abs() < 0.15
+    };
+    for (i, texel) in map.rgb.iter_mut().enumerate() {
+        // As a camera sees it: texels on an edge are lit in part. Of texels that are lit or not a chord would be 0.9 % shorter.
+        let covered = mean_over_texel(SIZE_PX, i as u32, |toward| {
+            f64::from(u8::from(is_within(toward)))
+        });
+        let lit = DVec3::new(40.0, 38.0, 32.0);
+        let sky = Vec3::from(*texel).as_dvec3();
+        *texel = sky.lerp(lit, covered).as_vec3().to_array();
     }
     let whole = over(Environment::from_map(map.clone(), 0.0, 1.0, false));
     let parted = over(Environment::with_lamps_parted(map, 0.0, 1.0, false));
@@ -179,8 +197,8 @@ fn a_window_in_the_sky() {
     }
     let scratches = compared("window", &exact, &reference, Layer::Scratches);
     let [at_least, _] = scratches.beyond.relative_rms_within(2.0);
-    assert!(at_least < 0.015, "{scratches:?}");
-    assert!((scratches.mean_ratio - 1.0).abs() < 0.01 + 3.0 * scratches.mean_ratio_error);
+    assert!(at_least < 0.01, "{scratches:?}");
+    assert!((scratches.mean_ratio - 1.0).abs() < 0.005 + 3.0 * scratches.mean_ratio_error);
     // The base knows nothing of it.
     assert!(exact.base == blurred.base);
     // Left to the cells its edges blur.

@@ -12,13 +12,6 @@ use hairline_optics::band::{
 use hairline_optics::band_environment::EnvironmentCell;
 use hairline_scene::Environment;
 
-/// Parts of a cell that are above and below zero may send nothing together, and then one of them would stand for many times the whole: no ray weighs
-/// more than as if all parts were so many times their cell.
-const PARTS_OVER_CELL_MOST: f64 = 4.0;
-
-/// The same of cells, beyond which a ray stands for a share of the total.
-const CELLS_OVER_TOTAL_MOST: f64 = 3.0;
-
 /// A direction of a source by way of a scratch.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct DrawnLight {
@@ -28,11 +21,11 @@ pub(crate) struct DrawnLight {
     pub color: DVec3,
 }
 
-/// One of many, drawn by the luminance of what each sends: by its size, as what is left of an environment beside its windows may be below zero.
+/// One of many, drawn by the luminance of what each sends.
 struct Choice {
     /// What all of them send.
     total: DVec3,
-    /// The sum of the sizes.
+    /// The sum of the luminances.
     weight: f64,
     /// In [0, 1): what is left of the number that picks.
     left: f64,
@@ -49,12 +42,12 @@ impl Choice {
 
     /// Whether the next one is taken in place of those before.
     fn offer(&mut self, sent: DVec3) -> bool {
-        let weight = luminance(sent).abs();
+        let weight = luminance(sent);
         self.total += sent;
-        self.weight += weight;
         if !(weight > 0.0) {
             return false;
         }
+        self.weight += weight;
         let share = weight / self.weight;
         let is_taken = self.left < share;
         self.left = if is_taken {
@@ -212,7 +205,7 @@ impl ScratchLight<'_> {
         self.for_cells(|cell| {
             let sent = sent(cell);
             if cells.offer(sent) {
-                taken = Some((*cell, luminance(sent).abs()));
+                taken = Some((*cell, luminance(sent)));
             }
         });
         let (cell, of_cell) = taken?;
@@ -221,31 +214,23 @@ impl ScratchLight<'_> {
         for part in cell.parts(line) {
             let sent = sent(&part);
             if parts.offer(sent) {
-                taken = Some((part, luminance(sent).abs()));
+                taken = Some((part, luminance(sent)));
             }
         }
         let (part, of_part) = taken?;
-        // Within the part by the groove alone, whose light is nowhere below zero.
+        // Within the part by the groove alone.
         let response = response(&part);
         let mut offers = Offers::new(0.0);
         let ends = [(-1.0, part.q_low), (1.0, part.q_high)];
         offers.offer(line, ends.into_iter(), |q| response(q).into(), part_u);
         let (direction, by_groove) = offers.place()?;
-        let cancelling = (parts.weight / of_cell).min(PARTS_OVER_CELL_MOST);
-        let over_chance = cells.weight * cancelling / of_part;
-        // Blurred as a part: beside a window's edge the sharp map rises and falls by more than all of it sends.
-        let blur = part.environment_cell_roughness();
-        let sent =
-            from(direction, blur) * by_groove * (luminance(offers.lines.total) * over_chance);
+        let over_chance = cells.weight * parts.weight / (of_cell * of_part);
+        let sent = from(direction, 0.0) * by_groove * (luminance(offers.lines.total) * over_chance);
         let color = sent / cells.total;
-        let is_telling = cells.weight < CELLS_OVER_TOTAL_MOST * luminance(cells.total).abs();
         Some(DrawnLight {
             direction: self.frame.surface_from_band(direction),
-            color: if is_telling && color.is_finite() {
-                color
-            } else {
-                DVec3::ONE
-            },
+            // Channels that get nothing have no colour to differ in.
+            color: if color.is_finite() { color } else { DVec3::ONE },
         })
     }
 

@@ -17,11 +17,10 @@ struct DrawnPart {
     left: f32,
 }
 
-// One of many that were offered with what comes from each. Each is drawn by the size of its luminance: what is left of an environment beside its
-// windows may be below zero.
+// One of many that were offered with what comes from each. Each is drawn by its luminance.
 struct DrawnOffer {
     total: vec3f,
-    weight: f32,                // the sum of the sizes
+    weight: f32,                // the sum of the luminances
     left: f32,                  // of the number that chooses
 }
 
@@ -31,12 +30,12 @@ fn drawn_offers(u: f32) -> DrawnOffer {
 
 // Whether the new one is taken in place of those before.
 fn drawn_offer(offer: ptr<function, DrawnOffer>, sent: vec3f) -> bool {
-    let weight = abs(rgb_luminance(sent));
+    let weight = rgb_luminance(sent);
     (*offer).total += sent;
-    (*offer).weight += weight;
     if !(weight > 0.0) {
         return false;
     }
+    (*offer).weight += weight;
     let share = weight / (*offer).weight;
     if (*offer).left < share {
         (*offer).left /= share;
@@ -255,11 +254,6 @@ fn draw_all_around(point: LitPoint, seen: SeenScratch, u: vec2f) -> DrawnFrom {
     return cell.from_there;
 }
 
-// Parts of a cell that are above and below zero may send nothing together: no ray weighs more than as if all parts were so many times their cell; of
-// cells, beyond which a ray stands for a share of the total.
-const DRAWN_PARTS_OVER_CELL_MOST: f32 = 4.0;
-const DRAWN_CELLS_OVER_TOTAL_MOST: f32 = 3.0;
-
 // Parts of a cell, even in q. Twin: EnvironmentCell::parts of optics.
 const DRAWN_CELL_PARTS: u32 = 6u;
 
@@ -282,8 +276,6 @@ fn draw_around(point: LitPoint, seen: SeenScratch, cells: u32, map_from_surface:
     var offer = drawn_offers(cell.left);
     // What the groove sends of light of radiance 1, over what comes from the part.
     var by_groove = 0.0;
-    // Beside a window's edge the sharp map rises and falls by more than all of it sends: it is blurred as for a part.
-    var roughness = 0.0;
     for (var i = 0u; i < DRAWN_CELL_PARTS; i += 1u) {
         let part = drawn_cell_part(i, cell.from_there.line, cell.from_there.part.low, cell.from_there.part.high);
         let chord = scratch_chord(scratch_tables, point, seen, part.q_high, part.q_low, part.direction.z);
@@ -293,18 +285,15 @@ fn draw_around(point: LitPoint, seen: SeenScratch, cells: u32, map_from_surface:
             from_there.part = DrawnPart(part.q_low, part.q_high, u.y * luminance);
             from_there.cos_i = part.direction.z;
             from_there.is_there = cell.from_there.is_there;
-            roughness = environment_cell_roughness(part);
-            by_groove = luminance / abs(rgb_luminance(sent));
+            by_groove = luminance / rgb_luminance(sent);
         }
     }
     var drawn = drawn_direction(point, seen, from_there);
     if drawn.is_there {
-        let really = environment_prefiltered(levels_beside_windows, map_from_surface * drawn.direction, roughness);
+        let really = environment_prefiltered_lod(levels_beside_windows, map_from_surface * drawn.direction, 0.0);
         let total = cell.from_there.total;
-        let cancelling = min(offer.weight / abs(cell.luminance), DRAWN_PARTS_OVER_CELL_MOST);
-        let color = drawn.color * really * (by_groove * cancelling * cell.weight) / total;
-        let is_telling = cell.weight < DRAWN_CELLS_OVER_TOTAL_MOST * abs(rgb_luminance(total));
-        drawn.color = select(vec3f(1.0), color, is_telling & all(total != vec3f(0.0)));
+        let color = drawn.color * really * (by_groove * offer.weight * cell.weight / cell.luminance) / total;
+        drawn.color = select(vec3f(1.0), color, all(total != vec3f(0.0)));
     }
     return drawn;
 }

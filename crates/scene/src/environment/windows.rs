@@ -59,30 +59,34 @@ fn narrowed(map: &Picture) -> Picture {
     narrow
 }
 
-/// Takes a window out of a map: where it is darker than its outline's even radiance, less than nothing is left. Returns it as bright as what was
-/// taken.
+/// Takes a window out of a map, but nowhere more than is there beyond what is around it: rays are drawn by what is left. Beyond the outline it
+/// takes what an edge that is no step has there. Returns it as bright as what was taken.
 fn taken_out(window: Window, rest: &mut Picture) -> Window {
     let [width, height] = rest.size_px;
-    let covers = window
-        .outline
-        .measure(std::f64::consts::PI / f64::from(height));
-    let radiance_of_it = DVec3::from(window.radiance);
-    let covered: Vec<f64> = (0..rest.rgb.len())
+    let texel_rad = std::f64::consts::PI / f64::from(height);
+    let reach_rad = 0.5 * (window.edge_rad + texel_rad);
+    let (most, around) = (DVec3::from(window.radiance), DVec3::from(window.around));
+    let inside_rad = window.outline.inside_rad();
+    let taken: Vec<DVec3> = (0..rest.rgb.len())
         .into_par_iter()
-        .map(|i| covers(direction(rest, i)))
+        .map(|i| {
+            let inside_rad = inside_rad(direction(rest, i));
+            if inside_rad < -reach_rad {
+                return DVec3::ZERO;
+            }
+            // An edge has fallen by half where the outline is.
+            let most = if inside_rad < 0.0 { 0.5 * most } else { most };
+            (radiance(rest, i) - around).max(DVec3::ZERO).min(most)
+        })
         .collect();
-    let mut covered_sr = 0.0;
-    for (i, covered) in covered.into_iter().enumerate() {
-        if covered > 0.0 {
-            covered_sr += covered * row_solid_angle(i as u32 / width, height) / f64::from(width);
-            let left = radiance(rest, i) - radiance_of_it * covered;
-            rest.rgb[i] = left.as_vec3().to_array();
-        }
+    let mut sum = DVec3::ZERO;
+    for (i, taken) in taken.into_iter().enumerate() {
+        sum += taken * (row_solid_angle(i as u32 / width, height) / f64::from(width));
+        rest.rgb[i] = (radiance(rest, i) - taken).as_vec3().to_array();
     }
     Window {
-        // Texels are in part outside.
-        radiance: (radiance_of_it * (covered_sr / window.outline.solid_angle_sr())).to_array(),
-        outline: window.outline,
+        radiance: (sum / window.outline.solid_angle_sr()).to_array(),
+        ..window
     }
 }
 
@@ -137,11 +141,17 @@ impl Search {
         let fits = regions.par_iter().filter_map(|region| {
             let patch = self.patch(region);
             let outline = best_fit(&patch)?;
-            let radiance = patch.step(&outline).to_array();
             let is_even = patch.evenness(&outline) > EVEN;
-            is_even.then_some(Candidate {
-                window: Window { outline, radiance },
-                patch,
+            is_even.then(|| {
+                let edge_rad = patch.edge_rad(&outline);
+                let radiance = patch.step(&outline, edge_rad).to_array();
+                let window = Window {
+                    outline,
+                    radiance,
+                    around: patch.surroundings.to_array(),
+                    edge_rad,
+                };
+                Candidate { window, patch }
             })
         });
         let mut candidates: Vec<Candidate> = fits.collect();
@@ -152,7 +162,10 @@ impl Search {
             for taken in &windows {
                 candidate.patch.take_out(taken);
             }
-            let step = candidate.patch.step(&candidate.window.outline);
+            let Window {
+                outline, edge_rad, ..
+            } = &candidate.window;
+            let step = candidate.patch.step(outline, *edge_rad);
             candidate.window.radiance = step.to_array();
             let sum = step.element_sum();
             let is_window = sum * candidate.window.outline.solid_angle_sr() > SHARE * self.light

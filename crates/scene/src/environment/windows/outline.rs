@@ -13,6 +13,10 @@ pub(crate) struct Window {
     pub outline: Outline,
     /// Beyond what is left in the map, in texel units.
     pub radiance: [f64; 3],
+    /// Of the map around it.
+    pub around: [f64; 3],
+    /// Over which the map falls where the outline ends: lenses blur it, and some lamps fade out.
+    pub edge_rad: f64,
 }
 
 /// A disc, or four corners.
@@ -33,19 +37,36 @@ pub(crate) enum Outline {
 }
 
 impl Outline {
-    /// How much of a texel of a width lies within, by the direction of its middle.
+    /// How much of a texel of a width lies within, by the direction of its middle: or of a soft edge.
     pub(crate) fn measure(&self, texel_rad: f64) -> impl Fn(DVec3) -> f64 + Sync + use<> {
         let step = move |inside_rad: f64| (0.5 + inside_rad / texel_rad).clamp(0.0, 1.0);
-        let (direction, radius_rad, edges) = match self {
+        let (disc, edges) = self.bounds();
+        move |toward: DVec3| match &edges {
+            Some(edges) => edges.iter().map(|edge| step(edge.dot(toward))).product(),
+            None => step(inside_disc(disc, toward)),
+        }
+    }
+
+    /// How far within a direction lies, from the nearest edge; below zero outside.
+    pub(crate) fn inside_rad(&self) -> impl Fn(DVec3) -> f64 + Sync + use<> {
+        let (disc, edges) = self.bounds();
+        move |toward: DVec3| match &edges {
+            Some(edges) => {
+                let inside = edges.iter().map(|edge| edge.dot(toward));
+                inside.fold(f64::INFINITY, f64::min)
+            }
+            None => inside_disc(disc, toward),
+        }
+    }
+
+    /// A disc's middle and radius, or the edges of four corners.
+    fn bounds(&self) -> ((DVec3, f64), Option<[DVec3; 4]>) {
+        match self {
             Self::Disc {
                 direction,
                 radius_rad,
-            } => (*direction, *radius_rad, None),
-            Self::Quad { corners } => (DVec3::Z, 0.0, Some(edges(corners))),
-        };
-        move |toward: DVec3| match &edges {
-            Some(edges) => edges.iter().map(|edge| step(edge.dot(toward))).product(),
-            None => step(radius_rad - direction.angle_between(toward)),
+            } => ((*direction, *radius_rad), None),
+            Self::Quad { corners } => ((DVec3::Z, 0.0), Some(edges(corners))),
         }
     }
 
@@ -103,6 +124,10 @@ impl Outline {
             },
         }
     }
+}
+
+fn inside_disc((direction, radius_rad): (DVec3, f64), toward: DVec3) -> f64 {
+    radius_rad - direction.angle_between(toward)
 }
 
 /// Unit normals of the planes of the edges, to the side that is within.

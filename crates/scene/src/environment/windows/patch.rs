@@ -27,11 +27,13 @@ pub(super) struct Patch {
 /// The part of a region's texels that are darker than where it counts as flat.
 const DARK: f64 = 0.25;
 /// Steps end at this share of a texel.
-const FINEST: f64 = 0.1;
+const FINEST: f64 = 0.02;
 /// Outlines of four corners that are looked at, at most.
-const LOOKS_MOST: u32 = 800;
-/// Texels within half of these from where an outline ends tell what it ends by.
-const RIM_TEXELS: f64 = 3.0;
+const LOOKS_MOST: u32 = 2000;
+/// Texels within half of these from where an outline's edge ends tell what it ends by.
+const RIM_TEXELS: f64 = 2.0;
+/// Widths of edges that are tried.
+const EDGE_TEXELS: [f64; 6] = [1.0, 1.5, 2.0, 2.5, 3.0, 4.0];
 /// A disc is simpler: four corners must tell so many times as much.
 const QUAD_BETTER: f64 = 1.01;
 
@@ -68,7 +70,7 @@ impl Patch {
 
     /// What is left of it without a window.
     pub(super) fn take_out(&mut self, window: &Window) {
-        let covers = window.outline.measure(self.texel_rad);
+        let covers = window.outline.measure(window.edge_rad);
         let radiance_of_it = DVec3::from(window.radiance);
         for (direction, radiance) in self.directions.iter().zip(&mut self.radiances) {
             *radiance -= radiance_of_it * covers(*direction);
@@ -76,8 +78,8 @@ impl Patch {
     }
 
     /// The integrals of the square of an outline's coverage, and of coverage times flatness.
-    fn sums(&self, outline: &Outline) -> (f64, f64) {
-        let covers = outline.measure(self.texel_rad);
+    fn sums(&self, outline: &Outline, edge_rad: f64) -> (f64, f64) {
+        let covers = outline.measure(edge_rad);
         let (mut squares, mut light) = (0.0, 0.0);
         for (i, direction) in self.directions.iter().enumerate() {
             let covered = covers(*direction);
@@ -90,14 +92,26 @@ impl Patch {
 
     /// By how much squares fall.
     fn gain(&self, outline: &Outline) -> f64 {
-        let (squares, light) = self.sums(outline);
+        self.soft_gain(outline, self.texel_rad)
+    }
+
+    fn soft_gain(&self, outline: &Outline, edge_rad: f64) -> f64 {
+        let (squares, light) = self.sums(outline, edge_rad);
         light.powi(2) / squares.max(1e-12)
+    }
+
+    /// How soft an outline is: a texel, or up to some of them.
+    pub(super) fn edge_rad(&self, outline: &Outline) -> f64 {
+        let edges = EDGE_TEXELS.map(|texels| texels * self.texel_rad);
+        let gain = |edge_rad: &f64| self.soft_gain(outline, *edge_rad);
+        let best = edges.into_iter().max_by(|a, b| gain(a).total_cmp(&gain(b)));
+        best.unwrap_or(self.texel_rad)
     }
 
     /// How much of the squares of the region, and of what it covers beside that, an outline tells: 1 if the region has its shape.
     pub(super) fn evenness(&self, outline: &Outline) -> f64 {
         let covers = outline.measure(self.texel_rad);
-        let (squares, light) = self.sums(outline);
+        let (squares, light) = self.sums(outline, self.texel_rad);
         let factor = light / squares.max(1e-12);
         let (mut all, mut left) = (0.0, 0.0);
         for (i, direction) in self.directions.iter().enumerate() {
@@ -110,10 +124,10 @@ impl Patch {
         1.0 - left / all.max(1e-12)
     }
 
-    /// By how much an outline is brighter than the surroundings where it ends.
-    pub(super) fn step(&self, outline: &Outline) -> DVec3 {
-        let covers = outline.measure(self.texel_rad);
-        let near = outline.measure(RIM_TEXELS * self.texel_rad);
+    /// By how much an outline of so wide an edge is brighter than the surroundings where it ends.
+    pub(super) fn step(&self, outline: &Outline, edge_rad: f64) -> DVec3 {
+        let covers = outline.measure(edge_rad);
+        let near = outline.measure(edge_rad + RIM_TEXELS * self.texel_rad);
         let [mut rim, mut all] = [Mean::default(); 2];
         for (i, direction) in self.directions.iter().enumerate() {
             let covered = covers(*direction);
