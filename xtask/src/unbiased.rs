@@ -294,5 +294,5 @@ Scratches of `edge` and `slit` are 0.05 to 0.1 % of the light without shadows to
 +0.08 ± 0.03 % at 256 samples, z +3.2. Shares s/f from another half of the samples, and the groove's depth in the direction of each ray in place of one for a chord: either changes it by less than 0.02 %.
 
 Variances come from the scatter of batches of four samples. A picture of four samples is one batch, which tells none: it takes that of a batch of the row's picture of the most samples.
-On a graphics adapter only `sky` was measured so; verdicts of other rows that knew no variance are left out (–), and their z of four samples says nothing.
+On a graphics adapter only `sky` and `edge` without bounces were measured so; verdicts of other rows that knew no variance are left out (–), and their z of four samples says nothing.
 ";
