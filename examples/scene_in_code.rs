@@ -9,8 +9,8 @@ use hairline_cpu::closed_form::{Prepared, RenderOptions};
 use hairline_image::{Display, Output};
 use hairline_optics::metal::Metal;
 use hairline_scene::{
-    Base, Camera, GLTF_DIELECTRIC, Lens, Light, Material, Mesh, Object, Profile, RenderSettings,
-    Scene, Scratch, Segment,
+    Base, Camera, GLTF_DIELECTRIC_F0, Lens, Light, Material, Mesh, Object, Profile, RenderSettings,
+    Scene, Scratch, Segment, Specular,
 };
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -55,7 +55,9 @@ fn gold() -> Material {
         normal_texture: None,
         emission_texture: None,
         occlusion_texture: None,
-        dielectric: GLTF_DIELECTRIC,
+        dielectric_f0: GLTF_DIELECTRIC_F0,
+        specular: Specular::default(),
+        specular_textures: [None; 2],
         is_unlit: false,
         cutout: None,
         coat: None,

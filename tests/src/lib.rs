@@ -5,8 +5,8 @@ pub mod unbiased;
 
 use glam::{DVec3, Vec2, Vec3, Vec4};
 use hairline_scene::{
-    Base, Camera, Environment, GLTF_DIELECTRIC, Lens, Light, Material, Mesh, Object, Profile,
-    RenderSettings, Scene, Scratch, Segment,
+    Base, Camera, Environment, GLTF_DIELECTRIC_F0, Lens, Light, Material, Mesh, Object, Profile,
+    RenderSettings, Scene, Scratch, Segment, Specular,
 };
 use std::path::Path;
 use std::sync::Arc;
@@ -59,7 +59,9 @@ pub fn square(base: Base, half_side_m: f32, size_px: u32) -> Scene {
         normal_texture: None,
         emission_texture: None,
         occlusion_texture: None,
-        dielectric: GLTF_DIELECTRIC,
+        dielectric_f0: GLTF_DIELECTRIC_F0,
+        specular: Specular::default(),
+        specular_textures: [None; 2],
         is_unlit: false,
         cutout: None,
         coat: None,

@@ -225,10 +225,16 @@ pub fn surface_point<'a>(
     } else {
         axes.map(|axis| normal_turn(&corners, &normals, geometric, interpolated, axis))
     };
-    let mut f0 = DVec3::splat(optics.dielectric_f0).lerp(base_color, metallic);
+    let [specular_texel, specular_color_texel] = material.specular_textures.map(texture);
+    let specular = material.specular.weight * specular_texel.map_or(1.0, |t| t.w);
+    let color = DVec3::from(material.specular.color)
+        * specular_color_texel.map_or(DVec3::ONE, |t| t.truncate());
+    let dielectric_f0 = specular * (optics.dielectric_f0 * color).min(DVec3::ONE);
+    let mut f0 = dielectric_f0.lerp(base_color, metallic);
+    let mut f90 = specular + (1.0 - specular) * metallic;
     if material.is_unlit {
         emission = base_color;
-        (f0, base_color) = (DVec3::ZERO, DVec3::ZERO);
+        (f0, f90, base_color) = (DVec3::ZERO, 0.0, DVec3::ZERO);
     }
     let cos = normal.dot(to_viewer);
     SurfacePoint {
@@ -249,6 +255,7 @@ pub fn surface_point<'a>(
             .map(|turn| side * DVec3::new(turn.dot(axis_x), turn.dot(axis_y), 0.0)),
         fresnel: FresnelRgb {
             f0: f0.to_array(),
+            f90,
             curve: &tables.curves[optics.curve as usize],
         },
         diffuse: base_color * (1.0 - metallic),
@@ -268,6 +275,7 @@ pub fn surface_point<'a>(
                 roughness: coat.roughness * texture(material.coat_textures[1]).map_or(1.0, |t| t.y),
                 fresnel: FresnelRgb {
                     f0: [COAT_F0; 3],
+                    f90: 1.0,
                     curve: &tables.curves[curve as usize],
                 },
             }),

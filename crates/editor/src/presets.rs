@@ -6,12 +6,12 @@
 
 use glam::DVec3;
 use hairline_optics::metal::Metal;
-use hairline_scene::Coat;
 use hairline_scene::description::{
     Amount, Around, Brushed, Distribution, Laid, Layer, Light, LightKind, Material, MaterialKind,
     MetalColor, Pattern, Scratches, Shape,
 };
 use hairline_scene::wear::{count, fitting};
+use hairline_scene::{Coat, Specular};
 
 /// A layer of scratches to begin with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -251,6 +251,7 @@ impl MaterialPreset {
                 MaterialKind::MetallicRoughness {
                     base_color: [0.02, 0.05, 0.16],
                     metallic: 1.0,
+                    specular: Specular::default(),
                 },
                 0.45,
             ),

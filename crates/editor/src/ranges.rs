@@ -39,7 +39,7 @@ pub(crate) const DEFAULT_DIAGONAL_M: f64 = 0.3;
 impl Parameter {
     /// Every parameter.
     #[cfg(test)]
-    pub(crate) const ALL: [Self; 84] = [
+    pub(crate) const ALL: [Self; 86] = [
         Self::CameraPosition,
         Self::CameraTarget,
         Self::CameraUp,
@@ -63,6 +63,8 @@ impl Parameter {
         Self::Ior,
         Self::BaseColor,
         Self::Metallic,
+        Self::Specular,
+        Self::SpecularColor,
         Self::Translation,
         Self::Rotation,
         Self::Scale,
@@ -158,6 +160,7 @@ impl Parameter {
             P::Ior => (1.0..=2.5, limits::IOR),
             P::BaseColor => (0.0..=1.0, limits::BASE_COLOR),
             P::Metallic => (0.0..=1.0, limits::METALLIC),
+            P::Specular | P::SpecularColor => (0.0..=1.0, limits::SPECULAR),
             P::Translation => (-2.0 * d..=2.0 * d, limits::COORDINATE_M),
             // Smaller than 1e-6 neither way; 0 lies between and is refused.
             P::Scale => (0.01..=10.0, -*limits::SCALE.end()..=*limits::SCALE.end()),

@@ -253,6 +253,10 @@ fn material(scene: &Scene, tables: &ScratchTables, array: &TextureArray, index: 
             .anisotropy
             .map_or(0.0, |it| it.direction_deg.to_radians() as f32),
         anisotropy_texture: array.packed(material.anisotropy_texture),
+        specular_color: rgb(material.specular.color),
+        specular: material.specular.weight as f32,
+        specular_texture: array.packed(material.specular_textures[0]),
+        specular_color_texture: array.packed(material.specular_textures[1]),
     }
 }
 

@@ -144,6 +144,10 @@ shared! {
         anisotropy: f32,
         anisotropy_direction_rad: f32,
         anisotropy_texture: [u32; 2],
+        specular_color: [f32; 3],
+        specular: f32,
+        specular_texture: [u32; 2],
+        specular_color_texture: [u32; 2],
     }
     /// A light.
     Light {
@@ -196,7 +200,7 @@ shared! {
         coat: u32,
         triangle: u32,
         emission: [f32; 3],
-        curve_and_open: u32,
+        curve: u32,
     }
     /// Radiance of the base.
     BaseLight {

@@ -135,7 +135,7 @@ modules! {
     /// Where pixels lie in the arrays of a strip and in the film.
     FILM = "scene/film" needs [BINDINGS];
     /// Surface points as they lie in memory.
-    PIXEL_POINT = "scene/pixel_point" needs [LAYOUT, SURFACE_POINT, CONTENTS];
+    PIXEL_POINT = "scene/pixel_point" needs [LAYOUT, SURFACE_POINT, FRESNEL, CONTENTS];
     /// Area lights from a surface point.
     LIGHTS = "scene/lights" needs [ROWS, CONTENTS, SURFACE_POINT, BAND, TUBE];
     /// Pictures on lights as a point sees them.

@@ -3,7 +3,7 @@
 use hairline_index::method::{Method, PublishedMethod, Structure};
 use hairline_optics::mask::Mask;
 use hairline_optics::published::sine_integral::SineIntegral;
-use hairline_scene::{Bearing, Grating, GrooveField, Object, Scene, ScratchTables};
+use hairline_scene::{Bearing, Grating, GrooveField, Material, Object, Scene, ScratchTables};
 
 use crate::lights::{self, Kind, Kinds};
 
@@ -39,6 +39,8 @@ pub(crate) struct Contents {
     pub bodies: bool,
     /// Materials whose facets lean further one way than across it.
     pub anisotropy: bool,
+    /// Dielectrics with other reflections than their refractive index says.
+    pub specular: bool,
     /// The curve of coats, if there are any.
     pub coats: Option<u32>,
 }
@@ -71,6 +73,7 @@ impl Contents {
                 optics.metallic < 1.0 || material.metallic_roughness_texture.is_some()
             }),
             anisotropy: scene.materials.iter().any(|it| it.anisotropy.is_some()),
+            specular: scene.materials.iter().any(Material::has_specular),
             coats: tables.materials.iter().find_map(|optics| optics.coat_curve),
         }
     }
@@ -132,6 +135,7 @@ pub fn pipeline_variants(text: &str) -> Vec<(String, Vec<(&'static str, f64)>)> 
         cutouts: true,
         bodies: true,
         anisotropy: true,
+        specular: true,
         coats: Some(0),
     };
     let lists = PublishedMethod {
@@ -205,6 +209,7 @@ impl ShadeVariant {
             ("HAS_CUTOUTS", has.cutouts.into()),
             ("HAS_BODIES", has.bodies.into()),
             ("HAS_ANISOTROPY", has.anisotropy.into()),
+            ("HAS_SPECULAR", has.specular.into()),
             ("HAS_COATS", has.coats.is_some().into()),
             ("COAT_CURVE", has.coats.unwrap_or(0).into()),
             ("METHOD_MASK", mask.into()),

@@ -92,17 +92,13 @@ impl FresnelCurve {
 
     /// Schlick's, for every F0.
     pub fn schlick() -> &'static Self {
-        static CURVE: LazyLock<FresnelCurve> = LazyLock::new(|| FresnelCurve::grazing(1.0));
+        static CURVE: LazyLock<FresnelCurve> = LazyLock::new(|| {
+            FresnelCurve::of_parts(|cos_theta| {
+                let weight = schlick_weight(cos_theta);
+                [weight, weight, weight, 1.0 - weight]
+            })
+        });
         &CURVE
-    }
-
-    /// Schlick's curve to another reflectance at grazing incidence: F0 + (F90 - F0)(1 - c)^5.
-    pub fn grazing(f90: f64) -> Self {
-        Self::of_parts(|cos_theta| {
-            let weight = schlick_weight(cos_theta);
-            let t = f90 * weight;
-            [t, t, t, 1.0 - weight]
-        })
     }
 
     fn of_parts(parts: impl Fn(f64) -> [f64; 4]) -> Self {
@@ -145,6 +141,8 @@ pub(crate) fn fresnel_node_cos(i: usize) -> f64 {
 pub struct FresnelRgb<'a> {
     /// Reflectance at normal incidence.
     pub f0: [f64; 3],
+    /// Reflectance at grazing incidence of Schlick's curve: a factor on t. 1 of all other curves.
+    pub f90: f64,
     /// How it goes with the angle.
     pub curve: &'a FresnelCurve,
 }
@@ -154,6 +152,7 @@ impl FresnelRgb<'_> {
     pub fn schlick(f0: [f64; 3]) -> FresnelRgb<'static> {
         FresnelRgb {
             f0,
+            f90: 1.0,
             curve: FresnelCurve::schlick(),
         }
     }
@@ -163,9 +162,9 @@ impl FresnelRgb<'_> {
         self.of_parts(self.curve.lookup(cos_theta))
     }
 
-    /// t + s F0, from the curve's parts or from means of them.
+    /// t F90 + s F0, from the curve's parts or from means of them.
     pub(crate) fn of_parts(&self, parts: [f64; 4]) -> [f64; 3] {
-        std::array::from_fn(|ch| parts[ch] + parts[3] * self.f0[ch])
+        std::array::from_fn(|ch| parts[ch] * self.f90 + parts[3] * self.f0[ch])
     }
 
     /// Directional albedo of a rough surface of this reflectance, single scattering.
@@ -251,6 +250,7 @@ mod tests {
             for curve in [&gold, &glass] {
                 let fresnel = FresnelRgb {
                     f0: [0.0; 3],
+                    f90: 1.0,
                     curve,
                 };
                 let exact = ggx_mean(cos_o, ggx_alpha(roughness), 200, |c| curve.lookup(c));

@@ -9,9 +9,8 @@ use glam::{DVec2, DVec3};
 use hairline_optics::facets::Facets;
 use hairline_optics::ggx::ggx_alpha;
 
-use crate::reflectance::{Albedo, Reflectance};
+use crate::reflectance::{Albedo, Ends, Reflectance};
 use hairline_cpu::surface::SurfacePoint;
-use hairline_scene::COAT_F0;
 
 /// The base at a point for its viewer. Directions are unit vectors in the point's local frame.
 #[derive(Clone, Copy)]
@@ -19,7 +18,7 @@ pub(crate) struct BaseLobes<'a> {
     wo: DVec3,
     facets: Facets,
     reflectance: &'a Reflectance,
-    f0: DVec3,
+    ends: Ends,
     /// What multiple scattering adds to a white surface's light: the bracket of (27) less one, over F0.
     gain: f64,
     /// What reaches the body, times its albedo.
@@ -43,8 +42,6 @@ struct CoatLobe<'a> {
     share: f64,
 }
 
-const COAT_F0_RGB: DVec3 = DVec3::splat(COAT_F0);
-
 impl<'a> BaseLobes<'a> {
     /// `coat` is the reflectance of a coat.
     pub(crate) fn new(
@@ -52,13 +49,13 @@ impl<'a> BaseLobes<'a> {
         reflectance: &'a Reflectance,
         coat: Option<&'a Reflectance>,
     ) -> Self {
-        let f0 = DVec3::from(point.fresnel.f0);
+        let ends = Ends::of(point);
         let bare = match point.facets.map(Facets::new) {
             Some(facets) => {
                 let of_lobe = reflectance.albedo_of(&facets, point.wo);
-                Self::from_lobe(point.wo, reflectance, f0, point.diffuse, facets, of_lobe)
+                Self::from_lobe(point.wo, reflectance, ends, point.diffuse, facets, of_lobe)
             }
-            None => Self::from_parts(point.wo, reflectance, f0, point.diffuse, point.roughness),
+            None => Self::from_parts(point.wo, reflectance, ends, point.diffuse, point.roughness),
         };
         match point.coat.zip(coat) {
             Some((it, of)) => bare.coated(it.weight, it.roughness, of),
@@ -68,7 +65,7 @@ impl<'a> BaseLobes<'a> {
 
     fn coated(self, weight: f64, roughness: f64, reflectance: &'a Reflectance) -> Self {
         let of_lobe = reflectance.albedo(roughness, self.wo.z);
-        let albedo = of_lobe.reflected(COAT_F0_RGB);
+        let albedo = of_lobe.reflected(Ends::COAT);
         let coat = CoatLobe {
             weight,
             facets: Facets::round(ggx_alpha(roughness)),
@@ -87,24 +84,24 @@ impl<'a> BaseLobes<'a> {
     fn from_parts(
         wo: DVec3,
         reflectance: &'a Reflectance,
-        f0: DVec3,
+        ends: Ends,
         diffuse: DVec3,
         roughness: f64,
     ) -> Self {
         let of_lobe = reflectance.albedo(roughness, wo.z);
         let facets = Facets::round(ggx_alpha(roughness));
-        Self::from_lobe(wo, reflectance, f0, diffuse, facets, of_lobe)
+        Self::from_lobe(wo, reflectance, ends, diffuse, facets, of_lobe)
     }
 
     fn from_lobe(
         wo: DVec3,
         reflectance: &'a Reflectance,
-        f0: DVec3,
+        ends: Ends,
         diffuse: DVec3,
         facets: Facets,
         of_lobe: Albedo,
     ) -> Self {
-        let albedo = of_lobe.reflected(f0);
+        let albedo = of_lobe.reflected(ends);
         let body = diffuse * (DVec3::ONE - albedo).max(DVec3::ZERO);
         let (specular, below) = (albedo.element_sum().max(0.0), body.element_sum());
         // A faint lobe still needs samples: a narrow one is found by nothing else.
@@ -117,7 +114,7 @@ impl<'a> BaseLobes<'a> {
             wo,
             facets,
             reflectance,
-            f0,
+            ends,
             gain: of_lobe.gain(),
             body,
             specular_share,
@@ -131,16 +128,16 @@ impl<'a> BaseLobes<'a> {
             return (DVec3::ZERO, DVec3::ZERO);
         }
         let h = (wi + self.wo).normalize_or(DVec3::Z);
-        let reflected = |reflectance: &Reflectance, f0, gain: f64, facets: &Facets| {
-            let facet = reflectance.eval(wi.dot(h), f0);
+        let reflected = |reflectance: &Reflectance, ends, gain: f64, facets: &Facets| {
+            let facet = reflectance.eval(wi.dot(h), ends);
             (facet.once + facet.twice * gain) * facets.eval(wi, self.wo)
         };
-        let specular = reflected(self.reflectance, self.f0, self.gain, &self.facets);
+        let specular = reflected(self.reflectance, self.ends, self.gain, &self.facets);
         let diffuse = self.body * (wi.z / PI);
         let Some(coat) = &self.coat else {
             return (specular, diffuse);
         };
-        let by_coat = reflected(coat.reflectance, COAT_F0_RGB, coat.gain, &coat.facets);
+        let by_coat = reflected(coat.reflectance, Ends::COAT, coat.gain, &coat.facets);
         let bare = 1.0 - coat.weight;
         (
             bare * specular + coat.weight * by_coat,

@@ -1,12 +1,13 @@
 //! What facets reflect, and what lobes made of them do: by the equations and by quadrature. The curves and tables of the closed form take no part.
 
 use glam::DVec3;
+use hairline_cpu::surface::SurfacePoint;
 use hairline_optics::facets::Facets;
 use hairline_optics::fresnel::{dielectric, schlick_weight};
 use hairline_optics::ggx::{ggx_alpha, ggx_mean};
 use hairline_optics::metal::Metal;
 use hairline_optics::spectrum::rgb_from_reflectance;
-use hairline_scene::{Material, Reflector};
+use hairline_scene::{COAT_F0, Material, Reflector};
 
 /// The reflectance of a material.
 pub(crate) struct Reflectance {
@@ -30,11 +31,18 @@ pub(crate) struct Albedo {
     parts: FacetParts,
 }
 
-/// A reflectance is t + s F0.
+/// A reflectance is t F90 + s F0.
 #[derive(Clone, Copy)]
 struct FacetParts {
     t: f64,
     s: f64,
+}
+
+/// What a surface reflects at normal incidence, and what Schlick's curve rises to: 1 of all others.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Ends {
+    pub f0: DVec3,
+    pub f90: f64,
 }
 
 /// A facet's reflectance in linear Rec.709, and that times the reflectance at normal incidence, wavelength by wavelength: light that is
@@ -54,6 +62,20 @@ const ALBEDO_STEPS: usize = 64;
 const ALBEDO_STEPS_AT_A_POINT: usize = 24;
 /// Steps of roughness where a texture gives it.
 const ROUGHNESS_STEPS: usize = 32;
+
+impl Ends {
+    pub(crate) const COAT: Self = Self {
+        f0: DVec3::splat(COAT_F0),
+        f90: 1.0,
+    };
+
+    pub(crate) fn of(point: &SurfacePoint) -> Self {
+        Self {
+            f0: point.fresnel.f0.into(),
+            f90: point.fresnel.f90,
+        }
+    }
+}
 
 impl Reflectance {
     pub(crate) fn new(material: &Material) -> Self {
@@ -119,22 +141,15 @@ impl Reflectance {
                 let t = schlick_weight(cos_theta);
                 FacetParts { t, s: 1.0 - t }
             }
-            Reflector::Grazing(reflectance) => {
-                let weight = schlick_weight(cos_theta);
-                FacetParts {
-                    t: reflectance * weight,
-                    s: 1.0 - weight,
-                }
-            }
             Reflector::Metal(_) => FacetParts { t: 1.0, s: 0.0 },
         }
     }
 
-    /// Of a facet; `f0` is the colour at normal incidence.
-    pub(crate) fn eval(&self, cos_theta: f64, f0: DVec3) -> FacetReflectance {
+    /// Of a facet.
+    pub(crate) fn eval(&self, cos_theta: f64, Ends { f0, f90 }: Ends) -> FacetReflectance {
         if self.metal.is_empty() {
             let FacetParts { t, s } = self.parts(cos_theta);
-            let once = f0 * s + t;
+            let once = f0 * s + t * f90;
             return FacetReflectance {
                 once,
                 twice: once * f0,
@@ -211,7 +226,7 @@ impl Albedo {
     }
 
     /// Of a surface with a body: what it reflects without the body, multiple scattering inside.
-    pub(crate) fn reflected(self, f0: DVec3) -> DVec3 {
-        (f0 * self.parts.s + self.parts.t) * (DVec3::ONE + f0 * self.gain())
+    pub(crate) fn reflected(self, Ends { f0, f90 }: Ends) -> DVec3 {
+        (f0 * self.parts.s + self.parts.t * f90) * (DVec3::ONE + f0 * self.gain())
     }
 }

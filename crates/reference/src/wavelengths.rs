@@ -1,11 +1,11 @@
 //! The wavelengths of one sample, spread evenly over the visible, and what a material makes of them.
 
-use super::reflectance::Reflectance;
+use super::reflectance::{Ends, Reflectance};
 use glam::DVec3;
 use hairline_cpu::surface::SurfacePoint;
 use hairline_optics::metal::Metal;
 use hairline_optics::spectrum;
-use hairline_scene::{Base, COAT_F0, MaterialOptics};
+use hairline_scene::{Base, MaterialOptics};
 
 /// Wavelengths in a sample: all of them see the same directions, which costs little and keeps colour noise low.
 pub(super) const WAVELENGTHS: usize = 8;
@@ -44,7 +44,7 @@ pub(super) struct SpectralFresnel<'a> {
     /// The metal's colour before textures; 1 without a metal.
     metal_f0: DVec3,
     reflectance: &'a Reflectance,
-    f0: DVec3,
+    ends: Ends,
     cos_o: f64,
     /// That of a coat, and its share of the surface.
     coat: Option<(f64, &'a Reflectance)>,
@@ -67,16 +67,16 @@ impl<'a> SpectralFresnel<'a> {
             metal,
             metal_f0,
             reflectance,
-            f0: DVec3::from(point.fresnel.f0),
+            ends: Ends::of(point),
             cos_o: point.wo.z,
             coat,
         }
     }
 
     fn at(&self, cos_theta: f64) -> DVec3 {
-        let base = self.reflectance.eval(cos_theta, self.f0).once;
+        let base = self.reflectance.eval(cos_theta, self.ends).once;
         self.coat.map_or(base, |(weight, reflectance)| {
-            let coat = reflectance.eval(cos_theta, DVec3::splat(COAT_F0)).once;
+            let coat = reflectance.eval(cos_theta, Ends::COAT).once;
             base.lerp(coat, weight)
         })
     }
@@ -105,7 +105,7 @@ impl<'a> SpectralFresnel<'a> {
         let cos_o = self.cos_o;
         match self.metal {
             Some(metal) => {
-                let tint = self.f0 / self.metal_f0;
+                let tint = self.ends.f0 / self.metal_f0;
                 std::array::from_fn(|j| {
                     let nm = wavelengths.nm[j];
                     let r = metal.reflectance(cos_i, nm) * metal.reflectance(cos_o, nm);

@@ -15,7 +15,7 @@ use crate::environment::{self, BuiltInMap};
 use crate::error::Error;
 use crate::grating::{Bearing, Grating, GrooveField, GroovePicture, UvField};
 use crate::picture_lie::PictureLie;
-use crate::scene::{Base, Camera, GLTF_DIELECTRIC, Material, RenderSettings, Scene};
+use crate::scene::{Base, Camera, GLTF_DIELECTRIC_F0, Material, RenderSettings, Scene, Specular};
 use crate::surface::world_from_object;
 
 /// All that takes no time: camera, settings, materials, lights.
@@ -58,6 +58,7 @@ pub(crate) fn material(material: &description::Material) -> Material {
             MaterialKind::MetallicRoughness {
                 base_color,
                 metallic,
+                ..
             } => Base::MetallicRoughness {
                 base_color,
                 metallic,
@@ -72,7 +73,12 @@ pub(crate) fn material(material: &description::Material) -> Material {
         normal_texture: None,
         emission_texture: None,
         occlusion_texture: None,
-        dielectric: GLTF_DIELECTRIC,
+        dielectric_f0: GLTF_DIELECTRIC_F0,
+        specular: match material.kind {
+            MaterialKind::MetallicRoughness { specular, .. } => specular,
+            _ => Specular::default(),
+        },
+        specular_textures: [None; 2],
         is_unlit: false,
         cutout: None,
         coat: material.coat,
@@ -239,6 +245,7 @@ pub(crate) fn with_textures_from(material: Material, first: usize) -> Material {
         occlusion_texture: material
             .occlusion_texture
             .map(|(texture, strength)| (texture + first, strength)),
+        specular_textures: material.specular_textures.map(shifted),
         coat_textures: material.coat_textures.map(shifted),
         anisotropy_texture: shifted(material.anisotropy_texture),
         ..material

@@ -32,7 +32,7 @@ use hairline_optics::metal::Metal;
 use serde::Serialize;
 
 use crate::environment::BuiltInMap;
-use crate::scene::{Anisotropy, Coat};
+use crate::scene::{Anisotropy, Coat, Specular};
 use values::{Named, is_default, serialize_named, serialize_scale};
 
 pub use gratings::{Grating, GroovePattern, UvAxis};
@@ -205,6 +205,9 @@ pub enum MaterialKind {
         base_color: [f64; 3],
         /// From 0, dielectric, to 1, metal. Default: 1.
         metallic: f64,
+        /// `specular` and `specular_color`: factors on what it reflects as far as it is no metal. Default: 1 and white.
+        #[serde(flatten)]
+        specular: Specular,
     },
     /// `"mirror"`: reflectance 1 at every wavelength.
     Mirror,

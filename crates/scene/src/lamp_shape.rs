@@ -1,7 +1,7 @@
 //! The shapes of lights that the camera sees, as surfaces that shine and reflect nothing.
 
 use crate::description::{self, LightKind, Shape};
-use crate::scene::{self, Base, GLTF_DIELECTRIC, Material, Mesh};
+use crate::scene::{self, Base, GLTF_DIELECTRIC_F0, Material, Mesh, Specular};
 use crate::shape;
 use crate::surface::{Surface, Vertex};
 use glam::{DMat4, DQuat, DVec2, DVec3};
@@ -35,7 +35,9 @@ pub(crate) fn material(
         normal_texture: None,
         emission_texture: shining.picture,
         occlusion_texture: None,
-        dielectric: GLTF_DIELECTRIC,
+        dielectric_f0: GLTF_DIELECTRIC_F0,
+        specular: Specular::default(),
+        specular_textures: [None; 2],
         is_unlit: false,
         cutout: None,
         coat: None,

@@ -17,7 +17,7 @@ pub struct MaterialOptics {
     pub base_color: [f64; 3],
     /// 1 for a metal, 0 for a dielectric.
     pub metallic: f64,
-    /// Reflectance of the dielectric part at normal incidence.
+    /// Reflectance of the dielectric part at normal incidence, by its refractive index.
     pub dielectric_f0: f64,
     /// Which of [`ScratchTables::curves`] its reflectance follows.
     pub curve: u32,
@@ -32,8 +32,6 @@ pub struct MaterialOptics {
 pub enum Reflector {
     /// Schlick's approximation, which serves every colour.
     Schlick,
-    /// The same, rising to another reflectance at grazing incidence than 1.
-    Grazing(f64),
     /// A metal's measured refractive index.
     Metal(Metal),
     /// A dielectric's refractive index.
@@ -43,11 +41,9 @@ pub enum Reflector {
 impl Reflector {
     /// Of a material.
     pub fn new(material: &Material) -> Self {
-        let [_, grazing] = material.dielectric;
         match material.base {
             Base::Metal(metal) => Self::Metal(metal),
             Base::Dielectric { ior, .. } => Self::Dielectric(ior),
-            Base::MetallicRoughness { .. } if grazing != 1.0 => Self::Grazing(grazing),
             _ => Self::Schlick,
         }
     }
@@ -58,7 +54,6 @@ impl Reflector {
     fn curve(self) -> FresnelCurve {
         match self {
             Self::Schlick => FresnelCurve::schlick().clone(),
-            Self::Grazing(reflectance) => FresnelCurve::grazing(reflectance),
             Self::Metal(metal) => metal.fresnel_curve(),
             Self::Dielectric(ior) => FresnelCurve::dielectric(ior),
         }
@@ -222,7 +217,7 @@ fn material_optics(material: &Material, table: u32, curve: u32) -> MaterialOptic
             metallic,
         } => MaterialOptics {
             metallic,
-            dielectric_f0: material.dielectric[0],
+            dielectric_f0: material.dielectric_f0,
             ..metal(base_color)
         },
     }

@@ -31,6 +31,7 @@ mod shapes;
 mod skin;
 mod source;
 mod spec_gloss;
+mod specular;
 mod stock;
 mod tangents;
 mod uv;

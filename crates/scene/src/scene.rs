@@ -142,8 +142,12 @@ pub struct Material {
     pub emission_texture: Option<usize>,
     /// Texture whose red (linear) is what of the environment's light reaches the base, and how much of that counts, in [0, 1].
     pub occlusion_texture: Option<(usize, f64)>,
-    /// Of [`Base::MetallicRoughness`], what is no metal: its reflectance at normal and at grazing incidence.
-    pub dielectric: [f64; 2],
+    /// Of [`Base::MetallicRoughness`], what is no metal: its reflectance at normal incidence by its refractive index (KHR_materials_ior).
+    pub dielectric_f0: f64,
+    /// Factors on that.
+    pub specular: Specular,
+    /// Textures of these: the alpha (linear) of the first is a factor on the weight, the colours (sRGB encoded) of the second on the colour.
+    pub specular_textures: [Option<usize>; 2],
     /// Whether it sends its base colour and reflects nothing, as a picture without light (KHR_materials_unlit).
     pub is_unlit: bool,
     /// Where its surface is not; none if it is everywhere.
@@ -156,6 +160,44 @@ pub struct Material {
     pub anisotropy: Option<Anisotropy>,
     /// Texture (linear) of it: red and green are a direction, which `direction_deg` turns, blue is a factor on the strength.
     pub anisotropy_texture: Option<usize>,
+}
+
+/// What a dielectric reflects besides what its refractive index says (KHR_materials_specular): `dielectric_f0` times the colour, at most 1, times
+/// the weight at normal incidence, and the weight at grazing incidence.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Specular {
+    /// `specular`: in [0, 1]. Default: 1.
+    #[serde(rename = "specular", skip_serializing_if = "is_full")]
+    pub weight: f64,
+    /// `specular_color`: linear Rec.709, not negative. Default: `[1, 1, 1]`.
+    #[serde(rename = "specular_color", skip_serializing_if = "is_white")]
+    pub color: [f64; 3],
+}
+
+impl Default for Specular {
+    fn default() -> Self {
+        Self {
+            weight: 1.0,
+            color: [1.0; 3],
+        }
+    }
+}
+
+impl Material {
+    /// Whether, as far as it is no metal, it reflects otherwise than its refractive index says.
+    pub fn has_specular(&self) -> bool {
+        let textured = self.specular_textures.iter().any(Option::is_some);
+        textured || self.specular != Specular::default() || self.is_unlit
+    }
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks so")]
+fn is_full(weight: &f64) -> bool {
+    *weight == 1.0
+}
+
+fn is_white(color: &[f64; 3]) -> bool {
+    *color == [1.0; 3]
 }
 
 /// Facets that lean further one way than across it (KHR_materials_anisotropy).
@@ -186,8 +228,8 @@ pub const COAT_IOR: f64 = 1.5;
 /// What it reflects at normal incidence.
 pub const COAT_F0: f64 = 0.04;
 
-/// What glTF says of a dielectric without its extensions: [`Material::dielectric`].
-pub const GLTF_DIELECTRIC: [f64; 2] = [0.04, 1.0];
+/// What glTF says of a dielectric without its extensions: [`Material::dielectric_f0`].
+pub const GLTF_DIELECTRIC_F0: f64 = 0.04;
 
 /// A surface that is not everywhere on its triangles: rays go through the rest.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -192,7 +192,7 @@ fn scratched_color(in: PbrInput, here: PixelFrame, view_z: f32) -> vec3f {
     let material = in.material;
     let at_normal = calculate_F0(material.base_color.rgb, material.metallic, material.reflectance);
     let diffuse_color = material.base_color.rgb * (1.0 - material.metallic);
-    let fresnel = FresnelRgb(at_normal, settings.curve);
+    let fresnel = FresnelRgb(at_normal, 1.0, settings.curve);
     var lit: Lit;
     lit.here = here;
     lit.base = pixel_base(here, material.perceptual_roughness, fresnel, shapes, albedo, curves);

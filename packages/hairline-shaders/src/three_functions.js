@@ -11,7 +11,7 @@ const BASE = `${PLACE}, surface: vec4f, curve: f32, shapes: texture_2d<f32>, alb
 
 const library = wgsl(`${hairlineWgsl}
 fn hairline_base(here: PixelFrame, surface: vec4f, curve: f32, shapes: texture_2d<f32>, albedo: texture_2d<f32>, curves: texture_2d<f32>) -> LitBase {
-  return pixel_base(here, surface.w, FresnelRgb(surface.xyz, u32(curve)), shapes, albedo, curves);
+  return pixel_base(here, surface.w, FresnelRgb(surface.xyz, 1.0, u32(curve)), shapes, albedo, curves);
 }
 `);
 
@@ -94,5 +94,5 @@ export const baseBody = wgslFn(`fn hairline_base_body(${BASE}) -> vec3f {
 
 export const fresnelOf = wgslFn(`fn hairline_fresnel(${BASE}) -> vec3f {
   let here = ${HERE};
-  return fresnel_eval(curves, FresnelRgb(surface.xyz, u32(curve)), normalize(here.view.to_viewer_m).z);
+  return fresnel_eval(curves, FresnelRgb(surface.xyz, 1.0, u32(curve)), normalize(here.view.to_viewer_m).z);
 }`, [library]);

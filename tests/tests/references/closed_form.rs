@@ -6,7 +6,7 @@ use glam::DVec2;
 use hairline_fixtures::scenes::scratched_ball;
 use hairline_image::Layer;
 use hairline_optics::metal::Metal;
-use hairline_scene::{Anisotropy, Base, Coat, Cone, LightShape, Scene};
+use hairline_scene::{Anisotropy, Base, Coat, Cone, LightShape, Scene, Specular};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -92,6 +92,42 @@ fn coated_plates() {
         assert!(agrees(&scratches, SCRATCHES), "{name}: {scratches:?}");
         assert!(base.rms().0 < BASE, "{name}: {base:?}");
         let wrong = compared("no coat", &bare, &reference, Layer::Base);
+        assert!(wrong.rms().0 > BASE, "{name}: {wrong:?}");
+    }
+}
+
+/// Faint and coloured reflections over a body, straight on, where they keep their colour, and at grazing views, where they lose it.
+#[test]
+fn plates_of_faint_and_coloured_reflections() {
+    let base = Base::MetallicRoughness {
+        base_color: [0.1, 0.05, 0.02],
+        metallic: 0.0,
+    };
+    for (angle_deg, roughness, weight, color) in [
+        (20.0_f64, 0.2, 1.0, [1.0, 0.3, 0.1]),
+        (75.0, 0.3, 0.4, [0.2, 1.0, 5.0]),
+        (82.0, 0.15, 0.0, [1.0; 3]),
+    ] {
+        let view = View {
+            angle_rad: angle_deg.to_radians(),
+            pixel_um: 20.0,
+            size_px: 16,
+        };
+        let mut scene = plate(base, view);
+        scene.materials[0].roughness = roughness;
+        light(&mut scene, view);
+        scratch(&mut scene, view, 24);
+        let full = closed(&scene);
+        scene.materials[0].specular = Specular { weight, color };
+        let (exact, reference) = (closed(&scene), sampled(&scene, LINEAR, 4));
+        let name = format!("from {angle_deg} degrees, {weight} of {color:?}");
+        let base = compared(&name, &exact, &reference, Layer::Base);
+        assert!(base.rms().0 < BASE, "{name}: {base:?}");
+        if weight > 0.0 {
+            let scratches = compared(&name, &exact, &reference, Layer::Scratches);
+            assert!(agrees(&scratches, SCRATCHES), "{name}: {scratches:?}");
+        }
+        let wrong = compared("of plastic", &full, &reference, Layer::Base);
         assert!(wrong.rms().0 > BASE, "{name}: {wrong:?}");
     }
 }

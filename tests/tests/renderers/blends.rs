@@ -42,7 +42,7 @@ fn floor(color: [f64; 3]) -> Scene {
     scene.camera.fov_y_rad = 0.2;
     let material = &mut scene.materials[0];
     material.is_unlit = true;
-    material.dielectric = [0.0; 2];
+    material.specular.weight = 0.0;
     scene
 }
 

@@ -13,8 +13,8 @@ use hairline_image::tone_map::linear_from_srgb;
 use hairline_index::TriangleIndex;
 use hairline_index::method::Method;
 use hairline_scene::{
-    AlphaRule, Anisotropy, Base, Coat, Cutout, Light, LightShape, Mesh, Sampling, Scene, Texture,
-    Wrap,
+    AlphaRule, Anisotropy, Base, Coat, Cutout, Light, LightShape, Mesh, Sampling, Scene, Specular,
+    Texture, Wrap,
 };
 
 const HALF_M: f32 = 0.1;
@@ -114,7 +114,7 @@ fn a_surface_without_light_sends_its_colour() {
     let material = &mut scene.materials[0];
     material.base_color_texture = Some(0);
     material.is_unlit = true;
-    material.dielectric = [0.0; 2];
+    material.specular.weight = 0.0;
     let expected = [(200, 0.5), (100, 0.25), (50, 1.0)]
         .map(|(code, color)| color * linear_from_srgb(code as f32 / 255.0));
     let check = |image: &Image| {
@@ -281,6 +281,42 @@ fn maps_of_a_clear_layer_are_factors_on_it() {
     let [a, b, bare] = [&mapped, &product, &plain].map(|scene| on_the_cpu(scene, 1));
     compare_pixels("by factors, CPU", &a, &b, None).unwrap();
     assert!(compare_pixels("without a layer", &a, &bare, None).is_err());
+    if let Some(gpu) = on_the_gpu(&mapped, 1) {
+        compare_pixels("by factors, GPU", &gpu, &b, None).unwrap();
+    }
+}
+
+/// Maps of reflections are factors on them, of which alpha is the weight and colours the colour: maps of one value are those of the products.
+#[test]
+fn maps_of_reflections_are_factors_on_them() {
+    let mut mapped = white();
+    let map = |srgb| Texture {
+        size_px: [1, 1],
+        levels: vec![vec![[255, 128, 51, 102]]],
+        srgb,
+        sampling: Sampling::default(),
+    };
+    mapped.textures = Arc::new(vec![map(false), map(true)]);
+    mapped.materials[0].base = Base::MetallicRoughness {
+        base_color: [0.2, 0.1, 0.1],
+        metallic: 0.25,
+    };
+    let mut product = mapped.clone();
+    mapped.materials[0].specular = Specular {
+        weight: 0.5,
+        color: [8.0, 2.0, 40.0],
+    };
+    mapped.materials[0].specular_textures = [Some(0), Some(1)];
+    let color = [255u8, 128, 51].map(|byte| f64::from(linear_from_srgb(f32::from(byte) / 255.0)));
+    product.materials[0].specular = Specular {
+        weight: 0.2,
+        color: [8.0, 2.0 * color[1], 40.0 * color[2]],
+    };
+    let mut plain = product.clone();
+    plain.materials[0].specular = Specular::default();
+    let [a, b, other] = [&mapped, &product, &plain].map(|scene| on_the_cpu(scene, 1));
+    compare_pixels("by factors, CPU", &a, &b, None).unwrap();
+    assert!(compare_pixels("of plastic", &a, &other, None).is_err());
     if let Some(gpu) = on_the_gpu(&mapped, 1) {
         compare_pixels("by factors, GPU", &gpu, &b, None).unwrap();
     }

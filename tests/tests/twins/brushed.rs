@@ -27,6 +27,7 @@ fn gold() -> FresnelRgb<'static> {
     static GOLD: LazyLock<FresnelCurve> = LazyLock::new(|| Metal::Gold.fresnel_curve());
     FresnelRgb {
         f0: [0.0; 3],
+        f90: 1.0,
         curve: &GOLD,
     }
 }
@@ -116,7 +117,7 @@ fn light(random: &mut Sequence, surface: [f32; 4]) -> [f32; 7] {
 
 const SPREAD: &str =
     "let lobe = brushed_lobe(wo, axes, vec3f(x[8], x[9], 0.7 * x[10] * sqrt(x[8] * x[9])));
-    let gold = FresnelRgb(vec3f(0.0), 0u);";
+    let gold = FresnelRgb(vec3f(0.0), 1.0, 0u);";
 
 fn lobe(surface: [f64; 4], spread: [f64; 3]) -> BrushedLobe {
     let (wo, axes) = made(surface);

@@ -61,6 +61,7 @@ fn schlick() -> FresnelRgb<'static> {
 fn fresnel_of(f0: [f64; 3], curve: usize) -> FresnelRgb<'static> {
     FresnelRgb {
         f0,
+        f90: 1.0,
         curve: &CURVES[curve],
     }
 }
@@ -102,7 +103,7 @@ fn fresnel() {
     let mut rows = Vec::new();
     for c in [-1.0, 0.0, -0.0, 1e-30, 1e-6, 0.5, 1.0 - 6e-8, 1.0, 2.0] {
         for curve in [0.0, 1.0] {
-            rows.push([c, 0.04, curve, 0.5]);
+            rows.push([c, 0.04, curve, 0.5, 1.0]);
         }
     }
     for _ in 0..4000 {
@@ -111,20 +112,24 @@ fn fresnel() {
             random.next(),
             random.next().round(),
             random.next(),
+            random.next(),
         ]);
     }
     let tables = tables();
     Twin {
         name: "fresnel",
         modules: &[&shaders::LOBE_FRESNEL],
-        snippet: "let f = FresnelRgb(vec3f(x[1], 0.5, 1.0), u32(x[2]));
+        snippet: "let f = FresnelRgb(vec3f(x[1], 0.5, 1.0), x[4], u32(x[2]));
             let r = fresnel_eval(table_3, f, x[0]);
             let e = lobe_fresnel(f, vec3f(0.0, 0.0, x[0]), x[3], table_3).albedo;
             y[0] = r.x; y[1] = r.y; y[2] = r.z;
             y[3] = e.x; y[4] = e.y; y[5] = e.z;",
         tables: &tables,
-        expected: &|[c, f0, curve, roughness]: [f64; 4]| {
-            let f = fresnel_of([f0, 0.5, 1.0], curve as usize);
+        expected: &|[c, f0, curve, roughness, f90]: [f64; 5]| {
+            let f = FresnelRgb {
+                f90,
+                ..fresnel_of([f0, 0.5, 1.0], curve as usize)
+            };
             let [r, e] = [f.eval(c), f.albedo(roughness, c.max(LOBE_MIN_COS))];
             [r[0], r[1], r[2], e[0], e[1], e[2]]
         },
@@ -418,7 +423,7 @@ fn spheres() {
         modules: &[&shaders::LTC],
         snippet: "let axis = vec3f(x[4], x[5], x[6]);
             let lobe = ltc_lobe(vec3f(x[0], x[1], x[2]), x[3], table_0, table_1);
-            let reflecting = lobe_fresnel(FresnelRgb(vec3f(0.04, 0.5, 1.0), 0u), vec3f(x[0], x[1], x[2]), x[3], table_3);
+            let reflecting = lobe_fresnel(FresnelRgb(vec3f(0.04, 0.5, 1.0), 1.0, 0u), vec3f(x[0], x[1], x[2]), x[3], table_3);
             let i = ltc_sphere(lobe, reflecting, table_3, axis, x[7]) / x[8];
             y[0] = i.x; y[1] = i.y; y[2] = i.z;
             y[3] = lambert_sphere(axis, x[7]) / max(x[7], 1e-12);",
@@ -460,7 +465,7 @@ fn filtered_lobes() {
         snippet: "let axis = vec3f(x[4], x[5], x[6]);
             let wo = vec3f(x[0], x[1], x[2]);
             let sharp = ltc_lobe(wo, x[3], table_0, table_1);
-            let reflecting = lobe_fresnel(FresnelRgb(vec3f(0.04, 0.5, 1.0), 0u), wo, x[3], table_3);
+            let reflecting = lobe_fresnel(FresnelRgb(vec3f(0.04, 0.5, 1.0), 1.0, 0u), wo, x[3], table_3);
             let variance = 0.08 * axis.xy * axis.xy * axis.xy * axis.xy;
             let spread = vec3f(variance, axis.z * sqrt(variance.x * variance.y));
             let filtered = filtered_lobe(sharp.alpha, spread, wo.z);
@@ -606,7 +611,7 @@ fn polygons() {
                 ltc_edge(&ltc, lobe, a, b);
                 lambert_edge(&lambert, a, b);
             }
-            let reflecting = lobe_fresnel(FresnelRgb(vec3f(0.04, 0.5, 1.0), 0u), vec3f(x[0], x[1], x[2]), x[3], table_3);
+            let reflecting = lobe_fresnel(FresnelRgb(vec3f(0.04, 0.5, 1.0), 1.0, 0u), vec3f(x[0], x[1], x[2]), x[3], table_3);
             let i = ltc_end(ltc, lobe, reflecting, table_3) / x[16];
             y[0] = i.x; y[1] = i.y; y[2] = i.z;
             y[3] = lambert_end(lambert);",
@@ -633,7 +638,7 @@ fn small_lights() {
         name: "ltc_small_light",
         modules: &[&shaders::LTC],
         snippet: "let lobe = ltc_lobe(vec3f(x[0], x[1], x[2]), x[3], table_0, table_1);
-            let reflecting = lobe_fresnel(FresnelRgb(vec3f(0.04, 0.5, 1.0), 0u), vec3f(x[0], x[1], x[2]), x[3], table_3);
+            let reflecting = lobe_fresnel(FresnelRgb(vec3f(0.04, 0.5, 1.0), 1.0, 0u), vec3f(x[0], x[1], x[2]), x[3], table_3);
             // Above the horizon of the cosine's space.
             let i = ltc_small_light(lobe, reflecting, table_3, normalize(vec3f(x[4], x[5], abs(x[6]) + 0.05)));
             y[0] = i.x; y[1] = i.y; y[2] = i.z;",
@@ -760,7 +765,7 @@ fn never_nan_in_the_shader() {
             let axis = corners[0];
             let sides = irradiance_basis(axis);
             let cone = EllipticCone(axis, min(x[17], x[18]), sides.u, max(x[17], x[18]), sides.v);
-            let reflecting = lobe_fresnel(FresnelRgb(vec3f(0.04, 0.5, 1.0), 0u), vec3f(x[0], x[1], x[2]), x[3], table_3);
+            let reflecting = lobe_fresnel(FresnelRgb(vec3f(0.04, 0.5, 1.0), 1.0, 0u), vec3f(x[0], x[1], x[2]), x[3], table_3);
             let of_polygon = ltc_end(ltc, lobe, reflecting, table_3);
             let of_sphere = ltc_sphere(lobe, reflecting, table_3, axis, x[7]);
             y[0] = of_polygon.x;

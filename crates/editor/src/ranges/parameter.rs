@@ -49,6 +49,10 @@ pub enum Parameter {
     BaseColor,
     /// `material.metallic`
     Metallic,
+    /// `material.specular`
+    Specular,
+    /// `material.specular_color`
+    SpecularColor,
     /// `object.translation_m`
     Translation,
     /// `object.rotation_deg`

@@ -95,6 +95,14 @@ pub(super) fn of(parameter: Parameter) -> Text {
             "Colour",
             "On metals it tints the mirror image and the scratches in it; on coated surfaces it is the body under the coat, which scratches leave as it is. Dark bodies let scratches show.",
         ),
+        P::Specular => (
+            "Specular",
+            "How much of its reflections what is no metal keeps. 1: those of plastic, refractive index 1.5. 0: none, as chalk.",
+        ),
+        P::SpecularColor => (
+            "Specular colour",
+            "The colour of what it reflects straight on, as far as it is no metal. White for all but cloth, feathers and other things of many layers.",
+        ),
         P::Metallic => (
             "Metallic",
             "0: a painted surface with weak, white reflections. 1: bare metal, whose reflections and scratches are bright and take its colour.",

@@ -67,7 +67,7 @@ fn bounce_grating_rays(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_wor
     let drawn = draw_grating(pixel, paint, shadow_random_alike(seed, shadow_round, BOUNCE_DIRECTION), &sent);
     if drawn.is_there {
         let axes = mat3x3f(pixel.axis_x, cross(pixel.normal, pixel.axis_x), pixel.normal);
-        let fresnel = coated_reflectance(FresnelRgb(paint.f0, pixel_curve(paint)), paint.coat, pixel.cos_o);
+        let fresnel = coated_reflectance(pixel_fresnel(paint), paint.coat, pixel.cos_o);
         let leaves = (1.0 - by_scratches) * fresnel * sent * drawn.color / (f32(shadow_round.rounds) * way.share);
         let start = shadow_normals(shadow_random_alike(seed, shadow_round, BOUNCE_START));
         ray = bounce_ray(axes * drawn.direction, bounce_throughput(rays[at], shadow_round) * leaves, 0.0, start);

@@ -53,7 +53,7 @@ fn bounce_scratch_rays(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_wor
         let state = pick_state_from(picks[GROUP * chunk_starts[group] + lane]);
         ray = ray_by(pixel, pick_from(packed).segment, state.step * f32(state.per_sample));
         sums.radiance = ray.throughput / (f32(shadow_round.rounds) * way.share);
-        let fresnel = coated_reflectance(FresnelRgb(paints[at].f0, pixel_curve(paints[at])), paints[at].coat, pixel.cos_o);
+        let fresnel = coated_reflectance(pixel_fresnel(paints[at]), paints[at].coat, pixel.cos_o);
         ray.throughput = bounce_throughput(rays[at], shadow_round) * masked(sums, depth_coherence).scratches * fresnel;
     }
     rays[at] = ray;

@@ -37,7 +37,7 @@ fn shade_gratings(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgrou
     }
     // Read anew for each grating: they would fill registers while lights are looked at.
     let object = objects[points[at].object - 1u];
-    let fresnel = coated_reflectance(FresnelRgb(paints[at].f0, pixel_curve(paints[at])), paints[at].coat, points[at].cos_o);
+    let fresnel = coated_reflectance(pixel_fresnel(paints[at]), paints[at].coat, points[at].cos_o);
     var state: PickState;
     var first_pick = 0u;
     if PICKS {

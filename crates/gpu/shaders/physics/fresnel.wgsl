@@ -1,4 +1,4 @@
-// Fresnel reflectance in three channels: F(c) = t(c) + s(c) f0, from a curve over the angle.
+// Fresnel reflectance in three channels: F(c) = t(c) f90 + s(c) f0, from a curve over the angle.
 // Twin: optics::fresnel.
 
 // A texture of curves: of each one its nodes in equal steps of sqrt(c), t in xyz and s in w, in a row; below, the directional
@@ -8,6 +8,7 @@ const FRESNEL_CURVE_ROWS: u32 = 9u;
 
 struct FresnelRgb {
     at_normal: vec3f,
+    at_grazing: f32,            // of Schlick's curve; 1 of all others
     curve: u32,
 }
 
@@ -25,7 +26,7 @@ fn fresnel_lookup(curves: texture_2d<f32>, curve: u32, cos_theta: f32) -> vec4f 
 }
 
 fn fresnel_of_parts(fresnel: FresnelRgb, parts: vec4f) -> vec3f {
-    return parts.xyz + parts.w * fresnel.at_normal;
+    return parts.xyz * fresnel.at_grazing + parts.w * fresnel.at_normal;
 }
 
 fn fresnel_eval(curves: texture_2d<f32>, fresnel: FresnelRgb, cos_theta: f32) -> vec3f {

@@ -166,7 +166,7 @@ fn layer_of(point: SurfacePoint, fresnel: FresnelRgb, roughness: f32) -> Layer {
 }
 
 fn base_layer(point: SurfacePoint) -> Layer {
-    return layer_brushed(point, layer_of(point, FresnelRgb(point.f0, point.curve), point.roughness));
+    return layer_brushed(point, layer_of(point, FresnelRgb(point.f0, point.f90, point.curve), point.roughness));
 }
 
 fn base_facets(point: SurfacePoint) -> FacetAxes {
@@ -230,7 +230,7 @@ fn base_radiance_of(point: SurfacePoint, of_lights: vec2u, surrounded: bool) -> 
     var base: BaseRadiance;
     // The code of a layer stands in it once: passes with it are long.
     for (var i = 0u; i < select(1u, 2u, coat.x > 0.0); i += 1u) {
-        var fresnel = FresnelRgb(point.f0, point.curve);
+        var fresnel = FresnelRgb(point.f0, point.f90, point.curve);
         var roughness = point.roughness;
         if i > 0u {
             fresnel = coat_fresnel();

@@ -11,7 +11,7 @@ fn surface_coat(coat: u32) -> vec2f {
 }
 
 fn coat_fresnel() -> FresnelRgb {
-    return FresnelRgb(COAT_F0, COAT_CURVE);
+    return FresnelRgb(COAT_F0, 1.0, COAT_CURVE);
 }
 
 // What the surface in which scratches lie reflects: the layer, where it is.

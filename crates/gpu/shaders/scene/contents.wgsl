@@ -30,6 +30,8 @@ override HAS_CUTOUTS: bool = true;
 override HAS_BODIES: bool = true;
 // Materials whose facets lean further one way than across it.
 override HAS_ANISOTROPY: bool = true;
+// Dielectrics with other reflections than their refractive index says.
+override HAS_SPECULAR: bool = true;
 // Materials under a clear layer, and which curve of reflectance such layers have.
 override HAS_COATS: bool = true;
 override COAT_CURVE: u32 = 0u;

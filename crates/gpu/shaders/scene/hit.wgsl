@@ -83,7 +83,13 @@ fn hit_turn(point: ptr<function, SurfacePoint>, normal: vec3f, to_viewer: vec3f,
 fn hit_paint(point: ptr<function, SurfacePoint>, material: Material) {
     (*point).emission = material.emission;
     (*point).roughness = material.roughness;
-    (*point).f0 = mix(vec3f(material.dielectric_f0), material.base_color, material.metallic);
+    var dielectric_f0 = vec3f(material.dielectric_f0);
+    (*point).f90 = 1.0;
+    if HAS_SPECULAR {
+        dielectric_f0 = material.specular * min(dielectric_f0 * material.specular_color, vec3f(1.0));
+        (*point).f90 = mix(material.specular, 1.0, material.metallic);
+    }
+    (*point).f0 = mix(dielectric_f0, material.base_color, material.metallic);
     (*point).curve = material.curve;
     (*point).diffuse = material.base_color * (1.0 - material.metallic);
     (*point).coherence_um = material.coherence_um;
@@ -92,6 +98,7 @@ fn hit_paint(point: ptr<function, SurfacePoint>, material: Material) {
     if material.is_unlit != 0u {
         (*point).emission = material.base_color;
         (*point).f0 = vec3f(0.0);
+        (*point).f90 = 0.0;
         (*point).diffuse = vec3f(0.0);
     }
 }
@@ -152,6 +159,14 @@ fn hit_textured(material: Material, place: TexturePlace) -> Material {
     }
     if hit_has_texture(material.emission_texture) {
         there.emission *= hit_texture(material.emission_texture, place).xyz;
+    }
+    if HAS_SPECULAR {
+        if hit_has_texture(material.specular_texture) {
+            there.specular *= hit_texture(material.specular_texture, place).w;
+        }
+        if hit_has_texture(material.specular_color_texture) {
+            there.specular_color *= hit_texture(material.specular_color_texture, place).xyz;
+        }
     }
     if HAS_COATS {
         there.coat = hit_coat(material, place);

@@ -113,6 +113,10 @@ struct Material {
     anisotropy: f32,
     anisotropy_direction_rad: f32, // from the tangent
     anisotropy_texture: vec2u,  // red and green: a direction that the former turns; blue: factor on the strength
+    specular_color: vec3f,      // factor on dielectric_f0
+    specular: f32,              // factor on what a dielectric reflects
+    specular_texture: vec2u,    // alpha: factor on the latter
+    specular_color_texture: vec2u, // factor on the former
 }
 
 // Spheres come first, then polygons of at most four vertices, then others, then tubes, then rectangles with pictures; behind them, in the
@@ -184,7 +188,7 @@ struct PixelPaint {
     coat: u32,                  // as that of materials
     triangle: u32,
     emission: vec3f,
-    curve_and_open: u32,        // of fresnel_curves in 16 bits; what of the environment's light arrives, in 16 bits
+    curve: u32,                 // of fresnel_curves, and more: see pixel_curve_pack()
 }
 
 // Radiance of the base to the viewer, before scratches take their part.

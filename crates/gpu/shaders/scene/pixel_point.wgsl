@@ -17,13 +17,28 @@ fn pixel_point_pack(point: SurfacePoint, object: u32, depth_m: f32, place: u32) 
     );
 }
 
-// Low and high halves.
-fn pixel_curve_and_open(point: SurfacePoint) -> u32 {
-    return point.curve | (u32(round(65535.0 * point.open)) << 16u);
+// The curve and what of the environment's light arrives, in 16 bits each. Where reflectances at grazing incidence are not all 1: 11 bits, 10 bits, and 11
+// bits of that. Curves are rows of a texture, which has too few for more.
+fn pixel_curve_pack(point: SurfacePoint) -> u32 {
+    if !HAS_SPECULAR {
+        return point.curve | (u32(round(65535.0 * point.open)) << 16u);
+    }
+    let bits = vec2u(round(vec2f(1023.0, 2047.0) * vec2f(point.open, point.f90)));
+    return point.curve | (bits.x << 11u) | (bits.y << 21u);
 }
 
-fn pixel_curve(paint: PixelPaint) -> u32 {
-    return paint.curve_and_open & 0xffffu;
+fn pixel_open(paint: PixelPaint) -> f32 {
+    if !HAS_SPECULAR {
+        return f32(paint.curve >> 16u) / 65535.0;
+    }
+    return f32((paint.curve >> 11u) & 0x3ffu) / 1023.0;
+}
+
+fn pixel_fresnel(paint: PixelPaint) -> FresnelRgb {
+    if !HAS_SPECULAR {
+        return FresnelRgb(paint.f0, 1.0, paint.curve & 0xffffu);
+    }
+    return FresnelRgb(paint.f0, f32(paint.curve >> 21u) / 2047.0, paint.curve & 0x7ffu);
 }
 
 // Roughness, spread of slopes, the longer alpha and the turn of its axis over half a turn: 16 bits each of the former two, and no more; with
@@ -53,7 +68,7 @@ fn pixel_lobe(paint: PixelPaint) -> vec4f {
 fn pixel_paint_pack(point: SurfacePoint, triangle: u32) -> PixelPaint {
     let lobe = pixel_lobe_pack(point);
     let diffuse = vec2u(pack2x16unorm(point.diffuse.xy), pack2x16unorm(vec2f(point.diffuse.z, 0.0)) | (lobe.y << 16u));
-    return PixelPaint(point.f0, lobe.x, diffuse, point.coat, triangle, point.emission, pixel_curve_and_open(point));
+    return PixelPaint(point.f0, lobe.x, diffuse, point.coat, triangle, point.emission, pixel_curve_pack(point));
 }
 
 fn pixel_table(pixel: PixelPoint) -> u32 {
@@ -71,6 +86,7 @@ fn pixel_wo(cos_o: f32) -> vec3f {
 fn surface_point_from(pixel: PixelPoint, paint: PixelPaint) -> SurfacePoint {
     let lobe = pixel_lobe(paint);
     let turn = 3.14159265 * lobe.w;
+    let fresnel = pixel_fresnel(paint);
     return SurfacePoint(
         pixel.position_m,
         pixel.axis_x,
@@ -83,15 +99,16 @@ fn surface_point_from(pixel: PixelPoint, paint: PixelPaint) -> SurfacePoint {
         pixel.turns.xy,
         pixel.turns.zw,
         pixel.leaves,
-        paint.f0,
-        pixel_curve(paint),
+        fresnel.at_normal,
+        fresnel.at_grazing,
+        fresnel.curve,
         vec3f(unpack2x16unorm(paint.diffuse.x), unpack2x16unorm(paint.diffuse.y).x),
         lobe.x,
         lobe.y,
         paint.emission,
         pixel.coherence_um,
         pixel_table(pixel),
-        f32(paint.curve_and_open >> 16u) / 65535.0,
+        pixel_open(paint),
         paint.coat,
         lobe.z,
         vec2f(cos(turn), sin(turn)),

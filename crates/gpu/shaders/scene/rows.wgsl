@@ -1,7 +1,7 @@
 // Arrays that lie in textures: a texture may hold four times as much as a storage buffer, and a stage has eight storage buffers only.
 // Twin: src/rows.rs writes them.
 
-const MATERIAL_TEXELS: u32 = 9u;
+const MATERIAL_TEXELS: u32 = 11u;
 
 fn material_at(i: u32) -> Material {
     let a = textureLoad(materials, row_texel(MATERIAL_TEXELS * i), 0);
@@ -18,6 +18,12 @@ fn material_at(i: u32) -> Material {
     var j: vec4u;
     if HAS_ANISOTROPY {
         j = textureLoad(materials, row_texel(MATERIAL_TEXELS * i + 8u), 0);
+    }
+    var k: vec4u;
+    var l: vec4u;
+    if HAS_SPECULAR {
+        k = textureLoad(materials, row_texel(MATERIAL_TEXELS * i + 9u), 0);
+        l = textureLoad(materials, row_texel(MATERIAL_TEXELS * i + 10u), 0);
     }
     return Material(
         bitcast<vec3f>(a.xyz),
@@ -44,6 +50,10 @@ fn material_at(i: u32) -> Material {
         bitcast<f32>(j.x),
         bitcast<f32>(j.y),
         j.zw,
+        bitcast<vec3f>(k.xyz),
+        bitcast<f32>(k.w),
+        l.xy,
+        l.zw,
     );
 }
 

@@ -112,6 +112,7 @@ fn fresnel() -> FresnelRgb<'static> {
     static CURVE: LazyLock<FresnelCurve> = LazyLock::new(|| FresnelCurve::new(reflectances));
     FresnelRgb {
         f0: [0.0; 3],
+        f90: 1.0,
         curve: &CURVE,
     }
 }

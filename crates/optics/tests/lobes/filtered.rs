@@ -108,6 +108,7 @@ fn pixels_blur_the_core_and_not_the_tails() {
 fn curved_surfaces_keep_their_energy() {
     let white = hairline_optics::fresnel::FresnelRgb {
         f0: [1.0; 3],
+        f90: 1.0,
         curve: hairline_optics::fresnel::FresnelCurve::schlick(),
     };
     for roughness in [0.02, 0.1, 0.3, 0.6, 1.0] {
@@ -217,6 +218,7 @@ fn look_ups_lie_along_the_spread() {
 fn tubes_keep_their_light() {
     let white = hairline_optics::fresnel::FresnelRgb {
         f0: [1.0; 3],
+        f90: 1.0,
         curve: hairline_optics::fresnel::FresnelCurve::schlick(),
     };
     for variance in [1e-4, 1e-3, 1e-2] {
@@ -275,6 +277,7 @@ fn mean_of_normals(wo: DVec3, alpha: f64, spread: SlopeSpread, wi: DVec3) -> f64
 fn small_lamps_have_the_tails_of_a_sharp_lobe() {
     let white = hairline_optics::fresnel::FresnelRgb {
         f0: [1.0; 3],
+        f90: 1.0,
         curve: hairline_optics::fresnel::FresnelCurve::schlick(),
     };
     let roughness = 0.055;

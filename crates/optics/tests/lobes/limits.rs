@@ -51,6 +51,7 @@ fn terms() -> FresnelRgb<'static> {
     static CURVE: LazyLock<FresnelCurve> = LazyLock::new(|| FresnelCurve::new(term_values));
     FresnelRgb {
         f0: [0.0; 3],
+        f90: 1.0,
         curve: &CURVE,
     }
 }

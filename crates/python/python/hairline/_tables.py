@@ -310,6 +310,10 @@ class Material(Table):
     """Refractive index of a dielectric, from 1 to 4. Default: 1.5."""
     metallic: Optional[float] = _default()
     """From 0, dielectric, to 1, metal. Default: 1."""
+    specular: Optional[float] = _default()
+    """Of ``"metallic-roughness"``, as far as it is no metal: how much of its reflections it keeps, from 0 to 1. Default: 1."""
+    specular_color: Optional[Vector] = _default()
+    """The colour of these straight on, linear Rec.709, 3 numbers from 0 to 1. Default: white."""
     roughness: float = _default()
     """Perceptual, as in glTF, from 0 to 1. Default: 0.1."""
     clearcoat: Optional[float] = _default()

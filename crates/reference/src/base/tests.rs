@@ -6,7 +6,7 @@ use hairline_optics::metal::Metal;
 use hairline_scene::Reflector;
 
 use super::BaseLobes;
-use crate::reflectance::Reflectance;
+use crate::reflectance::{Ends, Reflectance};
 use hairline_fixtures::statistics::{Draw, chi_square, jittered};
 
 const ALPHAS: [f64; 6] = [0.002, 0.01, 0.05, 0.2, 0.5, 1.0];
@@ -36,15 +36,18 @@ fn reflectance(reflector: Reflector, alpha: f64) -> &'static Reflectance {
 
 fn gold(cos: f64, alpha: f64) -> BaseLobes<'static> {
     let reflectance = reflectance(Reflector::Metal(Metal::Gold), alpha);
-    let f0 = DVec3::from(Metal::Gold.reflectance_rgb(1.0));
-    BaseLobes::from_parts(viewer(cos), reflectance, f0, DVec3::ZERO, alpha.sqrt())
+    let ends = Ends {
+        f0: Metal::Gold.reflectance_rgb(1.0).into(),
+        f90: 1.0,
+    };
+    BaseLobes::from_parts(viewer(cos), reflectance, ends, DVec3::ZERO, alpha.sqrt())
 }
 
 fn plastic(cos: f64, alpha: f64) -> BaseLobes<'static> {
     BaseLobes::from_parts(
         viewer(cos),
         reflectance(Reflector::Dielectric(1.5), alpha),
-        DVec3::splat(0.04),
+        Ends::COAT,
         DVec3::new(0.8, 0.5, 0.1),
         alpha.sqrt(),
     )
@@ -164,7 +167,7 @@ fn the_albedo_of_the_model_is_that_of_its_lobes() {
             let albedo = lobes
                 .reflectance
                 .albedo(alpha.sqrt(), cos)
-                .reflected(lobes.f0);
+                .reflected(lobes.ends);
             let error = (albedo / specular - DVec3::ONE).abs().max_element();
             assert!(error < 0.01, "alpha {alpha}, cosine {cos}: {error}");
         }
@@ -340,9 +343,9 @@ fn base_timings() {
             start.elapsed().as_nanos() as f64 / CALLS as f64
         );
     };
-    let (wo, f0) = (lobes.wo, lobes.f0);
+    let (wo, ends) = (lobes.wo, lobes.ends);
     time("new", &|i| {
-        BaseLobes::from_parts(wo, lobes.reflectance, f0, DVec3::ONE, us[i].x).gain
+        BaseLobes::from_parts(wo, lobes.reflectance, ends, DVec3::ONE, us[i].x).gain
     });
     time("sample", &|i| {
         lobes.sample(us[i].x, us[i]).map_or(0.0, |w| w.z)

@@ -160,8 +160,13 @@ fn material(material: &Material, key: &str) -> Check {
         MaterialKind::MetallicRoughness {
             base_color,
             metallic,
+            specular,
         } => {
             within(&format!("{key}.metallic"), metallic, limits::METALLIC)?;
+            let weight = format!("{key}.specular");
+            within(&weight, specular.weight, limits::SPECULAR)?;
+            let of_color = format!("{key}.specular_color");
+            components(&of_color, specular.color, limits::SPECULAR)?;
             color(base_color)
         }
     }

@@ -45,6 +45,8 @@ pub const FILTER_STD_PX: RangeInclusive<f64> = 0.1..=10.0;
 pub const ROUGHNESS: RangeInclusive<f64> = 0.0..=1.0;
 /// `material.clearcoat`
 pub const CLEARCOAT: RangeInclusive<f64> = 0.0..=1.0;
+/// `material.specular`, and each number of `material.specular_color`
+pub const SPECULAR: RangeInclusive<f64> = 0.0..=1.0;
 /// `material.anisotropy`
 pub const ANISOTROPY: RangeInclusive<f64> = 0.0..=1.0;
 /// `material.coherence_um`

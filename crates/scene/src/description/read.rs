@@ -11,7 +11,7 @@ use super::{
     Stroke, Studio, Surface, Up,
 };
 use crate::error::Error;
-use crate::scene::{Anisotropy, Coat};
+use crate::scene::{Anisotropy, Coat, Specular};
 
 /// Reads a whole scene file.
 pub(super) fn description(root: &DeTable) -> Result<Description, Error> {
@@ -163,7 +163,10 @@ impl Read for Material {
             &[
                 ("metal", &["metal", "base_color"]),
                 ("dielectric", &["ior", "base_color"]),
-                ("metallic-roughness", &["base_color", "metallic"]),
+                (
+                    "metallic-roughness",
+                    &["base_color", "metallic", "specular", "specular_color"],
+                ),
                 ("mirror", &[]),
             ],
         )?;
@@ -179,6 +182,10 @@ impl Read for Material {
             "metallic-roughness" => MaterialKind::MetallicRoughness {
                 base_color: table.or("base_color", [1.0; 3])?,
                 metallic: table.or("metallic", 1.0)?,
+                specular: Specular {
+                    weight: table.or("specular", 1.0)?,
+                    color: table.or("specular_color", [1.0; 3])?,
+                },
             },
             _ => MaterialKind::Mirror,
         };

@@ -50,7 +50,7 @@ pub(super) fn forget_whole(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Base, GLTF_DIELECTRIC, Sampling};
+    use crate::scene::{Base, GLTF_DIELECTRIC_F0, Sampling, Specular};
     use glam::Vec4;
 
     #[test]
@@ -71,7 +71,9 @@ mod tests {
                 normal_texture: None,
                 emission_texture: None,
                 occlusion_texture: None,
-                dielectric: GLTF_DIELECTRIC,
+                dielectric_f0: GLTF_DIELECTRIC_F0,
+                specular: Specular::default(),
+                specular_textures: [None; 2],
                 is_unlit: false,
                 cutout: Some(cutout),
                 coat: None,

@@ -189,12 +189,6 @@ impl Found {
         let meaning = "a third way to place images on one surface; they lie as the first one";
         let others = ways.len().saturating_sub(2);
         self.add(PROPERTY, "texCoord", others, meaning, true);
-        if let Some(specular) = material
-            .get("extensions")
-            .and_then(|it| it.get("KHR_materials_specular"))
-        {
-            self.specular(specular);
-        }
         if let Some(coat) = material
             .get("extensions")
             .and_then(|it| it.get("KHR_materials_clearcoat"))
@@ -209,21 +203,6 @@ impl Found {
         let count = usize::from(has_own || has_normals);
         self.add(PROPERTY, "normals of clearcoat", count, meaning, true);
     }
-
-    fn specular(&mut self, specular: &Value) {
-        for name in ["specularTexture", "specularColorTexture"] {
-            let count = usize::from(specular.get(name).is_some());
-            let meaning = "what is no metal reflects alike all over";
-            self.add(PROPERTY, name, count, meaning, true);
-        }
-        let color = specular
-            .get("specularColorFactor")
-            .and_then(Value::as_array);
-        if color.is_some_and(|color| color.windows(2).any(|it| it[0] != it[1])) {
-            let meaning = "what is no metal reflects without a colour";
-            self.add(PROPERTY, "specularColorFactor", 1, meaning, true);
-        }
-    }
 }
 
 /// The uses of textures of a material, those of its extensions that are not read left aside.
@@ -235,17 +214,18 @@ fn textures_of(material: &Value) -> impl Iterator<Item = &Value> {
         .filter_map(move |name| pbr.and_then(|it| it.get(name)));
     let own = ["normalTexture", "emissiveTexture", "occlusionTexture"];
     let own = own.into_iter().filter_map(|name| material.get(name));
-    let coat = material
-        .get("extensions")
-        .and_then(|it| it.get("KHR_materials_clearcoat"));
-    let of_coat = ["clearcoatTexture", "clearcoatRoughnessTexture"];
-    let of_coat = of_coat
+    let extensions = material.get("extensions");
+    let of_extensions = [
+        ("KHR_materials_clearcoat", "clearcoatTexture"),
+        ("KHR_materials_clearcoat", "clearcoatRoughnessTexture"),
+        ("KHR_materials_anisotropy", "anisotropyTexture"),
+        ("KHR_materials_specular", "specularTexture"),
+        ("KHR_materials_specular", "specularColorTexture"),
+    ];
+    let of_extensions = of_extensions
         .into_iter()
-        .filter_map(move |name| coat.and_then(|it| it.get(name)));
-    let anisotropy = material
-        .get("extensions")
-        .and_then(|it| it.get("KHR_materials_anisotropy")?.get("anisotropyTexture"));
-    of_pbr.chain(own).chain(of_coat).chain(anisotropy)
+        .filter_map(move |(extension, name)| extensions?.get(extension)?.get(name));
+    of_pbr.chain(own).chain(of_extensions)
 }
 
 fn list<'a>(value: &'a Value, name: &str) -> &'a [Value] {

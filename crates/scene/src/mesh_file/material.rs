@@ -12,9 +12,10 @@ use super::extension_texture;
 use super::flaw::Flaw;
 use super::images::Images;
 use super::spec_gloss::{self, SpecGloss};
+use super::specular;
 use super::uv::{self, Way, Ways};
 use crate::description::DEFAULT_COHERENCE_UM;
-use crate::scene::{Base, GLTF_DIELECTRIC, Material, Mesh};
+use crate::scene::{Base, GLTF_DIELECTRIC_F0, Material, Mesh, Specular};
 use crate::texture::Channels;
 
 /// What the primitives' materials become.
@@ -104,6 +105,12 @@ impl Own<'_> {
             *texture = extension_texture::used(self.document, used, "clear coat")?;
         }
         let [of_weight, of_roughness] = of_coat;
+        let mut of_specular = [None, None];
+        for (texture, used) in of_specular.iter_mut().zip(specular::uses(material)) {
+            let used = used.filter(|_| !is_unlit);
+            *texture = extension_texture::used(self.document, used, "specular reflection")?;
+        }
+        let [of_specular, of_specular_color] = of_specular;
         let anisotropy = anisotropy::anisotropy(material).filter(|_| !is_unlit);
         let of_anisotropy = anisotropy.and_then(|_| anisotropy::texture(material));
         let of_anisotropy = extension_texture::used(self.document, of_anisotropy, "anisotropy")?;
@@ -138,10 +145,12 @@ impl Own<'_> {
                 Channels::Linear,
             )?
             .zip(occlusion.map(|it| unit(it.strength()))),
-            dielectric: match is_unlit {
-                true => [0.0; 2],
-                false => dielectric(material, metallic),
-            },
+            dielectric_f0: specular::f0(material),
+            specular: specular::specular(material),
+            specular_textures: [
+                look(of_specular, Channels::Linear)?,
+                look(of_specular_color, Channels::Color)?,
+            ],
             is_unlit,
             cutout: cutout(material, unit(a)),
             coat_textures: [
@@ -170,7 +179,9 @@ impl Own<'_> {
             texture("diffuseTexture"),
             texture("specularGlossinessTexture"),
         );
-        converted.dielectric = GLTF_DIELECTRIC;
+        converted.dielectric_f0 = GLTF_DIELECTRIC_F0;
+        converted.specular = Specular::default();
+        converted.specular_textures = [None; 2];
         converted.cutout = cutout(material, f64::from(factors.diffuse[3]));
         if diffuse.is_none() && specular.is_none() {
             let metal = factors.metal();
@@ -207,40 +218,9 @@ fn used<'a>(info: Option<gltf::texture::Info<'a>>) -> Option<(gltf::Texture<'a>,
 
 /// KHR_materials_emissive_strength: a factor on the emission, which is bounded by 1 without it.
 fn emissive_strength(material: &gltf::Material) -> f64 {
-    number(
-        material,
-        "KHR_materials_emissive_strength",
-        "emissiveStrength",
-    )
-    .filter(|strength| (0.0..=1e6).contains(strength))
-    .unwrap_or(1.0)
-}
-
-fn number(material: &gltf::Material, extension: &str, name: &str) -> Option<f64> {
-    let extension = material.extension_value(extension)?;
-    extension.get(name)?.as_f64()
-}
-
-/// KHR_materials_ior and KHR_materials_specular: what is no metal reflects, at normal and at grazing incidence. A metal reflects all at
-/// grazing incidence.
-fn dielectric(material: &gltf::Material, metallic: f64) -> [f64; 2] {
-    const SPECULAR: &str = "KHR_materials_specular";
-    let [f0, _] = GLTF_DIELECTRIC;
-    let of_index = |ior: f64| match ior {
-        // The extension's sign for a mirror under its own colour.
-        0.0 => 1.0,
-        ior => ((ior - 1.0) / (ior + 1.0)).powi(2),
-    };
-    let f0 = number(material, "KHR_materials_ior", "ior").map_or(f0, of_index);
-    let specular = number(material, SPECULAR, "specularFactor")
+    let extension = material.extension_value("KHR_materials_emissive_strength");
+    extension
+        .and_then(|it| it.get("emissiveStrength")?.as_f64())
+        .filter(|strength| (0.0..=1e6).contains(strength))
         .unwrap_or(1.0)
-        .clamp(0.0, 1.0);
-    let color = material
-        .extension_value(SPECULAR)
-        .and_then(|it| it.get("specularColorFactor"));
-    let channel = |i: usize| color.and_then(|it| it.get(i)?.as_f64()).unwrap_or(1.0);
-    // Reflections of what is no metal have no colour here: that of the middle channels' brightness.
-    let brightness = 0.2126 * channel(0) + 0.7152 * channel(1) + 0.0722 * channel(2);
-    let grazing = specular + (1.0 - specular) * metallic;
-    [specular * (f0 * brightness.max(0.0)).min(1.0), grazing]
 }

@@ -4,7 +4,7 @@ use glam::Vec2;
 use gltf::json::Value;
 use gltf::material::Material;
 
-use super::{anisotropy, coat, spec_gloss};
+use super::{anisotropy, coat, spec_gloss, specular};
 
 const NAME: &str = "KHR_texture_transform";
 
@@ -101,17 +101,14 @@ fn all(material: &Material) -> Vec<Way> {
     let older = ["diffuseTexture", "specularGlossinessTexture"]
         .into_iter()
         .filter_map(|name| of_json(older?.get(name)?));
-    let coat = coat::uses(material)
-        .into_iter()
-        .flatten()
-        .filter_map(of_json);
-    let anisotropy = anisotropy::texture(material).and_then(of_json);
+    let of_extensions = coat::uses(material).into_iter();
+    let of_extensions = of_extensions.chain([anisotropy::texture(material)]);
+    let of_extensions = of_extensions.chain(specular::uses(material));
     normal
         .into_iter()
         .chain(rest)
         .chain(older)
-        .chain(coat)
-        .chain(anisotropy)
+        .chain(of_extensions.flatten().filter_map(of_json))
         .collect()
 }
 

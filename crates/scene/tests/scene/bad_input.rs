@@ -208,6 +208,14 @@ fn sizes_that_are_negative_or_not_finite() {
             "plate.toml:14: material[1].clearcoat_roughness: found no `clearcoat` beside it; add one, such as `clearcoat = 1`",
         ),
         (
+            "[[material]]\nname = \"a\"\nkind = \"metallic-roughness\"\nspecular = 1.5",
+            "plate.toml:14: material[1].specular: found 1.5; must be from 0 to 1",
+        ),
+        (
+            "[[material]]\nname = \"a\"\nkind = \"metallic-roughness\"\nspecular_color = [1.0, -0.5, 1.0]",
+            "plate.toml:14: material[1].specular_color[1]: found -0.5; must be from 0 to 1",
+        ),
+        (
             "[[material]]\nname = \"a\"\nkind = \"mirror\"\nanisotropy = -0.1",
             "plate.toml:14: material[1].anisotropy: found -0.1; must be from 0 to 1",
         ),

@@ -6,7 +6,7 @@ use crate::common::{asset, scene_with, temporary_dir};
 use hairline_image::ToneMap;
 use hairline_optics::metal::Metal;
 use hairline_scene::description::*;
-use hairline_scene::{Anisotropy, Base, Coat, Scene, description};
+use hairline_scene::{Anisotropy, Base, Coat, Scene, Specular, description};
 
 const EXAMPLE: &str = include_str!("../example.toml");
 
@@ -151,6 +151,10 @@ fn everything() -> Description {
             MaterialKind::MetallicRoughness {
                 base_color: [0.2; 3],
                 metallic: 0.7,
+                specular: Specular {
+                    weight: 0.5,
+                    color: [1.0, 0.5, 0.25],
+                },
             },
             MaterialKind::Mirror,
         ]);

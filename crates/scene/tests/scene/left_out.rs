@@ -58,7 +58,6 @@ fn what_is_left_out_is_told_once_with_its_count() {
             "it.glb: animations (2) left out; the model is at rest; `time_s` of its object shows one at a time",
             "it.glb: points or lines (1) left out; they have no surface",
             "it.glb: scenes (1) left out; one scene of the file is shown",
-            "it.glb: specularColorFactor (1) left out; what is no metal reflects without a colour",
         ]
     );
     // Another material takes the place of the file's: nothing of those is missed.

@@ -3,7 +3,7 @@
 use crate::common::{Glb, scene_with, temporary_dir};
 use glam::{Vec2, Vec4, vec2, vec4};
 use hairline_scene::{
-    AlphaRule, Anisotropy, Base, Coat, Cutout, Reflector, Sampling, Scene, Texture, Wrap,
+    AlphaRule, Anisotropy, Base, Coat, Cutout, Reflector, Sampling, Scene, Specular, Texture, Wrap,
 };
 
 /// The scene of a square with two sets of texture coordinates and colours, of the only material of a file.
@@ -111,21 +111,26 @@ fn extensions_change_what_a_surface_reflects() {
         scene.materials[scene.objects[0].mesh.triangle_materials[0] as usize].clone()
     };
     let plastic = r#""pbrMetallicRoughness":{"metallicFactor":0}"#;
-    assert_eq!(material(plastic).dielectric, [0.04, 1.0]);
+    assert_eq!(material(plastic).dielectric_f0, 0.04);
+    assert!(!material(plastic).has_specular());
     assert_eq!(Reflector::new(&material(plastic)), Reflector::Schlick);
     let water = material(&format!(
         r#"{plastic},"extensions":{{"KHR_materials_ior":{{"ior":3}}}}"#
     ));
-    assert_eq!(water.dielectric, [0.25, 1.0]);
-    let dull = material(&format!(
-        r#"{plastic},"extensions":{{"KHR_materials_specular":{{"specularFactor":0.5,"specularColorFactor":[0.5,0.5,0.5]}}}}"#
-    ));
-    assert!((dull.dielectric[0] - 0.01).abs() < 1e-12 && dull.dielectric[1] == 0.5);
-    assert_eq!(Reflector::new(&dull), Reflector::Grazing(0.5));
+    assert_eq!(water.dielectric_f0, 0.25);
+    let dull = format!(
+        r#"{plastic},"extensions":{{"KHR_materials_specular":{{"specularFactor":0.5,"specularColorFactor":[2,0.5,0.25],"specularTexture":{{"index":2}},"specularColorTexture":{{"index":2,"texCoord":1}}}}}}"#
+    );
+    let dull = scene(&dull, "");
+    let of_dull = &dull.materials[dull.objects[0].mesh.triangle_materials[0] as usize];
+    let (weight, color) = (0.5, [2.0, 0.5, 0.25]);
+    assert_eq!(of_dull.specular, Specular { weight, color });
+    let [of_weight, of_color] = of_dull.specular_textures.map(|it| texture(&dull, it));
+    assert!(!of_weight.srgb && of_color.srgb && of_color.sampling.by_other_uvs);
     let unlit = material(&format!(
         r#"{plastic},"extensions":{{"KHR_materials_unlit":{{}}}}"#
     ));
-    assert!(unlit.is_unlit && unlit.dielectric == [0.0; 2]);
+    assert!(unlit.is_unlit && unlit.has_specular());
     let coated = material(&format!(
         r#"{plastic},"extensions":{{"KHR_materials_clearcoat":{{"clearcoatFactor":0.75,"clearcoatRoughnessFactor":0.25}}}}"#
     ));

@@ -6,7 +6,7 @@ use hairline_editor::presets::MaterialPreset;
 use hairline_editor::ranges::Parameter;
 use hairline_optics::metal::Metal;
 use hairline_scene::description::{MaterialKind, MetalColor};
-use hairline_scene::{Anisotropy, Coat};
+use hairline_scene::{Anisotropy, Coat, Specular};
 
 use super::form::Form;
 use super::outliner::material_cards;
@@ -54,6 +54,7 @@ impl Kind {
             Self::MetallicRoughness => MaterialKind::MetallicRoughness {
                 base_color: [1.0; 3],
                 metallic: 1.0,
+                specular: Specular::default(),
             },
             Self::Mirror => MaterialKind::Mirror,
         }
@@ -143,9 +144,15 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
         MaterialKind::MetallicRoughness {
             base_color,
             metallic,
+            specular,
         } => {
             form.color(Parameter::BaseColor, base_color);
             form.number(Parameter::Metallic, metallic);
+            // A metal takes no part in it.
+            if *metallic < 1.0 {
+                form.number(Parameter::Specular, &mut specular.weight);
+                form.color(Parameter::SpecularColor, &mut specular.color);
+            }
         }
         MaterialKind::Mirror => {}
     }

@@ -1,0 +1,38 @@
+//! KHR_materials_specular and KHR_materials_ior: what of a material that is no metal reflects.
+
+use gltf::json::Value;
+use gltf::material::Material;
+
+use crate::scene::{GLTF_DIELECTRIC_F0, Specular};
+
+const NAME: &str = "KHR_materials_specular";
+/// As in [`crate::scene::Material::specular_textures`].
+const TEXTURES: [&str; 2] = ["specularTexture", "specularColorTexture"];
+
+/// What a refractive index says of its reflectance at normal incidence.
+pub(super) fn f0(material: &Material) -> f64 {
+    let extension = material.extension_value("KHR_materials_ior");
+    let ior = extension.and_then(|it| it.get("ior")?.as_f64());
+    ior.map_or(GLTF_DIELECTRIC_F0, |ior| match ior {
+        // The extension's sign for a mirror under its own colour.
+        0.0 => 1.0,
+        ior => ((ior - 1.0) / (ior + 1.0)).powi(2),
+    })
+}
+
+/// The factors.
+pub(super) fn specular(material: &Material) -> Specular {
+    let extension = material.extension_value(NAME);
+    let or_full = |value: Option<&Value>| value.and_then(Value::as_f64).unwrap_or(1.0);
+    let color = extension.and_then(|it| it.get("specularColorFactor"));
+    Specular {
+        weight: or_full(extension.and_then(|it| it.get("specularFactor"))).clamp(0.0, 1.0),
+        color: [0, 1, 2].map(|i| or_full(color.and_then(|it| it.get(i))).max(0.0)),
+    }
+}
+
+/// What the file says of each texture on the factors.
+pub(super) fn uses<'a>(material: &'a Material<'a>) -> [Option<&'a Value>; 2] {
+    let extension = material.extension_value(NAME);
+    TEXTURES.map(|name| extension?.get(name))
+}
