@@ -8,6 +8,7 @@ use obvhs::BvhBuildParams;
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
 use obvhs::ray::{Ray, RayHit};
+use rayon::prelude::*;
 
 use crate::coverage::Coverage;
 use crate::cutouts::Cutouts;
@@ -45,23 +46,31 @@ impl TriangleIndex {
     }
 
     fn of(scene: &Scene, is_in: impl Fn(&Object) -> bool) -> Self {
-        let mut triangles = Vec::new();
         let objects = scene.objects.iter().enumerate();
-        for (o, object) in objects.filter(|(_, object)| is_in(object)) {
-            for (t, corners) in object.mesh.triangles.iter().enumerate() {
-                let corners = corners.map(|v| object.mesh.positions_m[v as usize].as_dvec3());
-                triangles.push((o as u32, t as u32, corners));
-            }
-        }
-        let boxes: Vec<Aabb> = triangles
-            .iter()
-            .map(|(_, _, corners)| Aabb::from_points(&corners.map(|corner| corner.as_vec3a())))
+        let objects = objects.filter(|(_, object)| is_in(object));
+        let numbers: Vec<(u32, u32)> = objects
+            .flat_map(|(o, object)| {
+                let triangles = 0..object.mesh.triangles.len() as u32;
+                triangles.map(move |t| (o as u32, t))
+            })
+            .collect();
+        let corners = |(o, t): (u32, u32)| {
+            let mesh = &scene.objects[o as usize].mesh;
+            mesh.triangles[t as usize].map(|v| mesh.positions_m[v as usize])
+        };
+        let boxes: Vec<Aabb> = numbers
+            .par_iter()
+            .map(|at| Aabb::from_points(&corners(*at).map(Vec3A::from)))
             .collect();
         let tree = tree::build(&boxes, &BvhBuildParams::medium_build());
+        drop(boxes);
         let triangles = tree
             .primitive_indices
-            .iter()
-            .map(|i| triangles[*i as usize])
+            .par_iter()
+            .map(|i| {
+                let (o, t) = numbers[*i as usize];
+                (o, t, corners((o, t)).map(|corner| corner.as_dvec3()))
+            })
             .collect();
         let mut objects = scene.objects.iter();
         let lamps = objects.position(|object| object.is_lamp);

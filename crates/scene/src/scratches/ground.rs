@@ -8,7 +8,7 @@ use super::closest::Closest;
 use super::facet::Facet;
 use super::neighbours::Neighbours;
 use super::random::Stream;
-use super::walk::{Spot, Walker};
+use super::walk::{Spot, Walker, shortest_piece_m};
 use crate::description::Distribution;
 use crate::scene::Mesh;
 
@@ -27,6 +27,8 @@ pub(crate) struct Ground {
     pub(super) corner_m: DVec3,
     /// The length of the box's diagonal.
     pub(super) diagonal_m: f64,
+    /// That walks leave behind.
+    shortest_piece_m: f64,
     neighbours: Neighbours,
     /// The area of all triangles up to and including each.
     areas_m2: Vec<f64>,
@@ -52,6 +54,7 @@ impl Ground {
             corner_m: least.as_dvec3(),
             diagonal_m: f64::from((most - least).length()),
             areas_m2,
+            shortest_piece_m: shortest_piece_m((least, most)),
             closest: OnceLock::new(),
         }
     }
@@ -61,7 +64,7 @@ impl Ground {
     }
 
     pub(super) fn walker(&self) -> Walker<'_> {
-        Walker::new(&self.mesh, &self.neighbours)
+        Walker::new(&self.mesh, &self.neighbours, self.shortest_piece_m)
     }
 
     /// The nearest places on the surface.

@@ -1,9 +1,8 @@
 //! Which triangle lies beyond an edge.
 
-use std::collections::HashMap;
-
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
+use rustc_hash::FxHashMap;
 
 use super::facet::Facet;
 use crate::scene::Mesh;
@@ -110,7 +109,9 @@ fn welded(mesh: &Mesh) -> Vec<u32> {
     // Cells much wider than the tolerance: most vertices have to look into one only.
     let cell = (tolerance * 64.0).max(f32::MIN_POSITIVE);
     let cell_of = |p: Vec3| ((p - least) / cell).floor().as_i64vec3().to_array();
-    let mut in_cell: HashMap<[i64; 3], Vec<u32>> = HashMap::new();
+    // The last vertex in each, and the one before it there: a list for each cell would cost an allocation for most vertices.
+    let mut last_in: FxHashMap<[i64; 3], u32> = FxHashMap::default();
+    let mut before = vec![NONE; mesh.positions_m.len()];
     let mut first = Vec::with_capacity(mesh.positions_m.len());
     for (i, &position) in mesh.positions_m.iter().enumerate() {
         let low = cell_of(position - Vec3::splat(tolerance));
@@ -119,17 +120,21 @@ fn welded(mesh: &Mesh) -> Vec<u32> {
         for x in low[0]..=high[0] {
             for y in low[1]..=high[1] {
                 for z in low[2]..=high[2] {
-                    let here = in_cell.get(&[x, y, z]).into_iter().flatten();
-                    let near = here.copied().filter(|&v| {
-                        mesh.positions_m[v as usize].distance_squared(position)
-                            <= tolerance * tolerance
-                    });
-                    found = found.into_iter().chain(near).min();
+                    let mut next = last_in.get(&[x, y, z]).copied().unwrap_or(NONE);
+                    while next != NONE {
+                        let v = next as usize;
+                        let off2 = mesh.positions_m[v].distance_squared(position);
+                        if off2 <= tolerance * tolerance {
+                            found = Some(found.map_or(next, |known: u32| known.min(next)));
+                        }
+                        next = before[v];
+                    }
                 }
             }
         }
         first.push(found.unwrap_or_else(|| {
-            in_cell.entry(cell_of(position)).or_default().push(i as u32);
+            let last = last_in.entry(cell_of(position)).or_insert(NONE);
+            before[i] = std::mem::replace(last, i as u32);
             i as u32
         }));
     }

@@ -38,6 +38,13 @@ pub(super) struct Walker<'a> {
     pub(super) shortest_piece_m: f64,
 }
 
+/// The shortest piece that is laid on a mesh of such bounds. Shorter ones add nothing under a coherence width of 20 um, and their direction would
+/// be lost in single precision.
+pub(super) fn shortest_piece_m((least, most): (Vec3, Vec3)) -> f64 {
+    let farthest = least.abs().max(most.abs()).max_element();
+    f64::from(farthest * f32::EPSILON * 16.0).max(0.5e-6)
+}
+
 /// What a walk left behind besides its segments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Course {
@@ -47,11 +54,8 @@ pub(super) enum Course {
 }
 
 impl<'a> Walker<'a> {
-    pub(super) fn new(mesh: &'a Mesh, neighbours: &'a Neighbours) -> Self {
-        let (least, most) = mesh.bounds_m();
-        let farthest = least.abs().max(most.abs()).max_element();
-        // Shorter pieces add nothing under a coherence width of 20 um, and their direction would be lost in single precision.
-        let shortest_piece_m = f64::from(farthest * f32::EPSILON * 16.0).max(0.5e-6);
+    /// `shortest_piece_m` is that of the mesh.
+    pub(super) fn new(mesh: &'a Mesh, neighbours: &'a Neighbours, shortest_piece_m: f64) -> Self {
         Self {
             mesh,
             neighbours,
