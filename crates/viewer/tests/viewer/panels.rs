@@ -134,6 +134,14 @@ fn a_material_of_every_kind_and_lights() {
         select(&mut harness, Selection::Material(0));
         assert!(every_number_is_live(&mut harness) >= 2, "{}", preset.name());
     }
+    // Brushed ones have a degree and a direction more.
+    select(&mut harness, Selection::Material(0));
+    let plain = controls(&harness, Role::SpinButton).len();
+    harness
+        .get_by_role_and_label(Role::CheckBox, "Brushed")
+        .click();
+    harness.run_steps(3);
+    assert_eq!(every_number_is_live(&mut harness), plain + 2);
     // A sphere: radiance, stops, centre, radius.
     select(&mut harness, Selection::Light(0));
     assert_eq!(every_number_is_live(&mut harness), 2 + 3 + 1);
