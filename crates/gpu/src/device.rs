@@ -340,9 +340,17 @@ impl Gpu {
 
     /// The first thing that went wrong since the last call. A lost device stays lost.
     pub fn check(&self) -> Result<(), Error> {
-        // Calls on a lost device fail one by one before the loss itself is reported, which polling brings about.
+        // Calls on a lost device fail one by one before the loss itself is reported, which polling brings about: once the device has no work left.
         let _ = self.device.poll(wgpu::PollType::Poll);
-        self.faults.take()
+        let found = self.faults.take();
+        if !matches!(found, Err(Error::Validation { .. })) {
+            return found;
+        }
+        let _ = self.device.poll(wgpu::PollType::wait_indefinitely());
+        match self.faults.take() {
+            Err(lost @ Error::Lost { .. }) => Err(lost),
+            _ => found,
+        }
     }
 
     /// A buffer of `size` bytes, or why there can be none. `what` names it in messages, and is its label.
