@@ -68,7 +68,7 @@ fn lamp(focus_m: f64) -> Scene {
 #[test]
 fn a_lamp_blurs_to_its_circle_of_confusion() {
     let per_px = 2.0 * 2.5f64.to_radians().tan() / 48.0;
-    for focus_m in [0.4, 0.3] {
+    for focus_m in [0.4, 0.5, 0.3] {
         let scene = lamp(focus_m);
         let lamp_px = 0.001 / 0.4 / per_px;
         let circle_px = 0.02 * (0.4 - focus_m).abs() / (0.4 * focus_m) / per_px;

@@ -49,7 +49,7 @@ fn cases(environment: &Environment, widths_um: &[f64]) -> Vec<Case> {
     let mut cases = Vec::new();
     for &width_um in widths_um {
         for angle_deg in [0.0_f64, 20.0, 45.0, 65.0, 80.0] {
-            for turn_deg in (0..180).step_by(15) {
+            for turn_deg in (0..180).step_by(10) {
                 // The surface is level, seen from -z; the map's top is +Y.
                 let world_from_surface = DQuat::from_rotation_arc(DVec3::Z, DVec3::Y);
                 let (sin, cos) = angle_deg.to_radians().sin_cos();
@@ -85,7 +85,7 @@ fn quadrature(
     antiderivative: impl Fn(f64, f64) -> [f64; 3],
     radiance: impl Fn(DVec3) -> DVec3,
 ) -> DVec3 {
-    const STEPS: usize = 2000;
+    const STEPS: usize = 4000;
     let mut sum = DVec3::ZERO;
     for i in 0..STEPS {
         // Even in angle, so that the ends of the arc are resolved too.

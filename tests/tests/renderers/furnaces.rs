@@ -52,7 +52,7 @@ fn check(name: &str, mut scene: Scene) {
     scene.lights.clear();
     let mut worst = [0.0_f32; 2];
     for (kind, returns_all) in bases() {
-        for roughness in [0.02, 0.2, 1.0] {
+        for roughness in [0.02, 0.1, 0.3, 0.6, 1.0] {
             let mut materials = scene.materials.clone();
             materials[0].base = kind;
             materials[0].roughness = roughness;

@@ -366,7 +366,7 @@ fn brushed_balls() {
             .mirror("m")
             .object("ball", "m", "sphere = { radius_m = 0.05 }")
             .fov_y_deg(14.0)
-            .size_px([56, 56])
+            .size_px([72, 72])
             .scene();
         scene.materials[0].base = Base::MetallicRoughness {
             base_color: [0.9, 0.6, 0.4],
