@@ -96,6 +96,20 @@ fn coated_plates() {
     }
 }
 
+/// 24 scratches in a rough plate under a lamp, seen from an angle at 20 um a pixel.
+fn scratched_plate(base: Base, angle_deg: f64, roughness: f64) -> (View, Scene) {
+    let view = View {
+        angle_rad: angle_deg.to_radians(),
+        pixel_um: 20.0,
+        size_px: 16,
+    };
+    let mut scene = plate(base, view);
+    scene.materials[0].roughness = roughness;
+    light(&mut scene, view);
+    scratch(&mut scene, view, 24);
+    (view, scene)
+}
+
 /// Faint and coloured reflections over a body, straight on, where they keep their colour, and at grazing views, where they lose it.
 #[test]
 fn plates_of_faint_and_coloured_reflections() {
@@ -104,19 +118,11 @@ fn plates_of_faint_and_coloured_reflections() {
         metallic: 0.0,
     };
     for (angle_deg, roughness, weight, color) in [
-        (20.0_f64, 0.2, 1.0, [1.0, 0.3, 0.1]),
+        (20.0, 0.2, 1.0, [1.0, 0.3, 0.1]),
         (75.0, 0.3, 0.4, [0.2, 1.0, 5.0]),
         (82.0, 0.15, 0.0, [1.0; 3]),
     ] {
-        let view = View {
-            angle_rad: angle_deg.to_radians(),
-            pixel_um: 20.0,
-            size_px: 16,
-        };
-        let mut scene = plate(base, view);
-        scene.materials[0].roughness = roughness;
-        light(&mut scene, view);
-        scratch(&mut scene, view, 24);
+        let (_, mut scene) = scratched_plate(base, angle_deg, roughness);
         let full = closed(&scene);
         scene.materials[0].specular = Specular { weight, color };
         let (exact, reference) = (closed(&scene), sampled(&scene, LINEAR, 4));
@@ -141,20 +147,12 @@ fn brushed_plates() {
     };
     let gold = Base::Metal(Metal::Gold);
     for (base, angle_deg, roughness, strength, direction_deg) in [
-        (gold, 30.0_f64, 0.25, 0.5, 0.0),
+        (gold, 30.0, 0.25, 0.5, 0.0),
         (gold, 65.0, 0.2, 0.6, 35.0),
         (body, 50.0, 0.4, 0.7, -60.0),
     ] {
-        let view = View {
-            angle_rad: angle_deg.to_radians(),
-            pixel_um: 20.0,
-            size_px: 16,
-        };
-        let mut scene = plate(base, view);
-        scene.materials[0].roughness = roughness;
-        light(&mut scene, view);
+        let (view, mut scene) = scratched_plate(base, angle_deg, roughness);
         scene.lights.push(tube(view, -0.3, -0.2, 0.2, 0.05));
-        scratch(&mut scene, view, 24);
         let round = closed(&scene);
         scene.materials[0].anisotropy = Some(Anisotropy {
             strength,

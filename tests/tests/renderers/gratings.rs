@@ -292,7 +292,7 @@ fn gpu_and_cpu_show_the_same_single_grooves() {
     );
 }
 
-/// A disc of circular grooves under a lamp, a tube and a studio, seen from 0.3 m; the picture is moved `aside_px` pixels along it.
+/// A disc of circular grooves under a lamp, a tube and a studio, seen from 0.3 m.
 fn disc(pitch_um: f64, side_px: u32) -> Scene {
     SceneFile::seen_from([0.03, -0.16, 0.24])
         .toward([0.03, 0.02, 0.0])
@@ -309,7 +309,7 @@ fn disc(pitch_um: f64, side_px: u32) -> Scene {
         .scene()
 }
 
-/// Lets a pixel show so much of a [`disc`], moved aside by so many of them.
+/// A [`disc`] of which a pixel shows `pixel_um`, seen `aside_px` pixels further along x.
 fn zoom(disc: &Scene, pixel_um: f64, aside_px: f64) -> Scene {
     let mut scene = disc.clone();
     let half = 0.5 * f64::from(scene.render.size_px[0]) * pixel_um * 1e-6 / 0.3;
