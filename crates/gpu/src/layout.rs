@@ -200,7 +200,7 @@ shared! {
         coat: u32,
         triangle: u32,
         emission: [f32; 3],
-        curve: u32,
+        curve_bits: u32,
     }
     /// Radiance of the base.
     BaseLight {

@@ -179,14 +179,13 @@ impl ScratchTables {
     }
 }
 
-/// The table of a metal's scratches, or of white ones. It is the same in every scene, so that each is made once.
+/// The table of scratches in a metal, or in what has no spectrum. Each is made once a process: it is the same in every scene.
 fn scratch_table(metal: Option<Metal>) -> Arc<ScratchTable> {
     static MADE: [OnceLock<Arc<ScratchTable>>; Metal::ALL.len() + 1] =
         [const { OnceLock::new() }; Metal::ALL.len() + 1];
-    let at = metal.and_then(|metal| Metal::ALL.iter().position(|known| *known == metal));
-    let made = &MADE[at.unwrap_or(Metal::ALL.len())];
-    let table = || Arc::new(ScratchTable::new(|nm| reflectance(metal, nm)));
-    Arc::clone(made.get_or_init(table))
+    let at = metal.map_or(Metal::ALL.len(), |metal| metal as usize);
+    let make = || Arc::new(ScratchTable::new(|nm| reflectance(metal, nm)));
+    Arc::clone(MADE[at].get_or_init(make))
 }
 
 /// At normal incidence.

@@ -188,7 +188,7 @@ struct PixelPaint {
     coat: u32,                  // as that of materials
     triangle: u32,
     emission: vec3f,
-    curve: u32,                 // of fresnel_curves, and more: see pixel_curve_pack()
+    curve_bits: u32,            // the curve of fresnel_curves, and more: see pixel_curve_pack()
 }
 
 // Radiance of the base to the viewer, before scratches take their part.

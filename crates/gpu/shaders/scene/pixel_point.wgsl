@@ -29,16 +29,16 @@ fn pixel_curve_pack(point: SurfacePoint) -> u32 {
 
 fn pixel_open(paint: PixelPaint) -> f32 {
     if !HAS_SPECULAR {
-        return f32(paint.curve >> 16u) / 65535.0;
+        return f32(paint.curve_bits >> 16u) / 65535.0;
     }
-    return f32((paint.curve >> 11u) & 0x3ffu) / 1023.0;
+    return f32((paint.curve_bits >> 11u) & 0x3ffu) / 1023.0;
 }
 
 fn pixel_fresnel(paint: PixelPaint) -> FresnelRgb {
     if !HAS_SPECULAR {
-        return FresnelRgb(paint.f0, 1.0, paint.curve & 0xffffu);
+        return FresnelRgb(paint.f0, 1.0, paint.curve_bits & 0xffffu);
     }
-    return FresnelRgb(paint.f0, f32(paint.curve >> 21u) / 2047.0, paint.curve & 0x7ffu);
+    return FresnelRgb(paint.f0, f32(paint.curve_bits >> 21u) / 2047.0, paint.curve_bits & 0x7ffu);
 }
 
 // Roughness, spread of slopes, the longer alpha and the turn of its axis over half a turn: 16 bits each of the former two, and no more; with

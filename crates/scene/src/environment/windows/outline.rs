@@ -40,33 +40,29 @@ impl Outline {
     /// How much of a texel of a width lies within, by the direction of its middle: or of a soft edge.
     pub(crate) fn measure(&self, texel_rad: f64) -> impl Fn(DVec3) -> f64 + Sync + use<> {
         let step = move |inside_rad: f64| (0.5 + inside_rad / texel_rad).clamp(0.0, 1.0);
-        let (disc, edges) = self.bounds();
-        move |toward: DVec3| match &edges {
-            Some(edges) => edges.iter().map(|edge| step(edge.dot(toward))).product(),
-            None => step(inside_disc(disc, toward)),
+        let rim = self.rim();
+        move |toward: DVec3| match &rim {
+            Rim::Circle { .. } => step(rim.inside_rad(toward)),
+            Rim::Edges(edges) => edges.iter().map(|edge| step(edge.dot(toward))).product(),
         }
     }
 
     /// How far within a direction lies, from the nearest edge; below zero outside.
     pub(crate) fn inside_rad(&self) -> impl Fn(DVec3) -> f64 + Sync + use<> {
-        let (disc, edges) = self.bounds();
-        move |toward: DVec3| match &edges {
-            Some(edges) => {
-                let inside = edges.iter().map(|edge| edge.dot(toward));
-                inside.fold(f64::INFINITY, f64::min)
-            }
-            None => inside_disc(disc, toward),
-        }
+        let rim = self.rim();
+        move |toward: DVec3| rim.inside_rad(toward)
     }
 
-    /// A disc's middle and radius, or the edges of four corners.
-    fn bounds(&self) -> ((DVec3, f64), Option<[DVec3; 4]>) {
+    fn rim(&self) -> Rim {
         match self {
             Self::Disc {
                 direction,
                 radius_rad,
-            } => ((*direction, *radius_rad), None),
-            Self::Quad { corners } => ((DVec3::Z, 0.0), Some(edges(corners))),
+            } => Rim::Circle {
+                direction: *direction,
+                radius_rad: *radius_rad,
+            },
+            Self::Quad { corners } => Rim::Edges(edges(corners)),
         }
     }
 
@@ -126,8 +122,30 @@ impl Outline {
     }
 }
 
-fn inside_disc((direction, radius_rad): (DVec3, f64), toward: DVec3) -> f64 {
-    radius_rad - direction.angle_between(toward)
+/// Where an outline ends.
+enum Rim {
+    Circle {
+        direction: DVec3,
+        radius_rad: f64,
+    },
+    /// See [`edges`].
+    Edges([DVec3; 4]),
+}
+
+impl Rim {
+    /// How far within a direction lies, from the nearest edge; below zero outside.
+    fn inside_rad(&self, toward: DVec3) -> f64 {
+        match self {
+            Self::Circle {
+                direction,
+                radius_rad,
+            } => radius_rad - direction.angle_between(toward),
+            Self::Edges(edges) => {
+                let inside = edges.iter().map(|edge| edge.dot(toward));
+                inside.fold(f64::INFINITY, f64::min)
+            }
+        }
+    }
 }
 
 /// Unit normals of the planes of the edges, to the side that is within.
