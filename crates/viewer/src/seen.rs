@@ -1,24 +1,39 @@
 //! What of a description is seen: the rest may change without a new scene.
 
 use hairline_scene::Description;
-use hairline_scene::description::{Light, Material, Object, Scratches};
+use hairline_scene::description::{Grating, Light, Material, Object, Scratches};
 
 /// Whether only what does not need a new scene differs: the view, the exposure and the way of showing, of which the painter is
 /// told; names, and materials that no object has. The camera's up is left to the builder: it turns the environment.
 pub(crate) fn makes_same_scene(a: &Description, b: &Description) -> bool {
-    a.camera.up == b.camera.up
-        && a.environment == b.environment
-        && a.studio == b.studio
+    let Description {
+        camera,
+        render: _,
+        environment,
+        studio,
+        ground,
+        // Compared where objects have them.
+        materials: _,
+        objects,
+        scratches,
+        gratings,
+        lights,
+        notes: _,
+    } = a;
+    camera.up == b.camera.up
+        && *environment == b.environment
+        && *studio == b.studio
         // It stands as the camera does.
-        && (a.studio.hidden || a.camera == b.camera)
-        && a.ground == b.ground
-        && alike(&a.objects, &b.objects, |x, y| {
-            is_same_object((a, x), (b, y))
-        })
-        && alike(&a.scratches, &b.scratches, |x, y| {
+        && (studio.hidden || *camera == b.camera)
+        && *ground == b.ground
+        && alike(objects, &b.objects, |x, y| is_same_object((a, x), (b, y)))
+        && alike(scratches, &b.scratches, |x, y| {
             is_same_layer((a, x), (b, y))
         })
-        && alike(&a.lights, &b.lights, is_same_light)
+        && alike(gratings, &b.gratings, |x, y| {
+            is_same_grating((a, x), (b, y))
+        })
+        && alike(lights, &b.lights, is_same_light)
 }
 
 fn alike<T>(a: &[T], b: &[T], is_same: impl Fn(&T, &T) -> bool) -> bool {
@@ -90,15 +105,28 @@ fn is_same_layer((a, x): (&Description, &Scratches), (b, y): (&Description, &Scr
         layer,
         strokes,
     } = x;
-    let place =
-        |d: &Description, layer: &Scratches| d.objects.iter().position(|o| o.name == layer.object);
-    place(a, x) == place(b, y)
+    place(a, &x.object) == place(b, &y.object)
         && *hidden == y.hidden
         && *solo == y.solo
         && (material, node) == (&y.material, &y.node)
         && *places == y.place
         && *layer == y.layer
         && *strokes == y.strokes
+}
+
+fn is_same_grating((a, x): (&Description, &Grating), (b, y): (&Description, &Grating)) -> bool {
+    let without_names = |grating: &Grating| Grating {
+        object: String::new(),
+        name: None,
+        ..grating.clone()
+    };
+    place(a, &x.object) == place(b, &y.object) && without_names(x) == without_names(y)
+}
+
+/// Which object has this name.
+fn place(description: &Description, object: &str) -> Option<usize> {
+    let mut objects = description.objects.iter();
+    objects.position(|it| it.name == object)
 }
 
 fn is_same_light(x: &Light, y: &Light) -> bool {

@@ -163,7 +163,7 @@ pub(super) fn of(parameter: Parameter) -> Text {
         ),
         P::Seed => (
             "Seed",
-            "Another number lays other scratches of the same kind. Layers with different numbers do not repeat one another.",
+            "Another number lays other scratches of the same kind, or puts the grooves of a grating in other places, as seen from nearby. Layers with different numbers do not repeat one another.",
         ),
         P::Length => (
             "Length",

@@ -251,7 +251,7 @@ impl<'a> Form<'a> {
             }
             let die = ui
                 .button("🎲")
-                .on_hover_text("Another seed: the same kind of scratches in other places");
+                .on_hover_text("Another seed: the same kind of scratches or grooves in other places");
             ui.ctx()
                 .accesskit_node_builder(die.id, |node| node.set_label("Another seed"));
             if die.clicked() {

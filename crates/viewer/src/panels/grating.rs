@@ -67,6 +67,7 @@ fn rows(ui: &mut Ui, work: &mut Workspace, object: usize, index: usize, mut grat
     form.number(Parameter::Depth, &mut grating.depth_nm.mean);
     form.number(Parameter::GrooveDepthSpread, &mut grating.depth_nm.spread);
     form.number(Parameter::Displacement, &mut grating.jitter_um);
+    form.seed(&mut grating.seed);
     grating.jitter_um = grating.jitter_um.min(grating.pitch_um);
     groove_pattern::rows(&mut form, &mut grating.pattern);
     if grating.pattern.around().is_some() {

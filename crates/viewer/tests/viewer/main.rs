@@ -14,6 +14,7 @@ mod files;
 mod gallery;
 mod gives_way;
 mod gizmos;
+mod gratings;
 mod habits;
 mod lost;
 mod model_files;

@@ -15,7 +15,7 @@ use hairline_scene::description::{Environment, Layer, Map, Pattern};
 use hairline_viewer::Viewer;
 
 /// What the panel on the right holds of a kind.
-fn controls(harness: &Harness<'static, Viewer>, role: Role) -> Vec<String> {
+pub fn controls(harness: &Harness<'static, Viewer>, role: Role) -> Vec<String> {
     let picture = common::picture(harness);
     let mut names: Vec<String> = harness
         .query_all_by_role(role)
@@ -29,41 +29,46 @@ fn controls(harness: &Harness<'static, Viewer>, role: Role) -> Vec<String> {
     names
 }
 
-fn select(harness: &mut Harness<'static, Viewer>, selection: Selection) {
+pub fn select(harness: &mut Harness<'static, Viewer>, selection: Selection) {
     harness.state_mut().document_mut().select(selection);
     harness.run_steps(3);
 }
 
-/// Changes each number of the open panel by its box, and sees the scene change, stay good, and come back by one undo.
+/// Changes this number of the open panel by its box, and sees the scene change, stay good, and come back by one undo.
+pub fn is_live(harness: &mut Harness<'static, Viewer>, name: &str) {
+    let before = description(harness);
+    let node = harness.get_by_role_and_label(Role::SpinButton, name);
+    let value = node.accesskit_node().numeric_value().expect("a number");
+    let wanted = match value {
+        0.0 => 0.5,
+        // Whole numbers are rounded.
+        1.0 if name == "Seed" => 2.0,
+        other => 0.75 * other,
+    };
+    node.set_value_accesskit(wanted);
+    harness.run_steps(3);
+    let after = description(harness);
+    assert!(
+        *after != *before,
+        "{name}: {value} -> {wanted} changed nothing"
+    );
+    after
+        .check()
+        .unwrap_or_else(|error| panic!("{name}: {error}"));
+    harness.state_mut().document_mut().undo();
+    harness.run_steps(2);
+    let undone = description(harness);
+    assert!(
+        *undone == *before,
+        "{name}: one undo is not enough, or too much"
+    );
+}
+
+/// The same for each number.
 fn every_number_is_live(harness: &mut Harness<'static, Viewer>) -> usize {
     let names = controls(harness, Role::SpinButton);
     for name in &names {
-        let before = description(harness);
-        let node = harness.get_by_role_and_label(Role::SpinButton, name);
-        let value = node.accesskit_node().numeric_value().expect("a number");
-        let wanted = match value {
-            0.0 => 0.5,
-            // Whole numbers are rounded.
-            1.0 if name == "Seed" => 2.0,
-            other => 0.75 * other,
-        };
-        node.set_value_accesskit(wanted);
-        harness.run_steps(3);
-        let after = description(harness);
-        assert!(
-            *after != *before,
-            "{name}: {value} -> {wanted} changed nothing"
-        );
-        after
-            .check()
-            .unwrap_or_else(|error| panic!("{name}: {error}"));
-        harness.state_mut().document_mut().undo();
-        harness.run_steps(2);
-        let undone = description(harness);
-        assert!(
-            *undone == *before,
-            "{name}: one undo is not enough, or too much"
-        );
+        is_live(harness, name);
     }
     names.len()
 }
@@ -289,7 +294,7 @@ fn choices_and_switches_of_a_layer() {
     assert!(matches!(laid.amount, Amount::DensityPerM2(_)));
 }
 
-fn choose(harness: &mut Harness<'static, Viewer>, name: &str, option: &str) {
+pub fn choose(harness: &mut Harness<'static, Viewer>, name: &str, option: &str) {
     harness.get_by_role_and_label(Role::ComboBox, name).click();
     harness.run_steps(3);
     harness.get_by_label(option).click();
