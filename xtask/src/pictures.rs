@@ -6,15 +6,52 @@ use std::process::Command;
 
 use anyhow::{Context, Result, ensure};
 
-/// Width and height of the built-in scene's picture, which opens the README.
-const BUILT_IN_SIZE: &str = "960x540";
-/// Width and height of the pictures of scenes/.
-const SCENE_SIZE: &str = "640x360";
+/// How a picture is rendered.
+#[derive(Clone, Copy)]
+struct Way {
+    /// Width and height, pixels.
+    size: &'static str,
+    /// Rays of each pixel to each light, and samples of its edges.
+    samples: &'static str,
+    /// None: as many as without the option.
+    bounces: Option<&'static str>,
+}
 
-/// Rays of each pixel to each light, and samples of its edges.
-const SAMPLES: &str = "32";
-/// Scenes whose picture shows more than one bounce.
-const BOUNCES: [(&str, &str); 1] = [("mirror", "2")];
+const USUAL: Way = Way {
+    size: "640x360",
+    samples: "32",
+    bounces: None,
+};
+
+/// Pictures that need something else: more samples for what is mirrored or out of focus, fewer where nothing is.
+const UNLIKE: [(&str, Way); 11] = [
+    // It opens the README.
+    ("hairline", sized("960x540", sampled("64"))),
+    ("baubles", sampled("48")),
+    ("bokeh", sized("480x270", sampled("56"))),
+    ("dvd", sampled("16")),
+    ("groove", sampled("16")),
+    ("lid", sampled("64")),
+    ("lighter", sampled("16")),
+    (
+        "mirror",
+        Way {
+            bounces: Some("2"),
+            ..sampled("48")
+        },
+    ),
+    ("phone", sampled("16")),
+    ("record", sampled("16")),
+    ("seal", sampled("16")),
+];
+
+const fn sampled(samples: &'static str) -> Way {
+    Way { samples, ..USUAL }
+}
+
+const fn sized(size: &'static str, way: Way) -> Way {
+    Way { size, ..way }
+}
 
 /// Options of `pictures`.
 #[derive(clap::Args)]
@@ -47,16 +84,17 @@ impl Pictures {
     fn picture(&self, root: &Path, name: &str, scene: Option<&Path>) -> Result<()> {
         let file = format!("docs/pictures/{name}.png");
         let scene_file = scene.map(|path| path.display().to_string().replace('\\', "/"));
-        let size = if scene.is_some() {
-            SCENE_SIZE
-        } else {
-            BUILT_IN_SIZE
-        };
+        let unlike = UNLIKE.iter().find(|(of, _)| *of == name);
+        let Way {
+            size,
+            samples,
+            bounces,
+        } = unlike.map_or(USUAL, |&(_, way)| way);
         let mut arguments = vec!["run", "--release", "-q", "-p", "hairline", "--", "render"];
         arguments.extend(scene_file.as_deref());
-        arguments.extend(["-o", &file, "--size", size, "--samples", SAMPLES]);
+        arguments.extend(["-o", &file, "--size", size, "--samples", samples]);
         arguments.extend(["--backend", &self.backend]);
-        if let Some((_, bounces)) = BOUNCES.iter().find(|(of, _)| *of == name) {
+        if let Some(bounces) = bounces {
             arguments.extend(["--bounces", bounces]);
         }
         println!("cargo {}", arguments.join(" "));
