@@ -6,7 +6,7 @@ use glam::DVec3;
 use hairline_image::{Image, Layer};
 use hairline_optics::grating::Grating as Row;
 use hairline_reference::{Model, Settings};
-use hairline_scene::{Base, Grating, GrooveField, Scene};
+use hairline_scene::{Base, Bearing, Grating, GrooveField, Scene};
 
 const FULL: Settings = Settings {
     model: Model::Full,
@@ -61,31 +61,37 @@ fn compared(name: &str, exact: &Image, reference: &Image) -> (f64, f64) {
     (off, error)
 }
 
-/// Pixels of 8 um on grooves every 40, in windows that show single ones: where they lie, the light is.
+/// Pixels that are narrower than a pitch of 40 um.
+const NEAR: View = View {
+    pixel_um: 8.0,
+    size_px: 12,
+    ..VIEW
+};
+
+/// Grooves every 40 um from nearby, by a field, in a window.
+fn single_grooves(field: GrooveField, coherence_um: f64, jitter: f64) -> Scene {
+    let mut scene = plate(Base::Mirror, NEAR);
+    scene.materials[0].roughness = 0.0;
+    scene.materials[0].coherence_um = coherence_um;
+    scene.objects[0].gratings = grated(row(40.0, 4.0, jitter, 0.0), 0.0, 0.1).objects[0]
+        .gratings
+        .clone();
+    scene.objects[0].gratings[0].field = field;
+    scene.lights = vec![sphere(NEAR, 0.0, -0.12, 0.04)];
+    scene
+}
+
+/// In windows that show single grooves: where they lie, the light is.
 #[test]
 fn single_grooves_lie_where_they_are() {
-    let view = View {
-        pixel_um: 8.0,
-        size_px: 12,
-        ..VIEW
-    };
-    let scene = |coherence_um: f64, jitter: f64| {
-        let mut scene = plate(Base::Mirror, view);
-        scene.materials[0].roughness = 0.0;
-        scene.materials[0].coherence_um = coherence_um;
-        scene.objects[0].gratings = grated(row(40.0, 4.0, jitter, 0.0), 0.0, 0.1).objects[0]
-            .gratings
-            .clone();
-        scene.lights = vec![sphere(view, 0.0, -0.12, 0.04)];
-        scene
-    };
+    let field = grated(row(40.0, 4.0, 0.0, 0.0), 0.0, 0.1).objects[0].gratings[0].field;
     for (settings, coherence_um, jitter, batches) in [
         (LINEAR, 8.0, 0.1, 6),
         (LINEAR, 20.0, 0.0, 6),
         (FULL, 8.0, 0.1, 2),
         (FULL, 20.0, 0.0, 2),
     ] {
-        let scene = scene(coherence_um, jitter);
+        let scene = single_grooves(field, coherence_um, jitter);
         let (exact, reference) = (closed(&scene), sampled(&scene, settings, batches));
         let name = format!(
             "single grooves, {:?}, window {coherence_um} um",
@@ -105,6 +111,30 @@ fn single_grooves_lie_where_they_are() {
             );
             assert!(all.rms().0 > 0.1);
         }
+    }
+}
+
+/// Grooves from an axis, which branch: those between two others too.
+#[test]
+fn grooves_that_branch_lie_where_they_are() {
+    let field = GrooveField::Around {
+        axis: DVec3::Z,
+        center_m: -0.04 * DVec3::X,
+        bearing: Bearing::Radial,
+    };
+    let right = single_grooves(field, 8.0, 0.1);
+    let mut wrong = right.clone();
+    wrong.objects[0].gratings[0].seed = 2;
+    let [right_picture, wrong_picture] = [&right, &wrong].map(closed);
+    for (settings, batches, most) in [(LINEAR, 6, 0.03), (FULL, 2, 0.06)] {
+        let reference = sampled(&right, settings, batches);
+        let name = format!("grooves that branch, {:?}", settings.model);
+        let off = |name: &str, picture| {
+            let all = pictures::compared(name, picture, &reference, Layer::Scratches);
+            all.rms().0
+        };
+        assert!(off(&name, &right_picture) < most, "{name}");
+        assert!(off("other places", &wrong_picture) > 0.5);
     }
 }
 

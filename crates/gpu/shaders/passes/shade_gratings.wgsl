@@ -37,7 +37,6 @@ fn shade_gratings(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgrou
     }
     // Read anew for each grating: they would fill registers while lights are looked at.
     let object = objects[points[at].object - 1u];
-    let fresnel = coated_reflectance(pixel_fresnel(paints[at]), paints[at].coat, points[at].cos_o);
     var state: PickState;
     var first_pick = 0u;
     if PICKS {
@@ -69,7 +68,8 @@ fn shade_gratings(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgrou
             continue;
         }
         for (var source = first; source < end; source += 1u) {
-            let sent = share * fresnel * grating_light(pair, source);
+            // Read anew, as above.
+            let sent = share * grating_light(pair, source) * coated_reflectance(pixel_fresnel(paints[at]), paints[at].coat, points[at].cos_o);
             radiance += sent;
             if PICKS {
                 state.sum += max(rgb_luminance(sent), 0.0);

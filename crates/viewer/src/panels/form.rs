@@ -249,9 +249,9 @@ impl<'a> Form<'a> {
             if typed.changed() {
                 *value = number.max(0.0).round() as u64;
             }
-            let die = ui
-                .button("🎲")
-                .on_hover_text("Another seed: the same kind of scratches or grooves in other places");
+            let die = ui.button("🎲").on_hover_text(
+                "Another seed: the same kind of scratches or grooves in other places",
+            );
             ui.ctx()
                 .accesskit_node_builder(die.id, |node| node.set_label("Another seed"));
             if die.clicked() {
