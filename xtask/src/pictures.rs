@@ -24,7 +24,7 @@ const USUAL: Way = Way {
 };
 
 /// Pictures that need something else: more samples for what is mirrored or out of focus, fewer where nothing is.
-const UNLIKE: [(&str, Way); 11] = [
+const UNLIKE: [(&str, Way); 12] = [
     // It opens the README.
     ("hairline", sized("960x540", sampled("64"))),
     ("baubles", sampled("48")),
@@ -40,6 +40,7 @@ const UNLIKE: [(&str, Way); 11] = [
             ..sampled("48")
         },
     ),
+    ("movement", sampled("64")),
     ("phone", sampled("16")),
     ("record", sampled("16")),
     ("seal", sampled("16")),

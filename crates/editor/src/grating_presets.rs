@@ -17,17 +17,20 @@ pub enum GratingPreset {
     BrushedAluminium,
     /// Turned on a lathe.
     TurnedSteel,
+    /// Spots that a spinning peg leaves: plates of watches, dashboards.
+    EngineTurned,
 }
 
 impl GratingPreset {
     /// Every preset, in the order of a menu.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::CompactDisc,
         Self::Dvd,
         Self::Vinyl,
         Self::Foil,
         Self::BrushedAluminium,
         Self::TurnedSteel,
+        Self::EngineTurned,
     ];
 
     /// What a menu calls it.
@@ -39,6 +42,7 @@ impl GratingPreset {
             Self::Foil => "Holographic foil",
             Self::BrushedAluminium => "Brushed aluminium",
             Self::TurnedSteel => "Turned steel",
+            Self::EngineTurned => "Engine turning",
         }
     }
 
@@ -61,6 +65,9 @@ impl GratingPreset {
             Self::TurnedSteel => {
                 "The feed of a lathe, 30 µm, around the z axis: narrow colours beside the highlight, in a fan."
             }
+            Self::EngineTurned => {
+                "Spots of circles in rows, each over those before it: scales in which every lamp draws a line. Plates of watches, dashboards."
+            }
         }
     }
 
@@ -76,6 +83,13 @@ impl GratingPreset {
             direction: [1.0, 0.0, 0.0],
             jitter_deg,
         };
+        let spots = |jitter_deg, spacing_m| GroovePattern::Swirl {
+            around: Around {
+                jitter_deg,
+                ..Around::default()
+            },
+            spacing_m,
+        };
         // Pattern; pitch, width and jitter in um; mean and spread of the depth in nm.
         let (pattern, [pitch_um, width_um, jitter_um], [mean, spread]) = match self {
             Self::CompactDisc => (circular(0.0), [1.6, 0.6, 0.03], [110.0, 0.05]),
@@ -84,6 +98,7 @@ impl GratingPreset {
             Self::Foil => (along_x(0.5), [1.2, 0.6, 0.03], [140.0, 0.05]),
             Self::BrushedAluminium => (along_x(1.5), [6.0, 2.4, 1.5], [160.0, 0.5]),
             Self::TurnedSteel => (circular(0.2), [30.0, 12.0, 1.0], [140.0, 0.2]),
+            Self::EngineTurned => (spots(0.5, 0.004), [8.0, 3.2, 1.5], [160.0, 0.4]),
         };
         Grating {
             name: Some(self.name().to_lowercase()),

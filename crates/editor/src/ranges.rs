@@ -39,7 +39,7 @@ pub(crate) const DEFAULT_DIAGONAL_M: f64 = 0.3;
 impl Parameter {
     /// Every parameter.
     #[cfg(test)]
-    pub(crate) const ALL: [Self; 86] = [
+    pub(crate) const ALL: [Self; 87] = [
         Self::CameraPosition,
         Self::CameraTarget,
         Self::CameraUp,
@@ -104,6 +104,7 @@ impl Parameter {
         Self::GrooveDepthSpread,
         Self::Displacement,
         Self::GrooveAngles,
+        Self::SpotSpacing,
         Self::Coverage,
         Self::InnerRadius,
         Self::OuterRadius,
@@ -190,6 +191,7 @@ impl Parameter {
             P::GrooveDepthSpread => (0.0..=0.5, limits::GRATING_DEPTH_SPREAD),
             P::Displacement => (0.0..=5.0, 0.0..=*limits::PITCH_UM.end()),
             P::GrooveAngles => (0.0..=10.0, limits::JITTER_DEG),
+            P::SpotSpacing => (0.01 * d..=0.5 * d, limits::SIZE_M),
             P::Coverage => (0.0..=1.0, limits::COVERAGE),
             P::Edges => (0.0..=1.0, limits::EDGES),
             P::EdgeWidth => (2e-3 * d..=0.1 * d, limits::SIZE_M),
@@ -247,6 +249,7 @@ impl Parameter {
                 | P::Tile
                 | P::Pitch
                 | P::GrooveWidth
+                | P::SpotSpacing
                 | P::BrushRadius
                 | P::BrushDensity
                 | P::BrushWidth
@@ -282,6 +285,7 @@ impl Parameter {
             | P::PlaceOuterRadius
             | P::InnerRadius
             | P::OuterRadius
+            | P::SpotSpacing
             | P::BrushRadius
             | P::LightCenter
             | P::LightTarget

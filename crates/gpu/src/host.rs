@@ -130,6 +130,7 @@ fn grating(
     origin_m: DVec3,
 ) -> Grating {
     let (mut maps, mut directions) = (0, None);
+    let (mut along_row, mut spacing_m) = (DVec3::ZERO, 0.0);
     let (axis, center_m, kind, curvature_per_m) = match grating.field {
         GrooveField::Along {
             direction,
@@ -146,6 +147,15 @@ fn grating(
                 Bearing::Spun { curvature_per_m } => (3, curvature_per_m),
             };
             (axis, center_m, kind, curvature_per_m)
+        }
+        GrooveField::Spots {
+            axis,
+            center_m,
+            along_row: along,
+            spacing_m: spacing,
+        } => {
+            (along_row, spacing_m) = (along, spacing);
+            (axis, center_m, 1, 0.0)
         }
         GrooveField::ByUv { uv, center_m } => {
             maps |= if uv.along_v {
@@ -188,6 +198,8 @@ fn grating(
         tiles_z: tiles.row(2).to_array(),
         mask: array.packed(grating.mask.map(|mask| mask.texture)),
         directions: array.packed(directions),
+        along_row: along_row.as_vec3().to_array(),
+        spacing_m: spacing_m as f32,
     }
 }
 

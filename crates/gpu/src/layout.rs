@@ -117,6 +117,8 @@ shared! {
         tiles_z: [f32; 4],
         mask: [u32; 2],
         directions: [u32; 2],
+        along_row: [f32; 3],
+        spacing_m: f32,
     }
     /// A material.
     Material {

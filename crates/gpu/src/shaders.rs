@@ -150,8 +150,10 @@ modules! {
     NEARNESS = "scene/nearness" needs [SEGMENTS, PIXEL_POINT, SCRATCH_LIGHT, BINDINGS];
     /// What one scratch sends to the viewer of a polygon with many vertices.
     OUTLINE_LIGHT = "scene/outline_light" needs [ROWS, SCRATCH_LIGHT, TUBE];
+    /// Spots of circular grooves.
+    GROOVE_SPOTS = "scene/groove_spots" needs [LAYOUT];
     /// Which way the grooves of a grating run.
-    GRATINGS = "scene/gratings" needs [LAYOUT, GAUSSIAN];
+    GRATINGS = "scene/gratings" needs [GROOVE_SPOTS, GAUSSIAN];
     /// Single grooves of a grating.
     SINGLE_GROOVES = "scene/single_grooves" needs [GRATINGS, SOBOL, CONTENTS];
     /// The triangle under a grating.

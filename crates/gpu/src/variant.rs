@@ -90,7 +90,7 @@ fn shows_single_grooves(scene: &Scene, object: &Object) -> bool {
 /// Whether its grooves come nearer to one another along their way.
 fn branches(grating: &Grating) -> bool {
     match grating.field {
-        GrooveField::Along { .. } => false,
+        GrooveField::Along { .. } | GrooveField::Spots { .. } => false,
         GrooveField::Around { bearing, .. } => bearing != Bearing::Circular,
         GrooveField::ByUv { .. } => true,
     }

@@ -169,6 +169,25 @@ impl description::Grating {
                 let curvature_per_m = *curvature_per_m;
                 around(axis, Bearing::Spun { curvature_per_m })
             }
+            GroovePattern::Swirl {
+                around: spots,
+                spacing_m,
+            } => {
+                // Of the two of the object's axes that are more across the pattern's, the first one.
+                let axis = DVec3::from(spots.axis);
+                let along = match axis.x.abs() > 0.9 * axis.length() {
+                    true => DVec3::Y,
+                    false => DVec3::X,
+                };
+                let along_row = along - axis * (along.dot(axis) / axis.length_squared());
+                let field = GrooveField::Spots {
+                    axis: direction(spots.axis),
+                    center_m: world_from_object.transform_point3(spots.center_m.into()),
+                    along_row: direction(along_row.into()),
+                    spacing_m: *spacing_m,
+                };
+                (field, spots.jitter_deg)
+            }
             GroovePattern::Parallel {
                 direction: along,
                 jitter_deg,

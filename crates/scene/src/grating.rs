@@ -2,6 +2,7 @@
 
 mod ground;
 mod single;
+mod spots;
 
 use glam::DVec3;
 use hairline_optics::gaussian::gaussian;
@@ -57,6 +58,17 @@ pub enum GrooveField {
         center_m: DVec3,
         /// How the grooves lie to the circles.
         bearing: Bearing,
+    },
+    /// Around the middles of spots in rows, pressed into the surface along an axis, each over those before it.
+    Spots {
+        /// A unit vector.
+        axis: DVec3,
+        /// The middle of a spot.
+        center_m: DVec3,
+        /// Along the rows: a unit vector across the axis.
+        along_row: DVec3,
+        /// From spot to spot and from row to row.
+        spacing_m: f64,
     },
     /// By the texture coordinates of the surface.
     ByUv {
@@ -138,7 +150,7 @@ impl GrooveField {
                 here: direction.normalize_or_zero(),
                 ..GrooveCourse::default()
             },
-            Self::Around { .. } => GrooveCourse::default(),
+            Self::Around { .. } | Self::Spots { .. } => GrooveCourse::default(),
             Self::ByUv { uv, .. } => ground.course(uv, point_m, normal, axes_m),
         }
     }
@@ -174,6 +186,24 @@ impl GrooveField {
                     }
                 })
             }
+            Self::Spots { .. } => self.about(point_m).tangent_by(direction, point_m, normal),
+        }
+    }
+
+    /// The field that is about a point: of spots, that of the last one there.
+    fn about(&self, point_m: DVec3) -> Self {
+        match *self {
+            Self::Spots {
+                axis,
+                center_m,
+                along_row,
+                spacing_m,
+            } => Self::Around {
+                axis,
+                center_m: spots::middle_m(axis, center_m, along_row, spacing_m, point_m),
+                bearing: Bearing::Circular,
+            },
+            field => field,
         }
     }
 
@@ -181,7 +211,7 @@ impl GrooveField {
     fn distance_m(&self, point_m: DVec3) -> (f64, DVec3) {
         let away_m = match *self {
             Self::Along { center_m, .. } | Self::ByUv { center_m, .. } => point_m - center_m,
-            Self::Around { axis, center_m, .. } => {
+            Self::Around { axis, center_m, .. } | Self::Spots { axis, center_m, .. } => {
                 let arm_m = point_m - center_m;
                 arm_m - axis * axis.dot(arm_m)
             }
@@ -212,14 +242,15 @@ impl Grating {
         if share <= 0.0 {
             return None;
         }
-        let course = self.field.course(ground, point_m, normal, axes_m);
-        let tangent = self.field.tangent_by(course.here, point_m, normal)?;
+        // What a spot does not cover is seen as if it did, or a pixel on its rim would see grooves that turn by any angle.
+        let field = self.field.about(point_m);
+        let course = field.course(ground, point_m, normal, axes_m);
+        let tangent = field.tangent_by(course.here, point_m, normal)?;
         let turns_rad = [0, 1].map(|i| {
             let (axis, step) = (axes_m[i], course.steps[i]);
             // Halfway, where a field that turns much over a pixel still tells by how much.
             let [before, after] = [-0.5, 0.5].map(|s| {
-                let there =
-                    (self.field).tangent_by(course.here + s * step, point_m + s * axis, normal);
+                let there = field.tangent_by(course.here + s * step, point_m + s * axis, normal);
                 let there = there.unwrap_or(tangent);
                 normal.dot(tangent.cross(there)).atan2(tangent.dot(there))
             });

@@ -35,8 +35,12 @@ fn v(x: &[f64]) -> DVec3 {
     DVec3::new(x[0], x[1], x[2])
 }
 
-/// The kinds as gratings.wgsl counts them.
-fn field(kind: f64, axis: DVec3, center_m: DVec3) -> GrooveField {
+/// From spot to spot.
+const SPACING_M: f64 = 0.01;
+
+/// The kinds as gratings.wgsl counts them; then spots, in rows across the normal.
+fn field(kind: f64, axis: DVec3, normal: DVec3) -> GrooveField {
+    let center_m = DVec3::ZERO;
     let around = |bearing| GrooveField::Around {
         axis,
         center_m,
@@ -49,9 +53,15 @@ fn field(kind: f64, axis: DVec3, center_m: DVec3) -> GrooveField {
         },
         1.0 => around(Bearing::Circular),
         2.0 => around(Bearing::Radial),
-        _ => around(Bearing::Spun {
+        3.0 => around(Bearing::Spun {
             curvature_per_m: 1.0,
         }),
+        _ => GrooveField::Spots {
+            axis,
+            center_m,
+            along_row: axis.cross(normal).normalize(),
+            spacing_m: SPACING_M,
+        },
     }
 }
 
@@ -61,7 +71,7 @@ fn grooves_under_pixels() {
     let rows: Vec<[f32; 16]> = (0..8000)
         .map(|i| {
             let mut row = [0.0; 16];
-            row[0] = (i % 4) as f32;
+            row[0] = (i % 5) as f32;
             let normal = random.direction(-1.0);
             row[1..4].copy_from_slice(&random.direction(-1.0));
             row[4..7].copy_from_slice(&normal);
@@ -87,7 +97,9 @@ fn grooves_under_pixels() {
     Twin {
         name: "groove_place",
         modules: &[&shaders::GRATINGS],
-        snippet: "let grating = Grating(vec3f(x[1], x[2], x[3]), u32(x[0]), vec3f(0.0), 1.0, vec2f(1e-3, 0.1), 0.7, 0.0, 0u, 0u, 0u, 1.6, 0.6, 0.0, 1.0, 0u, vec4f(0.0), vec4f(0.0), vec4f(0.0), vec2u(0u), vec2u(0u));
+        snippet: "let is_spots = x[0] > 3.0;
+            let along_row = normalize(cross(vec3f(x[1], x[2], x[3]), vec3f(x[4], x[5], x[6])));
+            let grating = Grating(vec3f(x[1], x[2], x[3]), select(u32(x[0]), GROOVES_CIRCULAR, is_spots), vec3f(0.0), 1.0, vec2f(1e-3, 0.1), 0.7, 0.0, 0u, 0u, 0u, 1.6, 0.6, 0.0, 1.0, 0u, vec4f(0.0), vec4f(0.0), vec4f(0.0), vec2u(0u), vec2u(0u), along_row, select(0.0, 0.01, is_spots));
             let normal = vec3f(x[4], x[5], x[6]);
             let place = groove_place(grating, groove_course_straight(grating), vec3f(x[7], x[8], x[9]), normal, vec3f(x[10], x[11], x[12]), vec3f(x[13], x[14], x[15]));
             let is_seen = f32(place.share > 1e-3);
@@ -97,7 +109,7 @@ fn grooves_under_pixels() {
         expected: &|x: [f64; 16]| {
             let grating = Grating {
                 row: ROW,
-                field: field(x[0], v(&x[1..]), DVec3::ZERO),
+                field: field(x[0], v(&x[1..]), v(&x[4..])),
                 angle_std_rad: 0.0,
                 coverage: 0.7,
                 radii_m: [1e-3, 0.1],
@@ -127,7 +139,7 @@ fn single_grooves() {
     let rows: Vec<[f32; 16]> = (0..8000)
         .map(|i| {
             let mut row = [0.0; 16];
-            row[0] = (i % 4) as f32;
+            row[0] = (i % 5) as f32;
             let normal = random.direction(-1.0);
             row[1..4].copy_from_slice(&random.direction(-1.0));
             row[4..7].copy_from_slice(&normal);
@@ -146,7 +158,7 @@ fn single_grooves() {
         // Next to where a field ends, and between two cuts, rounding decides.
         .filter(|row| {
             let x = row.map(f64::from);
-            let field = spun(field(x[0], v(&x[1..]), DVec3::ZERO));
+            let field = spun(field(x[0], v(&x[1..]), v(&x[4..])));
             let tangent = field.tangent(&NOWHERE, v(&x[7..]), v(&x[4..]));
             tangent.is_some_and(|tangent| {
                 let at = |turn: f64| {
@@ -156,7 +168,7 @@ fn single_grooves() {
                         .grooves_at(&NOWHERE, v(&x[7..]), normal, tangent)
                         .map(|at| at.number)
                 };
-                let is_told = x[0] > 1.0 || at(1e-5) == at(-1e-5);
+                let is_told = (1.0 < x[0] && x[0] < 4.0) || at(1e-5) == at(-1e-5);
                 is_told && v(&x[1..]).cross(v(&x[4..])).length() > 0.05
             })
         })
@@ -165,10 +177,12 @@ fn single_grooves() {
     Twin {
         name: "groove_density",
         modules: &[&shaders::SINGLE_GROOVES],
-        snippet: "let grating = Grating(vec3f(x[1], x[2], x[3]), u32(x[0]), vec3f(0.0), select(0.0, 15.0, x[0] == 3.0), vec2f(0.0), 1.0, 0.0, 0u, 0u, u32(x[15]), x[10], x[11], x[12], 100.0, 0u, vec4f(0.0), vec4f(0.0), vec4f(0.0), vec2u(0u), vec2u(0u));
+        snippet: "let is_spots = x[0] > 3.0;
+            let along_row = normalize(cross(vec3f(x[1], x[2], x[3]), vec3f(x[4], x[5], x[6])));
+            let grating = Grating(vec3f(x[1], x[2], x[3]), select(u32(x[0]), GROOVES_CIRCULAR, is_spots), vec3f(0.0), select(0.0, 15.0, x[0] == 3.0), vec2f(0.0), 1.0, 0.0, 0u, 0u, u32(x[15]), x[10], x[11], x[12], 100.0, 0u, vec4f(0.0), vec4f(0.0), vec4f(0.0), vec2u(0u), vec2u(0u), along_row, select(0.0, 0.01, is_spots));
             let normal = vec3f(x[4], x[5], x[6]);
-            let arm_m = vec3f(x[7], x[8], x[9]);
             let course = groove_course_straight(grating);
+            let arm_m = groove_arm(grating, vec3f(x[7], x[8], x[9]));
             let tangent = groove_tangent(grating, course.here, arm_m, normal);
             y[0] = groove_density(grating, course, arm_m, normal, tangent, cross(normal, tangent) * x[13] * 1e-6, vec3f(0.0), x[14]);",
         tables: &[],
@@ -199,7 +213,7 @@ fn single(x: &[f64; 16]) -> Grating {
             depth_spread: 0.0,
             jitter_um: x[12] * x[10],
         },
-        field: spun(field(x[0], v(&x[1..]), DVec3::ZERO)),
+        field: spun(field(x[0], v(&x[1..]), v(&x[4..]))),
         angle_std_rad: 0.0,
         coverage: 1.0,
         radii_m: [0.0, f64::INFINITY],

@@ -131,6 +131,8 @@ pub enum Parameter {
     Displacement,
     /// `grating.jitter_deg`
     GrooveAngles,
+    /// `grating.spacing_m`
+    SpotSpacing,
     /// `grating.coverage`
     Coverage,
     /// The first of `grating.radius_m`

@@ -257,6 +257,10 @@ pub(super) fn of(parameter: Parameter) -> Text {
             "Angles",
             "How far grooves stray from the pattern's direction. 0 gives lines of light with hard edges; a degree or more makes soft fans of them.",
         ),
+        P::SpotSpacing => (
+            "Spacing",
+            "From one spot of grooves to the next. Each spot lies over those before it, so rows look like scales; lamps draw a line through each.",
+        ),
         P::Coverage => (
             "Coverage",
             "The share of the surface that the grooves cover. The rest mirrors as the material does.",

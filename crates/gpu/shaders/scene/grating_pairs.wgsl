@@ -59,7 +59,7 @@ fn grating_pair_at(pixel: PixelPoint, triangle: u32, grating: Grating, place: Gr
     var share = place.share / max(covered, 1.0);
     if HAS_SINGLE_GROOVES {
         let steps_m = grating_steps_m(pixel);
-        let arm_m = pixel.position_m - grating.center_m;
+        let arm_m = groove_arm(grating, pixel.position_m - grating.center_m);
         let course = grating_course(pixel, triangle, grating);
         share *= groove_density(grating, course, arm_m, pixel.normal, place.tangent, steps_m[0], steps_m[1], pixel.coherence_um);
     }

@@ -89,6 +89,8 @@ fn groove_share_within(grating: Grating, arm_m: vec3f, right_m: vec3f, down_m: v
 // filter.
 fn groove_place(grating: Grating, course: GrooveCourse, point_m: vec3f, normal: vec3f, right_m: vec3f, down_m: vec3f) -> GroovePlace {
     let arm_m = point_m - grating.center_m;
+    // What a spot does not cover is seen as if it did.
+    let about_m = groove_arm(grating, arm_m);
     var tangent = vec3f(0.0);
     var turns = vec2f(0.0);
     // The middle, then to both sides, halfway, where a field that turns much over a pixel still tells by how much. One copy of the code.
@@ -96,7 +98,7 @@ fn groove_place(grating: Grating, course: GrooveCourse, point_m: vec3f, normal: 
         let step_m = select(select(down_m, right_m, i < 3u), vec3f(0.0), i == 0u);
         let side = select(-1.0, 1.0, (i & 1u) != 0u);
         let turn = select(select(course.down, course.right, i < 3u), vec3f(0.0), i == 0u);
-        let there = groove_tangent(grating, course.here + 0.5 * side * turn, arm_m + 0.5 * side * step_m, normal);
+        let there = groove_tangent(grating, course.here + 0.5 * side * turn, about_m + 0.5 * side * step_m, normal);
         if i == 0u {
             tangent = there;
             if all(tangent == vec3f(0.0)) {

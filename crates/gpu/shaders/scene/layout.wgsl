@@ -86,6 +86,8 @@ struct Grating {
     tiles_z: vec4f,
     mask: vec2u,                // a texture, see scene_texture(): its red is a factor on the coverage; zero: none
     directions: vec2u,          // a texture that turns grooves by texture coordinates
+    along_row: vec3f,           // unit: along rows of spots, across the axis
+    spacing_m: f32,             // from spot to spot; 0: all grooves lie about one axis
 }
 
 struct Material {

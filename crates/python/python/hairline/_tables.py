@@ -482,7 +482,7 @@ class Grating(Table):
     object: str
     """The name of the object that they cover."""
     pattern: str
-    """``"parallel"``, ``"circular"``, ``"radial"``, ``"spun"`` or ``"uv"``."""
+    """``"parallel"``, ``"circular"``, ``"radial"``, ``"spun"``, ``"swirl"`` or ``"uv"``."""
     pitch_um: float
     """From one groove to the next, micrometres, from 0.3 to 50."""
     name: Optional[str] = _default()
@@ -514,11 +514,13 @@ class Grating(Table):
     direction: Optional[Vector] = _default()
     """Of parallel grooves, 3 numbers. Default: +x."""
     axis: Optional[Vector] = _default()
-    """Of circular, radial and spun grooves, 3 numbers. Default: +z."""
+    """Of circular, radial, spun and swirling grooves, 3 numbers. Default: +z."""
     center_m: Optional[Vector] = _default()
     """A point on the axis, metres, 3 numbers. Default: 0."""
     curvature_per_m: Optional[float] = _default()
     """Of spun grooves, per metre. Default: 20."""
+    spacing_m: Optional[float] = _default()
+    """Of swirling grooves, from spot to spot, metres. Default: 0.004."""
 
 
 class Light(Table):

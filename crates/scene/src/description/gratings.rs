@@ -78,6 +78,14 @@ pub enum GroovePattern {
         /// One over their radius. Default: 20.
         curvature_per_m: f64,
     },
+    /// `"swirl"`: around the middles of spots in rows, each over those before it, as a spinning peg leaves them: engine turning, perlage.
+    Swirl {
+        /// The axis along which the spots are pressed into the surface, through the middle of one of them.
+        #[serde(flatten)]
+        around: Around,
+        /// From spot to spot in a row, and from row to row. Default: 0.004.
+        spacing_m: f64,
+    },
     /// `"uv"`: along the texture coordinates of the surface.
     Uv {
         /// Which of them. Default: `"u"`.
@@ -114,6 +122,7 @@ impl GroovePattern {
             Self::Circular(_) => "circular",
             Self::Radial(_) => "radial",
             Self::Spun { .. } => "spun",
+            Self::Swirl { .. } => "swirl",
             Self::Uv { .. } => "uv",
         }
     }
@@ -121,9 +130,10 @@ impl GroovePattern {
     /// The axis, if it has one.
     pub fn around(&self) -> Option<&Around> {
         match self {
-            Self::Circular(around) | Self::Radial(around) | Self::Spun { around, .. } => {
-                Some(around)
-            }
+            Self::Circular(around)
+            | Self::Radial(around)
+            | Self::Spun { around, .. }
+            | Self::Swirl { around, .. } => Some(around),
             Self::Parallel { .. } | Self::Uv { .. } => None,
         }
     }
@@ -147,6 +157,10 @@ impl GroovePattern {
                 let way = format!("{key}.curvature_per_m");
                 within(&way, *curvature_per_m, limits::CURVATURE_PER_M)
             }
+            Self::Swirl { around, spacing_m } => {
+                around.check_at(key)?;
+                size(&format!("{key}.spacing_m"), *spacing_m)
+            }
             Self::Uv { jitter_deg, .. } => jitter(*jitter_deg, key),
         }
     }
@@ -157,6 +171,9 @@ const DEFAULT_DEPTH_NM: Distribution = Distribution {
     mean: 120.0,
     spread: 0.0,
 };
+
+/// From spot to spot, where a grating does not say it.
+const DEFAULT_SPACING_M: f64 = 0.004;
 
 /// Widths where a grating does not say them, as shares of the pitch.
 const DEFAULT_FILL: f64 = 0.4;
@@ -259,20 +276,18 @@ impl Grating {
     }
 }
 
-/// Refuses the patterns of scratches that are none of gratings.
+/// Refuses the pattern of scratches that is none of gratings.
 fn refuse_crossings(value: &Value, key: &str) -> Result<(), Error> {
     let pattern = match value.get_ref() {
         DeValue::Table(entries) => entries.get("pattern").map(|pattern| pattern.get_ref()),
         _ => None,
     };
     match pattern {
-        Some(DeValue::String(name)) if ["random", "swirl"].contains(&name.as_ref()) => {
-            Err(Error::new(
-                format!("{key}.pattern"),
-                format!("found \"{name}\", whose scratches cross one another"),
-                "must be `parallel`, `circular`, `radial`, `spun` or `uv`",
-            ))
-        }
+        Some(DeValue::String(name)) if name.as_ref() == "random" => Err(Error::new(
+            format!("{key}.pattern"),
+            format!("found \"{name}\", whose scratches cross one another"),
+            "must be `parallel`, `circular`, `radial`, `spun`, `swirl` or `uv`",
+        )),
         _ => Ok(()),
     }
 }
@@ -305,6 +320,7 @@ impl Read for Grating {
                 ("circular", &AROUND),
                 ("radial", &AROUND),
                 ("spun", &[&AROUND[..], &["curvature_per_m"]].concat()),
+                ("swirl", &[&AROUND[..], &["spacing_m"]].concat()),
                 ("uv", &["along", "directions", "jitter_deg", "center_m"]),
             ],
         )?;
@@ -318,6 +334,10 @@ impl Read for Grating {
             "spun" => GroovePattern::Spun {
                 around: around(&table)?,
                 curvature_per_m: table.or("curvature_per_m", 20.0)?,
+            },
+            "swirl" => GroovePattern::Swirl {
+                around: around(&table)?,
+                spacing_m: table.or("spacing_m", DEFAULT_SPACING_M)?,
             },
             _ => GroovePattern::Uv {
                 along: table.or("along", UvAxis::default())?,
@@ -386,6 +406,16 @@ mod tests {
         let loaded = Description::from_toml(&saved, "test".as_ref()).unwrap();
         assert_eq!(loaded.gratings, described.gratings);
         assert_eq!(described.gratings[0].center_m, Some([0.1, 0.0, 0.0]));
+        let swirl = "object = \"o\"\npattern = \"swirl\"\njitter_deg = 3.0\nspacing_m = 0.007\npitch_um = 3.0\n";
+        let described = Description::from_toml(&text(swirl), "test".as_ref()).unwrap();
+        let saved = described.to_toml().unwrap();
+        let loaded = Description::from_toml(&saved, "test".as_ref()).unwrap();
+        assert_eq!(loaded.gratings, described.gratings);
+        let swirl = |pattern: &GroovePattern| match pattern {
+            GroovePattern::Swirl { spacing_m, .. } => Some(*spacing_m),
+            _ => None,
+        };
+        assert_eq!(swirl(&described.gratings[0].pattern), Some(0.007));
         let uv = "object = \"o\"\npattern = \"uv\"\nalong = \"v\"\ndirections = \"d.png\"\npitch_um = 3.0\nmask = \"m.png\"\ntile_m = 0.02\n";
         let described = Description::from_toml(&text(uv), "test".as_ref()).unwrap();
         let saved = described.to_toml().unwrap();
@@ -430,8 +460,16 @@ mod tests {
                 "test:8: grating[0].along: found the text \"w\"; must be one of `u` and `v`",
             ),
             (
-                DISC.replace("circular", "swirl"),
-                "test:6: grating[0].pattern: found \"swirl\", whose scratches cross one another; must be `parallel`, `circular`, `radial`, `spun` or `uv`",
+                DISC.replace("circular", "random"),
+                "test:6: grating[0].pattern: found \"random\", whose scratches cross one another; must be `parallel`, `circular`, `radial`, `spun`, `swirl` or `uv`",
+            ),
+            (
+                format!("{DISC}spacing_m = 0").replace("circular", "swirl"),
+                "test:8: grating[0].spacing_m: found 0; must be greater than 0",
+            ),
+            (
+                format!("{DISC}spacing_m = 0.01"),
+                "test:8: grating[0].spacing_m: pattern `circular` has no such key; it belongs to `swirl`",
             ),
             (
                 format!("{DISC}direction = [1, 0, 0]"),

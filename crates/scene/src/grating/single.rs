@@ -55,6 +55,7 @@ impl GrooveField {
                 let away = direction.dot(away_m.normalize_or_zero());
                 Some([[away_m.length(), height_m], [away, direction.dot(axis)]])
             }
+            Self::Spots { .. } => self.about(point_m).across_m(point_m, direction),
             Self::Around { .. } | Self::ByUv { .. } => None,
         }
     }
@@ -113,7 +114,9 @@ impl Grating {
     /// Whether a pixel, however small, could show single grooves on a surface of this coherence window.
     pub fn shows_single_grooves(&self, coherence_um: f64) -> bool {
         let is_numbered = match self.field {
-            GrooveField::Along { .. } | GrooveField::Around { .. } => true,
+            GrooveField::Along { .. } | GrooveField::Around { .. } | GrooveField::Spots { .. } => {
+                true
+            }
             GrooveField::ByUv { uv, .. } => uv.directions.is_none(),
         };
         is_numbered && self.row.shows_single_grooves(coherence_um)

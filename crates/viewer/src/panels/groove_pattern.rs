@@ -15,7 +15,7 @@ pub(super) fn rows(form: &mut Form, pattern: &mut GroovePattern) {
         &mut kind,
     );
     if kind != Kind::of(pattern) {
-        *pattern = kind.begin(pattern);
+        *pattern = kind.begin(pattern, form.diagonal_m);
     }
     match pattern {
         GroovePattern::Parallel {
@@ -32,6 +32,10 @@ pub(super) fn rows(form: &mut Form, pattern: &mut GroovePattern) {
         } => {
             axis(form, around);
             form.number(Parameter::Curvature, curvature_per_m);
+        }
+        GroovePattern::Swirl { around, spacing_m } => {
+            axis(form, around);
+            form.number(Parameter::SpotSpacing, spacing_m);
         }
         GroovePattern::Uv {
             along,
@@ -68,15 +72,17 @@ enum Kind {
     Circular,
     Radial,
     Spun,
+    Swirl,
     Uv,
 }
 
 impl Kind {
-    const ALL: [Self; 5] = [
+    const ALL: [Self; 6] = [
         Self::Parallel,
         Self::Circular,
         Self::Radial,
         Self::Spun,
+        Self::Swirl,
         Self::Uv,
     ];
 
@@ -86,6 +92,7 @@ impl Kind {
             Self::Circular => "circular",
             Self::Radial => "radial",
             Self::Spun => "spun",
+            Self::Swirl => "swirl",
             Self::Uv => "texture coordinates",
         }
     }
@@ -96,16 +103,18 @@ impl Kind {
             GroovePattern::Circular(_) => Self::Circular,
             GroovePattern::Radial(_) => Self::Radial,
             GroovePattern::Spun { .. } => Self::Spun,
+            GroovePattern::Swirl { .. } => Self::Swirl,
             GroovePattern::Uv { .. } => Self::Uv,
         }
     }
 
-    /// The pattern with what it shares with the one before: the axis and the scatter of angles stay.
-    fn begin(self, before: &GroovePattern) -> GroovePattern {
+    /// The pattern on an object of this size with what it shares with the one before: the axis and the scatter of angles stay.
+    fn begin(self, before: &GroovePattern, diagonal_m: f64) -> GroovePattern {
         let around = match before {
             GroovePattern::Circular(around)
             | GroovePattern::Radial(around)
-            | GroovePattern::Spun { around, .. } => *around,
+            | GroovePattern::Spun { around, .. }
+            | GroovePattern::Swirl { around, .. } => *around,
             GroovePattern::Parallel { jitter_deg, .. } | GroovePattern::Uv { jitter_deg, .. } => {
                 Around {
                     jitter_deg: *jitter_deg,
@@ -124,6 +133,10 @@ impl Kind {
             Self::Spun => GroovePattern::Spun {
                 around,
                 curvature_per_m: 20.0,
+            },
+            Self::Swirl => GroovePattern::Swirl {
+                around,
+                spacing_m: 0.05 * diagonal_m,
             },
             Self::Uv => GroovePattern::Uv {
                 along: UvAxis::U,

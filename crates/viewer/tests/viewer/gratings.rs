@@ -71,6 +71,7 @@ fn every_control_of_a_grating_is_live() {
         ("circular", 6),
         ("radial", 6),
         ("spun", 7),
+        ("swirl", 7),
         ("texture coordinates", 0),
     ];
     let mut is_tried = Vec::new();
