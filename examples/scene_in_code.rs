@@ -62,6 +62,7 @@ fn gold() -> Material {
         cutout: None,
         coat: None,
         coat_textures: [None; 2],
+        coat_normal_texture: None,
         anisotropy: None,
         anisotropy_texture: None,
     }

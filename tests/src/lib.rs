@@ -66,6 +66,7 @@ pub fn square(base: Base, half_side_m: f32, size_px: u32) -> Scene {
         cutout: None,
         coat: None,
         coat_textures: [None; 2],
+        coat_normal_texture: None,
         anisotropy: None,
         anisotropy_texture: None,
     };

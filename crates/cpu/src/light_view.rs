@@ -87,14 +87,22 @@ pub(crate) struct LightViews<'a> {
     pub directions: Vec<DVec3>,
     /// For scratches: edges from one to the next.
     pub edges: Vec<OutlineEdge>,
+    /// In the frame of what is under the coat: made with the first point that has one, and of account where the last one has.
+    under_coat: Option<Box<Self>>,
+    has_own_under_coat: bool,
 }
 
 impl<'a> LightViews<'a> {
     pub fn new(scene: &'a Scene) -> Self {
+        let lights = scene.scratch_lights().collect();
+        Self::of(lights, &scene.textures, scene.all_lights().count())
+    }
+
+    fn of(lights: Vec<&'a Light>, textures: &'a [Texture], on_base: usize) -> Self {
         Self {
-            lights: scene.scratch_lights().collect(),
-            textures: &scene.textures,
-            on_base: scene.all_lights().count(),
+            lights,
+            textures,
+            on_base,
             views: Vec::new(),
             places: Vec::new(),
             in_scene: Vec::new(),
@@ -103,6 +111,8 @@ impl<'a> LightViews<'a> {
             vertices: Vec::new(),
             directions: Vec::new(),
             edges: Vec::new(),
+            under_coat: None,
+            has_own_under_coat: false,
         }
     }
 
@@ -116,6 +126,14 @@ impl<'a> LightViews<'a> {
         self.vertices.clear();
         self.directions.clear();
         self.edges.clear();
+        let under_coat = point.under_coat();
+        self.has_own_under_coat = under_coat.is_some();
+        if let Some(under_coat) = under_coat {
+            let new = || Self::of(self.lights.clone(), self.textures, self.on_base).into();
+            self.under_coat
+                .get_or_insert_with(new)
+                .look_from(&under_coat);
+        }
         for index in 0..self.lights.len() {
             let light = self.lights[index];
             self.places.push(u32::MAX);
@@ -241,9 +259,25 @@ impl<'a> LightViews<'a> {
         }
     }
 
-    /// Those that shine on the base too.
-    pub fn on_base(&self) -> &[LightView] {
-        &self.views[..self.in_scene.partition_point(|light| *light < self.on_base)]
+    /// As what is under the coat sees them.
+    pub fn under_coat(&self) -> &Self {
+        let own = self.under_coat.as_deref();
+        own.filter(|_| self.has_own_under_coat).unwrap_or(self)
+    }
+
+    /// The scene's lights that shine on the base too, seen by the coat or by what is under it.
+    pub fn on_base(&self) -> impl Iterator<Item = u32> {
+        let under_coat = self.under_coat();
+        (0..self.on_base as u32).filter(move |light| {
+            [self, under_coat]
+                .iter()
+                .any(|it| it.light(*light).is_some())
+        })
+    }
+
+    /// How a light of the scene is seen; none if it is left out.
+    pub fn light(&self, light: u32) -> Option<&LightView> {
+        self.view_of(light).map(|place| &self.views[place])
     }
 
     /// Finds what all scratches at the point share; only once there are any.

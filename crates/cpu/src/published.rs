@@ -95,20 +95,14 @@ impl<'a> Published<'a> {
     }
 
     /// What the lobe reflects of a sphere, by the pivot transform, for [`crate::shade_base::Base::radiance`].
-    pub fn base_sphere(
-        &self,
-        point: &SurfacePoint,
-    ) -> impl Fn(&LtcLobe, &LobeFresnel, &SphereOnLobe) -> [f64; 3] + use<> {
-        let wo = point.wo;
-        move |lobe, of, sphere| {
-            // The pivot transform knows round lobes alone.
-            let roughness = (lobe.alphas.x * lobe.alphas.y).powf(0.25).min(1.0);
-            let pivot = sptd_lobe(wo, roughness);
-            // The published fit knows F = 1 alone; Fresnel is that of the whole lobe.
-            let share =
-                sptd_sphere_published(&pivot, sphere.axis, sphere.sin2) / lobe.albedo.max(1e-30);
-            of.albedo.map(|e| e * share)
-        }
+    pub fn base_sphere(lobe: &LtcLobe, of: &LobeFresnel, sphere: &SphereOnLobe) -> [f64; 3] {
+        // The pivot transform knows round lobes alone.
+        let roughness = (lobe.alphas.x * lobe.alphas.y).powf(0.25).min(1.0);
+        let pivot = sptd_lobe(sphere.wo, roughness);
+        // The published fit knows F = 1 alone; Fresnel is that of the whole lobe.
+        let share =
+            sptd_sphere_published(&pivot, sphere.axis, sphere.sin2) / lobe.albedo.max(1e-30);
+        of.albedo.map(|e| e * share)
     }
 }
 

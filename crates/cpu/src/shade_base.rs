@@ -2,7 +2,7 @@
 //! shade_base.wgsl.
 
 use crate::light_view::{LightView, LightViews};
-use crate::surface::SurfacePoint;
+use crate::surface::{PointCoat, SurfacePoint};
 use glam::DVec3;
 use hairline_optics::band::Cap;
 use hairline_optics::brushed_lobe::BrushedLobe;
@@ -51,6 +51,8 @@ impl Add for BaseRadiance {
 
 /// A GGX lobe of a pixel, ready for any light.
 pub(crate) struct Layer<'a> {
+    /// To the viewer, in the local frame.
+    wo: DVec3,
     shape: Shape,
     of: LobeFresnel<'a>,
     /// What the lobe reflects with F = 1.
@@ -70,11 +72,12 @@ enum Shape {
 }
 
 impl<'a> Layer<'a> {
-    fn new(point: &SurfacePoint, fresnel: FresnelRgb<'a>, roughness: f64) -> Self {
+    fn new(point: &SurfacePoint, fresnel: FresnelRgb<'a>, roughness: f64, slope_std: f64) -> Self {
         let sharp = ltc_lobe(point.wo, roughness);
-        let filtered = filtered_lobe(sharp.alpha, point.slope_spread(), point.wo.z);
+        let filtered = filtered_lobe(sharp.alpha, point.slope_spread(slope_std), point.wo.z);
         let of = LobeFresnel::new(fresnel, point.wo, roughness);
         Self {
+            wo: point.wo,
             shape: Shape::Parts(filtered.parts(&sharp)),
             of,
             lobe_albedo: sharp.albedo,
@@ -83,13 +86,14 @@ impl<'a> Layer<'a> {
     }
 
     fn brushed(point: &SurfacePoint, fresnel: FresnelRgb<'a>, facets: FacetAxes) -> Self {
-        let lobe = BrushedLobe::new(point.wo, facets, point.slope_spread());
+        let lobe = BrushedLobe::new(point.wo, facets, point.slope_spread(point.slope_std));
         let [lobe_albedo, ..] = lobe.albedo(&FresnelRgb::schlick([1.0; 3]));
         let of = LobeFresnel {
             fresnel,
             albedo: lobe.albedo(&fresnel),
         };
         Self {
+            wo: point.wo,
             shape: Shape::Brushed(Box::new((lobe, lobe.chord(point.wo)))),
             of,
             lobe_albedo,
@@ -112,7 +116,7 @@ impl<'a> Layer<'a> {
         let single = match &self.shape {
             Shape::Parts(parts) => {
                 let part = |part: &LobePart| {
-                    let even = reflected_light(light, views, part, &self.of, &sphere);
+                    let even = reflected_light(light, views, part, self, &sphere);
                     pictured(even.into(), &part.lobe)
                 };
                 parts.iter().filter(|part| part.counts()).map(part).sum()
@@ -163,6 +167,8 @@ impl<'a> Layer<'a> {
 /// The base at a point, ready for any light.
 pub(crate) struct Base<'p, 'a> {
     point: &'p SurfacePoint<'a>,
+    /// In its own frame, where that is not the coat's.
+    under_coat: Option<SurfacePoint<'a>>,
     /// The lobe over the body.
     pub lobe: Layer<'a>,
     /// The layer over both, with its share of the surface.
@@ -173,18 +179,27 @@ pub(crate) struct Base<'p, 'a> {
 
 impl<'p, 'a> Base<'p, 'a> {
     pub fn new(point: &'p SurfacePoint<'a>) -> Self {
-        let lobe = match point.facets {
-            Some(facets) => Layer::brushed(point, point.fresnel, facets),
-            None => Layer::new(point, point.fresnel, point.roughness),
+        let under_coat = point.under_coat();
+        let base = under_coat.as_ref().unwrap_or(point);
+        let lobe = match base.facets {
+            Some(facets) => Layer::brushed(base, base.fresnel, facets),
+            None => Layer::new(base, base.fresnel, base.roughness, base.slope_std),
         };
         let coat = point.coat.filter(|coat| coat.weight > 0.0);
+        let layer = |it: PointCoat<'a>| Layer::new(point, it.fresnel, it.roughness, it.slope_std);
         Self {
             point,
+            under_coat,
             // What the surface does not reflect reaches the body.
             body: point.diffuse * (DVec3::ONE - lobe.albedo).max(DVec3::ZERO),
             lobe,
-            coat: coat.map(|it| (it.weight, Layer::new(point, it.fresnel, it.roughness))),
+            coat: coat.map(|it| (it.weight, layer(it))),
         }
+    }
+
+    /// The point in the frame of what is under the coat.
+    pub fn under_coat(&self) -> &SurfacePoint<'a> {
+        self.under_coat.as_ref().unwrap_or(self.point)
     }
 
     /// The base under its coat: what the coat does not reflect goes through it (docs/model.md, (29a)). Scratches take from what it
@@ -213,7 +228,7 @@ impl<'p, 'a> Base<'p, 'a> {
         views: &LightViews,
         sphere: impl Fn(&LtcLobe, &LobeFresnel, &SphereOnLobe) -> [f64; 3],
     ) -> BaseRadiance {
-        let lights = views.on_base().iter();
+        let lights = views.on_base();
         let by_lights = lights.map(|light| self.by_light(light, views, &sphere));
         let around = environment.map(|environment| self.by_environment(environment));
         by_lights
@@ -221,34 +236,38 @@ impl<'p, 'a> Base<'p, 'a> {
             .fold(BaseRadiance::default(), Add::add)
     }
 
-    /// The part of one light. `sphere` is what the lobe reflects of a sphere: [`transformed_sphere`].
+    /// The part of one light of the scene. `sphere` is what the lobe reflects of a sphere: [`transformed_sphere`].
     pub fn by_light(
         &self,
-        light: &LightView,
+        light: u32,
         views: &LightViews,
         sphere: impl Fn(&LtcLobe, &LobeFresnel, &SphereOnLobe) -> [f64; 3],
     ) -> BaseRadiance {
-        let picture = views.picture(light);
-        let radiance = light.radiance();
-        let bare = BaseRadiance {
-            specular: radiance * self.lobe.lit_by(light, views, &sphere),
+        let under_coat = views.under_coat();
+        let bare = under_coat.light(light).map(|light| BaseRadiance {
+            specular: light.radiance() * self.lobe.lit_by(light, under_coat, &sphere),
             diffuse: self.diffuse(|| {
-                let even = radiance * form_factor(light, views);
+                let even = light.radiance() * form_factor(light, under_coat);
+                let picture = under_coat.picture(light);
                 picture.map_or(even, |picture| even * picture.on_body())
             }),
-        };
-        self.coated(bare, |coat| radiance * coat.lit_by(light, views, &sphere))
+        });
+        self.coated(bare.unwrap_or_default(), |coat| {
+            views.light(light).map_or(DVec3::ZERO, |light| {
+                light.radiance() * coat.lit_by(light, views, &sphere)
+            })
+        })
     }
 
     /// The part of the environment without its suns.
     pub fn by_environment(&self, environment: &Environment) -> BaseRadiance {
-        let point = self.point;
+        let under_coat = self.under_coat();
         let bare = BaseRadiance {
-            specular: self.lobe.surrounded_by(environment, point),
-            diffuse: self.diffuse(|| environment.irradiance(point.normal) / PI),
+            specular: self.lobe.surrounded_by(environment, under_coat),
+            diffuse: self.diffuse(|| environment.irradiance(under_coat.normal) / PI),
         };
-        self.coated(bare, |coat| coat.surrounded_by(environment, point))
-            .times(DVec3::splat(point.open))
+        self.coated(bare, |coat| coat.surrounded_by(environment, self.point))
+            .times(DVec3::splat(self.point.open))
     }
 
     /// What the body sends under an irradiance over pi.
@@ -267,6 +286,8 @@ pub(crate) struct SphereOnLobe {
     pub axis: DVec3,
     /// The squared sine of its angular radius.
     pub sin2: f64,
+    /// To the viewer, in the local frame.
+    pub wo: DVec3,
     /// [`ltc_sphere_vector`].
     vector: DVec3,
 }
@@ -285,10 +306,10 @@ fn reflected_light(
     light: &LightView,
     views: &LightViews,
     part: &LobePart,
-    of: &LobeFresnel,
+    layer: &Layer,
     sphere: impl Fn(&LtcLobe, &LobeFresnel, &SphereOnLobe) -> [f64; 3],
 ) -> [f64; 3] {
-    let lobe = &part.lobe;
+    let (lobe, of, wo) = (&part.lobe, &layer.of, layer.wo);
     let (vector, round) = match light {
         LightView::Sphere { cap, .. } => {
             let (axis, sin2) = (cap.axis, sphere_sin2(cap));
@@ -304,7 +325,15 @@ fn reflected_light(
         return [0.0; 3];
     }
     let reflected = match round {
-        Some((axis, sin2)) => sphere(lobe, of, &SphereOnLobe { axis, sin2, vector }),
+        Some((axis, sin2)) => {
+            let seen = SphereOnLobe {
+                axis,
+                sin2,
+                wo,
+                vector,
+            };
+            sphere(lobe, of, &seen)
+        }
         None => ltc_reflected(lobe, of, vector),
     };
     reflected.map(|channel| weight * channel)

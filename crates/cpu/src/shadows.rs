@@ -19,7 +19,7 @@ use crate::shade_base::{Base, BaseRadiance, transformed_sphere};
 use crate::shade_gratings::ShadedGratings;
 use crate::shade_scratches::{DrawnLight, Frame, Pick, Picks, ScratchLight, SourcePicks};
 use crate::surface::{SurfacePoint, raised_m};
-use glam::{DVec2, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 use hairline_image::Batch;
 use hairline_index::Hit;
 use hairline_optics::band::{Along, BandPlace};
@@ -187,16 +187,16 @@ impl<'a> Shadows<'a> {
     fn base(&self, at: &ShadowPoint) -> BaseRadiance {
         let base = Base::new(at.point);
         let environment = self.prepared.scene.environment.as_ref();
-        let lights = at.views.on_base().iter();
-        let mut sources: Vec<BaseSource> = lights
-            .map(|light| base.by_light(light, at.views, transformed_sphere))
+        let lights: Vec<u32> = at.views.on_base().collect();
+        let by_light = |light: &u32| base.by_light(*light, at.views, transformed_sphere);
+        let mut sources: Vec<BaseSource> = (lights.iter().map(by_light))
             .chain(environment.map(|environment| base.by_environment(environment)))
             .map(BaseSource::new)
             .collect();
         let lobes = Lobes::new(&base, at.point);
         let mut by_objects = BaseRadiance::default();
         for round in 0..at.rounds.now.count {
-            let drawn = self.add_round(at, &lobes, round, &mut sources);
+            let drawn = self.add_round(at, &lobes, round, &lights, &mut sources);
             let Some(DrawnRay {
                 wi,
                 direction,
@@ -216,17 +216,17 @@ impl<'a> Shadows<'a> {
             }
         }
         let rounds = at.rounds.now.count;
-        let lights = at.views.on_base().len();
         if rounds == 1
-            && let Some(around) = sources.get_mut(lights)
+            && let Some(around) = sources.get_mut(lights.len())
             && around.is_lit()
         {
             let (on_surface_m, drawn) = self.draw_by_lobes(at, &lobes, 1);
             self.add_environment(at, &lobes, 1, on_surface_m, drawn.as_ref(), around);
         }
         let of_sources = sources.iter().enumerate().map(|(i, source)| {
-            let rounds = rounds.max(if i < lights { 1 } else { ROUNDS_AROUND });
-            source.resolve(rounds, &|| self.sees_highest(at, i))
+            let light = lights.get(i).copied();
+            let rounds = rounds.max(light.map_or(ROUNDS_AROUND, |_| 1));
+            source.resolve(rounds, &|| self.sees_highest(at, light))
         });
         of_sources.fold(by_objects, |sum, part| sum + part)
     }
@@ -237,6 +237,7 @@ impl<'a> Shadows<'a> {
         at: &ShadowPoint,
         lobes: &Lobes,
         round: u32,
+        lights: &[u32],
         sources: &mut [BaseSource],
     ) -> Option<DrawnRay> {
         let point = at.point;
@@ -246,17 +247,17 @@ impl<'a> Shadows<'a> {
             if !source.is_lit() {
                 continue;
             }
-            let light = at.views.light_of(i);
-            let Some(light) = light.filter(|_| i < at.views.on_base().len()) else {
+            let Some(&light) = lights.get(i) else {
                 // The environment is the last one.
                 self.add_environment(at, lobes, round, on_surface_m, drawn.as_ref(), source);
                 continue;
             };
-            let [u, v, ..] = at.random(Purpose::Light(light as u32), round);
+            let [u, v, ..] = at.random(Purpose::Light(light), round);
+            let light = light as usize;
             if let Some(to) = self.lights.sample(light, from, DVec2::new(u, v)) {
                 let wi = point.surface_from_world(to.direction);
                 let weight = to.radiance / (to.pdf + lobes.pdf(wi));
-                if wi.z > 0.0 {
+                if lobes.are_above(wi) {
                     let is_seen = self.sees(point, on_surface_m, to.direction, to.distance_m);
                     source.add(round, lobes.eval(wi).times(weight), is_seen);
                 }
@@ -322,7 +323,7 @@ impl<'a> Shadows<'a> {
         let [u, v, ..] = at.random(Purpose::Environment, round);
         let (direction, pdf) = sampler.sample(DVec2::new(u, v));
         let wi = point.surface_from_world(direction);
-        if wi.z > 0.0 {
+        if lobes.are_above(wi) {
             let weight = radiance(direction) / (pdf + lobes.pdf(wi));
             let is_seen = self.sees(point, on_surface_m, direction, f64::INFINITY);
             source.add(round, lobes.eval(wi).times(weight), is_seen);
@@ -401,7 +402,8 @@ impl<'a> Shadows<'a> {
             );
         }
         let rounds = at.rounds.now.count;
-        halves.resolve(source.radiance, rounds, &|| self.sees_highest(at, i))
+        let light = light.map(|light| light as u32);
+        halves.resolve(source.radiance, rounds, &|| self.sees_highest(at, light))
     }
 
     fn picked(&self, point: &SurfacePoint, pick: &Pick) -> ScratchLight<'_> {
@@ -464,14 +466,22 @@ impl<'a> Shadows<'a> {
         self.under_the_pixel(at, stds)
     }
 
-    /// Whether the highest part of a source is seen, of those in [`LightViews::views`] or of the environment.
-    fn sees_highest(&self, at: &ShadowPoint, source: usize) -> bool {
+    /// Whether the highest part of a light is seen, or of the environment. Of a light that a coat does not see it is the part that is highest for
+    /// what is under the coat.
+    fn sees_highest(&self, at: &ShadowPoint, light: Option<u32>) -> bool {
         let point = at.point;
-        let light = at.views.views.get(source);
-        let wi = light.map_or(DVec3::Z, |light| light.highest(at.views));
-        let direction = point.world_from_surface(wi);
-        let distance_m = at.views.light_of(source).map_or(f64::INFINITY, |light| {
-            self.lights.reach_m(light, point.position_m, direction)
+        let highest = |views: &LightViews| Some(views.light(light?)?.highest(views));
+        let under_coat = || {
+            let (wi, under_coat) = (highest(at.views.under_coat())?, point.under_coat()?);
+            Some((wi, under_coat.world_from_surface(wi)))
+        };
+        let on_top = highest(at.views).map(|wi| (wi, point.world_from_surface(wi)));
+        let (wi, direction) = on_top
+            .or_else(under_coat)
+            .unwrap_or((DVec3::Z, point.normal));
+        let distance_m = light.map_or(f64::INFINITY, |light| {
+            let from_m = point.position_m;
+            self.lights.reach_m(light as usize, from_m, direction)
         });
         wi.z > 0.0 && self.sees(point, point.raised_m, direction, distance_m)
     }
@@ -558,40 +568,63 @@ fn normals(u: f64, v: f64) -> [f64; 2] {
     [radius * cos, radius * sin]
 }
 
-/// The lobes of the base, simple enough to be drawn from. They only shape shadows: the closed form says how much light there is.
+/// The lobes of the base, simple enough to be drawn from. They only shape shadows: the closed form says how much light there is. Directions are in
+/// the frame of the point.
 struct Lobes<'l, 'a> {
     base: &'l Base<'l, 'a>,
-    wo: DVec3,
     lobe: DrawnLobe<'a>,
     coat: Option<DrawnLobe<'a>>,
     /// How often that of the body is drawn from.
     body_share: f64,
+    /// To the frame of the lobe and the body, where that is not the coat's.
+    under_coat: Option<DMat3>,
 }
 
-/// A lobe, widened by the pixel's normals.
+/// A lobe, widened by the pixel's normals. Directions are in its own frame.
 struct DrawnLobe<'a> {
+    wo: DVec3,
     facets: Facets,
     fresnel: FresnelRgb<'a>,
     /// How often it is drawn from.
     share: f64,
 }
 
-impl DrawnLobe<'_> {
-    fn single(&self, wi: DVec3, wo: DVec3) -> DVec3 {
-        let facet = self.fresnel.eval(half_vector_cos(wi, wo));
-        DVec3::from(facet) * self.facets.eval(wi, wo)
+impl<'a> DrawnLobe<'a> {
+    fn new(
+        point: &SurfacePoint,
+        own: FacetAxes,
+        slope_std: f64,
+        fresnel: FresnelRgb<'a>,
+        share: f64,
+    ) -> Self {
+        let added = 2.0 * point.slope_spread(slope_std).variance.element_sum();
+        Self {
+            wo: point.wo,
+            facets: Facets::new(own.spread_by(added)),
+            fresnel,
+            share,
+        }
+    }
+
+    fn single(&self, wi: DVec3) -> DVec3 {
+        let facet = self.fresnel.eval(half_vector_cos(wi, self.wo));
+        DVec3::from(facet) * self.facets.eval(wi, self.wo)
+    }
+
+    fn pdf(&self, wi: DVec3) -> f64 {
+        if wi.z > 0.0 {
+            self.share * self.facets.pdf(wi, self.wo)
+        } else {
+            0.0
+        }
     }
 }
 
 impl<'l, 'a> Lobes<'l, 'a> {
     fn new(base: &'l Base<'l, 'a>, point: &SurfacePoint<'a>) -> Self {
-        let facets = |own: Option<FacetAxes>, roughness: f64| {
-            let round = FacetAxes {
-                along: DVec2::X,
-                alphas: DVec2::splat(ggx_alpha(roughness)),
-            };
-            let added = 2.0 * point.slope_spread().variance.element_sum();
-            Facets::new(own.unwrap_or(round).spread_by(added))
+        let round = |roughness: f64| FacetAxes {
+            along: DVec2::X,
+            alphas: DVec2::splat(ggx_alpha(roughness)),
         };
         let (specular, below) = (luminance(base.lobe.albedo), luminance(base.body));
         let share = if below > 0.0 {
@@ -600,59 +633,71 @@ impl<'l, 'a> Lobes<'l, 'a> {
             1.0
         };
         let coat = point.coat.zip(base.coat.as_ref());
-        let coat = coat.map(|(it, (weight, layer))| DrawnLobe {
-            facets: facets(None, it.roughness),
-            fresnel: it.fresnel,
+        let coat = coat.map(|(it, (weight, layer))| {
             // Faint as it is, its highlights are the strongest.
-            share: (weight * luminance(layer.albedo)).max(0.3 * weight),
+            let share = (weight * luminance(layer.albedo)).max(0.3 * weight);
+            DrawnLobe::new(point, round(it.roughness), it.slope_std, it.fresnel, share)
         });
         let left = 1.0 - coat.as_ref().map_or(0.0, |coat| coat.share);
+        let under_coat = base.under_coat();
+        let own = under_coat.facets.unwrap_or(round(point.roughness));
+        let (slope_std, fresnel) = (point.slope_std, point.fresnel);
         Self {
             base,
-            wo: point.wo,
-            lobe: DrawnLobe {
-                facets: facets(point.facets, point.roughness),
-                fresnel: point.fresnel,
-                share: left * share,
-            },
+            lobe: DrawnLobe::new(under_coat, own, slope_std, fresnel, left * share),
             coat,
             body_share: left * (1.0 - share),
+            under_coat: point.normal_under_coat.map(|_| {
+                let axes = [under_coat.axis_x, under_coat.axis_y, under_coat.normal];
+                let [x, y, z] = axes.map(|axis| point.surface_from_world(axis));
+                DMat3::from_cols(x, y, z).transpose()
+            }),
         }
     }
 
+    /// A direction in the frame of the lobe and the body.
+    fn under_coat(&self, wi: DVec3) -> DVec3 {
+        self.under_coat.map_or(wi, |turn| turn * wi)
+    }
+
+    /// Whether light from there falls on the coat or on what is under it.
+    fn are_above(&self, wi: DVec3) -> bool {
+        wi.z > 0.0 || self.under_coat(wi).z > 0.0
+    }
+
     fn sample(&self, pick: f64, u: DVec2) -> Option<DVec3> {
-        let wi = match &self.coat {
-            Some(coat) if pick >= 1.0 - coat.share => coat.facets.sample(self.wo, u),
-            _ if pick < self.lobe.share || self.body_share == 0.0 => {
-                self.lobe.facets.sample(self.wo, u)
-            }
-            _ => {
-                let (sin, cos) = (2.0 * PI * u.x).sin_cos();
-                let r = u.y.sqrt();
-                DVec3::new(r * cos, r * sin, (1.0 - u.y).sqrt())
-            }
+        if let Some(coat) = self.coat.as_ref().filter(|coat| pick >= 1.0 - coat.share) {
+            let wi = coat.facets.sample(coat.wo, u);
+            return (wi.z > 0.0).then_some(wi);
+        }
+        let wi = if pick < self.lobe.share || self.body_share == 0.0 {
+            self.lobe.facets.sample(self.lobe.wo, u)
+        } else {
+            let (sin, cos) = (2.0 * PI * u.x).sin_cos();
+            let r = u.y.sqrt();
+            DVec3::new(r * cos, r * sin, (1.0 - u.y).sqrt())
         };
-        (wi.z > 0.0).then_some(wi)
+        let on_top = self.under_coat.map_or(wi, |turn| turn.transpose() * wi);
+        (wi.z > 0.0).then_some(on_top)
     }
 
     fn pdf(&self, wi: DVec3) -> f64 {
-        let lobes = std::iter::once(&self.lobe).chain(&self.coat);
-        let by_lobes: f64 = lobes
-            .map(|lobe| lobe.share * lobe.facets.pdf(wi, self.wo))
-            .sum();
-        by_lobes + wi.z.max(0.0) / PI * self.body_share
+        let under_coat = self.under_coat(wi);
+        let by_coat = self.coat.as_ref().map_or(0.0, |coat| coat.pdf(wi));
+        by_coat + self.lobe.pdf(under_coat) + under_coat.z.max(0.0) / PI * self.body_share
     }
 
     /// The BRDF times the cosine.
     fn eval(&self, wi: DVec3) -> BaseRadiance {
+        let under_coat = self.under_coat(wi);
         let bare = BaseRadiance {
-            specular: self.base.lobe.of_single(self.lobe.single(wi, self.wo)),
-            diffuse: self.base.body * (wi.z.max(0.0) / PI),
+            specular: self.base.lobe.of_single(self.lobe.single(under_coat)),
+            diffuse: self.base.body * (under_coat.z.max(0.0) / PI),
         };
         match &self.coat {
             Some(drawn) => self
                 .base
-                .coated(bare, |coat| coat.of_single(drawn.single(wi, self.wo))),
+                .coated(bare, |coat| coat.of_single(drawn.single(wi))),
             None => bare,
         }
     }

@@ -9,7 +9,8 @@ use hairline_optics::ggx::ggx_alpha;
 use hairline_scene::texture_lookup::{TextureSampler, blend, texture_footprint};
 use hairline_scene::{COAT_F0, Mesh, Scene, ScratchTables, Texture};
 
-/// A shading point. Its local frame has z along the shading normal and the viewer in the x-z plane.
+/// A shading point. Its local frame has z along the shading normal and the viewer in the x-z plane. Of a surface under a coat it is that of the
+/// coat; [`SurfacePoint::under_coat`] has that of what is under it.
 #[derive(Clone, Copy, Debug)]
 pub struct SurfacePoint<'a> {
     /// World space.
@@ -23,6 +24,8 @@ pub struct SurfacePoint<'a> {
     pub axis_y: DVec3,
     /// Shading normal.
     pub normal: DVec3,
+    /// That of what is under the coat, where it is another one.
+    pub normal_under_coat: Option<DVec3>,
     /// Unit normal of the triangle, on the viewer's side.
     pub facet: DVec3,
     /// Unit direction to the viewer in the local frame.
@@ -39,11 +42,11 @@ pub struct SurfacePoint<'a> {
     pub diffuse: DVec3,
     /// Of the surface between the scratches, or of what is under the coat.
     pub roughness: f64,
-    /// How its facets lean where they lean further one way than across it.
+    /// How its facets lean where they lean further one way than across it; in the frame of what is under the coat.
     pub facets: Option<FacetAxes>,
     /// A clear layer over all of this.
     pub coat: Option<PointCoat<'a>>,
-    /// How far a normal map's slopes spread about the one that is looked up, in each direction.
+    /// How far the slopes of its normal map spread about the one that is looked up, in each direction.
     pub slope_std: f64,
     /// What of the environment's light reaches the base.
     pub open: f64,
@@ -68,6 +71,8 @@ pub struct PointCoat<'a> {
     pub roughness: f64,
     /// Reflectance where it is.
     pub fresnel: FresnelRgb<'a>,
+    /// As [`SurfacePoint::slope_std`], of its own normal map.
+    pub slope_std: f64,
 }
 
 /// How far a surface may be off the plane of a footprint for each length along it.
@@ -99,13 +104,34 @@ impl SurfacePoint<'_> {
         self.axis_x * v.x + self.axis_y * v.y + self.normal * v.z
     }
 
-    /// How the slopes spread that a pixel sees.
-    pub fn slope_spread(&self) -> SlopeSpread {
+    /// How the slopes spread that a pixel sees, of a surface whose normal map's spread so far.
+    pub fn slope_spread(&self, slope_std: f64) -> SlopeSpread {
         let [x, y] = self.normal_turns.map(|turn| turn.truncate());
         SlopeSpread {
-            variance: x * x + y * y + self.slope_std * self.slope_std,
+            variance: x * x + y * y + slope_std * slope_std,
             covariance: x.x * x.y + y.x * y.y,
         }
+    }
+
+    /// What is under the coat, where it has a normal of its own, in its own frame.
+    pub fn under_coat(&self) -> Option<Self> {
+        let normal = self.normal_under_coat?;
+        let to_viewer = self.world_from_surface(self.wo);
+        let ([axis_x, axis_y], wo) = frame(normal, to_viewer);
+        let turn = |turn| {
+            let turn = self.world_from_surface(turn);
+            DVec3::new(turn.dot(axis_x), turn.dot(axis_y), 0.0)
+        };
+        Some(Self {
+            axis_x,
+            axis_y,
+            normal,
+            normal_under_coat: None,
+            wo,
+            normal_turns: self.normal_turns.map(turn),
+            coat: None,
+            ..*self
+        })
     }
 
     /// The point alone, for scratches that are not averaged over the pixel.
@@ -174,19 +200,40 @@ pub fn surface_point<'a>(
         [tangent, smooth.cross(tangent) * tangents[0].w]
     };
 
-    let mut normal = smooth;
-    let mut slope_std = 0.0;
-    if let Some((index, scale)) = material.normal_texture
-        && let Some(texel) = looked_up(Some(index), sample_normals)
-    {
+    let mapped = |map: Option<(usize, f64)>| {
+        let Some((index, scale)) = map else {
+            return (smooth, 0.0);
+        };
+        let Some(texel) = looked_up(Some(index), sample_normals) else {
+            return (smooth, 0.0);
+        };
         let [tangent, bitangent] = tangents();
         let n = texel.truncate() * 2.0 - DVec3::ONE;
-        normal = (tangent * (n.x * scale) + bitangent * (n.y * scale) + smooth * n.z)
+        let normal = (tangent * (n.x * scale) + bitangent * (n.y * scale) + smooth * n.z)
             .normalize_or(smooth);
         // A point has one normal.
-        if axes != [DVec3::ZERO; 2] {
-            slope_std = texel.w * scale;
+        let is_wide = axes != [DVec3::ZERO; 2];
+        (normal, if is_wide { texel.w * scale } else { 0.0 })
+    };
+    let (under_coat, slope_std) = mapped(material.normal_texture);
+    let mut coat = optics.coat_curve.zip(material.coat).map(|(curve, coat)| {
+        let [weight, roughness] = material.coat_textures.map(texture);
+        PointCoat {
+            weight: coat.weight * weight.map_or(1.0, |t| t.x),
+            roughness: coat.roughness * roughness.map_or(1.0, |t| t.y),
+            fresnel: FresnelRgb {
+                f0: [COAT_F0; 3],
+                f90: 1.0,
+                curve: &tables.curves[curve as usize],
+            },
+            slope_std,
         }
+    });
+    let mut normal = under_coat;
+    if let Some(coat) = coat.as_mut().filter(|coat| coat.weight > 0.0)
+        && material.has_coat_normals()
+    {
+        (normal, coat.slope_std) = mapped(material.coat_normal_texture);
     }
     let brushed = material.anisotropy.filter(|it| it.strength > 0.0);
     let anisotropy = brushed.map(|it| {
@@ -198,13 +245,9 @@ pub fn surface_point<'a>(
         (tangent * turn.x + bitangent * turn.y, strength)
     });
     let smooth = side * smooth;
-    let normal = face_viewer(side * normal, to_viewer);
-    // The viewer in the x-z plane; any x will do where they look along the normal.
-    let tangential = to_viewer - normal * normal.dot(to_viewer);
-    let axis_x = tangential
-        .try_normalize()
-        .unwrap_or_else(|| normal.any_orthonormal_vector());
-    let axis_y = normal.cross(axis_x);
+    let [normal, under_coat] =
+        [normal, under_coat].map(|normal| face_viewer(side * normal, to_viewer));
+    let ([axis_x, axis_y], wo) = frame(normal, to_viewer);
 
     let mut base_color = DVec3::from(optics.base_color) * mesh.color(triangle, weights).truncate();
     let mut metallic = optics.metallic;
@@ -236,15 +279,15 @@ pub fn surface_point<'a>(
         emission = base_color;
         (f0, f90, base_color) = (DVec3::ZERO, 0.0, DVec3::ZERO);
     }
-    let cos = normal.dot(to_viewer);
     SurfacePoint {
         position_m,
         raised_m: raised(position_m, hit, mesh, side),
         axis_x,
         axis_y,
         normal,
+        normal_under_coat: (under_coat != normal).then_some(under_coat),
         facet: side * geometric.normalize_or(normal),
-        wo: DVec3::new((1.0 - cos * cos).max(0.0).sqrt(), 0.0, cos),
+        wo,
         distance_m: hit.distance_m,
         footprint_axes_m: if normal == smooth {
             axes
@@ -262,23 +305,13 @@ pub fn surface_point<'a>(
         roughness,
         facets: anisotropy.map(|(way, strength)| {
             let alpha = ggx_alpha(roughness);
+            let ([axis_x, axis_y], _) = frame(under_coat, to_viewer);
             FacetAxes {
                 along: DVec2::new(way.dot(axis_x), way.dot(axis_y)).normalize_or(DVec2::X),
                 alphas: DVec2::new(anisotropic_alpha(alpha, strength), alpha),
             }
         }),
-        coat: optics
-            .coat_curve
-            .zip(material.coat)
-            .map(|(curve, coat)| PointCoat {
-                weight: coat.weight * texture(material.coat_textures[0]).map_or(1.0, |t| t.x),
-                roughness: coat.roughness * texture(material.coat_textures[1]).map_or(1.0, |t| t.y),
-                fresnel: FresnelRgb {
-                    f0: [COAT_F0; 3],
-                    f90: 1.0,
-                    curve: &tables.curves[curve as usize],
-                },
-            }),
+        coat,
         slope_std,
         open: material.occlusion_texture.map_or(1.0, |(index, strength)| {
             let red = texture(Some(index)).map_or(1.0, |texel| texel.x);
@@ -343,6 +376,17 @@ fn normal_turn(
         return DVec3::ZERO;
     }
     (change - interpolated * (change.dot(interpolated) / length2)) / length2.sqrt()
+}
+
+/// The axes across a normal, and the direction to the viewer in the frame of all three: in its x-z plane. Any x will do where they look along the
+/// normal.
+fn frame(normal: DVec3, to_viewer: DVec3) -> ([DVec3; 2], DVec3) {
+    let cos = normal.dot(to_viewer);
+    let axis_x = (to_viewer - normal * cos)
+        .try_normalize()
+        .unwrap_or_else(|| normal.any_orthonormal_vector());
+    let wo = DVec3::new((1.0 - cos * cos).max(0.0).sqrt(), 0.0, cos);
+    ([axis_x, normal.cross(axis_x)], wo)
 }
 
 /// Bends a normal that the viewer cannot see until its cosine is [`MIN_VIEW_COS`].

@@ -344,7 +344,7 @@ impl<'a> Tile<'a> {
                         }
                         (By::Published(published), _) => (
                             published.scratches(at, hit, views),
-                            Base::new(at).radiance(environment, views, published.base_sphere(at)),
+                            Base::new(at).radiance(environment, views, Published::base_sphere),
                         ),
                     };
                     Sample::surface(at, &masked, &light, *depth_m)

@@ -269,6 +269,11 @@ fn material(scene: &Scene, tables: &ScratchTables, array: &TextureArray, index: 
         specular: material.specular.weight as f32,
         specular_texture: array.packed(material.specular_textures[0]),
         specular_color_texture: array.packed(material.specular_textures[1]),
+        coat_normal_texture: array.packed(material.coat_normal_texture.map(|(texture, _)| texture)),
+        coat_normal_scale: material
+            .coat_normal_texture
+            .map_or(1.0, |(_, scale)| scale as f32),
+        pad_0: 0,
     }
 }
 

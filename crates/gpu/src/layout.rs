@@ -150,6 +150,9 @@ shared! {
         specular: f32,
         specular_texture: [u32; 2],
         specular_color_texture: [u32; 2],
+        coat_normal_texture: [u32; 2],
+        coat_normal_scale: f32,
+        pad_0: u32,
     }
     /// A light.
     Light {
@@ -201,7 +204,7 @@ shared! {
         diffuse: [u32; 2],
         coat: u32,
         triangle: u32,
-        emission: [f32; 3],
+        emission: [u32; 3],
         curve_bits: u32,
     }
     /// Radiance of the base.

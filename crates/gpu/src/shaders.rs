@@ -143,7 +143,7 @@ modules! {
     /// What one scratch sends to the viewer of a rectangle with a picture.
     SCRATCH_PICTURE = "scene/scratch_picture" needs [PICTURE_LIGHT, SCRATCH_LIGHT];
     /// From a triangle to the surface point.
-    HIT = "scene/hit" needs [SCENE, SURFACE_POINT, CAMERA];
+    HIT = "scene/hit" needs [SCENE, SURFACE_POINT, CAMERA, COAT];
     /// A segment in the picture, and the tiles and pixels that it comes near to.
     PROJECTED = "scene/projected" needs [ROWS, SEGMENTS, FILM];
     /// Which pixels see a segment.
@@ -159,7 +159,7 @@ modules! {
     /// The triangle under a grating.
     GROOVE_GROUND = "scene/groove_ground" needs [GRATINGS, SCENE, SURFACE_POINT];
     /// A clear layer over the base.
-    COAT = "scene/coat" needs [BINDINGS, FRESNEL, CONTENTS];
+    COAT = "scene/coat" needs [BINDINGS, FRESNEL, CONTENTS, SURFACE_POINT];
     /// The base under lights and environment.
     BASE = "scene/base" needs [
         SCENE, LIGHTS, PICTURE_LIGHT, FILTERED_LOBE, ENVIRONMENT_LOBE, BRUSHED_LOBE, COAT

@@ -43,6 +43,8 @@ pub(crate) struct Contents {
     pub specular: bool,
     /// The curve of coats, if there are any.
     pub coats: Option<u32>,
+    /// Coats whose normals are not those of what is under them.
+    pub coat_normals: bool,
 }
 
 impl Contents {
@@ -75,6 +77,7 @@ impl Contents {
             anisotropy: scene.materials.iter().any(|it| it.anisotropy.is_some()),
             specular: scene.materials.iter().any(Material::has_specular),
             coats: tables.materials.iter().find_map(|optics| optics.coat_curve),
+            coat_normals: scene.materials.iter().any(Material::has_coat_normals),
         }
     }
 }
@@ -137,6 +140,7 @@ pub fn pipeline_variants(text: &str) -> Vec<(String, Vec<(&'static str, f64)>)> 
         anisotropy: true,
         specular: true,
         coats: Some(0),
+        coat_normals: true,
     };
     let lists = PublishedMethod {
         structure: Structure::TriangleLists,
@@ -211,6 +215,7 @@ impl ShadeVariant {
             ("HAS_ANISOTROPY", has.anisotropy.into()),
             ("HAS_SPECULAR", has.specular.into()),
             ("HAS_COATS", has.coats.is_some().into()),
+            ("HAS_COAT_NORMALS", has.coat_normals.into()),
             ("COAT_CURVE", has.coats.unwrap_or(0).into()),
             ("METHOD_MASK", mask.into()),
             (

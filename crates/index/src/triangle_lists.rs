@@ -115,7 +115,7 @@ impl TriangleReach {
             coherence_um: material.coherence_um,
             walk_um: reach_std * WINDOW_VARIANCE.sqrt() * material.coherence_um,
             // A normal map may turn it anywhere.
-            tilt_rad: if material.normal_texture.is_some() {
+            tilt_rad: if material.normal_texture.is_some() || material.has_coat_normals() {
                 std::f64::consts::FRAC_PI_2
             } else {
                 tilt_rad(mesh, triangle, normal)

@@ -5,7 +5,7 @@
 
 use std::f64::consts::PI;
 
-use glam::{DVec2, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 use hairline_optics::facets::Facets;
 use hairline_optics::ggx::ggx_alpha;
 
@@ -15,7 +15,10 @@ use hairline_cpu::surface::SurfacePoint;
 /// The base at a point for its viewer. Directions are unit vectors in the point's local frame.
 #[derive(Clone, Copy)]
 pub(crate) struct BaseLobes<'a> {
+    /// In the frame of what is under the coat.
     wo: DVec3,
+    /// To that frame from the coat's, where it is another one.
+    under_coat: Option<DMat3>,
     facets: Facets,
     reflectance: &'a Reflectance,
     ends: Ends,
@@ -33,6 +36,8 @@ pub(crate) struct BaseLobes<'a> {
 struct CoatLobe<'a> {
     /// The share of the surface that it covers.
     weight: f64,
+    /// In the coat's own frame.
+    wo: DVec3,
     facets: Facets,
     reflectance: &'a Reflectance,
     gain: f64,
@@ -50,24 +55,35 @@ impl<'a> BaseLobes<'a> {
         coat: Option<&'a Reflectance>,
     ) -> Self {
         let ends = Ends::of(point);
+        let under_coat = point.under_coat();
+        let wo = under_coat.map_or(point.wo, |it| it.wo);
         let bare = match point.facets.map(Facets::new) {
             Some(facets) => {
-                let of_lobe = reflectance.albedo_of(&facets, point.wo);
-                Self::from_lobe(point.wo, reflectance, ends, point.diffuse, facets, of_lobe)
+                let of_lobe = reflectance.albedo_of(&facets, wo);
+                Self::from_lobe(wo, reflectance, ends, point.diffuse, facets, of_lobe)
             }
-            None => Self::from_parts(point.wo, reflectance, ends, point.diffuse, point.roughness),
+            None => Self::from_parts(wo, reflectance, ends, point.diffuse, point.roughness),
+        };
+        let turned = Self {
+            under_coat: under_coat.map(|it| {
+                let axes = [it.axis_x, it.axis_y, it.normal];
+                let [x, y, z] = axes.map(|axis| point.surface_from_world(axis));
+                DMat3::from_cols(x, y, z).transpose()
+            }),
+            ..bare
         };
         match point.coat.zip(coat) {
-            Some((it, of)) => bare.coated(it.weight, it.roughness, of),
-            None => bare,
+            Some((it, of)) => turned.coated(it.weight, it.roughness, point.wo, of),
+            None => turned,
         }
     }
 
-    fn coated(self, weight: f64, roughness: f64, reflectance: &'a Reflectance) -> Self {
-        let of_lobe = reflectance.albedo(roughness, self.wo.z);
+    fn coated(self, weight: f64, roughness: f64, wo: DVec3, reflectance: &'a Reflectance) -> Self {
+        let of_lobe = reflectance.albedo(roughness, wo.z);
         let albedo = of_lobe.reflected(Ends::COAT);
         let coat = CoatLobe {
             weight,
+            wo,
             facets: Facets::round(ggx_alpha(roughness)),
             reflectance,
             gain: of_lobe.gain(),
@@ -112,6 +128,7 @@ impl<'a> BaseLobes<'a> {
         };
         Self {
             wo,
+            under_coat: None,
             facets,
             reflectance,
             ends,
@@ -122,22 +139,39 @@ impl<'a> BaseLobes<'a> {
         }
     }
 
-    /// BRDF times the cosine of `wi`: (specular, diffuse). Zero at and below the horizon.
+    fn under_coat(&self, wi: DVec3) -> DVec3 {
+        self.under_coat.map_or(wi, |turn| turn * wi)
+    }
+
+    /// Whether light from there falls on the coat or on what is under it.
+    pub(crate) fn are_above(&self, wi: DVec3) -> bool {
+        wi.z > 0.0 || self.under_coat(wi).z > 0.0
+    }
+
+    /// BRDF times the cosine of `wi`: (specular, diffuse). Each layer has none at and below its horizon.
     pub(crate) fn eval(&self, wi: DVec3) -> (DVec3, DVec3) {
-        if wi.z <= 0.0 {
-            return (DVec3::ZERO, DVec3::ZERO);
-        }
-        let h = (wi + self.wo).normalize_or(DVec3::Z);
-        let reflected = |reflectance: &Reflectance, ends, gain: f64, facets: &Facets| {
-            let facet = reflectance.eval(wi.dot(h), ends);
-            (facet.once + facet.twice * gain) * facets.eval(wi, self.wo)
-        };
-        let specular = reflected(self.reflectance, self.ends, self.gain, &self.facets);
-        let diffuse = self.body * (wi.z / PI);
+        let reflected =
+            |reflectance: &Reflectance, ends, gain: f64, facets: &Facets, wi: DVec3, wo: DVec3| {
+                let h = (wi + wo).normalize_or(DVec3::Z);
+                let facet = reflectance.eval(wi.dot(h), ends);
+                (facet.once + facet.twice * gain) * facets.eval(wi, wo)
+            };
+        let under_coat = self.under_coat(wi);
+        let (ends, facets) = (self.ends, &self.facets);
+        let specular = reflected(
+            self.reflectance,
+            ends,
+            self.gain,
+            facets,
+            under_coat,
+            self.wo,
+        );
+        let diffuse = self.body * (under_coat.z.max(0.0) / PI);
         let Some(coat) = &self.coat else {
             return (specular, diffuse);
         };
-        let by_coat = reflected(coat.reflectance, Ends::COAT, coat.gain, &coat.facets);
+        let (ends, facets) = (Ends::COAT, &coat.facets);
+        let by_coat = reflected(coat.reflectance, ends, coat.gain, facets, wi, coat.wo);
         let bare = 1.0 - coat.weight;
         (
             bare * specular + coat.weight * by_coat,
@@ -145,30 +179,34 @@ impl<'a> BaseLobes<'a> {
         )
     }
 
-    /// A direction above the horizon; `pick` and `u` are in [0, 1). None where the specular lobe was picked and its direction
-    /// lies below: such a sample counts as zero.
+    /// A direction above the horizon of the lobe that was picked; `pick` and `u` are in [0, 1). None where that of facets lies below: such a sample
+    /// counts as zero.
     pub(crate) fn sample(&self, pick: f64, u: DVec2) -> Option<DVec3> {
         let coat_share = self.coat.map_or(0.0, |coat| coat.share);
-        let wi = if let Some(coat) = self.coat.filter(|_| pick >= 1.0 - coat_share) {
-            coat.facets.sample(self.wo, u)
-        } else if pick < self.specular_share * (1.0 - coat_share) || self.specular_share == 1.0 {
+        if let Some(coat) = self.coat.filter(|_| pick >= 1.0 - coat_share) {
+            let wi = coat.facets.sample(coat.wo, u);
+            return (wi.z > 0.0).then_some(wi);
+        }
+        let wi = if pick < self.specular_share * (1.0 - coat_share) || self.specular_share == 1.0 {
             self.facets.sample(self.wo, u)
         } else {
             cosine_sample(u)
         };
-        (wi.z > 0.0).then_some(wi)
+        let on_top = self.under_coat.map_or(wi, |turn| turn.transpose() * wi);
+        (wi.z > 0.0).then_some(on_top)
     }
 
-    /// The density of [`BaseLobes::sample`], per steradian. Over the upper hemisphere it integrates to how often a sample is
-    /// not None.
+    /// The density of [`BaseLobes::sample`], per steradian. Over all directions it integrates to how often a sample is not None.
     pub(crate) fn pdf(&self, wi: DVec3) -> f64 {
-        if wi.z <= 0.0 {
-            return 0.0;
-        }
-        let specular = self.facets.pdf(wi, self.wo);
-        let bare = specular * self.specular_share + wi.z / PI * (1.0 - self.specular_share);
+        let of = |facets: &Facets, wi: DVec3, wo| {
+            if wi.z > 0.0 { facets.pdf(wi, wo) } else { 0.0 }
+        };
+        let under_coat = self.under_coat(wi);
+        let specular = of(&self.facets, under_coat, self.wo);
+        let diffuse = under_coat.z.max(0.0) / PI;
+        let bare = specular * self.specular_share + diffuse * (1.0 - self.specular_share);
         match &self.coat {
-            Some(coat) => bare + (coat.facets.pdf(wi, self.wo) - bare) * coat.share,
+            Some(coat) => bare + (of(&coat.facets, wi, coat.wo) - bare) * coat.share,
             None => bare,
         }
     }

@@ -223,7 +223,6 @@ impl Integrator<'_> {
         let drawn = vertex
             .lobes
             .sample(pick, DVec2::new(u, v))
-            .filter(|wi| wi.z > 0.0)
             .map(|wi| (vertex.world(wi), vertex.base(wi), vertex.lobes.pdf(wi)))
             .filter(|(_, _, pdf)| *pdf > 0.0);
         for i in 0..self.lights.len() {
@@ -232,7 +231,7 @@ impl Integrator<'_> {
                 && !self.is_hidden(point, to.direction, to.distance_m)
             {
                 let wi = point.surface_from_world(to.direction);
-                if wi.z > 0.0 {
+                if vertex.lobes.are_above(wi) {
                     let pdf = to.pdf + vertex.lobes.pdf(wi);
                     sum += to.radiance * vertex.base(wi) / pdf;
                 }
@@ -251,7 +250,8 @@ impl Integrator<'_> {
             let [u, v, ..] = vertex.random.four(Purpose::Environment);
             let (direction, sampler_pdf) = sampler.sample(DVec2::new(u, v));
             let wi = point.surface_from_world(direction);
-            if wi.z > 0.0 && sampler_pdf > 0.0 && self.next_surface(vertex, direction).is_none() {
+            let is_lit = vertex.lobes.are_above(wi) && sampler_pdf > 0.0;
+            if is_lit && self.next_surface(vertex, direction).is_none() {
                 let pdf = sampler_pdf + vertex.lobes.pdf(wi);
                 sum += point.open * environment.radiance(direction) * vertex.base(wi) / pdf;
             }

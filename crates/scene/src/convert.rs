@@ -83,6 +83,7 @@ pub(crate) fn material(material: &description::Material) -> Material {
         cutout: None,
         coat: material.coat,
         coat_textures: [None; 2],
+        coat_normal_texture: None,
         anisotropy: material.anisotropy,
         anisotropy_texture: None,
     }
@@ -254,18 +255,16 @@ pub(crate) fn object_material(
 /// The material with its textures numbered from `first` on instead of 0.
 pub(crate) fn with_textures_from(material: Material, first: usize) -> Material {
     let shifted = |texture: Option<usize>| texture.map(|texture| texture + first);
+    let shifted_map = |(texture, factor): (usize, f64)| (texture + first, factor);
     Material {
         base_color_texture: shifted(material.base_color_texture),
         metallic_roughness_texture: shifted(material.metallic_roughness_texture),
-        normal_texture: material
-            .normal_texture
-            .map(|(texture, scale)| (texture + first, scale)),
+        normal_texture: material.normal_texture.map(shifted_map),
         emission_texture: shifted(material.emission_texture),
-        occlusion_texture: material
-            .occlusion_texture
-            .map(|(texture, strength)| (texture + first, strength)),
+        occlusion_texture: material.occlusion_texture.map(shifted_map),
         specular_textures: material.specular_textures.map(shifted),
         coat_textures: material.coat_textures.map(shifted),
+        coat_normal_texture: material.coat_normal_texture.map(shifted_map),
         anisotropy_texture: shifted(material.anisotropy_texture),
         ..material
     }

@@ -42,6 +42,7 @@ pub(crate) fn material(
         cutout: None,
         coat: None,
         coat_textures: [None; 2],
+        coat_normal_texture: None,
         anisotropy: None,
         anisotropy_texture: None,
     }

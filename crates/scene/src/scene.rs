@@ -156,6 +156,8 @@ pub struct Material {
     pub coat: Option<Coat>,
     /// Textures (linear) of the coat: the red of the first is a factor on its weight, the green of the second on its roughness.
     pub coat_textures: [Option<usize>; 2],
+    /// Tangent-space normal map (linear) of the coat and the scale of its x and y. Without it the coat is smooth, whatever lies under it.
+    pub coat_normal_texture: Option<(usize, f64)>,
     /// Highlights of the base that are drawn out one way, as on brushed metal.
     pub anisotropy: Option<Anisotropy>,
     /// Texture (linear) of it: red and green are a direction, which `direction_deg` turns, blue is a factor on the strength.
@@ -184,6 +186,11 @@ impl Default for Specular {
 }
 
 impl Material {
+    /// Whether its coat has other normals than what is under it.
+    pub fn has_coat_normals(&self) -> bool {
+        self.coat.is_some() && self.coat_normal_texture != self.normal_texture
+    }
+
     /// Whether, as far as it is no metal, it reflects otherwise than its refractive index says.
     pub fn has_specular(&self) -> bool {
         let textured = self.specular_textures.iter().any(Option::is_some);

@@ -1,7 +1,7 @@
 //! The closed form against the Monte Carlo integral of the model that it stands for.
 
 use super::pictures::{Compared, LINEAR, closed, compared, sampled};
-use super::scenes::{View, outline, panel, plate, scratch, sphere, tube};
+use super::scenes::{View, leaning, outline, panel, plate, scratch, sphere, tube};
 use glam::DVec2;
 use hairline_fixtures::scenes::scratched_ball;
 use hairline_image::Layer;
@@ -93,6 +93,63 @@ fn coated_plates() {
         assert!(base.rms().0 < BASE, "{name}: {base:?}");
         let wrong = compared("no coat", &bare, &reference, Layer::Base);
         assert!(wrong.rms().0 > BASE, "{name}: {wrong:?}");
+    }
+}
+
+/// Clear layers with other normals than what is under them: smooth, and leaning another way. One lamp is setting behind the plate.
+#[test]
+fn plates_under_coats_of_other_normals() {
+    let view = View {
+        angle_rad: 50f64.to_radians(),
+        pixel_um: 20.0,
+        size_px: 16,
+    };
+    let body = Base::Dielectric {
+        ior: 1.3,
+        base_color: [0.4, 0.1, 0.05],
+    };
+    let [leaning_far, leaning_less] = [(0, 1.0), (1, 0.8)].map(Some);
+    for (base, weight, maps, strength) in [
+        (Base::Metal(Metal::Gold), 1.0, [leaning_far, None], 0.0),
+        (body, 0.6, [leaning_far, leaning_less], 0.0),
+        (body, 1.0, [leaning_far, None], 0.0),
+        (Base::Metal(Metal::Silver), 0.8, [None, leaning_less], 0.5),
+    ] {
+        let mut scene = plate(base, view);
+        light(&mut scene, view);
+        scene.lights.push(sphere(view, 0.995, -0.8, 0.2));
+        scratch(&mut scene, view, 24);
+        scene.textures = vec![leaning([0.3, -0.2]), leaning([-0.2, 0.1])].into();
+        let material = &mut scene.materials[0];
+        material.roughness = 0.4;
+        let roughness = 0.3;
+        material.coat = Some(Coat { weight, roughness });
+        [material.normal_texture, material.coat_normal_texture] = maps;
+        material.anisotropy = (strength > 0.0).then_some(Anisotropy {
+            strength,
+            direction_deg: 30.0,
+        });
+        let mut shared = scene.clone();
+        shared.materials[0].coat_normal_texture = maps[0];
+        let (exact, reference) = (closed(&scene), sampled(&scene, LINEAR, 4));
+        let name = format!("a coat on {weight} of {base:?} with {maps:?}");
+        let shared = closed(&shared);
+        // Lobes that are wide and lit from beside are fitted better than `BASE`.
+        for (layer, limit) in [(Layer::Scratches, SCRATCHES), (Layer::Base, 0.2 * BASE)] {
+            let found = compared(&name, &exact, &reference, layer);
+            let is_right = match layer {
+                Layer::Base => found.rms().0 < limit,
+                _ => agrees(&found, limit),
+            };
+            assert!(is_right, "{name}: {found:?}");
+            let wrong = compared(
+                "with the normals of what is under it",
+                &shared,
+                &reference,
+                layer,
+            );
+            assert!(wrong.rms().0 > 2.0 * limit, "{name}: {wrong:?}");
+        }
     }
 }
 

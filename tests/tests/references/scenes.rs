@@ -2,7 +2,7 @@
 
 use conformance::{lay_random, square};
 use glam::{DVec3, Vec3};
-use hairline_scene::{Base, Light, Scene};
+use hairline_scene::{Base, Light, Sampling, Scene, Texture};
 use std::sync::Arc;
 
 /// Half the plate's side.
@@ -28,6 +28,18 @@ pub fn plate(base: Base, view: View) -> Scene {
     scene.camera.fov_y_rad =
         2.0 * (0.5 * f64::from(view.size_px) * view.pixel_um * 1e-6 / CAMERA_M).atan();
     scene
+}
+
+/// A normal map that leans all normals by the same slopes.
+pub fn leaning(slopes: [f64; 2]) -> Texture {
+    let normal = DVec3::new(slopes[0], slopes[1], 1.0).normalize();
+    let [x, y, z] = normal.to_array().map(|c| (127.5 * (c + 1.0)).round() as u8);
+    Texture {
+        size_px: [1; 2],
+        levels: vec![vec![[x, y, z, 0]]],
+        srgb: false,
+        sampling: Sampling::default(),
+    }
 }
 
 /// Scratches all over what the view shows, some to a pixel of 20 um: 1 to 4 um wide, 40 to 400 nm deep.

@@ -2,7 +2,7 @@
 
 use super::environment::{over, sky};
 use super::pictures::{LINEAR, compared, sampled};
-use super::scenes::{View, add_quad, off_the_mirror, panel, plate, scratch, sphere, tube};
+use super::scenes::{View, add_quad, leaning, off_the_mirror, panel, plate, scratch, sphere, tube};
 use glam::{DVec3, Vec3};
 use hairline_cpu::closed_form::{self, RenderOptions};
 use hairline_image::{Image, Layer};
@@ -165,6 +165,11 @@ fn make_scenes() -> Vec<(&'static str, Scene)> {
         [1e-3, 1e-3],
     );
 
+    // A smooth coat on what leans.
+    let mut leans = lamps.clone();
+    leans.textures = vec![leaning([0.1, 0.15])].into();
+    leans.materials[0].normal_texture = Some((0, 1.0));
+
     // Two thin sheets a micrometre apart.
     let mut sheets = scratched(Base::Metal(Metal::Aluminium));
     sheets.lights = vec![sphere(VIEW, 0.1, 0.1, 0.06), sphere(VIEW, -0.15, 0.0, 0.06)];
@@ -204,6 +209,7 @@ fn make_scenes() -> Vec<(&'static str, Scene)> {
         ("half a lamp", edge),
         ("a slit", slit),
         ("three lamps", lamps),
+        ("three lamps on what leans under its coat", leans),
         ("two sheets", sheets),
         ("half a tube", rod),
         ("a wall", wall),
@@ -224,7 +230,7 @@ fn under(scene: &Scene, environment: Environment) -> Scene {
 pub(super) fn in_a_studio() -> (&'static str, Scene) {
     let map = BuiltInMap::Studio.picture([256, 128]);
     let studio = Environment::with_lamps_parted(map, 0.0, 1.0, false);
-    let (_, wall) = &scenes()[5];
+    let (_, wall) = &scenes()[6];
     ("a wall in a studio", under(wall, studio))
 }
 

@@ -94,8 +94,21 @@ fn a_coated_white_base_returns_all() {
     let mut scene = square(Base::ColoredMetal { base_color: WHITE }, 0.01, 8);
     scene.environment = furnace();
     scene.materials[0].roughness = 0.3;
-    for (weight, roughness) in [(1.0, 0.02), (1.0, 0.4), (0.4, 0.1)] {
+    scene.textures = Arc::new(vec![Texture {
+        size_px: [1; 2],
+        levels: vec![vec![[150, 160, 240, 0]]],
+        srgb: false,
+        sampling: Sampling::default(),
+    }]);
+    // The last coat is smooth on what leans.
+    for (weight, roughness, leans) in [
+        (1.0, 0.02, false),
+        (1.0, 0.4, false),
+        (0.4, 0.1, false),
+        (0.7, 0.2, true),
+    ] {
         scene.materials[0].coat = Some(Coat { weight, roughness });
+        scene.materials[0].normal_texture = leans.then_some((0, 1.0));
         for value in base(&scene).into_iter().flatten().flatten() {
             assert!((value - 1.0).abs() < 0.01, "{weight} {roughness}: {value}");
         }

@@ -3,8 +3,8 @@
 
 use std::sync::Arc;
 
-use conformance::square;
 use conformance::two_renderers::{compare, compare_pixels, on_the_cpu, on_the_gpu, on_the_gpu_by};
+use conformance::{Sequence, square};
 use glam::{DVec3, Vec2, Vec3, Vec4, vec2};
 use hairline_cpu::closed_form;
 use hairline_fixtures::SceneFile;
@@ -283,6 +283,82 @@ fn maps_of_a_clear_layer_are_factors_on_it() {
     assert!(compare_pixels("without a layer", &a, &bare, None).is_err());
     if let Some(gpu) = on_the_gpu(&mapped, 1) {
         compare_pixels("by factors, GPU", &gpu, &b, None).unwrap();
+    }
+}
+
+/// Eight by eight normals about the surface's, with a spread of slopes.
+fn bumps(seed: u64) -> Texture {
+    let mut random = Sequence(seed);
+    let mut texel = || {
+        let xy = [0; 2].map(|_: u8| random.between(90.0, 165.0) as u8);
+        [xy[0], xy[1], 245, random.between(0.0, 60.0) as u8]
+    };
+    Texture {
+        size_px: [8; 2],
+        levels: [64, 16, 4, 1]
+            .map(|count| (0..count).map(|_| texel()).collect())
+            .into(),
+        srgb: false,
+        sampling: Sampling::default(),
+    }
+}
+
+/// Clear layers with other normals than what is under them, scratched, one of them with holes. What is under them glows and is brushed or not.
+#[test]
+fn balls_under_layers_of_other_normals() {
+    let [coarse, fine] = [(0, 0.7), (1, 1.0)].map(Some);
+    for (maps, weight, strength, emission) in [
+        ([coarse, None], None, 0.0, [0.0; 3]),
+        ([coarse, fine], Some(2), 0.6, [2e-3, 0.5, 0.01]),
+        ([None, fine], None, 0.0, [0.01; 3]),
+    ] {
+        let mut scene = SceneFile::seen_from([0.0, -0.5, 0.2])
+            .mirror("m")
+            .object("ball", "m", "sphere = { radius_m = 0.05 }")
+            .laid("ball", "random", 300)
+            .with("length_m = 0.03\nwidth_um = 3.0\ndepth_nm = 200.0")
+            .fov_y_deg(14.0)
+            .size_px([72, 72])
+            .scene();
+        let holes = Texture {
+            size_px: [2; 2],
+            levels: vec![vec![[0; 4], [255; 4], [120; 4], [0; 4]], vec![[94; 4]]],
+            srgb: false,
+            sampling: Sampling {
+                is_sharp: true,
+                ..Sampling::default()
+            },
+        };
+        scene.textures = Arc::new(vec![bumps(1), bumps(2), holes]);
+        let material = &mut scene.materials[0];
+        material.base = Base::MetallicRoughness {
+            base_color: [0.6, 0.2, 0.1],
+            metallic: 0.3,
+        };
+        material.roughness = 0.35;
+        material.emission = emission;
+        material.coat = Some(Coat {
+            weight: 0.9,
+            roughness: 0.12,
+        });
+        material.coat_textures[0] = weight;
+        [material.normal_texture, material.coat_normal_texture] = maps;
+        material.anisotropy = (strength > 0.0).then_some(Anisotropy {
+            strength,
+            direction_deg: 40.0,
+        });
+        scene.environment = Some(hairline_scene::Environment::uniform([0.1, 0.2, 0.3]));
+        let lamp = DVec3::new(-0.4, -0.5, 0.6);
+        scene.lights = vec![Light::sphere(lamp, 0.05, [30.0, 20.0, 10.0])];
+        let cpu = on_the_cpu(&scene, 1);
+        let mut shared = scene.clone();
+        shared.materials[0].coat_normal_texture = maps[0];
+        let shared = on_the_cpu(&shared, 1);
+        if let Some(gpu) = on_the_gpu(&scene, 1) {
+            let name = format!("{maps:?}");
+            compare(&name, &scene, &gpu, &cpu).unwrap();
+            assert!(compare("shared", &scene, &gpu, &shared).is_err(), "{name}");
+        }
     }
 }
 

@@ -176,3 +176,125 @@ fn barycentric_coordinates() {
     }
     .check(&rows, 0);
 }
+
+/// Normals as they are packed come back as they were, within a step of their 16 bits, and none is the mark of a coat that is alike.
+#[test]
+fn packed_normals() {
+    let mut random = Sequence(4);
+    let mut rows: Vec<[f32; 3]> = vec![[0.0, 0.0, 1.0], [0.0, 0.0, -1.0], [-1.0, -0.0, -0.0]];
+    rows.extend((0..4000).map(|_| random.direction(-1.0)));
+    Twin {
+        name: "under_coat_normal",
+        modules: &[&shaders::COAT],
+        snippet: "let packed = under_coat_pack(vec3f(x[0], x[1], x[2]));
+            let n = under_coat_normal(packed);
+            y[0] = n.x; y[1] = n.y; y[2] = n.z; y[3] = f32(packed == UNDER_COAT_ALIKE);",
+        tables: &[],
+        expected: &|[x, y, z]: [f64; 3]| {
+            let unit = v(x, y, z).normalize();
+            [unit.x, unit.y, unit.z, 0.0]
+        },
+        // Half a step, up to the square root of three times as long on the sphere, of x and y together in z.
+        tolerance: Tolerance {
+            absolute: 6e-5,
+            relative: 0.0,
+        },
+    }
+    .check(&rows, 0);
+}
+
+/// The point in the frame of what is under its coat, from a viewer in the x-z plane of the coat's.
+#[test]
+fn frames_under_coats() {
+    let mut random = Sequence(5);
+    let rows: Vec<[f32; 6]> = (0..2000)
+        .map(|_| {
+            let n = random.direction(0.3);
+            let turn = [0; 2].map(|_| random.between(-0.2, 0.2));
+            // Beyond what a normal is bent back from.
+            [
+                n[0],
+                n[1],
+                n[2],
+                random.between(-0.2, 0.2),
+                turn[0],
+                turn[1],
+            ]
+        })
+        .collect();
+    Twin {
+        name: "surface_under_coat",
+        modules: &[&shaders::COAT],
+        snippet: "var point: SurfacePoint;
+            point.axis_x = vec3f(1.0, 0.0, 0.0);
+            point.axis_y = vec3f(0.0, 1.0, 0.0);
+            point.normal = vec3f(0.0, 0.0, 1.0);
+            point.wo = vec3f(x[3], 0.0, sqrt(1.0 - x[3] * x[3]));
+            point.turn_x = vec2f(x[4], x[5]);
+            point.under_coat = under_coat_pack(vec3f(x[0], x[1], x[2]));
+            let under = surface_under_coat(point);
+            let turn = world_from_surface(under, vec3f(under.turn_x, 0.0));
+            let back = world_from_surface(under, under.wo);
+            y[0] = under.wo.z; y[1] = dot(under.axis_x, under.normal); y[2] = length(cross(under.axis_x, under.axis_y));
+            y[3] = turn.x; y[4] = turn.y; y[5] = turn.z; y[6] = back.x; y[7] = back.y; y[8] = back.z;",
+        tables: &[],
+        expected: &|[nx, ny, nz, w, tx, ty]: [f64; 6]| {
+            let normal = v(nx, ny, nz).normalize();
+            let to_viewer = v(w, 0.0, (1.0 - w * w).sqrt());
+            let turn = v(tx, ty, 0.0);
+            let flat = turn - normal * normal.dot(turn);
+            let cos = normal.dot(to_viewer);
+            let all = [cos, 0.0, 1.0, flat.x, flat.y, flat.z];
+            let [a, b, c, d, e, f] = all;
+            [a, b, c, d, e, f, to_viewer.x, to_viewer.y, to_viewer.z]
+        },
+        // As of the normal that is packed.
+        tolerance: Tolerance {
+            absolute: 2e-4,
+            relative: 0.0,
+        },
+    }
+    .check(&rows, 0);
+}
+
+/// What is packed beside one another in the last words of a sample: emission with 12 digits, and the coat's share, roughness and spread of slopes in
+/// steps of 1 / 4095.
+#[test]
+fn packed_coats_and_emission() {
+    let mut random = Sequence(6);
+    let mut rows: Vec<[f32; 6]> = vec![[0.0; 6], [1e6, 1e-6, 1.0, 1.0, 1.0, 1.0]];
+    for _ in 0..2000 {
+        let emission = [0; 3].map(|_| 10f32.powf(random.between(-6.0, 4.0)));
+        let coat = [0; 3].map(|_| random.next());
+        rows.push([
+            emission[0],
+            emission[1],
+            emission[2],
+            coat[0],
+            coat[1],
+            coat[2],
+        ]);
+    }
+    Twin {
+        name: "pixel_paint_pack",
+        modules: &[&shaders::PIXEL_POINT, &shaders::COAT],
+        snippet: "var point: SurfacePoint;
+            point.emission = vec3f(x[0], x[1], x[2]);
+            point.coat = coat_pack(pack2x16unorm(vec2f(x[3], x[4])));
+            point.coat_slope_std = x[5];
+            point.under_coat = 0x12345678u;
+            let paint = pixel_paint_pack(point, 0u);
+            let back = surface_point_from(PixelPoint(), paint);
+            let coat = surface_coat(back.coat);
+            let off = abs(back.emission - point.emission) / max(point.emission, vec3f(1e-30));
+            y[0] = f32(all(off < vec3f(1.3e-4))); y[1] = coat.x; y[2] = coat.y; y[3] = back.coat_slope_std;
+            y[4] = f32(back.under_coat == point.under_coat);",
+        tables: &[],
+        expected: &|[.., share, roughness, slopes]: [f64; 6]| [1.0, share, roughness, slopes, 1.0],
+        tolerance: Tolerance {
+            absolute: 1.4e-4,
+            relative: 0.0,
+        },
+    }
+    .check(&rows, 0);
+}

@@ -34,7 +34,7 @@ fn bounce_base_rays(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgr
     let choice = shadow_random_alike(seed, shadow_round, BOUNCE_CHOICE);
     let wi = base_lobes_sample(lobes, choice.x, shadow_random_alike(seed, shadow_round, BOUNCE_DIRECTION));
     let density = base_lobes_pdf(lobes, wi);
-    if wi.z > 0.0 && density > 0.0 {
+    if base_lobes_above(lobes, wi) && density > 0.0 {
         let each_sr = 1.0 / (f32(shadow_round.all_rounds) * density);
         let sent = base_lobes_eval(lobes, wi);
         let specular = sent.specular * (1.0 - taken) * (1.0 - gratings);

@@ -65,14 +65,14 @@ fn offer_light(kept: ptr<function, Candidate>, point: SurfacePoint, lobes: BaseL
     let met = light_meets(point, light, drawn.direction);
     // Within rounding of the outline it may be missed.
     let is_lit = met.distance_m > 0.0 || met.covers == 0.0;
-    if is_lit && drawn.direction.z > 0.0 && drawn.distance_m > 0.0 && drawn.distance_m < SHADOW_FAR_M {
+    if is_lit && base_lobes_above(lobes, drawn.direction) && drawn.distance_m > 0.0 && drawn.distance_m < SHADOW_FAR_M {
         let density = max(met.covers, 1.0) / drawn.whole + base_lobes_pdf(lobes, drawn.direction);
         let radiance = even * light_picture_toward(point, light, drawn.direction);
         let weight = candidate_scaled(base_lobes_eval(lobes, drawn.direction), radiance / density);
         candidate_offer(kept, drawn.direction, drawn.distance_m, weight);
     }
     let wi = base_lobes_sample(lobes, pick, shadow_random(seed, shadow_round, SHADOW_LOBE));
-    if wi.z > 0.0 {
+    if base_lobes_above(lobes, wi) {
         let along = light_meets(point, light, wi);
         if along.distance_m > 0.0 {
             let density = along.covers / drawn.whole + base_lobes_pdf(lobes, wi);
@@ -87,7 +87,7 @@ fn offer_around(kept: ptr<function, Candidate>, point: SurfacePoint, lobes: Base
     for (var i = 0u; i < AROUND_CANDIDATES; i += 1u) {
         // The choice of a lobe is even over the candidates.
         let wi = base_lobes_sample(lobes, fract(pick + f32(i) / f32(AROUND_CANDIDATES)), shadow_random(seed, shadow_round, SHADOW_LOBE + i));
-        if wi.z > 0.0 {
+        if base_lobes_above(lobes, wi) {
             let in_map = frame.environment_from_world * world_from_surface(point, wi);
             let radiance = environment_prefiltered_lod(environment_levels, in_map, 0.0) * frame.environment_texel_radiance;
             let density = f32(AROUND_CANDIDATES) * base_lobes_pdf(lobes, wi);

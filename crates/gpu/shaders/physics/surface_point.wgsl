@@ -2,7 +2,8 @@
 
 const MIN_VIEW_COS: f32 = 0.01;
 
-// A shading point. Its local frame has z along the shading normal and the viewer in the x-z plane.
+// A shading point. Its local frame has z along the shading normal and the viewer in the x-z plane. Of a surface under a coat it is that of the
+// coat; surface_under_coat() has that of what is under it.
 struct SurfacePoint {
     position_m: vec3f,
     axis_x: vec3f,
@@ -25,9 +26,11 @@ struct SurfacePoint {
     coherence_um: f32,
     table: u32,
     open: f32,                  // what of the environment's light reaches the base
-    coat: u32,                  // share of the surface and roughness of a clear layer over it, in 16 bits each
+    coat: u32,                  // a clear layer over it, see surface_coat()
+    coat_slope_std: f32,        // as slope_std, of the layer's own normal map
+    under_coat: u32,            // the normal of what is under it, see surface_under_coat()
     long_alpha: f32,            // of facets that lean further one way than across it, that way; 0 where they do not
-    long_axis: vec2f,           // that way, a unit vector of the local frame
+    long_axis: vec2f,           // that way, a unit vector of the frame of what is under the coat
 }
 
 // How far a surface may be off the plane of a footprint for each length along it, where shading and facet normal agree.

@@ -17,8 +17,9 @@ fn published_base_sphere(point: SurfacePoint, lobe: LtcLobe, reflecting: LobeFre
 
 // Radiance of the base towards the viewer, before scratches take theirs.
 fn published_base(point: SurfacePoint) -> BaseRadiance {
-    let layer = base_layer(point);
-    var base = published_layer(point, layer);
+    let under_coat = surface_under_coat(point);
+    let layer = base_layer(under_coat);
+    var base = published_layer(under_coat, layer);
     base = BaseRadiance(layer_of_single(layer, base.specular), base.diffuse * base_body(point, layer));
     let share = surface_coat(point.coat).x;
     if HAS_COATS && share > 0.0 {

@@ -193,7 +193,7 @@ fn layer_brushed(point: SurfacePoint, round: Layer) -> Layer {
 }
 
 fn coat_layer(point: SurfacePoint) -> Layer {
-    return layer_of(point, coat_fresnel(), surface_coat(point.coat).y);
+    return layer_of(surface_of_coat(point), coat_fresnel(), surface_coat(point.coat).y);
 }
 
 // What it reflects of light of which single scattering returns so much.
@@ -232,15 +232,17 @@ fn base_radiance_of(point: SurfacePoint, of_lights: vec2u, surrounded: bool) -> 
     for (var i = 0u; i < select(1u, 2u, coat.x > 0.0); i += 1u) {
         var fresnel = FresnelRgb(point.f0, point.f90, point.curve);
         var roughness = point.roughness;
+        var seen = surface_under_coat(point);
         if i > 0u {
             fresnel = coat_fresnel();
             roughness = coat.y;
+            seen = surface_of_coat(point);
         }
-        var layer = layer_of(point, fresnel, roughness);
+        var layer = layer_of(seen, fresnel, roughness);
         if i == 0u {
-            layer = layer_brushed(point, layer);
+            layer = layer_brushed(seen, layer);
         }
-        let lit = layer_lit(point, layer, of_lights, surrounded);
+        let lit = layer_lit(seen, layer, of_lights, surrounded);
         let single = layer_of_single(layer, lit.specular);
         if i > 0u {
             base = base_coated(coat.x, layer.albedo, base, single);

@@ -2,7 +2,7 @@
 // Twin: Lobes of cpu/src/shadows.rs.
 
 struct BaseLobes {
-    wo: vec3f,
+    wo: vec3f,                  // in the frame of what is under the coat
     alpha: f32,
     facets: Facets,             // in its place, with anisotropy
     fresnel: FresnelRgb,
@@ -14,6 +14,21 @@ struct BaseLobes {
     coat_alpha: f32,
     coat_albedo: vec3f,
     coat_lobe_albedo: f32,      // with F = 1, single scattering
+    coat_wo: vec3f,             // in its own frame, which is that of all directions
+    under_coat: mat3x3f,        // the axes of what is under it in that frame
+}
+
+// A direction in the frame of what is under the coat.
+fn base_lobes_under_coat(lobes: BaseLobes, wi: vec3f) -> vec3f {
+    if !HAS_COAT_NORMALS {
+        return wi;
+    }
+    return wi * lobes.under_coat;
+}
+
+// Whether light from there falls on the coat or on what is under it.
+fn base_lobes_above(lobes: BaseLobes, wi: vec3f) -> bool {
+    return wi.z > 0.0 || (HAS_COAT_NORMALS && base_lobes_under_coat(lobes, wi).z > 0.0);
 }
 
 // The pixel's normals widen a lobe.
@@ -21,7 +36,8 @@ fn base_lobes_alpha(alpha: f32, spread: vec3f) -> f32 {
     return min(sqrt(alpha * alpha + 2.0 * (spread.x + spread.y)), 1.0);
 }
 
-fn base_lobes(point: SurfacePoint) -> BaseLobes {
+fn base_lobes(on_top: SurfacePoint) -> BaseLobes {
+    let point = surface_under_coat(on_top);
     let layer = base_layer(point);
     let specular = rgb_luminance(layer.albedo);
     let spread = surface_slope_spread(point);
@@ -43,49 +59,76 @@ fn base_lobes(point: SurfacePoint) -> BaseLobes {
     var left = 1.0;
     lobes.coat_share = surface_coat(point.coat).x;
     if HAS_COATS && lobes.coat_share > 0.0 {
-        let coat = coat_layer(point);
-        lobes.coat_alpha = base_lobes_alpha(coat.sharp.alpha, spread);
+        let coat = coat_layer(on_top);
+        lobes.coat_alpha = base_lobes_alpha(coat.sharp.alpha, surface_slope_spread(surface_of_coat(on_top)));
         lobes.coat_albedo = coat.albedo;
         lobes.coat_lobe_albedo = coat.sharp.albedo;
         // Faint as it is, its highlights are the strongest.
         left = 1.0 - lobes.coat_share * max(rgb_luminance(coat.albedo), 0.3);
+    }
+    lobes.coat_wo = on_top.wo;
+    if HAS_COAT_NORMALS {
+        lobes.under_coat = mat3x3f(
+            surface_from_world(on_top, point.axis_x),
+            surface_from_world(on_top, point.axis_y),
+            surface_from_world(on_top, point.normal),
+        );
     }
     lobes.share = left * share;
     lobes.body_share = left * (1.0 - share);
     return lobes;
 }
 
-// A direction by one of the lobes; it may lie below the horizon.
+// A direction by one of the lobes; none is above where it lies below the horizon of that.
 fn base_lobes_sample(lobes: BaseLobes, pick: f32, u: vec2f) -> vec3f {
     let by_coat = HAS_COATS && lobes.coat_share > 0.0 && pick >= lobes.share + lobes.body_share;
+    if HAS_COAT_NORMALS && by_coat {
+        return base_lobes_drawn(ggx_sample(lobes.coat_wo, lobes.coat_alpha, u));
+    }
+    var wi: vec3f;
     if pick < lobes.share || by_coat || lobes.body_share == 0.0 {
         if HAS_ANISOTROPY && !by_coat {
-            return facets_sample(lobes.facets, lobes.wo, u);
+            wi = facets_sample(lobes.facets, lobes.wo, u);
+        } else {
+            wi = ggx_sample(lobes.wo, select(lobes.alpha, lobes.coat_alpha, by_coat), u);
         }
-        return ggx_sample(lobes.wo, select(lobes.alpha, lobes.coat_alpha, by_coat), u);
+    } else {
+        let phi = 2.0 * GGX_PI * u.x;
+        wi = vec3f(sqrt(u.y) * vec2f(cos(phi), sin(phi)), sqrt(1.0 - u.y));
     }
-    let phi = 2.0 * GGX_PI * u.x;
-    return vec3f(sqrt(u.y) * vec2f(cos(phi), sin(phi)), sqrt(1.0 - u.y));
+    if HAS_COAT_NORMALS {
+        wi = lobes.under_coat * base_lobes_drawn(wi);
+    }
+    return wi;
 }
 
-fn base_lobes_pdf(lobes: BaseLobes, wi: vec3f) -> f32 {
+// Nothing where a direction lies below the horizon of its lobe, which may be above that of another.
+fn base_lobes_drawn(wi: vec3f) -> vec3f {
+    return select(vec3f(0.0), wi, wi.z > 0.0);
+}
+
+fn base_lobes_pdf(lobes: BaseLobes, on_top: vec3f) -> f32 {
+    let wi = base_lobes_under_coat(lobes, on_top);
     var by_facets: f32;
     if HAS_ANISOTROPY {
         by_facets = facets_pdf(lobes.facets, wi, lobes.wo);
     } else {
         by_facets = ggx_pdf(wi, lobes.wo, lobes.alpha);
     }
+    if HAS_COAT_NORMALS && wi.z <= 0.0 {
+        by_facets = 0.0;
+    }
     var density = lobes.body_share * max(wi.z, 0.0) / GGX_PI + lobes.share * by_facets;
-    if HAS_COATS && lobes.coat_share > 0.0 {
-        density += (1.0 - lobes.share - lobes.body_share) * ggx_pdf(wi, lobes.wo, lobes.coat_alpha);
+    if HAS_COATS && lobes.coat_share > 0.0 && (!HAS_COAT_NORMALS || on_top.z > 0.0) {
+        density += (1.0 - lobes.share - lobes.body_share) * ggx_pdf(on_top, lobes.coat_wo, lobes.coat_alpha);
     }
     return density;
 }
 
 // The BRDF times the cosine.
-fn base_lobes_eval(lobes: BaseLobes, wi: vec3f) -> BaseRadiance {
-    let cos_h = half_vector_cos(wi, lobes.wo);
-    let facet = fresnel_eval(fresnel_curves, lobes.fresnel, cos_h);
+fn base_lobes_eval(lobes: BaseLobes, on_top: vec3f) -> BaseRadiance {
+    let wi = base_lobes_under_coat(lobes, on_top);
+    let facet = fresnel_eval(fresnel_curves, lobes.fresnel, half_vector_cos(wi, lobes.wo));
     var by_facets: f32;
     if HAS_ANISOTROPY {
         by_facets = facets_eval(lobes.facets, wi, lobes.wo);
@@ -95,7 +138,8 @@ fn base_lobes_eval(lobes: BaseLobes, wi: vec3f) -> BaseRadiance {
     let single = facet * by_facets;
     var base = BaseRadiance(ggx_area_reflectance(single, lobes.fresnel.at_normal, lobes.albedo), lobes.body * (max(wi.z, 0.0) / GGX_PI));
     if HAS_COATS && lobes.coat_share > 0.0 {
-        let by_coat = fresnel_eval(fresnel_curves, coat_fresnel(), cos_h) * ggx_eval(wi, lobes.wo, lobes.coat_alpha);
+        let facet_of_coat = fresnel_eval(fresnel_curves, coat_fresnel(), half_vector_cos(on_top, lobes.coat_wo));
+        let by_coat = facet_of_coat * ggx_eval(on_top, lobes.coat_wo, lobes.coat_alpha);
         base = base_coated(lobes.coat_share, lobes.coat_albedo, base, ggx_area_reflectance(by_coat, COAT_F0, lobes.coat_lobe_albedo));
     }
     return base;

@@ -34,4 +34,6 @@ override HAS_ANISOTROPY: bool = true;
 override HAS_SPECULAR: bool = true;
 // Materials under a clear layer, and which curve of reflectance such layers have.
 override HAS_COATS: bool = true;
+// Such whose normals are not those of what is under them.
+override HAS_COAT_NORMALS: bool = true;
 override COAT_CURVE: u32 = 0u;

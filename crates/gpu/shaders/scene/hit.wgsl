@@ -94,7 +94,7 @@ fn hit_paint(point: ptr<function, SurfacePoint>, material: Material) {
     (*point).diffuse = material.base_color * (1.0 - material.metallic);
     (*point).coherence_um = material.coherence_um;
     (*point).table = material.table;
-    (*point).coat = material.coat;
+    (*point).coat = coat_pack(material.coat);
     if material.is_unlit != 0u {
         (*point).emission = material.base_color;
         (*point).f0 = vec3f(0.0);
@@ -116,6 +116,16 @@ fn hit_tangents(a: Vertex, b: Vertex, c: Vertex, weights: vec3f, smooth_normal: 
     return HitTangents(along, cross(smooth_normal, along) * flip);
 }
 
+// What a normal map makes of a normal, and how far its slopes spread there.
+fn hit_normal(map: vec2u, scale: f32, place: TexturePlace, tangents: HitTangents, smooth_normal: vec3f) -> vec4f {
+    let there = hit_place(map, place);
+    let lod = surface_texture_lod(there.z, scene_texture_size(map), scene_texture_levels(map));
+    let looked_up = scene_normals(map, there.xy, lod, there.z);
+    let texel = looked_up.xyz * 2.0 - 1.0;
+    let slopes = tangents.along * (texel.x * scale) + tangents.across * (texel.y * scale);
+    return vec4f(surface_normalize_or(slopes + smooth_normal * texel.z, smooth_normal), looked_up.w * scale);
+}
+
 // Which way its facets lean most, and how far.
 fn hit_brush(point: ptr<function, SurfacePoint>, material: Material, place: TexturePlace, tangents: HitTangents) {
     var strength = material.anisotropy;
@@ -127,7 +137,8 @@ fn hit_brush(point: ptr<function, SurfacePoint>, material: Material, place: Text
     }
     let turn = vec2f(cos(material.anisotropy_direction_rad), sin(material.anisotropy_direction_rad));
     let way = tangents.along * (turn.x * own.x - turn.y * own.y) + tangents.across * (turn.y * own.x + turn.x * own.y);
-    let local = vec2f(dot(way, (*point).axis_x), dot(way, (*point).axis_y));
+    let under_coat = surface_under_coat(*point);
+    let local = vec2f(dot(way, under_coat.axis_x), dot(way, under_coat.axis_y));
     (*point).long_axis = select(vec2f(1.0, 0.0), local * inverseSqrt(max(dot(local, local), 1e-30)), dot(local, local) > 1e-20);
     let rough = clamp((*point).roughness, 0.0, 1.0);
     let alpha = max(rough * rough, 0.002);
@@ -220,23 +231,28 @@ fn hit_surface(triangle: u32, bary: vec2f, view: HitView) -> SurfacePoint {
         hit_texture_footprint(b.other_uv - a.other_uv, c.other_uv - a.other_uv, geometric, smooth_x, smooth_y),
     );
 
-    var normal = smooth_normal;
-    point.slope_std = 0.0;
+    var mapped = vec4f(smooth_normal, 0.0);
     if hit_has_texture(material.normal_texture) {
-        let map = material.normal_texture;
-        let there = hit_place(map, place);
-        let lod = surface_texture_lod(there.z, scene_texture_size(map), scene_texture_levels(map));
-        let looked_up = scene_normals(map, there.xy, lod, there.z);
-        let texel = looked_up.xyz * 2.0 - 1.0;
         let tangents = hit_tangents(a, b, c, weights, smooth_normal);
-        let scale = material.normal_scale;
-        normal = surface_normalize_or(
-            tangents.along * (texel.x * scale) + tangents.across * (texel.y * scale) + smooth_normal * texel.z,
-            smooth_normal,
-        );
-        point.slope_std = looked_up.w * scale;
+        mapped = hit_normal(material.normal_texture, material.normal_scale, place, tangents, smooth_normal);
     }
-    normal = surface_face_viewer(side * normal, to_viewer);
+    point.slope_std = mapped.w;
+    var normal = surface_face_viewer(side * mapped.xyz, to_viewer);
+    point.under_coat = UNDER_COAT_ALIKE;
+    point.coat_slope_std = point.slope_std;
+    if HAS_COAT_NORMALS && unpack2x16unorm(hit_coat(material, place)).x > 0.0 {
+        var mapped_coat = vec4f(smooth_normal, 0.0);
+        if hit_has_texture(material.coat_normal_texture) {
+            let tangents = hit_tangents(a, b, c, weights, smooth_normal);
+            mapped_coat = hit_normal(material.coat_normal_texture, material.coat_normal_scale, place, tangents, smooth_normal);
+        }
+        point.coat_slope_std = mapped_coat.w;
+        let of_coat = surface_face_viewer(side * mapped_coat.xyz, to_viewer);
+        if any(of_coat != normal) {
+            point.under_coat = under_coat_pack(normal);
+            normal = of_coat;
+        }
+    }
     point.leaves = SURFACE_BENDS + 2.0 * distance(normal, side * surface_normalize_or(geometric, normal));
     hit_turn(&point, normal, to_viewer, view);
     let there = hit_textured(material, place);

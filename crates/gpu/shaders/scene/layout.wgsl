@@ -119,6 +119,8 @@ struct Material {
     specular: f32,              // factor on what a dielectric reflects
     specular_texture: vec2u,    // alpha: factor on the latter
     specular_color_texture: vec2u, // factor on the former
+    coat_normal_texture: vec2u,
+    coat_normal_scale: f32,
 }
 
 // Spheres come first, then polygons of at most four vertices, then others, then tubes, then rectangles with pictures; behind them, in the
@@ -187,9 +189,9 @@ struct PixelPaint {
     f0: vec3f,
     lobe: u32,                  // roughness and spread of slopes, in 16 bits each; with anisotropy see pixel_lobe_pack()
     diffuse: vec2u,             // 16 bits each; the last are spare
-    coat: u32,                  // as that of materials
+    coat: u32,                  // see coat_pack(); with normals of coats the lower bits of its spread of slopes beside it
     triangle: u32,
-    emission: vec3f,
+    emission: vec3u,            // bits of floats; with normals of coats see pixel_emission_pack()
     curve_bits: u32,            // the curve of fresnel_curves, and more: see pixel_curve_pack()
 }
 

@@ -65,10 +65,45 @@ fn pixel_lobe(paint: PixelPaint) -> vec4f {
     return vec4f(bits) / 4095.0;
 }
 
+// Three floats. With normals of coats their signs, which are positive, and the last bits of their digits make room: 20 bits each, then the upper 4
+// bits of the coat's spread of slopes, whose lower 8 stand beside the coat, then the normal of what is under it.
+fn pixel_emission_pack(point: SurfacePoint) -> vec3u {
+    let floats = bitcast<vec3u>(point.emission);
+    if !HAS_COAT_NORMALS {
+        return floats;
+    }
+    // Rounded.
+    let bits = min((floats + 0x400u) >> vec3u(11u), vec3u(0xfefffu));
+    return vec3u(bits.x | (bits.y << 20u), (bits.y >> 12u) | (bits.z << 8u) | ((pixel_coat_slope_bits(point) >> 8u) << 28u), point.under_coat);
+}
+
+fn pixel_emission(paint: PixelPaint) -> vec3f {
+    if !HAS_COAT_NORMALS {
+        return bitcast<vec3f>(paint.emission);
+    }
+    let bits = vec3u(paint.emission.x, (paint.emission.x >> 20u) | (paint.emission.y << 12u), paint.emission.y >> 8u);
+    return bitcast<vec3f>((bits & vec3u(0xfffffu)) << vec3u(11u));
+}
+
+fn pixel_coat_slope_bits(point: SurfacePoint) -> u32 {
+    return u32(round(4095.0 * clamp(point.coat_slope_std, 0.0, 1.0)));
+}
+
+fn pixel_coat_slope_std(paint: PixelPaint) -> f32 {
+    if !HAS_COAT_NORMALS {
+        return 0.0;
+    }
+    return f32((paint.coat >> 24u) | ((paint.emission.y >> 28u) << 8u)) / 4095.0;
+}
+
 fn pixel_paint_pack(point: SurfacePoint, triangle: u32) -> PixelPaint {
     let lobe = pixel_lobe_pack(point);
     let diffuse = vec2u(pack2x16unorm(point.diffuse.xy), pack2x16unorm(vec2f(point.diffuse.z, 0.0)) | (lobe.y << 16u));
-    return PixelPaint(point.f0, lobe.x, diffuse, point.coat, triangle, point.emission, pixel_curve_pack(point));
+    var coat = point.coat;
+    if HAS_COAT_NORMALS {
+        coat |= pixel_coat_slope_bits(point) << 24u;
+    }
+    return PixelPaint(point.f0, lobe.x, diffuse, coat, triangle, pixel_emission_pack(point), pixel_curve_pack(point));
 }
 
 fn pixel_table(pixel: PixelPoint) -> u32 {
@@ -105,11 +140,13 @@ fn surface_point_from(pixel: PixelPoint, paint: PixelPaint) -> SurfacePoint {
         vec3f(unpack2x16unorm(paint.diffuse.x), unpack2x16unorm(paint.diffuse.y).x),
         lobe.x,
         lobe.y,
-        paint.emission,
+        pixel_emission(paint),
         pixel.coherence_um,
         pixel_table(pixel),
         pixel_open(paint),
         paint.coat,
+        pixel_coat_slope_std(paint),
+        paint.emission.z,
         lobe.z,
         vec2f(cos(turn), sin(turn)),
     );

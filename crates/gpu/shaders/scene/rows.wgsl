@@ -1,7 +1,7 @@
 // Arrays that lie in textures: a texture may hold four times as much as a storage buffer, and a stage has eight storage buffers only.
 // Twin: src/rows.rs writes them.
 
-const MATERIAL_TEXELS: u32 = 11u;
+const MATERIAL_TEXELS: u32 = 12u;
 
 fn material_at(i: u32) -> Material {
     let a = textureLoad(materials, row_texel(MATERIAL_TEXELS * i), 0);
@@ -24,6 +24,10 @@ fn material_at(i: u32) -> Material {
     if HAS_SPECULAR {
         k = textureLoad(materials, row_texel(MATERIAL_TEXELS * i + 9u), 0);
         l = textureLoad(materials, row_texel(MATERIAL_TEXELS * i + 10u), 0);
+    }
+    var m: vec4u;
+    if HAS_COAT_NORMALS {
+        m = textureLoad(materials, row_texel(MATERIAL_TEXELS * i + 11u), 0);
     }
     return Material(
         bitcast<vec3f>(a.xyz),
@@ -54,6 +58,8 @@ fn material_at(i: u32) -> Material {
         bitcast<f32>(k.w),
         l.xy,
         l.zw,
+        m.xy,
+        bitcast<f32>(m.z),
     );
 }
 

@@ -1,7 +1,7 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Mutex;
 
-use glam::{DVec2, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 use hairline_optics::metal::Metal;
 use hairline_scene::Reflector;
 
@@ -319,6 +319,57 @@ fn no_nan_on_awkward_input() {
                 }
             }
         }
+    }
+}
+
+/// A clear layer on plastic that leans away from it towards the viewer: what is drawn has the density that it is said to have, and the light in
+/// the mean that it sends, from above either horizon.
+#[test]
+fn coats_on_what_leans_are_drawn_as_they_are_weighed() {
+    const LEANS_RAD: f64 = 0.4;
+    for (alpha, cos) in [(0.2, 0.5), (0.5, 0.3), (0.3, 0.9)] {
+        let wo = viewer(cos);
+        let coated = |leans_rad: f64| {
+            let turn = DMat3::from_rotation_y(-leans_rad);
+            let under_coat = BaseLobes {
+                under_coat: Some(turn),
+                ..plastic((turn * wo).z, 0.3)
+            };
+            let of_coat = reflectance(Reflector::COAT, alpha);
+            under_coat.coated(0.7, alpha.sqrt(), wo, of_coat)
+        };
+        let lobes = coated(LEANS_RAD);
+        const ROWS: usize = 500;
+        let (mut whole, mut light) = (0.0, DVec3::ZERO);
+        for i in 0..2 * ROWS * ROWS {
+            let z = 2.0 * ((i / (2 * ROWS)) as f64 + 0.5) / ROWS as f64 - 1.0;
+            let (sin, cos) = (PI * ((i % (2 * ROWS)) as f64 + 0.5) / ROWS as f64).sin_cos();
+            let r = (1.0 - z * z).sqrt();
+            let wi = DVec3::new(r * cos, r * sin, z);
+            let solid_angle = 2.0 * PI / (ROWS * ROWS) as f64;
+            let (s, d) = lobes.eval(wi);
+            assert!(s + d == DVec3::ZERO || lobes.are_above(wi));
+            whole += lobes.pdf(wi) * solid_angle;
+            light += (s + d) * solid_angle;
+        }
+        const SIDE: usize = 200;
+        let (mut kept, mut mean, mut picks) = (0.0, DVec3::ZERO, Draw::new(11));
+        for u in jittered(SIDE, 12) {
+            if let Some(wi) = lobes.sample(picks.one(), u) {
+                let (s, d) = lobes.eval(wi);
+                kept += 1.0 / (SIDE * SIDE) as f64;
+                mean += (s + d) / (lobes.pdf(wi) * (SIDE * SIDE) as f64);
+            }
+        }
+        // As above.
+        assert!((whole - kept).abs() < 8e-3, "{alpha} {cos}: {whole} {kept}");
+        let off = (mean - light).abs().max_element();
+        assert!(off < 8e-3, "{alpha} {cos}: {mean} {light}");
+        let [leaning, upright] = [LEANS_RAD, 0.0].map(|rad| coated(rad).eval(mirror(wo)).0.x);
+        assert!(
+            leaning < 0.9 * upright,
+            "{alpha} {cos}: {leaning} {upright}"
+        );
     }
 }
 

@@ -1,4 +1,4 @@
-//! KHR_materials_clearcoat: a clear layer over a material, by two factors and two textures.
+//! KHR_materials_clearcoat: a clear layer over a material, by two factors, two textures and a normal map.
 
 use gltf::json::Value;
 use gltf::material::Material;
@@ -25,6 +25,20 @@ pub(super) fn coat(material: &Material) -> Option<Coat> {
 
 /// What the file says of each texture on the factors of a layer that is there.
 pub(super) fn uses<'a>(material: &'a Material<'a>) -> [Option<&'a Value>; 2] {
-    let there = coat(material).and_then(|_| material.extension_value(NAME));
-    TEXTURES.map(|name| there?.get(name))
+    TEXTURES.map(|name| of_layer(material)?.get(name))
+}
+
+/// And of its normal map.
+pub(super) fn normals<'a>(material: &'a Material<'a>) -> Option<&'a Value> {
+    of_layer(material)?.get("clearcoatNormalTexture")
+}
+
+/// The factor on x and y of that map.
+pub(super) fn normal_scale(normals: &Value) -> f64 {
+    let scale = normals.get("scale").and_then(Value::as_f64);
+    scale.filter(|x| x.is_finite()).unwrap_or(1.0)
+}
+
+fn of_layer<'a>(material: &'a Material<'a>) -> Option<&'a Value> {
+    coat(material).and_then(|_| material.extension_value(NAME))
 }

@@ -78,6 +78,7 @@ mod tests {
                 cutout: Some(cutout),
                 coat: None,
                 coat_textures: [None; 2],
+                coat_normal_texture: None,
                 anisotropy: None,
                 anisotropy_texture: None,
             };

@@ -189,19 +189,6 @@ impl Found {
         let meaning = "a third way to place images on one surface; they lie as the first one";
         let others = ways.len().saturating_sub(2);
         self.add(PROPERTY, "texCoord", others, meaning, true);
-        if let Some(coat) = material
-            .get("extensions")
-            .and_then(|it| it.get("KHR_materials_clearcoat"))
-        {
-            self.coat(coat, material.get("normalTexture").is_some());
-        }
-    }
-
-    fn coat(&mut self, coat: &Value, has_normals: bool) {
-        let meaning = "the coat has the bumps of what is under it";
-        let has_own = coat.get("clearcoatNormalTexture").is_some();
-        let count = usize::from(has_own || has_normals);
-        self.add(PROPERTY, "normals of clearcoat", count, meaning, true);
     }
 }
 
@@ -218,6 +205,7 @@ fn textures_of(material: &Value) -> impl Iterator<Item = &Value> {
     let of_extensions = [
         ("KHR_materials_clearcoat", "clearcoatTexture"),
         ("KHR_materials_clearcoat", "clearcoatRoughnessTexture"),
+        ("KHR_materials_clearcoat", "clearcoatNormalTexture"),
         ("KHR_materials_anisotropy", "anisotropyTexture"),
         ("KHR_materials_specular", "specularTexture"),
         ("KHR_materials_specular", "specularColorTexture"),

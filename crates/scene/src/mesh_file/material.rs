@@ -105,6 +105,8 @@ impl Own<'_> {
             *texture = extension_texture::used(self.document, used, "clear coat")?;
         }
         let [of_weight, of_roughness] = of_coat;
+        let normals_of_coat = coat::normals(material).filter(|_| coat.is_some());
+        let of_normals = extension_texture::used(self.document, normals_of_coat, "clear coat")?;
         let mut of_specular = [None, None];
         for (texture, used) in of_specular.iter_mut().zip(specular::uses(material)) {
             let used = used.filter(|_| !is_unlit);
@@ -157,6 +159,8 @@ impl Own<'_> {
                 look(of_weight, Channels::Linear)?,
                 look(of_roughness, Channels::Linear)?,
             ],
+            coat_normal_texture: look(of_normals, Channels::Normals)?
+                .zip(normals_of_coat.map(coat::normal_scale)),
             coat,
             anisotropy,
             anisotropy_texture: look(of_anisotropy, Channels::Linear)?,

@@ -6,6 +6,7 @@ use gltf::{Document, Primitive, Semantic};
 
 use super::anisotropy;
 use super::attributes::Attributes;
+use super::coat;
 use super::flaw::Flaw;
 use super::skin::Motion;
 use super::source::Buffers;
@@ -91,15 +92,16 @@ pub(super) fn read(
 }
 
 impl Rough {
-    /// With normals, and with tangents where a normal map or brushed metal needs them.
+    /// With normals, and with tangents where normal maps or brushed metal need them.
     pub(super) fn finished(self, primitive: &Primitive) -> Surface {
         let mut surface = self.surface;
         if !self.has_normals {
             surface.make_flat_normals();
         }
         let material = primitive.material();
-        let needs_tangents =
-            material.normal_texture().is_some() || anisotropy::anisotropy(&material).is_some();
+        let needs_tangents = material.normal_texture().is_some()
+            || coat::normals(&material).is_some()
+            || anisotropy::anisotropy(&material).is_some();
         if needs_tangents && !self.has_tangents && self.has_uvs {
             surface = tangents::made_up(&surface);
         }

@@ -151,6 +151,22 @@ fn extensions_change_what_a_surface_reflects() {
     // The same image lies in two ways.
     let by_other = [0, 1].map(|i| textured.textures[i].sampling.by_other_uvs);
     assert_eq!(by_other, [false, true]);
+    let (ways, normals) = (
+        r#""normalTexture":{"index":2}"#,
+        r#""index":2,"texCoord":1,"scale":0.5"#,
+    );
+    let bumpy = scene(
+        &format!(
+            r#"{plastic},{ways},"extensions":{{"KHR_materials_clearcoat":{{"clearcoatFactor":1,"clearcoatNormalTexture":{{{normals}}}}}}}"#
+        ),
+        "",
+    );
+    let coated = &bumpy.materials[bumpy.objects[0].mesh.triangle_materials[0] as usize];
+    let (own, scale) = coated.coat_normal_texture.unwrap();
+    assert_eq!(scale, 0.5);
+    assert!(bumpy.textures[own].sampling.by_other_uvs && !bumpy.textures[own].srgb);
+    assert!(coated.has_coat_normals() && coated.normal_texture.is_some());
+    assert!(bumpy.notes.is_empty(), "{:?}", bumpy.notes);
     let brushed = |text: &str| {
         scene(
             &format!(r#"{plastic},"extensions":{{"KHR_materials_anisotropy":{{{text}}}}}"#),
