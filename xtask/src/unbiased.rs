@@ -290,7 +290,7 @@ Pixels within three of the outline of an object are left out: the path tracer av
 other parts of it. (With them, `corner` seemed to stop at 1.6 % with one bounce: nine tenths of the squared error lay along the box's outline. A sheet that begins 1.4 pixels above
 the picture of `sheets` seemed to let light through where all is dark.)
 
-Scratches of `edge` and `slit` are 0.05 to 0.1 % of the light without shadows too bright, beyond noise (z up to 4.4 at 1,024 samples). Three suspects do not explain it. More samples of the path tracer: with 2,048 `edge` has
+Scratches of `edge` and `slit` are 0.05 to 0.12 % of the light without shadows too bright, beyond noise (z up to 4.4 at 1,024 samples). Three suspects do not explain it. More samples of the path tracer: with 2,048 `edge` has
 +0.08 ± 0.03 % at 256 samples, z +3.2. Shares s/f from another half of the samples, and the groove's depth in the direction of each ray in place of one for a chord: either changes it by less than 0.02 %.
 
 Variances come from the scatter of batches of four samples. A picture of four samples is one batch, which tells none: it takes that of a batch of the row's picture of the most samples.

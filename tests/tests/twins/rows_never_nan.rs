@@ -180,10 +180,12 @@ fn light_of_rows_in_the_shader() {
             let line = band_line_at(band_from_surface(tangent, wo), 0.0);
             let cell = row_cell(u32(x[12] * 7.0), line);
             let around = scratch_chord(table_0, point, seen, cell.q_high, cell.q_low, cell.direction.z);
-            let grating = Grating(towards, u32(x[8]) % 4u, vec3f(0.0), 20.0, vec2f(0.0, x[6]), 1.0, x[11], 0u, 0u, u32(x[8]), 1e3 * x[6], 400.0 * x[6], abs(x[10]), 4.0, 0u, vec4f(0.0), vec4f(0.0), vec4f(0.0), vec2u(0u), vec2u(0u));
+            let tangent_3d = vec3f(tangent, 0.0);
+            let grating = Grating(towards, u32(x[8]) % 4u, vec3f(0.0), 20.0, vec2f(0.0, x[6]), 1.0, x[11], 0u, 0u, u32(x[8]), 1e3 * x[6], 400.0 * x[6], abs(x[10]), 4.0, 0u, vec4f(0.0), vec4f(0.0), vec4f(0.0), vec2u(0u), vec2u(0u), tangent_3d, select(0.0, x[6], (u32(x[8]) & 4u) != 0u));
             let course = groove_course_straight(grating);
+            let arm = groove_arm(grating, wo * x[6]);
             let place = groove_place(grating, course, wo * x[6], wo, towards * x[7], cross(towards, wo) * x[10]);
-            let density = groove_density(grating, course, wo * x[6], wo, place.tangent, towards * x[7], cross(towards, wo) * x[10], 20.0);
+            let density = groove_density(grating, course, arm, wo, place.tangent, towards * x[7], cross(towards, wo) * x[10], 20.0);
             y[0] = dot(sphere, vec3f(0.2126, 0.7152, 0.0722));
             y[1] = dot(flat, vec3f(0.2126, 0.7152, 0.0722));
             y[2] = dot(around, vec3f(0.2126, 0.7152, 0.0722));
