@@ -8,6 +8,7 @@ import { createServer } from 'node:http';
 import { tmpdir } from 'node:os';
 import { extname, join } from 'node:path';
 import puppeteer from 'puppeteer-core';
+import { fit } from './letters.mjs';
 
 const [folder, program, pictures] = process.argv.slice(2);
 const here = import.meta.dirname;
@@ -150,6 +151,12 @@ try {
   told('the first picture is there, by', first.backend);
   assert.deepEqual(first.messages, []);
   await keep(page, 'start');
+  const shown = await page.screenshot({ encoding: 'base64' });
+  for (const word of ['Tools', 'Lights', 'polygon']) {
+    const { correlation, off } = await fit(page, shown, word);
+    assert(correlation > 0.9 && off < 0.5, `the word ${word} is not as the browser draws it: a pixel is ${off.toFixed(2)} off, correlation ${correlation.toFixed(3)}`);
+  }
+  told('words have all their letters');
   const turned = await turn(page, first);
   told('a drag turned the view');
   await keep(page, 'turned');

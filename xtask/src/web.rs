@@ -1,5 +1,6 @@
 //! The viewer for browsers: a folder of static files, for any web server.
 
+mod features;
 mod site;
 mod thumbnail;
 
@@ -43,6 +44,7 @@ impl Web {
         fs::create_dir_all(&self.output)?;
         let output = self.output.canonicalize()?;
         let built = compile(&root, self.quick)?;
+        features::check(&built)?;
         let bindgen = bindgen(&root)?;
         run(Command::new(bindgen)
             .args(["--target", "web", "--no-typescript"])
@@ -187,20 +189,9 @@ fn shrink(root: &Path, program: &Path) -> anyhow::Result<()> {
         );
         return Ok(());
     };
-    // What the compiler uses, and no more: of all features of the tool, browsers lack some.
-    let features = [
-        "--enable-bulk-memory-opt",
-        "--enable-call-indirect-overlong",
-        "--enable-multivalue",
-        "--enable-mutable-globals",
-        "--enable-nontrapping-float-to-int",
-        "--enable-reference-types",
-        "--enable-sign-ext",
-        "--enable-simd",
-    ];
     run(Command::new(tool)
         .arg("-Oz")
-        .args(features)
+        .args(features::OF_BROWSERS.map(|(_, flag)| flag))
         .arg(program)
         .arg("-o")
         .arg(program))

@@ -21,9 +21,9 @@ use glam::DVec3;
 use hairline_index::IndexedSegment;
 use hairline_optics::band::{Along, BandPlace, OutlineRoots};
 use hairline_optics::mask::ScratchSums;
+use hairline_optics::vectors::with_widest;
 use lanes::{GROUPS, Group, LANES, Line, Seen};
 use light_bounds::LightBounds;
-use pulp::Arch;
 use scratch_light::scratch_energy;
 
 pub(crate) use drawn_light::DrawnLight;
@@ -37,7 +37,6 @@ pub(crate) const BATCH: usize = GROUPS * LANES;
 
 /// Shades batches of points. One for each thread: what it holds is filled anew for each batch.
 pub(crate) struct ScratchShader {
-    arch: Arch,
     frames: Vec<Frame>,
     groups: Vec<Group>,
     bounds: LightBounds,
@@ -49,7 +48,6 @@ pub(crate) struct ScratchShader {
 impl ScratchShader {
     pub fn new() -> Self {
         Self {
-            arch: Arch::new(),
             frames: Vec::with_capacity(BATCH),
             groups: Vec::with_capacity(GROUPS),
             bounds: LightBounds::default(),
@@ -76,7 +74,6 @@ impl ScratchShader {
             self.groups.push(Group::new(points, frames));
         }
         self.bounds.gather(points, &self.frames);
-        let arch = self.arch;
         let (segments, weights) = prepared.segments();
         let mut shading = Shading {
             prepared,
@@ -86,8 +83,7 @@ impl ScratchShader {
             picks,
             counts,
         };
-        // Compiled for the vectors of this processor, with all that is inlined.
-        arch.dispatch(
+        with_widest(
             #[inline(always)]
             || {
                 for projected in list {

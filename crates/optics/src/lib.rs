@@ -44,4 +44,5 @@ pub mod scratch;
 pub mod spectrum;
 pub mod sptd;
 pub mod table;
+pub mod vectors;
 pub mod word_hash;

@@ -6,9 +6,9 @@ use super::ends::Ends;
 use super::lanes::{Complexes, Lanes};
 use super::{CoherentResponse, GroovePiece, TOLERANCE};
 use super::{base_amplitude, groove_amplitude, groove_overlap, phase_step};
+use crate::vectors::with_widest;
 use glam::DVec2;
 use num_complex::Complex64;
-use pulp::{Arch, Simd, WithSimd};
 use std::f64::consts::{PI, SQRT_2};
 
 /// Wavelengths that [`GrooveField::responses`] takes at once.
@@ -118,13 +118,11 @@ impl GrooveField {
     ) {
         for (nm, out) in wavelengths_nm.chunks(LANES).zip(out.chunks_mut(LANES)) {
             let lanes: Lanes<LANES> = Lanes(std::array::from_fn(|i| nm[i.min(nm.len() - 1)]));
-            // The same arithmetic with the widest vectors that the machine has.
-            let sums = Arch::new().dispatch(Direction {
-                field: self,
-                xi,
-                cos_sum,
-                wavelengths_nm: lanes,
-            });
+            // All that it calls is inlined, or would not be compiled for each kind of vectors.
+            let sums = with_widest(
+                #[inline(always)]
+                || self.lanes(xi, cos_sum, lanes),
+            );
             for (i, out) in out.iter_mut().enumerate().take(nm.len()) {
                 *out = Complex64::new(sums.re.0[i], sums.im.0[i]);
             }
@@ -202,23 +200,6 @@ impl GrooveField {
             })
             .sum();
         1.0 - taken + hidden
-    }
-}
-
-/// One call of [`GrooveField::lanes`], compiled for each kind of vectors. All that it calls is inlined, or would not be.
-struct Direction<'a> {
-    field: &'a GrooveField,
-    xi: DVec2,
-    cos_sum: f64,
-    wavelengths_nm: Lanes<LANES>,
-}
-
-impl WithSimd for Direction<'_> {
-    type Output = Complexes<LANES>;
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> Self::Output {
-        self.field.lanes(self.xi, self.cos_sum, self.wavelengths_nm)
     }
 }
 
