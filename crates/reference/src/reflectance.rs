@@ -79,21 +79,25 @@ impl Ends {
 
 impl Reflectance {
     pub(crate) fn new(material: &Material) -> Self {
-        let reflector = Reflector::new(material);
-        match material.metallic_roughness_texture {
-            None => Self::at(reflector, &[material.roughness]),
-            Some(_) => {
-                let step = |i: usize| i as f64 / ROUGHNESS_STEPS as f64;
-                let all: Vec<f64> = (0..=ROUGHNESS_STEPS).map(step).collect();
-                Self::at(reflector, &all)
-            }
-        }
+        let map = material.metallic_roughness_texture;
+        Self::mapped(Reflector::new(material), material.roughness, map)
     }
 
     /// That of a material's coat.
     pub(crate) fn of_coat(material: &Material) -> Option<Self> {
         let coat = material.coat?;
-        Some(Self::at(Reflector::COAT, &[coat.roughness]))
+        let [_, map] = material.coat_textures;
+        Some(Self::mapped(Reflector::COAT, coat.roughness, map))
+    }
+
+    /// For one roughness, or for all where a texture gives it.
+    fn mapped(reflector: Reflector, roughness: f64, map: Option<usize>) -> Self {
+        if map.is_none() {
+            return Self::at(reflector, &[roughness]);
+        }
+        let step = |i: usize| i as f64 / ROUGHNESS_STEPS as f64;
+        let all: Vec<f64> = (0..=ROUGHNESS_STEPS).map(step).collect();
+        Self::at(reflector, &all)
     }
 
     /// For these roughnesses, which rise.
@@ -228,5 +232,37 @@ impl Albedo {
     /// Of a surface with a body: what it reflects without the body, multiple scattering inside.
     pub(crate) fn reflected(self, Ends { f0, f90 }: Ends) -> DVec3 {
         (f0 * self.parts.s + self.parts.t * f90) * (DVec3::ONE + f0 * self.gain())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use hairline_fixtures::SceneFile;
+    use hairline_scene::Coat;
+
+    /// A map of a coat's roughness says which albedo it has, as one of the base's does.
+    #[test]
+    fn a_coat_of_mapped_roughness_has_the_albedo_of_each() {
+        let plate = SceneFile::seen_from([0.0, 0.0, 1.0])
+            .up([0.0, 1.0, 0.0])
+            .mirror("m")
+            .object("o", "m", "plane = { size_m = [0.01, 0.01] }");
+        let scene = plate.scene();
+        let mut material = scene.materials[0].clone();
+        material.coat = Some(Coat {
+            weight: 1.0,
+            roughness: 0.9,
+        });
+        let albedo =
+            |of: &Reflectance, roughness| of.albedo(roughness, 0.2).reflected(Ends::COAT).x;
+        let one = Reflectance::of_coat(&material).unwrap();
+        material.coat_textures[1] = Some(0);
+        let all = Reflectance::of_coat(&material).unwrap();
+        for roughness in [0.25, 0.5] {
+            let exact = albedo(&Reflectance::at(Reflector::COAT, &[roughness]), roughness);
+            assert!((albedo(&all, roughness) / exact - 1.0).abs() < 1e-6);
+            assert!((albedo(&one, roughness) / exact - 1.0).abs() > 0.1);
+        }
     }
 }
