@@ -174,17 +174,14 @@ impl description::Grating {
                 around: spots,
                 spacing_m,
             } => {
-                // Of the two of the object's axes that are more across the pattern's, the first one.
-                let axis = DVec3::from(spots.axis);
-                let along = match axis.x.abs() > 0.9 * axis.length() {
-                    true => DVec3::Y,
-                    false => DVec3::X,
-                };
-                let along_row = along - axis * (along.dot(axis) / axis.length_squared());
+                // The object's x axis, or y where the axis is nearly x; across the axis in the world, whatever the scales.
+                let axis = direction(spots.axis);
+                let [x, y] = [direction([1.0, 0.0, 0.0]), direction([0.0, 1.0, 0.0])];
+                let along = if axis.dot(x).abs() > 0.9 { y } else { x };
                 let field = GrooveField::Spots {
-                    axis: direction(spots.axis),
+                    axis,
                     center_m: world_from_object.transform_point3(spots.center_m.into()),
-                    along_row: direction(along_row.into()),
+                    along_row: along.reject_from(axis).normalize_or_zero(),
                     spacing_m: *spacing_m,
                 };
                 (field, spots.jitter_deg)

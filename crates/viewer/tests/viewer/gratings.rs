@@ -126,7 +126,9 @@ fn presets_are_added_by_the_menu_and_built() {
         assert_eq!(grating(&harness).pitch_um, pitch_um);
         wait_until(&mut harness, preset.name(), |viewer| {
             let built = viewer.engine().built();
-            built.is_some_and(|it| it.description.gratings.len() == 1)
+            built.is_some_and(|it| {
+                it.description.gratings == viewer.document().description().gratings
+            })
         });
         undo(&mut harness);
         assert!(description(&harness).gratings.is_empty());
