@@ -6,9 +6,9 @@ use std::process::Command;
 
 use anyhow::{Context, Result, ensure};
 
-/// How a picture is rendered.
+/// The options that a picture is rendered with.
 #[derive(Clone, Copy)]
-struct Way {
+struct RenderOptions {
     /// Width and height, pixels.
     size: &'static str,
     /// Rays of each pixel to each light, and samples of its edges.
@@ -17,14 +17,14 @@ struct Way {
     bounces: Option<&'static str>,
 }
 
-const USUAL: Way = Way {
+const DEFAULT: RenderOptions = RenderOptions {
     size: "640x360",
     samples: "32",
     bounces: None,
 };
 
 /// Pictures that need something else: more samples for what is mirrored or out of focus, fewer where nothing is.
-const UNLIKE: [(&str, Way); 12] = [
+const EXCEPTIONS: [(&str, RenderOptions); 12] = [
     // It opens the README.
     ("hairline", sized("960x540", sampled("64"))),
     ("baubles", sampled("48")),
@@ -35,9 +35,9 @@ const UNLIKE: [(&str, Way); 12] = [
     ("lighter", sampled("16")),
     (
         "mirror",
-        Way {
+        RenderOptions {
             bounces: Some("2"),
-            ..sampled("48")
+            ..sampled("96")
         },
     ),
     ("movement", sampled("64")),
@@ -46,12 +46,12 @@ const UNLIKE: [(&str, Way); 12] = [
     ("seal", sampled("16")),
 ];
 
-const fn sampled(samples: &'static str) -> Way {
-    Way { samples, ..USUAL }
+const fn sampled(samples: &'static str) -> RenderOptions {
+    RenderOptions { samples, ..DEFAULT }
 }
 
-const fn sized(size: &'static str, way: Way) -> Way {
-    Way { size, ..way }
+const fn sized(size: &'static str, options: RenderOptions) -> RenderOptions {
+    RenderOptions { size, ..options }
 }
 
 /// Options of `pictures`.
@@ -85,12 +85,12 @@ impl Pictures {
     fn picture(&self, root: &Path, name: &str, scene: Option<&Path>) -> Result<()> {
         let file = format!("docs/pictures/{name}.png");
         let scene_file = scene.map(|path| path.display().to_string().replace('\\', "/"));
-        let unlike = UNLIKE.iter().find(|(of, _)| *of == name);
-        let Way {
+        let exception = EXCEPTIONS.iter().find(|(of, _)| *of == name);
+        let RenderOptions {
             size,
             samples,
             bounces,
-        } = unlike.map_or(USUAL, |&(_, way)| way);
+        } = exception.map_or(DEFAULT, |&(_, options)| options);
         let mut arguments = vec!["run", "--release", "-q", "-p", "hairline", "--", "render"];
         arguments.extend(scene_file.as_deref());
         arguments.extend(["-o", &file, "--size", size, "--samples", samples]);

@@ -177,7 +177,7 @@ fn bindgen(root: &Path) -> anyhow::Result<PathBuf> {
     Ok(tools.join("bin/wasm-bindgen"))
 }
 
-/// By Binaryen, where it is installed: a sixth less for a browser to compile; compressed, it stays as large.
+/// By Binaryen, where it is installed: a fourteenth less for a browser to compile; compressed, it stays as large.
 fn shrink(root: &Path, program: &Path) -> anyhow::Result<()> {
     let of_tests = root.join("tests/web/node_modules/.bin/wasm-opt");
     let tool = [PathBuf::from("wasm-opt"), of_tests]

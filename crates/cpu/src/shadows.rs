@@ -647,11 +647,7 @@ impl<'l, 'a> Lobes<'l, 'a> {
             lobe: DrawnLobe::new(under_coat, own, slope_std, fresnel, left * share),
             coat,
             body_share: left * (1.0 - share),
-            under_coat: point.normal_under_coat.map(|_| {
-                let axes = [under_coat.axis_x, under_coat.axis_y, under_coat.normal];
-                let [x, y, z] = axes.map(|axis| point.surface_from_world(axis));
-                DMat3::from_cols(x, y, z).transpose()
-            }),
+            under_coat: point.normal_under_coat.map(|_| point.turn_to(under_coat)),
         }
     }
 

@@ -1,6 +1,6 @@
 //! Stage 2, surface: what lies under a sample: position, frame, footprint, material with its textures. Twin: surface.wgsl.
 
-use glam::{DVec2, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 use hairline_index::Hit;
 use hairline_optics::facets::{FacetAxes, anisotropic_alpha};
 use hairline_optics::filtered_lobe::SlopeSpread;
@@ -104,7 +104,7 @@ impl SurfacePoint<'_> {
         self.axis_x * v.x + self.axis_y * v.y + self.normal * v.z
     }
 
-    /// How the slopes spread that a pixel sees, of a surface whose normal map's spread so far.
+    /// How the slopes spread that a pixel sees. `slope_std` is the spread of the normal map's slopes.
     pub fn slope_spread(&self, slope_std: f64) -> SlopeSpread {
         let [x, y] = self.normal_turns.map(|turn| turn.truncate());
         SlopeSpread {
@@ -132,6 +132,13 @@ impl SurfacePoint<'_> {
             coat: None,
             ..*self
         })
+    }
+
+    /// The turn from this point's frame to that of another one at the same place.
+    pub fn turn_to(&self, other: &Self) -> DMat3 {
+        let axes = [other.axis_x, other.axis_y, other.normal];
+        let [x, y, z] = axes.map(|axis| self.surface_from_world(axis));
+        DMat3::from_cols(x, y, z).transpose()
     }
 
     /// The point alone, for scratches that are not averaged over the pixel.
@@ -213,7 +220,7 @@ pub fn surface_point<'a>(
             .normalize_or(smooth);
         // A point has one normal.
         let is_wide = axes != [DVec3::ZERO; 2];
-        (normal, if is_wide { texel.w * scale } else { 0.0 })
+        (normal, if is_wide { texel.w * scale.abs() } else { 0.0 })
     };
     let (under_coat, slope_std) = mapped(material.normal_texture);
     let mut coat = optics.coat_curve.zip(material.coat).map(|(curve, coat)| {

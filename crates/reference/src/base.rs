@@ -65,11 +65,7 @@ impl<'a> BaseLobes<'a> {
             None => Self::from_parts(wo, reflectance, ends, point.diffuse, point.roughness),
         };
         let turned = Self {
-            under_coat: under_coat.map(|it| {
-                let axes = [it.axis_x, it.axis_y, it.normal];
-                let [x, y, z] = axes.map(|axis| point.surface_from_world(axis));
-                DMat3::from_cols(x, y, z).transpose()
-            }),
+            under_coat: under_coat.map(|it| point.turn_to(&it)),
             ..bare
         };
         match point.coat.zip(coat) {

@@ -242,7 +242,7 @@ impl Grating {
         if share <= 0.0 {
             return None;
         }
-        // What a spot does not cover is seen as if it did, or a pixel on its rim would see grooves that turn by any angle.
+        // A pixel sees one spot: across a rim grooves turn by any angle, which is no width of a fan.
         let field = self.field.about(point_m);
         let course = field.course(ground, point_m, normal, axes_m);
         let tangent = field.tangent_by(course.here, point_m, normal)?;

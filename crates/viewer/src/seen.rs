@@ -78,19 +78,11 @@ fn material<'d>(description: &'d Description, object: &Object) -> Option<&'d Mat
 }
 
 fn is_same_but_for_name(x: &Material, y: &Material) -> bool {
-    let Material {
-        name: _,
-        kind,
-        roughness,
-        coherence_um,
-        coat,
-        anisotropy,
-    } = x;
-    *kind == y.kind
-        && *roughness == y.roughness
-        && *coherence_um == y.coherence_um
-        && *coat == y.coat
-        && *anisotropy == y.anisotropy
+    let named_as_y = Material {
+        name: y.name.clone(),
+        ..x.clone()
+    };
+    named_as_y == *y
 }
 
 fn is_same_layer((a, x): (&Description, &Scratches), (b, y): (&Description, &Scratches)) -> bool {
@@ -115,12 +107,12 @@ fn is_same_layer((a, x): (&Description, &Scratches), (b, y): (&Description, &Scr
 }
 
 fn is_same_grating((a, x): (&Description, &Grating), (b, y): (&Description, &Grating)) -> bool {
-    let without_names = |grating: &Grating| Grating {
-        object: String::new(),
-        name: None,
-        ..grating.clone()
+    let named_as_y = Grating {
+        object: y.object.clone(),
+        name: y.name.clone(),
+        ..x.clone()
     };
-    place(a, &x.object) == place(b, &y.object) && without_names(x) == without_names(y)
+    place(a, &x.object) == place(b, &y.object) && named_as_y == *y
 }
 
 /// Which object has this name.
@@ -130,27 +122,9 @@ fn place(description: &Description, object: &str) -> Option<usize> {
 }
 
 fn is_same_light(x: &Light, y: &Light) -> bool {
-    let Light {
-        name: _,
-        hidden,
-        visible,
-        kind,
-        radiance,
-        exposure_ev,
-        temperature_k,
-        color,
-        cone,
-        barn_doors_deg,
-        picture,
-    } = x;
-    *hidden == y.hidden
-        && *visible == y.visible
-        && *kind == y.kind
-        && *radiance == y.radiance
-        && *exposure_ev == y.exposure_ev
-        && *temperature_k == y.temperature_k
-        && *color == y.color
-        && *cone == y.cone
-        && *barn_doors_deg == y.barn_doors_deg
-        && *picture == y.picture
+    let named_as_y = Light {
+        name: y.name.clone(),
+        ..x.clone()
+    };
+    named_as_y == *y
 }

@@ -262,7 +262,7 @@ fn frames_under_coats() {
 #[test]
 fn packed_coats_and_emission() {
     let mut random = Sequence(6);
-    let mut rows: Vec<[f32; 6]> = vec![[0.0; 6], [1e6, 1e-6, 1.0, 1.0, 1.0, 1.0]];
+    let mut rows: Vec<[f32; 6]> = vec![[0.0; 6], [-0.0; 6], [1e6, 1e-6, 1.0, 1.0, 1.0, 1.0]];
     for _ in 0..2000 {
         let emission = [0; 3].map(|_| 10f32.powf(random.between(-6.0, 4.0)));
         let coat = [0; 3].map(|_| random.next());

@@ -32,8 +32,8 @@ override HAS_BODIES: bool = true;
 override HAS_ANISOTROPY: bool = true;
 // Dielectrics with other reflections than their refractive index says.
 override HAS_SPECULAR: bool = true;
+// Clear layers whose normals are not those of what is under them.
+override HAS_COAT_NORMALS: bool = true;
 // Materials under a clear layer, and which curve of reflectance such layers have.
 override HAS_COATS: bool = true;
-// Such whose normals are not those of what is under them.
-override HAS_COAT_NORMALS: bool = true;
 override COAT_CURVE: u32 = 0u;

@@ -89,7 +89,7 @@ fn groove_share_within(grating: Grating, arm_m: vec3f, right_m: vec3f, down_m: v
 // filter.
 fn groove_place(grating: Grating, course: GrooveCourse, point_m: vec3f, normal: vec3f, right_m: vec3f, down_m: vec3f) -> GroovePlace {
     let arm_m = point_m - grating.center_m;
-    // What a spot does not cover is seen as if it did.
+    // A pixel sees one spot.
     let about_m = groove_arm(grating, arm_m);
     var tangent = vec3f(0.0);
     var turns = vec2f(0.0);

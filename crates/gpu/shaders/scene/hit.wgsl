@@ -116,14 +116,18 @@ fn hit_tangents(a: Vertex, b: Vertex, c: Vertex, weights: vec3f, smooth_normal: 
     return HitTangents(along, cross(smooth_normal, along) * flip);
 }
 
-// What a normal map makes of a normal, and how far its slopes spread there.
-fn hit_normal(map: vec2u, scale: f32, place: TexturePlace, tangents: HitTangents, smooth_normal: vec3f) -> vec4f {
+// What a normal map, if there is one, makes of a normal, and how far its slopes spread there.
+fn hit_normal(map: vec2u, scale: f32, a: Vertex, b: Vertex, c: Vertex, weights: vec3f, place: TexturePlace, smooth_normal: vec3f) -> vec4f {
+    if !hit_has_texture(map) {
+        return vec4f(smooth_normal, 0.0);
+    }
+    let tangents = hit_tangents(a, b, c, weights, smooth_normal);
     let there = hit_place(map, place);
     let lod = surface_texture_lod(there.z, scene_texture_size(map), scene_texture_levels(map));
     let looked_up = scene_normals(map, there.xy, lod, there.z);
     let texel = looked_up.xyz * 2.0 - 1.0;
     let slopes = tangents.along * (texel.x * scale) + tangents.across * (texel.y * scale);
-    return vec4f(surface_normalize_or(slopes + smooth_normal * texel.z, smooth_normal), looked_up.w * scale);
+    return vec4f(surface_normalize_or(slopes + smooth_normal * texel.z, smooth_normal), looked_up.w * abs(scale));
 }
 
 // Which way its facets lean most, and how far.
@@ -231,21 +235,14 @@ fn hit_surface(triangle: u32, bary: vec2f, view: HitView) -> SurfacePoint {
         hit_texture_footprint(b.other_uv - a.other_uv, c.other_uv - a.other_uv, geometric, smooth_x, smooth_y),
     );
 
-    var mapped = vec4f(smooth_normal, 0.0);
-    if hit_has_texture(material.normal_texture) {
-        let tangents = hit_tangents(a, b, c, weights, smooth_normal);
-        mapped = hit_normal(material.normal_texture, material.normal_scale, place, tangents, smooth_normal);
-    }
+    let there = hit_textured(material, place);
+    let mapped = hit_normal(material.normal_texture, material.normal_scale, a, b, c, weights, place, smooth_normal);
     point.slope_std = mapped.w;
     var normal = surface_face_viewer(side * mapped.xyz, to_viewer);
     point.under_coat = UNDER_COAT_ALIKE;
     point.coat_slope_std = point.slope_std;
-    if HAS_COAT_NORMALS && unpack2x16unorm(hit_coat(material, place)).x > 0.0 {
-        var mapped_coat = vec4f(smooth_normal, 0.0);
-        if hit_has_texture(material.coat_normal_texture) {
-            let tangents = hit_tangents(a, b, c, weights, smooth_normal);
-            mapped_coat = hit_normal(material.coat_normal_texture, material.coat_normal_scale, place, tangents, smooth_normal);
-        }
+    if HAS_COAT_NORMALS && unpack2x16unorm(there.coat).x > 0.0 {
+        let mapped_coat = hit_normal(material.coat_normal_texture, material.coat_normal_scale, a, b, c, weights, place, smooth_normal);
         point.coat_slope_std = mapped_coat.w;
         let of_coat = surface_face_viewer(side * mapped_coat.xyz, to_viewer);
         if any(of_coat != normal) {
@@ -255,7 +252,6 @@ fn hit_surface(triangle: u32, bary: vec2f, view: HitView) -> SurfacePoint {
     }
     point.leaves = SURFACE_BENDS + 2.0 * distance(normal, side * surface_normalize_or(geometric, normal));
     hit_turn(&point, normal, to_viewer, view);
-    let there = hit_textured(material, place);
     hit_paint(&point, there);
     if HAS_ANISOTROPY && material.anisotropy > 0.0 {
         hit_brush(&point, there, place, hit_tangents(a, b, c, weights, smooth_normal));

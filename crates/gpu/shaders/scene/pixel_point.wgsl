@@ -65,10 +65,11 @@ fn pixel_lobe(paint: PixelPaint) -> vec4f {
     return vec4f(bits) / 4095.0;
 }
 
-// Three floats. With normals of coats their signs, which are positive, and the last bits of their digits make room: 20 bits each, then the upper 4
+// Three floats, none below zero. With normals of coats their signs and the last bits of their digits make room: 20 bits each, then the upper 4
 // bits of the coat's spread of slopes, whose lower 8 stand beside the coat, then the normal of what is under it.
 fn pixel_emission_pack(point: SurfacePoint) -> vec3u {
-    let floats = bitcast<vec3u>(point.emission);
+    // A zero may have a sign.
+    let floats = bitcast<vec3u>(abs(point.emission));
     if !HAS_COAT_NORMALS {
         return floats;
     }

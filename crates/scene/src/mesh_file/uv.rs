@@ -52,8 +52,8 @@ impl Way {
     }
 }
 
-/// The ways of a material's images, the normal maps' first, its own and then its coat's: tangents go by the first. A vertex keeps two places;
-/// where there are more ways, those beyond are taken for the first.
+/// The ways of a material's images, the first that of the normal map, or of its coat's where it has none: tangents go by it. A vertex keeps two
+/// places; where there are more ways, those beyond are taken for the first.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Ways {
     pub first: Option<Way>,
@@ -104,13 +104,15 @@ fn all(material: &Material) -> Vec<Way> {
     let of_extensions = coat::uses(material).into_iter();
     let of_extensions = of_extensions.chain([anisotropy::texture(material)]);
     let of_extensions = of_extensions.chain(specular::uses(material));
+    let of_extensions = of_extensions.flatten().filter_map(of_json);
     let normal_of_coat = coat::normals(material).and_then(of_json);
     normal
+        .or(normal_of_coat)
         .into_iter()
-        .chain(normal_of_coat)
         .chain(rest)
         .chain(older)
-        .chain(of_extensions.flatten().filter_map(of_json))
+        .chain(of_extensions)
+        .chain(normal_of_coat)
         .collect()
 }
 

@@ -167,6 +167,17 @@ fn extensions_change_what_a_surface_reflects() {
     assert!(bumpy.textures[own].sampling.by_other_uvs && !bumpy.textures[own].srgb);
     assert!(coated.has_coat_normals() && coated.normal_texture.is_some());
     assert!(bumpy.notes.is_empty(), "{:?}", bumpy.notes);
+    // Of three ways the coat's normals go without theirs, and not the colour.
+    let crowded = scene(
+        r#""pbrMetallicRoughness":{"baseColorTexture":{"index":2,"texCoord":1}},"normalTexture":{"index":2},
+            "extensions":{"KHR_materials_clearcoat":{"clearcoatFactor":1,"clearcoatNormalTexture":{"index":2,
+            "extensions":{"KHR_texture_transform":{"scale":[2,2]}}}}}"#,
+        "",
+    );
+    let of_crowded = &crowded.materials[crowded.objects[0].mesh.triangle_materials[0] as usize];
+    let color = of_crowded.base_color_texture.unwrap();
+    assert!(crowded.textures[color].sampling.by_other_uvs);
+    assert!(!crowded.notes.is_empty());
     let brushed = |text: &str| {
         scene(
             &format!(r#"{plastic},"extensions":{{"KHR_materials_anisotropy":{{{text}}}}}"#),

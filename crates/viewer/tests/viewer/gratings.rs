@@ -37,12 +37,9 @@ fn add(harness: &mut Harness<'static, Viewer>, preset: GratingPreset) {
 
 /// Types a file's name.
 fn name_file(harness: &mut Harness<'static, Viewer>, label: &str, file: &str) {
-    let field = |harness: &Harness<'static, Viewer>| {
-        let found = harness.get_by_role_and_label(Role::TextInput, label);
-        found.focus();
-        found.type_text(file);
-    };
-    field(harness);
+    let field = harness.get_by_role_and_label(Role::TextInput, label);
+    field.focus();
+    field.type_text(file);
     harness.run_steps(2);
     harness.key_press(egui::Key::Enter);
     harness.run_steps(3);
