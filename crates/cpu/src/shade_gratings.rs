@@ -49,6 +49,7 @@ impl ShadedGratings {
         let stds = Frame::new(point).stds;
         let mut roots = [OutlineRoots::default(), OutlineRoots::default()];
         let mut sum = Self::default();
+        let mut taken = DVec3::ZERO;
         for grating in gratings {
             let (Some(seen), Some(table)) = (
                 seen(grating),
@@ -56,54 +57,57 @@ impl ShadedGratings {
             ) else {
                 continue;
             };
-            let GroovePlace {
-                tangent,
-                turns_rad,
-                share,
-            } = seen;
             let density = grating.groove_density(
                 &ground,
                 position_m,
                 normal,
-                tangent,
+                seen.tangent,
                 point.footprint_axes_m,
                 point.coherence_um,
             );
-            let share = density * share / covered.max(1.0);
-            let tangent = point.surface_from_world(tangent).truncate();
-            let tangent = tangent.normalize_or(DVec2::X);
-            let row = RowSpread {
-                table,
-                turns_rad,
-                angle_std_rad: grating.angle_std_rad,
-            };
-            let table = &prepared.tables.tables[table];
-            let light = ScratchLight::of_row(point.wo, tangent, table, row);
             let around = views.views.len() + 1;
-            let mut add = |source: usize, sent: DVec3| {
-                let sent = share * sent;
+            let mut add = |source: usize, row: &RowAt, sent: DVec3| {
+                let sent = density / covered.max(1.0) * row.share * sent;
                 if source < around {
                     sum.radiance += sent;
                 }
                 if let Some(picks) = &mut picks
                     && source < picks.sources.len()
                 {
-                    picks.add(source, sent, |radiance| pick(tangent, row, radiance));
+                    picks.add(source, sent, |radiance| row.pick(radiance));
                 }
             };
+            let row = |seen: GroovePlace| RowAt::new(point, seen, table);
+            let own = row(seen.of_one_spot());
+            let own_light = own.light(prepared, point);
             for view in 0..views.views.len() {
                 let place = BandPlace::everywhere();
-                if let Some(sent) = light.light(&stds, place, views, view, &mut roots) {
-                    add(view, sent);
+                if let Some(sent) = own_light.light(&stds, place, views, view, &mut roots) {
+                    add(view, &own, sent);
+                }
+                let half = (point.wo + views.views[view].bound().axis).with_z(0.0);
+                let along = point.world_from_surface(half);
+                if let Some(across) = grating.across(seen, normal, along).map(row)
+                    && let Some(sent) =
+                        (across.light(prepared, point)).light(&stds, place, views, view, &mut roots)
+                {
+                    add(view, &across, sent);
                 }
             }
-            if let Some(environment) = environment {
-                add(around - 1, light.environment(point, environment));
+            let mut add_around = |row: &RowAt, light: &ScratchLight| {
+                if let Some(environment) = environment {
+                    add(around - 1, row, light.environment(point, environment));
+                }
+                let all_around = light.all_around();
+                add(around, row, all_around);
+                taken += density / covered.max(1.0) * row.share * all_around;
+            };
+            add_around(&own, &own_light);
+            for row in grating.all_ways(seen, normal).map(row) {
+                add_around(&row, &row.light(prepared, point));
             }
-            let all_around = light.all_around();
-            add(around, all_around);
-            sum.taken += share * all_around;
         }
+        sum.taken = taken;
         sum
     }
 
@@ -118,18 +122,46 @@ impl ShadedGratings {
     }
 }
 
-/// A pick of a grating: its rays start anywhere under the pixel.
-fn pick(tangent: DVec2, row: RowSpread, radiance: DVec3) -> Pick {
-    Pick {
-        tangent,
-        place: BandPlace::everywhere(),
-        along: Along {
-            steps_um: [0.0; 2],
-            blur_um: 1.0,
-            ends: [f64::NEG_INFINITY, f64::INFINITY],
-        },
-        profile: ROW_PROFILE,
-        row: Some(row),
-        radiance,
+/// Grooves of a grating in one direction.
+struct RowAt {
+    tangent: DVec2,
+    row: RowSpread,
+    /// Of the pixel.
+    share: f64,
+}
+
+impl RowAt {
+    fn new(point: &SurfacePoint, seen: GroovePlace, table: usize) -> Self {
+        let tangent = point.surface_from_world(seen.tangent).truncate();
+        Self {
+            tangent: tangent.normalize_or(DVec2::X),
+            row: RowSpread {
+                table,
+                turns_rad: seen.turns_rad,
+                angle_std_rad: seen.angle_std_rad,
+            },
+            share: seen.share,
+        }
+    }
+
+    fn light<'a>(&self, prepared: &'a Prepared, point: &SurfacePoint) -> ScratchLight<'a> {
+        let table = &prepared.tables.tables[self.row.table];
+        ScratchLight::of_row(point.wo, self.tangent, table, self.row)
+    }
+
+    /// Its rays start anywhere under the pixel.
+    fn pick(&self, radiance: DVec3) -> Pick {
+        Pick {
+            tangent: self.tangent,
+            place: BandPlace::everywhere(),
+            along: Along {
+                steps_um: [0.0; 2],
+                blur_um: 1.0,
+                ends: [f64::NEG_INFINITY, f64::INFINITY],
+            },
+            profile: ROW_PROFILE,
+            row: Some(self.row),
+            radiance,
+        }
     }
 }

@@ -151,7 +151,7 @@ modules! {
     /// What one scratch sends to the viewer of a polygon with many vertices.
     OUTLINE_LIGHT = "scene/outline_light" needs [ROWS, SCRATCH_LIGHT, TUBE];
     /// Spots of circular grooves.
-    GROOVE_SPOTS = "scene/groove_spots" needs [LAYOUT];
+    GROOVE_SPOTS = "scene/groove_spots" needs [LAYOUT, CONTENTS];
     /// Which way the grooves of a grating run.
     GRATINGS = "scene/gratings" needs [GROOVE_SPOTS, GAUSSIAN];
     /// Single grooves of a grating.

@@ -27,6 +27,8 @@ pub(crate) struct Contents {
     pub branching_grooves: bool,
     /// Gratings with pictures, or along texture coordinates.
     pub groove_maps: bool,
+    /// Gratings whose grooves lie about spots.
+    pub groove_spots: bool,
     /// That shine on scratches, and on the base.
     pub lights: Kinds,
     pub base_lights: Kinds,
@@ -62,6 +64,7 @@ impl Contents {
             single_grooves,
             branching_grooves: single_grooves && any(branches),
             groove_maps: gratings && any(has_maps),
+            groove_spots: gratings && any(has_spots),
             lights: Kinds::of(scene),
             base_lights: Kinds::on_base(scene),
             doors: scene
@@ -103,6 +106,10 @@ fn has_maps(grating: &Grating) -> bool {
     grating.mask.is_some() || matches!(grating.field, GrooveField::ByUv { .. })
 }
 
+fn has_spots(grating: &Grating) -> bool {
+    matches!(grating.field, GrooveField::Spots { .. })
+}
+
 /// A constant that a pipeline sets.
 pub(crate) type Constant = (&'static str, f64);
 
@@ -130,6 +137,7 @@ pub fn pipeline_variants(text: &str) -> Vec<(String, Vec<(&'static str, f64)>)> 
         single_grooves: true,
         branching_grooves: true,
         groove_maps: true,
+        groove_spots: true,
         lights: Kinds::ALL,
         base_lights: Kinds::ALL,
         doors: true,
@@ -207,6 +215,7 @@ impl ShadeVariant {
             ("HAS_SINGLE_GROOVES", has.single_grooves.into()),
             ("HAS_BRANCHING_GROOVES", has.branching_grooves.into()),
             ("HAS_GROOVE_MAPS", has.groove_maps.into()),
+            ("HAS_GROOVE_SPOTS", has.groove_spots.into()),
             ("HAS_DOORS", has.doors.into()),
             ("HAS_TEXTURES", has.textures.into()),
             ("HAS_COLORS", has.colors.into()),

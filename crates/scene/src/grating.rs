@@ -9,6 +9,8 @@ use hairline_optics::gaussian::gaussian;
 use hairline_optics::grating::Grating as Row;
 
 use crate::picture_lie::PictureLie;
+use spots::Rows;
+use std::f64::consts::PI;
 
 pub use ground::GrooveGround;
 
@@ -127,8 +129,22 @@ pub struct GroovePlace {
     pub tangent: DVec3,
     /// By which angle they turn over one standard deviation of the pixel's filter to the right and down, to the left.
     pub turns_rad: [f64; 2],
+    /// Standard deviation of their angles at any place.
+    pub angle_std_rad: f64,
     /// The share of the pixel that they cover.
     pub share: f64,
+    /// The part of the share whose grooves run in all directions: they are those of spots that are smaller than the pixel. From 0 to 1.
+    pub mixed: f64,
+}
+
+impl GroovePlace {
+    /// The grooves at the point itself, without those that are mixed.
+    pub fn of_one_spot(self) -> Self {
+        Self {
+            share: (1.0 - self.mixed) * self.share,
+            ..self
+        }
+    }
 }
 
 impl GrooveField {
@@ -198,12 +214,19 @@ impl GrooveField {
                 center_m,
                 along_row,
                 spacing_m,
-            } => Self::Around {
+            } => Self::circles(
                 axis,
-                center_m: spots::middle_m(axis, center_m, along_row, spacing_m, point_m),
-                bearing: Bearing::Circular,
-            },
+                spots::middle_m(axis, center_m, along_row, spacing_m, point_m),
+            ),
             field => field,
+        }
+    }
+
+    fn circles(axis: DVec3, center_m: DVec3) -> Self {
+        Self::Around {
+            axis,
+            center_m,
+            bearing: Bearing::Circular,
         }
     }
 
@@ -242,7 +265,7 @@ impl Grating {
         if share <= 0.0 {
             return None;
         }
-        // A pixel sees one spot: across a rim grooves turn by any angle, which is no width of a fan.
+        // As if it saw one spot: across a rim grooves turn by any angle, which is no width of a fan.
         let field = self.field.about(point_m);
         let course = field.course(ground, point_m, normal, axes_m);
         let tangent = field.tangent_by(course.here, point_m, normal)?;
@@ -256,10 +279,67 @@ impl Grating {
             });
             after - before
         });
+        let (mixed, turned) = match self.field {
+            GrooveField::Spots { spacing_m, .. } => {
+                let turn_rad = turns_rad[0].hypot(turns_rad[1]);
+                let turned = (spots::MOST_TURN_RAD / turn_rad.max(1e-9)).min(1.0);
+                (spots::mixed(spacing_m, axes_m), turned)
+            }
+            _ => (0.0, 1.0),
+        };
         Some(GroovePlace {
             tangent,
-            turns_rad,
+            turns_rad: turns_rad.map(|turn_rad| turned * turn_rad),
+            angle_std_rad: self.angle_std_rad,
             share,
+            mixed,
+        })
+    }
+
+    /// The grooves in all directions that a pixel sees about a normal, evenly over half a turn. Their shares add up to the part of `seen` that is
+    /// [mixed](GroovePlace::mixed); none where nothing is.
+    pub fn all_ways(
+        &self,
+        seen: GroovePlace,
+        normal: DVec3,
+    ) -> impl Iterator<Item = GroovePlace> + use<> {
+        let (spots, count) = match self.field {
+            GrooveField::Spots {
+                axis, along_row, ..
+            } if seen.mixed > 0.0 => (Rows { axis, along_row }, spots::WAYS),
+            _ => (Rows::default(), 0),
+        };
+        (0..count).filter_map(move |i| {
+            let angle_rad = (i as f64 + 0.5) * PI / spots::WAYS as f64;
+            let circles = GrooveField::circles(spots.axis, DVec3::ZERO);
+            let tangent = circles.tangent_by(DVec3::ZERO, spots.arm(angle_rad), normal)?;
+            Some(GroovePlace {
+                tangent,
+                turns_rad: [0.0; 2],
+                share: seen.mixed * seen.share * spots::density(angle_rad) / spots::WAYS as f64,
+                ..seen
+            })
+        })
+    }
+
+    /// The same towards a light, as one: those across `along`, a direction in the plane of the surface, and with fewer of them the more they turn
+    /// away from it (docs/model.md, equation 45a). `along` is as long as the sine between the mirror's direction and the light's.
+    pub fn across(&self, seen: GroovePlace, normal: DVec3, along: DVec3) -> Option<GroovePlace> {
+        let GrooveField::Spots {
+            axis, along_row, ..
+        } = self.field
+        else {
+            return None;
+        };
+        let density = spots::density(Rows { axis, along_row }.angle_rad(along));
+        let all_std_rad = spots::ALL_AROUND_STD_RAD / density;
+        let std_rad = all_std_rad.min(spots::WIDEST_XI / along.length().max(1e-9));
+        (seen.mixed > 0.0).then(|| GroovePlace {
+            tangent: normal.cross(along).normalize_or(seen.tangent),
+            turns_rad: [0.0; 2],
+            angle_std_rad: std_rad,
+            share: seen.mixed * seen.share * std_rad / all_std_rad,
+            ..seen
         })
     }
 

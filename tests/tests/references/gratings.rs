@@ -148,6 +148,96 @@ fn row(pitch_um: f64, width_um: f64, jitter: f64, depth_spread: f64) -> Row {
     }
 }
 
+const SPOT_VIEW: View = View {
+    size_px: 16,
+    ..VIEW
+};
+
+/// Spots of grooves under a sphere that is `off_mirror` from the mirror's direction, in cosines, at an angle.
+fn spots(
+    along_row: DVec3,
+    spacing_um: f64,
+    angle_deg: f64,
+    off_mirror: f64,
+    light_rad: f64,
+) -> Scene {
+    let mut scene = plate(Base::Mirror, SPOT_VIEW);
+    scene.materials[0].roughness = 0.0;
+    scene.objects[0].gratings = grated(row(2.0, 0.8, 0.1, 0.1), 0.02, 0.1).objects[0]
+        .gratings
+        .clone();
+    scene.objects[0].gratings[0].field = GrooveField::Spots {
+        axis: DVec3::Z,
+        center_m: DVec3::ZERO,
+        along_row,
+        spacing_m: 1e-6 * spacing_um,
+    };
+    let (y, x) = angle_deg.to_radians().sin_cos();
+    scene.lights = vec![sphere(SPOT_VIEW, off_mirror * x, off_mirror * y, light_rad)];
+    scene
+}
+
+/// Spots that are smaller than a pixel: each pixel shows the mean of all their directions, whichever spot its sample meets.
+#[test]
+fn small_spots_show_their_mean() {
+    // A filter's standard deviation is 20 um.
+    for (angle_deg, off_mirror, light_rad, most) in [
+        (0.0, 0.3, 0.06, 0.06),
+        (60.0, 0.3, 0.06, 0.06),
+        (130.0, 0.3, 0.06, 0.09),
+        (100.0, 0.6, 0.1, 0.04),
+        (100.0, 0.1, 0.1, 0.03),
+        (100.0, 0.0, 0.2, 0.02),
+        // Lines that do not turn with the grooves miss some of a large light.
+        (200.0, 0.3, 0.2, 0.11),
+    ] {
+        let of = |along_row| spots(along_row, 30.0, angle_deg, off_mirror, light_rad);
+        let (exact, reference) = (closed(&of(DVec3::X)), sampled(&of(DVec3::X), LINEAR, 24));
+        let name = format!(
+            "small spots, light of {light_rad} rad {off_mirror} off at {angle_deg} degrees"
+        );
+        let (off, error) = compared(&name, &exact, &reference);
+        let rms = unevenness(&exact);
+        println!("{name}: pixels differ by {:.2} % rms", 100.0 * rms);
+        assert!(
+            off < most + 2.0 * error && rms < 0.05,
+            "{name}: {off}, {rms}"
+        );
+        if angle_deg == 60.0 {
+            let (off, _) = compared("rows across", &closed(&of(DVec3::Y)), &reference);
+            assert!(off > 0.15, "{off}");
+        }
+    }
+}
+
+/// Spots that pixels tell apart: the mean of many pixels is that of Monte Carlo.
+#[test]
+fn spots_keep_their_mean() {
+    for spacing_um in [83.0, 209.0] {
+        // Not along the pixels, which would meet the same places of many spots.
+        let along_row = DVec3::new(0.89, 0.45, 0.0).normalize();
+        let scene = spots(along_row, spacing_um, 100.0, 0.3, 0.2);
+        let (exact, reference) = (closed(&scene), sampled(&scene, LINEAR, 24));
+        let (off, _) = compared(&format!("spots every {spacing_um} um"), &exact, &reference);
+        let error = unevenness(&exact) / f64::from(SPOT_VIEW.size_px);
+        println!(
+            "standard error of the closed form's pixels {:.2} %",
+            100.0 * error
+        );
+        assert!(off < 0.04 + 3.0 * error, "{spacing_um}: {off}");
+    }
+}
+
+/// The rms of what pixels are off their mean, over it.
+fn unevenness(image: &Image) -> f64 {
+    let lit = mean(&image.scratches)[1];
+    let off = image
+        .scratches
+        .iter()
+        .map(|v| (f64::from(v[1]) / lit - 1.0).powi(2));
+    (off.sum::<f64>() / image.scratches.len() as f64).sqrt()
+}
+
 #[test]
 fn rows_of_grooves() {
     for (row, angle_std_rad, light_rad) in [

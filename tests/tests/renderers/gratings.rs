@@ -204,6 +204,7 @@ fn all_patterns() -> SceneFile {
         .part(&grating("plate", "parallel", &format!("direction = [1.0, 0.3, 0.0]\n{rough}")))
         .part(&grating("plate", "circular", &format!("radius_m = [0.01, 0.05]\n{fine}")))
         .part(&grating("plate", "swirl", &format!("spacing_m = 0.02\nradius_m = [0.05, 0.09]\n{rough}")))
+        .part(&grating("plate", "swirl", &format!("spacing_m = 0.001\nradius_m = [0.09, 0.15]\n{fine}")))
         .part(&grating("ball", "radial", &format!("center_m = [0.02, 0.0, 0.02]\n{fine}")))
         .part(&grating("ball", "spun", &format!("center_m = [0.02, 0.0, 0.02]\ncurvature_per_m = 30.0\n{rough}")))
         .random("ball", 60)

@@ -104,7 +104,15 @@ fn grooves_under_pixels() {
             let place = groove_place(grating, groove_course_straight(grating), vec3f(x[7], x[8], x[9]), normal, vec3f(x[10], x[11], x[12]), vec3f(x[13], x[14], x[15]));
             let is_seen = f32(place.share > 1e-3);
             y[0] = is_seen * place.tangent.x; y[1] = is_seen * place.tangent.y; y[2] = is_seen * place.tangent.z;
-            y[3] = is_seen * place.turns_rad.x; y[4] = is_seen * place.turns_rad.y; y[5] = is_seen * place.share;",
+            y[3] = is_seen * place.turns_rad.x; y[4] = is_seen * place.turns_rad.y; y[5] = is_seen * place.share;
+            y[6] = is_seen * place.mixed;
+            let is_mixed = is_seen * f32(place.mixed > 0.0);
+            let way = groove_way(grating, place, normal, 2u);
+            y[7] = is_mixed * way.tangent.x; y[8] = is_mixed * way.tangent.y; y[9] = is_mixed * way.tangent.z;
+            y[10] = is_mixed * way.share; y[11] = is_mixed * way.angle_std_rad;
+            let across = groove_across(grating, place, normal, 100.0 * vec3f(x[10], x[11], x[12]));
+            y[12] = is_mixed * across.tangent.x; y[13] = is_mixed * across.tangent.y; y[14] = is_mixed * across.tangent.z;
+            y[15] = is_mixed * across.share; y[16] = is_mixed * across.angle_std_rad;",
         tables: &[],
         expected: &|x: [f64; 16]| {
             let grating = Grating {
@@ -119,9 +127,18 @@ fn grooves_under_pixels() {
             let axes_m = [v(&x[10..]), v(&x[13..])];
             let seen = grating.seen_from_pixel(&NOWHERE, v(&x[7..]), v(&x[4..]), axes_m);
             let seen = seen.filter(|it| it.share > 1e-3);
-            seen.map_or([0.0; 6], |it| {
+            seen.map_or([0.0; 17], |it| {
                 let [right, down] = it.turns_rad;
-                [it.tangent.x, it.tangent.y, it.tangent.z, right, down, it.share]
+                let mut row = [it.tangent.x, it.tangent.y, it.tangent.z, right, down, it.share].to_vec();
+                row.push(it.mixed);
+                let way = grating.all_ways(it, v(&x[4..])).nth(2);
+                let across = grating.across(it, v(&x[4..]), v(&x[10..]) * 100.0);
+                for seen in [way, across] {
+                    let [x, y, z] = seen.map_or([0.0; 3], |it| it.tangent.to_array());
+                    let [share, std_rad] = seen.map_or([0.0; 2], |it| [it.share, it.angle_std_rad]);
+                    row.extend([x, y, z, share, std_rad]);
+                }
+                row.try_into().expect("as many as above")
             })
         },
         tolerance: Tolerance {

@@ -12,26 +12,29 @@ fn draw_grating(pixel: PixelPoint, paint: PixelPaint, u: vec2f, sent: ptr<functi
     let object = objects[pixel.object - 1u];
     let covered = gratings_cover(pixel, paint);
     var offer = drawn_offers(u.x);
-    var taken = vec2u(object.end_grating, 0u);
+    var taken = vec2u(0u, ROW_CELLS);
     for (var i = object.first_grating; i < object.end_grating; i += 1u) {
         if !grating_is_on(gratings[i], paint) {
             continue;
         }
-        let pair = grating_pair(pixel, paint.triangle, gratings[i], covered);
-        let line = band_line_at(band_from_surface(pair.seen.tangent, pair.point.wo), 0.0);
-        for (var c = 0u; c < ROW_CELLS; c += 1u) {
-            let cell = row_cell(c, line);
-            let share = pair.seen.share.segment;
-            if drawn_offer(&offer, share * scratch_chord(scratch_tables, pair.point, pair.seen, cell.q_high, cell.q_low, cell.direction.z)) {
-                taken = vec2u(i, c);
+        let place = grating_place(pixel, paint.triangle, gratings[i]);
+        for (var part = 0u; part <= grating_last_part(place); part += 1u) {
+            let pair = grating_pair_at(pixel, paint.triangle, gratings[i], grating_part(gratings[i], place, pixel.normal, part), covered);
+            let line = band_line_at(band_from_surface(pair.seen.tangent, pair.point.wo), 0.0);
+            for (var c = 0u; c < ROW_CELLS; c += 1u) {
+                let cell = row_cell(c, line);
+                let share = pair.seen.share.segment;
+                if drawn_offer(&offer, share * scratch_chord(scratch_tables, pair.point, pair.seen, cell.q_high, cell.q_low, cell.direction.z)) {
+                    taken = vec2u(grating_and_part(i, part), c);
+                }
             }
         }
     }
     *sent = offer.total;
-    if taken.x == object.end_grating {
+    if taken.y == ROW_CELLS {
         return DrawnLight(vec3f(0.0), false, vec3f(1.0));
     }
-    let pair = grating_pair(pixel, paint.triangle, gratings[taken.x], covered);
+    let pair = grating_pair(pixel, paint.triangle, taken.x, covered);
     let line = band_line_at(band_from_surface(pair.seen.tangent, pair.point.wo), 0.0);
     let cell = row_cell(taken.y, line);
     let cos_i = cell.direction.z;

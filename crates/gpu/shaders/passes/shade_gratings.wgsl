@@ -62,25 +62,36 @@ fn shade_gratings(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgrou
             covered += place.share;
             continue;
         }
-        let pair = grating_pair_at(points[at], paints[at].triangle, gratings[i], place, covered);
-        let share = pair.seen.share.segment;
-        if !(share > 0.0) {
-            continue;
-        }
-        for (var source = first; source < end; source += 1u) {
-            // Read anew, as above.
-            let sent = share * grating_light(pair, source) * coated_reflectance(pixel_fresnel(paints[at]), paints[at].coat, points[at].cos_o);
-            radiance += sent;
-            if PICKS {
-                state.sum += max(rgb_luminance(sent), 0.0);
-                while pick_is_due(state) {
-                    grating_words[first_pick + pick_slot(state)] = pick_packed(i, source, sent);
-                    state.next += 1u;
+        // What grooves take is of light from all around.
+        let parts = grating_last_part(place);
+        let last = select(min(parts, GRATING_PART_ACROSS), parts, lights_are_around() || (!PICKS && range.adds == 0u));
+        for (var part = 0u; part <= last; part += 1u) {
+            let seen = grating_part(gratings[i], place, points[at].normal, part);
+            let pair = grating_pair_at(points[at], paints[at].triangle, gratings[i], seen, covered);
+            let share = pair.seen.share.segment;
+            if !(share > 0.0) {
+                continue;
+            }
+            let meets = lights_are_around() || part <= GRATING_PART_ACROSS;
+            for (var source = first; source < select(first, end, meets); source += 1u) {
+                var turned = pair;
+                if HAS_GROOVE_SPOTS && part == GRATING_PART_ACROSS && !lights_are_around() {
+                    turned = grating_pair_across(pair, gratings[i], place, source);
+                }
+                // Read anew, as above.
+                let sent = turned.seen.share.segment * grating_light(turned, source) * coated_reflectance(pixel_fresnel(paints[at]), paints[at].coat, points[at].cos_o);
+                radiance += sent;
+                if PICKS {
+                    state.sum += max(rgb_luminance(sent), 0.0);
+                    while pick_is_due(state) {
+                        grating_words[first_pick + pick_slot(state)] = pick_packed(grating_and_part(i, part), source, sent);
+                        state.next += 1u;
+                    }
                 }
             }
-        }
-        if !PICKS && range.adds == 0u {
-            taken += share * row_all_around(scratch_tables, pair.point, pair.seen);
+            if !PICKS && range.adds == 0u {
+                taken += share * row_all_around(scratch_tables, pair.point, pair.seen);
+            }
         }
     }
     if PICKS {

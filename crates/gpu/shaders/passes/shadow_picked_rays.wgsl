@@ -17,7 +17,11 @@ fn ray_by(pixel: PixelPoint, triangle: u32, pick: Pick, luminance: f32) -> Shado
     var pair: Pair;
     var segment: Segment;
     if OF_GRATINGS {
-        pair = grating_pair(pixel, triangle, gratings[pick.segment], 1.0);
+        pair = grating_pair(pixel, triangle, pick.segment, 1.0);
+        if HAS_GROOVE_SPOTS && pick.segment >> 24u == GRATING_PART_ACROSS && pick.source < frame.light_count {
+            let grating = gratings[pick.segment & 0xffffffu];
+            pair = grating_pair_across(pair, grating, grating_place(pixel, triangle, grating), pick.source);
+        }
     } else {
         segment = segment_from(scratch_segment(pick.segment));
         pair = pair_of(pixel, segment);

@@ -8,6 +8,8 @@ override HAS_SINGLE_GROOVES: bool = true;
 override HAS_BRANCHING_GROOVES: bool = true;
 // Gratings with pictures, or along texture coordinates.
 override HAS_GROOVE_MAPS: bool = true;
+// Gratings whose grooves lie about spots.
+override HAS_GROOVE_SPOTS: bool = true;
 override HAS_SPHERES: bool = true;
 // Tubes too, whose outlines are polygons.
 override HAS_POLYGONS: bool = true;

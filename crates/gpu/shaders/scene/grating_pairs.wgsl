@@ -45,9 +45,47 @@ fn gratings_cover(pixel: PixelPoint, paint: PixelPaint) -> f32 {
     return covered;
 }
 
+// A part of what a sample sees of a grating, in a word: 0 is what lies at the point, the others are in all directions.
+fn grating_and_part(grating: u32, part: u32) -> u32 {
+    return (part << 24u) | grating;
+}
+
+// The last part of what a sample sees: 0 where nothing is mixed.
+fn grating_last_part(place: GroovePlace) -> u32 {
+    return select(0u, groove_ways(place), HAS_GROOVE_SPOTS);
+}
+
+fn grating_part(grating: Grating, place: GroovePlace, normal: vec3f, part: u32) -> GroovePlace {
+    if !HAS_GROOVE_SPOTS {
+        return place;
+    }
+    if part == 0u {
+        return groove_of_one_spot(place);
+    }
+    return groove_way(grating, place, normal, part - 1u);
+}
+
 // As a pair with a scratch. `covered` is what all gratings would cover.
-fn grating_pair(pixel: PixelPoint, triangle: u32, grating: Grating, covered: f32) -> Pair {
-    return grating_pair_at(pixel, triangle, grating, grating_place(pixel, triangle, grating), covered);
+fn grating_pair(pixel: PixelPoint, triangle: u32, grating_and_part: u32, covered: f32) -> Pair {
+    let grating = gratings[grating_and_part & 0xffffffu];
+    let place = grating_place(pixel, triangle, grating);
+    return grating_pair_at(pixel, triangle, grating, grating_part(grating, place, pixel.normal, grating_and_part >> 24u), covered);
+}
+
+// To a light part 1 stands for all that are in all directions.
+const GRATING_PART_ACROSS: u32 = 1u;
+
+// That pair, turned to a light.
+fn grating_pair_across(pair: Pair, grating: Grating, place: GroovePlace, light_index: u32) -> Pair {
+    let center_m = (light_around(light_index).xyz - pair.position_m) * pair.surface;
+    let along = (pair.point.wo + center_m / max(length(center_m), 1e-30)).xy;
+    let normal = pair.surface[2];
+    let seen = groove_across(grating, place, normal, pair.surface * vec3f(along, 0.0));
+    var across = pair;
+    across.seen.tangent = (seen.tangent * pair.surface).xy;
+    across.seen.angle_std_rad = seen.angle_std_rad;
+    across.seen.share.segment *= seen.share / groove_way(grating, place, normal, GRATING_PART_ACROSS - 1u).share;
+    return across;
 }
 
 // The same where its place is known.
@@ -63,6 +101,6 @@ fn grating_pair_at(pixel: PixelPoint, triangle: u32, grating: Grating, place: Gr
         let course = grating_course(pixel, triangle, grating);
         share *= groove_density(grating, course, arm_m, pixel.normal, place.tangent, steps_m[0], steps_m[1], pixel.coherence_um);
     }
-    let seen = row_seen(tangent, share, place.turns_rad, grating.angle_std_rad);
+    let seen = row_seen(tangent, share, place.turns_rad, place.angle_std_rad);
     return Pair(pair_point(pixel, grating.table), seen, pixel.position_m, mat3x3f(pixel.axis_x, axis_y, pixel.normal));
 }

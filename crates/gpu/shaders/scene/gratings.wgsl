@@ -30,7 +30,9 @@ struct GrooveCourse {
 struct GroovePlace {
     tangent: vec3f,             // unit, in the plane of the surface; zero: there are none
     turns_rad: vec2f,           // by which angle they turn over one standard deviation of the pixel's filter to the right and down, to the left
+    angle_std_rad: f32,         // of their angles at any place
     share: f32,                 // of the pixel that they cover
+    mixed: f32,                 // part of the share whose grooves run in all directions: spots that are smaller than the pixel
 }
 
 fn groove_course_straight(grating: Grating) -> GrooveCourse {
@@ -89,7 +91,7 @@ fn groove_share_within(grating: Grating, arm_m: vec3f, right_m: vec3f, down_m: v
 // filter.
 fn groove_place(grating: Grating, course: GrooveCourse, point_m: vec3f, normal: vec3f, right_m: vec3f, down_m: vec3f) -> GroovePlace {
     let arm_m = point_m - grating.center_m;
-    // A pixel sees one spot.
+    // As if the pixel saw one spot.
     let about_m = groove_arm(grating, arm_m);
     var tangent = vec3f(0.0);
     var turns = vec2f(0.0);
@@ -102,12 +104,58 @@ fn groove_place(grating: Grating, course: GrooveCourse, point_m: vec3f, normal: 
         if i == 0u {
             tangent = there;
             if all(tangent == vec3f(0.0)) {
-                return GroovePlace(tangent, turns, 0.0);
+                return GroovePlace(tangent, turns, 0.0, 0.0, 0.0);
             }
             continue;
         }
         let angle = side * groove_angle(normal, tangent, there);
         turns += select(vec2f(0.0, angle), vec2f(angle, 0.0), i < 3u);
     }
-    return GroovePlace(tangent, turns, grating.coverage * groove_share_within(grating, arm_m, right_m, down_m));
+    let share = grating.coverage * groove_share_within(grating, arm_m, right_m, down_m);
+    var mixed = 0.0;
+    if HAS_GROOVE_SPOTS && grating.spacing_m > 0.0 {
+        // A fan is a width of the band, which holds for small angles.
+        turns *= min(SPOT_MOST_TURN_RAD / max(length(turns), 1e-9), 1.0);
+        mixed = spots_mixed(grating.spacing_m, right_m, down_m);
+    }
+    return GroovePlace(tangent, turns, grating.angle_std_rad, share, mixed);
+}
+
+// In how many directions a pixel sees grooves besides those at the point.
+fn groove_ways(place: GroovePlace) -> u32 {
+    return select(0u, SPOT_WAYS, place.mixed > 0.0);
+}
+
+// The grooves at the point itself, without those that are mixed.
+fn groove_of_one_spot(place: GroovePlace) -> GroovePlace {
+    var own = place;
+    own.share *= 1.0 - place.mixed;
+    return own;
+}
+
+// Of the grooves in all directions those of one, for light from all around.
+fn groove_way(grating: Grating, place: GroovePlace, normal: vec3f, i: u32) -> GroovePlace {
+    let angle_rad = (f32(i) + 0.5) * SPOT_WAY_RAD;
+    var way = place;
+    way.tangent = groove_tangent(grating, vec3f(0.0), spot_arm(grating, angle_rad), normal);
+    way.turns_rad = vec2f(0.0);
+    let is_there = f32(any(way.tangent != vec3f(0.0)));
+    way.share = is_there * place.mixed * place.share * spot_density(angle_rad) / f32(SPOT_WAYS);
+    return way;
+}
+
+// The grooves in all directions towards a light, as one: those across a direction in the plane of the surface, which is as long as the sine between
+// the mirror's direction and the light's.
+fn groove_across(grating: Grating, place: GroovePlace, normal: vec3f, along: vec3f) -> GroovePlace {
+    let all_std_rad = SPOT_ALL_AROUND_STD_RAD / spot_density(spot_angle_rad(grating, along));
+    let xi = length(along);
+    let std_rad = min(all_std_rad, SPOT_WIDEST_XI / max(xi, 1e-9));
+    var across = place;
+    if xi > 0.0 {
+        across.tangent = normalize(cross(normal, along));
+    }
+    across.turns_rad = vec2f(0.0);
+    across.angle_std_rad = std_rad;
+    across.share = place.mixed * place.share * std_rad / all_std_rad;
+    return across;
 }
