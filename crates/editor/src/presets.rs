@@ -412,11 +412,13 @@ pub enum ShapePreset {
     Pan,
     /// A studio's floor that turns up into its wall.
     Sweep,
+    /// Letters: a logo.
+    Text,
 }
 
 impl ShapePreset {
     /// Every preset, in the order of a menu.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Plane,
         Self::Disk,
         Self::Sphere,
@@ -426,6 +428,7 @@ impl ShapePreset {
         Self::Dome,
         Self::Pan,
         Self::Sweep,
+        Self::Text,
     ];
 
     /// What a menu calls it.
@@ -440,6 +443,7 @@ impl ShapePreset {
             Self::Dome => "Dome",
             Self::Pan => "Pan",
             Self::Sweep => "Sweep",
+            Self::Text => "Text",
         }
     }
 
@@ -473,6 +477,11 @@ impl ShapePreset {
                 size_m: [2.0 * r, 2.0 * r],
                 height_m: r,
                 rounding_m: 0.5 * r,
+            },
+            Self::Text => Shape::Text {
+                line: "Hairline".to_owned(),
+                height_m: 0.46 * r,
+                depth_m: 0.08 * r,
             },
             Self::Pan => Shape::Lathe {
                 profile_m: [

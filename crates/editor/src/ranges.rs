@@ -39,7 +39,7 @@ pub(crate) const DEFAULT_DIAGONAL_M: f64 = 0.3;
 impl Parameter {
     /// Every parameter.
     #[cfg(test)]
-    pub(crate) const ALL: [Self; 87] = [
+    pub(crate) const ALL: [Self; 88] = [
         Self::CameraPosition,
         Self::CameraTarget,
         Self::CameraUp,
@@ -73,6 +73,7 @@ impl Parameter {
         Self::ShapeHeight,
         Self::TubeRadius,
         Self::Rounding,
+        Self::TextDepth,
         Self::FitSize,
         Self::Time,
         Self::LatheSegments,
@@ -168,7 +169,7 @@ impl Parameter {
             P::PlaneSize | P::ShapeRadius | P::ShapeHeight | P::FitSize => {
                 (0.05 * d..=5.0 * d, limits::SIZE_M)
             }
-            P::TubeRadius => (0.01 * d..=d, limits::SIZE_M),
+            P::TubeRadius | P::TextDepth => (0.01 * d..=d, limits::SIZE_M),
             P::Rounding => (0.0..=0.5 * d, limits::ROUNDING_M),
             P::Time => (0.0..=10.0, limits::TIME_S),
             P::LatheSegments => (16.0..=512.0, limits::LATHE_SEGMENTS),
@@ -241,6 +242,7 @@ impl Parameter {
                 | P::ShapeRadius
                 | P::ShapeHeight
                 | P::TubeRadius
+                | P::TextDepth
                 | P::FitSize
                 | P::Count
                 | P::Density
@@ -271,6 +273,7 @@ impl Parameter {
             | P::ShapeRadius
             | P::ShapeHeight
             | P::TubeRadius
+            | P::TextDepth
             | P::Rounding
             | P::FitSize
             | P::ProfileRadius

@@ -6,6 +6,7 @@ mod profile;
 mod rounded_box;
 #[cfg(test)]
 mod tests;
+pub(crate) mod text;
 
 use glam::DVec2;
 
@@ -23,6 +24,11 @@ pub(crate) fn surface(shape: &Shape) -> Surface {
         Shape::Disk { radius_m } => disk(*radius_m),
         Shape::Box { size_m, rounding_m } => rounded_box::surface((*size_m).into(), *rounding_m),
         Shape::Sweep { size_m, .. } => profile(shape).swept(size_m[0]),
+        Shape::Text {
+            line,
+            height_m,
+            depth_m,
+        } => text::surface(line, *height_m, *depth_m),
         Shape::Lathe { segments, .. } => profile(shape).turned(*segments),
         Shape::Sphere { .. }
         | Shape::Cylinder { .. }
@@ -42,6 +48,7 @@ pub(crate) fn size(shape: &Shape) -> [f64; 2] {
         Shape::Plane { .. } => [2.0, 4.0],
         Shape::Disk { .. } => [facets, facets],
         Shape::Box { rounding_m, .. } => rounded_box::size(*rounding_m),
+        Shape::Text { line, .. } => text::size(line),
         Shape::Lathe {
             profile_m,
             segments,
@@ -59,7 +66,9 @@ pub(crate) fn size(shape: &Shape) -> [f64; 2] {
 fn profile(shape: &Shape) -> Profile {
     let at = DVec2::new;
     match shape {
-        Shape::Plane { .. } | Shape::Disk { .. } | Shape::Box { .. } => Profile::default(),
+        Shape::Plane { .. } | Shape::Disk { .. } | Shape::Box { .. } | Shape::Text { .. } => {
+            Profile::default()
+        }
         Shape::Sphere { radius_m } => {
             Profile::default().arc(DVec2::ZERO, *radius_m, [0.0, 2.0], FACETS / 4)
         }

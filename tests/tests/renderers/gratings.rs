@@ -35,9 +35,15 @@ fn a_white_furnace_stays_white() {
         "{circular}pitch_um = 20.0\njitter_um = 2.0\njitter_deg = 3.0\ncoverage = 0.6\n\
          depth_nm = {{ mean = 300.0, spread = 0.2 }}\n"
     );
+    let spots = |spacing_m: f64| {
+        file("[[grating]]\nobject = \"ball\"\npattern = \"swirl\"\npitch_um = 3.0\n")
+            .with(&format!("spacing_m = {spacing_m:?}"))
+    };
     for file in [
         file(&fine),
         file(&coarse),
+        spots(0.02),
+        spots(0.001),
         file(&fine).part(&coarse),
         file(&coarse).random("ball", 400),
     ] {

@@ -69,6 +69,8 @@ pub enum Parameter {
     TubeRadius,
     /// `rounding_m` of a shape.
     Rounding,
+    /// `depth_m` of a text.
+    TextDepth,
     /// `fit_m` of a model.
     FitSize,
     /// `time_s` of a model.

@@ -133,6 +133,10 @@ pub(super) fn of(parameter: Parameter) -> Text {
             "Rounding",
             "Radius of its edges. Rounded edges catch a line of light from almost everywhere; 0 leaves them sharp and dark.",
         ),
+        P::TextDepth => (
+            "Depth",
+            "How far the letters stand out of what they stand on.",
+        ),
         P::FitSize => (
             "Fitted size",
             "The largest extent of the model, whatever it is in its file.",

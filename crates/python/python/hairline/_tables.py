@@ -337,7 +337,7 @@ class Object(Table):
     name: str
     """What layers of scratches call it by."""
     shape: Optional[Mapping[str, Mapping[str, Any]]] = _default()
-    """``{"disk": {"radius_m": 0.1}}``; also ``plane``, ``sphere``, ``box``, ``cylinder``, ``torus``, ``dome``, ``sweep`` and ``lathe``. z is up."""
+    """``{"disk": {"radius_m": 0.1}}``; also ``plane``, ``sphere``, ``box``, ``cylinder``, ``torus``, ``dome``, ``sweep``, ``text`` and ``lathe``. z is up."""
     mesh: Optional[Union[Path, core.MeshArray]] = _default()
     """A .glb or .gltf, relative to the scene file."""
     material: Optional[str] = _default()

@@ -97,3 +97,6 @@ pub const LARGEST_SEED: u64 = i64::MAX as u64;
 pub const STROKE_FACTOR: RangeInclusive<f64> = 0.01..=100.0;
 /// Points of one stroke.
 pub const STROKE_POINTS: RangeInclusive<usize> = 1..=65_536;
+
+/// Characters of a text.
+pub const TEXT_MOST: usize = 200;

@@ -6,6 +6,7 @@ use super::limits;
 use super::ranges::{Check, found, size, within, written};
 use super::table::{Read, Table, Value};
 use crate::error::Error;
+use crate::shape::text;
 
 /// A built-in shape about the origin, z up.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -65,6 +66,15 @@ pub enum Shape {
         /// Radius of the turn between them, at most `height_m` and the floor's extent along y. Default: half of the smaller of these.
         rounding_m: f64,
     },
+    /// A line of letters that stand on the xy plane, read from +z, with its middle over the origin: a logo.
+    Text {
+        /// What it says, up to 200 characters of the built-in font, Ubuntu Light: Latin, Greek, Cyrillic. Required.
+        line: String,
+        /// Of capitals, along y. Required.
+        height_m: f64,
+        /// Along z. Required.
+        depth_m: f64,
+    },
     /// A profile turned about the z axis.
     Lathe {
         /// Points `[r, z]`, at least two, r not negative. The surface faces to the left of the way along the profile, r
@@ -90,6 +100,7 @@ impl Shape {
             Self::Torus { .. } => "torus",
             Self::Dome { .. } => "dome",
             Self::Sweep { .. } => "sweep",
+            Self::Text { .. } => "text",
             Self::Lathe { .. } => "lathe",
         }
     }
@@ -157,6 +168,27 @@ impl Shape {
                 let most = height_m.min(size_m[1]);
                 rounding(*rounding_m, most, "`height_m` and the extent along y")
             }
+            Self::Text {
+                line,
+                height_m,
+                depth_m,
+            } => {
+                let key = way("line");
+                let count = line.chars().count();
+                if line.trim().is_empty() || count > limits::TEXT_MOST {
+                    let found = format!("found {count} characters");
+                    let right = format!("must be 1 to {}, not blank", limits::TEXT_MOST);
+                    return Err(Error::new(key, found, right));
+                }
+                let missing = text::missing(line);
+                if !missing.is_empty() {
+                    let found = format!("found {missing:?}");
+                    let right = "must be characters of the font, Ubuntu Light, in one line";
+                    return Err(Error::new(key, found, right));
+                }
+                sized("height_m", *height_m)?;
+                sized("depth_m", *depth_m)
+            }
             Self::Lathe {
                 profile_m,
                 segments,
@@ -191,8 +223,8 @@ fn at_most(key: &str, value: f64, most: f64, what: &str) -> Check {
 
 impl Read for Shape {
     fn read(value: &Value, key: &str) -> Result<Self, Error> {
-        const KINDS: [&str; 9] = [
-            "plane", "disk", "sphere", "box", "cylinder", "torus", "dome", "sweep", "lathe",
+        const KINDS: [&str; 10] = [
+            "plane", "disk", "sphere", "box", "cylinder", "torus", "dome", "sweep", "text", "lathe",
         ];
         let outer = Table::read(value, key, &KINDS)?;
         let mut present = KINDS.iter().filter(|kind| outer.get(kind).is_some());
@@ -252,6 +284,14 @@ impl Read for Shape {
                     size_m,
                     height_m,
                     rounding_m: table.or("rounding_m", 0.5 * height_m.min(size_m[1]))?,
+                }
+            }
+            "text" => {
+                let table = inner(&["line", "height_m", "depth_m"])?;
+                Self::Text {
+                    line: table.required("line")?,
+                    height_m: table.required("height_m")?,
+                    depth_m: table.required("depth_m")?,
                 }
             }
             _ => {

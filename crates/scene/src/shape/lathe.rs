@@ -2,10 +2,7 @@
 
 use glam::DVec2;
 
-use super::profile::{Profile, ProfileEnd, is_floor};
-
-/// A lathe's profile is rounded where it bends by less: 40 degrees.
-const ROUNDED_BEND_COS: f64 = 0.766_044_443_118_978;
+use super::profile::{Profile, ProfileEnd, ROUNDED_BEND_COS, is_floor};
 
 /// A lathe's profile.
 pub(super) fn profile(profile_m: &[[f64; 2]], smooth: bool) -> Profile {

@@ -142,6 +142,9 @@ pub(super) fn flat_vertex(position_m: DVec3, facing: f64, x: f64, y: f64) -> Ver
     }
 }
 
+/// A profile or an outline is rounded where it bends by less: 40 degrees.
+pub(super) const ROUNDED_BEND_COS: f64 = 0.766_044_443_118_978;
+
 /// A disk from a ring of vertices alone: cutting off every second vertex, again and again, leaves large triangles inside. A
 /// fan around the centre would cut every scratch into a piece per facet.
 pub(super) fn add_flat_disk(

@@ -1,7 +1,7 @@
 use std::collections::HashSet;
 use std::f64::consts::PI;
 
-use glam::DMat4;
+use glam::{DMat4, DVec3};
 
 use super::surface;
 use crate::description::Shape;
@@ -137,6 +137,60 @@ fn rounded_solids_have_their_volumes_and_areas() {
             lacks.iter().all(|part| (0.998..1.000_001).contains(part)),
             "{shape:?}: {lacks:?}"
         );
+    }
+}
+
+fn extent(mesh: &Mesh) -> (DVec3, DVec3) {
+    let places = || mesh.positions_m.iter().map(|p| p.as_dvec3());
+    let low = places().reduce(DVec3::min).expect("a solid");
+    (low, places().reduce(DVec3::max).expect("a solid"))
+}
+
+/// Capitals without curves have the areas of their strokes, and all letters stand upright on their plane.
+#[test]
+fn letters_have_their_sizes() {
+    let text = |line: &str| Shape::Text {
+        line: line.to_owned(),
+        height_m: 0.02,
+        depth_m: 0.003,
+    };
+    // An I is one stroke: a box as high as capitals.
+    let mesh = baked(&text("I"));
+    let (low, high) = extent(&mesh);
+    let size = high - low;
+    assert!(
+        (size.y - 0.02).abs() < 1e-6 && (size.z - 0.003).abs() < 1e-7,
+        "{size}"
+    );
+    assert!((low + high).truncate().length() < 1e-7, "{low} {high}");
+    let volume = size.x * size.y * size.z;
+    assert!((volume_m3(&mesh) / volume - 1.0).abs() < 1e-5);
+    // Holes are left out: an O has less than half of what is within its rim.
+    let o = baked(&text("O"));
+    let (low, high) = extent(&o);
+    let size = high - low;
+    let ellipse = PI / 4.0 * size.x * size.y * size.z;
+    let part = volume_m3(&o) / ellipse;
+    assert!((0.1..0.5).contains(&part), "{part}");
+    // A word is its letters side by side.
+    let sum: f64 = ["H", "a", "i", "r"]
+        .map(|line| volume_m3(&baked(&text(line))))
+        .iter()
+        .sum();
+    assert!((volume_m3(&baked(&text("Hair"))) / sum - 1.0).abs() < 1e-5);
+    // All of them closed: no light from within, and sides that face outwards.
+    for line in ["A&8@%gB\u{e4}i", "Hairline 0.1", "\u{416}\u{3a9}"] {
+        assert!(volume_m3(&baked(&text(line))) > 0.0, "{line}");
+        let mesh = baked(&text(line));
+        let gap: DVec3 = mesh
+            .triangles
+            .iter()
+            .map(|t| {
+                let [a, b, c] = t.map(|v| mesh.positions_m[v as usize].as_dvec3());
+                (b - a).cross(c - a)
+            })
+            .sum();
+        assert!(gap.length() < 1e-9, "{line}: {gap}");
     }
 }
 

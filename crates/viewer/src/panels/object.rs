@@ -238,6 +238,21 @@ fn shape_rows(form: &mut Form, shape: &mut Shape) {
             let most = height_m.min(size_m[1]);
             up_to(form, Parameter::Rounding, rounding_m, most);
         }
+        Shape::Text {
+            line,
+            height_m,
+            depth_m,
+        } => {
+            let mut typed = line.clone();
+            let tooltip = "What it says: Latin, Greek or Cyrillic letters";
+            form.text("Text", tooltip, &mut typed);
+            // While it is typed anew nothing may be left.
+            if !typed.trim().is_empty() {
+                *line = typed;
+            }
+            form.number(Parameter::ShapeHeight, height_m);
+            form.number(Parameter::TextDepth, depth_m);
+        }
         Shape::Lathe {
             profile_m,
             segments,
