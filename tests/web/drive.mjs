@@ -1,16 +1,20 @@
-// Drives the viewer in headless Chromium, on its software driver for WebGPU: `node drive.mjs FOLDER PROGRAM [PICTURES]`. FOLDER is what
-// `cargo xtask web` made, PROGRAM is the command line, which renders what is compared; pictures of the page go to PICTURES. Prints a line a
-// step; ends with 1 at the first that fails. First the processor renders, as a page chooses on a software driver; then WebGPU.
+// Drives the viewer in headless Chromium, on its software driver for WebGPU: `node drive.mjs [--short] [--pictures PLACE] FOLDER PROGRAM`.
+// FOLDER is what `cargo xtask web` made, PROGRAM is the command line, which renders what is compared; pictures of the page go to PLACE.
+// Prints a line a step; ends with 1 at the first that fails. First the processor renders, as a page chooses on a software driver; then WebGPU.
+// The short form has a smaller window, and leaves out fingers, most letters, and what files of models and environments become.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { createReadStream, existsSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { createServer } from 'node:http';
 import { tmpdir } from 'node:os';
 import { extname, join } from 'node:path';
+import { parseArgs } from 'node:util';
 import puppeteer from 'puppeteer-core';
 import { fit } from './letters.mjs';
 
-const [folder, program, pictures] = process.argv.slice(2);
+const { values: flags, positionals } = parseArgs({ allowPositionals: true, options: { short: { type: 'boolean' }, pictures: { type: 'string' } } });
+const [folder, program] = positionals;
+const viewport = flags.short ? { width: 900, height: 560 } : { width: 1200, height: 700 };
 const here = import.meta.dirname;
 const scratch = mkdtempSync(join(tmpdir(), 'hairline-web-'));
 const CHROMES = ['chromium', 'google-chrome', 'chromium-browser'].map((name) => `/usr/bin/${name}`);
@@ -33,7 +37,7 @@ const browser = await puppeteer.launch({
   executablePath: process.env.CHROME ?? CHROMES.find(existsSync),
   // With Vulkan alone can headless Chromium show what WebGPU draws: else it takes the device away at the first frame.
   args: ['--no-sandbox', '--disable-dev-shm-usage', '--enable-unsafe-webgpu', '--use-webgpu-adapter=swiftshader', '--enable-features=Vulkan', '--use-vulkan=swiftshader', '--use-angle=swiftshader'],
-  defaultViewport: { width: 1200, height: 700 },
+  defaultViewport: viewport,
 });
 await browser.defaultBrowserContext().overridePermissions(address, ['clipboard-read', 'clipboard-sanitized-write']);
 
@@ -97,10 +101,11 @@ async function allowDownloads(page) {
 }
 
 async function keep(page, name) {
-  if (pictures) await page.screenshot({ path: join(pictures, `${name}.png`) });
+  if (flags.pictures) await page.screenshot({ path: join(flags.pictures, `${name}.png`) });
 }
 
-const MIDDLE = { x: 560, y: 350 };
+/** Of the picture, between the panels. */
+const MIDDLE = { x: viewport.width / 2 - 40, y: viewport.height / 2 };
 
 /** Turns the view by a drag, about the target; returns the state with its picture. */
 async function turn(page, before) {
@@ -144,6 +149,22 @@ async function touch(page, before) {
   return until(page, 'two fingers that spread', isNearer);
 }
 
+/** A model and an environment join the scene, which is saved with their names. */
+async function addFiles(page) {
+  await give(page, join(folder, 'scenes/models/spoon.glb'));
+  await until(page, 'a model', (now) => now.objects === 2);
+  told('a model was added');
+  await give(page, join(folder, 'scenes/maps/evening.hdr'));
+  await until(page, 'an environment', (now) => now.environment);
+  told('an environment was set');
+
+  await press(page, 'Control', 's');
+  await press(page, 'Enter');
+  const text = readFileSync(await downloaded('scene.toml'), 'utf8');
+  assert(text.includes('spoon.glb') && text.includes('evening.hdr'), text);
+  told('the scene was saved');
+}
+
 try {
   const page = await open();
   await allowDownloads(page);
@@ -152,7 +173,7 @@ try {
   assert.deepEqual(first.messages, []);
   await keep(page, 'start');
   const shown = await page.screenshot({ encoding: 'base64' });
-  for (const word of ['Tools', 'Lights', 'polygon']) {
+  for (const word of flags.short ? ['polygon'] : ['Tools', 'Lights', 'polygon']) {
     const { correlation, off } = await fit(page, shown, word);
     assert(correlation > 0.9 && off < 0.5, `the word ${word} is not as the browser draws it: a pixel is ${off.toFixed(2)} off, correlation ${correlation.toFixed(3)}`);
   }
@@ -160,8 +181,10 @@ try {
   const turned = await turn(page, first);
   told('a drag turned the view');
   await keep(page, 'turned');
-  await touch(page, turned);
-  told('one finger turned the view, two brought it nearer');
+  if (!flags.short) {
+    await touch(page, turned);
+    told('one finger turned the view, two brought it nearer');
+  }
 
   await give(page, join(here, 'scene.toml'));
   const opened = await until(page, 'a scene', (now) => now.objects === 1 && now.finished && !now.building);
@@ -203,18 +226,7 @@ try {
     assert.equal(now.objects, 1, 'the scene that was open stays');
     told('refused:', now.messages.find((text) => text.includes(words)));
   }
-  await give(page, join(folder, 'scenes/models/spoon.glb'));
-  await until(page, 'a model', (now) => now.objects === 2);
-  told('a model was added');
-  await give(page, join(folder, 'scenes/maps/evening.hdr'));
-  await until(page, 'an environment', (now) => now.environment);
-  told('an environment was set');
-
-  await press(page, 'Control', 's');
-  await press(page, 'Enter');
-  const text = readFileSync(await downloaded('scene.toml'), 'utf8');
-  assert(text.includes('spoon.glb') && text.includes('evening.hdr'), text);
-  told('the scene was saved');
+  if (!flags.short) await addFiles(page);
   await page.close();
 
   const by_webgpu = await open(`?backend=gpu${fragment}`);
@@ -228,8 +240,8 @@ try {
   await press(by_webgpu, 'Enter');
   const picture = await downloaded('scene.png');
   const native = join(scratch, 'native.png');
-  const flags = ['--shadows', by_gpu.shadows ? 'on' : 'off', '--backend', 'cpu'];
-  execFileSync(program, ['render', join(here, 'scene.toml'), '-o', native, ...flags]);
+  const as = ['--shadows', by_gpu.shadows ? 'on' : 'off', '--backend', 'cpu'];
+  execFileSync(program, ['render', join(here, 'scene.toml'), '-o', native, ...as]);
   const figures = execFileSync(program, ['compare', picture, native, '--json', '--fail-above', 'flip=0.005', '--fail-above', 'relative-rms=0.01']);
   told('the exported picture is that of the command line:', figures.toString().replace(/\s+/g, ' ').slice(0, 200));
   await turn(by_webgpu, await state(by_webgpu));

@@ -15,6 +15,7 @@ use flate2::Compression;
 use flate2::write::GzEncoder;
 use hairline_scene::Description;
 use serde_json::json;
+use wasm_bindgen_cli_support::Bindgen;
 
 use thumbnail::thumbnail;
 
@@ -28,6 +29,12 @@ pub struct Web {
     /// Drive it in headless Chromium afterwards, and compare its picture with that of the command line.
     #[arg(long)]
     test: bool,
+    /// Of the drive only what takes less than two minutes.
+    #[arg(long, requires = "test")]
+    short: bool,
+    /// The command line to compare with; without this one it is built.
+    #[arg(long, requires = "test", value_name = "PATH")]
+    program: Option<PathBuf>,
     /// Compile for tests: little is optimised, and warnings are errors.
     #[arg(long)]
     quick: bool,
@@ -45,13 +52,15 @@ impl Web {
         let output = self.output.canonicalize()?;
         let built = compile(&root, self.quick)?;
         features::check(&built)?;
-        let bindgen = bindgen(&root)?;
-        run(Command::new(bindgen)
-            .args(["--target", "web", "--no-typescript"])
-            .args(["--remove-name-section", "--remove-producers-section"])
-            .args(["--out-name", "hairline", "--out-dir"])
-            .arg(&output)
-            .arg(built))?;
+        // It is as new as the library, to the last digit: both share a crate of which there is one version at a time.
+        Bindgen::new()
+            .input_path(&built)
+            .web(true)?
+            .typescript(false)
+            .remove_name_section(true)
+            .remove_producers_section(true)
+            .out_name("hairline")
+            .generate(&output)?;
         let program = output.join("hairline_bg.wasm");
         if !self.quick {
             shrink(&root, &program)?;
@@ -72,13 +81,31 @@ impl Web {
             compressed as f64 / 1e6
         );
         if self.test {
-            return drive(&root, &output);
+            return self.drive(&root, &output);
         }
         println!(
             "try it: python3 -m http.server --directory {}",
             self.output.display()
         );
         Ok(())
+    }
+
+    /// By `tests/web/drive.mjs`.
+    fn drive(&self, root: &Path, output: &Path) -> anyhow::Result<()> {
+        let tests = root.join("tests/web");
+        run(Command::new("npm")
+            .current_dir(&tests)
+            .args(["ci", "--no-audit", "--no-fund"]))?;
+        let program = match &self.program {
+            Some(program) => program.canonicalize()?,
+            None => command_line(root)?,
+        };
+        run(Command::new("node")
+            .current_dir(&tests)
+            .arg("drive.mjs")
+            .args(self.short.then_some("--short"))
+            .arg(output)
+            .arg(program))
     }
 }
 
@@ -88,23 +115,19 @@ fn gzip_bytes(bytes: &[u8]) -> anyhow::Result<usize> {
     Ok(packed.finish()?.len())
 }
 
-/// By `tests/web/drive.mjs`, with the command line that `.ci/run` builds.
-fn drive(root: &Path, output: &Path) -> anyhow::Result<()> {
-    let tests = root.join("tests/web");
-    run(Command::new("npm")
-        .current_dir(&tests)
-        .args(["ci", "--no-audit", "--no-fund"]))?;
-    let cargo = ["build", "--release", "--workspace", "--bins"];
-    run(Command::new("cargo").current_dir(root).args(cargo))?;
+/// As `.ci/run` builds it.
+fn command_line(root: &Path) -> anyhow::Result<PathBuf> {
+    run(Command::new("cargo").current_dir(root).args([
+        "build",
+        "--release",
+        "--workspace",
+        "--bins",
+    ]))?;
     let target = std::env::var_os("CARGO_TARGET_DIR").map_or(root.join("target"), PathBuf::from);
-    run(Command::new("node")
-        .current_dir(&tests)
-        .arg("drive.mjs")
-        .arg(output)
-        .arg(target.join("release/hairline")))
+    Ok(target.join("release/hairline"))
 }
 
-/// Compiles `apps/web` in a folder of its own, as `.ci/run` checks it.
+/// Compiles `apps/web` in a folder of its own.
 fn compile(root: &Path, is_quick: bool) -> anyhow::Result<PathBuf> {
     let folder = root.join("target/browser");
     let profile = if is_quick { "web-quick" } else { "web" };
@@ -146,35 +169,6 @@ fn has_target() -> anyhow::Result<bool> {
         .args(["--print", "target-libdir", "--target", TARGET])
         .output()?;
     Ok(Path::new(String::from_utf8(asked.stdout)?.trim()).is_dir())
-}
-
-/// The tool that writes what JavaScript calls; it must be as new as the library, to the last digit.
-fn bindgen(root: &Path) -> anyhow::Result<PathBuf> {
-    let lock = fs::read_to_string(root.join("Cargo.lock"))?;
-    let (_, after) = lock
-        .split_once("name = \"wasm-bindgen\"\nversion = \"")
-        .context("Cargo.lock names no wasm-bindgen")?;
-    let (version, _) = after.split_once('"').context("Cargo.lock is cut short")?;
-    let tools = root.join("target/browser/tools");
-    for program in [
-        PathBuf::from("wasm-bindgen"),
-        tools.join("bin/wasm-bindgen"),
-    ] {
-        let told = Command::new(&program).arg("--version").output();
-        if told.is_ok_and(|told| told.stdout.ends_with(format!(" {version}\n").as_bytes())) {
-            return Ok(program);
-        }
-    }
-    println!(
-        "wasm-bindgen {version} is installed into {}",
-        tools.display()
-    );
-    run(Command::new("cargo")
-        .args(["install", "wasm-bindgen-cli", "--quiet"])
-        .args(["--version", version, "--root"])
-        .arg(&tools)
-        .env("CARGO_PROFILE_RELEASE_OPT_LEVEL", "1"))?;
-    Ok(tools.join("bin/wasm-bindgen"))
 }
 
 /// By Binaryen, where it is installed: a fourteenth less for a browser to compile; compressed, it stays as large.
