@@ -150,9 +150,10 @@ pub struct Render {
     /// The curve from radiance to a .png, in place of the scene's.
     #[arg(long, value_name = "CURVE", value_parser = tone_maps())]
     pub tone_map: Option<ToneMap>,
-    /// The time of the models' animations, seconds, in place of the scene's.
-    #[arg(long, value_name = "S", value_parser = parse_time)]
-    pub time: Option<f64>,
+    /// The time of the models' animations, seconds, in place of the scene's. With --frames also A:B: from A in the first frame to
+    /// B in the last one, by equal steps.
+    #[arg(long, value_name = "S[:B]", value_parser = parse_times)]
+    pub time: Option<[f64; 2]>,
     /// See by this camera of a model's file: its name, or its number from 0.
     #[arg(long, value_name = "CAMERA")]
     pub camera: Option<String>,
@@ -175,8 +176,8 @@ pub struct Render {
 #[derive(Args, Clone, Debug, Default)]
 #[command(next_help_heading = "Sequences")]
 pub struct SequenceFlags {
-    /// So many pictures, NAME-0001.png and on for -o NAME.png (or .exr), on the way that --turntable and --zoom say. For -o
-    /// NAME.apng one animation.
+    /// So many pictures, NAME-0001.png and on for -o NAME.png (or .exr), on the way that --turntable and --zoom say, or through
+    /// the times of --time A:B. For -o NAME.apng one animation.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub frames: Option<u32>,
     /// Turn the camera about its target, around its `up`, by so many degrees in all, counter-clockwise seen from above.
@@ -434,10 +435,19 @@ fn parse_exposure(text: &str) -> Result<f64, String> {
         .ok_or_else(|| "write a number of stops from -100 to 100, as in -1.5".to_owned())
 }
 
-fn parse_time(text: &str) -> Result<f64, String> {
-    let time = text.parse::<f64>().ok();
-    time.filter(|time| TIME_S.contains(time))
-        .ok_or_else(|| "write a number of seconds from 0 to 1e6, as in 1.5".to_owned())
+/// One time stands for both ends.
+fn parse_times(text: &str) -> Result<[f64; 2], String> {
+    let time = |text: &str| {
+        text.parse::<f64>()
+            .ok()
+            .filter(|time| TIME_S.contains(time))
+    };
+    let (from, to) = text.split_once(':').unwrap_or((text, text));
+    let ends = time(from).zip(time(to));
+    ends.map(|(from, to)| [from, to]).ok_or_else(|| {
+        "write seconds from 0 to 1e6, as in 1.5, or with --frames two of them, FROM:TO, as in 0:2"
+            .to_owned()
+    })
 }
 
 fn parse_duration(text: &str) -> Result<Duration, String> {

@@ -34,7 +34,7 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
         transport: transport(arguments.shadows, arguments.bounces, &method)?,
         spreads_fireflies: arguments.firefly_filter == Switch::On,
     };
-    let motion = Motion::of(&arguments.sequence)?;
+    let motion = Motion::of(&arguments.sequence, arguments.time)?;
     // Before the work: nobody should wait for a picture that then has no place to go.
     let target = match &motion {
         None => Target::One(single(arguments)?),
@@ -45,27 +45,27 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
         exposure_ev: arguments.exposure,
         scratch_seed: arguments.seed,
         tone_map: arguments.tone_map,
-        time_s: arguments.time,
+        time_s: arguments.time.map(|[from, _]| from),
         camera: arguments.camera.as_deref(),
         highlight: arguments.highlight.as_ref(),
     };
-    let loaded = scene_file::load(arguments.scene.as_deref(), &overrides, &target.paths())?;
+    let mut loaded = scene_file::load(arguments.scene.as_deref(), &overrides, &target.paths())?;
     if let Some(motion) = &motion {
         motion.check(&loaded.description.camera)?;
     }
-    let scene = &loaded.scene;
     let display = Display {
-        exposure_ev: scene.camera.exposure_ev,
-        tone_map: scene.render.tone_map,
+        exposure_ev: loaded.scene.camera.exposure_ev,
+        tone_map: loaded.scene.render.tone_map,
     };
     let notes = notes(&task);
     let write = |output: &Output, image: &Image, notes: &Notes| -> Result<(), Failure> {
         Ok(output.write_image_with_notes(image, &display, notes)?)
     };
     let terminal = Terminal::default();
-    let mut painter = Painter::open(scene, task, &terminal)?;
     match target {
         Target::One(output) => {
+            let scene = &loaded.scene;
+            let mut painter = Painter::open(scene, task, &terminal)?;
             let interrupt = match task.transport.shadows {
                 true => Interrupt::listen().map_err(cannot_listen)?,
                 false => Interrupt::default(),
@@ -93,7 +93,14 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
         Target::Many(motion, goals) => {
             let stability = arguments.sequence.stability;
             let write = |output: &Output, image: &Image| write(output, image, &notes);
-            sequence::run(&loaded, motion, &goals, stability, &mut painter, &write)
+            sequence::run(
+                &mut loaded,
+                motion,
+                &goals,
+                stability,
+                (task, &terminal),
+                &write,
+            )
         }
     }
 }
@@ -124,7 +131,7 @@ fn single(arguments: &cli::Render) -> Result<Output, Failure> {
     if Animation::is_asked_by(&path) {
         let path = path.display();
         return Err(Failure::Input(anyhow!(
-            "{path}: an animation needs --frames N, with --turntable DEG or --zoom A:B"
+            "{path}: an animation needs --frames N, with --turntable DEG, --zoom A:B or --time A:B"
         )));
     }
     Ok(Output::check(&path)?)

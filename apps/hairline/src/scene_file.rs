@@ -45,6 +45,29 @@ pub struct Loaded {
     pub description: Description,
     /// What the files that it names are relative to.
     pub folder: PathBuf,
+    /// With what it was built.
+    builder: SceneBuilder,
+}
+
+impl Loaded {
+    /// Makes the scene that it is at a time of the models' animations, seconds. Only what moves is made again.
+    ///
+    /// # Errors
+    /// [`Failure::Input`] where a model cannot be read any more.
+    pub fn go_to(&mut self, time_s: f64) -> Result<(), Failure> {
+        set_time(&mut self.description, time_s);
+        let loader = Loader::default();
+        self.scene = (self.builder).build(&loader, &self.description, &self.folder)?;
+        Ok(())
+    }
+}
+
+fn set_time(description: &mut Description, time_s: f64) {
+    for object in &mut description.objects {
+        if let Surface::Mesh(_) = object.surface {
+            object.time_s = Some(time_s);
+        }
+    }
 }
 
 /// Reads a scene file, or the built-in scene where there is none. `outputs` are the files that will be written: none of them may be
@@ -68,11 +91,7 @@ pub fn load(
         description.render.tone_map = tone_map;
     }
     if let Some(time_s) = overrides.time_s {
-        for object in &mut description.objects {
-            if let Surface::Mesh(_) = object.surface {
-                object.time_s = Some(time_s);
-            }
-        }
+        set_time(&mut description, time_s);
     }
     let of_file = description.camera.of_file.clone();
     if let Some(camera) = overrides.camera.or(of_file.as_deref()) {
@@ -128,6 +147,7 @@ pub fn load(
         scene,
         description,
         folder: source.folder,
+        builder,
     })
 }
 

@@ -1,4 +1,4 @@
-//! The way of the camera through a sequence.
+//! The way of the camera through a sequence, and of the time.
 
 use anyhow::anyhow;
 use glam::DVec3;
@@ -8,7 +8,7 @@ use hairline_scene::description::{self, limits};
 use crate::cli::SequenceFlags;
 use hairline_work::failure::Failure;
 
-/// Where the camera stands in each frame.
+/// Where the camera stands in each frame, and when.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Motion {
     /// How many pictures.
@@ -17,6 +17,8 @@ pub struct Motion {
     turn_deg: f64,
     /// What the distance to the target is divided by, in the first frame and in the last.
     zoom: [f64; 2],
+    /// Seconds of the models' animations, in the first frame and in the last; none where all frames have one time.
+    times_s: Option<[f64; 2]>,
 }
 
 impl Motion {
@@ -24,7 +26,8 @@ impl Motion {
     ///
     /// # Errors
     /// [`Failure::Input`] where they contradict one another.
-    pub fn of(flags: &SequenceFlags) -> Result<Option<Self>, Failure> {
+    pub fn of(flags: &SequenceFlags, times_s: Option<[f64; 2]>) -> Result<Option<Self>, Failure> {
+        let times_s = times_s.filter(|[from, to]| from != to);
         let refuse = |what: &str| Err(Failure::Input(anyhow!("{what}")));
         let Some(frames) = flags.frames else {
             let lonely = [
@@ -33,6 +36,7 @@ impl Motion {
                 ("--animation", flags.animation.is_some()),
                 ("--fps", flags.fps.is_some()),
                 ("--stability", flags.stability),
+                ("--time A:B", times_s.is_some()),
             ];
             return match lonely.into_iter().find(|(_, given)| *given) {
                 Some((flag, _)) => refuse(&format!(
@@ -41,9 +45,14 @@ impl Motion {
                 None => Ok(None),
             };
         };
-        if flags.turntable.is_none() && flags.zoom.is_none() {
+        if flags.turntable.is_none() && flags.zoom.is_none() && times_s.is_none() {
             return refuse(
-                "--frames needs a way for the camera: --turntable DEG, --zoom A:B, or both",
+                "--frames needs what changes: --turntable DEG, --zoom A:B, --time A:B, or several of them",
+            );
+        }
+        if flags.stability && times_s.is_some() {
+            return refuse(
+                "--stability knows where surfaces were by the cameras alone: not with --time A:B, which moves them",
             );
         }
         if flags.stability && frames < 2 {
@@ -55,6 +64,7 @@ impl Motion {
             frames,
             turn_deg: flags.turntable.unwrap_or(0.0),
             zoom: flags.zoom.unwrap_or([1.0, 1.0]),
+            times_s,
         }))
     }
 
@@ -84,11 +94,24 @@ impl Motion {
         if self.turn_deg != 0.0 {
             navigate::turn(&mut camera, (turned * self.turn_deg).to_radians());
         }
-        let come = f64::from(frame) / f64::from(self.frames.max(2) - 1);
+        let come = self.come(frame);
         let [from, to] = self.zoom;
         let factor = from * (to / from).powf(come);
         let target = DVec3::from(camera.target_m);
         target + (DVec3::from(camera.position_m) - target) / factor
+    }
+}
+
+impl Motion {
+    /// The time of a frame, seconds; none where it is that of the scene.
+    pub fn time_s(&self, frame: u32) -> Option<f64> {
+        let [from_s, to_s] = self.times_s?;
+        Some(from_s + self.come(frame) * (to_s - from_s))
+    }
+
+    /// From 0 in the first frame to 1 in the last.
+    fn come(&self, frame: u32) -> f64 {
+        f64::from(frame) / f64::from(self.frames.max(2) - 1)
     }
 }
 
@@ -114,7 +137,17 @@ mod tests {
             frames,
             turn_deg,
             zoom,
+            times_s: None,
         }
+    }
+
+    #[test]
+    fn times_go_by_equal_steps_from_end_to_end() {
+        let mut moving = motion(5, 0.0, [1.0, 1.0]);
+        assert_eq!(moving.time_s(3), None);
+        moving.times_s = Some([1.0, 3.0]);
+        let times: Vec<_> = (0..5).filter_map(|i| moving.time_s(i)).collect();
+        assert_eq!(times, [1.0, 1.5, 2.0, 2.5, 3.0]);
     }
 
     #[test]

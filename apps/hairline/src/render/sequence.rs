@@ -1,17 +1,20 @@
-//! Many pictures on a way of the camera. The scene is read, sorted and uploaded once; each file is whole or not there.
+//! Many pictures on a way of the camera, or through a time. The scene is read, sorted and uploaded once, or again where its models move; each file is
+//! whole or not there.
 
 use anyhow::anyhow;
 use hairline_image::{Animation, Display, Image, Output};
+use hairline_scene::Scene;
 
 use super::goals::Goals;
 use super::motion::Motion;
 use super::steadiness::Steadiness;
 use crate::console::print;
 use crate::interrupt::{Interrupt, cannot_listen};
-use crate::progress::Progress;
+use crate::progress::{Progress, Terminal};
 use crate::scene_file::Loaded;
-use hairline_work::backend::{FINE_SAMPLES, Painter, Rendered};
+use hairline_work::backend::{FINE_SAMPLES, Painter, Rendered, Task};
 use hairline_work::failure::Failure;
+use hairline_work::{Listener, Quiet};
 
 /// Renders all frames; `write` puts a picture in its place. With `stability` the same frames are rendered with many samples, and
 /// how steady both are is printed.
@@ -19,74 +22,122 @@ use hairline_work::failure::Failure;
 /// # Errors
 /// [`Failure::Work`] where rendering or writing fails or the user stops it: frames that are whole by then stay.
 pub fn run(
-    loaded: &Loaded,
+    loaded: &mut Loaded,
     motion: &Motion,
     goals: &Goals,
     stability: bool,
-    painter: &mut Painter,
+    (task, terminal): (Task, &Terminal),
     write: &dyn Fn(&Output, &Image) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
-    let mut scene = loaded.scene.clone();
+    let scene = &loaded.scene;
     let display = Display {
         exposure_ev: scene.camera.exposure_ev,
         tone_map: scene.render.tone_map,
     };
-    let interrupt = Interrupt::listen().map_err(cannot_listen)?;
     let begin = |path| Animation::begin(path, scene.render.size_px, motion.frames, goals.fps);
-    let mut animation = goals.animation.as_deref().map(begin).transpose()?;
-    let mut steadiness = stability.then(|| Steadiness::new(display));
-    // Of a frame's time, until its reference takes the rest.
-    let own = match stability {
-        true => 1.0 / f64::from(1 + FINE_SAMPLES),
-        false => 1.0,
+    let mut frames = Frames {
+        motion,
+        goals,
+        display,
+        write,
+        interrupt: Interrupt::listen().map_err(cannot_listen)?,
+        animation: goals.animation.as_deref().map(begin).transpose()?,
+        steadiness: stability.then(|| Steadiness::new(display)),
+        progress: None,
     };
-    let progress = Progress::start("rendering");
-    let done = |frame: usize, share: f64| {
-        progress.set((frame as f64 + share) / f64::from(motion.frames));
-    };
+    let camera = loaded.description.camera.clone();
+    let place = |frame: usize| motion.position_m(&camera, frame as u32);
+    if motion.time_s(0).is_none() {
+        let mut moved = loaded.scene.clone();
+        let mut painter = Painter::open(&loaded.scene, task, terminal)?;
+        for frame in 0..motion.frames as usize {
+            moved.camera.position_m = place(frame);
+            frames.add(frame, &moved, &mut painter)?;
+        }
+        return frames.finish();
+    }
     for frame in 0..motion.frames as usize {
+        if let Some(time_s) = motion.time_s(frame as u32) {
+            loaded.go_to(time_s)?;
+        }
+        loaded.scene.camera.position_m = place(frame);
+        // What renders is told once.
+        let listener: &dyn Listener = if frame == 0 { terminal } else { &Quiet };
+        let mut painter = Painter::open(&loaded.scene, task, listener)?;
+        frames.add(frame, &loaded.scene, &mut painter)?;
+    }
+    frames.finish()
+}
+
+/// What becomes of frames.
+struct Frames<'a> {
+    motion: &'a Motion,
+    goals: &'a Goals,
+    display: Display,
+    write: &'a dyn Fn(&Output, &Image) -> Result<(), Failure>,
+    interrupt: Interrupt,
+    animation: Option<Animation>,
+    steadiness: Option<Steadiness>,
+    /// From the first frame on: what is told before it has a line of its own.
+    progress: Option<Progress>,
+}
+
+impl Frames<'_> {
+    fn add(&mut self, frame: usize, scene: &Scene, painter: &mut Painter) -> Result<(), Failure> {
         let kept = |failure| match failure {
-            Failure::Work(error) => Failure::Work(anyhow!("{error:#}; {}", goals.kept(frame))),
+            Failure::Work(error) => Failure::Work(anyhow!("{error:#}; {}", self.goals.kept(frame))),
             input @ Failure::Input(_) => input,
         };
+        let interrupt = &self.interrupt;
         if interrupt.is_asked() {
             return Err(kept(Failure::Work(anyhow!("interrupted"))));
         }
-        scene.camera.position_m = motion.position_m(&loaded.description.camera, frame as u32);
+        let progress = &*(self.progress).get_or_insert_with(|| Progress::start("rendering"));
+        let done =
+            |share: f64| progress.set((frame as f64 + share) / f64::from(self.motion.frames));
+        // Of a frame's time, until its reference takes the rest.
+        let own = match self.steadiness {
+            Some(_) => 1.0 / f64::from(1 + FINE_SAMPLES),
+            None => 1.0,
+        };
         let is_stopped = || interrupt.is_asked();
-        let rendered = painter.render(&scene, &is_stopped, &|share| done(frame, own * share));
+        let rendered = painter.render(scene, &is_stopped, &|share| done(own * share));
         let Rendered { image, .. } = match rendered {
             // A frame of fewer samples would stand out, if there is any.
             _ if interrupt.is_asked() => Err(kept(Failure::Work(anyhow!("interrupted")))),
             rendered => rendered.map_err(kept),
         }?;
-        if let Some(output) = goals.pictures.get(frame) {
-            write(output, &image).map_err(kept)?;
+        if let Some(output) = self.goals.pictures.get(frame) {
+            (self.write)(output, &image).map_err(kept)?;
         }
-        if let Some(animation) = &mut animation {
-            animation.add(&image.beauty(), &display)?;
+        if let Some(animation) = &mut self.animation {
+            animation.add(&image.beauty(), &self.display)?;
         }
         // A reference may take minutes: not for a figure that nobody waits for any more.
-        if let Some(steadiness) = &mut steadiness
+        if let Some(steadiness) = &mut self.steadiness
             && !interrupt.is_asked()
         {
-            let rest = |share| done(frame, own + (1.0 - own) * share);
-            let reference = painter.render_finely(&scene, &rest).map_err(kept)?;
+            let rest = |share| done(own + (1.0 - own) * share);
+            let reference = painter.render_finely(scene, &rest).map_err(kept)?;
             let camera = scene.camera.frame(scene.render.size_px);
             steadiness.add(camera, [image, reference]);
         }
+        Ok(())
     }
-    drop(progress);
-    if let Some(animation) = animation {
-        animation.finish()?;
-    }
-    if let Some(steadiness) = steadiness {
-        if interrupt.is_asked() {
-            return Err(Failure::Work(anyhow!(
-                "interrupted; all frames are whole, and how steady they are is not known"
-            )));
+
+    fn finish(self) -> Result<(), Failure> {
+        drop(self.progress);
+        if let Some(animation) = self.animation {
+            animation.finish()?;
         }
-        print(&format!("{}\n", steadiness.in_words(FINE_SAMPLES)))?;
+        if let Some(steadiness) = self.steadiness {
+            if self.interrupt.is_asked() {
+                return Err(Failure::Work(anyhow!(
+                    "interrupted; all frames are whole, and how steady they are is not known"
+                )));
+            }
+            print(&format!("{}\n", steadiness.in_words(FINE_SAMPLES)))?;
+        }
+        Ok(())
     }
-    Ok(())
 }

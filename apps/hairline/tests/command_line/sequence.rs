@@ -79,12 +79,78 @@ fn an_animation_is_one_file_and_its_first_frame_is_the_picture() {
     assert_ne!(read("c-0001.png"), read("c-0002.png"));
 }
 
+/// A square that rises towards the camera within a second.
+fn write_rising(folder: &Path) {
+    let corners = [[-1.0f32, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+    let positions = corners.iter().flat_map(|[x, y]| [*x, *y, 0.0]);
+    let times = [0.0, 1.0];
+    let places = [0.0, 0.0, 0.0, 0.0, 0.0, 0.4];
+    let indices = [0u32, 1, 2, 0, 2, 3].into_iter().flat_map(u32::to_le_bytes);
+    let numbers = positions.chain(times).chain(places);
+    let bytes: Vec<u8> = numbers.flat_map(f32::to_le_bytes).chain(indices).collect();
+    std::fs::write(folder.join("rising.bin"), &bytes).unwrap();
+    let view = |at: usize, length: usize| {
+        format!(r#"{{"buffer":0,"byteOffset":{at},"byteLength":{length}}}"#)
+    };
+    let text = format!(
+        r#"{{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0}}],
+        "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}},"indices":3}}]}}],
+        "animations":[{{"channels":[{{"sampler":0,"target":{{"node":0,"path":"translation"}}}}],
+            "samplers":[{{"input":1,"output":2}}]}}],
+        "buffers":[{{"uri":"rising.bin","byteLength":{}}}],
+        "bufferViews":[{},{},{},{}],
+        "accessors":[
+            {{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3","min":[-1,-1,0],"max":[1,1,0]}},
+            {{"bufferView":1,"componentType":5126,"count":2,"type":"SCALAR","min":[0],"max":[1]}},
+            {{"bufferView":2,"componentType":5126,"count":2,"type":"VEC3"}},
+            {{"bufferView":3,"componentType":5125,"count":6,"type":"SCALAR"}}]}}"#,
+        bytes.len(),
+        view(0, 48),
+        view(48, 8),
+        view(56, 24),
+        view(80, 24),
+    );
+    std::fs::write(folder.join("rising.gltf"), text).unwrap();
+    let scene = "[camera]\nposition_m = [0.0, -0.01, 1.0]\ntarget_m = [0.0, 0.0, 0.0]\n\
+        [[material]]\nname = \"m\"\nkind = \"dielectric\"\nroughness = 0.5\n\
+        [[object]]\nmesh = \"rising.gltf\"\nmaterial = \"m\"\n\
+        [[light]]\nkind = \"sphere\"\ncenter_m = [0.5, 0.0, 1.0]\nradius_m = 0.1\nradiance = 9.0\n\
+        [render]\nsize_px = [16, 12]\n";
+    std::fs::write(folder.join("rising.toml"), scene).unwrap();
+}
+
+#[test]
+fn frames_go_through_the_time_of_an_animation() {
+    let folder = tempfile::tempdir().unwrap();
+    write_rising(folder.path());
+    let depth_m = |name: &str| {
+        let read = exr_file::read_image_with_notes(&folder.path().join(name));
+        let image = read.unwrap().0;
+        image.depth_m[image.index(8, 6)]
+    };
+    let render = |flags: &str| {
+        let arguments = format!("render rising.toml --backend cpu {flags}");
+        hairline(folder.path(), &arguments).success()
+    };
+    render("-o late.exr --time 1");
+    render("-o rising.exr --frames 3 --time 0:1");
+    let depths = ["0001", "0002", "0003"].map(|i| depth_m(&format!("rising-{i}.exr")));
+    for (found, right) in depths.into_iter().zip([1.0, 0.8, 0.6]) {
+        assert!((found - right).abs() < 0.01, "{depths:?}");
+    }
+    assert_eq!(depths[2], depth_m("late.exr"));
+}
+
 #[test]
 fn contradictions_are_2_and_nothing_is_written() {
     let folder = folder_with_scene();
     for (flags, message) in [
         ("--frames 3", "--turntable DEG, --zoom A:B"),
         ("--frames 0 --turntable 9", "1..=100000"),
+        ("--time 0:1", "--time A:B is for a sequence"),
+        ("--frames 2 --time 0:much", "FROM:TO"),
+        ("--frames 2 --time 0:1 --stability", "not with --time A:B"),
+        ("--frames 2 --time 1", "--frames needs what changes"),
         ("--turntable 90", "--frames N"),
         ("--zoom 1:2", "--frames N"),
         ("--stability", "--frames N"),
