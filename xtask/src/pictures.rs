@@ -24,7 +24,7 @@ const DEFAULT: RenderOptions = RenderOptions {
 };
 
 /// Pictures that need something else: more samples for what is mirrored or out of focus, fewer where nothing is.
-const EXCEPTIONS: [(&str, RenderOptions); 12] = [
+const EXCEPTIONS: [(&str, RenderOptions); 13] = [
     // It opens the README.
     ("hairline", sized("960x540", sampled("64"))),
     ("baubles", sampled("48")),
@@ -44,6 +44,7 @@ const EXCEPTIONS: [(&str, RenderOptions); 12] = [
     ("phone", sampled("16")),
     ("record", sampled("16")),
     ("seal", sampled("16")),
+    ("sundial", sampled("16")),
 ];
 
 const fn sampled(samples: &'static str) -> RenderOptions {

@@ -7,7 +7,7 @@ use hairline_scene::vector_area_m2;
 
 use crate::ActionError;
 
-/// The middle of a light: of a polygon the centroid of its area.
+/// The middle of a light: of a polygon the centroid of its area, of a sun far off.
 pub fn center(light: &Light) -> DVec3 {
     match &light.kind {
         LightKind::Sphere { center_m, .. }
@@ -18,6 +18,7 @@ pub fn center(light: &Light) -> DVec3 {
             a.midpoint(b)
         }
         LightKind::Polygon { vertices_m, .. } => centroid(&points(vertices_m)),
+        LightKind::Sun { .. } => light.kind.middle_m(),
     }
 }
 
@@ -26,12 +27,12 @@ pub fn facing(light: &Light) -> Option<DVec3> {
     vector_area_m2(&light.kind.corners_m()).try_normalize()
 }
 
-/// Moves a light.
+/// Moves a light; a sun stays where it is.
 pub fn translate(light: &mut Light, delta_m: DVec3) {
     each_point(light, |point| point + delta_m);
 }
 
-/// Turns a light about its middle; a sphere stays as it is.
+/// Turns a light about its middle, a sun about the scene; a sphere stays as it is.
 pub fn rotate(light: &mut Light, axis: DVec3, angle_rad: f64) {
     let Some(axis) = axis.try_normalize() else {
         return;
@@ -40,8 +41,11 @@ pub fn rotate(light: &mut Light, axis: DVec3, angle_rad: f64) {
 }
 
 /// Scales a light about its middle, as far as lights may be small or large. What it radiates per area stays, so a larger one
-/// lights more.
+/// lights more. A sun stays as it is.
 pub fn resize(light: &mut Light, factor: f64) {
+    if light.kind.sunbeam().is_some() {
+        return;
+    }
     let middle = center(light);
     let extent_m = match &light.kind {
         LightKind::Sphere { radius_m, .. } => *radius_m,
@@ -80,25 +84,30 @@ pub fn resize(light: &mut Light, factor: f64) {
             }
         }
         LightKind::Polygon { vertices_m, .. } => vertices_m.iter_mut().for_each(scale),
+        LightKind::Sun { .. } => {}
     }
 }
 
 /// Moves a light so that an eye sees the middle of its mirror image at a point of a surface. It keeps its distance to the
-/// point and its size; a flat light is turned to face the point, by the shortest way.
+/// point and its size; a flat light is turned to face the point, by the shortest way. A sun shines from that side.
 ///
 /// The side of the surface is the one that the eye is on. Nothing happens where the point is the eye or the light's middle.
 pub fn place_highlight(light: &mut Light, eye_m: DVec3, point_m: DVec3, normal: DVec3) {
-    let middle = center(light);
-    let distance_m = middle.distance(point_m);
     let (Some(wo), Some(normal)) = ((eye_m - point_m).try_normalize(), normal.try_normalize())
     else {
         return;
     };
+    // Even in the normal: the side does not matter.
+    let wi = 2.0 * wo.dot(normal) * normal - wo;
+    if let LightKind::Sun { direction, .. } = &mut light.kind {
+        *direction = rounded(-wi);
+        return;
+    }
+    let middle = center(light);
+    let distance_m = middle.distance(point_m);
     if !(distance_m > 0.0) {
         return;
     }
-    // Even in the normal: the side does not matter.
-    let wi = 2.0 * wo.dot(normal) * normal - wo;
     translate(light, point_m + wi * distance_m - middle);
     face(light, point_m);
 }
@@ -199,7 +208,18 @@ fn reshape(
     Ok(())
 }
 
+/// A unit direction without digits that nobody sees, for a file that people read.
+fn rounded(direction: DVec3) -> [f64; 3] {
+    // Not -0.
+    ((direction * 1e6).round() / 1e6 + 0.0).into()
+}
+
 fn turn(light: &mut Light, rotation: DQuat) {
+    if let (Some(beam), LightKind::Sun { direction, .. }) = (light.kind.sunbeam(), &mut light.kind)
+    {
+        *direction = rounded(rotation * beam);
+        return;
+    }
     let middle = center(light);
     if let (LightKind::Sphere { .. }, None) = (&light.kind, &light.cone) {
         return;
@@ -225,6 +245,7 @@ fn each_point(light: &mut Light, change: impl Fn(DVec3) -> DVec3) {
         } => [center_m, target_m].into_iter().for_each(change),
         LightKind::Tube { ends_m, .. } => ends_m.iter_mut().for_each(change),
         LightKind::Polygon { vertices_m, .. } => vertices_m.iter_mut().for_each(change),
+        LightKind::Sun { .. } => {}
     }
 }
 

@@ -312,11 +312,19 @@ pub enum LightPreset {
     Softbox,
     /// A large, cool rectangle.
     Window,
+    /// Light from one direction.
+    Sun,
 }
 
 impl LightPreset {
     /// Every preset, in the order of a menu.
-    pub const ALL: [Self; 4] = [Self::SmallLamp, Self::Tube, Self::Softbox, Self::Window];
+    pub const ALL: [Self; 5] = [
+        Self::SmallLamp,
+        Self::Tube,
+        Self::Softbox,
+        Self::Window,
+        Self::Sun,
+    ];
 
     /// What a menu calls it.
     pub fn name(self) -> &'static str {
@@ -325,6 +333,7 @@ impl LightPreset {
             Self::Tube => "Tube",
             Self::Softbox => "Softbox",
             Self::Window => "Window",
+            Self::Sun => "Sun",
         }
     }
 
@@ -342,6 +351,9 @@ impl LightPreset {
             }
             Self::Window => {
                 "A large, cool light: it shapes the object; scratches get little colour from it."
+            }
+            Self::Sun => {
+                "Light from one direction, wherever things stand: thin, pure rainbows and sharp shadows, the same all over the scene."
             }
         }
     }
@@ -381,6 +393,14 @@ impl LightPreset {
             }
             Self::Softbox => (rectangle(0.4, 0.4), 8.0, [1.0, 1.0, 1.0]),
             Self::Window => (rectangle(1.2, 1.6), 1.5, [0.85, 0.93, 1.0]),
+            Self::Sun => {
+                let kind = LightKind::Sun {
+                    direction: (-(up * 0.8 + side * 0.5)).into(),
+                    angle_deg: 0.53,
+                    irradiance: 0.2,
+                };
+                (kind, 1.0, [1.0, 0.96, 0.9])
+            }
         };
         Light {
             name: Some(self.name().to_lowercase()),

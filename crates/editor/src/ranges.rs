@@ -39,7 +39,7 @@ pub(crate) const DEFAULT_DIAGONAL_M: f64 = 0.3;
 impl Parameter {
     /// Every parameter.
     #[cfg(test)]
-    pub(crate) const ALL: [Self; 88] = [
+    pub(crate) const ALL: [Self; 91] = [
         Self::CameraPosition,
         Self::CameraTarget,
         Self::CameraUp,
@@ -121,6 +121,9 @@ impl Parameter {
         Self::LightRotation,
         Self::LightVertex,
         Self::LightEnd,
+        Self::SunDirection,
+        Self::SunAngle,
+        Self::Irradiance,
         Self::LightCone,
         Self::LightSoftness,
         Self::LightDoor,
@@ -144,7 +147,9 @@ impl Parameter {
         const NOT_NEGATIVE: RangeInclusive<f64> = 0.0..=f64::MAX;
         let (slider, hard) = match self {
             P::CameraPosition | P::CameraTarget => (-5.0 * d..=5.0 * d, limits::COORDINATE_M),
-            P::CameraUp | P::Axis | P::Direction => (-1.0..=1.0, limits::DIRECTION),
+            P::CameraUp | P::Axis | P::Direction | P::SunDirection => {
+                (-1.0..=1.0, limits::DIRECTION)
+            }
             P::FieldOfView => (5.0..=90.0, limits::FOV_Y_DEG),
             P::Aperture => (1e-3 * d..=0.1 * d, 0.0..=1e-3 * limits::APERTURE_MM.end()),
             P::FocusDistance => (0.1 * d..=5.0 * d, limits::SIZE_M),
@@ -208,6 +213,8 @@ impl Parameter {
                 (-5.0 * d..=5.0 * d, limits::COORDINATE_M)
             }
             P::LightRadius | P::LightWidth | P::LightHeight => (2e-3 * d..=d, limits::SIZE_M),
+            P::SunAngle => (0.1..=10.0, limits::SUN_ANGLE_DEG),
+            P::Irradiance => (1e-3..=10.0, NOT_NEGATIVE),
             P::LightCone => (5.0..=180.0, limits::CONE_DEG),
             P::LightSoftness => (0.0..=1.0, 0.0..=1.0),
             P::LightDoor => (0.0..=90.0, limits::BARN_DOOR_DEG),
@@ -260,6 +267,8 @@ impl Parameter {
                 | P::LightWidth
                 | P::LightHeight
                 | P::Radiance
+                | P::SunAngle
+                | P::Irradiance
         )
     }
 
@@ -307,7 +316,8 @@ impl Parameter {
             | P::GrooveAngles
             | P::LightRotation
             | P::LightCone
-            | P::LightDoor => Unit::Degree,
+            | P::LightDoor
+            | P::SunAngle => Unit::Degree,
             P::Exposure | P::LightExposure => Unit::Exposure,
             P::LightTemperature => Unit::Kelvin,
             P::PictureSize | P::Filter => Unit::Pixel,

@@ -47,9 +47,12 @@ def test_what_is_left_out_means_what_the_attribute_says(scene):
         *scene.scratches,
         hairline.DiskLight(center_m=(0, 0, 1), target_m=(0, 0, 0), radius_m=0.1),
         hairline.RectangleLight(center_m=(0, 0, 1), target_m=(0, 0, 0), width_m=0.1, height_m=0.1),
+        hairline.SunLight(direction=(0, 1, -1)),
     ]
     for table in tables:
         for key, value in type(table)._absent.items():
+            if key in table.to_dict():
+                continue
             again = copy.deepcopy(table)
             setattr(again, key, value)
             assert again == table, key
@@ -159,6 +162,7 @@ def test_every_kind_of_light_is_made_and_appended(scene):
         hairline.RectangleLight(center_m=(0, 0.2, 0.3), target_m=(0, 0, 0), width_m=0.1, height_m=0.2),
         hairline.PolygonLight(vertices_m=np.array([[0, 0, 1], [0, 1, 1], [1, 0, 1.0]])),
         hairline.TubeLight(ends_m=[(0, 0, 1), (0, 1, 1)], radius_m=0.01),
+        hairline.SunLight(direction=(0, 1, -1), angle_deg=2, irradiance=0.5),
     ]
     scene.lights.extend(lamps)
     again = hairline.Scene.from_dict(scene.to_dict())

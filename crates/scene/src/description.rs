@@ -37,6 +37,7 @@ use values::{Named, is_default, serialize_named, serialize_scale};
 
 pub use gratings::{Grating, GroovePattern, UvAxis};
 pub use light_kind::LightKind;
+pub(crate) use light_kind::SUN_DEG;
 pub use lights::{Cone, Light};
 pub use overrides::Override;
 pub use place::Place;

@@ -13,7 +13,7 @@ use std::sync::Arc;
 use glam::{DMat3, DQuat, DVec3};
 use hairline_image::Picture;
 
-use crate::light::Light;
+use crate::light::{Light, SUN_DISTANCE_M};
 use half_texels::{fit_half, round_to_half};
 use suns::Sun;
 use windows::Window;
@@ -140,9 +140,9 @@ impl Environment {
         let per_texel = self.texel_radiance();
         let world_from_map = self.map_from_world.transpose();
         let sun = |sun: &Sun| {
-            Light::sphere(
-                world_from_map * sun.direction * SUN_DISTANCE_M,
-                SUN_DISTANCE_M * sun.radius_rad.sin(),
+            Light::sun(
+                world_from_map * sun.direction,
+                sun.radius_rad,
                 sun.radiance.map(|c| c * per_texel),
             )
         };
@@ -339,9 +339,6 @@ impl Maps {
         }
     }
 }
-
-/// How far away suns are: a scene of some metres is a point beside it, and single precision tells directions to a ten millionth.
-const SUN_DISTANCE_M: f64 = 1e5;
 
 /// What every WebGPU device can hold in one texture.
 const MAP_WIDTH_MAX: u32 = 8192;

@@ -73,6 +73,8 @@ pub(crate) fn mesh(kind: &LightKind, material: u32) -> Mesh {
             });
             disk.bake(&place, material, &mut mesh);
         }
+        // It has no shape that could be seen; a scene refuses a visible one.
+        LightKind::Sun { .. } => {}
         // Flat, with corners.
         _ => {
             let axis = kind.axis().unwrap_or(DVec3::Z);

@@ -2,6 +2,9 @@
 
 use glam::DVec3;
 
+/// How far away suns are: a scene of some metres is a point beside it, and single precision tells directions to a ten millionth.
+pub(crate) const SUN_DISTANCE_M: f64 = 1e5;
+
 /// An area light.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Light {
@@ -128,6 +131,17 @@ impl Light {
             cone: None,
             picture: None,
         }
+    }
+
+    /// A sphere so far away that it stands in one direction for all of a scene.
+    ///
+    /// `towards_it` is a unit vector, `radius_rad` half of the angle that it spans.
+    pub fn sun(towards_it: DVec3, radius_rad: f64, radiance: [f64; 3]) -> Self {
+        Self::sphere(
+            towards_it * SUN_DISTANCE_M,
+            SUN_DISTANCE_M * radius_rad.sin(),
+            radiance,
+        )
     }
 
     /// A polygon.

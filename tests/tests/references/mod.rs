@@ -12,6 +12,7 @@ mod full_wave;
 mod furnace;
 mod going_on;
 mod gratings;
+mod light_kinds;
 mod mask;
 mod mirrored;
 mod penumbra;

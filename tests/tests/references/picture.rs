@@ -11,7 +11,7 @@ use hairline_scene::{Base, Coat, Grating, GrooveField, Light, Scene, Texture};
 use std::sync::Arc;
 
 /// A soft box: bright in the middle, warm to the left, with a dark bar.
-fn soft_box() -> Texture {
+pub(super) fn soft_box() -> Texture {
     const SIDE: u32 = 128;
     let at = |i: u32| (f64::from(i) + 0.5) / f64::from(SIDE) - 0.5;
     let texel = |i: u32| {

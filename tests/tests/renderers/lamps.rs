@@ -1,9 +1,10 @@
 //! Lights that the camera sees.
 
-use conformance::two_renderers::{compare, on_the_cpu, on_the_gpu};
+use conformance::two_renderers::{compare, on_the_cpu, on_the_gpu, on_the_gpu_by};
 use hairline_cpu::closed_form::{RenderOptions, render};
 use hairline_fixtures::SceneFile;
 use hairline_image::Image;
+use hairline_index::method::Method;
 use hairline_reference::{BATCH_SAMPLES, Integrator, Model, Settings};
 use hairline_scene::Scene;
 use std::ops::ControlFlow;
@@ -202,4 +203,90 @@ fn barn_doors_end_the_light() -> Result<(), String> {
         Some(gpu) => compare("barn doors", &shaded, &gpu, &of_shaded),
         None => Ok(()),
     }
+}
+
+/// Matt paper under a sun: albedo / pi of what falls on it, by either renderer.
+#[test]
+fn a_sun_on_matt_paper() -> Result<(), String> {
+    const ALBEDO: f64 = 0.8;
+    let scene = |keys: &str| {
+        SceneFile::seen_from([0.0, -1.0, 1.0])
+            .fov_y_deg(20.0)
+            .size_px([24, 24])
+            .part(&format!(
+                "[[material]]\nname = \"paper\"\nkind = \"dielectric\"\nior = 1.0\nbase_color = [{ALBEDO}, {ALBEDO}, {ALBEDO}]\nroughness = 1.0"
+            ))
+            .object("table", "paper", "plane = { size_m = [2.0, 2.0] }")
+            .part(&format!("[[light]]\nkind = \"sun\"\n{keys}"))
+            .scene()
+    };
+    // The cosine to the plate's normal is 0.8 for a direction of (0, 0.6, -0.8).
+    for (keys, expected) in [
+        ("direction = [0.0, 0.0, -2.0]", 1.0),
+        ("direction = [0.0, 3.0, -4.0]\nirradiance = 2.0", 1.6),
+        (
+            "direction = [0.0, 0.6, -0.8]\nangle_deg = 40.0\nexposure_ev = 1.0",
+            1.6,
+        ),
+        ("direction = [0.0, 0.0, -1.0]\nangle_deg = 0.01", 1.0),
+        ("direction = [0.0, 0.0, 1.0]", 0.0),
+    ] {
+        let scene = scene(keys);
+        let expected = expected * ALBEDO / std::f64::consts::PI;
+        let pictures = [Some(on_the_cpu(&scene, 1)), on_the_gpu(&scene, 1)];
+        for (image, renderer) in pictures.iter().zip(["CPU", "GPU"]) {
+            for rgb in image.iter().flat_map(|image| &image.base) {
+                let found = f64::from(rgb[1]);
+                assert!(
+                    (found - expected).abs() <= 5e-3 * expected,
+                    "{renderer}, {keys}: {found}, not {expected}"
+                );
+            }
+        }
+    }
+    Ok(())
+}
+
+/// A sun low over a scratched table, with the shadow of a ball: no other picture on the GPU, with rays for the shadow and without.
+#[test]
+fn both_renderers_see_the_same_sun() -> Result<(), String> {
+    let scene = SceneFile::seen_from([0.0, -0.5, 0.4])
+        .fov_y_deg(22.0)
+        .size_px([128, 96])
+        .metal("steel", "steel")
+        .with("roughness = 0.15")
+        .object("table", "steel", "plane = { size_m = [0.4, 0.4] }")
+        .random("table", 400)
+        .object("ball", "steel", "sphere = { radius_m = 0.03 }")
+        .with("translation_m = [0.04, 0.03, 0.04]")
+        .part("[[light]]\nkind = \"sun\"\ndirection = [-0.1, -0.75, -0.65]\nirradiance = 2.0\ntemperature_k = 5000")
+        .scene();
+    if let Some(gpu) = on_the_gpu(&scene, 4) {
+        compare("a sun", &scene, &gpu, &on_the_cpu(&scene, 4))?;
+    }
+    let Some(gpu) = on_the_gpu_by(&scene, &Method::default(), 16, Some(0)) else {
+        return Ok(());
+    };
+    let options = RenderOptions {
+        samples: 16,
+        shadows: true,
+        bounces: 0,
+        ..RenderOptions::default()
+    };
+    let cpu = render(&scene, &options, &|_| {});
+    let open = on_the_cpu(&scene, 16);
+    let sum = |image: &Image, of: fn(&Image) -> &[[f32; 3]]| -> f64 {
+        of(image).iter().map(|rgb| f64::from(rgb[1])).sum()
+    };
+    for of in [
+        (|image| &image.base[..]) as fn(&Image) -> &[[f32; 3]],
+        |image| &image.scratches[..],
+    ] {
+        let [open, cpu, gpu] = [&open, &cpu, &gpu].map(|image| sum(image, of));
+        println!("sun: {open} open, {cpu} shadowed on the CPU, {gpu} on the GPU");
+        // Rays of the two are not the same.
+        assert!((gpu / cpu - 1.0).abs() < 0.01, "{gpu} {cpu}");
+        assert!(cpu < 0.97 * open, "{cpu} of {open}");
+    }
+    Ok(())
 }

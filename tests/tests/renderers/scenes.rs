@@ -57,7 +57,7 @@ macro_rules! scenes {
     };
 }
 
-scenes! { baubles bokeh bonnet brushed built_in_scene caseback closeup disc drawn dvd groove knife knob lamps lid lighter lights mirror movement pan phone plate record rings seal spoon sunlit }
+scenes! { baubles bokeh bonnet brushed built_in_scene caseback closeup disc drawn dvd groove knife knob lamps lid lighter lights mirror movement pan phone plate record rings seal spoon sundial sunlit }
 
 #[test]
 fn no_scene_is_left_out() {

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use glam::DVec3;
 use hairline_memory::{available_bytes, in_words};
+use hairline_scene::description::{self, LightKind};
 use hairline_scene::estimate::{Estimate, scratches_bytes, textures_bytes};
 use hairline_scene::text::shown;
 use hairline_scene::{Light, LightShape};
@@ -62,9 +63,66 @@ struct Grating {
 struct Lamp {
     name: Option<String>,
     kind: &'static str,
-    center_m: [f64; 3],
-    radiance: [f64; 3],
+    #[serde(flatten)]
+    strength: Strength,
     hidden: bool,
+}
+
+/// Where a lamp is, and how bright.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Strength {
+    Near {
+        center_m: [f64; 3],
+        radiance: [f64; 3],
+    },
+    Sun {
+        /// The way that its light goes.
+        direction: [f64; 3],
+        angle_deg: f64,
+        irradiance: [f64; 3],
+    },
+}
+
+impl Strength {
+    fn of(light: &description::Light) -> Self {
+        match light.kind {
+            LightKind::Sun {
+                direction,
+                angle_deg,
+                irradiance,
+            } => Self::Sun {
+                direction: DVec3::from(direction).normalize_or_zero().into(),
+                angle_deg,
+                irradiance: light.color.map(|channel| channel * irradiance),
+            },
+            _ => Self::Near {
+                center_m: hairline_editor::place_light::center(light).into(),
+                radiance: light.color.map(|channel| channel * light.radiance),
+            },
+        }
+    }
+}
+
+impl fmt::Display for Strength {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let rgb = |rgb: &[f64; 3]| rgb.map(|it| format!("{it:.3}")).join(", ");
+        match self {
+            Self::Near { center_m, radiance } => {
+                write!(f, "at {}, radiance {}", point(*center_m), rgb(radiance))
+            }
+            Self::Sun {
+                direction,
+                angle_deg,
+                irradiance,
+            } => write!(
+                f,
+                "shining towards {}, {angle_deg} degrees wide, irradiance {}",
+                rgb(direction),
+                rgb(irradiance)
+            ),
+        }
+    }
 }
 
 #[derive(Serialize)]
@@ -173,8 +231,7 @@ fn contents(loaded: &Loaded) -> Contents {
     let lights = description.lights.iter().map(|light| Lamp {
         name: light.name.clone(),
         kind: light.kind.name(),
-        center_m: hairline_editor::place_light::center(light).into(),
-        radiance: light.color.map(|channel| channel * light.radiance),
+        strength: Strength::of(light),
         hidden: light.hidden,
     });
     let up = scene.camera.up;
@@ -337,11 +394,10 @@ fn write(contents: &Contents, out: &mut String) -> fmt::Result {
     for (i, lamp) in contents.lights.iter().enumerate() {
         writeln!(
             out,
-            "  {}{} at {}, radiance {}{}",
+            "  {}{} {}{}",
             lamp.kind,
             named(&lamp.name),
-            point(lamp.center_m),
-            lamp.radiance.map(|it| format!("{it:.3}")).join(", "),
+            lamp.strength,
             if lamp.hidden { ", hidden" } else { "" }
         )?;
         if i == MOST_LINES {

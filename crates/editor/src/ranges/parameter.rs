@@ -165,6 +165,12 @@ pub enum Parameter {
     LightVertex,
     /// An end of `light.ends_m`
     LightEnd,
+    /// `light.direction`
+    SunDirection,
+    /// `light.angle_deg`
+    SunAngle,
+    /// `light.irradiance`
+    Irradiance,
     /// `light.cone_deg`
     LightCone,
     /// `light.cone_softness`

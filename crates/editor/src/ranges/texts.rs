@@ -325,6 +325,18 @@ pub(super) fn of(parameter: Parameter) -> Text {
             "End",
             "An end of the line within the tube. Scratches that run along the tube show colours across it.",
         ),
+        P::SunDirection => (
+            "Direction",
+            "The way that the light goes, from the sun to the scene. Its length does not matter.",
+        ),
+        P::SunAngle => (
+            "Angle",
+            "How wide it is as seen from the scene: the sun 0.53 degrees. A wider one blurs rainbows and the edges of shadows; the scene stays as bright.",
+        ),
+        P::Irradiance => (
+            "Irradiance",
+            "What falls on a surface that faces the sun, W per square metre; 683 lux are 1. White paper under 3.14 is as bright as white gets.",
+        ),
         P::LightCone => (
             "Cone",
             "The angle of the cone from rim to rim. Outside of it there is no light.",

@@ -197,6 +197,25 @@ proptest! {
     }
 }
 
+/// It shines from the side of the mirror image, turns about the scene, and has no place and no size by hand.
+#[test]
+fn a_sun_is_placed_and_turned_by_its_direction_alone() {
+    let mut light = Light::new(LightKind::sun([0.0, 0.0, -1.0]));
+    let direction = |light: &Light| light.kind.sunbeam().unwrap();
+    let [eye, at] = [DVec3::new(0.0, -3.0, 4.0), DVec3::ZERO];
+    for normal in [DVec3::Z, DVec3::NEG_Z] {
+        place_highlight(&mut light, eye, at, normal);
+        assert!(direction(&light).distance(DVec3::new(0.0, -0.6, -0.8)) < 1e-6);
+    }
+    let before = light.clone();
+    translate(&mut light, DVec3::ONE);
+    resize(&mut light, 2.0);
+    assert_eq!(light, before);
+    rotate(&mut light, DVec3::X, std::f64::consts::FRAC_PI_2);
+    assert!(direction(&light).distance(DVec3::new(0.0, 0.8, -0.6)) < 1e-6);
+    light.check().unwrap();
+}
+
 fn square() -> Light {
     Light::new(LightKind::Polygon {
         vertices_m: vec![

@@ -31,6 +31,7 @@ from ._tables import (
     Settings,
     SphereLight,
     Studio,
+    SunLight,
     TubeLight,
 )
 
@@ -58,6 +59,7 @@ __all__ = [
     "Settings",
     "SphereLight",
     "Studio",
+    "SunLight",
     "TubeLight",
     "WorkError",
     "__version__",

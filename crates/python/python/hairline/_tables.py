@@ -527,16 +527,16 @@ class Light(Table):
     """``[[light]]``: one of the kinds below."""
 
     _section = "light"
-    _absent = {"hidden": False, "visible": False, "exposure_ev": 0.0}
+    _absent = {"hidden": False, "visible": False, "radiance": 1.0, "exposure_ev": 0.0}
 
     name: Optional[str] = _default()
     """Free text."""
     hidden: bool = _default()
     """Lights nothing. Default: False."""
     visible: bool = _default()
-    """Whether the camera sees its shape. Default: False."""
+    """Whether the camera sees its shape; not of a sun. Default: False."""
     radiance: float = _default()
-    """W sr^-1 m^-2. Default: 1."""
+    """W sr^-1 m^-2; not of a sun. Default: 1."""
     exposure_ev: float = _default()
     """Stops: the radiance is multiplied by 2^exposure_ev. Default: 0."""
     temperature_k: Optional[float] = _default()
@@ -544,7 +544,7 @@ class Light(Table):
     color: Vector = _default()
     """Factor on the radiance, linear Rec.709, 3 numbers. Default: 1."""
     cone_deg: Optional[float] = _default()
-    """A spot's cone from rim to rim, degrees. Default: light leaves in all directions."""
+    """A spot's cone from rim to rim, degrees; not of a sun. Default: light leaves in all directions."""
     cone_softness: Optional[float] = _default()
     """The part of the way from rim to axis in which light falls off. Default: 0.1, with a cone."""
     barn_doors_deg: Optional[Sequence[float]] = _default()
@@ -630,12 +630,27 @@ class TubeLight(Light):
     """What its cone points to, metres, 3 numbers."""
 
 
+class SunLight(Light):
+    """Round, and so far off that it stands in one direction for all of the scene."""
+
+    _fixed = {"kind": "sun"}
+    _absent = {"hidden": False, "exposure_ev": 0.0}
+
+    direction: Vector
+    """The way that its light goes, of any length, 3 numbers."""
+    angle_deg: float = _default()
+    """The angle that it spans, across, degrees. Default: 0.53."""
+    irradiance: float = _default()
+    """What falls on a surface that faces it, W m^-2. Default: 1."""
+
+
 _LIGHTS: dict[str, type[Light]] = {
     "sphere": SphereLight,
     "disk": DiskLight,
     "rectangle": RectangleLight,
     "polygon": PolygonLight,
     "tube": TubeLight,
+    "sun": SunLight,
 }
 
 T = TypeVar("T", bound=Table)

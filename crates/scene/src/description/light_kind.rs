@@ -1,10 +1,12 @@
 //! The shapes of lights.
 
+use std::f64::consts::PI;
+
 use glam::DVec3;
 use serde::Serialize;
 
-use super::limits::ROTATION_DEG;
-use super::ranges::{Check, point, size, within};
+use super::limits::{ROTATION_DEG, SUN_ANGLE_DEG};
+use super::ranges::{Check, direction, not_negative, point, size, within};
 use super::table::Table;
 use super::values::{is_false, is_zero};
 use crate::error::Error;
@@ -64,12 +66,47 @@ pub enum LightKind {
         /// Required.
         radius_m: f64,
     },
+    /// `"sun"`: round, and so far off that it stands in one direction for all of the scene.
+    Sun {
+        /// The way that its light goes, of any length. Required.
+        direction: [f64; 3],
+        /// The angle that it spans as seen from the scene, across. Default: that of the sun, 0.53.
+        angle_deg: f64,
+        /// What falls on a surface that faces it, W m^-2 in effect; not negative. It takes the place of a radiance. Default: 1.
+        irradiance: f64,
+    },
 }
 
+/// Of the sun as the earth sees it, across.
+pub(crate) const SUN_DEG: f64 = 0.53;
+
 /// The keys that belong to each kind.
-pub(super) const KEYS: [(&str, &[&str]); 5] = [
-    ("sphere", &["center_m", "radius_m", "target_m"]),
-    ("disk", &["center_m", "target_m", "radius_m", "two_sided"]),
+pub(super) const KEYS: [(&str, &[&str]); 6] = [
+    (
+        "sphere",
+        &[
+            "center_m",
+            "radius_m",
+            "target_m",
+            "radiance",
+            "visible",
+            "cone_deg",
+            "cone_softness",
+        ],
+    ),
+    (
+        "disk",
+        &[
+            "center_m",
+            "target_m",
+            "radius_m",
+            "two_sided",
+            "radiance",
+            "visible",
+            "cone_deg",
+            "cone_softness",
+        ],
+    ),
     (
         "rectangle",
         &[
@@ -79,10 +116,36 @@ pub(super) const KEYS: [(&str, &[&str]); 5] = [
             "height_m",
             "rotation_deg",
             "two_sided",
+            "radiance",
+            "visible",
+            "cone_deg",
+            "cone_softness",
         ],
     ),
-    ("polygon", &["vertices_m", "two_sided"]),
-    ("tube", &["ends_m", "radius_m", "target_m"]),
+    (
+        "polygon",
+        &[
+            "vertices_m",
+            "two_sided",
+            "radiance",
+            "visible",
+            "cone_deg",
+            "cone_softness",
+        ],
+    ),
+    (
+        "tube",
+        &[
+            "ends_m",
+            "radius_m",
+            "target_m",
+            "radiance",
+            "visible",
+            "cone_deg",
+            "cone_softness",
+        ],
+    ),
+    ("sun", &["direction", "angle_deg", "irradiance"]),
 ];
 
 impl LightKind {
@@ -99,6 +162,15 @@ impl LightKind {
         }
     }
 
+    /// A sun as wide as ours, of irradiance 1.
+    pub fn sun(direction: [f64; 3]) -> Self {
+        Self::Sun {
+            direction,
+            angle_deg: SUN_DEG,
+            irradiance: 1.0,
+        }
+    }
+
     /// What scene files call it.
     pub fn name(&self) -> &'static str {
         match self {
@@ -107,6 +179,7 @@ impl LightKind {
             Self::Rectangle { .. } => "rectangle",
             Self::Polygon { .. } => "polygon",
             Self::Tube { .. } => "tube",
+            Self::Sun { .. } => "sun",
         }
     }
 
@@ -118,6 +191,7 @@ impl LightKind {
             Self::Rectangle { .. } => "rectangle light",
             Self::Polygon { .. } => "polygon light",
             Self::Tube { .. } => "tube light",
+            Self::Sun { .. } => "sun",
         }
     }
 
@@ -132,7 +206,7 @@ impl LightKind {
     /// The corners of the polygon that it is to renderers, counter-clockwise as seen from where it shines; none of what is not flat.
     pub fn corners_m(&self) -> Vec<DVec3> {
         match self {
-            Self::Sphere { .. } | Self::Tube { .. } => Vec::new(),
+            Self::Sphere { .. } | Self::Tube { .. } | Self::Sun { .. } => Vec::new(),
             Self::Disk {
                 center_m,
                 target_m,
@@ -161,8 +235,8 @@ impl LightKind {
         }
     }
 
-    /// Its middle: of a polygon the middle of the box around it.
-    pub(super) fn middle_m(&self) -> DVec3 {
+    /// Its middle: of a polygon the middle of the box around it, of a sun far off.
+    pub fn middle_m(&self) -> DVec3 {
         self.in_scene([0.0; 3]).bounding_sphere().0
     }
 
@@ -197,10 +271,18 @@ impl LightKind {
     /// Whether both sides of a flat one shine.
     pub fn is_two_sided(&self) -> bool {
         match self {
-            Self::Sphere { .. } | Self::Tube { .. } => false,
+            Self::Sphere { .. } | Self::Tube { .. } | Self::Sun { .. } => false,
             Self::Disk { two_sided, .. }
             | Self::Rectangle { two_sided, .. }
             | Self::Polygon { two_sided, .. } => *two_sided,
+        }
+    }
+
+    /// The unit direction that the light of a sun goes in; none of others.
+    pub fn sunbeam(&self) -> Option<DVec3> {
+        match self {
+            Self::Sun { direction, .. } => Some(DVec3::from(*direction).normalize_or(DVec3::NEG_Z)),
+            _ => None,
         }
     }
 
@@ -267,6 +349,15 @@ impl LightKind {
                     )),
                 }
             }
+            Self::Sun {
+                direction: towards,
+                angle_deg,
+                irradiance,
+            } => {
+                direction(&format!("{key}.direction"), *towards)?;
+                within(&format!("{key}.angle_deg"), *angle_deg, SUN_ANGLE_DEG)?;
+                not_negative(&format!("{key}.irradiance"), *irradiance)
+            }
             Self::Polygon { vertices_m, .. } => {
                 let key = format!("{key}.vertices_m");
                 for (i, vertex) in vertices_m.iter().enumerate() {
@@ -278,7 +369,7 @@ impl LightKind {
         }
     }
 
-    /// What it is in a scene.
+    /// What it is in a scene. `radiance` is that of its surface; of a sun a factor on what its irradiance makes of it.
     pub(super) fn in_scene(&self, radiance: [f64; 3]) -> scene::Light {
         match self {
             Self::Sphere { center_m, radius_m } => {
@@ -286,6 +377,17 @@ impl LightKind {
             }
             Self::Tube { ends_m, radius_m } => {
                 scene::Light::tube(ends_m.map(DVec3::from), *radius_m, radiance)
+            }
+            Self::Sun {
+                direction,
+                angle_deg,
+                irradiance,
+            } => {
+                let towards_it = -DVec3::from(*direction).normalize_or(DVec3::NEG_Z);
+                let radius_rad = 0.5 * angle_deg.to_radians();
+                // A disc of even radiance in the sky.
+                let surface = irradiance / (PI * radius_rad.sin().powi(2));
+                scene::Light::sun(towards_it, radius_rad, radiance.map(|c| c * surface))
             }
             _ => scene::Light::polygon(self.corners_m(), radiance, self.is_two_sided()),
         }
@@ -315,6 +417,11 @@ impl LightKind {
             "tube" => Self::Tube {
                 ends_m: table.required("ends_m")?,
                 radius_m: table.required("radius_m")?,
+            },
+            "sun" => Self::Sun {
+                direction: table.required("direction")?,
+                angle_deg: table.or("angle_deg", SUN_DEG)?,
+                irradiance: table.or("irradiance", 1.0)?,
             },
             _ => Self::Polygon {
                 vertices_m: table.required("vertices_m")?,

@@ -29,7 +29,8 @@ pub struct Light {
     /// `kind` and the keys that belong to it.
     #[serde(flatten)]
     pub kind: LightKind,
-    /// W sr^-1 m^-2 in effect; not negative. Default: 1.
+    /// W sr^-1 m^-2 in effect; not negative. Of a sun 1: its irradiance tells. Default: 1.
+    #[serde(skip_serializing_if = "is_one")]
     pub radiance: f64,
     /// Stops: the radiance is multiplied by 2^`exposure_ev`. Default: 0.
     #[serde(skip_serializing_if = "is_zero")]
@@ -64,6 +65,10 @@ pub struct Cone {
     /// What the cone of a sphere or a tube points to; required there. Others have their own axis.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub target_m: Option<[f64; 3]>,
+}
+
+fn is_one(factor: &f64) -> bool {
+    *factor == 1.0
 }
 
 const DEFAULT_SOFTNESS: f64 = 0.1;
@@ -164,6 +169,7 @@ impl Light {
             )?;
         }
         self.kind.check_at(key)?;
+        self.check_sun(key)?;
         self.check_doors(&format!("{key}.barn_doors_deg"))?;
         if self.picture.is_some() && !matches!(self.kind, LightKind::Rectangle { .. }) {
             return Err(Error::new(
@@ -174,6 +180,26 @@ impl Light {
         }
         match &self.cone {
             Some(cone) => cone.check_at(key, &self.kind),
+            None => Ok(()),
+        }
+    }
+
+    /// A sun has no surface that could be seen, and no place that a cone could begin in.
+    fn check_sun(&self, key: &str) -> Check {
+        if self.kind.sunbeam().is_none() {
+            return Ok(());
+        }
+        let odd = [
+            ("visible", self.visible),
+            ("radiance", self.radiance != 1.0),
+            ("cone_deg", self.cone.is_some()),
+        ];
+        match odd.into_iter().find(|(_, is_there)| *is_there) {
+            Some((name, _)) => Err(Error::new(
+                format!("{key}.{name}"),
+                "found a sun",
+                "must be left out; a sun has `direction`, `angle_deg` and `irradiance`",
+            )),
             None => Ok(()),
         }
     }
@@ -237,26 +263,27 @@ impl Read for Light {
                 "kind",
                 "name",
                 "hidden",
-                "visible",
-                "radiance",
                 "exposure_ev",
                 "temperature_k",
                 "color",
-                "cone_deg",
-                "cone_softness",
                 "barn_doors_deg",
                 "picture",
             ],
             &light_kind::KEYS,
         )?;
         let kind = LightKind::read(kind, &table)?;
-        let cone = cone(&table, &kind)?;
+        let is_sun = kind.sunbeam().is_some();
+        let cone = if is_sun { None } else { cone(&table, &kind)? };
         Ok(Self {
             name: table.optional("name")?,
             hidden: table.or("hidden", false)?,
-            visible: table.or("visible", false)?,
+            visible: !is_sun && table.or("visible", false)?,
+            radiance: if is_sun {
+                1.0
+            } else {
+                table.or("radiance", 1.0)?
+            },
             kind,
-            radiance: table.or("radiance", 1.0)?,
             exposure_ev: table.or("exposure_ev", 0.0)?,
             temperature_k: table.optional("temperature_k")?,
             color: table.or("color", [1.0; 3])?,

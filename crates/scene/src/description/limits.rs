@@ -30,6 +30,8 @@ pub const APERTURE_MM: RangeInclusive<f64> = 0.0..=1000.0;
 pub const ROTATION_DEG: RangeInclusive<f64> = -360.0..=360.0;
 /// `light.cone_deg`
 pub const CONE_DEG: RangeInclusive<f64> = 0.1..=360.0;
+/// `light.angle_deg`: narrower, single precision would not tell one edge of it from the other.
+pub const SUN_ANGLE_DEG: RangeInclusive<f64> = 0.01..=90.0;
 /// `light.barn_doors_deg`
 pub const BARN_DOOR_DEG: RangeInclusive<f64> = 0.0..=90.0;
 /// `light.temperature_k`

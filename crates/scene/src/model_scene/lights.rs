@@ -4,15 +4,11 @@ use glam::DVec3;
 use std::f64::consts::PI;
 
 use crate::description::limits::{CONE_DEG, LARGEST_M, SMALLEST_M};
-use crate::description::{Cone, Light, LightKind};
+use crate::description::{Cone, Light, LightKind, SUN_DEG};
 use crate::mesh_file::{Punctual, PunctualKind};
 
 /// The radius of a lamp over the extent of its model: scratches show clear colours of it.
 const LAMP_RADIUS: f64 = 0.01;
-/// Of the sun as the earth sees it.
-const SUN_RADIUS_RAD: f64 = 0.004_65;
-/// How far off a sun stands: beyond any model that is shown.
-const SUN_M: f64 = 500.0;
 /// The extension counts in lumens. Exporters take a watt for as many of them.
 const LUMENS_PER_WATT: f64 = 683.0;
 
@@ -26,26 +22,24 @@ pub(super) fn lamp(
 ) -> Option<Light> {
     let towards = upright(light.direction).normalize_or(DVec3::NEG_Z);
     let watts = light.intensity / LUMENS_PER_WATT;
-    let (center_m, radius_m, radiance) = match light.kind {
-        PunctualKind::Directional => {
-            let radius_m = SUN_M * SUN_RADIUS_RAD.sin();
-            // What falls on a surface that faces it is that of the disc that is seen.
-            (
-                -SUN_M * towards,
-                radius_m,
-                watts / (PI * SUN_RADIUS_RAD.sin().powi(2)),
-            )
-        }
-        PunctualKind::Point | PunctualKind::Spot { .. } => {
-            let radius = LAMP_RADIUS * extent;
-            let radiance = watts / (PI * radius * radius);
-            (
-                upright(light.position),
-                (factor * radius).max(SMALLEST_M),
-                radiance,
-            )
-        }
+    let of_kind = |kind: LightKind| Light {
+        name: light.name.clone(),
+        color: light.color,
+        ..Light::new(kind)
     };
+    if light.kind == PunctualKind::Directional {
+        return watts.is_finite().then(|| {
+            of_kind(LightKind::Sun {
+                direction: towards.into(),
+                angle_deg: SUN_DEG,
+                irradiance: watts,
+            })
+        });
+    }
+    let radius = LAMP_RADIUS * extent;
+    let radiance = watts / (PI * radius * radius);
+    let center_m = upright(light.position);
+    let radius_m = (factor * radius).max(SMALLEST_M);
     if center_m.abs().max_element() > LARGEST_M || !radiance.is_finite() {
         return None;
     }
@@ -66,12 +60,8 @@ pub(super) fn lamp(
         PunctualKind::Point | PunctualKind::Directional => None,
     };
     Some(Light {
-        name: light.name.clone(),
         radiance,
-        color: light.color,
         cone,
-        barn_doors_deg: None,
-        picture: None,
-        ..Light::new(LightKind::sphere(center_m.into(), radius_m))
+        ..of_kind(LightKind::sphere(center_m.into(), radius_m))
     })
 }

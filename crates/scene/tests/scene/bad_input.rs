@@ -334,6 +334,55 @@ fn sizes_that_are_negative_or_not_finite() {
             "{message}"
         );
     }
+    let sun = |keys: &str| light(&format!("kind = \"sun\"\n{keys}"));
+    assert_eq!(
+        sun("angle_deg = 2"),
+        "plate.toml:15: light[0]: `direction` is missing; `light[0]` needs it"
+    );
+    assert_eq!(
+        sun("direction = [0, 0, 0]"),
+        "plate.toml:17: light[0].direction: found no direction: all three numbers are 0; must point somewhere"
+    );
+    assert_eq!(
+        sun("direction = [0, 0, -1]\nangle_deg = 0"),
+        "plate.toml:18: light[0].angle_deg: found 0; must be from 0.01 to 90"
+    );
+    assert_eq!(
+        sun("direction = [0, 0, -1]\nirradiance = -1"),
+        "plate.toml:18: light[0].irradiance: found -1; must be 0 or greater"
+    );
+    for (key, owners) in [
+        ("radius_m = 1", "`sphere`, `disk` and `tube`"),
+        ("center_m = [0, 0, 1]", "`sphere`, `disk` and `rectangle`"),
+        (
+            "radiance = 1",
+            "`sphere`, `disk`, `rectangle`, `polygon` and `tube`",
+        ),
+        (
+            "visible = true",
+            "`sphere`, `disk`, `rectangle`, `polygon` and `tube`",
+        ),
+        (
+            "cone_deg = 30",
+            "`sphere`, `disk`, `rectangle`, `polygon` and `tube`",
+        ),
+    ] {
+        let name = key.split(' ').next().unwrap();
+        assert_eq!(
+            sun(&format!("direction = [0, 0, -1]\n{key}")),
+            format!(
+                "plate.toml:18: light[0].{name}: kind `sun` has no such key; it belongs to {owners}"
+            )
+        );
+    }
+    assert_eq!(
+        sun("direction = [0, 0, -1]\nbarn_doors_deg = [30, 30, 30, 30]"),
+        "plate.toml:18: light[0].barn_doors_deg: found barn doors of a sun; must be those of a disk or a rectangle that shines to one side"
+    );
+    assert_eq!(
+        light("kind = \"sphere\"\ncenter_m = [0, 0, 1]\nradius_m = 1\nirradiance = 1"),
+        "plate.toml:19: light[0].irradiance: kind `sphere` has no such key; it belongs to `sun`"
+    );
     assert_eq!(
         light("kind = \"tube\"\nends_m = [[0, 0, 1], [0, 0, 1]]\nradius_m = 1"),
         "plate.toml:17: light[0].ends_m: found two equal ends; must be two places; a round lamp is a `sphere`"

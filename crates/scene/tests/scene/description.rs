@@ -318,6 +318,11 @@ fn everything() -> Description {
                 ends_m: [[0.0, 0.0, 1.0], [0.0, 0.5, 1.0]],
                 radius_m: 0.125,
             }),
+            Light::new(LightKind::Sun {
+                direction: [0.5, 0.0, -2.0],
+                angle_deg: 1.5,
+                irradiance: 0.25,
+            }),
             Light::new(LightKind::Rectangle {
                 center_m: [0.0, 0.0, 1.0],
                 target_m: [0.5, 0.0, 0.0],

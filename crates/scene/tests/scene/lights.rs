@@ -3,10 +3,12 @@
 use glam::{DVec2, DVec3};
 use hairline_optics::band::{BandFrame, BandLine, Outline, OutlineEdge, OutlineRoots};
 use hairline_optics::irradiance::lambert_polygon;
-use hairline_scene::description::LightKind;
+use hairline_scene::description::{Cone, Light, LightKind};
+use hairline_scene::{Description, Scene};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use std::f64::consts::PI;
+use std::path::Path;
 
 #[test]
 fn a_rectangle_lies_as_its_keys_say() {
@@ -36,6 +38,77 @@ fn a_rectangle_lies_as_its_keys_say() {
     for (found, [x, y]) in rectangle([1.0, 0.0, 3.0], 0.0).iter().zip(upright) {
         assert!(found.distance(DVec3::new(x, 0.0, y)) < 1e-12, "{found}");
     }
+}
+
+/// Wherever in the scene, and however wide it is, by the solid angle's projection on what faces it.
+#[test]
+fn a_sun_stands_in_one_direction_and_sends_what_its_irradiance_says() {
+    for (direction, angle_deg) in [([0.0, 3.0, -4.0], 0.53), ([-1.0, 0.0, 0.0], 30.0)] {
+        let light = Light {
+            color: [1.0, 0.5, 0.25],
+            exposure_ev: 1.0,
+            ..Light::new(LightKind::Sun {
+                direction,
+                angle_deg,
+                irradiance: 2.0,
+            })
+        };
+        light.check().unwrap();
+        let towards_it = -DVec3::from(direction).normalize();
+        let sun = in_scene(light);
+        let (center_m, radius_m) = sun.bounding_sphere();
+        for at_m in [DVec3::ZERO, DVec3::new(3.0, -2.0, 1.0)] {
+            let way = center_m - at_m;
+            // A scene of some metres is a point beside it.
+            assert!(way.normalize().distance(towards_it) < 1e-4);
+            let sin = radius_m / way.length();
+            assert!((2.0 * sin.asin().to_degrees() / angle_deg - 1.0).abs() < 1e-4);
+            for (radiance, expected) in sun.radiance.into_iter().zip([4.0, 2.0, 1.0]) {
+                let irradiance = PI * radiance * sin * sin;
+                assert!((irradiance / expected - 1.0).abs() < 1e-4, "{irradiance}");
+            }
+        }
+    }
+}
+
+#[test]
+fn what_a_sun_cannot_have_is_refused_in_code_too() {
+    let sun = Light::new(LightKind::sun([0.0, 0.0, -1.0]));
+    sun.check().unwrap();
+    let odd = [
+        (
+            "visible",
+            Light {
+                visible: true,
+                ..sun.clone()
+            },
+        ),
+        (
+            "radiance",
+            Light {
+                radiance: 2.0,
+                ..sun.clone()
+            },
+        ),
+        (
+            "cone_deg",
+            Light {
+                cone: Some(Cone::new(30.0, None)),
+                ..sun.clone()
+            },
+        ),
+    ];
+    for (key, light) in odd {
+        let error = light.check().unwrap_err();
+        assert_eq!(error.key(), format!("light.{key}"));
+    }
+}
+
+fn in_scene(light: Light) -> hairline_scene::Light {
+    const DARK: &str = "[camera]\nposition_m = [0, -1, 1]\ntarget_m = [0, 0, 0]\n[[material]]\nname = \"m\"\nkind = \"mirror\"\n[[object]]\nname = \"o\"\nshape = { disk = { radius_m = 0.1 } }\nmaterial = \"m\"";
+    let mut description = Description::from_toml(DARK, Path::new("test")).unwrap();
+    description.lights = vec![light];
+    Scene::build(&description, Path::new("")).unwrap().lights[0].clone()
 }
 
 /// A round light before the surface whose normal is z, seen from the origin.

@@ -28,8 +28,10 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     form.text("Name", "What the outliner calls it", &mut name);
     light.name = (!name.is_empty()).then_some(name);
     form.toggle("Hidden", "A hidden light gives no light", &mut light.hidden);
-    form.toggle("Visible", "The camera sees its shape", &mut light.visible);
-    form.number(Parameter::Radiance, &mut light.radiance);
+    if light.kind.sunbeam().is_none() {
+        form.toggle("Visible", "The camera sees its shape", &mut light.visible);
+        form.number(Parameter::Radiance, &mut light.radiance);
+    }
     form.number(Parameter::LightExposure, &mut light.exposure_ev);
     let mut glows = light.temperature_k.is_some();
     form.toggle(
@@ -86,6 +88,15 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
         LightKind::Polygon { two_sided, .. } => {
             form.toggle("Two-sided", TWO_SIDED, two_sided);
         }
+        LightKind::Sun {
+            direction,
+            angle_deg,
+            irradiance,
+        } => {
+            form.number(Parameter::Irradiance, irradiance);
+            form.vector(Parameter::SunDirection, direction);
+            form.number(Parameter::SunAngle, angle_deg);
+        }
     }
     cone(&mut form, &mut light);
     doors(&mut form, &mut light);
@@ -113,9 +124,9 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     });
 }
 
-/// The cone of a spot; a light whose two sides shine has none.
+/// The cone of a spot; a light whose two sides shine has none, nor has a sun.
 fn cone(form: &mut Form, light: &mut Light) {
-    if light.kind.is_two_sided() {
+    if light.kind.is_two_sided() || light.kind.sunbeam().is_some() {
         light.cone = None;
         return;
     }

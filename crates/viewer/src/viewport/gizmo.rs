@@ -27,7 +27,7 @@ use draw_handles::{draw_handles, draw_off_screen, draw_words};
 use handles::{Handle, Placed};
 use motion::{Aim, Motion};
 
-pub(super) use lights::{at as light_at, show as show_lights};
+pub(super) use lights::{at as light_at, middle as light_middle, show as show_lights};
 
 /// Size of a handle's rectangle for the mouse, points.
 const REACH: f32 = 14.0;

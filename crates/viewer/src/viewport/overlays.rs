@@ -1,9 +1,8 @@
 //! What is drawn over the picture, kind by kind.
 
-use egui::{Align2, Color32, FontId, Painter, Ui};
-use glam::DVec3;
+use egui::{Align2, Color32, FontId, Painter, Pos2, Ui};
+use hairline_editor::Selection;
 use hairline_editor::actions::lights;
-use hairline_editor::{Selection, place_light};
 
 use super::gizmo::{self, Gizmo};
 use super::lens::Lens;
@@ -50,8 +49,7 @@ fn show_names(ui: &Ui, work: &Workspace, area: &Area) {
         let (low_m, high_m) = work.bounds_m(Some(i));
         name(
             &painter,
-            &lens,
-            0.5 * (low_m + high_m),
+            lens.project(0.5 * (low_m + high_m)),
             &object.name,
             Color32::WHITE,
         );
@@ -65,12 +63,13 @@ fn show_names(ui: &Ui, work: &Workspace, area: &Area) {
             None => format!("{} {}", lights::title(light), i + 1),
         };
         let color = Color32::from_rgb(255, 228, 165);
-        name(&painter, &lens, place_light::center(light), &title, color);
+        let middle = gizmo::light_middle(light, &lens, description);
+        name(&painter, middle, &title, color);
     }
 }
 
-fn name(painter: &Painter, lens: &Lens, point_m: DVec3, words: &str, color: Color32) {
-    let Some(pos) = lens.project(point_m) else {
+fn name(painter: &Painter, middle: Option<Pos2>, words: &str, color: Color32) {
+    let Some(pos) = middle else {
         return;
     };
     let at = pos + egui::vec2(0.0, 9.0);

@@ -48,6 +48,12 @@ impl Workspace {
     /// Brings a part, or all, into the picture.
     pub fn frame(&mut self, part: Option<Selection>) {
         let description = self.document.description();
+        let is_sun = |i: usize| {
+            let light = description.lights.get(i);
+            light.is_some_and(|light| light.kind.sunbeam().is_some())
+        };
+        // A sun stands nowhere: all that it shines on is framed.
+        let part = part.filter(|part| !matches!(part, Selection::Light(i) if is_sun(*i)));
         let points_m = match part {
             Some(Selection::Light(i)) => {
                 let Some(light) = description.lights.get(i) else {

@@ -291,3 +291,37 @@ fn a_click_on_the_outline_selects_a_light_and_hidden_ones_have_none() {
         Selection::Light(LAMP)
     );
 }
+
+#[test]
+fn a_sun_has_rings_about_what_the_camera_looks_at_and_is_met_by_its_sign() {
+    let mut harness = common::viewer(common::SMALL);
+    common::wait_built(&mut harness);
+    let document = harness.state_mut().document_mut();
+    document.edit("by the test", |d| {
+        d.lights[LAMP] = Light {
+            name: Some("sun".to_owned()),
+            ..Light::new(LightKind::sun([0.6, 0.0, -0.8]))
+        };
+    });
+    common::wait_built(&mut harness);
+    common::click_on(&mut harness, "sun");
+    for label in [
+        "Move light along x",
+        "Move light across the view",
+        "Resize light",
+    ] {
+        assert!(harness.query_by_label(label).is_none(), "{label}");
+    }
+    let direction =
+        |harness: &Harness<'static, Viewer>| common::light(harness, LAMP).kind.sunbeam().unwrap();
+    let before = direction(&harness);
+    let from = handle(&harness, "Turn light about z");
+    common::drag(&mut harness, from, from + vec2(40.0, -10.0), 7);
+    let after = direction(&harness);
+    assert!(before.distance(after) > 0.05, "{before} {after}");
+    // About z: its height stays, up to the digits that a file has.
+    assert!((before.z - after.z).abs() < 1e-5, "{before} {after}");
+    assert!((after.length() - 1.0).abs() < 1e-5);
+    common::undo(&mut harness);
+    assert_eq!(direction(&harness), before);
+}

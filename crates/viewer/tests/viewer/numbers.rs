@@ -132,3 +132,33 @@ fn lengths_and_vectors_have_units_that_read_well() {
     harness.run_steps(3);
     assert_eq!(*description(&harness), *before);
 }
+
+#[test]
+fn a_sun_is_described_by_direction_angle_and_irradiance() {
+    let mut harness = with_layer();
+    let document = harness.state_mut().document_mut();
+    document.edit("by the test", |d| {
+        d.lights[0] = hairline_scene::description::Light::new(LightKind::sun([0.0, 0.0, -1.0]));
+    });
+    document.select(Selection::Light(0));
+    harness.run_steps(3);
+    assert_eq!(shown(&harness, "Angle"), "0.53°");
+    type_into(&mut harness, "Angle", "2");
+    type_into(&mut harness, "Irradiance", "1.5");
+    type_into(&mut harness, "Direction x", "0.5");
+    let sun = LightKind::Sun {
+        direction: [0.5, 0.0, -1.0],
+        angle_deg: 2.0,
+        irradiance: 1.5,
+    };
+    assert_eq!(description(&harness).lights[0].kind, sun);
+    // A surface that the camera could see, a cone and flaps are those of other lights.
+    for label in ["Radiance", "Visible", "Spot", "Barn doors"] {
+        assert!(harness.query_by_label(label).is_none(), "{label}");
+    }
+    let saved = description(&harness).to_toml().unwrap();
+    assert!(
+        saved.contains("kind = \"sun\"") && !saved.contains("radiance = 1.0"),
+        "{saved}"
+    );
+}

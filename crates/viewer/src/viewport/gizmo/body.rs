@@ -14,6 +14,8 @@ pub(super) struct Body {
     pub noun: &'static str,
     /// What it moves with and turns about.
     pub center_m: DVec3,
+    /// Whether it has a place.
+    pub moves: bool,
     /// Whether it has a direction.
     pub turns: bool,
     /// Whether it has one size.
@@ -32,11 +34,12 @@ impl Body {
         match selection {
             Selection::Light(i) => {
                 let light = description.lights.get(i).filter(|light| !light.hidden)?;
-                Some(Self::of_light(light))
+                Some(Self::of_light(light, description))
             }
             Selection::Object(i) => Some(Self {
                 noun: "object",
                 center_m: description.objects.get(i)?.translation_m.into(),
+                moves: true,
                 turns: true,
                 ..Self::default()
             }),
@@ -44,10 +47,20 @@ impl Body {
         }
     }
 
-    fn of_light(light: &Light) -> Self {
+    fn of_light(light: &Light, description: &Description) -> Self {
+        if light.kind.sunbeam().is_some() {
+            // It stands nowhere: its rings lie about what the camera looks at.
+            return Self {
+                noun: "light",
+                center_m: description.camera.target_m.into(),
+                turns: true,
+                ..Self::default()
+            };
+        }
         Self {
             noun: "light",
             center_m: place_light::center(light),
+            moves: true,
             turns: !matches!(light.kind, LightKind::Sphere { .. }) || light.cone.is_some(),
             resizes: true,
             normal: place_light::facing(light),

@@ -91,7 +91,8 @@ pub(super) fn place(body: &Body, lens: &Lens) -> Option<Vec<Placed>> {
         }
     }
     let mut directions: Vec<Vec2> = Vec::new();
-    for (i, axis) in DVec3::AXES.into_iter().enumerate() {
+    let axes = body.moves.then_some(DVec3::AXES).into_iter().flatten();
+    for (i, axis) in axes.enumerate() {
         let Some(tip) = lens.project(center_m + axis * (m_per_point * f64::from(ARROW))) else {
             continue;
         };
@@ -134,11 +135,13 @@ pub(super) fn place(body: &Body, lens: &Lens) -> Option<Vec<Placed>> {
             knob,
         }));
     }
-    placed.push(Placed {
-        handle: Handle::Middle,
-        line: Vec::new(),
-        knob: middle,
-    });
+    if body.moves {
+        placed.push(Placed {
+            handle: Handle::Middle,
+            line: Vec::new(),
+            knob: middle,
+        });
+    }
     clear_knobs_of_rings(&mut placed);
     Some(placed)
 }

@@ -1,6 +1,6 @@
 //! Lights as outlines in the picture, and which one a click means.
 
-use egui::{Color32, Painter, Pos2};
+use egui::{Color32, Painter, Pos2, Vec2};
 use glam::DVec3;
 use hairline_editor::place_light;
 use hairline_optics::band::{TUBE_CORNERS, TubeOutline, tube_outline};
@@ -16,6 +16,8 @@ use crate::viewport::lens::Lens;
 const REACH: f32 = 8.0;
 /// A lamp is never seen smaller than this.
 const SMALLEST: f32 = 6.0;
+/// From what the camera looks at to the sign of a sun, were it to lie across the view, points.
+const SUN_REACH: f32 = 120.0;
 /// Length of the tick on the side on which a polygon shines.
 const TICK: f32 = 18.0;
 
@@ -34,14 +36,14 @@ pub(in crate::viewport) fn show(
             true => (1.75, Color32::from_rgba_unmultiplied(255, 224, 160, 230)),
             false => (1.25, Color32::from_rgba_unmultiplied(255, 236, 200, 190)),
         };
-        for piece in outline(light, lens) {
+        for piece in outline(light, lens, description) {
             ink::segment(painter, piece, width, color);
         }
         let cone = Spot::of(light).map(|spot| spot.outline(lens));
         for piece in cone.into_iter().flatten() {
             ink::segment(painter, piece, 0.7 * width, color.gamma_multiply(0.7));
         }
-        if let Some(middle) = lens.project(place_light::center(light)) {
+        if let Some(middle) = middle(light, lens, description) {
             ink::dot(painter, middle, 1.75, color);
             if let Some(tip) = tick(light, lens) {
                 ink::segment(painter, [middle, tip], width, color);
@@ -54,12 +56,10 @@ pub(in crate::viewport) fn show(
 pub(in crate::viewport) fn at(description: &Description, lens: &Lens, pos: Pos2) -> Option<usize> {
     let lights = description.lights.iter().enumerate();
     let distances = lights.filter(|(_, light)| !light.hidden).map(|(i, light)| {
-        let to_outline = outline(light, lens)
+        let to_outline = outline(light, lens, description)
             .into_iter()
             .map(|piece| distance_to_segment(piece, pos));
-        let to_middle = lens
-            .project(place_light::center(light))
-            .map(|middle| middle.distance(pos));
+        let to_middle = middle(light, lens, description).map(|middle| middle.distance(pos));
         (to_outline.chain(to_middle).fold(f32::INFINITY, f32::min), i)
     });
     let nearest = distances.min_by(|a, b| a.0.total_cmp(&b.0));
@@ -68,9 +68,58 @@ pub(in crate::viewport) fn at(description: &Description, lens: &Lens, pos: Pos2)
         .map(|(_, i)| i)
 }
 
+/// Where a light's middle is seen; of a sun the middle of the sign that stands for it. None behind the eye.
+pub(in crate::viewport) fn middle(
+    light: &Light,
+    lens: &Lens,
+    description: &Description,
+) -> Option<Pos2> {
+    match light.kind.sunbeam() {
+        Some(sunbeam) => {
+            let target_m = DVec3::from(description.camera.target_m);
+            let reach_m = lens.m_per_point(target_m) * f64::from(SUN_REACH);
+            lens.project(target_m - sunbeam * reach_m)
+        }
+        None => lens.project(place_light::center(light)),
+    }
+}
+
+/// A circle with rays, and an arrow from there to what the camera looks at: which way the light goes.
+fn sun_sign(middle: Pos2, target: Pos2) -> Vec<[Pos2; 2]> {
+    let around = |i: u8, radius: f32| {
+        middle + Vec2::angled(f32::from(i) / 16.0 * std::f32::consts::TAU) * radius
+    };
+    let circle = (0..16).map(|i| [around(i, SMALLEST), around(i + 1, SMALLEST)]);
+    let rays = (0..16).step_by(2);
+    let rays = rays.map(|i| [around(i, 1.5 * SMALLEST), around(i, 2.2 * SMALLEST)]);
+    let way = target - middle;
+    // Seen from its end an arrow tells nothing.
+    let arrow = (way.length() > 6.0 * SMALLEST).then(|| {
+        let along = way.normalized();
+        let tip = target - along * SMALLEST;
+        let barb = |side: f32| tip - along * 9.0 + along.rot90() * (5.0 * side);
+        [
+            [middle + along * (2.8 * SMALLEST), tip],
+            [barb(1.0), tip],
+            [barb(-1.0), tip],
+        ]
+    });
+    circle
+        .chain(rays)
+        .chain(arrow.into_iter().flatten())
+        .collect()
+}
+
 /// What of the outline lies before the eye, in pieces.
-fn outline(light: &Light, lens: &Lens) -> Vec<[Pos2; 2]> {
+fn outline(light: &Light, lens: &Lens, description: &Description) -> Vec<[Pos2; 2]> {
     let points_m = match &light.kind {
+        LightKind::Sun { .. } => {
+            let target = lens.project(description.camera.target_m.into());
+            return match (middle(light, lens, description), target) {
+                (Some(middle), Some(target)) => sun_sign(middle, target),
+                _ => Vec::new(),
+            };
+        }
         LightKind::Sphere { center_m, radius_m } => {
             let smallest_m = lens.m_per_point(DVec3::from(*center_m)) * f64::from(SMALLEST);
             circle(lens, (*center_m).into(), radius_m.max(smallest_m))
