@@ -167,6 +167,7 @@ fn read_view(value: &Value) -> Option<Bookmark> {
             up: vector("up")?,
             fov_y_deg: number(table.get("fov_y_deg")?).filter(|fov| (0.0..180.0).contains(fov))?,
             exposure_ev: 0.0,
+            sensor_width_mm: None,
             aperture_mm: None,
             focus_distance_m: None,
         },
@@ -185,6 +186,7 @@ mod tests {
             up: [0.0, 0.0, 1.0],
             fov_y_deg: 30.0,
             exposure_ev: 0.0,
+            sensor_width_mm: None,
             aperture_mm: None,
             focus_distance_m: None,
         }

@@ -39,11 +39,14 @@ pub(crate) const DEFAULT_DIAGONAL_M: f64 = 0.3;
 impl Parameter {
     /// Every parameter.
     #[cfg(test)]
-    pub(crate) const ALL: [Self; 91] = [
+    pub(crate) const ALL: [Self; 94] = [
         Self::CameraPosition,
         Self::CameraTarget,
         Self::CameraUp,
         Self::FieldOfView,
+        Self::FocalLength,
+        Self::SensorWidth,
+        Self::FStop,
         Self::Aperture,
         Self::FocusDistance,
         Self::Exposure,
@@ -151,7 +154,10 @@ impl Parameter {
                 (-1.0..=1.0, limits::DIRECTION)
             }
             P::FieldOfView => (5.0..=90.0, limits::FOV_Y_DEG),
-            P::Aperture => (1e-3 * d..=0.1 * d, 0.0..=1e-3 * limits::APERTURE_MM.end()),
+            P::FocalLength => (0.014..=0.3, in_metres(limits::FOCAL_LENGTH_MM)),
+            P::SensorWidth => (0.005..=0.06, in_metres(limits::SENSOR_WIDTH_MM)),
+            P::FStop => (1.4..=22.0, limits::F_STOP),
+            P::Aperture => (1e-3 * d..=0.1 * d, in_metres(limits::APERTURE_MM)),
             P::FocusDistance => (0.1 * d..=5.0 * d, limits::SIZE_M),
             P::Exposure => (-8.0..=8.0, limits::EXPOSURE_EV),
             P::PictureSize => (64.0..=4096.0, limits::PICTURE_PX),
@@ -243,6 +249,8 @@ impl Parameter {
             self,
             P::EnvironmentIntensity
                 | P::StudioIntensity
+                | P::FocalLength
+                | P::FStop
                 | P::Coherence
                 | P::Scale
                 | P::PlaneSize
@@ -306,6 +314,8 @@ impl Parameter {
             | P::LightHeight
             | P::LightVertex
             | P::LightEnd
+            | P::FocalLength
+            | P::SensorWidth
             | P::Aperture
             | P::FocusDistance => Unit::Metre,
             P::FieldOfView
@@ -335,6 +345,10 @@ impl Parameter {
         use Parameter as P;
         matches!(self, P::PictureSize | P::LatheSegments | P::Count | P::Seed)
     }
+}
+
+fn in_metres(range_mm: RangeInclusive<f64>) -> RangeInclusive<f64> {
+    1e-3 * range_mm.start()..=1e-3 * range_mm.end()
 }
 
 /// The range without its end at 0, which the scene refuses.

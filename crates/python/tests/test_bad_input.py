@@ -221,8 +221,9 @@ def test_a_lens_and_an_angle_are_not_given_together():
     camera = {"position_m": (0, 0, 1), "target_m": (0, 0, 0)}
     with pytest.raises(hairline.SceneError, match="camera.fov_y_deg: found 22.9 beside focal_length_mm; leave out one of them"):
         hairline.Camera(**camera, focal_length_mm=50, fov_y_deg=22.9)
-    with pytest.raises(hairline.SceneError, match="camera.sensor_width_mm: found no `focal_length_mm`"):
-        hairline.Camera(**camera, sensor_width_mm=36)
+    assert hairline.Camera(**camera, sensor_width_mm=24, fov_y_deg=20).fov_y_deg == 20
+    with pytest.raises(hairline.SceneError, match="camera.sensor_width_mm: found 0; must be from 0.1 to 1000"):
+        hairline.Camera(**camera, sensor_width_mm=0)
 
 
 @pytest.mark.parametrize("exposure_ev, found", [("1", "found '1'"), (float("nan"), "found nan"), (100, "found 100"), (None, "found None")])

@@ -100,6 +100,9 @@ pub struct Camera {
     pub up: [f64; 3],
     /// Vertical field of view, above 0 and below 180. Default: 30. A file may give `focal_length_mm` and `sensor_width_mm` instead.
     pub fov_y_deg: f64,
+    /// How wide the film is, that is, the picture: what focal lengths and f-stops count by. Default: 36.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sensor_width_mm: Option<f64>,
     /// Radiances are multiplied by 2^exposure_ev before the tone map. Default: 0.
     pub exposure_ev: f64,
     /// Diameter of the lens's opening. Default: a pinhole. A file may give `f_stop` beside `focal_length_mm` instead.

@@ -98,6 +98,7 @@ fn camera(seen: &FileCamera, before: &Camera, world_up: DVec3) -> Result<Camera,
         up: up.into(),
         fov_y_deg: seen.fov_y_rad.to_degrees(),
         exposure_ev: before.exposure_ev,
+        sensor_width_mm: before.sensor_width_mm,
         aperture_mm: before.aperture_mm,
         focus_distance_m: before.focus_distance_m,
     })

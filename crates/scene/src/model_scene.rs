@@ -154,6 +154,7 @@ fn camera(points_m: &[DVec3], [width, height]: [u32; 2]) -> Camera {
         up: [0.0, 0.0, 1.0],
         fov_y_deg: FOV_Y_DEG,
         exposure_ev: 0.0,
+        sensor_width_mm: None,
         aperture_mm: None,
         focus_distance_m: None,
     }

@@ -127,6 +127,7 @@ mod tests {
             up: [0.0, 0.0, 1.0],
             fov_y_deg: 30.0,
             exposure_ev: 0.0,
+            sensor_width_mm: None,
             aperture_mm: None,
             focus_distance_m: None,
         }

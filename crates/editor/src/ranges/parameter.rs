@@ -11,6 +11,12 @@ pub enum Parameter {
     CameraUp,
     /// `camera.fov_y_deg`
     FieldOfView,
+    /// `camera.focal_length_mm`, in metres
+    FocalLength,
+    /// `camera.sensor_width_mm`, in metres
+    SensorWidth,
+    /// `camera.f_stop`
+    FStop,
     /// `camera.aperture_mm`, in metres
     Aperture,
     /// `camera.focus_distance_m`

@@ -26,6 +26,18 @@ pub(super) fn of(parameter: Parameter) -> Text {
             "Field of view",
             "Small: a long lens, flat, with highlights that spread over much of the surface. Large: a wide lens, with tighter highlights.",
         ),
+        P::FocalLength => (
+            "Focal length",
+            "The field of view as lenses tell it: 24 mm is wide, 50 mm what the eye is used to, 100 mm and more for details. The f-stop stays.",
+        ),
+        P::SensorWidth => (
+            "Sensor width",
+            "How wide the film behind the lens is: 36 mm for full frame, 23.5 mm for APS-C, 6 mm for a phone. The focal length stays, so a narrower film sees less.",
+        ),
+        P::FStop => (
+            "F-stop",
+            "The focal length over the diameter of the opening: 1.4 to 2.8 blurs all but what is in focus, 11 to 22 keeps most of it sharp.",
+        ),
         P::Aperture => (
             "Opening",
             "Diameter of the lens's opening: the larger, the sooner things blur before and behind what is in focus. The focal length over the f-stop.",

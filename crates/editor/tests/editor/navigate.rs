@@ -19,6 +19,7 @@ fn camera() -> impl Strategy<Value = Camera> {
             up,
             fov_y_deg,
             exposure_ev: 0.0,
+            sensor_width_mm: None,
             aperture_mm: None,
             focus_distance_m: None,
         })
@@ -185,6 +186,7 @@ fn the_surface_follows_the_pointer() {
         up: [0.0, 2.0, 0.0],
         fov_y_deg: 30.0,
         exposure_ev: 0.0,
+        sensor_width_mm: None,
         aperture_mm: None,
         focus_distance_m: None,
     };
@@ -208,6 +210,7 @@ fn a_point_is_centred() {
         up: [0.0, 1.0, 0.0],
         fov_y_deg: 30.0,
         exposure_ev: 0.0,
+        sensor_width_mm: None,
         aperture_mm: None,
         focus_distance_m: None,
     };

@@ -186,7 +186,7 @@ class Camera(Table):
     focal_length_mm: Optional[float] = _default()
     """The field of view by a lens, millimetres. Set it, and ``fov_y_deg`` goes; and the other way round."""
     sensor_width_mm: Optional[float] = _default()
-    """With ``focal_length_mm``: how wide the picture is on the sensor, millimetres. Default: 36."""
+    """How wide the picture is on the sensor, millimetres: what focal lengths and f-stops count by. Default: 36."""
     exposure_ev: float = _default()
     """Stops: radiances are multiplied by 2^exposure_ev before the tone curve. Default: 0."""
     aperture_mm: Optional[float] = _default()
@@ -199,10 +199,9 @@ class Camera(Table):
     """A camera of a model's file in the place of this one: its name, its node's, or its number. Default: none."""
 
     def update(self, **keys: Any) -> None:
-        lens = [keys.get("focal_length_mm"), keys.get("sensor_width_mm")]
         if keys.get("fov_y_deg") is not None:
-            keys = {"focal_length_mm": None, "sensor_width_mm": None, **keys}
-        elif lens != [None, None]:
+            keys = {"focal_length_mm": None, **keys}
+        elif keys.get("focal_length_mm") is not None:
             keys = {"fov_y_deg": None, **keys}
         if keys.get("aperture_mm") is not None:
             keys = {"f_stop": None, **keys}
@@ -217,7 +216,7 @@ class Camera(Table):
         if "f_stop" in lens:
             # It agrees with the aperture, if that is given.
             del checked["aperture_mm"]
-        if lens:
+        if "focal_length_mm" in lens:
             if table.get("fov_y_deg") is not None:
                 found = f"found {table['fov_y_deg']} beside focal_length_mm"
                 raise argument_error("camera.fov_y_deg", found, "leave out one of them")

@@ -82,6 +82,13 @@ fn camera(camera: &Camera, key: &str) -> Check {
         camera.fov_y_deg,
         limits::FOV_Y_DEG,
     )?;
+    if let Some(sensor_mm) = camera.sensor_width_mm {
+        within(
+            &format!("{key}.sensor_width_mm"),
+            sensor_mm,
+            limits::SENSOR_WIDTH_MM,
+        )?;
+    }
     if let Some(aperture_mm) = camera.aperture_mm {
         within(
             &format!("{key}.aperture_mm"),

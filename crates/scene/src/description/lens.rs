@@ -1,7 +1,7 @@
 //! The field of view of a `[camera]` and its opening by its lens, as cameras have it.
 
 use super::Camera;
-use super::limits::{F_STOP, FOCAL_LENGTH_MM, SENSOR_WIDTH_MM};
+use super::limits::{APERTURE_MM, F_STOP, FOCAL_LENGTH_MM, FOV_Y_DEG, SENSOR_WIDTH_MM};
 use super::ranges::{found, within};
 use super::table::Table;
 use crate::error::Error;
@@ -21,21 +21,13 @@ pub(super) const KEYS: [&str; 3] = ["focal_length_mm", "sensor_width_mm", "f_sto
 /// What a `[camera]` sees from top to bottom of a picture, if it says so by its lens. The sensor is as wide as the picture.
 pub(super) fn fov_y_deg(camera: &Table, [width, height]: [u32; 2]) -> Result<Option<f64>, Error> {
     let Some(focal_length_mm) = camera.optional::<f64>("focal_length_mm")? else {
-        return match camera.has("sensor_width_mm") {
-            true => Err(Error::new(
-                camera.way("sensor_width_mm"),
-                "found no `focal_length_mm` that it belongs to",
-                "give the camera one, or leave it out",
-            )),
-            false => Ok(None),
-        };
+        return Ok(None);
     };
     let sensor_mm = camera.or("sensor_width_mm", FULL_FRAME_MM)?;
     let way = camera.way("focal_length_mm");
     within(&way, focal_length_mm, FOCAL_LENGTH_MM)?;
     within(&camera.way("sensor_width_mm"), sensor_mm, SENSOR_WIDTH_MM)?;
-    let height_mm = sensor_mm * f64::from(height) / f64::from(width.max(1));
-    let fov_y_deg = 2.0 * (0.5 * height_mm / focal_length_mm).atan().to_degrees();
+    let fov_y_deg = seen_deg(focal_length_mm, sensor_mm, [width, height]);
     match camera.optional::<f64>("fov_y_deg")? {
         Some(given) if (given - fov_y_deg).abs() > ROUNDING_DEG => Err(Error::new(
             camera.way("fov_y_deg"),
@@ -90,7 +82,57 @@ pub(super) fn focus_distance_m(camera: &Table) -> Result<Option<f64>, Error> {
     Ok(given)
 }
 
+/// What a lens before a film that is as wide as the picture sees from top to bottom.
+fn seen_deg(focal_length_mm: f64, sensor_mm: f64, [width, height]: [u32; 2]) -> f64 {
+    let height_mm = sensor_mm * f64::from(height) / f64::from(width.max(1));
+    2.0 * (0.5 * height_mm / focal_length_mm).atan().to_degrees()
+}
+
 impl Camera {
+    /// How wide the film is.
+    pub fn sensor_mm(&self) -> f64 {
+        self.sensor_width_mm.unwrap_or(FULL_FRAME_MM)
+    }
+
+    /// The focal length that sees what the camera does, of a picture of this size.
+    pub fn focal_length_mm(&self, [width, height]: [u32; 2]) -> f64 {
+        let height_mm = self.sensor_mm() * f64::from(height) / f64::from(width.max(1));
+        0.5 * height_mm / (0.5 * self.fov_y_deg.to_radians()).tan()
+    }
+
+    /// Focal length over opening; none of a pinhole.
+    pub fn f_stop(&self, size_px: [u32; 2]) -> Option<f64> {
+        let aperture_mm = self.aperture_mm.filter(|mm| *mm > 0.0)?;
+        Some(self.focal_length_mm(size_px) / aperture_mm)
+    }
+
+    /// Puts on a lens of another focal length, as far as fields of view go. The f-stop stays, as on a zoom lens.
+    pub fn set_focal_length_mm(&mut self, focal_length_mm: f64, size_px: [u32; 2]) {
+        let f_stop = self.f_stop(size_px);
+        self.see_by(focal_length_mm, size_px);
+        if let Some(f_stop) = f_stop {
+            self.set_f_stop(f_stop, size_px);
+        }
+    }
+
+    /// Puts a wider or narrower film behind the lens, whose focal length and opening stay.
+    pub fn set_sensor_width_mm(&mut self, sensor_mm: f64, size_px: [u32; 2]) {
+        let focal_length_mm = self.focal_length_mm(size_px);
+        self.sensor_width_mm = (sensor_mm != FULL_FRAME_MM).then_some(sensor_mm);
+        self.see_by(focal_length_mm, size_px);
+    }
+
+    /// Opens or closes the lens, as far as openings go.
+    pub fn set_f_stop(&mut self, f_stop: f64, size_px: [u32; 2]) {
+        let aperture_mm = self.focal_length_mm(size_px) / f_stop;
+        self.aperture_mm = Some(aperture_mm.clamp(*APERTURE_MM.start(), *APERTURE_MM.end()));
+    }
+
+    fn see_by(&mut self, focal_length_mm: f64, size_px: [u32; 2]) {
+        let fov_y_deg = seen_deg(focal_length_mm, self.sensor_mm(), size_px);
+        self.fov_y_deg = fov_y_deg.clamp(*FOV_Y_DEG.start(), *FOV_Y_DEG.end());
+    }
+
     /// Its lens.
     pub fn lens(&self) -> Lens {
         let [position, target] = [self.position_m, self.target_m].map(glam::DVec3::from);

@@ -104,6 +104,7 @@ impl Read for Camera {
             up: table.or("up", [0.0, 1.0, 0.0])?,
             fov_y_deg: table.or("fov_y_deg", 30.0)?,
             exposure_ev: table.or("exposure_ev", 0.0)?,
+            sensor_width_mm: table.optional("sensor_width_mm")?,
             aperture_mm: lens::aperture_mm(&table)?,
             focus_distance_m: lens::focus_distance_m(&table)?,
         })

@@ -433,6 +433,10 @@ fn cameras_that_see_nothing() {
         of("position_m = [0, 0, 3]\ntarget_m = [0, 0, 0]\nfov_y_deg = 180"),
         "a.toml:4: camera.fov_y_deg: found 180; must be from 0.001 to 179"
     );
+    assert_eq!(
+        of("position_m = [0, 0, 3]\ntarget_m = [0, 0, 0]\nsensor_width_mm = 2000"),
+        "a.toml:4: camera.sensor_width_mm: found 2000; must be from 0.1 to 1000"
+    );
 }
 
 #[test]

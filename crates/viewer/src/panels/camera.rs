@@ -21,7 +21,9 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace) {
     let mut form = Form::new(ui, "camera", work.diagonal_m(None));
     form.number(Parameter::Exposure, &mut camera.exposure_ev);
     form.number(Parameter::FieldOfView, &mut camera.fov_y_deg);
-    lens(&mut form, &mut camera);
+    let size_px = description.render.size_px;
+    focal_length(&mut form, &mut camera, size_px);
+    lens(&mut form, &mut camera, size_px);
     form.vector(Parameter::CameraPosition, &mut camera.position_m);
     form.vector(Parameter::CameraTarget, &mut camera.target_m);
     form.vector(Parameter::CameraUp, &mut camera.up);
@@ -82,8 +84,34 @@ fn show_file_cameras(ui: &mut Ui, work: &mut Workspace) {
     });
 }
 
+/// The field of view in the words of photographers.
+fn focal_length(form: &mut Form, camera: &mut Camera, size_px: [u32; 2]) {
+    in_metres(
+        form,
+        Parameter::FocalLength,
+        camera.focal_length_mm(size_px),
+        |mm| {
+            camera.set_focal_length_mm(mm, size_px);
+        },
+    );
+    in_metres(form, Parameter::SensorWidth, camera.sensor_mm(), |mm| {
+        camera.set_sensor_width_mm(mm, size_px);
+    });
+}
+
+/// A control of a length that scene files have in millimetres. What is not touched keeps all of its digits.
+fn in_metres(form: &mut Form, parameter: Parameter, before_mm: f64, set_mm: impl FnOnce(f64)) {
+    let before_m = 1e-3 * before_mm;
+    let mut after_m = before_m;
+    form.number(parameter, &mut after_m);
+    if after_m != before_m {
+        // Not 18.000000000000004, in a file that people read.
+        set_mm((1e12 * after_m).round() / 1e9);
+    }
+}
+
 /// A lens in place of a pinhole.
-fn lens(form: &mut Form, camera: &mut Camera) {
+fn lens(form: &mut Form, camera: &mut Camera, size_px: [u32; 2]) {
     let mut has_lens = camera.aperture_mm.is_some();
     form.toggle(
         "Depth of field",
@@ -97,13 +125,19 @@ fn lens(form: &mut Form, camera: &mut Camera) {
     }
     // By default a hundredth of the distance of what is in focus.
     let aperture_mm = *camera.aperture_mm.get_or_insert(10.0 * focus_m);
-    let (before_m, focus_before_m) = (1e-3 * aperture_mm, focus_m);
-    let mut aperture_m = before_m;
-    form.number(Parameter::Aperture, &mut aperture_m);
-    form.number(Parameter::FocusDistance, &mut focus_m);
-    if aperture_m != before_m {
-        camera.aperture_mm = Some(1e3 * aperture_m);
+    // A closed one has no f-stop.
+    if let Some(before) = camera.f_stop(size_px) {
+        let mut f_stop = before;
+        form.number(Parameter::FStop, &mut f_stop);
+        if f_stop != before {
+            camera.set_f_stop(f_stop, size_px);
+        }
     }
+    in_metres(form, Parameter::Aperture, aperture_mm, |mm| {
+        camera.aperture_mm = Some(mm);
+    });
+    let focus_before_m = focus_m;
+    form.number(Parameter::FocusDistance, &mut focus_m);
     if focus_m != focus_before_m {
         camera.focus_distance_m = Some(focus_m);
     }

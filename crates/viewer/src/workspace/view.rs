@@ -19,6 +19,7 @@ impl Workspace {
             Some(free) => Camera {
                 up: scene.up,
                 exposure_ev: scene.exposure_ev,
+                sensor_width_mm: scene.sensor_width_mm,
                 aperture_mm: scene.aperture_mm,
                 focus_distance_m: scene.focus_distance_m,
                 ..free.clone()
@@ -107,6 +108,7 @@ impl Workspace {
                 *view = Camera {
                     up: view.up,
                     exposure_ev: view.exposure_ev,
+                    sensor_width_mm: view.sensor_width_mm,
                     aperture_mm: view.aperture_mm,
                     focus_distance_m: view.focus_distance_m,
                     ..camera

@@ -162,3 +162,42 @@ fn a_sun_is_described_by_direction_angle_and_irradiance() {
         "{saved}"
     );
 }
+
+#[test]
+fn a_camera_is_described_by_its_lens_too() {
+    let mut harness = with_layer();
+    let document = harness.state_mut().document_mut();
+    document.edit("by the test", |d| {
+        d.render.size_px = [1200, 800];
+        d.camera.fov_y_deg = 2.0 * 0.24_f64.atan().to_degrees();
+        (d.camera.aperture_mm, d.camera.focus_distance_m) = (Some(12.5), Some(0.3));
+    });
+    document.select(Selection::Camera);
+    harness.run_steps(3);
+    assert_eq!(shown(&harness, "Focal length"), "50 mm");
+    assert_eq!(shown(&harness, "Sensor width"), "36 mm");
+    assert_eq!(shown(&harness, "F-stop"), "4");
+    let before = description(&harness);
+    type_into(&mut harness, "Focal length", "100 mm");
+    let camera = description(&harness).camera.clone();
+    assert!((camera.fov_y_deg - 2.0 * 0.12_f64.atan().to_degrees()).abs() < 1e-9);
+    assert!((camera.aperture_mm.unwrap() - 25.0).abs() < 1e-9);
+    crate::common::undo(&mut harness);
+    assert_eq!(*description(&harness), *before);
+    type_into(&mut harness, "Sensor width", "18 mm");
+    type_into(&mut harness, "F-stop", "8");
+    let camera = description(&harness).camera.clone();
+    assert!((camera.fov_y_deg - 2.0 * 0.12_f64.atan().to_degrees()).abs() < 1e-9);
+    assert!((camera.aperture_mm.unwrap() - 6.25).abs() < 1e-9);
+    assert_eq!(camera.sensor_width_mm, Some(18.0));
+    // The field of view and the opening are the same two numbers.
+    type_into(&mut harness, "Field of view", "27");
+    type_into(&mut harness, "Opening", "10 mm");
+    let camera = description(&harness).camera.clone();
+    assert_eq!(camera.fov_y_deg, 27.0);
+    let f_stop = camera.focal_length_mm([1200, 800]) / 10.0;
+    assert!((camera.f_stop([1200, 800]).unwrap() - f_stop).abs() < 1e-9);
+    let saved = description(&harness).to_toml().unwrap();
+    let again = hairline_scene::Description::from_toml(&saved, std::path::Path::new("saved"));
+    assert_eq!(again.unwrap(), *description(&harness));
+}
