@@ -51,7 +51,11 @@ fn perform(document: &mut Document, (deed, i, by): Deed) {
         7 => apply(&|d, _| {
             Ok(lights::add(
                 d,
-                LightPreset::ALL[i % 4].light(dvec3(by, 0.0, 0.0), dvec3(0.0, 0.0, 1.0), 0.3),
+                LightPreset::ALL[i % LightPreset::ALL.len()].light(
+                    dvec3(by, 0.0, 0.0),
+                    dvec3(0.0, 0.0, 1.0),
+                    0.3,
+                ),
             ))
         }),
         8 => apply(&|d, s| lights::delete(d, i, s)),
