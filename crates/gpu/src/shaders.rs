@@ -18,13 +18,28 @@ pub struct Module {
     pub needs: &'static [&'static Module],
 }
 
+#[cfg(not(target_family = "wasm"))]
+macro_rules! text {
+    ($name:literal) => {
+        include_str!(concat!("../shaders/", $name, ".wgsl"))
+    };
+}
+
+/// As `build.rs` writes it.
+#[cfg(target_family = "wasm")]
+macro_rules! text {
+    ($name:literal) => {
+        include_str!(concat!(env!("OUT_DIR"), "/", $name, ".wgsl"))
+    };
+}
+
 macro_rules! modules {
     ($($(#[$doc:meta])* $constant:ident = $name:literal needs [$($need:ident),*];)*) => {
         $(
             $(#[$doc])*
             pub static $constant: Module = Module {
                 name: $name,
-                source: include_str!(concat!("../shaders/", $name, ".wgsl")),
+                source: text!($name),
                 needs: &[$(&$need),*],
             };
         )*
