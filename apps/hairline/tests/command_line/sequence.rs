@@ -113,7 +113,7 @@ fn write_rising(folder: &Path) {
     std::fs::write(folder.join("rising.gltf"), text).unwrap();
     let scene = "[camera]\nposition_m = [0.0, -0.01, 1.0]\ntarget_m = [0.0, 0.0, 0.0]\n\
         [[material]]\nname = \"m\"\nkind = \"dielectric\"\nroughness = 0.5\n\
-        [[object]]\nmesh = \"rising.gltf\"\nmaterial = \"m\"\n\
+        [[object]]\nname = \"it\"\nmesh = \"rising.gltf\"\nmaterial = \"m\"\n\
         [[light]]\nkind = \"sphere\"\ncenter_m = [0.5, 0.0, 1.0]\nradius_m = 0.1\nradiance = 9.0\n\
         [render]\nsize_px = [16, 12]\n";
     std::fs::write(folder.join("rising.toml"), scene).unwrap();
