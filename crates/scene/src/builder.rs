@@ -111,7 +111,7 @@ impl<'a> Work<'a> {
         estimate.add_lights(self.description);
         let up = convert::vertical_axis(self.description.camera.up.into());
         for (i, object) in self.description.objects.iter().enumerate() {
-            let key = SurfaceKey::new(object, self.base_dir, up);
+            let key = self.surface_key(object, up);
             if self.old.surface(&key).is_none() {
                 estimate.add_object(self.description, i, self.base_dir);
             }
@@ -126,6 +126,11 @@ impl<'a> Work<'a> {
         }
         estimate.check(self.loader.memory_budget_bytes as f64)?;
         Ok(estimate)
+    }
+
+    fn surface_key(&self, object: &description::Object, up: DVec3) -> SurfaceKey {
+        let lights_of = self.description.lights_of.as_deref();
+        SurfaceKey::new(object, lights_of, self.base_dir, up)
     }
 
     /// The objects' surfaces, which are added to the scene with the materials and textures that they bring.
@@ -144,7 +149,7 @@ impl<'a> Work<'a> {
             self.loader.report(Stage::Meshes, i as u64, total);
             let key = format!("object[{i}]");
             let material = convert::object_material(object, &key, &self.description.materials)?;
-            let surface_key = SurfaceKey::new(object, self.base_dir, up);
+            let surface_key = self.surface_key(object, up);
             let first_material = material.unwrap_or(scene.materials.len() as u32);
             let surface = match self.old.surface(&surface_key) {
                 Some(kept) => kept,
@@ -250,7 +255,7 @@ impl<'a> Work<'a> {
             return Ok(());
         };
         let (object, material) = set.ground(ground);
-        let key = SurfaceKey::new(&object, self.base_dir, DVec3::Z);
+        let key = self.surface_key(&object, DVec3::Z);
         let surface = match self.old.surface(&key) {
             Some(kept) => kept,
             None => Arc::new(KeptSurface::read(self.loader, key, &object, "ground", 0.0)?),

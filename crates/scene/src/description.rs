@@ -80,6 +80,9 @@ pub struct Description {
     /// `[[light]]`.
     #[serde(rename = "light", skip_serializing_if = "Vec::is_empty")]
     pub lights: Vec<Light>,
+    /// The model whose own lights the `lights` were made of, as its object names it. Not part of the file.
+    #[serde(skip)]
+    pub lights_of: Option<PathBuf>,
     /// What the author should know about the file, a line each. Not part of it.
     #[serde(skip)]
     pub notes: Vec<String>,

@@ -8,6 +8,7 @@ mod accessor;
 mod anisotropy;
 mod attributes;
 mod cameras;
+mod channels;
 mod coat;
 mod cutout;
 mod draco;
@@ -202,7 +203,7 @@ fn parse(bytes: &[u8], kept: Kept) -> Result<Gltf, Flaw> {
         return Err(Flaw::new("it is neither binary nor text glTF", right));
     }
     let (text, blob) = parts(bytes)?;
-    let mut json = root::read(&text)?;
+    let mut json = root::read(&text, kept)?;
     json.extensions_required
         .retain(|name| !extensions::may_be_required(name));
     if let Some(name) = json.extensions_required.first() {

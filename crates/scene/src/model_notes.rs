@@ -15,7 +15,7 @@ impl Description {
             let Surface::Mesh(file) = &object.surface else {
                 continue;
             };
-            let wanted = Wanted::of(object);
+            let wanted = Wanted::of(object, self.lights_of.as_deref());
             match models.iter_mut().find(|(known, _)| *known == file) {
                 Some((_, known)) => {
                     known.own_materials |= wanted.own_materials;
@@ -41,8 +41,10 @@ impl Description {
 }
 
 impl Wanted {
-    pub(crate) fn of(object: &Object) -> Self {
+    /// `lights_of` as in [`Description::lights_of`].
+    pub(crate) fn of(object: &Object, lights_of: Option<&Path>) -> Self {
         Self {
+            lights: matches!(&object.surface, Surface::Mesh(file) if Some(&**file) == lights_of),
             own_materials: object.material.is_none(),
             animation: object.time_s.is_some(),
         }

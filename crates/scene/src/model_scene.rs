@@ -58,10 +58,17 @@ impl Description {
         let turned = |p: DVec3| factor * DVec3::new(p.x, -p.z, p.y);
         let lights = mesh_file::lights(path)
             .map_err(|flaw| Error::new("", flaw.found, flaw.right).at(path, None))?;
-        let mut lamps: Vec<_> = lights
-            .iter()
-            .filter_map(|light| lights::lamp(light, extent_m, factor, turned))
-            .collect();
+        let mut lamps = Vec::new();
+        for (i, light) in lights.iter().enumerate() {
+            match lights::lamp(light, extent_m, factor, turned) {
+                Ok(lamp) => lamps.push(lamp),
+                Err(why) => {
+                    let file = shown(&name.to_string_lossy());
+                    let light = light.name.as_deref().map_or_else(|| i.to_string(), shown);
+                    notes.push(format!("{file}: light {light} left out; {why}"));
+                }
+            }
+        }
         let (least, most) = summary.bounds_m;
         let upright = |p: glam::Vec3| turned(p.as_dvec3());
         let [a, b] = [least, most].map(upright);
@@ -114,7 +121,7 @@ impl Description {
             objects: vec![
                 Object {
                     name: object,
-                    surface: Surface::Mesh(name),
+                    surface: Surface::Mesh(name.clone()),
                     up: Up::Y,
                     fit_m,
                     time_s: None,
@@ -128,6 +135,7 @@ impl Description {
                 ground,
             ],
             lights: lamps,
+            lights_of: Some(name),
             notes,
         })
     }

@@ -18,6 +18,7 @@ pub(crate) fn makes_same_scene(a: &Description, b: &Description) -> bool {
         scratches,
         gratings,
         lights,
+        lights_of: _,
         notes: _,
     } = a;
     camera.up == b.camera.up

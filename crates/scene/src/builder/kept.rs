@@ -82,8 +82,8 @@ impl MapKey {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct SurfaceKey {
     surface: Surface,
-    /// Whether the file's own materials are kept.
-    owns_materials: bool,
+    /// What of the file is shown.
+    wanted: Wanted,
     world_from_object: DMat4,
     /// The file, if it is one.
     file: Option<Stamp>,
@@ -91,8 +91,13 @@ pub(super) struct SurfaceKey {
 }
 
 impl SurfaceKey {
-    /// `world_up` is the axis that points up.
-    pub(super) fn new(object: &description::Object, base_dir: &Path, world_up: DVec3) -> Self {
+    /// `world_up` is the axis that points up; `lights_of` as in [`description::Description::lights_of`].
+    pub(super) fn new(
+        object: &description::Object,
+        lights_of: Option<&Path>,
+        base_dir: &Path,
+        world_up: DVec3,
+    ) -> Self {
         let (file, placing) = match &object.surface {
             Surface::Shape(_) => (None, Placing::NONE),
             Surface::Mesh(file) => {
@@ -102,7 +107,7 @@ impl SurfaceKey {
         };
         Self {
             surface: object.surface.clone(),
-            owns_materials: object.material.is_none(),
+            wanted: Wanted::of(object, lights_of),
             world_from_object: object.world_from_object(),
             file,
             placing,
@@ -147,7 +152,7 @@ impl KeptSurface {
         let transform = &surface_key.world_from_object;
         let mesh = match (&surface_key.surface, &surface_key.file) {
             (Surface::Mesh(file), _) if loader.arrays.mesh(file).is_some() => {
-                if surface_key.owns_materials {
+                if surface_key.wanted.own_materials {
                     let right = "a mesh in memory has none of its own";
                     return Err(Error::new(key, "`material` is missing", right));
                 }
@@ -166,10 +171,10 @@ impl KeptSurface {
                     free_bytes,
                     with_mips: true,
                 };
-                let material = (!surface_key.owns_materials).then_some(0);
+                let material = (!surface_key.wanted.own_materials).then_some(0);
                 let placing = &surface_key.placing;
                 let read = mesh_file::read(&stamp.path, material, transform, placing, stock);
-                let left_out = mesh_file::left_out(&stamp.path, Wanted::of(object));
+                let left_out = mesh_file::left_out(&stamp.path, surface_key.wanted);
                 notes = model_notes::notes(file, &left_out);
                 read.map_err(|flaw| {
                     let found = format!("\"{}\": {}", shown(&file.to_string_lossy()), flaw.found);

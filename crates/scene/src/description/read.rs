@@ -42,6 +42,7 @@ pub(super) fn description(root: &DeTable) -> Result<Description, Error> {
         scratches: table.or("scratches", Vec::new())?,
         gratings: table.or("grating", Vec::new())?,
         lights: table.or("light", Vec::new())?,
+        lights_of: None,
         notes: Vec::new(),
     };
     // A lens sees by the picture's shape.

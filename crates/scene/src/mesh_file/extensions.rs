@@ -77,7 +77,7 @@ pub(super) fn meaning(name: &str) -> (&'static str, bool) {
         "MSFT_texture_dds" | "EXT_texture_avif" => harmless("the texture's other image is shown"),
         "MESHOPT_compression" => harmless("the same data are there uncompressed"),
         "MSFT_lod" | "MSFT_screencoverage" => harmless("the finest level is shown"),
-        "KHR_animation_pointer" => harmless("animations are told of by themselves"),
+        "KHR_animation_pointer" => harmless("the model is at rest"),
         name if IS_DATA.contains(&name) => harmless("data about the file, not of the picture"),
         "KHR_audio" | "KHR_audio_emitter" | "MSFT_audio_emitter" => {
             harmless("it is heard, not seen")

@@ -11,7 +11,7 @@ use hairline_image::held;
 
 use super::instances;
 use super::left_out::{self, LeftOut, Wanted};
-use super::root;
+use super::root::{self, Kept};
 use super::source::percent_decoded;
 use crate::reading::check_regular;
 
@@ -129,7 +129,7 @@ pub(crate) fn left_out(path: &Path, wanted: Wanted) -> Vec<LeftOut> {
 /// What the text says, and its length.
 fn head(path: &Path) -> Option<(Root, f64)> {
     let text = text(path)?;
-    Some((root::read(&text).ok()?, text.len() as f64))
+    Some((root::read(&text, Kept::default()).ok()?, text.len() as f64))
 }
 
 /// The text of a .gltf file, or the first chunk of a .glb file.

@@ -7,7 +7,9 @@ use std::collections::BTreeMap;
 
 use gltf::json::Value;
 
+use super::channels::{ANIMATION_POINTER, Moved, moved};
 use super::extensions::{self, Scope};
+use super::lights;
 use crate::text::shown;
 
 /// Something of a file that is not in the picture.
@@ -33,24 +35,29 @@ const ATTRIBUTE: u8 = 1;
 const PROPERTY: u8 = 2;
 
 /// How a file is used.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Wanted {
     /// Without its own materials what they say is of no account.
     pub own_materials: bool,
     /// Whether one of its animations is shown, at a time.
     pub animation: bool,
+    /// Whether the scene's lights were made of its own.
+    pub lights: bool,
 }
 
 /// What is left out of a file whose text this is.
 pub(super) fn of(root: &Value, wanted: Wanted) -> Vec<LeftOut> {
-    let owns_materials = wanted.own_materials;
     let mut found = Found::default();
-    found.extensions(root, Scope::File, owns_materials);
+    found.extensions(root, Scope::File, wanted);
     found.properties(root, wanted);
+    found.lights(root, wanted.lights);
+    if wanted.animation {
+        found.channels(root);
+    }
     for primitive in primitives(root) {
         found.primitive(primitive);
     }
-    if owns_materials {
+    if wanted.own_materials {
         for material in list(root, "materials") {
             found.material(material);
         }
@@ -73,11 +80,11 @@ impl Found {
     }
 
     /// All extensions below a value, wherever the specification lets one be.
-    fn extensions(&mut self, value: &Value, scope: Scope, owns_materials: bool) {
+    fn extensions(&mut self, value: &Value, scope: Scope, wanted: Wanted) {
         match value {
             Value::Array(elements) => {
                 for element in elements {
-                    self.extensions(element, scope, owns_materials);
+                    self.extensions(element, scope, wanted);
                 }
             }
             Value::Object(members) => {
@@ -87,11 +94,11 @@ impl Found {
                         "extras" => {}
                         "extensions" => {
                             for name in member.as_object().into_iter().flatten().map(|it| it.0) {
-                                self.extension(name, scope, owns_materials);
+                                self.extension(name, scope, wanted);
                             }
-                            self.extensions(member, scope, owns_materials);
+                            self.extensions(member, scope, wanted);
                         }
-                        _ => self.extensions(member, scope.within(name), owns_materials),
+                        _ => self.extensions(member, scope.within(name), wanted),
                     }
                 }
             }
@@ -99,8 +106,13 @@ impl Found {
         }
     }
 
-    fn extension(&mut self, name: &str, scope: Scope, owns_materials: bool) {
-        if (scope == Scope::Look && !owns_materials) || extensions::is_read(name) {
+    fn extension(&mut self, name: &str, scope: Scope, wanted: Wanted) {
+        let is_unused = match name {
+            // Told with the channels.
+            ANIMATION_POINTER => wanted.animation,
+            _ => scope == Scope::Look && !wanted.own_materials,
+        };
+        if is_unused || extensions::is_read(name) {
             return;
         }
         let (meaning, matters) = extensions::meaning(name);
@@ -138,6 +150,42 @@ impl Found {
         self.unknown("the file", root, KNOWN_AT_TOP);
     }
 
+    /// Those of a file, where the scene has others, else what of them the scene's have not.
+    fn lights(&mut self, root: &Value, are_shown: bool) {
+        let extension = |value: &Value, name: &str| {
+            let extension = value.get("extensions")?.get(lights::NAME)?;
+            extension.get(name).cloned()
+        };
+        if !are_shown {
+            let nodes = list(root, "nodes").iter();
+            let count = nodes.filter_map(|it| extension(it, "light")).count();
+            let meaning = "the scene's own lights are shown; `hairline render` of the model itself shows these";
+            self.add(EXTENSION, lights::NAME, count, meaning, true);
+            return;
+        }
+        let table = extension(root, "lights");
+        let table = table.iter().filter_map(Value::as_array).flatten();
+        let count = table.filter(|it| it.get("range").is_some()).count();
+        let meaning = "they shine beyond it, ever weaker";
+        self.add(PROPERTY, "range of lights", count, meaning, true);
+    }
+
+    /// Channels of animations that move no node.
+    fn channels(&mut self, root: &Value) {
+        let animations = list(root, "animations").iter();
+        for channel in animations.flat_map(|it| list(it, "channels")) {
+            let meaning = "what it animates stays as it is at rest";
+            match moved(channel) {
+                Moved::Node => {}
+                Moved::Pointer => self.add(EXTENSION, ANIMATION_POINTER, 1, meaning, true),
+                Moved::Nothing => {
+                    let meaning = "glTF 2.0 has them animate nothing";
+                    self.add(PROPERTY, "channels without a node", 1, meaning, false);
+                }
+            }
+        }
+    }
+
     /// Members that the specification does not have.
     fn unknown(&mut self, place: &str, value: &Value, known: &[&str]) {
         for name in value.as_object().into_iter().flatten().map(|it| it.0) {
@@ -160,7 +208,7 @@ impl Found {
                 "POSITION" | "NORMAL" | "TANGENT" => continue,
                 // What does not use a set of coordinates does not miss it.
                 name if name.starts_with("TEXCOORD_") => continue,
-                // Told of the skins.
+                // Read with a skin; without one they move nothing.
                 name if name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_") => continue,
                 "COLOR_0" => continue,
                 name if name.starts_with("COLOR_") => {

@@ -7,7 +7,7 @@ use super::flaw::Flaw;
 use super::nodes::placed_nodes;
 use super::pose::Pose;
 
-const NAME: &str = "KHR_lights_punctual";
+pub(super) const NAME: &str = "KHR_lights_punctual";
 /// The extension's default.
 const OUTER_RAD: f64 = std::f64::consts::FRAC_PI_4;
 

@@ -2,22 +2,26 @@
 //! makes it unusable is said by its name.
 
 use gltf::json::deserialize::{from_slice, from_value};
+use gltf::json::validation::Checked;
 use gltf::json::{Index, Root, Value};
 
+use super::channels;
 use super::draco;
 use super::flaw::{Flaw, RIGHT};
 use super::leniency;
 use crate::text::shown;
 
-/// Reads the text of a file.
-pub(super) fn read(text: &[u8]) -> Result<Root, Flaw> {
+/// Reads the text of a file, of which what is not kept may be broken.
+pub(super) fn read(text: &[u8], kept: Kept) -> Result<Root, Flaw> {
     let invalid = |error: &dyn std::fmt::Display| {
         Flaw::new(
             format!("it is no valid glTF ({})", shown(&error.to_string())),
             RIGHT,
         )
     };
-    if let Ok(root) = from_slice::<Root>(text) {
+    if let Ok(root) = from_slice::<Root>(text)
+        && !(kept.animations && has_unknown_paths(&root))
+    {
         check_version(&root.asset.version)?;
         return Ok(root);
     }
@@ -27,19 +31,26 @@ pub(super) fn read(text: &[u8]) -> Result<Root, Flaw> {
         .and_then(|asset| asset.get("version")?.as_str());
     check_version(version.unwrap_or("1.0"))?;
     leniency::loosen_text(&mut value);
+    channels::keep_of_nodes(&mut value);
     let error = match from_value::<Root>(value.clone()) {
         Ok(root) => return Ok(root),
         Err(error) => error,
     };
-    // Animations of extensions have another form, and are not read.
+    // Where the model is at rest, its animations may have any form.
     let Some(members) = value
         .as_object_mut()
-        .filter(|it| it.contains_key("animations"))
+        .filter(|it| !kept.animations && it.contains_key("animations"))
     else {
         return Err(invalid(&error));
     };
     members.remove("animations");
     from_value(value).map_err(|error| invalid(&error))
+}
+
+/// Whether a channel moves what the specification has no name of.
+fn has_unknown_paths(root: &Root) -> bool {
+    let mut channels = root.animations.iter().flat_map(|it| &it.channels);
+    channels.any(|it| matches!(it.target.path, Checked::Invalid))
 }
 
 /// All of 2 are made so that a reader of 2.0 can read them.

@@ -13,13 +13,15 @@ const LAMP_RADIUS: f64 = 0.01;
 const LUMENS_PER_WATT: f64 = 683.0;
 
 /// What stands for a light beside a model of an extent, in metres of the file, that is shown larger by a factor and turned to be upright.
-/// None where it would lie beyond what scenes hold.
+///
+/// # Errors
+/// Why there is none.
 pub(super) fn lamp(
     light: &Punctual,
     extent: f64,
     factor: f64,
     upright: impl Fn(DVec3) -> DVec3,
-) -> Option<Light> {
+) -> Result<Light, String> {
     let towards = upright(light.direction).normalize_or(DVec3::NEG_Z);
     let watts = light.intensity / LUMENS_PER_WATT;
     let of_kind = |kind: LightKind| Light {
@@ -27,21 +29,27 @@ pub(super) fn lamp(
         color: light.color,
         ..Light::new(kind)
     };
+    let too_large = || "its intensity is too large for a number".to_owned();
     if light.kind == PunctualKind::Directional {
-        return watts.is_finite().then(|| {
-            of_kind(LightKind::Sun {
-                direction: towards.into(),
-                angle_deg: SUN_DEG,
-                irradiance: watts,
-            })
-        });
+        if !watts.is_finite() {
+            return Err(too_large());
+        }
+        return Ok(of_kind(LightKind::Sun {
+            direction: towards.into(),
+            angle_deg: SUN_DEG,
+            irradiance: watts,
+        }));
     }
     let radius = LAMP_RADIUS * extent;
     let radiance = watts / (PI * radius * radius);
     let center_m = upright(light.position);
     let radius_m = (factor * radius).max(SMALLEST_M);
-    if center_m.abs().max_element() > LARGEST_M || !radiance.is_finite() {
-        return None;
+    // A point that is no number does not lie within either.
+    if !center_m.abs().cmple(DVec3::splat(LARGEST_M)).all() {
+        return Err(format!("it would stand over {LARGEST_M} m off"));
+    }
+    if !radiance.is_finite() {
+        return Err(too_large());
     }
     let cone = match light.kind {
         PunctualKind::Spot {
@@ -59,7 +67,7 @@ pub(super) fn lamp(
         }
         PunctualKind::Point | PunctualKind::Directional => None,
     };
-    Some(Light {
+    Ok(Light {
         radiance,
         cone,
         ..of_kind(LightKind::sphere(center_m.into(), radius_m))

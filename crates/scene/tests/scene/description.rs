@@ -333,6 +333,7 @@ fn everything() -> Description {
                 two_sided: false,
             }),
         ],
+        lights_of: None,
         notes: Vec::new(),
     }
 }

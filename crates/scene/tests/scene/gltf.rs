@@ -739,7 +739,7 @@ fn what_cannot_be_read_is_named() {
     assert!(error.contains("glTF 1.0"), "{error}");
 }
 
-/// Animations are not read, so one of an extension is no mistake.
+/// A model at rest shows no animation, so one of an extension is no mistake.
 #[test]
 fn what_is_ignored_cannot_be_wrong() {
     let mut glb = Glb {

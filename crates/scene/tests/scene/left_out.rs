@@ -98,3 +98,87 @@ fn what_changes_no_picture_is_listed_too() {
     std::fs::write(dir.path().join("it.glb"), glb.bytes(&mesh, r#"{"mesh":0}"#)).unwrap();
     assert!(description.left_out(dir.path())[0].1.is_empty());
 }
+
+/// A cube with two nodes that have lights, one of which has a range, and more members.
+fn lit_cube(lights: &str) -> Vec<u8> {
+    let mut glb = Glb::default();
+    let (corners, triangles) = cube();
+    let (positions, indices) = (glb.floats(&corners), glb.indices(&triangles));
+    let mesh = format!(
+        r#"{{"primitives":[{{"attributes":{{"POSITION":{positions}}},"indices":{indices}}}]}}"#
+    );
+    glb.more = format!(
+        r#","extensionsUsed":["KHR_lights_punctual"],"extensions":{{"KHR_lights_punctual":{{"lights":[{lights}]}}}}"#
+    );
+    let nodes = r#"{"mesh":0,"children":[1,2]},{"extensions":{"KHR_lights_punctual":{"light":0}},"translation":[0,2,0]},
+        {"extensions":{"KHR_lights_punctual":{"light":1}},"translation":[0,2000,0]}"#;
+    glb.bytes(&mesh, nodes)
+}
+
+#[test]
+fn lights_of_a_file_are_told_where_the_scene_has_its_own() {
+    let dir = temporary_dir();
+    let path = dir.path().join("it.glb");
+    let lights = r#"{"type":"point","range":3},{"type":"directional"}"#;
+    std::fs::write(&path, lit_cube(lights)).unwrap();
+    let told_in_scene = "it.glb: KHR_lights_punctual (2) left out; the scene's own lights are shown; \
+         `hairline render` of the model itself shows these";
+    for material in ["", "material = \"steel\"\n"] {
+        assert_eq!(told(dir.path(), material), [told_in_scene]);
+    }
+    // Opened by itself the model has them, for all distances.
+    let alone = Description::for_model(&path).unwrap();
+    let told_alone = "it.glb: range of lights (1) left out; they shine beyond it, ever weaker";
+    assert_eq!(alone.model_notes(dir.path()), [told_alone]);
+    let scene = Scene::build(&alone, dir.path()).unwrap();
+    assert!(scene.notes.iter().any(|it| it == told_alone));
+    assert_eq!(scene.lights.len(), 2);
+    // Saved it is a scene like others.
+    let saved = Description::from_toml(&alone.to_toml().unwrap(), Path::new("test.toml")).unwrap();
+    assert_eq!(saved.model_notes(dir.path()), [told_in_scene]);
+}
+
+#[test]
+fn lights_that_no_scene_holds_are_told() {
+    let dir = temporary_dir();
+    let path = dir.path().join("it.glb");
+    let lights = r#"{"type":"point","intensity":1e308},{"type":"point","name":"star"}"#;
+    std::fs::write(&path, lit_cube(lights)).unwrap();
+    let alone = Description::for_model(&path).unwrap();
+    assert_eq!(
+        alone.notes,
+        [
+            "it.glb: light 0 left out; its intensity is too large for a number",
+            "it.glb: light star left out; it would stand over 1000 m off",
+        ]
+    );
+    // A studio lights what is left without any.
+    assert!(!alone.lights.is_empty());
+}
+
+#[test]
+fn channels_that_move_no_node_are_told() {
+    let dir = temporary_dir();
+    let mut glb = Glb::default();
+    let (corners, triangles) = cube();
+    let (positions, indices) = (glb.floats(&corners), glb.indices(&triangles));
+    let times = glb.floats(&[[0.0], [1.0]]);
+    let places = glb.floats(&[[0.0; 3], [4.0, 0.0, 0.0]]);
+    let pointer = r#"{"sampler":0,"target":{"path":"pointer","extensions":{"KHR_animation_pointer":{"pointer":"/x"}}}}"#;
+    glb.more = format!(
+        r#","animations":[{{"channels":[{pointer},{{"sampler":0,"target":{{"node":0,"path":"translation"}}}},{pointer}],
+            "samplers":[{{"input":{times},"output":{places}}}]}}]"#
+    );
+    let mesh = format!(
+        r#"{{"primitives":[{{"attributes":{{"POSITION":{positions}}},"indices":{indices}}}]}}"#
+    );
+    let bytes = glb.bytes(&mesh, r#"{"mesh":0}"#);
+    std::fs::write(dir.path().join("it.glb"), bytes).unwrap();
+    let notes = told(dir.path(), "time_s = 0.5\n");
+    let expected =
+        "it.glb: KHR_animation_pointer (2) left out; what it animates stays as it is at rest";
+    assert_eq!(notes, [expected]);
+    let notes = told(dir.path(), "");
+    let expected = "it.glb: animations (1) left out; the model is at rest; `time_s` of its object shows one at a time";
+    assert_eq!(notes, [expected]);
+}

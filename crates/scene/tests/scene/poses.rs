@@ -106,6 +106,39 @@ fn nodes_move_as_the_first_animation_has_them() {
 }
 
 #[test]
+fn nodes_move_beside_what_pointers_move() {
+    let mut glb = Glb::default();
+    let mesh_text = cube_mesh(&mut glb, "");
+    let times = glb.floats(&[[0.0], [1.0]]);
+    let places = glb.floats(&[[0.0; 3], [4.0, 0.0, 0.0]]);
+    let move_node = r#"{"sampler":0,"target":{"node":0,"path":"translation"}}"#;
+    let pointer = r#""path":"pointer","extensions":{"KHR_animation_pointer":{"pointer":"/x"}}"#;
+    for target in [
+        pointer.to_owned(),
+        format!(r#""node":0,{pointer}"#),
+        r#""path":"translation""#.to_owned(),
+    ] {
+        glb.more = format!(
+            r#","animations":[{{"channels":[{{"sampler":0,"target":{{{target}}}}},{move_node}],
+                "samplers":[{{"input":{times},"output":{places}}}]}}]"#
+        );
+        let bytes = glb.bytes(&mesh_text, r#"{"mesh":0}"#);
+        let found = middle(&mesh(&bytes, "time_s = 0.5"));
+        assert!(found.abs_diff_eq(vec3(2.0, 0.0, 0.0), 1e-5), "{found}");
+    }
+    // What is broken otherwise is refused where it is wanted, and only there.
+    glb.more =
+        format!(r#","animations":[{{"channels":[{move_node}],"samplers":[{{"input":0}}]}}]"#);
+    let bytes = glb.bytes(&mesh_text, r#"{"mesh":0}"#);
+    let error = load(&bytes, "time_s = 0.5").unwrap_err();
+    assert!(
+        error.contains("it is no valid glTF (missing field `output`"),
+        "{error}"
+    );
+    assert!(load(&bytes, "").is_ok());
+}
+
+#[test]
 fn joints_and_morph_targets_move_vertices() {
     let mut glb = Glb::default();
     // Each corner goes with the joint of its side along x, those of the upper half of z by both.
