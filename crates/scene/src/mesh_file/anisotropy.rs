@@ -5,7 +5,8 @@ use gltf::material::Material;
 
 use crate::scene::Anisotropy;
 
-const NAME: &str = "KHR_materials_anisotropy";
+pub(super) const NAME: &str = "KHR_materials_anisotropy";
+pub(super) const TEXTURE: &str = "anisotropyTexture";
 
 /// The factors; none where highlights are alike in all directions.
 pub(super) fn anisotropy(material: &Material) -> Option<Anisotropy> {
@@ -24,5 +25,5 @@ pub(super) fn anisotropy(material: &Material) -> Option<Anisotropy> {
 /// What the file says of the texture of an anisotropy that is there.
 pub(super) fn texture<'a>(material: &'a Material<'a>) -> Option<&'a Value> {
     anisotropy(material)?;
-    material.extension_value(NAME)?.get("anisotropyTexture")
+    material.extension_value(NAME)?.get(TEXTURE)
 }

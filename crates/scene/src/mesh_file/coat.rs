@@ -5,9 +5,10 @@ use gltf::material::Material;
 
 use crate::scene::Coat;
 
-const NAME: &str = "KHR_materials_clearcoat";
+pub(super) const NAME: &str = "KHR_materials_clearcoat";
 /// As in [`crate::scene::Material::coat_textures`].
-const TEXTURES: [&str; 2] = ["clearcoatTexture", "clearcoatRoughnessTexture"];
+pub(super) const TEXTURES: [&str; 2] = ["clearcoatTexture", "clearcoatRoughnessTexture"];
+pub(super) const NORMALS: &str = "clearcoatNormalTexture";
 
 /// The factors; none where there is no layer.
 pub(super) fn coat(material: &Material) -> Option<Coat> {
@@ -30,7 +31,7 @@ pub(super) fn uses<'a>(material: &'a Material<'a>) -> [Option<&'a Value>; 2] {
 
 /// And of its normal map.
 pub(super) fn normals<'a>(material: &'a Material<'a>) -> Option<&'a Value> {
-    of_layer(material)?.get("clearcoatNormalTexture")
+    of_layer(material)?.get(NORMALS)
 }
 
 /// The factor on x and y of that map.

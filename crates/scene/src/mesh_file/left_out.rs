@@ -3,6 +3,8 @@
 //! It is found in the text itself, by the names of the specification (section 5): what a reader does not know it cannot miss. A file
 //! that cannot be read has nothing here, and is refused elsewhere.
 
+mod looks;
+
 use std::collections::BTreeMap;
 
 use gltf::json::Value;
@@ -56,10 +58,13 @@ pub(super) fn of(root: &Value, wanted: Wanted) -> Vec<LeftOut> {
     }
     for primitive in primitives(root) {
         found.primitive(primitive);
+        if wanted.own_materials {
+            found.looks(looks::of_primitive(root, primitive));
+        }
     }
     if wanted.own_materials {
         for material in list(root, "materials") {
-            found.material(material);
+            found.looks(looks::of_material(root, material));
         }
     }
     let told = |((_, what, meaning, matters), count)| LeftOut {
@@ -117,6 +122,12 @@ impl Found {
         }
         let (meaning, matters) = extensions::meaning(name);
         self.add(EXTENSION, name, 1, meaning, matters);
+    }
+
+    fn looks(&mut self, told: Vec<looks::Told>) {
+        for (what, count, meaning) in told {
+            self.add(PROPERTY, what, count, meaning, true);
+        }
     }
 
     fn properties(&mut self, root: &Value, wanted: Wanted) {
@@ -219,49 +230,30 @@ impl Found {
             };
             self.add(ATTRIBUTE, name, 1, meaning, matters);
         }
-    }
-
-    fn material(&mut self, material: &Value) {
-        // Ways in which images lie on the surface: a vertex has places for two.
-        let mut ways: Vec<(u64, Option<&Value>)> = Vec::new();
-        for texture in textures_of(material) {
-            let set = texture.get("texCoord").and_then(Value::as_u64);
-            let transform = texture
-                .get("extensions")
-                .and_then(|it| it.get("KHR_texture_transform"));
-            let way = (set.unwrap_or(0), transform);
-            if !ways.contains(&way) {
-                ways.push(way);
-            }
+        let targets = list(primitive, "targets").iter();
+        for name in targets
+            .filter_map(Value::as_object)
+            .flatten()
+            .map(|it| it.0)
+        {
+            let (meaning, matters) = match name.as_str() {
+                "POSITION" | "NORMAL" | "TANGENT" => continue,
+                name if name.starts_with("TEXCOORD_") => {
+                    ("images do not move on the surface", true)
+                }
+                name if name.starts_with("COLOR_") => ("colours of vertices do not change", true),
+                name if name.starts_with('_') => ("numbers of an application's own", false),
+                _ => ("glTF 2.0 has no such attribute", false),
+            };
+            self.add(
+                ATTRIBUTE,
+                &format!("{name} of morph targets"),
+                1,
+                meaning,
+                matters,
+            );
         }
-        let meaning = "a third way to place images on one surface; they lie as the first one";
-        let others = ways.len().saturating_sub(2);
-        self.add(PROPERTY, "texCoord", others, meaning, true);
     }
-}
-
-/// The uses of textures of a material, those of its extensions that are not read left aside.
-fn textures_of(material: &Value) -> impl Iterator<Item = &Value> {
-    let pbr = material.get("pbrMetallicRoughness");
-    let of_pbr = ["baseColorTexture", "metallicRoughnessTexture"];
-    let of_pbr = of_pbr
-        .into_iter()
-        .filter_map(move |name| pbr.and_then(|it| it.get(name)));
-    let own = ["normalTexture", "emissiveTexture", "occlusionTexture"];
-    let own = own.into_iter().filter_map(|name| material.get(name));
-    let extensions = material.get("extensions");
-    let of_extensions = [
-        ("KHR_materials_clearcoat", "clearcoatTexture"),
-        ("KHR_materials_clearcoat", "clearcoatRoughnessTexture"),
-        ("KHR_materials_clearcoat", "clearcoatNormalTexture"),
-        ("KHR_materials_anisotropy", "anisotropyTexture"),
-        ("KHR_materials_specular", "specularTexture"),
-        ("KHR_materials_specular", "specularColorTexture"),
-    ];
-    let of_extensions = of_extensions
-        .into_iter()
-        .filter_map(move |(extension, name)| extensions?.get(extension)?.get(name));
-    of_pbr.chain(own).chain(of_extensions)
 }
 
 fn list<'a>(value: &'a Value, name: &str) -> &'a [Value] {

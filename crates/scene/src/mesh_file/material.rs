@@ -197,7 +197,7 @@ impl Own<'_> {
             return Ok(());
         }
         // Both lie as the first of them does.
-        let way = ["diffuseTexture", "specularGlossinessTexture"]
+        let way = spec_gloss::TEXTURES
             .into_iter()
             .find_map(|name| uv::of_json(extension.get(name)?));
         let by_other_uvs = way.is_some_and(|way| Ways::of(material).is_second(way));

@@ -9,6 +9,7 @@ use gltf::json::Value;
 use crate::texture::{Texels, linear_to_srgb, srgb_to_linear};
 
 pub(super) const NAME: &str = "KHR_materials_pbrSpecularGlossiness";
+pub(super) const TEXTURES: [&str; 2] = ["diffuseTexture", "specularGlossinessTexture"];
 /// Of a dielectric, as glTF has it.
 const F0: f32 = 0.04;
 

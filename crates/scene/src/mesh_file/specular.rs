@@ -5,9 +5,9 @@ use gltf::material::Material;
 
 use crate::scene::{GLTF_DIELECTRIC_F0, Specular};
 
-const NAME: &str = "KHR_materials_specular";
+pub(super) const NAME: &str = "KHR_materials_specular";
 /// As in [`crate::scene::Material::specular_textures`].
-const TEXTURES: [&str; 2] = ["specularTexture", "specularColorTexture"];
+pub(super) const TEXTURES: [&str; 2] = ["specularTexture", "specularColorTexture"];
 
 /// What a refractive index says of its reflectance at normal incidence.
 pub(super) fn f0(material: &Material) -> f64 {

@@ -98,7 +98,7 @@ fn all(material: &Material) -> Vec<Way> {
     let occlusion = material.occlusion_texture();
     let rest = rest.chain(occlusion.as_ref().map(of_occlusion));
     let older = material.extension_value(spec_gloss::NAME);
-    let older = ["diffuseTexture", "specularGlossinessTexture"]
+    let older = spec_gloss::TEXTURES
         .into_iter()
         .filter_map(|name| of_json(older?.get(name)?));
     let of_extensions = coat::uses(material).into_iter();

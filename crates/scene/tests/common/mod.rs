@@ -169,3 +169,11 @@ pub fn cube() -> (Vec<[f32; 3]>, Vec<u16>) {
         .collect();
     ((0..8).map(corner).collect(), triangles)
 }
+
+/// A PNG of one colour.
+pub fn png(size_px: [u32; 2], rgba: [u8; 4]) -> Vec<u8> {
+    let image = image::RgbaImage::from_pixel(size_px[0], size_px[1], image::Rgba(rgba));
+    let mut png = std::io::Cursor::new(Vec::new());
+    image.write_to(&mut png, image::ImageFormat::Png).unwrap();
+    png.into_inner()
+}

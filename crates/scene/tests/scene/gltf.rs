@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::common::{self, Glb, asset, cube, glb_of, scene_with, temporary_dir};
+use crate::common::{self, Glb, asset, cube, glb_of, png, scene_with, temporary_dir};
 use glam::{DVec2, DVec3, Vec3};
 use hairline_scene::{Base, Description, Error, Mesh, Scene};
 
@@ -114,14 +114,6 @@ fn node_transforms_chain_and_mirror() {
     let scene = load_bytes(&cube_glb("", matrix, &mut Glb::default()), "").unwrap();
     let (least, _) = scene.objects[0].mesh.bounds_m();
     assert!(least.abs_diff_eq(glam::vec3(2.5, 3.5, 4.5), 1e-6));
-}
-
-/// A PNG of one colour.
-fn png(size_px: [u32; 2], rgba: [u8; 4]) -> Vec<u8> {
-    let image = image::RgbaImage::from_pixel(size_px[0], size_px[1], image::Rgba(rgba));
-    let mut png = std::io::Cursor::new(Vec::new());
-    image.write_to(&mut png, image::ImageFormat::Png).unwrap();
-    png.into_inner()
 }
 
 fn base64(bytes: &[u8]) -> String {

@@ -182,3 +182,121 @@ fn channels_that_move_no_node_are_told() {
     let expected = "it.glb: animations (1) left out; the model is at rest; `time_s` of its object shows one at a time";
     assert_eq!(notes, [expected]);
 }
+
+/// A square with texture coordinates, of a material that uses images; `attributes` and `primitive` are added to its members.
+fn square(material: &str, attributes: &str, primitive: &str) -> Vec<u8> {
+    let mut glb = Glb::default();
+    let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0f32]];
+    let positions = glb.floats(&corners.map(|[x, y]| [x, y, 0.0]));
+    let normals = glb.floats(&[[0.0, 0.0, 1.0f32]; 4]);
+    let uvs = glb.floats(&corners);
+    let tangents = glb.floats(&[[1.0, 0.0, 0.0, 1.0f32]; 4]);
+    let indices = glb.indices(&[0, 1, 2, 0, 2, 3]);
+    let image = glb.view(&crate::common::png([1, 1], [255, 128, 255, 255]));
+    glb.more = format!(
+        r#","images":[{{"bufferView":{image},"mimeType":"image/png"}}],"textures":[{{"source":0}},{{"source":0,"sampler":0}}],
+            "samplers":[{{"wrapS":33071}}],"materials":[{{{material}}}]"#
+    );
+    let attributes = attributes
+        .replace("UVS", &uvs.to_string())
+        .replace("TANGENTS", &tangents.to_string());
+    let primitive = primitive.replace("NORMALS", &normals.to_string());
+    let mesh = format!(
+        r#"{{"primitives":[{{"attributes":{{"POSITION":{positions},"NORMAL":{normals}{attributes}}},"indices":{indices},"material":0{primitive}}}]}}"#
+    );
+    glb.bytes(&mesh, r#"{"mesh":0}"#)
+}
+
+const UVS: &str = r#","TEXCOORD_0":UVS,"TEXCOORD_1":UVS"#;
+const WITH_TANGENTS: &str = r#","TEXCOORD_0":UVS,"TEXCOORD_1":UVS,"TANGENT":TANGENTS"#;
+
+#[test]
+fn images_of_the_older_model_lie_as_the_first_of_them() {
+    let dir = temporary_dir();
+    let notes = |textures: &str| {
+        let material =
+            format!(r#""extensions":{{"KHR_materials_pbrSpecularGlossiness":{{{textures}}}}}"#);
+        std::fs::write(dir.path().join("it.glb"), square(&material, UVS, "")).unwrap();
+        told(dir.path(), "")
+    };
+    let other = "it.glb: texture coordinates and sampler of specularGlossinessTexture (1) left out; \
+         it has those of diffuseTexture";
+    for (specular, expected) in [
+        (r#"{"index":0}"#, &[][..]),
+        (r#"{"index":0,"texCoord":1}"#, &[other]),
+        (
+            r#"{"index":0,"extensions":{"KHR_texture_transform":{"scale":[2,2]}}}"#,
+            &[other],
+        ),
+        // Repeated where the first is clamped.
+        (r#"{"index":1}"#, &[other]),
+        // A transform that moves nothing.
+        (
+            r#"{"index":0,"extensions":{"KHR_texture_transform":{"scale":[1,1]}}}"#,
+            &[],
+        ),
+    ] {
+        let textures =
+            format!(r#""diffuseTexture":{{"index":0}},"specularGlossinessTexture":{specular}"#);
+        assert_eq!(notes(&textures), expected, "{specular}");
+    }
+    assert!(notes(r#""specularGlossinessTexture":{"index":0,"texCoord":1}"#).is_empty());
+}
+
+#[test]
+fn a_third_way_of_images_is_told() {
+    let dir = temporary_dir();
+    let moved = r#""extensions":{"KHR_texture_transform":{"offset":[0.5,0]}}"#;
+    let material = format!(
+        r#""normalTexture":{{"index":0}},"emissiveTexture":{{"index":0,"texCoord":1}},
+            "extensions":{{"KHR_materials_pbrSpecularGlossiness":{{"diffuseTexture":{{"index":0,{moved}}}}}}}"#
+    );
+    std::fs::write(dir.path().join("it.glb"), square(&material, UVS, "")).unwrap();
+    let expected = "it.glb: texCoord (1) left out; a third way to place images on one surface; they lie as the first one";
+    assert_eq!(told(dir.path(), ""), [expected]);
+    assert!(told(dir.path(), "material = \"steel\"\n").is_empty());
+}
+
+#[test]
+fn directions_by_other_texture_coordinates_are_told() {
+    let dir = temporary_dir();
+    let notes = |material: &str, attributes: &str| {
+        std::fs::write(dir.path().join("it.glb"), square(material, attributes, "")).unwrap();
+        told(dir.path(), "")
+    };
+    let coat = r#""normalTexture":{"index":0},"extensions":{"KHR_materials_clearcoat":{"clearcoatFactor":1,"clearcoatNormalTexture":{"index":0,"texCoord":1}}}"#;
+    let expected = "it.glb: tangents of clearcoatNormalTexture (1) left out; its bumps turn by the texture coordinates of normalTexture";
+    assert_eq!(notes(coat, UVS), [expected]);
+    // Those of the file serve both, and so do the same coordinates; a coat of no weight has no bumps.
+    assert!(notes(coat, WITH_TANGENTS).is_empty());
+    assert!(notes(&coat.replace(r#""texCoord":1"#, r#""texCoord":0"#), UVS).is_empty());
+    assert!(notes(&coat.replace("Factor\":1", "Factor\":0"), UVS).is_empty());
+
+    let brushed = r#""pbrMetallicRoughness":{"baseColorTexture":{"index":0}},"extensions":{"KHR_materials_anisotropy":{"anisotropyStrength":1,"anisotropyTexture":{"index":0,"texCoord":1}}}"#;
+    let expected = "it.glb: tangents of anisotropyTexture (1) left out; its directions turn by the texture coordinates of another image";
+    assert_eq!(notes(brushed, UVS), [expected]);
+    assert!(notes(brushed, WITH_TANGENTS).is_empty());
+    assert!(notes(&brushed.replace("Strength\":1", "Strength\":0"), UVS).is_empty());
+    let plain = r#""extensions":{"KHR_materials_anisotropy":{"anisotropyStrength":1}}"#;
+    let expected = "it.glb: direction of KHR_materials_anisotropy (1) left out; \
+         there are neither tangents nor texture coordinates; highlights are drawn out any way";
+    assert_eq!(notes(plain, ""), [expected]);
+    assert!(notes(plain, UVS).is_empty());
+    assert!(notes(plain, r#","TANGENT":TANGENTS"#).is_empty());
+}
+
+#[test]
+fn what_morph_targets_do_not_move_is_told() {
+    let dir = temporary_dir();
+    let targets = r#","targets":[{"NORMAL":NORMALS,"TEXCOORD_0":NORMALS,"COLOR_0":NORMALS},{"POSITION":NORMALS,"COLOR_0":NORMALS,"_HEAT":NORMALS}]"#;
+    std::fs::write(
+        dir.path().join("it.glb"),
+        square(r#""name":"plain""#, UVS, targets),
+    )
+    .unwrap();
+    let expected = [
+        "it.glb: COLOR_0 of morph targets (2) left out; colours of vertices do not change",
+        "it.glb: TEXCOORD_0 of morph targets (1) left out; images do not move on the surface",
+    ];
+    assert_eq!(told(dir.path(), ""), expected);
+}
