@@ -357,6 +357,76 @@ fn sparse_and_quantized_accessors_are_read() {
     assert_eq!(mesh.uvs[1], glam::vec2(0.2, 0.0));
 }
 
+/// KHR_mesh_quantization: positions of whole numbers that the node scales, and normals of bytes, in steps of four bytes.
+#[test]
+fn whole_numbers_are_positions_and_normals() {
+    let mut glb = Glb::default();
+    let mut add = |bytes: &[u8], stride: usize, kind: &str| {
+        let view = glb.view(bytes);
+        glb.views[view] = glb.views[view].replace("}", &format!(r#","byteStride":{stride}}}"#));
+        glb.accessor(format!(
+            r#"{{"bufferView":{view},{kind},"count":3,"type":"VEC3"}}"#
+        ))
+    };
+    let positions = [[-300i16, 0, 7, 0], [500, -2, 7, 0], [0, 32767, 7, 0]];
+    let positions: Vec<u8> = positions
+        .as_flattened()
+        .iter()
+        .flat_map(|x| x.to_le_bytes())
+        .collect();
+    let bounds = r#""componentType":5122,"min":[-300,-2,7],"max":[500,32767,7]"#;
+    let positions = add(&positions, 8, bounds);
+    let normals = [[127i8, 0, 0, 0], [0, -127, 0, 0], [0, 0, 127, 0]];
+    let normals: Vec<u8> = normals.as_flattened().iter().map(|x| *x as u8).collect();
+    let normals = add(&normals, 4, r#""componentType":5120,"normalized":true"#);
+    glb.more = r#","extensionsUsed":["KHR_mesh_quantization"],"extensionsRequired":["KHR_mesh_quantization"]"#.to_owned();
+    let mesh = format!(
+        r#"{{"primitives":[{{"attributes":{{"POSITION":{positions},"NORMAL":{normals}}}}}]}}"#
+    );
+    let bytes = glb.bytes(&mesh, r#"{"mesh":0,"scale":[0.25,0.25,0.25]}"#);
+    let scene = load_bytes(&bytes, "").unwrap();
+    let mesh = &scene.objects[0].mesh;
+    let expected = [
+        [-75.0, 0.0, 1.75],
+        [125.0, -0.5, 1.75],
+        [0.0, 8191.75, 1.75f32],
+    ];
+    assert_eq!(mesh.positions_m[..], expected.map(Vec3::from));
+    assert_eq!(mesh.normals[..], [Vec3::X, Vec3::NEG_Y, Vec3::Z]);
+    assert_eq!(scene.notes, [""; 0]);
+}
+
+/// EXT_texture_webp: a texture whose only image is a WebP one, which the extension names.
+#[test]
+fn a_texture_may_have_a_webp_image_alone() {
+    let texels = [
+        [255, 0, 0, 255],
+        [0, 255, 0, 255],
+        [1, 2, 3, 255],
+        [250, 128, 7, 255u8],
+    ];
+    let image = image::RgbaImage::from_raw(2, 2, texels.concat()).unwrap();
+    let mut webp = std::io::Cursor::new(Vec::new());
+    image.write_to(&mut webp, image::ImageFormat::WebP).unwrap();
+    let mut glb = Glb::default();
+    let view = glb.view(&webp.into_inner());
+    // The first image is another one.
+    let other = base64(&png([1, 1], [9, 9, 9, 255]));
+    glb.more = format!(
+        r#","extensionsUsed":["EXT_texture_webp"],"extensionsRequired":["EXT_texture_webp"],
+            "images":[{{"uri":"data:image/png;base64,{other}"}},{{"bufferView":{view},"mimeType":"image/webp"}}],
+            "textures":[{{"extensions":{{"EXT_texture_webp":{{"source":1}}}}}}],
+            "materials":[{{"pbrMetallicRoughness":{{"baseColorTexture":{{"index":0}}}}}}]"#
+    );
+    let bytes = cube_glb(r#","material":0"#, r#"{"mesh":0}"#, &mut glb);
+    let scene = load_bytes(&bytes, "").unwrap();
+    let [texture] = &scene.textures[..] else {
+        panic!("{}", scene.textures.len());
+    };
+    assert_eq!((texture.size_px, texture.srgb), ([2, 2], true));
+    assert_eq!(texture.levels[0], texels);
+}
+
 /// The error for a file, without the place in the scene file.
 fn flaw(bytes: &[u8]) -> String {
     let error = load_bytes(bytes, "").unwrap_err();

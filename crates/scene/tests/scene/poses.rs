@@ -204,6 +204,43 @@ fn joints_and_morph_targets_move_vertices() {
 }
 
 #[test]
+fn joints_move_what_was_bound_to_them() {
+    let mut glb = Glb::default();
+    let positions = glb.floats(&[[3.0, 1.0, 0.0], [5.0, 1.0, 0.0], [3.0, 2.0, 4.0]]);
+    let weights = glb.floats(&[[1.0, 0.0, 0.0, 0.0f32]; 3]);
+    let numbers = glb.view(&[0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0]);
+    let joints = glb.accessor(format!(
+        r#"{{"bufferView":{numbers},"componentType":5121,"count":3,"type":"VEC4"}}"#
+    ));
+    // Column by column: moved by (-3, -1, 0), and halved after a move by (-4, 0, 0).
+    #[rustfmt::skip]
+    let bytes: Vec<u8> = [
+        1.0, 0.0, 0.0, 0.0,  0.0, 1.0, 0.0, 0.0,  0.0, 0.0, 1.0, 0.0,  -3.0, -1.0, 0.0, 1.0,
+        0.5, 0.0, 0.0, 0.0,  0.0, 0.5, 0.0, 0.0,  0.0, 0.0, 0.5, 0.0,  -2.0, 0.0, 0.0, 1.0f32,
+    ]
+    .iter()
+    .flat_map(|x| x.to_le_bytes())
+    .collect();
+    let bind = glb.view(&bytes);
+    let bind = glb.accessor(format!(
+        r#"{{"bufferView":{bind},"componentType":5126,"count":2,"type":"MAT4"}}"#
+    ));
+    glb.more = format!(r#","skins":[{{"joints":[2,3],"inverseBindMatrices":{bind}}}]"#);
+    let mesh_text = format!(
+        r#"{{"primitives":[{{"attributes":{{"POSITION":{positions},"JOINTS_0":{joints},"WEIGHTS_0":{weights}}}}}]}}"#
+    );
+    // The first joint makes twice as large, then moves by (0, 8, 0); the second moves by (1, 0, 0).
+    let nodes = r#"{"children":[1,2,3]},{"mesh":0,"skin":0},{"scale":[2,2,2],"translation":[0,8,0]},{"translation":[1,0,0]}"#;
+    let moved = mesh(&glb.bytes(&mesh_text, nodes), "");
+    let expected = [
+        vec3(0.0, 8.0, 0.0),
+        vec3(1.5, 0.5, 0.0),
+        vec3(0.5, 1.0, 2.0),
+    ];
+    assert_eq!(moved.positions_m[..], expected);
+}
+
+#[test]
 fn instances_stand_in_many_places() {
     let mut glb = Glb::default();
     let mesh_text = cube_mesh(&mut glb, "");
