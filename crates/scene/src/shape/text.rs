@@ -180,7 +180,7 @@ fn shapes(contours: Vec<Contour>) -> Vec<Vec<Contour>> {
         }
         contour
     };
-    let outer = (0..contours.len()).filter(|&i| outside[i].len() % 2 == 0);
+    let outer = (0..contours.len()).filter(|&i| outside[i].len().is_multiple_of(2));
     let with_holes = outer.map(|i| {
         let is_hole =
             |j: &usize| outside[*j].len() == outside[i].len() + 1 && outside[*j].contains(&i);
