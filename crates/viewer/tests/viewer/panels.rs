@@ -86,8 +86,8 @@ fn the_camera_and_the_picture() {
     let mut harness = viewer(BUILT_IN);
     wait_built(&mut harness);
     click_on(&mut harness, "Camera");
-    // Exposure, field of view, three vectors, filter, size.
-    assert_eq!(every_number_is_live(&mut harness), 2 + 9 + 1 + 2);
+    // Exposure, field of view, focal length, film width, three vectors, filter, size.
+    assert_eq!(every_number_is_live(&mut harness), 4 + 9 + 1 + 2);
     let before = description(&harness);
     click_on(&mut harness, "Top");
     // The view is another one, and the camera stands where it stood.
