@@ -143,6 +143,17 @@ def interrupt_soon(after_s):
     return timer
 
 
+def interrupting():
+    """A progress function that presses Ctrl-C once a hundredth of the picture is there, however long that takes."""
+    timers = []
+
+    def told(what, share):
+        if what == "rendering" and share > 0.01 and not timers:
+            timers.append(interrupt_soon(0.05))
+
+    return told
+
+
 def test_ctrl_c_ends_a_reference_and_returns_what_there_is(scene):
     scene.build()
     interrupt_soon(1.5)
@@ -154,18 +165,16 @@ def test_ctrl_c_ends_a_reference_and_returns_what_there_is(scene):
 
 
 def test_ctrl_c_ends_a_picture(scene):
-    interrupt_soon(2.0)
     # Takes many seconds: 256 batches of 4 shadow rays for each pixel.
     with pytest.warns(hairline.InterruptedWarning):
-        image = scene.render(size=(400, 300), samples=1024, shadows=True, backend="cpu")
+        image = scene.render(size=(400, 300), samples=1024, shadows=True, backend="cpu", progress=interrupting())
     assert not image.is_complete
     assert (image.depth_m > 0).any() and 0 < image.samples.max() < 1024
 
 
 def test_ctrl_c_ends_a_picture_without_shadows(scene):
-    interrupt_soon(2.0)
     with pytest.warns(hairline.InterruptedWarning):
-        image = scene.render(size=(4000, 3000), samples=1024, shadows=False, backend="cpu")
+        image = scene.render(size=(4000, 3000), samples=1024, shadows=False, backend="cpu", progress=interrupting())
     assert not image.is_complete
     done = image.depth_m > 0
     assert done.any() and not done[-1].all()
