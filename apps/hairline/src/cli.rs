@@ -152,7 +152,7 @@ pub struct Render {
     pub tone_map: Option<ToneMap>,
     /// The time of the models' animations, seconds, in place of the scene's. With --frames also A:B: from A in the first frame to
     /// B in the last one, by equal steps.
-    #[arg(long, value_name = "S[:B]", value_parser = parse_times)]
+    #[arg(long, value_name = "A[:B]", value_parser = parse_times)]
     pub time: Option<[f64; 2]>,
     /// See by this camera of a model's file: its name, or its number from 0.
     #[arg(long, value_name = "CAMERA")]

@@ -49,7 +49,6 @@ impl ShadedGratings {
         let stds = Frame::new(point).stds;
         let mut roots = [OutlineRoots::default(), OutlineRoots::default()];
         let mut sum = Self::default();
-        let mut taken = DVec3::ZERO;
         for grating in gratings {
             let (Some(seen), Some(table)) = (
                 seen(grating),
@@ -65,9 +64,10 @@ impl ShadedGratings {
                 point.footprint_axes_m,
                 point.coherence_um,
             );
+            let scale = density / covered.max(1.0);
             let around = views.views.len() + 1;
             let mut add = |source: usize, row: &RowAt, sent: DVec3| {
-                let sent = density / covered.max(1.0) * row.share * sent;
+                let sent = scale * row.share * sent;
                 if source < around {
                     sum.radiance += sent;
                 }
@@ -76,6 +76,7 @@ impl ShadedGratings {
                 {
                     picks.add(source, sent, |radiance| row.pick(radiance));
                 }
+                sent
             };
             let row = |seen: GroovePlace| RowAt::new(point, seen, table);
             let own = row(seen.of_one_spot());
@@ -98,16 +99,13 @@ impl ShadedGratings {
                 if let Some(environment) = environment {
                     add(around - 1, row, light.environment(point, environment));
                 }
-                let all_around = light.all_around();
-                add(around, row, all_around);
-                taken += density / covered.max(1.0) * row.share * all_around;
+                sum.taken += add(around, row, light.all_around());
             };
             add_around(&own, &own_light);
             for row in grating.all_ways(seen, normal).map(row) {
                 add_around(&row, &row.light(prepared, point));
             }
         }
-        sum.taken = taken;
         sum
     }
 

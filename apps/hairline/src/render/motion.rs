@@ -100,9 +100,7 @@ impl Motion {
         let target = DVec3::from(camera.target_m);
         target + (DVec3::from(camera.position_m) - target) / factor
     }
-}
 
-impl Motion {
     /// The time of a frame, seconds; none where it is that of the scene.
     pub fn time_s(&self, frame: u32) -> Option<f64> {
         let [from_s, to_s] = self.times_s?;

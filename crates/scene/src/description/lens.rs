@@ -82,9 +82,14 @@ pub(super) fn focus_distance_m(camera: &Table) -> Result<Option<f64>, Error> {
     Ok(given)
 }
 
-/// What a lens before a film that is as wide as the picture sees from top to bottom.
-fn seen_deg(focal_length_mm: f64, sensor_mm: f64, [width, height]: [u32; 2]) -> f64 {
-    let height_mm = sensor_mm * f64::from(height) / f64::from(width.max(1));
+/// How high a film is that is as wide as the picture.
+fn film_height_mm(sensor_mm: f64, [width, height]: [u32; 2]) -> f64 {
+    sensor_mm * f64::from(height) / f64::from(width.max(1))
+}
+
+/// What a lens before such a film sees from top to bottom.
+fn seen_deg(focal_length_mm: f64, sensor_mm: f64, size_px: [u32; 2]) -> f64 {
+    let height_mm = film_height_mm(sensor_mm, size_px);
     2.0 * (0.5 * height_mm / focal_length_mm).atan().to_degrees()
 }
 
@@ -95,8 +100,8 @@ impl Camera {
     }
 
     /// The focal length that sees what the camera does, of a picture of this size.
-    pub fn focal_length_mm(&self, [width, height]: [u32; 2]) -> f64 {
-        let height_mm = self.sensor_mm() * f64::from(height) / f64::from(width.max(1));
+    pub fn focal_length_mm(&self, size_px: [u32; 2]) -> f64 {
+        let height_mm = film_height_mm(self.sensor_mm(), size_px);
         0.5 * height_mm / (0.5 * self.fov_y_deg.to_radians()).tan()
     }
 

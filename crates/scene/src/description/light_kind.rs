@@ -80,73 +80,32 @@ pub enum LightKind {
 /// Of the sun as the earth sees it, across.
 pub(crate) const SUN_DEG: f64 = 0.53;
 
+/// The keys of lights that stand somewhere.
+const NEAR: [&str; 4] = ["radiance", "visible", "cone_deg", "cone_softness"];
+
 /// The keys that belong to each kind.
-pub(super) const KEYS: [(&str, &[&str]); 6] = [
-    (
-        "sphere",
-        &[
-            "center_m",
-            "radius_m",
-            "target_m",
-            "radiance",
-            "visible",
-            "cone_deg",
-            "cone_softness",
-        ],
-    ),
-    (
-        "disk",
-        &[
-            "center_m",
-            "target_m",
-            "radius_m",
-            "two_sided",
-            "radiance",
-            "visible",
-            "cone_deg",
-            "cone_softness",
-        ],
-    ),
-    (
-        "rectangle",
-        &[
-            "center_m",
-            "target_m",
-            "width_m",
-            "height_m",
-            "rotation_deg",
-            "two_sided",
-            "radiance",
-            "visible",
-            "cone_deg",
-            "cone_softness",
-        ],
-    ),
-    (
-        "polygon",
-        &[
-            "vertices_m",
-            "two_sided",
-            "radiance",
-            "visible",
-            "cone_deg",
-            "cone_softness",
-        ],
-    ),
-    (
-        "tube",
-        &[
-            "ends_m",
-            "radius_m",
-            "target_m",
-            "radiance",
-            "visible",
-            "cone_deg",
-            "cone_softness",
-        ],
-    ),
-    ("sun", &["direction", "angle_deg", "irradiance"]),
-];
+pub(super) fn keys() -> [(&'static str, Vec<&'static str>); 6] {
+    let near = |own: &[&'static str]| [own, &NEAR].concat();
+    let rectangle = [
+        "center_m",
+        "target_m",
+        "width_m",
+        "height_m",
+        "rotation_deg",
+        "two_sided",
+    ];
+    [
+        ("sphere", near(&["center_m", "radius_m", "target_m"])),
+        (
+            "disk",
+            near(&["center_m", "target_m", "radius_m", "two_sided"]),
+        ),
+        ("rectangle", near(&rectangle)),
+        ("polygon", near(&["vertices_m", "two_sided"])),
+        ("tube", near(&["ends_m", "radius_m", "target_m"])),
+        ("sun", vec!["direction", "angle_deg", "irradiance"]),
+    ]
+}
 
 impl LightKind {
     /// A sphere.

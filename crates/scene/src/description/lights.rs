@@ -255,6 +255,8 @@ impl Light {
 
 impl Read for Light {
     fn read(value: &Value, key: &str) -> Result<Self, Error> {
+        let kinds = light_kind::keys();
+        let kinds = kinds.each_ref().map(|(kind, own)| (*kind, &own[..]));
         let (kind, table) = Table::read_kind(
             value,
             key,
@@ -269,7 +271,7 @@ impl Read for Light {
                 "barn_doors_deg",
                 "picture",
             ],
-            &light_kind::KEYS,
+            &kinds,
         )?;
         let kind = LightKind::read(kind, &table)?;
         let is_sun = kind.sunbeam().is_some();

@@ -238,20 +238,19 @@ fn add_wall(surface: &mut Surface, contour: &[DVec2], depth_m: f64) {
         };
         let normals = [outwards((i + count - 1) % count), outwards((i + 1) % count)].map(rounded);
         let first = surface.vertices.len() as u32;
-        for (point, normal) in ends(i).into_iter().zip(normals) {
+        let next_m = gone_m + ends(i)[0].distance(ends(i)[1]);
+        for ((point, normal), at_m) in ends(i).into_iter().zip(normals).zip([gone_m, next_m]) {
             for (z_m, v) in [(0.0, 1.0), (depth_m, 0.0)] {
                 surface.vertices.push(Vertex {
                     position_m: point.extend(z_m),
                     normal: normal.extend(0.0),
                     tangent: normal.perp().extend(0.0),
-                    uv: Vec2::new((gone_m / length_m) as f32, v),
+                    uv: Vec2::new((at_m / length_m) as f32, v),
                     ..Vertex::default()
                 });
             }
-            if point == ends(i)[0] {
-                gone_m += ends(i)[0].distance(ends(i)[1]);
-            }
         }
+        gone_m = next_m;
         let [a, b, c, d] = [first, first + 2, first + 3, first + 1];
         surface.triangles.extend([[a, b, c], [a, c, d]]);
     }
