@@ -88,6 +88,7 @@ pub fn rendered(
         backend,
         samples,
         transport,
+        is_transparent: false,
         spreads_fireflies: false,
     };
     let mut painter = Painter::open(scene, task, &Quiet)?;

@@ -62,7 +62,12 @@ impl Dist {
         }
         // The icon, and the file that lists the program in menus.
         copy(&root.join("crates/viewer/assets"), &folder.join("desktop"))?;
-        copy_licences(&root, &metadata, &folder.join("licences"))?;
+        let licences = folder.join("licences");
+        copy_licences(&root, &metadata, &licences)?;
+        copy(
+            &root.join("crates/scene/assets/text.txt"),
+            &licences.join("text.ttf.txt"),
+        )?;
 
         let archive = output.join(format!("{name}.tar.gz"));
         run(Command::new("tar")

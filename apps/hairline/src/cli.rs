@@ -136,6 +136,10 @@ pub struct Render {
     /// bounces of more than 4 samples; the scratches' light is left as it is.
     #[arg(long, value_enum, default_value_t = Switch::On)]
     pub firefly_filter: Switch,
+    /// Before a transparent background: the picture's alpha is the share of each pixel that surfaces cover. The environment lights them
+    /// and is not seen.
+    #[arg(long)]
+    pub transparent: bool,
     /// Other scratches of the same kinds: added to the seed of each layer.
     #[arg(
         long,

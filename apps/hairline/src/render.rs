@@ -33,6 +33,7 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
         samples: arguments.samples,
         transport: transport(arguments.shadows, arguments.bounces, &method)?,
         spreads_fireflies: arguments.firefly_filter == Switch::On,
+        is_transparent: arguments.transparent,
     };
     let motion = Motion::of(&arguments.sequence, arguments.time)?;
     // Before the work: nobody should wait for a picture that then has no place to go.

@@ -21,6 +21,7 @@
 //! # Ok::<(), hairline_scene::Error>(())
 //! ```
 
+mod alpha;
 mod bin;
 mod bounces;
 mod camera_beam;
@@ -45,3 +46,5 @@ mod silhouettes;
 pub mod surface;
 mod tile;
 mod visibility;
+
+pub use alpha::alpha;

@@ -91,6 +91,11 @@ impl<'a> Prepared<'a> {
         self
     }
 
+    /// The tree over the triangles.
+    pub fn triangles(&self) -> &Arc<TriangleIndex> {
+        &self.triangles
+    }
+
     /// The tree over the scratches.
     pub fn scratches(&self) -> &Arc<ScratchIndex> {
         &self.scratches

@@ -1,17 +1,12 @@
-//! One pixel by itself, with what is under it; and which share of each pixel a surface covers.
+//! One pixel by itself, with what is under it.
 
-use crate::camera_beam::CameraBeam;
 use crate::counts::Counts;
 use crate::options::RenderOptions;
 use crate::prepared::Prepared;
 use crate::silhouettes::is_smooth;
 use crate::tile::Tile;
-use crate::visibility::{Visibility, center, coverage};
 use hairline_image::Image;
 use hairline_index::Hit;
-use hairline_scene::camera::pixel_jitter;
-use rayon::prelude::*;
-use std::ops::Range;
 
 /// A pixel of a picture.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,38 +47,13 @@ impl Prepared<'_> {
                 density: vec![sample.density.as_vec3().to_array()],
                 depth_m: vec![sample.depth_m as f32],
                 normal: vec![sample.normal.as_vec3().to_array()],
+                alpha: None,
                 noise: None,
             },
             hit: picture.visibility.hit(column, row).copied(),
             segments: pairs as f64 / f64::from(samples),
             samples,
         })
-    }
-
-    /// The share of each pixel of some rows that surfaces cover, from 0 to 1, of the samples that a picture of `samples` takes.
-    pub fn coverage(&self, samples: u32, rows: Range<u32>) -> Vec<f32> {
-        let size_px = self.scene.render.size_px;
-        let camera = self.scene.camera.frame(size_px);
-        let visibility = Visibility::new(&self.triangles, &camera, size_px, &rows, samples);
-        let (width, samples) = (size_px[0] as usize, samples.max(1));
-        let mut shares = vec![0.0; rows.len() * width];
-        let pixels = shares.par_iter_mut().enumerate();
-        pixels.for_each_init(CameraBeam::default, |rays, (i, share)| {
-            let (x, y) = (i % width, rows.start as usize + i / width);
-            if samples == 1 || is_smooth(&visibility, &camera, x, y) {
-                *share = f32::from(u8::from(visibility.hit(x, y).is_some()));
-                return;
-            }
-            let covered = (0..samples).filter(|&sample| {
-                let at_px = center(x, y) + pixel_jitter(sample, samples);
-                let direction = camera.camera_ray(at_px).normalize();
-                let coverage = coverage(x, y, sample);
-                rays.intersect(&self.triangles, &camera, at_px, direction, coverage)
-                    .is_some()
-            });
-            *share = covered.count() as f32 / samples as f32;
-        });
-        shares
     }
 }
 
@@ -93,7 +63,7 @@ mod tests {
     use hairline_fixtures::SceneFile;
 
     #[test]
-    fn a_pixel_is_that_of_the_picture_and_coverage_ends_where_the_disk_does() {
+    fn a_pixel_is_that_of_the_picture() {
         let scene = SceneFile::seen_from([0.0, -0.5, 0.3])
             .fov_y_deg(30.0)
             .size_px([40, 24])
@@ -110,7 +80,6 @@ mod tests {
             ..RenderOptions::default()
         };
         let picture = prepared.render(&options, &|_| {});
-        let coverage = prepared.coverage(8, 0..24);
         let (mut edges, mut scratched) = (0, 0);
         for i in (0..40 * 24).step_by(7) {
             let at = [i as u32 % 40, i as u32 / 40];
@@ -118,8 +87,7 @@ mod tests {
             assert_eq!(reading.image.base[0], picture.base[i], "{at:?}");
             assert_eq!(reading.image.scratches[0], picture.scratches[i], "{at:?}");
             assert_eq!(reading.image.depth_m[0], picture.depth_m[i], "{at:?}");
-            assert_eq!(coverage[i] > 0.0, picture.depth_m[i] > 0.0, "{at:?}");
-            edges += u32::from(coverage[i] > 0.0 && coverage[i] < 1.0);
+            edges += u32::from(reading.samples > 1);
             scratched += u32::from(reading.segments > 0.0);
         }
         assert!(edges > 3 && scratched > 3, "{edges} {scratched}");

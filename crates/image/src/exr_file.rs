@@ -23,6 +23,8 @@ const NOTE_PREFIX: &str = "hairline.";
 const BATCH_ATTRIBUTE: &str = "hairlineBatch";
 
 pub(crate) const SAMPLES: &str = "samples";
+/// The channel of [`Image::alpha`].
+const ALPHA: &str = "A";
 
 /// The three channels of a layer of the render.
 pub(crate) fn channel_names(layer: crate::Layer) -> [&'static str; 3] {
@@ -55,17 +57,13 @@ pub(crate) fn variance_channel_names(layer: crate::Layer) -> Option<[&'static st
     }
 }
 
-/// Encodes all layers of a render with its noise and notes. The file reads back bit for bit, NaN payloads aside. With `alpha`, one
-/// value a pixel, the beauty has a channel A, and its colours are taken to be multiplied by it, as OpenEXR wants them.
-pub(crate) fn encode_image(
-    image: &Image,
-    alpha: Option<&[f32]>,
-    notes: &Notes,
-) -> std::result::Result<Vec<u8>, String> {
+/// Encodes all layers of a render with its noise and notes. The file reads back bit for bit, NaN payloads aside. [`Image::alpha`] is
+/// the beauty's channel A; colours are multiplied by it, as OpenEXR wants them.
+pub(crate) fn encode_image(image: &Image, notes: &Notes) -> std::result::Result<Vec<u8>, String> {
     use crate::Layer as L;
     let mut channels = Vec::with_capacity(30);
-    if let Some(alpha) = alpha {
-        channels.push(AnyChannel::new("A", FlatSamples::F32(alpha.to_vec())));
+    if let Some(alpha) = &image.alpha {
+        channels.push(AnyChannel::new(ALPHA, FlatSamples::F32(alpha.clone())));
     }
     for layer in [L::Beauty, L::Base, L::Scratches, L::Density, L::Normal] {
         push_channels(&mut channels, channel_names(layer), &image.layer(layer));
@@ -150,17 +148,15 @@ pub fn read_image_with_notes(path: &Path) -> std::result::Result<(Image, Notes),
     };
     let part = |layer| whole(channel_names(layer));
     let base = part(crate::Layer::Base)?;
+    let plane = |it: &Picture| it.rgb.iter().map(|z| z[0]).collect();
     let mut image = Image {
         size_px: base.size_px,
         base: base.rgb,
         scratches: part(crate::Layer::Scratches)?.rgb,
         density: part(crate::Layer::Density)?.rgb,
-        depth_m: part(crate::Layer::Depth)?
-            .rgb
-            .iter()
-            .map(|z| z[0])
-            .collect(),
+        depth_m: plane(&part(crate::Layer::Depth)?),
         normal: part(crate::Layer::Normal)?.rgb,
+        alpha: file.find([ALPHA; 3]).map(|it| plane(&it)),
         noise: None,
     };
     image.noise = file.noise(path)?;
@@ -191,6 +187,7 @@ fn check_lengths(image: &Image, path: &Path) -> std::result::Result<(), Error> {
         image.depth_m.len(),
         image.normal.len(),
     ];
+    lengths.extend(image.alpha.as_ref().map(Vec::len));
     if let Some(noise) = &image.noise {
         lengths.push(noise.samples.len());
         let layers = crate::Layer::ALL

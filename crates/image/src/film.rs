@@ -20,6 +20,9 @@ pub struct Image {
     pub depth_m: Vec<f32>,
     /// Unit shading normal in world space; (0, 0, 0) where nothing was hit.
     pub normal: Vec<[f32; 3]>,
+    /// The share of each pixel that surfaces cover, from 0 to 1: of a picture before a transparent background. There is nothing behind
+    /// the surfaces then, so the colours are multiplied by the shares.
+    pub alpha: Option<Vec<f32>>,
     /// How sure the colours are, where they are Monte Carlo estimates.
     pub noise: Option<Noise>,
 }
@@ -133,6 +136,7 @@ impl Image {
             density: vec![[0.0; 3]; count],
             depth_m: vec![0.0; count],
             normal: vec![[0.0; 3]; count],
+            alpha: None,
             noise: None,
         }
     }

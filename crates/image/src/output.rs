@@ -66,7 +66,8 @@ impl Output {
         self.format
     }
 
-    /// Writes a render: all layers as EXR, the displayed beauty as PNG.
+    /// Writes a render: all layers as EXR, the displayed beauty as PNG. With [`Image::alpha`] both have a channel of alpha: EXR keeps the
+    /// colours multiplied by it; PNG, which wants them divided, has them divided before the tone curve.
     ///
     /// # Errors
     /// [`Error::CannotWrite`].
@@ -85,35 +86,8 @@ impl Output {
         notes: &Notes,
     ) -> Result<(), Error> {
         let encoded = match self.format {
-            Format::Png => png::encode(&image.beauty(), display),
-            Format::Exr => exr_file::encode_image(image, None, notes),
-        };
-        self.write_encoded(encoded)
-    }
-
-    /// Writes a render before a transparent background: `alpha` is the share of each pixel that surfaces cover. The render has
-    /// nothing behind them, so its colours are multiplied by the shares already. EXR keeps them so; PNG, which wants them
-    /// divided, has them divided before the tone curve.
-    ///
-    /// # Errors
-    /// [`Error::CannotWrite`], also where there are not as many shares as pixels.
-    pub fn write_image_with_alpha(
-        &self,
-        image: &Image,
-        alpha: &[f32],
-        display: &Display,
-    ) -> Result<(), Error> {
-        let encoded = if alpha.len() != image.pixel_count() {
-            Err(format!(
-                "{} values of alpha for {} pixels",
-                alpha.len(),
-                image.pixel_count()
-            ))
-        } else {
-            match self.format {
-                Format::Png => png::encode_with_alpha(&image.beauty(), alpha, display),
-                Format::Exr => exr_file::encode_image(image, Some(alpha), &Notes::new()),
-            }
+            Format::Png => png::encode_image(image, display),
+            Format::Exr => exr_file::encode_image(image, notes),
         };
         self.write_encoded(encoded)
     }

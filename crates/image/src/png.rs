@@ -4,7 +4,7 @@ use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
 
 use crate::tone_map::{Display, display_code, dither_offset, linear_from_srgb};
-use crate::{Error, Picture};
+use crate::{Error, Image, Picture};
 use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
@@ -14,54 +14,61 @@ use std::path::Path;
 /// # Errors
 /// Why it cannot be encoded, in words: a picture without pixels.
 pub fn encode(picture: &Picture, display: &Display) -> Result<Vec<u8>, String> {
-    let bytes = quantize(picture, display);
+    encoded(
+        &quantize(picture, display),
+        picture.size_px,
+        ExtendedColorType::Rgb8,
+    )
+}
+
+/// Tone-maps and encodes a render, with its alpha if it has one: the bytes of a PNG file.
+///
+/// # Errors
+/// Why it cannot be encoded, in words: a picture without pixels, another number of shares than of pixels.
+pub fn encode_image(image: &Image, display: &Display) -> Result<Vec<u8>, String> {
+    let color = match image.alpha {
+        None => ExtendedColorType::Rgb8,
+        Some(_) => ExtendedColorType::Rgba8,
+    };
+    encoded(&quantize_image(image, display)?, image.size_px, color)
+}
+
+fn encoded(codes: &[u8], size_px: [u32; 2], color: ExtendedColorType) -> Result<Vec<u8>, String> {
     let mut png = Vec::new();
     PngEncoder::new_with_quality(&mut png, CompressionType::Default, FilterType::Adaptive)
-        .write_image(
-            &bytes,
-            picture.size_px[0],
-            picture.size_px[1],
-            ExtendedColorType::Rgb8,
-        )
+        .write_image(codes, size_px[0], size_px[1], color)
         .map_err(|e| e.to_string())?;
     Ok(png)
 }
 
-/// Tone-maps and encodes a picture whose colours are multiplied by `alpha`; in the file they are not.
-pub(crate) fn encode_with_alpha(
-    picture: &Picture,
-    alpha: &[f32],
-    display: &Display,
-) -> Result<Vec<u8>, String> {
-    let straight = |(rgb, &share): (&[f32; 3], &f32)| match share > 0.0 {
-        true => rgb.map(|c| c / share),
-        false => [0.0; 3],
+/// The 8-bit sRGB codes of a render: three bytes a pixel, or four with the share that surfaces cover. Colours are not multiplied by it.
+///
+/// # Errors
+/// In words: another number of shares than of pixels.
+pub fn quantize_image(image: &Image, display: &Display) -> Result<Vec<u8>, String> {
+    let mut picture = image.beauty();
+    let Some(alpha) = &image.alpha else {
+        return Ok(quantize(&picture, display));
     };
-    let straight = Picture {
-        size_px: picture.size_px,
-        rgb: picture.rgb.iter().zip(alpha).map(straight).collect(),
-    };
-    let codes = quantize(&straight, display);
-    let bytes: Vec<u8> = codes
-        .chunks_exact(3)
-        .zip(alpha)
-        .flat_map(|(rgb, &share)| {
-            let code = (share.clamp(0.0, 1.0) * 255.0).round() as u8;
-            // What is not seen has no colour, dithered or not.
-            let rgb = if code == 0 { &[0; 3] } else { rgb };
-            [rgb[0], rgb[1], rgb[2], code]
-        })
-        .collect();
-    let mut png = Vec::new();
-    PngEncoder::new_with_quality(&mut png, CompressionType::Default, FilterType::Adaptive)
-        .write_image(
-            &bytes,
-            picture.size_px[0],
-            picture.size_px[1],
-            ExtendedColorType::Rgba8,
-        )
-        .map_err(|e| e.to_string())?;
-    Ok(png)
+    if alpha.len() != picture.rgb.len() {
+        let (shares, pixels) = (alpha.len(), picture.rgb.len());
+        return Err(format!("{shares} values of alpha for {pixels} pixels"));
+    }
+    for (rgb, &share) in picture.rgb.iter_mut().zip(alpha) {
+        *rgb = match share > 0.0 {
+            true => rgb.map(|c| c / share),
+            false => [0.0; 3],
+        };
+    }
+    let codes = quantize(&picture, display);
+    let pixels = codes.chunks_exact(3).zip(alpha);
+    let with_alpha = pixels.flat_map(|(rgb, &share)| {
+        let code = (share.clamp(0.0, 1.0) * 255.0).round() as u8;
+        // What is not seen has no colour, dithered or not.
+        let rgb = if code == 0 { &[0; 3] } else { rgb };
+        [rgb[0], rgb[1], rgb[2], code]
+    });
+    Ok(with_alpha.collect())
 }
 
 /// The 8-bit sRGB codes of a picture, three bytes a pixel.
@@ -111,17 +118,20 @@ mod tests {
 
     #[test]
     fn alpha_divides_the_colours_and_nothing_is_black() {
-        let picture = Picture {
-            size_px: [3, 1],
-            rgb: vec![[1.0, 0.0, 1.0], [0.25, 0.0, 0.25], [0.0; 3]],
-        };
+        let mut image = Image::new([3, 1]);
+        image.base = vec![[0.5, 0.0, 0.5], [0.25, 0.0, 0.25], [0.0; 3]];
+        image.scratches[0] = [0.5, 0.0, 0.5];
+        image.alpha = Some(vec![1.0, 0.25, 0.0]);
         let display = Display {
             exposure_ev: 0.0,
             tone_map: ToneMap::None,
         };
-        let bytes = encode_with_alpha(&picture, &[1.0, 0.25, 0.0], &display).unwrap();
+        let bytes = encode_image(&image, &display).unwrap();
         let decoded = image::load_from_memory(&bytes).unwrap().into_rgba8();
         let pixels: Vec<[u8; 4]> = decoded.pixels().map(|pixel| pixel.0).collect();
         assert_eq!(pixels, [[255, 0, 255, 255], [255, 0, 255, 64], [0; 4]]);
+        image.alpha = Some(vec![1.0]);
+        let refused = encode_image(&image, &display).unwrap_err();
+        assert_eq!(refused, "1 values of alpha for 3 pixels");
     }
 }

@@ -216,6 +216,13 @@ impl Image {
         Self::plane(slf, &slf.get().image.depth_m)
     }
 
+    /// The share of each pixel that surfaces cover: float32, height x width, from 0 to 1. None but for a picture before a transparent background.
+    #[getter]
+    fn alpha<'py>(slf: &Bound<'py, Self>) -> PyResult<Option<Bound<'py, PyAny>>> {
+        let alpha = slf.get().image.alpha.as_ref();
+        alpha.map(|alpha| Self::plane(slf, alpha)).transpose()
+    }
+
     /// Samples of each pixel of a reference: uint32, height x width. None for a picture of the closed forms.
     #[getter]
     fn samples<'py>(slf: &Bound<'py, Self>) -> PyResult<Option<Bound<'py, PyAny>>> {
@@ -260,7 +267,7 @@ impl Image {
         tone_map: Option<&str>,
     ) -> PyResult<Bound<'py, PyBytes>> {
         let display = self.display(exposure_ev, tone_map)?;
-        let encoded = py.detach(|| png::encode(&self.image.beauty(), &display));
+        let encoded = py.detach(|| png::encode_image(&self.image, &display));
         let bytes = encoded.map_err(|reason| errors::of_work(py, &reason))?;
         Ok(PyBytes::new(py, &bytes))
     }
@@ -303,7 +310,7 @@ impl Image {
         format!("<hairline.Image: {width} x {height} pixels{part}>")
     }
 
-    /// The displayed picture: sRGB codes, uint8, height x width x 3.
+    /// The displayed picture: sRGB codes, uint8, height x width x 3, or 4 with alpha.
     #[pyo3(signature = (exposure_ev=None, tone_map=None))]
     fn codes<'py>(
         &self,
@@ -312,11 +319,13 @@ impl Image {
         tone_map: Option<&str>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let display = self.display(exposure_ev, tone_map)?;
-        let codes = py.detach(|| png::quantize(&self.image.beauty(), &display));
+        let codes = py.detach(|| png::quantize_image(&self.image, &display));
+        let codes = codes.map_err(|reason| errors::of_work(py, &reason))?;
         let [height, width] = self.shape();
+        let channels = if self.image.alpha.is_some() { 4 } else { 3 };
         Ok(codes
             .into_pyarray(py)
-            .reshape([height, width, 3])?
+            .reshape([height, width, channels])?
             .into_any())
     }
 }

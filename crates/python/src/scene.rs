@@ -218,6 +218,7 @@ impl Built {
         samples: u32,
         shadows: Option<bool>,
         bounces: Option<u32>,
+        transparent: bool,
         host: &Bound<'_, PyAny>,
     ) -> PyResult<Image> {
         let py = host.py();
@@ -238,6 +239,7 @@ impl Built {
             samples,
             transport,
             spreads_fireflies: true,
+            is_transparent: transparent,
         };
         let ended = watched::run(host, |told| {
             let mut painter = Painter::open(&self.scene, task, told)?;

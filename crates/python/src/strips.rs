@@ -44,7 +44,7 @@ pub(crate) fn assemble(strips: Vec<Bound<'_, Picture>>) -> PyResult<Picture> {
     Ok(Picture::new(image, *first.shown(), notes, is_complete))
 }
 
-/// Puts rows of a picture over those from `first` on. Both have noise, or none.
+/// Puts rows of a picture over those from `first` on. Both have noise, or none. References have no alpha.
 fn put(image: &mut Image, first: usize, rows: &Image) {
     let start = first * image.size_px[0] as usize;
     let own = start..start + rows.depth_m.len();
@@ -82,6 +82,9 @@ pub(crate) fn picture_state<'py>(picture: &Bound<'py, Picture>) -> State<'py> {
         layers.extend_from_slice(bytemuck::cast_slice(layer));
     }
     layers.extend_from_slice(bytemuck::cast_slice(&image.depth_m));
+    if let Some(alpha) = &image.alpha {
+        layers.extend_from_slice(bytemuck::cast_slice(alpha));
+    }
     let noise = image.noise.as_ref().map(|noise| {
         let mut bytes: Vec<u8> = Vec::with_capacity(noise.samples.len() * 52);
         for layer in [&noise.beauty, &noise.base, &noise.scratches, &noise.density] {
@@ -144,6 +147,11 @@ pub(crate) fn picture_from_state(
         density: take(&mut bytes, count)?,
         normal: take(&mut bytes, count)?,
         depth_m: take(&mut bytes, count)?,
+        // Behind all others, where there is one.
+        alpha: match bytes.is_empty() {
+            true => None,
+            false => Some(take(&mut bytes, count)?),
+        },
         noise: noise.transpose()?,
     };
     let (exposure_ev, curve) = display;

@@ -2,6 +2,7 @@
 
 import io
 import os
+import pickle
 import signal
 import subprocess
 import sys
@@ -43,6 +44,21 @@ def test_files_hold_the_picture(tmp_path, image):
         np.testing.assert_array_equal(getattr(again, layer), getattr(image, layer))
     image.save(tmp_path / "a.png")
     assert (tmp_path / "a.png").read_bytes() == image.png() == image._repr_png_()
+
+
+def test_a_transparent_picture_has_alpha(tmp_path, scene, image):
+    assert image.alpha is None
+    alone = scene.render(backend="cpu", transparent=True)
+    assert alone.alpha.dtype == np.float32 and alone.alpha.shape == (32, 48)
+    np.testing.assert_array_equal(alone.alpha > 0, alone.depth_m > 0)
+    alone.save(tmp_path / "a.exr")
+    for again in (hairline.read_image(tmp_path / "a.exr"), pickle.loads(pickle.dumps(alone))):
+        np.testing.assert_array_equal(again.alpha, alone.alpha)
+        np.testing.assert_array_equal(again.normal, alone.normal)
+    assert alone.codes().shape == (32, 48, 4) and image.codes().shape == (32, 48, 3)
+    np.testing.assert_array_equal(alone.codes()[..., 3], np.round(alone.alpha * 255))
+    with pytest.raises(hairline.SceneError, match="transparent"):
+        scene.render(transparent=1)
 
 
 def test_a_name_that_is_no_picture_is_refused(tmp_path, image):

@@ -46,10 +46,20 @@ impl Camera {
         }
     }
 
+    /// Whether it has a lens, and no pinhole: what is out of focus needs many batches of samples.
+    pub fn has_lens(&self) -> bool {
+        self.lens.radius_m > 0.0
+    }
+
+    /// Samples that a picture has at least: fewer points of a lens would be seen one by one.
+    pub fn least_samples(&self) -> u32 {
+        if self.has_lens() { 64 } else { 1 }
+    }
+
     /// The same for a batch of samples: each of them sees the scene through another point of the lens, the first one through its middle.
     pub fn frame_of_batch(&self, size_px: [u32; 2], batch: Batch) -> CameraFrame {
         let frame = self.frame(size_px);
-        match self.lens.radius_m > 0.0 {
+        match self.has_lens() {
             true => frame.through_lens(&self.lens, lens_point(batch.first / batch.count.max(1))),
             false => frame,
         }

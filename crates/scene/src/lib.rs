@@ -74,3 +74,4 @@ pub use picture_lie::{PictureLie, three_sides};
 pub use polygon::vector_area_m2;
 pub use scene::*;
 pub use scratches::write_scratches;
+pub use shape::text::FONT;

@@ -75,6 +75,15 @@ impl Scene {
         self.lights.iter().chain(suns)
     }
 
+    /// The same scene with nothing to be seen behind its surfaces: its environment shines, and the camera does not see it.
+    #[must_use]
+    pub fn before_nothing(&self) -> Self {
+        let mut scene = self.clone();
+        let environment = scene.environment.take();
+        scene.environment = environment.map(|it| it.with_visible(false));
+        scene
+    }
+
     /// Those, then the environment's [windows](Environment::windows): what shines on scratches beside the rest of the environment.
     pub fn scratch_lights(&self) -> impl Iterator<Item = &Light> + Clone {
         let windows = self.environment.iter().flat_map(Environment::windows);

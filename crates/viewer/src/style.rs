@@ -43,7 +43,7 @@ fn fonts() -> egui::FontDefinitions {
     use egui::{FontData, FontFamily, FontTweak};
     let mut fonts = egui::FontDefinitions::empty();
     let files: [(&str, &'static [u8]); 2] = [
-        ("text", include_bytes!("../assets/text.ttf")),
+        ("text", hairline_scene::FONT),
         ("signs", include_bytes!("../assets/signs.ttf")),
     ];
     for (name, bytes) in files {

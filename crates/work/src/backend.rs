@@ -3,6 +3,7 @@
 mod fine;
 mod on_gpu;
 
+use std::cell::OnceCell;
 use std::convert::Infallible;
 use std::sync::Arc;
 
@@ -11,7 +12,7 @@ use hairline_cpu::closed_form::{self, Prepared};
 use hairline_gpu::{AdapterKind, AdapterRequest, Gpu, headless};
 use hairline_image::{Batch, Batches, Image, Notes, spread_fireflies};
 use hairline_index::method::{Method, Structure};
-use hairline_index::{ScratchIndex, Watch};
+use hairline_index::{ScratchIndex, TriangleIndex, Watch};
 use hairline_scene::{DEFAULT_TRANSPORT, Scene, ScratchTables, Transport};
 
 use crate::failure::Failure;
@@ -44,10 +45,9 @@ pub struct Task {
     pub transport: Transport,
     /// Whether what few rays found is spread over the pixels around ([`spread_fireflies`]).
     pub spreads_fireflies: bool,
+    /// Whether the picture has [`Image::alpha`]: nothing is seen behind surfaces then, the environment neither.
+    pub is_transparent: bool,
 }
-
-/// A picture by a lens has as many samples at least: fewer points of the lens would be seen one by one.
-const LENS_SAMPLES: u32 = 64;
 
 /// A picture that was rendered.
 pub struct Rendered {
@@ -125,6 +125,8 @@ pub struct Painter<'a> {
     task: Task,
     listener: &'a dyn Listener,
     on: On<'a>,
+    /// For alpha where a GPU renders; built when first needed.
+    triangles: OnceCell<Arc<TriangleIndex>>,
 }
 
 enum On<'a> {
@@ -153,6 +155,7 @@ impl<'a> Painter<'a> {
             task,
             listener,
             on,
+            triangles: OnceCell::new(),
         })
     }
 
@@ -169,11 +172,40 @@ impl<'a> Painter<'a> {
         is_stopped: &(dyn Fn() -> bool + Sync),
         progress: &(dyn Fn(f64) + Sync),
     ) -> Result<Rendered, Failure> {
-        let has_lens = scene.camera.lens.radius_m > 0.0;
-        if !self.task.transport.shadows && !has_lens {
+        if !self.task.is_transparent {
+            return self.render_visible(scene, is_stopped, progress);
+        }
+        let alone = scene.before_nothing();
+        let mut rendered = self.render_visible(&alone, is_stopped, progress)?;
+        let Rendered {
+            samples, wanted, ..
+        } = rendered;
+        let alpha = hairline_cpu::alpha(scene, self.triangles(), samples, wanted);
+        rendered.image.alpha = Some(alpha);
+        Ok(rendered)
+    }
+
+    fn triangles(&self) -> &TriangleIndex {
+        match &self.on {
+            On::Cpu(prepared) => prepared.triangles(),
+            On::Gpu(_) => {
+                let build = || TriangleIndex::build(self.scene).into();
+                self.triangles.get_or_init(build)
+            }
+        }
+    }
+
+    /// All that the scene shows.
+    fn render_visible(
+        &mut self,
+        scene: &Scene,
+        is_stopped: &(dyn Fn() -> bool + Sync),
+        progress: &(dyn Fn(f64) + Sync),
+    ) -> Result<Rendered, Failure> {
+        if !self.task.transport.shadows && !scene.camera.has_lens() {
             return self.render_direct(scene, is_stopped, progress);
         }
-        let least = if has_lens { LENS_SAMPLES } else { 1 };
+        let least = scene.camera.least_samples();
         let mut batches = Batches::new(self.task.samples.max(least));
         let wanted = batches.samples();
         batches.fill(progress, |batch, progress| {

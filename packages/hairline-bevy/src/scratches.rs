@@ -12,8 +12,9 @@ use hairline_scene::{Arrays, Description, Loader, MeshArrays, Scene, SceneBuilde
 
 /// What the mesh is called where a scene has a file.
 const NAME: &str = "mesh";
-/// What a scene needs besides; no picture is rendered of it.
+/// What a scene needs besides; no picture is rendered of it, so nothing lights it.
 const REST: &str = "
+studio = { hidden = true }
 camera = { position_m = [0.0, 0.0, 1.0], target_m = [0.0, 0.0, 0.0], up = [0.0, 1.0, 0.0] }
 material = [{ name = 'material', kind = 'mirror' }]
 object = [{ name = 'mesh', mesh = 'mesh', material = 'material' }]

@@ -129,6 +129,7 @@ pub fn picked(image: &Image, size_px: [u32; 2], from: impl Fn(u32, u32) -> [u32;
         density: of(&image.density, &places),
         depth_m: of(&image.depth_m, &places),
         normal: of(&image.normal, &places),
+        alpha: image.alpha.as_ref().map(|alpha| of(alpha, &places)),
         noise: image.noise.as_ref().map(|noise| Noise {
             beauty: of(&noise.beauty, &places),
             base: of(&noise.base, &places),

@@ -5,8 +5,9 @@ use std::sync::Arc;
 use conformance::square;
 use conformance::two_renderers::{compare_pixels, on_the_cpu, on_the_gpu, on_the_gpu_by};
 use glam::DVec3;
-use hairline_cpu::closed_form::{self, Prepared};
+use hairline_cpu::closed_form;
 use hairline_image::{Image, Layer};
+use hairline_index::TriangleIndex;
 use hairline_index::method::Method;
 use hairline_reference::{Integrator, Model, Settings};
 use hairline_scene::{
@@ -143,8 +144,8 @@ fn coverage_is_that_of_images_and_vertices() {
     let mesh = Arc::make_mut(&mut scene.objects[0].mesh);
     mesh.colors = vec![[1.0, 1.0, 1.0, 0.75].into(); 4];
     let expected = 0.5 * 0.8 * 0.75;
-    let rows = 0..SIZE_PX;
-    let coverage = Prepared::new(&scene).coverage(SAMPLES, rows);
+    let triangles = TriangleIndex::build(&scene);
+    let coverage = hairline_cpu::alpha(&scene, &triangles, SAMPLES, SAMPLES);
     let sum: f64 = coverage.iter().map(|share| f64::from(*share)).sum();
     let share = sum / coverage.len() as f64;
     assert!((share - expected).abs() < 1.5e-3, "{share}");

@@ -62,6 +62,12 @@ impl Goals {
             )));
         }
         if let Some(path) = &animation {
+            if arguments.transparent {
+                let path = path.display();
+                return Err(Failure::Input(anyhow!(
+                    "{path}: --transparent is for pictures, and this is an animation; write numbered pictures, -o NAME.png"
+                )));
+            }
             Animation::check(path)?;
         }
         let pictures = pictures.map_or(Ok(Vec::new()), |path| {

@@ -14,4 +14,5 @@ mod reference;
 mod scratches;
 mod sequence;
 mod shadows;
+mod transparent;
 mod viewer;

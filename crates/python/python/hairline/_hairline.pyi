@@ -68,6 +68,9 @@ class Image:
     def normal(self) -> _Singles:
         """Unit shading normal in world space: float32, height x width x 3; 0 where there is no surface."""
     @property
+    def alpha(self) -> _Singles | None:
+        """The share of each pixel that surfaces cover: float32, height x width, from 0 to 1. None but for a picture before a transparent background."""
+    @property
     def samples(self) -> npt.NDArray[np.uint32] | None:
         """Samples of each pixel of a reference: uint32, height x width. None for a picture of the closed forms."""
     def variance(
@@ -90,7 +93,13 @@ class Built:
     def scratch_counts(self) -> list[int]:
         """How many scratches each object has."""
     def render(
-        self, backend: str, samples: int, shadows: Optional[bool], bounces: Optional[int], host: Host
+        self,
+        backend: str,
+        samples: int,
+        shadows: Optional[bool],
+        bounces: Optional[int],
+        transparent: bool,
+        host: Host,
     ) -> Image: ...
     def reference(
         self,

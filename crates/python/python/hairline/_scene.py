@@ -74,13 +74,15 @@ def render_arguments(
     samples: int = core.DEFAULT_SAMPLES,
     shadows: Optional[bool] = None,
     bounces: Optional[int] = None,
-) -> tuple[str, int, Optional[bool], Optional[int]]:
+    transparent: bool = False,
+) -> tuple[str, int, Optional[bool], Optional[int], bool]:
     """Those of :meth:`Scene.render`, checked."""
     return (
         _name("backend", backend),
         _whole("samples", samples, 1, 1024),
         None if shadows is None else _switch("shadows", shadows),
         None if bounces is None else _whole("bounces", bounces, 0, 64),
+        _switch("transparent", transparent),
     )
 
 
@@ -245,6 +247,7 @@ class Scene:
         samples: int = core.DEFAULT_SAMPLES,
         shadows: Optional[bool] = None,
         bounces: Optional[int] = None,
+        transparent: bool = False,
         progress: Progress = False,
     ) -> Image:
         """Renders the picture, the same bits as ``hairline render``.
@@ -254,12 +257,15 @@ class Scene:
         :param samples: of each pixel that has an edge or a crease in it, from 1 to 1024.
         :param shadows: whether objects hide lights and the environment from one another. Default: as ``hairline render``.
         :param bounces: other objects that light may go by, with shadows, from 0 to 64. Default: as ``hairline render``.
+        :param transparent: whether the picture has :attr:`Image.alpha`; the environment lights its surfaces and is not seen then.
         :param progress: True for a bar on stderr, or a function of what is done and its share, from 0 to 1.
 
         Ctrl-C ends it: what there is by then is returned with :attr:`Image.is_complete` False and an
         :class:`InterruptedWarning`; with nothing there yet, KeyboardInterrupt is raised.
         """
-        arguments = render_arguments(backend=backend, samples=samples, shadows=shadows, bounces=bounces)
+        arguments = render_arguments(
+            backend=backend, samples=samples, shadows=shadows, bounces=bounces, transparent=transparent
+        )
         host = Host(progress)
         built = self._built(size, host)
         try:

@@ -4,6 +4,7 @@
 //! that cannot be read has nothing here, and is refused elsewhere.
 
 mod looks;
+mod properties;
 
 use std::collections::BTreeMap;
 
@@ -132,7 +133,7 @@ impl Found {
 
     fn properties(&mut self, root: &Value, wanted: Wanted) {
         let count = |name: &str| list(root, name).len();
-        let (shown, meaning) = match wanted.animation {
+        let (told, meaning) = match wanted.animation {
             true => (
                 1,
                 "one of them is shown; `animation` of its object says which",
@@ -142,23 +143,17 @@ impl Found {
                 "the model is at rest; `time_s` of its object shows one at a time",
             ),
         };
-        let others = count("animations").saturating_sub(shown);
+        let others = count("animations").saturating_sub(told);
         self.add(PROPERTY, "animations", others, meaning, true);
         let meaning = "a scene has its own camera; `--camera` takes one of these";
         self.add(PROPERTY, "cameras", count("cameras"), meaning, false);
         let others = count("scenes").saturating_sub(1);
         let meaning = "one scene of the file is shown";
         self.add(PROPERTY, "scenes", others, meaning, true);
-        for (list_name, known) in KNOWN {
-            let is_look = Scope::File.within(list_name) == Scope::Look;
-            if is_look && !wanted.own_materials {
-                continue;
-            }
-            for element in list(root, list_name) {
-                self.unknown(list_name, element, known);
-            }
-        }
-        self.unknown("the file", root, KNOWN_AT_TOP);
+        properties::unknown(root, wanted.own_materials, &mut |name, element| {
+            let what = format!("{} of {element}", shown(name));
+            self.add(PROPERTY, &what, 1, "glTF 2.0 has no such property", false);
+        });
     }
 
     /// Those of a file, where the scene has others, else what of them the scene's have not.
@@ -193,16 +188,6 @@ impl Found {
                     let meaning = "glTF 2.0 has them animate nothing";
                     self.add(PROPERTY, "channels without a node", 1, meaning, false);
                 }
-            }
-        }
-    }
-
-    /// Members that the specification does not have.
-    fn unknown(&mut self, place: &str, value: &Value, known: &[&str]) {
-        for name in value.as_object().into_iter().flatten().map(|it| it.0) {
-            if !known.contains(&name.as_str()) && !EVERYWHERE.contains(&name.as_str()) {
-                let what = format!("{} of {place}", shown(name));
-                self.add(PROPERTY, &what, 1, "glTF 2.0 has no such property", false);
             }
         }
     }
@@ -265,74 +250,3 @@ fn primitives(root: &Value) -> impl Iterator<Item = &Value> {
     let meshes = list(root, "meshes").iter();
     meshes.flat_map(|mesh| list(mesh, "primitives"))
 }
-
-/// What every element may have.
-const EVERYWHERE: [&str; 3] = ["name", "extensions", "extras"];
-const KNOWN_AT_TOP: &[&str] = &[
-    "extensionsUsed",
-    "extensionsRequired",
-    "accessors",
-    "animations",
-    "asset",
-    "buffers",
-    "bufferViews",
-    "cameras",
-    "images",
-    "materials",
-    "meshes",
-    "nodes",
-    "samplers",
-    "scene",
-    "scenes",
-    "skins",
-    "textures",
-];
-/// The properties of the elements of each list, by the specification.
-const KNOWN: [(&str, &[&str]); 8] = [
-    (
-        "nodes",
-        &[
-            "camera",
-            "children",
-            "skin",
-            "matrix",
-            "mesh",
-            "rotation",
-            "scale",
-            "translation",
-            "weights",
-        ],
-    ),
-    ("meshes", &["primitives", "weights"]),
-    (
-        "materials",
-        &[
-            "pbrMetallicRoughness",
-            "normalTexture",
-            "occlusionTexture",
-            "emissiveTexture",
-            "emissiveFactor",
-            "alphaMode",
-            "alphaCutoff",
-            "doubleSided",
-        ],
-    ),
-    ("textures", &["sampler", "source"]),
-    ("samplers", &["magFilter", "minFilter", "wrapS", "wrapT"]),
-    ("images", &["uri", "mimeType", "bufferView"]),
-    (
-        "accessors",
-        &[
-            "bufferView",
-            "byteOffset",
-            "componentType",
-            "normalized",
-            "count",
-            "type",
-            "max",
-            "min",
-            "sparse",
-        ],
-    ),
-    ("scenes", &["nodes"]),
-];

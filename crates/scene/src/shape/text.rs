@@ -1,7 +1,6 @@
 //! Letters that stand on the xy plane: the outlines of a font, filled and drawn up along z.
 
 use earcut::Earcut;
-use epaint_default_fonts::UBUNTU_LIGHT;
 use glam::{DVec2, DVec3, Vec2};
 use skrifa::instance::{LocationRef, Size};
 use skrifa::outline::{DrawSettings, OutlinePen};
@@ -13,8 +12,11 @@ use crate::surface::{Surface, Vertex};
 /// Into so many straight pieces a curve of an outline is parted: one turns by a quarter at most, and by 11 degrees a piece.
 const CURVE_PIECES: u32 = 8;
 
+/// The font of texts, TrueType: Ubuntu Light without hints. Its licence stands beside it.
+pub static FONT: &[u8] = include_bytes!("../../assets/text.ttf");
+
 fn font() -> FontRef<'static> {
-    FontRef::new(UBUNTU_LIGHT).expect("the font that is built in")
+    FontRef::new(FONT).expect("the font that is built in")
 }
 
 /// Characters of a text that the font does not have.

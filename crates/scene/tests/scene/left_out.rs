@@ -17,12 +17,13 @@ fn rich_cube() -> Vec<u8> {
         "cameras":[{"type":"perspective","perspective":{"yfov":1,"znear":1}}],
         "materials":[
             {"alphaMode":"BLEND","occlusionTexture":{"index":0},"extensions":{"KHR_materials_sheen":{"extensions":{"VENDOR_glow":{}}}}},
-            {"shine":1,"extensions":{"KHR_materials_unlit":{},"KHR_materials_sheen":{},"KHR_materials_clearcoat":{"clearcoatTexture":{"index":0}},"KHR_materials_specular":{"specularColorFactor":[1,0,0]}}}],
+            {"shine":1,"pbrMetallicRoughness":{"glossFactor":1,"metallicFactor":1},
+             "extensions":{"KHR_materials_unlit":{},"KHR_materials_sheen":{},"KHR_materials_clearcoat":{"clearcoatTexture":{"index":0,"mirrored":true},"coats":2},"KHR_materials_specular":{"specularColorFactor":[1,0,0]}}}],
         "images":[{"uri":"data:image/png;base64,AAAA","mimeType":"image/png"}],"textures":[{"source":0}]"#
         .to_owned();
     let attributes = format!(r#""POSITION":{positions},"_BATCHID":{ids}"#);
     let mesh = format!(
-        r#"{{"primitives":[{{"attributes":{{{attributes}}},"indices":{indices}}},{{"mode":1,"attributes":{{"POSITION":{positions}}}}}]}}"#
+        r#"{{"primitives":[{{"attributes":{{{attributes}}},"indices":{indices},"lod":1}},{{"mode":1,"lod":2,"attributes":{{"POSITION":{positions}}}}}]}}"#
     );
     let json = glb
         .json(
@@ -85,7 +86,11 @@ fn what_changes_no_picture_is_listed_too() {
             "_BATCHID",
             "asset2 of the file",
             "cameras",
-            "shine of materials"
+            "coats of KHR_materials_clearcoat",
+            "glossFactor of pbrMetallicRoughness",
+            "lod of primitives",
+            "mirrored of a material's texture",
+            "shine of materials",
         ]
     );
     // A plain file has nothing to tell.

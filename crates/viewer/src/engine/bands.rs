@@ -69,7 +69,7 @@ pub(crate) fn render(
     };
     let mut batches = Batches::new(samples);
     let mut options = options(samples, transport, None);
-    if !transport.shadows {
+    if !transport.shadows && !scene.camera.has_lens() {
         return render_once(&prepared, size_px, &options, size, go_on);
     }
     options.samples = batches.samples();

@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use hairline_cpu::closed_form::Prepared;
 use hairline_cpu::closed_form::TILE_PX;
 use hairline_editor::navigate;
 use hairline_gpu::{AdapterKind, Gpu, GpuScene, RenderOptions, Renderer};
@@ -67,11 +66,19 @@ impl Wish {
         scene.camera = crate::viewport::camera(&camera);
         scene.render.size_px = self.size_px;
         scene.render.filter_std_px = self.description.render.filter_std_px;
-        if self.is_transparent {
-            let environment = scene.environment.take();
-            scene.environment = environment.map(|map| map.with_visible(false));
+        match self.is_transparent {
+            true => scene.before_nothing(),
+            false => scene,
         }
-        scene
+    }
+
+    /// As many as were asked for, or as the camera needs; whole batches of them where they add up.
+    fn samples(&self) -> u32 {
+        let camera = crate::viewport::camera(&self.description.camera);
+        match self.transport.shadows || camera.has_lens() {
+            true => Batches::new(self.samples.max(camera.least_samples())).samples(),
+            false => self.samples,
+        }
     }
 
     fn display(&self) -> Display {
@@ -178,13 +185,11 @@ async fn frames(wish: &Wish, built: &Built, stop: &Stop, report: &Report) -> Res
         if stop.is_asked() {
             return Ok(false);
         }
-        let written = match wish.is_transparent {
-            false => output.write_image(&image, &wish.display()),
-            true => {
-                let alpha = coverage(built, &scene, wish.samples);
-                output.write_image_with_alpha(&image, &alpha, &wish.display())
-            }
-        };
+        if wish.is_transparent {
+            let all = wish.samples();
+            image.alpha = Some(hairline_cpu::alpha(&scene, &built.triangles, all, all));
+        }
+        let written = output.write_image(&image, &wish.display());
         written.map_err(|error| error.to_string())?;
         report.tell(|state| {
             state.written += 1;
@@ -192,17 +197,6 @@ async fn frames(wish: &Wish, built: &Built, stop: &Stop, report: &Report) -> Res
         });
     }
     Ok(true)
-}
-
-/// The share of each pixel that surfaces cover, of the samples that both renderers take.
-fn coverage(built: &Built, scene: &Scene, samples: u32) -> Vec<f32> {
-    let prepared = Prepared::from_parts(
-        scene,
-        Arc::clone(&built.triangles),
-        Arc::clone(&built.scratches),
-        Arc::clone(&built.tables),
-    );
-    prepared.coverage(samples, 0..scene.render.size_px[1])
 }
 
 /// Pixels of the first band on the CPU.
@@ -270,7 +264,7 @@ impl Painter {
     ) -> Result<Option<Image>, hairline_gpu::Error> {
         match self {
             Self::Cpu => {
-                let (samples, transport) = (wish.samples, wish.transport);
+                let (samples, transport) = (wish.samples(), wish.transport);
                 let image = bands::render(built, scene, samples, transport, CPU_BAND_PX, go_on);
                 Ok(image)
             }
@@ -280,15 +274,15 @@ impl Painter {
                 band_px,
             } => {
                 let mut options = RenderOptions {
-                    samples: wish.samples,
+                    samples: wish.samples(),
                     ..Default::default()
                 };
                 let band_px = *band_px;
-                if !wish.transport.shadows {
+                if !wish.transport.shadows && !scene.camera.has_lens() {
                     return on_gpu_in_bands(renderer, uploaded, scene, &options, band_px, go_on)
                         .await;
                 }
-                let mut batches = Batches::new(wish.samples);
+                let mut batches = Batches::new(wish.samples());
                 options.samples = batches.samples();
                 while let Some(batch) = batches.next() {
                     options.batch = Some(batch);

@@ -314,7 +314,11 @@ fn a_transparent_picture_has_alpha_and_is_taken_from_where_the_window_looks() {
                 ..RenderOptions::default()
             };
             let image = closed_form::render(&scene, &options, &|_| {});
-            assert_eq!(exr_file::read_image(&path).unwrap(), image);
+            let mut read = exr_file::read_image(&path).unwrap();
+            let alpha = read.alpha.take().unwrap();
+            let is_seen = |(share, depth_m): (&f32, &f32)| (*share > 0.0) == (*depth_m > 0.0);
+            assert!(alpha.iter().zip(&read.depth_m).all(is_seen));
+            assert_eq!(read, image);
         } else {
             assert_eq!(bytes[25], 6, "red, green, blue and alpha");
         }

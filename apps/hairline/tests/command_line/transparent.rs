@@ -1,0 +1,110 @@
+//! `render --transparent`: alpha against what the same picture lacks before a white background.
+
+use crate::common::{folder_with, hairline, stderr_of};
+use hairline_image::{Display, Output, Picture, exr_file};
+
+/// A disk across a nearer bar, in the light of a map of radiance 1 from everywhere.
+const SCENE: &str = r#"
+[camera]
+position_m = [0.0, -0.3, 0.3]
+target_m = [0.0, 0.0, 0.0]
+up = [0.0, 0.0, 1.0]
+fov_y_deg = 40.0
+LENS
+[render]
+size_px = [48, 32]
+
+[environment]
+file = "white.exr"
+
+[[material]]
+name = "steel"
+kind = "metal"
+metal = "steel"
+roughness = 0.3
+
+[[object]]
+name = "disk"
+material = "steel"
+shape = { disk = { radius_m = 0.07 } }
+
+[[object]]
+name = "bar"
+material = "steel"
+shape = { box = { size_m = [0.4, 0.01, 0.01] } }
+translation_m = [0.0, -0.1, 0.15]
+rotation_deg = [0.0, 20.0, 10.0]
+
+[[scratches]]
+object = "disk"
+pattern = "random"
+count = 200
+"#;
+
+#[test]
+fn alpha_is_what_hides_the_background() {
+    let has_gpu = hairline_gpu::headless::test_gpu().is_some();
+    for lens in ["", "aperture_mm = 25.0\nfocus_distance_m = 0.42\n"] {
+        let folder = folder_with("scene.toml", &SCENE.replace("LENS", lens));
+        let white = Picture {
+            size_px: [32, 16],
+            rgb: vec![[1.0; 3]; 32 * 16],
+        };
+        let map = Output::check(&folder.path().join("white.exr")).unwrap();
+        map.write_picture(&white, &Display::default()).unwrap();
+        for backend in ["cpu", "gpu"].into_iter().take(1 + usize::from(has_gpu)) {
+            let render = |name: &str, flags: &str| {
+                let own = format!("--shadows off --bounces 0 --samples 8 --firefly-filter off --backend {backend}");
+                hairline(
+                    folder.path(),
+                    &format!("render scene.toml -o {name} {own} {flags}"),
+                )
+                .success();
+                exr_file::read_image(&folder.path().join(name)).unwrap()
+            };
+            let seen = render("seen.exr", "");
+            let mut alone = render("alone.exr", "--transparent");
+            assert_eq!(seen.alpha, None);
+            let alpha = alone.alpha.take().unwrap();
+            let mut edges = 0;
+            let mut sum = 0.0;
+            for (i, share) in alpha.iter().enumerate() {
+                let hidden = seen.base[i][1] - alone.base[i][1];
+                sum += (1.0 - share - hidden).abs();
+                edges += usize::from(*share > 0.01 && *share < 0.99);
+            }
+            // A GPU's rays are less exact, and now and then one passes an edge on its other side.
+            let most = if backend == "cpu" { 1e-5 } else { 1e-3 };
+            let mean = sum / alpha.len() as f32;
+            assert!(mean < most, "{backend} {lens}: {mean}");
+            let least = if lens.is_empty() { 60 } else { 200 };
+            assert!(edges > least, "{backend} {lens}: {edges} pixels of edges");
+            // Before nothing colours are those of the surfaces: both have the same scratches.
+            assert_eq!(alone.scratches, seen.scratches);
+        }
+    }
+}
+
+#[test]
+fn a_png_has_alpha_and_an_animation_has_none() {
+    let scene = SCENE
+        .replace("LENS", "")
+        .replace("file = \"white.exr\"", "builtin = \"studio\"");
+    let folder = folder_with("scene.toml", &scene);
+    let render = "render scene.toml --transparent --backend cpu --samples 1";
+    hairline(folder.path(), &format!("{render} -o a.png")).success();
+    let picture = image::open(folder.path().join("a.png")).unwrap();
+    let shares: Vec<u8> = picture
+        .into_rgba8()
+        .pixels()
+        .map(|pixel| pixel.0[3])
+        .collect();
+    assert!(shares.contains(&0) && shares.contains(&255));
+    let arguments = format!("{render} -o a.apng --frames 2 --turntable 10");
+    let text = stderr_of(&hairline(folder.path(), &arguments).code(2));
+    assert!(
+        text.contains("a.apng: --transparent is for pictures"),
+        "{text}"
+    );
+    assert!(!folder.path().join("a.apng").exists());
+}
