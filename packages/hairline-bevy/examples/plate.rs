@@ -25,6 +25,8 @@ fn main() -> AppExit {
     App::new()
         .add_plugins((DefaultPlugins.set(renderer), ScratchedPlugin))
         .insert_resource(ClearColor(Color::srgb(0.02, 0.02, 0.025)))
+        // Bevy's own is white at the camera's exposure.
+        .insert_resource(GlobalAmbientLight::NONE)
         .add_systems(Startup, setup)
         .add_systems(Update, (sway, save))
         .run()
