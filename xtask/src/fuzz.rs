@@ -4,8 +4,10 @@
 mod case;
 mod found;
 mod judge;
+mod model;
 mod mutate;
 mod originals;
+mod packed;
 
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};

@@ -24,6 +24,14 @@ pub enum Kind {
     Png,
     /// Textures of Basis Universal.
     Ktx2,
+    /// Textures of WebP.
+    Webp,
+    /// Textures of JPEG.
+    Jpeg,
+    /// Meshes that Draco packs.
+    Draco,
+    /// Meshes whose views meshoptimizer packs.
+    Meshopt,
 }
 
 /// One input: files in a folder, of which `scene.toml` is rendered.

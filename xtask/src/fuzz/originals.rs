@@ -6,7 +6,9 @@ use rand::RngExt;
 use rand_pcg::Pcg64;
 
 use super::case::{Case, Kind};
+use super::model::{glb, json, tetrahedron};
 use super::mutate;
+use super::packed::{self, Packed};
 
 const HEAD: &str = r#"[camera]
 position_m = [0.0, -0.22, 0.30]
@@ -80,11 +82,18 @@ const MODEL: &str = "\n[[object]]\nname = \"model\"\nmesh = \"FILE\"\nfit_m = 0.
 const LIST: &str = "\n[[scratches]]\nobject = \"plate\"\npattern = \"file\"\nfile = \"list.csv\"\n";
 const CSV: &str = "x0_m,y0_m,z0_m,x1_m,y1_m,z1_m,width_um,depth_nm\n-0.04,0.01,0,0.05,0.02,0,4.2,130\n0.00,-0.03,0,0.01,0.04,0,4.5,138\n";
 
+macro_rules! image {
+    ($name:literal) => {
+        include_bytes!(concat!("../../../crates/scene/tests/scene/images/", $name))
+    };
+}
+
 /// Packed as ETC1S, and as UASTC.
-const KTX2: [&[u8]; 2] = [
-    include_bytes!("../../../crates/scene/tests/scene/images/etc1s.ktx2"),
-    include_bytes!("../../../crates/scene/tests/scene/images/uastc_zstd.ktx2"),
-];
+const KTX2: [&[u8]; 2] = [image!("etc1s.ktx2"), image!("uastc_zstd.ktx2")];
+/// With losses and an alpha beside it, and without.
+const WEBP: [&[u8]; 2] = [image!("lossy.webp"), image!("lossless.webp")];
+/// Row by row, with colours of half the size and marks to begin again at; and in passes.
+const JPEG: [&[u8]; 2] = [image!("baseline.jpg"), image!("progressive.jpg")];
 
 /// All of them, made once.
 pub struct Originals {
@@ -93,6 +102,8 @@ pub struct Originals {
     png: Vec<u8>,
     /// The binary chunk of the model.
     bin: Vec<u8>,
+    draco: Vec<Packed>,
+    meshopt: Packed,
 }
 
 pub fn all() -> Result<Originals> {
@@ -127,6 +138,8 @@ pub fn all() -> Result<Originals> {
         png: written("a.png", &tile)?,
         hdr,
         bin: tetrahedron(),
+        draco: packed::draco()?,
+        meshopt: packed::meshopt()?,
     })
 }
 
@@ -146,6 +159,14 @@ impl Originals {
             let mut bytes = original.to_vec();
             mutate::bytes(&mut bytes, random);
             bytes
+        };
+        let with_image = |name: &str, image: Vec<u8>| {
+            vec![
+                with_model("a.gltf"),
+                file("a.gltf", json(Some("a.bin"), name).into_bytes()),
+                file("a.bin", self.bin.clone()),
+                file(name, image),
+            ]
         };
         let files = match kind {
             Kind::Toml => {
@@ -179,21 +200,21 @@ impl Originals {
             }
             Kind::Hdr => vec![map("map.hdr"), file("map.hdr", mutated(&self.hdr, random))],
             Kind::Exr => vec![map("map.exr"), file("map.exr", mutated(&self.exr, random))],
-            Kind::Png => vec![
-                with_model("a.gltf"),
-                file("a.gltf", json(Some("a.bin"), "tile.png").into_bytes()),
-                file("a.bin", self.bin.clone()),
-                file("tile.png", mutated(&self.png, random)),
-            ],
-            Kind::Ktx2 => {
-                let original = KTX2[random.random_range(0..KTX2.len())];
+            Kind::Png => with_image("tile.png", mutated(&self.png, random)),
+            Kind::Ktx2 => with_image("tile.ktx2", mutated(one(&KTX2, random), random)),
+            Kind::Webp => with_image("tile.webp", mutated(one(&WEBP, random), random)),
+            Kind::Jpeg => with_image("tile.jpg", mutated(one(&JPEG, random), random)),
+            Kind::Draco => {
+                let original = &self.draco[random.random_range(0..self.draco.len())];
                 vec![
-                    with_model("a.gltf"),
-                    file("a.gltf", json(Some("a.bin"), "tile.ktx2").into_bytes()),
-                    file("a.bin", self.bin.clone()),
-                    file("tile.ktx2", mutated(original, random)),
+                    with_model("a.glb"),
+                    file("a.glb", repacked(original, random)),
                 ]
             }
+            Kind::Meshopt => vec![
+                with_model("a.glb"),
+                file("a.glb", repacked(&self.meshopt, random)),
+            ],
         };
         Case {
             name: String::new(),
@@ -202,77 +223,26 @@ impl Originals {
     }
 }
 
+fn one<'a>(images: &[&'a [u8]], random: &mut Pcg64) -> &'a [u8] {
+    images[random.random_range(0..images.len())]
+}
+
+/// A packed model, mostly with one of its pieces changed, and its text by that; now and then with its text changed.
+fn repacked(original: &Packed, random: &mut Pcg64) -> Vec<u8> {
+    let mut changed = original.clone();
+    if random.random_range(0..4) > 0 {
+        let piece = random.random_range(0..changed.pieces.len());
+        mutate::bytes(&mut changed.pieces[piece], random);
+        let (text, chunk) = changed.parts();
+        return glb(text.as_bytes(), &chunk);
+    }
+    let (text, chunk) = changed.parts();
+    glb(&mutate::text(&text, random), &chunk)
+}
+
 /// A scene with what is given, for cases that were found.
 pub fn scene_with(more: &str) -> String {
     format!("{HEAD}{more}")
-}
-
-/// Four corners with normals and texture coordinates, and the indices of four triangles.
-fn tetrahedron() -> Vec<u8> {
-    let corners = [
-        [0.0f32, 0.0, 0.0],
-        [1.0, 0.0, 0.0],
-        [0.0, 1.0, 0.0],
-        [0.0, 0.0, 1.0],
-    ];
-    let normals = [
-        [0.577f32, 0.577, 0.577],
-        [1.0, 0.0, 0.0],
-        [0.0, 1.0, 0.0],
-        [0.0, 0.0, 1.0],
-    ];
-    let uvs = [[0.0f32, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
-    let indices: [u16; 12] = [0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3];
-    let floats = corners
-        .iter()
-        .flatten()
-        .chain(normals.iter().flatten())
-        .chain(uvs.iter().flatten());
-    let floats = floats.flat_map(|x| x.to_le_bytes());
-    floats
-        .chain(indices.iter().flat_map(|x| x.to_le_bytes()))
-        .collect()
-}
-
-fn json(uri: Option<&str>, image: &str) -> String {
-    let uri = uri.map_or(String::new(), |uri| format!("\"uri\": \"{uri}\", "));
-    format!(
-        r#"{{"asset": {{"version": "2.0"}}, "scene": 0, "scenes": [{{"nodes": [0]}}],
-"nodes": [{{"mesh": 0, "children": [1], "scale": [1, 1, 2]}}, {{"mesh": 0, "translation": [1, 0, 0], "rotation": [0, 0, 0, 1]}}],
-"meshes": [{{"primitives": [{{"attributes": {{"POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2}}, "indices": 3, "material": 0, "mode": 4}}]}}],
-"materials": [{{"name": "m", "pbrMetallicRoughness": {{"baseColorTexture": {{"index": 0}}, "metallicFactor": 0.9, "roughnessFactor": 0.4}},
-"normalTexture": {{"index": 0, "scale": 0.5}}}}],
-"textures": [{{"source": 0}}], "images": [{{"uri": "{image}"}}],
-"buffers": [{{{uri}"byteLength": 152}}],
-"bufferViews": [{{"buffer": 0, "byteOffset": 0, "byteLength": 48}}, {{"buffer": 0, "byteOffset": 48, "byteLength": 48}},
-{{"buffer": 0, "byteOffset": 96, "byteLength": 32}}, {{"buffer": 0, "byteOffset": 128, "byteLength": 24}}],
-"accessors": [{{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 1]}},
-{{"bufferView": 1, "componentType": 5126, "count": 4, "type": "VEC3"}},
-{{"bufferView": 2, "componentType": 5126, "count": 4, "type": "VEC2"}},
-{{"bufferView": 3, "componentType": 5123, "count": 12, "type": "SCALAR"}}]}}"#
-    )
-}
-
-/// A binary file of a text and a chunk.
-fn glb(text: &[u8], bin: &[u8]) -> Vec<u8> {
-    let mut text = text.to_vec();
-    text.resize(text.len().next_multiple_of(4), b' ');
-    let mut bin = bin.to_vec();
-    bin.resize(bin.len().next_multiple_of(4), 0);
-    let length = 12 + 8 + text.len() + 8 + bin.len();
-    let number = |n: usize| (n as u32).to_le_bytes();
-    [
-        &b"glTF"[..],
-        &number(2),
-        &number(length),
-        &number(text.len()),
-        b"JSON",
-        &text,
-        &number(bin.len()),
-        b"BIN\0",
-        &bin,
-    ]
-    .concat()
 }
 
 /// Whether all originals are sound: a fuzzer of broken ones finds nothing.
@@ -285,7 +255,30 @@ pub fn sound_cases(originals: &Originals) -> Vec<Case> {
             .collect(),
     };
     let scene = |more: String| scene_with(&more).into_bytes();
-    vec![
+    let model = |name: &str, text: &str, bin: &[u8]| {
+        let scene = scene(MODEL.replace("FILE", "a.glb"));
+        let files = vec![("scene.toml", scene), ("a.glb", glb(text.as_bytes(), bin))];
+        case(name, files)
+    };
+    let images = [
+        ("tile.ktx2", &KTX2),
+        ("tile.webp", &WEBP),
+        ("tile.jpg", &JPEG),
+    ];
+    let with_image = |name: &str, image: &[u8]| {
+        let mut case = model(&format!("sound-{name}"), &json(None, name), &originals.bin);
+        case.files.push((name.to_owned(), image.to_vec()));
+        case
+    };
+    let images = images
+        .into_iter()
+        .flat_map(|(name, files)| files.iter().map(move |file| (name, file)));
+    let packed = originals.draco.iter().chain([&originals.meshopt]);
+    let packed = packed.map(|it| {
+        let (text, chunk) = it.parts();
+        model("sound-packed", &text, &chunk)
+    });
+    let rest = [
         case("sound-toml", vec![("scene.toml", scene(SHAPES.to_owned()))]),
         case(
             "sound-csv",
@@ -294,28 +287,7 @@ pub fn sound_cases(originals: &Originals) -> Vec<Case> {
                 ("list.csv", CSV.into()),
             ],
         ),
-        case(
-            "sound-glb",
-            vec![
-                ("scene.toml", scene(MODEL.replace("FILE", "a.glb"))),
-                (
-                    "a.glb",
-                    glb(json(None, "tile.png").as_bytes(), &originals.bin),
-                ),
-                ("tile.png", originals.png.clone()),
-            ],
-        ),
-        case(
-            "sound-ktx2",
-            vec![
-                ("scene.toml", scene(MODEL.replace("FILE", "a.glb"))),
-                (
-                    "a.glb",
-                    glb(json(None, "tile.ktx2").as_bytes(), &originals.bin),
-                ),
-                ("tile.ktx2", KTX2[0].to_vec()),
-            ],
-        ),
+        with_image("tile.png", &originals.png),
         case(
             "sound-hdr",
             vec![
@@ -336,5 +308,7 @@ pub fn sound_cases(originals: &Originals) -> Vec<Case> {
                 ("m.exr", originals.exr.clone()),
             ],
         ),
-    ]
+    ];
+    let images = images.map(|(name, file)| with_image(name, file));
+    rest.into_iter().chain(images).chain(packed).collect()
 }

@@ -1,20 +1,19 @@
-//! EXT_meshopt_compression: buffer views that are packed by themselves. The crate meshopt-rs unpacks them.
+//! EXT_meshopt_compression and KHR_meshopt_compression: buffer views that are packed by themselves. The crate meshopt-rs unpacks indices.
+
+mod attributes;
+mod filters;
 
 use gltf::buffer::View;
 use gltf::json::Value;
 use meshopt_rs::index::buffer::decode_index_buffer;
 use meshopt_rs::index::sequence::decode_index_sequence;
-use meshopt_rs::vertex::buffer::decode_vertex_buffer;
-use meshopt_rs::vertex::filter;
 
 use super::flaw::Flaw;
 
-/// The newer name is of the same form; its newer coding is refused.
+/// The newer one has one more coding and one more filter; both are read under either name.
 const NAMES: [&str; 2] = ["EXT_meshopt_compression", "KHR_meshopt_compression"];
-/// How attributes begin that are packed by version 1 of the coding.
-const NEWER_ATTRIBUTES: u8 = 0xa1;
-/// No coding packs more bytes into one; then there is what is held for a few.
-const MOST_SHARE: usize = 64;
+/// A byte says of 256 elements that four bytes of each stay as they are: no coding packs more into one. Then there is what is held for a few.
+const MOST_SHARE: usize = 1024;
 const FEW_BYTES: usize = 1 << 16;
 
 /// Whether a buffer says that it only stands for bytes that are packed elsewhere.
@@ -85,10 +84,11 @@ impl<'v> Packing<'v> {
 
     fn unpacked(&self) -> Result<Vec<u8>, String> {
         match self.mode {
-            "ATTRIBUTES" if self.packed.first() == Some(&NEWER_ATTRIBUTES) => {
-                Err("it is of version 1 of the coding, which is not supported".to_owned())
+            "ATTRIBUTES" => {
+                let mut bytes = attributes::unpacked(self.packed, self.count, self.stride)?;
+                filters::apply(self.filter, self.stride, &mut bytes)?;
+                Ok(bytes)
             }
-            "ATTRIBUTES" => self.filtered(self.attributes()?),
             "TRIANGLES" if self.count.is_multiple_of(3) => {
                 let mut indices = vec![0_u32; self.count];
                 decode_index_buffer(&mut indices, self.packed).map_err(in_words)?;
@@ -111,61 +111,6 @@ impl<'v> Packing<'v> {
             stride => Err(format!("indices of {stride} bytes")),
         }
     }
-
-    fn attributes(&self) -> Result<Vec<u8>, String> {
-        match self.stride {
-            4 => self.elements::<4>(),
-            8 => self.elements::<8>(),
-            12 => self.elements::<12>(),
-            16 => self.elements::<16>(),
-            20 => self.elements::<20>(),
-            24 => self.elements::<24>(),
-            28 => self.elements::<28>(),
-            32 => self.elements::<32>(),
-            40 => self.elements::<40>(),
-            48 => self.elements::<48>(),
-            64 => self.elements::<64>(),
-            stride => Err(format!("elements of {stride} bytes")),
-        }
-    }
-
-    fn elements<const N: usize>(&self) -> Result<Vec<u8>, String> {
-        let mut elements = vec![[0_u8; N]; self.count];
-        decode_vertex_buffer(&mut elements, self.packed).map_err(in_words)?;
-        Ok(elements.into_flattened())
-    }
-
-    fn filtered(&self, mut bytes: Vec<u8>) -> Result<Vec<u8>, String> {
-        match (self.filter, self.stride) {
-            ("NONE", _) => {}
-            ("OCTAHEDRAL", 4) => filter::decode_filter_oct_8(bytes.as_chunks_mut().0),
-            ("OCTAHEDRAL", 8) => by_words(&mut bytes, filter::decode_filter_oct_16),
-            ("QUATERNION", 8) => by_words(&mut bytes, filter::decode_filter_quat),
-            ("EXPONENTIAL", _) => {
-                let chunks = bytes.as_chunks().0.iter();
-                let mut words: Vec<u32> = chunks.map(|word| u32::from_le_bytes(*word)).collect();
-                filter::decode_filter_exp(&mut words);
-                bytes = words.iter().flat_map(|word| word.to_le_bytes()).collect();
-            }
-            (filter, stride) => return Err(format!("{filter:?} of {stride} bytes")),
-        }
-        Ok(bytes)
-    }
-}
-
-fn by_words(bytes: &mut Vec<u8>, filter: impl Fn(&mut [[u16; 4]])) {
-    let word = |pair: &[u8; 2]| u16::from_le_bytes(*pair);
-    let element = |bytes: &[u8; 8]| {
-        let pairs = bytes.as_chunks::<2>().0;
-        std::array::from_fn(|i| word(&pairs[i]))
-    };
-    let mut words: Vec<[u16; 4]> = bytes.as_chunks().0.iter().map(element).collect();
-    filter(&mut words);
-    *bytes = words
-        .iter()
-        .flatten()
-        .flat_map(|word| word.to_le_bytes())
-        .collect();
 }
 
 fn in_words<E: std::fmt::Debug>(error: E) -> String {

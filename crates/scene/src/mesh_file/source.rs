@@ -4,6 +4,7 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use gltf::Gltf;
+use gltf::buffer::View;
 
 use super::flaw::Flaw;
 use super::meshopt;
@@ -50,17 +51,32 @@ impl Buffers {
         };
         let buffers = gltf.document.buffers().map(read);
         let whole = buffers.collect::<Result<Vec<_>, _>>()?;
-        let unpacked = gltf
+        let is_packed =
+            |view: &View| whole[view.buffer().index()].is_none() && meshopt::is_packed(view);
+        // What stands in for packed bytes was counted before the file was read.
+        let stand_ins = gltf
             .document
-            .views()
-            .filter(|view| whole[view.buffer().index()].is_none() && meshopt::is_packed(view))
-            .map(|view| Ok((view.index(), meshopt::unpack(&view, &whole)?)))
-            .collect::<Result<_, _>>()?;
+            .buffers()
+            .filter(|it| whole[it.index()].is_none());
+        let mut free: usize = stand_ins
+            .map(|it| it.length())
+            .fold(0, usize::saturating_add);
+        let mut unpacked = HashMap::new();
+        for view in gltf.document.views().filter(is_packed) {
+            free = free.checked_sub(view.length()).ok_or_else(|| {
+                let found = format!(
+                    "its buffer view {} and those before it are longer unpacked than their buffers are",
+                    view.index()
+                );
+                Flaw::new(found, "must lie in their buffers, beside each other")
+            })?;
+            unpacked.insert(view.index(), meshopt::unpack(&view, &whole)?);
+        }
         Ok(Self { whole, unpacked })
     }
 
     /// The bytes of a view.
-    pub(super) fn view(&self, view: &gltf::buffer::View) -> Result<&[u8], Flaw> {
+    pub(super) fn view(&self, view: &View) -> Result<&[u8], Flaw> {
         if let Some(bytes) = self.unpacked.get(&view.index()) {
             return Ok(bytes);
         }

@@ -13,10 +13,10 @@ pub(super) const TEXTURES: [&str; 2] = ["specularTexture", "specularColorTexture
 pub(super) fn f0(material: &Material) -> f64 {
     let extension = material.extension_value("KHR_materials_ior");
     let ior = extension.and_then(|it| it.get("ior")?.as_f64());
-    ior.map_or(GLTF_DIELECTRIC_F0, |ior| match ior {
-        // The extension's sign for a mirror under its own colour.
-        0.0 => 1.0,
-        ior => ((ior - 1.0) / (ior + 1.0)).powi(2),
+    ior.map_or(GLTF_DIELECTRIC_F0, |ior| {
+        // 0 is the extension's sign for a mirror under its own colour: 1.
+        let ior = ior.max(0.0);
+        ((ior - 1.0) / (ior + 1.0)).powi(2)
     })
 }
 

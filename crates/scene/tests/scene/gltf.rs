@@ -427,6 +427,63 @@ fn a_texture_may_have_a_webp_image_alone() {
     assert_eq!(texture.levels[0], texels);
 }
 
+/// Strips and fans are the triangles that section 3.7.2.1 of the specification lists, in its order and with its sides.
+#[test]
+fn strips_and_fans_are_lists_of_triangles() {
+    // None of them is flat, and each pair of edges is another.
+    let corners: Vec<[f32; 3]> = (0..7_u8)
+        .map(|i| {
+            let x = f32::from(i);
+            [x, (x * 1.3).sin(), 0.3 * x * x]
+        })
+        .collect();
+    let order = [2, 0, 5, 1, 6, 3, 4_u16];
+    let load = |mode: u32, indices: Option<&[u16]>| {
+        let mut glb = Glb::default();
+        let positions = glb.floats(&corners);
+        let indices = indices.map_or(String::new(), |it| {
+            format!(r#","indices":{}"#, glb.indices(it))
+        });
+        let mesh = format!(
+            r#"{{"primitives":[{{"attributes":{{"POSITION":{positions}}}{indices},"mode":{mode}}}]}}"#
+        );
+        let scene = load_bytes(&glb.bytes(&mesh, r#"{"mesh":0}"#), "").unwrap();
+        let mesh = scene.objects[0].mesh.clone();
+        let corners = (0..mesh.triangles.len()).map(|i| self::corners(&mesh, i));
+        corners.collect::<Vec<_>>()
+    };
+    let strip = [[0, 1, 2], [1, 3, 2], [2, 3, 4], [3, 5, 4], [4, 5, 6]];
+    let fan = [[1, 2, 0], [2, 3, 0], [3, 4, 0], [4, 5, 0], [5, 6, 0]];
+    // Each triangle from its least corner on: which one is the first does not matter.
+    let sorted = |triangles: Vec<[DVec3; 3]>| {
+        let mut all: Vec<_> = triangles
+            .into_iter()
+            .map(|it| {
+                let mut corners = it.map(|corner| corner.to_array().map(f64::to_bits));
+                let least = (0..3).min_by_key(|i| corners[*i]).unwrap();
+                corners.rotate_left(least);
+                corners
+            })
+            .collect();
+        all.sort_unstable();
+        all
+    };
+    for (mode, triangles) in [(5, strip), (6, fan)] {
+        let plain: Vec<u16> = triangles.as_flattened().to_vec();
+        let ordered: Vec<u16> = plain.iter().map(|i| order[usize::from(*i)]).collect();
+        assert_eq!(
+            sorted(load(mode, None)),
+            sorted(load(4, Some(&plain))),
+            "{mode}"
+        );
+        assert_eq!(
+            sorted(load(mode, Some(&order))),
+            sorted(load(4, Some(&ordered))),
+            "{mode}"
+        );
+    }
+}
+
 /// The error for a file, without the place in the scene file.
 fn flaw(bytes: &[u8]) -> String {
     let error = load_bytes(bytes, "").unwrap_err();

@@ -1,23 +1,15 @@
-//! glTF files whose meshes are packed, placed many times, or moved: by nodes, joints and morph targets. The files are made here.
+//! glTF files whose meshes are placed many times, or moved: by nodes, joints and morph targets. The files are made here.
 
-use crate::common::{Glb, cube, glb_of, scene_with, temporary_dir};
-use draco_core::{
-    DataType, EncoderBuffer, EncoderOptions, FaceIndex, GeometryAttributeType, MeshEncoder,
-    PointAttribute, PointIndex,
-};
+use crate::common::{Glb, cube, scene_with, temporary_dir};
 use glam::{Vec3, vec3};
 use hairline_scene::{Mesh, Scene};
-use meshopt_rs::index::IndexEncodingVersion;
-use meshopt_rs::index::buffer::encode_index_buffer;
-use meshopt_rs::vertex::VertexEncodingVersion;
-use meshopt_rs::vertex::buffer::encode_vertex_buffer;
 use std::sync::Arc;
 
-fn mesh(bytes: &[u8], keys: &str) -> Arc<Mesh> {
+pub fn mesh(bytes: &[u8], keys: &str) -> Arc<Mesh> {
     load(bytes, keys).unwrap().objects[0].mesh.clone()
 }
 
-fn load(bytes: &[u8], keys: &str) -> Result<Scene, String> {
+pub fn load(bytes: &[u8], keys: &str) -> Result<Scene, String> {
     let dir = temporary_dir();
     std::fs::write(dir.path().join("it.glb"), bytes).unwrap();
     let text = scene_with(&format!(
@@ -26,7 +18,7 @@ fn load(bytes: &[u8], keys: &str) -> Result<Scene, String> {
     Scene::from_toml(&text, "test.toml", dir.path()).map_err(|error| error.to_string())
 }
 
-fn cube_mesh(glb: &mut Glb, more: &str) -> String {
+pub fn cube_mesh(glb: &mut Glb, more: &str) -> String {
     let (corners, triangles) = cube();
     let positions = glb.floats(&corners);
     let indices = glb.indices(&triangles);
@@ -240,6 +232,69 @@ fn joints_move_what_was_bound_to_them() {
     assert_eq!(moved.positions_m[..], expected);
 }
 
+/// Scaled, then turned, then moved, then placed by the node; rotations of all kinds that the extension allows.
+#[test]
+fn instances_are_turned_and_scaled() {
+    // Half of the square root of two as floats, as bytes and as pairs of bytes: about z by a quarter, about x by a quarter.
+    let half = std::f32::consts::FRAC_1_SQRT_2;
+    let floats = [[0.0, 0.0, half, half], [half, 0.0, 0.0, half]];
+    let kinds: [(u32, Vec<u8>); 3] = [
+        (
+            5126,
+            floats
+                .iter()
+                .flatten()
+                .flat_map(|x| x.to_le_bytes())
+                .collect(),
+        ),
+        // Made unit again: 90 of 127 are more than the half.
+        (5120, vec![0, 0, 90, 90, 90, 0, 0, 90]),
+        (
+            5122,
+            [0, 0, -23170, -23170, 23170, 0, 0, 23170_i16]
+                .iter()
+                .flat_map(|x| x.to_le_bytes())
+                .collect(),
+        ),
+    ];
+    let corners = [[1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 3.0]];
+    for (component, bytes) in kinds {
+        let mut glb = Glb::default();
+        let positions = glb.floats(&corners);
+        let translations = glb.floats(&[[10.0, 0.0, 0.0], [0.0, 20.0, 0.0]]);
+        let scales = glb.floats(&[[2.0, 3.0, 5.0], [-1.0, 1.0, 1.0]]);
+        let view = glb.view(&bytes);
+        let normalized = component != 5126;
+        let rotations = glb.accessor(format!(
+            r#"{{"bufferView":{view},"componentType":{component},"normalized":{normalized},"count":2,"type":"VEC4"}}"#
+        ));
+        let node = format!(
+            r#"{{"mesh":0,"scale":[1,1,0.5],"translation":[0,0,1],"extensions":{{"EXT_mesh_gpu_instancing":
+                {{"attributes":{{"TRANSLATION":{translations},"ROTATION":{rotations},"SCALE":{scales}}}}}}}}}"#
+        );
+        let mesh_text =
+            format!(r#"{{"primitives":[{{"attributes":{{"POSITION":{positions}}}}}]}}"#);
+        let placed = mesh(&glb.bytes(&mesh_text, &node), "");
+        // z to half, and up by one, after (x, y, z) became (-3y + 10, 2x, 5z), and (-x, 20 - z, y), which is mirrored.
+        let first = [(10.0, 2.0, 1.0), (4.0, 0.0, 1.0), (10.0, 0.0, 8.5)];
+        let second = [(-1.0, 20.0, 1.0), (0.0, 20.0, 2.0), (0.0, 17.0, 1.0)];
+        let expected: Vec<Vec3> = first.into_iter().chain(second).map(Vec3::from).collect();
+        assert_eq!(placed.positions_m.len(), expected.len());
+        for (at, expected) in placed.positions_m.iter().zip(expected) {
+            assert!(
+                at.abs_diff_eq(expected, 1e-5),
+                "{component}: {at}, {expected}"
+            );
+        }
+        // A mirrored one faces outwards as before.
+        for (triangle, middle) in placed.triangles.iter().zip([(10.0, 0.0), (0.0, 20.0)]) {
+            let [a, b, c] = triangle.map(|v| placed.positions_m[v as usize]);
+            let outwards = (b - a).cross(c - a).dot(a - vec3(middle.0, middle.1, 1.0));
+            assert!(outwards > 0.0, "{component}");
+        }
+    }
+}
+
 #[test]
 fn instances_stand_in_many_places() {
     let mut glb = Glb::default();
@@ -279,295 +334,4 @@ fn hidden_nodes_are_not_there() {
         r#"{{"mesh":0,"children":[1]}},{{"translation":[9,0,0],"children":[2],{hidden}}},{{"mesh":0}}"#
     );
     assert_eq!(mesh(&glb.bytes(&mesh_text, &nodes), "").triangles.len(), 12);
-}
-
-fn volume_m3(mesh: &Mesh) -> f32 {
-    let of_corners = |t: &[u32; 3]| {
-        let [a, b, c] = t.map(|v| mesh.positions_m[v as usize]);
-        a.dot(b.cross(c)) / 6.0
-    };
-    mesh.triangles.iter().map(of_corners).sum()
-}
-
-/// The corners of the cube, and its triangles as Draco takes them.
-fn draco_cube() -> (Vec<[f32; 3]>, draco_core::Mesh) {
-    let (corners, triangles) = cube();
-    let mut packed = draco_core::Mesh::new();
-    packed.set_num_points(corners.len());
-    packed.set_num_faces(triangles.len() / 3);
-    for (i, face) in triangles.as_chunks::<3>().0.iter().enumerate() {
-        packed.set_face(FaceIndex(i as u32), face.map(|v| PointIndex(v.into())));
-    }
-    (corners.to_vec(), packed)
-}
-
-/// Packed by Draco, with 12 bits to each number of the attributes that are rounded.
-fn encoded(packed: draco_core::Mesh, rounded: &[i32]) -> Vec<u8> {
-    let mut options = EncoderOptions::new();
-    for &attribute in rounded {
-        options.set_attribute_int(attribute, "quantization_bits", 12);
-    }
-    let mut buffer = EncoderBuffer::new();
-    let mut encoder = MeshEncoder::new();
-    encoder.set_mesh(packed);
-    encoder.encode(&options, &mut buffer).unwrap();
-    buffer.data().to_vec()
-}
-
-/// The cube packed by Draco, by the encoder of the same crate: 12 bits to a coordinate.
-fn packed_cube() -> Vec<u8> {
-    let (corners, mut packed) = draco_cube();
-    let mut positions = PointAttribute::new();
-    positions.init(
-        GeometryAttributeType::Position,
-        3,
-        DataType::Float32,
-        false,
-        corners.len(),
-    );
-    let bytes: Vec<u8> = corners
-        .iter()
-        .flatten()
-        .flat_map(|x| x.to_le_bytes())
-        .collect();
-    positions.buffer_mut().write(0, &bytes);
-    packed.add_attribute(positions);
-    encoded(packed, &[0])
-}
-
-/// A cube's corners, triangles and joints, each of which has all of a vertex: what Draco packs of a skinned model.
-fn packed_limb() -> Vec<u8> {
-    let (corners, mut packed) = draco_cube();
-    let mut add = |kind, components, data_type, bytes: &[u8]| {
-        let mut attribute = PointAttribute::new();
-        attribute.init(kind, components, data_type, false, corners.len());
-        attribute.buffer_mut().write(0, bytes);
-        packed.add_attribute(attribute);
-    };
-    let floats = |values: Vec<f32>| {
-        values
-            .iter()
-            .flat_map(|x| x.to_le_bytes())
-            .collect::<Vec<_>>()
-    };
-    let positions = floats(corners.iter().flatten().copied().collect());
-    let joints: Vec<u8> = corners
-        .iter()
-        .flat_map(|[x, ..]| [u8::from(*x > 0.0), 0, 0, 0])
-        .collect();
-    let shares = floats([1.0, 0.0, 0.0, 0.0].repeat(corners.len()));
-    add(
-        GeometryAttributeType::Position,
-        3,
-        DataType::Float32,
-        &positions,
-    );
-    add(GeometryAttributeType::Generic, 4, DataType::Uint8, &joints);
-    add(
-        GeometryAttributeType::Generic,
-        4,
-        DataType::Float32,
-        &shares,
-    );
-    encoded(packed, &[0, 2])
-}
-
-#[test]
-fn packed_joints_move_vertices() {
-    let file = |attributes: &str| {
-        let mut glb = Glb::default();
-        let view = glb.view(&packed_limb());
-        let bound = r#""min":[-0.5,-0.5,-0.5],"max":[0.5,0.5,0.5]"#;
-        for accessor in [
-            &format!(r#"{{"componentType":5126,"count":8,"type":"VEC3",{bound}}}"#),
-            r#"{"componentType":5121,"count":8,"type":"VEC4"}"#,
-            r#"{"componentType":5126,"count":8,"type":"VEC4"}"#,
-            r#"{"componentType":5123,"count":36,"type":"SCALAR"}"#,
-        ] {
-            glb.accessor(accessor.to_owned());
-        }
-        let mesh_text = format!(
-            r#"{{"primitives":[{{"attributes":{{"POSITION":0,"JOINTS_0":1,"WEIGHTS_0":2}},"indices":3,
-                "extensions":{{"KHR_draco_mesh_compression":{{"bufferView":{view},"attributes":{{{attributes}}}}}}}}}]}}"#
-        );
-        glb.more = r#","skins":[{"joints":[1,2]}],"extensionsUsed":["KHR_draco_mesh_compression"],
-            "extensionsRequired":["KHR_draco_mesh_compression"]"#
-            .to_owned();
-        let nodes = r#"{"mesh":0,"skin":0,"children":[1,2]},{"translation":[-1,0,0]},{"translation":[2,0,0]}"#;
-        glb.bytes(&mesh_text, nodes)
-    };
-    let moved = mesh(&file(r#""POSITION":0,"JOINTS_0":1,"WEIGHTS_0":2"#), "");
-    let (least, most) = moved.bounds_m();
-    assert!(least.abs_diff_eq(vec3(-1.5, -0.5, -0.5), 1e-3), "{least}");
-    assert!(most.abs_diff_eq(vec3(2.5, 0.5, 0.5), 1e-3), "{most}");
-    let error = load(&file(r#""POSITION":0,"JOINTS_0":1,"WEIGHTS_0":7"#), "").unwrap_err();
-    let found = "its WEIGHTS_0 is to be attribute 7 of what Draco packs, which is not there";
-    assert!(error.contains(found), "{error}");
-}
-
-/// A file with a packed cube.
-fn packed_file(packed: &[u8]) -> Vec<u8> {
-    let mut glb = Glb::default();
-    let view = glb.view(packed);
-    let bound = r#""min":[-0.5,-0.5,-0.5],"max":[0.5,0.5,0.5]"#;
-    let positions = glb.accessor(format!(
-        r#"{{"componentType":5126,"count":8,"type":"VEC3",{bound}}}"#
-    ));
-    let indices = glb.accessor(r#"{"componentType":5123,"count":36,"type":"SCALAR"}"#.to_owned());
-    let mesh_text = format!(
-        r#"{{"primitives":[{{"attributes":{{"POSITION":{positions}}},"indices":{indices},
-            "extensions":{{"KHR_draco_mesh_compression":{{"bufferView":{view},"attributes":{{"POSITION":0}}}}}}}}]}}"#
-    );
-    glb.more = r#","extensionsUsed":["KHR_draco_mesh_compression"],"extensionsRequired":["KHR_draco_mesh_compression"]"#.to_owned();
-    glb.bytes(&mesh_text, r#"{"mesh":0}"#)
-}
-
-#[test]
-fn packed_meshes_are_unpacked() {
-    let packed = packed_cube();
-    let unpacked = mesh(&packed_file(&packed), "");
-    assert_eq!(unpacked.triangles.len(), 12);
-    let (least, most) = unpacked.bounds_m();
-    assert!(least.abs_diff_eq(Vec3::splat(-0.5), 3e-4), "{least}");
-    assert!(most.abs_diff_eq(Vec3::splat(0.5), 3e-4), "{most}");
-    let volume = volume_m3(&unpacked);
-    assert!((volume - 1.0).abs() < 2e-3, "{volume}");
-    // Bytes of it changed one by one: a message or another shape, and no panic.
-    for i in 0..packed.len() {
-        let mut damaged = packed.clone();
-        damaged[i] ^= 0x5a;
-        if let Err(error) = load(&packed_file(&damaged), "") {
-            assert!(error.contains("object[0]"), "{error}");
-        }
-    }
-    let mut other = packed.clone();
-    other[0] = b'X';
-    let error = load(&packed_file(&other), "").unwrap_err();
-    assert!(
-        error.contains("its primitive 0 cannot be unpacked"),
-        "{error}"
-    );
-}
-
-/// The cube with positions and triangles packed by meshoptimizer's codings, by the encoder of the same crate. `damage` may change the packed bytes.
-fn meshopt_file(damage: impl Fn(&mut Vec<u8>)) -> Vec<u8> {
-    edited_meshopt_file(damage, |text| text)
-}
-
-/// The same with its text edited.
-fn edited_meshopt_file(damage: impl Fn(&mut Vec<u8>), edit: impl Fn(String) -> String) -> Vec<u8> {
-    let (corners, triangles) = cube();
-    let indices: Vec<u32> = triangles.iter().map(|index| u32::from(*index)).collect();
-    let mut glb = Glb::default();
-    let mut at = 0;
-    let mut pack = |glb: &mut Glb, mut packed: Vec<u8>, stride: usize, count: usize, mode: &str| {
-        damage(&mut packed);
-        let (offset, length) = (glb.bin.len(), packed.len());
-        glb.bin.extend(packed);
-        let bytes = stride * count;
-        glb.views.push(format!(
-            r#"{{"buffer":1,"byteOffset":{at},"byteLength":{bytes},"extensions":{{"EXT_meshopt_compression":{{"buffer":0,
-                "byteOffset":{offset},"byteLength":{length},"byteStride":{stride},"count":{count},"mode":"{mode}"}}}}}}"#
-        ));
-        at += bytes;
-        glb.views.len() - 1
-    };
-    let mut packed = vec![0; 4096];
-    let used = encode_vertex_buffer(&mut packed, &corners, VertexEncodingVersion::V0).unwrap();
-    let positions = pack(&mut glb, packed[..used].into(), 12, 8, "ATTRIBUTES");
-    let mut packed = vec![0; 4096];
-    let used = encode_index_buffer(&mut packed, &indices, IndexEncodingVersion::V0).unwrap();
-    let triangles = pack(&mut glb, packed[..used].into(), 2, 36, "TRIANGLES");
-    let bound = r#""min":[-0.5,-0.5,-0.5],"max":[0.5,0.5,0.5]"#;
-    glb.accessor(format!(
-        r#"{{"bufferView":{positions},"componentType":5126,"count":8,"type":"VEC3",{bound}}}"#
-    ));
-    glb.accessor(format!(
-        r#"{{"bufferView":{triangles},"componentType":5123,"count":36,"type":"SCALAR"}}"#
-    ));
-    glb.more = r#","extensionsUsed":["EXT_meshopt_compression"],"extensionsRequired":["EXT_meshopt_compression"]"#.to_owned();
-    let mesh_text = r#"{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}"#;
-    let json = glb.json(mesh_text, r#"{"mesh":0}"#, None);
-    let stand_in = format!(
-        r#"}},{{"byteLength":{at},"extensions":{{"EXT_meshopt_compression":{{"fallback":true}}}}}}],"bufferViews""#
-    );
-    glb_of(
-        &edit(json.replace(r#"}],"bufferViews""#, &stand_in)),
-        &glb.bin,
-    )
-}
-
-#[test]
-fn views_packed_by_meshoptimizer_are_unpacked() {
-    let unpacked = mesh(&meshopt_file(|_| {}), "");
-    let mut glb = Glb::default();
-    let mesh_text = cube_mesh(&mut glb, "");
-    let plain = mesh(&glb.bytes(&mesh_text, r#"{"mesh":0}"#), "");
-    assert_eq!(unpacked.bounds_m(), plain.bounds_m());
-    assert_eq!(volume_m3(&unpacked), volume_m3(&plain));
-    // By the newer name of the extension, and where a buffer without bytes does not say that it is a stand-in.
-    for [from, to] in [
-        ["EXT_meshopt", "KHR_meshopt"],
-        [r#""fallback":true"#, r#""fallback":false"#],
-    ] {
-        let again = mesh(
-            &edited_meshopt_file(|_| {}, |text| text.replace(from, to)),
-            "",
-        );
-        assert_eq!(again.bounds_m(), plain.bounds_m());
-    }
-    let error = load(&meshopt_file(|packed| packed[0] = 0xa1), "").unwrap_err();
-    assert!(error.contains("version 1 of the coding"), "{error}");
-    let error = load(&meshopt_file(|packed| packed[0] = 0), "").unwrap_err();
-    assert!(
-        error.contains("its buffer view 0 cannot be unpacked (InvalidHeader)"),
-        "{error}"
-    );
-    let error = load(&meshopt_file(|packed| packed.truncate(9)), "").unwrap_err();
-    assert!(
-        error.contains("its buffer view 0 cannot be unpacked"),
-        "{error}"
-    );
-}
-
-mod damaged {
-    use super::{load, meshopt_file, packed_cube, packed_file};
-    use proptest::prelude::*;
-
-    proptest! {
-        #![proptest_config(ProptestConfig::with_cases(512))]
-        /// Bytes of a packed mesh changed, and its end cut off: a message or another shape; no panic, and no memory for what is not there.
-        #[test]
-        fn packed_meshes_end_in_a_message_or_a_shape(
-            changed in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 0..6),
-            kept in 0.0..2.0f64,
-        ) {
-            let mut packed = packed_cube();
-            for (at, byte) in changed {
-                let at = at.index(packed.len());
-                packed[at] = byte;
-            }
-            packed.truncate((kept.min(1.0) * packed.len() as f64) as usize);
-            if let Err(error) = load(&packed_file(&packed), "") {
-                prop_assert!(error.contains("object[0]"), "{error}");
-            }
-        }
-
-        #[test]
-        fn packed_views_do_too(
-            changed in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 0..6),
-            kept in 0.0..2.0f64,
-        ) {
-            let damaged = meshopt_file(|packed| {
-                for (at, byte) in &changed {
-                    let at = at.index(packed.len());
-                    packed[at] = *byte;
-                }
-                packed.truncate((kept.min(1.0) * packed.len() as f64) as usize);
-            });
-            if let Err(error) = load(&damaged, "") {
-                prop_assert!(error.contains("object[0]"), "{error}");
-            }
-        }
-    }
 }
