@@ -88,7 +88,10 @@ pub(super) fn leave_out_what_is_ignored(root: &mut Root, kept: Kept) {
     }
 }
 
-/// Gives each texture its image, which may be named by an extension for WebP.
+/// Extensions by which a texture may have its image.
+const IMAGES_BY: [&str; 2] = ["EXT_texture_webp", "KHR_texture_basisu"];
+
+/// Gives each texture its image, which may be named by an extension.
 pub(super) fn find_images(root: &mut Root) -> Result<(), Flaw> {
     let images = root.images.len();
     for (i, texture) in root.textures.iter_mut().enumerate() {
@@ -105,16 +108,26 @@ pub(super) fn find_images(root: &mut Root) -> Result<(), Flaw> {
         if texture.source.value() < images {
             continue;
         }
-        match named("EXT_texture_webp").or_else(|| named("KHR_texture_basisu")) {
-            Some(source) => texture.source = Index::new(source),
-            None => {
-                let found = format!("its texture {i} has no image that is there");
-                return Err(Flaw::new(
-                    found,
-                    "must have a `source` below the number of images",
-                ));
-            }
+        if let Some(source) = IMAGES_BY.into_iter().find_map(named) {
+            texture.source = Index::new(source);
+            continue;
         }
+        // What has an image that is not read says by which extension.
+        let mut others = others.into_iter().flatten();
+        let other = others.find(|it| !IMAGES_BY.contains(&it.0.as_str()) && named(it.0).is_some());
+        return Err(match other {
+            Some((name, _)) => Flaw::new(
+                format!(
+                    "its texture {i} has an image by the extension {} alone, which is not supported",
+                    shown(name)
+                ),
+                "must have a PNG, JPEG, WebP or KTX2 image (ETC1S or UASTC)",
+            ),
+            None => Flaw::new(
+                format!("its texture {i} has no image that is there"),
+                "must have a `source` below the number of images",
+            ),
+        });
     }
     Ok(())
 }

@@ -821,6 +821,9 @@ fn what_cannot_be_read_is_named() {
     let chain: Vec<_> = (0..400)
         .map(|i| format!(r#"{{"children":[{}]}}"#, i + 1))
         .collect();
+    let of_avif = format!(
+        r#"{{{asset},"textures":[{{"extensions":{{"EXT_texture_avif":{{"source":0}}}}}}],"images":[{{"uri":"a.avif"}}]}}"#
+    );
     let cases = [
         (
             r#"{"asset":{"version":"1.0"},"meshes":{"a":{}}}"#.to_owned(),
@@ -831,6 +834,22 @@ fn what_cannot_be_read_is_named() {
                 r#"{{{asset},"textures":[{{"extensions":{{"KHR_texture_basisu":{{"source":7}}}}}}],"images":[{{"uri":"a.ktx2"}}]}}"#
             ),
             "its texture 0 has no image that is there",
+        ),
+        (
+            of_avif.clone(),
+            "its texture 0 has an image by the extension EXT_texture_avif alone, which is not supported; \
+             must have a PNG, JPEG, WebP or KTX2 image",
+        ),
+        (
+            of_avif.replace("EXT_texture_avif", "MSFT_texture_dds"),
+            "its texture 0 has an image by the extension MSFT_texture_dds alone, which is not supported",
+        ),
+        (
+            of_avif.replace(
+                r#""asset""#,
+                r#""extensionsRequired":["EXT_texture_avif"],"asset""#,
+            ),
+            "it requires the extension EXT_texture_avif, which is not supported",
         ),
         (
             format!(
