@@ -135,6 +135,40 @@ fn a_brushed_white_base_returns_all() {
     }
 }
 
+/// KHR_materials_ior with an index of 0: a dielectric that reflects as the metal of its specular colour does, and nothing gets to its body.
+#[test]
+fn a_dielectric_of_index_zero_reflects_as_a_metal() {
+    let gltf = |base_color, metallic| Base::MetallicRoughness {
+        base_color,
+        metallic,
+    };
+    let color = [0.9, 0.6, 0.3];
+    for roughness in [0.02, 0.3, 1.0] {
+        let mut metal = square(gltf(color, 1.0), 0.01, 8);
+        metal.environment = furnace();
+        metal.materials[0].roughness = roughness;
+        let mut dielectric = metal.clone();
+        dielectric.materials[0].base = gltf([0.0; 3], 0.0);
+        dielectric.materials[0].dielectric_f0 = 1.0;
+        dielectric.materials[0].specular.color = color;
+        let mut white = dielectric.clone();
+        white.materials[0].base = gltf(WHITE, 0.0);
+        white.materials[0].specular.color = WHITE;
+        let [metal, dielectric, white] = [&metal, &dielectric, &white].map(base);
+        assert!(metal.iter().flatten().count() > 20);
+        for (metal, dielectric) in metal.iter().zip(&dielectric) {
+            let pairs = metal.iter().flatten().zip(dielectric.iter().flatten());
+            for (a, b) in pairs {
+                assert!((a - b).abs() < 1e-6, "{roughness}: {a}, {b}");
+            }
+        }
+        // All that comes to it comes back, once.
+        for value in white.iter().flatten().flatten() {
+            assert!((value - 1.0).abs() < 0.01, "{roughness}: {value}");
+        }
+    }
+}
+
 #[test]
 fn balls_in_a_furnace() {
     let ball = SceneFile::seen_from([0.0, -0.5, 0.2])

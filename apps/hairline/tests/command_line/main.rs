@@ -9,6 +9,7 @@ mod cli;
 mod commands;
 mod compare;
 mod method;
+mod models;
 mod opengl;
 mod reference;
 mod scratches;

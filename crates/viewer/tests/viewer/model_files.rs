@@ -73,3 +73,34 @@ fn the_scene_is_seen_by_a_camera_of_its_models_file() {
     undo(&mut harness);
     assert_eq!(description(&harness).camera, before);
 }
+
+/// What of a model is not in the picture is told when it is opened, and once.
+#[test]
+fn what_of_a_model_is_left_out_is_told() {
+    let dir = tempfile::tempdir().unwrap();
+    two_squares(dir.path());
+    let path = dir.path().join("a.gltf");
+    let plain = common::viewer_of_file(&path);
+    assert!(plain.state().messages().is_empty());
+    let text = std::fs::read_to_string(&path).unwrap();
+    let richer = text
+        .replace(
+            r#""name":"gold""#,
+            r#""name":"gold","extensions":{"KHR_materials_sheen":{}}"#,
+        )
+        .replace(
+            r#""scenes""#,
+            r#""extensionsUsed":["KHR_materials_sheen"],"scenes""#,
+        );
+    std::fs::write(&path, richer).unwrap();
+    let mut harness = common::viewer_of_file(&path);
+    let expected = "a.gltf: KHR_materials_sheen (1) left out; cloth misses its sheen";
+    wait_until(&mut harness, "the note", |viewer| {
+        viewer
+            .messages()
+            .iter()
+            .any(|text| text.contains("left out"))
+    });
+    assert_eq!(harness.state().messages(), [expected]);
+    harness.get_by_label(expected);
+}
