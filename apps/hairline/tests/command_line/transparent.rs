@@ -54,7 +54,9 @@ fn alpha_is_what_hides_the_background() {
         map.write_picture(&white, &Display::default()).unwrap();
         for backend in ["cpu", "gpu"].into_iter().take(1 + usize::from(has_gpu)) {
             let render = |name: &str, flags: &str| {
-                let own = format!("--shadows off --bounces 0 --samples 8 --firefly-filter off --backend {backend}");
+                let own = format!(
+                    "--shadows off --bounces 0 --samples 8 --firefly-filter off --backend {backend}"
+                );
                 hairline(
                     folder.path(),
                     &format!("render scene.toml -o {name} {own} {flags}"),
