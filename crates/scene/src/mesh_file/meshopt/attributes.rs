@@ -1,5 +1,6 @@
 //! The mode ATTRIBUTES: each byte of an element as its difference to that of the element before, in groups of 16; appendix A of
-//! KHR_meshopt_compression, whose version 0 is all of EXT_meshopt_compression.
+//! KHR_meshopt_compression, whose version 0 is all of EXT_meshopt_compression. The crate meshopt-rs has no version 1, and of
+//! version 0 only elements whose length is a constant.
 
 /// How a stream of either version begins.
 const VERSIONS: [u8; 2] = [0xa0, 0xa1];

@@ -1,4 +1,5 @@
-//! The filters of attributes: what unpacked bytes stand for; appendix B of KHR_meshopt_compression.
+//! The filters of attributes: what unpacked bytes stand for; appendix B of KHR_meshopt_compression. The crate meshopt-rs has no filter of
+//! colours.
 
 /// Applies the filter of a name to elements of `stride` bytes.
 pub(super) fn apply(name: &str, stride: usize, bytes: &mut [u8]) -> Result<(), String> {
