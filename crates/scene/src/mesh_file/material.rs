@@ -86,6 +86,10 @@ impl Own<'_> {
         let strength = emissive_strength(material);
         let metallic = unit(pbr.metallic_factor());
         let is_unlit = material.extension_value("KHR_materials_unlit").is_some();
+        // The images of the newer model are for programs that do not know the older one.
+        let is_older = material.extension_value(spec_gloss::NAME).is_some();
+        let [of_color, of_metal] = [pbr.base_color_texture(), pbr.metallic_roughness_texture()]
+            .map(|texture| used(texture.filter(|_| !is_older)));
         let ways = Ways::of(material);
         let mut look = |texture: Option<(gltf::Texture, Way)>, channels| match texture {
             Some((texture, way)) => {
@@ -127,11 +131,8 @@ impl Own<'_> {
             emission: material
                 .emissive_factor()
                 .map(|x| f64::from(x).max(0.0) * strength),
-            base_color_texture: look(used(pbr.base_color_texture()), Channels::Color)?,
-            metallic_roughness_texture: look(
-                used(pbr.metallic_roughness_texture()),
-                Channels::Linear,
-            )?,
+            base_color_texture: look(of_color, Channels::Color)?,
+            metallic_roughness_texture: look(of_metal, Channels::Linear)?,
             normal_texture: look(
                 normals
                     .as_ref()

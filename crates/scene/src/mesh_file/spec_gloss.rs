@@ -159,6 +159,52 @@ mod tests {
         }
     }
 
+    /// Worked out from the equations above by hand.
+    #[test]
+    fn colours_are_those_of_the_conversion() {
+        let clear = |glossiness| SpecGloss {
+            diffuse: [0.0, 0.0, 0.0, 1.0],
+            specular: [0.0; 3],
+            glossiness,
+        };
+        for (diffuse, specular, base_color, metallic) in [
+            // A coloured body under plastic, under less than plastic, and a coloured mirror.
+            ([0.5, 0.3, 0.1], [0.04; 3], [0.48, 0.288, 0.096], 0.0),
+            ([0.8, 0.4, 0.2], [0.02; 3], [0.784, 0.392, 0.196], 0.0),
+            ([0.0; 3], [0.9, 0.6, 0.3], [0.9, 0.6, 0.3], 1.0),
+            ([1.0; 3], [1.0; 3], [1.0; 3], 1.0),
+            // Half-way: 0.04 m^2 + 0.72 m - 0.46 = 0, of brightness 0.3 and 0.5.
+            (
+                [0.6, 0.2, 0.1],
+                [0.5; 3],
+                [0.784_708, 0.461_169, 0.380_285],
+                0.617_692,
+            ),
+            (
+                [0.6, 0.2, 0.1],
+                [0.2, 0.3, 0.5],
+                [0.599_400, 0.337_631, 0.380_285],
+                0.617_692,
+            ),
+        ] {
+            let [r, g, b] = diffuse;
+            let old = SpecGloss {
+                diffuse: [r, g, b, 1.0],
+                specular,
+                glossiness: 0.25,
+            };
+            let metal = old.metal();
+            let off = |a: f32, b: f32| (a - b).abs();
+            assert!(off(metal.metallic, metallic) < 1e-5, "{old:?}: {metal:?}");
+            for (found, right) in metal.base_color.into_iter().zip(base_color) {
+                assert!(off(found, right) < 1e-5, "{old:?}: {metal:?}");
+            }
+            assert_eq!(metal.roughness, 0.75);
+        }
+        assert_eq!(clear(1.0).metal().roughness, 0.0);
+        assert_eq!(clear(0.0).metal().roughness, 1.0);
+    }
+
     #[test]
     fn images_of_two_sizes_become_two_of_one() {
         let diffuse = Texels {

@@ -3,7 +3,7 @@
 use crate::common::{Glb, scene_with, temporary_dir};
 use glam::{Vec2, Vec4, vec2, vec4};
 use hairline_scene::{
-    AlphaRule, Anisotropy, Coat, Cutout, Reflector, Sampling, Scene, Specular, Texture, Wrap,
+    AlphaRule, Anisotropy, Base, Coat, Cutout, Reflector, Sampling, Scene, Specular, Texture, Wrap,
 };
 
 /// The scene of a square with two sets of texture coordinates and colours, of the only material of a file.
@@ -212,15 +212,38 @@ fn extensions_change_what_a_surface_reflects() {
     assert_eq!(of(&turned).anisotropy, Some(expected));
     assert!(!texture(&turned, of(&turned).anisotropy_texture).srgb);
     assert_eq!(of(&brushed("")).anisotropy, None);
-    // An image of the older model.
-    let old = r#""extensions":{"KHR_materials_pbrSpecularGlossiness":{"diffuseFactor":[0,0,0,1],"specularFactor":[0.9,0.6,0.3],"glossinessFactor":0.75"#;
-    let mapped = material(&format!(
-        r#"{old},"specularGlossinessTexture":{{"index":2}}}}}}"#
-    ));
+    // The older model, as its conversion has it; its image takes the place of both of the newer one, and so do factors alone.
+    let newer = r#""pbrMetallicRoughness":{"baseColorTexture":{"index":0},"metallicRoughnessTexture":{"index":0}}"#;
+    let older = |texture: &str| {
+        scene(
+            &format!(
+                r#"{newer},"extensions":{{"KHR_materials_pbrSpecularGlossiness":{{"diffuseFactor":[0.6,0.2,0.1,1],
+                    "specularFactor":[0.5,0.5,0.5],"glossinessFactor":0.75{texture}}}}}"#
+            ),
+            "",
+        )
+    };
+    let plain = of(&older(""));
+    assert_eq!(plain.roughness, 0.25);
+    let Base::MetallicRoughness {
+        base_color,
+        metallic,
+    } = plain.base
+    else {
+        panic!("{:?}", plain.base)
+    };
+    assert!((metallic - 0.617_692).abs() < 1e-5 && (base_color[1] - 0.461_169).abs() < 1e-5);
     assert_eq!(
-        (mapped.base_color_texture, mapped.metallic_roughness_texture),
-        (Some(0), Some(1))
+        (plain.base_color_texture, plain.metallic_roughness_texture),
+        (None, None)
     );
+    let mapped = older(r#","specularGlossinessTexture":{"index":2}"#);
+    let material = of(&mapped);
+    assert_eq!(material.base_color_texture, Some(0));
+    assert_eq!(material.metallic_roughness_texture, Some(1));
+    // White in the image keeps the specular factor, and 51 is a fifth of the glossiness.
+    assert_eq!(mapped.textures[0].levels[0], [[229, 181, 166, 255]]);
+    assert_eq!(mapped.textures[1].levels[0], [[255, 217, 158, 255]]);
 }
 
 #[test]
@@ -280,5 +303,58 @@ fn images_of_basis_universal_are_textures() {
             unpacked.as_raw(),
             "{name}"
         );
+    }
+}
+
+/// Four squares of one colour each, alpha rising to the right below; packed by Pillow 13.
+#[test]
+fn images_of_jpeg_and_webp_are_textures() {
+    let images = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/scene/images/");
+    // What losses there are, and whether there is an alpha.
+    let files = [
+        ("baseline.jpg", 10, false),
+        ("progressive.jpg", 4, false),
+        ("lossy.webp", 20, true),
+        ("lossless.webp", 0, true),
+    ];
+    let dir = temporary_dir();
+    for (name, ..) in files {
+        std::fs::copy(format!("{images}{name}"), dir.path().join(name)).unwrap();
+    }
+    let mut glb = Glb::default();
+    let positions = glb.floats(&[[0.0f32, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
+    let uris = files.map(|(name, ..)| format!(r#"{{"uri":"{name}"}}"#));
+    glb.more = format!(
+        r#","images":[{}],"textures":[{{"source":0}},{{"source":1}},{{"source":2}},{{"source":3}}],
+        "materials":[{{"pbrMetallicRoughness":{{"baseColorTexture":{{"index":0}},"metallicRoughnessTexture":{{"index":1}}}},
+            "emissiveTexture":{{"index":2}},"occlusionTexture":{{"index":3}}}}]"#,
+        uris.join(",")
+    );
+    let mesh =
+        format!(r#"{{"primitives":[{{"attributes":{{"POSITION":{positions}}},"material":0}}]}}"#);
+    std::fs::write(dir.path().join("it.glb"), glb.bytes(&mesh, r#"{"mesh":0}"#)).unwrap();
+    let text = scene_with("[[object]]\nname = \"it\"\nmesh = \"it.glb\"\n");
+    let scene = Scene::from_toml(&text, "test.toml", dir.path()).unwrap();
+    let material = scene.materials.last().unwrap();
+    let used = [
+        material.base_color_texture,
+        material.metallic_roughness_texture,
+        material.emission_texture,
+        material.occlusion_texture.map(|it| it.0),
+    ];
+    for ((name, losses, has_alpha), index) in files.into_iter().zip(used) {
+        let texture = texture(&scene, index);
+        assert_eq!(texture.size_px, [16, 16], "{name}");
+        for (x, y, [r, g, b, a]) in [
+            (3, 3, [230, 40, 30, 255]),
+            (12, 3, [40, 200, 60, 255]),
+            (3, 12, [30, 60, 220, 88]),
+            (12, 12, [240, 240, 240, 160]),
+        ] {
+            let right: [u8; 4] = [r, g, b, if has_alpha { a } else { 255 }];
+            let found = texture.levels[0][16 * y + x];
+            let off = (0..4).map(|i| found[i].abs_diff(right[i])).max();
+            assert!(off <= Some(losses), "{name}: {found:?}, {right:?}");
+        }
     }
 }
