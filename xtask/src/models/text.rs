@@ -36,7 +36,7 @@ with a folder for each repository, called `OWNER+NAME`. Files and buffers of 4 M
 const BY_EYE: &str = "
 ## By eye
 
-Pictures of Hairline beside those that the repositories publish with their models:
+Pictures by `hairline render FILE` beside those that the repositories publish with their models, looked at on 26 November 2026:
 
 * market-assets, `nes`, `race-car` and `helicopter` (packed by Draco; the thumbnails are of another renderer): the same shapes, the same colours and maps, glass of the
   visor and of the canopy at the same places. Hairline's light is a darker studio, and its ground touches the model. The thumbnails' camera sees from farther off.
