@@ -62,9 +62,6 @@ impl Web {
             .out_name("hairline")
             .generate(&output)?;
         let program = output.join("hairline_bg.wasm");
-        if !self.quick {
-            shrink(&root, &program)?;
-        }
         copy_page(&root, &output)?;
         let pages = site::write(&root, &output)?;
         println!("{pages} pages of docs, from README.html on");
@@ -169,28 +166,6 @@ fn has_target() -> anyhow::Result<bool> {
         .args(["--print", "target-libdir", "--target", TARGET])
         .output()?;
     Ok(Path::new(String::from_utf8(asked.stdout)?.trim()).is_dir())
-}
-
-/// By Binaryen, where it is installed: a fourteenth less for a browser to compile. Its levels above the first write still shorter code that
-/// compresses worse.
-fn shrink(root: &Path, program: &Path) -> anyhow::Result<()> {
-    let of_tests = root.join("tests/web/node_modules/.bin/wasm-opt");
-    let tool = [PathBuf::from("wasm-opt"), of_tests]
-        .into_iter()
-        .find(|tool| Command::new(tool).arg("--version").output().is_ok());
-    let Some(tool) = tool else {
-        println!(
-            "there is no wasm-opt (Debian's binaryen, npm's binaryen): the program stays larger"
-        );
-        return Ok(());
-    };
-    run(Command::new(tool)
-        .args(["-O1", "--merge-similar-functions"])
-        .args(["--duplicate-function-elimination", "--vacuum"])
-        .args(features::OF_BROWSERS.map(|(_, flag)| flag))
-        .arg(program)
-        .arg("-o")
-        .arg(program))
 }
 
 /// The page itself, with the pictures and scenes that it shows.

@@ -14,8 +14,12 @@ pub const OBJECT: f64 = 4096.0;
 pub const SEGMENT_RENDERED: u64 = 160;
 /// A light.
 pub const LIGHT: f64 = 7168.0;
+/// A light as the sample points of a tile see it: once for each thread of the CPU.
+pub const LIGHT_SEEN: f64 = 65_000.0;
 /// A vertex of a polygon light.
 pub const LIGHT_VERTEX: f64 = 512.0;
+/// An environment map besides its pixels: blurred levels of one size for all maps, and what they are made of.
+pub const MAP: f64 = 2.2e8;
 /// A pixel of an environment map with its blurred levels.
 pub const MAP_PIXEL: f64 = 32.0;
 /// A texel with its mip chain while it is made.

@@ -61,10 +61,11 @@ impl Estimate {
             .map(|light| light.kind.corners_m().len())
             .sum();
         if lights > 0 {
+            let light = costs::LIGHT + rayon::current_num_threads() as f64 * costs::LIGHT_SEEN;
             self.parts.push(Part {
                 key: "light".to_owned(),
                 what: counted(lights as f64, "light"),
-                bytes: lights as f64 * costs::LIGHT + vertices as f64 * costs::LIGHT_VERTEX,
+                bytes: lights as f64 * light + vertices as f64 * costs::LIGHT_VERTEX,
                 remedy: "take fewer lights",
             });
         }
@@ -119,7 +120,7 @@ impl Estimate {
         self.parts.push(Part {
             key: format!("environment.{key}"),
             what: format!("a map of {width} x {height} pixels"),
-            bytes: f64::from(width) * f64::from(height) * costs::MAP_PIXEL,
+            bytes: costs::MAP + f64::from(width) * f64::from(height) * costs::MAP_PIXEL,
             remedy: "take a smaller map",
         });
     }

@@ -5,17 +5,17 @@ use std::path::Path;
 
 use anyhow::{Context, bail, ensure};
 
-/// What all browsers with WebGPU have, by the names of the compiler and by the flags of `wasm-opt`, which else takes all that it knows.
-pub(super) const OF_BROWSERS: [(&str, &str); 9] = [
-    ("bulk-memory", "--enable-bulk-memory"),
-    ("bulk-memory-opt", "--enable-bulk-memory-opt"),
-    ("call-indirect-overlong", "--enable-call-indirect-overlong"),
-    ("multivalue", "--enable-multivalue"),
-    ("mutable-globals", "--enable-mutable-globals"),
-    ("nontrapping-fptoint", "--enable-nontrapping-float-to-int"),
-    ("reference-types", "--enable-reference-types"),
-    ("sign-ext", "--enable-sign-ext"),
-    ("simd128", "--enable-simd"),
+/// What all browsers with WebGPU have, by the names of the compiler.
+const OF_BROWSERS: [&str; 9] = [
+    "bulk-memory",
+    "bulk-memory-opt",
+    "call-indirect-overlong",
+    "multivalue",
+    "mutable-globals",
+    "nontrapping-fptoint",
+    "reference-types",
+    "sign-ext",
+    "simd128",
 ];
 
 /// Fails where the compiler was allowed a feature that some browsers lack. One function that asks for it, of any crate, is enough: link-time
@@ -25,7 +25,7 @@ pub(super) fn check(program: &Path) -> anyhow::Result<()> {
     let used = used(&bytes).with_context(|| program.display().to_string())?;
     for feature in used {
         ensure!(
-            OF_BROWSERS.iter().any(|(name, _)| *name == feature),
+            OF_BROWSERS.contains(&feature),
             "{} uses {feature} of WebAssembly, which some browsers with WebGPU lack; a crate has a function with this target feature \
              (hairline_optics::vectors tells what came of it)",
             program.display()
