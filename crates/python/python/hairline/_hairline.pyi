@@ -82,7 +82,7 @@ class Image:
     def png(self, exposure_ev: float | None = None, tone_map: str | None = None) -> bytes:
         """The displayed picture as the bytes of a PNG."""
     def codes(self, exposure_ev: float | None = None, tone_map: str | None = None) -> npt.NDArray[np.uint8]:
-        """The displayed picture: sRGB codes, uint8, height x width x 3."""
+        """The displayed picture: sRGB codes, uint8, height x width x 3, or 4 with alpha."""
     def to_pil(self, exposure_ev: float | None = None, tone_map: str | None = None) -> Any:
         """The displayed picture as an image of Pillow."""
     def _repr_png_(self) -> bytes: ...
