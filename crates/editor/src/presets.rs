@@ -8,7 +8,7 @@ use glam::DVec3;
 use hairline_optics::metal::Metal;
 use hairline_scene::description::{
     Amount, Around, Brushed, Distribution, Laid, Layer, Light, LightKind, Material, MaterialKind,
-    MetalColor, Pattern, Scratches, Shape,
+    MetalColor, Pattern, SUN_DEG, Scratches, Shape,
 };
 use hairline_scene::wear::{count, fitting};
 use hairline_scene::{Coat, Specular};
@@ -396,7 +396,7 @@ impl LightPreset {
             Self::Sun => {
                 let kind = LightKind::Sun {
                     direction: (-(up * 0.8 + side * 0.5)).into(),
-                    angle_deg: 0.53,
+                    angle_deg: SUN_DEG,
                     irradiance: 0.2,
                 };
                 (kind, 1.0, [1.0, 0.96, 0.9])

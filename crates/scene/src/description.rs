@@ -36,8 +36,7 @@ use crate::scene::{Anisotropy, Coat, Specular};
 use values::{Named, is_default, serialize_named, serialize_scale};
 
 pub use gratings::{Grating, GroovePattern, UvAxis};
-pub use light_kind::LightKind;
-pub(crate) use light_kind::SUN_DEG;
+pub use light_kind::{LightKind, SUN_DEG};
 pub use lights::{Cone, Light};
 pub use overrides::Override;
 pub use place::Place;

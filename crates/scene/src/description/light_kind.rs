@@ -77,8 +77,8 @@ pub enum LightKind {
     },
 }
 
-/// Of the sun as the earth sees it, across.
-pub(crate) const SUN_DEG: f64 = 0.53;
+/// The angle that the sun spans as the earth sees it, degrees.
+pub const SUN_DEG: f64 = 0.53;
 
 /// The keys of lights that stand somewhere.
 const NEAR: [&str; 4] = ["radiance", "visible", "cone_deg", "cone_softness"];
