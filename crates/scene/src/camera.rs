@@ -46,6 +46,15 @@ impl Camera {
         }
     }
 
+    /// The same for a batch of samples: each of them sees the scene through another point of the lens, the first one through its middle.
+    pub fn frame_of_batch(&self, size_px: [u32; 2], batch: Batch) -> CameraFrame {
+        let frame = self.frame(size_px);
+        match self.has_lens() {
+            true => frame.through_lens(&self.lens, lens_point(batch.first / batch.count.max(1))),
+            false => frame,
+        }
+    }
+
     /// Whether it has a lens, and no pinhole: what is out of focus needs many batches of samples.
     pub fn has_lens(&self) -> bool {
         self.lens.radius_m > 0.0
@@ -54,15 +63,6 @@ impl Camera {
     /// Samples that a picture has at least: fewer points of a lens would be seen one by one.
     pub fn least_samples(&self) -> u32 {
         if self.has_lens() { 64 } else { 1 }
-    }
-
-    /// The same for a batch of samples: each of them sees the scene through another point of the lens, the first one through its middle.
-    pub fn frame_of_batch(&self, size_px: [u32; 2], batch: Batch) -> CameraFrame {
-        let frame = self.frame(size_px);
-        match self.has_lens() {
-            true => frame.through_lens(&self.lens, lens_point(batch.first / batch.count.max(1))),
-            false => frame,
-        }
     }
 
     /// The camera for a part of a picture: `crop_px` pixels about `middle`, given in parts of the picture's width and
