@@ -60,11 +60,6 @@ impl Camera {
         self.lens.radius_m > 0.0
     }
 
-    /// Samples that a picture has at least: fewer points of a lens would be seen one by one.
-    pub fn least_samples(&self) -> u32 {
-        if self.has_lens() { 64 } else { 1 }
-    }
-
     /// The camera for a part of a picture: `crop_px` pixels about `middle`, given in parts of the picture's width and
     /// height, as large as those of the picture of `picture_px` in its middle.
     pub fn crop(&self, picture_px: [u32; 2], middle: DVec2, crop_px: [u32; 2]) -> Camera {

@@ -5,6 +5,7 @@
 //! was refused, before one of these exists.
 
 use glam::{DVec3, Vec2, Vec3, Vec4};
+use hairline_image::Batches;
 use hairline_optics::metal::Metal;
 use serde::Serialize;
 use std::ops::Range;
@@ -34,7 +35,20 @@ impl Transport {
         shadows: false,
         bounces: 0,
     };
+
+    /// The batches that add up to a picture for which `samples` are asked: of a lens 64 samples at least. None where a picture has all of its samples
+    /// at once.
+    pub fn batches(self, camera: &Camera, samples: u32) -> Option<Batches> {
+        match (camera.has_lens(), self.shadows) {
+            (true, _) => Some(Batches::new(samples.max(LENS_SAMPLES))),
+            (false, true) => Some(Batches::new(samples)),
+            (false, false) => None,
+        }
+    }
 }
+
+/// Fewer points of a lens would be seen one by one.
+const LENS_SAMPLES: u32 = 64;
 
 /// What `hairline render` does unless it is told otherwise.
 pub const DEFAULT_TRANSPORT: Transport = Transport {

@@ -10,7 +10,7 @@ use std::sync::Arc;
 use anyhow::anyhow;
 use hairline_cpu::closed_form::{self, Prepared};
 use hairline_gpu::{AdapterKind, AdapterRequest, Gpu, headless};
-use hairline_image::{Batch, Batches, Image, Notes, spread_fireflies};
+use hairline_image::{Batch, Image, Notes, spread_fireflies};
 use hairline_index::method::{Method, Structure};
 use hairline_index::{ScratchIndex, TriangleIndex, Watch};
 use hairline_scene::{DEFAULT_TRANSPORT, Scene, ScratchTables, Transport};
@@ -126,7 +126,7 @@ pub struct Painter<'a> {
     listener: &'a dyn Listener,
     on: On<'a>,
     /// For alpha where a GPU renders; built when first needed.
-    triangles: OnceCell<Arc<TriangleIndex>>,
+    triangles: OnceCell<TriangleIndex>,
 }
 
 enum On<'a> {
@@ -188,10 +188,7 @@ impl<'a> Painter<'a> {
     fn triangles(&self) -> &TriangleIndex {
         match &self.on {
             On::Cpu(prepared) => prepared.triangles(),
-            On::Gpu(_) => {
-                let build = || TriangleIndex::build(self.scene).into();
-                self.triangles.get_or_init(build)
-            }
+            On::Gpu(_) => (self.triangles).get_or_init(|| TriangleIndex::build(self.scene)),
         }
     }
 
@@ -202,11 +199,12 @@ impl<'a> Painter<'a> {
         is_stopped: &(dyn Fn() -> bool + Sync),
         progress: &(dyn Fn(f64) + Sync),
     ) -> Result<Rendered, Failure> {
-        if !self.task.transport.shadows && !scene.camera.has_lens() {
+        let Task {
+            transport, samples, ..
+        } = self.task;
+        let Some(mut batches) = transport.batches(&scene.camera, samples) else {
             return self.render_direct(scene, is_stopped, progress);
-        }
-        let least = scene.camera.least_samples();
-        let mut batches = Batches::new(self.task.samples.max(least));
+        };
         let wanted = batches.samples();
         batches.fill(progress, |batch, progress| {
             self.render_batch(scene, wanted, Some(batch), is_stopped, progress)

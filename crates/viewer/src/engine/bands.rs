@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use hairline_cpu::closed_form::{Prepared, RenderOptions, TILE_PX};
-use hairline_image::{Batch, Batches, Image};
+use hairline_image::{Batch, Image};
 use hairline_scene::{Scene, Transport};
 use web_time::Instant;
 
@@ -67,11 +67,10 @@ pub(crate) fn render(
         first_px: band_px,
         ..OF_A_THREAD
     };
-    let mut batches = Batches::new(samples);
     let mut options = options(samples, transport, None);
-    if !transport.shadows && !scene.camera.has_lens() {
+    let Some(mut batches) = transport.batches(&scene.camera, samples) else {
         return render_once(&prepared, size_px, &options, size, go_on);
-    }
+    };
     options.samples = batches.samples();
     while let Some(batch) = batches.next() {
         options.batch = Some(batch);

@@ -6,7 +6,6 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use hairline_cpu::closed_form::TILE_PX;
 use hairline_editor::navigate;
 use hairline_gpu::{AdapterKind, Gpu, GpuScene, RenderOptions, Renderer};
-use hairline_image::Batches;
 use hairline_image::{Display, Image, Output, spread_fireflies};
 use hairline_index::method::Method;
 use hairline_scene::{Description, Scene, Transport};
@@ -69,15 +68,6 @@ impl Wish {
         match self.is_transparent {
             true => scene.before_nothing(),
             false => scene,
-        }
-    }
-
-    /// As many as were asked for, or as the camera needs; whole batches of them where they add up.
-    fn samples(&self) -> u32 {
-        let camera = crate::viewport::camera(&self.description.camera);
-        match self.transport.shadows || camera.has_lens() {
-            true => Batches::new(self.samples.max(camera.least_samples())).samples(),
-            false => self.samples,
         }
     }
 
@@ -186,7 +176,8 @@ async fn frames(wish: &Wish, built: &Built, stop: &Stop, report: &Report) -> Res
             return Ok(false);
         }
         if wish.is_transparent {
-            let all = wish.samples();
+            let batches = wish.transport.batches(&scene.camera, wish.samples);
+            let all = batches.map_or(wish.samples, |it| it.samples());
             image.alpha = Some(hairline_cpu::alpha(&scene, &built.triangles, all, all));
         }
         let written = output.write_image(&image, &wish.display());
@@ -264,7 +255,7 @@ impl Painter {
     ) -> Result<Option<Image>, hairline_gpu::Error> {
         match self {
             Self::Cpu => {
-                let (samples, transport) = (wish.samples(), wish.transport);
+                let (samples, transport) = (wish.samples, wish.transport);
                 let image = bands::render(built, scene, samples, transport, CPU_BAND_PX, go_on);
                 Ok(image)
             }
@@ -274,15 +265,14 @@ impl Painter {
                 band_px,
             } => {
                 let mut options = RenderOptions {
-                    samples: wish.samples(),
+                    samples: wish.samples,
                     ..Default::default()
                 };
                 let band_px = *band_px;
-                if !wish.transport.shadows && !scene.camera.has_lens() {
+                let Some(mut batches) = wish.transport.batches(&scene.camera, wish.samples) else {
                     return on_gpu_in_bands(renderer, uploaded, scene, &options, band_px, go_on)
                         .await;
-                }
-                let mut batches = Batches::new(wish.samples());
+                };
                 options.samples = batches.samples();
                 while let Some(batch) = batches.next() {
                     options.batch = Some(batch);
